@@ -1,0 +1,46 @@
+// The finger: a convex shape with a pose, seen through its support point.
+//
+// Finger frame: +x distal along the finger's long axis, -z out of the fingerpad. The pose's quaternion
+// maps the finger frame to the world.
+#pragma once
+
+#include "core/base/vec.h"
+
+#include <cstdint>
+
+namespace tangent {
+
+enum class FingerShape : std::uint8_t { point, sphere, ellipsoid, capsule };
+
+struct Finger {
+  FingerShape shape = FingerShape::sphere;
+  double radius_m = 0.020;                       ///< sphere and capsule
+  Vec3 semi_axes_m{0.020, 0.010, 0.010};         ///< ellipsoid: along finger x, y, z
+  double half_length_m = 0.010;                  ///< capsule: half the axis segment, along finger x
+
+  bool operator==(const Finger&) const = default;
+  /// Largest extent of the shape from its centre, m (0 for a point).
+  double reach_m() const;
+};
+
+struct FingerPose {
+  Vec3 position{0.0};                  ///< centre of the shape, world, m
+  Quat orientation{1.0, 0.0, 0.0, 0.0};  ///< unit; finger frame -> world
+};
+
+/// Support point in direction -N and its derivative.
+struct Support {
+  Vec3 point;          ///< p(N): the point of the finger furthest along -N, m
+  Mat3 by_normal;      ///< dp/dN restricted to tangents of N, m (sphere: -R I)
+};
+
+Vec3 support_point(const Finger& finger, const FingerPose& pose, const Vec3& normal);
+Support support_with_derivative(const Finger& finger, const FingerPose& pose, const Vec3& normal);
+
+/// Contact location: signed arc length on the finger from the fingerpad's middle (-z) along the long axis,
+/// positive distally, for a contact whose surface normal (pointing at the finger) is `normal`, m. For a
+/// sphere R atan2(m.x, -m.z) with m = -normal in the finger frame; 0 for a point; for other shapes arc
+/// length in the x-z section (ALGORITHM.md 4).
+double contact_arc_m(const Finger& finger, const FingerPose& pose, const Vec3& normal);
+
+}  // namespace tangent

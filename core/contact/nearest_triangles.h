@@ -1,0 +1,54 @@
+// Nearest-triangle and ray queries on a contact mesh: Embree's BVH for the culling, in float and rounded
+// outwards; distances exact in double in its callback. Ties go to the lowest triangle number.
+// Queries are const, allocate nothing and may run from any number of threads.
+#pragma once
+
+#include "core/mesh/contact_mesh.h"
+
+#include <cstddef>
+#include <memory>
+#include <span>
+
+namespace tangent {
+
+/// Closest point of one triangle to a query point. Local mesh coordinates.
+struct NearestHit {
+  std::uint32_t triangle = kNone;
+  double distance_m = 0.0;
+  double u = 0.0, v = 0.0;  ///< barycentric weights of corners 1 and 2 at the closest point
+  Vec3 point{0.0};          ///< closest point of the flat triangle
+  explicit operator bool() const { return triangle != kNone; }
+};
+
+NearestHit closest_on_triangle(const ContactMesh& mesh, std::uint32_t t, const Vec3& query);
+
+class NearestTriangles {
+ public:
+  static Result<NearestTriangles> build(const ContactMesh& mesh);  ///< `mesh` must outlive it
+  NearestTriangles(NearestTriangles&&) noexcept;
+  NearestTriangles& operator=(NearestTriangles&&) noexcept;
+  ~NearestTriangles();
+
+  /// Nearest triangle within `radius_m` (infinity allowed), none if there is none.
+  NearestHit nearest(const Vec3& query, double radius_m) const;
+
+  /// The up to out.size() nearest triangles within `radius_m`, by distance, then number. Returns how many.
+  std::size_t nearest_several(const Vec3& query, double radius_m, std::span<NearestHit> out) const;
+
+  struct RayHit {
+    std::uint32_t triangle = kNone;
+    double distance_m = 0.0, u = 0.0, v = 0.0;
+    explicit operator bool() const { return triangle != kNone; }
+  };
+  /// First flat triangle along a ray (both sides count); direction: unit.
+  RayHit cast(const Vec3& origin, const Vec3& direction) const;
+
+  std::size_t memory_bytes() const;  ///< as Embree reports it to its memory monitor
+
+ private:
+  struct Impl;
+  explicit NearestTriangles(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace tangent

@@ -1,0 +1,32 @@
+// Generated meshes: the paper's objects (ALGORITHM.md 6) and test bodies. Metres, outward normals,
+// faces counter-clockwise seen from outside. Deterministic.
+#pragma once
+
+#include "core/base/result.h"
+#include "core/mesh/polygon_mesh.h"
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tangent {
+
+enum class Facing { left, right };  ///< where the apex of cone and tetrahedron points along x: left is -x
+
+struct GenerateOptions {
+  int segments = 0;          ///< around a round object (or icosphere subdivisions, grid lines); 0: the object's default
+  double rounding_m = 0.0;   ///< radius of the rounded edges; 0: sharp, with split normals at the edges
+  Facing facing = Facing::right;
+};
+
+/// cone cylinder cube sphere tetrahedron octagon triangle hexagon (paper; axis along x, inside a cylinder
+/// of radius 40 mm, length 80 mm) and icosphere torus saddle groove.
+const std::vector<std::string>& generator_names();
+
+/// Fails (naming the choices or the range) on an unknown name or an option out of range.
+Result<PolygonMesh> generate_mesh(std::string_view name, const GenerateOptions& options = {});
+
+PolygonMesh make_icosphere(double radius_m, int subdivisions);  ///< 20 * 4^subdivisions triangles
+PolygonMesh make_torus(double ring_radius_m, double tube_radius_m, int ring_segments, int tube_segments);
+
+}  // namespace tangent

@@ -1,0 +1,64 @@
+// A preset: everything a person tunes, as plain data. Applied whole, at the start of a tick.
+// On disk as TOML (workbench/session/preset_file.h), with these field names as keys.
+#pragma once
+
+#include "core/contact/finger.h"
+#include "core/surface/pn_patch.h"
+
+#include <cstdint>
+
+namespace tangent {
+
+enum class Method : std::uint8_t { paper, newton, robust, facet, force_shading, two_pass };
+/// Which distance Eq. 1's d stands for (ALGORITHM.md 3.1).
+enum class DistanceReading : std::uint8_t {
+  proxy,   ///< d = R - h: user's finger to the proxy that touches the plane (the default)
+  centre,  ///< d = h: finger centre to the plane
+};
+enum class ForceSource : std::uint8_t { method, facet, force_shading, smooth };
+enum class TactileSource : std::uint8_t { method, held, facet, smooth };
+
+struct SolverSettings {
+  Method method = Method::robust;
+  double gain_overall = 1.0;            ///< G_o of Eq. 1, 1
+  double gain_curvature_m = 0.020;      ///< G_k of Eq. 1, m
+  double gain_distance_per_m = 0.0;     ///< G_d of Eq. 1, 1/m
+  DistanceReading distance_reading = DistanceReading::proxy;
+  double tolerance_m = 1e-6;            ///< converged below this error
+  int max_iterations = 50;              ///< new tangent planes a tick, before tracking gives up
+  NormalForm normal_form = NormalForm::bernstein;
+  double switch_hysteresis_m = 20e-6;   ///< a nonadjacent place must be deeper by this to take over
+  bool operator==(const SolverSettings&) const = default;
+};
+
+struct ForceSettings {
+  double stiffness_n_per_m = 800.0;
+  double damping_n_s_per_m = 0.0;       ///< along the normal
+  double limit_n = 8.5;                 ///< the rendered force never exceeds this
+  ForceSource source = ForceSource::method;
+  bool operator==(const ForceSettings&) const = default;
+};
+
+struct DisplaySettings {
+  double finger_arc_m = 16e-3;          ///< this much arc on the finger ...
+  double travel_m = 16e-3;              ///< ... maps linearly to this much travel, centred; clamped to it
+  TactileSource source = TactileSource::method;
+  bool operator==(const DisplaySettings&) const = default;
+};
+
+struct SafetySettings {
+  double unconverged_hold_s = 5e-3;     ///< last converged plane renders this long ...
+  double unconverged_ramp_s = 5e-3;     ///< ... then force and display ramp to zero over this long
+  bool operator==(const SafetySettings&) const = default;
+};
+
+struct Preset {
+  SolverSettings solver;
+  Finger finger;
+  ForceSettings force;
+  DisplaySettings display;
+  SafetySettings safety;
+  bool operator==(const Preset&) const = default;
+};
+
+}  // namespace tangent
