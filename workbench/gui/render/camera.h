@@ -1,0 +1,55 @@
+// Orbit camera. World frame in metres, double precision; +z is up. Pixels count from the top left corner
+// of the view, so they match ImGui's mouse position minus the view's corner.
+#pragma once
+
+#include "core/base/vec.h"
+
+#include <glm/mat4x4.hpp>
+
+namespace tangent {
+
+struct Ray {
+  Vec3 origin{0.0};               ///< world, m
+  Vec3 direction{0.0, 0.0, -1.0};  ///< unit
+};
+
+struct Camera {
+  Vec3 target{0.0};            ///< looked at and orbited about, world, m
+  double distance_m = 0.3;     ///< eye to target
+  double yaw_rad = -0.6;       ///< about +z; 0: eye on the -y side of the target
+  double pitch_rad = 0.45;     ///< eye above the horizon; within +-89 deg
+  double fov_rad = 0.6;        ///< vertical opening
+  double scene_radius_m = 0.1;  ///< from frame(): sets zoom limits and the far plane
+
+  bool operator==(const Camera&) const = default;
+
+  Vec3 eye() const;
+  Vec3 forward() const;  ///< unit, eye to target
+  Vec3 right() const;
+  Vec3 up() const;
+
+  void orbit(double yaw_by_rad, double pitch_by_rad);
+  /// Moves the target so that what lies at its depth follows the pointer. dy > 0: pointer went down.
+  void pan(double dx_px, double dy_px, int height_px);
+  /// Multiplies the distance (0.9: nearer), within 1e-6 .. 50 scene radii.
+  void zoom(double factor);
+  /// The same, keeping the world point under the pixel where it is.
+  void zoom_at(double factor, const Vec2& pixel, int width_px, int height_px);
+  /// Looks at the whole box, keeping the direction. No effect for an empty box.
+  void frame(const Box& world_box, double margin = 1.15);
+
+  /// World relative to `origin` -> eye space (eye looks along -z). Subtracting the origin in double before
+  /// anything becomes float keeps pixels steady a kilometre away from it.
+  glm::dmat4 view_from(const Vec3& origin) const;
+  glm::dmat4 projection(int width_px, int height_px) const;
+  double near_m() const;
+  double far_m() const;
+
+  /// Pixel of a world point; z is depth in 0..1, outside it (or negative) when behind the eye or clipped.
+  Vec3 project(const Vec3& world, int width_px, int height_px) const;
+  Ray ray_through(const Vec2& pixel, int width_px, int height_px) const;
+  /// Metres covered by one pixel at the depth of a world point.
+  double metres_per_pixel(const Vec3& world, int height_px) const;
+};
+
+}  // namespace tangent

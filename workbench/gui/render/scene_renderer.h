@@ -1,0 +1,126 @@
+// Draws the 3D view into its own texture: mesh, smooth surface, control net, finger, force, iterations.
+// Plain data in, pixels out; knows nothing of panels, devices or the servo. Needs a current GL 3.3 core
+// context on the calling thread. ImGui is not needed here;
+// text and insets on top of the picture are drawn by render/scene_overlay.h.
+//
+// Use, once a frame, before the ImGui draw data is rendered:
+//   renderer.render(frame, camera, width_px, height_px);
+//   ImGui::Image(texture id, size, {0, 1}, {1, 0});             // GL's rows count from the bottom
+//   draw_scene_overlay(draw_list, top_left, pixels_per_point, renderer, frame, camera);
+#pragma once
+
+#include "core/base/result.h"
+#include "core/step.h"
+#include "workbench/gui/palette.h"
+#include "workbench/gui/render/camera.h"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+
+namespace tangent {
+
+struct SceneToggles {
+  bool shaded = true;                   ///< flat facets of the mesh
+  bool wireframe = true;                ///< facet edges; on the smooth surface alone: its patch borders
+  bool creases = true;                  ///< crease and boundary edges
+  bool vertex_normals = false;
+  bool smooth_surface = false;          ///< the PN surface; translucent over the facets when both are on
+  bool control_net = true;              ///< of the tracked (or picked) triangle: ten points and their net
+  bool control_normals = false;         ///< its six control normals
+  bool control_net_neighbours = false;  ///< also of the three triangles across its edges
+  bool control_point_labels = false;    ///< b300 ... b111 (and n200 ... with control_normals)
+  bool finger = true;
+  bool penetration = true;              ///< the finger's lowest point to the contact
+  bool force = true;                    ///< arrow; its scale is in force_metres_per_newton()
+  bool contact = true;
+  bool tracked_plane = false;           ///< the plane after the tick
+  bool planes = true;                   ///< the tangent planes of the tick's iterations, joined by a line
+  bool trail = false;                   ///< where the contact has been (SceneFrame::trail)
+  bool cld_inset = true;                ///< overlay: fingerpad from the side and the roller
+  bool colour_bar = true;               ///< overlay: iteration order
+  bool axes = true;                     ///< overlay: orientation triad and scale bar
+  bool operator==(const SceneToggles&) const = default;
+};
+
+/// `still` draws the best picture at once (shots, tests); `automatic` draws a cheaper one while the camera
+/// moves (no multisampling, coarser smooth surface) and refines when it rests.
+enum class RenderQuality : std::uint8_t { automatic, still };
+
+/// What to draw. World frame, metres. Spans only have to live for the call.
+struct SceneFrame {
+  SceneToggles toggles;
+  Theme theme = Theme::dark;
+  RenderQuality quality = RenderQuality::automatic;
+  Finger finger;
+  std::optional<TickRecord> tick;               ///< the tick in view; none: mesh only
+  std::span<const IterationRecord> trace;       ///< that tick stepped again with tracing, [0]: kept plane
+  std::optional<std::size_t> selected_iteration;
+  std::uint32_t picked_triangle = kNone;        ///< clicked: outlined; its net is shown if nothing is tracked
+  std::uint32_t hovered_triangle = kNone;
+  bool net_of_picked = false;                   ///< control net of the picked instead of the tracked triangle
+  double display_travel_m = 0.016;              ///< preset.display.travel_m, for the inset
+  std::optional<double> cld_commanded_m;
+  std::optional<double> cld_measured_m;
+  std::span<const Vec3> trail;                  ///< past contacts, oldest first
+};
+
+/// Text the overlay puts beside a 3D point, in pixels of the view (top left is 0, 0).
+struct SceneLabel {
+  Vec2 pixel{0.0};
+  std::string text;
+  Rgba colour;
+  Vec2 away{0.0, -1.0};  ///< unit, on screen: the side of the point with room
+};
+
+class SceneRenderer {
+ public:
+  SceneRenderer();
+  ~SceneRenderer();
+  SceneRenderer(const SceneRenderer&) = delete;
+  SceneRenderer& operator=(const SceneRenderer&) = delete;
+
+  /// Loads the shaders. Fails with file:line and the compiler's words.
+  Status init();
+
+  /// The mesh to draw; uploads facets at once and starts tessellating the smooth surface on a worker.
+  /// nullptr: empty view. Cheap when scene and form are those already set.
+  void set_scene(std::shared_ptr<const ContactScene> scene, NormalForm form);
+
+  /// Draws; true when pixels changed, false when the last picture still holds.
+  /// Precondition: init() succeeded. Sizes below 1 pixel draw nothing.
+  bool render(const SceneFrame& frame, const Camera& camera, int width_px, int height_px);
+
+  unsigned texture() const;  ///< GL_TEXTURE_2D, RGBA8, sRGB values; 0 before the first render
+  int width_px() const;
+  int height_px() const;
+  std::span<const SceneLabel> labels() const;  ///< of the last render
+
+  /// Share of the smooth surface that is tessellated, 0..1.
+  float tessellation_progress() const;
+  std::size_t tessellation_triangles() const;  ///< of the finished surface, 0 before
+  /// Blocks until the smooth surface is there: for shots and tests, never for the window.
+  void wait_for_tessellation();
+  /// True while a finer picture is still to come (camera just rested, surface arriving): keep drawing.
+  bool refining() const;
+
+  double force_metres_per_newton() const;  ///< length scale of the force arrow in the last render
+
+  /// Loads shader files that changed on disk. Call now and then. On an error the last good ones stay.
+  void reload_changed_shaders();
+  const std::string& shader_error() const;  ///< empty: none
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// First facet under a pixel.
+NearestTriangles::RayHit pick_triangle(const ContactScene& scene, const Camera& camera, const Vec2& pixel,
+                                       int width_px, int height_px);
+/// World box of the scene, for Camera::frame.
+Box world_bounds(const ContactScene& scene);
+
+}  // namespace tangent
