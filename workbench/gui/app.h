@@ -1,0 +1,93 @@
+// The whole window as one object: builds the ImGui frame from plain input, and knows no window system.
+//
+// A platform (GLFW window, or off screen) drives it like this, once a frame, on the thread that owns the
+// ImGui context and the GL context:
+//
+//   if (app.prepare(input)) re-upload the font texture;   // before the back ends' NewFrame
+//   back ends' NewFrame();                                 // size, mouse and keys into ImGuiIO
+//   write injected input, if any;                          // ImGui 1.86 has no event queue
+//   app.frame(input);                                      // ImGui::NewFrame ... ImGui::Render
+//   draw ImGui::GetDrawData();
+//
+// An ImGui context must exist from before the constructor until after the destructor. Without a renderer
+// (tests) the 3D view stays an empty rectangle; everything else is the same.
+#pragma once
+
+#include "core/mesh/contact_mesh.h"
+#include "workbench/gui/theme.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace tangent {
+
+class AppModel;
+class ItemMap;
+class SceneRenderer;
+
+struct AppOptions {
+  std::string mesh;                     ///< a file, or the name of a generated object; empty: the built-in scene
+  double metres_per_unit = 1e-3;        ///< of the mesh file (--unit)
+  ContactMeshOptions mesh_options;
+  std::filesystem::path preset;         ///< empty: the shipped default
+  std::filesystem::path preset_folder;  ///< listed in the presets panel; empty: "presets" beside the program's sources
+  std::string device = "simulated";
+  std::filesystem::path record;         ///< recording to write; empty: none
+  Theme theme = Theme::dark;
+  std::uint64_t seed = 1;               ///< of the simulated devices
+  /// No servo thread: `advance` steps the session, on the caller's thread, with a time of its own, so that
+  /// the same calls give the same picture. For pictures and tests.
+  bool deterministic = false;
+};
+
+/// What a platform tells the frame builder. Mouse and keys come through ImGuiIO.
+struct FrameInput {
+  float width = 1280.0f, height = 720.0f;  ///< ImGui's coordinates
+  float content_scale = 1.0f;              ///< of the monitor: 2 on a HiDPI screen whose coordinates are pixels
+  double dt_s = 1.0 / 60.0;                ///< since the last frame
+  double now_s = 0.0;                      ///< any monotonic clock
+  std::vector<std::string> dropped_files;  ///< since the last frame
+};
+
+class App {
+ public:
+  /// Never fails: what goes wrong (a mesh that can't be read, a preset with an unknown key) is shown in the
+  /// window, and the built-in scene or the default preset stands in.
+  explicit App(AppOptions options = {});
+  ~App();
+  App(const App&) = delete;
+  App& operator=(const App&) = delete;
+
+  /// Draws the 3D view from now on; null: none. Must outlive the app's last frame.
+  void set_renderer(SceneRenderer* renderer);
+
+  /// Fonts and style for this scale and theme. True when the font atlas was built anew. Sets DisplaySize
+  /// and DeltaTime too; a back end may set them again.
+  bool prepare(const FrameInput& input);
+  /// ImGui::NewFrame, the whole window, ImGui::Render.
+  void frame(const FrameInput& input);
+
+  /// Deterministic mode: `ticks` servo ticks, now. Otherwise nothing.
+  void advance(std::uint64_t ticks);
+
+  bool wants_close() const;    ///< file > quit was chosen
+  bool wants_frames() const;   ///< something moves by itself: draw again without waiting for input
+  std::string title() const;   ///< for the window: mesh, preset
+
+  AppModel& model() { return *model_; }
+  const AppModel& model() const { return *model_; }
+  /// Where the widgets of the last frame were, by label path ("transport/pause").
+  const ItemMap& items() const;
+  double last_build_ms() const { return last_build_ms_; }  ///< CPU time of the last frame(), renderer left out
+
+ private:
+  struct Ui;
+  std::unique_ptr<AppModel> model_;
+  std::unique_ptr<Ui> ui_;
+  double last_build_ms_ = 0.0;
+};
+
+}  // namespace tangent
