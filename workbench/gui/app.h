@@ -14,7 +14,7 @@
 #pragma once
 
 #include "core/mesh/contact_mesh.h"
-#include "workbench/gui/theme.h"
+#include "workbench/gui/palette.h"
 
 #include <cstdint>
 #include <filesystem>
