@@ -1,0 +1,30 @@
+// One subcommand of the program: a function that hangs itself into the argument parser and, when its turn
+// comes, leaves its exit code behind.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace tangent {
+
+/// Exit codes of the program (DESIGN.md, "Command line").
+enum ExitCode : int {
+  kDone = 0,
+  kFailed = 1,  ///< the work failed; standard error says what, where and what to do
+  kUsage = 2,   ///< the arguments make no sense
+};
+
+struct CommandResult {
+  int exit_code = kDone;
+};
+
+void add_solve_command(CLI::App& app, CommandResult& result);
+void add_audit_command(CLI::App& app, CommandResult& result);
+void add_make_command(CLI::App& app, CommandResult& result);
+
+/// What the program does without a subcommand.
+int run_without_command();
+
+/// Parses the arguments and runs what they ask for. Returns the exit code.
+int run_program(int argc, const char* const* argv);
+
+}  // namespace tangent

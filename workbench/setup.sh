@@ -1,0 +1,87 @@
+# Sourced by workbench/run and tests/run: installs missing packages, configures and builds.
+# Expects `root` (the project's folder) and `self` (the name that starts each line) to be set.
+# Lines go to standard error, so that the program's own output stays clean in a pipe.
+
+say() { printf '%s: %s\n' "$self" "$*" >&2; }
+die() { say "$*"; exit 1; }
+
+# Names in package lists, comments removed.
+listed_packages() { sed -e 's/#.*//' -e 's/[[:space:]]//g' -e '/^$/d' "$@"; }
+
+# Those of the listed packages that are not installed.
+missing_packages() {
+  local -A installed=()
+  local name status
+  while read -r status name; do
+    [[ $status == installed ]] && installed[$name]=1
+  done < <(dpkg-query -W -f '${db:Status-Status} ${Package}\n' $(listed_packages "$@") 2>/dev/null)
+  for name in $(listed_packages "$@"); do
+    [[ ${installed[$name]:-} ]] || printf '%s\n' "$name"
+  done
+}
+
+# install_packages LIST...: asks nothing, touches nothing that is there. Sets `installed_something`.
+install_packages() {
+  installed_something=0
+  if ! command -v dpkg-query >/dev/null; then
+    say "this is not Debian, so packages are left to you; needed: $(listed_packages "$@" | xargs)"
+    return
+  fi
+  local missing=() as_root=() log
+  mapfile -t missing < <(missing_packages "$@")
+  ((${#missing[@]})) || return 0
+  if ((EUID != 0)); then
+    as_root=(sudo -n)
+    if ! command -v sudo >/dev/null || ! sudo -n true 2>/dev/null; then
+      say "packages are missing, and installing them needs root or sudo without a password"
+      die "run this once, then start again: apt-get install --no-install-recommends ${missing[*]}"
+    fi
+  fi
+  mkdir -p "$root/build"
+  log="$root/build/packages.log"
+  local apt=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -o DPkg::Lock::Timeout=300 -q -y)
+  say "reading the package lists"
+  # A failing mirror among several is no reason to stop: what counts is whether the install succeeds.
+  "${apt[@]}" update </dev/null >"$log" 2>&1 || true
+  say "installing ${#missing[@]} packages: ${missing[*]}"
+  if ! "${apt[@]}" install --no-install-recommends "${missing[@]}" </dev/null >>"$log" 2>&1; then
+    tail -n 20 "$log" >&2
+    die "installing packages failed; the whole log: $log"
+  fi
+  installed_something=1
+}
+
+# run_logged LOG MESSAGE COMMAND...: silent unless it fails.
+run_logged() {
+  local log="$1" message="$2"
+  shift 2
+  if ! "$@" </dev/null >"$log" 2>&1; then
+    # Compilers print the cause before a long tail of notes: show the first errors, then the end.
+    grep -n -m 10 -E 'error:|Error|FAILED' "$log" >&2 || true
+    tail -n 30 "$log" >&2
+    die "$message failed; the whole log: $log"
+  fi
+}
+
+# build PRESET-FOLDER TARGET CMAKE-OPTION...: configures when needed, builds when needed.
+build() {
+  local dir="$root/build/$1" target="$2" fresh=()
+  shift 2
+  mkdir -p "$dir"
+  exec 9>"$dir/.lock"
+  flock 9  # two starts at once build one after the other
+  # A tree that was moved or copied has a cache that names the old place.
+  if [[ -f $dir/CMakeCache.txt ]] && ! grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$dir/CMakeCache.txt"; then
+    fresh=(--fresh)
+  fi
+  if [[ ! -f $dir/build.ninja || $installed_something == 1 || ${#fresh[@]} -gt 0 || "$*" != "$(cat "$dir/.options" 2>/dev/null)" ]]; then
+    say "configuring $dir"
+    run_logged "$dir/configure.log" "configuring" cmake "${fresh[@]}" -G Ninja -S "$root" -B "$dir" "$@"
+    printf '%s\n' "$*" >"$dir/.options"
+    say "building $dir"
+  elif [[ $(ninja -C "$dir" -n "$target" 2>/dev/null | tail -n 1) != "ninja: no work to do." ]]; then
+    say "building $dir"
+  fi
+  run_logged "$dir/build.log" "the build" ninja -C "$dir" "$target"
+  exec 9>&-
+}
