@@ -1,0 +1,27 @@
+// A whole file in memory, for the mesh readers.
+#pragma once
+
+#include "core/base/result.h"
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <string_view>
+
+namespace tangent {
+
+/// The bytes of a file, followed by one '\n' and one '\0' that are not counted: text readers may look
+/// one character past any they have accepted, and every line ends.
+struct FileBytes {
+  std::unique_ptr<char[]> data;
+  std::size_t size = 0;
+
+  const char* begin() const { return data.get(); }
+  const char* end() const { return data.get() + size; }
+  std::string_view view() const { return {data.get(), size}; }
+};
+
+/// Reads a regular file. Fails when it is missing, not a regular file, unreadable, empty or too large.
+Result<FileBytes> read_file_bytes(const std::filesystem::path& path);
+
+}  // namespace tangent
