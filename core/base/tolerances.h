@@ -1,0 +1,47 @@
+// Every tolerance of core, in one place: its unit, why it has this value, and what worsens when it is moved.
+// None changes while running. Relative ones are relative to the scene; absolute ones say which physics sets them.
+#pragma once
+
+#include <limits>
+
+namespace tangent {
+
+// ---- mesh ----
+
+/// Ratio. A triangle whose smallest height is at most this part of its longest side has no area worth a name.
+/// The cross product of the sides is rounded at 1e-16 of the longest side squared, so at this height the
+/// normal still has four digits. Larger: real slivers vanish. Smaller: normals made of rounding noise.
+inline constexpr double kDegenerateHeight = 1e-12;
+
+/// Ratio to the largest coordinate of the triangle. A height below the rounding of the coordinates themselves is
+/// no height, so that a triangle that is degenerate at the origin is also degenerate a kilometre away from it.
+/// Larger: fine triangles far from the origin vanish. Smaller: collinear corners count as a sliver when moved.
+inline constexpr double kCoordinateRounding = 2.0 * std::numeric_limits<double>::epsilon();
+
+/// Metres. Coordinates beyond this count as not finite: their fourth powers (areas squared) stay well inside the
+/// range of a double. Larger: overflow to infinity in squared areas. Smaller: nothing real is that large.
+inline constexpr double kLargestCoordinate = 1e30;
+
+/// Radians, added to --crease-deg: an edge at exactly the limit (an octagonal prism at 45 degrees) is no crease,
+/// although its angle comes out rounded. Float coordinates turn a face by about 1e-7. Larger: the limit is not what
+/// the user said. Smaller: equal edges of one prism are creases or not by chance.
+inline constexpr double kCreaseSlack = 1e-6;
+
+/// Ratio (radians for small angles). Corner normals this close are the same normal: text files print six digits.
+/// A disagreement d opens the PN surface by about a third of d times the edge: 0.03 um on a 100 mm edge, far below
+/// the solver's 1 um. Larger: visible cracks. Smaller: smooth edges become creases through printing.
+inline constexpr double kSameNormal = 1e-6;
+
+/// Ratio. A sum of weighted unit normals shorter than this part of its weights has cancelled: no direction is left.
+/// Larger: thin fins lose their averaged normal. Smaller: the direction is rounding noise.
+inline constexpr double kCancelledNormal = 1e-9;
+
+/// Ratio, audit only. A triangle whose smallest height is below this part of its longest side is listed as a sliver.
+/// Nothing is skipped by it. Larger: ordinary long triangles are listed. Smaller: troublesome ones are not.
+inline constexpr double kSliverAspect = 1e-2;
+
+/// Degrees, audit only. A corner normal further than this from its face's normal is listed as wild: PN triangles fold
+/// near 90 degrees. Larger: patches that bulge wildly pass. Smaller: honest normals of coarse meshes are listed.
+inline constexpr double kWildNormalDeg = 60.0;
+
+}  // namespace tangent
