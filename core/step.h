@@ -20,14 +20,12 @@ class ContactScene {
   static Result<std::shared_ptr<const ContactScene>> build(ContactMesh mesh);
   const ContactMesh& mesh() const { return mesh_; }
   const NearestTriangles& nearest() const { return *nearest_; }
-  double largest_bulge_m() const { return largest_bulge_m_; }  ///< of any patch over its flat triangle
   std::size_t memory_bytes() const;
 
  private:
   explicit ContactScene(ContactMesh mesh) : mesh_(std::move(mesh)) {}
   ContactMesh mesh_;
   std::unique_ptr<NearestTriangles> nearest_;
-  double largest_bulge_m_ = 0.0;
 };
 
 enum class Feature : std::uint8_t { none, face, edge, vertex };

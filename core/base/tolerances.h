@@ -44,4 +44,25 @@ inline constexpr double kSliverAspect = 1e-2;
 /// near 90 degrees. Larger: patches that bulge wildly pass. Smaller: honest normals of coarse meshes are listed.
 inline constexpr double kWildNormalDeg = 60.0;
 
+// --- Solver -------------------------------------------------------------------------------------------
+
+/// det M below which `robust` does not trust a Newton step, 1. Newton's step grows as 1/det. Larger: slow
+/// tangent steps where Newton is fine; smaller: wild steps near a fold.
+inline constexpr double kNewtonMinDet = 0.05;
+
+/// Longest step of `robust`, in travels, 1. A convex point contact needs at most 1/(1 + h k); only ground
+/// near a fold asks for more. Larger: leaps to other places; smaller: slow approach in concave ground.
+inline constexpr double kLongestStepPerTravel = 4.0;
+
+/// New planes `robust` spends on following the kept contact before it seeds anew, 1. More: a stale contact
+/// costs longer before it is given up; fewer: slow but sound convergence is thrown away.
+inline constexpr int kTrackBudget = 12;
+
+/// New planes a seed of `robust` may spend, 1.
+inline constexpr int kSeedBudget = 16;
+
+/// Nearest triangles that seed a contact, 1. 24 found every stable contact of the shared pose files in the
+/// prototype (ALGORITHM.md 7). More: slower re-seeding; fewer: contacts missed in rough ground.
+inline constexpr int kSeeds = 24;
+
 }  // namespace tangent

@@ -1,0 +1,48 @@
+// The iteration of one tick: from a place on the surface, tangent plane after tangent plane, until the
+// finger's contact on the plane is the point where the plane touches (ALGORITHM.md 3, 3.1).
+#pragma once
+
+#include "core/contact/place.h"
+
+namespace tangent {
+
+/// What stays the same through the iterations of one tick.
+struct IterationContext {
+  PatchCache& cache;
+  const SolverSettings& settings;
+  const Finger& finger;
+  FingerPose pose;          ///< local mesh coordinates
+  Vec3 origin;              ///< of the local coordinates, for the trace
+  IterationTrace* trace = nullptr;
+  std::uint8_t seed = 0;    ///< 0 while tracking; the number of the seed otherwise
+};
+
+/// Stability of the contact (ALGORITHM.md 3): M = B A^-1.
+struct Stability {
+  double det = 1.0, trace = 2.0;
+  bool stable() const { return det > 0.0 && trace > 0.0; }
+};
+
+struct IterationResult {
+  TrackedPlane plane;         ///< the last plane
+  PlaceSample sample;         ///< there
+  PlaneContact contact;       ///< of the finger with it
+  Stability stability;        ///< there
+  StopReason stop = StopReason::going_on;
+  int evaluations = 0;        ///< new planes
+  int triangle_changes = 0;
+  bool met_unstable = false;  ///< an iterate on the way was not stable
+  bool converged() const { return stop == StopReason::converged; }
+};
+
+/// Iterates by `context.settings.method` (paper, newton or robust) until converged or `budget` new planes
+/// are spent. `kept`: the start is the plane of the last tick and costs no evaluation; `kept_sample` may
+/// hold its sample (a face's), saving its computation.
+IterationResult iterate(IterationContext& context, const TrackedPlane& start, bool kept,
+                        const PlaceSample* kept_sample, int budget);
+
+/// Sample of a place for the present pose: faces as they are, edges and vertices with the normal turned to
+/// face the finger within the fan. Fills plane.point and plane.normal.
+PlaceSample sample_place(IterationContext& context, TrackedPlane& plane);
+
+}  // namespace tangent

@@ -1,0 +1,101 @@
+#include "core/contact/step_rule.h"
+
+#include "core/base/tolerances.h"
+#include "core/contact/walk.h"
+
+#include <cmath>
+
+namespace tangent {
+namespace {
+
+/// Solves xa da + xb db = r in the plane normal to n. False where xa and xb are parallel there.
+bool solve_in_plane(const Vec3& xa, const Vec3& xb, const Vec3& n, const Vec3& r, double& da, double& db) {
+  const Vec3 xb_turned = glm::cross(xb, n);  // xb x n: dot with a vector gives (vector x xb) . n
+  const double det = glm::dot(xa, xb_turned);
+  if (det == 0.0) return false;
+  da = glm::dot(r, xb_turned) / det;
+  db = glm::dot(glm::cross(xa, r), n) / det;
+  return std::isfinite(da) && std::isfinite(db);
+}
+
+Vec3 tangent_step(const PlaceSample& s, const ParameterStep& step) { return step.da * s.point_a + step.db * s.point_b; }
+
+}  // namespace
+
+ContactJacobian contact_jacobian(const Finger& finger, const FingerPose& pose, const PlaceSample& s, const PlaneContact& c) {
+  if (finger.shape == FingerShape::point || finger.shape == FingerShape::sphere)
+    return {s.point_a + c.height_m * s.normal_a, s.point_b + c.height_m * s.normal_b};
+  const Mat3 h = offset_derivative(finger, pose, s.normal, c.penetration_m);
+  return {s.point_a + h * s.normal_a, s.point_b + h * s.normal_b};
+}
+
+Stability face_stability(const PlaceSample& s, const ContactJacobian& j) {
+  // With 2D cross products in the plane: det M = (Xa x Xb)/(Sa x Sb), trace M = (Xa x Sb + Sa x Xb)/(Sa x Sb).
+  const Vec3 sb_turned = glm::cross(s.point_b, s.normal), xb_turned = glm::cross(j.xb, s.normal);
+  const double area = glm::dot(s.point_a, sb_turned);
+  if (area == 0.0) return {0.0, 0.0};
+  return {glm::dot(j.xa, xb_turned) / area, (glm::dot(j.xa, sb_turned) + glm::dot(s.point_a, xb_turned)) / area};
+}
+
+double paper_gain(const SolverSettings& g, double curvature_per_m, double distance_m) {
+  return g.gain_overall / ((1.0 + g.gain_curvature_m * curvature_per_m) * (1.0 + g.gain_distance_per_m * std::abs(distance_m)));
+}
+
+double paper_distance(const SolverSettings& settings, const PlaneContact& c) {
+  return settings.distance_reading == DistanceReading::proxy ? c.penetration_m : c.height_m;
+}
+
+ParameterStep paper_face_step(const ContactMesh& mesh, const SolverSettings& settings, std::uint32_t triangle,
+                              const PlaceSample& s, const PlaneContact& c) {
+  ParameterStep step;
+  if (!to_barycentric(mesh, triangle, c.travel, step.da, step.db)) return step;
+  const Vec3 ds = step.da * s.point_a + step.db * s.point_b;
+  const Vec3 dn = step.da * s.normal_a + step.db * s.normal_b;
+  const double ds2 = glm::dot(ds, ds);
+  step.curvature_per_m = ds2 > 0.0 ? std::sqrt(glm::dot(dn, dn) / ds2) : 0.0;
+  step.distance_m = paper_distance(settings, c);
+  step.gain = paper_gain(settings, step.curvature_per_m, step.distance_m);
+  step.da *= step.gain;
+  step.db *= step.gain;
+  step.valid = std::isfinite(step.da) && std::isfinite(step.db);
+  return step;
+}
+
+ParameterStep newton_step(const PlaceSample& s, const ContactJacobian& j, const PlaneContact& c) {
+  ParameterStep step;
+  step.valid = solve_in_plane(j.xa, j.xb, s.normal, c.travel, step.da, step.db);
+  step.distance_m = c.penetration_m;
+  step.gain = 1.0;
+  return step;
+}
+
+ParameterStep robust_face_step(const PlaceSample& s, const ContactJacobian& j, const Stability& stability,
+                               const PlaneContact& c) {
+  ParameterStep step;
+  if (stability.det > kNewtonMinDet && stability.trace > 0.0) {
+    step = newton_step(s, j, c);
+    if (step.valid) {
+      const Vec3 ds = tangent_step(s, step);
+      const double limit = kLongestStepPerTravel * c.error_m;
+      const double length2 = glm::dot(ds, ds);
+      if (length2 > limit * limit) {
+        const double shorter = limit / std::sqrt(length2);
+        step.da *= shorter;
+        step.db *= shorter;
+      }
+      return step;
+    }
+  }
+  step.valid = solve_in_plane(s.point_a, s.point_b, s.normal, c.travel, step.da, step.db);
+  if (!step.valid) return step;
+  const Vec3 ds = tangent_step(s, step), dn = step.da * s.normal_a + step.db * s.normal_b;
+  const double ds2 = glm::dot(ds, ds);
+  step.curvature_per_m = ds2 > 0.0 ? std::sqrt(glm::dot(dn, dn) / ds2) : 0.0;
+  step.distance_m = c.penetration_m;
+  step.gain = 1.0 / (1.0 + std::abs(c.height_m) * step.curvature_per_m);
+  step.da *= step.gain;
+  step.db *= step.gain;
+  return step;
+}
+
+}  // namespace tangent

@@ -1,0 +1,20 @@
+// Follows the contact from one tick to the next, and finds it again when it is lost.
+#pragma once
+
+#include "core/contact/seed.h"
+
+namespace tangent {
+
+struct TrackResult {
+  IterationResult contact;    ///< the converged one, or the best there was
+  TickEvent event = TickEvent::none;
+  int evaluations = 0;        ///< of the whole tick, lost tracking and seeds included
+  int triangle_changes = 0;
+  bool converged() const { return contact.converged(); }
+};
+
+/// `kept_sample` may hold the sample of state.plane. The context's pose is local.
+TrackResult track(IterationContext& context, const NearestTriangles& nearest, const TickState& state,
+                  const PlaceSample* kept_sample);
+
+}  // namespace tangent

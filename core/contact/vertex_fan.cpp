@@ -1,0 +1,112 @@
+#include "core/contact/vertex_fan.h"
+
+#include "core/contact/step_rule.h"
+#include "core/contact/walk.h"
+#include "core/mesh/vertex_ring.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tangent {
+namespace {
+
+Vec2 corner_uv(std::uint32_t corner) { return {corner == 1 ? 1.0 : 0.0, corner == 2 ? 1.0 : 0.0}; }
+
+/// How strongly the face draws the contact from its corner into itself: length of the step if that leads
+/// inside, else 0.
+double face_pull(IterationContext& context, std::uint32_t t, std::uint32_t corner) {
+  const Vec2 uv = corner_uv(corner);
+  const SurfaceSample e = evaluate(context.cache.patch(t, context.settings.normal_form), uv.x, uv.y);
+  const PlaceSample s{e.point, e.point_u, e.point_v, e.normal, e.normal_u, e.normal_v};
+  const PlaneContact c = contact_on_plane(context.finger, context.pose, s.point, s.normal);
+  const ContactJacobian j = contact_jacobian(context.finger, context.pose, s, c);
+  ParameterStep step = context.settings.method == Method::paper
+                           ? paper_face_step(context.cache.mesh(), context.settings, t, s, c)
+                           : robust_face_step(s, j, face_stability(s, j), c);
+  if (!step.valid) return 0.0;
+  const double change[3] = {-step.da - step.db, step.da, step.db};
+  if (change[(corner + 1) % 3] <= 0.0 || change[(corner + 2) % 3] <= 0.0) return 0.0;
+  const Vec3 ds = step.da * s.point_a + step.db * s.point_b;
+  return std::sqrt(glm::dot(ds, ds));
+}
+
+/// The same for a crease or boundary edge that starts (f = 0) or ends (f = 1) at the vertex.
+double edge_pull(IterationContext& context, std::uint32_t t, std::uint32_t edge, double f) {
+  const EdgeFan fan = edge_fan(context.cache, t, edge, f, context.settings.normal_form);
+  if (fan.fan <= 0.0) return 0.0;
+  const double turn = facing_turn(fan, context.finger, context.pose);
+  if (turn < 0.0 || turn > fan.fan) return 0.0;
+  const FanNormal n = fan_normal(fan, turn);
+  const PlaneContact c = contact_on_plane(context.finger, context.pose, fan.point, n.normal);
+  const double away = glm::dot(c.travel, fan.tangent) * (f == 0.0 ? 1.0 : -1.0);
+  return away > 0.0 ? away : 0.0;
+}
+
+}  // namespace
+
+PlaceSample vertex_sample_at(IterationContext& context, const TrackedPlane& plane, const Vec3& normal) {
+  PlaceSample s{};
+  s.point = context.cache.mesh().position(plane.triangle, plane.side);
+  s.normal = normal;
+  const Vec3 axis = std::abs(normal.x) < 0.6 ? Vec3(1, 0, 0) : Vec3(0, 1, 0);
+  s.normal_a = unit(glm::cross(normal, axis));
+  s.normal_b = glm::cross(normal, s.normal_a);
+  s.point_a = s.point_b = Vec3(0.0);
+  return s;
+}
+
+PlaceSample vertex_sample(IterationContext& context, const TrackedPlane& plane) {
+  const Vec3& vertex = context.cache.mesh().position(plane.triangle, plane.side);
+  const Vec3 d = context.pose.position - vertex;
+  const double d2 = glm::dot(d, d);
+  Vec3 normal = d2 > 0.0 ? d / std::sqrt(d2) : context.cache.mesh().normal(plane.triangle, plane.side);
+  if (context.finger.shape != FingerShape::point && context.finger.shape != FingerShape::sphere) {
+    // Newton on the sphere of normals: H dN = travel in the plane.
+    for (int i = 0; i < 30; ++i) {
+      const PlaceSample s = vertex_sample_at(context, plane, normal);
+      const PlaneContact c = contact_on_plane(context.finger, context.pose, s.point, s.normal);
+      ParameterStep step = newton_step(s, contact_jacobian(context.finger, context.pose, s, c), c);
+      if (!step.valid) break;
+      const double size = std::hypot(step.da, step.db);
+      const double scale = size > 0.3 ? 0.3 / size : 1.0;
+      normal = unit(normal + scale * (step.da * s.normal_a + step.db * s.normal_b));
+      if (size < 1e-13) break;
+    }
+  }
+  return vertex_sample_at(context, plane, normal);
+}
+
+VertexExit vertex_exit(IterationContext& context, const TrackedPlane& plane) {
+  const ContactMesh& mesh = context.cache.mesh();
+  VertexExit best;
+  double strongest = 1e-9 * std::max(context.finger.reach_m(), glm::length(mesh.bounds().size()));
+  strongest = std::min(strongest, 0.1 * context.settings.tolerance_m);
+  const auto offer = [&](double pull, const TrackedPlane& place) {
+    if (!(pull > strongest)) return;
+    strongest = pull;
+    best.place = place;
+  };
+  around_vertex(mesh, plane.triangle, plane.side, [&](std::uint32_t t, std::uint32_t corner) {
+    TrackedPlane place;
+    place.triangle = t;
+    const Vec2 uv = corner_uv(corner);
+    place.u = uv.x;
+    place.v = uv.y;
+    place.feature = Feature::face;
+    offer(face_pull(context, t, corner), place);
+    place.feature = Feature::edge;
+    // Each edge once: the one that starts here, and the one that ends here where nothing lies beyond it.
+    if (mesh.edge_kind(t, corner) != EdgeKind::smooth) {
+      place.side = static_cast<std::uint8_t>(corner);
+      offer(edge_pull(context, t, corner, 0.0), place);
+    }
+    const std::uint32_t ending = (corner + 2) % 3;
+    if (mesh.edge_kind(t, ending) == EdgeKind::boundary) {
+      place.side = static_cast<std::uint8_t>(ending);
+      offer(edge_pull(context, t, ending, 1.0), place);
+    }
+  });
+  return best;
+}
+
+}  // namespace tangent

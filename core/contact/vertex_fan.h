@@ -1,0 +1,22 @@
+// Contacts on a vertex where creases or boundaries meet: the point stands still and the normal faces the
+// finger, as long as none of the edges and faces around the vertex draws the contact away.
+#pragma once
+
+#include "core/contact/iterate.h"
+
+#include <optional>
+
+namespace tangent {
+
+/// Sample of a vertex (plane.triangle, corner plane.side) with the normal facing the finger.
+PlaceSample vertex_sample(IterationContext& context, const TrackedPlane& plane);
+/// The same with a given unit normal.
+PlaceSample vertex_sample_at(IterationContext& context, const TrackedPlane& plane, const Vec3& normal);
+
+/// Where the contact leaves a vertex to: the edge or face around it that draws it most; none: it rests.
+struct VertexExit {
+  std::optional<TrackedPlane> place;
+};
+VertexExit vertex_exit(IterationContext& context, const TrackedPlane& plane);
+
+}  // namespace tangent
