@@ -1,5 +1,5 @@
-// Files that appear under their name only when they are complete: everything goes to a temporary file
-// beside the target, which is then renamed. On failure the target keeps what it had.
+// Files written whole or not at all: a temporary file beside the target, fsync, then a rename. A reader
+// never sees half a file, and a failure leaves the old one as it was.
 #pragma once
 
 #include "core/base/result.h"
@@ -10,34 +10,37 @@
 
 namespace tangent {
 
-/// A file written as a stream. commit() puts it under its name; destruction without it leaves nothing.
+/// A file being written. Nothing shows at the target until `commit`; without it the destructor removes
+/// the temporary file. A target that is a device or a pipe (/dev/stdout) is written straight through.
+/// A symbolic link is followed: the file it names is replaced, the link stays.
 class AtomicFile {
  public:
-  /// Fails, naming the path and the system's reason, where nothing can be written. A symbolic link is
-  /// followed. A device or pipe (/dev/stdout) is written straight: there is nothing to rename.
-  static Result<AtomicFile> create(const std::filesystem::path& path);
+  /// Fails when the target is a directory, is write-protected, or its directory takes no new file.
+  static Result<AtomicFile> create(const std::filesystem::path& target);
+
   AtomicFile(AtomicFile&& other) noexcept;
   AtomicFile& operator=(AtomicFile&&) = delete;
   ~AtomicFile();
 
-  /// Buffered.
-  Status write(std::string_view text);
-  /// Completes the file; nothing may be written afterwards. `durable`: it also survives a power cut.
-  Status commit(bool durable = false);
-  const std::filesystem::path& path() const { return path_; }
+  /// Collects, and writes when enough has come together. A failure is kept and reported by `commit`.
+  void write(std::string_view bytes);
+
+  /// Puts the file in place. Call once, last.
+  Status commit();
 
  private:
   AtomicFile() = default;
-  Status flush();
-  tl::unexpected<Error> system_failure(int error) const;
+  void flush();
+  void record_failure(const char* doing);
 
-  std::filesystem::path path_;
-  std::filesystem::path temporary_;  ///< empty: written straight, or committed
+  std::filesystem::path target_;     ///< as the user named it, for messages
+  std::filesystem::path place_;      ///< with links followed
+  std::filesystem::path temporary_;  ///< empty: written straight through, or committed
   std::string buffer_;
-  int file_ = -1;
+  int fd_ = -1;
+  Status status_;
 };
 
-/// The whole file at once, durably.
-Status write_file_atomic(const std::filesystem::path& path, std::string_view contents);
+Status write_file_atomically(const std::filesystem::path& target, std::string_view content);
 
 }  // namespace tangent

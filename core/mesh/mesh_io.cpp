@@ -16,6 +16,9 @@ Reader reader_for(const std::filesystem::path& path) {
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (extension == ".obj") return read_obj;
+  if (extension == ".ply") return read_ply;
+  if (extension == ".stl") return read_stl;
+  if (extension == ".off") return read_off;
   return nullptr;
 }
 

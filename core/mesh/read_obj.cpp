@@ -1,3 +1,7 @@
+// Why not tinyobjloader (2.0.0rc10 compiled for double, measured on the same machine): it reads
+// 0.30000000000000004 as 0.3000000000000001, so a double does not read back; it drops 2-gons, which
+// shifts every later triangle number; "v 0 0 zzz" becomes a zero and an index out of range a warning;
+// and a file of 4,999,122 triangles (207 MB) took 4.8 s against 0.9-1.4 s here.
 #include "core/mesh/readers.h"
 #include "core/mesh/text_cursor.h"
 
@@ -104,7 +108,7 @@ class ObjReader {
     if (keyword == "f") return read_face();
     if (keyword == "vn") return read_normal();
     const bool printable = std::all_of(keyword.begin(), keyword.end(), [](char c) { return c > 0x20 && c < 0x7f; });
-    if (!printable) return text_.fail_here(quoted(keyword) + " is not an OBJ keyword", "is this a text file?");
+    if (!printable) return text_.fail_here(show_token(keyword) + " is not an OBJ keyword", "is this a text file?");
     skip_line();
     return {};
   }
@@ -153,7 +157,7 @@ class ObjReader {
       }
     }
     if (!good || !text_.at_separator()) [[unlikely]] {
-      return text_.fail_here("bad face corner near " + quoted(text_.token()), "write v, v/t, v//n or v/t/n");
+      return text_.fail_here("bad face corner near " + show_token(text_.token()), "write v, v/t, v//n or v/t/n");
     }
     const auto resolved = positions_.resolve(*position, mesh_.positions.size(), text_.line());
     if (!resolved) return text_.fail_here(positions_.problem(), positions_.remedy());

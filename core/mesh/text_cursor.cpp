@@ -45,7 +45,7 @@ std::optional<double> TextCursor::number() {
     set_error("the line ends where a number is expected");
     return std::nullopt;
   }
-  const std::string text = quoted(token());
+  const std::string text = show_token(token());
   if (read.status == ScanStatus::overflow) {
     set_error(text + " is too large for a number", "scale the mesh");
   } else {
@@ -82,7 +82,7 @@ std::optional<std::int64_t> TextCursor::integer() {
   const std::optional<std::int64_t> value = integer_here();
   if (value && at_separator()) return value;
   at_ = start;
-  set_error(quoted(token()) + " is not a whole number");
+  set_error(show_token(token()) + " is not a whole number");
   return std::nullopt;
 }
 
@@ -97,7 +97,7 @@ void TextCursor::set_error(std::string what, std::string remedy) {
   error_ = Error{std::move(what), file_ + ":" + std::to_string(line_), std::move(remedy)};
 }
 
-std::string quoted(std::string_view token) {
+std::string show_token(std::string_view token) {
   constexpr std::size_t kShown = 32;
   static constexpr char kHex[] = "0123456789abcdef";
   std::string text = "\"";

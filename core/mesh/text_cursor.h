@@ -33,6 +33,12 @@ class TextCursor {
 
   /// The characters up to the next blank, comment or line end; empty when the line is done.
   std::string_view token();
+  /// The same without going past it.
+  std::string_view token_ahead() {
+    const std::string_view ahead = token();
+    at_ = ahead.data();
+    return ahead;
+  }
 
   /// The next number on the line; nan and inf are numbers. On failure nothing, and `error` is filled.
   std::optional<double> number();
@@ -91,6 +97,6 @@ class TextCursor {
 };
 
 /// At most the first 32 bytes of `token` in quotes, unprintable ones as \xNN.
-std::string quoted(std::string_view token);
+std::string show_token(std::string_view token);
 
 }  // namespace tangent
