@@ -84,9 +84,10 @@ AtomicFile::~AtomicFile() {
   if (!temporary_.empty()) ::unlink(temporary_.c_str());
 }
 
-void AtomicFile::write(std::string_view bytes) {
+Status AtomicFile::write(std::string_view bytes) {
   buffer_ += bytes;
   if (buffer_.size() >= kBufferBytes) flush();
+  return status_;
 }
 
 void AtomicFile::flush() {
@@ -103,11 +104,13 @@ void AtomicFile::flush() {
   buffer_.clear();
 }
 
-Status AtomicFile::commit() {
+Status AtomicFile::commit(bool durable) {
   flush();
   const bool in_place = temporary_.empty();
   // EINVAL, ENOTSUP: this file system has nothing to sync, so nothing was lost.
-  if (status_ && !in_place && ::fsync(fd_) != 0 && errno != EINVAL && errno != ENOTSUP) record_failure("sync");
+  if (durable && status_ && !in_place && ::fsync(fd_) != 0 && errno != EINVAL && errno != ENOTSUP) {
+    record_failure("sync");
+  }
   // close reports what a network file system only finds out now
   if (::close(std::exchange(fd_, -1)) != 0) record_failure("close");
   if (!status_ || in_place) return status_;
@@ -116,7 +119,7 @@ Status AtomicFile::commit() {
     return status_;
   }
   temporary_.clear();
-  sync_directory(place_.parent_path());
+  if (durable) sync_directory(place_.parent_path());
   return status_;
 }
 
@@ -124,11 +127,11 @@ void AtomicFile::record_failure(const char* doing) {
   if (status_) status_ = system_failure(doing, target_);
 }
 
-Status write_file_atomically(const std::filesystem::path& target, std::string_view content) {
+Status write_file_atomic(const std::filesystem::path& target, std::string_view content) {
   Result<AtomicFile> file = AtomicFile::create(target);
   if (!file) return tl::unexpected<Error>(file.error());
-  file->write(content);
-  return file->commit();
+  if (const Status written = file->write(content); !written) return written;
+  return file->commit(true);
 }
 
 }  // namespace tangent

@@ -1,4 +1,4 @@
-// Files written whole or not at all: a temporary file beside the target, fsync, then a rename. A reader
+// Files written whole or not at all: a temporary file beside the target, then a rename. A reader
 // never sees half a file, and a failure leaves the old one as it was.
 #pragma once
 
@@ -22,11 +22,13 @@ class AtomicFile {
   AtomicFile& operator=(AtomicFile&&) = delete;
   ~AtomicFile();
 
-  /// Collects, and writes when enough has come together. A failure is kept and reported by `commit`.
-  void write(std::string_view bytes);
+  /// Buffered. The first failure is kept: later calls and `commit` return it again.
+  Status write(std::string_view bytes);
 
-  /// Puts the file in place. Call once, last.
-  Status commit();
+  /// Puts the file in place; call once, last. `durable`: it also survives a power cut.
+  Status commit(bool durable = false);
+
+  const std::filesystem::path& path() const { return target_; }
 
  private:
   AtomicFile() = default;
@@ -41,6 +43,7 @@ class AtomicFile {
   Status status_;
 };
 
-Status write_file_atomically(const std::filesystem::path& target, std::string_view content);
+/// The whole file at once, durably.
+Status write_file_atomic(const std::filesystem::path& target, std::string_view content);
 
 }  // namespace tangent

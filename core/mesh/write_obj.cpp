@@ -39,7 +39,7 @@ void append_vector(std::string& line, const char* keyword, const Vec3& v) {
 Status write_obj(const PolygonMesh& mesh, const std::filesystem::path& path, double metres_per_unit) {
   Result<AtomicFile> file = AtomicFile::create(path);
   if (!file) return tl::unexpected<Error>(file.error());
-  std::string line;
+  std::string line;  // what can't be written is reported by commit
   for (const Vec3& p : mesh.positions) {
     append_vector(line, "v",
                   {in_unit(p.x, metres_per_unit), in_unit(p.y, metres_per_unit), in_unit(p.z, metres_per_unit)});
@@ -62,7 +62,7 @@ Status write_obj(const PolygonMesh& mesh, const std::filesystem::path& path, dou
     line += '\n';
     file->write(line);
   }
-  return file->commit();
+  return file->commit(true);
 }
 
 }  // namespace tangent
