@@ -1,4 +1,4 @@
-// Orbit camera. World frame in metres, double precision; +z is up. Pixels count from the top left corner
+// Orbit camera. World frame in metres, double precision. Pixels count from the top left corner
 // of the view, so they match ImGui's mouse position minus the view's corner.
 #pragma once
 
@@ -16,10 +16,12 @@ struct Ray {
 struct Camera {
   Vec3 target{0.0};            ///< looked at and orbited about, world, m
   double distance_m = 0.3;     ///< eye to target
-  double yaw_rad = -0.6;       ///< about +z; 0: eye on the -y side of the target
+  double yaw_rad = -0.6;       ///< about the up axis; 0: eye on the -y side of the target (+z with y_up)
   double pitch_rad = 0.45;     ///< eye above the horizon; within +-89 deg
   double fov_rad = 0.6;        ///< vertical opening
-  double scene_radius_m = 0.1;  ///< from frame(): sets zoom limits and the far plane
+  double scene_radius_m = 0.1;  ///< from frame(): sets zoom limits and the depth range
+  Vec3 scene_centre{0.0};      ///< from frame()
+  bool y_up = false;           ///< +y is up on screen (many scanned meshes); else +z
 
   bool operator==(const Camera&) const = default;
 
@@ -33,7 +35,7 @@ struct Camera {
   void pan(double dx_px, double dy_px, int height_px);
   /// Multiplies the distance (0.9: nearer), within 1e-6 .. 50 scene radii.
   void zoom(double factor);
-  /// The same, keeping the world point under the pixel where it is.
+  /// The same, keeping what lies under the pixel at the target's depth where it is.
   void zoom_at(double factor, const Vec2& pixel, int width_px, int height_px);
   /// Looks at the whole box, keeping the direction. No effect for an empty box.
   void frame(const Box& world_box, double margin = 1.15);

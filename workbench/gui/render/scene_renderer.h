@@ -54,6 +54,7 @@ struct SceneFrame {
   SceneToggles toggles;
   Theme theme = Theme::dark;
   RenderQuality quality = RenderQuality::automatic;
+  double pixel_scale = 1.0;                     ///< widths of lines and points; 2 on a HiDPI screen
   Finger finger;
   std::optional<TickRecord> tick;               ///< the tick in view; none: mesh only
   std::span<const IterationRecord> trace;       ///< that tick stepped again with tracing, [0]: kept plane
@@ -89,8 +90,8 @@ class SceneRenderer {
   /// nullptr: empty view. Cheap when scene and form are those already set.
   void set_scene(std::shared_ptr<const ContactScene> scene, NormalForm form);
 
-  /// Draws; true when pixels changed, false when the last picture still holds.
-  /// Precondition: init() succeeded. Sizes below 1 pixel draw nothing.
+  /// Draws; false when there is nothing to show (a size below 1 pixel, or one the driver refuses).
+  /// Precondition: init() succeeded.
   bool render(const SceneFrame& frame, const Camera& camera, int width_px, int height_px);
 
   unsigned texture() const;  ///< GL_TEXTURE_2D, RGBA8, sRGB values; 0 before the first render

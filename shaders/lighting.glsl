@@ -1,0 +1,22 @@
+// Soft studio light, fixed to the eye so that turning the object never leaves it dark: a warm key from the
+// upper left, a cool fill from the right, and a sky-to-ground hemisphere about the world's up. Colours are
+// sRGB values throughout; the light is tuned by eye in that space.
+uniform vec3 up_eye;  // unit, world up in eye space
+
+vec3 lit(vec3 albedo, vec3 n) {
+  const vec3 key_direction = vec3(-0.442, 0.602, 0.665);
+  const vec3 fill_direction = vec3(0.766, 0.051, 0.641);
+  float sky = 0.5 + 0.5 * dot(n, up_eye);
+  float key = max(dot(n, key_direction), 0.0);
+  float fill = max(dot(n, fill_direction), 0.0);
+  vec3 light = mix(vec3(0.36, 0.35, 0.36), vec3(0.56, 0.58, 0.61), sky);
+  light += key * vec3(0.52, 0.50, 0.47) + fill * vec3(0.11, 0.13, 0.16);
+  return albedo * light;
+}
+
+// Highlight of the key light for a unit normal and unit direction to the eye.
+float highlight(vec3 n, vec3 to_eye, float tightness) {
+  vec3 halfway = normalize(vec3(-0.442, 0.602, 0.665) + to_eye);
+  float x = max(dot(n, halfway), 0.0);
+  return exp2(tightness * (x - 1.0));
+}

@@ -1,0 +1,19 @@
+#version 330 core
+#include "lighting.glsl"
+uniform vec4 albedo;      // alpha: opacity where the body faces the eye
+uniform float rim_opacity;  // and where it turns away
+in vec3 normal_eye;
+in vec3 from_eye;
+out vec4 colour;
+
+void main() {
+  vec3 n = normalize(normal_eye);
+  vec3 to_eye = -normalize(from_eye);
+  float facing = max(dot(n, to_eye), 0.0);
+  vec3 shade = lit(albedo.rgb, n) + 0.22 * highlight(n, to_eye, 90.0);
+  float rim = 1.0 - facing;
+  float alpha = mix(albedo.a, rim_opacity, rim * rim * rim);
+  // The silhouette ends within a pixel: this layer is not multisampled.
+  alpha *= smoothstep(0.0, 1.5 * fwidth(facing) + 1e-6, facing);
+  colour = vec4(shade, alpha);
+}

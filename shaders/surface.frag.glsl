@@ -1,0 +1,24 @@
+#version 330 core
+#include "lighting.glsl"
+#include "wire.glsl"
+uniform vec3 albedo;
+uniform vec3 inside_albedo;
+uniform float opacity;
+uniform vec4 wire;       // patch borders; strength 0: none
+uniform float width_px;
+in vec3 normal_eye;
+in vec3 from_eye;
+in vec2 weights;
+out vec4 colour;
+
+void main() {
+  vec3 n = normalize(normal_eye);
+  vec3 to_eye = -normalize(from_eye);
+  float facing = dot(n, to_eye);
+  vec3 shade = lit(facing < 0.0 ? inside_albedo : albedo, facing < 0.0 ? -n : n);
+  shade += 0.16 * highlight(facing < 0.0 ? -n : n, to_eye, 60.0);
+  if (wire.a > 0.0) shade = mix(shade, wire.rgb, wire.a * edge_coverage(weights, width_px));
+  // A glassy rim: where the surface turns away it is seen through more of itself.
+  float rim = 1.0 - min(abs(facing), 1.0);
+  colour = vec4(shade, opacity + (1.0 - opacity) * 0.35 * rim * rim);
+}

@@ -1,0 +1,18 @@
+#version 330 core
+// The smooth surface: points and interpolated normals from core's evaluator.
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec4 normal;
+layout(location = 2) in vec2 patch_weights;
+uniform mat4 model_view;
+uniform mat4 projection;
+out vec3 normal_eye;
+out vec3 from_eye;
+out vec2 weights;
+
+void main() {
+  vec4 eye = model_view * vec4(position, 1.0);
+  normal_eye = mat3(model_view) * normal.xyz;
+  from_eye = eye.xyz;
+  weights = patch_weights;
+  gl_Position = projection * eye;
+}

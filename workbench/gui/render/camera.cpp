@@ -1,0 +1,103 @@
+#include "workbench/gui/render/camera.h"
+
+#include "core/base/units.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace tangent {
+namespace {
+
+constexpr double kMaxPitch = 89.0 * kDegree;
+constexpr double kNearestZoom = 1e-6;  // of the scene radius
+constexpr double kFurthestZoom = 50.0;
+
+Vec3 turned_up(const Vec3& z_up, bool y_up) { return y_up ? Vec3(z_up.x, z_up.z, -z_up.y) : z_up; }
+
+}  // namespace
+
+Vec3 Camera::forward() const {
+  const double c = std::cos(pitch_rad);
+  return turned_up({-std::sin(yaw_rad) * c, std::cos(yaw_rad) * c, -std::sin(pitch_rad)}, y_up);
+}
+
+Vec3 Camera::right() const { return turned_up({std::cos(yaw_rad), std::sin(yaw_rad), 0.0}, y_up); }
+
+Vec3 Camera::up() const { return glm::cross(right(), forward()); }
+
+Vec3 Camera::eye() const { return target - distance_m * forward(); }
+
+void Camera::orbit(double yaw_by_rad, double pitch_by_rad) {
+  yaw_rad = std::remainder(yaw_rad + yaw_by_rad, 2.0 * std::numbers::pi);
+  pitch_rad = std::clamp(pitch_rad + pitch_by_rad, -kMaxPitch, kMaxPitch);
+}
+
+void Camera::pan(double dx_px, double dy_px, int height_px) {
+  const double metres = metres_per_pixel(target, height_px);
+  target += metres * (dy_px * up() - dx_px * right());
+}
+
+void Camera::zoom(double factor) {
+  if (!(factor > 0.0)) return;
+  distance_m = std::clamp(distance_m * factor, kNearestZoom * scene_radius_m, kFurthestZoom * scene_radius_m);
+}
+
+void Camera::zoom_at(double factor, const Vec2& pixel, int width_px, int height_px) {
+  const double before = metres_per_pixel(target, height_px);
+  zoom(factor);
+  const double moved = before - metres_per_pixel(target, height_px);
+  const Vec2 from_middle = pixel - 0.5 * Vec2(width_px, height_px);
+  target += moved * (from_middle.x * right() - from_middle.y * up());
+}
+
+void Camera::frame(const Box& world_box, double margin) {
+  if (world_box.empty()) return;
+  scene_centre = target = world_box.centre();
+  scene_radius_m = std::max(0.5 * glm::length(world_box.size()), 1e-12);
+  distance_m = margin * scene_radius_m / std::sin(0.5 * fov_rad);
+}
+
+glm::dmat4 Camera::view_from(const Vec3& origin) const {
+  const Vec3 at = target - origin;
+  return glm::lookAt(at - distance_m * forward(), at, up());
+}
+
+// The depth range follows the distance, so that a close look at a contact keeps depth precision; it always
+// reaches behind the whole scene.
+double Camera::near_m() const {
+  const double to_scene = glm::length(eye() - scene_centre) - 2.0 * scene_radius_m;
+  return std::max(to_scene, 0.02 * distance_m);
+}
+
+double Camera::far_m() const { return glm::length(eye() - scene_centre) + 3.0 * scene_radius_m + 2.0 * distance_m; }
+
+glm::dmat4 Camera::projection(int width_px, int height_px) const {
+  const double aspect = static_cast<double>(std::max(width_px, 1)) / std::max(height_px, 1);
+  return glm::perspective(fov_rad, aspect, near_m(), far_m());
+}
+
+Vec3 Camera::project(const Vec3& world, int width_px, int height_px) const {
+  // Relative to the target: digits are kept far from the world's origin.
+  const glm::dvec4 clip = projection(width_px, height_px) * view_from(target) * glm::dvec4(world - target, 1.0);
+  if (!(clip.w > 0.0)) return {0.0, 0.0, -1.0};
+  const Vec3 ndc = Vec3(clip) / clip.w;
+  return {(0.5 + 0.5 * ndc.x) * width_px, (0.5 - 0.5 * ndc.y) * height_px, 0.5 + 0.5 * ndc.z};
+}
+
+Ray Camera::ray_through(const Vec2& pixel, int width_px, int height_px) const {
+  const double half = std::tan(0.5 * fov_rad);
+  const double aspect = static_cast<double>(std::max(width_px, 1)) / std::max(height_px, 1);
+  const double x = (2.0 * pixel.x / std::max(width_px, 1) - 1.0) * half * aspect;
+  const double y = (1.0 - 2.0 * pixel.y / std::max(height_px, 1)) * half;
+  return {eye(), unit(forward() + x * right() + y * up())};
+}
+
+double Camera::metres_per_pixel(const Vec3& world, int height_px) const {
+  const double depth = std::max(glm::dot(world - eye(), forward()), 0.0);
+  return 2.0 * depth * std::tan(0.5 * fov_rad) / std::max(height_px, 1);
+}
+
+}  // namespace tangent

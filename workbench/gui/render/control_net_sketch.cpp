@@ -1,0 +1,118 @@
+// The PN control net (ALGORITHM.md 2): ten points b_ijk, the lines of the Bezier net between them, six
+// control normals n_ijk, and the patch they make.
+#include "core/surface/mesh_patch.h"
+#include "workbench/gui/render/scene_sketch.h"
+
+#include <algorithm>
+#include <array>
+
+namespace tangent {
+namespace {
+
+struct NetLine {
+  ControlPoint a, b;
+};
+constexpr std::array<NetLine, 9> kBorder{{{b300, b210}, {b210, b120}, {b120, b030}, {b030, b021}, {b021, b012},
+                                          {b012, b003}, {b003, b102}, {b102, b201}, {b201, b300}}};
+constexpr std::array<NetLine, 9> kInner{{{b210, b201}, {b120, b021}, {b012, b102}, {b210, b111}, {b201, b111},
+                                         {b120, b111}, {b021, b111}, {b012, b111}, {b102, b111}}};
+constexpr std::array<const char*, 10> kPointNames{"b300", "b030", "b003", "b210", "b120",
+                                                  "b021", "b012", "b102", "b201", "b111"};
+struct NormalPlace {
+  const char* name;
+  double u, v;
+};
+constexpr std::array<NormalPlace, 6> kNormalPlaces{
+    {{"n200", 0, 0}, {"n020", 1, 0}, {"n002", 0, 1}, {"n110", 0.5, 0}, {"n011", 0.5, 0.5}, {"n101", 0, 0.5}}};
+constexpr int kPatchLevel = 12;
+
+std::uint32_t net_triangle(const SketchContext& c) {
+  const ContactMesh& mesh = c.scene.mesh();
+  std::uint32_t t = kNone;
+  if (!c.frame.net_of_picked && c.frame.tick) t = c.frame.tick->output.triangle;
+  if (t == kNone) t = c.frame.picked_triangle;
+  return t < mesh.triangle_count() && mesh.usable(t) ? t : kNone;
+}
+
+double patch_size(const PnPatch& patch) {
+  return std::max({glm::length(patch.points[b030] - patch.points[b300]),
+                   glm::length(patch.points[b003] - patch.points[b030]),
+                   glm::length(patch.points[b300] - patch.points[b003])});
+}
+
+void draw_patch(Sketch& sketch, const PnPatch& patch, const Vec3& origin, Rgba colour) {
+  const auto at = [&](int i, int j) {
+    return origin + evaluate_point(patch, double(i) / kPatchLevel, double(j) / kPatchLevel);
+  };
+  for (int j = 0; j < kPatchLevel; ++j) {
+    for (int i = 0; i + j < kPatchLevel; ++i) {
+      sketch.triangle(at(i, j), at(i + 1, j), at(i, j + 1), colour);
+      if (i + j + 1 < kPatchLevel) sketch.triangle(at(i + 1, j), at(i + 1, j + 1), at(i, j + 1), colour);
+    }
+  }
+}
+
+void draw_net(Sketch& sketch, const PnPatch& patch, const Vec3& origin, Rgba colour, double strength) {
+  const auto line = [&](const NetLine& l, float alpha, double width) {
+    sketch.line(origin + patch.points[l.a], origin + patch.points[l.b], with_alpha(colour, alpha), width);
+  };
+  const float a = static_cast<float>(strength);
+  for (const NetLine& l : kInner) line(l, 0.65f * a, 1.3);
+  for (const NetLine& l : kBorder) line(l, a, 2.0);
+  for (std::size_t i = 0; i < patch.points.size(); ++i) {
+    sketch.point(origin + patch.points[i], with_alpha(colour, a), strength < 1.0 ? 4.5 : i < 3 ? 9.0 : 7.0);
+  }
+}
+
+void label_net(const SketchContext& c, const PnPatch& patch, const Vec3& origin, Rgba colour,
+               std::vector<SceneLabel>& labels) {
+  const Vec3 middle = c.camera.project(origin + patch.points[b111], c.width_px, c.height_px);
+  for (std::size_t i = 0; i < patch.points.size(); ++i) {
+    const Vec3 p = c.camera.project(origin + patch.points[i], c.width_px, c.height_px);
+    if (p.z < 0.0 || p.z > 1.0) continue;
+    const Vec2 from_middle = Vec2(p) - Vec2(middle);
+    const double length = glm::length(from_middle);
+    labels.push_back({Vec2(p), kPointNames[i], colour, length > 1.0 ? from_middle / length : Vec2(0.0, 1.0)});
+  }
+}
+
+void draw_control_normals(Sketch& sketch, const SketchContext& c, const PnPatch& patch, const Vec3& origin,
+                          std::vector<SceneLabel>& labels) {
+  const Rgba colour = palette(c.frame.theme).normal;
+  const double length = 0.3 * patch_size(patch);
+  for (std::size_t i = 0; i < patch.normals.size(); ++i) {
+    const Vec3 from = origin + evaluate_point(patch, kNormalPlaces[i].u, kNormalPlaces[i].v);
+    const Vec3 to = from + length * patch.normals[i];
+    sketch.arrow(from, to, 0.012 * patch_size(patch), colour);
+    if (!c.frame.toggles.control_point_labels) continue;
+    const Vec3 p = c.camera.project(to, c.width_px, c.height_px);
+    if (p.z >= 0.0 && p.z <= 1.0) labels.push_back({Vec2(p), kNormalPlaces[i].name, colour, {0.0, -1.0}});
+  }
+}
+
+}  // namespace
+
+void draw_control_nets(Sketch& sketch, const SketchContext& c, std::vector<SceneLabel>& labels) {
+  const SceneToggles& on = c.frame.toggles;
+  if (!on.control_net && !on.control_normals && !on.control_net_neighbours) return;
+  const std::uint32_t t = net_triangle(c);
+  if (t == kNone) return;
+  const ContactMesh& mesh = c.scene.mesh();
+  const Rgba colour = palette(c.frame.theme).control_net;
+  if (on.control_net_neighbours) {
+    for (std::uint32_t e = 0; e < 3; ++e) {
+      const std::uint32_t next = mesh.across(t, e).triangle;
+      if (next == kNone || !mesh.usable(next)) continue;
+      draw_net(sketch, make_patch(mesh, next, c.form), mesh.origin(), colour, 0.45);
+    }
+  }
+  const PnPatch patch = make_patch(mesh, t, c.form);
+  if (on.control_net) {
+    draw_patch(sketch, patch, mesh.origin(), with_alpha(colour, 0.22f));
+    draw_net(sketch, patch, mesh.origin(), colour, 1.0);
+    if (on.control_point_labels) label_net(c, patch, mesh.origin(), colour, labels);
+  }
+  if (on.control_normals) draw_control_normals(sketch, c, patch, mesh.origin(), labels);
+}
+
+}  // namespace tangent

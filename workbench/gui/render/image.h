@@ -1,0 +1,29 @@
+// A picture in memory, and as a PNG file (stb).
+#pragma once
+
+#include "core/base/result.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+namespace tangent {
+
+/// RGBA, 8 bits a channel, rows from the top.
+struct Image {
+  int width = 0, height = 0;
+  std::vector<std::uint8_t> rgba;
+
+  const std::uint8_t* at(int x, int y) const {
+    return rgba.data() + 4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x));
+  }
+};
+
+/// Colour of a framebuffer object (0: the window). Needs a current GL context.
+Image read_pixels(unsigned framebuffer, int width, int height);
+
+/// Atomic: a temporary file beside the target, then a rename. Alpha is written as opaque.
+Status write_png(const Image& image, const std::filesystem::path& path);
+
+}  // namespace tangent

@@ -1,0 +1,187 @@
+#include "workbench/gui/render/mesh_layer.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace tangent {
+namespace {
+
+constexpr std::size_t kTriangleBudget = 300'000;            // of the smooth surface at rest
+constexpr std::size_t kMovingTriangles = 100'000;           // more than these: the stand-in while moving
+constexpr std::size_t kUploadSlice = std::size_t{4} << 20;  // bytes a frame
+constexpr float kTowardEye = 8e-4f;                         // strokes, of their distance to the eye
+
+std::vector<Stroke> feature_strokes(const std::vector<FeatureEdge>& edges, const Palette& colours) {
+  std::vector<Stroke> strokes;
+  strokes.reserve(edges.size());
+  for (const FeatureEdge& e : edges) {
+    strokes.push_back({e.a, e.b, packed(e.kind == EdgeKind::crease ? colours.crease : colours.boundary), 2.0f});
+  }
+  return strokes;
+}
+
+double mean_edge_m(const ContactMesh& mesh) {
+  double total = 0.0;
+  std::size_t edges = 0;
+  for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t) {
+    if (!mesh.usable(t)) continue;
+    for (std::uint32_t c = 0; c < 3; ++c) total += glm::length(mesh.position(t, (c + 1) % 3) - mesh.position(t, c));
+    edges += 3;
+  }
+  return edges > 0 ? total / static_cast<double>(edges) : 0.0;
+}
+
+std::vector<Stroke> corner_normal_strokes(const ContactMesh& mesh, double scale_m, Rgba colour) {
+  const double length = 0.6 * mean_edge_m(mesh) / scale_m;
+  const auto as_float = [](const Vec3& p) {
+    return std::array{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+  };
+  std::vector<Stroke> strokes;
+  std::vector<Vec3> drawn(mesh.vertex_count(), Vec3(0.0));  // last normal drawn there: most corners agree
+  for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t) {
+    if (!mesh.usable(t)) continue;
+    for (std::uint32_t c = 0; c < 3; ++c) {
+      const Vec3& normal = mesh.normal(t, c);
+      if (std::exchange(drawn[mesh.vertex(t, c)], normal) == normal) continue;
+      const Vec3 from = mesh.position(t, c) / scale_m;
+      strokes.push_back({as_float(from), as_float(from + length * normal), packed(colour), 1.3f});
+    }
+  }
+  return strokes;
+}
+
+Rgba inside(const Palette& colours) { return mix(colours.mesh, colours.boundary, 0.35f); }
+
+}  // namespace
+
+void MeshLayer::create() { no_attributes_.create(); }
+
+void MeshLayer::set_scene(std::shared_ptr<const ContactScene> scene, NormalForm form) {
+  if (scene == scene_ && form == form_) return;
+  const bool same_mesh = scene == scene_;
+  scene_ = std::move(scene);
+  form_ = form;
+  ++version_;
+  if (!same_mesh) {  // another form of the same mesh keeps the old picture until the new one is there
+    facets_.clear();
+    stand_in_.clear();
+    features_.clear();
+    stroke_theme_.reset();
+  }
+  smooth_.clear();
+  if (!scene_) return worker_.stop();
+  scale_m_ = std::max(0.5 * glm::length(scene_->mesh().bounds().size()), 1e-30);
+  worker_.start(scene_, form, scale_m_, kTriangleBudget);
+}
+
+void MeshLayer::take_arrays(const SceneFrame& frame) {
+  if (std::optional<CoarseArrays> coarse = worker_.take_coarse()) {
+    facets_.upload(coarse->facets);
+    stand_in_.begin_upload(std::move(coarse->corner_normals));
+    features_ = std::move(coarse->edges);
+    stroke_theme_.reset();
+    ++version_;
+  }
+  if (std::optional<SurfaceMesh> fine = worker_.take_smooth()) smooth_.begin_upload(std::move(*fine));
+  // A still picture wants all of it now; a window takes a slice a frame.
+  const std::size_t bytes = frame.quality == RenderQuality::still ? ~std::size_t{0} : kUploadSlice;
+  if (stand_in_.pending() && stand_in_.continue_upload(bytes)) ++version_;
+  if (smooth_.pending() && smooth_.continue_upload(bytes)) ++version_;
+  refresh_strokes(frame);
+}
+
+void MeshLayer::refresh_strokes(const SceneFrame& frame) {
+  if (stroke_theme_ != frame.theme) {
+    feature_strokes_.upload(feature_strokes(features_, palette(frame.theme)), GL_STATIC_DRAW);
+    normals_built_ = false;
+    stroke_theme_ = frame.theme;
+  }
+  if (frame.toggles.vertex_normals && !normals_built_ && scene_) {
+    normal_strokes_.upload(corner_normal_strokes(scene_->mesh(), scale_m_, palette(frame.theme).normal),
+                           GL_STATIC_DRAW);
+    normals_built_ = true;
+  }
+}
+
+void MeshLayer::draw(const ScenePrograms& programs, const SceneFrame& frame, const Camera& camera, int width_px,
+                     int height_px, bool moving) {
+  const Palette& colours = palette(frame.theme);
+  glDisable(GL_DEPTH_TEST);
+  glDisable(GL_BLEND);
+  glDisable(GL_CULL_FACE);
+  glDepthMask(GL_TRUE);
+  glClear(GL_DEPTH_BUFFER_BIT);
+  programs.background.use();
+  programs.background.set("top", rgb(colours.background_top));
+  programs.background.set("bottom", rgb(colours.background_bottom));
+  glBindVertexArray(no_attributes_.id());
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  if (!scene_) return;
+
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_LEQUAL);
+  glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  const ViewMatrices view(camera, scene_->mesh().origin(), scale_m_, width_px, height_px);
+  const SceneToggles& on = frame.toggles;
+  if (on.shaded || (on.wireframe && !on.smooth_surface)) draw_facets(programs, frame, view);
+  if (on.smooth_surface) draw_surface(programs, frame, view, moving);
+  glEnable(GL_BLEND);
+  glDepthMask(GL_FALSE);
+  draw_strokes(programs, frame, view);
+  glDepthMask(GL_TRUE);
+  glDisable(GL_BLEND);
+}
+
+void MeshLayer::draw_facets(const ScenePrograms& programs, const SceneFrame& frame, const ViewMatrices& view) const {
+  const Palette& colours = palette(frame.theme);
+  const bool fill = frame.toggles.shaded;
+  const Rgba wire = fill ? with_alpha(colours.mesh_wire, 0.72f) : with_alpha(colours.text_dim, 0.9f);
+  if (!fill) glEnable(GL_BLEND);
+  programs.facets.use();
+  view.apply(programs.facets);
+  programs.facets.set("albedo", rgb(colours.mesh));
+  programs.facets.set("inside_albedo", rgb(inside(colours)));
+  programs.facets.set("wire", rgba(frame.toggles.wireframe ? wire : with_alpha(wire, 0.0f)));
+  programs.facets.set("fill", fill ? 1.0f : 0.0f);
+  programs.facets.set("width_px", 1.0f);
+  facets_.draw();
+  glDisable(GL_BLEND);
+}
+
+void MeshLayer::draw_surface(const ScenePrograms& programs, const SceneFrame& frame, const ViewMatrices& view,
+                             bool moving) const {
+  const SurfaceBuffer& buffer =
+      smooth_.ready() && (!moving || smooth_.triangles() <= kMovingTriangles) ? smooth_ : stand_in_;
+  const Palette& colours = palette(frame.theme);
+  const bool alone = !frame.toggles.shaded;
+  programs.surface.use();
+  view.apply(programs.surface);
+  programs.surface.set("albedo", rgb(colours.smooth_surface));
+  programs.surface.set("inside_albedo", rgb(mix(colours.smooth_surface, colours.boundary, 0.4f)));
+  programs.surface.set("opacity", alone ? 1.0f : 0.5f);
+  const bool borders = alone && frame.toggles.wireframe && &buffer == &smooth_;
+  programs.surface.set("wire", rgba(with_alpha(colours.mesh_wire, borders ? 0.55f : 0.0f)));
+  programs.surface.set("width_px", 1.0f);
+  if (!alone) {
+    // Depth first, so that only the nearest sheet is blended over the facets.
+    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+    buffer.draw();
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glEnable(GL_BLEND);
+  }
+  buffer.draw();
+  glDisable(GL_BLEND);
+}
+
+void MeshLayer::draw_strokes(const ScenePrograms& programs, const SceneFrame& frame, const ViewMatrices& view) const {
+  programs.strokes.use();
+  view.apply(programs.strokes);
+  programs.strokes.set("toward_eye", kTowardEye);
+  programs.strokes.set("width_scale", 1.0f);
+  programs.strokes.set("opacity", 1.0f);
+  if (frame.toggles.creases) feature_strokes_.draw();
+  if (frame.toggles.vertex_normals) normal_strokes_.draw();
+}
+
+}  // namespace tangent

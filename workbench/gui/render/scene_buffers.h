@@ -1,0 +1,89 @@
+// The GPU side of the vertex arrays: upload and draw calls. No colours, no cameras.
+#pragma once
+
+#include "workbench/gui/render/gl_objects.h"
+#include "workbench/gui/render/sketch.h"
+#include "workbench/gui/render/surface_mesh.h"
+
+#include <span>
+
+namespace tangent {
+
+/// Unindexed facets, three vertices each.
+class FacetBuffer {
+ public:
+  void upload(std::span<const FacetVertex> vertices);
+  void clear() { count_ = 0; }
+  void draw() const;
+  bool empty() const { return count_ == 0; }
+
+ private:
+  GlVertexArray array_;
+  GlBuffer vertices_;
+  GLsizei count_ = 0;
+};
+
+/// Indexed surface. A large one is uploaded a slice per call so that no frame waits for all of it.
+class SurfaceBuffer {
+ public:
+  void begin_upload(SurfaceMesh mesh);
+  /// Uploads up to `bytes`; true once everything is there.
+  bool continue_upload(std::size_t bytes);
+  void clear();
+  void draw() const;
+  bool ready() const { return ready_; }
+  bool pending() const { return !ready_ && !mesh_.indices.empty(); }
+  unsigned level() const { return level_; }
+  std::size_t triangles() const { return ready_ ? static_cast<std::size_t>(count_) / 3 : 0; }
+
+ private:
+  SurfaceMesh mesh_;  // emptied when uploaded
+  std::size_t uploaded_ = 0;
+  GlVertexArray array_;
+  GlBuffer vertices_, indices_;
+  GLsizei count_ = 0;
+  unsigned level_ = 1;
+  bool ready_ = false;
+};
+
+/// Instances of strokes.vert.glsl.
+class StrokeBuffer {
+ public:
+  void upload(std::span<const Stroke> strokes, GLenum usage);
+  void draw() const;
+  bool empty() const { return count_ == 0; }
+
+ private:
+  GlVertexArray array_;
+  GlBuffer instances_;
+  GLsizei count_ = 0;
+};
+
+class FillBuffer {
+ public:
+  void upload(std::span<const FillVertex> vertices);
+  void draw() const;
+
+ private:
+  GlVertexArray array_;
+  GlBuffer vertices_;
+  GLsizei count_ = 0;
+};
+
+/// Unit ball, cylinder and cone for solid.vert.glsl.
+class SolidBuffer {
+ public:
+  void create();
+  void draw(SolidShape shape) const;
+
+ private:
+  struct Range {
+    GLint first = 0;
+    GLsizei count = 0;
+  };
+  GlVertexArray array_;
+  GlBuffer vertices_;
+  std::array<Range, 3> ranges_;
+};
+
+}  // namespace tangent

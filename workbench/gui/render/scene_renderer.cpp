@@ -1,0 +1,165 @@
+// Two layers. The mesh layer is drawn only when the camera, the toggles or the arrays change, multisampled
+// once the camera rests; the sketch layer (finger, force, net, iterations) goes over a copy of it every
+// time. Under software GL this is what makes a live view cheap: while the finger moves and the camera
+// rests, no mesh triangle is drawn.
+#include "workbench/gui/render/scene_renderer.h"
+
+#include "workbench/gui/render/mesh_layer.h"
+#include "workbench/gui/render/render_target.h"
+#include "workbench/gui/render/scene_sketch.h"
+#include "workbench/gui/render/sketch_layer.h"
+
+#include <algorithm>
+#include <array>
+
+namespace tangent {
+namespace {
+
+constexpr int kFramesToRest = 3;  // the camera rests after so many calls without a change
+constexpr int kSamples = 4;
+
+/// All that the mesh layer's picture depends on.
+struct MeshLayerKey {
+  Camera camera;
+  SceneToggles toggles;
+  Theme theme = Theme::dark;
+  int width_px = 0, height_px = 0;
+  bool moving = false;
+  std::uint64_t arrays = 0, shaders = 0;
+  bool operator==(const MeshLayerKey&) const = default;
+};
+
+/// What the caller had bound; put back when we are done.
+class SavedGlState {
+ public:
+  SavedGlState() {
+    glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &draw_);
+    glGetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &read_);
+    glGetIntegerv(GL_VIEWPORT, viewport_.data());
+  }
+  ~SavedGlState() {
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, static_cast<GLuint>(draw_));
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<GLuint>(read_));
+    glViewport(viewport_[0], viewport_[1], viewport_[2], viewport_[3]);
+    glDisable(GL_DEPTH_TEST);
+    glDisable(GL_CULL_FACE);
+    glDisable(GL_BLEND);
+    glDepthMask(GL_TRUE);
+    glDepthFunc(GL_LESS);
+    glBindVertexArray(0);
+    glUseProgram(0);
+  }
+
+ private:
+  GLint draw_ = 0, read_ = 0;
+  std::array<GLint, 4> viewport_{};
+};
+
+}  // namespace
+
+struct SceneRenderer::Impl {
+  ScenePrograms programs;
+  MeshLayer mesh;
+  SketchLayer sketch_layer;
+  Sketch sketch;
+  std::vector<SceneLabel> labels;
+  RenderTarget resting_target, moving_target, picture;
+
+  MeshLayerKey drawn;
+  Camera last_camera;
+  int calls_at_rest = 0;
+  bool resting = true;
+  double force_metres_per_newton = 0.0;
+
+  void build_sketch(const SceneFrame& frame, const Camera& camera, int width_px, int height_px);
+};
+
+SceneRenderer::SceneRenderer() : impl_(std::make_unique<Impl>()) {}
+SceneRenderer::~SceneRenderer() = default;
+
+Status SceneRenderer::init() {
+  if (Status loaded = impl_->programs.load(); !loaded) return loaded;
+  impl_->mesh.create();
+  impl_->sketch_layer.create();
+  return {};
+}
+
+void SceneRenderer::set_scene(std::shared_ptr<const ContactScene> scene, NormalForm form) {
+  if (scene != impl_->mesh.scene()) impl_->force_metres_per_newton = 0.0;
+  impl_->mesh.set_scene(std::move(scene), form);
+}
+
+void SceneRenderer::Impl::build_sketch(const SceneFrame& frame, const Camera& camera, int width_px, int height_px) {
+  if (frame.quality == RenderQuality::still) force_metres_per_newton = 0.0;  // the same picture whatever came before
+  force_metres_per_newton = choose_force_scale(frame, camera, force_metres_per_newton);
+  // In units of the distance: what is looked at has float coordinates near one.
+  sketch.begin(camera.target, camera.distance_m);
+  const SketchContext context{*mesh.scene(), mesh.form(), frame, camera, width_px, height_px, force_metres_per_newton};
+  draw_marked_triangles(sketch, context);
+  draw_control_nets(sketch, context, labels);
+  draw_iterations(sketch, context, labels);
+  draw_trail(sketch, context);
+  draw_force(sketch, context, labels);
+  draw_contact(sketch, context, labels);
+  if (frame.toggles.finger) draw_finger(sketch, context);
+}
+
+bool SceneRenderer::render(const SceneFrame& frame, const Camera& camera, int width_px, int height_px) {
+  Impl& m = *impl_;
+  m.labels.clear();
+  if (width_px < 1 || height_px < 1) return false;
+  const SavedGlState saved;
+  m.mesh.take_arrays(frame);
+
+  m.calls_at_rest = camera == m.last_camera ? m.calls_at_rest + 1 : 0;
+  m.last_camera = camera;
+  m.resting = frame.quality == RenderQuality::still || m.calls_at_rest >= kFramesToRest;
+  const MeshLayerKey key{camera,    frame.toggles, frame.theme,        width_px,
+                         height_px, !m.resting,    m.mesh.version(), m.programs.version};
+  RenderTarget& target = m.resting ? m.resting_target : m.moving_target;
+  // A driver that can't multisample this size still gives a picture.
+  if (!target.resize(width_px, height_px, m.resting ? kSamples : 0) && !target.resize(width_px, height_px, 0)) {
+    return false;
+  }
+  if (!m.picture.resize(width_px, height_px, 0)) return false;
+  if (!(key == m.drawn)) {
+    target.bind();
+    m.mesh.draw(m.programs, frame, camera, width_px, height_px, !m.resting);
+    m.drawn = key;
+  }
+  m.picture.copy_from(target);
+  if (m.mesh.scene()) {
+    m.build_sketch(frame, camera, width_px, height_px);
+    m.picture.bind();
+    m.sketch_layer.draw(m.programs, m.sketch, camera, width_px, height_px, static_cast<float>(frame.pixel_scale));
+  }
+  return true;
+}
+
+unsigned SceneRenderer::texture() const { return impl_->picture.texture(); }
+int SceneRenderer::width_px() const { return impl_->picture.width_px(); }
+int SceneRenderer::height_px() const { return impl_->picture.height_px(); }
+std::span<const SceneLabel> SceneRenderer::labels() const { return impl_->labels; }
+float SceneRenderer::tessellation_progress() const { return impl_->mesh.progress(); }
+std::size_t SceneRenderer::tessellation_triangles() const { return impl_->mesh.smooth_triangles(); }
+void SceneRenderer::wait_for_tessellation() { impl_->mesh.wait(); }
+bool SceneRenderer::refining() const { return !impl_->resting || !impl_->mesh.complete(); }
+double SceneRenderer::force_metres_per_newton() const { return impl_->force_metres_per_newton; }
+void SceneRenderer::reload_changed_shaders() { impl_->programs.reload_changed(); }
+const std::string& SceneRenderer::shader_error() const { return impl_->programs.error; }
+
+NearestTriangles::RayHit pick_triangle(const ContactScene& scene, const Camera& camera, const Vec2& pixel,
+                                       int width_px, int height_px) {
+  const Ray ray = camera.ray_through(pixel, width_px, height_px);
+  return scene.nearest().cast(ray.origin - scene.mesh().origin(), ray.direction);
+}
+
+Box world_bounds(const ContactScene& scene) {
+  const ContactMesh& mesh = scene.mesh();
+  Box box;
+  box.include(mesh.bounds().min + mesh.origin());
+  box.include(mesh.bounds().max + mesh.origin());
+  return box;
+}
+
+}  // namespace tangent

@@ -1,0 +1,182 @@
+#include "workbench/gui/render/shader_program.h"
+
+#include <epoxy/gl.h>
+#include <glm/gtc/type_ptr.hpp>
+
+#include <algorithm>
+#include <fstream>
+#include <regex>
+#include <sstream>
+#include <system_error>
+
+namespace tangent {
+namespace {
+
+namespace fs = std::filesystem;
+
+using Files = std::vector<fs::path>;  // position: GLSL source-string number, for messages
+
+// Appends `path` with its includes; #line keeps compiler messages true to file and line.
+Status append_source(const fs::path& path, Files& files, std::string& text) {
+  std::ifstream in(path);
+  if (!in) return fail("can't read the shader", path.string(), "restore the file, or reinstall");
+  const std::size_t number = files.size();
+  files.push_back(path);
+  std::string line;
+  static const std::regex kInclude(R"re(^\s*#include\s+"([^"]+)"\s*$)re");
+  for (int n = 1; std::getline(in, line); ++n) {
+    std::smatch match;
+    if (!std::regex_match(line, match, kInclude)) {
+      text += line + '\n';
+      continue;
+    }
+    if (files.size() > 16) return fail("includes nest too deep", path.string() + ":" + std::to_string(n));
+    text += "#line 1 " + std::to_string(files.size()) + '\n';
+    if (Status s = append_source(path.parent_path() / match[1].str(), files, text); !s) return s;
+    text += "#line " + std::to_string(n + 1) + ' ' + std::to_string(number) + '\n';
+  }
+  return {};
+}
+
+// Drivers write "0:12(5): error: ..." (Mesa) or "0(12) : error ..." (NVIDIA): string number, then line.
+Error compile_error(const std::string& log, const Files& files) {
+  static const std::regex kPlace(R"(^(?:ERROR:\s*)?(\d+)[:(](\d+)\)?(?:\(\d+\))?\s*:\s*(.*))");
+  std::istringstream lines(log);
+  std::string line;
+  while (std::getline(lines, line)) {
+    std::smatch match;
+    if (!std::regex_match(line, match, kPlace)) continue;
+    const std::size_t file = std::min<std::size_t>(std::stoul(match[1].str()), files.size() - 1);
+    return {match[3].str(), files[file].string() + ":" + match[2].str(), "mend the shader"};
+  }
+  return {log.empty() ? "does not compile" : log.substr(0, log.find('\n')), files.front().string(), "mend the shader"};
+}
+
+Result<GLuint> compile(GLenum stage, const fs::path& path, Files& all_files) {
+  Files files;
+  std::string text;
+  if (Status s = append_source(path, files, text); !s) return tl::unexpected(s.error());
+  all_files.insert(all_files.end(), files.begin(), files.end());
+  const GLuint shader = glCreateShader(stage);
+  const char* pointer = text.c_str();
+  glShaderSource(shader, 1, &pointer, nullptr);
+  glCompileShader(shader);
+  GLint good = GL_FALSE;
+  glGetShaderiv(shader, GL_COMPILE_STATUS, &good);
+  if (good == GL_TRUE) return shader;
+  std::string log(4096, '\0');
+  GLsizei length = 0;
+  glGetShaderInfoLog(shader, static_cast<GLsizei>(log.size()), &length, log.data());
+  glDeleteShader(shader);
+  log.resize(static_cast<std::size_t>(std::max(length, 0)));
+  return tl::unexpected(compile_error(log, files));
+}
+
+Result<GLuint> link(GLuint vertex, GLuint fragment, const std::string& where) {
+  const GLuint program = glCreateProgram();
+  glAttachShader(program, vertex);
+  glAttachShader(program, fragment);
+  glLinkProgram(program);
+  GLint good = GL_FALSE;
+  glGetProgramiv(program, GL_LINK_STATUS, &good);
+  if (good == GL_TRUE) return program;
+  std::string log(4096, '\0');
+  GLsizei length = 0;
+  glGetProgramInfoLog(program, static_cast<GLsizei>(log.size()), &length, log.data());
+  glDeleteProgram(program);
+  log.resize(static_cast<std::size_t>(std::max(length, 0)));
+  return fail("does not link: " + log.substr(0, log.find('\n')), where, "mend the shader");
+}
+
+Result<GLuint> build(const fs::path& directory, const std::string& name, Files& files) {
+  const fs::path vertex_path = directory / (name + ".vert.glsl");
+  const Result<GLuint> vertex = compile(GL_VERTEX_SHADER, vertex_path, files);
+  const Result<GLuint> fragment = compile(GL_FRAGMENT_SHADER, directory / (name + ".frag.glsl"), files);
+  Result<GLuint> program = !vertex     ? vertex
+                           : !fragment ? fragment
+                                       : link(*vertex, *fragment, vertex_path.string());
+  if (vertex) glDeleteShader(*vertex);
+  if (fragment) glDeleteShader(*fragment);
+  return program;
+}
+
+fs::file_time_type written(const fs::path& path) {
+  std::error_code failed;
+  const auto time = fs::last_write_time(path, failed);
+  return failed ? fs::file_time_type::min() : time;
+}
+
+}  // namespace
+
+Result<fs::path> find_shader_directory() {
+  std::error_code ignored;
+  const fs::path program = fs::read_symlink("/proc/self/exe", ignored).parent_path();
+  std::string tried;
+  for (const fs::path& place : {fs::path(TANGENT_SHADER_DIR), program / "shaders", program / "../shaders",
+                                program / "../share/tangent/shaders"}) {
+    if (fs::exists(place / "facets.vert.glsl", ignored)) return place;
+    tried += (tried.empty() ? "" : ", ") + place.string();
+  }
+  return fail("the shaders are missing", tried, "keep the directory 'shaders' beside the program");
+}
+
+ShaderProgram::ShaderProgram(ShaderProgram&& other) noexcept { *this = std::move(other); }
+
+ShaderProgram& ShaderProgram::operator=(ShaderProgram&& other) noexcept {
+  std::swap(directory_, other.directory_);
+  std::swap(name_, other.name_);
+  std::swap(id_, other.id_);
+  std::swap(sources_, other.sources_);
+  return *this;
+}
+
+ShaderProgram::~ShaderProgram() {
+  if (id_ != 0) glDeleteProgram(id_);
+}
+
+Result<ShaderProgram> ShaderProgram::load(const fs::path& directory, const std::string& name) {
+  Files files;
+  const Result<GLuint> id = build(directory, name, files);
+  if (!id) return tl::unexpected(id.error());
+  ShaderProgram program;
+  program.directory_ = directory;
+  program.name_ = name;
+  program.id_ = *id;
+  for (const fs::path& path : files) program.sources_.push_back({path, written(path)});
+  return program;
+}
+
+Status ShaderProgram::reload_if_changed() {
+  bool changed = false;
+  for (Source& source : sources_) {
+    const auto now = written(source.path);
+    changed = changed || now != source.written;
+    source.written = now;  // a text that fails is not tried again until it changes again
+  }
+  if (!changed) return {};
+  Result<ShaderProgram> fresh = load(directory_, name_);
+  if (!fresh) return tl::unexpected(fresh.error());
+  *this = std::move(*fresh);
+  return {};
+}
+
+void ShaderProgram::use() const { glUseProgram(id_); }
+
+void ShaderProgram::set(const char* name, float value) const { glUniform1f(glGetUniformLocation(id_, name), value); }
+void ShaderProgram::set(const char* name, const glm::vec2& value) const {
+  glUniform2fv(glGetUniformLocation(id_, name), 1, glm::value_ptr(value));
+}
+void ShaderProgram::set(const char* name, const glm::vec3& value) const {
+  glUniform3fv(glGetUniformLocation(id_, name), 1, glm::value_ptr(value));
+}
+void ShaderProgram::set(const char* name, const glm::vec4& value) const {
+  glUniform4fv(glGetUniformLocation(id_, name), 1, glm::value_ptr(value));
+}
+void ShaderProgram::set(const char* name, const glm::mat3& value) const {
+  glUniformMatrix3fv(glGetUniformLocation(id_, name), 1, GL_FALSE, glm::value_ptr(value));
+}
+void ShaderProgram::set(const char* name, const glm::mat4& value) const {
+  glUniformMatrix4fv(glGetUniformLocation(id_, name), 1, GL_FALSE, glm::value_ptr(value));
+}
+
+}  // namespace tangent
