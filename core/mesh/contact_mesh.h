@@ -19,6 +19,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -47,7 +48,7 @@ struct EdgeLink {
 /// What the builder met and what it did about it; every item counts, the first few are named.
 enum class MeshDefect : std::uint8_t {
   face_under_three_corners,    ///< skipped (no triangle numbers are spent on it)
-  non_finite_vertex,           ///< triangles that use it are skipped
+  non_finite_vertex,           ///< NaN, infinite or beyond kLargestCoordinate: triangles that use it are skipped
   degenerate_triangle,         ///< repeated corner or no area: skipped
   duplicate_triangle,          ///< same three corners in the same turn as an earlier one: skipped
   non_manifold_triangle,       ///< can't be attached to its neighbours as a surface: kept, its edges are boundaries
@@ -61,12 +62,19 @@ const char* to_string(MeshDefect defect);
 struct MeshDefectList {
   static constexpr std::size_t kNamed = 8;
   std::uint64_t count = 0;
-  std::vector<std::uint64_t> first;  ///< indices of the first kNamed: faces, vertices or triangles, file numbering from 0
+  std::vector<std::uint64_t> first;  ///< indices of the first kNamed: faces, vertices, triangles or (bad_normal)
+                                     ///< normals, file numbering from 0, ascending
+
+  void add(std::uint64_t index) {
+    ++count;
+    if (first.size() < kNamed) first.push_back(index);
+  }
 };
 
 class ContactMesh {
  public:
-  /// Fails when the mesh has no usable triangle, or more than 2^30 triangles.
+  /// Fails when the mesh has no usable triangle or more than 2^29 triangles, when an index points nowhere, when
+  /// an option is out of range, and when `file` normals are asked for and there are none.
   static Result<ContactMesh> build(const PolygonMesh& source, const ContactMeshOptions& options = {});
 
   const std::string& name() const { return name_; }
@@ -112,6 +120,10 @@ class ContactMesh {
   NormalSource normals_used() const { return normals_used_; }  ///< file or computed
   double scale_applied() const { return scale_; }              ///< by fit; 1 without
   std::size_t memory_bytes() const;                            ///< what the arrays hold
+
+  /// For walks over many triangles (fan_walk.h): vertices, and triangle << 2 | edge across or kNone.
+  std::span<const std::array<std::uint32_t, 3>> triangles() const { return vertices_; }
+  std::span<const std::array<std::uint32_t, 3>> links() const { return links_; }
 
  private:
   static constexpr std::uint8_t kFeatureCornerBits = 0x38;

@@ -1,0 +1,280 @@
+// Builds the contact mesh in stages: check, weld, triangulate, place, connect, shade, hash.
+#include "core/mesh/contact_mesh.h"
+
+#include "core/base/tolerances.h"
+#include "core/mesh/content_hash.h"
+#include "core/mesh/corner_normals.h"
+#include "core/mesh/edge_table.h"
+#include "core/mesh/file_normals.h"
+#include "core/mesh/topology.h"
+#include "core/mesh/triangle_shape.h"
+#include "core/mesh/weld.h"
+
+#include <algorithm>
+#include <numbers>
+
+namespace tangent {
+
+class ContactMeshBuilder {
+ public:
+  ContactMeshBuilder(const PolygonMesh& source, const ContactMeshOptions& options)
+      : source_(source), options_(options) {}
+
+  Result<ContactMesh> build() {
+    if (Status ok = check_options(); !ok) return tl::unexpected(ok.error());
+    if (Status ok = check_indices(); !ok) return tl::unexpected(ok.error());
+    weld_positions();
+    triangulate();
+    if (mesh_.usable_count_ > 0) place();
+    if (mesh_.usable_count_ == 0) return nothing_usable();
+    connect();
+    if (Status ok = shade(); !ok) return tl::unexpected(ok.error());
+    finish();
+    return std::move(mesh_);
+  }
+
+ private:
+  Status check_options() const;
+  Status check_indices();
+  void weld_positions();
+  void triangulate();
+  void place();
+  void connect();
+  Status shade();
+  void take_file_normals(const SurfaceView& surface, std::span<const Vec3> faces);
+  void finish();
+  tl::unexpected<Error> nothing_usable() const;
+
+  MeshDefectList& defects(MeshDefect kind) { return mesh_.defects_[static_cast<std::size_t>(kind)]; }
+  std::array<Vec3, 3> corners(const std::array<std::uint32_t, 3>& v) const {
+    return {mesh_.positions_[v[0]], mesh_.positions_[v[1]], mesh_.positions_[v[2]]};
+  }
+  SurfaceView surface() const { return {mesh_.positions_, mesh_.vertices_, mesh_.links_}; }
+  bool crease_was_chosen() const { return options_.crease_rad != ContactMeshOptions{}.crease_rad; }
+
+  const PolygonMesh& source_;
+  const ContactMeshOptions& options_;
+  ContactMesh mesh_;
+  std::uint32_t triangle_count_ = 0;
+  std::vector<std::uint32_t> welded_;  ///< per source vertex, its welded vertex or kNone
+};
+
+Status ContactMeshBuilder::check_options() const {
+  if (options_.fit_m && !(*options_.fit_m > 0.0 && *options_.fit_m <= kLargestCoordinate))
+    return fail("the size to fit the mesh to must be a positive length", source_.name, "use a length above zero");
+  if (!(options_.crease_rad >= 0.0 && options_.crease_rad <= std::numbers::pi + kCreaseSlack))
+    return fail("the crease angle is out of range", source_.name, "use an angle from 0 to 180 degrees");
+  return {};
+}
+
+Status ContactMeshBuilder::check_indices() {
+  const auto& offsets = source_.face_offsets;
+  const bool normals = !source_.corner_normal.empty();
+  if (offsets.empty() || offsets.front() != 0 || offsets.back() != source_.corner_position.size() ||
+      !std::is_sorted(offsets.begin(), offsets.end()) ||
+      (normals && source_.corner_normal.size() != source_.corner_position.size()))
+    return fail("the face table does not fit the corner table", source_.name, "this is a slip of the reader");
+
+  std::uint64_t triangles = 0;
+  std::vector<bool> referenced(source_.positions.size(), false);
+  for (std::size_t f = 0; f < source_.face_count(); ++f) {
+    const auto face = source_.face(f);
+    if (face.size() < 3) {
+      defects(MeshDefect::face_under_three_corners).add(f);
+    } else {
+      triangles += face.size() - 2;
+    }
+    for (const std::uint32_t v : face) {
+      if (v >= referenced.size())
+        return fail("face " + std::to_string(f) + " uses vertex " + std::to_string(v) + ", but there are only " +
+                        std::to_string(referenced.size()),
+                    source_.name, "vertices count from 0 here");
+      referenced[v] = true;
+    }
+  }
+  for (std::size_t i = 0; i < source_.corner_normal.size(); ++i)
+    if (source_.corner_normal[i] != kNone && source_.corner_normal[i] >= source_.normals.size())
+      return fail("corner " + std::to_string(i) + " uses normal " + std::to_string(source_.corner_normal[i]) +
+                      ", but there are only " + std::to_string(source_.normals.size()),
+                  source_.name, "normals count from 0 here");
+  for (std::size_t v = 0; v < referenced.size(); ++v)
+    if (!referenced[v]) defects(MeshDefect::unreferenced_vertex).add(v);
+  if (triangles > kMaxTriangles)
+    return fail("the mesh has " + std::to_string(triangles) + " triangles", source_.name,
+                "reduce it to at most " + std::to_string(kMaxTriangles));
+  triangle_count_ = static_cast<std::uint32_t>(triangles);
+  return {};
+}
+
+void ContactMeshBuilder::weld_positions() {
+  Weld weld = weld_exact(source_.positions, kLargestCoordinate);
+  welded_ = std::move(weld.id);
+  for (std::size_t v = 0; v < welded_.size(); ++v)
+    if (welded_[v] == kNone) defects(MeshDefect::non_finite_vertex).add(v);
+  mesh_.positions_.reserve(weld.first.size());
+  for (const std::uint32_t v : weld.first) mesh_.positions_.push_back(source_.positions[v]);
+}
+
+/// Fills vertices_ with welded vertices, still at their world positions: differences of those are as exact as
+/// the file, so this is where degenerate triangles are told.
+void ContactMeshBuilder::triangulate() {
+  mesh_.vertices_.assign(triangle_count_, {kNone, kNone, kNone});
+  std::uint32_t t = 0;
+  for (std::size_t f = 0; f < source_.face_count(); ++f) {
+    const auto face = source_.face(f);
+    for (std::size_t k = 2; k < face.size(); ++k, ++t) {
+      const std::array<std::uint32_t, 3> v{welded_[face[0]], welded_[face[k - 1]], welded_[face[k]]};
+      if (v[0] == kNone || v[1] == kNone || v[2] == kNone) continue;
+      const auto [a, b, c] = corners(v);
+      if (is_degenerate(a, b, c)) {
+        defects(MeshDefect::degenerate_triangle).add(t);
+        continue;
+      }
+      mesh_.vertices_[t] = v;
+      ++mesh_.usable_count_;
+    }
+  }
+  welded_ = {};
+}
+
+/// Drops vertices that no usable triangle has, and moves (and fits) the rest to the centre of their box.
+void ContactMeshBuilder::place() {
+  std::vector<std::uint32_t> renumbered(mesh_.positions_.size(), kNone);
+  Box box;
+  for (const auto& v : mesh_.vertices_) {
+    if (v[0] == kNone) continue;
+    for (const std::uint32_t i : v) renumbered[i] = 0;
+  }
+  std::uint32_t count = 0;
+  for (std::size_t i = 0; i < renumbered.size(); ++i) {
+    if (renumbered[i] == kNone) continue;
+    box.include(mesh_.positions_[i]);
+    mesh_.positions_[count] = mesh_.positions_[i];
+    renumbered[i] = count++;
+  }
+  mesh_.positions_.resize(count);
+
+  const Vec3 size = box.size(), centre = box.centre();
+  mesh_.scale_ = options_.fit_m ? *options_.fit_m / std::max({size.x, size.y, size.z}) : 1.0;
+  mesh_.origin_ = options_.fit_m ? Vec3(0.0) : centre;
+  for (Vec3& p : mesh_.positions_) {
+    p = (p - centre) * mesh_.scale_ + 0.0;  // + 0.0: no -0.0, so that equal meshes hash equal
+    mesh_.bounds_.include(p);
+  }
+  auto& degenerate = defects(MeshDefect::degenerate_triangle);
+  for (std::uint32_t t = 0; t < triangle_count_; ++t) {
+    auto& v = mesh_.vertices_[t];
+    if (v[0] == kNone) continue;
+    for (std::uint32_t& i : v) i = renumbered[i];
+    // A triangle finer than the rounding of coordinates about the centre can collapse in the move.
+    const auto [a, b, c] = corners(v);
+    if (!is_degenerate(a, b, c)) continue;
+    v = {kNone, kNone, kNone};
+    degenerate.add(t);
+    --mesh_.usable_count_;
+  }
+  std::sort(degenerate.first.begin(), degenerate.first.end());
+}
+
+void ContactMeshBuilder::connect() {
+  Topology topology = build_topology(mesh_.vertices_, mesh_.vertex_count());
+  mesh_.links_ = std::move(topology.links);
+  mesh_.positions_.reserve(mesh_.positions_.size() + topology.copy_of.size());
+  for (const std::uint32_t original : topology.copy_of) mesh_.positions_.push_back(mesh_.positions_[original]);
+  mesh_.positions_.shrink_to_fit();
+  for (const std::uint32_t t : topology.duplicates) defects(MeshDefect::duplicate_triangle).add(t);
+  for (const std::uint32_t t : topology.detached) defects(MeshDefect::non_manifold_triangle).add(t);
+  mesh_.usable_count_ -= static_cast<std::uint32_t>(topology.duplicates.size());
+}
+
+Status ContactMeshBuilder::shade() {
+  const bool some_in_file =
+      !source_.normals.empty() && std::any_of(source_.corner_normal.begin(), source_.corner_normal.end(),
+                                              [](std::uint32_t n) { return n != kNone; });
+  if (options_.normals == NormalSource::file && !some_in_file)
+    return fail("normals from the file were asked for, but it has none", source_.name,
+                "use --normals computed, or auto");
+  const std::vector<Vec3> faces = face_normals(surface());
+  const bool from_file = options_.normals == NormalSource::file ||
+                         (options_.normals == NormalSource::automatic && every_corner_has_normal(source_));
+  if (from_file) {
+    take_file_normals(surface(), faces);
+  } else {
+    CornerNormals computed = computed_normals(surface(), faces, sharp_edges(surface(), faces, options_.crease_rad));
+    mesh_.normals_ = std::move(computed.normals);
+    mesh_.normal_index_ = std::move(computed.index);
+  }
+  mesh_.normals_.shrink_to_fit();
+  return {};
+}
+
+void ContactMeshBuilder::take_file_normals(const SurfaceView& surface, std::span<const Vec3> faces) {
+  FileNormals file = file_normals(source_, surface, [&] {
+    return computed_normals(surface, faces, sharp_edges(surface, faces, options_.crease_rad));
+  });
+  defects(MeshDefect::bad_normal) = file.bad;
+  mesh_.normals_ = std::move(file.corners.normals);
+  mesh_.normal_index_ = std::move(file.corners.index);
+  if (file.from_file == 0) {
+    mesh_.notes_.push_back("the file's normals are zero or not finite: computed ones are used everywhere");
+    return;
+  }
+  mesh_.normals_used_ = NormalSource::file;
+  if (file.missing > 0)
+    mesh_.notes_.push_back(std::to_string(file.missing) +
+                           " corners have no normal in the file: computed ones are used there");
+  if (crease_was_chosen()) {
+    const bool some_computed = file.missing > 0 || file.bad.count > 0;
+    mesh_.notes_.push_back(some_computed ? "--crease-deg applies only where the file gives no usable normal"
+                                         : "--crease-deg is ignored with normals from the file");
+  }
+}
+
+void ContactMeshBuilder::finish() {
+  mesh_.crease_bits_ = feature_bits(surface(), CornerNormalsView{mesh_.normals_, mesh_.normal_index_});
+  mesh_.name_ = source_.name;
+  ContentHash hash;
+  hash.add(std::span<const Vec3>(&mesh_.origin_, 1));
+  hash.add(std::span<const Vec3>(mesh_.positions_));
+  hash.add(std::span<const Vec3>(mesh_.normals_));
+  hash.add(std::span<const Index3>(mesh_.vertices_));
+  hash.add(std::span<const Index3>(mesh_.normal_index_));
+  mesh_.content_hash_ = hash.value();
+}
+
+tl::unexpected<Error> ContactMeshBuilder::nothing_usable() const {
+  std::string what = "the mesh has no usable triangle";
+  for (std::size_t i = 0; i < kMeshDefectCount; ++i) {
+    const MeshDefectList& list = mesh_.defects_[i];
+    if (list.count == 0) continue;
+    what += std::string(i == 0 || what.find(':') == std::string::npos ? ": " : ", ") + std::to_string(list.count) +
+            " x " + to_string(static_cast<MeshDefect>(i)) + " (first: " + std::to_string(list.first[0]) + ")";
+  }
+  return fail(what, source_.name, "check that the file holds the surface and was exported whole");
+}
+
+Result<ContactMesh> ContactMesh::build(const PolygonMesh& source, const ContactMeshOptions& options) {
+  return ContactMeshBuilder(source, options).build();
+}
+
+const char* to_string(MeshDefect defect) {
+  switch (defect) {
+    case MeshDefect::face_under_three_corners: return "face under three corners";
+    case MeshDefect::non_finite_vertex: return "vertex that is not finite";
+    case MeshDefect::degenerate_triangle: return "degenerate triangle";
+    case MeshDefect::duplicate_triangle: return "duplicate triangle";
+    case MeshDefect::non_manifold_triangle: return "non-manifold triangle";
+    case MeshDefect::bad_normal: return "bad normal";
+    case MeshDefect::unreferenced_vertex: return "unreferenced vertex";
+    case MeshDefect::count_: break;
+  }
+  return "unknown defect";
+}
+
+std::size_t ContactMesh::memory_bytes() const {
+  const auto held = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
+  return sizeof(*this) + held(positions_) + held(normals_) + held(vertices_) + held(normal_index_) + held(links_) +
+         held(crease_bits_);
+}
+
+}  // namespace tangent

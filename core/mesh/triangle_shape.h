@@ -1,0 +1,48 @@
+// Measures of one flat triangle that stay right for slivers and at any scale.
+#pragma once
+
+#include "core/base/tolerances.h"
+#include "core/base/vec.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tangent {
+
+/// Twice the area along the normal (a, b, c counter-clockwise seen from its tip). The product is taken at the corner
+/// opposite the longest side: its rounding is relative to the two short sides, which keeps a sliver's normal.
+inline Vec3 area_vector(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 ab = b - a, bc = c - b, ca = a - c;
+  const double ab2 = glm::dot(ab, ab), bc2 = glm::dot(bc, bc), ca2 = glm::dot(ca, ca);
+  if (bc2 >= ab2 && bc2 >= ca2) return glm::cross(ca, ab);
+  if (ca2 >= ab2) return glm::cross(ab, bc);
+  return glm::cross(bc, ca);
+}
+
+/// Square of the longest side, m^2.
+inline double longest_side2(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 ab = b - a, bc = c - b, ca = a - c;
+  return std::max({glm::dot(ab, ab), glm::dot(bc, bc), glm::dot(ca, ca)});
+}
+
+/// No area: the smallest height is at most kDegenerateHeight of the longest side, or below what the
+/// coordinates can hold (kCoordinateRounding). True for NaN.
+inline bool is_degenerate(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 twice_area = area_vector(a, b, c);
+  const double side = std::sqrt(longest_side2(a, b, c));
+  const Vec3 reach = glm::max(glm::abs(a), glm::max(glm::abs(b), glm::abs(c)));
+  const double rounding = kCoordinateRounding * std::max({reach.x, reach.y, reach.z});
+  const double least = side * (kDegenerateHeight * side + rounding);
+  return !(glm::dot(twice_area, twice_area) > least * least);
+}
+
+/// Unit normal. Precondition: not degenerate.
+inline Vec3 face_normal(const Vec3& a, const Vec3& b, const Vec3& c) { return unit(area_vector(a, b, c)); }
+
+/// Interior angle at `a`, radians.
+inline double corner_angle(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 ab = b - a, ac = c - a, x = glm::cross(ab, ac);
+  return std::atan2(std::sqrt(glm::dot(x, x)), glm::dot(ab, ac));
+}
+
+}  // namespace tangent
