@@ -19,15 +19,15 @@ PnPatch make_patch(const ContactMesh& mesh, std::uint32_t t, NormalForm form) {
     const EdgeLink other = mesh.across(t, edge);
     const Vec3& ni = mesh.normal(other.triangle, (other.edge + 1) % 3);
     const Vec3& nj = mesh.normal(other.triangle, other.edge);
-    set_edge_points(patch, static_cast<int>(edge), crease_control_point(p[i], n[i], ni, p[j]),
-                    crease_control_point(p[j], n[j], nj, p[i]));
+    set_edge_points(patch, static_cast<int>(edge), crease_control_offset(p[j] - p[i], n[i], ni),
+                    crease_control_offset(p[i] - p[j], n[j], nj));
   }
   if (creased) set_centre_point(patch);
   return patch;
 }
 
 double patch_bulge(const PnPatch& patch) {
-  const auto& b = patch.points;
+  const auto& b = patch.offsets;
   double largest2 = 0.0;
   for (const Vec3& q : b)
     largest2 = std::max(largest2, closest_point_on_triangle(b[b300], b[b030], b[b003], q).distance2);

@@ -39,7 +39,7 @@ NormalPolynomial evaluate_normal_polynomial(const PnPatch& p, double u, double v
 }
 
 Vec3 flat_normal(const PnPatch& p) {
-  return unit_or(glm::cross(p.points[b030] - p.points[b300], p.points[b003] - p.points[b300]), Vec3(0.0, 0.0, 1.0));
+  return unit_or(glm::cross(p.offsets[b030], p.offsets[b003]), Vec3(0.0, 0.0, 1.0));
 }
 
 /// Below this length of the normal polynomial (of order 1) its direction means nothing.
@@ -47,33 +47,32 @@ constexpr double kVanishingNormal = 1e-9;
 
 }  // namespace
 
-Vec3 edge_control_point(const Vec3& corner, const Vec3& corner_normal, const Vec3& other) {
-  const Vec3 edge = other - corner;
-  return corner + (edge - glm::dot(edge, corner_normal) * corner_normal) / 3.0;
+Vec3 edge_control_offset(const Vec3& edge, const Vec3& corner_normal) {
+  return (edge - glm::dot(edge, corner_normal) * corner_normal) / 3.0;
 }
 
-Vec3 crease_control_point(const Vec3& corner, const Vec3& n0, const Vec3& n1, const Vec3& other) {
+Vec3 crease_control_offset(const Vec3& edge, const Vec3& n0, const Vec3& n1) {
   const Vec3 sum = n0 + n1;
   const Vec3 difference = n0 - n1;  // its sign doesn't matter below, so the two sides agree in every bit
   const double sum2 = glm::dot(sum, sum), difference2 = glm::dot(difference, difference);
   const double cosine = glm::dot(n0, n1);
   const double weight = cosine <= 0.0 ? 1.0 : std::max(0.0, 1.0 - cosine * cosine);
-  const Vec3 edge = other - corner;
   Vec3 tangent = edge;
   if (sum2 > 1e-24) tangent -= (glm::dot(edge, sum) / sum2) * sum;
   if (difference2 > 1e-24) tangent -= (weight * glm::dot(edge, difference) / difference2) * difference;
-  return corner + tangent / 3.0;
+  return tangent / 3.0;
 }
 
 PnPatch make_pn_patch(const std::array<Vec3, 3>& p, const std::array<Vec3, 3>& n, NormalForm form) {
   PnPatch patch;
   patch.mixed_weight = form == NormalForm::bernstein ? 2.0 : 1.0;
-  patch.points[b300] = p[0];
-  patch.points[b030] = p[1];
-  patch.points[b003] = p[2];
+  patch.origin = p[0];
+  patch.offsets[b300] = Vec3(0.0);
+  patch.offsets[b030] = p[1] - p[0];
+  patch.offsets[b003] = p[2] - p[0];
   for (int edge = 0; edge < 3; ++edge) {
     const int i = edge, j = (edge + 1) % 3;
-    set_edge_points(patch, edge, edge_control_point(p[i], n[i], p[j]), edge_control_point(p[j], n[j], p[i]));
+    set_edge_points(patch, edge, edge_control_offset(p[j] - p[i], n[i]), edge_control_offset(p[i] - p[j], n[j]));
   }
   set_centre_point(patch);
 
@@ -87,22 +86,23 @@ PnPatch make_pn_patch(const std::array<Vec3, 3>& p, const std::array<Vec3, 3>& n
   return patch;
 }
 
-void set_edge_points(PnPatch& patch, int edge, const Vec3& near_first, const Vec3& near_second) {
+void set_edge_points(PnPatch& patch, int edge, const Vec3& from_first, const Vec3& from_second) {
+  static constexpr ControlPoint kCorners[3] = {b300, b030, b003};
   static constexpr ControlPoint kEdgePoints[3][2] = {{b210, b120}, {b021, b012}, {b102, b201}};
-  patch.points[kEdgePoints[edge][0]] = near_first;
-  patch.points[kEdgePoints[edge][1]] = near_second;
+  patch.offsets[kEdgePoints[edge][0]] = patch.offsets[kCorners[edge]] + from_first;
+  patch.offsets[kEdgePoints[edge][1]] = patch.offsets[kCorners[(edge + 1) % 3]] + from_second;
 }
 
 void set_centre_point(PnPatch& patch) {
-  const auto& b = patch.points;
+  auto& b = patch.offsets;
   const Vec3 e = (b[b210] + b[b120] + b[b021] + b[b012] + b[b102] + b[b201]) / 6.0;
   const Vec3 v = (b[b300] + b[b030] + b[b003]) / 3.0;
-  patch.points[b111] = e + (e - v) / 2.0;
+  b[b111] = e + (e - v) / 2.0;
 }
 
 SurfaceSample evaluate(const PnPatch& patch, double u, double v) {
   const double w = 1.0 - u - v;
-  const auto& b = patch.points;
+  const auto& b = patch.offsets;
   // de Casteljau: cubic -> quadratic -> linear -> point; the linear level gives the first derivatives.
   const Vec3 q200 = mix(w, u, v, b[b300], b[b210], b[b201]);
   const Vec3 q020 = mix(w, u, v, b[b120], b[b030], b[b021]);
@@ -115,7 +115,7 @@ SurfaceSample evaluate(const PnPatch& patch, double u, double v) {
   const Vec3 lv = mix(w, u, v, q101, q011, q002);
 
   SurfaceSample s;
-  s.point = mix(w, u, v, lw, lu, lv);
+  s.point = patch.origin + mix(w, u, v, lw, lu, lv);
   s.point_u = 3.0 * (lu - lw);
   s.point_v = 3.0 * (lv - lw);
 
@@ -137,7 +137,7 @@ Vec3 evaluate_normal(const PnPatch& patch, double u, double v) { return evaluate
 
 SecondDerivatives evaluate_second(const PnPatch& patch, double u, double v) {
   const double w = 1.0 - u - v;
-  const auto& b = patch.points;
+  const auto& b = patch.offsets;
   // Second differences of the control net along u (w -> u) and v (w -> v), one linear level left.
   const auto second = [&](const Vec3& at_w, const Vec3& at_u, const Vec3& at_v) { return 6.0 * mix(w, u, v, at_w, at_u, at_v); };
   SecondDerivatives d;

@@ -24,10 +24,14 @@ enum ControlPoint : std::uint8_t { b300, b030, b003, b210, b120, b021, b012, b10
 /// Control normals n_ijk, unit length, in this order.
 enum ControlNormal : std::uint8_t { n200, n020, n002, n110, n011, n101 };
 
+/// Control points are held relative to corner 0, so that a small patch far from the origin keeps its digits.
 struct PnPatch {
-  std::array<Vec3, 10> points;  ///< indexed by ControlPoint, metres
-  std::array<Vec3, 6> normals;  ///< indexed by ControlNormal, unit
-  double mixed_weight = 2.0;    ///< of n110, n011, n101
+  Vec3 origin{0.0};              ///< corner 0, m
+  std::array<Vec3, 10> offsets;  ///< control points - origin, indexed by ControlPoint, m
+  std::array<Vec3, 6> normals;   ///< indexed by ControlNormal, unit
+  double mixed_weight = 2.0;     ///< of n110, n011, n101
+
+  Vec3 control_point(ControlPoint b) const { return origin + offsets[b]; }
 };
 
 /// Point, unit normal and their first derivatives along u and v, with w = 1 - u - v.
@@ -37,23 +41,25 @@ struct SurfaceSample {
   Vec3 normal, normal_u, normal_v;  ///< unit, 1, 1 (of the unit normal)
 };
 
-/// Control point next to `corner` on the edge to `other`: (2 P + Q - ((Q-P).N) N) / 3.
-Vec3 edge_control_point(const Vec3& corner, const Vec3& corner_normal, const Vec3& other);
+/// Control point next to a corner with normal N, relative to the corner, for the edge Q - P that starts there:
+/// ((Q-P) - ((Q-P).N) N) / 3, which is (2 P + Q - ((Q-P).N) N)/3 - P.
+Vec3 edge_control_offset(const Vec3& edge, const Vec3& corner_normal);
 
 /// The same where the corner has normals `n0`, `n1` on the two sides of the edge (a crease): a symmetric
 /// blend, so that both sides get the same point bit for bit and the surface has no crack (compare
 /// McDonald & Kilgard, "Crack-Free Point-Normal Triangles using Adjacent Edge Normals", 2010). The
 /// component of the edge along the mean normal is removed whole; that along their difference by
-/// sin^2 of the angle between them, so that equal normals give edge_control_point and a right angle
+/// sin^2 of the angle between them, so that equal normals give edge_control_offset and a right angle
 /// gives the tangent of the crease.
-Vec3 crease_control_point(const Vec3& corner, const Vec3& n0, const Vec3& n1, const Vec3& other);
+Vec3 crease_control_offset(const Vec3& edge, const Vec3& n0, const Vec3& n1);
 
 /// Patch of a triangle with smooth edges. Normals: unit.
 PnPatch make_pn_patch(const std::array<Vec3, 3>& positions, const std::array<Vec3, 3>& normals,
                       NormalForm form = NormalForm::bernstein);
 
-/// Replaces the two control points of edge k (0: v = 0, 1: w = 0, 2: u = 0); then call set_centre_point.
-void set_edge_points(PnPatch& patch, int edge, const Vec3& near_first, const Vec3& near_second);
+/// Replaces the two control points of edge k (0: v = 0, 1: w = 0, 2: u = 0), each given relative to its corner
+/// (k and (k+1)%3); then call set_centre_point.
+void set_edge_points(PnPatch& patch, int edge, const Vec3& from_first, const Vec3& from_second);
 /// b111 = E + (E - V)/2 from the other nine.
 void set_centre_point(PnPatch& patch);
 
