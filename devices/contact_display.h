@@ -1,0 +1,49 @@
+// A contact location display (CLD): moves a roller along the fingerpad to the place of the contact.
+// Talked to like a force device: one exchange a tick, command in, sample out.
+#pragma once
+
+#include "core/base/result.h"
+#include "devices/device_state.h"
+
+#include <cstdint>
+#include <string>
+
+namespace tangent {
+
+/// What a contact display can do, as data. Zero: not known.
+struct DisplayCapabilities {
+  std::string name;
+  bool simulated = false;
+  double travel_m = 0.0;       ///< end to end; positions run from -travel/2 to +travel/2, positive distally
+  double resolution_m = 0.0;
+  double bandwidth_hz = 0.0;
+  double rate_hz = 0.0;
+};
+
+struct DisplayCommand {
+  std::uint64_t tick = 0;
+  double target_m = 0.0;       ///< ignored unless ready
+  DeviceRequest request = DeviceRequest::none;
+};
+
+struct DisplaySample {
+  double position_m = 0.0;     ///< of the roller, as measured
+  DeviceState state = DeviceState::absent;
+  DeviceFault fault = DeviceFault::none;
+};
+
+class ContactDisplay {
+ public:
+  virtual ~ContactDisplay() = default;
+
+  virtual const DisplayCapabilities& capabilities() const = 0;
+  /// Not while another thread exchanges. Fails with what hinders it and what to do.
+  virtual Status open() = 0;
+  virtual void close() = 0;
+
+  /// Called by the servo thread, once a tick; `dt_s` > 0. No allocation, lock, exception or log. Failures show in
+  /// the sample's state.
+  virtual DisplaySample exchange(const DisplayCommand& command, double dt_s) noexcept = 0;
+};
+
+}  // namespace tangent

@@ -1,0 +1,54 @@
+// How fast the servo runs, and what it reports about itself.
+#pragma once
+
+#include "core/base/result.h"
+#include "devices/safety_gate.h"
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+namespace tangent {
+
+inline constexpr double kSlowestServoHz = 100.0;
+inline constexpr double kFastestServoHz = 10'000.0;
+
+struct ServoOptions {
+  double rate_hz = 1000.0;          ///< kSlowestServoHz to kFastestServoHz
+  bool realtime = true;             ///< ask for SCHED_FIFO and locked memory; goes on without
+  int fifo_priority = 40;
+  /// Time of a tick as the solver and the devices see it: deadlines (real devices), or tick / rate (simulated
+  /// ones, so that N ticks give the same bits however late they ran).
+  bool time_by_deadlines = false;
+  std::size_t ring_records = 8192;  ///< of each ring
+};
+
+/// What the system granted.
+struct RealtimeGrant {
+  bool fifo = false;
+  bool memory_locked = false;
+};
+
+/// Counters of the servo; each one is right by itself, the set is not one instant.
+struct ServoStatus {
+  bool running = false;
+  double nominal_hz = 0.0;
+  double rate_hz = 0.0;                ///< measured over the last second or so; 0 until there is one
+  std::uint64_t ticks = 0;
+  std::uint64_t late_ticks = 0;        ///< ticks before which at least one deadline was missed
+  std::uint64_t missed_deadlines = 0;  ///< skipped
+  std::uint64_t gui_drops = 0;         ///< records that found the GUI's ring full
+  std::uint64_t recorder_drops = 0;
+  double tick_mean_ns = 0.0, tick_p50_ns = 0.0, tick_p99_ns = 0.0, tick_p999_ns = 0.0;  ///< percentiles to 1/16
+  double tick_worst_ns = 0.0;
+  double lateness_worst_ns = 0.0, lateness_p99_ns = 0.0;
+  std::uint32_t preset_id = 0;         ///< applied
+  std::uint32_t scene_id = 0;          ///< applied
+  GateState gate_state = GateState::disarmed;
+  GateFault gate_fault = GateFault::none;
+  std::array<std::uint64_t, kGateActionCount> gate_counts{};
+  std::uint64_t gate_faults = 0;
+  RealtimeGrant realtime;
+};
+
+}  // namespace tangent
