@@ -1,0 +1,34 @@
+// Where the window's parts are: a fixed arrangement (DESIGN.md, "The window") with three splitters.
+// Pure arithmetic in ImGui's coordinates.
+#pragma once
+
+namespace tangent {
+
+struct Rect {
+  float x = 0.0f, y = 0.0f, w = 0.0f, h = 0.0f;
+  float right() const { return x + w; }
+  float bottom() const { return y + h; }
+};
+
+/// What the user drags, in points (times the scale: pixels).
+struct LayoutSizes {
+  float left = 312.0f;    ///< parameter column
+  float right = 328.0f;   ///< iterations, mesh, devices
+  float plots = 214.0f;   ///< height of the plots
+  bool show_left = true, show_right = true, show_plots = true;
+};
+
+struct Layout {
+  Rect menu, left, view, right, plots, transport, status;
+  Rect left_splitter, right_splitter, plot_splitter;
+};
+
+/// Keeps the 3D view at least 280 x 160 points by taking from the others.
+Layout compute_layout(const LayoutSizes& sizes, float width, float height, float scale);
+
+/// Lets a splitter be dragged by (dx, dy) pixels: new sizes, clamped to the ranges that make sense.
+LayoutSizes drag_left(LayoutSizes sizes, float dx, float scale);
+LayoutSizes drag_right(LayoutSizes sizes, float dx, float scale);
+LayoutSizes drag_plots(LayoutSizes sizes, float dy, float scale);
+
+}  // namespace tangent

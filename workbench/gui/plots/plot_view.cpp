@@ -1,0 +1,258 @@
+#include "workbench/gui/plots/plot_view.h"
+
+#include "workbench/gui/plots/curve_drawing.h"
+#include "workbench/gui/plots/tick_locator.h"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace tangent {
+
+/// The plot's rectangle and its inner one, screen coordinates.
+struct PlotView::Area {
+  ImVec2 pos, size;       ///< everything
+  ImVec2 min, max;        ///< where curves are
+  float gutter = 0.0f;    ///< left of it, value labels
+  float header = 0.0f;    ///< above it
+  float width() const { return max.x - min.x; }
+  float height() const { return max.y - min.y; }
+};
+
+namespace {
+
+void text_at(ImDrawList& draw, ImFont* font, ImVec2 at, ImU32 colour, const char* text) {
+  draw.AddText(font, font->FontSize, at, colour, text);
+}
+float text_width(ImFont* font, const char* text) { return font->CalcTextSizeA(font->FontSize, 1e9f, 0.0f, text).x; }
+
+}  // namespace
+
+void PlotView::draw(const UiContext& ui, const ChannelStore& store, TimeAxis& axis, PlotLink& link, ImVec2 pos,
+                    ImVec2 size, bool time_labels, double reference) {
+  Area area;
+  area.pos = pos;
+  area.size = size;
+  area.gutter = ui.px(46);
+  area.header = ui.px(18);
+  area.min = {pos.x + area.gutter, pos.y + area.header};
+  area.max = {pos.x + size.x - ui.px(8), pos.y + size.y - (time_labels ? ui.px(18) : ui.px(5))};
+  if (area.width() < ui.px(24) || area.height() < ui.px(16)) return;
+
+  ImGui::PushID(spec_.id.c_str());
+  interact(ui, axis, link, area);
+  interact_values(ui, area);
+  fit(store, axis);
+  draw_grid(ui, axis, link, area, time_labels);
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  draw.PushClipRect(area.min, area.max, true);
+  if (std::isfinite(reference)) {
+    const double share = values_.share(reference * spec_.scale, spec_.log);
+    const float y = std::round(area.max.y - static_cast<float>(share) * area.height());
+    draw_dashed_horizontal(draw, area.min.x, area.max.x, y, ui.px(5), ui.colours.text_faint, ui.px(1));
+  }
+  draw_series(ui, store, axis, area);
+  draw.PopClipRect();
+  draw_cursors(ui, axis, link, area, time_labels);
+  draw_header(ui, store, link, area);
+  ImGui::PopID();
+}
+
+void PlotView::interact(const UiContext& ui, TimeAxis& axis, PlotLink& link, const Area& area) {
+  const ImGuiIO& io = ImGui::GetIO();
+  ImGui::SetCursorScreenPos(area.min);
+  ImGui::InvisibleButton("area", {area.width(), area.height()},
+                         ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight);
+  ui.items.note_last("plots/" + spec_.id);
+  const double under = axis.tick_at(static_cast<double>(io.MousePos.x), static_cast<double>(area.min.x),
+                                    static_cast<double>(area.width()));
+  if (ImGui::IsItemHovered()) {
+    link.hover_next = under;
+    if (io.MouseWheel != 0.0f) {
+      axis.zoom(std::pow(0.8, static_cast<double>(io.MouseWheel)), under);
+      // The wheel is spent: the panel below must not scroll as well.
+      ImGui::GetIO().MouseWheel = 0.0f;
+    }
+    if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) axis.show_all();
+  }
+  if (ImGui::IsItemActivated()) dragged_ = false;
+  if (ImGui::IsItemActive() && ImGui::IsMouseDown(ImGuiMouseButton_Left)) {
+    if (ImGui::IsMouseDragging(ImGuiMouseButton_Left, ui.px(4))) dragged_ = true;
+    if (dragged_ && io.MouseDelta.x != 0.0f) {
+      axis.pan(-static_cast<double>(io.MouseDelta.x / area.width()) * axis.span());
+    }
+  }
+  if (ImGui::IsItemDeactivated() && !dragged_ && ImGui::IsMouseReleased(ImGuiMouseButton_Left) &&
+      !ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left) && under >= 0.0) {
+    link.clicked = static_cast<std::uint64_t>(under + 0.5);
+  }
+  if (ImGui::IsItemHovered() && ImGui::IsMouseClicked(ImGuiMouseButton_Right)) box_from_ = under;
+  if (box_from_ && !ImGui::IsMouseDown(ImGuiMouseButton_Right)) {
+    if (std::abs(under - *box_from_) / axis.span() > 0.01) {
+      axis.show(std::min(under, *box_from_), std::max(under, *box_from_));
+    }
+    box_from_.reset();
+  }
+}
+
+void PlotView::interact_values(const UiContext& ui, const Area& area) {
+  ImGui::SetCursorScreenPos({area.pos.x, area.min.y});
+  ImGui::InvisibleButton("values", {area.gutter - ui.px(2), area.height()});
+  ui.items.note_last("plots/" + spec_.id + "/values");
+  if (!ImGui::IsItemHovered()) return;
+  const ImGuiIO& io = ImGui::GetIO();
+  if (io.MouseWheel != 0.0f) {
+    const double share = static_cast<double>((area.max.y - io.MousePos.y) / area.height());
+    values_.zoom(std::pow(0.8, static_cast<double>(io.MouseWheel)), values_.value_at(share, spec_.log), spec_.log);
+    ImGui::GetIO().MouseWheel = 0.0f;
+  }
+  if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) values_.set_automatic();
+}
+
+void PlotView::fit(const ChannelStore& store, const TimeAxis& axis) {
+  MinMax visible;
+  const auto from = static_cast<std::uint64_t>(std::max(0.0, std::floor(axis.from())));
+  const auto to = static_cast<std::uint64_t>(std::max(0.0, std::ceil(axis.to())));
+  for (const PlotSeries& series : spec_.series) {
+    if (series.visible) visible.include(store.min_max(series.channel, from, to));
+  }
+  if (visible.empty()) return;
+  visible.min = static_cast<float>(static_cast<double>(visible.min) * spec_.scale);
+  visible.max = static_cast<float>(static_cast<double>(visible.max) * spec_.scale);
+  if (spec_.log) values_.fit_log(visible, spec_.floor); else values_.fit_linear(visible, spec_.with_zero);
+}
+
+void PlotView::draw_grid(const UiContext& ui, const TimeAxis& axis, const PlotLink& link, const Area& area,
+                         bool time_labels) {
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  draw.AddRectFilled(area.min, area.max, ui.colours.plot);
+  ImFont* font = ui.fonts.small_number;
+  const float half = 0.5f * font->FontSize;
+  const int rows = std::max(1, static_cast<int>(area.height() / (2.2f * font->FontSize)));
+  const auto values = spec_.log ? log_ticks(values_.low(), values_.high(), rows)
+                                : linear_ticks(values_.low(), values_.high(), rows);
+  for (const AxisTick& tick : values) {
+    const double share = values_.share(tick.value, spec_.log);
+    const float y = std::round(area.max.y - static_cast<float>(share) * area.height());
+    if (y > area.min.y && y < area.max.y) {
+      draw.AddLine({area.min.x, y}, {area.max.x, y}, tick.major ? ui.colours.grid : ui.colours.grid_minor);
+    }
+    if (!tick.major) continue;
+    // Labels at the very ends move inwards rather than into the neighbours.
+    const float label_y = std::clamp(y - half, area.min.y - 0.35f * half, area.max.y - 1.75f * half);
+    text_at(draw, font, {area.min.x - ui.px(5) - text_width(font, tick.label.c_str()), label_y}, ui.colours.text_dim,
+            tick.label.c_str());
+  }
+  const double left = static_cast<double>(area.min.x), width = static_cast<double>(area.width());
+  const int columns = std::max(1, static_cast<int>(area.width() / (8.0f * font->FontSize)));
+  const double period = link.tick_period_s;
+  for (const AxisTick& tick : linear_ticks(axis.from() * period, axis.to() * period, columns)) {
+    const float x = std::round(static_cast<float>(axis.x_at(tick.value / period, left, width)));
+    if (x <= area.min.x || x >= area.max.x) continue;
+    draw.AddLine({x, area.min.y}, {x, area.max.y}, tick.major ? ui.colours.grid : ui.colours.grid_minor);
+    if (!time_labels || !tick.major || tick.value < 0.0) continue;
+    const float w = text_width(font, tick.label.c_str());
+    if (x + 0.5f * w > area.max.x - ui.px(14)) continue;
+    text_at(draw, font, {x - 0.5f * w, area.max.y + ui.px(2)}, ui.colours.text_dim, tick.label.c_str());
+  }
+  if (time_labels) {
+    text_at(draw, font, {area.max.x - text_width(font, "s"), area.max.y + ui.px(2)}, ui.colours.text_dim, "s");
+  }
+}
+
+void PlotView::draw_series(const UiContext& ui, const ChannelStore& store, const TimeAxis& axis, const Area& area) {
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const CurveArea where{area.min, area.max};
+  const auto to_y = [&](float value) {
+    const double share = values_.share(static_cast<double>(value) * spec_.scale, spec_.log);
+    return area.max.y - static_cast<float>(std::clamp(share, -1.0, 2.0)) * area.height();
+  };
+  const bool dense = axis.span() / static_cast<double>(area.width()) >= kTicksPerColumnForBars;
+  for (const PlotSeries& series : spec_.series) {
+    if (!series.visible) continue;
+    const ImU32 ink = packed(ui.palette.*series.colour);
+    if (dense) {
+      column_bars(store, series.channel, axis, area.width(), bars_);
+      draw_bars(draw, where, bars_, to_y, ink, ui.px(1.5f));
+    } else {
+      sample_points(store, series.channel, axis, area.width(), points_);
+      const bool dots = static_cast<double>(area.width()) / axis.span() > static_cast<double>(ui.px(7));
+      draw_samples(draw, where, points_, line_, to_y, ink, ui.px(1.5f), series.steps, dots ? ui.px(2.2f) : 0.0f);
+    }
+  }
+}
+
+void PlotView::draw_cursors(const UiContext& ui, const TimeAxis& axis, const PlotLink& link, const Area& area,
+                            bool time_labels) {
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const double left = static_cast<double>(area.min.x), width = static_cast<double>(area.width());
+  const auto line_at = [&](double tick, ImU32 ink, bool label) {
+    if (tick < axis.from() || tick > axis.to()) return;
+    const float x = std::round(static_cast<float>(axis.x_at(tick, left, width)));
+    draw.AddLine({x, area.min.y}, {x, area.max.y}, ink, ui.px(1));
+    if (!label || !time_labels) return;
+    char text[48];
+    std::snprintf(text, sizeof text, "%.3f s", tick * link.tick_period_s);
+    ImFont* font = ui.fonts.small_number;
+    const float w = text_width(font, text) + ui.px(8);
+    const float at = std::clamp(x - 0.5f * w, area.min.x, area.max.x - w);
+    draw.AddRectFilled({at, area.max.y + ui.px(1)}, {at + w, area.max.y + ui.px(17)}, ui.colours.panel_header, ui.px(2));
+    text_at(draw, font, {at + ui.px(4), area.max.y + ui.px(2)}, ui.colours.text, text);
+  };
+  if (box_from_) {
+    const float x0 = static_cast<float>(axis.x_at(*box_from_, left, width));
+    const float x1 = std::clamp(ImGui::GetIO().MousePos.x, area.min.x, area.max.x);
+    draw.AddRectFilled({std::min(x0, x1), area.min.y}, {std::max(x0, x1), area.max.y}, ui.colours.accent_soft);
+  }
+  if (link.cursor) line_at(static_cast<double>(*link.cursor), ui.colours.accent, true);
+  if (link.hover) line_at(*link.hover, ui.colours.text_faint, true);
+}
+
+void PlotView::draw_header(const UiContext& ui, const ChannelStore& store, const PlotLink& link, const Area& area) {
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const float y = area.pos.y + ui.px(2);
+  const float right = area.max.x;
+  float x = area.min.x;
+  text_at(draw, ui.fonts.small, {x, y}, ui.colours.text, spec_.title.c_str());
+  x += text_width(ui.fonts.small, spec_.title.c_str()) + ui.px(5);
+  text_at(draw, ui.fonts.small, {x, y}, ui.colours.text_dim, spec_.unit.c_str());
+  x += text_width(ui.fonts.small, spec_.unit.c_str()) + ui.px(10);
+
+  std::optional<std::uint64_t> tick;
+  if (link.hover && *link.hover >= 0.0) tick = static_cast<std::uint64_t>(*link.hover + 0.5);
+  else if (link.cursor) tick = link.cursor;
+  else if (!store.empty()) tick = store.end_tick() - 1;
+
+  const float digit = text_width(ui.fonts.small_number, "0");
+  for (PlotSeries& series : spec_.series) {
+    const float value = tick ? store.value(series.channel, *tick) : std::numeric_limits<float>::quiet_NaN();
+    char text[32] = "";
+    if (!std::isnan(value)) std::snprintf(text, sizeof text, spec_.format, static_cast<double>(value) * spec_.scale);
+    const bool only_one = spec_.series.size() == 1;
+    const float name_width = only_one ? 0.0f : text_width(ui.fonts.small, series.name.c_str());
+    const float box = ui.px(9);
+    float width = box + ui.px(4) + name_width + ui.px(3);
+    // The value's room is kept while it is blank, so that nothing moves when it comes.
+    const float value_width = 9.0f * digit;
+    const bool with_value = x + width + value_width <= right;
+    if (with_value) width += value_width;
+    if (x + width > right) break;
+    ImGui::SetCursorScreenPos({x, area.pos.y});
+    ImGui::PushID(series.name.c_str());
+    if (ImGui::InvisibleButton("toggle", {width, area.header})) series.visible = !series.visible;
+    ui.items.note_last("plots/" + spec_.id + "/" + series.name);
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s %s (click to hide or show)", spec_.title.c_str(), series.name.c_str());
+    ImGui::PopID();
+    const ImU32 ink = packed(ui.palette.*series.colour);
+    const float middle = y + 0.5f * ui.fonts.small->FontSize;
+    const ImVec2 box_min{x, middle - 0.5f * box + ui.px(1)}, box_max{x + box, middle + 0.5f * box + ui.px(1)};
+    if (series.visible) draw.AddRectFilled(box_min, box_max, ink, ui.px(2));
+    else draw.AddRect(box_min, box_max, ink, ui.px(2));
+    float at = x + box + ui.px(4);
+    if (!only_one) text_at(draw, ui.fonts.small, {at, y}, series.visible ? ui.colours.text : ui.colours.text_faint, series.name.c_str());
+    at += name_width + ui.px(3);
+    if (with_value && text[0] != '\0') text_at(draw, ui.fonts.small_number, {at, y}, ui.colours.text, text);
+    x += width + ui.px(6);
+  }
+}
+
+}  // namespace tangent

@@ -1,0 +1,81 @@
+// One plot of some channels against the shared time axis. Wheel zooms time about the pointer, dragging
+// pans, right-dragging boxes a time range, double-click shows all; over the value labels the wheel zooms
+// the values and a double-click fits them again. A click reports the tick under the pointer.
+#pragma once
+
+#include "workbench/gui/plots/channel_store.h"
+#include "workbench/gui/plots/column_bars.h"
+#include "workbench/gui/plots/time_axis.h"
+#include "workbench/gui/plots/value_axis.h"
+#include "workbench/gui/ui_context.h"
+
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tangent {
+
+struct PlotSeries {
+  std::string name;
+  std::size_t channel = 0;
+  Rgba Palette::*colour = nullptr;
+  bool steps = false;     ///< holds its value until the next tick (counts)
+  bool visible = true;
+};
+
+struct PlotSpec {
+  std::string id;         ///< item map: "plots/<id>"
+  std::string title;
+  std::string unit;
+  double scale = 1.0;     ///< displayed = channel value * scale
+  bool log = false;
+  bool with_zero = true;
+  double floor = 1e-6;    ///< of a log axis, displayed unit
+  const char* format = "%8.3f";  ///< of the value under the cursor
+  std::vector<PlotSeries> series;
+};
+
+/// What the plots share besides their time axis.
+struct PlotLink {
+  double tick_period_s = 1e-3;
+  std::optional<std::uint64_t> cursor;      ///< the tick in view when time stands still
+  std::optional<double> hover;              ///< under the pointer, from the last frame
+  std::optional<double> hover_next;         ///< found while drawing this frame
+  std::optional<std::uint64_t> clicked;     ///< the user clicked this tick
+  std::optional<double> reference;          ///< horizontal line in the error plot, channel units
+};
+
+class PlotView {
+ public:
+  explicit PlotView(PlotSpec spec) : spec_(std::move(spec)) {}
+
+  const PlotSpec& spec() const { return spec_; }
+  PlotSpec& spec() { return spec_; }
+  const ValueAxis& values() const { return values_; }
+
+  /// Into the rectangle at `pos`; `time_labels`: also the labels of the time axis, below.
+  void draw(const UiContext& ui, const ChannelStore& store, TimeAxis& axis, PlotLink& link, ImVec2 pos, ImVec2 size,
+            bool time_labels, double reference = std::numeric_limits<double>::quiet_NaN());
+
+ private:
+  struct Area;
+  void draw_header(const UiContext& ui, const ChannelStore& store, const PlotLink& link, const Area& area);
+  void fit(const ChannelStore& store, const TimeAxis& axis);
+  void draw_grid(const UiContext& ui, const TimeAxis& axis, const PlotLink& link, const Area& area, bool time_labels);
+  void draw_series(const UiContext& ui, const ChannelStore& store, const TimeAxis& axis, const Area& area);
+  void draw_cursors(const UiContext& ui, const TimeAxis& axis, const PlotLink& link, const Area& area, bool time_labels);
+  void interact(const UiContext& ui, TimeAxis& axis, PlotLink& link, const Area& area);
+  void interact_values(const UiContext& ui, const Area& area);
+
+  PlotSpec spec_;
+  ValueAxis values_;
+  std::optional<double> box_from_;  ///< right-drag began at this tick
+  bool dragged_ = false;
+  std::vector<ColumnBar> bars_;
+  std::vector<SamplePoint> points_;
+  std::vector<ImVec2> line_;
+};
+
+}  // namespace tangent

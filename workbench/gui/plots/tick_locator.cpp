@@ -1,0 +1,104 @@
+#include "workbench/gui/plots/tick_locator.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace tangent {
+
+namespace {
+
+/// Steps are powers of ten times 1, 2 or 5: the decimals that show a multiple of one without rounding.
+int decimals_of(double step) {
+  return std::max(0, static_cast<int>(std::ceil(-std::log10(step) - 1e-9)));
+}
+
+std::string decimal_label(double value, double step) {
+  char text[64];
+  const int decimals = decimals_of(step);
+  if (std::abs(value) >= 1e7 || decimals > 7) {
+    std::snprintf(text, sizeof text, "%.6g", value);
+  } else {
+    std::snprintf(text, sizeof text, "%.*f", decimals, value);
+  }
+  return text;
+}
+
+std::string decade_label(int exponent) {
+  char text[32];
+  if (exponent >= -2 && exponent <= 4) {
+    std::snprintf(text, sizeof text, "%.*f", std::max(0, -exponent), std::pow(10.0, exponent));
+  } else {
+    std::snprintf(text, sizeof text, "1e%d", exponent);
+  }
+  return text;
+}
+
+}  // namespace
+
+double nice_step(double range, int most) {
+  const double least = range / std::max(1, most);
+  const double decade = std::pow(10.0, std::floor(std::log10(least)));
+  // A hair of slack: 0.2 / 2 must give 0.1 although the division may round upwards.
+  for (const double mantissa : {1.0, 2.0, 5.0}) {
+    if (mantissa * decade >= least * (1.0 - 1e-9)) return mantissa * decade;
+  }
+  return 10.0 * decade;
+}
+
+std::vector<AxisTick> linear_ticks(double low, double high, int most_labels) {
+  std::vector<AxisTick> ticks;
+  if (!(high > low) || !std::isfinite(low) || !std::isfinite(high)) return ticks;
+  const double step = nice_step(high - low, most_labels);
+  const double mantissa = step / std::pow(10.0, std::floor(std::log10(step) + 1e-9));
+  const int parts = std::lround(mantissa) == 2 ? 4 : 5;
+  const double minor = step / parts;
+  // Counted in whole minor steps, so that a tick is on its value however far from zero the range lies.
+  const double slack = 1e-6;
+  const auto first = static_cast<long long>(std::ceil(low / minor - slack));
+  const auto last = static_cast<long long>(std::floor(high / minor + slack));
+  for (long long i = first; i <= last; ++i) {
+    AxisTick tick;
+    tick.major = i % parts == 0;
+    tick.value = tick.major ? static_cast<double>(i / parts) * step : static_cast<double>(i) * minor;
+    if (tick.major) tick.label = i == 0 ? "0" : decimal_label(tick.value, step);
+    ticks.push_back(std::move(tick));
+  }
+  return ticks;
+}
+
+std::vector<AxisTick> log_ticks(double low, double high, int most_labels) {
+  std::vector<AxisTick> ticks;
+  if (!(low > 0.0) || !(high > low) || !std::isfinite(high)) return ticks;
+  const int first = static_cast<int>(std::floor(std::log10(low) + 1e-9));
+  const int last = static_cast<int>(std::ceil(std::log10(high) - 1e-9));
+  const int every = std::max(1, (last - first + most_labels) / std::max(1, most_labels));
+  const double slack = 1.0 + 1e-9;
+  for (int exponent = first; exponent <= last; ++exponent) {
+    const double decade = std::pow(10.0, exponent);
+    if (decade * slack >= low && decade <= high * slack) {
+      // Anchored at 10^0, so that labels keep their decades while the range moves.
+      const bool major = ((exponent % every) + every) % every == 0;
+      ticks.push_back({decade, major, major ? decade_label(exponent) : std::string()});
+    }
+    if (every > 1) continue;
+    for (int k = 2; k <= 9; ++k) {
+      const double value = k * decade;
+      if (value * slack >= low && value <= high * slack) ticks.push_back({value, false, {}});
+    }
+  }
+  return ticks;
+}
+
+void widen_to_nice(double& low, double& high, int most) {
+  if (!(high > low)) {
+    const double half = std::max(std::abs(low) * 0.5, 1e-12);
+    low -= half;
+    high += half;
+  }
+  const double step = nice_step(high - low, most);
+  low = std::floor(low / step + 1e-6) * step;
+  high = std::ceil(high / step - 1e-6) * step;
+}
+
+}  // namespace tangent

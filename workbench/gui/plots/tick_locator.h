@@ -1,0 +1,30 @@
+// Where an axis gets its ticks and what is written at them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace tangent {
+
+struct AxisTick {
+  double value = 0.0;
+  bool major = true;    ///< labelled, stronger grid line
+  std::string label;    ///< empty for minor ticks
+};
+
+/// Step 1, 2 or 5 times a power of ten, the smallest that gives at most `most` steps over the range.
+/// Precondition: range > 0, most >= 1.
+double nice_step(double range, int most);
+
+/// Multiples of nice_step inside [low, high], with four or five minor ticks a step. Labels have just the
+/// decimals the step needs; -0 is written 0.
+std::vector<AxisTick> linear_ticks(double low, double high, int most_labels);
+
+/// Powers of ten inside [low, high] (both > 0), labelled "1", "0.01", "1e-6", at most about `most_labels` of
+/// them; minor ticks at 2..9 where every decade is labelled.
+std::vector<AxisTick> log_ticks(double low, double high, int most_labels);
+
+/// [low, high] widened to multiples of a nice step; never empty.
+void widen_to_nice(double& low, double& high, int most);
+
+}  // namespace tangent

@@ -1,0 +1,155 @@
+#include "workbench/gui/preset_editor.h"
+
+#include "core/base/units.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+
+namespace tangent {
+
+namespace {
+
+struct TypedUnit {
+  std::string_view name, kind;
+  double scale;
+};
+constexpr std::array kTypedUnits{
+    TypedUnit{"m", "m", 1.0},        TypedUnit{"mm", "m", kMillimetre}, TypedUnit{"um", "m", kMicrometre},
+    TypedUnit{"\u00b5m", "m", kMicrometre}, TypedUnit{"s", "s", 1.0},   TypedUnit{"ms", "s", 1e-3},
+    TypedUnit{"N/m", "N/m", 1.0},    TypedUnit{"N/mm", "N/m", 1e3},     TypedUnit{"N", "N", 1.0}};
+
+std::string_view trim(std::string_view text) {
+  const auto blank = [](char c) { return c == ' ' || c == '\t'; };
+  while (!text.empty() && blank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && blank(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+/// Below this a logarithmic slider that starts at 0 has its left end.
+double log_low(const PresetKey& key) { return key.slider_min > 0.0 ? key.slider_min : key.slider_max * 1e-6; }
+
+}  // namespace
+
+std::vector<PresetChange> PresetEditor::changes() const {
+  std::vector<PresetChange> out;
+  for (const PresetKey& key : preset_keys()) {
+    const double before = key.get(loaded_.preset), now = key.get(current_);
+    if (before != now) out.push_back({&key, before, now});
+  }
+  return out;
+}
+
+bool PresetEditor::set(const PresetKey& key, double value) {
+  if (std::isnan(value)) return false;
+  value = std::clamp(value, key.min, key.max);
+  if (key.kind != KeyKind::number) value = std::round(value);
+  if (key.get(current_) == value) return false;
+  key.set(current_, value);
+  return true;
+}
+
+Status PresetEditor::load(const std::filesystem::path& path) {
+  auto file = read_preset(path);
+  if (!file) return tl::unexpected(file.error());
+  loaded_ = std::move(*file);
+  current_ = loaded_.preset;
+  path_ = path;
+  name_ = path.stem().string();
+  return {};
+}
+
+Status PresetEditor::save_as(const std::filesystem::path& folder, const std::string& name, PresetAbout about) {
+  if (name.empty() || name.find('/') != std::string::npos || name.front() == '.') {
+    return fail("\"" + name + "\" can't be a preset's name", "save preset", "use letters, digits and dashes");
+  }
+  about.name = name;
+  const std::filesystem::path path = folder / (name + ".toml");
+  std::error_code ignored;
+  std::filesystem::create_directories(folder, ignored);
+  const PresetFile file{std::move(about), current_};
+  if (auto written = write_preset(file, path); !written) return written;
+  loaded_ = file;
+  path_ = path;
+  name_ = name;
+  return {};
+}
+
+std::vector<std::filesystem::path> list_presets(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> out;
+  std::error_code failed;
+  for (std::filesystem::directory_iterator it(folder, failed), end; !failed && it != end; it.increment(failed)) {
+    if (it->path().extension() == ".toml") out.push_back(it->path());
+  }
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+DisplayUnit display_unit(const PresetKey& key) {
+  if (key.unit == "m") {
+    const double typical = key.logarithmic ? key.default_value() : key.slider_max;
+    return typical <= 1.0001e-3 ? DisplayUnit{"\u00b5m", kMicrometre} : DisplayUnit{"mm", kMillimetre};
+  }
+  if (key.unit == "s") return {"ms", 1e-3};
+  if (key.unit == "1") return {"", 1.0};
+  return {key.unit, 1.0};
+}
+
+std::string display_text(const PresetKey& key, double value) {
+  char text[48];
+  // The quotient of two rounded doubles: a hair off whole would show as 19.999999.
+  std::snprintf(text, sizeof text, "%.6g", value / display_unit(key).scale);
+  return text;
+}
+
+Result<double> parse_typed(const PresetKey& key, std::string_view text) {
+  const std::string_view whole = trim(text);
+  std::string_view rest = whole;
+  if (!rest.empty() && rest.front() == '+') rest.remove_prefix(1);
+  double number = 0.0;
+  const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), number);
+  const auto refuse = [&] {
+    return fail("\"" + std::string(whole) + "\" is not a value of " + key.full_name(), {}, "type " + key.allowed());
+  };
+  if (error != std::errc() || !std::isfinite(number)) return refuse();
+  const std::string_view unit = trim(rest.substr(static_cast<std::size_t>(end - rest.data())));
+  const DisplayUnit shown = display_unit(key);
+  if (unit.empty() || unit == shown.name) return number * shown.scale;
+  for (const TypedUnit& typed : kTypedUnits) {
+    if (typed.name == unit && typed.kind == key.unit) return number * typed.scale;
+  }
+  return refuse();
+}
+
+double slider_share(const PresetKey& key, double value) {
+  double share = 0.0;
+  if (key.logarithmic) {
+    const double low = log_low(key);
+    share = std::log(std::max(value, low) / low) / std::log(key.slider_max / low);
+  } else {
+    share = (value - key.slider_min) / (key.slider_max - key.slider_min);
+  }
+  return std::clamp(share, 0.0, 1.0);
+}
+
+double slider_value(const PresetKey& key, double share) {
+  double value = 0.0;
+  if (key.logarithmic) {
+    const double low = log_low(key);
+    value = low * std::pow(key.slider_max / low, share);
+  } else {
+    value = key.slider_min + share * (key.slider_max - key.slider_min);
+  }
+  if (key.kind != KeyKind::number) return std::round(value);
+  // Three digits: a dragged value that can be read and typed again.
+  if (value == 0.0) return 0.0;
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  double rounded = value;
+  std::from_chars(text, text + sizeof text, rounded);
+  return std::clamp(rounded, key.min, key.max);
+}
+
+}  // namespace tangent

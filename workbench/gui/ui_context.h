@@ -1,0 +1,30 @@
+// What every panel and plot needs to draw itself: the look, and where to note its widgets.
+#pragma once
+
+#include "workbench/gui/item_map.h"
+#include "workbench/gui/theme.h"
+
+#include <string>
+
+namespace tangent {
+
+/// The number box being typed in. ImGui keeps its own copy of the text while a box is active, and drops it
+/// when another widget takes the focus; the last text seen is what counts then.
+struct Typing {
+  ImGuiID id = 0;
+  std::string text, shown;
+};
+
+struct UiContext {
+  ItemMap& items;
+  Typing& typing;
+  const ThemeColours& colours;
+  const Palette& palette;
+  const ThemeFonts& fonts;
+  float scale = 1.0f;
+  double now_s = 0.0;
+
+  float px(float points) const { return points * scale; }
+};
+
+}  // namespace tangent

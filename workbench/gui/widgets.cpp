@@ -1,0 +1,225 @@
+#include "workbench/gui/widgets.h"
+
+#include <imgui_internal.h>
+#include <imgui_stdlib.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdarg>
+#include <cstdio>
+
+namespace tangent {
+
+namespace {
+
+void draw_icon(ImDrawList& draw, Icon icon, ImVec2 c, float r, ImU32 ink) {
+  const auto triangle = [&](float x, float direction) {
+    draw.AddTriangleFilled({x - direction * 0.55f * r, c.y - 0.75f * r}, {x - direction * 0.55f * r, c.y + 0.75f * r},
+                           {x + direction * 0.65f * r, c.y}, ink);
+  };
+  const auto bar = [&](float x) {
+    draw.AddRectFilled({x - 0.15f * r, c.y - 0.75f * r}, {x + 0.15f * r, c.y + 0.75f * r}, ink);
+  };
+  const float line = std::max(1.0f, 0.2f * r);
+  switch (icon) {
+    case Icon::first: bar(c.x - 0.65f * r); triangle(c.x + 0.2f * r, -1.0f); break;
+    case Icon::live: bar(c.x + 0.65f * r); triangle(c.x - 0.2f * r, 1.0f); break;
+    case Icon::step_back: triangle(c.x - 0.3f * r, -1.0f); bar(c.x + 0.65f * r); break;
+    case Icon::step_forward: triangle(c.x + 0.3f * r, 1.0f); bar(c.x - 0.65f * r); break;
+    case Icon::play: triangle(c.x, 1.15f); break;
+    case Icon::pause:
+      draw.AddRectFilled({c.x - 0.6f * r, c.y - 0.75f * r}, {c.x - 0.18f * r, c.y + 0.75f * r}, ink);
+      draw.AddRectFilled({c.x + 0.18f * r, c.y - 0.75f * r}, {c.x + 0.6f * r, c.y + 0.75f * r}, ink);
+      break;
+    case Icon::previous:
+    case Icon::next: {
+      const float d = icon == Icon::next ? 1.0f : -1.0f;
+      const ImVec2 points[3] = {{c.x - d * 0.35f * r, c.y - 0.65f * r}, {c.x + d * 0.4f * r, c.y}, {c.x - d * 0.35f * r, c.y + 0.65f * r}};
+      draw.AddPolyline(points, 3, ink, 0, 1.4f * line);
+      break;
+    }
+    case Icon::reset:
+      draw.PathArcTo(c, 0.62f * r, -2.3f, 2.6f, 16);
+      draw.PathStroke(ink, 0, line);
+      draw.AddTriangleFilled({c.x - 0.85f * r, c.y - 0.35f * r}, {c.x - 0.02f * r, c.y - 0.55f * r}, {c.x - 0.62f * r, c.y - 0.98f * r}, ink);
+      break;
+    case Icon::cross:
+      draw.AddLine({c.x - 0.5f * r, c.y - 0.5f * r}, {c.x + 0.5f * r, c.y + 0.5f * r}, ink, line);
+      draw.AddLine({c.x - 0.5f * r, c.y + 0.5f * r}, {c.x + 0.5f * r, c.y - 0.5f * r}, ink, line);
+      break;
+    case Icon::folder:
+    case Icon::save: draw.AddRect({c.x - 0.6f * r, c.y - 0.5f * r}, {c.x + 0.6f * r, c.y + 0.5f * r}, ink, 0, 0, line); break;
+  }
+}
+
+std::string id_of(std::string_view path) { return "##" + std::string(path); }
+
+}  // namespace
+
+bool section(const UiContext& ui, const char* title, bool& open) {
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const float height = ui.px(24);
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float width = ImGui::GetContentRegionAvail().x;
+  const float bleed = ImGui::GetStyle().WindowPadding.x;
+  if (ImGui::InvisibleButton(title, {std::max(1.0f, width), height})) open = !open;
+  ui.items.note_last(std::string("section/") + title);
+  const bool hovered = ImGui::IsItemHovered();
+  draw.AddRectFilled({at.x - bleed, at.y}, {at.x + width + bleed, at.y + height}, ui.colours.panel_header);
+  const ImU32 ink = hovered ? ui.colours.text : ui.colours.text_dim;
+  const ImVec2 c{at.x + ui.px(4), at.y + 0.5f * height};
+  const float r = ui.px(4);
+  if (open) draw.AddTriangleFilled({c.x - r, c.y - 0.6f * r}, {c.x + r, c.y - 0.6f * r}, {c.x, c.y + 0.7f * r}, ink);
+  else draw.AddTriangleFilled({c.x - 0.6f * r, c.y - r}, {c.x - 0.6f * r, c.y + r}, {c.x + 0.7f * r, c.y}, ink);
+  ImFont* font = ui.fonts.strong;
+  draw.AddText(font, font->FontSize, {at.x + ui.px(15), at.y + 0.5f * (height - font->FontSize) - ui.px(1)}, ui.colours.text, title);
+  return open;
+}
+
+bool thin_slider(const UiContext& ui, std::string_view path, float width, double& share) {
+  const float height = ImGui::GetFrameHeight();
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  ImGui::InvisibleButton(id_of(path).c_str(), {std::max(4.0f, width), height});
+  ui.items.note_last(path);
+  const float r = ui.px(5);
+  const float from = at.x + r, to = at.x + width - r;
+  bool changed = false;
+  if (ImGui::IsItemActive() && to > from) {
+    const double now = std::clamp(static_cast<double>((ImGui::GetIO().MousePos.x - from) / (to - from)), 0.0, 1.0);
+    changed = now != share;
+    share = now;
+  }
+  const bool lit = ImGui::IsItemHovered() || ImGui::IsItemActive();
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const float y = std::round(at.y + 0.5f * height);
+  const float x = from + static_cast<float>(std::clamp(share, 0.0, 1.0)) * (to - from);
+  const float half = ui.px(1.5f);
+  draw.AddRectFilled({from, y - half}, {to, y + half}, ui.colours.border, half);
+  draw.AddRectFilled({from, y - half}, {x, y + half}, ui.colours.accent, half);
+  draw.AddCircleFilled({x, y}, lit ? r : 0.85f * r, lit ? ui.colours.accent : ui.colours.text_dim, 20);
+  return changed;
+}
+
+std::optional<std::string> number_box(const UiContext& ui, std::string_view path, float width, const std::string& text) {
+  std::string edited = text;
+  ImGui::SetNextItemWidth(width);
+  ImGui::PushFont(ui.fonts.number);
+  ImGui::InputText(id_of(path).c_str(), &edited, ImGuiInputTextFlags_AutoSelectAll);
+  ImGui::PopFont();
+  ui.items.note_last(path);
+  const ImGuiID id = ImGui::GetItemID();
+  Typing& state = ui.typing;
+  std::optional<std::string> result;
+  if (ImGui::IsItemActivated()) state = {id, text, text};
+  if (ImGui::IsItemActive() && state.id == id) {
+    state.text = edited;
+  } else if (ImGui::IsItemDeactivated() && state.id == id) {
+    // On Enter this frame's text is the newest; when another widget took the focus, ours is.
+    if (edited != text) state.text = edited;
+    const bool escaped = ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false);
+    if (!escaped && state.text != state.shown) result = state.text;
+    state = {};
+  }
+  return result;
+}
+
+bool icon_button(const UiContext& ui, std::string_view path, Icon icon, const char* tip, bool on, bool enabled) {
+  const float side = ImGui::GetFrameHeight();
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float width = icon == Icon::reset || icon == Icon::cross ? 0.8f * side : 1.25f * side;
+  const bool pressed = ImGui::InvisibleButton(id_of(path).c_str(), {width, side}) && enabled;
+  ui.items.note_last(path);
+  const bool hovered = ImGui::IsItemHovered() && enabled;
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const bool plain = icon == Icon::reset || icon == Icon::cross;
+  if (on || hovered || !plain) {
+    const ImU32 fill = on ? ui.colours.accent_soft : ImGui::GetColorU32(hovered ? ImGuiCol_ButtonHovered : ImGuiCol_Button);
+    if (!plain || hovered) draw.AddRectFilled(at, {at.x + width, at.y + side}, fill, ui.px(3));
+  }
+  const ImU32 ink = !enabled ? ui.colours.text_faint : on ? ui.colours.accent : hovered ? ui.colours.text : ui.colours.text_dim;
+  draw_icon(draw, icon, {at.x + 0.5f * width, at.y + 0.5f * side}, plain ? ui.px(5.5f) : ui.px(6.5f), ink);
+  tooltip(ui, tip);
+  return pressed;
+}
+
+bool text_button(const UiContext& ui, std::string_view path, const char* text, const char* tip) {
+  const bool pressed = ImGui::Button((std::string(text) + id_of(path)).c_str());
+  ui.items.note_last(path);
+  tooltip(ui, tip);
+  return pressed;
+}
+
+bool toggle_button(const UiContext& ui, std::string_view path, const char* text, bool& on, const char* tip) {
+  const bool was = on;
+  if (was) {
+    ImGui::PushStyleColor(ImGuiCol_Button, ui.colours.accent_soft);
+    ImGui::PushStyleColor(ImGuiCol_ButtonHovered, ui.colours.accent_soft);
+  }
+  const bool pressed = text_button(ui, path, text, tip);
+  if (was) ImGui::PopStyleColor(2);
+  if (pressed) on = !on;
+  return pressed;
+}
+
+bool choice_row(const UiContext& ui, std::string_view path, float width, std::span<const std::string_view> choices,
+                int& chosen) {
+  bool changed = false;
+  const std::string current(choices[static_cast<std::size_t>(std::clamp(chosen, 0, static_cast<int>(choices.size()) - 1))]);
+  ImGui::SetNextItemWidth(width);
+  const bool open = ImGui::BeginCombo(id_of(path).c_str(), current.c_str());
+  ui.items.note_last(path);
+  if (open) {
+    for (int i = 0; i < static_cast<int>(choices.size()); ++i) {
+      const std::string name(choices[static_cast<std::size_t>(i)]);
+      if (ImGui::Selectable(name.c_str(), i == chosen) && i != chosen) {
+        chosen = i;
+        changed = true;
+      }
+      ui.items.note_last(std::string(path) + "/" + name);
+    }
+    ImGui::EndCombo();
+  }
+  return changed;
+}
+
+void fact(const UiContext& ui, const char* label, const std::string& value, const char* unit, std::optional<ImU32> ink) {
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float width = ImGui::GetContentRegionAvail().x;
+  ImFont* number = ui.fonts.number;
+  ImFont* text = ui.fonts.text;
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const float unit_width = unit[0] != '\0' ? ui.px(40) : 0.0f;
+  const float w = number->CalcTextSizeA(number->FontSize, 1e9f, 0.0f, value.c_str()).x;
+  draw.AddText(text, text->FontSize, at, ui.colours.text_dim, label);
+  draw.AddText(number, number->FontSize, {at.x + width - unit_width - w, at.y + ui.px(1)}, ink.value_or(ui.colours.text), value.c_str());
+  if (unit_width > 0.0f) draw.AddText(text, text->FontSize, {at.x + width - unit_width + ui.px(4), at.y}, ui.colours.text_dim, unit);
+  ImGui::Dummy({width, text->FontSize + ui.px(3)});
+}
+
+void tooltip(const UiContext& ui, std::string_view text) {
+  if (text.empty() || !ImGui::IsItemHovered() || GImGui->HoveredIdTimer < 0.35f) return;
+  ImGui::BeginTooltip();
+  ImGui::PushTextWrapPos(ui.px(320));
+  ImGui::TextUnformatted(text.data(), text.data() + text.size());
+  ImGui::PopTextWrapPos();
+  ImGui::EndTooltip();
+}
+
+std::string format(const char* pattern, ...) {
+  char text[256];
+  va_list arguments;
+  va_start(arguments, pattern);
+  std::vsnprintf(text, sizeof text, pattern, arguments);
+  va_end(arguments);
+  return text;
+}
+
+std::string short_number(double value) { return format("%.6g", value); }
+
+std::string short_count(double value) {
+  if (value < 1e4) return format("%.0f", value);
+  if (value < 1e6) return format("%.1f k", value / 1e3);
+  return format("%.2f M", value / 1e6);
+}
+
+}  // namespace tangent

@@ -1,0 +1,49 @@
+// The few widgets of our own: a thin slider, a number box that takes its value on Enter or when it loses
+// the focus, section headings, rows of facts, drawn icons. Each notes itself in the item map.
+#pragma once
+
+#include "workbench/gui/ui_context.h"
+
+#include <span>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace tangent {
+
+/// A section's title bar; click folds it. Returns whether the contents are to be drawn.
+bool section(const UiContext& ui, const char* title, bool& open);
+
+/// 0..1 on a groove, `width` wide. True while dragged to another place.
+bool thin_slider(const UiContext& ui, std::string_view path, float width, double& share);
+
+/// Shows `text` (a formatted number). Returns what was typed, once, on Enter, Tab or a click elsewhere;
+/// nothing on Escape or when it wasn't changed.
+std::optional<std::string> number_box(const UiContext& ui, std::string_view path, float width, const std::string& text);
+
+enum class Icon { first, step_back, pause, play, step_forward, live, previous, next, reset, cross, folder, save };
+/// A square button with a drawn icon; `on` tints it with the accent.
+bool icon_button(const UiContext& ui, std::string_view path, Icon icon, const char* tooltip, bool on = false,
+                 bool enabled = true);
+/// A text button that stays pressed.
+bool toggle_button(const UiContext& ui, std::string_view path, const char* text, bool& on, const char* tooltip);
+bool text_button(const UiContext& ui, std::string_view path, const char* text, const char* tooltip);
+/// Choices side by side, the chosen one tinted; wraps into a combo box when there is no room.
+bool choice_row(const UiContext& ui, std::string_view path, float width, std::span<const std::string_view> choices,
+                int& chosen);
+
+/// "label ........ value unit": label dim, value in the number font, right-aligned.
+void fact(const UiContext& ui, const char* label, const std::string& value, const char* unit = "",
+          std::optional<ImU32> ink = std::nullopt);
+
+/// Shown when the last item is hovered for a moment; wrapped at a readable width.
+void tooltip(const UiContext& ui, std::string_view text);
+
+/// printf into a string.
+std::string format(const char* pattern, ...) __attribute__((format(printf, 1, 2)));
+/// Six significant digits, no trailing zeros: "0.02", "1e-06", "1234.5".
+std::string short_number(double value);
+/// "1.25", "0.4 k", "12 M": counts for people.
+std::string short_count(double value);
+
+}  // namespace tangent
