@@ -1,0 +1,18 @@
+// The scene that is there without any file: a sphere of 320 triangles and a finger that slides over it.
+#pragma once
+
+#include "core/step.h"
+
+#include <memory>
+#include <vector>
+
+namespace tangent {
+
+/// Icosphere of radius 40 mm, 320 triangles.
+Result<std::shared_ptr<const ContactScene>> builtin_scene();
+
+/// Poses of a sphere finger of `radius_m`, 1 ms apart, pressed 1 mm deep, moving at 0.1 m/s on a path that
+/// spirals over the whole sphere.
+std::vector<TickInput> builtin_poses(double radius_m, int count);
+
+}  // namespace tangent

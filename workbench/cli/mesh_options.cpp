@@ -1,0 +1,49 @@
+#include "workbench/cli/mesh_options.h"
+
+#include "core/mesh/mesh_io.h"
+#include "workbench/cli/number_option.h"
+
+#include <array>
+
+namespace tangent {
+namespace {
+
+constexpr std::array<std::string_view, 4> kUnits{"mm", "cm", "m", "in"};
+constexpr std::array<double, 4> kMetresPerUnit{1e-3, 1e-2, 1.0, 0.0254};
+constexpr std::array<std::string_view, 3> kNormals{"auto", "file", "computed"};  // order of NormalSource
+
+}  // namespace
+
+void add_unit_option(CLI::App& app, double& metres_per_unit, const std::string& doc) {
+  add_choice_option(app, "--unit", kUnits, doc, [&](int unit) {
+    metres_per_unit = kMetresPerUnit[static_cast<std::size_t>(unit)];
+  });
+}
+
+void add_mesh_options(CLI::App& app, MeshOptions& options, bool mesh_required) {
+  app.add_option("MESH", options.file, "Mesh file: .obj, .ply, .stl or .off")->required(mesh_required)->type_name("");
+  add_unit_option(app, options.metres_per_unit, "Unit of the file's coordinates (default mm)");
+  add_number_option(app, "--fit-mm", {.min = 1e-3, .max = 1e9, .unit = "mm"},
+                    "Bounding-box centre to the origin, longest side to this (default: as in the file)",
+                    [&](double value) { options.build.fit_m = value / 1e3; });
+  add_choice_option(app, "--normals", kNormals,
+                    "Vertex normals: from the file, computed, or auto: from the file if every corner has one",
+                    [&](int source) { options.build.normals = static_cast<NormalSource>(source); });
+  add_number_option(app, "--crease-deg", {.min = 0.0, .max = 180.0, .unit = "deg"},
+                    "Edges whose dihedral angle exceeds this are creases; 180: none (default 45)",
+                    [&](double value) { options.build.crease_rad = value * kDegree; });
+}
+
+Result<LoadedMesh> load_mesh(const MeshOptions& options) {
+  Result<PolygonMesh> source = read_mesh(options.file, options.metres_per_unit);
+  if (!source) return tl::unexpected(source.error());
+  Result<ContactMesh> mesh = ContactMesh::build(*source, options.build);
+  if (!mesh) {
+    Error error = mesh.error();
+    if (error.where.empty()) error.where = options.file.string();
+    return tl::unexpected(error);
+  }
+  return LoadedMesh{std::move(*source), std::move(*mesh)};
+}
+
+}  // namespace tangent

@@ -1,0 +1,33 @@
+// The mesh and how it is read: the same options in every subcommand that takes one.
+#pragma once
+
+#include "core/mesh/contact_mesh.h"
+#include "core/mesh/polygon_mesh.h"
+
+#include <CLI/CLI.hpp>
+
+#include <filesystem>
+
+namespace tangent {
+
+struct MeshOptions {
+  std::filesystem::path file;
+  double metres_per_unit = kMillimetre;
+  ContactMeshOptions build;
+};
+
+/// MESH (a positional argument), --unit, --fit-mm, --normals, --crease-deg. `options` must outlive the parser.
+void add_mesh_options(CLI::App& app, MeshOptions& options, bool mesh_required = true);
+
+/// Option `--unit mm|cm|m|in` alone.
+void add_unit_option(CLI::App& app, double& metres_per_unit, const std::string& doc);
+
+struct LoadedMesh {
+  PolygonMesh source;  ///< as the file holds it
+  ContactMesh mesh;
+};
+
+/// Reads and builds. Fails with the reader's or the builder's message.
+Result<LoadedMesh> load_mesh(const MeshOptions& options);
+
+}  // namespace tangent

@@ -1,0 +1,171 @@
+// workbench solve: every pose of a file, one tick each, into ticks.csv.
+#include "core/base/atomic_file.h"
+#include "workbench/cli/command.h"
+#include "workbench/cli/interrupt.h"
+#include "workbench/cli/mesh_options.h"
+#include "workbench/cli/messages.h"
+#include "workbench/cli/preset_options.h"
+#include "workbench/cli/progress.h"
+#include "workbench/cli/solve_report.h"
+#include "workbench/cli/stopwatch.h"
+#include "workbench/session/pose_file.h"
+#include "workbench/session/ticks_file.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cstdio>
+#include <memory>
+#include <optional>
+
+namespace tangent {
+namespace {
+
+struct SolveOptions {
+  MeshOptions mesh;
+  PresetOptions preset;
+  std::filesystem::path poses, ticks, summary, iterations;
+};
+
+/// The files of a run, under way.
+struct SolveOutputs {
+  TicksFile ticks;
+  std::optional<IterationsFile> iterations;
+};
+
+/// Fails at once, rather than after the work, where a file can't be written.
+Status probe_outputs(const SolveOptions& options) {
+  for (const std::filesystem::path& path : {options.ticks, options.summary, options.iterations}) {
+    std::error_code error;
+    const auto status = std::filesystem::status(path, error);
+    // Opening a pipe to try it would look like the end of the data to its reader.
+    if (path.empty() || std::filesystem::is_fifo(status)) continue;
+    if (const Result<AtomicFile> file = AtomicFile::create(path); !file) return tl::unexpected(file.error());
+  }
+  return {};
+}
+
+Result<SolveOutputs> create_outputs(const SolveOptions& options) {
+  Result<TicksFile> ticks = TicksFile::create(options.ticks);
+  if (!ticks) return tl::unexpected(ticks.error());
+  SolveOutputs outputs{std::move(*ticks), std::nullopt};
+  if (options.iterations.empty()) return outputs;
+  Result<IterationsFile> iterations = IterationsFile::create(options.iterations);
+  if (!iterations) return tl::unexpected(iterations.error());
+  outputs.iterations.emplace(std::move(*iterations));
+  return outputs;
+}
+
+/// Steps the poses in turn until they end or Ctrl-C.
+Status step_all(Stepper& stepper, const std::vector<TickInput>& poses, SolveOutputs& outputs, SolveReport& report) {
+  const InterruptGuard interrupt;
+  Progress progress("ticks", poses.size());
+  // Large, so not on the stack.
+  const auto trace = outputs.iterations ? std::make_unique<IterationTrace>() : nullptr;
+  TickState state;
+  TickRow row;
+  report.statistics.reserve(poses.size());
+  for (const TickInput& input : poses) {
+    if (InterruptGuard::requested()) {
+      report.interrupted = true;
+      break;
+    }
+    if (trace) trace->clear();
+    const Stopwatch watch;
+    row.output = stepper.step(report.preset.preset, input, state, trace.get());
+    row.solve_ns = watch.nanoseconds();
+    row.t_s = input.t_s;
+    if (Status status = outputs.ticks.append(row); !status) return status;
+    if (trace) {
+      if (Status status = outputs.iterations->append(row.tick, *trace); !status) return status;
+    }
+    report.statistics.add(row.output, row.solve_ns);
+    progress.update(++row.tick);
+  }
+  return {};
+}
+
+Status commit(SolveOutputs& outputs, const SolveOptions& options, const SolveReport& report) {
+  if (Status status = outputs.ticks.commit(); !status) return status;
+  if (outputs.iterations) {
+    if (Status status = outputs.iterations->commit(); !status) return status;
+  }
+  if (options.summary.empty()) return {};
+  return write_file_atomic(options.summary, solve_json(report).dump(2) + "\n");
+}
+
+Status solve(const SolveOptions& options, bool& interrupted) {
+  SolveReport report;
+  const Stopwatch loading;
+  Result<PresetFile> preset = load_preset(options.preset);
+  if (!preset) return tl::unexpected(preset.error());
+  if (Status status = probe_outputs(options); !status) return status;
+  const Result<std::vector<TickInput>> poses = read_poses(options.poses);
+  if (!poses) return tl::unexpected(poses.error());
+  Result<LoadedMesh> loaded = load_mesh(options.mesh);
+  if (!loaded) return tl::unexpected(loaded.error());
+  Result<std::shared_ptr<const ContactScene>> scene = ContactScene::build(std::move(loaded->mesh));
+  if (!scene) return tl::unexpected(scene.error());
+  report.load_seconds = loading.seconds();
+
+  report.mesh = &(*scene)->mesh();
+  report.preset = std::move(*preset);
+  report.preset_name = options.preset.file.empty() ? "built-in values" : options.preset.file.string();
+  report.poses_name = options.poses.string();
+  report.poses = poses->size();
+  const Stopwatch solving;
+  Stepper stepper(*scene);
+  Result<SolveOutputs> outputs = create_outputs(options);
+  if (!outputs) return tl::unexpected(outputs.error());
+  if (Status status = step_all(stepper, *poses, *outputs, report); !status) return status;
+  interrupted = report.interrupted;
+  report.solve_seconds = solving.seconds();
+  if (Status status = commit(*outputs, options, report); !status) return status;
+  std::fputs(solve_text(report).c_str(), stdout);
+  if (interrupted) {
+    print_message("solve", "interrupted after " + std::to_string(report.statistics.ticks()) + " of " +
+                               std::to_string(report.poses) + " poses; " + options.ticks.string() + " holds those");
+  }
+  return {};
+}
+
+/// Two outputs in one file, or an output over an input, would lose data.
+void refuse_shared_paths(const SolveOptions& options) {
+  const std::pair<const char*, const std::filesystem::path*> files[]{
+    {"MESH", &options.mesh.file}, {"--poses", &options.poses},     {"--preset", &options.preset.file},
+    {"--out", &options.ticks},    {"--summary", &options.summary}, {"--iterations", &options.iterations}};
+  constexpr std::size_t kInputs = 3;
+  for (std::size_t i = kInputs; i < std::size(files); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (files[i].second->empty() || files[j].second->empty()) continue;
+      std::error_code error;
+      const bool same = *files[i].second == *files[j].second ||
+                        (std::filesystem::is_regular_file(*files[i].second, error) &&
+                         std::filesystem::equivalent(*files[i].second, *files[j].second, error));
+      if (same) throw CLI::ValidationError(files[i].first, std::string("names the same file as ") + files[j].first);
+    }
+  }
+}
+
+}  // namespace
+
+void add_solve_command(CLI::App& app, CommandResult& result) {
+  CLI::App* command = app.add_subcommand("solve", "Solve every pose of a file on a mesh: one line a tick");
+  auto options = std::make_shared<SolveOptions>();
+  add_mesh_options(*command, options->mesh);
+  command->add_option("--poses", options->poses, "Finger poses: t_s,x_m,y_m,z_m[,qw,qx,qy,qz]")
+      ->required()->type_name("F.csv");
+  command->add_option("--out", options->ticks, "Ticks: contact, force, display, iterations, time")
+      ->required()->type_name("F.csv");
+  command->add_option("--summary", options->summary, "Counts and percentiles of the run")->type_name("F.json");
+  command->add_option("--iterations", options->iterations, "Every tangent plane of every tick")->type_name("F.csv");
+  add_preset_options(*command, options->preset);
+  command->callback([options, &result] {
+    refuse_shared_paths(*options);
+    bool interrupted = false;
+    const Status status = solve(*options, interrupted);
+    if (!status) print_message("solve", status.error().message());
+    result.exit_code = status && !interrupted ? kDone : kFailed;
+  });
+}
+
+}  // namespace tangent

@@ -1,0 +1,110 @@
+#include "workbench/cli/solve_report.h"
+
+#include "workbench/cli/mesh_text.h"
+#include "workbench/cli/text_format.h"
+#include "workbench/session/preset_schema.h"
+
+#include <nlohmann/json.hpp>
+
+namespace tangent {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json to_json(const Distribution& d) {
+  return {{"count", d.count}, {"mean", d.mean}, {"p50", d.p50}, {"p99", d.p99}, {"p99_9", d.p999}, {"max", d.max}};
+}
+
+Json to_json(const Preset& preset) {
+  Json out;
+  for (const PresetKey& key : preset_keys()) {
+    Json& slot = out[std::string(key.table)][std::string(key.key)];
+    const double value = key.get(preset);
+    if (key.kind == KeyKind::choice) slot = key.value_text(value);
+    else if (key.kind == KeyKind::integer) slot = static_cast<int>(value);
+    else slot = value;
+  }
+  return out;
+}
+
+template <class Names>
+Json counts_json(const SolveStatistics& statistics, const Names& names) {
+  Json out;
+  for (const auto name : names) out[to_string(name)] = statistics.count(name);
+  return out;
+}
+
+template <class Names>
+std::string counts_text(const SolveStatistics& statistics, const Names& names) {
+  std::string text;
+  for (const auto name : names) {
+    if (statistics.count(name) == 0) continue;
+    text += std::string(text.empty() ? "" : ", ") + to_string(name) + " " + std::to_string(statistics.count(name));
+  }
+  return text;
+}
+
+std::string iterations_text(const Distribution& d) {
+  return format("mean %.3f  p50 %.0f  p99 %.0f  p99.9 %.0f  max %.0f", d.mean, d.p50, d.p99, d.p999, d.max);
+}
+
+std::string finger_text(const Finger& finger) {
+  switch (finger.shape) {
+    case FingerShape::point: return "point finger";
+    case FingerShape::sphere: return format("sphere finger of %g mm", finger.radius_m * 1e3);
+    case FingerShape::ellipsoid:
+      return format("ellipsoid finger of %g, %g, %g mm", finger.semi_axes_m.x * 1e3, finger.semi_axes_m.y * 1e3,
+                    finger.semi_axes_m.z * 1e3);
+    case FingerShape::capsule:
+      return format("capsule finger of %g mm, half length %g mm", finger.radius_m * 1e3, finger.half_length_m * 1e3);
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string solve_text(const SolveReport& report) {
+  const SolveStatistics& s = report.statistics;
+  const ContactMesh& mesh = *report.mesh;
+  const Preset& preset = report.preset.preset;
+  const Distribution ns = s.solve_ns();
+  std::string text = format("%llu ticks on %s (%u triangles), %s, method %s%s\n", (unsigned long long)s.ticks(),
+                            mesh.name().c_str(), mesh.usable_triangle_count(), finger_text(preset.finger).c_str(),
+                            to_string(preset.solver.method), report.interrupted ? ", interrupted" : "");
+  text += "  status      " + counts_text(s, kTickStatuses) + "\n";
+  text += "  events      " + counts_text(s, kTickEvents) + "\n";
+  text += "  iterations  " + iterations_text(s.iterations()) + "\n";
+  text += "    no event  " + iterations_text(s.event_free_iterations()) + "\n";
+  text += format("  error       max %.4g um of converged ticks (tolerance %g um)\n", s.max_error_m() * 1e6,
+                 preset.solver.tolerance_m * 1e6);
+  text += format("  tick time   p50 %.2f us  p99 %.2f us  p99.9 %.2f us  max %.2f us\n", ns.p50 * 1e-3, ns.p99 * 1e-3,
+                 ns.p999 * 1e-3, ns.max * 1e-3);
+  text += format("  seconds     loading %.3f, solving %.3f\n", report.load_seconds, report.solve_seconds);
+  const std::string defects = defects_text(mesh);
+  if (!defects.empty()) text += "mesh: found and dealt with (numbers of the first)\n" + defects;
+  for (const std::string& note : mesh.notes()) text += "note: " + note + "\n";
+  return text;
+}
+
+Json solve_json(const SolveReport& report) {
+  const SolveStatistics& s = report.statistics;
+  const ContactMesh& mesh = *report.mesh;
+  return {
+    {"program_version", TANGENT_VERSION},
+    {"mesh", {{"name", mesh.name()}, {"hash", hash_text(mesh.content_hash())},
+              {"triangles", mesh.triangle_count()}, {"usable_triangles", mesh.usable_triangle_count()},
+              {"defects", defects_json(mesh)}, {"notes", mesh.notes()}}},
+    {"poses", {{"name", report.poses_name}, {"count", report.poses}}},
+    {"preset", {{"name", report.preset_name}, {"values", to_json(report.preset.preset)}}},
+    {"interrupted", report.interrupted},
+    {"ticks", s.ticks()},
+    {"statuses", counts_json(s, kTickStatuses)},
+    {"events", counts_json(s, kTickEvents)},
+    {"iterations", {{"all", to_json(s.iterations())}, {"event_free", to_json(s.event_free_iterations())}}},
+    {"max_error_m", s.max_error_m()},
+    {"solve_ns", to_json(s.solve_ns())},
+    {"seconds", {{"load", report.load_seconds}, {"solve", report.solve_seconds}}},
+  };
+}
+
+}  // namespace tangent

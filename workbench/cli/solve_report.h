@@ -1,0 +1,31 @@
+// The outcome of a solve, for people and for programs.
+#pragma once
+
+#include "core/mesh/contact_mesh.h"
+#include "workbench/cli/solve_statistics.h"
+#include "workbench/session/preset_file.h"
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <string>
+
+namespace tangent {
+
+struct SolveReport {
+  const ContactMesh* mesh = nullptr;
+  PresetFile preset;
+  std::string preset_name;          ///< file, or "built-in values"
+  std::string poses_name;
+  std::uint64_t poses = 0;
+  bool interrupted = false;
+  double load_seconds = 0.0;        ///< poses, mesh, query structure
+  double solve_seconds = 0.0;       ///< ticks and their output
+  SolveStatistics statistics;
+};
+
+/// A dozen lines for a terminal.
+std::string solve_text(const SolveReport& report);
+/// The layout is part of the program's contract (README, "Files").
+nlohmann::ordered_json solve_json(const SolveReport& report);
+
+}  // namespace tangent

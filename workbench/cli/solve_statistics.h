@@ -1,0 +1,46 @@
+// What a run of ticks amounts to: counts, iterations, error and time, as percentiles.
+#pragma once
+
+#include "core/step.h"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace tangent {
+
+/// Percentiles are nearest-rank: values that did occur.
+struct Distribution {
+  std::uint64_t count = 0;
+  double mean = 0.0, p50 = 0.0, p99 = 0.0, p999 = 0.0, max = 0.0;
+};
+Distribution distribution(std::vector<double> values);
+
+inline constexpr std::array kTickStatuses{TickStatus::free, TickStatus::face, TickStatus::edge, TickStatus::vertex,
+                                          TickStatus::unconverged};
+inline constexpr std::array kTickEvents{TickEvent::none, TickEvent::first, TickEvent::reseed, TickEvent::switched,
+                                        TickEvent::branch};
+
+class SolveStatistics {
+ public:
+  void reserve(std::size_t ticks);
+  void add(const TickOutput& output, double solve_ns);
+
+  std::uint64_t ticks() const { return iterations_.size(); }
+  std::uint64_t count(TickStatus status) const { return statuses_[static_cast<std::size_t>(status)]; }
+  std::uint64_t count(TickEvent event) const { return events_[static_cast<std::size_t>(event)]; }
+  double max_error_m() const { return max_error_m_; }  ///< of the converged ticks
+  Distribution iterations() const { return distribution(iterations_); }
+  /// Of the ticks whose event is `none`: tracking alone.
+  Distribution event_free_iterations() const { return distribution(event_free_iterations_); }
+  Distribution solve_ns() const { return distribution(solve_ns_); }
+
+ private:
+  std::array<std::uint64_t, kTickStatuses.size()> statuses_{};
+  std::array<std::uint64_t, kTickEvents.size()> events_{};
+  std::vector<double> iterations_, event_free_iterations_, solve_ns_;
+  double max_error_m_ = 0.0;
+};
+
+}  // namespace tangent
