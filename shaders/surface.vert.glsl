@@ -5,6 +5,7 @@ layout(location = 1) in vec4 normal;
 layout(location = 2) in vec2 patch_weights;
 uniform mat4 model_view;
 uniform mat4 projection;
+uniform float toward_eye;  // share of the distance: where surface and facets coincide, the surface shows
 out vec3 normal_eye;
 out vec3 from_eye;
 out vec2 weights;
@@ -14,5 +15,5 @@ void main() {
   normal_eye = mat3(model_view) * normal.xyz;
   from_eye = eye.xyz;
   weights = patch_weights;
-  gl_Position = projection * eye;
+  gl_Position = projection * vec4(eye.xyz * (1.0 - toward_eye), 1.0);
 }

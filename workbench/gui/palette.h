@@ -48,14 +48,14 @@ constexpr Palette kDarkPalette{
     .force_magnitude = rgb_hex(0xF2AE2E),
     .cld_commanded = rgb_hex(0x56B4E9), .cld_measured = rgb_hex(0xD98BB8),
     .error = rgb_hex(0xF0E442), .iterations = rgb_hex(0x7FCFA9), .tick_time = rgb_hex(0xA9B4C2),
-    .contact = rgb_hex(0xF0E442), .normal = rgb_hex(0x56B4E9), .finger = rgb_hex(0xE3B69A),
+    .contact = rgb_hex(0xF0E442), .normal = rgb_hex(0x56B4E9), .finger = rgb_hex(0xF3C6A8),
     .penetration = rgb_hex(0xE8592A), .control_net = rgb_hex(0xDE8CBB), .crease = rgb_hex(0x3FA0EA),
     .boundary = rgb_hex(0xE8703A), .selection = rgb_hex(0xF2AE2E),
-    .mesh = rgb_hex(0x9AA3AE), .mesh_wire = rgb_hex(0x1D2126), .smooth_surface = rgb_hex(0x6FB7B0),
+    .mesh = rgb_hex(0x87909B), .mesh_wire = rgb_hex(0x15181C), .smooth_surface = rgb_hex(0x5FAAA2),
     .accent = rgb_hex(0x56B4E9),
     .good = rgb_hex(0x2DB88F), .warning = rgb_hex(0xF2AE2E), .bad = rgb_hex(0xE8592A),
     .text = rgb_hex(0xE4E7EB), .text_dim = rgb_hex(0x9099A4), .panel = rgb_hex(0x1B1E23),
-    .background_top = rgb_hex(0x30363E), .background_bottom = rgb_hex(0x181B1F)};
+    .background_top = rgb_hex(0x343A43), .background_bottom = rgb_hex(0x1E2226)};
 
 constexpr Palette kLightPalette{
     .force_x = rgb_hex(0xC24F00), .force_y = rgb_hex(0x007F5C), .force_z = rgb_hex(0x0067A3),

@@ -57,7 +57,16 @@ void Camera::frame(const Box& world_box, double margin) {
   if (world_box.empty()) return;
   scene_centre = target = world_box.centre();
   scene_radius_m = std::max(0.5 * glm::length(world_box.size()), 1e-12);
-  distance_m = margin * scene_radius_m / std::sin(0.5 * fov_rad);
+  // A corner at (x, y) across and z nearer than the target is inside the opening from distance z + max(|x|, |y|)/tan.
+  const Vec3 half = 0.5 * world_box.size();
+  const double widen = margin / std::tan(0.5 * fov_rad);
+  double needed = 0.0;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3 p = half * Vec3(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
+    const double across = std::max(std::abs(glm::dot(p, right())), std::abs(glm::dot(p, up())));
+    needed = std::max(needed, widen * across - glm::dot(p, forward()));
+  }
+  distance_m = std::max(needed, 0.1 * scene_radius_m);
 }
 
 glm::dmat4 Camera::view_from(const Vec3& origin) const {

@@ -35,9 +35,9 @@ std::uint32_t net_triangle(const SketchContext& c) {
 }
 
 double patch_size(const PnPatch& patch) {
-  return std::max({glm::length(patch.points[b030] - patch.points[b300]),
-                   glm::length(patch.points[b003] - patch.points[b030]),
-                   glm::length(patch.points[b300] - patch.points[b003])});
+  return std::max({glm::length(patch.control_point(b030) - patch.control_point(b300)),
+                   glm::length(patch.control_point(b003) - patch.control_point(b030)),
+                   glm::length(patch.control_point(b300) - patch.control_point(b003))});
 }
 
 void draw_patch(Sketch& sketch, const PnPatch& patch, const Vec3& origin, Rgba colour) {
@@ -54,21 +54,26 @@ void draw_patch(Sketch& sketch, const PnPatch& patch, const Vec3& origin, Rgba c
 
 void draw_net(Sketch& sketch, const PnPatch& patch, const Vec3& origin, Rgba colour, double strength) {
   const auto line = [&](const NetLine& l, float alpha, double width) {
-    sketch.line(origin + patch.points[l.a], origin + patch.points[l.b], with_alpha(colour, alpha), width);
+    sketch.line(origin + patch.control_point(l.a), origin + patch.control_point(l.b), with_alpha(colour, alpha), width);
   };
   const float a = static_cast<float>(strength);
-  for (const NetLine& l : kInner) line(l, 0.65f * a, 1.3);
+  // A dark casing under the border: pale lines stay legible on lit facets.
+  for (const NetLine& l : kBorder) {
+    sketch.line(origin + patch.control_point(l.a), origin + patch.control_point(l.b), {0.07f, 0.08f, 0.09f, 0.55f * a}, 4.0);
+  }
+  for (const NetLine& l : kInner) line(l, 0.7f * a, 1.4);
   for (const NetLine& l : kBorder) line(l, a, 2.0);
-  for (std::size_t i = 0; i < patch.points.size(); ++i) {
-    sketch.point(origin + patch.points[i], with_alpha(colour, a), strength < 1.0 ? 4.5 : i < 3 ? 9.0 : 7.0);
+  for (std::size_t i = 0; i < patch.offsets.size(); ++i) {
+    sketch.point(origin + patch.control_point(static_cast<ControlPoint>(i)), with_alpha(colour, a), strength < 1.0 ? 4.5 : i < 3 ? 9.0 : 7.0);
   }
 }
 
 void label_net(const SketchContext& c, const PnPatch& patch, const Vec3& origin, Rgba colour,
                std::vector<SceneLabel>& labels) {
-  const Vec3 middle = c.camera.project(origin + patch.points[b111], c.width_px, c.height_px);
-  for (std::size_t i = 0; i < patch.points.size(); ++i) {
-    const Vec3 p = c.camera.project(origin + patch.points[i], c.width_px, c.height_px);
+  const Vec3 middle = c.camera.project(origin + patch.control_point(b111), c.width_px, c.height_px);
+  for (std::size_t i = 0; i < patch.offsets.size(); ++i) {
+    const Vec3 at = origin + patch.control_point(static_cast<ControlPoint>(i));
+    const Vec3 p = c.camera.project(at, c.width_px, c.height_px);
     if (p.z < 0.0 || p.z > 1.0) continue;
     const Vec2 from_middle = Vec2(p) - Vec2(middle);
     const double length = glm::length(from_middle);
@@ -103,7 +108,7 @@ void draw_control_nets(Sketch& sketch, const SketchContext& c, std::vector<Scene
     for (std::uint32_t e = 0; e < 3; ++e) {
       const std::uint32_t next = mesh.across(t, e).triangle;
       if (next == kNone || !mesh.usable(next)) continue;
-      draw_net(sketch, make_patch(mesh, next, c.form), mesh.origin(), colour, 0.45);
+      draw_net(sketch, make_patch(mesh, next, c.form), mesh.origin(), colour, 0.6);
     }
   }
   const PnPatch patch = make_patch(mesh, t, c.form);

@@ -1,14 +1,11 @@
 #include "workbench/gui/render/image.h"
 
+#include "core/base/atomic_file.h"
+
 #include <epoxy/gl.h>
 #include <stb_image_write.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
-#include <system_error>
-#include <unistd.h>
 
 namespace tangent {
 
@@ -44,20 +41,7 @@ Status write_png(const Image& image, const std::filesystem::path& path) {
   if (stbi_write_png_to_func(append, &bytes, image.width, image.height, 3, rgb.data(), 3 * image.width) == 0) {
     return fail("can't encode the picture", path.string(), "try a smaller size");
   }
-  const std::filesystem::path temporary = path.string() + ".tmp" + std::to_string(::getpid());
-  std::ofstream out(temporary, std::ios::binary);
-  if (!out) {
-    return fail(std::string("can't write: ") + std::strerror(errno), path.string(), "choose a directory you may write to");
-  }
-  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  out.close();
-  std::error_code failed;
-  if (out) std::filesystem::rename(temporary, path, failed);
-  if (out && !failed) return {};
-  std::error_code ignored;
-  std::filesystem::remove(temporary, ignored);
-  return fail("can't write: " + (failed ? failed.message() : std::string("the disk is full")), path.string(),
-              "free some space or choose another place");
+  return write_file_atomic(path, {bytes.data(), bytes.size()});
 }
 
 }  // namespace tangent

@@ -124,8 +124,10 @@ void MeshLayer::draw(const ScenePrograms& programs, const SceneFrame& frame, con
   glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   const ViewMatrices view(camera, scene_->mesh().origin(), scale_m_, width_px, height_px);
   const SceneToggles& on = frame.toggles;
-  if (on.shaded || (on.wireframe && !on.smooth_surface)) draw_facets(programs, frame, view);
-  if (on.smooth_surface) draw_surface(programs, frame, view, moving);
+  // While a dense surface moves it stands for the facets too: one pass instead of three.
+  const bool surface_alone = on.smooth_surface && moving && 3 * scene_->mesh().usable_triangle_count() > kMovingTriangles;
+  if ((on.shaded && !surface_alone) || (on.wireframe && !on.smooth_surface)) draw_facets(programs, frame, view);
+  if (on.smooth_surface) draw_surface(programs, frame, view, moving, !on.shaded || surface_alone);
   glEnable(GL_BLEND);
   glDepthMask(GL_FALSE);
   draw_strokes(programs, frame, view);
@@ -150,17 +152,17 @@ void MeshLayer::draw_facets(const ScenePrograms& programs, const SceneFrame& fra
 }
 
 void MeshLayer::draw_surface(const ScenePrograms& programs, const SceneFrame& frame, const ViewMatrices& view,
-                             bool moving) const {
+                             bool moving, bool alone) const {
   const SurfaceBuffer& buffer =
       smooth_.ready() && (!moving || smooth_.triangles() <= kMovingTriangles) ? smooth_ : stand_in_;
   const Palette& colours = palette(frame.theme);
-  const bool alone = !frame.toggles.shaded;
   programs.surface.use();
   view.apply(programs.surface);
   programs.surface.set("albedo", rgb(colours.smooth_surface));
   programs.surface.set("inside_albedo", rgb(mix(colours.smooth_surface, colours.boundary, 0.4f)));
+  programs.surface.set("toward_eye", alone ? 0.0f : 0.25f * kTowardEye);
   programs.surface.set("opacity", alone ? 1.0f : 0.5f);
-  const bool borders = alone && frame.toggles.wireframe && &buffer == &smooth_;
+  const bool borders = !frame.toggles.shaded && frame.toggles.wireframe && &buffer == &smooth_;
   programs.surface.set("wire", rgba(with_alpha(colours.mesh_wire, borders ? 0.55f : 0.0f)));
   programs.surface.set("width_px", 1.0f);
   if (!alone) {

@@ -36,7 +36,8 @@ class MeshLayer {
  private:
   void refresh_strokes(const SceneFrame& frame);
   void draw_facets(const ScenePrograms& programs, const SceneFrame& frame, const ViewMatrices& view) const;
-  void draw_surface(const ScenePrograms& programs, const SceneFrame& frame, const ViewMatrices& view, bool moving) const;
+  void draw_surface(const ScenePrograms& programs, const SceneFrame& frame, const ViewMatrices& view, bool moving,
+                    bool alone) const;
   void draw_strokes(const ScenePrograms& programs, const SceneFrame& frame, const ViewMatrices& view) const;
 
   std::shared_ptr<const ContactScene> scene_;

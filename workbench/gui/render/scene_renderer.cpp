@@ -11,12 +11,14 @@
 
 #include <algorithm>
 #include <array>
+#include <string_view>
 
 namespace tangent {
 namespace {
 
 constexpr int kFramesToRest = 3;  // the camera rests after so many calls without a change
 constexpr int kSamples = 4;
+constexpr std::uint32_t kSoftwareMultisampled = 30'000;  // triangles; more, and a software GL takes too long a frame
 
 /// All that the mesh layer's picture depends on.
 struct MeshLayerKey {
@@ -69,8 +71,13 @@ struct SceneRenderer::Impl {
   Camera last_camera;
   int calls_at_rest = 0;
   bool resting = true;
+  bool software_gl = false;
   double force_metres_per_newton = 0.0;
 
+  bool wants_multisampling(const SceneFrame& frame) const {
+    return frame.quality == RenderQuality::still || !software_gl || !mesh.scene() ||
+           mesh.scene()->mesh().usable_triangle_count() <= kSoftwareMultisampled;
+  }
   void build_sketch(const SceneFrame& frame, const Camera& camera, int width_px, int height_px);
 };
 
@@ -81,6 +88,9 @@ Status SceneRenderer::init() {
   if (Status loaded = impl_->programs.load(); !loaded) return loaded;
   impl_->mesh.create();
   impl_->sketch_layer.create();
+  const auto* driver = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+  const std::string_view name = driver != nullptr ? driver : "";
+  impl_->software_gl = name.find("llvmpipe") != name.npos || name.find("softpipe") != name.npos;
   return {};
 }
 
@@ -116,9 +126,10 @@ bool SceneRenderer::render(const SceneFrame& frame, const Camera& camera, int wi
   m.resting = frame.quality == RenderQuality::still || m.calls_at_rest >= kFramesToRest;
   const MeshLayerKey key{camera,    frame.toggles, frame.theme,        width_px,
                          height_px, !m.resting,    m.mesh.version(), m.programs.version};
+  const int samples = !m.resting ? 0 : m.wants_multisampling(frame) ? kSamples : 0;
   RenderTarget& target = m.resting ? m.resting_target : m.moving_target;
   // A driver that can't multisample this size still gives a picture.
-  if (!target.resize(width_px, height_px, m.resting ? kSamples : 0) && !target.resize(width_px, height_px, 0)) {
+  if (!target.resize(width_px, height_px, samples) && !target.resize(width_px, height_px, 0)) {
     return false;
   }
   if (!m.picture.resize(width_px, height_px, 0)) return false;

@@ -63,8 +63,8 @@ void draw_finger(Sketch& sketch, const SketchContext& c) {
   if (!is_finite(pose.position)) return;
   const Rgba colour = palette(c.frame.theme).finger;
   const double radius = finger.radius_m;
-  const Rgba glass = with_alpha(colour, 0.16f);
-  constexpr double kRim = 0.82;
+  const Rgba glass = with_alpha(colour, 0.20f);
+  constexpr double kRim = 0.9;
   switch (finger.shape) {
     case FingerShape::point: sketch.point(pose.position, colour, 10.0); break;
     case FingerShape::sphere:
@@ -113,7 +113,7 @@ void draw_force(Sketch& sketch, const SketchContext& c, std::vector<SceneLabel>&
   if (!(force > 0.0) || !std::isfinite(force)) return;
   const Rgba colour = palette(c.frame.theme).force_magnitude;
   const Vec3 tip = output.contact + c.force_metres_per_newton * output.force_n;
-  sketch.arrow(output.contact, tip, 0.045 * gizmo_length_m(c.frame, c.camera), colour);
+  sketch.arrow(output.contact, tip, 0.036 * gizmo_length_m(c.frame, c.camera), colour);
   const Vec3 p = c.camera.project(tip, c.width_px, c.height_px);
   char text[32];
   std::snprintf(text, sizeof text, "%.2f N", force);
@@ -123,17 +123,23 @@ void draw_force(Sketch& sketch, const SketchContext& c, std::vector<SceneLabel>&
 void draw_iterations(Sketch& sketch, const SketchContext& c, std::vector<SceneLabel>& labels) {
   const auto trace = c.frame.trace;
   if (!c.frame.toggles.planes || trace.empty()) return;
-  const double radius = 0.75 * gizmo_length_m(c.frame, c.camera);
+  const double gizmo = gizmo_length_m(c.frame, c.camera);
+  Box spread;
+  for (const IterationRecord& it : trace) {
+    if (it.feature != Feature::none) spread.include(it.point);
+  }
+  // About as wide as the points are apart, so that planes overlap without burying each other.
+  const double radius = std::clamp(glm::length(spread.size()), 0.35 * gizmo, 0.75 * gizmo);
   const auto selected = c.frame.selected_iteration;
-  // A run of fifty planes would be a solid block: thinner fills the more there are.
-  const float fill = std::max(0.04f, 0.30f / std::sqrt(static_cast<float>(trace.size())));
+  // All planes on top of each other cover 45 %, however many they are.
+  const float fill = 1.0f - std::pow(0.55f, 1.0f / static_cast<float>(trace.size()));
   for (std::size_t i = 0; i < trace.size(); ++i) {
     const IterationRecord& it = trace[i];
     if (it.feature == Feature::none) continue;
     const Rgba colour = iteration_colour(i, trace.size());
     const bool chosen = selected == i;
     const bool dimmed = selected.has_value() && !chosen;
-    sketch.disc(it.point, it.normal, radius, with_alpha(colour, chosen ? 0.38f : dimmed ? 0.5f * fill : fill));
+    sketch.disc(it.point, it.normal, radius, with_alpha(colour, chosen ? 0.40f : dimmed ? 0.4f * fill : fill));
     sketch.ring(it.point, it.normal, radius, with_alpha(colour, dimmed ? 0.35f : 0.95f), chosen ? 2.8 : 1.5);
     if (chosen) {
       sketch.line(it.point, it.contact, colour, 2.0);

@@ -1,0 +1,48 @@
+// The window's frames without a window: a GL context with no surface (EGL surfaceless), an ImGui context
+// and a framebuffer object as the screen. For `workbench shot`, tests and machines without a display.
+#pragma once
+
+#include "core/base/result.h"
+#include "workbench/gui/render/image.h"
+
+#include <functional>
+#include <memory>
+
+namespace tangent {
+
+/// A current GL 3.3 core context without a display, one a thread. Fails when EGL or the driver can't.
+class OffscreenContext {
+ public:
+  static Result<OffscreenContext> open();
+  OffscreenContext(OffscreenContext&& other) noexcept;
+  OffscreenContext& operator=(OffscreenContext&&) = delete;
+  ~OffscreenContext();
+
+ private:
+  OffscreenContext(void* display, void* context) : display_(display), context_(context) {}
+  void* display_ = nullptr;
+  void* context_ = nullptr;
+};
+
+/// Context, ImGui and screen together. An App lives between open() and the destructor.
+class OffscreenScreen {
+ public:
+  static Result<std::unique_ptr<OffscreenScreen>> open(int width_px, int height_px);
+  ~OffscreenScreen();
+  OffscreenScreen(const OffscreenScreen&) = delete;
+  OffscreenScreen& operator=(const OffscreenScreen&) = delete;
+
+  /// After the font atlas was built anew.
+  void upload_fonts();
+  /// One frame. `build` runs where the window's does: after the back end's NewFrame; it writes injected
+  /// input, calls ImGui::NewFrame and ImGui::Render. What it drew is then on the screen.
+  void frame(const std::function<void()>& build);
+  Image picture() const;
+
+ private:
+  struct Impl;
+  explicit OffscreenScreen(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace tangent
