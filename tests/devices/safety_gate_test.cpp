@@ -1,0 +1,178 @@
+#include "devices/safety_gate.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+using namespace tangent;
+
+namespace {
+
+constexpr double kDt = 1e-3;
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+GateLimits limits() { return {.peak_force_n = 8.5, .slew_n_per_s = 2000.0, .ramp_s = 0.0, .display_travel_m = 0.02}; }
+
+GateInput ready_input(const Vec3& force, double display = 0.0) {
+  return {.force_n = force, .display_m = display, .force_device = DeviceState::ready, .display = DeviceState::ready};
+}
+
+SafetyGate armed_gate(const GateLimits& l = limits()) {
+  SafetyGate gate(l);
+  gate.arm();
+  gate.pass(ready_input(Vec3(0.0)), kDt);
+  return gate;
+}
+
+std::uint64_t count(const SafetyGate& gate, GateAction action) {
+  return gate.counts()[static_cast<std::size_t>(action)];
+}
+
+}  // namespace
+
+TEST_CASE("a force within the limits passes the armed gate unchanged") {
+  SafetyGate gate = armed_gate();
+  const Vec3 force(0.3, -0.7, 1.1);
+  const GateOutput out = gate.pass(ready_input(force, 1.25e-3), kDt);
+  CHECK(out.force_n == force);
+  CHECK(out.display_m == 1.25e-3);
+  CHECK(out.state == GateState::armed);
+  CHECK(out.actions == 0);
+}
+
+TEST_CASE("no force passes before arming, after a stop, or while the device isn't ready") {
+  SafetyGate gate(limits());
+  CHECK(gate.pass(ready_input(Vec3(1, 0, 0)), kDt).force_n == Vec3(0.0));
+  CHECK(count(gate, GateAction::withheld) == 1);
+
+  gate.arm();
+  for (const DeviceState state : {DeviceState::absent, DeviceState::open, DeviceState::homing}) {
+    GateInput input = ready_input(Vec3(1, 0, 0));
+    input.force_device = state;
+    const GateOutput out = gate.pass(input, kDt);
+    CHECK(out.force_n == Vec3(0.0));
+    CHECK(out.fault == GateFault::none);
+  }
+  CHECK(gate.pass(ready_input(Vec3(1, 0, 0)), kDt).force_n == Vec3(1, 0, 0));
+  gate.stop();
+  const GateOutput stopped = gate.pass(ready_input(Vec3(1, 0, 0)), kDt);
+  CHECK(stopped.force_n == Vec3(0.0));
+  CHECK(stopped.state == GateState::disarmed);
+}
+
+TEST_CASE("the force is clamped to the device's peak in its own direction") {
+  GateLimits wide = limits();
+  wide.slew_n_per_s = 1e9;
+  for (const Vec3 wanted : {Vec3(20, 0, 0), Vec3(-30, 40, 0), Vec3(1e200, -1e200, 1e200), Vec3(8.4, 8.4, 8.4)}) {
+    SafetyGate gate = armed_gate(wide);
+    const GateOutput out = gate.pass(ready_input(wanted), kDt);
+    CHECK(glm::length(out.force_n) == doctest::Approx(8.5).epsilon(1e-12));
+    const Vec3 direction = wanted / std::max({std::abs(wanted.x), std::abs(wanted.y), std::abs(wanted.z)});
+    CHECK(glm::length(glm::cross(out.force_n, direction)) < 1e-12);
+    CHECK(glm::dot(out.force_n, direction) > 0.0);
+    CHECK(out.did(GateAction::force_clamped));
+    CHECK(count(gate, GateAction::force_clamped) == 1);
+  }
+}
+
+TEST_CASE("the force changes no faster than the slew limit, up, down and round") {
+  SafetyGate gate = armed_gate();
+  Vec3 last(0.0);
+  int limited = 0;
+  for (const Vec3 wanted : {Vec3(8, 0, 0), Vec3(8, 0, 0), Vec3(8, 0, 0), Vec3(8, 0, 0), Vec3(8, 0, 0), Vec3(0, 8, 0),
+                            Vec3(0, 8, 0), Vec3(0, 0, 0), Vec3(-8, 0, 0)}) {
+    const GateOutput out = gate.pass(ready_input(wanted), kDt);
+    CHECK(glm::length(out.force_n - last) <= 2.0 * (1.0 + 1e-12));
+    limited += out.did(GateAction::slew_limited);
+    last = out.force_n;
+  }
+  CHECK(limited == count(gate, GateAction::slew_limited));
+  CHECK(limited == 7);  // four steps up to 8 N, of which the last needs no limit; then it turns and falls
+}
+
+TEST_CASE("after arming the force grows in linearly, and again when the ramp restarts") {
+  GateLimits slow = limits();
+  slow.ramp_s = 0.1;
+  SafetyGate gate(slow);
+  gate.arm();
+  const auto ramp = [&gate] {
+    for (int tick = 0; tick < 100; ++tick) {
+      const GateOutput out = gate.pass(ready_input(Vec3(0, 0, 1)), kDt);
+      CHECK(out.force_n.z == doctest::Approx(tick * 0.01).epsilon(1e-9));
+      CHECK(out.state == GateState::ramping);
+    }
+    gate.pass(ready_input(Vec3(0, 0, 1)), kDt);
+    const GateOutput full = gate.pass(ready_input(Vec3(0, 0, 1)), kDt);
+    CHECK(full.force_n.z == 1.0);
+    CHECK(full.state == GateState::armed);
+  };
+  ramp();
+  gate.restart_ramp();
+  ramp();
+  gate.stop();
+  gate.restart_ramp();  // is no way to arm
+  CHECK(gate.pass(ready_input(Vec3(0, 0, 1)), kDt).state == GateState::disarmed);
+}
+
+TEST_CASE("a force or target that is not finite stops the force until a person re-arms") {
+  for (const double bad : {kNan, kInfinity, -kInfinity}) {
+    for (int where = 0; where < 4; ++where) {
+      SafetyGate gate = armed_gate();
+      gate.pass(ready_input(Vec3(1, 1, 1), 2e-3), kDt);
+      GateInput input = ready_input(Vec3(1, 1, 1), 2e-3);
+      if (where < 3) input.force_n[where] = bad;
+      else input.display_m = bad;
+      const GateOutput out = gate.pass(input, kDt);
+      CHECK(out.force_n == Vec3(0.0));
+      CHECK(out.display_m == 2e-3);  // holds still
+      CHECK(out.state == GateState::faulted);
+      CHECK(out.fault == (where < 3 ? GateFault::force_not_finite : GateFault::display_not_finite));
+      CHECK(out.did(GateAction::refused_not_finite));
+
+      CHECK(gate.pass(ready_input(Vec3(1, 1, 1)), kDt).force_n == Vec3(0.0));
+      gate.stop();
+      CHECK(gate.state() == GateState::faulted);
+      gate.arm();
+      CHECK(gate.pass(ready_input(Vec3(1, 1, 1)), kDt).force_n == Vec3(1, 1, 1));
+      CHECK(gate.faults() == 1);
+    }
+  }
+}
+
+TEST_CASE("a device that leaves ready while armed latches a fault, and coming back does not clear it") {
+  for (const DeviceState left : {DeviceState::absent, DeviceState::open, DeviceState::homing, DeviceState::faulted}) {
+    for (const bool display : {false, true}) {
+      SafetyGate gate = armed_gate();
+      GateInput input = ready_input(Vec3(0, 0, 1));
+      (display ? input.display : input.force_device) = left;
+      const GateOutput out = gate.pass(input, kDt);
+      CHECK(out.force_n == Vec3(0.0));
+      CHECK(out.fault == (display ? GateFault::contact_display : GateFault::force_device));
+      CHECK(gate.pass(ready_input(Vec3(0, 0, 1)), kDt).force_n == Vec3(0.0));
+      CHECK(gate.faults() == 1);
+    }
+  }
+}
+
+TEST_CASE("a missing display is no fault") {
+  SafetyGate gate(limits());
+  gate.arm();
+  GateInput input = ready_input(Vec3(0, 0, 1), 0.5);
+  input.display = DeviceState::absent;
+  gate.pass(input, kDt);
+  const GateOutput out = gate.pass(input, kDt);
+  CHECK(out.force_n == Vec3(0, 0, 1));
+  CHECK(out.actions == 0);
+}
+
+TEST_CASE("the display's target is clamped to its travel, and holds while stopped") {
+  SafetyGate gate = armed_gate();
+  CHECK(gate.pass(ready_input(Vec3(0.0), 0.5), kDt).display_m == 0.01);
+  CHECK(gate.pass(ready_input(Vec3(0.0), -0.5), kDt).display_m == -0.01);
+  CHECK(count(gate, GateAction::display_clamped) == 2);
+  gate.stop();
+  CHECK(gate.pass(ready_input(Vec3(0.0), 0.004), kDt).display_m == -0.01);
+}
