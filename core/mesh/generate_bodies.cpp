@@ -2,6 +2,7 @@
 #include "core/mesh/generate.h"
 #include "core/mesh/generators.h"
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <numbers>

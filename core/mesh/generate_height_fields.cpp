@@ -1,6 +1,8 @@
 #include "core/mesh/generators.h"
 #include "core/mesh/mesh_assembly.h"
 
+#include <algorithm>
+
 namespace tangent {
 namespace {
 

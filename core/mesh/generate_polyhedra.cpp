@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <utility>
 
 namespace tangent {
 namespace {
@@ -54,7 +55,10 @@ ConvexPolyhedron make_prism(int sides, int turn_percent, double half_length_m) {
   body.face_normals.emplace_back(1.0, 0.0, 0.0);
   body.faces.push_back(left);
   body.face_normals.emplace_back(-1.0, 0.0, 0.0);
-  body.inradius = std::min(half_length_m, kObjectRadius * std::cos(share));
+  const double apothem = kObjectRadius * std::cos(share);
+  body.face_distances.assign(static_cast<std::size_t>(sides), apothem);
+  body.face_distances.insert(body.face_distances.end(), 2, half_length_m);
+  body.inradius = std::min(half_length_m, apothem);
   find_vertex_faces(body);
   return body;
 }
@@ -70,9 +74,10 @@ ConvexPolyhedron make_tetrahedron() {
 
   ConvexPolyhedron body;
   body.inradius = base_area * kHeight / (base_area + 3.0 * side_area);
-  const Vec3 centre(-kObjectHalfLength + body.inradius, 0.0, 0.0);
+  body.centre = Vec3(-kObjectHalfLength + body.inradius, 0.0, 0.0);
+  body.face_distances.assign(4, body.inradius);
   const auto add = [&](const Vec3& position) {
-    body.vertices.push_back({position, (position - centre) / body.inradius, {}});
+    body.vertices.push_back({position, (position - body.centre) / body.inradius, {}});
   };
   for (int k = 0; k < 3; ++k) {
     const Vec2 corner = circle_point(3 + 4 * k, 12);  // the first one on top

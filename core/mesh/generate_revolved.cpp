@@ -2,6 +2,7 @@
 #include "core/mesh/generators.h"
 #include "core/mesh/mesh_assembly.h"
 
+#include <algorithm>
 #include <cassert>
 
 namespace tangent {

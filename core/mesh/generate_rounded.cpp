@@ -68,6 +68,10 @@ class SphericalTriangle {
   int steps_;
 };
 
+/// Along a straight edge the surface doesn't turn, but triangles as long as the edge would be slivers.
+constexpr double kLongestStripAspect = 30.0;
+constexpr int kMostDivisions = 64;
+
 class RoundedBody {
  public:
   RoundedBody(const ConvexPolyhedron& body, double rounding_m, int steps)
@@ -75,8 +79,9 @@ class RoundedBody {
 
   PolygonMesh build() {
     for (std::uint32_t v = 0; v < body_.vertices.size(); ++v) add_corner_points(v);
+    find_edges();
     for (std::uint32_t f = 0; f < body_.faces.size(); ++f) add_face(f);
-    add_edges();
+    for (const auto& [ends, edge] : edges_) add_strip(edge);
     for (std::uint32_t v = 0; v < body_.vertices.size(); ++v) add_corner_triangles(v);
     return std::move(assembly_.mesh);
   }
@@ -84,69 +89,111 @@ class RoundedBody {
  private:
   using Weights = SphericalTriangle::Weights;
 
-  std::uint32_t point(std::uint32_t v, const Weights& w) const {
+  /// From vertex v to w (v < w) with face `left` on the left; across it the normal turns to that of `right`.
+  struct Edge {
+    std::uint32_t v, w, left, right;
+    int divisions;
+    std::uint32_t first_point;  ///< of those between the ends: (steps_ + 1) for each division line
+  };
+
+  Vec3 inner(std::uint32_t v) const { return body_.vertices[v].position - rounding_ * body_.vertices[v].outset; }
+
+  std::uint32_t corner_point(std::uint32_t v, const Weights& w) const {
     return v * SphericalTriangle::point_count(steps_) + SphericalTriangle::point_index(w, steps_);
   }
-  /// The point of corner v where the normal has turned `part` steps from face f to face g.
-  std::uint32_t point(std::uint32_t v, std::uint32_t f, std::uint32_t g, int part) const {
+
+  /// On division line `line` of an edge, where the normal has turned `part` steps from left to right.
+  std::uint32_t edge_point(const Edge& edge, int line, int part) const {
+    if (line != 0 && line != edge.divisions) {
+      return edge.first_point + static_cast<std::uint32_t>((line - 1) * (steps_ + 1) + part);
+    }
+    const std::uint32_t v = line == 0 ? edge.v : edge.w;
     Weights w{};
     for (std::size_t k = 0; k < 3; ++k) {
-      if (body_.vertices[v].faces[k] == f) w[k] = steps_ - part;
-      if (body_.vertices[v].faces[k] == g) w[k] = part;
+      if (body_.vertices[v].faces[k] == edge.left) w[k] = steps_ - part;
+      if (body_.vertices[v].faces[k] == edge.right) w[k] = part;
     }
-    return point(v, w);
+    return corner_point(v, w);
   }
 
   void add_corner_points(std::uint32_t v) {
-    const ConvexPolyhedron::Vertex& vertex = body_.vertices[v];
-    const Vec3 inner = vertex.position - rounding_ * vertex.outset;
+    const auto& faces = body_.vertices[v].faces;
     const auto& n = body_.face_normals;
-    const SphericalTriangle triangle({n[vertex.faces[0]], n[vertex.faces[1]], n[vertex.faces[2]]}, steps_);
+    const SphericalTriangle triangle({n[faces[0]], n[faces[1]], n[faces[2]]}, steps_);
     for (int c = 0; c <= steps_; ++c) {
       for (int b = 0; b <= steps_ - c; ++b) {
         const Vec3 normal = triangle.direction({steps_ - b - c, b, c});
-        assembly_.add_point(inner + rounding_ * normal, normal);
+        assembly_.add_point(inner(v) + rounding_ * normal, normal);
       }
     }
   }
 
-  void add_face(std::uint32_t f) {
-    for (const std::uint32_t v : body_.faces[f]) {
-      const std::uint32_t p = point(v, f, f, steps_);
-      assembly_.add_corner({p, p});
-    }
-    assembly_.close_face();
-  }
-
-  // Face f walks the edge from v to w, the face across it from w to v; the strip lies between them.
-  void add_edges() {
+  // Face f walks an edge from v to w, the face across it from w to v.
+  void find_edges() {
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> face_of;
     for (std::uint32_t f = 0; f < body_.faces.size(); ++f) {
       const auto& loop = body_.faces[f];
       for (std::size_t k = 0; k < loop.size(); ++k) face_of[{loop[k], loop[(k + 1) % loop.size()]}] = f;
     }
-    for (const auto& [edge, f] : face_of) {
-      const auto [v, w] = edge;
-      if (v < w) add_strip(v, w, f, face_of.at({w, v}));
+    for (const auto& [ends, f] : face_of) {
+      const auto [v, w] = ends;
+      if (v < w) edges_[ends] = add_edge(v, w, f, face_of.at({w, v}));
     }
   }
 
-  void add_strip(std::uint32_t v, std::uint32_t w, std::uint32_t f, std::uint32_t g) {
-    for (int part = 0; part < steps_; ++part) {
-      const std::uint32_t a = point(w, f, g, part), b = point(v, f, g, part);
-      const std::uint32_t c = point(v, f, g, part + 1), d = point(w, f, g, part + 1);
-      assembly_.add_triangle(a, b, c);
-      assembly_.add_triangle(a, c, d);
+  Edge add_edge(std::uint32_t v, std::uint32_t w, std::uint32_t left, std::uint32_t right) {
+    const Vec3 &from = body_.face_normals[left], &to = body_.face_normals[right];
+    const double row = rounding_ * glm::length(along_arc(from, to, 1, steps_) - from);
+    const double lines = glm::length(inner(w) - inner(v)) / (kLongestStripAspect * row);
+    Edge edge{v, w, left, right, static_cast<int>(std::ceil(std::min(lines, double{kMostDivisions}))), 0};
+    edge.first_point = static_cast<std::uint32_t>(assembly_.mesh.positions.size());
+    for (int line = 1; line < edge.divisions; ++line) {
+      const Vec3 centre = (double(edge.divisions - line) * inner(v) + double(line) * inner(w)) / double(edge.divisions);
+      for (int part = 0; part <= steps_; ++part) {
+        const Vec3 normal = along_arc(from, to, part, steps_);
+        assembly_.add_point(centre + rounding_ * normal, normal);
+      }
+    }
+    return edge;
+  }
+
+  /// A fan from a point inside the face to all points on its rim.
+  void add_face(std::uint32_t f) {
+    const Vec3& normal = body_.face_normals[f];
+    const std::uint32_t centre = assembly_.add_point(body_.centre + body_.face_distances[f] * normal, normal);
+    const auto& loop = body_.faces[f];
+    for (std::size_t k = 0; k < loop.size(); ++k) {
+      const std::uint32_t v = loop[k], w = loop[(k + 1) % loop.size()];
+      const Edge& edge = edges_.at({std::min(v, w), std::max(v, w)});
+      for (int line = 0; line < edge.divisions; ++line) {
+        if (v < w) {
+          assembly_.add_triangle(centre, edge_point(edge, line, 0), edge_point(edge, line + 1, 0));
+        } else {
+          const int back = edge.divisions - line;
+          assembly_.add_triangle(centre, edge_point(edge, back, steps_), edge_point(edge, back - 1, steps_));
+        }
+      }
+    }
+  }
+
+  void add_strip(const Edge& edge) {
+    for (int line = 0; line < edge.divisions; ++line) {
+      for (int part = 0; part < steps_; ++part) {
+        const std::uint32_t a = edge_point(edge, line + 1, part), b = edge_point(edge, line, part);
+        const std::uint32_t c = edge_point(edge, line, part + 1), d = edge_point(edge, line + 1, part + 1);
+        assembly_.add_triangle(a, b, c);
+        assembly_.add_triangle(a, c, d);
+      }
     }
   }
 
   void add_corner_triangles(std::uint32_t v) {
+    const auto point = [&](int a, int b, int c) { return corner_point(v, {a, b, c}); };
     for (int c = 0; c < steps_; ++c) {
       for (int b = 0; b < steps_ - c; ++b) {
         const int a = steps_ - 1 - b - c;
-        assembly_.add_triangle(point(v, {a + 1, b, c}), point(v, {a, b + 1, c}), point(v, {a, b, c + 1}));
-        if (a == 0) continue;
-        assembly_.add_triangle(point(v, {a, b + 1, c}), point(v, {a - 1, b + 1, c + 1}), point(v, {a, b, c + 1}));
+        assembly_.add_triangle(point(a + 1, b, c), point(a, b + 1, c), point(a, b, c + 1));
+        if (a > 0) assembly_.add_triangle(point(a, b + 1, c), point(a - 1, b + 1, c + 1), point(a, b, c + 1));
       }
     }
   }
@@ -155,6 +202,7 @@ class RoundedBody {
   double rounding_;
   int steps_;
   MeshAssembly assembly_;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, Edge> edges_;
 };
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include "core/mesh/polygon_mesh.h"
 
+#include <cstdint>
 #include <initializer_list>
 
 namespace tangent {

@@ -6,6 +6,7 @@
 #include "core/mesh/text_cursor.h"
 
 #include <cstddef>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
