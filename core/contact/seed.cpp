@@ -2,6 +2,7 @@
 
 #include "core/base/tolerances.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -9,12 +10,12 @@
 namespace tangent {
 namespace {
 
-TrackedPlane seed_place(const NearestHit& hit) {
+TrackedPlane face_at(std::uint32_t triangle, double u, double v) {
   TrackedPlane place;
   place.feature = Feature::face;
-  place.triangle = hit.triangle;
-  place.u = hit.u;
-  place.v = std::min(hit.v, 1.0 - hit.u);
+  place.triangle = triangle;
+  place.u = u;
+  place.v = v;
   return place;
 }
 
@@ -30,6 +31,17 @@ Rank rank(const IterationResult& r) {
   if (r.converged()) return {0, std::abs(r.contact.height_m)};
   if (r.stop == StopReason::unstable) return {1, std::abs(r.contact.height_m)};
   return {2, r.contact.error_m};
+}
+
+/// Keeps `r` if it is the best so far. True if it converged.
+bool offer(const IterationResult& r, Rank& best, SeedResult& result) {
+  result.evaluations += r.evaluations;
+  const Rank here = rank(r);
+  if (here < best) {
+    best = here;
+    result.best = r;
+  }
+  return r.converged();
 }
 
 }  // namespace
@@ -51,14 +63,11 @@ SeedResult seed_contact(IterationContext& context, const NearestTriangles& neare
     }
     context.seed = static_cast<std::uint8_t>(i + 1);
     ++result.seeds;
-    const IterationResult r = iterate(context, seed_place(hits[i]), false, nullptr,
-                                      robust ? kSeedBudget : context.settings.max_iterations);
-    result.evaluations += r.evaluations;
-    const Rank rank_here = rank(r);
-    if (rank_here < best) {
-      best = rank_here;
-      result.best = r;
-    }
+    const int budget = robust ? kSeedBudget : context.settings.max_iterations;
+    const double u = hits[i].u, v = std::min(hits[i].v, 1.0 - hits[i].u);
+    if (offer(iterate(context, face_at(hits[i].triangle, u, v), false, nullptr, budget), best, result) || !robust) continue;
+    // A folded patch can hide its contact from its closest point; its middle is a second chance.
+    offer(iterate(context, face_at(hits[i].triangle, 1.0 / 3.0, 1.0 / 3.0), false, nullptr, budget), best, result);
   }
   context.seed = 0;
   result.found = best.group == 0;

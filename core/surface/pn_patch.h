@@ -11,6 +11,7 @@
 #include "core/base/vec.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 namespace tangent {
@@ -31,7 +32,7 @@ struct PnPatch {
   std::array<Vec3, 6> normals;   ///< indexed by ControlNormal, unit
   double mixed_weight = 2.0;     ///< of n110, n011, n101
 
-  Vec3 control_point(ControlPoint b) const { return origin + offsets[b]; }
+  Vec3 control_point(std::size_t b) const { return origin + offsets[b]; }
 };
 
 /// Point, unit normal and their first derivatives along u and v, with w = 1 - u - v.
