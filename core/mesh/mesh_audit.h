@@ -18,10 +18,10 @@ struct MeshAudit {
   std::uint64_t triangles = 0, usable_triangles = 0, vertices = 0, edges = 0;
   Vec3 box_min_m{0.0}, box_max_m{0.0};   ///< world frame
   double area_m2 = 0.0;
-  std::uint64_t components = 0;          ///< connected over shared edges
+  std::uint64_t components = 0;          ///< connected over shared edges, of whatever number and turn
   std::uint64_t boundary_edges = 0, boundary_loops = 0;
   std::uint64_t non_manifold_edges = 0;  ///< position pairs shared by three triangles or more
-  std::uint64_t non_manifold_vertices = 0;  ///< positions whose triangles form more than one fan
+  std::uint64_t non_manifold_vertices = 0;  ///< positions where parts touch that share no edge there (bow ties)
   std::uint64_t inconsistent_edges = 0;  ///< shared by two triangles that turn the same way along it
   std::uint64_t crease_edges = 0;
   std::uint64_t sliver_triangles = 0;    ///< smallest height under kSliverAspect of the longest side
@@ -32,6 +32,8 @@ struct MeshAudit {
   std::vector<std::uint64_t> first_slivers, first_flipped;  ///< up to 8 triangle numbers each
 };
 
+/// Edges, boundaries, creases and vertices are counted as the solver meets them (ContactMesh); the
+/// non-manifold and inconsistent ones as the file has them. About 3 s for 5 million triangles.
 MeshAudit audit_mesh(const PolygonMesh& source, const ContactMesh& mesh);
 
 }  // namespace tangent
