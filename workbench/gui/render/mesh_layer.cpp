@@ -146,7 +146,7 @@ void MeshLayer::draw_facets(const ScenePrograms& programs, const SceneFrame& fra
   programs.facets.set("inside_albedo", rgb(inside(colours)));
   programs.facets.set("wire", rgba(frame.toggles.wireframe ? wire : with_alpha(wire, 0.0f)));
   programs.facets.set("fill", fill ? 1.0f : 0.0f);
-  programs.facets.set("width_px", 1.0f);
+  programs.facets.set("width_px", static_cast<float>(frame.pixel_scale));
   facets_.draw();
   glDisable(GL_BLEND);
 }
@@ -164,7 +164,7 @@ void MeshLayer::draw_surface(const ScenePrograms& programs, const SceneFrame& fr
   programs.surface.set("opacity", alone ? 1.0f : 0.5f);
   const bool borders = !frame.toggles.shaded && frame.toggles.wireframe && &buffer == &smooth_;
   programs.surface.set("wire", rgba(with_alpha(colours.mesh_wire, borders ? 0.55f : 0.0f)));
-  programs.surface.set("width_px", 1.0f);
+  programs.surface.set("width_px", static_cast<float>(frame.pixel_scale));
   if (!alone) {
     // Depth first, so that only the nearest sheet is blended over the facets.
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
@@ -180,7 +180,7 @@ void MeshLayer::draw_strokes(const ScenePrograms& programs, const SceneFrame& fr
   programs.strokes.use();
   view.apply(programs.strokes);
   programs.strokes.set("toward_eye", kTowardEye);
-  programs.strokes.set("width_scale", 1.0f);
+  programs.strokes.set("width_scale", static_cast<float>(frame.pixel_scale));
   programs.strokes.set("opacity", 1.0f);
   if (frame.toggles.creases) feature_strokes_.draw();
   if (frame.toggles.vertex_normals) normal_strokes_.draw();

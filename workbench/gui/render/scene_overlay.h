@@ -1,19 +1,19 @@
-// What is written on top of the 3D picture with ImGui: labels, colour bar of the iterations, CLD inset,
-// force scale, axes and scale bar. Same plain data as the renderer.
+// What is written on top of the 3D picture with ImGui: labels, colour bar of the iterations, scales of
+// length and force, axes, and the CLD inset. Same plain data as the renderer. Sizes follow the current font.
 #pragma once
 
 #include "workbench/gui/render/scene_renderer.h"
 
 struct ImDrawList;
+struct ImFont;
 struct ImVec2;
 
 namespace tangent {
 
-/// `top_left`: of the image, in ImGui points. `pixels_per_point`: the picture's pixels per ImGui point
-/// (1 when width_px equals the image's width on screen). Fonts: the current one, and `numbers` for values
-/// (a monospaced ImFont*, may be null).
+/// `top_left`: of the picture, in ImGui's coordinates. `pixels_per_point`: the picture's pixels per ImGui
+/// coordinate (1 when it is shown pixel for pixel). `numbers`: font of values, null: the current one.
 void draw_scene_overlay(ImDrawList& draw_list, const ImVec2& top_left, double pixels_per_point,
                         const SceneRenderer& renderer, const SceneFrame& frame, const Camera& camera,
-                        void* numbers = nullptr);
+                        ImFont* numbers = nullptr);
 
 }  // namespace tangent

@@ -26,6 +26,7 @@ struct MeshLayerKey {
   SceneToggles toggles;
   Theme theme = Theme::dark;
   int width_px = 0, height_px = 0;
+  double pixel_scale = 1.0;
   bool moving = false;
   std::uint64_t arrays = 0, shaders = 0;
   bool operator==(const MeshLayerKey&) const = default;
@@ -124,8 +125,8 @@ bool SceneRenderer::render(const SceneFrame& frame, const Camera& camera, int wi
   m.calls_at_rest = camera == m.last_camera ? m.calls_at_rest + 1 : 0;
   m.last_camera = camera;
   m.resting = frame.quality == RenderQuality::still || m.calls_at_rest >= kFramesToRest;
-  const MeshLayerKey key{camera,    frame.toggles, frame.theme,        width_px,
-                         height_px, !m.resting,    m.mesh.version(), m.programs.version};
+  const MeshLayerKey key{camera,      frame.toggles, frame.theme,      width_px,          height_px, frame.pixel_scale,
+                         !m.resting, m.mesh.version(), m.programs.version};
   const int samples = !m.resting ? 0 : m.wants_multisampling(frame) ? kSamples : 0;
   RenderTarget& target = m.resting ? m.resting_target : m.moving_target;
   // A driver that can't multisample this size still gives a picture.

@@ -1,5 +1,7 @@
 #include "workbench/gui/render/scene_sketch.h"
 
+#include "workbench/gui/render/quantity_text.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -11,25 +13,6 @@ constexpr Rgba kInk{0.07f, 0.08f, 0.09f, 1.0f};
 
 bool touching(const TickOutput& output) {
   return output.status != TickStatus::free && output.penetration_m >= 0.0 && output.triangle != kNone;
-}
-
-// "0.98 mm", "12.3 um": three significant digits in the unit that fits.
-std::string length_text(double metres) {
-  struct Unit {
-    double metres;
-    const char* name;
-  };
-  static constexpr Unit kUnits[] = {{1e3, "km"}, {1.0, "m"}, {1e-3, "mm"}, {1e-6, "\xC2\xB5m"}, {1e-9, "nm"}};
-  const double size = std::abs(metres);
-  for (const Unit& unit : kUnits) {
-    if (size < unit.metres && unit.metres > 1e-9) continue;
-    const double value = metres / unit.metres;
-    const double magnitude = std::abs(value);
-    char text[48];
-    std::snprintf(text, sizeof text, "%.*f %s", magnitude >= 100 ? 0 : magnitude >= 10 ? 1 : 2, value, unit.name);
-    return text;
-  }
-  return "0";
 }
 
 bool in_view(const Vec3& p) { return p.z >= 0.0 && p.z <= 1.0; }
@@ -97,7 +80,7 @@ void draw_contact(Sketch& sketch, const SketchContext& c, std::vector<SceneLabel
     sketch.point(lowest, colour, 5.0);
     const Vec3 a = c.camera.project(lowest, c.width_px, c.height_px);
     const Vec3 b = c.camera.project(output.contact, c.width_px, c.height_px);
-    if (in_view(a) && in_view(b) && glm::length(Vec2(a) - Vec2(b)) > 18.0) {
+    if (in_view(a) && in_view(b) && glm::length(Vec2(a) - Vec2(b)) > 18.0 * c.frame.pixel_scale) {
       labels.push_back({0.5 * (Vec2(a) + Vec2(b)), length_text(output.penetration_m), colour, {1.0, 0.0}});
     }
   }
@@ -153,14 +136,16 @@ void draw_iterations(Sketch& sketch, const SketchContext& c, std::vector<SceneLa
     sketch.line(trace[i].point, trace[i + 1].point, mix(iteration_colour(i, trace.size()), {1, 1, 1, 1}, 0.35f), 2.2);
   }
   Vec2 last_label(-1e9);
+  const std::size_t every = 1 + trace.size() / 16;  // a run of a hundred is named here and there
   for (std::size_t i = 0; i < trace.size(); ++i) {
     if (trace[i].feature == Feature::none) continue;
     const Rgba colour = iteration_colour(i, trace.size());
     sketch.point(trace[i].point, colour, selected == i ? 10.0 : 7.0);
     const Vec3 p = c.camera.project(trace[i].point, c.width_px, c.height_px);
-    if (!in_view(p) || glm::length(Vec2(p) - last_label) < 22.0) continue;
+    const bool named = selected == i || i + 1 == trace.size() || i % every == 0;
+    if (!named || !in_view(p) || glm::length(Vec2(p) - last_label) < 20.0 * c.frame.pixel_scale) continue;
     last_label = Vec2(p);
-    labels.push_back({last_label, std::to_string(i), colour, {0.0, -1.0}});
+    labels.push_back({last_label, std::to_string(i), mix(colour, palette(c.frame.theme).text, 0.4f), {0.0, -1.0}});
   }
 }
 

@@ -1,0 +1,203 @@
+#include "workbench/gui/platform/window.h"
+
+#include "workbench/gui/app_model.h"
+#include "workbench/gui/render/scene_renderer.h"
+
+#include <epoxy/gl.h>
+
+#include <GLFW/glfw3.h>
+#include <backends/imgui_impl_glfw.h>
+#include <backends/imgui_impl_opengl3.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace tangent {
+namespace {
+
+constexpr double kFrameInterval = 1.0 / 60.0;    // s, where the driver does not wait for the screen
+constexpr double kIdleInterval = 0.25;           // s between frames when nothing moves
+constexpr double kShaderCheckInterval = 0.5;     // s
+constexpr int kSettlingFrames = 4;               // ImGui needs some frames after an event until all has settled
+
+std::string glfw_reason() {
+  const char* text = nullptr;
+  glfwGetError(&text);
+  return text != nullptr ? text : "no reason given";
+}
+
+/// GLFW for as long as one lives.
+class GlfwLibrary {
+ public:
+  GlfwLibrary() : ready_(glfwInit() == GLFW_TRUE) {}
+  ~GlfwLibrary() {
+    if (ready_) glfwTerminate();
+  }
+  GlfwLibrary(const GlfwLibrary&) = delete;
+  GlfwLibrary& operator=(const GlfwLibrary&) = delete;
+  bool ready() const { return ready_; }
+
+ private:
+  bool ready_;
+};
+
+struct WindowCloser {
+  void operator()(GLFWwindow* window) const { glfwDestroyWindow(window); }
+};
+using WindowHandle = std::unique_ptr<GLFWwindow, WindowCloser>;
+
+/// ImGui with both back ends, for as long as one lives.
+class ImGuiOnWindow {
+ public:
+  explicit ImGuiOnWindow(GLFWwindow* window) {
+    ImGui::CreateContext();
+    ImGui::GetIO().IniFilename = nullptr;
+    ImGui_ImplGlfw_InitForOpenGL(window, true);
+    ImGui_ImplOpenGL3_Init("#version 330 core");
+  }
+  ~ImGuiOnWindow() {
+    ImGui_ImplOpenGL3_Shutdown();
+    ImGui_ImplGlfw_Shutdown();
+    ImGui::DestroyContext();
+  }
+  ImGuiOnWindow(const ImGuiOnWindow&) = delete;
+  ImGuiOnWindow& operator=(const ImGuiOnWindow&) = delete;
+};
+
+WindowHandle open_window() {
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
+  glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+  glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
+  glfwWindowHint(GLFW_SAMPLES, 0);  // the 3D view multisamples its own picture; ImGui smooths its edges itself
+  glfwWindowHint(GLFW_DEPTH_BITS, 0);
+  int x = 0, y = 0, width = 1280, height = 720;
+  if (GLFWmonitor* monitor = glfwGetPrimaryMonitor()) glfwGetMonitorWorkarea(monitor, &x, &y, &width, &height);
+  const auto share = [](int whole, int least) { return std::max(std::min(whole, least), whole * 85 / 100); };
+  WindowHandle window(glfwCreateWindow(share(width, 1280), share(height, 720), "Tangent Workbench", nullptr, nullptr));
+  if (window) glfwSetWindowSizeLimits(window.get(), 640, 400, GLFW_DONT_CARE, GLFW_DONT_CARE);
+  return window;
+}
+
+FrameInput frame_input(GLFWwindow* window, double dt_s, std::vector<std::string> dropped) {
+  int width = 0, height = 0, width_px = 0, height_px = 0;
+  float scale_x = 1.0f, scale_y = 1.0f;
+  glfwGetWindowSize(window, &width, &height);
+  glfwGetFramebufferSize(window, &width_px, &height_px);
+  glfwGetWindowContentScale(window, &scale_x, &scale_y);
+  // Where coordinates are not pixels already, the system does that share of the scaling.
+  const float system_scale = width > 0 ? static_cast<float>(width_px) / static_cast<float>(width) : 1.0f;
+  FrameInput input;
+  input.width = static_cast<float>(width);
+  input.height = static_cast<float>(height);
+  input.content_scale = std::max(scale_y / std::max(system_scale, 0.1f), 0.5f);
+  input.dt_s = std::clamp(dt_s, 1e-4, 0.5);
+  input.now_s = glfwGetTime();
+  input.dropped_files = std::move(dropped);
+  return input;
+}
+
+void draw_frame(GLFWwindow* window, App& app, const FrameInput& input) {
+  if (app.prepare(input)) {
+    ImGui_ImplOpenGL3_DestroyFontsTexture();
+    ImGui_ImplOpenGL3_CreateFontsTexture();
+  }
+  ImGui_ImplOpenGL3_NewFrame();
+  ImGui_ImplGlfw_NewFrame();
+  app.frame(input);
+  int width_px = 0, height_px = 0;
+  glfwGetFramebufferSize(window, &width_px, &height_px);
+  glViewport(0, 0, width_px, height_px);
+  glClearColor(0.0f, 0.0f, 0.0f, 1.0f);
+  glClear(GL_COLOR_BUFFER_BIT);
+  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+  glfwSwapBuffers(window);
+}
+
+class FrameLoop {
+ public:
+  FrameLoop(GLFWwindow* window, App& app, SceneRenderer& renderer) : window_(window), app_(app), renderer_(renderer) {
+    glfwSetWindowUserPointer(window, this);
+    glfwSetDropCallback(window, [](GLFWwindow* w, int count, const char** paths) {
+      auto& self = *static_cast<FrameLoop*>(glfwGetWindowUserPointer(w));
+      self.dropped_.insert(self.dropped_.end(), paths, paths + count);
+    });
+  }
+
+  void run(const std::function<bool()>& should_stop) {
+    double last = glfwGetTime();
+    while (!glfwWindowShouldClose(window_) && !app_.wants_close() && !(should_stop && should_stop())) {
+      wait_for_work(last);
+      const double now = glfwGetTime();
+      check_shaders(now);
+      draw_frame(window_, app_, frame_input(window_, now - last, std::exchange(dropped_, {})));
+      if (std::string title = app_.title(); title != title_) glfwSetWindowTitle(window_, (title_ = title).c_str());
+      last = now;
+    }
+  }
+
+ private:
+  void wait_for_work(double last_frame_s) {
+    const bool hidden = glfwGetWindowAttrib(window_, GLFW_ICONIFIED) == GLFW_TRUE;
+    const bool lively = !hidden && (app_.wants_frames() || renderer_.refining() || settling_ > 0);
+    const double due = last_frame_s + (lively ? kFrameInterval : kIdleInterval);
+    const double wait = due - glfwGetTime();
+    if (settling_ > 0) --settling_;
+    if (wait <= 0.0) return glfwPollEvents();
+    const double before = glfwGetTime();
+    glfwWaitEventsTimeout(wait);
+    if (!lively && glfwGetTime() - before < 0.9 * wait) settling_ = kSettlingFrames;  // an event woke us
+  }
+
+  void check_shaders(double now) {
+    if (now < next_shader_check_) return;
+    next_shader_check_ = now + kShaderCheckInterval;
+    renderer_.reload_changed_shaders();
+    if (renderer_.shader_error() == shader_error_) return;
+    shader_error_ = renderer_.shader_error();
+    if (!shader_error_.empty()) app_.model().say(Severity::error, shader_error_);
+  }
+
+  GLFWwindow* window_;
+  App& app_;
+  SceneRenderer& renderer_;
+  std::vector<std::string> dropped_;
+  std::string title_, shader_error_;
+  double next_shader_check_ = 0.0;
+  int settling_ = kSettlingFrames;
+};
+
+}  // namespace
+
+Status display_available() {
+  const GlfwLibrary library;
+  if (library.ready()) return {};
+  return fail("no display: " + glfw_reason(), "window", "start it in a desktop session, or set DISPLAY");
+}
+
+Status run_window(const AppOptions& options, const std::function<bool()>& should_stop) {
+  const GlfwLibrary library;
+  if (!library.ready()) {
+    return fail("no display: " + glfw_reason(), "window", "start it in a desktop session, or set DISPLAY");
+  }
+  const WindowHandle window = open_window();
+  if (!window) {
+    return fail("no window with OpenGL 3.3: " + glfw_reason(), "window",
+                "update the graphics driver, or use software GL (LIBGL_ALWAYS_SOFTWARE=1)");
+  }
+  glfwMakeContextCurrent(window.get());
+  glfwSwapInterval(1);
+  const ImGuiOnWindow imgui(window.get());
+  SceneRenderer renderer;
+  if (Status ready = renderer.init(); !ready) return ready;
+  App app(options);
+  app.set_renderer(&renderer);
+  FrameLoop(window.get(), app, renderer).run(should_stop);
+  return {};
+}
+
+}  // namespace tangent

@@ -1,0 +1,48 @@
+// Drawing helpers of the overlay: text that reads on any ground, and the sizes that follow the font.
+#pragma once
+
+#include "workbench/gui/palette.h"
+
+#include <imgui.h>
+
+#include <string>
+
+namespace tangent {
+
+struct OverlayCanvas {
+  ImDrawList& list;
+  ImVec2 top_left, size;  ///< of the picture
+  const Palette& colours;
+  ImFont* text_font;
+  ImFont* number_font;
+  float em;               ///< height of the text
+
+  ImU32 ink(Rgba c, float alpha = 1.0f) const { return packed(with_alpha(c, alpha * c.a)); }
+
+  ImVec2 text_size(ImFont* font, const std::string& text, float height) const {
+    return font->CalcTextSizeA(height, 1e6f, 0.0f, text.c_str());
+  }
+  void text(ImFont* font, float height, ImVec2 at, Rgba colour, const std::string& words) const {
+    list.AddText(font, height, at, ink(colour), words.c_str());
+  }
+  /// With a soft halo in the background's colour.
+  void haloed(ImFont* font, float height, ImVec2 at, Rgba colour, const std::string& words) const {
+    const Rgba halo = with_alpha(colours.background_bottom, 0.30f);
+    for (const ImVec2 d : {ImVec2(-1, -1), ImVec2(1, -1), ImVec2(-1, 1), ImVec2(1, 1), ImVec2(-1, 0), ImVec2(1, 0),
+                           ImVec2(0, -1), ImVec2(0, 1)}) {
+      const float reach = 0.09f * height;
+      list.AddText(font, height, {at.x + d.x * reach, at.y + d.y * reach}, ink(halo), words.c_str());
+    }
+    text(font, height, at, colour, words);
+  }
+  void card(ImVec2 min, ImVec2 max) const {
+    list.AddRectFilled(min, max, ink(colours.panel, 0.78f), 0.35f * em);
+    list.AddRect(min, max, ink(colours.text_dim, 0.25f), 0.35f * em);
+  }
+};
+
+/// Fingerpad seen from the side with the roller where it is; its card's lower right corner at `corner`.
+void draw_cld_inset(const OverlayCanvas& canvas, ImVec2 corner, double travel_m, const double* commanded_m,
+                    const double* measured_m);
+
+}  // namespace tangent

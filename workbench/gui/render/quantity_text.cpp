@@ -1,0 +1,35 @@
+#include "workbench/gui/render/quantity_text.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+namespace tangent {
+
+std::string length_text(double metres) {
+  struct Unit {
+    double metres;
+    const char* name;
+  };
+  static constexpr std::array<Unit, 5> kUnits{{{1e3, "km"}, {1.0, "m"}, {1e-3, "mm"}, {1e-6, "\xC2\xB5m"}, {1e-9, "nm"}}};
+  const double size = std::abs(metres);
+  const auto fits = std::find_if(kUnits.begin(), kUnits.end() - 1, [&](const Unit& u) { return size >= 0.9995 * u.metres; });
+  const double value = size == 0.0 ? 0.0 : metres / fits->metres;
+  char text[48];
+  if (value == std::round(value)) {
+    std::snprintf(text, sizeof text, "%.0f %s", value, size == 0.0 ? "mm" : fits->name);
+  } else {
+    const double magnitude = std::abs(value);
+    std::snprintf(text, sizeof text, "%.*f %s", magnitude >= 99.95 ? 0 : magnitude >= 9.995 ? 1 : 2, value, fits->name);
+  }
+  return text;
+}
+
+double round_number_below(double limit) {
+  const double decade = std::pow(10.0, std::floor(std::log10(limit)));
+  const double lead = limit / decade;
+  return (lead >= 5.0 ? 5.0 : lead >= 2.0 ? 2.0 : 1.0) * decade;
+}
+
+}  // namespace tangent

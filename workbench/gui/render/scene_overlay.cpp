@@ -1,0 +1,135 @@
+#include "workbench/gui/render/scene_overlay.h"
+
+#include "workbench/gui/render/overlay_canvas.h"
+#include "workbench/gui/render/quantity_text.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+namespace tangent {
+namespace {
+
+void draw_labels(const OverlayCanvas& c, double pixels_per_point, std::span<const SceneLabel> labels) {
+  const float height = 0.92f * c.em;
+  for (const SceneLabel& label : labels) {
+    const ImVec2 size = c.text_size(c.number_font, label.text, height);
+    // Clear of the point by half an em, and by as much of its own box as lies that way.
+    const Vec2 half(0.5 * size.x, 0.5 * size.y);
+    const double clear = 0.55 * c.em;
+    const Vec2 centre = label.pixel / pixels_per_point + label.away * clear + label.away * half;
+    const ImVec2 at{c.top_left.x + static_cast<float>(std::round(centre.x - half.x)),
+                    c.top_left.y + static_cast<float>(std::round(centre.y - half.y))};
+    c.haloed(c.number_font, height, at, label.colour, label.text);
+  }
+}
+
+// World axes as the camera sees them; the names x y z in the colours of the force components.
+void draw_triad(const OverlayCanvas& c, ImVec2 centre, const Camera& camera) {
+  struct Axis {
+    Vec3 direction;
+    const char* name;
+    Rgba colour;
+    double toward_eye = 0.0;
+  };
+  std::array<Axis, 3> axes{{{Vec3(1, 0, 0), "x", c.colours.force_x},
+                            {Vec3(0, 1, 0), "y", c.colours.force_y},
+                            {Vec3(0, 0, 1), "z", c.colours.force_z}}};
+  for (Axis& axis : axes) axis.toward_eye = -glm::dot(axis.direction, camera.forward());
+  std::sort(axes.begin(), axes.end(), [](const Axis& a, const Axis& b) { return a.toward_eye < b.toward_eye; });
+  const float length = 1.55f * c.em;
+  for (const Axis& axis : axes) {
+    const float x = static_cast<float>(glm::dot(axis.direction, camera.right()));
+    const float y = static_cast<float>(-glm::dot(axis.direction, camera.up()));
+    const float fade = axis.toward_eye < -0.1 ? 0.55f : 1.0f;
+    const ImVec2 tip{centre.x + length * x, centre.y + length * y};
+    c.list.AddLine(centre, tip, c.ink(axis.colour, fade), 2.0f);
+    const ImVec2 size = c.text_size(c.number_font, axis.name, 0.85f * c.em);
+    const float clear = 0.55f * c.em;
+    const float across = std::hypot(x, y);
+    const ImVec2 beyond = across > 0.05f ? ImVec2(clear * x / across, clear * y / across) : ImVec2(clear, -clear);
+    c.haloed(c.number_font, 0.85f * c.em, {tip.x + beyond.x - 0.5f * size.x, tip.y + beyond.y - 0.5f * size.y},
+             with_alpha(axis.colour, fade), axis.name);
+  }
+}
+
+void draw_bar(const OverlayCanvas& c, ImVec2 at, float length, Rgba colour, const std::string& text) {
+  const float tick = 0.28f * c.em;
+  c.list.AddLine(at, {at.x + length, at.y}, c.ink(colour), 2.0f);
+  c.list.AddLine({at.x, at.y - tick}, {at.x, at.y + tick}, c.ink(colour), 1.5f);
+  c.list.AddLine({at.x + length, at.y - tick}, {at.x + length, at.y + tick}, c.ink(colour), 1.5f);
+  c.haloed(c.number_font, 0.85f * c.em, {at.x + length + 0.6f * c.em, at.y - 0.45f * c.em}, c.colours.text, text);
+}
+
+// Length and force to scale at the depth of the camera's target.
+void draw_scales(const OverlayCanvas& c, ImVec2 at, double metres_per_point, const SceneRenderer& renderer,
+                 const SceneFrame& frame) {
+  const double limit_m = 7.0 * c.em * metres_per_point;
+  if (!(limit_m > 0.0)) return;
+  const double length_m = round_number_below(limit_m);
+  draw_bar(c, at, static_cast<float>(length_m / metres_per_point), c.colours.text_dim, length_text(length_m));
+  const double metres_per_newton = renderer.force_metres_per_newton();
+  if (!frame.toggles.force || !frame.tick || !(metres_per_newton > 0.0)) return;
+  const double newton = round_number_below(limit_m / metres_per_newton);
+  char text[32];
+  std::snprintf(text, sizeof text, "%g N", newton);
+  draw_bar(c, {at.x, at.y - 1.35f * c.em}, static_cast<float>(newton * metres_per_newton / metres_per_point),
+           c.colours.force_magnitude, text);
+}
+
+void draw_iteration_bar(const OverlayCanvas& c, ImVec2 at, const SceneFrame& frame) {
+  const std::size_t count = frame.trace.size();
+  const float width = 9.0f * c.em, height = 0.55f * c.em;
+  const std::size_t cells = std::min<std::size_t>(count, 64);
+  for (std::size_t i = 0; i < cells; ++i) {
+    const std::size_t iteration = cells == count ? i : i * (count - 1) / (cells - 1);
+    const float gap = cells <= 24 ? 1.0f : 0.0f;
+    const float x0 = at.x + width * static_cast<float>(i) / static_cast<float>(cells);
+    const float x1 = at.x + width * static_cast<float>(i + 1) / static_cast<float>(cells) - gap;
+    c.list.AddRectFilled({x0, at.y}, {x1, at.y + height}, c.ink(iteration_colour(iteration, count)));
+    if (frame.selected_iteration == iteration) {
+      c.list.AddRect({x0 - 1.5f, at.y - 1.5f}, {x1 + 1.5f, at.y + height + 1.5f}, c.ink(c.colours.text), 0.0f, 0, 1.5f);
+    }
+  }
+  const float text = 0.8f * c.em;
+  const std::string last = std::to_string(count - 1);
+  c.haloed(c.text_font, text, {at.x, at.y - 1.25f * text}, c.colours.text_dim, "iteration");
+  c.haloed(c.number_font, text, {at.x, at.y + height + 0.1f * text}, c.colours.text, "0");
+  c.haloed(c.number_font, text, {at.x + width - c.text_size(c.number_font, last, text).x, at.y + height + 0.1f * text},
+           c.colours.text, last);
+}
+
+}  // namespace
+
+void draw_scene_overlay(ImDrawList& draw_list, const ImVec2& top_left, double pixels_per_point,
+                        const SceneRenderer& renderer, const SceneFrame& frame, const Camera& camera, ImFont* numbers) {
+  const float per_point = static_cast<float>(pixels_per_point);
+  const ImVec2 size{static_cast<float>(renderer.width_px()) / per_point, static_cast<float>(renderer.height_px()) / per_point};
+  const OverlayCanvas canvas{draw_list, top_left,
+                             size,      palette(frame.theme),
+                             ImGui::GetFont(), numbers != nullptr ? numbers : ImGui::GetFont(),
+                             ImGui::GetFontSize()};
+  draw_list.PushClipRect(top_left, {top_left.x + size.x, top_left.y + size.y}, true);
+  draw_labels(canvas, pixels_per_point, renderer.labels());
+  const float em = canvas.em;
+  const ImVec2 lower_left{top_left.x + 0.9f * em, top_left.y + size.y - 0.9f * em};
+  float left = lower_left.x;
+  if (frame.toggles.axes) {
+    draw_triad(canvas, {lower_left.x + 2.1f * em, lower_left.y - 2.1f * em}, camera);
+    left += 5.2f * em;
+    const double metres_per_point = camera.metres_per_pixel(camera.target, renderer.height_px()) * pixels_per_point;
+    draw_scales(canvas, {left, lower_left.y - 0.4f * em}, metres_per_point, renderer, frame);
+  }
+  if (frame.toggles.colour_bar && frame.toggles.planes && frame.trace.size() > 1) {
+    draw_iteration_bar(canvas, {left, lower_left.y - (frame.toggles.axes ? 4.4f : 1.4f) * em}, frame);
+  }
+  if (frame.toggles.cld_inset && (frame.cld_commanded_m || frame.cld_measured_m)) {
+    draw_cld_inset(canvas, {top_left.x + size.x - 0.9f * em, lower_left.y + 0.2f * em}, frame.display_travel_m,
+                   frame.cld_commanded_m ? &*frame.cld_commanded_m : nullptr,
+                   frame.cld_measured_m ? &*frame.cld_measured_m : nullptr);
+  }
+  draw_list.PopClipRect();
+}
+
+}  // namespace tangent
