@@ -13,6 +13,11 @@ namespace tangent {
 struct Typing {
   ImGuiID id = 0;
   std::string text, shown;
+  std::string field;          ///< path of the value field that is being typed in
+  bool focus_field = false;   ///< it has yet to take the focus
+  bool tab_on = false;        ///< Tab left a field: the next one drawn takes over
+  double slide_from = 0.0;    ///< share when the drag began
+  float slide_x = 0.0f;       ///< mouse when it began
 };
 
 struct UiContext {

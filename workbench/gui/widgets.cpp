@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdarg>
 #include <cstdio>
+#include <utility>
 
 namespace tangent {
 
@@ -76,51 +77,90 @@ bool section(const UiContext& ui, const char* title, bool& open) {
   return open;
 }
 
-bool thin_slider(const UiContext& ui, std::string_view path, float width, double& share) {
-  const float height = ImGui::GetFrameHeight();
-  const ImVec2 at = ImGui::GetCursorScreenPos();
-  ImGui::InvisibleButton(id_of(path).c_str(), {std::max(4.0f, width), height});
-  ui.items.note_last(path);
-  const float r = ui.px(5);
-  const float from = at.x + r, to = at.x + width - r;
-  bool changed = false;
-  if (ImGui::IsItemActive() && to > from) {
-    const double now = std::clamp(static_cast<double>((ImGui::GetIO().MousePos.x - from) / (to - from)), 0.0, 1.0);
-    changed = now != share;
-    share = now;
-  }
-  const bool lit = ImGui::IsItemHovered() || ImGui::IsItemActive();
-  ImDrawList& draw = *ImGui::GetWindowDrawList();
-  const float y = std::round(at.y + 0.5f * height);
-  const float x = from + static_cast<float>(std::clamp(share, 0.0, 1.0)) * (to - from);
-  const float half = ui.px(1.5f);
-  draw.AddRectFilled({from, y - half}, {to, y + half}, ui.colours.border, half);
-  draw.AddRectFilled({from, y - half}, {x, y + half}, ui.colours.accent, half);
-  draw.AddCircleFilled({x, y}, lit ? r : 0.85f * r, lit ? ui.colours.accent : ui.colours.text_dim, 20);
-  return changed;
-}
-
-std::optional<std::string> number_box(const UiContext& ui, std::string_view path, float width, const std::string& text) {
+std::optional<std::string> number_box(const UiContext& ui, std::string_view path, float width, const std::string& text,
+                                      bool focus) {
   std::string edited = text;
   ImGui::SetNextItemWidth(width);
   ImGui::PushFont(ui.fonts.number);
+  if (focus) ImGui::SetKeyboardFocusHere();
   ImGui::InputText(id_of(path).c_str(), &edited, ImGuiInputTextFlags_AutoSelectAll);
   ImGui::PopFont();
   ui.items.note_last(path);
   const ImGuiID id = ImGui::GetItemID();
   Typing& state = ui.typing;
   std::optional<std::string> result;
-  if (ImGui::IsItemActivated()) state = {id, text, text};
+  if (ImGui::IsItemActivated()) {
+    state.id = id;
+    state.text = state.shown = text;
+  }
   if (ImGui::IsItemActive() && state.id == id) {
     state.text = edited;
   } else if (ImGui::IsItemDeactivated() && state.id == id) {
-    // On Enter this frame's text is the newest; when another widget took the focus, ours is.
+    // On Enter this frame's text is the newest; when another widget took the focus, the last one seen is.
     if (edited != text) state.text = edited;
     const bool escaped = ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false);
     if (!escaped && state.text != state.shown) result = state.text;
-    state = {};
+    state.id = 0;
   }
   return result;
+}
+
+ValueFieldResult value_field(const UiContext& ui, std::string_view path, const ValueField& field) {
+  ValueFieldResult out;
+  Typing& state = ui.typing;
+  if (state.tab_on && !ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false)) {
+    state.tab_on = false;
+    state.field = path;
+    state.focus_field = true;
+  }
+  if (state.field == path) {
+    const bool focus = std::exchange(state.focus_field, false);
+    out.typed = number_box(ui, path, field.width, field.text, focus);
+    if (ImGui::IsItemDeactivated()) {
+      state.field.clear();
+      state.tab_on = ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Tab), false);
+    }
+    return out;
+  }
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float height = ImGui::GetFrameHeight();
+  ImGui::InvisibleButton(id_of(path).c_str(), {std::max(4.0f, field.width), height});
+  ui.items.note_last(path);
+  const float mouse = ImGui::GetIO().MousePos.x;
+  if (ImGui::IsItemActivated()) {
+    state.slide_from = field.share;
+    state.slide_x = mouse;
+  }
+  double share = field.share;
+  if (ImGui::IsItemActive() && ImGui::IsMouseDragging(ImGuiMouseButton_Left, ui.px(3))) {
+    // Relative, so that the value doesn't leap to where it was grabbed.
+    const double fine = ImGui::GetIO().KeyShift ? 0.1 : 1.0;
+    share = std::clamp(state.slide_from + fine * static_cast<double>((mouse - state.slide_x) / field.width), 0.0, 1.0);
+    if (share != field.share) out.slid = share;
+  } else if (ImGui::IsItemDeactivated() && ImGui::IsItemHovered() && std::abs(mouse - state.slide_x) <= ui.px(3)) {
+    state.field = path;
+    state.focus_field = true;
+  }
+  const bool lit = ImGui::IsItemHovered() || ImGui::IsItemActive();
+  if (lit) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const ImVec2 end{at.x + field.width, at.y + height};
+  const float round = ui.px(3);
+  draw.AddRectFilled(at, end, ImGui::GetColorU32(lit ? ImGuiCol_FrameBgHovered : ImGuiCol_FrameBg), round);
+  const float filled = static_cast<float>(std::clamp(share, 0.0, 1.0)) * field.width;
+  if (filled >= 1.0f) {
+    draw.PushClipRect(at, {at.x + filled, end.y}, true);
+    draw.AddRectFilled(at, end, ui.colours.accent_soft, round);
+    draw.PopClipRect();
+  }
+  const float unit_room = ui.px(34);
+  const auto centred = [&](const ImFont* font) { return std::round(at.y + 0.5f * (height - font->FontSize)); };
+  const std::string unit(field.unit);
+  draw.AddText(ui.fonts.small, ui.fonts.small->FontSize, {end.x - unit_room + ui.px(3), centred(ui.fonts.small)}, ui.colours.text_dim, unit.c_str());
+  ImFont* number = ui.fonts.number;
+  const float w = number->CalcTextSizeA(number->FontSize, 1e9f, 0.0f, field.text.c_str()).x;
+  draw.AddText(number, number->FontSize, {end.x - unit_room - w, centred(number)}, ui.colours.text, field.text.c_str());
+  return out;
 }
 
 bool icon_button(const UiContext& ui, std::string_view path, Icon icon, const char* tip, bool on, bool enabled) {

@@ -1,5 +1,4 @@
-// The few widgets of our own: a thin slider, a number box that takes its value on Enter or when it loses
-// the focus, section headings, rows of facts, drawn icons. Each notes itself in the item map.
+// The few widgets of our own: value fields that slide and take typed values on Enter or when they lose the focus, section headings, rows of facts, drawn icons. Each notes itself in the item map.
 #pragma once
 
 #include "workbench/gui/ui_context.h"
@@ -14,12 +13,24 @@ namespace tangent {
 /// A section's title bar; click folds it. Returns whether the contents are to be drawn.
 bool section(const UiContext& ui, const char* title, bool& open);
 
-/// 0..1 on a groove, `width` wide. True while dragged to another place.
-bool thin_slider(const UiContext& ui, std::string_view path, float width, double& share);
+/// A box that shows `text` (a formatted number). Returns what was typed, once, on Enter, Tab or a click
+/// elsewhere; nothing on Escape or when it wasn't changed. `focus`: starts typing now.
+std::optional<std::string> number_box(const UiContext& ui, std::string_view path, float width, const std::string& text,
+                                      bool focus = false);
 
-/// Shows `text` (a formatted number). Returns what was typed, once, on Enter, Tab or a click elsewhere;
-/// nothing on Escape or when it wasn't changed.
-std::optional<std::string> number_box(const UiContext& ui, std::string_view path, float width, const std::string& text);
+/// Slider and number box in one, as in Blender: a filled field with value and unit; dragging slides (with Shift ten
+/// times finer), a click types.
+struct ValueField {
+  float width = 100.0f;
+  double share = 0.0;      ///< 0..1 of the range, filled
+  std::string text;        ///< the value
+  std::string_view unit;
+};
+struct ValueFieldResult {
+  std::optional<double> slid;         ///< new share
+  std::optional<std::string> typed;   ///< committed text
+};
+ValueFieldResult value_field(const UiContext& ui, std::string_view path, const ValueField& field);
 
 enum class Icon { first, step_back, pause, play, step_forward, live, previous, next, reset, cross, folder, save };
 /// A square button with a drawn icon; `on` tints it with the accent.

@@ -1,0 +1,160 @@
+#include "workbench/gui/app.h"
+
+#include "workbench/gui/app_model.h"
+#include "workbench/gui/panels/panels.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <optional>
+
+namespace tangent {
+
+struct App::Ui {
+  SceneRenderer* renderer = nullptr;
+  ItemMap items;
+  Typing typing;
+  ThemeFonts fonts;
+  std::optional<float> font_scale;  ///< the atlas was built for
+  std::optional<Theme> theme;       ///< the style was set for
+  MenuBar menu;
+  ParameterPanels parameters;
+  PresetsPanel presets;
+  IterationsPanel iterations;
+  FoldedPanel mesh, devices, log;
+  ViewPanel view;
+  PlotsPanel plots = make_plots_panel();
+
+  void draw_splitters(const UiContext& ui, AppModel& model, const Layout& layout);
+  void draw_column(const char* name, const Rect& rect, const UiContext& ui, AppModel& model, bool left);
+};
+
+namespace {
+
+double milliseconds_since(std::chrono::steady_clock::time_point begin) {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+}
+
+constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                                    ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNav;
+
+}  // namespace
+
+App::App(AppOptions options) : model_(std::make_unique<AppModel>(options)), ui_(std::make_unique<Ui>()) {
+  ImGui::GetIO().IniFilename = nullptr;
+}
+
+App::~App() = default;
+
+void App::set_renderer(SceneRenderer* renderer) { ui_->renderer = renderer; }
+
+bool App::prepare(const FrameInput& input) {
+  ImGuiIO& io = ImGui::GetIO();
+  io.DisplaySize = {input.width, input.height};
+  io.DeltaTime = static_cast<float>(std::clamp(input.dt_s, 1e-6, 1.0));
+  const float scale = std::clamp(input.content_scale * model_->ui_scale(), 0.5f, 6.0f);
+  const bool fonts = ui_->font_scale != scale;
+  if (fonts || ui_->theme != model_->theme()) apply_theme(model_->theme(), scale);
+  ui_->theme = model_->theme();
+  if (!fonts) return false;
+  std::vector<std::string> missing;
+  ui_->fonts = load_fonts(scale, missing);
+  for (std::string& line : missing) model_->say(Severity::warning, std::move(line));
+  ui_->font_scale = scale;
+  return true;
+}
+
+void App::Ui::draw_splitters(const UiContext& ui, AppModel& model, const Layout& layout) {
+  const auto splitter = [&](const char* name, const Rect& rect, bool vertical) {
+    if (rect.w < 1.0f || rect.h < 1.0f) return ImVec2(0, 0);
+    ImGui::SetNextWindowPos({rect.x, rect.y});
+    ImGui::SetNextWindowSize({rect.w, rect.h});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0, 0));
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(1, 1));
+    ImGui::PushStyleColor(ImGuiCol_WindowBg, ui.colours.window);
+    ImGui::Begin(name, nullptr, kFixed);
+    ImGui::InvisibleButton("##bar", {rect.w, rect.h});
+    items.note_last(name + 2);
+    const bool lit = ImGui::IsItemHovered() || ImGui::IsItemActive();
+    if (lit) ImGui::SetMouseCursor(vertical ? ImGuiMouseCursor_ResizeEW : ImGuiMouseCursor_ResizeNS);
+    if (lit) ImGui::GetWindowDrawList()->AddRectFilled({rect.x, rect.y}, {rect.right(), rect.bottom()}, ui.colours.accent_soft);
+    const ImVec2 delta = ImGui::IsItemActive() ? ImGui::GetIO().MouseDelta : ImVec2(0, 0);
+    ImGui::End();
+    ImGui::PopStyleColor();
+    ImGui::PopStyleVar(2);
+    return delta;
+  };
+  LayoutSizes& sizes = model.sizes();
+  sizes = drag_left(sizes, splitter("##splitter/left", layout.left_splitter, true).x, ui.scale);
+  sizes = drag_right(sizes, splitter("##splitter/right", layout.right_splitter, true).x, ui.scale);
+  sizes = drag_plots(sizes, splitter("##splitter/plots", layout.plot_splitter, false).y, ui.scale);
+}
+
+void App::Ui::draw_column(const char* name, const Rect& rect, const UiContext& ui, AppModel& model, bool left) {
+  if (rect.w < ui.px(40) || rect.h < ui.px(30)) return;
+  ImGui::SetNextWindowPos({rect.x, rect.y});
+  ImGui::SetNextWindowSize({rect.w, rect.h});
+  // The scroll bar keeps its room, so that nothing jumps when a section is folded.
+  constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove |
+                                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNav |
+                                     ImGuiWindowFlags_AlwaysVerticalScrollbar;
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(ui.px(8), ui.px(4)));
+  ImGui::Begin(name, nullptr, flags);
+  ImGui::PopStyleVar();
+  if (left) {
+    draw_parameter_panels(ui, model, parameters);
+    draw_presets_panel(ui, model, presets);
+  } else {
+    draw_iterations_panel(ui, model, iterations);
+    draw_mesh_panel(ui, model, mesh);
+    draw_devices_panel(ui, model, devices);
+    draw_log_panel(ui, model, log);
+  }
+  ImGui::End();
+}
+
+void App::frame(const FrameInput& input) {
+  const auto begin = std::chrono::steady_clock::now();
+  for (const std::string& file : input.dropped_files) {
+    if (std::filesystem::path(file).extension() == ".toml") model_->load_preset(file); else model_->open_mesh(file);
+  }
+  model_->update(input.now_s);
+  const Theme theme = ui_->theme.value_or(model_->theme());
+  const float scale = ui_->font_scale.value_or(1.0f);
+  ui_->items.begin_frame();
+  ImGui::NewFrame();
+  const UiContext ui{ui_->items, ui_->typing, theme_colours(theme), palette(theme), ui_->fonts, scale, input.now_s};
+  const Layout layout = compute_layout(model_->sizes(), input.width, input.height, scale);
+  handle_shortcuts(*model_, ui_->menu);
+  draw_view_panel(ui, *model_, ui_->view, ui_->renderer, layout.view);
+  ui_->draw_column("##left", layout.left, ui, *model_, true);
+  ui_->draw_column("##right", layout.right, ui, *model_, false);
+  draw_plots_panel(ui, *model_, ui_->plots, layout.plots);
+  draw_transport_bar(ui, *model_, layout.transport);
+  draw_status_line(ui, *model_, layout.status, last_build_ms_);
+  ui_->draw_splitters(ui, *model_, layout);
+  draw_toasts(ui, *model_, layout.view);
+  draw_menu_bar(ui, *model_, ui_->menu, layout.menu);
+  ImGui::Render();
+  last_build_ms_ = milliseconds_since(begin) - ui_->view.build_ms_outside;
+}
+
+void App::advance(std::uint64_t ticks) { model_->advance(ticks); }
+
+bool App::wants_close() const { return model_->wants_close(); }
+
+bool App::wants_frames() const {
+  const bool refining = ui_->renderer != nullptr && ui_->renderer->refining();
+  return !model_->paused() || model_->loading() || model_->auditing() || refining;
+}
+
+std::string App::title() const {
+  const auto& scene = model_->scene();
+  const std::string mesh = scene != nullptr ? std::filesystem::path(scene->mesh().name()).filename().string() : std::string("no mesh");
+  return mesh + " - " + model_->presets().name() + (model_->presets().changed() ? "*" : "") + " - Tangent Workbench";
+}
+
+const ItemMap& App::items() const { return ui_->items; }
+
+}  // namespace tangent

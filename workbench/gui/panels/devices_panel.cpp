@@ -1,0 +1,118 @@
+// The devices: what they are, how they are, what the safety gate does, and the simulated hand.
+#include "workbench/gui/panels/panels.h"
+#include "workbench/gui/widgets.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+namespace tangent {
+
+namespace {
+
+ImU32 state_ink(const UiContext& ui, DeviceState state) {
+  switch (state) {
+    case DeviceState::ready: return ui.colours.good;
+    case DeviceState::faulted: return ui.colours.bad;
+    case DeviceState::absent: return ui.colours.text_faint;
+    default: return ui.colours.warning;
+  }
+}
+
+std::string state_text(DeviceState state, DeviceFault fault) {
+  return std::string(to_string(state)) + (fault == DeviceFault::none ? "" : std::string(": ") + to_string(fault));
+}
+
+void draw_force_device(const UiContext& ui, const AppModel& model) {
+  const ForceCapabilities* can = model.session()->force_capabilities();
+  const SessionStatus& status = model.status();
+  fact(ui, can != nullptr ? can->name.c_str() : "Force device", state_text(status.force_state, status.force_fault), "", state_ink(ui, status.force_state));
+  if (can == nullptr) return;
+  tooltip(ui, format("Peak %.1f N, continuous %.1f N, resolution %.0f \u00b5m, apparent mass %.0f g%s", can->peak_force_n,
+                     can->continuous_force_n, can->position_resolution_m * 1e6, can->apparent_mass_kg * 1e3, can->simulated ? ", simulated" : ""));
+}
+
+void draw_display(const UiContext& ui, const AppModel& model) {
+  const DisplayCapabilities* can = model.session()->display_capabilities();
+  const SessionStatus& status = model.status();
+  fact(ui, can != nullptr ? can->name.c_str() : "Contact display", state_text(status.display_state, status.display_fault), "", state_ink(ui, status.display_state));
+  if (can == nullptr) return;
+  tooltip(ui, format("Travel %.0f mm, resolution %.1f \u00b5m, bandwidth %.0f Hz%s", can->travel_m * 1e3, can->resolution_m * 1e6,
+                     can->bandwidth_hz, can->simulated ? ", simulated" : ""));
+}
+
+void draw_gate(const UiContext& ui, AppModel& model) {
+  const ServoStatus& servo = model.status().servo;
+  const bool armed = servo.gate_state == GateState::armed;
+  const bool faulted = servo.gate_state == GateState::faulted;
+  const std::string text = std::string(to_string(servo.gate_state)) + (faulted ? std::string(": ") + to_string(servo.gate_fault) : "");
+  fact(ui, "Safety gate", text, "", armed ? ui.colours.good : faulted ? ui.colours.bad : ui.colours.warning);
+  for (std::size_t i = 0; i < kGateActionCount; ++i) {
+    if (servo.gate_counts[i] == 0) continue;
+    fact(ui, to_string(static_cast<GateAction>(i)), format("%llu", static_cast<unsigned long long>(servo.gate_counts[i])), "ticks");
+  }
+}
+
+void draw_servo(const UiContext& ui, const AppModel& model) {
+  const ServoStatus& servo = model.status().servo;
+  fact(ui, "Rate", format("%.1f", servo.rate_hz), "Hz");
+  fact(ui, "Tick p50 / p99", format("%.1f / %.1f", servo.tick_p50_ns * 1e-3, servo.tick_p99_ns * 1e-3), "\u00b5s");
+  tooltip(ui, "Whole tick: exchange with the devices, solver, safety gate");
+  fact(ui, "Tick worst", format("%.1f", servo.tick_worst_ns * 1e-3), "\u00b5s");
+  fact(ui, "Lateness p99 / worst", format("%.0f / %.0f", servo.lateness_p99_ns * 1e-3, servo.lateness_worst_ns * 1e-3), "\u00b5s");
+  fact(ui, "Late ticks", format("%llu", static_cast<unsigned long long>(servo.late_ticks)));
+  fact(ui, "Missed deadlines", format("%llu", static_cast<unsigned long long>(servo.missed_deadlines)));
+  if (!model.status().realtime_note.empty()) {
+    ImGui::PushFont(ui.fonts.small);
+    ImGui::PushStyleColor(ImGuiCol_Text, ui.colours.text_dim);
+    ImGui::TextWrapped("%s", model.status().realtime_note.c_str());
+    ImGui::PopStyleColor();
+    ImGui::PopFont();
+  }
+}
+
+void draw_hand(const UiContext& ui, AppModel& model) {
+  HandSettings hand = model.session()->hand();
+  bool follows = model.view().hand_follows_mouse;
+  if (toggle_button(ui, "devices/hand_follows_mouse", "Hand follows mouse", follows,
+                    "Drag on the surface in the 3D view to lead the simulated hand (M). Off: it explores the mesh by itself"))
+    model.set_hand_follows_mouse(follows);
+  const float width = ImGui::GetContentRegionAvail().x, label = ui.px(116);
+  const auto row = [&](const char* title, const char* path, double& value, double most, double scale, const char* unit, const char* doc) {
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextUnformatted(title);
+    tooltip(ui, doc);
+    ImGui::SameLine(ImGui::GetStyle().WindowPadding.x + label);
+    const auto result = value_field(ui, path, {width - label, value / most, short_number(value / scale), unit});
+    tooltip(ui, doc);
+    if (result.slid) value = std::round(*result.slid * most / scale * 100.0) / 100.0 * scale;
+    if (!result.typed) return;
+    char* end = nullptr;
+    const double typed = std::strtod(result.typed->c_str(), &end);
+    if (end != result.typed->c_str() && std::isfinite(typed)) value = std::clamp(typed * scale, 0.0, most);
+    else model.say(Severity::error, "\"" + *result.typed + "\" is not a number");
+  };
+  const HandSettings before = hand;
+  row("Hand speed", "devices/hand_speed", hand.speed_m_per_s, 0.5, 1e-3, "mm/s", "Along the exploration path; 0: rests");
+  row("Hand depth", "devices/hand_press", hand.press_m, 10e-3, 1e-3, "mm",
+      "How far inside the surface the hand aims. The finger is held back by the rendered force, so it goes less deep");
+  if (!(hand == before)) model.session()->set_hand(hand);
+}
+
+}  // namespace
+
+void draw_devices_panel(const UiContext& ui, AppModel& model, FoldedPanel& state) {
+  if (!section(ui, "Devices", state.open)) return;
+  if (model.session() == nullptr) {
+    ImGui::TextDisabled("No session");
+    return;
+  }
+  draw_force_device(ui, model);
+  draw_display(ui, model);
+  draw_gate(ui, model);
+  draw_servo(ui, model);
+  draw_hand(ui, model);
+  ImGui::Dummy({1, ui.px(3)});
+}
+
+}  // namespace tangent

@@ -1,0 +1,150 @@
+// The top bar: file and view menus, scene, preset, the simulated hand, and the stop button.
+#include "core/mesh/generate.h"
+#include "workbench/gui/panels/panels.h"
+#include "workbench/gui/widgets.h"
+
+#include <algorithm>
+#include <filesystem>
+
+namespace tangent {
+
+void draw_path_bar(const UiContext& ui, AppModel& model, PathBar& bar, const Rect& under);
+
+namespace {
+
+/// A button that drops a menu below itself. Returns whether the menu is open; then call ImGui::EndPopup.
+bool drop_button(const UiContext& ui, std::string_view path, const std::string& text, const char* tip, float width = 0.0f) {
+  const std::string id = std::string(path);
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  ImGui::PushStyleVar(ImGuiStyleVar_ButtonTextAlign, ImVec2(width > 0.0f ? 0.0f : 0.5f, 0.5f));
+  if (ImGui::Button((text + "##" + id).c_str(), {width, 0.0f})) ImGui::OpenPopup(id.c_str());
+  ImGui::PopStyleVar();
+  ui.items.note_last(path);
+  tooltip(ui, tip);
+  if (width > 0.0f) {
+    const ImVec2 max = ImGui::GetItemRectMax();
+    const float r = ui.px(3.5f);
+    const ImVec2 c{max.x - ui.px(10), 0.5f * (at.y + max.y)};
+    ImGui::GetWindowDrawList()->AddTriangleFilled({c.x - r, c.y - 0.5f * r}, {c.x + r, c.y - 0.5f * r}, {c.x, c.y + 0.7f * r}, ui.colours.text_dim);
+  }
+  ImGui::SetNextWindowPos({at.x, ImGui::GetItemRectMax().y + ui.px(2)});
+  return ImGui::BeginPopup(id.c_str());
+}
+
+bool menu_item(const UiContext& ui, std::string_view path, const char* text, const char* key = nullptr, bool on = false) {
+  const bool chosen = ImGui::MenuItem(text, key, on);
+  ui.items.note_last(path);
+  return chosen;
+}
+
+void draw_file_menu(const UiContext& ui, AppModel& model, MenuBar& state) {
+  if (!drop_button(ui, "menu/file", "File", "")) return;
+  if (menu_item(ui, "menu/file/open", "Open mesh...", "Ctrl+O")) state.path.open = state.path.focus = true;
+  if (menu_item(ui, "menu/file/reload", "Load the mesh again") && !model.mesh_path().empty()) model.open_mesh(model.mesh_path());
+  ImGui::Separator();
+  if (menu_item(ui, "menu/file/quit", "Quit", "Ctrl+Q")) model.ask_to_close();
+  ImGui::EndPopup();
+}
+
+void draw_view_menu(const UiContext& ui, AppModel& model) {
+  if (!drop_button(ui, "menu/view", "View", "")) return;
+  LayoutSizes& sizes = model.sizes();
+  if (menu_item(ui, "menu/view/left", "Parameters", nullptr, sizes.show_left)) sizes.show_left = !sizes.show_left;
+  if (menu_item(ui, "menu/view/right", "Iterations, mesh, devices", nullptr, sizes.show_right)) sizes.show_right = !sizes.show_right;
+  if (menu_item(ui, "menu/view/plots", "Plots", nullptr, sizes.show_plots)) sizes.show_plots = !sizes.show_plots;
+  if (menu_item(ui, "menu/view/reset", "Default layout")) sizes = {};
+  ImGui::Separator();
+  if (menu_item(ui, "menu/view/frame", "Frame the mesh", "F")) model.frame_scene();
+  SceneToggles& show = model.view().toggles;
+  if (menu_item(ui, "menu/view/creases", "Creases and boundaries", nullptr, show.creases)) show.creases = !show.creases;
+  if (menu_item(ui, "menu/view/control_normals", "Control normals", nullptr, show.control_normals)) show.control_normals = !show.control_normals;
+  if (menu_item(ui, "menu/view/tracked_plane", "Plane after the tick", nullptr, show.tracked_plane)) show.tracked_plane = !show.tracked_plane;
+  if (menu_item(ui, "menu/view/axes", "Axes and scale", nullptr, show.axes)) show.axes = !show.axes;
+  ImGui::Separator();
+  const bool dark = model.theme() == Theme::dark;
+  if (menu_item(ui, "menu/view/dark", "Dark", nullptr, dark)) model.set_theme(Theme::dark);
+  if (menu_item(ui, "menu/view/light", "Light", nullptr, !dark)) model.set_theme(Theme::light);
+  if (menu_item(ui, "menu/view/larger", "Larger text", "Ctrl++")) model.set_ui_scale(model.ui_scale() * 1.1f);
+  if (menu_item(ui, "menu/view/smaller", "Smaller text", "Ctrl+-")) model.set_ui_scale(model.ui_scale() / 1.1f);
+  if (menu_item(ui, "menu/view/normal", "Normal text", "Ctrl+0")) model.set_ui_scale(1.0f);
+  ImGui::EndPopup();
+}
+
+void draw_scene_menu(const UiContext& ui, AppModel& model, MenuBar& state, float width) {
+  std::string name = model.scene() != nullptr ? std::filesystem::path(model.scene()->mesh().name()).filename().string() : "no mesh";
+  if (model.loading()) name = "loading " + std::filesystem::path(model.loading_name()).filename().string();
+  if (!drop_button(ui, "menu/scene", name, "The mesh; also drop a file into the window", width)) return;
+  for (const std::string& object : generator_names()) {
+    if (menu_item(ui, "menu/scene/" + object, object.c_str(), nullptr, object == model.mesh_path())) model.open_mesh(object);
+  }
+  ImGui::Separator();
+  if (menu_item(ui, "menu/scene/open", "Open mesh...", "Ctrl+O")) state.path.open = state.path.focus = true;
+  ImGui::EndPopup();
+}
+
+void draw_preset_menu(const UiContext& ui, AppModel& model, float width) {
+  const std::string name = model.presets().name() + (model.presets().changed() ? " *" : "");
+  if (!drop_button(ui, "menu/preset", name, "The preset; * when it was changed since loading", width)) return;
+  for (const auto& file : model.preset_files()) {
+    const std::string stem = file.stem().string();
+    if (menu_item(ui, "menu/preset/" + stem, stem.c_str(), nullptr, file == model.presets().path())) model.load_preset(file);
+  }
+  if (model.preset_files().empty()) ImGui::TextDisabled("No presets");
+  ImGui::Separator();
+  if (menu_item(ui, "menu/preset/revert", "Revert all changes")) model.revert_preset();
+  ImGui::EndPopup();
+}
+
+/// The one button that must be found at once: red and on the right.
+void draw_stop(const UiContext& ui, AppModel& model, const Rect& rect) {
+  const bool stopped = model.stopped();
+  const char* text = stopped ? "Arm" : "Stop force";
+  const float width = ImGui::CalcTextSize("Stop force").x + ui.px(22);
+  ImGui::SameLine();
+  ImGui::SetCursorScreenPos({rect.right() - width - ui.px(10), ImGui::GetCursorScreenPos().y});
+  const ImVec4 fill = ImGui::ColorConvertU32ToFloat4(stopped ? ui.colours.accent_soft : ui.colours.bad);
+  ImGui::PushStyleColor(ImGuiCol_Button, stopped ? fill : ImVec4(fill.x, fill.y, fill.z, 0.75f));
+  ImGui::PushStyleColor(ImGuiCol_ButtonHovered, fill);
+  ImGui::PushStyleColor(ImGuiCol_Text, stopped ? ui.colours.text : IM_COL32_WHITE);
+  if (ImGui::Button((std::string(text) + "##stop").c_str(), {width, 0.0f})) model.toggle_stop();
+  ImGui::PopStyleColor(3);
+  ui.items.note_last("menu/stop");
+  tooltip(ui, stopped ? "Clears faults and lets the force in again, over a quarter of a second" : "No force until armed again (Esc)");
+}
+
+}  // namespace
+
+void draw_menu_bar(const UiContext& ui, AppModel& model, MenuBar& state, const Rect& rect) {
+  ImGui::SetNextWindowPos({rect.x, rect.y});
+  ImGui::SetNextWindowSize({rect.w, rect.h});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(ui.px(8), 0));
+  constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                                     ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNav;
+  ImGui::Begin("##menu", nullptr, flags);
+  ImGui::PopStyleVar();
+  ImGui::SetCursorPosY(0.5f * (rect.h - ImGui::GetFrameHeight()));
+  draw_file_menu(ui, model, state);
+  ImGui::SameLine(0, ui.px(3));
+  draw_view_menu(ui, model);
+  ImGui::SameLine(0, ui.px(14));
+  const float room = std::clamp((rect.w - ui.px(520)) * 0.3f, ui.px(90), ui.px(240));
+  const auto label = [&](const char* text) {
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextDisabled("%s", text);
+    ImGui::SameLine(0, ui.px(5));
+  };
+  label("Mesh");
+  draw_scene_menu(ui, model, state, room);
+  ImGui::SameLine(0, ui.px(12));
+  label("Preset");
+  draw_preset_menu(ui, model, room);
+  ImGui::SameLine(0, ui.px(12));
+  bool follows = model.view().hand_follows_mouse;
+  if (toggle_button(ui, "menu/hand", "Hand follows mouse", follows, "Drag on the surface in the 3D view to lead the simulated hand (M). Off: it explores the mesh by itself"))
+    model.set_hand_follows_mouse(follows);
+  draw_stop(ui, model, rect);
+  ImGui::End();
+  if (state.path.open) draw_path_bar(ui, model, state.path, rect);
+}
+
+}  // namespace tangent

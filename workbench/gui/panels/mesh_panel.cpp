@@ -1,0 +1,90 @@
+// The mesh: what it is and what a contact solver will meet on it.
+#include "workbench/gui/panels/panels.h"
+#include "workbench/gui/widgets.h"
+
+#include <array>
+#include <filesystem>
+
+namespace tangent {
+
+namespace {
+
+std::string count(std::uint64_t n) { return format("%llu", static_cast<unsigned long long>(n)); }
+
+/// A line of the health report: nothing is said in colour but what a person should look at.
+void problem(const UiContext& ui, const char* label, std::uint64_t n, ImU32 ink, const char* doc) {
+  fact(ui, label, count(n), "", n > 0 ? std::optional(ink) : std::nullopt);
+  tooltip(ui, doc);
+}
+
+void draw_audit(const UiContext& ui, const MeshAudit& a) {
+  const ImU32 warning = ui.colours.warning, bad = ui.colours.bad;
+  fact(ui, "Area", format("%.2f", a.area_m2 * 1e4), "cm\u00b2");
+  fact(ui, "Parts", count(a.components));
+  fact(ui, "Edge length", format("%.3g / %.3g / %.3g", a.edge_length_m.min * 1e3, a.edge_length_m.median * 1e3, a.edge_length_m.max * 1e3), "mm");
+  tooltip(ui, "Shortest, median, longest");
+  fact(ui, "Dihedral angle", format("%.3g / %.3g / %.3g", a.dihedral_deg.min, a.dihedral_deg.median, a.dihedral_deg.max), "deg");
+  tooltip(ui, "Between adjacent facets: smallest, median, largest. Below 0.5 deg facets feel smooth even with plain force rendering (condition C1); below 3.4 deg with force shading (C2)");
+  fact(ui, "Crease edges", count(a.crease_edges));
+  problem(ui, "Boundary edges", a.boundary_edges, warning, "The surface ends there; contacts on them are edge contacts");
+  problem(ui, "Boundary loops", a.boundary_loops, warning, "Holes and rims");
+  problem(ui, "Non-manifold edges", a.non_manifold_edges, bad, "Shared by three triangles or more");
+  problem(ui, "Non-manifold vertices", a.non_manifold_vertices, bad, "Their triangles form more than one fan");
+  problem(ui, "Inconsistent edges", a.inconsistent_edges, bad, "Both triangles turn the same way along them: one of them is inside out");
+  problem(ui, "Slivers", a.sliver_triangles, warning, "Very thin triangles");
+  problem(ui, "Flipped normals", a.flipped_normals, bad, "Corner normals that point against their facet");
+  problem(ui, "Wild normals", a.wild_normals, warning, "Corner normals over 60 deg from their facet's");
+}
+
+void draw_defects(const UiContext& ui, const ContactMesh& mesh) {
+  for (std::size_t i = 0; i < kMeshDefectCount; ++i) {
+    const auto kind = static_cast<MeshDefect>(i);
+    const MeshDefectList& list = mesh.defects(kind);
+    if (list.count == 0) continue;
+    fact(ui, to_string(kind), count(list.count), "", ui.colours.warning);
+    std::string first = "First (file numbering from 0):";
+    for (const std::uint64_t index : list.first) first += " " + count(index);
+    tooltip(ui, first);
+  }
+}
+
+void draw_picked(const UiContext& ui, AppModel& model) {
+  const std::uint32_t t = model.view().picked_triangle;
+  const ContactMesh& mesh = model.scene()->mesh();
+  if (t == kNone || t >= mesh.triangle_count() || !mesh.usable(t)) return;
+  ImGui::Separator();
+  fact(ui, "Picked triangle", count(t));
+  static constexpr std::array<const char*, 3> kKinds{"smooth", "crease", "boundary"};
+  for (std::uint32_t e = 0; e < 3; ++e) {
+    const EdgeLink link = mesh.across(t, e);
+    const std::string to = link.triangle == kNone ? "" : ", to " + count(link.triangle);
+    fact(ui, format("Edge %u", e).c_str(), kKinds[static_cast<std::size_t>(mesh.edge_kind(t, e))] + to);
+  }
+  if (text_button(ui, "mesh/unpick", "Unpick", "Picks nothing")) model.view().picked_triangle = kNone;
+}
+
+}  // namespace
+
+void draw_mesh_panel(const UiContext& ui, AppModel& model, FoldedPanel& state) {
+  if (!section(ui, "Mesh", state.open)) return;
+  if (model.scene() == nullptr) {
+    ImGui::TextDisabled(model.loading() ? "Loading" : "No mesh");
+    return;
+  }
+  const ContactMesh& mesh = model.scene()->mesh();
+  fact(ui, "Name", std::filesystem::path(mesh.name()).filename().string());
+  tooltip(ui, mesh.name());
+  fact(ui, "Triangles", count(mesh.usable_triangle_count()));
+  fact(ui, "Vertices", count(mesh.vertex_count()));
+  const Vec3 size = mesh.bounds().size() * 1e3;
+  fact(ui, "Size", format("%.4g \u00d7 %.4g \u00d7 %.4g", size.x, size.y, size.z), "mm");
+  fact(ui, "Normals", mesh.normals_used() == NormalSource::file ? "from the file" : "computed");
+  fact(ui, "Memory", format("%.1f", static_cast<double>(model.scene()->memory_bytes()) / 1e6), "MB");
+  if (const MeshAudit* audit = model.audit()) draw_audit(ui, *audit);
+  else if (model.auditing()) ImGui::TextDisabled("Audit running");
+  draw_defects(ui, mesh);
+  draw_picked(ui, model);
+  ImGui::Dummy({1, ui.px(3)});
+}
+
+}  // namespace tangent

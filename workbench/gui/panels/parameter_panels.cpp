@@ -1,0 +1,98 @@
+// Solver, finger, force, display and safety: one row for each key of the preset schema.
+#include "workbench/gui/panels/panels.h"
+#include "workbench/gui/widgets.h"
+
+namespace tangent {
+
+namespace {
+
+/// Whether a key does anything under the present choices; the others stay away.
+bool applies(const PresetKey& key, const Preset& preset) {
+  const FingerShape shape = preset.finger.shape;
+  if (key.table == "finger") {
+    if (key.key.starts_with("semi_axis")) return shape == FingerShape::ellipsoid;
+    if (key.key == "half_length_m") return shape == FingerShape::capsule;
+    if (key.key == "radius_m") return shape == FingerShape::sphere || shape == FingerShape::capsule;
+  }
+  return true;
+}
+
+/// Eq. 1's gains steer the paper's iteration alone.
+bool idle(const PresetKey& key, const Preset& preset) {
+  const bool of_paper = key.key.starts_with("gain_") || key.key == "distance_reading";
+  return key.table == "solver" && of_paper && preset.solver.method != Method::paper;
+}
+
+std::string explain(const PresetKey& key, bool is_idle) {
+  std::string text(key.doc);
+  if (key.kind != KeyKind::choice) text += "\n\nAllowed: " + key.allowed() + ".";
+  text += "\nKey: " + key.full_name();
+  if (!key.option.empty()) text += ", --" + std::string(key.option);
+  if (is_idle) text += "\nUsed by the method \"paper\" only.";
+  return text;
+}
+
+void draw_row(const UiContext& ui, AppModel& model, const PresetKey& key) {
+  const Preset& preset = model.presets().current();
+  const double value = key.get(preset);
+  const std::string path = std::string(key.table) + "/" + std::string(key.key);
+  const bool is_idle = idle(key, preset);
+  const float width = ImGui::GetContentRegionAvail().x;
+  const float label_width = std::max(ui.px(116), 0.42f * width);
+  const float reset_width = ui.px(20);
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+
+  // The label; a dot in front of it when the value is no longer the loaded one.
+  const bool changed = value != key.get(model.presets().loaded().preset);
+  ImGui::InvisibleButton(("##label/" + path).c_str(), {label_width - ui.px(4), ImGui::GetFrameHeight()});
+  tooltip(ui, explain(key, is_idle));
+  const float text_y = std::round(at.y + 0.5f * (ImGui::GetFrameHeight() - ui.fonts.text->FontSize));
+  if (changed) draw.AddCircleFilled({at.x + ui.px(2), text_y + 0.55f * ui.fonts.text->FontSize}, ui.px(2.5f), ui.colours.accent);
+  draw.PushClipRect(at, {at.x + label_width - ui.px(4), at.y + ImGui::GetFrameHeight()}, true);
+  const std::string label(key.label);
+  draw.AddText({at.x + ui.px(9), text_y}, is_idle ? ui.colours.text_faint : ui.colours.text, label.c_str());
+  draw.PopClipRect();
+
+  ImGui::SetCursorScreenPos({at.x + label_width, at.y});
+  const float field_width = width - label_width - reset_width;
+  if (key.kind == KeyKind::choice) {
+    int chosen = static_cast<int>(value);
+    if (choice_row(ui, path, field_width, key.choices, chosen)) model.set_value(key, chosen);
+  } else {
+    const DisplayUnit unit = display_unit(key);
+    const auto result = value_field(ui, path, {field_width, slider_share(key, value), display_text(key, value), unit.name});
+    if (result.slid) model.set_value(key, slider_value(key, *result.slid));
+    if (result.typed) model.type_value(key, *result.typed);
+  }
+  tooltip(ui, explain(key, is_idle));
+
+  ImGui::SetCursorScreenPos({at.x + width - reset_width + ui.px(3), at.y});
+  if (value != key.default_value()) {
+    const std::string what = "Back to " + (key.kind == KeyKind::choice ? key.value_text(key.default_value())
+        : display_text(key, key.default_value()) + " " + std::string(display_unit(key).name)) + ", the program's own value";
+    if (icon_button(ui, path + "/reset", Icon::reset, what.c_str())) model.reset_value(key);
+  } else {
+    ImGui::Dummy({ui.px(10), ImGui::GetFrameHeight()});
+  }
+}
+
+void draw_table(const UiContext& ui, AppModel& model, const char* title, std::string_view table, bool& open) {
+  if (!section(ui, title, open)) return;
+  for (const PresetKey& key : preset_keys()) {
+    if (key.table == table && applies(key, model.presets().current())) draw_row(ui, model, key);
+  }
+  ImGui::Dummy({1, ui.px(2)});
+}
+
+}  // namespace
+
+void draw_parameter_panels(const UiContext& ui, AppModel& model, ParameterPanels& state) {
+  draw_table(ui, model, "Solver", "solver", state.solver);
+  draw_table(ui, model, "Finger", "finger", state.finger);
+  draw_table(ui, model, "Force", "force", state.force);
+  draw_table(ui, model, "Display", "display", state.display);
+  draw_table(ui, model, "Safety", "safety", state.safety);
+}
+
+}  // namespace tangent

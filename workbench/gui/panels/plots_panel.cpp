@@ -1,0 +1,93 @@
+// The live plots, all on one time axis: side by side in columns where the panel is wide and low, stacked where it is
+// high enough.
+#include "workbench/gui/panels/panels.h"
+#include "workbench/gui/widgets.h"
+
+#include <array>
+#include <cmath>
+
+namespace tangent {
+
+namespace {
+
+constexpr std::size_t at(Channel c) { return static_cast<std::size_t>(c); }
+
+/// Which plots share a column, and how many columns there are.
+struct Cell {
+  std::size_t plot;
+  int column;
+  float weight;  ///< of the column's height
+};
+constexpr std::array kThreeColumns{Cell{0, 0, 1.0f}, Cell{1, 1, 0.5f}, Cell{2, 1, 0.5f}, Cell{3, 2, 0.5f}, Cell{4, 2, 0.5f}};
+constexpr std::array kTwoColumns{Cell{0, 0, 0.5f}, Cell{1, 0, 0.5f}, Cell{2, 1, 0.34f}, Cell{3, 1, 0.33f}, Cell{4, 1, 0.33f}};
+constexpr std::array kOneColumn{Cell{0, 0, 0.28f}, Cell{1, 0, 0.18f}, Cell{2, 0, 0.18f}, Cell{3, 0, 0.18f}, Cell{4, 0, 0.18f}};
+
+struct Arrangement {
+  const std::array<Cell, 5>* cells;
+  int columns;
+};
+Arrangement arrange(float width, float height) {
+  if (height > 430.0f) return {&kOneColumn, 1};
+  if (height > 280.0f && width < 1500.0f) return {&kTwoColumns, 2};
+  return {&kThreeColumns, 3};
+}
+
+}  // namespace
+
+PlotsPanel make_plots_panel() {
+  PlotsPanel panel;
+  panel.plots.emplace_back(PlotSpec{.id = "force", .title = "Force", .unit = "N", .format = "%7.3f",
+      .series = {{"x", at(Channel::force_x), &Palette::force_x}, {"y", at(Channel::force_y), &Palette::force_y},
+                 {"z", at(Channel::force_z), &Palette::force_z}, {"|F|", at(Channel::force_magnitude), &Palette::force_magnitude}}});
+  panel.plots.emplace_back(PlotSpec{.id = "cld", .title = "Contact display", .unit = "mm", .scale = 1e3, .format = "%7.3f",
+      .series = {{"commanded", at(Channel::cld_commanded), &Palette::cld_commanded}, {"measured", at(Channel::cld_measured), &Palette::cld_measured}}});
+  panel.plots.emplace_back(PlotSpec{.id = "error", .title = "Error", .unit = "\u00b5m", .scale = 1e6, .log = true, .floor = 1e-9, .format = "%9.3g",
+      .series = {{"error", at(Channel::error), &Palette::error}}});
+  panel.plots.emplace_back(PlotSpec{.id = "iterations", .title = "Iterations", .unit = "", .format = "%3.0f",
+      .series = {{"iterations", at(Channel::iterations), &Palette::iterations, true}}});
+  panel.plots.emplace_back(PlotSpec{.id = "tick_time", .title = "Tick time", .unit = "\u00b5s", .scale = 1e6, .format = "%7.1f",
+      .series = {{"tick time", at(Channel::tick_time), &Palette::tick_time}}});
+  return panel;
+}
+
+void draw_plots_panel(const UiContext& ui, AppModel& model, PlotsPanel& state, const Rect& rect) {
+  if (rect.w < ui.px(60) || rect.h < ui.px(30)) return;
+  ImGui::SetNextWindowPos({rect.x, rect.y});
+  ImGui::SetNextWindowSize({rect.w, rect.h});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0, 0));
+  constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                                     ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoScrollWithMouse;
+  ImGui::Begin("##plots", nullptr, flags);
+  ImGui::PopStyleVar();
+  PlotLink& link = state.link;
+  link.tick_period_s = model.tick_period_s();
+  link.hover = link.hover_next;
+  link.hover_next.reset();
+  link.clicked.reset();
+  link.cursor.reset();
+  if (model.paused() && model.tick().record() != nullptr) link.cursor = model.tick().record()->tick.tick;
+
+  const Arrangement arrangement = arrange(rect.w / ui.scale, rect.h / ui.scale);
+  const float gap = ui.px(4);
+  const float column_width = (rect.w - gap) / static_cast<float>(arrangement.columns);
+  std::array<float, 3> y{rect.y + ui.px(2), rect.y + ui.px(2), rect.y + ui.px(2)};
+  const float labels = ui.px(13);  // the lowest plot of a column carries the time labels
+  const float height = rect.h - ui.px(4) - labels;
+  for (std::size_t i = 0; i < arrangement.cells->size(); ++i) {
+    const Cell& cell = (*arrangement.cells)[i];
+    const bool last = i + 1 == arrangement.cells->size() || (*arrangement.cells)[i + 1].column != cell.column;
+    auto& top = y[static_cast<std::size_t>(cell.column)];
+    const float h = std::floor(cell.weight * height) + (last ? labels : 0.0f);
+    // A draw list each: its 16-bit indices are then the plot's own.
+    ImGui::SetCursorScreenPos({rect.x + static_cast<float>(cell.column) * column_width, top});
+    ImGui::BeginChild(state.plots[cell.plot].spec().id.c_str(), {column_width, h}, false, ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NoNav);
+    const double reference = cell.plot == 2 ? model.presets().current().solver.tolerance_m : std::nan("");
+    state.plots[cell.plot].draw(ui, model.store(), model.axis(), link, ImGui::GetWindowPos(), {column_width, h}, last, reference);
+    ImGui::EndChild();
+    top += h;
+  }
+  ImGui::End();
+  if (link.clicked && !model.store().empty()) model.select_tick(*link.clicked);
+}
+
+}  // namespace tangent

@@ -1,0 +1,75 @@
+// Presets: the files beside the program, save as, and what was changed since the present one was loaded.
+#include "workbench/gui/panels/panels.h"
+#include "workbench/gui/widgets.h"
+
+#include <imgui_stdlib.h>
+
+namespace tangent {
+
+namespace {
+
+std::string value_with_unit(const PresetKey& key, double value) {
+  if (key.kind == KeyKind::choice) return key.value_text(value);
+  const std::string_view unit = display_unit(key).name;
+  return display_text(key, value) + (unit.empty() ? "" : " " + std::string(unit));
+}
+
+void draw_files(const UiContext& ui, AppModel& model) {
+  if (model.preset_files().empty()) {
+    ImGui::TextDisabled("No presets in %s", model.preset_folder().filename().c_str());
+    return;
+  }
+  for (const auto& file : model.preset_files()) {
+    const std::string name = file.stem().string();
+    const bool current = file.stem() == model.presets().path().stem() && !model.presets().path().empty();
+    if (ImGui::Selectable(name.c_str(), current)) model.load_preset(file);
+    ui.items.note_last("presets/file/" + name);
+    tooltip(ui, "Load " + file.string());
+  }
+}
+
+void draw_changes(const UiContext& ui, AppModel& model) {
+  const auto changes = model.presets().changes();
+  const std::string from = model.presets().name();
+  if (changes.empty()) {
+    ImGui::TextDisabled("Nothing changed since %s", from.c_str());
+    return;
+  }
+  ImGui::TextDisabled("Changed since %s", from.c_str());
+  for (const PresetChange& change : changes) {
+    const std::string name = change.key->full_name();
+    const float width = ImGui::GetContentRegionAvail().x;
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const std::string text = value_with_unit(*change.key, change.loaded) + " \u2192 " + value_with_unit(*change.key, change.now);
+    ImGui::TextUnformatted(name.c_str());
+    ImGui::PushFont(ui.fonts.small_number);
+    const float w = ImGui::CalcTextSize(text.c_str()).x;
+    ImGui::SetCursorScreenPos({at.x + width - w - ui.px(22), at.y + ui.px(1)});
+    ImGui::TextUnformatted(text.c_str());
+    ImGui::PopFont();
+    ImGui::SetCursorScreenPos({at.x + width - ui.px(17), at.y - ui.px(3)});
+    if (icon_button(ui, "presets/revert/" + name, Icon::reset, "Back to the loaded value")) model.revert_value(*change.key);
+    ImGui::SetCursorScreenPos({at.x, at.y + ui.px(19)});
+  }
+  ImGui::Dummy({1, 1});
+  if (text_button(ui, "presets/revert_all", "Revert all", "Every key back to the loaded value")) model.revert_preset();
+}
+
+}  // namespace
+
+void draw_presets_panel(const UiContext& ui, AppModel& model, PresetsPanel& state) {
+  if (!section(ui, "Presets", state.open)) return;
+  draw_files(ui, model);
+  const float button = ImGui::CalcTextSize("Save as").x + 2.0f * ImGui::GetStyle().FramePadding.x;
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - button - ImGui::GetStyle().ItemSpacing.x);
+  const bool enter = ImGui::InputTextWithHint("##preset_name", "name", &state.name, ImGuiInputTextFlags_EnterReturnsTrue);
+  ui.items.note_last("presets/name");
+  ImGui::SameLine();
+  const bool pressed = text_button(ui, "presets/save", "Save as", "Writes the present values into the preset folder under this name");
+  if (enter || pressed) model.save_preset(state.name);
+  ImGui::Dummy({1, ui.px(1)});
+  draw_changes(ui, model);
+  ImGui::Dummy({1, ui.px(3)});
+}
+
+}  // namespace tangent

@@ -1,0 +1,53 @@
+// One line: servo rate, late ticks, drops, tick time, and what the window itself costs.
+#include "workbench/gui/panels/panels.h"
+#include "workbench/gui/widgets.h"
+
+#include <cmath>
+
+namespace tangent {
+
+void draw_status_line(const UiContext& ui, AppModel& model, const Rect& rect, double build_ms) {
+  ImGui::SetNextWindowPos({rect.x, rect.y});
+  ImGui::SetNextWindowSize({rect.w, rect.h});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(ui.px(10), 0));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(1, 1));
+  ImGui::PushStyleColor(ImGuiCol_WindowBg, ui.colours.window);
+  constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                                     ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNav;
+  ImGui::Begin("##status", nullptr, flags);
+  ImGui::PopStyleColor();
+  ImGui::PopStyleVar(2);
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const float y_text = std::round(rect.y + 0.5f * (rect.h - ui.fonts.small->FontSize));
+  const float y_number = std::round(rect.y + 0.5f * (rect.h - ui.fonts.small_number->FontSize));
+  ImFont* text = ui.fonts.small;
+  ImFont* number = ui.fonts.small_number;
+  const float digit = number->CalcTextSizeA(number->FontSize, 1e9f, 0.0f, "0").x;
+  float x = rect.x + ui.px(10);
+  // Every value has a fixed room, so that the line stands still.
+  const auto put = [&](const char* name, const std::string& label, const std::string& value, float characters, ImU32 ink) {
+    draw.AddText(text, text->FontSize, {x, y_text}, ui.colours.text_dim, label.c_str());
+    const float from = x;
+    x += text->CalcTextSizeA(text->FontSize, 1e9f, 0.0f, label.c_str()).x + ui.px(5);
+    draw.AddText(number, number->FontSize, {x, y_number}, ink, value.c_str());
+    x += characters * digit + ui.px(16);
+    ui.items.note(std::string("status/") + name, {from, rect.y}, {x - ui.px(16), rect.bottom()});
+  };
+  const auto integer = [](std::uint64_t n) { return format("%llu", static_cast<unsigned long long>(n)); };
+  const ServoStatus& servo = model.status().servo;
+  const ImU32 plain = ui.colours.text, warn = ui.colours.warning;
+  put("rate", "Servo", servo.rate_hz > 0.0 ? format("%7.1f Hz", servo.rate_hz) : servo.running ? "   ... Hz" : "   off", 11, plain);
+  const double late_share = servo.ticks > 0 ? static_cast<double>(servo.late_ticks) / static_cast<double>(servo.ticks) : 0.0;
+  put("late", "Late", format("%s (%.2f %%)", integer(servo.late_ticks).c_str(), 100.0 * late_share), 16, late_share > 0.01 ? warn : plain);
+  put("drops", "Dropped records", integer(servo.gui_drops), 7, servo.gui_drops > 0 ? warn : plain);
+  put("p99", "Tick p99", format("%6.1f \u00b5s", servo.tick_p99_ns * 1e-3), 10, plain);
+  put("worst", "worst", format("%7.1f \u00b5s", servo.tick_worst_ns * 1e-3), 11, plain);
+  const double kept_s = static_cast<double>(model.end_tick() - model.first_tick()) * model.tick_period_s();
+  put("history", "History", format("%5.1f s", kept_s), 8, plain);
+  const std::string right = format("frame %.2f ms   %.0f/s", build_ms, static_cast<double>(ImGui::GetIO().Framerate));
+  const float w = number->CalcTextSizeA(number->FontSize, 1e9f, 0.0f, right.c_str()).x;
+  if (x + w < rect.right() - ui.px(10)) draw.AddText(number, number->FontSize, {rect.right() - w - ui.px(10), y_number}, ui.colours.text_dim, right.c_str());
+  ImGui::End();
+}
+
+}  // namespace tangent

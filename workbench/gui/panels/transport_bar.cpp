@@ -1,0 +1,108 @@
+// Time: pause, step by tick and by iteration, back to live, and the kept history as a strip to scrub in.
+#include "workbench/gui/panels/panels.h"
+#include "workbench/gui/widgets.h"
+
+#include <algorithm>
+
+namespace tangent {
+
+namespace {
+
+/// The whole kept history; the range the plots show; unconverged or slow ticks stand out by their iterations.
+void draw_strip(const UiContext& ui, AppModel& model, float width) {
+  const float height = ImGui::GetFrameHeight();
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  if (width < ui.px(40)) return;
+  ImGui::InvisibleButton("##strip", {width, height});
+  ui.items.note_last("transport/strip");
+  tooltip(ui, "The kept history. Drag to scrub; the lit part is what the plots show");
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  draw.AddRectFilled(at, {at.x + width, at.y + height}, ui.colours.field, ui.px(3));
+  const double first = static_cast<double>(model.first_tick()), end = static_cast<double>(model.end_tick());
+  if (!(end > first)) return;
+  // Until the history is full it grows from the left at a fixed scale, so that the strip doesn't shrink under the
+  // pointer; afterwards it scrolls.
+  const double span = std::max(end - first, std::min(static_cast<double>(model.store().capacity()), 30.0 / model.tick_period_s()));
+  const auto x_of = [&](double tick) { return at.x + static_cast<float>(std::clamp((tick - first) / span, 0.0, 1.0)) * width; };
+  TimeAxis whole;
+  whole.update(model.first_tick(), model.end_tick(), span + 1.0);
+  whole.show(first, first + span);
+  static thread_local std::vector<ColumnBar> bars;
+  column_bars(model.store(), static_cast<std::size_t>(Channel::iterations), whole, width, bars);
+  const MinMax most = model.store().min_max(static_cast<std::size_t>(Channel::iterations), model.first_tick(), model.end_tick());
+  const float top = std::max(8.0f, most.empty() ? 8.0f : most.max);
+  for (const ColumnBar& bar : bars) {
+    const float share = std::min(1.0f, bar.range.max / top);
+    draw.AddRectFilled({at.x + bar.x, at.y + height - ui.px(2) - share * (height - ui.px(4))}, {at.x + bar.x + 1.0f, at.y + height - ui.px(2)},
+                       packed(with_alpha(ui.palette.iterations, 0.55f)));
+  }
+  draw.AddRectFilled({x_of(model.axis().from()), at.y}, {x_of(model.axis().to()), at.y + height}, ui.colours.accent_soft, ui.px(2));
+  if (const ServoRecord* record = model.tick().record()) {
+    const float x = x_of(static_cast<double>(record->tick.tick));
+    draw.AddRectFilled({x - ui.px(1), at.y}, {x + ui.px(1), at.y + height}, model.paused() ? ui.colours.accent : ui.colours.text_dim);
+  }
+  if (ImGui::IsItemActive()) {
+    const double tick = first + static_cast<double>((ImGui::GetIO().MousePos.x - at.x) / width) * span;
+    model.select_tick(static_cast<std::uint64_t>(std::clamp(tick, first, end - 1.0)));
+  }
+}
+
+}  // namespace
+
+void draw_transport_bar(const UiContext& ui, AppModel& model, const Rect& rect) {
+  ImGui::SetNextWindowPos({rect.x, rect.y});
+  ImGui::SetNextWindowSize({rect.w, rect.h});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(ui.px(8), 0));
+  constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                                     ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNav;
+  ImGui::Begin("##transport", nullptr, flags);
+  ImGui::PopStyleVar();
+  ImGui::SetCursorPosY(0.5f * (rect.h - ImGui::GetFrameHeight()));
+  const bool any = !model.store().empty();
+  const bool paused = model.paused();
+  if (icon_button(ui, "transport/first", Icon::first, "Oldest tick kept (Home)", false, any)) model.select_tick(model.first_tick());
+  ImGui::SameLine(0, ui.px(3));
+  if (icon_button(ui, "transport/step_back", Icon::step_back, "One tick back (Left; Shift: ten)", false, any)) model.step_tick(-1);
+  ImGui::SameLine(0, ui.px(3));
+  if (icon_button(ui, "transport/pause", paused ? Icon::play : Icon::pause, paused ? "Back to live (Space)" : "Freeze the view (Space). The servo goes on", paused, any))
+    model.set_paused(!paused);
+  ImGui::SameLine(0, ui.px(3));
+  if (icon_button(ui, "transport/step_forward", Icon::step_forward, "One tick on (Right; Shift: ten)", false, any)) model.step_tick(1);
+  ImGui::SameLine(0, ui.px(3));
+  if (icon_button(ui, "transport/live", Icon::live, "Live, at the newest tick (End)", !paused && model.axis().following(), any)) model.go_live();
+
+  ImGui::SameLine(0, ui.px(14));
+  if (icon_button(ui, "transport/iteration_back", Icon::previous, "One iteration back (comma)", false, any)) model.step_iteration(-1);
+  ImGui::SameLine(0, ui.px(3));
+  ImGui::PushFont(ui.fonts.number);
+  const std::size_t count = model.tick().iterations().size();
+  const std::string which = count == 0 ? " -/-" : model.tick().selected() ? format("%2zu/%zu", *model.tick().selected(), count - 1) : format(" -/%zu", count - 1);
+  const float which_x = ImGui::GetCursorPosX();
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted(which.c_str());
+  ImGui::SameLine();
+  ImGui::SetCursorPosX(which_x + 6.0f * ImGui::CalcTextSize("0").x);
+  ImGui::PopFont();
+  if (icon_button(ui, "transport/iteration_on", Icon::next, "One iteration on (full stop)", false, any)) model.step_iteration(1);
+
+  ImGui::SameLine(0, ui.px(14));
+  ImGui::AlignTextToFramePadding();
+  const ServoRecord* record = model.tick().record();
+  const auto caption = [&](const char* label, const std::string& value, float characters) {
+    ImGui::TextDisabled("%s", label);
+    ImGui::SameLine(0, ui.px(5));
+    const float x = ImGui::GetCursorPosX();
+    ImGui::PushFont(ui.fonts.number);
+    const float digit = ImGui::CalcTextSize("0").x;
+    ImGui::SetCursorPosX(x + characters * digit - ImGui::CalcTextSize(value.c_str()).x);
+    ImGui::TextUnformatted(value.c_str());
+    ImGui::PopFont();
+    ImGui::SameLine(0, ui.px(12));
+  };
+  caption("tick", record != nullptr ? format("%llu", static_cast<unsigned long long>(record->tick.tick)) : "-", 9.0f);
+  caption("t", record != nullptr ? format("%.3f s", record->tick.input.t_s) : "-", 10.0f);
+  draw_strip(ui, model, ImGui::GetContentRegionAvail().x);
+  ImGui::End();
+}
+
+}  // namespace tangent

@@ -1,0 +1,196 @@
+// The 3D view: the renderer's picture, what is written on it, and the mouse. Left or middle drag orbits, right drag
+// (or Shift) pans, the wheel zooms about the pointer, a click picks a triangle. With "hand follows mouse" a left
+// drag on the surface leads the simulated hand.
+#include "workbench/gui/panels/panels.h"
+#include "workbench/gui/render/scene_overlay.h"
+#include "workbench/gui/widgets.h"
+
+#include <array>
+#include <chrono>
+#include <cmath>
+
+namespace tangent {
+
+namespace {
+
+struct LayerToggle {
+  const char* name;
+  bool SceneToggles::*on;
+  const char* doc;
+};
+constexpr std::array kLayers{
+    LayerToggle{"Facets", &SceneToggles::shaded, "The mesh as it is: flat triangles"},
+    LayerToggle{"Edges", &SceneToggles::wireframe, "Edges of the triangles, or of the patches"},
+    LayerToggle{"Surface", &SceneToggles::smooth_surface, "The smooth surface that is rendered: PN patches"},
+    LayerToggle{"Net", &SceneToggles::control_net, "Control net of the tracked triangle: ten points"},
+    LayerToggle{"Neighbours", &SceneToggles::control_net_neighbours, "Control nets across its three edges too"},
+    LayerToggle{"Labels", &SceneToggles::control_point_labels, "Names of the control points"},
+    LayerToggle{"Normals", &SceneToggles::vertex_normals, "Vertex normals"},
+    LayerToggle{"Planes", &SceneToggles::planes, "Tangent planes of the tick's iterations, coloured by order"},
+    LayerToggle{"Finger", &SceneToggles::finger, "The finger"},
+    LayerToggle{"Force", &SceneToggles::force, "The rendered force"},
+    LayerToggle{"Display", &SceneToggles::cld_inset, "The fingerpad from the side, with the roller where it is"}};
+
+void draw_layer_toggles(const UiContext& ui, AppModel& model, const Rect& rect) {
+  ImGui::PushFont(ui.fonts.small);
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(ui.px(3), ui.px(3)));
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(ui.px(6), ui.px(2)));
+  float x = rect.x + ui.px(8), y = rect.y + ui.px(7);
+  for (const LayerToggle& layer : kLayers) {
+    const float w = ImGui::CalcTextSize(layer.name).x + ui.px(12);
+    if (x + w > rect.right() - ui.px(8)) {
+      x = rect.x + ui.px(8);
+      y += ImGui::GetFrameHeight() + ui.px(3);
+    }
+    ImGui::SetCursorScreenPos({x, y});
+    toggle_button(ui, std::string("view/") + layer.name, layer.name, model.view().toggles.*layer.on, layer.doc);
+    x += w + ui.px(3);
+  }
+  ImGui::PopStyleVar(2);
+  ImGui::PopFont();
+}
+
+SceneFrame scene_frame(const AppModel& model) {
+  SceneFrame frame;
+  const ViewState& view = model.view();
+  frame.toggles = view.toggles;
+  frame.theme = model.theme();
+  frame.quality = view.quality;
+  const Preset& preset = model.presets().current();
+  frame.finger = preset.finger;
+  frame.display_travel_m = preset.display.travel_m;
+  frame.picked_triangle = view.picked_triangle;
+  frame.hovered_triangle = view.hovered_triangle;
+  if (const ServoRecord* record = model.tick().record()) {
+    frame.tick = record->tick;
+    frame.trace = model.tick().iterations();
+    frame.selected_iteration = model.tick().selected();
+    frame.cld_commanded_m = record->device.cld_command_m;
+    frame.cld_measured_m = record->device.cld_measured_m;
+    // The tick may have run under another preset than the one being edited.
+    const Preset* then = model.session() != nullptr ? model.session()->preset(record->tick.preset_id) : nullptr;
+    if (then != nullptr) frame.finger = then->finger;
+  }
+  return frame;
+}
+
+/// The finger's centre for a hand led to a place on the surface: on its normal, pressed in by the hand's depth.
+Vec3 finger_centre(const AppModel& model, const Vec3& point, const Vec3& normal) {
+  const double depth = model.session() != nullptr ? model.session()->hand().press_m : 0.0;
+  return point + normal * (model.presets().current().finger.reach_m() - depth);
+}
+
+void lead_hand(AppModel& model, ViewPanel& state, const Vec2& pixel, int w, int h) {
+  const ContactMesh& mesh = model.scene()->mesh();
+  const Ray ray = model.view().camera.ray_through(pixel, w, h);
+  const auto hit = pick_triangle(*model.scene(), model.view().camera, pixel, w, h);
+  if (hit) {
+    const Vec3 point = ray.origin + ray.direction * hit.distance_m;
+    Vec3 normal = (1.0 - hit.u - hit.v) * mesh.normal(hit.triangle, 0) + hit.u * mesh.normal(hit.triangle, 1) + hit.v * mesh.normal(hit.triangle, 2);
+    if (glm::dot(normal, normal) < 1e-12) return;
+    normal = unit(normal);
+    // Seen from inside, the finger stays on the side the normals point to.
+    state.drag_plane = finger_centre(model, point, normal);
+  } else if (state.drag_plane) {
+    // Off the mesh: on in the plane that faces the eye, so that the finger can be pulled away and brought back.
+    const Vec3 facing = model.view().camera.forward();
+    const double along = glm::dot(ray.direction, facing);
+    if (along < 1e-6) return;
+    state.drag_plane = ray.origin + ray.direction * (glm::dot(*state.drag_plane - ray.origin, facing) / along);
+  } else {
+    return;
+  }
+  model.lead_hand(*state.drag_plane);
+}
+
+void orbit_pan_zoom(const UiContext& ui, Camera& camera, const Rect& rect, bool orbit_with_left) {
+  const ImGuiIO& io = ImGui::GetIO();
+  const bool left = orbit_with_left && ImGui::IsMouseDown(ImGuiMouseButton_Left);
+  const bool middle = ImGui::IsMouseDown(ImGuiMouseButton_Middle), right = ImGui::IsMouseDown(ImGuiMouseButton_Right);
+  const ImVec2 delta = io.MouseDelta;
+  if (ImGui::IsItemActive() && (delta.x != 0.0f || delta.y != 0.0f)) {
+    if (right || ((left || middle) && io.KeyShift)) {
+      camera.pan(static_cast<double>(delta.x), static_cast<double>(delta.y), static_cast<int>(rect.h));
+    } else if (left || middle) {
+      const double per_pixel = 0.008 / static_cast<double>(ui.scale);
+      camera.orbit(-static_cast<double>(delta.x) * per_pixel, static_cast<double>(delta.y) * per_pixel);
+    }
+  }
+  if (ImGui::IsItemHovered() && io.MouseWheel != 0.0f) {
+    camera.zoom_at(std::pow(0.86, static_cast<double>(io.MouseWheel)),
+                   Vec2(static_cast<double>(io.MousePos.x - rect.x), static_cast<double>(io.MousePos.y - rect.y)),
+                   static_cast<int>(rect.w), static_cast<int>(rect.h));
+  }
+}
+
+void interact(const UiContext& ui, AppModel& model, ViewPanel& state, const Rect& rect) {
+  const ImGuiIO& io = ImGui::GetIO();
+  ViewState& view = model.view();
+  const int w = static_cast<int>(rect.w), h = static_cast<int>(rect.h);
+  const Vec2 pixel(static_cast<double>(io.MousePos.x - rect.x), static_cast<double>(io.MousePos.y - rect.y));
+  const bool leading = view.hand_follows_mouse && !io.KeyShift;
+  orbit_pan_zoom(ui, view.camera, rect, !leading);
+  view.hovered_triangle = kNone;
+  if (model.scene() == nullptr) return;
+  const bool dragged = io.MouseDragMaxDistanceSqr[0] > ui.px(4) * ui.px(4);
+  if (leading && ImGui::IsItemActive() && ImGui::IsMouseDown(ImGuiMouseButton_Left)) {
+    lead_hand(model, state, pixel, w, h);
+  } else if (ImGui::IsItemDeactivated() && ImGui::IsMouseReleased(ImGuiMouseButton_Left) && !dragged && !leading) {
+    const auto hit = pick_triangle(*model.scene(), view.camera, pixel, w, h);
+    view.picked_triangle = hit.triangle == view.picked_triangle ? kNone : hit.triangle;
+  }
+}
+
+void draw_picture(const UiContext& ui, AppModel& model, ViewPanel& state, SceneRenderer& renderer, const Rect& rect) {
+  const ImVec2 per_point = ImGui::GetIO().DisplayFramebufferScale;
+  const auto begin = std::chrono::steady_clock::now();
+  renderer.set_scene(model.scene(), model.presets().current().solver.normal_form);
+  const SceneFrame frame = scene_frame(model);
+  renderer.render(frame, model.view().camera, static_cast<int>(std::lround(rect.w * per_point.x)), static_cast<int>(std::lround(rect.h * per_point.y)));
+  state.build_ms_outside = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  if (renderer.texture() == 0) return;
+  draw.AddImage(reinterpret_cast<ImTextureID>(static_cast<std::intptr_t>(renderer.texture())), {rect.x, rect.y}, {rect.right(), rect.bottom()}, {0, 1}, {1, 0});
+  ImGui::PushFont(ui.fonts.text);
+  draw_scene_overlay(draw, {rect.x, rect.y}, static_cast<double>(per_point.x), renderer, frame, model.view().camera, ui.fonts.number);
+  ImGui::PopFont();
+}
+
+}  // namespace
+
+void draw_view_panel(const UiContext& ui, AppModel& model, ViewPanel& state, SceneRenderer* renderer, const Rect& rect) {
+  state.build_ms_outside = 0.0;
+  if (rect.w < 8.0f || rect.h < 8.0f) return;
+  ImGui::SetNextWindowPos({rect.x, rect.y});
+  ImGui::SetNextWindowSize({rect.w, rect.h});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0, 0));
+  constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                                     ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NoNav;
+  ImGui::Begin("##view", nullptr, flags);
+  ImGui::PopStyleVar();
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const ImU32 top = packed(ui.palette.background_top), bottom = packed(ui.palette.background_bottom);
+  draw.AddRectFilledMultiColor({rect.x, rect.y}, {rect.right(), rect.bottom()}, top, top, bottom, bottom);
+
+  // The toggles come first and the picture's button lets them have the mouse.
+  ImGui::SetCursorScreenPos({rect.x, rect.y});
+  ImGui::InvisibleButton("##scene", {rect.w, rect.h}, ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight | ImGuiButtonFlags_MouseButtonMiddle);
+  ImGui::SetItemAllowOverlap();
+  ui.items.note_last("view");
+  interact(ui, model, state, rect);
+  if (renderer != nullptr) draw_picture(ui, model, state, *renderer, rect);
+  draw_layer_toggles(ui, model, rect);
+  if (model.loading()) {
+    const std::string text = "Loading " + model.loading_name();
+    const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+    draw.AddText({rect.x + 0.5f * (rect.w - size.x), rect.y + 0.5f * rect.h}, ui.colours.text, text.c_str());
+  }
+  if (model.view().hand_follows_mouse) {
+    const char* text = "Hand follows mouse: drag on the surface";
+    const ImVec2 size = ImGui::CalcTextSize(text);
+    draw.AddText({rect.x + 0.5f * (rect.w - size.x), rect.bottom() - size.y - ui.px(8)}, ui.colours.accent, text);
+  }
+  ImGui::End();
+}
+
+}  // namespace tangent

@@ -1,0 +1,60 @@
+// Opens a mesh on a worker: reads or generates it, builds the contact scene, prepares it for the servo, and then,
+// while it is already in use, audits it. The window asks once a frame what has come.
+#pragma once
+
+#include "core/mesh/mesh_audit.h"
+#include "core/step.h"
+#include "workbench/session/session.h"
+
+#include <future>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace tangent {
+
+/// What to open: a file, or the name of a generated object (generator_names()).
+struct SceneRequest {
+  std::string mesh;
+  double metres_per_unit = 1e-3;
+  ContactMeshOptions options;
+  Finger finger;
+};
+
+struct LoadedScene {
+  std::shared_ptr<const PolygonMesh> polygons;
+  std::shared_ptr<const ContactScene> scene;
+  PreparedScenePtr prepared;
+  double seconds = 0.0;
+};
+
+/// In the calling thread. A name without a dot or slash that is a generator's means the generated object.
+Result<LoadedScene> load_scene(const SceneRequest& request);
+
+class SceneLoader {
+ public:
+  /// Replaces what is asked for and has not begun; what has begun is finished and thrown away.
+  void request(SceneRequest request);
+  /// Starts what waits. Once for each finished load, its result.
+  std::optional<Result<LoadedScene>> poll();
+  bool busy() const { return loading_.valid() || waiting_.has_value(); }
+  const std::string& name() const { return name_; }
+
+  void request_audit(std::shared_ptr<const PolygonMesh> polygons, std::shared_ptr<const ContactScene> scene);
+  /// The audit of the latest request, once it is done.
+  std::optional<MeshAudit> poll_audit();
+  bool auditing() const { return audit_.valid() || audit_waiting_.scene != nullptr; }
+
+ private:
+  struct AuditRequest {
+    std::shared_ptr<const PolygonMesh> polygons;
+    std::shared_ptr<const ContactScene> scene;
+  };
+  std::future<Result<LoadedScene>> loading_;
+  std::optional<SceneRequest> waiting_;
+  std::string name_;
+  std::future<MeshAudit> audit_;
+  AuditRequest audit_waiting_;
+};
+
+}  // namespace tangent
