@@ -20,6 +20,13 @@ struct CommandResult {
 void add_solve_command(CLI::App& app, CommandResult& result);
 void add_audit_command(CLI::App& app, CommandResult& result);
 void add_make_command(CLI::App& app, CommandResult& result);
+#ifdef TANGENT_HAS_GUI
+void add_gui_command(CLI::App& app, CommandResult& result);
+void add_shot_command(CLI::App& app, CommandResult& result);
+
+/// Without a subcommand: the window on the built-in scene; without a display, pictures of it.
+int run_gui_or_pictures();
+#endif
 
 /// What the program does without a subcommand.
 int run_without_command();

@@ -145,12 +145,16 @@ class FrameLoop {
     const bool hidden = glfwGetWindowAttrib(window_, GLFW_ICONIFIED) == GLFW_TRUE;
     const bool lively = !hidden && (app_.wants_frames() || renderer_.refining() || settling_ > 0);
     const double due = last_frame_s + (lively ? kFrameInterval : kIdleInterval);
-    const double wait = due - glfwGetTime();
     if (settling_ > 0) --settling_;
-    if (wait <= 0.0) return glfwPollEvents();
-    const double before = glfwGetTime();
-    glfwWaitEventsTimeout(wait);
-    if (!lively && glfwGetTime() - before < 0.9 * wait) settling_ = kSettlingFrames;  // an event woke us
+    glfwPollEvents();
+    for (double wait = due - glfwGetTime(); wait > 0.0; wait = due - glfwGetTime()) {
+      glfwWaitEventsTimeout(wait);
+      // At rest an event is answered at once; in motion it waits for the frame that is due anyway.
+      if (!lively && due - glfwGetTime() > 0.1 * kIdleInterval) {
+        settling_ = kSettlingFrames;
+        return;
+      }
+    }
   }
 
   void check_shaders(double now) {

@@ -1,0 +1,80 @@
+// workbench gui: the window; and what the program does without a subcommand: the window on the built-in
+// scene, or, where there is no display, pictures of it.
+#ifdef TANGENT_HAS_GUI
+#include "workbench/cli/command.h"
+#include "workbench/cli/interrupt.h"
+#include "workbench/cli/mesh_options.h"
+#include "workbench/cli/messages.h"
+#include "workbench/cli/text_format.h"
+#include "workbench/gui/platform/shots.h"
+#include "workbench/gui/platform/window.h"
+
+#include <array>
+#include <cstdio>
+#include <memory>
+#include <system_error>
+
+namespace tangent {
+namespace {
+
+struct GuiOptions {
+  MeshOptions mesh;
+  AppOptions app;
+};
+
+int run_gui(const AppOptions& options) {
+  const InterruptGuard guard;
+  const Status done = run_window(options, [] { return InterruptGuard::requested(); });
+  if (done) return kDone;
+  print_message("gui", done.error().message());
+  return kFailed;
+}
+
+/// The built-in scene as pictures, for a machine without a display.
+int draw_builtin_pictures(const std::string& reason) {
+  constexpr std::array<const char*, 4> kPictures{"overview", "iterations", "control-net", "planes"};
+  std::error_code failed;
+  const std::filesystem::path directory = std::filesystem::temp_directory_path(failed) / "tangent-workbench";
+  std::filesystem::create_directories(directory, failed);
+  std::string names;
+  for (const char* view : kPictures) {
+    ShotRequest request;
+    request.view = view;
+    const std::filesystem::path file = directory / (std::string(view) + ".png");
+    const Result<Image> picture = take_shot(request);
+    const Status written = picture ? write_png(*picture, file) : Status(tl::unexpected(picture.error()));
+    if (!written) {
+      print_message("", reason + "; and " + written.error().message());
+      return kFailed;
+    }
+    names += (names.empty() ? "" : ", ") + file.filename().string();
+  }
+  std::fputs(format("%s; pictures of the built-in scene instead: %s in %s\n", reason.c_str(), names.c_str(),
+                    directory.c_str()).c_str(), stdout);
+  return kDone;
+}
+
+}  // namespace
+
+int run_gui_or_pictures() {
+  if (const Status display = display_available(); !display) return draw_builtin_pictures(display.error().what);
+  return run_gui({});
+}
+
+void add_gui_command(CLI::App& app, CommandResult& result) {
+  CLI::App* command = app.add_subcommand("gui", "Open the window");
+  auto options = std::make_shared<GuiOptions>();
+  add_mesh_options(*command, options->mesh, false);
+  command->add_option("--preset", options->app.preset, "Preset to start with (default: the shipped one)")->type_name("F.toml");
+  command->add_option("--device", options->app.device, "Devices to use (default simulated)")->type_name("NAME");
+  command->add_option("--record", options->app.record, "Record the session into this file")->type_name("F.sqlite");
+  command->callback([options, &result] {
+    options->app.mesh = options->mesh.file.string();
+    options->app.metres_per_unit = options->mesh.metres_per_unit;
+    options->app.mesh_options = options->mesh.build;
+    result.exit_code = run_gui(options->app);
+  });
+}
+
+}  // namespace tangent
+#endif

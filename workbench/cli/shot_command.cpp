@@ -1,0 +1,96 @@
+// workbench shot: any view as a PNG, with no display.
+#ifdef TANGENT_HAS_GUI
+#include "workbench/cli/command.h"
+#include "workbench/cli/mesh_options.h"
+#include "workbench/cli/messages.h"
+#include "workbench/cli/number_option.h"
+#include "workbench/cli/text_format.h"
+#include "workbench/gui/platform/shots.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <memory>
+
+namespace tangent {
+namespace {
+
+constexpr std::array<std::string_view, 2> kThemes{"dark", "light"};  // order of Theme
+
+struct ShotOptions {
+  MeshOptions mesh;
+  ShotRequest request;
+  std::filesystem::path file;
+};
+
+void list_views() {
+  for (const ShotView& view : shot_views()) {
+    std::fputs(format("%-16s %s\n", view.name.c_str(), view.shows.c_str()).c_str(), stdout);
+  }
+}
+
+Status write_shot(const ShotRequest& request, const std::filesystem::path& file) {
+  const Result<Image> picture = take_shot(request);
+  if (!picture) return tl::unexpected(picture.error());
+  if (Status written = write_png(*picture, file); !written) return written;
+  std::fputs(format("%s: %s, %d x %d\n", file.c_str(), request.view.c_str(), picture->width, picture->height).c_str(), stdout);
+  return {};
+}
+
+int run_shot(const ShotOptions& options) {
+  if (options.request.view == "list") {
+    list_views();
+    return kDone;
+  }
+  ShotRequest request = options.request;
+  request.mesh = options.mesh.file.string();
+  request.metres_per_unit = options.mesh.metres_per_unit;
+  request.mesh_options = options.mesh.build;
+  const auto& views = shot_views();
+  const bool all = request.view == "all";
+  if (!all && std::none_of(views.begin(), views.end(), [&](const ShotView& v) { return v.name == request.view; })) {
+    print_message("shot", "there is no view \"" + request.view + "\"; choose one of: " + shot_view_names() + " (or list, all)");
+    return kUsage;
+  }
+  if (options.file.empty()) {
+    print_message("shot", "say with --out where the picture goes (see workbench shot --help)");
+    return kUsage;
+  }
+  for (const ShotView& view : views) {
+    if (!all && view.name != request.view) continue;
+    ShotRequest one = request;
+    one.view = view.name;
+    const Status done = write_shot(one, all ? options.file / (view.name + ".png") : options.file);
+    if (done) continue;
+    print_message("shot", done.error().message());
+    return kFailed;
+  }
+  return kDone;
+}
+
+}  // namespace
+
+void add_shot_command(CLI::App& app, CommandResult& result) {
+  CLI::App* command = app.add_subcommand("shot", "Write a view of the window or of the 3D scene as PNG; needs no display");
+  auto options = std::make_shared<ShotOptions>();
+  ShotRequest* request = &options->request;
+  add_mesh_options(*command, options->mesh, false);
+  command->add_option("--view", request->view, "Name of the view; list: names them all; all: every one")
+      ->required()->type_name("NAME");
+  command->add_option("--out", options->file, "File to write; with --view all: a directory")->type_name("F.png");
+  command->add_option("--preset", request->preset, "Preset of the window's views (default: the shipped one)")
+      ->type_name("F.toml");
+  add_number_option(*command, "--width", {.min = 64, .max = 8192, .unit = "pixels", .whole = true}, "Width (default 1280)",
+                    [request](double n) { request->width_px = static_cast<int>(n); });
+  add_number_option(*command, "--height", {.min = 64, .max = 8192, .unit = "pixels", .whole = true}, "Height (default 720)",
+                    [request](double n) { request->height_px = static_cast<int>(n); });
+  add_number_option(*command, "--scale", {.min = 0.5, .max = 4.0},
+                    "Size of text and lines; 2 for a HiDPI picture (default 1)",
+                    [request](double scale) { request->scale = scale; });
+  add_choice_option(*command, "--theme", kThemes, "Colours (default: the view's own)",
+                    [request](int theme) { request->theme = static_cast<Theme>(theme); });
+  command->callback([options, &result] { result.exit_code = run_shot(*options); });
+}
+
+}  // namespace tangent
+#endif

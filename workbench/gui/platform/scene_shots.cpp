@@ -1,0 +1,202 @@
+#include "workbench/gui/platform/scene_shots.h"
+
+#include "core/mesh/generate.h"
+#include "core/mesh/mesh_io.h"
+#include "workbench/gui/platform/offscreen.h"
+#include "workbench/gui/render/scene_overlay.h"
+#include "workbench/gui/render/staged_scene.h"
+#include "workbench/gui/theme.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace tangent {
+namespace {
+
+/// A view: what lies there, what is shown, from where.
+struct SceneView {
+  const char* name;
+  const char* shows;
+  const char* object;  ///< the generated object without a mesh argument
+  double rounding_m;
+  Staging staging;
+  SceneToggles toggles;
+  enum class Aim { whole, contact, planes } aim = Aim::whole;
+  double yaw_rad = -0.6, pitch_rad = 0.45;
+};
+
+SceneToggles object_toggles() {
+  SceneToggles on;
+  on.smooth_surface = true;
+  on.control_net = false;
+  on.planes = false;
+  on.cld_inset = false;
+  return on;
+}
+
+SceneView object_view(const char* name, const char* shows, Vec3 approach) {
+  SceneView view{name, shows, name, 1.5e-3, {}, object_toggles()};
+  view.staging.approach = approach;
+  view.staging.preset.finger.radius_m = 0.010;
+  return view;
+}
+
+SceneView control_net_view() {
+  SceneView view{"control-net", "PN control net of the tracked triangle and its neighbours, labelled", "icosphere", 0.0, {}, {}};
+  view.staging.preset.finger.radius_m = 0.005;
+  view.toggles.control_normals = view.toggles.control_net_neighbours = view.toggles.control_point_labels = true;
+  view.toggles.planes = view.toggles.finger = view.toggles.cld_inset = false;
+  view.toggles.force = view.toggles.penetration = false;
+  view.aim = SceneView::Aim::contact;
+  view.pitch_rad = 0.7;
+  return view;
+}
+
+SceneView planes_view() {
+  SceneView view{"planes", "tangent planes of one tick's iterations, in order", "icosphere", 0.0, {}, {}};
+  view.staging.preset.solver.method = Method::paper;
+  view.staging.preset.solver.gain_curvature_m = 0.0;  // the printed gain overshoots on convex ground: several planes
+  view.staging.last_jump_m = 12e-3;
+  view.toggles.finger = view.toggles.cld_inset = view.toggles.force = view.toggles.penetration = false;
+  view.toggles.control_net = false;
+  view.aim = SceneView::Aim::planes;
+  view.pitch_rad = 0.35;
+  return view;
+}
+
+SceneView surface_view(const char* name, const char* shows, bool shaded, bool smooth, bool normals) {
+  SceneView view{name, shows, "torus", 0.0, {}, object_toggles()};
+  view.toggles.shaded = shaded;
+  view.toggles.smooth_surface = smooth;
+  view.toggles.vertex_normals = normals;
+  view.staging.preset.finger.radius_m = 0.008;
+  view.staging.approach = {-0.9, -0.7, 0.8};
+  return view;
+}
+
+const std::vector<SceneView>& all_views() {
+  static const std::vector<SceneView> kViews{
+      control_net_view(),
+      planes_view(),
+      surface_view("facets", "the mesh as the file holds it", true, false, false),
+      surface_view("smooth-surface", "the smooth surface alone, with its patch borders", false, true, false),
+      surface_view("both-surfaces", "the smooth surface over its facets", true, true, false),
+      surface_view("normals", "corner normals", true, false, true),
+      object_view("cone", "the paper's cone, edges rounded by 1.5 mm", {0.1, -0.6, 1.0}),
+      object_view("cylinder", "the paper's cylinder, edges rounded by 1.5 mm", {0.1, -0.5, 1.0}),
+      object_view("cube", "the paper's cube, edges rounded by 1.5 mm", {0.5, -0.3, 1.0}),
+      object_view("sphere", "the paper's sphere", {0.3, -0.6, 1.0}),
+      object_view("tetrahedron", "the paper's tetrahedron, edges rounded by 1.5 mm", {0.1, -0.6, 1.0}),
+      object_view("octagon", "the paper's extruded octagon, edges rounded by 1.5 mm", {0.2, -0.5, 1.0}),
+      object_view("triangle", "the paper's extruded triangle, edges rounded by 1.5 mm", {0.2, -0.5, 1.0}),
+      object_view("hexagon", "the practice object, edges rounded by 1.5 mm", {0.2, -0.5, 1.0}),
+  };
+  return kViews;
+}
+
+Result<std::shared_ptr<const ContactScene>> open_scene(const SceneView& view, const ShotRequest& request) {
+  const auto& names = generator_names();
+  Result<PolygonMesh> polygons = [&]() -> Result<PolygonMesh> {
+    if (request.mesh.empty()) return generate_mesh(view.object, {.rounding_m = view.rounding_m});
+    if (std::find(names.begin(), names.end(), request.mesh) != names.end()) return generate_mesh(request.mesh);
+    return read_mesh(request.mesh, request.metres_per_unit);
+  }();
+  if (!polygons) return tl::unexpected(polygons.error());
+  Result<ContactMesh> mesh = ContactMesh::build(*polygons, request.mesh_options);
+  if (!mesh) return tl::unexpected(mesh.error());
+  return ContactScene::build(std::move(*mesh));
+}
+
+/// The finger, its travel and depth made for a body of 80 mm, in proportion to this one.
+Staging fitted(Staging staging, const ContactScene& scene) {
+  const double factor = glm::length(scene.mesh().bounds().size()) / 0.12;
+  if (factor > 0.5 && factor < 2.0) return staging;
+  staging.preset.finger.radius_m *= factor;
+  staging.press_m *= factor;
+  staging.slide_m = 0.0;
+  staging.last_jump_m *= factor;
+  return staging;
+}
+
+Camera aimed_camera(const SceneView& view, const StagedScene& staged) {
+  Camera camera;
+  camera.yaw_rad = view.yaw_rad;
+  camera.pitch_rad = view.pitch_rad;
+  Box whole = world_bounds(*staged.scene);
+  camera.frame(whole);
+  const TickOutput& output = staged.tick.output;
+  if (view.aim == SceneView::Aim::whole && view.toggles.finger) {
+    const Vec3 reach(staged.preset.finger.reach_m());
+    whole.include(staged.tick.input.finger.position - reach);
+    whole.include(staged.tick.input.finger.position + reach);
+    camera.frame(whole, 1.12);
+  }
+  if (view.aim == SceneView::Aim::contact && output.triangle != kNone) {
+    const auto p = staged.scene->mesh().positions(output.triangle);
+    const Vec3 origin = staged.scene->mesh().origin();
+    camera.target = origin + (p[0] + p[1] + p[2]) / 3.0;
+    camera.distance_m = 6.0 * std::max(glm::length(p[1] - p[0]), glm::length(p[2] - p[0]));
+  }
+  if (view.aim == SceneView::Aim::planes && !staged.trace->view().empty()) {
+    Box points;
+    for (const IterationRecord& it : staged.trace->view()) points.include(it.point);
+    camera.target = points.centre();
+    camera.distance_m = std::max(5.5 * glm::length(points.size()), 0.05 * camera.scene_radius_m);
+  }
+  return camera;
+}
+
+void draw_view(OffscreenScreen& screen, SceneRenderer& renderer, const SceneFrame& frame, const Camera& camera,
+               const ShotRequest& request) {
+  ImGuiIO& io = ImGui::GetIO();
+  io.DeltaTime = 1.0f / 60.0f;
+  std::vector<std::string> missing;
+  const ThemeFonts fonts = load_fonts(static_cast<float>(request.scale), missing);
+  screen.upload_fonts();
+  screen.frame([&] {
+    ImGui::NewFrame();
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    renderer.render(frame, camera, request.width_px, request.height_px);
+    const ImVec2 size{static_cast<float>(request.width_px), static_cast<float>(request.height_px)};
+    list.AddImage(reinterpret_cast<ImTextureID>(static_cast<std::intptr_t>(renderer.texture())), {0, 0}, size, {0, 1}, {1, 0});
+    ImGui::PushFont(fonts.text);
+    draw_scene_overlay(list, {0, 0}, 1.0, renderer, frame, camera, fonts.number);
+    ImGui::PopFont();
+    ImGui::Render();
+  });
+}
+
+}  // namespace
+
+const std::vector<ShotView>& scene_shot_views() {
+  static const std::vector<ShotView> kViews = [] {
+    std::vector<ShotView> views;
+    for (const SceneView& view : all_views()) views.push_back({view.name, view.shows});
+    return views;
+  }();
+  return kViews;
+}
+
+Result<Image> take_scene_shot(const ShotRequest& request) {
+  const auto view = std::find_if(all_views().begin(), all_views().end(),
+                                 [&](const SceneView& v) { return v.name == request.view; });
+  Result<std::shared_ptr<const ContactScene>> scene = open_scene(*view, request);
+  if (!scene) return tl::unexpected(scene.error());
+  Result<std::unique_ptr<OffscreenScreen>> screen = OffscreenScreen::open(request.width_px, request.height_px);
+  if (!screen) return tl::unexpected(screen.error());
+  SceneRenderer renderer;
+  if (Status ready = renderer.init(); !ready) return tl::unexpected(ready.error());
+
+  const StagedScene staged = stage_finger(*scene, fitted(view->staging, **scene));
+  renderer.set_scene(*scene, staged.preset.solver.normal_form);
+  renderer.wait_for_tessellation();
+  SceneFrame frame = staged.frame(view->toggles, request.theme.value_or(Theme::light));
+  frame.pixel_scale = request.scale;
+  draw_view(**screen, renderer, frame, aimed_camera(*view, staged), request);
+  return (*screen)->picture();
+}
+
+}  // namespace tangent

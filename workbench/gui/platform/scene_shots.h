@@ -1,0 +1,12 @@
+// The 3D view alone: objects, control net, planes, surfaces.
+#pragma once
+
+#include "workbench/gui/platform/shots.h"
+
+namespace tangent {
+
+const std::vector<ShotView>& scene_shot_views();
+/// Precondition: the view is one of scene_shot_views().
+Result<Image> take_scene_shot(const ShotRequest& request);
+
+}  // namespace tangent

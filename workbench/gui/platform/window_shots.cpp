@@ -1,0 +1,127 @@
+#include "workbench/gui/platform/window_shots.h"
+
+#include "workbench/gui/app.h"
+#include "workbench/gui/app_model.h"
+#include "workbench/gui/platform/offscreen.h"
+#include "workbench/gui/render/scene_renderer.h"
+
+#include <algorithm>
+
+namespace tangent {
+namespace {
+
+constexpr std::uint64_t kTicks = 12'000;     // of simulated exploration before the picture
+constexpr std::uint64_t kTicksPerFrame = 50;
+constexpr int kSettlingFrames = 4;           // ImGui lays out over some frames
+constexpr double kFrame = 1.0 / 60.0;        // s
+
+struct WindowView {
+  const char* name;
+  const char* shows;
+  Theme theme;
+  void (*arrange)(AppModel& model);  ///< before the ticks
+  void (*look)(AppModel& model);     ///< after them
+};
+
+void nothing(AppModel&) {}
+
+/// The tick with the most iterations among the last few thousand: there is something to see in it.
+void look_at_busiest_tick(AppModel& model) {
+  const std::uint64_t end = model.end_tick();
+  const std::uint64_t begin = std::max(model.first_tick(), end > 5000 ? end - 5000 : 0);
+  std::uint64_t busiest = end > 0 ? end - 1 : 0;
+  std::size_t most = 0;
+  for (std::uint64_t tick = begin; tick < end; ++tick) {
+    model.select_tick(tick);
+    const std::size_t count = model.tick().iterations().size();
+    if (count > most) most = count, busiest = tick;
+  }
+  model.select_tick(busiest);
+}
+
+void show_planes(AppModel& model) {
+  model.view().toggles.finger = false;
+  model.view().toggles.control_net = true;
+}
+
+void enlarge_plots(AppModel& model) {
+  model.sizes().plots = 420.0f;
+  model.sizes().show_right = false;
+}
+
+constexpr WindowView kViews[] = {
+    {"overview", "the whole window after 12 s of simulated exploration", Theme::dark, nothing, nothing},
+    {"light", "the same in the light theme", Theme::light, nothing, nothing},
+    {"iterations", "the window paused on the tick with the most iterations", Theme::dark, show_planes, look_at_busiest_tick},
+    {"plots", "the window with the plots enlarged", Theme::dark, enlarge_plots, nothing},
+};
+
+/// Feeds the app frames of simulated time.
+class FrameFeeder {
+ public:
+  FrameFeeder(OffscreenScreen& screen, App& app, const ShotRequest& request) : screen_(screen), app_(app) {
+    // The picture's pixels are ImGui's coordinates; the scale makes everything in it larger.
+    input_.width = static_cast<float>(request.width_px);
+    input_.height = static_cast<float>(request.height_px);
+    input_.content_scale = static_cast<float>(request.scale);
+    input_.dt_s = kFrame;
+  }
+  void frame() {
+    input_.now_s += kFrame;
+    if (app_.prepare(input_)) screen_.upload_fonts();
+    screen_.frame([&] { app_.frame(input_); });
+  }
+
+ private:
+  OffscreenScreen& screen_;
+  App& app_;
+  FrameInput input_;
+};
+
+AppOptions app_options(const ShotRequest& request, const WindowView& view) {
+  AppOptions options;
+  options.mesh = request.mesh;
+  options.metres_per_unit = request.metres_per_unit;
+  options.mesh_options = request.mesh_options;
+  options.preset = request.preset;
+  options.theme = request.theme.value_or(view.theme);
+  options.deterministic = true;
+  return options;
+}
+
+}  // namespace
+
+const std::vector<ShotView>& window_shot_views() {
+  static const std::vector<ShotView> kNamed = [] {
+    std::vector<ShotView> views;
+    for (const WindowView& view : kViews) views.push_back({view.name, view.shows});
+    return views;
+  }();
+  return kNamed;
+}
+
+Result<Image> take_window_shot(const ShotRequest& request) {
+  const WindowView& view =
+      *std::find_if(std::begin(kViews), std::end(kViews), [&](const WindowView& v) { return v.name == request.view; });
+  Result<std::unique_ptr<OffscreenScreen>> screen = OffscreenScreen::open(request.width_px, request.height_px);
+  if (!screen) return tl::unexpected(screen.error());
+  SceneRenderer renderer;
+  if (Status ready = renderer.init(); !ready) return tl::unexpected(ready.error());
+  App app(app_options(request, view));
+  app.model().view().quality = RenderQuality::still;
+  FrameFeeder feeder(**screen, app, request);
+  feeder.frame();
+  view.arrange(app.model());
+  for (std::uint64_t done = 0; done < kTicks; done += kTicksPerFrame) {
+    app.advance(kTicksPerFrame);
+    feeder.frame();  // without a renderer: only the plots and panels follow
+  }
+  view.look(app.model());
+  app.set_renderer(&renderer);
+  feeder.frame();
+  renderer.wait_for_tessellation();
+  for (int i = 0; i < kSettlingFrames; ++i) feeder.frame();
+  return (*screen)->picture();
+}
+
+}  // namespace tangent

@@ -1,0 +1,12 @@
+// The whole window, its session stepped without real time.
+#pragma once
+
+#include "workbench/gui/platform/shots.h"
+
+namespace tangent {
+
+const std::vector<ShotView>& window_shot_views();
+/// Precondition: the view is one of window_shot_views().
+Result<Image> take_window_shot(const ShotRequest& request);
+
+}  // namespace tangent
