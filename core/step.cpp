@@ -144,10 +144,13 @@ Result<std::shared_ptr<const ContactScene>> ContactScene::build(ContactMesh mesh
   auto nearest = NearestTriangles::build(scene->mesh_);
   if (!nearest) return tl::unexpected(nearest.error());
   scene->nearest_ = std::make_unique<NearestTriangles>(std::move(*nearest));
+  scene->hierarchy_ = ContactHierarchy::build(scene->mesh_);
   return scene;
 }
 
-std::size_t ContactScene::memory_bytes() const { return mesh_.memory_bytes() + nearest_->memory_bytes(); }
+std::size_t ContactScene::memory_bytes() const {
+  return mesh_.memory_bytes() + nearest_->memory_bytes() + hierarchy_.memory_bytes();
+}
 
 Stepper::Stepper(std::shared_ptr<const ContactScene> scene)
     : scene_(std::move(scene)), cache_(std::make_unique<StepCache>(scene_->mesh())) {}
@@ -174,9 +177,10 @@ TickOutput Stepper::step(const Preset& preset, const TickInput& input, TickState
     SolverSettings settings = preset.solver;
     if (facet_method) settings.method = Method::robust;
     IterationContext context{cache_->patches, settings, preset.finger, local, mesh.origin(), trace, 0};
-    contacts.smooth = track(context, scene_->nearest(), state, cache_->sample_of(state.plane, settings.normal_form));
+    contacts.smooth = track(context, *scene_, state, cache_->sample_of(state.plane, settings.normal_form));
     const IterationResult& c = contacts.smooth.contact;
     state.plane = c.plane;
+    state.clearance = contacts.smooth.clearance;
     cache_->keep(c.plane, c.sample, settings.normal_form);
     if (contacts.smooth.converged()) {
       state.last_converged = c.plane;

@@ -3,6 +3,7 @@
 // The same arguments give the same bits, traced or not.
 #pragma once
 
+#include "core/contact/contact_hierarchy.h"
 #include "core/contact/nearest_triangles.h"
 #include "core/mesh/contact_mesh.h"
 #include "core/preset.h"
@@ -14,18 +15,20 @@
 
 namespace tangent {
 
-/// What a tick needs besides its preset: mesh and query structure. Immutable; share it freely.
+/// What a tick needs besides its preset: mesh and query structures. Immutable; share it freely.
 class ContactScene {
  public:
   static Result<std::shared_ptr<const ContactScene>> build(ContactMesh mesh);
   const ContactMesh& mesh() const { return mesh_; }
   const NearestTriangles& nearest() const { return *nearest_; }
+  const ContactHierarchy& hierarchy() const { return hierarchy_; }
   std::size_t memory_bytes() const;
 
  private:
   explicit ContactScene(ContactMesh mesh) : mesh_(std::move(mesh)) {}
   ContactMesh mesh_;
   std::unique_ptr<NearestTriangles> nearest_;
+  ContactHierarchy hierarchy_;
 };
 
 enum class Feature : std::uint8_t { none, face, edge, vertex };
@@ -48,6 +51,15 @@ struct TrackedPlane {
   Vec3 normal{0.0, 0.0, 1.0};       ///< N, unit
 };
 
+/// Until when no other place can be deeper than the tracked one (ALGORITHM.md 3.2): as long as the finger's
+/// centre stays within `margin_m` of `centre` (local), no contact outside the tracked basin has a height under
+/// `height_m` less the distance gone.
+struct Clearance {
+  Vec3 centre{0.0};
+  double margin_m = -1.0;           ///< negative: not known
+  double height_m = 0.0;
+};
+
 /// Everything one tick hands to the next. Trivially copyable.
 struct TickState {
   TrackedPlane plane;               ///< feature none: nothing tracked yet
@@ -56,10 +68,7 @@ struct TickState {
   Vec3 last_position{0.0};          ///< finger position of the previous tick, world, m
   double last_t_s = 0.0;
   std::uint8_t has_previous = 0;    ///< last_position and last_t_s are set
-  /// No triangle outside the tracked neighbourhood was nearer than `clearance_m` to `clearance_centre`
-  /// (local) when that was last asked (ALGORITHM.md 3.2).
-  Vec3 clearance_centre{0.0};
-  double clearance_m = -1.0;        ///< negative: not known
+  Clearance clearance;
 };
 
 struct TickInput {

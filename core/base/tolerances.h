@@ -65,4 +65,28 @@ inline constexpr int kSeedBudget = 16;
 /// prototype (ALGORITHM.md 7). More: slower re-seeding; fewer: contacts missed in rough ground.
 inline constexpr int kSeeds = 24;
 
+/// Contacts solved in one search of the hierarchy, 1. At the centre of a sphere every triangle holds one. More: the
+/// worst tick takes longer; fewer: a deeper place may be missed in such degenerate poses.
+inline constexpr int kMaxSolves = 256;
+
+/// A normal that turns by over 10 degrees in a tick has jumped (cosine, 1). Larger angle: jumps pass unnoticed;
+/// smaller: fast turns on small radii count as jumps.
+inline constexpr double kJumpCosine = 0.984807753012208;
+
+/// Ticks, at the finger's present speed, that the search for deeper places looks ahead. More: fewer, larger
+/// searches.
+inline constexpr double kWatchTicks = 6.0;
+
+/// Least and largest look-ahead, as a part of the contact's height. Larger: searches over more triangles.
+inline constexpr double kSmallestWatch = 1e-4, kLargestWatch = 0.1;
+
+/// Part of the look-ahead that remains where a triangle could neither be ruled out nor be solved.
+inline constexpr double kUnresolvedMargin = 0.25;
+
+/// det M or trace M of a triangle's linear interpolation below minus this: no stable contact is looked for there.
+inline constexpr double kUnstableDet = 0.25;
+
+/// Contacts whose surroundings one search for rivals remembers, 1.
+inline constexpr std::size_t kKnownContacts = 8;
+
 }  // namespace tangent

@@ -64,6 +64,24 @@ double Finger::reach_m() const {
   return 0.0;
 }
 
+double Finger::unroundness_m() const {
+  switch (shape) {
+    case FingerShape::point:
+    case FingerShape::sphere: return 0.0;
+    case FingerShape::ellipsoid: return reach_m() - std::min({semi_axes_m.x, semi_axes_m.y, semi_axes_m.z});
+    case FingerShape::capsule: return reach_m() - radius_m;
+  }
+  return 0.0;
+}
+
+double Finger::tilt_rad() const {
+  const double inner = reach_m() - unroundness_m();
+  if (unroundness_m() <= 0.0) return 0.0;
+  // The support point lies within the reach, its tangent plane no nearer than the inner radius.
+  const double tilt = std::acos(std::clamp(inner / reach_m(), 0.0, 1.0));
+  return std::min(1.2 * tilt + 0.05, 3.1);
+}
+
 Support support_with_derivative(const Finger& finger, const FingerPose& pose, const Vec3& normal) {
   switch (finger.shape) {
     case FingerShape::point: return {pose.position, Mat3(0.0)};

@@ -21,6 +21,11 @@ struct Finger {
   bool operator==(const Finger&) const = default;
   /// Largest extent of the shape from its centre, m (0 for a point).
   double reach_m() const;
+  /// Reach less the smallest distance from the centre to a tangent plane of the shape, m (0 for a sphere).
+  double unroundness_m() const;
+  /// Largest angle between the normal at a surface point and the direction from the centre to it, rad, with
+  /// room for contacts somewhat off the surface; 0 for point and sphere.
+  double tilt_rad() const;
 };
 
 struct FingerPose {

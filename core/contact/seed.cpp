@@ -1,6 +1,7 @@
 #include "core/contact/seed.h"
 
 #include "core/base/tolerances.h"
+#include "core/contact/exclusion.h"
 
 #include <algorithm>
 #include <array>
@@ -15,62 +16,203 @@ TrackedPlane face_at(std::uint32_t triangle, double u, double v) {
   place.feature = Feature::face;
   place.triangle = triangle;
   place.u = u;
-  place.v = v;
+  place.v = std::min(v, 1.0 - u);
   return place;
 }
 
-/// Smaller is better: the stable contact the finger's centre is nearest to. Converged contacts go before
-/// unconverged ones, stable before unstable.
-struct Rank {
-  int group;
-  double value;
-  bool operator<(const Rank& o) const { return group != o.group ? group < o.group : value < o.value; }
-};
-
-Rank rank(const IterationResult& r) {
-  if (r.converged()) return {0, std::abs(r.contact.height_m)};
-  if (r.stop == StopReason::unstable) return {1, std::abs(r.contact.height_m)};
-  return {2, r.contact.error_m};
+IterationResult iterate_from_closest(IterationContext& context, std::uint32_t triangle, int budget) {
+  const NearestHit hit = closest_on_triangle(context.cache.mesh(), triangle, context.pose.position);
+  return iterate(context, face_at(triangle, hit.u, hit.v), false, nullptr, budget);
 }
 
-/// Keeps `r` if it is the best so far. True if it converged.
-bool offer(const IterationResult& r, Rank& best, SeedResult& result) {
-  result.evaluations += r.evaluations;
-  const Rank here = rank(r);
-  if (here < best) {
-    best = here;
-    result.best = r;
+/// exclude_contact where it holds: on faces without creases and boundaries, for centred fingers.
+PatchExclusion excluded(IterationContext& context, std::uint32_t t) {
+  if (context.finger.unroundness_m() > 0.0 || !context.cache.mesh().interior(t)) return {};
+  return exclude_contact(context.cache.patch(t, context.settings.normal_form), context.pose.position);
+}
+
+/// Keeps the best of many seeds: converged before unstable before unconverged, then the least rank or error.
+struct Selection {
+  SeedResult result;
+  int group = 3;
+  double value = std::numeric_limits<double>::infinity();
+
+  bool offer(const Finger& finger, const IterationResult& r) {
+    result.evaluations += r.evaluations;
+    const int here = r.converged() ? 0 : r.stop == StopReason::unstable ? 1 : 2;
+    const double rank = here == 2 ? r.contact.error_m : contact_rank(finger, r.contact);
+    if (here < group || (here == group && rank < value)) {
+      group = here;
+      value = rank;
+      result.best = r;
+    }
+    result.found = group == 0;
+    return r.converged();
   }
-  return r.converged();
+};
+
+/// Bounds of a query that shall only see contacts of a rank below `rank`.
+void limit_query(ContactQuery& query, const Finger& finger, double rank) {
+  query.nearest_m = rank + finger.unroundness_m();
+  query.inside_m = rank - finger.reach_m() + finger.unroundness_m();
+}
+
+void seed_by_hierarchy(IterationContext& context, const ContactScene& scene, Selection& selection) {
+  ContactQuery query;
+  query.centre = context.pose.position;
+  query.nearest_m = query.inside_m = std::numeric_limits<double>::max();
+  query.tilt_rad = context.finger.tilt_rad();
+  int solves = 0;
+  scene.hierarchy().visit(query, [&](std::uint32_t t, ContactQuery& q) {
+    if (excluded(context, t).margin_m > 0.0) return true;
+    context.seed = static_cast<std::uint8_t>(std::min(++solves, 255));
+    selection.offer(context.finger, iterate_from_closest(context, t, kSeedBudget));
+    if (selection.group == 0) limit_query(q, context.finger, selection.value);
+    return solves < kMaxSolves;
+  });
+}
+
+void seed_by_distance(IterationContext& context, const ContactScene& scene, std::size_t seeds, int budget, bool twice,
+                      Selection& selection) {
+  std::array<NearestHit, kSeeds> hits;
+  const std::size_t count = scene.nearest().nearest_several(context.pose.position, std::numeric_limits<double>::infinity(),
+                                                            std::span(hits).first(seeds));
+  for (std::size_t i = 0; i < count; ++i) {
+    context.seed = static_cast<std::uint8_t>(i + 1);
+    if (selection.offer(context.finger, iterate(context, face_at(hits[i].triangle, hits[i].u, hits[i].v), false, nullptr, budget))) continue;
+    // A folded patch can hide its contact from its closest point; its middle is a second chance.
+    if (twice) selection.offer(context.finger, iterate(context, face_at(hits[i].triangle, 1.0 / 3.0, 1.0 / 3.0), false, nullptr, budget));
+  }
+}
+
+/// A contact whose surroundings need no search.
+struct KnownContact {
+  std::uint32_t triangle;
+  Vec3 point, normal;
+  double height_m;
+};
+
+/// Whether triangle t surely belongs to the slope that leads to a known contact: towards each of its corners the
+/// normal turns no faster than a contact at height h stays stable with (1 + h k > 0, with room), and the corner lies
+/// beside the contact rather than over or under it.
+bool same_basin(const ContactMesh& mesh, std::uint32_t t, const KnownContact& known) {
+  if (t == known.triangle) return true;
+  for (std::uint32_t k = 0; k < 3; ++k) {
+    const Vec3 dp = mesh.position(t, k) - known.point;
+    const Vec3 dn = mesh.normal(t, k) - known.normal;
+    const double distance2 = glm::dot(dp, dp), over = glm::dot(dp, known.normal);
+    if (over * over > 0.25 * distance2) return false;
+    if (known.height_m * glm::dot(dn, dp) < -0.5 * distance2) return false;
+  }
+  return true;
+}
+
+/// Whether contacts on triangle t would be unstable, by the linear interpolation of its corners: det M or trace M well
+/// below zero (ALGORITHM.md 3) for the finger's height over its middle.
+bool surely_unstable(const ContactMesh& mesh, std::uint32_t t, const Vec3& centre) {
+  const auto p = mesh.positions(t);
+  const auto n = mesh.normals(t);
+  const Vec3 mean = n[0] + n[1] + n[2];
+  const double length = std::sqrt(glm::dot(mean, mean));
+  if (length < 1.0) return false;
+  const Vec3 axis = mean / length;
+  const double h = glm::dot(centre - p[0], axis);
+  const Vec3 a = p[1] - p[0], b = p[2] - p[0], xa = a + h * (n[1] - n[0]), xb = b + h * (n[2] - n[0]);
+  const double area = glm::dot(glm::cross(a, b), axis);
+  if (area == 0.0) return false;
+  const double det = glm::dot(glm::cross(xa, xb), axis) / area;
+  const double trace = (glm::dot(glm::cross(xa, b), axis) + glm::dot(glm::cross(a, xb), axis)) / area;
+  return det < -kUnstableDet || trace < -kUnstableDet;
+}
+
+/// How far the centre may go before a rival that ranks `gap` behind can overtake: heights change along their normals,
+/// and in second order by the square of the way over the height.
+double overtaking_margin(const KnownContact& tracked, const IterationResult& rival, double gap) {
+  const Vec3 apart = tracked.normal - rival.plane.normal;
+  const double rate = std::sqrt(glm::dot(apart, apart)) + 1e-3;
+  const double bend = 2.0 / std::max(1e-12, std::min(std::abs(tracked.height_m), std::abs(rival.contact.height_m)));
+  // Smaller root of rate m + bend m^2 = gap.
+  return 2.0 * gap / (rate + std::sqrt(rate * rate + 4.0 * bend * gap));
 }
 
 }  // namespace
 
-SeedResult seed_contact(IterationContext& context, const NearestTriangles& nearest) {
-  const bool robust = context.settings.method == Method::robust;
-  std::array<NearestHit, kSeeds> hits;
-  const std::size_t wanted = robust ? hits.size() : 1;
-  const std::size_t count = nearest.nearest_several(context.pose.position, std::numeric_limits<double>::infinity(),
-                                                    std::span(hits).first(wanted));
-  const bool centred = context.finger.shape == FingerShape::point || context.finger.shape == FingerShape::sphere;
-  SeedResult result;
-  Rank best{3, 0.0};
-  for (std::size_t i = 0; i < count; ++i) {
-    if (best.group == 0 && centred) {
-      // No point of a patch is further from its flat triangle than its bulge.
-      const double bulge = patch_bulge(context.cache.patch(hits[i].triangle, context.settings.normal_form));
-      if (hits[i].distance_m - bulge > best.value) continue;
-    }
-    context.seed = static_cast<std::uint8_t>(i + 1);
-    ++result.seeds;
-    const int budget = robust ? kSeedBudget : context.settings.max_iterations;
-    const double u = hits[i].u, v = std::min(hits[i].v, 1.0 - hits[i].u);
-    if (offer(iterate(context, face_at(hits[i].triangle, u, v), false, nullptr, budget), best, result) || !robust) continue;
-    // A folded patch can hide its contact from its closest point; its middle is a second chance.
-    offer(iterate(context, face_at(hits[i].triangle, 1.0 / 3.0, 1.0 / 3.0), false, nullptr, budget), best, result);
+double contact_rank(const Finger& finger, const PlaneContact& contact) {
+  return contact.height_m >= 0.0 ? finger.reach_m() - contact.penetration_m : contact.penetration_m;
+}
+
+SeedResult seed_contact(IterationContext& context, const ContactScene& scene) {
+  Selection selection;
+  if (context.settings.method != Method::robust) {
+    seed_by_distance(context, scene, 1, context.settings.max_iterations, false, selection);
+  } else {
+    seed_by_hierarchy(context, scene, selection);
+    if (selection.group != 0) seed_by_distance(context, scene, kSeeds, kSeedBudget, true, selection);
   }
   context.seed = 0;
-  result.found = best.group == 0;
+  return selection.result;
+}
+
+RivalResult find_rival(IterationContext& context, const ContactScene& scene, const IterationResult& tracked,
+                       double bound_m, double margin_m) {
+  SolverSettings settings = context.settings;
+  settings.method = Method::robust;
+  IterationContext search{context.cache, settings, context.finger, context.pose, context.origin, context.trace, 0};
+
+  RivalResult result;
+  result.clearance = {context.pose.position, margin_m, bound_m + 2.0 * margin_m};
+  double deepest = bound_m;
+  std::array<KnownContact, kKnownContacts> known;
+  std::size_t known_count = 0;
+  const auto remember = [&](const IterationResult& r) {
+    if (known_count < known.size()) known[known_count++] = {r.plane.triangle, r.plane.point, r.plane.normal, r.contact.height_m};
+  };
+  remember(tracked);
+  const auto shrink = [&](ContactQuery& q, double margin) {
+    if (margin >= result.clearance.margin_m) return;
+    result.clearance.margin_m = q.margin_m = margin;
+    limit_query(q, context.finger, bound_m + 2.0 * margin);
+  };
+  int solves = 0;
+  ContactQuery query;
+  query.centre = context.pose.position;
+  query.margin_m = margin_m;
+  query.tilt_rad = context.finger.tilt_rad();
+  limit_query(query, context.finger, bound_m + 2.0 * margin_m);
+  scene.hierarchy().visit(query, [&](std::uint32_t t, ContactQuery& q) {
+    const ContactMesh& mesh = context.cache.mesh();
+    for (std::size_t i = 0; i < known_count; ++i)
+      if (same_basin(mesh, t, known[i])) return true;
+    const PatchExclusion proof = excluded(context, t);
+    const double safe = std::max(proof.margin_m, 0.5 * (proof.least_height_m - bound_m));
+    if (safe > 0.0) {
+      shrink(q, safe);
+      return true;
+    }
+    if (mesh.interior(t) && surely_unstable(mesh, t, context.pose.position)) return true;
+    search.seed = static_cast<std::uint8_t>(std::min(++solves, 255));
+    const IterationResult r = iterate_from_closest(search, t, kSeedBudget);
+    result.evaluations += r.evaluations;
+    if (!r.converged()) {
+      // No contact there now, but one may come up: ask again before long.
+      shrink(q, kUnresolvedMargin * margin_m);
+      return solves < kMaxSolves;
+    }
+    const Vec3 apart = r.plane.point - tracked.plane.point;
+    const double same = 10.0 * settings.tolerance_m;
+    if (glm::dot(apart, apart) <= same * same) return true;
+    remember(r);
+    const double rank = contact_rank(context.finger, r.contact);
+    if (rank < deepest) {
+      deepest = rank;
+      result.best = r;
+      result.deeper = true;
+    }
+    shrink(q, overtaking_margin(known[0], r, std::max(0.0, rank - bound_m)));
+    return solves < kMaxSolves;
+  });
+  result.clearance.height_m = bound_m + 2.0 * result.clearance.margin_m;
+  if (solves >= kMaxSolves) result.clearance.margin_m = 0.0;
   return result;
 }
 

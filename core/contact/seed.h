@@ -1,21 +1,37 @@
-// First contacts and lost ones: contacts found from the nearest triangles instead of the kept plane.
+// Contacts found without the kept plane: the first one, lost ones, and rivals of the tracked one.
 #pragma once
 
 #include "core/contact/iterate.h"
-#include "core/contact/nearest_triangles.h"
 
 namespace tangent {
+
+/// How far off a contact is, m; smaller is deeper. For a contact on the outside (h >= 0) it is the finger's
+/// reach less the penetration, which for a sphere is h; a contact seen from inside ranks by how deep the finger's
+/// centre is, after every outside contact that is nearer than that plus the reach.
+double contact_rank(const Finger& finger, const PlaneContact& contact);
 
 struct SeedResult {
   bool found = false;        ///< a converged contact
   IterationResult best;      ///< that, or the seed with the smallest error
   int evaluations = 0;       ///< of all seeds together
-  int seeds = 0;
 };
 
 /// `paper` and `newton` start at the closest point of the nearest triangle and iterate to their limit.
-/// `robust` tries the kSeeds nearest triangles and keeps the stable contact nearest to the finger's centre
-/// (least |height|); it stops when no further triangle can hold a nearer one.
-SeedResult seed_contact(IterationContext& context, const NearestTriangles& nearest);
+/// `robust` tries every triangle that can hold a contact (ContactHierarchy), nearest first, and keeps the stable
+/// contact of least rank; where there is none, the kSeeds nearest triangles.
+SeedResult seed_contact(IterationContext& context, const ContactScene& scene);
+
+/// A search for contacts other than the tracked one that are, or may become, deeper.
+struct RivalResult {
+  bool deeper = false;       ///< `best` is a stable contact whose rank is below the wanted bound
+  IterationResult best;
+  int evaluations = 0;
+  Clearance clearance;       ///< how far the finger may go before asking again
+};
+
+/// `bound_m`: rank that a rival must be below to take over. `margin_m`: how far one would like to go without
+/// asking again. Uses the `robust` rule whatever the method.
+RivalResult find_rival(IterationContext& context, const ContactScene& scene, const IterationResult& tracked,
+                       double bound_m, double margin_m);
 
 }  // namespace tangent

@@ -3,28 +3,69 @@
 #include "core/base/tolerances.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace tangent {
+namespace {
 
-TrackResult track(IterationContext& context, const NearestTriangles& nearest, const TickState& state,
-                  const PlaceSample* kept_sample) {
+/// A normal that turns by more than this in one tick has jumped to another place.
+bool jumped(const TrackedPlane& from, const TrackedPlane& to) { return glm::dot(from.normal, to.normal) < kJumpCosine; }
+
+/// Whether a rival could be deeper by now; `bound`: the rank it must be below.
+bool rival_possible(const Clearance& known, const Vec3& centre, double bound) {
+  if (known.margin_m < 0.0) return true;
+  const Vec3 d = centre - known.centre;
+  const double gone = std::sqrt(glm::dot(d, d));
+  return gone > known.margin_m || bound > known.height_m - gone;
+}
+
+void adopt(TrackResult& result, const IterationResult& contact, const TrackedPlane& kept, TickEvent event) {
+  if (contact.plane.triangle != kept.triangle) result.triangle_changes = std::max(1, result.triangle_changes);
+  result.contact = contact;
+  result.event = event;
+}
+
+void watch_for_rivals(IterationContext& context, const ContactScene& scene, const TickState& state, TrackResult& result) {
+  const double rank = contact_rank(context.finger, result.contact.contact);
+  const double bound = rank - context.settings.switch_hysteresis_m;
+  result.clearance = state.clearance;
+  if (!rival_possible(state.clearance, context.pose.position, bound)) return;
+  const Vec3 moved = context.pose.position + context.origin - state.last_position;
+  const double speed = state.has_previous ? std::sqrt(glm::dot(moved, moved)) : 0.0;
+  const double margin = std::min(kWatchTicks * speed, kLargestWatch * std::abs(rank)) + kSmallestWatch * std::abs(rank);
+  const RivalResult rival = find_rival(context, scene, result.contact, bound, margin);
+  result.evaluations += rival.evaluations;
+  result.clearance = rival.clearance;
+  if (!rival.deeper) return;
+  adopt(result, rival.best, state.plane, TickEvent::switched);
+  result.clearance.margin_m = -1.0;
+}
+
+}  // namespace
+
+TrackResult track(IterationContext& context, const ContactScene& scene, const TickState& state, const PlaceSample* kept_sample) {
   TrackResult result;
   const bool first = state.plane.feature == Feature::none;
+  const bool robust = context.settings.method == Method::robust;
   if (!first) {
     const int limit = context.settings.max_iterations;
-    const int budget = context.settings.method == Method::robust ? std::min(kTrackBudget, limit) : limit;
-    result.contact = iterate(context, state.plane, true, kept_sample, budget);
+    result.contact = iterate(context, state.plane, true, kept_sample, robust ? std::min(kTrackBudget, limit) : limit);
     result.evaluations = result.contact.evaluations;
     result.triangle_changes = result.contact.triangle_changes;
-    if (result.converged()) return result;
+    const bool jump = result.converged() && jumped(state.plane, result.contact.plane);
+    // A contact that folds may go over into another one by itself; any other leap is a lost contact.
+    if (jump && result.contact.met_unstable) result.event = TickEvent::branch;
+    const bool lost = !result.converged() || (robust && jump && !result.contact.met_unstable);
+    if (!lost) {
+      watch_for_rivals(context, scene, state, result);
+      return result;
+    }
   }
-  const SeedResult seeded = seed_contact(context, nearest);
-  result.event = first ? TickEvent::first : TickEvent::reseed;
+  const SeedResult seeded = seed_contact(context, scene);
   result.evaluations += seeded.evaluations;
-  if (seeded.found || first || seeded.best.contact.error_m < result.contact.contact.error_m) {
-    if (!first && seeded.best.plane.triangle != state.plane.triangle) result.triangle_changes = std::max(1, result.triangle_changes);
-    result.contact = seeded.best;
-  }
+  if (seeded.found || first || seeded.best.contact.error_m < result.contact.contact.error_m)
+    adopt(result, seeded.best, state.plane, TickEvent::reseed);
+  result.event = first ? TickEvent::first : TickEvent::reseed;
   return result;
 }
 

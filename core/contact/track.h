@@ -1,4 +1,5 @@
-// Follows the contact from one tick to the next, and finds it again when it is lost.
+// Follows the contact from one tick to the next, finds it again when it is lost, and hands over to a deeper
+// place elsewhere by the rule of ALGORITHM.md 3.2.
 #pragma once
 
 #include "core/contact/seed.h"
@@ -10,11 +11,12 @@ struct TrackResult {
   TickEvent event = TickEvent::none;
   int evaluations = 0;        ///< of the whole tick, lost tracking and seeds included
   int triangle_changes = 0;
+  Clearance clearance;
   bool converged() const { return contact.converged(); }
 };
 
 /// `kept_sample` may hold the sample of state.plane. The context's pose is local.
-TrackResult track(IterationContext& context, const NearestTriangles& nearest, const TickState& state,
+TrackResult track(IterationContext& context, const ContactScene& scene, const TickState& state,
                   const PlaceSample* kept_sample);
 
 }  // namespace tangent

@@ -12,9 +12,52 @@ constexpr std::uint32_t bit(std::uint32_t k) { return 1u << k; }
 
 void set_bit(std::uint8_t& bits, std::uint32_t k) { bits = static_cast<std::uint8_t>(bits | bit(k)); }
 
-double angle_at(const SurfaceView& s, Corner c) {
-  const Index3& v = s.triangles[c.triangle];
-  return corner_angle(s.positions[v[c.corner]], s.positions[v[next3(c.corner)]], s.positions[v[previous3(c.corner)]]);
+/// Interior angles of a triangle, radians.
+Vec3 angles(const SurfaceView& s, std::uint32_t t) {
+  const Vec3 &a = s.position({t, 0}), &b = s.position({t, 1}), &c = s.position({t, 2});
+  const Vec3 n = area_vector(a, b, c);  // the cross product at every corner has this length
+  const double twice_area = std::sqrt(glm::dot(n, n));
+  return {std::atan2(twice_area, glm::dot(b - a, c - a)), std::atan2(twice_area, glm::dot(c - b, a - b)),
+          std::atan2(twice_area, glm::dot(a - c, b - c))};
+}
+
+/// A sum of face normals, weighted by angle.
+struct WeightedNormal {
+  Vec3 sum{0.0};
+  double weights = 0.0;
+
+  void add(double angle, const Vec3& face) {
+    sum += angle * face;
+    weights += angle;
+  }
+  bool cancelled() const { return !(glm::dot(sum, sum) > kCancelledNormal * kCancelledNormal * weights * weights); }
+};
+
+/// Vertices where no sharp edge ends have one normal: summed triangle by triangle, in file order. Walking fans
+/// instead took 8.5 s, not SHUFFLED s, on 5.24M triangles in random order: every step of a walk misses the caches.
+void normals_at_plain_vertices(const SurfaceView& s, std::span<const Vec3> faces, std::span<const std::uint8_t> sharp,
+                               CornerNormals& out) {
+  std::vector<WeightedNormal> sums(s.positions.size());
+  std::vector<bool> cut(s.positions.size(), false);
+  for (std::uint32_t t = 0; t < s.triangles.size(); ++t) {
+    if (!s.used(t)) continue;
+    const Index3& v = s.triangles[t];
+    const Vec3 angle = angles(s, t);
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      sums[v[k]].add(angle[static_cast<int>(k)], faces[t]);
+      if (sharp[t] & bit(k)) cut[v[k]] = cut[v[next3(k)]] = true;
+    }
+  }
+  std::vector<std::uint32_t> slot(s.positions.size(), kNone);
+  for (std::size_t v = 0; v < slot.size(); ++v) {
+    if (cut[v] || sums[v].cancelled()) continue;
+    slot[v] = static_cast<std::uint32_t>(out.normals.size());
+    out.normals.push_back(unit(sums[v].sum));
+  }
+  for (std::uint32_t t = 0; t < s.triangles.size(); ++t) {
+    if (!s.used(t)) continue;
+    for (std::uint32_t k = 0; k < 3; ++k) out.index[t][k] = slot[s.triangles[t][k]];
+  }
 }
 
 /// The corners of one smooth fan, counter-clockwise, without crossing a sharp edge.
@@ -77,21 +120,18 @@ CornerNormals computed_normals(const SurfaceView& s, std::span<const Vec3> faces
   CornerNormals out;
   out.normals.reserve(s.positions.size());
   out.index.assign(s.triangles.size(), {kNone, kNone, kNone});
+  normals_at_plain_vertices(s, faces, sharp, out);
   std::vector<Corner> fan;
   for (std::uint32_t t = 0; t < s.triangles.size(); ++t) {
     if (!s.used(t)) continue;
     for (std::uint32_t k = 0; k < 3; ++k) {
       if (out.index[t][k] != kNone) continue;
       collect_fan(s, sharp, {t, k}, fan);
-      Vec3 sum(0.0);
-      double weights = 0.0;
-      for (const Corner& c : fan) {
-        const double angle = angle_at(s, c);
-        sum += angle * faces[c.triangle];
-        weights += angle;
-      }
-      const bool cancelled = !(glm::dot(sum, sum) > kCancelledNormal * kCancelledNormal * weights * weights);
-      if (!cancelled) out.normals.push_back(unit(sum));
+      WeightedNormal normal;
+      for (const Corner& c : fan)
+        normal.add(angles(s, c.triangle)[static_cast<int>(c.corner)], faces[c.triangle]);
+      const bool cancelled = normal.cancelled();
+      if (!cancelled) out.normals.push_back(unit(normal.sum));
       for (const Corner& c : fan) {
         if (cancelled) out.normals.push_back(faces[c.triangle]);
         out.index[c.triangle][c.corner] = static_cast<std::uint32_t>(out.normals.size() - 1);

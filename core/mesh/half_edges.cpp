@@ -20,10 +20,7 @@ class HalfEdgeBuilder {
     const std::size_t faces = source_.usable_triangle_count();
     out_.mesh.reserve(source_.vertex_count(), faces * 3 / 2, faces);
     out_.triangle_of.reserve(faces);
-    for (std::uint32_t v = 0; v < source_.vertex_count(); ++v) {
-      const Vec3& p = source_.vertex_position(v);
-      out_.mesh.add_vertex({p.x, p.y, p.z});
-    }
+    for (std::uint32_t v = 0; v < source_.vertex_count(); ++v) out_.mesh.new_vertex();
     for (std::uint32_t t = 0; t < source_.triangle_count(); ++t)
       if (source_.usable(t)) add_triangle(t);
     for (const std::uint32_t t : out_.triangle_of)
@@ -41,17 +38,17 @@ class HalfEdgeBuilder {
     for (std::uint32_t k = 0; k < 3; ++k) {
       const std::uint32_t across = source_.links()[t][k];
       const HalfedgeHandle twin = across == kNone ? HalfedgeHandle() : half_edge_[across >> 2][across & 3u];
-      own[k] = twin.is_valid() ? mesh.opposite_halfedge_handle(twin)
-                               : mesh.new_edge(vertex_handle(source_.vertex(t, k)), vertex_handle(source_.vertex(t, next3(k))));
+      const VertexHandle from = vertex_handle(source_.vertex(t, k)), to = vertex_handle(source_.vertex(t, next3(k)));
+      own[k] = twin.is_valid() ? mesh.opposite_halfedge_handle(twin) : mesh.new_edge(from, to);
       mesh.set_face_handle(own[k], face);
-      mesh.set_halfedge_handle(vertex_handle(source_.vertex(t, k)), own[k]);
+      mesh.set_halfedge_handle(from, own[k]);
     }
     for (std::uint32_t k = 0; k < 3; ++k) mesh.set_next_halfedge_handle(own[k], own[next3(k)]);
     mesh.set_halfedge_handle(face, own[0]);
   }
 
-  /// The boundary half-edge along edge `c.corner` ends at corner c. The next one leaves that vertex, and is found at the
-  /// other end of its fan. A boundary vertex keeps its leaving boundary half-edge, as OpenMesh expects.
+  /// The boundary half-edge along edge `c.corner` ends at corner c. The next one leaves that vertex, and is found
+  /// at the other end of its fan. A boundary vertex keeps its leaving boundary half-edge, as OpenMesh expects.
   void join_boundary(Corner c) {
     HalfEdgeMesh& mesh = out_.mesh;
     const HalfedgeHandle arriving = mesh.opposite_halfedge_handle(half_edge_[c.triangle][c.corner]);

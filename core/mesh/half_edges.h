@@ -5,25 +5,19 @@
 
 #include "core/mesh/contact_mesh.h"
 
-#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
+#include <OpenMesh/Core/Mesh/TriConnectivity.hh>
 
 #include <cstdint>
 #include <vector>
 
 namespace tangent {
 
-struct HalfEdgeTraits : OpenMesh::DefaultTraits {
-  using Point = OpenMesh::Vec3d;
-  using Normal = OpenMesh::Vec3d;
-  // No previous-half-edge array: in a triangle it is two steps ahead.
-  HalfedgeAttributes(0);
-};
-
-using HalfEdgeMesh = OpenMesh::TriMesh_ArrayKernelT<HalfEdgeTraits>;
+/// Connectivity alone: positions and normals stay in the contact mesh, in double and once.
+using HalfEdgeMesh = OpenMesh::TriConnectivity;
 
 struct HalfEdges {
-  HalfEdgeMesh mesh;                        ///< vertices numbered as in the contact mesh, local coordinates, metres
-  std::vector<std::uint32_t> triangle_of;   ///< per face, its triangle: those not usable have no face
+  HalfEdgeMesh mesh;                       ///< vertices numbered as in the contact mesh
+  std::vector<std::uint32_t> triangle_of;  ///< per face, its triangle: those not usable have no face
 };
 
 /// Half-edge 0 of a face starts at the triangle's corner 0; boundary half-edges are linked into loops.

@@ -71,14 +71,16 @@ void audit_edges(const ContactMesh& mesh, MeshAudit& out) {
   std::vector<double> lengths, dihedrals;
   lengths.reserve(m.n_edges());
   dihedrals.reserve(m.n_edges());
+  const auto position = [&](OpenMesh::VertexHandle v) { return mesh.vertex_position(static_cast<std::uint32_t>(v.idx())); };
   const auto normal_of = [&](OpenMesh::FaceHandle f) {
     const auto [a, b, c] = mesh.positions(half.triangle_of[static_cast<std::size_t>(f.idx())]);
     return face_normal(a, b, c);
   };
   for (const auto edge : m.edges()) {
-    lengths.push_back(m.calc_edge_length(edge));
+    const OpenMesh::HalfedgeHandle h = m.halfedge_handle(edge, 0);
+    const Vec3 side = position(m.to_vertex_handle(h)) - position(m.from_vertex_handle(h));
+    lengths.push_back(std::sqrt(glm::dot(side, side)));
     if (m.is_boundary(edge)) continue;
-    const auto h = m.halfedge_handle(edge, 0);
     dihedrals.push_back(angle_between(normal_of(m.face_handle(h)), normal_of(m.opposite_face_handle(h))));
   }
   out.edge_length_m = min_median_max(lengths);

@@ -14,8 +14,9 @@ bool TextCursor::next_line() {
     return false;
   }
   at_ = newline + 1;
+  if (at_ >= end_) return false;  // errors about the end name the last line that there is
   ++line_;
-  return at_ < end_;
+  return true;
 }
 
 bool TextCursor::next_content() {

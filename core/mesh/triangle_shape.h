@@ -39,10 +39,4 @@ inline bool is_degenerate(const Vec3& a, const Vec3& b, const Vec3& c) {
 /// Unit normal. Precondition: not degenerate.
 inline Vec3 face_normal(const Vec3& a, const Vec3& b, const Vec3& c) { return unit(area_vector(a, b, c)); }
 
-/// Interior angle at `a`, radians.
-inline double corner_angle(const Vec3& a, const Vec3& b, const Vec3& c) {
-  const Vec3 ab = b - a, ac = c - a, x = glm::cross(ab, ac);
-  return std::atan2(std::sqrt(glm::dot(x, x)), glm::dot(ab, ac));
-}
-
 }  // namespace tangent

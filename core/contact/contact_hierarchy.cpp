@@ -1,0 +1,184 @@
+#include "core/contact/contact_hierarchy.h"
+
+#include "core/mesh/vertex_ring.h"
+#include "core/surface/mesh_patch.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace tangent {
+namespace {
+
+constexpr std::size_t kLeafTriangles = 2;
+
+/// Directions within `half` of a unit axis; cos_half -1 is every direction.
+struct Cone {
+  Vec3 axis{0.0, 0.0, 1.0};
+  double cos_half = -1.0;
+};
+
+/// What a set of normals spans. Fixed room: a triangle has six control normals; fans add theirs.
+class NormalSet {
+ public:
+  void add(const Vec3& n) {
+    if (size_ == normals_.size()) {
+      everything_ = true;
+      return;
+    }
+    normals_[size_++] = n;
+  }
+  void add_everything() { everything_ = true; }
+
+  Cone cone() const {
+    Vec3 sum(0.0);
+    for (std::size_t i = 0; i < size_; ++i) sum += normals_[i];
+    const double length2 = glm::dot(sum, sum);
+    if (everything_ || length2 < 1e-6) return {};
+    Cone cone{sum / std::sqrt(length2), 1.0};
+    for (std::size_t i = 0; i < size_; ++i) cone.cos_half = std::min(cone.cos_half, glm::dot(cone.axis, normals_[i]));
+    return cone;
+  }
+
+ private:
+  std::array<Vec3, 64> normals_;
+  std::size_t size_ = 0;
+  bool everything_ = false;
+};
+
+Cone merge(const Cone& a, const Cone& b) {
+  if (a.cos_half <= -1.0 || b.cos_half <= -1.0) return {};
+  const Vec3 sum = a.axis + b.axis;
+  const double length2 = glm::dot(sum, sum);
+  if (length2 < 1e-6) return {};
+  const Vec3 axis = sum / std::sqrt(length2);
+  const auto reach = [&](const Cone& c) {
+    return std::acos(std::clamp(glm::dot(axis, c.axis), -1.0, 1.0)) + std::acos(std::clamp(c.cos_half, -1.0, 1.0));
+  };
+  const double half = std::max(reach(a), reach(b));
+  return half >= 3.14159 ? Cone{} : Cone{axis, std::cos(half)};
+}
+
+float below(double x) { return std::nextafter(static_cast<float>(x), -std::numeric_limits<float>::infinity()); }
+float above(double x) { return std::nextafter(static_cast<float>(x), std::numeric_limits<float>::infinity()); }
+
+/// Spreads the low 21 bits of x to every third bit.
+std::uint64_t spread_bits(std::uint64_t x) {
+  x &= 0x1FFFFF;
+  x = (x | x << 32) & 0x1F00000000FFFFull;
+  x = (x | x << 16) & 0x1F0000FF0000FFull;
+  x = (x | x << 8) & 0x100F00F00F00F00Full;
+  x = (x | x << 4) & 0x10C30C30C30C30C3ull;
+  return (x | x << 2) & 0x1249249249249249ull;
+}
+
+}  // namespace
+
+class ContactHierarchyBuilder {
+ public:
+  ContactHierarchyBuilder(const ContactMesh& mesh, ContactHierarchy& tree) : mesh_(mesh), tree_(tree) {}
+
+  void build() {
+    sort_triangles();
+    if (tree_.order_.empty()) return;
+    tree_.nodes_.reserve(2 * (tree_.order_.size() / kLeafTriangles + 1));
+    build_node(0, tree_.order_.size());
+    tree_.nodes_.shrink_to_fit();
+  }
+
+ private:
+  struct Bounds {
+    Box box;
+    Cone cone;
+  };
+
+  /// Along a Morton curve: near in space is near in the list, so halving it makes compact nodes.
+  void sort_triangles() {
+    const Vec3 low = mesh_.bounds().min, size = mesh_.bounds().size();
+    const double side = std::max({size.x, size.y, size.z, 1e-300});
+    const double cells = 2097151.0;
+    std::vector<std::pair<std::uint64_t, std::uint32_t>> keyed;
+    keyed.reserve(mesh_.usable_triangle_count());
+    for (std::uint32_t t = 0; t < mesh_.triangle_count(); ++t) {
+      if (!mesh_.usable(t)) continue;
+      const Vec3 middle = (mesh_.position(t, 0) + mesh_.position(t, 1) + mesh_.position(t, 2)) / 3.0;
+      const Vec3 cell = glm::clamp((middle - low) / side, Vec3(0.0), Vec3(1.0)) * cells;
+      keyed.emplace_back(spread_bits(static_cast<std::uint64_t>(cell.x)) | spread_bits(static_cast<std::uint64_t>(cell.y)) << 1 |
+                             spread_bits(static_cast<std::uint64_t>(cell.z)) << 2, t);
+    }
+    std::sort(keyed.begin(), keyed.end());
+    tree_.order_.reserve(keyed.size());
+    for (const auto& [key, t] : keyed) tree_.order_.push_back(t);
+  }
+
+  Bounds build_node(std::size_t first, std::size_t last) {
+    const auto index = static_cast<std::uint32_t>(tree_.nodes_.size());
+    tree_.nodes_.emplace_back();
+    Bounds bounds;
+    if (last - first <= kLeafTriangles) {
+      bounds = triangle_bounds(tree_.order_[first]);
+      for (std::size_t i = first + 1; i < last; ++i) join(bounds, triangle_bounds(tree_.order_[i]));
+      tree_.nodes_[index].link = ContactHierarchy::kLeaf | static_cast<std::uint32_t>(first);
+      tree_.nodes_[index].count = static_cast<std::uint32_t>(last - first);
+    } else {
+      const std::size_t middle = first + (last - first) / 2;
+      bounds = build_node(first, middle);
+      tree_.nodes_[index].link = static_cast<std::uint32_t>(tree_.nodes_.size());
+      tree_.nodes_[index].count = 0;
+      join(bounds, build_node(middle, last));
+    }
+    store(tree_.nodes_[index], bounds);
+    return bounds;
+  }
+
+  static void join(Bounds& a, const Bounds& b) {
+    a.box.include(b.box.min);
+    a.box.include(b.box.max);
+    a.cone = merge(a.cone, b.cone);
+  }
+
+  static void store(ContactHierarchy::Node& node, const Bounds& bounds) {
+    for (int k = 0; k < 3; ++k) {
+      node.min[k] = below(bounds.box.min[k]);
+      node.max[k] = above(bounds.box.max[k]);
+      node.axis[k] = static_cast<float>(bounds.cone.axis[k]);
+    }
+    // 1e-6 covers the rounding of the axis to float.
+    node.cos_half = bounds.cone.cos_half <= -1.0 ? -1.0f : below(std::max(-0.9999999, bounds.cone.cos_half - 1e-6));
+  }
+
+  Bounds triangle_bounds(std::uint32_t t) const {
+    const PnPatch patch = make_patch(mesh_, t);
+    Bounds bounds;
+    for (std::size_t i = 0; i < 10; ++i) bounds.box.include(patch.control_point(i));
+    NormalSet normals;
+    for (const Vec3& n : patch.normals) normals.add(n);
+    if (!mesh_.interior(t)) add_feature_normals(t, normals);
+    bounds.cone = normals.cone();
+    return bounds;
+  }
+
+  void add_feature_normals(std::uint32_t t, NormalSet& normals) const {
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      if (mesh_.edge_kind(t, k) == EdgeKind::boundary) normals.add_everything();
+      if (mesh_.edge_kind(t, k) == EdgeKind::crease)
+        for (const Vec3& n : make_patch(mesh_, mesh_.across(t, k).triangle).normals) normals.add(n);
+      if (!mesh_.feature_corner(t, k)) continue;
+      around_vertex(mesh_, t, k, [&](std::uint32_t other, std::uint32_t corner) {
+        normals.add(mesh_.normal(other, corner));
+        if (mesh_.edge_kind(other, corner) == EdgeKind::boundary || mesh_.edge_kind(other, (corner + 2) % 3) == EdgeKind::boundary)
+          normals.add_everything();
+      });
+    }
+  }
+
+  const ContactMesh& mesh_;
+  ContactHierarchy& tree_;
+};
+
+ContactHierarchy ContactHierarchy::build(const ContactMesh& mesh) {
+  ContactHierarchy tree;
+  ContactHierarchyBuilder(mesh, tree).build();
+  return tree;
+}
+
+}  // namespace tangent

@@ -1,0 +1,127 @@
+// All places where a finger centred at c could touch the smooth surface, without looking at most of it.
+//
+// A contact at S with normal N has c = S + h N: c lies along the normal, so a part of the surface can hold one
+// only if it is near enough and if some direction from it to c lies in the cone of its normals. The tree keeps,
+// per node, a box of the patches' control points and a cone of their control normals; both hold the patches by
+// the convex-hull property. Compare the spatialized normal cone hierarchy of Johnson & Cohen (I3D 2001).
+// Crease edges add the normals of their fans; boundary edges and vertices are not bounded in direction.
+//
+// Immutable, no allocation in a query, any number of threads.
+#pragma once
+
+#include "core/contact/finger.h"
+#include "core/mesh/contact_mesh.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace tangent {
+
+/// Which contacts are asked for. Heights and margins in metres, centre in local mesh coordinates.
+struct ContactQuery {
+  Vec3 centre{0.0};
+  double nearest_m = 0.0;  ///< contacts on the outside (h >= 0) with h up to this
+  double inside_m = 0.0;   ///< contacts seen from inside (h < 0) with |h| up to this; negative: none
+  double margin_m = 0.0;   ///< also all that could come up while the centre moves by this much
+  double tilt_rad = 0.0;   ///< how far c - S may lean from N: 0 for point and sphere, more for other fingers
+};
+
+class ContactHierarchy {
+ public:
+  static ContactHierarchy build(const ContactMesh& mesh);
+
+  /// Calls visit(triangle, query) for every triangle that can't be ruled out, roughly by distance. The visitor
+  /// may shrink the query's bounds as it finds contacts, and returns false to end the search.
+  template <class Visit>
+  void visit(ContactQuery query, Visit visit) const;
+
+  std::size_t memory_bytes() const { return nodes_.size() * sizeof(Node) + order_.size() * sizeof(std::uint32_t); }
+
+ private:
+  friend class ContactHierarchyBuilder;
+  static constexpr std::uint32_t kLeaf = 0x80000000u;
+  static constexpr int kMaxDepth = 64;
+
+  /// Preorder: the first child follows its parent.
+  struct Node {
+    std::array<float, 3> min, max;  ///< of control points, rounded outwards
+    std::array<float, 3> axis;      ///< of the cone of normals, unit
+    float cos_half;                 ///< of the cone's half angle, rounded down; -1: every direction
+    std::uint32_t link;             ///< second child, or kLeaf | first entry in order_
+    std::uint32_t count;            ///< entries of a leaf
+  };
+
+  /// Squared distance of the box, or -1 where the node can't hold a contact.
+  static double reach2(const Node& node, const ContactQuery& query);
+
+  std::vector<Node> nodes_;
+  std::vector<std::uint32_t> order_;  ///< triangles, leaf by leaf
+};
+
+inline double ContactHierarchy::reach2(const Node& node, const ContactQuery& q) {
+  const Vec3 low(node.min[0], node.min[1], node.min[2]), high(node.max[0], node.max[1], node.max[2]);
+  const Vec3 gap = glm::max(glm::max(low - q.centre, q.centre - high), Vec3(0.0));
+  const double box2 = glm::dot(gap, gap);
+  const double farthest = std::max(q.nearest_m, q.inside_m);
+  if (box2 > farthest * farthest) return -1.0;
+  if (node.cos_half <= -1.0f) return box2;
+
+  // Seen from c the node's points lie within `spread` of the direction to its middle; c may move by the margin.
+  const Vec3 d = q.centre - 0.5 * (low + high);
+  const double radius = 0.5 * std::sqrt(glm::dot(high - low, high - low)) + q.margin_m;
+  const double d2 = glm::dot(d, d);
+  if (d2 <= radius * radius) return box2;
+  const double distance = std::sqrt(d2);
+  const double along = d.x * node.axis[0] + d.y * node.axis[1] + d.z * node.axis[2];
+  // Compare the angle of d from +-axis with half + spread + tilt, by cosines.
+  const double sin_spread = radius / distance, cos_spread = std::sqrt(1.0 - sin_spread * sin_spread);
+  const double cos_half = node.cos_half, sin_half = std::sqrt(std::max(0.0, 1.0 - cos_half * cos_half));
+  double cos_all = cos_half * cos_spread - sin_half * sin_spread;
+  double sin_all = sin_half * cos_spread + cos_half * sin_spread;
+  if (sin_all < 0.0) return box2;  // over half a turn: every direction
+  if (q.tilt_rad > 0.0) {
+    const double c = std::cos(q.tilt_rad), s = std::sin(q.tilt_rad);
+    const double sin_sum = sin_all * c + cos_all * s;
+    cos_all = cos_all * c - sin_all * s;
+    if (sin_sum < 0.0) return box2;
+  }
+  const double limit = cos_all * distance;
+  const bool outside = along >= limit && box2 <= q.nearest_m * q.nearest_m;
+  const bool inside = q.inside_m >= 0.0 && -along >= limit && box2 <= q.inside_m * q.inside_m;
+  return outside || inside ? box2 : -1.0;
+}
+
+template <class Visit>
+void ContactHierarchy::visit(ContactQuery query, Visit visit) const {
+  struct Entry {
+    std::uint32_t node;
+    double reach2;
+  };
+  std::array<Entry, kMaxDepth> stack;
+  int size = 0;
+  if (!nodes_.empty()) stack[size++] = {0, 0.0};
+  while (size > 0) {
+    const Entry entry = stack[--size];
+    const double farthest = std::max(query.nearest_m, query.inside_m);
+    if (entry.reach2 > farthest * farthest) continue;
+    const Node& node = nodes_[entry.node];
+    if (node.link & kLeaf) {
+      const std::uint32_t first = node.link & ~kLeaf;
+      for (std::uint32_t i = 0; i < node.count; ++i)
+        if (!visit(order_[first + i], query)) return;
+      continue;
+    }
+    const std::uint32_t a = entry.node + 1, b = node.link;
+    const double reach_a = reach2(nodes_[a], query), reach_b = reach2(nodes_[b], query);
+    const bool a_first = reach_a <= reach_b;
+    const Entry near = a_first ? Entry{a, reach_a} : Entry{b, reach_b};
+    const Entry far = a_first ? Entry{b, reach_b} : Entry{a, reach_a};
+    if (far.reach2 >= 0.0) stack[size++] = far;
+    if (near.reach2 >= 0.0) stack[size++] = near;
+  }
+}
+
+}  // namespace tangent
