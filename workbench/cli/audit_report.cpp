@@ -24,7 +24,7 @@ std::string row(const char* name, std::uint64_t value, const std::vector<std::ui
 }
 
 std::string range(const MinMedianMax& r, double scale, const char* unit) {
-  return format("min %.4g  median %.4g  max %.4g %s", r.min * scale, r.median * scale, r.max * scale, unit);
+  return format("min %.4g  median %.4g  max %.4g%s", r.min * scale, r.median * scale, r.max * scale, unit);
 }
 
 std::string triple(const Vec3& v) { return format("%.6g  %.6g  %.6g mm", v.x * 1e3, v.y * 1e3, v.z * 1e3); }
@@ -76,8 +76,8 @@ std::string audit_text(const MeshAudit& a, const ContactMesh& mesh) {
   text += row("normals against face", a.flipped_normals, a.first_flipped);
   text += row("normals over 60 deg off", a.wild_normals);
   text += row("largest normal to face", format("%.4g deg", a.max_normal_to_face_deg));
-  text += row("edge length", range(a.edge_length_m, 1e3, "mm"));
-  text += row("dihedral angle", range(a.dihedral_deg, 1.0, "deg"));
+  text += row("edge length", range(a.edge_length_m, 1e3, " mm"));
+  text += row("dihedral angle", range(a.dihedral_deg, 1.0, " deg"));
   text += row("aspect", range(a.aspect, 1.0, ""));
   text += row("normals used", mesh.normals_used() == NormalSource::file ? "from the file" : "computed");
   text += row("content hash", hash_text(mesh.content_hash()));

@@ -217,10 +217,15 @@ Status check_preset(const Preset& preset) {
 }
 
 std::string range_text(double min, double max, std::string_view unit) {
+  // "100000", not "1e+05": people type these numbers.
+  const auto append = [](std::string& text, double value) {
+    if (std::floor(value) == value && std::abs(value) <= 1e9) text += std::to_string(static_cast<long long>(value));
+    else append_double(text, value);
+  };
   std::string text;
-  append_double(text, min);
+  append(text, min);
   text += " to ";
-  append_double(text, max);
+  append(text, max);
   if (!unit.empty()) text.append(" ").append(unit);
   return text;
 }

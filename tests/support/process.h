@@ -1,0 +1,60 @@
+// The program run as a process of its own.
+#pragma once
+
+#include "tests/support/temp_folder.h"
+
+#include <csignal>
+#include <string>
+#include <vector>
+
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace tangent::testing {
+
+struct ProcessResult {
+  int exit_code = -1;  ///< -1: ended by a signal
+  std::string out, err;
+};
+
+/// A process under way. Its output is kept in files, so it never blocks.
+class Process {
+ public:
+  explicit Process(std::vector<std::string> arguments, const std::string& program = TANGENT_PROGRAM) {
+    arguments.insert(arguments.begin(), program);
+    std::vector<char*> argv;
+    for (std::string& argument : arguments) argv.push_back(argument.data());
+    argv.push_back(nullptr);
+    const std::string out = folder_.file("out"), err = folder_.file("err");
+    id_ = ::fork();
+    if (id_ != 0) return;
+    redirect("/dev/null", O_RDONLY, STDIN_FILENO);
+    redirect(out, O_WRONLY | O_CREAT, STDOUT_FILENO);
+    redirect(err, O_WRONLY | O_CREAT, STDERR_FILENO);
+    ::execv(argv[0], argv.data());
+    ::_exit(127);
+  }
+
+  void interrupt() const { ::kill(id_, SIGINT); }
+
+  ProcessResult wait() const {
+    int status = 0;
+    while (::waitpid(id_, &status, 0) < 0 && errno == EINTR) {
+    }
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_text(folder_.file("out")), read_text(folder_.file("err"))};
+  }
+
+ private:
+  static void redirect(const std::string& path, int flags, int descriptor) {
+    const int file = ::open(path.c_str(), flags, 0600);
+    if (file < 0 || ::dup2(file, descriptor) < 0) ::_exit(126);
+  }
+
+  TempFolder folder_;
+  pid_t id_ = 0;
+};
+
+inline ProcessResult run_workbench(std::vector<std::string> arguments) { return Process(std::move(arguments)).wait(); }
+
+}  // namespace tangent::testing
