@@ -16,4 +16,5 @@ target_include_directories(tangent_gui SYSTEM PUBLIC ${IMGUI_INCLUDE} PRIVATE ${
 # leaves freetype and stb to whoever links it.
 target_link_libraries(tangent_gui
   PUBLIC tangent_session ${IMGUI_LIBRARY} glfw Freetype::Freetype ${STB_LIBRARY} PkgConfig::epoxy ${CMAKE_DL_LIBS})
-target_compile_definitions(tangent_gui PRIVATE TANGENT_SHADER_DIR="${CMAKE_SOURCE_DIR}/shaders")
+target_compile_definitions(tangent_gui PRIVATE TANGENT_SHADER_DIR="${CMAKE_SOURCE_DIR}/shaders"
+  TANGENT_PRESET_DIR="${CMAKE_SOURCE_DIR}/presets")
