@@ -130,7 +130,7 @@ GateOutput SafetyGate::pass(const GateInput& input, double dt_s) noexcept {
   const bool live = state_ == GateState::ramping || state_ == GateState::armed;
   if (live && input.force_device == DeviceState::ready) {
     out.force_n = limit_force(input.force_n, dt_s, out);
-  } else if (force_finite && input.force_n != Vec3(0.0)) {
+  } else if (force_finite && input.force_n != Vec3(0.0) && input.force_device != DeviceState::absent) {
     note(GateAction::withheld, out);
   }
   last_force_n_ = out.force_n;

@@ -35,7 +35,7 @@ enum class GateAction : std::uint8_t {
   ramped_in,          ///< reduced, since armed a moment ago
   display_clamped,    ///< beyond the display's travel
   refused_not_finite, ///< zero sent instead
-  withheld,           ///< a force was asked for while disarmed or faulted
+  withheld,           ///< a force was asked for while disarmed, faulted or not yet ready
   count_
 };
 inline constexpr std::size_t kGateActionCount = static_cast<std::size_t>(GateAction::count_);

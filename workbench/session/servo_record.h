@@ -35,7 +35,7 @@ struct ServoRecord {
   std::uint32_t missed_deadlines = 0;    ///< skipped before this tick
   double tick_ns = 0.0;                  ///< whole tick: exchange, step, gate
   double period_ns = 0.0;                ///< start to start, since the tick before; 0 for the first
-  double lateness_ns = 0.0;              ///< start after its deadline
+  double lateness_ns = 0.0;              ///< start after the deadline waited for, skipped ones included
 };
 static_assert(std::is_trivially_copyable_v<ServoRecord>);
 

@@ -13,6 +13,7 @@
 #include "core/step.h"
 #include "devices/contact_display.h"
 #include "devices/force_device.h"
+#include "workbench/session/hand_settings.h"
 #include "workbench/session/history.h"
 #include "workbench/session/servo_options.h"
 
@@ -24,22 +25,9 @@ namespace tangent {
 
 class ExplorationPath;
 
-enum class HandMode : std::uint8_t {
-  explore,  ///< along the exploration path over the mesh
-  point,    ///< to the point set with set_hand_target
-};
-
-struct HandSettings {
-  HandMode mode = HandMode::explore;
-  double speed_m_per_s = 0.1;  ///< along the path; 0: rests
-  double press_m = 2.25e-3;    ///< how far inside the surface the hand aims: with a hand of 400 N/m and a contact of
-                               ///< 800 N/m the finger rests a third of it deep
-  bool operator==(const HandSettings&) const = default;
-};
-
 struct SessionOptions {
   ServoOptions servo;
-  std::string devices = "simulated";  ///< "simulated" or "none"
+  std::string devices = "simulated";  ///< see devices/device_set.h: "simulated", "ideal", "none"
   std::uint64_t seed = 1;             ///< of the simulated devices
   double history_s = 120.0;           ///< kept for the GUI
   bool threaded = true;

@@ -1,0 +1,107 @@
+// Scenes, device doubles and a made-up clock for the session's tests.
+#pragma once
+
+#include "core/mesh/generate.h"
+#include "core/step.h"
+#include "devices/device_set.h"
+#include "workbench/session/servo_clock.h"
+#include "workbench/session/servo_tick.h"
+
+#include <doctest/doctest.h>
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace tangent::test {
+
+inline std::shared_ptr<const ContactScene> scene_of(const PolygonMesh& source) {
+  auto mesh = ContactMesh::build(source);
+  REQUIRE(mesh);
+  auto scene = ContactScene::build(std::move(*mesh));
+  REQUIRE(scene);
+  return *scene;
+}
+
+inline std::shared_ptr<const ContactScene> sphere_scene() {
+  static const auto scene = scene_of(make_icosphere(0.040, 3));
+  return scene;
+}
+
+inline std::shared_ptr<const ContactScene> torus_scene() {
+  static const auto scene = scene_of(make_torus(0.040, 0.015, 48, 24));
+  return scene;
+}
+
+/// Says what it is told to say, and remembers what it was commanded.
+struct PuppetForceDevice final : ForceDevice {
+  ForceCapabilities caps{.name = "puppet", .peak_force_n = 8.5};
+  DeviceState state = DeviceState::ready;
+  Vec3 position{0.0};
+  std::vector<ForceCommand> commands;
+  std::function<void(PuppetForceDevice&)> before;
+
+  PuppetForceDevice() { commands.reserve(100'000); }
+  const ForceCapabilities& capabilities() const override { return caps; }
+  Status open() override { return {}; }
+  void close() override {}
+  ForceSample exchange(const ForceCommand& command, double) noexcept override {
+    commands.push_back(command);
+    if (before) before(*this);
+    ForceSample sample;
+    sample.position_m = position;
+    sample.state = state;
+    sample.fault = state == DeviceState::faulted ? DeviceFault::sensor : DeviceFault::none;
+    return sample;
+  }
+};
+
+/// Time moves when someone sleeps or when a test says so.
+struct MadeUpClock final : ServoClock {
+  std::int64_t time_ns = 1'000'000'000;
+  std::function<std::int64_t()> oversleep_ns = [] { return std::int64_t{0}; };
+  std::int64_t now_ns() noexcept override { return time_ns; }
+  void sleep_until(std::int64_t deadline_ns) noexcept override {
+    time_ns = std::max(time_ns, deadline_ns) + oversleep_ns();
+  }
+};
+
+/// A ServoTick with its surroundings, driven by hand.
+struct TickBench {
+  DeviceSet devices;
+  ServoChannels channels{4096};
+  ServoStatistics statistics;
+  DeadlinePacer pacer{1000.0, false};
+  std::unique_ptr<ServoTick> tick;
+
+  TickBench(DeviceSet set, std::shared_ptr<const ContactScene> scene, const Preset& preset = {})
+      : devices(std::move(set)),
+        tick(std::make_unique<ServoTick>(devices, channels, statistics,
+                                         std::make_unique<PreparedScene>(std::move(scene), preset.finger),
+                                         PresetLetter{0, preset}, nullptr)) {
+    pacer.start(0);
+  }
+
+  void arm() { channels.force.put(ForceSwitch::arm); }
+
+  ServoRecord run() {
+    tick->run(pacer.begin(pacer.deadline_ns()));
+    ServoRecord record;
+    REQUIRE(channels.gui.pop(record));
+    return record;
+  }
+  ServoRecord run(int ticks) {
+    ServoRecord record;
+    for (int i = 0; i < ticks; ++i) record = run();
+    return record;
+  }
+};
+
+inline DeviceSet simulated(std::uint64_t seed = 1) {
+  auto set = make_devices("simulated", seed);
+  REQUIRE(set);
+  return std::move(*set);
+}
+
+}  // namespace tangent::test

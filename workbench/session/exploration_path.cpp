@@ -1,0 +1,230 @@
+#include "workbench/session/exploration_path.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace tangent {
+
+namespace {
+
+constexpr double kTau = 2.0 * std::numbers::pi;
+constexpr std::size_t kRawPoints = 1024;
+constexpr int kShrinkRounds = 20;
+constexpr int kLastSmoothings = 10;
+constexpr double kPointSpacing = 1.5e-3;         // m, where that gives neither too few nor too many points
+constexpr std::size_t kFewestPoints = 256, kMostPoints = 8192;
+constexpr double kNormalWindow = 8e-3;           // m of way over which the pressing direction is averaged
+constexpr double kOrientationWindow = 40e-3;     // m of way over which the hand turns with the surface
+constexpr double kRockingAngle = 0.25;           // rad: a person rolls the finger; keeps the display moving
+constexpr double kRockingLength = 0.13;          // m of way, roughly, for one roll
+
+using Points = std::vector<Vec3>;
+
+std::size_t wrapped(std::ptrdiff_t i, std::size_t n) {
+  const auto m = static_cast<std::ptrdiff_t>(n);
+  return static_cast<std::size_t>(((i % m) + m) % m);
+}
+
+/// Sum of area vectors: near zero for a closed mesh, near the whole area for a sheet.
+Vec3 mean_normal(const ContactMesh& mesh) {
+  Vec3 sum(0.0);
+  double area = 0.0;
+  for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t) {
+    if (!mesh.usable(t)) continue;
+    const auto p = mesh.positions(t);
+    const Vec3 a = glm::cross(p[1] - p[0], p[2] - p[0]);
+    sum += a;
+    area += std::sqrt(glm::dot(a, a));
+  }
+  return area > 0.0 ? sum / area : Vec3(0.0);
+}
+
+/// A unit vector at right angles to `up`, near x where that is possible.
+Vec3 side_of(const Vec3& up) {
+  const Vec3 side = std::abs(up.x) < 0.9 ? Vec3(1, 0, 0) : Vec3(0, 1, 0);
+  return unit(side - glm::dot(side, up) * up);
+}
+
+/// Five turns about y on an ellipsoid that holds the box and the finger, swinging 50 degrees up and down.
+Points around(const Box& box, double pad) {
+  Points points(kRawPoints);
+  const Vec3 axes = 0.5 * std::numbers::sqrt3 * box.size() + Vec3(pad);
+  for (std::size_t i = 0; i < kRawPoints; ++i) {
+    const double s = static_cast<double>(i) / kRawPoints;
+    const double up = 50.0 * kDegree * std::sin(kTau * s), turn = kTau * 5.0 * s;
+    const Vec3 direction(std::cos(up) * std::cos(turn), std::sin(up), std::cos(up) * std::sin(turn));
+    points[i] = box.centre() + axes * direction;
+  }
+  return points;
+}
+
+/// A Lissajous figure over a sheet that faces `normal`.
+Points over(const Box& box, const Vec3& normal, double pad) {
+  Points points(kRawPoints);
+  const Vec3 a = side_of(normal), b = glm::cross(normal, a);
+  const Vec3 half = 0.5 * box.size();
+  const auto extent = [&half](const Vec3& d) { return glm::dot(glm::abs(d), half); };
+  for (std::size_t i = 0; i < kRawPoints; ++i) {
+    const double s = kTau * static_cast<double>(i) / kRawPoints;
+    points[i] = box.centre() + 0.75 * extent(a) * std::sin(3.0 * s) * a +
+                0.75 * extent(b) * std::sin(4.0 * s + 0.5) * b + (extent(normal) + pad) * normal;
+  }
+  return points;
+}
+
+void smooth(Points& points, double share) {
+  const std::size_t n = points.size();
+  Points next(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vec3 middle = 0.5 * (points[(i + n - 1) % n] + points[(i + 1) % n]);
+    next[i] = points[i] + share * (middle - points[i]);
+  }
+  points = std::move(next);
+}
+
+/// Mean over a window of `half` points to either side, closed.
+Points averaged(const Points& v, std::size_t half) {
+  const std::size_t n = v.size();
+  half = std::min(half, (n - 1) / 2);
+  Points out(n);
+  Vec3 sum(0.0);
+  const auto h = static_cast<std::ptrdiff_t>(half);
+  for (std::ptrdiff_t j = -h; j <= h; ++j) sum += v[wrapped(j, n)];
+  for (std::size_t i = 0; i < n; ++i) {
+    out[i] = sum / static_cast<double>(2 * half + 1);
+    const auto at = static_cast<std::ptrdiff_t>(i);
+    sum += v[wrapped(at + h + 1, n)] - v[wrapped(at - h, n)];
+  }
+  return out;
+}
+
+/// Points at equal distances along the closed polygon.
+Points evenly(const Points& raw, double& spacing) {
+  const std::size_t n = raw.size();
+  std::vector<double> way(n + 1, 0.0);
+  for (std::size_t i = 0; i < n; ++i) way[i + 1] = way[i] + glm::length(raw[(i + 1) % n] - raw[i]);
+  const double length = std::max(way[n], 1e-9);
+  const auto count = std::clamp(static_cast<std::size_t>(length / kPointSpacing), kFewestPoints, kMostPoints);
+  spacing = length / static_cast<double>(count);
+  Points points(count);
+  std::size_t k = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double s = spacing * static_cast<double>(i);
+    while (k + 1 < n && way[k + 1] <= s) ++k;
+    const double part = way[k + 1] > way[k] ? (s - way[k]) / (way[k + 1] - way[k]) : 0.0;
+    points[i] = raw[k] + part * (raw[(k + 1) % n] - raw[k]);
+  }
+  return points;
+}
+
+/// Draws the points onto the surface that lies `pad` outside the mesh. Moving straight towards the nearest triangle
+/// by less than its distance crosses nothing, and smoothing in between lets no two neighbours settle far apart. Where
+/// the surface parts neighbours (two legs, a fold), the new points between them find their own way down.
+Points shrink(const NearestTriangles& nearest, double pad, Points points, double& spacing) {
+  for (int round = 0; round < kShrinkRounds; ++round) {
+    const bool late = 2 * round >= kShrinkRounds;
+    const double pull = late ? 1.0 : 0.5;
+    for (Vec3& p : points) {
+      const NearestHit hit = nearest.nearest(p, std::numeric_limits<double>::infinity());
+      if (hit && hit.distance_m > 0.0) p += pull * (pad / hit.distance_m - 1.0) * (p - hit.point);
+    }
+    smooth(points, late ? 0.25 : 0.5);
+    points = evenly(points, spacing);
+  }
+  for (int i = 0; i < kLastSmoothings; ++i) smooth(points, 0.5);
+  return evenly(points, spacing);
+}
+
+Vec3 unit_or(const Vec3& v, const Vec3& otherwise) {
+  return glm::dot(v, v) > 1e-12 ? unit(v) : otherwise;
+}
+
+/// Finger frame for a pad that faces -up with the fingertip towards `forward`, rolled by `roll` about its y axis.
+Quat finger_frame(const Vec3& up, const Vec3& forward, double roll) {
+  const Vec3 x = unit_or(forward - glm::dot(forward, up) * up, side_of(up));
+  const Quat still = glm::normalize(glm::quat_cast(Mat3(x, glm::cross(up, x), up)));
+  return still * Quat(std::cos(0.5 * roll), 0.0, std::sin(0.5 * roll), 0.0);
+}
+
+Vec3 catmull_rom(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, double t) {
+  return b + 0.5 * t * (c - a + t * (2.0 * a - 5.0 * b + 4.0 * c - d + t * (3.0 * (b - c) + d - a)));
+}
+
+}  // namespace
+
+double pad_distance_m(const Finger& finger) {
+  switch (finger.shape) {
+    case FingerShape::point: return 0.0;
+    case FingerShape::ellipsoid: return finger.semi_axes_m.z;
+    case FingerShape::sphere:
+    case FingerShape::capsule: break;
+  }
+  return finger.radius_m;
+}
+
+ExplorationPath ExplorationPath::build(const ContactScene& scene, double pad_m) {
+  ExplorationPath path;
+  const ContactMesh& mesh = scene.mesh();
+  const Box& box = mesh.bounds();
+  // A point finger still needs room to shrink from: directions come from points off the surface.
+  path.pad_m_ = std::max(pad_m, 0.02 * glm::length(box.size()));
+
+  const Vec3 facing = mean_normal(mesh);
+  const bool sheet = glm::length(facing) > 0.5;
+  Points raw = sheet ? over(box, unit(facing), path.pad_m_) : around(box, path.pad_m_);
+  const Points centres = shrink(scene.nearest(), path.pad_m_, std::move(raw), path.spacing_m_);
+
+  const std::size_t n = centres.size();
+  Points outward(n), heading(n), short_of(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const NearestHit hit = scene.nearest().nearest(centres[i], std::numeric_limits<double>::infinity());
+    outward[i] = unit_or(hit ? centres[i] - hit.point : Vec3(0.0), i > 0 ? outward[i - 1] : Vec3(0, 0, 1));
+    short_of[i] = Vec3(hit ? path.pad_m_ - hit.distance_m : 0.0, 0.0, 0.0);
+    // Not along the path: that reverses at the ends of a Lissajous figure, which no finger does within a millimetre.
+    const Vec3 east = glm::cross(Vec3(0, 1, 0), centres[i] - box.centre());
+    heading[i] = sheet ? side_of(unit(facing)) : unit_or(east, Vec3(1, 0, 0));
+  }
+  // Twice averaged: the mean of a mean turns without corners.
+  const auto mean = [&path](const Points& v, double length) {
+    const auto half = static_cast<std::size_t>(0.5 * length / path.spacing_m_) + 1;
+    return averaged(averaged(v, half), half);
+  };
+  const Points press = mean(outward, kNormalWindow);
+  const Points up = mean(outward, kOrientationWindow), ahead = mean(heading, kOrientationWindow);
+
+  // Smoothing cuts the corners of a curve that bends around a body: mean depth is put back, without its corners.
+  const Points lift = mean(short_of, kNormalWindow);
+
+  const double rolls = std::max(1.0, std::round(path.spacing_m_ * static_cast<double>(n) / kRockingLength));
+  path.points_.resize(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vec3 pressing = unit_or(press[i], outward[i]);
+    const double roll = kRockingAngle * std::sin(kTau * rolls * static_cast<double>(i) / static_cast<double>(n));
+    path.points_[i] = {mesh.origin() + centres[i] + lift[i].x * pressing, pressing,
+                       finger_frame(unit_or(up[i], pressing), ahead[i], roll)};
+  }
+  return path;
+}
+
+PathPose ExplorationPath::at(double arc_m, double pad_m, double press_m) const noexcept {
+  const auto n = static_cast<double>(points_.size());
+  double place = std::fmod(arc_m / spacing_m_, n);
+  if (place < 0.0) place += n;
+  const auto i = std::min(static_cast<std::size_t>(place), points_.size() - 1);
+  const double t = place - static_cast<double>(i);
+  const std::size_t count = points_.size();
+  const Point &a = points_[(i + count - 1) % count], &b = points_[i], &c = points_[(i + 1) % count],
+              &d = points_[(i + 2) % count];
+
+  // Directions of neighbours differ by little, so they never cancel; quaternions may have opposite signs.
+  const Vec3 outward = unit_or(b.outward + t * (c.outward - b.outward), b.outward);
+  const Quat near = glm::dot(b.orientation, c.orientation) < 0.0 ? -c.orientation : c.orientation;
+  PathPose pose;
+  pose.position_m = catmull_rom(a.centre, b.centre, c.centre, d.centre, t) + (pad_m - pad_m_ - press_m) * outward;
+  pose.orientation = glm::normalize(b.orientation * (1.0 - t) + near * t);
+  return pose;
+}
+
+}  // namespace tangent

@@ -1,0 +1,49 @@
+#include "workbench/session/hand_lead.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tangent {
+
+namespace {
+
+constexpr double kApproachTime = 0.5;      // s from off the surface to the full press
+constexpr double kApproachHeight = 3e-3;   // m
+// m/s; of the hand itself. A path that turns about a small feature moves the finger's centre faster than its pad;
+// a click far away moves the hand there, not at once.
+constexpr double kHandSpeedLimit = 1.0;
+
+}  // namespace
+
+PathPose HandLead::wanted(const ExplorationPath& path, double pad_m) const noexcept {
+  if (command_.settings.mode == HandMode::point) return {command_.point_m, goal_.orientation};
+  const double t = std::min(1.0, approach_s_ / kApproachTime);
+  const double eased = t * t * (3.0 - 2.0 * t);
+  const double press = eased * (command_.settings.press_m + kApproachHeight) - kApproachHeight;
+  return path.at(way_m_, pad_m, press);
+}
+
+HandTarget HandLead::begin(const ExplorationPath& path, double pad_m) noexcept {
+  way_m_ = approach_s_ = 0.0;
+  goal_ = path.at(0.0, pad_m, -kApproachHeight);
+  return {goal_.position_m, Vec3(0.0), goal_.orientation};
+}
+
+HandTarget HandLead::advance(const ExplorationPath& path, double pad_m, double dt_s) noexcept {
+  if (command_.settings.mode == HandMode::explore) {
+    const double speed = std::clamp(command_.settings.speed_m_per_s, 0.0, kFastestHand);
+    way_m_ = std::fmod(way_m_ + speed * dt_s, path.length_m());
+    approach_s_ += dt_s;
+  }
+  const PathPose next = wanted(path, pad_m);
+  Vec3 move = next.position_m - goal_.position_m;
+  const double far = std::sqrt(glm::dot(move, move)), farthest = kHandSpeedLimit * dt_s;
+  if (far > farthest) move *= farthest / far;
+
+  // The target is where this tick begins; the device carries it on at its velocity until the tick's end.
+  HandTarget target{goal_.position_m, move / dt_s, next.orientation};
+  goal_ = {goal_.position_m + move, next.orientation};
+  return target;
+}
+
+}  // namespace tangent

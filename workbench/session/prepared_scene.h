@@ -1,0 +1,24 @@
+// A scene with everything the servo needs for it, so that changing scenes costs the servo a pointer.
+#pragma once
+
+#include "core/step.h"
+#include "workbench/session/exploration_path.h"
+
+#include <cstdint>
+#include <memory>
+
+namespace tangent {
+
+class PreparedScene {
+ public:
+  /// Slow (milliseconds to seconds); any thread.
+  PreparedScene(std::shared_ptr<const ContactScene> from, const Finger& finger)
+      : scene(std::move(from)), stepper(scene), path(ExplorationPath::build(*scene, pad_distance_m(finger))) {}
+
+  std::shared_ptr<const ContactScene> scene;
+  Stepper stepper;
+  ExplorationPath path;
+  std::uint32_t id = 0;   ///< given by the session
+};
+
+}  // namespace tangent

@@ -1,0 +1,67 @@
+#include "workbench/session/servo.h"
+
+#include <pthread.h>
+#include <sched.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+namespace tangent {
+
+namespace {
+
+/// Memory may be locked without a limit: with one, allocations anywhere in the program would begin to fail at it.
+bool may_lock_all() noexcept {
+  rlimit limit{};
+  return geteuid() == 0 || (getrlimit(RLIMIT_MEMLOCK, &limit) == 0 && limit.rlim_cur == RLIM_INFINITY);
+}
+
+}  // namespace
+
+Servo::Servo(ServoTick& tick, ServoStatistics& statistics, const ServoOptions& options, ServoClock& clock)
+    : tick_(tick), statistics_(statistics), options_(options), clock_(clock),
+      pacer_(options.rate_hz, options.time_by_deadlines) {
+  pacer_.start(0);
+}
+
+void Servo::start() {
+  if (running()) return;
+  stopping_.store(false);
+  statistics_.restart_rate();
+  thread_ = std::thread([this]() noexcept { loop(); });
+}
+
+void Servo::stop() {
+  if (!running()) return;
+  stopping_.store(true, std::memory_order_relaxed);
+  thread_.join();
+}
+
+void Servo::run_one() noexcept { tick_.run(pacer_.begin(pacer_.deadline_ns())); }
+
+// Without these the servo runs as well, only less evenly; what was granted is shown to the user.
+void Servo::ask_for_realtime() noexcept {
+  pthread_setname_np(pthread_self(), "servo");
+  prctl(PR_SET_TIMERSLACK, 1UL);  // ns; the default lets a wake-up slip by 50 us
+  if (!options_.realtime) return;
+  sched_param priority{};
+  priority.sched_priority = options_.fifo_priority;
+  fifo_.store(pthread_setschedparam(pthread_self(), SCHED_FIFO, &priority) == 0);
+  // Pages stay once they were touched; a page never touched is not fetched for it.
+  locked_.store(may_lock_all() && mlockall(MCL_CURRENT | MCL_FUTURE | MCL_ONFAULT) == 0);
+}
+
+void Servo::loop() noexcept {
+  ask_for_realtime();
+  pacer_.start(clock_.now_ns());
+  while (!stopping_.load(std::memory_order_relaxed)) {
+    clock_.sleep_until(pacer_.deadline_ns());
+    const std::int64_t now_ns = clock_.now_ns();
+    statistics_.note_start(now_ns);
+    tick_.run(pacer_.begin(now_ns));
+  }
+  tick_.release(1.0 / options_.rate_hz);
+}
+
+}  // namespace tangent

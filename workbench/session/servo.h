@@ -1,0 +1,45 @@
+// The servo thread: runs ticks at a fixed rate, by absolute deadlines.
+#pragma once
+
+#include "workbench/session/deadline_pacer.h"
+#include "workbench/session/servo_clock.h"
+#include "workbench/session/servo_options.h"
+#include "workbench/session/servo_tick.h"
+
+#include <atomic>
+#include <thread>
+
+namespace tangent {
+
+class Servo {
+ public:
+  /// `tick`, `statistics` and `clock` must outlive it. Precondition: rate within kSlowestServoHz, kFastestServoHz.
+  Servo(ServoTick& tick, ServoStatistics& statistics, const ServoOptions& options, ServoClock& clock);
+  ~Servo() { stop(); }
+  Servo(const Servo&) = delete;
+  Servo& operator=(const Servo&) = delete;
+
+  void start();
+  /// After the present tick; the devices get a zero force. Waits for the thread.
+  void stop();
+  bool running() const { return thread_.joinable(); }
+  RealtimeGrant granted() const { return {fifo_.load(), locked_.load()}; }
+
+  /// The next tick, now, on the caller's thread, as if it began at its deadline. Precondition: not running.
+  void run_one() noexcept;
+
+ private:
+  void loop() noexcept;
+  void ask_for_realtime() noexcept;
+
+  ServoTick& tick_;
+  ServoStatistics& statistics_;
+  ServoOptions options_;
+  ServoClock& clock_;
+  DeadlinePacer pacer_;
+  std::thread thread_;
+  std::atomic<bool> stopping_{false};
+  std::atomic<bool> fifo_{false}, locked_{false};
+};
+
+}  // namespace tangent

@@ -1,0 +1,67 @@
+// Everything that crosses between the servo thread and the others. Nothing in here waits.
+#pragma once
+
+#include "core/preset.h"
+#include "workbench/session/hand_settings.h"
+#include "workbench/session/mailbox.h"
+#include "workbench/session/prepared_scene.h"
+#include "workbench/session/ring.h"
+#include "workbench/session/servo_record.h"
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <type_traits>
+
+namespace tangent {
+
+struct PresetLetter {
+  std::uint32_t id = 0;
+  Preset preset;
+};
+static_assert(std::is_trivially_copyable_v<PresetLetter>, "presets cross threads as bytes");
+
+enum class ForceSwitch : std::uint8_t { stop, arm };
+
+/// Hands whole scenes to the servo and used ones back, so that the servo never frees anything.
+class SceneExchange {
+ public:
+  ~SceneExchange() {
+    delete offered_.load();
+    collect();
+  }
+
+  /// Owner. Replaces a scene that the servo has not taken yet.
+  void offer(std::unique_ptr<PreparedScene> scene) { delete offered_.exchange(scene.release(), std::memory_order_acq_rel); }
+  /// Owner. Frees what the servo gave back.
+  void collect() {
+    PreparedScene* retired = nullptr;
+    while (retired_.pop(retired)) delete retired;
+  }
+
+  /// Servo. A new scene in place of `current`, which is given back; null: none, or no room to give back.
+  PreparedScene* take(PreparedScene* current) noexcept {
+    if (offered_.load(std::memory_order_relaxed) == nullptr || retired_.room() == 0) return nullptr;
+    PreparedScene* scene = offered_.exchange(nullptr, std::memory_order_acq_rel);
+    if (scene != nullptr) retired_.push(current);
+    return scene;
+  }
+
+ private:
+  std::atomic<PreparedScene*> offered_{nullptr};
+  Ring<PreparedScene*> retired_{16};
+};
+
+struct ServoChannels {
+  explicit ServoChannels(std::size_t ring_records) : gui(ring_records), recorder(ring_records) {}
+
+  Mailbox<PresetLetter> presets;
+  Mailbox<HandCommand> hand;
+  Mailbox<ForceSwitch> force;
+  SceneExchange scenes;
+  Ring<ServoRecord> gui;
+  Ring<ServoRecord> recorder;
+  std::atomic<bool> recorder_attached{false};
+};
+
+}  // namespace tangent

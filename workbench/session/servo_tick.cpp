@@ -1,0 +1,147 @@
+#include "workbench/session/servo_tick.h"
+
+#include <algorithm>
+
+namespace tangent {
+
+GateLimits gate_limits(const DeviceSet& devices) {
+  GateLimits limits;
+  if (devices.force) limits.peak_force_n = devices.force->capabilities().peak_force_n;
+  if (devices.display) limits.display_travel_m = devices.display->capabilities().travel_m;
+  return limits;
+}
+
+ServoTick::ServoTick(DeviceSet& devices, ServoChannels& channels, ServoStatistics& statistics,
+                     std::unique_ptr<PreparedScene> scene, const PresetLetter& preset, NanosecondClock clock)
+    : devices_(devices), channels_(channels), statistics_(statistics), clock_(clock), gate_(gate_limits(devices)),
+      scene_(scene.release()), preset_(preset) {
+  const HandTarget start = hand_.begin(scene_->path, pad_distance_m(preset_.preset.finger));
+  force_sample_.position_m = start.position_m;
+  force_sample_.orientation = start.orientation;
+  if (devices_.force && devices_.force->hand()) devices_.force->hand()->place(start);
+}
+
+ServoTick::~ServoTick() { delete scene_; }
+
+void ServoTick::take_letters() noexcept {
+  channels_.presets.take(preset_);
+  HandCommand hand;
+  if (channels_.hand.take(hand)) hand_.command(hand);
+  ForceSwitch wanted{};
+  if (!channels_.force.take(wanted)) return;
+  arming_wanted_ = wanted == ForceSwitch::arm;
+  if (arming_wanted_) homing_wanted_ = clearing_wanted_ = true;
+  else gate_.stop();
+}
+
+void ServoTick::take_scene() noexcept {
+  PreparedScene* scene = channels_.scenes.take(scene_);
+  if (scene == nullptr) return;
+  scene_ = scene;
+  state_ = TickState{};
+  gate_.restart_ramp();
+  // Another surface under the finger: a simulated hand starts afresh, off it.
+  const HandTarget start = hand_.begin(scene_->path, pad_distance_m(preset_.preset.finger));
+  if (devices_.force && devices_.force->hand()) devices_.force->hand()->place(start);
+}
+
+// A device that isn't there is ready to be left out. Requests ride with the next command.
+void ServoTick::bring_up() noexcept {
+  const auto request = [this](DeviceState state) {
+    if (state == DeviceState::open) return DeviceRequest::home;
+    if (state == DeviceState::faulted && clearing_wanted_) return DeviceRequest::clear_fault;
+    return DeviceRequest::none;
+  };
+  force_command_.request = display_command_.request = DeviceRequest::none;
+  if (!homing_wanted_) return;
+  const auto done = [](DeviceState state) { return state == DeviceState::ready || state == DeviceState::absent; };
+  if (done(force_sample_.state) && done(display_sample_.state) && tick_ > 0) {
+    homing_wanted_ = clearing_wanted_ = false;
+    if (arming_wanted_) gate_.arm();
+    arming_wanted_ = false;
+    return;
+  }
+  force_command_.request = request(force_sample_.state);
+  display_command_.request = request(display_sample_.state);
+}
+
+void ServoTick::exchange(double dt_s, ServoRecord& record) noexcept {
+  SimulatedHand* hand = devices_.force ? devices_.force->hand() : nullptr;
+  if (hand != nullptr || !devices_.force) {
+    const HandTarget target = hand_.advance(scene_->path, pad_distance_m(preset_.preset.finger), dt_s);
+    record.device.hand_target_m = target.position_m + target.velocity_m_per_s * dt_s;
+    record.device.hand_led = 1;
+    if (hand != nullptr) {
+      hand->lead(target);
+    } else {
+      // Without a force device the finger goes where the hand wants it.
+      force_sample_.position_m = record.device.hand_target_m;
+      force_sample_.orientation = target.orientation;
+    }
+  }
+  force_command_.tick = display_command_.tick = tick_;
+  if (devices_.force) force_sample_ = devices_.force->exchange(force_command_, dt_s);
+  if (devices_.display) display_sample_ = devices_.display->exchange(display_command_, dt_s);
+  record.device.force_state = force_sample_.state;
+  record.device.force_fault = force_sample_.fault;
+  record.device.display_state = display_sample_.state;
+  record.device.display_fault = display_sample_.fault;
+  record.device.force_rendered_n = force_sample_.force_n;
+  record.device.cld_measured_m = display_sample_.position_m;
+}
+
+void ServoTick::gate(double dt_s, ServoRecord& record) noexcept {
+  const GateOutput out = gate_.pass({.force_n = record.tick.output.force_n,
+                                     .display_m = record.tick.output.cld_m,
+                                     .force_device = force_sample_.state,
+                                     .display = display_sample_.state},
+                                    dt_s);
+  force_command_.force_n = out.force_n;
+  display_command_.target_m = out.display_m;
+  record.device.gate_state = out.state;
+  record.device.gate_fault = out.fault;
+  record.device.gate_actions = out.actions;
+  record.device.force_command_n = out.force_n;
+  record.device.cld_command_m = out.display_m;
+}
+
+void ServoTick::run(const TickTiming& timing) noexcept {
+  const std::int64_t began = now();
+  take_letters();
+  take_scene();
+  bring_up();
+
+  ServoRecord record;
+  record.scene_id = scene_->id;
+  record.missed_deadlines = timing.missed_deadlines;
+  record.period_ns = timing.period_ns;
+  record.lateness_ns = timing.lateness_ns;
+  exchange(timing.dt_s, record);
+
+  TickRecord& tick = record.tick;
+  tick.tick = tick_;
+  tick.preset_id = preset_.id;
+  tick.kept = state_;
+  tick.input = {timing.t_s, {force_sample_.position_m, force_sample_.orientation}};
+  const std::int64_t step_began = now();
+  tick.output = scene_->stepper.step(preset_.preset, tick.input, state_);
+  tick.solve_ns = static_cast<double>(now() - step_began);
+  gate(timing.dt_s, record);
+
+  record.tick_ns = static_cast<double>(now() - began);
+  statistics_.add(record, gate_);
+  channels_.gui.push(record);
+  if (channels_.recorder_attached.load(std::memory_order_acquire)) channels_.recorder.push(record);
+  ++tick_;
+}
+
+void ServoTick::release(double dt_s) noexcept {
+  gate_.stop();
+  force_command_ = {.tick = tick_, .request = DeviceRequest::stop};
+  display_command_ = {.tick = tick_, .target_m = display_command_.target_m, .request = DeviceRequest::stop};
+  if (devices_.force) force_sample_ = devices_.force->exchange(force_command_, dt_s);
+  if (devices_.display) display_sample_ = devices_.display->exchange(display_command_, dt_s);
+  homing_wanted_ = true;
+}
+
+}  // namespace tangent

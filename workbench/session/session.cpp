@@ -1,0 +1,273 @@
+#include "workbench/session/session.h"
+
+#include "devices/device_set.h"
+#include "workbench/session/preset_schema.h"
+#include "workbench/session/servo.h"
+#include "workbench/session/tick_again.h"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <map>
+
+namespace tangent {
+
+namespace {
+
+constexpr std::size_t kLargestHistoryBytes = std::size_t{256} << 20;
+constexpr std::size_t kSmallestHistory = 1024;
+
+std::size_t history_capacity(const SessionOptions& options) {
+  const double ticks = std::max(0.0, options.history_s) * options.servo.rate_hz;
+  const double most = static_cast<double>(kLargestHistoryBytes / sizeof(ServoRecord));
+  return std::max(kSmallestHistory, static_cast<std::size_t>(std::min(ticks, most)));
+}
+
+Status check_options(const SessionOptions& options) {
+  const double rate = options.servo.rate_hz;
+  if (!(rate >= kSlowestServoHz && rate <= kFastestServoHz)) {
+    return fail("the servo can't run at " + std::to_string(rate) + " Hz", "servo rate",
+                "choose " + range_text(kSlowestServoHz, kFastestServoHz, "Hz"));
+  }
+  if (!(options.history_s >= 0.0)) return fail("the history can't be that long", "history_s", "give seconds, 0 or more");
+  return {};
+}
+
+}  // namespace
+
+void PreparedSceneDeleter::operator()(PreparedScene* scene) const { delete scene; }
+
+/// Members in the order in which they depend on each other.
+struct Session::Impl {
+  Impl(SessionOptions o, DeviceSet d, std::unique_ptr<PreparedScene> prepared, const Preset& preset)
+      : options(std::move(o)), devices(std::move(d)), channels(options.servo.ring_records), scene(prepared->scene),
+        path(prepared->path), history(history_capacity(options)), hand(options.hand) {
+    presets.push_back(preset);
+    scenes.emplace(0, scene);
+    tick = std::make_unique<ServoTick>(devices, channels, statistics, std::move(prepared), PresetLetter{0, preset},
+                                       options.threaded ? &monotonic_ns : nullptr);
+    servo = std::make_unique<Servo>(*tick, statistics, options.servo, clock);
+  }
+
+  SessionOptions options;
+  DeviceSet devices;
+  ServoChannels channels;
+  ServoStatistics statistics;
+  MonotonicClock clock;
+  std::unique_ptr<ServoTick> tick;
+  std::unique_ptr<Servo> servo;
+  bool started = false;
+
+  std::deque<Preset> presets;   ///< by id; a deque keeps what it handed out in place
+  std::shared_ptr<const ContactScene> scene;
+  ExplorationPath path;
+  std::map<std::uint32_t, std::shared_ptr<const ContactScene>> scenes;   ///< that records of the history ran on
+  std::uint32_t scene_id = 0;
+  History history;
+  HandSettings hand;
+  Vec3 hand_point{0.0};
+  TickAgain again;
+
+  void send_hand() { channels.hand.put({hand, hand_point}); }
+  void forget_scenes();
+};
+
+// A scene stays as long as a record in the history names it, or may still come that does.
+void Session::Impl::forget_scenes() {
+  const std::uint32_t oldest = history.empty() ? 0 : history.oldest().scene_id;
+  while (!scenes.empty() && scenes.begin()->first < oldest) scenes.erase(scenes.begin());
+}
+
+Session::Session(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Session::~Session() { shut_down(); }
+
+Result<std::unique_ptr<Session>> Session::create(std::shared_ptr<const ContactScene> scene, const Preset& preset,
+                                                 SessionOptions options) {
+  if (const Status ok = check_options(options); !ok) return tl::unexpected(ok.error());
+  if (const Status ok = check_preset(preset); !ok) return tl::unexpected(ok.error());
+  auto devices = make_devices(options.devices, options.seed);
+  if (!devices) return tl::unexpected(devices.error());
+  if (devices->force) {
+    if (const Status ok = devices->force->open(); !ok) return tl::unexpected(ok.error());
+  }
+  if (devices->display) {
+    if (const Status ok = devices->display->open(); !ok) return tl::unexpected(ok.error());
+  }
+  auto prepared = std::make_unique<PreparedScene>(std::move(scene), preset.finger);
+  auto impl = std::make_unique<Impl>(std::move(options), std::move(*devices), std::move(prepared), preset);
+  impl->send_hand();
+  return std::unique_ptr<Session>(new Session(std::move(impl)));
+}
+
+// --- Running -------------------------------------------------------------------------------------------
+
+void Session::start() {
+  if (impl_->started) return;
+  impl_->started = true;
+  if (impl_->options.arm_on_start) arm();
+  if (impl_->options.threaded) impl_->servo->start();
+}
+
+void Session::shut_down() {
+  if (!impl_->started) return;
+  impl_->started = false;
+  if (impl_->options.threaded) impl_->servo->stop();
+  else impl_->tick->release(1.0 / impl_->options.servo.rate_hz);
+  poll();
+}
+
+bool Session::running() const { return impl_->started; }
+
+void Session::advance(std::uint64_t ticks) {
+  if (impl_->options.threaded || !impl_->started) return;
+  const std::uint64_t batch = std::max<std::uint64_t>(1, impl_->options.servo.ring_records / 2);
+  while (ticks > 0) {
+    const std::uint64_t now = std::min(ticks, batch);
+    for (std::uint64_t i = 0; i < now; ++i) impl_->servo->run_one();
+    ticks -= now;
+    poll();
+  }
+}
+
+std::size_t Session::poll() {
+  // No more than a ringful, so that a servo faster than this thread can't hold it here.
+  ServoRecord record;
+  std::size_t count = 0;
+  while (count < impl_->options.servo.ring_records && impl_->channels.gui.pop(record)) {
+    impl_->history.push(record);
+    ++count;
+  }
+  impl_->channels.scenes.collect();
+  impl_->forget_scenes();
+  return count;
+}
+
+const History& Session::history() const { return impl_->history; }
+
+// --- Presets -------------------------------------------------------------------------------------------
+
+Result<std::uint32_t> Session::set_preset(const Preset& preset) {
+  if (preset == impl_->presets.back()) return preset_id();
+  if (const Status ok = check_preset(preset); !ok) return tl::unexpected(ok.error());
+  impl_->presets.push_back(preset);
+  impl_->channels.presets.put({preset_id(), preset});
+  return preset_id();
+}
+
+const Preset& Session::preset() const { return impl_->presets.back(); }
+const Preset* Session::preset(std::uint32_t id) const { return id < impl_->presets.size() ? &impl_->presets[id] : nullptr; }
+std::uint32_t Session::preset_id() const { return static_cast<std::uint32_t>(impl_->presets.size() - 1); }
+
+// --- Scene ---------------------------------------------------------------------------------------------
+
+PreparedScenePtr Session::prepare(std::shared_ptr<const ContactScene> scene, const Finger& finger) {
+  return PreparedScenePtr(new PreparedScene(std::move(scene), finger));
+}
+
+std::uint32_t Session::set_scene(PreparedScenePtr scene) {
+  scene->id = ++impl_->scene_id;
+  impl_->scene = scene->scene;
+  impl_->path = scene->path;
+  impl_->scenes.emplace(scene->id, scene->scene);
+  impl_->channels.scenes.offer(std::unique_ptr<PreparedScene>(scene.release()));
+  return impl_->scene_id;
+}
+
+std::uint32_t Session::set_scene(std::shared_ptr<const ContactScene> scene) {
+  return set_scene(prepare(std::move(scene), preset().finger));
+}
+
+const std::shared_ptr<const ContactScene>& Session::scene() const { return impl_->scene; }
+
+std::shared_ptr<const ContactScene> Session::scene(std::uint32_t id) const {
+  const auto found = impl_->scenes.find(id);
+  return found == impl_->scenes.end() ? nullptr : found->second;
+}
+
+const ExplorationPath& Session::path() const { return impl_->path; }
+
+// --- Hand and force ------------------------------------------------------------------------------------
+
+void Session::set_hand(const HandSettings& settings) {
+  if (!std::isfinite(settings.speed_m_per_s) || !std::isfinite(settings.press_m)) return;
+  impl_->hand = settings;
+  impl_->send_hand();
+}
+
+const HandSettings& Session::hand() const { return impl_->hand; }
+
+void Session::set_hand_target(const Vec3& position_world_m) {
+  if (!is_finite(position_world_m)) return;
+  impl_->hand.mode = HandMode::point;
+  impl_->hand_point = position_world_m;
+  impl_->send_hand();
+}
+
+void Session::arm() { impl_->channels.force.put(ForceSwitch::arm); }
+void Session::stop() { impl_->channels.force.put(ForceSwitch::stop); }
+
+// --- Again ---------------------------------------------------------------------------------------------
+
+Result<TickOutput> Session::re_step(const ServoRecord& record, IterationTrace& trace) {
+  const Preset* used = preset(record.tick.preset_id);
+  if (used == nullptr) {
+    return fail("preset " + std::to_string(record.tick.preset_id) + " is not of this session",
+                "tick " + std::to_string(record.tick.tick));
+  }
+  return re_step(record, *used, trace);
+}
+
+Result<TickOutput> Session::re_step(const ServoRecord& record, const Preset& with, IterationTrace& trace) {
+  auto on = scene(record.scene_id);
+  if (!on) {
+    return fail("the scene it ran on was replaced and is gone", "tick " + std::to_string(record.tick.tick),
+                "look at a newer tick");
+  }
+  return impl_->again.step(std::move(on), with, record, trace);
+}
+
+// --- Status --------------------------------------------------------------------------------------------
+
+SessionStatus Session::status() const {
+  SessionStatus s;
+  impl_->statistics.fill(s.servo);
+  s.servo.running = impl_->started;
+  s.servo.nominal_hz = impl_->options.servo.rate_hz;
+  s.servo.gui_drops = impl_->channels.gui.drops();
+  s.servo.recorder_drops = impl_->channels.recorder.drops();
+  s.servo.realtime = impl_->servo->granted();
+  s.preset_sent = preset_id();
+  s.scene_sent = impl_->scene_id;
+  if (!impl_->history.empty()) {
+    const DeviceTelemetry& device = impl_->history.newest().device;
+    s.force_state = device.force_state;
+    s.force_fault = device.force_fault;
+    s.display_state = device.display_state;
+    s.display_fault = device.display_fault;
+  }
+  const RealtimeGrant& got = s.servo.realtime;
+  if (!impl_->options.threaded) s.realtime_note = "no servo thread";
+  else if (!impl_->options.servo.realtime) s.realtime_note = "ordinary scheduling";
+  else s.realtime_note = std::string(got.fifo ? "SCHED_FIFO " + std::to_string(impl_->options.servo.fifo_priority)
+                                              : "SCHED_FIFO refused") +
+                         (got.memory_locked ? ", memory locked" : ", memory not locked");
+  return s;
+}
+
+const ForceCapabilities* Session::force_capabilities() const {
+  return impl_->devices.force ? &impl_->devices.force->capabilities() : nullptr;
+}
+
+const DisplayCapabilities* Session::display_capabilities() const {
+  return impl_->devices.display ? &impl_->devices.display->capabilities() : nullptr;
+}
+
+const SessionOptions& Session::options() const { return impl_->options; }
+
+// --- Recorder ------------------------------------------------------------------------------------------
+
+void Session::attach_recorder() { impl_->channels.recorder_attached.store(true, std::memory_order_release); }
+void Session::detach_recorder() { impl_->channels.recorder_attached.store(false, std::memory_order_release); }
+bool Session::pop_recorded(ServoRecord& record) { return impl_->channels.recorder.pop(record); }
+
+}  // namespace tangent
