@@ -26,7 +26,7 @@ Weld weld_exact(std::span<const Vec3> vectors, double largest) {
   Weld weld;
   weld.id.assign(vectors.size(), kNone);
   // Open addressing, at most half full. Slots are looked up at random in a table larger than the caches, so a block
-  // of them is fetched ahead: 15.7M vectors, three to a point, took 1.0 s without and 0.5 s with it.
+  // of them is fetched ahead: 15.7M corners of an icosphere took 0.51 s without and 0.31 s with it.
   const std::size_t mask = std::bit_ceil(std::max<std::size_t>(16, 2 * vectors.size())) - 1;
   std::vector<std::uint32_t> table(mask + 1, kNone);
   constexpr std::size_t kBlock = 64;
