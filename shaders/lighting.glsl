@@ -9,8 +9,8 @@ vec3 lit(vec3 albedo, vec3 n) {
   float sky = 0.5 + 0.5 * dot(n, up_eye);
   float key = max(dot(n, key_direction), 0.0);
   float fill = max(dot(n, fill_direction), 0.0);
-  vec3 light = mix(vec3(0.36, 0.35, 0.36), vec3(0.56, 0.58, 0.61), sky);
-  light += key * vec3(0.52, 0.50, 0.47) + fill * vec3(0.11, 0.13, 0.16);
+  vec3 light = mix(vec3(0.335, 0.345, 0.355), vec3(0.55, 0.57, 0.59), sky);
+  light += key * vec3(0.485, 0.48, 0.455) + fill * vec3(0.09, 0.11, 0.13);
   return albedo * light;
 }
 

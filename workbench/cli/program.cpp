@@ -10,7 +10,11 @@ namespace tangent {
 namespace {
 
 using AddCommand = void (*)(CLI::App&, CommandResult&);
-constexpr AddCommand kCommands[]{add_solve_command, add_audit_command, add_make_command};
+constexpr AddCommand kCommands[]{
+#ifdef TANGENT_HAS_GUI
+    add_gui_command, add_shot_command,
+#endif
+    add_solve_command, add_audit_command, add_make_command};
 
 std::string chosen_command(const CLI::App& app) {
   const std::vector<CLI::App*> chosen = app.get_subcommands();
@@ -28,7 +32,11 @@ int parse_and_run(CLI::App& app, CommandResult& result, int argc, const char* co
     print_message(command, std::string(error.what()) + " (see " + help + ")");
     return kUsage;
   }
+#ifdef TANGENT_HAS_GUI
+  if (app.get_subcommands().empty()) return run_gui_or_pictures();
+#else
   if (app.get_subcommands().empty()) return run_without_command();
+#endif
   return result.exit_code;
 }
 

@@ -245,7 +245,7 @@ void tooltip(const UiContext& ui, std::string_view text) {
   ImGui::EndTooltip();
 }
 
-std::string format(const char* pattern, ...) {
+std::string gui_text::format(const char* pattern, ...) {
   char text[256];
   va_list arguments;
   va_start(arguments, pattern);

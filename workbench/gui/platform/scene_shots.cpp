@@ -50,8 +50,8 @@ SceneView control_net_view() {
   view.toggles.control_normals = view.toggles.control_net_neighbours = view.toggles.control_point_labels = true;
   view.toggles.planes = view.toggles.finger = view.toggles.cld_inset = false;
   view.toggles.force = view.toggles.penetration = false;
+  view.staging.approach = {0.0, -0.75, 0.95};
   view.aim = SceneView::Aim::contact;
-  view.pitch_rad = 0.7;
   return view;
 }
 
@@ -62,8 +62,8 @@ SceneView planes_view() {
   view.staging.last_jump_m = 12e-3;
   view.toggles.finger = view.toggles.cld_inset = view.toggles.force = view.toggles.penetration = false;
   view.toggles.control_net = false;
+  view.staging.approach = {0.0, -0.75, 0.95};
   view.aim = SceneView::Aim::planes;
-  view.pitch_rad = 0.35;
   return view;
 }
 
@@ -121,30 +121,30 @@ Staging fitted(Staging staging, const ContactScene& scene) {
   return staging;
 }
 
-Camera aimed_camera(const SceneView& view, const StagedScene& staged) {
+Camera aimed_camera(const SceneView& view, const StagedScene& staged, double aspect) {
   Camera camera;
   camera.yaw_rad = view.yaw_rad;
   camera.pitch_rad = view.pitch_rad;
   Box whole = world_bounds(*staged.scene);
-  camera.frame(whole);
+  camera.frame(whole, 1.05, aspect);
   const TickOutput& output = staged.tick.output;
   if (view.aim == SceneView::Aim::whole && view.toggles.finger) {
     const Vec3 reach(staged.preset.finger.reach_m());
     whole.include(staged.tick.input.finger.position - reach);
     whole.include(staged.tick.input.finger.position + reach);
-    camera.frame(whole, 1.12);
+    camera.frame(whole, 1.06, aspect);
   }
   if (view.aim == SceneView::Aim::contact && output.triangle != kNone) {
     const auto p = staged.scene->mesh().positions(output.triangle);
     const Vec3 origin = staged.scene->mesh().origin();
     camera.target = origin + (p[0] + p[1] + p[2]) / 3.0;
-    camera.distance_m = 6.0 * std::max(glm::length(p[1] - p[0]), glm::length(p[2] - p[0]));
+    camera.distance_m = 4.4 * std::max(glm::length(p[1] - p[0]), glm::length(p[2] - p[0]));
   }
   if (view.aim == SceneView::Aim::planes && !staged.trace->view().empty()) {
     Box points;
     for (const IterationRecord& it : staged.trace->view()) points.include(it.point);
     camera.target = points.centre();
-    camera.distance_m = std::max(5.5 * glm::length(points.size()), 0.05 * camera.scene_radius_m);
+    camera.distance_m = std::max(4.0 * glm::length(points.size()), 0.05 * camera.scene_radius_m);
   }
   return camera;
 }
@@ -195,7 +195,7 @@ Result<Image> take_scene_shot(const ShotRequest& request) {
   renderer.wait_for_tessellation();
   SceneFrame frame = staged.frame(view->toggles, request.theme.value_or(Theme::light));
   frame.pixel_scale = request.scale;
-  draw_view(**screen, renderer, frame, aimed_camera(*view, staged), request);
+  draw_view(**screen, renderer, frame, aimed_camera(*view, staged, static_cast<double>(request.width_px) / request.height_px), request);
   return (*screen)->picture();
 }
 

@@ -53,7 +53,7 @@ void Camera::zoom_at(double factor, const Vec2& pixel, int width_px, int height_
   target += moved * (from_middle.x * right() - from_middle.y * up());
 }
 
-void Camera::frame(const Box& world_box, double margin) {
+void Camera::frame(const Box& world_box, double margin, double aspect) {
   if (world_box.empty()) return;
   scene_centre = target = world_box.centre();
   scene_radius_m = std::max(0.5 * glm::length(world_box.size()), 1e-12);
@@ -63,7 +63,7 @@ void Camera::frame(const Box& world_box, double margin) {
   double needed = 0.0;
   for (int corner = 0; corner < 8; ++corner) {
     const Vec3 p = half * Vec3(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
-    const double across = std::max(std::abs(glm::dot(p, right())), std::abs(glm::dot(p, up())));
+    const double across = std::max(std::abs(glm::dot(p, right())) / aspect, std::abs(glm::dot(p, up())));
     needed = std::max(needed, widen * across - glm::dot(p, forward()));
   }
   distance_m = std::max(needed, 0.1 * scene_radius_m);

@@ -37,9 +37,9 @@ struct Camera {
   void zoom(double factor);
   /// The same, keeping what lies under the pixel at the target's depth where it is.
   void zoom_at(double factor, const Vec2& pixel, int width_px, int height_px);
-  /// Looks at the whole box, keeping the direction: it fits a square view with `margin` to spare (1: it
-  /// touches). No effect for an empty box.
-  void frame(const Box& world_box, double margin = 1.25);
+  /// Looks at the whole box, keeping the direction: its corners fit a view of this width over height, with
+  /// `margin` to spare (1: one touches). No effect for an empty box.
+  void frame(const Box& world_box, double margin = 1.15, double aspect = 1.0);
 
   /// World relative to `origin` -> eye space (eye looks along -z). Subtracting the origin in double before
   /// anything becomes float keeps pixels steady a kilometre away from it.

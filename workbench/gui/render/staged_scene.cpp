@@ -1,5 +1,7 @@
 #include "workbench/gui/render/staged_scene.h"
 
+#include "core/surface/mesh_patch.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -17,6 +19,23 @@ Vec3 across(const Vec3& n) {
   return unit(axis - glm::dot(axis, n) * n);
 }
 
+struct Place {
+  Vec3 point, normal;  // of the smooth surface, local
+};
+
+/// Where a ray from `outside` to the mesh's centre meets it; through a hole, what lies nearest to `outside`.
+Place place_under(const ContactScene& scene, const Vec3& outside) {
+  const ContactMesh& mesh = scene.mesh();
+  const auto hit = scene.nearest().cast(outside, unit(mesh.bounds().centre() - outside));
+  NearestHit near;
+  if (!hit) near = scene.nearest().nearest(outside, std::numeric_limits<double>::infinity());
+  const PnPatch patch = make_patch(mesh, hit ? hit.triangle : near.triangle);
+  const double u = hit ? hit.u : near.u, v = hit ? hit.v : near.v;
+  const Vec3 normal = evaluate_normal(patch, u, v);
+  const Vec3 point = evaluate_point(patch, u, v);
+  return {point, glm::dot(normal, outside - point) >= 0.0 ? normal : -normal};
+}
+
 }  // namespace
 
 StagedScene stage_finger(std::shared_ptr<const ContactScene> scene, const Staging& staging) {
@@ -24,12 +43,10 @@ StagedScene stage_finger(std::shared_ptr<const ContactScene> scene, const Stagin
   const ContactMesh& mesh = scene->mesh();
   const Finger& finger = staging.preset.finger;
   const double size = glm::length(mesh.bounds().size());
-  // From outside, the facet nearest to a point in the approach direction: it exists whatever the mesh is.
-  const Vec3 outside = mesh.bounds().centre() + 2.0 * size * unit(staging.approach);
-  const NearestHit hit = scene->nearest().nearest(outside, std::numeric_limits<double>::infinity());
-  const Vec3 normal = hit.distance_m > 0.0 ? unit(outside - hit.point) : unit(staging.approach);
+  const Place place = place_under(*scene, mesh.bounds().centre() + 2.0 * size * unit(staging.approach));
+  const Vec3 normal = place.normal;
   const Vec3 along = across(normal);
-  const Vec3 start = mesh.origin() + hit.point + finger.reach_m() * normal;
+  const Vec3 start = mesh.origin() + place.point + finger.reach_m() * normal;
 
   Stepper stepper(scene);
   TickState state;
