@@ -14,8 +14,12 @@ namespace tangent {
 enum class Facing { left, right };  ///< where the apex of cone and tetrahedron points along x: left is -x
 
 struct GenerateOptions {
-  int segments = 0;          ///< around a round object (or icosphere subdivisions, grid lines); 0: the object's default
-  double rounding_m = 0.0;   ///< radius of the rounded edges; 0: sharp, with split normals at the edges
+  /// Around cone, cylinder, torus; subdivisions of sphere and icosphere; grid lines of saddle and groove;
+  /// of flat-faced objects the steps across a rounded edge. 0: the object's default.
+  int segments = 0;
+  /// Radius of the rounded edges; 0: sharp, with split normals at the edges. Faces stay in their planes, so
+  /// the outer dimensions stay, except at pointed tips. At most 0.9 of the radius of the ball inside.
+  double rounding_m = 0.0;
   Facing facing = Facing::right;
 };
 

@@ -11,10 +11,15 @@
 namespace tangent {
 
 /// Reads a mesh; positions are multiplied by `metres_per_unit` (1e-3 for a file in millimetres).
+/// - Normals: OBJ per corner, PLY (nx ny nz) and NOFF per vertex. STL facet normals are not corner normals.
+/// - `nan` and `inf` load as coordinates (ContactMesh skips and counts what uses them); a number too large
+///   for a double, any other word, an index out of range, a wrong count or bytes left over are errors.
+/// - Colours, texture coordinates, materials, groups, unknown PLY elements and properties are passed over.
 /// Errors name the file and the line (text formats) or the element index (binary formats).
 Result<PolygonMesh> read_mesh(const std::filesystem::path& path, double metres_per_unit);
 
-/// Writes OBJ, positions divided by `metres_per_unit`, numbers so that a double reads back exactly.
+/// Writes OBJ, positions divided by `metres_per_unit`, numbers so that a double reads back exactly (with a
+/// unit other than 1 where some double times the unit gives the position; generated meshes: always in mm).
 /// Atomic: a temporary file beside the target, then a rename.
 Status write_obj(const PolygonMesh& mesh, const std::filesystem::path& path, double metres_per_unit);
 
