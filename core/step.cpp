@@ -13,24 +13,16 @@ class StepCache {
  public:
   explicit StepCache(const ContactMesh& mesh) : patches(mesh) {}
 
-  /// The sample of `plane` if it is the one kept from the last tick.
-  const PlaceSample* sample_of(const TrackedPlane& plane, NormalForm form) const {
-    const bool same = plane.feature == Feature::face && plane_.feature == Feature::face && plane.triangle == plane_.triangle &&
-                      plane.u == plane_.u && plane.v == plane_.v && form == form_;
-    return same ? &sample_ : nullptr;
-  }
-  void keep(const TrackedPlane& plane, const PlaceSample& sample, NormalForm form) {
-    plane_ = plane;
-    sample_ = sample;
-    form_ = form;
+  /// Whether `smooth` still holds the sample of this kept plane: a face at the same place, bit for bit.
+  bool holds(const TrackedPlane& kept, NormalForm kept_form) const {
+    const TrackedPlane& mine = smooth.contact.plane;
+    return kept.feature == Feature::face && mine.feature == Feature::face && kept.triangle == mine.triangle && kept.u == mine.u &&
+           kept.v == mine.v && kept_form == form;
   }
 
   PatchCache patches;
-
- private:
-  TrackedPlane plane_;
-  PlaceSample sample_{};
-  NormalForm form_ = NormalForm::bernstein;
+  TrackResult smooth;  ///< of the last tick
+  NormalForm form = NormalForm::bernstein;
 };
 
 namespace {
@@ -44,8 +36,6 @@ struct RenderPlane {
 
 /// Contacts of one tick: those that the method, the force source and the tactile source ask for.
 struct TickContacts {
-  TrackResult smooth;
-  FacetContact facet;
   RenderPlane smooth_plane, facet_plane, shaded_plane;
 };
 
@@ -158,58 +148,69 @@ Stepper::Stepper(Stepper&&) noexcept = default;
 Stepper& Stepper::operator=(Stepper&&) noexcept = default;
 Stepper::~Stepper() = default;
 
+/// Solves for the smooth contact and updates what the next tick keeps.
+static RenderPlane track_smooth(const ContactScene& scene, StepCache& cache, const Preset& preset, const SolverSettings& settings,
+                                const FingerPose& local, double t_s, TickState& state, IterationTrace* trace) {
+  IterationContext context{cache.patches, settings, preset.finger, local, scene.mesh().origin(), trace, 0};
+  track(context, scene, state, cache.holds(state.plane, settings.normal_form), cache.smooth);
+  cache.form = settings.normal_form;
+  const IterationResult& contact = cache.smooth.contact;
+  state.plane = contact.plane;
+  state.clearance = cache.smooth.clearance;
+  if (!cache.smooth.converged()) return last_converged_plane(preset, state, local, t_s);
+  state.last_converged = contact.plane;
+  state.last_converged_s = t_s;
+  return {contact.plane.normal, contact.contact.penetration_m, 1.0};
+}
+
+/// The raw mesh's contact, as facet and with interpolated normals.
+static FacetContact find_facet(const ContactScene& scene, const Preset& preset, const FingerPose& local, TickContacts& contacts) {
+  const FacetContact facet = facet_contact(scene.mesh(), scene.nearest(), local.position, preset.solver.tolerance_m);
+  if (!facet.found) return facet;
+  const double depth = contact_on_plane(preset.finger, local, facet.hit.point, facet.normal).penetration_m;
+  contacts.facet_plane = {facet.normal, depth, 1.0};
+  contacts.shaded_plane = {force_shading_normal(scene.mesh(), facet), depth, 1.0};
+  return facet;
+}
+
 TickOutput Stepper::step(const Preset& preset, const TickInput& input, TickState& state, IterationTrace* trace) {
   TickOutput out;
   const ContactMesh& mesh = scene_->mesh();
-  const bool usable = is_finite(input.finger.position) && std::isfinite(glm::dot(input.finger.orientation, input.finger.orientation));
-  const FingerPose pose = usable ? input.finger : FingerPose{state.last_position, Quat(1.0, 0.0, 0.0, 0.0)};
+  TickContacts contacts;
+  if (!is_finite(input.finger.position) || !std::isfinite(glm::dot(input.finger.orientation, input.finger.orientation))) {
+    const FingerPose last{state.last_position, Quat(1.0, 0.0, 0.0, 0.0)};
+    contacts.smooth_plane = last_converged_plane(preset, state, {last.position - mesh.origin(), last.orientation}, input.t_s);
+    contacts.facet_plane = contacts.shaded_plane = contacts.smooth_plane;
+    render(preset, contacts, last, Vec3(0.0), out);
+    return out;
+  }
+  const FingerPose& pose = input.finger;
   const FingerPose local{pose.position - mesh.origin(), pose.orientation};
-  const double dt = input.t_s - state.last_t_s;
-  const Vec3 velocity = state.has_previous && dt > 0.0 ? (pose.position - state.last_position) / dt : Vec3(0.0);
 
   const Method method = preset.solver.method;
   const bool facet_method = !is_smooth(method);
   const bool want_smooth = !facet_method || preset.force.source == ForceSource::smooth || preset.display.source == TactileSource::smooth;
   const bool want_facet = facet_method || preset.force.source == ForceSource::facet ||
                           preset.force.source == ForceSource::force_shading || preset.display.source == TactileSource::facet;
-  TickContacts contacts;
-  if (want_smooth && usable) {
-    SolverSettings settings = preset.solver;
-    if (facet_method) settings.method = Method::robust;
-    IterationContext context{cache_->patches, settings, preset.finger, local, mesh.origin(), trace, 0};
-    contacts.smooth = track(context, *scene_, state, cache_->sample_of(state.plane, settings.normal_form));
-    const IterationResult& c = contacts.smooth.contact;
-    state.plane = c.plane;
-    state.clearance = contacts.smooth.clearance;
-    cache_->keep(c.plane, c.sample, settings.normal_form);
-    if (contacts.smooth.converged()) {
-      state.last_converged = c.plane;
-      state.last_converged_s = input.t_s;
-    }
+  if (want_smooth && !facet_method) {
+    contacts.smooth_plane = track_smooth(*scene_, *cache_, preset, preset.solver, local, input.t_s, state, trace);
+    describe_smooth(cache_->smooth, mesh.origin(), out);
+  } else if (want_smooth) {
+    SolverSettings robust = preset.solver;
+    robust.method = Method::robust;
+    contacts.smooth_plane = track_smooth(*scene_, *cache_, preset, robust, local, input.t_s, state, trace);
   }
-  contacts.smooth_plane = contacts.smooth.converged()
-                              ? RenderPlane{contacts.smooth.contact.plane.normal, contacts.smooth.contact.contact.penetration_m, 1.0}
-                              : last_converged_plane(preset, state, local, input.t_s);
-  if (want_facet && usable) {
-    contacts.facet = facet_contact(mesh, scene_->nearest(), local.position, preset.solver.tolerance_m);
-    if (contacts.facet.found) {
-      const auto plane_with = [&](const Vec3& normal, double penetration) { return RenderPlane{normal, penetration, 1.0}; };
-      const double depth = contact_on_plane(preset.finger, local, contacts.facet.hit.point, contacts.facet.normal).penetration_m;
-      contacts.facet_plane = plane_with(contacts.facet.normal, depth);
-      contacts.shaded_plane = plane_with(force_shading_normal(mesh, contacts.facet), depth);
-    }
+  if (want_facet) {
+    const FacetContact facet = find_facet(*scene_, preset, local, contacts);
+    if (facet_method)
+      describe_facet(facet, method == Method::force_shading ? contacts.shaded_plane : contacts.facet_plane, mesh.origin(), out);
   }
-  if (facet_method) {
-    describe_facet(contacts.facet, method == Method::force_shading ? contacts.shaded_plane : contacts.facet_plane, mesh.origin(), out);
-  } else if (usable) {
-    describe_smooth(contacts.smooth, mesh.origin(), out);
-  }
+  const double dt = input.t_s - state.last_t_s;
+  const Vec3 velocity = state.has_previous && dt > 0.0 ? (pose.position - state.last_position) / dt : Vec3(0.0);
   render(preset, contacts, pose, velocity, out);
-  if (usable) {
-    state.last_position = pose.position;
-    state.last_t_s = input.t_s;
-    state.has_previous = 1;
-  }
+  state.last_position = pose.position;
+  state.last_t_s = input.t_s;
+  state.has_previous = 1;
   return out;
 }
 

@@ -113,21 +113,13 @@ double contact_arc_m(const Finger& finger, const FingerPose& pose, const Vec3& n
   return 0.0;
 }
 
-PlaneContact contact_on_plane(const Finger& finger, const FingerPose& pose, const Vec3& point, const Vec3& normal) {
+PlaneContact contact_of_support(const Finger& finger, const FingerPose& pose, const Vec3& point, const Vec3& normal) {
   PlaneContact c;
-  if (finger.shape == FingerShape::point || finger.shape == FingerShape::sphere) {
-    const double radius = finger.shape == FingerShape::sphere ? finger.radius_m : 0.0;
-    const Vec3 d = pose.position - point;
-    c.height_m = glm::dot(d, normal);
-    c.penetration_m = radius - c.height_m;
-    c.travel = d - c.height_m * normal;
-  } else {
-    const Vec3 d = support_point(finger, pose, normal) - point;
-    const double below = glm::dot(d, normal);
-    c.penetration_m = -below;
-    c.height_m = glm::dot(pose.position - point, normal);
-    c.travel = d - below * normal;
-  }
+  const Vec3 d = support_point(finger, pose, normal) - point;
+  const double above = glm::dot(d, normal);
+  c.penetration_m = -above;
+  c.height_m = glm::dot(pose.position - point, normal);
+  c.travel = d - above * normal;
   c.error_m = std::sqrt(glm::dot(c.travel, c.travel));
   return c;
 }

@@ -1,4 +1,4 @@
-// The loop itself is `iterate`; a place of each kind has one function that proposes the next place.
+// `run` is the loop; faces, edges and vertices each have their own way of going on.
 #include "core/contact/iterate.h"
 
 #include "core/contact/step_rule.h"
@@ -59,33 +59,38 @@ TrackedPlane edge_place(std::uint32_t t, std::uint32_t edge, double f) {
   return p;
 }
 
-Proposal next_from_face(IterationContext& context, const TrackedPlane& at, IterationResult& now) {
-  Proposal next;
-  const ContactMesh& mesh = context.cache.mesh();
+/// Stability and step of a face; says whether it has converged or why there is no step.
+StopReason face_step(IterationContext& context, IterationResult& now, ParameterStep& step) {
   const ContactJacobian jacobian = contact_jacobian(context.finger, context.pose, now.sample, now.contact);
   now.stability = face_stability(now.sample, jacobian);
   const Method method = context.settings.method;
-  if (now.contact.error_m < context.settings.tolerance_m) {
-    next.stop = method == Method::robust && !now.stability.stable() ? StopReason::unstable : StopReason::converged;
-    return next;
-  }
+  if (now.contact.error_m < context.settings.tolerance_m)
+    return method == Method::robust && !now.stability.stable() ? StopReason::unstable : StopReason::converged;
   switch (method) {
-    case Method::newton: next.step = newton_step(now.sample, jacobian, now.contact); break;
-    case Method::robust: next.step = robust_face_step(now.sample, jacobian, now.stability, now.contact); break;
-    default: next.step = paper_face_step(mesh, context.settings, at.triangle, now.sample, now.contact); break;
+    case Method::newton: step = newton_step(now.sample, jacobian, now.contact); break;
+    case Method::robust: step = robust_face_step(now.sample, jacobian, now.stability, now.contact); break;
+    default: step = paper_face_step(context.cache.mesh(), context.settings, now.plane.triangle, now.sample, now.contact); break;
   }
-  if (!next.step.valid) {
-    next.stop = StopReason::singular_patch;
-    return next;
+  return step.valid ? StopReason::going_on : StopReason::singular_patch;
+}
+
+/// Walks from a face; false if the walk got lost.
+bool move_on_face(const ContactMesh& mesh, const ParameterStep& step, IterationResult& now) {
+  if (stays_inside(now.plane.u, now.plane.v, step.da, step.db)) {
+    now.plane.u += step.da;
+    now.plane.v += step.db;
+    return true;
   }
-  const Vec3 step = next.step.da * (mesh.position(at.triangle, 1) - mesh.position(at.triangle, 0)) +
-                    next.step.db * (mesh.position(at.triangle, 2) - mesh.position(at.triangle, 0));
-  next.step_m = std::sqrt(glm::dot(step, step));
-  const WalkResult walk = walk_face(mesh, at.triangle, at.u, at.v, next.step.da, next.step.db);
-  next.place = walk.place;
-  next.triangle_changes = walk.triangle_changes;
-  if (walk.lost) next.stop = StopReason::too_far;
-  return next;
+  const WalkResult walk = walk_face(mesh, now.plane.triangle, now.plane.u, now.plane.v, step.da, step.db);
+  if (walk.lost) return false;  // the plane stays with its sample
+  now.plane = walk.place;
+  now.triangle_changes += walk.triangle_changes;
+  return true;
+}
+
+double step_length(const ContactMesh& mesh, std::uint32_t t, const ParameterStep& step) {
+  const Vec3 s = step.da * (mesh.position(t, 1) - mesh.position(t, 0)) + step.db * (mesh.position(t, 2) - mesh.position(t, 0));
+  return std::sqrt(glm::dot(s, s));
 }
 
 /// A move along an edge, on to the vertex where it passes an end.
@@ -186,11 +191,10 @@ Proposal next_from_vertex(IterationContext& context, const TrackedPlane& at, Ite
   return next;
 }
 
-void record(IterationContext& context, const IterationResult& now, const Proposal& next) {
-  if (!context.trace) return;
+void record(IterationContext& context, const IterationResult& now, const ParameterStep& step, double step_m, StopReason stop) {
   IterationRecord r;
   r.feature = now.plane.feature;
-  r.stop = next.stop;
+  r.stop = stop;
   r.seed = context.seed;
   r.triangle = now.plane.triangle;
   r.u = now.plane.u;
@@ -200,13 +204,13 @@ void record(IterationContext& context, const IterationResult& now, const Proposa
   r.contact = r.point + now.contact.travel;
   r.travel = now.contact.travel;
   r.error_m = now.contact.error_m;
-  r.gain = next.stop == StopReason::going_on ? next.step.gain : 0.0;
-  r.curvature_per_m = next.step.curvature_per_m;
+  r.gain = stop == StopReason::going_on ? step.gain : 0.0;
+  r.curvature_per_m = step.curvature_per_m;
   if (r.curvature_per_m == 0.0)
     r.curvature_per_m = directional_curvature({now.sample.point, now.sample.point_a, now.sample.point_b, now.sample.normal,
-                                               now.sample.normal_a, now.sample.normal_b}, next.step.da, next.step.db);
+                                               now.sample.normal_a, now.sample.normal_b}, step.da, step.db);
   r.distance_m = paper_distance(context.settings, now.contact);
-  r.step_m = next.step_m;
+  r.step_m = step_m;
   r.det_m = now.stability.det;
   r.trace_m = now.stability.trace;
   context.trace->push(r);
@@ -230,8 +234,10 @@ PlaceSample sample_place(IterationContext& context, TrackedPlane& plane) {
   return s;
 }
 
+namespace {
+
 /// Sample of the plane kept from the last tick: edges and vertices keep the normal they had.
-static PlaceSample kept_place_sample(IterationContext& context, const TrackedPlane& plane) {
+PlaceSample kept_place_sample(IterationContext& context, const TrackedPlane& plane) {
   TrackedPlane copy = plane;
   if (plane.feature == Feature::face) return sample_place(context, copy);
   if (plane.feature == Feature::vertex) return vertex_sample_at(context, plane, plane.normal);
@@ -242,36 +248,64 @@ static PlaceSample kept_place_sample(IterationContext& context, const TrackedPla
   return s;
 }
 
-IterationResult iterate(IterationContext& context, const TrackedPlane& start, bool kept, const PlaceSample* kept_sample,
-                        int budget) {
-  IterationResult now;
-  now.plane = start;
-  if (kept) {
-    now.sample = kept_sample ? *kept_sample : kept_place_sample(context, start);
-    now.plane.point = now.sample.point;
-    now.plane.normal = now.sample.normal;
-  } else {
-    now.sample = sample_place(context, now.plane);
-    now.evaluations = 1;
-  }
-  for (bool first = true;; first = false) {
+/// One iteration from an edge or vertex. True to go on.
+bool iterate_feature(IterationContext& context, bool kept, int budget, IterationResult& now) {
+  Proposal next = now.plane.feature == Feature::edge ? next_from_edge(context, now.plane, now)
+                                                     : next_from_vertex(context, now.plane, now, kept);
+  if (next.stop == StopReason::going_on && now.evaluations >= budget) next.stop = StopReason::iteration_limit;
+  if (context.trace) record(context, now, next.step, next.step_m, next.stop);
+  now.stop = next.stop;
+  if (next.stop != StopReason::going_on) return false;
+  now.triangle_changes += next.triangle_changes;
+  now.plane = next.place;
+  return true;
+}
+
+/// One iteration from a face. True to go on.
+bool iterate_face(IterationContext& context, int budget, IterationResult& now) {
+  ParameterStep step;
+  now.stop = face_step(context, now, step);
+  if (now.stop == StopReason::going_on && now.evaluations >= budget) now.stop = StopReason::iteration_limit;
+  const ContactMesh& mesh = context.cache.mesh();
+  if (context.trace) record(context, now, step, step_length(mesh, now.plane.triangle, step), now.stop);
+  if (now.stop != StopReason::going_on) return false;
+  if (move_on_face(mesh, step, now)) return true;
+  now.stop = StopReason::too_far;
+  return false;
+}
+
+void run(IterationContext& context, bool kept, int budget, IterationResult& now) {
+  now.triangle_changes = 0;
+  now.met_unstable = false;
+  for (bool first = kept;; first = false) {
     now.contact = contact_on_plane(context.finger, context.pose, now.sample.point, now.sample.normal);
-    Proposal next;
-    switch (now.plane.feature) {
-      case Feature::edge: next = next_from_edge(context, now.plane, now); break;
-      case Feature::vertex: next = next_from_vertex(context, now.plane, now, kept && first); break;
-      default: next = next_from_face(context, now.plane, now); break;
-    }
+    const bool go_on = now.plane.feature == Feature::face ? iterate_face(context, budget, now)
+                                                          : iterate_feature(context, first, budget, now);
     now.met_unstable |= !now.stability.stable();
-    if (next.stop == StopReason::going_on && now.evaluations >= budget) next.stop = StopReason::iteration_limit;
-    record(context, now, next);
-    now.stop = next.stop;
-    if (next.stop != StopReason::going_on) return now;
-    now.triangle_changes += next.triangle_changes;
-    now.plane = next.place;
+    if (!go_on) return;
     now.sample = sample_place(context, now.plane);
     ++now.evaluations;
   }
+}
+
+}  // namespace
+
+void iterate(IterationContext& context, const TrackedPlane& start, int budget, IterationResult& result) {
+  result.plane = start;
+  result.sample = sample_place(context, result.plane);
+  result.evaluations = 1;
+  run(context, false, budget, result);
+}
+
+void iterate_kept(IterationContext& context, const TrackedPlane& kept, bool sample_kept, int budget, IterationResult& result) {
+  if (!sample_kept) {
+    result.plane = kept;
+    result.sample = kept_place_sample(context, kept);
+    result.plane.point = result.sample.point;
+    result.plane.normal = result.sample.normal;
+  }
+  result.evaluations = 0;
+  run(context, true, budget, result);
 }
 
 }  // namespace tangent

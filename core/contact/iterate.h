@@ -35,11 +35,13 @@ struct IterationResult {
   bool converged() const { return stop == StopReason::converged; }
 };
 
-/// Iterates by `context.settings.method` (paper, newton or robust) until converged or `budget` new planes
-/// are spent. `kept`: the start is the plane of the last tick and costs no evaluation; `kept_sample` may
-/// hold its sample (a face's), saving its computation.
-IterationResult iterate(IterationContext& context, const TrackedPlane& start, bool kept,
-                        const PlaceSample* kept_sample, int budget);
+/// Iterates by `context.settings.method` (paper, newton or robust) from `start` until converged or `budget` new
+/// planes are spent.
+void iterate(IterationContext& context, const TrackedPlane& start, int budget, IterationResult& result);
+
+/// The same from the plane kept from the last tick, which costs no evaluation. `sample_kept`: result.plane and
+/// result.sample still hold that plane (a face) and needn't be computed again.
+void iterate_kept(IterationContext& context, const TrackedPlane& kept, bool sample_kept, int budget, IterationResult& result);
 
 /// Sample of a place for the present pose: faces as they are, edges and vertices with the normal turned to
 /// face the finger within the fan. Fills plane.point and plane.normal.

@@ -13,8 +13,21 @@ struct PlaneContact {
   double height_m = 0.0;       ///< h: centre of the finger above the plane
 };
 
+/// For fingers other than point and sphere.
+PlaneContact contact_of_support(const Finger& finger, const FingerPose& pose, const Vec3& point, const Vec3& normal);
+
+/// A point or a sphere: its support point lies under its centre whatever the plane.
+inline bool is_round(const Finger& finger) { return finger.shape == FingerShape::point || finger.shape == FingerShape::sphere; }
+
 /// `pose` and `point` in the same frame; `normal`: unit.
-PlaneContact contact_on_plane(const Finger& finger, const FingerPose& pose, const Vec3& point, const Vec3& normal);
+inline PlaneContact contact_on_plane(const Finger& finger, const FingerPose& pose, const Vec3& point, const Vec3& normal) {
+  if (!is_round(finger)) return contact_of_support(finger, pose, point, normal);
+  const Vec3 d = pose.position - point;
+  const double height = glm::dot(d, normal);
+  const Vec3 travel = d - height * normal;
+  const double radius = finger.shape == FingerShape::sphere ? finger.radius_m : 0.0;
+  return {travel, std::sqrt(glm::dot(travel, travel)), radius - height, height};
+}
 
 /// H = -(dp/dN + penetration I): how the travel answers a turn of the normal, d(travel) = -(dS + H dN) in
 /// the plane. h I for a sphere. Metres.

@@ -22,7 +22,9 @@ TrackedPlane face_at(std::uint32_t triangle, double u, double v) {
 
 IterationResult iterate_from_closest(IterationContext& context, std::uint32_t triangle, int budget) {
   const NearestHit hit = closest_on_triangle(context.cache.mesh(), triangle, context.pose.position);
-  return iterate(context, face_at(triangle, hit.u, hit.v), false, nullptr, budget);
+  IterationResult result;
+  iterate(context, face_at(triangle, hit.u, hit.v), budget, result);
+  return result;
 }
 
 /// exclude_contact where it holds: on faces without creases and boundaries, for centred fingers.
@@ -79,9 +81,12 @@ void seed_by_distance(IterationContext& context, const ContactScene& scene, std:
                                                             std::span(hits).first(seeds));
   for (std::size_t i = 0; i < count; ++i) {
     context.seed = static_cast<std::uint8_t>(i + 1);
-    if (selection.offer(context.finger, iterate(context, face_at(hits[i].triangle, hits[i].u, hits[i].v), false, nullptr, budget))) continue;
+    IterationResult r;
+    iterate(context, face_at(hits[i].triangle, hits[i].u, hits[i].v), budget, r);
+    if (selection.offer(context.finger, r) || !twice) continue;
     // A folded patch can hide its contact from its closest point; its middle is a second chance.
-    if (twice) selection.offer(context.finger, iterate(context, face_at(hits[i].triangle, 1.0 / 3.0, 1.0 / 3.0), false, nullptr, budget));
+    iterate(context, face_at(hits[i].triangle, 1.0 / 3.0, 1.0 / 3.0), budget, r);
+    selection.offer(context.finger, r);
   }
 }
 

@@ -22,21 +22,6 @@ Vec3 tangent_step(const PlaceSample& s, const ParameterStep& step) { return step
 
 }  // namespace
 
-ContactJacobian contact_jacobian(const Finger& finger, const FingerPose& pose, const PlaceSample& s, const PlaneContact& c) {
-  if (finger.shape == FingerShape::point || finger.shape == FingerShape::sphere)
-    return {s.point_a + c.height_m * s.normal_a, s.point_b + c.height_m * s.normal_b};
-  const Mat3 h = offset_derivative(finger, pose, s.normal, c.penetration_m);
-  return {s.point_a + h * s.normal_a, s.point_b + h * s.normal_b};
-}
-
-Stability face_stability(const PlaceSample& s, const ContactJacobian& j) {
-  // With 2D cross products in the plane: det M = (Xa x Xb)/(Sa x Sb), trace M = (Xa x Sb + Sa x Xb)/(Sa x Sb).
-  const Vec3 sb_turned = glm::cross(s.point_b, s.normal), xb_turned = glm::cross(j.xb, s.normal);
-  const double area = glm::dot(s.point_a, sb_turned);
-  if (area == 0.0) return {0.0, 0.0};
-  return {glm::dot(j.xa, xb_turned) / area, (glm::dot(j.xa, sb_turned) + glm::dot(s.point_a, xb_turned)) / area};
-}
-
 double paper_gain(const SolverSettings& g, double curvature_per_m, double distance_m) {
   return g.gain_overall / ((1.0 + g.gain_curvature_m * curvature_per_m) * (1.0 + g.gain_distance_per_m * std::abs(distance_m)));
 }

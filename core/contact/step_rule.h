@@ -19,10 +19,21 @@ struct ParameterStep {
 struct ContactJacobian {
   Vec3 xa, xb;  ///< S_a + H N_a, S_b + H N_b
 };
-ContactJacobian contact_jacobian(const Finger& finger, const FingerPose& pose, const PlaceSample& s, const PlaneContact& c);
+inline ContactJacobian contact_jacobian(const Finger& finger, const FingerPose& pose, const PlaceSample& s, const PlaneContact& c) {
+  if (is_round(finger)) return {s.point_a + c.height_m * s.normal_a, s.point_b + c.height_m * s.normal_b};
+  const Mat3 h = offset_derivative(finger, pose, s.normal, c.penetration_m);
+  return {s.point_a + h * s.normal_a, s.point_b + h * s.normal_b};
+}
 
 /// det M and trace M of a face contact. A singular patch gives (0, 0), which is not stable.
-Stability face_stability(const PlaceSample& s, const ContactJacobian& j);
+inline Stability face_stability(const PlaceSample& s, const ContactJacobian& j) {
+  // With 2D cross products in the plane: det M = (Xa x Xb)/(Sa x Sb), trace M = (Xa x Sb + Sa x Xb)/(Sa x Sb).
+  const Vec3 sb_turned = glm::cross(s.point_b, s.normal), xb_turned = glm::cross(j.xb, s.normal);
+  const double area = glm::dot(s.point_a, sb_turned);
+  if (area == 0.0) return {0.0, 0.0};
+  const double per_area = 1.0 / area;
+  return {glm::dot(j.xa, xb_turned) * per_area, (glm::dot(j.xa, sb_turned) + glm::dot(s.point_a, xb_turned)) * per_area};
+}
 
 /// Eq. 1: Gain = G_o / ((1 + G_k k)(1 + G_d |d|)).
 double paper_gain(const SolverSettings& settings, double curvature_per_m, double distance_m);

@@ -43,13 +43,16 @@ void watch_for_rivals(IterationContext& context, const ContactScene& scene, cons
 
 }  // namespace
 
-TrackResult track(IterationContext& context, const ContactScene& scene, const TickState& state, const PlaceSample* kept_sample) {
-  TrackResult result;
+void track(IterationContext& context, const ContactScene& scene, const TickState& state, bool sample_kept, TrackResult& result) {
+  result.event = TickEvent::none;
+  result.evaluations = 0;
+  result.triangle_changes = 0;
+  result.clearance = Clearance{};
   const bool first = state.plane.feature == Feature::none;
   const bool robust = context.settings.method == Method::robust;
   if (!first) {
     const int limit = context.settings.max_iterations;
-    result.contact = iterate(context, state.plane, true, kept_sample, robust ? std::min(kTrackBudget, limit) : limit);
+    iterate_kept(context, state.plane, sample_kept, robust ? std::min(kTrackBudget, limit) : limit, result.contact);
     result.evaluations = result.contact.evaluations;
     result.triangle_changes = result.contact.triangle_changes;
     const bool jump = result.converged() && jumped(state.plane, result.contact.plane);
@@ -58,7 +61,7 @@ TrackResult track(IterationContext& context, const ContactScene& scene, const Ti
     const bool lost = !result.converged() || (robust && jump && !result.contact.met_unstable);
     if (!lost) {
       watch_for_rivals(context, scene, state, result);
-      return result;
+      return;
     }
   }
   const SeedResult seeded = seed_contact(context, scene);
@@ -66,7 +69,6 @@ TrackResult track(IterationContext& context, const ContactScene& scene, const Ti
   if (seeded.found || first || seeded.best.contact.error_m < result.contact.contact.error_m)
     adopt(result, seeded.best, state.plane, TickEvent::reseed);
   result.event = first ? TickEvent::first : TickEvent::reseed;
-  return result;
 }
 
 }  // namespace tangent

@@ -15,8 +15,8 @@ struct TrackResult {
   bool converged() const { return contact.converged(); }
 };
 
-/// `kept_sample` may hold the sample of state.plane. The context's pose is local.
-TrackResult track(IterationContext& context, const ContactScene& scene, const TickState& state,
-                  const PlaceSample* kept_sample);
+/// `result` of the last tick in, of this one out. `sample_kept`: result.contact still is the plane and sample of
+/// state.plane. The context's pose is local.
+void track(IterationContext& context, const ContactScene& scene, const TickState& state, bool sample_kept, TrackResult& result);
 
 }  // namespace tangent

@@ -6,6 +6,12 @@
 
 namespace tangent {
 
+/// True where (u, v) + (du, dv) stays inside the triangle; most steps do.
+inline bool stays_inside(double u, double v, double du, double dv) {
+  const double to_u = u + du, to_v = v + dv;
+  return to_u >= 0.0 && to_v >= 0.0 && to_u + to_v <= 1.0;
+}
+
 struct WalkResult {
   TrackedPlane place;             ///< feature face, or edge where a crease or boundary stopped it (point, normal unset)
   int triangle_changes = 0;
