@@ -245,7 +245,7 @@ void tooltip(const UiContext& ui, std::string_view text) {
   ImGui::EndTooltip();
 }
 
-std::string gui_text::format(const char* pattern, ...) {
+std::string printed(const char* pattern, ...) {
   char text[256];
   va_list arguments;
   va_start(arguments, pattern);
@@ -254,12 +254,12 @@ std::string gui_text::format(const char* pattern, ...) {
   return text;
 }
 
-std::string short_number(double value) { return format("%.6g", value); }
+std::string short_number(double value) { return printed("%.6g", value); }
 
 std::string short_count(double value) {
-  if (value < 1e4) return format("%.0f", value);
-  if (value < 1e6) return format("%.1f k", value / 1e3);
-  return format("%.2f M", value / 1e6);
+  if (value < 1e4) return printed("%.0f", value);
+  if (value < 1e6) return printed("%.1f k", value / 1e3);
+  return printed("%.2f M", value / 1e6);
 }
 
 }  // namespace tangent

@@ -51,9 +51,7 @@ void fact(const UiContext& ui, const char* label, const std::string& value, cons
 void tooltip(const UiContext& ui, std::string_view text);
 
 /// printf into a string.
-inline namespace gui_text {  // the command line has a `format` of its own
-std::string format(const char* pattern, ...) __attribute__((format(printf, 1, 2)));
-}
+std::string printed(const char* pattern, ...) __attribute__((format(printf, 1, 2)));
 /// Six significant digits, no trailing zeros: "0.02", "1e-06", "1234.5".
 std::string short_number(double value);
 /// "1.25", "0.4 k", "12 M": counts for people.

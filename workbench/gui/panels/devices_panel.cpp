@@ -28,7 +28,7 @@ void draw_force_device(const UiContext& ui, const AppModel& model) {
   const SessionStatus& status = model.status();
   fact(ui, can != nullptr ? can->name.c_str() : "Force device", state_text(status.force_state, status.force_fault), "", state_ink(ui, status.force_state));
   if (can == nullptr) return;
-  tooltip(ui, format("Peak %.1f N, continuous %.1f N, resolution %.0f \u00b5m, apparent mass %.0f g%s", can->peak_force_n,
+  tooltip(ui, printed("Peak %.1f N, continuous %.1f N, resolution %.0f \u00b5m, apparent mass %.0f g%s", can->peak_force_n,
                      can->continuous_force_n, can->position_resolution_m * 1e6, can->apparent_mass_kg * 1e3, can->simulated ? ", simulated" : ""));
 }
 
@@ -37,7 +37,7 @@ void draw_display(const UiContext& ui, const AppModel& model) {
   const SessionStatus& status = model.status();
   fact(ui, can != nullptr ? can->name.c_str() : "Contact display", state_text(status.display_state, status.display_fault), "", state_ink(ui, status.display_state));
   if (can == nullptr) return;
-  tooltip(ui, format("Travel %.0f mm, resolution %.1f \u00b5m, bandwidth %.0f Hz%s", can->travel_m * 1e3, can->resolution_m * 1e6,
+  tooltip(ui, printed("Travel %.0f mm, resolution %.1f \u00b5m, bandwidth %.0f Hz%s", can->travel_m * 1e3, can->resolution_m * 1e6,
                      can->bandwidth_hz, can->simulated ? ", simulated" : ""));
 }
 
@@ -49,19 +49,19 @@ void draw_gate(const UiContext& ui, AppModel& model) {
   fact(ui, "Safety gate", text, "", armed ? ui.colours.good : faulted ? ui.colours.bad : ui.colours.warning);
   for (std::size_t i = 0; i < kGateActionCount; ++i) {
     if (servo.gate_counts[i] == 0) continue;
-    fact(ui, to_string(static_cast<GateAction>(i)), format("%llu", static_cast<unsigned long long>(servo.gate_counts[i])), "ticks");
+    fact(ui, to_string(static_cast<GateAction>(i)), printed("%llu", static_cast<unsigned long long>(servo.gate_counts[i])), "ticks");
   }
 }
 
 void draw_servo(const UiContext& ui, const AppModel& model) {
   const ServoStatus& servo = model.status().servo;
-  fact(ui, "Rate", format("%.1f", servo.rate_hz), "Hz");
-  fact(ui, "Tick p50 / p99", format("%.1f / %.1f", servo.tick_p50_ns * 1e-3, servo.tick_p99_ns * 1e-3), "\u00b5s");
+  fact(ui, "Rate", printed("%.1f", servo.rate_hz), "Hz");
+  fact(ui, "Tick p50 / p99", printed("%.1f / %.1f", servo.tick_p50_ns * 1e-3, servo.tick_p99_ns * 1e-3), "\u00b5s");
   tooltip(ui, "Whole tick: exchange with the devices, solver, safety gate");
-  fact(ui, "Tick worst", format("%.1f", servo.tick_worst_ns * 1e-3), "\u00b5s");
-  fact(ui, "Lateness p99 / worst", format("%.0f / %.0f", servo.lateness_p99_ns * 1e-3, servo.lateness_worst_ns * 1e-3), "\u00b5s");
-  fact(ui, "Late ticks", format("%llu", static_cast<unsigned long long>(servo.late_ticks)));
-  fact(ui, "Missed deadlines", format("%llu", static_cast<unsigned long long>(servo.missed_deadlines)));
+  fact(ui, "Tick worst", printed("%.1f", servo.tick_worst_ns * 1e-3), "\u00b5s");
+  fact(ui, "Lateness p99 / worst", printed("%.0f / %.0f", servo.lateness_p99_ns * 1e-3, servo.lateness_worst_ns * 1e-3), "\u00b5s");
+  fact(ui, "Late ticks", printed("%llu", static_cast<unsigned long long>(servo.late_ticks)));
+  fact(ui, "Missed deadlines", printed("%llu", static_cast<unsigned long long>(servo.missed_deadlines)));
   if (!model.status().realtime_note.empty()) {
     ImGui::PushFont(ui.fonts.small);
     ImGui::PushStyleColor(ImGuiCol_Text, ui.colours.text_dim);

@@ -60,7 +60,7 @@ void draw_error_plot(const UiContext& ui, AppModel& model, bool&) {
     if (!tick.major || tick.value != std::floor(tick.value)) continue;
     const float x = std::round(x_of(tick.value));
     draw.AddLine({x, min.y}, {x, max.y}, ui.colours.grid_minor);
-    const std::string label = format("%.0f", tick.value);
+    const std::string label = printed("%.0f", tick.value);
     draw.AddText(font, font->FontSize, {x - 0.5f * width_of(label), max.y + ui.px(2)}, ui.colours.text_dim, label.c_str());
   }
   draw.PushClipRect(min, max, true);

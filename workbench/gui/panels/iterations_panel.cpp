@@ -36,16 +36,16 @@ void right_aligned(const char* text) {
 
 std::string cell(const IterationRecord& r, std::size_t column) {
   switch (column) {
-    case 1: return r.error_m < 1e-3 ? format("%.4f", r.error_m * 1e6) : format("%.3e", r.error_m * 1e6);
-    case 2: return format("%.2f", r.step_m * 1e6);
-    case 3: return format("%.3f", r.gain);
-    case 4: return r.triangle == kNone ? std::string("-") : format("%u", r.triangle);
-    case 5: return format("%.4f", r.u);
-    case 6: return format("%.4f", r.v);
-    case 7: return format("%.4f", 1.0 - r.u - r.v);
-    case 8: return format("%.2f", r.curvature_per_m);
-    case 9: return format("%.4f", r.distance_m * 1e3);
-    case 10: return format("%d", static_cast<int>(r.seed));
+    case 1: return r.error_m < 1e-3 ? printed("%.4f", r.error_m * 1e6) : printed("%.3e", r.error_m * 1e6);
+    case 2: return printed("%.2f", r.step_m * 1e6);
+    case 3: return printed("%.3f", r.gain);
+    case 4: return r.triangle == kNone ? std::string("-") : printed("%u", r.triangle);
+    case 5: return printed("%.4f", r.u);
+    case 6: return printed("%.4f", r.v);
+    case 7: return printed("%.4f", 1.0 - r.u - r.v);
+    case 8: return printed("%.2f", r.curvature_per_m);
+    case 9: return printed("%.4f", r.distance_m * 1e3);
+    case 10: return printed("%d", static_cast<int>(r.seed));
     case 11: return r.stop == StopReason::going_on ? std::string() : std::string(to_string(r.stop));
     default: return {};
   }
@@ -56,7 +56,7 @@ void draw_header(const UiContext& ui) {
   ImGui::PushFont(ui.fonts.small);
   for (std::size_t c = 0; c < kColumns.size(); ++c) {
     if (!ImGui::TableNextColumn()) continue;
-    const std::string title = kColumns[c].unit[0] != '\0' ? format("%s %s", kColumns[c].title, kColumns[c].unit) : kColumns[c].title;
+    const std::string title = kColumns[c].unit[0] != '\0' ? printed("%s %s", kColumns[c].title, kColumns[c].unit) : kColumns[c].title;
     if (c == 11) ImGui::TextUnformatted(title.c_str()); else right_aligned(title.c_str());
     tooltip(ui, kColumns[c].doc);
   }
@@ -69,15 +69,15 @@ void draw_row(const UiContext& ui, AppModel& model, std::size_t i, std::size_t c
   ImGui::TableNextColumn();
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const bool selected = model.tick().selected() == i;
-  if (ImGui::Selectable(format("##iteration%zu", i).c_str(), selected, ImGuiSelectableFlags_SpanAllColumns)) {
+  if (ImGui::Selectable(printed("##iteration%zu", i).c_str(), selected, ImGuiSelectableFlags_SpanAllColumns)) {
     model.set_paused(true);
     model.tick().select(selected ? std::nullopt : std::optional(i));
   }
-  ui.items.note_last(format("iterations/row/%zu", i));
+  ui.items.note_last(printed("iterations/row/%zu", i));
   const float side = ui.px(7), y = at.y + 0.5f * ImGui::GetTextLineHeight();
   ImGui::GetWindowDrawList()->AddRectFilled({at.x, y - 0.5f * side}, {at.x + side, y + 0.5f * side}, packed(iteration_colour(i, count)), ui.px(1.5f));
   ImGui::SameLine(0.0f, 0.0f);
-  right_aligned(format("%zu", i).c_str());
+  right_aligned(printed("%zu", i).c_str());
   for (std::size_t c = 1; c < kColumns.size(); ++c) {
     if (!ImGui::TableNextColumn()) continue;
     const std::string text = cell(r, c);

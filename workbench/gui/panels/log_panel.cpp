@@ -24,7 +24,7 @@ void draw_log_panel(const UiContext& ui, AppModel& model, FoldedPanel& state) {
   for (std::size_t i = all.size(); i-- > 0;) {
     const Message& m = all[i];
     ImGui::PushStyleColor(ImGuiCol_Text, ink_of(ui, m.severity));
-    const std::string times = m.times > 1 ? format(" (%u times)", m.times) : std::string();
+    const std::string times = m.times > 1 ? printed(" (%u times)", m.times) : std::string();
     ImGui::TextWrapped("%s%s", m.text.c_str(), times.c_str());
     ImGui::PopStyleColor();
   }
@@ -40,7 +40,7 @@ void draw_toasts(const UiContext& ui, AppModel& model, const Rect& over) {
   for (std::size_t i = all.size(); i-- > 0 && shown < 4;) {
     const Message& m = all[i];
     if (!MessageLog::visible(m, model.now_s()) || width < ui.px(80)) continue;
-    const std::string text = m.text + (m.times > 1 ? format(" (%u times)", m.times) : std::string());
+    const std::string text = m.text + (m.times > 1 ? printed(" (%u times)", m.times) : std::string());
     const float wrap = width - ui.px(26);
     const ImVec2 size = ui.fonts.text->CalcTextSizeA(ui.fonts.text->FontSize, 1e9f, wrap, text.c_str());
     const float height = size.y + ui.px(12);
@@ -52,10 +52,10 @@ void draw_toasts(const UiContext& ui, AppModel& model, const Rect& over) {
     ImGui::PushStyleColor(ImGuiCol_WindowBg, ui.colours.panel_header);
     constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoSavedSettings |
                                        ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoMove;
-    ImGui::Begin(format("##toast%d", shown).c_str(), nullptr, flags);
+    ImGui::Begin(printed("##toast%d", shown).c_str(), nullptr, flags);
     const ImVec2 at = ImGui::GetWindowPos();
     if (ImGui::InvisibleButton("##dismiss", {width, height})) model.messages().dismiss(i);
-    ui.items.note_last(format("toast/%d", shown));
+    ui.items.note_last(printed("toast/%d", shown));
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     draw.AddRectFilled(at, {at.x + ui.px(4), at.y + height}, ink_of(ui, m.severity), ui.px(2));
     draw.AddText(ui.fonts.text, ui.fonts.text->FontSize, {at.x + ui.px(14), at.y + ui.px(6)}, ui.colours.text, text.c_str(), nullptr, wrap);

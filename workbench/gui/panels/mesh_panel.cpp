@@ -9,7 +9,7 @@ namespace tangent {
 
 namespace {
 
-std::string count(std::uint64_t n) { return format("%llu", static_cast<unsigned long long>(n)); }
+std::string count(std::uint64_t n) { return printed("%llu", static_cast<unsigned long long>(n)); }
 
 /// A line of the health report: nothing is said in colour but what a person should look at.
 void problem(const UiContext& ui, const char* label, std::uint64_t n, ImU32 ink, const char* doc) {
@@ -19,11 +19,11 @@ void problem(const UiContext& ui, const char* label, std::uint64_t n, ImU32 ink,
 
 void draw_audit(const UiContext& ui, const MeshAudit& a) {
   const ImU32 warning = ui.colours.warning, bad = ui.colours.bad;
-  fact(ui, "Area", format("%.2f", a.area_m2 * 1e4), "cm\u00b2");
+  fact(ui, "Area", printed("%.2f", a.area_m2 * 1e4), "cm\u00b2");
   fact(ui, "Parts", count(a.components));
-  fact(ui, "Edge length", format("%.3g / %.3g / %.3g", a.edge_length_m.min * 1e3, a.edge_length_m.median * 1e3, a.edge_length_m.max * 1e3), "mm");
+  fact(ui, "Edge length", printed("%.3g / %.3g / %.3g", a.edge_length_m.min * 1e3, a.edge_length_m.median * 1e3, a.edge_length_m.max * 1e3), "mm");
   tooltip(ui, "Shortest, median, longest");
-  fact(ui, "Dihedral angle", format("%.3g / %.3g / %.3g", a.dihedral_deg.min, a.dihedral_deg.median, a.dihedral_deg.max), "deg");
+  fact(ui, "Dihedral angle", printed("%.3g / %.3g / %.3g", a.dihedral_deg.min, a.dihedral_deg.median, a.dihedral_deg.max), "deg");
   tooltip(ui, "Between adjacent facets: smallest, median, largest. Below 0.5 deg facets feel smooth even with plain force rendering (condition C1); below 3.4 deg with force shading (C2)");
   fact(ui, "Crease edges", count(a.crease_edges));
   problem(ui, "Boundary edges", a.boundary_edges, warning, "The surface ends there; contacts on them are edge contacts");
@@ -58,7 +58,7 @@ void draw_picked(const UiContext& ui, AppModel& model) {
   for (std::uint32_t e = 0; e < 3; ++e) {
     const EdgeLink link = mesh.across(t, e);
     const std::string to = link.triangle == kNone ? "" : ", to " + count(link.triangle);
-    fact(ui, format("Edge %u", e).c_str(), kKinds[static_cast<std::size_t>(mesh.edge_kind(t, e))] + to);
+    fact(ui, printed("Edge %u", e).c_str(), kKinds[static_cast<std::size_t>(mesh.edge_kind(t, e))] + to);
   }
   if (text_button(ui, "mesh/unpick", "Unpick", "Picks nothing")) model.view().picked_triangle = kNone;
 }
@@ -77,9 +77,9 @@ void draw_mesh_panel(const UiContext& ui, AppModel& model, FoldedPanel& state) {
   fact(ui, "Triangles", count(mesh.usable_triangle_count()));
   fact(ui, "Vertices", count(mesh.vertex_count()));
   const Vec3 size = mesh.bounds().size() * 1e3;
-  fact(ui, "Size", format("%.4g \u00d7 %.4g \u00d7 %.4g", size.x, size.y, size.z), "mm");
+  fact(ui, "Size", printed("%.4g \u00d7 %.4g \u00d7 %.4g", size.x, size.y, size.z), "mm");
   fact(ui, "Normals", mesh.normals_used() == NormalSource::file ? "from the file" : "computed");
-  fact(ui, "Memory", format("%.1f", static_cast<double>(model.scene()->memory_bytes()) / 1e6), "MB");
+  fact(ui, "Memory", printed("%.1f", static_cast<double>(model.scene()->memory_bytes()) / 1e6), "MB");
   if (const MeshAudit* audit = model.audit()) draw_audit(ui, *audit);
   else if (model.auditing()) ImGui::TextDisabled("Audit running");
   draw_defects(ui, mesh);

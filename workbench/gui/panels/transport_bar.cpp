@@ -76,7 +76,7 @@ void draw_transport_bar(const UiContext& ui, AppModel& model, const Rect& rect) 
   ImGui::SameLine(0, ui.px(3));
   ImGui::PushFont(ui.fonts.number);
   const std::size_t count = model.tick().iterations().size();
-  const std::string which = count == 0 ? " -/-" : model.tick().selected() ? format("%2zu/%zu", *model.tick().selected(), count - 1) : format(" -/%zu", count - 1);
+  const std::string which = count == 0 ? " -/-" : model.tick().selected() ? printed("%2zu/%zu", *model.tick().selected(), count - 1) : printed(" -/%zu", count - 1);
   const float which_x = ImGui::GetCursorPosX();
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted(which.c_str());
@@ -99,8 +99,8 @@ void draw_transport_bar(const UiContext& ui, AppModel& model, const Rect& rect) 
     ImGui::PopFont();
     ImGui::SameLine(0, ui.px(12));
   };
-  caption("tick", record != nullptr ? format("%llu", static_cast<unsigned long long>(record->tick.tick)) : "-", 9.0f);
-  caption("t", record != nullptr ? format("%.3f s", record->tick.input.t_s) : "-", 10.0f);
+  caption("tick", record != nullptr ? printed("%llu", static_cast<unsigned long long>(record->tick.tick)) : "-", 9.0f);
+  caption("t", record != nullptr ? printed("%.3f s", record->tick.input.t_s) : "-", 10.0f);
   draw_strip(ui, model, ImGui::GetContentRegionAvail().x);
   ImGui::End();
 }
