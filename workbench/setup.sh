@@ -2,6 +2,8 @@
 # Expects `root` (the project's folder) and `self` (the name that starts each line) to be set.
 # Lines go to standard error, so that the program's own output stays clean in a pipe.
 
+launch=()  # a command before ninja, such as setarch with its options
+
 say() { printf '%s: %s\n' "$self" "$*" >&2; }
 die() { say "$*"; exit 1; }
 
@@ -51,19 +53,23 @@ install_packages() {
   installed_something=1
 }
 
-# run_logged LOG MESSAGE COMMAND...: silent unless it fails.
+# run_logged LOG WHAT COMMAND...: silent unless it fails or takes long enough for a person to wonder.
 run_logged() {
-  local log="$1" message="$2"
+  local log="$1" what="$2" status=0 teller
   shift 2
-  if ! "$@" </dev/null >"$log" 2>&1; then
-    # Compilers print the cause before a long tail of notes: show the first errors, then the end.
-    grep -n -m 10 -E 'error:|Error|FAILED' "$log" >&2 || true
-    tail -n 30 "$log" >&2
-    die "$message failed; the whole log: $log"
-  fi
+  { sleep 0.4 >/dev/null 2>&1 9>&-; say "$what"; } 9>&- &
+  teller=$!
+  "$@" </dev/null >"$log" 2>&1 || status=$?
+  kill "$teller" 2>/dev/null || true
+  wait "$teller" 2>/dev/null || true
+  ((status == 0)) && return
+  # Compilers print the cause before a long tail of notes: show the first errors, then the end.
+  grep -n -m 10 -E 'error:|Error|FAILED' "$log" >&2 || true
+  tail -n 30 "$log" >&2
+  die "$what failed; the whole log: $log"
 }
 
-# build PRESET-FOLDER TARGET CMAKE-OPTION...: configures when needed, builds when needed.
+# build FOLDER TARGET CMAKE-OPTION...: configures when needed, builds when needed, in build/FOLDER.
 build() {
   local dir="$root/build/$1" target="$2" fresh=()
   shift 2
@@ -74,14 +80,12 @@ build() {
   if [[ -f $dir/CMakeCache.txt ]] && ! grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$dir/CMakeCache.txt"; then
     fresh=(--fresh)
   fi
-  if [[ ! -f $dir/build.ninja || $installed_something == 1 || ${#fresh[@]} -gt 0 || "$*" != "$(cat "$dir/.options" 2>/dev/null)" ]]; then
-    say "configuring $dir"
-    run_logged "$dir/configure.log" "configuring" cmake "${fresh[@]}" -G Ninja -S "$root" -B "$dir" "$@"
-    printf '%s\n' "$*" >"$dir/.options"
-    say "building $dir"
-  elif [[ $(ninja -C "$dir" -n "$target" 2>/dev/null | tail -n 1) != "ninja: no work to do." ]]; then
-    say "building $dir"
+  local options="$*"
+  if [[ ! -f $dir/build.ninja || $installed_something == 1 || ${#fresh[@]} -gt 0 ||
+        $options != "$(cat "$dir/.options" 2>/dev/null)" ]]; then
+    run_logged "$dir/configure.log" "configuring $dir" cmake "${fresh[@]}" -G Ninja -S "$root" -B "$dir" "$@"
+    printf '%s\n' "$options" >"$dir/.options"
   fi
-  run_logged "$dir/build.log" "the build" ninja -C "$dir" "$target"
+  run_logged "$dir/build.log" "building $dir" "${launch[@]}" ninja -C "$dir" "$target"
   exec 9>&-
 }
