@@ -83,10 +83,15 @@ inline constexpr double kSmallestWatch = 1e-4, kLargestWatch = 0.1;
 /// Part of the look-ahead that remains where a triangle could neither be ruled out nor be solved.
 inline constexpr double kUnresolvedMargin = 0.25;
 
-/// det M or trace M of a triangle's linear interpolation below minus this: no stable contact is looked for there.
-inline constexpr double kUnstableDet = 0.25;
-
 /// Contacts whose surroundings one search for rivals remembers, 1.
 inline constexpr std::size_t kKnownContacts = 8;
+
+/// Bisections of a patch in search of a contact, and parts looked at in all. More: fewer false alarms, each of which
+/// costs a few surface evaluations; fewer: cheaper where many contacts are near.
+inline constexpr int kBisections = 5, kBisectionTests = 16;
+
+/// Part of its height by which a rival's height is guessed wrong at most, without solving for it. Larger: rivals are
+/// solved for before they can take over; smaller: a takeover may come a tick late.
+inline constexpr double kHeightGuess = 2e-4;
 
 }  // namespace tangent

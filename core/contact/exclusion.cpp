@@ -1,8 +1,12 @@
 #include "core/contact/exclusion.h"
 
+#include "core/base/tolerances.h"
+#include "core/mesh/vertex_ring.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace tangent {
 namespace {
@@ -40,10 +44,143 @@ struct ProductTable {
 };
 constexpr ProductTable kProduct;
 
-/// Distance of 0 from the range of the coefficients, 0 if they have both signs.
-double one_signed(const Quintic& f) {
-  const auto [low, high] = std::minmax_element(f.begin(), f.end());
-  return std::max({0.0, *low, -*high});
+double cross(const Vec2& a, const Vec2& b) { return a.x * b.y - a.y * b.x; }
+
+/// Both components of f over a part of the patch whose corners lie at these (u, v).
+struct Part {
+  Quintic ft, fs;
+  std::array<Vec2, 3> corner;
+  int depth = 0;
+
+  /// Distance of 0 from the values of f, as far as the three lines along the images of the sides can tell: for a
+  /// linear f they bound its image exactly. 0 where they don't exclude it.
+  double margin() const {
+    const Vec2 f0 = at_corner(0), f1 = at_corner(1), f2 = at_corner(2);
+    return std::max({beside(f1 - f0), beside(f2 - f1), beside(f0 - f2)});
+  }
+
+  /// Distance of 0 from the coefficients across direction `side`, 0 if they lie on both sides of it.
+  double beside(const Vec2& side) const {
+    const double length2 = glm::dot(side, side);
+    if (!(length2 > 0.0)) return 0.0;
+    const double across_t = side.y, across_s = -side.x;
+    double low = 1e300, high = -1e300;
+    for (std::size_t i = 0; i < ft.size(); ++i) {
+      const double x = across_t * ft[i] + across_s * fs[i];
+      low = std::min(low, x);
+      high = std::max(high, x);
+    }
+    return std::max({0.0, low, -high}) / std::sqrt(length2);
+  }
+
+  /// (u, v) where the linear interpolation of f vanishes, within the part.
+  Vec2 linear_zero() const {
+    const Vec2 f0 = at_corner(0), a = at_corner(1) - f0, b = at_corner(2) - f0;
+    const double det = cross(a, b);
+    double x = 1.0 / 3.0, y = 1.0 / 3.0;
+    if (det != 0.0) {
+      x = std::clamp(cross(b, f0) / det, 0.0, 1.0);
+      y = std::clamp(cross(f0, a) / det, 0.0, 1.0 - x);
+    }
+    return corner[0] + x * (corner[1] - corner[0]) + y * (corner[2] - corner[0]);
+  }
+
+  Vec2 at_corner(int k) const {
+    constexpr int kIndex[3] = {quintic_index(5, 0), quintic_index(0, 5), quintic_index(0, 0)};
+    return {ft[kIndex[k]], fs[kIndex[k]]};
+  }
+};
+
+/// Halves of f at the middle of the edge from corner 0 to corner 1, by de Casteljau along each row of that direction.
+void bisect(const Quintic& f, Quintic& first, Quintic& second) {
+  for (int k = 0; k <= 5; ++k) {
+    const int degree = 5 - k;
+    double row[6];
+    for (int j = 0; j <= degree; ++j) row[j] = f[quintic_index(degree - j, j)];
+    for (int level = 0; level <= degree; ++level) {
+      first[quintic_index(degree - level, level)] = row[0];
+      second[quintic_index(level, degree - level)] = row[degree - level];
+      for (int j = 0; j < degree - level; ++j) row[j] = 0.5 * (row[j] + row[j + 1]);
+    }
+  }
+}
+
+/// Corner 0 becomes the last, so that the next bisection halves another edge.
+Quintic rotate(const Quintic& f) {
+  Quintic r;
+  for (int i = 0; i <= 5; ++i)
+    for (int j = 0; i + j <= 5; ++j) r[quintic_index(j, 5 - i - j)] = f[quintic_index(i, j)];
+  return r;
+}
+
+Part turned(Part part) {
+  part.ft = rotate(part.ft);
+  part.fs = rotate(part.fs);
+  part.corner = {part.corner[1], part.corner[2], part.corner[0]};
+  return part;
+}
+
+/// Whether a contact in this part could be stable: det M and trace M of the linear interpolation of f, where
+/// -df is the image of the step and `edge_u`, `edge_v` are the flat triangle's sides in the same two directions.
+bool could_be_stable(const Part& part, const Vec2& edge_u, const Vec2& edge_v) {
+  const auto flat = [&](int k) { return part.corner[k].x * edge_u + part.corner[k].y * edge_v; };
+  const Vec2 a = flat(1) - flat(0), b = flat(2) - flat(0);
+  const Vec2 xa = part.at_corner(0) - part.at_corner(1), xb = part.at_corner(0) - part.at_corner(2);
+  const double area = cross(a, b);
+  return cross(xa, xb) * area >= 0.0 && (cross(xa, b) + cross(a, xb)) * area >= 0.0;
+}
+
+/// Excludes what can be of the parts of `whole`.
+void bisect_parts(const Part& whole, const Vec2& edge_u, const Vec2& edge_v, PatchExclusion& result) {
+  std::array<Part, kBisections + 2> stack;
+  std::size_t size = 0;
+  stack[size++] = whole;
+  double margin = 1e300;
+  double smallest = 1e300;
+  result.possible = false;
+  for (int tests = 0; size > 0; ++tests) {
+    const Part part = stack[--size];
+    const double here = part.margin();
+    if (here > 0.0) {
+      margin = std::min(margin, here);
+      continue;
+    }
+    if (part.depth < kBisections && tests < kBisectionTests) {
+      Part first, second;
+      bisect(part.ft, first.ft, second.ft);
+      bisect(part.fs, first.fs, second.fs);
+      const Vec2 middle = 0.5 * (part.corner[0] + part.corner[1]);
+      first.corner = {part.corner[0], middle, part.corner[2]};
+      second.corner = {middle, part.corner[1], part.corner[2]};
+      first.depth = second.depth = part.depth + 1;
+      stack[size++] = turned(first);
+      stack[size++] = turned(second);
+      continue;
+    }
+    margin = 0.0;
+    if (!could_be_stable(part, edge_u, edge_v)) continue;
+    const Vec2 uv = part.linear_zero();
+    const Vec2 middle = (part.at_corner(0) + part.at_corner(1) + part.at_corner(2)) / 3.0;
+    const double off = glm::dot(middle, middle);
+    if (off >= smallest) continue;
+    smallest = off;
+    result.possible = true;
+    result.u = uv.x;
+    result.v = uv.y;
+  }
+  result.margin_m = margin;
+}
+
+/// (c - S).N at (u, v), without the derivatives that a plane for stepping needs.
+double estimated_height(const PnPatch& patch, const Vec3& c, double u, double v) {
+  const double w = 1.0 - u - v;
+  const auto& b = patch.offsets;
+  const Vec3 point = w * w * w * b[b300] + u * u * u * b[b030] + v * v * v * b[b003] + 6.0 * w * u * v * b[b111] +
+                     3.0 * (w * w * (u * b[b210] + v * b[b201]) + u * u * (w * b[b120] + v * b[b021]) + v * v * (u * b[b012] + w * b[b102]));
+  const auto& n = patch.normals;
+  const Vec3 normal = w * w * n[n200] + u * u * n[n020] + v * v * n[n002] +
+                      patch.mixed_weight * (w * u * n[n110] + u * v * n[n011] + w * v * n[n101]);
+  return glm::dot(c - point, normal) / std::sqrt(glm::dot(normal, normal));
 }
 
 }  // namespace
@@ -71,19 +208,134 @@ PatchExclusion exclude_contact(const PnPatch& patch, const Vec3& centre) {
     const Vec3 n = (b < n110 ? 1.0 : mixed) * patch.normals[b];
     nt[b] = glm::dot(n, t), ns[b] = glm::dot(n, s), na[b] = glm::dot(n, axis);
   }
-  Quintic ft{}, fs{}, height{};
+  Part whole;
+  whole.ft.fill(0.0);
+  whole.fs.fill(0.0);
+  whole.corner = {Vec2(0.0, 0.0), Vec2(1.0, 0.0), Vec2(0.0, 1.0)};
+  Quintic height{};
   for (int a = 0; a < 10; ++a) {
     const Vec3 d = c - patch.offsets[a];
     const double dt = glm::dot(d, t), ds = glm::dot(d, s), da = glm::dot(d, axis);
     for (int b = 0; b < 6; ++b) {
       const double w = kProduct.weight[a][b];
       const int k = kProduct.index[a][b];
-      ft[k] += w * (dt * na[b] - nt[b] * da);
-      fs[k] += w * (ds * na[b] - ns[b] * da);
+      whole.ft[k] += w * (dt * na[b] - nt[b] * da);
+      whole.fs[k] += w * (ds * na[b] - ns[b] * da);
       height[k] += w * (dt * nt[b] + ds * ns[b] + da * na[b]);
     }
   }
-  return {std::max(one_signed(ft), one_signed(fs)), std::max(0.0, *std::min_element(height.begin(), height.end()))};
+  PatchExclusion result;
+  result.least_height_m = std::max(0.0, *std::min_element(height.begin(), height.end()));
+  result.margin_m = whole.margin();
+  if (result.margin_m > 0.0) {
+    result.possible = false;
+    return result;
+  }
+  const Vec3& e1 = patch.offsets[b030];
+  const Vec3& e2 = patch.offsets[b003];
+  bisect_parts(whole, {glm::dot(e1, t), glm::dot(e1, s)}, {glm::dot(e2, t), glm::dot(e2, s)}, result);
+  if (result.possible) result.height_m = estimated_height(patch, c, result.u, result.v);
+  return result;
+}
+
+namespace {
+
+/// An edge of a triangle by its curve's control points, local coordinates.
+struct EdgeEnds {
+  Vec3 p, q;                    ///< corners
+  Vec3 chord, from_p, from_q;   ///< unit: p -> q; along the curve away from p; away from q
+  Vec3 np, nq;                  ///< corner normals of the triangle
+  Vec3 inside;                  ///< the opposite corner
+  double length = 0.0;
+};
+
+EdgeEnds edge_ends(const ContactMesh& mesh, const PnPatch& patch, std::uint32_t t, std::uint32_t edge) {
+  static constexpr ControlPoint kNearFirst[3] = {b210, b021, b102}, kNearSecond[3] = {b120, b012, b201};
+  EdgeEnds e;
+  const std::uint32_t j = (edge + 1) % 3;
+  e.p = mesh.position(t, edge);
+  e.q = mesh.position(t, j);
+  e.np = mesh.normal(t, edge);
+  e.nq = mesh.normal(t, j);
+  e.inside = mesh.position(t, (edge + 2) % 3);
+  e.length = std::sqrt(glm::dot(e.q - e.p, e.q - e.p));
+  e.chord = (e.q - e.p) / e.length;
+  const auto direction = [](const Vec3& v, const Vec3& otherwise) {
+    const double length2 = glm::dot(v, v);
+    return length2 > 0.0 ? v / std::sqrt(length2) : otherwise;
+  };
+  e.from_p = direction(patch.control_point(kNearFirst[edge]) - e.p, e.chord);
+  e.from_q = direction(patch.control_point(kNearSecond[edge]) - e.q, -e.chord);
+  return e;
+}
+
+/// How far c lies beyond an end of the edge, seen along the curve there; the normals may lean along it by `tilt`.
+double beyond_ends(const EdgeEnds& e, const Vec3& centre) {
+  const auto behind = [&](const Vec3& point, const Vec3& inwards, const Vec3& normal) {
+    const Vec3 d = centre - point;
+    return -glm::dot(d, inwards) - std::sqrt(glm::dot(d, d)) * std::abs(glm::dot(normal, inwards));
+  };
+  return std::max(behind(e.p, e.from_p, e.np), behind(e.q, e.from_q, e.nq));
+}
+
+/// How far c lies over the triangle rather than over the edge's fan, at both ends.
+double over_face(const EdgeEnds& e, const Vec3& centre) {
+  const auto at = [&](const Vec3& point, const Vec3& tangent, const Vec3& normal) {
+    Vec3 away = glm::cross(tangent, normal);
+    const double length2 = glm::dot(away, away);
+    if (!(length2 > 1e-12)) return 0.0;
+    away /= glm::dot(away, e.inside - point) > 0.0 ? -std::sqrt(length2) : std::sqrt(length2);
+    return -glm::dot(centre - point, away);
+  };
+  return std::min(at(e.p, e.from_p, e.np), at(e.q, e.from_q, e.nq));
+}
+
+}  // namespace
+
+/// Strongest pull of the edges around a vertex on a contact that rests on it, as a distance: positive where the
+/// contact leaves it along one of them.
+static double vertex_pull(const ContactMesh& mesh, std::uint32_t t, std::uint32_t corner, const Vec3& centre) {
+  const Vec3 d = centre - mesh.position(t, corner);
+  double strongest = -std::numeric_limits<double>::max();
+  const auto pull = [&](const Vec3& offset) {
+    const double length2 = glm::dot(offset, offset);
+    if (length2 > 0.0) strongest = std::max(strongest, glm::dot(d, offset) / std::sqrt(length2));
+  };
+  around_vertex(mesh, t, corner, [&](std::uint32_t at, std::uint32_t k) {
+    const Vec3 starting = mesh.position(at, (k + 1) % 3) - mesh.position(at, k);
+    if (mesh.edge_kind(at, k) == EdgeKind::crease) {
+      const EdgeLink other = mesh.across(at, k);
+      pull(crease_control_offset(starting, mesh.normal(at, k), mesh.normal(other.triangle, (other.edge + 1) % 3)));
+    } else {
+      pull(edge_control_offset(starting, mesh.normal(at, k)));
+    }
+    if (mesh.edge_kind(at, (k + 2) % 3) == EdgeKind::boundary)
+      pull(edge_control_offset(mesh.position(at, (k + 2) % 3) - mesh.position(at, k), mesh.normal(at, k)));
+  });
+  return strongest;
+}
+
+double exclude_feature_contacts(PatchCache& cache, std::uint32_t t, NormalForm form, const Vec3& centre) {
+  const ContactMesh& mesh = cache.mesh();
+  std::array<EdgeEnds, 3> ends;
+  {
+    const PnPatch& patch = cache.patch(t, form);
+    for (std::uint32_t k = 0; k < 3; ++k) ends[k] = edge_ends(mesh, patch, t, k);
+  }
+  double margin = std::numeric_limits<double>::max();
+  for (std::uint32_t k = 0; k < 3; ++k) {
+    if (mesh.edge_kind(t, k) == EdgeKind::smooth) continue;
+    double safe = std::max(beyond_ends(ends[k], centre), over_face(ends[k], centre));
+    const EdgeLink other = mesh.across(t, k);
+    if (safe <= 0.0 && other.triangle != kNone)
+      safe = over_face(edge_ends(mesh, cache.patch(other.triangle, form), other.triangle, other.edge), centre);
+    margin = std::min(margin, std::max(0.0, safe));
+  }
+  for (std::uint32_t k = 0; k < 3; ++k) {
+    if (!mesh.feature_corner(t, k)) continue;
+    margin = std::min(margin, std::max(0.0, vertex_pull(mesh, t, k, centre)));
+  }
+  return margin;
 }
 
 }  // namespace tangent

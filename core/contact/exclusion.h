@@ -4,9 +4,11 @@
 //   f(u,v) = ((c-S).t) (n.A) - (n.t) ((c-S).A) = 0,     n the normal before it is normalised.
 // f is a quintic in Bernstein form over the triangle: a cubic times a quadratic. If its 21 coefficients have one
 // sign it has no zero there, and because |n| <= 1 moving c by m changes it by no more than m: the smallest
-// coefficient is the distance that c may move.
+// coefficient is the distance that c may move. For two directions t the pair is a map of the triangle to the plane,
+// and the directions that separate best are those across the images of its sides.
 #pragma once
 
+#include "core/contact/patch_cache.h"
 #include "core/surface/pn_patch.h"
 
 namespace tangent {
@@ -14,9 +16,19 @@ namespace tangent {
 struct PatchExclusion {
   double margin_m = 0.0;        ///< no centre nearer than this to c has a contact on the face; 0: not excluded
   double least_height_m = 0.0;  ///< lower bound of h of any contact on the face with h >= 0
+  bool possible = true;         ///< a stable contact may be there, near (u, v), with a height near height_m
+  double u = 1.0 / 3.0, v = 1.0 / 3.0;
+  double height_m = 0.0;
 };
 
-/// `centre` in the patch's coordinates. Faces only: edges and vertices have fans of normals of their own.
+/// `centre` in the patch's coordinates. Faces only: edges and vertices have fans of normals of their own. Where the
+/// whole patch can't be excluded, it is bisected: parts are excluded one by one until what is left is a contact, to
+/// 1/2^kBisections of the patch, or until the left parts would be unstable (det M or trace M below zero).
 PatchExclusion exclude_contact(const PnPatch& patch, const Vec3& centre);
+
+/// Margin in the same sense for the contacts on the crease and boundary edges of triangle t and on their ends; the
+/// largest double where there are none. Judged from the ends of each edge: seen along the edge the centre passes its
+/// end once, seen across it leaves the face for the fan once.
+double exclude_feature_contacts(PatchCache& cache, std::uint32_t t, NormalForm form, const Vec3& centre);
 
 }  // namespace tangent

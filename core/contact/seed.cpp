@@ -27,10 +27,20 @@ IterationResult iterate_from_closest(IterationContext& context, std::uint32_t tr
   return result;
 }
 
-/// exclude_contact where it holds: on faces without creases and boundaries, for centred fingers.
+/// Proof that triangle t holds no contact, its crease and boundary edges included; for centred fingers.
 PatchExclusion excluded(IterationContext& context, std::uint32_t t) {
-  if (context.finger.unroundness_m() > 0.0 || !context.cache.mesh().interior(t)) return {};
-  return exclude_contact(context.cache.patch(t, context.settings.normal_form), context.pose.position);
+  if (context.finger.unroundness_m() > 0.0) {
+    const NearestHit hit = closest_on_triangle(context.cache.mesh(), t, context.pose.position);
+    return {0.0, 0.0, true, hit.u, hit.v};
+  }
+  const NormalForm form = context.settings.normal_form;
+  PatchExclusion proof = exclude_contact(context.cache.patch(t, form), context.pose.position);
+  if (context.cache.mesh().interior(t)) return proof;
+  proof.least_height_m = 0.0;  // of the face alone
+  proof.margin_m = std::min(proof.margin_m, exclude_feature_contacts(context.cache, t, form, context.pose.position));
+  if (proof.margin_m > 0.0 || proof.possible) return proof;
+  const NearestHit hit = closest_on_triangle(context.cache.mesh(), t, context.pose.position);
+  return {0.0, 0.0, true, hit.u, hit.v};
 }
 
 /// Keeps the best of many seeds: converged before unstable before unconverged, then the least rank or error.
@@ -66,7 +76,7 @@ void seed_by_hierarchy(IterationContext& context, const ContactScene& scene, Sel
   query.tilt_rad = context.finger.tilt_rad();
   int solves = 0;
   scene.hierarchy().visit(query, [&](std::uint32_t t, ContactQuery& q) {
-    if (excluded(context, t).margin_m > 0.0) return true;
+    if (!excluded(context, t).possible) return true;
     context.seed = static_cast<std::uint8_t>(std::min(++solves, 255));
     selection.offer(context.finger, iterate_from_closest(context, t, kSeedBudget));
     if (selection.group == 0) limit_query(q, context.finger, selection.value);
@@ -92,16 +102,26 @@ void seed_by_distance(IterationContext& context, const ContactScene& scene, std:
 
 /// A contact whose surroundings need no search.
 struct KnownContact {
+  Feature feature;
+  std::uint8_t side;
   std::uint32_t triangle;
   Vec3 point, normal;
   double height_m;
 };
+
+/// Whether triangle t has the edge or vertex that the known contact rests on.
+bool shares_feature(const ContactMesh& mesh, std::uint32_t t, const KnownContact& known) {
+  if (known.feature == Feature::edge) return mesh.across(known.triangle, known.side).triangle == t;
+  const std::uint32_t vertex = mesh.vertex(known.triangle, known.side);
+  return mesh.vertex(t, 0) == vertex || mesh.vertex(t, 1) == vertex || mesh.vertex(t, 2) == vertex;
+}
 
 /// Whether triangle t surely belongs to the slope that leads to a known contact: towards each of its corners the
 /// normal turns no faster than a contact at height h stays stable with (1 + h k > 0, with room), and the corner lies
 /// beside the contact rather than over or under it.
 bool same_basin(const ContactMesh& mesh, std::uint32_t t, const KnownContact& known) {
   if (t == known.triangle) return true;
+  if (known.feature != Feature::face && shares_feature(mesh, t, known)) return true;
   for (std::uint32_t k = 0; k < 3; ++k) {
     const Vec3 dp = mesh.position(t, k) - known.point;
     const Vec3 dn = mesh.normal(t, k) - known.normal;
@@ -112,30 +132,17 @@ bool same_basin(const ContactMesh& mesh, std::uint32_t t, const KnownContact& kn
   return true;
 }
 
-/// Whether contacts on triangle t would be unstable, by the linear interpolation of its corners: det M or trace M well
-/// below zero (ALGORITHM.md 3) for the finger's height over its middle.
-bool surely_unstable(const ContactMesh& mesh, std::uint32_t t, const Vec3& centre) {
-  const auto p = mesh.positions(t);
+Vec3 interpolated_normal(const ContactMesh& mesh, std::uint32_t t, double u, double v) {
   const auto n = mesh.normals(t);
-  const Vec3 mean = n[0] + n[1] + n[2];
-  const double length = std::sqrt(glm::dot(mean, mean));
-  if (length < 1.0) return false;
-  const Vec3 axis = mean / length;
-  const double h = glm::dot(centre - p[0], axis);
-  const Vec3 a = p[1] - p[0], b = p[2] - p[0], xa = a + h * (n[1] - n[0]), xb = b + h * (n[2] - n[0]);
-  const double area = glm::dot(glm::cross(a, b), axis);
-  if (area == 0.0) return false;
-  const double det = glm::dot(glm::cross(xa, xb), axis) / area;
-  const double trace = (glm::dot(glm::cross(xa, b), axis) + glm::dot(glm::cross(a, xb), axis)) / area;
-  return det < -kUnstableDet || trace < -kUnstableDet;
+  return (1.0 - u - v) * n[0] + u * n[1] + v * n[2];
 }
 
 /// How far the centre may go before a rival that ranks `gap` behind can overtake: heights change along their normals,
 /// and in second order by the square of the way over the height.
-double overtaking_margin(const KnownContact& tracked, const IterationResult& rival, double gap) {
-  const Vec3 apart = tracked.normal - rival.plane.normal;
+double overtaking_margin(const KnownContact& tracked, const Vec3& rival_normal, double rival_height, double gap) {
+  const Vec3 apart = tracked.normal - rival_normal;
   const double rate = std::sqrt(glm::dot(apart, apart)) + 1e-3;
-  const double bend = 2.0 / std::max(1e-12, std::min(std::abs(tracked.height_m), std::abs(rival.contact.height_m)));
+  const double bend = 2.0 / std::max(1e-12, std::min(std::abs(tracked.height_m), std::abs(rival_height)));
   // Smaller root of rate m + bend m^2 = gap.
   return 2.0 * gap / (rate + std::sqrt(rate * rate + 4.0 * bend * gap));
 }
@@ -170,7 +177,7 @@ RivalResult find_rival(IterationContext& context, const ContactScene& scene, con
   std::array<KnownContact, kKnownContacts> known;
   std::size_t known_count = 0;
   const auto remember = [&](const IterationResult& r) {
-    if (known_count < known.size()) known[known_count++] = {r.plane.triangle, r.plane.point, r.plane.normal, r.contact.height_m};
+    if (known_count < known.size()) known[known_count++] = {r.plane.feature, r.plane.side, r.plane.triangle, r.plane.point, r.plane.normal, r.contact.height_m};
   };
   remember(tracked);
   const auto shrink = [&](ContactQuery& q, double margin) {
@@ -194,9 +201,20 @@ RivalResult find_rival(IterationContext& context, const ContactScene& scene, con
       shrink(q, safe);
       return true;
     }
-    if (mesh.interior(t) && surely_unstable(mesh, t, context.pose.position)) return true;
+    if (!proof.possible) {
+      shrink(q, kUnresolvedMargin * margin_m);
+      return true;
+    }
+    const double behind = proof.height_m - bound_m;
+    if (proof.height_m > 0.0 && behind > kHeightGuess * std::abs(proof.height_m)) {
+      // A rival, but not a deeper one yet.
+      shrink(q, overtaking_margin(known[0], interpolated_normal(mesh, t, proof.u, proof.v),
+                                  proof.height_m, behind));
+      return true;
+    }
     search.seed = static_cast<std::uint8_t>(std::min(++solves, 255));
-    const IterationResult r = iterate_from_closest(search, t, kSeedBudget);
+    IterationResult r;
+    iterate(search, face_at(t, proof.u, proof.v), kSeedBudget, r);
     result.evaluations += r.evaluations;
     if (!r.converged()) {
       // No contact there now, but one may come up: ask again before long.
@@ -213,7 +231,7 @@ RivalResult find_rival(IterationContext& context, const ContactScene& scene, con
       result.best = r;
       result.deeper = true;
     }
-    shrink(q, overtaking_margin(known[0], r, std::max(0.0, rank - bound_m)));
+    shrink(q, overtaking_margin(known[0], r.plane.normal, r.contact.height_m, std::max(0.0, rank - bound_m)));
     return solves < kMaxSolves;
   });
   result.clearance.height_m = bound_m + 2.0 * result.clearance.margin_m;
