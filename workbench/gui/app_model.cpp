@@ -189,10 +189,12 @@ void AppModel::take_records() {
     for (std::size_t i = history.lower_bound(next); i < history.size(); ++i) {
       const ServoRecord& r = history[i];
       const Vec3& f = r.device.force_command_n;
+      // In simulated time nothing is measured: a gap rather than a zero.
+      const float tick_time = r.tick_ns > 0.0 ? static_cast<float>(r.tick_ns * 1e-9) : std::nanf("");
       row = {static_cast<float>(f.x), static_cast<float>(f.y), static_cast<float>(f.z),
              static_cast<float>(glm::length(f)), static_cast<float>(r.device.cld_command_m),
              static_cast<float>(r.device.cld_measured_m), static_cast<float>(r.tick.output.error_m),
-             static_cast<float>(r.tick.output.iterations), static_cast<float>(r.tick_ns * 1e-9)};
+             static_cast<float>(r.tick.output.iterations), tick_time};
       store_.push(r.tick.tick, row);
     }
   }

@@ -62,7 +62,7 @@ bool section(const UiContext& ui, const char* title, bool& open) {
   const float height = ui.px(24);
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const float width = ImGui::GetContentRegionAvail().x;
-  const float bleed = ImGui::GetStyle().WindowPadding.x;
+  const float bleed = ImGui::GetCursorStartPos().x;
   if (ImGui::InvisibleButton(title, {std::max(1.0f, width), height})) open = !open;
   ui.items.note_last(std::string("section/") + title);
   const bool hovered = ImGui::IsItemHovered();
@@ -115,10 +115,17 @@ ValueFieldResult value_field(const UiContext& ui, std::string_view path, const V
   }
   if (state.field == path) {
     const bool focus = std::exchange(state.focus_field, false);
+    const bool was_active = state.id != 0;
     out.typed = number_box(ui, path, field.width, field.text, focus);
-    if (ImGui::IsItemDeactivated()) {
+    if (was_active && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Tab), false)) {
+      // ImGui would go round its text boxes, of which this is the only one: the next field becomes one instead.
+      if (!out.typed && state.text != state.shown) out.typed = state.text;
+      ImGui::ClearActiveID();
+      state.id = 0;
       state.field.clear();
-      state.tab_on = ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Tab), false);
+      state.tab_on = true;
+    } else if (ImGui::IsItemDeactivated()) {
+      state.field.clear();
     }
     return out;
   }
@@ -233,7 +240,7 @@ void fact(const UiContext& ui, const char* label, const std::string& value, cons
   draw.AddText(text, text->FontSize, at, ui.colours.text_dim, label);
   draw.AddText(number, number->FontSize, {at.x + width - unit_width - w, at.y + ui.px(1)}, ink.value_or(ui.colours.text), value.c_str());
   if (unit_width > 0.0f) draw.AddText(text, text->FontSize, {at.x + width - unit_width + ui.px(4), at.y}, ui.colours.text_dim, unit);
-  ImGui::Dummy({width, text->FontSize + ui.px(3)});
+  ImGui::Dummy({width, text->FontSize});
 }
 
 void tooltip(const UiContext& ui, std::string_view text) {

@@ -119,7 +119,7 @@ void draw_iterations_panel(const UiContext& ui, AppModel& model, IterationsPanel
   ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, ImVec2(ui.px(4), ui.px(1.5f)));
   const float row = ImGui::GetTextLineHeight() + ui.px(3);
   // Always the same height, so that nothing below moves from tick to tick.
-  const float height = 7.0f * row + ui.px(4) + ImGui::GetStyle().ScrollbarSize;
+  const float height = 6.0f * row + ui.px(4) + ImGui::GetStyle().ScrollbarSize;
   constexpr ImGuiTableFlags flags = ImGuiTableFlags_ScrollX | ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg |
                                     ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_BordersOuterH;
   if (ImGui::BeginTable("iterations", static_cast<int>(kColumns.size()), flags, {0.0f, height})) {

@@ -84,7 +84,7 @@ void draw_path_bar(const UiContext& ui, AppModel& model, PathBar& bar, const Rec
   ImGui::SetNextItemWidth(-1.0f);
   if (bar.focus) ImGui::SetKeyboardFocusHere();
   bar.focus = false;
-  const bool enter = ImGui::InputText("##path", &bar.text, ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_CallbackCompletion, complete);
+  const bool enter = ImGui::InputText("##path", &bar.text, ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_CallbackCompletion | ImGuiInputTextFlags_AutoSelectAll, complete);
   ui.items.note_last("path_bar/text");
   const bool left = ImGui::IsItemDeactivated() && !enter;
   bar.matches = complete_mesh_path(bar.text, 8);

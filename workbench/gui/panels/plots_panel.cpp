@@ -38,10 +38,10 @@ PlotsPanel make_plots_panel() {
   PlotsPanel panel;
   panel.plots.emplace_back(PlotSpec{.id = "force", .title = "Force", .unit = "N", .format = "%7.3f",
       .series = {{"x", at(Channel::force_x), &Palette::force_x}, {"y", at(Channel::force_y), &Palette::force_y},
-                 {"z", at(Channel::force_z), &Palette::force_z}, {"|F|", at(Channel::force_magnitude), &Palette::force_magnitude}}});
+                 {"z", at(Channel::force_z), &Palette::force_z}, {"total", at(Channel::force_magnitude), &Palette::force_magnitude}}});
   panel.plots.emplace_back(PlotSpec{.id = "cld", .title = "Contact display", .unit = "mm", .scale = 1e3, .format = "%7.3f",
       .series = {{"commanded", at(Channel::cld_commanded), &Palette::cld_commanded}, {"measured", at(Channel::cld_measured), &Palette::cld_measured}}});
-  panel.plots.emplace_back(PlotSpec{.id = "error", .title = "Error", .unit = "\u00b5m", .scale = 1e6, .log = true, .floor = 1e-9, .format = "%9.3g",
+  panel.plots.emplace_back(PlotSpec{.id = "error", .title = "Error", .unit = "\u00b5m", .scale = 1e6, .log = true, .floor = 1e-6, .format = "%9.3g",
       .series = {{"error", at(Channel::error), &Palette::error}}});
   panel.plots.emplace_back(PlotSpec{.id = "iterations", .title = "Iterations", .unit = "", .format = "%3.0f",
       .series = {{"iterations", at(Channel::iterations), &Palette::iterations, true}}});

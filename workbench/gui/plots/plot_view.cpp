@@ -50,6 +50,12 @@ void PlotView::draw(const UiContext& ui, const ChannelStore& store, TimeAxis& ax
     const float y = std::round(area.max.y - static_cast<float>(share) * area.height());
     draw_dashed_horizontal(draw, area.min.x, area.max.x, y, ui.px(5), ui.colours.text_faint, ui.px(1));
   }
+  if (nothing_in_view_) {
+    const char* text = "no samples in view";
+    ImFont* font = ui.fonts.small;
+    text_at(draw, font, {area.min.x + 0.5f * (area.width() - text_width(font, text)), area.min.y + 0.5f * (area.height() - font->FontSize)},
+            ui.colours.text_faint, text);
+  }
   draw_series(ui, store, axis, area);
   draw.PopClipRect();
   draw_cursors(ui, axis, link, area, time_labels);
@@ -115,6 +121,7 @@ void PlotView::fit(const ChannelStore& store, const TimeAxis& axis) {
   for (const PlotSeries& series : spec_.series) {
     if (series.visible) visible.include(store.min_max(series.channel, from, to));
   }
+  nothing_in_view_ = visible.empty();
   if (visible.empty()) return;
   visible.min = static_cast<float>(static_cast<double>(visible.min) * spec_.scale);
   visible.max = static_cast<float>(static_cast<double>(visible.max) * spec_.scale);
@@ -143,7 +150,7 @@ void PlotView::draw_grid(const UiContext& ui, const TimeAxis& axis, const PlotLi
             tick.label.c_str());
   }
   const double left = static_cast<double>(area.min.x), width = static_cast<double>(area.width());
-  const int columns = std::max(1, static_cast<int>(area.width() / (8.0f * font->FontSize)));
+  const int columns = std::max(1, static_cast<int>(area.width() / (5.5f * font->FontSize)));
   const double period = link.tick_period_s;
   for (const AxisTick& tick : linear_ticks(axis.from() * period, axis.to() * period, columns)) {
     const float x = std::round(static_cast<float>(axis.x_at(tick.value / period, left, width)));

@@ -73,6 +73,7 @@ class PlotView {
   ValueAxis values_;
   std::optional<double> box_from_;  ///< right-drag began at this tick
   bool dragged_ = false;
+  bool nothing_in_view_ = true;
   std::vector<ColumnBar> bars_;
   std::vector<SamplePoint> points_;
   std::vector<ImVec2> line_;

@@ -1,0 +1,399 @@
+// The window driven like a user would, without a window. Model state is what counts.
+#include "headless_app.h"
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <tuple>
+
+using namespace tangent;
+using tangent::test::HeadlessApp;
+
+namespace {
+
+std::filesystem::path fresh_folder(const char* name) {
+  const auto folder = std::filesystem::temp_directory_path() / name;
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_directories(folder);
+  return folder;
+}
+
+/// 1.5 s of simulated exploration on a sphere.
+struct RunningApp : HeadlessApp {
+  using HeadlessApp::HeadlessApp;
+  void run(std::uint64_t ticks = 1500) {
+    app().advance(ticks);
+    frame();
+    REQUIRE(model().end_tick() >= ticks);
+  }
+};
+
+bool said(const AppModel& model, Severity severity, const char* part) {
+  for (const Message& m : model.messages().all()) {
+    if (m.severity == severity && m.text.find(part) != std::string::npos) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+TEST_CASE("clicking Pause freezes the tick in view; live again follows the newest") {
+  RunningApp ui;
+  ui.run();
+  CHECK_FALSE(ui.model().paused());
+  ui.click("transport/pause");
+  REQUIRE(ui.model().paused());
+  const std::uint64_t frozen = ui.model().tick().record()->tick.tick;
+  ui.run(200);
+  CHECK(ui.model().tick().record()->tick.tick == frozen);
+  CHECK(ui.model().end_tick() > frozen + 100);  // the recording went on
+  ui.click("transport/live");
+  CHECK_FALSE(ui.model().paused());
+  CHECK(ui.model().tick().record()->tick.tick == ui.model().end_tick() - 1);
+}
+
+TEST_CASE("buttons and arrow keys step by one tick, back and forth") {
+  RunningApp ui;
+  ui.run();
+  ui.click("transport/pause");
+  const std::uint64_t at = ui.model().tick().record()->tick.tick;
+  ui.click("transport/step_back");
+  CHECK(ui.model().tick().record()->tick.tick == at - 1);
+  ui.key(HeadlessApp::kLeft);
+  CHECK(ui.model().tick().record()->tick.tick == at - 2);
+  ui.key(HeadlessApp::kRight);
+  ui.click("transport/step_forward");
+  CHECK(ui.model().tick().record()->tick.tick == at);
+  ui.click("transport/step_forward");  // there is no later one
+  CHECK(ui.model().tick().record()->tick.tick == ui.model().end_tick() - 1);
+  ui.key(HeadlessApp::kHome);
+  CHECK(ui.model().tick().record()->tick.tick == ui.model().first_tick());
+  ui.key(HeadlessApp::kEnd);
+  CHECK_FALSE(ui.model().paused());
+}
+
+TEST_CASE("full stop and comma walk through the iterations and on into the neighbouring ticks") {
+  RunningApp ui;
+  ui.run();
+  ui.key(HeadlessApp::kSpace);
+  REQUIRE(ui.model().paused());
+  const std::uint64_t at = ui.model().tick().record()->tick.tick;
+  const std::size_t count = ui.model().tick().iterations().size();
+  REQUIRE(count >= 1);
+  ui.model().select_tick(at - 5);
+  ui.frame();
+  const std::size_t here = ui.model().tick().iterations().size();
+  for (std::size_t i = 0; i < here; ++i) {
+    ui.key('.');
+    CHECK(ui.model().tick().selected() == i);
+  }
+  ui.key('.');
+  CHECK(ui.model().tick().record()->tick.tick == at - 4);
+  CHECK(ui.model().tick().selected() == std::size_t{0});
+  ui.key(',');
+  CHECK(ui.model().tick().record()->tick.tick == at - 5);
+  CHECK(ui.model().tick().selected() == here - 1);
+}
+
+TEST_CASE("the iterations in view are those of the recorded tick, computed again") {
+  RunningApp ui;
+  ui.run();
+  for (std::uint64_t back : {1u, 77u, 500u}) {
+    ui.model().select_tick(ui.model().end_tick() - back);
+    const ServoRecord& record = *ui.model().tick().record();
+    CHECK(ui.model().tick().problem().empty());
+    const auto iterations = ui.model().tick().iterations();
+    REQUIRE(!iterations.empty());
+    CHECK(iterations.back().error_m == record.tick.output.error_m);
+  }
+}
+
+TEST_CASE("a gain that is typed is sent once, on Enter, as a whole preset") {
+  RunningApp ui;
+  ui.run();
+  const std::uint64_t sent = ui.model().presets_sent();
+  ui.click("solver/gain_overall");
+  ui.frame();
+  ui.type("1");
+  ui.type("3");
+  ui.type("4");
+  CHECK(ui.model().presets_sent() == sent);  // never 1, 13, 134 on the way
+  CHECK(ui.model().presets().current().solver.gain_overall == 1.0);
+  for (int i = 0; i < 3; ++i) ui.key(259);
+  ui.type("0.75");
+  ui.key(HeadlessApp::kEnter);
+  CHECK(ui.model().presets().current().solver.gain_overall == 0.75);
+  CHECK(ui.model().presets_sent() == sent + 1);
+  CHECK(ui.model().session()->preset().solver.gain_overall == 0.75);
+  ui.run(5);
+  CHECK(ui.model().status().servo.preset_id == ui.model().session()->preset_id());
+}
+
+TEST_CASE("a typed value counts when the focus goes elsewhere, and not after Escape") {
+  RunningApp ui;
+  ui.run(50);
+  ui.click("solver/gain_overall");
+  ui.frame();
+  ui.type("0.5");
+  ui.click("transport/pause");
+  CHECK(ui.model().presets().current().solver.gain_overall == 0.5);
+  ui.click("solver/gain_overall");
+  ui.frame();
+  ui.type("0.9");
+  ui.key(HeadlessApp::kEscape);
+  CHECK(ui.model().presets().current().solver.gain_overall == 0.5);
+}
+
+TEST_CASE("Tab commits and goes on to the next value") {
+  RunningApp ui;
+  ui.run(50);
+  ui.click("solver/gain_overall");
+  ui.frame();
+  ui.type("0.5");
+  ui.key(HeadlessApp::kTab);
+  ui.frames(2);
+  ui.type("12");
+  ui.key(HeadlessApp::kEnter);
+  CHECK(ui.model().presets().current().solver.gain_overall == 0.5);
+  CHECK(ui.model().presets().current().solver.gain_curvature_m == doctest::Approx(0.012));
+}
+
+TEST_CASE("a typed value out of range is cut to it with a warning; rubbish is refused with an error") {
+  RunningApp ui;
+  ui.run(50);
+  ui.click("solver/gain_overall");
+  ui.frame();
+  ui.type("99");
+  ui.key(HeadlessApp::kEnter);
+  CHECK(ui.model().presets().current().solver.gain_overall == 10.0);
+  CHECK(said(ui.model(), Severity::warning, "solver.gain_overall"));
+  ui.click("solver/gain_overall");
+  ui.frame();
+  ui.type("fast");
+  ui.key(HeadlessApp::kEnter);
+  CHECK(ui.model().presets().current().solver.gain_overall == 10.0);
+  CHECK(said(ui.model(), Severity::error, "fast"));
+}
+
+TEST_CASE("dragging a value slides it, live; reset brings the program's own value back") {
+  RunningApp ui;
+  ui.run(50);
+  ui.drag("solver/gain_overall", {30.0f, 0.0f});
+  const double slid = ui.model().presets().current().solver.gain_overall;
+  CHECK(slid > 1.0);
+  CHECK(ui.model().session()->preset().solver.gain_overall == slid);
+  CHECK(ui.model().presets().changed());
+  ui.click("solver/gain_overall/reset");
+  CHECK(ui.model().presets().current().solver.gain_overall == 1.0);
+  CHECK_FALSE(ui.model().presets().changed());
+}
+
+TEST_CASE("a broken preset is refused with a message, and the old one stays") {
+  const auto folder = fresh_folder("tangent_app_broken_preset");
+  std::ofstream(folder / "broken.toml") << "[solver]\nno_such_key = 1\n";
+  std::ofstream(folder / "good.toml") << "[solver]\ngain_overall = 0.25\n";
+  AppOptions options = HeadlessApp::deterministic_options();
+  options.preset_folder = folder;
+  RunningApp ui(options);
+  ui.run(50);
+  const Preset before = ui.model().presets().current();
+  ui.model().load_preset(folder / "broken.toml");
+  ui.frame();
+  CHECK(ui.model().presets().current() == before);
+  CHECK(ui.model().session()->preset() == before);
+  CHECK(said(ui.model(), Severity::error, "no_such_key"));
+  CHECK(ui.app().items().find("toast/0") != nullptr);
+  ui.click("toast/0");
+  CHECK(ui.app().items().find("toast/0") == nullptr);
+  ui.model().load_preset(folder / "good.toml");
+  CHECK(ui.model().session()->preset().solver.gain_overall == 0.25);
+}
+
+TEST_CASE("a mesh that can't be read leaves the old scene and says why") {
+  RunningApp ui;
+  ui.run(50);
+  const auto scene = ui.model().scene();
+  ui.input().dropped_files = {"/nowhere/missing.obj"};
+  ui.frame();
+  CHECK(ui.model().scene() == scene);
+  CHECK(said(ui.model(), Severity::error, "missing.obj"));
+  ui.run(50);
+}
+
+TEST_CASE("an unreadable mesh on the command line still opens the window, with the built-in scene") {
+  AppOptions options = HeadlessApp::deterministic_options();
+  options.mesh = "/nowhere/missing.obj";
+  RunningApp ui(options);
+  CHECK(ui.model().scene() != nullptr);
+  CHECK(said(ui.model(), Severity::error, "missing.obj"));
+  ui.run(50);
+}
+
+TEST_CASE("a dropped mesh is opened, audited and touched") {
+  const auto folder = fresh_folder("tangent_app_drop");
+  std::ofstream(folder / "tetra.obj") << "v 0 0 0\nv 60 0 0\nv 0 60 0\nv 0 0 60\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
+  RunningApp ui;
+  ui.run(50);
+  ui.input().dropped_files = {(folder / "tetra.obj").string()};
+  ui.frame();
+  REQUIRE(ui.model().scene() != nullptr);
+  CHECK(ui.model().scene()->mesh().usable_triangle_count() == 4);
+  REQUIRE(ui.model().audit() != nullptr);
+  CHECK(ui.model().audit()->usable_triangles == 4);
+  ui.run(200);
+  CHECK(ui.model().tick().problem().empty());
+}
+
+TEST_CASE("the wheel over a plot zooms time about the pointer once it is held") {
+  RunningApp ui;
+  ui.run();
+  ui.click("transport/pause");
+  const ItemRect rect = *ui.app().items().find("plots/force");
+  const ImVec2 at{std::floor(rect.min.x + 0.3f * (rect.max.x - rect.min.x)), std::floor(rect.centre().y)};  // ImGui rounds the mouse down
+  const auto tick_at = [&] {
+    return ui.model().axis().tick_at(static_cast<double>(at.x), static_cast<double>(rect.min.x), static_cast<double>(rect.max.x - rect.min.x));
+  };
+  const double before = tick_at(), span = ui.model().axis().span();
+  ui.wheel(at, 2.0f);
+  CHECK(ui.model().axis().span() < span);
+  CHECK(tick_at() == doctest::Approx(before));
+}
+
+TEST_CASE("dragging a plot pans and stops following; clicking it selects that tick") {
+  RunningApp ui;
+  ui.run();
+  REQUIRE(ui.model().axis().following());
+  ui.model().axis().set_span(1000.0);
+  ui.frame();
+  ui.drag("plots/error", {40.0f, 0.0f});
+  CHECK_FALSE(ui.model().axis().following());
+  CHECK(ui.model().axis().to() < 1500.0);
+  ui.click("plots/error");
+  REQUIRE(ui.model().paused());
+  const double middle = 0.5 * (ui.model().axis().from() + ui.model().axis().to());
+  CHECK(std::abs(static_cast<double>(ui.model().tick().record()->tick.tick) - middle) <= 3.0);
+}
+
+TEST_CASE("legend entries hide and show their curve") {
+  RunningApp ui;
+  ui.run(300);
+  CHECK(ui.app().items().find("plots/force/x") != nullptr);
+  ui.click("plots/force/x");
+  ui.click("plots/force/x");
+}
+
+TEST_CASE("dragging in the 3D view orbits, the wheel zooms, F frames, a click picks a triangle") {
+  RunningApp ui;
+  ui.run(50);
+  const Camera before = ui.model().view().camera;
+  ui.drag("view", {60.0f, 20.0f});
+  CHECK(ui.model().view().camera.yaw_rad != before.yaw_rad);
+  CHECK(ui.model().view().picked_triangle == kNone);
+  const ImVec2 middle = ui.centre("view");
+  ui.wheel(middle, 3.0f);
+  CHECK(ui.model().view().camera.distance_m < before.distance_m);
+  ui.drag("view", {30.0f, 0.0f}, 1);
+  CHECK(glm::length(ui.model().view().camera.target - before.target) > 1e-4);
+  ui.key('F');
+  Camera framed = ui.model().view().camera;
+  framed.frame(world_bounds(*ui.model().scene()));
+  CHECK(ui.model().view().camera == framed);
+  CHECK(glm::length(framed.target - before.target) < 1e-12);
+  ui.click("view");
+  CHECK(ui.model().view().picked_triangle != kNone);
+}
+
+TEST_CASE("with the hand on the mouse, dragging on the surface leads the finger there") {
+  RunningApp ui;
+  ui.run(300);
+  ui.key('M');
+  REQUIRE(ui.model().view().hand_follows_mouse);
+  const Camera before = ui.model().view().camera;
+  ui.drag("view", {10.0f, 0.0f});
+  CHECK(ui.model().view().camera == before);
+  CHECK(ui.model().session()->hand().mode == HandMode::point);
+  ui.run(3000);
+  const Vec3 finger = ui.model().tick().record()->tick.input.finger.position;
+  const Vec3 target = ui.model().tick().record()->device.hand_target_m;
+  CHECK(glm::length(finger - target) < 5e-3);
+  CHECK(glm::dot(unit(finger), unit(before.eye() - before.target)) > 0.8);  // on the side that was clicked
+  ui.click("menu/hand");
+  CHECK(ui.model().session()->hand().mode == HandMode::explore);
+}
+
+TEST_CASE("the stop button takes the force away until it is armed again") {
+  RunningApp ui;
+  ui.run(2000);
+  REQUIRE_FALSE(ui.model().stopped());
+  ui.click("menu/stop");
+  ui.run(20);
+  CHECK(ui.model().stopped());
+  CHECK(glm::length(ui.model().tick().record()->device.force_command_n) == 0.0);
+  ui.click("menu/stop");
+  ui.run(500);
+  CHECK_FALSE(ui.model().stopped());
+}
+
+TEST_CASE("splitters give room to their neighbours") {
+  RunningApp ui;
+  const float left = ui.model().sizes().left;
+  ui.drag("splitter/left", {40.0f, 0.0f});
+  CHECK(ui.model().sizes().left == doctest::Approx(left + 40.0f));
+  const float plots = ui.model().sizes().plots;
+  ui.drag("splitter/plots", {0.0f, -30.0f});
+  CHECK(ui.model().sizes().plots == doctest::Approx(plots + 30.0f));
+}
+
+TEST_CASE("saving under a name makes a preset file that the list shows") {
+  const auto folder = fresh_folder("tangent_app_save");
+  AppOptions options = HeadlessApp::deterministic_options();
+  options.preset_folder = folder;
+  RunningApp ui(options, 1280.0f, 2000.0f);
+  ui.model().set_value(*find_preset_key("solver", "gain_overall"), 0.4);
+  ui.frame();
+  ui.click("presets/name");
+  ui.type("mine");
+  ui.click("presets/save");
+  CHECK(std::filesystem::exists(folder / "mine.toml"));
+  CHECK_FALSE(ui.model().presets().changed());
+  CHECK(ui.app().items().find("presets/file/mine") != nullptr);
+  ui.model().set_value(*find_preset_key("solver", "gain_overall"), 0.6);
+  ui.frame();
+  ui.click("presets/revert/solver.gain_overall");
+  CHECK(ui.model().presets().current().solver.gain_overall == 0.4);
+}
+
+TEST_CASE("frames build at any size and scale, with and without history, for every method") {
+  for (const auto& [w, h, scale] : {std::tuple{1280.0f, 720.0f, 1.0f}, {3840.0f, 2160.0f, 1.0f}, {3840.0f, 2160.0f, 2.0f}, {320.0f, 200.0f, 1.0f}, {40.0f, 30.0f, 2.0f}}) {
+    CAPTURE(w);
+    CAPTURE(scale);
+    AppOptions none = HeadlessApp::deterministic_options();
+    none.device = "none";
+    {
+      HeadlessApp empty(none, w, h, scale);
+      empty.frames(3);
+    }
+    RunningApp ui(HeadlessApp::deterministic_options(), w, h, scale);
+    for (int method = 0; method < 6; ++method) {
+      ui.model().set_value(*find_preset_key("solver", "method"), method);
+      ui.run(40);
+      ui.frames(2);
+    }
+    ui.model().set_theme(Theme::light);
+    ui.model().set_ui_scale(1.3f);
+    ui.frames(2);
+    CHECK(ImGui::GetDrawData()->TotalVtxCount > 0);
+  }
+}
+
+TEST_CASE("an unknown device is said to be one, and the window still comes up") {
+  AppOptions options = HeadlessApp::deterministic_options();
+  options.device = "toaster";
+  HeadlessApp ui(options);
+  ui.frames(3);
+  CHECK(ui.model().session() == nullptr);
+  CHECK(said(ui.model(), Severity::error, "toaster"));
+  ui.click("transport/pause");
+  ui.key(HeadlessApp::kLeft);
+  ui.key('.');
+}
