@@ -1,0 +1,99 @@
+// The servo's promise: nothing in a tick allocates. Every allocation of this program, its libraries included, is
+// counted per thread, at malloc itself. Sanitizers bring their own malloc: with them the test only says so.
+#include "tests/workbench/session/session_fixture.h"
+
+#include <doctest/doctest.h>
+
+#include <cerrno>
+#include <cstdlib>
+
+#if defined(__SANITIZE_THREAD__) || defined(__SANITIZE_ADDRESS__)
+
+TEST_CASE("no tick allocates") { MESSAGE("skipped: a sanitizer's malloc is in use"); }
+
+#else
+
+namespace {
+
+thread_local std::size_t allocations = 0;
+
+}  // namespace
+
+// glibc's own functions under the names it keeps for those who put themselves in front of them.
+extern "C" {
+void* __libc_malloc(std::size_t);
+void* __libc_calloc(std::size_t, std::size_t);
+void* __libc_realloc(void*, std::size_t);
+void* __libc_memalign(std::size_t, std::size_t);
+
+void* malloc(std::size_t size) {
+  ++allocations;
+  return __libc_malloc(size);
+}
+void* calloc(std::size_t count, std::size_t size) {
+  ++allocations;
+  return __libc_calloc(count, size);
+}
+void* realloc(void* memory, std::size_t size) {
+  ++allocations;
+  return __libc_realloc(memory, size);
+}
+void* memalign(std::size_t alignment, std::size_t size) {
+  ++allocations;
+  return __libc_memalign(alignment, size);
+}
+void* aligned_alloc(std::size_t alignment, std::size_t size) {
+  ++allocations;
+  return __libc_memalign(alignment, size);
+}
+int posix_memalign(void** memory, std::size_t alignment, std::size_t size) {
+  ++allocations;
+  *memory = __libc_memalign(alignment, size);
+  return *memory == nullptr ? ENOMEM : 0;
+}
+}
+
+using namespace tangent;
+using namespace tangent::test;
+
+TEST_CASE("the count of allocations counts") {
+  const std::size_t before = allocations;
+  ::operator delete(::operator new(8));
+  void* volatile memory = std::malloc(8);
+  std::free(memory);
+  CHECK(allocations == before + 2);
+}
+
+TEST_CASE("no tick allocates: homing, contact, other methods, a new preset, a new scene, a full ring") {
+  TickBench bench(simulated(), torus_scene());
+  REQUIRE(bench.devices.force->open());
+  REQUIRE(bench.devices.display->open());
+  bench.arm();
+  bench.channels.recorder_attached = true;
+  std::size_t in_ticks = 0;
+  const auto run = [&](int ticks) {
+    for (int i = 0; i < ticks; ++i) {
+      const TickTiming timing = bench.pacer.begin(bench.pacer.deadline_ns());
+      const std::size_t before = allocations;
+      bench.tick->run(timing);
+      in_ticks += allocations - before;
+    }
+  };
+  run(2000);
+  std::uint32_t id = 0;
+  for (const Method method : {Method::paper, Method::newton, Method::robust, Method::facet, Method::force_shading}) {
+    Preset preset;
+    preset.solver.method = method;
+    bench.channels.presets.put({++id, preset});
+    run(300);
+  }
+  bench.channels.scenes.offer(std::make_unique<PreparedScene>(sphere_scene(), Finger{}));
+  run(2000);
+  bench.channels.hand.put({.settings = {.mode = HandMode::point}, .point_m = Vec3(0.2, 0.1, 0.0)});
+  bench.channels.force.put(ForceSwitch::stop);
+  run(500);
+  CHECK(bench.channels.gui.drops() > 0);
+  CHECK(in_ticks == 0);
+}
+
+#endif

@@ -1,0 +1,257 @@
+#include "workbench/session/servo_tick.h"
+
+#include "devices/simulated_contact_display.h"
+#include "devices/simulated_force_device.h"
+#include "tests/workbench/session/session_fixture.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <vector>
+
+using namespace tangent;
+using namespace tangent::test;
+
+namespace {
+
+/// A puppet that holds the finger 1 mm deep in the sphere: a force of 0.8 N with the default preset.
+struct PressedBench {
+  PuppetForceDevice* device = new PuppetForceDevice;
+  TickBench bench;
+
+  PressedBench() : bench(with(device), sphere_scene()) { device->position = Vec3(0.0, 0.0, 0.059); }
+  static DeviceSet with(PuppetForceDevice* puppet) {
+    DeviceSet set;
+    set.force.reset(puppet);
+    return set;
+  }
+  void run_until_armed() {
+    bench.arm();
+    const ServoRecord record = bench.run(400);
+    REQUIRE(record.device.gate_state == GateState::armed);
+    REQUIRE(glm::length(device->commands.back().force_n) > 0.5);
+  }
+};
+
+void open(const DeviceSet& set) {
+  if (set.force) REQUIRE(set.force->open());
+  if (set.display) REQUIRE(set.display->open());
+}
+
+std::vector<ServoRecord> simulated_run(std::uint64_t seed, int ticks) {
+  TickBench bench(simulated(seed), torus_scene());
+  open(bench.devices);
+  bench.arm();
+  std::vector<ServoRecord> records;
+  for (int i = 0; i < ticks; ++i) records.push_back(bench.run());
+  return records;
+}
+
+bool same_bits(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+bool same_bits(const Vec3& a, const Vec3& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+
+}  // namespace
+
+TEST_CASE("simulated devices home, arm, and the finger comes to rest in the surface") {
+  TickBench bench(simulated(), sphere_scene());
+  open(bench.devices);
+  bench.arm();
+  bool homing = false;
+  for (int i = 0; i < 300; ++i) {
+    const ServoRecord r = bench.run();
+    homing = homing || r.device.force_state == DeviceState::homing;
+    if (r.device.force_state != DeviceState::ready || r.device.display_state != DeviceState::ready) {
+      CHECK(r.device.force_command_n == Vec3(0.0));
+      CHECK(r.device.force_rendered_n == Vec3(0.0));
+    }
+  }
+  CHECK(homing);
+  bench.run(1000);
+  int off = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const ServoRecord r = bench.run();
+    CHECK(r.tick.output.status == TickStatus::face);
+    CHECK(r.device.gate_state == GateState::armed);
+    off += r.tick.output.penetration_m < 0.5e-3 || r.tick.output.penetration_m > 1e-3;
+  }
+  CHECK(off < 30);
+}
+
+TEST_CASE("the command of a tick is rendered during the exchange of the next") {
+  TickBench bench(simulated(), sphere_scene());
+  open(bench.devices);
+  bench.arm();
+  ServoRecord last = bench.run(1500);
+  for (int i = 0; i < 100; ++i) {
+    const ServoRecord r = bench.run();
+    CHECK(r.device.force_rendered_n == last.device.force_command_n);
+    last = r;
+  }
+}
+
+TEST_CASE("the same seed gives the same records, bit by bit") {
+  const auto a = simulated_run(5, 3000), b = simulated_run(5, 3000), c = simulated_run(6, 3000);
+  bool differs = false;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const bool same = same_bits(a[i].tick.input.finger.position, b[i].tick.input.finger.position) &&
+                      same_bits(a[i].tick.output.force_n, b[i].tick.output.force_n) &&
+                      same_bits(a[i].tick.output.cld_m, b[i].tick.output.cld_m) &&
+                      same_bits(a[i].tick.output.error_m, b[i].tick.output.error_m) &&
+                      same_bits(a[i].device.force_command_n, b[i].device.force_command_n) &&
+                      same_bits(a[i].device.cld_measured_m, b[i].device.cld_measured_m) &&
+                      a[i].tick.tick == b[i].tick.tick && a[i].device.gate_actions == b[i].device.gate_actions;
+    REQUIRE(same);
+    differs = differs || a[i].tick.input.finger.position != c[i].tick.input.finger.position;
+  }
+  CHECK(differs);
+}
+
+TEST_CASE("a preset is applied whole at the next tick, and the record says which one ran") {
+  PressedBench p;
+  p.bench.arm();
+  CHECK(p.bench.run(400).tick.preset_id == 0);
+  const double before = glm::length(p.bench.run().tick.output.force_n);
+  Preset stiff;
+  stiff.force.stiffness_n_per_m *= 2.0;
+  p.bench.channels.presets.put({7, stiff});
+  const ServoRecord r = p.bench.run();
+  CHECK(r.tick.preset_id == 7);
+  CHECK(glm::length(r.tick.output.force_n) == doctest::Approx(2.0 * before).epsilon(1e-6));
+}
+
+TEST_CASE("nothing is commanded before arming, after a stop, or after release") {
+  PressedBench p;
+  p.bench.run(100);
+  for (const ForceCommand& c : p.device->commands) CHECK(c.force_n == Vec3(0.0));
+  p.run_until_armed();
+  p.bench.channels.force.put(ForceSwitch::stop);
+  CHECK(p.bench.run().device.force_command_n == Vec3(0.0));
+  p.bench.run();
+  CHECK(p.device->commands.back().force_n == Vec3(0.0));
+  p.run_until_armed();
+  p.bench.tick->release(1e-3);
+  CHECK(p.device->commands.back().force_n == Vec3(0.0));
+  CHECK(p.device->commands.back().request == DeviceRequest::stop);
+}
+
+TEST_CASE("a device fault stops the force within two ticks, and only arming brings it back") {
+  PressedBench p;
+  p.run_until_armed();
+  p.device->state = DeviceState::faulted;
+  const ServoRecord r = p.bench.run();
+  CHECK(r.device.gate_fault == GateFault::force_device);
+  CHECK(r.device.force_command_n == Vec3(0.0));
+  p.bench.run();
+  CHECK(p.device->commands.back().force_n == Vec3(0.0));
+  CHECK(p.device->commands.back().request == DeviceRequest::none);  // no clearing without a person
+
+  p.device->state = DeviceState::ready;
+  for (int i = 0; i < 50; ++i) CHECK(p.bench.run().device.force_command_n == Vec3(0.0));
+  p.run_until_armed();
+}
+
+TEST_CASE("every fault of the simulated devices stops the force within two ticks; arming homes them again") {
+  for (const DeviceFault fault : {DeviceFault::disconnected, DeviceFault::sensor, DeviceFault::actuator}) {
+    for (const bool display : {false, true}) {
+      CAPTURE(to_string(fault));
+      CAPTURE(display);
+      TickBench bench(simulated(), sphere_scene());
+      open(bench.devices);
+      bench.arm();
+      REQUIRE(glm::length(bench.run(1500).device.force_rendered_n) > 0.3);
+      if (display) static_cast<SimulatedContactDisplay&>(*bench.devices.display).inject(fault);
+      else static_cast<SimulatedForceDevice&>(*bench.devices.force).inject(fault);
+      const ServoRecord first = bench.run();
+      CHECK(first.device.gate_state == GateState::faulted);
+      CHECK((display ? first.device.display_fault : first.device.force_fault) == fault);
+      CHECK(first.device.force_command_n == Vec3(0.0));
+      CHECK(bench.run().device.force_rendered_n == Vec3(0.0));
+
+      bench.arm();
+      const ServoRecord again = bench.run(1500);
+      CHECK(again.device.gate_state == GateState::armed);
+      CHECK(glm::length(again.device.force_rendered_n) > 0.3);
+    }
+  }
+}
+
+TEST_CASE("a position that is not finite sends no force that is not finite") {
+  PressedBench p;
+  p.run_until_armed();
+  p.device->position = Vec3(0.0, std::numeric_limits<double>::quiet_NaN(), 0.059);
+  for (int i = 0; i < 20; ++i) {
+    const ServoRecord r = p.bench.run();
+    CHECK(is_finite(r.device.force_command_n));
+    CHECK(r.tick.output.status == TickStatus::unconverged);
+  }
+  p.bench.run();
+  CHECK(p.device->commands.back().force_n == Vec3(0.0));  // hold and ramp are over
+}
+
+TEST_CASE("without a force device the finger goes where the hand wants it, and there is no force") {
+  DeviceSet set = simulated();
+  set.force.reset();
+  open(set);
+  TickBench bench(std::move(set), sphere_scene());
+  bench.arm();
+  bench.run(1000);
+  for (int i = 0; i < 100; ++i) {
+    const ServoRecord r = bench.run();
+    CHECK(r.tick.input.finger.position == r.device.hand_target_m);
+    CHECK(r.device.force_command_n == Vec3(0.0));
+    CHECK(r.device.force_state == DeviceState::absent);
+    CHECK(r.device.display_state == DeviceState::ready);
+  }
+}
+
+TEST_CASE("a new scene is taken at the next tick, the old one comes back, and the force ramps in anew") {
+  TickBench bench(simulated(), sphere_scene());
+  open(bench.devices);
+  bench.arm();
+  REQUIRE(bench.run(1500).device.gate_state == GateState::armed);
+  auto torus = scene_of(make_torus(0.030, 0.012, 24, 12));
+  std::weak_ptr<const ContactScene> watch = torus;
+  auto prepared = std::make_unique<PreparedScene>(torus, Finger{});
+  prepared->id = 3;
+  torus.reset();
+  bench.channels.scenes.offer(std::move(prepared));
+  const ServoRecord r = bench.run();
+  CHECK(r.scene_id == 3);
+  CHECK(r.device.gate_state == GateState::ramping);
+  CHECK(r.tick.kept.plane.feature == Feature::none);
+  CHECK(bench.run(1500).device.gate_state == GateState::armed);
+
+  // Replaced again: the servo gives it back, and it is freed by whoever collects.
+  bench.channels.scenes.offer(std::make_unique<PreparedScene>(sphere_scene(), Finger{}));
+  bench.run();
+  CHECK_FALSE(watch.expired());
+  bench.channels.scenes.collect();
+  CHECK(watch.expired());
+}
+
+TEST_CASE("a scene that is replaced before the servo takes it is freed by the owner") {
+  TickBench bench(simulated(), sphere_scene());
+  auto scene = scene_of(make_torus(0.030, 0.012, 24, 12));
+  std::weak_ptr<const ContactScene> watch = scene;
+  bench.channels.scenes.offer(std::make_unique<PreparedScene>(std::move(scene), Finger{}));
+  bench.channels.scenes.offer(std::make_unique<PreparedScene>(sphere_scene(), Finger{}));
+  CHECK(watch.expired());
+}
+
+TEST_CASE("a recorder gets every record while attached, and none before or after") {
+  PressedBench p;
+  ServoRecord record;
+  p.bench.run(5);
+  CHECK_FALSE(p.bench.channels.recorder.pop(record));
+  p.bench.channels.recorder_attached = true;
+  p.bench.run(3);
+  p.bench.channels.recorder_attached = false;
+  p.bench.run(2);
+  for (std::uint64_t tick = 5; tick < 8; ++tick) {
+    REQUIRE(p.bench.channels.recorder.pop(record));
+    CHECK(record.tick.tick == tick);
+  }
+  CHECK_FALSE(p.bench.channels.recorder.pop(record));
+}
