@@ -94,4 +94,7 @@ inline constexpr int kBisections = 5, kBisectionTests = 16;
 /// solved for before they can take over; smaller: a takeover may come a tick late.
 inline constexpr double kHeightGuess = 2e-4;
 
+/// Part of the raw mesh's distance by which a seeded contact may lie further off before more seeds are tried.
+inline constexpr double kImplausibleShare = 0.02;
+
 }  // namespace tangent

@@ -84,6 +84,14 @@ void seed_by_hierarchy(IterationContext& context, const ContactScene& scene, Sel
   });
 }
 
+/// Whether a contact lies so much further off than the raw mesh that a nearer one must have been missed.
+bool implausible(IterationContext& context, const ContactScene& scene, double rank) {
+  const NearestHit raw = scene.nearest().nearest(context.pose.position, std::numeric_limits<double>::infinity());
+  if (!raw || !is_round(context.finger)) return false;
+  const double bulge = patch_bulge(context.cache.patch(raw.triangle, context.settings.normal_form));
+  return rank > (1.0 + kImplausibleShare) * raw.distance_m + 2.0 * bulge;
+}
+
 void seed_by_distance(IterationContext& context, const ContactScene& scene, std::size_t seeds, int budget, bool twice,
                       Selection& selection) {
   std::array<NearestHit, kSeeds> hits;
@@ -159,7 +167,8 @@ SeedResult seed_contact(IterationContext& context, const ContactScene& scene) {
     seed_by_distance(context, scene, 1, context.settings.max_iterations, false, selection);
   } else {
     seed_by_hierarchy(context, scene, selection);
-    if (selection.group != 0) seed_by_distance(context, scene, kSeeds, kSeedBudget, true, selection);
+    if (selection.group != 0 || implausible(context, scene, selection.value))
+      seed_by_distance(context, scene, kSeeds, kSeedBudget, true, selection);
   }
   context.seed = 0;
   return selection.result;
