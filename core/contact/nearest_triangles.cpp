@@ -155,11 +155,18 @@ NearestTriangles::NearestTriangles(NearestTriangles&&) noexcept = default;
 NearestTriangles& NearestTriangles::operator=(NearestTriangles&&) noexcept = default;
 NearestTriangles::~NearestTriangles() = default;
 
+#if defined(__SANITIZE_THREAD__)
+// TBB isn't built with the thread sanitizer, which can't see how its workers wait for each other: none, then.
+static constexpr const char* kEmbreeConfig = "threads=1";
+#else
+static constexpr const char* kEmbreeConfig = nullptr;
+#endif
+
 Result<NearestTriangles> NearestTriangles::build(const ContactMesh& mesh) {
   auto impl = std::make_unique<Impl>();
   impl->mesh = &mesh;
   impl->extent = std::max(largest_coordinate(mesh.bounds().min), largest_coordinate(mesh.bounds().max));
-  impl->device = rtcNewDevice(nullptr);
+  impl->device = rtcNewDevice(kEmbreeConfig);
   if (!impl->device) return fail("Embree could not be started", "nearest-triangle query", "the processor needs SSE2");
   rtcSetDeviceMemoryMonitorFunction(impl->device, on_memory, &impl->bytes);
   impl->scene = rtcNewScene(impl->device);
