@@ -56,10 +56,13 @@ inline constexpr double kLongestStepPerTravel = 4.0;
 
 /// New planes `robust` spends on following the kept contact before it seeds anew, 1. More: a stale contact
 /// costs longer before it is given up; fewer: slow but sound convergence is thrown away.
-inline constexpr int kTrackBudget = 12;
+inline constexpr int kTrackBudget = 8;
 
 /// New planes a seed of `robust` may spend, 1.
 inline constexpr int kSeedBudget = 16;
+
+/// New planes a suspected rival may cost, 1: its place is known to 1/30 of a triangle, where Newton needs two or three.
+inline constexpr int kRivalBudget = 5;
 
 /// Nearest triangles that seed a contact, 1. 24 found every stable contact of the shared pose files in the
 /// prototype (ALGORITHM.md 7). More: slower re-seeding; fewer: contacts missed in rough ground.

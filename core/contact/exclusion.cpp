@@ -247,6 +247,7 @@ struct EdgeEnds {
   Vec3 np, nq;                  ///< corner normals of the triangle
   Vec3 inside;                  ///< the opposite corner
   double length = 0.0;
+  double sag = 0.0;             ///< largest distance of the curve from the chord
 };
 
 EdgeEnds edge_ends(const ContactMesh& mesh, const PnPatch& patch, std::uint32_t t, std::uint32_t edge) {
@@ -264,6 +265,12 @@ EdgeEnds edge_ends(const ContactMesh& mesh, const PnPatch& patch, std::uint32_t 
     const double length2 = glm::dot(v, v);
     return length2 > 0.0 ? v / std::sqrt(length2) : otherwise;
   };
+  const auto off_chord = [&](const Vec3& b) {
+    const Vec3 d = b - e.p;
+    const Vec3 off = d - glm::dot(d, e.chord) * e.chord;
+    return std::sqrt(glm::dot(off, off));
+  };
+  e.sag = std::max(off_chord(patch.control_point(kNearFirst[edge])), off_chord(patch.control_point(kNearSecond[edge])));
   e.from_p = direction(patch.control_point(kNearFirst[edge]) - e.p, e.chord);
   e.from_q = direction(patch.control_point(kNearSecond[edge]) - e.q, -e.chord);
   return e;
@@ -276,6 +283,14 @@ double beyond_ends(const EdgeEnds& e, const Vec3& centre) {
     return -glm::dot(d, inwards) - std::sqrt(glm::dot(d, d)) * std::abs(glm::dot(normal, inwards));
   };
   return std::max(behind(e.p, e.from_p, e.np), behind(e.q, e.from_q, e.nq));
+}
+
+/// Lower bound of the distance to the edge's curve, by its control polygon.
+double edge_distance(const EdgeEnds& e, const Vec3& centre) {
+  const Vec3 d = centre - e.p;
+  const double along = std::clamp(glm::dot(d, e.chord), 0.0, e.length);
+  const Vec3 off = d - along * e.chord;
+  return std::sqrt(glm::dot(off, off)) - e.sag;
 }
 
 /// How far c lies over the triangle rather than over the edge's fan, at both ends.
@@ -315,7 +330,7 @@ static double vertex_pull(const ContactMesh& mesh, std::uint32_t t, std::uint32_
   return strongest;
 }
 
-double exclude_feature_contacts(PatchCache& cache, std::uint32_t t, NormalForm form, const Vec3& centre) {
+double exclude_feature_contacts(PatchCache& cache, std::uint32_t t, NormalForm form, const Vec3& centre, double bound_m) {
   const ContactMesh& mesh = cache.mesh();
   std::array<EdgeEnds, 3> ends;
   {
@@ -329,13 +344,29 @@ double exclude_feature_contacts(PatchCache& cache, std::uint32_t t, NormalForm f
     const EdgeLink other = mesh.across(t, k);
     if (safe <= 0.0 && other.triangle != kNone)
       safe = over_face(edge_ends(mesh, cache.patch(other.triangle, form), other.triangle, other.edge), centre);
+    safe = std::max(safe, 0.5 * (edge_distance(ends[k], centre) - bound_m));
     margin = std::min(margin, std::max(0.0, safe));
   }
   for (std::uint32_t k = 0; k < 3; ++k) {
     if (!mesh.feature_corner(t, k)) continue;
-    margin = std::min(margin, std::max(0.0, vertex_pull(mesh, t, k, centre)));
+    const Vec3 d = centre - mesh.position(t, k);
+    double safe = 0.5 * (std::sqrt(glm::dot(d, d)) - bound_m);
+    if (safe <= 0.0) safe = vertex_pull(mesh, t, k, centre);
+    margin = std::min(margin, std::max(0.0, safe));
   }
   return margin;
+}
+
+double corner_exclusion(const ContactMesh& mesh, std::uint32_t t, const Vec3& centre) {
+  constexpr double kGentle = 0.75;  // corner normals within 41 degrees: the patch bends less than it is wide
+  const auto p = mesh.positions(t);
+  const auto n = mesh.normals(t);
+  if (glm::dot(n[0], n[1]) < kGentle || glm::dot(n[1], n[2]) < kGentle || glm::dot(n[2], n[0]) < kGentle) return 0.0;
+  const Vec3 a = glm::cross(centre - p[0], n[0]), b = glm::cross(centre - p[1], n[1]), c = glm::cross(centre - p[2], n[2]);
+  const Vec3 mean = (a + b + c) / 3.0;
+  const auto square = [](const Vec3& v) { return glm::dot(v, v); };
+  const double wide2 = std::max({square(a - mean), square(b - mean), square(c - mean)});
+  return std::max(0.0, std::sqrt(square(mean)) - 2.0 * std::sqrt(wide2));
 }
 
 }  // namespace tangent

@@ -26,9 +26,13 @@ struct PatchExclusion {
 /// 1/2^kBisections of the patch, or until the left parts would be unstable (det M or trace M below zero).
 PatchExclusion exclude_contact(const PnPatch& patch, const Vec3& centre);
 
-/// Margin in the same sense for the contacts on the crease and boundary edges of triangle t and on their ends; the
-/// largest double where there are none. Judged from the ends of each edge: seen along the edge the centre passes its
-/// end once, seen across it leaves the face for the fan once.
-double exclude_feature_contacts(PatchCache& cache, std::uint32_t t, NormalForm form, const Vec3& centre);
+/// Margin in the same sense for the contacts on the crease and boundary edges of triangle t and on their ends that
+/// are nearer to the centre than `bound_m`; the largest double where there are none. Judged from the ends of each
+/// edge: seen along the edge the centre passes its end once, seen across it leaves the face for the fan once.
+double exclude_feature_contacts(PatchCache& cache, std::uint32_t t, NormalForm form, const Vec3& centre, double bound_m);
+
+/// A first look at a face from its corners alone, without its patch: by how much the triangle of the corners' misses
+/// (c - P) x N stays clear of zero, after as much room for the patch's bending as that triangle is wide. 0: look closer.
+double corner_exclusion(const ContactMesh& mesh, std::uint32_t t, const Vec3& centre);
 
 }  // namespace tangent

@@ -27,20 +27,31 @@ IterationResult iterate_from_closest(IterationContext& context, std::uint32_t tr
   return result;
 }
 
-/// Proof that triangle t holds no contact, its crease and boundary edges included; for centred fingers.
-PatchExclusion excluded(IterationContext& context, std::uint32_t t) {
-  if (context.finger.unroundness_m() > 0.0) {
-    const NearestHit hit = closest_on_triangle(context.cache.mesh(), t, context.pose.position);
-    return {0.0, 0.0, true, hit.u, hit.v};
-  }
+/// Proof that triangle t holds no contact of a rank under `bound`, its crease and boundary edges included; for round
+/// fingers. Its margin is how far the centre may go until the triangle could hold one.
+PatchExclusion excluded(IterationContext& context, std::uint32_t t, double bound) {
+  const ContactMesh& mesh = context.cache.mesh();
+  const Vec3& centre = context.pose.position;
   const NormalForm form = context.settings.normal_form;
-  PatchExclusion proof = exclude_contact(context.cache.patch(t, form), context.pose.position);
-  if (context.cache.mesh().interior(t)) return proof;
-  proof.least_height_m = 0.0;  // of the face alone
-  proof.margin_m = std::min(proof.margin_m, exclude_feature_contacts(context.cache, t, form, context.pose.position));
-  if (proof.margin_m > 0.0 || proof.possible) return proof;
-  const NearestHit hit = closest_on_triangle(context.cache.mesh(), t, context.pose.position);
-  return {0.0, 0.0, true, hit.u, hit.v};
+  const auto unknown = [&] {
+    const NearestHit hit = closest_on_triangle(mesh, t, centre);
+    return PatchExclusion{0.0, 0.0, true, hit.u, hit.v, 0.0};
+  };
+  if (!is_round(context.finger)) return unknown();
+  PatchExclusion proof;
+  proof.margin_m = corner_exclusion(mesh, t, centre);
+  if (proof.margin_m > 0.0) {
+    proof.possible = false;
+  } else {
+    proof = exclude_contact(context.cache.patch(t, form), centre);
+    proof.margin_m = std::max(proof.margin_m, 0.5 * (proof.least_height_m - bound));
+    if (proof.margin_m > 0.0) proof.possible = false;
+  }
+  if (mesh.interior(t)) return proof;
+  const double features = exclude_feature_contacts(context.cache, t, form, centre, bound);
+  if (features <= 0.0) return unknown();
+  proof.margin_m = std::min(proof.margin_m, features);
+  return proof;
 }
 
 /// Keeps the best of many seeds: converged before unstable before unconverged, then the least rank or error.
@@ -76,7 +87,7 @@ void seed_by_hierarchy(IterationContext& context, const ContactScene& scene, Sel
   query.tilt_rad = context.finger.tilt_rad();
   int solves = 0;
   scene.hierarchy().visit(query, [&](std::uint32_t t, ContactQuery& q) {
-    if (!excluded(context, t).possible) return true;
+    if (!excluded(context, t, selection.group == 0 ? selection.value : std::numeric_limits<double>::max()).possible) return true;
     context.seed = static_cast<std::uint8_t>(std::min(++solves, 255));
     selection.offer(context.finger, iterate_from_closest(context, t, kSeedBudget));
     if (selection.group == 0) limit_query(q, context.finger, selection.value);
@@ -125,8 +136,8 @@ bool shares_feature(const ContactMesh& mesh, std::uint32_t t, const KnownContact
 }
 
 /// Whether triangle t surely belongs to the slope that leads to a known contact: towards each of its corners the
-/// normal turns no faster than a contact at height h stays stable with (1 + h k > 0, with room), and the corner lies
-/// beside the contact rather than over or under it.
+/// normal turns no faster than a contact at height h stays stable with (1 + h k > 0, with room), and the corner does
+/// not rise from it towards the finger.
 bool same_basin(const ContactMesh& mesh, std::uint32_t t, const KnownContact& known) {
   if (t == known.triangle) return true;
   if (known.feature != Feature::face && shares_feature(mesh, t, known)) return true;
@@ -134,7 +145,7 @@ bool same_basin(const ContactMesh& mesh, std::uint32_t t, const KnownContact& kn
     const Vec3 dp = mesh.position(t, k) - known.point;
     const Vec3 dn = mesh.normal(t, k) - known.normal;
     const double distance2 = glm::dot(dp, dp), over = glm::dot(dp, known.normal);
-    if (over * over > 0.25 * distance2) return false;
+    if (over * known.height_m > 0.0 && over * over > 0.25 * distance2) return false;
     if (known.height_m * glm::dot(dn, dp) < -0.5 * distance2) return false;
   }
   return true;
@@ -204,10 +215,9 @@ RivalResult find_rival(IterationContext& context, const ContactScene& scene, con
     const ContactMesh& mesh = context.cache.mesh();
     for (std::size_t i = 0; i < known_count; ++i)
       if (same_basin(mesh, t, known[i])) return true;
-    const PatchExclusion proof = excluded(context, t);
-    const double safe = std::max(proof.margin_m, 0.5 * (proof.least_height_m - bound_m));
-    if (safe > 0.0) {
-      shrink(q, safe);
+    const PatchExclusion proof = excluded(context, t, bound_m);
+    if (proof.margin_m > 0.0 && !proof.possible) {
+      shrink(q, proof.margin_m);
       return true;
     }
     if (!proof.possible) {
@@ -223,7 +233,7 @@ RivalResult find_rival(IterationContext& context, const ContactScene& scene, con
     }
     search.seed = static_cast<std::uint8_t>(std::min(++solves, 255));
     IterationResult r;
-    iterate(search, face_at(t, proof.u, proof.v), kSeedBudget, r);
+    iterate(search, face_at(t, proof.u, proof.v), kRivalBudget, r);
     result.evaluations += r.evaluations;
     if (!r.converged()) {
       // No contact there now, but one may come up: ask again before long.
