@@ -45,13 +45,19 @@ double edge_fraction(std::uint32_t edge, double u, double v) {
 EdgeFan edge_fan(PatchCache& cache, std::uint32_t t, std::uint32_t edge, double f, NormalForm form) {
   const ContactMesh& mesh = cache.mesh();
   const Vec2 uv = edge_point_uv(edge, f), along = edge_direction(edge);
-  const SurfaceSample s = evaluate(cache.patch(t, form), uv.x, uv.y);
+  const PnPatch& patch = cache.patch(t, form);
+  const SurfaceSample s = evaluate(patch, uv.x, uv.y);
+  const SecondDerivatives second = evaluate_second(patch, uv.x, uv.y);
 
   EdgeFan fan;
   fan.point = s.point;
   fan.point_f = along.x * s.point_u + along.y * s.point_v;
   Vec3 chord = mesh.position(t, (edge + 1) % 3) - mesh.position(t, edge);
   fan.tangent = unit(glm::dot(fan.point_f, fan.point_f) > 1e-12 * glm::dot(chord, chord) ? fan.point_f : chord);
+  const Vec3 bend = along.x * along.x * second.point_uu + 2.0 * along.x * along.y * second.point_uv + along.y * along.y * second.point_vv;
+  const double speed = std::sqrt(glm::dot(fan.point_f, fan.point_f));
+  fan.tangent_f = speed > 0.0 ? (bend - glm::dot(bend, fan.tangent) * fan.tangent) / speed : Vec3(0.0);
+  fan.near_normal = s.normal;
   fan.tilt_near = std::clamp(glm::dot(s.normal, fan.tangent), -1.0, 1.0);
   const Vec3 across = s.normal - fan.tilt_near * fan.tangent;
   fan.e1 = glm::dot(across, across) > 1e-12 ? unit(across) : any_perpendicular(fan.tangent);
@@ -63,12 +69,14 @@ EdgeFan edge_fan(PatchCache& cache, std::uint32_t t, std::uint32_t edge, double 
   if (other.triangle == kNone) {
     fan.fan = kBoundaryFan;
     fan.tilt_far = fan.tilt_near;
+    fan.far_normal = fan.near_normal;
     fan.far_normal_f = fan.near_normal_f;
     return fan;
   }
   // The neighbour runs along the edge the other way.
   const Vec2 other_uv = edge_point_uv(other.edge, 1.0 - f), other_along = edge_direction(other.edge);
   const SurfaceSample o = evaluate(cache.patch(other.triangle, form), other_uv.x, other_uv.y);
+  fan.far_normal = o.normal;
   fan.tilt_far = std::clamp(glm::dot(o.normal, fan.tangent), -1.0, 1.0);
   fan.fan = std::atan2(glm::dot(o.normal, fan.e2), glm::dot(o.normal, fan.e1));
   fan.far_normal_f = -(other_along.x * o.normal_u + other_along.y * o.normal_v);
@@ -86,7 +94,9 @@ FanNormal fan_normal(const EdgeFan& fan, double turn) {
   n.normal = tilt * fan.tangent + level * radial;
   n.by_turn = level * circular;
   if (level > 1e-9) n.by_turn += tilt_rate * (fan.tangent - (tilt / level) * radial);
-  const Vec3 by_f = (1.0 - share) * fan.near_normal_f + share * fan.far_normal_f;
+  const Vec3 between = (1.0 - share) * fan.near_normal + share * fan.far_normal;
+  const Vec3 by_f = (1.0 - share) * fan.near_normal_f + share * fan.far_normal_f +
+                    glm::dot(between - n.normal, fan.tangent_f) * fan.tangent;
   n.by_f = by_f - glm::dot(by_f, n.normal) * n.normal;
   return n;
 }

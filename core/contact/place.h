@@ -30,14 +30,16 @@ struct EdgeFan {
   Vec3 e1, e2;                  ///< perpendicular to the tangent; e1 along the near side's normal, e2 away from its face
   double tilt_near = 0.0, tilt_far = 0.0;  ///< normal . tangent on the two sides
   double fan = 0.0;             ///< angle from the near normal to the far one, rad; positive: convex
-  Vec3 near_normal_f, far_normal_f;        ///< derivatives of the side normals along f
+  Vec3 near_normal, far_normal;            ///< unit normals of the two sides
+  Vec3 near_normal_f, far_normal_f;        ///< their derivatives along f
+  Vec3 tangent_f;                          ///< derivative of the unit tangent along f
 };
 
 /// f runs from corner `edge` to corner `edge + 1` of triangle t. Precondition: not a smooth edge.
 EdgeFan edge_fan(PatchCache& cache, std::uint32_t t, std::uint32_t edge, double f, NormalForm form);
 
-/// Unit normal of the fan at angle `turn`, its derivative along the turn and (by interpolation between the
-/// sides) along f.
+/// Unit normal of the fan at angle `turn`, its derivative along the turn and along f. The latter is interpolated
+/// between the sides, but for its part along the edge, N_f.T = tilt_f - N.T_f, which is exact.
 struct FanNormal {
   Vec3 normal, by_turn, by_f;
 };
