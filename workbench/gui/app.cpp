@@ -23,6 +23,7 @@ struct App::Ui {
   PresetsPanel presets;
   IterationsPanel iterations;
   FoldedPanel mesh, devices, log;
+  bool left_scrolls = false, right_scrolls = false;
   ViewPanel view;
   PlotsPanel plots = make_plots_panel();
 
@@ -88,7 +89,8 @@ void App::Ui::draw_splitters(const UiContext& ui, AppModel& model, const Layout&
   LayoutSizes& sizes = model.sizes();
   sizes = drag_left(sizes, splitter("##splitter/left", layout.left_splitter, true).x, ui.scale);
   sizes = drag_right(sizes, splitter("##splitter/right", layout.right_splitter, true).x, ui.scale);
-  sizes = drag_plots(sizes, splitter("##splitter/plots", layout.plot_splitter, false).y, ui.scale);
+  const float dy = splitter("##splitter/plots", layout.plot_splitter, false).y;
+  if (dy != 0.0f) sizes = drag_plots(sizes, dy, layout.plots.h, ui.scale);
 }
 
 void App::Ui::draw_column(const char* name, const Rect& rect, const UiContext& ui, AppModel& model, bool left) {
@@ -99,9 +101,13 @@ void App::Ui::draw_column(const char* name, const Rect& rect, const UiContext& u
   constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove |
                                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNav |
                                      ImGuiWindowFlags_AlwaysVerticalScrollbar;
+  bool& scrolls = left ? left_scrolls : right_scrolls;
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(ui.px(8), ui.px(4)));
+  if (!scrolls) ImGui::PushStyleColor(ImGuiCol_ScrollbarGrab, IM_COL32_BLACK_TRANS);
   ImGui::Begin(name, nullptr, flags);
+  if (!scrolls) ImGui::PopStyleColor();
   ImGui::PopStyleVar();
+  scrolls = ImGui::GetScrollMaxY() > 0.0f;
   if (left) {
     draw_parameter_panels(ui, model, parameters);
     draw_presets_panel(ui, model, presets);

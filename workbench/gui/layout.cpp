@@ -10,6 +10,7 @@ constexpr float kMenu = 32.0f, kTransport = 34.0f, kStatus = 22.0f, kSplitter = 
 constexpr float kLeastViewWidth = 280.0f, kLeastViewHeight = 160.0f;
 constexpr float kLeastColumn = 250.0f, kMostColumn = 620.0f;
 constexpr float kLeastPlots = 90.0f, kMostPlots = 1400.0f;
+constexpr float kPlotShare = 0.325f, kLeastByShare = 200.0f, kMostByShare = 560.0f;
 }  // namespace
 
 Layout compute_layout(const LayoutSizes& sizes, float width, float height, float scale) {
@@ -21,7 +22,8 @@ Layout compute_layout(const LayoutSizes& sizes, float width, float height, float
   out.transport = {0, height - status - transport, width, transport};
   const float middle = std::max(0.0f, height - menu - status - transport);
 
-  float plots = sizes.show_plots ? px(sizes.plots) + gap : 0.0f;
+  const float by_share = std::clamp(kPlotShare * middle / scale, kLeastByShare, kMostByShare);
+  float plots = sizes.show_plots ? px(sizes.plots > 0.0f ? sizes.plots : by_share) + gap : 0.0f;
   plots = std::clamp(plots, 0.0f, std::max(0.0f, middle - px(kLeastViewHeight)));
   float left = sizes.show_left ? px(sizes.left) + gap : 0.0f;
   float right = sizes.show_right ? px(sizes.right) + gap : 0.0f;
@@ -51,8 +53,8 @@ LayoutSizes drag_right(LayoutSizes sizes, float dx, float scale) {
   sizes.right = std::clamp(sizes.right - dx / scale, kLeastColumn, kMostColumn);
   return sizes;
 }
-LayoutSizes drag_plots(LayoutSizes sizes, float dy, float scale) {
-  sizes.plots = std::clamp(sizes.plots - dy / scale, kLeastPlots, kMostPlots);
+LayoutSizes drag_plots(LayoutSizes sizes, float dy, float shown, float scale) {
+  sizes.plots = std::clamp((shown - dy) / scale, kLeastPlots, kMostPlots);
   return sizes;
 }
 

@@ -14,7 +14,7 @@ struct Rect {
 struct LayoutSizes {
   float left = 312.0f;    ///< parameter column
   float right = 328.0f;   ///< iterations, mesh, devices
-  float plots = 214.0f;   ///< height of the plots
+  float plots = 0.0f;     ///< height of the plots; 0: not dragged yet, a share of the window
   bool show_left = true, show_right = true, show_plots = true;
 };
 
@@ -26,9 +26,10 @@ struct Layout {
 /// Keeps the 3D view at least 280 x 160 points by taking from the others.
 Layout compute_layout(const LayoutSizes& sizes, float width, float height, float scale);
 
-/// Lets a splitter be dragged by (dx, dy) pixels: new sizes, clamped to the ranges that make sense.
+/// Lets a splitter be dragged by (dx, dy) pixels: new sizes, clamped to the ranges that make sense. `shown`: the height
+/// of the plots as they are.
 LayoutSizes drag_left(LayoutSizes sizes, float dx, float scale);
 LayoutSizes drag_right(LayoutSizes sizes, float dx, float scale);
-LayoutSizes drag_plots(LayoutSizes sizes, float dy, float scale);
+LayoutSizes drag_plots(LayoutSizes sizes, float dy, float shown, float scale);
 
 }  // namespace tangent

@@ -30,6 +30,7 @@ ThemeColours make_colours(Theme theme) {
   c.text_faint = dark ? hex(0x6F7883) : hex(0x838C96);
   c.accent = packed(p.accent);
   c.accent_soft = packed(with_alpha(p.accent, dark ? 0.26f : 0.20f));
+  c.accent_fill = packed(mix(p.panel, p.accent, dark ? 0.36f : 0.26f));
   c.good = packed(p.good);
   c.warning = packed(p.warning);
   c.bad = packed(p.bad);

@@ -21,7 +21,8 @@ struct ThemeColours {
   ImU32 grid, grid_minor;
   ImU32 border;
   ImU32 text, text_dim, text_faint;
-  ImU32 accent, accent_soft;  ///< soft: fills behind text
+  ImU32 accent, accent_soft;  ///< soft: translucent, fills behind text
+  ImU32 accent_fill;          ///< the same over a panel, opaque: buttons that are on
   ImU32 good, warning, bad;
 };
 

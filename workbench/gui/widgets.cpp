@@ -62,11 +62,14 @@ bool section(const UiContext& ui, const char* title, bool& open) {
   const float height = ui.px(24);
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const float width = ImGui::GetContentRegionAvail().x;
-  const float bleed = ImGui::GetCursorStartPos().x;
   if (ImGui::InvisibleButton(title, {std::max(1.0f, width), height})) open = !open;
   ui.items.note_last(std::string("section/") + title);
   const bool hovered = ImGui::IsItemHovered();
-  draw.AddRectFilled({at.x - bleed, at.y}, {at.x + width + bleed, at.y + height}, ui.colours.panel_header);
+  // From edge to edge of the column, past the padding that ImGui would clip at.
+  const float left = ImGui::GetWindowPos().x, right = at.x + width + ui.px(4);
+  draw.PushClipRect({left, draw.GetClipRectMin().y}, {right, draw.GetClipRectMax().y}, false);
+  draw.AddRectFilled({left, at.y}, {right, at.y + height}, ui.colours.panel_header);
+  draw.PopClipRect();
   const ImU32 ink = hovered ? ui.colours.text : ui.colours.text_dim;
   const ImVec2 c{at.x + ui.px(4), at.y + 0.5f * height};
   const float r = ui.px(4);
@@ -180,7 +183,7 @@ bool icon_button(const UiContext& ui, std::string_view path, Icon icon, const ch
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const bool plain = icon == Icon::reset || icon == Icon::cross;
   if (on || hovered || !plain) {
-    const ImU32 fill = on ? ui.colours.accent_soft : ImGui::GetColorU32(hovered ? ImGuiCol_ButtonHovered : ImGuiCol_Button);
+    const ImU32 fill = on ? ui.colours.accent_fill : ImGui::GetColorU32(hovered ? ImGuiCol_ButtonHovered : ImGuiCol_Button);
     if (!plain || hovered) draw.AddRectFilled(at, {at.x + width, at.y + side}, fill, ui.px(3));
   }
   const ImU32 ink = !enabled ? ui.colours.text_faint : on ? ui.colours.accent : hovered ? ui.colours.text : ui.colours.text_dim;
@@ -199,8 +202,8 @@ bool text_button(const UiContext& ui, std::string_view path, const char* text, c
 bool toggle_button(const UiContext& ui, std::string_view path, const char* text, bool& on, const char* tip) {
   const bool was = on;
   if (was) {
-    ImGui::PushStyleColor(ImGuiCol_Button, ui.colours.accent_soft);
-    ImGui::PushStyleColor(ImGuiCol_ButtonHovered, ui.colours.accent_soft);
+    ImGui::PushStyleColor(ImGuiCol_Button, ui.colours.accent_fill);
+    ImGui::PushStyleColor(ImGuiCol_ButtonHovered, ui.colours.accent_fill);
   }
   const bool pressed = text_button(ui, path, text, tip);
   if (was) ImGui::PopStyleColor(2);

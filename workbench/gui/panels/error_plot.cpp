@@ -68,6 +68,8 @@ void draw_error_plot(const UiContext& ui, AppModel& model, bool&) {
   draw.PopClipRect();
   if (iterations.empty()) return;
 
+  const float spacing = static_cast<float>(1.0 / count) * (max.x - min.x - 2.0f * inset);
+  const float radius = std::clamp(0.38f * spacing, ui.px(1.3f), ui.px(3.2f));
   std::optional<std::size_t> nearest;
   float nearest_distance = ui.px(14);
   for (std::size_t i = 0; i < iterations.size(); ++i) {
@@ -86,7 +88,7 @@ void draw_error_plot(const UiContext& ui, AppModel& model, bool&) {
   for (std::size_t i = 0; i < iterations.size(); ++i) {
     const ImVec2 p{x_of(static_cast<double>(i)), y_of(std::max(iterations[i].error_m * 1e6, kFloor_um))};
     const bool marked = model.tick().selected() == i || (hovered && nearest == i);
-    draw.AddCircleFilled(p, ui.px(marked ? 4.5f : 3.2f), packed(iteration_colour(i, iterations.size())), 16);
+    draw.AddCircleFilled(p, marked ? ui.px(4.5f) : radius, packed(iteration_colour(i, iterations.size())), 16);
     if (marked) draw.AddCircle(p, ui.px(6.5f), ui.colours.text, 20, ui.px(1.2f));
   }
   if (!hovered || !nearest) return;

@@ -41,11 +41,11 @@ PlotsPanel make_plots_panel() {
                  {"z", at(Channel::force_z), &Palette::force_z}, {"total", at(Channel::force_magnitude), &Palette::force_magnitude}}});
   panel.plots.emplace_back(PlotSpec{.id = "cld", .title = "Contact display", .unit = "mm", .scale = 1e3, .format = "%7.3f",
       .series = {{"commanded", at(Channel::cld_commanded), &Palette::cld_commanded}, {"measured", at(Channel::cld_measured), &Palette::cld_measured}}});
-  panel.plots.emplace_back(PlotSpec{.id = "error", .title = "Error", .unit = "\u00b5m", .scale = 1e6, .log = true, .floor = 1e-6, .format = "%9.3g",
+  panel.plots.emplace_back(PlotSpec{.id = "error", .title = "Error", .unit = "\u00b5m", .scale = 1e6, .log = true, .floor = 1e-6, .format = "%-8.3g",
       .series = {{"error", at(Channel::error), &Palette::error}}});
-  panel.plots.emplace_back(PlotSpec{.id = "iterations", .title = "Iterations", .unit = "", .format = "%3.0f",
+  panel.plots.emplace_back(PlotSpec{.id = "iterations", .title = "Iterations", .unit = "", .format = "%-4.0f",
       .series = {{"iterations", at(Channel::iterations), &Palette::iterations, true}}});
-  panel.plots.emplace_back(PlotSpec{.id = "tick_time", .title = "Tick time", .unit = "\u00b5s", .scale = 1e6, .format = "%7.1f",
+  panel.plots.emplace_back(PlotSpec{.id = "tick_time", .title = "Tick time", .unit = "\u00b5s", .scale = 1e6, .format = "%-7.1f",
       .series = {{"tick time", at(Channel::tick_time), &Palette::tick_time}}});
   return panel;
 }

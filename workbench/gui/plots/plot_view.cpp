@@ -41,7 +41,7 @@ void PlotView::draw(const UiContext& ui, const ChannelStore& store, TimeAxis& ax
   ImGui::PushID(spec_.id.c_str());
   interact(ui, axis, link, area);
   interact_values(ui, area);
-  fit(store, axis);
+  fit(store, axis, reference);
   draw_grid(ui, axis, link, area, time_labels);
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   draw.PushClipRect(area.min, area.max, true);
@@ -114,7 +114,7 @@ void PlotView::interact_values(const UiContext& ui, const Area& area) {
   if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) values_.set_automatic();
 }
 
-void PlotView::fit(const ChannelStore& store, const TimeAxis& axis) {
+void PlotView::fit(const ChannelStore& store, const TimeAxis& axis, double reference) {
   MinMax visible;
   const auto from = static_cast<std::uint64_t>(std::max(0.0, std::floor(axis.from())));
   const auto to = static_cast<std::uint64_t>(std::max(0.0, std::ceil(axis.to())));
@@ -123,6 +123,8 @@ void PlotView::fit(const ChannelStore& store, const TimeAxis& axis) {
   }
   nothing_in_view_ = visible.empty();
   if (visible.empty()) return;
+  // A line at the edge of the axis would say nothing.
+  if (std::isfinite(reference)) visible.include(static_cast<float>(1.2 * reference));
   visible.min = static_cast<float>(static_cast<double>(visible.min) * spec_.scale);
   visible.max = static_cast<float>(static_cast<double>(visible.max) * spec_.scale);
   if (spec_.log) values_.fit_log(visible, spec_.floor); else values_.fit_linear(visible, spec_.with_zero);

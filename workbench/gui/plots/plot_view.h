@@ -44,7 +44,6 @@ struct PlotLink {
   std::optional<double> hover;              ///< under the pointer, from the last frame
   std::optional<double> hover_next;         ///< found while drawing this frame
   std::optional<std::uint64_t> clicked;     ///< the user clicked this tick
-  std::optional<double> reference;          ///< horizontal line in the error plot, channel units
 };
 
 class PlotView {
@@ -55,14 +54,15 @@ class PlotView {
   PlotSpec& spec() { return spec_; }
   const ValueAxis& values() const { return values_; }
 
-  /// Into the rectangle at `pos`; `time_labels`: also the labels of the time axis, below.
+  /// Into the rectangle at `pos`; `time_labels`: also the labels of the time axis, below; `reference`: a dashed
+  /// horizontal line, channel units.
   void draw(const UiContext& ui, const ChannelStore& store, TimeAxis& axis, PlotLink& link, ImVec2 pos, ImVec2 size,
             bool time_labels, double reference = std::numeric_limits<double>::quiet_NaN());
 
  private:
   struct Area;
   void draw_header(const UiContext& ui, const ChannelStore& store, const PlotLink& link, const Area& area);
-  void fit(const ChannelStore& store, const TimeAxis& axis);
+  void fit(const ChannelStore& store, const TimeAxis& axis, double reference);
   void draw_grid(const UiContext& ui, const TimeAxis& axis, const PlotLink& link, const Area& area, bool time_labels);
   void draw_series(const UiContext& ui, const ChannelStore& store, const TimeAxis& axis, const Area& area);
   void draw_cursors(const UiContext& ui, const TimeAxis& axis, const PlotLink& link, const Area& area, bool time_labels);
