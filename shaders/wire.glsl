@@ -7,6 +7,6 @@ float edge_coverage(vec2 weights, float width_px) {
   vec3 pixels = w / max(per_pixel, vec3(1e-9));
   float nearest = min(min(pixels.x, pixels.y), pixels.z);
   float height_px = 1.0 / max(max(max(per_pixel.x, per_pixel.y), per_pixel.z), 1e-6);
-  float room = smoothstep(1.5, 14.0, height_px);
+  float room = smoothstep(1.5, 22.0, height_px);
   return (1.0 - smoothstep(0.5 * width_px - 0.5, 0.5 * width_px + 0.5, nearest)) * mix(0.10, 1.0, room);
 }

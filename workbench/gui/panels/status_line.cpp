@@ -44,7 +44,8 @@ void draw_status_line(const UiContext& ui, AppModel& model, const Rect& rect, do
   put("worst", "worst", printed("%7.1f \u00b5s", servo.tick_worst_ns * 1e-3), 11, plain);
   const double kept_s = static_cast<double>(model.end_tick() - model.first_tick()) * model.tick_period_s();
   put("history", "History", printed("%5.1f s", kept_s), 8, plain);
-  const std::string right = printed("frame %.2f ms   %.0f/s", build_ms, static_cast<double>(ImGui::GetIO().Framerate));
+  // Pictures are the same every time: no wall-clock numbers in them.
+  const std::string right = model.options().deterministic ? std::string() : printed("frame %.2f ms   %.0f/s", build_ms, static_cast<double>(ImGui::GetIO().Framerate));
   const float w = number->CalcTextSizeA(number->FontSize, 1e9f, 0.0f, right.c_str()).x;
   if (x + w < rect.right() - ui.px(10)) draw.AddText(number, number->FontSize, {rect.right() - w - ui.px(10), y_number}, ui.colours.text_dim, right.c_str());
   ImGui::End();

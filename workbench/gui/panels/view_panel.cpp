@@ -145,7 +145,8 @@ void draw_picture(const UiContext& ui, AppModel& model, ViewPanel& state, SceneR
   const ImVec2 per_point = ImGui::GetIO().DisplayFramebufferScale;
   const auto begin = std::chrono::steady_clock::now();
   renderer.set_scene(model.scene(), model.presets().current().solver.normal_form);
-  const SceneFrame frame = scene_frame(model);
+  SceneFrame frame = scene_frame(model);
+  frame.pixel_scale = static_cast<double>(ui.scale * per_point.y);
   renderer.render(frame, model.view().camera, static_cast<int>(std::lround(rect.w * per_point.x)), static_cast<int>(std::lround(rect.h * per_point.y)));
   state.build_ms_outside = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
   ImDrawList& draw = *ImGui::GetWindowDrawList();

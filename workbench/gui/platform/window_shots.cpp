@@ -4,8 +4,10 @@
 #include "workbench/gui/app_model.h"
 #include "workbench/gui/platform/offscreen.h"
 #include "workbench/gui/render/scene_renderer.h"
+#include "workbench/session/preset_schema.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace tangent {
 namespace {
@@ -23,7 +25,20 @@ struct WindowView {
   void (*look)(AppModel& model);     ///< after them
 };
 
-void nothing(AppModel&) {}
+/// Camera to the side of the contact, whole mesh in view.
+void look_from_contact_side(AppModel& model) {
+  const ServoRecord* record = model.tick().record();
+  if (record == nullptr || model.scene() == nullptr) return;
+  Camera& camera = model.view().camera;
+  const Vec3& normal = record->tick.output.normal;
+  // yaw 0 looks from -y: the eye stands a third of a turn beside the contact's normal.
+  camera.yaw_rad = std::atan2(normal.x, -normal.y) - 0.9;
+  camera.pitch_rad = 0.5;
+  Box box = world_bounds(*model.scene());
+  const Vec3 reach(record->tick.input.finger.position);
+  box.include(reach);
+  camera.frame(box, 1.05, 1.5);
+}
 
 /// The tick with the most iterations among the last few thousand: there is something to see in it.
 void look_at_busiest_tick(AppModel& model) {
@@ -37,11 +52,25 @@ void look_at_busiest_tick(AppModel& model) {
     if (count > most) most = count, busiest = tick;
   }
   model.select_tick(busiest);
+  look_from_contact_side(model);
+  Box points;
+  for (const IterationRecord& it : model.tick().iterations()) points.include(it.point);
+  Camera& camera = model.view().camera;
+  if (points.empty()) return;
+  camera.target = points.centre();
+  camera.pitch_rad = 0.7;
+  camera.distance_m = std::max(6.0 * glm::length(points.size()), 0.01 * camera.scene_radius_m);
 }
 
-void show_planes(AppModel& model) {
+void show_surface(AppModel& model) { model.view().toggles.smooth_surface = true; }
+
+/// The paper's iteration with a gain too small for this ground: it swings before it settles.
+void solve_with_paper(AppModel& model) {
+  const auto set = [&](std::string_view key, double value) { model.set_value(*find_preset_key("solver", key), value); };
+  set("method", static_cast<double>(Method::paper));
+  set("gain_curvature_m", 4e-3);
   model.view().toggles.finger = false;
-  model.view().toggles.control_net = true;
+  model.view().toggles.force = false;
 }
 
 void enlarge_plots(AppModel& model) {
@@ -50,10 +79,11 @@ void enlarge_plots(AppModel& model) {
 }
 
 constexpr WindowView kViews[] = {
-    {"overview", "the whole window after 12 s of simulated exploration", Theme::dark, nothing, nothing},
-    {"light", "the same in the light theme", Theme::light, nothing, nothing},
-    {"iterations", "the window paused on the tick with the most iterations", Theme::dark, show_planes, look_at_busiest_tick},
-    {"plots", "the window with the plots enlarged", Theme::dark, enlarge_plots, nothing},
+    {"overview", "the whole window after 12 s of simulated exploration", Theme::dark, show_surface, look_from_contact_side},
+    {"light", "the same in the light theme", Theme::light, show_surface, look_from_contact_side},
+    {"iterations", "the window paused on the tick with the most iterations of the paper's method", Theme::dark,
+     solve_with_paper, look_at_busiest_tick},
+    {"plots", "the window with the plots enlarged", Theme::dark, enlarge_plots, look_from_contact_side},
 };
 
 /// Feeds the app frames of simulated time.

@@ -39,7 +39,7 @@ struct Camera {
   void zoom_at(double factor, const Vec2& pixel, int width_px, int height_px);
   /// Looks at the whole box, keeping the direction: its corners fit a view of this width over height, with
   /// `margin` to spare (1: one touches). No effect for an empty box.
-  void frame(const Box& world_box, double margin = 1.15, double aspect = 1.0);
+  void frame(const Box& world_box, double margin = 1.1, double aspect = 1.3);
 
   /// World relative to `origin` -> eye space (eye looks along -z). Subtracting the origin in double before
   /// anything becomes float keeps pixels steady a kilometre away from it.

@@ -10,23 +10,24 @@ namespace tangent {
 namespace {
 
 constexpr float kRollerRadius = 5e-3f;   // m (ALGORITHM.md 6, apparatus)
-constexpr float kHalfView = 19e-3f;      // m, of the rail shown
-constexpr float kFingerHeight = 0.62f;   // of life size: the inset is about the roller
+constexpr float kHalfView = 19e-3f;     // m, of the rail shown
+constexpr float kFingerHeight = 0.62f;  // of life size: the inset is about the roller
+constexpr float kEmPerMetre = 235.0f;
 
 // Outline of a fingertip over the rail: straight back, rounded tip, a pad that bulges down a little.
 void finger_outline(const OverlayCanvas& c, ImVec2 pad, float px_per_m) {
   const auto at = [&](float x_mm, float up_mm) {
     return ImVec2(pad.x + 1e-3f * x_mm * px_per_m, pad.y - kFingerHeight * 1e-3f * up_mm * px_per_m);
   };
-  c.list.PathLineTo(at(-19.0f, 1.2f));
+  c.list.PathLineTo(at(-27.0f, 1.2f));
   c.list.PathBezierCubicCurveTo(at(-10.0f, -0.6f), at(2.0f, -0.6f), at(9.0f, 0.9f), 24);
   c.list.PathBezierCubicCurveTo(at(15.5f, 2.4f), at(17.0f, 8.4f), at(12.5f, 11.4f), 24);
-  c.list.PathBezierCubicCurveTo(at(8.5f, 14.0f), at(-6.0f, 14.0f), at(-19.0f, 14.6f), 24);
+  c.list.PathBezierCubicCurveTo(at(8.5f, 14.0f), at(-6.0f, 14.0f), at(-27.0f, 14.6f), 24);
   c.list.PathFillConvex(c.ink(c.colours.finger, 0.30f));
-  c.list.PathLineTo(at(-19.0f, 1.2f));
+  c.list.PathLineTo(at(-27.0f, 1.2f));
   c.list.PathBezierCubicCurveTo(at(-10.0f, -0.6f), at(2.0f, -0.6f), at(9.0f, 0.9f), 24);
   c.list.PathBezierCubicCurveTo(at(15.5f, 2.4f), at(17.0f, 8.4f), at(12.5f, 11.4f), 24);
-  c.list.PathBezierCubicCurveTo(at(8.5f, 14.0f), at(-6.0f, 14.0f), at(-19.0f, 14.6f), 24);
+  c.list.PathBezierCubicCurveTo(at(8.5f, 14.0f), at(-6.0f, 14.0f), at(-27.0f, 14.6f), 24);
   c.list.PathStroke(c.ink(c.colours.finger, 0.9f), 0, 1.4f);
   c.list.PathLineTo(at(14.6f, 5.2f));  // the nail
   c.list.PathBezierCubicCurveTo(at(16.4f, 8.6f), at(13.0f, 11.8f), at(6.5f, 13.2f), 16);
@@ -36,7 +37,7 @@ void finger_outline(const OverlayCanvas& c, ImVec2 pad, float px_per_m) {
 void number_row(const OverlayCanvas& c, ImVec2 at, float right, Rgba colour, const char* name, const double* metres) {
   char text[32] = "      \xE2\x80\x94   ";
   if (metres != nullptr) std::snprintf(text, sizeof text, "%+7.3f mm", *metres * 1e3);
-  const float height = 0.86f * c.em;
+  const float height = 0.84f * c.em;
   c.list.AddCircleFilled({at.x + 0.3f * c.em, at.y + 0.5f * height}, 0.24f * c.em, c.ink(colour), 16);
   c.text(c.text_font, height, {at.x + 0.8f * c.em, at.y}, c.colours.text_dim, name);
   c.text(c.number_font, height, {right - c.text_size(c.number_font, text, height).x, at.y}, c.colours.text, text);
@@ -46,11 +47,11 @@ void number_row(const OverlayCanvas& c, ImVec2 at, float right, Rgba colour, con
 
 void draw_cld_inset(const OverlayCanvas& c, ImVec2 corner, double travel_m, const double* commanded_m,
                     const double* measured_m) {
-  const float width = 13.6f * c.em, height = 10.8f * c.em, pad = 0.7f * c.em;
+  const float width = 12.0f * c.em, height = 8.9f * c.em, pad = 0.7f * c.em;
   const ImVec2 min{corner.x - width, corner.y - height};
   c.card(min, corner);
   c.list.PushClipRect(min, corner, true);
-  const float px_per_m = (width - 2.0f * pad) / (2.0f * kHalfView);
+  const float px_per_m = kEmPerMetre * c.em;
   const float middle = min.x + 0.5f * width;
   const float rail = min.y + pad + kFingerHeight * 15e-3f * px_per_m + 2.0f * kRollerRadius * px_per_m;
   const float top = rail - 2.0f * kRollerRadius * px_per_m;  // where the roller touches the pad

@@ -27,7 +27,7 @@ struct OverlayCanvas {
   }
   /// With a soft halo in the background's colour.
   void haloed(ImFont* font, float height, ImVec2 at, Rgba colour, const std::string& words) const {
-    const Rgba halo = with_alpha(colours.background_bottom, 0.30f);
+    const Rgba halo = with_alpha(colours.background_bottom, 0.45f);
     for (const ImVec2 d : {ImVec2(-1, -1), ImVec2(1, -1), ImVec2(-1, 1), ImVec2(1, 1), ImVec2(-1, 0), ImVec2(1, 0),
                            ImVec2(0, -1), ImVec2(0, 1)}) {
       const float reach = 0.09f * height;

@@ -26,6 +26,7 @@ void FacetBuffer::upload(std::span<const FacetVertex> vertices) {
 }
 
 void FacetBuffer::draw() const {
+  if (count_ == 0) return;
   glBindVertexArray(array_.id());
   glDrawArrays(GL_TRIANGLES, 0, count_);
 }

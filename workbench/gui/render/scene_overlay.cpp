@@ -21,7 +21,7 @@ void draw_labels(const OverlayCanvas& c, double pixels_per_point, std::span<cons
     const Vec2 centre = label.pixel / pixels_per_point + label.away * clear + label.away * half;
     const ImVec2 at{c.top_left.x + static_cast<float>(std::round(centre.x - half.x)),
                     c.top_left.y + static_cast<float>(std::round(centre.y - half.y))};
-    c.haloed(c.number_font, height, at, label.colour, label.text);
+    c.haloed(c.number_font, height, at, mix(label.colour, c.colours.text, 0.3f), label.text);
   }
 }
 
@@ -65,7 +65,7 @@ void draw_bar(const OverlayCanvas& c, ImVec2 at, float length, Rgba colour, cons
 // Length and force to scale at the depth of the camera's target.
 void draw_scales(const OverlayCanvas& c, ImVec2 at, double metres_per_point, const SceneRenderer& renderer,
                  const SceneFrame& frame) {
-  const double limit_m = 7.0 * c.em * metres_per_point;
+  const double limit_m = 6.4 * c.em * metres_per_point;
   if (!(limit_m > 0.0)) return;
   const double length_m = round_number_below(limit_m);
   draw_bar(c, at, static_cast<float>(length_m / metres_per_point), c.colours.text_dim, length_text(length_m));
@@ -80,7 +80,7 @@ void draw_scales(const OverlayCanvas& c, ImVec2 at, double metres_per_point, con
 
 void draw_iteration_bar(const OverlayCanvas& c, ImVec2 at, const SceneFrame& frame) {
   const std::size_t count = frame.trace.size();
-  const float width = 9.0f * c.em, height = 0.55f * c.em;
+  const float width = 9.4f * c.em, height = 0.55f * c.em;
   const std::size_t cells = std::min<std::size_t>(count, 64);
   for (std::size_t i = 0; i < cells; ++i) {
     const std::size_t iteration = cells == count ? i : i * (count - 1) / (cells - 1);
@@ -114,15 +114,21 @@ void draw_scene_overlay(ImDrawList& draw_list, const ImVec2& top_left, double pi
   draw_labels(canvas, pixels_per_point, renderer.labels());
   const float em = canvas.em;
   const ImVec2 lower_left{top_left.x + 0.9f * em, top_left.y + size.y - 0.9f * em};
-  float left = lower_left.x;
+  const bool bar = frame.toggles.colour_bar && frame.toggles.planes && frame.trace.size() > 1;
+  if (frame.toggles.axes || bar) {  // behind them, so that they read on any facet
+    const ImVec2 card_size{frame.toggles.axes ? 17.6f * em : 10.4f * em, bar ? (frame.toggles.axes ? 7.2f : 3.9f) * em : 4.6f * em};
+    canvas.card({lower_left.x - 0.3f * em, lower_left.y + 0.2f * em - card_size.y},
+                {lower_left.x - 0.3f * em + card_size.x, lower_left.y + 0.2f * em});
+  }
+  float left = lower_left.x + 0.4f * em;
   if (frame.toggles.axes) {
     draw_triad(canvas, {lower_left.x + 2.1f * em, lower_left.y - 2.1f * em}, camera);
-    left += 5.2f * em;
+    left += 4.9f * em;
     const double metres_per_point = camera.metres_per_pixel(camera.target, renderer.height_px()) * pixels_per_point;
-    draw_scales(canvas, {left, lower_left.y - 0.4f * em}, metres_per_point, renderer, frame);
+    draw_scales(canvas, {left, lower_left.y - 0.7f * em}, metres_per_point, renderer, frame);
   }
-  if (frame.toggles.colour_bar && frame.toggles.planes && frame.trace.size() > 1) {
-    draw_iteration_bar(canvas, {left, lower_left.y - (frame.toggles.axes ? 4.4f : 1.4f) * em}, frame);
+  if (bar) {
+    draw_iteration_bar(canvas, {left, lower_left.y - (frame.toggles.axes ? 4.5f : 1.6f) * em}, frame);
   }
   if (frame.toggles.cld_inset && (frame.cld_commanded_m || frame.cld_measured_m)) {
     draw_cld_inset(canvas, {top_left.x + size.x - 0.9f * em, lower_left.y + 0.2f * em}, frame.display_travel_m,

@@ -112,7 +112,7 @@ void draw_iterations(Sketch& sketch, const SketchContext& c, std::vector<SceneLa
     if (it.feature != Feature::none) spread.include(it.point);
   }
   // About as wide as the points are apart, so that planes overlap without burying each other.
-  const double radius = std::clamp(glm::length(spread.size()), 0.35 * gizmo, 0.75 * gizmo);
+  const double radius = std::clamp(0.8 * glm::length(spread.size()), 0.12 * gizmo, 0.75 * gizmo);
   const auto selected = c.frame.selected_iteration;
   // All planes on top of each other cover 45 %, however many they are.
   const float fill = 1.0f - std::pow(0.55f, 1.0f / static_cast<float>(trace.size()));

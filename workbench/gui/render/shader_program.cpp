@@ -14,9 +14,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-using Files = std::vector<fs::path>;  // position: GLSL source-string number, for messages
+using Files = std::vector<fs::path>;
 
-// Appends `path` with its includes; #line keeps compiler messages true to file and line.
+// Line n of files[i] is compiled as line i * kLinesAFile + n. GLSL has a source-string number for this, but
+// Mesa 22.3 leaves it out of half of its messages.
+constexpr std::size_t kLinesAFile = 100'000;
+
+// Appends `path` with its includes.
 Status append_source(const fs::path& path, Files& files, std::string& text) {
   std::ifstream in(path);
   if (!in) return fail("can't read the shader", path.string(), "restore the file, or reinstall");
@@ -24,30 +28,31 @@ Status append_source(const fs::path& path, Files& files, std::string& text) {
   files.push_back(path);
   std::string line;
   static const std::regex kInclude(R"re(^\s*#include\s+"([^"]+)"\s*$)re");
-  for (int n = 1; std::getline(in, line); ++n) {
+  for (std::size_t n = 1; std::getline(in, line); ++n) {
     std::smatch match;
     if (!std::regex_match(line, match, kInclude)) {
       text += line + '\n';
       continue;
     }
     if (files.size() > 16) return fail("includes nest too deep", path.string() + ":" + std::to_string(n));
-    text += "#line 1 " + std::to_string(files.size()) + '\n';
+    text += "#line " + std::to_string(files.size() * kLinesAFile + 1) + '\n';
     if (Status s = append_source(path.parent_path() / match[1].str(), files, text); !s) return s;
-    text += "#line " + std::to_string(n + 1) + ' ' + std::to_string(number) + '\n';
+    text += "#line " + std::to_string(number * kLinesAFile + n + 1) + '\n';
   }
   return {};
 }
 
-// Drivers write "0:12(5): error: ..." (Mesa) or "0(12) : error ..." (NVIDIA): string number, then line.
+// Drivers write "0:12(5): error: ..." (Mesa) or "0(12) : error ..." (NVIDIA): source string, then line.
 Error compile_error(const std::string& log, const Files& files) {
-  static const std::regex kPlace(R"(^(?:ERROR:\s*)?(\d+)[:(](\d+)\)?(?:\(\d+\))?\s*:\s*(.*))");
+  static const std::regex kPlace(R"(^(?:ERROR:\s*)?\d+[:(](\d{1,9})\)?(?:\(\d+\))?\s*:\s*(.*))");
   std::istringstream lines(log);
   std::string line;
   while (std::getline(lines, line)) {
     std::smatch match;
     if (!std::regex_match(line, match, kPlace)) continue;
-    const std::size_t file = std::min<std::size_t>(std::stoul(match[1].str()), files.size() - 1);
-    return {match[3].str(), files[file].string() + ":" + match[2].str(), "mend the shader"};
+    const std::size_t place = std::stoul(match[1].str());
+    const std::size_t file = std::min(place / kLinesAFile, files.size() - 1);
+    return {match[2].str(), files[file].string() + ":" + std::to_string(place % kLinesAFile), "mend the shader"};
   }
   return {log.empty() ? "does not compile" : log.substr(0, log.find('\n')), files.front().string(), "mend the shader"};
 }

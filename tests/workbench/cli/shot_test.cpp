@@ -1,0 +1,84 @@
+// `workbench shot` as a process: names, sizes, failures.
+#ifdef TANGENT_HAS_GUI
+#include "tests/support/process.h"
+#include "workbench/gui/platform/offscreen.h"
+
+#include <doctest/doctest.h>
+
+using namespace tangent;
+using namespace tangent::testing;
+
+namespace {
+
+int big_endian(const std::string& bytes, std::size_t at) {
+  int value = 0;
+  for (std::size_t i = 0; i < 4; ++i) value = value * 256 + static_cast<unsigned char>(bytes[at + i]);
+  return value;
+}
+
+bool no_gl() {
+  const auto context = OffscreenContext::open();
+  if (!context) MESSAGE("skipped: " << context.error().message());
+  return !context;
+}
+
+}  // namespace
+
+TEST_CASE("shot lists its views") {
+  const ProcessResult list = run_workbench({"shot", "--view", "list"});
+  CHECK(list.exit_code == 0);
+  for (const char* name : {"overview", "control-net", "iterations", "plots", "cone", "sphere"}) CHECK(contains(list.out, name));
+}
+
+TEST_CASE("shot refuses an unknown view and a missing target, naming the choices") {
+  const TempFolder folder;
+  const ProcessResult unknown = run_workbench({"shot", "--view", "overwiev", "--out", folder.file("a.png")});
+  CHECK(unknown.exit_code == 2);
+  CHECK(contains(unknown.err, "overwiev"));
+  CHECK(contains(unknown.err, "control-net"));
+  CHECK(folder.entry_count() == 0);
+  CHECK(run_workbench({"shot", "--view", "cone"}).exit_code == 2);
+  CHECK(run_workbench({"shot", "--view", "cone", "--out", folder.file("a.png"), "--width", "nan"}).exit_code == 2);
+  CHECK(run_workbench({"shot", "--view", "cone", "--out", folder.file("a.png"), "--height", "0"}).exit_code == 2);
+}
+
+TEST_CASE("shot writes a picture of the size asked for, the same every time") {
+  if (no_gl()) return;
+  const TempFolder folder;
+  for (const char* name : {"a.png", "b.png"}) {
+    const ProcessResult done = run_workbench({"shot", "--view", "octagon", "--out", folder.file(name), "--width", "320", "--height", "200"});
+    CHECK(done.exit_code == 0);
+    CHECK(done.err == "");
+  }
+  const std::string picture = read_text(folder.file("a.png"));
+  REQUIRE(picture.size() > 5000);  // not one colour
+  CHECK(big_endian(picture, 16) == 320);
+  CHECK(big_endian(picture, 20) == 200);
+  CHECK(picture == read_text(folder.file("b.png")));
+}
+
+TEST_CASE("the window is drawn without a display, plots filled, the same every time") {
+  if (no_gl()) return;
+  const TempFolder folder;
+  for (const char* name : {"a.png", "b.png"}) {
+    const ProcessResult done = run_workbench({"shot", "--view", "overview", "--out", folder.file(name), "--width", "800", "--height", "600"});
+    CHECK(done.exit_code == 0);
+    CHECK(done.err == "");
+  }
+  const std::string picture = read_text(folder.file("a.png"));
+  CHECK(picture.size() > 30000);
+  CHECK(picture == read_text(folder.file("b.png")));
+}
+
+TEST_CASE("shot says what is wrong with a mesh or a target, and leaves nothing behind") {
+  if (no_gl()) return;
+  const TempFolder folder;
+  const ProcessResult no_mesh = run_workbench({"shot", folder.file("none.obj"), "--view", "facets", "--out", folder.file("a.png")});
+  CHECK(no_mesh.exit_code == 1);
+  CHECK(contains(no_mesh.err, "none.obj"));
+  const ProcessResult no_place = run_workbench({"shot", "--view", "cube", "--out", folder.file("nowhere/a.png")});
+  CHECK(no_place.exit_code == 1);
+  CHECK(contains(no_place.err, "nowhere"));
+  CHECK(folder.entry_count() == 0);
+}
+#endif

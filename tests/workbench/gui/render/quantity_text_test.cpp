@@ -1,0 +1,45 @@
+#include "workbench/gui/render/quantity_text.h"
+
+#include "workbench/gui/palette.h"
+
+#include <doctest/doctest.h>
+
+#include <limits>
+
+using namespace tangent;
+
+TEST_CASE("lengths take the unit that fits") {
+  CHECK(length_text(0.0) == "0 mm");
+  CHECK(length_text(0.0009803) == "980 \xC2\xB5m");
+  CHECK(length_text(0.00098034) == "980 \xC2\xB5m");
+  CHECK(length_text(0.001) == "1 mm");
+  CHECK(length_text(-0.0021534) == "-2.15 mm");
+  CHECK(length_text(0.02) == "20 mm");
+  CHECK(length_text(0.99999) == "1.00 m");
+  CHECK(length_text(12345.0) == "12.3 km");
+  CHECK(length_text(5e-9) == "5 nm");
+}
+
+TEST_CASE("scale bars have round lengths that fit") {
+  CHECK(round_number_below(0.0349) == doctest::Approx(0.02));
+  CHECK(round_number_below(0.05) == doctest::Approx(0.05));
+  CHECK(round_number_below(9.99) == doctest::Approx(5.0));
+  CHECK(round_number_below(1.0) == doctest::Approx(1.0));
+}
+
+TEST_CASE("viridis runs from dark violet to yellow, brighter all the way, and takes any number") {
+  const auto brightness = [](Rgba c) { return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b; };
+  for (int i = 1; i <= 64; ++i) {
+    CHECK(brightness(viridis(static_cast<float>(i) / 64.0f)) > brightness(viridis(static_cast<float>(i - 1) / 64.0f)));
+  }
+  CHECK(viridis(-1.0f) == viridis(0.0f));
+  CHECK(viridis(7.0f) == viridis(1.0f));
+  CHECK(viridis(std::numeric_limits<float>::quiet_NaN()) == viridis(0.0f));
+  CHECK(iteration_colour(0, 1) == viridis(1.0f));
+  CHECK(iteration_colour(9, 5) == iteration_colour(4, 5));
+}
+
+TEST_CASE("packed colours have ImGui's byte order") {
+  CHECK(packed(rgb_hex(0x112233)) == 0xFF332211u);
+  CHECK(packed({2.0f, -1.0f, 0.0f, 0.5f}) == 0x800000FFu);
+}
