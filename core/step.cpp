@@ -268,6 +268,7 @@ const char* to_string(StopReason reason) {
     case StopReason::left_boundary: return "left_boundary";
     case StopReason::singular_patch: return "singular_patch";
     case StopReason::too_far: return "too_far";
+    case StopReason::leapt: return "leapt";
   }
   return "going_on";
 }

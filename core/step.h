@@ -100,7 +100,8 @@ enum class StopReason : std::uint8_t {
   unstable,         ///< the solution it runs to has det M <= 0 or trace M <= 0
   left_boundary,    ///< ran out through a mesh boundary
   singular_patch,   ///< no step can be computed there
-  too_far,          ///< the finger is out of reach of the tracked place
+  too_far,          ///< the finger is out of reach of the tracked place: the walk to it got lost
+  leapt,            ///< converged, but on another place: the normal turned by over 10 degrees in one tick
 };
 const char* to_string(StopReason reason);
 
@@ -132,6 +133,9 @@ struct IterationTrace {
   void clear() { size = lost = 0; }
   void push(const IterationRecord& r) {
     if (size < kCapacity) records[size++] = r; else ++lost;
+  }
+  void amend_last(StopReason stop) {
+    if (size > 0 && lost == 0) records[size - 1].stop = stop;
   }
   std::span<const IterationRecord> view() const { return {records.data(), size}; }
 };

@@ -248,11 +248,32 @@ PlaceSample kept_place_sample(IterationContext& context, const TrackedPlane& pla
   return s;
 }
 
+/// How the error went so far; says why an iteration that spent its budget did not converge.
+struct ErrorHistory {
+  double least = 1e300;
+  int least_at = 0;
+
+  void add(double error, int evaluation) {
+    if (error >= 0.99 * least) return;
+    least = error;
+    least_at = evaluation;
+  }
+};
+
+StopReason why_unconverged(const ContactMesh& mesh, const IterationResult& now, const ErrorHistory& errors, int budget) {
+  if (now.plane.feature == Feature::edge && mesh.edge_kind(now.plane.triangle, now.plane.side) == EdgeKind::boundary)
+    return StopReason::left_boundary;
+  if (!now.stability.stable()) return StopReason::unstable;
+  // No new least error in the second half: it goes round in circles rather than slowly home.
+  return now.evaluations - errors.least_at > budget / 2 ? StopReason::cycling : StopReason::iteration_limit;
+}
+
 /// One iteration from an edge or vertex. True to go on.
-bool iterate_feature(IterationContext& context, bool kept, int budget, IterationResult& now) {
+bool iterate_feature(IterationContext& context, bool kept, int budget, const ErrorHistory& errors, IterationResult& now) {
   Proposal next = now.plane.feature == Feature::edge ? next_from_edge(context, now.plane, now)
                                                      : next_from_vertex(context, now.plane, now, kept);
-  if (next.stop == StopReason::going_on && now.evaluations >= budget) next.stop = StopReason::iteration_limit;
+  if (next.stop == StopReason::going_on && now.evaluations >= budget)
+    next.stop = why_unconverged(context.cache.mesh(), now, errors, budget);
   if (context.trace) record(context, now, next.step, next.step_m, next.stop);
   now.stop = next.stop;
   if (next.stop != StopReason::going_on) return false;
@@ -262,25 +283,28 @@ bool iterate_feature(IterationContext& context, bool kept, int budget, Iteration
 }
 
 /// One iteration from a face. True to go on.
-bool iterate_face(IterationContext& context, int budget, IterationResult& now) {
+bool iterate_face(IterationContext& context, int budget, const ErrorHistory& errors, IterationResult& now) {
   ParameterStep step;
   now.stop = face_step(context, now, step);
-  if (now.stop == StopReason::going_on && now.evaluations >= budget) now.stop = StopReason::iteration_limit;
   const ContactMesh& mesh = context.cache.mesh();
+  if (now.stop == StopReason::going_on && now.evaluations >= budget) now.stop = why_unconverged(mesh, now, errors, budget);
   if (context.trace) record(context, now, step, step_length(mesh, now.plane.triangle, step), now.stop);
   if (now.stop != StopReason::going_on) return false;
   if (move_on_face(mesh, step, now)) return true;
   now.stop = StopReason::too_far;
+  if (context.trace) context.trace->amend_last(now.stop);
   return false;
 }
 
 void run(IterationContext& context, bool kept, int budget, IterationResult& now) {
   now.triangle_changes = 0;
   now.met_unstable = false;
+  ErrorHistory errors;
   for (bool first = kept;; first = false) {
     now.contact = contact_on_plane(context.finger, context.pose, now.sample.point, now.sample.normal);
-    const bool go_on = now.plane.feature == Feature::face ? iterate_face(context, budget, now)
-                                                          : iterate_feature(context, first, budget, now);
+    errors.add(now.contact.error_m, now.evaluations);
+    const bool go_on = now.plane.feature == Feature::face ? iterate_face(context, budget, errors, now)
+                                                          : iterate_feature(context, first, budget, errors, now);
     now.met_unstable |= !now.stability.stable();
     if (!go_on) return;
     now.sample = sample_place(context, now.plane);

@@ -63,6 +63,7 @@ void track(IterationContext& context, const ContactScene& scene, const TickState
       watch_for_rivals(context, scene, state, result);
       return;
     }
+    if (result.converged() && context.trace) context.trace->amend_last(StopReason::leapt);
   }
   const SeedResult seeded = seed_contact(context, scene);
   result.evaluations += seeded.evaluations;
