@@ -95,12 +95,13 @@ void seed_by_hierarchy(IterationContext& context, const ContactScene& scene, Sel
   });
 }
 
-/// Whether a contact lies so much further off than the raw mesh that a nearer one must have been missed.
-bool implausible(IterationContext& context, const ContactScene& scene, double rank) {
-  const NearestHit raw = scene.nearest().nearest(context.pose.position, std::numeric_limits<double>::infinity());
-  if (!raw || !is_round(context.finger)) return false;
-  const double bulge = patch_bulge(context.cache.patch(raw.triangle, context.settings.normal_form));
-  return rank > (1.0 + kImplausibleShare) * raw.distance_m + 2.0 * bulge;
+/// Whether a contact lies so much further off than the raw mesh that a nearer one must have been missed. Asks only for
+/// triangles nearer than that, of which there are none as a rule, so the query ends early.
+bool implausible(IterationContext& context, const ContactScene& scene, const IterationResult& found, double rank) {
+  if (!is_round(context.finger)) return false;
+  const double bulge = patch_bulge(context.cache.patch(found.plane.triangle, context.settings.normal_form));
+  const double nearer = rank / (1.0 + kImplausibleShare) - 2.0 * bulge;
+  return nearer > 0.0 && scene.nearest().nearest(context.pose.position, nearer);
 }
 
 void seed_by_distance(IterationContext& context, const ContactScene& scene, std::size_t seeds, int budget, bool twice,
@@ -178,7 +179,7 @@ SeedResult seed_contact(IterationContext& context, const ContactScene& scene) {
     seed_by_distance(context, scene, 1, context.settings.max_iterations, false, selection);
   } else {
     seed_by_hierarchy(context, scene, selection);
-    if (selection.group != 0 || implausible(context, scene, selection.value))
+    if (selection.group != 0 || implausible(context, scene, selection.result.best, selection.value))
       seed_by_distance(context, scene, kSeeds, kSeedBudget, true, selection);
   }
   context.seed = 0;

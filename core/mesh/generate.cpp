@@ -2,6 +2,7 @@
 
 #include "core/base/text.h"
 #include "core/base/units.h"
+#include "core/mesh/generate_hard.h"
 #include "core/mesh/generators.h"
 
 #include <algorithm>
@@ -145,9 +146,18 @@ const std::vector<std::string>& generator_names() {
 Result<PolygonMesh> generate_mesh(std::string_view name, const GenerateOptions& options) {
   const auto& table = generators();
   const auto found = std::find_if(table.begin(), table.end(), [&](const Generator& g) { return g.name == name; });
+  if (found == table.end() && !hard_mesh_description(name).empty()) {
+    if (options.segments != 0 || options.rounding_m != 0.0) {
+      return fail("the hard mesh " + std::string(name) + " has neither segments nor rounding", "", "leave them out");
+    }
+    Result<PolygonMesh> hard = generate_hard_mesh(name);
+    if (hard) make_exact_in_millimetres(*hard);
+    return hard;
+  }
   if (found == table.end()) {
     std::string choices;
-    for (const std::string& known : generator_names()) choices += (choices.empty() ? "" : ", ") + known;
+    for (const auto* names : {&generator_names(), &hard_mesh_names()})
+      for (const std::string& known : *names) choices += (choices.empty() ? "" : ", ") + known;
     return fail("there is no object called \"" + std::string(name) + "\"", "", "choose one of " + choices);
   }
   if (const Status good = check(*found, options); !good) return tl::unexpected<Error>(good.error());

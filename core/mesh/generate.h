@@ -27,6 +27,7 @@ struct GenerateOptions {
 /// of radius 40 mm, length 80 mm) and icosphere torus saddle groove.
 const std::vector<std::string>& generator_names();
 
+/// Takes the hard meshes' names too (generate_hard.h).
 /// Fails (naming the choices or the range) on an unknown name or an option out of range.
 Result<PolygonMesh> generate_mesh(std::string_view name, const GenerateOptions& options = {});
 

@@ -1,0 +1,29 @@
+#include "core/tuning/converged_answer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tangent {
+
+double converged_tolerance_m(const ContactScene& scene, const Finger& finger) {
+  const Vec3 size = scene.mesh().bounds().size();
+  return kConvergedShare * std::max({size.x, size.y, size.z, finger.reach_m()});
+}
+
+std::optional<TickOutput> converged_answer(Stepper& stepper, const Preset& preset, const TickInput& input,
+                                           const TickState& state, double tolerance_m) {
+  Preset exact = preset;
+  exact.solver.method = Method::robust;
+  exact.solver.tolerance_m = tolerance_m;
+  TickState from = state;
+  from.has_previous = 0;
+  // Nothing else can be deeper: the place stays the method's own.
+  from.clearance.centre = input.finger.position - stepper.scene().mesh().origin();
+  from.clearance.margin_m = from.clearance.height_m = std::numeric_limits<double>::infinity();
+  TickOutput answer = stepper.step(exact, input, from);
+  if (answer.status == TickStatus::unconverged || answer.event != TickEvent::none) return std::nullopt;
+  return answer;
+}
+
+}  // namespace tangent
