@@ -2,9 +2,9 @@
 
 #include "workbench/gui/app_model.h"
 #include "workbench/gui/panels/panels.h"
+#include "workbench/gui/thread_time.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <optional>
@@ -32,10 +32,6 @@ struct App::Ui {
 };
 
 namespace {
-
-double milliseconds_since(std::chrono::steady_clock::time_point begin) {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
-}
 
 constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                                     ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNav;
@@ -121,7 +117,7 @@ void App::Ui::draw_column(const char* name, const Rect& rect, const UiContext& u
 }
 
 void App::frame(const FrameInput& input) {
-  const auto begin = std::chrono::steady_clock::now();
+  const double begin = thread_cpu_ms();
   for (const std::string& file : input.dropped_files) {
     if (std::filesystem::path(file).extension() == ".toml") model_->load_preset(file); else model_->open_mesh(file);
   }
@@ -143,7 +139,7 @@ void App::frame(const FrameInput& input) {
   draw_toasts(ui, *model_, layout.view);
   draw_menu_bar(ui, *model_, ui_->menu, layout.menu);
   ImGui::Render();
-  last_build_ms_ = milliseconds_since(begin) - ui_->view.build_ms_outside;
+  last_build_ms_ = thread_cpu_ms() - begin - ui_->view.build_ms_outside;
 }
 
 void App::advance(std::uint64_t ticks) { model_->advance(ticks); }

@@ -85,12 +85,12 @@ void AppModel::take_scene(LoadedScene loaded) {
   frame_scene();
   for (const std::string& note : scene_->mesh().notes()) say(Severity::note, note);
   if (session_ != nullptr) session_->set_scene(std::move(loaded.prepared));
-  else make_session(std::move(loaded.prepared));
+  else make_session();
   if (options_.deterministic) audit_ = audit_mesh(*polygons_, scene_->mesh());
   else loader_.request_audit(polygons_, scene_);
 }
 
-void AppModel::make_session(PreparedScenePtr) {
+void AppModel::make_session() {
   SessionOptions options;
   options.devices = options_.device;
   options.seed = options_.seed;
@@ -104,6 +104,19 @@ void AppModel::make_session(PreparedScenePtr) {
   session_ = std::move(*session);
   session_->start();
   status_ = session_->status();
+}
+
+void AppModel::set_device(const std::string& name) {
+  if (name == options_.device && session_ != nullptr) return;
+  options_.device = name;
+  if (scene_ == nullptr) return;
+  // The old session's devices are let go before the new one asks for them.
+  session_.reset();
+  status_ = {};
+  store_.clear();
+  tick_.clear();
+  go_live();
+  make_session();
 }
 
 void AppModel::frame_scene() {

@@ -94,6 +94,8 @@ class AppModel {
   Session* session() { return session_.get(); }
   const Session* session() const { return session_.get(); }
   const SessionStatus& status() const { return status_; }
+  const std::string& device() const { return options_.device; }
+  void set_device(const std::string& name);  ///< a new session; the history starts anew
   void set_hand_follows_mouse(bool on);
   void lead_hand(const Vec3& finger_centre_world_m);
   bool stopped() const;                  ///< the gate lets no force through until armed
@@ -116,7 +118,7 @@ class AppModel {
 
  private:
   void take_scene(LoadedScene loaded);
-  void make_session(PreparedScenePtr prepared);
+  void make_session();
   void send_preset();
   void take_records();
   void show_tick();

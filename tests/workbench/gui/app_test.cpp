@@ -386,6 +386,21 @@ TEST_CASE("frames build at any size and scale, with and without history, for eve
   }
 }
 
+TEST_CASE("another device starts another session, with a history of its own") {
+  RunningApp ui;
+  ui.run(300);
+  ui.click("menu/device");
+  ui.click("menu/device/none");
+  CHECK(ui.model().device() == "none");
+  REQUIRE(ui.model().session() != nullptr);
+  CHECK(ui.model().session()->force_capabilities() == nullptr);
+  ui.click("menu/device");
+  ui.click("menu/device/simulated");
+  ui.run(100);
+  CHECK(ui.model().end_tick() == 100);
+  CHECK(ui.model().status().force_state != DeviceState::absent);
+}
+
 TEST_CASE("an unknown device is said to be one, and the window still comes up") {
   AppOptions options = HeadlessApp::deterministic_options();
   options.device = "toaster";

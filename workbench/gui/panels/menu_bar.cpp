@@ -95,6 +95,14 @@ void draw_preset_menu(const UiContext& ui, AppModel& model, float width) {
   ImGui::EndPopup();
 }
 
+void draw_device_menu(const UiContext& ui, AppModel& model, float width) {
+  if (!drop_button(ui, "menu/device", model.device(), "The devices that are driven", width)) return;
+  for (const char* name : {"simulated", "none"}) {
+    if (menu_item(ui, std::string("menu/device/") + name, name, nullptr, model.device() == name)) model.set_device(name);
+  }
+  ImGui::EndPopup();
+}
+
 /// The one button that must be found at once: red and on the right.
 void draw_stop(const UiContext& ui, AppModel& model, const Rect& rect) {
   const bool stopped = model.stopped();
@@ -127,7 +135,7 @@ void draw_menu_bar(const UiContext& ui, AppModel& model, MenuBar& state, const R
   ImGui::SameLine(0, ui.px(3));
   draw_view_menu(ui, model);
   ImGui::SameLine(0, ui.px(14));
-  const float room = std::clamp((rect.w - ui.px(520)) * 0.3f, ui.px(90), ui.px(240));
+  const float room = std::clamp((rect.w - ui.px(700)) * 0.35f, ui.px(80), ui.px(240));
   const auto label = [&](const char* text) {
     ImGui::AlignTextToFramePadding();
     ImGui::TextDisabled("%s", text);
@@ -138,6 +146,9 @@ void draw_menu_bar(const UiContext& ui, AppModel& model, MenuBar& state, const R
   ImGui::SameLine(0, ui.px(12));
   label("Preset");
   draw_preset_menu(ui, model, room);
+  ImGui::SameLine(0, ui.px(12));
+  label("Device");
+  draw_device_menu(ui, model, ui.px(110));
   ImGui::SameLine(0, ui.px(12));
   bool follows = model.view().hand_follows_mouse;
   if (toggle_button(ui, "menu/hand", "Hand follows mouse", follows, "Drag on the surface in the 3D view to lead the simulated hand (M). Off: it explores the mesh by itself"))

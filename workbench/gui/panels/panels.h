@@ -39,7 +39,7 @@ void draw_log_panel(const UiContext& ui, AppModel& model, FoldedPanel& state);
 
 // Middle.
 struct ViewPanel {
-  double build_ms_outside = 0.0;   ///< time spent in the renderer this frame
+  double build_ms_outside = 0.0;   ///< processor time spent in the renderer this frame
   std::optional<Vec3> drag_plane;  ///< where the hand was last led to
 };
 void draw_view_panel(const UiContext& ui, AppModel& model, ViewPanel& state, SceneRenderer* renderer, const Rect& rect);

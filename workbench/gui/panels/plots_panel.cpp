@@ -27,7 +27,8 @@ struct Arrangement {
   int columns;
 };
 Arrangement arrange(float width, float height) {
-  if (height > 430.0f) return {&kOneColumn, 1};
+  // A stacked plot wants some 90 points to have more than one labelled line.
+  if (height > 520.0f) return {&kOneColumn, 1};
   if (height > 280.0f && width < 1500.0f) return {&kTwoColumns, 2};
   return {&kThreeColumns, 3};
 }

@@ -3,6 +3,7 @@
 #include "workbench/gui/widgets.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace tangent {
 
@@ -32,7 +33,8 @@ void draw_strip(const UiContext& ui, AppModel& model, float width) {
   const MinMax most = model.store().min_max(static_cast<std::size_t>(Channel::iterations), model.first_tick(), model.end_tick());
   const float top = std::max(8.0f, most.empty() ? 8.0f : most.max);
   for (const ColumnBar& bar : bars) {
-    const float share = std::min(1.0f, bar.range.max / top);
+    // Logarithmic: one tick of 90 iterations must not flatten the ones and twos.
+    const float share = std::min(1.0f, std::log1p(bar.range.max) / std::log1p(top));
     draw.AddRectFilled({at.x + bar.x, at.y + height - ui.px(2) - share * (height - ui.px(4))}, {at.x + bar.x + 1.0f, at.y + height - ui.px(2)},
                        packed(with_alpha(ui.palette.iterations, 0.55f)));
   }

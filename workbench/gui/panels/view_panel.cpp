@@ -3,10 +3,10 @@
 // drag on the surface leads the simulated hand.
 #include "workbench/gui/panels/panels.h"
 #include "workbench/gui/render/scene_overlay.h"
+#include "workbench/gui/thread_time.h"
 #include "workbench/gui/widgets.h"
 
 #include <array>
-#include <chrono>
 #include <cmath>
 
 namespace tangent {
@@ -143,12 +143,12 @@ void interact(const UiContext& ui, AppModel& model, ViewPanel& state, const Rect
 
 void draw_picture(const UiContext& ui, AppModel& model, ViewPanel& state, SceneRenderer& renderer, const Rect& rect) {
   const ImVec2 per_point = ImGui::GetIO().DisplayFramebufferScale;
-  const auto begin = std::chrono::steady_clock::now();
+  const double begin = thread_cpu_ms();
   renderer.set_scene(model.scene(), model.presets().current().solver.normal_form);
   SceneFrame frame = scene_frame(model);
   frame.pixel_scale = static_cast<double>(ui.scale * per_point.y);
   renderer.render(frame, model.view().camera, static_cast<int>(std::lround(rect.w * per_point.x)), static_cast<int>(std::lround(rect.h * per_point.y)));
-  state.build_ms_outside = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+  state.build_ms_outside = thread_cpu_ms() - begin;
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   if (renderer.texture() == 0) return;
   draw.AddImage(reinterpret_cast<ImTextureID>(static_cast<std::intptr_t>(renderer.texture())), {rect.x, rect.y}, {rect.right(), rect.bottom()}, {0, 1}, {1, 0});

@@ -1,6 +1,7 @@
 #include "workbench/gui/plots/channel_store.h"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 
 namespace tangent {
@@ -9,7 +10,7 @@ ChannelStore::ChannelStore(std::size_t channels, std::size_t capacity)
     : channels_(channels), gap_(channels, std::numeric_limits<float>::quiet_NaN()) {
   assert(channels > 0);
   constexpr std::size_t largest = std::size_t{1} << (kShift * kLevels);
-  capacity_ = std::max<std::size_t>(1, (capacity + largest - 1) / largest) * largest;
+  capacity_ = std::bit_ceil(std::max(capacity, largest));
   samples_.assign(channels_ * capacity_, gap_[0]);
   for (std::size_t level = 1; level <= kLevels; ++level) {
     levels_.emplace_back(channels_ * (capacity_ >> (kShift * level)));

@@ -32,7 +32,8 @@ struct MinMax {
 
 class ChannelStore {
  public:
-  /// `capacity` ticks are kept, rounded up to a multiple of the largest block. Preconditions: channels > 0.
+  /// `capacity` ticks are kept, rounded up to a power of two, the largest block's at least. Precondition:
+  /// channels > 0.
   ChannelStore(std::size_t channels, std::size_t capacity);
 
   std::size_t channels() const { return channels_; }
@@ -58,7 +59,7 @@ class ChannelStore {
   static constexpr std::size_t kLevels = 6;
 
   void put(std::uint64_t tick, std::span<const float> values);
-  std::size_t slot(std::uint64_t tick) const { return static_cast<std::size_t>(tick % capacity_); }
+  std::size_t slot(std::uint64_t tick) const { return static_cast<std::size_t>(tick) & (capacity_ - 1); }
 
   std::size_t channels_ = 0, capacity_ = 0;
   std::uint64_t first_ = 0, end_ = 0;
