@@ -12,7 +12,8 @@
 namespace tangent {
 namespace {
 
-constexpr std::uint64_t kTicks = 12'000;     // of simulated exploration before the picture
+constexpr std::uint64_t kTicks = 12'000;     // of simulated exploration before the picture ...
+constexpr std::uint64_t kMostTicks = 24'000; // ... and on until the contact is well in view
 constexpr std::uint64_t kTicksPerFrame = 50;
 constexpr int kSettlingFrames = 4;           // ImGui lays out over some frames
 constexpr double kFrame = 1.0 / 60.0;        // s
@@ -31,13 +32,20 @@ void look_from_contact_side(AppModel& model) {
   if (record == nullptr || model.scene() == nullptr) return;
   Camera& camera = model.view().camera;
   const Vec3& normal = record->tick.output.normal;
-  // yaw 0 looks from -y: the eye stands a third of a turn beside the contact's normal.
-  camera.yaw_rad = std::atan2(normal.x, -normal.y) - 0.9;
+  // yaw 0 looks from -y: the eye stands beside the contact's normal.
+  camera.yaw_rad = std::atan2(normal.x, -normal.y) + 1.2;
   camera.pitch_rad = 0.5;
   Box box = world_bounds(*model.scene());
-  const Vec3 reach(record->tick.input.finger.position);
-  box.include(reach);
-  camera.frame(box, 1.05, 1.5);
+  const Vec3 reach(0.8 * model.presets().current().finger.reach_m());
+  box.include(record->tick.input.finger.position - reach);
+  box.include(record->tick.input.finger.position + reach);
+  camera.frame(box, 1.0, 1.5);
+}
+
+/// The finger rests on top of the body, leaning to one side.
+bool contact_in_view(const AppModel& model) {
+  const ServoRecord* record = model.tick().record();
+  return record != nullptr && record->tick.output.normal.z > 0.75 && record->tick.output.normal.z < 0.95;
 }
 
 /// The tick with the most iterations among the last few thousand: there is something to see in it.
@@ -142,7 +150,7 @@ Result<Image> take_window_shot(const ShotRequest& request) {
   FrameFeeder feeder(**screen, app, request);
   feeder.frame();
   view.arrange(app.model());
-  for (std::uint64_t done = 0; done < kTicks; done += kTicksPerFrame) {
+  for (std::uint64_t done = 0; done < kTicks || (done < kMostTicks && !contact_in_view(app.model())); done += kTicksPerFrame) {
     app.advance(kTicksPerFrame);
     feeder.frame();  // without a renderer: only the plots and panels follow
   }

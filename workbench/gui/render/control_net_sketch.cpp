@@ -52,19 +52,23 @@ void draw_patch(Sketch& sketch, const PnPatch& patch, const Vec3& origin, Rgba c
   }
 }
 
-void draw_net(Sketch& sketch, const PnPatch& patch, const Vec3& origin, Rgba colour, double strength) {
+/// Lines and points shrink with the patch on screen, so that a small one is not buried under its net.
+void draw_net(Sketch& sketch, const SketchContext& c, const PnPatch& patch, const Vec3& origin, Rgba colour, double strength) {
+  const double size_px = patch_size(patch) / c.camera.metres_per_pixel(origin + patch.origin, c.height_px) / c.frame.pixel_scale;
+  const double shrink = std::clamp(size_px / 110.0, 0.35, 1.0);
   const auto line = [&](const NetLine& l, float alpha, double width) {
-    sketch.line(origin + patch.control_point(l.a), origin + patch.control_point(l.b), with_alpha(colour, alpha), width);
+    sketch.line(origin + patch.control_point(l.a), origin + patch.control_point(l.b), with_alpha(colour, alpha), shrink * width);
   };
   const float a = static_cast<float>(strength);
   // A dark casing under the border: pale lines stay legible on lit facets.
   for (const NetLine& l : kBorder) {
-    sketch.line(origin + patch.control_point(l.a), origin + patch.control_point(l.b), {0.07f, 0.08f, 0.09f, 0.55f * a}, 4.0);
+    sketch.line(origin + patch.control_point(l.a), origin + patch.control_point(l.b), {0.07f, 0.08f, 0.09f, 0.55f * a}, shrink * 4.0);
   }
   for (const NetLine& l : kInner) line(l, 0.7f * a, 1.4);
   for (const NetLine& l : kBorder) line(l, a, 2.0);
   for (std::size_t i = 0; i < patch.offsets.size(); ++i) {
-    sketch.point(origin + patch.control_point(static_cast<ControlPoint>(i)), with_alpha(colour, a), strength < 1.0 ? 4.5 : i < 3 ? 9.0 : 7.0);
+    sketch.point(origin + patch.control_point(static_cast<ControlPoint>(i)), with_alpha(colour, a),
+                 shrink * (strength < 1.0 ? 4.5 : i < 3 ? 9.0 : 7.0));
   }
 }
 
@@ -108,13 +112,13 @@ void draw_control_nets(Sketch& sketch, const SketchContext& c, std::vector<Scene
     for (std::uint32_t e = 0; e < 3; ++e) {
       const std::uint32_t next = mesh.across(t, e).triangle;
       if (next == kNone || !mesh.usable(next)) continue;
-      draw_net(sketch, make_patch(mesh, next, c.form), mesh.origin(), colour, 0.6);
+      draw_net(sketch, c, make_patch(mesh, next, c.form), mesh.origin(), colour, 0.6);
     }
   }
   const PnPatch patch = make_patch(mesh, t, c.form);
   if (on.control_net) {
     draw_patch(sketch, patch, mesh.origin(), with_alpha(colour, 0.22f));
-    draw_net(sketch, patch, mesh.origin(), colour, 1.0);
+    draw_net(sketch, c, patch, mesh.origin(), colour, 1.0);
     if (on.control_point_labels) label_net(c, patch, mesh.origin(), colour, labels);
   }
   if (on.control_normals) draw_control_normals(sketch, c, patch, mesh.origin(), labels);

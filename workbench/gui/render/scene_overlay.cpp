@@ -38,7 +38,7 @@ void draw_triad(const OverlayCanvas& c, ImVec2 centre, const Camera& camera) {
                             {Vec3(0, 0, 1), "z", c.colours.force_z}}};
   for (Axis& axis : axes) axis.toward_eye = -glm::dot(axis.direction, camera.forward());
   std::sort(axes.begin(), axes.end(), [](const Axis& a, const Axis& b) { return a.toward_eye < b.toward_eye; });
-  const float length = 1.55f * c.em;
+  const float length = 1.5f * c.em;
   for (const Axis& axis : axes) {
     const float x = static_cast<float>(glm::dot(axis.direction, camera.right()));
     const float y = static_cast<float>(-glm::dot(axis.direction, camera.up()));
@@ -65,7 +65,7 @@ void draw_bar(const OverlayCanvas& c, ImVec2 at, float length, Rgba colour, cons
 // Length and force to scale at the depth of the camera's target.
 void draw_scales(const OverlayCanvas& c, ImVec2 at, double metres_per_point, const SceneRenderer& renderer,
                  const SceneFrame& frame) {
-  const double limit_m = 6.4 * c.em * metres_per_point;
+  const double limit_m = 4.9 * c.em * metres_per_point;
   if (!(limit_m > 0.0)) return;
   const double length_m = round_number_below(limit_m);
   draw_bar(c, at, static_cast<float>(length_m / metres_per_point), c.colours.text_dim, length_text(length_m));
@@ -74,13 +74,13 @@ void draw_scales(const OverlayCanvas& c, ImVec2 at, double metres_per_point, con
   const double newton = round_number_below(limit_m / metres_per_newton);
   char text[32];
   std::snprintf(text, sizeof text, "%g N", newton);
-  draw_bar(c, {at.x, at.y - 1.35f * c.em}, static_cast<float>(newton * metres_per_newton / metres_per_point),
+  draw_bar(c, {at.x, at.y - 1.3f * c.em}, static_cast<float>(newton * metres_per_newton / metres_per_point),
            c.colours.force_magnitude, text);
 }
 
 void draw_iteration_bar(const OverlayCanvas& c, ImVec2 at, const SceneFrame& frame) {
   const std::size_t count = frame.trace.size();
-  const float width = 9.4f * c.em, height = 0.55f * c.em;
+  const float width = 8.0f * c.em, height = 0.5f * c.em;
   const std::size_t cells = std::min<std::size_t>(count, 64);
   for (std::size_t i = 0; i < cells; ++i) {
     const std::size_t iteration = cells == count ? i : i * (count - 1) / (cells - 1);
@@ -116,7 +116,7 @@ void draw_scene_overlay(ImDrawList& draw_list, const ImVec2& top_left, double pi
   const ImVec2 lower_left{top_left.x + 0.9f * em, top_left.y + size.y - 0.9f * em};
   const bool bar = frame.toggles.colour_bar && frame.toggles.planes && frame.trace.size() > 1;
   if (frame.toggles.axes || bar) {  // behind them, so that they read on any facet
-    const ImVec2 card_size{frame.toggles.axes ? 17.6f * em : 10.4f * em, bar ? (frame.toggles.axes ? 7.2f : 3.9f) * em : 4.6f * em};
+    const ImVec2 card_size{frame.toggles.axes ? 14.0f * em : 9.0f * em, bar ? (frame.toggles.axes ? 6.4f : 3.6f) * em : 4.6f * em};
     canvas.card({lower_left.x - 0.3f * em, lower_left.y + 0.2f * em - card_size.y},
                 {lower_left.x - 0.3f * em + card_size.x, lower_left.y + 0.2f * em});
   }
@@ -128,7 +128,7 @@ void draw_scene_overlay(ImDrawList& draw_list, const ImVec2& top_left, double pi
     draw_scales(canvas, {left, lower_left.y - 0.7f * em}, metres_per_point, renderer, frame);
   }
   if (bar) {
-    draw_iteration_bar(canvas, {left, lower_left.y - (frame.toggles.axes ? 4.5f : 1.6f) * em}, frame);
+    draw_iteration_bar(canvas, {left, lower_left.y - (frame.toggles.axes ? 4.0f : 1.4f) * em}, frame);
   }
   if (frame.toggles.cld_inset && (frame.cld_commanded_m || frame.cld_measured_m)) {
     draw_cld_inset(canvas, {top_left.x + size.x - 0.9f * em, lower_left.y + 0.2f * em}, frame.display_travel_m,

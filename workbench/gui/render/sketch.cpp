@@ -44,7 +44,7 @@ void Sketch::line(const Vec3& a, const Vec3& b, Rgba colour, double width_px) {
 void Sketch::point(const Vec3& p, Rgba colour, double diameter_px) {
   const std::array<float, 3> at = local(p);
   const float diameter = static_cast<float>(diameter_px);
-  strokes_.push_back({at, at, packed({0.07f, 0.08f, 0.09f, 0.9f * colour.a}), diameter + 2.5f});
+  strokes_.push_back({at, at, packed({0.07f, 0.08f, 0.09f, 0.9f * colour.a}), diameter + std::min(2.5f, 0.5f * diameter)});
   strokes_.push_back({at, at, packed(colour), diameter});
 }
 
