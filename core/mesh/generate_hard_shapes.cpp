@@ -164,9 +164,9 @@ PolygonMesh make_moebius() {
   return mesh;
 }
 
-// Flat for x < 0; from there a ridge along x rises whose slopes steepen from 0 to 45 degrees.
+// Flat for x < 0; from there a ridge along x rises whose slopes steepen smoothly from 0 to 45 degrees.
 PolygonMesh make_crease_dart() {
-  return height_sheet(kHalfSize, 16, [](double x, double y) { return x <= 0.0 ? 0.0 : -std::abs(y) * x / kHalfSize; });
+  return height_sheet(kHalfSize, 32, [](double x, double y) { return x <= 0.0 ? 0.0 : -std::abs(y) * (x / kHalfSize) * (x / kHalfSize); });
 }
 
 PolygonMesh make_notched_cube() {

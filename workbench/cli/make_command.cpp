@@ -1,5 +1,6 @@
 // workbench make: the paper's objects and the hard cases, as OBJ.
 #include "core/mesh/generate.h"
+#include "core/mesh/generate_hard.h"
 #include "core/mesh/mesh_io.h"
 #include "workbench/cli/command.h"
 #include "workbench/cli/mesh_options.h"
@@ -45,6 +46,8 @@ void add_make_command(CLI::App& app, CommandResult& result) {
   auto options = std::make_shared<MakeOptions>();
   std::string names;
   for (const std::string& name : generator_names()) names += (names.empty() ? "" : " ") + name;
+  names += "; hard cases:";
+  for (const std::string& name : hard_mesh_names()) names += " " + name;
   command->add_option("OBJECT", options->object, names)->required()->type_name("");
   command->add_option("--out", options->file, "File to write")->required()->type_name("F.obj");
   add_number_option(*command, "--segments", {.min = 1, .max = 100000, .whole = true},

@@ -1,27 +1,8 @@
 #include "workbench/cli/solve_statistics.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numeric>
 
 namespace tangent {
-
-Distribution distribution(std::vector<double> values) {
-  Distribution out;
-  out.count = values.size();
-  if (values.empty()) return out;
-  std::sort(values.begin(), values.end());
-  const auto rank = [&](double part) {
-    const double position = std::ceil(part * static_cast<double>(values.size()));
-    return values[std::clamp<std::size_t>(static_cast<std::size_t>(position), 1, values.size()) - 1];
-  };
-  out.mean = std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-  out.p50 = rank(0.5);
-  out.p99 = rank(0.99);
-  out.p999 = rank(0.999);
-  out.max = values.back();
-  return out;
-}
 
 void SolveStatistics::reserve(std::size_t ticks) {
   iterations_.reserve(ticks);

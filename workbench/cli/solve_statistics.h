@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/step.h"
+#include "core/tuning/distribution.h"
 
 #include <array>
 #include <cstdint>
@@ -9,13 +10,6 @@
 #include <vector>
 
 namespace tangent {
-
-/// Percentiles are nearest-rank: values that did occur.
-struct Distribution {
-  std::uint64_t count = 0;
-  double mean = 0.0, p50 = 0.0, p99 = 0.0, p999 = 0.0, max = 0.0;
-};
-Distribution distribution(std::vector<double> values);
 
 inline constexpr std::array kTickStatuses{TickStatus::free, TickStatus::face, TickStatus::edge, TickStatus::vertex,
                                           TickStatus::unconverged};
