@@ -19,6 +19,11 @@ class Progress {
   void update(std::uint64_t done) {
     if (terminal_ && done % kStride == 0) draw(done);
   }
+  /// For work whose end moves: looks at the clock every time.
+  void update(std::uint64_t done, std::uint64_t total) {
+    total_ = total;
+    if (terminal_) draw(done);
+  }
 
  private:
   static constexpr std::uint64_t kStride = 64;

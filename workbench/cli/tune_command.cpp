@@ -1,0 +1,183 @@
+// workbench tune: gains of the paper's iteration, found by measuring on a mesh, into a preset.
+#include "core/base/atomic_file.h"
+#include "core/tuning/gain_tuning.h"
+#include "workbench/cli/command.h"
+#include "workbench/cli/exploration_poses.h"
+#include "workbench/cli/interrupt.h"
+#include "workbench/cli/mesh_options.h"
+#include "workbench/cli/messages.h"
+#include "workbench/cli/preset_options.h"
+#include "workbench/cli/progress.h"
+#include "workbench/cli/solve_statistics.h"
+#include "workbench/cli/stopwatch.h"
+#include "workbench/cli/text_format.h"
+#include "workbench/cli/tune_report.h"
+#include "workbench/session/pose_file.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+
+namespace tangent {
+namespace {
+
+struct TuneOptions {
+  MeshOptions mesh;
+  PresetOptions preset;
+  std::filesystem::path poses, out;
+  std::string command;  ///< as typed, with every option by its long name
+};
+
+/// One word of a command line, quoted where a shell would take it apart.
+std::string shell_word(const std::string& word) {
+  constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./:,@%";
+  if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
+  std::string quoted = "'";
+  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
+std::string command_text(const CLI::App& command) {
+  std::string text = "workbench " + command.get_name();
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& value : option->results()) {
+      if (!option->get_positional()) text += " " + option->get_name();
+      text += " " + shell_word(value);
+    }
+  }
+  return text;
+}
+
+/// The paper's method unless the options name another.
+Result<PresetFile> load_base(const PresetOptions& options) {
+  Result<PresetFile> base = load_preset(options);
+  if (!base) return base;
+  const bool named = std::any_of(options.overrides.begin(), options.overrides.end(),
+                                 [](const auto& o) { return o.first->key == "method"; });
+  if (!named) base->preset.solver.method = Method::paper;
+  return base;
+}
+
+/// What about the ideal G_k is: the finger's reach, or for a point a 20th of the mesh.
+double gain_length(const ContactScene& scene, const Finger& finger) {
+  const double reach = finger.reach_m();
+  const double length = reach > 0.0 ? reach : 0.05 * glm::length(scene.mesh().bounds().size());
+  return std::clamp(length, 1e-3, 1.0);
+}
+
+Result<std::vector<TickInput>> find_poses(const TuneOptions& options, const ContactScene& scene, TuneReport& report) {
+  if (!options.poses.empty()) {
+    report.poses = options.poses.filename().string();
+    return read_poses(options.poses);
+  }
+  ExplorationPoses explored = exploration_poses(scene, report.preset.preset.finger);
+  report.poses = format("exploration path, %g m/s, %g mm deep, %.3g of %.3g m", kExplorationSpeed, explored.press_m * 1e3,
+                        kExplorationSpeed * kExplorationTick * static_cast<double>(explored.poses.size()),
+                        explored.length_m);
+  return std::move(explored.poses);
+}
+
+MethodRun run_method(const std::shared_ptr<const ContactScene>& scene, Preset preset, Method method,
+                     std::span<const TickInput> poses) {
+  preset.solver.method = method;
+  Stepper stepper(scene);
+  MethodRun run{method, score_run(stepper, preset, poses), 0.0};
+  std::vector<double> times;
+  times.reserve(poses.size());
+  TickState state;
+  for (const TickInput& input : poses) {
+    const Stopwatch watch;
+    stepper.step(preset, input, state);
+    times.push_back(watch.nanoseconds());
+  }
+  run.median_ns = distribution(std::move(times)).p50;
+  return run;
+}
+
+GainTuning tune(const std::shared_ptr<const ContactScene>& scene, const Preset& base, std::span<const TickInput> poses) {
+  const InterruptGuard interrupt;
+  const GainGrid grid = make_gain_grid(gain_length(*scene, base.finger));
+  Progress progress("gains tried", grid.coarse.size());
+  return tune_gains(scene, base, poses, grid, [&progress](std::size_t done, std::size_t planned) {
+    progress.update(done, planned);
+    return !InterruptGuard::requested();
+  });
+}
+
+Status run_tune(const TuneOptions& options, bool& interrupted) {
+  TuneReport report;
+  report.command = options.command;
+  Result<PresetFile> base = load_base(options.preset);
+  if (!base) return tl::unexpected(base.error());
+  report.preset = std::move(*base);
+  Preset& preset = report.preset.preset;
+  // Fails at once, rather than after the work.
+  if (const Result<AtomicFile> probe = AtomicFile::create(options.out); !probe) return tl::unexpected(probe.error());
+  Result<LoadedMesh> loaded = load_mesh(options.mesh);
+  if (!loaded) return tl::unexpected(loaded.error());
+  const auto scene = ContactScene::build(std::move(loaded->mesh));
+  if (!scene) return tl::unexpected(scene.error());
+  report.mesh = &(*scene)->mesh();
+  const Result<std::vector<TickInput>> poses = find_poses(options, **scene, report);
+  if (!poses) return tl::unexpected(poses.error());
+
+  report.tuning = tune(*scene, preset, *poses);
+  interrupted = report.tuning.stopped;
+  if (report.tuning.trials.empty()) {
+    print_message("tune", "interrupted before any gains were tried; nothing is written");
+    return {};
+  }
+  preset.solver = with_gains(preset.solver, report.tuning.trials.front().gains);
+  const Method own = preset.solver.method;
+  report.own = run_method(*scene, preset, own, *poses);
+  report.other = run_method(*scene, preset, own == Method::paper ? Method::robust : Method::paper, *poses);
+  report.preset.about.name = options.out.stem().string();
+  describe_measurement(report);
+  if (const Status status = write_preset(report.preset, options.out); !status) return status;
+  std::fputs((tune_text(report) + options.out.string() + " written\n").c_str(), stdout);
+  if (interrupted) {
+    print_message("tune", "interrupted; " + options.out.string() + " holds the best of the " +
+                              std::to_string(report.tuning.trials.size()) + " gains tried so far");
+  }
+  return {};
+}
+
+void check_usage(const TuneOptions& options) {
+  for (const auto& [key, value] : options.preset.overrides) {
+    if (key->key.starts_with("gain_"))
+      throw CLI::ValidationError("--" + std::string(key->option), "is what tune finds; leave it out");
+    if (key->key != "method" || value <= static_cast<double>(Method::robust)) continue;
+    throw CLI::ValidationError("--method", key->value_text(value) + " has no gains; allowed: paper, newton or robust");
+  }
+  const std::pair<const char*, const std::filesystem::path*> inputs[]{{"MESH", &options.mesh.file}, {"--poses", &options.poses}};
+  for (const auto& [name, path] : inputs) {
+    std::error_code error;
+    if (!path->empty() && (*path == options.out || std::filesystem::equivalent(*path, options.out, error)))
+      throw CLI::ValidationError("--out", std::string("names the same file as ") + name);
+  }
+}
+
+}  // namespace
+
+void add_tune_command(CLI::App& app, CommandResult& result) {
+  CLI::App* command = app.add_subcommand("tune", "Find the gains of the paper's iteration by measuring on a mesh");
+  command->footer("The gains are those of the paper's iteration (Eq. 1), whatever --method the preset is to use "
+                  "(default paper). Ctrl-C keeps the best so far.");
+  auto options = std::make_shared<TuneOptions>();
+  add_mesh_options(*command, options->mesh);
+  command->add_option("--poses", options->poses,
+                      "Finger poses: t_s,x_m,y_m,z_m[,qw,qx,qy,qz] (default: explores the mesh at 0.1 m/s, 1 mm deep)")
+      ->type_name("F.csv");
+  command->add_option("--out", options->out, "Preset to write")->required()->type_name("preset.toml");
+  add_preset_options(*command, options->preset);
+  command->callback([command, options, &result] {
+    check_usage(*options);
+    options->command = command_text(*command);
+    bool interrupted = false;
+    const Status status = run_tune(*options, interrupted);
+    if (!status) print_message("tune", status.error().message());
+    result.exit_code = status && !interrupted ? kDone : kFailed;
+  });
+}
+
+}  // namespace tangent

@@ -1,0 +1,92 @@
+#include "workbench/cli/tune_report.h"
+
+#include "workbench/cli/mesh_text.h"
+#include "workbench/cli/text_format.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace tangent {
+namespace {
+
+constexpr std::size_t kShown = 10;
+
+std::string today() {
+  const auto days = std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now());
+  const std::chrono::year_month_day date(days);
+  return format("%04d-%02u-%02u", static_cast<int>(date.year()), static_cast<unsigned>(date.month()),
+                static_cast<unsigned>(date.day()));
+}
+
+/// A measured number as people write it: means to four decimals, times to the nanosecond.
+double rounded(double value, double per_unit) { return std::round(value * per_unit) / per_unit; }
+
+std::string trial_line(const char* name, const GainTrial& trial) {
+  const RunScore& s = trial.score;
+  return format("%8s %6.2f %9.5f %8g %12llu %9llu %8.3f %5d %5d\n", name, trial.gains.overall, trial.gains.curvature_m,
+                trial.gains.distance_per_m, static_cast<unsigned long long>(s.unconverged),
+                static_cast<unsigned long long>(s.reseeded), s.mean_iterations, s.p99_iterations, s.max_iterations);
+}
+
+std::string run_line(const MethodRun& run) {
+  const RunScore& s = run.score;
+  return format("%-8s mean %.3f  p99 %d  max %d iterations, %llu unconverged, %llu reseeded, error at most %.3g um, "
+                "median %.2f us a tick\n", to_string(run.method), s.mean_iterations, s.p99_iterations, s.max_iterations,
+                static_cast<unsigned long long>(s.unconverged), static_cast<unsigned long long>(s.reseeded),
+                s.max_error_m * 1e6, run.median_ns * 1e-3);
+}
+
+}  // namespace
+
+void describe_measurement(TuneReport& report) {
+  PresetAbout& about = report.preset.about;
+  about.date = today();
+  about.program_version = TANGENT_VERSION;
+  about.mesh_name = report.mesh->name();
+  about.mesh_hash = hash_text(report.mesh->content_hash());
+  about.device = "none";
+  about.note = report.tuning.stopped ? "Gains of the paper's iteration, the best of an interrupted tuning."
+                                     : "Gains of the paper's iteration, tuned by measuring.";
+  const auto count = [](auto n) { return static_cast<double>(n); };
+  const RunScore& own = report.own.score;
+  about.measured = {
+    {"command", report.command},
+    {"poses", report.poses},
+    {"ticks", count(own.ticks)},
+    {"mean_iterations", rounded(own.mean_iterations, 1e4)},
+    {"p99_iterations", count(own.p99_iterations)},
+    {"max_iterations", count(own.max_iterations)},
+    {"unconverged_ticks", count(own.unconverged)},
+    {"reseeded_ticks", count(own.reseeded)},
+    {"max_error_um", rounded(own.max_error_m * 1e6, 1e4)},
+    {"median_solve_ns", rounded(report.own.median_ns, 1.0)}};
+  const std::string other = to_string(report.other.method);
+  about.measured.insert(about.measured.end(), {
+    {other + "_mean_iterations", rounded(report.other.score.mean_iterations, 1e4)},
+    {other + "_p99_iterations", count(report.other.score.p99_iterations)},
+    {other + "_unconverged_ticks", count(report.other.score.unconverged)},
+    {other + "_median_solve_ns", rounded(report.other.median_ns, 1.0)}});
+  if (report.tuning.untuned.score.ticks == 0) return;
+  about.measured.insert(about.measured.end(), {
+    {"untuned_mean_iterations", rounded(report.tuning.untuned.score.mean_iterations, 1e4)},
+    {"untuned_unconverged_ticks", count(report.tuning.untuned.score.unconverged)}});
+}
+
+std::string tune_text(const TuneReport& report) {
+  const GainTuning& tuning = report.tuning;
+  std::string text = format("%s (%u triangles): %zu gains tried on %llu ticks, %s\n", report.mesh->name().c_str(),
+                            report.mesh->usable_triangle_count(), tuning.trials.size(),
+                            static_cast<unsigned long long>(report.own.score.ticks), report.poses.c_str());
+  text += "              G_o     G_k m  G_d 1/m  unconverged  reseeded     mean   p99   max\n";
+  for (std::size_t i = 0; i < std::min(kShown, tuning.trials.size()); ++i)
+    text += trial_line(std::to_string(i + 1).c_str(), tuning.trials[i]);
+  if (tuning.untuned.score.ticks != 0) text += trial_line("untuned", tuning.untuned);
+  text += run_line(report.own) + run_line(report.other);
+  if (const auto left = tuning.trials.front().score.unconverged; left != 0)
+    text += format("note: %llu ticks of the paper's iteration did not converge with any gains tried\n",
+                   static_cast<unsigned long long>(left));
+  return text;
+}
+
+}  // namespace tangent

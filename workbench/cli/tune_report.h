@@ -1,0 +1,35 @@
+// The outcome of a tuning: a table for people, and the [about] of the preset it writes.
+#pragma once
+
+#include "core/mesh/contact_mesh.h"
+#include "core/tuning/gain_tuning.h"
+#include "workbench/session/preset_file.h"
+
+#include <string>
+
+namespace tangent {
+
+/// One method with the tuned gains on all poses.
+struct MethodRun {
+  Method method = Method::paper;
+  RunScore score;
+  double median_ns = 0.0;
+};
+
+struct TuneReport {
+  const ContactMesh* mesh = nullptr;
+  PresetFile preset;            ///< as it will be written
+  std::string poses;            ///< what they are, in words
+  std::string command;          ///< that was run
+  GainTuning tuning;
+  MethodRun own;                ///< the preset's method
+  MethodRun other;              ///< robust beside paper, paper beside the others
+};
+
+/// Fills preset.about from the rest.
+void describe_measurement(TuneReport& report);
+
+/// The ten best gains, the untuned ones, and the runs of both methods.
+std::string tune_text(const TuneReport& report);
+
+}  // namespace tangent
