@@ -7,8 +7,12 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <filesystem>
 #include <memory>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -76,6 +80,69 @@ inline ScenePtr shared_scene(const std::string& name, double crease_deg) {
   options.fit_m = 0.080;
   options.crease_rad = crease_deg * kDegree;
   return scene_of(*mesh, options);
+}
+
+/// One tick from nothing.
+inline TickOutput solve_once(const ScenePtr& scene, const Preset& preset, const FingerPose& pose, IterationTrace* trace = nullptr) {
+  Stepper stepper(scene);
+  TickState state;
+  return stepper.step(preset, {0.0, pose}, state, trace);
+}
+inline TickOutput solve_once(const ScenePtr& scene, const Preset& preset, const Vec3& position) {
+  return solve_once(scene, preset, {position, Quat(1.0, 0.0, 0.0, 0.0)});
+}
+
+inline constexpr std::array<Method, 3> kSmoothMethods{Method::paper, Method::newton, Method::robust};
+
+/// The methods that solve for the smooth contact, by name for messages.
+inline std::string name_of(Method method) { return to_string(method); }
+
+/// How many of `full` rounds a test does: all in an optimised build, a part under sanitizers and in debug builds.
+inline int rounds(int full) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || !defined(__OPTIMIZE__)
+  return std::max(1, full / 20);
+#else
+  return full;
+#endif
+}
+
+/// Random numbers that are the same everywhere (the distributions of <random> need not be).
+class Random {
+ public:
+  explicit Random(std::uint64_t seed) : engine_(seed) {}
+  double in(double low, double high) { return low + (high - low) * static_cast<double>(engine_() >> 11) * 0x1p-53; }
+  std::uint32_t below(std::uint32_t n) { return static_cast<std::uint32_t>(engine_() % n); }
+  Vec3 in_cube(double half) { return {in(-half, half), in(-half, half), in(-half, half)}; }
+  Vec3 direction() {
+    for (;;) {
+      const Vec3 v = in_cube(1.0);
+      const double length2 = glm::dot(v, v);
+      if (length2 < 1.0 && length2 > 1e-4) return v / std::sqrt(length2);
+    }
+  }
+  Quat orientation() {
+    const Vec3 axis = direction();
+    const double half = in(0.0, 3.14159265358979);
+    return Quat(std::cos(half), std::sin(half) * axis);
+  }
+  /// Uniform over the triangle.
+  Vec2 barycentric() {
+    double u = in(0.0, 1.0), v = in(0.0, 1.0);
+    if (u + v > 1.0) u = 1.0 - u, v = 1.0 - v;
+    return {u, v};
+  }
+
+ private:
+  std::mt19937_64 engine_;
+};
+
+inline bool all_finite(const TickOutput& o) {
+  return is_finite(o.contact) && is_finite(o.normal) && is_finite(o.force_n) && std::isfinite(o.penetration_m) &&
+         std::isfinite(o.cld_m) && std::isfinite(o.error_m) && std::isfinite(o.u) && std::isfinite(o.v);
+}
+
+inline double angle_deg(const Vec3& a, const Vec3& b) {
+  return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)) / kDegree;
 }
 
 /// FNV-1a over the bytes of doubles and integers: the same bits give the same value.

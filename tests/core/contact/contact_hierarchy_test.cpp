@@ -1,0 +1,219 @@
+// The search over the hierarchy passes by no triangle that holds a contact.
+#include "core/contact/contact_hierarchy.h"
+#include "core/contact/step_rule.h"
+#include "tests/core/scenes.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <set>
+
+using namespace tangent;
+using namespace tangent::test;
+
+namespace {
+
+struct FaceContact {
+  std::uint32_t triangle;
+  double height_m;
+};
+
+/// Contacts of a round finger's centre on the faces, stable or not, by Newton from several starts on every triangle,
+/// kept only where it stays inside that triangle.
+std::vector<FaceContact> face_contacts(const ContactMesh& mesh, const Vec3& centre) {
+  std::vector<FaceContact> contacts;
+  Finger finger;
+  finger.shape = FingerShape::point;
+  const FingerPose pose{centre, Quat(1.0, 0.0, 0.0, 0.0)};
+  for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t) {
+    if (!mesh.usable(t)) continue;
+    const PnPatch patch = make_patch(mesh, t);
+    for (const Vec2& start : {Vec2(1.0 / 3.0, 1.0 / 3.0), Vec2(0.1, 0.1), Vec2(0.8, 0.1), Vec2(0.1, 0.8)}) {
+      double u = start.x, v = start.y;
+      for (int i = 0; i < 12; ++i) {
+        const SurfaceSample e = evaluate(patch, u, v);
+        const PlaceSample s{e.point, e.point_u, e.point_v, e.normal, e.normal_u, e.normal_v};
+        const PlaneContact c = contact_on_plane(finger, pose, s.point, s.normal);
+        if (c.error_m < 1e-12 && u > 0.0 && v > 0.0 && u + v < 1.0) {
+          contacts.push_back({t, c.height_m});
+          break;
+        }
+        const ParameterStep step = newton_step(s, contact_jacobian(finger, pose, s, c), c);
+        if (!step.valid || std::abs(u + step.da) > 3.0 || std::abs(v + step.db) > 3.0) break;
+        u += step.da;
+        v += step.db;
+      }
+    }
+  }
+  return contacts;
+}
+
+std::set<std::uint32_t> visited(const ContactHierarchy& tree, const ContactQuery& query) {
+  std::set<std::uint32_t> seen;
+  tree.visit(query, [&](std::uint32_t t, ContactQuery&) {
+    seen.insert(t);
+    return true;
+  });
+  return seen;
+}
+
+struct Findings {
+  int contacts = 0, missed = 0;
+  double visited_share = 0.0;
+};
+
+Findings search(const ScenePtr& scene, int centres, std::uint64_t seed) {
+  Random random(seed);
+  const ContactMesh& mesh = scene->mesh();
+  const double size = glm::length(mesh.bounds().size());
+  Findings f;
+  for (int i = 0; i < centres; ++i) {
+    const Vec3 centre = random.in_cube(0.4 * size);
+    ContactQuery query;
+    query.centre = centre;
+    query.nearest_m = random.in(0.1, 1.0) * size;
+    query.inside_m = random.below(2) ? random.in(0.0, 0.5) * size : -1.0;
+    const auto seen = visited(scene->hierarchy(), query);
+    f.visited_share += static_cast<double>(seen.size()) / mesh.usable_triangle_count() / centres;
+    for (const FaceContact& c : face_contacts(mesh, centre)) {
+      const bool asked = c.height_m >= 0.0 ? c.height_m <= query.nearest_m : -c.height_m <= query.inside_m;
+      if (!asked) continue;
+      ++f.contacts;
+      f.missed += !seen.contains(c.triangle);
+    }
+    // While the centre moves by up to the margin, too.
+    query.margin_m = 0.05 * size;
+    const auto wide = visited(scene->hierarchy(), query);
+    const Vec3 moved = centre + query.margin_m * random.in(0.0, 1.0) * random.direction();
+    for (const FaceContact& c : face_contacts(mesh, moved)) {
+      const double reach = std::abs(c.height_m) + query.margin_m;
+      const bool asked = c.height_m >= 0.0 ? reach <= query.nearest_m : reach <= query.inside_m;
+      if (!asked) continue;
+      ++f.contacts;
+      f.missed += !wide.contains(c.triangle);
+    }
+  }
+  return f;
+}
+
+}  // namespace
+
+TEST_CASE("a search visits every triangle that holds a contact, from outside and inside, at rest and on the move") {
+  std::vector<ScenePtr> scenes{scene_of(make_icosphere(0.040, 2)), scene_of(make_torus(0.040, 0.015, 32, 16)),
+                               scene_of(*generate_mesh("octagon")), scene_of(*generate_mesh("cube", {.rounding_m = 1.5e-3})),
+                               scene_of(height_field(0.05, 12, [](double x, double y) { return 0.01 * std::sin(80 * x) * std::cos(60 * y); }))};
+  for (const ScenePtr& scene : scenes) {
+    const Findings f = search(scene, rounds(200), 130);
+    CHECK(f.contacts > rounds(200) / 4);
+    CHECK(f.missed == 0);
+    CHECK(f.visited_share < 0.9);
+  }
+}
+
+TEST_CASE("a search of spot visits every triangle that holds a contact, and few others") {
+  const auto spot = shared_scene("spot.obj", 180.0);
+  if (!spot) return;
+  const Findings f = search(spot, rounds(40), 131);
+  CHECK(f.contacts > rounds(40));
+  CHECK(f.missed == 0);
+  CHECK(f.visited_share < 0.3);
+}
+
+TEST_CASE("a search visits the triangles of a box's edge and corner contacts") {
+  const auto box = scene_of(*generate_mesh("cube"));
+  const ContactMesh& mesh = box->mesh();
+  Random random(132);
+  int missed = 0, asked = 0;
+  for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t)
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      if (mesh.edge_kind(t, k) != EdgeKind::crease) continue;
+      const EdgeLink other = mesh.across(t, k);
+      for (int i = 0; i < rounds(40); ++i) {
+        // A direction inside the fan of the edge, and one inside the octant of its first corner.
+        const double f = random.in(0.0, 1.0), h = random.in(0.001, 0.03);
+        const Vec3 on = (1.0 - f) * mesh.position(t, k) + f * mesh.position(t, (k + 1) % 3);
+        const Vec3 fan = unit(random.in(0.0, 1.0) * mesh.normal(t, k) + random.in(0.0, 1.0) * mesh.normal(other.triangle, other.edge));
+        const Vec3 corner = mesh.position(t, k), octant = unit(glm::sign(corner) * glm::abs(random.direction()));
+        for (const auto& [point, n] : {std::pair(on, fan), std::pair(corner, octant)}) {
+          ContactQuery query;
+          query.centre = point + h * n;
+          query.nearest_m = 1.001 * h;
+          query.inside_m = -1.0;
+          const auto seen = visited(box->hierarchy(), query);
+          ++asked;
+          missed += !seen.contains(t);
+          missed += !seen.contains(other.triangle);
+        }
+      }
+    }
+  CHECK(asked > 0);
+  CHECK(missed == 0);
+}
+
+TEST_CASE("a search visits the rim of an open plate from every side") {
+  const auto plate = scene_of(height_field(0.05, 4, [](double, double) { return 0.0; }));
+  const ContactMesh& mesh = plate->mesh();
+  Random random(133);
+  int missed = 0;
+  for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t)
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      if (mesh.edge_kind(t, k) != EdgeKind::boundary) continue;
+      for (int i = 0; i < 20; ++i) {
+        const double f = random.in(0.0, 1.0), h = random.in(0.001, 0.03);
+        ContactQuery query;
+        query.centre = (1.0 - f) * mesh.position(t, k) + f * mesh.position(t, (k + 1) % 3) + h * random.direction();
+        query.nearest_m = 1.001 * h;
+        query.inside_m = -1.0;
+        missed += !visited(plate->hierarchy(), query).contains(t);
+      }
+    }
+  CHECK(missed == 0);
+}
+
+TEST_CASE("for fingers that are not round the tilt keeps their contacts in the search") {
+  const auto torus = scene_of(make_torus(0.040, 0.015, 32, 16));
+  const ContactMesh& mesh = torus->mesh();
+  Random random(134);
+  for (const FingerShape shape : {FingerShape::ellipsoid, FingerShape::capsule}) {
+    Finger finger;
+    finger.shape = shape;
+    finger.radius_m = 0.008;
+    finger.half_length_m = 0.012;
+    finger.semi_axes_m = {0.018, 0.010, 0.007};
+    int missed = 0;
+    for (int i = 0; i < rounds(5000); ++i) {
+      const std::uint32_t t = random.below(mesh.triangle_count());
+      const Vec2 uv = random.barycentric();
+      const SurfaceSample s = evaluate(make_patch(mesh, t), uv.x, uv.y);
+      FingerPose pose{Vec3(0.0), random.orientation()};
+      const double depth = random.in(-0.002, 0.001);
+      pose.position = s.point - depth * s.normal - support_point(finger, pose, s.normal);
+      ContactQuery query;
+      query.centre = pose.position;
+      // What a search for contacts of at most this depth's rank asks for (seed.cpp).
+      query.nearest_m = finger.reach_m() - depth + finger.unroundness_m();
+      query.inside_m = -1.0;
+      query.tilt_rad = finger.tilt_rad();
+      missed += !visited(torus->hierarchy(), query).contains(t);
+    }
+    CAPTURE(static_cast<int>(shape));
+    CHECK(missed == 0);
+  }
+}
+
+TEST_CASE("the visitor can narrow the search and end it") {
+  const auto sphere = scene_of(make_icosphere(0.040, 3));
+  ContactQuery query;
+  query.centre = Vec3(0.0);  // every triangle holds a contact
+  query.nearest_m = query.inside_m = 1.0;
+  int all = 0, few = 0, none = 0;
+  sphere->hierarchy().visit(query, [&](std::uint32_t, ContactQuery&) { return ++all, true; });
+  sphere->hierarchy().visit(query, [&](std::uint32_t, ContactQuery&) { return ++few < 10; });
+  sphere->hierarchy().visit(query, [&](std::uint32_t, ContactQuery& q) {
+    q.nearest_m = q.inside_m = 0.001;
+    return ++none, true;
+  });
+  CHECK(all == 1280);
+  CHECK(few == 10);
+  CHECK(none < all / 20);  // what is left of the leaf it was in
+}

@@ -1,0 +1,231 @@
+// Events, and what is rendered while a tick has no converged contact.
+#include "tests/core/scenes.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+using namespace tangent;
+using namespace tangent::test;
+
+namespace {
+
+ScenePtr icosphere() {
+  static const ScenePtr scene = scene_of(make_icosphere(0.040, 3));
+  return scene;
+}
+ScenePtr torus() {
+  static const ScenePtr scene = scene_of(make_torus(0.040, 0.015, 48, 24));
+  return scene;
+}
+
+Preset unconvergeable(Preset preset) {
+  preset.solver.max_iterations = 1;
+  preset.solver.tolerance_m = 0.0;  // no error is below: robust gets down to exactly zero
+  return preset;
+}
+
+/// Pressed 1 mm deep at the sphere's point in direction n.
+Vec3 pressed(const Vec3& n) { return 0.059 * unit(n); }
+
+/// Two plates, one over the other, 60 mm apart: the lower faces up, the upper faces down, as the sides of a slot.
+ScenePtr slot() {
+  static const ScenePtr scene = [] {
+    PolygonMesh mesh = height_field(0.050, 4, [](double, double) { return -0.030; });
+    const auto below = static_cast<std::uint32_t>(mesh.positions.size());
+    const PolygonMesh upper = height_field(0.050, 4, [](double, double) { return 0.030; });
+    mesh.positions.insert(mesh.positions.end(), upper.positions.begin(), upper.positions.end());
+    for (std::size_t f = 0; f < upper.face_count(); ++f)
+      mesh.add_face({upper.face(f)[0] + below, upper.face(f)[2] + below, upper.face(f)[1] + below});
+    return scene_of(mesh);
+  }();
+  return scene;
+}
+
+}  // namespace
+
+TEST_CASE("the first tick is first, the following ones have no event") {
+  for (const Method method : kSmoothMethods) {
+    Preset preset = sphere_preset(0.020, method);
+    Stepper stepper(icosphere());
+    TickState state;
+    for (int i = 0; i < 200; ++i) {
+      const TickOutput out = stepper.step(preset, at_position(1e-3 * i, pressed({1.0, 0.002 * i, 0.001 * i})), state);
+      CHECK(out.event == (i == 0 ? TickEvent::first : TickEvent::none));
+      CHECK(out.status == TickStatus::face);
+    }
+  }
+}
+
+TEST_CASE("after a leap that tracking can't follow, the contact is seeded anew and marked") {
+  for (const Method method : kSmoothMethods) {
+    CAPTURE(name_of(method));
+    Preset preset = sphere_preset(0.020, method);
+    preset.solver.max_iterations = 6;
+    int marked = 0, right = 0, leaps = 0;
+    Random random(60);
+    Stepper stepper(icosphere());
+    TickState state;
+    Vec3 direction(1, 0, 0);
+    stepper.step(preset, at_position(0.0, pressed(direction)), state);
+    for (int i = 1; i < 200; ++i) {
+      const Vec3 to = random.direction();
+      const double angle = angle_deg(direction, to);
+      direction = to;
+      const TickOutput out = stepper.step(preset, at_position(1e-3 * i, pressed(direction)), state);
+      if (angle < 90.0) continue;
+      ++leaps;
+      marked += out.event != TickEvent::none;
+      right += out.status == TickStatus::face && glm::length(out.contact - 0.040 * direction) < 1e-4;
+    }
+    CHECK(leaps > 50);
+    CHECK(marked == leaps);
+    CHECK(right == leaps);
+  }
+}
+
+TEST_CASE("robust marks every turn of the normal by over ten degrees in a tick") {
+  Random random(61);
+  const Preset preset = sphere_preset(0.012, Method::robust);
+  for (const ScenePtr& scene : {torus(), icosphere()}) {
+    Stepper stepper(scene);
+    TickState state;
+    TickOutput last = stepper.step(preset, at_position(0.0, Vec3(0.06, 0.0, 0.0)), state);
+    int unmarked = 0, turns = 0;
+    for (int i = 1; i < rounds(3000); ++i) {
+      const TickOutput out = stepper.step(preset, at_position(1e-3 * i, random.in_cube(0.07)), state);
+      if (angle_deg(last.normal, out.normal) > 10.1) {
+        ++turns;
+        unmarked += out.event == TickEvent::none;
+      }
+      last = out;
+    }
+    CHECK(turns > 50);
+    CHECK(unmarked == 0);
+  }
+}
+
+TEST_CASE("a deeper place elsewhere takes over once, by the hysteresis, marked switch, and at the right tick") {
+  // In the slot the ball touches below and above; it rises from the lower plate to the upper one.
+  for (const Method method : kSmoothMethods) {
+    CAPTURE(name_of(method));
+    for (const double hysteresis : {20e-6, 500e-6}) {
+      Preset preset = sphere_preset(0.0305, method);
+      preset.solver.switch_hysteresis_m = hysteresis;
+      Stepper stepper(slot());
+      TickState state;
+      int switches = 0, other = 0;
+      double at = 0.0;
+      for (int i = 0; i <= 2000; ++i) {
+        const double z = -0.001 + 1e-6 * i;
+        const TickOutput out = stepper.step(preset, at_position(1e-3 * i, {0.0031, 0.0017, z}), state);
+        if (out.event == TickEvent::switched) ++switches, at = z;
+        else if (i > 0 && out.event != TickEvent::none) ++other;
+        CHECK(std::abs(out.penetration_m - (0.0005 + (switches ? z : -z))) <= 1e-12);
+        CHECK(out.normal.z == doctest::Approx(switches ? -1.0 : 1.0));
+      }
+      CHECK(switches == 1);
+      CHECK(other == 0);
+      // Above the middle the upper plate is deeper by 2 z.
+      CHECK(at >= 0.5 * hysteresis - 1e-12);
+      CHECK(at <= 0.5 * hysteresis + 1.5e-6);
+    }
+  }
+}
+
+TEST_CASE("without a converged contact the last plane holds for 5 ms, then ramps to zero over 5 ms, at the present pose") {
+  for (const Method method : kSmoothMethods) {
+    CAPTURE(name_of(method));
+    Preset good = sphere_preset(0.020, method);
+    good.display.travel_m = good.display.finger_arc_m;
+    const Preset bad = unconvergeable(good);
+    Stepper stepper(icosphere());
+    TickState state;
+    const Vec3 n0 = unit(Vec3(1.0, 0.3, -0.5));
+    const TickOutput last = stepper.step(good, at_position(1.0, pressed(n0)), state);
+    REQUIRE(last.status == TickStatus::face);
+    for (int i = 1; i <= 14; ++i) {
+      const double since = 1e-3 * i;
+      const Vec3 position = pressed(n0) - (1e-5 * i) * n0 + Vec3(0.0, 2e-5 * i, 0.0);
+      const TickOutput out = stepper.step(bad, at_position(1.0 + since, position), state);
+      CHECK(out.status == TickStatus::unconverged);
+      const double share = std::clamp(1.0 - (since - 5e-3) / 5e-3, 0.0, 1.0);
+      const double depth = 0.020 - glm::dot(position - last.contact, last.normal);
+      CHECK(glm::length(out.force_n - share * 800.0 * depth * last.normal) <= 1e-9);
+      CHECK(out.cld_m == doctest::Approx(share * last.cld_m).epsilon(1e-6));
+      CHECK(all_finite(out));
+    }
+    // Converging again ends it.
+    const TickOutput again = stepper.step(good, at_position(1.020, pressed(n0)), state);
+    CHECK(again.status == TickStatus::face);
+    CHECK(glm::length(again.force_n) == doctest::Approx(800.0 * again.penetration_m));
+  }
+}
+
+TEST_CASE("hold and ramp follow the preset") {
+  Preset good = sphere_preset(0.020, Method::robust);
+  good.safety = {2e-3, 0.0};
+  Stepper stepper(icosphere());
+  TickState state;
+  stepper.step(good, at_position(0.0, pressed({1, 0.2, 0.1})), state);
+  const Preset bad = unconvergeable(good);
+  CHECK(glm::length(stepper.step(bad, at_position(0.0019, pressed({1, 0.2, 0.1001})), state).force_n) > 0.5);
+  CHECK(glm::length(stepper.step(bad, at_position(0.0021, pressed({1, 0.2, 0.1})), state).force_n) == 0.0);
+}
+
+TEST_CASE("without any converged contact so far force and display are zero") {
+  for (const Method method : kSmoothMethods) {
+    const Preset bad = unconvergeable(sphere_preset(0.020, method));
+    Stepper stepper(icosphere());
+    TickState state;
+    for (int i = 0; i < 5; ++i) {
+      const TickOutput out = stepper.step(bad, at_position(1e-3 * i, pressed({1.0, 0.3 + 0.01 * i, -0.5})), state);
+      CHECK(out.status == TickStatus::unconverged);
+      CHECK(glm::length(out.force_n) == 0.0);
+      CHECK(out.cld_m == 0.0);
+    }
+  }
+}
+
+TEST_CASE("the paper's iteration without curvature gain does not converge on the torus, and the force ramps out") {
+  Preset preset = sphere_preset(0.020, Method::paper);
+  preset.solver.gain_curvature_m = 0.0;
+  Stepper stepper(torus());
+  TickState state;
+  int unconverged = 0;
+  double force = 1.0;
+  for (int i = 0; i < 30; ++i) {
+    const double a = 0.002 * i + 0.05;
+    const TickOutput out = stepper.step(preset, at_position(1e-3 * i, 0.074 * Vec3(std::cos(a), std::sin(a), 0.02)), state);
+    unconverged += out.status == TickStatus::unconverged;
+    force = glm::length(out.force_n);
+  }
+  CHECK(unconverged >= 28);
+  CHECK(force == 0.0);
+}
+
+TEST_CASE("a free finger has a plane and a display position, but no force") {
+  for (const Method method : kSmoothMethods) {
+    const Preset preset = sphere_preset(0.020, method);
+    const TickOutput out = solve_once(icosphere(), preset, {0.061 * unit(Vec3(0.3, 0.1, 1.0)), Quat(1.0, 0.0, 0.0, 0.0)});
+    CHECK(out.status == TickStatus::free);
+    CHECK(out.penetration_m == doctest::Approx(-0.001).epsilon(2e-3));
+    CHECK(glm::length(out.force_n) == 0.0);
+    CHECK(out.cld_m == doctest::Approx(0.020 * std::atan2(-0.3, 1.0)).epsilon(1e-3));
+  }
+}
+
+TEST_CASE("damping acts along the normal with the finger's speed, and not on the first tick") {
+  Preset preset = sphere_preset(0.020, Method::robust);
+  preset.force.damping_n_s_per_m = 5.0;
+  Stepper stepper(icosphere());
+  TickState state;
+  const TickOutput first = stepper.step(preset, at_position(0.0, {0.059, 0.0, 0.0}), state);
+  CHECK(glm::length(first.force_n) == doctest::Approx(800.0 * first.penetration_m).epsilon(1e-12));
+  const TickOutput in = stepper.step(preset, at_position(1e-3, {0.0589, 0.0, 0.0}), state);  // 0.1 m/s inwards
+  CHECK(glm::dot(in.force_n, in.normal) == doctest::Approx(800.0 * in.penetration_m + 0.5).epsilon(1e-4));
+  const TickOutput out = stepper.step(preset, at_position(2e-3, {0.059, 0.0, 0.0}), state);
+  CHECK(glm::dot(out.force_n, out.normal) == doctest::Approx(800.0 * out.penetration_m - 0.5).epsilon(1e-4));
+  const TickOutput fast = stepper.step(preset, at_position(3e-3, {0.0595, 0.0, 0.0}), state);  // 0.5 m/s outwards
+  CHECK(glm::length(fast.force_n) == 0.0);  // never pulls
+}
