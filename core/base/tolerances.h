@@ -62,7 +62,7 @@ inline constexpr int kTrackBudget = 8;
 inline constexpr int kSeedBudget = 16;
 
 /// New planes a suspected rival may cost, 1: its place is known to 1/30 of a triangle, where Newton needs two or three.
-inline constexpr int kRivalBudget = 5;
+inline constexpr int kRivalBudget = 4;
 
 /// Nearest triangles that seed a contact, 1. 24 found every stable contact of the shared pose files in the
 /// prototype (ALGORITHM.md 7). More: slower re-seeding; fewer: contacts missed in rough ground.
@@ -91,13 +91,20 @@ inline constexpr std::size_t kKnownContacts = 8;
 
 /// Bisections of a patch in search of a contact, and parts looked at in all. More: fewer false alarms, each of which
 /// costs a few surface evaluations; fewer: cheaper where many contacts are near.
-inline constexpr int kBisections = 5, kBisectionTests = 16;
+inline constexpr int kBisections = 9, kBisectionTests = 32;
 
 /// Part of its height by which a rival's height is guessed wrong at most, without solving for it. Larger: rivals are
 /// solved for before they can take over; smaller: a takeover may come a tick late.
-inline constexpr double kHeightGuess = 2e-4;
+inline constexpr double kHeightGuess = 2e-5;
 
 /// Part of the raw mesh's distance by which a seeded contact may lie further off before more seeds are tried.
 inline constexpr double kImplausibleShare = 0.02;
+
+/// Around a contact, its own slope reaches this many look-aheads and a triangle far, as a ratio. Larger: places behind
+/// a fold are taken for the slope's; smaller: searches over the triangles that the contact walks to anyway.
+inline constexpr double kBasinReach = 0.5;
+
+/// Cosine of the angle by which normals may differ from the contact's on its own slope.
+inline constexpr double kBasinCosine = 0.9;
 
 }  // namespace tangent

@@ -20,13 +20,6 @@ TrackedPlane face_at(std::uint32_t triangle, double u, double v) {
   return place;
 }
 
-IterationResult iterate_from_closest(IterationContext& context, std::uint32_t triangle, int budget) {
-  const NearestHit hit = closest_on_triangle(context.cache.mesh(), triangle, context.pose.position);
-  IterationResult result;
-  iterate(context, face_at(triangle, hit.u, hit.v), budget, result);
-  return result;
-}
-
 /// Proof that triangle t holds no contact of a rank under `bound`, its crease and boundary edges included; for round
 /// fingers. Its margin is how far the centre may go until the triangle could hold one.
 PatchExclusion excluded(IterationContext& context, std::uint32_t t, double bound) {
@@ -87,9 +80,12 @@ void seed_by_hierarchy(IterationContext& context, const ContactScene& scene, Sel
   query.tilt_rad = context.finger.tilt_rad();
   int solves = 0;
   scene.hierarchy().visit(query, [&](std::uint32_t t, ContactQuery& q) {
-    if (!excluded(context, t, selection.group == 0 ? selection.value : std::numeric_limits<double>::max()).possible) return true;
+    const PatchExclusion proof = excluded(context, t, selection.group == 0 ? selection.value : std::numeric_limits<double>::max());
+    if (proof.margin_m > 0.0) return true;
     context.seed = static_cast<std::uint8_t>(std::min(++solves, 255));
-    selection.offer(context.finger, iterate_from_closest(context, t, kSeedBudget));
+    IterationResult r;
+    iterate(context, face_at(t, proof.u, proof.v), kSeedBudget, r);
+    selection.offer(context.finger, r);
     if (selection.group == 0) limit_query(q, context.finger, selection.value);
     return solves < kMaxSolves;
   });
@@ -127,7 +123,14 @@ struct KnownContact {
   std::uint32_t triangle;
   Vec3 point, normal;
   double height_m;
+  double size;  ///< longest side of its triangle
 };
+
+double longest_side(const ContactMesh& mesh, std::uint32_t t) {
+  const auto p = mesh.positions(t);
+  const auto square = [](const Vec3& v) { return glm::dot(v, v); };
+  return std::sqrt(std::max({square(p[1] - p[0]), square(p[2] - p[1]), square(p[0] - p[2])}));
+}
 
 /// Whether triangle t has the edge or vertex that the known contact rests on.
 bool shares_feature(const ContactMesh& mesh, std::uint32_t t, const KnownContact& known) {
@@ -138,14 +141,15 @@ bool shares_feature(const ContactMesh& mesh, std::uint32_t t, const KnownContact
 
 /// Whether triangle t surely belongs to the slope that leads to a known contact: towards each of its corners the
 /// normal turns no faster than a contact at height h stays stable with (1 + h k > 0, with room), and the corner does
-/// not rise from it towards the finger.
-bool same_basin(const ContactMesh& mesh, std::uint32_t t, const KnownContact& known) {
+/// not rise from it towards the finger. Only within `reach`: further off there may be a fold between.
+bool same_basin(const ContactMesh& mesh, std::uint32_t t, const KnownContact& known, double reach) {
   if (t == known.triangle) return true;
   if (known.feature != Feature::face && shares_feature(mesh, t, known)) return true;
   for (std::uint32_t k = 0; k < 3; ++k) {
     const Vec3 dp = mesh.position(t, k) - known.point;
     const Vec3 dn = mesh.normal(t, k) - known.normal;
     const double distance2 = glm::dot(dp, dp), over = glm::dot(dp, known.normal);
+    if (distance2 > reach * reach || glm::dot(mesh.normal(t, k), known.normal) < kBasinCosine) return false;
     if (over * known.height_m > 0.0 && over * over > 0.25 * distance2) return false;
     if (known.height_m * glm::dot(dn, dp) < -0.5 * distance2) return false;
   }
@@ -198,7 +202,8 @@ RivalResult find_rival(IterationContext& context, const ContactScene& scene, con
   std::array<KnownContact, kKnownContacts> known;
   std::size_t known_count = 0;
   const auto remember = [&](const IterationResult& r) {
-    if (known_count < known.size()) known[known_count++] = {r.plane.feature, r.plane.side, r.plane.triangle, r.plane.point, r.plane.normal, r.contact.height_m};
+    if (known_count < known.size()) known[known_count++] = {r.plane.feature, r.plane.side, r.plane.triangle, r.plane.point, r.plane.normal, r.contact.height_m,
+                              longest_side(context.cache.mesh(), r.plane.triangle)};
   };
   remember(tracked);
   const auto shrink = [&](ContactQuery& q, double margin) {
@@ -215,7 +220,7 @@ RivalResult find_rival(IterationContext& context, const ContactScene& scene, con
   scene.hierarchy().visit(query, [&](std::uint32_t t, ContactQuery& q) {
     const ContactMesh& mesh = context.cache.mesh();
     for (std::size_t i = 0; i < known_count; ++i)
-      if (same_basin(mesh, t, known[i])) return true;
+      if (same_basin(mesh, t, known[i], known[i].size + kBasinReach * q.margin_m)) return true;
     const PatchExclusion proof = excluded(context, t, bound_m);
     if (proof.margin_m > 0.0 && !proof.possible) {
       shrink(q, proof.margin_m);
@@ -225,8 +230,9 @@ RivalResult find_rival(IterationContext& context, const ContactScene& scene, con
       shrink(q, kUnresolvedMargin * margin_m);
       return true;
     }
-    const double behind = proof.height_m - bound_m;
-    if (proof.height_m > 0.0 && behind > kHeightGuess * std::abs(proof.height_m)) {
+    const double guess = proof.height_m >= 0.0 ? proof.height_m : context.finger.reach_m() - proof.height_m;
+    const double behind = guess - bound_m;
+    if (proof.height_m != 0.0 && behind > kHeightGuess * guess) {
       // A rival, but not a deeper one yet.
       shrink(q, overtaking_margin(known[0], interpolated_normal(mesh, t, proof.u, proof.v),
                                   proof.height_m, behind));

@@ -1,9 +1,11 @@
 #include "core/tuning/gain_tuning.h"
 
+#include "core/tuning/distribution.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
+#include <set>
 
 namespace tangent {
 namespace {
@@ -34,27 +36,6 @@ double round_number(double x) {
   return power * (digits >= 5.0 ? 5.0 : digits >= 2.0 ? 2.0 : 1.0);
 }
 
-/// Counts of iterations by value, for the percentile.
-struct IterationCounts {
-  std::map<std::int32_t, std::uint64_t> counts;
-  std::uint64_t ticks = 0, sum = 0;
-
-  void add(std::int32_t iterations) {
-    ++counts[iterations];
-    ++ticks;
-    sum += static_cast<std::uint64_t>(iterations);
-  }
-  std::int32_t p99() const {
-    const double rank = std::ceil(0.99 * static_cast<double>(ticks));
-    std::uint64_t below = 0;
-    for (const auto& [iterations, count] : counts) {
-      below += count;
-      if (static_cast<double>(below) >= rank) return iterations;
-    }
-    return 0;
-  }
-};
-
 /// One tuning under way.
 class Tuner {
  public:
@@ -62,32 +43,61 @@ class Tuner {
         const GainGrid& grid, const KeepTuning& keep_going)
       : stepper_(std::move(scene)), preset_(base), poses_(poses), grid_(grid), keep_going_(keep_going) {
     preset_.solver.method = Method::paper;
+    result_.untuned.gains = Gains{};
   }
 
   GainTuning run() {
-    planned_ = grid_.coarse.size();
-    for (const Gains& gains : grid_.coarse) {
-      if (!attempt(lattice_of(gains, grid_.fine))) return finish(true);
-    }
-    for (int step = kFirstStep; step > 0;) {
-      const Lattice centre = best_;
-      if (!attempt_neighbours(centre, step)) return finish(true);
-      if (best_ == centre) step /= 2;
-    }
-    return finish(false);
+    result_.stopped = !search();
+    result_.tried = tried_.size();
+    return std::move(result_);
   }
 
  private:
-  /// False: told to stop.
-  bool attempt(const Lattice& at) {
-    if (scores_.contains(at)) return true;
-    if (!going_on()) return false;
-    preset_.solver = with_gains(preset_.solver, gains_at(at, grid_.fine));
-    const RunScore score = score_run(stepper_, preset_, poses_, [this] { return going_on(); });
-    if (score.ticks < poses_.size()) return false;
-    if (scores_.empty() || better(score, scores_.at(best_))) best_ = at;
-    scores_.emplace(at, score);
+  /// False, here and below: told to stop.
+  bool search() {
+    planned_ = grid_.coarse.size();
+    if (!attempt(lattice_of(Gains{}, grid_.fine))) return false;
+    result_.untuned = result_.best.front();
+    for (const Gains& gains : grid_.coarse) {
+      if (!attempt(lattice_of(gains, grid_.fine))) return false;
+    }
+    for (int step = kFirstStep; step > 0;) {
+      const Gains centre = result_.best.front().gains;
+      if (!attempt_neighbours(lattice_of(centre, grid_.fine), step)) return false;
+      if (result_.best.front().gains == centre) step /= 2;
+    }
     return true;
+  }
+
+  bool attempt(const Lattice& at) {
+    if (tried_.contains(at)) return true;
+    const Gains gains = gains_at(at, grid_.fine);
+    preset_.solver = with_gains(preset_.solver, gains);
+    bool stopped = false;
+    const RunScore score = score_run(stepper_, preset_, poses_, [&](const RunScore& so_far) {
+      stopped = keep_going_ && !keep_going_(tried_.size(), planned_);
+      return !stopped && !beaten(so_far);
+    });
+    if (stopped) return false;
+    tried_.insert(at);
+    if (score.ticks == poses_.size()) enter({gains, score});
+    return true;
+  }
+
+  /// Whether a run can no longer come among the best, however it goes on.
+  bool beaten(const RunScore& so_far) const {
+    if (result_.best.size() < kBestTrials) return false;
+    const RunScore& last = result_.best.back().score;
+    return so_far.unconverged > last.unconverged ||
+           (so_far.unconverged == last.unconverged && so_far.iterations > last.iterations);
+  }
+
+  void enter(const GainTrial& trial) {
+    auto& best = result_.best;
+    const auto worse = std::find_if(best.begin(), best.end(),
+                                    [&](const GainTrial& other) { return better(trial.score, other.score); });
+    best.insert(worse, trial);
+    if (best.size() > kBestTrials) best.pop_back();
   }
 
   bool attempt_neighbours(const Lattice& centre, int step) {
@@ -97,25 +107,11 @@ class Tuner {
       for (const int sign : {-1, 1}) {
         Lattice at = centre;
         at[axis] = std::clamp(at[axis] + sign * step, 0, largest[axis]);
-        if (!scores_.contains(at)) neighbours.push_back(at);
+        if (!tried_.contains(at)) neighbours.push_back(at);
       }
     }
-    planned_ = scores_.size() + neighbours.size();
+    planned_ = tried_.size() + neighbours.size();
     return std::all_of(neighbours.begin(), neighbours.end(), [this](const Lattice& at) { return attempt(at); });
-  }
-
-  bool going_on() const { return !keep_going_ || keep_going_(scores_.size(), planned_); }
-
-  GainTuning finish(bool stopped) const {
-    GainTuning result;
-    result.stopped = stopped;
-    for (const auto& [at, score] : scores_) result.trials.push_back({gains_at(at, grid_.fine), score});
-    std::stable_sort(result.trials.begin(), result.trials.end(),
-                     [](const GainTrial& a, const GainTrial& b) { return better(a.score, b.score); });
-    result.untuned.gains = Gains{};
-    if (const auto found = scores_.find(lattice_of(Gains{}, grid_.fine)); found != scores_.end())
-      result.untuned.score = found->second;
-    return result;
   }
 
   Stepper stepper_;
@@ -123,9 +119,9 @@ class Tuner {
   std::span<const TickInput> poses_;
   const GainGrid& grid_;
   const KeepTuning& keep_going_;
-  std::map<Lattice, RunScore> scores_;
-  Lattice best_{};
+  std::set<Lattice> tried_;
   std::size_t planned_ = 0;
+  GainTuning result_;
 };
 
 }  // namespace
@@ -141,28 +137,28 @@ SolverSettings with_gains(SolverSettings settings, const Gains& gains) {
 
 bool better(const RunScore& a, const RunScore& b) {
   if (a.unconverged != b.unconverged) return a.unconverged < b.unconverged;
-  if (a.mean_iterations != b.mean_iterations) return a.mean_iterations < b.mean_iterations;
+  if (a.mean_iterations() != b.mean_iterations()) return a.mean_iterations() < b.mean_iterations();
   return a.p99_iterations < b.p99_iterations;
 }
 
 RunScore score_run(Stepper& stepper, const Preset& preset, std::span<const TickInput> poses,
-                   const std::function<bool()>& keep_going) {
+                   const std::function<bool(const RunScore&)>& keep_going) {
   RunScore score;
-  IterationCounts iterations;
+  std::vector<double> iterations;
+  iterations.reserve(poses.size());
   TickState state;
   for (const TickInput& input : poses) {
-    if (keep_going && score.ticks % kAskEvery == 0 && !keep_going()) break;
+    if (keep_going && score.ticks % kAskEvery == 0 && !keep_going(score)) break;
     const TickOutput output = stepper.step(preset, input, state);
     ++score.ticks;
-    iterations.add(output.iterations);
+    score.iterations += static_cast<std::uint64_t>(output.iterations);
     score.max_iterations = std::max(score.max_iterations, output.iterations);
+    iterations.push_back(output.iterations);
     if (output.event == TickEvent::reseed) ++score.reseeded;
     if (output.status == TickStatus::unconverged) ++score.unconverged;
     else score.max_error_m = std::max(score.max_error_m, output.error_m);
   }
-  if (score.ticks == 0) return score;
-  score.mean_iterations = static_cast<double>(iterations.sum) / static_cast<double>(score.ticks);
-  score.p99_iterations = iterations.p99();
+  score.p99_iterations = static_cast<std::int32_t>(distribution(std::move(iterations)).p99);
   return score;
 }
 
@@ -170,10 +166,10 @@ GainGrid make_gain_grid(double length_m) {
   GainGrid grid;
   grid.fine = {0.01, round_number(length_m / 200.0), round_number(0.02 / length_m)};
   grid.largest = {2.0, 10.0 * length_m, 100.0 / length_m};
-  grid.coarse.push_back(Gains{});
-  for (const double overall : {0.7, 0.85, 1.0, 1.15, 1.3}) {
-    for (const double curvature : {0.0, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 2.0, 4.0}) {
-      for (const double distance : {0.0, 1.0, 4.0, 16.0})
+  // Likely ones first: the sooner good gains are known, the sooner the runs of bad ones end.
+  for (const double distance : {0.0, 1.0, 4.0, 16.0}) {
+    for (const double overall : {1.0, 0.85, 1.15, 0.7, 1.3}) {
+      for (const double curvature : {1.0, 0.75, 1.25, 0.5, 1.5, 2.0, 4.0, 0.25, 0.0})
         grid.coarse.push_back({overall, curvature * length_m, distance / length_m});
     }
   }

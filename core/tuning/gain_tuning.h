@@ -27,19 +27,20 @@ struct RunScore {
   std::uint64_t ticks = 0;
   std::uint64_t unconverged = 0;
   std::uint64_t reseeded = 0;           ///< ticks whose tracking gave up, converged after all or not
-  double mean_iterations = 0.0;
+  std::uint64_t iterations = 0;         ///< of all ticks
   std::int32_t p99_iterations = 0;      ///< nearest rank
   std::int32_t max_iterations = 0;
   double max_error_m = 0.0;             ///< of the converged ticks
+  double mean_iterations() const { return ticks ? static_cast<double>(iterations) / static_cast<double>(ticks) : 0.0; }
 };
 
 /// Fewest unconverged ticks first, then the smaller mean of iterations, then the smaller 99th percentile.
 bool better(const RunScore& a, const RunScore& b);
 
-/// Steps all poses from nothing tracked. `keep_going` is asked every few hundred ticks; once it says no, the score
-/// is of the ticks so far (`ticks` tells).
+/// Steps all poses from nothing tracked. `keep_going` is asked every few hundred ticks, with the counts so far; once it
+/// says no, the score is of the ticks so far (`ticks` tells).
 RunScore score_run(Stepper& stepper, const Preset& preset, std::span<const TickInput> poses,
-                   const std::function<bool()>& keep_going = {});
+                   const std::function<bool(const RunScore&)>& keep_going = {});
 
 struct GainTrial {
   Gains gains;
@@ -48,7 +49,7 @@ struct GainTrial {
 
 /// Steps of the grids. Gains are whole multiples of `fine`, so that they stay short numbers in a file.
 struct GainGrid {
-  std::vector<Gains> coarse;  ///< tried one and all, the first being the paper's iteration untuned: G_o 1, G_k 0, G_d 0
+  std::vector<Gains> coarse;  ///< tried one and all
   Gains fine;                 ///< resolution of the walk
   Gains largest;              ///< it stays within 0 and this
 };
@@ -59,18 +60,21 @@ struct GainGrid {
 /// point finger any length of its path's ground. Precondition: > 0.
 GainGrid make_gain_grid(double length_m);
 
+inline constexpr std::size_t kBestTrials = 10;
+
 struct GainTuning {
-  std::vector<GainTrial> trials;  ///< best first, whatever was tried: complete runs only
+  std::vector<GainTrial> best;    ///< up to kBestTrials, best first; empty: stopped before any run was complete
   GainTrial untuned;              ///< G_o 1, G_k 0, G_d 0; ticks 0: stopped before it was done
-  bool stopped = false;           ///< `keep_going` said no; the trials hold what was done by then
+  std::size_t tried = 0;          ///< gains tried in all, those included whose run ended early for being worse
+  bool stopped = false;           ///< `keep_going` said no; `best` holds what was done by then
 };
 
 /// Asked before every trial and now and then within one; how many trials are done, how many there will be at least.
 using KeepTuning = std::function<bool(std::size_t done, std::size_t planned)>;
 
-/// Tunes the gains of the paper's iteration; everything else is as in `base`, whose method does not matter.
+/// Tunes the gains of the paper's iteration, untuned first; everything else is as in `base`, whose method does not matter.
 /// The walk tries the six neighbours of the best point, doubling no step, halving all of them where none is better,
-/// down to the grid's resolution. Precondition: poses not empty.
+/// down to the grid's resolution. Runs that can't come among the best any more end early. Precondition: poses not empty.
 GainTuning tune_gains(std::shared_ptr<const ContactScene> scene, const Preset& base, std::span<const TickInput> poses,
                       const GainGrid& grid, const KeepTuning& keep_going = {});
 
