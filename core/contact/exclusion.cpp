@@ -7,13 +7,14 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace tangent {
 namespace {
 
-using Cubic = std::array<double, 10>;     // in ControlPoint order
-using Quadratic = std::array<double, 6>;  // in ControlNormal order
 using Quintic = std::array<double, 21>;
+/// f as a map to the plane: the components along t and s side by side, so that both go through one instruction.
+using QuinticMap = std::array<Vec2, 21>;
 
 struct Exponents {
   int i, j, k;  // of w, u, v
@@ -46,9 +47,9 @@ constexpr ProductTable kProduct;
 
 double cross(const Vec2& a, const Vec2& b) { return a.x * b.y - a.y * b.x; }
 
-/// Both components of f over a part of the patch whose corners lie at these (u, v).
+/// f over a part of the patch whose corners lie at these (u, v).
 struct Part {
-  Quintic ft, fs;
+  QuinticMap f;
   std::array<Vec2, 3> corner;
   int depth = 0;
 
@@ -63,12 +64,11 @@ struct Part {
   double beside(const Vec2& side) const {
     const double length2 = glm::dot(side, side);
     if (!(length2 > 0.0)) return 0.0;
-    const double across_t = side.y, across_s = -side.x;
     double low = 1e300, high = -1e300;
-    for (std::size_t i = 0; i < ft.size(); ++i) {
-      const double x = across_t * ft[i] + across_s * fs[i];
-      low = std::min(low, x);
-      high = std::max(high, x);
+    for (const Vec2& x : f) {
+      const double across = side.y * x.x - side.x * x.y;
+      low = std::min(low, across);
+      high = std::max(high, across);
     }
     return std::max({0.0, low, -high}) / std::sqrt(length2);
   }
@@ -87,15 +87,15 @@ struct Part {
 
   Vec2 at_corner(int k) const {
     constexpr int kIndex[3] = {quintic_index(5, 0), quintic_index(0, 5), quintic_index(0, 0)};
-    return {ft[kIndex[k]], fs[kIndex[k]]};
+    return f[kIndex[k]];
   }
 };
 
 /// Halves of f at the middle of the edge from corner 0 to corner 1, by de Casteljau along each row of that direction.
-void bisect(const Quintic& f, Quintic& first, Quintic& second) {
+void bisect(const QuinticMap& f, QuinticMap& first, QuinticMap& second) {
   for (int k = 0; k <= 5; ++k) {
     const int degree = 5 - k;
-    double row[6];
+    Vec2 row[6];
     for (int j = 0; j <= degree; ++j) row[j] = f[quintic_index(degree - j, j)];
     for (int level = 0; level <= degree; ++level) {
       first[quintic_index(degree - level, level)] = row[0];
@@ -106,18 +106,11 @@ void bisect(const Quintic& f, Quintic& first, Quintic& second) {
 }
 
 /// Corner 0 becomes the last, so that the next bisection halves another edge.
-Quintic rotate(const Quintic& f) {
-  Quintic r;
+void turn(const Part& part, Part& turned) {
   for (int i = 0; i <= 5; ++i)
-    for (int j = 0; i + j <= 5; ++j) r[quintic_index(j, 5 - i - j)] = f[quintic_index(i, j)];
-  return r;
-}
-
-Part turned(Part part) {
-  part.ft = rotate(part.ft);
-  part.fs = rotate(part.fs);
-  part.corner = {part.corner[1], part.corner[2], part.corner[0]};
-  return part;
+    for (int j = 0; i + j <= 5; ++j) turned.f[quintic_index(j, 5 - i - j)] = part.f[quintic_index(i, j)];
+  turned.corner = {part.corner[1], part.corner[2], part.corner[0]};
+  turned.depth = part.depth;
 }
 
 /// Whether a contact in this part could be stable: det M and trace M of the linear interpolation of f, where
@@ -147,14 +140,13 @@ void bisect_parts(const Part& whole, const Vec2& edge_u, const Vec2& edge_v, Pat
     }
     if (part.depth < kBisections && tests < kBisectionTests) {
       Part first, second;
-      bisect(part.ft, first.ft, second.ft);
-      bisect(part.fs, first.fs, second.fs);
+      bisect(part.f, first.f, second.f);
       const Vec2 middle = 0.5 * (part.corner[0] + part.corner[1]);
       first.corner = {part.corner[0], middle, part.corner[2]};
       second.corner = {middle, part.corner[1], part.corner[2]};
       first.depth = second.depth = part.depth + 1;
-      stack[size++] = turned(first);
-      stack[size++] = turned(second);
+      turn(first, stack[size++]);
+      turn(second, stack[size++]);
       continue;
     }
     margin = 0.0;
@@ -169,6 +161,20 @@ void bisect_parts(const Part& whole, const Vec2& edge_u, const Vec2& edge_v, Pat
     result.v = uv.y;
   }
   result.margin_m = margin;
+}
+
+/// Products of the cubic d and the quadratic n, term by term with constant indices and weights.
+template <std::size_t... Term>
+void multiply_miss(const std::array<Vec3, 10>& d, const std::array<Vec3, 6>& n, QuinticMap& f, std::index_sequence<Term...>) {
+  const auto add = [&]<std::size_t A, std::size_t B>() {
+    f[kProduct.index[A][B]] += kProduct.weight[A][B] * (n[B].z * Vec2(d[A].x, d[A].y) - d[A].z * Vec2(n[B].x, n[B].y));
+  };
+  (add.template operator()<Term / 6, Term % 6>(), ...);
+}
+
+template <std::size_t... Term>
+void multiply_height(const std::array<Vec3, 10>& d, const std::array<Vec3, 6>& n, Quintic& height, std::index_sequence<Term...>) {
+  ((height[kProduct.index[Term / 6][Term % 6]] += kProduct.weight[Term / 6][Term % 6] * glm::dot(d[Term / 6], n[Term % 6])), ...);
 }
 
 /// (c - S).N at (u, v), without the derivatives that a plane for stepping needs.
@@ -203,34 +209,30 @@ PatchExclusion exclude_contact(const PnPatch& patch, const Vec3& centre) {
   }
   const Vec3 s = glm::cross(axis, t);
 
-  Quadratic nt, ns, na;
-  for (int b = 0; b < 6; ++b) {
-    const Vec3 n = (b < n110 ? 1.0 : mixed) * patch.normals[b];
-    nt[b] = glm::dot(n, t), ns[b] = glm::dot(n, s), na[b] = glm::dot(n, axis);
+  // Both factors in the frame (t, s, axis).
+  std::array<Vec3, 6> n;
+  for (std::size_t b = 0; b < 6; ++b) {
+    const Vec3 normal = (b < n110 ? 1.0 : mixed) * patch.normals[b];
+    n[b] = {glm::dot(normal, t), glm::dot(normal, s), glm::dot(normal, axis)};
+  }
+  std::array<Vec3, 10> d;
+  for (std::size_t a = 0; a < 10; ++a) {
+    const Vec3 to_centre = c - patch.offsets[a];
+    d[a] = {glm::dot(to_centre, t), glm::dot(to_centre, s), glm::dot(to_centre, axis)};
   }
   Part whole;
-  whole.ft.fill(0.0);
-  whole.fs.fill(0.0);
+  whole.f.fill(Vec2(0.0));
   whole.corner = {Vec2(0.0, 0.0), Vec2(1.0, 0.0), Vec2(0.0, 1.0)};
-  Quintic height{};
-  for (int a = 0; a < 10; ++a) {
-    const Vec3 d = c - patch.offsets[a];
-    const double dt = glm::dot(d, t), ds = glm::dot(d, s), da = glm::dot(d, axis);
-    for (int b = 0; b < 6; ++b) {
-      const double w = kProduct.weight[a][b];
-      const int k = kProduct.index[a][b];
-      whole.ft[k] += w * (dt * na[b] - nt[b] * da);
-      whole.fs[k] += w * (ds * na[b] - ns[b] * da);
-      height[k] += w * (dt * nt[b] + ds * ns[b] + da * na[b]);
-    }
-  }
+  multiply_miss(d, n, whole.f, std::make_index_sequence<60>());
   PatchExclusion result;
-  result.least_height_m = std::max(0.0, *std::min_element(height.begin(), height.end()));
   result.margin_m = whole.margin();
   if (result.margin_m > 0.0) {
     result.possible = false;
     return result;
   }
+  Quintic height{};
+  multiply_height(d, n, height, std::make_index_sequence<60>());
+  result.least_height_m = std::max(0.0, *std::min_element(height.begin(), height.end()));
   const Vec3& e1 = patch.offsets[b030];
   const Vec3& e2 = patch.offsets[b003];
   bisect_parts(whole, {glm::dot(e1, t), glm::dot(e1, s)}, {glm::dot(e2, t), glm::dot(e2, s)}, result);
