@@ -20,6 +20,7 @@ struct CommandResult {
 void add_solve_command(CLI::App& app, CommandResult& result);
 void add_audit_command(CLI::App& app, CommandResult& result);
 void add_make_command(CLI::App& app, CommandResult& result);
+void add_bench_command(CLI::App& app, CommandResult& result);
 void add_tune_command(CLI::App& app, CommandResult& result);
 #ifdef TANGENT_HAS_GUI
 void add_gui_command(CLI::App& app, CommandResult& result);

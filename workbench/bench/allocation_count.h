@@ -1,0 +1,15 @@
+// How often this thread has asked the C++ heap for memory. Counted in programs that link tangent_allocation_counter,
+// which replaces operator new; elsewhere the count stays zero.
+#pragma once
+
+#include <cstdint>
+
+namespace tangent {
+
+struct AllocationCount {
+  bool counted = false;      ///< false: this program does not count
+  std::uint64_t count = 0;   ///< of the calling thread, since it started
+};
+AllocationCount allocation_count() noexcept;
+
+}  // namespace tangent

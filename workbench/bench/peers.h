@@ -1,0 +1,33 @@
+// What other libraries take for the closest point on the raw mesh: the query alone, no contact, no shading.
+#pragma once
+
+#include "core/step.h"
+#include "core/tuning/distribution.h"
+#include "workbench/bench/tick_clock.h"
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+
+namespace tangent::bench {
+
+using Stop = std::function<bool()>;  ///< asked now and then: true ends the work early
+
+struct PeerReport {
+  std::string name;
+  double build_s = 0.0;            ///< of its search tree; 0 for Embree, whose tree the scene holds anyway
+  Distribution ns;                 ///< of one query
+  double largest_disagreement_m = 0.0;  ///< of its distances from Embree's
+};
+
+/// Embree through NearestTriangles::nearest: culled in float, exact in double.
+PeerReport embree_peer(const ContactScene& scene, std::span<const TickInput> poses, const TickClock& clock, const Stop& stop);
+
+/// Larger meshes are left out, for memory and the time the tree takes to build.
+inline constexpr std::uint32_t kMostCgalTriangles = 2'000'000;
+
+/// CGAL's AABB tree. None in a program built without CGAL, and for meshes over kMostCgalTriangles.
+std::optional<PeerReport> cgal_peer(const ContactScene& scene, std::span<const TickInput> poses, const TickClock& clock, const Stop& stop);
+
+}  // namespace tangent::bench

@@ -1,0 +1,16 @@
+// The benchmark's report for machines. Every key of a measured quantity ends in its unit; shares and ratios have none.
+#pragma once
+
+#include "workbench/bench/scene_report.h"
+
+#include <nlohmann/json.hpp>
+
+namespace tangent::bench {
+
+nlohmann::ordered_json report_json(const BenchReport& report);
+
+/// Median tick without its clock in evaluations, and in median ticks of `paper`; 0 where there is nothing to compare with.
+double ticks_per_evaluation(const SceneReport& scene, const MethodReport& method);
+double ticks_per_paper_tick(const SceneReport& scene, const MethodReport& method);
+
+}  // namespace tangent::bench

@@ -1,0 +1,172 @@
+// workbench bench: speed against error, for every method.
+#include "core/base/atomic_file.h"
+#include "workbench/bench/measure.h"
+#include "workbench/bench/report_json.h"
+#include "workbench/cli/bench_plot.h"
+#include "workbench/cli/bench_text.h"
+#include "workbench/cli/command.h"
+#include "workbench/cli/interrupt.h"
+#include "workbench/cli/messages.h"
+#include "workbench/cli/number_option.h"
+
+#include <array>
+#include <cstdio>
+#include <memory>
+
+#include <unistd.h>
+
+namespace tangent {
+namespace {
+
+using namespace bench;
+
+enum class Suite { paper, hard, scale, all };
+constexpr std::array<std::string_view, 4> kSuites{"paper", "hard", "scale", "all"};  // order of Suite
+
+struct BenchOptions {
+  Suite suite = Suite::paper;
+  std::filesystem::path json, plot, meshes, poses;
+  std::string only;
+  std::uint32_t most_triangles = 6'000'000;
+  MeasureOptions measure;
+};
+
+bool wants(const BenchOptions& options, Suite suite) { return options.suite == suite || options.suite == Suite::all; }
+
+/// "hard: torus_inner_saddle" on standard error while it is measured, where that is a terminal.
+class SceneLine {
+ public:
+  SceneLine(std::string_view suite, std::string_view scene) : shown_(::isatty(STDERR_FILENO) == 1) {
+    if (shown_) std::fprintf(stderr, "\r\033[K%.*s: %.*s", static_cast<int>(suite.size()), suite.data(), static_cast<int>(scene.size()), scene.data());
+  }
+  SceneLine(const SceneLine&) = delete;
+  SceneLine& operator=(const SceneLine&) = delete;
+  ~SceneLine() {
+    if (shown_) std::fputs("\r\033[K", stderr);
+  }
+
+ private:
+  bool shown_;
+};
+
+void keep(BenchReport& report, SceneReport scene) {
+  std::fputs(scene_text(scene).c_str(), stdout);
+  std::fflush(stdout);
+  report.scenes.push_back(std::move(scene));
+}
+
+Status run_cases(const std::string& suite, const std::vector<BenchCase>& cases, const BenchOptions& options, const TickClock& clock,
+                 BenchReport& report) {
+  for (const BenchCase& c : cases) {
+    if (InterruptGuard::requested()) return {};
+    if (c.name.find(options.only) == std::string::npos) continue;
+    std::optional<SceneReport> scene;
+    {
+      const SceneLine line(suite, c.name);
+      Result<std::optional<SceneReport>> measured = measure_case(suite, c, options.measure, clock);
+      if (!measured) return tl::unexpected(measured.error());
+      scene = std::move(*measured);
+    }
+    if (scene) keep(report, std::move(*scene));
+  }
+  return {};
+}
+
+/// The panels of the plot: easy ground, sharp turns, and a saddle, where one gain cannot suit both directions.
+Status run_work_precision(const BenchOptions& options, const TickClock& clock, BenchReport& report) {
+  std::vector<BenchCase> cases = paper_cases();
+  for (BenchCase& c : hard_cases()) cases.push_back(std::move(c));
+  for (const std::string_view name : {"icosphere_320", "cube_rounded", "torus_inner_saddle"}) {
+    for (const BenchCase& c : cases) {
+      if (c.name != name || InterruptGuard::requested()) continue;
+      const SceneLine line("work against precision", name);
+      Result<std::optional<WorkPrecisionReport>> curves = measure_work_precision(c, options.measure, clock);
+      if (!curves) return tl::unexpected(curves.error());
+      if (*curves) report.work_precision.push_back(std::move(**curves));
+    }
+  }
+  return {};
+}
+
+Status run_suites(const BenchOptions& options, const TickClock& clock, BenchReport& report) {
+  Status status;
+  if (wants(options, Suite::paper)) status = run_cases("paper", paper_cases(), options, clock, report);
+  if (status && wants(options, Suite::hard)) status = run_cases("hard", hard_cases(), options, clock, report);
+  if (status && !options.poses.empty()) {
+    const Result<std::vector<BenchCase>> cases = shared_cases(options.meshes, options.poses);
+    if (!cases) return tl::unexpected(cases.error());
+    status = run_cases("shared", *cases, options, clock, report);
+  }
+  if (status && wants(options, Suite::scale)) {
+    status = measure_scale(options.most_triangles, options.measure, clock, [&](SceneReport scene) { keep(report, std::move(scene)); });
+  }
+  if (status && !options.plot.empty()) status = run_work_precision(options, clock, report);
+  return status;
+}
+
+/// Fails at once, rather than after the work, where a file can't be written.
+Status probe(const std::filesystem::path& path) {
+  if (path.empty()) return {};
+  if (const Result<AtomicFile> file = AtomicFile::create(path); !file) return tl::unexpected(file.error());
+  return {};
+}
+
+Status write_results(const BenchOptions& options, const BenchReport& report) {
+  if (!options.json.empty()) {
+    if (Status status = write_file_atomic(options.json, report_json(report).dump(2) + "\n"); !status) return status;
+  }
+  if (options.plot.empty() || report.work_precision.empty()) return {};
+  return write_file_atomic(options.plot, work_precision_svg(report.work_precision));
+}
+
+Status run_bench(BenchOptions options, bool& interrupted) {
+  for (const auto& path : {options.json, options.plot}) {
+    if (Status status = probe(path); !status) return status;
+  }
+  const InterruptGuard guard;
+  options.measure.stop = [] { return InterruptGuard::requested(); };
+  const TickClock clock;
+  BenchReport report;
+  report.clock_overhead_ns = clock.overhead_ns();
+  report.repeats = options.measure.repeats;
+  std::fputs(report_legend(report).c_str(), stdout);
+  const Status status = run_suites(options, clock, report);
+  report.interrupted = interrupted = InterruptGuard::requested();
+  std::fputs(summary_text(report).c_str(), stdout);
+  // What was measured before a failure is kept too.
+  const Status written = write_results(options, report);
+  if (interrupted) print_message("bench", "interrupted after " + std::to_string(report.scenes.size()) + " scenes; what was measured is kept");
+  return status ? written : status;
+}
+
+}  // namespace
+
+void add_bench_command(CLI::App& app, CommandResult& result) {
+  CLI::App* command = app.add_subcommand("bench", "Measure speed against error, for every method");
+  auto options = std::make_shared<BenchOptions>();
+  BenchOptions* o = options.get();
+  add_choice_option(*command, "--suite", kSuites, "Scenes: the paper's objects (default), hard cases, 1k to 5M triangles, or all",
+                    [o](int i) { o->suite = static_cast<Suite>(i); });
+  add_number_option(*command, "--ticks", {.min = 1, .max = 10'000'000, .whole = true}, "Ticks of each scene (default 10000)",
+                    [o](double n) { o->measure.ticks = static_cast<int>(n); });
+  add_number_option(*command, "--repeats", {.min = 1, .max = 100, .whole = true}, "Passes; a tick's time is its least (default 3)",
+                    [o](double n) { o->measure.repeats = static_cast<int>(n); });
+  add_number_option(*command, "--max-triangles", {.min = 1280, .max = 6e6, .whole = true}, "Largest mesh of the scale suite (default all)",
+                    [o](double n) { o->most_triangles = static_cast<std::uint32_t>(n); });
+  command->add_option("--only", options->only, "Only scenes whose name contains this")->type_name("TEXT");
+  command->add_option("--json", options->json, "Everything measured")->type_name("F.json");
+  command->add_option("--plot", options->plot, "Time against error as the tolerance sweeps from 1e-3 to 1e-9 mm")->type_name("F.svg");
+  CLI::Option* meshes = command->add_option("--meshes", options->meshes, "Real meshes besides: NAME.obj, fitted to 80 mm")->type_name("DIR");
+  CLI::Option* poses = command->add_option("--poses", options->poses, "Poses on them: NAME-rXXX.csv, finger radius XXX mm")->type_name("DIR");
+  meshes->needs(poses);
+  poses->needs(meshes);
+  command->callback([options, &result] {
+    if (!options->json.empty() && options->json == options->plot) throw CLI::ValidationError("--plot", "names the same file as --json");
+    bool interrupted = false;
+    const Status status = run_bench(*options, interrupted);
+    if (!status) print_message("bench", status.error().message());
+    result.exit_code = status && !interrupted ? kDone : kFailed;
+  });
+}
+
+}  // namespace tangent
