@@ -33,7 +33,7 @@ struct AppOptions {
   double metres_per_unit = 1e-3;        ///< of the mesh file (--unit)
   ContactMeshOptions mesh_options;
   std::filesystem::path preset;         ///< empty: the shipped default
-  std::filesystem::path preset_folder;  ///< listed in the presets panel; empty: "presets" beside the program's sources
+  std::filesystem::path preset_folder;  ///< listed in the presets panel; empty: where `preset` is, or the shipped ones
   std::string device = "simulated";
   std::filesystem::path record;         ///< recording to write; empty: none
   Theme theme = Theme::dark;

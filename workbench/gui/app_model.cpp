@@ -32,7 +32,10 @@ std::string hex16(std::uint64_t value) {
 
 AppModel::AppModel(const AppOptions& options)
     : options_(options), store_(kChannelCount, static_cast<std::size_t>(kHistory_s * 1000.0)), theme_(options.theme) {
-  preset_folder_ = options_.preset_folder.empty() ? std::filesystem::path(TANGENT_PRESET_DIR) : options_.preset_folder;
+  preset_folder_ = options_.preset_folder;
+  // A preset brings its neighbours with it.
+  if (preset_folder_.empty() && options_.preset.has_parent_path()) preset_folder_ = options_.preset.parent_path();
+  if (preset_folder_.empty()) preset_folder_ = options_.preset.empty() ? std::filesystem::path(TANGENT_PRESET_DIR) : ".";
   refresh_preset_files();
   if (!options_.preset.empty()) load_preset(options_.preset);
   if (!options_.record.empty()) say(Severity::warning, "recording to a file is not there yet; " + options_.record.string() + " is not written");
@@ -134,7 +137,7 @@ void AppModel::type_value(const PresetKey& key, const std::string& text) {
     return;
   }
   if (*value < key.min || *value > key.max) {
-    say(Severity::warning, key.full_name() + " goes from " + key.allowed() + "; " + text + " was cut to that");
+    say(Severity::warning, key.full_name() + " goes from " + display_range(key) + "; " + text + " was cut to that");
   }
   set_value(key, *value);
 }

@@ -104,6 +104,12 @@ std::string display_text(const PresetKey& key, double value) {
   return text;
 }
 
+std::string display_range(const PresetKey& key) {
+  if (key.kind == KeyKind::choice) return key.allowed();
+  const std::string_view unit = display_unit(key).name;
+  return display_text(key, key.min) + " to " + display_text(key, key.max) + (unit.empty() ? "" : " " + std::string(unit));
+}
+
 Result<double> parse_typed(const PresetKey& key, std::string_view text) {
   const std::string_view whole = trim(text);
   std::string_view rest = whole;
@@ -111,7 +117,7 @@ Result<double> parse_typed(const PresetKey& key, std::string_view text) {
   double number = 0.0;
   const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), number);
   const auto refuse = [&] {
-    return fail("\"" + std::string(whole) + "\" is not a value of " + key.full_name(), {}, "type " + key.allowed());
+    return fail("\"" + std::string(whole) + "\" is not a value of " + key.full_name(), {}, "type " + display_range(key));
   };
   if (error != std::errc() || !std::isfinite(number)) return refuse();
   const std::string_view unit = trim(rest.substr(static_cast<std::size_t>(end - rest.data())));

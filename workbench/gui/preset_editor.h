@@ -56,6 +56,8 @@ struct DisplayUnit {
 DisplayUnit display_unit(const PresetKey& key);
 /// The value in its display unit, six digits.
 std::string display_text(const PresetKey& key, double value);
+/// "1e-06 to 1000 um": what is allowed, in the display unit; the choices of a choice.
+std::string display_range(const PresetKey& key);
 /// "20", "20 mm", "0.02 m", "2e1": a number in the display unit, or with a unit of the same kind. Fails,
 /// naming what is allowed, on anything else; out of range is not a failure here.
 Result<double> parse_typed(const PresetKey& key, std::string_view text);

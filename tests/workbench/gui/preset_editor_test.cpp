@@ -97,6 +97,7 @@ TEST_CASE("typed values take the unit that is shown, or another of the same kind
   CHECK(parse_typed(key("solver", "tolerance_m"), "1 um").value() == doctest::Approx(1e-6));
   CHECK(display_text(key("solver", "tolerance_m"), 1e-6) == "1");
   CHECK(display_text(radius, 0.02) == "20");
+  CHECK(display_range(radius) == "0 to 1000 mm");
 }
 
 TEST_CASE("every slider goes from end to end, and its places read back") {

@@ -49,6 +49,7 @@ void draw_toasts(const UiContext& ui, AppModel& model, const Rect& over) {
     ImGui::SetNextWindowSize({width, height});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0, 0));
     ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, ui.px(4));
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(1, 1));
     ImGui::PushStyleColor(ImGuiCol_WindowBg, ui.colours.panel_header);
     constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoSavedSettings |
                                        ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoMove;
@@ -61,7 +62,7 @@ void draw_toasts(const UiContext& ui, AppModel& model, const Rect& over) {
     draw.AddText(ui.fonts.text, ui.fonts.text->FontSize, {at.x + ui.px(14), at.y + ui.px(6)}, ui.colours.text, text.c_str(), nullptr, wrap);
     ImGui::End();
     ImGui::PopStyleColor();
-    ImGui::PopStyleVar(2);
+    ImGui::PopStyleVar(3);
     y += height + ui.px(6);
     ++shown;
   }

@@ -25,7 +25,7 @@ bool idle(const PresetKey& key, const Preset& preset) {
 
 std::string explain(const PresetKey& key, bool is_idle) {
   std::string text(key.doc);
-  if (key.kind != KeyKind::choice) text += "\n\nAllowed: " + key.allowed() + ".";
+  if (key.kind != KeyKind::choice) text += "\n\nAllowed: " + display_range(key);
   text += "\nKey: " + key.full_name();
   if (!key.option.empty()) text += ", --" + std::string(key.option);
   if (is_idle) text += "\nUsed by the method \"paper\" only.";

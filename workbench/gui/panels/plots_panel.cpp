@@ -44,7 +44,7 @@ PlotsPanel make_plots_panel() {
       .series = {{"commanded", at(Channel::cld_commanded), &Palette::cld_commanded}, {"measured", at(Channel::cld_measured), &Palette::cld_measured}}});
   panel.plots.emplace_back(PlotSpec{.id = "error", .title = "Error", .unit = "\u00b5m", .scale = 1e6, .log = true, .floor = 1e-6, .format = "%-8.3g",
       .series = {{"error", at(Channel::error), &Palette::error}}});
-  panel.plots.emplace_back(PlotSpec{.id = "iterations", .title = "Iterations", .unit = "", .format = "%-4.0f",
+  panel.plots.emplace_back(PlotSpec{.id = "iterations", .title = "Iterations", .unit = "", .counts = true, .format = "%-4.0f",
       .series = {{"iterations", at(Channel::iterations), &Palette::iterations, true}}});
   panel.plots.emplace_back(PlotSpec{.id = "tick_time", .title = "Tick time", .unit = "\u00b5s", .scale = 1e6, .format = "%-7.1f",
       .series = {{"tick time", at(Channel::tick_time), &Palette::tick_time}}});

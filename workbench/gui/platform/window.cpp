@@ -1,6 +1,7 @@
 #include "workbench/gui/platform/window.h"
 
 #include "workbench/gui/app_model.h"
+#include "workbench/gui/platform/key_taps.h"
 #include "workbench/gui/render/scene_renderer.h"
 
 #include <epoxy/gl.h>
@@ -101,13 +102,20 @@ FrameInput frame_input(GLFWwindow* window, double dt_s, std::vector<std::string>
   return input;
 }
 
-void draw_frame(GLFWwindow* window, App& app, const FrameInput& input) {
+bool key_down(GLFWwindow* window, int left, int right) {
+  return glfwGetKey(window, left) == GLFW_PRESS || glfwGetKey(window, right) == GLFW_PRESS;
+}
+
+void draw_frame(GLFWwindow* window, App& app, const FrameInput& input, KeyTaps& taps) {
   if (app.prepare(input)) {
     ImGui_ImplOpenGL3_DestroyFontsTexture();
     ImGui_ImplOpenGL3_CreateFontsTexture();
   }
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
+  taps.apply(ImGui::GetIO(), {key_down(window, GLFW_KEY_LEFT_CONTROL, GLFW_KEY_RIGHT_CONTROL),
+                              key_down(window, GLFW_KEY_LEFT_SHIFT, GLFW_KEY_RIGHT_SHIFT),
+                              key_down(window, GLFW_KEY_LEFT_ALT, GLFW_KEY_RIGHT_ALT)});
   app.frame(input);
   int width_px = 0, height_px = 0;
   glfwGetFramebufferSize(window, &width_px, &height_px);
@@ -126,6 +134,13 @@ class FrameLoop {
       auto& self = *static_cast<FrameLoop*>(glfwGetWindowUserPointer(w));
       self.dropped_.insert(self.dropped_.end(), paths, paths + count);
     });
+    // ImGui's own callback goes first.
+    imgui_keys_ = glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int scancode, int action, int mods) {
+      auto& self = *static_cast<FrameLoop*>(glfwGetWindowUserPointer(w));
+      if (self.imgui_keys_ != nullptr) self.imgui_keys_(w, key, scancode, action, mods);
+      if (action != GLFW_PRESS) return;
+      self.taps_.pressed(key, {(mods & GLFW_MOD_CONTROL) != 0, (mods & GLFW_MOD_SHIFT) != 0, (mods & GLFW_MOD_ALT) != 0});
+    });
   }
 
   void run(const std::function<bool()>& should_stop) {
@@ -134,7 +149,7 @@ class FrameLoop {
       wait_for_work(last);
       const double now = glfwGetTime();
       check_shaders(now);
-      draw_frame(window_, app_, frame_input(window_, now - last, std::exchange(dropped_, {})));
+      draw_frame(window_, app_, frame_input(window_, now - last, std::exchange(dropped_, {})), taps_);
       if (std::string title = app_.title(); title != title_) glfwSetWindowTitle(window_, (title_ = title).c_str());
       last = now;
     }
@@ -170,6 +185,8 @@ class FrameLoop {
   App& app_;
   SceneRenderer& renderer_;
   std::vector<std::string> dropped_;
+  KeyTaps taps_;
+  GLFWkeyfun imgui_keys_ = nullptr;
   std::string title_, shader_error_;
   double next_shader_check_ = 0.0;
   int settling_ = kSettlingFrames;

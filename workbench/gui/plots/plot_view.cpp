@@ -139,13 +139,14 @@ void PlotView::draw_grid(const UiContext& ui, const TimeAxis& axis, const PlotLi
   const int rows = std::max(1, static_cast<int>(area.height() / (2.2f * font->FontSize)));
   const auto values = spec_.log ? log_ticks(values_.low(), values_.high(), rows)
                                 : linear_ticks(values_.low(), values_.high(), rows);
-  for (const AxisTick& tick : values) {
+  for (AxisTick tick : values) {
+    if (spec_.counts && tick.major && tick.value == std::floor(tick.value)) tick.label.erase(std::min(tick.label.find('.'), tick.label.size()));
     const double share = values_.share(tick.value, spec_.log);
     const float y = std::round(area.max.y - static_cast<float>(share) * area.height());
     if (y > area.min.y && y < area.max.y) {
       draw.AddLine({area.min.x, y}, {area.max.x, y}, tick.major ? ui.colours.grid : ui.colours.grid_minor);
     }
-    if (!tick.major) continue;
+    if (!tick.major || (spec_.counts && tick.value != std::floor(tick.value))) continue;
     // Labels at the very ends move inwards rather than into the neighbours.
     const float label_y = std::clamp(y - half, area.min.y - 0.35f * half, area.max.y - 1.75f * half);
     text_at(draw, font, {area.min.x - ui.px(5) - text_width(font, tick.label.c_str()), label_y}, ui.colours.text_dim,

@@ -31,6 +31,7 @@ struct PlotSpec {
   std::string unit;
   double scale = 1.0;     ///< displayed = channel value * scale
   bool log = false;
+  bool counts = false;    ///< only whole numbers are labelled
   bool with_zero = true;
   double floor = 1e-6;    ///< of a log axis, displayed unit
   const char* format = "%8.3f";  ///< of the value under the cursor

@@ -1,0 +1,85 @@
+// The window with a servo thread and workers of its own, as it really runs. Nothing here depends on how fast.
+#include "headless_app.h"
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <thread>
+#include <utility>
+#include <vector>
+
+using namespace tangent;
+using tangent::test::HeadlessApp;
+
+namespace {
+
+/// Builds frames until `done` or half a minute is over.
+template <class Done>
+bool frames_until(HeadlessApp& ui, Done done) {
+  for (int i = 0; i < 3000; ++i) {
+    ui.frame();
+    if (done()) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  return false;
+}
+
+}  // namespace
+
+TEST_CASE("a live session: records come while frames are built, gains reach the servo, meshes change under it") {
+  AppOptions options;
+  options.mesh = "icosphere";
+  HeadlessApp ui(options);
+  REQUIRE(frames_until(ui, [&] { return ui.model().end_tick() > 500; }));
+  CHECK(ui.model().audit() != nullptr);
+  ui.model().set_value(*find_preset_key("solver", "gain_curvature_m"), 0.013);
+  const std::uint32_t sent = ui.model().session()->preset_id();
+  REQUIRE(frames_until(ui, [&] { return ui.model().status().servo.preset_id == sent; }));
+  ui.click("transport/pause");
+  const std::uint64_t frozen = ui.model().tick().record()->tick.tick;
+  REQUIRE(frames_until(ui, [&] { return ui.model().end_tick() > frozen + 300; }));
+  CHECK(ui.model().tick().record()->tick.tick == frozen);
+  ui.model().open_mesh("torus");
+  REQUIRE(frames_until(ui, [&] { return !ui.model().loading() && ui.model().mesh_path() == "torus"; }));
+  ui.click("transport/live");
+  const std::uint64_t then = ui.model().end_tick();
+  REQUIRE(frames_until(ui, [&] { return ui.model().end_tick() > then + 500; }));
+  CHECK(ui.model().tick().problem().empty());
+  CHECK(ui.model().messages().all().empty());
+}
+
+TEST_CASE("the last mesh asked for is the one that is opened") {
+  AppOptions options;
+  options.mesh = "icosphere";
+  HeadlessApp ui(options);
+  for (const char* name : {"torus", "cube", "saddle", "cone"}) ui.model().open_mesh(name);
+  REQUIRE(frames_until(ui, [&] { return !ui.model().loading(); }));
+  CHECK(ui.model().mesh_path() == "cone");
+}
+
+// What a frame costs. Not a test: run with --no-skip to measure.
+TEST_CASE("measure: processor time of building a frame with the bunny and all plots" * doctest::skip()) {
+  const std::filesystem::path bunny = std::filesystem::path(TANGENT_SHARED_ASSETS) / "meshes/stanford-bunny.obj";
+  if (!std::filesystem::exists(bunny)) {
+    MESSAGE("skipped: no ", bunny.string());
+    return;
+  }
+  for (const auto& [w, h] : {std::pair{1280.0f, 720.0f}, {3840.0f, 2160.0f}}) {
+    AppOptions options = HeadlessApp::deterministic_options();
+    options.mesh = bunny.string();
+    options.metres_per_unit = 1.0;
+    HeadlessApp ui(options, w, h);
+    for (int i = 0; i < 120; ++i) ui.app().advance(1000);
+    for (const double span : {5000.0, 120'000.0}) {
+      ui.model().axis().set_span(span);
+      std::vector<double> ms;
+      for (int i = 0; i < 300; ++i) {
+        ui.app().advance(16);
+        ui.frame();
+        ms.push_back(ui.app().last_build_ms());
+      }
+      std::sort(ms.begin(), ms.end());
+      MESSAGE(w, " x ", h, ", ", span * 1e-3, " s in view: median ", ms[150], " ms, p99 ", ms[297], " ms, worst ", ms[299], " ms");
+    }
+  }
+}
