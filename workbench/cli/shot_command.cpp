@@ -16,6 +16,7 @@ namespace tangent {
 namespace {
 
 constexpr std::array<std::string_view, 2> kThemes{"dark", "light"};  // order of Theme
+constexpr std::array<std::string_view, 2> kUpAxes{"z", "y"};
 
 struct ShotOptions {
   MeshOptions mesh;
@@ -89,6 +90,8 @@ void add_shot_command(CLI::App& app, CommandResult& result) {
                     [request](double scale) { request->scale = scale; });
   add_choice_option(*command, "--theme", kThemes, "Colours (default: the view's own)",
                     [request](int theme) { request->theme = static_cast<Theme>(theme); });
+  add_choice_option(*command, "--up", kUpAxes, "Axis of the mesh that is up in the picture (default z)",
+                    [request](int axis) { request->y_up = axis == 1; });
   command->callback([options, &result] { result.exit_code = run_shot(*options); });
 }
 

@@ -121,8 +121,9 @@ Staging fitted(Staging staging, const ContactScene& scene) {
   return staging;
 }
 
-Camera aimed_camera(const SceneView& view, const StagedScene& staged, double aspect) {
+Camera aimed_camera(const SceneView& view, const StagedScene& staged, double aspect, bool y_up) {
   Camera camera;
+  camera.y_up = y_up;
   camera.yaw_rad = view.yaw_rad;
   camera.pitch_rad = view.pitch_rad;
   Box whole = world_bounds(*staged.scene);
@@ -190,12 +191,16 @@ Result<Image> take_scene_shot(const ShotRequest& request) {
   SceneRenderer renderer;
   if (Status ready = renderer.init(); !ready) return tl::unexpected(ready.error());
 
-  const StagedScene staged = stage_finger(*scene, fitted(view->staging, **scene));
+  Staging staging = fitted(view->staging, **scene);
+  const Vec3 from = staging.approach;
+  if (request.y_up) staging.approach = {from.x, from.z, -from.y};
+  const StagedScene staged = stage_finger(*scene, staging);
   renderer.set_scene(*scene, staged.preset.solver.normal_form);
   renderer.wait_for_tessellation();
   SceneFrame frame = staged.frame(view->toggles, request.theme.value_or(Theme::light));
   frame.pixel_scale = request.scale;
-  draw_view(**screen, renderer, frame, aimed_camera(*view, staged, static_cast<double>(request.width_px) / request.height_px), request);
+  draw_view(**screen, renderer, frame, aimed_camera(*view, staged, static_cast<double>(request.width_px) / request.height_px, request.y_up),
+            request);
   return (*screen)->picture();
 }
 

@@ -30,6 +30,7 @@ struct ShotRequest {
   std::filesystem::path preset;     ///< of the window views; empty: the shipped default
   int width_px = 1280, height_px = 720;
   double scale = 1.0;               ///< of fonts, lines and spacing
+  bool y_up = false;                ///< the mesh stands on y, as many scans do
   std::optional<Theme> theme;       ///< none: the view's own
 };
 

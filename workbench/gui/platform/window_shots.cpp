@@ -33,7 +33,7 @@ void look_from_contact_side(AppModel& model) {
   Camera& camera = model.view().camera;
   const Vec3& normal = record->tick.output.normal;
   // yaw 0 looks from -y: the eye stands beside the contact's normal.
-  camera.yaw_rad = std::atan2(normal.x, -normal.y) + 1.2;
+  camera.yaw_rad = std::atan2(normal.x, camera.y_up ? normal.z : -normal.y) + 1.2;
   camera.pitch_rad = 0.5;
   Box box = world_bounds(*model.scene());
   const Vec3 reach(0.8 * model.presets().current().finger.reach_m());
@@ -45,7 +45,10 @@ void look_from_contact_side(AppModel& model) {
 /// The finger rests on top of the body, leaning to one side.
 bool contact_in_view(const AppModel& model) {
   const ServoRecord* record = model.tick().record();
-  return record != nullptr && record->tick.output.normal.z > 0.75 && record->tick.output.normal.z < 0.95;
+  if (record == nullptr) return false;
+  const Vec3& normal = record->tick.output.normal;
+  const double upwards = model.view().camera.y_up ? normal.y : normal.z;
+  return upwards > 0.75 && upwards < 0.95;
 }
 
 /// The tick with the most iterations among the last few thousand: there is something to see in it.
@@ -147,6 +150,7 @@ Result<Image> take_window_shot(const ShotRequest& request) {
   if (Status ready = renderer.init(); !ready) return tl::unexpected(ready.error());
   App app(app_options(request, view));
   app.model().view().quality = RenderQuality::still;
+  app.model().view().camera.y_up = request.y_up;
   FrameFeeder feeder(**screen, app, request);
   feeder.frame();
   view.arrange(app.model());

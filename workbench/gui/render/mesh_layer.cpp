@@ -8,7 +8,7 @@ namespace tangent {
 namespace {
 
 constexpr std::size_t kTriangleBudget = 300'000;            // of the smooth surface at rest
-constexpr std::size_t kMovingTriangles = 100'000;           // more than these: the stand-in while moving
+constexpr std::size_t kMovingTriangles = 40'000;            // more than these: the stand-in while moving
 constexpr std::size_t kUploadSlice = std::size_t{4} << 20;  // bytes a frame
 constexpr float kTowardEye = 8e-4f;                         // strokes, of their distance to the eye
 
@@ -78,7 +78,7 @@ void MeshLayer::set_scene(std::shared_ptr<const ContactScene> scene, NormalForm 
 void MeshLayer::take_arrays(const SceneFrame& frame) {
   if (std::optional<CoarseArrays> coarse = worker_.take_coarse()) {
     facets_.upload(coarse->facets);
-    stand_in_.begin_upload(std::move(coarse->corner_normals));
+    stand_in_.begin_upload(std::move(coarse->stand_in));
     features_ = std::move(coarse->edges);
     stroke_theme_.reset();
     ++version_;
@@ -124,10 +124,12 @@ void MeshLayer::draw(const ScenePrograms& programs, const SceneFrame& frame, con
   glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   const ViewMatrices view(camera, scene_->mesh().origin(), scale_m_, width_px, height_px);
   const SceneToggles& on = frame.toggles;
-  // While a dense surface moves it stands for the facets too: one pass instead of three.
-  const bool surface_alone = on.smooth_surface && moving && 3 * scene_->mesh().usable_triangle_count() > kMovingTriangles;
-  if ((on.shaded && !surface_alone) || (on.wireframe && !on.smooth_surface)) draw_facets(programs, frame, view);
-  if (on.smooth_surface) draw_surface(programs, frame, view, moving, !on.shaded || surface_alone);
+  if (moving && (on.shaded || on.smooth_surface) && too_dense_to_move(on)) {
+    draw_stand_in(programs, frame, view);
+  } else {
+    if (on.shaded || (on.wireframe && !on.smooth_surface)) draw_facets(programs, frame, view);
+    if (on.smooth_surface) draw_surface(programs, frame, view);
+  }
   glEnable(GL_BLEND);
   glDepthMask(GL_FALSE);
   draw_strokes(programs, frame, view);
@@ -151,18 +153,38 @@ void MeshLayer::draw_facets(const ScenePrograms& programs, const SceneFrame& fra
   glDisable(GL_BLEND);
 }
 
-void MeshLayer::draw_surface(const ScenePrograms& programs, const SceneFrame& frame, const ViewMatrices& view,
-                             bool moving, bool alone) const {
-  const SurfaceBuffer& buffer =
-      smooth_.ready() && (!moving || smooth_.triangles() <= kMovingTriangles) ? smooth_ : stand_in_;
-  const Palette& colours = palette(frame.theme);
+bool MeshLayer::too_dense_to_move(const SceneToggles& on) const {
+  const std::size_t facets = on.shaded ? scene_->mesh().usable_triangle_count() : 0;
+  const std::size_t patches = on.smooth_surface ? smooth_.triangles() : 0;
+  return facets + patches > kMovingTriangles && stand_in_.ready();
+}
+
+void MeshLayer::use_surface_program(const ScenePrograms& programs, const ViewMatrices& view, Rgba albedo, Rgba back) const {
   programs.surface.use();
   view.apply(programs.surface);
-  programs.surface.set("albedo", rgb(colours.smooth_surface));
-  programs.surface.set("inside_albedo", rgb(mix(colours.smooth_surface, colours.boundary, 0.4f)));
+  programs.surface.set("albedo", rgb(albedo));
+  programs.surface.set("inside_albedo", rgb(back));
+  programs.surface.set("toward_eye", 0.0f);
+  programs.surface.set("opacity", 1.0f);
+  programs.surface.set("wire", glm::vec4(0.0f));
+}
+
+// One opaque pass for whatever is on: the colour says what it stands for.
+void MeshLayer::draw_stand_in(const ScenePrograms& programs, const SceneFrame& frame, const ViewMatrices& view) const {
+  const Palette& colours = palette(frame.theme);
+  const bool surface = frame.toggles.smooth_surface;
+  use_surface_program(programs, view, surface ? colours.smooth_surface : colours.mesh, inside(colours));
+  stand_in_.draw();
+}
+
+void MeshLayer::draw_surface(const ScenePrograms& programs, const SceneFrame& frame, const ViewMatrices& view) const {
+  const SurfaceBuffer& buffer = smooth_.ready() ? smooth_ : stand_in_;
+  const Palette& colours = palette(frame.theme);
+  const bool alone = !frame.toggles.shaded;
+  use_surface_program(programs, view, colours.smooth_surface, mix(colours.smooth_surface, colours.boundary, 0.4f));
   programs.surface.set("toward_eye", alone ? 0.0f : 0.25f * kTowardEye);
   programs.surface.set("opacity", alone ? 1.0f : 0.5f);
-  const bool borders = !frame.toggles.shaded && frame.toggles.wireframe && &buffer == &smooth_;
+  const bool borders = alone && frame.toggles.wireframe && smooth_.ready();
   programs.surface.set("wire", rgba(with_alpha(colours.mesh_wire, borders ? 0.55f : 0.0f)));
   programs.surface.set("width_px", static_cast<float>(frame.pixel_scale));
   if (!alone) {

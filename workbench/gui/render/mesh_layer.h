@@ -20,7 +20,7 @@ class MeshLayer {
   /// Uploads what the worker has finished, a slice a call.
   void take_arrays(const SceneFrame& frame);
 
-  /// Draws into the bound framebuffer. `moving`: the coarse stand-in instead of a dense smooth surface.
+  /// Draws into the bound framebuffer. `moving`: a coarse stand-in for facets and surface if they are dense.
   void draw(const ScenePrograms& programs, const SceneFrame& frame, const Camera& camera, int width_px, int height_px,
             bool moving);
 
@@ -36,8 +36,10 @@ class MeshLayer {
  private:
   void refresh_strokes(const SceneFrame& frame);
   void draw_facets(const ScenePrograms& programs, const SceneFrame& frame, const ViewMatrices& view) const;
-  void draw_surface(const ScenePrograms& programs, const SceneFrame& frame, const ViewMatrices& view, bool moving,
-                    bool alone) const;
+  void draw_surface(const ScenePrograms& programs, const SceneFrame& frame, const ViewMatrices& view) const;
+  void draw_stand_in(const ScenePrograms& programs, const SceneFrame& frame, const ViewMatrices& view) const;
+  void use_surface_program(const ScenePrograms& programs, const ViewMatrices& view, Rgba albedo, Rgba back) const;
+  bool too_dense_to_move(const SceneToggles& on) const;
   void draw_strokes(const ScenePrograms& programs, const SceneFrame& frame, const ViewMatrices& view) const;
 
   std::shared_ptr<const ContactScene> scene_;

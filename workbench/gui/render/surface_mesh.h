@@ -41,6 +41,10 @@ std::vector<FacetVertex> facet_vertices(const ContactMesh& mesh, double scale_m)
 /// The triangles themselves with corner normals, vertices shared where position and normal agree.
 SurfaceMesh corner_normal_mesh(const ContactMesh& mesh, double scale_m);
 
+/// A coarse stand-in of at most about `target` triangles: vertices are merged by cells of a grid (mean point,
+/// mean normal), triangles that collapse go. Shape and shading at a distance, nothing to measure on.
+SurfaceMesh clustered_mesh(const ContactMesh& mesh, double scale_m, std::size_t target);
+
 /// Largest level (1..64) with at most `budget` triangles in all.
 unsigned level_within(std::size_t budget, std::uint32_t patches);
 

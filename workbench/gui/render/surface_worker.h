@@ -1,5 +1,5 @@
-// Prepares a scene's vertex arrays on a thread of its own, first what can be drawn at once (facets, corner
-// normals, feature edges), then the smooth surface. The drawing thread polls and never waits.
+// Prepares a scene's vertex arrays on a thread of its own, first what can be drawn at once (facets, a
+// stand-in for motion, feature edges), then the smooth surface. The drawing thread polls and never waits.
 #pragma once
 
 #include "core/step.h"
@@ -13,9 +13,12 @@
 
 namespace tangent {
 
+/// The stand-in has at most about so many triangles.
+inline constexpr std::size_t kStandInTriangles = 24'000;
+
 struct CoarseArrays {
   std::vector<FacetVertex> facets;
-  SurfaceMesh corner_normals;
+  SurfaceMesh stand_in;  ///< with corner normals, coarser than the mesh if that is large
   std::vector<FeatureEdge> edges;
 };
 

@@ -1,6 +1,7 @@
 #include "workbench/gui/render/scene_renderer.h"
 
 #include "core/mesh/generate.h"
+#include "core/mesh/mesh_io.h"
 #include "tests/support/temp_folder.h"
 #include "workbench/gui/platform/offscreen.h"
 #include "workbench/gui/render/shader_program.h"
@@ -10,6 +11,9 @@
 #include <epoxy/gl.h>
 
 #include <algorithm>
+#include <chrono>
+#include <ctime>
+#include <filesystem>
 #include <set>
 #include <string>
 
@@ -210,6 +214,49 @@ TEST_CASE("a moving camera gets a picture at once and a better one when it rests
   const Image resting = texture_image(renderer);
   CHECK(differing_share(moving, resting, 60) < 0.05);  // the same view
   CHECK(moving.rgba != resting.rgba);                  // with smoother edges
+}
+
+TEST_CASE("a scanned mesh of 69,451 triangles orbits with its smooth surface; the rate is reported") {
+  REQUIRE_GL(context);
+  const std::filesystem::path bunny = std::filesystem::path(TANGENT_SHARED_ASSETS) / "meshes/stanford-bunny.obj";
+  if (!std::filesystem::exists(bunny)) {
+    MESSAGE("skipped: no " << bunny.string());
+    return;
+  }
+  ContactMeshOptions options;
+  options.fit_m = 0.080;
+  const auto scene = ContactScene::build(ContactMesh::build(read_mesh(bunny, 1e-3).value(), options).value()).value();
+  const StagedScene staged = stage_finger(scene, staging_for(1.0));
+  SceneRenderer renderer;
+  REQUIRE(renderer.init());
+  renderer.set_scene(scene, NormalForm::bernstein);
+  renderer.wait_for_tessellation();
+  CHECK(renderer.tessellation_triangles() == 0);  // not uploaded yet
+  SceneFrame frame = staged.frame({}, Theme::dark);
+  frame.toggles.smooth_surface = true;
+  frame.quality = RenderQuality::automatic;
+  Camera camera;
+  camera.y_up = true;
+  camera.frame(world_bounds(*scene));
+  for (int i = 0; i < 12; ++i) REQUIRE(renderer.render(frame, camera, 1280, 720));
+  CHECK(renderer.tessellation_triangles() > 2 * scene->mesh().usable_triangle_count());
+  CHECK(renderer.tessellation_triangles() <= 300'000);
+  const auto rate = [&](int frames, double turn_rad) {
+    const auto begin = std::chrono::steady_clock::now();
+    const std::clock_t begin_cpu = std::clock();
+    for (int i = 0; i < frames; ++i) {
+      camera.orbit(turn_rad, 0.0);
+      REQUIRE(renderer.render(frame, camera, 1280, 720));
+      glFinish();
+    }
+    const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    const double processor = static_cast<double>(std::clock() - begin_cpu) / CLOCKS_PER_SEC;
+    return std::to_string(frames / wall) + " frames/s, " + std::to_string(1e3 * processor / frames) + " ms of processor time each";
+  };
+  const std::string moving = rate(30, 0.02), resting = rate(30, 0.0);
+  const std::string driver = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+  MESSAGE("1280 x 720 on " << driver << ": orbiting " << moving << "; camera at rest " << resting);
+  CHECK(distinct_colours(texture_image(renderer)) > 1000);
 }
 
 TEST_CASE("nothing to draw is no failure: no scene, no tick, no pixels") {

@@ -139,6 +139,21 @@ TEST_CASE("the stand-in shares a vertex where position and normal agree, and spl
   CHECK(corner_normal_mesh(cube, 1.0).triangles() == cube.usable_triangle_count());
 }
 
+TEST_CASE("the coarse stand-in of a dense mesh keeps to its budget, its shape and its sides") {
+  const ContactMesh mesh = ContactMesh::build(make_icosphere(0.040, 6)).value();  // 81,920 triangles
+  const double scale = 0.5 * glm::length(mesh.bounds().size());
+  for (const std::size_t target : {500u, 5'000u, 20'000u}) {
+    const SurfaceMesh coarse = clustered_mesh(mesh, scale, target);
+    CHECK(coarse.triangles() <= target);
+    CHECK(coarse.triangles() > target / 4);
+    for (const SurfaceVertex& vertex : coarse.vertices) {
+      const Vec3 p = to_vec(vertex.position) * scale;
+      CHECK(glm::length(p) == doctest::Approx(0.040).epsilon(0.02));
+      CHECK(glm::dot(unpacked(vertex.normal), unit(p)) > 0.99);
+    }
+  }
+}
+
 TEST_CASE("facets carry their own normal whatever the unit of the mesh") {
   for (const double size : {1e-6, 1.0, 1e6}) {
     PolygonMesh one;
