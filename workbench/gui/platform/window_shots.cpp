@@ -26,6 +26,15 @@ struct WindowView {
   void (*look)(AppModel& model);     ///< after them
 };
 
+/// The finger rests on top of the body, leaning to one side.
+bool contact_in_view(const AppModel& model) {
+  const ServoRecord* record = model.tick().record();
+  if (record == nullptr) return false;
+  const Vec3& normal = record->tick.output.normal;
+  const double upwards = model.view().camera.y_up ? normal.y : normal.z;
+  return upwards > 0.75 && upwards < 0.95;
+}
+
 /// Camera to the side of the contact, whole mesh in view.
 void look_from_contact_side(AppModel& model) {
   const ServoRecord* record = model.tick().record();
@@ -42,15 +51,6 @@ void look_from_contact_side(AppModel& model) {
   camera.frame(box, 1.0, 1.5);
 }
 
-/// The finger rests on top of the body, leaning to one side.
-bool contact_in_view(const AppModel& model) {
-  const ServoRecord* record = model.tick().record();
-  if (record == nullptr) return false;
-  const Vec3& normal = record->tick.output.normal;
-  const double upwards = model.view().camera.y_up ? normal.y : normal.z;
-  return upwards > 0.75 && upwards < 0.95;
-}
-
 /// The tick with the most iterations among the last few thousand: there is something to see in it.
 void look_at_busiest_tick(AppModel& model) {
   const std::uint64_t end = model.end_tick();
@@ -60,7 +60,7 @@ void look_at_busiest_tick(AppModel& model) {
   for (std::uint64_t tick = begin; tick < end; ++tick) {
     model.select_tick(tick);
     const std::size_t count = model.tick().iterations().size();
-    if (count > most) most = count, busiest = tick;
+    if (count > most && contact_in_view(model)) most = count, busiest = tick;
   }
   model.select_tick(busiest);
   look_from_contact_side(model);
@@ -69,7 +69,7 @@ void look_at_busiest_tick(AppModel& model) {
   Camera& camera = model.view().camera;
   if (points.empty()) return;
   camera.target = points.centre();
-  camera.pitch_rad = 0.7;
+  camera.pitch_rad = 0.75;
   camera.distance_m = std::max(6.0 * glm::length(points.size()), 0.01 * camera.scene_radius_m);
 }
 
