@@ -85,7 +85,8 @@ std::optional<std::string> number_box(const UiContext& ui, std::string_view path
   std::string edited = text;
   ImGui::SetNextItemWidth(width);
   ImGui::PushFont(ui.fonts.number);
-  if (focus) ImGui::SetKeyboardFocusHere();
+  // SetKeyboardFocusHere would take two more frames, and what is typed meanwhile would be lost.
+  if (focus) GImGui->NavActivateInputId = ImGui::GetID(id_of(path).c_str());
   ImGui::InputText(id_of(path).c_str(), &edited, ImGuiInputTextFlags_AutoSelectAll);
   ImGui::PopFont();
   ui.items.note_last(path);
@@ -134,7 +135,7 @@ ValueFieldResult value_field(const UiContext& ui, std::string_view path, const V
   }
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const float height = ImGui::GetFrameHeight();
-  ImGui::InvisibleButton(id_of(path).c_str(), {std::max(4.0f, field.width), height});
+  ImGui::InvisibleButton((id_of(path) + "/slide").c_str(), {std::max(4.0f, field.width), height});
   ui.items.note_last(path);
   const float mouse = ImGui::GetIO().MousePos.x;
   if (ImGui::IsItemActivated()) {
@@ -148,8 +149,11 @@ ValueFieldResult value_field(const UiContext& ui, std::string_view path, const V
     share = std::clamp(state.slide_from + fine * static_cast<double>((mouse - state.slide_x) / field.width), 0.0, 1.0);
     if (share != field.share) out.slid = share;
   } else if (ImGui::IsItemDeactivated() && ImGui::IsItemHovered() && std::abs(mouse - state.slide_x) <= ui.px(3)) {
+    // The box comes in this very frame: what is typed from the next one on belongs to it.
     state.field = path;
-    state.focus_field = true;
+    ImGui::SetCursorScreenPos(at);
+    number_box(ui, path, field.width, field.text, true);
+    return out;
   }
   const bool lit = ImGui::IsItemHovered() || ImGui::IsItemActive();
   if (lit) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);

@@ -175,6 +175,17 @@ TEST_CASE("a typed value out of range is cut to it with a warning; rubbish is re
   CHECK(said(ui.model(), Severity::error, "fast"));
 }
 
+TEST_CASE("typing may begin in the frame after the click") {
+  RunningApp ui;
+  ui.run(50);
+  ui.move(ui.centre("solver/gain_overall"));
+  ui.press();
+  ui.release();
+  ui.type("0.375");
+  ui.key(HeadlessApp::kEnter);
+  CHECK(ui.model().presets().current().solver.gain_overall == 0.375);
+}
+
 TEST_CASE("dragging a value slides it, live; reset brings the program's own value back") {
   RunningApp ui;
   ui.run(50);

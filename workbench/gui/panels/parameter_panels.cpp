@@ -38,7 +38,7 @@ void draw_row(const UiContext& ui, AppModel& model, const PresetKey& key) {
   const std::string path = std::string(key.table) + "/" + std::string(key.key);
   const bool is_idle = idle(key, preset);
   const float width = ImGui::GetContentRegionAvail().x;
-  const float label_width = std::max(ui.px(116), 0.42f * width);
+  const float label_width = std::max(ui.px(128), 0.42f * width);
   const float reset_width = ui.px(20);
   const ImVec2 at = ImGui::GetCursorScreenPos();
   ImDrawList& draw = *ImGui::GetWindowDrawList();
