@@ -1,5 +1,6 @@
 // workbench tune: gains of the paper's iteration, found by measuring on a mesh, into a preset.
 #include "core/base/atomic_file.h"
+#include "core/tuning/distribution.h"
 #include "core/tuning/gain_tuning.h"
 #include "workbench/cli/command.h"
 #include "workbench/cli/exploration_poses.h"
@@ -8,7 +9,6 @@
 #include "workbench/cli/messages.h"
 #include "workbench/cli/preset_options.h"
 #include "workbench/cli/progress.h"
-#include "workbench/cli/solve_statistics.h"
 #include "workbench/cli/stopwatch.h"
 #include "workbench/cli/text_format.h"
 #include "workbench/cli/tune_report.h"
@@ -81,21 +81,21 @@ MethodRun run_method(const std::shared_ptr<const ContactScene>& scene, Preset pr
                      std::span<const TickInput> poses) {
   preset.solver.method = method;
   Stepper stepper(scene);
-  MethodRun run{method, score_run(stepper, preset, poses), 0.0};
+  MethodRun run{method, score_run(stepper, preset, poses), 0.0, {}};
   std::vector<double> times;
   times.reserve(poses.size());
   TickState state;
   for (const TickInput& input : poses) {
     const Stopwatch watch;
-    stepper.step(preset, input, state);
+    const TickOutput output = stepper.step(preset, input, state);
     times.push_back(watch.nanoseconds());
+    if (output.triangle != kNone) run.grounds.add(ground_of(scene->mesh(), preset, output), output.iterations);
   }
   run.median_ns = distribution(std::move(times)).p50;
   return run;
 }
 
 GainTuning tune(const std::shared_ptr<const ContactScene>& scene, const Preset& base, std::span<const TickInput> poses) {
-  const InterruptGuard interrupt;
   const GainGrid grid = make_gain_grid(gain_length(*scene, base.finger));
   Progress progress("gains tried", grid.coarse.size());
   return tune_gains(scene, base, poses, grid, [&progress](std::size_t done, std::size_t planned) {
@@ -105,6 +105,7 @@ GainTuning tune(const std::shared_ptr<const ContactScene>& scene, const Preset& 
 }
 
 Status run_tune(const TuneOptions& options, bool& interrupted) {
+  const InterruptGuard interrupt;
   TuneReport report;
   report.command = options.command;
   Result<PresetFile> base = load_base(options.preset);
@@ -123,11 +124,11 @@ Status run_tune(const TuneOptions& options, bool& interrupted) {
 
   report.tuning = tune(*scene, preset, *poses);
   interrupted = report.tuning.stopped;
-  if (report.tuning.trials.empty()) {
+  if (report.tuning.best.empty()) {
     print_message("tune", "interrupted before any gains were tried; nothing is written");
     return {};
   }
-  preset.solver = with_gains(preset.solver, report.tuning.trials.front().gains);
+  preset.solver = with_gains(preset.solver, report.tuning.best.front().gains);
   const Method own = preset.solver.method;
   report.own = run_method(*scene, preset, own, *poses);
   report.other = run_method(*scene, preset, own == Method::paper ? Method::robust : Method::paper, *poses);
@@ -137,7 +138,7 @@ Status run_tune(const TuneOptions& options, bool& interrupted) {
   std::fputs((tune_text(report) + options.out.string() + " written\n").c_str(), stdout);
   if (interrupted) {
     print_message("tune", "interrupted; " + options.out.string() + " holds the best of the " +
-                              std::to_string(report.tuning.trials.size()) + " gains tried so far");
+                              std::to_string(report.tuning.tried) + " gains tried so far");
   }
   return {};
 }

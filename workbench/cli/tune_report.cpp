@@ -10,8 +10,6 @@
 namespace tangent {
 namespace {
 
-constexpr std::size_t kShown = 10;
-
 std::string today() {
   const auto days = std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now());
   const std::chrono::year_month_day date(days);
@@ -26,15 +24,25 @@ std::string trial_line(const char* name, const GainTrial& trial) {
   const RunScore& s = trial.score;
   return format("%8s %6.2f %9.5f %8g %12llu %9llu %8.3f %5d %5d\n", name, trial.gains.overall, trial.gains.curvature_m,
                 trial.gains.distance_per_m, static_cast<unsigned long long>(s.unconverged),
-                static_cast<unsigned long long>(s.reseeded), s.mean_iterations, s.p99_iterations, s.max_iterations);
+                static_cast<unsigned long long>(s.reseeded), s.mean_iterations(), s.p99_iterations, s.max_iterations);
 }
 
 std::string run_line(const MethodRun& run) {
   const RunScore& s = run.score;
-  return format("%-8s mean %.3f  p99 %d  max %d iterations, %llu unconverged, %llu reseeded, error at most %.3g um, "
-                "median %.2f us a tick\n", to_string(run.method), s.mean_iterations, s.p99_iterations, s.max_iterations,
+  return format("%-8s mean %.3f  p99 %d  max %d iterations, %llu unconverged, %llu reseeded, error at most %.6g um, "
+                "median %.2f us a tick\n", to_string(run.method), s.mean_iterations(), s.p99_iterations, s.max_iterations,
                 static_cast<unsigned long long>(s.unconverged), static_cast<unsigned long long>(s.reseeded),
                 s.max_error_m * 1e6, run.median_ns * 1e-3);
+}
+
+std::string ground_lines(const MethodRun& run) {
+  std::string text;
+  for (const Ground ground : kGrounds) {
+    if (run.grounds.share(ground) == 0.0) continue;
+    text += format("  %-8s %5.1f %% of the ticks, mean %.3f\n", to_string(ground), 100.0 * run.grounds.share(ground),
+                   run.grounds.mean_iterations(ground));
+  }
+  return text;
 }
 
 }  // namespace
@@ -54,36 +62,42 @@ void describe_measurement(TuneReport& report) {
     {"command", report.command},
     {"poses", report.poses},
     {"ticks", count(own.ticks)},
-    {"mean_iterations", rounded(own.mean_iterations, 1e4)},
+    {"mean_iterations", rounded(own.mean_iterations(), 1e4)},
     {"p99_iterations", count(own.p99_iterations)},
     {"max_iterations", count(own.max_iterations)},
     {"unconverged_ticks", count(own.unconverged)},
     {"reseeded_ticks", count(own.reseeded)},
-    {"max_error_um", rounded(own.max_error_m * 1e6, 1e4)},
+    {"max_error_um", rounded(own.max_error_m * 1e6, 1e9)},
     {"median_solve_ns", rounded(report.own.median_ns, 1.0)}};
+  for (const Ground ground : kGrounds) {
+    if (report.own.grounds.share(ground) == 0.0) continue;
+    const std::string name = to_string(ground);
+    about.measured.emplace_back(name + "_ground_share", rounded(report.own.grounds.share(ground), 1e4));
+    about.measured.emplace_back(name + "_ground_mean_iterations", rounded(report.own.grounds.mean_iterations(ground), 1e4));
+  }
   const std::string other = to_string(report.other.method);
   about.measured.insert(about.measured.end(), {
-    {other + "_mean_iterations", rounded(report.other.score.mean_iterations, 1e4)},
+    {other + "_mean_iterations", rounded(report.other.score.mean_iterations(), 1e4)},
     {other + "_p99_iterations", count(report.other.score.p99_iterations)},
     {other + "_unconverged_ticks", count(report.other.score.unconverged)},
     {other + "_median_solve_ns", rounded(report.other.median_ns, 1.0)}});
   if (report.tuning.untuned.score.ticks == 0) return;
   about.measured.insert(about.measured.end(), {
-    {"untuned_mean_iterations", rounded(report.tuning.untuned.score.mean_iterations, 1e4)},
+    {"untuned_mean_iterations", rounded(report.tuning.untuned.score.mean_iterations(), 1e4)},
     {"untuned_unconverged_ticks", count(report.tuning.untuned.score.unconverged)}});
 }
 
 std::string tune_text(const TuneReport& report) {
   const GainTuning& tuning = report.tuning;
   std::string text = format("%s (%u triangles): %zu gains tried on %llu ticks, %s\n", report.mesh->name().c_str(),
-                            report.mesh->usable_triangle_count(), tuning.trials.size(),
+                            report.mesh->usable_triangle_count(), tuning.tried,
                             static_cast<unsigned long long>(report.own.score.ticks), report.poses.c_str());
   text += "              G_o     G_k m  G_d 1/m  unconverged  reseeded     mean   p99   max\n";
-  for (std::size_t i = 0; i < std::min(kShown, tuning.trials.size()); ++i)
-    text += trial_line(std::to_string(i + 1).c_str(), tuning.trials[i]);
+  for (std::size_t i = 0; i < tuning.best.size(); ++i)
+    text += trial_line(std::to_string(i + 1).c_str(), tuning.best[i]);
   if (tuning.untuned.score.ticks != 0) text += trial_line("untuned", tuning.untuned);
-  text += run_line(report.own) + run_line(report.other);
-  if (const auto left = tuning.trials.front().score.unconverged; left != 0)
+  text += run_line(report.own) + ground_lines(report.own) + run_line(report.other);
+  if (const auto left = tuning.best.front().score.unconverged; left != 0)
     text += format("note: %llu ticks of the paper's iteration did not converge with any gains tried\n",
                    static_cast<unsigned long long>(left));
   return text;

@@ -3,6 +3,7 @@
 
 #include "core/mesh/contact_mesh.h"
 #include "core/tuning/gain_tuning.h"
+#include "core/tuning/ground.h"
 #include "workbench/session/preset_file.h"
 
 #include <string>
@@ -14,6 +15,7 @@ struct MethodRun {
   Method method = Method::paper;
   RunScore score;
   double median_ns = 0.0;
+  GroundCounts grounds;
 };
 
 struct TuneReport {

@@ -1,0 +1,246 @@
+// workbench tune, run as a process, and the claims of the presets that ship.
+#include "tests/support/process.h"
+#include "core/tuning/gain_tuning.h"
+#include "workbench/cli/exploration_poses.h"
+#include "workbench/cli/mesh_options.h"
+#include "workbench/cli/mesh_text.h"
+#include "workbench/session/preset_file.h"
+
+#include <doctest/doctest.h>
+
+#include <chrono>
+#include <map>
+#include <thread>
+
+using namespace tangent;
+using namespace tangent::testing;
+
+namespace {
+
+/// A small mesh and 300 poses that slide over its top.
+struct TuneFolder {
+  TempFolder folder;
+  std::string mesh = folder.file("ball.obj"), preset = folder.file("p.toml");
+  TuneFolder() { REQUIRE(run_workbench({"make", "icosphere", "--out", mesh}).exit_code == 0); }
+
+  std::string poses() const {
+    std::string text = "t_s,x_m,y_m,z_m\n";
+    for (int i = 0; i < 300; ++i) {
+      const double a = 1e-4 / 0.059 * i;
+      text += std::to_string(1e-3 * i) + "," + std::to_string(0.059 * std::sin(a)) + ",0.001," + std::to_string(0.059 * std::cos(a)) + "\n";
+    }
+    return folder.write("poses.csv", text);
+  }
+  ProcessResult tune(std::vector<std::string> options) const {
+    options.insert(options.begin(), {"tune", mesh, "--out", preset});
+    return run_workbench(options);
+  }
+};
+
+/// [about.measured] by key; text and numbers apart.
+struct Claims {
+  std::map<std::string, double> numbers;
+  std::map<std::string, std::string> texts;
+  explicit Claims(const PresetAbout& about) {
+    for (const auto& [key, value] : about.measured) {
+      if (const double* number = std::get_if<double>(&value)) numbers[key] = *number;
+      else texts[key] = std::get<std::string>(value);
+    }
+  }
+};
+
+PresetFile read(const std::string& path) {
+  Result<PresetFile> file = read_preset(path);
+  REQUIRE_MESSAGE(file.has_value(), (file ? "" : file.error().message()));
+  return *file;
+}
+
+/// The scene of an object, by way of the file that `workbench make` writes, as the presets' commands do.
+std::shared_ptr<const ContactScene> scene_of_object(const std::string& object) {
+  const TempFolder folder;
+  std::vector<std::string> make{"make", object, "--out", folder.file(object + ".obj")};
+  if (object != "icosphere" && object != "torus") make.insert(make.end(), {"--rounding-mm", "1.5"});
+  REQUIRE(run_workbench(make).exit_code == 0);
+  MeshOptions options;
+  options.file = folder.file(object + ".obj");
+  Result<LoadedMesh> loaded = load_mesh(options);
+  REQUIRE(loaded);
+  auto scene = ContactScene::build(std::move(loaded->mesh));
+  REQUIRE(scene);
+  return *scene;
+}
+
+RunScore score(const std::shared_ptr<const ContactScene>& scene, Preset preset, Method method) {
+  preset.solver.method = method;
+  Stepper stepper(scene);
+  const ExplorationPoses explored = exploration_poses(*scene, preset.finger);
+  CHECK(explored.whole);
+  return score_run(stepper, preset, explored.poses);
+}
+
+/// What a shipped preset says it measured is what comes out.
+PresetFile check_claims(const std::string& name, const std::string& object) {
+  CAPTURE(name);
+  const PresetFile file = read(TANGENT_SOURCE_DIR "/presets/" + name + ".toml");
+  const Claims claims(file.about);
+  CHECK(file.about.name == name);
+  CHECK(contains(claims.texts.at("command"), "workbench tune " + object + ".obj --out presets/" + name + ".toml"));
+  const auto scene = scene_of_object(object);
+  CHECK(file.about.mesh_hash == hash_text(scene->mesh().content_hash()));
+  const Method own = file.preset.solver.method, other = own == Method::paper ? Method::robust : Method::paper;
+  const RunScore measured = score(scene, file.preset, own);
+  CHECK(measured.unconverged == 0);
+  CHECK(measured.max_error_m < file.preset.solver.tolerance_m);
+  CHECK(claims.numbers.at("unconverged_ticks") == 0.0);
+  CHECK(static_cast<double>(measured.ticks) == claims.numbers.at("ticks"));
+  CHECK(std::abs(measured.mean_iterations() - claims.numbers.at("mean_iterations")) < 0.01);
+  const RunScore beside = score(scene, file.preset, other);
+  CHECK(beside.unconverged == 0);
+  CHECK(std::abs(beside.mean_iterations() - claims.numbers.at(std::string(to_string(other)) + "_mean_iterations")) < 0.01);
+  MESSAGE(name << ": " << to_string(own) << " " << measured.mean_iterations() << ", " << to_string(other) << " "
+               << beside.mean_iterations());
+  return file;
+}
+
+}  // namespace
+
+TEST_CASE("a tuning writes a preset that says what it measured and with which command") {
+  const TuneFolder t;
+  const std::string poses = t.poses();
+  const ProcessResult result = t.tune({"--poses", poses, "--tolerance-um", "0.5", "--stiffness-n-per-m", "300"});
+  CAPTURE(result.err);
+  REQUIRE(result.exit_code == 0);
+  CHECK(contains(result.out, "untuned   1.00   0.00000"));
+  CHECK(contains(result.out, "p.toml written"));
+  const PresetFile file = read(t.preset);
+  const Claims claims(file.about);
+  CHECK(file.preset.solver.method == Method::paper);
+  CHECK(file.preset.solver.tolerance_m == 0.5e-6);
+  CHECK(file.preset.force.stiffness_n_per_m == 300.0);
+  CHECK(file.about.name == "p");
+  CHECK(file.about.mesh_name == "ball.obj");
+  CHECK(file.about.mesh_hash.size() == 16);
+  CHECK(file.about.device == "none");
+  CHECK(file.about.date.size() == 10);
+  CHECK(claims.texts.at("command") == "workbench tune " + t.mesh + " --poses " + poses + " --out " + t.preset +
+                                          " --tolerance-um 0.5 --stiffness-n-per-m 300");
+  CHECK(claims.numbers.at("ticks") == 300.0);
+  CHECK(claims.numbers.at("unconverged_ticks") == 0.0);
+  CHECK(claims.numbers.at("max_error_um") < 0.5);
+  CHECK(claims.numbers.at("median_solve_ns") > 0.0);
+  CHECK(claims.numbers.at("mean_iterations") < claims.numbers.at("untuned_mean_iterations"));
+  CHECK(claims.numbers.contains("robust_mean_iterations"));
+  CHECK(claims.numbers.at("gentle_ground_share") == 1.0);
+}
+
+TEST_CASE("the method is the preset's; the gains are those of the paper's iteration all the same") {
+  const TuneFolder t;
+  const std::string poses = t.poses();
+  REQUIRE(t.tune({"--poses", poses}).exit_code == 0);
+  const PresetFile paper = read(t.preset);
+  REQUIRE(t.tune({"--poses", poses, "--method", "robust"}).exit_code == 0);
+  PresetFile robust = read(t.preset);
+  CHECK(robust.preset.solver.method == Method::robust);
+  CHECK(Claims(robust.about).numbers.contains("paper_mean_iterations"));
+  robust.preset.solver.method = Method::paper;
+  CHECK(robust.preset == paper.preset);
+}
+
+TEST_CASE("tuning what has no gains, or over its own input, is wrong usage") {
+  const TuneFolder t;
+  const auto refused = [&t](std::vector<std::string> options, const std::string& message) {
+    const ProcessResult result = t.tune(std::move(options));
+    CAPTURE(result.err);
+    CHECK(result.exit_code == 2);
+    CHECK(contains(result.err, message));
+  };
+  refused({"--method", "facet"}, "facet has no gains; allowed: paper, newton or robust");
+  refused({"--gain-curvature-m", "0.02"}, "is what tune finds");
+  refused({"--tolerance-um", "nan"}, "not a finite number");
+  refused({"--poses", t.preset}, "names the same file as --poses");
+  CHECK(run_workbench({"tune", t.mesh, "--out", t.mesh}).exit_code == 2);
+  CHECK(run_workbench({"tune", t.mesh}).exit_code == 2);
+  CHECK(t.folder.entry_count() == 1);
+}
+
+TEST_CASE("a preset that can't be written, poses and meshes that can't be read leave with 1 and nothing behind") {
+  const TuneFolder t;
+  const ProcessResult folder = run_workbench({"tune", t.mesh, "--out", t.folder.file("no/p.toml")});
+  CHECK(folder.exit_code == 1);
+  CHECK(contains(folder.err, "no/p.toml"));
+  const ProcessResult poses = t.tune({"--poses", t.folder.file("none.csv")});
+  CHECK(poses.exit_code == 1);
+  CHECK(contains(poses.err, "none.csv"));
+  const ProcessResult mesh = run_workbench({"tune", t.folder.file("none.obj"), "--out", t.preset});
+  CHECK(mesh.exit_code == 1);
+  CHECK(contains(mesh.err, "none.obj"));
+  CHECK(t.folder.entry_count() == 1);
+}
+
+TEST_CASE("Ctrl-C keeps the best gains so far and leaves with 1") {
+  const TempFolder folder;
+  const std::string mesh = folder.file("cube.obj"), preset = folder.file("p.toml");
+  REQUIRE(run_workbench({"make", "cube", "--rounding-mm", "1.5", "--out", mesh}).exit_code == 0);
+  // A moment may come before the first run is complete; then nothing is written, and a later one does it.
+  for (int milliseconds = 500; milliseconds < 100000 && !std::filesystem::exists(preset); milliseconds *= 2) {
+    const Process process({"tune", mesh, "--out", preset});
+    std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
+    process.interrupt();
+    const ProcessResult result = process.wait();
+    CAPTURE(result.err);
+    if (result.exit_code == -1) continue;  // not even started
+    REQUIRE(result.exit_code == 1);
+    if (contains(result.err, "nothing is written")) continue;
+    CHECK(contains(result.err, "interrupted; " + preset + " holds the best of the "));
+    CHECK(contains(read(preset).about.note, "interrupted"));
+  }
+  CHECK(std::filesystem::exists(preset));
+  CHECK(folder.entry_count() == 2);
+}
+
+TEST_CASE("exploration poses are the same every time, 1 ms and 0.1 mm apart, and press") {
+  const auto scene = scene_of_object("cube");
+  const Finger finger;
+  const ExplorationPoses a = exploration_poses(*scene, finger), b = exploration_poses(*scene, finger);
+  REQUIRE(a.poses.size() == b.poses.size());
+  CHECK(a.whole);
+  CHECK(a.press_m == kExplorationPress);
+  double length = 0.0;
+  for (std::size_t i = 0; i < a.poses.size(); ++i) {
+    CHECK(a.poses[i].finger.position == b.poses[i].finger.position);
+    if (i == 0) continue;
+    length += glm::length(a.poses[i].finger.position - a.poses[i - 1].finger.position);
+    CHECK(a.poses[i].t_s - a.poses[i - 1].t_s == doctest::Approx(1e-3));
+  }
+  const double speed = length / a.poses.back().t_s;
+  CHECK(speed > 0.09);
+  CHECK(speed < 0.11);
+}
+
+TEST_CASE("presets of the paper's objects measure what they say") {
+  for (const char* object : {"cone", "cylinder", "cube", "sphere", "tetrahedron", "octagon", "triangle", "hexagon"}) {
+    const PresetFile file = check_claims(object, object);
+    CHECK(file.preset.solver.method == Method::paper);
+    CHECK(file.preset.finger == Finger{});
+  }
+}
+
+TEST_CASE("the default preset is robust, carries tuned gains and measures what it says") {
+  const PresetFile file = check_claims("default", "torus");
+  CHECK(file.preset.solver.method == Method::robust);
+}
+
+TEST_CASE("320 triangles of a sphere take at most 1.5 iterations a tick with the gains that ship, every tick below 1 um") {
+  const auto scene = scene_of_object("icosphere");
+  REQUIRE(scene->mesh().triangle_count() == 320);
+  for (const char* name : {"sphere", "default"}) {
+    const Preset preset = read(TANGENT_SOURCE_DIR "/presets/" + std::string(name) + ".toml").preset;
+    for (const Method method : {Method::paper, Method::robust}) {
+      const RunScore run = score(scene, preset, method);
+      MESSAGE(name << ", " << to_string(method) << ": mean " << run.mean_iterations());
+      CHECK(run.unconverged == 0);
+      CHECK(run.max_error_m < 1e-6);
+      CHECK(run.mean_iterations() <= 1.5);
+    }
+  }
+}
