@@ -169,8 +169,8 @@ std::optional<SceneReport> measure_scene(const std::string& suite, const BenchCa
     report.methods.push_back(measure_method(method, bench_case, scene, poses, reference.outputs, facet.outputs, options, clock));
     if (options.stop()) return std::nullopt;
   }
-  report.peers.push_back(embree_peer(*scene, poses, clock, options.stop));
-  if (auto cgal = cgal_peer(*scene, poses, clock, options.stop)) report.peers.push_back(std::move(*cgal));
+  report.peers.push_back(embree_peer(*scene, poses, options.repeats, clock, options.stop));
+  if (auto cgal = cgal_peer(*scene, poses, options.repeats, clock, options.stop)) report.peers.push_back(std::move(*cgal));
   if (options.stop()) return std::nullopt;
   return report;
 }

@@ -5,10 +5,12 @@
 #include "core/tuning/distribution.h"
 #include "workbench/bench/tick_clock.h"
 
+#include <algorithm>
 #include <functional>
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace tangent::bench {
 
@@ -22,12 +24,31 @@ struct PeerReport {
 };
 
 /// Embree through NearestTriangles::nearest: culled in float, exact in double.
-PeerReport embree_peer(const ContactScene& scene, std::span<const TickInput> poses, const TickClock& clock, const Stop& stop);
+PeerReport embree_peer(const ContactScene& scene, std::span<const TickInput> poses, int repeats, const TickClock& clock, const Stop& stop);
 
 /// Larger meshes are left out, for memory and the time the tree takes to build.
 inline constexpr std::uint32_t kMostCgalTriangles = 2'000'000;
 
 /// CGAL's AABB tree. None in a program built without CGAL, and for meshes over kMostCgalTriangles.
-std::optional<PeerReport> cgal_peer(const ContactScene& scene, std::span<const TickInput> poses, const TickClock& clock, const Stop& stop);
+std::optional<PeerReport> cgal_peer(const ContactScene& scene, std::span<const TickInput> poses, int repeats, const TickClock& clock,
+                                    const Stop& stop);
+
+/// Times query(point) at every pose; its least of `repeats` passes.
+template <class Query>
+Distribution query_times(const ContactScene& scene, std::span<const TickInput> poses, int repeats, const TickClock& clock, const Stop& stop,
+                         Query query) {
+  std::vector<double> ns(poses.size(), 1e300);
+  for (int pass = 0; pass < repeats; ++pass) {
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      if (i % 256 == 0 && stop()) return {};
+      const Vec3 point = poses[i].finger.position - scene.mesh().origin();
+      const std::int64_t from = TickClock::now();
+      query(i, point);
+      const std::int64_t to = TickClock::now();
+      ns[i] = std::min(ns[i], clock.elapsed_ns(from, to));
+    }
+  }
+  return distribution(std::move(ns));
+}
 
 }  // namespace tangent::bench

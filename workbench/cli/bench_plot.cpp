@@ -88,10 +88,13 @@ std::string axes(const Frame& f, const WorkPrecisionReport& panel, bool first) {
   return svg;
 }
 
+/// Markers of different sizes, so that one shows behind another at the same place.
 std::string marker(double x, double y, const MethodStyle& style) {
-  if (style.method == Method::facet || style.method == Method::force_shading)
-    return format("<rect x=\"%.1f\" y=\"%.1f\" width=\"8\" height=\"8\" fill=\"%s\"/>\n", x - 4, y - 4, style.colour);
-  return format("<circle cx=\"%.1f\" cy=\"%.1f\" r=\"3.6\" fill=\"%s\"/>\n", x, y, style.colour);
+  if (style.method == Method::facet || style.method == Method::force_shading) {
+    const double half = style.method == Method::facet ? 5.5 : 3.0;
+    return format("<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" fill=\"%s\"/>\n", x - half, y - half, 2 * half, 2 * half, style.colour);
+  }
+  return format("<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\" fill=\"%s\"/>\n", x, y, style.method == Method::newton ? 5.2 : 3.2, style.colour);
 }
 
 std::string curve_svg(const Frame& f, const WorkPrecisionCurve& curve) {

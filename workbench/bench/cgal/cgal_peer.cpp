@@ -22,7 +22,8 @@ Kernel::Point_3 point(const Vec3& p) { return {p.x, p.y, p.z}; }
 
 }  // namespace
 
-std::optional<PeerReport> cgal_peer(const ContactScene& scene, std::span<const TickInput> poses, const TickClock& clock, const Stop& stop) {
+std::optional<PeerReport> cgal_peer(const ContactScene& scene, std::span<const TickInput> poses, int repeats, const TickClock& clock,
+                                    const Stop& stop) {
   const ContactMesh& mesh = scene.mesh();
   if (mesh.triangle_count() > kMostCgalTriangles) return std::nullopt;
   PeerReport report;
@@ -36,20 +37,16 @@ std::optional<PeerReport> cgal_peer(const ContactScene& scene, std::span<const T
   tree.build();
   tree.accelerate_distance_queries();
   report.build_s = 1e-9 * static_cast<double>(TickClock::now() - start);
-  std::vector<double> ns;
-  ns.reserve(poses.size());
-  for (const TickInput& input : poses) {
-    if (ns.size() % 256 == 0 && stop()) break;
-    const Vec3 query = input.finger.position - mesh.origin();
-    const std::int64_t from = TickClock::now();
-    const Tree::Point_and_primitive_id found = tree.closest_point_and_primitive(point(query));
-    const std::int64_t to = TickClock::now();
-    ns.push_back(clock.elapsed_ns(from, to));
-    const Vec3 d = query - Vec3(found.first.x(), found.first.y(), found.first.z());
+  std::vector<Vec3> closest(poses.size(), Vec3(0.0));
+  report.ns = query_times(scene, poses, repeats, clock, stop, [&](std::size_t i, const Vec3& query) {
+    const Kernel::Point_3 found = tree.closest_point_and_primitive(point(query)).first;
+    closest[i] = {found.x(), found.y(), found.z()};
+  });
+  for (std::size_t i = 0; i < poses.size() && !stop(); ++i) {
+    const Vec3 query = poses[i].finger.position - mesh.origin(), d = query - closest[i];
     const double exact = scene.nearest().nearest(query, std::numeric_limits<double>::infinity()).distance_m;
     report.largest_disagreement_m = std::max(report.largest_disagreement_m, std::abs(std::sqrt(glm::dot(d, d)) - exact));
   }
-  report.ns = distribution(std::move(ns));
   return report;
 }
 

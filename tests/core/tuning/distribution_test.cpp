@@ -1,0 +1,27 @@
+#include "core/tuning/distribution.h"
+
+#include <doctest/doctest.h>
+
+using namespace tangent;
+
+TEST_CASE("percentiles are values that occurred, by nearest rank") {
+  std::vector<double> values;
+  for (int i = 1000; i >= 1; --i) values.push_back(i);
+  const Distribution d = distribution(values);
+  CHECK(d.count == 1000);
+  CHECK(d.mean == doctest::Approx(500.5));
+  CHECK(d.p50 == 500.0);
+  CHECK(d.p99 == 990.0);
+  CHECK(d.p999 == 999.0);
+  CHECK(d.max == 1000.0);
+}
+
+TEST_CASE("one value is all its percentiles, no values are all zero") {
+  const Distribution one = distribution({7.0});
+  CHECK(one.mean == 7.0);
+  CHECK(one.p50 == 7.0);
+  CHECK(one.p999 == 7.0);
+  const Distribution none = distribution({});
+  CHECK(none.count == 0);
+  CHECK(none.max == 0.0);
+}

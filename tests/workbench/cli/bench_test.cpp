@@ -1,0 +1,84 @@
+// workbench bench, run as a process.
+#include "tests/support/process.h"
+
+#include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
+
+using namespace tangent::testing;
+
+TEST_CASE("bench prints a table and writes JSON and a plot") {
+  const TempFolder folder;
+  const std::string json_file = folder.file("b.json"), plot = folder.file("b.svg");
+  const ProcessResult result =
+      run_workbench({"bench", "--suite", "paper", "--only", "icosphere", "--ticks", "30", "--json", json_file, "--plot", plot});
+  REQUIRE(result.exit_code == 0);
+  CHECK(result.err.empty());
+  for (const char* word : {"icosphere_320", "paper", "newton", "robust", "facet", "force-shading", "embree", "robust: 0 of 30 ticks"})
+    CHECK(contains(result.out, word));
+  const auto json = nlohmann::json::parse(read_text(json_file));
+  CHECK(json["interrupted"] == false);
+  REQUIRE(json["scenes"].size() == 1);
+  CHECK(json["scenes"][0]["methods"].size() == 5);
+  CHECK(json["work_precision"].size() == 3);
+  const auto& robust = json["scenes"][0]["methods"][2];
+  CHECK(robust["method"] == "robust");
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+  CHECK(robust["allocations"] == 0);
+#endif
+  const std::string svg = read_text(plot);
+  CHECK(svg.starts_with("<svg"));
+  CHECK(svg.ends_with("</svg>\n"));
+  CHECK_FALSE(contains(svg, "nan"));
+  CHECK_FALSE(contains(svg, "inf"));
+  for (const char* label : {"contact error", "time per tick", "#D55E00", "#009E73"}) CHECK(contains(svg, label));
+  CHECK(folder.entry_count() == 2);
+}
+
+TEST_CASE("bench runs real meshes from folders and says what is wrong with them") {
+  const TempFolder folder;
+  std::filesystem::create_directory(folder.path() / "meshes");
+  std::filesystem::create_directory(folder.path() / "poses");
+  const std::string meshes = folder.file("meshes"), poses = folder.file("poses");
+  const auto run = [&] { return run_workbench({"bench", "--only", "ball", "--meshes", meshes, "--poses", poses, "--repeats", "1"}); };
+
+  CHECK(run().exit_code == 1);  // no pose file
+  folder.write("poses/ball-r020.csv", "t_s,x_m,y_m,z_m\n0,0.0595,0,0\n0.001,0.0595,0.0001,0\n");
+  const ProcessResult no_mesh = run();
+  CHECK(no_mesh.exit_code == 1);
+  CHECK(contains(no_mesh.err, "ball.obj"));
+  REQUIRE(run_workbench({"make", "icosphere", "--out", folder.file("meshes/ball.obj")}).exit_code == 0);
+  const ProcessResult good = run();
+  CHECK(good.exit_code == 0);
+  CHECK(contains(good.out, "shared / ball-r020_crease_180"));
+  CHECK(contains(good.out, "shared / ball-r020_crease_45"));
+  folder.write("poses/ball.csv", "t_s,x_m,y_m,z_m\n0,0,0,0.06\n");
+  const ProcessResult unnamed = run();
+  CHECK(unnamed.exit_code == 1);
+  CHECK(contains(unnamed.err, "ball.csv"));
+}
+
+TEST_CASE("bench refuses what makes no sense before it measures") {
+  const TempFolder folder;
+  CHECK(run_workbench({"bench", "--suite", "easy"}).exit_code == 2);
+  CHECK(run_workbench({"bench", "--ticks", "0"}).exit_code == 2);
+  CHECK(run_workbench({"bench", "--ticks", "nan"}).exit_code == 2);
+  CHECK(run_workbench({"bench", "--repeats", "1.5"}).exit_code == 2);
+  CHECK(run_workbench({"bench", "--meshes", folder.file("m")}).exit_code == 2);
+  CHECK(run_workbench({"bench", "--json", folder.file("a"), "--plot", folder.file("a")}).exit_code == 2);
+  const ProcessResult unwritable = run_workbench({"bench", "--json", folder.file("no/b.json")});
+  CHECK(unwritable.exit_code == 1);
+  CHECK(contains(unwritable.err, folder.file("no/b.json")));
+  CHECK(folder.entry_count() == 0);
+}
+
+TEST_CASE("Ctrl-C keeps what was measured and says so") {
+  const TempFolder folder;
+  const std::string json_file = folder.file("b.json");
+  const Process process({"bench", "--suite", "paper", "--ticks", "2000000", "--repeats", "20", "--json", json_file});
+  ::usleep(1'500'000);
+  process.interrupt();
+  const ProcessResult result = process.wait();
+  CHECK(result.exit_code == 1);
+  CHECK(contains(result.err, "interrupted"));
+  CHECK(nlohmann::json::parse(read_text(json_file))["interrupted"] == true);
+}
