@@ -44,12 +44,6 @@ void draw_icon(ImDrawList& draw, Icon icon, ImVec2 c, float r, ImU32 ink) {
       draw.PathStroke(ink, 0, line);
       draw.AddTriangleFilled({c.x - 0.85f * r, c.y - 0.35f * r}, {c.x - 0.02f * r, c.y - 0.55f * r}, {c.x - 0.62f * r, c.y - 0.98f * r}, ink);
       break;
-    case Icon::cross:
-      draw.AddLine({c.x - 0.5f * r, c.y - 0.5f * r}, {c.x + 0.5f * r, c.y + 0.5f * r}, ink, line);
-      draw.AddLine({c.x - 0.5f * r, c.y + 0.5f * r}, {c.x + 0.5f * r, c.y - 0.5f * r}, ink, line);
-      break;
-    case Icon::folder:
-    case Icon::save: draw.AddRect({c.x - 0.6f * r, c.y - 0.5f * r}, {c.x + 0.6f * r, c.y + 0.5f * r}, ink, 0, 0, line); break;
   }
 }
 
@@ -180,12 +174,12 @@ ValueFieldResult value_field(const UiContext& ui, std::string_view path, const V
 bool icon_button(const UiContext& ui, std::string_view path, Icon icon, const char* tip, bool on, bool enabled) {
   const float side = ImGui::GetFrameHeight();
   const ImVec2 at = ImGui::GetCursorScreenPos();
-  const float width = icon == Icon::reset || icon == Icon::cross ? 0.8f * side : 1.25f * side;
+  const float width = icon == Icon::reset ? 0.8f * side : 1.25f * side;
   const bool pressed = ImGui::InvisibleButton(id_of(path).c_str(), {width, side}) && enabled;
   ui.items.note_last(path);
   const bool hovered = ImGui::IsItemHovered() && enabled;
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  const bool plain = icon == Icon::reset || icon == Icon::cross;
+  const bool plain = icon == Icon::reset;
   if (on || hovered || !plain) {
     const ImU32 fill = on ? ui.colours.accent_fill : ImGui::GetColorU32(hovered ? ImGuiCol_ButtonHovered : ImGuiCol_Button);
     if (!plain || hovered) draw.AddRectFilled(at, {at.x + width, at.y + side}, fill, ui.px(3));
@@ -269,11 +263,5 @@ std::string printed(const char* pattern, ...) {
 }
 
 std::string short_number(double value) { return printed("%.6g", value); }
-
-std::string short_count(double value) {
-  if (value < 1e4) return printed("%.0f", value);
-  if (value < 1e6) return printed("%.1f k", value / 1e3);
-  return printed("%.2f M", value / 1e6);
-}
 
 }  // namespace tangent

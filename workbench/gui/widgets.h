@@ -32,14 +32,14 @@ struct ValueFieldResult {
 };
 ValueFieldResult value_field(const UiContext& ui, std::string_view path, const ValueField& field);
 
-enum class Icon { first, step_back, pause, play, step_forward, live, previous, next, reset, cross, folder, save };
+enum class Icon { first, step_back, pause, play, step_forward, live, previous, next, reset };
 /// A square button with a drawn icon; `on` tints it with the accent.
 bool icon_button(const UiContext& ui, std::string_view path, Icon icon, const char* tooltip, bool on = false,
                  bool enabled = true);
 /// A text button that stays pressed.
 bool toggle_button(const UiContext& ui, std::string_view path, const char* text, bool& on, const char* tooltip);
 bool text_button(const UiContext& ui, std::string_view path, const char* text, const char* tooltip);
-/// Choices side by side, the chosen one tinted; wraps into a combo box when there is no room.
+/// A combo box. Each choice is noted as path/choice while it is open.
 bool choice_row(const UiContext& ui, std::string_view path, float width, std::span<const std::string_view> choices,
                 int& chosen);
 
@@ -54,7 +54,5 @@ void tooltip(const UiContext& ui, std::string_view text);
 std::string printed(const char* pattern, ...) __attribute__((format(printf, 1, 2)));
 /// Six significant digits, no trailing zeros: "0.02", "1e-06", "1234.5".
 std::string short_number(double value);
-/// "1.25", "0.4 k", "12 M": counts for people.
-std::string short_count(double value);
 
 }  // namespace tangent

@@ -423,3 +423,13 @@ TEST_CASE("an unknown device is said to be one, and the window still comes up") 
   ui.key(HeadlessApp::kLeft);
   ui.key('.');
 }
+
+TEST_CASE("a click on a row of the iteration table pauses and selects that iteration; another lets go of it") {
+  RunningApp ui;
+  ui.run();
+  ui.click("iterations/row/0");
+  CHECK(ui.model().paused());
+  CHECK(ui.model().tick().selected() == std::size_t{0});
+  ui.click("iterations/row/0");
+  CHECK_FALSE(ui.model().tick().selected().has_value());
+}

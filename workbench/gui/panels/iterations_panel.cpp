@@ -73,7 +73,8 @@ void draw_row(const UiContext& ui, AppModel& model, std::size_t i, std::size_t c
     model.set_paused(true);
     model.tick().select(selected ? std::nullopt : std::optional(i));
   }
-  ui.items.note_last(printed("iterations/row/%zu", i));
+  // The row reaches past what is scrolled into view; its first cell is always there.
+  ui.items.note(printed("iterations/row/%zu", i), at, {at.x + ui.px(16), at.y + ImGui::GetTextLineHeight()});
   const float side = ui.px(7), y = at.y + 0.5f * ImGui::GetTextLineHeight();
   ImGui::GetWindowDrawList()->AddRectFilled({at.x, y - 0.5f * side}, {at.x + side, y + 0.5f * side}, packed(iteration_colour(i, count)), ui.px(1.5f));
   ImGui::SameLine(0.0f, 0.0f);
@@ -139,7 +140,7 @@ void draw_iterations_panel(const UiContext& ui, AppModel& model, IterationsPanel
   ui.items.note_last("iterations/table");
   ImGui::PopStyleVar();
   ImGui::PopFont();
-  draw_error_plot(ui, model, state.plot_open);
+  draw_error_plot(ui, model);
 }
 
 }  // namespace tangent

@@ -25,10 +25,10 @@ void draw_presets_panel(const UiContext& ui, AppModel& model, PresetsPanel& stat
 
 // Right column.
 struct IterationsPanel {
-  bool open = true, plot_open = true;
+  bool open = true;
 };
 void draw_iterations_panel(const UiContext& ui, AppModel& model, IterationsPanel& state);
-void draw_error_plot(const UiContext& ui, AppModel& model, bool& open);
+void draw_error_plot(const UiContext& ui, AppModel& model);
 
 struct FoldedPanel {
   bool open = true;
