@@ -29,7 +29,7 @@ class Script {
   void click(const char* path) {
     const ImVec2 at = layout_.centre(path);
     char text[160];
-    std::snprintf(text, sizeof text, "xdotool mousemove %.0f %.0f sleep 0.4 mousedown 1 sleep 0.2 mouseup 1 sleep 0.5",
+    std::snprintf(text, sizeof text, "xdotool mousemove %.0f %.0f sleep 0.8 mousedown 1 sleep 0.4 mouseup 1 sleep 1",
                   static_cast<double>(at.x), static_cast<double>(at.y));
     line(text);
   }
@@ -62,12 +62,12 @@ TEST_CASE("the real window opens a mesh, takes a typed gain, pauses, steps, save
     HeadlessApp layout(options, static_cast<float>(kWidth), static_cast<float>(kHeight));
     Script script(layout);
     script.click("solver/gain_overall");
-    script.line("xdotool type 0.625; sleep 0.5; xdotool key Return; sleep 0.5");
+    script.line("xdotool type --delay 250 0.625; sleep 1; xdotool key Return; sleep 1");
     script.click("transport/pause");
     script.click("transport/step_back");
     script.line("xdotool key Left sleep 0.3 key period sleep 0.3");
     script.click("presets/name");
-    script.line("xdotool type typed; sleep 0.5; xdotool key Return; sleep 0.5");
+    script.line("xdotool type --delay 250 typed; sleep 1; xdotool key Return; sleep 1");
     commands = script.text();
   }
   const auto file = folder / "drive.sh";
