@@ -27,7 +27,9 @@ struct MethodReport {
   std::optional<RunDifference> from_own;  ///< from the same place solved on to the converged tolerance; none for facet methods
   std::uint64_t places_without_solution = 0;  ///< converged ticks where solving on led elsewhere
   RunDifference from_reference;           ///< from `robust` at the converged tolerance
-  double max_depth_gap_m = 0.0;           ///< largest |penetration - that of the raw mesh|, converged ticks
+  /// Largest |penetration - that of the raw mesh| of the converged ticks: more than the patches bulge where a deeper place
+  /// is missed, or where raw mesh and normals disagree about the outside. 0 for fingers that are not round.
+  double max_depth_gap_m = 0.0;
   std::uint64_t allocations = 0;
   bool allocations_counted = false;
   WorkReport work;

@@ -24,6 +24,7 @@ std::string method_line(const SceneReport& scene, const MethodReport& m) {
   if (m.allocations_counted && m.allocations > 0) line += format("  %llu allocations", static_cast<unsigned long long>(m.allocations));
   if (s.not_finite > 0) line += format("  %llu NOT FINITE", static_cast<unsigned long long>(s.not_finite));
   if (s.unmarked_jumps > 0) line += format("  %llu unmarked jumps", static_cast<unsigned long long>(s.unmarked_jumps));
+  if (m.max_depth_gap_m > kMillimetre) line += format("  depth up to %.3g mm from the raw mesh's", m.max_depth_gap_m / kMillimetre);
   if (m.method == Method::paper) line += format("  G_k %.3g mm", m.gain_curvature_m / kMillimetre);
   return line + "\n";
 }
@@ -50,7 +51,7 @@ std::string flatness_text(const BenchReport& report) {
 
 std::string report_legend(const BenchReport& report) {
   return format(
-      "Times: ns of one tick, least of %d pass%s (scale: one), clock (%.0f ns) taken off; /ev: median over one evaluation of point, normal and\n"
+      "Times: ns of one tick, least of %d pass%s (one where the finger follows a way in the scale suite), clock (%.0f ns) taken off; /ev: median over one evaluation of point, normal and\n"
       "derivatives; /pap: over the median of paper. Iterations: ticks without event. Errors: 99th percentile from the same place solved on\n"
       "(* from robust solved on: the method itself is exact). Work: of the force once round a closed path, largest of 12; relative to peak energy.\n",
       report.repeats, report.repeats == 1 ? "" : "es", report.clock_overhead_ns);

@@ -75,7 +75,7 @@ TEST_CASE("Ctrl-C keeps what was measured and says so") {
   const TempFolder folder;
   const std::string json_file = folder.file("b.json");
   const Process process({"bench", "--suite", "paper", "--ticks", "2000000", "--repeats", "20", "--json", json_file});
-  ::usleep(1'500'000);
+  ::usleep(3'000'000);
   process.interrupt();
   const ProcessResult result = process.wait();
   CHECK(result.exit_code == 1);
