@@ -131,7 +131,9 @@ Status run_tune(const TuneOptions& options, bool& interrupted) {
   preset.solver = with_gains(preset.solver, report.tuning.best.front().gains);
   const Method own = preset.solver.method;
   report.own = run_method(*scene, preset, own, *poses);
-  report.other = run_method(*scene, preset, own == Method::paper ? Method::robust : Method::paper, *poses);
+  for (const Method method : {Method::paper, Method::newton, Method::robust}) {
+    if (method != own) report.others.push_back(run_method(*scene, preset, method, *poses));
+  }
   report.preset.about.name = options.out.stem().string();
   describe_measurement(report);
   if (const Status status = write_preset(report.preset, options.out); !status) return status;

@@ -75,12 +75,14 @@ void describe_measurement(TuneReport& report) {
     about.measured.emplace_back(name + "_ground_share", rounded(report.own.grounds.share(ground), 1e4));
     about.measured.emplace_back(name + "_ground_mean_iterations", rounded(report.own.grounds.mean_iterations(ground), 1e4));
   }
-  const std::string other = to_string(report.other.method);
-  about.measured.insert(about.measured.end(), {
-    {other + "_mean_iterations", rounded(report.other.score.mean_iterations(), 1e4)},
-    {other + "_p99_iterations", count(report.other.score.p99_iterations)},
-    {other + "_unconverged_ticks", count(report.other.score.unconverged)},
-    {other + "_median_solve_ns", rounded(report.other.median_ns, 1.0)}});
+  for (const MethodRun& run : report.others) {
+    const std::string name = to_string(run.method);
+    about.measured.insert(about.measured.end(), {
+      {name + "_mean_iterations", rounded(run.score.mean_iterations(), 1e4)},
+      {name + "_p99_iterations", count(run.score.p99_iterations)},
+      {name + "_unconverged_ticks", count(run.score.unconverged)},
+      {name + "_median_solve_ns", rounded(run.median_ns, 1.0)}});
+  }
   if (report.tuning.untuned.score.ticks == 0) return;
   about.measured.insert(about.measured.end(), {
     {"untuned_mean_iterations", rounded(report.tuning.untuned.score.mean_iterations(), 1e4)},
@@ -96,7 +98,8 @@ std::string tune_text(const TuneReport& report) {
   for (std::size_t i = 0; i < tuning.best.size(); ++i)
     text += trial_line(std::to_string(i + 1).c_str(), tuning.best[i]);
   if (tuning.untuned.score.ticks != 0) text += trial_line("untuned", tuning.untuned);
-  text += run_line(report.own) + ground_lines(report.own) + run_line(report.other);
+  text += run_line(report.own) + ground_lines(report.own);
+  for (const MethodRun& run : report.others) text += run_line(run);
   if (const auto left = tuning.best.front().score.unconverged; left != 0)
     text += format("note: %llu ticks of the paper's iteration did not converge with any gains tried\n",
                    static_cast<unsigned long long>(left));

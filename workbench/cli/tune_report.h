@@ -7,6 +7,7 @@
 #include "workbench/session/preset_file.h"
 
 #include <string>
+#include <vector>
 
 namespace tangent {
 
@@ -25,13 +26,13 @@ struct TuneReport {
   std::string command;          ///< that was run
   GainTuning tuning;
   MethodRun own;                ///< the preset's method
-  MethodRun other;              ///< robust beside paper, paper beside the others
+  std::vector<MethodRun> others;  ///< the other two of paper, newton and robust
 };
 
 /// Fills preset.about from the rest.
 void describe_measurement(TuneReport& report);
 
-/// The ten best gains, the untuned ones, and the runs of both methods.
+/// The ten best gains, the untuned ones, and what each method does with them.
 std::string tune_text(const TuneReport& report);
 
 }  // namespace tangent
