@@ -174,7 +174,7 @@ TEST_CASE("across the edges of spot nothing jumps unmarked where both sides are 
   const auto scene = shared_scene("spot.obj", 180.0);
   if (!scene) return;
   for (const double radius : {0.005, 0.020}) {
-    const Crossing c = cross_edges(scene, radius, rounds(5000), Method::robust);
+    const Crossing c = cross_edges(scene, radius, 5000, Method::robust);
     CHECK(c.jumps == 0);
     CHECK(c.crossed > c.unstable);
     CHECK(c.restarts <= c.crossed / 50);
@@ -186,7 +186,7 @@ TEST_CASE("across the edges of spot nothing jumps unmarked where both sides are 
 TEST_CASE("across the edges of spot the contact is followed where both sides are stable" * doctest::skip()) {
   const auto scene = shared_scene("spot.obj", 180.0);
   if (!scene) return;
-  for (const double radius : {0.005, 0.020}) CHECK(cross_edges(scene, radius, rounds(5000), Method::robust).restarts == 0);
+  for (const double radius : {0.005, 0.020}) CHECK(cross_edges(scene, radius, 5000, Method::robust).restarts == 0);
 }
 
 TEST_CASE("round a sharp edge of a box the contact stays on the edge while the normal turns from face to face") {
