@@ -104,6 +104,9 @@ inline constexpr double kImplausibleShare = 0.02;
 /// a fold are taken for the slope's; smaller: searches over the triangles that the contact walks to anyway.
 inline constexpr double kBasinReach = 0.5;
 
+/// The same where normals agree this well (8 degrees): gently curved ground, on which the slope reaches further.
+inline constexpr double kGentleCosine = 0.99, kGentleReach = 3.0;
+
 /// Cosine of the angle by which normals may differ from the contact's on its own slope.
 inline constexpr double kBasinCosine = 0.9;
 

@@ -105,9 +105,11 @@ double contact_arc_m(const Finger& finger, const FingerPose& pose, const Vec3& n
     case FingerShape::sphere: return finger.radius_m * std::atan2(m.x, -m.z);
     case FingerShape::ellipsoid: return ellipse_arc(a.x, a.z, std::atan2(a.x * m.x, -a.z * m.z));
     case FingerShape::capsule: {
+      // Along the straight pad, round the tip, and on the nail side back along the straight part.
       const double section = std::hypot(m.x, m.z);
-      return finger.radius_m * std::atan2(m.x, -m.z) +
-             finger.half_length_m * m.x / std::hypot(m.x, kSpindle * section);
+      double straight = finger.half_length_m * m.x / std::hypot(m.x, kSpindle * section);
+      if (m.z > 0.0) straight = std::copysign(2.0 * finger.half_length_m / std::hypot(1.0, kSpindle), m.x) - straight;
+      return finger.radius_m * std::atan2(m.x, -m.z) + straight;
     }
   }
   return 0.0;

@@ -325,9 +325,9 @@ void iterate_kept(IterationContext& context, const TrackedPlane& kept, bool samp
   if (!sample_kept) {
     result.plane = kept;
     result.sample = kept_place_sample(context, kept);
-    result.plane.point = result.sample.point;
-    result.plane.normal = result.sample.normal;
   }
+  result.plane.point = result.sample.point;
+  result.plane.normal = result.sample.normal;
   result.evaluations = 0;
   run(context, true, budget, result);
 }

@@ -2,6 +2,7 @@
 
 #include "core/base/tolerances.h"
 #include "core/contact/exclusion.h"
+#include "core/contact/vertex_fan.h"
 
 #include <algorithm>
 #include <array>
@@ -20,8 +21,22 @@ TrackedPlane face_at(std::uint32_t triangle, double u, double v) {
   return place;
 }
 
-/// Proof that triangle t holds no contact of a rank under `bound`, its crease and boundary edges included; for round
-/// fingers. Its margin is how far the centre may go until the triangle could hold one.
+/// corner_exclusion for other than round fingers: seen from the support point p(A) of the triangle's mean normal A, the
+/// contact p(N) + depth N of a normal N of the patch misses the line along N by no more than p moves between A and N.
+double exclude_unround(IterationContext& context, std::uint32_t t) {
+  constexpr double kRoom = 1.5;  // from the corner normals to any normal of the patch
+  const ContactMesh& mesh = context.cache.mesh();
+  const auto n = mesh.normals(t);
+  const Vec3 sum = n[0] + n[1] + n[2];
+  if (glm::dot(sum, sum) < 4.0) return 0.0;
+  const Vec3 support = support_point(context.finger, context.pose, unit(sum));
+  double moves = 0.0;
+  for (const Vec3& normal : n) moves = std::max(moves, glm::distance(support, support_point(context.finger, context.pose, normal)));
+  return std::max(0.0, corner_exclusion(mesh, t, support) - kRoom * moves);
+}
+
+/// Proof that triangle t holds no contact of a rank under `bound`, its crease and boundary edges included. Its margin
+/// is how far the centre may go until the triangle could hold one.
 PatchExclusion excluded(IterationContext& context, std::uint32_t t, double bound) {
   const ContactMesh& mesh = context.cache.mesh();
   const Vec3& centre = context.pose.position;
@@ -30,8 +45,13 @@ PatchExclusion excluded(IterationContext& context, std::uint32_t t, double bound
     const NearestHit hit = closest_on_triangle(mesh, t, centre);
     return PatchExclusion{0.0, 0.0, true, hit.u, hit.v, 0.0};
   };
-  if (!is_round(context.finger)) return unknown();
   PatchExclusion proof;
+  if (!is_round(context.finger)) {
+    if (!mesh.interior(t)) return unknown();
+    proof.margin_m = exclude_unround(context, t);
+    proof.possible = false;
+    return proof.margin_m > 0.0 ? proof : unknown();
+  }
   proof.margin_m = corner_exclusion(mesh, t, centre);
   if (proof.margin_m > 0.0) {
     proof.possible = false;
@@ -53,10 +73,11 @@ struct Selection {
   int group = 3;
   double value = std::numeric_limits<double>::infinity();
 
-  bool offer(const Finger& finger, const IterationResult& r) {
+  bool offer(const IterationContext& context, const IterationResult& r) {
     result.evaluations += r.evaluations;
-    const int here = r.converged() ? 0 : r.stop == StopReason::unstable ? 1 : 2;
-    const double rank = here == 2 ? r.contact.error_m : contact_rank(finger, r.contact);
+    const bool exact = r.contact.error_m < context.settings.tolerance_m;
+    const int here = r.converged() ? 0 : r.stop == StopReason::unstable && exact ? 1 : 2;
+    const double rank = here == 2 ? r.contact.error_m : contact_rank(context.finger, r.contact);
     if (here < group || (here == group && rank < value)) {
       group = here;
       value = rank;
@@ -85,7 +106,7 @@ void seed_by_hierarchy(IterationContext& context, const ContactScene& scene, Sel
     context.seed = static_cast<std::uint8_t>(std::min(++solves, 255));
     IterationResult r;
     iterate(context, face_at(t, proof.u, proof.v), kSeedBudget, r);
-    selection.offer(context.finger, r);
+    selection.offer(context, r);
     if (selection.group == 0) limit_query(q, context.finger, selection.value);
     return solves < kMaxSolves;
   });
@@ -109,11 +130,46 @@ void seed_by_distance(IterationContext& context, const ContactScene& scene, std:
     context.seed = static_cast<std::uint8_t>(i + 1);
     IterationResult r;
     iterate(context, face_at(hits[i].triangle, hits[i].u, hits[i].v), budget, r);
-    if (selection.offer(context.finger, r) || !twice) continue;
+    if (selection.offer(context, r) || !twice) continue;
     // A folded patch can hide its contact from its closest point; its middle is a second chance.
     iterate(context, face_at(hits[i].triangle, 1.0 / 3.0, 1.0 / 3.0), budget, r);
-    selection.offer(context.finger, r);
+    selection.offer(context, r);
   }
+}
+
+/// Last resort, where no seed finds a contact of the interpolated normals: the place near the raw mesh's closest points
+/// whose plane, turned to face the finger, is touched deepest. Its error is nought, its normal is the finger's.
+void face_the_finger(IterationContext& context, const ContactScene& scene, Selection& selection) {
+  std::array<NearestHit, kSeeds> hits;
+  const std::size_t count =
+      scene.nearest().nearest_several(context.pose.position, std::numeric_limits<double>::infinity(), std::span(hits));
+  for (std::size_t i = 0; i < count; ++i) {
+    IterationResult r;
+    r.plane = face_at(hits[i].triangle, hits[i].u, hits[i].v);
+    r.sample = sample_place(context, r.plane);
+    r.evaluations = 1;
+    const Vec3 interpolated = r.plane.normal;
+    r.plane.normal = facing_normal(context, r.plane.point, interpolated);
+    if (is_round(context.finger) && glm::dot(r.plane.normal, interpolated) < 0.0) r.plane.normal = -r.plane.normal;
+    r.contact = contact_on_plane(context.finger, context.pose, r.plane.point, r.plane.normal);
+    r.stop = r.contact.error_m < context.settings.tolerance_m ? StopReason::converged : StopReason::iteration_limit;
+    selection.offer(context, r);
+  }
+  if (!context.trace || !selection.result.found) return;
+  const IterationResult& best = selection.result.best;
+  IterationRecord record;
+  record.feature = best.plane.feature;
+  record.stop = best.stop;
+  record.seed = 255;
+  record.triangle = best.plane.triangle;
+  record.u = best.plane.u;
+  record.v = best.plane.v;
+  record.point = record.contact = context.origin + best.plane.point;
+  record.normal = best.plane.normal;
+  record.travel = best.contact.travel;
+  record.error_m = best.contact.error_m;
+  record.distance_m = best.contact.penetration_m;
+  context.trace->push(record);
 }
 
 /// A contact whose surroundings need no search.
@@ -141,15 +197,18 @@ bool shares_feature(const ContactMesh& mesh, std::uint32_t t, const KnownContact
 
 /// Whether triangle t surely belongs to the slope that leads to a known contact: towards each of its corners the
 /// normal turns no faster than a contact at height h stays stable with (1 + h k > 0, with room), and the corner does
-/// not rise from it towards the finger. Only within `reach`: further off there may be a fold between.
-bool same_basin(const ContactMesh& mesh, std::uint32_t t, const KnownContact& known, double reach) {
+/// not rise from it towards the finger. Only near it, as far as the look-ahead `margin` calls for: further off there
+/// may be a fold between.
+bool same_basin(const ContactMesh& mesh, std::uint32_t t, const KnownContact& known, double margin) {
   if (t == known.triangle) return true;
   if (known.feature != Feature::face && shares_feature(mesh, t, known)) return true;
   for (std::uint32_t k = 0; k < 3; ++k) {
     const Vec3 dp = mesh.position(t, k) - known.point;
     const Vec3 dn = mesh.normal(t, k) - known.normal;
     const double distance2 = glm::dot(dp, dp), over = glm::dot(dp, known.normal);
-    if (distance2 > reach * reach || glm::dot(mesh.normal(t, k), known.normal) < kBasinCosine) return false;
+    const double agreement = glm::dot(mesh.normal(t, k), known.normal);
+    const double reach = known.size + (agreement > kGentleCosine ? kGentleReach : kBasinReach) * margin;
+    if (distance2 > reach * reach || agreement < kBasinCosine) return false;
     if (over * known.height_m > 0.0 && over * over > 0.25 * distance2) return false;
     if (known.height_m * glm::dot(dn, dp) < -0.5 * distance2) return false;
   }
@@ -187,6 +246,12 @@ SeedResult seed_contact(IterationContext& context, const ContactScene& scene) {
       seed_by_distance(context, scene, kSeeds, kSeedBudget, true, selection);
   }
   context.seed = 0;
+  if (context.settings.method == Method::robust && selection.group == 2) face_the_finger(context, scene, selection);
+  if (context.settings.method == Method::robust && selection.group == 1) {
+    // Every contact there is unstable: the finger touches all round (at a sphere's centre, say). Show the nearest.
+    selection.result.found = true;
+    selection.result.best.stop = StopReason::converged;
+  }
   return selection.result;
 }
 
@@ -220,7 +285,7 @@ RivalResult find_rival(IterationContext& context, const ContactScene& scene, con
   scene.hierarchy().visit(query, [&](std::uint32_t t, ContactQuery& q) {
     const ContactMesh& mesh = context.cache.mesh();
     for (std::size_t i = 0; i < known_count; ++i)
-      if (same_basin(mesh, t, known[i], known[i].size + kBasinReach * q.margin_m)) return true;
+      if (same_basin(mesh, t, known[i], q.margin_m)) return true;
     const PatchExclusion proof = excluded(context, t, bound_m);
     if (proof.margin_m > 0.0 && !proof.possible) {
       shrink(q, proof.margin_m);

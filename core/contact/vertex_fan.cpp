@@ -25,7 +25,9 @@ double face_pull(IterationContext& context, std::uint32_t t, std::uint32_t corne
                            : robust_face_step(s, j, face_stability(s, j), c);
   if (!step.valid) return 0.0;
   const double change[3] = {-step.da - step.db, step.da, step.db};
-  if (change[(corner + 1) % 3] <= 0.0 || change[(corner + 2) % 3] <= 0.0) return 0.0;
+  // Along a side it still leads inside: on a symmetry line of the mesh no triangle would have it otherwise.
+  const double a = change[(corner + 1) % 3], b = change[(corner + 2) % 3], forward = std::max(a, b);
+  if (forward <= 0.0 || std::min(a, b) < -1e-9 * forward) return 0.0;
   const Vec3 ds = step.da * s.point_a + step.db * s.point_b;
   return std::sqrt(glm::dot(ds, ds));
 }
@@ -44,9 +46,12 @@ double edge_pull(IterationContext& context, std::uint32_t t, std::uint32_t edge,
 
 }  // namespace
 
-PlaceSample vertex_sample_at(IterationContext& context, const TrackedPlane& plane, const Vec3& normal) {
+namespace {
+
+/// A sample that stands still at `point` while its normal turns freely.
+PlaceSample standing_sample(const Vec3& point, const Vec3& normal) {
   PlaceSample s{};
-  s.point = context.cache.mesh().position(plane.triangle, plane.side);
+  s.point = point;
   s.normal = normal;
   const Vec3 axis = std::abs(normal.x) < 0.6 ? Vec3(1, 0, 0) : Vec3(0, 1, 0);
   s.normal_a = unit(glm::cross(normal, axis));
@@ -55,25 +60,35 @@ PlaceSample vertex_sample_at(IterationContext& context, const TrackedPlane& plan
   return s;
 }
 
-PlaceSample vertex_sample(IterationContext& context, const TrackedPlane& plane) {
-  const Vec3& vertex = context.cache.mesh().position(plane.triangle, plane.side);
-  const Vec3 d = context.pose.position - vertex;
+}  // namespace
+
+PlaceSample vertex_sample_at(IterationContext& context, const TrackedPlane& plane, const Vec3& normal) {
+  return standing_sample(context.cache.mesh().position(plane.triangle, plane.side), normal);
+}
+
+Vec3 facing_normal(const IterationContext& context, const Vec3& point, const Vec3& start) {
+  const Vec3 d = context.pose.position - point;
   const double d2 = glm::dot(d, d);
-  Vec3 normal = d2 > 0.0 ? d / std::sqrt(d2) : context.cache.mesh().normal(plane.triangle, plane.side);
-  if (context.finger.shape != FingerShape::point && context.finger.shape != FingerShape::sphere) {
-    // Newton on the sphere of normals: H dN = travel in the plane.
-    for (int i = 0; i < 30; ++i) {
-      const PlaceSample s = vertex_sample_at(context, plane, normal);
-      const PlaneContact c = contact_on_plane(context.finger, context.pose, s.point, s.normal);
-      ParameterStep step = newton_step(s, contact_jacobian(context.finger, context.pose, s, c), c);
-      if (!step.valid) break;
-      const double size = std::hypot(step.da, step.db);
-      const double scale = size > 0.3 ? 0.3 / size : 1.0;
-      normal = unit(normal + scale * (step.da * s.normal_a + step.db * s.normal_b));
-      if (size < 1e-13) break;
-    }
+  Vec3 normal = d2 > 0.0 ? d / std::sqrt(d2) : start;
+  if (is_round(context.finger)) return normal;
+  // Newton on the sphere of normals: H dN = travel in the plane.
+  for (int i = 0; i < 30; ++i) {
+    const PlaceSample s = standing_sample(point, normal);
+    const PlaneContact c = contact_on_plane(context.finger, context.pose, s.point, s.normal);
+    const ParameterStep step = newton_step(s, contact_jacobian(context.finger, context.pose, s, c), c);
+    if (!step.valid) break;
+    const double size = std::hypot(step.da, step.db);
+    const double scale = size > 0.3 ? 0.3 / size : 1.0;
+    normal = unit(normal + scale * (step.da * s.normal_a + step.db * s.normal_b));
+    if (size < 1e-13) break;
   }
-  return vertex_sample_at(context, plane, normal);
+  return normal;
+}
+
+PlaceSample vertex_sample(IterationContext& context, const TrackedPlane& plane) {
+  const ContactMesh& mesh = context.cache.mesh();
+  return vertex_sample_at(context, plane,
+                          facing_normal(context, mesh.position(plane.triangle, plane.side), mesh.normal(plane.triangle, plane.side)));
 }
 
 VertexExit vertex_exit(IterationContext& context, const TrackedPlane& plane) {
