@@ -67,6 +67,9 @@ PatchExclusion excluded(IterationContext& context, std::uint32_t t, double bound
   return proof;
 }
 
+/// A capsule's side is all but straight: its Newton steps turn the normal only so far at a time.
+int seed_budget(const Finger& finger) { return is_round(finger) ? kSeedBudget : 4 * kSeedBudget; }
+
 /// Keeps the best of many seeds: converged before unstable before unconverged, then the least rank or error.
 struct Selection {
   SeedResult result;
@@ -105,7 +108,7 @@ void seed_by_hierarchy(IterationContext& context, const ContactScene& scene, Sel
     if (proof.margin_m > 0.0) return true;
     context.seed = static_cast<std::uint8_t>(std::min(++solves, 255));
     IterationResult r;
-    iterate(context, face_at(t, proof.u, proof.v), kSeedBudget, r);
+    iterate(context, face_at(t, proof.u, proof.v), seed_budget(context.finger), r);
     selection.offer(context, r);
     if (selection.group == 0) limit_query(q, context.finger, selection.value);
     return solves < kMaxSolves;
@@ -137,7 +140,7 @@ void seed_by_distance(IterationContext& context, const ContactScene& scene, std:
   }
 }
 
-/// Last resort, where no seed finds a contact of the interpolated normals: the place near the raw mesh's closest points
+/// Last resort, where no seed finds a contact of the interpolated normals, or none near the raw mesh: the place near the raw mesh's closest points
 /// whose plane, turned to face the finger, is touched deepest. Its error is nought, its normal is the finger's.
 void face_the_finger(IterationContext& context, const ContactScene& scene, Selection& selection) {
   std::array<NearestHit, kSeeds> hits;
@@ -243,10 +246,11 @@ SeedResult seed_contact(IterationContext& context, const ContactScene& scene) {
   } else {
     seed_by_hierarchy(context, scene, selection);
     if (selection.group != 0 || implausible(context, scene, selection.result.best, selection.value))
-      seed_by_distance(context, scene, kSeeds, kSeedBudget, true, selection);
+      seed_by_distance(context, scene, kSeeds, seed_budget(context.finger), true, selection);
+    if (selection.group == 2 || (selection.group == 0 && implausible(context, scene, selection.result.best, selection.value)))
+      face_the_finger(context, scene, selection);
   }
   context.seed = 0;
-  if (context.settings.method == Method::robust && selection.group == 2) face_the_finger(context, scene, selection);
   if (context.settings.method == Method::robust && selection.group == 1) {
     // Every contact there is unstable: the finger touches all round (at a sphere's centre, say). Show the nearest.
     selection.result.found = true;
@@ -305,7 +309,7 @@ RivalResult find_rival(IterationContext& context, const ContactScene& scene, con
     }
     search.seed = static_cast<std::uint8_t>(std::min(++solves, 255));
     IterationResult r;
-    iterate(search, face_at(t, proof.u, proof.v), kRivalBudget, r);
+    iterate(search, face_at(t, proof.u, proof.v), mesh.interior(t) ? kRivalBudget : 2 * kRivalBudget, r);
     result.evaluations += r.evaluations;
     if (!r.converged()) {
       // No contact there now, but one may come up: ask again before long.
