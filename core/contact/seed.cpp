@@ -124,11 +124,16 @@ bool implausible(IterationContext& context, const ContactScene& scene, const Ite
   return nearer > 0.0 && scene.nearest().nearest(context.pose.position, nearer);
 }
 
-void seed_by_distance(IterationContext& context, const ContactScene& scene, std::size_t seeds, int budget, bool twice,
+/// What is known of the distance to the nearest triangle before asking.
+double known_radius(const IterationContext& context, const TrackedPlane& kept) {
+  if (kept.feature == Feature::none) return std::numeric_limits<double>::infinity();
+  return closest_on_triangle(context.cache.mesh(), kept.triangle, context.pose.position).distance_m;
+}
+
+void seed_by_distance(IterationContext& context, const ContactScene& scene, std::size_t seeds, double radius, int budget, bool twice,
                       Selection& selection) {
   std::array<NearestHit, kSeeds> hits;
-  const std::size_t count = scene.nearest().nearest_several(context.pose.position, std::numeric_limits<double>::infinity(),
-                                                            std::span(hits).first(seeds));
+  const std::size_t count = scene.nearest().nearest_several(context.pose.position, radius, std::span(hits).first(seeds));
   for (std::size_t i = 0; i < count; ++i) {
     context.seed = static_cast<std::uint8_t>(i + 1);
     IterationResult r;
@@ -239,14 +244,14 @@ double contact_rank(const Finger& finger, const PlaneContact& contact) {
   return contact.height_m >= 0.0 ? finger.reach_m() - contact.penetration_m : contact.penetration_m;
 }
 
-SeedResult seed_contact(IterationContext& context, const ContactScene& scene) {
+SeedResult seed_contact(IterationContext& context, const ContactScene& scene, const TrackedPlane& kept) {
   Selection selection;
   if (context.settings.method != Method::robust) {
-    seed_by_distance(context, scene, 1, context.settings.max_iterations, false, selection);
+    seed_by_distance(context, scene, 1, known_radius(context, kept), context.settings.max_iterations, false, selection);
   } else {
     seed_by_hierarchy(context, scene, selection);
     if (selection.group != 0 || implausible(context, scene, selection.result.best, selection.value))
-      seed_by_distance(context, scene, kSeeds, seed_budget(context.finger), true, selection);
+      seed_by_distance(context, scene, kSeeds, std::numeric_limits<double>::infinity(), seed_budget(context.finger), true, selection);
     if (selection.group == 2 || (selection.group == 0 && implausible(context, scene, selection.result.best, selection.value)))
       face_the_finger(context, scene, selection);
   }

@@ -19,7 +19,8 @@ struct SeedResult {
 /// `paper` and `newton` start at the closest point of the nearest triangle and iterate to their limit.
 /// `robust` tries every triangle that can hold a contact (ContactHierarchy), nearest first, and keeps the stable
 /// contact of least rank; where there is none, the kSeeds nearest triangles.
-SeedResult seed_contact(IterationContext& context, const ContactScene& scene);
+/// `kept`: the plane that was tracked until now, if any; the nearest triangle is no further off than its triangle.
+SeedResult seed_contact(IterationContext& context, const ContactScene& scene, const TrackedPlane& kept);
 
 /// A search for contacts other than the tracked one that are, or may become, deeper.
 struct RivalResult {

@@ -65,7 +65,7 @@ void track(IterationContext& context, const ContactScene& scene, const TickState
     }
     if (result.converged() && context.trace) context.trace->amend_last(StopReason::leapt);
   }
-  const SeedResult seeded = seed_contact(context, scene);
+  const SeedResult seeded = seed_contact(context, scene, state.plane);
   result.evaluations += seeded.evaluations;
   if (seeded.found || first || seeded.best.contact.error_m < result.contact.contact.error_m)
     adopt(result, seeded.best, state.plane, TickEvent::reseed);
