@@ -4,10 +4,12 @@
 #include "workbench/cli/command.h"
 #include "workbench/cli/interrupt.h"
 #include "workbench/cli/mesh_options.h"
+#include "workbench/cli/number_option.h"
 #include "workbench/cli/messages.h"
 #include "workbench/cli/text_format.h"
 #include "workbench/gui/platform/shots.h"
 #include "workbench/gui/platform/window.h"
+#include "workbench/session/servo_options.h"
 
 #include <array>
 #include <cstdio>
@@ -67,6 +69,8 @@ void add_gui_command(CLI::App& app, CommandResult& result) {
   add_mesh_options(*command, options->mesh, false);
   command->add_option("--preset", options->app.preset, "Preset to start with (default: the shipped one)")->type_name("F.toml");
   command->add_option("--device", options->app.device, "Devices to use (default simulated)")->type_name("NAME");
+  add_number_option(*command, "--servo-hz", {.min = kSlowestServoHz, .max = kFastestServoHz, .unit = "Hz"}, "Rate of the servo (default 1000)",
+                    [options](double hz) { options->app.servo_hz = hz; });
   command->add_option("--record", options->app.record, "Record the session into this file")->type_name("F.sqlite");
   command->callback([options, &result] {
     options->app.mesh = options->mesh.file.string();

@@ -35,6 +35,7 @@ struct AppOptions {
   std::filesystem::path preset;         ///< empty: the shipped default
   std::filesystem::path preset_folder;  ///< listed in the presets panel; empty: where `preset` is, or the shipped ones
   std::string device = "simulated";
+  double servo_hz = 1000.0;             ///< kSlowestServoHz to kFastestServoHz
   std::filesystem::path record;         ///< recording to write; empty: none
   Theme theme = Theme::dark;
   std::uint64_t seed = 1;               ///< of the simulated devices

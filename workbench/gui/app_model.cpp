@@ -95,6 +95,7 @@ void AppModel::take_scene(LoadedScene loaded) {
 
 void AppModel::make_session() {
   SessionOptions options;
+  options.servo.rate_hz = options_.servo_hz;
   options.devices = options_.device;
   options.seed = options_.seed;
   options.history_s = kHistory_s;
