@@ -54,7 +54,7 @@ RunScore run(const ScenePtr& scene, Method method, double angle_deg, double tole
   preset.solver.gain_curvature_m = kRadius - kDepth;  // h: the ideal factor across the edge
   preset.solver.tolerance_m = tolerance_m;
   Stepper stepper(scene);
-  return score_run(stepper, preset, stroke(angle_deg * kDegree, rounds(10000)));
+  return score_run(stepper, preset, stroke(angle_deg * kDegree, 10000));
 }
 
 }  // namespace
