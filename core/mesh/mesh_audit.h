@@ -33,7 +33,8 @@ struct MeshAudit {
 };
 
 /// Edges, boundaries, creases and vertices are counted as the solver meets them (ContactMesh); the
-/// non-manifold and inconsistent ones as the file has them. About 3 s for 5 million triangles.
+/// non-manifold and inconsistent ones as the file has them. About 3 s for 5 million triangles in
+/// file order, 15 s shuffled.
 MeshAudit audit_mesh(const PolygonMesh& source, const ContactMesh& mesh);
 
 }  // namespace tangent
