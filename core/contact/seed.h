@@ -18,7 +18,8 @@ struct SeedResult {
 
 /// `paper` and `newton` start at the closest point of the nearest triangle and iterate to their limit.
 /// `robust` tries every triangle that can hold a contact (ContactHierarchy), nearest first, and keeps the stable
-/// contact of least rank; where there is none, the kSeeds nearest triangles.
+/// contact of least rank; where there is none, or one implausibly far off, the kSeeds nearest triangles; then the
+/// nearest place with its plane turned to face the finger. Where every contact is unstable the nearest of those counts.
 /// `kept`: the plane that was tracked until now, if any; the nearest triangle is no further off than its triangle.
 SeedResult seed_contact(IterationContext& context, const ContactScene& scene, const TrackedPlane& kept);
 
