@@ -12,7 +12,7 @@ namespace tangent {
 enum class Method : std::uint8_t { paper, newton, robust, facet, force_shading, two_pass };
 /// Methods this build can run; the others are refused with a message.
 constexpr bool method_available(Method method) { return method != Method::two_pass; }
-/// Which distance Eq. 1's d stands for (ALGORITHM.md 3.1).
+/// Which distance Eq. 1's d stands for.
 enum class DistanceReading : std::uint8_t {
   proxy,   ///< d = R - h: user's finger to the proxy that touches the plane (the default)
   centre,  ///< d = h: finger centre to the plane

@@ -51,7 +51,7 @@ struct TrackedPlane {
   Vec3 normal{0.0, 0.0, 1.0};       ///< N, unit
 };
 
-/// Until when no other place can be deeper than the tracked one (ALGORITHM.md 3.2): as long as the finger's
+/// Until when no other place can be deeper than the tracked one: as long as the finger's
 /// centre stays within `margin_m` of `centre` (local), no contact outside the tracked basin has a height under
 /// `height_m` less the distance gone.
 struct Clearance {
@@ -76,7 +76,7 @@ struct TickInput {
   FingerPose finger;
 };
 
-/// One row of ticks.csv (DESIGN.md). World frame, SI.
+/// One row of ticks.csv. World frame, SI.
 struct TickOutput {
   TickStatus status = TickStatus::unconverged;
   TickEvent event = TickEvent::none;
@@ -121,7 +121,7 @@ struct IterationRecord {
   double curvature_per_m = 0.0;       ///< |dN/ds| along the step (Eq. 2)
   double distance_m = 0.0;            ///< d of Eq. 1
   double step_m = 0.0;                ///< length of the step on the base triangle
-  double det_m = 0.0, trace_m = 0.0;  ///< of M = B A^-1 (ALGORITHM.md 3)
+  double det_m = 0.0, trace_m = 0.0;  ///< of M = B A^-1
 };
 
 /// Fixed room for a tick's iterations; what doesn't fit is counted.

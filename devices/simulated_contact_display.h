@@ -1,5 +1,5 @@
 // A contact display that isn't there: a roller that follows its target with a second-order lag between two stops,
-// in steps. Figures of the paper's CLD (ALGORITHM.md 6).
+// in steps. Figures of the paper's CLD.
 //
 // Pure computation: no clock, no thread. The same commands and time steps give the same bits.
 #pragma once

@@ -1,5 +1,5 @@
 // A force device that isn't there: a mass held by a hand, pushed by the commanded force. Figures of the PHANToM
-// Premium 1.5 (ALGORITHM.md 6, published data sheet) unless said otherwise.
+// Premium 1.5 unless said otherwise.
 //
 // Pure computation: no clock, no thread. The same seed, targets, commands and time steps give the same bits.
 //

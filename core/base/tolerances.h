@@ -61,11 +61,11 @@ inline constexpr int kTrackBudget = 8;
 /// New planes a seed of `robust` may spend, 1.
 inline constexpr int kSeedBudget = 16;
 
-/// New planes a suspected rival may cost, 1: its place is known to 1/30 of a triangle, where Newton needs two or three.
+/// New planes a suspected rival may cost, 1 (twice this on creases and boundaries): its place is known to 1/30 of a triangle, where Newton needs two or three.
 inline constexpr int kRivalBudget = 4;
 
-/// Nearest triangles that seed a contact, 1. 24 found every stable contact of the shared pose files in the
-/// prototype (ALGORITHM.md 7). More: slower re-seeding; fewer: contacts missed in rough ground.
+/// Nearest triangles that seed a contact where the hierarchy finds none, 1: the nearest triangle's patch often holds
+/// none itself. More: slower re-seeding; fewer: contacts missed in rough ground.
 inline constexpr int kSeeds = 24;
 
 /// Contacts solved in one search of the hierarchy, 1. At the centre of a sphere every triangle holds one. More: the

@@ -45,7 +45,7 @@ Support support_with_derivative(const Finger& finger, const FingerPose& pose, co
 /// Contact location: signed arc length on the finger from the fingerpad's middle (-z) along the long axis,
 /// positive distally, for a contact whose surface normal (pointing at the finger) is `normal`, m. For a
 /// sphere R atan2(m.x, -m.z) with m = -normal in the finger frame; 0 for a point; for other shapes arc
-/// length in the x-z section (ALGORITHM.md 4).
+/// length in the x-z section.
 double contact_arc_m(const Finger& finger, const FingerPose& pose, const Vec3& normal);
 
 }  // namespace tangent

@@ -1,5 +1,5 @@
 // The iteration of one tick: from a place on the surface, tangent plane after tangent plane, until the
-// finger's contact on the plane is the point where the plane touches (ALGORITHM.md 3, 3.1).
+// finger's contact on the plane is the point where the plane touches.
 #pragma once
 
 #include "core/contact/place.h"
@@ -17,7 +17,7 @@ struct IterationContext {
   std::uint8_t seed = 0;    ///< 0 while tracking; the number of the seed otherwise
 };
 
-/// Stability of the contact (ALGORITHM.md 3): M = B A^-1.
+/// Stability of the contact: M = B A^-1.
 struct Stability {
   double det = 1.0, trace = 2.0;
   bool stable() const { return det > 0.0 && trace > 0.0; }

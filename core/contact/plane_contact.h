@@ -1,4 +1,4 @@
-// The finger's contact with one tangent plane (ALGORITHM.md 3).
+// The finger's contact with one tangent plane.
 #pragma once
 
 #include "core/contact/finger.h"

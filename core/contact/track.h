@@ -1,5 +1,5 @@
 // Follows the contact from one tick to the next, finds it again when it is lost, and hands over to a deeper
-// place elsewhere by the rule of ALGORITHM.md 3.2.
+// place elsewhere by the rule of the switch hysteresis.
 #pragma once
 
 #include "core/contact/seed.h"

@@ -25,7 +25,7 @@
 
 namespace tangent {
 
-enum class NormalSource : std::uint8_t { automatic, file, computed };  // DESIGN.md, --normals
+enum class NormalSource : std::uint8_t { automatic, file, computed };  // option --normals
 
 struct ContactMeshOptions {
   std::optional<double> fit_m;  ///< bounding-box centre to the origin, longest side to this; none: as in the file

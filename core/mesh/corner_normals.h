@@ -1,4 +1,4 @@
-// Corner normals of a surface and the creases they make (DESIGN.md, mesh options).
+// Corner normals of a surface and the creases they make.
 //
 // A corner's computed normal is the mean of the face normals around its vertex, each weighted by its angle there
 // (Thurmer & Wuthrich 1998), over the connected fan of faces that is left when crease and boundary edges are taken

@@ -1,4 +1,4 @@
-// Generated meshes: the paper's objects (ALGORITHM.md 6) and test bodies. Metres, outward normals,
+// Generated meshes: the paper's objects and test bodies. Metres, outward normals,
 // faces counter-clockwise seen from outside. Deterministic.
 #pragma once
 

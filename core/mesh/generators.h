@@ -11,7 +11,7 @@
 
 namespace tangent {
 
-// The cylinder that the paper's objects fit in (ALGORITHM.md 6): axis along x, from -kHalfLength to
+// The cylinder that the paper's objects fit in: axis along x, from -kHalfLength to
 // +kHalfLength.
 inline constexpr double kObjectRadius = 0.040;
 inline constexpr double kObjectHalfLength = 0.040;

@@ -1,4 +1,4 @@
-// What the raw mesh gives without smoothing: the facet and force-shading baselines (ALGORITHM.md 6).
+// What the raw mesh gives without smoothing: the facet and force-shading baselines.
 #pragma once
 
 #include "core/contact/nearest_triangles.h"

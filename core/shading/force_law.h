@@ -1,4 +1,4 @@
-// From a contact to what the devices render: force and place on the display (ALGORITHM.md 4).
+// From a contact to what the devices render: force and place on the display.
 #pragma once
 
 #include "core/contact/finger.h"

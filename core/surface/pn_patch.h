@@ -2,7 +2,7 @@
 // for the normal, both from the three corner positions and corner normals alone.
 //
 // Sources: Vlachos, Peters, Boyd & Mitchell, "Curved PN Triangles", I3D 2001; derivatives and
-// directional curvature: Doxon, Johnson, Tan & Provancher, Eqs. 2-8 (ALGORITHM.md 2). As printed, the
+// directional curvature: Doxon, Johnson, Tan & Provancher, Eqs. 2-8. As printed, the
 // right column of their Eq. 3 has a slip: w' is -u' - v'.
 //
 // Barycentric weights: w for corner 0 (P1), u for corner 1 (P2), v for corner 2 (P3), u + v + w = 1.

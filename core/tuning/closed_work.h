@@ -1,5 +1,5 @@
 // Work that the rendered force does around a closed path. k * penetration * N is no gradient (N is not the gradient of
-// the penetration, ALGORITHM.md 4), so a device gains or loses energy in going round.
+// the penetration), so a device gains or loses energy in going round.
 #pragma once
 
 #include "core/step.h"

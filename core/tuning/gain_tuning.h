@@ -56,7 +56,7 @@ struct GainGrid {
 
 /// G_o 0.7 to 1.3, G_k 0 to 4 lengths, G_d 0 to 16 per length; resolution a hundredth, 1/200 of the length, and 1/50
 /// per length, rounded to a power of ten times 1, 2 or 5. `length_m`: the finger's reach, which is about the ideal
-/// G_k (along a principal direction of curvature k the step wants the factor 1/(1 + h k), ALGORITHM.md 7); for a
+/// G_k (along a principal direction of curvature k the step wants the factor 1/(1 + h k)); for a
 /// point finger any length of its path's ground. Precondition: > 0.
 GainGrid make_gain_grid(double length_m);
 

@@ -1,6 +1,6 @@
 // Iterations by the ground they were spent on: flat, gently curved, or curved tighter than the finger.
 //
-// Along a principal direction of curvature k the residual of a unit step is h k (ALGORITHM.md 7), h being about the
+// Along a principal direction of curvature k the residual of a unit step is h k, h being about the
 // finger's reach: the ideal factor of a step is 1/(1 + h k). Where one principal direction has h k = 13 (a 1.5 mm edge
 // under a 20 mm finger) and the other 0, no single factor suits both.
 #pragma once

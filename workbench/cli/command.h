@@ -6,7 +6,7 @@
 
 namespace tangent {
 
-/// Exit codes of the program (DESIGN.md, "Command line").
+/// Exit codes of the program.
 enum ExitCode : int {
   kDone = 0,
   kFailed = 1,  ///< the work failed; standard error says what, where and what to do

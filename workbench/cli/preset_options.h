@@ -18,7 +18,7 @@ struct PresetOptions {
   std::vector<std::pair<const PresetKey*, double>> overrides;  ///< SI
 };
 
-/// A rendering condition of the paper: where force and tactile display come from (ALGORITHM.md 4).
+/// A rendering condition of the paper: where force and tactile display come from.
 struct RenderingCondition {
   std::string_view name;
   ForceSource force;

@@ -1,4 +1,4 @@
-// Where the window's parts are: a fixed arrangement (DESIGN.md, "The window") with three splitters.
+// Where the window's parts are: a fixed arrangement with three splitters.
 // Pure arithmetic in ImGui's coordinates.
 #pragma once
 

@@ -36,7 +36,7 @@ Preset preset_for(FingerShape shape, Method method) {
   preset.finger.half_length_m = 0.010;
   preset.solver.tolerance_m = 1e-7;
   preset.solver.max_iterations = 3000;
-  // The best G_k is about the largest radius of curvature of the finger (ALGORITHM.md 7).
+  // The best G_k is about the largest radius of curvature of the finger.
   preset.solver.gain_curvature_m = shape == FingerShape::capsule     ? 1.05
                                    : shape == FingerShape::ellipsoid ? 0.028
                                    : shape == FingerShape::sphere    ? 0.008

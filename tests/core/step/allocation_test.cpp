@@ -1,4 +1,4 @@
-// A tick allocates nothing: it runs in the servo thread (DESIGN.md). This file replaces the global operators new
+// A tick allocates nothing: it runs in the servo thread. This file replaces the global operators new
 // and delete of the whole test program by counting ones.
 #include "tests/core/scenes.h"
 

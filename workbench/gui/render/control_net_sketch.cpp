@@ -1,4 +1,4 @@
-// The PN control net (ALGORITHM.md 2): ten points b_ijk, the lines of the Bezier net between them, six
+// The PN control net: ten points b_ijk, the lines of the Bezier net between them, six
 // control normals n_ijk, and the patch they make.
 #include "core/surface/mesh_patch.h"
 #include "workbench/gui/render/scene_sketch.h"
