@@ -1,3 +1,5 @@
+#include "core/contact/edge_fan.h"
+
 #include "core/contact/place.h"
 
 #include <algorithm>
@@ -24,25 +26,7 @@ Vec3 any_perpendicular(const Vec3& n) {
   return unit(glm::cross(n, axis));
 }
 
-}  // namespace
-
-Vec2 edge_point_uv(std::uint32_t edge, double f) {
-  switch (edge) {
-    case 0: return {f, 0.0};
-    case 1: return {1.0 - f, f};
-    default: return {0.0, 1.0 - f};
-  }
-}
-
-double edge_fraction(std::uint32_t edge, double u, double v) {
-  switch (edge) {
-    case 0: return u;
-    case 1: return v;
-    default: return 1.0 - v;
-  }
-}
-
-EdgeFan edge_fan(PatchCache& cache, std::uint32_t t, std::uint32_t edge, double f, NormalForm form) {
+EdgeFan compute_fan(PatchCache& cache, std::uint32_t t, std::uint32_t edge, double f, NormalForm form) {
   const ContactMesh& mesh = cache.mesh();
   const Vec2 uv = edge_point_uv(edge, f), along = edge_direction(edge);
   const PnPatch& patch = cache.patch(t, form);
@@ -81,6 +65,15 @@ EdgeFan edge_fan(PatchCache& cache, std::uint32_t t, std::uint32_t edge, double 
   fan.fan = std::atan2(glm::dot(o.normal, fan.e2), glm::dot(o.normal, fan.e1));
   fan.far_normal_f = -(other_along.x * o.normal_u + other_along.y * o.normal_v);
   return fan;
+}
+
+}  // namespace
+
+const EdgeFan& edge_fan(PatchCache& cache, std::uint32_t t, std::uint32_t edge, double f, NormalForm form) {
+  CachedFan& last = cache.last_fan();
+  if (last.triangle != t || last.edge != edge || last.f != f || last.form != form)
+    last = {t, edge, f, form, compute_fan(cache, t, edge, f, form)};
+  return last.fan;
 }
 
 FanNormal fan_normal(const EdgeFan& fan, double turn) {
