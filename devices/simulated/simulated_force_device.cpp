@@ -1,4 +1,4 @@
-#include "devices/simulated_force_device.h"
+#include "devices/simulated/simulated_force_device.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kTremorHz = 9.0;       // physiological tremor of the hand: 8 to 12 Hz
 constexpr double kTremorDamping = 0.2;  // ratio; smaller: nearer to a pure tone
+constexpr double kNoise_m = 20e-3;      // of an injected fault: readings that jump faster than any hand
 
 ForceCapabilities describe(const SimulatedForceOptions& options) {
   ForceCapabilities c;
@@ -55,16 +56,19 @@ void SimulatedForceDevice::place(const HandTarget& target) noexcept {
 }
 
 void SimulatedForceDevice::update_state(const ForceCommand& command, double dt_s) noexcept {
-  if (injected_ != DeviceFault::none) {
-    if (machine_.state() != DeviceState::faulted) last_seen_ = rounded(position_, options_.position_step_m);
-    machine_.fail(injected_);
-    injected_ = DeviceFault::none;
+  fault_now_ = timer_.next();
+  if (fault_now_ == InjectedFault::drop_out) machine_.fail(DeviceFault::disconnected);
+  if (next_fault_ != DeviceFault::none) {
+    machine_.fail(next_fault_);
+    next_fault_ = DeviceFault::none;
   }
+  if (machine_.state() == DeviceState::open) machine_.enter(DeviceState::firmware);   // says who it is at once
   if (machine_.state() == DeviceState::homing) {
     homing_for_s_ += dt_s;
     if (homing_for_s_ >= options_.homing_s) machine_.enter(DeviceState::ready);
   }
-  if (machine_.apply(command.request) && machine_.state() == DeviceState::homing) homing_for_s_ = 0.0;
+  const bool answers = fault_now_ != InjectedFault::drop_out;
+  if (answers && machine_.apply(command.request) && machine_.state() == DeviceState::homing) homing_for_s_ = 0.0;
   if (machine_.ready() && !is_finite(command.force_n)) machine_.fail(DeviceFault::bad_command);
 }
 
@@ -93,19 +97,33 @@ void SimulatedForceDevice::integrate(const Vec3& force, double dt_s) noexcept {
     const Vec3 pull = options_.hand_stiffness_n_per_m * (goal - position_) +
                       options_.hand_damping_n_s_per_m * (target_.velocity_m_per_s - velocity_);
     velocity_ += h / mass * (pull + force);
+    // Dry friction takes away what it can and no more: it stops a slow mass and never pushes it back.
+    const double speed = std::sqrt(glm::dot(velocity_, velocity_)), braked = h / mass * options_.friction_n;
+    if (options_.friction_n > 0.0) velocity_ *= speed > braked ? (speed - braked) / speed : 0.0;
     position_ += h * velocity_;
   }
 }
 
-ForceSample SimulatedForceDevice::measure(const Vec3& force) const noexcept {
+ForceSample SimulatedForceDevice::measure(const Vec3& force, double dt_s) noexcept {
+  const bool lost = machine_.fault() == DeviceFault::disconnected || fault_now_ == InjectedFault::delay_burst;
+  age_s_ = lost ? age_s_ + dt_s : 0.0;
+  if (!lost && fault_now_ != InjectedFault::stuck_encoder) shown_ = rounded(position_, options_.position_step_m);
   ForceSample sample;
-  const bool silent = machine_.fault() == DeviceFault::disconnected;
-  sample.position_m = silent ? last_seen_ : rounded(position_, options_.position_step_m);
+  sample.position_m = shown_;
+  if (fault_now_ == InjectedFault::noise) {
+    for (int axis = 0; axis < 3; ++axis) sample.position_m[axis] += kNoise_m * uniform_noise(random_);
+  }
+  sample.age_s = age_s_;
   sample.orientation = target_.orientation;
   sample.force_n = force;
   sample.state = machine_.state();
   sample.fault = machine_.fault();
   return sample;
+}
+
+bool SimulatedForceDevice::inject(const FaultInjection& fault) noexcept {
+  timer_.begin(fault);
+  return true;
 }
 
 ForceSample SimulatedForceDevice::exchange(const ForceCommand& command, double dt_s) noexcept {
@@ -119,7 +137,7 @@ ForceSample SimulatedForceDevice::exchange(const ForceCommand& command, double d
   }
   update_tremor(dt_s);
   integrate(force, dt_s);
-  return measure(force);
+  return measure(force, dt_s);
 }
 
 }  // namespace tangent

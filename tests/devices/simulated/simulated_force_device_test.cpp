@@ -1,4 +1,4 @@
-#include "devices/simulated_force_device.h"
+#include "devices/simulated/simulated_force_device.h"
 
 #include <doctest/doctest.h>
 
@@ -16,7 +16,7 @@ constexpr double kDt = 1e-3;
 
 SimulatedForceOptions ideal() {
   SimulatedForceOptions o;
-  o.tremor_m = o.position_step_m = 0.0;
+  o.tremor_m = o.position_step_m = o.friction_n = 0.0;
   return o;
 }
 
@@ -47,7 +47,7 @@ TEST_CASE("the force device homes before it is ready, and renders no force befor
   REQUIRE(device.open());
   CHECK_FALSE(device.open());
   ForceSample sample = device.exchange({.force_n = Vec3(1, 0, 0)}, kDt);
-  CHECK(sample.state == DeviceState::open);
+  CHECK(sample.state == DeviceState::firmware);
   CHECK(sample.force_n == Vec3(0.0));
   sample = device.exchange({.force_n = Vec3(1, 0, 0), .request = DeviceRequest::home}, kDt);
   CHECK(sample.state == DeviceState::homing);
@@ -132,7 +132,7 @@ TEST_CASE("the same seed and commands give the same bits, another seed another t
 
 TEST_CASE("the tremor has the asked-for size") {
   SimulatedForceOptions o;
-  o.position_step_m = 0.0;
+  o.position_step_m = o.friction_n = 0.0;
   o.tremor_m = 50e-6;
   // A stiff, light, critically damped hand passes the tremor on as it is: its corner lies at 160 Hz.
   o.hand_stiffness_n_per_m = 1e6 * o.device_mass_kg;
@@ -189,4 +189,73 @@ TEST_CASE("a disconnected device repeats the last position it gave") {
   const Vec3 last = device.exchange({}, kDt).position_m;
   device.inject(DeviceFault::disconnected);
   for (int i = 0; i < 10; ++i) CHECK(device.exchange({}, kDt).position_m == last);
+}
+
+TEST_CASE("dry friction holds a mass until the pull exceeds it, and brakes a free one evenly") {
+  SimulatedForceOptions o = ideal();
+  o.friction_n = 0.04;
+  o.hand_damping_n_s_per_m = 0.0;
+  SimulatedForceDevice device(o);
+  make_ready(device);
+  const auto displaced_by = [&device](double force) {
+    device.place({});
+    for (int i = 0; i < 50; ++i) device.exchange({.force_n = Vec3(force, 0, 0)}, kDt);
+    return device.exact_position_m().x;
+  };
+  CHECK(displaced_by(0.039) == 0.0);
+  CHECK(displaced_by(0.050) > 1e-6);
+
+  o.hand_stiffness_n_per_m = 0.0;
+  SimulatedForceDevice coasting(o);
+  coasting.place({.velocity_m_per_s = Vec3(0.1, 0, 0)});
+  coasting.lead({});
+  for (int i = 0; i < 100; ++i) coasting.exchange({}, kDt);
+  CHECK(coasting.velocity_m_per_s().x == doctest::Approx(0.1 - 0.1 * 0.04 / 0.175).epsilon(1e-9));
+  for (int i = 0; i < 1000; ++i) coasting.exchange({}, kDt);
+  CHECK(coasting.velocity_m_per_s() == Vec3(0.0));
+}
+
+TEST_CASE("injected faults of the force device: named, and over after their time") {
+  SimulatedForceDevice device;
+  make_ready(device);
+  const auto sample = [&device] {
+    device.lead({.position_m = device.exact_position_m(), .velocity_m_per_s = Vec3(0.1, 0, 0)});
+    return device.exchange({}, kDt);
+  };
+  for (int i = 0; i < 300; ++i) sample();
+  for (const InjectedFault kind : {InjectedFault::delay_burst, InjectedFault::stuck_encoder}) {
+    const Vec3 before = sample().position_m;
+    device.inject({kind, 10});
+    for (int i = 1; i <= 10; ++i) {
+      const ForceSample s = sample();
+      CHECK(s.position_m == before);
+      CHECK(s.age_s == doctest::Approx(kind == InjectedFault::delay_burst ? i * kDt : 0.0));
+    }
+    const ForceSample after = sample();
+    CHECK(after.age_s == 0.0);
+    CHECK(glm::length(after.position_m - before) > 0.5e-3);
+  }
+  device.inject({InjectedFault::noise, 10});
+  double furthest = 0.0;
+  for (int i = 0; i < 10; ++i) furthest = std::max(furthest, glm::length(sample().position_m - device.exact_position_m()));
+  CHECK(furthest > 10e-3);
+  CHECK(glm::length(sample().position_m - device.exact_position_m()) < 0.1e-3);
+
+  device.inject({InjectedFault::drop_out, 3});
+  CHECK(sample().fault == DeviceFault::disconnected);
+  CHECK(device.exchange({.request = DeviceRequest::clear_fault}, kDt).state == DeviceState::faulted);
+  CHECK(device.exchange({.request = DeviceRequest::clear_fault}, kDt).state == DeviceState::faulted);
+  CHECK(device.exchange({.request = DeviceRequest::clear_fault}, kDt).state == DeviceState::open);
+}
+
+TEST_CASE("faults are known by name") {
+  CHECK(injected_fault_names().size() == 4);
+  for (const std::string_view name : injected_fault_names()) {
+    const auto fault = injected_fault(name);
+    REQUIRE(fault);
+    CHECK(to_string(*fault) == name);
+  }
+  const auto wrong = injected_fault("gremlins");
+  REQUIRE_FALSE(wrong);
+  CHECK(wrong.error().remedy.find("stuck-encoder") != std::string::npos);
 }
