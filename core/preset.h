@@ -10,12 +10,15 @@
 namespace tangent {
 
 enum class Method : std::uint8_t { paper, newton, robust, facet, force_shading, two_pass };
-/// Methods this build can run; the others are refused with a message.
-constexpr bool method_available(Method method) { return method != Method::two_pass; }
 /// Which distance Eq. 1's d stands for.
 enum class DistanceReading : std::uint8_t {
   proxy,   ///< d = R - h: user's finger to the proxy that touches the plane (the default)
   centre,  ///< d = h: finger centre to the plane
+};
+/// The local centre of the 2D algorithm (Doxon et al., appendix).
+enum class LocalCentre : std::uint8_t {
+  bisectors,  ///< where the perpendicular bisectors of the two segments meet
+  midpoint,   ///< midpoint of their far ends; offered by the paper, and poor
 };
 enum class ForceSource : std::uint8_t { method, facet, force_shading, smooth };
 enum class TactileSource : std::uint8_t { method, held, facet, smooth };
@@ -30,6 +33,7 @@ struct SolverSettings {
   int max_iterations = 50;              ///< new tangent planes a tick, before tracking gives up
   NormalForm normal_form = NormalForm::bernstein;
   double switch_hysteresis_m = 20e-6;   ///< a nonadjacent place must be deeper by this to take over
+  LocalCentre local_centre = LocalCentre::bisectors;  ///< 2D scenes only
   bool operator==(const SolverSettings&) const = default;
 };
 

@@ -1,10 +1,9 @@
 #include "core/step.h"
 
 #include "core/contact/track.h"
-#include "core/shading/facet.h"
-#include "core/shading/force_law.h"
+#include "core/planar/planar_step.h"
+#include "core/shading/render.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace tangent {
@@ -26,59 +25,6 @@ class StepCache {
 };
 
 namespace {
-
-/// What a source offers to force and display: a plane in the world and how deep the finger is in it.
-struct RenderPlane {
-  Vec3 normal{0.0, 0.0, 1.0};
-  double penetration_m = 0.0;
-  double share = 1.0;  ///< 1; less while an unconverged tick ramps out; 0: nothing to render
-};
-
-/// Contacts of one tick: those that the method, the force source and the tactile source ask for.
-struct TickContacts {
-  RenderPlane smooth_plane, facet_plane, shaded_plane;
-};
-
-bool is_smooth(Method m) { return m == Method::paper || m == Method::newton || m == Method::robust; }
-
-double unconverged_share(const SafetySettings& safety, double since_s) {
-  if (since_s <= safety.unconverged_hold_s) return 1.0;
-  if (safety.unconverged_ramp_s <= 0.0) return 0.0;
-  return std::clamp(1.0 - (since_s - safety.unconverged_hold_s) / safety.unconverged_ramp_s, 0.0, 1.0);
-}
-
-TickStatus status_of(Feature feature, double penetration_m) {
-  if (penetration_m < 0.0) return TickStatus::free;
-  switch (feature) {
-    case Feature::edge: return TickStatus::edge;
-    case Feature::vertex: return TickStatus::vertex;
-    default: return TickStatus::face;
-  }
-}
-
-const RenderPlane& force_plane(const Preset& preset, const TickContacts& contacts) {
-  switch (preset.force.source) {
-    case ForceSource::facet: return contacts.facet_plane;
-    case ForceSource::force_shading: return contacts.shaded_plane;
-    case ForceSource::smooth: return contacts.smooth_plane;
-    case ForceSource::method: break;
-  }
-  switch (preset.solver.method) {
-    case Method::facet: return contacts.facet_plane;
-    case Method::force_shading: return contacts.shaded_plane;
-    default: return contacts.smooth_plane;
-  }
-}
-
-const RenderPlane* tactile_plane(const Preset& preset, const TickContacts& contacts) {
-  switch (preset.display.source) {
-    case TactileSource::held: return nullptr;
-    case TactileSource::facet: return &contacts.facet_plane;
-    case TactileSource::smooth: return &contacts.smooth_plane;
-    case TactileSource::method: break;
-  }
-  return is_smooth(preset.solver.method) ? &contacts.smooth_plane : &contacts.facet_plane;
-}
 
 /// The plane that an unconverged tick renders: the last converged one at the present pose, ramping to zero.
 RenderPlane last_converged_plane(const Preset& preset, const TickState& state, const FingerPose& local, double t_s) {
@@ -108,29 +54,24 @@ void describe_smooth(const TrackResult& r, const Vec3& origin, TickOutput& out) 
   out.triangle_changes = r.triangle_changes;
 }
 
-void describe_facet(const FacetContact& facet, const RenderPlane& plane, const Vec3& origin, TickOutput& out) {
-  if (!facet.found) return;
-  out.status = status_of(facet.feature, plane.penetration_m);
-  out.triangle = facet.hit.triangle;
-  out.u = facet.hit.u;
-  out.v = facet.hit.v;
-  out.contact = origin + facet.hit.point;
-  out.normal = plane.normal;
-  out.penetration_m = plane.penetration_m;
-}
-
-void render(const Preset& preset, const TickContacts& contacts, const FingerPose& pose, const Vec3& velocity, TickOutput& out) {
-  const RenderPlane& force = force_plane(preset, contacts);
-  if (force.share > 0.0) out.force_n = force.share * contact_force(preset.force, force.normal, force.penetration_m, velocity);
-  const RenderPlane* tactile = tactile_plane(preset, contacts);
-  if (tactile && tactile->share > 0.0)
-    out.cld_m = tactile->share * display_position(preset.display, preset.finger, pose, tactile->normal);
-}
-
 }  // namespace
 
 Result<std::shared_ptr<const ContactScene>> ContactScene::build(ContactMesh mesh) {
-  std::shared_ptr<ContactScene> scene(new ContactScene(std::move(mesh)));
+  return with_queries(std::shared_ptr<ContactScene>(new ContactScene(std::move(mesh))));
+}
+
+Result<std::shared_ptr<const ContactScene>> ContactScene::build(PlanarCurve curve) {
+  constexpr double kRibbonShare = 0.1;  // half its width, in sizes of the polygon
+  ContactMeshOptions options;
+  options.normals = NormalSource::file;
+  auto mesh = ContactMesh::build(ribbon(curve, kRibbonShare * curve.size_m()), options);
+  if (!mesh) return tl::unexpected(mesh.error());
+  std::shared_ptr<ContactScene> scene(new ContactScene(std::move(*mesh)));
+  scene->planar_ = std::make_unique<const PlanarCurve>(std::move(curve));
+  return with_queries(std::move(scene));
+}
+
+Result<std::shared_ptr<const ContactScene>> ContactScene::with_queries(std::shared_ptr<ContactScene> scene) {
   auto nearest = NearestTriangles::build(scene->mesh_);
   if (!nearest) return tl::unexpected(nearest.error());
   scene->nearest_ = std::make_unique<NearestTriangles>(std::move(*nearest));
@@ -149,18 +90,22 @@ Stepper& Stepper::operator=(Stepper&&) noexcept = default;
 Stepper::~Stepper() = default;
 
 /// Solves for the smooth contact and updates what the next tick keeps.
-static RenderPlane track_smooth(const ContactScene& scene, StepCache& cache, const Preset& preset, const SolverSettings& settings,
-                                const FingerPose& local, double t_s, TickState& state, IterationTrace* trace) {
+static void track_smooth(const ContactScene& scene, StepCache& cache, const Preset& preset, const SolverSettings& settings,
+                         const FingerPose& local, double t_s, TickState& state, IterationTrace* trace, RenderPlane& plane) {
   IterationContext context{cache.patches, settings, preset.finger, local, scene.mesh().origin(), trace, 0};
   track(context, scene, state, cache.holds(state.plane, settings.normal_form), cache.smooth);
   cache.form = settings.normal_form;
   const IterationResult& contact = cache.smooth.contact;
   state.plane = contact.plane;
   state.clearance = cache.smooth.clearance;
-  if (!cache.smooth.converged()) return last_converged_plane(preset, state, local, t_s);
+  if (!cache.smooth.converged()) {
+    plane = last_converged_plane(preset, state, local, t_s);
+    return;
+  }
   state.last_converged = contact.plane;
   state.last_converged_s = t_s;
-  return {contact.plane.normal, contact.contact.penetration_m, 1.0};
+  plane.normal = contact.plane.normal;
+  plane.penetration_m = contact.contact.penetration_m;
 }
 
 /// The raw mesh's contact, as facet and with interpolated normals.
@@ -174,13 +119,14 @@ static FacetContact find_facet(const ContactScene& scene, const Preset& preset, 
 }
 
 TickOutput Stepper::step(const Preset& preset, const TickInput& input, TickState& state, IterationTrace* trace) {
+  if (scene_->planar()) return step_planar(*scene_->planar(), preset, input, state, trace);
   TickOutput out;
   const ContactMesh& mesh = scene_->mesh();
   TickContacts contacts;
   if (!is_finite(input.finger.position) || !std::isfinite(glm::dot(input.finger.orientation, input.finger.orientation))) {
     const FingerPose last{state.last_position, Quat(1.0, 0.0, 0.0, 0.0)};
     contacts.smooth_plane = last_converged_plane(preset, state, {last.position - mesh.origin(), last.orientation}, input.t_s);
-    contacts.facet_plane = contacts.shaded_plane = contacts.smooth_plane;
+    contacts.facet_plane = contacts.shaded_plane = contacts.proxy_force = contacts.proxy_place = contacts.smooth_plane;
     render(preset, contacts, last, Vec3(0.0), out);
     return out;
   }
@@ -188,22 +134,23 @@ TickOutput Stepper::step(const Preset& preset, const TickInput& input, TickState
   const FingerPose local{pose.position - mesh.origin(), pose.orientation};
 
   const Method method = preset.solver.method;
-  const bool facet_method = !is_smooth(method);
-  const bool want_smooth = !facet_method || preset.force.source == ForceSource::smooth || preset.display.source == TactileSource::smooth;
-  const bool want_facet = facet_method || preset.force.source == ForceSource::facet ||
-                          preset.force.source == ForceSource::force_shading || preset.display.source == TactileSource::facet;
-  if (want_smooth && !facet_method) {
-    contacts.smooth_plane = track_smooth(*scene_, *cache_, preset, preset.solver, local, input.t_s, state, trace);
+  if (is_smooth(method)) {
+    track_smooth(*scene_, *cache_, preset, preset.solver, local, input.t_s, state, trace, contacts.smooth_plane);
     describe_smooth(cache_->smooth, mesh.origin(), out);
-  } else if (want_smooth) {
+  } else if (wants_smooth(preset)) {
     SolverSettings robust = preset.solver;
     robust.method = Method::robust;
-    contacts.smooth_plane = track_smooth(*scene_, *cache_, preset, robust, local, input.t_s, state, trace);
+    track_smooth(*scene_, *cache_, preset, robust, local, input.t_s, state, trace, contacts.smooth_plane);
   }
-  if (want_facet) {
+  if (wants_facet(preset)) {
     const FacetContact facet = find_facet(*scene_, preset, local, contacts);
-    if (facet_method)
-      describe_facet(facet, method == Method::force_shading ? contacts.shaded_plane : contacts.facet_plane, mesh.origin(), out);
+    if (method == Method::facet) describe_facet(facet, contacts.facet_plane, mesh.origin(), out);
+    if (method == Method::force_shading) describe_facet(facet, contacts.shaded_plane, mesh.origin(), out);
+  }
+  if (method == Method::two_pass) {
+    constexpr double kLeapShare = 0.25;  // of the box's diagonal: a proxy further from the finger is given up
+    const MeshProxySurface surface(mesh, scene_->nearest(), preset.solver.tolerance_m);
+    step_two_pass(surface, preset, local.position, mesh.origin(), kLeapShare * glm::length(mesh.bounds().size()), state, contacts, out);
   }
   const double dt = input.t_s - state.last_t_s;
   const Vec3 velocity = state.has_previous && dt > 0.0 ? (pose.position - state.last_position) / dt : Vec3(0.0);

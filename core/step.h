@@ -6,10 +6,12 @@
 #include "core/contact/contact_hierarchy.h"
 #include "core/contact/nearest_triangles.h"
 #include "core/mesh/contact_mesh.h"
+#include "core/planar/curve.h"
 #include "core/preset.h"
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <span>
 
@@ -19,6 +21,9 @@ namespace tangent {
 class ContactScene {
  public:
   static Result<std::shared_ptr<const ContactScene>> build(ContactMesh mesh);
+  /// A 2D scene. Its mesh is a ribbon along the polygon, for views; contacts are the curve's (planar/planar_step.h).
+  static Result<std::shared_ptr<const ContactScene>> build(PlanarCurve curve);
+  const PlanarCurve* planar() const { return planar_.get(); }  ///< null: a 3D scene
   const ContactMesh& mesh() const { return mesh_; }
   const NearestTriangles& nearest() const { return *nearest_; }
   const ContactHierarchy& hierarchy() const { return hierarchy_; }
@@ -26,9 +31,11 @@ class ContactScene {
 
  private:
   explicit ContactScene(ContactMesh mesh) : mesh_(std::move(mesh)) {}
+  static Result<std::shared_ptr<const ContactScene>> with_queries(std::shared_ptr<ContactScene> scene);
   ContactMesh mesh_;
   std::unique_ptr<NearestTriangles> nearest_;
   ContactHierarchy hierarchy_;
+  std::unique_ptr<const PlanarCurve> planar_;
 };
 
 enum class Feature : std::uint8_t { none, face, edge, vertex };
@@ -51,13 +58,30 @@ struct TrackedPlane {
   Vec3 normal{0.0, 0.0, 1.0};       ///< N, unit
 };
 
-/// Until when no other place can be deeper than the tracked one: as long as the finger's
-/// centre stays within `margin_m` of `centre` (local), no contact outside the tracked basin has a height under
+/// A triangle that holds no deeper contact, but could before others do.
+struct WatchedTriangle {
+  std::uint32_t triangle = kNone;
+  float margin_m = 0.0f;            ///< how far the finger may still go before it must be looked at again
+  bool operator==(const WatchedTriangle&) const = default;
+};
+
+/// Until when no other place can be deeper than the tracked one. The finger's centre may go `margin_m` from `centre`
+/// (local) before a triangle outside the tracked basin and the watched ones could hold a contact with a height under
 /// `height_m` less the distance gone.
 struct Clearance {
+  static constexpr std::size_t kWatched = 8;
   Vec3 centre{0.0};
+  Quat orientation{1.0, 0.0, 0.0, 0.0};
   double margin_m = -1.0;           ///< negative: not known
   double height_m = 0.0;
+  std::array<WatchedTriangle, kWatched> watched;
+
+  /// No other place counts as deeper, however far the finger goes: the contact is only followed.
+  static Clearance unlimited() {
+    Clearance c;
+    c.margin_m = c.height_m = std::numeric_limits<double>::infinity();
+    return c;
+  }
 };
 
 /// Everything one tick hands to the next. Trivially copyable.
@@ -69,6 +93,8 @@ struct TickState {
   double last_t_s = 0.0;
   std::uint8_t has_previous = 0;    ///< last_position and last_t_s are set
   Clearance clearance;
+  Vec3 proxy{0.0};                  ///< of the two-pass method, local, m
+  std::uint8_t has_proxy = 0;
 };
 
 struct TickInput {

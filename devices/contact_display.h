@@ -4,6 +4,8 @@
 
 #include "core/base/result.h"
 #include "devices/device_state.h"
+#include "devices/fault_injection.h"
+#include "devices/link_report.h"
 
 #include <cstdint>
 #include <string>
@@ -18,6 +20,8 @@ struct DisplayCapabilities {
   double resolution_m = 0.0;
   double bandwidth_hz = 0.0;
   double rate_hz = 0.0;
+  bool measures_position = true;     ///< false: open loop; samples tell where it was sent
+  double firmware_timeout_s = 0.0;   ///< without a command its firmware stops the drive; 0: it has no time-out
 };
 
 struct DisplayCommand {
@@ -28,6 +32,8 @@ struct DisplayCommand {
 
 struct DisplaySample {
   double position_m = 0.0;     ///< of the roller, as measured
+  double age_s = 0.0;          ///< since it was measured
+  double travel_m = 0.0;       ///< end to end, as the device itself says; 0: as in the capabilities
   DeviceState state = DeviceState::absent;
   DeviceFault fault = DeviceFault::none;
 };
@@ -44,6 +50,12 @@ class ContactDisplay {
   /// Called by the servo thread, once a tick; `dt_s` > 0. No allocation, lock, exception or log. Failures show in
   /// the sample's state.
   virtual DisplaySample exchange(const DisplayCommand& command, double dt_s) noexcept = 0;
+
+  /// Any thread. False: there is no cable to report on.
+  virtual bool report(LinkReport& out) const { static_cast<void>(out); return false; }
+
+  /// Pretends a fault, by name, from the next exchange on. False: a real device, which brings its own. Servo thread.
+  virtual bool inject(const FaultInjection& fault) noexcept { static_cast<void>(fault); return false; }
 };
 
 }  // namespace tangent

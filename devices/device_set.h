@@ -3,6 +3,7 @@
 
 #include "devices/contact_display.h"
 #include "devices/force_device.h"
+#include "devices/maestro/maestro_display.h"
 
 #include <cstdint>
 #include <memory>
@@ -17,12 +18,22 @@ struct DeviceSet {
   std::unique_ptr<ContactDisplay> display;  ///< null: none
 };
 
+struct DeviceOptions {
+  std::uint64_t seed = 1;      ///< of the simulated devices
+  MaestroOptions maestro{};
+  UsbTap* tap = nullptr;       ///< sees every USB packet; must outlive the devices
+};
+
 /// "simulated": force device and contact display with the figures of the real ones.
-/// "ideal": the same without encoder steps and tremor.
+/// "ideal": the same without encoder steps, tremor, friction and backlash.
+/// "cld": a CLD controller on USB, with the simulated force device. "maestro": a servo on a Pololu Maestro, likewise.
 /// "none": neither.
 const std::vector<std::string>& device_set_names();
 
 /// Not yet opened. Fails on an unknown name, naming the choices.
-Result<DeviceSet> make_devices(std::string_view name, std::uint64_t seed);
+Result<DeviceSet> make_devices(std::string_view name, const DeviceOptions& options = {});
+
+/// The simulated display follows servo ticks; a device on a cable follows the clock.
+bool all_simulated(const DeviceSet& devices);
 
 }  // namespace tangent

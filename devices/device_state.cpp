@@ -8,6 +8,7 @@ const char* to_string(DeviceState state) {
   switch (state) {
     case DeviceState::absent: return "absent";
     case DeviceState::open: return "open";
+    case DeviceState::firmware: return "firmware";
     case DeviceState::homing: return "homing";
     case DeviceState::ready: return "ready";
     case DeviceState::faulted: return "faulted";
@@ -22,6 +23,8 @@ const char* to_string(DeviceFault fault) {
     case DeviceFault::sensor: return "sensor";
     case DeviceFault::actuator: return "actuator";
     case DeviceFault::bad_command: return "bad command";
+    case DeviceFault::firmware: return "firmware";
+    case DeviceFault::watchdog: return "watchdog";
   }
   return "?";
 }
@@ -31,7 +34,8 @@ bool transition_allowed(DeviceState from, DeviceState to) {
   switch (to) {
     case DeviceState::absent: return true;
     case DeviceState::open: return true;
-    case DeviceState::homing: return from == DeviceState::open || from == DeviceState::ready;
+    case DeviceState::firmware: return from == DeviceState::open;
+    case DeviceState::homing: return from == DeviceState::firmware || from == DeviceState::ready;
     case DeviceState::ready: return from == DeviceState::homing;
     case DeviceState::faulted: return from != DeviceState::absent;
   }

@@ -1,5 +1,5 @@
-// The life of a device, the same for every kind: absent -> open -> homing -> ready -> faulted. A device renders
-// only when ready; in every other state its force is zero and its display holds still.
+// The life of a device, the same for every kind: absent -> open -> firmware -> homing -> ready -> faulted. A device
+// renders only when ready; in every other state its force is zero and its display holds still.
 #pragma once
 
 #include <cstdint>
@@ -7,11 +7,12 @@
 namespace tangent {
 
 enum class DeviceState : std::uint8_t {
-  absent,   ///< not there, or not opened
-  open,     ///< answers, but does not know its zero
-  homing,   ///< finds its zero by itself
-  ready,    ///< measures and renders
-  faulted,  ///< stopped itself or lost its connection; stays so until the fault is cleared
+  absent,    ///< not there, or not opened
+  open,      ///< there, but its firmware has not said what it is
+  firmware,  ///< firmware known and fit; does not know its zero
+  homing,    ///< finds its zero by itself
+  ready,     ///< measures and renders
+  faulted,   ///< stopped itself or lost its connection; stays so until the fault is cleared
 };
 
 enum class DeviceFault : std::uint8_t {
@@ -20,12 +21,14 @@ enum class DeviceFault : std::uint8_t {
   sensor,        ///< a position that can't be
   actuator,      ///< does not follow its command
   bad_command,   ///< was sent a command that is not finite
+  firmware,      ///< speaks another protocol version, or none
+  watchdog,      ///< its firmware heard no command in time and stopped itself
 };
 
 /// Asked of a device together with a tick's command, so that one exchange carries everything.
 enum class DeviceRequest : std::uint8_t {
   none,
-  home,         ///< open, ready -> homing
+  home,         ///< firmware, ready -> homing
   stop,         ///< homing, ready -> open
   clear_fault,  ///< faulted -> open
 };

@@ -7,6 +7,8 @@
 #include "core/base/result.h"
 #include "core/base/vec.h"
 #include "devices/device_state.h"
+#include "devices/fault_injection.h"
+#include "devices/link_report.h"
 
 #include <cstdint>
 #include <string>
@@ -27,6 +29,7 @@ struct ForceCapabilities {
   double largest_stiffness_n_per_m = 0.0;
   Vec3 workspace_half_size_m{0.0};       ///< box around the origin
   double rate_hz = 0.0;                  ///< of exchanges it is made for
+  double firmware_timeout_s = 0.0;       ///< without a command its firmware stops the force; 0: it has no time-out
 };
 
 struct ForceCommand {
@@ -38,6 +41,7 @@ struct ForceCommand {
 struct ForceSample {
   Vec3 position_m{0.0};                  ///< finger centre, world, as the encoders read it
   Quat orientation{1.0, 0.0, 0.0, 0.0};  ///< unit; finger frame -> world
+  double age_s = 0.0;                    ///< of position and orientation: since they were measured
   Vec3 force_n{0.0};                     ///< rendered during the exchange; zero outside ready
   DeviceState state = DeviceState::absent;
   DeviceFault fault = DeviceFault::none;
@@ -55,6 +59,12 @@ class ForceDevice {
   /// Called by the servo thread, once a tick; `dt_s` since the last one, > 0. No allocation, lock, exception or
   /// log. Failures show in the sample's state.
   virtual ForceSample exchange(const ForceCommand& command, double dt_s) noexcept = 0;
+
+  /// Any thread. False: there is no cable to report on.
+  virtual bool report(LinkReport& out) const { static_cast<void>(out); return false; }
+
+  /// Pretends a fault, by name, from the next exchange on. False: a real device, which brings its own. Servo thread.
+  virtual bool inject(const FaultInjection& fault) noexcept { static_cast<void>(fault); return false; }
 
   /// The simulated hand that holds the device; null for a real one, whose hand needs no leading.
   virtual SimulatedHand* hand() noexcept { return nullptr; }

@@ -1,12 +1,21 @@
 // The one place between what a tick computes and what the devices are told.
 //
-// Force and display targets pass through here and nowhere else, simulated devices included: finite check, clamp to
-// the device's peak force, slew limit, ramp-in after arming, and a fault that stays until a person re-arms. Plain
-// state and arithmetic: no clock, no allocation, no lock.
+// Force and display targets pass through here and nowhere else, simulated devices included:
+//   finite check          force, display target and measured position; not finite: stop
+//   devices               left ready while armed: stop
+//   freshness             late tick or stale sample: down to zero within two ticks, and stop
+//   plausible positions   faster than any hand, or frozen while moving: stop
+//   workspace             the force fades out over the margin beyond the device's box
+//   force                 peak clamp; continuous clamp by the motors' heat; slew limit; ramp-in after arming
+//   shaking               work done on the hand by a loop that shakes: force reduced, then stop
+//   display               target clamped to the travel
+// A stop is a fault that stays until a person re-arms. Time is the devices' time (dt_s): a simulated device waits
+// for a late tick, a real one does not. Plain state and arithmetic: no clock, no allocation, no lock.
 #pragma once
 
 #include "core/base/vec.h"
 #include "devices/device_state.h"
+#include "devices/gate_watches.h"
 
 #include <array>
 #include <cstdint>
@@ -24,8 +33,16 @@ enum class GateFault : std::uint8_t {
   none,
   force_not_finite,
   display_not_finite,
-  force_device,     ///< left ready while armed
-  contact_display,  ///< left ready while armed
+  force_device,         ///< left ready while armed
+  contact_display,      ///< left ready while armed
+  position_not_finite,
+  position_jumped,      ///< moved faster than any hand
+  position_frozen,      ///< was moving, then read the same for 20 ticks
+  display_jumped,       ///< the roller moved faster than any drive
+  display_frozen,       ///< far from its target, and read the same for 50 ticks
+  stale_sample,         ///< no new measurement in time
+  late_tick,
+  shaking,              ///< the loop did work on the hand
 };
 
 /// What the gate did to a tick's output.
@@ -36,9 +53,15 @@ enum class GateAction : std::uint8_t {
   display_clamped,    ///< beyond the display's travel
   refused_not_finite, ///< zero sent instead
   withheld,           ///< a force was asked for while disarmed, faulted or not yet ready
+  workspace_faded,    ///< reduced, outside the device's workspace
+  heat_clamped,       ///< above what the motors' heat allows
+  shake_reduced,      ///< reduced, the loop shakes
+  ramped_out,         ///< on the way to zero after a late tick or a stale sample
   count_
 };
 inline constexpr std::size_t kGateActionCount = static_cast<std::size_t>(GateAction::count_);
+using GateActions = std::uint16_t;   ///< bit per GateAction
+static_assert(kGateActionCount <= 16);
 
 const char* to_string(GateState state);
 const char* to_string(GateFault fault);
@@ -49,6 +72,13 @@ struct GateLimits {
   double slew_n_per_s = 2000.0;       ///< fastest change of the force; the fall to zero of a stop or fault is not held back
   double ramp_s = 0.25;               ///< from arming to full force
   double display_travel_m = 0.0;      ///< end to end
+  double continuous_force_n = 0.0;    ///< of the device; 0: not known, no limit
+  Vec3 workspace_half_size_m{0.0};    ///< box around the workspace's centre; 0: no limit along that axis
+  double workspace_margin_m = 5e-3;   ///< beyond the box, over which the force fades out
+  double fastest_m_per_s = 10.0;      ///< of the finger; a hand flicks at 2 to 3
+  double fastest_display_m_per_s = 1.0;   ///< of the roller; a drive does 0.2
+  double stale_s = 10e-3;             ///< oldest sample that may make a force
+  double late_s = 20e-3;              ///< longest tick
 };
 
 struct GateInput {
@@ -56,6 +86,12 @@ struct GateInput {
   double display_m = 0.0;
   DeviceState force_device = DeviceState::absent;
   DeviceState display = DeviceState::absent;   ///< absent: there is none, which is no fault
+  Vec3 position_m{0.0};               ///< of the finger, as measured, world
+  double position_age_s = 0.0;        ///< since it was measured
+  double display_measured_m = 0.0;    ///< of the roller
+  double display_age_s = 0.0;
+  double display_travel_m = 0.0;      ///< of the display itself; less than the limit counts, 0: not known
+  bool display_measures = false;      ///< display_measured_m comes from a sensor
 };
 
 struct GateOutput {
@@ -63,7 +99,7 @@ struct GateOutput {
   double display_m = 0.0;
   GateState state = GateState::disarmed;
   GateFault fault = GateFault::none;
-  std::uint8_t actions = 0;           ///< bit per GateAction
+  GateActions actions = 0;
   bool did(GateAction action) const { return (actions >> static_cast<unsigned>(action)) & 1u; }
 };
 
@@ -75,8 +111,10 @@ class SafetyGate {
   void arm() noexcept;
   /// No force from the next pass on.
   void stop() noexcept;
-  /// Begins the ramp anew if armed (the scene under the finger was replaced).
+  /// Begins the ramp anew if armed, and takes the next position as it comes (the scene under the finger was replaced).
   void restart_ramp() noexcept;
+  /// Where the device's workspace lies in the world.
+  void place_workspace(const Vec3& centre_m) noexcept { workspace_centre_m_ = centre_m; }
 
   /// Precondition: dt_s > 0.
   GateOutput pass(const GateInput& input, double dt_s) noexcept;
@@ -86,20 +124,40 @@ class SafetyGate {
   GateFault fault() const { return fault_; }
   const std::array<std::uint64_t, kGateActionCount>& counts() const { return counts_; }
   std::uint64_t faults() const { return faults_; }
+  double shake_work_j() const { return shake_.work_j(); }
 
  private:
+  bool live() const noexcept { return state_ == GateState::ramping || state_ == GateState::armed; }
   void latch(GateFault fault) noexcept;
+  void latch_falling(GateFault fault) noexcept;
+  void forget_motion() noexcept;
+  bool check_finite(const GateInput& input, GateOutput& out) noexcept;
   void watch_devices(const GateInput& input) noexcept;
-  Vec3 limit_force(const Vec3& wanted, double dt_s, GateOutput& out) noexcept;
+  void watch_freshness(const GateInput& input, double dt_s) noexcept;
+  void watch_position(const GateInput& input, double dt_s) noexcept;
+  void watch_roller(const GateInput& input, double dt_s) noexcept;
+  Vec3 limit_force(const GateInput& input, double dt_s, GateOutput& out) noexcept;
+  double workspace_share(const Vec3& position_m) const noexcept;
+  double ramp_share(double dt_s) noexcept;
+  void pass_display(const GateInput& input, GateOutput& out) noexcept;
   void note(GateAction action, GateOutput& out) noexcept;
 
   GateLimits limits_;
   GateState state_ = GateState::disarmed;
   GateFault fault_ = GateFault::none;
   bool force_was_ready_ = false, display_was_ready_ = false;  ///< since armed
+  bool falling_ = false;                                      ///< one more pass until the force is zero
   double since_armed_s_ = 0.0;
   Vec3 last_force_n_{0.0};
   double last_display_m_ = 0.0;
+  Vec3 workspace_centre_m_{0.0};
+  Vec3 last_position_m_{0.0};
+  double last_roller_m_ = 0.0;
+  bool position_known_ = false, roller_known_ = false;
+  ForceBudget budget_;
+  ShakeWatch shake_;
+  FrozenPositionWatch frozen_;
+  FrozenDisplayWatch display_frozen_;
   std::array<std::uint64_t, kGateActionCount> counts_{};
   std::uint64_t faults_ = 0;
 };

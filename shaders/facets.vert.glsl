@@ -8,7 +8,9 @@ uniform mat4 model_view;
 uniform mat4 projection;
 uniform vec3 albedo;
 uniform vec3 inside_albedo;
+uniform vec4 slice;       // what has dot(slice, position) < 0 is cut away
 flat out vec3 facet_colour;
+flat out vec3 facet_light;
 out vec2 weights;
 
 void main() {
@@ -16,6 +18,8 @@ void main() {
   vec3 n = normalize(mat3(model_view) * face_normal.xyz);
   bool inside = dot(n, eye.xyz) > 0.0;
   facet_colour = lit(inside ? inside_albedo : albedo, inside ? -n : n);
+  facet_light = lit(vec3(1.0), inside ? -n : n);
+  gl_ClipDistance[0] = dot(slice, vec4(position, 1.0));
   int corner = gl_VertexID % 3;
   weights = vec2(corner == 1 ? 1.0 : 0.0, corner == 2 ? 1.0 : 0.0);
   gl_Position = projection * eye;

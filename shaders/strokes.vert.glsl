@@ -10,6 +10,7 @@ uniform mat4 projection;
 uniform vec2 view_px;
 uniform float toward_eye;   // share of the distance by which strokes come forward of what they lie on
 uniform float width_scale;
+uniform vec4 slice;         // what has dot(slice, position) < 0 is cut away
 flat out vec4 colour_in;
 flat out vec2 half_width_length;
 noperspective out vec2 place;  // pixels: across, along from end a
@@ -36,5 +37,6 @@ void main() {
   half_width_length = vec2(half_width, len);
   colour_in = stroke_colour;
   gl_Position = vec4(end.xy + 2.0 * offset / view_px * end.w, end.zw);
+  gl_ClipDistance[0] = dot(slice, vec4(at_b ? end_b : end_a, 1.0));
   if (da < 0.0 && db < 0.0) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
 }

@@ -6,6 +6,7 @@ layout(location = 2) in vec2 patch_weights;
 uniform mat4 model_view;
 uniform mat4 projection;
 uniform float toward_eye;  // share of the distance: where surface and facets coincide, the surface shows
+uniform vec4 slice;        // what has dot(slice, position) < 0 is cut away
 out vec3 normal_eye;
 out vec3 from_eye;
 out vec2 weights;
@@ -14,6 +15,7 @@ void main() {
   vec4 eye = model_view * vec4(position, 1.0);
   normal_eye = mat3(model_view) * normal.xyz;
   from_eye = eye.xyz;
+  gl_ClipDistance[0] = dot(slice, vec4(position, 1.0));
   weights = patch_weights;
   gl_Position = projection * vec4(eye.xyz * (1.0 - toward_eye), 1.0);
 }

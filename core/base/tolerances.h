@@ -78,7 +78,7 @@ inline constexpr double kJumpCosine = 0.984807753012208;
 
 /// Ticks, at the finger's present speed, that the search for deeper places looks ahead. More: fewer, larger
 /// searches.
-inline constexpr double kWatchTicks = 6.0;
+inline constexpr double kWatchTicks = 12.0;
 
 /// Least and largest look-ahead, as a part of the contact's height. Larger: searches over more triangles.
 inline constexpr double kSmallestWatch = 1e-4, kLargestWatch = 0.1;
@@ -89,23 +89,31 @@ inline constexpr double kUnresolvedMargin = 0.25;
 /// Contacts whose surroundings one search for rivals remembers, 1.
 inline constexpr std::size_t kKnownContacts = 8;
 
+/// Bisections spent on widening the margin of one patch. More: fewer searches, each dearer.
+inline constexpr int kSharpenings = 3;
+
 /// Bisections of a patch in search of a contact, and parts looked at in all. More: fewer false alarms, each of which
 /// costs a few surface evaluations; fewer: cheaper where many contacts are near.
-inline constexpr int kBisections = 9, kBisectionTests = 32;
+inline constexpr int kBisections = 12, kBisectionTests = 48;
 
 /// Part of its height by which a rival's height is guessed wrong at most, without solving for it. Larger: rivals are
 /// solved for before they can take over; smaller: a takeover may come a tick late.
 inline constexpr double kHeightGuess = 2e-5;
+
+/// A suspected rival as near to the tracked contact as this part of a triangle's side, and as high within kHeightGuess,
+/// is the tracked contact itself. Larger: a true rival as near and as deep goes unnoticed, which nobody feels; smaller:
+/// the tracked contact is solved for again wherever it comes near the side of a triangle.
+inline constexpr double kSamePlace = 0.0625;
 
 /// Part of the raw mesh's distance by which a seeded contact may lie further off before more seeds are tried.
 inline constexpr double kImplausibleShare = 0.02;
 
 /// Around a contact, its own slope reaches this many look-aheads and a triangle far, as a ratio. Larger: places behind
 /// a fold are taken for the slope's; smaller: searches over the triangles that the contact walks to anyway.
-inline constexpr double kBasinReach = 0.5;
+inline constexpr double kBasinReach = 0.25;
 
 /// The same where normals agree this well (8 degrees): gently curved ground, on which the slope reaches further.
-inline constexpr double kGentleCosine = 0.99, kGentleReach = 3.0;
+inline constexpr double kGentleCosine = 0.99, kGentleReach = 1.5;
 
 /// Cosine of the angle by which normals may differ from the contact's on its own slope.
 inline constexpr double kBasinCosine = 0.9;

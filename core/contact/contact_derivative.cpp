@@ -10,10 +10,11 @@ ContactDerivative contact_derivative(const ContactScene& scene, const Preset& pr
   ContactDerivative d;
   if (plane.feature == Feature::none) return d;
   PatchCache cache(scene.mesh());
-  IterationContext context{cache, preset.solver, preset.finger, {pose.position - scene.mesh().origin(), pose.orientation},
-                           scene.mesh().origin(), nullptr, 0};
+  const FingerPose local{pose.position - scene.mesh().origin(), pose.orientation};
+  IterationContext context{cache, preset.solver, preset.finger, local, scene.mesh().origin(), nullptr, 0};
   TrackedPlane at = plane;
-  const PlaceSample s = sample_place(context, at);
+  SurfaceSample s;
+  sample_place(context, at, s);
   const PlaneContact c = contact_on_plane(preset.finger, context.pose, s.point, s.normal);
   const ContactJacobian jacobian = contact_jacobian(preset.finger, context.pose, s, c);
   for (int k = 0; k < 3; ++k) {
@@ -23,8 +24,8 @@ ContactDerivative contact_derivative(const ContactScene& scene, const Preset& pr
     moved.travel = direction - glm::dot(direction, s.normal) * s.normal;
     const ParameterStep step = newton_step(s, jacobian, moved);
     if (!step.valid) return d;
-    d.contact_by_position[k] = step.da * s.point_a + step.db * s.point_b;
-    d.normal_by_position[k] = step.da * s.normal_a + step.db * s.normal_b;
+    d.contact_by_position[k] = step.da * s.point_u + step.db * s.point_v;
+    d.normal_by_position[k] = step.da * s.normal_u + step.db * s.normal_v;
     // penetration = (S - p(N)).N with p(N) furthest along -N, so that dp.N = 0 for a turn of N, and (S - p) parallel N.
     d.penetration_by_position[k] = glm::dot(d.contact_by_position[k] - direction, s.normal);
   }

@@ -1,7 +1,6 @@
 #include "core/contact/exclusion.h"
 
 #include "core/base/tolerances.h"
-#include "core/mesh/vertex_ring.h"
 
 #include <algorithm>
 #include <array>
@@ -52,6 +51,7 @@ struct Part {
   QuinticMap f;
   std::array<Vec2, 3> corner;
   int depth = 0;
+  double at_least = 0.0;  ///< margin of the part it was halved from
 
   /// Distance of 0 from the values of f, as far as the three lines along the images of the sides can tell: for a
   /// linear f they bound its image exactly. 0 where they don't exclude it.
@@ -111,6 +111,7 @@ void turn(const Part& part, Part& turned) {
     for (int j = 0; i + j <= 5; ++j) turned.f[quintic_index(j, 5 - i - j)] = part.f[quintic_index(i, j)];
   turned.corner = {part.corner[1], part.corner[2], part.corner[0]};
   turned.depth = part.depth;
+  turned.at_least = part.at_least;
 }
 
 /// Whether a contact in this part could be stable: det M and trace M of the linear interpolation of f, where
@@ -123,8 +124,8 @@ bool could_be_stable(const Part& part, const Vec2& edge_u, const Vec2& edge_v) {
   return cross(xa, xb) * area >= 0.0 && (cross(xa, b) + cross(a, xb)) * area >= 0.0;
 }
 
-/// Excludes what can be of the parts of `whole`.
-void bisect_parts(const Part& whole, const Vec2& edge_u, const Vec2& edge_v, PatchExclusion& result) {
+/// Excludes what can be of the parts of `whole`, each by `enough_m` if a few bisections give that much.
+void bisect_parts(const Part& whole, const Vec2& edge_u, const Vec2& edge_v, double enough_m, PatchExclusion& result) {
   std::array<Part, kBisections + 2> stack;
   std::size_t size = 0;
   stack[size++] = whole;
@@ -133,8 +134,10 @@ void bisect_parts(const Part& whole, const Vec2& edge_u, const Vec2& edge_v, Pat
   result.possible = false;
   for (int tests = 0; size > 0; ++tests) {
     const Part part = stack[--size];
-    const double here = part.margin();
-    if (here > 0.0) {
+    const double here = std::max(part.margin(), part.at_least);
+    // Halving sharpens a margin, but only the least one counts.
+    const bool sharpen = here < enough_m && here < margin && part.depth < kSharpenings;
+    if (here > 0.0 && !sharpen) {
       margin = std::min(margin, here);
       continue;
     }
@@ -145,12 +148,13 @@ void bisect_parts(const Part& whole, const Vec2& edge_u, const Vec2& edge_v, Pat
       first.corner = {part.corner[0], middle, part.corner[2]};
       second.corner = {middle, part.corner[1], part.corner[2]};
       first.depth = second.depth = part.depth + 1;
+      first.at_least = second.at_least = here;
       turn(first, stack[size++]);
       turn(second, stack[size++]);
       continue;
     }
-    margin = 0.0;
-    if (!could_be_stable(part, edge_u, edge_v)) continue;
+    margin = std::min(margin, here);
+    if (here > 0.0 || !could_be_stable(part, edge_u, edge_v)) continue;
     const Vec2 uv = part.linear_zero();
     const Vec2 middle = (part.at_corner(0) + part.at_corner(1) + part.at_corner(2)) / 3.0;
     const double off = glm::dot(middle, middle);
@@ -177,12 +181,12 @@ void multiply_height(const std::array<Vec3, 10>& d, const std::array<Vec3, 6>& n
   ((height[kProduct.index[Term / 6][Term % 6]] += kProduct.weight[Term / 6][Term % 6] * glm::dot(d[Term / 6], n[Term % 6])), ...);
 }
 
-/// (c - S).N at (u, v), without the derivatives that a plane for stepping needs.
-double estimated_height(const PnPatch& patch, const Vec3& c, double u, double v) {
+/// S at (u, v) and (c - S).N, without the derivatives that a plane for stepping needs. `c` and S relative to corner 0.
+double estimated_height(const PnPatch& patch, const Vec3& c, double u, double v, Vec3& point) {
   const double w = 1.0 - u - v;
   const auto& b = patch.offsets;
-  const Vec3 point = w * w * w * b[b300] + u * u * u * b[b030] + v * v * v * b[b003] + 6.0 * w * u * v * b[b111] +
-                     3.0 * (w * w * (u * b[b210] + v * b[b201]) + u * u * (w * b[b120] + v * b[b021]) + v * v * (u * b[b012] + w * b[b102]));
+  point = w * w * w * b[b300] + u * u * u * b[b030] + v * v * v * b[b003] + 6.0 * w * u * v * b[b111] +
+          3.0 * (w * w * (u * b[b210] + v * b[b201]) + u * u * (w * b[b120] + v * b[b021]) + v * v * (u * b[b012] + w * b[b102]));
   const auto& n = patch.normals;
   const Vec3 normal = w * w * n[n200] + u * u * n[n020] + v * v * n[n002] +
                       patch.mixed_weight * (w * u * n[n110] + u * v * n[n011] + w * v * n[n101]);
@@ -191,7 +195,7 @@ double estimated_height(const PnPatch& patch, const Vec3& c, double u, double v)
 
 }  // namespace
 
-PatchExclusion exclude_contact(const PnPatch& patch, const Vec3& centre) {
+PatchExclusion exclude_contact(const PnPatch& patch, const Vec3& centre, double enough_m) {
   // Mixed terms weighted 1 (NormalForm::vlachos) are half control normals of the Bernstein form.
   const double mixed = 0.5 * patch.mixed_weight;
   const Vec3 sum = patch.normals[n200] + patch.normals[n020] + patch.normals[n002];
@@ -225,8 +229,9 @@ PatchExclusion exclude_contact(const PnPatch& patch, const Vec3& centre) {
   whole.corner = {Vec2(0.0, 0.0), Vec2(1.0, 0.0), Vec2(0.0, 1.0)};
   multiply_miss(d, n, whole.f, std::make_index_sequence<60>());
   PatchExclusion result;
-  result.margin_m = whole.margin();
-  if (result.margin_m > 0.0) {
+  const double at_once = whole.margin();
+  if (at_once > 0.0 && at_once >= enough_m) {
+    result.margin_m = at_once;
     result.possible = false;
     return result;
   }
@@ -235,128 +240,13 @@ PatchExclusion exclude_contact(const PnPatch& patch, const Vec3& centre) {
   result.least_height_m = std::max(0.0, *std::min_element(height.begin(), height.end()));
   const Vec3& e1 = patch.offsets[b030];
   const Vec3& e2 = patch.offsets[b003];
-  bisect_parts(whole, {glm::dot(e1, t), glm::dot(e1, s)}, {glm::dot(e2, t), glm::dot(e2, s)}, result);
-  if (result.possible) result.height_m = estimated_height(patch, c, result.u, result.v);
+  bisect_parts(whole, {glm::dot(e1, t), glm::dot(e1, s)}, {glm::dot(e2, t), glm::dot(e2, s)}, enough_m, result);
+  result.margin_m = std::max(result.margin_m, at_once);
+  if (result.margin_m > 0.0) result.possible = false;
+  if (!result.possible) return result;
+  result.height_m = estimated_height(patch, c, result.u, result.v, result.point);
+  result.point += patch.origin;
   return result;
-}
-
-namespace {
-
-/// An edge of a triangle by its curve's control points, local coordinates.
-struct EdgeEnds {
-  Vec3 p, q;                    ///< corners
-  Vec3 chord, from_p, from_q;   ///< unit: p -> q; along the curve away from p; away from q
-  Vec3 np, nq;                  ///< corner normals of the triangle
-  Vec3 inside;                  ///< the opposite corner
-  double length = 0.0;
-  double sag = 0.0;             ///< largest distance of the curve from the chord
-};
-
-EdgeEnds edge_ends(const ContactMesh& mesh, const PnPatch& patch, std::uint32_t t, std::uint32_t edge) {
-  static constexpr ControlPoint kNearFirst[3] = {b210, b021, b102}, kNearSecond[3] = {b120, b012, b201};
-  EdgeEnds e;
-  const std::uint32_t j = (edge + 1) % 3;
-  e.p = mesh.position(t, edge);
-  e.q = mesh.position(t, j);
-  e.np = mesh.normal(t, edge);
-  e.nq = mesh.normal(t, j);
-  e.inside = mesh.position(t, (edge + 2) % 3);
-  e.length = std::sqrt(glm::dot(e.q - e.p, e.q - e.p));
-  e.chord = (e.q - e.p) / e.length;
-  const auto direction = [](const Vec3& v, const Vec3& otherwise) {
-    const double length2 = glm::dot(v, v);
-    return length2 > 0.0 ? v / std::sqrt(length2) : otherwise;
-  };
-  const auto off_chord = [&](const Vec3& b) {
-    const Vec3 d = b - e.p;
-    const Vec3 off = d - glm::dot(d, e.chord) * e.chord;
-    return std::sqrt(glm::dot(off, off));
-  };
-  e.sag = std::max(off_chord(patch.control_point(kNearFirst[edge])), off_chord(patch.control_point(kNearSecond[edge])));
-  e.from_p = direction(patch.control_point(kNearFirst[edge]) - e.p, e.chord);
-  e.from_q = direction(patch.control_point(kNearSecond[edge]) - e.q, -e.chord);
-  return e;
-}
-
-/// How far c lies beyond an end of the edge, seen along the curve there; the normals may lean along it by `tilt`.
-double beyond_ends(const EdgeEnds& e, const Vec3& centre) {
-  const auto behind = [&](const Vec3& point, const Vec3& inwards, const Vec3& normal) {
-    const Vec3 d = centre - point;
-    return -glm::dot(d, inwards) - std::sqrt(glm::dot(d, d)) * std::abs(glm::dot(normal, inwards));
-  };
-  return std::max(behind(e.p, e.from_p, e.np), behind(e.q, e.from_q, e.nq));
-}
-
-/// Lower bound of the distance to the edge's curve, by its control polygon.
-double edge_distance(const EdgeEnds& e, const Vec3& centre) {
-  const Vec3 d = centre - e.p;
-  const double along = std::clamp(glm::dot(d, e.chord), 0.0, e.length);
-  const Vec3 off = d - along * e.chord;
-  return std::sqrt(glm::dot(off, off)) - e.sag;
-}
-
-/// How far c lies over the triangle rather than over the edge's fan, at both ends.
-double over_face(const EdgeEnds& e, const Vec3& centre) {
-  const auto at = [&](const Vec3& point, const Vec3& tangent, const Vec3& normal) {
-    Vec3 away = glm::cross(tangent, normal);
-    const double length2 = glm::dot(away, away);
-    if (!(length2 > 1e-12)) return 0.0;
-    away /= glm::dot(away, e.inside - point) > 0.0 ? -std::sqrt(length2) : std::sqrt(length2);
-    return -glm::dot(centre - point, away);
-  };
-  return std::min(at(e.p, e.from_p, e.np), at(e.q, e.from_q, e.nq));
-}
-
-}  // namespace
-
-/// Strongest pull of the edges around a vertex on a contact that rests on it, as a distance: positive where the
-/// contact leaves it along one of them.
-static double vertex_pull(const ContactMesh& mesh, std::uint32_t t, std::uint32_t corner, const Vec3& centre) {
-  const Vec3 d = centre - mesh.position(t, corner);
-  double strongest = -std::numeric_limits<double>::max();
-  const auto pull = [&](const Vec3& offset) {
-    const double length2 = glm::dot(offset, offset);
-    if (length2 > 0.0) strongest = std::max(strongest, glm::dot(d, offset) / std::sqrt(length2));
-  };
-  around_vertex(mesh, t, corner, [&](std::uint32_t at, std::uint32_t k) {
-    const Vec3 starting = mesh.position(at, (k + 1) % 3) - mesh.position(at, k);
-    if (mesh.edge_kind(at, k) == EdgeKind::crease) {
-      const EdgeLink other = mesh.across(at, k);
-      pull(crease_control_offset(starting, mesh.normal(at, k), mesh.normal(other.triangle, (other.edge + 1) % 3)));
-    } else {
-      pull(edge_control_offset(starting, mesh.normal(at, k)));
-    }
-    if (mesh.edge_kind(at, (k + 2) % 3) == EdgeKind::boundary)
-      pull(edge_control_offset(mesh.position(at, (k + 2) % 3) - mesh.position(at, k), mesh.normal(at, k)));
-  });
-  return strongest;
-}
-
-double exclude_feature_contacts(PatchCache& cache, std::uint32_t t, NormalForm form, const Vec3& centre, double bound_m) {
-  const ContactMesh& mesh = cache.mesh();
-  std::array<EdgeEnds, 3> ends;
-  {
-    const PnPatch& patch = cache.patch(t, form);
-    for (std::uint32_t k = 0; k < 3; ++k) ends[k] = edge_ends(mesh, patch, t, k);
-  }
-  double margin = std::numeric_limits<double>::max();
-  for (std::uint32_t k = 0; k < 3; ++k) {
-    if (mesh.edge_kind(t, k) == EdgeKind::smooth) continue;
-    double safe = std::max(beyond_ends(ends[k], centre), over_face(ends[k], centre));
-    const EdgeLink other = mesh.across(t, k);
-    if (safe <= 0.0 && other.triangle != kNone)
-      safe = over_face(edge_ends(mesh, cache.patch(other.triangle, form), other.triangle, other.edge), centre);
-    safe = std::max(safe, 0.5 * (edge_distance(ends[k], centre) - bound_m));
-    margin = std::min(margin, std::max(0.0, safe));
-  }
-  for (std::uint32_t k = 0; k < 3; ++k) {
-    if (!mesh.feature_corner(t, k)) continue;
-    const Vec3 d = centre - mesh.position(t, k);
-    double safe = 0.5 * (std::sqrt(glm::dot(d, d)) - bound_m);
-    if (safe <= 0.0) safe = vertex_pull(mesh, t, k, centre);
-    margin = std::min(margin, std::max(0.0, safe));
-  }
-  return margin;
 }
 
 double corner_exclusion(const ContactMesh& mesh, std::uint32_t t, const Vec3& centre) {

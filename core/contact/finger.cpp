@@ -82,6 +82,18 @@ double Finger::tilt_rad() const {
   return std::min(1.2 * tilt + 0.05, 3.1);
 }
 
+double Finger::turning_m(double turn_rad) const {
+  if (turn_rad == 0.0) return 0.0;
+  double widest = 0.0;  // radius of curvature
+  switch (shape) {
+    case FingerShape::point:
+    case FingerShape::sphere: return 0.0;
+    case FingerShape::ellipsoid: widest = reach_m() * reach_m() / (reach_m() - unroundness_m()); break;
+    case FingerShape::capsule: widest = radius_m + half_length_m / kSpindle; break;
+  }
+  return reach_m() * turn_rad + std::min(2.0 * reach_m(), widest * turn_rad);
+}
+
 Support support_with_derivative(const Finger& finger, const FingerPose& pose, const Vec3& normal) {
   switch (finger.shape) {
     case FingerShape::point: return {pose.position, Mat3(0.0)};

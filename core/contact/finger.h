@@ -26,6 +26,9 @@ struct Finger {
   /// Largest angle between the normal at a surface point and the direction from the centre to it, rad, with
   /// room for contacts somewhat off the surface; 0 for point and sphere.
   double tilt_rad() const;
+  /// No support point of a fixed normal moves further from the centre's view than this while the finger turns by
+  /// `turn_rad`, m: it turns along, and slides over the shape by its radius of curvature at most. 0 for point and sphere.
+  double turning_m(double turn_rad) const;
 };
 
 struct FingerPose {

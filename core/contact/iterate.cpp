@@ -20,11 +20,7 @@ struct Proposal {
   StopReason stop = StopReason::going_on;  ///< converged, or why there is no next place
 };
 
-PlaceSample face_sample(const SurfaceSample& s) {
-  return {s.point, s.point_u, s.point_v, s.normal, s.normal_u, s.normal_v};
-}
-
-PlaceSample edge_sample(const EdgeFan& fan, double turn) {
+SurfaceSample edge_sample(const EdgeFan& fan, double turn) {
   const FanNormal n = fan_normal(fan, turn);
   return {fan.point, fan.point_f, Vec3(0.0), n.normal, n.by_f, n.by_turn};
 }
@@ -38,40 +34,29 @@ double clamp_turn(double turn, double fan) {
   return below <= above ? 0.0 : fan;
 }
 
+/// What the planes of one run so far leave for the next.
+struct RunMemory {
+  double least = 1e300;   ///< error; when it stops falling, the iteration goes round in circles
+  int least_at = 0;
+  bool carried = false;   ///< a step was carried past the end of an edge
+
+  void add_error(double error, int evaluation) {
+    if (error >= 0.99 * least) return;
+    least = error;
+    least_at = evaluation;
+  }
+};
+
 double turn_of(const EdgeFan& fan, const Vec3& normal) {
   return clamp_turn(std::atan2(glm::dot(normal, fan.e2), glm::dot(normal, fan.e1)), fan.fan);
 }
 
-TrackedPlane face_place(std::uint32_t t, double u, double v) {
-  TrackedPlane p;
-  p.feature = Feature::face;
-  p.triangle = t;
-  p.u = u;
-  p.v = v;
-  return p;
-}
-
-TrackedPlane edge_place(std::uint32_t t, std::uint32_t edge, double f) {
-  const Vec2 uv = edge_point_uv(edge, f);
-  TrackedPlane p = face_place(t, uv.x, uv.y);
-  p.feature = Feature::edge;
-  p.side = static_cast<std::uint8_t>(edge);
-  return p;
-}
-
-/// Stability and step of a face; says whether it has converged or why there is no step.
-StopReason face_step(IterationContext& context, IterationResult& now, ParameterStep& step) {
-  const ContactJacobian jacobian = contact_jacobian(context.finger, context.pose, now.sample, now.contact);
-  now.stability = face_stability(now.sample, jacobian);
-  const Method method = context.settings.method;
-  if (now.contact.error_m < context.settings.tolerance_m)
-    return method == Method::robust && !now.stability.stable() ? StopReason::unstable : StopReason::converged;
-  switch (method) {
-    case Method::newton: step = newton_step(now.sample, jacobian, now.contact); break;
-    case Method::robust: step = robust_face_step(now.sample, jacobian, now.stability, now.contact); break;
-    default: step = paper_face_step(context.cache.mesh(), context.settings, now.plane.triangle, now.sample, now.contact); break;
+ParameterStep face_step(IterationContext& context, const IterationResult& now, const ContactJacobian& jacobian) {
+  switch (context.settings.method) {
+    case Method::newton: return newton_step(now.sample, jacobian, now.contact);
+    case Method::robust: return robust_face_step(now.sample, jacobian, now.stability, now.contact);
+    default: return paper_face_step(context.cache.mesh(), context.settings, now.plane.triangle, now.sample, now.contact);
   }
-  return step.valid ? StopReason::going_on : StopReason::singular_patch;
 }
 
 /// Walks from a face; false if the walk got lost.
@@ -93,28 +78,35 @@ double step_length(const ContactMesh& mesh, std::uint32_t t, const ParameterStep
   return std::sqrt(glm::dot(s, s));
 }
 
-/// A move along an edge, on to the vertex where it passes an end.
-TrackedPlane move_along_edge(const TrackedPlane& at, double f, double df) {
-  if ((f >= 1.0 && df > 0.0) || (f <= 0.0 && df < 0.0)) {
+/// A move along an edge, on to the vertex where it starts at an end. A step past an end is carried on along the crease,
+/// once in a run: where the contact wants to rest on the vertex, the next step leads back and stops there.
+TrackedPlane move_along_edge(const ContactMesh& mesh, const TrackedPlane& at, double f, double df, double speed, RunMemory& memory) {
+  const bool forwards = df > 0.0;
+  if (forwards ? f >= 1.0 : df < 0.0 && f <= 0.0) {
     TrackedPlane p = at;
     p.feature = Feature::vertex;
-    p.side = static_cast<std::uint8_t>(f >= 1.0 ? (at.side + 1) % 3 : at.side);
+    p.side = static_cast<std::uint8_t>(forwards ? (at.side + 1) % 3 : at.side);
     return p;
   }
-  return edge_place(at.triangle, at.side, std::clamp(f + df, 0.0, 1.0));
+  const double to = f + df, beyond = forwards ? to - 1.0 : -to;
+  if (beyond > 0.0 && !memory.carried) {
+    memory.carried = true;
+    if (const auto next = walk_past_end(mesh, at.triangle, at.side, forwards, beyond * speed)) return *next;
+  }
+  return place_on_edge(at.triangle, at.side, std::clamp(to, 0.0, 1.0));
 }
 
-Proposal next_from_edge(IterationContext& context, const TrackedPlane& at, IterationResult& now) {
+Proposal next_from_edge(IterationContext& context, const TrackedPlane& at, RunMemory& memory, IterationResult& now) {
   Proposal next;
   const ContactMesh& mesh = context.cache.mesh();
   const double f = edge_fraction(at.side, at.u, at.v);
-  const EdgeFan fan = edge_fan(context.cache, at.triangle, at.side, f, context.settings.normal_form);
+  const EdgeFan& fan = edge_fan(context.cache, at.triangle, at.side, f, context.settings.normal_form);
   const double turn = turn_of(fan, now.sample.normal);
   const ContactJacobian jacobian = contact_jacobian(context.finger, context.pose, now.sample, now.contact);
   // Along the edge the contact is stable when a step along it moves the plane's contact the same way; across
   // it the fan is convex, which is stable for a finger outside (h > 0).
   const double along = glm::dot(jacobian.xa, fan.tangent) * (glm::dot(fan.point_f, fan.tangent) > 0.0 ? 1.0 : -1.0);
-  const double across = glm::dot(jacobian.xb, now.sample.normal_b);
+  const double across = glm::dot(jacobian.xb, now.sample.normal_v);
   now.stability = {along * across, along + across};
   if (now.contact.error_m < context.settings.tolerance_m && now.stability.stable()) {
     next.stop = StopReason::converged;
@@ -139,29 +131,28 @@ Proposal next_from_edge(IterationContext& context, const TrackedPlane& at, Itera
   const bool leave_near = at_near && (paper ? outside : trust_newton ? newton.db < 0.0 : outside);
   const bool leave_far = at_far && other.triangle != kNone && (paper ? outside : trust_newton ? newton.db > 0.0 : outside);
   if (paper) {
-    next.step.curvature_per_m = directional_curvature({now.sample.point, now.sample.point_a, now.sample.point_b,
-                                                       now.sample.normal, now.sample.normal_a, now.sample.normal_b}, 1.0, 0.0);
+    next.step.curvature_per_m = directional_curvature(now.sample, 1.0, 0.0);
     next.step.distance_m = paper_distance(context.settings, now.contact);
     next.step.gain = paper_gain(context.settings, next.step.curvature_per_m, next.step.distance_m);
     next.step.da = next.step.gain * df_travel;
     // Slide along the edge first: what is left across it then says which face, without going to and fro.
     if ((leave_near || leave_far) && slide_m > 0.5 * now.contact.error_m) {
-      next.place = move_along_edge(at, f, next.step.da);
+      next.place = move_along_edge(mesh, at, f, next.step.da, std::sqrt(speed2), memory);
       next.step_m = std::abs(next.step.da) * std::sqrt(speed2);
       return next;
     }
   }
   if (leave_near) {
-    next.place = face_place(at.triangle, at.u, at.v);
+    next.place = place_on_face(at.triangle, at.u, at.v);
     return next;
   }
   if (leave_far) {
     const Vec2 uv = edge_point_uv(other.edge, 1.0 - f);
-    next.place = face_place(other.triangle, uv.x, uv.y);
+    next.place = place_on_face(other.triangle, uv.x, uv.y);
     next.triangle_changes = 1;
     return next;
   }
-  next.place = move_along_edge(at, f, std::clamp(next.step.da, -1.0, 1.0));
+  next.place = move_along_edge(mesh, at, f, std::clamp(next.step.da, -2.0, 2.0), std::sqrt(speed2), memory);
   next.step_m = std::abs(next.step.da) * std::sqrt(speed2);
   if (next.place.feature == Feature::edge && next.place.u == at.u && next.place.v == at.v &&
       std::abs(wanted - turn) < 1e-12 && !outside) {
@@ -207,8 +198,7 @@ void record(IterationContext& context, const IterationResult& now, const Paramet
   r.gain = stop == StopReason::going_on ? step.gain : 0.0;
   r.curvature_per_m = step.curvature_per_m;
   if (r.curvature_per_m == 0.0)
-    r.curvature_per_m = directional_curvature({now.sample.point, now.sample.point_a, now.sample.point_b, now.sample.normal,
-                                               now.sample.normal_a, now.sample.normal_b}, step.da, step.db);
+    r.curvature_per_m = directional_curvature(now.sample, step.da, step.db);
   r.distance_m = paper_distance(context.settings, now.contact);
   r.step_m = step_m;
   r.det_m = now.stability.det;
@@ -218,62 +208,47 @@ void record(IterationContext& context, const IterationResult& now, const Paramet
 
 }  // namespace
 
-PlaceSample sample_place(IterationContext& context, TrackedPlane& plane) {
-  PlaceSample s;
+void sample_place(IterationContext& context, TrackedPlane& plane, SurfaceSample& sample) {
   const NormalForm form = context.settings.normal_form;
-  if (plane.feature == Feature::edge) {
-    const EdgeFan fan = edge_fan(context.cache, plane.triangle, plane.side, edge_fraction(plane.side, plane.u, plane.v), form);
-    s = edge_sample(fan, clamp_turn(facing_turn(fan, context.finger, context.pose), std::max(0.0, fan.fan)));
-  } else if (plane.feature == Feature::vertex) {
-    s = vertex_sample(context, plane);
+  if (plane.feature == Feature::face) {
+    evaluate(context.cache.patch(plane.triangle, form), plane.u, plane.v, sample);
+  } else if (plane.feature == Feature::edge) {
+    const EdgeFan& fan = edge_fan(context.cache, plane.triangle, plane.side, edge_fraction(plane.side, plane.u, plane.v), form);
+    sample = edge_sample(fan, clamp_turn(facing_turn(fan, context.finger, context.pose), std::max(0.0, fan.fan)));
   } else {
-    s = face_sample(evaluate(context.cache.patch(plane.triangle, form), plane.u, plane.v));
+    sample = vertex_sample(context, plane);
   }
-  plane.point = s.point;
-  plane.normal = s.normal;
-  return s;
+  plane.point = sample.point;
+  plane.normal = sample.normal;
 }
 
 namespace {
 
 /// Sample of the plane kept from the last tick: edges and vertices keep the normal they had.
-PlaceSample kept_place_sample(IterationContext& context, const TrackedPlane& plane) {
-  TrackedPlane copy = plane;
-  if (plane.feature == Feature::face) return sample_place(context, copy);
+SurfaceSample kept_place_sample(IterationContext& context, const TrackedPlane& plane) {
+  if (plane.feature == Feature::face) return evaluate(context.cache.patch(plane.triangle, context.settings.normal_form), plane.u, plane.v);
   if (plane.feature == Feature::vertex) return vertex_sample_at(context, plane, plane.normal);
-  const EdgeFan fan = edge_fan(context.cache, plane.triangle, plane.side, edge_fraction(plane.side, plane.u, plane.v),
+  const EdgeFan& fan = edge_fan(context.cache, plane.triangle, plane.side, edge_fraction(plane.side, plane.u, plane.v),
                                context.settings.normal_form);
-  PlaceSample s = edge_sample(fan, turn_of(fan, plane.normal));
+  SurfaceSample s = edge_sample(fan, turn_of(fan, plane.normal));
   s.normal = plane.normal;
   return s;
 }
 
-/// How the error went so far; says why an iteration that spent its budget did not converge.
-struct ErrorHistory {
-  double least = 1e300;
-  int least_at = 0;
-
-  void add(double error, int evaluation) {
-    if (error >= 0.99 * least) return;
-    least = error;
-    least_at = evaluation;
-  }
-};
-
-StopReason why_unconverged(const ContactMesh& mesh, const IterationResult& now, const ErrorHistory& errors, int budget) {
+StopReason why_unconverged(const ContactMesh& mesh, const IterationResult& now, const RunMemory& memory, int budget) {
   if (now.plane.feature == Feature::edge && mesh.edge_kind(now.plane.triangle, now.plane.side) == EdgeKind::boundary)
     return StopReason::left_boundary;
   if (!now.stability.stable()) return StopReason::unstable;
   // No new least error in the second half: it goes round in circles rather than slowly home.
-  return now.evaluations - errors.least_at > budget / 2 ? StopReason::cycling : StopReason::iteration_limit;
+  return now.evaluations - memory.least_at > budget / 2 ? StopReason::cycling : StopReason::iteration_limit;
 }
 
 /// One iteration from an edge or vertex. True to go on.
-bool iterate_feature(IterationContext& context, bool kept, int budget, const ErrorHistory& errors, IterationResult& now) {
-  Proposal next = now.plane.feature == Feature::edge ? next_from_edge(context, now.plane, now)
+bool iterate_feature(IterationContext& context, bool kept, int budget, RunMemory& memory, IterationResult& now) {
+  Proposal next = now.plane.feature == Feature::edge ? next_from_edge(context, now.plane, memory, now)
                                                      : next_from_vertex(context, now.plane, now, kept);
   if (next.stop == StopReason::going_on && now.evaluations >= budget)
-    next.stop = why_unconverged(context.cache.mesh(), now, errors, budget);
+    next.stop = why_unconverged(context.cache.mesh(), now, memory, budget);
   if (context.trace) record(context, now, next.step, next.step_m, next.stop);
   now.stop = next.stop;
   if (next.stop != StopReason::going_on) return false;
@@ -283,11 +258,18 @@ bool iterate_feature(IterationContext& context, bool kept, int budget, const Err
 }
 
 /// One iteration from a face. True to go on.
-bool iterate_face(IterationContext& context, int budget, const ErrorHistory& errors, IterationResult& now) {
-  ParameterStep step;
-  now.stop = face_step(context, now, step);
+bool iterate_face(IterationContext& context, int budget, RunMemory& memory, IterationResult& now) {
+  const ContactJacobian jacobian = contact_jacobian(context.finger, context.pose, now.sample, now.contact);
+  now.stability = face_stability(now.sample, jacobian);
+  if (now.contact.error_m < context.settings.tolerance_m) {
+    now.stop = context.settings.method == Method::robust && !now.stability.stable() ? StopReason::unstable : StopReason::converged;
+    if (context.trace) record(context, now, ParameterStep{}, 0.0, now.stop);
+    return false;
+  }
+  const ParameterStep step = face_step(context, now, jacobian);
   const ContactMesh& mesh = context.cache.mesh();
-  if (now.stop == StopReason::going_on && now.evaluations >= budget) now.stop = why_unconverged(mesh, now, errors, budget);
+  now.stop = step.valid ? StopReason::going_on : StopReason::singular_patch;
+  if (step.valid && now.evaluations >= budget) now.stop = why_unconverged(mesh, now, memory, budget);
   if (context.trace) record(context, now, step, step_length(mesh, now.plane.triangle, step), now.stop);
   if (now.stop != StopReason::going_on) return false;
   if (move_on_face(mesh, step, now)) return true;
@@ -299,15 +281,15 @@ bool iterate_face(IterationContext& context, int budget, const ErrorHistory& err
 void run(IterationContext& context, bool kept, int budget, IterationResult& now) {
   now.triangle_changes = 0;
   now.met_unstable = false;
-  ErrorHistory errors;
+  RunMemory memory;
   for (bool first = kept;; first = false) {
-    now.contact = contact_on_plane(context.finger, context.pose, now.sample.point, now.sample.normal);
-    errors.add(now.contact.error_m, now.evaluations);
-    const bool go_on = now.plane.feature == Feature::face ? iterate_face(context, budget, errors, now)
-                                                          : iterate_feature(context, first, budget, errors, now);
+    contact_on_plane(context.finger, context.pose, now.sample.point, now.sample.normal, now.contact);
+    memory.add_error(now.contact.error_m, now.evaluations);
+    const bool go_on = now.plane.feature == Feature::face ? iterate_face(context, budget, memory, now)
+                                                          : iterate_feature(context, first, budget, memory, now);
     now.met_unstable |= !now.stability.stable();
     if (!go_on) return;
-    now.sample = sample_place(context, now.plane);
+    sample_place(context, now.plane, now.sample);
     ++now.evaluations;
   }
 }
@@ -316,7 +298,7 @@ void run(IterationContext& context, bool kept, int budget, IterationResult& now)
 
 void iterate(IterationContext& context, const TrackedPlane& start, int budget, IterationResult& result) {
   result.plane = start;
-  result.sample = sample_place(context, result.plane);
+  sample_place(context, result.plane, result.sample);
   result.evaluations = 1;
   run(context, false, budget, result);
 }

@@ -11,7 +11,7 @@ struct IterationContext {
   PatchCache& cache;
   const SolverSettings& settings;
   const Finger& finger;
-  FingerPose pose;          ///< local mesh coordinates
+  const FingerPose& pose;   ///< local mesh coordinates
   Vec3 origin;              ///< of the local coordinates, for the trace
   IterationTrace* trace = nullptr;
   std::uint8_t seed = 0;    ///< 0 while tracking; the number of the seed otherwise
@@ -25,7 +25,7 @@ struct Stability {
 
 struct IterationResult {
   TrackedPlane plane;         ///< the last plane
-  PlaceSample sample;         ///< there
+  SurfaceSample sample;         ///< there
   PlaneContact contact;       ///< of the finger with it
   Stability stability;        ///< there
   StopReason stop = StopReason::going_on;
@@ -45,6 +45,6 @@ void iterate_kept(IterationContext& context, const TrackedPlane& kept, bool samp
 
 /// Sample of a place for the present pose: faces as they are, edges and vertices with the normal turned to
 /// face the finger within the fan. Fills plane.point and plane.normal.
-PlaceSample sample_place(IterationContext& context, TrackedPlane& plane);
+void sample_place(IterationContext& context, TrackedPlane& plane, SurfaceSample& sample);
 
 }  // namespace tangent

@@ -1,8 +1,9 @@
-// Patches of the triangles the contact lately walked over, built when a triangle is entered. What is held
+// Patches of the triangles the contact lately walked over, built when a triangle is entered, and the edge it was on last. What is held
 // grows with the contact, not with the mesh. A pure function of (mesh, normal form): a cold cache gives
 // the same bits, later.
 #pragma once
 
+#include "core/contact/edge_fan.h"
 #include "core/mesh/contact_mesh.h"
 #include "core/surface/mesh_patch.h"
 
@@ -17,6 +18,15 @@ struct CachedPatch {
   PnPatch patch;
 };
 
+/// A fan and what it was built from.
+struct CachedFan {
+  std::uint32_t triangle = kNone;
+  std::uint32_t edge = 0;
+  double f = 0.0;
+  NormalForm form = NormalForm::bernstein;
+  EdgeFan fan;
+};
+
 class PatchCache {
  public:
   explicit PatchCache(const ContactMesh& mesh) : mesh_(&mesh) {}
@@ -29,6 +39,7 @@ class PatchCache {
     if (slot.triangle != t || slot.form != form) fill(slot, t, form);
     return slot.patch;
   }
+  CachedFan& last_fan() { return fan_; }
 
  private:
   /// Direct-mapped. A contact revisits the few triangles around it.
@@ -37,6 +48,7 @@ class PatchCache {
 
   const ContactMesh* mesh_;
   std::array<CachedPatch, kSlots> slots_;
+  CachedFan fan_;
 };
 
 }  // namespace tangent

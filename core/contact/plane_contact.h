@@ -19,14 +19,24 @@ PlaneContact contact_of_support(const Finger& finger, const FingerPose& pose, co
 /// A point or a sphere: its support point lies under its centre whatever the plane.
 inline bool is_round(const Finger& finger) { return finger.shape == FingerShape::point || finger.shape == FingerShape::sphere; }
 
-/// `pose` and `point` in the same frame; `normal`: unit.
-inline PlaneContact contact_on_plane(const Finger& finger, const FingerPose& pose, const Vec3& point, const Vec3& normal) {
-  if (!is_round(finger)) return contact_of_support(finger, pose, point, normal);
+/// `pose` and `point` in the same frame; `normal`: unit. In place: the solver's loop spares itself the copy.
+inline void contact_on_plane(const Finger& finger, const FingerPose& pose, const Vec3& point, const Vec3& normal, PlaneContact& c) {
+  if (!is_round(finger)) {
+    c = contact_of_support(finger, pose, point, normal);
+    return;
+  }
   const Vec3 d = pose.position - point;
   const double height = glm::dot(d, normal);
   const Vec3 travel = d - height * normal;
-  const double radius = finger.shape == FingerShape::sphere ? finger.radius_m : 0.0;
-  return {travel, std::sqrt(glm::dot(travel, travel)), radius - height, height};
+  c.travel = travel;
+  c.error_m = std::sqrt(glm::dot(travel, travel));
+  c.penetration_m = (finger.shape == FingerShape::sphere ? finger.radius_m : 0.0) - height;
+  c.height_m = height;
+}
+inline PlaneContact contact_on_plane(const Finger& finger, const FingerPose& pose, const Vec3& point, const Vec3& normal) {
+  PlaneContact c;
+  contact_on_plane(finger, pose, point, normal, c);
+  return c;
 }
 
 /// H = -(dp/dN + penetration I): how the travel answers a turn of the normal, d(travel) = -(dS + H dN) in

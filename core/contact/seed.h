@@ -1,4 +1,4 @@
-// Contacts found without the kept plane: the first one, lost ones, and rivals of the tracked one.
+// Contacts found without the kept plane: the first one and lost ones.
 #pragma once
 
 #include "core/contact/iterate.h"
@@ -9,6 +9,9 @@ namespace tangent {
 /// reach less the penetration, which for a sphere is h; a contact seen from inside ranks by how deep the finger's
 /// centre is, after every outside contact that is nearer than that plus the reach.
 double contact_rank(const Finger& finger, const PlaneContact& contact);
+
+/// Bounds of a query that shall only see contacts of a rank below `rank`.
+void limit_query(ContactQuery& query, const Finger& finger, double rank);
 
 struct SeedResult {
   bool found = false;        ///< a converged contact
@@ -22,18 +25,5 @@ struct SeedResult {
 /// nearest place with its plane turned to face the finger. Where every contact is unstable the nearest of those counts.
 /// `kept`: the plane that was tracked until now, if any; the nearest triangle is no further off than its triangle.
 SeedResult seed_contact(IterationContext& context, const ContactScene& scene, const TrackedPlane& kept);
-
-/// A search for contacts other than the tracked one that are, or may become, deeper.
-struct RivalResult {
-  bool deeper = false;       ///< `best` is a stable contact whose rank is below the wanted bound
-  IterationResult best;
-  int evaluations = 0;
-  Clearance clearance;       ///< how far the finger may go before asking again
-};
-
-/// `bound_m`: rank that a rival must be below to take over. `margin_m`: how far one would like to go without
-/// asking again. Uses the `robust` rule whatever the method.
-RivalResult find_rival(IterationContext& context, const ContactScene& scene, const IterationResult& tracked,
-                       double bound_m, double margin_m);
 
 }  // namespace tangent

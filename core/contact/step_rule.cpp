@@ -18,8 +18,6 @@ bool solve_in_plane(const Vec3& xa, const Vec3& xb, const Vec3& n, const Vec3& r
   return std::isfinite(da) && std::isfinite(db);
 }
 
-Vec3 tangent_step(const PlaceSample& s, const ParameterStep& step) { return step.da * s.point_a + step.db * s.point_b; }
-
 }  // namespace
 
 double paper_gain(const SolverSettings& g, double curvature_per_m, double distance_m) {
@@ -31,11 +29,11 @@ double paper_distance(const SolverSettings& settings, const PlaneContact& c) {
 }
 
 ParameterStep paper_face_step(const ContactMesh& mesh, const SolverSettings& settings, std::uint32_t triangle,
-                              const PlaceSample& s, const PlaneContact& c) {
+                              const SurfaceSample& s, const PlaneContact& c) {
   ParameterStep step;
   if (!to_barycentric(mesh, triangle, c.travel, step.da, step.db)) return step;
-  const Vec3 ds = step.da * s.point_a + step.db * s.point_b;
-  const Vec3 dn = step.da * s.normal_a + step.db * s.normal_b;
+  const Vec3 ds = step.da * s.point_u + step.db * s.point_v;
+  const Vec3 dn = step.da * s.normal_u + step.db * s.normal_v;
   const double ds2 = glm::dot(ds, ds);
   step.curvature_per_m = ds2 > 0.0 ? std::sqrt(glm::dot(dn, dn) / ds2) : 0.0;
   step.distance_m = paper_distance(settings, c);
@@ -46,34 +44,11 @@ ParameterStep paper_face_step(const ContactMesh& mesh, const SolverSettings& set
   return step;
 }
 
-ParameterStep newton_step(const PlaceSample& s, const ContactJacobian& j, const PlaneContact& c) {
+ParameterStep damped_step(const SurfaceSample& s, const PlaneContact& c) {
   ParameterStep step;
-  step.valid = solve_in_plane(j.xa, j.xb, s.normal, c.travel, step.da, step.db);
-  step.distance_m = c.penetration_m;
-  step.gain = 1.0;
-  return step;
-}
-
-ParameterStep robust_face_step(const PlaceSample& s, const ContactJacobian& j, const Stability& stability,
-                               const PlaneContact& c) {
-  ParameterStep step;
-  if (stability.det > kNewtonMinDet && stability.trace > 0.0) {
-    step = newton_step(s, j, c);
-    if (step.valid) {
-      const Vec3 ds = tangent_step(s, step);
-      const double limit = kLongestStepPerTravel * c.error_m;
-      const double length2 = glm::dot(ds, ds);
-      if (length2 > limit * limit) {
-        const double shorter = limit / std::sqrt(length2);
-        step.da *= shorter;
-        step.db *= shorter;
-      }
-      return step;
-    }
-  }
-  step.valid = solve_in_plane(s.point_a, s.point_b, s.normal, c.travel, step.da, step.db);
+  step.valid = solve_in_plane(s.point_u, s.point_v, s.normal, c.travel, step.da, step.db);
   if (!step.valid) return step;
-  const Vec3 ds = tangent_step(s, step), dn = step.da * s.normal_a + step.db * s.normal_b;
+  const Vec3 ds = step.da * s.point_u + step.db * s.point_v, dn = step.da * s.normal_u + step.db * s.normal_v;
   const double ds2 = glm::dot(ds, ds);
   step.curvature_per_m = ds2 > 0.0 ? std::sqrt(glm::dot(dn, dn) / ds2) : 0.0;
   step.distance_m = c.penetration_m;

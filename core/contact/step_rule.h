@@ -2,7 +2,10 @@
 // c = S + h N, and the damped tangent step that `robust` takes where Newton's is no descent.
 #pragma once
 
+#include "core/base/tolerances.h"
 #include "core/contact/iterate.h"
+
+#include <cmath>
 
 namespace tangent {
 
@@ -19,20 +22,20 @@ struct ParameterStep {
 struct ContactJacobian {
   Vec3 xa, xb;  ///< S_a + H N_a, S_b + H N_b
 };
-inline ContactJacobian contact_jacobian(const Finger& finger, const FingerPose& pose, const PlaceSample& s, const PlaneContact& c) {
-  if (is_round(finger)) return {s.point_a + c.height_m * s.normal_a, s.point_b + c.height_m * s.normal_b};
+inline ContactJacobian contact_jacobian(const Finger& finger, const FingerPose& pose, const SurfaceSample& s, const PlaneContact& c) {
+  if (is_round(finger)) return {s.point_u + c.height_m * s.normal_u, s.point_v + c.height_m * s.normal_v};
   const Mat3 h = offset_derivative(finger, pose, s.normal, c.penetration_m);
-  return {s.point_a + h * s.normal_a, s.point_b + h * s.normal_b};
+  return {s.point_u + h * s.normal_u, s.point_v + h * s.normal_v};
 }
 
 /// det M and trace M of a face contact. A singular patch gives (0, 0), which is not stable.
-inline Stability face_stability(const PlaceSample& s, const ContactJacobian& j) {
+inline Stability face_stability(const SurfaceSample& s, const ContactJacobian& j) {
   // With 2D cross products in the plane: det M = (Xa x Xb)/(Sa x Sb), trace M = (Xa x Sb + Sa x Xb)/(Sa x Sb).
-  const Vec3 sb_turned = glm::cross(s.point_b, s.normal), xb_turned = glm::cross(j.xb, s.normal);
-  const double area = glm::dot(s.point_a, sb_turned);
+  const Vec3 sb_turned = glm::cross(s.point_v, s.normal), xb_turned = glm::cross(j.xb, s.normal);
+  const double area = glm::dot(s.point_u, sb_turned);
   if (area == 0.0) return {0.0, 0.0};
   const double per_area = 1.0 / area;
-  return {glm::dot(j.xa, xb_turned) * per_area, (glm::dot(j.xa, sb_turned) + glm::dot(s.point_a, xb_turned)) * per_area};
+  return {glm::dot(j.xa, xb_turned) * per_area, (glm::dot(j.xa, sb_turned) + glm::dot(s.point_u, xb_turned)) * per_area};
 }
 
 /// Eq. 1: Gain = G_o / ((1 + G_k k)(1 + G_d |d|)).
@@ -42,14 +45,40 @@ double paper_distance(const SolverSettings& settings, const PlaneContact& c);
 
 /// Paper 4.5 on a face: travel projected on the base triangle's plane, scaled by the gain.
 ParameterStep paper_face_step(const ContactMesh& mesh, const SolverSettings& settings, std::uint32_t triangle,
-                              const PlaceSample& s, const PlaneContact& c);
+                              const SurfaceSample& s, const PlaneContact& c);
 
-/// Solves X_a da + X_b db = travel in the plane normal to N.
-ParameterStep newton_step(const PlaceSample& s, const ContactJacobian& j, const PlaneContact& c);
+/// The tangent step S_u du + S_v dv = travel, damped by 1/(1 + |h| |dN/ds|).
+ParameterStep damped_step(const SurfaceSample& s, const PlaneContact& c);
 
-/// Newton where M is well inside the stable region, else the tangent step S_u du + S_v dv = travel, damped
-/// by 1/(1 + |h| |dN/ds|); never longer than a few times the travel.
-ParameterStep robust_face_step(const PlaceSample& s, const ContactJacobian& j, const Stability& stability,
-                               const PlaneContact& c);
+/// Solves X_u du + X_v dv = travel in the plane normal to N.
+inline ParameterStep newton_step(const SurfaceSample& s, const ContactJacobian& j, const PlaneContact& c) {
+  ParameterStep step;
+  const Vec3 xb_turned = glm::cross(j.xb, s.normal);  // dot with a vector x gives (x cross xb).N
+  const double per_det = 1.0 / glm::dot(j.xa, xb_turned);
+  step.da = glm::dot(c.travel, xb_turned) * per_det;
+  step.db = glm::dot(glm::cross(j.xa, c.travel), s.normal) * per_det;
+  step.valid = std::isfinite(step.da) && std::isfinite(step.db);
+  step.distance_m = c.penetration_m;
+  step.gain = 1.0;
+  return step;
+}
+
+/// Newton's step where M is well inside the stable region, never longer than a few times the travel; else the
+/// damped one.
+inline ParameterStep robust_face_step(const SurfaceSample& s, const ContactJacobian& j, const Stability& stability,
+                                      const PlaneContact& c) {
+  if (!(stability.det > kNewtonMinDet && stability.trace > 0.0)) return damped_step(s, c);
+  ParameterStep step = newton_step(s, j, c);
+  if (!step.valid) return damped_step(s, c);
+  const Vec3 ds = step.da * s.point_u + step.db * s.point_v;
+  const double limit2 = kLongestStepPerTravel * kLongestStepPerTravel * c.error_m * c.error_m;
+  const double length2 = glm::dot(ds, ds);
+  if (length2 > limit2) {
+    const double shorter = std::sqrt(limit2 / length2);
+    step.da *= shorter;
+    step.db *= shorter;
+  }
+  return step;
+}
 
 }  // namespace tangent

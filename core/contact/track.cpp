@@ -1,6 +1,7 @@
 #include "core/contact/track.h"
 
 #include "core/base/tolerances.h"
+#include "core/contact/rivals.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,14 +11,6 @@ namespace {
 
 /// A normal that turns by more than this in one tick has jumped to another place.
 bool jumped(const TrackedPlane& from, const TrackedPlane& to) { return glm::dot(from.normal, to.normal) < kJumpCosine; }
-
-/// Whether a rival could be deeper by now; `bound`: the rank it must be below.
-bool rival_possible(const Clearance& known, const Vec3& centre, double bound) {
-  if (known.margin_m < 0.0) return true;
-  const Vec3 d = centre - known.centre;
-  const double gone = std::sqrt(glm::dot(d, d));
-  return gone > known.margin_m || bound > known.height_m - gone;
-}
 
 void adopt(TrackResult& result, const IterationResult& contact, const TrackedPlane& kept, TickEvent event) {
   if (contact.plane.triangle != kept.triangle) result.triangle_changes = std::max(1, result.triangle_changes);
@@ -29,11 +22,12 @@ void watch_for_rivals(IterationContext& context, const ContactScene& scene, cons
   const double rank = contact_rank(context.finger, result.contact.contact);
   const double bound = rank - context.settings.switch_hysteresis_m;
   result.clearance = state.clearance;
-  if (!rival_possible(state.clearance, context.pose.position, bound)) return;
+  age(result.clearance, context.finger, context.pose);
+  if (!rival_possible(result.clearance, bound)) return;
   const Vec3 moved = context.pose.position + context.origin - state.last_position;
   const double speed = state.has_previous ? std::sqrt(glm::dot(moved, moved)) : 0.0;
   const double margin = std::min(kWatchTicks * speed, kLargestWatch * std::abs(rank)) + kSmallestWatch * std::abs(rank);
-  const RivalResult rival = find_rival(context, scene, result.contact, bound, margin);
+  const RivalResult rival = find_rival(context, scene, result.contact, bound, margin, result.clearance);
   result.evaluations += rival.evaluations;
   result.clearance = rival.clearance;
   if (!rival.deeper) return;

@@ -16,8 +16,7 @@ Vec2 corner_uv(std::uint32_t corner) { return {corner == 1 ? 1.0 : 0.0, corner =
 /// inside, else 0.
 double face_pull(IterationContext& context, std::uint32_t t, std::uint32_t corner) {
   const Vec2 uv = corner_uv(corner);
-  const SurfaceSample e = evaluate(context.cache.patch(t, context.settings.normal_form), uv.x, uv.y);
-  const PlaceSample s{e.point, e.point_u, e.point_v, e.normal, e.normal_u, e.normal_v};
+  const SurfaceSample s = evaluate(context.cache.patch(t, context.settings.normal_form), uv.x, uv.y);
   const PlaneContact c = contact_on_plane(context.finger, context.pose, s.point, s.normal);
   const ContactJacobian j = contact_jacobian(context.finger, context.pose, s, c);
   ParameterStep step = context.settings.method == Method::paper
@@ -28,13 +27,13 @@ double face_pull(IterationContext& context, std::uint32_t t, std::uint32_t corne
   // Along a side it still leads inside: on a symmetry line of the mesh no triangle would have it otherwise.
   const double a = change[(corner + 1) % 3], b = change[(corner + 2) % 3], forward = std::max(a, b);
   if (forward <= 0.0 || std::min(a, b) < -1e-9 * forward) return 0.0;
-  const Vec3 ds = step.da * s.point_a + step.db * s.point_b;
+  const Vec3 ds = step.da * s.point_u + step.db * s.point_v;
   return std::sqrt(glm::dot(ds, ds));
 }
 
 /// The same for a crease or boundary edge that starts (f = 0) or ends (f = 1) at the vertex.
 double edge_pull(IterationContext& context, std::uint32_t t, std::uint32_t edge, double f) {
-  const EdgeFan fan = edge_fan(context.cache, t, edge, f, context.settings.normal_form);
+  const EdgeFan& fan = edge_fan(context.cache, t, edge, f, context.settings.normal_form);
   if (fan.fan <= 0.0) return 0.0;
   const double turn = facing_turn(fan, context.finger, context.pose);
   if (turn < 0.0 || turn > fan.fan) return 0.0;
@@ -49,20 +48,20 @@ double edge_pull(IterationContext& context, std::uint32_t t, std::uint32_t edge,
 namespace {
 
 /// A sample that stands still at `point` while its normal turns freely.
-PlaceSample standing_sample(const Vec3& point, const Vec3& normal) {
-  PlaceSample s{};
+SurfaceSample standing_sample(const Vec3& point, const Vec3& normal) {
+  SurfaceSample s{};
   s.point = point;
   s.normal = normal;
   const Vec3 axis = std::abs(normal.x) < 0.6 ? Vec3(1, 0, 0) : Vec3(0, 1, 0);
-  s.normal_a = unit(glm::cross(normal, axis));
-  s.normal_b = glm::cross(normal, s.normal_a);
-  s.point_a = s.point_b = Vec3(0.0);
+  s.normal_u = unit(glm::cross(normal, axis));
+  s.normal_v = glm::cross(normal, s.normal_u);
+  s.point_u = s.point_v = Vec3(0.0);
   return s;
 }
 
 }  // namespace
 
-PlaceSample vertex_sample_at(IterationContext& context, const TrackedPlane& plane, const Vec3& normal) {
+SurfaceSample vertex_sample_at(IterationContext& context, const TrackedPlane& plane, const Vec3& normal) {
   return standing_sample(context.cache.mesh().position(plane.triangle, plane.side), normal);
 }
 
@@ -73,19 +72,19 @@ Vec3 facing_normal(const IterationContext& context, const Vec3& point, const Vec
   if (is_round(context.finger)) return normal;
   // Newton on the sphere of normals: H dN = travel in the plane.
   for (int i = 0; i < 30; ++i) {
-    const PlaceSample s = standing_sample(point, normal);
+    const SurfaceSample s = standing_sample(point, normal);
     const PlaneContact c = contact_on_plane(context.finger, context.pose, s.point, s.normal);
     const ParameterStep step = newton_step(s, contact_jacobian(context.finger, context.pose, s, c), c);
     if (!step.valid) break;
     const double size = std::hypot(step.da, step.db);
     const double scale = size > 0.3 ? 0.3 / size : 1.0;
-    normal = unit(normal + scale * (step.da * s.normal_a + step.db * s.normal_b));
+    normal = unit(normal + scale * (step.da * s.normal_u + step.db * s.normal_v));
     if (size < 1e-13) break;
   }
   return normal;
 }
 
-PlaceSample vertex_sample(IterationContext& context, const TrackedPlane& plane) {
+SurfaceSample vertex_sample(IterationContext& context, const TrackedPlane& plane) {
   const ContactMesh& mesh = context.cache.mesh();
   return vertex_sample_at(context, plane,
                           facing_normal(context, mesh.position(plane.triangle, plane.side), mesh.normal(plane.triangle, plane.side)));

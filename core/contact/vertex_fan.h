@@ -9,9 +9,9 @@
 namespace tangent {
 
 /// Sample of a vertex (plane.triangle, corner plane.side) with the normal facing the finger.
-PlaceSample vertex_sample(IterationContext& context, const TrackedPlane& plane);
+SurfaceSample vertex_sample(IterationContext& context, const TrackedPlane& plane);
 /// The same with a given unit normal.
-PlaceSample vertex_sample_at(IterationContext& context, const TrackedPlane& plane, const Vec3& normal);
+SurfaceSample vertex_sample_at(IterationContext& context, const TrackedPlane& plane, const Vec3& normal);
 
 /// Unit normal of the plane through `point` (local) that the finger touches just there: unit(c - point) for a round
 /// finger, by Newton from `start` for others. `start` where the finger's centre is the point.

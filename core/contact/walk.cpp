@@ -1,5 +1,7 @@
 #include "core/contact/walk.h"
 
+#include "core/mesh/vertex_ring.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -71,6 +73,32 @@ bool concave_crease(const ContactMesh& mesh, std::uint32_t t, std::uint32_t edge
   const Vec3 near_normal = mesh.normal(t, edge) + mesh.normal(t, (edge + 1) % 3);
   const Vec3 far_normal = mesh.normal(other.triangle, other.edge) + mesh.normal(other.triangle, (other.edge + 1) % 3);
   return glm::dot(far_corner - middle, near_normal) + glm::dot(near_corner - middle, far_normal) > 0.0;
+}
+
+std::optional<TrackedPlane> walk_past_end(const ContactMesh& mesh, std::uint32_t t, std::uint32_t edge, bool forwards, double beyond_m) {
+  constexpr double kStraight = 0.866;
+  const std::uint32_t corner = forwards ? (edge + 1) % 3 : edge, from = forwards ? edge : (edge + 1) % 3;
+  const std::uint32_t origin = mesh.vertex(t, from);
+  const Vec3& here = mesh.position(t, corner);
+  const Vec3 heading = here - mesh.position(t, from);
+  std::optional<TrackedPlane> next;
+  int edges = 0;
+  const auto offer = [&](std::uint32_t at, std::uint32_t k, bool starts_here) {
+    const std::uint32_t end = starts_here ? (k + 1) % 3 : k;
+    if (mesh.vertex(at, end) == origin) return;
+    ++edges;
+    const Vec3 on = mesh.position(at, end) - here;
+    const double length = glm::length(on);
+    if (!(glm::dot(on, heading) > kStraight * length * glm::length(heading))) return;
+    const double f = std::min(1.0, beyond_m / length);
+    next = place_on_edge(at, k, starts_here ? f : 1.0 - f);
+  };
+  around_vertex(mesh, t, corner, [&](std::uint32_t at, std::uint32_t k) {
+    if (mesh.edge_kind(at, k) != EdgeKind::smooth) offer(at, k, true);
+    const std::uint32_t ending = (k + 2) % 3;  // inner edges start here in another triangle
+    if (mesh.edge_kind(at, ending) == EdgeKind::boundary) offer(at, ending, false);
+  });
+  return edges == 1 ? next : std::nullopt;
 }
 
 WalkResult walk_face(const ContactMesh& mesh, std::uint32_t t, double u, double v, double du, double dv) {

@@ -4,7 +4,26 @@
 
 #include "core/contact/place.h"
 
+#include <optional>
+
 namespace tangent {
+
+inline TrackedPlane place_on_face(std::uint32_t t, double u, double v) {
+  TrackedPlane p;
+  p.feature = Feature::face;
+  p.triangle = t;
+  p.u = u;
+  p.v = v;
+  return p;
+}
+
+inline TrackedPlane place_on_edge(std::uint32_t t, std::uint32_t edge, double f) {
+  const Vec2 uv = edge_point_uv(edge, f);
+  TrackedPlane p = place_on_face(t, uv.x, uv.y);
+  p.feature = Feature::edge;
+  p.side = static_cast<std::uint8_t>(edge);
+  return p;
+}
 
 /// True where (u, v) + (du, dv) stays inside the triangle; most steps do.
 inline bool stays_inside(double u, double v, double du, double dv) {
@@ -21,6 +40,10 @@ struct WalkResult {
 /// From (u, v) on triangle t by (du, dv) in that triangle's barycentric frame. Concave creases are crossed
 /// like smooth edges: no finger rests on one.
 WalkResult walk_face(const ContactMesh& mesh, std::uint32_t t, double u, double v, double du, double dv);
+
+/// Past the end of a crease or boundary edge k of t (`forwards`: corner k + 1) by `beyond_m`, along the only other such
+/// edge there; no further than its other end. Nothing where the edge ends, branches or bends by over 30 degrees.
+std::optional<TrackedPlane> walk_past_end(const ContactMesh& mesh, std::uint32_t t, std::uint32_t edge, bool forwards, double beyond_m);
 
 /// True where the far side of crease edge k rises above the near side's tangent planes.
 bool concave_crease(const ContactMesh& mesh, std::uint32_t t, std::uint32_t edge);

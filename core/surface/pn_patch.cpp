@@ -100,7 +100,7 @@ void set_centre_point(PnPatch& patch) {
   b[b111] = e + (e - v) / 2.0;
 }
 
-SurfaceSample evaluate(const PnPatch& patch, double u, double v) {
+void evaluate(const PnPatch& patch, double u, double v, SurfaceSample& s) {
   const double w = 1.0 - u - v;
   const auto& b = patch.offsets;
   // de Casteljau: cubic -> quadratic -> linear -> point; the linear level gives the first derivatives.
@@ -113,22 +113,27 @@ SurfaceSample evaluate(const PnPatch& patch, double u, double v) {
   const Vec3 lw = mix(w, u, v, q200, q110, q101);
   const Vec3 lu = mix(w, u, v, q110, q020, q011);
   const Vec3 lv = mix(w, u, v, q101, q011, q002);
+  const NormalPolynomial n = evaluate_normal_polynomial(patch, u, v);
+  const double length = std::sqrt(glm::dot(n.value, n.value));
 
-  SurfaceSample s;
   s.point = patch.origin + mix(w, u, v, lw, lu, lv);
   s.point_u = 3.0 * (lu - lw);
   s.point_v = 3.0 * (lv - lw);
-
-  const NormalPolynomial n = evaluate_normal_polynomial(patch, u, v);
-  const double length = std::sqrt(glm::dot(n.value, n.value));
   if (length < kVanishingNormal) {
     s.normal = flat_normal(patch);
     s.normal_u = s.normal_v = Vec3(0.0);
-    return s;
+    return;
   }
-  s.normal = n.value / length;
-  s.normal_u = (n.by_u - glm::dot(s.normal, n.by_u) * s.normal) / length;
-  s.normal_v = (n.by_v - glm::dot(s.normal, n.by_v) * s.normal) / length;
+  const double per_length = 1.0 / length;
+  const Vec3 normal = per_length * n.value;
+  s.normal = normal;
+  s.normal_u = per_length * (n.by_u - glm::dot(normal, n.by_u) * normal);
+  s.normal_v = per_length * (n.by_v - glm::dot(normal, n.by_v) * normal);
+}
+
+SurfaceSample evaluate(const PnPatch& patch, double u, double v) {
+  SurfaceSample s;
+  evaluate(patch, u, v, s);
   return s;
 }
 

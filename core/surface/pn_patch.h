@@ -67,6 +67,8 @@ void set_centre_point(PnPatch& patch);
 /// Precondition: finite u, v. A normal that vanishes (only for corner normals over 90 deg apart) is
 /// replaced by the normal of the flat triangle, with zero derivatives.
 SurfaceSample evaluate(const PnPatch& patch, double u, double v);
+/// The same in place, which spares the solver a copy. `sample` is no part of the patch.
+void evaluate(const PnPatch& patch, double u, double v, SurfaceSample& sample);
 Vec3 evaluate_point(const PnPatch& patch, double u, double v);
 Vec3 evaluate_normal(const PnPatch& patch, double u, double v);
 

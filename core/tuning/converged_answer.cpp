@@ -18,9 +18,7 @@ std::optional<TickOutput> converged_answer(Stepper& stepper, const Preset& prese
   exact.solver.tolerance_m = tolerance_m;
   TickState from = state;
   from.has_previous = 0;
-  // Nothing else can be deeper: the place stays the method's own.
-  from.clearance.centre = input.finger.position - stepper.scene().mesh().origin();
-  from.clearance.margin_m = from.clearance.height_m = std::numeric_limits<double>::infinity();
+  from.clearance = Clearance::unlimited();  // the place stays the method's own
   TickOutput answer = stepper.step(exact, input, from);
   if (answer.status == TickStatus::unconverged || answer.event != TickEvent::none) return std::nullopt;
   return answer;

@@ -48,3 +48,15 @@ TEST_CASE("the session includes no graphics, panels or commands") {
 }
 
 TEST_CASE("the window includes no commands") { check_room("workbench/gui", {"workbench/cli", "workbench/bench"}); }
+
+TEST_CASE("libusb is known to the transport alone") {
+  int files = 0, inside = 0;
+  for (const std::string& found : offending_includes("devices", {"libusb"}, files)) {
+    const bool transport = found.find("/devices/usb/libusb/") != std::string::npos;
+    inside += transport;
+    // The transport's own header names its folder.
+    if (!transport) FAIL_CHECK(found);
+  }
+  CHECK(inside > 0);
+  check_room("workbench", {"libusb"});
+}

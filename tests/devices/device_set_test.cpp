@@ -6,7 +6,7 @@ using namespace tangent;
 
 TEST_CASE("every named device set can be made, and says what it can do") {
   for (const std::string& name : device_set_names()) {
-    const auto set = make_devices(name, 1);
+    const auto set = make_devices(name);
     REQUIRE(set);
     CHECK((set->force == nullptr) == (name == "none"));
     CHECK((set->display == nullptr) == (name == "none"));
@@ -19,7 +19,7 @@ TEST_CASE("every named device set can be made, and says what it can do") {
 }
 
 TEST_CASE("an unknown device set is refused with the choices") {
-  const auto set = make_devices("phantom", 1);
+  const auto set = make_devices("phantom");
   REQUIRE_FALSE(set);
   for (const std::string& name : device_set_names()) CHECK(set.error().remedy.find(name) != std::string::npos);
 }

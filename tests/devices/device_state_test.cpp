@@ -9,13 +9,15 @@ using namespace tangent;
 
 namespace {
 
-constexpr std::array kStates{DeviceState::absent, DeviceState::open, DeviceState::homing, DeviceState::ready,
-                             DeviceState::faulted};
+constexpr std::array kStates{DeviceState::absent, DeviceState::open,  DeviceState::firmware,
+                             DeviceState::homing, DeviceState::ready, DeviceState::faulted};
 
 DeviceStateMachine machine_in(DeviceState state) {
   DeviceStateMachine m;
   if (state == DeviceState::absent) return m;
   m.enter(DeviceState::open);
+  if (state == DeviceState::open) return m;
+  m.enter(DeviceState::firmware);
   if (state == DeviceState::homing || state == DeviceState::ready) m.enter(DeviceState::homing);
   if (state == DeviceState::ready) m.enter(DeviceState::ready);
   if (state == DeviceState::faulted) m.fail(DeviceFault::sensor);
@@ -24,17 +26,18 @@ DeviceStateMachine machine_in(DeviceState state) {
 
 }  // namespace
 
-TEST_CASE("a device passes through open and homing before it is ready") {
+TEST_CASE("a device passes through open, firmware and homing before it is ready") {
   // Rows: from; columns: to; in the order of kStates.
-  constexpr bool allowed[5][5] = {
-      {false, true, false, false, false},  // absent
-      {true, false, true, false, true},    // open
-      {true, true, false, true, true},     // homing
-      {true, true, true, false, true},     // ready
-      {true, true, false, false, false},   // faulted
+  constexpr bool allowed[6][6] = {
+      {false, true, false, false, false, false},  // absent
+      {true, false, true, false, false, true},    // open
+      {true, true, false, true, false, true},     // firmware
+      {true, true, false, false, true, true},     // homing
+      {true, true, false, true, false, true},     // ready
+      {true, true, false, false, false, false},   // faulted
   };
-  for (std::size_t from = 0; from < 5; ++from) {
-    for (std::size_t to = 0; to < 5; ++to) {
+  for (std::size_t from = 0; from < 6; ++from) {
+    for (std::size_t to = 0; to < 6; ++to) {
       CAPTURE(to_string(kStates[from]));
       CAPTURE(to_string(kStates[to]));
       CHECK(transition_allowed(kStates[from], kStates[to]) == allowed[from][to]);
@@ -57,6 +60,8 @@ TEST_CASE("the first fault stays until it is cleared, and clearing it asks for h
   CHECK(m.apply(DeviceRequest::clear_fault));
   CHECK(m.state() == DeviceState::open);
   CHECK(m.fault() == DeviceFault::none);
+  CHECK_FALSE(m.apply(DeviceRequest::home));  // its firmware has to be asked again first
+  CHECK(m.enter(DeviceState::firmware));
   CHECK(m.apply(DeviceRequest::home));
   CHECK(m.state() == DeviceState::homing);
 }

@@ -176,3 +176,110 @@ TEST_CASE("the display's target is clamped to its travel, and holds while stoppe
   gate.stop();
   CHECK(gate.pass(ready_input(Vec3(0.0), 0.004), kDt).display_m == -0.01);
 }
+
+TEST_CASE("beyond the workspace the force fades out over the margin, wherever the workspace was placed") {
+  GateLimits l = limits();
+  l.slew_n_per_s = 1e9;
+  l.workspace_half_size_m = Vec3(0.1, 0.0, 0.05);   // no limit along y
+  for (const Vec3 centre : {Vec3(0.0), Vec3(3, -2, 1)}) {
+    const auto force_at = [&](const Vec3& offset, bool faded) {
+      SafetyGate gate = armed_gate(l);
+      gate.place_workspace(centre);
+      gate.restart_ramp();
+      GateInput input = ready_input(Vec3(0, 0, 2));
+      input.position_m = centre + offset;
+      const GateOutput out = gate.pass(input, kDt);
+      CHECK(out.did(GateAction::workspace_faded) == faded);
+      return out.force_n.z;
+    };
+    CHECK(force_at(Vec3(0.0999, 7.0, -0.0499), false) == 2.0);
+    CHECK(force_at(Vec3(0.1025, 0, 0), true) == doctest::Approx(1.0));
+    CHECK(force_at(Vec3(0.1025, 0, -0.054), true) == doctest::Approx(0.4));
+    CHECK(force_at(Vec3(0, 0, 0.0551), true) == 0.0);
+  }
+}
+
+TEST_CASE("held at peak force, the gate comes down to the continuous force by itself") {
+  GateLimits l = limits();
+  l.continuous_force_n = 1.4;
+  SafetyGate gate = armed_gate(l);
+  double force = 0.0, fastest_change = 0.0;
+  for (int i = 0; i < 60'000; ++i) {
+    const double last = force;
+    force = gate.pass(ready_input(Vec3(0, 0, 8.5)), kDt).force_n.z;
+    if (i > 10) fastest_change = std::max(fastest_change, std::abs(force - last));
+  }
+  CHECK(force == doctest::Approx(1.4).epsilon(0.01));
+  CHECK(fastest_change < 0.01);   // never a jolt
+  CHECK(count(gate, GateAction::heat_clamped) > 50'000);
+  CHECK(gate.state() == GateState::armed);
+  // Re-arming does not cool the motors.
+  gate.stop();
+  gate.arm();
+  gate.pass(ready_input(Vec3(0, 0, 8.5)), kDt);
+  for (int i = 0; i < 5; ++i) force = gate.pass(ready_input(Vec3(0, 0, 8.5)), kDt).force_n.z;
+  CHECK(force < 2.0);
+}
+
+TEST_CASE("a late tick or a stale sample brings the force to zero within two ticks and stays a fault") {
+  for (int what = 0; what < 3; ++what) {
+    CAPTURE(what);
+    SafetyGate gate = armed_gate();
+    REQUIRE(gate.pass(ready_input(Vec3(0, 0, 2)), kDt).force_n.z == 2.0);
+    GateInput input = ready_input(Vec3(0, 0, 2));
+    if (what == 1) input.position_age_s = 10.5e-3;
+    if (what == 2) input.display_age_s = kNan;
+    const GateOutput first = gate.pass(input, what == 0 ? 21e-3 : kDt);
+    CHECK(first.force_n.z == 1.0);
+    CHECK(first.did(GateAction::ramped_out));
+    CHECK(first.fault == (what == 0 ? GateFault::late_tick : GateFault::stale_sample));
+    CHECK(gate.pass(ready_input(Vec3(0, 0, 2)), kDt).force_n == Vec3(0.0));
+    CHECK(gate.pass(ready_input(Vec3(0, 0, 2)), kDt).force_n == Vec3(0.0));
+    CHECK(gate.state() == GateState::faulted);
+    CHECK(gate.faults() == 1);
+    gate.arm();
+    CHECK(gate.pass(ready_input(Vec3(0, 0, 2)), kDt).force_n.z == 2.0);
+  }
+  SafetyGate gate = armed_gate();
+  GateInput input = ready_input(Vec3(0, 0, 2));
+  input.position_age_s = input.display_age_s = 9.9e-3;
+  CHECK(gate.pass(input, 19.9e-3).state == GateState::armed);
+}
+
+TEST_CASE("a position that jumps, freezes or is not finite stops the force") {
+  SafetyGate gate = armed_gate();
+  GateInput input = ready_input(Vec3(0, 0, 2));
+  gate.pass(input, kDt);
+  input.position_m = Vec3(9e-3, 0, 0);
+  CHECK(gate.pass(input, kDt).state == GateState::armed);
+  input.position_m = Vec3(20e-3, 0, 0);
+  GateOutput out = gate.pass(input, kDt);
+  CHECK(out.fault == GateFault::position_jumped);
+  CHECK(out.force_n == Vec3(0.0));
+
+  gate.arm();
+  gate.pass(input, kDt);
+  input.position_m.y = kNan;
+  out = gate.pass(input, kDt);
+  CHECK(out.fault == GateFault::position_not_finite);
+  CHECK(out.force_n == Vec3(0.0));
+
+  gate.arm();
+  for (int i = 0; i < 60; ++i) {
+    input.position_m = Vec3(0.1e-3 * std::min(i, 30), 0, 0);
+    out = gate.pass(input, kDt);
+    CHECK(out.force_n == (i < 50 ? Vec3(0, 0, 2) : Vec3(0.0)));
+  }
+  CHECK(out.fault == GateFault::position_frozen);
+}
+
+TEST_CASE("a roller that stands still far from its target stops the force, if the display measures at all") {
+  for (const bool measures : {true, false}) {
+    SafetyGate gate = armed_gate();
+    GateInput input = ready_input(Vec3(0, 0, 1), 4e-3);
+    input.display_measures = measures;
+    GateOutput out;
+    for (int i = 0; i < 60; ++i) out = gate.pass(input, kDt);
+    CHECK(out.fault == (measures ? GateFault::display_frozen : GateFault::none));
+  }
+}

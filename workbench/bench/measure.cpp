@@ -1,6 +1,7 @@
 #include "workbench/bench/measure.h"
 
 #include "core/contact/plane_contact.h"
+#include "core/shading/render.h"
 #include "core/tuning/closed_work.h"
 #include "core/tuning/converged_answer.h"
 #include "workbench/bench/allocation_count.h"
@@ -12,8 +13,6 @@ namespace tangent::bench {
 namespace {
 
 constexpr std::size_t kStopStride = 64;  // ticks between two looks at the stop
-
-bool is_smooth(Method method) { return method == Method::paper || method == Method::newton || method == Method::robust; }
 
 /// Loops about places of the run: circles of 1/40 of the object's size (2 mm on 80 mm) in the contact's plane.
 WorkReport measure_work(const ScenePtr& scene, const Preset& preset, std::span<const TickInput> poses,
@@ -165,7 +164,7 @@ std::optional<SceneReport> measure_scene(const std::string& suite, const BenchCa
   const TimedRun facet = timed_run(scene, flat, poses, 1, clock, options.stop);
   if (reference.stopped || facet.stopped) return std::nullopt;
 
-  report.evaluation = evaluation_time(scene->mesh(), reference.outputs, bench_case.preset.solver.normal_form);
+  report.evaluation = evaluation_time(scene->mesh(), reference.outputs, bench_case.preset.solver.normal_form, clock);
   for (const Method method : kMeasuredMethods) {
     report.methods.push_back(measure_method(method, bench_case, scene, poses, reference.outputs, facet.outputs, options, clock));
     if (options.stop()) return std::nullopt;

@@ -14,7 +14,8 @@ struct MeasureOptions {
 };
 
 /// The methods that are measured, in the order of reports.
-inline constexpr std::array kMeasuredMethods{Method::paper, Method::newton, Method::robust, Method::facet, Method::force_shading};
+inline constexpr std::array kMeasuredMethods{Method::paper, Method::newton, Method::robust, Method::facet,
+                                             Method::force_shading, Method::two_pass};
 
 /// None when stopped before the end.
 std::optional<SceneReport> measure_scene(const std::string& suite, const BenchCase& bench_case, const ScenePtr& scene,

@@ -1,3 +1,4 @@
+#include "core/shading/render.h"
 #include "core/tuning/converged_answer.h"
 #include "workbench/bench/measure.h"
 
@@ -56,7 +57,7 @@ Result<std::optional<WorkPrecisionReport>> measure_work_precision(const BenchCas
     Preset preset = bench_case.preset;
     preset.solver.method = method;
     preset.solver.max_iterations = kLastIterations;
-    if (method == Method::facet || method == Method::force_shading) {
+    if (!is_smooth(method)) {
       curve.points.push_back(measure_flat(*scene, preset, *poses, options, clock));
     } else {
       if (method == Method::paper) preset = with_best_gain(*scene, preset, *poses, options.stop);

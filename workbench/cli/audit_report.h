@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/mesh/mesh_audit.h"
+#include "core/tuning/perception.h"
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -9,8 +10,9 @@
 
 namespace tangent {
 
-std::string audit_text(const MeshAudit& audit, const ContactMesh& mesh);
+/// `condition`: index into kPerceptionThresholds of the one that the worst edges and the verdict are for.
+std::string audit_text(const MeshAudit& audit, const PerceptionAudit& perception, int condition, const ContactMesh& mesh);
 /// The layout is part of the program's contract (README, "Files").
-nlohmann::ordered_json audit_json(const MeshAudit& audit, const ContactMesh& mesh);
+nlohmann::ordered_json audit_json(const MeshAudit& audit, const PerceptionAudit& perception, int condition, const ContactMesh& mesh);
 
 }  // namespace tangent

@@ -1,6 +1,7 @@
 #include "workbench/cli/bench_plot.h"
 
 #include "core/base/units.h"
+#include "core/shading/render.h"
 #include "workbench/cli/text_format.h"
 
 #include <algorithm>
@@ -22,7 +23,7 @@ struct MethodStyle {
 constexpr std::array kStyles{
     MethodStyle{Method::paper, "#D55E00", "paper, best G_k"}, MethodStyle{Method::newton, "#0072B2", "newton"},
     MethodStyle{Method::robust, "#009E73", "robust"},         MethodStyle{Method::facet, "#E69F00", "facet"},
-    MethodStyle{Method::force_shading, "#CC79A7", "force shading"}};
+    MethodStyle{Method::force_shading, "#CC79A7", "force shading"}, MethodStyle{Method::two_pass, "#56B4E9", "two-pass"}};
 
 const MethodStyle& style_of(Method method) {
   for (const MethodStyle& style : kStyles)
@@ -90,8 +91,8 @@ std::string axes(const Frame& f, const WorkPrecisionReport& panel, bool first) {
 
 /// Markers of different sizes, so that one shows behind another at the same place.
 std::string marker(double x, double y, const MethodStyle& style) {
-  if (style.method == Method::facet || style.method == Method::force_shading) {
-    const double half = style.method == Method::facet ? 5.5 : 3.0;
+  if (!is_smooth(style.method)) {
+    const double half = style.method == Method::facet ? 6.5 : style.method == Method::force_shading ? 4.5 : 2.5;
     return format("<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" fill=\"%s\"/>\n", x - half, y - half, 2 * half, 2 * half, style.colour);
   }
   return format("<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\" fill=\"%s\"/>\n", x, y, style.method == Method::newton ? 5.2 : 3.2, style.colour);

@@ -52,16 +52,16 @@ std::string flatness_text(const BenchReport& report) {
 std::string report_legend(const BenchReport& report) {
   return format(
       "Times: ns of one tick, least of %d pass%s (one where the finger follows a way in the scale suite), clock (%.0f ns) taken off; /ev: median over one evaluation of point, normal and\n"
-      "derivatives; /pap: over the median of paper. Iterations: ticks without event. Errors: 99th percentile from the same place solved on\n"
+      "derivatives, timed alone as a tick is; /pap: over the median of paper. Iterations: ticks without event. Errors: 99th percentile from the same place solved on\n"
       "(* from robust solved on: the method itself is exact). Work: of the force once round a closed path, largest of 12; relative to peak energy.\n",
       report.repeats, report.repeats == 1 ? "" : "es", report.clock_overhead_ns);
 }
 
 std::string scene_text(const SceneReport& scene) {
-  std::string text = format("\n%s / %s: %s; %u triangles, %.0f bytes a triangle, %zu ticks; evaluation %.1f ns (%.1f in a chain)\n",
+  std::string text = format("\n%s / %s: %s; %u triangles, %.0f bytes a triangle, %zu ticks; evaluation %.1f ns (%.1f in a chain, %.1f in a row)\n",
                             scene.suite.c_str(), scene.name.c_str(), scene.what.c_str(), scene.triangles,
-                            static_cast<double>(scene.memory_bytes) / scene.triangles, scene.ticks, scene.evaluation.throughput_ns,
-                            scene.evaluation.latency_ns);
+                            static_cast<double>(scene.memory_bytes) / scene.triangles, scene.ticks, scene.evaluation.alone_ns,
+                            scene.evaluation.latency_ns, scene.evaluation.throughput_ns);
   if (scene.load.ready_s() > 0.0) {
     text += format("  ready to solve in %.2f s: read %.2f, mesh %.2f, search structures %.2f\n", scene.load.ready_s(), scene.load.read_s,
                    scene.load.mesh_s, scene.load.structures_s);

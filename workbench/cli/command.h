@@ -22,6 +22,10 @@ void add_audit_command(CLI::App& app, CommandResult& result);
 void add_make_command(CLI::App& app, CommandResult& result);
 void add_bench_command(CLI::App& app, CommandResult& result);
 void add_tune_command(CLI::App& app, CommandResult& result);
+void add_figures_command(CLI::App& app, CommandResult& result);
+void add_decimate_command(CLI::App& app, CommandResult& result);
+void add_devices_command(CLI::App& app, CommandResult& result);
+void add_monitor_command(CLI::App& app, CommandResult& result);
 #ifdef TANGENT_HAS_GUI
 void add_gui_command(CLI::App& app, CommandResult& result);
 void add_shot_command(CLI::App& app, CommandResult& result);

@@ -2,6 +2,7 @@
 // scene, or, where there is no display, pictures of it.
 #ifdef TANGENT_HAS_GUI
 #include "workbench/cli/command.h"
+#include "workbench/cli/device_options.h"
 #include "workbench/cli/interrupt.h"
 #include "workbench/cli/mesh_options.h"
 #include "workbench/cli/number_option.h"
@@ -10,6 +11,7 @@
 #include "workbench/gui/platform/shots.h"
 #include "workbench/gui/platform/window.h"
 #include "workbench/session/servo_options.h"
+#include "workbench/session/window_settings.h"
 
 #include <array>
 #include <cstdio>
@@ -22,6 +24,7 @@ namespace {
 struct GuiOptions {
   MeshOptions mesh;
   AppOptions app;
+  DeviceChoice devices;
 };
 
 int run_gui(const AppOptions& options) {
@@ -60,7 +63,9 @@ int draw_builtin_pictures(const std::string& reason) {
 
 int run_gui_or_pictures() {
   if (const Status display = display_available(); !display) return draw_builtin_pictures(display.error().what);
-  return run_gui({});
+  AppOptions options;
+  options.settings = window_settings_path();
+  return run_gui(options);
 }
 
 void add_gui_command(CLI::App& app, CommandResult& result) {
@@ -68,14 +73,22 @@ void add_gui_command(CLI::App& app, CommandResult& result) {
   auto options = std::make_shared<GuiOptions>();
   add_mesh_options(*command, options->mesh, false);
   command->add_option("--preset", options->app.preset, "Preset to start with (default: the shipped one)")->type_name("F.toml");
-  command->add_option("--device", options->app.device, "Devices to use (default simulated)")->type_name("NAME");
+  add_device_options(*command, options->devices);
   add_number_option(*command, "--servo-hz", {.min = kSlowestServoHz, .max = kFastestServoHz, .unit = "Hz"}, "Rate of the servo (default 1000)",
                     [options](double hz) { options->app.servo_hz = hz; });
+  add_number_option(*command, "--history-minutes", {.min = 0.1, .max = 120.0, .unit = "min"},
+                    "Minutes of ticks to look back at, within 1 GiB: 30 at 1 kHz (default 10)",
+                    [options](double minutes) { options->app.history_s = 60.0 * minutes; });
   command->add_option("--record", options->app.record, "Record the session into this file")->type_name("F.sqlite");
   command->callback([options, &result] {
+    options->app.settings = window_settings_path();
     options->app.mesh = options->mesh.file.string();
     options->app.metres_per_unit = options->mesh.metres_per_unit;
     options->app.mesh_options = options->mesh.build;
+    options->app.device = options->devices.device;
+    options->app.maestro = options->devices.maestro;
+    options->app.maestro_channel = options->devices.maestro_channel;
+    options->app.packets = options->devices.packets;
     result.exit_code = run_gui(options->app);
   });
 }

@@ -1,6 +1,7 @@
 #include "workbench/cli/mesh_options.h"
 
 #include "core/mesh/mesh_io.h"
+#include "core/planar/polygon_io.h"
 #include "workbench/cli/number_option.h"
 
 #include <array>
@@ -21,7 +22,7 @@ void add_unit_option(CLI::App& app, double& metres_per_unit, const std::string& 
 }
 
 void add_mesh_options(CLI::App& app, MeshOptions& options, bool mesh_required) {
-  app.add_option("MESH", options.file, "Mesh file: .obj, .ply, .stl or .off")->required(mesh_required)->type_name("");
+  app.add_option("MESH", options.file, "Mesh file: .obj, .ply, .stl or .off; for solve and gui also a polygon: .csv (x_m,y_m) or .obj with a line element")->required(mesh_required)->type_name("");
   add_unit_option(app, options.metres_per_unit, "Unit of the file's coordinates (default mm)");
   add_number_option(app, "--fit-mm", {.min = 1e-3, .max = 1e9, .unit = "mm"},
                     "Bounding-box centre to the origin, longest side to this (default: as in the file)",
@@ -44,6 +45,20 @@ Result<LoadedMesh> load_mesh(const MeshOptions& options) {
     return tl::unexpected(error);
   }
   return LoadedMesh{std::move(*source), std::move(*mesh)};
+}
+
+Result<std::shared_ptr<const ContactScene>> load_contact_scene(const MeshOptions& options) {
+  if (!is_planar_file(options.file)) {
+    Result<LoadedMesh> loaded = load_mesh(options);
+    if (!loaded) return tl::unexpected(loaded.error());
+    return ContactScene::build(std::move(loaded->mesh));
+  }
+  Result<PlanarPolygon> polygon = read_polygon(options.file, options.metres_per_unit);
+  if (!polygon) return tl::unexpected(polygon.error());
+  if (options.build.fit_m) fit_polygon(*polygon, *options.build.fit_m);
+  Result<PlanarCurve> curve = PlanarCurve::build(std::move(*polygon));
+  if (!curve) return tl::unexpected(curve.error());
+  return ContactScene::build(std::move(*curve));
 }
 
 }  // namespace tangent

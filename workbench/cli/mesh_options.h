@@ -3,6 +3,7 @@
 
 #include "core/mesh/contact_mesh.h"
 #include "core/mesh/polygon_mesh.h"
+#include "core/step.h"
 
 #include <CLI/CLI.hpp>
 
@@ -29,5 +30,8 @@ struct LoadedMesh {
 
 /// Reads and builds. Fails with the reader's or the builder's message.
 Result<LoadedMesh> load_mesh(const MeshOptions& options);
+
+/// The scene for contacts: a mesh, or a 2D scene where the file holds a polygon (planar/polygon_io.h).
+Result<std::shared_ptr<const ContactScene>> load_contact_scene(const MeshOptions& options);
 
 }  // namespace tangent

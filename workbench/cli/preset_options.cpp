@@ -1,33 +1,16 @@
 #include "workbench/cli/preset_options.h"
 
-#include "core/step.h"
 #include "workbench/cli/number_option.h"
-
-#include <array>
+#include "workbench/session/rendering_condition.h"
 
 namespace tangent {
 namespace {
-
-constexpr std::array<RenderingCondition, 6> kConditions{{
-  {"C1", ForceSource::facet, TactileSource::held},
-  {"C2", ForceSource::force_shading, TactileSource::held},
-  {"C3", ForceSource::facet, TactileSource::facet},
-  {"C4", ForceSource::facet, TactileSource::smooth},
-  {"P1", ForceSource::smooth, TactileSource::smooth},
-  {"P2", ForceSource::force_shading, TactileSource::facet},
-}};
-constexpr std::array<std::string_view, 6> kConditionNames{"C1", "C2", "C3", "C4", "P1", "P2"};
 
 void add_key_option(CLI::App& app, const PresetKey& key, PresetOptions& options) {
   const std::string name = "--" + std::string(key.option);
   const auto set = [&options, &key](double value) { options.overrides.emplace_back(&key, value); };
   if (key.kind == KeyKind::choice) {
-    add_choice_option(app, name, key.choices, std::string(key.doc), [set, name, &key](int index) {
-      if (key.option == "method" && !method_available(static_cast<Method>(index))) {
-        throw CLI::ValidationError(name, "'" + key.value_text(index) + "' is not built yet; choose another");
-      }
-      set(index);
-    });
+    add_choice_option(app, name, key.choices, std::string(key.doc), set);
     return;
   }
   const NumberRange range{.min = key.min * key.option_per_si, .max = key.max * key.option_per_si,
@@ -50,8 +33,6 @@ void apply_override(Preset& preset, const PresetKey& key, double value) {
 
 }  // namespace
 
-std::span<const RenderingCondition> rendering_conditions() { return kConditions; }
-
 void add_preset_options(CLI::App& app, PresetOptions& options) {
   app.add_option("--preset", options.file, "Tuning preset to start from (default: built-in values)")->type_name("F.toml");
   add_choice_option(app, "--condition", kConditionNames,
@@ -70,16 +51,10 @@ Result<PresetFile> load_preset(const PresetOptions& options) {
     file = std::move(*read);
   }
   if (options.condition >= 0) {
-    const RenderingCondition& condition = kConditions[static_cast<std::size_t>(options.condition)];
-    file.preset.force.source = condition.force;
-    file.preset.display.source = condition.tactile;
+    set_condition(file.preset, kRenderingConditions[static_cast<std::size_t>(options.condition)]);
   }
   for (const auto& [key, value] : options.overrides) apply_override(file.preset, *key, value);
-  const Method method = file.preset.solver.method;
-  if (!method_available(method)) {
-    return fail(std::string("the method ") + to_string(method) + " is not built yet", options.file.string(),
-                "choose another");
-  }
+  if (const Status status = check_preset(file.preset); !status) return tl::unexpected(status.error());
   return file;
 }
 

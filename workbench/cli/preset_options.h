@@ -14,23 +14,15 @@ namespace tangent {
 
 struct PresetOptions {
   std::filesystem::path file;                                ///< empty: the defaults
-  int condition = -1;                                        ///< index into rendering_conditions(); -1: none named
+  int condition = -1;                                        ///< index into kRenderingConditions; -1: none named
   std::vector<std::pair<const PresetKey*, double>> overrides;  ///< SI
 };
-
-/// A rendering condition of the paper: where force and tactile display come from.
-struct RenderingCondition {
-  std::string_view name;
-  ForceSource force;
-  TactileSource tactile;
-};
-std::span<const RenderingCondition> rendering_conditions();
 
 /// --preset, --condition and one option per key of the schema that has one. `options` must outlive the parser.
 void add_preset_options(CLI::App& app, PresetOptions& options);
 
 /// File, then condition, then single values. A radius of 0 makes a point finger; any other radius makes a
-/// sphere of a point or an ellipsoid. Fails on a file that can't be used and on a method that is not built.
+/// sphere of a point or an ellipsoid. Fails on a file or a combination of values that can't be used.
 Result<PresetFile> load_preset(const PresetOptions& options);
 
 }  // namespace tangent

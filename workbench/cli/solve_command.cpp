@@ -93,6 +93,13 @@ Status commit(SolveOutputs& outputs, const SolveOptions& options, const SolveRep
   return write_file_atomic(options.summary, solve_json(report).dump(2) + "\n");
 }
 
+/// In the plane a finger is a point or a circle.
+Status check_shape(const ContactScene& scene, const Preset& preset) {
+  const FingerShape shape = preset.finger.shape;
+  if (scene.planar() == nullptr || shape == FingerShape::point || shape == FingerShape::sphere) return {};
+  return fail("a 2D scene takes point and sphere fingers only", "finger.shape", "choose finger.shape point or sphere");
+}
+
 Status solve(const SolveOptions& options, bool& interrupted) {
   SolveReport report;
   const Stopwatch loading;
@@ -101,13 +108,13 @@ Status solve(const SolveOptions& options, bool& interrupted) {
   if (Status status = probe_outputs(options); !status) return status;
   const Result<std::vector<TickInput>> poses = read_poses(options.poses);
   if (!poses) return tl::unexpected(poses.error());
-  Result<LoadedMesh> loaded = load_mesh(options.mesh);
-  if (!loaded) return tl::unexpected(loaded.error());
-  Result<std::shared_ptr<const ContactScene>> scene = ContactScene::build(std::move(loaded->mesh));
+  const Result<std::shared_ptr<const ContactScene>> scene = load_contact_scene(options.mesh);
   if (!scene) return tl::unexpected(scene.error());
+  if (Status status = check_shape(**scene, preset->preset); !status) return status;
   report.load_seconds = loading.seconds();
 
   report.mesh = &(*scene)->mesh();
+  report.planar = (*scene)->planar();
   report.preset = std::move(*preset);
   report.preset_name = options.preset.file.empty() ? "built-in values" : options.preset.file.string();
   report.poses_name = options.poses.string();

@@ -48,6 +48,11 @@ std::string iterations_text(const Distribution& d) {
   return format("mean %.3f  p50 %.0f  p99 %.0f  p99.9 %.0f  max %.0f", d.mean, d.p50, d.p99, d.p999, d.max);
 }
 
+std::string size_text(const SolveReport& report) {
+  if (report.planar == nullptr) return format("%u triangles", report.mesh->usable_triangle_count());
+  return format("%s polygon, %u vertices", report.planar->closed() ? "closed" : "open", report.planar->patch_count());
+}
+
 std::string finger_text(const Finger& finger) {
   switch (finger.shape) {
     case FingerShape::point: return "point finger";
@@ -68,8 +73,8 @@ std::string solve_text(const SolveReport& report) {
   const ContactMesh& mesh = *report.mesh;
   const Preset& preset = report.preset.preset;
   const Distribution ns = s.solve_ns();
-  std::string text = format("%llu ticks on %s (%u triangles), %s, method %s%s\n", (unsigned long long)s.ticks(),
-                            mesh.name().c_str(), mesh.usable_triangle_count(), finger_text(preset.finger).c_str(),
+  std::string text = format("%llu ticks on %s (%s), %s, method %s%s\n", (unsigned long long)s.ticks(),
+                            mesh.name().c_str(), size_text(report).c_str(), finger_text(preset.finger).c_str(),
                             to_string(preset.solver.method), report.interrupted ? ", interrupted" : "");
   text += "  status      " + counts_text(s, kTickStatuses) + "\n";
   text += "  events      " + counts_text(s, kTickEvents) + "\n";
@@ -89,8 +94,14 @@ std::string solve_text(const SolveReport& report) {
 Json solve_json(const SolveReport& report) {
   const SolveStatistics& s = report.statistics;
   const ContactMesh& mesh = *report.mesh;
+  Json scene = {{"dimensions", report.planar != nullptr ? 2 : 3}};
+  if (report.planar != nullptr) {
+    scene["vertices"] = report.planar->patch_count();
+    scene["closed"] = report.planar->closed();
+  }
   return {
     {"program_version", TANGENT_VERSION},
+    {"scene", scene},
     {"mesh", {{"name", mesh.name()}, {"hash", hash_text(mesh.content_hash())},
               {"triangles", mesh.triangle_count()}, {"usable_triangles", mesh.usable_triangle_count()},
               {"defects", defects_json(mesh)}, {"notes", mesh.notes()}}},

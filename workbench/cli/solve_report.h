@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/mesh/contact_mesh.h"
+#include "core/planar/curve.h"
 #include "workbench/cli/solve_statistics.h"
 #include "workbench/session/preset_file.h"
 
@@ -13,6 +14,7 @@ namespace tangent {
 
 struct SolveReport {
   const ContactMesh* mesh = nullptr;
+  const PlanarCurve* planar = nullptr;  ///< of a 2D scene; `mesh` is then its ribbon
   PresetFile preset;
   std::string preset_name;          ///< file, or "built-in values"
   std::string poses_name;

@@ -3,6 +3,7 @@
 #include "workbench/gui/app_model.h"
 #include "workbench/gui/panels/panels.h"
 #include "workbench/gui/thread_time.h"
+#include "workbench/gui/widgets.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,14 +16,21 @@ struct App::Ui {
   SceneRenderer* renderer = nullptr;
   ItemMap items;
   Typing typing;
+  Resting resting;
   ThemeFonts fonts;
   std::optional<float> font_scale;  ///< the atlas was built for
   std::optional<Theme> theme;       ///< the style was set for
   MenuBar menu;
   ParameterPanels parameters;
   PresetsPanel presets;
+  ComparePanel compare;
   IterationsPanel iterations;
-  FoldedPanel mesh, devices, log;
+  MapPanel map;
+  FoldedPanel mesh, devices, time_machine;
+  LogPanel log;
+  BookmarksPanel bookmarks;
+  InspectPanel inspect;
+  PerceptionPanel perception;
   bool left_scrolls = false, right_scrolls = false;
   ViewPanel view;
   PlotsPanel plots = make_plots_panel();
@@ -73,6 +81,7 @@ void App::Ui::draw_splitters(const UiContext& ui, AppModel& model, const Layout&
     ImGui::Begin(name, nullptr, kFixed);
     ImGui::InvisibleButton("##bar", {rect.w, rect.h});
     items.note_last(name + 2);
+    tooltip(ui, "Drag: more room for one side");
     const bool lit = ImGui::IsItemHovered() || ImGui::IsItemActive();
     if (lit) ImGui::SetMouseCursor(vertical ? ImGuiMouseCursor_ResizeEW : ImGuiMouseCursor_ResizeNS);
     if (lit) ImGui::GetWindowDrawList()->AddRectFilled({rect.x, rect.y}, {rect.right(), rect.bottom()}, ui.colours.accent_soft);
@@ -106,9 +115,15 @@ void App::Ui::draw_column(const char* name, const Rect& rect, const UiContext& u
   scrolls = ImGui::GetScrollMaxY() > 0.0f;
   if (left) {
     draw_parameter_panels(ui, model, parameters);
+    draw_compare_panel(ui, model, compare);
     draw_presets_panel(ui, model, presets);
   } else {
     draw_iterations_panel(ui, model, iterations);
+    draw_time_machine_panel(ui, model, time_machine);
+    draw_bookmarks_panel(ui, model, bookmarks);
+    draw_map_panel(ui, model, map);
+    draw_perception_panel(ui, model, perception);
+    draw_inspect_panel(ui, model, inspect);
     draw_mesh_panel(ui, model, mesh);
     draw_devices_panel(ui, model, devices);
     draw_log_panel(ui, model, log);
@@ -126,10 +141,11 @@ void App::frame(const FrameInput& input) {
   const float scale = ui_->font_scale.value_or(1.0f);
   ui_->items.begin_frame();
   ImGui::NewFrame();
-  const UiContext ui{ui_->items, ui_->typing, theme_colours(theme), palette(theme), ui_->fonts, scale, input.now_s};
+  const UiContext ui{ui_->items, ui_->typing, ui_->resting, theme_colours(theme), palette(theme), ui_->fonts, model_->open_sections(), scale, input.now_s};
   const Layout layout = compute_layout(model_->sizes(), input.width, input.height, scale);
   handle_shortcuts(*model_, ui_->menu);
   draw_view_panel(ui, *model_, ui_->view, ui_->renderer, layout.view);
+  draw_device_monitor(ui, *model_, layout.view);
   ui_->draw_column("##left", layout.left, ui, *model_, true);
   ui_->draw_column("##right", layout.right, ui, *model_, false);
   draw_plots_panel(ui, *model_, ui_->plots, layout.plots);
@@ -138,8 +154,17 @@ void App::frame(const FrameInput& input) {
   ui_->draw_splitters(ui, *model_, layout);
   draw_toasts(ui, *model_, layout.view);
   draw_menu_bar(ui, *model_, ui_->menu, layout.menu);
+  const Rect middle{layout.left.right(), layout.menu.bottom(), input.width - layout.left.right() - layout.right.w, layout.transport.y - layout.menu.bottom()};
+  draw_shortcut_sheet(ui, *model_, ui_->menu, {0.0f, layout.menu.bottom(), input.width, layout.transport.y - layout.menu.bottom()});
+  draw_command_palette(ui, *model_, ui_->menu, middle);
+  if (!ImGui::IsAnyItemActive()) model_->end_gesture();
   ImGui::Render();
   last_build_ms_ = thread_cpu_ms() - begin - ui_->view.build_ms_outside;
+}
+
+void App::show_plots(PlotsMode mode, bool values) {
+  ui_->plots.mode = mode;
+  ui_->plots.values = values;
 }
 
 void App::advance(std::uint64_t ticks) { model_->advance(ticks); }
@@ -148,8 +173,10 @@ bool App::wants_close() const { return model_->wants_close(); }
 
 bool App::wants_frames() const {
   const bool refining = ui_->renderer != nullptr && ui_->renderer->refining();
-  return !model_->paused() || model_->loading() || model_->auditing() || refining;
+  return !model_->paused() || model_->loading() || model_->auditing() || model_->map().running() || model_->time_machine().busy() || refining;
 }
+
+std::optional<std::filesystem::path> App::take_screenshot_request() { return model_->take_screenshot_request(); }
 
 std::string App::title() const {
   const auto& scene = model_->scene();

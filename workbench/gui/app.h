@@ -14,11 +14,13 @@
 #pragma once
 
 #include "core/mesh/contact_mesh.h"
+#include "devices/maestro/maestro_codec.h"
 #include "workbench/gui/palette.h"
 
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +28,7 @@ namespace tangent {
 
 class AppModel;
 class ItemMap;
+enum class PlotsMode : std::uint8_t;
 class SceneRenderer;
 
 struct AppOptions {
@@ -35,7 +38,13 @@ struct AppOptions {
   std::filesystem::path preset;         ///< empty: the shipped default
   std::filesystem::path preset_folder;  ///< listed in the presets panel; empty: where `preset` is, or the shipped ones
   std::string device = "simulated";
+  MaestroCalibration maestro;           ///< for the device "maestro"
+  unsigned maestro_channel = 0;
+  std::filesystem::path packets;        ///< USB packets are written here; empty: nowhere
   double servo_hz = 1000.0;             ///< kSlowestServoHz to kFastestServoHz
+  std::filesystem::path settings;       ///< layout and look between runs are kept there; empty: not kept
+  std::filesystem::path screenshots;    ///< folder of F12's pictures; empty: the current one
+  double history_s = 600.0;             ///< ticks kept, within kLargestHistoryBytes
   std::filesystem::path record;         ///< recording to write; empty: none
   Theme theme = Theme::dark;
   std::uint64_t seed = 1;               ///< of the simulated devices
@@ -71,12 +80,16 @@ class App {
   /// ImGui::NewFrame, the whole window, ImGui::Render.
   void frame(const FrameInput& input);
 
+  void show_plots(PlotsMode mode, bool values);   ///< as their buttons do
+
   /// Deterministic mode: `ticks` servo ticks, now. Otherwise nothing.
   void advance(std::uint64_t ticks);
 
   bool wants_close() const;    ///< file > quit was chosen
   bool wants_frames() const;   ///< something moves by itself: draw again without waiting for input
   std::string title() const;   ///< for the window: mesh, preset
+  /// Where the frame just drawn is to be written as a PNG, once for each request; the platform has the pixels.
+  std::optional<std::filesystem::path> take_screenshot_request();
 
   AppModel& model() { return *model_; }
   const AppModel& model() const { return *model_; }

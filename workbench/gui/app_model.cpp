@@ -1,17 +1,22 @@
 #include "workbench/gui/app_model.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <ctime>
+#include <thread>
 
 namespace tangent {
 
 namespace {
 
-constexpr double kHistory_s = 120.0;
+/// As many ticks as the session keeps.
+std::size_t plotted_ticks(double history_s, double servo_hz) {
+  return static_cast<std::size_t>(std::min(history_s * servo_hz, static_cast<double>(kLargestHistoryBytes / sizeof(ServoRecord))));
+}
 constexpr const char* kBuiltInScene = "torus";
+constexpr double kSettingsEvery_s = 2.0;
+constexpr std::size_t kMostPresetNotes = 4096;  // a dragged slider sends one preset a frame
 
 std::string today() {
   const std::time_t now = std::time(nullptr);
@@ -31,11 +36,14 @@ std::string hex16(std::uint64_t value) {
 }  // namespace
 
 AppModel::AppModel(const AppOptions& options)
-    : options_(options), store_(kChannelCount, static_cast<std::size_t>(kHistory_s * 1000.0)), theme_(options.theme) {
+    : options_(options), store_(kChannelCount, plotted_ticks(options.history_s, options.servo_hz)),
+      time_machine_(options.deterministic ? 0u : std::max(1u, std::thread::hardware_concurrency())), theme_(options.theme) {
+  if (!options_.screenshots.empty()) export_folder_ = options_.screenshots;
   preset_folder_ = options_.preset_folder;
   // A preset brings its neighbours with it.
   if (preset_folder_.empty() && options_.preset.has_parent_path()) preset_folder_ = options_.preset.parent_path();
   if (preset_folder_.empty()) preset_folder_ = options_.preset.empty() ? std::filesystem::path(TANGENT_PRESET_DIR) : ".";
+  take_settings();
   refresh_preset_files();
   if (!options_.preset.empty()) load_preset(options_.preset);
   if (!options_.record.empty()) say(Severity::warning, "recording to a file is not there yet; " + options_.record.string() + " is not written");
@@ -43,7 +51,7 @@ AppModel::AppModel(const AppOptions& options)
   if (scene_ == nullptr && !loader_.busy()) open_mesh(kBuiltInScene);
 }
 
-AppModel::~AppModel() = default;
+AppModel::~AppModel() { keep_settings(); }
 
 void AppModel::update(double now_s) {
   now_s_ = now_s;
@@ -55,9 +63,12 @@ void AppModel::update(double now_s) {
       if (scene_ == nullptr && opening_path_ != kBuiltInScene) open_mesh(kBuiltInScene);
     }
   }
-  if (auto audit = loader_.poll_audit()) audit_ = std::move(*audit);
+  if (auto report = loader_.poll_audit()) report_ = std::move(*report);
   take_records();
   show_tick();
+  if (now_s_ - settings_looked_at_s_ > kSettingsEvery_s) keep_settings();
+  // A 2D scene has no mesh to lay a map on.
+  map_.update(scene_ != nullptr && scene_->planar() != nullptr ? nullptr : scene_, presets().current(), now_s_, slots_.gesture_open(), options_.deterministic);
 }
 
 void AppModel::advance(std::uint64_t ticks) {
@@ -69,7 +80,7 @@ void AppModel::advance(std::uint64_t ticks) {
 
 void AppModel::open_mesh(const std::string& mesh) {
   opening_path_ = mesh;
-  SceneRequest request{mesh, options_.metres_per_unit, options_.mesh_options, presets_.current().finger};
+  SceneRequest request{mesh, options_.metres_per_unit, options_.mesh_options, presets().current().finger, nullptr};
   if (!options_.deterministic) {
     loader_.request(std::move(request));
     return;
@@ -82,14 +93,21 @@ void AppModel::take_scene(LoadedScene loaded) {
   scene_ = std::move(loaded.scene);
   polygons_ = std::move(loaded.polygons);
   load_seconds_ = loaded.seconds;
-  mesh_path_ = opening_path_;
-  audit_.reset();
-  view_.picked_triangle = view_.hovered_triangle = kNone;
-  frame_scene();
+  report_.reset();
+  if (!loaded.rebuilt) {
+    mesh_path_ = opening_path_;
+    settings_.opened(mesh_path_);
+    worst_shown_ = 0;
+    view_.picked_triangle = view_.hovered_triangle = kNone;
+    view_.isolation.reset();
+    view_.slice.reset();
+    inspection_ = {};
+    frame_scene();
+  }
   for (const std::string& note : scene_->mesh().notes()) say(Severity::note, note);
   if (session_ != nullptr) session_->set_scene(std::move(loaded.prepared));
   else make_session();
-  if (options_.deterministic) audit_ = audit_mesh(*polygons_, scene_->mesh());
+  if (options_.deterministic) report_ = report_on(*polygons_, scene_->mesh());
   else loader_.request_audit(polygons_, scene_);
 }
 
@@ -97,10 +115,13 @@ void AppModel::make_session() {
   SessionOptions options;
   options.servo.rate_hz = options_.servo_hz;
   options.devices = options_.device;
+  options.maestro = options_.maestro;
+  options.maestro_channel = options_.maestro_channel;
+  options.packets = options_.packets;
   options.seed = options_.seed;
-  options.history_s = kHistory_s;
+  options.history_s = options_.history_s;
   options.threaded = !options_.deterministic;
-  auto session = Session::create(scene_, presets_.current(), options);
+  auto session = Session::create(scene_, presets().current(), options);
   if (!session) {
     say(Severity::error, session.error().message());
     return;
@@ -113,12 +134,27 @@ void AppModel::make_session() {
 void AppModel::set_device(const std::string& name) {
   if (name == options_.device && session_ != nullptr) return;
   options_.device = name;
+  restart_session();
+}
+
+void AppModel::calibrate_maestro(const MaestroCalibration& calibration, unsigned channel) {
+  if (const Status ok = check_calibration(calibration); !ok) return say(Severity::error, ok.error().message());
+  options_.maestro = calibration;
+  options_.maestro_channel = channel;
+  if (options_.device == "maestro") restart_session();
+}
+
+void AppModel::restart_session() {
   if (scene_ == nullptr) return;
   // The old session's devices are let go before the new one asks for them.
   session_.reset();
   status_ = {};
   store_.clear();
+  bookmarks_.clear_automatic();
+  parameter_marks_.clear();
+  last_preset_id_.reset();
   tick_.clear();
+  error_fan_.clear();
   go_live();
   make_session();
 }
@@ -127,8 +163,51 @@ void AppModel::frame_scene() {
   if (scene_ != nullptr) view_.camera.frame(world_bounds(*scene_));
 }
 
+namespace {
+std::string change_text(const PresetKey& key, double from, double to) {
+  return key.full_name() + " " + display_with_unit(key, from) + " \u2192 " + display_with_unit(key, to);
+}
+}  // namespace
+
+void AppModel::look_at_place(const Vec3& point_world, const Vec3& normal, std::uint32_t triangle) {
+  Camera& camera = view_.camera;
+  camera.look_from(normal);
+  camera.orbit(0.35, camera.pitch_rad > 0.6 ? -0.3 : 0.3);
+  camera.target = point_world;
+  camera.distance_m = std::clamp(camera.distance_m, 0.05 * camera.scene_radius_m, 1.2 * camera.scene_radius_m);
+  view_.picked_triangle = triangle;
+}
+
+void AppModel::look_at_worst() {
+  if (map_.worst().empty()) return say(Severity::note, map_.on ? "no place is worse than the others" : "choose a map first");
+  const MapPlace& place = map_.worst()[worst_shown_++ % map_.worst().size()];
+  look_at_place(place.point_world, place.normal, place.triangle);
+}
+
 void AppModel::set_value(const PresetKey& key, double value) {
-  if (presets_.set(key, value)) send_preset();
+  const double before = key.get(presets().current());
+  PresetEditor tried = presets();
+  if (!tried.set(key, value)) return;
+  const std::string what = change_text(key, before, key.get(tried.current()));
+  if (slots_.apply(what, [&](PresetEditor& editor) { return editor.set(key, value); })) send_preset(what);
+}
+
+void AppModel::set_condition(const RenderingCondition& condition) {
+  const std::string what = "rendering condition " + std::string(condition.name);
+  Preset wanted = presets().current();
+  tangent::set_condition(wanted, condition);
+  const PresetKey &force = *find_preset_key("force", "source"), &tactile = *find_preset_key("display", "source");
+  const auto set = [&](PresetEditor& editor) {
+    const bool one = editor.set(force, force.get(wanted));
+    return editor.set(tactile, tactile.get(wanted)) || one;
+  };
+  if (slots_.apply(what, set)) send_preset(what);
+}
+
+void AppModel::slide_value(const PresetKey& key, double value) {
+  const std::string name = key.full_name();
+  const std::string what = name + " slid to " + display_with_unit(key, std::clamp(value, key.min, key.max));
+  if (slots_.apply(what, [&](PresetEditor& editor) { return editor.set(key, value); }, name)) send_preset(what);
 }
 
 void AppModel::type_value(const PresetKey& key, const std::string& text) {
@@ -143,27 +222,71 @@ void AppModel::type_value(const PresetKey& key, const std::string& text) {
   set_value(key, *value);
 }
 
-void AppModel::revert_value(const PresetKey& key) {
-  if (presets_.revert(key)) send_preset();
-}
+void AppModel::revert_value(const PresetKey& key) { set_value(key, key.get(presets().loaded().preset)); }
 
 void AppModel::revert_preset() {
-  if (!presets_.changed()) return;
-  presets_.revert_all();
-  send_preset();
+  const std::string what = "revert to " + presets().name();
+  const auto revert = [](PresetEditor& editor) {
+    const bool changed = editor.changed();
+    editor.revert_all();
+    return changed;
+  };
+  if (slots_.apply(what, revert)) send_preset(what);
 }
 
 void AppModel::load_preset(const std::filesystem::path& path) {
-  if (auto loaded = presets_.load(path); !loaded) {
-    say(Severity::error, loaded.error().message());
+  PresetEditor loaded = presets();
+  if (auto read = loaded.load(path); !read) {
+    say(Severity::error, read.error().message());
     return;
   }
-  send_preset();
-  say(Severity::note, "preset " + presets_.name() + " loaded");
+  const std::string what = "load " + loaded.name();
+  slots_.apply(what, [&](PresetEditor& editor) {
+    editor = loaded;
+    return true;
+  });
+  send_preset(what);
+  say(Severity::note, "preset " + presets().name() + " loaded");
+}
+
+void AppModel::undo() {
+  if (!slots_.can_undo()) return say(Severity::note, "nothing to undo");
+  const std::string what = "undo " + slots_.undo_name();
+  slots_.undo();
+  send_preset(what);
+  say(Severity::note, what);
+}
+
+void AppModel::redo() {
+  if (!slots_.can_redo()) return say(Severity::note, "nothing to redo");
+  slots_.redo();
+  const std::string what = "redo " + slots_.undo_name();
+  send_preset(what);
+  say(Severity::note, what);
+}
+
+void AppModel::toggle_ab() {
+  const bool another = slots_.toggle();
+  const std::string what = std::string("switch to ") + slot_name(slots_.active_slot());
+  if (another) send_preset(what);
+}
+
+const std::string& AppModel::preset_note(std::uint32_t preset_id) const {
+  static const std::string kNothing;
+  const auto found = preset_notes_.find(preset_id);
+  return found == preset_notes_.end() ? kNothing : found->second;
+}
+
+bool AppModel::is_favourite(const PresetKey& key) const {
+  return std::find(favourites_.begin(), favourites_.end(), key.full_name()) != favourites_.end();
+}
+
+void AppModel::toggle_favourite(const PresetKey& key) {
+  if (std::erase(favourites_, key.full_name()) == 0) favourites_.push_back(key.full_name());
 }
 
 void AppModel::save_preset(const std::string& name) {
-  PresetAbout about = presets_.loaded().about;
+  PresetAbout about = presets().loaded().about;
   about.date = today();
   about.measured.clear();  // they were measured with other values
   if (scene_ != nullptr) {
@@ -171,126 +294,27 @@ void AppModel::save_preset(const std::string& name) {
     about.mesh_hash = hex16(scene_->mesh().content_hash());
   }
   about.device = options_.device;
-  if (auto saved = presets_.save_as(preset_folder_, name, std::move(about)); !saved) {
+  if (auto saved = slots_.save_as(preset_folder_, name, std::move(about)); !saved) {
     say(Severity::error, saved.error().message());
     return;
   }
   refresh_preset_files();
-  say(Severity::note, "preset saved as " + presets_.path().string());
+  say(Severity::note, "preset saved as " + presets().path().string());
 }
 
 void AppModel::refresh_preset_files() { preset_files_ = list_presets(preset_folder_); }
 
-void AppModel::send_preset() {
+void AppModel::send_preset(const std::string& what) {
   if (session_ == nullptr) return;
-  if (auto sent = session_->set_preset(presets_.current()); !sent) {
+  auto sent = session_->set_preset(presets().current());
+  if (!sent) {
     say(Severity::error, sent.error().message());
     return;
   }
   ++presets_sent_;
-}
-
-double AppModel::tick_period_s() const {
-  return session_ != nullptr ? 1.0 / session_->options().servo.rate_hz : 1e-3;
-}
-
-void AppModel::take_records() {
-  if (session_ == nullptr) return;
-  session_->poll();
-  const History& history = session_->history();
-  if (!history.empty()) {
-    // A history whose newest tick lies before ours is another run.
-    const std::uint64_t next = history.newest().tick.tick < store_.end_tick() && history.newest().tick.tick + 1 != store_.end_tick()
-                                   ? history.oldest().tick.tick : store_.end_tick();
-    std::array<float, kChannelCount> row{};
-    for (std::size_t i = history.lower_bound(next); i < history.size(); ++i) {
-      const ServoRecord& r = history[i];
-      const Vec3& f = r.device.force_command_n;
-      // In simulated time nothing is measured: a gap rather than a zero.
-      const float tick_time = r.tick_ns > 0.0 ? static_cast<float>(r.tick_ns * 1e-9) : std::nanf("");
-      row = {static_cast<float>(f.x), static_cast<float>(f.y), static_cast<float>(f.z),
-             static_cast<float>(glm::length(f)), static_cast<float>(r.device.cld_command_m),
-             static_cast<float>(r.device.cld_measured_m), static_cast<float>(r.tick.output.error_m),
-             static_cast<float>(r.tick.output.iterations), tick_time};
-      store_.push(r.tick.tick, row);
-    }
-  }
-  status_ = session_->status();
-  if (status_.servo.gate_fault != last_gate_fault_ && status_.servo.gate_fault != GateFault::none) {
-    say(Severity::error, std::string("force stopped: ") + to_string(status_.servo.gate_fault) + "; press Arm to go on");
-  }
-  last_gate_fault_ = status_.servo.gate_fault;
-  if (status_.force_fault != last_fault_ && status_.force_fault != DeviceFault::none) {
-    say(Severity::error, std::string("force device: ") + to_string(status_.force_fault));
-  }
-  last_fault_ = status_.force_fault;
-  axis_.update(store_.first_tick(), store_.end_tick(), static_cast<double>(store_.capacity()));
-}
-
-void AppModel::show_tick() {
-  if (session_ == nullptr || session_->history().empty()) return;
-  const History& history = session_->history();
-  if (!paused_ || !cursor_) {
-    tick_.show(*session_, history.newest());
-    return;
-  }
-  if (const ServoRecord* record = history.find(*cursor_)) tick_.show(*session_, *record);
-}
-
-void AppModel::set_paused(bool paused) {
-  if (paused == paused_) return;
-  if (!paused) {
-    go_live();
-    return;
-  }
-  paused_ = true;
-  axis_.hold();
-  if (const ServoRecord* record = tick_.record()) cursor_ = record->tick.tick;
-}
-
-void AppModel::go_live() {
-  paused_ = false;
-  cursor_.reset();
-  axis_.follow();
-  axis_.update(store_.first_tick(), store_.end_tick(), static_cast<double>(store_.capacity()));
-  show_tick();
-}
-
-void AppModel::select_tick(std::uint64_t tick) {
-  if (session_ == nullptr || session_->history().empty()) return;
-  set_paused(true);
-  const History& history = session_->history();
-  const std::size_t at = std::min(history.lower_bound(tick), history.size() - 1);
-  cursor_ = history[at].tick.tick;
-  axis_.reveal(static_cast<double>(*cursor_));
-  show_tick();
-}
-
-void AppModel::step_tick(std::int64_t by) {
-  if (session_ == nullptr || session_->history().empty()) return;
-  set_paused(true);
-  const History& history = session_->history();
-  const std::size_t now = std::min(history.lower_bound(cursor_.value_or(history.newest().tick.tick)), history.size() - 1);
-  const auto last = static_cast<std::int64_t>(history.size()) - 1;
-  const std::int64_t to = std::clamp(static_cast<std::int64_t>(now) + by, std::int64_t{0}, last);
-  select_tick(history[static_cast<std::size_t>(to)].tick.tick);
-}
-
-void AppModel::step_iteration(int by) {
-  set_paused(true);
-  const std::size_t count = tick_.iterations().size();
-  if (count == 0) return;
-  const auto last = static_cast<std::int64_t>(count) - 1;
-  const std::int64_t now = tick_.selected() ? static_cast<std::int64_t>(*tick_.selected()) : (by > 0 ? -1 : last + 1);
-  const std::int64_t to = now + by;
-  if (to >= 0 && to <= last) {
-    tick_.select(static_cast<std::size_t>(to));
-    return;
-  }
-  const std::uint64_t before = cursor_.value_or(0);
-  step_tick(by);
-  if (cursor_.value_or(0) == before) return;  // there is no further tick
-  if (!tick_.iterations().empty()) tick_.select(by > 0 ? 0 : tick_.iterations().size() - 1);
+  preset_notes_[*sent] = what;
+  if (preset_notes_.size() > kMostPresetNotes) preset_notes_.erase(preset_notes_.begin());
+  ask_for_ghost();
 }
 
 void AppModel::set_hand_follows_mouse(bool on) {

@@ -4,27 +4,63 @@
 #pragma once
 
 #include "workbench/gui/app.h"
+#include "workbench/gui/error_fan.h"
 #include "workbench/gui/layout.h"
+#include "workbench/gui/map_view.h"
 #include "workbench/gui/message_log.h"
 #include "workbench/gui/plots/channel_store.h"
 #include "workbench/gui/plots/time_axis.h"
-#include "workbench/gui/preset_editor.h"
-#include "workbench/gui/render/camera.h"
+#include "workbench/gui/preset_slots.h"
+#include "workbench/gui/render/camera_text.h"
 #include "workbench/gui/render/scene_renderer.h"
 #include "workbench/gui/scene_loader.h"
 #include "workbench/gui/tick_view.h"
+#include "workbench/session/window_settings.h"
+#include "workbench/gui/time_machine.h"
+#include "workbench/session/bookmarks.h"
+#include "workbench/session/rendering_condition.h"
 
+#include <map>
+#include <filesystem>
+#include <future>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace tangent {
 
 /// Channels of the plots, SI.
 enum class Channel : std::uint8_t {
-  force_x, force_y, force_z, force_magnitude, cld_commanded, cld_measured, error, iterations, tick_time, count_
+  force_x, force_y, force_z, force_magnitude, cld_commanded, cld_measured, error, iterations, tick_time,
+  event,  ///< EventRank as a number; gaps where nothing happened
+  count_
 };
 inline constexpr std::size_t kChannelCount = static_cast<std::size_t>(Channel::count_);
+
+/// What a tick is marked with in the plots; a column of pixels shows the highest of its ticks.
+enum class EventRank : std::uint8_t { moved = 1, reseeded, unconverged, fault };
+
+/// A part of the window as a PNG file.
+struct PictureRequest {
+  std::filesystem::path path;
+  Rect of;            ///< ImGui's coordinates
+};
+
+/// The preset changed at this tick.
+struct ParameterMark {
+  std::uint64_t tick = 0;
+  std::string text;   ///< "Curvature gain G_k 20 -> 13 mm", or how many keys
+};
+
+/// What of the mesh is being looked at.
+struct Inspection {
+  std::optional<FindingKind> kind;    ///< the finding shown
+  std::size_t index = 0;
+  std::vector<std::uint32_t> marked;  ///< its triangles, outlined in the view
+};
 
 /// The 3D view's own state.
 struct ViewState {
@@ -32,8 +68,12 @@ struct ViewState {
   Camera camera;
   std::uint32_t picked_triangle = kNone;
   std::uint32_t hovered_triangle = kNone;
+  bool device_monitor = false;      ///< in place of the 3D view
   bool hand_follows_mouse = false;  ///< dragging on the surface leads the simulated hand
   RenderQuality quality = RenderQuality::automatic;
+  bool net_of_picked = false;
+  std::optional<SlicePlane> slice;
+  std::shared_ptr<const Isolation> isolation;  ///< null: all triangles are drawn
 };
 
 class AppModel {
@@ -54,16 +94,41 @@ class AppModel {
   const std::string& mesh_path() const { return mesh_path_; }
   const std::shared_ptr<const ContactScene>& scene() const { return scene_; }
   const PolygonMesh* polygons() const { return polygons_.get(); }
-  const MeshAudit* audit() const { return audit_ ? &*audit_ : nullptr; }
+  const MeshAudit* audit() const { return report_ ? &report_->audit : nullptr; }
+  const PerceptionAudit* perception() const { return report_ ? &report_->perception : nullptr; }
+  const MeshFindings* findings() const { return report_ ? &report_->findings : nullptr; }
   bool auditing() const { return loader_.auditing(); }
   double load_seconds() const { return load_seconds_; }
   void frame_scene();                       ///< camera on the whole mesh
+  /// Turns the camera to a place on the surface, seen a little from the side, and picks the triangle.
+  void look_at_place(const Vec3& point_world, const Vec3& normal, std::uint32_t triangle);
+
+  void look_at_worst();                     ///< of the map; again: the next worst
+  void look_from_standard(StandardView view);
+  void set_y_up(bool y_up);
+  void copy_camera();                       ///< to the clipboard, as text
+  void paste_camera();
+  double crease_angle_rad() const { return options_.mesh_options.crease_rad; }
+  void set_crease_angle(double rad);        ///< builds the mesh anew; the view stays
+  const Inspection& inspection() const { return inspection_; }
+  void show_finding(FindingKind kind, std::size_t index);  ///< goes there and marks its triangles
+  void isolate_marked();                    ///< the marked triangles, or the picked one, and their neighbours
+  void isolate_part();                      ///< the connected part that holds one of them
+  void show_all();                          ///< no isolation, no marks
+
+  // The map over the mesh.
+  MapView& map() { return map_; }
+  const MapView& map() const { return map_; }
 
   // Preset. Every change goes to the servo as a whole preset.
-  const PresetEditor& presets() const { return presets_; }
+  const PresetEditor& presets() const { return slots_.active(); }
+  const PresetSlots& preset_slots() const { return slots_; }
   void set_value(const PresetKey& key, double value);
+  void slide_value(const PresetKey& key, double value);  ///< one step of undo until end_gesture()
+  void end_gesture() { slots_.end_gesture(); }
   void type_value(const PresetKey& key, const std::string& text);  ///< a message when it is no number
   void reset_value(const PresetKey& key) { set_value(key, key.default_value()); }
+  void set_condition(const RenderingCondition& condition);  ///< both sources, one step of undo
   void revert_value(const PresetKey& key);
   void revert_preset();
   void load_preset(const std::filesystem::path& path);
@@ -72,6 +137,16 @@ class AppModel {
   const std::vector<std::filesystem::path>& preset_files() const { return preset_files_; }
   void refresh_preset_files();
   std::uint64_t presets_sent() const { return presets_sent_; }
+  void undo();
+  void redo();
+  void toggle_ab();
+  void copy_ab() { slots_.copy_to_other(); }
+  /// What was done to get the preset of this id: "solver.gain_overall 1 \u2192 0.75"; empty: nothing is known.
+  const std::string& preset_note(std::uint32_t preset_id) const;
+  std::vector<std::string>& favourites() { return favourites_; }  ///< full names of preset keys, in order
+  const std::vector<std::string>& favourites() const { return favourites_; }
+  bool is_favourite(const PresetKey& key) const;
+  void toggle_favourite(const PresetKey& key);
 
   // Time. Pausing freezes the view, never the servo or the recording.
   bool paused() const { return paused_; }
@@ -82,6 +157,27 @@ class AppModel {
   void step_iteration(int by);           ///< through the iterations; past the ends, on to the next tick
   const TickView& tick() const { return tick_; }
   TickView& tick() { return tick_; }
+  const ErrorFan& error_fan() const { return error_fan_; }   ///< of the ticks up to the one in view
+  Bookmarks& bookmarks() { return bookmarks_; }
+  const Bookmarks& bookmarks() const { return bookmarks_; }
+  void add_bookmark();                   ///< on the tick in view
+  void go_to_bookmark(int by);           ///< the next (1) or the one before (-1); says so when there is none
+  std::span<const ParameterMark> parameter_marks() const { return parameter_marks_; }
+  std::size_t history_bytes() const, most_history_bytes() const;   ///< of the records; the plots have store()
+
+  // Out of the window, into export_folder(); a message says where. Files there are never written over.
+  void export_ticks(std::uint64_t from, std::uint64_t to);   ///< CSV, ticks from ... to - 1; on a worker unless deterministic
+  bool exporting() const { return exporting_.valid(); }
+  void ask_for_picture(const std::string& what, const Rect& of);   ///< of the next frame, by the platform
+  std::optional<PictureRequest> take_picture_request() { return std::exchange(picture_request_, std::nullopt); }
+  const std::filesystem::path& export_folder() const { return export_folder_; }
+  void set_export_folder(std::filesystem::path folder) { export_folder_ = std::move(folder); }
+
+  // The past solved again: while paused, whenever the values are not those it was paused with.
+  TimeMachine& time_machine() { return time_machine_; }
+  const TimeMachine& time_machine() const { return time_machine_; }
+  std::shared_ptr<const Ghost> ghost() const { return time_machine_.ghost(); }
+  void solve_past_again();               ///< with the present values, whatever they were. Pauses
   std::uint64_t first_tick() const { return store_.first_tick(); }
   std::uint64_t end_tick() const { return store_.end_tick(); }
   double tick_period_s() const;
@@ -96,6 +192,10 @@ class AppModel {
   const SessionStatus& status() const { return status_; }
   const std::string& device() const { return options_.device; }
   void set_device(const std::string& name);  ///< a new session; the history starts anew
+  const MaestroCalibration& maestro() const { return options_.maestro; }
+  unsigned maestro_channel() const { return options_.maestro_channel; }
+  /// Taken when it makes sense; a session with a Maestro starts anew with it.
+  void calibrate_maestro(const MaestroCalibration& calibration, unsigned channel);
   void set_hand_follows_mouse(bool on);
   void lead_hand(const Vec3& finger_centre_world_m);
   bool stopped() const;                  ///< the gate lets no force through until armed
@@ -112,15 +212,29 @@ class AppModel {
   void set_theme(Theme theme) { theme_ = theme; }
   float ui_scale() const { return ui_scale_; }              ///< the user's own factor on top of the monitor's
   void set_ui_scale(float scale);
+  std::map<std::string, bool>& open_sections() { return settings_.sections; }
+  void reset_layout();                                      ///< sizes and sections as they were at first
+  const WindowSettings& settings() const { return settings_; }  ///< as of the last frame
+  void ask_for_screenshot() { screenshot_wanted_ = true; }
+  std::optional<std::filesystem::path> take_screenshot_request();
   void ask_to_close() { wants_close_ = true; }
   bool wants_close() const { return wants_close_; }
   const AppOptions& options() const { return options_; }
 
  private:
   void take_scene(LoadedScene loaded);
+  void take_settings();
+  void keep_settings();
+  std::vector<std::uint32_t> marked_or_picked() const;
+  void isolate(const std::vector<std::uint32_t>& triangles);
   void make_session();
-  void send_preset();
+  void restart_session();
+  void send_preset(const std::string& what);
   void take_records();
+  void mark_parameters(const ServoRecord& record);
+  void ask_for_ghost();
+  std::filesystem::path free_path(const std::string& stem, const char* extension) const;
+  void take_export();
   void show_tick();
 
   AppOptions options_;
@@ -129,10 +243,14 @@ class AppModel {
   std::string mesh_path_, opening_path_;
   std::shared_ptr<const ContactScene> scene_;
   std::shared_ptr<const PolygonMesh> polygons_;
-  std::optional<MeshAudit> audit_;
+  std::optional<MeshReport> report_;
+  Inspection inspection_;
+  std::uint64_t isolations_ = 0;  ///< so far: each has its number
   double load_seconds_ = 0.0;
 
-  PresetEditor presets_;
+  PresetSlots slots_;
+  std::map<std::uint32_t, std::string> preset_notes_;
+  std::vector<std::string> favourites_;
   std::filesystem::path preset_folder_;
   std::vector<std::filesystem::path> preset_files_;
   std::uint64_t presets_sent_ = 0;
@@ -145,14 +263,28 @@ class AppModel {
   bool paused_ = false;
   std::optional<std::uint64_t> cursor_;  ///< the tick in view while paused
   TickView tick_;
+  ErrorFan error_fan_;
   ChannelStore store_;
   TimeAxis axis_;
+  Bookmarks bookmarks_;
+  std::vector<ParameterMark> parameter_marks_;
+  std::optional<std::uint32_t> last_preset_id_;   ///< of the newest record
+  TimeMachine time_machine_;
+  Preset paused_with_;                            ///< values when the view was paused
+  std::filesystem::path export_folder_ = ".";
+  std::future<Result<std::string>> exporting_;    ///< what was written
+  std::optional<PictureRequest> picture_request_;
 
+  MapView map_;
   MessageLog messages_;
   ViewState view_;
   LayoutSizes sizes_;
   Theme theme_ = Theme::dark;
   float ui_scale_ = 1.0f;
+  WindowSettings settings_, written_settings_;
+  double settings_looked_at_s_ = 0.0;
+  std::size_t worst_shown_ = 0;
+  bool screenshot_wanted_ = false;
   bool wants_close_ = false;
 };
 

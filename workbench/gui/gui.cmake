@@ -6,6 +6,7 @@ find_package(PkgConfig REQUIRED)
 find_package(glfw3 3.3 REQUIRED)
 find_package(Freetype REQUIRED)
 pkg_check_modules(epoxy REQUIRED IMPORTED_TARGET epoxy)
+pkg_check_modules(kissfft REQUIRED IMPORTED_TARGET kissfft-float)
 find_path(IMGUI_INCLUDE imgui.h PATH_SUFFIXES imgui REQUIRED)
 find_library(IMGUI_LIBRARY imgui REQUIRED)
 find_path(STB_INCLUDE stb_image_write.h PATH_SUFFIXES stb REQUIRED)
@@ -15,6 +16,7 @@ target_include_directories(tangent_gui SYSTEM PUBLIC ${IMGUI_INCLUDE} PRIVATE ${
 # Debian's libimgui.a holds the core, the GLFW and OpenGL 3 back ends and the FreeType rasteriser, and
 # leaves freetype and stb to whoever links it.
 target_link_libraries(tangent_gui
-  PUBLIC tangent_session ${IMGUI_LIBRARY} glfw Freetype::Freetype ${STB_LIBRARY} PkgConfig::epoxy ${CMAKE_DL_LIBS})
+  PUBLIC tangent_session ${IMGUI_LIBRARY} glfw Freetype::Freetype ${STB_LIBRARY} PkgConfig::epoxy ${CMAKE_DL_LIBS}
+  PRIVATE PkgConfig::kissfft)
 target_compile_definitions(tangent_gui PRIVATE TANGENT_SHADER_DIR="${CMAKE_SOURCE_DIR}/shaders"
   TANGENT_PRESET_DIR="${CMAKE_SOURCE_DIR}/presets")

@@ -73,11 +73,7 @@ constexpr Palette kLightPalette{
 
 constexpr const Palette& palette(Theme theme) { return theme == Theme::dark ? kDarkPalette : kLightPalette; }
 
-/// Perceptually even, colour-blind-safe ramp for orders and magnitudes, t in 0..1 (clamped): dark violet
-/// through green to yellow, interpolated between nine samples of matplotlib's viridis.
-Rgba viridis(float t);
-
-/// Colour of iteration `i` of `count` (the kept plane is 0): viridis, its darkest tenth left out so that the
+/// Colour of iteration `i` of `count` (the kept plane is 0): the colour map tide, its darkest tenth left out so that the
 /// first plane shows on a dark background.
 Rgba iteration_colour(std::size_t i, std::size_t count);
 

@@ -104,6 +104,12 @@ std::string display_text(const PresetKey& key, double value) {
   return text;
 }
 
+std::string display_with_unit(const PresetKey& key, double value) {
+  if (key.kind == KeyKind::choice) return key.value_text(value);
+  const std::string_view unit = display_unit(key).name;
+  return display_text(key, value) + (unit.empty() ? "" : " " + std::string(unit));
+}
+
 std::string display_range(const PresetKey& key) {
   if (key.kind == KeyKind::choice) return key.allowed();
   const std::string_view unit = display_unit(key).name;

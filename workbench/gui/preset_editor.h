@@ -37,6 +37,12 @@ class PresetEditor {
   /// Writes the current values under the folder as `name`.toml, and goes on from there. `about`: what is to
   /// be known about them; its name becomes the file's. Refuses names with a slash, or none.
   Status save_as(const std::filesystem::path& folder, const std::string& name, PresetAbout about);
+  /// The values stay; where they come from is now what `other` has.
+  void adopt_file(const PresetEditor& other) {
+    loaded_ = other.loaded_;
+    name_ = other.name_;
+    path_ = other.path_;
+  }
 
  private:
   PresetFile loaded_;
@@ -58,6 +64,8 @@ DisplayUnit display_unit(const PresetKey& key);
 std::string display_text(const PresetKey& key, double value);
 /// "1e-06 to 1000 um": what is allowed, in the display unit; the choices of a choice.
 std::string display_range(const PresetKey& key);
+/// The same with its unit; the name of a choice.
+std::string display_with_unit(const PresetKey& key, double value);
 /// "20", "20 mm", "0.02 m", "2e1": a number in the display unit, or with a unit of the same kind. Fails,
 /// naming what is allowed, on anything else; out of range is not a failure here.
 Result<double> parse_typed(const PresetKey& key, std::string_view text);

@@ -1,7 +1,10 @@
 #include "workbench/gui/scene_loader.h"
 
 #include "core/mesh/generate.h"
+#include "core/mesh/generate_hard.h"
 #include "core/mesh/mesh_io.h"
+#include "core/planar/planar_step.h"
+#include "core/planar/polygon_io.h"
 
 #include <algorithm>
 #include <chrono>
@@ -16,23 +19,51 @@ bool ready(const std::future<T>& future) {
 }
 
 Result<PolygonMesh> read_or_generate(const SceneRequest& request) {
-  const auto& names = generator_names();
-  if (std::find(names.begin(), names.end(), request.mesh) != names.end()) return generate_mesh(request.mesh);
+  for (const auto* names : {&generator_names(), &hard_mesh_names()}) {
+    if (std::find(names->begin(), names->end(), request.mesh) != names->end()) return generate_mesh(request.mesh);
+  }
   return read_mesh(request.mesh, request.metres_per_unit);
+}
+
+/// A polygon as a 2D scene. What stands for its mesh is the ribbon that the scene made of it.
+Result<LoadedScene> load_planar(const SceneRequest& request) {
+  auto polygon = read_polygon(request.mesh, request.metres_per_unit);
+  if (!polygon) return tl::unexpected(polygon.error());
+  if (request.options.fit_m) fit_polygon(*polygon, *request.options.fit_m);
+  auto curve = PlanarCurve::build(std::move(*polygon));
+  if (!curve) return tl::unexpected(curve.error());
+  LoadedScene out;
+  out.polygons = std::make_shared<const PolygonMesh>(ribbon(*curve, 0.1 * curve->size_m()));
+  auto scene = ContactScene::build(std::move(*curve));
+  if (!scene) return tl::unexpected(scene.error());
+  out.scene = std::move(*scene);
+  out.prepared = Session::prepare(out.scene, request.finger);
+  return out;
 }
 
 }  // namespace
 
+MeshReport report_on(const PolygonMesh& polygons, const ContactMesh& mesh) { return {audit_mesh(polygons, mesh), find_defects(polygons, mesh), audit_perception(mesh, facet_angles(mesh))}; }
+
 Result<LoadedScene> load_scene(const SceneRequest& request) {
   const auto begin = std::chrono::steady_clock::now();
-  auto polygons = read_or_generate(request);
-  if (!polygons) return tl::unexpected(polygons.error());
-  auto mesh = ContactMesh::build(*polygons, request.options);
+  if (request.polygons == nullptr && is_planar_file(request.mesh)) {
+    auto planar = load_planar(request);
+    if (planar) planar->seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    return planar;
+  }
+  LoadedScene out;
+  out.rebuilt = request.polygons != nullptr;
+  out.polygons = request.polygons;
+  if (!out.rebuilt) {
+    auto read = read_or_generate(request);
+    if (!read) return tl::unexpected(read.error());
+    out.polygons = std::make_shared<const PolygonMesh>(std::move(*read));
+  }
+  auto mesh = ContactMesh::build(*out.polygons, request.options);
   if (!mesh) return tl::unexpected(mesh.error());
   auto scene = ContactScene::build(std::move(*mesh));
   if (!scene) return tl::unexpected(scene.error());
-  LoadedScene out;
-  out.polygons = std::make_shared<const PolygonMesh>(std::move(*polygons));
   out.scene = std::move(*scene);
   out.prepared = Session::prepare(out.scene, request.finger);
   out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -62,15 +93,15 @@ void SceneLoader::request_audit(std::shared_ptr<const PolygonMesh> polygons, std
   audit_waiting_ = {std::move(polygons), std::move(scene)};
 }
 
-std::optional<MeshAudit> SceneLoader::poll_audit() {
-  std::optional<MeshAudit> out;
+std::optional<MeshReport> SceneLoader::poll_audit() {
+  std::optional<MeshReport> out;
   if (ready(audit_)) {
     out = audit_.get();
     if (audit_waiting_.scene != nullptr) out.reset();
   }
   if (!audit_.valid() && audit_waiting_.scene != nullptr) {
     audit_ = std::async(std::launch::async, [request = std::move(audit_waiting_)] {
-      return audit_mesh(*request.polygons, request.scene->mesh());
+      return report_on(*request.polygons, request.scene->mesh());
     });
     audit_waiting_ = {};
   }

@@ -3,6 +3,8 @@
 #pragma once
 
 #include "core/mesh/mesh_audit.h"
+#include "core/tuning/perception.h"
+#include "core/mesh/mesh_findings.h"
 #include "core/step.h"
 #include "workbench/session/session.h"
 
@@ -19,6 +21,14 @@ struct SceneRequest {
   double metres_per_unit = 1e-3;
   ContactMeshOptions options;
   Finger finger;
+  std::shared_ptr<const PolygonMesh> polygons;  ///< already read: the same mesh is built with other options
+};
+
+/// What there is to say about a mesh's health.
+struct MeshReport {
+  MeshAudit audit;
+  MeshFindings findings;
+  PerceptionAudit perception;
 };
 
 struct LoadedScene {
@@ -26,7 +36,10 @@ struct LoadedScene {
   std::shared_ptr<const ContactScene> scene;
   PreparedScenePtr prepared;
   double seconds = 0.0;
+  bool rebuilt = false;  ///< from polygons that were already there
 };
+
+MeshReport report_on(const PolygonMesh& polygons, const ContactMesh& mesh);
 
 /// In the calling thread. A name without a dot or slash that is a generator's means the generated object.
 Result<LoadedScene> load_scene(const SceneRequest& request);
@@ -42,7 +55,7 @@ class SceneLoader {
 
   void request_audit(std::shared_ptr<const PolygonMesh> polygons, std::shared_ptr<const ContactScene> scene);
   /// The audit of the latest request, once it is done.
-  std::optional<MeshAudit> poll_audit();
+  std::optional<MeshReport> poll_audit();
   bool auditing() const { return audit_.valid() || audit_waiting_.scene != nullptr; }
 
  private:
@@ -53,7 +66,7 @@ class SceneLoader {
   std::future<Result<LoadedScene>> loading_;
   std::optional<SceneRequest> waiting_;
   std::string name_;
-  std::future<MeshAudit> audit_;
+  std::future<MeshReport> audit_;
   AuditRequest audit_waiting_;
 };
 

@@ -4,6 +4,7 @@
 #include "workbench/gui/item_map.h"
 #include "workbench/gui/theme.h"
 
+#include <map>
 #include <string>
 
 namespace tangent {
@@ -20,12 +21,21 @@ struct Typing {
   float slide_x = 0.0f;       ///< mouse when it began
 };
 
+/// What the pointer rests on, and how long, for tooltips. ImGui's own timer starts anew every frame where items overlap.
+struct Resting {
+  ImGuiID id = 0;
+  float seconds = 0.0f;
+  int frame = 0;
+};
+
 struct UiContext {
   ItemMap& items;
   Typing& typing;
+  Resting& resting;
   const ThemeColours& colours;
   const Palette& palette;
   const ThemeFonts& fonts;
+  std::map<std::string, bool>& open_sections;  ///< by title, of those that were ever folded or unfolded
   float scale = 1.0f;
   double now_s = 0.0;
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdarg>
 #include <cstdio>
+#include <numbers>
 #include <utility>
 
 namespace tangent {
@@ -39,6 +40,19 @@ void draw_icon(ImDrawList& draw, Icon icon, ImVec2 c, float r, ImU32 ink) {
       draw.AddPolyline(points, 3, ink, 0, 1.4f * line);
       break;
     }
+    case Icon::bookmark:
+    case Icon::bookmark_back:
+    case Icon::bookmark_on: {
+      // A ribbon with a notch; with a chevron beside it where it leads somewhere.
+      const float d = icon == Icon::bookmark ? 0.0f : icon == Icon::bookmark_on ? 1.0f : -1.0f;
+      const float x = c.x - d * 0.45f * r, w = 0.42f * r, h = 0.8f * r;
+      const ImVec2 ribbon[5] = {{x - w, c.y - h}, {x + w, c.y - h}, {x + w, c.y + h}, {x, c.y + 0.35f * h}, {x - w, c.y + h}};
+      draw.AddPolyline(ribbon, 5, ink, ImDrawFlags_Closed, line);
+      if (d == 0.0f) break;
+      const ImVec2 points[3] = {{c.x + d * 0.4f * r, c.y - 0.5f * r}, {c.x + d * 0.95f * r, c.y}, {c.x + d * 0.4f * r, c.y + 0.5f * r}};
+      draw.AddPolyline(points, 3, ink, 0, 1.2f * line);
+      break;
+    }
     case Icon::reset:
       draw.PathArcTo(c, 0.62f * r, -2.3f, 2.6f, 16);
       draw.PathStroke(ink, 0, line);
@@ -51,13 +65,25 @@ std::string id_of(std::string_view path) { return "##" + std::string(path); }
 
 }  // namespace
 
-bool section(const UiContext& ui, const char* title, bool& open) {
+void draw_star(ImDrawList& draw, ImVec2 centre, float radius, ImU32 ink) {
+  // Five kites: ImGui fills convex shapes only.
+  const auto at = [&](int tenth, float r) {
+    const float angle = 0.2f * std::numbers::pi_v<float> * static_cast<float>(tenth) - 0.5f * std::numbers::pi_v<float>;
+    return ImVec2(centre.x + r * std::cos(angle), centre.y + r * std::sin(angle));
+  };
+  for (int i = 0; i < 10; i += 2) draw.AddQuadFilled(centre, at(i - 1, 0.42f * radius), at(i, radius), at(i + 1, 0.42f * radius), ink);
+}
+
+bool section(const UiContext& ui, const char* title, bool open_at_first) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const float height = ui.px(24);
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const float width = ImGui::GetContentRegionAvail().x;
-  if (ImGui::InvisibleButton(title, {std::max(1.0f, width), height})) open = !open;
+  const auto kept = ui.open_sections.find(title);
+  bool open = kept != ui.open_sections.end() ? kept->second : open_at_first;
+  if (ImGui::InvisibleButton(title, {std::max(1.0f, width), height})) ui.open_sections[title] = open = !open;
   ui.items.note_last(std::string("section/") + title);
+  tooltip(ui, open ? "Folds this section" : "Unfolds this section");
   const bool hovered = ImGui::IsItemHovered();
   // From edge to edge of the column, past the padding that ImGui would clip at.
   const float left = ImGui::GetWindowPos().x, right = at.x + width + ui.px(4);
@@ -245,7 +271,16 @@ void fact(const UiContext& ui, const char* label, const std::string& value, cons
 }
 
 void tooltip(const UiContext& ui, std::string_view text) {
-  if (text.empty() || !ImGui::IsItemHovered() || GImGui->HoveredIdTimer < 0.35f) return;
+  if (text.empty() || !ImGui::IsItemHovered()) return;
+  // Items without a name of their own (rows of facts) are told by their place.
+  const ImVec2 at = ImGui::GetItemRectMin();
+  const ImGuiID id = ImGui::GetItemID() != 0 ? ImGui::GetItemID() : ImHashData(&at, sizeof at);
+  Resting& resting = ui.resting;
+  const int frame = ImGui::GetFrameCount();
+  if (resting.id != id || frame - resting.frame > 1) resting = {id, 0.0f, frame};
+  if (frame != resting.frame) resting.seconds += ImGui::GetIO().DeltaTime;
+  resting.frame = frame;
+  if (resting.seconds < 0.35f) return;
   ImGui::BeginTooltip();
   ImGui::PushTextWrapPos(ui.px(320));
   ImGui::TextUnformatted(text.data(), text.data() + text.size());

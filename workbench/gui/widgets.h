@@ -10,8 +10,8 @@
 
 namespace tangent {
 
-/// A section's title bar; click folds it. Returns whether the contents are to be drawn.
-bool section(const UiContext& ui, const char* title, bool& open);
+/// A section's title bar; click folds it, which is kept between runs. Returns whether the contents are to be drawn.
+bool section(const UiContext& ui, const char* title, bool open_at_first);
 
 /// A box that shows `text` (a formatted number). Returns what was typed, once, on Enter, Tab or a click
 /// elsewhere; nothing on Escape or when it wasn't changed. `focus`: starts typing now.
@@ -32,10 +32,12 @@ struct ValueFieldResult {
 };
 ValueFieldResult value_field(const UiContext& ui, std::string_view path, const ValueField& field);
 
-enum class Icon { first, step_back, pause, play, step_forward, live, previous, next, reset };
+enum class Icon { first, step_back, pause, play, step_forward, live, previous, next, reset, bookmark, bookmark_back, bookmark_on };
 /// A square button with a drawn icon; `on` tints it with the accent.
 bool icon_button(const UiContext& ui, std::string_view path, Icon icon, const char* tooltip, bool on = false,
                  bool enabled = true);
+/// Five points about `centre`, filled.
+void draw_star(ImDrawList& draw, ImVec2 centre, float radius, ImU32 ink);
 /// A text button that stays pressed.
 bool toggle_button(const UiContext& ui, std::string_view path, const char* text, bool& on, const char* tooltip);
 bool text_button(const UiContext& ui, std::string_view path, const char* text, const char* tooltip);

@@ -74,6 +74,28 @@ Points over(const Box& box, const Vec3& normal, double pad) {
   return points;
 }
 
+/// Once around a closed polygon, or along an open one and back, at the finger's side.
+Points along(const PlanarCurve& curve, double pad) {
+  const std::uint32_t n = curve.patch_count();
+  Points points;
+  for (std::uint32_t i = 0; i < n; ++i) {
+    for (const double t : {0.0, 0.5, 1.0}) {
+      const LineSample s = curve.sample(i, LocalCentre::bisectors, t);
+      const Vec2 at = s.place + pad * s.normal;
+      points.emplace_back(at.x, at.y, 0.0);
+    }
+  }
+  if (curve.closed()) return points;
+  for (std::size_t i = points.size() - 1; i-- > 1;) points.push_back(points[i]);
+  return points;
+}
+
+/// Fingertip along the polygon and pad towards it, in the plane (planar_step.h).
+Quat planar_frame(const Vec3& up, double roll) {
+  const double half = 0.5 * (std::atan2(-up.x, up.y) + roll);
+  return Quat(std::cos(half), 0.0, 0.0, std::sin(half));
+}
+
 void smooth(Points& points, double share) {
   const std::size_t n = points.size();
   Points next(n);
@@ -173,7 +195,8 @@ ExplorationPath ExplorationPath::build(const ContactScene& scene, double pad_m) 
 
   const Vec3 facing = mean_normal(mesh);
   const bool sheet = glm::length(facing) > 0.5;
-  Points raw = sheet ? over(box, unit(facing), path.pad_m_) : around(box, path.pad_m_);
+  const PlanarCurve* planar = scene.planar();
+  Points raw = planar ? along(*planar, path.pad_m_) : sheet ? over(box, unit(facing), path.pad_m_) : around(box, path.pad_m_);
   const Points centres = shrink(scene.nearest(), path.pad_m_, std::move(raw), path.spacing_m_);
 
   const std::size_t n = centres.size();
@@ -202,8 +225,9 @@ ExplorationPath ExplorationPath::build(const ContactScene& scene, double pad_m) 
   for (std::size_t i = 0; i < n; ++i) {
     const Vec3 pressing = unit_or(press[i], outward[i]);
     const double roll = kRockingAngle * std::sin(kTau * rolls * static_cast<double>(i) / static_cast<double>(n));
+    const Vec3 turned = unit_or(up[i], pressing);
     path.points_[i] = {mesh.origin() + centres[i] + lift[i].x * pressing, pressing,
-                       finger_frame(unit_or(up[i], pressing), ahead[i], roll)};
+                       planar ? planar_frame(turned, roll) : finger_frame(turned, ahead[i], roll)};
   }
   return path;
 }

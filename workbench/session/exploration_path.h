@@ -2,7 +2,8 @@
 //
 // Five turns around a closed object, or a Lissajous figure over a sheet, shrunk from outside onto the surface at the
 // distance of the fingerpad and smoothed between: neighbouring points stay neighbours also where the surface has
-// holes, edges and undercuts, so the finger never leaps. Deterministic. World frame, metres.
+// holes, edges and undercuts, so the finger never leaps. Over a 2D scene it follows the outline, in the plane.
+// Deterministic. World frame, metres.
 #pragma once
 
 #include "core/contact/finger.h"

@@ -4,6 +4,7 @@
 #include "core/base/text.h"
 #include "workbench/session/input_file.h"
 #include "workbench/session/preset_schema.h"
+#include "workbench/session/rendering_condition.h"
 
 #include <toml++/toml.h>
 
@@ -29,6 +30,7 @@ constexpr std::array<AboutText, 7> kAboutTexts{{
   {"note", &PresetAbout::note},
 }};
 constexpr std::string_view kMeasured = "measured";
+constexpr std::string_view kCondition = "condition";
 
 std::string_view type_name(const toml::node& node) {
   switch (node.type()) {
@@ -49,8 +51,10 @@ class PresetReader {
 
   Result<PresetFile> read(const toml::table& root) {
     for (const auto& [key, node] : root) {
-      if (Status status = read_table(key, node); !status) return tl::unexpected(status.error());
+      if (Status status = key == kCondition ? read_condition(key, node) : read_table(key, node); !status)
+        return tl::unexpected(status.error());
     }
+    if (Status status = apply_condition(root); !status) return tl::unexpected(status.error());
     return std::move(file_);
   }
 
@@ -62,7 +66,7 @@ class PresetReader {
   Status read_table(const toml::key& key, const toml::node& node) {
     const auto tables = preset_tables();
     if (std::find(tables.begin(), tables.end(), key.str()) == tables.end()) {
-      return fail("unknown table or key", where(key.source(), key.str()), "allowed: the tables " + choices_text(tables));
+      return fail("unknown table or key", where(key.source(), key.str()), "allowed: the key condition and the tables " + choices_text(tables));
     }
     const toml::table* table = node.as_table();
     if (table == nullptr) {
@@ -73,6 +77,28 @@ class PresetReader {
       const Status status = key == "about" ? read_about(inner, value) : read_value(key.str(), inner, value);
       if (!status) return status;
     }
+    return {};
+  }
+
+  Status read_condition(const toml::key& key, const toml::node& node) {
+    condition_ = node.is_string() ? find_condition(node.as_string()->get()) : nullptr;
+    condition_where_ = where(key.source(), kCondition);
+    if (condition_ != nullptr) return {};
+    return fail(node.is_string() ? "\"" + node.as_string()->get() + "\" is no rendering condition" : "is " + std::string(type_name(node)),
+                condition_where_, "allowed: " + choices_text(kConditionNames));
+  }
+
+  /// The condition sets the sources that the file leaves open; what the file says of them must agree.
+  Status apply_condition(const toml::table& root) {
+    if (condition_ == nullptr) return {};
+    Preset wanted = file_.preset;
+    set_condition(wanted, *condition_);
+    const bool force_named = root["force"]["source"].node() != nullptr, tactile_named = root["display"]["source"].node() != nullptr;
+    if ((force_named && wanted.force.source != file_.preset.force.source) ||
+        (tactile_named && wanted.display.source != file_.preset.display.source))
+      return fail("condition " + std::string(condition_->name) + " is " + std::string(condition_->words) + ", the sources say otherwise",
+                  condition_where_, "leave out force.source and display.source, or the condition");
+    file_.preset = wanted;
     return {};
   }
 
@@ -158,6 +184,8 @@ class PresetReader {
 
   std::string name_;
   PresetFile file_;
+  const RenderingCondition* condition_ = nullptr;
+  std::string condition_where_;
 };
 
 /// Text as a TOML basic string, by the library's own rules for escapes.
@@ -228,6 +256,11 @@ Result<PresetFile> read_preset(const std::filesystem::path& path) {
 
 std::string format_preset(const PresetFile& file) {
   std::string text = "# Tuning preset of Tangent Workbench. Everything in SI units; missing keys keep their defaults.\n\n";
+  if (const RenderingCondition* condition = condition_of(file.preset)) {
+    std::string line = "condition = \"" + std::string(condition->name) + "\"";
+    line.resize(40, ' ');
+    text += line + " # " + choices_text(kConditionNames) + ": sets force.source and display.source\n\n";
+  }
   format_about(file.about, text);
   for (const std::string_view table : preset_tables().subspan(1)) {
     text.append("\n[").append(table).append("]\n");

@@ -1,6 +1,7 @@
 // Presets on disk: TOML, one table per group of core/preset.h with its field names as keys, and an [about]
 // table that says where the values come from. Missing keys keep their defaults; anything unknown, of the
-// wrong type or out of range is an error that names key, line and allowed range (preset_schema.h).
+// wrong type or out of range is an error that names key, line and allowed range (preset_schema.h). A key `condition`
+// above the tables names a rendering condition of the paper, which stands for force.source and display.source.
 #pragma once
 
 #include "core/base/result.h"

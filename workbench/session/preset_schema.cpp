@@ -34,6 +34,7 @@ void write_semi_axis(Preset& preset, double value) {
 constexpr std::array<std::string_view, 6> kMethods{"paper", "newton", "robust", "facet", "force-shading", "two-pass"};
 constexpr std::array<std::string_view, 2> kDistanceReadings{"proxy", "centre"};
 constexpr std::array<std::string_view, 2> kNormalForms{"bernstein", "vlachos"};
+constexpr std::array<std::string_view, 2> kLocalCentres{"bisectors", "midpoint"};
 constexpr std::array<std::string_view, 4> kFingerShapes{"point", "sphere", "ellipsoid", "capsule"};
 constexpr std::array<std::string_view, 4> kForceSources{"method", "facet", "force-shading", "smooth"};
 constexpr std::array<std::string_view, 4> kTactileSources{"method", "held", "facet", "smooth"};
@@ -100,6 +101,9 @@ constexpr std::array kKeys{
     .doc = "A nonadjacent place takes the contact over when the finger is deeper in it by this much.",
     .min = 0.0, .max = 0.1, .slider_min = 0.0, .slider_max = 1e-3,
     .get = read<kSolver, &S::switch_hysteresis_m>, .set = write<kSolver, &S::switch_hysteresis_m>},
+  choice<kSolver, &S::local_centre>("solver", "local_centre", "Local centre", kLocalCentres,
+    "2D scenes: where angles along a patch are seen from: the meeting point of its segments' perpendicular bisectors, or "
+    "the midpoint of their far ends.", "local-centre"),
 
   // finger
   choice<kFinger, &Finger::shape>("finger", "shape", "Shape", kFingerShapes, "Shape of the fingertip."),
@@ -213,6 +217,9 @@ Status check_preset(const Preset& preset) {
     append_double(text, value);
     return fail(text + " is out of range", row.full_name(), "allowed: " + row.allowed());
   }
+  const FingerShape shape = preset.finger.shape;
+  if (preset.solver.method == Method::two_pass && shape != FingerShape::point && shape != FingerShape::sphere)
+    return fail("the two-pass proxy takes point and sphere fingers only", "solver.method", "choose another method or finger.shape");
   return {};
 }
 

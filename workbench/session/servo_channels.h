@@ -2,10 +2,11 @@
 #pragma once
 
 #include "core/preset.h"
+#include "devices/base/mailbox.h"
+#include "devices/base/ring.h"
+#include "devices/fault_injection.h"
 #include "workbench/session/hand_settings.h"
-#include "workbench/session/mailbox.h"
 #include "workbench/session/prepared_scene.h"
-#include "workbench/session/ring.h"
 #include "workbench/session/servo_record.h"
 
 #include <atomic>
@@ -21,7 +22,14 @@ struct PresetLetter {
 };
 static_assert(std::is_trivially_copyable_v<PresetLetter>, "presets cross threads as bytes");
 
-enum class ForceSwitch : std::uint8_t { stop, arm };
+/// home: no force until armed, and the devices find their zero again.
+enum class ForceSwitch : std::uint8_t { stop, arm, home };
+
+/// A fault that a simulated device is told to have.
+struct FaultLetter {
+  FaultInjection injection;
+  bool display = false;   ///< the contact display's; else the force device's
+};
 
 /// Hands whole scenes to the servo and used ones back, so that the servo never frees anything.
 class SceneExchange {
@@ -58,6 +66,7 @@ struct ServoChannels {
   Mailbox<PresetLetter> presets;
   Mailbox<HandCommand> hand;
   Mailbox<ForceSwitch> force;
+  Mailbox<FaultLetter> faults;
   SceneExchange scenes;
   Ring<ServoRecord> gui;
   Ring<ServoRecord> recorder;

@@ -19,13 +19,15 @@ struct DeviceTelemetry {
   DeviceFault display_fault = DeviceFault::none;
   GateState gate_state = GateState::disarmed;
   GateFault gate_fault = GateFault::none;
-  std::uint8_t gate_actions = 0;         ///< bit per GateAction
+  GateActions gate_actions = 0;          ///< bit per GateAction
   std::uint8_t hand_led = 0;             ///< hand_target_m is set: a simulated hand leads the finger
   Vec3 force_command_n{0.0};             ///< what the gate let through of tick.output.force_n
   Vec3 force_rendered_n{0.0};            ///< by the device while this tick's position was measured
   Vec3 hand_target_m{0.0};               ///< where the simulated hand pulls the finger
   double cld_command_m = 0.0;            ///< what the gate let through of tick.output.cld_m
   double cld_measured_m = 0.0;           ///< roller, measured as this tick began
+  double force_age_s = 0.0;              ///< of the position this tick worked with
+  double display_age_s = 0.0;            ///< of cld_measured_m
 };
 
 struct ServoRecord {

@@ -1,7 +1,7 @@
 // Counters that the servo writes and anyone reads. Relaxed atomics: each is right by itself.
 #pragma once
 
-#include "workbench/session/log_histogram.h"
+#include "devices/base/log_histogram.h"
 #include "workbench/session/servo_options.h"
 #include "workbench/session/servo_record.h"
 
@@ -18,6 +18,9 @@ class ServoStatistics {
   /// Servo thread, as ticks begin at `now_ns`: the rate over about a second.
   void note_start(std::int64_t now_ns) noexcept;
   void restart_rate() noexcept { window_start_ns_ = 0; }
+
+  const LogHistogram& lateness_ns() const { return lateness_ns_; }
+  const LogHistogram& period_ns() const { return period_ns_; }
 
   /// Any thread. Fills what is counted here.
   void fill(ServoStatus& status) const noexcept;
@@ -37,7 +40,7 @@ class ServoStatistics {
   std::atomic<GateState> gate_state_{GateState::disarmed};
   std::atomic<GateFault> gate_fault_{GateFault::none};
   std::array<std::atomic<std::uint64_t>, kGateActionCount> gate_counts_{};
-  LogHistogram tick_ns_, lateness_ns_;
+  LogHistogram tick_ns_, lateness_ns_, period_ns_;
   std::int64_t window_start_ns_ = 0;   // servo thread only
   std::uint64_t window_ticks_ = 0;
 };

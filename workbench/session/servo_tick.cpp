@@ -6,7 +6,12 @@ namespace tangent {
 
 GateLimits gate_limits(const DeviceSet& devices) {
   GateLimits limits;
-  if (devices.force) limits.peak_force_n = devices.force->capabilities().peak_force_n;
+  if (devices.force) {
+    const ForceCapabilities& can = devices.force->capabilities();
+    limits.peak_force_n = can.peak_force_n;
+    limits.continuous_force_n = can.continuous_force_n;
+    limits.workspace_half_size_m = can.workspace_half_size_m;
+  }
   if (devices.display) limits.display_travel_m = devices.display->capabilities().travel_m;
   return limits;
 }
@@ -19,6 +24,7 @@ ServoTick::ServoTick(DeviceSet& devices, ServoChannels& channels, ServoStatistic
   force_sample_.position_m = start.position_m;
   force_sample_.orientation = start.orientation;
   if (devices_.force && devices_.force->hand()) devices_.force->hand()->place(start);
+  place_workspace();
 }
 
 ServoTick::~ServoTick() { delete scene_; }
@@ -27,11 +33,17 @@ void ServoTick::take_letters() noexcept {
   channels_.presets.take(preset_);
   HandCommand hand;
   if (channels_.hand.take(hand)) hand_.command(hand);
+  FaultLetter fault;
+  if (channels_.faults.take(fault)) {
+    if (fault.display && devices_.display) devices_.display->inject(fault.injection);
+    if (!fault.display && devices_.force) devices_.force->inject(fault.injection);
+  }
   ForceSwitch wanted{};
   if (!channels_.force.take(wanted)) return;
   arming_wanted_ = wanted == ForceSwitch::arm;
-  if (arming_wanted_) homing_wanted_ = clearing_wanted_ = true;
-  else gate_.stop();
+  if (wanted != ForceSwitch::stop) homing_wanted_ = clearing_wanted_ = true;
+  rehoming_wanted_ = wanted == ForceSwitch::home;
+  if (!arming_wanted_) gate_.stop();
 }
 
 void ServoTick::take_scene() noexcept {
@@ -43,19 +55,31 @@ void ServoTick::take_scene() noexcept {
   // Another surface under the finger: a simulated hand starts afresh, off it.
   const HandTarget start = hand_.begin(scene_->path, pad_distance_m(preset_.preset.finger));
   if (devices_.force && devices_.force->hand()) devices_.force->hand()->place(start);
+  place_workspace();
+}
+
+// A simulated device stands where the scene is; a real one's workspace is about the world's origin.
+void ServoTick::place_workspace() noexcept {
+  if (devices_.force && devices_.force->hand()) gate_.place_workspace(scene_->scene->mesh().origin());
 }
 
 // A device that isn't there is ready to be left out. Requests ride with the next command.
 void ServoTick::bring_up() noexcept {
   const auto request = [this](DeviceState state) {
-    if (state == DeviceState::open) return DeviceRequest::home;
+    if (state == DeviceState::firmware) return DeviceRequest::home;
+    if (state == DeviceState::ready && rehoming_wanted_) return DeviceRequest::home;
     if (state == DeviceState::faulted && clearing_wanted_) return DeviceRequest::clear_fault;
     return DeviceRequest::none;
   };
   force_command_.request = display_command_.request = DeviceRequest::none;
-  if (!homing_wanted_) return;
+  if (!homing_wanted_) {
+    // A display plugged in while all is well may home by itself. After a fault a person decides.
+    const bool well = gate_.state() == GateState::ramping || gate_.state() == GateState::armed;
+    if (well) display_command_.request = request(display_sample_.state);
+    return;
+  }
   const auto done = [](DeviceState state) { return state == DeviceState::ready || state == DeviceState::absent; };
-  if (done(force_sample_.state) && done(display_sample_.state) && tick_ > 0) {
+  if (done(force_sample_.state) && done(display_sample_.state) && tick_ > 0 && !rehoming_wanted_) {
     homing_wanted_ = clearing_wanted_ = false;
     if (arming_wanted_) gate_.arm();
     arming_wanted_ = false;
@@ -63,6 +87,7 @@ void ServoTick::bring_up() noexcept {
   }
   force_command_.request = request(force_sample_.state);
   display_command_.request = request(display_sample_.state);
+  rehoming_wanted_ = false;
 }
 
 void ServoTick::exchange(double dt_s, ServoRecord& record) noexcept {
@@ -88,13 +113,21 @@ void ServoTick::exchange(double dt_s, ServoRecord& record) noexcept {
   record.device.display_fault = display_sample_.fault;
   record.device.force_rendered_n = force_sample_.force_n;
   record.device.cld_measured_m = display_sample_.position_m;
+  record.device.force_age_s = force_sample_.age_s;
+  record.device.display_age_s = display_sample_.age_s;
 }
 
 void ServoTick::gate(double dt_s, ServoRecord& record) noexcept {
   const GateOutput out = gate_.pass({.force_n = record.tick.output.force_n,
                                      .display_m = record.tick.output.cld_m,
                                      .force_device = force_sample_.state,
-                                     .display = display_sample_.state},
+                                     .display = display_sample_.state,
+                                     .position_m = force_sample_.position_m,
+                                     .position_age_s = force_sample_.age_s,
+                                     .display_measured_m = display_sample_.position_m,
+                                     .display_age_s = display_sample_.age_s,
+                                     .display_travel_m = display_sample_.travel_m,
+                                     .display_measures = devices_.display && devices_.display->capabilities().measures_position},
                                     dt_s);
   force_command_.force_n = out.force_n;
   display_command_.target_m = out.display_m;

@@ -39,6 +39,7 @@ class ServoTick {
  private:
   void take_letters() noexcept;
   void take_scene() noexcept;
+  void place_workspace() noexcept;
   void bring_up() noexcept;
   void exchange(double dt_s, ServoRecord& record) noexcept;
   void gate(double dt_s, ServoRecord& record) noexcept;
@@ -60,6 +61,7 @@ class ServoTick {
   DisplayCommand display_command_;
   bool homing_wanted_ = true;     ///< until every device is ready once
   bool clearing_wanted_ = false;  ///< faults too
+  bool rehoming_wanted_ = false;  ///< also of devices that are ready
   bool arming_wanted_ = false;    ///< as soon as they are
 };
 

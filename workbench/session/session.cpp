@@ -1,7 +1,9 @@
 #include "workbench/session/session.h"
 
 #include "devices/device_set.h"
+#include "devices/usb/packet_recorder.h"
 #include "workbench/session/preset_schema.h"
+#include "workbench/session/rendering_condition.h"
 #include "workbench/session/servo.h"
 #include "workbench/session/tick_again.h"
 
@@ -14,7 +16,6 @@ namespace tangent {
 
 namespace {
 
-constexpr std::size_t kLargestHistoryBytes = std::size_t{256} << 20;
 constexpr std::size_t kSmallestHistory = 1024;
 
 std::size_t history_capacity(const SessionOptions& options) {
@@ -39,8 +40,9 @@ void PreparedSceneDeleter::operator()(PreparedScene* scene) const { delete scene
 
 /// Members in the order in which they depend on each other.
 struct Session::Impl {
-  Impl(SessionOptions o, DeviceSet d, std::unique_ptr<PreparedScene> prepared, const Preset& preset)
-      : options(std::move(o)), devices(std::move(d)), channels(options.servo.ring_records), scene(prepared->scene),
+  Impl(SessionOptions o, std::unique_ptr<PacketRecorder> r, DeviceSet d, std::unique_ptr<PreparedScene> prepared,
+       const Preset& preset)
+      : options(std::move(o)), packets(std::move(r)), devices(std::move(d)), channels(options.servo.ring_records), scene(prepared->scene),
         path(prepared->path), history(history_capacity(options)), hand(options.hand) {
     presets.push_back(preset);
     scenes.emplace(0, scene);
@@ -50,6 +52,7 @@ struct Session::Impl {
   }
 
   SessionOptions options;
+  std::unique_ptr<PacketRecorder> packets;
   DeviceSet devices;
   ServoChannels channels;
   ServoStatistics statistics;
@@ -64,6 +67,7 @@ struct Session::Impl {
   std::map<std::uint32_t, std::shared_ptr<const ContactScene>> scenes;   ///< that records of the history ran on
   std::uint32_t scene_id = 0;
   History history;
+  SafetyLog log;
   HandSettings hand;
   Vec3 hand_point{0.0};
   TickAgain again;
@@ -85,8 +89,20 @@ Result<std::unique_ptr<Session>> Session::create(std::shared_ptr<const ContactSc
                                                  SessionOptions options) {
   if (const Status ok = check_options(options); !ok) return tl::unexpected(ok.error());
   if (const Status ok = check_preset(preset); !ok) return tl::unexpected(ok.error());
-  auto devices = make_devices(options.devices, options.seed);
+  std::unique_ptr<PacketRecorder> packets;
+  if (!options.packets.empty()) {
+    auto recorder = PacketRecorder::create(options.packets);
+    if (!recorder) return tl::unexpected(recorder.error());
+    packets = std::move(*recorder);
+  }
+  DeviceOptions wanted{.seed = options.seed, .tap = packets.get()};
+  wanted.maestro.calibration = options.maestro;
+  wanted.maestro.channel = static_cast<std::uint8_t>(options.maestro_channel);
+  auto devices = make_devices(options.devices, wanted);
   if (!devices) return tl::unexpected(devices.error());
+  if (!all_simulated(*devices)) options.servo.time_by_deadlines = true;
+  if (const Status ok = check_devices(preset, devices->force != nullptr, devices->display != nullptr); !ok)
+    return tl::unexpected(ok.error());
   if (devices->force) {
     if (const Status ok = devices->force->open(); !ok) return tl::unexpected(ok.error());
   }
@@ -94,7 +110,7 @@ Result<std::unique_ptr<Session>> Session::create(std::shared_ptr<const ContactSc
     if (const Status ok = devices->display->open(); !ok) return tl::unexpected(ok.error());
   }
   auto prepared = std::make_unique<PreparedScene>(std::move(scene), preset.finger);
-  auto impl = std::make_unique<Impl>(std::move(options), std::move(*devices), std::move(prepared), preset);
+  auto impl = std::make_unique<Impl>(std::move(options), std::move(packets), std::move(*devices), std::move(prepared), preset);
   impl->send_hand();
   return std::unique_ptr<Session>(new Session(std::move(impl)));
 }
@@ -135,6 +151,7 @@ std::size_t Session::poll() {
   std::size_t count = 0;
   while (count < impl_->options.servo.ring_records && impl_->channels.gui.pop(record)) {
     impl_->history.push(record);
+    impl_->log.watch(record);
     ++count;
   }
   impl_->channels.scenes.collect();
@@ -144,11 +161,17 @@ std::size_t Session::poll() {
 
 const History& Session::history() const { return impl_->history; }
 
+RecordedRun Session::recorded_run() const {
+  return {impl_->history.snapshot(), {impl_->presets.begin(), impl_->presets.end()}, impl_->scenes};
+}
+
 // --- Presets -------------------------------------------------------------------------------------------
 
 Result<std::uint32_t> Session::set_preset(const Preset& preset) {
   if (preset == impl_->presets.back()) return preset_id();
   if (const Status ok = check_preset(preset); !ok) return tl::unexpected(ok.error());
+  const Status renders = check_devices(preset, impl_->devices.force != nullptr, impl_->devices.display != nullptr);
+  if (!renders) return tl::unexpected(renders.error());
   impl_->presets.push_back(preset);
   impl_->channels.presets.put({preset_id(), preset});
   return preset_id();
@@ -205,6 +228,8 @@ void Session::set_hand_target(const Vec3& position_world_m) {
 
 void Session::arm() { impl_->channels.force.put(ForceSwitch::arm); }
 void Session::stop() { impl_->channels.force.put(ForceSwitch::stop); }
+void Session::home() { impl_->channels.force.put(ForceSwitch::home); }
+void Session::inject(const FaultInjection& fault, bool display) { impl_->channels.faults.put({fault, display}); }
 
 // --- Again ---------------------------------------------------------------------------------------------
 
@@ -263,6 +288,11 @@ const DisplayCapabilities* Session::display_capabilities() const {
 }
 
 const SessionOptions& Session::options() const { return impl_->options; }
+const SafetyLog& Session::safety_log() const { return impl_->log; }
+GateLimits Session::gate_limits() const { return tangent::gate_limits(impl_->devices); }
+bool Session::display_report(LinkReport& out) const { return impl_->devices.display && impl_->devices.display->report(out); }
+const LogHistogram& Session::lateness_ns() const { return impl_->statistics.lateness_ns(); }
+const LogHistogram& Session::period_ns() const { return impl_->statistics.period_ns(); }
 
 // --- Recorder ------------------------------------------------------------------------------------------
 

@@ -13,23 +13,34 @@
 #include "core/step.h"
 #include "devices/contact_display.h"
 #include "devices/force_device.h"
+#include "devices/maestro/maestro_codec.h"
 #include "workbench/session/hand_settings.h"
 #include "workbench/session/history.h"
+#include "workbench/session/safety_log.h"
 #include "workbench/session/servo_options.h"
 
 #include <cstdint>
+#include <filesystem>
+#include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace tangent {
 
 class ExplorationPath;
 
+/// The history takes no more memory than this, however long and fast it is to be.
+inline constexpr std::size_t kLargestHistoryBytes = std::size_t{1} << 30;
+
 struct SessionOptions {
   ServoOptions servo;
-  std::string devices = "simulated";  ///< see devices/device_set.h: "simulated", "ideal", "none"
+  std::string devices = "simulated";  ///< see devices/device_set.h
+  MaestroCalibration maestro;         ///< for "maestro"
+  unsigned maestro_channel = 0;
+  std::filesystem::path packets;      ///< every USB packet is written here; empty: nowhere
   std::uint64_t seed = 1;             ///< of the simulated devices
-  double history_s = 120.0;           ///< kept for the GUI
+  double history_s = 600.0;           ///< kept for the GUI, within kLargestHistoryBytes
   bool threaded = true;
   bool arm_on_start = true;
   HandSettings hand;
@@ -47,6 +58,13 @@ struct SessionStatus {
   std::uint32_t preset_sent = 0;   ///< newest; servo.preset_id says which one runs
   std::uint32_t scene_sent = 0;
   std::string realtime_note;       ///< "SCHED_FIFO 40, memory locked" or what was refused
+};
+
+/// Everything needed to step the history again, in any thread: records, presets by id, scenes by id.
+struct RecordedRun {
+  HistorySnapshot records;
+  std::vector<Preset> presets;
+  std::map<std::uint32_t, std::shared_ptr<const ContactScene>> scenes;
 };
 
 class Session {
@@ -67,6 +85,7 @@ class Session {
   /// Moves new records into the history and frees what the servo has retired. Returns how many came.
   std::size_t poll();
   const History& history() const;
+  RecordedRun recorded_run() const;   ///< of the history as it is now
 
   // Presets. Whole ones, applied at the start of a tick; the latest wins.
   /// Returns the id by which records name it (the present id if nothing changed). Fails when out of range.
@@ -92,6 +111,9 @@ class Session {
   void set_hand_target(const Vec3& position_world_m);  ///< and HandMode::point. Ignored when not finite
   void arm();                                          ///< also clears faults and homes again where needed
   void stop();                                         ///< no force until armed
+  void home();                                         ///< stops, and lets the devices find their zero again
+  /// A fault in a simulated device, the display's or the force device's. Real ones don't care.
+  void inject(const FaultInjection& fault, bool display);
 
   /// Computes a recorded tick again, with every iteration. Fails when its scene is gone. The output equals
   /// record.tick.output, bit by bit.
@@ -103,6 +125,13 @@ class Session {
   const ForceCapabilities* force_capabilities() const;    ///< null: none
   const DisplayCapabilities* display_capabilities() const;
   const SessionOptions& options() const;
+  /// Stops, faults and changes of the devices' states, oldest first.
+  const SafetyLog& safety_log() const;
+  GateLimits gate_limits() const;
+  /// The display's cable; false: it has none.
+  bool display_report(LinkReport& out) const;
+  const LogHistogram& lateness_ns() const;   ///< of the servo's ticks after their deadlines
+  const LogHistogram& period_ns() const;     ///< from tick to tick
 
   /// The recorder's ring. Records go into it from attach to detach; one thread pops.
   void attach_recorder();

@@ -31,8 +31,7 @@ std::vector<FaceContact> face_contacts(const ContactMesh& mesh, const Vec3& cent
     for (const Vec2& start : {Vec2(1.0 / 3.0, 1.0 / 3.0), Vec2(0.1, 0.1), Vec2(0.8, 0.1), Vec2(0.1, 0.8)}) {
       double u = start.x, v = start.y;
       for (int i = 0; i < 12; ++i) {
-        const SurfaceSample e = evaluate(patch, u, v);
-        const PlaceSample s{e.point, e.point_u, e.point_v, e.normal, e.normal_u, e.normal_v};
+        const SurfaceSample s = evaluate(patch, u, v);
         const PlaneContact c = contact_on_plane(finger, pose, s.point, s.normal);
         if (c.error_m < 1e-12 && u > 0.0 && v > 0.0 && u + v < 1.0) {
           contacts.push_back({t, c.height_m});

@@ -22,15 +22,14 @@ struct Answer {
 };
 
 Answer answer(const PnPatch& patch, const Vec2& uv, double h, const Vec3& move) {
-  const SurfaceSample e = evaluate(patch, uv.x, uv.y);
-  const PlaceSample s{e.point, e.point_u, e.point_v, e.normal, e.normal_u, e.normal_v};
-  const ContactJacobian j{s.point_a + h * s.normal_a, s.point_b + h * s.normal_b};
+  const SurfaceSample s = evaluate(patch, uv.x, uv.y);
+  const ContactJacobian j{s.point_u + h * s.normal_u, s.point_v + h * s.normal_v};
   const Stability stability = face_stability(s, j);
   PlaneContact c;
   c.travel = move - glm::dot(move, s.normal) * s.normal;
   const ParameterStep step = newton_step(s, j, c);
-  return {stability.det > 0.2 && stability.trace > 0.2, glm::length(step.da * s.point_a + step.db * s.point_b),
-          glm::length(step.da * s.normal_a + step.db * s.normal_b)};
+  return {stability.det > 0.2 && stability.trace > 0.2, glm::length(step.da * s.point_u + step.db * s.point_v),
+          glm::length(step.da * s.normal_u + step.db * s.normal_v)};
 }
 
 struct Crossing {
@@ -73,7 +72,7 @@ Crossing cross_edges(const ScenePtr& scene, double radius, int edges, Method met
     state.plane.v = std::min(uv.y, 1.0 - uv.x);
     state.plane.point = s.point;
     state.plane.normal = s.normal;
-    state.clearance = {centre - mesh.origin(), 1.0, 1e9};  // no other place takes over here: this is about following
+    state.clearance = Clearance::unlimited();  // this is about following
     const TickOutput before = stepper.step(preset, at_position(0.0, centre - kStep * across), state);
     const TickOutput after = stepper.step(preset, at_position(1e-3, centre + kStep * across), state);
     const double contact_m = glm::length(after.contact - before.contact), normal = glm::length(after.normal - before.normal);

@@ -277,3 +277,26 @@ TEST_CASE("the offset derivative says how the travel answers a turn of the plane
     }
   }
 }
+
+TEST_CASE("while the finger turns, no support point moves further than turning_m says") {
+  Random random(77);
+  Finger ellipsoid, capsule;
+  ellipsoid.shape = FingerShape::ellipsoid;
+  capsule.shape = FingerShape::capsule;
+  capsule.radius_m = 0.008;
+  for (const Finger& finger : {ellipsoid, capsule}) {
+    double largest = 0.0;
+    for (int i = 0; i < rounds(20000); ++i) {
+      const double turn = std::pow(10.0, random.in(-6.0, 0.3));
+      const Quat from = glm::normalize(Quat(random.in(-1, 1), random.in(-1, 1), random.in(-1, 1), random.in(-1, 1)));
+      const Quat to = glm::angleAxis(turn, random.direction()) * from;
+      const Vec3 n = random.direction();
+      const double moved = glm::distance(support_point(finger, {Vec3(0.0), from}, n), support_point(finger, {Vec3(0.0), to}, n));
+      largest = std::max(largest, moved / finger.turning_m(turn));
+    }
+    CHECK(largest <= 1.0);
+    CHECK(largest > 0.3);  // the bound says something
+  }
+  Finger sphere;
+  CHECK(sphere.turning_m(1.0) == 0.0);
+}

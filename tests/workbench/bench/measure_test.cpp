@@ -1,5 +1,7 @@
 #include "workbench/bench/measure.h"
 
+#include "core/shading/render.h"
+
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -28,6 +30,7 @@ TEST_CASE("a scene's report has every method, its errors below the tolerance, an
   CHECK(scene.triangles == 320);
   CHECK(scene.ticks == 40);
   CHECK(scene.evaluation.throughput_ns > 0.0);
+  CHECK(scene.evaluation.alone_ns > 0.0);
   REQUIRE(scene.methods.size() == kMeasuredMethods.size());
   for (const MethodReport& m : scene.methods) {
     CAPTURE(to_string(m.method));
@@ -77,7 +80,7 @@ TEST_CASE("errors shrink with the tolerance, down to the converged answer") {
   REQUIRE(report->has_value());
   for (const WorkPrecisionCurve& curve : (*report)->curves) {
     CAPTURE(to_string(curve.method));
-    if (curve.method == Method::facet || curve.method == Method::force_shading) {
+    if (!is_smooth(curve.method)) {
       CHECK(curve.points.size() == 1);
       continue;
     }

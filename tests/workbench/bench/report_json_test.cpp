@@ -27,7 +27,7 @@ SceneReport scene_report() {
   scene.triangles = 1000;
   scene.memory_bytes = 200'000;
   scene.ticks = 100;
-  scene.evaluation.throughput_ns = 50.0;
+  scene.evaluation.alone_ns = 50.0;
   scene.methods = {method_report(Method::paper, 400.0), method_report(Method::robust, 100.0)};
   scene.peers.push_back({"embree closest point", 0.0, {}, 0.0});
   return scene;

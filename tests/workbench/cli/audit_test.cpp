@@ -21,8 +21,9 @@ TEST_CASE("a closed sphere is found healthy, in text and JSON") {
   CHECK(audit["components"] == 1);
   CHECK(audit["defects"].empty());
   CHECK(audit["box_max_m"][0].get<double>() == doctest::Approx(0.040).epsilon(1e-9));
-  CHECK(audit["smoothness"]["P1"]["max_below"] == true);
-  CHECK(audit["smoothness"]["C3"]["median_below"] == false);
+  CHECK(audit["smoothness"]["conditions"]["P1"]["felt_edges"] == 0);
+  CHECK(audit["smoothness"]["conditions"]["C3"]["felt_share"].get<double>() == 1.0);
+  CHECK(audit["smoothness"]["condition"] == "C3");
 }
 
 TEST_CASE("what can't be used is counted and named by index, and the work goes on") {

@@ -18,7 +18,7 @@ TEST_CASE("bench prints a table and writes JSON and a plot") {
   const auto json = nlohmann::json::parse(read_text(json_file));
   CHECK(json["interrupted"] == false);
   REQUIRE(json["scenes"].size() == 1);
-  CHECK(json["scenes"][0]["methods"].size() == 5);
+  CHECK(json["scenes"][0]["methods"].size() == 6);
   CHECK(json["work_precision"].size() == 3);
   const auto& robust = json["scenes"][0]["methods"][2];
   CHECK(robust["method"] == "robust");

@@ -433,3 +433,206 @@ TEST_CASE("a click on a row of the iteration table pauses and selects that itera
   ui.click("iterations/row/0");
   CHECK_FALSE(ui.model().tick().selected().has_value());
 }
+
+TEST_CASE("typing 1345 sends 1345 once, never 1, 13 or 134, and undo takes it back whole") {
+  RunningApp ui;
+  ui.run(50);
+  const std::uint64_t sent = ui.model().presets_sent();
+  const double before = ui.model().presets().current().force.stiffness_n_per_m;
+  ui.click("force/stiffness_n_per_m");
+  ui.frame();
+  for (const char* digit : {"1", "3", "4", "5"}) {
+    ui.type(digit);
+    ui.frames(2);
+    CHECK(ui.model().presets_sent() == sent);
+    CHECK(ui.model().session()->preset().force.stiffness_n_per_m == before);
+  }
+  ui.key(HeadlessApp::kEnter);
+  CHECK(ui.model().presets_sent() == sent + 1);
+  CHECK(ui.model().session()->preset().force.stiffness_n_per_m == 1345.0);
+  CHECK(ui.model().preset_note(ui.model().session()->preset_id()).find("1345") != std::string::npos);
+  ui.chord('Z');
+  CHECK(ui.model().session()->preset().force.stiffness_n_per_m == before);
+  ui.chord('Y');
+  CHECK(ui.model().session()->preset().force.stiffness_n_per_m == 1345.0);
+}
+
+TEST_CASE("a drag is undone in one step") {
+  RunningApp ui(HeadlessApp::deterministic_options(), 1280.0f, 2000.0f);
+  ui.run(50);
+  ui.drag("solver/gain_overall", {30.0f, 0.0f});
+  ui.drag("solver/gain_overall", {-10.0f, 0.0f});
+  ui.chord('Z');
+  CHECK(ui.model().presets().current().solver.gain_overall > 1.0);
+  ui.chord('Z');
+  CHECK(ui.model().presets().current().solver.gain_overall == 1.0);
+  ui.click("compare/redo");
+  CHECK(ui.model().presets().current().solver.gain_overall > 1.0);
+}
+
+TEST_CASE("one key switches between A and B, whole and at once, and the difference is listed and can be taken over") {
+  RunningApp ui(HeadlessApp::deterministic_options(), 1280.0f, 2000.0f);
+  ui.run(50);
+  ui.model().set_value(*find_preset_key("solver", "gain_overall"), 0.4);
+  ui.model().set_value(*find_preset_key("finger", "radius_m"), 0.009);
+  ui.frame();
+  ui.key('B');
+  CHECK(ui.model().preset_slots().active_slot() == 1);
+  CHECK(ui.model().session()->preset().solver.gain_overall == 1.0);
+  CHECK(ui.app().items().find("compare/key/finger.radius_m") != nullptr);
+  ui.key('B');
+  CHECK(ui.model().session()->preset().solver.gain_overall == 0.4);
+  ui.click("compare/key/solver.gain_overall");  // A on the left, B on the right
+  CHECK(ui.model().session()->preset().solver.gain_overall == 1.0);
+  CHECK(ui.app().items().find("compare/key/solver.gain_overall") == nullptr);
+  ui.click("compare/copy");
+  ui.key('B');
+  CHECK(ui.model().session()->preset().finger.radius_m == 0.009);
+}
+
+TEST_CASE("a click on a name makes it a favourite, which is drawn once more on top and works there") {
+  RunningApp ui;
+  ui.run(50);
+  ui.click("solver/gain_overall/label");
+  CHECK(ui.model().favourites() == std::vector<std::string>{"solver.gain_overall"});
+  ui.click("favourites/solver/gain_overall");
+  ui.frame();
+  ui.type("0.625");
+  ui.key(HeadlessApp::kEnter);
+  CHECK(ui.model().presets().current().solver.gain_overall == 0.625);
+  ui.click("favourites/solver/gain_overall/label");
+  CHECK(ui.model().favourites().empty());
+  ui.frame();
+  CHECK(ui.app().items().find("favourites/solver/gain_overall") == nullptr);
+}
+
+TEST_CASE("the gain advice stands under the gains of the paper's method and can be taken") {
+  RunningApp ui(HeadlessApp::deterministic_options(), 1280.0f, 2000.0f);
+  ui.run();
+  CHECK(ui.app().items().find("solver/advice") == nullptr);  // robust has no gains
+  ui.model().set_value(*find_preset_key("solver", "method"), static_cast<double>(Method::paper));
+  ui.model().set_value(*find_preset_key("solver", "gain_curvature_m"), 0.001);
+  ui.run(50);
+  ui.click("solver/advice/set");
+  CHECK(ui.model().presets().current().solver.gain_curvature_m == ui.model().presets().current().finger.radius_m);
+}
+
+TEST_CASE("a map is chosen in its panel, its worst place gone to, its range dragged at the colour bar") {
+  RunningApp ui(HeadlessApp::deterministic_options(), 1280.0f, 2400.0f);
+  ui.run(50);
+  ui.click("map/quantity");
+  ui.click("map/quantity/Curvature");
+  ui.frames(2);
+  REQUIRE(ui.model().map().on);
+  REQUIRE(ui.model().map().paint().has_value());
+  CHECK(ui.app().items().find("view/map_bar") != nullptr);
+  const Camera before = ui.model().view().camera;
+  ui.click("map/worst/0");
+  CHECK(ui.model().view().picked_triangle == ui.model().map().worst()[0].triangle);
+  CHECK(glm::length(ui.model().view().camera.target - ui.model().map().worst()[0].point_world) < 1e-12);
+  CHECK(ui.model().view().camera.yaw_rad != before.yaw_rad);
+  ui.click("map/low");
+  ui.frame();
+  ui.type("5");
+  ui.key(HeadlessApp::kEnter);
+  CHECK(ui.model().map().low() == 5.0);
+  CHECK_FALSE(ui.model().map().automatic_range());
+  const ItemRect bar = *ui.app().items().find("view/map_bar");
+  const double high = ui.model().map().high();
+  const ImVec2 upper{bar.centre().x, bar.min.y + 60.0f};
+  ui.move(upper);
+  ui.press();
+  ui.move({upper.x, upper.y + 20.0f});
+  ui.move({upper.x, upper.y + 40.0f});
+  ui.release();
+  CHECK(ui.model().map().high() > high);
+  CHECK(ui.model().map().low() == 5.0);
+  ui.click("map/auto");
+  CHECK(ui.model().map().automatic_range());
+  ui.click("map/quantity");
+  ui.click("map/quantity/None");
+  CHECK_FALSE(ui.model().map().paint().has_value());
+}
+
+TEST_CASE("a finding is listed, gone to, marked, isolated and left again") {
+  AppOptions options = HeadlessApp::deterministic_options();
+  options.mesh = "fin_on_plate";
+  RunningApp ui(options, 1280.0f, 2400.0f);
+  ui.frame();
+  REQUIRE(ui.model().findings() != nullptr);
+  REQUIRE(ui.model().findings()->count(FindingKind::non_manifold_edge) > 0);
+  const std::string kind = "inspect/" + std::to_string(static_cast<int>(FindingKind::non_manifold_edge));
+  ui.click(kind);
+  ui.click(kind + "/0");
+  const MeshFinding& finding = ui.model().findings()->of(FindingKind::non_manifold_edge)[0];
+  CHECK(ui.model().inspection().marked.size() >= 3);
+  CHECK(glm::length(ui.model().view().camera.target - (ui.model().scene()->mesh().origin() + finding.place)) < 1e-12);
+  ui.click("inspect/isolate");
+  REQUIRE(ui.model().view().isolation != nullptr);
+  std::size_t kept = 0;
+  for (const std::uint8_t k : ui.model().view().isolation->kept) kept += k;
+  CHECK(kept >= ui.model().inspection().marked.size());
+  CHECK(kept < ui.model().scene()->mesh().triangle_count() / 2);
+  ui.click("inspect/isolate_part");
+  std::size_t part = 0;
+  for (const std::uint8_t k : ui.model().view().isolation->kept) part += k;
+  CHECK(part > kept);
+  ui.click("inspect/show_all");
+  CHECK(ui.model().view().isolation == nullptr);
+  CHECK(ui.model().inspection().marked.empty());
+}
+
+TEST_CASE("the crease angle is live: the mesh is built anew, the view and the picked triangle stay") {
+  AppOptions options = HeadlessApp::deterministic_options();
+  options.mesh_options.normals = NormalSource::computed;
+  RunningApp ui(options, 1280.0f, 2400.0f);
+  ui.run(50);
+  REQUIRE(ui.model().audit()->crease_edges == 0);
+  ui.drag("view", {40.0f, 10.0f});
+  const Camera camera = ui.model().view().camera;
+  ui.model().view().picked_triangle = 3;
+  ui.click("inspect/crease");
+  ui.frame();
+  ui.type("2");
+  ui.key(HeadlessApp::kEnter);
+  CHECK(ui.model().crease_angle_rad() == doctest::Approx(2.0 * kDegree));
+  CHECK(ui.model().audit()->crease_edges == ui.model().audit()->edges);
+  CHECK(ui.model().view().camera == camera);
+  CHECK(ui.model().view().picked_triangle == 3);
+  ui.run(50);
+  CHECK(ui.model().tick().problem().empty());
+}
+
+TEST_CASE("a slice cuts the picture open and lets the pointer through") {
+  RunningApp ui(HeadlessApp::deterministic_options(), 1280.0f, 2400.0f);
+  ui.frame();
+  ui.click("inspect/slice");
+  ui.click("inspect/slice/across the view");
+  REQUIRE(ui.model().view().slice.has_value());
+  const auto& scene = *ui.model().scene();
+  const Camera& camera = ui.model().view().camera;
+  const auto whole = pick_triangle(scene, camera, Vec2(200, 150), 400, 300);
+  const auto cut = pick_triangle(scene, camera, Vec2(200, 150), 400, 300, ui.model().view().slice);
+  REQUIRE(whole);
+  REQUIRE(cut);
+  CHECK(cut.distance_m > whole.distance_m + 0.05);  // the far wall, seen from inside
+  ui.click("inspect/slice_flip");
+  CHECK(pick_triangle(scene, camera, Vec2(200, 150), 400, 300, ui.model().view().slice).triangle == whole.triangle);
+  const double at = ui.model().view().slice->offset_m;
+  ui.drag("inspect/slice_at", {15.0f, 0.0f});
+  CHECK(ui.model().view().slice->offset_m > at);
+}
+
+TEST_CASE("the picked triangle's control net can be copied with every digit") {
+  RunningApp ui(HeadlessApp::deterministic_options(), 1280.0f, 3000.0f);
+  ui.model().view().picked_triangle = 7;
+  ui.frame();
+  ui.click("mesh/copy_net");
+  const std::string text = ImGui::GetClipboardText();
+  CHECK(text.find("b111,") != std::string::npos);
+  CHECK(text.find("n101,") != std::string::npos);
+  const Vec3 corner = ui.model().scene()->mesh().origin() + ui.model().scene()->mesh().position(7, 0);
+  double x = 0, y = 0, z = 0;
+  REQUIRE(std::sscanf(text.c_str() + text.find("b300,"), "b300,%lf,%lf,%lf", &x, &y, &z) == 3);
+  CHECK(glm::length(Vec3(x, y, z) - corner) < 1e-16);
+}

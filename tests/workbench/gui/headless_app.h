@@ -109,6 +109,12 @@ class HeadlessApp {
     ImGui::GetIO().KeysDown[code] = false;
     frame();
   }
+  /// With Ctrl held.
+  void chord(int code) {
+    ImGui::GetIO().KeyCtrl = true;
+    key(code);
+    ImGui::GetIO().KeyCtrl = false;
+  }
   void type(const char* text) {
     ImGui::GetIO().AddInputCharactersUTF8(text);
     frame();

@@ -1,6 +1,7 @@
 #include "workbench/session/exploration_path.h"
 
 #include "core/mesh/mesh_io.h"
+#include "core/planar/arc.h"
 #include "tests/workbench/session/session_fixture.h"
 
 #include <doctest/doctest.h>
@@ -145,5 +146,33 @@ TEST_CASE("a path built for one finger serves a smaller one") {
   for (int i = 0; i < 100; ++i) {
     const Vec3 centre = path.at(i * 0.01, 0.004, 0.0).position_m;
     CHECK(glm::length(centre) == doctest::Approx(0.044).epsilon(0.01));
+  }
+}
+
+TEST_CASE("over a 2D scene the path follows the outline in the plane, pad towards it") {
+  for (const bool closed : {false, true}) {
+    auto curve = PlanarCurve::build(closed ? make_regular_polygon(24, 0.05) : make_paper_arc(9));
+    REQUIRE(curve.has_value());
+    const auto scene = ContactScene::build(std::move(*curve));
+    REQUIRE(scene.has_value());
+    Finger finger;
+    finger.radius_m = 0.008;
+    const ExplorationPath path = ExplorationPath::build(**scene, pad_distance_m(finger));
+    Preset preset;
+    preset.finger = finger;
+    Stepper stepper(*scene);
+    TickState state;
+    int touching = 0, unconverged = 0;
+    const int ticks = static_cast<int>(path.length_m() / 1e-4);
+    for (int i = 0; i < ticks; ++i) {
+      const PathPose pose = path.at(1e-4 * i, pad_distance_m(finger), 1e-3);
+      CHECK(std::abs(pose.position_m.z) < 1e-15);
+      const TickOutput out = stepper.step(preset, {1e-3 * i, {pose.position_m, pose.orientation}}, state);
+      touching += out.penetration_m > 0.0;
+      unconverged += out.status == TickStatus::unconverged;
+      CHECK(std::abs(out.cld_m) <= 0.008);
+    }
+    CHECK(unconverged == 0);
+    CHECK(touching > ticks * 9 / 10);
   }
 }

@@ -29,7 +29,7 @@ TEST_CASE("a history keeps the last records, oldest first") {
     CHECK(history.newest().tick.tick == t);
     for (std::size_t i = 0; i < history.size(); ++i) CHECK(history[i].tick.tick == first + i);
   }
-  CHECK(history.memory_bytes() == 5 * sizeof(ServoRecord));
+  CHECK(history.memory_bytes() <= history.most_memory_bytes());
 }
 
 TEST_CASE("records are found by tick, also across drops and after wrapping") {
@@ -56,4 +56,27 @@ TEST_CASE("a tick that is not after the last begins a new history") {
   CHECK(history.newest().tick.tick == 0);
   for (const std::uint64_t t : {1, 2, 3, 4}) history.push(record_of(t));
   CHECK(history.oldest().tick.tick == 1);
+}
+
+TEST_CASE("memory stays within its bound however long the run") {
+  History history(5000);
+  for (std::uint64_t t = 0; t < 20'000; ++t) {
+    history.push(record_of(t));
+    REQUIRE(history.memory_bytes() <= history.most_memory_bytes());
+  }
+  CHECK(history.size() == 5000);
+  CHECK(history.most_memory_bytes() <= (5000 + 2 * 1024) * sizeof(ServoRecord));
+  for (std::size_t i = 0; i < history.size(); ++i) REQUIRE(history[i].tick.tick == 15'000 + i);
+}
+
+TEST_CASE("a snapshot keeps its records while the history moves on and wraps") {
+  History history(3000);
+  for (std::uint64_t t = 0; t < 3500; ++t) history.push(record_of(t));
+  const HistorySnapshot before = history.snapshot();
+  for (std::uint64_t t = 3500; t < 20'000; ++t) history.push(record_of(t));
+  REQUIRE(before.size() == 3000);
+  for (std::size_t i = 0; i < before.size(); ++i) REQUIRE(before[i].tick.tick == 500 + i);
+  CHECK(before.lower_bound(1234) == 734);
+  CHECK(before.lower_bound(99'999) == before.size());
+  CHECK(history.oldest().tick.tick == 17'000);
 }

@@ -1,7 +1,7 @@
 #include "workbench/session/servo_tick.h"
 
-#include "devices/simulated_contact_display.h"
-#include "devices/simulated_force_device.h"
+#include "devices/simulated/simulated_contact_display.h"
+#include "devices/simulated/simulated_force_device.h"
 #include "tests/workbench/session/session_fixture.h"
 
 #include <doctest/doctest.h>

@@ -23,9 +23,24 @@ std::string state_text(DeviceState state, DeviceFault fault) {
   return std::string(to_string(state)) + (fault == DeviceFault::none ? "" : std::string(": ") + to_string(fault));
 }
 
+/// The devices at the tick in view: as they are now, or as they were.
+DeviceTelemetry seen(const AppModel& model) {
+  const ServoRecord* record = model.tick().record();
+  if (model.paused() && record != nullptr) return record->device;
+  DeviceTelemetry now;
+  const SessionStatus& status = model.status();
+  now.force_state = status.force_state;
+  now.force_fault = status.force_fault;
+  now.display_state = status.display_state;
+  now.display_fault = status.display_fault;
+  now.gate_state = status.servo.gate_state;
+  now.gate_fault = status.servo.gate_fault;
+  return now;
+}
+
 void draw_force_device(const UiContext& ui, const AppModel& model) {
   const ForceCapabilities* can = model.session()->force_capabilities();
-  const SessionStatus& status = model.status();
+  const DeviceTelemetry status = seen(model);
   fact(ui, can != nullptr ? can->name.c_str() : "Force device", state_text(status.force_state, status.force_fault), "", state_ink(ui, status.force_state));
   if (can == nullptr) return;
   tooltip(ui, printed("Peak %.1f N, continuous %.1f N, resolution %.0f \u00b5m, apparent mass %.0f g%s", can->peak_force_n,
@@ -34,7 +49,7 @@ void draw_force_device(const UiContext& ui, const AppModel& model) {
 
 void draw_display(const UiContext& ui, const AppModel& model) {
   const DisplayCapabilities* can = model.session()->display_capabilities();
-  const SessionStatus& status = model.status();
+  const DeviceTelemetry status = seen(model);
   fact(ui, can != nullptr ? can->name.c_str() : "Contact display", state_text(status.display_state, status.display_fault), "", state_ink(ui, status.display_state));
   if (can == nullptr) return;
   tooltip(ui, printed("Travel %.0f mm, resolution %.1f \u00b5m, bandwidth %.0f Hz%s", can->travel_m * 1e3, can->resolution_m * 1e6,
@@ -43,14 +58,37 @@ void draw_display(const UiContext& ui, const AppModel& model) {
 
 void draw_gate(const UiContext& ui, AppModel& model) {
   const ServoStatus& servo = model.status().servo;
-  const bool armed = servo.gate_state == GateState::armed;
-  const bool faulted = servo.gate_state == GateState::faulted;
-  const std::string text = std::string(to_string(servo.gate_state)) + (faulted ? std::string(": ") + to_string(servo.gate_fault) : "");
+  const DeviceTelemetry device = seen(model);
+  const bool armed = device.gate_state == GateState::armed;
+  const bool faulted = device.gate_state == GateState::faulted;
+  const std::string text = std::string(to_string(device.gate_state)) + (faulted ? std::string(": ") + to_string(device.gate_fault) : "");
   fact(ui, "Safety gate", text, "", armed ? ui.colours.good : faulted ? ui.colours.bad : ui.colours.warning);
+  if (model.paused()) {
+    for (std::size_t i = 0; i < kGateActionCount; ++i) {
+      if ((device.gate_actions >> i) & 1u) fact(ui, to_string(static_cast<GateAction>(i)), "in this tick");
+    }
+    return;
+  }
   for (std::size_t i = 0; i < kGateActionCount; ++i) {
     if (servo.gate_counts[i] == 0) continue;
     fact(ui, to_string(static_cast<GateAction>(i)), printed("%llu", static_cast<unsigned long long>(servo.gate_counts[i])), "ticks");
   }
+}
+
+/// One tick's own numbers, where time stands still.
+void draw_tick(const UiContext& ui, const AppModel& model) {
+  const ServoRecord& r = *model.tick().record();
+  const auto length = [](const Vec3& v) { return glm::length(v); };
+  fact(ui, "Force sent", printed("%.3f", length(r.device.force_command_n)), "N");
+  tooltip(ui, "By the safety gate to the device, in this tick");
+  fact(ui, "Force asked for", printed("%.3f", length(r.tick.output.force_n)), "N");
+  fact(ui, "Force rendered", printed("%.3f", length(r.device.force_rendered_n)), "N");
+  tooltip(ui, "By the device while this tick's position was measured");
+  fact(ui, "Display sent / measured", printed("%.3f / %.3f", r.device.cld_command_m * 1e3, r.device.cld_measured_m * 1e3), "mm");
+  fact(ui, "Missed deadlines before", printed("%u", r.missed_deadlines));
+  if (r.tick_ns <= 0.0) return;  // simulated time
+  fact(ui, "Tick / solver", printed("%.1f / %.1f", r.tick_ns * 1e-3, r.tick.solve_ns * 1e-3), "\u00b5s");
+  fact(ui, "Lateness", printed("%.0f", r.lateness_ns * 1e-3), "\u00b5s");
 }
 
 void draw_servo(const UiContext& ui, const AppModel& model) {
@@ -107,11 +145,15 @@ void draw_devices_panel(const UiContext& ui, AppModel& model, FoldedPanel& state
     ImGui::TextDisabled("No session");
     return;
   }
+  const bool past = model.paused() && model.tick().record() != nullptr;
+  if (past) fact(ui, "At tick", printed("%llu", static_cast<unsigned long long>(model.tick().record()->tick.tick)), "", ui.colours.accent);
   draw_force_device(ui, model);
   draw_display(ui, model);
   draw_gate(ui, model);
-  draw_servo(ui, model);
+  if (past) draw_tick(ui, model);
+  else draw_servo(ui, model);
   draw_hand(ui, model);
+  toggle_button(ui, "devices/monitor", "Monitor", model.view().device_monitor, "Rates, histograms, limits and faults, in place of the 3D view");
   ImGui::Dummy({1, ui.px(3)});
 }
 

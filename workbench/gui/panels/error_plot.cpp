@@ -1,4 +1,5 @@
-// Error against iteration for the tick in view, on a log axis, coloured by order as in the 3D view.
+// Error against iteration for the tick in view, on a log axis, coloured by order as in the 3D view; the ticks before it
+// as a fan behind.
 #include "workbench/gui/panels/panels.h"
 #include "workbench/gui/plots/curve_drawing.h"
 #include "workbench/gui/plots/tick_locator.h"
@@ -13,7 +14,8 @@ namespace {
 
 constexpr double kFloor_um = 1e-7;  ///< errors of 0 are drawn here: about the rounding of a 40 mm coordinate
 
-double shown_um(const IterationRecord& r) { return std::max(r.error_m * 1e6, kFloor_um); }
+double shown_um(double error_m) { return std::max(error_m * 1e6, kFloor_um); }
+double shown_um(const IterationRecord& r) { return shown_um(r.error_m); }
 
 /// Where everything is: pixels of an iteration and of an error.
 struct ErrorScale {
@@ -31,14 +33,23 @@ struct ErrorScale {
 };
 
 /// Holds every error and the tolerance.
-ErrorScale make_scale(const UiContext& ui, std::span<const IterationRecord> iterations, double tolerance_um, ImVec2 min, ImVec2 max) {
+ErrorScale make_scale(const UiContext& ui, std::span<const IterationRecord> iterations, const ErrorFan& fan, double tolerance_um, ImVec2 min,
+                      ImVec2 max) {
   double low = tolerance_um, high = tolerance_um * 10.0;
+  std::size_t most = iterations.size();
+  for (const ErrorFan::Curve& curve : fan.curves()) {
+    most = std::max(most, curve.error_m.size());
+    for (const float error : curve.error_m) {
+      low = std::min(low, shown_um(static_cast<double>(error)));
+      high = std::max(high, shown_um(static_cast<double>(error)));
+    }
+  }
   for (const IterationRecord& r : iterations) {
     low = std::min(low, shown_um(r));
     high = std::max(high, shown_um(r));
   }
   return {min, max, std::pow(10.0, std::floor(std::log10(low) + 1e-9)), std::pow(10.0, std::ceil(std::log10(high) - 1e-9)),
-          std::max(4.0, static_cast<double>(iterations.size()) - 1.0), ui.px(8)};
+          std::max(4.0, static_cast<double>(most) - 1.0), ui.px(8)};
 }
 
 void draw_grid(const UiContext& ui, const ErrorScale& scale, double tolerance_um) {
@@ -77,6 +88,23 @@ std::optional<std::size_t> under_mouse(const UiContext& ui, const ErrorScale& sc
   return nearest;
 }
 
+/// Older ticks are fainter. A new seed starts somewhere else: no line from the last one to it.
+void draw_fan(const UiContext& ui, const ErrorScale& scale, const ErrorFan& fan) {
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const std::size_t count = fan.curves().size();
+  for (std::size_t c = 0; c + 1 < count; ++c) {
+    const ErrorFan::Curve& curve = fan.curves()[c];
+    const ImU32 ink = packed(with_alpha(ui.palette.error, 0.06f + 0.16f * static_cast<float>(c + 1) / static_cast<float>(count)));
+    for (std::size_t i = 1; i < curve.error_m.size(); ++i) {
+      if (curve.seed[i] != curve.seed[i - 1]) continue;
+      const auto at = [&](std::size_t k) {
+        return ImVec2(scale.x(static_cast<double>(k)), scale.y(shown_um(static_cast<double>(curve.error_m[k]))));
+      };
+      draw.AddLine(at(i - 1), at(i), ink, ui.px(1));
+    }
+  }
+}
+
 void draw_dots(const UiContext& ui, const ErrorScale& scale, std::span<const IterationRecord> iterations,
                std::optional<std::size_t> selected, std::optional<std::size_t> hovered) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
@@ -108,10 +136,11 @@ void draw_error_plot(const UiContext& ui, AppModel& model) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   ImFont* font = ui.fonts.small;
   draw.AddText(font, font->FontSize, {min.x, at.y + ui.px(2)}, ui.colours.text, "Error");
-  draw.AddText(font, font->FontSize, {min.x + ui.px(34), at.y + ui.px(2)}, ui.colours.text_dim, "\u00b5m, by iteration");
+  draw.AddText(font, font->FontSize, {min.x + ui.px(34), at.y + ui.px(2)}, ui.colours.text_dim, "\u00b5m, by iteration; faint: the 60 ticks before");
   const double tolerance_um = model.presets().current().solver.tolerance_m * 1e6;
-  const ErrorScale scale = make_scale(ui, iterations, tolerance_um, min, max);
+  const ErrorScale scale = make_scale(ui, iterations, model.error_fan(), tolerance_um, min, max);
   draw_grid(ui, scale, tolerance_um);
+  draw_fan(ui, scale, model.error_fan());
   const auto hovered = mouse_here ? under_mouse(ui, scale, iterations) : std::nullopt;
   draw_dots(ui, scale, iterations, model.tick().selected(), hovered);
   if (!hovered) return;

@@ -2,6 +2,7 @@
 #include "workbench/gui/panels/panels.h"
 #include "workbench/gui/widgets.h"
 
+#include <algorithm>
 #include <array>
 
 namespace tangent {
@@ -130,6 +131,11 @@ void draw_iterations_panel(const UiContext& ui, AppModel& model, IterationsPanel
     }
     ImGui::TableSetupScrollFreeze(1, 1);
     draw_header(ui);
+    // Selected elsewhere (keys, 3D view, plots): its row comes into view.
+    if (model.tick().selected() != state.shown_selection) {
+      state.shown_selection = model.tick().selected();
+      if (state.shown_selection) ImGui::SetScrollY(std::max(0.0f, (static_cast<float>(*state.shown_selection) - 2.0f) * row));
+    }
     ImGuiListClipper clipper;
     clipper.Begin(static_cast<int>(iterations.size()));
     while (clipper.Step()) {
@@ -141,6 +147,7 @@ void draw_iterations_panel(const UiContext& ui, AppModel& model, IterationsPanel
   ImGui::PopStyleVar();
   ImGui::PopFont();
   draw_error_plot(ui, model);
+  draw_path_map(ui, model, state.map);
 }
 
 }  // namespace tangent

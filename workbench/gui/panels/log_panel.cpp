@@ -2,6 +2,8 @@
 #include "workbench/gui/panels/panels.h"
 #include "workbench/gui/widgets.h"
 
+#include <imgui_stdlib.h>
+
 namespace tangent {
 
 namespace {
@@ -16,19 +18,39 @@ ImU32 ink_of(const UiContext& ui, Severity severity) {
 
 }  // namespace
 
-void draw_log_panel(const UiContext& ui, AppModel& model, FoldedPanel& state) {
+void draw_log_panel(const UiContext& ui, AppModel& model, LogPanel& state) {
   if (!section(ui, "Messages", state.open)) return;
   const auto& all = model.messages().all();
-  if (all.empty()) ImGui::TextDisabled("None");
+  toggle_button(ui, "log/notes", "Notes", state.notes, "What was done");
+  ImGui::SameLine(0, ui.px(3));
+  toggle_button(ui, "log/warnings", "Warnings", state.warnings, "What to look at");
+  ImGui::SameLine(0, ui.px(3));
+  toggle_button(ui, "log/errors", "Errors", state.errors, "What went wrong");
+  ImGui::SameLine(0, ui.px(10));
+  const bool copy = text_button(ui, "log/copy", "Copy", "The messages shown, as text");
+  ImGui::SameLine(0, ui.px(3));
+  if (text_button(ui, "log/clear", "Clear", "Forgets all messages")) model.messages().clear();
+  ImGui::SetNextItemWidth(-1.0f);
+  ImGui::InputTextWithHint("##log_filter", "only those with these letters", &state.filter);
+  ui.items.note_last("log/filter");
+  tooltip(ui, "Shows only messages that contain this");
+  std::string copied;
+  std::size_t shown = 0;
   ImGui::PushFont(ui.fonts.small);
   for (std::size_t i = all.size(); i-- > 0;) {
     const Message& m = all[i];
+    const bool wanted = m.severity == Severity::error ? state.errors : m.severity == Severity::warning ? state.warnings : state.notes;
+    if (!wanted || (!state.filter.empty() && m.text.find(state.filter) == std::string::npos)) continue;
+    ++shown;
+    const std::string line = printed("%7.1f s  ", m.at_s) + m.text + (m.times > 1 ? printed(" (%u times)", m.times) : std::string());
+    if (copy) copied += line + "\n";
     ImGui::PushStyleColor(ImGuiCol_Text, ink_of(ui, m.severity));
-    const std::string times = m.times > 1 ? printed(" (%u times)", m.times) : std::string();
-    ImGui::TextWrapped("%s%s", m.text.c_str(), times.c_str());
+    ImGui::TextWrapped("%s", line.c_str());
     ImGui::PopStyleColor();
   }
   ImGui::PopFont();
+  if (shown == 0) ImGui::TextDisabled("None");
+  if (copy) ImGui::SetClipboardText(copied.c_str());
 }
 
 /// Recent messages over the upper left of the 3D view, newest first; a click puts one away.
@@ -57,6 +79,7 @@ void draw_toasts(const UiContext& ui, AppModel& model, const Rect& over) {
     const ImVec2 at = ImGui::GetWindowPos();
     if (ImGui::InvisibleButton("##dismiss", {width, height})) model.messages().dismiss(i);
     ui.items.note_last(printed("toast/%d", shown));
+    tooltip(ui, "A click puts it away; it stays under Messages");
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     draw.AddRectFilled(at, {at.x + ui.px(4), at.y + height}, ink_of(ui, m.severity), ui.px(2));
     draw.AddText(ui.fonts.text, ui.fonts.text->FontSize, {at.x + ui.px(14), at.y + ui.px(6)}, ui.colours.text, text.c_str(), nullptr, wrap);
@@ -66,6 +89,10 @@ void draw_toasts(const UiContext& ui, AppModel& model, const Rect& over) {
     y += height + ui.px(6);
     ++shown;
   }
+  const std::size_t held_back = model.messages().held_back(model.now_s());
+  if (held_back == 0 || width < ui.px(80)) return;
+  const std::string more = printed("and %zu more under Messages", held_back);
+  ImGui::GetForegroundDrawList()->AddText(ui.fonts.small, ui.fonts.small->FontSize, {over.x + ui.px(14), y}, ui.colours.text_dim, more.c_str());
 }
 
 }  // namespace tangent

@@ -31,42 +31,78 @@ bool drop_button(const UiContext& ui, std::string_view path, const std::string& 
   return ImGui::BeginPopup(id.c_str());
 }
 
-bool menu_item(const UiContext& ui, std::string_view path, const char* text, const char* key = nullptr, bool on = false) {
+bool menu_item(const UiContext& ui, std::string_view path, const char* text, const char* tip, const char* key = nullptr, bool on = false) {
   const bool chosen = ImGui::MenuItem(text, key, on);
   ui.items.note_last(path);
+  tooltip(ui, tip);
   return chosen;
 }
 
 void draw_file_menu(const UiContext& ui, AppModel& model, MenuBar& state) {
-  if (!drop_button(ui, "menu/file", "File", "")) return;
-  if (menu_item(ui, "menu/file/open", "Open mesh...", "Ctrl+O")) state.path.open = state.path.focus = true;
-  if (menu_item(ui, "menu/file/reload", "Load the mesh again") && !model.mesh_path().empty()) model.open_mesh(model.mesh_path());
+  if (!drop_button(ui, "menu/file", "File", "Meshes, screenshots, quit")) return;
+  if (menu_item(ui, "menu/file/open", "Open mesh...", "Type a path: OBJ, PLY, STL or OFF; Tab completes it", "Ctrl+O")) state.path.open = state.path.focus = true;
+  if (ImGui::BeginMenu("Recent")) {
+    const std::vector<std::string> recent = model.settings().recent_meshes;  // opening one changes the order
+    for (std::size_t i = 0; i < recent.size(); ++i) {
+      if (menu_item(ui, "menu/file/recent/" + std::to_string(i), recent[i].c_str(), "Opens it again")) model.open_mesh(recent[i]);
+    }
+    ImGui::EndMenu();
+  }
+  ui.items.note_last("menu/file/recent");
+  if (menu_item(ui, "menu/file/reload", "Load the mesh again", "Reads the file anew") && !model.mesh_path().empty()) model.open_mesh(model.mesh_path());
   ImGui::Separator();
-  if (menu_item(ui, "menu/file/quit", "Quit", "Ctrl+Q")) model.ask_to_close();
+  if (menu_item(ui, "menu/file/screenshot", "Screenshot", "Writes the window as a PNG into the folder the program was started in", "F12")) model.ask_for_screenshot();
+  if (menu_item(ui, "menu/file/commands", "Commands...", "Every command by name", "Ctrl+P")) state.palette.open = state.palette.focus = true;
+  if (menu_item(ui, "menu/file/shortcuts", "Shortcuts", "All keys on a sheet", "F1", state.sheet)) state.sheet = !state.sheet;
+  ImGui::Separator();
+  if (menu_item(ui, "menu/file/quit", "Quit", "Ends the program; the force goes to zero first", "Ctrl+Q")) model.ask_to_close();
   ImGui::EndPopup();
 }
 
+void draw_camera_items(const UiContext& ui, AppModel& model) {
+  if (menu_item(ui, "menu/view/frame", "Frame the mesh", "All of it in view, from the present direction", "F")) model.frame_scene();
+  if (ImGui::BeginMenu("Look from")) {
+    struct Named {
+      const char* name;
+      const char* key;
+      StandardView view;
+    };
+    for (const Named& v : {Named{"Front", "1", StandardView::front}, Named{"Back", "2", StandardView::back}, Named{"Left", "3", StandardView::left},
+                           Named{"Right", "4", StandardView::right}, Named{"Top", "5", StandardView::top}, Named{"Bottom", "6", StandardView::bottom},
+                           Named{"Corner", "0", StandardView::corner}}) {
+      if (menu_item(ui, std::string("menu/view/from/") + v.name, v.name, "Turns the camera there; what it looks at stays", v.key)) model.look_from_standard(v.view);
+    }
+    ImGui::EndMenu();
+  }
+  ui.items.note_last("menu/view/from");
+  if (menu_item(ui, "menu/view/y_up", "y axis up", "For meshes that stand on y, as many scans do", "U", model.view().camera.y_up)) model.set_y_up(!model.view().camera.y_up);
+  if (menu_item(ui, "menu/view/copy_camera", "Copy camera", "The view as one line of text, for another window or another day", "Ctrl+Shift+C")) model.copy_camera();
+  if (menu_item(ui, "menu/view/paste_camera", "Paste camera", "The view that was copied", "Ctrl+Shift+V")) model.paste_camera();
+}
+
 void draw_view_menu(const UiContext& ui, AppModel& model) {
-  if (!drop_button(ui, "menu/view", "View", "")) return;
+  if (!drop_button(ui, "menu/view", "View", "Layout, camera, what is drawn, colours, text size")) return;
   LayoutSizes& sizes = model.sizes();
-  if (menu_item(ui, "menu/view/left", "Parameters", nullptr, sizes.show_left)) sizes.show_left = !sizes.show_left;
-  if (menu_item(ui, "menu/view/right", "Iterations, mesh, devices", nullptr, sizes.show_right)) sizes.show_right = !sizes.show_right;
-  if (menu_item(ui, "menu/view/plots", "Plots", nullptr, sizes.show_plots)) sizes.show_plots = !sizes.show_plots;
-  if (menu_item(ui, "menu/view/reset", "Default layout")) sizes = {};
+  if (menu_item(ui, "menu/view/left", "Parameters", "The left column", nullptr, sizes.show_left)) sizes.show_left = !sizes.show_left;
+  if (menu_item(ui, "menu/view/right", "Iterations, maps, mesh, devices", "The right column", nullptr, sizes.show_right)) sizes.show_right = !sizes.show_right;
+  if (menu_item(ui, "menu/view/plots", "Plots", "Curves over time, below", nullptr, sizes.show_plots)) sizes.show_plots = !sizes.show_plots;
+  if (menu_item(ui, "menu/view/monitor", "Device monitor", "Rates, histograms, limits and faults, in place of the 3D view", nullptr, model.view().device_monitor)) model.view().device_monitor = !model.view().device_monitor;
+  if (menu_item(ui, "menu/view/reset", "Default layout", "Columns, plots and sections as they were at first")) model.reset_layout();
   ImGui::Separator();
-  if (menu_item(ui, "menu/view/frame", "Frame the mesh", "F")) model.frame_scene();
+  draw_camera_items(ui, model);
+  ImGui::Separator();
   SceneToggles& show = model.view().toggles;
-  if (menu_item(ui, "menu/view/creases", "Creases and boundaries", nullptr, show.creases)) show.creases = !show.creases;
-  if (menu_item(ui, "menu/view/control_normals", "Control normals", nullptr, show.control_normals)) show.control_normals = !show.control_normals;
-  if (menu_item(ui, "menu/view/tracked_plane", "Plane after the tick", nullptr, show.tracked_plane)) show.tracked_plane = !show.tracked_plane;
-  if (menu_item(ui, "menu/view/axes", "Axes and scale", nullptr, show.axes)) show.axes = !show.axes;
+  if (menu_item(ui, "menu/view/creases", "Creases and boundaries", "Sharp edges and rims, as strong lines", nullptr, show.creases)) show.creases = !show.creases;
+  if (menu_item(ui, "menu/view/control_normals", "Control normals", "The six control normals of the shown net", nullptr, show.control_normals)) show.control_normals = !show.control_normals;
+  if (menu_item(ui, "menu/view/tracked_plane", "Plane after the tick", "The tangent plane that is kept for the next tick", nullptr, show.tracked_plane)) show.tracked_plane = !show.tracked_plane;
+  if (menu_item(ui, "menu/view/axes", "Axes and scale", "Orientation and scale bars in the corner", nullptr, show.axes)) show.axes = !show.axes;
   ImGui::Separator();
   const bool dark = model.theme() == Theme::dark;
-  if (menu_item(ui, "menu/view/dark", "Dark", nullptr, dark)) model.set_theme(Theme::dark);
-  if (menu_item(ui, "menu/view/light", "Light", nullptr, !dark)) model.set_theme(Theme::light);
-  if (menu_item(ui, "menu/view/larger", "Larger text", "Ctrl++")) model.set_ui_scale(model.ui_scale() * 1.1f);
-  if (menu_item(ui, "menu/view/smaller", "Smaller text", "Ctrl+-")) model.set_ui_scale(model.ui_scale() / 1.1f);
-  if (menu_item(ui, "menu/view/normal", "Normal text", "Ctrl+0")) model.set_ui_scale(1.0f);
+  if (menu_item(ui, "menu/view/dark", "Dark", "Light text on dark ground", nullptr, dark)) model.set_theme(Theme::dark);
+  if (menu_item(ui, "menu/view/light", "Light", "Dark text on light ground", nullptr, !dark)) model.set_theme(Theme::light);
+  if (menu_item(ui, "menu/view/larger", "Larger text", "Everything a tenth larger", "Ctrl++")) model.set_ui_scale(model.ui_scale() * 1.1f);
+  if (menu_item(ui, "menu/view/smaller", "Smaller text", "Everything a tenth smaller", "Ctrl+-")) model.set_ui_scale(model.ui_scale() / 1.1f);
+  if (menu_item(ui, "menu/view/normal", "Normal text", "The size that the monitor asks for", "Ctrl+0")) model.set_ui_scale(1.0f);
   ImGui::EndPopup();
 }
 
@@ -75,10 +111,10 @@ void draw_scene_menu(const UiContext& ui, AppModel& model, MenuBar& state, float
   if (model.loading()) name = "loading " + std::filesystem::path(model.loading_name()).filename().string();
   if (!drop_button(ui, "menu/scene", name, "The mesh; also drop a file into the window", width)) return;
   for (const std::string& object : generator_names()) {
-    if (menu_item(ui, "menu/scene/" + object, object.c_str(), nullptr, object == model.mesh_path())) model.open_mesh(object);
+    if (menu_item(ui, "menu/scene/" + object, object.c_str(), "A generated object", nullptr, object == model.mesh_path())) model.open_mesh(object);
   }
   ImGui::Separator();
-  if (menu_item(ui, "menu/scene/open", "Open mesh...", "Ctrl+O")) state.path.open = state.path.focus = true;
+  if (menu_item(ui, "menu/scene/open", "Open mesh...", "Type a path: OBJ, PLY, STL or OFF; Tab completes it", "Ctrl+O")) state.path.open = state.path.focus = true;
   ImGui::EndPopup();
 }
 
@@ -87,18 +123,18 @@ void draw_preset_menu(const UiContext& ui, AppModel& model, float width) {
   if (!drop_button(ui, "menu/preset", name, "The preset; * when it was changed since loading", width)) return;
   for (const auto& file : model.preset_files()) {
     const std::string stem = file.stem().string();
-    if (menu_item(ui, "menu/preset/" + stem, stem.c_str(), nullptr, file == model.presets().path())) model.load_preset(file);
+    if (menu_item(ui, "menu/preset/" + stem, stem.c_str(), "Loads this preset; undo brings the present one back", nullptr, file == model.presets().path())) model.load_preset(file);
   }
   if (model.preset_files().empty()) ImGui::TextDisabled("No presets");
   ImGui::Separator();
-  if (menu_item(ui, "menu/preset/revert", "Revert all changes")) model.revert_preset();
+  if (menu_item(ui, "menu/preset/revert", "Revert all changes", "Every key back to the loaded value")) model.revert_preset();
   ImGui::EndPopup();
 }
 
 void draw_device_menu(const UiContext& ui, AppModel& model, float width) {
   if (!drop_button(ui, "menu/device", model.device(), "The devices that are driven", width)) return;
   for (const char* name : {"simulated", "none"}) {
-    if (menu_item(ui, std::string("menu/device/") + name, name, nullptr, model.device() == name)) model.set_device(name);
+    if (menu_item(ui, std::string("menu/device/") + name, name, "A new session with these devices; the history starts anew", nullptr, model.device() == name)) model.set_device(name);
   }
   ImGui::EndPopup();
 }

@@ -60,6 +60,7 @@ void draw_picked(const UiContext& ui, AppModel& model) {
     const std::string to = link.triangle == kNone ? "" : ", to " + count(link.triangle);
     fact(ui, printed("Edge %u", e).c_str(), kKinds[static_cast<std::size_t>(mesh.edge_kind(t, e))] + to);
   }
+  draw_control_net_table(ui, model, t);
   if (text_button(ui, "mesh/unpick", "Unpick", "Picks nothing")) model.view().picked_triangle = kNone;
 }
 

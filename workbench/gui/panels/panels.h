@@ -3,19 +3,39 @@
 #pragma once
 
 #include "workbench/gui/app_model.h"
+#include "workbench/gui/panels/planar_view.h"
 #include "workbench/gui/plots/plot_view.h"
+#include "workbench/gui/plots/sample_cells.h"
+#include "workbench/gui/plots/spectrum.h"
 #include "workbench/gui/ui_context.h"
 
+#include <array>
+#include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace tangent {
 
 // Left column.
 struct ParameterPanels {
-  bool solver = true, finger = true, force = true, display = true, safety = false;
+  bool favourites = true, solver = true, finger = true, force = true, display = true, safety = false;
 };
 void draw_parameter_panels(const UiContext& ui, AppModel& model, ParameterPanels& state);
+
+/// What the gains should be at the contact in view, and why. Nothing unless they are used.
+void draw_gain_advice(const UiContext& ui, AppModel& model);
+
+struct ComparePanel {
+  struct Side {
+    int choice = 0;
+    std::filesystem::path read;  ///< the file that `preset` is from
+    Preset preset;
+  };
+  bool open = true;
+  Side left{0, {}, {}}, right{1, {}, {}};
+};
+void draw_compare_panel(const UiContext& ui, AppModel& model, ComparePanel& state);
 
 struct PresetsPanel {
   bool open = true;
@@ -24,33 +44,105 @@ struct PresetsPanel {
 void draw_presets_panel(const UiContext& ui, AppModel& model, PresetsPanel& state);
 
 // Right column.
+struct PathMapPanel {
+  bool close_up = true;   ///< as near as the path needs; else the whole base triangle
+};
 struct IterationsPanel {
   bool open = true;
+  std::optional<std::size_t> shown_selection;   ///< the table was last scrolled to this one
+  PathMapPanel map;
 };
 void draw_iterations_panel(const UiContext& ui, AppModel& model, IterationsPanel& state);
 void draw_error_plot(const UiContext& ui, AppModel& model);
+void draw_path_map(const UiContext& ui, AppModel& model, PathMapPanel& state);
+
+struct MapPanel {
+  bool open = true;
+};
+void draw_map_panel(const UiContext& ui, AppModel& model, MapPanel& state);
+/// The colour bar, inside the 3D view's window, below `top`.
+void draw_map_bar(const UiContext& ui, AppModel& model, const Rect& view, float top);
+/// The value at a place under the pointer.
+void draw_map_hover(const UiContext& ui, AppModel& model, std::uint32_t triangle, double u, double v);
+
+struct InspectPanel {
+  bool open = true;
+  std::array<bool, kFindingKindCount> open_kinds{};
+  int slice_axis = 0;
+};
+void draw_inspect_panel(const UiContext& ui, AppModel& model, InspectPanel& state);
+/// Precondition: the triangle is usable.
+void draw_control_net_table(const UiContext& ui, const AppModel& model, std::uint32_t triangle);
+
+struct PerceptionPanel {
+  bool open = true;
+  int condition = -1;  ///< index into kRenderingConditions; -1: the preset's own
+};
+void draw_perception_panel(const UiContext& ui, AppModel& model, PerceptionPanel& state);
 
 struct FoldedPanel {
   bool open = true;
 };
+void draw_time_machine_panel(const UiContext& ui, AppModel& model, FoldedPanel& state);
+
+struct BookmarksPanel {
+  bool open = true;
+  bool triggers_open = false;
+};
+void draw_bookmarks_panel(const UiContext& ui, AppModel& model, BookmarksPanel& state);
+/// Colour of a bookmark, the same in list, strip and plots.
+ImU32 bookmark_ink(const UiContext& ui, BookmarkKind kind);
 void draw_mesh_panel(const UiContext& ui, AppModel& model, FoldedPanel& state);
 void draw_devices_panel(const UiContext& ui, AppModel& model, FoldedPanel& state);
-void draw_log_panel(const UiContext& ui, AppModel& model, FoldedPanel& state);
+struct LogPanel {
+  bool open = true;
+  bool notes = true, warnings = true, errors = true;
+  std::string filter;
+};
+void draw_log_panel(const UiContext& ui, AppModel& model, LogPanel& state);
+/// In place of the 3D view while it is asked for.
+void draw_device_monitor(const UiContext& ui, AppModel& model, const Rect& rect);
 
 // Middle.
 struct ViewPanel {
   double build_ms_outside = 0.0;   ///< processor time spent in the renderer this frame
   std::optional<Vec3> drag_plane;  ///< where the hand was last led to
+  PlanarView planar;               ///< of 2D scenes
 };
 void draw_view_panel(const UiContext& ui, AppModel& model, ViewPanel& state, SceneRenderer* renderer, const Rect& rect);
 void draw_toasts(const UiContext& ui, AppModel& model, const Rect& over);
 
 // Below.
+enum class PlotsMode : std::uint8_t { time, xy, spectrum, histogram };
 struct PlotsPanel {
   std::vector<PlotView> plots;
   PlotLink link;
+  PlotsMode mode = PlotsMode::time;
+  bool values = false;                    ///< the table of numbers beside the curves
+  int x = 0, y = 2;                       ///< curves by number: X-Y; spectrum and histogram show x
+  SampleCells cells;
+  Spectrum spectrum;
+  int spectrum_of = -1;                   ///< curve, range and moment of `spectrum`
+  std::uint64_t spectrum_from = 0, spectrum_to = 0;
+  double spectrum_at_s = -1.0;
+  std::array<ImU32, 4> event_inks{};      ///< by EventRank - 1
+  std::vector<TickMark> changes, flags;   ///< of this frame
 };
 PlotsPanel make_plots_panel();
+/// A curve of the plots, whichever plot it is in.
+struct CurveRef {
+  const PlotSpec* plot = nullptr;
+  const PlotSeries* series = nullptr;
+  std::string name() const;               ///< "Force x"
+  std::string with_unit() const;          ///< "Force x, N"
+};
+std::vector<CurveRef> curves_of(const PlotsPanel& state);
+/// Ticks in view: from and one past the last, cut to what is kept.
+std::pair<std::uint64_t, std::uint64_t> ticks_in_view(const AppModel& model);
+void draw_plots_toolbar(const UiContext& ui, AppModel& model, PlotsPanel& state, const Rect& rect, const Rect& whole);
+void draw_values_table(const UiContext& ui, AppModel& model, PlotsPanel& state, const Rect& rect);
+/// X-Y, spectrum or histogram.
+void draw_other_plot(const UiContext& ui, AppModel& model, PlotsPanel& state, const Rect& rect);
 void draw_plots_panel(const UiContext& ui, AppModel& model, PlotsPanel& state, const Rect& rect);
 void draw_transport_bar(const UiContext& ui, AppModel& model, const Rect& rect);
 void draw_status_line(const UiContext& ui, AppModel& model, const Rect& rect, double build_ms);
@@ -62,9 +154,19 @@ struct PathBar {
   std::string text;
   std::vector<std::string> matches;
 };
+struct CommandPalette {
+  bool open = false;
+  bool focus = false;
+  std::string text;
+  int chosen = 0;
+};
 struct MenuBar {
   PathBar path;
+  CommandPalette palette;
+  bool sheet = false;  ///< the sheet of shortcuts
 };
+void draw_command_palette(const UiContext& ui, AppModel& model, MenuBar& menu, const Rect& over);
+void draw_shortcut_sheet(const UiContext& ui, AppModel& model, MenuBar& menu, const Rect& over);
 void draw_menu_bar(const UiContext& ui, AppModel& model, MenuBar& state, const Rect& rect);
 
 /// Files and folders whose path begins with `typed`, folders with a slash at their end; at most `most`. Only
@@ -73,7 +175,7 @@ std::vector<std::string> complete_mesh_path(const std::string& typed, std::size_
 /// What all of them begin with.
 std::string common_start(const std::vector<std::string>& texts);
 
-/// Keys that work everywhere but in a text box. Listed in the view menu.
+/// Keys that work everywhere but in a text box. Listed in the sheet of shortcuts (commands.h).
 void handle_shortcuts(AppModel& model, MenuBar& menu);
 
 }  // namespace tangent

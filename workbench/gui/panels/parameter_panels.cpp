@@ -1,6 +1,7 @@
-// Solver, finger, force, display and safety: one row for each key of the preset schema.
+// Favourites, solver, finger, force, display and safety: one row for each key of the preset schema.
 #include "workbench/gui/panels/panels.h"
 #include "workbench/gui/widgets.h"
+#include "workbench/session/rendering_condition.h"
 
 namespace tangent {
 
@@ -29,30 +30,40 @@ std::string explain(const PresetKey& key, bool is_idle) {
   text += "\nKey: " + key.full_name();
   if (!key.option.empty()) text += ", --" + std::string(key.option);
   if (is_idle) text += "\nUsed by the method \"paper\" only.";
+  text += "\nA click on the name makes it a favourite.";
   return text;
 }
 
-void draw_row(const UiContext& ui, AppModel& model, const PresetKey& key) {
+/// The name: a star in front of a favourite, a dot before a value that is no longer the loaded one; a click makes it one.
+void draw_label(const UiContext& ui, AppModel& model, const PresetKey& key, const std::string& path, float width, bool is_idle) {
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  if (ImGui::InvisibleButton(("##label/" + path).c_str(), {width, ImGui::GetFrameHeight()})) model.toggle_favourite(key);
+  ui.items.note_last(path + "/label");
+  const bool hovered = ImGui::IsItemHovered();
+  tooltip(ui, explain(key, is_idle));
+  const float text_y = std::round(at.y + 0.5f * (ImGui::GetFrameHeight() - ui.fonts.text->FontSize));
+  const ImVec2 mark{at.x + ui.px(2), text_y + 0.55f * ui.fonts.text->FontSize};
+  const bool changed = key.get(model.presets().current()) != key.get(model.presets().loaded().preset);
+  if (changed) draw.AddCircleFilled(mark, ui.px(2.5f), ui.colours.accent);
+  else if (hovered || model.is_favourite(key)) draw_star(draw, mark, ui.px(4.5f), hovered ? ui.colours.text_dim : ui.colours.warning);
+  draw.PushClipRect(at, {at.x + width, at.y + ImGui::GetFrameHeight()}, true);
+  const std::string label(key.label);
+  draw.AddText({at.x + ui.px(9), text_y}, is_idle ? ui.colours.text_faint : ui.colours.text, label.c_str());
+  draw.PopClipRect();
+}
+
+/// `prefix`: of the item's path, for a key that is drawn twice.
+void draw_row(const UiContext& ui, AppModel& model, const PresetKey& key, const char* prefix = "") {
   const Preset& preset = model.presets().current();
   const double value = key.get(preset);
-  const std::string path = std::string(key.table) + "/" + std::string(key.key);
+  const std::string path = prefix + std::string(key.table) + "/" + std::string(key.key);
   const bool is_idle = idle(key, preset);
   const float width = ImGui::GetContentRegionAvail().x;
   const float label_width = std::max(ui.px(128), 0.42f * width);
   const float reset_width = ui.px(20);
   const ImVec2 at = ImGui::GetCursorScreenPos();
-  ImDrawList& draw = *ImGui::GetWindowDrawList();
-
-  // The label; a dot in front of it when the value is no longer the loaded one.
-  const bool changed = value != key.get(model.presets().loaded().preset);
-  ImGui::InvisibleButton(("##label/" + path).c_str(), {label_width - ui.px(4), ImGui::GetFrameHeight()});
-  tooltip(ui, explain(key, is_idle));
-  const float text_y = std::round(at.y + 0.5f * (ImGui::GetFrameHeight() - ui.fonts.text->FontSize));
-  if (changed) draw.AddCircleFilled({at.x + ui.px(2), text_y + 0.55f * ui.fonts.text->FontSize}, ui.px(2.5f), ui.colours.accent);
-  draw.PushClipRect(at, {at.x + label_width - ui.px(4), at.y + ImGui::GetFrameHeight()}, true);
-  const std::string label(key.label);
-  draw.AddText({at.x + ui.px(9), text_y}, is_idle ? ui.colours.text_faint : ui.colours.text, label.c_str());
-  draw.PopClipRect();
+  draw_label(ui, model, key, path, label_width - ui.px(4), is_idle);
 
   ImGui::SetCursorScreenPos({at.x + label_width, at.y});
   const float field_width = width - label_width - reset_width;
@@ -62,19 +73,44 @@ void draw_row(const UiContext& ui, AppModel& model, const PresetKey& key) {
   } else {
     const DisplayUnit unit = display_unit(key);
     const auto result = value_field(ui, path, {field_width, slider_share(key, value), display_text(key, value), unit.name});
-    if (result.slid) model.set_value(key, slider_value(key, *result.slid));
+    if (result.slid) model.slide_value(key, slider_value(key, *result.slid));
     if (result.typed) model.type_value(key, *result.typed);
   }
   tooltip(ui, explain(key, is_idle));
 
   ImGui::SetCursorScreenPos({at.x + width - reset_width + ui.px(3), at.y});
   if (value != key.default_value()) {
-    const std::string what = "Back to " + (key.kind == KeyKind::choice ? key.value_text(key.default_value())
-        : display_text(key, key.default_value()) + " " + std::string(display_unit(key).name)) + ", the program's own value";
+    const std::string what = "Back to " + display_with_unit(key, key.default_value()) + ", the program's own value";
     if (icon_button(ui, path + "/reset", Icon::reset, what.c_str())) model.reset_value(key);
   } else {
     ImGui::Dummy({ui.px(10), ImGui::GetFrameHeight()});
   }
+}
+
+void draw_favourites(const UiContext& ui, AppModel& model, bool& open) {
+  if (model.favourites().empty() || !section(ui, "Favourites", open)) return;
+  for (const PresetKey& key : preset_keys()) {
+    if (model.is_favourite(key)) draw_row(ui, model, key, "favourites/");
+  }
+  ImGui::Dummy({1, ui.px(2)});
+}
+
+/// The paper's conditions by name: both sources at once.
+void draw_condition_row(const UiContext& ui, AppModel& model) {
+  const RenderingCondition* present = condition_of(model.presets().current());
+  std::array<std::string_view, kConditionNames.size() + 1> names{"none of the six"};
+  std::copy(kConditionNames.begin(), kConditionNames.end(), names.begin() + 1);
+  const float width = ImGui::GetContentRegionAvail().x, label_width = std::max(ui.px(128), 0.42f * width);
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  ImGui::AlignTextToFramePadding();
+  ImGui::SetCursorScreenPos({at.x + ui.px(9), at.y});
+  ImGui::TextUnformatted("Condition");
+  ImGui::SetCursorScreenPos({at.x + label_width, at.y});
+  int chosen = present != nullptr ? static_cast<int>(present - kRenderingConditions.data()) + 1 : 0;
+  if (choice_row(ui, "force/condition", width - label_width - ui.px(20), names, chosen) && chosen > 0)
+    model.set_condition(kRenderingConditions[static_cast<std::size_t>(chosen - 1)]);
+  tooltip(ui, "The paper's rendering conditions: sources of force and display together. " +
+                  (present != nullptr ? std::string(present->words) : std::string("The present sources make none of them")));
 }
 
 void draw_table(const UiContext& ui, AppModel& model, const char* title, std::string_view table, bool& open) {
@@ -82,12 +118,15 @@ void draw_table(const UiContext& ui, AppModel& model, const char* title, std::st
   for (const PresetKey& key : preset_keys()) {
     if (key.table == table && applies(key, model.presets().current())) draw_row(ui, model, key);
   }
+  if (table == "solver") draw_gain_advice(ui, model);
+  if (table == "force") draw_condition_row(ui, model);
   ImGui::Dummy({1, ui.px(2)});
 }
 
 }  // namespace
 
 void draw_parameter_panels(const UiContext& ui, AppModel& model, ParameterPanels& state) {
+  draw_favourites(ui, model, state.favourites);
   draw_table(ui, model, "Solver", "solver", state.solver);
   draw_table(ui, model, "Finger", "finger", state.finger);
   draw_table(ui, model, "Force", "force", state.force);

@@ -17,7 +17,7 @@ namespace {
 bool is_mesh_file(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  constexpr std::array<const char*, 4> known{".obj", ".ply", ".stl", ".off"};
+  constexpr std::array<const char*, 5> known{".obj", ".ply", ".stl", ".off", ".csv"};
   return std::find(known.begin(), known.end(), extension) != known.end();
 }
 

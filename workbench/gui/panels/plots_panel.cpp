@@ -3,6 +3,7 @@
 #include "workbench/gui/panels/panels.h"
 #include "workbench/gui/widgets.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -11,6 +12,7 @@ namespace tangent {
 namespace {
 
 constexpr std::size_t at(Channel c) { return static_cast<std::size_t>(c); }
+constexpr std::size_t at(GhostChannel c) { return static_cast<std::size_t>(c); }
 
 /// Which plots share a column, and how many columns there are.
 struct Cell {
@@ -35,39 +37,60 @@ Arrangement arrange(float width, float height) {
 
 }  // namespace
 
+/// Of this frame.
+static void collect_marks(const UiContext& ui, const AppModel& model, PlotsPanel& state) {
+  state.event_inks = {ui.colours.text_faint, bookmark_ink(ui, BookmarkKind::reseeded), bookmark_ink(ui, BookmarkKind::unconverged),
+                      bookmark_ink(ui, BookmarkKind::device_fault)};
+  state.changes.clear();
+  for (const ParameterMark& mark : model.parameter_marks()) state.changes.push_back({mark.tick, mark.tick, mark.text, ui.colours.accent});
+  state.flags.clear();
+  for (const Bookmark& mark : model.bookmarks().all()) {
+    const bool mine = mark.kind == BookmarkKind::user;
+    const std::string note = mark.note.empty() ? std::string() : ": " + mark.note;
+    state.flags.push_back({mark.tick, mark.last_tick, to_string(mark.kind) + note, bookmark_ink(ui, mark.kind)});
+    if (!mine && mark.ticks > 1) state.flags.back().text += printed(" and %u more ticks", mark.ticks - 1);
+  }
+  state.link.marks = {at(Channel::event), state.event_inks, state.changes, state.flags};
+}
+
+std::string CurveRef::name() const { return plot->series.size() == 1 ? plot->title : plot->title + " " + series->name; }
+std::string CurveRef::with_unit() const { return plot->unit.empty() ? name() : name() + ", " + plot->unit; }
+
+std::vector<CurveRef> curves_of(const PlotsPanel& state) {
+  std::vector<CurveRef> out;
+  for (const PlotView& plot : state.plots) {
+    for (const PlotSeries& series : plot.spec().series) out.push_back({&plot.spec(), &series});
+  }
+  return out;
+}
+
+std::pair<std::uint64_t, std::uint64_t> ticks_in_view(const AppModel& model) {
+  const ChannelStore& store = model.store();
+  const auto tick = [&](double t) { return std::clamp(static_cast<std::uint64_t>(std::max(0.0, std::ceil(t))), store.first_tick(), store.end_tick()); };
+  return {tick(model.axis().from()), tick(model.axis().to())};
+}
+
 PlotsPanel make_plots_panel() {
   PlotsPanel panel;
   panel.plots.emplace_back(PlotSpec{.id = "force", .title = "Force", .unit = "N", .format = "%7.3f",
-      .series = {{"x", at(Channel::force_x), &Palette::force_x}, {"y", at(Channel::force_y), &Palette::force_y},
-                 {"z", at(Channel::force_z), &Palette::force_z}, {"total", at(Channel::force_magnitude), &Palette::force_magnitude}}});
-  panel.plots.emplace_back(PlotSpec{.id = "cld", .title = "Contact display", .unit = "mm", .scale = 1e3, .format = "%7.3f",
-      .series = {{"commanded", at(Channel::cld_commanded), &Palette::cld_commanded}, {"measured", at(Channel::cld_measured), &Palette::cld_measured}}});
+      .series = {{"x", at(Channel::force_x), &Palette::force_x, false, true, at(GhostChannel::force_x)},
+                 {"y", at(Channel::force_y), &Palette::force_y, false, true, at(GhostChannel::force_y)},
+                 {"z", at(Channel::force_z), &Palette::force_z, false, true, at(GhostChannel::force_z)},
+                 {"total", at(Channel::force_magnitude), &Palette::force_magnitude, false, true, at(GhostChannel::force_magnitude)}}});
+  panel.plots.emplace_back(PlotSpec{.id = "cld", .title = "Display", .unit = "mm", .scale = 1e3, .format = "%7.3f",
+      .series = {{"commanded", at(Channel::cld_commanded), &Palette::cld_commanded, false, true, at(GhostChannel::cld)}, {"measured", at(Channel::cld_measured), &Palette::cld_measured}}});
   panel.plots.emplace_back(PlotSpec{.id = "error", .title = "Error", .unit = "\u00b5m", .scale = 1e6, .log = true, .floor = 1e-6, .format = "%-8.3g",
-      .series = {{"error", at(Channel::error), &Palette::error}}});
+      .series = {{"error", at(Channel::error), &Palette::error, false, true, at(GhostChannel::error)}}});
   panel.plots.emplace_back(PlotSpec{.id = "iterations", .title = "Iterations", .unit = "", .counts = true, .format = "%-4.0f",
-      .series = {{"iterations", at(Channel::iterations), &Palette::iterations, true}}});
+      .series = {{"iterations", at(Channel::iterations), &Palette::iterations, true, true, at(GhostChannel::iterations)}}});
   panel.plots.emplace_back(PlotSpec{.id = "tick_time", .title = "Tick time", .unit = "\u00b5s", .scale = 1e6, .format = "%-7.1f",
+      .nothing = "simulated time: no clock",
       .series = {{"tick time", at(Channel::tick_time), &Palette::tick_time}}});
   return panel;
 }
 
-void draw_plots_panel(const UiContext& ui, AppModel& model, PlotsPanel& state, const Rect& rect) {
-  if (rect.w < ui.px(60) || rect.h < ui.px(30)) return;
-  ImGui::SetNextWindowPos({rect.x, rect.y});
-  ImGui::SetNextWindowSize({rect.w, rect.h});
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0, 0));
-  constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
-                                     ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoScrollWithMouse;
-  ImGui::Begin("##plots", nullptr, flags);
-  ImGui::PopStyleVar();
+static void draw_time_plots(const UiContext& ui, AppModel& model, PlotsPanel& state, const Rect& rect) {
   PlotLink& link = state.link;
-  link.tick_period_s = model.tick_period_s();
-  link.hover = link.hover_next;
-  link.hover_next.reset();
-  link.clicked.reset();
-  link.cursor.reset();
-  if (model.paused() && model.tick().record() != nullptr) link.cursor = model.tick().record()->tick.tick;
-
   const Arrangement arrangement = arrange(rect.w / ui.scale, rect.h / ui.scale);
   const float gap = ui.px(4);
   const float column_width = (rect.w - gap) / static_cast<float>(arrangement.columns);
@@ -87,6 +110,40 @@ void draw_plots_panel(const UiContext& ui, AppModel& model, PlotsPanel& state, c
     ImGui::EndChild();
     top += h;
   }
+}
+
+void draw_plots_panel(const UiContext& ui, AppModel& model, PlotsPanel& state, const Rect& rect) {
+  if (rect.w < ui.px(60) || rect.h < ui.px(30)) return;
+  ImGui::SetNextWindowPos({rect.x, rect.y});
+  ImGui::SetNextWindowSize({rect.w, rect.h});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0, 0));
+  constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                                     ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoScrollWithMouse;
+  ImGui::Begin("##plots", nullptr, flags);
+  ImGui::PopStyleVar();
+  PlotLink& link = state.link;
+  link.tick_period_s = model.tick_period_s();
+  link.hover = link.hover_next;
+  link.hover_next.reset();
+  link.clicked.reset();
+  link.cursor.reset();
+  if (model.paused() && model.tick().record() != nullptr) link.cursor = model.tick().record()->tick.tick;
+
+  const std::shared_ptr<const Ghost> ghost = model.ghost();
+  link.ghost = ghost != nullptr ? ghost->channels.get() : nullptr;
+  collect_marks(ui, model, state);
+
+  const float bar = ui.px(24);
+  draw_plots_toolbar(ui, model, state, {rect.x, rect.y, rect.w, bar}, rect);
+  Rect rest{rect.x, rect.y + bar, rect.w, rect.h - bar};
+  if (state.values && rect.w > ui.px(700)) {
+    const int extra = (state.link.ghost != nullptr) + state.link.a.has_value() + state.link.b.has_value() + (state.link.a && state.link.b);
+    const float table = std::min(ui.px(166.0f + 62.0f * static_cast<float>(5 + extra)), 0.5f * rect.w);
+    rest.w -= table;
+    draw_values_table(ui, model, state, {rest.right(), rest.y, table, rest.h});
+  }
+  if (state.mode == PlotsMode::time) draw_time_plots(ui, model, state, rest);
+  else draw_other_plot(ui, model, state, rest);
   ImGui::End();
   if (link.clicked && !model.store().empty()) model.select_tick(*link.clicked);
 }

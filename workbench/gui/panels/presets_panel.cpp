@@ -8,12 +8,6 @@ namespace tangent {
 
 namespace {
 
-std::string value_with_unit(const PresetKey& key, double value) {
-  if (key.kind == KeyKind::choice) return key.value_text(value);
-  const std::string_view unit = display_unit(key).name;
-  return display_text(key, value) + (unit.empty() ? "" : " " + std::string(unit));
-}
-
 void draw_files(const UiContext& ui, AppModel& model) {
   if (model.preset_files().empty()) {
     ImGui::TextDisabled("No presets in %s", model.preset_folder().filename().c_str());
@@ -40,7 +34,7 @@ void draw_changes(const UiContext& ui, AppModel& model) {
     const std::string name = change.key->full_name();
     const float width = ImGui::GetContentRegionAvail().x;
     const ImVec2 at = ImGui::GetCursorScreenPos();
-    const std::string text = value_with_unit(*change.key, change.loaded) + " \u2192 " + value_with_unit(*change.key, change.now);
+    const std::string text = display_with_unit(*change.key, change.loaded) + " \u2192 " + display_with_unit(*change.key, change.now);
     ImGui::TextUnformatted(name.c_str());
     ImGui::PushFont(ui.fonts.small_number);
     const float w = ImGui::CalcTextSize(text.c_str()).x;
@@ -64,6 +58,7 @@ void draw_presets_panel(const UiContext& ui, AppModel& model, PresetsPanel& stat
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - button - ImGui::GetStyle().ItemSpacing.x);
   const bool enter = ImGui::InputTextWithHint("##preset_name", "name", &state.name, ImGuiInputTextFlags_EnterReturnsTrue);
   ui.items.note_last("presets/name");
+  tooltip(ui, "Name of the file to save the present values in, without .toml");
   ImGui::SameLine();
   const bool pressed = text_button(ui, "presets/save", "Save as", "Writes the present values into the preset folder under this name");
   if (enter || pressed) model.save_preset(state.name);

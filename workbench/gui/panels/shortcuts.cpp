@@ -1,6 +1,9 @@
 // Keys. ImGui 1.86 knows letters and signs by the platform's own codes; GLFW's are their ASCII codes, capital.
 #include "workbench/gui/panels/panels.h"
 
+#include <array>
+#include <utility>
+
 namespace tangent {
 
 void handle_shortcuts(AppModel& model, MenuBar& menu) {
@@ -9,13 +12,30 @@ void handle_shortcuts(AppModel& model, MenuBar& menu) {
   const auto named = [](ImGuiKey key, bool repeat = false) { return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key), repeat); };
   const auto letter = [](char c, bool repeat = false) { return ImGui::IsKeyPressed(c, repeat); };
   if (io.KeyCtrl) {
+    if (letter('P')) menu.palette.open = menu.palette.focus = true;
+    if (io.KeyShift && letter('C')) model.copy_camera();
+    if (io.KeyShift && letter('V')) model.paste_camera();
     if (letter('O')) menu.path.open = menu.path.focus = true;
     if (letter('Q')) model.ask_to_close();
     if (letter('=')) model.set_ui_scale(model.ui_scale() * 1.1f);
     if (letter('-')) model.set_ui_scale(model.ui_scale() / 1.1f);
     if (letter('0')) model.set_ui_scale(1.0f);
+    if (letter('Z', true)) io.KeyShift ? model.redo() : model.undo();
+    if (letter('Y', true)) model.redo();
     return;
   }
+  constexpr int kF1 = 290, kF12 = 301;  // GLFW's codes
+  if (ImGui::IsKeyPressed(kF1, false)) menu.sheet = !menu.sheet;
+  if (ImGui::IsKeyPressed(kF12, false)) model.ask_for_screenshot();
+  constexpr std::array kViewKeys{std::pair('1', StandardView::front), std::pair('2', StandardView::back), std::pair('3', StandardView::left),
+                                 std::pair('4', StandardView::right), std::pair('5', StandardView::top), std::pair('6', StandardView::bottom),
+                                 std::pair('0', StandardView::corner)};
+  for (const auto& [key, view] : kViewKeys) {
+    if (letter(key)) model.look_from_standard(view);
+  }
+  if (letter('U')) model.set_y_up(!model.view().camera.y_up);
+  if (letter('W')) model.look_at_worst();
+  if (letter('I')) io.KeyShift ? model.show_all() : model.isolate_marked();
   const int by = io.KeyShift ? 10 : 1;
   if (named(ImGuiKey_Space)) model.set_paused(!model.paused());
   if (named(ImGuiKey_LeftArrow, true)) model.step_tick(-by);
@@ -24,9 +44,16 @@ void handle_shortcuts(AppModel& model, MenuBar& menu) {
   if (letter('.', true)) model.step_iteration(1);
   if (named(ImGuiKey_Home)) model.select_tick(model.first_tick());
   if (named(ImGuiKey_End)) model.go_live();
+  if (letter('B')) model.toggle_ab();
+  if (letter('K')) model.add_bookmark();
+  if (letter('[', true)) model.go_to_bookmark(-1);
+  if (letter(']', true)) model.go_to_bookmark(1);
   if (letter('F')) model.frame_scene();
   if (letter('M')) model.set_hand_follows_mouse(!model.view().hand_follows_mouse);
-  if (named(ImGuiKey_Escape) && !menu.path.open && !model.stopped()) model.toggle_stop();
+  if (named(ImGuiKey_Escape) && !menu.path.open && !menu.palette.open) {
+    if (menu.sheet) menu.sheet = false;
+    else if (!model.stopped()) model.toggle_stop();
+  }
 }
 
 }  // namespace tangent

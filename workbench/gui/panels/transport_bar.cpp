@@ -38,6 +38,13 @@ void draw_strip(const UiContext& ui, AppModel& model, float width) {
     draw.AddRectFilled({at.x + bar.x, at.y + height - ui.px(2) - share * (height - ui.px(4))}, {at.x + bar.x + 1.0f, at.y + height - ui.px(2)},
                        packed(with_alpha(ui.palette.iterations, 0.55f)));
   }
+  for (const Bookmark& mark : model.bookmarks().all()) {
+    if (static_cast<double>(mark.last_tick) < first) continue;
+    const float x0 = std::floor(x_of(static_cast<double>(mark.tick))), x1 = std::max(x0 + ui.px(2), x_of(static_cast<double>(mark.last_tick)));
+    const float deep = mark.kind == BookmarkKind::user ? height : ui.px(5);
+    draw.AddRectFilled({x0, at.y}, {x1, at.y + ui.px(3)}, bookmark_ink(ui, mark.kind));
+    draw.AddRectFilled({x0, at.y}, {x0 + ui.px(1.5f), at.y + deep}, bookmark_ink(ui, mark.kind));
+  }
   draw.AddRectFilled({x_of(model.axis().from()), at.y}, {x_of(model.axis().to()), at.y + height}, ui.colours.accent_soft, ui.px(2));
   if (const ServoRecord* record = model.tick().record()) {
     const float x = x_of(static_cast<double>(record->tick.tick));
@@ -86,6 +93,13 @@ void draw_transport_bar(const UiContext& ui, AppModel& model, const Rect& rect) 
   ImGui::SetCursorPosX(which_x + 6.0f * ImGui::CalcTextSize("0").x);
   ImGui::PopFont();
   if (icon_button(ui, "transport/iteration_on", Icon::next, "One iteration on (full stop)", false, any)) model.step_iteration(1);
+
+  ImGui::SameLine(0, ui.px(14));
+  if (icon_button(ui, "transport/bookmark_back", Icon::bookmark_back, "The bookmark before ([)", false, any)) model.go_to_bookmark(-1);
+  ImGui::SameLine(0, ui.px(3));
+  if (icon_button(ui, "transport/bookmark", Icon::bookmark, "A bookmark on the tick in view (K)", false, any)) model.add_bookmark();
+  ImGui::SameLine(0, ui.px(3));
+  if (icon_button(ui, "transport/bookmark_on", Icon::bookmark_on, "The next bookmark (])", false, any)) model.go_to_bookmark(1);
 
   ImGui::SameLine(0, ui.px(14));
   ImGui::AlignTextToFramePadding();

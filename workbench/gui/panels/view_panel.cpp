@@ -31,7 +31,8 @@ constexpr std::array kLayers{
     LayerToggle{"Force", &SceneToggles::force, "The rendered force"},
     LayerToggle{"Display", &SceneToggles::cld_inset, "The fingerpad from the side, with the roller where it is"}};
 
-void draw_layer_toggles(const UiContext& ui, AppModel& model, const Rect& rect) {
+/// Returns where they end below.
+float draw_layer_toggles(const UiContext& ui, AppModel& model, const Rect& rect) {
   ImGui::PushFont(ui.fonts.small);
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(ui.px(3), ui.px(3)));
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(ui.px(6), ui.px(2)));
@@ -46,8 +47,10 @@ void draw_layer_toggles(const UiContext& ui, AppModel& model, const Rect& rect) 
     toggle_button(ui, std::string("view/") + layer.name, layer.name, model.view().toggles.*layer.on, layer.doc);
     x += w + ui.px(3);
   }
+  const float below = y + ImGui::GetFrameHeight();
   ImGui::PopStyleVar(2);
   ImGui::PopFont();
+  return below;
 }
 
 SceneFrame scene_frame(const AppModel& model) {
@@ -61,6 +64,11 @@ SceneFrame scene_frame(const AppModel& model) {
   frame.display_travel_m = preset.display.travel_m;
   frame.picked_triangle = view.picked_triangle;
   frame.hovered_triangle = view.hovered_triangle;
+  frame.marked_triangles = model.inspection().marked;
+  frame.net_of_picked = view.net_of_picked;
+  frame.map = model.map().paint();
+  frame.slice = view.slice;
+  frame.isolation = view.isolation;
   if (const ServoRecord* record = model.tick().record()) {
     frame.tick = record->tick;
     frame.trace = model.tick().iterations();
@@ -80,10 +88,15 @@ Vec3 finger_centre(const AppModel& model, const Vec3& point, const Vec3& normal)
   return point + normal * (model.presets().current().finger.reach_m() - depth);
 }
 
+NearestTriangles::RayHit pick(const AppModel& model, const Vec2& pixel, int w, int h) {
+  const ViewState& view = model.view();
+  return pick_triangle(*model.scene(), view.camera, pixel, w, h, view.slice, view.isolation.get());
+}
+
 void lead_hand(AppModel& model, ViewPanel& state, const Vec2& pixel, int w, int h) {
   const ContactMesh& mesh = model.scene()->mesh();
   const Ray ray = model.view().camera.ray_through(pixel, w, h);
-  const auto hit = pick_triangle(*model.scene(), model.view().camera, pixel, w, h);
+  const auto hit = pick(model, pixel, w, h);
   if (hit) {
     const Vec3 point = ray.origin + ray.direction * hit.distance_m;
     Vec3 normal = (1.0 - hit.u - hit.v) * mesh.normal(hit.triangle, 0) + hit.u * mesh.normal(hit.triangle, 1) + hit.v * mesh.normal(hit.triangle, 2);
@@ -123,6 +136,24 @@ void orbit_pan_zoom(const UiContext& ui, Camera& camera, const Rect& rect, bool 
   }
 }
 
+/// The plane whose touching point is under the pointer: the later of two that are equally near.
+std::optional<std::size_t> plane_under(const UiContext& ui, const AppModel& model, const Vec2& pixel, int w, int h) {
+  std::optional<std::size_t> found;
+  if (!model.view().toggles.planes) return found;
+  double nearest = static_cast<double>(ui.px(9));
+  const auto iterations = model.tick().iterations();
+  for (std::size_t i = 0; i < iterations.size(); ++i) {
+    if (iterations[i].feature == Feature::none) continue;
+    const Vec3 p = model.view().camera.project(iterations[i].point, w, h);
+    if (p.z < 0.0 || p.z > 1.0) continue;
+    const double d = glm::length(Vec2(p) - pixel);
+    if (d > nearest) continue;
+    nearest = d;
+    found = i;
+  }
+  return found;
+}
+
 void interact(const UiContext& ui, AppModel& model, ViewPanel& state, const Rect& rect) {
   const ImGuiIO& io = ImGui::GetIO();
   ViewState& view = model.view();
@@ -136,8 +167,20 @@ void interact(const UiContext& ui, AppModel& model, ViewPanel& state, const Rect
   if (leading && ImGui::IsItemActive() && ImGui::IsMouseDown(ImGuiMouseButton_Left)) {
     lead_hand(model, state, pixel, w, h);
   } else if (ImGui::IsItemDeactivated() && ImGui::IsMouseReleased(ImGuiMouseButton_Left) && !dragged && !leading) {
-    const auto hit = pick_triangle(*model.scene(), view.camera, pixel, w, h);
-    view.picked_triangle = hit.triangle == view.picked_triangle ? kNone : hit.triangle;
+    // Where time stands still, a plane's point selects its row; anywhere else a click picks the triangle.
+    if (const auto plane = model.paused() ? plane_under(ui, model, pixel, w, h) : std::nullopt) {
+      model.tick().select(model.tick().selected() == plane ? std::nullopt : plane);
+    } else {
+      const auto hit = pick(model, pixel, w, h);
+      view.picked_triangle = hit.triangle == view.picked_triangle ? kNone : hit.triangle;
+    }
+  }
+  // What lies under the pointer is asked for only where it is shown.
+  const bool resting = ImGui::IsItemHovered() && !ImGui::IsAnyMouseDown();
+  if (!resting || !model.map().on) return;
+  if (const auto hit = pick(model, pixel, w, h)) {
+    view.hovered_triangle = hit.triangle;
+    draw_map_hover(ui, model, hit.triangle, hit.u, hit.v);
   }
 }
 
@@ -178,9 +221,14 @@ void draw_view_panel(const UiContext& ui, AppModel& model, ViewPanel& state, Sce
   ImGui::InvisibleButton("##scene", {rect.w, rect.h}, ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight | ImGuiButtonFlags_MouseButtonMiddle);
   ImGui::SetItemAllowOverlap();
   ui.items.note_last("view");
-  interact(ui, model, state, rect);
-  if (renderer != nullptr) draw_picture(ui, model, state, *renderer, rect);
-  draw_layer_toggles(ui, model, rect);
+  if (model.scene() != nullptr && model.scene()->planar() != nullptr) {
+    draw_planar_view(ui, model, state.planar, rect);
+  } else {
+    interact(ui, model, state, rect);
+    if (renderer != nullptr) draw_picture(ui, model, state, *renderer, rect);
+    const float below_toggles = draw_layer_toggles(ui, model, rect);
+    draw_map_bar(ui, model, rect, below_toggles + ui.px(8));
+  }
   if (model.loading()) {
     const std::string text = "Loading " + model.loading_name();
     const ImVec2 size = ImGui::CalcTextSize(text.c_str());

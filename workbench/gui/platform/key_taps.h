@@ -1,5 +1,6 @@
 // Keys that go down and up between two frames. ImGui 1.86 has no event queue: it looks at which keys are down when a
-// frame begins, so a quick tap during a slow frame would be lost. Here such a key stays down for the one frame.
+// frame begins, so a quick tap during a slow frame would be lost. Here such a key stays down for the one frame, and the next tap
+// of the same key waits until it was seen up.
 #pragma once
 
 #include <imgui.h>
@@ -18,6 +19,7 @@ class KeyTaps {
   void pressed(int key, KeyModifiers with) { pressed_.push_back({key, with}); }
   /// Before ImGui::NewFrame, after the back end wrote `io`. `down`: the modifiers that are down now.
   void apply(ImGuiIO& io, KeyModifiers down);
+  bool waiting() const { return !pressed_.empty(); }  ///< a tap is left for the next frame
 
  private:
   struct Tap {

@@ -2,6 +2,8 @@
 
 #include "workbench/gui/app_model.h"
 #include "workbench/gui/platform/key_taps.h"
+#include "workbench/gui/platform/save_picture.h"
+#include "workbench/gui/render/image.h"
 #include "workbench/gui/render/scene_renderer.h"
 
 #include <epoxy/gl.h>
@@ -123,6 +125,14 @@ void draw_frame(GLFWwindow* window, App& app, const FrameInput& input, KeyTaps& 
   glClearColor(0.0f, 0.0f, 0.0f, 1.0f);
   glClear(GL_COLOR_BUFFER_BIT);
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+  if (const auto file = app.take_screenshot_request()) {
+    const Status written = write_png(read_pixels(0, width_px, height_px), *file);
+    if (written) app.model().say(Severity::note, "screenshot written to " + file->string());
+    else app.model().say(Severity::error, written.error().message());
+  }
+  if (const auto request = app.model().take_picture_request()) {
+    save_picture(app.model(), *request, read_pixels(0, width_px, height_px), static_cast<double>(ImGui::GetIO().DisplayFramebufferScale.x));
+  }
   glfwSwapBuffers(window);
 }
 
@@ -158,7 +168,7 @@ class FrameLoop {
  private:
   void wait_for_work(double last_frame_s) {
     const bool hidden = glfwGetWindowAttrib(window_, GLFW_ICONIFIED) == GLFW_TRUE;
-    const bool lively = !hidden && (app_.wants_frames() || renderer_.refining() || settling_ > 0);
+    const bool lively = !hidden && (app_.wants_frames() || renderer_.refining() || taps_.waiting() || settling_ > 0);
     const double due = last_frame_s + (lively ? kFrameInterval : kIdleInterval);
     if (settling_ > 0) --settling_;
     glfwPollEvents();

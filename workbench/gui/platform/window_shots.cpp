@@ -1,13 +1,19 @@
 #include "workbench/gui/platform/window_shots.h"
 
+#include "core/planar/polygon_io.h"
 #include "workbench/gui/app.h"
 #include "workbench/gui/app_model.h"
+#include "workbench/gui/panels/panels.h"
 #include "workbench/gui/platform/offscreen.h"
 #include "workbench/gui/render/scene_renderer.h"
 #include "workbench/session/preset_schema.h"
 
+#include <imgui.h>
+
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <string_view>
 
 namespace tangent {
 namespace {
@@ -24,6 +30,10 @@ struct WindowView {
   Theme theme;
   void (*arrange)(AppModel& model);  ///< before the ticks
   void (*look)(AppModel& model);     ///< after them
+  int key = 0;                       ///< pressed at the end: GLFW's code
+  bool ctrl = false;                 ///< with it
+  PlotsMode plots = PlotsMode::time;
+  bool values = false;
 };
 
 /// The finger rests on top of the body, leaning to one side.
@@ -89,12 +99,172 @@ void enlarge_plots(AppModel& model) {
   model.sizes().show_right = false;
 }
 
+/// The right column has room for this section alone.
+void fold_but(AppModel& model, const char* section) {
+  for (const char* other :
+       {"Iterations", "Time machine", "Bookmarks", "Map", "Smoothness as felt", "Inspect", "Mesh", "Devices", "Messages"}) {
+    model.open_sections()[other] = std::string_view(other) == section;
+  }
+}
+
+/// The whole body, in the colours of a map.
+template <MapQuantity quantity>
+void show_map(AppModel& model) {
+  MapView& map = model.map();
+  map.set_quantity(quantity);
+  map.on = true;
+  fold_but(model, "Map");
+  SceneToggles& on = model.view().toggles;
+  on.smooth_surface = true;
+  on.shaded = on.finger = on.force = on.control_net = on.planes = on.penetration = false;
+}
+
+/// The same under the paper's method.
+template <MapQuantity quantity>
+void show_paper_map(AppModel& model) {
+  model.set_value(*find_preset_key("solver", "method"), static_cast<double>(Method::paper));
+  show_map<quantity>(model);
+}
+
+void tune_paper(AppModel& model) {
+  model.set_value(*find_preset_key("solver", "method"), static_cast<double>(Method::paper));
+  model.sizes().plots = 240.0f;
+}
+
+/// Paused, and the gain brought down: what was recorded, and what it would have been.
+void drag_gain_of_the_past(AppModel& model) {
+  look_from_contact_side(model);
+  model.set_paused(true);
+  const std::uint64_t end = model.end_tick();
+  model.select_tick(end > 2600 ? end - 2600 : 0);
+  model.add_bookmark();
+  model.bookmarks().set_note(model.bookmarks().all().front().id, "over the inner side");
+  model.axis().show(static_cast<double>(end) - 4000.0, static_cast<double>(end));
+  model.set_value(*find_preset_key("solver", "gain_curvature_m"), 9e-3);
+}
+
+/// A body with a hole, cut open, with the defects listed and the first one shown.
+void inspect(AppModel& model) {
+  SceneToggles& on = model.view().toggles;
+  on.finger = on.force = on.control_net = on.planes = on.penetration = on.cld_inset = false;
+  on.vertex_normals = true;
+  fold_but(model, "Inspect");
+}
+
+void look_at_first_finding(AppModel& model) {
+  if (model.findings() == nullptr) return;
+  for (std::size_t k = 0; k < kFindingKindCount; ++k) {
+    const auto kind = static_cast<FindingKind>(k);
+    if (model.findings()->of(kind).empty()) continue;
+    model.show_finding(kind, 0);
+    model.isolate_part();
+    return;
+  }
+}
+
+/// A under the paper's method with a small gain, B as loaded: what differs, and the advice.
+void tune_and_compare(AppModel& model) {
+  for (const char* folded : {"Finger", "Force", "Display", "Safety", "Presets"}) model.open_sections()[folded] = false;
+  model.toggle_favourite(*find_preset_key("solver", "gain_curvature_m"));
+  model.set_value(*find_preset_key("solver", "method"), static_cast<double>(Method::paper));
+  model.set_value(*find_preset_key("solver", "gain_curvature_m"), 6e-3);
+  model.set_value(*find_preset_key("solver", "tolerance_m"), 2e-6);
+  model.sizes().show_plots = false;
+}
+
+/// Half of the body, seen from the cut.
+void slice_open(AppModel& model) {
+  look_from_contact_side(model);
+  const Camera& camera = model.view().camera;
+  model.view().slice = SlicePlane{-camera.forward(), glm::dot(-camera.forward(), camera.target)};
+}
+
+/// Paused near the end.
+void inspect_plots(AppModel& model) {
+  look_from_contact_side(model);
+  model.select_tick(model.end_tick() - 900);
+}
+
+/// A 2D scene of its own where no polygon is given: an outline with a corner.
+void open_outline(AppModel& model) {
+  if (model.scene() != nullptr && model.scene()->planar() != nullptr) return;
+  PlanarPolygon outline{"outline.csv", {}, true};
+  for (const Vec2& v : {Vec2{-0.060, -0.030}, {0.055, -0.034}, {0.055, -0.034}, {0.048, 0.018}, {0.022, 0.004}, {-0.004, 0.012}, {-0.018, 0.040}, {-0.050, 0.034}})
+    outline.vertices.push_back(v);
+  std::error_code failed;
+  const auto path = std::filesystem::temp_directory_path(failed) / "tangent-outline.csv";
+  if (write_polygon(outline, path)) model.open_mesh(path.string());
+  model.set_value(*find_preset_key("finger", "radius_m"), 0.008);
+  model.set_value(*find_preset_key("solver", "method"), static_cast<double>(Method::paper));
+  model.sizes().show_left = false;
+  model.sizes().plots = 150.0f;
+}
+
+/// Paused where the tangent lines can be told apart.
+void look_at_busiest_planar_tick(AppModel& model) {
+  const std::uint64_t end = model.end_tick();
+  std::uint64_t busiest = end > 0 ? end - 1 : 0;
+  double widest = 0.0;
+  for (std::uint64_t tick = end > 6000 ? end - 6000 : 0; tick < end; ++tick) {
+    model.select_tick(tick);
+    const auto trace = model.tick().iterations();
+    if (trace.size() < 3) continue;
+    const double spread = glm::length(trace.front().point - trace.back().point);
+    if (spread > widest) widest = spread, busiest = tick;
+  }
+  model.select_tick(busiest);
+}
+
+void show_facet_angles(AppModel& model) {
+  show_map<MapQuantity::facet_angle>(model);
+  model.set_condition(*find_condition("C2"));
+  model.map().set_range(0.0, 2.0 * 3.4 * kDegree);
+}
+
+/// Armed, disturbed, stopped by the gate.
+void disturb_devices(AppModel& model) {
+  model.view().device_monitor = true;
+  Session& session = *model.session();
+  session.inject({InjectedFault::delay_burst, 100}, false);
+  model.advance(400);
+  session.arm();
+  model.advance(1500);
+  for (std::size_t i = 0; i < model.messages().all().size(); ++i) model.messages().dismiss(i);
+}
+
 constexpr WindowView kViews[] = {
     {"overview", "the whole window after 12 s of simulated exploration", Theme::dark, show_surface, look_from_contact_side},
     {"light", "the same in the light theme", Theme::light, show_surface, look_from_contact_side},
     {"iterations", "the window paused on the tick with the most iterations of the paper's method", Theme::dark,
      solve_with_paper, look_at_busiest_tick},
+    {"map-iterations", "map: planes that the paper's iteration takes, worst of the moves", Theme::dark,
+     show_paper_map<MapQuantity::iterations_worst>, look_from_contact_side},
+    {"map-failures", "map: share of the moves on which the paper's iteration fails", Theme::dark,
+     show_paper_map<MapQuantity::failures>, look_from_contact_side},
+    {"map-error", "map: error of the paper's iteration against the converged answer", Theme::dark,
+     show_paper_map<MapQuantity::error>, look_from_contact_side},
+    {"map-curvature", "map: curvature", Theme::light, show_map<MapQuantity::curvature>, look_from_contact_side},
+    {"map-touch-radius", "map: largest ball that touches once, over the finger's radius", Theme::dark,
+     show_map<MapQuantity::touch_radius>, look_from_contact_side},
+    {"map-normals", "map: interpolated normal against the true one", Theme::dark,
+     show_map<MapQuantity::normal_deviation>, look_from_contact_side},
+    {"map-facet-angle", "heat map of the facets' angles, with the verdict on how smooth it feels", Theme::dark, show_facet_angles, look_from_contact_side},
+    {"planar", "a 2D scene: polygon, smooth curve, patches, and the tangent lines of a tick", Theme::dark, open_outline, look_at_busiest_planar_tick},
+    {"map-gain-margin", "map: stability margin of the paper's iteration with the present gains", Theme::dark,
+     show_paper_map<MapQuantity::gain_margin>, look_from_contact_side},
+    {"time-machine", "the past solved again with a smaller gain, drawn beside what was recorded", Theme::dark, tune_paper,
+     drag_gain_of_the_past},
+    {"inspect", "mesh inspection: a defect found, marked and listed", Theme::dark, inspect, look_at_first_finding},
+    {"slice", "the body cut open", Theme::dark, inspect, slice_open},
+    {"parameters", "favourites, gain advice, and two presets side by side", Theme::dark, tune_and_compare, look_from_contact_side},
+    {"palette", "the command palette", Theme::dark, show_surface, look_from_contact_side, 'P', true},
+    {"shortcuts", "the sheet of shortcuts", Theme::dark, show_surface, look_from_contact_side, 290},
+    {"monitor", "the device monitor after a delay burst, and re-armed", Theme::dark, show_surface, disturb_devices},
     {"plots", "the window with the plots enlarged", Theme::dark, enlarge_plots, look_from_contact_side},
+    {"plots-values", "the plots with their numbers beside them", Theme::dark, enlarge_plots, inspect_plots, 0, false, PlotsMode::time, true},
+    {"plots-xy", "force in x against force in z", Theme::dark, enlarge_plots, inspect_plots, 0, false, PlotsMode::xy},
+    {"plots-spectrum", "spectrum of the force", Theme::dark, enlarge_plots, inspect_plots, 0, false, PlotsMode::spectrum},
+    {"plots-histogram", "histogram of the force", Theme::light, enlarge_plots, inspect_plots, 0, false, PlotsMode::histogram},
 };
 
 /// Feeds the app frames of simulated time.
@@ -111,6 +281,14 @@ class FrameFeeder {
     input_.now_s += kFrame;
     if (app_.prepare(input_)) screen_.upload_fonts();
     screen_.frame([&] { app_.frame(input_); });
+  }
+  void press(int key, bool ctrl) {
+    ImGuiIO& io = ImGui::GetIO();
+    io.KeysDown[key] = true;
+    io.KeyCtrl = ctrl;
+    frame();
+    io.KeysDown[key] = io.KeyCtrl = false;
+    frame();
   }
 
  private:
@@ -154,6 +332,7 @@ Result<Image> take_window_shot(const ShotRequest& request) {
   FrameFeeder feeder(**screen, app, request);
   feeder.frame();
   view.arrange(app.model());
+  app.show_plots(view.plots, view.values);
   for (std::uint64_t done = 0; done < kTicks || (done < kMostTicks && !contact_in_view(app.model())); done += kTicksPerFrame) {
     app.advance(kTicksPerFrame);
     feeder.frame();  // without a renderer: only the plots and panels follow
@@ -162,6 +341,7 @@ Result<Image> take_window_shot(const ShotRequest& request) {
   app.set_renderer(&renderer);
   feeder.frame();
   renderer.wait_for_tessellation();
+  if (view.key != 0) feeder.press(view.key, view.ctrl);
   for (int i = 0; i < kSettlingFrames; ++i) feeder.frame();
   return (*screen)->picture();
 }

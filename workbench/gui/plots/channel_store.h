@@ -2,13 +2,15 @@
 //
 // A ring over tick numbers with a pyramid of block minima and maxima (blocks of 8, 64, 512 ... ticks), so
 // that a column of pixels costs a few dozen reads however many ticks lie under it, and a spike of one
-// sample shows at every zoom. Ticks that never came are gaps: NaN.
+// sample shows at every zoom. Sums and sums of squares ride along from blocks of 64 on, for means and RMS of any
+// range. Ticks that never came are gaps: NaN.
 #pragma once
 
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -30,6 +32,26 @@ struct MinMax {
   }
 };
 
+/// Of the samples that are there. RMS is about zero.
+struct SampleSums {
+  double sum = 0.0, squares = 0.0;
+  std::uint64_t count = 0;
+  void include(float v) {
+    if (std::isnan(v)) return;
+    const double x = static_cast<double>(v);
+    sum += x;
+    squares += x * x;
+    ++count;
+  }
+  void include(const SampleSums& other) {
+    sum += other.sum;
+    squares += other.squares;
+    count += other.count;
+  }
+  double mean() const { return count > 0 ? sum / static_cast<double>(count) : std::nan(""); }
+  double rms() const { return count > 0 ? std::sqrt(squares / static_cast<double>(count)) : std::nan(""); }
+};
+
 class ChannelStore {
  public:
   /// `capacity` ticks are kept, rounded up to a power of two, the largest block's at least. Precondition:
@@ -44,6 +66,9 @@ class ChannelStore {
   /// one (another recording) starts the store anew. Precondition: values.size() == channels().
   void push(std::uint64_t tick, std::span<const float> values);
   void clear();
+  /// Replaces everything by `rows` (a row of channels() values a tick, NaN for gaps) from tick `first` on, many times
+  /// faster than pushing them. More than capacity(): the newest are kept.
+  void assign(std::uint64_t first, std::span<const float> rows);
 
   bool empty() const { return first_ == end_; }
   std::uint64_t first_tick() const { return first_; }  ///< oldest kept
@@ -53,18 +78,32 @@ class ChannelStore {
   float value(std::size_t channel, std::uint64_t tick) const;
   /// Over from <= tick < to, cut to what is kept.
   MinMax min_max(std::size_t channel, std::uint64_t from, std::uint64_t to) const;
+  SampleSums sums(std::size_t channel, std::uint64_t from, std::uint64_t to) const;
 
  private:
   static constexpr std::size_t kShift = 3;  ///< each level's block is 2^kShift blocks of the level below
   static constexpr std::size_t kLevels = 6;
+  static constexpr std::size_t kFirstSumLevel = 2;
 
   void put(std::uint64_t tick, std::span<const float> values);
+  void assign_channel(std::size_t channel, std::uint64_t first, std::span<const float> rows);
   std::size_t slot(std::uint64_t tick) const { return static_cast<std::size_t>(tick) & (capacity_ - 1); }
+  MinMax& block(std::size_t level, std::size_t channel, std::uint64_t tick) {
+    const std::size_t shift = kShift * level;
+    return levels_[level - 1][channel * (capacity_ >> shift) + (slot(tick) >> shift)];
+  }
+  SampleSums& sum_block(std::size_t level, std::size_t channel, std::uint64_t tick) {
+    const std::size_t shift = kShift * level;
+    return sums_[level - kFirstSumLevel][channel * (capacity_ >> shift) + (slot(tick) >> shift)];
+  }
+  /// The largest level whose block starts at `tick` and ends within `end`; 0: none.
+  static std::size_t level_at(std::uint64_t tick, std::uint64_t end);
 
   std::size_t channels_ = 0, capacity_ = 0;
   std::uint64_t first_ = 0, end_ = 0;
-  std::vector<float> samples_;                ///< [channel][slot]
-  std::vector<std::vector<MinMax>> levels_;   ///< [level][channel][block]
+  std::unique_ptr<float[]> samples_;             ///< [channel][slot]; memory is touched as it fills
+  std::vector<std::vector<MinMax>> levels_;      ///< [level - 1][channel][block]
+  std::vector<std::vector<SampleSums>> sums_;    ///< [level - kFirstSumLevel][channel][block]
   std::vector<float> gap_;
 };
 

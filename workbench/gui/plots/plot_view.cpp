@@ -8,28 +8,9 @@
 
 namespace tangent {
 
-/// The plot's rectangle and its inner one, screen coordinates.
-struct PlotView::Area {
-  ImVec2 pos, size;       ///< everything
-  ImVec2 min, max;        ///< where curves are
-  float gutter = 0.0f;    ///< left of it, value labels
-  float header = 0.0f;    ///< above it
-  float width() const { return max.x - min.x; }
-  float height() const { return max.y - min.y; }
-};
-
-namespace {
-
-void text_at(ImDrawList& draw, ImFont* font, ImVec2 at, ImU32 colour, const char* text) {
-  draw.AddText(font, font->FontSize, at, colour, text);
-}
-float text_width(ImFont* font, const char* text) { return font->CalcTextSizeA(font->FontSize, 1e9f, 0.0f, text).x; }
-
-}  // namespace
-
 void PlotView::draw(const UiContext& ui, const ChannelStore& store, TimeAxis& axis, PlotLink& link, ImVec2 pos,
                     ImVec2 size, bool time_labels, double reference) {
-  Area area;
+  PlotArea area;
   area.pos = pos;
   area.size = size;
   area.gutter = ui.px(46);
@@ -41,7 +22,8 @@ void PlotView::draw(const UiContext& ui, const ChannelStore& store, TimeAxis& ax
   ImGui::PushID(spec_.id.c_str());
   interact(ui, axis, link, area);
   interact_values(ui, area);
-  fit(store, axis, reference);
+  if (time_labels) interact_time_labels(ui, axis, area);
+  fit(store, axis, link, reference);
   draw_grid(ui, axis, link, area, time_labels);
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   draw.PushClipRect(area.min, area.max, true);
@@ -51,75 +33,28 @@ void PlotView::draw(const UiContext& ui, const ChannelStore& store, TimeAxis& ax
     draw_dashed_horizontal(draw, area.min.x, area.max.x, y, ui.px(5), ui.colours.text_faint, ui.px(1));
   }
   if (nothing_in_view_) {
-    const char* text = "no samples in view";
+    const char* text = spec_.nothing.c_str();
     ImFont* font = ui.fonts.small;
     text_at(draw, font, {area.min.x + 0.5f * (area.width() - text_width(font, text)), area.min.y + 0.5f * (area.height() - font->FontSize)},
             ui.colours.text_faint, text);
   }
-  draw_series(ui, store, axis, area);
+  draw_series(ui, store, axis, link, area);
+  const std::string* pointed = draw_marks(ui, link.marks, store, axis, area);
   draw.PopClipRect();
   draw_cursors(ui, axis, link, area, time_labels);
   draw_header(ui, store, link, area);
+  if (pointed != nullptr && !ImGui::IsMouseDown(ImGuiMouseButton_Left)) ImGui::SetTooltip("%s", pointed->c_str());
   ImGui::PopID();
 }
 
-void PlotView::interact(const UiContext& ui, TimeAxis& axis, PlotLink& link, const Area& area) {
-  const ImGuiIO& io = ImGui::GetIO();
-  ImGui::SetCursorScreenPos(area.min);
-  ImGui::InvisibleButton("area", {area.width(), area.height()},
-                         ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight);
-  ui.items.note_last("plots/" + spec_.id);
-  const double under = axis.tick_at(static_cast<double>(io.MousePos.x), static_cast<double>(area.min.x),
-                                    static_cast<double>(area.width()));
-  if (ImGui::IsItemHovered()) {
-    link.hover_next = under;
-    if (io.MouseWheel != 0.0f) {
-      axis.zoom(std::pow(0.8, static_cast<double>(io.MouseWheel)), under);
-      // The wheel is spent: the panel below must not scroll as well.
-      ImGui::GetIO().MouseWheel = 0.0f;
-    }
-    if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) axis.show_all();
-  }
-  if (ImGui::IsItemActivated()) dragged_ = false;
-  if (ImGui::IsItemActive() && ImGui::IsMouseDown(ImGuiMouseButton_Left)) {
-    if (ImGui::IsMouseDragging(ImGuiMouseButton_Left, ui.px(4))) dragged_ = true;
-    if (dragged_ && io.MouseDelta.x != 0.0f) {
-      axis.pan(-static_cast<double>(io.MouseDelta.x / area.width()) * axis.span());
-    }
-  }
-  if (ImGui::IsItemDeactivated() && !dragged_ && ImGui::IsMouseReleased(ImGuiMouseButton_Left) &&
-      !ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left) && under >= 0.0) {
-    link.clicked = static_cast<std::uint64_t>(under + 0.5);
-  }
-  if (ImGui::IsItemHovered() && ImGui::IsMouseClicked(ImGuiMouseButton_Right)) box_from_ = under;
-  if (box_from_ && !ImGui::IsMouseDown(ImGuiMouseButton_Right)) {
-    if (std::abs(under - *box_from_) / axis.span() > 0.01) {
-      axis.show(std::min(under, *box_from_), std::max(under, *box_from_));
-    }
-    box_from_.reset();
-  }
-}
-
-void PlotView::interact_values(const UiContext& ui, const Area& area) {
-  ImGui::SetCursorScreenPos({area.pos.x, area.min.y});
-  ImGui::InvisibleButton("values", {area.gutter - ui.px(2), area.height()});
-  ui.items.note_last("plots/" + spec_.id + "/values");
-  if (!ImGui::IsItemHovered()) return;
-  const ImGuiIO& io = ImGui::GetIO();
-  if (io.MouseWheel != 0.0f) {
-    const double share = static_cast<double>((area.max.y - io.MousePos.y) / area.height());
-    values_.zoom(std::pow(0.8, static_cast<double>(io.MouseWheel)), values_.value_at(share, spec_.log), spec_.log);
-    ImGui::GetIO().MouseWheel = 0.0f;
-  }
-  if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) values_.set_automatic();
-}
-
-void PlotView::fit(const ChannelStore& store, const TimeAxis& axis, double reference) {
+void PlotView::fit(const ChannelStore& store, const TimeAxis& axis, const PlotLink& link, double reference) {
   MinMax visible;
   const auto from = static_cast<std::uint64_t>(std::max(0.0, std::floor(axis.from())));
   const auto to = static_cast<std::uint64_t>(std::max(0.0, std::ceil(axis.to())));
   for (const PlotSeries& series : spec_.series) {
-    if (series.visible) visible.include(store.min_max(series.channel, from, to));
+    if (!series.visible) continue;
+    visible.include(store.min_max(series.channel, from, to));
+    if (link.ghost != nullptr && series.ghost) visible.include(link.ghost->min_max(*series.ghost, from, to));
   }
   nothing_in_view_ = visible.empty();
   if (visible.empty()) return;
@@ -130,7 +65,7 @@ void PlotView::fit(const ChannelStore& store, const TimeAxis& axis, double refer
   if (spec_.log) values_.fit_log(visible, spec_.floor); else values_.fit_linear(visible, spec_.with_zero);
 }
 
-void PlotView::draw_grid(const UiContext& ui, const TimeAxis& axis, const PlotLink& link, const Area& area,
+void PlotView::draw_grid(const UiContext& ui, const TimeAxis& axis, const PlotLink& link, const PlotArea& area,
                          bool time_labels) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   draw.AddRectFilled(area.min, area.max, ui.colours.plot);
@@ -169,29 +104,36 @@ void PlotView::draw_grid(const UiContext& ui, const TimeAxis& axis, const PlotLi
   }
 }
 
-void PlotView::draw_series(const UiContext& ui, const ChannelStore& store, const TimeAxis& axis, const Area& area) {
+void PlotView::draw_curve(const UiContext& ui, const ChannelStore& store, std::size_t channel, const TimeAxis& axis, const PlotArea& area,
+                          ImU32 ink, bool steps) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const CurveArea where{area.min, area.max};
   const auto to_y = [&](float value) {
     const double share = values_.share(static_cast<double>(value) * spec_.scale, spec_.log);
     return area.max.y - static_cast<float>(std::clamp(share, -1.0, 2.0)) * area.height();
   };
-  const bool dense = axis.span() / static_cast<double>(area.width()) >= kTicksPerColumnForBars;
+  if (axis.span() / static_cast<double>(area.width()) >= kTicksPerColumnForBars) {
+    column_bars(store, channel, axis, area.width(), bars_);
+    draw_bars(draw, where, bars_, to_y, ink, ui.px(1.5f));
+    return;
+  }
+  sample_points(store, channel, axis, area.width(), points_);
+  const bool dots = static_cast<double>(area.width()) / axis.span() > static_cast<double>(ui.px(7));
+  draw_samples(draw, where, points_, line_, to_y, ink, ui.px(1.5f), steps, dots ? ui.px(2.2f) : 0.0f);
+}
+
+void PlotView::draw_series(const UiContext& ui, const ChannelStore& store, const TimeAxis& axis, const PlotLink& link, const PlotArea& area) {
+  // Ghosts first: where nothing changed they are hidden by what was recorded.
   for (const PlotSeries& series : spec_.series) {
-    if (!series.visible) continue;
-    const ImU32 ink = packed(ui.palette.*series.colour);
-    if (dense) {
-      column_bars(store, series.channel, axis, area.width(), bars_);
-      draw_bars(draw, where, bars_, to_y, ink, ui.px(1.5f));
-    } else {
-      sample_points(store, series.channel, axis, area.width(), points_);
-      const bool dots = static_cast<double>(area.width()) / axis.span() > static_cast<double>(ui.px(7));
-      draw_samples(draw, where, points_, line_, to_y, ink, ui.px(1.5f), series.steps, dots ? ui.px(2.2f) : 0.0f);
-    }
+    if (!series.visible || link.ghost == nullptr || !series.ghost) continue;
+    draw_curve(ui, *link.ghost, *series.ghost, axis, area, packed(mix(ui.palette.*series.colour, ui.palette.text, 0.65f)), series.steps);
+  }
+  for (const PlotSeries& series : spec_.series) {
+    if (series.visible) draw_curve(ui, store, series.channel, axis, area, packed(ui.palette.*series.colour), series.steps);
   }
 }
 
-void PlotView::draw_cursors(const UiContext& ui, const TimeAxis& axis, const PlotLink& link, const Area& area,
+void PlotView::draw_cursors(const UiContext& ui, const TimeAxis& axis, const PlotLink& link, const PlotArea& area,
                             bool time_labels) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const double left = static_cast<double>(area.min.x), width = static_cast<double>(area.width());
@@ -211,13 +153,26 @@ void PlotView::draw_cursors(const UiContext& ui, const TimeAxis& axis, const Plo
   if (box_from_) {
     const float x0 = static_cast<float>(axis.x_at(*box_from_, left, width));
     const float x1 = std::clamp(ImGui::GetIO().MousePos.x, area.min.x, area.max.x);
-    draw.AddRectFilled({std::min(x0, x1), area.min.y}, {std::max(x0, x1), area.max.y}, ui.colours.accent_soft);
+    const float y = std::clamp(ImGui::GetIO().MousePos.y, area.min.y, area.max.y);
+    const bool high = std::abs(y - box_y_) > ui.px(kHighBox);
+    draw.AddRectFilled({std::min(x0, x1), high ? std::min(y, box_y_) : area.min.y}, {std::max(x0, x1), high ? std::max(y, box_y_) : area.max.y},
+                       ui.colours.accent_soft);
   }
+  const auto lettered = [&](const std::optional<std::uint64_t>& tick, const char* letter) {
+    if (!tick || static_cast<double>(*tick) < axis.from() || static_cast<double>(*tick) > axis.to()) return;
+    const float x = std::round(static_cast<float>(axis.x_at(static_cast<double>(*tick), left, width)));
+    draw.AddLine({x, area.min.y}, {x, area.max.y}, ui.colours.text, ui.px(1));
+    const float w = text_width(ui.fonts.small, letter) + ui.px(6);
+    draw.AddRectFilled({x, area.max.y - ui.px(15)}, {x + w, area.max.y}, ui.colours.text, ui.px(2));
+    text_at(draw, ui.fonts.small, {x + ui.px(3), area.max.y - ui.px(14)}, ui.colours.plot, letter);
+  };
+  lettered(link.a, "A");
+  lettered(link.b, "B");
   if (link.cursor) line_at(static_cast<double>(*link.cursor), ui.colours.accent, true);
   if (link.hover) line_at(*link.hover, ui.colours.text_faint, true);
 }
 
-void PlotView::draw_header(const UiContext& ui, const ChannelStore& store, const PlotLink& link, const Area& area) {
+void PlotView::draw_header(const UiContext& ui, const ChannelStore& store, const PlotLink& link, const PlotArea& area) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const float y = area.pos.y + ui.px(2);
   const float right = area.max.x;

@@ -1,11 +1,14 @@
-// One plot of some channels against the shared time axis. Wheel zooms time about the pointer, dragging
-// pans, right-dragging boxes a time range, double-click shows all; over the value labels the wheel zooms
-// the values and a double-click fits them again. A click reports the tick under the pointer.
+// One plot of some channels against the shared time axis. Wheel zooms time about the pointer, dragging pans,
+// right-dragging boxes a range of time, of values too when the box is high, double-click shows all. Over the value
+// labels the wheel zooms the values alone, dragging moves them and a double-click fits them again; over the time labels
+// wheel and drag do the same to time. A click reports the tick under the pointer; with Ctrl it sets cursor A, with Shift
+// cursor B.
 #pragma once
 
 #include "workbench/gui/plots/channel_store.h"
 #include "workbench/gui/plots/column_bars.h"
 #include "workbench/gui/plots/time_axis.h"
+#include "workbench/gui/plots/plot_marks.h"
 #include "workbench/gui/plots/value_axis.h"
 #include "workbench/gui/ui_context.h"
 
@@ -17,12 +20,16 @@
 
 namespace tangent {
 
+/// A box at least so high, points, is meant for the values as well as for time.
+inline constexpr float kHighBox = 14.0f;
+
 struct PlotSeries {
   std::string name;
   std::size_t channel = 0;
   Rgba Palette::*colour = nullptr;
   bool steps = false;     ///< holds its value until the next tick (counts)
   bool visible = true;
+  std::optional<std::size_t> ghost = std::nullopt;  ///< channel of PlotLink::ghost drawn beside it
 };
 
 struct PlotSpec {
@@ -35,6 +42,7 @@ struct PlotSpec {
   bool with_zero = true;
   double floor = 1e-6;    ///< of a log axis, displayed unit
   const char* format = "%8.3f";  ///< of the value under the cursor
+  std::string nothing = "no samples in view";  ///< said where there are none
   std::vector<PlotSeries> series;
 };
 
@@ -45,6 +53,9 @@ struct PlotLink {
   std::optional<double> hover;              ///< under the pointer, from the last frame
   std::optional<double> hover_next;         ///< found while drawing this frame
   std::optional<std::uint64_t> clicked;     ///< the user clicked this tick
+  std::optional<std::uint64_t> a, b;        ///< measuring cursors
+  const ChannelStore* ghost = nullptr;      ///< the same ticks solved again
+  PlotMarks marks;
 };
 
 class PlotView {
@@ -61,18 +72,22 @@ class PlotView {
             bool time_labels, double reference = std::numeric_limits<double>::quiet_NaN());
 
  private:
-  struct Area;
-  void draw_header(const UiContext& ui, const ChannelStore& store, const PlotLink& link, const Area& area);
-  void fit(const ChannelStore& store, const TimeAxis& axis, double reference);
-  void draw_grid(const UiContext& ui, const TimeAxis& axis, const PlotLink& link, const Area& area, bool time_labels);
-  void draw_series(const UiContext& ui, const ChannelStore& store, const TimeAxis& axis, const Area& area);
-  void draw_cursors(const UiContext& ui, const TimeAxis& axis, const PlotLink& link, const Area& area, bool time_labels);
-  void interact(const UiContext& ui, TimeAxis& axis, PlotLink& link, const Area& area);
-  void interact_values(const UiContext& ui, const Area& area);
+  void draw_header(const UiContext& ui, const ChannelStore& store, const PlotLink& link, const PlotArea& area);
+  void fit(const ChannelStore& store, const TimeAxis& axis, const PlotLink& link, double reference);
+  void draw_grid(const UiContext& ui, const TimeAxis& axis, const PlotLink& link, const PlotArea& area, bool time_labels);
+  void draw_series(const UiContext& ui, const ChannelStore& store, const TimeAxis& axis, const PlotLink& link, const PlotArea& area);
+  void draw_curve(const UiContext& ui, const ChannelStore& store, std::size_t channel, const TimeAxis& axis, const PlotArea& area,
+                  ImU32 ink, bool steps);
+  void draw_cursors(const UiContext& ui, const TimeAxis& axis, const PlotLink& link, const PlotArea& area, bool time_labels);
+  void interact(const UiContext& ui, TimeAxis& axis, PlotLink& link, const PlotArea& area);
+  void interact_box(const UiContext& ui, TimeAxis& axis, const PlotArea& area, double under);
+  void interact_values(const UiContext& ui, const PlotArea& area);
+  void interact_time_labels(const UiContext& ui, TimeAxis& axis, const PlotArea& area);
 
   PlotSpec spec_;
   ValueAxis values_;
-  std::optional<double> box_from_;  ///< right-drag began at this tick
+  std::optional<double> box_from_;  ///< right-drag began at this tick ...
+  float box_y_ = 0.0f;              ///< ... and at this height, screen
   bool dragged_ = false;
   bool nothing_in_view_ = true;
   std::vector<ColumnBar> bars_;

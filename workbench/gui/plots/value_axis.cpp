@@ -62,6 +62,26 @@ void ValueAxis::zoom(double factor, double about, bool log) {
   }
 }
 
+void ValueAxis::pan(double share, bool log) {
+  automatic_ = false;
+  if (log) {
+    const double factor = std::pow(high_ / low_, share);
+    low_ *= factor;
+    high_ *= factor;
+    return;
+  }
+  const double by = share * (high_ - low_);
+  low_ += by;
+  high_ += by;
+}
+
+void ValueAxis::show(double low, double high) {
+  if (!(high > low) || !std::isfinite(low) || !std::isfinite(high)) return;
+  automatic_ = false;
+  low_ = low;
+  high_ = high;
+}
+
 double ValueAxis::share(double value, bool log) const {
   if (!log) return (value - low_) / (high_ - low_);
   if (!(value > low_)) return 0.0;

@@ -18,6 +18,9 @@ class ValueAxis {
   void fit_log(const MinMax& visible, double floor);
   /// By hand, about a value; automatic fitting stops.
   void zoom(double factor, double about, bool log);
+  /// By hand: down by a share of the axis (negative: up), and a range.
+  void pan(double share, bool log);
+  void show(double low, double high);
   void set_automatic() { automatic_ = fresh_ = true; }
 
   /// 0 at the lower edge, 1 at the upper.

@@ -30,6 +30,14 @@ Vec3 Camera::up() const { return glm::cross(right(), forward()); }
 
 Vec3 Camera::eye() const { return target - distance_m * forward(); }
 
+void Camera::look_from(const Vec3& direction) {
+  if (!(glm::dot(direction, direction) > 0.0)) return;
+  const Vec3 d = unit(direction);
+  const Vec3 z_up = y_up ? Vec3(d.x, -d.z, d.y) : d;
+  if (std::hypot(z_up.x, z_up.y) > 1e-9) yaw_rad = std::atan2(z_up.x, -z_up.y);
+  pitch_rad = std::clamp(std::asin(std::clamp(z_up.z, -1.0, 1.0)), -kMaxPitch, kMaxPitch);
+}
+
 void Camera::orbit(double yaw_by_rad, double pitch_by_rad) {
   yaw_rad = std::remainder(yaw_rad + yaw_by_rad, 2.0 * std::numbers::pi);
   pitch_rad = std::clamp(pitch_rad + pitch_by_rad, -kMaxPitch, kMaxPitch);

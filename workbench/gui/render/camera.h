@@ -30,6 +30,8 @@ struct Camera {
   Vec3 right() const;
   Vec3 up() const;
 
+  /// Turns about the target so that the eye is in this direction from it (pitch limited); zero: no effect.
+  void look_from(const Vec3& direction);
   void orbit(double yaw_by_rad, double pitch_by_rad);
   /// Moves the target so that what lies at its depth follows the pointer. dy > 0: pointer went down.
   void pan(double dx_px, double dy_px, int height_px);

@@ -33,10 +33,12 @@ std::vector<std::uint32_t> cluster_of_vertices(const ContactMesh& mesh, double c
 
 template <class Visit>
 void for_each_kept(const ContactMesh& mesh, const std::vector<std::uint32_t>& cluster, Visit visit) {
+  std::uint32_t usable = 0;
   for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t) {
     if (!mesh.usable(t)) continue;
+    const std::uint32_t index = usable++;
     const std::uint32_t a = cluster[mesh.vertex(t, 0)], b = cluster[mesh.vertex(t, 1)], c = cluster[mesh.vertex(t, 2)];
-    if (a != b && b != c && c != a) visit(t, a, b, c);
+    if (a != b && b != c && c != a) visit(index, a, b, c);
   }
 }
 
@@ -72,8 +74,9 @@ SurfaceMesh clustered_mesh(const ContactMesh& mesh, double scale_m, std::size_t 
     out.vertices.push_back({{static_cast<float>(point.x), static_cast<float>(point.y), static_cast<float>(point.z)},
                             packed_normal(normal), {0, 0, 0, 0}});
   }
-  for_each_kept(mesh, cluster, [&](std::uint32_t, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+  for_each_kept(mesh, cluster, [&](std::uint32_t source, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
     out.indices.insert(out.indices.end(), {a, b, c});
+    out.sources.push_back(source);
   });
   return out;
 }

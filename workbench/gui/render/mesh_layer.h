@@ -2,6 +2,7 @@
 // normals, crease and boundary edges.
 #pragma once
 
+#include "workbench/gui/render/paint_buffers.h"
 #include "workbench/gui/render/scene_buffers.h"
 #include "workbench/gui/render/scene_programs.h"
 #include "workbench/gui/render/scene_renderer.h"
@@ -13,6 +14,12 @@
 
 namespace tangent {
 
+/// How far the drawing of one picture has come. A dense mesh is drawn over several frames, so that none takes long.
+struct DrawProgress {
+  std::size_t next = 0;   ///< triangle of all passes to go on with
+  bool done = false;
+};
+
 class MeshLayer {
  public:
   void create();
@@ -20,12 +27,15 @@ class MeshLayer {
   /// Uploads what the worker has finished, a slice a call.
   void take_arrays(const SceneFrame& frame);
 
-  /// Draws into the bound framebuffer. `moving`: a coarse stand-in for facets and surface if they are dense.
+  /// Draws into the bound framebuffer, from where `progress` is on, about `budget` triangles. `moving`: a coarse stand-in
+  /// for facets and surface if they are dense, at once.
   void draw(const ScenePrograms& programs, const SceneFrame& frame, const Camera& camera, int width_px, int height_px,
-            bool moving);
+            bool moving, std::size_t budget, DrawProgress& progress);
+  /// Triangles of a whole picture.
+  std::size_t drawn_triangles(const SceneToggles& on) const;
 
   std::uint64_t version() const { return version_; }  ///< counts changes of what would be drawn
-  bool complete() const { return !scene_ || (smooth_.ready() && stand_in_.ready()); }
+  bool complete() const { return !scene_ || (smooth_.ready() && stand_in_.ready() && !facets_.pending()); }
   float progress() const { return scene_ ? worker_.progress() : 1.0f; }
   std::size_t smooth_triangles() const { return smooth_.triangles(); }
   void wait() { worker_.wait(); }
@@ -34,13 +44,23 @@ class MeshLayer {
   NormalForm form() const { return form_; }
 
  private:
+  enum class PassKind : std::uint8_t { facets, surface_depth, surface };
+  struct Pass {
+    PassKind kind;
+    std::size_t triangles;
+  };
+  std::vector<Pass> passes(const SceneToggles& on) const;
   void refresh_strokes(const SceneFrame& frame);
-  void draw_facets(const ScenePrograms& programs, const SceneFrame& frame, const ViewMatrices& view) const;
-  void draw_surface(const ScenePrograms& programs, const SceneFrame& frame, const ViewMatrices& view) const;
+  void clear_background(const ScenePrograms& programs, const Palette& colours) const;
+  void draw_pass(const ScenePrograms& programs, const SceneFrame& frame, const ViewMatrices& view, PassKind kind, std::size_t first,
+                 std::size_t count) const;
+  void use_facet_program(const ScenePrograms& programs, const SceneFrame& frame, const ViewMatrices& view) const;
+  void use_surface_program(const ScenePrograms& programs, const SceneFrame& frame, const ViewMatrices& view) const;
   void draw_stand_in(const ScenePrograms& programs, const SceneFrame& frame, const ViewMatrices& view) const;
-  void use_surface_program(const ScenePrograms& programs, const ViewMatrices& view, Rgba albedo, Rgba back) const;
+  void apply_paint(const ShaderProgram& program, const SceneFrame& frame) const;
   bool too_dense_to_move(const SceneToggles& on) const;
   void draw_strokes(const ScenePrograms& programs, const SceneFrame& frame, const ViewMatrices& view) const;
+  glm::vec4 slice_of(const SceneFrame& frame) const;
 
   std::shared_ptr<const ContactScene> scene_;
   NormalForm form_ = NormalForm::bernstein;
@@ -48,6 +68,9 @@ class MeshLayer {
   std::uint64_t version_ = 0;
   FacetBuffer facets_;
   SurfaceBuffer stand_in_, smooth_;
+  IndexedBuffer stand_in_sources_;
+  bool stand_in_has_sources_ = false;
+  PaintBuffers paint_;
   std::vector<FeatureEdge> features_;
   StrokeBuffer feature_strokes_, normal_strokes_;
   std::optional<Theme> stroke_theme_;  // whose colours the two hold

@@ -16,19 +16,40 @@ void fill_array_buffer(GlBuffer& buffer, std::span<const T> data, GLenum usage) 
 
 }  // namespace
 
-void FacetBuffer::upload(std::span<const FacetVertex> vertices) {
+void FacetBuffer::clear() {
+  count_ = 0;
+  waiting_ = {};
+}
+
+void FacetBuffer::begin_upload(std::vector<FacetVertex> vertices) {
+  waiting_ = std::move(vertices);
+  uploaded_ = 0;
+  count_ = 0;
   glBindVertexArray(array_.create());
-  fill_array_buffer(vertices_, vertices, GL_STATIC_DRAW);
+  glBindBuffer(GL_ARRAY_BUFFER, vertices_.create());
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(waiting_.size() * sizeof(FacetVertex)), nullptr, GL_STATIC_DRAW);
   vertex_attribute(0, 3, GL_FLOAT, false, sizeof(FacetVertex), offsetof(FacetVertex, position));
   vertex_attribute(1, 4, GL_INT_2_10_10_10_REV, true, sizeof(FacetVertex), offsetof(FacetVertex, face_normal));
   glBindVertexArray(0);
-  count_ = static_cast<GLsizei>(vertices.size());
 }
 
-void FacetBuffer::draw() const {
+bool FacetBuffer::continue_upload(std::size_t bytes) {
+  if (waiting_.empty()) return true;
+  const std::size_t all = waiting_.size() * sizeof(FacetVertex), n = std::min(bytes, all - uploaded_);
+  glBindBuffer(GL_ARRAY_BUFFER, vertices_.id());
+  glBufferSubData(GL_ARRAY_BUFFER, static_cast<GLintptr>(uploaded_), static_cast<GLsizeiptr>(n),
+                  reinterpret_cast<const std::byte*>(waiting_.data()) + uploaded_);
+  uploaded_ += n;
+  if (uploaded_ < all) return false;
+  count_ = static_cast<GLsizei>(waiting_.size());
+  waiting_ = {};
+  return true;
+}
+
+void FacetBuffer::draw(std::size_t first_triangle, std::size_t triangles) const {
   if (count_ == 0) return;
   glBindVertexArray(array_.id());
-  glDrawArrays(GL_TRIANGLES, 0, count_);
+  glDrawArrays(GL_TRIANGLES, static_cast<GLint>(3 * first_triangle), static_cast<GLsizei>(3 * triangles));
 }
 
 void SurfaceBuffer::clear() {
@@ -80,10 +101,11 @@ bool SurfaceBuffer::continue_upload(std::size_t bytes) {
   return true;
 }
 
-void SurfaceBuffer::draw() const {
+void SurfaceBuffer::draw(std::size_t first_triangle, std::size_t triangles) const {
   if (!ready_) return;
   glBindVertexArray(array_.id());
-  glDrawElements(GL_TRIANGLES, count_, GL_UNSIGNED_INT, nullptr);
+  glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * triangles), GL_UNSIGNED_INT,
+                 reinterpret_cast<const void*>(3 * first_triangle * sizeof(std::uint32_t)));
 }
 
 void StrokeBuffer::upload(std::span<const Stroke> strokes, GLenum usage) {

@@ -9,15 +9,20 @@
 
 namespace tangent {
 
-/// Unindexed facets, three vertices each.
+/// Unindexed facets, three vertices each. Uploaded a slice per call, as the surface is.
 class FacetBuffer {
  public:
-  void upload(std::span<const FacetVertex> vertices);
-  void clear() { count_ = 0; }
-  void draw() const;
-  bool empty() const { return count_ == 0; }
+  void begin_upload(std::vector<FacetVertex> vertices);
+  /// Uploads up to `bytes`; true once everything is there.
+  bool continue_upload(std::size_t bytes);
+  void clear();
+  bool pending() const { return !waiting_.empty(); }
+  void draw(std::size_t first_triangle, std::size_t triangles) const;
+  std::size_t triangles() const { return static_cast<std::size_t>(count_) / 3; }
 
  private:
+  std::vector<FacetVertex> waiting_;  // emptied when uploaded
+  std::size_t uploaded_ = 0;
   GlVertexArray array_;
   GlBuffer vertices_;
   GLsizei count_ = 0;
@@ -30,7 +35,8 @@ class SurfaceBuffer {
   /// Uploads up to `bytes`; true once everything is there.
   bool continue_upload(std::size_t bytes);
   void clear();
-  void draw() const;
+  void draw() const { draw(0, triangles()); }
+  void draw(std::size_t first_triangle, std::size_t triangles) const;
   bool ready() const { return ready_; }
   bool pending() const { return !ready_ && !mesh_.indices.empty(); }
   unsigned level() const { return level_; }

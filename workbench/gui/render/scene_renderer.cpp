@@ -18,6 +18,10 @@ namespace {
 
 constexpr int kFramesToRest = 3;  // the camera rests after so many calls without a change
 constexpr int kSamples = 4;
+// Triangles drawn in one frame at rest; more are spread over several, behind the stand-in. A software GL draws a few
+// million a second.
+constexpr std::size_t kSoftwareSlice = 150'000, kHardwareSlice = 8'000'000;
+constexpr std::size_t kHardwareMoving = 2'000'000;  // a GPU draws so many in every frame of a turn
 constexpr std::uint32_t kSoftwareMultisampled = 30'000;  // triangles; more, and a software GL takes too long a frame
 
 /// All that the mesh layer's picture depends on.
@@ -29,8 +33,14 @@ struct MeshLayerKey {
   double pixel_scale = 1.0;
   bool moving = false;
   std::uint64_t arrays = 0, shaders = 0;
+  std::optional<SlicePlane> slice;
+  std::uint64_t isolation = 0;  // 0: none
   bool operator==(const MeshLayerKey&) const = default;
 };
+
+bool same_look(const std::optional<MapPaint>& a, const std::optional<MapPaint>& b) {
+  return a.has_value() == b.has_value() && (!a || a->same_look(*b));
+}
 
 /// What the caller had bound; put back when we are done.
 class SavedGlState {
@@ -69,6 +79,8 @@ struct SceneRenderer::Impl {
   RenderTarget resting_target, moving_target, picture;
 
   MeshLayerKey drawn;
+  std::optional<MapPaint> drawn_map;
+  DrawProgress progress;
   Camera last_camera;
   int calls_at_rest = 0;
   bool resting = true;
@@ -80,6 +92,7 @@ struct SceneRenderer::Impl {
            mesh.scene()->mesh().usable_triangle_count() <= kSoftwareMultisampled;
   }
   void build_sketch(const SceneFrame& frame, const Camera& camera, int width_px, int height_px);
+  const RenderTarget* draw_mesh(const SceneFrame& frame, const Camera& camera, int width_px, int height_px);
 };
 
 SceneRenderer::SceneRenderer() : impl_(std::make_unique<Impl>()) {}
@@ -115,6 +128,41 @@ void SceneRenderer::Impl::build_sketch(const SceneFrame& frame, const Camera& ca
   if (frame.toggles.finger) draw_finger(sketch, context);
 }
 
+/// Draws what is due of the mesh; the target whose picture is to be shown now, null when it can't be had.
+const RenderTarget* SceneRenderer::Impl::draw_mesh(const SceneFrame& frame, const Camera& camera, int width_px, int height_px) {
+  calls_at_rest = camera == last_camera ? calls_at_rest + 1 : 0;
+  last_camera = camera;
+  const bool still = frame.quality == RenderQuality::still;
+  resting = still || calls_at_rest >= kFramesToRest;
+  const std::size_t slice = still ? ~std::size_t{0} : software_gl ? kSoftwareSlice : kHardwareSlice;
+  const bool in_slices = resting && mesh.scene() && mesh.drawn_triangles(frame.toggles) > slice;
+  const MeshLayerKey key{camera,   frame.toggles,  frame.theme,      width_px,    height_px, frame.pixel_scale,
+                         !resting, mesh.version(), programs.version, frame.slice, frame.isolation ? frame.isolation->version + 1 : 0};
+  const int samples = !resting ? 0 : wants_multisampling(frame) ? kSamples : 0;
+  const auto sized = [&](RenderTarget& target, int wanted) {
+    // A driver that can't multisample this size still gives a picture.
+    return target.resize(width_px, height_px, wanted) || target.resize(width_px, height_px, 0);
+  };
+  RenderTarget& target = resting ? resting_target : moving_target;
+  if (!sized(target, samples) || (in_slices && !sized(moving_target, 0))) return nullptr;
+  if (!(key == drawn) || !same_look(frame.map, drawn_map)) {
+    drawn = key;
+    drawn_map = frame.map;
+    progress = {};
+    if (in_slices) {
+      DrawProgress at_once;
+      moving_target.bind();
+      mesh.draw(programs, frame, camera, width_px, height_px, true, slice, at_once);
+    }
+  }
+  if (!progress.done) {
+    target.bind();
+    const bool coarse = !resting && (software_gl || mesh.drawn_triangles(frame.toggles) > kHardwareMoving);
+    mesh.draw(programs, frame, camera, width_px, height_px, coarse, resting ? slice : ~std::size_t{0}, progress);
+  }
+  return progress.done ? &target : &moving_target;
+}
+
 bool SceneRenderer::render(const SceneFrame& frame, const Camera& camera, int width_px, int height_px) {
   Impl& m = *impl_;
   m.labels.clear();
@@ -122,24 +170,9 @@ bool SceneRenderer::render(const SceneFrame& frame, const Camera& camera, int wi
   const SavedGlState saved;
   m.mesh.take_arrays(frame);
 
-  m.calls_at_rest = camera == m.last_camera ? m.calls_at_rest + 1 : 0;
-  m.last_camera = camera;
-  m.resting = frame.quality == RenderQuality::still || m.calls_at_rest >= kFramesToRest;
-  const MeshLayerKey key{camera,      frame.toggles, frame.theme,      width_px,          height_px, frame.pixel_scale,
-                         !m.resting, m.mesh.version(), m.programs.version};
-  const int samples = !m.resting ? 0 : m.wants_multisampling(frame) ? kSamples : 0;
-  RenderTarget& target = m.resting ? m.resting_target : m.moving_target;
-  // A driver that can't multisample this size still gives a picture.
-  if (!target.resize(width_px, height_px, samples) && !target.resize(width_px, height_px, 0)) {
-    return false;
-  }
-  if (!m.picture.resize(width_px, height_px, 0)) return false;
-  if (!(key == m.drawn)) {
-    target.bind();
-    m.mesh.draw(m.programs, frame, camera, width_px, height_px, !m.resting);
-    m.drawn = key;
-  }
-  m.picture.copy_from(target);
+  const RenderTarget* target = m.draw_mesh(frame, camera, width_px, height_px);
+  if (target == nullptr || !m.picture.resize(width_px, height_px, 0)) return false;
+  m.picture.copy_from(*target);
   if (m.mesh.scene()) {
     m.build_sketch(frame, camera, width_px, height_px);
     m.picture.bind();
@@ -155,15 +188,30 @@ std::span<const SceneLabel> SceneRenderer::labels() const { return impl_->labels
 float SceneRenderer::tessellation_progress() const { return impl_->mesh.progress(); }
 std::size_t SceneRenderer::tessellation_triangles() const { return impl_->mesh.smooth_triangles(); }
 void SceneRenderer::wait_for_tessellation() { impl_->mesh.wait(); }
-bool SceneRenderer::refining() const { return !impl_->resting || !impl_->mesh.complete(); }
+bool SceneRenderer::refining() const { return !impl_->resting || !impl_->progress.done || !impl_->mesh.complete(); }
 double SceneRenderer::force_metres_per_newton() const { return impl_->force_metres_per_newton; }
 void SceneRenderer::reload_changed_shaders() { impl_->programs.reload_changed(); }
 const std::string& SceneRenderer::shader_error() const { return impl_->programs.error; }
 
 NearestTriangles::RayHit pick_triangle(const ContactScene& scene, const Camera& camera, const Vec2& pixel,
-                                       int width_px, int height_px) {
+                                       int width_px, int height_px, const std::optional<SlicePlane>& slice, const Isolation* isolation) {
+  constexpr int kMostLayers = 256;
   const Ray ray = camera.ray_through(pixel, width_px, height_px);
-  return scene.nearest().cast(ray.origin - scene.mesh().origin(), ray.direction);
+  const ContactMesh& mesh = scene.mesh();
+  const double skip = 1e-9 * std::max(glm::length(mesh.bounds().size()), 1e-30);
+  const auto left_out = [&](std::uint32_t t) {
+    return isolation != nullptr && t < isolation->kept.size() && isolation->kept[t] == 0;
+  };
+  double gone = 0.0;
+  for (int layer = 0; layer < kMostLayers; ++layer) {
+    NearestTriangles::RayHit hit = scene.nearest().cast(ray.origin - mesh.origin() + gone * ray.direction, ray.direction);
+    if (!hit) return hit;
+    hit.distance_m += gone;
+    const bool cut = slice && slice->cuts(ray.origin + hit.distance_m * ray.direction);
+    if (!cut && !left_out(hit.triangle)) return hit;
+    gone = hit.distance_m + skip;
+  }
+  return {};
 }
 
 Box world_bounds(const ContactScene& scene) {

@@ -13,6 +13,7 @@
 #include "core/step.h"
 #include "workbench/gui/palette.h"
 #include "workbench/gui/render/camera.h"
+#include "workbench/gui/render/surface_paint.h"
 
 #include <cstdint>
 #include <memory>
@@ -61,11 +62,15 @@ struct SceneFrame {
   std::optional<std::size_t> selected_iteration;
   std::uint32_t picked_triangle = kNone;        ///< clicked: outlined; its net is shown if nothing is tracked
   std::uint32_t hovered_triangle = kNone;
+  std::span<const std::uint32_t> marked_triangles;  ///< outlined
   bool net_of_picked = false;                   ///< control net of the picked instead of the tracked triangle
   double display_travel_m = 0.016;              ///< preset.display.travel_m, for the inset
   std::optional<double> cld_commanded_m;
   std::optional<double> cld_measured_m;
   std::span<const Vec3> trail;                  ///< past contacts, oldest first
+  std::optional<MapPaint> map;                  ///< colours of facets and surface
+  std::optional<SlicePlane> slice;
+  std::shared_ptr<const Isolation> isolation;   ///< null: all triangles
 };
 
 /// Text the overlay puts beside a 3D point, in pixels of the view (top left is 0, 0).
@@ -118,9 +123,10 @@ class SceneRenderer {
   std::unique_ptr<Impl> impl_;
 };
 
-/// First facet under a pixel.
+/// First facet under a pixel that is neither cut away nor left out.
 NearestTriangles::RayHit pick_triangle(const ContactScene& scene, const Camera& camera, const Vec2& pixel,
-                                       int width_px, int height_px);
+                                       int width_px, int height_px, const std::optional<SlicePlane>& slice = {},
+                                       const Isolation* isolation = nullptr);
 /// World box of the scene, for Camera::frame.
 Box world_bounds(const ContactScene& scene);
 

@@ -100,7 +100,11 @@ void draw_force(Sketch& sketch, const SketchContext& c, std::vector<SceneLabel>&
   const Vec3 p = c.camera.project(tip, c.width_px, c.height_px);
   char text[32];
   std::snprintf(text, sizeof text, "%.2f N", force);
-  if (in_view(p)) labels.push_back({Vec2(p), text, colour, {1.0, 0.0}});
+  if (!in_view(p)) return;
+  // On past the arrowhead; beside it where the arrow comes towards the eye.
+  const Vec2 along = Vec2(p) - Vec2(c.camera.project(output.contact, c.width_px, c.height_px));
+  const double length = glm::length(along);
+  labels.push_back({Vec2(p), text, colour, length > 8.0 * c.frame.pixel_scale ? along / length : Vec2(1.0, 0.0)});
 }
 
 void draw_iterations(Sketch& sketch, const SketchContext& c, std::vector<SceneLabel>& labels) {
@@ -159,6 +163,7 @@ void draw_marked_triangles(Sketch& sketch, const SketchContext& c) {
     if (fill > 0.0f) sketch.triangle(o + p[0], o + p[1], o + p[2], with_alpha(colours.selection, fill));
     for (int k = 0; k < 3; ++k) sketch.line(o + p[k], o + p[(k + 1) % 3], colours.selection, width);
   };
+  for (const std::uint32_t t : c.frame.marked_triangles) mark(t, 0.35f, 1.6);
   if (c.frame.hovered_triangle != c.frame.picked_triangle) mark(c.frame.hovered_triangle, 0.12f, 1.2);
   mark(c.frame.picked_triangle, 0.28f, 2.2);
 }

@@ -167,6 +167,7 @@ Status ShaderProgram::reload_if_changed() {
 
 void ShaderProgram::use() const { glUseProgram(id_); }
 
+void ShaderProgram::set(const char* name, int value) const { glUniform1i(glGetUniformLocation(id_, name), value); }
 void ShaderProgram::set(const char* name, float value) const { glUniform1f(glGetUniformLocation(id_, name), value); }
 void ShaderProgram::set(const char* name, const glm::vec2& value) const {
   glUniform2fv(glGetUniformLocation(id_, name), 1, glm::value_ptr(value));

@@ -32,6 +32,7 @@ class ShaderProgram {
   unsigned id() const { return id_; }
   void use() const;
   // Uniforms of the program in use; unknown names are ignored, as GL does.
+  void set(const char* name, int value) const;
   void set(const char* name, float value) const;
   void set(const char* name, const glm::vec2& value) const;
   void set(const char* name, const glm::vec3& value) const;

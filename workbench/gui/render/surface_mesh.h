@@ -29,6 +29,8 @@ struct SurfaceMesh {
   unsigned level = 1;  ///< each patch's edge is cut into this many
   std::vector<SurfaceVertex> vertices;
   std::vector<std::uint32_t> indices;
+  /// Which usable triangle each triangle stands for; empty: level^2 for each, in order.
+  std::vector<std::uint32_t> sources;
   std::size_t triangles() const { return indices.size() / 3; }
 };
 

@@ -31,3 +31,20 @@ TEST_CASE("a key that is still down is left to the back end") {
   CHECK(io.KeysDown['A']);
   ImGui::DestroyContext();
 }
+
+TEST_CASE("taps of one key in a row are pressed one after the other, none is lost") {
+  ImGuiIO io;
+  KeyTaps taps;
+  for (int i = 0; i < 3; ++i) taps.pressed('K', {});
+  int presses = 0;
+  bool before = false;
+  for (int frame = 0; frame < 8; ++frame) {
+    taps.apply(io, {});
+    if (io.KeysDown['K'] && !before) ++presses;
+    before = io.KeysDown['K'];
+    if (frame == 3) taps.pressed('K', {});  // while it is up again
+  }
+  CHECK(presses == 4);
+  CHECK_FALSE(io.KeysDown['K']);
+  CHECK_FALSE(taps.waiting());
+}

@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <random>
 #include <vector>
 
@@ -70,4 +71,86 @@ TEST_CASE("a jump longer than the store forgets what was before it") {
   push(store, 5, 9.0f);
   push(store, 5 + 10 * store.capacity(), 1.0f);
   CHECK(store.min_max(0, 0, store.end_tick()).max == 1.0f);
+}
+
+TEST_CASE("means and RMS over any range equal those summed sample by sample") {
+  ChannelStore store(1, 1);
+  std::mt19937 random(3);
+  std::uniform_real_distribution<float> value(-1.0f, 3.0f);
+  std::bernoulli_distribution lost(0.02);
+  for (std::uint64_t tick = 1000; tick < 1000 + store.capacity() + 30'000; ++tick) {
+    if (!lost(random)) push(store, tick, value(random));
+  }
+  std::uniform_int_distribution<std::uint64_t> at(store.first_tick() - 50, store.end_tick() + 50);
+  for (int i = 0; i < 50; ++i) {
+    std::uint64_t from = at(random), to = at(random);
+    if (from > to) std::swap(from, to);
+    SampleSums slow;
+    for (std::uint64_t t = from; t < to; ++t) slow.include(store.value(0, t));
+    const SampleSums fast = store.sums(0, from, to);
+    REQUIRE(fast.count == slow.count);
+    if (slow.count == 0) continue;
+    REQUIRE(fast.mean() == doctest::Approx(slow.mean()).epsilon(1e-9));
+    REQUIRE(fast.rms() == doctest::Approx(slow.rms()).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("assigned rows answer as pushed ones, and pushing goes on after them") {
+  const std::uint64_t first = 262'100;  // inside blocks of every size, across the largest one's border
+  std::mt19937 random(11);
+  std::uniform_real_distribution<float> value(-1.0f, 1.0f);
+  std::bernoulli_distribution lost(0.05);
+  std::vector<float> rows;
+  ChannelStore pushed(2, 1), assigned(2, 1);
+  for (std::uint64_t t = 0; t < 40'000; ++t) {
+    float row[2] = {value(random), value(random)};
+    if (t > 0 && lost(random)) row[0] = row[1] = std::nanf("");
+    rows.insert(rows.end(), {row[0], row[1]});
+    pushed.push(first + t, row);
+  }
+  for (std::uint64_t t = 0; t < 500; ++t) assigned.push(t, std::vector<float>{99.0f, 99.0f});  // is forgotten
+  assigned.assign(first, rows);
+  for (std::uint64_t t = 40'000; t < 42'000; ++t) {
+    const float row[2] = {value(random), value(random)};
+    pushed.push(first + t, row);
+    assigned.push(first + t, row);
+  }
+  REQUIRE(assigned.first_tick() == pushed.first_tick());
+  REQUIRE(assigned.end_tick() == pushed.end_tick());
+  std::uniform_int_distribution<std::uint64_t> at(first - 10, first + 42'010);
+  for (int i = 0; i < 300; ++i) {
+    std::uint64_t from = at(random), to = at(random);
+    if (from > to) std::swap(from, to);
+    for (std::size_t channel = 0; channel < 2; ++channel) {
+      REQUIRE(assigned.min_max(channel, from, to).min == pushed.min_max(channel, from, to).min);
+      REQUIRE(assigned.min_max(channel, from, to).max == pushed.min_max(channel, from, to).max);
+      REQUIRE(assigned.sums(channel, from, to).count == pushed.sums(channel, from, to).count);
+    }
+  }
+}
+
+TEST_CASE("more rows than there is room for: the newest are kept") {
+  ChannelStore store(1, 1);
+  std::vector<float> rows(store.capacity() + 1000, 0.0f);
+  rows[10] = 5.0f;
+  rows.back() = 7.0f;
+  store.assign(50, rows);
+  CHECK(store.first_tick() == 1050);
+  CHECK(store.end_tick() == 1050 + store.capacity());
+  CHECK(store.min_max(0, 0, store.end_tick()).max == 7.0f);
+  CHECK(store.min_max(0, 0, store.end_tick() - 1).max == 0.0f);
+}
+
+TEST_CASE("a spike of one sample in an hour at 1 kHz is found in every range that holds it, and in no other") {
+  constexpr std::uint64_t hour = 3'600'000, spike = 2'222'222;
+  std::vector<float> rows(hour, 0.25f);
+  rows[spike] = 50.0f;
+  ChannelStore store(1, hour);
+  store.assign(0, rows);
+  for (std::uint64_t half = 1; half < hour; half = half * 3 / 2 + 1) {
+    const std::uint64_t from = spike > half ? spike - half : 0;
+    CHECK(store.min_max(0, from, spike + half).max == 50.0f);
+    CHECK(store.min_max(0, from, spike).max == 0.25f);
+    CHECK(store.min_max(0, spike + 1, spike + 1 + half).max == 0.25f);
+  }
 }

@@ -355,3 +355,46 @@ TEST_CASE("a picture is written whole, with its size, or not at all") {
   CHECK_FALSE(write_png(image, folder.file("nowhere/a.png")));
   CHECK(folder.entry_count() == 1);
 }
+
+// Slow to build; run it with: test_workbench_gui -tc="*five million*" --no-skip
+TEST_CASE("five million triangles: orbiting, coming to rest and picking are reported" * doctest::skip()) {
+  REQUIRE_GL(context);
+  const auto scene = scene_of(make_icosphere(0.040, 9));
+  REQUIRE(scene->mesh().usable_triangle_count() == 5'242'880);
+  SceneRenderer renderer;
+  REQUIRE(renderer.init());
+  renderer.set_scene(scene, NormalForm::bernstein);
+  renderer.wait_for_tessellation();
+  SceneFrame frame;
+  frame.toggles.control_net = frame.toggles.planes = false;
+  Camera camera;
+  camera.frame(world_bounds(*scene));
+  const auto timed = [&](auto&& what) {
+    const auto begin = std::chrono::steady_clock::now();
+    what();
+    glFinish();
+    return 1e3 * std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  };
+  double longest_upload = 0.0;
+  for (int i = 0; i < 400 && renderer.refining(); ++i) longest_upload = std::max(longest_upload, timed([&] { renderer.render(frame, camera, 1280, 720); }));
+  std::vector<double> moving, resting;
+  for (int i = 0; i < 60; ++i) {
+    camera.orbit(0.02, 0.0);
+    moving.push_back(timed([&] { renderer.render(frame, camera, 1280, 720); }));
+  }
+  for (int i = 0; i < 400 && (i < 4 || renderer.refining()); ++i) resting.push_back(timed([&] { renderer.render(frame, camera, 1280, 720); }));
+  CHECK_FALSE(renderer.refining());
+  std::vector<double> picks;
+  std::size_t hits = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const Vec2 pixel(200.0 + 37.0 * (i % 24), 100.0 + 11.0 * (i % 47));
+    picks.push_back(timed([&] { hits += pick_triangle(*scene, camera, pixel, 1280, 720) ? 1 : 0; }));
+  }
+  CHECK(hits > 300);
+  std::sort(moving.begin(), moving.end());
+  std::sort(picks.begin(), picks.end());
+  const double at_rest = *std::max_element(resting.begin(), resting.end());
+  MESSAGE("1280 x 720 on " << std::string(reinterpret_cast<const char*>(glGetString(GL_RENDERER))) << ": orbiting " << moving[moving.size() / 2] << " ms a frame (median), "
+          << moving.back() << " worst; to the full picture at rest " << resting.size() << " frames, longest " << at_rest << " ms; longest frame while loading "
+          << longest_upload << " ms; picking " << picks[picks.size() / 2] << " ms median, " << picks.back() << " worst");
+}

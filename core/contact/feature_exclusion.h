@@ -1,0 +1,30 @@
+// Proof that the crease and boundary edges and vertices of a triangle hold no contact, and for how far around the centre.
+#pragma once
+
+#include "core/contact/patch_cache.h"
+
+#include <array>
+
+namespace tangent {
+
+/// Edges and vertices that one search has already excluded from another of their triangles. Forgets some.
+class FeatureMemory {
+ public:
+  bool knows(std::uint64_t key) const { return seen_[slot(key)] == key; }
+  void add(std::uint64_t key) { seen_[slot(key)] = key; }
+  FeatureMemory() { seen_.fill(~std::uint64_t{0}); }
+
+ private:
+  static constexpr std::size_t kSlots = 64;
+  static std::size_t slot(std::uint64_t key) { return (key ^ key >> 7) % kSlots; }
+  std::array<std::uint64_t, kSlots> seen_;
+};
+
+/// How far the centre may go until a contact on the crease or boundary edges of triangle t or on their ends can come
+/// up that is nearer than `bound_m`; the largest double where there are none, 0 where one may be there now. Judged from
+/// the ends of each edge: seen along the edge the centre passes its end once, seen across it leaves the face for the
+/// fan once. A margin under `enough_m` is worth some effort to widen. What `memory` knows is left out, what is excluded added to it.
+double exclude_feature_contacts(PatchCache& cache, std::uint32_t t, NormalForm form, const Vec3& centre, double bound_m,
+                                double enough_m = 0.0, FeatureMemory* memory = nullptr);
+
+}  // namespace tangent

@@ -1,0 +1,249 @@
+#include "core/contact/rivals.h"
+
+#include "core/base/tolerances.h"
+#include "core/contact/nearest_triangles.h"
+#include "core/contact/triangle_exclusion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tangent {
+namespace {
+
+constexpr double kForever = std::numeric_limits<double>::infinity();
+
+/// A contact whose surroundings need no search.
+struct KnownContact {
+  Feature feature;
+  std::uint8_t side;
+  std::uint32_t triangle;
+  Vec3 point, normal;
+  double height_m;
+  double size;  ///< longest side of its triangle
+};
+
+double longest_side(const ContactMesh& mesh, std::uint32_t t) {
+  const auto p = mesh.positions(t);
+  const auto square = [](const Vec3& v) { return glm::dot(v, v); };
+  return std::sqrt(std::max({square(p[1] - p[0]), square(p[2] - p[1]), square(p[0] - p[2])}));
+}
+
+/// Whether triangle t has the edge or vertex that the known contact rests on.
+bool shares_feature(const ContactMesh& mesh, std::uint32_t t, const KnownContact& known) {
+  if (known.feature == Feature::edge) return mesh.across(known.triangle, known.side).triangle == t;
+  const std::uint32_t vertex = mesh.vertex(known.triangle, known.side);
+  return mesh.vertex(t, 0) == vertex || mesh.vertex(t, 1) == vertex || mesh.vertex(t, 2) == vertex;
+}
+
+/// Whether triangle t surely belongs to the slope that leads to a known contact: towards each of its corners the
+/// normal turns no faster than a contact at height h stays stable with (1 + h k > 0, with room), and the corner does
+/// not rise from it towards the finger. Only near it, as far as the look-ahead `margin` calls for: further off there
+/// may be a fold between.
+bool same_basin(const ContactMesh& mesh, std::uint32_t t, const KnownContact& known, double margin) {
+  if (t == known.triangle) return true;
+  if (known.feature != Feature::face && shares_feature(mesh, t, known)) return true;
+  for (std::uint32_t k = 0; k < 3; ++k) {
+    const Vec3 dp = mesh.position(t, k) - known.point;
+    const Vec3 dn = mesh.normal(t, k) - known.normal;
+    const double distance2 = glm::dot(dp, dp), over = glm::dot(dp, known.normal);
+    const double agreement = glm::dot(mesh.normal(t, k), known.normal);
+    const double reach = known.size + (agreement > kGentleCosine ? kGentleReach : kBasinReach) * margin;
+    if (distance2 > reach * reach || agreement < kBasinCosine) return false;
+    if (over * known.height_m > 0.0 && over * over > 0.25 * distance2) return false;
+    if (known.height_m * glm::dot(dn, dp) < -0.1 * distance2) return false;
+  }
+  return true;
+}
+
+Vec3 interpolated_normal(const ContactMesh& mesh, std::uint32_t t, double u, double v) {
+  const auto n = mesh.normals(t);
+  return (1.0 - u - v) * n[0] + u * n[1] + v * n[2];
+}
+
+/// How far the centre may go before a rival that ranks `gap` behind can overtake: heights change along their normals,
+/// and in second order by the square of the way over the height.
+double overtaking_margin(const KnownContact& tracked, const Vec3& rival_normal, double rival_height, double gap) {
+  const Vec3 apart = tracked.normal - rival_normal;
+  const double rate = std::sqrt(glm::dot(apart, apart)) + 1e-3;
+  const double bend = 2.0 / std::max(1e-12, std::min(std::abs(tracked.height_m), std::abs(rival_height)));
+  // Smaller root of rate m + bend m^2 = gap.
+  return 2.0 * gap / (rate + std::sqrt(rate * rate + 4.0 * bend * gap));
+}
+
+/// What one triangle means for the tracked contact.
+struct Look {
+  double margin_m = kForever;  ///< how far the centre may go before it must be looked at again
+  bool contact = false;        ///< it holds a contact, whose surroundings are left out of the search on its behalf
+};
+
+class RivalSearch {
+ public:
+  RivalSearch(IterationContext& context, const ContactScene& scene, const IterationResult& tracked, double bound_m, double margin_m)
+      : scene_(scene), tracked_(tracked), bound_m_(bound_m), margin_m_(margin_m), deepest_(bound_m), settings_(robust(context.settings)),
+        context_{context.cache, settings_, context.finger, context.pose, context.origin, context.trace, 0} {
+    remember(tracked);
+  }
+
+  /// Every triangle that could hold a rival.
+  void everywhere(RivalResult& result) {
+    Clearance& clearance = result.clearance;
+    clearance.margin_m = margin_m_;
+    ContactQuery query;
+    query.centre = context_.pose.position;
+    query.margin_m = margin_m_;
+    query.tilt_rad = context_.finger.tilt_rad();
+    limit_query(query, context_.finger, bound_m_ + 2.0 * margin_m_);
+    scene_.hierarchy().visit(query, [&](std::uint32_t t, ContactQuery& q) {
+      const Look look = look_at(t, q.margin_m, result);
+      const double margin = look.contact ? look.margin_m : watch(clearance, t, look.margin_m);
+      if (margin < clearance.margin_m) {
+        clearance.margin_m = q.margin_m = margin;
+        limit_query(q, context_.finger, bound_m_ + 2.0 * margin);
+      }
+      return solves_ < kMaxSolves;
+    });
+    clearance.height_m = bound_m_ + 2.0 * clearance.margin_m;
+    if (solves_ >= kMaxSolves) clearance.margin_m = 0.0;
+  }
+
+  /// Only the watched triangles whose time has come.
+  void once_more(RivalResult& result) {
+    Clearance& clearance = result.clearance;
+    for (WatchedTriangle& watched : clearance.watched) {
+      if (watched.triangle == kNone || watched.margin_m > 0.0f) continue;
+      const Look look = look_at(watched.triangle, clearance.margin_m, result);
+      if (look.contact) clearance.margin_m = std::min(clearance.margin_m, look.margin_m);
+      watched.margin_m = static_cast<float>(look.margin_m);
+      if (look.contact || look.margin_m >= clearance.margin_m) watched = {};
+    }
+  }
+
+ private:
+  static SolverSettings robust(SolverSettings settings) {
+    settings.method = Method::robust;
+    return settings;
+  }
+
+  /// Puts a triangle on the list if it is among the soonest. Returns the margin of the one that is not.
+  double watch(Clearance& clearance, std::uint32_t t, double margin) {
+    if (margin >= clearance.margin_m) return margin;
+    WatchedTriangle* latest = &clearance.watched[0];
+    for (WatchedTriangle& w : clearance.watched) {
+      if (w.triangle == kNone) {
+        w = {t, static_cast<float>(margin)};
+        return kForever;
+      }
+      if (w.margin_m > latest->margin_m) latest = &w;
+    }
+    if (margin >= latest->margin_m) return margin;
+    const double dropped = latest->margin_m;
+    *latest = {t, static_cast<float>(margin)};
+    return dropped;
+  }
+
+  void remember(const IterationResult& r) {
+    if (known_count_ == known_.size()) return;
+    known_[known_count_++] = {r.plane.feature, r.plane.side, r.plane.triangle, r.plane.point, r.plane.normal, r.contact.height_m,
+                              longest_side(context_.cache.mesh(), r.plane.triangle)};
+  }
+
+  Look look_at(std::uint32_t t, double enough_m, RivalResult& result) {
+    const ContactMesh& mesh = context_.cache.mesh();
+    for (std::size_t i = 0; i < known_count_; ++i)
+      if (same_basin(mesh, t, known_[i], enough_m)) return {};
+    const PatchExclusion proof = exclude_triangle(context_, t, bound_m_, enough_m, &features_);
+    if (!proof.possible) return {proof.margin_m > 0.0 ? proof.margin_m : kUnresolvedMargin * margin_m_, false};
+    if (proof.height_m != 0.0 && is_tracked(proof)) return {};
+    const double guess = proof.height_m >= 0.0 ? proof.height_m : context_.finger.reach_m() - proof.height_m;
+    const double behind = guess - bound_m_;
+    if (proof.height_m != 0.0 && behind > kHeightGuess * guess)  // a rival, but not a deeper one yet
+      return {overtaking_margin(known_[0], interpolated_normal(mesh, t, proof.u, proof.v), proof.height_m, behind), false};
+    return solve(t, proof, result);
+  }
+
+  /// Seen from the next triangle, the tracked contact on or near their common side.
+  bool is_tracked(const PatchExclusion& proof) const {
+    const Vec3 apart = proof.point - tracked_.plane.point;
+    const double near = kSamePlace * known_[0].size;
+    return glm::dot(apart, apart) < near * near &&
+           std::abs(proof.height_m - tracked_.contact.height_m) < kHeightGuess * std::abs(tracked_.contact.height_m);
+  }
+
+  Look solve(std::uint32_t t, const PatchExclusion& proof, RivalResult& result) {
+    context_.seed = static_cast<std::uint8_t>(std::min(++solves_, 255));
+    TrackedPlane start;
+    start.feature = Feature::face;
+    start.triangle = t;
+    start.u = proof.u;
+    start.v = std::min(proof.v, 1.0 - proof.u);
+    IterationResult r;
+    iterate(context_, start, context_.cache.mesh().interior(t) ? kRivalBudget : 2 * kRivalBudget, r);
+    result.evaluations += r.evaluations;
+    // No contact there now, but one may come up: ask again before long.
+    if (!r.converged()) return {kUnresolvedMargin * margin_m_, false};
+    const Vec3 apart = r.plane.point - tracked_.plane.point;
+    const double same = 10.0 * settings_.tolerance_m;
+    if (glm::dot(apart, apart) <= same * same) return {};
+    remember(r);
+    const double rank = contact_rank(context_.finger, r.contact);
+    if (rank < deepest_) {
+      deepest_ = rank;
+      result.best = r;
+      result.deeper = true;
+    }
+    return {overtaking_margin(known_[0], r.plane.normal, r.contact.height_m, std::max(0.0, rank - bound_m_)), true};
+  }
+
+  const ContactScene& scene_;
+  const IterationResult& tracked_;
+  double bound_m_, margin_m_, deepest_;
+  SolverSettings settings_;
+  IterationContext context_;
+  FeatureMemory features_;
+  std::array<KnownContact, kKnownContacts> known_;
+  std::size_t known_count_ = 0;
+  int solves_ = 0;
+};
+
+/// How far the support points of a finger can have moved while it turned from one orientation to the other.
+double turned_m(const Finger& finger, const Quat& from, const Quat& to) {
+  if (is_round(finger) || from == to) return 0.0;
+  return finger.turning_m(2.0 * std::acos(std::min(1.0, std::abs(glm::dot(from, to)))));
+}
+
+}  // namespace
+
+void age(Clearance& known, const Finger& finger, const FingerPose& pose) {
+  const Vec3 d = pose.position - known.centre;
+  const double gone = std::sqrt(glm::dot(d, d)) + turned_m(finger, known.orientation, pose.orientation);
+  known.centre = pose.position;
+  known.orientation = pose.orientation;
+  known.margin_m -= gone;
+  known.height_m -= gone;
+  for (WatchedTriangle& watched : known.watched) watched.margin_m -= static_cast<float>(gone);
+}
+
+bool rival_possible(const Clearance& known, double bound_m) {
+  if (known.margin_m < 0.0 || bound_m > known.height_m) return true;
+  for (const WatchedTriangle& watched : known.watched)
+    if (watched.triangle != kNone && watched.margin_m <= 0.0f) return true;
+  return false;
+}
+
+RivalResult find_rival(IterationContext& context, const ContactScene& scene, const IterationResult& tracked,
+                       double bound_m, double margin_m, const Clearance& known) {
+  RivalSearch search(context, scene, tracked, bound_m, margin_m);
+  RivalResult result;
+  if (known.margin_m < 0.0 || bound_m > known.height_m) {
+    result.clearance.centre = context.pose.position;
+    result.clearance.orientation = context.pose.orientation;
+    search.everywhere(result);
+  } else {
+    result.clearance = known;
+    search.once_more(result);
+  }
+  return result;
+}
+
+}  // namespace tangent

@@ -1,0 +1,29 @@
+// Polygons that stand for round shapes: the paper's arc, and circles.
+#pragma once
+
+#include "core/planar/polygon.h"
+
+namespace tangent {
+
+/// The arc of the paper's experiments: 0.902 rad and 100 mm of way.
+inline constexpr double kPaperArcRad = 0.902, kPaperArcLength = 0.100;
+inline constexpr double kPaperArcRadius = kPaperArcLength / kPaperArcRad;
+
+enum class ArcPlacement : std::uint8_t {
+  tangent,    ///< facets of angle/(n-1) rad that touch the arc at their midpoints: the paper's segment counts
+  inscribed,  ///< n facets of angle/n rad with their ends on the arc
+};
+
+/// Turn between neighbouring facets, rad.
+double facet_turn_rad(int segments, ArcPlacement placement);
+
+/// About the origin, symmetric to the y axis, from left to right over the top, so that the finger comes from above.
+/// `beyond`: further facets of the same turn at either end, so that the arc itself is covered by whole patches (one
+/// is enough). Precondition: segments >= 2 (tangent) or 1 (inscribed); the whole turns by less than a circle.
+PlanarPolygon make_paper_arc(int segments, ArcPlacement placement = ArcPlacement::tangent, int beyond = 1,
+                             double radius_m = kPaperArcRadius);
+
+/// Regular polygon, closed, counter-clockwise, about the origin; vertices on the circle, or facets tangent to it.
+PlanarPolygon make_regular_polygon(int sides, double radius_m, ArcPlacement placement = ArcPlacement::inscribed);
+
+}  // namespace tangent

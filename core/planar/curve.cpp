@@ -1,0 +1,148 @@
+#include "core/planar/curve.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tangent {
+namespace {
+
+/// Sine of the turn below which a patch counts as straight: its local centre is 1e9 segments away, where angles lose
+/// half their digits. It deviates from the line by less than 1e-9 of the segment.
+constexpr double kStraightSine = 1e-9;
+/// The contacts' places leave the control triangle by less than this part of its size.
+constexpr double kDiscRoom = 0.05;
+
+double angle(const Vec2& from, const Vec2& to) { return std::atan2(cross(from, to), glm::dot(from, to)); }
+
+/// Where the perpendicular bisectors of two segments meet, which leave their midpoints at right angles.
+Vec2 bisector_centre(const Vec2& mid1, const Vec2& along1, const Vec2& mid2, const Vec2& along2) {
+  // (C - mid1).along1 = 0, (C - mid2).along2 = 0
+  const double det = cross(along1, along2), d2 = glm::dot(mid2 - mid1, along2);
+  // C = mid1 + s perp(along1); s perp(along1).along2 = d2, and perp(a).b = cross(a, b).
+  return mid1 + (d2 / det) * Vec2(-along1.y, along1.x);
+}
+
+void add_centres(CurvePatch& patch, const Vec2& previous, const Vec2& next) {
+  const Vec2 l1 = patch.vertex - previous, l2 = next - patch.vertex;
+  const double scale = std::sqrt(glm::dot(l1, l1) * glm::dot(l2, l2));
+  patch.straight = !(scale > 0.0) || std::abs(cross(l1, l2)) <= kStraightSine * scale;
+  if (patch.straight) return;
+  patch.centre[0] = bisector_centre(patch.first, l1, patch.last, l2);
+  patch.centre[1] = 0.5 * (previous + next);
+  for (std::size_t i = 0; i < 2; ++i) patch.turn_rad[i] = angle(patch.first - patch.centre[i], patch.last - patch.centre[i]);
+}
+
+void add_disc(CurvePatch& patch) {
+  const Vec2 low = glm::min(glm::min(patch.first, patch.vertex), patch.last);
+  const Vec2 high = glm::max(glm::max(patch.first, patch.vertex), patch.last);
+  patch.disc_centre = 0.5 * (low + high);
+  patch.disc_radius = (0.5 + kDiscRoom) * glm::length(high - low);
+}
+
+}  // namespace
+
+Result<PlanarCurve> PlanarCurve::build(PlanarPolygon polygon) {
+  if (Status status = check_polygon(polygon); !status) return tl::unexpected(status.error());
+  PlanarCurve curve;
+  Vec2 low = polygon.vertices.front(), high = low;
+  for (const Vec2& v : polygon.vertices) low = glm::min(low, v), high = glm::max(high, v);
+  curve.origin_ = 0.5 * (low + high);
+  curve.size_ = std::max(high.x - low.x, high.y - low.y);
+  curve.side_ = polygon.closed && signed_area_m2(polygon) > 0.0 ? -1.0 : 1.0;
+  curve.polygon_ = std::move(polygon);
+
+  const std::vector<Vec2>& v = curve.polygon_.vertices;
+  const std::size_t n = v.size();
+  curve.patches_.resize(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const bool open_start = !curve.closed() && i == 0, open_end = !curve.closed() && i + 1 == n;
+    const Vec2 at = v[i] - curve.origin_;
+    const Vec2 previous = open_start ? at : v[(i + n - 1) % n] - curve.origin_;
+    const Vec2 next = open_end ? at : v[(i + 1) % n] - curve.origin_;
+    CurvePatch& patch = curve.patches_[i];
+    patch.first = 0.5 * (previous + at);
+    patch.vertex = at;
+    patch.last = 0.5 * (at + next);
+    patch.joint_before = open_start ? CurveJoint::end : previous == at ? CurveJoint::corner : CurveJoint::smooth;
+    patch.joint_after = open_end ? CurveJoint::end : next == at ? CurveJoint::corner : CurveJoint::smooth;
+    add_centres(patch, previous, next);
+    add_disc(patch);
+  }
+  return curve;
+}
+
+double PlanarCurve::parameter(std::uint32_t i, LocalCentre kind, const Vec2& place) const {
+  const CurvePatch& p = patches_[i];
+  if (p.straight) {
+    const Vec2 way = p.last - p.first;
+    return glm::dot(place - p.first, way) / glm::dot(way, way);
+  }
+  const auto k = static_cast<std::size_t>(kind);
+  return angle(p.first - p.centre[k], place - p.centre[k]) / p.turn_rad[k];
+}
+
+double PlanarCurve::parameter_rate(std::uint32_t i, LocalCentre kind, const Vec2& place, const Vec2& place_t) const {
+  const CurvePatch& p = patches_[i];
+  if (p.straight) {
+    const Vec2 way = p.last - p.first;
+    return glm::dot(place_t, way) / glm::dot(way, way);
+  }
+  const auto k = static_cast<std::size_t>(kind);
+  const Vec2 arm = place - p.centre[k];
+  return cross(arm, place_t) / (glm::dot(arm, arm) * p.turn_rad[k]);
+}
+
+Vec2 PlanarCurve::bezier(std::uint32_t i, double t) const {
+  const CurvePatch& p = patches_[i];
+  const Vec2 a = p.first + t * (p.vertex - p.first), b = p.vertex + t * (p.last - p.vertex);
+  return a + t * (b - a);
+}
+
+LineSample PlanarCurve::sample(std::uint32_t i, LocalCentre kind, double t) const {
+  const CurvePatch& p = patches_[i];
+  LineSample s;
+  if (p.straight) {
+    const Vec2 way = p.last - p.first;
+    s.foot = s.place = p.first + t * way;
+    s.foot_t = s.place_t = way;
+    s.direction = way / glm::length(way);
+    s.direction_t = Vec2(0.0);
+    s.normal = normal_of(s.direction);
+    return s;
+  }
+  // A1: the line through P12 and P23.
+  const Vec2 l1 = p.vertex - p.first, l2 = p.last - p.vertex;
+  const Vec2 p12 = p.first + t * l1, p23 = p.vertex + t * l2;
+  const Vec2 way = p23 - p12, way_t = l2 - l1;
+  const double length = glm::length(way);
+  s.foot = p12;
+  s.foot_t = l1;
+  s.direction = way / length;
+  s.direction_t = (way_t - glm::dot(way_t, s.direction) * s.direction) / length;
+  s.normal = normal_of(s.direction);
+
+  // A2 turned round: the ray from the local centre that has gone t of the angle from P1 to P3 meets the line at
+  // foot + along direction, where cross(foot + along direction - centre, ray) = 0.
+  const auto k = static_cast<std::size_t>(kind);
+  const Vec2 arm = p.first - p.centre[k], foot = s.foot - p.centre[k];
+  const double gone = t * p.turn_rad[k], c = std::cos(gone), sn = std::sin(gone);
+  const Vec2 ray(c * arm.x - sn * arm.y, sn * arm.x + c * arm.y);
+  const Vec2 ray_t = p.turn_rad[k] * Vec2(-ray.y, ray.x);
+  const double above = -cross(foot, ray), below = cross(s.direction, ray);
+  const double along = above / below;
+  const double above_t = -cross(s.foot_t, ray) - cross(foot, ray_t);
+  const double below_t = cross(s.direction_t, ray) + cross(s.direction, ray_t);
+  const double along_t = (above_t - along * below_t) / below;
+  s.place = s.foot + along * s.direction;
+  s.place_t = s.foot_t + along_t * s.direction + along * s.direction_t;
+  // A local centre on the tangent line itself has no such place; the midpoint centre can get there.
+  if (!std::isfinite(s.place.x + s.place.y + s.place_t.x + s.place_t.y)) {
+    s.place = p12 + t * way;
+    s.place_t = 2.0 * way;
+  }
+  return s;
+}
+
+double rendered_curvature(const LineSample& s) { return glm::length(s.direction_t) / glm::length(s.place_t); }
+
+}  // namespace tangent

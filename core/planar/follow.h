@@ -1,0 +1,49 @@
+// One contact on a smooth planar curve, followed tangent line by tangent line (Doxon et al., appendix): the finger's
+// contact on the present line has an angle about the local centre; the line at that parameter is the next one.
+#pragma once
+
+#include "core/planar/curve.h"
+#include "core/step.h"
+
+namespace tangent {
+
+/// A place on the curve: on a patch, or at one of its ends where the curve has a corner or ends itself. There the
+/// normal turns within the fan.
+struct PlanarPlace {
+  Feature feature = Feature::none;  ///< face: on a patch; vertex: at an end (t is 0 or 1)
+  std::uint32_t patch = 0;
+  double t = 0.0;
+  Vec2 point{0.0};                  ///< local, m
+  Vec2 normal{0.0, 1.0};            ///< unit
+};
+
+struct PlanarContact {
+  PlanarPlace place;
+  double height_m = 0.0;   ///< of the finger's centre over the tangent line
+  double error_m = 0.0;    ///< between the place and the finger's contact on the line
+  double stability = 1.0;  ///< 1 + height * curvature, as the iteration feels it: stable when positive
+  StopReason stop = StopReason::iteration_limit;
+  int evaluations = 0, patch_changes = 0;
+  bool converged() const { return stop == StopReason::converged; }
+};
+
+/// What a tick's search works on.
+struct PlanarContext {
+  const PlanarCurve& curve;
+  const SolverSettings& settings;
+  Vec2 centre;             ///< of the finger, local, m
+  double radius_m = 0.0;   ///< 0: a point
+  IterationTrace* trace = nullptr;
+  std::uint8_t seed = 0;   ///< for the trace
+};
+
+/// Iterates from `start` until the error is below tolerance. A kept start costs no evaluation, any other one.
+/// - paper: as the appendix has it; converges where height * curvature is below 1.
+/// - newton: Newton's method on the same equation.
+/// - robust: the same with steps of at most a patch, downhill where the slope says unstable.
+PlanarContact follow(const PlanarContext& context, const PlanarPlace& start, bool kept, int budget);
+
+/// The stable contact at an end of a patch, if the finger's direction lies in the fan there. `after`: at t = 1.
+bool end_contact(const PlanarContext& context, std::uint32_t patch, bool after, PlanarContact& contact);
+
+}  // namespace tangent

@@ -1,0 +1,20 @@
+// Follows the contact on a planar curve from tick to tick, finds it again, and hands over to a nearer place elsewhere.
+#pragma once
+
+#include "core/planar/follow.h"
+
+namespace tangent {
+
+struct PlanarTrack {
+  PlanarContact contact;
+  TickEvent event = TickEvent::none;
+  int evaluations = 0, patch_changes = 0;
+  bool converged() const { return contact.converged(); }
+};
+
+/// `kept`: the last tick's place; feature none: nothing is tracked. Each tick looks at every patch's disc (a few ns
+/// each), and solves on those that could hold a place nearer than the tracked one by more than the hysteresis. Nearer
+/// is meant on either side of the surface: a finger deep in a wall belongs to the side it is closest to.
+PlanarTrack track_planar(PlanarContext context, const PlanarPlace& kept);
+
+}  // namespace tangent

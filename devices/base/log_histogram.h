@@ -1,0 +1,48 @@
+// Counts of a duration by size, in bins that grow with it, for percentiles of millions of ticks in fixed memory.
+// One thread adds; any thread reads.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+
+namespace tangent {
+
+class LogHistogram {
+ public:
+  /// 16 bins per doubling: a percentile is right to 1/16 of its value, and exact below 16.
+  static constexpr unsigned kSubBits = 4;
+  static constexpr std::size_t kBins = (64 - kSubBits + 1) << kSubBits;
+
+  void add(std::uint64_t value) noexcept {
+    auto& bin = bins_[bin_of(value)];
+    bin.store(bin.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
+  }
+
+  /// Smallest value that at least `share` (0 to 1) of the counts do not exceed, as the upper end of its bin; 0 when
+  /// empty.
+  double percentile(double share) const noexcept;
+  std::uint64_t count() const noexcept;
+  std::uint64_t count_in(std::size_t bin) const noexcept { return bins_[bin].load(std::memory_order_relaxed); }
+
+  static constexpr std::size_t bin_of(std::uint64_t value) noexcept {
+    constexpr std::uint64_t kExact = 1u << kSubBits;
+    if (value < kExact) return static_cast<std::size_t>(value);
+    const unsigned shift = static_cast<unsigned>(std::bit_width(value)) - 1 - kSubBits;
+    return ((static_cast<std::size_t>(shift) + 1) << kSubBits) + static_cast<std::size_t>((value >> shift) - kExact);
+  }
+  /// Largest value of a bin.
+  static constexpr std::uint64_t top_of(std::size_t bin) noexcept {
+    constexpr std::uint64_t kExact = 1u << kSubBits;
+    if (bin < kExact) return bin;
+    const std::size_t shift = (bin >> kSubBits) - 1;
+    return (((bin & (kExact - 1)) + kExact) << shift) + ((std::uint64_t{1} << shift) - 1);
+  }
+
+ private:
+  std::array<std::atomic<std::uint64_t>, kBins> bins_{};
+};
+
+}  // namespace tangent

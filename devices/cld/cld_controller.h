@@ -1,0 +1,111 @@
+// A contact display whose microcontroller speaks the CLD protocol (devices/cld_protocol.md), over USB.
+//
+//   servo thread                 link's thread
+//   exchange  -- commands -->    frames out, packed into packets
+//             <-- telemetry --   packets in, parsed
+// The two rings are all they share; neither waits. Its state is what the newest telemetry says, no better than what
+// this host asked for: a device that says ready without having been homed since it was plugged in is not.
+#pragma once
+
+#include "devices/base/ring.h"
+#include "devices/cld/cld_messages.h"
+#include "devices/contact_display.h"
+#include "devices/usb/usb_link.h"
+
+#include <array>
+#include <atomic>
+
+namespace tangent {
+
+/// Endpoints, interface and class of the protocol's page.
+UsbLinkOptions cld_link_options();
+
+struct CldControllerOptions {
+  UsbLinkOptions link = cld_link_options();
+  double silence_s = 0.1;                       ///< without telemetry: lost
+  double info_timeout_s = 0.5;                  ///< without a fit info: no firmware
+  UsbTap* tap = nullptr;
+};
+
+class CldController final : public ContactDisplay, private UsbLinkHandler {
+ public:
+  explicit CldController(const CldControllerOptions& options = {});
+  ~CldController() override { close(); }
+
+  /// Of the paper's CLD; what the firmware says of itself is in the report.
+  const DisplayCapabilities& capabilities() const override { return capabilities_; }
+  /// Starts looking for the device; it may be plugged in later. Fails when there is no USB.
+  Status open() override;
+  void close() override;
+  DisplaySample exchange(const DisplayCommand& command, double dt_s) noexcept override;
+  bool report(LinkReport& out) const override;
+
+  /// Any thread but the servo's while it runs: sent when the device connects.
+  void set_gains(const CldWireGains& gains) { gains_ = gains; }
+  void set_limits(const CldWireLimits& limits) { limits_ = limits; }
+
+ private:
+  struct Outgoing {
+    CldType type = CldType::target;
+    std::int32_t target_nm = 0;
+  };
+  struct Heard {
+    CldTelemetry telemetry;
+    std::int64_t at_ns = 0;
+    std::uint32_t connection = 0;
+  };
+
+  // Link's thread.
+  void on_open(UsbLink& link) noexcept override;
+  void on_packet(UsbLink& link, std::span<const std::uint8_t> bytes, std::int64_t now_ns) noexcept override;
+  void on_control_done(UsbLink&, bool, std::int64_t) noexcept override {}
+  void on_turn(UsbLink& link, std::int64_t now_ns) noexcept override;
+  void on_closed() noexcept override;
+  void take_frame(const CldFrame& frame, std::int64_t now_ns) noexcept;
+  void take_info(const CldFrame& frame) noexcept;
+  void take_telemetry(const CldFrame& frame, std::int64_t now_ns) noexcept;
+  void put_frame(const CldFrame& frame, std::int64_t now_ns) noexcept;
+  void flush() noexcept;
+
+  // Servo thread.
+  void hear() noexcept;
+  DeviceState state_now(std::int64_t now_ns, DeviceFault& fault) noexcept;
+  void request(DeviceRequest request, DeviceState state) noexcept;
+
+  CldControllerOptions options_;
+  DisplayCapabilities capabilities_;
+  UsbLink link_;
+  Ring<Outgoing> commands_{256};
+  Ring<Heard> telemetry_{1024};
+
+  // Written by the link's thread, read by any.
+  std::atomic<std::uint32_t> connection_{0};    ///< odd while connected, one more with every change
+  std::atomic<std::uint64_t> info_travel_nm_{0}, info_step_pm_{0}, info_rates_{0};
+  std::atomic<std::uint32_t> info_serial_{0}, info_connection_{0}, unfit_connection_{0};
+  std::atomic<std::uint16_t> info_firmware_{0};
+  std::atomic<std::uint64_t> frames_{0}, crc_errors_{0}, skipped_bytes_{0}, cut_packets_{0}, lost_{0}, doubled_{0}, late_{0},
+      lost_by_device_{0}, refused_{0}, unsent_{0};
+  std::array<std::atomic<std::uint64_t>, 8> last_packet_{};
+  std::atomic<std::uint32_t> last_packet_bytes_{0};
+  LogHistogram round_trip_us_, arrival_us_;
+
+  // Link's thread.
+  CldParser parser_;
+  CldSequence sequence_;
+  std::uint16_t next_sequence_ = 0, last_heard_sequence_ = 0;
+  std::array<std::int64_t, 256> sent_ns_{};
+  std::array<std::uint8_t, kUsbPacketBytes> packet_{};
+  std::size_t packet_held_ = 0;
+  std::int64_t last_telemetry_ns_ = 0, opened_ns_ = 0, next_hello_ns_ = 0;
+  bool heard_any_ = false;
+  std::optional<CldWireGains> gains_;
+  std::optional<CldWireLimits> limits_;
+
+  // Servo thread.
+  bool opened_ = false;
+  Heard newest_;
+  std::uint32_t homed_connection_ = 0, lost_connection_ = 0;
+  bool ever_heard_ = false;
+};
+
+}  // namespace tangent

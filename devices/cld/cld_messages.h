@@ -1,0 +1,94 @@
+// Messages of the CLD protocol (devices/cld_protocol.md): frames <-> structs. Pure; integers on the wire, units in
+// the names. A message of the wrong type or length, or with a value it can't have, is refused.
+#pragma once
+
+#include "devices/cld/cld_frame.h"
+
+#include <cstdint>
+#include <optional>
+
+namespace tangent {
+
+enum class CldType : std::uint8_t {
+  // Host to device.
+  hello = 0x01,
+  target = 0x02,
+  gains = 0x03,
+  limits = 0x04,
+  home = 0x05,
+  stop = 0x06,
+  clear_fault = 0x07,
+  // Device to host.
+  info = 0x81,
+  telemetry = 0x82,
+  refused = 0x83,
+};
+
+enum class CldDeviceState : std::uint8_t { idle, homing, ready, faulted };
+enum class CldDeviceFault : std::uint8_t { none, watchdog, encoder, overcurrent, homing_failed, bad_command };
+
+struct CldTarget {
+  std::int32_t target_nm = 0;
+};
+
+struct CldWireGains {                        ///< of the PID; see devices/simulated/cld_mechanism.h
+  std::uint32_t p_per_s2 = 0;
+  std::uint32_t i_per_s3 = 0;
+  std::int32_t d_milli_per_s = 0;
+  std::uint16_t target_weight_per_65535 = 65535;
+};
+
+struct CldWireLimits {
+  std::int32_t lowest_nm = 0, highest_nm = 0;
+  std::uint32_t fastest_um_per_s = 0;        ///< of the target; 0: as fast as the drive goes
+  std::uint16_t largest_current_ma = 0;      ///< 0: the firmware's own
+};
+
+struct CldInfo {
+  std::uint16_t firmware_version = 0;        ///< major * 256 + minor
+  std::uint32_t serial = 0;
+  std::uint32_t travel_nm = 0;               ///< end to end
+  std::uint32_t step_pm = 0;                 ///< of the encoder
+  std::uint16_t bandwidth_centihz = 0;
+  std::uint16_t telemetry_hz = 0;
+  std::uint16_t watchdog_ms = 0;
+};
+
+struct CldTelemetry {
+  std::uint32_t time_us = 0;                 ///< of the device, wraps
+  std::int32_t position_nm = 0;
+  std::int32_t target_nm = 0;                ///< in force
+  std::int16_t current_ma = 0;
+  CldDeviceState state = CldDeviceState::idle;
+  CldDeviceFault fault = CldDeviceFault::none;
+  std::uint16_t heard_sequence = 0;          ///< of the newest host frame the device took
+  std::uint16_t missed_frames = 0;           ///< host frames lost by their sequence, wraps
+};
+
+struct CldRefused {
+  std::uint8_t type = 0;                     ///< of the frame refused
+  std::uint16_t sequence = 0;
+  std::uint8_t reason = 0;                   ///< 1 version, 2 type, 3 length, 4 value, 5 not in this state
+};
+
+CldFrame to_frame(const CldTarget& message, std::uint16_t sequence) noexcept;
+CldFrame to_frame(const CldWireGains& message, std::uint16_t sequence) noexcept;
+CldFrame to_frame(const CldWireLimits& message, std::uint16_t sequence) noexcept;
+CldFrame to_frame(const CldInfo& message, std::uint16_t sequence) noexcept;
+CldFrame to_frame(const CldTelemetry& message, std::uint16_t sequence) noexcept;
+CldFrame to_frame(const CldRefused& message, std::uint16_t sequence) noexcept;
+/// hello, home, stop, clear_fault: no payload.
+CldFrame bare_frame(CldType type, std::uint16_t sequence) noexcept;
+
+/// Nothing when the frame is of another type, version or length, or holds a state or fault that is none.
+std::optional<CldTarget> to_target(const CldFrame& frame) noexcept;
+std::optional<CldWireGains> to_gains(const CldFrame& frame) noexcept;
+std::optional<CldWireLimits> to_limits(const CldFrame& frame) noexcept;
+std::optional<CldInfo> to_info(const CldFrame& frame) noexcept;
+std::optional<CldTelemetry> to_telemetry(const CldFrame& frame) noexcept;
+std::optional<CldRefused> to_refused(const CldFrame& frame) noexcept;
+
+const char* to_string(CldDeviceState state);
+const char* to_string(CldDeviceFault fault);
+
+}  // namespace tangent

@@ -1,0 +1,72 @@
+// A contact display made of a hobby servo on a Pololu Maestro: open loop, sent to a place and believed to be there.
+//
+// The Maestro has no time-out for commands over USB: when the program dies, the servo holds its last place. Where a
+// person could be hurt by that, use a controller with a watchdog (devices/cld_protocol.md).
+#pragma once
+
+#include "devices/base/mailbox.h"
+#include "devices/contact_display.h"
+#include "devices/maestro/maestro_codec.h"
+#include "devices/usb/usb_link.h"
+
+#include <atomic>
+
+namespace tangent {
+
+UsbLinkOptions maestro_link_options();
+
+struct MaestroOptions {
+  std::uint8_t channel = 0;
+  std::uint16_t speed = 0;               ///< see maestro_speed
+  std::uint8_t acceleration = 0;
+  MaestroCalibration calibration{};
+  double settle_s = 0.5;                 ///< homing: time to reach the middle
+  UsbLinkOptions link = maestro_link_options();
+  UsbTap* tap = nullptr;
+};
+
+class MaestroDisplay final : public ContactDisplay, private UsbLinkHandler {
+ public:
+  explicit MaestroDisplay(const MaestroOptions& options = {});
+  ~MaestroDisplay() override { close(); }
+
+  const DisplayCapabilities& capabilities() const override { return capabilities_; }
+  /// Starts looking for the device; it may be plugged in later. Fails on a calibration that can't be, or without USB.
+  Status open() override;
+  void close() override;
+  /// The sample's position is the place last sent, rounded to the Maestro's step.
+  DisplaySample exchange(const DisplayCommand& command, double dt_s) noexcept override;
+  bool report(LinkReport& out) const override;
+
+ private:
+  void on_open(UsbLink& link) noexcept override;
+  void on_packet(UsbLink&, std::span<const std::uint8_t>, std::int64_t) noexcept override {}
+  void on_control_done(UsbLink& link, bool good, std::int64_t now_ns) noexcept override;
+  void on_turn(UsbLink& link, std::int64_t now_ns) noexcept override;
+  void on_closed() noexcept override;
+  void update_state(const DisplayCommand& command, double dt_s) noexcept;
+
+  MaestroOptions options_;
+  DisplayCapabilities capabilities_;
+  UsbLink link_;
+  Mailbox<std::uint16_t> targets_;                ///< quarter us, 0: off; servo to link
+  std::atomic<std::uint32_t> connection_{0};      ///< odd while connected
+  std::atomic<std::uint32_t> answered_{0};        ///< connection in which a setting was taken
+  std::atomic<std::uint32_t> failures_{0};        ///< control transfers in a row that failed
+  LogHistogram round_trip_us_;
+
+  // Link's thread.
+  static constexpr int kMostInFlight = 2;
+  int in_flight_ = 0;
+  std::uint16_t wanted_ = 0, sent_ = 0;
+  bool unsent_ = false;
+  std::int64_t sent_ns_ = 0;
+
+  // Servo thread.
+  bool opened_ = false;
+  DeviceStateMachine machine_;
+  std::uint32_t seen_connection_ = 0;
+  double homing_for_s_ = 0.0, position_m_ = 0.0;
+};
+
+}  // namespace tangent

@@ -1,0 +1,67 @@
+#include "devices/simulated/cld_mechanism.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace tangent {
+
+namespace {
+
+double rounded(double v, double step) { return step > 0.0 ? std::round(v / step) * step : v; }
+
+}  // namespace
+
+// (s^2 + sqrt(2) w s + w^2)(s + p) with p = w / 8 against s^3 + (c + kd) s^2 + kp s + ki of the closed loop. The slow
+// pole's mark on a step would be an overshoot that takes long to go; with the weight b the closed loop's zero,
+// -ki / (b kp), lies on it.
+CldGains gains_for(double bandwidth_hz, double drag_per_s) {
+  const double w = 2.0 * std::numbers::pi * bandwidth_hz, p = w / 8.0, damping = std::numbers::sqrt2 * w;
+  const double kp = w * w + damping * p, ki = w * w * p;
+  return {.p_per_s2 = kp, .i_per_s3 = ki, .d_per_s = damping + p - drag_per_s, .target_weight = ki / (kp * p)};
+}
+
+CldMechanism::CldMechanism(const CldMechanismOptions& options)
+    : options_(options), gains_(gains_for(options.bandwidth_hz, options.drag_per_s)) {}
+
+double CldMechanism::encoder_m() const noexcept { return rounded(position_, options_.step_m); }
+
+void CldMechanism::control(double target_m) noexcept { control(target_m, encoder_m()); }
+
+void CldMechanism::control(double target_m, double reading_m) noexcept {
+  const double end = 0.5 * options_.travel_m;
+  const double target = rounded(std::clamp(target_m, -end, end), options_.step_m);
+  const double velocity = (reading_m - last_reading_) / kPeriod_s;
+  last_reading_ = reading_m;
+  const double wanted = gains_.p_per_s2 * (gains_.target_weight * target - reading_m) + integral_ - gains_.d_per_s * velocity;
+  const double most = options_.full_acceleration_m_per_s2;
+  const double got = std::clamp(wanted, -most, most);
+  // The integral rests while the current is at its limit.
+  if (got == wanted) integral_ += gains_.i_per_s3 * (target - reading_m) * kPeriod_s;
+  current_ = got / most;
+  move(got);
+}
+
+void CldMechanism::hold() noexcept {
+  velocity_ = current_ = 0.0;
+  last_reading_ = encoder_m();
+  // Goes on smoothly from here when control resumes.
+  integral_ = gains_.p_per_s2 * (1.0 - gains_.target_weight) * last_reading_;
+}
+
+// x'' = b - c x' over one period, exactly: v -> b/c + (v - b/c) e, x -> x + b/c T + (v - b/c) (1 - e) / c, e = exp(-c T).
+void CldMechanism::move(double acceleration) noexcept {
+  const double c = options_.drag_per_s, decay = std::exp(-c * kPeriod_s);
+  const double terminal = acceleration / c;
+  position_ += terminal * kPeriod_s + (velocity_ - terminal) * (1.0 - decay) / c;
+  velocity_ = terminal + (velocity_ - terminal) * decay;
+  const double end = 0.5 * options_.travel_m;
+  if (std::abs(position_) > end) {
+    position_ = std::copysign(end, position_);
+    velocity_ = 0.0;
+  }
+  const double slack = 0.5 * options_.backlash_m;
+  roller_ = std::clamp(roller_, position_ - slack, position_ + slack);
+}
+
+}  // namespace tangent

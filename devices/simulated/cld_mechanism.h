@@ -1,0 +1,64 @@
+// A contact location display's drive and the controller on its microcontroller: motor, gear, encoder, travel stops,
+// backlash, and a PID that runs once a millisecond. The simulated display and the emulated USB controller are this.
+//
+// Pure computation: no clock, no thread. The same calls give the same bits.
+//
+//   motor      x'' = a u - c x'        u: current, -1 to 1 of the largest
+//   encoder    x in steps; the roller follows x through the backlash
+//   control    u = (kp (b target - encoder) + ki integral(e) - kd x') / a,  e = target - encoder,  x' from two encoder readings
+// The three gains put the poles of the loop at w (-1 +- i) / sqrt(2) and w / 8, where w = 2 pi bandwidth: the first two
+// are -3 dB at the bandwidth, the third, slow one takes out what friction leaves.
+#pragma once
+
+namespace tangent {
+
+struct CldMechanismOptions {
+  double travel_m = 20e-3;          ///< end to end
+  double bandwidth_hz = 12.0;       ///< -3 dB. The paper's: over 5 Hz
+  double step_m = 0.8e-6;           ///< of drive and encoder; 0: exact
+  double backlash_m = 20e-6;        ///< between drive and roller; assumed, as makers rarely say
+  double full_acceleration_m_per_s2 = 200.0;   ///< a: of the free drive at the largest current
+  double drag_per_s = 20.0;         ///< c
+};
+
+/// Gains of the PID in SI: acceleration per error, per error and time, per velocity.
+struct CldGains {
+  double p_per_s2 = 0.0;
+  double i_per_s3 = 0.0;
+  double d_per_s = 0.0;
+  double target_weight = 1.0;   ///< of the target in the proportional part, 0 to 1
+};
+
+CldGains gains_for(double bandwidth_hz, double drag_per_s);
+
+class CldMechanism {
+ public:
+  static constexpr double kPeriod_s = 1e-3;   ///< of the controller
+
+  explicit CldMechanism(const CldMechanismOptions& options = {});
+
+  /// One period of the controller towards `target_m` (clamped to the travel).
+  void control(double target_m) noexcept;
+  /// As control, but the controller believes `reading_m` (a stuck encoder).
+  void control(double target_m, double reading_m) noexcept;
+  /// One period without current; the drive brakes at once (a screw does not run on).
+  void hold() noexcept;
+  void set_gains(const CldGains& gains) noexcept { gains_ = gains; }
+
+  const CldMechanismOptions& options() const { return options_; }
+  const CldGains& gains() const { return gains_; }
+  double encoder_m() const noexcept;                    ///< drive, in steps
+  double drive_m() const { return position_; }          ///< before the encoder
+  double roller_m() const { return roller_; }           ///< behind the backlash
+  double current() const { return current_; }           ///< -1 to 1 of the largest
+
+ private:
+  void move(double acceleration) noexcept;
+
+  CldMechanismOptions options_;
+  CldGains gains_;
+  double position_ = 0.0, velocity_ = 0.0, roller_ = 0.0, current_ = 0.0;
+  double integral_ = 0.0, last_reading_ = 0.0;
+};
+
+}  // namespace tangent

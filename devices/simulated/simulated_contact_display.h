@@ -1,0 +1,52 @@
+// A contact display that isn't there: a roller driven by a motor under a PID, between two stops, in steps. Figures of
+// the paper's CLD.
+//
+// Pure computation: no clock, no thread. The same commands and time steps give the same bits.
+#pragma once
+
+#include "devices/contact_display.h"
+#include "devices/simulated/cld_mechanism.h"
+
+#include <array>
+#include <random>
+
+namespace tangent {
+
+struct SimulatedDisplayOptions {
+  CldMechanismOptions mechanism;
+  double homing_s = 0.25;
+  std::uint64_t seed = 1;          ///< of injected noise
+};
+
+class SimulatedContactDisplay final : public ContactDisplay {
+ public:
+  explicit SimulatedContactDisplay(const SimulatedDisplayOptions& options = {});
+
+  const DisplayCapabilities& capabilities() const override { return capabilities_; }
+  Status open() override;
+  void close() override;
+  /// The PID runs at 1 kHz whatever dt_s is: as often as whole milliseconds have passed.
+  DisplaySample exchange(const DisplayCommand& command, double dt_s) noexcept override;
+  bool inject(const FaultInjection& fault) noexcept override;
+
+  /// The next exchange finds the device in this fault. Same thread as exchange.
+  void inject(DeviceFault fault) noexcept { next_fault_ = fault; }
+  const CldMechanism& mechanism() const { return mechanism_; }
+
+ private:
+  void update_state(const DisplayCommand& command, double dt_s) noexcept;
+  DisplaySample measure(double dt_s) noexcept;
+
+  SimulatedDisplayOptions options_;
+  DisplayCapabilities capabilities_;
+  DeviceStateMachine machine_;
+  DeviceFault next_fault_ = DeviceFault::none;
+  InjectedFaultTimer timer_;
+  InjectedFault fault_now_ = InjectedFault::none;
+  std::mt19937_64 random_;
+  double homing_for_s_ = 0.0, since_control_s_ = 0.0;
+  double shown_m_ = 0.0, age_s_ = 0.0;
+  CldMechanism mechanism_;
+};
+
+}  // namespace tangent

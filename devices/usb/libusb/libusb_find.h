@@ -1,0 +1,24 @@
+// Finding and opening devices with libusb. Only this folder includes libusb.
+#pragma once
+
+#include "devices/usb/usb_types.h"
+
+#include <libusb.h>
+
+#include <memory>
+
+namespace tangent {
+
+struct LibusbContextCloser { void operator()(libusb_context* c) const { libusb_exit(c); } };
+struct LibusbHandleCloser { void operator()(libusb_device_handle* h) const { libusb_close(h); } };
+using LibusbContext = std::unique_ptr<libusb_context, LibusbContextCloser>;
+using LibusbHandle = std::unique_ptr<libusb_device_handle, LibusbHandleCloser>;
+
+Result<LibusbContext> open_libusb();
+bool matches(libusb_device* device, const UsbMatch& match);
+UsbProblem problem_of(int libusb_code);
+
+/// The first device that matches and can be opened, its interface claimed. `problem`: why there is none.
+LibusbHandle open_first(libusb_context* context, const UsbMatch& match, int interface_number, UsbProblem& problem);
+
+}  // namespace tangent

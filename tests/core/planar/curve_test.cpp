@@ -1,0 +1,82 @@
+#include "core/planar/arc.h"
+#include "core/planar/curve.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+using namespace tangent;
+
+namespace {
+
+PlanarCurve curve_of(std::vector<Vec2> vertices, bool closed = false) {
+  auto curve = PlanarCurve::build({"test", std::move(vertices), closed});
+  REQUIRE_MESSAGE(curve.has_value(), (curve ? "" : curve.error().message()));
+  return std::move(*curve);
+}
+
+constexpr LocalCentre kCentres[]{LocalCentre::bisectors, LocalCentre::midpoint};
+
+}  // namespace
+
+TEST_CASE("neighbouring patches meet at the midpoints of segments, in place and tangent") {
+  const PlanarCurve curve = curve_of({{0, 0}, {0.03, 0.004}, {0.05, 0.03}, {0.02, 0.06}, {-0.02, 0.03}}, true);
+  for (const LocalCentre centre : kCentres) {
+    for (std::uint32_t i = 0; i < curve.patch_count(); ++i) {
+      const LineSample here = curve.sample(i, centre, 1.0), there = curve.sample(curve.after(i), centre, 0.0);
+      CHECK(glm::length(here.place - there.place) < 1e-16);
+      CHECK(glm::length(here.normal - there.normal) < 1e-14);
+      CHECK(glm::length(here.place - curve.patch(i).last) < 1e-16);
+    }
+  }
+}
+
+TEST_CASE("a place on a tangent line has its t as parameter, and derivatives match finite differences") {
+  const PlanarCurve curve = curve_of({{0, 0}, {0.03, 0.004}, {0.05, 0.03}, {0.09, 0.02}});
+  for (const LocalCentre centre : kCentres) {
+    for (std::uint32_t i = 0; i < curve.patch_count(); ++i) {
+      for (const double t : {0.0, 0.2, 0.5, 0.9, 1.0}) {
+        const LineSample s = curve.sample(i, centre, t);
+        CHECK(curve.parameter(i, centre, s.place) == doctest::Approx(t).epsilon(1e-12).scale(1.0));
+        CHECK(std::abs(cross(s.place - s.foot, s.direction)) < 1e-16);
+        const double d = 1e-6;
+        const LineSample before = curve.sample(i, centre, t - d), after = curve.sample(i, centre, t + d);
+        CHECK(glm::length((after.place - before.place) / (2 * d) - s.place_t) < 1e-8);
+        CHECK(glm::length((after.foot - before.foot) / (2 * d) - s.foot_t) < 1e-8);
+        CHECK(glm::length((after.direction - before.direction) / (2 * d) - s.direction_t) < 1e-7);
+        CHECK(curve.parameter_rate(i, centre, s.place, s.place_t) == doctest::Approx(1.0).epsilon(1e-9));
+      }
+    }
+  }
+}
+
+TEST_CASE("the bisectors' centre of equal segments is the centre of the circle through the vertices") {
+  const PlanarCurve curve = curve_of(make_regular_polygon(12, 0.04).vertices, true);
+  for (const CurvePatch& patch : curve.patches()) CHECK(glm::length(patch.centre[0] + curve.origin()) < 1e-15);
+}
+
+TEST_CASE("the finger's side: left of an open polygon, outside of a closed one whichever way it turns") {
+  CHECK(curve_of({{0, 0}, {0.1, 0}, {0.2, 0.01}}).sample(0, LocalCentre::bisectors, 0.5).normal.y == doctest::Approx(1.0));
+  std::vector<Vec2> square{{0, 0}, {0.1, 0}, {0.1, 0.1}, {0, 0.1}};
+  CHECK(curve_of(square, true).sample(0, LocalCentre::bisectors, 1.0).normal.y == doctest::Approx(-1.0));
+  std::reverse(square.begin(), square.end());
+  CHECK(curve_of(square, true).sample(2, LocalCentre::bisectors, 1.0).normal.y == doctest::Approx(-1.0));
+}
+
+TEST_CASE("a vertex given twice leaves straight half segments and a corner between them") {
+  const PlanarCurve curve = curve_of({{0, 0}, {0.1, 0}, {0.1, 0}, {0.1, 0.1}});
+  CHECK(curve.patch(1).straight);
+  CHECK(curve.patch(1).joint_after == CurveJoint::corner);
+  CHECK(curve.patch(2).joint_before == CurveJoint::corner);
+  CHECK(curve.patch(0).joint_before == CurveJoint::end);
+  CHECK(curve.patch(3).joint_after == CurveJoint::end);
+  CHECK(glm::length(curve.sample(1, LocalCentre::bisectors, 1.0).place + curve.origin() - Vec2(0.1, 0.0)) < 1e-16);
+}
+
+TEST_CASE("segments in one line are straight patches whose parameter is the part of the way") {
+  const PlanarCurve curve = curve_of({{0, 0}, {0.04, 0}, {0.1, 0}, {0.2, 0.05}});
+  CHECK(curve.patch(1).straight);
+  const LineSample s = curve.sample(1, LocalCentre::bisectors, 0.5);
+  CHECK(glm::length(s.place + curve.origin() - Vec2(0.045, 0.0)) < 1e-16);
+  CHECK(rendered_curvature(s) == 0.0);
+}

@@ -1,0 +1,101 @@
+#include "devices/simulated/cld_mechanism.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+using namespace tangent;
+
+namespace {
+
+CldMechanismOptions ideal() {
+  CldMechanismOptions o;
+  o.step_m = o.backlash_m = 0.0;
+  return o;
+}
+
+double gain_at(double hz, CldMechanismOptions options = ideal()) {
+  CldMechanism cld(options);
+  double in_phase = 0.0, quadrature = 0.0;
+  constexpr int kTicks = 5000;  // whole periods of every frequency asked for, after as many to settle
+  for (int i = 0; i < 2 * kTicks; ++i) {
+    const double phase = 2.0 * std::numbers::pi * hz * i * CldMechanism::kPeriod_s;
+    cld.control(3e-3 * std::sin(phase));
+    if (i < kTicks) continue;
+    in_phase += cld.drive_m() * std::sin(phase);
+    quadrature += cld.drive_m() * std::cos(phase);
+  }
+  return std::hypot(in_phase, quadrature) * 2.0 / kTicks / 3e-3;
+}
+
+}  // namespace
+
+TEST_CASE("a sine at the set bandwidth comes out at -3 dB, one far below comes out whole") {
+  // The encoder's difference quotient is half a millisecond old, which shifts the corner by a few percent.
+  CHECK(gain_at(12.0) == doctest::Approx(std::numbers::sqrt2 / 2.0).epsilon(0.05));
+  CHECK(gain_at(1.0) == doctest::Approx(1.0).epsilon(0.01));
+  CldMechanismOptions slow = ideal();
+  slow.bandwidth_hz = 5.0;
+  CHECK(gain_at(5.0, slow) == doctest::Approx(std::numbers::sqrt2 / 2.0).epsilon(0.05));
+}
+
+TEST_CASE("a step arrives like a second-order lag and stays without error") {
+  CldMechanism cld(ideal());
+  double highest = 0.0;
+  int risen = 0;
+  for (int i = 1; i <= 1000; ++i) {
+    cld.control(2e-3);
+    highest = std::max(highest, cld.drive_m());
+    if (risen == 0 && cld.drive_m() >= 1e-3) risen = i;
+  }
+  CHECK(highest / 2e-3 == doctest::Approx(1.0 + std::exp(-std::numbers::pi)).epsilon(0.03));  // 4.3 % over
+  CHECK(risen >= 18);
+  CHECK(risen <= 23);  // continuous: 19 ms to the half, one period of the controller later
+  CHECK(cld.drive_m() == doctest::Approx(2e-3).epsilon(1e-6));
+}
+
+TEST_CASE("the drive never leaves its travel, and its encoder reads in steps") {
+  CldMechanism cld;
+  for (int i = 0; i < 3000; ++i) {
+    cld.control((i / 300) % 2 == 0 ? 0.0099 : -1.0);
+    CHECK(std::abs(cld.drive_m()) <= 0.01);
+    const double steps = cld.encoder_m() / 0.8e-6;
+    REQUIRE(std::abs(steps - std::round(steps)) < 1e-6);
+    CHECK(std::abs(cld.encoder_m() - cld.drive_m()) <= 0.4e-6 + 1e-15);
+    CHECK(std::abs(cld.current()) <= 1.0);
+  }
+  for (int i = 0; i < 2000; ++i) cld.control(5.0);
+  CHECK(cld.encoder_m() == doctest::Approx(0.01).epsilon(1e-3));
+}
+
+TEST_CASE("the roller follows the drive through the backlash: late by half of it, either way") {
+  CldMechanism cld;
+  auto creep = [&cld, at = 0.0](double to) mutable {   // slowly, so that nothing overshoots
+    const double from = at;
+    for (int i = 1; i <= 4000; ++i) cld.control(at = from + (to - from) * std::min(1.0, i / 3000.0));
+  };
+  creep(3e-3);
+  CHECK(std::abs(cld.roller_m() - (cld.drive_m() - 10e-6)) < 2e-6);
+  const double rested = cld.roller_m();
+  creep(3e-3 - 15e-6);  // within the slack: the roller does not move
+  CHECK(std::abs(cld.drive_m() - (3e-3 - 15e-6)) < 2e-6);
+  CHECK(cld.roller_m() == rested);
+  creep(2.9e-3);
+  CHECK(std::abs(cld.roller_m() - (cld.drive_m() + 10e-6)) < 2e-6);
+}
+
+TEST_CASE("held, the drive stops at once, and goes on without a jerk") {
+  CldMechanism cld(ideal());
+  for (int i = 0; i < 30; ++i) cld.control(3e-3);
+  cld.hold();
+  const double at = cld.drive_m();
+  for (int i = 0; i < 100; ++i) cld.hold();
+  CHECK(cld.drive_m() == at);
+  CHECK(cld.current() == 0.0);
+  for (int i = 0; i < 200; ++i) {
+    cld.control(at);
+    CHECK(std::abs(cld.drive_m() - at) < 1e-9);
+  }
+}

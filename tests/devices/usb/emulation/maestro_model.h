@@ -1,0 +1,42 @@
+// Emulated Pololu Maestro: takes vendor requests, remembers what each channel was told.
+#pragma once
+
+#include "tests/devices/usb/emulation/usb_model.h"
+
+#include <array>
+
+namespace tangent::emulation {
+
+class MaestroModel final : public UsbModel {
+ public:
+  std::array<std::uint16_t, 6> targets{}, speeds{}, accelerations{};
+  std::vector<std::uint16_t> history;     ///< targets of channel 0, in order
+  bool stalls = false;
+
+  Bytes descriptors() const override {
+    Bytes d = device_descriptor(0x1FFB, 0x0089);
+    const Bytes c = configuration_descriptor(0xFF, 0x00, 0x00, {});
+    d.insert(d.end(), c.begin(), c.end());
+    return d;
+  }
+  void on_out(std::uint8_t, std::span<const std::uint8_t>) override {}
+  bool on_control(const ControlSetup& s, Bytes& answer) override {
+    answer.clear();
+    const std::size_t channel = s.index & 0x7fu;
+    if (stalls || s.request_type != 0x40 || channel >= targets.size()) return false;
+    if (s.request == 0x85) {
+      targets[channel] = s.value;
+      if (channel == 0) history.push_back(s.value);
+      return true;
+    }
+    if (s.request == 0x84) {
+      ((s.index & 0x80u) != 0 ? accelerations : speeds)[channel] = s.value;
+      return true;
+    }
+    return false;
+  }
+  void tick() override {}
+  void reset() override { targets = {}; }
+};
+
+}  // namespace tangent::emulation

@@ -1,0 +1,55 @@
+// A USB device node as usbfs shows it, for one model: URBs submitted, completed and reaped, interfaces claimed, the
+// device unplugged in the middle of it. Linux's ioctls, with pointers of this process.
+#pragma once
+
+#include "tests/devices/usb/emulation/usb_model.h"
+
+#include <sys/ioctl.h>
+
+#include <linux/usbdevice_fs.h>
+
+#include <atomic>
+#include <deque>
+#include <functional>
+#include <mutex>
+#include <vector>
+
+namespace tangent::emulation {
+
+class UsbfsBoard {
+ public:
+  explicit UsbfsBoard(UsbModel& model) : model_(model) {}
+
+  /// 0 or -errno. Any thread.
+  int ioctl(unsigned long request, void* argument);
+  void tick();
+  /// Everything in flight ends with -ESHUTDOWN; every later ioctl but reaping with -ENODEV.
+  void unplug();
+  void plug_in();
+  bool plugged() const { return plugged_; }
+  void vanish_handle();                         ///< the node was closed: URBs are forgotten
+  template <class F>
+  auto with_model(F&& f) {
+    const std::scoped_lock lock(mutex_);
+    return f();
+  }
+
+  int claim_error = 0;                          ///< errno that claiming meets
+  /// Called, under the lock, when there is something to reap, and when there no longer is.
+  std::function<void(bool ready)> on_ready;
+
+ private:
+  int submit(usbdevfs_urb* urb);
+  int discard(usbdevfs_urb* urb);
+  int reap(void** out);
+  void complete(usbdevfs_urb* urb, int status, int actual);
+  void serve_in();
+  void submit_control(usbdevfs_urb* urb);
+
+  std::mutex mutex_;
+  UsbModel& model_;
+  std::deque<usbdevfs_urb*> waiting_, done_;
+  std::atomic<bool> plugged_{true};
+};
+
+}  // namespace tangent::emulation

@@ -1,0 +1,94 @@
+// The Maestro driver against an emulated one behind the real libusb.
+#include "devices/maestro/maestro_display.h"
+
+#include "tests/devices/usb/emulation/maestro_model.h"
+#include "tests/devices/usb/emulation/testbed.h"
+#include "tests/devices/usb/usb_checks.h"
+
+#include <algorithm>
+#include <ctime>
+
+using namespace tangent;
+using namespace tangent::emulation;
+
+namespace {
+
+constexpr double kDt = 1e-3;
+
+struct Bench {
+  Testbed testbed;
+  MaestroModel model;
+  PluggedDevice device{testbed, model, 7};
+  MaestroDisplay display;
+  DisplaySample sample;
+
+  Bench() : display({.channel = 0, .speed = 120, .acceleration = 9, .settle_s = 0.05}) {
+    device.plug_in();
+    REQUIRE(display.open());
+  }
+  ~Bench() { display.close(); }
+  const DisplaySample& exchange(double target = 0.0, DeviceRequest request = DeviceRequest::none) {
+    return sample = display.exchange({.target_m = target, .request = request}, kDt);
+  }
+  bool reach(DeviceState state) { return eventually([&] { return exchange().state == state; }); }
+  void make_ready() {
+    REQUIRE(reach(DeviceState::firmware));
+    exchange(0.0, DeviceRequest::home);
+    REQUIRE(reach(DeviceState::ready));
+  }
+  template <class F> auto seen(F&& f) { return device.board.with_model(f); }
+};
+
+}  // namespace
+
+TEST_CASE("the Maestro gets speed and acceleration, goes to the middle, and follows its target in quarter microseconds") {
+  Bench b;
+  b.make_ready();
+  CHECK(b.seen([&] { return b.model.speeds[0]; }) == 120);
+  CHECK(b.seen([&] { return b.model.accelerations[0]; }) == 9);
+  CHECK(eventually([&] { return b.seen([&] { return b.model.targets[0]; }) == 6000; }));
+  CHECK(eventually([&] { b.exchange(5e-3); return b.seen([&] { return b.model.targets[0]; }) == 7000; }));
+  CHECK(b.sample.position_m == doctest::Approx(5e-3));
+  CHECK_FALSE(b.display.capabilities().measures_position);
+  CHECK(b.display.capabilities().firmware_timeout_s == 0.0);   // stated: it has none
+  b.exchange(0.0, DeviceRequest::stop);
+  CHECK(eventually([&] { b.exchange(); return b.seen([&] { return b.model.targets[0]; }) == 0; }));   // off
+}
+
+TEST_CASE("10,000 ticks: the Maestro's targets come in order, and the last one arrives") {
+  Bench b;
+  b.make_ready();
+  timespec due{};
+  clock_gettime(CLOCK_MONOTONIC, &due);
+  for (int i = 1; i <= 10'000; ++i) {
+    REQUIRE(b.exchange(9e-3 * i / 10'000.0).state == DeviceState::ready);
+    if (i % 4 != 0) continue;   // 4 kHz on average: faster than the bus, so that some are skipped
+    due.tv_nsec += 1'000'000;
+    if (due.tv_nsec >= 1'000'000'000) { due.tv_nsec -= 1'000'000'000; ++due.tv_sec; }
+    clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &due, nullptr);
+  }
+  const std::uint16_t last = quarter_us_at({}, 9e-3);
+  REQUIRE(eventually([&] { return b.seen([&] { return b.model.targets[0]; }) == last; }));
+  b.seen([&] {
+    CHECK(std::is_sorted(b.model.history.begin(), b.model.history.end()));
+    return 0;
+  });
+}
+
+TEST_CASE("a Maestro that is unplugged is absent, one that refuses every request is faulted, and both come back") {
+  Bench b;
+  b.make_ready();
+  b.device.unplug();
+  REQUIRE(b.reach(DeviceState::absent));
+  b.device.plug_in();
+  b.make_ready();
+  b.seen([&] { b.model.stalls = true; return 0; });
+  REQUIRE(b.reach(DeviceState::faulted));
+  CHECK(b.sample.fault == DeviceFault::disconnected);
+  LinkReport r;
+  b.display.report(r);
+  CHECK(r.stalls >= 3);
+  b.seen([&] { b.model.stalls = false; return 0; });
+  b.exchange(0.0, DeviceRequest::clear_fault);
+  CHECK(eventually([&] { b.exchange(); return b.sample.state == DeviceState::firmware; }));
+}

@@ -1,0 +1,72 @@
+// workbench figures, run as a process: the data are the figures' own claims.
+#include "tests/support/process.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <sstream>
+
+using namespace tangent::testing;
+
+namespace {
+
+/// Numbers below the header; an empty line parts.
+std::vector<std::vector<double>> rows_of(const std::string& path) {
+  std::vector<std::vector<double>> rows;
+  std::istringstream in(read_text(path));
+  std::string line;
+  std::getline(in, line);
+  while (std::getline(in, line)) {
+    if (line.empty()) continue;
+    rows.emplace_back();
+    std::istringstream cells(line);
+    for (std::string cell; std::getline(cells, cell, ',');) rows.back().push_back(std::stod(cell));
+  }
+  return rows;
+}
+
+}  // namespace
+
+TEST_CASE("figures writes every figure as SVG with its CSV, and the curvature table") {
+  const TempFolder folder;
+  const std::string out = folder.file("figures");
+  const ProcessResult result = run_workbench({"figures", "--out", out});
+  CAPTURE(result.err);
+  REQUIRE(result.exit_code == 0);
+  for (const char* name : {"fig04-contact-location", "fig06-iterations", "fig15-patches", "fig17-local-centre", "conditions-at-threshold",
+                           "conditions-five-segments", "curvature-deviation"}) {
+    CAPTURE(name);
+    CHECK(contains(read_text(out + "/" + name + ".svg"), "</svg>"));
+    CHECK(rows_of(out + "/" + name + ".csv").size() > 3);
+  }
+  CHECK(contains(result.out, "tangent     bisectors             5   0.379"));
+
+  // Fig. 4: on facets the contact stands still, then crosses the finger while it rolls over the edge.
+  int still = 0;
+  const auto contact = rows_of(out + "/fig04-contact-location.csv");
+  for (std::size_t i = 1; i < contact.size(); ++i) still += std::abs(contact[i][2] - contact[i - 1][2]) < 1e-9;
+  CHECK(still > static_cast<int>(contact.size()) * 9 / 10);
+  CHECK(contact.front()[2] == doctest::Approx(9.02).epsilon(1e-3));   // 20 mm times half of 0.902 rad
+  CHECK(contact.back()[3] == doctest::Approx(-9.02).epsilon(1e-3));
+
+  // Five segments: full shading follows the circle, facets are off by half a facet's turn, a held display stands at 0.
+  double p1 = 0.0, c1 = 0.0, held = 0.0;
+  for (const auto& row : rows_of(out + "/conditions-five-segments.csv")) {
+    c1 = std::max(c1, std::abs(row[3] - row[1]));
+    held = std::max(held, std::abs(row[4]));
+    p1 = std::max(p1, std::abs(row[11] - row[1]));
+  }
+  CHECK(p1 < 0.05);
+  CHECK(c1 == doctest::Approx(0.902 / 4 / 2 * 180 / 3.14159265).epsilon(0.2));
+  CHECK(held == 0.0);
+}
+
+TEST_CASE("figures says where it can't write") {
+  const TempFolder folder;
+  folder.write("file", "");
+  const ProcessResult result = run_workbench({"figures", "--out", folder.file("file") + "/x"});
+  CHECK(result.exit_code == 1);
+  CHECK(contains(result.err, "is no folder that can be made"));
+}

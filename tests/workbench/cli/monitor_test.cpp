@@ -1,0 +1,38 @@
+#include "tests/support/process.h"
+
+#include <doctest/doctest.h>
+
+using namespace tangent::testing;
+
+namespace {
+
+bool has(const std::string& text, const char* part) { return text.find(part) != std::string::npos; }
+
+}  // namespace
+
+TEST_CASE("monitor shows the simulated devices, a fault injected by name, and the log of it") {
+  const ProcessResult r = run_workbench({"monitor", "--seconds", "2", "--inject", "drop-out"});
+  CHECK(r.exit_code == 0);
+  CHECK(has(r.out, "force device ready"));
+  CHECK(has(r.out, "safety gate: armed"));
+  CHECK(has(r.out, "force device: disconnected"));
+  CHECK(has(r.out, "safety gate: force device not ready"));
+  CHECK(has(r.out, "Tick to tick:"));
+}
+
+TEST_CASE("monitor refuses unknown faults and devices, naming the choices") {
+  const ProcessResult fault = run_workbench({"monitor", "--seconds", "1", "--inject", "gremlins"});
+  CHECK(fault.exit_code == 1);
+  CHECK(has(fault.err, "stuck-encoder"));
+  const ProcessResult device = run_workbench({"monitor", "--seconds", "1", "--device", "phantom"});
+  CHECK(device.exit_code == 1);
+  CHECK(has(device.err, "maestro"));
+  CHECK(run_workbench({"monitor", "--seconds", "x"}).exit_code == 2);
+}
+
+TEST_CASE("devices lists the simulated ones everywhere") {
+  const ProcessResult r = run_workbench({"devices"});
+  CHECK(r.exit_code == 0);
+  CHECK(has(r.out, "peak 8.5 N, continuous 1.4 N"));
+  CHECK(has(r.out, "simulated contact display"));
+}

@@ -1,0 +1,233 @@
+// What makes the window pleasant: everything explains itself, everything has a name, nothing is forgotten.
+#include "headless_app.h"
+
+#include "tests/support/temp_folder.h"
+#include "workbench/gui/panels/commands.h"
+
+#include <imgui_internal.h>
+
+#include <cstdio>
+#include <fstream>
+#include <map>
+#include <set>
+
+using namespace tangent;
+using tangent::test::HeadlessApp;
+
+namespace {
+
+bool a_tooltip_shows() {
+  for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows) {
+    if (window->Active && (window->Flags & ImGuiWindowFlags_Tooltip) != 0) return true;
+  }
+  return false;
+}
+
+/// Everything interactive that the frame showed, and does not explain itself when the pointer rests on it.
+std::set<std::string> without_tooltip(HeadlessApp& ui) {
+  std::map<std::string, ImVec2> places;
+  for (const auto& [path, rect] : ui.app().items().all()) {
+    if (rect.visible) places[path] = rect.centre();
+  }
+  std::set<std::string> silent;
+  ui.input().dt_s = 0.25;
+  for (const auto& [path, at] : places) {
+    ui.move({1.0f, at.y});
+    ui.move(at);
+    for (int i = 0; i < 5 && !a_tooltip_shows(); ++i) ui.frame();
+    if (!a_tooltip_shows()) silent.insert(path);
+  }
+  return silent;
+}
+
+}  // namespace
+
+TEST_CASE("everything in the window explains itself when the pointer rests on it") {
+  AppOptions options = HeadlessApp::deterministic_options();
+  options.mesh = "fin_on_plate";
+  HeadlessApp ui(options, 2400.0f, 3600.0f);
+  ui.app().advance(600);
+  ui.model().map().on = true;
+  ui.model().set_value(*find_preset_key("solver", "method"), static_cast<double>(Method::paper));
+  ui.frames(2);
+  // The view itself is where one works; a tooltip would be in the way. Plots and the table show their values instead.
+  std::set<std::string> silent = without_tooltip(ui);
+  std::erase_if(silent, [](const std::string& path) { return path == "view" || path.starts_with("plots/") || path.starts_with("toast/") || path.starts_with("iterations/"); });
+  for (const std::string& path : silent) MESSAGE("no tooltip: ", path);
+  CHECK(silent.empty());
+}
+
+TEST_CASE("no window of the program is modal") {
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(std::string(TANGENT_SOURCE_DIR) + "/workbench/gui")) {
+    if (!entry.is_regular_file()) continue;
+    CAPTURE(entry.path().string());
+    CHECK_FALSE(testing::contains(testing::read_text(entry.path()), "PopupModal"));
+  }
+}
+
+TEST_CASE("a command is found by letters of it, the one whose words begin with them first") {
+  CHECK(match_score("Preset: undo", "undo") >= 0);
+  CHECK(match_score("Preset: undo", "PU") >= 0);
+  CHECK(match_score("Preset: undo", "xyz") < 0);
+  CHECK(match_score("Window: light", "window light") >= 0);
+  CHECK(match_score("Map: Curvature", "map cur") < match_score("Mesh: make cube, rounded", "map cur") + 1000);
+  CHECK(match_score("View: frame the mesh", "") == 0);
+}
+
+TEST_CASE("Ctrl+P, some letters and Enter do a command; Esc puts the palette away and stops nothing") {
+  HeadlessApp ui;
+  ui.app().advance(2000);
+  ui.frames(2);
+  ui.chord('P');
+  REQUIRE(ui.app().items().find("palette/text") != nullptr);
+  ui.type("window: light");
+  ui.key(HeadlessApp::kEnter);
+  CHECK(ui.model().theme() == Theme::light);
+  ui.frame();
+  CHECK(ui.app().items().find("palette/text") == nullptr);
+  ui.chord('P');
+  ui.type("map cur");
+  ui.click("palette/0");
+  CHECK(ui.model().map().on);
+  CHECK(ui.model().map().quantity == MapQuantity::curvature);
+  ui.chord('P');
+  ui.frame();
+  ui.key(HeadlessApp::kEscape);
+  ui.frame();
+  CHECK(ui.app().items().find("palette/text") == nullptr);
+  CHECK_FALSE(ui.model().stopped());
+}
+
+TEST_CASE("F1 shows all keys on a sheet, and every command can be run") {
+  HeadlessApp ui;
+  ui.app().advance(2000);
+  ui.key(290);
+  CHECK(ui.app().items().find("shortcuts") != nullptr);
+  ui.key(HeadlessApp::kEscape);
+  ui.frame();
+  CHECK(ui.app().items().find("shortcuts") == nullptr);
+  CHECK_FALSE(ui.model().stopped());
+  MenuBar menu;
+  std::set<std::string> names;
+  for (const Command& command : window_commands(ui.model(), menu)) {
+    CAPTURE(command.name);
+    CHECK(names.insert(command.name).second);
+    // Each opens a mesh or takes the mesh's time; the others follow one another in the same window.
+    if (command.name.starts_with("Mesh: make") && command.name != "Mesh: make cube") continue;
+    command.run();
+    ui.frame();
+  }
+  CHECK(names.size() > 60);
+}
+
+TEST_CASE("layout, look, favourites, folded sections and recent files come back in the next run; default layout forgets") {
+  const testing::TempFolder folder;
+  AppOptions options = HeadlessApp::deterministic_options();
+  options.settings = folder.path() / "window.toml";
+  {
+    HeadlessApp ui(options);
+    ui.drag("splitter/left", {40.0f, 0.0f});
+    ui.click("section/Finger");
+    ui.click("solver/gain_overall/label");
+    ui.model().set_theme(Theme::light);
+    ui.model().set_ui_scale(1.2f);
+    ui.model().set_y_up(true);
+    ui.frame();
+  }
+  HeadlessApp ui(options);
+  CHECK(ui.model().sizes().left == doctest::Approx(LayoutSizes{}.left + 40.0f));
+  CHECK(ui.app().items().find("finger/radius_m") == nullptr);
+  CHECK(ui.model().favourites() == std::vector<std::string>{"solver.gain_overall"});
+  CHECK(ui.model().theme() == Theme::light);
+  CHECK(ui.model().ui_scale() == doctest::Approx(1.2f));
+  CHECK(ui.model().view().camera.y_up);
+  CHECK(ui.model().settings().recent_meshes == std::vector<std::string>{"icosphere"});
+  ui.model().reset_layout();
+  ui.frame();
+  CHECK(ui.model().sizes().left == LayoutSizes{}.left);
+  CHECK(ui.app().items().find("finger/radius_m") != nullptr);
+}
+
+TEST_CASE("a broken settings file is said and left behind; the window starts all the same") {
+  const testing::TempFolder folder;
+  AppOptions options = HeadlessApp::deterministic_options();
+  options.settings = folder.write("window.toml", "[layout\n");
+  HeadlessApp ui(options);
+  CHECK(ui.model().messages().all().front().severity == Severity::warning);
+  CHECK(ui.model().sizes().left == LayoutSizes{}.left);
+}
+
+TEST_CASE("toasts come at a bearable rate; the log has all of them") {
+  MessageLog log;
+  for (int i = 0; i < 50; ++i) log.add(Severity::warning, "message " + std::to_string(i), 10.0 + 0.01 * i);
+  std::size_t toasts = 0;
+  for (const Message& m : log.all()) toasts += MessageLog::visible(m, 10.5) ? 1 : 0;
+  CHECK(toasts == 4);
+  CHECK(log.all().size() == 50);
+  CHECK(log.held_back(10.5) == 46);
+  log.add(Severity::note, "later", 30.0);
+  CHECK(MessageLog::visible(log.all().back(), 30.0));
+  CHECK(log.held_back(30.0) == 0);
+}
+
+TEST_CASE("the log can be filtered, copied and cleared") {
+  HeadlessApp ui(HeadlessApp::deterministic_options(), 1280.0f, 4000.0f);
+  ui.model().say(Severity::note, "an apple");
+  ui.model().say(Severity::error, "a pear");
+  ui.frame();
+  ui.click("log/notes");
+  ui.click("log/copy");
+  const std::string text = ImGui::GetClipboardText();
+  CHECK(text.find("a pear") != std::string::npos);
+  CHECK(text.find("an apple") == std::string::npos);
+  ui.click("log/clear");
+  CHECK(ui.model().messages().all().empty());
+}
+
+TEST_CASE("a camera survives the clipboard digit by digit, and rubbish is refused") {
+  HeadlessApp ui;
+  ui.drag("view", {33.0f, 21.0f});
+  ui.wheel(ui.centre("view"), 2.0f);
+  const Camera before = ui.model().view().camera;
+  ImGui::GetIO().KeyShift = true;
+  ui.chord('C');
+  ImGui::GetIO().KeyShift = false;
+  ui.key('5');
+  CHECK(ui.model().view().camera.pitch_rad > 1.5);
+  ImGui::GetIO().KeyShift = true;
+  ui.chord('V');
+  ImGui::GetIO().KeyShift = false;
+  CHECK(ui.model().view().camera.target == before.target);
+  CHECK(ui.model().view().camera.distance_m == before.distance_m);
+  CHECK(ui.model().view().camera.yaw_rad == doctest::Approx(before.yaw_rad).epsilon(1e-15));
+  CHECK_FALSE(parse_camera("camera target_m 0 0 0 distance_m -1 yaw_deg 0 pitch_deg 0 up z", before).has_value());
+  CHECK_FALSE(parse_camera("camera target_m nan 0 0 distance_m 1 yaw_deg 0 pitch_deg 0 up z", before).has_value());
+  CHECK_FALSE(parse_camera("hello", before).has_value());
+}
+
+TEST_CASE("y can be up, and what looks from the front looks along an axis") {
+  HeadlessApp ui;
+  ui.key('U');
+  CHECK(ui.model().view().camera.y_up);
+  CHECK(std::abs(ui.model().view().camera.up().y) > 0.5);
+  ui.key('1');
+  CHECK(glm::length(ui.model().view().camera.forward() - Vec3(0, 0, -1)) < 1e-12);
+  ui.key('U');
+  ui.key('1');
+  CHECK(glm::length(ui.model().view().camera.forward() - Vec3(0, 1, 0)) < 1e-12);
+}
+
+TEST_CASE("a screenshot is asked for once a key press, under a name of its own") {
+  const testing::TempFolder folder;
+  AppOptions options = HeadlessApp::deterministic_options();
+  options.screenshots = folder.path();
+  HeadlessApp ui(options);
+  CHECK_FALSE(ui.app().take_screenshot_request().has_value());
+  ui.key(301);
+  const auto first = ui.app().take_screenshot_request();
+  REQUIRE(first.has_value());
+  CHECK_FALSE(ui.app().take_screenshot_request().has_value());
+  std::ofstream(*first) << "there";
+  ui.key(301);
+  CHECK(ui.app().take_screenshot_request() != first);
+}

@@ -1,0 +1,76 @@
+// 2D scenes in the window, the condition by name, and the panel on smoothness as felt.
+#include "tests/support/temp_folder.h"
+#include "tests/workbench/gui/headless_app.h"
+#include "workbench/session/rendering_condition.h"
+
+#include <string>
+
+using namespace tangent;
+using namespace tangent::test;
+
+namespace {
+
+AppOptions options_for(const std::string& mesh) {
+  AppOptions options = HeadlessApp::deterministic_options();
+  options.mesh = mesh;
+  return options;
+}
+
+}  // namespace
+
+TEST_CASE("a CSV polygon opens as a 2D scene, is explored, and its view pans and zooms about the pointer") {
+  const tangent::testing::TempFolder folder;
+  HeadlessApp app(options_for(folder.write("arc.csv", "x_m,y_m\n-0.08,0\n-0.04,0.03\n0,0.04\n0.04,0.03\n0.08,0\n")));
+  REQUIRE(app.model().scene() != nullptr);
+  REQUIRE(app.model().scene()->planar() != nullptr);
+  for (int i = 0; i < 40; ++i) {
+    app.app().advance(50);
+    app.frame();
+  }
+  const ServoRecord* record = app.model().tick().record();
+  REQUIRE(record != nullptr);
+  CHECK(record->tick.output.status != TickStatus::unconverged);
+  CHECK(record->tick.output.contact.z == 0.0);
+  CHECK(app.model().tick().iterations().size() >= 1);
+  for (const char* toggle : {"Patches", "Centres", "Tangents"}) app.click(std::string("planar/") + toggle);
+  app.wheel(app.centre("view"), 3.0f);
+  app.drag("view", {60.0f, 20.0f});
+  app.key('F');
+  app.model().map().on = true;  // nothing to lay a map on
+  app.frames(3);
+  app.model().set_crease_angle(0.1);
+  app.frames(2);
+  CHECK(app.model().scene()->planar() != nullptr);
+}
+
+TEST_CASE("a polygon that is none leaves the scene as it was and says why") {
+  const tangent::testing::TempFolder folder;
+  HeadlessApp app;
+  app.model().open_mesh(folder.write("bad.csv", "x_m,y_m\n0,0\n1,1\n1,0\n0,1\n"));
+  app.frames(2);
+  CHECK(app.model().scene()->planar() == nullptr);
+  REQUIRE_FALSE(app.model().messages().all().empty());
+  CHECK(app.model().messages().all().back().text.find("crosses or touches itself") != std::string::npos);
+}
+
+TEST_CASE("choosing a condition sets both sources in one step of undo") {
+  HeadlessApp app(HeadlessApp::deterministic_options(), 1280.0f, 1600.0f);
+  app.click("force/condition");
+  app.click("force/condition/C4");
+  CHECK(condition_of(app.model().presets().current()) == find_condition("C4"));
+  app.model().undo();
+  CHECK(condition_of(app.model().presets().current()) == nullptr);
+}
+
+TEST_CASE("the panel on smoothness gives the verdict, and its button the heat map with twice the threshold as its range") {
+  HeadlessApp app(HeadlessApp::deterministic_options(), 1280.0f, 2400.0f);
+  REQUIRE(app.model().perception() != nullptr);
+  CHECK(app.model().perception()->curve_edges == 480);
+  CHECK(app.app().items().find("perception/verdict") != nullptr);
+  app.click("perception/map");
+  CHECK(app.model().map().on);
+  CHECK(app.model().map().quantity == MapQuantity::facet_angle);
+  CHECK(app.model().map().high() == doctest::Approx(0.4 * kDegree));
+  app.click("perception/worst/0");
+  CHECK(app.model().view().picked_triangle == app.model().perception()->conditions[2].worst[0].triangle);
+}

@@ -1,0 +1,116 @@
+// Where a stiff surface begins to shake in the simulated hand, against theory, and what the safety gate does then.
+//
+// One axis, in contact: m x'' = -k x - b x' + F, with F = -K x as it was when the tick began, held over the tick. The
+// hold is half a tick of delay, so that roughly K T / 2 > b shakes; the recurrence below says exactly from where.
+#include "tests/workbench/session/session_fixture.h"
+
+#include "devices/simulated/simulated_force_device.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+using namespace tangent;
+using namespace tangent::test;
+
+namespace {
+
+constexpr double kDt = 1e-3;
+
+/// Grows (true) or dies out.
+bool theory_shakes(const SimulatedForceOptions& o, double stiffness) {
+  const double m = o.device_mass_kg + o.hand_mass_kg;
+  double x = 1e-3, v = 0.0, early = 0.0, late = 0.0;
+  for (int tick = 0; tick < 8000; ++tick) {
+    const double force = -stiffness * x;
+    for (int i = 0; i < o.substeps; ++i) {   // as the device integrates
+      const double h = kDt / o.substeps;
+      v += h / m * (-o.hand_stiffness_n_per_m * x - o.hand_damping_n_s_per_m * v + force);
+      x += h * v;
+    }
+    if (tick >= 3000 && tick < 4000) early = std::max(early, std::abs(x));
+    if (tick >= 7000) late = std::max(late, std::abs(x));
+    if (std::abs(x) > 1e6) return true;
+  }
+  return late > early;
+}
+
+double theory_limit(const SimulatedForceOptions& o) {
+  double low = 100.0, high = 100e3;
+  while (high / low > 1.001) {
+    const double middle = std::sqrt(low * high);
+    (theory_shakes(o, middle) ? high : low) = middle;
+  }
+  return low;
+}
+
+struct Run {
+  double amplitude_m = 0.0;     ///< half of peak to peak over the last half second
+  GateFault fault = GateFault::none;
+  std::uint64_t reduced = 0;    ///< ticks in which the gate took force away for shaking, after the first second
+};
+
+/// The hand presses on a sphere, straight down, with the solver in the loop.
+Run press(SimulatedForceOptions o, double stiffness, double aim_m = 1e-3, int ticks = 3000) {
+  o.tremor_m = 10e-6;
+  DeviceSet set;
+  set.force = std::make_unique<SimulatedForceDevice>(o);
+  REQUIRE(set.force->open());
+  Preset preset;
+  preset.force.stiffness_n_per_m = stiffness;
+  TickBench bench(std::move(set), sphere_scene(), preset);
+  const double top = 0.040 + preset.finger.radius_m;
+  HandCommand hand;
+  hand.settings.mode = HandMode::point;
+  hand.point_m = Vec3(0, 0, top - aim_m);
+  bench.channels.hand.put(hand);
+  bench.arm();
+  Run run;
+  double low = 1e9, high = -1e9;
+  for (int i = 0; i < ticks; ++i) {
+    const ServoRecord r = bench.run();
+    if (i >= ticks - 500) {
+      low = std::min(low, r.tick.input.finger.position.z);
+      high = std::max(high, r.tick.input.finger.position.z);
+    }
+    if (run.fault == GateFault::none) run.fault = r.device.gate_fault;
+    if (i >= 1000) run.reduced += (r.device.gate_actions >> static_cast<unsigned>(GateAction::shake_reduced)) & 1u;
+  }
+  run.amplitude_m = 0.5 * (high - low);
+  return run;
+}
+
+}  // namespace
+
+TEST_CASE("contact is stable below the stiffness theory gives for the hand and shakes above it") {
+  for (const double damping : {2.0, 4.0, 8.0}) {
+    SimulatedForceOptions o;
+    o.hand_damping_n_s_per_m = damping;
+    o.friction_n = o.position_step_m = 0.0;
+    const double limit = theory_limit(o);
+    const Run below = press(o, 0.8 * limit), above = press(o, 1.3 * limit);
+    MESSAGE("hand damping " << damping << " N s/m: shakes from " << limit << " N/m; at 0.8 of it by "
+                            << below.amplitude_m * 1e6 << " um, at 1.3 of it by " << above.amplitude_m * 1e6 << " um");
+    CHECK(below.amplitude_m < 25e-6);   // tremor of 10 um RMS
+    CHECK(above.amplitude_m > 5.0 * below.amplitude_m);
+    CHECK(below.fault == GateFault::none);
+    CHECK(below.reduced == 0);
+  }
+}
+
+TEST_CASE("a hand that presses hard on a shaking contact is spared: the gate reduces the force, and leaves a stable contact alone") {
+  for (const double damping : {4.0, 8.0}) {
+    SimulatedForceOptions o;
+    o.hand_damping_n_s_per_m = damping;
+    o.friction_n = o.position_step_m = 0.0;
+    const double limit = theory_limit(o);
+    CHECK(press(o, 0.8 * limit, 10e-3).reduced == 0);
+    for (const double beyond : {1.3, 2.0}) {
+      const Run run = press(o, beyond * limit, 10e-3);
+      MESSAGE("hand damping " << damping << " N s/m, " << beyond << " of the limit: " << run.amplitude_m * 1e6
+                              << " um, reduced in " << run.reduced << " of 2000 ticks");
+      CHECK(run.reduced > 1000);
+      CHECK(run.amplitude_m < 0.5e-3);
+    }
+  }
+}

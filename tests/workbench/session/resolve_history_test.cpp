@@ -1,0 +1,153 @@
+#include "workbench/session/resolve_history.h"
+
+#include "session_fixture.h"
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <numeric>
+#include <thread>
+
+using namespace tangent;
+
+namespace {
+
+std::unique_ptr<Session> session_on(std::shared_ptr<const ContactScene> scene, const Preset& preset = {}) {
+  SessionOptions options;
+  options.threaded = false;
+  auto session = Session::create(std::move(scene), preset, options);
+  REQUIRE(session);
+  (*session)->start();
+  return std::move(*session);
+}
+
+ResolvedHistory resolve(const RecordedRun& run, std::optional<Preset> preset = std::nullopt) {
+  HistoryResolver resolver(run, std::move(preset), false);
+  // Backwards: no chunk may need another one.
+  for (std::size_t chunk = resolver.chunk_count(); chunk-- > 0;) resolver.solve_chunk(chunk);
+  return resolver.finish();
+}
+
+}  // namespace
+
+TEST_CASE("unchanged gains give zero different bits, for every method") {
+  for (const Method method : {Method::robust, Method::paper, Method::newton, Method::facet, Method::force_shading}) {
+    CAPTURE(to_string(method));
+    Preset preset;
+    preset.solver.method = method;
+    auto session = session_on(test::torus_scene(), preset);
+    session->advance(7000);
+    const ResolvedHistory again = resolve(session->recorded_run(), preset);
+    CHECK(again.complete);
+    CHECK(again.ticks.size() == 7000);
+    CHECK(again.resolved.ticks == 7000);
+    CHECK(again.different_ticks == 0);
+    CHECK(again.changed_ticks == 0);
+    CHECK(again.changes.empty());
+    CHECK(again.resolved.mean_iterations == again.recorded.mean_iterations);
+  }
+}
+
+TEST_CASE("under the presets and on the scenes they were recorded with, ticks give the recorded bits") {
+  auto session = session_on(test::torus_scene());
+  session->advance(3000);
+  Preset paper;
+  paper.solver.method = Method::paper;
+  paper.solver.gain_curvature_m = 0.004;
+  REQUIRE(session->set_preset(paper));
+  session->advance(3000);
+  session->set_scene(test::sphere_scene());
+  session->advance(3000);
+  const ResolvedHistory again = resolve(session->recorded_run());
+  CHECK(again.resolved.ticks == 9000);
+  CHECK(again.different_ticks == 0);
+}
+
+TEST_CASE("a smaller gain makes more iterations, and the ticks it no longer solves are listed") {
+  Preset preset;
+  preset.solver.method = Method::paper;
+  auto session = session_on(test::torus_scene(), preset);
+  session->advance(12'000);
+  Preset weaker = preset;
+  weaker.solver.gain_curvature_m = 0.0;
+  const RecordedRun run = session->recorded_run();
+  const ResolvedHistory again = resolve(run, weaker);
+  CHECK(again.resolved.mean_iterations > 2.0 * again.recorded.mean_iterations);
+  CHECK(again.resolved.unconverged > again.recorded.unconverged);
+  CHECK(again.resolved.worst_error_m > again.recorded.worst_error_m);
+  CHECK(again.different_ticks > 0);
+  REQUIRE_FALSE(again.changes.empty());
+  std::uint64_t listed = 0;
+  for (std::size_t i = 0; i < again.changes.size(); ++i) {
+    const ContactChange& c = again.changes[i];
+    listed += c.ticks;
+    CHECK(c.first_tick <= c.worst_tick);
+    CHECK(c.worst_tick <= c.last_tick);
+    if (i > 0) CHECK(c.first_tick > again.changes[i - 1].last_tick);
+    CHECK(again.ticks[c.worst_tick].contact_changed);
+    CHECK(static_cast<double>(again.ticks[c.worst_tick].moved_m) == c.moved_m);
+  }
+  if (again.changes.size() < ResolvedHistory::kMostChanges) CHECK(listed == again.changed_ticks);
+}
+
+TEST_CASE("sharing the recorded searches for deeper places changes nothing: the same as stepping plainly") {
+  for (const auto& scene : {test::torus_scene(), test::sphere_scene()}) {
+    auto session = session_on(scene);
+    session->advance(HistoryResolver::kChunk);
+    Preset other;
+    other.solver.gain_curvature_m = 0.006;
+    other.solver.gain_overall = 0.8;
+    other.force.stiffness_n_per_m = 500.0;
+    const RecordedRun run = session->recorded_run();
+    const ResolvedHistory again = resolve(run, other);
+    CHECK(again.different_ticks > 1000);
+    Stepper plain(scene);
+    TickState state = run.records[0].tick.kept;
+    for (std::size_t i = 0; i < run.records.size(); ++i) {
+      const TickOutput out = plain.step(other, run.records[i].tick.input, state);
+      REQUIRE(again.ticks[i].status == out.status);
+      REQUIRE(again.ticks[i].iterations == out.iterations);
+      REQUIRE(again.ticks[i].error_m == static_cast<float>(out.error_m));
+      REQUIRE(again.ticks[i].force_n[2] == static_cast<float>(out.force_n.z));
+    }
+  }
+}
+
+TEST_CASE("where ticks are missing the recorded state is taken again") {
+  auto session = session_on(test::torus_scene());
+  session->advance(500);
+  History with_gaps(1000);
+  for (std::size_t i = 0; i < 500; ++i) {
+    if (i % 97 != 50 && i % 101 != 7) with_gaps.push(session->history()[i]);
+  }
+  RecordedRun run = session->recorded_run();
+  run.records = with_gaps.snapshot();
+  const ResolvedHistory again = resolve(run, Preset{});
+  CHECK(again.ticks.size() == with_gaps.size());
+  CHECK(again.different_ticks == 0);
+}
+
+TEST_CASE("chunks left out are not counted, and the result says it is not complete") {
+  auto session = session_on(test::torus_scene());
+  session->advance(3 * HistoryResolver::kChunk);
+  const RecordedRun run = session->recorded_run();
+  HistoryResolver resolver(run, Preset{}, false);
+  resolver.solve_chunk(1);
+  const ResolvedHistory part = resolver.finish();
+  CHECK_FALSE(part.complete);
+  CHECK(part.resolved.ticks == HistoryResolver::kChunk);
+  CHECK_FALSE(part.ticks[0].solved);
+  CHECK(part.ticks[HistoryResolver::kChunk].solved);
+  CHECK(part.ticks[HistoryResolver::kChunk].tick == HistoryResolver::kChunk);
+}
+
+TEST_CASE("an empty history and one whose scene is gone solve to nothing") {
+  CHECK(resolve({}, Preset{}).complete);
+  auto session = session_on(test::sphere_scene());
+  session->advance(100);
+  RecordedRun run = session->recorded_run();
+  run.scenes.clear();
+  const ResolvedHistory again = resolve(run, Preset{});
+  CHECK(again.resolved.ticks == 0);
+  CHECK(again.ticks.size() == 100);
+}

@@ -1,0 +1,61 @@
+#include "workbench/session/window_settings.h"
+
+#include "tests/support/temp_folder.h"
+
+#include <doctest/doctest.h>
+
+#include <cstdlib>
+
+using namespace tangent;
+using namespace tangent::testing;
+
+TEST_CASE("settings read back as they were written, with odd names") {
+  const TempFolder folder;
+  WindowSettings s;
+  s.left = 401.5;
+  s.show_plots = false;
+  s.light_theme = true;
+  s.text_size = 1.21;
+  s.y_up = true;
+  s.sections = {{"Iterations", false}, {"A \"quoted\" title", true}};
+  s.favourites = {"solver.gain_overall"};
+  s.opened("/tmp/a b/\u00fc.obj");
+  s.opened("torus");
+  const auto path = folder.path() / "new" / "folder" / "window.toml";
+  REQUIRE(write_window_settings(s, path));
+  const auto read = read_window_settings(path);
+  REQUIRE(read.has_value());
+  CHECK(*read == s);
+}
+
+TEST_CASE("a missing file gives the defaults, a broken one an error with its line, a strange one what it can") {
+  const TempFolder folder;
+  CHECK(*read_window_settings(folder.path() / "none.toml") == WindowSettings{});
+  const auto broken = read_window_settings(folder.write("broken.toml", "[layout]\nleft = = 3\n"));
+  REQUIRE_FALSE(broken.has_value());
+  CHECK(contains(broken.error().where, ":2"));
+  const auto strange = read_window_settings(folder.write("strange.toml", "[layout]\nleft = \"wide\"\nright = 1e9\n[look]\ntext_size = -4\nnew_thing = 3\n[lists]\nfavourites = 7\n"));
+  REQUIRE(strange.has_value());
+  CHECK(strange->left == WindowSettings{}.left);
+  CHECK(strange->right == 2000.0);
+  CHECK(strange->text_size == 0.6);
+  CHECK(strange->favourites.empty());
+}
+
+TEST_CASE("the latest mesh comes first, once, and the list is bounded") {
+  WindowSettings s;
+  for (int i = 0; i < 30; ++i) s.opened("mesh" + std::to_string(i % 20));
+  CHECK(s.recent_meshes.size() == WindowSettings::kMostRecent);
+  CHECK(s.recent_meshes[0] == "mesh9");
+  CHECK(std::count(s.recent_meshes.begin(), s.recent_meshes.end(), "mesh9") == 1);
+}
+
+TEST_CASE("the path follows XDG_CONFIG_HOME when it is absolute, else the home folder") {
+  const char* old = std::getenv("XDG_CONFIG_HOME");
+  const std::string kept = old != nullptr ? old : "";
+  ::setenv("XDG_CONFIG_HOME", "/tmp/config", 1);
+  CHECK(window_settings_path() == "/tmp/config/tangent-workbench/window.toml");
+  ::setenv("XDG_CONFIG_HOME", "relative", 1);
+  CHECK(window_settings_path().string().find("relative") == std::string::npos);
+  if (old != nullptr) ::setenv("XDG_CONFIG_HOME", kept.c_str(), 1); else ::unsetenv("XDG_CONFIG_HOME");
+}

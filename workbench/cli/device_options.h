@@ -1,0 +1,25 @@
+// Options that say which devices to drive, the same for the window and the monitor.
+#pragma once
+
+#include "devices/maestro/maestro_codec.h"
+
+#include <CLI/CLI.hpp>
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+namespace tangent {
+
+struct DeviceChoice {
+  std::string device = "simulated";
+  MaestroCalibration maestro;
+  unsigned maestro_channel = 0;
+  std::filesystem::path packets;
+};
+
+/// --device, --packets, --maestro-channel, --maestro-low-us, --maestro-high-us, --maestro-low-mm, --maestro-high-mm.
+/// `choice` must outlive the parsing.
+void add_device_options(CLI::App& command, DeviceChoice& choice);
+
+}  // namespace tangent

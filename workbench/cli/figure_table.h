@@ -1,0 +1,38 @@
+// A figure of `workbench figures`: its data as CSV and its drawing as SVG, by gnuplot.
+#pragma once
+
+#include "core/base/result.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace tangent {
+
+/// Numbers in named columns. A NaN leaves its field empty; an empty row parts curves.
+struct FigureTable {
+  std::vector<std::string> columns;
+  std::vector<std::vector<double>> rows;
+
+  void part() { rows.emplace_back(); }
+  std::string csv() const;
+};
+
+struct FigureData {
+  std::string suffix;  ///< of the file's name: "" or "-patches"
+  FigureTable table;
+};
+
+struct Figure {
+  std::string name;      ///< of the files, without extension
+  std::string title;     ///< what it shows, for the list that is printed
+  int width_px = 760, height_px = 480;
+  std::vector<FigureData> data = {};
+  /// gnuplot commands after the common ones; `$DIR/` stands for the folder.
+  std::string script = {};
+};
+
+/// Writes NAME.csv and further tables, then NAME.svg. Fails where gnuplot is missing or refuses.
+Status write_figure(const Figure& figure, const std::filesystem::path& folder);
+
+}  // namespace tangent

@@ -1,0 +1,29 @@
+// The figures of the paper that this program reproduces, computed by its own 2D algorithm.
+#pragma once
+
+#include "core/planar/curvature_deviation.h"
+#include "workbench/cli/figure_table.h"
+
+namespace tangent {
+
+Figure contact_location_figure();           ///< Fig. 4: contact location on the finger over a smooth curve, two and three facets
+Figure iterations_figure();                 ///< Fig. 6: the tangent lines of one tick, in cross-section
+Figure patches_figure();                    ///< Fig. 15: polygon, smooth curve, patches
+Figure local_centre_figure();               ///< Fig. 17: one patch, its local centre and a tangent line
+Figure conditions_figure(bool at_threshold);  ///< force direction and contact location against travel, all conditions:
+                                              ///< at each one's threshold count of segments, or all at five
+Figure curvature_figure();                  ///< curvature against the circle's, five segments
+
+struct DeviationRow {
+  int segments;
+  ArcPlacement placement;
+  LocalCentre centre;
+  CurvatureDeviation deviation;
+};
+/// Tangent and inscribed placement, both centres, 3, 5, 9 and 16 segments.
+std::vector<DeviationRow> deviation_rows();
+
+/// Segments on the paper's arc at a condition's threshold: the paper's counts; for the pilot ones from the angle.
+int threshold_segments(std::string_view condition);
+
+}  // namespace tangent

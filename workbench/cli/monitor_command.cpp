@@ -1,0 +1,145 @@
+// workbench monitor: the devices live in a terminal, with the built-in scene under the finger.
+#include "workbench/cli/builtin_scene.h"
+#include "workbench/cli/command.h"
+#include "workbench/cli/device_options.h"
+#include "workbench/cli/interrupt.h"
+#include "workbench/cli/messages.h"
+#include "workbench/cli/monitor_text.h"
+#include "workbench/cli/number_option.h"
+
+#include <chrono>
+#include <cstdio>
+#include <memory>
+#include <thread>
+
+#include <poll.h>
+#include <termios.h>
+#include <unistd.h>
+
+namespace tangent {
+namespace {
+
+struct MonitorOptions {
+  DeviceChoice devices;
+  double seconds = 0.0;    ///< 0: until q or Ctrl-C
+  double servo_hz = 1000.0;
+  std::string inject;
+  bool inject_display = false, stay_stopped = false;
+};
+
+/// Single keys from a terminal while it lives; nothing from anything else.
+class Keys {
+ public:
+  Keys() {
+    if (::isatty(STDIN_FILENO) == 0 || ::tcgetattr(STDIN_FILENO, &before_) != 0) return;
+    termios raw = before_;
+    raw.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);
+    active_ = ::tcsetattr(STDIN_FILENO, TCSANOW, &raw) == 0;
+  }
+  ~Keys() {
+    if (active_) ::tcsetattr(STDIN_FILENO, TCSANOW, &before_);
+  }
+  Keys(const Keys&) = delete;
+  Keys& operator=(const Keys&) = delete;
+  bool active() const { return active_; }
+  /// 0: none.
+  char next() const {
+    pollfd input{STDIN_FILENO, POLLIN, 0};
+    char key = 0;
+    return active_ && ::poll(&input, 1, 0) > 0 && ::read(STDIN_FILENO, &key, 1) == 1 ? key : '\0';
+  }
+
+ private:
+  termios before_{};
+  bool active_ = false;
+};
+
+/// False: quit.
+bool handle(char key, Session& session) {
+  switch (key) {
+    case 'q': return false;
+    case 'a': session.arm(); break;
+    case 's': session.stop(); break;
+    case 'h': session.home(); break;
+    case 'r': std::printf("\n%s", monitor_report(session).c_str()); break;
+    default: break;
+  }
+  return true;
+}
+
+void watch(Session& session, const MonitorOptions& options, const FaultInjection& fault) {
+  using Clock = std::chrono::steady_clock;
+  const InterruptGuard guard;
+  const Keys keys;
+  const bool live = ::isatty(STDOUT_FILENO) != 0;
+  if (keys.active()) std::puts("a arm   s stop   h home   r report   q quit");
+  const auto began = Clock::now();
+  auto next_line = began;
+  bool injected = fault.kind == InjectedFault::none;
+  for (bool going = true; going && !InterruptGuard::requested();) {
+    session.poll();
+    const auto now = Clock::now();
+    const double elapsed = std::chrono::duration<double>(now - began).count();
+    if (!injected && session.status().servo.gate_state == GateState::armed) {
+      session.inject(fault, options.inject_display);
+      injected = true;
+    }
+    if (now >= next_line) {
+      std::printf(live ? "\r\033[K%s" : "%s\n", monitor_line(session).c_str());
+      std::fflush(stdout);
+      next_line = now + std::chrono::milliseconds(live ? 100 : 500);
+    }
+    if (options.seconds > 0.0 && elapsed >= options.seconds) break;
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    while (const char key = keys.next()) going = going && handle(key, session);
+  }
+  if (live) std::puts("");
+}
+
+Status run_monitor(const MonitorOptions& options) {
+  FaultInjection fault;
+  if (!options.inject.empty()) {
+    const auto kind = injected_fault(options.inject);
+    if (!kind) return tl::unexpected(kind.error());
+    fault.kind = *kind;
+  }
+  auto scene = builtin_scene();
+  if (!scene) return tl::unexpected(scene.error());
+  SessionOptions wanted;
+  wanted.servo.rate_hz = options.servo_hz;
+  wanted.devices = options.devices.device;
+  wanted.maestro = options.devices.maestro;
+  wanted.maestro_channel = options.devices.maestro_channel;
+  wanted.packets = options.devices.packets;
+  wanted.history_s = 1.0;
+  wanted.arm_on_start = !options.stay_stopped;
+  auto session = Session::create(*scene, Preset{}, wanted);
+  if (!session) return tl::unexpected(session.error());
+  (*session)->start();
+  watch(**session, options, fault);
+  (*session)->shut_down();
+  std::fputs(monitor_report(**session).c_str(), stdout);
+  return {};
+}
+
+}  // namespace
+
+void add_monitor_command(CLI::App& app, CommandResult& result) {
+  CLI::App* command = app.add_subcommand("monitor", "Devices, rates and the safety gate, live in the terminal");
+  auto options = std::make_shared<MonitorOptions>();
+  add_device_options(*command, options->devices);
+  add_number_option(*command, "--seconds", {.min = 0, .max = 86400, .unit = "s"}, "How long (default: until q or Ctrl-C)",
+                    [options](double v) { options->seconds = v; });
+  add_number_option(*command, "--servo-hz", {.min = kSlowestServoHz, .max = kFastestServoHz, .unit = "Hz"}, "Rate of the servo (default 1000)",
+                    [options](double v) { options->servo_hz = v; });
+  command->add_option("--inject", options->inject, "Fault to give the simulated device once armed: drop-out, stuck-encoder, delay-burst or noise")->type_name("FAULT");
+  command->add_flag("--inject-display", options->inject_display, "Give it to the contact display instead of the force device");
+  command->add_flag("--stay-stopped", options->stay_stopped, "No force until a is pressed");
+  command->callback([options, &result] {
+    const Status status = run_monitor(*options);
+    if (!status) print_message("monitor", status.error().message());
+    result.exit_code = status ? kDone : kFailed;
+  });
+}
+
+}  // namespace tangent

@@ -1,0 +1,145 @@
+// Bookmarks: those a person set, with notes, and those that triggers set; and the triggers.
+#include "workbench/gui/panels/panels.h"
+#include "workbench/gui/widgets.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+
+namespace tangent {
+
+ImU32 bookmark_ink(const UiContext& ui, BookmarkKind kind) {
+  switch (kind) {
+    case BookmarkKind::user: return ui.colours.accent;
+    case BookmarkKind::reseeded: return packed(ui.palette.cld_measured);
+    case BookmarkKind::iterations: return packed(ui.palette.iterations);
+    case BookmarkKind::force: return packed(ui.palette.force_magnitude);
+    case BookmarkKind::unconverged: return ui.colours.warning;
+    default: return ui.colours.bad;
+  }
+}
+
+namespace {
+
+struct TriggerRow {
+  BookmarkKind kind;
+  const char* label;
+  const char* doc;
+};
+constexpr std::array kTriggers{
+    TriggerRow{BookmarkKind::unconverged, "Unconverged", "A tick that did not converge"},
+    TriggerRow{BookmarkKind::reseeded, "Reseeded", "Tracking gave up and was seeded from the nearest triangles"},
+    TriggerRow{BookmarkKind::iterations, "Iterations over", "More tangent planes than this in one tick"},
+    TriggerRow{BookmarkKind::force, "Force over", "More force than this sent to the device"},
+    TriggerRow{BookmarkKind::device_fault, "Device fault", "A fault of a device or of the safety gate"}};
+
+/// Whoever drags or types the number of a trigger.
+void threshold(const UiContext& ui, AppModel& model, const char* path, double& value, double most, const char* unit, bool whole) {
+  const auto result = value_field(ui, path, {ImGui::GetContentRegionAvail().x, value / most, short_number(value), unit});
+  double wanted = value;
+  if (result.slid) wanted = *result.slid * most;
+  if (result.typed) {
+    char* end = nullptr;
+    const double typed = std::strtod(result.typed->c_str(), &end);
+    if (end == result.typed->c_str() || !std::isfinite(typed)) model.say(Severity::error, "\"" + *result.typed + "\" is not a number");
+    else wanted = typed;
+  }
+  wanted = std::clamp(wanted, 0.0, most);
+  value = whole ? std::round(wanted) : std::round(wanted * 10.0) / 10.0;
+}
+
+void draw_triggers(const UiContext& ui, AppModel& model) {
+  BookmarkTriggers& triggers = model.bookmarks().triggers;
+  for (const TriggerRow& row : kTriggers) {
+    bool& on = triggers.on[static_cast<std::size_t>(row.kind)];
+    const std::string path = std::string("bookmarks/trigger/") + to_string(row.kind);
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(ui.px(2), ui.px(1)));
+    ImGui::Checkbox((std::string(row.label) + "##" + path).c_str(), &on);
+    ImGui::PopStyleVar();
+    ui.items.note_last(path);
+    tooltip(ui, row.doc);
+    if (row.kind != BookmarkKind::iterations && row.kind != BookmarkKind::force) continue;
+    ImGui::SameLine(ui.px(150));
+    if (row.kind == BookmarkKind::iterations) {
+      double over = triggers.iterations_over;
+      threshold(ui, model, "bookmarks/iterations_over", over, 200.0, "", true);
+      triggers.iterations_over = static_cast<std::int32_t>(over);
+    } else {
+      threshold(ui, model, "bookmarks/force_over", triggers.force_over_n, 20.0, "N", false);
+    }
+  }
+}
+
+void draw_row(const UiContext& ui, AppModel& model, const Bookmark& mark, std::size_t i) {
+  const ServoRecord* seen = model.tick().record();
+  const bool here = seen != nullptr && seen->tick.tick >= mark.tick && seen->tick.tick <= mark.last_tick;
+  const bool gone = mark.last_tick < model.first_tick();
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float height = ImGui::GetTextLineHeight();
+  ImGui::PushStyleColor(ImGuiCol_Text, gone ? ui.colours.text_faint : ui.colours.text);
+  ImGui::PushFont(ui.fonts.small_number);
+  const std::string text = printed("  %9.3f  ", mark.t_s);
+  if (ImGui::Selectable((text + "##bookmark" + std::to_string(mark.id)).c_str(), here, ImGuiSelectableFlags_AllowItemOverlap) && !gone)
+    model.select_tick(std::max(mark.tick, model.first_tick()));
+  const float text_width = ImGui::CalcTextSize(text.c_str()).x;
+  ImGui::PopFont();
+  // The note lies over the rest of the row.
+  ui.items.note(printed("bookmarks/row/%zu", i), at, {at.x + text_width, at.y + height});
+  const std::string span = mark.ticks > 1 ? printed("ticks %llu to %llu, %u of them", static_cast<unsigned long long>(mark.tick), static_cast<unsigned long long>(mark.last_tick), mark.ticks)
+                                          : printed("tick %llu", static_cast<unsigned long long>(mark.tick));
+  tooltip(ui, gone ? span + ", no longer kept" : span);
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  draw.AddRectFilled({at.x, at.y + ui.px(2)}, {at.x + ui.px(6), at.y + height - ui.px(1)}, bookmark_ink(ui, mark.kind), ui.px(1.5f));
+  const float x = text_width + ui.px(2), remove = ui.px(18);
+  ImGui::PushFont(ui.fonts.small);
+  ImGui::SameLine(x);
+  if (mark.kind == BookmarkKind::user) {
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(ui.px(3), 0.0f));
+    if (auto note = number_box(ui, printed("bookmarks/note/%u", mark.id), ImGui::GetContentRegionAvail().x - remove, mark.note))
+      model.bookmarks().set_note(mark.id, *note);
+    ImGui::PopStyleVar();
+    if (mark.note.empty() && !ImGui::IsItemActive()) draw.AddText({ImGui::GetItemRectMin().x + ui.px(3), at.y}, ui.colours.text_faint, "note");
+  } else {
+    const std::string times = mark.ticks > 1 ? printed(" \u00d7%u", mark.ticks) : std::string();
+    ImGui::Text("%s%s, %s", to_string(mark.kind), times.c_str(), mark.note.c_str());
+  }
+  ImGui::SameLine();
+  ImGui::SetCursorPosX(ImGui::GetWindowContentRegionMax().x - remove + ui.px(4));
+  const std::uint32_t id = mark.id;
+  if (ImGui::SmallButton(printed("\u00d7##remove%u", id).c_str())) model.bookmarks().remove(id);
+  ui.items.note_last(printed("bookmarks/remove/%zu", i));
+  ImGui::PopFont();
+  ImGui::PopStyleColor();
+}
+
+}  // namespace
+
+void draw_bookmarks_panel(const UiContext& ui, AppModel& model, BookmarksPanel& state) {
+  if (!section(ui, "Bookmarks", state.open)) return;
+  const bool any = model.tick().record() != nullptr;
+  if (text_button(ui, "bookmarks/add", "Add", "A bookmark on the tick in view (K)") && any) {
+    model.set_paused(true);
+    model.add_bookmark();
+  }
+  ImGui::SameLine();
+  toggle_button(ui, "bookmarks/triggers", "Triggers", state.triggers_open, "What sets bookmarks by itself");
+  ImGui::SameLine();
+  if (text_button(ui, "bookmarks/clear", "Clear triggered", "Removes those that triggers set")) model.bookmarks().clear_automatic();
+  if (state.triggers_open) draw_triggers(ui, model);
+  const std::size_t count = model.bookmarks().all().size();
+  if (count == 0) {
+    ImGui::PushFont(ui.fonts.small);
+    ImGui::TextDisabled("None. K sets one, [ and ] go from one to the next");
+    ImGui::PopFont();
+    return;
+  }
+  const float row = ImGui::GetTextLineHeight() + ImGui::GetStyle().ItemSpacing.y;
+  ImGui::BeginChild("bookmarks", {0.0f, row * static_cast<float>(std::min<std::size_t>(6, count)) + ui.px(12)}, true);
+  // A row may remove itself: the list is looked at anew for each.
+  for (std::size_t i = 0; i < model.bookmarks().all().size(); ++i) draw_row(ui, model, model.bookmarks().all()[i], i);
+  ImGui::EndChild();
+  ImGui::Dummy({1, ui.px(3)});
+}
+
+}  // namespace tangent

@@ -1,0 +1,152 @@
+#include "workbench/gui/panels/commands.h"
+
+#include "core/mesh/generate.h"
+#include "core/mesh/generate_hard.h"
+
+#include <algorithm>
+#include <cctype>
+
+namespace tangent {
+
+namespace {
+
+void add_view_commands(std::vector<Command>& out, AppModel& model) {
+  out.push_back({"View: frame the mesh", "F", [&model] { model.frame_scene(); }});
+  struct Named {
+    const char* name;
+    const char* keys;
+    StandardView view;
+  };
+  for (const Named& v : {Named{"front", "1", StandardView::front}, Named{"back", "2", StandardView::back}, Named{"left", "3", StandardView::left},
+                         Named{"right", "4", StandardView::right}, Named{"top", "5", StandardView::top}, Named{"bottom", "6", StandardView::bottom},
+                         Named{"corner", "0", StandardView::corner}}) {
+    out.push_back({std::string("View: from the ") + v.name, v.keys, [&model, view = v.view] { model.look_from_standard(view); }});
+  }
+  out.push_back({"View: y axis up, or z axis", "U", [&model] { model.set_y_up(!model.view().camera.y_up); }});
+  out.push_back({"View: copy the camera", "Ctrl+Shift+C", [&model] { model.copy_camera(); }});
+  out.push_back({"View: paste the camera", "Ctrl+Shift+V", [&model] { model.paste_camera(); }});
+  out.push_back({"View: screenshot", "F12", [&model] { model.ask_for_screenshot(); }});
+  struct Layer {
+    const char* name;
+    bool SceneToggles::*on;
+  };
+  for (const Layer& layer : {Layer{"facets", &SceneToggles::shaded}, Layer{"edges", &SceneToggles::wireframe}, Layer{"smooth surface", &SceneToggles::smooth_surface},
+                             Layer{"control net", &SceneToggles::control_net}, Layer{"neighbours' control nets", &SceneToggles::control_net_neighbours},
+                             Layer{"labels", &SceneToggles::control_point_labels}, Layer{"vertex normals", &SceneToggles::vertex_normals},
+                             Layer{"control normals", &SceneToggles::control_normals}, Layer{"creases and boundaries", &SceneToggles::creases},
+                             Layer{"planes", &SceneToggles::planes}, Layer{"finger", &SceneToggles::finger}, Layer{"force", &SceneToggles::force},
+                             Layer{"display inset", &SceneToggles::cld_inset}, Layer{"axes and scale", &SceneToggles::axes}}) {
+    out.push_back({std::string("Show: ") + layer.name, "", [&model, on = layer.on] { model.view().toggles.*on = !(model.view().toggles.*on); }});
+  }
+}
+
+void add_window_commands(std::vector<Command>& out, AppModel& model, MenuBar& menu) {
+  out.push_back({"Window: command palette", "Ctrl+P", [&menu] { menu.palette.open = menu.palette.focus = true; }});
+  out.push_back({"Window: shortcuts", "F1", [&menu] { menu.sheet = !menu.sheet; }});
+  out.push_back({"Window: dark", "", [&model] { model.set_theme(Theme::dark); }});
+  out.push_back({"Window: light", "", [&model] { model.set_theme(Theme::light); }});
+  out.push_back({"Window: larger text", "Ctrl++", [&model] { model.set_ui_scale(model.ui_scale() * 1.1f); }});
+  out.push_back({"Window: smaller text", "Ctrl+-", [&model] { model.set_ui_scale(model.ui_scale() / 1.1f); }});
+  out.push_back({"Window: normal text", "Ctrl+0", [&model] { model.set_ui_scale(1.0f); }});
+  out.push_back({"Window: parameters on or off", "", [&model] { model.sizes().show_left = !model.sizes().show_left; }});
+  out.push_back({"Window: right column on or off", "", [&model] { model.sizes().show_right = !model.sizes().show_right; }});
+  out.push_back({"Window: plots on or off", "", [&model] { model.sizes().show_plots = !model.sizes().show_plots; }});
+  out.push_back({"Window: default layout", "", [&model] { model.reset_layout(); }});
+  out.push_back({"Window: quit", "Ctrl+Q", [&model] { model.ask_to_close(); }});
+}
+
+void add_time_commands(std::vector<Command>& out, AppModel& model) {
+  out.push_back({"Time: pause or go on", "Space", [&model] { model.set_paused(!model.paused()); }});
+  out.push_back({"Time: newest tick, live", "End", [&model] { model.go_live(); }});
+  out.push_back({"Time: oldest tick", "Home", [&model] { model.select_tick(model.first_tick()); }});
+  out.push_back({"Time: bookmark this tick", "K", [&model] { model.add_bookmark(); }});
+  out.push_back({"Time: previous bookmark", "[", [&model] { model.go_to_bookmark(-1); }});
+  out.push_back({"Time: next bookmark", "]", [&model] { model.go_to_bookmark(1); }});
+  out.push_back({"Time: solve the past with the present values", "", [&model] { model.solve_past_again(); }});
+  out.push_back({"Plots: ticks in view as CSV", "", [&model] {
+                   const auto [from, to] = ticks_in_view(model);
+                   model.export_ticks(from, to);
+                 }});
+  out.push_back({"Force: stop, or arm", "", [&model] { model.toggle_stop(); }});
+  out.push_back({"Hand: follows the mouse, or explores by itself", "M", [&model] { model.set_hand_follows_mouse(!model.view().hand_follows_mouse); }});
+}
+
+void add_preset_commands(std::vector<Command>& out, AppModel& model) {
+  out.push_back({"Preset: undo", "Ctrl+Z", [&model] { model.undo(); }});
+  out.push_back({"Preset: redo", "Ctrl+Y", [&model] { model.redo(); }});
+  out.push_back({"Preset: switch between A and B", "B", [&model] { model.toggle_ab(); }});
+  out.push_back({"Preset: copy to the other of A and B", "", [&model] { model.copy_ab(); }});
+  out.push_back({"Preset: revert all changes", "", [&model] { model.revert_preset(); }});
+  for (const auto& file : model.preset_files()) out.push_back({"Preset: load " + file.stem().string(), "", [&model, file] { model.load_preset(file); }});
+}
+
+void add_mesh_commands(std::vector<Command>& out, AppModel& model, MenuBar& menu) {
+  out.push_back({"Mesh: open a file", "Ctrl+O", [&menu] { menu.path.open = menu.path.focus = true; }});
+  for (const std::string& mesh : model.settings().recent_meshes) out.push_back({"Mesh: open again " + mesh, "", [&model, mesh] { model.open_mesh(mesh); }});
+  for (const auto* names : {&generator_names(), &hard_mesh_names()}) {
+    for (const std::string& object : *names) out.push_back({"Mesh: make " + object, "", [&model, object] { model.open_mesh(object); }});
+  }
+  out.push_back({"Map: none", "", [&model] { model.map().on = false; }});
+  for (std::size_t q = 0; q < kMapQuantityCount; ++q) {
+    const auto quantity = static_cast<MapQuantity>(q);
+    out.push_back({"Map: " + std::string(info_of(quantity).label), "", [&model, quantity] {
+                     model.map().on = true;
+                     model.map().set_quantity(quantity);
+                   }});
+  }
+  out.push_back({"Map: go to the worst place", "W", [&model] { model.look_at_worst(); }});
+  out.push_back({"Inspect: isolate", "I", [&model] { model.isolate_marked(); }});
+  out.push_back({"Inspect: isolate part", "", [&model] { model.isolate_part(); }});
+  out.push_back({"Inspect: show all", "Shift+I", [&model] { model.show_all(); }});
+}
+
+}  // namespace
+
+std::vector<Command> window_commands(AppModel& model, MenuBar& menu) {
+  std::vector<Command> out;
+  add_time_commands(out, model);
+  add_preset_commands(out, model);
+  add_view_commands(out, model);
+  add_mesh_commands(out, model, menu);
+  add_window_commands(out, model, menu);
+  return out;
+}
+
+const std::vector<KeyNote>& further_keys() {
+  static const std::vector<KeyNote> kNotes{{"Left, Right", "Step by one tick (with Shift ten)"},
+                                           {", and .", "Step by one iteration, on into the next tick"},
+                                           {"Esc", "Stop the force; put away what is open"},
+                                           {"Left drag", "Orbit; slides a value (Shift: finer)"},
+                                           {"Right drag, Shift drag", "Pan the view"},
+                                           {"Wheel", "Zoom about the pointer: view, plots, time"},
+                                           {"Click", "Pick a triangle; type a value"},
+                                           {"Tab", "Take the typed value and go on to the next"}};
+  return kNotes;
+}
+
+int match_score(std::string_view name, std::string_view typed) {
+  const auto lower = [](char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); };
+  int score = 0;
+  std::size_t at = 0;
+  for (const char wanted : typed) {
+    if (wanted == ' ') continue;
+    std::size_t found = at;
+    while (found < name.size() && lower(name[found]) != lower(wanted)) ++found;
+    if (found == name.size()) return -1;
+    // A letter that begins a word is worth looking for further on, if the next one doesn't simply follow.
+    if (found != at || at == 0) {
+      for (std::size_t i = found; i < name.size(); ++i) {
+        const bool begins = i == 0 || name[i - 1] == ' ';
+        if (begins && lower(name[i]) == lower(wanted)) {
+          found = i;
+          break;
+        }
+      }
+    }
+    score += static_cast<int>(found - at);
+    at = found + 1;
+  }
+  return score;
+}
+
+}  // namespace tangent

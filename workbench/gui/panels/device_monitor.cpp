@@ -1,0 +1,237 @@
+// The device monitor, in place of the 3D view: states, rates, histograms, limits and clamps, the fault log, raw values, and
+// the buttons of whoever stands beside the device.
+#include "workbench/gui/panels/monitor_histogram.h"
+#include "workbench/gui/panels/panels.h"
+#include "workbench/gui/widgets.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+namespace tangent {
+
+namespace {
+
+std::string count_text(std::uint64_t n) { return printed("%llu", static_cast<unsigned long long>(n)); }
+
+ImU32 state_ink(const UiContext& ui, DeviceState state) {
+  if (state == DeviceState::ready) return ui.colours.good;
+  if (state == DeviceState::faulted) return ui.colours.bad;
+  return state == DeviceState::absent ? ui.colours.text_faint : ui.colours.warning;
+}
+
+std::string state_text(DeviceState state, DeviceFault fault) {
+  return std::string(to_string(state)) + (fault == DeviceFault::none ? "" : std::string(": ") + to_string(fault));
+}
+
+void heading(const UiContext& ui, const char* title) {
+  ImGui::Dummy({1, ui.px(6)});
+  ImGui::PushFont(ui.fonts.strong);
+  ImGui::TextUnformatted(title);
+  ImGui::PopFont();
+  ImGui::Separator();
+}
+
+void dim_text(const UiContext& ui, const std::string& text) {
+  ImGui::PushStyleColor(ImGuiCol_Text, ui.colours.text_dim);
+  ImGui::TextWrapped("%s", text.c_str());
+  ImGui::PopStyleColor();
+}
+
+void draw_states(const UiContext& ui, AppModel& model) {
+  const SessionStatus& s = model.status();
+  Session& session = *model.session();
+  const ForceCapabilities* force = session.force_capabilities();
+  const DisplayCapabilities* display = session.display_capabilities();
+  fact(ui, force != nullptr ? force->name.c_str() : "Force device", state_text(s.force_state, s.force_fault), "", state_ink(ui, s.force_state));
+  fact(ui, display != nullptr ? display->name.c_str() : "Contact display", state_text(s.display_state, s.display_fault), "", state_ink(ui, s.display_state));
+  const bool faulted = s.servo.gate_state == GateState::faulted;
+  fact(ui, "Safety gate", std::string(to_string(s.servo.gate_state)) + (faulted ? std::string(": ") + to_string(s.servo.gate_fault) : ""), "",
+       faulted ? ui.colours.bad : s.servo.gate_state == GateState::armed ? ui.colours.good : ui.colours.warning);
+  ImGui::Dummy({1, ui.px(2)});
+  if (text_button(ui, "monitor/arm", "Re-arm", "Clears faults, homes what has to be homed, and lets the force grow in")) session.arm();
+  ImGui::SameLine();
+  if (text_button(ui, "monitor/stop", "Stop", "No force until armed (Escape)")) session.stop();
+  ImGui::SameLine();
+  if (text_button(ui, "monitor/home", "Home", "No force, and both devices find their zero again")) session.home();
+}
+
+void draw_limits(const UiContext& ui, const AppModel& model) {
+  const GateLimits limits = model.session()->gate_limits();
+  const ServoStatus& servo = model.status().servo;
+  heading(ui, "Limits");
+  fact(ui, "Peak / continuous force", printed("%.1f / %.1f", limits.peak_force_n, limits.continuous_force_n), "N");
+  fact(ui, "Change of force", printed("%.0f", limits.slew_n_per_s), "N/s");
+  const Vec3 size = 2e3 * limits.workspace_half_size_m;
+  fact(ui, "Workspace", printed("%.0f x %.0f x %.0f", size.x, size.y, size.z), "mm");
+  fact(ui, "Display travel", printed("%.1f", limits.display_travel_m * 1e3), "mm");
+  fact(ui, "Oldest sample / longest tick", printed("%.0f / %.0f", limits.stale_s * 1e3, limits.late_s * 1e3), "ms");
+  const auto timeout = [](double s) { return s > 0.0 ? printed("%.0f ms", s * 1e3) : std::string("none"); };
+  if (const auto* can = model.session()->force_capabilities()) fact(ui, "Time-out, force device", timeout(can->firmware_timeout_s));
+  if (const auto* can = model.session()->display_capabilities()) fact(ui, "Time-out, display", timeout(can->firmware_timeout_s));
+  heading(ui, "Gate");
+  fact(ui, "Faults", count_text(servo.gate_faults), "", servo.gate_faults > 0 ? ui.colours.bad : ui.colours.text);
+  for (std::size_t i = 0; i < kGateActionCount; ++i) {
+    fact(ui, to_string(static_cast<GateAction>(i)), count_text(servo.gate_counts[i]), "ticks",
+         servo.gate_counts[i] > 0 ? ui.colours.text : ui.colours.text_faint);
+  }
+}
+
+void draw_raw(const UiContext& ui, const AppModel& model) {
+  heading(ui, "Raw values");
+  const History& history = model.session()->history();
+  if (history.empty()) return dim_text(ui, "No tick yet");
+  const ServoRecord& r = history.newest();
+  const Vec3 p = r.tick.input.finger.position * 1e3, f = r.device.force_command_n;
+  fact(ui, "Position", printed("%.3f %.3f %.3f", p.x, p.y, p.z), "mm");
+  fact(ui, "Force sent", printed("%.3f %.3f %.3f", f.x, f.y, f.z), "N");
+  fact(ui, "Roller, measured / sent", printed("%.4f / %.4f", r.device.cld_measured_m * 1e3, r.device.cld_command_m * 1e3), "mm");
+  fact(ui, "Age of position / roller", printed("%.2f / %.2f", r.device.force_age_s * 1e3, r.device.display_age_s * 1e3), "ms");
+}
+
+void draw_link(const UiContext& ui, const LinkReport& link) {
+  heading(ui, "Cable");
+  fact(ui, "Connection", link.connected ? "connected" : "not connected", "", link.connected ? ui.colours.good : ui.colours.warning);
+  if (!link.identity.empty()) dim_text(ui, link.identity);
+  if (!link.problem.empty()) dim_text(ui, link.problem);
+  fact(ui, "Packets in / out / control", count_text(link.packets_in) + " / " + count_text(link.packets_out) + " / " + count_text(link.controls));
+  fact(ui, "Stalls / time-outs / errors", count_text(link.stalls) + " / " + count_text(link.time_outs) + " / " + count_text(link.errors));
+  fact(ui, "Short / empty packets", count_text(link.short_packets) + " / " + count_text(link.empty_packets));
+  fact(ui, "Refused sends", count_text(link.refused_sends));
+  fact(ui, "Connects", count_text(link.connects));
+  fact(ui, "Wrong checks / lost / doubled", count_text(link.crc_errors) + " / " + count_text(link.lost) + " / " + count_text(link.doubled));
+  fact(ui, "Lost by device / refused", count_text(link.lost_by_device) + " / " + count_text(link.refused));
+  if (link.last_packet_bytes == 0) return;
+  std::string hex;
+  for (std::size_t i = 0; i < link.last_packet_bytes; ++i) hex += printed("%02x ", link.last_packet[i]);
+  ImGui::PushFont(ui.fonts.small_number);
+  dim_text(ui, hex);
+  ImGui::PopFont();
+}
+
+void draw_injection(const UiContext& ui, AppModel& model) {
+  heading(ui, "Faults of the simulated devices");
+  Session& session = *model.session();
+  const auto row = [&](const char* title, const char* path, bool display) {
+    dim_text(ui, title);
+    const float end = ImGui::GetCursorScreenPos().x + ImGui::GetContentRegionAvail().x;
+    bool first = true;
+    for (const std::string_view name : injected_fault_names()) {
+      const std::string text(name);
+      // Side by side while they fit.
+      if (!first) ImGui::SameLine();
+      const float needed = ImGui::CalcTextSize(text.c_str()).x + 2.0f * ImGui::GetStyle().FramePadding.x;
+      if (!first && ImGui::GetCursorScreenPos().x + needed > end) ImGui::NewLine();
+      first = false;
+      if (text_button(ui, std::string(path) + "/" + text, text.c_str(), "Lasts 100 ticks; see what the gate does")) {
+        if (const auto kind = injected_fault(name)) session.inject({*kind, 100}, display);
+      }
+    }
+  };
+  const auto* force = session.force_capabilities();
+  const auto* display = session.display_capabilities();
+  if (force != nullptr && force->simulated) row("Force device", "monitor/inject/force", false);
+  if (display != nullptr && display->simulated) row("Contact display", "monitor/inject/display", true);
+}
+
+void draw_calibration(const UiContext& ui, AppModel& model) {
+  heading(ui, "Calibration of the servo");
+  dim_text(ui, "Two places of the roller, measured with a calliper, and the pulses that hold it there.");
+  MaestroCalibration c = model.maestro();
+  const float width = ImGui::GetContentRegionAvail().x, label = ui.px(140);
+  const auto row = [&](const char* title, const char* path, double& value, double scale) {
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextUnformatted(title);
+    ImGui::SameLine(ImGui::GetCursorPosX() + label);
+    const auto typed = number_box(ui, path, std::min(ui.px(100), width - label), short_number(value / scale));
+    char* end = nullptr;
+    const double number = typed ? std::strtod(typed->c_str(), &end) : 0.0;
+    if (typed && end != typed->c_str() && std::isfinite(number)) value = number * scale;
+    else if (typed) model.say(Severity::error, "\"" + *typed + "\" is not a number");
+  };
+  row("Lower place, mm", "monitor/maestro/low_mm", c.low_m, 1e-3);
+  row("Its pulse, \u00b5s", "monitor/maestro/low_us", c.low_us, 1.0);
+  row("Upper place, mm", "monitor/maestro/high_mm", c.high_m, 1e-3);
+  row("Its pulse, \u00b5s", "monitor/maestro/high_us", c.high_us, 1.0);
+  if (!(c == model.maestro())) model.calibrate_maestro(c, model.maestro_channel());
+}
+
+void draw_log(const UiContext& ui, const AppModel& model) {
+  heading(ui, "Log");
+  const auto& entries = model.session()->safety_log().entries();
+  if (entries.empty()) return dim_text(ui, "Nothing yet");
+  ImFont* number = ui.fonts.small_number;
+  constexpr std::size_t kShown = 60;
+  std::size_t shown = 0;
+  for (auto e = entries.rbegin(); e != entries.rend() && shown < kShown; ++e, ++shown) {
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const ImU32 ink = e->kind == SafetyEntry::Kind::fault ? ui.colours.bad : e->kind == SafetyEntry::Kind::action ? ui.colours.warning : ui.colours.text;
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    draw.AddText(number, number->FontSize, {at.x, at.y + ui.px(1)}, ui.colours.text_dim, printed("%9.3f s", e->t_s).c_str());
+    draw.AddText(ui.fonts.small, ui.fonts.small->FontSize, {at.x + ui.px(84), at.y}, ink, e->text.c_str());
+    ImGui::Dummy({1, ui.fonts.small->FontSize});
+  }
+}
+
+void draw_left(const UiContext& ui, AppModel& model, bool cable, const LinkReport& link) {
+  draw_states(ui, model);
+  draw_limits(ui, model);
+  draw_raw(ui, model);
+  if (cable) draw_link(ui, link);
+}
+
+void draw_right(const UiContext& ui, AppModel& model, bool cable, const LinkReport& link) {
+  const ServoStatus& servo = model.status().servo;
+  const Session& session = *model.session();
+  fact(ui, "Rate, measured / asked for", printed("%.1f / %.0f", servo.rate_hz, servo.nominal_hz), "Hz");
+  fact(ui, "Ticks / late ticks", count_text(servo.ticks) + " / " + count_text(servo.late_ticks));
+  ImGui::Dummy({1, ui.px(4)});
+  const float height = ui.px(64);
+  draw_duration_histogram(ui, "Tick to tick", session.period_ns(), 1.0, colour(ui.palette.tick_time), height);
+  draw_duration_histogram(ui, "Late by", session.lateness_ns(), 1.0, colour(ui.palette.force_x), height);
+  if (cable && link.round_trip_us != nullptr) draw_duration_histogram(ui, "Round trip", *link.round_trip_us, 1e3, colour(ui.palette.cld_commanded), height);
+  if (cable && link.arrival_us != nullptr) draw_duration_histogram(ui, "Between samples", *link.arrival_us, 1e3, colour(ui.palette.cld_measured), height);
+  draw_injection(ui, model);
+  if (model.device() == "maestro") draw_calibration(ui, model);
+  draw_log(ui, model);
+}
+
+}  // namespace
+
+void draw_device_monitor(const UiContext& ui, AppModel& model, const Rect& rect) {
+  if (!model.view().device_monitor) return;
+  ImGui::SetNextWindowPos({rect.x, rect.y});
+  ImGui::SetNextWindowSize({rect.w, rect.h});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(ui.px(12), ui.px(8)));
+  constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove |
+                                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav;
+  ImGui::Begin("##device_monitor", nullptr, flags);
+  ImGui::PopStyleVar();
+  ImGui::PushFont(ui.fonts.strong);
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted("Device monitor");
+  ImGui::PopFont();
+  ImGui::SameLine(ImGui::GetWindowWidth() - ui.px(80));
+  if (text_button(ui, "monitor/close", "Close", "Back to the 3D view")) model.view().device_monitor = false;
+  if (model.session() == nullptr) {
+    ImGui::TextDisabled("No session");
+  } else {
+    LinkReport link;
+    const bool cable = model.session()->display_report(link);
+    const bool wide = rect.w > ui.px(480);
+    // Wider than this, labels and their values lose sight of each other.
+    const float width = std::min(ImGui::GetContentRegionAvail().x, ui.px(wide ? 960 : 480));
+    ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, ImVec2(ui.px(10), 0));
+    if (ImGui::BeginTable("##monitor", wide ? 2 : 1, ImGuiTableFlags_SizingStretchSame | ImGuiTableFlags_NoPadOuterX, {width, 0})) {
+      ImGui::TableNextColumn();
+      draw_left(ui, model, cable, link);
+      ImGui::TableNextColumn();
+      draw_right(ui, model, cable, link);
+      ImGui::EndTable();
+    }
+    ImGui::PopStyleVar();
+  }
+  ImGui::End();
+}
+
+}  // namespace tangent

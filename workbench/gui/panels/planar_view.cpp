@@ -1,0 +1,238 @@
+#include "workbench/gui/panels/planar_view.h"
+
+#include "workbench/gui/render/overlay_canvas.h"
+#include "workbench/gui/widgets.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace tangent {
+
+namespace {
+
+constexpr double kForceScale = 0.006;     // m of arrow per N
+constexpr std::size_t kMostPatchesNamed = 5000;  // beyond, only the polygon and the curve are drawn
+
+struct PlanarToggle {
+  const char* name;
+  bool PlanarView::*on;
+  const char* doc;
+};
+constexpr std::array kToggles{PlanarToggle{"Patches", &PlanarView::patches, "One a vertex: between its control polygon and the curve"},
+                              PlanarToggle{"Polygon", &PlanarView::polygon, "The polygon as it is"},
+                              PlanarToggle{"Curve", &PlanarView::curve, "The smooth curve that is rendered"},
+                              PlanarToggle{"Centres", &PlanarView::centres, "Local centres with the angles of their patches: the tracked patch's, and small ones of all"},
+                              PlanarToggle{"Tangents", &PlanarView::tangents, "Tangent lines of the tick's iterations, coloured by order"},
+                              PlanarToggle{"Finger", &PlanarView::finger, "The finger, with its contact"},
+                              PlanarToggle{"Force", &PlanarView::force, "The rendered force, 6 mm a newton"},
+                              PlanarToggle{"Display", &PlanarView::display, "The fingerpad from the side, with the roller where it is"}};
+
+/// From the scene to pixels and back; y up.
+class Paper {
+ public:
+  Paper(const PlanarView& view, const Rect& rect) : view_(view), middle_{rect.x + 0.5f * rect.w, rect.y + 0.5f * rect.h} {}
+  ImVec2 at(const Vec2& world) const {
+    const Vec2 d = view_.px_per_m * (world - view_.centre);
+    return {middle_.x + static_cast<float>(d.x), middle_.y - static_cast<float>(d.y)};
+  }
+  ImVec2 at(const Vec3& world) const { return at(Vec2(world.x, world.y)); }
+  Vec2 world(ImVec2 pixel) const {
+    return view_.centre + Vec2(static_cast<double>(pixel.x - middle_.x), static_cast<double>(middle_.y - pixel.y)) / view_.px_per_m;
+  }
+  float length(double metres) const { return static_cast<float>(metres * view_.px_per_m); }
+
+ private:
+  const PlanarView& view_;
+  ImVec2 middle_;
+};
+
+/// The whole polygon with a finger beside it.
+void frame_all(const AppModel& model, PlanarView& view, const Rect& rect) {
+  const Box& box = model.scene()->mesh().bounds();
+  const Vec3 origin = model.scene()->mesh().origin(), size = box.size();
+  const double reach = 1.5 * model.presets().current().finger.reach_m();
+  view.centre = Vec2(origin.x, origin.y) + Vec2(0.0, 0.4 * reach);
+  view.px_per_m = 0.8 * std::min(static_cast<double>(rect.w) / (size.x + reach), static_cast<double>(rect.h) / (size.y + reach));
+  view.framed = model.scene().get();
+  view.framed_for = model.view().camera;
+}
+
+void interact(AppModel& model, PlanarView& view, const Rect& rect) {
+  const ImGuiIO& io = ImGui::GetIO();
+  const Paper paper(view, rect);
+  const bool leading = model.view().hand_follows_mouse && !io.KeyShift;
+  if (ImGui::IsItemActive() && leading && ImGui::IsMouseDown(ImGuiMouseButton_Left)) {
+    const Vec2 at = paper.world(io.MousePos);
+    model.lead_hand({at.x, at.y, 0.0});
+  } else if (ImGui::IsItemActive()) {
+    view.centre -= Vec2(static_cast<double>(io.MouseDelta.x), -static_cast<double>(io.MouseDelta.y)) / view.px_per_m;
+  }
+  if (!ImGui::IsItemHovered() || io.MouseWheel == 0.0f) return;
+  const Vec2 held = paper.world(io.MousePos);
+  const double factor = std::pow(0.86, -static_cast<double>(io.MouseWheel));
+  view.px_per_m = std::clamp(view.px_per_m * factor, 1.0, 1e9);
+  view.centre = held + (view.centre - held) / factor;
+}
+
+/// Places along a patch of the rendered curve, close enough to look round.
+std::vector<ImVec2> curve_points(const PlanarCurve& curve, std::uint32_t patch, LocalCentre kind, const Paper& paper) {
+  const CurvePatch& p = curve.patch(patch);
+  const float reach = paper.length(glm::length(p.last - p.first));
+  const int steps = p.straight ? 1 : std::clamp(static_cast<int>(reach / 6.0f), 4, 64);
+  std::vector<ImVec2> points;
+  for (int k = 0; k <= steps; ++k) points.push_back(paper.at(curve.origin() + curve.sample(patch, kind, static_cast<double>(k) / steps).place));
+  return points;
+}
+
+void draw_curve(const UiContext& ui, const PlanarView& view, const PlanarCurve& curve, LocalCentre kind, const Paper& paper, ImDrawList& draw) {
+  const Palette& c = ui.palette;
+  const bool detail = curve.patch_count() <= kMostPatchesNamed;
+  for (std::uint32_t i = 0; i < curve.patch_count(); ++i) {
+    const CurvePatch& p = curve.patch(i);
+    const std::vector<ImVec2> points = curve_points(curve, i, kind, paper);
+    if (view.patches && detail && !p.straight) {
+      // Triangles from the vertex: the region need not be convex.
+      const ImU32 fill = colour(i % 2 ? c.control_net : c.smooth_surface, 0.28f);
+      const ImVec2 vertex = paper.at(curve.origin() + p.vertex);
+      // Softened edges of neighbours would show as lines.
+      const ImDrawListFlags flags = draw.Flags;
+      draw.Flags &= ~ImDrawListFlags_AntiAliasedFill;
+      for (std::size_t k = 0; k + 1 < points.size(); ++k) draw.AddTriangleFilled(vertex, points[k], points[k + 1], fill);
+      draw.Flags = flags;
+    }
+    if (view.polygon && p.joint_after == CurveJoint::smooth) {
+      const ImVec2 a = paper.at(curve.origin() + p.vertex), b = paper.at(curve.origin() + curve.vertex(curve.after(i)));
+      draw.AddLine(a, b, colour(c.mesh), ui.px(1.2f));
+    }
+    if (view.polygon && detail) draw.AddCircleFilled(paper.at(curve.origin() + p.vertex), ui.px(2.4f), colour(c.mesh), 12);
+    if (view.curve) draw.AddPolyline(points.data(), static_cast<int>(points.size()), colour(c.smooth_surface), 0, ui.px(2.4f));
+    if (view.patches && detail) draw.AddCircle(paper.at(curve.origin() + p.last), ui.px(2.6f), colour(c.text_dim), 12, ui.px(1.0f));
+  }
+}
+
+void draw_centres(const UiContext& ui, const PlanarCurve& curve, LocalCentre kind, std::uint32_t tracked, const Paper& paper, ImDrawList& draw) {
+  for (std::uint32_t i = 0; i < curve.patch_count(); ++i) {
+    const CurvePatch& p = curve.patch(i);
+    if (p.straight || (curve.patch_count() > 200 && i != tracked)) continue;
+    const ImVec2 centre = paper.at(curve.origin() + p.centre[static_cast<std::size_t>(kind)]);
+    const bool ours = i == tracked;
+    const ImU32 ink = colour(ui.palette.control_net, ours ? 0.9f : 0.35f);
+    draw.AddCircleFilled(centre, ui.px(ours ? 3.5f : 2.0f), ink, 16);
+    if (!ours) continue;
+    for (const Vec2& end : {p.first, p.last}) draw.AddLine(centre, paper.at(curve.origin() + end), ink, ui.px(1.0f));
+  }
+}
+
+void draw_tangents(const UiContext& ui, const AppModel& model, const Paper& paper, const Rect& rect, ImDrawList& draw) {
+  const auto trace = model.tick().iterations();
+  const double reach = 0.22 * static_cast<double>(std::min(rect.w, rect.h));
+  for (std::size_t i = 0; i < trace.size(); ++i) {
+    const IterationRecord& r = trace[i];
+    const Rgba ink = iteration_colour(i, trace.size());
+    const bool selected = model.tick().selected() == i;
+    const ImVec2 middle = paper.at(r.point);
+    const Vec2 along = reach * Vec2(r.normal.y, r.normal.x);  // in pixels, y down
+    const ImVec2 half{static_cast<float>(along.x), static_cast<float>(along.y)};
+    draw.AddLine({middle.x - half.x, middle.y - half.y}, {middle.x + half.x, middle.y + half.y}, colour(ink), ui.px(selected ? 3.0f : 1.6f));
+    draw.AddCircleFilled(middle, ui.px(selected ? 4.5f : 3.0f), colour(ink), 16);
+    // Where the finger would have it.
+    draw.AddLine(middle, paper.at(r.contact), colour(ink, 0.6f), ui.px(1.0f));
+    draw.AddCircle(paper.at(r.contact), ui.px(selected ? 5.5f : 4.0f), colour(ink), 16, ui.px(1.3f));
+  }
+}
+
+void draw_finger(const UiContext& ui, const Finger& finger, const TickRecord& tick, const Paper& paper, ImDrawList& draw) {
+  const Palette& c = ui.palette;
+  const ImVec2 centre = paper.at(tick.input.finger.position);
+  const float radius = finger.shape == FingerShape::point ? 0.0f : paper.length(finger.radius_m);
+  if (radius > 1.0f) {
+    draw.AddCircleFilled(centre, radius, colour(c.finger, 0.16f), 96);
+    draw.AddCircle(centre, radius, colour(c.finger, 0.9f), 96, ui.px(1.6f));
+    // The fingerpad's middle: the contact location counts from here.
+    const Vec3 x = tick.input.finger.orientation * Vec3(1.0, 0.0, 0.0);
+    const double turn = std::atan2(x.y, x.x);
+    const ImVec2 pad{centre.x + radius * static_cast<float>(std::sin(turn)), centre.y + radius * static_cast<float>(std::cos(turn))};
+    draw.AddLine({centre.x + 0.9f * (pad.x - centre.x), centre.y + 0.9f * (pad.y - centre.y)}, pad, colour(c.finger), ui.px(2.0f));
+    // The contact on the finger, and the way from the pad's middle.
+    const Vec3& n = tick.output.normal;
+    const float a0 = std::atan2(pad.y - centre.y, pad.x - centre.x);
+    const float a1 = std::atan2(static_cast<float>(n.y), static_cast<float>(-n.x));
+    const float way = std::remainder(a1 - a0, 6.2831853f);
+    draw.PathArcTo(centre, radius, a0, a0 + way, 48);
+    draw.PathStroke(colour(c.cld_commanded), 0, ui.px(3.2f));
+    draw.AddCircleFilled({centre.x + radius * std::cos(a1), centre.y + radius * std::sin(a1)}, ui.px(4.5f), colour(c.cld_commanded), 20);
+  } else {
+    draw.AddCircleFilled(centre, ui.px(4.0f), colour(c.finger), 20);
+  }
+}
+
+void draw_force(const UiContext& ui, const TickOutput& out, const Paper& paper, ImDrawList& draw) {
+  const double size = glm::length(out.force_n);
+  if (!(size > 1e-9)) return;
+  const ImVec2 from = paper.at(out.contact), to = paper.at(out.contact + kForceScale * out.force_n);
+  const float dx = to.x - from.x, dy = to.y - from.y, length = std::max(1e-3f, std::sqrt(dx * dx + dy * dy)), head = std::min(ui.px(10), length);
+  const ImVec2 d{dx / length, dy / length}, neck{to.x - head * d.x, to.y - head * d.y};
+  const ImU32 ink = colour(ui.palette.force_magnitude);
+  draw.AddLine(from, neck, ink, ui.px(2.6f));
+  draw.AddTriangleFilled(to, {neck.x - 0.42f * head * d.y, neck.y + 0.42f * head * d.x}, {neck.x + 0.42f * head * d.y, neck.y - 0.42f * head * d.x}, ink);
+}
+
+/// A length that is 1, 2 or 5 times a power of ten and about a tenth of the view.
+void draw_scale(const UiContext& ui, const PlanarView& view, const Rect& rect, ImDrawList& draw) {
+  const double wanted = 0.12 * static_cast<double>(rect.w) / view.px_per_m, decade = std::pow(10.0, std::floor(std::log10(wanted)));
+  const double length = decade * (wanted / decade >= 5.0 ? 5.0 : wanted / decade >= 2.0 ? 2.0 : 1.0);
+  const float y = rect.bottom() - ui.px(16), x = rect.x + ui.px(16), w = static_cast<float>(length * view.px_per_m);
+  const ImU32 ink = ui.colours.text_dim;
+  draw.AddLine({x, y}, {x + w, y}, ink, ui.px(1.6f));
+  for (const float end : {x, x + w}) draw.AddLine({end, y - ui.px(4)}, {end, y + ui.px(4)}, ink, ui.px(1.6f));
+  const std::string text = short_number(length * 1e3) + " mm";
+  ImFont* font = ui.fonts.small_number;
+  draw.AddText(font, font->FontSize, {x, y - ui.px(8) - font->FontSize}, ink, text.c_str());
+}
+
+void draw_toggles(const UiContext& ui, PlanarView& view, const Rect& rect) {
+  ImGui::PushFont(ui.fonts.small);
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(ui.px(6), ui.px(2)));
+  float x = rect.x + ui.px(8);
+  for (const PlanarToggle& toggle : kToggles) {
+    ImGui::SetCursorScreenPos({x, rect.y + ui.px(7)});
+    toggle_button(ui, std::string("planar/") + toggle.name, toggle.name, view.*toggle.on, toggle.doc);
+    x += ImGui::CalcTextSize(toggle.name).x + ui.px(15);
+  }
+  ImGui::PopStyleVar();
+  ImGui::PopFont();
+}
+
+}  // namespace
+
+void draw_planar_view(const UiContext& ui, AppModel& model, PlanarView& view, const Rect& rect) {
+  const PlanarCurve& curve = *model.scene()->planar();
+  if (view.framed != model.scene().get() || !(view.framed_for == model.view().camera)) frame_all(model, view, rect);
+  interact(model, view, rect);
+  const Paper paper(view, rect);
+  const LocalCentre kind = model.presets().current().solver.local_centre;
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  draw.PushClipRect({rect.x, rect.y}, {rect.right(), rect.bottom()}, true);
+  const ServoRecord* record = model.tick().record();
+  const Preset* then = record != nullptr && model.session() != nullptr ? model.session()->preset(record->tick.preset_id) : nullptr;
+  if (record != nullptr && view.finger) draw_finger(ui, (then != nullptr ? *then : model.presets().current()).finger, record->tick, paper, draw);
+  draw_curve(ui, view, curve, kind, paper, draw);
+  if (view.centres) draw_centres(ui, curve, kind, record != nullptr ? record->tick.output.triangle : kNone, paper, draw);
+  if (view.tangents) draw_tangents(ui, model, paper, rect, draw);
+  if (record != nullptr) {
+    draw.AddCircleFilled(paper.at(record->tick.output.contact), ui.px(3.6f), colour(ui.palette.contact), 16);
+    if (view.force) draw_force(ui, record->tick.output, paper, draw);
+  }
+  draw_scale(ui, view, rect, draw);
+  if (record != nullptr && view.display) {
+    const float em = ui.fonts.text->FontSize;
+    const OverlayCanvas canvas{draw, {rect.x, rect.y}, {rect.w, rect.h}, ui.palette, ui.fonts.text, ui.fonts.number, em};
+    draw_cld_inset(canvas, {rect.right() - 0.9f * em, rect.bottom() - 0.7f * em}, model.presets().current().display.travel_m,
+                   &record->device.cld_command_m, &record->device.cld_measured_m);
+  }
+  draw.PopClipRect();
+  draw_toggles(ui, view, rect);
+}
+
+}  // namespace tangent

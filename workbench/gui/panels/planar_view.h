@@ -1,0 +1,21 @@
+// The view of a 2D scene: polygon, smooth curve and patches, local centres, the tangent lines of the tick's iterations, the
+// finger with its contact, the force. It takes the 3D view's place.
+#pragma once
+
+#include "workbench/gui/app_model.h"
+#include "workbench/gui/ui_context.h"
+
+namespace tangent {
+
+struct PlanarView {
+  bool patches = true, polygon = true, curve = true, centres = false, tangents = true, finger = true, force = true, display = true;
+  Vec2 centre{0.0};              ///< in the middle of the view, world, m
+  double px_per_m = 0.0;         ///< 0: to be framed
+  const ContactScene* framed = nullptr;
+  Camera framed_for;             ///< the 3D camera then: framing the scene (F) moves it, and this view follows
+};
+
+/// Inside the 3D view's window. Precondition: the model's scene is planar.
+void draw_planar_view(const UiContext& ui, AppModel& model, PlanarView& view, const Rect& rect);
+
+}  // namespace tangent

@@ -1,0 +1,202 @@
+// X-Y, spectrum and histogram of the ticks in view. Counts are exact however many ticks that are; many are counted over
+// several frames.
+#include "workbench/gui/panels/panels.h"
+#include "workbench/gui/plots/axes_drawing.h"
+#include "workbench/gui/plots/tick_locator.h"
+#include "workbench/gui/widgets.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tangent {
+
+namespace {
+
+constexpr std::uint64_t kMostJoined = 4000;      ///< ticks: fewer are drawn one by one, joined
+constexpr double kSpectrumEvery_s = 0.2;
+/// A hand moves and trembles below this; what is above comes from the loop.
+constexpr double kHandUpTo_hz = 20.0;
+
+PlainAxis axis_over(const MinMax& range, double scale, std::string label) {
+  PlainAxis axis{0.0, 1.0, false, std::move(label)};
+  if (range.empty()) return axis;
+  axis.low = static_cast<double>(range.min) * scale;
+  axis.high = static_cast<double>(range.max) * scale;
+  widen_to_nice(axis.low, axis.high, 12);
+  return axis;
+}
+
+void say_empty(const UiContext& ui, const PlotArea& area, const char* text) {
+  ImFont* font = ui.fonts.small;
+  text_at(*ImGui::GetWindowDrawList(), font, {0.5f * (area.min.x + area.max.x - text_width(font, text)), 0.5f * (area.min.y + area.max.y)},
+          ui.colours.text_faint, text);
+}
+
+/// Which curve is shown.
+void draw_choice(const UiContext& ui, const char* path, const char* label, const std::vector<CurveRef>& curves, int& chosen, float width) {
+  std::vector<std::string> names;
+  for (const CurveRef& curve : curves) names.push_back(curve.name());
+  const std::vector<std::string_view> views(names.begin(), names.end());
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextDisabled("%s", label);
+  ImGui::SameLine(0, ui.px(5));
+  choice_row(ui, path, width, views, chosen);
+  ImGui::SameLine(0, ui.px(12));
+}
+
+void draw_histogram(const UiContext& ui, AppModel& model, PlotsPanel& state, const CurveRef& curve, const PlotArea& area) {
+  const auto [from, to] = ticks_in_view(model);
+  state.cells.update(model.store(), {curve.series->channel, std::nullopt, from, to, 96, 1});
+  const SampleCells& cells = state.cells;
+  const bool mine = cells.query().x == curve.series->channel && !cells.query().y && !cells.counts().empty();
+  PlainPlot plot{area, axis_over(mine ? cells.x_range() : MinMax{}, curve.plot->scale, curve.with_unit()), {0.0, 1.0, false, "Ticks"}};
+  if (mine && cells.most() > 0) {
+    plot.y.high = static_cast<double>(cells.most());
+    widen_to_nice(plot.y.low, plot.y.high, 4);
+    plot.y.label = printed("Ticks, of %llu", static_cast<unsigned long long>(cells.total()));
+  }
+  draw_axes(ui, plot);
+  if (!mine || cells.total() == 0) {
+    say_empty(ui, area, "no samples in view");
+    return;
+  }
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  draw.PushClipRect(area.min, area.max, true);
+  const double low = static_cast<double>(cells.x_range().min) * curve.plot->scale, high = static_cast<double>(cells.x_range().max) * curve.plot->scale;
+  const double cell = (high - low) / static_cast<double>(cells.query().columns);
+  for (std::size_t i = 0; i < cells.query().columns; ++i) {
+    if (cells.counts()[i] == 0) continue;
+    const double x = low + cell * static_cast<double>(i);
+    ImVec2 a = plot.at(x, static_cast<double>(cells.counts()[i])), b = plot.at(x + cell, 0.0);
+    b.x = std::max(b.x - ui.px(1), a.x + ui.px(1));
+    a.y = std::min(a.y, b.y - ui.px(1));  // a single sample among a million can still be seen
+    draw.AddRectFilled(a, b, packed(ui.palette.*curve.series->colour));
+  }
+  draw.PopClipRect();
+}
+
+void draw_spectrum(const UiContext& ui, AppModel& model, PlotsPanel& state, const CurveRef& curve, const PlotArea& area) {
+  const auto [from, to] = ticks_in_view(model);
+  const bool other = state.spectrum_of != state.x || state.spectrum_from != from || state.spectrum_to != to;
+  if (other && (state.spectrum_of != state.x || std::abs(model.now_s() - state.spectrum_at_s) >= kSpectrumEvery_s)) {
+    state.spectrum = amplitude_spectrum(model.store(), curve.series->channel, from, to, 1.0 / model.tick_period_s());
+    state.spectrum_of = state.x;
+    state.spectrum_from = from;
+    state.spectrum_to = to;
+    state.spectrum_at_s = model.now_s();
+  }
+  const Spectrum& s = state.spectrum;
+  PlainPlot plot{area, {1.0, 500.0, true, "Hz"}, {1e-6, 1.0, true, "Amplitude of " + curve.with_unit()}};
+  if (!s.empty() && s.peak > 0) {
+    const double scale = curve.plot->scale;
+    plot.x.low = s.bin_hz;
+    plot.x.high = s.bin_hz * static_cast<double>(s.amplitude.size() - 1);
+    plot.y.high = std::pow(10.0, std::ceil(std::log10(static_cast<double>(s.amplitude[s.peak]) * scale) + 0.05));
+    plot.y.low = plot.y.high * 1e-6;
+    const char* unit = curve.plot->unit.c_str();
+    plot.y.label += printed(": largest %.3g %s at %.4g Hz", static_cast<double>(s.amplitude[s.peak]) * scale, unit, s.peak_hz());
+    if (const std::size_t buzz = s.peak_above(kHandUpTo_hz); buzz > 0 && buzz != s.peak)
+      plot.y.label += printed(", faster than a hand %.3g %s at %.4g Hz", static_cast<double>(s.amplitude[buzz]) * scale, unit, s.bin_hz * static_cast<double>(buzz));
+    plot.y.label += printed("   (%zu segment%s of %zu ticks, Hann)", s.segments, s.segments == 1 ? "" : "s", s.segment_ticks);
+  }
+  draw_axes(ui, plot);
+  if (s.empty() || s.peak == 0) {
+    say_empty(ui, area, "64 ticks without a gap are needed, and something that moves");
+    return;
+  }
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  draw.PushClipRect(area.min, area.max, true);
+  std::vector<ImVec2> line;
+  for (std::size_t i = 1; i < s.amplitude.size(); ++i) {
+    const double value = std::max(static_cast<double>(s.amplitude[i]) * curve.plot->scale, plot.y.low * 0.1);
+    line.push_back(plot.at(s.bin_hz * static_cast<double>(i), value));
+  }
+  draw.AddPolyline(line.data(), static_cast<int>(line.size()), packed(ui.palette.*curve.series->colour), 0, ui.px(1.3f));
+  for (const std::size_t peak : {s.peak, s.peak_above(kHandUpTo_hz)}) {
+    if (peak > 0) draw.AddCircle(line[peak - 1], ui.px(5), ui.colours.text, 20, ui.px(1.2f));
+  }
+  draw.PopClipRect();
+  const ImVec2 mouse = ImGui::GetIO().MousePos;
+  if (!ImGui::IsMouseHoveringRect(area.min, area.max)) return;
+  const double hz = plot.x.value_at(static_cast<double>((mouse.x - area.min.x) / area.width()));
+  const auto bin = std::clamp<std::size_t>(static_cast<std::size_t>(std::lround(hz / s.bin_hz)), 1, s.amplitude.size() - 1);
+  ImGui::SetTooltip("%.4g Hz: %.4g %s", s.bin_hz * static_cast<double>(bin), static_cast<double>(s.amplitude[bin]) * curve.plot->scale, curve.plot->unit.c_str());
+}
+
+void draw_xy(const UiContext& ui, AppModel& model, PlotsPanel& state, const CurveRef& cx, const CurveRef& cy, const PlotArea& area) {
+  const auto [from, to] = ticks_in_view(model);
+  const ChannelStore& store = model.store();
+  const double sx = cx.plot->scale, sy = cy.plot->scale;
+  PlainPlot plot{area, axis_over(store.min_max(cx.series->channel, from, to), sx, cx.with_unit()),
+                 axis_over(store.min_max(cy.series->channel, from, to), sy, cy.with_unit())};
+  const bool joined = to - from <= kMostJoined;
+  if (!joined) state.cells.update(store, {cx.series->channel, cy.series->channel, from, to, 192, 108});
+  draw_axes(ui, plot);
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  draw.PushClipRect(area.min, area.max, true);
+  const Rgba ink = ui.palette.*cy.series->colour;
+  if (joined) {
+    std::optional<ImVec2> before;
+    for (std::uint64_t tick = from; tick < to; ++tick) {
+      const float x = store.value(cx.series->channel, tick), y = store.value(cy.series->channel, tick);
+      if (std::isnan(x) || std::isnan(y)) {
+        before.reset();
+        continue;
+      }
+      const ImVec2 p = plot.at(static_cast<double>(x) * sx, static_cast<double>(y) * sy);
+      const float age = static_cast<float>(tick - from) / static_cast<float>(std::max<std::uint64_t>(1, to - from));
+      if (before) draw.AddLine(*before, p, packed(with_alpha(ink, 0.25f + 0.75f * age)), ui.px(1.3f));
+      before = p;
+    }
+  } else if (state.cells.query().y && !state.cells.counts().empty()) {
+    const SampleCells& cells = state.cells;
+    const std::size_t columns = cells.query().columns, rows = cells.query().rows;
+    const auto place = [&](const MinMax& range, double share) { return static_cast<double>(range.min) + share * static_cast<double>(range.max - range.min); };
+    for (std::size_t i = 0; i < cells.counts().size(); ++i) {
+      if (cells.counts()[i] == 0) continue;
+      const double c = static_cast<double>(i % columns), r = static_cast<double>(i / columns);
+      const ImVec2 a = plot.at(sx * place(cells.x_range(), c / static_cast<double>(columns)), sy * place(cells.y_range(), (r + 1.0) / static_cast<double>(rows)));
+      const ImVec2 b = plot.at(sx * place(cells.x_range(), (c + 1.0) / static_cast<double>(columns)), sy * place(cells.y_range(), r / static_cast<double>(rows)));
+      const float share = std::log1p(static_cast<float>(cells.counts()[i])) / std::log1p(static_cast<float>(cells.most()));
+      draw.AddRectFilled(a, {std::max(b.x, a.x + 1.0f), std::max(b.y, a.y + 1.0f)}, packed(with_alpha(ink, 0.2f + 0.8f * share)));
+    }
+  }
+  const ServoRecord* record = model.tick().record();
+  if (record != nullptr) {
+    const float x = store.value(cx.series->channel, record->tick.tick), y = store.value(cy.series->channel, record->tick.tick);
+    if (!std::isnan(x) && !std::isnan(y)) draw.AddCircle(plot.at(static_cast<double>(x) * sx, static_cast<double>(y) * sy), ui.px(5), ui.colours.accent, 20, ui.px(1.8f));
+  }
+  draw.PopClipRect();
+  if (store.min_max(cx.series->channel, from, to).empty() || store.min_max(cy.series->channel, from, to).empty()) say_empty(ui, area, "no samples in view");
+}
+
+}  // namespace
+
+void draw_other_plot(const UiContext& ui, AppModel& model, PlotsPanel& state, const Rect& rect) {
+  const auto curves = curves_of(state);
+  const int last = static_cast<int>(curves.size()) - 1;
+  state.x = std::clamp(state.x, 0, last);
+  state.y = std::clamp(state.y, 0, last);
+  ImGui::SetCursorScreenPos({rect.x, rect.y});
+  ImGui::BeginChild("other_plot", {rect.w, rect.h}, false, ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NoNav);
+  ImGui::PushFont(ui.fonts.small);
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(ui.px(6), ui.px(2)));
+  ImGui::SetCursorScreenPos({rect.x + ui.px(8), rect.y + ui.px(2)});
+  const bool xy = state.mode == PlotsMode::xy;
+  draw_choice(ui, "plots/curve_x", xy ? "Across" : "Curve", curves, state.x, ui.px(170));
+  if (xy) draw_choice(ui, "plots/curve_y", "Up", curves, state.y, ui.px(170));
+  const float used = ImGui::GetFrameHeight() + ui.px(4);
+  ImGui::PopStyleVar();
+  ImGui::PopFont();
+  const PlotArea area = plain_area(ui, {rect.x, rect.y + used}, {rect.w, rect.h - used});
+  if (area.width() > ui.px(40) && area.height() > ui.px(20)) {
+    const CurveRef& x = curves[static_cast<std::size_t>(state.x)];
+    if (state.mode == PlotsMode::histogram) draw_histogram(ui, model, state, x, area);
+    else if (state.mode == PlotsMode::spectrum) draw_spectrum(ui, model, state, x, area);
+    else draw_xy(ui, model, state, x, curves[static_cast<std::size_t>(state.y)], area);
+  }
+  ImGui::EndChild();
+  ui.items.note("plots/other", area.min, area.max);
+}
+
+}  // namespace tangent

@@ -1,0 +1,110 @@
+// Above the plots: what they show, whether time is followed, held or inspected, the cursors A and B, what the ghost is,
+// and the ways out: CSV and PNG.
+#include "workbench/gui/panels/panels.h"
+#include "workbench/gui/widgets.h"
+
+#include <cmath>
+
+namespace tangent {
+
+namespace {
+
+void draw_modes(const UiContext& ui, PlotsPanel& state) {
+  struct Mode {
+    PlotsMode mode;
+    const char* name;
+    const char* doc;
+  };
+  constexpr Mode kModes[] = {{PlotsMode::time, "Time", "Every curve against time"},
+                             {PlotsMode::xy, "X-Y", "One curve against another, for the ticks in view"},
+                             {PlotsMode::spectrum, "Spectrum", "What frequencies a curve holds: is the loop buzzing?"},
+                             {PlotsMode::histogram, "Histogram", "How often a curve had which value, for the ticks in view"}};
+  for (const Mode& m : kModes) {
+    bool on = state.mode == m.mode;
+    if (toggle_button(ui, std::string("plots/mode/") + m.name, m.name, on, m.doc)) state.mode = m.mode;
+    ImGui::SameLine(0, ui.px(3));
+  }
+  toggle_button(ui, "plots/values", "Values", state.values, "Minimum, maximum, mean and RMS of what is in view, values at A and B");
+  ImGui::SameLine(0, ui.px(14));
+}
+
+/// Follow: the newest tick stays at the right. Hold: the axis stands, the tick in view goes on. Inspect: time stands.
+void draw_following(const UiContext& ui, AppModel& model) {
+  bool follow = !model.paused() && model.axis().following(), inspect = model.paused(), hold = !follow && !inspect;
+  if (toggle_button(ui, "plots/follow", "Follow", follow, "The newest tick stays at the right edge (End)")) model.go_live();
+  ImGui::SameLine(0, ui.px(3));
+  if (toggle_button(ui, "plots/hold", "Hold", hold, "The axes stand still, the rest of the window goes on; panning does the same")) {
+    model.set_paused(false);
+    model.axis().hold();
+  }
+  ImGui::SameLine(0, ui.px(3));
+  if (toggle_button(ui, "plots/inspect", "Inspect", inspect, "Time stands still on one tick everywhere in the window (Space)")) model.set_paused(true);
+  ImGui::SameLine(0, ui.px(14));
+}
+
+void draw_cursors(const UiContext& ui, AppModel& model, PlotLink& link) {
+  const auto place = [&](const char* path, const char* letter, std::optional<std::uint64_t>& cursor, const char* doc) {
+    bool on = cursor.has_value();
+    if (toggle_button(ui, path, letter, on, doc)) {
+      const ServoRecord* record = model.tick().record();
+      if (!on || record == nullptr) cursor.reset(); else cursor = record->tick.tick;
+    }
+    ImGui::SameLine(0, ui.px(3));
+  };
+  place("plots/cursor_a", "A", link.a, "Cursor A on the tick in view; Ctrl-click in a plot sets it too. Again: none");
+  place("plots/cursor_b", "B", link.b, "Cursor B on the tick in view; Shift-click in a plot sets it too. Again: none");
+  if (!link.a || !link.b) return;
+  const double dt = (static_cast<double>(*link.b) - static_cast<double>(*link.a)) * link.tick_period_s;
+  ImGui::PushFont(ui.fonts.small_number);
+  const std::string text = printed("B\u2212A %.3f s", dt) + (dt != 0.0 ? printed(" %.4g Hz", 1.0 / std::abs(dt)) : std::string());
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::PopFont();
+  ImGui::SameLine(0, ui.px(14));
+}
+
+void draw_ghost_note(const UiContext& ui, const AppModel& model, float right) {
+  const auto ghost = model.ghost();
+  if (!ghost) return;
+  const std::string text = printed("Ghost, same motion assumed: iterations %.2f \u2192 %.2f, contact changed in %llu ticks",
+                                   ghost->numbers.recorded.mean_iterations, ghost->numbers.resolved.mean_iterations,
+                                   static_cast<unsigned long long>(ghost->numbers.changed_ticks));
+  const char* shorter = "Ghost: same motion assumed";
+  const float room = right - ImGui::GetCursorScreenPos().x - ui.px(10);
+  const char* shown = ImGui::CalcTextSize(text.c_str()).x < room ? text.c_str() : shorter;
+  if (ImGui::CalcTextSize(shown).x > room) return;
+  ImGui::PushStyleColor(ImGuiCol_Text, ui.colours.warning);
+  ImGui::TextUnformatted(shown);
+  ImGui::PopStyleColor();
+  ui.items.note_last("plots/ghost");
+  tooltip(ui, text);
+  ImGui::SameLine();
+}
+
+}  // namespace
+
+void draw_plots_toolbar(const UiContext& ui, AppModel& model, PlotsPanel& state, const Rect& rect, const Rect& whole) {
+  ImGui::PushFont(ui.fonts.small);
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(ui.px(6), ui.px(2)));
+  ImGui::SetCursorScreenPos({rect.x + ui.px(8), rect.y + 0.5f * (rect.h - ImGui::GetFrameHeight())});
+  draw_modes(ui, state);
+  draw_following(ui, model);
+  draw_cursors(ui, model, state.link);
+  const float out_width = ImGui::CalcTextSize("CSV").x + ImGui::CalcTextSize("PNG").x + ui.px(24 + 3 + 10);
+  const float out_x = rect.right() - out_width;
+  draw_ghost_note(ui, model, out_x);
+  if (ImGui::GetCursorScreenPos().x < out_x) {
+    ImGui::SetCursorScreenPos({out_x, rect.y + 0.5f * (rect.h - ImGui::GetFrameHeight())});
+    if (text_button(ui, "plots/csv", "CSV", "Every recorded tick in view, all channels, as a CSV file; between A and B if both are set")) {
+      const auto [from, to] = ticks_in_view(model);
+      const auto& [a, b] = std::pair(state.link.a, state.link.b);
+      if (a && b) model.export_ticks(std::min(*a, *b), std::max(*a, *b) + 1);
+      else model.export_ticks(from, to);
+    }
+    ImGui::SameLine(0, ui.px(3));
+    if (text_button(ui, "plots/png", "PNG", "The plots as they are, as a PNG file")) model.ask_for_picture("plots", whole);
+  }
+  ImGui::PopStyleVar();
+  ImGui::PopFont();
+}
+
+}  // namespace tangent

@@ -1,0 +1,54 @@
+// Samples counted into cells: a histogram of one channel, or how often two were where at once. Exact, whatever the
+// range: many samples are counted over several frames, so that none of them takes long.
+#pragma once
+
+#include "workbench/gui/plots/channel_store.h"
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace tangent {
+
+struct CellQuery {
+  std::size_t x = 0;                       ///< channel
+  std::optional<std::size_t> y;            ///< none: a histogram
+  std::uint64_t from = 0, to = 0;          ///< ticks
+  std::size_t columns = 64, rows = 1;
+  bool operator==(const CellQuery&) const = default;
+};
+
+class SampleCells {
+ public:
+  static constexpr std::uint64_t kSamplesAFrame = 100'000;
+
+  /// Once a frame. Goes on with what is under way, then begins anew if the query is another one. Ranges come from the
+  /// store's exact minima and maxima when it begins.
+  void update(const ChannelStore& store, const CellQuery& query);
+
+  /// Of the last query that is done; empty: none yet.
+  const std::vector<std::uint32_t>& counts() const { return done_.counts; }   ///< row by row
+  const CellQuery& query() const { return done_.query; }
+  MinMax x_range() const { return done_.x; }
+  MinMax y_range() const { return done_.y; }
+  std::uint64_t total() const { return done_.total; }
+  std::uint32_t most() const { return done_.most; }
+  bool busy() const { return busy_; }
+
+ private:
+  struct Count {
+    CellQuery query;
+    MinMax x, y;
+    std::vector<std::uint32_t> counts;
+    std::uint64_t total = 0;
+    std::uint32_t most = 0;
+  };
+  void begin(const ChannelStore& store, const CellQuery& query);
+  void go_on(const ChannelStore& store);
+
+  Count done_, under_way_;
+  std::uint64_t next_ = 0;
+  bool busy_ = false, any_ = false;
+};
+
+}  // namespace tangent

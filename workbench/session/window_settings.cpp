@@ -1,0 +1,117 @@
+#include "workbench/session/window_settings.h"
+
+#include "core/base/atomic_file.h"
+#include "workbench/session/input_file.h"
+
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <sstream>
+#include <system_error>
+
+namespace tangent {
+namespace {
+
+constexpr std::size_t kMaxBytes = std::size_t{1} << 20;
+
+void take(const toml::table& from, const char* key, double low, double high, double& to) {
+  if (const auto value = from[key].value<double>()) to = std::clamp(*value, low, high);
+}
+void take(const toml::table& from, const char* key, bool& to) {
+  if (const auto value = from[key].value<bool>()) to = *value;
+}
+void take(const toml::table& from, const char* key, std::vector<std::string>& to, std::size_t most) {
+  const toml::array* list = from[key].as_array();
+  if (list == nullptr) return;
+  to.clear();
+  for (const toml::node& node : *list) {
+    if (const auto text = node.value<std::string>(); text && to.size() < most) to.push_back(*text);
+  }
+}
+
+toml::array as_array(const std::vector<std::string>& texts) {
+  toml::array out;
+  for (const std::string& text : texts) out.push_back(text);
+  return out;
+}
+
+}  // namespace
+
+void WindowSettings::opened(const std::string& mesh) {
+  std::erase(recent_meshes, mesh);
+  recent_meshes.insert(recent_meshes.begin(), mesh);
+  if (recent_meshes.size() > kMostRecent) recent_meshes.resize(kMostRecent);
+}
+
+std::filesystem::path window_settings_path() {
+  const char* config = std::getenv("XDG_CONFIG_HOME");
+  const char* home = std::getenv("HOME");
+  std::filesystem::path folder;
+  // The specification has relative paths ignored.
+  if (config != nullptr && config[0] == '/') folder = config;
+  else if (home != nullptr && home[0] == '/') folder = std::filesystem::path(home) / ".config";
+  else return {};
+  return folder / "tangent-workbench" / "window.toml";
+}
+
+Result<WindowSettings> read_window_settings(const std::filesystem::path& path) {
+  WindowSettings out;
+  std::error_code ignored;
+  if (path.empty() || !std::filesystem::exists(path, ignored)) return out;
+  const auto text = read_input_file(path, kMaxBytes);
+  if (!text) return tl::unexpected(text.error());
+  toml::table root;
+  try {
+    root = toml::parse(*text);
+  } catch (const toml::parse_error& error) {
+    return fail(std::string(error.description()), path.string() + ":" + std::to_string(error.source().begin.line),
+                "delete the file; the window starts with its own layout");
+  }
+  if (const toml::table* layout = root["layout"].as_table()) {
+    take(*layout, "left", 100.0, 2000.0, out.left);
+    take(*layout, "right", 100.0, 2000.0, out.right);
+    take(*layout, "plots", 0.0, 4000.0, out.plots);
+    take(*layout, "show_left", out.show_left);
+    take(*layout, "show_right", out.show_right);
+    take(*layout, "show_plots", out.show_plots);
+  }
+  if (const toml::table* look = root["look"].as_table()) {
+    take(*look, "light_theme", out.light_theme);
+    take(*look, "text_size", 0.6, 3.0, out.text_size);
+    take(*look, "y_up", out.y_up);
+    if (const auto name = (*look)["colour_map"].value<std::string>()) out.colour_map = *name;
+  }
+  if (const toml::table* sections = root["sections"].as_table()) {
+    for (const auto& [title, open] : *sections) {
+      if (const auto value = open.value<bool>()) out.sections[std::string(title.str())] = *value;
+    }
+  }
+  if (const toml::table* lists = root["lists"].as_table()) {
+    take(*lists, "favourites", out.favourites, 100);
+    take(*lists, "recent_meshes", out.recent_meshes, WindowSettings::kMostRecent);
+  }
+  return out;
+}
+
+std::string format_window_settings(const WindowSettings& s) {
+  toml::table sections;
+  for (const auto& [title, open] : s.sections) sections.insert(title, open);
+  const toml::table root{
+      {"layout", toml::table{{"left", s.left}, {"right", s.right}, {"plots", s.plots}, {"show_left", s.show_left},
+                             {"show_right", s.show_right}, {"show_plots", s.show_plots}}},
+      {"look", toml::table{{"light_theme", s.light_theme}, {"text_size", s.text_size}, {"y_up", s.y_up}, {"colour_map", s.colour_map}}},
+      {"sections", sections},
+      {"lists", toml::table{{"favourites", as_array(s.favourites)}, {"recent_meshes", as_array(s.recent_meshes)}}}};
+  std::ostringstream text;
+  text << "# The window's layout and look, kept between runs. Delete the file for the program's own.\n" << root << "\n";
+  return text.str();
+}
+
+Status write_window_settings(const WindowSettings& settings, const std::filesystem::path& path) {
+  std::error_code failed;
+  std::filesystem::create_directories(path.parent_path(), failed);
+  return write_file_atomic(path, format_window_settings(settings));
+}
+
+}  // namespace tangent
