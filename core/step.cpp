@@ -97,7 +97,6 @@ static void track_smooth(const ContactScene& scene, StepCache& cache, const Pres
   cache.form = settings.normal_form;
   const IterationResult& contact = cache.smooth.contact;
   state.plane = contact.plane;
-  state.clearance = cache.smooth.clearance;
   if (!cache.smooth.converged()) {
     plane = last_converged_plane(preset, state, local, t_s);
     return;

@@ -77,6 +77,14 @@ struct Look {
   bool contact = false;        ///< it holds a contact, whose surroundings are left out of the search on its behalf
 };
 
+/// The least of the margins. Shortened by far more than floats are rounded by: at a margin itself a contact may be there.
+void set_free(Clearance& known) {
+  double least = known.margin_m;
+  for (const WatchedTriangle& watched : known.watched)
+    if (watched.triangle != kNone) least = std::min(least, double{watched.margin_m});
+  known.free_m = (1.0 - 1e-6) * least;
+}
+
 class RivalSearch {
  public:
   RivalSearch(IterationContext& context, const ContactScene& scene, const IterationResult& tracked, double bound_m, double margin_m)
@@ -105,9 +113,10 @@ class RivalSearch {
     });
     clearance.height_m = bound_m_ + 2.0 * clearance.margin_m;
     if (solves_ >= kMaxSolves) clearance.margin_m = 0.0;
+    set_free(clearance);
   }
 
-  /// Only the watched triangles whose time has come.
+  /// Only the watched triangles whose time has come; `result.clearance` counts from the present pose.
   void once_more(RivalResult& result) {
     Clearance& clearance = result.clearance;
     for (WatchedTriangle& watched : clearance.watched) {
@@ -117,6 +126,7 @@ class RivalSearch {
       watched.margin_m = static_cast<float>(look.margin_m);
       if (look.contact || look.margin_m >= clearance.margin_m) watched = {};
     }
+    set_free(clearance);
   }
 
  private:
@@ -214,33 +224,32 @@ double turned_m(const Finger& finger, const Quat& from, const Quat& to) {
 
 }  // namespace
 
-void age(Clearance& known, const Finger& finger, const FingerPose& pose) {
+double gone_m(const Clearance& known, const Finger& finger, const FingerPose& pose) {
   const Vec3 d = pose.position - known.centre;
-  const double gone = std::sqrt(glm::dot(d, d)) + turned_m(finger, known.orientation, pose.orientation);
+  return std::sqrt(glm::dot(d, d)) + turned_m(finger, known.orientation, pose.orientation);
+}
+
+// By the triangle inequality, which turning_m obeys too: it is concave in the angle.
+void recentre(Clearance& known, const FingerPose& pose, double gone) {
   known.centre = pose.position;
   known.orientation = pose.orientation;
   known.margin_m -= gone;
   known.height_m -= gone;
   for (WatchedTriangle& watched : known.watched) watched.margin_m -= static_cast<float>(gone);
-}
-
-bool rival_possible(const Clearance& known, double bound_m) {
-  if (known.margin_m < 0.0 || bound_m > known.height_m) return true;
-  for (const WatchedTriangle& watched : known.watched)
-    if (watched.triangle != kNone && watched.margin_m <= 0.0f) return true;
-  return false;
+  set_free(known);
 }
 
 RivalResult find_rival(IterationContext& context, const ContactScene& scene, const IterationResult& tracked,
-                       double bound_m, double margin_m, const Clearance& known) {
+                       double bound_m, double margin_m, const Clearance& known, double gone) {
   RivalSearch search(context, scene, tracked, bound_m, margin_m);
   RivalResult result;
-  if (known.margin_m < 0.0 || bound_m > known.height_m) {
+  if (gone > known.margin_m || bound_m > known.height_m - gone) {
     result.clearance.centre = context.pose.position;
     result.clearance.orientation = context.pose.orientation;
     search.everywhere(result);
   } else {
     result.clearance = known;
+    recentre(result.clearance, context.pose, gone);
     search.once_more(result);
   }
   return result;

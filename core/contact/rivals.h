@@ -9,8 +9,17 @@
 
 namespace tangent {
 
-/// What is left of `known` once the finger stands at `pose` (local). Negative margins: look again.
-void age(Clearance& known, const Finger& finger, const FingerPose& pose);
+/// How far the finger at `pose` (local) is from where the margins of `known` count from: its centre's displacement, and
+/// for fingers that are not round the most that support points can have moved by its turning.
+double gone_m(const Clearance& known, const Finger& finger, const FingerPose& pose);
+
+/// Whether a finger that is `gone` from known.centre leaves room for a rival of a rank below `bound_m`.
+inline bool rival_possible(const Clearance& known, double gone, double bound_m) {
+  return gone > known.free_m || bound_m > known.height_m - gone;
+}
+
+/// The same knowledge seen from `pose`, `gone` away: what is left of the margins there.
+void recentre(Clearance& known, const FingerPose& pose, double gone);
 
 struct RivalResult {
   bool deeper = false;       ///< `best` is a stable contact whose rank is below the wanted bound
@@ -20,12 +29,9 @@ struct RivalResult {
 };
 
 /// `bound_m`: rank that a rival must be below to take over. `margin_m`: how far one would like to go without
-/// searching again. `known`: what is left of the last search; a negative margin asks for a whole one.
-/// Uses the `robust` rule whatever the method.
+/// searching again. `known`: the last search; the finger is `gone` from there. Beyond its margin all is searched, within it
+/// only the watched triangles whose time has come. Uses the `robust` rule whatever the method.
 RivalResult find_rival(IterationContext& context, const ContactScene& scene, const IterationResult& tracked,
-                       double bound_m, double margin_m, const Clearance& known);
-
-/// Whether `known`, aged to the present pose, leaves room for a rival of a rank below `bound_m`.
-bool rival_possible(const Clearance& known, double bound_m);
+                       double bound_m, double margin_m, const Clearance& known, double gone);
 
 }  // namespace tangent

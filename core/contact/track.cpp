@@ -18,30 +18,33 @@ void adopt(TrackResult& result, const IterationResult& contact, const TrackedPla
   result.event = event;
 }
 
-void watch_for_rivals(IterationContext& context, const ContactScene& scene, const TickState& state, TrackResult& result) {
-  const double rank = contact_rank(context.finger, result.contact.contact);
-  const double bound = rank - context.settings.switch_hysteresis_m;
-  result.clearance = state.clearance;
-  age(result.clearance, context.finger, context.pose);
-  if (!rival_possible(result.clearance, bound)) return;
+/// Looks for a deeper place, where there could be one. `rank`: of the tracked contact.
+void look_for_rival(IterationContext& context, const ContactScene& scene, TickState& state, double rank, double gone, TrackResult& result) {
   const Vec3 moved = context.pose.position + context.origin - state.last_position;
   const double speed = state.has_previous ? std::sqrt(glm::dot(moved, moved)) : 0.0;
   const double margin = std::min(kWatchTicks * speed, kLargestWatch * std::abs(rank)) + kSmallestWatch * std::abs(rank);
-  const RivalResult rival = find_rival(context, scene, result.contact, bound, margin, result.clearance);
+  const double bound = rank - context.settings.switch_hysteresis_m;
+  const RivalResult rival = find_rival(context, scene, result.contact, bound, margin, state.clearance, gone);
   result.evaluations += rival.evaluations;
-  result.clearance = rival.clearance;
+  state.clearance = rival.clearance;
   if (!rival.deeper) return;
   adopt(result, rival.best, state.plane, TickEvent::switched);
-  result.clearance.margin_m = -1.0;
+  state.clearance = Clearance{};
+}
+
+void watch_for_rivals(IterationContext& context, const ContactScene& scene, TickState& state, TrackResult& result) {
+  const double rank = contact_rank(context.finger, result.contact.contact);
+  const double gone = gone_m(state.clearance, context.finger, context.pose);
+  if (rival_possible(state.clearance, gone, rank - context.settings.switch_hysteresis_m))
+    look_for_rival(context, scene, state, rank, gone, result);
 }
 
 }  // namespace
 
-void track(IterationContext& context, const ContactScene& scene, const TickState& state, bool sample_kept, TrackResult& result) {
+void track(IterationContext& context, const ContactScene& scene, TickState& state, bool sample_kept, TrackResult& result) {
   result.event = TickEvent::none;
   result.evaluations = 0;
   result.triangle_changes = 0;
-  result.clearance = Clearance{};
   const bool first = state.plane.feature == Feature::none;
   const bool robust = context.settings.method == Method::robust;
   if (!first) {
@@ -59,6 +62,7 @@ void track(IterationContext& context, const ContactScene& scene, const TickState
     }
     if (result.converged() && context.trace) context.trace->amend_last(StopReason::leapt);
   }
+  state.clearance = Clearance{};
   const SeedResult seeded = seed_contact(context, scene, state.plane);
   result.evaluations += seeded.evaluations;
   if (seeded.found || first || seeded.best.contact.error_m < result.contact.contact.error_m)
