@@ -3,12 +3,9 @@
 
 #include "tests/support/temp_folder.h"
 #include "workbench/gui/platform/save_picture.h"
-#include "workbench/gui/plots/plot_view.h"
-#include "workbench/gui/thread_time.h"
 
 #include <algorithm>
 #include <fstream>
-#include <map>
 #include <sstream>
 
 using namespace tangent;
@@ -23,34 +20,6 @@ struct PlotsApp : HeadlessApp {
     frames(2);
   }
 };
-
-/// Processor time of one frame with these plots side by side, and nothing else, in ms.
-double draw_plots(std::vector<PlotView>& plots, const ChannelStore& store, double share) {
-  ItemMap items;
-  Typing typing;
-  Resting resting;
-  std::map<std::string, bool> sections;
-  ImFont* font = ImGui::GetIO().Fonts->Fonts[0];
-  const ThemeFonts fonts{font, font, font, font, font};
-  const UiContext ui{items, typing, resting, theme_colours(Theme::dark), palette(Theme::dark), fonts, sections, 1.0f, 0.0};
-  TimeAxis axis;
-  PlotLink link;
-  const auto ticks = static_cast<double>(store.end_tick());
-  axis.update(0, store.end_tick(), ticks);
-  axis.show(ticks * (0.5 - 0.5 * share), ticks * (0.5 + 0.5 * share));
-  ImGui::NewFrame();
-  const double begin = thread_cpu_ms();
-  for (std::size_t p = 0; p < plots.size(); ++p) {
-    ImGui::SetNextWindowPos({static_cast<float>(p % 3) * 427.0f, static_cast<float>(p / 3) * 200.0f});
-    ImGui::SetNextWindowSize({427.0f, 200.0f});
-    ImGui::Begin(plots[p].spec().id.c_str(), nullptr, ImGuiWindowFlags_NoDecoration);
-    plots[p].draw(ui, store, axis, link, ImGui::GetWindowPos(), {427.0f, 200.0f}, true);
-    ImGui::End();
-  }
-  const double spent = thread_cpu_ms() - begin;
-  ImGui::Render();
-  return spent;
-}
 
 bool said(const AppModel& model, const char* part) {
   for (const Message& m : model.messages().all()) {
@@ -218,31 +187,4 @@ TEST_CASE("a legend entry hides its curve from the axis and brings it back") {
   ui.click("plots/force/x");
   ui.move({5.0f, 5.0f});
   CHECK(vertices() == all);
-}
-
-// What plots cost. Not a test: run with --no-skip to measure.
-TEST_CASE("measure: processor time of 24 channels with a minute and with an hour in the store" * doctest::skip()) {
-  PlotsApp host;  // a font, a style, a frame
-  for (const std::uint64_t ticks : {60'000u, 3'600'000u}) {
-    ChannelStore store(24, ticks);
-    std::vector<float> row(24);
-    for (std::uint64_t t = 0; t < ticks; ++t) {
-      for (std::size_t c = 0; c < 24; ++c) row[c] = static_cast<float>((t * (c + 7)) % 1009) * 1e-3f;
-      store.push(t, row);
-    }
-    std::vector<PlotView> plots;
-    for (std::size_t p = 0; p < 6; ++p) {
-      PlotSpec spec;
-      spec.id = "p" + std::to_string(p);
-      spec.title = "Plot";
-      for (std::size_t c = 0; c < 4; ++c) spec.series.push_back({"c" + std::to_string(c), 4 * p + c, &Palette::force_x});
-      plots.emplace_back(std::move(spec));
-    }
-    for (const double share : {1.0, 0.1, 2000.0 / static_cast<double>(ticks)}) {
-      std::vector<double> ms;
-      for (int i = 0; i < 200; ++i) ms.push_back(draw_plots(plots, store, share));
-      std::sort(ms.begin(), ms.end());
-      MESSAGE(ticks, " ticks of 24 channels, ", share * 100.0, " % in view, 3 columns of 1280 px: median ", ms[100], " ms, p99 ", ms[197], " ms");
-    }
-  }
 }

@@ -54,6 +54,9 @@ struct SampleSums {
 
 class ChannelStore {
  public:
+  /// Ticks of a block, each level's so many times the level below's; and of the largest.
+  static constexpr double kBlockFactor = 8.0, kLargestBlock = 262'144.0;
+
   /// `capacity` ticks are kept, rounded up to a power of two, the largest block's at least. Precondition:
   /// channels > 0.
   ChannelStore(std::size_t channels, std::size_t capacity);
@@ -71,6 +74,9 @@ class ChannelStore {
   void assign(std::uint64_t first, std::span<const float> rows);
 
   bool empty() const { return first_ == end_; }
+  /// Of what is kept; no two stores ever have the same. While it stays, ticks that were there are what they were: only newer ones
+  /// come and the oldest go.
+  std::uint64_t generation() const { return generation_; }
   std::uint64_t first_tick() const { return first_; }  ///< oldest kept
   std::uint64_t end_tick() const { return end_; }      ///< one past the newest
 
@@ -78,12 +84,16 @@ class ChannelStore {
   float value(std::size_t channel, std::uint64_t tick) const;
   /// Over from <= tick < to, cut to what is kept.
   MinMax min_max(std::size_t channel, std::uint64_t from, std::uint64_t to) const;
+  /// The same for out.size() ranges of `ticks` ticks each, one after the other from `from` on: many at once, best where `ticks`
+  /// and `from` are whole blocks, 8 to 64 of them.
+  void min_max_row(std::size_t channel, std::uint64_t from, std::uint64_t ticks, std::span<MinMax> out) const;
   SampleSums sums(std::size_t channel, std::uint64_t from, std::uint64_t to) const;
 
  private:
   static constexpr std::size_t kShift = 3;  ///< each level's block is 2^kShift blocks of the level below
   static constexpr std::size_t kLevels = 6;
   static constexpr std::size_t kFirstSumLevel = 2;
+  static_assert(kBlockFactor == 1 << kShift && kLargestBlock == std::size_t{1} << (kShift * kLevels));
 
   void put(std::uint64_t tick, std::span<const float> values);
   void assign_channel(std::size_t channel, std::uint64_t first, std::span<const float> rows);
@@ -96,11 +106,11 @@ class ChannelStore {
     const std::size_t shift = kShift * level;
     return sums_[level - kFirstSumLevel][channel * (capacity_ >> shift) + (slot(tick) >> shift)];
   }
-  /// The largest level whose block starts at `tick` and ends within `end`; 0: none.
-  static std::size_t level_at(std::uint64_t tick, std::uint64_t end);
+  template <class Visit>
+  void visit_blocks(std::uint64_t from, std::uint64_t to, Visit visit) const;
 
   std::size_t channels_ = 0, capacity_ = 0;
-  std::uint64_t first_ = 0, end_ = 0;
+  std::uint64_t first_ = 0, end_ = 0, generation_ = 0;
   std::unique_ptr<float[]> samples_;             ///< [channel][slot]; memory is touched as it fills
   std::vector<std::vector<MinMax>> levels_;      ///< [level - 1][channel][block]
   std::vector<std::vector<SampleSums>> sums_;    ///< [level - kFirstSumLevel][channel][block]

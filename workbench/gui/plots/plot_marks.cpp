@@ -1,7 +1,5 @@
 #include "workbench/gui/plots/plot_marks.h"
 
-#include "workbench/gui/plots/column_bars.h"
-
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -11,11 +9,10 @@ namespace tangent {
 namespace {
 
 /// Events of a column of pixels show as its worst one, so that none is lost however far away one looks.
-void draw_events(const UiContext& ui, const PlotMarks& marks, const ChannelStore& store, const TimeAxis& axis, const PlotArea& area) {
-  static thread_local std::vector<ColumnBar> bars;
-  column_bars(store, *marks.event_channel, axis, area.width(), bars);
+void draw_events(const UiContext& ui, const PlotMarks& marks, const ChannelStore& store, const TimeAxis& axis, const PlotArea& area,
+                 KeptBars& events) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  for (const ColumnBar& bar : bars) {
+  for (const ColumnBar& bar : events.update(store, *marks.event_channel, axis, area.width())) {
     const auto rank = static_cast<std::size_t>(bar.range.max);
     if (rank < 1 || rank > marks.event_inks.size()) continue;
     const float x = std::floor(area.min.x + bar.x), high = ui.px(2.0f + 1.5f * static_cast<float>(rank));
@@ -25,8 +22,9 @@ void draw_events(const UiContext& ui, const PlotMarks& marks, const ChannelStore
 
 }  // namespace
 
-const std::string* draw_marks(const UiContext& ui, const PlotMarks& marks, const ChannelStore& store, const TimeAxis& axis, const PlotArea& area) {
-  if (marks.event_channel) draw_events(ui, marks, store, axis, area);
+const std::string* draw_marks(const UiContext& ui, const PlotMarks& marks, const ChannelStore& store, const TimeAxis& axis, const PlotArea& area,
+                              KeptBars& events) {
+  if (marks.event_channel) draw_events(ui, marks, store, axis, area, events);
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const ImVec2 mouse = ImGui::GetIO().MousePos;
   const bool inside = mouse.x >= area.min.x && mouse.x <= area.max.x && mouse.y >= area.min.y && mouse.y <= area.max.y;

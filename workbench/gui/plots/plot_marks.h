@@ -2,7 +2,7 @@
 // flags on the upper edge.
 #pragma once
 
-#include "workbench/gui/plots/channel_store.h"
+#include "workbench/gui/plots/kept_bars.h"
 #include "workbench/gui/plots/plot_area.h"
 #include "workbench/gui/plots/time_axis.h"
 #include "workbench/gui/ui_context.h"
@@ -28,7 +28,8 @@ struct PlotMarks {
   std::span<const TickMark> flags;            ///< bookmarks
 };
 
-/// Inside the curves' clip rectangle. Returns the text of the mark that is pointed at; null: none.
-const std::string* draw_marks(const UiContext& ui, const PlotMarks& marks, const ChannelStore& store, const TimeAxis& axis, const PlotArea& area);
+/// Inside the curves' clip rectangle. `events`: this plot's own. Returns the text of the mark that is pointed at; null: none.
+const std::string* draw_marks(const UiContext& ui, const PlotMarks& marks, const ChannelStore& store, const TimeAxis& axis, const PlotArea& area,
+                              KeptBars& events);
 
 }  // namespace tangent

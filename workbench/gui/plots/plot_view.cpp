@@ -39,7 +39,7 @@ void PlotView::draw(const UiContext& ui, const ChannelStore& store, TimeAxis& ax
             ui.colours.text_faint, text);
   }
   draw_series(ui, store, axis, link, area);
-  const std::string* pointed = draw_marks(ui, link.marks, store, axis, area);
+  const std::string* pointed = draw_marks(ui, link.marks, store, axis, area, events_);
   draw.PopClipRect();
   draw_cursors(ui, axis, link, area, time_labels);
   draw_header(ui, store, link, area);
@@ -104,8 +104,8 @@ void PlotView::draw_grid(const UiContext& ui, const TimeAxis& axis, const PlotLi
   }
 }
 
-void PlotView::draw_curve(const UiContext& ui, const ChannelStore& store, std::size_t channel, const TimeAxis& axis, const PlotArea& area,
-                          ImU32 ink, bool steps) {
+void PlotView::draw_curve(const UiContext& ui, const ChannelStore& store, std::size_t channel, KeptBars& kept, const TimeAxis& axis,
+                          const PlotArea& area, ImU32 ink, bool steps) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const CurveArea where{area.min, area.max};
   const auto to_y = [&](float value) {
@@ -113,8 +113,7 @@ void PlotView::draw_curve(const UiContext& ui, const ChannelStore& store, std::s
     return area.max.y - static_cast<float>(std::clamp(share, -1.0, 2.0)) * area.height();
   };
   if (axis.span() / static_cast<double>(area.width()) >= kTicksPerColumnForBars) {
-    column_bars(store, channel, axis, area.width(), bars_);
-    draw_bars(draw, where, bars_, to_y, ink, ui.px(1.5f));
+    draw_bars(draw, where, kept.update(store, channel, axis, area.width()), to_y, ink, ui.px(1.5f));
     return;
   }
   sample_points(store, channel, axis, area.width(), points_);
@@ -123,13 +122,16 @@ void PlotView::draw_curve(const UiContext& ui, const ChannelStore& store, std::s
 }
 
 void PlotView::draw_series(const UiContext& ui, const ChannelStore& store, const TimeAxis& axis, const PlotLink& link, const PlotArea& area) {
+  curves_.resize(spec_.series.size());
   // Ghosts first: where nothing changed they are hidden by what was recorded.
-  for (const PlotSeries& series : spec_.series) {
+  for (std::size_t i = 0; i < curves_.size(); ++i) {
+    const PlotSeries& series = spec_.series[i];
     if (!series.visible || link.ghost == nullptr || !series.ghost) continue;
-    draw_curve(ui, *link.ghost, *series.ghost, axis, area, packed(mix(ui.palette.*series.colour, ui.palette.text, 0.65f)), series.steps);
+    draw_curve(ui, *link.ghost, *series.ghost, curves_[i].ghost, axis, area, packed(mix(ui.palette.*series.colour, ui.palette.text, 0.65f)), series.steps);
   }
-  for (const PlotSeries& series : spec_.series) {
-    if (series.visible) draw_curve(ui, store, series.channel, axis, area, packed(ui.palette.*series.colour), series.steps);
+  for (std::size_t i = 0; i < curves_.size(); ++i) {
+    const PlotSeries& series = spec_.series[i];
+    if (series.visible) draw_curve(ui, store, series.channel, curves_[i].recorded, axis, area, packed(ui.palette.*series.colour), series.steps);
   }
 }
 

@@ -6,7 +6,7 @@
 #pragma once
 
 #include "workbench/gui/plots/channel_store.h"
-#include "workbench/gui/plots/column_bars.h"
+#include "workbench/gui/plots/kept_bars.h"
 #include "workbench/gui/plots/time_axis.h"
 #include "workbench/gui/plots/plot_marks.h"
 #include "workbench/gui/plots/value_axis.h"
@@ -76,8 +76,8 @@ class PlotView {
   void fit(const ChannelStore& store, const TimeAxis& axis, const PlotLink& link, double reference);
   void draw_grid(const UiContext& ui, const TimeAxis& axis, const PlotLink& link, const PlotArea& area, bool time_labels);
   void draw_series(const UiContext& ui, const ChannelStore& store, const TimeAxis& axis, const PlotLink& link, const PlotArea& area);
-  void draw_curve(const UiContext& ui, const ChannelStore& store, std::size_t channel, const TimeAxis& axis, const PlotArea& area,
-                  ImU32 ink, bool steps);
+  void draw_curve(const UiContext& ui, const ChannelStore& store, std::size_t channel, KeptBars& kept, const TimeAxis& axis,
+                  const PlotArea& area, ImU32 ink, bool steps);
   void draw_cursors(const UiContext& ui, const TimeAxis& axis, const PlotLink& link, const PlotArea& area, bool time_labels);
   void interact(const UiContext& ui, TimeAxis& axis, PlotLink& link, const PlotArea& area);
   void interact_box(const UiContext& ui, TimeAxis& axis, const PlotArea& area, double under);
@@ -90,7 +90,11 @@ class PlotView {
   float box_y_ = 0.0f;              ///< ... and at this height, screen
   bool dragged_ = false;
   bool nothing_in_view_ = true;
-  std::vector<ColumnBar> bars_;
+  struct CurveBars {
+    KeptBars recorded, ghost;
+  };
+  std::vector<CurveBars> curves_;   ///< by series
+  KeptBars events_;
   std::vector<SamplePoint> points_;
   std::vector<ImVec2> line_;
 };
