@@ -144,6 +144,7 @@ void App::frame(const FrameInput& input) {
   const UiContext ui{ui_->items, ui_->typing, ui_->resting, theme_colours(theme), palette(theme), ui_->fonts, model_->open_sections(), scale, input.now_s};
   const Layout layout = compute_layout(model_->sizes(), input.width, input.height, scale);
   handle_shortcuts(*model_, ui_->menu);
+  model_->map().set_felt_angle(felt_angle_rad(*model_, ui_->perception));
   draw_view_panel(ui, *model_, ui_->view, ui_->renderer, layout.view);
   draw_device_monitor(ui, *model_, layout.view);
   ui_->draw_column("##left", layout.left, ui, *model_, true);

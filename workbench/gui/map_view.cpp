@@ -33,10 +33,19 @@ double nth(std::vector<float>& values, double share) {
 
 }  // namespace
 
-std::optional<double> map_limit(MapQuantity quantity) {
-  if (quantity == MapQuantity::touch_radius) return 1.0;
-  if (quantity == MapQuantity::gain_margin) return 0.0;
-  return std::nullopt;
+std::optional<double> MapView::limit() const {
+  switch (quantity) {
+    case MapQuantity::touch_radius: return 1.0;
+    case MapQuantity::gain_margin: return 0.0;
+    case MapQuantity::facet_angle: return felt_angle_rad_;
+    default: return std::nullopt;
+  }
+}
+
+void MapView::set_felt_angle(double rad) {
+  if (rad == felt_angle_rad_) return;
+  felt_angle_rad_ = rad;
+  if (quantity == MapQuantity::facet_angle && values_of_ == quantity) refresh_range();
 }
 
 void MapView::set_quantity(MapQuantity q) {
@@ -151,7 +160,8 @@ void MapView::refresh_range() {
   double sum = 0.0;
   std::size_t beyond = 0;
   s.min = 1e300, s.max = -1e300;
-  const auto limit = map_limit(quantity);
+  const auto wrong_side_of = limit();
+  const bool low_is_worse = info_of(quantity).low_is_worse;
   for (std::size_t i = 0; i < values_.size(); ++i) {
     const float value = values_[i];
     if (!is_map_value(value)) {
@@ -162,7 +172,7 @@ void MapView::refresh_range() {
     ++s.values;
     sum += v;
     s.min = std::min(s.min, v), s.max = std::max(s.max, v);
-    if (limit && v < *limit) ++beyond;
+    if (wrong_side_of && (low_is_worse ? v < *wrong_side_of : v > *wrong_side_of)) ++beyond;
     if (i % stride == 0) some.push_back(value);
   }
   if (s.values == 0 || some.empty()) {
@@ -170,7 +180,7 @@ void MapView::refresh_range() {
     return;
   }
   s.mean = sum / static_cast<double>(s.values);
-  s.share_of_mesh_limit = static_cast<double>(beyond) / static_cast<double>(s.values);
+  s.share_beyond_limit = static_cast<double>(beyond) / static_cast<double>(s.values);
   s.p99 = nth(some, 0.99);
   usual_low_ = nth(some, 0.005), usual_high_ = nth(some, 0.995);
   if (automatic_range_) {

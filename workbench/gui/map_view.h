@@ -24,13 +24,10 @@ struct MapStatistics {
   static constexpr std::size_t kBins = 64;
   std::size_t values = 0, none = 0, pending = 0;  ///< places with a value, without one, not computed yet
   double min = 0.0, max = 0.0, mean = 0.0, p99 = 0.0;
-  double share_of_mesh_limit = 0.0;               ///< share of values on the wrong side of the quantity's limit, see map_limit()
+  double share_beyond_limit = 0.0;                ///< share of values on the wrong side of MapView::limit()
   std::array<std::uint32_t, kBins> bins{};        ///< over the colour bar's range; what lies outside is in the end bins
   std::uint32_t fullest = 0;
 };
-
-/// Value that means something by itself: touch radius 1, gain margin 0. None for the others.
-std::optional<double> map_limit(MapQuantity quantity);
 
 class MapView {
  public:
@@ -48,6 +45,11 @@ class MapView {
   void set_range(double low, double high);
   void set_automatic_range();
   bool automatic_range() const { return automatic_range_; }
+  /// Marked on the colour bar, wherever its ends are: touch radius 1, gain margin 0, the facet angle that can be felt. None
+  /// for the others.
+  std::optional<double> limit() const;
+  /// Angle between facets from which on a finger feels them, rad; it depends on the rendering condition.
+  void set_felt_angle(double rad);
   double low() const { return low_; }
   double high() const { return high_; }
 
@@ -101,6 +103,7 @@ class MapView {
   double seen_at_s_ = 0.0;
   bool wanted_again_ = false, cancelled_ = false, stale_ = false;
   bool automatic_range_ = true, logarithmic_ = false;
+  double felt_angle_rad_ = 0.0;
   double low_ = 0.0, high_ = 1.0;
   double usual_low_ = 0.0, usual_high_ = 1.0;  ///< 0.5 and 99.5 percentile
   MapStatistics statistics_;

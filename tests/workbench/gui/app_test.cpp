@@ -1,6 +1,8 @@
 // The window driven like a user would, without a window. Model state is what counts.
 #include "headless_app.h"
 
+#include "workbench/gui/panels/panels.h"
+
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -621,6 +623,29 @@ TEST_CASE("a slice cuts the picture open and lets the pointer through") {
   const double at = ui.model().view().slice->offset_m;
   ui.drag("inspect/slice_at", {15.0f, 0.0f});
   CHECK(ui.model().view().slice->offset_m > at);
+}
+
+TEST_CASE("the slice's choice says what the plane is, whoever set it") {
+  RunningApp ui(HeadlessApp::deterministic_options(), 1280.0f, 2400.0f);
+  const auto rest_of_row = [&] {
+    ui.frames(2);
+    return ui.app().items().find("inspect/slice_at") != nullptr;
+  };
+  CHECK(slice_choice(std::nullopt) == "no slice");
+  CHECK_FALSE(rest_of_row());
+  ui.model().view().slice = SlicePlane{{0.0, -1.0, 0.0}, 0.001};
+  CHECK(rest_of_row());
+  CHECK(slice_choice(ui.model().view().slice) == "across y");
+  ui.click("inspect/slice_flip");
+  CHECK(slice_choice(ui.model().view().slice) == "across y");
+  ui.model().view().slice = SlicePlane{glm::normalize(Vec3(1.0, 2.0, 0.5)), 0.0};
+  CHECK(slice_choice(ui.model().view().slice) == "across the view");
+  ui.click("inspect/slice");
+  ui.click("inspect/slice/across x");
+  CHECK(slice_choice(ui.model().view().slice) == "across x");
+  ui.click("inspect/slice");
+  ui.click("inspect/slice/no slice");
+  CHECK_FALSE(rest_of_row());
 }
 
 TEST_CASE("the picked triangle's control net can be copied with every digit") {

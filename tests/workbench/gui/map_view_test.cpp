@@ -110,8 +110,26 @@ TEST_CASE("a quantity about zero has a range about zero") {
   MapView map;
   compute(map, scene, preset, MapQuantity::gain_margin);
   CHECK(map.low() == -map.high());
-  CHECK(map.statistics().share_of_mesh_limit == 1.0);
+  CHECK(map.statistics().share_beyond_limit == 1.0);
   CHECK(map.paint()->colours == ColourMap::balance);
+}
+
+TEST_CASE("facet angles all above what can be felt are still told apart, and all are counted as felt") {
+  const auto scene = scene_of(make_icosphere(0.040, 1));  // angles of some 18 degrees
+  MapView map;
+  map.set_felt_angle(0.2 * kDegree);
+  compute(map, scene, sphere_preset(0.020, Method::paper), MapQuantity::facet_angle);
+  const MapStatistics& s = map.statistics();
+  CHECK(s.min > 10.0 * kDegree);
+  CHECK(s.share_beyond_limit == 1.0);
+  CHECK(*map.limit() == 0.2 * kDegree);
+  CHECK(map.low() >= s.min);
+  CHECK(map.high() <= s.max);
+  const auto share = [&](double value) { return map_share(*map.paint(), value); };
+  CHECK(share(s.min) <= 0.0);
+  CHECK(share(s.max) >= 1.0);
+  map.set_felt_angle(90.0 * kDegree);
+  CHECK(s.share_beyond_limit == 0.0);
 }
 
 TEST_CASE("meshes with skipped triangles have their values at the right ones") {

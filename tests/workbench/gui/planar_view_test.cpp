@@ -62,7 +62,7 @@ TEST_CASE("choosing a condition sets both sources in one step of undo") {
   CHECK(condition_of(app.model().presets().current()) == nullptr);
 }
 
-TEST_CASE("the panel on smoothness gives the verdict, and its button the heat map with twice the threshold as its range") {
+TEST_CASE("the panel on smoothness gives the verdict, and its button the heat map with the threshold marked") {
   HeadlessApp app(HeadlessApp::deterministic_options(), 1280.0f, 2400.0f);
   REQUIRE(app.model().perception() != nullptr);
   CHECK(app.model().perception()->curve_edges == 480);
@@ -70,7 +70,16 @@ TEST_CASE("the panel on smoothness gives the verdict, and its button the heat ma
   app.click("perception/map");
   CHECK(app.model().map().on);
   CHECK(app.model().map().quantity == MapQuantity::facet_angle);
-  CHECK(app.model().map().high() == doctest::Approx(0.4 * kDegree));
+  CHECK(app.model().map().automatic_range());
+  CHECK(*app.model().map().limit() == doctest::Approx(0.2 * kDegree));
   app.click("perception/worst/0");
   CHECK(app.model().view().picked_triangle == app.model().perception()->conditions[2].worst[0].triangle);
+  app.click("perception/condition");
+  app.click("perception/condition/P1: " + std::string(find_condition("P1")->words));
+  CHECK(*app.model().map().limit() == doctest::Approx(14.8 * kDegree));
+  CHECK(app.model().map().statistics().share_beyond_limit < 0.5);
+  REQUIRE(app.app().items().find("view/map_bar/limit") != nullptr);
+  const ItemRect bar = *app.app().items().find("view/map_bar");
+  CHECK(app.app().items().find("view/map_bar/limit")->max.y < bar.max.y);
+  CHECK(app.app().items().find("view/map_bar/limit")->min.y > bar.min.y);
 }

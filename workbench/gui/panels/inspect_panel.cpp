@@ -92,14 +92,23 @@ void draw_isolation(const UiContext& ui, AppModel& model) {
   if (text_button(ui, "inspect/show_all", "Show all", "Draws every triangle again and marks none")) model.show_all();
 }
 
-void draw_slice(const UiContext& ui, AppModel& model, InspectPanel& state) {
-  static constexpr std::array<std::string_view, 5> kAxes{"no slice", "across x", "across y", "across z", "across the view"};
+constexpr std::array<std::string_view, 5> kSlices{"no slice", "across x", "across y", "across z", "across the view"};
+
+/// Read from the plane, whoever set it: index into kSlices.
+int chosen_slice(const std::optional<SlicePlane>& slice) {
+  if (!slice) return 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (std::abs(slice->normal[axis]) == 1.0) return axis + 1;
+  }
+  return 4;
+}
+
+void draw_slice(const UiContext& ui, AppModel& model) {
   std::optional<SlicePlane>& slice = model.view().slice;
   const float width = ImGui::GetContentRegionAvail().x;
-  int axis = slice ? state.slice_axis : 0;
+  int axis = chosen_slice(slice);
   const Box box = world_bounds(*model.scene());
-  if (choice_row(ui, "inspect/slice", ui.px(118), kAxes, axis)) {
-    state.slice_axis = axis;
+  if (choice_row(ui, "inspect/slice", ui.px(118), kSlices, axis)) {
     if (axis == 0) slice.reset();
     else slice = SlicePlane{axis == 4 ? -model.view().camera.forward() : Vec3(axis == 1, axis == 2, axis == 3), 0.0};
     if (slice) slice->offset_m = glm::dot(slice->normal, box.centre());
@@ -135,6 +144,8 @@ void draw_crease(const UiContext& ui, AppModel& model) {
 
 }  // namespace
 
+std::string_view slice_choice(const std::optional<SlicePlane>& slice) { return kSlices[static_cast<std::size_t>(chosen_slice(slice))]; }
+
 void draw_inspect_panel(const UiContext& ui, AppModel& model, InspectPanel& state) {
   if (!section(ui, "Inspect", state.open)) return;
   if (model.scene() == nullptr) {
@@ -143,7 +154,7 @@ void draw_inspect_panel(const UiContext& ui, AppModel& model, InspectPanel& stat
   }
   draw_findings(ui, model, state);
   draw_isolation(ui, model);
-  draw_slice(ui, model, state);
+  draw_slice(ui, model);
   draw_crease(ui, model);
   SceneToggles& show = model.view().toggles;
   toggle_button(ui, "inspect/normals", "Normals", show.vertex_normals, "Vertex normals");

@@ -12,6 +12,7 @@ namespace tangent {
 namespace {
 
 constexpr float kBarWidth = 14.0f, kHistogramWidth = 44.0f, kPad = 8.0f;
+constexpr float kBeyond = 14.0f;  ///< for the mark of a limit that is not on the bar
 
 /// The value whose place on the bar is to get a number, in shown units: the ends, and round ones between.
 std::vector<double> bar_labels(const MapPaint& paint, double per_si, double most) {
@@ -55,6 +56,23 @@ void drag_range(const UiContext& ui, MapView& map, const MapPaint& paint, const 
   if (upper) map.set_range(map.low(), map_value_at(paint, at)); else map.set_range(map_value_at(paint, at), map.high());
 }
 
+/// A line across histogram and bar with its number; where it is not on the bar, an arrow past the end that it lies beyond.
+void draw_limit(const UiContext& ui, const Rect& bar, double share, double shown) {
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  ImFont* number = ui.fonts.small_number;
+  float y = bar.bottom() - bar.h * static_cast<float>(std::clamp(share, 0.0, 1.0));
+  if (share >= 0.0 && share <= 1.0) {
+    draw.AddLine({bar.x - ui.px(kHistogramWidth - 4.0f), y}, {bar.right() + ui.px(4), y}, ui.colours.warning, ui.px(1.5f));
+    if (y < bar.y + number->FontSize || y > bar.bottom() - number->FontSize) y = 0.0f;  // an end's number stands there
+  } else {
+    const float r = ui.px(4), x = bar.x + 0.5f * bar.w, out = share < 0.0 ? 1.0f : -1.0f;
+    y += out * ui.px(kBeyond);
+    draw.AddTriangleFilled({x - r, y - out * r}, {x + r, y - out * r}, {x, y + out * r}, ui.colours.warning);
+  }
+  if (y > 0.0f) draw.AddText(number, number->FontSize, {bar.right() + ui.px(7), y - 0.5f * number->FontSize}, ui.colours.warning, printed("%.4g", shown).c_str());
+  ui.items.note("view/map_bar/limit", {bar.x, y - 1.0f}, {bar.right(), y + 1.0f});
+}
+
 }  // namespace
 
 void draw_map_bar(const UiContext& ui, AppModel& model, const Rect& view, float top) {
@@ -72,10 +90,14 @@ void draw_map_bar(const UiContext& ui, AppModel& model, const Rect& view, float 
   // Room for the inset of the display below.
   const float height = std::clamp(view.bottom() - ui.px(150) - top - ui.px(50), ui.px(90), ui.px(300));
   if (view.w < width + ui.px(60) || top + height + ui.px(50) > view.bottom()) return;
-  const Rect card{view.right() - width - ui.px(8), top, width, height + ui.px(34)};
+  // A limit beyond an end of the bar is marked past that end.
+  const std::optional<double> limit = map.limit();
+  const double limit_share = limit ? map_share(*paint, *limit) : 0.5;
+  const float above = limit_share > 1.0 ? ui.px(kBeyond) : 0.0f, below = limit_share < 0.0 ? ui.px(kBeyond) : 0.0f;
+  const Rect card{view.right() - width - ui.px(8), top, width, height + ui.px(34) + above + below};
   draw.AddRectFilled({card.x, card.y}, {card.right(), card.bottom()}, packed(with_alpha(ui.palette.panel, 0.84f)), ui.px(4));
   draw.AddText(ui.fonts.small, ui.fonts.small->FontSize, {card.x + ui.px(kPad), card.y + ui.px(5)}, ui.colours.text, title.c_str());
-  const Rect bar{card.x + ui.px(kPad + kHistogramWidth), card.y + ui.px(26), ui.px(kBarWidth), height};
+  const Rect bar{card.x + ui.px(kPad + kHistogramWidth), card.y + ui.px(26) + above, ui.px(kBarWidth), height};
 
   const auto& table = colour_table(paint->colours);
   constexpr int kSteps = 64;
@@ -99,14 +121,12 @@ void draw_map_bar(const UiContext& ui, AppModel& model, const Rect& view, float 
   }
   for (const double value : bar_labels(*paint, info.shown_per_si, static_cast<double>(height / (2.2f * line)))) {
     const float y = bar.bottom() - bar.h * static_cast<float>(map_share(*paint, value / info.shown_per_si));
+    const bool in_the_way = limit && std::abs(y - (bar.bottom() - bar.h * static_cast<float>(limit_share))) < line && y > bar.y + 1.0f && y < bar.bottom() - 1.0f;
+    if (in_the_way) continue;  // of the limit's own number
     draw.AddLine({bar.right() + 1, y}, {bar.right() + ui.px(4), y}, ui.colours.text_dim);
     draw.AddText(number, line, {bar.right() + ui.px(7), y - 0.5f * line}, ui.colours.text, printed("%.4g", value).c_str());
   }
-  if (const auto limit = map_limit(map.quantity)) {
-    const double share = map_share(*paint, *limit);
-    const float y = bar.bottom() - bar.h * static_cast<float>(share);
-    if (share > 0.0 && share < 1.0) draw.AddLine({bar.x - ui.px(kHistogramWidth - 4.0f), y}, {bar.right() + ui.px(4), y}, ui.colours.warning, ui.px(1.5f));
-  }
+  if (limit) draw_limit(ui, bar, limit_share, *limit * info.shown_per_si);
   ImGui::SetCursorScreenPos({card.x, card.y});
   ImGui::InvisibleButton("##map_bar", {card.w, card.h});
   ui.items.note_last("view/map_bar");

@@ -121,9 +121,12 @@ void draw_figures(const UiContext& ui, const MapView& map) {
   fact(ui, "Smallest / largest", s.values > 0 ? value(s.min) + " / " + value(s.max) : "-", unit);
   tooltip(ui, "Of all places computed so far");
   if (!info_of(map.quantity).low_is_worse) fact(ui, "99th percentile", s.values > 0 ? value(s.p99) : "-", unit);
-  if (const auto limit = map_limit(map.quantity)) {
-    fact(ui, printed("Below %g", *limit).c_str(), printed("%.2f", 100.0 * s.share_of_mesh_limit), "%", s.share_of_mesh_limit > 0.0 ? std::optional(ui.colours.warning) : std::nullopt);
-    tooltip(ui, map.quantity == MapQuantity::touch_radius ? "Share of the places at which the finger touches two walls" : "Share of the places at which the paper's iteration does not converge");
+  if (const auto limit = map.limit()) {
+    const std::string label = printed("%s %.3g%s", info_of(map.quantity).low_is_worse ? "Below" : "Above", shown(map, *limit), unit_suffix(map).c_str());
+    fact(ui, label.c_str(), printed("%.2f", 100.0 * s.share_beyond_limit), "%", s.share_beyond_limit > 0.0 ? std::optional(ui.colours.warning) : std::nullopt);
+    tooltip(ui, map.quantity == MapQuantity::touch_radius  ? "Share of the places at which the finger touches two walls"
+                : map.quantity == MapQuantity::facet_angle ? "Share of the places whose facet is felt under the condition of Smoothness as felt"
+                                                           : "Share of the places at which the paper's iteration does not converge");
   }
   const auto all = static_cast<double>(std::max<std::size_t>(1, s.values + s.none));
   if (group_of(map.quantity) == MapGroup::solve) {

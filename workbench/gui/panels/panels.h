@@ -68,9 +68,10 @@ void draw_map_hover(const UiContext& ui, AppModel& model, std::uint32_t triangle
 struct InspectPanel {
   bool open = true;
   std::array<bool, kFindingKindCount> open_kinds{};
-  int slice_axis = 0;
 };
 void draw_inspect_panel(const UiContext& ui, AppModel& model, InspectPanel& state);
+/// What the row "slice" shows for a plane.
+std::string_view slice_choice(const std::optional<SlicePlane>& slice);
 /// Precondition: the triangle is usable.
 void draw_control_net_table(const UiContext& ui, const AppModel& model, std::uint32_t triangle);
 
@@ -79,6 +80,8 @@ struct PerceptionPanel {
   int condition = -1;  ///< index into kRenderingConditions; -1: the preset's own
 };
 void draw_perception_panel(const UiContext& ui, AppModel& model, PerceptionPanel& state);
+/// Threshold of the chosen condition.
+double felt_angle_rad(const AppModel& model, const PerceptionPanel& state);
 
 struct FoldedPanel {
   bool open = true;

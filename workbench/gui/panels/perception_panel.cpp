@@ -28,11 +28,9 @@ void draw_choice(const UiContext& ui, AppModel& model, PerceptionPanel& state, i
   tooltip(ui, "Rendering condition of the verdict and the worst edges; until chosen, the preset's own, or C3");
   ImGui::SameLine(0, ui.px(4));
   bool shown = model.map().on && model.map().quantity == MapQuantity::facet_angle;
-  if (!toggle_button(ui, "perception/map", "Heat map", shown, "Colours every triangle by its largest angle to a neighbour, up to twice the threshold")) return;
+  if (!toggle_button(ui, "perception/map", "Heat map", shown, "Colours every triangle by its largest angle to a neighbour; the threshold is marked on the colour bar")) return;
   model.map().on = shown;
-  if (!shown) return;
-  model.map().set_quantity(MapQuantity::facet_angle);
-  model.map().set_range(0.0, 2.0 * kDegree * kPerceptionThresholds[static_cast<std::size_t>(chosen)].mean_deg);
+  if (shown) model.map().set_quantity(MapQuantity::facet_angle);
 }
 
 /// Threshold, share felt as a bar, and in figures.
@@ -88,6 +86,10 @@ void draw_worst(const UiContext& ui, AppModel& model, const ConditionFeel& feel)
 }
 
 }  // namespace
+
+double felt_angle_rad(const AppModel& model, const PerceptionPanel& state) {
+  return kPerceptionThresholds[chosen_condition(model, state)].mean_deg * kDegree;
+}
 
 void draw_perception_panel(const UiContext& ui, AppModel& model, PerceptionPanel& state) {
   if (!section(ui, "Smoothness as felt", state.open)) return;

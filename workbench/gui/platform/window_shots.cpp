@@ -218,7 +218,6 @@ void look_at_busiest_planar_tick(AppModel& model) {
 void show_facet_angles(AppModel& model) {
   show_map<MapQuantity::facet_angle>(model);
   model.set_condition(*find_condition("C2"));
-  model.map().set_range(0.0, 2.0 * 3.4 * kDegree);
 }
 
 /// Armed, disturbed, stopped by the gate.
