@@ -141,7 +141,7 @@ void App::frame(const FrameInput& input) {
   const float scale = ui_->font_scale.value_or(1.0f);
   ui_->items.begin_frame();
   ImGui::NewFrame();
-  const UiContext ui{ui_->items, ui_->typing, ui_->resting, theme_colours(theme), palette(theme), ui_->fonts, model_->open_sections(), scale, input.now_s};
+  const UiContext ui{ui_->items, ui_->typing, ui_->resting, theme_colours(theme), palette(theme), ui_->fonts, model_->open_sections(), scale, input.now_s, &model_->section_wanted()};
   const Layout layout = compute_layout(model_->sizes(), input.width, input.height, scale);
   handle_shortcuts(*model_, ui_->menu);
   model_->map().set_felt_angle(felt_angle_rad(*model_, ui_->perception));

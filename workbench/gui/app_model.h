@@ -213,6 +213,9 @@ class AppModel {
   float ui_scale() const { return ui_scale_; }              ///< the user's own factor on top of the monitor's
   void set_ui_scale(float scale);
   std::map<std::string, bool>& open_sections() { return settings_.sections; }
+  /// Unfolds a section and scrolls its column to it; the column is shown.
+  void show_section(const std::string& title, bool in_left_column);
+  std::string& section_wanted() { return section_wanted_; }
   void reset_layout();                                      ///< sizes and sections as they were at first
   const WindowSettings& settings() const { return settings_; }  ///< as of the last frame
   void ask_for_screenshot() { screenshot_wanted_ = true; }
@@ -284,6 +287,7 @@ class AppModel {
   WindowSettings settings_, written_settings_;
   double settings_looked_at_s_ = 0.0;
   std::size_t worst_shown_ = 0;
+  std::string section_wanted_;
   bool screenshot_wanted_ = false;
   bool wants_close_ = false;
 };

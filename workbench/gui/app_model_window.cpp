@@ -42,6 +42,11 @@ void AppModel::take_settings() {
   if (found != names.end()) map_.colours = static_cast<ColourMap>(found - names.begin());
 }
 
+void AppModel::show_section(const std::string& title, bool in_left_column) {
+  (in_left_column ? sizes_.show_left : sizes_.show_right) = true;
+  section_wanted_ = title;
+}
+
 void AppModel::keep_settings() {
   settings_looked_at_s_ = now_s_;
   settings_.left = static_cast<double>(sizes_.left);

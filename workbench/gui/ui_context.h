@@ -38,6 +38,7 @@ struct UiContext {
   std::map<std::string, bool>& open_sections;  ///< by title, of those that were ever folded or unfolded
   float scale = 1.0f;
   double now_s = 0.0;
+  std::string* section_wanted = nullptr;       ///< title of the one to unfold and to scroll to; emptied when that is done
 
   float px(float points) const { return points * scale; }
 };

@@ -83,6 +83,11 @@ bool section(const UiContext& ui, const char* title, bool open_at_first) {
   bool open = kept != ui.open_sections.end() ? kept->second : open_at_first;
   if (ImGui::InvisibleButton(title, {std::max(1.0f, width), height})) ui.open_sections[title] = open = !open;
   ui.items.note_last(std::string("section/") + title);
+  if (ui.section_wanted != nullptr && *ui.section_wanted == title) {
+    ui.open_sections[title] = open = true;
+    ImGui::SetScrollHereY(0.0f);
+    ui.section_wanted->clear();
+  }
   tooltip(ui, open ? "Folds this section" : "Unfolds this section");
   const bool hovered = ImGui::IsItemHovered();
   // From edge to edge of the column, past the padding that ImGui would clip at.

@@ -98,6 +98,34 @@ TEST_CASE("Ctrl+P, some letters and Enter do a command; Esc puts the palette awa
   CHECK_FALSE(ui.model().stopped());
 }
 
+TEST_CASE("at 1280 x 720 every section of both columns is one command away: unfolded, at the top or as far up as the column goes") {
+  HeadlessApp ui;
+  ui.app().advance(2000);
+  ui.frames(2);
+  MenuBar menu;
+  int panels = 0;
+  for (const Command& command : window_commands(ui.model(), menu)) {
+    if (!command.name.starts_with("Panel: ")) continue;
+    CAPTURE(command.name);
+    ++panels;
+    const std::string title = command.name.substr(7);
+    ui.model().sizes().show_left = ui.model().sizes().show_right = false;
+    ui.model().open_sections()[title] = false;
+    ui.frames(2);
+    command.run();
+    ui.frames(3);
+    const ItemRect* header = ui.app().items().find("section/" + title);
+    REQUIRE(header != nullptr);
+    CHECK(header->visible);
+    CHECK(ui.model().open_sections()[title]);
+    const ImGuiWindow* column = ImGui::FindWindowByName(header->min.x < 640.0f ? "##left" : "##right");
+    REQUIRE(column != nullptr);
+    CHECK((header->min.y < column->Pos.y + 30.0f || column->Scroll.y == column->ScrollMax.y));
+    CHECK(ui.model().section_wanted().empty());
+  }
+  CHECK(panels == 16);
+}
+
 TEST_CASE("F1 shows all keys on a sheet, and every command can be run") {
   HeadlessApp ui;
   ui.app().advance(2000);

@@ -30,21 +30,41 @@ ResolvedHistory resolve(const RecordedRun& run, std::optional<Preset> preset = s
 
 }  // namespace
 
-TEST_CASE("unchanged gains give zero different bits, for every method") {
-  for (const Method method : {Method::robust, Method::paper, Method::newton, Method::facet, Method::force_shading}) {
-    CAPTURE(to_string(method));
-    Preset preset;
-    preset.solver.method = method;
-    auto session = session_on(test::torus_scene(), preset);
-    session->advance(7000);
-    const ResolvedHistory again = resolve(session->recorded_run(), preset);
-    CHECK(again.complete);
-    CHECK(again.ticks.size() == 7000);
-    CHECK(again.resolved.ticks == 7000);
-    CHECK(again.different_ticks == 0);
-    CHECK(again.changed_ticks == 0);
-    CHECK(again.changes.empty());
-    CHECK(again.resolved.mean_iterations == again.recorded.mean_iterations);
+namespace {
+
+/// A 2D outline with a sharp corner and a hollow.
+std::shared_ptr<const ContactScene> outline_scene() {
+  PlanarPolygon outline{"outline", {}, true};
+  for (const Vec2& v : {Vec2{-0.060, -0.030}, {0.055, -0.034}, {0.055, -0.034}, {0.048, 0.018}, {0.022, 0.004}, {-0.004, 0.012}, {-0.050, 0.034}})
+    outline.vertices.push_back(v);
+  auto curve = PlanarCurve::build(outline);
+  REQUIRE(curve);
+  auto scene = ContactScene::build(std::move(*curve));
+  REQUIRE(scene);
+  return *scene;
+}
+
+}  // namespace
+
+TEST_CASE("unchanged gains give zero different bits, for every method, on a mesh and in 2D") {
+  for (const auto& scene : {test::torus_scene(), outline_scene()}) {
+    for (const Method method : {Method::robust, Method::paper, Method::newton, Method::facet, Method::force_shading, Method::two_pass}) {
+      CAPTURE((scene->planar() != nullptr ? "2D" : "mesh"));
+      CAPTURE(to_string(method));
+      Preset preset;
+      preset.solver.method = method;
+      if (scene->planar() != nullptr) preset.finger.radius_m = 0.008;
+      auto session = session_on(scene, preset);
+      session->advance(7000);
+      const ResolvedHistory again = resolve(session->recorded_run(), preset);
+      CHECK(again.complete);
+      CHECK(again.ticks.size() == 7000);
+      CHECK(again.resolved.ticks == 7000);
+      CHECK(again.different_ticks == 0);
+      CHECK(again.changed_ticks == 0);
+      CHECK(again.changes.empty());
+      CHECK(again.resolved.mean_iterations == again.recorded.mean_iterations);
+    }
   }
 }
 
@@ -91,10 +111,12 @@ TEST_CASE("a smaller gain makes more iterations, and the ticks it no longer solv
 }
 
 TEST_CASE("sharing the recorded searches for deeper places changes nothing: the same as stepping plainly") {
-  for (const auto& scene : {test::torus_scene(), test::sphere_scene()}) {
-    auto session = session_on(scene);
+  for (const auto& scene : {test::torus_scene(), test::sphere_scene(), outline_scene()}) {
+    Preset own;
+    if (scene->planar() != nullptr) own.finger.radius_m = 0.008;
+    auto session = session_on(scene, own);
     session->advance(HistoryResolver::kChunk);
-    Preset other;
+    Preset other = own;
     other.solver.gain_curvature_m = 0.006;
     other.solver.gain_overall = 0.8;
     other.force.stiffness_n_per_m = 500.0;

@@ -40,6 +40,12 @@ void add_view_commands(std::vector<Command>& out, AppModel& model) {
   }
 }
 
+void add_panel_commands(std::vector<Command>& out, AppModel& model) {
+  const auto add = [&](const char* title, bool left) { out.push_back({std::string("Panel: ") + title, "", [&model, title, left] { model.show_section(title, left); }}); };
+  for (const char* title : {"Solver", "Finger", "Force", "Display", "Safety", "Compare", "Presets"}) add(title, true);
+  for (const char* title : {"Iterations", "Time machine", "Bookmarks", "Map", "Smoothness as felt", "Inspect", "Mesh", "Devices", "Messages"}) add(title, false);
+}
+
 void add_window_commands(std::vector<Command>& out, AppModel& model, MenuBar& menu) {
   out.push_back({"Window: command palette", "Ctrl+P", [&menu] { menu.palette.open = menu.palette.focus = true; }});
   out.push_back({"Window: shortcuts", "F1", [&menu] { menu.sheet = !menu.sheet; }});
@@ -108,6 +114,7 @@ std::vector<Command> window_commands(AppModel& model, MenuBar& menu) {
   add_preset_commands(out, model);
   add_view_commands(out, model);
   add_mesh_commands(out, model, menu);
+  add_panel_commands(out, model);
   add_window_commands(out, model, menu);
   return out;
 }

@@ -183,7 +183,7 @@ void draw_left(const UiContext& ui, AppModel& model, bool cable, const LinkRepor
 void draw_right(const UiContext& ui, AppModel& model, bool cable, const LinkReport& link) {
   const ServoStatus& servo = model.status().servo;
   const Session& session = *model.session();
-  fact(ui, "Rate, measured / asked for", printed("%.1f / %.0f", servo.rate_hz, servo.nominal_hz), "Hz");
+  fact(ui, "Rate, measured / asked for", (servo.rate_hz > 0.0 ? printed("%.1f", servo.rate_hz) : std::string("-")) + printed(" / %.0f", servo.nominal_hz), "Hz");
   fact(ui, "Ticks / late ticks", count_text(servo.ticks) + " / " + count_text(servo.late_ticks));
   ImGui::Dummy({1, ui.px(4)});
   const float height = ui.px(64);

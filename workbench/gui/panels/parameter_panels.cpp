@@ -18,30 +18,34 @@ bool applies(const PresetKey& key, const Preset& preset) {
   return true;
 }
 
-/// Eq. 1's gains steer the paper's iteration alone.
-bool idle(const PresetKey& key, const Preset& preset) {
+/// Why a value changes nothing at present; empty: it counts.
+std::string_view idle_because(const PresetKey& key, const AppModel& model) {
+  if (key.table != "solver") return {};
+  const bool planar = model.scene() != nullptr && model.scene()->planar() != nullptr;
+  if (key.key == "local_centre" && !planar) return "Used in 2D scenes only.";
+  // Eq. 1's gains steer the paper's iteration alone.
   const bool of_paper = key.key.starts_with("gain_") || key.key == "distance_reading";
-  return key.table == "solver" && of_paper && preset.solver.method != Method::paper;
+  return of_paper && model.presets().current().solver.method != Method::paper ? "Used by the method \"paper\" only." : "";
 }
 
-std::string explain(const PresetKey& key, bool is_idle) {
+std::string explain(const PresetKey& key, std::string_view idle) {
   std::string text(key.doc);
   if (key.kind != KeyKind::choice) text += "\n\nAllowed: " + display_range(key);
   text += "\nKey: " + key.full_name();
   if (!key.option.empty()) text += ", --" + std::string(key.option);
-  if (is_idle) text += "\nUsed by the method \"paper\" only.";
+  if (!idle.empty()) text += "\n" + std::string(idle);
   text += "\nA click on the name makes it a favourite.";
   return text;
 }
 
 /// The name: a star in front of a favourite, a dot before a value that is no longer the loaded one; a click makes it one.
-void draw_label(const UiContext& ui, AppModel& model, const PresetKey& key, const std::string& path, float width, bool is_idle) {
+void draw_label(const UiContext& ui, AppModel& model, const PresetKey& key, const std::string& path, float width, std::string_view idle) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const ImVec2 at = ImGui::GetCursorScreenPos();
   if (ImGui::InvisibleButton(("##label/" + path).c_str(), {width, ImGui::GetFrameHeight()})) model.toggle_favourite(key);
   ui.items.note_last(path + "/label");
   const bool hovered = ImGui::IsItemHovered();
-  tooltip(ui, explain(key, is_idle));
+  tooltip(ui, explain(key, idle));
   const float text_y = std::round(at.y + 0.5f * (ImGui::GetFrameHeight() - ui.fonts.text->FontSize));
   const ImVec2 mark{at.x + ui.px(2), text_y + 0.55f * ui.fonts.text->FontSize};
   const bool changed = key.get(model.presets().current()) != key.get(model.presets().loaded().preset);
@@ -49,7 +53,7 @@ void draw_label(const UiContext& ui, AppModel& model, const PresetKey& key, cons
   else if (hovered || model.is_favourite(key)) draw_star(draw, mark, ui.px(4.5f), hovered ? ui.colours.text_dim : ui.colours.warning);
   draw.PushClipRect(at, {at.x + width, at.y + ImGui::GetFrameHeight()}, true);
   const std::string label(key.label);
-  draw.AddText({at.x + ui.px(9), text_y}, is_idle ? ui.colours.text_faint : ui.colours.text, label.c_str());
+  draw.AddText({at.x + ui.px(9), text_y}, !idle.empty() ? ui.colours.text_faint : ui.colours.text, label.c_str());
   draw.PopClipRect();
 }
 
@@ -58,12 +62,12 @@ void draw_row(const UiContext& ui, AppModel& model, const PresetKey& key, const 
   const Preset& preset = model.presets().current();
   const double value = key.get(preset);
   const std::string path = prefix + std::string(key.table) + "/" + std::string(key.key);
-  const bool is_idle = idle(key, preset);
+  const std::string_view idle = idle_because(key, model);
   const float width = ImGui::GetContentRegionAvail().x;
   const float label_width = std::max(ui.px(128), 0.42f * width);
   const float reset_width = ui.px(20);
   const ImVec2 at = ImGui::GetCursorScreenPos();
-  draw_label(ui, model, key, path, label_width - ui.px(4), is_idle);
+  draw_label(ui, model, key, path, label_width - ui.px(4), idle);
 
   ImGui::SetCursorScreenPos({at.x + label_width, at.y});
   const float field_width = width - label_width - reset_width;
@@ -76,7 +80,7 @@ void draw_row(const UiContext& ui, AppModel& model, const PresetKey& key, const 
     if (result.slid) model.slide_value(key, slider_value(key, *result.slid));
     if (result.typed) model.type_value(key, *result.typed);
   }
-  tooltip(ui, explain(key, is_idle));
+  tooltip(ui, explain(key, idle));
 
   ImGui::SetCursorScreenPos({at.x + width - reset_width + ui.px(3), at.y});
   if (value != key.default_value()) {

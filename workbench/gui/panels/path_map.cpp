@@ -190,7 +190,7 @@ void draw_path_map(const UiContext& ui, AppModel& model, PathMapPanel& state) {
                      is_finite(record->tick.input.finger.position);
   draw.AddRectFilled(at, end, ui.colours.plot);
   if (!there) {
-    draw.AddText(ui.fonts.small, ui.fonts.small->FontSize, {at.x + ui.px(8), at.y + ui.px(8)}, ui.colours.text_faint, "no planes on this mesh");
+    draw.AddText(ui.fonts.small, ui.fonts.small->FontSize, {at.x + ui.px(8), at.y + ui.px(8)}, ui.colours.text_faint, model.scene() != nullptr && model.scene()->planar() != nullptr ? "for meshes; this is a 2D scene" : "no planes on this mesh");
     return;
   }
   const Preset* then = model.session()->preset(record->tick.preset_id);

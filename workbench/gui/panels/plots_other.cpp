@@ -12,7 +12,7 @@ namespace tangent {
 
 namespace {
 
-constexpr std::uint64_t kMostJoined = 4000;      ///< ticks: fewer are drawn one by one, joined
+constexpr std::uint64_t kMostJoined = 8000;      ///< ticks: fewer are drawn one by one, joined
 constexpr double kSpectrumEvery_s = 0.2;
 /// A hand moves and trembles below this; what is above comes from the loop.
 constexpr double kHandUpTo_hz = 20.0;

@@ -69,6 +69,7 @@ void draw_ghost_note(const UiContext& ui, const AppModel& model, float right) {
                                    ghost->numbers.recorded.mean_iterations, ghost->numbers.resolved.mean_iterations,
                                    static_cast<unsigned long long>(ghost->numbers.changed_ticks));
   const char* shorter = "Ghost: same motion assumed";
+  ImGui::SetCursorPosX(ImGui::GetCursorPosX() + ui.px(11));
   const float room = right - ImGui::GetCursorScreenPos().x - ui.px(10);
   const char* shown = ImGui::CalcTextSize(text.c_str()).x < room ? text.c_str() : shorter;
   if (ImGui::CalcTextSize(shown).x > room) return;

@@ -37,14 +37,16 @@ void draw_status_line(const UiContext& ui, AppModel& model, const Rect& rect, do
     tooltip(ui, doc);
   };
   const auto integer = [](std::uint64_t n) { return printed("%llu", static_cast<unsigned long long>(n)); };
+  // In simulated time nothing is measured.
+  const auto time = [](double ns, int width) { return ns > 0.0 ? printed("%*.1f \u00b5s", width, ns * 1e-3) : printed("%*s", width, "-"); };
   const ServoStatus& servo = model.status().servo;
   const ImU32 plain = ui.colours.text, warn = ui.colours.warning;
   put("rate", "Servo", servo.rate_hz > 0.0 ? printed("%7.1f Hz", servo.rate_hz) : servo.running ? "   ... Hz" : "   off", 11, plain, "Ticks a second, measured");
   const double late_share = servo.ticks > 0 ? static_cast<double>(servo.late_ticks) / static_cast<double>(servo.ticks) : 0.0;
   put("late", "Late", printed("%s (%.2f %%)", integer(servo.late_ticks).c_str(), 100.0 * late_share), 16, late_share > 0.01 ? warn : plain, "Ticks before which a deadline was missed");
   put("drops", "Dropped records", integer(servo.gui_drops), 7, servo.gui_drops > 0 ? warn : plain, "Records that did not fit into the ring to the window");
-  put("p99", "Tick p99", printed("%6.1f \u00b5s", servo.tick_p99_ns * 1e-3), 10, plain, "99 of 100 ticks took no longer");
-  put("worst", "worst", printed("%7.1f \u00b5s", servo.tick_worst_ns * 1e-3), 11, plain, "The longest tick so far");
+  put("p99", "Tick p99", time(servo.tick_p99_ns, 6), 10, plain, "99 of 100 ticks took no longer");
+  put("worst", "worst", time(servo.tick_worst_ns, 7), 11, plain, "The longest tick so far");
   const double kept_s = static_cast<double>(model.end_tick() - model.first_tick()) * model.tick_period_s();
   const double mib = 1.0 / (1024.0 * 1024.0);
   put("history", "History", printed("%5.1f s", kept_s), 8, plain, "How far back one can scrub");

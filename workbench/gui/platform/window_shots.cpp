@@ -58,7 +58,7 @@ void look_from_contact_side(AppModel& model) {
   const Vec3 reach(0.8 * model.presets().current().finger.reach_m());
   box.include(record->tick.input.finger.position - reach);
   box.include(record->tick.input.finger.position + reach);
-  camera.frame(box, 1.0, 1.5);
+  camera.frame(box, 1.0, model.sizes().show_plots ? 1.5 : 1.0);
 }
 
 /// The tick with the most iterations among the last few thousand: there is something to see in it.
@@ -90,8 +90,9 @@ void solve_with_paper(AppModel& model) {
   const auto set = [&](std::string_view key, double value) { model.set_value(*find_preset_key("solver", key), value); };
   set("method", static_cast<double>(Method::paper));
   set("gain_curvature_m", 4e-3);
-  model.view().toggles.finger = false;
-  model.view().toggles.force = false;
+  // What would lie over the planes, or hide how deep the finger is.
+  SceneToggles& on = model.view().toggles;
+  on.finger = on.force = on.cld_inset = false;
 }
 
 void enlarge_plots(AppModel& model) {
@@ -126,6 +127,12 @@ void show_paper_map(AppModel& model) {
   show_map<quantity>(model);
 }
 
+/// Under the paper's method with a gain that it swings with where the body curves away from itself.
+void show_failures(AppModel& model) {
+  model.set_value(*find_preset_key("solver", "gain_curvature_m"), 2.5e-3);
+  show_paper_map<MapQuantity::failures>(model);
+}
+
 void tune_paper(AppModel& model) {
   model.set_value(*find_preset_key("solver", "method"), static_cast<double>(Method::paper));
   model.sizes().plots = 240.0f;
@@ -133,6 +140,7 @@ void tune_paper(AppModel& model) {
 
 /// Paused, and the gain brought down: what was recorded, and what it would have been.
 void drag_gain_of_the_past(AppModel& model) {
+  fold_but(model, "Time machine");
   look_from_contact_side(model);
   model.set_paused(true);
   const std::uint64_t end = model.end_tick();
@@ -174,6 +182,7 @@ void tune_and_compare(AppModel& model) {
 
 /// Half of the body, seen from the cut.
 void slice_open(AppModel& model) {
+  model.view().toggles.vertex_normals = false;
   look_from_contact_side(model);
   const Camera& camera = model.view().camera;
   model.view().slice = SlicePlane{-camera.forward(), glm::dot(-camera.forward(), camera.target)};
@@ -197,7 +206,7 @@ void open_outline(AppModel& model) {
   model.set_value(*find_preset_key("finger", "radius_m"), 0.008);
   model.set_value(*find_preset_key("solver", "method"), static_cast<double>(Method::paper));
   model.sizes().show_left = false;
-  model.sizes().plots = 150.0f;
+  model.sizes().plots = 210.0f;
 }
 
 /// Paused where the tangent lines can be told apart.
@@ -239,7 +248,7 @@ constexpr WindowView kViews[] = {
     {"map-iterations", "map: planes that the paper's iteration takes, worst of the moves", Theme::dark,
      show_paper_map<MapQuantity::iterations_worst>, look_from_contact_side},
     {"map-failures", "map: share of the moves on which the paper's iteration fails", Theme::dark,
-     show_paper_map<MapQuantity::failures>, look_from_contact_side},
+     show_failures, look_from_contact_side},
     {"map-error", "map: error of the paper's iteration against the converged answer", Theme::dark,
      show_paper_map<MapQuantity::error>, look_from_contact_side},
     {"map-curvature", "map: curvature", Theme::light, show_map<MapQuantity::curvature>, look_from_contact_side},
