@@ -12,11 +12,11 @@ class StepCache {
  public:
   explicit StepCache(const ContactMesh& mesh) : patches(mesh) {}
 
-  /// Whether `smooth` still holds the sample of this kept plane: a face at the same place, bit for bit.
+  /// Whether `smooth` still holds the sample of this kept plane: the same place on a face or an edge, bit for bit.
   bool holds(const TrackedPlane& kept, NormalForm kept_form) const {
     const TrackedPlane& mine = smooth.contact.plane;
-    return kept.feature == Feature::face && mine.feature == Feature::face && kept.triangle == mine.triangle && kept.u == mine.u &&
-           kept.v == mine.v && kept_form == form;
+    if (kept.feature != mine.feature || kept.triangle != mine.triangle || kept.u != mine.u || kept.v != mine.v || kept_form != form) return false;
+    return kept.feature == Feature::face || (kept.feature == Feature::edge && kept.side == mine.side && kept.turn == mine.turn && kept.normal == mine.normal);
   }
 
   PatchCache patches;
@@ -39,19 +39,29 @@ RenderPlane last_converged_plane(const Preset& preset, const TickState& state, c
   return plane;
 }
 
-void describe_smooth(const TrackResult& r, const Vec3& origin, TickOutput& out) {
+/// A tick but for force and display.
+TickOutput describe_smooth(const TrackResult& r, const Vec3& origin) {
   const IterationResult& c = r.contact;
-  out.status = r.converged() ? status_of(c.plane.feature, c.contact.penetration_m) : TickStatus::unconverged;
-  out.triangle = c.plane.triangle;
-  out.u = c.plane.u;
-  out.v = c.plane.v;
-  out.contact = origin + c.plane.point;
-  out.normal = c.plane.normal;
-  out.penetration_m = c.contact.penetration_m;
-  out.error_m = c.contact.error_m;
-  out.event = r.event;
-  out.iterations = r.evaluations;
-  out.triangle_changes = r.triangle_changes;
+  return {.status = r.converged() ? status_of(c.plane.feature, c.contact.penetration_m) : TickStatus::unconverged,
+          .event = r.event,
+          .triangle = c.plane.triangle,
+          .u = c.plane.u,
+          .v = c.plane.v,
+          .contact = origin + c.plane.point,
+          .normal = c.plane.normal,
+          .penetration_m = c.contact.penetration_m,
+          .force_n = Vec3(0.0),
+          .cld_m = 0.0,
+          .error_m = c.contact.error_m,
+          .iterations = r.evaluations,
+          .triangle_changes = r.triangle_changes};
+}
+
+/// Of the finger since the last tick, world, m/s; only damping asks for it.
+Vec3 finger_velocity(const Preset& preset, const TickInput& input, const TickState& state) {
+  const double dt = input.t_s - state.last_t_s;
+  if (preset.force.damping_n_s_per_m == 0.0 || !state.has_previous || !(dt > 0.0)) return Vec3(0.0);
+  return (input.finger.position - state.last_position) / dt;
 }
 
 }  // namespace
@@ -117,47 +127,71 @@ static FacetContact find_facet(const ContactScene& scene, const Preset& preset, 
   return facet;
 }
 
-TickOutput Stepper::step(const Preset& preset, const TickInput& input, TickState& state, IterationTrace* trace) {
-  if (scene_->planar()) return step_planar(*scene_->planar(), preset, input, state, trace);
-  TickOutput out;
-  const ContactMesh& mesh = scene_->mesh();
-  TickContacts contacts;
-  if (!is_finite(input.finger.position) || !std::isfinite(glm::dot(input.finger.orientation, input.finger.orientation))) {
-    const FingerPose last{state.last_position, Quat(1.0, 0.0, 0.0, 0.0)};
-    contacts.smooth_plane = last_converged_plane(preset, state, {last.position - mesh.origin(), last.orientation}, input.t_s);
-    contacts.facet_plane = contacts.shaded_plane = contacts.proxy_force = contacts.proxy_place = contacts.smooth_plane;
-    render(preset, contacts, last, Vec3(0.0), out);
-    return out;
-  }
-  const FingerPose& pose = input.finger;
-  const FingerPose local{pose.position - mesh.origin(), pose.orientation};
+/// What the next tick's velocity needs.
+static void keep_pose(const TickInput& input, TickState& state) {
+  state.last_position = input.finger.position;
+  state.last_t_s = input.t_s;
+  state.has_previous = 1;
+}
 
+/// A tick of a pose that is not finite: what was rendered last, at the last position.
+static TickOutput step_without_pose(const ContactScene& scene, const Preset& preset, double t_s, const TickState& state) {
+  const FingerPose last{state.last_position, Quat(1.0, 0.0, 0.0, 0.0)};
+  TickContacts contacts;
+  contacts.smooth_plane = last_converged_plane(preset, state, {last.position - scene.mesh().origin(), last.orientation}, t_s);
+  contacts.facet_plane = contacts.shaded_plane = contacts.proxy_force = contacts.proxy_place = contacts.smooth_plane;
+  TickOutput out;
+  render(preset, contacts, last, Vec3(0.0), out);
+  return out;
+}
+
+/// A tick that asks for contacts on the raw mesh.
+static TickOutput step_facets(const ContactScene& scene, StepCache& cache, const Preset& preset, const TickInput& input,
+                              const FingerPose& local, TickState& state, IterationTrace* trace) {
+  const ContactMesh& mesh = scene.mesh();
   const Method method = preset.solver.method;
-  if (is_smooth(method)) {
-    track_smooth(*scene_, *cache_, preset, preset.solver, local, input.t_s, state, trace, contacts.smooth_plane);
-    describe_smooth(cache_->smooth, mesh.origin(), out);
-  } else if (wants_smooth(preset)) {
-    SolverSettings robust = preset.solver;
-    robust.method = Method::robust;
-    track_smooth(*scene_, *cache_, preset, robust, local, input.t_s, state, trace, contacts.smooth_plane);
+  TickOutput out;
+  TickContacts contacts;
+  if (wants_smooth(preset)) {
+    SolverSettings settings = preset.solver;
+    if (!is_smooth(method)) settings.method = Method::robust;
+    track_smooth(scene, cache, preset, settings, local, input.t_s, state, trace, contacts.smooth_plane);
+    if (is_smooth(method)) out = describe_smooth(cache.smooth, mesh.origin());
   }
   if (wants_facet(preset)) {
-    const FacetContact facet = find_facet(*scene_, preset, local, contacts);
+    const FacetContact facet = find_facet(scene, preset, local, contacts);
     if (method == Method::facet) describe_facet(facet, contacts.facet_plane, mesh.origin(), out);
     if (method == Method::force_shading) describe_facet(facet, contacts.shaded_plane, mesh.origin(), out);
   }
   if (method == Method::two_pass) {
     constexpr double kLeapShare = 0.25;  // of the box's diagonal: a proxy further from the finger is given up
-    const MeshProxySurface surface(mesh, scene_->nearest(), preset.solver.tolerance_m);
+    const MeshProxySurface surface(mesh, scene.nearest(), preset.solver.tolerance_m);
     step_two_pass(surface, preset, local.position, mesh.origin(), kLeapShare * glm::length(mesh.bounds().size()), state, contacts, out);
   }
-  const double dt = input.t_s - state.last_t_s;
-  const Vec3 velocity = state.has_previous && dt > 0.0 ? (pose.position - state.last_position) / dt : Vec3(0.0);
-  render(preset, contacts, pose, velocity, out);
-  state.last_position = pose.position;
-  state.last_t_s = input.t_s;
-  state.has_previous = 1;
+  render(preset, contacts, input.finger, finger_velocity(preset, input, state), out);
+  keep_pose(input, state);
   return out;
+}
+
+/// Most ticks: nothing is prepared that they don't need.
+static TickOutput step_smooth(const ContactScene& scene, StepCache& cache, const Preset& preset, const TickInput& input,
+                              const FingerPose& local, TickState& state, IterationTrace* trace) {
+  RenderPlane plane;
+  track_smooth(scene, cache, preset, preset.solver, local, input.t_s, state, trace, plane);
+  TickOutput out = describe_smooth(cache.smooth, scene.mesh().origin());
+  render(preset, plane, input.finger, finger_velocity(preset, input, state), out);
+  keep_pose(input, state);
+  return out;
+}
+
+TickOutput Stepper::step(const Preset& preset, const TickInput& input, TickState& state, IterationTrace* trace) {
+  if (scene_->planar()) return step_planar(*scene_->planar(), preset, input, state, trace);
+  const FingerPose& pose = input.finger;
+  if (!is_finite(pose.position) || !std::isfinite(glm::dot(pose.orientation, pose.orientation)))
+    return step_without_pose(*scene_, preset, input.t_s, state);
+  const FingerPose local{pose.position - scene_->mesh().origin(), pose.orientation};
+  if (only_smooth(preset)) return step_smooth(*scene_, *cache_, preset, input, local, state, trace);
+  return step_facets(*scene_, *cache_, preset, input, local, state, trace);
 }
 
 const char* to_string(Feature feature) {

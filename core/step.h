@@ -56,6 +56,7 @@ struct TrackedPlane {
   double u = 0.0, v = 0.0;
   Vec3 point{0.0};                  ///< S, local mesh coordinates, m
   Vec3 normal{0.0, 0.0, 1.0};       ///< N, unit
+  double turn = 0.0;                ///< edge: angle of N about the edge, from the near side's normal, rad; else unused
 };
 
 /// A triangle that holds no deeper contact, but could before others do.

@@ -50,9 +50,10 @@ inline constexpr double kWildNormalDeg = 60.0;
 /// tangent steps where Newton is fine; smaller: wild steps near a fold.
 inline constexpr double kNewtonMinDet = 0.05;
 
-/// Longest step of `robust`, in travels, 1. A convex point contact needs at most 1/(1 + h k); only ground
-/// near a fold asks for more. Larger: leaps to other places; smaller: slow approach in concave ground.
-inline constexpr double kLongestStepPerTravel = 4.0;
+/// Longest step of `robust`, in travels, 1, where it is no short one: below kShortStep of the triangle in both parameters.
+/// A convex point contact needs at most 1/(1 + h k); only ground near a fold asks for more. Larger: leaps to other
+/// places; smaller: slow approach in concave ground, by a part of the way each plane.
+inline constexpr double kLongestStepPerTravel = 4.0, kShortStep = 0.05;
 
 /// New planes `robust` spends on following the kept contact before it seeds anew, 1. More: a stale contact
 /// costs longer before it is given up; fewer: slow but sound convergence is thrown away.

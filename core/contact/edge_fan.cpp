@@ -12,15 +12,6 @@ namespace {
 /// A boundary lets the normal turn from the face's front to its back.
 constexpr double kBoundaryFan = std::numbers::pi;
 
-/// Derivatives of a sample along the edge: d/df at (u, v) = d/du du + d/dv dv.
-Vec2 edge_direction(std::uint32_t edge) {
-  switch (edge) {
-    case 0: return {1.0, 0.0};
-    case 1: return {-1.0, 1.0};
-    default: return {0.0, -1.0};
-  }
-}
-
 Vec3 any_perpendicular(const Vec3& n) {
   const Vec3 axis = std::abs(n.x) < 0.6 ? Vec3(1, 0, 0) : std::abs(n.y) < 0.6 ? Vec3(0, 1, 0) : Vec3(0, 0, 1);
   return unit(glm::cross(n, axis));
@@ -28,26 +19,24 @@ Vec3 any_perpendicular(const Vec3& n) {
 
 EdgeFan compute_fan(PatchCache& cache, std::uint32_t t, std::uint32_t edge, double f, NormalForm form) {
   const ContactMesh& mesh = cache.mesh();
-  const Vec2 uv = edge_point_uv(edge, f), along = edge_direction(edge);
   const PnPatch& patch = cache.patch(t, form);
-  const SurfaceSample s = evaluate(patch, uv.x, uv.y);
-  const SecondDerivatives second = evaluate_second(patch, uv.x, uv.y);
+  const EdgePoint at = evaluate_edge_point(patch, edge, f);
+  const EdgeNormal near = evaluate_edge_normal(patch, edge, f);
 
   EdgeFan fan;
-  fan.point = s.point;
-  fan.point_f = along.x * s.point_u + along.y * s.point_v;
-  Vec3 chord = mesh.position(t, (edge + 1) % 3) - mesh.position(t, edge);
-  fan.tangent = unit(glm::dot(fan.point_f, fan.point_f) > 1e-12 * glm::dot(chord, chord) ? fan.point_f : chord);
-  const Vec3 bend = along.x * along.x * second.point_uu + 2.0 * along.x * along.y * second.point_uv + along.y * along.y * second.point_vv;
-  const double speed = std::sqrt(glm::dot(fan.point_f, fan.point_f));
-  fan.tangent_f = speed > 0.0 ? (bend - glm::dot(bend, fan.tangent) * fan.tangent) / speed : Vec3(0.0);
-  fan.near_normal = s.normal;
-  fan.tilt_near = std::clamp(glm::dot(s.normal, fan.tangent), -1.0, 1.0);
-  const Vec3 across = s.normal - fan.tilt_near * fan.tangent;
+  fan.point = at.point;
+  fan.point_f = at.point_f;
+  const double speed2 = glm::dot(at.point_f, at.point_f);
+  const Vec3 chord = mesh.position(t, (edge + 1) % 3) - mesh.position(t, edge);
+  fan.tangent = unit(speed2 > 1e-12 * glm::dot(chord, chord) ? at.point_f : chord);
+  fan.tangent_f = speed2 > 0.0 ? (at.point_ff - glm::dot(at.point_ff, fan.tangent) * fan.tangent) / std::sqrt(speed2) : Vec3(0.0);
+  fan.near_normal = near.normal;
+  fan.near_normal_f = near.normal_f;
+  fan.tilt_near = std::clamp(glm::dot(near.normal, fan.tangent), -1.0, 1.0);
+  const Vec3 across = near.normal - fan.tilt_near * fan.tangent;
   fan.e1 = glm::dot(across, across) > 1e-12 ? unit(across) : any_perpendicular(fan.tangent);
   fan.e2 = glm::cross(fan.tangent, fan.e1);
   if (glm::dot(fan.e2, mesh.position(t, (edge + 2) % 3) - mesh.position(t, edge)) > 0.0) fan.e2 = -fan.e2;
-  fan.near_normal_f = along.x * s.normal_u + along.y * s.normal_v;
 
   const EdgeLink other = mesh.across(t, edge);
   if (other.triangle == kNone) {
@@ -58,12 +47,11 @@ EdgeFan compute_fan(PatchCache& cache, std::uint32_t t, std::uint32_t edge, doub
     return fan;
   }
   // The neighbour runs along the edge the other way.
-  const Vec2 other_uv = edge_point_uv(other.edge, 1.0 - f), other_along = edge_direction(other.edge);
-  const SurfaceSample o = evaluate(cache.patch(other.triangle, form), other_uv.x, other_uv.y);
-  fan.far_normal = o.normal;
-  fan.tilt_far = std::clamp(glm::dot(o.normal, fan.tangent), -1.0, 1.0);
-  fan.fan = std::atan2(glm::dot(o.normal, fan.e2), glm::dot(o.normal, fan.e1));
-  fan.far_normal_f = -(other_along.x * o.normal_u + other_along.y * o.normal_v);
+  const EdgeNormal far = evaluate_edge_normal(cache.patch(other.triangle, form), other.edge, 1.0 - f);
+  fan.far_normal = far.normal;
+  fan.far_normal_f = -far.normal_f;
+  fan.tilt_far = std::clamp(glm::dot(far.normal, fan.tangent), -1.0, 1.0);
+  fan.fan = std::atan2(glm::dot(far.normal, fan.e2), glm::dot(far.normal, fan.e1));
   return fan;
 }
 

@@ -13,7 +13,11 @@ namespace {
 /// 0.1 mm on a 10 mm half length. Smaller: closer to a true capsule, harder to converge along its side.
 constexpr double kSpindle = 0.01;
 
-Vec3 to_finger_frame(const FingerPose& pose, const Vec3& v) { return glm::conjugate(pose.orientation) * v; }
+Vec3 to_finger_frame(const FingerPose& pose, const Vec3& v) {
+  const Quat& q = pose.orientation;
+  if (q.x == 0.0 && q.y == 0.0 && q.z == 0.0) return v;  // no turn: most devices measure none
+  return glm::conjugate(q) * v;
+}
 
 Support ellipsoid_support(const Finger& finger, const FingerPose& pose, const Vec3& normal) {
   // Furthest point along -n of the ellipsoid x = A y, |y| = 1 is -A A n / |A n|.
@@ -108,13 +112,21 @@ Vec3 support_point(const Finger& finger, const FingerPose& pose, const Vec3& nor
   return support_with_derivative(finger, pose, normal).point;
 }
 
-double contact_arc_m(const Finger& finger, const FingerPose& pose, const Vec3& normal) {
+/// Arc on a sphere, or +-limit_m where it is longer: an angle is larger than its sine, and larger than a right angle
+/// on the nail's side.
+static double sphere_arc(double radius, const Vec3& m, double limit_m) {
+  const double across = radius * m.x;
+  const bool beyond = m.z > 0.0 ? limit_m < 1.5 * radius : across * across > limit_m * limit_m * (m.x * m.x + m.z * m.z);
+  return beyond ? std::copysign(limit_m, m.x) : radius * std::atan2(m.x, -m.z);
+}
+
+double contact_arc_m(const Finger& finger, const FingerPose& pose, const Vec3& normal, double limit_m) {
   const Vec3 m = to_finger_frame(pose, -normal);
   if (finger.shape == FingerShape::point || (m.x == 0.0 && m.z == 0.0)) return 0.0;
   const Vec3& a = finger.semi_axes_m;
   switch (finger.shape) {
     case FingerShape::point: return 0.0;
-    case FingerShape::sphere: return finger.radius_m * std::atan2(m.x, -m.z);
+    case FingerShape::sphere: return sphere_arc(finger.radius_m, m, limit_m);
     case FingerShape::ellipsoid: return ellipse_arc(a.x, a.z, std::atan2(a.x * m.x, -a.z * m.z));
     case FingerShape::capsule: {
       // Along the straight pad, round the tip, and on the nail side back along the straight part.

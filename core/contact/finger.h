@@ -7,6 +7,7 @@
 #include "core/base/vec.h"
 
 #include <cstdint>
+#include <limits>
 
 namespace tangent {
 
@@ -48,7 +49,9 @@ Support support_with_derivative(const Finger& finger, const FingerPose& pose, co
 /// Contact location: signed arc length on the finger from the fingerpad's middle (-z) along the long axis,
 /// positive distally, for a contact whose surface normal (pointing at the finger) is `normal`, m. For a
 /// sphere R atan2(m.x, -m.z) with m = -normal in the finger frame; 0 for a point; for other shapes arc
-/// length in the x-z section.
-double contact_arc_m(const Finger& finger, const FingerPose& pose, const Vec3& normal);
+/// length in the x-z section. Where it surely is beyond `limit_m` on either side, any value beyond that may be returned:
+/// a sphere spares itself the arc tangent.
+double contact_arc_m(const Finger& finger, const FingerPose& pose, const Vec3& normal,
+                     double limit_m = std::numeric_limits<double>::infinity());
 
 }  // namespace tangent

@@ -39,11 +39,30 @@ struct RunMemory {
   double least = 1e300;   ///< error; when it stops falling, the iteration goes round in circles
   int least_at = 0;
   bool carried = false;   ///< a step was carried past the end of an edge
+  Vec3 last_travel{0.0}, last_point{0.0};
 
   void add_error(double error, int evaluation) {
     if (error >= 0.99 * least) return;
     least = error;
     least_at = evaluation;
+  }
+
+  /// Along a long finger the contact runs from one end to the other while the normal turns by a little, so that Newton's
+  /// steps can overshoot to and fro for ever. After one that turned the travel round without halving it, the next goes
+  /// back half way at most.
+  void rein_in(const IterationResult& now, ParameterStep& step) {
+    const Vec3 travel = now.contact.travel, moved = now.sample.point - last_point;
+    if (glm::dot(travel, last_travel) < 0.0 && glm::dot(travel, travel) > 0.25 * glm::dot(last_travel, last_travel)) {
+      const Vec3 ds = step.da * now.sample.point_u + step.db * now.sample.point_v;
+      const double length2 = glm::dot(ds, ds), limit2 = 0.25 * glm::dot(moved, moved);
+      if (length2 > limit2) {
+        const double shorter = std::sqrt(limit2 / length2);
+        step.da *= shorter;
+        step.db *= shorter;
+      }
+    }
+    last_travel = travel;
+    last_point = now.sample.point;
   }
 };
 
@@ -96,69 +115,93 @@ TrackedPlane move_along_edge(const ContactMesh& mesh, const TrackedPlane& at, do
   return place_on_edge(at.triangle, at.side, std::clamp(to, 0.0, 1.0));
 }
 
+/// Along the edge the contact is stable when a step along it moves the plane's contact the same way; across it the fan
+/// is convex, which is stable for a finger outside (h > 0).
+Stability edge_stability(const EdgeFan& fan, const SurfaceSample& s, const ContactJacobian& jacobian) {
+  const double along = glm::dot(jacobian.xa, fan.tangent) * (glm::dot(fan.point_f, fan.tangent) > 0.0 ? 1.0 : -1.0);
+  const double across = glm::dot(jacobian.xb, s.normal_v);
+  return {along * across, along + across};
+}
+
+/// Where a contact on an edge wants to go: along it by Newton's step or, where that is not to be trusted or for the
+/// paper's method, by the travel; or off it, into the face on one side.
+struct EdgeMove {
+  ParameterStep step;       ///< da: along f, db: of the turn
+  double df_travel = 0.0;   ///< f by the travel alone
+  double speed = 0.0;       ///< |dS/df|, m
+  bool into_near = false, into_far = false;
+};
+
+EdgeMove edge_move(IterationContext& context, const EdgeFan& fan, const IterationResult& now, const ContactJacobian& jacobian, bool has_far) {
+  EdgeMove move;
+  const double speed2 = glm::dot(fan.point_f, fan.point_f);
+  move.speed = std::sqrt(speed2);
+  move.df_travel = speed2 > 0.0 ? glm::dot(now.contact.travel, fan.point_f) / speed2 : 0.0;
+  move.step = newton_step(now.sample, jacobian, now.contact);
+  const bool trusted = move.step.valid && now.stability.stable();
+  if (!trusted) move.step.da = move.df_travel, move.step.db = 0.0;
+  move.step.valid = true;
+
+  const bool paper = context.settings.method == Method::paper;
+  if (paper) {
+    move.step.curvature_per_m = directional_curvature(now.sample, 1.0, 0.0);
+    move.step.distance_m = paper_distance(context.settings, now.contact);
+    move.step.gain = paper_gain(context.settings, move.step.curvature_per_m, move.step.distance_m);
+    move.step.da = move.step.gain * move.df_travel;
+  }
+  // At an end of the fan the plane wants to turn on into the face.
+  const bool at_near = now.plane.turn <= 0.0, at_far = now.plane.turn >= fan.fan;
+  if (!at_near && !at_far) return move;
+  if (trusted && !paper) {
+    move.into_near = at_near && move.step.db < 0.0;
+    move.into_far = at_far && has_far && move.step.db > 0.0;
+    return move;
+  }
+  const double wanted = facing_turn(fan, context.finger, context.pose);
+  const bool outside = wanted < 0.0 || wanted > fan.fan;
+  move.into_near = at_near && outside;
+  move.into_far = at_far && has_far && outside;
+  return move;
+}
+
+/// Neither the place nor the plane can change any more.
+bool rests_on_edge(IterationContext& context, const EdgeFan& fan, const TrackedPlane& at, const TrackedPlane& next) {
+  if (next.feature != Feature::edge || next.triangle != at.triangle || next.u != at.u || next.v != at.v) return false;
+  const double wanted = facing_turn(fan, context.finger, context.pose);
+  return std::abs(wanted - at.turn) < 1e-12 && wanted >= 0.0 && wanted <= fan.fan;
+}
+
 Proposal next_from_edge(IterationContext& context, const TrackedPlane& at, RunMemory& memory, IterationResult& now) {
   Proposal next;
   const ContactMesh& mesh = context.cache.mesh();
   const double f = edge_fraction(at.side, at.u, at.v);
   const EdgeFan& fan = edge_fan(context.cache, at.triangle, at.side, f, context.settings.normal_form);
-  const double turn = turn_of(fan, now.sample.normal);
   const ContactJacobian jacobian = contact_jacobian(context.finger, context.pose, now.sample, now.contact);
-  // Along the edge the contact is stable when a step along it moves the plane's contact the same way; across
-  // it the fan is convex, which is stable for a finger outside (h > 0).
-  const double along = glm::dot(jacobian.xa, fan.tangent) * (glm::dot(fan.point_f, fan.tangent) > 0.0 ? 1.0 : -1.0);
-  const double across = glm::dot(jacobian.xb, now.sample.normal_v);
-  now.stability = {along * across, along + across};
-  if (now.contact.error_m < context.settings.tolerance_m && now.stability.stable()) {
+  now.stability = edge_stability(fan, now.sample, jacobian);
+  const bool exact = now.contact.error_m < context.settings.tolerance_m;
+  if (exact && now.stability.stable()) {
     next.stop = StopReason::converged;
     return next;
   }
-
-  ParameterStep newton = newton_step(now.sample, jacobian, now.contact);
-  const double speed2 = glm::dot(fan.point_f, fan.point_f);
-  const double df_travel = speed2 > 0.0 ? glm::dot(now.contact.travel, fan.point_f) / speed2 : 0.0;
-  const bool trust_newton = newton.valid && along > 0.0 && across > 0.0;
-  if (!trust_newton) newton.da = df_travel, newton.db = 0.0;
-  next.step = newton;
-  next.step.valid = true;
-  const double slide_m = std::abs(df_travel) * std::sqrt(speed2);
-
-  // At an end of the fan the plane wants to turn on into the face.
-  const double wanted = facing_turn(fan, context.finger, context.pose);
-  const bool at_near = turn <= 0.0, at_far = turn >= fan.fan;
-  const bool outside = wanted < 0.0 || wanted > fan.fan;
   const EdgeLink other = mesh.across(at.triangle, at.side);
-  const bool paper = context.settings.method == Method::paper;
-  const bool leave_near = at_near && (paper ? outside : trust_newton ? newton.db < 0.0 : outside);
-  const bool leave_far = at_far && other.triangle != kNone && (paper ? outside : trust_newton ? newton.db > 0.0 : outside);
-  if (paper) {
-    next.step.curvature_per_m = directional_curvature(now.sample, 1.0, 0.0);
-    next.step.distance_m = paper_distance(context.settings, now.contact);
-    next.step.gain = paper_gain(context.settings, next.step.curvature_per_m, next.step.distance_m);
-    next.step.da = next.step.gain * df_travel;
-    // Slide along the edge first: what is left across it then says which face, without going to and fro.
-    if ((leave_near || leave_far) && slide_m > 0.5 * now.contact.error_m) {
-      next.place = move_along_edge(mesh, at, f, next.step.da, std::sqrt(speed2), memory);
-      next.step_m = std::abs(next.step.da) * std::sqrt(speed2);
-      return next;
-    }
-  }
-  if (leave_near) {
+  const EdgeMove move = edge_move(context, fan, now, jacobian, other.triangle != kNone);
+  next.step = move.step;
+  // The paper's contact slides along the edge first: what is left across it then says which face, without going to and fro.
+  const bool slide = context.settings.method == Method::paper && std::abs(move.df_travel) * move.speed > 0.5 * now.contact.error_m;
+  if (move.into_near && !slide) {
     next.place = place_on_face(at.triangle, at.u, at.v);
     return next;
   }
-  if (leave_far) {
+  if (move.into_far && !slide) {
     const Vec2 uv = edge_point_uv(other.edge, 1.0 - f);
     next.place = place_on_face(other.triangle, uv.x, uv.y);
     next.triangle_changes = 1;
     return next;
   }
-  next.place = move_along_edge(mesh, at, f, std::clamp(next.step.da, -2.0, 2.0), std::sqrt(speed2), memory);
-  next.step_m = std::abs(next.step.da) * std::sqrt(speed2);
-  if (next.place.feature == Feature::edge && next.place.u == at.u && next.place.v == at.v &&
-      std::abs(wanted - turn) < 1e-12 && !outside) {
-    // Neither the place nor the plane can change any more.
-    next.stop = now.contact.error_m < context.settings.tolerance_m ? StopReason::unstable : StopReason::singular_patch;
-  }
+  const bool leaves = move.into_near || move.into_far;
+  next.place = move_along_edge(mesh, at, f, leaves ? move.step.da : std::clamp(move.step.da, -2.0, 2.0), move.speed, memory);
+  next.step_m = std::abs(move.step.da) * move.speed;
+  if (!leaves && rests_on_edge(context, fan, at, next.place)) next.stop = exact ? StopReason::unstable : StopReason::singular_patch;
   return next;
 }
 
@@ -214,7 +257,8 @@ void sample_place(IterationContext& context, TrackedPlane& plane, SurfaceSample&
     evaluate(context.cache.patch(plane.triangle, form), plane.u, plane.v, sample);
   } else if (plane.feature == Feature::edge) {
     const EdgeFan& fan = edge_fan(context.cache, plane.triangle, plane.side, edge_fraction(plane.side, plane.u, plane.v), form);
-    sample = edge_sample(fan, clamp_turn(facing_turn(fan, context.finger, context.pose), std::max(0.0, fan.fan)));
+    plane.turn = clamp_turn(facing_turn(fan, context.finger, context.pose), std::max(0.0, fan.fan));
+    sample = edge_sample(fan, plane.turn);
   } else {
     sample = vertex_sample(context, plane);
   }
@@ -225,12 +269,16 @@ void sample_place(IterationContext& context, TrackedPlane& plane, SurfaceSample&
 namespace {
 
 /// Sample of the plane kept from the last tick: edges and vertices keep the normal they had.
-SurfaceSample kept_place_sample(IterationContext& context, const TrackedPlane& plane) {
+SurfaceSample kept_place_sample(IterationContext& context, TrackedPlane& plane) {
   if (plane.feature == Feature::face) return evaluate(context.cache.patch(plane.triangle, context.settings.normal_form), plane.u, plane.v);
   if (plane.feature == Feature::vertex) return vertex_sample_at(context, plane, plane.normal);
   const EdgeFan& fan = edge_fan(context.cache, plane.triangle, plane.side, edge_fraction(plane.side, plane.u, plane.v),
                                context.settings.normal_form);
-  SurfaceSample s = edge_sample(fan, turn_of(fan, plane.normal));
+  SurfaceSample s = edge_sample(fan, plane.turn);
+  if (glm::dot(s.normal, plane.normal) < 1.0 - 1e-14) {  // of another normal form, or given from outside
+    plane.turn = turn_of(fan, plane.normal);
+    s = edge_sample(fan, plane.turn);
+  }
   s.normal = plane.normal;
   return s;
 }
@@ -266,7 +314,8 @@ bool iterate_face(IterationContext& context, int budget, RunMemory& memory, Iter
     if (context.trace) record(context, now, ParameterStep{}, 0.0, now.stop);
     return false;
   }
-  const ParameterStep step = face_step(context, now, jacobian);
+  ParameterStep step = face_step(context, now, jacobian);
+  if (!is_round(context.finger) && context.settings.method == Method::robust && step.valid) memory.rein_in(now, step);
   const ContactMesh& mesh = context.cache.mesh();
   now.stop = step.valid ? StopReason::going_on : StopReason::singular_patch;
   if (step.valid && now.evaluations >= budget) now.stop = why_unconverged(mesh, now, memory, budget);
@@ -306,7 +355,7 @@ void iterate(IterationContext& context, const TrackedPlane& start, int budget, I
 void iterate_kept(IterationContext& context, const TrackedPlane& kept, bool sample_kept, int budget, IterationResult& result) {
   if (!sample_kept) {
     result.plane = kept;
-    result.sample = kept_place_sample(context, kept);
+    result.sample = kept_place_sample(context, result.plane);
   }
   result.plane.point = result.sample.point;
   result.plane.normal = result.sample.normal;

@@ -40,7 +40,7 @@ struct IterationResult {
 void iterate(IterationContext& context, const TrackedPlane& start, int budget, IterationResult& result);
 
 /// The same from the plane kept from the last tick, which costs no evaluation. `sample_kept`: result.plane and
-/// result.sample still hold that plane (a face) and needn't be computed again.
+/// result.sample still hold that plane (a face or an edge) and needn't be computed again.
 void iterate_kept(IterationContext& context, const TrackedPlane& kept, bool sample_kept, int budget, IterationResult& result);
 
 /// Sample of a place for the present pose: faces as they are, edges and vertices with the normal turned to

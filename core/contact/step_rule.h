@@ -5,6 +5,7 @@
 #include "core/base/tolerances.h"
 #include "core/contact/iterate.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace tangent {
@@ -63,8 +64,8 @@ inline ParameterStep newton_step(const SurfaceSample& s, const ContactJacobian& 
   return step;
 }
 
-/// Newton's step where M is well inside the stable region, never longer than a few times the travel; else the
-/// damped one.
+/// Newton's step where M is well inside the stable region, never longer than a few times the travel unless it is short
+/// against the triangle; else the damped one.
 inline ParameterStep robust_face_step(const SurfaceSample& s, const ContactJacobian& j, const Stability& stability,
                                       const PlaneContact& c) {
   if (!(stability.det > kNewtonMinDet && stability.trace > 0.0)) return damped_step(s, c);
@@ -73,7 +74,7 @@ inline ParameterStep robust_face_step(const SurfaceSample& s, const ContactJacob
   const Vec3 ds = step.da * s.point_u + step.db * s.point_v;
   const double limit2 = kLongestStepPerTravel * kLongestStepPerTravel * c.error_m * c.error_m;
   const double length2 = glm::dot(ds, ds);
-  if (length2 > limit2) {
+  if (length2 > limit2 && std::max(std::abs(step.da), std::abs(step.db)) > kShortStep) {
     const double shorter = std::sqrt(limit2 / length2);
     step.da *= shorter;
     step.db *= shorter;

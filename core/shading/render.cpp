@@ -32,6 +32,14 @@ const RenderPlane* tactile_plane(const Preset& preset, const TickContacts& conta
   return is_smooth(preset.solver.method) ? &contacts.smooth_plane : &contacts.facet_plane;
 }
 
+void render_force(const Preset& preset, const RenderPlane& plane, const Vec3& velocity, TickOutput& out) {
+  if (plane.share > 0.0) out.force_n = plane.share * contact_force(preset.force, plane.normal, plane.penetration_m, velocity);
+}
+
+void render_display(const Preset& preset, const RenderPlane& plane, const FingerPose& pose, TickOutput& out) {
+  if (plane.share > 0.0) out.cld_m = plane.share * display_position(preset.display, preset.finger, pose, plane.normal);
+}
+
 }  // namespace
 
 bool is_smooth(Method m) { return m == Method::paper || m == Method::newton || m == Method::robust; }
@@ -39,6 +47,8 @@ bool is_smooth(Method m) { return m == Method::paper || m == Method::newton || m
 bool wants_smooth(const Preset& preset) {
   return is_smooth(preset.solver.method) || preset.force.source == ForceSource::smooth || preset.display.source == TactileSource::smooth;
 }
+
+bool only_smooth(const Preset& preset) { return is_smooth(preset.solver.method) && !wants_facet(preset); }
 
 bool wants_facet(const Preset& preset) {
   return preset.solver.method == Method::facet || preset.solver.method == Method::force_shading ||
@@ -89,11 +99,13 @@ void step_two_pass(const ProxySurface& surface, const Preset& preset, const Vec3
 }
 
 void render(const Preset& preset, const TickContacts& contacts, const FingerPose& pose, const Vec3& velocity, TickOutput& out) {
-  const RenderPlane& force = force_plane(preset, contacts);
-  if (force.share > 0.0) out.force_n = force.share * contact_force(preset.force, force.normal, force.penetration_m, velocity);
-  const RenderPlane* tactile = tactile_plane(preset, contacts);
-  if (tactile && tactile->share > 0.0)
-    out.cld_m = tactile->share * display_position(preset.display, preset.finger, pose, tactile->normal);
+  render_force(preset, force_plane(preset, contacts), velocity, out);
+  if (const RenderPlane* tactile = tactile_plane(preset, contacts)) render_display(preset, *tactile, pose, out);
+}
+
+void render(const Preset& preset, const RenderPlane& plane, const FingerPose& pose, const Vec3& velocity, TickOutput& out) {
+  render_force(preset, plane, velocity, out);
+  if (preset.display.source != TactileSource::held) render_display(preset, plane, pose, out);
 }
 
 }  // namespace tangent

@@ -23,7 +23,8 @@ struct TickContacts {
 };
 
 bool is_smooth(Method method);
-/// Which contacts a preset asks for.
+/// Which contacts a preset asks for; `only_smooth`: the method's own and no other, as most ticks do.
+bool only_smooth(const Preset& preset);
 bool wants_smooth(const Preset& preset);
 bool wants_facet(const Preset& preset);  ///< facet or force shading; the two-pass method finds its own
 
@@ -38,7 +39,9 @@ void describe_facet(const FacetContact& facet, const RenderPlane& plane, const V
 void step_two_pass(const ProxySurface& surface, const Preset& preset, const Vec3& centre_local, const Vec3& origin, double leap_m,
                    TickState& state, TickContacts& contacts, TickOutput& out);
 
-/// Force and display of a tick. `velocity`: of the finger, world, m/s.
+/// Force and display of a tick, from the planes of the preset's sources. `velocity`: of the finger, world, m/s.
 void render(const Preset& preset, const TickContacts& contacts, const FingerPose& pose, const Vec3& velocity, TickOutput& out);
+/// The same where the one plane is the source of both (only_smooth).
+void render(const Preset& preset, const RenderPlane& plane, const FingerPose& pose, const Vec3& velocity, TickOutput& out);
 
 }  // namespace tangent

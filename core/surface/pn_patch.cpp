@@ -155,6 +155,32 @@ SecondDerivatives evaluate_second(const PnPatch& patch, double u, double v) {
   return d;
 }
 
+// de Casteljau along the edge's own control points, from which the cubic curve and the quadratic normal depend alone.
+EdgePoint evaluate_edge_point(const PnPatch& patch, std::uint32_t edge, double f) {
+  static constexpr ControlPoint kCurve[3][4] = {{b300, b210, b120, b030}, {b030, b021, b012, b003}, {b003, b102, b201, b300}};
+  const auto& b = patch.offsets;
+  const auto& curve = kCurve[edge];
+  const Vec3 &p0 = b[curve[0]], &p1 = b[curve[1]], &p2 = b[curve[2]], &p3 = b[curve[3]];
+  const double e = 1.0 - f;
+  const Vec3 q0 = e * p0 + f * p1, q1 = e * p1 + f * p2, q2 = e * p2 + f * p3;
+  const Vec3 r0 = e * q0 + f * q1, r1 = e * q1 + f * q2;
+  return {patch.origin + (e * r0 + f * r1), 3.0 * (r1 - r0), 6.0 * ((q2 - q1) - (q1 - q0))};
+}
+
+EdgeNormal evaluate_edge_normal(const PnPatch& patch, std::uint32_t edge, double f) {
+  static constexpr ControlNormal kNormals[3][3] = {{n200, n110, n020}, {n020, n011, n002}, {n002, n101, n200}};
+  const auto& ends = kNormals[edge];
+  const Vec3 middle = 0.5 * patch.mixed_weight * patch.normals[ends[1]];
+  const double e = 1.0 - f;
+  const Vec3 r0 = e * patch.normals[ends[0]] + f * middle, r1 = e * middle + f * patch.normals[ends[2]];
+  const Vec3 n = e * r0 + f * r1, n_f = 2.0 * (r1 - r0);
+  const double length = std::sqrt(glm::dot(n, n));
+  if (length < kVanishingNormal) return {flat_normal(patch), Vec3(0.0)};
+  const double per_length = 1.0 / length;
+  const Vec3 normal = per_length * n;
+  return {normal, per_length * (n_f - glm::dot(normal, n_f) * normal)};
+}
+
 double directional_curvature(const SurfaceSample& s, double du, double dv) {
   const Vec3 ds = du * s.point_u + dv * s.point_v;
   const Vec3 dn = du * s.normal_u + dv * s.normal_v;

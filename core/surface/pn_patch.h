@@ -77,6 +77,17 @@ struct SecondDerivatives {
 };
 SecondDerivatives evaluate_second(const PnPatch& patch, double u, double v);
 
+/// Along edge k of a patch, f from corner k to corner k + 1: what `evaluate` gives there but for rounding, at a fraction
+/// of its work, since the other corner plays no part.
+struct EdgePoint {
+  Vec3 point, point_f, point_ff;  ///< m
+};
+struct EdgeNormal {
+  Vec3 normal, normal_f;          ///< unit, and its derivative
+};
+EdgePoint evaluate_edge_point(const PnPatch& patch, std::uint32_t edge, double f);
+EdgeNormal evaluate_edge_normal(const PnPatch& patch, std::uint32_t edge, double f);
+
 /// |dN|/|dS| along (du, dv), 1/m (Eq. 2). It has no sign and holds the geodesic torsion too.
 /// Scale-free in (du, dv). 0 where dS vanishes.
 double directional_curvature(const SurfaceSample& s, double du, double dv);

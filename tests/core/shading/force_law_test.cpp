@@ -54,3 +54,23 @@ TEST_CASE("the display maps finger arc to travel linearly, centred and clamped")
           doctest::Approx(std::clamp(0.75 * 0.020 * angle, -6e-3, 6e-3)).epsilon(1e-12));
   }
 }
+
+TEST_CASE("the display is where the whole arc leads, clamped, however far round the finger the contact is") {
+  Random random(12);
+  Finger finger;
+  finger.radius_m = 0.020;
+  for (const double arc_m : {1e-4, 5e-3, 16e-3, 0.0599, 0.0601, 0.1, 0.5}) {
+    const DisplaySettings settings{.finger_arc_m = arc_m, .travel_m = 12e-3};
+    int wrong = 0, stopped = 0;
+    for (int i = 0; i < 2000; ++i) {
+      const FingerPose pose{Vec3(0.0), i % 2 ? random.orientation() : Quat(1.0, 0.0, 0.0, 0.0)};
+      const Vec3 normal = random.direction();
+      const double whole = contact_arc_m(finger, pose, normal) * (settings.travel_m / settings.finger_arc_m);
+      const double position = display_position(settings, finger, pose, normal);
+      wrong += position != std::clamp(whole, -0.5 * settings.travel_m, 0.5 * settings.travel_m);
+      stopped += std::abs(position) == 0.5 * settings.travel_m;
+    }
+    CHECK(wrong == 0);
+    CHECK((stopped > 0) == (arc_m < 0.04 * 3.14));
+  }
+}

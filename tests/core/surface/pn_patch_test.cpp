@@ -218,3 +218,23 @@ TEST_CASE("a normal polynomial that vanishes falls back to the flat normal witho
       CHECK(glm::length(s.normal) == doctest::Approx(1.0));
     }
 }
+
+TEST_CASE("along an edge the short evaluation gives what the patch gives there, with either form of the normal") {
+  for (const NormalForm form : {NormalForm::bernstein, NormalForm::vlachos}) {
+    const PnPatch patch = make_pn_patch(some_positions(), some_normals(), form);
+    for (std::uint32_t k = 0; k < 3; ++k)
+      for (const double f : {0.0, 0.1, 0.37, 0.5, 0.92, 1.0}) {
+        const double u = k == 0 ? f : k == 1 ? 1.0 - f : 0.0, v = k == 0 ? 0.0 : k == 1 ? f : 1.0 - f;
+        const double du = k == 0 ? 1.0 : k == 1 ? -1.0 : 0.0, dv = k == 0 ? 0.0 : k == 1 ? 1.0 : -1.0;
+        const SurfaceSample s = evaluate(patch, u, v);
+        const SecondDerivatives d = evaluate_second(patch, u, v);
+        const EdgePoint p = evaluate_edge_point(patch, k, f);
+        const EdgeNormal n = evaluate_edge_normal(patch, k, f);
+        CHECK(glm::length(p.point - s.point) <= 1e-16);
+        CHECK(glm::length(p.point_f - (du * s.point_u + dv * s.point_v)) <= 1e-16);
+        CHECK(glm::length(p.point_ff - (du * du * d.point_uu + 2.0 * du * dv * d.point_uv + dv * dv * d.point_vv)) <= 1e-15);
+        CHECK(glm::length(n.normal - s.normal) <= 1e-15);
+        CHECK(glm::length(n.normal_f - (du * s.normal_u + dv * s.normal_v)) <= 1e-14);
+      }
+  }
+}
