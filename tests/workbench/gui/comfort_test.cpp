@@ -135,6 +135,8 @@ TEST_CASE("F1 shows all keys on a sheet, and every command can be run") {
   ui.frame();
   CHECK(ui.app().items().find("shortcuts") == nullptr);
   CHECK_FALSE(ui.model().stopped());
+  const testing::TempFolder folder;
+  ui.model().set_export_folder(folder.path());
   MenuBar menu;
   std::set<std::string> names;
   for (const Command& command : window_commands(ui.model(), menu)) {

@@ -90,7 +90,7 @@ void draw_transport_bar(const UiContext& ui, AppModel& model, const Rect& rect) 
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted(which.c_str());
   ImGui::SameLine();
-  ImGui::SetCursorPosX(which_x + 6.0f * ImGui::CalcTextSize("0").x);
+  ImGui::SetCursorPosX(which_x + 6.0f * ImGui::CalcTextSize("0").x + ui.px(4));
   ImGui::PopFont();
   if (icon_button(ui, "transport/iteration_on", Icon::next, "One iteration on (full stop)", false, any)) model.step_iteration(1);
 
