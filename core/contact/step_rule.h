@@ -71,10 +71,11 @@ inline ParameterStep robust_face_step(const SurfaceSample& s, const ContactJacob
   if (!(stability.det > kNewtonMinDet && stability.trace > 0.0)) return damped_step(s, c);
   ParameterStep step = newton_step(s, j, c);
   if (!step.valid) return damped_step(s, c);
+  if (std::max(std::abs(step.da), std::abs(step.db)) <= kShortStep) return step;
   const Vec3 ds = step.da * s.point_u + step.db * s.point_v;
   const double limit2 = kLongestStepPerTravel * kLongestStepPerTravel * c.error_m * c.error_m;
   const double length2 = glm::dot(ds, ds);
-  if (length2 > limit2 && std::max(std::abs(step.da), std::abs(step.db)) > kShortStep) {
+  if (length2 > limit2) {
     const double shorter = std::sqrt(limit2 / length2);
     step.da *= shorter;
     step.db *= shorter;
