@@ -181,8 +181,11 @@ std::optional<std::filesystem::path> App::take_screenshot_request() { return mod
 
 std::string App::title() const {
   const auto& scene = model_->scene();
-  const std::string mesh = scene != nullptr ? std::filesystem::path(scene->mesh().name()).filename().string() : std::string("no mesh");
-  return mesh + " - " + model_->presets().name() + (model_->presets().changed() ? "*" : "") + " - Tangent Workbench";
+  std::string text = scene != nullptr ? std::filesystem::path(scene->mesh().name()).filename().string() : std::string("no mesh");
+  text += " - " + model_->presets().name() + (model_->presets().changed() ? "*" : "");
+  const ServoRecord* record = model_->tick().record();
+  if (model_->paused() && record != nullptr) text += printed(" - paused at %.3f s", static_cast<double>(record->tick.tick) * model_->tick_period_s());
+  return text + " - Tangent Workbench";
 }
 
 const ItemMap& App::items() const { return ui_->items; }

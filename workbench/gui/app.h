@@ -87,7 +87,7 @@ class App {
 
   bool wants_close() const;    ///< file > quit was chosen
   bool wants_frames() const;   ///< something moves by itself: draw again without waiting for input
-  std::string title() const;   ///< for the window: mesh, preset
+  std::string title() const;   ///< for the window: mesh, preset, time in view while paused
   /// Where the frame just drawn is to be written as a PNG, once for each request; the platform has the pixels.
   std::optional<std::filesystem::path> take_screenshot_request();
 

@@ -126,6 +126,42 @@ TEST_CASE("at 1280 x 720 every section of both columns is one command away: unfo
   CHECK(panels == 16);
 }
 
+TEST_CASE("the window's own keys work while text is typed; letters and editing keys stay with the text") {
+  HeadlessApp ui;
+  ui.app().advance(2000);
+  ui.frames(2);
+  ui.chord('P');
+  ui.type("pause");
+  REQUIRE(ImGui::GetIO().WantTextInput);
+  ui.key(HeadlessApp::kSpace);
+  ui.key('M');
+  CHECK_FALSE(ui.model().paused());
+  CHECK_FALSE(ui.model().view().hand_follows_mouse);
+  ui.key(290);
+  CHECK(ui.app().items().find("shortcuts") != nullptr);
+  CHECK_FALSE(ui.app().wants_close());
+  ui.chord('Q');
+  CHECK(ui.app().wants_close());
+}
+
+TEST_CASE("the title names mesh, preset, changes, and the time in view while it stands") {
+  HeadlessApp ui;
+  ui.app().advance(2000);
+  ui.frames(2);
+  const std::string live = ui.app().title();
+  CHECK(live.find("icosphere") == 0);
+  CHECK(live.find("paused") == std::string::npos);
+  CHECK(live.find('*') == std::string::npos);
+  ui.model().select_tick(1234);
+  ui.frame();
+  CHECK(ui.app().title().find(" - paused at 1.234 s - Tangent Workbench") != std::string::npos);
+  ui.key(HeadlessApp::kLeft);
+  CHECK(ui.app().title().find(" - paused at 1.233 s - ") != std::string::npos);
+  ui.model().go_live();
+  ui.frame();
+  CHECK(ui.app().title() == live);
+}
+
 TEST_CASE("F1 shows all keys on a sheet, and every command can be run") {
   HeadlessApp ui;
   ui.app().advance(2000);

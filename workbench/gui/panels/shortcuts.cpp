@@ -6,27 +6,44 @@
 
 namespace tangent {
 
-void handle_shortcuts(AppModel& model, MenuBar& menu) {
-  const ImGuiIO& io = ImGui::GetIO();
-  if (io.WantTextInput) return;
-  const auto named = [](ImGuiKey key, bool repeat = false) { return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key), repeat); };
-  const auto letter = [](char c, bool repeat = false) { return ImGui::IsKeyPressed(c, repeat); };
-  if (io.KeyCtrl) {
-    if (letter('P')) menu.palette.open = menu.palette.focus = true;
-    if (io.KeyShift && letter('C')) model.copy_camera();
-    if (io.KeyShift && letter('V')) model.paste_camera();
-    if (letter('O')) menu.path.open = menu.path.focus = true;
-    if (letter('Q')) model.ask_to_close();
-    if (letter('=')) model.set_ui_scale(model.ui_scale() * 1.1f);
-    if (letter('-')) model.set_ui_scale(model.ui_scale() / 1.1f);
-    if (letter('0')) model.set_ui_scale(1.0f);
-    if (letter('Z', true)) io.KeyShift ? model.redo() : model.undo();
-    if (letter('Y', true)) model.redo();
-    return;
-  }
-  constexpr int kF1 = 290, kF12 = 301;  // GLFW's codes
+namespace {
+
+constexpr int kF1 = 290, kF12 = 301;  // GLFW's codes
+
+bool letter(char c, bool repeat = false) { return ImGui::IsKeyPressed(c, repeat); }
+
+/// Keys that no text field has a use for: they work while one is typed in, too.
+void handle_window_keys(AppModel& model, MenuBar& menu) {
+  const bool ctrl = ImGui::GetIO().KeyCtrl;
+  if (ctrl && letter('Q')) model.ask_to_close();
+  if (ctrl && letter('P')) menu.palette.open = menu.palette.focus = true;
+  if (ctrl && letter('O')) menu.path.open = menu.path.focus = true;
   if (ImGui::IsKeyPressed(kF1, false)) menu.sheet = !menu.sheet;
   if (ImGui::IsKeyPressed(kF12, false)) model.ask_for_screenshot();
+}
+
+void handle_ctrl_keys(AppModel& model) {
+  const bool shift = ImGui::GetIO().KeyShift;
+  if (shift && letter('C')) model.copy_camera();
+  if (shift && letter('V')) model.paste_camera();
+  if (letter('=')) model.set_ui_scale(model.ui_scale() * 1.1f);
+  if (letter('-')) model.set_ui_scale(model.ui_scale() / 1.1f);
+  if (letter('0')) model.set_ui_scale(1.0f);
+  if (letter('Z', true)) shift ? model.redo() : model.undo();
+  if (letter('Y', true)) model.redo();
+}
+
+}  // namespace
+
+void handle_shortcuts(AppModel& model, MenuBar& menu) {
+  const ImGuiIO& io = ImGui::GetIO();
+  handle_window_keys(model, menu);
+  if (io.WantTextInput) return;
+  if (io.KeyCtrl) {
+    handle_ctrl_keys(model);
+    return;
+  }
+  const auto named = [](ImGuiKey key, bool repeat = false) { return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key), repeat); };
   constexpr std::array kViewKeys{std::pair('1', StandardView::front), std::pair('2', StandardView::back), std::pair('3', StandardView::left),
                                  std::pair('4', StandardView::right), std::pair('5', StandardView::top), std::pair('6', StandardView::bottom),
                                  std::pair('0', StandardView::corner)};

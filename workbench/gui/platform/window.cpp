@@ -1,7 +1,7 @@
 #include "workbench/gui/platform/window.h"
 
 #include "workbench/gui/app_model.h"
-#include "workbench/gui/platform/key_taps.h"
+#include "workbench/gui/platform/input_queue.h"
 #include "workbench/gui/platform/save_picture.h"
 #include "workbench/gui/render/image.h"
 #include "workbench/gui/render/scene_renderer.h"
@@ -59,7 +59,7 @@ class ImGuiOnWindow {
   explicit ImGuiOnWindow(GLFWwindow* window) {
     ImGui::CreateContext();
     ImGui::GetIO().IniFilename = nullptr;
-    ImGui_ImplGlfw_InitForOpenGL(window, true);
+    ImGui_ImplGlfw_InitForOpenGL(window, false);  // events come through our queue
     ImGui_ImplOpenGL3_Init("#version 330 core");
   }
   ~ImGuiOnWindow() {
@@ -104,20 +104,14 @@ FrameInput frame_input(GLFWwindow* window, double dt_s, std::vector<std::string>
   return input;
 }
 
-bool key_down(GLFWwindow* window, int left, int right) {
-  return glfwGetKey(window, left) == GLFW_PRESS || glfwGetKey(window, right) == GLFW_PRESS;
-}
-
-void draw_frame(GLFWwindow* window, App& app, const FrameInput& input, KeyTaps& taps) {
+void draw_frame(GLFWwindow* window, App& app, const FrameInput& input, InputQueue& events) {
   if (app.prepare(input)) {
     ImGui_ImplOpenGL3_DestroyFontsTexture();
     ImGui_ImplOpenGL3_CreateFontsTexture();
   }
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
-  taps.apply(ImGui::GetIO(), {key_down(window, GLFW_KEY_LEFT_CONTROL, GLFW_KEY_RIGHT_CONTROL),
-                              key_down(window, GLFW_KEY_LEFT_SHIFT, GLFW_KEY_RIGHT_SHIFT),
-                              key_down(window, GLFW_KEY_LEFT_ALT, GLFW_KEY_RIGHT_ALT)});
+  events.apply(ImGui::GetIO());
   app.frame(input);
   int width_px = 0, height_px = 0;
   glfwGetFramebufferSize(window, &width_px, &height_px);
@@ -144,13 +138,7 @@ class FrameLoop {
       auto& self = *static_cast<FrameLoop*>(glfwGetWindowUserPointer(w));
       self.dropped_.insert(self.dropped_.end(), paths, paths + count);
     });
-    // ImGui's own callback goes first.
-    imgui_keys_ = glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int scancode, int action, int mods) {
-      auto& self = *static_cast<FrameLoop*>(glfwGetWindowUserPointer(w));
-      if (self.imgui_keys_ != nullptr) self.imgui_keys_(w, key, scancode, action, mods);
-      if (action != GLFW_PRESS) return;
-      self.taps_.pressed(key, {(mods & GLFW_MOD_CONTROL) != 0, (mods & GLFW_MOD_SHIFT) != 0, (mods & GLFW_MOD_ALT) != 0});
-    });
+    listen();
   }
 
   void run(const std::function<bool()>& should_stop) {
@@ -159,16 +147,37 @@ class FrameLoop {
       wait_for_work(last);
       const double now = glfwGetTime();
       check_shaders(now);
-      draw_frame(window_, app_, frame_input(window_, now - last, std::exchange(dropped_, {})), taps_);
+      draw_frame(window_, app_, frame_input(window_, now - last, std::exchange(dropped_, {})), events_);
       if (std::string title = app_.title(); title != title_) glfwSetWindowTitle(window_, (title_ = title).c_str());
       last = now;
     }
   }
 
  private:
+  static InputQueue& events(GLFWwindow* window) { return static_cast<FrameLoop*>(glfwGetWindowUserPointer(window))->events_; }
+
+  void listen() {
+    glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int, int action, int) {
+      if (action != GLFW_REPEAT) events(w).key(key, action == GLFW_PRESS);  // ImGui repeats by itself
+    });
+    glfwSetCharCallback(window_, [](GLFWwindow* w, unsigned int code_point) { events(w).character(code_point); });
+    glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int button, int action, int) { events(w).button(button, action == GLFW_PRESS); });
+    glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double x, double y) { events(w).position(static_cast<float>(x), static_cast<float>(y)); });
+    glfwSetCursorEnterCallback(window_, [](GLFWwindow* w, int entered) {
+      if (entered == GLFW_FALSE) events(w).pointer_left();
+    });
+    glfwSetScrollCallback(window_, [](GLFWwindow* w, double x, double y) { events(w).wheel(static_cast<float>(x), static_cast<float>(y)); });
+    glfwSetWindowFocusCallback(window_, [](GLFWwindow*, int focused) { ImGui::GetIO().AddFocusEvent(focused == GLFW_TRUE); });
+    if (glfwGetWindowAttrib(window_, GLFW_HOVERED) == GLFW_TRUE) {  // where it is before it first moves
+      double x = 0.0, y = 0.0;
+      glfwGetCursorPos(window_, &x, &y);
+      events_.position(static_cast<float>(x), static_cast<float>(y));
+    }
+  }
+
   void wait_for_work(double last_frame_s) {
     const bool hidden = glfwGetWindowAttrib(window_, GLFW_ICONIFIED) == GLFW_TRUE;
-    const bool lively = !hidden && (app_.wants_frames() || renderer_.refining() || taps_.waiting() || settling_ > 0);
+    const bool lively = !hidden && (app_.wants_frames() || renderer_.refining() || events_.waiting() || settling_ > 0);
     const double due = last_frame_s + (lively ? kFrameInterval : kIdleInterval);
     if (settling_ > 0) --settling_;
     glfwPollEvents();
@@ -195,8 +204,7 @@ class FrameLoop {
   App& app_;
   SceneRenderer& renderer_;
   std::vector<std::string> dropped_;
-  KeyTaps taps_;
-  GLFWkeyfun imgui_keys_ = nullptr;
+  InputQueue events_;
   std::string title_, shader_error_;
   double next_shader_check_ = 0.0;
   int settling_ = kSettlingFrames;

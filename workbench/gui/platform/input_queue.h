@@ -1,0 +1,51 @@
+// What a hand does between two frames, in its order. ImGui 1.86 has no event queue: it looks at which keys and buttons
+// are down and where the pointer is when a frame begins. In a slow frame a quick tap, a second tap of the same key, or a
+// click followed by a move would be lost or misplaced. Here events wait until a frame can show each of them.
+#pragma once
+
+#include <imgui.h>
+
+#include <array>
+#include <cfloat>
+#include <deque>
+
+namespace tangent {
+
+/// Codes of keys and buttons are GLFW's; positions are window coordinates.
+class InputQueue {
+ public:
+  void key(int code, bool down);
+  void character(unsigned int code_point);
+  void button(int index, bool down);
+  void position(float x, float y);
+  void pointer_left();  ///< the window; a drag goes on outside
+  void wheel(float x, float y);
+
+  /// Before ImGui::NewFrame, after the back end wrote `io`: as many events as one frame can show apart. What follows
+  /// waits for the next: a second change of a key, a press after another press or after text, a change of Ctrl, Shift or
+  /// Alt after a press, a move after a click.
+  void apply(ImGuiIO& io);
+  bool waiting() const { return !events_.empty(); }  ///< something is left for the next frame
+
+ private:
+  enum class Kind { key, character, button, position, wheel };
+  struct Event {
+    Kind kind;
+    int code = 0;
+    bool down = false;
+    ImVec2 at{};
+    bool modifier() const;
+  };
+  struct Shown;  ///< what this frame shows already
+
+  static bool fits(const Event& event, const Shown& shown, const ImGuiIO& io);
+  void show(const Event& event, Shown& shown, ImGuiIO& io);
+
+  std::deque<Event> events_;
+  unsigned int held_ = 0;  ///< buttons that are down after all of `events_`, a bit each
+  // The back end writes the pointer's latest state into `io` at every frame; here is the state in the events' order.
+  ImVec2 pointer_{-FLT_MAX, -FLT_MAX};
+  std::array<bool, 5> buttons_{};
+};
+
+}  // namespace tangent
