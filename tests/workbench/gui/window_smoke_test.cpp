@@ -1,13 +1,11 @@
-// The real window under Xvfb, driven with xdotool: opened with a mesh and a preset, a gain typed, paused, stepped, a
-// preset saved, closed. Where to click is asked of the same layout built without a window.
+// The real window, from its opening to its close: what only a window, its events and its files can show.
 #include "headless_app.h"
+#include "real_window.h"
 
 #include "workbench/session/preset_file.h"
 #include "workbench/session/window_settings.h"
 
 #include <algorithm>
-#include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -15,81 +13,41 @@
 #include <vector>
 
 using namespace tangent;
-using tangent::test::HeadlessApp;
+using namespace tangent::test;
 
 namespace {
 
-constexpr int kWidth = 1600, kHeight = 1560;
+constexpr int kTall = 1560;  // so that every section is in view
 
-bool there_is(const char* program) {
-  return std::system((std::string("command -v ") + program + " >/dev/null 2>&1").c_str()) == 0;
-}
-
-class Script {
+/// A script that knows where things are.
+class Script : public WindowScript {
  public:
-  explicit Script(HeadlessApp& layout) : layout_(layout) {}
-  void line(const std::string& text) { text_ += text + "\n"; }
-  void click(const char* path) {
-    const ImVec2 at = layout_.centre(path);
-    char text[160];
-    std::snprintf(text, sizeof text, "xdotool mousemove %.0f %.0f sleep 0.8 mousedown 1 sleep 0.4 mouseup 1 sleep 1",
-                  static_cast<double>(at.x), static_cast<double>(at.y));
-    line(text);
+  Script(int width, int height, AppOptions options = HeadlessApp::deterministic_options())
+      : layout_(std::move(options), static_cast<float>(width), static_cast<float>(height)) {
+    layout_.app().advance(200);
+    layout_.frames(3);
   }
-  const std::string& text() const { return text_; }
+  Script& press(const char* path) {
+    const ImVec2 at = layout_.centre(path);
+    click(at.x, at.y);
+    return *this;
+  }
+  HeadlessApp& layout() { return layout_; }
 
  private:
-  HeadlessApp& layout_;
-  std::string text_;
+  HeadlessApp layout_;
 };
 
-/// Starts the program on a display of its own, sends it `commands`, and gives the exit status of it all. `folder`: where it runs
-/// and keeps its settings.
-int drive(const std::filesystem::path& folder, const std::string& arguments, const std::string& commands) {
-  const auto file = folder / "drive.sh", display = folder / "display";
-  std::filesystem::remove(display);
-  std::ofstream(file) <<
-      "#!/bin/sh\n"
-      "cd " << folder.string() << "\n"
-      "export XDG_CONFIG_HOME=" << folder.string() << "/config\n"
-      "exec 3>" << display.string() << "\n"
-      "Xvfb -displayfd 3 -screen 0 " << kWidth << "x" << kHeight << "x24 >/dev/null 2>&1 & xvfb=$!\n"
-      "trap 'kill $xvfb 2>/dev/null; wait $xvfb 2>/dev/null' EXIT\n"
-      "for i in $(seq 100); do test -s " << display.string() << " && break; sleep 0.1; done\n"
-      "export DISPLAY=:$(cat " << display.string() << ")\n"
-      // The GL driver leaks from a module that is unloaded by the time leaks are looked for; ours are found elsewhere.
-      << "ASAN_OPTIONS=\"$ASAN_OPTIONS:detect_leaks=0\" " << TANGENT_PROGRAM << " gui " << arguments << " > " << (folder / "log").string() << " 2>&1 & program=$!\n"
-      "for i in $(seq 300); do window=$(xdotool search --name 'Tangent Workbench' 2>/dev/null | head -1); test -n \"$window\" && break; sleep 0.1; done\n"
-      "test -n \"$window\" || exit 3\n"
-      "xdotool windowmove $window 0 0 windowsize $window " << kWidth << " " << kHeight << "\n"
-      "sleep 3\n" << commands <<
-      "xdotool key ctrl+q\n"
-      "for i in $(seq 200); do kill -0 $program 2>/dev/null || break; sleep 0.1; done\n"
-      "kill -0 $program 2>/dev/null && { kill -9 $program; exit 4; }\n"
-      "wait $program\n";
-  const int status = std::system(("sh " + file.string()).c_str());
-  std::ifstream log(folder / "log");
-  INFO(std::string(std::istreambuf_iterator<char>(log), {}));
-  CHECK(status == 0);
-  return status;
+std::filesystem::path settings_in(const std::filesystem::path& folder) { return folder / "config" / "tangent-workbench" / "window.toml"; }
+
+void write_tetrahedron(const std::filesystem::path& file) {
+  std::ofstream(file) << "v 0 0 0\nv 60 0 0\nv 0 60 0\nv 0 0 60\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
 }
 
-/// Waits for a file, in the script.
-std::string until_there(const std::string& pattern) {
-  return "for i in $(seq 200); do ls " + pattern + " >/dev/null 2>&1 && break; sleep 0.1; done\n";
-}
-
-std::filesystem::path fresh_folder(const char* name) {
-  const auto folder = std::filesystem::temp_directory_path() / name;
-  std::filesystem::remove_all(folder);
-  std::filesystem::create_directories(folder);
-  return folder;
-}
-
-#define REQUIRE_DISPLAY()                                           \
-  if (!there_is("Xvfb") || !there_is("xdotool")) {                  \
-    MESSAGE("skipped: Xvfb and xdotool are not installed");         \
-    return;                                                         \
+#define REQUIRE_DISPLAY()                                    \
+  if (!can_drive_windows()) {                                \
+    MESSAGE("skipped: Xvfb and xdotool are not installed");  \
+    return;                                                  \
   }
 
 }  // namespace
@@ -99,25 +57,16 @@ TEST_CASE("the real window opens a mesh, takes a typed gain, pauses, steps, save
   const auto folder = fresh_folder("tangent_window_smoke");
   const auto preset = folder / "start.toml", saved = folder / "typed.toml", mesh = folder / "tetra.obj";
   std::ofstream(preset) << "[solver]\ngain_overall = 0.9\n";
-  std::ofstream(mesh) << "v 0 0 0\nv 60 0 0\nv 0 60 0\nv 0 0 60\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
-
-  std::string commands;
-  {
-    AppOptions options = HeadlessApp::deterministic_options();
-    options.mesh = mesh.string();
-    options.preset = preset;
-    HeadlessApp layout(options, static_cast<float>(kWidth), static_cast<float>(kHeight));
-    Script script(layout);
-    script.click("solver/gain_overall");
-    script.line("xdotool type --delay 250 0.625; sleep 1; xdotool key Return; sleep 1");
-    script.click("transport/pause");
-    script.click("transport/step_back");
-    script.line("xdotool key Left sleep 0.3 key period sleep 0.3");
-    script.click("presets/name");
-    script.line("xdotool type --delay 250 typed; sleep 1; xdotool key Return; sleep 1");
-    commands = script.text();
-  }
-  drive(folder, mesh.string() + " --preset " + preset.string(), commands + until_there(saved.string()));
+  write_tetrahedron(mesh);
+  AppOptions options = HeadlessApp::deterministic_options();
+  options.mesh = mesh.string();
+  options.preset = preset;
+  Script script(1600, kTall, options);
+  script.press("solver/gain_overall").type("0.625").keys("Return").until_title("start[*] - Tangent");
+  script.press("transport/pause").until_title("paused at");
+  script.press("transport/step_back").keys("Left period");
+  script.press("presets/name").type("typed").keys("Return").until_title("tetra.obj - typed - ");
+  drive({.folder = folder, .arguments = mesh.string() + " --preset " + preset.string(), .shown = "^tetra.obj - start - ", .width = 1600, .height = kTall}, script);
   const auto written = read_preset(saved);
   REQUIRE(written.has_value());
   CHECK(written->preset.solver.gain_overall == 0.625);
@@ -128,18 +77,11 @@ TEST_CASE("the real window opens a mesh, takes a typed gain, pauses, steps, save
 TEST_CASE("the real window writes a screenshot on F12, and keeps layout and recent files between runs") {
   REQUIRE_DISPLAY();
   const auto folder = fresh_folder("tangent_window_smoke_kept");
-  std::string commands;
-  {
-    HeadlessApp layout(HeadlessApp::deterministic_options(), static_cast<float>(kWidth), static_cast<float>(kHeight));
-    const ImVec2 at = layout.centre("splitter/left");
-    char text[200];
-    std::snprintf(text, sizeof text, "xdotool mousemove %.0f %.0f sleep 0.8 mousedown 1 sleep 0.4 mousemove_relative 60 0 sleep 0.6 mouseup 1 sleep 1\n",
-                  static_cast<double>(at.x), static_cast<double>(at.y));
-    commands = text;
-  }
-  commands += "xdotool key F12\n" + until_there("tangent-workbench-*.png");
-  drive(folder, "icosphere", commands);
-  const auto kept = read_window_settings(folder / "config" / "tangent-workbench" / "window.toml");
+  Script script(1000, 700);
+  const ImVec2 at = script.layout().centre("splitter/left");
+  script.drag(at.x, at.y, 60.0f, 0.0f).keys("F12").until_there("tangent-workbench-*.png");
+  drive({.folder = folder, .arguments = "icosphere"}, script);
+  const auto kept = read_window_settings(settings_in(folder));
   REQUIRE(kept.has_value());
   CHECK(kept->left > WindowSettings{}.left + 20.0);
   CHECK(kept->recent_meshes == std::vector<std::string>{"icosphere"});
@@ -150,50 +92,146 @@ TEST_CASE("the real window writes a screenshot on F12, and keeps layout and rece
     CHECK(std::filesystem::file_size(entry.path()) > 20'000);
   }
   CHECK(pictures == 1);
+  // The second run starts from what the first left, and leaves it alone.
+  drive({.folder = folder, .arguments = "torus", .shown = "^torus"}, WindowScript{});
+  const auto again = read_window_settings(settings_in(folder));
+  REQUIRE(again.has_value());
+  CHECK(again->left == kept->left);
+  CHECK(again->recent_meshes == std::vector<std::string>{"torus", "icosphere"});
 }
 
 TEST_CASE("the real window's command palette finds a command by some of its letters") {
   REQUIRE_DISPLAY();
   const auto folder = fresh_folder("tangent_window_smoke_palette");
-  drive(folder, "icosphere",
-        "xdotool key ctrl+p sleep 1\nxdotool type --delay 250 'window light'\nsleep 1\nxdotool key Return sleep 3\n");
-  const auto kept = read_window_settings(folder / "config" / "tangent-workbench" / "window.toml");
+  WindowScript script;
+  script.keys("ctrl+p").type("window light").keys("Return");
+  script.keys("ctrl+p").type("time pause").keys("Return").until_title("paused at");
+  drive({.folder = folder, .arguments = "icosphere"}, script);
+  const auto kept = read_window_settings(settings_in(folder));
   REQUIRE(kept.has_value());
   CHECK(kept->light_theme);
+}
+
+TEST_CASE("the real window closes on Ctrl-Q while a command is being typed") {
+  REQUIRE_DISPLAY();
+  const auto folder = fresh_folder("tangent_window_smoke_close");
+  drive({.folder = folder, .arguments = "icosphere"}, WindowScript{}.keys("ctrl+p").type("window li"));
+  const auto kept = read_window_settings(settings_in(folder));
+  REQUIRE(kept.has_value());
+  CHECK_FALSE(kept->light_theme);
+}
+
+TEST_CASE("the real window takes every tap of a key, however quick") {
+  REQUIRE_DISPLAY();
+  const auto folder = fresh_folder("tangent_window_smoke_taps");
+  WindowScript script;
+  script.keys("space").until_title("paused at").line("xdotool key --delay 2 Home").until_title("paused at 0.00. s");
+  script.line("xdotool key --delay 2" + [] {
+    std::string rights;
+    for (int i = 0; i < 25; ++i) rights += " Right";
+    return rights;
+  }());
+  script.until_title("paused at 0.02[5-9] s").keys("shift+Right").until_title("paused at 0.03[5-9] s").keys("Left Left").until_title("paused at 0.03[3-7] s");
+  drive({.folder = folder, .arguments = "icosphere"}, script);
+}
+
+TEST_CASE("the real window undoes and redoes a typed gain, and switches between A and B") {
+  REQUIRE_DISPLAY();
+  const auto folder = fresh_folder("tangent_window_smoke_undo");
+  Script script(1600, kTall);
+  script.press("solver/gain_overall").type("0.75").keys("Return").until_title("[*] - Tangent");
+  script.keys("ctrl+z").until_title("[^*] - Tangent").keys("ctrl+y").until_title("[*] - Tangent");
+  script.keys("b").until_title("[^*] - Tangent").keys("b").until_title("[*] - Tangent");
+  // Typed and thrown away: nothing is changed on the way.
+  script.keys("ctrl+z ctrl+z ctrl+z").until_title("[^*] - Tangent");
+  script.press("solver/gain_overall").type("1345").keys("Escape").line("sleep 1").until_title("[^*] - Tangent");
+  drive({.folder = folder, .arguments = "icosphere", .width = 1600, .height = kTall}, script);
+}
+
+TEST_CASE("the real window slides a gain by dragging, and undoes the drag as one") {
+  REQUIRE_DISPLAY();
+  const auto folder = fresh_folder("tangent_window_smoke_slide");
+  Script script(1600, kTall);
+  const ImVec2 at = script.layout().centre("solver/gain_overall");
+  script.drag(at.x, at.y, 25.0f, 0.0f).until_title("[*] - Tangent").keys("ctrl+z").until_title("[^*] - Tangent");
+  drive({.folder = folder, .arguments = "icosphere", .width = 1600, .height = kTall}, script);
+}
+
+TEST_CASE("the real window opens a mesh by its typed path, and says what is wrong with one that it can't read") {
+  REQUIRE_DISPLAY();
+  const auto folder = fresh_folder("tangent_window_smoke_path");
+  write_tetrahedron(folder / "tetra.obj");
+  std::ofstream(folder / "rubbish.obj") << "v 1 2\nf 1 2 3\n";
+  WindowScript script;
+  script.keys("ctrl+o").type((folder / "rubbish.obj").string()).keys("Return").line("sleep 1").keys("space").until_title("^icosphere.* - paused at");
+  script.keys("ctrl+o").type((folder / "tetra.obj").string()).keys("Return").until_title("^tetra.obj - ");
+  drive({.folder = folder, .arguments = "icosphere"}, script);
+  const auto kept = read_window_settings(settings_in(folder));
+  REQUIRE(kept.has_value());
+  REQUIRE_FALSE(kept->recent_meshes.empty());
+  CHECK(kept->recent_meshes.front().ends_with("tetra.obj"));
+  CHECK(std::none_of(kept->recent_meshes.begin(), kept->recent_meshes.end(), [](const std::string& m) { return m.ends_with("rubbish.obj"); }));
+}
+
+TEST_CASE("the real window closes by its menu") {
+  REQUIRE_DISPLAY();
+  const auto folder = fresh_folder("tangent_window_smoke_menu");
+  Script script(1000, 700);
+  script.press("menu/file");
+  script.layout().click("menu/file");
+  script.layout().frames(2);
+  script.press("menu/file/quit");
+  drive({.folder = folder, .arguments = "icosphere", .quit = false}, script);
+  CHECK(read_window_settings(settings_in(folder)).has_value());
+}
+
+TEST_CASE("the real window lives through any size, and turns of the wheel everywhere") {
+  REQUIRE_DISPLAY();
+  const auto folder = fresh_folder("tangent_window_smoke_sizes");
+  WindowScript script;
+  for (const char* size : {"640 400", "900 420", "1000 700"}) {
+    script.line(std::string("xdotool windowsize $window ") + size + " sleep 0.5");
+    for (const float x : {60.0f, 320.0f, 600.0f}) script.wheel(x, 200.0f, 3).wheel(x, 390.0f, -3);
+  }
+  script.keys("space").until_title("paused at");
+  drive({.folder = folder, .arguments = "icosphere"}, script);
+}
+
+TEST_CASE("the real window ends on a signal as on Ctrl-Q, and keeps its settings") {
+  REQUIRE_DISPLAY();
+  const auto folder = fresh_folder("tangent_window_smoke_signal");
+  drive({.folder = folder, .arguments = "icosphere", .quit = false}, WindowScript{}.keys("space").until_title("paused at").line("kill -TERM $program"));
+  const auto kept = read_window_settings(settings_in(folder));
+  REQUIRE(kept.has_value());
+  CHECK(kept->recent_meshes == std::vector<std::string>{"icosphere"});
+}
+
+TEST_CASE("the real window shows a polygon of the plane, and the device monitor in place of the view") {
+  REQUIRE_DISPLAY();
+  const auto folder = fresh_folder("tangent_window_smoke_planar");
+  std::ofstream(folder / "outline.csv") << "x_m,y_m\n0,0\n0.05,0\n0.06,0.03\n0.03,0.05\n0,0.04\n";
+  WindowScript script;
+  script.keys("ctrl+p").type("monitor").keys("Return").line("sleep 0.5").keys("ctrl+p").type("monitor").keys("Return");
+  script.keys("space").until_title("^outline.csv - .* - paused at").keys("k F12").until_there("tangent-workbench-*.png");
+  drive({.folder = folder, .arguments = "outline.csv", .shown = "^outline.csv"}, script);
 }
 
 TEST_CASE("the real window steps and scrubs in time, and writes what it shows") {
   REQUIRE_DISPLAY();
   const auto folder = fresh_folder("tangent_window_time");
-  std::string commands;
-  {
-    HeadlessApp layout(HeadlessApp::deterministic_options(), static_cast<float>(kWidth), static_cast<float>(kHeight));
-    layout.app().advance(200);
-    layout.frames(3);
-    Script script(layout);
-    script.click("transport/pause");
-    script.click("plots/cursor_a");
-    // Five back by key, one by button: A to B is then six ticks and their ends.
-    script.line("for i in 1 2 3 4 5; do xdotool key Left sleep 0.8; done");
-    script.click("transport/step_back");
-    script.click("plots/cursor_b");
-    script.click("plots/csv");
-    script.line("xdotool key k sleep 0.5");
-    // Scrubbed back to the first ticks, cursor B set anew: far more lie between.
-    const ItemRect strip = *layout.app().items().find("transport/strip");
-    char scrub[200];
-    std::snprintf(scrub, sizeof scrub, "xdotool mousemove %.0f %.0f sleep 0.8 mousedown 1 sleep 0.5 mousemove %.0f %.0f sleep 0.5 mouseup 1 sleep 1",
-                  static_cast<double>(strip.min.x + 20.0f), static_cast<double>(strip.centre().y), static_cast<double>(strip.min.x + 3.0f),
-                  static_cast<double>(strip.centre().y));
-    script.line(scrub);
-    script.click("plots/cursor_b");
-    script.click("plots/cursor_b");
-    script.click("plots/csv");
-    script.click("plots/png");
-    commands = script.text();
-  }
-  drive(folder, "icosphere", commands + until_there((folder / "plots.png").string()));
-  CHECK(std::filesystem::exists(folder / "plots.png"));
+  Script script(1600, kTall);
+  script.line("sleep 2");  // some history to scrub in
+  script.press("transport/pause").until_title("paused at");
+  script.press("plots/cursor_a");
+  // Five back by key, one by button: A to B is then six ticks and their ends.
+  script.keys("Left Left Left Left Left");
+  script.press("transport/step_back").press("plots/cursor_b").press("plots/csv").until_there("*.csv");
+  script.keys("k");
+  // Scrubbed back to the first ticks, cursor B set anew: far more lie between.
+  const ItemRect strip = *script.layout().app().items().find("transport/strip");
+  script.drag(strip.min.x + 20.0f, strip.centre().y, -17.0f, 0.0f).until_title("paused at 0[.]");
+  script.press("plots/cursor_b").press("plots/cursor_b").press("plots/csv").press("plots/png").until_there("plots.png");
+  drive({.folder = folder, .arguments = "icosphere", .width = 1600, .height = kTall}, script);
   std::vector<std::ptrdiff_t> lines;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     if (entry.path().extension() != ".csv") continue;
