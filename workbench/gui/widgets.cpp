@@ -105,13 +105,16 @@ bool section(const UiContext& ui, const char* title, bool open_at_first) {
   return open;
 }
 
+void edit_next(const char* label) { GImGui->NavActivateInputId = ImGui::GetID(label); }
+
+bool text_is_edited() { return GImGui->ActiveId != 0 && GImGui->ActiveId == GImGui->InputTextState.ID; }
+
 std::optional<std::string> number_box(const UiContext& ui, std::string_view path, float width, const std::string& text,
                                       bool focus) {
   std::string edited = text;
   ImGui::SetNextItemWidth(width);
   ImGui::PushFont(ui.fonts.number);
-  // SetKeyboardFocusHere would take two more frames, and what is typed meanwhile would be lost.
-  if (focus) GImGui->NavActivateInputId = ImGui::GetID(id_of(path).c_str());
+  if (focus) edit_next(id_of(path).c_str());
   ImGui::InputText(id_of(path).c_str(), &edited, ImGuiInputTextFlags_AutoSelectAll);
   ImGui::PopFont();
   ui.items.note_last(path);

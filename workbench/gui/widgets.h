@@ -41,6 +41,11 @@ void draw_star(ImDrawList& draw, ImVec2 centre, float radius, ImU32 ink);
 /// A text button that stays pressed.
 bool toggle_button(const UiContext& ui, std::string_view path, const char* text, bool& on, const char* tooltip);
 bool text_button(const UiContext& ui, std::string_view path, const char* text, const char* tooltip);
+/// The input field submitted next under this label takes what is typed from this frame on. (SetKeyboardFocusHere would take
+/// two frames more, and what is typed meanwhile would be lost.)
+void edit_next(const char* label);
+/// A field takes what is typed, at this moment. (io.WantTextInput still says so a frame after Enter.)
+bool text_is_edited();
 /// A combo box. Each choice is noted as path/choice while it is open.
 bool choice_row(const UiContext& ui, std::string_view path, float width, std::span<const std::string_view> choices,
                 int& chosen);

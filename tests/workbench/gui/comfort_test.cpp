@@ -131,7 +131,7 @@ TEST_CASE("the window's own keys work while text is typed; letters and editing k
   ui.app().advance(2000);
   ui.frames(2);
   ui.chord('P');
-  ui.type("pause");
+  ui.type("window: light");
   REQUIRE(ImGui::GetIO().WantTextInput);
   ui.key(HeadlessApp::kSpace);
   ui.key('M');
@@ -142,6 +142,22 @@ TEST_CASE("the window's own keys work while text is typed; letters and editing k
   CHECK_FALSE(ui.app().wants_close());
   ui.chord('Q');
   CHECK(ui.app().wants_close());
+}
+
+TEST_CASE("the key that follows Enter is the window's again, in the very next frame") {
+  HeadlessApp ui;
+  ui.app().advance(2000);
+  ui.frames(2);
+  ui.chord('P');
+  ui.type("window: light");
+  ImGuiIO& io = ImGui::GetIO();
+  io.KeysDown[HeadlessApp::kEnter] = true;
+  ui.frame();
+  CHECK(ui.model().theme() == Theme::light);
+  io.KeysDown[HeadlessApp::kEnter] = false;
+  io.KeysDown[HeadlessApp::kSpace] = true;
+  ui.frame();
+  CHECK(ui.model().paused());
 }
 
 TEST_CASE("the title names mesh, preset, changes, and the time in view while it stands") {

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <cstdio>
 #include <cstdlib>
@@ -31,8 +32,14 @@ until_there() {
   for i in $(seq $patience); do ls $1 >/dev/null 2>&1 && return; sleep 0.1; done
   echo "no $1"; exit 6
 }
-for i in $(seq $patience); do test -s display && break; sleep 0.1; done
-export DISPLAY=:$(cat display)
+# A display number of our own: servers that look for a free one can take each other's socket along when they end.
+number=$((100 + $$ % 20000))
+for try in 1 2 3 4 5; do
+  export DISPLAY=:$number
+  Xvfb $DISPLAY -screen 0 $screen >/dev/null 2>&1 & xvfb=$!
+  for i in $(seq $patience); do kill -0 $xvfb 2>/dev/null || break; xdotool getdisplaygeometry >/dev/null 2>&1 && break 2; sleep 0.1; done
+  number=$((number + 1))
+done
 )";
 
 const char* const kOpening = R"(
@@ -54,7 +61,8 @@ bool can_drive_windows() {
 }
 
 std::filesystem::path fresh_folder(const char* name) {
-  const auto folder = std::filesystem::temp_directory_path() / name;
+  // Two runs of the tests at once must not share it.
+  const auto folder = std::filesystem::temp_directory_path() / (std::string(name) + "_" + std::to_string(getpid()));
   std::filesystem::remove_all(folder);
   std::filesystem::create_directories(folder);
   return folder;
@@ -81,10 +89,9 @@ WindowScript& WindowScript::until_title(const std::string& pattern) { return lin
 WindowScript& WindowScript::until_there(const std::string& pattern) { return line("until_there '" + pattern + "'"); }
 
 void drive(const WindowRun& run, const WindowScript& script) {
-  std::filesystem::remove(run.folder / "display");
   const auto file = run.folder / "drive.sh";
   std::ofstream(file) << "cd " << run.folder.string() << "\nexport XDG_CONFIG_HOME=" << run.folder.string() << "/config\npatience=" << kPatience
-                      << "\nexec 3>display\nXvfb -displayfd 3 -screen 0 " << run.width << "x" << run.height << "x24 >/dev/null 2>&1 & xvfb=$!\n"
+                      << "\nscreen=" << run.width << "x" << run.height << "x24\n"
                       << "trap 'kill $program $xvfb 2>/dev/null; wait $xvfb 2>/dev/null' EXIT\n" << kFunctions
                       // The GL driver leaks from a module that is unloaded by the time leaks are looked for; ours are found elsewhere.
                       << "ASAN_OPTIONS=\"$ASAN_OPTIONS:detect_leaks=0\" " << TANGENT_PROGRAM << " gui " << run.arguments << " >program.log 2>&1 & program=$!\n"

@@ -177,7 +177,7 @@ TEST_CASE("the real window closes by its menu") {
   REQUIRE_DISPLAY();
   const auto folder = fresh_folder("tangent_window_smoke_menu");
   Script script(1000, 700);
-  script.press("menu/file");
+  script.press("menu/file").line("sleep 2");  // a person looks at a menu before choosing
   script.layout().click("menu/file");
   script.layout().frames(2);
   script.press("menu/file/quit");

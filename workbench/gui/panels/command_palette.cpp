@@ -3,7 +3,6 @@
 #include "workbench/gui/panels/commands.h"
 #include "workbench/gui/widgets.h"
 
-#include <imgui_internal.h>
 #include <imgui_stdlib.h>
 
 #include <algorithm>
@@ -62,8 +61,7 @@ void draw_command_palette(const UiContext& ui, AppModel& model, MenuBar& menu, c
   const float height = ui.px(52) + row * static_cast<float>(std::max(last + 1, 1));
   begin_floating(ui, "##command_palette", {over.x + 0.5f * (over.w - width), over.y + ui.px(8)}, {width, height});
   ImGui::SetNextItemWidth(-1.0f);
-  // SetKeyboardFocusHere would take two more frames, and what is typed meanwhile would be lost.
-  if (state.focus) GImGui->NavActivateInputId = ImGui::GetID("##command");
+  if (state.focus) edit_next("##command");
   state.focus = false;
   const std::string before = state.text;
   const bool enter = ImGui::InputTextWithHint("##command", "what to do", &state.text, ImGuiInputTextFlags_EnterReturnsTrue);

@@ -80,9 +80,9 @@ void draw_path_bar(const UiContext& ui, AppModel& model, PathBar& bar, const Rec
                                      ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoNav;
   if (bar.focus) ImGui::SetNextWindowFocus();
   ImGui::Begin("##path_bar", nullptr, flags);
-  ImGui::TextDisabled("Open a mesh (obj, ply, stl, off). Tab completes, Enter opens");
+  ImGui::TextDisabled("Open a mesh (obj, ply, stl, off, or csv of a polygon). Tab completes, Enter opens");
   ImGui::SetNextItemWidth(-1.0f);
-  if (bar.focus) ImGui::SetKeyboardFocusHere();
+  if (bar.focus) edit_next("##path");
   bar.focus = false;
   const bool enter = ImGui::InputText("##path", &bar.text, ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_CallbackCompletion | ImGuiInputTextFlags_AutoSelectAll, complete);
   ui.items.note_last("path_bar/text");

@@ -1,5 +1,6 @@
 // Keys. ImGui 1.86 knows letters and signs by the platform's own codes; GLFW's are their ASCII codes, capital.
 #include "workbench/gui/panels/panels.h"
+#include "workbench/gui/widgets.h"
 
 #include <array>
 #include <utility>
@@ -38,7 +39,7 @@ void handle_ctrl_keys(AppModel& model) {
 void handle_shortcuts(AppModel& model, MenuBar& menu) {
   const ImGuiIO& io = ImGui::GetIO();
   handle_window_keys(model, menu);
-  if (io.WantTextInput) return;
+  if (text_is_edited()) return;
   if (io.KeyCtrl) {
     handle_ctrl_keys(model);
     return;

@@ -16,7 +16,7 @@ bool either(const ImGuiIO& io, int left, int right) { return io.KeysDown[left] |
 struct InputQueue::Shown {
   std::bitset<IM_ARRAYSIZE(ImGuiIO::KeysDown)> keys;  ///< went down or up
   std::bitset<5> buttons;
-  bool press = false, text = false, wheel = false;
+  bool press = false, text = false, wheel = false, moved = false;
 };
 
 bool InputQueue::Event::modifier() const { return kind == Kind::key && code >= kShiftLeft && code <= kSuperRight; }
@@ -52,7 +52,7 @@ bool InputQueue::fits(const Event& event, const Shown& shown, const ImGuiIO& io)
       return !event.down || (!shown.press && !shown.text && shown.buttons.none());
     }
     case Kind::character: return shown.buttons.none();
-    case Kind::button: return !shown.buttons[static_cast<std::size_t>(event.code)] && !shown.press && !shown.text;
+    case Kind::button: return !shown.buttons[static_cast<std::size_t>(event.code)] && !shown.press && !shown.text && !shown.moved;
     case Kind::position: return shown.buttons.none() && !shown.wheel;
     case Kind::wheel: return shown.buttons.none();
   }
@@ -75,7 +75,10 @@ void InputQueue::show(const Event& event, Shown& shown, ImGuiIO& io) {
       buttons_[static_cast<std::size_t>(event.code)] = event.down;
       shown.buttons.set(static_cast<std::size_t>(event.code));
       return;
-    case Kind::position: pointer_ = event.at; return;
+    case Kind::position:
+      pointer_ = event.at;
+      shown.moved = true;
+      return;
     case Kind::wheel:
       io.MouseWheelH += event.at.x;
       io.MouseWheel += event.at.y;

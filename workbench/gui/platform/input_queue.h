@@ -23,7 +23,8 @@ class InputQueue {
 
   /// Before ImGui::NewFrame, after the back end wrote `io`: as many events as one frame can show apart. What follows
   /// waits for the next: a second change of a key, a press after another press or after text, a change of Ctrl, Shift or
-  /// Alt after a press, a move after a click.
+  /// Alt after a press, a move after a click, a button after a move (what is dragged
+  /// follows the moves of the frames in which its button is down).
   void apply(ImGuiIO& io);
   bool waiting() const { return !events_.empty(); }  ///< something is left for the next frame
 

@@ -136,6 +136,23 @@ TEST_CASE("a click followed by a move counts where it was made, and two clicks i
   CHECK(window.clicked == std::vector<std::string>{"left", "right", "right", "left"});
 }
 
+TEST_CASE("a drag that began and ended between two frames is a drag to its end, with the button down") {
+  Window window;
+  ImGuiIO& io = ImGui::GetIO();
+  window.queue.position(350, 250);
+  window.queue.button(0, true);
+  window.queue.position(360, 250);
+  window.queue.position(375, 255);
+  window.queue.button(0, false);
+  float dragged = 0.0f;  // the way to the press is none of it
+  while (window.queue.waiting()) {
+    window.frame();
+    if (io.MouseDown[0]) dragged += io.MouseDelta.x;
+  }
+  CHECK(dragged == 25.0f);
+  CHECK_FALSE(io.MouseDown[0]);
+}
+
 TEST_CASE("moves and turns of the wheel of one poll are one frame's") {
   Window window;
   for (int i = 0; i < 100; ++i) window.queue.position(static_cast<float>(i), 20.0f);
