@@ -106,14 +106,17 @@ void draw_shortcut_sheet(const UiContext& ui, AppModel& model, MenuBar& menu, co
   const auto most_rows = static_cast<std::size_t>(std::max(4.0f, (over.h - ui.px(60)) / row));
   const std::size_t columns = std::clamp<std::size_t>((lines.size() + most_rows - 1) / most_rows, 1, 3);
   const std::size_t rows = (lines.size() + columns - 1) / columns;
-  const float column = ui.px(390);
-  const float width = std::min(column * static_cast<float>(columns) + ui.px(24), over.w - ui.px(16));
+  float column = ui.px(390);
+  for (const auto& line : lines) column = std::max(column, ui.px(152 + 16) + ImGui::CalcTextSize(line.second.c_str()).x);
+  constexpr const char* kNote = "F1 or a click puts this away; Ctrl+P finds every command by name";
+  const float heading = ui.px(90) + ui.fonts.small->CalcTextSizeA(ui.fonts.small->FontSize, 1e9f, 0.0f, kNote).x;
+  const float width = std::min(std::max(column * static_cast<float>(columns), heading) + ui.px(24), over.w - ui.px(16));
   const float height = std::min(row * static_cast<float>(rows) + ui.px(46), over.h - ui.px(8));
   begin_floating(ui, "##shortcuts", {over.x + 0.5f * (over.w - width), over.y + ui.px(6)}, {width, height});
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const ImVec2 at = ImGui::GetCursorScreenPos();
   draw.AddText(ui.fonts.strong, ui.fonts.strong->FontSize, at, ui.colours.text, "Shortcuts");
-  draw.AddText(ui.fonts.small, ui.fonts.small->FontSize, {at.x + ui.px(90), at.y + ui.px(1)}, ui.colours.text_dim, "F1 or a click puts this away; Ctrl+P finds every command by name");
+  draw.AddText(ui.fonts.small, ui.fonts.small->FontSize, {at.x + ui.px(90), at.y + ui.px(1)}, ui.colours.text_dim, kNote);
   const float step = (width - ui.px(24)) / static_cast<float>(columns);
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const float x = at.x + step * static_cast<float>(i / rows), y = at.y + ui.px(28) + row * static_cast<float>(i % rows);
