@@ -33,10 +33,11 @@ until_there() {
   echo "no $1"; exit 6
 }
 # A display number of our own: servers that look for a free one can take each other's socket along when they end.
+# -noreset: else the server starts over when the client that asked whether it is there leaves, and refuses the next.
 number=$((100 + $$ % 20000))
 for try in 1 2 3 4 5; do
   export DISPLAY=:$number
-  Xvfb $DISPLAY -screen 0 $screen >/dev/null 2>&1 & xvfb=$!
+  Xvfb $DISPLAY -noreset -screen 0 $screen >/dev/null 2>&1 & xvfb=$!
   for i in $(seq $patience); do kill -0 $xvfb 2>/dev/null || break; xdotool getdisplaygeometry >/dev/null 2>&1 && break 2; sleep 0.1; done
   number=$((number + 1))
 done
