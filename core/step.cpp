@@ -57,13 +57,6 @@ TickOutput describe_smooth(const TrackResult& r, const Vec3& origin) {
           .triangle_changes = r.triangle_changes};
 }
 
-/// Of the finger since the last tick, world, m/s; only damping asks for it.
-Vec3 finger_velocity(const Preset& preset, const TickInput& input, const TickState& state) {
-  const double dt = input.t_s - state.last_t_s;
-  if (preset.force.damping_n_s_per_m == 0.0 || !state.has_previous || !(dt > 0.0)) return Vec3(0.0);
-  return (input.finger.position - state.last_position) / dt;
-}
-
 }  // namespace
 
 Result<std::shared_ptr<const ContactScene>> ContactScene::build(ContactMesh mesh) {
@@ -127,13 +120,6 @@ static FacetContact find_facet(const ContactScene& scene, const Preset& preset, 
   return facet;
 }
 
-/// What the next tick's velocity needs.
-static void keep_pose(const TickInput& input, TickState& state) {
-  state.last_position = input.finger.position;
-  state.last_t_s = input.t_s;
-  state.has_previous = 1;
-}
-
 /// A tick of a pose that is not finite: what was rendered last, at the last position.
 static TickOutput step_without_pose(const ContactScene& scene, const Preset& preset, double t_s, const TickState& state) {
   const FingerPose last{state.last_position, Quat(1.0, 0.0, 0.0, 0.0)};
@@ -168,8 +154,8 @@ static TickOutput step_facets(const ContactScene& scene, StepCache& cache, const
     const MeshProxySurface surface(mesh, scene.nearest(), preset.solver.tolerance_m);
     step_two_pass(surface, preset, local.position, mesh.origin(), kLeapShare * glm::length(mesh.bounds().size()), state, contacts, out);
   }
-  render(preset, contacts, input.finger, finger_velocity(preset, input, state), out);
-  keep_pose(input, state);
+  render(preset, contacts, input.finger, finger_velocity(preset, input.finger.position, input.t_s, state), out);
+  keep_pose(input.finger.position, input.t_s, state);
   return out;
 }
 
@@ -179,8 +165,8 @@ static TickOutput step_smooth(const ContactScene& scene, StepCache& cache, const
   RenderPlane plane;
   track_smooth(scene, cache, preset, preset.solver, local, input.t_s, state, trace, plane);
   TickOutput out = describe_smooth(cache.smooth, scene.mesh().origin());
-  render(preset, plane, input.finger, finger_velocity(preset, input, state), out);
-  keep_pose(input, state);
+  render(preset, plane, input.finger, finger_velocity(preset, input.finger.position, input.t_s, state), out);
+  keep_pose(input.finger.position, input.t_s, state);
   return out;
 }
 

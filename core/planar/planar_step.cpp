@@ -111,12 +111,8 @@ TickOutput step_planar(const PlanarCurve& curve, const Preset& preset, const Tic
   }
   if (method == Method::two_pass) step_two_pass(surface, preset, centre, origin, kLeapShare * curve.size_m(), state, contacts, out);
 
-  const double dt = input.t_s - state.last_t_s;
-  const Vec3 velocity = state.has_previous && dt > 0.0 ? (pose.position - state.last_position) / dt : Vec3(0.0);
-  render(preset, contacts, pose, velocity, out);
-  state.last_position = pose.position;
-  state.last_t_s = input.t_s;
-  state.has_previous = 1;
+  render(preset, contacts, pose, finger_velocity(preset, pose.position, input.t_s, state), out);
+  keep_pose(pose.position, input.t_s, state);
   return out;
 }
 

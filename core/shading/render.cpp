@@ -98,6 +98,18 @@ void step_two_pass(const ProxySurface& surface, const Preset& preset, const Vec3
   describe_facet(contact.facet, contacts.proxy_force, origin, out);
 }
 
+Vec3 finger_velocity(const Preset& preset, const Vec3& position, double t_s, const TickState& state) {
+  const double dt = t_s - state.last_t_s;
+  if (preset.force.damping_n_s_per_m == 0.0 || !state.has_previous || !(dt > 0.0)) return Vec3(0.0);
+  return (position - state.last_position) / dt;
+}
+
+void keep_pose(const Vec3& position, double t_s, TickState& state) {
+  state.last_position = position;
+  state.last_t_s = t_s;
+  state.has_previous = 1;
+}
+
 void render(const Preset& preset, const TickContacts& contacts, const FingerPose& pose, const Vec3& velocity, TickOutput& out) {
   render_force(preset, force_plane(preset, contacts), velocity, out);
   if (const RenderPlane* tactile = tactile_plane(preset, contacts)) render_display(preset, *tactile, pose, out);

@@ -1,6 +1,6 @@
 #include "workbench/session/resolve_history.h"
 
-#include "core/contact/plane_contact.h"
+#include "core/render_again.h"
 
 #include <algorithm>
 #include <bit>
@@ -85,44 +85,6 @@ void append(std::vector<ContactChange>& changes, const ContactChange& next) {
   else if (changes.size() < ResolvedHistory::kMostChanges) changes.push_back(next);
 }
 
-bool is_robust(const Preset& preset) { return preset.solver.method == Method::robust; }
-
-bool same_place(const TrackedPlane& a, const TrackedPlane& b, double tolerance_m) {
-  const Vec3 d = a.point - b.point;
-  return a.feature == Feature::face && b.feature == Feature::face && a.triangle == b.triangle && glm::dot(d, d) < 4.0 * tolerance_m * tolerance_m;
-}
-
-/// What the search for deeper places depends on besides the poses and the place of the contact.
-bool same_search(const Preset& a, const Preset& b) {
-  return a.finger == b.finger && a.solver.normal_form == b.solver.normal_form && a.solver.tolerance_m == b.solver.tolerance_m &&
-         a.solver.switch_hysteresis_m == b.solver.switch_hysteresis_m;
-}
-
-/// The recorded tick looked for deeper places, found none, and spent no plane on it: it took one plane in all, and the
-/// kept one did not do. `next`: the record after it, whose kept state holds what the search said.
-bool searched_for_nothing(const ServoRecord& record, const ServoRecord& next, const Preset& preset, const Vec3& mesh_origin) {
-  const TickRecord& tick = record.tick;
-  const Clearance &before = tick.kept.clearance, &after = next.tick.kept.clearance;
-  if (next.tick.tick != tick.tick + 1 || next.scene_id != record.scene_id || after.margin_m < 0.0) return false;
-  if (same(before.centre, after.centre) && same(before.margin_m, after.margin_m) && same(before.height_m, after.height_m)) return false;
-  if (tick.output.event != TickEvent::none || tick.output.status == TickStatus::unconverged || tick.output.iterations != 1) return false;
-  const FingerPose local{tick.input.finger.position - mesh_origin, tick.input.finger.orientation};
-  return contact_on_plane(preset.finger, local, tick.kept.plane.point, tick.kept.plane.normal).error_m > preset.solver.tolerance_m;
-}
-
-/// A step that takes over what the recorded tick's search for deeper places said, where the contact stands in the same
-/// place before and after: half of the work of an ordinary tick is that search, and it does not depend on gains.
-TickOutput step_sharing_search(Stepper& stepper, const Preset& preset, const ServoRecord& record, const ServoRecord& next, TickState& state) {
-  const double tolerance_m = preset.solver.tolerance_m;
-  if (!same_place(state.plane, record.tick.kept.plane, tolerance_m)) return stepper.step(preset, record.tick.input, state);
-  const TickState before = state;
-  state.clearance = next.tick.kept.clearance;
-  const TickOutput out = stepper.step(preset, record.tick.input, state);
-  if (same_place(state.plane, next.tick.kept.plane, tolerance_m)) return out;
-  state = before;
-  return stepper.step(preset, record.tick.input, state);
-}
-
 /// Where there is a contact: free, touching, or none that could be found.
 int kind_of(TickStatus status) { return status == TickStatus::free ? 0 : status == TickStatus::unconverged ? 2 : 1; }
 
@@ -144,7 +106,7 @@ bool same_bits(const TickOutput& a, const TickOutput& b) {
 /// What a chunk amounts to.
 struct HistoryResolver::ChunkSummary {
   RunCounter recorded, resolved;
-  std::uint64_t different = 0, changed = 0;
+  std::uint64_t different = 0, changed = 0, taken_over = 0;
   std::vector<ContactChange> changes;
   std::int64_t ns = 0;
   bool done = false;
@@ -169,58 +131,96 @@ HistoryResolver::~HistoryResolver() = default;
 
 std::size_t HistoryResolver::chunk_count() const { return (run_.records.size() + kChunk - 1) / kChunk; }
 
-const Preset* HistoryResolver::preset_of(const ServoRecord& record) const {
-  if (preset_) return &*preset_;
-  return record.tick.preset_id < run_.presets.size() ? &run_.presets[record.tick.preset_id] : nullptr;
-}
+/// Steps through consecutive records, one scene's stepper and one state after the other.
+class HistoryResolver::Replay {
+ public:
+  Replay(const RecordedRun& run, const Preset* wish) : run_(run), wish_(wish) {}
+
+  /// The tick solved again, or none: its scene or its preset is gone. `taken_over`: its contact is the recorded one.
+  std::optional<TickOutput> step(const ServoRecord& record, bool& taken_over) {
+    const TickRecord& tick = record.tick;
+    enter_scene(record);
+    const bool follows = before_ != nullptr && record.scene_id == before_->scene_id && tick.tick == before_->tick.tick + 1;
+    if (!follows) as_recorded_ = true;
+    before_ = &record;
+    taken_over = false;
+    if (!stepper_ || preset(record) == nullptr) {
+      as_recorded_ = true;
+      return std::nullopt;
+    }
+    const bool alike = wish_ != nullptr && same_contacts_as(recorded_preset(record));
+    if (alike && as_recorded_ && tick.output.status != TickStatus::unconverged) {
+      taken_over = true;
+      return render_again(stepper_->scene(), *wish_, tick.input, tick.kept, tick.output);
+    }
+    if (as_recorded_) state_ = tick.kept;
+    as_recorded_ = as_recorded_ && alike;
+    return stepper_->step(*preset(record), tick.input, state_);
+  }
+
+  double tolerance_m(const ServoRecord& record) const {
+    const Preset* recorded = recorded_preset(record);
+    const double own = preset(record)->solver.tolerance_m;
+    return recorded != nullptr ? std::max(own, recorded->solver.tolerance_m) : own;
+  }
+
+ private:
+  const Preset* recorded_preset(const ServoRecord& record) const {
+    return record.tick.preset_id < run_.presets.size() ? &run_.presets[record.tick.preset_id] : nullptr;
+  }
+  const Preset* preset(const ServoRecord& record) const { return wish_ != nullptr ? wish_ : recorded_preset(record); }
+
+  void enter_scene(const ServoRecord& record) {
+    if (before_ != nullptr && record.scene_id == before_->scene_id) return;
+    const auto scene = run_.scenes.find(record.scene_id);
+    stepper_.reset();
+    if (scene != run_.scenes.end()) stepper_.emplace(scene->second);
+  }
+
+  bool same_contacts_as(const Preset* recorded) {
+    if (recorded != compared_) {
+      compared_ = recorded;
+      alike_ = recorded != nullptr && same_contacts(*wish_, *recorded);
+    }
+    return alike_;
+  }
+
+  const RecordedRun& run_;
+  const Preset* wish_;                 ///< null: each tick under its own
+  std::optional<Stepper> stepper_;     ///< none: the scene is gone
+  const ServoRecord* before_ = nullptr;
+  TickState state_;
+  bool as_recorded_ = true;            ///< the state before the next tick is the recorded one, whatever `state_` holds
+  const Preset* compared_ = nullptr;   ///< recorded preset that `alike_` was found for
+  bool alike_ = false;
+};
 
 void HistoryResolver::solve_chunk(std::size_t chunk) {
   const std::int64_t began = timed_ ? thread_ns() : 0;
   const std::size_t begin = chunk * kChunk, end = std::min(begin + kChunk, run_.records.size());
-  std::optional<Stepper> stepper;
-  TickState state;
-  const ServoRecord* before = nullptr;
   ChunkSummary& summary = summaries_[chunk];
-  const Preset* compared = nullptr;   ///< recorded preset that shares_search was found for
-  bool shares_search = false;
+  Replay replay(run_, preset_ ? &*preset_ : nullptr);
   for (std::size_t i = begin > kLeadIn ? begin - kLeadIn : 0; i < end; ++i) {
     const ServoRecord& record = run_.records[i];
-    if (before == nullptr || record.scene_id != before->scene_id) {
-      const auto scene = run_.scenes.find(record.scene_id);
-      stepper.reset();
-      if (scene != run_.scenes.end()) stepper.emplace(scene->second);
-    }
-    const bool follows = before != nullptr && record.scene_id == before->scene_id && record.tick.tick == before->tick.tick + 1;
-    if (!follows) state = record.tick.kept;
-    before = &record;
-    const Preset* preset = preset_of(record);
-    if (!stepper || preset == nullptr) {
-      if (i >= begin) ticks_[i] = ResolvedTick{.tick = record.tick.tick};
-      continue;
-    }
     const TickOutput& was = record.tick.output;
-    const Preset* recorded = record.tick.preset_id < run_.presets.size() ? &run_.presets[record.tick.preset_id] : preset;
-    if (recorded != compared) {
-      compared = recorded;
-      shares_search = is_robust(*preset) && is_robust(*recorded) && same_search(*preset, *recorded);
-    }
-    const bool shares = shares_search && i + 1 < run_.records.size() &&
-                        searched_for_nothing(record, run_.records[i + 1], *preset, stepper->scene().mesh().origin());
-    const TickOutput out = shares ? step_sharing_search(*stepper, *preset, record, run_.records[i + 1], state)
-                                  : stepper->step(*preset, record.tick.input, state);
+    bool taken_over = false;
+    const std::optional<TickOutput> out = replay.step(record, taken_over);
     if (i < begin) continue;
-    const Vec3 d = out.contact - was.contact;
+    ticks_[i].tick = record.tick.tick;
+    if (!out) continue;
+    const Vec3 d = out->contact - was.contact;
     ticks_[i] = {.tick = record.tick.tick,
-                 .force_n = {static_cast<float>(out.force_n.x), static_cast<float>(out.force_n.y), static_cast<float>(out.force_n.z)},
-                 .cld_m = static_cast<float>(out.cld_m),
-                 .error_m = static_cast<float>(out.error_m),
+                 .force_n = {static_cast<float>(out->force_n.x), static_cast<float>(out->force_n.y), static_cast<float>(out->force_n.z)},
+                 .cld_m = static_cast<float>(out->cld_m),
+                 .error_m = static_cast<float>(out->error_m),
                  .moved_m = static_cast<float>(std::sqrt(glm::dot(d, d))),
-                 .iterations = out.iterations,
-                 .status = out.status,
-                 .contact_changed = contact_changed(was, out, std::max(preset->solver.tolerance_m, recorded->solver.tolerance_m)),
-                 .same_bits = same_bits(was, out),
+                 .iterations = out->iterations,
+                 .status = out->status,
+                 .contact_changed = contact_changed(was, *out, replay.tolerance_m(record)),
+                 .same_bits = same_bits(was, *out),
                  .solved = true};
-    summary.add(was, out, ticks_[i]);
+    summary.add(was, *out, ticks_[i]);
+    summary.taken_over += taken_over;
   }
   if (timed_) summary.ns = thread_ns() - began;
   summary.done = true;
@@ -237,12 +237,13 @@ ResolvedHistory HistoryResolver::finish() {
     resolved.add(chunk.resolved);
     out.different_ticks += chunk.different;
     out.changed_ticks += chunk.changed;
+    out.taken_over += chunk.taken_over;
     ns += chunk.ns;
     for (const ContactChange& change : chunk.changes) append(out.changes, change);
   }
   out.recorded = recorded.done();
   out.resolved = resolved.done();
-  if (out.resolved.ticks > 0) out.ns_per_tick = static_cast<double>(ns) / static_cast<double>(out.resolved.ticks);
+  if (out.resolved.ticks > 0 && out.taken_over == 0) out.ns_per_tick = static_cast<double>(ns) / static_cast<double>(out.resolved.ticks);
   out.ticks = std::move(ticks_);
   return out;
 }

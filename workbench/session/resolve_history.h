@@ -4,6 +4,9 @@
 // assumed". Ticks are cut into chunks that know nothing of each other: a chunk starts some ticks early from the state
 // that was recorded there and then keeps its own, as the servo does; it takes the recorded one again wherever ticks are
 // missing or the scene changed. Under the recorded presets every tick gives the recorded bits.
+//
+// A preset that differs from the recorded one in nothing that the solver reads has the recorded contacts: they are taken
+// over, and only force and display are computed again. Without a preset everything is solved, so that this verifies.
 #pragma once
 
 #include "workbench/session/session.h"
@@ -49,7 +52,8 @@ struct ResolvedHistory {
   std::vector<ContactChange> changes;   ///< in order, the first kMostChanges
   std::uint64_t changed_ticks = 0;      ///< all
   std::uint64_t different_ticks = 0;    ///< not the same bits
-  double ns_per_tick = 0.0;             ///< processor time; 0: not measured
+  std::uint64_t taken_over = 0;         ///< contacts that are the recorded ones, since the solver reads nothing that changed
+  double ns_per_tick = 0.0;             ///< processor time; 0: not measured, as where contacts were taken over
   bool complete = false;
 
   static constexpr std::size_t kMostChanges = 1000;
@@ -64,7 +68,7 @@ class HistoryResolver {
  public:
   static constexpr std::size_t kChunk = 2048, kLeadIn = 32;  ///< ticks
 
-  /// `preset`: for every tick; none: each under the one it was recorded with. `timed`: measures processor time.
+  /// `preset`: for every tick; none: each is solved under the one it was recorded with. `timed`: measures processor time.
   HistoryResolver(const RecordedRun& run, std::optional<Preset> preset, bool timed);
   ~HistoryResolver();
 
@@ -78,7 +82,7 @@ class HistoryResolver {
 
  private:
   struct ChunkSummary;
-  const Preset* preset_of(const ServoRecord& record) const;
+  class Replay;
 
   const RecordedRun& run_;
   std::optional<Preset> preset_;

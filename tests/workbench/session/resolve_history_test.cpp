@@ -56,14 +56,18 @@ TEST_CASE("unchanged gains give zero different bits, for every method, on a mesh
       if (scene->planar() != nullptr) preset.finger.radius_m = 0.008;
       auto session = session_on(scene, preset);
       session->advance(7000);
-      const ResolvedHistory again = resolve(session->recorded_run(), preset);
-      CHECK(again.complete);
-      CHECK(again.ticks.size() == 7000);
-      CHECK(again.resolved.ticks == 7000);
-      CHECK(again.different_ticks == 0);
-      CHECK(again.changed_ticks == 0);
-      CHECK(again.changes.empty());
-      CHECK(again.resolved.mean_iterations == again.recorded.mean_iterations);
+      // Without a preset each tick is solved under its own; the same preset as a wish may take contacts over.
+      for (const std::optional<Preset>& wish : {std::optional<Preset>(), std::optional(preset)}) {
+        const ResolvedHistory again = resolve(session->recorded_run(), wish);
+        CHECK(again.complete);
+        CHECK(again.ticks.size() == 7000);
+        CHECK(again.resolved.ticks == 7000);
+        CHECK(again.different_ticks == 0);
+        CHECK(again.changed_ticks == 0);
+        CHECK(again.changes.empty());
+        CHECK(again.resolved.mean_iterations == again.recorded.mean_iterations);
+        if (!wish) CHECK(again.taken_over == 0);
+      }
     }
   }
 }
@@ -110,28 +114,61 @@ TEST_CASE("a smaller gain makes more iterations, and the ticks it no longer solv
   if (again.changes.size() < ResolvedHistory::kMostChanges) CHECK(listed == again.changed_ticks);
 }
 
-TEST_CASE("sharing the recorded searches for deeper places changes nothing: the same as stepping plainly") {
+TEST_CASE("contacts are taken over where the solver reads nothing that changed, and it is the same as stepping") {
   for (const auto& scene : {test::torus_scene(), test::sphere_scene(), outline_scene()}) {
-    Preset own;
-    if (scene->planar() != nullptr) own.finger.radius_m = 0.008;
-    auto session = session_on(scene, own);
-    session->advance(HistoryResolver::kChunk);
-    Preset other = own;
-    other.solver.gain_curvature_m = 0.006;
-    other.solver.gain_overall = 0.8;
-    other.force.stiffness_n_per_m = 500.0;
-    const RecordedRun run = session->recorded_run();
-    const ResolvedHistory again = resolve(run, other);
-    CHECK(again.different_ticks > 1000);
-    Stepper plain(scene);
-    TickState state = run.records[0].tick.kept;
-    for (std::size_t i = 0; i < run.records.size(); ++i) {
-      const TickOutput out = plain.step(other, run.records[i].tick.input, state);
-      REQUIRE(again.ticks[i].status == out.status);
-      REQUIRE(again.ticks[i].iterations == out.iterations);
-      REQUIRE(again.ticks[i].error_m == static_cast<float>(out.error_m));
-      REQUIRE(again.ticks[i].force_n[2] == static_cast<float>(out.force_n.z));
+    for (const double tolerance_m : {1e-6, 1e-7}) {
+      CAPTURE(tolerance_m);
+      Preset own;
+      if (scene->planar() != nullptr) own.finger.radius_m = 0.008;
+      auto session = session_on(scene, own);
+      session->advance(HistoryResolver::kChunk);
+      Preset other = own;
+      other.solver.gain_curvature_m = 0.006;   // not read by robust
+      other.solver.gain_overall = 0.8;
+      other.solver.tolerance_m = tolerance_m;  // read
+      other.force.stiffness_n_per_m = 500.0;
+      other.force.damping_n_s_per_m = 1.5;
+      const RecordedRun run = session->recorded_run();
+      const ResolvedHistory again = resolve(run, other);
+      CHECK(again.different_ticks > 1000);
+      CHECK(again.taken_over == (tolerance_m == own.solver.tolerance_m ? HistoryResolver::kChunk - again.recorded.unconverged : 0));
+      Stepper plain(scene);
+      TickState state = run.records[0].tick.kept;
+      for (std::size_t i = 0; i < run.records.size(); ++i) {
+        const TickOutput out = plain.step(other, run.records[i].tick.input, state);
+        REQUIRE(again.ticks[i].status == out.status);
+        REQUIRE(again.ticks[i].iterations == out.iterations);
+        REQUIRE(again.ticks[i].error_m == static_cast<float>(out.error_m));
+        REQUIRE(again.ticks[i].force_n[0] == static_cast<float>(out.force_n.x));
+        REQUIRE(again.ticks[i].force_n[2] == static_cast<float>(out.force_n.z));
+        REQUIRE(again.ticks[i].cld_m == static_cast<float>(out.cld_m));
+      }
     }
+  }
+}
+
+TEST_CASE("a state that went its own way under other values is not mixed with recorded contacts") {
+  Preset paper;
+  paper.solver.method = Method::paper;
+  paper.solver.gain_curvature_m = 0.004;
+  const Preset wish;
+  auto session = session_on(test::torus_scene(), wish);
+  session->advance(700);
+  REQUIRE(session->set_preset(paper));
+  session->advance(300);
+  REQUIRE(session->set_preset(wish));
+  session->advance(500);
+  const RecordedRun run = session->recorded_run();
+  REQUIRE(run.records.size() == 1500);
+  const ResolvedHistory again = resolve(run, wish);
+  CHECK(again.taken_over >= 699);
+  CHECK(again.taken_over <= 701);
+  Stepper plain(test::torus_scene());
+  TickState state = run.records[0].tick.kept;
+  for (std::size_t i = 0; i < run.records.size(); ++i) {
+    const TickOutput out = plain.step(wish, run.records[i].tick.input, state);
+    REQUIRE(again.ticks[i].error_m == static_cast<float>(out.error_m));
+    REQUIRE(again.ticks[i].force_n[2] == static_cast<float>(out.force_n.z));
   }
 }
 

@@ -68,6 +68,10 @@ void draw_changes(const UiContext& ui, AppModel& model, const Ghost& ghost) {
   ImGui::Text("Contact changed in %s of %s ticks", count_text(numbers.changed_ticks).c_str(), count_text(numbers.resolved.ticks).c_str());
   tooltip(ui, "Touching, free or unconverged where it was not, or moved by more than ten tolerances. A click goes to where it moved most");
   ImGui::TextDisabled("%s ticks differ in any bit", count_text(numbers.different_ticks).c_str());
+  if (numbers.taken_over > 0) {
+    ImGui::TextDisabled("Contacts as recorded: %s", numbers.taken_over == numbers.resolved.ticks ? "all" : count_text(numbers.taken_over).c_str());
+    tooltip(ui, "The method reads none of the values that changed: the same contacts, in the same time. Force and display are computed again");
+  }
   ImGui::PopFont();
   if (numbers.changes.empty()) return;
   ImGui::PushFont(ui.fonts.small_number);
