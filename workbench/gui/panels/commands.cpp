@@ -12,15 +12,8 @@ namespace {
 
 void add_view_commands(std::vector<Command>& out, AppModel& model) {
   out.push_back({"View: frame the mesh", "F", [&model] { model.frame_scene(); }});
-  struct Named {
-    const char* name;
-    const char* keys;
-    StandardView view;
-  };
-  for (const Named& v : {Named{"front", "1", StandardView::front}, Named{"back", "2", StandardView::back}, Named{"left", "3", StandardView::left},
-                         Named{"right", "4", StandardView::right}, Named{"top", "5", StandardView::top}, Named{"bottom", "6", StandardView::bottom},
-                         Named{"corner", "0", StandardView::corner}}) {
-    out.push_back({std::string("View: from the ") + v.name, v.keys, [&model, view = v.view] { model.look_from_standard(view); }});
+  for (const NamedView& v : kStandardViews) {
+    out.push_back({std::string("View: from the ") + v.name, v.key, [&model, view = v.view] { model.look_from_standard(view); }});
   }
   out.push_back({"View: y axis up, or z axis", "U", [&model] { model.set_y_up(!model.view().camera.y_up); }});
   out.push_back({"View: copy the camera", "Ctrl+Shift+C", [&model] { model.copy_camera(); }});

@@ -4,6 +4,7 @@
 #include "workbench/gui/widgets.h"
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 
 namespace tangent {
@@ -62,15 +63,10 @@ void draw_file_menu(const UiContext& ui, AppModel& model, MenuBar& state) {
 void draw_camera_items(const UiContext& ui, AppModel& model) {
   if (menu_item(ui, "menu/view/frame", "Frame the mesh", "All of it in view, from the present direction", "F")) model.frame_scene();
   if (ImGui::BeginMenu("Look from")) {
-    struct Named {
-      const char* name;
-      const char* key;
-      StandardView view;
-    };
-    for (const Named& v : {Named{"Front", "1", StandardView::front}, Named{"Back", "2", StandardView::back}, Named{"Left", "3", StandardView::left},
-                           Named{"Right", "4", StandardView::right}, Named{"Top", "5", StandardView::top}, Named{"Bottom", "6", StandardView::bottom},
-                           Named{"Corner", "0", StandardView::corner}}) {
-      if (menu_item(ui, std::string("menu/view/from/") + v.name, v.name, "Turns the camera there; what it looks at stays", v.key)) model.look_from_standard(v.view);
+    for (const NamedView& v : kStandardViews) {
+      std::string title = v.name;
+      title[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(title[0])));
+      if (menu_item(ui, "menu/view/from/" + title, title.c_str(), "Turns the camera there; what it looks at stays", v.key)) model.look_from_standard(v.view);
     }
     ImGui::EndMenu();
   }

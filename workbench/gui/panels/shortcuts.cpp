@@ -2,9 +2,6 @@
 #include "workbench/gui/panels/panels.h"
 #include "workbench/gui/widgets.h"
 
-#include <array>
-#include <utility>
-
 namespace tangent {
 
 namespace {
@@ -45,11 +42,8 @@ void handle_shortcuts(AppModel& model, MenuBar& menu) {
     return;
   }
   const auto named = [](ImGuiKey key, bool repeat = false) { return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key), repeat); };
-  constexpr std::array kViewKeys{std::pair('1', StandardView::front), std::pair('2', StandardView::back), std::pair('3', StandardView::left),
-                                 std::pair('4', StandardView::right), std::pair('5', StandardView::top), std::pair('6', StandardView::bottom),
-                                 std::pair('0', StandardView::corner)};
-  for (const auto& [key, view] : kViewKeys) {
-    if (letter(key)) model.look_from_standard(view);
+  for (const NamedView& v : kStandardViews) {
+    if (letter(v.key[0])) model.look_from_standard(v.view);
   }
   if (letter('U')) model.set_y_up(!model.view().camera.y_up);
   if (letter('W')) model.look_at_worst();

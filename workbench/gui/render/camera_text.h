@@ -3,6 +3,7 @@
 
 #include "workbench/gui/render/camera.h"
 
+#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -16,6 +17,19 @@ std::optional<Camera> parse_camera(std::string_view text, Camera now);
 
 /// Straight at an axis, or from the corner all of them start from.
 enum class StandardView : std::uint8_t { front, back, left, right, top, bottom, corner };
+/// What menu, commands and keys call them.
+struct NamedView {
+  StandardView view;
+  const char* name;
+  char key[2];  ///< a digit, as text
+};
+inline constexpr std::array<NamedView, 7> kStandardViews{{{StandardView::front, "front", "1"},
+                                                          {StandardView::back, "back", "2"},
+                                                          {StandardView::left, "left", "3"},
+                                                          {StandardView::right, "right", "4"},
+                                                          {StandardView::top, "top", "5"},
+                                                          {StandardView::bottom, "bottom", "6"},
+                                                          {StandardView::corner, "corner", "0"}}};
 Camera standard_view(StandardView view, Camera camera);
 
 }  // namespace tangent
