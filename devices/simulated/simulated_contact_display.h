@@ -6,6 +6,7 @@
 
 #include "devices/contact_display.h"
 #include "devices/simulated/cld_mechanism.h"
+#include "devices/simulated/simulated_life.h"
 
 #include <array>
 #include <random>
@@ -23,28 +24,27 @@ class SimulatedContactDisplay final : public ContactDisplay {
   explicit SimulatedContactDisplay(const SimulatedDisplayOptions& options = {});
 
   const DisplayCapabilities& capabilities() const override { return capabilities_; }
-  Status open() override;
-  void close() override;
+  Status open() override { return life_.open(capabilities_.name); }
+  void close() override { life_.close(); }
   /// The PID runs at 1 kHz whatever dt_s is: as often as whole milliseconds have passed.
   DisplaySample exchange(const DisplayCommand& command, double dt_s) noexcept override;
-  bool inject(const FaultInjection& fault) noexcept override;
+  bool inject(const FaultInjection& fault) noexcept override {
+    life_.inject(fault);
+    return true;
+  }
 
   /// The next exchange finds the device in this fault. Same thread as exchange.
-  void inject(DeviceFault fault) noexcept { next_fault_ = fault; }
+  void inject(DeviceFault fault) noexcept { life_.inject(fault); }
   const CldMechanism& mechanism() const { return mechanism_; }
 
  private:
-  void update_state(const DisplayCommand& command, double dt_s) noexcept;
   DisplaySample measure(double dt_s) noexcept;
 
   SimulatedDisplayOptions options_;
   DisplayCapabilities capabilities_;
-  DeviceStateMachine machine_;
-  DeviceFault next_fault_ = DeviceFault::none;
-  InjectedFaultTimer timer_;
-  InjectedFault fault_now_ = InjectedFault::none;
+  SimulatedLife life_;
   std::mt19937_64 random_;
-  double homing_for_s_ = 0.0, since_control_s_ = 0.0;
+  double since_control_s_ = 0.0;
   double shown_m_ = 0.0, age_s_ = 0.0;
   CldMechanism mechanism_;
 };

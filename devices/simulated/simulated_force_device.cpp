@@ -40,36 +40,12 @@ double uniform_noise(std::mt19937_64& random) {
 }  // namespace
 
 SimulatedForceDevice::SimulatedForceDevice(const SimulatedForceOptions& options)
-    : options_(options), capabilities_(describe(options)), random_(options.seed) {}
-
-Status SimulatedForceDevice::open() {
-  if (!machine_.enter(DeviceState::open)) return fail("is already open", capabilities_.name, "close it first");
-  return {};
-}
-
-void SimulatedForceDevice::close() { machine_.enter(DeviceState::absent); }
+    : options_(options), capabilities_(describe(options)), life_(options.homing_s), random_(options.seed) {}
 
 void SimulatedForceDevice::place(const HandTarget& target) noexcept {
   target_ = target;
   position_ = target.position_m;
   velocity_ = target.velocity_m_per_s;
-}
-
-void SimulatedForceDevice::update_state(const ForceCommand& command, double dt_s) noexcept {
-  fault_now_ = timer_.next();
-  if (fault_now_ == InjectedFault::drop_out) machine_.fail(DeviceFault::disconnected);
-  if (next_fault_ != DeviceFault::none) {
-    machine_.fail(next_fault_);
-    next_fault_ = DeviceFault::none;
-  }
-  if (machine_.state() == DeviceState::open) machine_.enter(DeviceState::firmware);   // says who it is at once
-  if (machine_.state() == DeviceState::homing) {
-    homing_for_s_ += dt_s;
-    if (homing_for_s_ >= options_.homing_s) machine_.enter(DeviceState::ready);
-  }
-  const bool answers = fault_now_ != InjectedFault::drop_out;
-  if (answers && machine_.apply(command.request) && machine_.state() == DeviceState::homing) homing_for_s_ = 0.0;
-  if (machine_.ready() && !is_finite(command.force_n)) machine_.fail(DeviceFault::bad_command);
 }
 
 // White noise through a resonator a'' = -w^2 a - 2 z w a' + s n. With n of unit variance held over a tick dt its
@@ -105,31 +81,26 @@ void SimulatedForceDevice::integrate(const Vec3& force, double dt_s) noexcept {
 }
 
 ForceSample SimulatedForceDevice::measure(const Vec3& force, double dt_s) noexcept {
-  const bool lost = machine_.fault() == DeviceFault::disconnected || fault_now_ == InjectedFault::delay_burst;
+  const bool lost = life_.fault() == DeviceFault::disconnected || life_.injected() == InjectedFault::delay_burst;
   age_s_ = lost ? age_s_ + dt_s : 0.0;
-  if (!lost && fault_now_ != InjectedFault::stuck_encoder) shown_ = rounded(position_, options_.position_step_m);
+  if (!lost && life_.injected() != InjectedFault::stuck_encoder) shown_ = rounded(position_, options_.position_step_m);
   ForceSample sample;
   sample.position_m = shown_;
-  if (fault_now_ == InjectedFault::noise) {
+  if (life_.injected() == InjectedFault::noise) {
     for (int axis = 0; axis < 3; ++axis) sample.position_m[axis] += kNoise_m * uniform_noise(random_);
   }
   sample.age_s = age_s_;
   sample.orientation = target_.orientation;
   sample.force_n = force;
-  sample.state = machine_.state();
-  sample.fault = machine_.fault();
+  sample.state = life_.state();
+  sample.fault = life_.fault();
   return sample;
 }
 
-bool SimulatedForceDevice::inject(const FaultInjection& fault) noexcept {
-  timer_.begin(fault);
-  return true;
-}
-
 ForceSample SimulatedForceDevice::exchange(const ForceCommand& command, double dt_s) noexcept {
-  update_state(command, dt_s);
+  life_.update(command.request, is_finite(command.force_n), dt_s);
   Vec3 force(0.0);
-  if (machine_.ready()) {
+  if (life_.ready()) {
     force = command.force_n;
     // The motors give no more than their peak, whatever they are told.
     const double length = std::sqrt(glm::dot(force, force));

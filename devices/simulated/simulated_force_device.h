@@ -7,6 +7,7 @@
 #pragma once
 
 #include "devices/force_device.h"
+#include "devices/simulated/simulated_life.h"
 #include "devices/simulated_hand.h"
 
 #include <cstdint>
@@ -32,34 +33,32 @@ class SimulatedForceDevice final : public ForceDevice, public SimulatedHand {
   explicit SimulatedForceDevice(const SimulatedForceOptions& options = {});
 
   const ForceCapabilities& capabilities() const override { return capabilities_; }
-  Status open() override;
-  void close() override;
+  Status open() override { return life_.open(capabilities_.name); }
+  void close() override { life_.close(); }
   ForceSample exchange(const ForceCommand& command, double dt_s) noexcept override;
   SimulatedHand* hand() noexcept override { return this; }
 
   void lead(const HandTarget& target) noexcept override { target_ = target; }
   void place(const HandTarget& target) noexcept override;
 
-  bool inject(const FaultInjection& fault) noexcept override;
+  bool inject(const FaultInjection& fault) noexcept override {
+    life_.inject(fault);
+    return true;
+  }
   /// The next exchange finds the device in this fault. Same thread as exchange.
-  void inject(DeviceFault fault) noexcept { next_fault_ = fault; }
+  void inject(DeviceFault fault) noexcept { life_.inject(fault); }
 
   const Vec3& exact_position_m() const { return position_; }  ///< before the encoders
   const Vec3& velocity_m_per_s() const { return velocity_; }
 
  private:
-  void update_state(const ForceCommand& command, double dt_s) noexcept;
   void update_tremor(double dt_s) noexcept;
   void integrate(const Vec3& force, double dt_s) noexcept;
   ForceSample measure(const Vec3& force, double dt_s) noexcept;
 
   SimulatedForceOptions options_;
   ForceCapabilities capabilities_;
-  DeviceStateMachine machine_;
-  DeviceFault next_fault_ = DeviceFault::none;
-  InjectedFaultTimer timer_;
-  InjectedFault fault_now_ = InjectedFault::none;
-  double homing_for_s_ = 0.0;
+  SimulatedLife life_;
   HandTarget target_;
   Vec3 position_{0.0}, velocity_{0.0};
   Vec3 shown_{0.0};                      ///< what the encoders last said
