@@ -1,10 +1,10 @@
 #include "workbench/gui/plots/channel_store.h"
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <bit>
 #include <cassert>
+#include <cstring>
 
 namespace tangent {
 
@@ -16,41 +16,57 @@ std::uint64_t next_generation() {
   return ++last;
 }
 
-float low_of(float value) { return value; }
-float high_of(float value) { return value; }
-float low_of(const MinMax& range) { return range.min; }
-float high_of(const MinMax& range) { return range.max; }
+// Four floats at a time. The choices are written so that a NaN fails them and leaves the range as it was, and so that each is
+// one instruction.
+using Four = float __attribute__((vector_size(16)));
 
-/// A NaN fails both comparisons; written as choices they need no branches. Four at a time, because each has to wait for the
-/// one before it.
-template <class Item>
-void fold(const Item* item, std::size_t count, MinMax& into) {
-  std::array<float, 4> low, high;
-  low.fill(into.min);
-  high.fill(into.max);
-  const auto take = [&](std::size_t lane, const Item& x) {
-    low[lane] = low_of(x) < low[lane] ? low_of(x) : low[lane];
-    high[lane] = high_of(x) > high[lane] ? high_of(x) : high[lane];
-  };
+Four load(const void* from) {
+  Four four;
+  std::memcpy(&four, from, sizeof four);
+  return four;
+}
+Four all(float value) { return Four{value, value, value, value}; }
+Four lower(Four x, Four than) { return x < than ? x : than; }
+Four higher(Four x, Four than) { return x > than ? x : than; }
+
+void fold(const float* sample, std::size_t count, MinMax& into) {
+  Four low = all(into.min), high = all(into.max);
   std::size_t i = 0;
   for (; i + 4 <= count; i += 4) {
-    for (std::size_t lane = 0; lane < 4; ++lane) take(lane, item[i + lane]);
+    const Four x = load(sample + i);
+    low = lower(x, low);
+    high = higher(x, high);
   }
-  for (; i < count; ++i) take(0, item[i]);
   for (std::size_t lane = 0; lane < 4; ++lane) into.include(MinMax{low[lane], high[lane]});
+  for (; i < count; ++i) into.include(sample[i]);
+}
+
+/// Two at a time: minima are in the even lanes, maxima in the odd ones.
+void fold(const MinMax* block, std::size_t count, MinMax& into) {
+  static_assert(sizeof(MinMax) == 2 * sizeof(float));
+  Four low = all(into.min), high = all(into.max);
+  std::size_t i = 0;
+  for (; i + 2 <= count; i += 2) {
+    const Four x = load(block + i);
+    low = lower(x, low);
+    high = higher(x, high);
+  }
+  into.include(MinMax{low[0], high[1]});
+  into.include(MinMax{low[2], high[3]});
+  if (i < count) into.include(block[i]);
 }
 
 }  // namespace
 
 ChannelStore::ChannelStore(std::size_t channels, std::size_t capacity)
     : channels_(channels), generation_(next_generation()), gap_(channels, std::numeric_limits<float>::quiet_NaN()) {
+  static_assert(kLargestBlock == std::size_t{1} << shift_of(kLevels) && shift_of(kFirstSumLevel) == 6);
   assert(channels > 0);
-  constexpr std::size_t largest = std::size_t{1} << (kShift * kLevels);
-  capacity_ = std::bit_ceil(std::max(capacity, largest));
+  capacity_ = std::bit_ceil(std::max(capacity, static_cast<std::size_t>(kLargestBlock)));
   samples_ = std::make_unique_for_overwrite<float[]>(channels_ * capacity_);
   for (std::size_t level = 1; level <= kLevels; ++level) {
-    levels_.emplace_back(channels_ * (capacity_ >> (kShift * level)));
-    if (level >= kFirstSumLevel) sums_.emplace_back(channels_ * (capacity_ >> (kShift * level)));
+    levels_.emplace_back(channels_ * (capacity_ >> shift_of(level)));
+    if (level >= kFirstSumLevel) sums_.emplace_back(channels_ * (capacity_ >> shift_of(level)));
   }
 }
 
@@ -69,37 +85,44 @@ void ChannelStore::clear() {
 void ChannelStore::push(std::uint64_t tick, std::span<const float> values) {
   assert(values.size() == channels_);
   if (!empty() && (tick < end_ || tick - end_ >= capacity_)) clear();
-  if (empty()) {
-    // Blocks are only emptied when their first tick passes, so a store that starts inside a block takes
-    // the block's earlier ticks as gaps.
-    constexpr std::uint64_t largest = std::uint64_t{1} << (kShift * kLevels);
-    end_ = tick - tick % largest;
-    while (end_ < tick) put(end_, gap_);
-    first_ = tick;
-  }
+  if (empty()) first_ = end_ = tick;
   while (end_ < tick) put(end_, gap_);
   put(tick, values);
   if (end_ - first_ > capacity_) first_ = end_ - capacity_;
 }
 
+// A block is made when its last tick comes, and read no sooner.
 void ChannelStore::put(std::uint64_t tick, std::span<const float> values) {
   const std::size_t at = slot(tick);
   for (std::size_t channel = 0; channel < channels_; ++channel) {
     samples_[channel * capacity_ + at] = values[channel];
   }
-  for (std::size_t level = 1; level <= kLevels; ++level) {
-    const bool first_of_block = (tick & ((std::uint64_t{1} << (kShift * level)) - 1)) == 0;
-    for (std::size_t channel = 0; channel < channels_; ++channel) {
-      MinMax& range = block(level, channel, tick);
-      if (first_of_block) range = MinMax{};
-      range.include(values[channel]);
-      if (level < kFirstSumLevel) continue;
-      SampleSums& sums = sum_block(level, channel, tick);
-      if (first_of_block) sums = SampleSums{};
-      sums.include(values[channel]);
-    }
-  }
   end_ = tick + 1;
+  for (std::size_t level = 1; level <= kLevels; ++level) {
+    const std::uint64_t length = std::uint64_t{1} << shift_of(level);
+    // One that began before the first tick is never read, nor is any above it.
+    if (end_ % length != 0 || end_ - length < first_) return;
+    for (std::size_t channel = 0; channel < channels_; ++channel) complete(level, channel, end_ - length);
+  }
+}
+
+/// From the level below.
+void ChannelStore::complete(std::size_t level, std::size_t channel, std::uint64_t start) {
+  const std::uint64_t half = std::uint64_t{1} << (shift_of(level) - 1);
+  MinMax range;
+  if (level == 1) fold(samples_.get() + place(0, channel, start), std::size_t{1} << kSmallestShift, range);
+  else fold(&block(level - 1, channel, start), 2, range);
+  block(level, channel, start) = range;
+  if (level < kFirstSumLevel) return;
+  SampleSums sums;
+  if (level == kFirstSumLevel) {
+    const float* sample = samples_.get() + place(0, channel, start);
+    for (std::uint64_t i = 0; i < 2 * half; ++i) sums.include(sample[i]);
+  } else {
+    sums.include(sum_block(level - 1, channel, start));
+    sums.include(sum_block(level - 1, channel, start + half));
+  }
+  sum_block(level, channel, start) = sums;
 }
 
 void ChannelStore::assign(std::uint64_t first, std::span<const float> rows) {
@@ -116,32 +139,14 @@ void ChannelStore::assign(std::uint64_t first, std::span<const float> rows) {
   for (std::size_t channel = 0; channel < channels_; ++channel) assign_channel(channel, first, rows);
 }
 
-// Level by level: each block from the blocks below it that lie within what is kept.
+// Level by level, the whole blocks.
 void ChannelStore::assign_channel(std::size_t channel, std::uint64_t first, std::span<const float> rows) {
   const std::uint64_t end = first + rows.size() / channels_;
   const float* value = rows.data() + channel;
   for (std::uint64_t tick = first; tick < end; ++tick, value += channels_) samples_[channel * capacity_ + slot(tick)] = *value;
   for (std::size_t level = 1; level <= kLevels; ++level) {
-    const std::uint64_t length = std::uint64_t{1} << (kShift * level), part = length >> kShift;
-    for (std::uint64_t start = first - first % length; start < end; start += length) {
-      MinMax range;
-      SampleSums sums;
-      const std::uint64_t from = std::max(start, first - first % part), to = std::min(start + length, end);
-      for (std::uint64_t tick = from; tick < to; tick += part) {
-        if (level == 1) {
-          if (tick >= first) range.include(samples_[channel * capacity_ + slot(tick)]);
-          continue;
-        }
-        range.include(block(level - 1, channel, tick));
-        if (level > kFirstSumLevel) sums.include(sum_block(level - 1, channel, tick));
-      }
-      block(level, channel, start) = range;
-      if (level < kFirstSumLevel) continue;
-      if (level == kFirstSumLevel) {
-        for (std::uint64_t tick = std::max(start, first); tick < to; ++tick) sums.include(samples_[channel * capacity_ + slot(tick)]);
-      }
-      sum_block(level, channel, start) = sums;
-    }
+    const std::uint64_t length = std::uint64_t{1} << shift_of(level);
+    for (std::uint64_t start = (first + length - 1) / length * length; start + length <= end; start += length) complete(level, channel, start);
   }
 }
 
@@ -157,36 +162,46 @@ template <class Visit>
 void ChannelStore::visit_blocks(std::uint64_t from, std::uint64_t to, Visit visit) const {
   std::uint64_t tick = std::max(from, first_);
   const std::uint64_t end = std::min(to, end_);
-  std::size_t shift = 0;
+  std::size_t level = 0;
   while (tick < end) {
-    constexpr std::size_t top = kShift * kLevels;
-    const auto fits = [&](std::size_t s) { return (tick & ((std::uint64_t{1} << s) - 1)) == 0 && tick + (std::uint64_t{1} << s) <= end; };
-    while (shift < top && fits(shift + kShift)) shift += kShift;
-    while (tick + (std::uint64_t{1} << shift) > end) shift -= kShift;
+    const auto length = [](std::size_t of) { return std::uint64_t{1} << shift_of(of); };
+    const auto fits = [&](std::size_t of) { return tick % length(of) == 0 && tick + length(of) <= end; };
+    while (level < kLevels && fits(level + 1)) ++level;
+    while (tick + length(level) > end) --level;
     // Up to the end, to where a larger block begins, and to the end of the ring.
+    const std::size_t shift = shift_of(level);
     const std::uint64_t block = tick >> shift, ring = capacity_ >> shift;
     std::uint64_t count = std::min((end - tick) >> shift, ring - (block & (ring - 1)));
-    if (shift < top) count = std::min(count, (std::uint64_t{1} << kShift) - (block & ((1u << kShift) - 1)));
-    visit(shift / kShift, static_cast<std::size_t>(block & (ring - 1)), static_cast<std::size_t>(count));
+    if (level < kLevels) {
+      const std::uint64_t in_larger = length(level + 1) >> shift;
+      count = std::min(count, in_larger - block % in_larger);
+    }
+    visit(level, static_cast<std::size_t>(block & (ring - 1)), static_cast<std::size_t>(count));
     tick += count << shift;
   }
 }
 
 MinMax ChannelStore::min_max(std::size_t channel, std::uint64_t from, std::uint64_t to) const {
   MinMax range;
+  // The few ticks of a column under a close look are read as they are: finding blocks for them would take longer.
+  constexpr std::uint64_t few = 16;
+  if (from >= first_ && to <= end_ && to - from <= few && slot(from) + (to - from) <= capacity_) {
+    fold(samples_.get() + place(0, channel, from), static_cast<std::size_t>(to - from), range);
+    return range;
+  }
   visit_blocks(from, to, [&](std::size_t level, std::size_t at, std::size_t count) {
     if (level == 0) fold(samples_.get() + channel * capacity_ + at, count, range);
-    else fold(levels_[level - 1].data() + channel * (capacity_ >> (kShift * level)) + at, count, range);
+    else fold(levels_[level - 1].data() + channel * (capacity_ >> shift_of(level)) + at, count, range);
   });
   return range;
 }
 
 // Side by side on one level, the reads of a row are one stream; and all its ranges have as many.
 void ChannelStore::min_max_row(std::size_t channel, std::uint64_t from, std::uint64_t ticks, std::span<MinMax> out) const {
-  std::size_t shift = 0;
-  const auto aligned = [&](std::size_t s) { return ((from | ticks) & ((std::uint64_t{1} << s) - 1)) == 0; };
-  while (shift < kShift * kLevels && aligned(shift + kShift)) shift += kShift;
-  const std::size_t count = static_cast<std::size_t>(ticks >> shift), ring = capacity_ >> shift;
+  std::size_t level = 0;
+  const auto aligned = [&](std::size_t of) { return ((from | ticks) & ((std::uint64_t{1} << shift_of(of)) - 1)) == 0; };
+  while (level < kLevels && aligned(level + 1)) ++level;
+  const std::size_t shift = shift_of(level), count = static_cast<std::size_t>(ticks >> shift), ring = capacity_ >> shift;
   const auto fold_all = [&](const auto* items) {
     for (std::size_t i = 0; i < out.size(); ++i) {
       const std::uint64_t begin = from + i * ticks;
@@ -199,19 +214,19 @@ void ChannelStore::min_max_row(std::size_t channel, std::uint64_t from, std::uin
       fold(items + at, count, out[i]);
     }
   };
-  if (shift == 0) fold_all(samples_.get() + channel * ring);
-  else fold_all(levels_[shift / kShift - 1].data() + channel * ring);
+  if (level == 0) fold_all(samples_.get() + channel * ring);
+  else fold_all(levels_[level - 1].data() + channel * ring);
 }
 
 SampleSums ChannelStore::sums(std::size_t channel, std::uint64_t from, std::uint64_t to) const {
   SampleSums total;
   visit_blocks(from, to, [&](std::size_t level, std::size_t at, std::size_t count) {
     if (level < kFirstSumLevel) {
-      const float* sample = samples_.get() + channel * capacity_ + (at << (kShift * level));
-      for (std::size_t i = 0; i < count << (kShift * level); ++i) total.include(sample[i]);
+      const float* sample = samples_.get() + channel * capacity_ + (at << shift_of(level));
+      for (std::size_t i = 0; i < count << shift_of(level); ++i) total.include(sample[i]);
       return;
     }
-    const SampleSums* block = sums_[level - kFirstSumLevel].data() + channel * (capacity_ >> (kShift * level)) + at;
+    const SampleSums* block = sums_[level - kFirstSumLevel].data() + channel * (capacity_ >> shift_of(level)) + at;
     for (std::size_t i = 0; i < count; ++i) total.include(block[i]);
   });
   return total;

@@ -1,7 +1,7 @@
 // The recent past as channels of one float per tick, with exact minima and maxima over any range of ticks.
 //
-// A ring over tick numbers with a pyramid of block minima and maxima (blocks of 8, 64, 512 ... ticks), so
-// that a column of pixels costs a few dozen reads however many ticks lie under it, and a spike of one
+// A ring over tick numbers with a pyramid of block minima and maxima (blocks of 8, 16, 32 ... ticks), so
+// that a column of pixels costs about a dozen reads however many ticks lie under it, and a spike of one
 // sample shows at every zoom. Sums and sums of squares ride along from blocks of 64 on, for means and RMS of any
 // range. Ticks that never came are gaps: NaN.
 #pragma once
@@ -54,8 +54,8 @@ struct SampleSums {
 
 class ChannelStore {
  public:
-  /// Ticks of a block, each level's so many times the level below's; and of the largest.
-  static constexpr double kBlockFactor = 8.0, kLargestBlock = 262'144.0;
+  /// Ticks of the largest block.
+  static constexpr double kLargestBlock = 262'144.0;
 
   /// `capacity` ticks are kept, rounded up to a power of two, the largest block's at least. Precondition:
   /// channels > 0.
@@ -85,27 +85,26 @@ class ChannelStore {
   /// Over from <= tick < to, cut to what is kept.
   MinMax min_max(std::size_t channel, std::uint64_t from, std::uint64_t to) const;
   /// The same for out.size() ranges of `ticks` ticks each, one after the other from `from` on: many at once, best where `ticks`
-  /// and `from` are whole blocks, 8 to 64 of them.
+  /// and `from` are whole blocks, 8 to 15 of them.
   void min_max_row(std::size_t channel, std::uint64_t from, std::uint64_t ticks, std::span<MinMax> out) const;
   SampleSums sums(std::size_t channel, std::uint64_t from, std::uint64_t to) const;
 
  private:
-  static constexpr std::size_t kShift = 3;  ///< each level's block is 2^kShift blocks of the level below
-  static constexpr std::size_t kLevels = 6;
-  static constexpr std::size_t kFirstSumLevel = 2;
-  static_assert(kBlockFactor == 1 << kShift && kLargestBlock == std::size_t{1} << (kShift * kLevels));
+  // Level 0 are the samples; above it a block is two of the level below, but for the smallest. With larger steps the columns whose
+  // ticks lie just short of the next level would read several times as many blocks as the others.
+  static constexpr std::size_t kLevels = 16, kSmallestShift = 3;
+  static constexpr std::size_t shift_of(std::size_t level) { return level == 0 ? 0 : kSmallestShift + level - 1; }
+  static constexpr std::size_t kFirstSumLevel = 4;
 
   void put(std::uint64_t tick, std::span<const float> values);
+  void complete(std::size_t level, std::size_t channel, std::uint64_t start);
   void assign_channel(std::size_t channel, std::uint64_t first, std::span<const float> rows);
   std::size_t slot(std::uint64_t tick) const { return static_cast<std::size_t>(tick) & (capacity_ - 1); }
-  MinMax& block(std::size_t level, std::size_t channel, std::uint64_t tick) {
-    const std::size_t shift = kShift * level;
-    return levels_[level - 1][channel * (capacity_ >> shift) + (slot(tick) >> shift)];
+  std::size_t place(std::size_t level, std::size_t channel, std::uint64_t tick) const {
+    return channel * (capacity_ >> shift_of(level)) + (slot(tick) >> shift_of(level));
   }
-  SampleSums& sum_block(std::size_t level, std::size_t channel, std::uint64_t tick) {
-    const std::size_t shift = kShift * level;
-    return sums_[level - kFirstSumLevel][channel * (capacity_ >> shift) + (slot(tick) >> shift)];
-  }
+  MinMax& block(std::size_t level, std::size_t channel, std::uint64_t tick) { return levels_[level - 1][place(level, channel, tick)]; }
+  SampleSums& sum_block(std::size_t level, std::size_t channel, std::uint64_t tick) { return sums_[level - kFirstSumLevel][place(level, channel, tick)]; }
   template <class Visit>
   void visit_blocks(std::uint64_t from, std::uint64_t to, Visit visit) const;
 

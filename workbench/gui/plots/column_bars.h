@@ -10,7 +10,7 @@
 namespace tangent {
 
 /// Above this many ticks a column, bars; below, the samples themselves joined by a line.
-inline constexpr double kTicksPerColumnForBars = 3.0;
+inline constexpr double kTicksPerColumnForBars = 2.0;
 
 struct ColumnBar {
   float x = 0.0f;     ///< left edge of the column, pixels from the plot's left

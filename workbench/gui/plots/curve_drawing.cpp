@@ -13,9 +13,24 @@ void draw_rects(ImDrawList& draw, const std::vector<BarRect>& rects, float width
   for (std::size_t from = 0; from < rects.size(); from += chunk) {
     const std::size_t count = std::min(chunk, rects.size() - from);
     draw.PrimReserve(static_cast<int>(6 * count), static_cast<int>(4 * count));
+    // As PrimRect does, without a call for each of tens of thousands.
+    const ImVec2 uv = ImGui::GetFontTexUvWhitePixel();
+    ImDrawVert* vertex = draw._VtxWritePtr;
+    ImDrawIdx* index = draw._IdxWritePtr;
+    unsigned int first = draw._VtxCurrentIdx;
     for (std::size_t i = from; i < from + count; ++i) {
-      draw.PrimRect({rects[i].x, rects[i].top}, {rects[i].x + width, rects[i].bottom}, colour);
+      const BarRect& r = rects[i];
+      const float right = r.x + width;
+      *vertex++ = {{r.x, r.top}, uv, colour};
+      *vertex++ = {{right, r.top}, uv, colour};
+      *vertex++ = {{right, r.bottom}, uv, colour};
+      *vertex++ = {{r.x, r.bottom}, uv, colour};
+      for (const unsigned int corner : {0u, 1u, 2u, 0u, 2u, 3u}) *index++ = static_cast<ImDrawIdx>(first + corner);
+      first += 4;
     }
+    draw._VtxWritePtr = vertex;
+    draw._IdxWritePtr = index;
+    draw._VtxCurrentIdx = first;
   }
 }
 

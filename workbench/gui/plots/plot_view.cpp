@@ -108,17 +108,18 @@ void PlotView::draw_curve(const UiContext& ui, const ChannelStore& store, std::s
                           const PlotArea& area, ImU32 ink, bool steps) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const CurveArea where{area.min, area.max};
-  const auto to_y = [&](float value) {
-    const double share = values_.share(static_cast<double>(value) * spec_.scale, spec_.log);
-    return area.max.y - static_cast<float>(std::clamp(share, -1.0, 2.0)) * area.height();
+  const bool bars = axis.span() / static_cast<double>(area.width()) >= kTicksPerColumnForBars;
+  const auto draw_with = [&](auto to_y) {
+    if (bars) return draw_bars(draw, where, kept.update(store, channel, axis, area.width()), to_y, ink, ui.px(1.5f));
+    sample_points(store, channel, axis, area.width(), points_);
+    const bool dots = static_cast<double>(area.width()) / axis.span() > static_cast<double>(ui.px(7));
+    draw_samples(draw, where, points_, line_, to_y, ink, ui.px(1.5f), steps, dots ? ui.px(2.2f) : 0.0f);
   };
-  if (axis.span() / static_cast<double>(area.width()) >= kTicksPerColumnForBars) {
-    draw_bars(draw, where, kept.update(store, channel, axis, area.width()), to_y, ink, ui.px(1.5f));
-    return;
-  }
-  sample_points(store, channel, axis, area.width(), points_);
-  const bool dots = static_cast<double>(area.width()) / axis.span() > static_cast<double>(ui.px(7));
-  draw_samples(draw, where, points_, line_, to_y, ink, ui.px(1.5f), steps, dots ? ui.px(2.2f) : 0.0f);
+  const auto y_of = [&](double share) { return area.max.y - static_cast<float>(std::clamp(share, -1.0, 2.0)) * area.height(); };
+  if (spec_.log) return draw_with([&](float value) { return y_of(values_.share(static_cast<double>(value) * spec_.scale, true)); });
+  // A division for each of tens of thousands of bars would show in the time of a frame.
+  const double gain = spec_.scale / (values_.high() - values_.low()), offset = values_.low() / (values_.high() - values_.low());
+  draw_with([&](float value) { return y_of(static_cast<double>(value) * gain - offset); });
 }
 
 void PlotView::draw_series(const UiContext& ui, const ChannelStore& store, const TimeAxis& axis, const PlotLink& link, const PlotArea& area) {
