@@ -46,9 +46,10 @@ inline constexpr double kWildNormalDeg = 60.0;
 
 // --- Solver -------------------------------------------------------------------------------------------
 
-/// det M below which `robust` does not trust a Newton step, 1. Newton's step grows as 1/det. Larger: slow
-/// tangent steps where Newton is fine; smaller: wild steps near a fold.
-inline constexpr double kNewtonMinDet = 0.05;
+/// det M below which `robust` does not trust a Newton step, 1. Newton's step grows as 1/det, and is limited by the
+/// travel (below). Larger: tangent steps where Newton is fine, which leave 1 - det of the error where it is small, so
+/// that a search gives up on a sound contact; smaller: wild steps near a fold.
+inline constexpr double kNewtonMinDet = 0.01;
 
 /// Longest step of `robust`, in travels, 1, where it is no short one: below kShortStep of the triangle in both parameters.
 /// A convex point contact needs at most 1/(1 + h k); only ground near a fold asks for more. Larger: leaps to other

@@ -1,8 +1,8 @@
 #include "core/contact/seed.h"
 
 #include "core/base/tolerances.h"
+#include "core/contact/facing_normal.h"
 #include "core/contact/triangle_exclusion.h"
-#include "core/contact/vertex_fan.h"
 
 #include <algorithm>
 #include <array>
@@ -105,8 +105,8 @@ void face_the_finger(IterationContext& context, const ContactScene& scene, Selec
     sample_place(context, r.plane, r.sample);
     r.evaluations = 1;
     const Vec3 interpolated = r.plane.normal;
-    r.plane.normal = facing_normal(context, r.plane.point, interpolated);
-    if (is_round(context.finger) && glm::dot(r.plane.normal, interpolated) < 0.0) r.plane.normal = -r.plane.normal;
+    const bool inside = glm::dot(context.pose.position - r.plane.point, interpolated) < 0.0;
+    r.plane.normal = facing_normal(context.finger, context.pose, r.plane.point, interpolated, inside ? FacingSide::back : FacingSide::front);
     r.contact = contact_on_plane(context.finger, context.pose, r.plane.point, r.plane.normal);
     r.stop = r.contact.error_m < context.settings.tolerance_m ? StopReason::converged : StopReason::iteration_limit;
     selection.offer(context, r);

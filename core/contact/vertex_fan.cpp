@@ -1,5 +1,6 @@
 #include "core/contact/vertex_fan.h"
 
+#include "core/contact/facing_normal.h"
 #include "core/contact/step_rule.h"
 #include "core/contact/walk.h"
 #include "core/mesh/vertex_ring.h"
@@ -65,29 +66,10 @@ SurfaceSample vertex_sample_at(IterationContext& context, const TrackedPlane& pl
   return standing_sample(context.cache.mesh().position(plane.triangle, plane.side), normal);
 }
 
-Vec3 facing_normal(const IterationContext& context, const Vec3& point, const Vec3& start) {
-  const Vec3 d = context.pose.position - point;
-  const double d2 = glm::dot(d, d);
-  Vec3 normal = d2 > 0.0 ? d / std::sqrt(d2) : start;
-  if (is_round(context.finger)) return normal;
-  // Newton on the sphere of normals: H dN = travel in the plane.
-  for (int i = 0; i < 30; ++i) {
-    const SurfaceSample s = standing_sample(point, normal);
-    const PlaneContact c = contact_on_plane(context.finger, context.pose, s.point, s.normal);
-    const ParameterStep step = newton_step(s, contact_jacobian(context.finger, context.pose, s, c), c);
-    if (!step.valid) break;
-    const double size = std::hypot(step.da, step.db);
-    const double scale = size > 0.3 ? 0.3 / size : 1.0;
-    normal = unit(normal + scale * (step.da * s.normal_u + step.db * s.normal_v));
-    if (size < 1e-13) break;
-  }
-  return normal;
-}
-
 SurfaceSample vertex_sample(IterationContext& context, const TrackedPlane& plane) {
   const ContactMesh& mesh = context.cache.mesh();
-  return vertex_sample_at(context, plane,
-                          facing_normal(context, mesh.position(plane.triangle, plane.side), mesh.normal(plane.triangle, plane.side)));
+  const Vec3& point = mesh.position(plane.triangle, plane.side);
+  return vertex_sample_at(context, plane, facing_normal(context.finger, context.pose, point, mesh.normal(plane.triangle, plane.side)));
 }
 
 VertexExit vertex_exit(IterationContext& context, const TrackedPlane& plane) {

@@ -13,10 +13,6 @@ SurfaceSample vertex_sample(IterationContext& context, const TrackedPlane& plane
 /// The same with a given unit normal.
 SurfaceSample vertex_sample_at(IterationContext& context, const TrackedPlane& plane, const Vec3& normal);
 
-/// Unit normal of the plane through `point` (local) that the finger touches just there: unit(c - point) for a round
-/// finger, by Newton from `start` for others. `start` where the finger's centre is the point.
-Vec3 facing_normal(const IterationContext& context, const Vec3& point, const Vec3& start);
-
 /// Where the contact leaves a vertex to: the edge or face around it that draws it most; none: it rests.
 struct VertexExit {
   std::optional<TrackedPlane> place;
