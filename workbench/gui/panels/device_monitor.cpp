@@ -29,7 +29,10 @@ void heading(const UiContext& ui, const char* title) {
   ImGui::PushFont(ui.fonts.strong);
   ImGui::TextUnformatted(title);
   ImGui::PopFont();
-  ImGui::Separator();
+  // Within its column: ImGui's own line would reach into the next one.
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  ImGui::GetWindowDrawList()->AddLine(at, {at.x + ImGui::GetContentRegionAvail().x, at.y}, ui.colours.border);
+  ImGui::Dummy({1, ui.px(1)});
 }
 
 void dim_text(const UiContext& ui, const std::string& text) {
@@ -173,27 +176,61 @@ void draw_log(const UiContext& ui, const AppModel& model) {
   }
 }
 
-void draw_left(const UiContext& ui, AppModel& model, bool cable, const LinkReport& link) {
+void draw_state_column(const UiContext& ui, AppModel& model) {
   draw_states(ui, model);
   draw_limits(ui, model);
-  draw_raw(ui, model);
-  if (cable) draw_link(ui, link);
 }
 
-void draw_right(const UiContext& ui, AppModel& model, bool cable, const LinkReport& link) {
+/// `room`: height for the histograms.
+void draw_rates(const UiContext& ui, const AppModel& model, bool cable, const LinkReport& link, float room) {
   const ServoStatus& servo = model.status().servo;
   const Session& session = *model.session();
   fact(ui, "Rate, measured / asked for", (servo.rate_hz > 0.0 ? printed("%.1f", servo.rate_hz) : std::string("-")) + printed(" / %.0f", servo.nominal_hz), "Hz");
   fact(ui, "Ticks / late ticks", count_text(servo.ticks) + " / " + count_text(servo.late_ticks));
   ImGui::Dummy({1, ui.px(4)});
-  const float height = ui.px(64);
+  const bool round_trip = cable && link.round_trip_us != nullptr, arrival = cable && link.arrival_us != nullptr;
+  const float around = ui.px(42);   // each one's title and axis
+  const float height = std::clamp(room / static_cast<float>(2 + round_trip + arrival) - around, ui.px(64), ui.px(240));
   draw_duration_histogram(ui, "Tick to tick", session.period_ns(), 1.0, colour(ui.palette.tick_time), height);
   draw_duration_histogram(ui, "Late by", session.lateness_ns(), 1.0, colour(ui.palette.force_x), height);
-  if (cable && link.round_trip_us != nullptr) draw_duration_histogram(ui, "Round trip", *link.round_trip_us, 1e3, colour(ui.palette.cld_commanded), height);
-  if (cable && link.arrival_us != nullptr) draw_duration_histogram(ui, "Between samples", *link.arrival_us, 1e3, colour(ui.palette.cld_measured), height);
+  if (round_trip) draw_duration_histogram(ui, "Round trip", *link.round_trip_us, 1e3, colour(ui.palette.cld_commanded), height);
+  if (arrival) draw_duration_histogram(ui, "Between samples", *link.arrival_us, 1e3, colour(ui.palette.cld_measured), height);
+}
+
+void draw_values(const UiContext& ui, const AppModel& model, bool cable, const LinkReport& link) {
+  draw_raw(ui, model);
+  if (cable) draw_link(ui, link);
+}
+
+void draw_service_column(const UiContext& ui, AppModel& model) {
   draw_injection(ui, model);
   if (model.device() == "maestro") draw_calibration(ui, model);
   draw_log(ui, model);
+}
+
+/// As many columns as there is width for, each as wide as labels and their values can be read together.
+void draw_columns(const UiContext& ui, AppModel& model) {
+  LinkReport link;
+  const bool cable = model.session()->display_report(link);
+  const float room = ImGui::GetContentRegionAvail().x, high = ImGui::GetContentRegionAvail().y;
+  const int columns = room > ui.px(1200) ? 3 : room > ui.px(456) ? 2 : 1;
+  const float width = std::min(room, static_cast<float>(columns) * ui.px(columns == 3 ? 640 : 600));
+  ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, ImVec2(ui.px(columns == 3 ? 16 : 10), 0));
+  if (ImGui::BeginTable("##monitor", columns, ImGuiTableFlags_SizingStretchSame | ImGuiTableFlags_NoPadOuterX, {width, 0})) {
+    ImGui::TableNextColumn();
+    draw_state_column(ui, model);
+    if (columns < 3) draw_values(ui, model, cable, link);
+    ImGui::TableNextColumn();
+    // In a column of their own the histograms take what the values below them leave.
+    draw_rates(ui, model, cable, link, columns == 3 ? high - ui.px(cable ? 420 : 190) : 0.0f);
+    if (columns == 3) {
+      draw_values(ui, model, cable, link);
+      ImGui::TableNextColumn();
+    }
+    draw_service_column(ui, model);
+    ImGui::EndTable();
+  }
+  ImGui::PopStyleVar();
 }
 
 }  // namespace
@@ -216,20 +253,7 @@ void draw_device_monitor(const UiContext& ui, AppModel& model, const Rect& rect)
   if (model.session() == nullptr) {
     ImGui::TextDisabled("No session");
   } else {
-    LinkReport link;
-    const bool cable = model.session()->display_report(link);
-    const bool wide = rect.w > ui.px(480);
-    // Wider than this, labels and their values lose sight of each other.
-    const float width = std::min(ImGui::GetContentRegionAvail().x, ui.px(wide ? 960 : 480));
-    ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, ImVec2(ui.px(10), 0));
-    if (ImGui::BeginTable("##monitor", wide ? 2 : 1, ImGuiTableFlags_SizingStretchSame | ImGuiTableFlags_NoPadOuterX, {width, 0})) {
-      ImGui::TableNextColumn();
-      draw_left(ui, model, cable, link);
-      ImGui::TableNextColumn();
-      draw_right(ui, model, cable, link);
-      ImGui::EndTable();
-    }
-    ImGui::PopStyleVar();
+    draw_columns(ui, model);
   }
   ImGui::End();
 }
