@@ -93,7 +93,8 @@ void App::Ui::draw_splitters(const UiContext& ui, AppModel& model, const Layout&
   };
   LayoutSizes& sizes = model.sizes();
   sizes = drag_left(sizes, splitter("##splitter/left", layout.left_splitter, true).x, ui.scale);
-  sizes = drag_right(sizes, splitter("##splitter/right", layout.right_splitter, true).x, ui.scale);
+  const float dx = splitter("##splitter/right", layout.right_splitter, true).x;
+  if (dx != 0.0f) sizes = drag_right(sizes, dx, layout.right.w, ui.scale);
   const float dy = splitter("##splitter/plots", layout.plot_splitter, false).y;
   if (dy != 0.0f) sizes = drag_plots(sizes, dy, layout.plots.h, ui.scale);
 }

@@ -10,6 +10,7 @@ constexpr float kMenu = 32.0f, kTransport = 34.0f, kStatus = 22.0f, kSplitter = 
 constexpr float kLeastViewWidth = 280.0f, kLeastViewHeight = 160.0f;
 constexpr float kLeastColumn = 250.0f, kMostColumn = 620.0f;
 constexpr float kLeastPlots = 90.0f, kMostPlots = 1400.0f;
+constexpr float kRightShare = 0.19f, kLeastRight = 328.0f, kMostRight = 470.0f;
 constexpr float kPlotShare = 0.325f, kLeastByShare = 200.0f, kMostByShare = 560.0f;
 }  // namespace
 
@@ -26,7 +27,8 @@ Layout compute_layout(const LayoutSizes& sizes, float width, float height, float
   float plots = sizes.show_plots ? px(sizes.plots > 0.0f ? sizes.plots : by_share) + gap : 0.0f;
   plots = std::clamp(plots, 0.0f, std::max(0.0f, middle - px(kLeastViewHeight)));
   float left = sizes.show_left ? px(sizes.left) + gap : 0.0f;
-  float right = sizes.show_right ? px(sizes.right) + gap : 0.0f;
+  const float right_by_share = std::clamp(kRightShare * width / scale, kLeastRight, kMostRight);
+  float right = sizes.show_right ? px(sizes.right > 0.0f ? sizes.right : right_by_share) + gap : 0.0f;
   const float excess = left + right + px(kLeastViewWidth) - width;
   if (excess > 0.0f && left + right > 0.0f) {
     const float keep = std::max(0.0f, 1.0f - excess / (left + right));
@@ -49,8 +51,8 @@ LayoutSizes drag_left(LayoutSizes sizes, float dx, float scale) {
   sizes.left = std::clamp(sizes.left + dx / scale, kLeastColumn, kMostColumn);
   return sizes;
 }
-LayoutSizes drag_right(LayoutSizes sizes, float dx, float scale) {
-  sizes.right = std::clamp(sizes.right - dx / scale, kLeastColumn, kMostColumn);
+LayoutSizes drag_right(LayoutSizes sizes, float dx, float shown, float scale) {
+  sizes.right = std::clamp((shown - dx) / scale, kLeastColumn, kMostColumn);
   return sizes;
 }
 LayoutSizes drag_plots(LayoutSizes sizes, float dy, float shown, float scale) {

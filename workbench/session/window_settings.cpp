@@ -70,7 +70,7 @@ Result<WindowSettings> read_window_settings(const std::filesystem::path& path) {
   }
   if (const toml::table* layout = root["layout"].as_table()) {
     take(*layout, "left", 100.0, 2000.0, out.left);
-    take(*layout, "right", 100.0, 2000.0, out.right);
+    take(*layout, "right", 0.0, 2000.0, out.right);
     take(*layout, "plots", 0.0, 4000.0, out.plots);
     take(*layout, "show_left", out.show_left);
     take(*layout, "show_right", out.show_right);

@@ -14,7 +14,7 @@ namespace tangent {
 struct WindowSettings {
   static constexpr std::size_t kMostRecent = 12;
 
-  double left = 312.0, right = 328.0, plots = 0.0;   ///< points; plots 0: a share of the window
+  double left = 312.0, right = 0.0, plots = 0.0;   ///< points; right and plots 0: a share of the window
   bool show_left = true, show_right = true, show_plots = true;
   bool light_theme = false;
   double text_size = 1.0;                            ///< factor on top of the monitor's

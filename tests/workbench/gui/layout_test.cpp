@@ -49,16 +49,22 @@ TEST_CASE("hidden parts give their room to the 3D view") {
 TEST_CASE("splitters follow the pointer and stop at their ends") {
   LayoutSizes sizes;
   CHECK(drag_left(sizes, 20.0f, 2.0f).left == sizes.left + 10.0f);
-  CHECK(drag_right(sizes, 20.0f, 1.0f).right == sizes.right - 20.0f);
+  CHECK(drag_right(sizes, 20.0f, 400.0f, 1.0f).right == 380.0f);
+  CHECK(drag_right(sizes, 20.0f, 800.0f, 2.0f).right == 390.0f);
   CHECK(drag_plots(sizes, -30.0f, 200.0f, 1.0f).plots == 230.0f);
   CHECK(drag_plots(sizes, -30.0f, 400.0f, 2.0f).plots == 215.0f);
   CHECK(drag_left(sizes, -1e6f, 1.0f).left > 100.0f);
   CHECK(drag_left(sizes, 1e6f, 1.0f).left < 1000.0f);
 }
 
-TEST_CASE("plots that were not dragged take more room in a larger window") {
+TEST_CASE("plots and the right column, where they were not dragged, take more room in a larger window") {
   const Layout small = compute_layout({}, 1280.0f, 720.0f, 1.0f), large = compute_layout({}, 2560.0f, 1440.0f, 1.0f);
   CHECK(small.plots.h >= 180.0f);
   CHECK(large.plots.h > 1.5f * small.plots.h);
   CHECK(large.plots.h < large.view.h);
+  CHECK(large.right.w > 1.3f * small.right.w);
+  CHECK(compute_layout({}, 2560.0f, 1440.0f, 2.0f).right.w == doctest::Approx(2.0f * small.right.w));
+  LayoutSizes dragged;
+  dragged.right = 300.0f;
+  CHECK(compute_layout(dragged, 2560.0f, 1440.0f, 1.0f).right.w == doctest::Approx(300.0f));
 }
