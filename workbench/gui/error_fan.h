@@ -4,6 +4,7 @@
 
 #include "workbench/session/session.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <memory>
@@ -27,11 +28,16 @@ class ErrorFan {
   void clear() { curves_.clear(); }
   /// By tick; the last is `tick` itself.
   const std::deque<Curve>& curves() const { return curves_; }
+  std::size_t longest() const;   ///< iterations of the curve with the most
 
  private:
   void add(Session& session, const ServoRecord& record);
   std::deque<Curve> curves_;
   std::unique_ptr<IterationTrace> trace_ = std::make_unique<IterationTrace>();
 };
+
+/// Iterations that the error plot has room for. Where time stands still they are those of the tick in view: one that takes two
+/// must not be squeezed by one before it that took fifty. While it runs the axis has to stand still, and holds all of the fan.
+std::size_t iterations_shown(std::size_t of_tick, std::size_t longest_of_fan, bool paused);
 
 }  // namespace tangent

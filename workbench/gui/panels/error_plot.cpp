@@ -32,24 +32,20 @@ struct ErrorScale {
   ImVec2 point(std::size_t i, const IterationRecord& r) const { return {x(static_cast<double>(i)), y(shown_um(r))}; }
 };
 
-/// Holds every error and the tolerance.
-ErrorScale make_scale(const UiContext& ui, std::span<const IterationRecord> iterations, const ErrorFan& fan, double tolerance_um, ImVec2 min,
-                      ImVec2 max) {
+/// Holds every error of the first `shown` iterations, and the tolerance.
+ErrorScale make_scale(const UiContext& ui, std::span<const IterationRecord> iterations, const ErrorFan& fan, std::size_t shown, double tolerance_um,
+                      ImVec2 min, ImVec2 max) {
   double low = tolerance_um, high = tolerance_um * 10.0;
-  std::size_t most = iterations.size();
+  const auto include = [&](double um) {
+    low = std::min(low, um);
+    high = std::max(high, um);
+  };
   for (const ErrorFan::Curve& curve : fan.curves()) {
-    most = std::max(most, curve.error_m.size());
-    for (const float error : curve.error_m) {
-      low = std::min(low, shown_um(static_cast<double>(error)));
-      high = std::max(high, shown_um(static_cast<double>(error)));
-    }
+    for (std::size_t i = 0; i < std::min(shown, curve.error_m.size()); ++i) include(shown_um(static_cast<double>(curve.error_m[i])));
   }
-  for (const IterationRecord& r : iterations) {
-    low = std::min(low, shown_um(r));
-    high = std::max(high, shown_um(r));
-  }
+  for (const IterationRecord& r : iterations) include(shown_um(r));
   return {min, max, std::pow(10.0, std::floor(std::log10(low) + 1e-9)), std::pow(10.0, std::ceil(std::log10(high) - 1e-9)),
-          std::max(4.0, static_cast<double>(most) - 1.0), ui.px(8)};
+          static_cast<double>(shown) - 1.0, ui.px(8)};
 }
 
 void draw_grid(const UiContext& ui, const ErrorScale& scale, double tolerance_um) {
@@ -88,14 +84,15 @@ std::optional<std::size_t> under_mouse(const UiContext& ui, const ErrorScale& sc
   return nearest;
 }
 
-/// Older ticks are fainter. A new seed starts somewhere else: no line from the last one to it.
-void draw_fan(const UiContext& ui, const ErrorScale& scale, const ErrorFan& fan) {
+/// Older ticks are fainter; what goes on beyond the axis is cut off there, and said. A new seed starts somewhere else: no line from the last one to it.
+void draw_fan(const UiContext& ui, const ErrorScale& scale, const ErrorFan& fan, std::size_t shown) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
+  draw.PushClipRect(scale.min, scale.max, true);
   const std::size_t count = fan.curves().size();
   for (std::size_t c = 0; c + 1 < count; ++c) {
     const ErrorFan::Curve& curve = fan.curves()[c];
     const ImU32 ink = packed(with_alpha(ui.palette.error, 0.06f + 0.16f * static_cast<float>(c + 1) / static_cast<float>(count)));
-    for (std::size_t i = 1; i < curve.error_m.size(); ++i) {
+    for (std::size_t i = 1; i < std::min(shown + 1, curve.error_m.size()); ++i) {
       if (curve.seed[i] != curve.seed[i - 1]) continue;
       const auto at = [&](std::size_t k) {
         return ImVec2(scale.x(static_cast<double>(k)), scale.y(shown_um(static_cast<double>(curve.error_m[k]))));
@@ -103,6 +100,12 @@ void draw_fan(const UiContext& ui, const ErrorScale& scale, const ErrorFan& fan)
       draw.AddLine(at(i - 1), at(i), ink, ui.px(1));
     }
   }
+  draw.PopClipRect();
+  if (fan.longest() <= shown) return;
+  const ImFont* font = ui.fonts.small;
+  const std::string note = printed("faint ones go on to %zu", fan.longest() - 1);
+  const float w = font->CalcTextSizeA(font->FontSize, 1e9f, 0.0f, note.c_str()).x;
+  draw.AddText(font, font->FontSize, {scale.max.x - w - ui.px(4), scale.min.y + ui.px(2)}, ui.colours.text_dim, note.c_str());
 }
 
 void draw_dots(const UiContext& ui, const ErrorScale& scale, std::span<const IterationRecord> iterations,
@@ -126,7 +129,7 @@ void draw_dots(const UiContext& ui, const ErrorScale& scale, std::span<const Ite
 
 void draw_error_plot(const UiContext& ui, AppModel& model) {
   const auto iterations = model.tick().iterations();
-  const float width = ImGui::GetContentRegionAvail().x, height = ui.px(132);
+  const float width = ImGui::GetContentRegionAvail().x, height = std::clamp(0.16f * ImGui::GetWindowHeight(), ui.px(132), ui.px(220));
   const ImVec2 at = ImGui::GetCursorScreenPos();
   ImGui::InvisibleButton("##error_plot", {std::max(width, 1.0f), height});
   ui.items.note_last("iterations/error_plot");
@@ -138,9 +141,10 @@ void draw_error_plot(const UiContext& ui, AppModel& model) {
   draw.AddText(font, font->FontSize, {min.x, at.y + ui.px(2)}, ui.colours.text, "Error");
   draw.AddText(font, font->FontSize, {min.x + ui.px(34), at.y + ui.px(2)}, ui.colours.text_dim, "\u00b5m, by iteration; faint: the 60 ticks before");
   const double tolerance_um = model.presets().current().solver.tolerance_m * 1e6;
-  const ErrorScale scale = make_scale(ui, iterations, model.error_fan(), tolerance_um, min, max);
+  const std::size_t shown = iterations_shown(iterations.size(), model.error_fan().longest(), model.paused());
+  const ErrorScale scale = make_scale(ui, iterations, model.error_fan(), shown, tolerance_um, min, max);
   draw_grid(ui, scale, tolerance_um);
-  draw_fan(ui, scale, model.error_fan());
+  draw_fan(ui, scale, model.error_fan(), shown);
   const auto hovered = mouse_here ? under_mouse(ui, scale, iterations) : std::nullopt;
   draw_dots(ui, scale, iterations, model.tick().selected(), hovered);
   if (!hovered) return;
