@@ -244,7 +244,7 @@ bool toggle_button(const UiContext& ui, std::string_view path, const char* text,
 }
 
 bool choice_row(const UiContext& ui, std::string_view path, float width, std::span<const std::string_view> choices,
-                int& chosen) {
+                int& chosen, bool again) {
   bool changed = false;
   const std::string current(choices[static_cast<std::size_t>(std::clamp(chosen, 0, static_cast<int>(choices.size()) - 1))]);
   ImGui::SetNextItemWidth(width);
@@ -253,7 +253,7 @@ bool choice_row(const UiContext& ui, std::string_view path, float width, std::sp
   if (open) {
     for (int i = 0; i < static_cast<int>(choices.size()); ++i) {
       const std::string name(choices[static_cast<std::size_t>(i)]);
-      if (ImGui::Selectable(name.c_str(), i == chosen) && i != chosen) {
+      if (ImGui::Selectable(name.c_str(), i == chosen) && (again || i != chosen)) {
         chosen = i;
         changed = true;
       }

@@ -46,9 +46,10 @@ bool text_button(const UiContext& ui, std::string_view path, const char* text, c
 void edit_next(const char* label);
 /// A field takes what is typed, at this moment. (io.WantTextInput still says so a frame after Enter.)
 bool text_is_edited();
-/// A combo box. Each choice is noted as path/choice while it is open.
+/// A combo box. Each choice is noted as path/choice while it is open. Returns whether another one was chosen; with `again` also
+/// when it was the present one.
 bool choice_row(const UiContext& ui, std::string_view path, float width, std::span<const std::string_view> choices,
-                int& chosen);
+                int& chosen, bool again = false);
 
 /// "label ........ value unit": label dim, value in the number font, right-aligned.
 void fact(const UiContext& ui, const char* label, const std::string& value, const char* unit = "",

@@ -625,6 +625,21 @@ TEST_CASE("a slice cuts the picture open and lets the pointer through") {
   CHECK(ui.model().view().slice->offset_m > at);
 }
 
+TEST_CASE("a slice across the view, chosen again, is across the view as it is now") {
+  RunningApp ui(HeadlessApp::deterministic_options(), 1280.0f, 2400.0f);
+  ui.frame();
+  const auto choose = [&] {
+    ui.click("inspect/slice");
+    ui.click("inspect/slice/across the view");
+    REQUIRE(ui.model().view().slice.has_value());
+    return glm::dot(ui.model().view().slice->normal, ui.model().view().camera.forward());
+  };
+  CHECK(choose() == doctest::Approx(-1.0));
+  ui.model().view().camera.orbit(0.8, 0.2);
+  CHECK(glm::dot(ui.model().view().slice->normal, ui.model().view().camera.forward()) > -0.95);
+  CHECK(choose() == doctest::Approx(-1.0));
+}
+
 TEST_CASE("the slice's choice says what the plane is, whoever set it") {
   RunningApp ui(HeadlessApp::deterministic_options(), 1280.0f, 2400.0f);
   const auto rest_of_row = [&] {

@@ -108,12 +108,12 @@ void draw_slice(const UiContext& ui, AppModel& model) {
   const float width = ImGui::GetContentRegionAvail().x;
   int axis = chosen_slice(slice);
   const Box box = world_bounds(*model.scene());
-  if (choice_row(ui, "inspect/slice", ui.px(118), kSlices, axis)) {
+  if (choice_row(ui, "inspect/slice", ui.px(118), kSlices, axis, true)) {
     if (axis == 0) slice.reset();
     else slice = SlicePlane{axis == 4 ? -model.view().camera.forward() : Vec3(axis == 1, axis == 2, axis == 3), 0.0};
     if (slice) slice->offset_m = glm::dot(slice->normal, box.centre());
   }
-  tooltip(ui, "Cuts the picture open with a plane; what is nearer than it is not drawn and not picked");
+  tooltip(ui, "Cuts the picture open with a plane; what is nearer than it is not drawn and not picked. \"across the view\" again: as one looks now");
   if (!slice) return;
   // From one side of the box to the other along the normal.
   const double reach = 0.5 * glm::dot(glm::abs(slice->normal), box.size()), middle = glm::dot(slice->normal, box.centre());
@@ -150,6 +150,10 @@ void draw_inspect_panel(const UiContext& ui, AppModel& model, InspectPanel& stat
   if (!section(ui, "Inspect", state.open)) return;
   if (model.scene() == nullptr) {
     ImGui::TextDisabled(model.loading() ? "Loading" : "No mesh");
+    return;
+  }
+  if (model.scene()->planar() != nullptr) {
+    ImGui::TextDisabled("For meshes; this is a 2D scene");
     return;
   }
   draw_findings(ui, model, state);
