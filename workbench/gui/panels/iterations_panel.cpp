@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace tangent {
 
@@ -16,11 +17,11 @@ struct Column {
   const char* doc;
 };
 constexpr std::array kColumns{
-    Column{"#", "", 3, "Order of the tangent planes; 0 is the plane kept from the last tick"},
+    Column{"#", "", 4.5f, "Order of the tangent planes; 0 is the plane kept from the last tick"},
     Column{"error", "\u00b5m", 9, "Distance between the surface point and the finger's contact on the plane there"},
     Column{"step", "\u00b5m", 8, "Length of the step on the base triangle that followed"},
     Column{"gain", "", 6, "Gain of Eq. 1 for that step; 0 where none was taken"},
-    Column{"triangle", "", 8, "Triangle the plane touches, in file order"},
+    Column{"triangle", "", 8, "Triangle the plane touches, in file order; in a 2D scene the vertex whose patch the line touches"},
     Column{"u", "", 6, "Weight of the triangle's second corner"},
     Column{"v", "", 6, "Weight of the triangle's third corner"},
     Column{"w", "", 6, "Weight of the triangle's first corner"},
@@ -52,12 +53,13 @@ std::string cell(const IterationRecord& r, std::size_t column) {
   }
 }
 
-void draw_header(const UiContext& ui) {
+void draw_header(const UiContext& ui, bool planar) {
   ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
   ImGui::PushFont(ui.fonts.small);
   for (std::size_t c = 0; c < kColumns.size(); ++c) {
     if (!ImGui::TableNextColumn()) continue;
-    const std::string title = kColumns[c].unit[0] != '\0' ? printed("%s %s", kColumns[c].title, kColumns[c].unit) : kColumns[c].title;
+    std::string title = kColumns[c].unit[0] != '\0' ? printed("%s %s", kColumns[c].title, kColumns[c].unit) : kColumns[c].title;
+    if (planar && title == "triangle") title = "vertex";
     if (c == 11) ImGui::TextUnformatted(title.c_str()); else right_aligned(title.c_str());
     tooltip(ui, kColumns[c].doc);
   }
@@ -105,6 +107,7 @@ void draw_iterations_panel(const UiContext& ui, AppModel& model, IterationsPanel
     return;
   }
   const TickOutput& out = record->tick.output;
+  const bool planar = model.scene() != nullptr && model.scene()->planar() != nullptr;
   ImGui::PushFont(ui.fonts.small);
   const bool bad = out.status == TickStatus::unconverged;
   ImGui::PushStyleColor(ImGuiCol_Text, bad ? ui.colours.warning : ui.colours.text);
@@ -112,16 +115,17 @@ void draw_iterations_panel(const UiContext& ui, AppModel& model, IterationsPanel
   ImGui::Text("%s%s", to_string(out.status), event.c_str());
   ImGui::PopStyleColor();
   ImGui::SameLine();
-  ImGui::TextDisabled("%d new plane%s, %d triangle change%s", out.iterations, out.iterations == 1 ? "" : "s",
-                      out.triangle_changes, out.triangle_changes == 1 ? "" : "s");
+  ImGui::TextDisabled("%d new %s%s, %d %s change%s", out.iterations, planar ? "line" : "plane", out.iterations == 1 ? "" : "s",
+                      out.triangle_changes, planar ? "vertex" : "triangle", out.triangle_changes == 1 ? "" : "s");
   ImGui::PopFont();
   if (!model.tick().problem().empty()) ImGui::TextWrapped("%s", model.tick().problem().c_str());
 
   ImGui::PushFont(ui.fonts.small_number);
   ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, ImVec2(ui.px(4), ui.px(1.5f)));
   const float row = ImGui::GetTextLineHeight() + ui.px(3);
-  // Always the same height, so that nothing below moves from tick to tick.
-  const float height = 6.0f * row + ui.px(4) + ImGui::GetStyle().ScrollbarSize;
+  // The same height whatever the tick, so that nothing below moves; more rows in a higher column.
+  const float rows = std::clamp(std::floor(0.14f * ImGui::GetWindowHeight() / row), 5.0f, 10.0f);
+  const float height = (rows + 1.0f) * row + ui.px(4) + ImGui::GetStyle().ScrollbarSize;
   constexpr ImGuiTableFlags flags = ImGuiTableFlags_ScrollX | ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg |
                                     ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_BordersOuterH;
   if (ImGui::BeginTable("iterations", static_cast<int>(kColumns.size()), flags, {0.0f, height})) {
@@ -130,7 +134,7 @@ void draw_iterations_panel(const UiContext& ui, AppModel& model, IterationsPanel
       ImGui::TableSetupColumn(column.title, ImGuiTableColumnFlags_WidthFixed, column.characters * character);
     }
     ImGui::TableSetupScrollFreeze(1, 1);
-    draw_header(ui);
+    draw_header(ui, planar);
     // Selected elsewhere (keys, 3D view, plots): its row comes into view.
     if (model.tick().selected() != state.shown_selection) {
       state.shown_selection = model.tick().selected();
@@ -147,7 +151,7 @@ void draw_iterations_panel(const UiContext& ui, AppModel& model, IterationsPanel
   ImGui::PopStyleVar();
   ImGui::PopFont();
   draw_error_plot(ui, model);
-  draw_path_map(ui, model, state.map);
+  if (!planar) draw_path_map(ui, model, state.map);
 }
 
 }  // namespace tangent

@@ -1,5 +1,6 @@
 // The mesh: what it is and what a contact solver will meet on it.
 #include "workbench/gui/panels/panels.h"
+#include "workbench/gui/polygon_facts.h"
 #include "workbench/gui/widgets.h"
 
 #include <array>
@@ -64,6 +65,20 @@ void draw_picked(const UiContext& ui, AppModel& model) {
   if (text_button(ui, "mesh/unpick", "Unpick", "Picks nothing")) model.view().picked_triangle = kNone;
 }
 
+/// Not the ribbon that it is drawn with.
+void draw_polygon(const UiContext& ui, const PlanarPolygon& polygon) {
+  const PolygonFacts facts = facts_of(polygon);
+  fact(ui, "Outline", polygon.closed ? "closed" : "open");
+  tooltip(ui, polygon.closed ? "The finger touches it from outside" : "The finger touches it from its left, as one goes along");
+  fact(ui, "Segments", count(facts.segments));
+  ui.items.note_last("mesh/segments");
+  fact(ui, "Vertices", count(facts.vertices));
+  fact(ui, "Sharp corners", count(facts.corners));
+  tooltip(ui, "Vertices that the file gives twice in a row: the curve has no patch there");
+  fact(ui, polygon.closed ? "Way around" : "Length", printed("%.4g", facts.length_m * 1e3), "mm");
+  fact(ui, "Size", printed("%.4g \u00d7 %.4g", facts.size_m.x * 1e3, facts.size_m.y * 1e3), "mm");
+}
+
 }  // namespace
 
 void draw_mesh_panel(const UiContext& ui, AppModel& model, FoldedPanel& state) {
@@ -75,7 +90,13 @@ void draw_mesh_panel(const UiContext& ui, AppModel& model, FoldedPanel& state) {
   const ContactMesh& mesh = model.scene()->mesh();
   fact(ui, "Name", std::filesystem::path(mesh.name()).filename().string());
   tooltip(ui, mesh.name());
+  if (const PlanarCurve* curve = model.scene()->planar()) {
+    draw_polygon(ui, curve->polygon());
+    ImGui::Dummy({1, ui.px(3)});
+    return;
+  }
   fact(ui, "Triangles", count(mesh.usable_triangle_count()));
+  ui.items.note_last("mesh/triangles");
   fact(ui, "Vertices", count(mesh.vertex_count()));
   const Vec3 size = mesh.bounds().size() * 1e3;
   fact(ui, "Size", printed("%.4g \u00d7 %.4g \u00d7 %.4g", size.x, size.y, size.z), "mm");

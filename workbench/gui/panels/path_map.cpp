@@ -176,7 +176,7 @@ void draw_path_map(const UiContext& ui, AppModel& model, PathMapPanel& state) {
   if (toggle_button(ui, "iterations/map_triangle", "Triangle", triangle, "The whole base triangle")) state.close_up = false;
   ImGui::PopFont();
 
-  const float width = std::max(1.0f, ImGui::GetContentRegionAvail().x - ui.px(4)), height = ui.px(196);
+  const float width = std::max(1.0f, ImGui::GetContentRegionAvail().x - ui.px(4)), height = std::clamp(0.22f * ImGui::GetWindowHeight(), ui.px(196), ui.px(320));
   const ImVec2 at = ImGui::GetCursorScreenPos();
   ImGui::InvisibleButton("##path_map", {width, height + ui.px(18)});
   ui.items.note_last("iterations/path_map");
@@ -185,12 +185,12 @@ void draw_path_map(const UiContext& ui, AppModel& model, PathMapPanel& state) {
   const ImVec2 end{at.x + width, at.y + height};
   const std::uint32_t triangle_index = base_triangle(model);
   const ServoRecord* record = model.tick().record();
-  const bool there = record != nullptr && model.scene() != nullptr && model.scene()->planar() == nullptr && triangle_index < model.scene()->mesh().triangle_count() && width > ui.px(60) &&
+  const bool there = record != nullptr && model.scene() != nullptr && triangle_index < model.scene()->mesh().triangle_count() && width > ui.px(60) &&
                      model.session()->scene(record->scene_id) == model.scene() && model.scene()->mesh().usable(triangle_index) &&
                      is_finite(record->tick.input.finger.position);
   draw.AddRectFilled(at, end, ui.colours.plot);
   if (!there) {
-    draw.AddText(ui.fonts.small, ui.fonts.small->FontSize, {at.x + ui.px(8), at.y + ui.px(8)}, ui.colours.text_faint, model.scene() != nullptr && model.scene()->planar() != nullptr ? "for meshes; this is a 2D scene" : "no planes on this mesh");
+    draw.AddText(ui.fonts.small, ui.fonts.small->FontSize, {at.x + ui.px(8), at.y + ui.px(8)}, ui.colours.text_faint, "no planes on this mesh");
     return;
   }
   const Preset* then = model.session()->preset(record->tick.preset_id);
