@@ -8,6 +8,27 @@
 
 namespace tangent {
 
+namespace {
+
+/// The time of a cursor, on a card under the axis.
+struct CursorLabel {
+  float left = 0.0f, right = 0.0f;
+  char text[48] = "";
+};
+CursorLabel cursor_label(const UiContext& ui, const TimeAxis& axis, const PlotLink& link, const PlotArea& area, double tick) {
+  CursorLabel label;
+  std::snprintf(label.text, sizeof label.text, "%.3f s", tick * link.tick_period_s);
+  const float x = std::round(static_cast<float>(axis.x_at(tick, static_cast<double>(area.min.x), static_cast<double>(area.width()))));
+  const float w = text_width(ui.fonts.small_number, label.text) + ui.px(8);
+  label.left = std::clamp(x - 0.5f * w, area.min.x, std::max(area.min.x, area.max.x - w));
+  label.right = label.left + w;
+  return label;
+}
+
+bool in_view(const TimeAxis& axis, double tick) { return tick >= axis.from() && tick <= axis.to(); }
+
+}  // namespace
+
 void PlotView::draw(const UiContext& ui, const ChannelStore& store, TimeAxis& axis, PlotLink& link, ImVec2 pos,
                     ImVec2 size, bool time_labels, double reference) {
   PlotArea area;
@@ -90,17 +111,27 @@ void PlotView::draw_grid(const UiContext& ui, const TimeAxis& axis, const PlotLi
   const double left = static_cast<double>(area.min.x), width = static_cast<double>(area.width());
   const int columns = std::max(1, static_cast<int>(area.width() / (5.5f * font->FontSize)));
   const double period = link.tick_period_s;
+  // A label that a cursor's card would cut in two is left out.
+  const auto covered = [&](float from, float to) {
+    const auto by = [&](double cursor) {
+      if (!in_view(axis, cursor)) return false;
+      const CursorLabel card = cursor_label(ui, axis, link, area, cursor);
+      return from < card.right + ui.px(3) && to > card.left - ui.px(3);
+    };
+    return (link.cursor && by(static_cast<double>(*link.cursor))) || (link.hover && by(*link.hover));
+  };
   for (const AxisTick& tick : linear_ticks(axis.from() * period, axis.to() * period, columns)) {
     const float x = std::round(static_cast<float>(axis.x_at(tick.value / period, left, width)));
     if (x <= area.min.x || x >= area.max.x) continue;
     draw.AddLine({x, area.min.y}, {x, area.max.y}, tick.major ? ui.colours.grid : ui.colours.grid_minor);
     if (!time_labels || !tick.major || tick.value < 0.0) continue;
     const float w = text_width(font, tick.label.c_str());
-    if (x + 0.5f * w > area.max.x - ui.px(14)) continue;
+    if (x + 0.5f * w > area.max.x - ui.px(14) || covered(x - 0.5f * w, x + 0.5f * w)) continue;
     text_at(draw, font, {x - 0.5f * w, area.max.y + ui.px(2)}, ui.colours.text_dim, tick.label.c_str());
   }
   if (time_labels) {
-    text_at(draw, font, {area.max.x - text_width(font, "s"), area.max.y + ui.px(2)}, ui.colours.text_dim, "s");
+    const float unit = area.max.x - text_width(font, "s");
+    if (!covered(unit, area.max.x)) text_at(draw, font, {unit, area.max.y + ui.px(2)}, ui.colours.text_dim, "s");
   }
 }
 
@@ -141,17 +172,13 @@ void PlotView::draw_cursors(const UiContext& ui, const TimeAxis& axis, const Plo
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const double left = static_cast<double>(area.min.x), width = static_cast<double>(area.width());
   const auto line_at = [&](double tick, ImU32 ink, bool label) {
-    if (tick < axis.from() || tick > axis.to()) return;
+    if (!in_view(axis, tick)) return;
     const float x = std::round(static_cast<float>(axis.x_at(tick, left, width)));
     draw.AddLine({x, area.min.y}, {x, area.max.y}, ink, ui.px(1));
     if (!label || !time_labels) return;
-    char text[48];
-    std::snprintf(text, sizeof text, "%.3f s", tick * link.tick_period_s);
-    ImFont* font = ui.fonts.small_number;
-    const float w = text_width(font, text) + ui.px(8);
-    const float at = std::clamp(x - 0.5f * w, area.min.x, area.max.x - w);
-    draw.AddRectFilled({at, area.max.y + ui.px(1)}, {at + w, area.max.y + ui.px(17)}, ui.colours.panel_header, ui.px(2));
-    text_at(draw, font, {at + ui.px(4), area.max.y + ui.px(2)}, ui.colours.text, text);
+    const CursorLabel card = cursor_label(ui, axis, link, area, tick);
+    draw.AddRectFilled({card.left, area.max.y + ui.px(1)}, {card.right, area.max.y + ui.px(17)}, ui.colours.panel_header, ui.px(2));
+    text_at(draw, ui.fonts.small_number, {card.left + ui.px(4), area.max.y + ui.px(2)}, ui.colours.text, card.text);
   };
   if (box_from_) {
     const float x0 = static_cast<float>(axis.x_at(*box_from_, left, width));
@@ -162,7 +189,7 @@ void PlotView::draw_cursors(const UiContext& ui, const TimeAxis& axis, const Plo
                        ui.colours.accent_soft);
   }
   const auto lettered = [&](const std::optional<std::uint64_t>& tick, const char* letter) {
-    if (!tick || static_cast<double>(*tick) < axis.from() || static_cast<double>(*tick) > axis.to()) return;
+    if (!tick || !in_view(axis, static_cast<double>(*tick))) return;
     const float x = std::round(static_cast<float>(axis.x_at(static_cast<double>(*tick), left, width)));
     draw.AddLine({x, area.min.y}, {x, area.max.y}, ui.colours.text, ui.px(1));
     const float w = text_width(ui.fonts.small, letter) + ui.px(6);

@@ -3,10 +3,12 @@
 
 #include "workbench/gui/plots/plot_view.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
 #include <string_view>
+#include <utility>
 
 using namespace tangent;
 using tangent::test::HeadlessApp;
@@ -27,6 +29,7 @@ class OnePlot {
     plot_.emplace(std::move(spec));
   }
   TimeAxis& axis() { return axis_; }
+  PlotLink& link() { return link_; }
   const ItemRect& area() const { return *items_.find("plots/one"); }
 
   void frame(const ChannelStore& store) {
@@ -44,11 +47,13 @@ class OnePlot {
     const ImU32 ink = packed(palette(Theme::dark).force_x);
     const ImDrawData& data = *ImGui::GetDrawData();
     curve_.clear();
+    below_.clear();
     for (int i = 0; i < data.CmdListsCount; ++i) {
       const ImDrawList& list = *data.CmdLists[i];
       if (std::string_view(list._OwnerName) != "one plot") continue;
       for (const ImDrawVert& v : list.VtxBuffer) {
         if ((v.col & ~IM_COL32_A_MASK) == (ink & ~IM_COL32_A_MASK) && v.pos.y >= area().min.y - 60.0f) curve_.push_back(v);
+        if (v.pos.y > area().max.y) below_.push_back(v);
       }
     }
   }
@@ -59,6 +64,20 @@ class OnePlot {
     return axis_.x_at(static_cast<double>(tick), static_cast<double>(area().min.x), static_cast<double>(area().max.x - area().min.x));
   }
   bool bars() const { return axis_.span() / static_cast<double>(area().max.x - area().min.x) >= kTicksPerColumnForBars; }
+
+  /// Where vertices of an ink lie below the plot, left to right.
+  std::pair<float, float> below(ImU32 ink) const {
+    std::pair<float, float> x{1e9f, -1e9f};
+    for (const ImDrawVert& v : below_) {
+      if ((v.col & ~IM_COL32_A_MASK) == (ink & ~IM_COL32_A_MASK)) x = {std::min(x.first, v.pos.x), std::max(x.second, v.pos.x)};
+    }
+    return x;
+  }
+  int count_below(ImU32 ink, float from, float to) const {
+    return static_cast<int>(std::count_if(below_.begin(), below_.end(), [&](const ImDrawVert& v) {
+      return (v.col & ~IM_COL32_A_MASK) == (ink & ~IM_COL32_A_MASK) && v.pos.x >= from && v.pos.x <= to;
+    }));
+  }
 
   /// Left edges of the bars that reach up to the value.
   std::vector<float> bars_up_to(float value) const {
@@ -89,7 +108,7 @@ class OnePlot {
   Typing typing_;
   Resting resting_;
   std::map<std::string, bool> sections_;
-  std::vector<ImDrawVert> curve_;
+  std::vector<ImDrawVert> curve_, below_;
 };
 
 void require_spike_drawn(const OnePlot& plot, std::uint64_t spike, bool alone) {
@@ -157,4 +176,27 @@ TEST_CASE("where there is no spike none is drawn") {
   plot.frame(store);
   CHECK(plot.bars_up_to(kSpike).empty());
   CHECK_FALSE(plot.bars_up_to(kUsual).empty());
+}
+
+TEST_CASE("a label of the time axis is whole or not there: a cursor's card never cuts one in two") {
+  HeadlessApp host;
+  ChannelStore store(1, 1);
+  store.assign(0, std::vector<float>(20'000, kUsual));
+  OnePlot plot({700.0f, 200.0f});
+  plot.axis().update(0, 20'000, 20'000.0);
+  plot.axis().show(0.0, 20'000.0);
+  const ThemeColours& colours = theme_colours(Theme::dark);
+  plot.frame(store);
+  const int all = plot.count_below(colours.text_dim, 0.0f, 1e9f);
+  REQUIRE(all > 0);
+  int fewer = 0;
+  for (std::uint64_t cursor = 0; cursor < 20'000; cursor += 130) {
+    plot.link().cursor = cursor;
+    plot.frame(store);
+    const auto [left, right] = plot.below(colours.panel_header);
+    REQUIRE(left < right);
+    REQUIRE(plot.count_below(colours.text_dim, left, right) == 0);
+    fewer += plot.count_below(colours.text_dim, 0.0f, 1e9f) < all;
+  }
+  CHECK(fewer > 0);
 }
