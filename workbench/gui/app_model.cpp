@@ -160,7 +160,7 @@ void AppModel::restart_session() {
 }
 
 void AppModel::frame_scene() {
-  if (scene_ != nullptr) view_.camera.frame(world_bounds(*scene_));
+  if (scene_ != nullptr) view_.camera.frame(world_bounds(*scene_), 1.1, view_.aspect);
 }
 
 namespace {

@@ -66,6 +66,7 @@ struct Inspection {
 struct ViewState {
   SceneToggles toggles;
   Camera camera;
+  double aspect = 1.3;              ///< width of the picture over its height
   std::uint32_t picked_triangle = kNone;
   std::uint32_t hovered_triangle = kNone;
   bool device_monitor = false;      ///< in place of the 3D view

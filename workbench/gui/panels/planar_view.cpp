@@ -227,7 +227,7 @@ void draw_planar_view(const UiContext& ui, AppModel& model, PlanarView& view, co
   draw_scale(ui, view, rect, draw);
   if (record != nullptr && view.display) {
     const float em = ui.fonts.text->FontSize;
-    const OverlayCanvas canvas{draw, {rect.x, rect.y}, {rect.w, rect.h}, ui.palette, ui.fonts.text, ui.fonts.number, em};
+    const OverlayCanvas canvas{draw, {rect.x, rect.y}, {rect.w, rect.h}, ui.palette, ui.fonts.small, ui.fonts.small_number, em};
     draw_cld_inset(canvas, {rect.right() - 0.9f * em, rect.bottom() - 0.7f * em}, model.presets().current().display.travel_m,
                    &record->device.cld_command_m, &record->device.cld_measured_m);
   }

@@ -195,9 +195,7 @@ void draw_picture(const UiContext& ui, AppModel& model, ViewPanel& state, SceneR
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   if (renderer.texture() == 0) return;
   draw.AddImage(reinterpret_cast<ImTextureID>(static_cast<std::intptr_t>(renderer.texture())), {rect.x, rect.y}, {rect.right(), rect.bottom()}, {0, 1}, {1, 0});
-  ImGui::PushFont(ui.fonts.text);
-  draw_scene_overlay(draw, {rect.x, rect.y}, static_cast<double>(per_point.x), renderer, frame, model.view().camera, ui.fonts.number);
-  ImGui::PopFont();
+  draw_scene_overlay(draw, {rect.x, rect.y}, static_cast<double>(per_point.x), renderer, frame, model.view().camera, ui.fonts);
 }
 
 }  // namespace
@@ -205,6 +203,7 @@ void draw_picture(const UiContext& ui, AppModel& model, ViewPanel& state, SceneR
 void draw_view_panel(const UiContext& ui, AppModel& model, ViewPanel& state, SceneRenderer* renderer, const Rect& rect) {
   state.build_ms_outside = 0.0;
   if (rect.w < 8.0f || rect.h < 8.0f) return;
+  model.view().aspect = static_cast<double>(rect.w / rect.h);
   ImGui::SetNextWindowPos({rect.x, rect.y});
   ImGui::SetNextWindowSize({rect.w, rect.h});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0, 0));

@@ -121,20 +121,31 @@ Staging fitted(Staging staging, const ContactScene& scene) {
   return staging;
 }
 
+/// What has to be in the picture: the vertices and the finger's box.
+std::vector<Vec3> drawn_points(const StagedScene& staged, bool finger) {
+  const ContactMesh& mesh = staged.scene->mesh();
+  std::vector<Vec3> points;
+  for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t) {
+    if (!mesh.usable(t)) continue;
+    for (const Vec3& p : mesh.positions(t)) points.push_back(mesh.origin() + p);
+  }
+  const double reach = staged.preset.finger.reach_m();
+  for (int side = 0; side < 6 && finger; ++side) {
+    Vec3 out(0.0);
+    out[side / 2] = side % 2 == 0 ? reach : -reach;
+    points.push_back(staged.tick.input.finger.position + out);
+  }
+  return points;
+}
+
 Camera aimed_camera(const SceneView& view, const StagedScene& staged, double aspect, bool y_up) {
   Camera camera;
   camera.y_up = y_up;
   camera.yaw_rad = view.yaw_rad;
   camera.pitch_rad = view.pitch_rad;
-  Box whole = world_bounds(*staged.scene);
-  camera.frame(whole, 1.05, aspect);
   const TickOutput& output = staged.tick.output;
-  if (view.aim == SceneView::Aim::whole && view.toggles.finger) {
-    const Vec3 reach(staged.preset.finger.reach_m());
-    whole.include(staged.tick.input.finger.position - reach);
-    whole.include(staged.tick.input.finger.position + reach);
-    camera.frame(whole, 1.06, aspect);
-  }
+  if (view.aim == SceneView::Aim::whole) camera.fit(drawn_points(staged, view.toggles.finger), 1.12, aspect);
+  else camera.frame(world_bounds(*staged.scene), 1.05, aspect);
   if (view.aim == SceneView::Aim::contact && output.triangle != kNone) {
     const auto p = staged.scene->mesh().positions(output.triangle);
     const Vec3 origin = staged.scene->mesh().origin();
@@ -163,9 +174,7 @@ void draw_view(OffscreenScreen& screen, SceneRenderer& renderer, const SceneFram
     renderer.render(frame, camera, request.width_px, request.height_px);
     const ImVec2 size{static_cast<float>(request.width_px), static_cast<float>(request.height_px)};
     list.AddImage(reinterpret_cast<ImTextureID>(static_cast<std::intptr_t>(renderer.texture())), {0, 0}, size, {0, 1}, {1, 0});
-    ImGui::PushFont(fonts.text);
-    draw_scene_overlay(list, {0, 0}, 1.0, renderer, frame, camera, fonts.number);
-    ImGui::PopFont();
+    draw_scene_overlay(list, {0, 0}, 1.0, renderer, frame, camera, fonts);
     ImGui::Render();
   });
 }

@@ -56,9 +56,12 @@ void look_from_contact_side(AppModel& model) {
   camera.pitch_rad = 0.5;
   Box box = world_bounds(*model.scene());
   const Vec3 reach(0.8 * model.presets().current().finger.reach_m());
-  box.include(record->tick.input.finger.position - reach);
-  box.include(record->tick.input.finger.position + reach);
-  camera.frame(box, 1.0, model.sizes().show_plots ? 1.5 : 1.0);
+  if (model.view().toggles.finger) {
+    box.include(record->tick.input.finger.position - reach);
+    box.include(record->tick.input.finger.position + reach);
+  }
+  // A map's bar is beside it.
+  camera.frame(box, model.map().on ? 1.2 : 1.0, model.view().aspect);
 }
 
 /// The tick with the most iterations among the last few thousand: there is something to see in it.
@@ -117,7 +120,7 @@ void show_map(AppModel& model) {
   fold_but(model, "Map");
   SceneToggles& on = model.view().toggles;
   on.smooth_surface = true;
-  on.shaded = on.finger = on.force = on.control_net = on.planes = on.penetration = false;
+  on.shaded = on.finger = on.force = on.control_net = on.planes = on.penetration = on.cld_inset = false;
 }
 
 /// The same under the paper's method.
@@ -190,8 +193,8 @@ void slice_open(AppModel& model) {
 
 /// Paused near the end.
 void inspect_plots(AppModel& model) {
-  look_from_contact_side(model);
   model.select_tick(model.end_tick() - 900);
+  look_from_contact_side(model);
 }
 
 /// A 2D scene of its own where no polygon is given: an outline with a corner.

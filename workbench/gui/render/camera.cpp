@@ -5,8 +5,11 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <utility>
 
 namespace tangent {
 namespace {
@@ -75,6 +78,45 @@ void Camera::frame(const Box& world_box, double margin, double aspect) {
     needed = std::max(needed, widen * across - glm::dot(p, forward()));
   }
   distance_m = std::max(needed, 0.1 * scene_radius_m);
+}
+
+// A point at (x, y) across and z further than the target is within a slope a of the middle where |x - tx| <= a (z + d): of all
+// points, tx >= max(x - a z) - a d and tx <= min(x + a z) + a d. The least d at the opening's slope gives the distance; at that
+// distance the least slope that all points are within gives the middle.
+void Camera::fit(std::span<const Vec3> world_points, double margin, double aspect) {
+  Box box;
+  for (const Vec3& p : world_points) box.include(p);
+  if (box.empty()) return;
+  scene_centre = box.centre();
+  scene_radius_m = std::max(0.5 * glm::length(box.size()), 1e-12);
+  const Vec3 centre = scene_centre;
+  const auto bounds = [&](const Vec3& axis, double slope) {
+    double from = -std::numeric_limits<double>::infinity(), to = std::numeric_limits<double>::infinity();
+    for (const Vec3& p : world_points) {
+      const double across = glm::dot(p - centre, axis), further = slope * glm::dot(p - centre, forward());
+      from = std::max(from, across - further);
+      to = std::min(to, across + further);
+    }
+    return std::pair(from, to);
+  };
+  const double opening = std::tan(0.5 * fov_rad) / margin;
+  const std::array axes{std::pair(right(), opening * aspect), std::pair(up(), opening)};
+  distance_m = 0.1 * scene_radius_m;
+  for (const auto& [axis, slope] : axes) {
+    const auto [from, to] = bounds(axis, slope);
+    distance_m = std::max(distance_m, (from - to) / (2.0 * slope));
+  }
+  target = centre;
+  for (const auto& [axis, slope] : axes) {
+    double below = 0.0, enough = slope;
+    for (int halving = 0; halving < 40; ++halving) {
+      const double middle = 0.5 * (below + enough);
+      const auto [from, to] = bounds(axis, middle);
+      (from - to <= 2.0 * middle * distance_m ? enough : below) = middle;
+    }
+    const auto [from, to] = bounds(axis, enough);
+    target += 0.5 * (from + to) * axis;
+  }
 }
 
 glm::dmat4 Camera::view_from(const Vec3& origin) const {

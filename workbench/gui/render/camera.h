@@ -6,6 +6,8 @@
 
 #include <glm/mat4x4.hpp>
 
+#include <span>
+
 namespace tangent {
 
 struct Ray {
@@ -42,6 +44,9 @@ struct Camera {
   /// Looks at the whole box, keeping the direction: its corners fit a view of this width over height, with
   /// `margin` to spare (1: one touches). No effect for an empty box.
   void frame(const Box& world_box, double margin = 1.1, double aspect = 1.3);
+  /// The same as near as these points allow, and with as much room on one side of them as on the other; what the camera turns
+  /// about is then not their centre. Nothing changes without points.
+  void fit(std::span<const Vec3> world_points, double margin, double aspect);
 
   /// World relative to `origin` -> eye space (eye looks along -z). Subtracting the origin in double before
   /// anything becomes float keeps pixels steady a kilometre away from it.

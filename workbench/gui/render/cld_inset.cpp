@@ -37,10 +37,10 @@ void finger_outline(const OverlayCanvas& c, ImVec2 pad, float px_per_m) {
 void number_row(const OverlayCanvas& c, ImVec2 at, float right, Rgba colour, const char* name, const double* metres) {
   char text[32] = "      \xE2\x80\x94   ";
   if (metres != nullptr) std::snprintf(text, sizeof text, "%+7.3f mm", *metres * 1e3);
-  const float height = 0.84f * c.em;
+  const float height = c.text_font->FontSize;
   c.list.AddCircleFilled({at.x + 0.3f * c.em, at.y + 0.5f * height}, 0.24f * c.em, c.ink(colour), 16);
-  c.text(c.text_font, height, {at.x + 0.8f * c.em, at.y}, c.colours.text_dim, name);
-  c.text(c.number_font, height, {right - c.text_size(c.number_font, text, height).x, at.y}, c.colours.text, text);
+  c.text(c.text_font, {at.x + 0.8f * c.em, at.y}, c.colours.text_dim, name);
+  c.text(c.number_font, {right - c.text_size(c.number_font, text).x, at.y}, c.colours.text, text);
 }
 
 }  // namespace

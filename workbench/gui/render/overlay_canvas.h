@@ -5,6 +5,8 @@
 
 #include <imgui.h>
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 
 namespace tangent {
@@ -13,27 +15,25 @@ struct OverlayCanvas {
   ImDrawList& list;
   ImVec2 top_left, size;  ///< of the picture
   const Palette& colours;
-  ImFont* text_font;
+  ImFont* text_font;      ///< each at the size it was made for: scaled, its letters blur
   ImFont* number_font;
-  float em;               ///< height of the text
+  float em;               ///< what lengths are measured in: the height of the window's text
 
   ImU32 ink(Rgba c, float alpha = 1.0f) const { return packed(with_alpha(c, alpha * c.a)); }
 
-  ImVec2 text_size(ImFont* font, const std::string& text, float height) const {
-    return font->CalcTextSizeA(height, 1e6f, 0.0f, text.c_str());
-  }
-  void text(ImFont* font, float height, ImVec2 at, Rgba colour, const std::string& words) const {
-    list.AddText(font, height, at, ink(colour), words.c_str());
+  static ImVec2 text_size(const ImFont* font, const std::string& text) { return font->CalcTextSizeA(font->FontSize, 1e6f, 0.0f, text.c_str()); }
+  void text(const ImFont* font, ImVec2 at, Rgba colour, const std::string& words) const {
+    list.AddText(font, font->FontSize, {std::round(at.x), std::round(at.y)}, ink(colour), words.c_str());
   }
   /// With a soft halo in the background's colour.
-  void haloed(ImFont* font, float height, ImVec2 at, Rgba colour, const std::string& words) const {
-    const Rgba halo = with_alpha(colours.background_bottom, 0.45f);
+  void haloed(const ImFont* font, ImVec2 at, Rgba colour, const std::string& words) const {
+    const Rgba halo = with_alpha(colours.background_bottom, 0.5f);
+    const float reach = std::max(1.0f, std::round(0.09f * font->FontSize));
     for (const ImVec2 d : {ImVec2(-1, -1), ImVec2(1, -1), ImVec2(-1, 1), ImVec2(1, 1), ImVec2(-1, 0), ImVec2(1, 0),
                            ImVec2(0, -1), ImVec2(0, 1)}) {
-      const float reach = 0.09f * height;
-      list.AddText(font, height, {at.x + d.x * reach, at.y + d.y * reach}, ink(halo), words.c_str());
+      text(font, {at.x + d.x * reach, at.y + d.y * reach}, halo, words);
     }
-    text(font, height, at, colour, words);
+    text(font, at, colour, words);
   }
   void card(ImVec2 min, ImVec2 max) const {
     list.AddRectFilled(min, max, ink(colours.panel, 0.78f), 0.35f * em);

@@ -2,6 +2,7 @@
 
 #include "workbench/gui/render/overlay_canvas.h"
 #include "workbench/gui/render/quantity_text.h"
+#include "workbench/gui/theme.h"
 
 #include <algorithm>
 #include <array>
@@ -12,16 +13,14 @@ namespace tangent {
 namespace {
 
 void draw_labels(const OverlayCanvas& c, double pixels_per_point, std::span<const SceneLabel> labels) {
-  const float height = 0.92f * c.em;
   for (const SceneLabel& label : labels) {
-    const ImVec2 size = c.text_size(c.number_font, label.text, height);
+    const ImVec2 size = c.text_size(c.number_font, label.text);
     // Clear of the point by half an em, and by as much of its own box as lies that way.
     const Vec2 half(0.5 * size.x, 0.5 * size.y);
     const double clear = 0.55 * c.em;
     const Vec2 centre = label.pixel / pixels_per_point + label.away * clear + label.away * half;
-    const ImVec2 at{c.top_left.x + static_cast<float>(std::round(centre.x - half.x)),
-                    c.top_left.y + static_cast<float>(std::round(centre.y - half.y))};
-    c.haloed(c.number_font, height, at, mix(label.colour, c.colours.text, 0.3f), label.text);
+    const ImVec2 at{c.top_left.x + static_cast<float>(centre.x - half.x), c.top_left.y + static_cast<float>(centre.y - half.y)};
+    c.haloed(c.number_font, at, mix(label.colour, c.colours.text, 0.55f), label.text);
   }
 }
 
@@ -45,11 +44,11 @@ void draw_triad(const OverlayCanvas& c, ImVec2 centre, const Camera& camera) {
     const float fade = axis.toward_eye < -0.1 ? 0.55f : 1.0f;
     const ImVec2 tip{centre.x + length * x, centre.y + length * y};
     c.list.AddLine(centre, tip, c.ink(axis.colour, fade), 2.0f);
-    const ImVec2 size = c.text_size(c.number_font, axis.name, 0.85f * c.em);
+    const ImVec2 size = c.text_size(c.number_font, axis.name);
     const float clear = 0.55f * c.em;
     const float across = std::hypot(x, y);
     const ImVec2 beyond = across > 0.05f ? ImVec2(clear * x / across, clear * y / across) : ImVec2(clear, -clear);
-    c.haloed(c.number_font, 0.85f * c.em, {tip.x + beyond.x - 0.5f * size.x, tip.y + beyond.y - 0.5f * size.y},
+    c.haloed(c.number_font, {tip.x + beyond.x - 0.5f * size.x, tip.y + beyond.y - 0.5f * size.y},
              with_alpha(axis.colour, fade), axis.name);
   }
 }
@@ -59,7 +58,7 @@ void draw_bar(const OverlayCanvas& c, ImVec2 at, float length, Rgba colour, cons
   c.list.AddLine(at, {at.x + length, at.y}, c.ink(colour), 2.0f);
   c.list.AddLine({at.x, at.y - tick}, {at.x, at.y + tick}, c.ink(colour), 1.5f);
   c.list.AddLine({at.x + length, at.y - tick}, {at.x + length, at.y + tick}, c.ink(colour), 1.5f);
-  c.haloed(c.number_font, 0.85f * c.em, {at.x + length + 0.6f * c.em, at.y - 0.45f * c.em}, c.colours.text, text);
+  c.haloed(c.number_font, {at.x + length + 0.6f * c.em, at.y - 0.5f * c.number_font->FontSize}, c.colours.text, text);
 }
 
 // Length and force to scale at the depth of the camera's target.
@@ -92,24 +91,23 @@ void draw_iteration_bar(const OverlayCanvas& c, ImVec2 at, const SceneFrame& fra
       c.list.AddRect({x0 - 1.5f, at.y - 1.5f}, {x1 + 1.5f, at.y + height + 1.5f}, c.ink(c.colours.text), 0.0f, 0, 1.5f);
     }
   }
-  const float text = 0.8f * c.em;
   const std::string last = std::to_string(count - 1);
-  c.haloed(c.text_font, text, {at.x, at.y - 1.25f * text}, c.colours.text_dim, "iteration");
-  c.haloed(c.number_font, text, {at.x, at.y + height + 0.1f * text}, c.colours.text, "0");
-  c.haloed(c.number_font, text, {at.x + width - c.text_size(c.number_font, last, text).x, at.y + height + 0.1f * text},
+  c.haloed(c.text_font, {at.x, at.y - 1.2f * c.text_font->FontSize}, c.colours.text_dim, "iteration");
+  c.haloed(c.number_font, {at.x, at.y + height + 0.1f * c.em}, c.colours.text, "0");
+  c.haloed(c.number_font, {at.x + width - c.text_size(c.number_font, last).x, at.y + height + 0.1f * c.em},
            c.colours.text, last);
 }
 
 }  // namespace
 
 void draw_scene_overlay(ImDrawList& draw_list, const ImVec2& top_left, double pixels_per_point,
-                        const SceneRenderer& renderer, const SceneFrame& frame, const Camera& camera, ImFont* numbers) {
+                        const SceneRenderer& renderer, const SceneFrame& frame, const Camera& camera, const ThemeFonts& fonts) {
   const float per_point = static_cast<float>(pixels_per_point);
   const ImVec2 size{static_cast<float>(renderer.width_px()) / per_point, static_cast<float>(renderer.height_px()) / per_point};
   const OverlayCanvas canvas{draw_list, top_left,
                              size,      palette(frame.theme),
-                             ImGui::GetFont(), numbers != nullptr ? numbers : ImGui::GetFont(),
-                             ImGui::GetFontSize()};
+                             fonts.small, fonts.small_number,
+                             fonts.text->FontSize};
   draw_list.PushClipRect(top_left, {top_left.x + size.x, top_left.y + size.y}, true);
   draw_labels(canvas, pixels_per_point, renderer.labels());
   const float em = canvas.em;

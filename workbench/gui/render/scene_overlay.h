@@ -1,19 +1,20 @@
 // What is written on top of the 3D picture with ImGui: labels, colour bar of the iterations, scales of
-// length and force, axes, and the CLD inset. Same plain data as the renderer. Sizes follow the current font.
+// length and force, axes, and the CLD inset. Same plain data as the renderer. Sizes follow the fonts.
 #pragma once
 
 #include "workbench/gui/render/scene_renderer.h"
 
 struct ImDrawList;
-struct ImFont;
 struct ImVec2;
 
 namespace tangent {
 
+struct ThemeFonts;
+
 /// `top_left`: of the picture, in ImGui's coordinates. `pixels_per_point`: the picture's pixels per ImGui
-/// coordinate (1 when it is shown pixel for pixel). `numbers`: font of values, null: the current one.
+/// coordinate (1 when it is shown pixel for pixel).
 void draw_scene_overlay(ImDrawList& draw_list, const ImVec2& top_left, double pixels_per_point,
                         const SceneRenderer& renderer, const SceneFrame& frame, const Camera& camera,
-                        ImFont* numbers = nullptr);
+                        const ThemeFonts& fonts);
 
 }  // namespace tangent

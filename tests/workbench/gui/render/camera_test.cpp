@@ -109,6 +109,28 @@ TEST_CASE("zooming keeps what lies under the pointer at the target's depth, with
   CHECK(camera.distance_m == kept);
 }
 
+TEST_CASE("fitted points are all in the picture, with as much room on one side as on the other and the least of it where they are widest") {
+  const std::vector<Vec3> points{{1.05, -2.0, 0.5}, {0.97, -2.03, 0.48}, {1.0, -1.96, 0.52}, {1.01, -2.0, 0.57}, {0.99, -2.01, 0.47}};
+  for (const double margin : {1.0, 1.2}) {
+    for (const double yaw : {-2.0, -0.6, 0.3, 1.7}) {
+      Camera camera;
+      camera.yaw_rad = yaw;
+      camera.fit(points, margin, static_cast<double>(kWidth) / kHeight);
+      Box drawn;
+      for (const Vec3& p : points) drawn.include(camera.project(p, kWidth, kHeight));
+      CAPTURE(yaw);
+      CHECK(drawn.min.x == doctest::Approx(kWidth - drawn.max.x).epsilon(1e-6));
+      CHECK(drawn.min.y == doctest::Approx(kHeight - drawn.max.y).epsilon(1e-6));
+      const double filled = std::max((drawn.max.x - drawn.min.x) / kWidth, (drawn.max.y - drawn.min.y) / kHeight);
+      CHECK(filled == doctest::Approx(1.0 / margin).epsilon(1e-6));
+    }
+  }
+  const Camera before;
+  Camera camera;
+  camera.fit({}, 1.1, 1.3);
+  CHECK(camera == before);
+}
+
 TEST_CASE("orbiting never passes over the poles") {
   Camera camera;
   for (int i = 0; i < 100; ++i) camera.orbit(0.3, 0.2);
