@@ -1,153 +1,101 @@
 #include "devices/cld/cld_messages.h"
 
+#include <tuple>
 #include <type_traits>
 
 namespace tangent {
 
 namespace {
 
-// One list of fields per message serves both directions: a writer or a reader visits them in wire order.
+// Type and fields of each message, in wire order: writing, reading and length all come from here.
+template <class M> constexpr CldType kType{};
+template <class M> constexpr std::tuple<> kFields{};
 
-class Writer {
- public:
-  explicit Writer(CldFrame& frame) : frame_(frame) {}
-  template <class T>
-  void operator()(const T& value) noexcept {
-    if constexpr (std::is_enum_v<T>) {
-      (*this)(static_cast<std::underlying_type_t<T>>(value));
-    } else {
-      const auto bits = static_cast<std::make_unsigned_t<T>>(value);
-      for (std::size_t i = 0; i < sizeof(T); ++i) {
-        frame_.payload[frame_.length++] = static_cast<std::uint8_t>((static_cast<std::uint64_t>(bits) >> (8 * i)) & 0xffu);
-      }
+template <> constexpr auto kType<CldTarget> = CldType::target;
+template <> constexpr auto kFields<CldTarget> = std::tuple(&CldTarget::target_nm);
+template <> constexpr auto kType<CldWireGains> = CldType::gains;
+template <> constexpr auto kFields<CldWireGains> =
+    std::tuple(&CldWireGains::p_per_s2, &CldWireGains::i_per_s3, &CldWireGains::d_milli_per_s, &CldWireGains::target_weight_per_65535);
+template <> constexpr auto kType<CldWireLimits> = CldType::limits;
+template <> constexpr auto kFields<CldWireLimits> =
+    std::tuple(&CldWireLimits::lowest_nm, &CldWireLimits::highest_nm, &CldWireLimits::fastest_um_per_s, &CldWireLimits::largest_current_ma);
+template <> constexpr auto kType<CldInfo> = CldType::info;
+template <> constexpr auto kFields<CldInfo> =
+    std::tuple(&CldInfo::firmware_version, &CldInfo::serial, &CldInfo::travel_nm, &CldInfo::step_pm, &CldInfo::bandwidth_centihz,
+               &CldInfo::telemetry_hz, &CldInfo::watchdog_ms);
+template <> constexpr auto kType<CldTelemetry> = CldType::telemetry;
+template <> constexpr auto kFields<CldTelemetry> =
+    std::tuple(&CldTelemetry::time_us, &CldTelemetry::position_nm, &CldTelemetry::target_nm, &CldTelemetry::current_ma, &CldTelemetry::state,
+               &CldTelemetry::fault, &CldTelemetry::heard_sequence, &CldTelemetry::missed_frames);
+template <> constexpr auto kType<CldRefused> = CldType::refused;
+template <> constexpr auto kFields<CldRefused> = std::tuple(&CldRefused::type, &CldRefused::sequence, &CldRefused::reason);
+
+/// Little-endian; an enumeration as the number it stands for.
+template <class T>
+void put(CldFrame& frame, T value) noexcept {
+  if constexpr (std::is_enum_v<T>) {
+    put(frame, static_cast<std::underlying_type_t<T>>(value));
+  } else {
+    const auto bits = static_cast<std::make_unsigned_t<T>>(value);
+    for (std::size_t i = 0; i < sizeof(T); ++i) {
+      frame.payload[frame.length++] = static_cast<std::uint8_t>((static_cast<std::uint64_t>(bits) >> (8 * i)) & 0xffu);
     }
   }
+}
 
- private:
-  CldFrame& frame_;
-};
-
-class Reader {
- public:
-  explicit Reader(const CldFrame& frame) : frame_(frame) {}
-  template <class T>
-  void operator()(T& value) noexcept {
-    if constexpr (std::is_enum_v<T>) {
-      std::underlying_type_t<T> raw{};
-      (*this)(raw);
-      value = static_cast<T>(raw);
-    } else {
-      std::uint64_t bits = 0;
-      for (std::size_t i = 0; i < sizeof(T); ++i) {
-        bits |= static_cast<std::uint64_t>(frame_.payload[at_++]) << (8 * i);
-      }
-      value = static_cast<T>(static_cast<std::make_unsigned_t<T>>(bits));
-    }
+template <class T>
+void take(const CldFrame& frame, std::size_t& at, T& value) noexcept {
+  if constexpr (std::is_enum_v<T>) {
+    std::underlying_type_t<T> number{};
+    take(frame, at, number);
+    value = static_cast<T>(number);
+  } else {
+    std::uint64_t bits = 0;
+    for (std::size_t i = 0; i < sizeof(T); ++i) bits |= static_cast<std::uint64_t>(frame.payload[at++]) << (8 * i);
+    value = static_cast<T>(static_cast<std::make_unsigned_t<T>>(bits));
   }
-
- private:
-  const CldFrame& frame_;
-  std::size_t at_ = 0;
-};
-
-template <class M, class V> void visit_target(M& m, V v) { v(m.target_nm); }
-template <class M, class V> void visit_gains(M& m, V v) {
-  v(m.p_per_s2); v(m.i_per_s3); v(m.d_milli_per_s); v(m.target_weight_per_65535);
-}
-template <class M, class V> void visit_limits(M& m, V v) {
-  v(m.lowest_nm); v(m.highest_nm); v(m.fastest_um_per_s); v(m.largest_current_ma);
-}
-template <class M, class V> void visit_info(M& m, V v) {
-  v(m.firmware_version); v(m.serial); v(m.travel_nm); v(m.step_pm); v(m.bandwidth_centihz); v(m.telemetry_hz); v(m.watchdog_ms);
-}
-template <class M, class V> void visit_telemetry(M& m, V v) {
-  v(m.time_us); v(m.position_nm); v(m.target_nm); v(m.current_ma); v(m.state); v(m.fault); v(m.heard_sequence); v(m.missed_frames);
-}
-template <class M, class V> void visit_refused(M& m, V v) { v(m.type); v(m.sequence); v(m.reason); }
-
-constexpr std::uint8_t kTargetBytes = 4, kGainsBytes = 14, kLimitsBytes = 14, kInfoBytes = 20, kTelemetryBytes = 20,
-                       kRefusedBytes = 4;
-
-CldFrame blank(CldType type, std::uint16_t sequence) {
-  return {.type = static_cast<std::uint8_t>(type), .sequence = sequence};
 }
 
-bool is(const CldFrame& frame, CldType type, std::uint8_t length) {
-  return frame.version == kCldVersion && frame.type == static_cast<std::uint8_t>(type) && frame.length == length;
+template <class M>
+CldFrame written(const M& message, std::uint16_t sequence) noexcept {
+  CldFrame frame = bare_frame(kType<M>, sequence);
+  std::apply([&](auto... field) { (put(frame, message.*field), ...); }, kFields<M>);
+  return frame;
+}
+
+/// Nothing when the frame is of another version, type or length.
+template <class M>
+std::optional<M> read(const CldFrame& frame) noexcept {
+  M message;
+  const std::size_t length = std::apply([&](auto... field) { return (sizeof(message.*field) + ...); }, kFields<M>);
+  if (frame.version != kCldVersion || frame.type != static_cast<std::uint8_t>(kType<M>) || frame.length != length) return std::nullopt;
+  std::size_t at = 0;
+  std::apply([&](auto... field) { (take(frame, at, message.*field), ...); }, kFields<M>);
+  return message;
 }
 
 }  // namespace
 
-// The visitors take V by value: a reader keeps its place in itself, so one is passed for the whole message.
-CldFrame to_frame(const CldTarget& m, std::uint16_t sequence) noexcept {
-  CldFrame f = blank(CldType::target, sequence);
-  visit_target(m, Writer(f));
-  return f;
-}
-CldFrame to_frame(const CldWireGains& m, std::uint16_t sequence) noexcept {
-  CldFrame f = blank(CldType::gains, sequence);
-  visit_gains(m, Writer(f));
-  return f;
-}
-CldFrame to_frame(const CldWireLimits& m, std::uint16_t sequence) noexcept {
-  CldFrame f = blank(CldType::limits, sequence);
-  visit_limits(m, Writer(f));
-  return f;
-}
-CldFrame to_frame(const CldInfo& m, std::uint16_t sequence) noexcept {
-  CldFrame f = blank(CldType::info, sequence);
-  visit_info(m, Writer(f));
-  return f;
-}
-CldFrame to_frame(const CldTelemetry& m, std::uint16_t sequence) noexcept {
-  CldFrame f = blank(CldType::telemetry, sequence);
-  visit_telemetry(m, Writer(f));
-  return f;
-}
-CldFrame to_frame(const CldRefused& m, std::uint16_t sequence) noexcept {
-  CldFrame f = blank(CldType::refused, sequence);
-  visit_refused(m, Writer(f));
-  return f;
-}
-CldFrame bare_frame(CldType type, std::uint16_t sequence) noexcept { return blank(type, sequence); }
+CldFrame bare_frame(CldType type, std::uint16_t sequence) noexcept { return {.type = static_cast<std::uint8_t>(type), .sequence = sequence}; }
 
-std::optional<CldTarget> to_target(const CldFrame& frame) noexcept {
-  if (!is(frame, CldType::target, kTargetBytes)) return std::nullopt;
-  CldTarget m;
-  visit_target(m, Reader(frame));
-  return m;
-}
-std::optional<CldWireGains> to_gains(const CldFrame& frame) noexcept {
-  if (!is(frame, CldType::gains, kGainsBytes)) return std::nullopt;
-  CldWireGains m;
-  visit_gains(m, Reader(frame));
-  return m;
-}
+CldFrame to_frame(const CldTarget& m, std::uint16_t sequence) noexcept { return written(m, sequence); }
+CldFrame to_frame(const CldWireGains& m, std::uint16_t sequence) noexcept { return written(m, sequence); }
+CldFrame to_frame(const CldWireLimits& m, std::uint16_t sequence) noexcept { return written(m, sequence); }
+CldFrame to_frame(const CldInfo& m, std::uint16_t sequence) noexcept { return written(m, sequence); }
+CldFrame to_frame(const CldTelemetry& m, std::uint16_t sequence) noexcept { return written(m, sequence); }
+CldFrame to_frame(const CldRefused& m, std::uint16_t sequence) noexcept { return written(m, sequence); }
+
+std::optional<CldTarget> to_target(const CldFrame& frame) noexcept { return read<CldTarget>(frame); }
+std::optional<CldWireGains> to_gains(const CldFrame& frame) noexcept { return read<CldWireGains>(frame); }
+std::optional<CldInfo> to_info(const CldFrame& frame) noexcept { return read<CldInfo>(frame); }
+std::optional<CldRefused> to_refused(const CldFrame& frame) noexcept { return read<CldRefused>(frame); }
 std::optional<CldWireLimits> to_limits(const CldFrame& frame) noexcept {
-  if (!is(frame, CldType::limits, kLimitsBytes)) return std::nullopt;
-  CldWireLimits m;
-  visit_limits(m, Reader(frame));
-  if (m.lowest_nm > m.highest_nm) return std::nullopt;
-  return m;
-}
-std::optional<CldInfo> to_info(const CldFrame& frame) noexcept {
-  if (!is(frame, CldType::info, kInfoBytes)) return std::nullopt;
-  CldInfo m;
-  visit_info(m, Reader(frame));
-  return m;
+  const auto m = read<CldWireLimits>(frame);
+  return m && m->lowest_nm <= m->highest_nm ? m : std::nullopt;
 }
 std::optional<CldTelemetry> to_telemetry(const CldFrame& frame) noexcept {
-  if (!is(frame, CldType::telemetry, kTelemetryBytes)) return std::nullopt;
-  CldTelemetry m;
-  visit_telemetry(m, Reader(frame));
-  if (m.state > CldDeviceState::faulted || m.fault > CldDeviceFault::bad_command) return std::nullopt;
-  return m;
-}
-std::optional<CldRefused> to_refused(const CldFrame& frame) noexcept {
-  if (!is(frame, CldType::refused, kRefusedBytes)) return std::nullopt;
-  CldRefused m;
-  visit_refused(m, Reader(frame));
-  return m;
+  const auto m = read<CldTelemetry>(frame);
+  return m && m->state <= CldDeviceState::faulted && m->fault <= CldDeviceFault::bad_command ? m : std::nullopt;
 }
 
 const char* to_string(CldDeviceState state) {
