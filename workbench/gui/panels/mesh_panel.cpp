@@ -72,6 +72,7 @@ void draw_polygon(const UiContext& ui, const PlanarPolygon& polygon) {
   tooltip(ui, polygon.closed ? "The finger touches it from outside" : "The finger touches it from its left, as one goes along");
   fact(ui, "Segments", count(facts.segments));
   ui.items.note_last("mesh/segments");
+  tooltip(ui, "Between vertices that differ");
   fact(ui, "Vertices", count(facts.vertices));
   fact(ui, "Sharp corners", count(facts.corners));
   tooltip(ui, "Vertices that the file gives twice in a row: the curve has no patch there");
@@ -97,6 +98,7 @@ void draw_mesh_panel(const UiContext& ui, AppModel& model, FoldedPanel& state) {
   }
   fact(ui, "Triangles", count(mesh.usable_triangle_count()));
   ui.items.note_last("mesh/triangles");
+  tooltip(ui, "Those in use; what was skipped is listed below");
   fact(ui, "Vertices", count(mesh.vertex_count()));
   const Vec3 size = mesh.bounds().size() * 1e3;
   fact(ui, "Size", printed("%.4g \u00d7 %.4g \u00d7 %.4g", size.x, size.y, size.z), "mm");
