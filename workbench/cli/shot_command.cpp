@@ -86,7 +86,7 @@ void add_shot_command(CLI::App& app, CommandResult& result) {
   add_number_option(*command, "--height", {.min = 64, .max = 8192, .unit = "pixels", .whole = true}, "Height (default 720)",
                     [request](double n) { request->height_px = static_cast<int>(n); });
   add_number_option(*command, "--scale", {.min = 0.5, .max = 4.0},
-                    "Size of text and lines; 2 for a HiDPI picture (default 1)",
+                    "Size of text and lines; 2 for a HiDPI picture (default 1; views of the scene: height / 720)",
                     [request](double scale) { request->scale = scale; });
   add_choice_option(*command, "--theme", kThemes, "Colours (default: the view's own)",
                     [request](int theme) { request->theme = static_cast<Theme>(theme); });

@@ -57,6 +57,20 @@ TEST_CASE("shot writes a picture of the size asked for, the same every time") {
   CHECK(picture == read_text(folder.file("b.png")));
 }
 
+TEST_CASE("text and lines of a picture of the scene grow with its height, unless a scale is given") {
+  if (no_gl()) return;
+  const TempFolder folder;
+  const auto shot = [&](const char* name, std::vector<std::string> more) {
+    std::vector<std::string> arguments{"shot", "--view", "octagon", "--out", folder.file(name), "--width", "640", "--height", "1080"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    REQUIRE(run_workbench(arguments).exit_code == 0);
+    return read_text(folder.file(name));
+  };
+  const std::string by_itself = shot("a.png", {});
+  CHECK(by_itself == shot("b.png", {"--scale", "1.5"}));
+  CHECK(by_itself != shot("c.png", {"--scale", "1"}));
+}
+
 TEST_CASE("the window is drawn without a display, plots filled, the same every time") {
   if (no_gl()) return;
   const TempFolder folder;

@@ -161,12 +161,15 @@ Camera aimed_camera(const SceneView& view, const StagedScene& staged, double asp
   return camera;
 }
 
+/// A picture that is twice as high has the same look, only finer.
+double scale_of(const ShotRequest& request) { return request.scale.value_or(std::max(1.0, request.height_px / 720.0)); }
+
 void draw_view(OffscreenScreen& screen, SceneRenderer& renderer, const SceneFrame& frame, const Camera& camera,
                const ShotRequest& request) {
   ImGuiIO& io = ImGui::GetIO();
   io.DeltaTime = 1.0f / 60.0f;
   std::vector<std::string> missing;
-  const ThemeFonts fonts = load_fonts(static_cast<float>(request.scale), missing);
+  const ThemeFonts fonts = load_fonts(static_cast<float>(scale_of(request)), missing);
   screen.upload_fonts();
   screen.frame([&] {
     ImGui::NewFrame();
@@ -207,7 +210,7 @@ Result<Image> take_scene_shot(const ShotRequest& request) {
   renderer.set_scene(*scene, staged.preset.solver.normal_form);
   renderer.wait_for_tessellation();
   SceneFrame frame = staged.frame(view->toggles, request.theme.value_or(Theme::light));
-  frame.pixel_scale = request.scale;
+  frame.pixel_scale = scale_of(request);
   draw_view(**screen, renderer, frame, aimed_camera(*view, staged, static_cast<double>(request.width_px) / request.height_px, request.y_up),
             request);
   return (*screen)->picture();

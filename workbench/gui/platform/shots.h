@@ -29,7 +29,7 @@ struct ShotRequest {
   ContactMeshOptions mesh_options;
   std::filesystem::path preset;     ///< of the window views; empty: the shipped default
   int width_px = 1280, height_px = 720;
-  double scale = 1.0;               ///< of fonts, lines and spacing
+  std::optional<double> scale;      ///< of fonts, lines and spacing; none: 1 for the window, of the scene what fits its height
   bool y_up = false;                ///< the mesh stands on y, as many scans do
   std::optional<Theme> theme;       ///< none: the view's own
 };

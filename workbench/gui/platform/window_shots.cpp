@@ -120,7 +120,7 @@ void show_map(AppModel& model) {
   fold_but(model, "Map");
   SceneToggles& on = model.view().toggles;
   on.smooth_surface = true;
-  on.shaded = on.finger = on.force = on.control_net = on.planes = on.penetration = on.cld_inset = false;
+  on.shaded = on.finger = on.force = on.control_net = on.planes = on.penetration = on.contact = on.cld_inset = false;
 }
 
 /// The same under the paper's method.
@@ -285,7 +285,7 @@ class FrameFeeder {
     // The picture's pixels are ImGui's coordinates; the scale makes everything in it larger.
     input_.width = static_cast<float>(request.width_px);
     input_.height = static_cast<float>(request.height_px);
-    input_.content_scale = static_cast<float>(request.scale);
+    input_.content_scale = static_cast<float>(request.scale.value_or(1.0));
     input_.dt_s = kFrame;
   }
   void frame() {
