@@ -278,8 +278,26 @@ void fact(const UiContext& ui, const char* label, const std::string& value, cons
   ImGui::Dummy({width, text->FontSize});
 }
 
+namespace {
+
+/// Beside what it explains: at the pointer it would cover the value that is about to be changed. Tall items are pointed into.
+void place_tooltip(const UiContext& ui) {
+  const ImVec2 min = ImGui::GetItemRectMin(), max = ImGui::GetItemRectMax();
+  if (max.y - min.y > ui.px(60)) return;
+  const ImVec2 screen = ImGui::GetIO().DisplaySize;
+  const float x = ImGui::GetIO().MousePos.x;
+  const bool low = min.y > 0.6f * screen.y, right = x > 0.6f * screen.x;
+  ImGui::SetNextWindowPos({x, low ? min.y - ui.px(4) : max.y + ui.px(4)}, ImGuiCond_Always, {right ? 1.0f : 0.0f, low ? 1.0f : 0.0f});
+}
+
+}  // namespace
+
 void tooltip(const UiContext& ui, std::string_view text) {
   if (text.empty() || !ImGui::IsItemHovered()) return;
+  if (ImGui::IsAnyMouseDown()) {
+    ui.resting = {};
+    return;
+  }
   // Items without a name of their own (rows of facts) are told by their place.
   const ImVec2 at = ImGui::GetItemRectMin();
   const ImGuiID id = ImGui::GetItemID() != 0 ? ImGui::GetItemID() : ImHashData(&at, sizeof at);
@@ -289,6 +307,7 @@ void tooltip(const UiContext& ui, std::string_view text) {
   if (frame != resting.frame) resting.seconds += ImGui::GetIO().DeltaTime;
   resting.frame = frame;
   if (resting.seconds < 0.35f) return;
+  place_tooltip(ui);
   ImGui::BeginTooltip();
   ImGui::PushTextWrapPos(ui.px(320));
   ImGui::TextUnformatted(text.data(), text.data() + text.size());

@@ -55,7 +55,7 @@ bool choice_row(const UiContext& ui, std::string_view path, float width, std::sp
 void fact(const UiContext& ui, const char* label, const std::string& value, const char* unit = "",
           std::optional<ImU32> ink = std::nullopt);
 
-/// Shown when the last item is hovered for a moment; wrapped at a readable width.
+/// Shown when the last item is hovered for a moment and no button of the mouse is down; wrapped at a readable width.
 void tooltip(const UiContext& ui, std::string_view text);
 
 /// printf into a string.

@@ -16,12 +16,13 @@ using tangent::test::HeadlessApp;
 
 namespace {
 
-bool a_tooltip_shows() {
+const ImGuiWindow* shown_tooltip() {
   for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows) {
-    if (window->Active && (window->Flags & ImGuiWindowFlags_Tooltip) != 0) return true;
+    if (window->Active && (window->Flags & ImGuiWindowFlags_Tooltip) != 0) return window;
   }
-  return false;
+  return nullptr;
 }
+bool a_tooltip_shows() { return shown_tooltip() != nullptr; }
 
 /// Everything interactive that the frame showed, and does not explain itself when the pointer rests on it.
 std::set<std::string> without_tooltip(HeadlessApp& ui) {
@@ -55,6 +56,32 @@ TEST_CASE("everything in the window explains itself when the pointer rests on it
   std::erase_if(silent, [](const std::string& path) { return path == "view" || path.starts_with("plots/") || path.starts_with("toast/") || path.starts_with("iterations/"); });
   for (const std::string& path : silent) MESSAGE("no tooltip: ", path);
   CHECK(silent.empty());
+}
+
+TEST_CASE("a tooltip keeps off what it explains, and away while a button of the mouse is down") {
+  HeadlessApp ui(HeadlessApp::deterministic_options(), 1920.0f, 1080.0f);
+  ui.app().advance(100);
+  ui.frames(2);
+  ui.input().dt_s = 0.1;
+  for (const char* path : {"solver/tolerance_m", "menu/view", "menu/stop", "transport/pause", "plots/csv"}) {
+    CAPTURE(path);
+    const ItemRect item = *ui.app().items().find(path);
+    ui.move({0.5f * (item.min.x + item.max.x), item.min.y + 2.0f});
+    for (int i = 0; i < 8; ++i) ui.frame();
+    const ImGuiWindow* shown = shown_tooltip();
+    REQUIRE(shown != nullptr);
+    const ImRect rect = shown->Rect();
+    CHECK((rect.Max.y <= item.min.y || rect.Min.y >= item.max.y));
+    CHECK(rect.Min.x >= 0.0f);
+    CHECK(rect.Min.y >= 0.0f);
+    CHECK(rect.Max.x <= 1920.0f);
+    CHECK(rect.Max.y <= 1080.0f);
+  }
+  ui.move(ui.centre("solver/tolerance_m"));
+  ui.press();
+  for (int i = 0; i < 8; ++i) ui.frame();
+  CHECK(shown_tooltip() == nullptr);
+  ui.release();
 }
 
 TEST_CASE("no window of the program is modal") {
