@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace tangent {
 
@@ -70,11 +71,24 @@ std::string residual_text(double metres) {
   return printed("%g nm", metres * 1e9);
 }
 
+/// One place of a contour, to be labelled: the lowest of those that are clear of the planes' dots.
+struct ContourLabel {
+  int level = 0;
+  ImVec2 at{0, 0};
+  float merit = 0.0f;
+};
+
+float merit_of(const UiContext& ui, ImVec2 place, std::span<const ImVec2> planes) {
+  float nearest = ui.px(40);
+  for (const ImVec2& p : planes) nearest = std::min(nearest, std::hypot(p.x - place.x - ui.px(20), p.y - place.y));
+  return nearest + 1e-3f * place.y;   // the lowest where all are clear
+}
+
 /// Whole decades are stronger, and one place of each says which it is.
-void draw_contours(const UiContext& ui, const ResidualMap& map, const Placement& on) {
+void draw_contours(const UiContext& ui, const ResidualMap& map, const Placement& on, std::span<const ImVec2> planes) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const ImU32 strong = packed(with_alpha(ui.palette.text, 0.38f)), weak = packed(with_alpha(ui.palette.text, 0.16f));
-  std::vector<std::pair<int, ImVec2>> labels;
+  std::vector<ContourLabel> labels;
   ImFont* font = ui.fonts.small_number;
   for (const ContourSegment& s : map.contours()) {
     const bool decade = s.level % 2 == 0;
@@ -83,12 +97,20 @@ void draw_contours(const UiContext& ui, const ResidualMap& map, const Placement&
     if (!decade) continue;
     const ImVec2 m{0.5f * (a.x + b.x), 0.5f * (a.y + b.y)};
     const bool room = m.x > on.min.x + ui.px(4) && m.x < on.max.x - ui.px(48) && m.y > on.min.y + ui.px(8) && m.y < on.max.y - ui.px(8);
-    const bool free = std::none_of(labels.begin(), labels.end(), [&](const auto& l) {
-      return l.first == s.level || (std::abs(l.second.y - m.y) < ui.px(13) && std::abs(l.second.x - m.x) < ui.px(46));
-    });
-    if (room && free) labels.emplace_back(s.level, m);
+    if (!room) continue;
+    const float merit = merit_of(ui, m, planes);
+    const auto known = std::find_if(labels.begin(), labels.end(), [&](const ContourLabel& l) { return l.level == s.level; });
+    if (known == labels.end()) labels.push_back({s.level, m, merit});
+    else if (merit > known->merit) *known = {s.level, m, merit};
   }
-  for (const auto& [level, at] : labels) {
+  // The outer ones have more room: where two would lie over each other the inner one stays away.
+  std::sort(labels.begin(), labels.end(), [](const ContourLabel& a, const ContourLabel& b) { return a.level > b.level; });
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    const auto& [level, at, merit] = labels[i];
+    const bool covered = std::any_of(labels.begin(), labels.begin() + static_cast<std::ptrdiff_t>(i), [&](const ContourLabel& l) {
+      return std::abs(l.at.y - at.y) < ui.px(13) && std::abs(l.at.x - at.x) < ui.px(46);
+    });
+    if (covered || merit < ui.px(16)) continue;
     const std::string text = residual_text(std::pow(10.0, level / 2));
     const float w = font->CalcTextSizeA(font->FontSize, 1e9f, 0.0f, text.c_str()).x;
     const ImVec2 p{at.x + ui.px(2), at.y - 0.5f * font->FontSize};
@@ -201,7 +223,11 @@ void draw_path_map(const UiContext& ui, AppModel& model, PathMapPanel& state) {
   const auto [low, high] = std::minmax_element(map.log_residuals().begin(), map.log_residuals().end());
   draw.PushClipRect(at, end, true);
   draw_field(ui, map, on, *low, *high);
-  draw_contours(ui, map, on);
+  std::vector<ImVec2> planes;
+  for (const IterationRecord& r : model.tick().iterations()) {
+    if (const auto flat = map.place(r.triangle, r.u, r.v)) planes.push_back(on.at(*flat));
+  }
+  draw_contours(ui, map, on, planes);
   draw_edges(ui, model, map, on);
   std::optional<std::size_t> pointed;
   const std::size_t elsewhere = draw_path(ui, model, map, on, mouse_here, pointed);
