@@ -79,8 +79,9 @@ void PlotView::fit(const ChannelStore& store, const TimeAxis& axis, const PlotLi
   }
   nothing_in_view_ = visible.empty();
   if (visible.empty()) return;
-  // A line at the edge of the axis would say nothing.
+  // A line at the edge of the axis would say nothing; steps stay whole, and would lie half outside.
   if (std::isfinite(reference)) visible.include(static_cast<float>(1.2 * reference));
+  if (spec_.counts) visible.max += 0.25f;
   visible.min = static_cast<float>(static_cast<double>(visible.min) * spec_.scale);
   visible.max = static_cast<float>(static_cast<double>(visible.max) * spec_.scale);
   if (spec_.log) values_.fit_log(visible, spec_.floor); else values_.fit_linear(visible, spec_.with_zero);
