@@ -103,6 +103,7 @@ void AppModel::take_scene(LoadedScene loaded) {
     view_.slice.reset();
     inspection_ = {};
     frame_scene();
+    warn_of_size();
   }
   for (const std::string& note : scene_->mesh().notes()) say(Severity::note, note);
   if (session_ != nullptr) session_->set_scene(std::move(loaded.prepared));

@@ -100,6 +100,10 @@ class AppModel {
   const MeshFindings* findings() const { return report_ ? &report_->findings : nullptr; }
   bool auditing() const { return loader_.auditing(); }
   double load_seconds() const { return load_seconds_; }
+  double metres_per_unit() const { return options_.metres_per_unit; }
+  std::optional<double> fit_m() const { return options_.mesh_options.fit_m; }
+  void set_mesh_unit(double metres_per_unit);      ///< of the file; reads it anew
+  void set_mesh_fit(std::optional<double> fit_m);  ///< longest side; none: as in the file
   void frame_scene();                       ///< camera on the whole mesh
   /// Turns the camera to a place on the surface, seen a little from the side, and picks the triangle.
   void look_at_place(const Vec3& point_world, const Vec3& normal, std::uint32_t triangle);
@@ -226,6 +230,7 @@ class AppModel {
   const AppOptions& options() const { return options_; }
 
  private:
+  void warn_of_size();
   void take_scene(LoadedScene loaded);
   void take_settings();
   void keep_settings();

@@ -3,8 +3,33 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 namespace tangent {
+
+void AppModel::set_mesh_unit(double metres_per_unit) {
+  if (metres_per_unit == options_.metres_per_unit) return;
+  options_.metres_per_unit = metres_per_unit;
+  if (!mesh_path_.empty()) open_mesh(mesh_path_);
+}
+
+void AppModel::set_mesh_fit(std::optional<double> fit_m) {
+  if (fit_m && !(*fit_m >= 1e-6 && *fit_m <= 1e6)) return say(Severity::error, "the longest side must be 0.001 to 1000000000 mm");
+  if (fit_m == options_.mesh_options.fit_m) return;
+  options_.mesh_options.fit_m = fit_m;
+  if (!mesh_path_.empty()) open_mesh(mesh_path_);
+}
+
+/// A file does not say what its unit is: one in metres, taken for millimetres, is a grain under the finger.
+void AppModel::warn_of_size() {
+  const Vec3 size = scene_->mesh().bounds().size();
+  const double longest = std::max({size.x, size.y, size.z}), finger = 2.0 * presets().current().finger.reach_m();
+  if (finger <= 0.0 || (longest > 0.05 * finger && longest < 200.0 * finger)) return;
+  char text[160];
+  std::snprintf(text, sizeof text, "the mesh is %.3g mm long and the finger %.3g mm: Unit of the file and Longest side in the panel Mesh change that", longest * 1e3,
+                finger * 1e3);
+  say(Severity::warning, text);
+}
 
 void AppModel::set_crease_angle(double rad) {
   if (!std::isfinite(rad) || polygons_ == nullptr || scene_->planar() != nullptr) return;

@@ -1,8 +1,10 @@
 // The window driven like a user would, without a window. Model state is what counts.
 #include "headless_app.h"
 
+#include "tests/support/temp_folder.h"
 #include "workbench/gui/panels/panels.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -623,6 +625,43 @@ TEST_CASE("a slice cuts the picture open and lets the pointer through") {
   const double at = ui.model().view().slice->offset_m;
   ui.drag("inspect/slice_at", {15.0f, 0.0f});
   CHECK(ui.model().view().slice->offset_m > at);
+}
+
+TEST_CASE("a file in metres, taken for millimetres, is warned of; its unit and its longest side are chosen in the window") {
+  const testing::TempFolder folder;
+  AppOptions options = HeadlessApp::deterministic_options();
+  options.mesh = folder.write("small.obj", "v 0 0 0\nv 0.06 0 0\nv 0 0.06 0\nv 0 0 0.06\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n");
+  HeadlessApp ui(options, 1280.0f, 2400.0f);
+  const auto longest_mm = [&] {
+    const Vec3 size = ui.model().scene()->mesh().bounds().size();
+    return 1e3 * std::max({size.x, size.y, size.z});
+  };
+  const auto warnings = [&] {
+    const auto& all = ui.model().messages().all();
+    return std::count_if(all.begin(), all.end(), [](const auto& m) { return testing::contains(m.text, "Unit of the file"); });
+  };
+  ui.frames(3);
+  CHECK(longest_mm() == doctest::Approx(0.06));
+  CHECK(warnings() == 1);
+  for (const char* title : {"Iterations", "Smoothness as felt", "Map"}) ui.model().open_sections()[title] = false;
+  ui.model().open_sections()["Mesh"] = true;
+  ui.frames(2);
+  ui.click("mesh/unit");
+  ui.click("mesh/unit/m");
+  CHECK(longest_mm() == doctest::Approx(60.0));
+  CHECK(warnings() == 1);
+  const auto type_side = [&](const char* text) {
+    ui.click("mesh/fit_mm");
+    ui.type(text);
+    ui.key(HeadlessApp::kEnter);
+    ui.frames(2);
+  };
+  type_side("80");
+  CHECK(longest_mm() == doctest::Approx(80.0));
+  type_side("-3");
+  CHECK(longest_mm() == doctest::Approx(80.0));
+  type_side("0");
+  CHECK(longest_mm() == doctest::Approx(60.0));
 }
 
 TEST_CASE("a slice across the view, chosen again, is across the view as it is now") {
