@@ -63,8 +63,10 @@ inline constexpr int kTrackBudget = 8;
 /// New planes a seed of `robust` may spend, 1.
 inline constexpr int kSeedBudget = 16;
 
-/// New planes a suspected rival may cost, 1 (twice this on creases and boundaries): its place is known to 1/30 of a triangle, where Newton needs two or three.
-inline constexpr int kRivalBudget = 4;
+/// New planes that a suspected rival costs before its height tells whether it is worth more, and those that it may cost then, 1; both
+/// twice on creases and boundaries. Its place is known to 1/30 of a triangle, where Newton mostly needs one or two,
+/// near a fold more. Fewer: deeper places beside a fold are taken for none; more: rivals that are none cost planes at every tick.
+inline constexpr int kRivalBudget = 2, kDeeperRivalBudget = 5;
 
 /// Nearest triangles that seed a contact where the hierarchy finds none, 1: the nearest triangle's patch often holds
 /// none itself. More: slower re-seeding; fewer: contacts missed in rough ground.
@@ -86,8 +88,9 @@ inline constexpr double kWatchTicks = 12.0;
 /// a hand at rest trembles. Larger: searches over more triangles; smaller: a trembling finger leaves the ball again and again.
 inline constexpr double kSmallestWatch = 2e-3, kLargestWatch = 0.1;
 
-/// Part of the look-ahead that remains where a triangle could neither be ruled out nor be solved.
-inline constexpr double kUnresolvedMargin = 0.25;
+/// Part of the look-ahead that remains where a triangle could neither be ruled out nor be solved: half a tick. A contact comes
+/// up there at once where the offset surface unfolds. Larger: it takes over late; smaller: nothing, the next tick looks anyway.
+inline constexpr double kUnresolvedMargin = 0.5 / kWatchTicks;
 
 /// Contacts whose surroundings one search for rivals remembers, 1.
 inline constexpr std::size_t kKnownContacts = 8;
@@ -101,7 +104,11 @@ inline constexpr int kBisections = 12, kBisectionTests = 48;
 
 /// Part of its height by which a rival's height is guessed wrong at most, without solving for it. Larger: rivals are
 /// solved for before they can take over; smaller: a takeover may come a tick late.
-inline constexpr double kHeightGuess = 2e-5;
+inline constexpr double kHeightGuess = 1e-4;
+
+/// Part of the way to a takeover, as first and second order tell it, that is gone before a rival is looked at again. Larger:
+/// near a fold, where heights bend by more than that, it comes a tick late; smaller: rivals are looked at more often.
+inline constexpr double kOvertakingRoom = 0.5;
 
 /// A suspected rival as near to the tracked contact as this part of a triangle's side, and as high within kHeightGuess,
 /// is the tracked contact itself. Larger: a true rival as near and as deep goes unnoticed, which nobody feels; smaller:
@@ -110,6 +117,10 @@ inline constexpr double kSamePlace = 0.0625;
 
 /// Part of the raw mesh's distance by which a seeded contact may lie further off before more seeds are tried.
 inline constexpr double kImplausibleShare = 0.02;
+
+/// 1 + h k keeps this far from 0 on the slope that leads to a contact, less 1: h k, the curvature times the height, is above
+/// -kFoldRoom. Larger: folds within a triangle hide deeper contacts; smaller: hollow ground near the contact is searched.
+inline constexpr double kFoldRoom = 0.1;
 
 /// Around a contact, its own slope reaches this many look-aheads and a triangle far, as a ratio. Larger: places behind
 /// a fold are taken for the slope's; smaller: searches over the triangles that the contact walks to anyway.

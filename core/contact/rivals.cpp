@@ -1,6 +1,7 @@
 #include "core/contact/rivals.h"
 
 #include "core/base/tolerances.h"
+#include "core/contact/basin.h"
 #include "core/contact/nearest_triangles.h"
 #include "core/contact/triangle_exclusion.h"
 
@@ -13,62 +14,19 @@ namespace {
 
 constexpr double kForever = std::numeric_limits<double>::infinity();
 
-/// A contact whose surroundings need no search.
-struct KnownContact {
-  Feature feature;
-  std::uint8_t side;
-  std::uint32_t triangle;
-  Vec3 point, normal;
-  double height_m;
-  double size;  ///< longest side of its triangle
-};
-
-double longest_side(const ContactMesh& mesh, std::uint32_t t) {
-  const auto p = mesh.positions(t);
-  const auto square = [](const Vec3& v) { return glm::dot(v, v); };
-  return std::sqrt(std::max({square(p[1] - p[0]), square(p[2] - p[1]), square(p[0] - p[2])}));
-}
-
-/// Whether triangle t has the edge or vertex that the known contact rests on.
-bool shares_feature(const ContactMesh& mesh, std::uint32_t t, const KnownContact& known) {
-  if (known.feature == Feature::edge) return mesh.across(known.triangle, known.side).triangle == t;
-  const std::uint32_t vertex = mesh.vertex(known.triangle, known.side);
-  return mesh.vertex(t, 0) == vertex || mesh.vertex(t, 1) == vertex || mesh.vertex(t, 2) == vertex;
-}
-
-/// Whether triangle t surely belongs to the slope that leads to a known contact: towards each of its corners the
-/// normal turns no faster than a contact at height h stays stable with (1 + h k > 0, with room), and the corner does
-/// not rise from it towards the finger. Only near it, as far as the look-ahead `margin` calls for: further off there
-/// may be a fold between.
-bool same_basin(const ContactMesh& mesh, std::uint32_t t, const KnownContact& known, double margin) {
-  if (t == known.triangle) return true;
-  if (known.feature != Feature::face && shares_feature(mesh, t, known)) return true;
-  for (std::uint32_t k = 0; k < 3; ++k) {
-    const Vec3 dp = mesh.position(t, k) - known.point;
-    const Vec3 dn = mesh.normal(t, k) - known.normal;
-    const double distance2 = glm::dot(dp, dp), over = glm::dot(dp, known.normal);
-    const double agreement = glm::dot(mesh.normal(t, k), known.normal);
-    const double reach = known.size + (agreement > kGentleCosine ? kGentleReach : kBasinReach) * margin;
-    if (distance2 > reach * reach || agreement < kBasinCosine) return false;
-    if (over * known.height_m > 0.0 && over * over > 0.25 * distance2) return false;
-    if (known.height_m * glm::dot(dn, dp) < -0.1 * distance2) return false;
-  }
-  return true;
-}
-
 Vec3 interpolated_normal(const ContactMesh& mesh, std::uint32_t t, double u, double v) {
   const auto n = mesh.normals(t);
-  return (1.0 - u - v) * n[0] + u * n[1] + v * n[2];
+  return unit((1.0 - u - v) * n[0] + u * n[1] + v * n[2]);
 }
 
 /// How far the centre may go before a rival that ranks `gap` behind can overtake: heights change along their normals,
-/// and in second order by the square of the way over the height.
+/// and in second order by the square of the way over the height, near a fold by more.
 double overtaking_margin(const KnownContact& tracked, const Vec3& rival_normal, double rival_height, double gap) {
   const Vec3 apart = tracked.normal - rival_normal;
   const double rate = std::sqrt(glm::dot(apart, apart)) + 1e-3;
   const double bend = 2.0 / std::max(1e-12, std::min(std::abs(tracked.height_m), std::abs(rival_height)));
   // Smaller root of rate m + bend m^2 = gap.
-  return 2.0 * gap / (rate + std::sqrt(rate * rate + 4.0 * bend * gap));
+  return kOvertakingRoom * 2.0 * gap / (rate + std::sqrt(rate * rate + 4.0 * bend * gap));
 }
 
 /// What one triangle means for the tracked contact.
@@ -154,14 +112,13 @@ class RivalSearch {
 
   void remember(const IterationResult& r) {
     if (known_count_ == known_.size()) return;
-    known_[known_count_++] = {r.plane.feature, r.plane.side, r.plane.triangle, r.plane.point, r.plane.normal, r.contact.height_m,
-                              longest_side(context_.cache.mesh(), r.plane.triangle)};
+    known_[known_count_++] = known_contact(context_.cache.mesh(), r.plane, r.contact.height_m);
   }
 
   Look look_at(std::uint32_t t, double enough_m, RivalResult& result) {
     const ContactMesh& mesh = context_.cache.mesh();
     for (std::size_t i = 0; i < known_count_; ++i)
-      if (same_basin(mesh, t, known_[i], enough_m)) return {};
+      if (same_basin(context_.cache, settings_.normal_form, t, known_[i], enough_m)) return {};
     const PatchExclusion proof = exclude_triangle(context_, t, bound_m_, enough_m, &features_);
     if (!proof.possible) return {proof.margin_m > 0.0 ? proof.margin_m : kUnresolvedMargin * margin_m_, false};
     if (proof.height_m != 0.0 && is_tracked(proof)) return {};
@@ -175,7 +132,7 @@ class RivalSearch {
   /// Seen from the next triangle, the tracked contact on or near their common side.
   bool is_tracked(const PatchExclusion& proof) const {
     const Vec3 apart = proof.point - tracked_.plane.point;
-    const double near = kSamePlace * known_[0].size;
+    const double near = kSamePlace * known_[0].size_m;
     return glm::dot(apart, apart) < near * near &&
            std::abs(proof.height_m - tracked_.contact.height_m) < kHeightGuess * std::abs(tracked_.contact.height_m);
   }
@@ -188,8 +145,14 @@ class RivalSearch {
     start.u = proof.u;
     start.v = std::min(proof.v, 1.0 - proof.u);
     IterationResult r;
-    iterate(context_, start, context_.cache.mesh().interior(t) ? kRivalBudget : 2 * kRivalBudget, r);
+    const int share = context_.cache.mesh().interior(t) ? 1 : 2;
+    iterate(context_, start, share * kRivalBudget, r);
     result.evaluations += r.evaluations;
+    if (r.stop == StopReason::iteration_limit && contact_rank(context_.finger, r.contact) < deepest_) {
+      const TrackedPlane so_far = r.plane;
+      iterate(context_, so_far, share * kDeeperRivalBudget, r);
+      result.evaluations += r.evaluations;
+    }
     // No contact there now, but one may come up: ask again before long.
     if (!r.converged()) return {kUnresolvedMargin * margin_m_, false};
     const Vec3 apart = r.plane.point - tracked_.plane.point;
