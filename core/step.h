@@ -46,17 +46,24 @@ const char* to_string(TickStatus status);
 const char* to_string(TickEvent event);  ///< "switch" for switched
 const char* to_string(Method method);    ///< "force-shading", "two-pass"
 
-/// Where the tangent plane touches the smooth surface. u and v are the barycentric weights on `triangle`
-/// (for an edge or vertex contact they lie on that edge or corner). The normal belongs to the place for
-/// faces; on edges and vertices it turns within the fan.
-struct TrackedPlane {
+/// A place on the smooth surface. u and v are the barycentric weights on `triangle` (for an edge or vertex they lie on
+/// that edge or corner).
+struct SurfacePlace {
   Feature feature = Feature::none;
   std::uint8_t side = 0;            ///< edge: which edge of the triangle; vertex: which corner
   std::uint32_t triangle = kNone;
   double u = 0.0, v = 0.0;
+};
+
+/// Where the tangent plane touches the smooth surface. The normal belongs to the place for faces; on edges and vertices it
+/// turns within the fan.
+struct TrackedPlane : SurfacePlace {
   Vec3 point{0.0};                  ///< S, local mesh coordinates, m
   Vec3 normal{0.0, 0.0, 1.0};       ///< N, unit
-  double turn = 0.0;                ///< edge: angle of N about the edge, from the near side's normal, rad; else unused
+  Vec2 turn{1.0, 0.0};              ///< edge: direction of N about the edge (contact/edge_fan.h); else unused
+
+  /// Point and normal there are still to be computed.
+  void move_to(const SurfacePlace& place) { static_cast<SurfacePlace&>(*this) = place; }
 };
 
 /// A triangle that holds no deeper contact, but could before others do.

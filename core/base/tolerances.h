@@ -56,6 +56,11 @@ inline constexpr double kNewtonMinDet = 0.01;
 /// places; smaller: slow approach in concave ground, by a part of the way each plane.
 inline constexpr double kLongestStepPerTravel = 4.0, kShortStep = 0.05;
 
+/// Ratio. An edge whose curve leaves its chord by less than this part of its length, between normals that turn by less
+/// than this (rad), is straight: its fan of normals is the same all along and computed once. Rounding leaves 1e-16.
+/// Larger: contacts on all but straight edges are off by that part of the edge; smaller: flat sides turned in space are missed.
+inline constexpr double kStraightEdge = 1e-13;
+
 /// New planes `robust` spends on following the kept contact before it seeds anew, 1. More: a stale contact
 /// costs longer before it is given up; fewer: slow but sound convergence is thrown away.
 inline constexpr int kTrackBudget = 8;

@@ -1,34 +1,48 @@
 #include "core/contact/edge_fan.h"
 
-#include "core/contact/place.h"
+#include "core/base/arc_tangent.h"
+#include "core/base/tolerances.h"
+#include "core/contact/plane_contact.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace tangent {
 namespace {
-
-/// A boundary lets the normal turn from the face's front to its back.
-constexpr double kBoundaryFan = std::numbers::pi;
 
 Vec3 any_perpendicular(const Vec3& n) {
   const Vec3 axis = std::abs(n.x) < 0.6 ? Vec3(1, 0, 0) : std::abs(n.y) < 0.6 ? Vec3(0, 1, 0) : Vec3(0, 0, 1);
   return unit(glm::cross(n, axis));
 }
 
-EdgeFan compute_fan(PatchCache& cache, std::uint32_t t, std::uint32_t edge, double f, NormalForm form) {
-  const ContactMesh& mesh = cache.mesh();
-  const PnPatch& patch = cache.patch(t, form);
-  const EdgePoint at = evaluate_edge_point(patch, edge, f);
-  const EdgeNormal near = evaluate_edge_normal(patch, edge, f);
+bool constant(const EdgeNormals& n) {
+  return glm::distance(n.normals[1], n.normals[0]) <= kStraightEdge && glm::distance(n.normals[2], n.normals[0]) <= kStraightEdge;
+}
 
-  EdgeFan fan;
+bool is_straight(const FanEdge& edge) {
+  const auto& p = edge.curve.offsets;
+  const double room = kStraightEdge * glm::length(edge.chord);
+  return glm::distance(3.0 * (p[1] - p[0]), edge.chord) <= room && glm::distance(3.0 * (p[3] - p[2]), edge.chord) <= room &&
+         constant(edge.near) && (edge.boundary || constant(edge.far));
+}
+
+double angle_of(const Vec2& turn) { return arc_tangent(turn.y, turn.x); }
+
+Vec2 unit_turn(double x, double y) {
+  const double length2 = x * x + y * y;
+  if (!(length2 > 0.0)) return kNearTurn;
+  const double length = std::sqrt(length2);
+  return {x / length, y / length};
+}
+
+/// The curve's point and tangent and the near side's normal, with the frame that they span.
+void set_near_side(const FanEdge& edge, double f, EdgeFan& fan) {
+  const EdgePoint at = evaluate(edge.curve, f);
+  const EdgeNormal near = evaluate(edge.near, f);
   fan.point = at.point;
   fan.point_f = at.point_f;
   const double speed2 = glm::dot(at.point_f, at.point_f);
-  const Vec3 chord = mesh.position(t, (edge + 1) % 3) - mesh.position(t, edge);
-  fan.tangent = unit(speed2 > 1e-12 * glm::dot(chord, chord) ? at.point_f : chord);
+  fan.tangent = unit(speed2 > 1e-12 * glm::dot(edge.chord, edge.chord) ? at.point_f : edge.chord);
   fan.tangent_f = speed2 > 0.0 ? (at.point_ff - glm::dot(at.point_ff, fan.tangent) * fan.tangent) / std::sqrt(speed2) : Vec3(0.0);
   fan.near_normal = near.normal;
   fan.near_normal_f = near.normal_f;
@@ -36,69 +50,103 @@ EdgeFan compute_fan(PatchCache& cache, std::uint32_t t, std::uint32_t edge, doub
   const Vec3 across = near.normal - fan.tilt_near * fan.tangent;
   fan.e1 = glm::dot(across, across) > 1e-12 ? unit(across) : any_perpendicular(fan.tangent);
   fan.e2 = glm::cross(fan.tangent, fan.e1);
-  if (glm::dot(fan.e2, mesh.position(t, (edge + 2) % 3) - mesh.position(t, edge)) > 0.0) fan.e2 = -fan.e2;
+  if (glm::dot(fan.e2, edge.inwards) > 0.0) fan.e2 = -fan.e2;
+}
 
-  const EdgeLink other = mesh.across(t, edge);
-  if (other.triangle == kNone) {
-    fan.fan = kBoundaryFan;
-    fan.tilt_far = fan.tilt_near;
+/// The other side's normal; a boundary lets the normal turn from the face's front to its back.
+void set_far_side(const FanEdge& edge, double f, EdgeFan& fan) {
+  if (edge.boundary) {
     fan.far_normal = fan.near_normal;
     fan.far_normal_f = fan.near_normal_f;
-    return fan;
+    fan.tilt_far = fan.tilt_near;
+    fan.far = {-1.0, 0.0};
+    return;
   }
-  // The neighbour runs along the edge the other way.
-  const EdgeNormal far = evaluate_edge_normal(cache.patch(other.triangle, form), other.edge, 1.0 - f);
+  const EdgeNormal far = evaluate(edge.far, 1.0 - f);
   fan.far_normal = far.normal;
   fan.far_normal_f = -far.normal_f;
   fan.tilt_far = std::clamp(glm::dot(far.normal, fan.tangent), -1.0, 1.0);
-  fan.fan = std::atan2(glm::dot(far.normal, fan.e2), glm::dot(far.normal, fan.e1));
-  return fan;
+  fan.far = turn_of(fan, far.normal);
+}
+
+/// Without what rounding leaves of bends and leanings along a straight edge.
+void straighten(const FanEdge& edge, EdgeFan& fan) {
+  fan.point_f = edge.chord;
+  fan.tangent_f = fan.near_normal_f = fan.far_normal_f = Vec3(0.0);
+  if (std::abs(fan.tilt_far - fan.tilt_near) <= 2.0 * kStraightEdge) fan.tilt_far = fan.tilt_near;
+}
+
+void set_fan(const FanEdge& edge, double f, EdgeFan& fan) {
+  set_near_side(edge, f, fan);
+  set_far_side(edge, f, fan);
+  if (edge.straight) straighten(edge, fan);
+  fan.even = fan.tilt_near == fan.tilt_far && fan.near_normal_f == fan.far_normal_f &&
+             (fan.tangent_f == Vec3(0.0) || fan.near_normal == fan.far_normal);
+  if (!fan.even) fan.angle = angle_of(fan.far);
 }
 
 }  // namespace
 
-const EdgeFan& edge_fan(PatchCache& cache, std::uint32_t t, std::uint32_t edge, double f, NormalForm form) {
-  CachedFan& last = cache.last_fan();
-  if (last.triangle != t || last.edge != edge || last.f != f || last.form != form)
-    last = {t, edge, f, form, compute_fan(cache, t, edge, f, form)};
-  return last.fan;
+void prepare_fan(FanEdge& edge, EdgeFan& fan) {
+  edge.straight = is_straight(edge);
+  if (edge.straight) set_fan(edge, 0.0, fan);
 }
 
-FanNormal fan_normal(const EdgeFan& fan, double turn) {
-  const double share = fan.fan != 0.0 ? std::clamp(turn / fan.fan, 0.0, 1.0) : 0.0;
+void move_fan(const FanEdge& edge, double f, EdgeFan& fan) {
+  if (edge.straight) {
+    fan.point = edge.curve.origin + (edge.curve.offsets[0] + f * edge.chord);
+  } else {
+    set_fan(edge, f, fan);
+  }
+}
+
+Vec2 clamp_turn(const EdgeFan& fan, const Vec2& turn) {
+  if (in_fan(fan, turn)) return turn;
+  return fan.convex() && glm::dot(turn, fan.far) > turn.x ? fan.far : kNearTurn;
+}
+
+void edge_sample(const EdgeFan& fan, const Vec2& turn, SurfaceSample& sample) {
+  double share = 0.0, tilt_rate = 0.0;  // of the far side; of the tilt, 1/rad
+  if (!fan.even && fan.angle != 0.0) {
+    share = std::clamp(angle_of(turn) / fan.angle, 0.0, 1.0);
+    tilt_rate = (fan.tilt_far - fan.tilt_near) / fan.angle;
+  }
   const double tilt = fan.tilt_near + share * (fan.tilt_far - fan.tilt_near);
-  const double tilt_rate = fan.fan != 0.0 ? (fan.tilt_far - fan.tilt_near) / fan.fan : 0.0;
   const double level = std::sqrt(std::max(0.0, 1.0 - tilt * tilt));
-  const Vec3 radial = std::cos(turn) * fan.e1 + std::sin(turn) * fan.e2;
-  const Vec3 circular = std::cos(turn) * fan.e2 - std::sin(turn) * fan.e1;
-  FanNormal n;
-  n.normal = tilt * fan.tangent + level * radial;
-  n.by_turn = level * circular;
-  if (level > 1e-9) n.by_turn += tilt_rate * (fan.tangent - (tilt / level) * radial);
+  const Vec3 radial = turn.x * fan.e1 + turn.y * fan.e2;
+  const Vec3 normal = tilt * fan.tangent + level * radial;
+  Vec3 by_turn = level * (turn.x * fan.e2 - turn.y * fan.e1);
+  if (tilt_rate != 0.0 && level > 1e-9) by_turn += tilt_rate * (fan.tangent - (tilt / level) * radial);
   const Vec3 between = (1.0 - share) * fan.near_normal + share * fan.far_normal;
   const Vec3 by_f = (1.0 - share) * fan.near_normal_f + share * fan.far_normal_f +
-                    glm::dot(between - n.normal, fan.tangent_f) * fan.tangent;
-  n.by_f = by_f - glm::dot(by_f, n.normal) * n.normal;
-  return n;
+                    glm::dot(between - normal, fan.tangent_f) * fan.tangent;
+  sample.point = fan.point;
+  sample.point_u = fan.point_f;
+  sample.point_v = Vec3(0.0);
+  sample.normal = normal;
+  sample.normal_u = by_f - glm::dot(by_f, normal) * normal;
+  sample.normal_v = by_turn;
 }
 
-double facing_turn(const EdgeFan& fan, const Finger& finger, const FingerPose& pose) {
-  const Vec3 d = pose.position - fan.point;
-  double turn = std::atan2(glm::dot(d, fan.e2), glm::dot(d, fan.e1));
-  if (finger.shape == FingerShape::point || finger.shape == FingerShape::sphere) return turn;
+Vec2 turn_of(const EdgeFan& fan, const Vec3& normal) { return unit_turn(glm::dot(normal, fan.e1), glm::dot(normal, fan.e2)); }
+
+Vec2 facing_turn(const EdgeFan& fan, const Finger& finger, const FingerPose& pose) {
+  Vec2 turn = turn_of(fan, pose.position - fan.point);
+  if (is_round(finger)) return turn;
   // Other shapes: Newton on the component of the travel across the edge, d(travel)/d(turn) = -H dN/d(turn).
   for (int i = 0; i < 20; ++i) {
-    const FanNormal n = fan_normal(fan, turn);
-    const PlaneContact c = contact_on_plane(finger, pose, fan.point, n.normal);
-    const Vec3 across = unit(glm::cross(fan.tangent, n.normal));
+    SurfaceSample s;
+    edge_sample(fan, turn, s);
+    const PlaneContact c = contact_on_plane(finger, pose, s.point, s.normal);
+    const Vec3 across = unit(glm::cross(fan.tangent, s.normal));
     const double residual = glm::dot(c.travel, across);
-    const double slope = glm::dot(offset_derivative(finger, pose, n.normal, c.penetration_m) * n.by_turn, across);
+    const double slope = glm::dot(offset_derivative(finger, pose, s.normal, c.penetration_m) * s.normal_v, across);
     if (!(std::abs(slope) > 0.0)) break;
-    const double change = std::clamp(residual / slope, -0.5, 0.5);
-    turn += change;
+    const double change = std::clamp(residual / slope, -0.5, 0.5), c1 = std::cos(change), s1 = std::sin(change);
+    turn = unit_turn(c1 * turn.x - s1 * turn.y, s1 * turn.x + c1 * turn.y);
     if (std::abs(change) < 1e-13) break;
   }
-  return std::remainder(turn, 2.0 * std::numbers::pi);
+  return turn;
 }
 
 }  // namespace tangent

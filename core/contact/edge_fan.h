@@ -1,4 +1,7 @@
 // The fan of normals about a point of a crease or boundary edge.
+//
+// A direction across the edge is a unit vector (cos, sin) of the angle by which it is turned about the edge from the near
+// side's normal towards the far side's: solving on an edge takes no angle, sine or arc tangent unless the normals lean.
 #pragma once
 
 #include "core/contact/finger.h"
@@ -9,30 +12,48 @@ namespace tangent {
 /// The frame of a crease or boundary edge at one point of it.
 struct EdgeFan {
   Vec3 point, point_f;          ///< on the edge curve; derivative along f
-  Vec3 tangent;                 ///< unit
+  Vec3 tangent, tangent_f;      ///< unit; its derivative along f
   Vec3 e1, e2;                  ///< perpendicular to the tangent; e1 along the near side's normal, e2 away from its face
-  double tilt_near = 0.0, tilt_far = 0.0;  ///< normal . tangent on the two sides
-  double fan = 0.0;             ///< angle from the near normal to the far one, rad; positive: convex
   Vec3 near_normal, far_normal;            ///< unit normals of the two sides
   Vec3 near_normal_f, far_normal_f;        ///< their derivatives along f
-  Vec3 tangent_f;                          ///< derivative of the unit tangent along f
+  double tilt_near = 0.0, tilt_far = 0.0;  ///< normal . tangent on the two sides
+  Vec2 far{1.0, 0.0};           ///< the far normal's direction in (e1, e2); (-1, 0) at a boundary
+  bool even = false;            ///< tilt and derivative along f are the same all over the fan; else they change with the turn's angle
+  double angle = 0.0;           ///< from the near normal to the far one, rad, positive: convex; unset where `even`
+
+  /// Whether the normals part: only such an edge can be touched.
+  bool convex() const { return far.y > 0.0 || (far.y == 0.0 && far.x < 0.0); }
 };
 
-class PatchCache;
+inline constexpr Vec2 kNearTurn{1.0, 0.0};
 
-/// f runs from corner `edge` to corner `edge + 1` of triangle t. Precondition: not a smooth edge. The cache holds it:
-/// the reference is good until the next call.
-const EdgeFan& edge_fan(PatchCache& cache, std::uint32_t t, std::uint32_t edge, double f, NormalForm form);
+/// Whether a plane with this turn lies between those of the two sides.
+inline bool in_fan(const EdgeFan& fan, const Vec2& turn) {
+  return fan.convex() && turn.y >= 0.0 && turn.x * fan.far.y >= turn.y * fan.far.x;
+}
+/// The turn itself, or that of the side it is nearer to.
+Vec2 clamp_turn(const EdgeFan& fan, const Vec2& turn);
 
-/// Unit normal of the fan at angle `turn`, its derivative along the turn and along f. The latter is interpolated
-/// between the sides, but for its part along the edge, N_f.T = tilt_f - N.T_f, which is exact.
-struct FanNormal {
-  Vec3 normal, by_turn, by_f;
+/// The edge's point with the fan's unit normal at `turn`; _u is along f, _v along the turn's angle. The normal's derivative
+/// along f is interpolated between the sides, but for its part along the edge, N_f.T = tilt_f - N.T_f, which is exact.
+void edge_sample(const EdgeFan& fan, const Vec2& turn, SurfaceSample& sample);
+
+/// The turn of a normal, not limited to the fan.
+Vec2 turn_of(const EdgeFan& fan, const Vec3& normal);
+/// The turn at which the plane faces the finger: the travel has no component across the edge. Not limited to the fan.
+Vec2 facing_turn(const EdgeFan& fan, const Finger& finger, const FingerPose& pose);
+
+/// What the fans of a crease or boundary edge are made of; the cache keeps it.
+struct FanEdge {
+  EdgeCurve curve;
+  EdgeNormals near, far;        ///< far: of the neighbour's edge, which runs the other way
+  Vec3 chord, inwards;          ///< from the first corner to the second, and to the near triangle's third
+  bool boundary = false;
+  bool straight = false;        ///< a straight edge between sides of constant normals: the same fan all along
 };
-FanNormal fan_normal(const EdgeFan& fan, double turn);
-
-/// The turn at which the plane faces the finger: the travel has no component across the edge. Not limited
-/// to [0, fan]; in (-pi, pi].
-double facing_turn(const EdgeFan& fan, const Finger& finger, const FingerPose& pose);
+/// Completes an edge of which all but `straight` is given: tells whether it is, and then sets `fan` but for its point.
+void prepare_fan(FanEdge& edge, EdgeFan& fan);
+/// Brings `fan` to fraction f of its edge.
+void move_fan(const FanEdge& edge, double f, EdgeFan& fan);
 
 }  // namespace tangent

@@ -1,5 +1,6 @@
 #include "core/contact/finger.h"
 
+#include "core/base/arc_tangent.h"
 #include "core/contact/plane_contact.h"
 
 #include <algorithm>
@@ -117,11 +118,13 @@ Vec3 support_point(const Finger& finger, const FingerPose& pose, const Vec3& nor
 static double sphere_arc(double radius, const Vec3& m, double limit_m) {
   const double across = radius * m.x;
   const bool beyond = m.z > 0.0 ? limit_m < 1.5 * radius : across * across > limit_m * limit_m * (m.x * m.x + m.z * m.z);
-  return beyond ? std::copysign(limit_m, m.x) : radius * std::atan2(m.x, -m.z);
+  return beyond ? std::copysign(limit_m, m.x) : radius * arc_tangent(m.x, -m.z);
 }
 
 double contact_arc_m(const Finger& finger, const FingerPose& pose, const Vec3& normal, double limit_m) {
-  const Vec3 m = to_finger_frame(pose, -normal);
+  // The finger's axes are known before the normal is, so that only two dot products wait for it.
+  const Mat3 axes = glm::mat3_cast(pose.orientation);
+  const Vec3 m(-glm::dot(axes[0], normal), 0.0, -glm::dot(axes[2], normal));
   if (finger.shape == FingerShape::point || (m.x == 0.0 && m.z == 0.0)) return 0.0;
   const Vec3& a = finger.semi_axes_m;
   switch (finger.shape) {

@@ -13,26 +13,11 @@ namespace {
 
 /// Where an iteration goes next, and what the trace shows of the step.
 struct Proposal {
-  TrackedPlane place;
+  SurfacePlace place;
   ParameterStep step;
-  double step_m = 0.0;
   int triangle_changes = 0;
   StopReason stop = StopReason::going_on;  ///< converged, or why there is no next place
 };
-
-SurfaceSample edge_sample(const EdgeFan& fan, double turn) {
-  const FanNormal n = fan_normal(fan, turn);
-  return {fan.point, fan.point_f, Vec3(0.0), n.normal, n.by_f, n.by_turn};
-}
-
-/// `turn` brought into [0, fan] by the shorter way round.
-double clamp_turn(double turn, double fan) {
-  if (turn >= 0.0 && turn <= fan) return turn;
-  constexpr double kTurn = 6.283185307179586;
-  const double below = turn < 0.0 ? -turn : kTurn - turn;
-  const double above = turn > fan ? turn - fan : kTurn + turn - fan;
-  return below <= above ? 0.0 : fan;
-}
 
 /// What the planes of one run so far leave for the next.
 struct RunMemory {
@@ -66,14 +51,10 @@ struct RunMemory {
   }
 };
 
-double turn_of(const EdgeFan& fan, const Vec3& normal) {
-  return clamp_turn(std::atan2(glm::dot(normal, fan.e2), glm::dot(normal, fan.e1)), fan.fan);
-}
-
 ParameterStep face_step(IterationContext& context, const IterationResult& now, const ContactJacobian& jacobian) {
   switch (context.settings.method) {
     case Method::newton: return newton_step(now.sample, jacobian, now.contact);
-    case Method::robust: return robust_face_step(now.sample, jacobian, now.stability, now.contact);
+    case Method::robust: return robust_face_step(now.sample, jacobian, now.stability, now.contact, now.bend.area_m2);
     default: return paper_face_step(context.cache.mesh(), context.settings, now.plane.triangle, now.sample, now.contact);
   }
 }
@@ -87,7 +68,7 @@ bool move_on_face(const ContactMesh& mesh, const ParameterStep& step, IterationR
   }
   const WalkResult walk = walk_face(mesh, now.plane.triangle, now.plane.u, now.plane.v, step.da, step.db);
   if (walk.lost) return false;  // the plane stays with its sample
-  now.plane = walk.place;
+  now.plane.move_to(walk.place);
   now.triangle_changes += walk.triangle_changes;
   return true;
 }
@@ -99,10 +80,10 @@ double step_length(const ContactMesh& mesh, std::uint32_t t, const ParameterStep
 
 /// A move along an edge, on to the vertex where it starts at an end. A step past an end is carried on along the crease,
 /// once in a run: where the contact wants to rest on the vertex, the next step leads back and stops there.
-TrackedPlane move_along_edge(const ContactMesh& mesh, const TrackedPlane& at, double f, double df, double speed, RunMemory& memory) {
+SurfacePlace move_along_edge(const ContactMesh& mesh, const SurfacePlace& at, double f, double df, const EdgeFan& fan, RunMemory& memory) {
   const bool forwards = df > 0.0;
   if (forwards ? f >= 1.0 : df < 0.0 && f <= 0.0) {
-    TrackedPlane p = at;
+    SurfacePlace p = at;
     p.feature = Feature::vertex;
     p.side = static_cast<std::uint8_t>(forwards ? (at.side + 1) % 3 : at.side);
     return p;
@@ -110,7 +91,7 @@ TrackedPlane move_along_edge(const ContactMesh& mesh, const TrackedPlane& at, do
   const double to = f + df, beyond = forwards ? to - 1.0 : -to;
   if (beyond > 0.0 && !memory.carried) {
     memory.carried = true;
-    if (const auto next = walk_past_end(mesh, at.triangle, at.side, forwards, beyond * speed)) return *next;
+    if (const auto next = walk_past_end(mesh, at.triangle, at.side, forwards, beyond * glm::length(fan.point_f))) return *next;
   }
   return place_on_edge(at.triangle, at.side, std::clamp(to, 0.0, 1.0));
 }
@@ -127,22 +108,20 @@ Stability edge_stability(const EdgeFan& fan, const SurfaceSample& s, const Conta
 /// paper's method, by the travel; or off it, into the face on one side.
 struct EdgeMove {
   ParameterStep step;       ///< da: along f, db: of the turn
-  double df_travel = 0.0;   ///< f by the travel alone
-  double speed = 0.0;       ///< |dS/df|, m
+  double df_travel = 0.0;   ///< f by the travel alone; 0 where the step is Newton's
   bool into_near = false, into_far = false;
 };
 
 EdgeMove edge_move(IterationContext& context, const EdgeFan& fan, const IterationResult& now, const ContactJacobian& jacobian, bool has_far) {
   EdgeMove move;
-  const double speed2 = glm::dot(fan.point_f, fan.point_f);
-  move.speed = std::sqrt(speed2);
-  move.df_travel = speed2 > 0.0 ? glm::dot(now.contact.travel, fan.point_f) / speed2 : 0.0;
   move.step = newton_step(now.sample, jacobian, now.contact);
-  const bool trusted = move.step.valid && now.stability.stable();
+  const bool trusted = move.step.valid && now.stability.stable(), paper = context.settings.method == Method::paper;
+  if (!trusted || paper) {
+    const double speed2 = glm::dot(fan.point_f, fan.point_f);
+    move.df_travel = speed2 > 0.0 ? glm::dot(now.contact.travel, fan.point_f) / speed2 : 0.0;
+  }
   if (!trusted) move.step.da = move.df_travel, move.step.db = 0.0;
   move.step.valid = true;
-
-  const bool paper = context.settings.method == Method::paper;
   if (paper) {
     move.step.curvature_per_m = directional_curvature(now.sample, 1.0, 0.0);
     move.step.distance_m = paper_distance(context.settings, now.contact);
@@ -150,32 +129,31 @@ EdgeMove edge_move(IterationContext& context, const EdgeFan& fan, const Iteratio
     move.step.da = move.step.gain * move.df_travel;
   }
   // At an end of the fan the plane wants to turn on into the face.
-  const bool at_near = now.plane.turn <= 0.0, at_far = now.plane.turn >= fan.fan;
+  const bool at_near = now.plane.turn == kNearTurn, at_far = now.plane.turn == fan.far;
   if (!at_near && !at_far) return move;
   if (trusted && !paper) {
     move.into_near = at_near && move.step.db < 0.0;
     move.into_far = at_far && has_far && move.step.db > 0.0;
     return move;
   }
-  const double wanted = facing_turn(fan, context.finger, context.pose);
-  const bool outside = wanted < 0.0 || wanted > fan.fan;
+  const bool outside = !in_fan(fan, facing_turn(fan, context.finger, context.pose));
   move.into_near = at_near && outside;
   move.into_far = at_far && has_far && outside;
   return move;
 }
 
 /// Neither the place nor the plane can change any more.
-bool rests_on_edge(IterationContext& context, const EdgeFan& fan, const TrackedPlane& at, const TrackedPlane& next) {
+bool rests_on_edge(IterationContext& context, const EdgeFan& fan, const TrackedPlane& at, const SurfacePlace& next) {
   if (next.feature != Feature::edge || next.triangle != at.triangle || next.u != at.u || next.v != at.v) return false;
-  const double wanted = facing_turn(fan, context.finger, context.pose);
-  return std::abs(wanted - at.turn) < 1e-12 && wanted >= 0.0 && wanted <= fan.fan;
+  const Vec2 wanted = facing_turn(fan, context.finger, context.pose);
+  return in_fan(fan, wanted) && glm::distance(wanted, at.turn) < 1e-12;
 }
 
 Proposal next_from_edge(IterationContext& context, const TrackedPlane& at, RunMemory& memory, IterationResult& now) {
   Proposal next;
   const ContactMesh& mesh = context.cache.mesh();
   const double f = edge_fraction(at.side, at.u, at.v);
-  const EdgeFan& fan = edge_fan(context.cache, at.triangle, at.side, f, context.settings.normal_form);
+  const EdgeFan& fan = context.cache.fan(at.triangle, at.side, f, context.settings.normal_form);
   const ContactJacobian jacobian = contact_jacobian(context.finger, context.pose, now.sample, now.contact);
   now.stability = edge_stability(fan, now.sample, jacobian);
   const bool exact = now.contact.error_m < context.settings.tolerance_m;
@@ -187,7 +165,7 @@ Proposal next_from_edge(IterationContext& context, const TrackedPlane& at, RunMe
   const EdgeMove move = edge_move(context, fan, now, jacobian, other.triangle != kNone);
   next.step = move.step;
   // The paper's contact slides along the edge first: what is left across it then says which face, without going to and fro.
-  const bool slide = context.settings.method == Method::paper && std::abs(move.df_travel) * move.speed > 0.5 * now.contact.error_m;
+  const bool slide = context.settings.method == Method::paper && std::abs(move.df_travel) * glm::length(fan.point_f) > 0.5 * now.contact.error_m;
   if (move.into_near && !slide) {
     next.place = place_on_face(at.triangle, at.u, at.v);
     return next;
@@ -199,13 +177,12 @@ Proposal next_from_edge(IterationContext& context, const TrackedPlane& at, RunMe
     return next;
   }
   const bool leaves = move.into_near || move.into_far;
-  next.place = move_along_edge(mesh, at, f, leaves ? move.step.da : std::clamp(move.step.da, -2.0, 2.0), move.speed, memory);
-  next.step_m = std::abs(move.step.da) * move.speed;
+  next.place = move_along_edge(mesh, at, f, leaves ? move.step.da : std::clamp(move.step.da, -2.0, 2.0), fan, memory);
   if (!leaves && rests_on_edge(context, fan, at, next.place)) next.stop = exact ? StopReason::unstable : StopReason::singular_patch;
   return next;
 }
 
-Proposal next_from_vertex(IterationContext& context, const TrackedPlane& at, IterationResult& now, bool kept) {
+Proposal next_from_vertex(IterationContext& context, const SurfacePlace& at, IterationResult& now, bool kept) {
   Proposal next;
   now.stability = now.contact.height_m > 0.0 ? Stability{1.0, 2.0} : Stability{0.0, 0.0};
   const VertexExit exit = vertex_exit(context, at);
@@ -256,9 +233,9 @@ void sample_place(IterationContext& context, TrackedPlane& plane, SurfaceSample&
   if (plane.feature == Feature::face) {
     evaluate(context.cache.patch(plane.triangle, form), plane.u, plane.v, sample);
   } else if (plane.feature == Feature::edge) {
-    const EdgeFan& fan = edge_fan(context.cache, plane.triangle, plane.side, edge_fraction(plane.side, plane.u, plane.v), form);
-    plane.turn = clamp_turn(facing_turn(fan, context.finger, context.pose), std::max(0.0, fan.fan));
-    sample = edge_sample(fan, plane.turn);
+    const EdgeFan& fan = context.cache.fan(plane.triangle, plane.side, edge_fraction(plane.side, plane.u, plane.v), form);
+    plane.turn = clamp_turn(fan, facing_turn(fan, context.finger, context.pose));
+    edge_sample(fan, plane.turn, sample);
   } else {
     sample = vertex_sample(context, plane);
   }
@@ -272,12 +249,13 @@ namespace {
 SurfaceSample kept_place_sample(IterationContext& context, TrackedPlane& plane) {
   if (plane.feature == Feature::face) return evaluate(context.cache.patch(plane.triangle, context.settings.normal_form), plane.u, plane.v);
   if (plane.feature == Feature::vertex) return vertex_sample_at(context, plane, plane.normal);
-  const EdgeFan& fan = edge_fan(context.cache, plane.triangle, plane.side, edge_fraction(plane.side, plane.u, plane.v),
+  const EdgeFan& fan = context.cache.fan(plane.triangle, plane.side, edge_fraction(plane.side, plane.u, plane.v),
                                context.settings.normal_form);
-  SurfaceSample s = edge_sample(fan, plane.turn);
+  SurfaceSample s;
+  edge_sample(fan, plane.turn, s);
   if (glm::dot(s.normal, plane.normal) < 1.0 - 1e-14) {  // of another normal form, or given from outside
-    plane.turn = turn_of(fan, plane.normal);
-    s = edge_sample(fan, plane.turn);
+    plane.turn = clamp_turn(fan, turn_of(fan, plane.normal));
+    edge_sample(fan, plane.turn, s);
   }
   s.normal = plane.normal;
   return s;
@@ -297,25 +275,27 @@ bool iterate_feature(IterationContext& context, bool kept, int budget, RunMemory
                                                      : next_from_vertex(context, now.plane, now, kept);
   if (next.stop == StopReason::going_on && now.evaluations >= budget)
     next.stop = why_unconverged(context.cache.mesh(), now, memory, budget);
-  if (context.trace) record(context, now, next.step, next.step_m, next.stop);
+  if (context.trace) record(context, now, next.step, std::abs(next.step.da) * glm::length(now.sample.point_u), next.stop);
   now.stop = next.stop;
   if (next.stop != StopReason::going_on) return false;
   now.triangle_changes += next.triangle_changes;
-  now.plane = next.place;
+  now.plane.move_to(next.place);
   return true;
 }
 
 /// One iteration from a face. True to go on.
 bool iterate_face(IterationContext& context, int budget, RunMemory& memory, IterationResult& now) {
-  const ContactJacobian jacobian = contact_jacobian(context.finger, context.pose, now.sample, now.contact);
-  now.stability = face_stability(now.sample, jacobian);
-  if (now.contact.error_m < context.settings.tolerance_m) {
+  const bool exact = now.contact.error_m < context.settings.tolerance_m, round = is_round(context.finger);
+  ContactJacobian jacobian;
+  if (!exact || !round) jacobian = contact_jacobian(context.finger, context.pose, now.sample, now.contact);
+  now.stability = round ? now.bend.at_height(now.contact.height_m) : face_stability(now.sample, jacobian);
+  if (exact) {
     now.stop = context.settings.method == Method::robust && !now.stability.stable() ? StopReason::unstable : StopReason::converged;
     if (context.trace) record(context, now, ParameterStep{}, 0.0, now.stop);
     return false;
   }
   ParameterStep step = face_step(context, now, jacobian);
-  if (!is_round(context.finger) && context.settings.method == Method::robust && step.valid) memory.rein_in(now, step);
+  if (!round && context.settings.method == Method::robust && step.valid) memory.rein_in(now, step);
   const ContactMesh& mesh = context.cache.mesh();
   now.stop = step.valid ? StopReason::going_on : StopReason::singular_patch;
   if (step.valid && now.evaluations >= budget) now.stop = why_unconverged(mesh, now, memory, budget);
@@ -325,6 +305,12 @@ bool iterate_face(IterationContext& context, int budget, RunMemory& memory, Iter
   now.stop = StopReason::too_far;
   if (context.trace) context.trace->amend_last(now.stop);
   return false;
+}
+
+/// The sample of now.plane, and how it bends.
+void sample_plane(IterationContext& context, IterationResult& now) {
+  sample_place(context, now.plane, now.sample);
+  if (now.plane.feature == Feature::face) now.bend = normal_bend(now.sample);
 }
 
 void run(IterationContext& context, bool kept, int budget, IterationResult& now) {
@@ -338,16 +324,16 @@ void run(IterationContext& context, bool kept, int budget, IterationResult& now)
                                                           : iterate_feature(context, first, budget, memory, now);
     now.met_unstable |= !now.stability.stable();
     if (!go_on) return;
-    sample_place(context, now.plane, now.sample);
+    sample_plane(context, now);
     ++now.evaluations;
   }
 }
 
 }  // namespace
 
-void iterate(IterationContext& context, const TrackedPlane& start, int budget, IterationResult& result) {
-  result.plane = start;
-  sample_place(context, result.plane, result.sample);
+void iterate(IterationContext& context, const SurfacePlace& start, int budget, IterationResult& result) {
+  result.plane.move_to(start);
+  sample_plane(context, result);
   result.evaluations = 1;
   run(context, false, budget, result);
 }
@@ -356,6 +342,7 @@ void iterate_kept(IterationContext& context, const TrackedPlane& kept, bool samp
   if (!sample_kept) {
     result.plane = kept;
     result.sample = kept_place_sample(context, result.plane);
+    if (result.plane.feature == Feature::face) result.bend = normal_bend(result.sample);
   }
   result.plane.point = result.sample.point;
   result.plane.normal = result.sample.normal;

@@ -23,9 +23,21 @@ struct Stability {
   bool stable() const { return det > 0.0 && trace > 0.0; }
 };
 
+/// How the normals of a face bend around a sample, whatever the finger: for a round one the stability of a contact follows
+/// from it and the height alone, with k1 and k2 the curvatures of the interpolated normals.
+struct NormalBend {
+  double regular = 1.0;         ///< 0: the patch is singular there
+  double sum_per_m = 0.0;       ///< k1 + k2
+  double product_per_m2 = 0.0;  ///< k1 k2
+  double area_m2 = 0.0;         ///< S_u x S_v . N
+  /// det M = (1 + h k1)(1 + h k2), trace M = 2 + h (k1 + k2)
+  Stability at_height(double h) const { return {regular + h * (sum_per_m + h * product_per_m2), 2.0 * regular + h * sum_per_m}; }
+};
+
 struct IterationResult {
   TrackedPlane plane;         ///< the last plane
   SurfaceSample sample;         ///< there
+  NormalBend bend;            ///< there, on a face
   PlaneContact contact;       ///< of the finger with it
   Stability stability;        ///< there
   StopReason stop = StopReason::going_on;
@@ -37,7 +49,7 @@ struct IterationResult {
 
 /// Iterates by `context.settings.method` (paper, newton or robust) from `start` until converged or `budget` new
 /// planes are spent.
-void iterate(IterationContext& context, const TrackedPlane& start, int budget, IterationResult& result);
+void iterate(IterationContext& context, const SurfacePlace& start, int budget, IterationResult& result);
 
 /// The same from the plane kept from the last tick, which costs no evaluation. `sample_kept`: result.plane and
 /// result.sample still hold that plane (a face or an edge) and needn't be computed again.

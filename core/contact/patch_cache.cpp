@@ -8,4 +8,25 @@ void PatchCache::fill(CachedPatch& slot, std::uint32_t t, NormalForm form) {
   slot.form = form;
 }
 
+void PatchCache::fill(CachedFan& slot, std::uint32_t t, std::uint32_t side, NormalForm form) {
+  FanEdge& edge = slot.edge;
+  const PnPatch& near = patch(t, form);
+  edge.curve = edge_curve(near, side);
+  edge.near = edge_normals(near, side);
+  edge.chord = mesh_->position(t, (side + 1) % 3) - mesh_->position(t, side);
+  edge.inwards = mesh_->position(t, (side + 2) % 3) - mesh_->position(t, side);
+  const EdgeLink other = mesh_->across(t, side);
+  edge.boundary = other.triangle == kNone;
+  if (!edge.boundary) edge.far = edge_normals(patch(other.triangle, form), other.edge);
+  prepare_fan(edge, slot.fan);
+  slot.triangle = t;
+  slot.side = side;
+  slot.form = form;
+}
+
+void PatchCache::move(CachedFan& slot, double f) {
+  move_fan(slot.edge, f, slot.fan);
+  slot.f = f;
+}
+
 }  // namespace tangent

@@ -4,11 +4,11 @@
 // their derivatives in its _u and _v:
 //   face    (u, v): point and normal of the PN patch;
 //   edge    (f, turn): the point runs along a crease or boundary edge with f in [0, 1], the normal turns
-//           by the angle `turn` about the edge from the normal of the one side (0) to that of the other
-//           (`fan`); at a boundary through the half circle to the back of the face. point_v is zero;
+//           about the edge (edge_fan.h) from the normal of the one side to that of the other; derivatives are
+//           along the angle; at a boundary through the half circle to the back of the face. point_v is zero;
 //   vertex  the point stands still, the normal turns freely: point_u and point_v are zero, normal_u and
 //           normal_v an orthonormal pair.
-// At turn = 0 an edge has the point and normal of the face, so contact and normal are continuous where a
+// At an end of its fan an edge has the point and normal of the face, so contact and normal are continuous where a
 // contact leaves a face for an edge, and likewise at the ends of an edge.
 #pragma once
 

@@ -12,8 +12,8 @@
 namespace tangent {
 namespace {
 
-TrackedPlane face_at(std::uint32_t triangle, double u, double v) {
-  TrackedPlane place;
+SurfacePlace face_at(std::uint32_t triangle, double u, double v) {
+  SurfacePlace place;
   place.feature = Feature::face;
   place.triangle = triangle;
   place.u = u;
@@ -101,7 +101,7 @@ void face_the_finger(IterationContext& context, const ContactScene& scene, Selec
       scene.nearest().nearest_several(context.pose.position, std::numeric_limits<double>::infinity(), std::span(hits));
   for (std::size_t i = 0; i < count; ++i) {
     IterationResult r;
-    r.plane = face_at(hits[i].triangle, hits[i].u, hits[i].v);
+    r.plane.move_to(face_at(hits[i].triangle, hits[i].u, hits[i].v));
     sample_place(context, r.plane, r.sample);
     r.evaluations = 1;
     const Vec3 interpolated = r.plane.normal;

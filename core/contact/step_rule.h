@@ -39,6 +39,16 @@ inline Stability face_stability(const SurfaceSample& s, const ContactJacobian& j
   return {glm::dot(j.xa, xb_turned) * per_area, (glm::dot(j.xa, sb_turned) + glm::dot(s.point_u, xb_turned)) * per_area};
 }
 
+/// Sum and product of the curvatures of the normals at a sample: with X = S + h N above, M = I + h W, W the map of dS to dN
+/// in the plane.
+inline NormalBend normal_bend(const SurfaceSample& s) {
+  const Vec3 sb_turned = glm::cross(s.point_v, s.normal), nb_turned = glm::cross(s.normal_v, s.normal);
+  const double area = glm::dot(s.point_u, sb_turned);
+  if (area == 0.0) return {0.0, 0.0, 0.0, 0.0};
+  const double per_area = 1.0 / area;
+  return {1.0, (glm::dot(s.normal_u, sb_turned) + glm::dot(s.point_u, nb_turned)) * per_area, glm::dot(s.normal_u, nb_turned) * per_area, area};
+}
+
 /// Eq. 1: Gain = G_o / ((1 + G_k k)(1 + G_d |d|)).
 double paper_gain(const SolverSettings& settings, double curvature_per_m, double distance_m);
 /// d of Eq. 1 by the chosen reading.
@@ -51,11 +61,11 @@ ParameterStep paper_face_step(const ContactMesh& mesh, const SolverSettings& set
 /// The tangent step S_u du + S_v dv = travel, damped by 1/(1 + |h| |dN/ds|).
 ParameterStep damped_step(const SurfaceSample& s, const PlaneContact& c);
 
-/// Solves X_u du + X_v dv = travel in the plane normal to N.
-inline ParameterStep newton_step(const SurfaceSample& s, const ContactJacobian& j, const PlaneContact& c) {
+/// Solves X_u du + X_v dv = travel in the plane normal to N. `det`: X_u x X_v . N.
+inline ParameterStep newton_step(const SurfaceSample& s, const ContactJacobian& j, const PlaneContact& c, double det) {
   ParameterStep step;
   const Vec3 xb_turned = glm::cross(j.xb, s.normal);  // dot with a vector x gives (x cross xb).N
-  const double per_det = 1.0 / glm::dot(j.xa, xb_turned);
+  const double per_det = 1.0 / det;
   step.da = glm::dot(c.travel, xb_turned) * per_det;
   step.db = glm::dot(glm::cross(j.xa, c.travel), s.normal) * per_det;
   step.valid = std::isfinite(step.da) && std::isfinite(step.db);
@@ -64,12 +74,16 @@ inline ParameterStep newton_step(const SurfaceSample& s, const ContactJacobian& 
   return step;
 }
 
+inline ParameterStep newton_step(const SurfaceSample& s, const ContactJacobian& j, const PlaneContact& c) {
+  return newton_step(s, j, c, glm::dot(j.xa, glm::cross(j.xb, s.normal)));
+}
+
 /// Newton's step where M is well inside the stable region, never longer than a few times the travel unless it is short
-/// against the triangle; else the damped one.
+/// against the triangle; else the damped one. `area`: S_u x S_v . N.
 inline ParameterStep robust_face_step(const SurfaceSample& s, const ContactJacobian& j, const Stability& stability,
-                                      const PlaneContact& c) {
+                                      const PlaneContact& c, double area) {
   if (!(stability.det > kNewtonMinDet && stability.trace > 0.0)) return damped_step(s, c);
-  ParameterStep step = newton_step(s, j, c);
+  ParameterStep step = newton_step(s, j, c, area * stability.det);
   if (!step.valid) return damped_step(s, c);
   if (std::max(std::abs(step.da), std::abs(step.db)) <= kShortStep) return step;
   const Vec3 ds = step.da * s.point_u + step.db * s.point_v;

@@ -22,7 +22,7 @@ double face_pull(IterationContext& context, std::uint32_t t, std::uint32_t corne
   const ContactJacobian j = contact_jacobian(context.finger, context.pose, s, c);
   ParameterStep step = context.settings.method == Method::paper
                            ? paper_face_step(context.cache.mesh(), context.settings, t, s, c)
-                           : robust_face_step(s, j, face_stability(s, j), c);
+                           : robust_face_step(s, j, face_stability(s, j), c, glm::dot(s.point_u, glm::cross(s.point_v, s.normal)));
   if (!step.valid) return 0.0;
   const double change[3] = {-step.da - step.db, step.da, step.db};
   // Along a side it still leads inside: on a symmetry line of the mesh no triangle would have it otherwise.
@@ -34,12 +34,13 @@ double face_pull(IterationContext& context, std::uint32_t t, std::uint32_t corne
 
 /// The same for a crease or boundary edge that starts (f = 0) or ends (f = 1) at the vertex.
 double edge_pull(IterationContext& context, std::uint32_t t, std::uint32_t edge, double f) {
-  const EdgeFan& fan = edge_fan(context.cache, t, edge, f, context.settings.normal_form);
-  if (fan.fan <= 0.0) return 0.0;
-  const double turn = facing_turn(fan, context.finger, context.pose);
-  if (turn < 0.0 || turn > fan.fan) return 0.0;
-  const FanNormal n = fan_normal(fan, turn);
-  const PlaneContact c = contact_on_plane(context.finger, context.pose, fan.point, n.normal);
+  const EdgeFan& fan = context.cache.fan(t, edge, f, context.settings.normal_form);
+  if (!fan.convex()) return 0.0;
+  const Vec2 turn = facing_turn(fan, context.finger, context.pose);
+  if (!in_fan(fan, turn)) return 0.0;
+  SurfaceSample s;
+  edge_sample(fan, turn, s);
+  const PlaneContact c = contact_on_plane(context.finger, context.pose, s.point, s.normal);
   const double away = glm::dot(c.travel, fan.tangent) * (f == 0.0 ? 1.0 : -1.0);
   return away > 0.0 ? away : 0.0;
 }
@@ -62,28 +63,28 @@ SurfaceSample standing_sample(const Vec3& point, const Vec3& normal) {
 
 }  // namespace
 
-SurfaceSample vertex_sample_at(IterationContext& context, const TrackedPlane& plane, const Vec3& normal) {
-  return standing_sample(context.cache.mesh().position(plane.triangle, plane.side), normal);
+SurfaceSample vertex_sample_at(IterationContext& context, const SurfacePlace& vertex, const Vec3& normal) {
+  return standing_sample(context.cache.mesh().position(vertex.triangle, vertex.side), normal);
 }
 
-SurfaceSample vertex_sample(IterationContext& context, const TrackedPlane& plane) {
+SurfaceSample vertex_sample(IterationContext& context, const SurfacePlace& vertex) {
   const ContactMesh& mesh = context.cache.mesh();
-  const Vec3& point = mesh.position(plane.triangle, plane.side);
-  return vertex_sample_at(context, plane, facing_normal(context.finger, context.pose, point, mesh.normal(plane.triangle, plane.side)));
+  const Vec3& point = mesh.position(vertex.triangle, vertex.side);
+  return vertex_sample_at(context, vertex, facing_normal(context.finger, context.pose, point, mesh.normal(vertex.triangle, vertex.side)));
 }
 
-VertexExit vertex_exit(IterationContext& context, const TrackedPlane& plane) {
+VertexExit vertex_exit(IterationContext& context, const SurfacePlace& vertex) {
   const ContactMesh& mesh = context.cache.mesh();
   VertexExit best;
   double strongest = 1e-9 * std::max(context.finger.reach_m(), glm::length(mesh.bounds().size()));
   strongest = std::min(strongest, 0.1 * context.settings.tolerance_m);
-  const auto offer = [&](double pull, const TrackedPlane& place) {
+  const auto offer = [&](double pull, const SurfacePlace& place) {
     if (!(pull > strongest)) return;
     strongest = pull;
     best.place = place;
   };
-  around_vertex(mesh, plane.triangle, plane.side, [&](std::uint32_t t, std::uint32_t corner) {
-    TrackedPlane place;
+  around_vertex(mesh, vertex.triangle, vertex.side, [&](std::uint32_t t, std::uint32_t corner) {
+    SurfacePlace place;
     place.triangle = t;
     const Vec2 uv = corner_uv(corner);
     place.u = uv.x;

@@ -8,15 +8,15 @@
 
 namespace tangent {
 
-/// Sample of a vertex (plane.triangle, corner plane.side) with the normal facing the finger.
-SurfaceSample vertex_sample(IterationContext& context, const TrackedPlane& plane);
+/// Sample of a vertex (its triangle, corner `side`) with the normal facing the finger.
+SurfaceSample vertex_sample(IterationContext& context, const SurfacePlace& vertex);
 /// The same with a given unit normal.
-SurfaceSample vertex_sample_at(IterationContext& context, const TrackedPlane& plane, const Vec3& normal);
+SurfaceSample vertex_sample_at(IterationContext& context, const SurfacePlace& vertex, const Vec3& normal);
 
 /// Where the contact leaves a vertex to: the edge or face around it that draws it most; none: it rests.
 struct VertexExit {
-  std::optional<TrackedPlane> place;
+  std::optional<SurfacePlace> place;
 };
-VertexExit vertex_exit(IterationContext& context, const TrackedPlane& plane);
+VertexExit vertex_exit(IterationContext& context, const SurfacePlace& vertex);
 
 }  // namespace tangent

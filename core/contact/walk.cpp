@@ -75,13 +75,13 @@ bool concave_crease(const ContactMesh& mesh, std::uint32_t t, std::uint32_t edge
   return glm::dot(far_corner - middle, near_normal) + glm::dot(near_corner - middle, far_normal) > 0.0;
 }
 
-std::optional<TrackedPlane> walk_past_end(const ContactMesh& mesh, std::uint32_t t, std::uint32_t edge, bool forwards, double beyond_m) {
+std::optional<SurfacePlace> walk_past_end(const ContactMesh& mesh, std::uint32_t t, std::uint32_t edge, bool forwards, double beyond_m) {
   constexpr double kStraight = 0.866;
   const std::uint32_t corner = forwards ? (edge + 1) % 3 : edge, from = forwards ? edge : (edge + 1) % 3;
   const std::uint32_t origin = mesh.vertex(t, from);
   const Vec3& here = mesh.position(t, corner);
   const Vec3 heading = here - mesh.position(t, from);
-  std::optional<TrackedPlane> next;
+  std::optional<SurfacePlace> next;
   int edges = 0;
   const auto offer = [&](std::uint32_t at, std::uint32_t k, bool starts_here) {
     const std::uint32_t end = starts_here ? (k + 1) % 3 : k;

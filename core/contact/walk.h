@@ -8,8 +8,8 @@
 
 namespace tangent {
 
-inline TrackedPlane place_on_face(std::uint32_t t, double u, double v) {
-  TrackedPlane p;
+inline SurfacePlace place_on_face(std::uint32_t t, double u, double v) {
+  SurfacePlace p;
   p.feature = Feature::face;
   p.triangle = t;
   p.u = u;
@@ -17,9 +17,9 @@ inline TrackedPlane place_on_face(std::uint32_t t, double u, double v) {
   return p;
 }
 
-inline TrackedPlane place_on_edge(std::uint32_t t, std::uint32_t edge, double f) {
+inline SurfacePlace place_on_edge(std::uint32_t t, std::uint32_t edge, double f) {
   const Vec2 uv = edge_point_uv(edge, f);
-  TrackedPlane p = place_on_face(t, uv.x, uv.y);
+  SurfacePlace p = place_on_face(t, uv.x, uv.y);
   p.feature = Feature::edge;
   p.side = static_cast<std::uint8_t>(edge);
   return p;
@@ -32,7 +32,7 @@ inline bool stays_inside(double u, double v, double du, double dv) {
 }
 
 struct WalkResult {
-  TrackedPlane place;             ///< feature face, or edge where a crease or boundary stopped it (point, normal unset)
+  SurfacePlace place;             ///< feature face, or edge where a crease or boundary stopped it
   int triangle_changes = 0;
   bool lost = false;              ///< gave up: too many crossings or a degenerate triangle in the way
 };
@@ -43,7 +43,7 @@ WalkResult walk_face(const ContactMesh& mesh, std::uint32_t t, double u, double 
 
 /// Past the end of a crease or boundary edge k of t (`forwards`: corner k + 1) by `beyond_m`, along the only other such
 /// edge there; no further than its other end. Nothing where the edge ends, branches or bends by over 30 degrees.
-std::optional<TrackedPlane> walk_past_end(const ContactMesh& mesh, std::uint32_t t, std::uint32_t edge, bool forwards, double beyond_m);
+std::optional<SurfacePlace> walk_past_end(const ContactMesh& mesh, std::uint32_t t, std::uint32_t edge, bool forwards, double beyond_m);
 
 /// True where the far side of crease edge k rises above the near side's tangent planes.
 bool concave_crease(const ContactMesh& mesh, std::uint32_t t, std::uint32_t edge);

@@ -101,6 +101,11 @@ void set_centre_point(PnPatch& patch) {
 }
 
 void evaluate(const PnPatch& patch, double u, double v, SurfaceSample& s) {
+  // First what takes longest: root and division go on while the point is computed.
+  const NormalPolynomial n = evaluate_normal_polynomial(patch, u, v);
+  const double length = std::sqrt(glm::dot(n.value, n.value));
+  const double per_length = 1.0 / length;
+
   const double w = 1.0 - u - v;
   const auto& b = patch.offsets;
   // de Casteljau: cubic -> quadratic -> linear -> point; the linear level gives the first derivatives.
@@ -113,9 +118,6 @@ void evaluate(const PnPatch& patch, double u, double v, SurfaceSample& s) {
   const Vec3 lw = mix(w, u, v, q200, q110, q101);
   const Vec3 lu = mix(w, u, v, q110, q020, q011);
   const Vec3 lv = mix(w, u, v, q101, q011, q002);
-  const NormalPolynomial n = evaluate_normal_polynomial(patch, u, v);
-  const double length = std::sqrt(glm::dot(n.value, n.value));
-
   s.point = patch.origin + mix(w, u, v, lw, lu, lv);
   s.point_u = 3.0 * (lu - lw);
   s.point_v = 3.0 * (lv - lw);
@@ -124,7 +126,6 @@ void evaluate(const PnPatch& patch, double u, double v, SurfaceSample& s) {
     s.normal_u = s.normal_v = Vec3(0.0);
     return;
   }
-  const double per_length = 1.0 / length;
   const Vec3 normal = per_length * n.value;
   s.normal = normal;
   s.normal_u = per_length * (n.by_u - glm::dot(normal, n.by_u) * normal);
@@ -155,27 +156,36 @@ SecondDerivatives evaluate_second(const PnPatch& patch, double u, double v) {
   return d;
 }
 
-// de Casteljau along the edge's own control points, from which the cubic curve and the quadratic normal depend alone.
-EdgePoint evaluate_edge_point(const PnPatch& patch, std::uint32_t edge, double f) {
+EdgeCurve edge_curve(const PnPatch& patch, std::uint32_t edge) {
   static constexpr ControlPoint kCurve[3][4] = {{b300, b210, b120, b030}, {b030, b021, b012, b003}, {b003, b102, b201, b300}};
   const auto& b = patch.offsets;
   const auto& curve = kCurve[edge];
-  const Vec3 &p0 = b[curve[0]], &p1 = b[curve[1]], &p2 = b[curve[2]], &p3 = b[curve[3]];
-  const double e = 1.0 - f;
-  const Vec3 q0 = e * p0 + f * p1, q1 = e * p1 + f * p2, q2 = e * p2 + f * p3;
-  const Vec3 r0 = e * q0 + f * q1, r1 = e * q1 + f * q2;
-  return {patch.origin + (e * r0 + f * r1), 3.0 * (r1 - r0), 6.0 * ((q2 - q1) - (q1 - q0))};
+  return {patch.origin, {b[curve[0]], b[curve[1]], b[curve[2]], b[curve[3]]}};
 }
 
-EdgeNormal evaluate_edge_normal(const PnPatch& patch, std::uint32_t edge, double f) {
+EdgeNormals edge_normals(const PnPatch& patch, std::uint32_t edge) {
   static constexpr ControlNormal kNormals[3][3] = {{n200, n110, n020}, {n020, n011, n002}, {n002, n101, n200}};
+  const auto& n = patch.normals;
   const auto& ends = kNormals[edge];
-  const Vec3 middle = 0.5 * patch.mixed_weight * patch.normals[ends[1]];
+  return {{n[ends[0]], 0.5 * patch.mixed_weight * n[ends[1]], n[ends[2]]}, flat_normal(patch)};
+}
+
+// de Casteljau along the edge.
+EdgePoint evaluate(const EdgeCurve& curve, double f) {
+  const auto& p = curve.offsets;
   const double e = 1.0 - f;
-  const Vec3 r0 = e * patch.normals[ends[0]] + f * middle, r1 = e * middle + f * patch.normals[ends[2]];
+  const Vec3 q0 = e * p[0] + f * p[1], q1 = e * p[1] + f * p[2], q2 = e * p[2] + f * p[3];
+  const Vec3 r0 = e * q0 + f * q1, r1 = e * q1 + f * q2;
+  return {curve.origin + (e * r0 + f * r1), 3.0 * (r1 - r0), 6.0 * ((q2 - q1) - (q1 - q0))};
+}
+
+EdgeNormal evaluate(const EdgeNormals& edge, double f) {
+  const auto& c = edge.normals;
+  const double e = 1.0 - f;
+  const Vec3 r0 = e * c[0] + f * c[1], r1 = e * c[1] + f * c[2];
   const Vec3 n = e * r0 + f * r1, n_f = 2.0 * (r1 - r0);
   const double length = std::sqrt(glm::dot(n, n));
-  if (length < kVanishingNormal) return {flat_normal(patch), Vec3(0.0)};
+  if (length < kVanishingNormal) return {edge.flat, Vec3(0.0)};
   const double per_length = 1.0 / length;
   const Vec3 normal = per_length * n;
   return {normal, per_length * (n_f - glm::dot(normal, n_f) * normal)};

@@ -77,16 +77,27 @@ struct SecondDerivatives {
 };
 SecondDerivatives evaluate_second(const PnPatch& patch, double u, double v);
 
-/// Along edge k of a patch, f from corner k to corner k + 1: what `evaluate` gives there but for rounding, at a fraction
-/// of its work, since the other corner plays no part.
+/// What an edge of a patch is made of; the other corner plays no part. Edge k runs from corner k to corner k + 1.
+struct EdgeCurve {
+  Vec3 origin;                   ///< corner 0 of the patch, m
+  std::array<Vec3, 4> offsets;   ///< control points - origin, m
+};
+struct EdgeNormals {
+  std::array<Vec3, 3> normals;   ///< coefficients of the quadratic, the middle one weighted
+  Vec3 flat;                     ///< normal of the flat triangle, where the quadratic vanishes
+};
+EdgeCurve edge_curve(const PnPatch& patch, std::uint32_t edge);
+EdgeNormals edge_normals(const PnPatch& patch, std::uint32_t edge);
+
+/// At fraction f of an edge: what `evaluate` gives there but for rounding, at a fraction of its work.
 struct EdgePoint {
   Vec3 point, point_f, point_ff;  ///< m
 };
 struct EdgeNormal {
   Vec3 normal, normal_f;          ///< unit, and its derivative
 };
-EdgePoint evaluate_edge_point(const PnPatch& patch, std::uint32_t edge, double f);
-EdgeNormal evaluate_edge_normal(const PnPatch& patch, std::uint32_t edge, double f);
+EdgePoint evaluate(const EdgeCurve& curve, double f);
+EdgeNormal evaluate(const EdgeNormals& normals, double f);
 
 /// |dN|/|dS| along (du, dv), 1/m (Eq. 2). It has no sign and holds the geodesic torsion too.
 /// Scale-free in (du, dv). 0 where dS vanishes.

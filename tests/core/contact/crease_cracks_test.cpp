@@ -122,39 +122,75 @@ TEST_CASE("creases and smooth edges of the fandisk do not crack") {
   CHECK(widest_crack(scene->mesh(), EdgeKind::smooth, false).widest <= 1e-15);
 }
 
+namespace {
+
+Vec2 turned_by(double angle_rad) { return {std::cos(angle_rad), std::sin(angle_rad)}; }
+
+SurfaceSample sample_at(const EdgeFan& fan, const Vec2& turn) {
+  SurfaceSample sample;
+  edge_sample(fan, turn, sample);
+  return sample;
+}
+
+}  // namespace
+
 TEST_CASE("the fan of a crease begins at the one face's normal and ends at the other's; a boundary's at its back") {
-  const auto scene = scene_of(*generate_mesh("cylinder"));
-  PatchCache cache(scene->mesh());
-  const ContactMesh& mesh = scene->mesh();
-  int creases = 0;
-  for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t)
-    for (std::uint32_t k = 0; k < 3; ++k) {
-      if (mesh.edge_kind(t, k) != EdgeKind::crease) continue;
-      ++creases;
-      for (const double f : {0.0, 0.25, 1.0}) {
-        const EdgeFan fan = edge_fan(cache, t, k, f, NormalForm::bernstein);
-        const EdgeLink other = mesh.across(t, k);
-        const Vec2 a = edge_point_uv(k, f), b = edge_point_uv(other.edge, 1.0 - f);
-        CHECK(glm::length(fan_normal(fan, 0.0).normal - evaluate_normal(make_patch(mesh, t), a.x, a.y)) <= 1e-14);
-        CHECK(glm::length(fan_normal(fan, fan.fan).normal - evaluate_normal(make_patch(mesh, other.triangle), b.x, b.y)) <= 1e-14);
-        for (const double turn : {0.2, 0.7}) {
-          const FanNormal n = fan_normal(fan, turn * fan.fan);
-          CHECK(glm::length(n.normal) == doctest::Approx(1.0).epsilon(1e-14));
-          const Vec3 difference = (fan_normal(fan, turn * fan.fan + 1e-6).normal - fan_normal(fan, turn * fan.fan - 1e-6).normal) / 2e-6;
-          CHECK(glm::length(difference - n.by_turn) <= 1e-8);
+  for (const char* name : {"cylinder", "cube"}) {
+    const auto scene = scene_of(*generate_mesh(name));
+    PatchCache cache(scene->mesh());
+    const ContactMesh& mesh = scene->mesh();
+    int creases = 0;
+    for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t)
+      for (std::uint32_t k = 0; k < 3; ++k) {
+        if (mesh.edge_kind(t, k) != EdgeKind::crease) continue;
+        ++creases;
+        for (const double f : {0.0, 0.25, 1.0}) {
+          const EdgeFan fan = cache.fan(t, k, f, NormalForm::bernstein);
+          const EdgeLink other = mesh.across(t, k);
+          const Vec2 a = edge_point_uv(k, f), b = edge_point_uv(other.edge, 1.0 - f);
+          CHECK(glm::length(fan.point - evaluate_point(make_patch(mesh, t), a.x, a.y)) <= 1e-15);
+          CHECK(glm::length(sample_at(fan, kNearTurn).normal - evaluate_normal(make_patch(mesh, t), a.x, a.y)) <= 1e-14);
+          CHECK(glm::length(sample_at(fan, fan.far).normal - evaluate_normal(make_patch(mesh, other.triangle), b.x, b.y)) <= 1e-14);
+          for (const double turn : {0.2, 0.7}) {
+            const double angle = turn * std::atan2(fan.far.y, fan.far.x);
+            const SurfaceSample n = sample_at(fan, turned_by(angle));
+            CHECK(glm::length(n.normal) == doctest::Approx(1.0).epsilon(1e-14));
+            const Vec3 difference = (sample_at(fan, turned_by(angle + 1e-6)).normal - sample_at(fan, turned_by(angle - 1e-6)).normal) / 2e-6;
+            CHECK(glm::length(difference - n.normal_v) <= 1e-8);
+          }
         }
       }
-    }
-  CHECK(creases > 0);
+    CHECK(creases > 0);
+  }
 
   const auto plate = scene_of(height_field(0.1, 2, [](double, double) { return 0.0; }));
   PatchCache plate_cache(plate->mesh());
   for (std::uint32_t t = 0; t < plate->mesh().triangle_count(); ++t)
     for (std::uint32_t k = 0; k < 3; ++k) {
       if (plate->mesh().edge_kind(t, k) != EdgeKind::boundary) continue;
-      const EdgeFan fan = edge_fan(plate_cache, t, k, 0.5, NormalForm::bernstein);
-      CHECK(glm::length(fan_normal(fan, 0.0).normal - Vec3(0, 0, 1)) <= 1e-15);
-      CHECK(glm::length(fan_normal(fan, fan.fan).normal - Vec3(0, 0, -1)) <= 1e-15);
-      CHECK(glm::dot(fan_normal(fan, 0.5 * fan.fan).normal, fan.point) > 0.0);  // half way it points off the plate
+      const EdgeFan fan = plate_cache.fan(t, k, 0.5, NormalForm::bernstein);
+      CHECK(glm::length(sample_at(fan, kNearTurn).normal - Vec3(0, 0, 1)) <= 1e-15);
+      CHECK(glm::length(sample_at(fan, fan.far).normal - Vec3(0, 0, -1)) <= 1e-15);
+      CHECK(glm::dot(sample_at(fan, Vec2(0.0, 1.0)).normal, fan.point) > 0.0);  // half way it points off the plate
     }
+}
+
+TEST_CASE("a fan is the same, bit for bit, wherever on its edge the cache has been before") {
+  for (const char* name : {"cylinder", "cube"}) {
+    const auto scene = scene_of(*generate_mesh(name));
+    const ContactMesh& mesh = scene->mesh();
+    for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t)
+      for (std::uint32_t k = 0; k < 3; ++k) {
+        if (mesh.edge_kind(t, k) != EdgeKind::crease) continue;
+        PatchCache warm(mesh), cold(mesh);
+        for (const double f : {0.7, 0.0, 0.3}) warm.fan(t, k, f, NormalForm::bernstein);
+        const SurfaceSample a = sample_at(warm.fan(t, k, 0.6, NormalForm::bernstein), Vec2(0.8, 0.6));
+        const SurfaceSample b = sample_at(cold.fan(t, k, 0.6, NormalForm::bernstein), Vec2(0.8, 0.6));
+        CHECK(a.point == b.point);
+        CHECK(a.point_u == b.point_u);
+        CHECK(a.normal == b.normal);
+        CHECK(a.normal_u == b.normal_u);
+        CHECK(a.normal_v == b.normal_v);
+      }
+  }
 }

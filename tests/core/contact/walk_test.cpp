@@ -22,7 +22,7 @@ std::vector<Edge> feature_edges(const ContactMesh& mesh) {
   return edges;
 }
 
-Vec3 flat_point(const ContactMesh& mesh, const TrackedPlane& p) {
+Vec3 flat_point(const ContactMesh& mesh, const SurfacePlace& p) {
   return (1.0 - p.u - p.v) * mesh.position(p.triangle, 0) + p.u * mesh.position(p.triangle, 1) + p.v * mesh.position(p.triangle, 2);
 }
 

@@ -14,9 +14,9 @@ namespace {
 
 // One value a method, for the path below. They change when the solver computes differently: read the new ones off
 // the failing test, in debug and in release, and say in the commit what changed them.
-constexpr std::uint64_t kGoldenPaper = 0x6833a4f3d0c27630ull;
-constexpr std::uint64_t kGoldenNewton = 0xd8c082481dc2b358ull;
-constexpr std::uint64_t kGoldenRobust = 0xe3f45e7fb92d2a16ull;
+constexpr std::uint64_t kGoldenPaper = 0x709fe3455f271000ull;
+constexpr std::uint64_t kGoldenNewton = 0x8ac69e81372bfa88ull;
+constexpr std::uint64_t kGoldenRobust = 0xa9356dfe1b9d2e9full;
 
 constexpr int kScenes = 3;
 
@@ -72,14 +72,6 @@ class Path {
   int tick_ = 0;
 };
 
-/// All of a tick but the display, which rests on the library's arc tangent: that to a nanometre.
-void add_tick(BitHash& hash, TickOutput out) {
-  const double nanometres = std::round(out.cld_m * 1e9);
-  out.cld_m = 0.0;
-  hash.add(out);
-  hash.add(nanometres);
-}
-
 Preset golden_preset(Method method) {
   Preset preset = sphere_preset(0.020, method);
   preset.solver.gain_curvature_m = 0.015;
@@ -94,7 +86,7 @@ std::uint64_t path_hash(Method method, int ticks) {
     Stepper stepper(scene);
     TickState state;
     Path path;
-    for (int i = 0; i < ticks / kScenes; ++i) add_tick(hash, stepper.step(preset, path.next(), state));
+    for (int i = 0; i < ticks / kScenes; ++i) hash.add(stepper.step(preset, path.next(), state));
   }
   return hash.value();
 }

@@ -228,8 +228,8 @@ TEST_CASE("along an edge the short evaluation gives what the patch gives there, 
         const double du = k == 0 ? 1.0 : k == 1 ? -1.0 : 0.0, dv = k == 0 ? 0.0 : k == 1 ? 1.0 : -1.0;
         const SurfaceSample s = evaluate(patch, u, v);
         const SecondDerivatives d = evaluate_second(patch, u, v);
-        const EdgePoint p = evaluate_edge_point(patch, k, f);
-        const EdgeNormal n = evaluate_edge_normal(patch, k, f);
+        const EdgePoint p = evaluate(edge_curve(patch, k), f);
+        const EdgeNormal n = evaluate(edge_normals(patch, k), f);
         CHECK(glm::length(p.point - s.point) <= 1e-16);
         CHECK(glm::length(p.point_f - (du * s.point_u + dv * s.point_v)) <= 1e-16);
         CHECK(glm::length(p.point_ff - (du * du * d.point_uu + 2.0 * du * dv * d.point_uv + dv * dv * d.point_vv)) <= 1e-15);

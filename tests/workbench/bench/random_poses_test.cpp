@@ -47,7 +47,7 @@ struct Counts {
 
 bool kept_is_finite(const TickState& s) {
   return is_finite(s.plane.point) && is_finite(s.plane.normal) && std::isfinite(s.plane.u) && std::isfinite(s.plane.v) &&
-         std::isfinite(s.plane.turn) && is_finite(s.last_converged.point) && is_finite(s.last_converged.normal);
+         std::isfinite(glm::dot(s.plane.turn, s.plane.turn)) && is_finite(s.last_converged.point) && is_finite(s.last_converged.normal);
 }
 
 /// Anywhere around, on and in the mesh, turned anyhow; every fourth pose is a leap, the others go on from there.
