@@ -126,9 +126,9 @@ double exclude_feature_contacts(PatchCache& cache, std::uint32_t t, NormalForm f
     if (mesh.edge_kind(t, k) == EdgeKind::smooth || (memory && memory->knows(edge_key(mesh, t, k)))) continue;
     double safe = std::max(beyond_ends(ends[k], centre), over_face(ends[k], centre));
     const EdgeLink other = mesh.across(t, k);
-    if (safe <= 0.0 && other.triangle != kNone)
-      safe = over_face(edge_ends(mesh, cache.patch(other.triangle, form), other.triangle, other.edge), centre);
-    if (safe <= 0.0) safe = 0.5 * (curve_distance(ends[k].curve, centre, bound_m + 2.0 * enough_m, kCurveHalvings) - bound_m);
+    if (safe < enough_m && other.triangle != kNone)
+      safe = std::max(safe, over_face(edge_ends(mesh, cache.patch(other.triangle, form), other.triangle, other.edge), centre));
+    if (safe < enough_m) safe = std::max(safe, 0.5 * (curve_distance(ends[k].curve, centre, bound_m + 2.0 * enough_m, kCurveHalvings) - bound_m));
     margin = std::min(margin, std::max(0.0, safe));
     if (memory && safe > 0.0) memory->add(edge_key(mesh, t, k));
   }
@@ -136,7 +136,7 @@ double exclude_feature_contacts(PatchCache& cache, std::uint32_t t, NormalForm f
     if (!mesh.feature_corner(t, k) || (memory && memory->knows(vertex_key(mesh, t, k)))) continue;
     const Vec3 d = centre - mesh.position(t, k);
     double safe = 0.5 * (std::sqrt(glm::dot(d, d)) - bound_m);
-    if (safe <= 0.0) safe = vertex_pull(mesh, t, k, centre);
+    if (safe < enough_m) safe = std::max(safe, vertex_pull(mesh, t, k, centre));
     margin = std::min(margin, std::max(0.0, safe));
     if (memory && safe > 0.0) memory->add(vertex_key(mesh, t, k));
   }

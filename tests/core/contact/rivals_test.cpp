@@ -1,5 +1,6 @@
 // Watching for deeper places: asking seldom finds what asking at every tick finds.
 #include "core/contact/rivals.h"
+#include "core/mesh/generate.h"
 #include "tests/core/scenes.h"
 
 #include <doctest/doctest.h>
@@ -94,6 +95,28 @@ TEST_CASE("a finger that trembles in place asks a few times in all, and gets wha
       CHECK(differ == 0);
     }
   }
+}
+
+TEST_CASE("a finger that runs along a rim asks seldom: the next edge and the vertex before it lead the contact back") {
+  const auto cylinder = generate_mesh("cylinder", {});
+  REQUIRE(cylinder);
+  const ScenePtr scene = scene_of(*cylinder);
+  const Preset preset = sphere_preset(0.020, Method::robust);
+  Stepper stepper(scene);
+  TickState state;
+  Vec3 centre(0.0);
+  int asked = 0, on_the_rim = 0;
+  for (int i = 0; i < 4000; ++i) {
+    // 1 mm deep on the rim of 40 mm about the x axis, from between the side and the end.
+    const double turn = 0.1 * i / 40.0, out = 0.040 + 0.019 * std::sqrt(0.5);
+    const TickOutput tick = stepper.step(preset, at_position(1e-3 * i, Vec3(out, out * std::cos(turn), out * std::sin(turn))), state);
+    on_the_rim += tick.status == TickStatus::edge || tick.status == TickStatus::vertex;
+    asked += state.clearance.centre != centre;
+    centre = state.clearance.centre;
+  }
+  CHECK(on_the_rim == 4000);
+  CHECK(asked < 4000 / 5);
+  MESSAGE("asked in " << asked << " of 4000 ticks");
 }
 
 TEST_CASE("margins count from one place: going and coming back costs nothing, turning does where the finger is not round") {
