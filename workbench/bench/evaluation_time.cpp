@@ -43,22 +43,21 @@ double round_ns(const std::vector<Place>& places, double chain, double& sink) {
   return static_cast<double>(TickClock::now() - from) / kEvaluations;
 }
 
-/// Median over single evaluations, each the least of a few passes, as a tick is.
+/// Middle mean of single evaluations, as of single ticks.
 double alone_ns(const std::vector<Place>& places, const TickClock& clock, double& sink) {
-  constexpr std::size_t kEvaluations = 2048;
-  constexpr int kPasses = 3;
-  std::vector<double> ns(kEvaluations, 1e300);
+  constexpr std::size_t kEvaluations = 16384;
+  std::vector<double> ns;
+  ns.reserve(kEvaluations);
   SurfaceSample s;
-  for (int pass = 0; pass < kPasses; ++pass)
-    for (std::size_t i = 0; i < kEvaluations; ++i) {
-      const Place& place = places[i % places.size()];
-      const std::int64_t from = TickClock::now();
-      evaluate(place.patch, place.u, place.v, s);
-      const std::int64_t to = TickClock::now();
-      sink += s.normal_v.z;
-      ns[i] = std::min(ns[i], clock.elapsed_ns(from, to));
-    }
-  return distribution(std::move(ns)).p50;
+  for (std::size_t i = 0; i < kEvaluations; ++i) {
+    const Place& place = places[i % places.size()];
+    const std::int64_t from = clock.mark();
+    evaluate(place.patch, place.u, place.v, s);
+    const std::int64_t to = clock.mark();
+    sink += s.normal_v.z;
+    ns.push_back(clock.elapsed_ns(from, to));
+  }
+  return middle_mean(std::move(ns));
 }
 
 }  // namespace

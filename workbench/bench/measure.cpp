@@ -4,6 +4,7 @@
 #include "core/shading/render.h"
 #include "core/tuning/closed_work.h"
 #include "core/tuning/converged_answer.h"
+#include "core/tuning/distribution.h"
 #include "workbench/bench/allocation_count.h"
 
 #include <algorithm>
@@ -50,6 +51,7 @@ MethodReport measure_method(Method method, const BenchCase& bench_case, const Sc
   report.gain_curvature_m = preset.solver.gain_curvature_m;
   const TimedRun run = timed_run(scene, preset, poses, options.repeats, clock, options.stop);
   report.run = run_statistics(poses, run.outputs, run.ns);
+  report.typical_ns = run.typical_ns;
   report.allocations = run.allocations;
   report.allocations_counted = allocation_count().counted;
   if (run.stopped) return report;
@@ -73,6 +75,8 @@ TimedRun timed_run(const ScenePtr& scene, const Preset& preset, std::span<const 
   TimedRun run;
   run.outputs.resize(poses.size());
   run.ns.assign(poses.size(), 1e300);
+  std::vector<double> readings;
+  readings.reserve(poses.size() * static_cast<std::size_t>(std::max(0, repeats)));
   for (int pass = 0; pass < repeats; ++pass) {
     Stepper stepper(scene);
     TickState state;
@@ -84,14 +88,16 @@ TimedRun timed_run(const ScenePtr& scene, const Preset& preset, std::span<const 
         run.ns.resize(run.outputs.size());
         return run;
       }
-      const std::int64_t from = TickClock::now();
+      const std::int64_t from = clock.mark();
       const TickOutput output = stepper.step(preset, poses[i], state);
-      const std::int64_t to = TickClock::now();
+      const std::int64_t to = clock.mark();
       run.outputs[i] = output;
-      run.ns[i] = std::min(run.ns[i], clock.elapsed_ns(from, to));
+      readings.push_back(clock.elapsed_ns(from, to));
+      run.ns[i] = std::min(run.ns[i], readings.back());
     }
     run.allocations += allocation_count().count - before;
   }
+  run.typical_ns = middle_mean(std::move(readings));
   return run;
 }
 

@@ -37,7 +37,8 @@ Result<std::optional<WorkPrecisionReport>> measure_work_precision(const BenchCas
 /// Outputs of a run and the time of every tick.
 struct TimedRun {
   std::vector<TickOutput> outputs;
-  std::vector<double> ns;
+  std::vector<double> ns;      ///< of each tick, the least of its passes
+  double typical_ns = 0.0;     ///< middle mean of all ticks of all passes
   std::uint64_t allocations = 0;
   bool stopped = false;
 };

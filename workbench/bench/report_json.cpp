@@ -43,6 +43,7 @@ Json method_json(const SceneReport& scene, const MethodReport& m) {
   Json json{{"method", to_string(m.method)}};
   if (m.method == Method::paper) json["gain_curvature_m"] = m.gain_curvature_m;
   json.update(run_json(m.run));
+  json["typical_tick_ns"] = m.typical_ns;
   json["ticks_per_evaluation"] = ticks_per_evaluation(scene, m);
   json["ticks_per_paper_tick"] = ticks_per_paper_tick(scene, m);
   json["error_from_own_converged"] = m.from_own ? difference_json(*m.from_own) : Json(nullptr);
@@ -95,12 +96,12 @@ Json work_precision_json(const WorkPrecisionReport& report) {
 }  // namespace
 
 double ticks_per_evaluation(const SceneReport& scene, const MethodReport& m) {
-  return scene.evaluation.alone_ns > 0.0 ? m.run.ns.p50 / scene.evaluation.alone_ns : 0.0;
+  return scene.evaluation.alone_ns > 0.0 ? m.typical_ns / scene.evaluation.alone_ns : 0.0;
 }
 
 double ticks_per_paper_tick(const SceneReport& scene, const MethodReport& m) {
   const MethodReport* paper = scene.of(Method::paper);
-  return paper && paper->run.ns.p50 > 0.0 ? m.run.ns.p50 / paper->run.ns.p50 : 0.0;
+  return paper && paper->typical_ns > 0.0 ? m.typical_ns / paper->typical_ns : 0.0;
 }
 
 nlohmann::ordered_json report_json(const BenchReport& report) {

@@ -24,6 +24,7 @@ struct MethodReport {
   Method method = Method::robust;
   double gain_curvature_m = 0.0;          ///< `paper`: the best found for the scene
   RunStatistics run;
+  double typical_ns = 0.0;                ///< middle mean of all ticks of all passes: what ratios use
   std::optional<RunDifference> from_own;  ///< from the same place solved on to the converged tolerance; none for facet methods
   std::uint64_t places_without_solution = 0;  ///< converged ticks where solving on led elsewhere
   RunDifference from_reference;           ///< from `robust` at the converged tolerance

@@ -4,25 +4,51 @@
 #include <chrono>
 #include <cstdint>
 
+#if defined(__x86_64__)
+#include <x86intrin.h>
+#endif
+
 namespace tangent::bench {
 
+/// The processor's time-stamp counter, fenced, where it runs at one rate whatever the processor does; else the system's clock.
+/// That one lets what is timed overlap with its own reading, which takes a third off an evaluation.
 class TickClock {
  public:
+  /// Measures the counter's rate against the system's clock, three times for 10 ms, and what two readings with nothing
+  /// between them give: the middle mean of ten thousand.
+  TickClock();
+
+  /// Nanoseconds of the system's clock: for what takes milliseconds.
   static std::int64_t now() {
     return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch()).count();
   }
 
-  /// Measures what two readings with nothing between them give: the median of ten thousand.
-  TickClock();
+  /// A reading for elapsed_ns(). What is before it is done before, what is after it begins after.
+  std::int64_t mark() const {
+#if defined(__x86_64__)
+    if (counter_) {
+      _mm_lfence();
+      const auto count = static_cast<std::int64_t>(__rdtsc());
+      _mm_lfence();
+      return count;
+    }
+#endif
+    return now();
+  }
+
   double overhead_ns() const { return overhead_ns_; }
 
-  /// Between two readings, less the overhead, not below zero.
+  /// Between two marks, less the overhead, not below zero.
   double elapsed_ns(std::int64_t from, std::int64_t to) const {
-    const double ns = static_cast<double>(to - from) - overhead_ns_;
+    const double ns = static_cast<double>(to - from) * ns_per_count_ - overhead_ns_;
     return ns > 0.0 ? ns : 0.0;
   }
 
  private:
+  double measured_ns_per_count() const;
+
+  bool counter_ = false;
+  double ns_per_count_ = 1.0;
   double overhead_ns_ = 0.0;
 };
 

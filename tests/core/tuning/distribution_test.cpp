@@ -25,3 +25,15 @@ TEST_CASE("one value is all its percentiles, no values are all zero") {
   CHECK(none.count == 0);
   CHECK(none.max == 0.0);
 }
+
+TEST_CASE("the middle mean leaves out the lowest and the highest quarter") {
+  CHECK(middle_mean({}) == 0.0);
+  CHECK(middle_mean({3.0}) == 3.0);
+  CHECK(middle_mean({1.0, 2.0, 4.0}) == doctest::Approx(7.0 / 3.0));
+  CHECK(middle_mean({1e9, 5.0, 4.0, -1e9}) == 4.5);
+  // A clock that reads 30 or 40 and stands at 37 on average.
+  std::vector<double> steps(1000, 40.0);
+  for (int i = 0; i < 300; ++i) steps[static_cast<std::size_t>(i)] = 30.0;
+  for (int i = 0; i < 30; ++i) steps[static_cast<std::size_t>(999 - i)] = 1e6;
+  CHECK(middle_mean(steps) == doctest::Approx(39.0));
+}
