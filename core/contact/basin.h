@@ -1,7 +1,7 @@
 // The surroundings of a known contact: triangles whose slope leads to it, so that no search needs to look at them.
 //
 // The finger's centre is at S + h N over a contact. Where that offset surface does not fold, a place has one contact;
-// it folds where 1 + h k reaches zero along some direction, k the normal curvature (ALGORITHM: det M and trace M). Asked is
+// it folds where 1 + h k reaches zero along some direction, k the normal curvature (det M and trace M tell). Asked is
 // therefore whether the way from the contact to a triangle and over it keeps clear of that.
 #pragma once
 
@@ -22,8 +22,9 @@ struct KnownContact {
 
 KnownContact known_contact(const ContactMesh& mesh, const TrackedPlane& plane, double height_m);
 
-/// Whether triangle t belongs to the slope that leads to a known contact, as far as nine points of it tell. Only near it,
-/// as far as the look-ahead `margin_m` calls for: further off there may be a fold between.
+/// Whether triangle t belongs to the slope that leads to a known contact, as far as its corners, the middles of its sides and the
+/// nine segments between them tell. Only near it, as far as the look-ahead `margin_m` calls for: further off there may be
+/// a fold between.
 bool same_basin(PatchCache& cache, NormalForm form, std::uint32_t t, const KnownContact& known, double margin_m);
 
 }  // namespace tangent
