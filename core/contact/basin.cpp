@@ -1,6 +1,7 @@
 #include "core/contact/basin.h"
 
 #include "core/base/tolerances.h"
+#include "core/contact/place.h"
 
 #include <algorithm>
 #include <array>
@@ -41,15 +42,12 @@ struct PatchPlaces {
   std::array<Vec3, 6> point, normal;
 
   explicit PatchPlaces(const PnPatch& patch) {
-    static constexpr ControlPoint kNearFirst[3] = {b210, b021, b102}, kNearSecond[3] = {b120, b012, b201};
-    static constexpr ControlNormal kMixed[3] = {n110, n011, n101};
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::size_t j = (k + 1) % 3;
-      point[k] = patch.origin + patch.offsets[k];
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      const Vec2 middle = edge_point_uv(k, 0.5);
+      point[k] = patch.control_point(k);
       normal[k] = patch.normals[k];
-      point[3 + k] = patch.origin + 0.125 * (patch.offsets[k] + patch.offsets[j]) +
-                     0.375 * (patch.offsets[kNearFirst[k]] + patch.offsets[kNearSecond[k]]);
-      normal[3 + k] = unit(patch.normals[k] + patch.normals[j] + patch.mixed_weight * patch.normals[kMixed[k]]);
+      point[3 + k] = evaluate_point(patch, middle.x, middle.y);
+      normal[3 + k] = evaluate_normal(patch, middle.x, middle.y);
     }
   }
 

@@ -15,8 +15,8 @@ struct KnownContact {
   Feature feature = Feature::none;
   std::uint8_t side = 0;         ///< as in TrackedPlane
   std::uint32_t triangle = kNone;
-  Vec3 point{0.0}, normal{0.0};
-  double height_m = 0.0;
+  Vec3 point{0.0}, normal{0.0};  ///< S and unit N, local mesh coordinates, m
+  double height_m = 0.0;         ///< of the finger's centre over the plane, signed
   double size_m = 0.0;           ///< longest side of its triangle
 };
 
