@@ -79,7 +79,7 @@ void add_shot_command(CLI::App& app, CommandResult& result) {
   command->add_option("--view", request->view, "Name of the view; list: names them all; all: every one")
       ->required()->type_name("NAME");
   command->add_option("--out", options->file, "File to write; with --view all: a directory")->type_name("F.png");
-  command->add_option("--preset", request->preset, "Preset of the window's views (default: the shipped one)")
+  command->add_option("--preset", request->preset, "Preset of the window's views (default: the program's own values)")
       ->type_name("F.toml");
   add_number_option(*command, "--width", {.min = 64, .max = 8192, .unit = "pixels", .whole = true}, "Width (default 1280)",
                     [request](double n) { request->width_px = static_cast<int>(n); });

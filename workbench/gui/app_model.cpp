@@ -286,7 +286,7 @@ void AppModel::toggle_favourite(const PresetKey& key) {
   if (std::erase(favourites_, key.full_name()) == 0) favourites_.push_back(key.full_name());
 }
 
-void AppModel::save_preset(const std::string& name) {
+bool AppModel::save_preset(const std::string& name) {
   PresetAbout about = presets().loaded().about;
   about.date = today();
   about.measured.clear();  // they were measured with other values
@@ -297,10 +297,16 @@ void AppModel::save_preset(const std::string& name) {
   about.device = options_.device;
   if (auto saved = slots_.save_as(preset_folder_, name, std::move(about)); !saved) {
     say(Severity::error, saved.error().message());
-    return;
+    return false;
   }
   refresh_preset_files();
   say(Severity::note, "preset saved as " + presets().path().string());
+  return true;
+}
+
+bool AppModel::has_preset(const std::string& name) const {
+  std::error_code ignored;
+  return !name.empty() && std::filesystem::exists(preset_folder_ / (name + ".toml"), ignored);
 }
 
 void AppModel::refresh_preset_files() { preset_files_ = list_presets(preset_folder_); }

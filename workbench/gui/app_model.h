@@ -137,7 +137,8 @@ class AppModel {
   void revert_value(const PresetKey& key);
   void revert_preset();
   void load_preset(const std::filesystem::path& path);
-  void save_preset(const std::string& name);
+  bool save_preset(const std::string& name);  ///< writes over one that is there; a message says where, or why not
+  bool has_preset(const std::string& name) const;  ///< a file of this name is in the folder
   const std::filesystem::path& preset_folder() const { return preset_folder_; }
   const std::vector<std::filesystem::path>& preset_files() const { return preset_files_; }
   void refresh_preset_files();

@@ -21,7 +21,7 @@ class PresetEditor {
  public:
   const Preset& current() const { return current_; }
   const PresetFile& loaded() const { return loaded_; }
-  const std::string& name() const { return name_; }               ///< of the file without ".toml"; "default"
+  const std::string& name() const { return name_; }               ///< of the file without ".toml"; "built-in": the program's own values
   const std::filesystem::path& path() const { return path_; }     ///< empty: never saved
   bool changed() const { return !(current_ == loaded_.preset); }
   std::vector<PresetChange> changes() const;
@@ -47,7 +47,7 @@ class PresetEditor {
  private:
   PresetFile loaded_;
   Preset current_;
-  std::string name_ = "default";
+  std::string name_ = "built-in";
   std::filesystem::path path_;
 };
 

@@ -26,6 +26,7 @@ struct Resting {
   ImGuiID id = 0;
   float seconds = 0.0f;
   int frame = 0;
+  bool typed_over = false;    ///< a key was pressed since the pointer moved: the hand is elsewhere
 };
 
 struct UiContext {

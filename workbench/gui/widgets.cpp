@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdarg>
 #include <cstdio>
+#include <iterator>
 #include <numbers>
 #include <utility>
 
@@ -290,6 +291,11 @@ void place_tooltip(const UiContext& ui) {
   ImGui::SetNextWindowPos({x, low ? min.y - ui.px(4) : max.y + ui.px(4)}, ImGuiCond_Always, {right ? 1.0f : 0.0f, low ? 1.0f : 0.0f});
 }
 
+bool any_key_down() {
+  const auto& down = ImGui::GetIO().KeysDown;
+  return std::any_of(std::begin(down), std::end(down), [](bool key) { return key; });
+}
+
 }  // namespace
 
 void tooltip(const UiContext& ui, std::string_view text) {
@@ -306,7 +312,10 @@ void tooltip(const UiContext& ui, std::string_view text) {
   if (resting.id != id || frame - resting.frame > 1) resting = {id, 0.0f, frame};
   if (frame != resting.frame) resting.seconds += ImGui::GetIO().DeltaTime;
   resting.frame = frame;
-  if (resting.seconds < 0.35f) return;
+  const ImVec2 moved = ImGui::GetIO().MouseDelta;
+  if (moved.x != 0.0f || moved.y != 0.0f) resting.typed_over = false;
+  else if (any_key_down()) resting.typed_over = true;
+  if (resting.seconds < 0.35f || resting.typed_over) return;
   place_tooltip(ui);
   ImGui::BeginTooltip();
   ImGui::PushTextWrapPos(ui.px(320));

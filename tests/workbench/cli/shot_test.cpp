@@ -90,6 +90,13 @@ TEST_CASE("shot says what is wrong with a mesh or a target, and leaves nothing b
   const ProcessResult no_mesh = run_workbench({"shot", folder.file("none.obj"), "--view", "facets", "--out", folder.file("a.png")});
   CHECK(no_mesh.exit_code == 1);
   CHECK(contains(no_mesh.err, "none.obj"));
+  // The window would go on with its built-in scene; a picture of that is not what was asked for.
+  const ProcessResult no_window = run_workbench({"shot", folder.file("none.obj"), "--view", "overview", "--out", folder.file("a.png")});
+  CHECK(no_window.exit_code == 1);
+  CHECK(contains(no_window.err, "none.obj"));
+  const ProcessResult no_preset = run_workbench({"shot", "--view", "overview", "--preset", folder.file("none.toml"), "--out", folder.file("a.png")});
+  CHECK(no_preset.exit_code == 1);
+  CHECK(contains(no_preset.err, "none.toml"));
   const ProcessResult no_place = run_workbench({"shot", "--view", "cube", "--out", folder.file("nowhere/a.png")});
   CHECK(no_place.exit_code == 1);
   CHECK(contains(no_place.err, "nowhere"));

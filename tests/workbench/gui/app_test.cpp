@@ -8,6 +8,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <tuple>
 
 using namespace tangent;
@@ -376,6 +377,33 @@ TEST_CASE("saving under a name makes a preset file that the list shows") {
   ui.frame();
   ui.click("presets/revert/solver.gain_overall");
   CHECK(ui.model().presets().current().solver.gain_overall == 0.4);
+}
+
+TEST_CASE("a preset that was there before is written over only when asked for twice") {
+  const auto folder = fresh_folder("tangent_app_replace");
+  const std::string kept = "[about]\nnote = \"measured\"\n[solver]\ngain_overall = 0.3\n";
+  std::ofstream(folder / "mine.toml") << kept;
+  const auto on_disk = [&] {
+    std::ifstream in(folder / "mine.toml");
+    return std::string(std::istreambuf_iterator<char>(in), {});
+  };
+  AppOptions options = HeadlessApp::deterministic_options();
+  options.preset_folder = folder;
+  RunningApp ui(options, 1280.0f, 2000.0f);
+  ui.model().set_value(*find_preset_key("solver", "gain_overall"), 0.4);
+  ui.frame();
+  ui.click("presets/name");
+  ui.type("mine");
+  ui.click("presets/save");
+  CHECK(on_disk() == kept);
+  CHECK(said(ui.model(), Severity::warning, "Replace"));
+  ui.click("presets/save");
+  CHECK(read_preset(folder / "mine.toml")->preset.solver.gain_overall == 0.4);
+  // One's own work of a moment ago: no question.
+  ui.model().set_value(*find_preset_key("solver", "gain_overall"), 0.6);
+  ui.frame();
+  ui.click("presets/save");
+  CHECK(read_preset(folder / "mine.toml")->preset.solver.gain_overall == 0.6);
 }
 
 TEST_CASE("frames build at any size and scale, with and without history, for every method") {

@@ -84,6 +84,29 @@ TEST_CASE("a tooltip keeps off what it explains, and away while a button of the 
   ui.release();
 }
 
+TEST_CASE("a tooltip goes when a key is pressed, and comes again when the pointer moves") {
+  HeadlessApp ui(HeadlessApp::deterministic_options(), 1920.0f, 1080.0f);
+  ui.app().advance(100);
+  ui.frames(2);
+  ui.input().dt_s = 0.1;
+  const ImVec2 at = ui.centre("solver/tolerance_m");
+  ui.move(at);
+  ui.frames(8);
+  REQUIRE(a_tooltip_shows());
+  // One types elsewhere, the pointer rests where it was left.
+  ui.chord('P');
+  CHECK_FALSE(a_tooltip_shows());
+  ui.type("window: light");
+  ui.frames(8);
+  CHECK_FALSE(a_tooltip_shows());
+  ui.key(HeadlessApp::kEscape);
+  ui.frames(8);
+  CHECK_FALSE(a_tooltip_shows());
+  ui.move({at.x + 1.0f, at.y});
+  ui.frames(8);
+  CHECK(a_tooltip_shows());
+}
+
 TEST_CASE("no window of the program is modal") {
   for (const auto& entry : std::filesystem::recursive_directory_iterator(std::string(TANGENT_SOURCE_DIR) + "/workbench/gui")) {
     if (!entry.is_regular_file()) continue;

@@ -78,7 +78,7 @@ TEST_CASE("a broken preset file changes nothing and says what is wrong where") {
   REQUIRE_FALSE(status.has_value());
   CHECK(status.error().message().find("gain_overall") != std::string::npos);
   CHECK(editor.current() == before);
-  CHECK(editor.name() == "default");
+  CHECK(editor.name() == "built-in");
   CHECK_FALSE(editor.save_as(folder, "../up", {}).has_value());
   CHECK_FALSE(editor.save_as(folder, "", {}).has_value());
 }

@@ -39,7 +39,9 @@ void draw_compare_panel(const UiContext& ui, AppModel& model, ComparePanel& stat
 
 struct PresetsPanel {
   bool open = true;
-  std::string name;  ///< typed, to save under
+  std::string name;      ///< typed, to save under
+  std::string asked_for; ///< a file of this name is there: pressed once more it is written over
+  std::string written;   ///< saved here before: no question is asked again
 };
 void draw_presets_panel(const UiContext& ui, AppModel& model, PresetsPanel& state);
 

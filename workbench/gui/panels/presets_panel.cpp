@@ -49,19 +49,33 @@ void draw_changes(const UiContext& ui, AppModel& model) {
   if (text_button(ui, "presets/revert_all", "Revert all", "Every key back to the loaded value")) model.revert_preset();
 }
 
+/// A file that was there before asks to be pressed for twice: the presets that ship hold what was measured with them.
+void save(AppModel& model, PresetsPanel& state) {
+  if (state.name != state.written && state.name != state.asked_for && model.has_preset(state.name)) {
+    state.asked_for = state.name;
+    model.say(Severity::warning, "a preset \"" + state.name + "\" is there already; press Replace to write over it, or type another name");
+    return;
+  }
+  state.asked_for.clear();
+  if (model.save_preset(state.name)) state.written = state.name;
+}
+
 }  // namespace
 
 void draw_presets_panel(const UiContext& ui, AppModel& model, PresetsPanel& state) {
   if (!section(ui, "Presets", state.open)) return;
   draw_files(ui, model);
-  const float button = ImGui::CalcTextSize("Save as").x + 2.0f * ImGui::GetStyle().FramePadding.x;
+  const bool replaces = !state.asked_for.empty() && state.asked_for == state.name;
+  const char* const text = replaces ? "Replace" : "Save as";
+  const float button = ImGui::CalcTextSize(text).x + 2.0f * ImGui::GetStyle().FramePadding.x;
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - button - ImGui::GetStyle().ItemSpacing.x);
   const bool enter = ImGui::InputTextWithHint("##preset_name", "name", &state.name, ImGuiInputTextFlags_EnterReturnsTrue);
   ui.items.note_last("presets/name");
   tooltip(ui, "Name of the file to save the present values in, without .toml");
   ImGui::SameLine();
-  const bool pressed = text_button(ui, "presets/save", "Save as", "Writes the present values into the preset folder under this name");
-  if (enter || pressed) model.save_preset(state.name);
+  const bool pressed = text_button(ui, "presets/save", text, replaces ? "Writes over the preset of this name, and what was measured with it"
+                                                                       : "Writes the present values into the preset folder under this name");
+  if (enter || pressed) save(model, state);
   ImGui::Dummy({1, ui.px(1)});
   draw_changes(ui, model);
   ImGui::Dummy({1, ui.px(3)});

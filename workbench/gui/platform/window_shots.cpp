@@ -319,6 +319,15 @@ AppOptions app_options(const ShotRequest& request, const WindowView& view) {
   return options;
 }
 
+/// The window itself goes on with what stands in for a mesh or a preset that it can't read; a picture of that is not the one
+/// that was asked for.
+Status check_start(const AppModel& model) {
+  for (const Message& message : model.messages().all()) {
+    if (message.severity == Severity::error) return fail(message.text);
+  }
+  return {};
+}
+
 }  // namespace
 
 const std::vector<ShotView>& window_shot_views() {
@@ -338,6 +347,7 @@ Result<Image> take_window_shot(const ShotRequest& request) {
   SceneRenderer renderer;
   if (Status ready = renderer.init(); !ready) return tl::unexpected(ready.error());
   App app(app_options(request, view));
+  if (Status started = check_start(app.model()); !started) return tl::unexpected(started.error());
   app.model().view().quality = RenderQuality::still;
   app.model().view().camera.y_up = request.y_up;
   FrameFeeder feeder(**screen, app, request);

@@ -17,7 +17,10 @@ std::string length_text(double metres) {
   const auto fits = std::find_if(kUnits.begin(), kUnits.end() - 1, [&](const Unit& u) { return size >= 0.9995 * u.metres; });
   const double value = size == 0.0 ? 0.0 : metres / fits->metres;
   char text[48];
-  if (std::abs(value - std::round(value)) <= 1e-9 * std::abs(value)) {
+  // Beyond what the units reach: not a row of digits, and no "0.00" that isn't zero.
+  if (std::abs(value) >= 1e5 || (value != 0.0 && std::abs(value) < 9.5e-3)) {
+    std::snprintf(text, sizeof text, "%.3g %s", value, fits->name);
+  } else if (std::abs(value - std::round(value)) <= 1e-9 * std::abs(value)) {
     std::snprintf(text, sizeof text, "%.0f %s", value, size == 0.0 ? "mm" : fits->name);
   } else {
     const double magnitude = std::abs(value);

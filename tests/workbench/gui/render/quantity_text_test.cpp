@@ -18,6 +18,8 @@ TEST_CASE("lengths take the unit that fits") {
   CHECK(length_text(0.99999) == "1.00 m");
   CHECK(length_text(12345.0) == "12.3 km");
   CHECK(length_text(5e-9) == "5 nm");
+  CHECK(length_text(2e25) == "2e+22 km");
+  CHECK(length_text(-3.456e-12) == "-0.00346 nm");
 }
 
 TEST_CASE("scale bars have round lengths that fit") {
