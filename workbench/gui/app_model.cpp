@@ -161,7 +161,10 @@ void AppModel::restart_session() {
 }
 
 void AppModel::frame_scene() {
-  if (scene_ != nullptr) view_.camera.frame(world_bounds(*scene_), 1.1, view_.aspect);
+  if (scene_ == nullptr) return;
+  view_.camera.frame(world_bounds(*scene_), 1.05, view_.rooms);
+  view_.framed_distance_m = view_.camera.distance_m;
+  ++view_.framings;
 }
 
 namespace {

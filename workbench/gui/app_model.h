@@ -20,6 +20,7 @@
 #include "workbench/session/bookmarks.h"
 #include "workbench/session/rendering_condition.h"
 
+#include <array>
 #include <map>
 #include <filesystem>
 #include <future>
@@ -66,7 +67,9 @@ struct Inspection {
 struct ViewState {
   SceneToggles toggles;
   Camera camera;
-  double aspect = 1.3;              ///< width of the picture over its height
+  double framed_distance_m = 0.0;   ///< of the camera when the whole scene was framed last
+  std::uint64_t framings = 0;       ///< so far: a view of its own (2D) follows them
+  std::array<ViewRoom, 3> rooms{};  ///< that the cards and bars drawn over the picture leave for what is looked at
   std::uint32_t picked_triangle = kNone;
   std::uint32_t hovered_triangle = kNone;
   bool device_monitor = false;      ///< in place of the 3D view
@@ -104,7 +107,7 @@ class AppModel {
   std::optional<double> fit_m() const { return options_.mesh_options.fit_m; }
   void set_mesh_unit(double metres_per_unit);      ///< of the file; reads it anew
   void set_mesh_fit(std::optional<double> fit_m);  ///< longest side; none: as in the file
-  void frame_scene();                       ///< camera on the whole mesh
+  void frame_scene();                       ///< camera on the whole mesh, beside what is drawn over the picture
   /// Turns the camera to a place on the surface, seen a little from the side, and picks the triangle.
   void look_at_place(const Vec3& point_world, const Vec3& normal, std::uint32_t triangle);
 

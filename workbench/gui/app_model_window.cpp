@@ -70,7 +70,12 @@ void AppModel::reset_layout() {
   settings_.sections.clear();
 }
 
-void AppModel::look_from_standard(StandardView view) { view_.camera = standard_view(view, view_.camera); }
+// Who looks at the whole scene goes on doing so; who has gone near to something stays there.
+void AppModel::look_from_standard(StandardView view) {
+  const bool whole = view_.camera.target == view_.camera.scene_centre && view_.camera.distance_m == view_.framed_distance_m;
+  view_.camera = standard_view(view, view_.camera);
+  if (whole) frame_scene();
+}
 
 void AppModel::set_y_up(bool y_up) {
   view_.camera.y_up = y_up;

@@ -312,7 +312,7 @@ TEST_CASE("dragging in the 3D view orbits, the wheel zooms, F frames, a click pi
   CHECK(glm::length(ui.model().view().camera.target - before.target) > 1e-4);
   ui.key('F');
   Camera framed = ui.model().view().camera;
-  framed.frame(world_bounds(*ui.model().scene()));
+  framed.frame(world_bounds(*ui.model().scene()), 1.05, ui.model().view().rooms);
   CHECK(ui.model().view().camera == framed);
   CHECK(glm::length(framed.target - before.target) < 1e-12);
   ui.click("view");

@@ -75,10 +75,10 @@ void draw_limit(const UiContext& ui, const Rect& bar, double share, double shown
 
 }  // namespace
 
-void draw_map_bar(const UiContext& ui, AppModel& model, const Rect& view, float top) {
+float draw_map_bar(const UiContext& ui, AppModel& model, const Rect& view, float top) {
   MapView& map = model.map();
   const auto paint = map.paint();
-  if (!paint) return;
+  if (!paint) return 0.0f;
   const MapQuantityInfo& info = info_of(map.quantity);
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   ImFont* number = ui.fonts.small_number;
@@ -87,9 +87,8 @@ void draw_map_bar(const UiContext& ui, AppModel& model, const Rect& view, float 
   const float title_width = ui.fonts.small->CalcTextSizeA(ui.fonts.small->FontSize, 1e9f, 0.0f, title.c_str()).x;
   const float label_width = number->CalcTextSizeA(line, 1e9f, 0.0f, "0.00000").x;
   const float width = std::max(title_width, ui.px(kHistogramWidth + kBarWidth + 10.0f) + label_width) + 2.0f * ui.px(kPad);
-  // Room for the inset of the display below.
-  const float height = std::clamp(view.bottom() - ui.px(150) - top - ui.px(50), ui.px(90), ui.px(300));
-  if (view.w < width + ui.px(60) || top + height + ui.px(50) > view.bottom()) return;
+  const float height = std::clamp(view.bottom() - top - ui.px(60), ui.px(90), ui.px(300));
+  if (view.w < width + ui.px(60) || top + height + ui.px(50) > view.bottom()) return 0.0f;
   // A limit beyond an end of the bar is marked past that end.
   const std::optional<double> limit = map.limit();
   const double limit_share = limit ? map_share(*paint, *limit) : 0.5;
@@ -133,6 +132,7 @@ void draw_map_bar(const UiContext& ui, AppModel& model, const Rect& view, float 
   drag_range(ui, map, *paint, bar);
   tooltip(ui, "Drag the upper half to move the upper end of the range, the lower half for the lower end; double click: automatic. "
               "The bars count places. Dark: not computed yet; grey: no value");
+  return view.right() - card.x;
 }
 
 /// Value under the pointer, beside it.

@@ -62,8 +62,8 @@ struct MapPanel {
   bool open = true;
 };
 void draw_map_panel(const UiContext& ui, AppModel& model, MapPanel& state);
-/// The colour bar, inside the 3D view's window, below `top`.
-void draw_map_bar(const UiContext& ui, AppModel& model, const Rect& view, float top);
+/// The colour bar, inside the 3D view's window, below `top`. Returns the width it takes at the right; 0: it isn't there.
+float draw_map_bar(const UiContext& ui, AppModel& model, const Rect& view, float top);
 /// The value at a place under the pointer.
 void draw_map_hover(const UiContext& ui, AppModel& model, std::uint32_t triangle, double u, double v);
 

@@ -1,6 +1,7 @@
 #include "workbench/gui/panels/planar_view.h"
 
 #include "workbench/gui/render/overlay_canvas.h"
+#include "workbench/gui/view_room.h"
 #include "workbench/gui/widgets.h"
 
 #include <algorithm>
@@ -12,6 +13,8 @@ namespace tangent {
 namespace {
 
 constexpr double kForceScale = 0.006;     // m of arrow per N
+constexpr double kInsetLeft = 0.6, kInsetBottom = 0.7;   // em, from the view's corner
+constexpr float kScaleHeight = 44.0f;     // points, over the inset
 constexpr std::size_t kMostPatchesNamed = 5000;  // beyond, only the polygon and the curve are drawn
 
 struct PlanarToggle {
@@ -47,15 +50,22 @@ class Paper {
   ImVec2 middle_;
 };
 
-/// The whole polygon with a finger beside it.
-void frame_all(const AppModel& model, PlanarView& view, const Rect& rect) {
+/// The whole polygon with a finger beside it, where nothing else is drawn.
+void frame_all(const UiContext& ui, const AppModel& model, PlanarView& view, const Rect& rect) {
   const Box& box = model.scene()->mesh().bounds();
   const Vec3 origin = model.scene()->mesh().origin(), size = box.size();
   const double reach = 1.5 * model.presets().current().finger.reach_m();
-  view.centre = Vec2(origin.x, origin.y) + Vec2(0.0, 0.4 * reach);
-  view.px_per_m = 0.8 * std::min(static_cast<double>(rect.w) / (size.x + reach), static_cast<double>(rect.h) / (size.y + reach));
+  const double em = ui.fonts.text->FontSize, height = rect.h;
+  const Vec2 card{(kInsetLeft + kInsetWidth + 1.0) * em, ui.px(kScaleHeight) + (view.display ? (kInsetBottom + kInsetHeight) * em : 0.0)};
+  view.px_per_m = 0.0;
+  for (const ViewRoom& room : rooms_beside({rect.w, rect.h}, ui.px(34), ui.px(8), card)) {
+    const double px_per_m = 0.94 * height * std::min(room.width / (size.x + reach), room.height / (size.y + reach));
+    if (px_per_m <= view.px_per_m) continue;
+    view.px_per_m = px_per_m;
+    view.centre = Vec2(origin.x, origin.y) + Vec2(0.0, 0.4 * reach) - room.shift * height / px_per_m;
+  }
   view.framed = model.scene().get();
-  view.framed_for = model.view().camera;
+  view.framings = model.view().framings;
 }
 
 void interact(AppModel& model, PlanarView& view, const Rect& rect) {
@@ -182,7 +192,8 @@ void draw_force(const UiContext& ui, const TickOutput& out, const Paper& paper, 
 void draw_scale(const UiContext& ui, const PlanarView& view, const Rect& rect, ImDrawList& draw) {
   const double wanted = 0.12 * static_cast<double>(rect.w) / view.px_per_m, decade = std::pow(10.0, std::floor(std::log10(wanted)));
   const double length = decade * (wanted / decade >= 5.0 ? 5.0 : wanted / decade >= 2.0 ? 2.0 : 1.0);
-  const float y = rect.bottom() - ui.px(16), x = rect.x + ui.px(16), w = static_cast<float>(length * view.px_per_m);
+  const float under = view.display ? static_cast<float>(kInsetBottom + static_cast<double>(kInsetHeight)) * ui.fonts.text->FontSize : 0.0f;
+  const float y = rect.bottom() - under - ui.px(16), x = rect.x + ui.px(16), w = static_cast<float>(length * view.px_per_m);
   const ImU32 ink = ui.colours.text_dim;
   draw.AddLine({x, y}, {x + w, y}, ink, ui.px(1.6f));
   for (const float end : {x, x + w}) draw.AddLine({end, y - ui.px(4)}, {end, y + ui.px(4)}, ink, ui.px(1.6f));
@@ -208,7 +219,7 @@ void draw_toggles(const UiContext& ui, PlanarView& view, const Rect& rect) {
 
 void draw_planar_view(const UiContext& ui, AppModel& model, PlanarView& view, const Rect& rect) {
   const PlanarCurve& curve = *model.scene()->planar();
-  if (view.framed != model.scene().get() || !(view.framed_for == model.view().camera)) frame_all(model, view, rect);
+  if (view.framed != model.scene().get() || view.framings != model.view().framings) frame_all(ui, model, view, rect);
   interact(model, view, rect);
   const Paper paper(view, rect);
   const LocalCentre kind = model.presets().current().solver.local_centre;
@@ -225,10 +236,15 @@ void draw_planar_view(const UiContext& ui, AppModel& model, PlanarView& view, co
     if (view.force) draw_force(ui, record->tick.output, paper, draw);
   }
   draw_scale(ui, view, rect, draw);
+  const Box& box = model.scene()->mesh().bounds();
+  const Vec3 origin = model.scene()->mesh().origin(), half = 0.5 * box.size();
+  ui.items.note("planar/outline", paper.at(origin + Vec3(-half.x, half.y, 0.0)), paper.at(origin + Vec3(half.x, -half.y, 0.0)));
   if (record != nullptr && view.display) {
     const float em = ui.fonts.text->FontSize;
     const OverlayCanvas canvas{draw, {rect.x, rect.y}, {rect.w, rect.h}, ui.palette, ui.fonts.small, ui.fonts.small_number, em};
-    draw_cld_inset(canvas, {rect.right() - 0.9f * em, rect.bottom() - 0.7f * em}, model.presets().current().display.travel_m,
+    const ImVec2 corner{rect.x + (static_cast<float>(kInsetLeft) + kInsetWidth) * em, rect.bottom() - static_cast<float>(kInsetBottom) * em};
+    ui.items.note("planar/inset", {rect.x, corner.y - kInsetHeight * em}, corner);
+    draw_cld_inset(canvas, corner, model.presets().current().display.travel_m,
                    &record->device.cld_command_m, &record->device.cld_measured_m);
   }
   draw.PopClipRect();

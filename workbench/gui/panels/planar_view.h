@@ -12,7 +12,7 @@ struct PlanarView {
   Vec2 centre{0.0};              ///< in the middle of the view, world, m
   double px_per_m = 0.0;         ///< 0: to be framed
   const ContactScene* framed = nullptr;
-  Camera framed_for;             ///< the 3D camera then: framing the scene (F) moves it, and this view follows
+  std::uint64_t framings = 0;    ///< of the model (F) that this view has followed
 };
 
 /// Inside the 3D view's window. Precondition: the model's scene is planar.

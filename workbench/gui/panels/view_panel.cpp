@@ -4,6 +4,7 @@
 #include "workbench/gui/panels/panels.h"
 #include "workbench/gui/render/scene_overlay.h"
 #include "workbench/gui/thread_time.h"
+#include "workbench/gui/view_room.h"
 #include "workbench/gui/widgets.h"
 
 #include <array>
@@ -203,7 +204,6 @@ void draw_picture(const UiContext& ui, AppModel& model, ViewPanel& state, SceneR
 void draw_view_panel(const UiContext& ui, AppModel& model, ViewPanel& state, SceneRenderer* renderer, const Rect& rect) {
   state.build_ms_outside = 0.0;
   if (rect.w < 8.0f || rect.h < 8.0f) return;
-  model.view().aspect = static_cast<double>(rect.w / rect.h);
   ImGui::SetNextWindowPos({rect.x, rect.y});
   ImGui::SetNextWindowSize({rect.w, rect.h});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0, 0));
@@ -226,7 +226,8 @@ void draw_view_panel(const UiContext& ui, AppModel& model, ViewPanel& state, Sce
     interact(ui, model, state, rect);
     if (renderer != nullptr) draw_picture(ui, model, state, *renderer, rect);
     const float below_toggles = draw_layer_toggles(ui, model, rect);
-    draw_map_bar(ui, model, rect, below_toggles + ui.px(8));
+    const float map_bar = draw_map_bar(ui, model, rect, below_toggles + ui.px(8));
+    model.view().rooms = rooms_beside({rect.w, rect.h}, below_toggles - rect.y + ui.px(4), map_bar + ui.px(8), overlay_cards(model.view().toggles, ui.fonts.text->FontSize));
   }
   if (model.loading()) {
     const std::string text = "Loading " + model.loading_name();

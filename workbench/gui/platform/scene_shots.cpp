@@ -145,7 +145,7 @@ Camera aimed_camera(const SceneView& view, const StagedScene& staged, double asp
   camera.pitch_rad = view.pitch_rad;
   const TickOutput& output = staged.tick.output;
   if (view.aim == SceneView::Aim::whole) camera.fit(drawn_points(staged, view.toggles.finger), 1.12, aspect);
-  else camera.frame(world_bounds(*staged.scene), 1.05, aspect);
+  else camera.frame(world_bounds(*staged.scene), 1.05, ViewRoom{.width = aspect});
   if (view.aim == SceneView::Aim::contact && output.triangle != kNone) {
     const auto p = staged.scene->mesh().positions(output.triangle);
     const Vec3 origin = staged.scene->mesh().origin();

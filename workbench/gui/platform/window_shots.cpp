@@ -60,8 +60,7 @@ void look_from_contact_side(AppModel& model) {
     box.include(record->tick.input.finger.position - reach);
     box.include(record->tick.input.finger.position + reach);
   }
-  // A map's bar is beside it.
-  camera.frame(box, model.map().on ? 1.2 : 1.0, model.view().aspect);
+  camera.frame(box, 1.0, model.view().rooms);
 }
 
 /// The tick with the most iterations among the last few thousand: there is something to see in it.

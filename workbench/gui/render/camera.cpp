@@ -60,12 +60,13 @@ void Camera::zoom_at(double factor, const Vec2& pixel, int width_px, int height_
   const double before = metres_per_pixel(target, height_px);
   zoom(factor);
   const double moved = before - metres_per_pixel(target, height_px);
-  const Vec2 from_middle = pixel - 0.5 * Vec2(width_px, height_px);
+  const Vec2 from_middle = pixel - 0.5 * Vec2(width_px, height_px) - static_cast<double>(height_px) * Vec2(shift.x, -shift.y);
   target += moved * (from_middle.x * right() - from_middle.y * up());
 }
 
-void Camera::frame(const Box& world_box, double margin, double aspect) {
+void Camera::frame(const Box& world_box, double margin, const ViewRoom& room) {
   if (world_box.empty()) return;
+  shift = room.shift;
   scene_centre = target = world_box.centre();
   scene_radius_m = std::max(0.5 * glm::length(world_box.size()), 1e-12);
   // A corner at (x, y) across and z nearer than the target is inside the opening from distance z + max(|x|, |y|)/tan.
@@ -74,10 +75,21 @@ void Camera::frame(const Box& world_box, double margin, double aspect) {
   double needed = 0.0;
   for (int corner = 0; corner < 8; ++corner) {
     const Vec3 p = half * Vec3(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
-    const double across = std::max(std::abs(glm::dot(p, right())) / aspect, std::abs(glm::dot(p, up())));
+    const double across = std::max(std::abs(glm::dot(p, right())) / room.width, std::abs(glm::dot(p, up())) / room.height);
     needed = std::max(needed, widen * across - glm::dot(p, forward()));
   }
   distance_m = std::max(needed, 0.1 * scene_radius_m);
+}
+
+void Camera::frame(const Box& world_box, double margin, std::span<const ViewRoom> rooms) {
+  Camera best = *this;
+  best.frame(world_box, margin, rooms.front());
+  for (const ViewRoom& room : rooms.subspan(1)) {
+    Camera other = *this;
+    other.frame(world_box, margin, room);
+    if (other.distance_m < best.distance_m) best = other;
+  }
+  *this = best;
 }
 
 // A point at (x, y) across and z further than the target is within a slope a of the middle where |x - tx| <= a (z + d): of all
@@ -87,6 +99,7 @@ void Camera::fit(std::span<const Vec3> world_points, double margin, double aspec
   Box box;
   for (const Vec3& p : world_points) box.include(p);
   if (box.empty()) return;
+  shift = Vec2(0.0);
   scene_centre = box.centre();
   scene_radius_m = std::max(0.5 * glm::length(box.size()), 1e-12);
   const Vec3 centre = scene_centre;
@@ -135,7 +148,10 @@ double Camera::far_m() const { return glm::length(eye() - scene_centre) + 3.0 * 
 
 glm::dmat4 Camera::projection(int width_px, int height_px) const {
   const double aspect = static_cast<double>(std::max(width_px, 1)) / std::max(height_px, 1);
-  return glm::perspective(fov_rad, aspect, near_m(), far_m());
+  glm::dmat4 through = glm::perspective(fov_rad, aspect, near_m(), far_m());
+  through[2][0] = -2.0 * shift.x / aspect;   // the column is divided by -z
+  through[2][1] = -2.0 * shift.y;
+  return through;
 }
 
 Vec3 Camera::project(const Vec3& world, int width_px, int height_px) const {
@@ -149,8 +165,8 @@ Vec3 Camera::project(const Vec3& world, int width_px, int height_px) const {
 Ray Camera::ray_through(const Vec2& pixel, int width_px, int height_px) const {
   const double half = std::tan(0.5 * fov_rad);
   const double aspect = static_cast<double>(std::max(width_px, 1)) / std::max(height_px, 1);
-  const double x = (2.0 * pixel.x / std::max(width_px, 1) - 1.0) * half * aspect;
-  const double y = (1.0 - 2.0 * pixel.y / std::max(height_px, 1)) * half;
+  const double x = ((2.0 * pixel.x / std::max(width_px, 1) - 1.0) * aspect - 2.0 * shift.x) * half;
+  const double y = (1.0 - 2.0 * pixel.y / std::max(height_px, 1) - 2.0 * shift.y) * half;
   return {eye(), unit(forward() + x * right() + y * up())};
 }
 

@@ -19,15 +19,15 @@ void finger_outline(const OverlayCanvas& c, ImVec2 pad, float px_per_m) {
   const auto at = [&](float x_mm, float up_mm) {
     return ImVec2(pad.x + 1e-3f * x_mm * px_per_m, pad.y - kFingerHeight * 1e-3f * up_mm * px_per_m);
   };
-  c.list.PathLineTo(at(-27.0f, 1.2f));
+  c.list.PathLineTo(at(-33.0f, 1.2f));
   c.list.PathBezierCubicCurveTo(at(-10.0f, -0.6f), at(2.0f, -0.6f), at(9.0f, 0.9f), 24);
   c.list.PathBezierCubicCurveTo(at(15.5f, 2.4f), at(17.0f, 8.4f), at(12.5f, 11.4f), 24);
-  c.list.PathBezierCubicCurveTo(at(8.5f, 14.0f), at(-6.0f, 14.0f), at(-27.0f, 14.6f), 24);
+  c.list.PathBezierCubicCurveTo(at(8.5f, 14.0f), at(-6.0f, 14.0f), at(-33.0f, 14.6f), 24);
   c.list.PathFillConvex(c.ink(c.colours.finger, 0.30f));
-  c.list.PathLineTo(at(-27.0f, 1.2f));
+  c.list.PathLineTo(at(-33.0f, 1.2f));
   c.list.PathBezierCubicCurveTo(at(-10.0f, -0.6f), at(2.0f, -0.6f), at(9.0f, 0.9f), 24);
   c.list.PathBezierCubicCurveTo(at(15.5f, 2.4f), at(17.0f, 8.4f), at(12.5f, 11.4f), 24);
-  c.list.PathBezierCubicCurveTo(at(8.5f, 14.0f), at(-6.0f, 14.0f), at(-27.0f, 14.6f), 24);
+  c.list.PathBezierCubicCurveTo(at(8.5f, 14.0f), at(-6.0f, 14.0f), at(-33.0f, 14.6f), 24);
   c.list.PathStroke(c.ink(c.colours.finger, 0.9f), 0, 1.4f);
   c.list.PathLineTo(at(14.6f, 5.2f));  // the nail
   c.list.PathBezierCubicCurveTo(at(16.4f, 8.6f), at(13.0f, 11.8f), at(6.5f, 13.2f), 16);
@@ -47,7 +47,7 @@ void number_row(const OverlayCanvas& c, ImVec2 at, float right, Rgba colour, con
 
 void draw_cld_inset(const OverlayCanvas& c, ImVec2 corner, double travel_m, const double* commanded_m,
                     const double* measured_m) {
-  const float width = 12.0f * c.em, height = 8.9f * c.em, pad = 0.7f * c.em;
+  const float width = kInsetWidth * c.em, height = kInsetHeight * c.em, pad = 0.7f * c.em;
   const ImVec2 min{corner.x - width, corner.y - height};
   c.card(min, corner);
   c.list.PushClipRect(min, corner, true);

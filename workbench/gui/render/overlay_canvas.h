@@ -41,6 +41,8 @@ struct OverlayCanvas {
   }
 };
 
+inline constexpr float kInsetWidth = 14.0f, kInsetHeight = 8.9f;   ///< em
+
 /// Fingerpad seen from the side with the roller where it is; its card's lower right corner at `corner`.
 void draw_cld_inset(const OverlayCanvas& canvas, ImVec2 corner, double travel_m, const double* commanded_m,
                     const double* measured_m);

@@ -12,6 +12,12 @@
 namespace tangent {
 namespace {
 
+// em: from the picture's edges, between the cards, and the cards.
+constexpr float kLeft = 0.6f, kBottom = 0.7f, kGap = 0.5f;
+constexpr float kAxesWidth = 14.0f, kBarWidth = 9.0f;
+constexpr float kAxesHeight = 4.6f, kBarHeight = 3.6f, kBothHeight = 6.4f;
+static_assert(kInsetWidth == kAxesWidth, "the two cards stand on each other");
+
 void draw_labels(const OverlayCanvas& c, double pixels_per_point, std::span<const SceneLabel> labels) {
   for (const SceneLabel& label : labels) {
     const ImVec2 size = c.text_size(c.number_font, label.text);
@@ -100,6 +106,15 @@ void draw_iteration_bar(const OverlayCanvas& c, ImVec2 at, const SceneFrame& fra
 
 }  // namespace
 
+Vec2 overlay_cards(const SceneToggles& toggles, float em) {
+  const bool bar = toggles.colour_bar && toggles.planes;
+  float height = kBottom;
+  if (toggles.cld_inset) height += kInsetHeight + kGap;
+  if (toggles.axes || bar) height += (!bar ? kAxesHeight : toggles.axes ? kBothHeight : kBarHeight) + kGap;
+  if (height == kBottom) return Vec2(0.0);
+  return {static_cast<double>((kLeft + (toggles.cld_inset || toggles.axes ? kAxesWidth : kBarWidth) + kGap) * em), static_cast<double>(height * em)};
+}
+
 void draw_scene_overlay(ImDrawList& draw_list, const ImVec2& top_left, double pixels_per_point,
                         const SceneRenderer& renderer, const SceneFrame& frame, const Camera& camera, const ThemeFonts& fonts) {
   const float per_point = static_cast<float>(pixels_per_point);
@@ -111,13 +126,21 @@ void draw_scene_overlay(ImDrawList& draw_list, const ImVec2& top_left, double pi
   draw_list.PushClipRect(top_left, {top_left.x + size.x, top_left.y + size.y}, true);
   draw_labels(canvas, pixels_per_point, renderer.labels());
   const float em = canvas.em;
-  const ImVec2 lower_left{top_left.x + 0.9f * em, top_left.y + size.y - 0.9f * em};
+  ImVec2 lower_left{top_left.x + kLeft * em, top_left.y + size.y - kBottom * em};
+  // The inset stands below: the card on top of it grows and shrinks with the tick.
+  if (frame.toggles.cld_inset && (frame.cld_commanded_m || frame.cld_measured_m)) {
+    draw_cld_inset(canvas, {lower_left.x + kInsetWidth * em, lower_left.y}, frame.display_travel_m,
+                   frame.cld_commanded_m ? &*frame.cld_commanded_m : nullptr,
+                   frame.cld_measured_m ? &*frame.cld_measured_m : nullptr);
+    lower_left.y -= (kInsetHeight + kGap) * em;
+  }
   const bool bar = frame.toggles.colour_bar && frame.toggles.planes && frame.trace.size() > 1;
   if (frame.toggles.axes || bar) {  // behind them, so that they read on any facet
-    const ImVec2 card_size{frame.toggles.axes ? 14.0f * em : 9.0f * em, bar ? (frame.toggles.axes ? 6.4f : 3.6f) * em : 4.6f * em};
-    canvas.card({lower_left.x - 0.3f * em, lower_left.y + 0.2f * em - card_size.y},
-                {lower_left.x - 0.3f * em + card_size.x, lower_left.y + 0.2f * em});
+    const float width = frame.toggles.axes ? kAxesWidth : kBarWidth;
+    const float height = !bar ? kAxesHeight : frame.toggles.axes ? kBothHeight : kBarHeight;
+    canvas.card({lower_left.x, lower_left.y - height * em}, {lower_left.x + width * em, lower_left.y});
   }
+  lower_left = {lower_left.x + 0.3f * em, lower_left.y - 0.2f * em};
   float left = lower_left.x + 0.4f * em;
   if (frame.toggles.axes) {
     draw_triad(canvas, {lower_left.x + 2.1f * em, lower_left.y - 2.1f * em}, camera);
@@ -127,11 +150,6 @@ void draw_scene_overlay(ImDrawList& draw_list, const ImVec2& top_left, double pi
   }
   if (bar) {
     draw_iteration_bar(canvas, {left, lower_left.y - (frame.toggles.axes ? 4.0f : 1.4f) * em}, frame);
-  }
-  if (frame.toggles.cld_inset && (frame.cld_commanded_m || frame.cld_measured_m)) {
-    draw_cld_inset(canvas, {top_left.x + size.x - 0.9f * em, lower_left.y + 0.2f * em}, frame.display_travel_m,
-                   frame.cld_commanded_m ? &*frame.cld_commanded_m : nullptr,
-                   frame.cld_measured_m ? &*frame.cld_measured_m : nullptr);
   }
   draw_list.PopClipRect();
 }

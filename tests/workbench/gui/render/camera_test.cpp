@@ -5,6 +5,8 @@
 
 #include <doctest/doctest.h>
 
+#include <array>
+
 using namespace tangent;
 
 namespace {
@@ -31,6 +33,7 @@ TEST_CASE("a pixel's ray passes through the point that projects to it") {
   camera.frame(cube_box({1.0, -2.0, 0.5}, 0.04));
   for (const bool y_up : {false, true}) {
     camera.y_up = y_up;
+    camera.shift = y_up ? Vec2(0.2, -0.1) : Vec2(0.0);
     for (const Vec3& p : {Vec3(1.01, -2.02, 0.53), Vec3(0.97, -1.99, 0.48), Vec3(1.0, -2.0, 0.5)}) {
       const Vec3 pixel = camera.project(p, kWidth, kHeight);
       CHECK(pixel.z > 0.0);
@@ -58,13 +61,37 @@ TEST_CASE("up is up on screen: +z, or +y for meshes that stand on y") {
   CHECK(camera.project({0, 0.02, 0}, kWidth, kHeight).y < 290.0);
 }
 
+TEST_CASE("a shifted camera sees its target there, whatever its direction, and zooms about the pointer") {
+  Camera camera;
+  camera.frame(cube_box(Vec3(0.0), 0.04), 1.0, ViewRoom{.width = 0.5, .height = 0.5, .shift = {0.25, 0.1}});
+  for (const double by : {0.0, 0.5, 1.1}) {
+    camera.orbit(by, 0.3 * by);
+    const Vec3 target = camera.project(camera.target, kWidth, kHeight);
+    CHECK(target.x == doctest::Approx(400.0 + 0.25 * kHeight));
+    CHECK(target.y == doctest::Approx(300.0 - 0.1 * kHeight));
+  }
+  const Vec2 pixel(620.0, 180.0);
+  const Ray before = camera.ray_through(pixel, kWidth, kHeight);
+  const Vec3 there = before.origin + before.direction * (camera.distance_m / glm::dot(before.direction, camera.forward()));
+  camera.zoom_at(0.7, pixel, kWidth, kHeight);
+  CHECK(glm::length(Vec2(camera.project(there, kWidth, kHeight)) - pixel) < 1e-6);
+}
+
+TEST_CASE("of several rooms the one that shows most is framed in, the first of equals") {
+  Camera camera;
+  const ViewRoom small{.width = 0.4, .height = 0.4, .shift = {0.3, 0.3}}, large{.width = 0.8, .height = 0.8, .shift = {0.1, 0.1}},
+      same{.width = 0.8, .height = 0.8, .shift = {-0.1, 0.1}};
+  camera.frame(cube_box(Vec3(0.0), 0.04), 1.0, std::array{small, large, same});
+  CHECK(camera.shift == large.shift);
+}
+
 TEST_CASE("framing shows every corner of the box and wastes little of the view") {
   for (const double size : {1e-6, 0.04, 1e3}) {
     for (const double yaw : {-2.0, 0.0, 0.7}) {
       Camera camera;
       camera.yaw_rad = yaw;
       const Box box = cube_box({5.0 * size, -size, 2.0 * size}, size);
-      camera.frame(box, 1.0, static_cast<double>(kWidth) / kHeight);
+      camera.frame(box, 1.0, ViewRoom{.width = static_cast<double>(kWidth) / kHeight});
       double furthest = 0.0;
       for (int corner = 0; corner < 8; ++corner) {
         const Vec3 p = box.centre() + size * Vec3(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
