@@ -52,6 +52,19 @@ struct DisplaySettings {
   bool operator==(const DisplaySettings&) const = default;
 };
 
+/// The position loop in the display's own controller, and what it lets through:
+///   u = p (weight target - x) + i integral(target - x) - d x'
+struct ControllerSettings {
+  double p_per_s2 = 0.0;                ///< 0: all four gains are the device's own
+  double i_per_s3 = 0.0;
+  double d_per_s = 0.0;
+  double target_weight = 1.0;           ///< of the target in the proportional part, 0 to 1
+  double lowest_m = -25e-3, highest_m = 25e-3;   ///< of targets; the display's travel bounds them as well
+  double fastest_m_per_s = 0.0;         ///< of the target; 0: as fast as the drive goes
+  double largest_current_a = 0.0;       ///< of the motor; 0: the device's own
+  bool operator==(const ControllerSettings&) const = default;
+};
+
 struct SafetySettings {
   double unconverged_hold_s = 5e-3;     ///< last converged plane renders this long ...
   double unconverged_ramp_s = 5e-3;     ///< ... then force and display ramp to zero over this long
@@ -63,6 +76,7 @@ struct Preset {
   Finger finger;
   ForceSettings force;
   DisplaySettings display;
+  ControllerSettings controller;
   SafetySettings safety;
   bool operator==(const Preset&) const = default;
 };

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/base/result.h"
+#include "core/preset.h"
 #include "devices/device_state.h"
 #include "devices/fault_injection.h"
 #include "devices/link_report.h"
@@ -22,6 +23,7 @@ struct DisplayCapabilities {
   double rate_hz = 0.0;
   bool measures_position = true;     ///< false: open loop; samples tell where it was sent
   double firmware_timeout_s = 0.0;   ///< without a command its firmware stops the drive; 0: it has no time-out
+  bool has_controller = false;       ///< it takes gains, speed and current: see set_controller
 };
 
 struct DisplayCommand {
@@ -50,6 +52,10 @@ class ContactDisplay {
   /// Called by the servo thread, once a tick; `dt_s` > 0. No allocation, lock, exception or log. Failures show in
   /// the sample's state.
   virtual DisplaySample exchange(const DisplayCommand& command, double dt_s) noexcept = 0;
+
+  /// Gains and limits of its position loop, in force from the next exchange on. Servo thread. Passed over by a display that
+  /// has no controller.
+  virtual void set_controller(const ControllerSettings& settings) noexcept { static_cast<void>(settings); }
 
   /// Any thread. False: there is no cable to report on.
   virtual bool report(LinkReport& out) const { static_cast<void>(out); return false; }

@@ -228,7 +228,7 @@ void SafetyGate::pass_display(const GateInput& input, GateOutput& out) noexcept 
   if (live()) {
     double end = 0.5 * limits_.display_travel_m;
     if (input.display_travel_m > 0.0) end = std::min(end, 0.5 * input.display_travel_m);
-    const double target = std::clamp(input.display_m, -end, end);
+    const double target = std::clamp(input.display_m, std::clamp(input.display_lowest_m, -end, end), std::clamp(input.display_highest_m, -end, end));
     if (target != input.display_m && input.display != DeviceState::absent) note(GateAction::display_clamped, out);
     last_display_m_ = target;
   }

@@ -91,6 +91,7 @@ struct GateInput {
   double display_measured_m = 0.0;    ///< of the roller
   double display_age_s = 0.0;
   double display_travel_m = 0.0;      ///< of the display itself; less than the limit counts, 0: not known
+  double display_lowest_m = -1.0, display_highest_m = 1.0;   ///< of targets, asked for; the travel counts too
   bool display_measures = false;      ///< display_measured_m comes from a sensor
 };
 

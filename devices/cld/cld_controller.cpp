@@ -43,7 +43,7 @@ UsbLinkOptions cld_link_options() {
 CldController::CldController(const CldControllerOptions& options)
     : options_(options),
       capabilities_{.name = "CLD controller", .travel_m = 20e-3, .resolution_m = 0.8e-6, .bandwidth_hz = 12.0, .rate_hz = 1000.0,
-                    .firmware_timeout_s = 50e-3},
+                    .firmware_timeout_s = 50e-3, .has_controller = true},
       link_(options.link, *this, options.tap) {}
 
 Status CldController::open() {
@@ -70,6 +70,22 @@ void CldController::put_frame(const CldFrame& frame, std::int64_t now_ns) noexce
   std::copy_n(bytes.begin(), size, packet_.begin() + static_cast<std::ptrdiff_t>(packet_held_));
   packet_held_ += size;
   sent_ns_[frame.sequence & 255u] = now_ns;
+}
+
+void CldController::put_settings(std::int64_t now_ns) noexcept {
+  const auto whole = [](double value, double unit, double most) { return std::round(std::clamp(value / unit, -most, most)); };
+  const ControllerSettings& s = settings_;
+  put_frame(to_frame(CldWireGains{.p_per_s2 = static_cast<std::uint32_t>(whole(s.p_per_s2, 1.0, 4e9)),
+                                  .i_per_s3 = static_cast<std::uint32_t>(whole(s.i_per_s3, 1.0, 4e9)),
+                                  .d_milli_per_s = static_cast<std::int32_t>(whole(s.d_per_s, 1e-3, 2e9)),
+                                  .target_weight_per_65535 = static_cast<std::uint16_t>(whole(s.target_weight, 1.0 / 65535.0, 65535.0))},
+                     next_sequence_++), now_ns);
+  put_frame(to_frame(CldWireLimits{.lowest_nm = static_cast<std::int32_t>(whole(s.lowest_m, 1e-9, 2e9)),
+                                   .highest_nm = static_cast<std::int32_t>(whole(s.highest_m, 1e-9, 2e9)),
+                                   .fastest_um_per_s = static_cast<std::uint32_t>(whole(s.fastest_m_per_s, 1e-6, 4e9)),
+                                   .largest_current_ma = static_cast<std::uint16_t>(whole(s.largest_current_a, 1e-3, 65535.0))},
+                     next_sequence_++), now_ns);
+  settings_unsent_ = false;
 }
 
 void CldController::flush() noexcept {
@@ -100,6 +116,8 @@ void CldController::on_turn(UsbLink&, std::int64_t now_ns) noexcept {
     }
     if (now_ns - opened_ns_ > to_ns(options_.info_timeout_s)) unfit_connection_.store(connection, kRelaxed);
   }
+  if (new_settings_.take(settings_)) settings_unsent_ = true;
+  if (settings_unsent_ && info_connection_.load(kRelaxed) == connection && link_.can_send()) put_settings(now_ns);
   Outgoing out;
   // What a busy cable has no room for stays in its queue, in order.
   while (link_.can_send() && commands_.pop(out)) {
@@ -149,11 +167,7 @@ void CldController::take_info(const CldFrame& frame) noexcept {
   info_serial_.store(info->serial, kRelaxed);
   info_firmware_.store(info->firmware_version, kRelaxed);
   unfit_connection_.store(0, kRelaxed);
-  if (info_connection_.load(kRelaxed) != connection) {
-    const std::int64_t now = usb_now_ns();
-    if (gains_) put_frame(to_frame(*gains_, next_sequence_++), now);
-    if (limits_) put_frame(to_frame(*limits_, next_sequence_++), now);
-  }
+  if (info_connection_.load(kRelaxed) != connection && !(settings_ == ControllerSettings{})) settings_unsent_ = true;
   info_connection_.store(connection, std::memory_order_release);
 }
 
@@ -223,6 +237,13 @@ void CldController::request(DeviceRequest request, DeviceState state) noexcept {
     homed_connection_ = 0;
     send(CldType::clear_fault);
   }
+}
+
+void CldController::set_controller(const ControllerSettings& settings) noexcept {
+  if (settings == last_settings_) return;
+  last_settings_ = settings;
+  new_settings_.put(settings);
+  link_.wake();
 }
 
 DisplaySample CldController::exchange(const DisplayCommand& command, double) noexcept {

@@ -7,6 +7,7 @@
 // this host asked for: a device that says ready without having been homed since it was plugged in is not.
 #pragma once
 
+#include "devices/base/mailbox.h"
 #include "devices/base/ring.h"
 #include "devices/cld/cld_messages.h"
 #include "devices/contact_display.h"
@@ -40,9 +41,8 @@ class CldController final : public ContactDisplay, private UsbLinkHandler {
   DisplaySample exchange(const DisplayCommand& command, double dt_s) noexcept override;
   bool report(LinkReport& out) const override;
 
-  /// Any thread but the servo's while it runs: sent when the device connects.
-  void set_gains(const CldWireGains& gains) { gains_ = gains; }
-  void set_limits(const CldWireLimits& limits) { limits_ = limits; }
+  /// Sent now if they are others than before, and to every device that connects if they are not the program's own.
+  void set_controller(const ControllerSettings& settings) noexcept override;
 
  private:
   struct Outgoing {
@@ -65,6 +65,7 @@ class CldController final : public ContactDisplay, private UsbLinkHandler {
   void take_info(const CldFrame& frame) noexcept;
   void take_telemetry(const CldFrame& frame, std::int64_t now_ns) noexcept;
   void put_frame(const CldFrame& frame, std::int64_t now_ns) noexcept;
+  void put_settings(std::int64_t now_ns) noexcept;
   void flush() noexcept;
 
   // Servo thread.
@@ -77,6 +78,7 @@ class CldController final : public ContactDisplay, private UsbLinkHandler {
   UsbLink link_;
   Ring<Outgoing> commands_{256};
   Ring<Heard> telemetry_{1024};
+  Mailbox<ControllerSettings> new_settings_;    ///< servo to link
 
   // Written by the link's thread, read by any.
   std::atomic<std::uint32_t> connection_{0};    ///< odd while connected, one more with every change
@@ -98,10 +100,11 @@ class CldController final : public ContactDisplay, private UsbLinkHandler {
   std::size_t packet_held_ = 0;
   std::int64_t last_telemetry_ns_ = 0, opened_ns_ = 0, next_hello_ns_ = 0;
   bool heard_any_ = false;
-  std::optional<CldWireGains> gains_;
-  std::optional<CldWireLimits> limits_;
+  ControllerSettings settings_;
+  bool settings_unsent_ = false;
 
   // Servo thread.
+  ControllerSettings last_settings_;
   bool opened_ = false;
   Heard newest_;
   std::uint32_t homed_connection_ = 0, lost_connection_ = 0;

@@ -26,25 +26,42 @@ CldMechanism::CldMechanism(const CldMechanismOptions& options)
 
 double CldMechanism::encoder_m() const noexcept { return rounded(position_, options_.step_m); }
 
+// At rest on its target the proportional part is -kp (1 - b) x, and the integral holds it up: it changes with them.
+void CldMechanism::set_gains(const CldGains& gains) noexcept {
+  const auto held_up = [this] { return gains_.p_per_s2 * (1.0 - gains_.target_weight) * encoder_m(); };
+  const double before = held_up();
+  gains_ = gains.p_per_s2 > 0.0 ? gains : gains_for(options_.bandwidth_hz, options_.drag_per_s);
+  integral_ += held_up() - before;
+}
+
+double CldMechanism::limited(double target_m) const noexcept {
+  const double end = 0.5 * options_.travel_m;
+  const double target = std::clamp(std::clamp(target_m, -end, end), std::max(limits_.lowest_m, -end), std::min(limits_.highest_m, end));
+  if (limits_.fastest_m_per_s <= 0.0) return target;
+  const double most = limits_.fastest_m_per_s * kPeriod_s;
+  return std::clamp(target, target_ - most, target_ + most);
+}
+
 void CldMechanism::control(double target_m) noexcept { control(target_m, encoder_m()); }
 
 void CldMechanism::control(double target_m, double reading_m) noexcept {
-  const double end = 0.5 * options_.travel_m;
-  const double target = rounded(std::clamp(target_m, -end, end), options_.step_m);
+  target_ = limited(target_m);
+  const double target = rounded(target_, options_.step_m);
   const double velocity = (reading_m - last_reading_) / kPeriod_s;
   last_reading_ = reading_m;
   const double wanted = gains_.p_per_s2 * (gains_.target_weight * target - reading_m) + integral_ - gains_.d_per_s * velocity;
-  const double most = options_.full_acceleration_m_per_s2;
+  const double full = options_.full_acceleration_m_per_s2;
+  const double most = limits_.largest_current_a > 0.0 ? full * std::min(1.0, limits_.largest_current_a / options_.full_current_a) : full;
   const double got = std::clamp(wanted, -most, most);
   // The integral rests while the current is at its limit.
   if (got == wanted) integral_ += gains_.i_per_s3 * (target - reading_m) * kPeriod_s;
-  current_ = got / most;
+  current_ = got / full;
   move(got);
 }
 
 void CldMechanism::hold() noexcept {
   velocity_ = current_ = 0.0;
-  last_reading_ = encoder_m();
+  target_ = last_reading_ = encoder_m();
   // Goes on smoothly from here when control resumes.
   integral_ = gains_.p_per_s2 * (1.0 - gains_.target_weight) * last_reading_;
 }

@@ -5,6 +5,7 @@
 //
 //   motor      x'' = a u - c x'        u: current, -1 to 1 of the largest
 //   encoder    x in steps; the roller follows x through the backlash
+//   target     within the limits, no faster than they say
 //   control    u = (kp (b target - encoder) + ki integral(e) - kd x') / a,  e = target - encoder,  x' from two encoder readings
 // The three gains put the poles of the loop at w (-1 +- i) / sqrt(2) and w / 8, where w = 2 pi bandwidth: the first two
 // are -3 dB at the bandwidth, the third, slow one takes out what friction leaves.
@@ -18,6 +19,7 @@ struct CldMechanismOptions {
   double step_m = 0.8e-6;           ///< of drive and encoder; 0: exact
   double backlash_m = 20e-6;        ///< between drive and roller; assumed, as makers rarely say
   double full_acceleration_m_per_s2 = 200.0;   ///< a: of the free drive at the largest current
+  double full_current_a = 0.5;      ///< the largest the motor takes
   double drag_per_s = 20.0;         ///< c
 };
 
@@ -27,6 +29,13 @@ struct CldGains {
   double i_per_s3 = 0.0;
   double d_per_s = 0.0;
   double target_weight = 1.0;   ///< of the target in the proportional part, 0 to 1
+};
+
+/// Of targets and current; within the travel and what the motor takes.
+struct CldLimits {
+  double lowest_m = -1.0, highest_m = 1.0;
+  double fastest_m_per_s = 0.0;     ///< of the target; 0: any
+  double largest_current_a = 0.0;   ///< 0: the motor's
 };
 
 CldGains gains_for(double bandwidth_hz, double drag_per_s);
@@ -43,7 +52,9 @@ class CldMechanism {
   void control(double target_m, double reading_m) noexcept;
   /// One period without current; the drive brakes at once (a screw does not run on).
   void hold() noexcept;
-  void set_gains(const CldGains& gains) noexcept { gains_ = gains; }
+  /// p of 0: those of the bandwidth. A drive at rest stays at rest.
+  void set_gains(const CldGains& gains) noexcept;
+  void set_limits(const CldLimits& limits) noexcept { limits_ = limits; }
 
   const CldMechanismOptions& options() const { return options_; }
   const CldGains& gains() const { return gains_; }
@@ -54,9 +65,12 @@ class CldMechanism {
 
  private:
   void move(double acceleration) noexcept;
+  double limited(double target_m) const noexcept;
 
   CldMechanismOptions options_;
   CldGains gains_;
+  CldLimits limits_;
+  double target_ = 0.0;             ///< last, after the limits
   double position_ = 0.0, velocity_ = 0.0, roller_ = 0.0, current_ = 0.0;
   double integral_ = 0.0, last_reading_ = 0.0;
 };

@@ -15,13 +15,19 @@ DisplayCapabilities describe(const SimulatedDisplayOptions& options) {
           .resolution_m = options.mechanism.step_m,
           .bandwidth_hz = options.mechanism.bandwidth_hz,
           .rate_hz = 1.0 / CldMechanism::kPeriod_s,
-          .firmware_timeout_s = 50e-3};
+          .firmware_timeout_s = 50e-3,
+          .has_controller = true};
 }
 
 }  // namespace
 
 SimulatedContactDisplay::SimulatedContactDisplay(const SimulatedDisplayOptions& options)
     : options_(options), capabilities_(describe(options)), life_(options.homing_s), random_(options.seed), mechanism_(options.mechanism) {}
+
+void SimulatedContactDisplay::set_controller(const ControllerSettings& s) noexcept {
+  mechanism_.set_gains({s.p_per_s2, s.i_per_s3, s.d_per_s, s.target_weight});
+  mechanism_.set_limits({s.lowest_m, s.highest_m, s.fastest_m_per_s, s.largest_current_a});
+}
 
 DisplaySample SimulatedContactDisplay::measure(double dt_s) noexcept {
   age_s_ += dt_s;

@@ -28,6 +28,7 @@ class SimulatedContactDisplay final : public ContactDisplay {
   void close() override { life_.close(); }
   /// The PID runs at 1 kHz whatever dt_s is: as often as whole milliseconds have passed.
   DisplaySample exchange(const DisplayCommand& command, double dt_s) noexcept override;
+  void set_controller(const ControllerSettings& settings) noexcept override;
   bool inject(const FaultInjection& fault) noexcept override {
     life_.inject(fault);
     return true;

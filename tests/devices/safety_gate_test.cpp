@@ -168,6 +168,19 @@ TEST_CASE("a missing display is no fault") {
   CHECK(out.actions == 0);
 }
 
+TEST_CASE("the display's target keeps to the bounds asked for, which can't widen its travel") {
+  SafetyGate gate = armed_gate();
+  GateInput input = ready_input(Vec3(0.0), 8e-3);
+  input.display_lowest_m = -5.0;
+  input.display_highest_m = 4e-3;
+  CHECK(gate.pass(input, kDt).display_m == 4e-3);
+  CHECK(count(gate, GateAction::display_clamped) == 1);
+  input.display_m = -0.5;
+  CHECK(gate.pass(input, kDt).display_m == -0.01);
+  input.display_m = kNan;
+  CHECK(gate.pass(input, kDt).fault == GateFault::display_not_finite);
+}
+
 TEST_CASE("the display's target is clamped to its travel, and holds while stopped") {
   SafetyGate gate = armed_gate();
   CHECK(gate.pass(ready_input(Vec3(0.0), 0.5), kDt).display_m == 0.01);

@@ -89,7 +89,7 @@ std::vector<std::filesystem::path> list_presets(const std::filesystem::path& fol
 
 DisplayUnit display_unit(const PresetKey& key) {
   if (key.unit == "m") {
-    const double typical = key.logarithmic ? key.default_value() : key.slider_max;
+    const double typical = key.logarithmic ? key.default_value() : std::max(key.slider_max, -key.slider_min);
     return typical <= 1.0001e-3 ? DisplayUnit{"\u00b5m", kMicrometre} : DisplayUnit{"mm", kMillimetre};
   }
   if (key.unit == "s") return {"ms", 1e-3};

@@ -57,11 +57,13 @@ constexpr PresetKey semi_axis(std::string_view key, std::string_view label, std:
 using S = SolverSettings;
 using O = ForceSettings;
 using D = DisplaySettings;
+using C = ControllerSettings;
 using G = SafetySettings;
 constexpr auto kSolver = &Preset::solver;
 constexpr auto kFinger = &Preset::finger;
 constexpr auto kForce = &Preset::force;
 constexpr auto kDisplay = &Preset::display;
+constexpr auto kController = &Preset::controller;
 constexpr auto kSafety = &Preset::safety;
 
 constexpr std::array kKeys{
@@ -154,6 +156,42 @@ constexpr std::array kKeys{
     "Which contact the display shows: the method's own, none (held at the centre), the facets', or the smooth "
     "surface's."),
 
+  // controller
+  PresetKey{.table = "controller", .key = "p_per_s2", .label = "Gain P", .unit = "1/s2",
+    .doc = "Of the position loop in the display's controller: acceleration per distance from the target. 0: all four gains are "
+           "the device's own.",
+    .min = 0.0, .max = 1e7, .slider_min = 0.0, .slider_max = 20000.0, .get = read<kController, &C::p_per_s2>,
+    .set = write<kController, &C::p_per_s2>},
+  PresetKey{.table = "controller", .key = "i_per_s3", .label = "Gain I", .unit = "1/s3",
+    .doc = "Of the position loop: acceleration per distance from the target and time. Takes out what friction leaves.",
+    .min = 0.0, .max = 1e9, .slider_min = 0.0, .slider_max = 200000.0, .get = read<kController, &C::i_per_s3>,
+    .set = write<kController, &C::i_per_s3>},
+  PresetKey{.table = "controller", .key = "d_per_s", .label = "Gain D", .unit = "1/s",
+    .doc = "Of the position loop: acceleration per speed, against it. Negative where the drive's own drag is more than wanted.",
+    .min = -1000.0, .max = 10000.0, .slider_min = 0.0, .slider_max = 300.0, .get = read<kController, &C::d_per_s>,
+    .set = write<kController, &C::d_per_s>},
+  PresetKey{.table = "controller", .key = "target_weight", .label = "Target weight", .unit = "1",
+    .doc = "Of the target in the proportional part. Less than 1 takes away overshoot; at rest the target is reached all the same.",
+    .min = 0.0, .max = 1.0, .slider_min = 0.0, .slider_max = 1.0, .get = read<kController, &C::target_weight>,
+    .set = write<kController, &C::target_weight>},
+  PresetKey{.table = "controller", .key = "lowest_m", .label = "Lowest target", .unit = "m",
+    .doc = "Proximal end of what the display is sent. Its travel bounds targets as well.",
+    .min = -0.1, .max = 0.0, .slider_min = -0.025, .slider_max = 0.0, .get = read<kController, &C::lowest_m>,
+    .set = write<kController, &C::lowest_m>},
+  PresetKey{.table = "controller", .key = "highest_m", .label = "Highest target", .unit = "m",
+    .doc = "Distal end of what the display is sent. Its travel bounds targets as well.",
+    .min = 0.0, .max = 0.1, .slider_min = 0.0, .slider_max = 0.025, .get = read<kController, &C::highest_m>,
+    .set = write<kController, &C::highest_m>},
+  PresetKey{.table = "controller", .key = "fastest_m_per_s", .label = "Fastest target", .unit = "m/s",
+    .doc = "The controller's target moves no faster. 0: as fast as the drive goes. Below 0.1 mm/s the safety gate takes the "
+           "roller for stuck.",
+    .min = 0.0, .max = 10.0, .slider_min = 0.0, .slider_max = 0.5, .get = read<kController, &C::fastest_m_per_s>,
+    .set = write<kController, &C::fastest_m_per_s>},
+  PresetKey{.table = "controller", .key = "largest_current_a", .label = "Largest current", .unit = "A",
+    .doc = "Of the display's motor. 0: the device's own; the simulated drive's is 0.5 A.",
+    .min = 0.0, .max = 65.0, .slider_min = 0.0, .slider_max = 1.0, .get = read<kController, &C::largest_current_a>,
+    .set = write<kController, &C::largest_current_a>},
+
   // safety
   PresetKey{.table = "safety", .key = "unconverged_hold_s", .label = "Hold", .unit = "s",
     .doc = "An unconverged tick renders the last converged plane for this long.",
@@ -165,7 +203,7 @@ constexpr std::array kKeys{
     .set = write<kSafety, &G::unconverged_ramp_s>},
 };
 
-constexpr std::array<std::string_view, 6> kTables{"about", "solver", "finger", "force", "display", "safety"};
+constexpr std::array<std::string_view, 7> kTables{"about", "solver", "finger", "force", "display", "controller", "safety"};
 
 }  // namespace
 

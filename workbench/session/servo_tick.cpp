@@ -25,12 +25,13 @@ ServoTick::ServoTick(DeviceSet& devices, ServoChannels& channels, ServoStatistic
   force_sample_.orientation = start.orientation;
   if (devices_.force && devices_.force->hand()) devices_.force->hand()->place(start);
   place_workspace();
+  if (devices_.display) devices_.display->set_controller(preset_.preset.controller);
 }
 
 ServoTick::~ServoTick() { delete scene_; }
 
 void ServoTick::take_letters() noexcept {
-  channels_.presets.take(preset_);
+  if (channels_.presets.take(preset_) && devices_.display) devices_.display->set_controller(preset_.preset.controller);
   HandCommand hand;
   if (channels_.hand.take(hand)) hand_.command(hand);
   FaultLetter fault;
@@ -127,6 +128,8 @@ void ServoTick::gate(double dt_s, ServoRecord& record) noexcept {
                                      .display_measured_m = display_sample_.position_m,
                                      .display_age_s = display_sample_.age_s,
                                      .display_travel_m = display_sample_.travel_m,
+                                     .display_lowest_m = preset_.preset.controller.lowest_m,
+                                     .display_highest_m = preset_.preset.controller.highest_m,
                                      .display_measures = devices_.display && devices_.display->capabilities().measures_position},
                                     dt_s);
   force_command_.force_n = out.force_n;

@@ -99,3 +99,46 @@ TEST_CASE("held, the drive stops at once, and goes on without a jerk") {
     CHECK(std::abs(cld.drive_m() - at) < 1e-9);
   }
 }
+
+TEST_CASE("targets keep within the limits and move no faster than they say") {
+  CldMechanism cld(ideal());
+  cld.set_limits({.lowest_m = -2e-3, .highest_m = 4e-3, .fastest_m_per_s = 0.01});
+  // 10 mm/s for 200 ms, behind by what a ramp is behind.
+  for (int i = 0; i < 200; ++i) cld.control(9e-3);
+  CHECK(cld.drive_m() < 2e-3);
+  CHECK(cld.drive_m() > 1.6e-3);
+  for (int i = 0; i < 2000; ++i) cld.control(9e-3);
+  CHECK(cld.drive_m() == doctest::Approx(4e-3).epsilon(1e-6));
+  for (int i = 0; i < 2000; ++i) cld.control(-9e-3);
+  CHECK(cld.drive_m() == doctest::Approx(-2e-3).epsilon(1e-6));
+}
+
+TEST_CASE("a tenth of the motor's current gives a tenth of the acceleration") {
+  const auto moved = [](double current_a) {
+    CldMechanism cld(ideal());
+    cld.set_limits({.largest_current_a = current_a});
+    for (int i = 0; i < 5; ++i) cld.control(9e-3);
+    return cld.drive_m();
+  };
+  // 60 m/s^2 are asked for: 200 are there, then 20.
+  CHECK(moved(0.0) == moved(0.5));
+  CHECK(moved(5.0) == moved(0.5));
+  CHECK(moved(0.05) < 0.5 * moved(0.5));
+  CHECK(moved(0.05) == doctest::Approx(20.0 * 0.5 * 25e-6).epsilon(0.06));
+}
+
+TEST_CASE("gains set under way don't jolt a drive at rest, and none are the bandwidth's own") {
+  const CldMechanism fresh(ideal());
+  CldMechanism cld(ideal());
+  for (int i = 0; i < 3000; ++i) cld.control(5e-3);
+  const CldGains slow = gains_for(4.0, ideal().drag_per_s);
+  cld.set_gains(slow);
+  for (int i = 0; i < 300; ++i) {
+    cld.control(5e-3);
+    CHECK(std::abs(cld.drive_m() - 5e-3) < 1e-9);
+  }
+  CHECK(cld.gains().p_per_s2 == slow.p_per_s2);
+  cld.set_gains({});
+  CHECK(cld.gains().p_per_s2 == fresh.gains().p_per_s2);
+  CHECK(cld.gains().target_weight == fresh.gains().target_weight);
+}

@@ -94,6 +94,31 @@ TEST_CASE("the CLD controller is found, asked what it is, homed and followed") {
   CHECK(b.reach(DeviceState::firmware));   // knows its firmware, has to be homed again
 }
 
+TEST_CASE("gains and limits reach the controller when they change, and one that is plugged in anew") {
+  Bench b;
+  b.make_ready();
+  const auto gains = [&] { return b.device.board.with_model([&] { return b.model.mechanism().gains(); }); };
+  const CldGains own = gains();
+  ControllerSettings wanted{.p_per_s2 = 2500.0, .i_per_s3 = 12000.0, .d_per_s = 70.25, .target_weight = 0.75, .lowest_m = -3e-3, .highest_m = 4e-3,
+                            .fastest_m_per_s = 0.2, .largest_current_a = 0.25};
+  b.cld.set_controller(wanted);
+  REQUIRE(eventually([&] { b.exchange(); return gains().p_per_s2 == 2500.0; }));
+  CHECK(gains().i_per_s3 == 12000.0);
+  CHECK(gains().d_per_s == doctest::Approx(70.25));
+  CHECK(gains().target_weight == doctest::Approx(0.75).epsilon(1e-4));
+  // Beyond the limit the firmware stays at it, whoever asks.
+  CHECK(eventually([&] { return std::abs(b.exchange(9e-3).position_m - 4e-3) < 5e-6; }));
+  b.device.unplug();
+  REQUIRE(b.reach(DeviceState::absent));
+  b.device.board.with_model([&] { b.model.forget_settings(); return 0; });
+  b.device.plug_in();
+  REQUIRE(b.reach(DeviceState::firmware));
+  CHECK(eventually([&] { b.exchange(); return gains().p_per_s2 == 2500.0; }));
+  b.cld.set_controller({});
+  CHECK(eventually([&] { b.exchange(); return gains().p_per_s2 == own.p_per_s2; }));
+  CHECK(b.report().refused == 0);
+}
+
 TEST_CASE("10,000 ticks at 1 kHz: none lost, none doubled, either way") {
   Bench b;
   b.make_ready();

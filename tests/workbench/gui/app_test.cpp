@@ -379,6 +379,32 @@ TEST_CASE("saving under a name makes a preset file that the list shows") {
   CHECK(ui.model().presets().current().solver.gain_overall == 0.4);
 }
 
+TEST_CASE("the display's controller is tuned in a section of its own, and bounds what the display is sent") {
+  RunningApp ui(HeadlessApp::deterministic_options(), 1280.0f, 2000.0f);
+  CHECK(ui.app().items().find("controller/p_per_s2") == nullptr);
+  ui.click("section/Display controller");
+  ui.frames(2);
+  for (const char* key : {"i_per_s3", "d_per_s", "target_weight", "lowest_m", "highest_m", "fastest_m_per_s", "largest_current_a"}) {
+    CAPTURE(std::string(key));
+    CHECK(ui.app().items().find(std::string("controller/") + key) != nullptr);
+  }
+  ui.click("controller/p_per_s2");
+  ui.type("2500");
+  ui.key(HeadlessApp::kEnter);
+  ui.click("controller/highest_m");
+  ui.type("3");
+  ui.key(HeadlessApp::kEnter);
+  CHECK(ui.model().session()->preset().controller.p_per_s2 == 2500.0);
+  CHECK(ui.model().session()->preset().controller.highest_m == doctest::Approx(3e-3));
+  ui.run(3000);
+  double furthest = 0.0;
+  for (std::uint64_t tick = 1000; tick < 3000; ++tick) {
+    ui.model().select_tick(tick);
+    furthest = std::max(furthest, ui.model().tick().record()->device.cld_command_m);
+  }
+  CHECK(furthest == doctest::Approx(3e-3));
+}
+
 TEST_CASE("a preset that was there before is written over only when asked for twice") {
   const auto folder = fresh_folder("tangent_app_replace");
   const std::string kept = "[about]\nnote = \"measured\"\n[solver]\ngain_overall = 0.3\n";

@@ -86,6 +86,7 @@ TEST_CASE("a broken preset file changes nothing and says what is wrong where") {
 TEST_CASE("typed values take the unit that is shown, or another of the same kind") {
   const PresetKey& radius = key("finger", "radius_m");
   CHECK(display_unit(radius).name == "mm");
+  CHECK(display_unit(key("controller", "lowest_m")).name == "mm");
   CHECK(parse_typed(radius, "20").value() == doctest::Approx(0.020));
   CHECK(parse_typed(radius, " 20 mm ").value() == doctest::Approx(0.020));
   CHECK(parse_typed(radius, "0.02 m").value() == doctest::Approx(0.020));

@@ -121,6 +121,30 @@ TEST_CASE("a preset is applied whole at the next tick, and the record says which
   CHECK(glm::length(r.tick.output.force_n) == doctest::Approx(2.0 * before).epsilon(1e-6));
 }
 
+TEST_CASE("a preset's gains and limits reach the display's controller, from the first and under way") {
+  Preset first;
+  first.controller = {.p_per_s2 = 3000.0, .i_per_s3 = 20000.0, .d_per_s = 60.0};
+  TickBench bench(simulated(1), torus_scene(), first);
+  open(bench.devices);
+  const CldMechanism& mechanism = static_cast<SimulatedContactDisplay&>(*bench.devices.display).mechanism();
+  CHECK(mechanism.gains().p_per_s2 == 3000.0);
+  CHECK(mechanism.gains().i_per_s3 == 20000.0);
+  bench.arm();
+  bench.run(600);
+  Preset second = first;
+  second.controller = {.lowest_m = -1e-3, .highest_m = 1e-3};
+  bench.channels.presets.put({1, second});
+  bool clamped = false;
+  for (int i = 0; i < 3000; ++i) {
+    const ServoRecord r = bench.run();
+    REQUIRE(std::abs(r.device.cld_command_m) <= 1e-3);
+    clamped = clamped || ((r.device.gate_actions >> static_cast<unsigned>(GateAction::display_clamped)) & 1u) != 0;
+    REQUIRE(r.device.gate_fault == GateFault::none);   // the roller follows what it is sent
+  }
+  CHECK(clamped);
+  CHECK(mechanism.gains().p_per_s2 == CldMechanism().gains().p_per_s2);
+}
+
 TEST_CASE("nothing is commanded before arming, after a stop, or after release") {
   PressedBench p;
   p.bench.run(100);

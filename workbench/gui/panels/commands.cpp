@@ -35,7 +35,7 @@ void add_view_commands(std::vector<Command>& out, AppModel& model) {
 
 void add_panel_commands(std::vector<Command>& out, AppModel& model) {
   const auto add = [&](const char* title, bool left) { out.push_back({std::string("Panel: ") + title, "", [&model, title, left] { model.show_section(title, left); }}); };
-  for (const char* title : {"Solver", "Finger", "Force", "Display", "Safety", "Compare", "Presets"}) add(title, true);
+  for (const char* title : {"Solver", "Finger", "Force", "Display", "Display controller", "Safety", "Compare", "Presets"}) add(title, true);
   for (const char* title : {"Iterations", "Time machine", "Bookmarks", "Map", "Smoothness as felt", "Inspect", "Mesh", "Devices", "Messages"}) add(title, false);
 }
 

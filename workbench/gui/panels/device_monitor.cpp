@@ -68,6 +68,9 @@ void draw_limits(const UiContext& ui, const AppModel& model) {
   const Vec3 size = 2e3 * limits.workspace_half_size_m;
   fact(ui, "Workspace", printed("%.0f x %.0f x %.0f", size.x, size.y, size.z), "mm");
   fact(ui, "Display travel", printed("%.1f", limits.display_travel_m * 1e3), "mm");
+  const ControllerSettings& controller = model.session()->preset().controller;
+  const double end = 0.5 * limits.display_travel_m;
+  fact(ui, "Display targets", printed("%.1f to %.1f", std::max(controller.lowest_m, -end) * 1e3, std::min(controller.highest_m, end) * 1e3), "mm");
   fact(ui, "Oldest sample / longest tick", printed("%.0f / %.0f", limits.stale_s * 1e3, limits.late_s * 1e3), "ms");
   const auto timeout = [](double s) { return s > 0.0 ? printed("%.0f ms", s * 1e3) : std::string("none"); };
   if (const auto* can = model.session()->force_capabilities()) fact(ui, "Time-out, force device", timeout(can->firmware_timeout_s));

@@ -19,7 +19,7 @@ namespace tangent {
 
 // Left column.
 struct ParameterPanels {
-  bool favourites = true, solver = true, finger = true, force = true, display = true, safety = false;
+  bool favourites = true, solver = true, finger = true, force = true, display = true, controller = false, safety = false;
 };
 void draw_parameter_panels(const UiContext& ui, AppModel& model, ParameterPanels& state);
 

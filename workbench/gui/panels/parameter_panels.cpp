@@ -20,6 +20,12 @@ bool applies(const PresetKey& key, const Preset& preset) {
 
 /// Why a value changes nothing at present; empty: it counts.
 std::string_view idle_because(const PresetKey& key, const AppModel& model) {
+  if (key.table == "controller" && !key.key.ends_with("est_m")) {   // the gate keeps targets within bounds for any display
+    const DisplayCapabilities* display = model.session() != nullptr ? model.session()->display_capabilities() : nullptr;
+    if (display == nullptr || !display->has_controller) return "The present display has no controller that takes it.";
+    const bool gain = key.key != "fastest_m_per_s" && key.key != "largest_current_a" && key.key != "p_per_s2";
+    return gain && model.presets().current().controller.p_per_s2 == 0.0 ? "Gain P is 0: the device uses its own gains." : "";
+  }
   if (key.table != "solver") return {};
   const bool planar = model.scene() != nullptr && model.scene()->planar() != nullptr;
   if (key.key == "local_centre" && !planar) return "Used in 2D scenes only.";
@@ -135,6 +141,7 @@ void draw_parameter_panels(const UiContext& ui, AppModel& model, ParameterPanels
   draw_table(ui, model, "Finger", "finger", state.finger);
   draw_table(ui, model, "Force", "force", state.force);
   draw_table(ui, model, "Display", "display", state.display);
+  draw_table(ui, model, "Display controller", "controller", state.controller);
   draw_table(ui, model, "Safety", "safety", state.safety);
 }
 

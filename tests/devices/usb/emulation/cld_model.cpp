@@ -70,6 +70,7 @@ void CldModel::take(const CldFrame& frame) {
       if (const auto l = to_limits(frame)) {
         lowest_nm_ = l->lowest_nm;
         highest_nm_ = l->highest_nm;
+        mechanism_.set_limits({l->lowest_nm * 1e-9, l->highest_nm * 1e-9, l->fastest_um_per_s * 1e-6, l->largest_current_ma * 1e-3});
       } else {
         refuse(frame, 4);
       }

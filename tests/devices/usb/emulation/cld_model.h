@@ -33,6 +33,9 @@ class CldModel final : public UsbModel {
   void tick() override;
   void reset() override;
 
+  /// As after its power was off.
+  void forget_settings() { mechanism_ = CldMechanism(); lowest_nm_ = -10'000'000; highest_nm_ = 10'000'000; }
+
   CldDeviceState state() const { return state_; }
   const CldMechanism& mechanism() const { return mechanism_; }
 
