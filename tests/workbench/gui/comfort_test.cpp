@@ -148,6 +148,32 @@ TEST_CASE("Ctrl+P, some letters and Enter do a command; Esc puts the palette awa
   CHECK_FALSE(ui.model().stopped());
 }
 
+TEST_CASE("what the menus have is among the commands, the device monitor and the devices too") {
+  HeadlessApp ui;
+  ui.app().advance(200);
+  ui.frames(2);
+  for (const bool on : {true, false}) {
+    ui.chord('P');
+    ui.type("monitor");
+    ui.frames(2);
+    ui.key(HeadlessApp::kEnter);
+    ui.frames(2);
+    CHECK(ui.model().view().device_monitor == on);
+  }
+  ui.chord('P');
+  ui.type("device ideal");
+  ui.frames(2);
+  ui.key(HeadlessApp::kEnter);
+  ui.frames(2);
+  CHECK(ui.model().device() == "ideal");
+  MenuBar menu;
+  const auto commands = window_commands(ui.model(), menu);
+  for (const char* name : {"Mesh: load again", "Show: plane after the tick", "Show: creases and boundaries", "Show: control normals"}) {
+    CAPTURE(std::string(name));
+    CHECK(std::any_of(commands.begin(), commands.end(), [&](const Command& c) { return c.name == name; }));
+  }
+}
+
 TEST_CASE("at 1280 x 720 every section of both columns is one command away: unfolded, at the top or as far up as the column goes") {
   HeadlessApp ui;
   ui.app().advance(2000);

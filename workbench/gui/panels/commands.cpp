@@ -2,6 +2,7 @@
 
 #include "core/mesh/generate.h"
 #include "core/mesh/generate_hard.h"
+#include "devices/device_set.h"
 
 #include <algorithm>
 #include <cctype>
@@ -19,6 +20,7 @@ void add_view_commands(std::vector<Command>& out, AppModel& model) {
   out.push_back({"View: copy the camera", "Ctrl+Shift+C", [&model] { model.copy_camera(); }});
   out.push_back({"View: paste the camera", "Ctrl+Shift+V", [&model] { model.paste_camera(); }});
   out.push_back({"View: screenshot", "F12", [&model] { model.ask_for_screenshot(); }});
+  out.push_back({"View: device monitor", "", [&model] { model.view().device_monitor = !model.view().device_monitor; }});
   struct Layer {
     const char* name;
     bool SceneToggles::*on;
@@ -27,7 +29,7 @@ void add_view_commands(std::vector<Command>& out, AppModel& model) {
                              Layer{"control net", &SceneToggles::control_net}, Layer{"neighbours' control nets", &SceneToggles::control_net_neighbours},
                              Layer{"labels", &SceneToggles::control_point_labels}, Layer{"vertex normals", &SceneToggles::vertex_normals},
                              Layer{"control normals", &SceneToggles::control_normals}, Layer{"creases and boundaries", &SceneToggles::creases},
-                             Layer{"planes", &SceneToggles::planes}, Layer{"finger", &SceneToggles::finger}, Layer{"force", &SceneToggles::force},
+                             Layer{"planes", &SceneToggles::planes}, Layer{"plane after the tick", &SceneToggles::tracked_plane}, Layer{"finger", &SceneToggles::finger}, Layer{"force", &SceneToggles::force},
                              Layer{"display inset", &SceneToggles::cld_inset}, Layer{"axes and scale", &SceneToggles::axes}}) {
     out.push_back({std::string("Show: ") + layer.name, "", [&model, on = layer.on] { model.view().toggles.*on = !(model.view().toggles.*on); }});
   }
@@ -67,6 +69,7 @@ void add_time_commands(std::vector<Command>& out, AppModel& model) {
                    model.export_ticks(from, to);
                  }});
   out.push_back({"Force: stop, or arm", "", [&model] { model.toggle_stop(); }});
+  for (const std::string& name : device_set_names()) out.push_back({"Device: " + name, "", [&model, name] { model.set_device(name); }});
   out.push_back({"Hand: follows the mouse, or explores by itself", "M", [&model] { model.set_hand_follows_mouse(!model.view().hand_follows_mouse); }});
 }
 
@@ -81,6 +84,9 @@ void add_preset_commands(std::vector<Command>& out, AppModel& model) {
 
 void add_mesh_commands(std::vector<Command>& out, AppModel& model, MenuBar& menu) {
   out.push_back({"Mesh: open a file", "Ctrl+O", [&menu] { menu.path.open = menu.path.focus = true; }});
+  out.push_back({"Mesh: load again", "", [&model] {
+                   if (!model.mesh_path().empty()) model.open_mesh(std::string(model.mesh_path()));
+                 }});
   for (const std::string& mesh : model.settings().recent_meshes) out.push_back({"Mesh: open again " + mesh, "", [&model, mesh] { model.open_mesh(mesh); }});
   for (const auto* names : {&generator_names(), &hard_mesh_names()}) {
     for (const std::string& object : *names) out.push_back({"Mesh: make " + object, "", [&model, object] { model.open_mesh(object); }});
