@@ -6,6 +6,7 @@
 #include "workbench/cli/messages.h"
 #include "workbench/cli/monitor_text.h"
 #include "workbench/cli/number_option.h"
+#include "workbench/session/maestro_setups.h"
 
 #include <chrono>
 #include <cstdio>
@@ -108,8 +109,12 @@ Status run_monitor(const MonitorOptions& options) {
   SessionOptions wanted;
   wanted.servo.rate_hz = options.servo_hz;
   wanted.devices = options.devices.device;
-  wanted.maestro = options.devices.maestro;
-  wanted.maestro_channel = options.devices.maestro_channel;
+  if (options.devices.device == "maestro") {
+    const auto setup = chosen_maestro_setup({options.devices.maestro, options.devices.maestro_channel}, maestro_setups_path());
+    if (!setup) return tl::unexpected(setup.error());
+    wanted.maestro = setup->calibration;
+    wanted.maestro_channel = setup->channel;
+  }
   wanted.packets = options.devices.packets;
   wanted.history_s = 1.0;
   wanted.arm_on_start = !options.stay_stopped;

@@ -1,5 +1,7 @@
 #include "workbench/gui/app_model.h"
 
+#include "workbench/session/maestro_setups.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -112,7 +114,17 @@ void AppModel::take_scene(LoadedScene loaded) {
   else loader_.request_audit(polygons_, scene_);
 }
 
+std::filesystem::path AppModel::maestro_file() const {
+  return options_.settings.empty() ? std::filesystem::path() : options_.settings.parent_path() / kMaestroFile;
+}
+
 void AppModel::make_session() {
+  if (options_.device == "maestro") {
+    const auto setup = chosen_maestro_setup({options_.maestro, options_.maestro_channel}, maestro_file());
+    if (!setup) return say(Severity::error, setup.error().message());
+    options_.maestro = setup->calibration;
+    options_.maestro_channel = setup->channel;
+  }
   SessionOptions options;
   options.servo.rate_hz = options_.servo_hz;
   options.devices = options_.device;
@@ -142,7 +154,18 @@ void AppModel::calibrate_maestro(const MaestroCalibration& calibration, unsigned
   if (const Status ok = check_calibration(calibration); !ok) return say(Severity::error, ok.error().message());
   options_.maestro = calibration;
   options_.maestro_channel = channel;
+  keep_calibration();
   if (options_.device == "maestro") restart_session();
+}
+
+void AppModel::keep_calibration() {
+  const std::filesystem::path file = maestro_file();
+  if (file.empty()) return;
+  const std::string serial = attached_maestro();
+  if (serial.empty()) return say(Severity::note, "no Maestro with a serial number is attached: the calibration holds until the window closes");
+  const Status kept = keep_maestro_setup(file, serial, {options_.maestro, options_.maestro_channel});
+  if (kept) say(Severity::note, "calibration of the Maestro " + serial + " kept in " + file.string());
+  else say(Severity::error, kept.error().message());
 }
 
 void AppModel::restart_session() {

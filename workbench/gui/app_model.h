@@ -203,7 +203,7 @@ class AppModel {
   void set_device(const std::string& name);  ///< a new session; the history starts anew
   const MaestroCalibration& maestro() const { return options_.maestro; }
   unsigned maestro_channel() const { return options_.maestro_channel; }
-  /// Taken when it makes sense; a session with a Maestro starts anew with it.
+  /// Taken when it makes sense, and kept for the attached Maestro; a session with a Maestro starts anew with it.
   void calibrate_maestro(const MaestroCalibration& calibration, unsigned channel);
   void set_hand_follows_mouse(bool on);
   void lead_hand(const Vec3& finger_centre_world_m);
@@ -241,6 +241,8 @@ class AppModel {
   std::vector<std::uint32_t> marked_or_picked() const;
   void isolate(const std::vector<std::uint32_t>& triangles);
   void make_session();
+  std::filesystem::path maestro_file() const;   ///< empty: nothing is kept
+  void keep_calibration();
   void restart_session();
   void send_preset(const std::string& what);
   void take_records();

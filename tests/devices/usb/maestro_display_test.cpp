@@ -4,6 +4,8 @@
 #include "tests/devices/usb/emulation/maestro_model.h"
 #include "tests/devices/usb/emulation/testbed.h"
 #include "tests/devices/usb/usb_checks.h"
+#include "tests/support/temp_folder.h"
+#include "workbench/session/maestro_setups.h"
 
 #include <algorithm>
 #include <ctime>
@@ -91,4 +93,22 @@ TEST_CASE("a Maestro that is unplugged is absent, one that refuses every request
   b.seen([&] { b.model.stalls = false; return 0; });
   b.exchange(0.0, DeviceRequest::clear_fault);
   CHECK(eventually([&] { b.exchange(); return b.sample.state == DeviceState::firmware; }));
+}
+
+TEST_CASE("a Maestro's calibration is kept by the serial number that it says on the bus") {
+  Testbed testbed;
+  MaestroModel model;
+  model.serial = "00071234";
+  const testing::TempFolder folder;
+  const auto file = folder.path() / "maestro.toml";
+  const MaestroSetup own{{-9e-3, 1100.0, 9e-3, 1900.0}, 2};
+  CHECK(attached_maestro().empty());
+  PluggedDevice device{testbed, model, 7};
+  device.plug_in();
+  REQUIRE(attached_maestro() == "00071234");
+  CHECK(chosen_maestro_setup({}, file).value() == MaestroSetup{});
+  REQUIRE(keep_maestro_setup(file, attached_maestro(), own));
+  CHECK(chosen_maestro_setup({}, file).value() == own);
+  folder.write("maestro.toml", "[\"00071234\"]\nchannel = 99\n");
+  CHECK_FALSE(chosen_maestro_setup({}, file).has_value());   // rather nothing than pulses that nobody meant
 }
