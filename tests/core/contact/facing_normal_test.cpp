@@ -1,5 +1,6 @@
 #include "core/contact/facing_normal.h"
 #include "core/contact/plane_contact.h"
+#include "tests/core/fingers.h"
 #include "tests/core/scenes.h"
 
 #include <doctest/doctest.h>
@@ -7,25 +8,10 @@
 using namespace tangent;
 using namespace tangent::test;
 
-namespace {
-
-Finger finger_of(FingerShape shape) {
-  Finger finger;
-  finger.shape = shape;
-  finger.radius_m = 0.008;
-  finger.semi_axes_m = {0.020, 0.010, 0.008};
-  finger.half_length_m = 0.010;
-  return finger;
-}
-
-constexpr FingerShape kShapes[] = {FingerShape::point, FingerShape::sphere, FingerShape::ellipsoid, FingerShape::capsule};
-
-}  // namespace
-
 // On the flank of a capsule Newton's steps alone run from end to end, and leave errors of its half length.
 TEST_CASE("the finger touches a plane turned to face it at the given point, wherever that is in, on or off the finger") {
   Random random(3);
-  for (const FingerShape shape : kShapes) {
+  for (const FingerShape shape : kFingerShapes) {
     const Finger finger = finger_of(shape);
     double worst = 0.0;
     for (int i = 0; i < rounds(30'000); ++i) {
@@ -44,7 +30,7 @@ TEST_CASE("the finger touches a plane turned to face it at the given point, wher
 
 TEST_CASE("facing from the front shows the finger's nearest point, from the back its furthest") {
   Random random(4);
-  for (const FingerShape shape : kShapes) {
+  for (const FingerShape shape : kFingerShapes) {
     const Finger finger = finger_of(shape);
     for (int i = 0; i < rounds(2000); ++i) {
       const FingerPose pose{random.in_cube(0.05), random.orientation()};

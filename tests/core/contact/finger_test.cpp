@@ -1,5 +1,6 @@
 #include "core/contact/finger.h"
 #include "core/contact/plane_contact.h"
+#include "tests/core/fingers.h"
 #include "tests/core/scenes.h"
 
 #include <doctest/doctest.h>
@@ -13,17 +14,6 @@ using namespace tangent::test;
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-
-Finger finger_of(FingerShape shape) {
-  Finger finger;
-  finger.shape = shape;
-  finger.radius_m = 0.008;
-  finger.semi_axes_m = {0.015, 0.009, 0.006};
-  finger.half_length_m = 0.010;
-  return finger;
-}
-
-constexpr FingerShape kShapes[] = {FingerShape::point, FingerShape::sphere, FingerShape::ellipsoid, FingerShape::capsule};
 
 /// A point on the surface of the finger, in the world.
 Vec3 surface_point(const Finger& finger, const FingerPose& pose, Random& random) {
@@ -52,7 +42,7 @@ Vec3 normal_for(double x, double z) { return -unit(Vec3(x, 0.0, z)); }
 
 TEST_CASE("no point of the finger lies further along -N than its support point") {
   Random random(1);
-  for (const FingerShape shape : kShapes) {
+  for (const FingerShape shape : kFingerShapes) {
     const Finger finger = finger_of(shape);
     for (int i = 0; i < 50; ++i) {
       const FingerPose pose = random_pose(random);
@@ -88,7 +78,7 @@ TEST_CASE("the support point of a sphere and an ellipsoid lies on them; that of 
 TEST_CASE("dp/dN is the derivative of the support point") {
   Random random(3);
   constexpr double kTurn = 1e-6;
-  for (const FingerShape shape : kShapes) {
+  for (const FingerShape shape : kFingerShapes) {
     const Finger finger = finger_of(shape);
     for (int i = 0; i < 200; ++i) {
       const FingerPose pose = random_pose(random);
@@ -241,7 +231,7 @@ TEST_CASE("turning finger and normal together changes no contact location") {
 
 TEST_CASE("height and penetration of a plane contact measure the support point and the centre") {
   Random random(8);
-  for (const FingerShape shape : kShapes) {
+  for (const FingerShape shape : kFingerShapes) {
     const Finger finger = finger_of(shape);
     for (int i = 0; i < 50; ++i) {
       const FingerPose pose = random_pose(random);
@@ -260,7 +250,7 @@ TEST_CASE("height and penetration of a plane contact measure the support point a
 TEST_CASE("the offset derivative says how the travel answers a turn of the plane") {
   Random random(9);
   constexpr double kTurn = 1e-6;
-  for (const FingerShape shape : kShapes) {
+  for (const FingerShape shape : kFingerShapes) {
     const Finger finger = finger_of(shape);
     for (int i = 0; i < 50; ++i) {
       const FingerPose pose = random_pose(random);

@@ -29,28 +29,31 @@ Four all(float value) { return Four{value, value, value, value}; }
 Four lower(Four x, Four than) { return x < than ? x : than; }
 Four higher(Four x, Four than) { return x > than ? x : than; }
 
-void fold(const float* sample, std::size_t count, MinMax& into) {
-  Four low = all(into.min), high = all(into.max);
+/// Folds `items`, as many of them to a load as fit, lane by lane, and returns how many that were.
+template <class Item>
+std::size_t fold_lanes(const Item* items, std::size_t count, Four& low, Four& high) {
+  constexpr std::size_t kAtOnce = sizeof(Four) / sizeof(Item);
   std::size_t i = 0;
-  for (; i + 4 <= count; i += 4) {
-    const Four x = load(sample + i);
+  for (; i + kAtOnce <= count; i += kAtOnce) {
+    const Four x = load(items + i);
     low = lower(x, low);
     high = higher(x, high);
   }
+  return i;
+}
+
+void fold(const float* sample, std::size_t count, MinMax& into) {
+  Four low = all(into.min), high = all(into.max);
+  std::size_t i = fold_lanes(sample, count, low, high);
   for (std::size_t lane = 0; lane < 4; ++lane) into.include(MinMax{low[lane], high[lane]});
   for (; i < count; ++i) into.include(sample[i]);
 }
 
-/// Two at a time: minima are in the even lanes, maxima in the odd ones.
+/// Minima are in the even lanes, maxima in the odd ones.
 void fold(const MinMax* block, std::size_t count, MinMax& into) {
   static_assert(sizeof(MinMax) == 2 * sizeof(float));
   Four low = all(into.min), high = all(into.max);
-  std::size_t i = 0;
-  for (; i + 2 <= count; i += 2) {
-    const Four x = load(block + i);
-    low = lower(x, low);
-    high = higher(x, high);
-  }
+  const std::size_t i = fold_lanes(block, count, low, high);
   into.include(MinMax{low[0], high[1]});
   into.include(MinMax{low[2], high[3]});
   if (i < count) into.include(block[i]);
