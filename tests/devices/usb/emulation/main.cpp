@@ -14,6 +14,8 @@ int main(int argc, char** argv) {
     std::string first;
 #if defined(__SANITIZE_ADDRESS__)
     first = TANGENT_LIBASAN ":";
+#elif defined(__SANITIZE_THREAD__)
+    first = TANGENT_LIBTSAN ":";
 #endif
     setenv("LD_PRELOAD", (first + TANGENT_USBFS_SHIM ":libumockdev-preload.so.0").c_str(), 1);
     execv("/proc/self/exe", argv);

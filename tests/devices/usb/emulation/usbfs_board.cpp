@@ -26,10 +26,8 @@ int UsbfsBoard::ioctl(unsigned long request, void* argument) {
   }
 }
 
-void UsbfsBoard::complete(usbdevfs_urb* urb, int status, int actual) {
-  urb->status = status;
-  urb->actual_length = actual;
-  done_.push_back(urb);
+void UsbfsBoard::complete(usbdevfs_urb* urb, int status, int actual, Bytes data, std::size_t at) {
+  done_.push_back({urb, status, actual, std::move(data), at});
   if (on_ready && done_.size() == 1) on_ready(true);
 }
 
@@ -71,8 +69,8 @@ void UsbfsBoard::submit_control(usbdevfs_urb* urb) {
   const bool good = fault == BusFault::none && model_.on_control(setup, answer);
   if (!good) return complete(urb, fault == BusFault::error ? -EPROTO : -EPIPE, 0);
   const std::size_t size = std::min<std::size_t>(answer.size(), setup.length);
-  std::copy_n(answer.begin(), size, static_cast<std::uint8_t*>(urb->buffer) + 8);
-  complete(urb, 0, static_cast<int>(size));
+  answer.resize(size);
+  complete(urb, 0, static_cast<int>(size), std::move(answer), 8);
 }
 
 void UsbfsBoard::serve_in() {
@@ -88,11 +86,11 @@ void UsbfsBoard::serve_in() {
       case BusFault::error: complete(taken, -EPROTO, 0); continue;
       default: break;
     }
-    const Bytes packet = std::move(model_.in_packets.front());
+    Bytes packet = std::move(model_.in_packets.front());
     model_.in_packets.pop_front();
     const std::size_t size = std::min<std::size_t>(packet.size(), static_cast<std::size_t>(taken->buffer_length));
-    std::copy_n(packet.begin(), size, static_cast<std::uint8_t*>(taken->buffer));
-    complete(taken, 0, static_cast<int>(size));
+    packet.resize(size);
+    complete(taken, 0, static_cast<int>(size), std::move(packet));
   }
 }
 
@@ -106,7 +104,11 @@ int UsbfsBoard::discard(usbdevfs_urb* urb) {
 
 int UsbfsBoard::reap(void** out) {
   if (done_.empty()) return plugged_ ? -EAGAIN : -ENODEV;
-  *out = done_.front();
+  const Done& done = done_.front();
+  std::copy(done.data.begin(), done.data.end(), static_cast<std::uint8_t*>(done.urb->buffer) + done.at);
+  done.urb->status = done.status;
+  done.urb->actual_length = done.actual;
+  *out = done.urb;
   done_.pop_front();
   if (done_.empty() && on_ready && plugged_) on_ready(false);
   return 0;

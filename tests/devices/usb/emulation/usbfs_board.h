@@ -42,13 +42,22 @@ class UsbfsBoard {
   int submit(usbdevfs_urb* urb);
   int discard(usbdevfs_urb* urb);
   int reap(void** out);
-  void complete(usbdevfs_urb* urb, int status, int actual);
+  /// `data`: what an IN transfer brought, into the buffer from `at` on.
+  void complete(usbdevfs_urb* urb, int status, int actual, Bytes data = {}, std::size_t at = 0);
   void serve_in();
   void submit_control(usbdevfs_urb* urb);
 
   std::mutex mutex_;
   UsbModel& model_;
-  std::deque<usbdevfs_urb*> waiting_, done_;
+  /// As in Linux, the host's memory is written when it reaps, in its own thread, and of what it never reaps not at all.
+  struct Done {
+    usbdevfs_urb* urb = nullptr;
+    int status = 0, actual = 0;
+    Bytes data;
+    std::size_t at = 0;
+  };
+  std::deque<usbdevfs_urb*> waiting_;
+  std::deque<Done> done_;
   std::atomic<bool> plugged_{true};
 };
 
