@@ -82,7 +82,7 @@ TEST_CASE("the share of force that passes falls from one to nothing between soft
   CHECK(watch.share() == 0.0);
 }
 
-TEST_CASE("a position that freezes while moving is found after 20 ticks; rest, dithering and turning are not") {
+TEST_CASE("a position that freezes while moving is found after 20 ticks - rest, dithering and turning are not") {
   const auto quantised = [](double x) { return Vec3(std::round(x / 0.03e-3) * 0.03e-3, 0, 0); };
   FrozenPositionWatch frozen;
   int found = -1;

@@ -134,7 +134,7 @@ SurfaceSample sample_at(const EdgeFan& fan, const Vec2& turn) {
 
 }  // namespace
 
-TEST_CASE("the fan of a crease begins at the one face's normal and ends at the other's; a boundary's at its back") {
+TEST_CASE("the fan of a crease begins at the one face's normal and ends at the other's - a boundary's at its back") {
   for (const char* name : {"cylinder", "cube"}) {
     const auto scene = scene_of(*generate_mesh(name));
     PatchCache cache(scene->mesh());

@@ -56,7 +56,7 @@ TEST_CASE("no point of the finger lies further along -N than its support point")
   }
 }
 
-TEST_CASE("the support point of a sphere and an ellipsoid lies on them; that of a capsule within its spindle's 1 %") {
+TEST_CASE("the support point of a sphere and an ellipsoid lies on them - that of a capsule within its spindle's 1 %") {
   Random random(2);
   for (int i = 0; i < 200; ++i) {
     const FingerPose pose = random_pose(random);

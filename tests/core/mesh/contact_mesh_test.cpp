@@ -80,7 +80,7 @@ TEST_CASE("what can't be built is refused with a reason") {
   for (const double nonsense : {std::nan(""), -1.0, 190.0}) CHECK_FALSE(ContactMesh::build(sample::cube(), computed(nonsense)));
 }
 
-TEST_CASE("origin is the middle of the box of what can be used; fit puts it at the world's origin") {
+TEST_CASE("origin is the middle of the box of what can be used - fit puts it at the world's origin") {
   auto source = sample::moved(sample::cube(), 0.5, Vec3(3, 4, 5));
   source.positions.push_back(Vec3(100, 100, 100));  // unreferenced
   source.positions.push_back(Vec3(200, 200, 200));

@@ -274,7 +274,7 @@ TEST_CASE("a generated mesh written in millimetres reads back with the same bits
   }
 }
 
-TEST_CASE("writing in metres keeps every double; corners without a normal stay so") {
+TEST_CASE("writing in metres keeps every double - corners without a normal stay so") {
   const TempFolder folder;
   PolygonMesh mesh;
   mesh.positions = {{0.1, 1.0 / 3.0, -0.0}, {1e-300, 5e-324, 1e300}, {-1, -2, -3}};

@@ -15,7 +15,7 @@ TEST_CASE("five tangent facets of the paper's arc: curvature within 0.4 % RMS of
   CHECK(inscribed.rms == doctest::Approx(0.00475).epsilon(0.005));
 }
 
-TEST_CASE("with the bisectors' centre the deviation falls with the square of the facets' turn; the midpoint's stays large") {
+TEST_CASE("with the bisectors' centre the deviation falls with the square of the facets' turn - the midpoint's stays large") {
   for (const ArcPlacement placement : {ArcPlacement::tangent, ArcPlacement::inscribed}) {
     const double nine = curvature_deviation(9, placement, LocalCentre::bisectors).rms;
     const double sixteen = curvature_deviation(16, placement, LocalCentre::bisectors).rms;

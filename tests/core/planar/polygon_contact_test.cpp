@@ -26,7 +26,7 @@ TickOutput once(const PlanarCurve& curve, Method method, const Vec3& at, double 
 
 }  // namespace
 
-TEST_CASE("2D facet: nearest point, its segment's normal; on a vertex from the vertex to the finger; behind it turned") {
+TEST_CASE("2D facet: nearest point, its segment's normal - on a vertex from the vertex to the finger - behind it turned") {
   const PlanarCurve curve = roof();
   // 19 mm off the right-hand slope, 30 mm down it.
   const Vec3 foot = 0.030 * Vec3(kHalf, -kHalf, 0.0), normal(kHalf, kHalf, 0.0);

@@ -55,7 +55,7 @@ void every_tick(const ScenePtr& scene, const Preset& preset, int ticks, Check ch
 
 }  // namespace
 
-TEST_CASE("a converged tick's contact is a converged record of its trace; alone in the tick, the last one") {
+TEST_CASE("a converged tick's contact is a converged record of its trace - alone in the tick, the last one") {
   for (const ScenePtr& scene : {torus(), box()})
     for (const Method method : kSmoothMethods) {
       CAPTURE(name_of(method));

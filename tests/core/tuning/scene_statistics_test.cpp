@@ -81,7 +81,7 @@ TEST_CASE("anything not finite in a tick is counted") {
   }
 }
 
-TEST_CASE("differences are lengths and angles; unconverged ticks are left out") {
+TEST_CASE("differences are lengths and angles - unconverged ticks are left out") {
   TickOutput a = tick(TickStatus::face, TickEvent::none, 1), b = tick(TickStatus::face, TickEvent::none, 1, kTurned);
   b.contact = Vec3(3e-3, 4e-3, 0);
   b.force_n = Vec3(0, 0, 0.25);

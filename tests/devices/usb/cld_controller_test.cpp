@@ -200,7 +200,7 @@ TEST_CASE("stalls, bus errors and time-outs are counted and survived") {
   CHECK(b.report().lost_by_device >= 1);
 }
 
-TEST_CASE("unplugged in the middle of transfers the display is absent; plugged in again it has to be homed, and goes on") {
+TEST_CASE("unplugged in the middle of transfers the display is absent - plugged in again it has to be homed, and goes on") {
   Bench b;
   for (int round = 0; round < 5; ++round) {
     b.make_ready();
@@ -237,7 +237,7 @@ TEST_CASE("a frozen encoder is found by the firmware") {
   CHECK(b.sample.fault == DeviceFault::sensor);
 }
 
-TEST_CASE("a device that falls silent is lost until a person clears it; its last sample grows old meanwhile") {
+TEST_CASE("a device that falls silent is lost until a person clears it - its last sample grows old meanwhile") {
   Bench b({.silence_s = 0.1});
   b.make_ready();
   b.device.board.with_model([&] { b.model.telemetry_on = false; });

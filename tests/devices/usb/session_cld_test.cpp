@@ -104,7 +104,7 @@ TEST_CASE("faults on the cable and in the controller: the force is gone within t
   }
 }
 
-TEST_CASE("unplugged and plugged in again under a session, nothing moves until a person re-arms; then all goes on") {
+TEST_CASE("unplugged and plugged in again under a session, nothing moves until a person re-arms - then all goes on") {
   Bench b;
   REQUIRE(b.armed_and_ready());
   b.device.unplug();

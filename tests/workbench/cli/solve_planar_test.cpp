@@ -68,7 +68,7 @@ TEST_CASE("solve takes an OBJ polyline in its unit") {
   CHECK(std::stod(csv.at(12)) == doctest::Approx(std::stod(obj.at(12))).epsilon(1e-9));
 }
 
-TEST_CASE("solve names conditions and the local centre; a held display parks at its centre") {
+TEST_CASE("solve names conditions and the local centre - a held display parks at its centre") {
   const Scene scene;
   REQUIRE(scene.solve({"--condition", "C1"}).exit_code == 0);
   for (const int row : {10, 60, 90}) CHECK(std::stod(fields_of(read_text(scene.ticks), row).at(16)) == 0.0);

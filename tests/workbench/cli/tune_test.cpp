@@ -133,7 +133,7 @@ TEST_CASE("a tuning writes a preset that says what it measured and with which co
   CHECK(claims.numbers.at("gentle_ground_share") == 1.0);
 }
 
-TEST_CASE("the method is the preset's; the gains are those of the paper's iteration all the same") {
+TEST_CASE("the method is the preset's - the gains are those of the paper's iteration all the same") {
   const TuneFolder t;
   const std::string poses = t.poses();
   REQUIRE(t.tune({"--poses", poses}).exit_code == 0);

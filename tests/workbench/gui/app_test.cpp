@@ -42,7 +42,7 @@ bool said(const AppModel& model, Severity severity, const char* part) {
 
 }  // namespace
 
-TEST_CASE("clicking Pause freezes the tick in view; live again follows the newest") {
+TEST_CASE("clicking Pause freezes the tick in view - live again follows the newest") {
   RunningApp ui;
   ui.run();
   CHECK_FALSE(ui.model().paused());
@@ -163,7 +163,7 @@ TEST_CASE("Tab commits and goes on to the next value") {
   CHECK(ui.model().presets().current().solver.gain_curvature_m == doctest::Approx(0.012));
 }
 
-TEST_CASE("a typed value out of range is cut to it with a warning; rubbish is refused with an error") {
+TEST_CASE("a typed value out of range is cut to it with a warning - rubbish is refused with an error") {
   RunningApp ui;
   ui.run(50);
   ui.click("solver/gain_overall");
@@ -191,7 +191,7 @@ TEST_CASE("typing may begin in the frame after the click") {
   CHECK(ui.model().presets().current().solver.gain_overall == 0.375);
 }
 
-TEST_CASE("dragging a value slides it, live; reset brings the program's own value back") {
+TEST_CASE("dragging a value slides it, live - reset brings the program's own value back") {
   RunningApp ui;
   ui.run(50);
   ui.drag("solver/gain_overall", {30.0f, 0.0f});
@@ -275,7 +275,7 @@ TEST_CASE("the wheel over a plot zooms time about the pointer once it is held") 
   CHECK(tick_at() == doctest::Approx(before));
 }
 
-TEST_CASE("dragging a plot pans and stops following; clicking it selects that tick") {
+TEST_CASE("dragging a plot pans and stops following - clicking it selects that tick") {
   RunningApp ui;
   ui.run();
   REQUIRE(ui.model().axis().following());
@@ -482,7 +482,7 @@ TEST_CASE("an unknown device is said to be one, and the window still comes up") 
   ui.key('.');
 }
 
-TEST_CASE("a click on a row of the iteration table pauses and selects that iteration; another lets go of it") {
+TEST_CASE("a click on a row of the iteration table pauses and selects that iteration - another lets go of it") {
   RunningApp ui;
   ui.run();
   ui.click("iterations/row/0");
@@ -681,7 +681,7 @@ TEST_CASE("a slice cuts the picture open and lets the pointer through") {
   CHECK(ui.model().view().slice->offset_m > at);
 }
 
-TEST_CASE("a file in metres, taken for millimetres, is warned of; its unit and its longest side are chosen in the window") {
+TEST_CASE("a file in metres, taken for millimetres, is warned of - its unit and its longest side are chosen in the window") {
   const testing::TempFolder folder;
   AppOptions options = HeadlessApp::deterministic_options();
   options.mesh = folder.write("small.obj", "v 0 0 0\nv 0.06 0 0\nv 0 0.06 0\nv 0 0 0.06\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n");

@@ -124,7 +124,7 @@ TEST_CASE("a command is found by letters of it, the one whose words begin with t
   CHECK(match_score("View: frame the mesh", "") == 0);
 }
 
-TEST_CASE("Ctrl+P, some letters and Enter do a command; Esc puts the palette away and stops nothing") {
+TEST_CASE("Ctrl+P, some letters and Enter do a command - Esc puts the palette away and stops nothing") {
   HeadlessApp ui;
   ui.app().advance(2000);
   ui.frames(2);
@@ -202,7 +202,7 @@ TEST_CASE("at 1280 x 720 every section of both columns is one command away: unfo
   CHECK(panels == 17);
 }
 
-TEST_CASE("the window's own keys work while text is typed; letters and editing keys stay with the text") {
+TEST_CASE("the window's own keys work while text is typed - letters and editing keys stay with the text") {
   HeadlessApp ui;
   ui.app().advance(2000);
   ui.frames(2);
@@ -278,7 +278,7 @@ TEST_CASE("F1 shows all keys on a sheet, and every command can be run") {
   CHECK(names.size() > 60);
 }
 
-TEST_CASE("layout, look, favourites, folded sections and recent files come back in the next run; default layout forgets") {
+TEST_CASE("layout, look, favourites, folded sections and recent files come back in the next run - default layout forgets") {
   const testing::TempFolder folder;
   AppOptions options = HeadlessApp::deterministic_options();
   options.settings = folder.path() / "window.toml";
@@ -306,7 +306,7 @@ TEST_CASE("layout, look, favourites, folded sections and recent files come back 
   CHECK(ui.app().items().find("finger/radius_m") != nullptr);
 }
 
-TEST_CASE("a broken settings file is said and left behind; the window starts all the same") {
+TEST_CASE("a broken settings file is said and left behind - the window starts all the same") {
   const testing::TempFolder folder;
   AppOptions options = HeadlessApp::deterministic_options();
   options.settings = folder.write("window.toml", "[layout\n");
@@ -315,7 +315,7 @@ TEST_CASE("a broken settings file is said and left behind; the window starts all
   CHECK(ui.model().sizes().left == LayoutSizes{}.left);
 }
 
-TEST_CASE("toasts come at a bearable rate; the log has all of them") {
+TEST_CASE("toasts come at a bearable rate - the log has all of them") {
   MessageLog log;
   for (int i = 0; i < 50; ++i) log.add(Severity::warning, "message " + std::to_string(i), 10.0 + 0.01 * i);
   std::size_t toasts = 0;

@@ -17,7 +17,7 @@ void compute(MapView& map, const ScenePtr& scene, const Preset& preset, MapQuant
 
 }  // namespace
 
-TEST_CASE("a map off does nothing; on, it has a value at every place, with range, histogram and worst places") {
+TEST_CASE("a map off does nothing - on, it has a value at every place, with range, histogram and worst places") {
   const auto scene = scene_of(*generate_mesh("torus"));
   const Preset preset = sphere_preset(0.010, Method::paper);
   MapView map;
@@ -41,7 +41,7 @@ TEST_CASE("a map off does nothing; on, it has a value at every place, with range
   CHECK(glm::length(map.worst()[0].point_world - map.worst()[1].point_world) > 0.001);
 }
 
-TEST_CASE("a range set by hand stays until it is automatic again; nonsense is left alone") {
+TEST_CASE("a range set by hand stays until it is automatic again - nonsense is left alone") {
   const auto scene = scene_of(make_icosphere(0.040, 2));
   const Preset preset = sphere_preset(0.020, Method::paper);
   MapView map;

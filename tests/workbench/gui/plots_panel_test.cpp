@@ -70,7 +70,7 @@ TEST_CASE("every mode draws, with an empty store, a short one and a long one") {
   ui.frames(2);
 }
 
-TEST_CASE("Ctrl-click sets A and Shift-click B, without leaving the tick in view; CSV then writes what lies between") {
+TEST_CASE("Ctrl-click sets A and Shift-click B, without leaving the tick in view - CSV then writes what lies between") {
   const tangent::testing::TempFolder folder;
   PlotsApp ui;
   ui.model().set_export_folder(folder.path());
@@ -112,7 +112,7 @@ TEST_CASE("Ctrl-click sets A and Shift-click B, without leaving the tick in view
   CHECK(lines == last - first + 1);
 }
 
-TEST_CASE("exported samples read back as the recorded doubles; a file is never written over") {
+TEST_CASE("exported samples read back as the recorded doubles - a file is never written over") {
   const tangent::testing::TempFolder folder;
   PlotsApp ui;
   ui.model().set_export_folder(folder.path());

@@ -19,7 +19,7 @@ double gain_of(const PresetSlots& slots) { return slots.active().current().solve
 
 }  // namespace
 
-TEST_CASE("every change can be undone and done again, in order; a new one forgets what was undone") {
+TEST_CASE("every change can be undone and done again, in order - a new one forgets what was undone") {
   PresetSlots slots;
   CHECK_FALSE(slots.can_undo());
   set(slots, gain(), 0.5);
@@ -67,7 +67,7 @@ TEST_CASE("a drag is one step, two drags are two, and another key in between end
   CHECK_FALSE(slots.undo());
 }
 
-TEST_CASE("A and B are two presets; switching is a step too") {
+TEST_CASE("A and B are two presets - switching is a step too") {
   PresetSlots slots;
   set(slots, gain(), 0.5);
   CHECK(slots.toggle());

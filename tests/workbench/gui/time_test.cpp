@@ -80,7 +80,7 @@ TEST_CASE("triggers bookmark what they were told to, with the thresholds of the 
   CHECK(ui.model().bookmarks().all().empty());
 }
 
-TEST_CASE("a gain changed on the paused past brings a ghost of all of it; back to the old value, none; live, none") {
+TEST_CASE("a gain changed on the paused past brings a ghost of all of it - back to the old value, none - live, none") {
   TimeApp ui;
   ui.set("method", static_cast<double>(Method::paper));
   ui.run(2500);
@@ -138,7 +138,7 @@ TEST_CASE("every change of a parameter is marked at the tick it was applied") {
   CHECK(ui.model().parameter_marks()[1].text.find("13 mm") != std::string::npos);
 }
 
-TEST_CASE("scrubbing in the strip moves the one time cursor; nothing of the recording stops") {
+TEST_CASE("scrubbing in the strip moves the one time cursor - nothing of the recording stops") {
   TimeApp ui;
   ui.run(3000);
   const ItemRect strip = *ui.app().items().find("transport/strip");
@@ -172,7 +172,7 @@ TEST_CASE("the zoom stays when the view goes back to live") {
   CHECK(ui.model().axis().span() == span);
 }
 
-TEST_CASE("a box in a plot zooms time, and values when it is high; each axis can be moved alone") {
+TEST_CASE("a box in a plot zooms time, and values when it is high - each axis can be moved alone") {
   TimeApp ui;
   ui.run(3000);
   ui.click("transport/pause");

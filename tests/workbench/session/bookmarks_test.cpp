@@ -42,7 +42,7 @@ TEST_CASE("each trigger marks the tick that fired it, and calm ticks none") {
   }
 }
 
-TEST_CASE("a trigger that fires on and on is one bookmark; one switched off marks nothing") {
+TEST_CASE("a trigger that fires on and on is one bookmark - one switched off marks nothing") {
   Bookmarks marks;
   marks.triggers.on[static_cast<std::size_t>(BookmarkKind::iterations)] = false;
   for (std::uint64_t t = 0; t < 3000; ++t) {

@@ -34,7 +34,7 @@ TEST_CASE("states, faults and interventions are told once each, with their tick"
   for (std::size_t i = 1; i < size; ++i) CHECK(log.entries()[i - 1].tick <= log.entries()[i].tick);
 }
 
-TEST_CASE("an intervention that goes on is told once, and again after a quiet while; the log is bounded") {
+TEST_CASE("an intervention that goes on is told once, and again after a quiet while - the log is bounded") {
   SafetyLog log;
   ServoRecord record;
   const auto tick = [&](bool clamped) {

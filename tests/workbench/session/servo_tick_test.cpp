@@ -176,7 +176,7 @@ TEST_CASE("a device fault stops the force within two ticks, and only arming brin
   p.run_until_armed();
 }
 
-TEST_CASE("every fault of the simulated devices stops the force within two ticks; arming homes them again") {
+TEST_CASE("every fault of the simulated devices stops the force within two ticks - arming homes them again") {
   for (const DeviceFault fault : {DeviceFault::disconnected, DeviceFault::sensor, DeviceFault::actuator}) {
     for (const bool display : {false, true}) {
       CAPTURE(to_string(fault));

@@ -81,7 +81,7 @@ TEST_CASE("zooming about the pointer keeps the tick under it") {
   }
 }
 
-TEST_CASE("a following axis keeps its right end on the newest tick, also while zooming; panning lets go") {
+TEST_CASE("a following axis keeps its right end on the newest tick, also while zooming - panning lets go") {
   TimeAxis axis;
   axis.update(0, 10'000, 1e6);
   CHECK(axis.to() == 10'000.0);

@@ -46,7 +46,7 @@ TEST_CASE("between two bins the peak is the nearest one, at most 1.5 dB low") {
   CHECK(static_cast<double>(s.amplitude[s.peak]) > 0.84);
 }
 
-TEST_CASE("a short range has a coarser spectrum, too short a one none; a constant has no peak") {
+TEST_CASE("a short range has a coarser spectrum, too short a one none - a constant has no peak") {
   const ChannelStore store = sine(125.0, 1.0, 0.0, 5000);
   const Spectrum s = amplitude_spectrum(store, 0, 100, 700, kRate);
   CHECK(s.segment_ticks == 512);

@@ -216,7 +216,7 @@ TEST_CASE("a moving camera gets a picture at once and a better one when it rests
   CHECK(moving.rgba != resting.rgba);                  // with smoother edges
 }
 
-TEST_CASE("a scanned mesh of 69,451 triangles orbits with its smooth surface; the rate is reported") {
+TEST_CASE("a scanned mesh of 69,451 triangles orbits with its smooth surface - the rate is reported") {
   REQUIRE_GL(context);
   const std::filesystem::path bunny = std::filesystem::path(TANGENT_SHARED_ASSETS) / "meshes/stanford-bunny.obj";
   if (!std::filesystem::exists(bunny)) {
@@ -317,7 +317,7 @@ TEST_CASE("a shader that does not compile is reported with its file and line, in
   CHECK(contains(missing.error().where, "absent.vert.glsl"));
 }
 
-TEST_CASE("a changed shader is loaded again; one with a mistake leaves the last good one in use") {
+TEST_CASE("a changed shader is loaded again - one with a mistake leaves the last good one in use") {
   REQUIRE_GL(context);
   const TempFolder folder;
   folder.write("live.vert.glsl", "#version 330 core\nvoid main() { gl_Position = vec4(0.0); }\n");
