@@ -1,6 +1,6 @@
 #include "core/step.h"
 
-#include "core/contact/track.h"
+#include "core/glide.h"
 #include "core/planar/planar_step.h"
 #include "core/shading/render.h"
 
@@ -8,28 +8,17 @@
 
 namespace tangent {
 
-class StepCache {
- public:
-  explicit StepCache(const ContactMesh& mesh) : patches(mesh) {}
-
-  /// Whether `smooth` still holds the sample of this kept plane: the same place on a face or an edge, bit for bit.
-  bool holds(const TrackedPlane& kept, NormalForm kept_form) const {
-    const TrackedPlane& mine = smooth.contact.plane;
-    if (kept.feature != mine.feature || kept.triangle != mine.triangle || kept.u != mine.u || kept.v != mine.v || kept_form != form) return false;
-    return kept.feature == Feature::face || (kept.feature == Feature::edge && kept.side == mine.side && kept.turn == mine.turn && kept.normal == mine.normal);
-  }
-
-  PatchCache patches;
-  TrackResult smooth;  ///< of the last tick
-  NormalForm form = NormalForm::bernstein;
-};
-
 namespace {
+
+/// Finite, and so far from overflow that squares are: one number that isn't spoils the sum.
+bool is_usable(const FingerPose& pose) {
+  return std::isfinite(glm::dot(pose.position, pose.position) + glm::dot(pose.orientation, pose.orientation));
+}
 
 /// The plane that an unconverged tick renders: the last converged one at the present pose, ramping to zero.
 RenderPlane last_converged_plane(const Preset& preset, const TickState& state, const FingerPose& local, double t_s) {
   RenderPlane plane;
-  if (state.last_converged.feature == Feature::none) {
+  if (!state.has_converged) {
     plane.share = 0.0;
     return plane;
   }
@@ -104,7 +93,8 @@ static void track_smooth(const ContactScene& scene, StepCache& cache, const Pres
     plane = last_converged_plane(preset, state, local, t_s);
     return;
   }
-  state.last_converged = contact.plane;
+  state.last_converged = {contact.plane.point, contact.plane.normal};
+  state.has_converged = 1;
   state.last_converged_s = t_s;
   plane.normal = contact.plane.normal;
   plane.penetration_m = contact.contact.penetration_m;
@@ -159,25 +149,33 @@ static TickOutput step_facets(const ContactScene& scene, StepCache& cache, const
   return out;
 }
 
-/// Most ticks: nothing is prepared that they don't need.
+/// A tick that asks for the smooth contact alone.
 static TickOutput step_smooth(const ContactScene& scene, StepCache& cache, const Preset& preset, const TickInput& input,
                               const FingerPose& local, TickState& state, IterationTrace* trace) {
   RenderPlane plane;
   track_smooth(scene, cache, preset, preset.solver, local, input.t_s, state, trace, plane);
   TickOutput out = describe_smooth(cache.smooth, scene.mesh().origin());
-  render(preset, plane, input.finger, finger_velocity(preset, input.finger.position, input.t_s, state), out);
+  const Rendered rendered = render(preset, plane, input.finger, finger_velocity(preset, input.finger.position, input.t_s, state));
+  out.force_n = rendered.force_n;
+  out.cld_m = rendered.cld_m;
   keep_pose(input.finger.position, input.t_s, state);
   return out;
 }
 
+static TickOutput step_any(const ContactScene& scene, StepCache& cache, const Preset& preset, const TickInput& input, const FingerPose& local,
+                           TickState& state, IterationTrace* trace) {
+  if (scene.planar()) return step_planar(*scene.planar(), preset, input, state, trace);
+  if (!is_usable(input.finger)) return step_without_pose(scene, preset, input.t_s, state);
+  if (only_smooth(preset)) return step_smooth(scene, cache, preset, input, local, state, trace);
+  return step_facets(scene, cache, preset, input, local, state, trace);
+}
+
 TickOutput Stepper::step(const Preset& preset, const TickInput& input, TickState& state, IterationTrace* trace) {
-  if (scene_->planar()) return step_planar(*scene_->planar(), preset, input, state, trace);
-  const FingerPose& pose = input.finger;
-  if (!is_finite(pose.position) || !std::isfinite(glm::dot(pose.orientation, pose.orientation)))
-    return step_without_pose(*scene_, preset, input.t_s, state);
-  const FingerPose local{pose.position - scene_->mesh().origin(), pose.orientation};
-  if (only_smooth(preset)) return step_smooth(*scene_, *cache_, preset, input, local, state, trace);
-  return step_facets(*scene_, *cache_, preset, input, local, state, trace);
+  const ContactScene& scene = *scene_;
+  const FingerPose local{input.finger.position - scene.mesh().origin(), input.finger.orientation};
+  Glide plane;
+  if (!trace && glide(*cache_, preset, local, state, plane)) return end_glide(*cache_, preset, input, scene.mesh().origin(), plane, state);
+  return step_any(scene, *cache_, preset, input, local, state, trace);
 }
 
 const char* to_string(Feature feature) {

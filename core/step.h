@@ -93,14 +93,21 @@ struct Clearance {
   }
 };
 
+/// What is rendered on while no contact is found.
+struct ConvergedPlane {
+  Vec3 point{0.0};                  ///< local, m
+  Vec3 normal{0.0, 0.0, 1.0};
+};
+
 /// Everything one tick hands to the next. Trivially copyable.
 struct TickState {
   TrackedPlane plane;               ///< feature none: nothing tracked yet
-  TrackedPlane last_converged;      ///< feature none: there is none
-  double last_converged_s = 0.0;    ///< time of the last converged tick
+  ConvergedPlane last_converged;    ///< of the last converged tick, if has_converged
+  double last_converged_s = 0.0;    ///< its time
   Vec3 last_position{0.0};          ///< finger position of the previous tick, world, m
   double last_t_s = 0.0;
   std::uint8_t has_previous = 0;    ///< last_position and last_t_s are set
+  std::uint8_t has_converged = 0;   ///< there was a converged tick
   Clearance clearance;
   Vec3 proxy{0.0};                  ///< of the two-pass method, local, m
   std::uint8_t has_proxy = 0;

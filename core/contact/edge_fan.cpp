@@ -28,13 +28,6 @@ bool is_straight(const FanEdge& edge) {
 
 double angle_of(const Vec2& turn) { return arc_tangent(turn.y, turn.x); }
 
-Vec2 unit_turn(double x, double y) {
-  const double length2 = x * x + y * y;
-  if (!(length2 > 0.0)) return kNearTurn;
-  const double length = std::sqrt(length2);
-  return {x / length, y / length};
-}
-
 /// The curve's point and tangent and the near side's normal, with the frame that they span.
 void set_near_side(const FanEdge& edge, double f, EdgeFan& fan) {
   const EdgePoint at = evaluate(edge.curve, f);
@@ -74,6 +67,7 @@ void straighten(const FanEdge& edge, EdgeFan& fan) {
   fan.point_f = edge.chord;
   fan.tangent_f = fan.near_normal_f = fan.far_normal_f = Vec3(0.0);
   if (std::abs(fan.tilt_far - fan.tilt_near) <= 2.0 * kStraightEdge) fan.tilt_far = fan.tilt_near;
+  if (std::abs(fan.tilt_near) <= 2.0 * kStraightEdge && fan.tilt_far == fan.tilt_near) fan.tilt_near = fan.tilt_far = 0.0;
 }
 
 void set_fan(const FanEdge& edge, double f, EdgeFan& fan) {
@@ -83,6 +77,10 @@ void set_fan(const FanEdge& edge, double f, EdgeFan& fan) {
   fan.even = fan.tilt_near == fan.tilt_far && fan.near_normal_f == fan.far_normal_f &&
              (fan.tangent_f == Vec3(0.0) || fan.near_normal == fan.far_normal);
   if (!fan.even) fan.angle = angle_of(fan.far);
+  fan.uniform = edge.straight && fan.tilt_near == 0.0 && fan.tilt_far == 0.0;
+  if (!fan.uniform) return;
+  fan.start = edge.curve.origin + edge.curve.offsets[0];
+  fan.per_length2 = 1.0 / glm::dot(fan.point_f, fan.point_f);
 }
 
 }  // namespace
@@ -93,10 +91,12 @@ void prepare_fan(FanEdge& edge, EdgeFan& fan) {
 }
 
 void move_fan(const FanEdge& edge, double f, EdgeFan& fan) {
-  if (edge.straight) {
-    fan.point = edge.curve.origin + (edge.curve.offsets[0] + f * edge.chord);
-  } else {
+  if (!edge.straight) {
     set_fan(edge, f, fan);
+  } else if (fan.uniform) {
+    fan.point = uniform_point(fan, f);
+  } else {
+    fan.point = edge.curve.origin + (edge.curve.offsets[0] + f * edge.chord);
   }
 }
 
@@ -106,6 +106,7 @@ Vec2 clamp_turn(const EdgeFan& fan, const Vec2& turn) {
 }
 
 void edge_sample(const EdgeFan& fan, const Vec2& turn, SurfaceSample& sample) {
+  if (fan.uniform) return uniform_sample(fan, fan.point, turn, uniform_normal(fan, turn), sample);
   double share = 0.0, tilt_rate = 0.0;  // of the far side; of the tilt, 1/rad
   if (!fan.even && fan.angle != 0.0) {
     share = std::clamp(angle_of(turn) / fan.angle, 0.0, 1.0);
@@ -127,8 +128,6 @@ void edge_sample(const EdgeFan& fan, const Vec2& turn, SurfaceSample& sample) {
   sample.normal_u = by_f - glm::dot(by_f, normal) * normal;
   sample.normal_v = by_turn;
 }
-
-Vec2 turn_of(const EdgeFan& fan, const Vec3& normal) { return unit_turn(glm::dot(normal, fan.e1), glm::dot(normal, fan.e2)); }
 
 Vec2 facing_turn(const EdgeFan& fan, const Finger& finger, const FingerPose& pose) {
   Vec2 turn = turn_of(fan, pose.position - fan.point);

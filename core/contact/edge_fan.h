@@ -20,6 +20,9 @@ struct EdgeFan {
   Vec2 far{1.0, 0.0};           ///< the far normal's direction in (e1, e2); (-1, 0) at a boundary
   bool even = false;            ///< tilt and derivative along f are the same all over the fan; else they change with the turn's angle
   double angle = 0.0;           ///< from the near normal to the far one, rad, positive: convex; unset where `even`
+  bool uniform = false;         ///< of a straight edge between flat sides: the same all along but for the point, normals perpendicular to it
+  Vec3 start;                   ///< the point at f = 0, where `uniform`
+  double per_length2 = 0.0;     ///< 1/|point_f|^2, 1/m^2, where `uniform`
 
   /// Whether the normals part: only such an edge can be touched.
   bool convex() const { return far.y > 0.0 || (far.y == 0.0 && far.x < 0.0); }
@@ -38,8 +41,30 @@ Vec2 clamp_turn(const EdgeFan& fan, const Vec2& turn);
 /// along f is interpolated between the sides, but for its part along the edge, N_f.T = tilt_f - N.T_f, which is exact.
 void edge_sample(const EdgeFan& fan, const Vec2& turn, SurfaceSample& sample);
 
-/// The turn of a normal, not limited to the fan.
-Vec2 turn_of(const EdgeFan& fan, const Vec3& normal);
+// Of uniform fans, which take no iteration: the nearest point of the edge's line, and the direction from there.
+
+/// From a point of the edge to the foot of the perpendicular from a centre that is `d` from it, along f.
+inline double uniform_step(const EdgeFan& fan, const Vec3& d) { return glm::dot(d, fan.point_f) * fan.per_length2; }
+inline Vec3 uniform_point(const EdgeFan& fan, double f) { return fan.start + f * fan.point_f; }
+inline Vec3 uniform_normal(const EdgeFan& fan, const Vec2& turn) { return turn.x * fan.e1 + turn.y * fan.e2; }
+/// edge_sample there.
+inline void uniform_sample(const EdgeFan& fan, const Vec3& point, const Vec2& turn, const Vec3& normal, SurfaceSample& sample) {
+  sample.point = point;
+  sample.point_u = fan.point_f;
+  sample.point_v = sample.normal_u = Vec3(0.0);
+  sample.normal = normal;
+  sample.normal_v = turn.x * fan.e2 - turn.y * fan.e1;
+}
+
+/// The unit vector along (x, y); kNearTurn where that has no direction.
+inline Vec2 unit_turn(double x, double y) {
+  const double length2 = x * x + y * y;
+  if (!(length2 > 0.0)) return kNearTurn;
+  const double length = std::sqrt(length2);
+  return {x / length, y / length};
+}
+/// The turn of a direction, not limited to the fan.
+inline Vec2 turn_of(const EdgeFan& fan, const Vec3& direction) { return unit_turn(glm::dot(direction, fan.e1), glm::dot(direction, fan.e2)); }
 /// The turn at which the plane faces the finger: the travel has no component across the edge. Not limited to the fan.
 Vec2 facing_turn(const EdgeFan& fan, const Finger& finger, const FingerPose& pose);
 

@@ -14,10 +14,17 @@ namespace {
 /// 0.1 mm on a 10 mm half length. Smaller: closer to a true capsule, harder to converge along its side.
 constexpr double kSpindle = 0.01;
 
-Vec3 to_finger_frame(const FingerPose& pose, const Vec3& v) {
-  const Quat& q = pose.orientation;
-  if (q.x == 0.0 && q.y == 0.0 && q.z == 0.0) return v;  // no turn: most devices measure none
-  return glm::conjugate(q) * v;
+/// Most devices measure no turn.
+bool unturned(const Quat& q) { return q.x == 0.0 && q.y == 0.0 && q.z == 0.0; }
+
+Vec3 to_finger_frame(const FingerPose& pose, const Vec3& v) { return unturned(pose.orientation) ? v : glm::conjugate(pose.orientation) * v; }
+
+/// x and z of a vector in the finger frame: in the section that contacts are located in.
+Vec2 to_finger_section(const FingerPose& pose, const Vec3& v) {
+  if (unturned(pose.orientation)) return {v.x, v.z};
+  // The finger's axes are known before the vector is, so that only two dot products wait for it.
+  const Mat3 axes = glm::mat3_cast(pose.orientation);
+  return {glm::dot(axes[0], v), glm::dot(axes[2], v)};
 }
 
 Support ellipsoid_support(const Finger& finger, const FingerPose& pose, const Vec3& normal) {
@@ -115,28 +122,27 @@ Vec3 support_point(const Finger& finger, const FingerPose& pose, const Vec3& nor
 
 /// Arc on a sphere, or +-limit_m where it is longer: an angle is larger than its sine, and larger than a right angle
 /// on the nail's side.
-static double sphere_arc(double radius, const Vec3& m, double limit_m) {
+static double sphere_arc(double radius, const Vec2& m, double limit_m) {
   const double across = radius * m.x;
-  const bool beyond = m.z > 0.0 ? limit_m < 1.5 * radius : across * across > limit_m * limit_m * (m.x * m.x + m.z * m.z);
-  return beyond ? std::copysign(limit_m, m.x) : radius * arc_tangent(m.x, -m.z);
+  const bool beyond = m.y > 0.0 ? limit_m < 1.5 * radius : across * across > limit_m * limit_m * (m.x * m.x + m.y * m.y);
+  return beyond ? std::copysign(limit_m, m.x) : radius * arc_tangent(m.x, -m.y);
 }
 
 double contact_arc_m(const Finger& finger, const FingerPose& pose, const Vec3& normal, double limit_m) {
-  // The finger's axes are known before the normal is, so that only two dot products wait for it.
-  const Mat3 axes = glm::mat3_cast(pose.orientation);
-  const Vec3 m(-glm::dot(axes[0], normal), 0.0, -glm::dot(axes[2], normal));
-  if (finger.shape == FingerShape::point || (m.x == 0.0 && m.z == 0.0)) return 0.0;
+  const Vec2 m = -to_finger_section(pose, normal);  // to the contact: distal, and to the nail
+  if (finger.shape == FingerShape::sphere) return sphere_arc(finger.radius_m, m, limit_m);
+  if (m.x == 0.0 && m.y == 0.0) return 0.0;
   const Vec3& a = finger.semi_axes_m;
   switch (finger.shape) {
-    case FingerShape::point: return 0.0;
-    case FingerShape::sphere: return sphere_arc(finger.radius_m, m, limit_m);
-    case FingerShape::ellipsoid: return ellipse_arc(a.x, a.z, std::atan2(a.x * m.x, -a.z * m.z));
+    case FingerShape::point:
+    case FingerShape::sphere: return 0.0;
+    case FingerShape::ellipsoid: return ellipse_arc(a.x, a.z, std::atan2(a.x * m.x, -a.z * m.y));
     case FingerShape::capsule: {
       // Along the straight pad, round the tip, and on the nail side back along the straight part.
-      const double section = std::hypot(m.x, m.z);
+      const double section = std::hypot(m.x, m.y);
       double straight = finger.half_length_m * m.x / std::hypot(m.x, kSpindle * section);
-      if (m.z > 0.0) straight = std::copysign(2.0 * finger.half_length_m / std::hypot(1.0, kSpindle), m.x) - straight;
-      return finger.radius_m * std::atan2(m.x, -m.z) + straight;
+      if (m.y > 0.0) straight = std::copysign(2.0 * finger.half_length_m / std::hypot(1.0, kSpindle), m.x) - straight;
+      return finger.radius_m * std::atan2(m.x, -m.y) + straight;
     }
   }
   return 0.0;

@@ -24,6 +24,7 @@ struct RunMemory {
   double least = 1e300;   ///< error; when it stops falling, the iteration goes round in circles
   int least_at = 0;
   bool carried = false;   ///< a step was carried past the end of an edge
+  SurfacePlace no_exit;   ///< a vertex that nothing draws this finger away from
   Vec3 last_travel{0.0}, last_point{0.0};
 
   void add_error(double error, int evaluation) {
@@ -96,14 +97,6 @@ SurfacePlace move_along_edge(const ContactMesh& mesh, const SurfacePlace& at, do
   return place_on_edge(at.triangle, at.side, std::clamp(to, 0.0, 1.0));
 }
 
-/// Along the edge the contact is stable when a step along it moves the plane's contact the same way; across it the fan
-/// is convex, which is stable for a finger outside (h > 0).
-Stability edge_stability(const EdgeFan& fan, const SurfaceSample& s, const ContactJacobian& jacobian) {
-  const double along = glm::dot(jacobian.xa, fan.tangent) * (glm::dot(fan.point_f, fan.tangent) > 0.0 ? 1.0 : -1.0);
-  const double across = glm::dot(jacobian.xb, s.normal_v);
-  return {along * across, along + across};
-}
-
 /// Where a contact on an edge wants to go: along it by Newton's step or, where that is not to be trusted or for the
 /// paper's method, by the travel; or off it, into the face on one side.
 struct EdgeMove {
@@ -115,6 +108,7 @@ struct EdgeMove {
 EdgeMove edge_move(IterationContext& context, const EdgeFan& fan, const IterationResult& now, const ContactJacobian& jacobian, bool has_far) {
   EdgeMove move;
   move.step = newton_step(now.sample, jacobian, now.contact);
+  if (fan.uniform && is_round(context.finger)) move.step.da = uniform_step(fan, context.pose.position - now.sample.point);
   const bool trusted = move.step.valid && now.stability.stable(), paper = context.settings.method == Method::paper;
   if (!trusted || paper) {
     const double speed2 = glm::dot(fan.point_f, fan.point_f);
@@ -182,12 +176,14 @@ Proposal next_from_edge(IterationContext& context, const TrackedPlane& at, RunMe
   return next;
 }
 
-Proposal next_from_vertex(IterationContext& context, const SurfacePlace& at, IterationResult& now, bool kept) {
+Proposal next_from_vertex(IterationContext& context, const SurfacePlace& at, RunMemory& memory, IterationResult& now, bool kept) {
   Proposal next;
   now.stability = now.contact.height_m > 0.0 ? Stability{1.0, 2.0} : Stability{0.0, 0.0};
-  const VertexExit exit = vertex_exit(context, at);
+  VertexExit exit;
+  if (memory.no_exit.triangle != at.triangle || memory.no_exit.side != at.side) exit = vertex_exit(context, at);
   next.step.valid = true;
   if (!exit.place) {
+    memory.no_exit = at;
     if (now.contact.error_m < context.settings.tolerance_m) {
       next.stop = now.stability.stable() ? StopReason::converged : StopReason::unstable;
     } else if (kept) {
@@ -272,7 +268,7 @@ StopReason why_unconverged(const ContactMesh& mesh, const IterationResult& now, 
 /// One iteration from an edge or vertex. True to go on.
 bool iterate_feature(IterationContext& context, bool kept, int budget, RunMemory& memory, IterationResult& now) {
   Proposal next = now.plane.feature == Feature::edge ? next_from_edge(context, now.plane, memory, now)
-                                                     : next_from_vertex(context, now.plane, now, kept);
+                                                     : next_from_vertex(context, now.plane, memory, now, kept);
   if (next.stop == StopReason::going_on && now.evaluations >= budget)
     next.stop = why_unconverged(context.cache.mesh(), now, memory, budget);
   if (context.trace) record(context, now, next.step, std::abs(next.step.da) * glm::length(now.sample.point_u), next.stop);

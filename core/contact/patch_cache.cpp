@@ -24,6 +24,27 @@ void PatchCache::fill(CachedFan& slot, std::uint32_t t, std::uint32_t side, Norm
   slot.form = form;
 }
 
+void PatchCache::fill(VertexSurroundings& vertex, std::uint32_t t, std::uint32_t corner, NormalForm form) {
+  vertex.triangle = t;
+  vertex.corner = corner;
+  vertex.form = form;
+  vertex.complete = true;
+  vertex.face_count = 0;
+  std::size_t rays = 0;
+  compute_around(
+      t, corner, form,
+      [&](std::uint32_t at, std::uint32_t k, const SurfaceSample& sample) {
+        if (vertex.face_count == VertexSurroundings::kCapacity) vertex.complete = false;
+        if (vertex.complete) vertex.faces[vertex.face_count++] = {at, k, rays, sample};
+      },
+      [&](std::uint32_t at, std::uint32_t side, double f, const EdgeFan& fan) {
+        if (rays == vertex.rays.size()) vertex.complete = false;
+        if (!vertex.complete) return;
+        vertex.rays[rays++] = {at, side, f, fan};
+        vertex.faces[vertex.face_count - 1].rays_end = rays;
+      });
+}
+
 void PatchCache::move(CachedFan& slot, double f) {
   move_fan(slot.edge, f, slot.fan);
   slot.f = f;

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "core/contact/edge_fan.h"
-#include "core/mesh/contact_mesh.h"
+#include "core/mesh/vertex_ring.h"
 #include "core/surface/mesh_patch.h"
 
 #include <array>
@@ -28,6 +28,28 @@ struct CachedFan {
   EdgeFan fan;
 };
 
+/// The faces around a vertex, in the order of around_vertex, and the creases and boundaries that meet there, with their samples and fans at
+/// it: what decides whether a contact rests on it, and stays the same while it does.
+struct VertexSurroundings {
+  static constexpr std::size_t kCapacity = 64;
+  struct Face {
+    std::uint32_t triangle = kNone, corner = 0;
+    std::size_t rays_end = 0;     ///< its rays are those before this one and after the last face's
+    SurfaceSample sample;
+  };
+  struct Ray {
+    std::uint32_t triangle = kNone, side = 0;
+    double f = 0.0;               ///< of the edge at the vertex: 0 where it starts there, 1 where it ends there
+    EdgeFan fan;
+  };
+  std::uint32_t triangle = kNone, corner = 0;  ///< that it was asked for by
+  NormalForm form = NormalForm::bernstein;
+  bool complete = false;          ///< false: more than kCapacity faces, and nothing is held
+  std::size_t face_count = 0, ray_count = 0;
+  std::array<Face, kCapacity> faces;
+  std::array<Ray, kCapacity + 1> rays;
+};
+
 class PatchCache {
  public:
   explicit PatchCache(const ContactMesh& mesh) : mesh_(&mesh) {}
@@ -49,17 +71,45 @@ class PatchCache {
     if (!same_edge || slot.f != f) move(slot, f);
     return slot.fan;
   }
+  /// Visits the faces around the vertex at `corner` of triangle `t`, on_face(triangle, corner, sample), and after each those creases and
+  /// boundaries that are its, on_ray(triangle, side, f, fan): every one once. For few enough faces that is all from what was
+  /// kept of the last time.
+  template <class OnFace, class OnRay>
+  void around(std::uint32_t t, std::uint32_t corner, NormalForm form, OnFace on_face, OnRay on_ray) {
+    if (vertex_.triangle != t || vertex_.corner != corner || vertex_.form != form) fill(vertex_, t, corner, form);
+    if (!vertex_.complete) return compute_around(t, corner, form, on_face, on_ray);
+    std::size_t r = 0;
+    for (std::size_t i = 0; i < vertex_.face_count; ++i) {
+      const VertexSurroundings::Face& face = vertex_.faces[i];
+      on_face(face.triangle, face.corner, face.sample);
+      for (; r < face.rays_end; ++r) on_ray(vertex_.rays[r].triangle, vertex_.rays[r].side, vertex_.rays[r].f, vertex_.rays[r].fan);
+    }
+  }
 
  private:
   /// Direct-mapped. A contact revisits the few triangles around it.
   static constexpr std::uint32_t kSlots = 16;
   void fill(CachedPatch& slot, std::uint32_t t, NormalForm form);
   void fill(CachedFan& slot, std::uint32_t t, std::uint32_t side, NormalForm form);
+  void fill(VertexSurroundings& vertex, std::uint32_t t, std::uint32_t corner, NormalForm form);
+  template <class OnFace, class OnRay>
+  void compute_around(std::uint32_t t, std::uint32_t corner, NormalForm form, OnFace on_face, OnRay on_ray);
   static void move(CachedFan& slot, double f);
 
   const ContactMesh* mesh_;
   std::array<CachedPatch, kSlots> slots_;
   std::array<CachedFan, kSlots> fans_;
+  VertexSurroundings vertex_;
 };
+
+template <class OnFace, class OnRay>
+void PatchCache::compute_around(std::uint32_t t, std::uint32_t corner, NormalForm form, OnFace on_face, OnRay on_ray) {
+  around_vertex(*mesh_, t, corner, [&](std::uint32_t at, std::uint32_t k) {
+    on_face(at, k, evaluate(patch(at, form), k == 1 ? 1.0 : 0.0, k == 2 ? 1.0 : 0.0));
+    if (mesh_->edge_kind(at, k) != EdgeKind::smooth) on_ray(at, k, 0.0, fan(at, k, 0.0, form));
+    const std::uint32_t ending = (k + 2) % 3;  // lies beyond nothing: no other face has it as the one that starts here
+    if (mesh_->edge_kind(at, ending) == EdgeKind::boundary) on_ray(at, ending, 1.0, fan(at, ending, 1.0, form));
+  });
+}
 
 }  // namespace tangent

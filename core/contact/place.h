@@ -28,6 +28,9 @@ inline Vec2 edge_point_uv(std::uint32_t edge, double f) {
   }
 }
 
+/// Barycentric (u, v) of a corner.
+inline Vec2 corner_uv(std::uint32_t corner) { return {corner == 1 ? 1.0 : 0.0, corner == 2 ? 1.0 : 0.0}; }
+
 /// Fraction f of a point (u, v) on edge k.
 inline double edge_fraction(std::uint32_t edge, double u, double v) {
   switch (edge) {

@@ -23,8 +23,11 @@ struct ParameterStep {
 struct ContactJacobian {
   Vec3 xa, xb;  ///< S_a + H N_a, S_b + H N_b
 };
+inline ContactJacobian round_jacobian(const SurfaceSample& s, double height_m) {
+  return {s.point_u + height_m * s.normal_u, s.point_v + height_m * s.normal_v};
+}
 inline ContactJacobian contact_jacobian(const Finger& finger, const FingerPose& pose, const SurfaceSample& s, const PlaneContact& c) {
-  if (is_round(finger)) return {s.point_u + c.height_m * s.normal_u, s.point_v + c.height_m * s.normal_v};
+  if (is_round(finger)) return round_jacobian(s, c.height_m);
   const Mat3 h = offset_derivative(finger, pose, s.normal, c.penetration_m);
   return {s.point_u + h * s.normal_u, s.point_v + h * s.normal_v};
 }
@@ -47,6 +50,14 @@ inline NormalBend normal_bend(const SurfaceSample& s) {
   if (area == 0.0) return {0.0, 0.0, 0.0, 0.0};
   const double per_area = 1.0 / area;
   return {1.0, (glm::dot(s.normal_u, sb_turned) + glm::dot(s.point_u, nb_turned)) * per_area, glm::dot(s.normal_u, nb_turned) * per_area, area};
+}
+
+/// Along an edge a contact is stable when a step along it moves the plane's contact the same way; across it the fan is convex,
+/// which is stable for a finger outside (h > 0).
+inline Stability edge_stability(const EdgeFan& fan, const SurfaceSample& s, const ContactJacobian& jacobian) {
+  const double along = glm::dot(jacobian.xa, fan.tangent) * (glm::dot(fan.point_f, fan.tangent) > 0.0 ? 1.0 : -1.0);
+  const double across = glm::dot(jacobian.xb, s.normal_v);
+  return {along * across, along + across};
 }
 
 /// Eq. 1: Gain = G_o / ((1 + G_k k)(1 + G_d |d|)).
@@ -78,14 +89,18 @@ inline ParameterStep newton_step(const SurfaceSample& s, const ContactJacobian& 
   return newton_step(s, j, c, glm::dot(j.xa, glm::cross(j.xb, s.normal)));
 }
 
+/// Where Newton's step is taken without a second look: M is well inside the stable region, and the step short against the triangle.
+inline bool trusts_newton(const Stability& stability) { return stability.det > kNewtonMinDet && stability.trace > 0.0; }
+inline bool is_short(const ParameterStep& step) { return std::max(std::abs(step.da), std::abs(step.db)) <= kShortStep; }
+
 /// Newton's step where M is well inside the stable region, never longer than a few times the travel unless it is short
 /// against the triangle; else the damped one. `area`: S_u x S_v . N.
 inline ParameterStep robust_face_step(const SurfaceSample& s, const ContactJacobian& j, const Stability& stability,
                                       const PlaneContact& c, double area) {
-  if (!(stability.det > kNewtonMinDet && stability.trace > 0.0)) return damped_step(s, c);
+  if (!trusts_newton(stability)) return damped_step(s, c);
   ParameterStep step = newton_step(s, j, c, area * stability.det);
   if (!step.valid) return damped_step(s, c);
-  if (std::max(std::abs(step.da), std::abs(step.db)) <= kShortStep) return step;
+  if (is_short(step)) return step;
   const Vec3 ds = step.da * s.point_u + step.db * s.point_v;
   const double limit2 = kLongestStepPerTravel * kLongestStepPerTravel * c.error_m * c.error_m;
   const double length2 = glm::dot(ds, ds);

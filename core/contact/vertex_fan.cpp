@@ -3,7 +3,6 @@
 #include "core/contact/facing_normal.h"
 #include "core/contact/step_rule.h"
 #include "core/contact/walk.h"
-#include "core/mesh/vertex_ring.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,13 +10,9 @@
 namespace tangent {
 namespace {
 
-Vec2 corner_uv(std::uint32_t corner) { return {corner == 1 ? 1.0 : 0.0, corner == 2 ? 1.0 : 0.0}; }
-
-/// How strongly the face draws the contact from its corner into itself: length of the step if that leads
-/// inside, else 0.
-double face_pull(IterationContext& context, std::uint32_t t, std::uint32_t corner) {
-  const Vec2 uv = corner_uv(corner);
-  const SurfaceSample s = evaluate(context.cache.patch(t, context.settings.normal_form), uv.x, uv.y);
+/// How strongly the face draws the contact from its corner, where its sample is `s`, into itself: length of the step if that
+/// leads inside, else 0.
+double face_pull(IterationContext& context, std::uint32_t t, std::uint32_t corner, const SurfaceSample& s) {
   const PlaneContact c = contact_on_plane(context.finger, context.pose, s.point, s.normal);
   const ContactJacobian j = contact_jacobian(context.finger, context.pose, s, c);
   ParameterStep step = context.settings.method == Method::paper
@@ -33,8 +28,7 @@ double face_pull(IterationContext& context, std::uint32_t t, std::uint32_t corne
 }
 
 /// The same for a crease or boundary edge that starts (f = 0) or ends (f = 1) at the vertex.
-double edge_pull(IterationContext& context, std::uint32_t t, std::uint32_t edge, double f) {
-  const EdgeFan& fan = context.cache.fan(t, edge, f, context.settings.normal_form);
+double edge_pull(IterationContext& context, const EdgeFan& fan, double f) {
   if (!fan.convex()) return 0.0;
   const Vec2 turn = facing_turn(fan, context.finger, context.pose);
   if (!in_fan(fan, turn)) return 0.0;
@@ -73,37 +67,45 @@ SurfaceSample vertex_sample(IterationContext& context, const SurfacePlace& verte
   return vertex_sample_at(context, vertex, facing_normal(context.finger, context.pose, point, mesh.normal(vertex.triangle, vertex.side)));
 }
 
+namespace {
+
+/// Looks for the strongest pull away from a vertex.
+class ExitSearch {
+ public:
+  explicit ExitSearch(IterationContext& context) : context_(context) {
+    const double size = std::max(context.finger.reach_m(), glm::length(context.cache.mesh().bounds().size()));
+    strongest_ = std::min(1e-9 * size, 0.1 * context.settings.tolerance_m);
+  }
+
+  void face(std::uint32_t t, std::uint32_t corner, const SurfaceSample& sample) {
+    offer(face_pull(context_, t, corner, sample), Feature::face, t, 0, corner_uv(corner));
+  }
+  void ray(std::uint32_t t, std::uint32_t side, double f, const EdgeFan& fan) {
+    offer(edge_pull(context_, fan, f), Feature::edge, t, side, edge_point_uv(side, f));
+  }
+  const VertexExit& best() const { return best_; }
+
+ private:
+  void offer(double pull, Feature feature, std::uint32_t t, std::uint32_t side, const Vec2& uv) {
+    if (!(pull > strongest_)) return;
+    strongest_ = pull;
+    best_.place = SurfacePlace{feature, static_cast<std::uint8_t>(side), t, uv.x, uv.y};
+  }
+
+  IterationContext& context_;
+  double strongest_;
+  VertexExit best_;
+};
+
+}  // namespace
+
 VertexExit vertex_exit(IterationContext& context, const SurfacePlace& vertex) {
-  const ContactMesh& mesh = context.cache.mesh();
-  VertexExit best;
-  double strongest = 1e-9 * std::max(context.finger.reach_m(), glm::length(mesh.bounds().size()));
-  strongest = std::min(strongest, 0.1 * context.settings.tolerance_m);
-  const auto offer = [&](double pull, const SurfacePlace& place) {
-    if (!(pull > strongest)) return;
-    strongest = pull;
-    best.place = place;
-  };
-  around_vertex(mesh, vertex.triangle, vertex.side, [&](std::uint32_t t, std::uint32_t corner) {
-    SurfacePlace place;
-    place.triangle = t;
-    const Vec2 uv = corner_uv(corner);
-    place.u = uv.x;
-    place.v = uv.y;
-    place.feature = Feature::face;
-    offer(face_pull(context, t, corner), place);
-    place.feature = Feature::edge;
-    // Each edge once: the one that starts here, and the one that ends here where nothing lies beyond it.
-    if (mesh.edge_kind(t, corner) != EdgeKind::smooth) {
-      place.side = static_cast<std::uint8_t>(corner);
-      offer(edge_pull(context, t, corner, 0.0), place);
-    }
-    const std::uint32_t ending = (corner + 2) % 3;
-    if (mesh.edge_kind(t, ending) == EdgeKind::boundary) {
-      place.side = static_cast<std::uint8_t>(ending);
-      offer(edge_pull(context, t, ending, 1.0), place);
-    }
-  });
-  return best;
+  ExitSearch search(context);
+  context.cache.around(
+      vertex.triangle, vertex.side, context.settings.normal_form,
+      [&](std::uint32_t t, std::uint32_t corner, const SurfaceSample& sample) { search.face(t, corner, sample); },
+      [&](std::uint32_t t, std::uint32_t side, double f, const EdgeFan& fan) { search.ray(t, side, f, fan); });
+  return search.best();
 }
 
 }  // namespace tangent

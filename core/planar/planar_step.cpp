@@ -34,7 +34,7 @@ TrackedPlane plane_of(const PlanarPlace& place) {
 RenderPlane last_converged_plane(const Preset& preset, const TickState& state, const Vec2& centre, double radius, double t_s) {
   RenderPlane plane;
   plane.share = 0.0;
-  if (state.last_converged.feature == Feature::none) return plane;
+  if (!state.has_converged) return plane;
   plane.normal = state.last_converged.normal;
   plane.penetration_m = radius - glm::dot(lifted(centre) - state.last_converged.point, plane.normal);
   plane.share = unconverged_share(preset.safety, t_s - state.last_converged_s);
@@ -47,7 +47,8 @@ RenderPlane track_smooth(const PlanarContext& context, const Preset& preset, dou
   track = track_planar(context, ours ? place_of(state.plane) : PlanarPlace{});
   state.plane = plane_of(track.contact.place);
   if (!track.converged()) return last_converged_plane(preset, state, context.centre, context.radius_m, t_s);
-  state.last_converged = state.plane;
+  state.last_converged = {state.plane.point, state.plane.normal};
+  state.has_converged = 1;
   state.last_converged_s = t_s;
   return {state.plane.normal, context.radius_m - track.contact.height_m, 1.0};
 }

@@ -32,12 +32,12 @@ const RenderPlane* tactile_plane(const Preset& preset, const TickContacts& conta
   return is_smooth(preset.solver.method) ? &contacts.smooth_plane : &contacts.facet_plane;
 }
 
-void render_force(const Preset& preset, const RenderPlane& plane, const Vec3& velocity, TickOutput& out) {
-  if (plane.share > 0.0) out.force_n = plane.share * contact_force(preset.force, plane.normal, plane.penetration_m, velocity);
+Vec3 rendered_force(const Preset& preset, const RenderPlane& plane, const Vec3& velocity) {
+  return plane.share > 0.0 ? plane.share * contact_force(preset.force, plane.normal, plane.penetration_m, velocity) : Vec3(0.0);
 }
 
-void render_display(const Preset& preset, const RenderPlane& plane, const FingerPose& pose, TickOutput& out) {
-  if (plane.share > 0.0) out.cld_m = plane.share * display_position(preset.display, preset.finger, pose, plane.normal);
+double rendered_place(const Preset& preset, const RenderPlane& plane, const FingerPose& pose) {
+  return plane.share > 0.0 ? plane.share * display_position(preset.display, preset.finger, pose, plane.normal) : 0.0;
 }
 
 }  // namespace
@@ -111,13 +111,13 @@ void keep_pose(const Vec3& position, double t_s, TickState& state) {
 }
 
 void render(const Preset& preset, const TickContacts& contacts, const FingerPose& pose, const Vec3& velocity, TickOutput& out) {
-  render_force(preset, force_plane(preset, contacts), velocity, out);
-  if (const RenderPlane* tactile = tactile_plane(preset, contacts)) render_display(preset, *tactile, pose, out);
+  out.force_n = rendered_force(preset, force_plane(preset, contacts), velocity);
+  if (const RenderPlane* tactile = tactile_plane(preset, contacts)) out.cld_m = rendered_place(preset, *tactile, pose);
 }
 
-void render(const Preset& preset, const RenderPlane& plane, const FingerPose& pose, const Vec3& velocity, TickOutput& out) {
-  render_force(preset, plane, velocity, out);
-  if (preset.display.source != TactileSource::held) render_display(preset, plane, pose, out);
+Rendered render(const Preset& preset, const RenderPlane& plane, const FingerPose& pose, const Vec3& velocity) {
+  const double place = preset.display.source != TactileSource::held ? rendered_place(preset, plane, pose) : 0.0;  // what takes longest first
+  return {rendered_force(preset, plane, velocity), place};
 }
 
 }  // namespace tangent

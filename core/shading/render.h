@@ -46,7 +46,13 @@ void keep_pose(const Vec3& position, double t_s, TickState& state);
 
 /// Force and display of a tick, from the planes of the preset's sources. `velocity`: of the finger, world, m/s.
 void render(const Preset& preset, const TickContacts& contacts, const FingerPose& pose, const Vec3& velocity, TickOutput& out);
+
+/// What the devices get.
+struct Rendered {
+  Vec3 force_n{0.0};
+  double cld_m = 0.0;
+};
 /// The same where the one plane is the source of both (only_smooth).
-void render(const Preset& preset, const RenderPlane& plane, const FingerPose& pose, const Vec3& velocity, TickOutput& out);
+Rendered render(const Preset& preset, const RenderPlane& plane, const FingerPose& pose, const Vec3& velocity);
 
 }  // namespace tangent

@@ -130,7 +130,8 @@ void SurfaceMapper::compute_solve(std::uint32_t t, double u, double v, MapValues
 
   TickState resting;
   resting.plane = {Feature::face, 0, t, u, v, s.point, s.normal};
-  resting.last_converged = resting.plane;
+  resting.last_converged = {resting.plane.point, resting.plane.normal};
+  resting.has_converged = 1;
   resting.clearance = Clearance::unlimited();
   const Vec3 across = tangent_of(s), along = glm::cross(s.normal, across);
   int most = 0, total = 0, failed = 0;

@@ -1,0 +1,24 @@
+// What most ticks are: a round finger's contact glides on within its triangle, or along its edge, by one new plane.
+#pragma once
+
+#include "core/step_cache.h"
+
+namespace tangent {
+
+/// The new plane of a tick that glides; its sample is in the cache.
+struct Glide {
+  double u = 0.0, v = 0.0;
+  Vec2 turn{1.0, 0.0};  ///< on an edge
+  PlaneContact contact;
+};
+
+/// Solves a tick of `robust` where it is like that: only the smooth contact is asked for, the kept plane's sample is in the cache, one
+/// Newton step leads to a stable contact below tolerance, and no other place can be deeper. Without the turns for all other cases it
+/// takes less time, with the same arithmetic and so the same bits. False where the tick is any other. `local`: the finger in local
+/// mesh coordinates.
+bool glide(StepCache& cache, const Preset& preset, const FingerPose& local, const TickState& state, Glide& glide);
+
+/// The rest of such a tick: what the next one needs, force and display. `origin`: of the local coordinates, in the world.
+TickOutput end_glide(StepCache& cache, const Preset& preset, const TickInput& input, const Vec3& origin, const Glide& glide, TickState& state);
+
+}  // namespace tangent
