@@ -1,8 +1,10 @@
 #include "core/glide.h"
 
 #include "core/base/tolerances.h"
+#include "core/contact/facing_normal.h"
 #include "core/contact/rivals.h"
 #include "core/contact/step_rule.h"
+#include "core/contact/vertex_fan.h"
 #include "core/contact/walk.h"
 #include "core/shading/render.h"
 
@@ -25,7 +27,7 @@ bool glide_on_face(PatchCache& patches, const Preset& preset, const Vec3& centre
 
   glide.u = now.plane.u + step.da;
   glide.v = now.plane.v + step.db;
-  evaluate(patches.patch(now.plane.triangle, preset.solver.normal_form), glide.u, glide.v, now.sample);
+  patches.sample(now.plane.triangle, preset.solver.normal_form, glide.u, glide.v, now.sample);
   round_contact(radius, centre, now.sample.point, now.sample.normal, glide.contact);
   now.bend = normal_bend(now.sample);
   return glide.contact.error_m < tolerance && now.bend.at_height(glide.contact.height_m).stable();
@@ -80,18 +82,40 @@ bool glide_on_edge(PatchCache& patches, const Preset& preset, const FingerPose& 
                      : glide_on_curved_edge(patches, fan, preset, local, f, now, glide);
 }
 
-bool glide_on(StepCache& cache, const Preset& preset, const FingerPose& local, Glide& glide) {
-  IterationResult& now = cache.smooth.contact;
-  return now.plane.feature == Feature::face ? glide_on_face(cache.patches, preset, local.position, now, glide)
-                                            : glide_on_edge(cache.patches, preset, local, now, glide);
+/// On a vertex that nothing draws the finger away from the normal turns to face it.
+bool glide_on_vertex(PatchCache& patches, const Preset& preset, const FingerPose& local, const TrackedPlane& kept, IterationResult& now, Glide& glide) {
+  const double radius = round_radius_m(preset.finger), tolerance = preset.solver.tolerance_m;
+  const ContactMesh& mesh = patches.mesh();
+  const Vec3& point = mesh.position(kept.triangle, kept.side);
+  const Vec3 normal = facing_normal(preset.finger, local, point, mesh.normal(kept.triangle, kept.side));
+  PlaneContact before;
+  round_contact(radius, local.position, point, kept.normal, before);
+  round_contact(radius, local.position, point, normal, glide.contact);
+  if (before.error_m < tolerance || !(glide.contact.error_m < tolerance) || !(glide.contact.height_m > 0.0)) return false;
+  IterationContext context{patches, preset.solver, preset.finger, local, Vec3(0.0), nullptr, 0};
+  if (vertex_exit(context, kept).place) return false;
+  glide.u = kept.u;
+  glide.v = kept.v;
+  now.plane = kept;
+  now.sample.point = point;
+  now.sample.normal = normal;
+  return true;
+}
+
+/// `now`: of the kept plane in, of the new one out, if true; otherwise it is spoilt.
+bool glide_from(StepCache& cache, const Preset& preset, const FingerPose& local, const TrackedPlane& kept, IterationResult& now, Glide& glide) {
+  if (kept.feature == Feature::vertex) return glide_on_vertex(cache.patches, preset, local, kept, now, glide);
+  if (!cache.holds(kept, preset.solver.normal_form)) return false;
+  return kept.feature == Feature::face ? glide_on_face(cache.patches, preset, local.position, now, glide)
+                                       : glide_on_edge(cache.patches, preset, local, now, glide);
 }
 
 }  // namespace
 
 bool glide(StepCache& cache, const Preset& preset, const FingerPose& local, const TickState& state, Glide& glide) {
-  if (!glides(preset) || !cache.holds(state.plane, preset.solver.normal_form)) return false;
+  if (!glides(preset)) return false;
   IterationResult& now = cache.smooth.contact;
-  if (glide_on(cache, preset, local, glide) && glm::dot(state.plane.normal, now.sample.normal) >= kJumpCosine &&
+  if (glide_from(cache, preset, local, state.plane, now, glide) && glm::dot(state.plane.normal, now.sample.normal) >= kJumpCosine &&
       !rival_possible(state.clearance, gone_m(state.clearance, preset.finger, local),
                       contact_rank(preset.finger, glide.contact) - preset.solver.switch_hysteresis_m))
     return true;

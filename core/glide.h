@@ -1,4 +1,4 @@
-// What most ticks are: a round finger's contact glides on within its triangle, or along its edge, by one new plane.
+// What most ticks are: a round finger's contact glides on within its triangle, along its edge or about its vertex, by one new plane.
 #pragma once
 
 #include "core/step_cache.h"

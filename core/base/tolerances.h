@@ -57,7 +57,8 @@ inline constexpr double kNewtonMinDet = 0.01;
 inline constexpr double kLongestStepPerTravel = 4.0, kShortStep = 0.05;
 
 /// Ratio. An edge whose curve leaves its chord by less than this part of its length, between normals that turn by less
-/// than this (rad), is straight: its fan of normals is the same all along and computed once. Rounding leaves 1e-16.
+/// than this (rad), is straight: its fan of normals is the same all along and computed once; a patch that leaves its triangle by no more
+/// is flat. Rounding leaves 1e-16.
 /// Larger: contacts on all but straight edges are off by that part of the edge; smaller: flat sides turned in space are missed.
 inline constexpr double kStraightEdge = 1e-13;
 

@@ -1,6 +1,5 @@
 #include "core/contact/edge_fan.h"
 
-#include "core/base/arc_tangent.h"
 #include "core/base/tolerances.h"
 #include "core/contact/plane_contact.h"
 
@@ -23,25 +22,32 @@ bool is_straight(const FanEdge& edge) {
   const auto& p = edge.curve.offsets;
   const double room = kStraightEdge * glm::length(edge.chord);
   return glm::distance(3.0 * (p[1] - p[0]), edge.chord) <= room && glm::distance(3.0 * (p[3] - p[2]), edge.chord) <= room &&
-         constant(edge.near) && (edge.boundary || constant(edge.far));
+         edge.flat_near && (edge.boundary || edge.flat_far);
 }
 
-double angle_of(const Vec2& turn) { return arc_tangent(turn.y, turn.x); }
+/// Where all coefficients of a side's normals are the same, there is nothing to evaluate.
+EdgeNormal side_normal(const EdgeNormals& side, bool flat, double f) {
+  return flat ? EdgeNormal{side.normals[0], Vec3(0.0)} : evaluate(side, f);
+}
 
 /// The curve's point and tangent and the near side's normal, with the frame that they span.
 void set_near_side(const FanEdge& edge, double f, EdgeFan& fan) {
   const EdgePoint at = evaluate(edge.curve, f);
-  const EdgeNormal near = evaluate(edge.near, f);
+  const EdgeNormal near = side_normal(edge.near, edge.flat_near, f);
+  const double speed2 = glm::dot(at.point_f, at.point_f), chord2 = glm::dot(edge.chord, edge.chord);
+  const bool moves = speed2 > 1e-12 * chord2;
+  const Vec3 along = moves ? at.point_f : edge.chord;
+  const double along2 = moves ? speed2 : chord2;
   fan.point = at.point;
   fan.point_f = at.point_f;
-  const double speed2 = glm::dot(at.point_f, at.point_f);
-  fan.tangent = unit(speed2 > 1e-12 * glm::dot(edge.chord, edge.chord) ? at.point_f : edge.chord);
+  fan.tangent = unit(along);
   fan.tangent_f = speed2 > 0.0 ? (at.point_ff - glm::dot(at.point_ff, fan.tangent) * fan.tangent) / std::sqrt(speed2) : Vec3(0.0);
   fan.near_normal = near.normal;
   fan.near_normal_f = near.normal_f;
   fan.tilt_near = std::clamp(glm::dot(near.normal, fan.tangent), -1.0, 1.0);
-  const Vec3 across = near.normal - fan.tilt_near * fan.tangent;
-  fan.e1 = glm::dot(across, across) > 1e-12 ? unit(across) : any_perpendicular(fan.tangent);
+  // From `along` as it is: two roots and two divisions, which take longest, go on beside each other.
+  const Vec3 across = along2 * near.normal - glm::dot(near.normal, along) * along;
+  fan.e1 = glm::dot(across, across) > 1e-12 * along2 * along2 ? unit(across) : any_perpendicular(fan.tangent);
   fan.e2 = glm::cross(fan.tangent, fan.e1);
   if (glm::dot(fan.e2, edge.inwards) > 0.0) fan.e2 = -fan.e2;
 }
@@ -53,13 +59,16 @@ void set_far_side(const FanEdge& edge, double f, EdgeFan& fan) {
     fan.far_normal_f = fan.near_normal_f;
     fan.tilt_far = fan.tilt_near;
     fan.far = {-1.0, 0.0};
+    fan.cot_half = 0.0;
     return;
   }
-  const EdgeNormal far = evaluate(edge.far, 1.0 - f);
+  const EdgeNormal far = side_normal(edge.far, edge.flat_far, 1.0 - f);
   fan.far_normal = far.normal;
   fan.far_normal_f = -far.normal_f;
   fan.tilt_far = std::clamp(glm::dot(far.normal, fan.tangent), -1.0, 1.0);
-  fan.far = turn_of(fan, far.normal);
+  const double x = glm::dot(far.normal, fan.e1), y = glm::dot(far.normal, fan.e2), length = std::sqrt(x * x + y * y);
+  fan.far = length > 0.0 ? Vec2(x / length, y / length) : kNearTurn;
+  fan.cot_half = y != 0.0 ? (length + x) / y : 0.0;  // half a circle: 0
 }
 
 /// Without what rounding leaves of bends and leanings along a straight edge.
@@ -76,7 +85,6 @@ void set_fan(const FanEdge& edge, double f, EdgeFan& fan) {
   if (edge.straight) straighten(edge, fan);
   fan.even = fan.tilt_near == fan.tilt_far && fan.near_normal_f == fan.far_normal_f &&
              (fan.tangent_f == Vec3(0.0) || fan.near_normal == fan.far_normal);
-  if (!fan.even) fan.angle = angle_of(fan.far);
   fan.uniform = edge.straight && fan.tilt_near == 0.0 && fan.tilt_far == 0.0;
   if (!fan.uniform) return;
   fan.start = edge.curve.origin + edge.curve.offsets[0];
@@ -86,6 +94,8 @@ void set_fan(const FanEdge& edge, double f, EdgeFan& fan) {
 }  // namespace
 
 void prepare_fan(FanEdge& edge, EdgeFan& fan) {
+  edge.flat_near = constant(edge.near);
+  edge.flat_far = !edge.boundary && constant(edge.far);
   edge.straight = is_straight(edge);
   if (edge.straight) set_fan(edge, 0.0, fan);
 }
@@ -105,12 +115,12 @@ Vec2 clamp_turn(const EdgeFan& fan, const Vec2& turn) {
   return fan.convex() && glm::dot(turn, fan.far) > turn.x ? fan.far : kNearTurn;
 }
 
-void edge_sample(const EdgeFan& fan, const Vec2& turn, SurfaceSample& sample) {
+void edge_sample(const EdgeFan& fan, Vec2 turn, SurfaceSample& sample) {
   if (fan.uniform) return uniform_sample(fan, fan.point, turn, uniform_normal(fan, turn), sample);
   double share = 0.0, tilt_rate = 0.0;  // of the far side; of the tilt, 1/rad
-  if (!fan.even && fan.angle != 0.0) {
-    share = std::clamp(angle_of(turn) / fan.angle, 0.0, 1.0);
-    tilt_rate = (fan.tilt_far - fan.tilt_near) / fan.angle;
+  if (!fan.even) {
+    share = std::clamp(share_of(fan, turn), 0.0, 1.0);
+    tilt_rate = (fan.tilt_far - fan.tilt_near) * share_rate(fan, turn);
   }
   const double tilt = fan.tilt_near + share * (fan.tilt_far - fan.tilt_near);
   const double level = std::sqrt(std::max(0.0, 1.0 - tilt * tilt));

@@ -1,7 +1,7 @@
 // The fan of normals about a point of a crease or boundary edge.
 //
 // A direction across the edge is a unit vector (cos, sin) of the angle by which it is turned about the edge from the near
-// side's normal towards the far side's: solving on an edge takes no angle, sine or arc tangent unless the normals lean.
+// side's normal towards the far side's: solving on an edge takes no angle, sine or arc tangent.
 #pragma once
 
 #include "core/contact/finger.h"
@@ -18,8 +18,8 @@ struct EdgeFan {
   Vec3 near_normal_f, far_normal_f;        ///< their derivatives along f
   double tilt_near = 0.0, tilt_far = 0.0;  ///< normal . tangent on the two sides
   Vec2 far{1.0, 0.0};           ///< the far normal's direction in (e1, e2); (-1, 0) at a boundary
-  bool even = false;            ///< tilt and derivative along f are the same all over the fan; else they change with the turn's angle
-  double angle = 0.0;           ///< from the near normal to the far one, rad, positive: convex; unset where `even`
+  bool even = false;            ///< tilt and derivative along f are the same all over the fan; else they change with share_of the turn
+  double cot_half = 0.0;        ///< cotangent of half the angle from the near normal to the far one; 0 where that is half a circle
   bool uniform = false;         ///< of a straight edge between flat sides: the same all along but for the point, normals perpendicular to it
   Vec3 start;                   ///< the point at f = 0, where `uniform`
   double per_length2 = 0.0;     ///< 1/|point_f|^2, 1/m^2, where `uniform`
@@ -37,9 +37,15 @@ inline bool in_fan(const EdgeFan& fan, const Vec2& turn) {
 /// The turn itself, or that of the side it is nearer to.
 Vec2 clamp_turn(const EdgeFan& fan, const Vec2& turn);
 
+/// How far a turn is from the near side (0) to the far one (1): (sin(t - a/2) / sin(a/2) + 1) / 2, with t the turn's angle
+/// and a the fan's, which rises with t in fans of up to half a circle. Needs no angle: with x = cos t, y = sin t.
+inline double share_of(const EdgeFan& fan, const Vec2& turn) { return 0.5 * ((1.0 - turn.x) + turn.y * fan.cot_half); }
+/// Its derivative by the turn's angle.
+inline double share_rate(const EdgeFan& fan, const Vec2& turn) { return 0.5 * (turn.y + turn.x * fan.cot_half); }
+
 /// The edge's point with the fan's unit normal at `turn`; _u is along f, _v along the turn's angle. The normal's derivative
 /// along f is interpolated between the sides, but for its part along the edge, N_f.T = tilt_f - N.T_f, which is exact.
-void edge_sample(const EdgeFan& fan, const Vec2& turn, SurfaceSample& sample);
+void edge_sample(const EdgeFan& fan, Vec2 turn, SurfaceSample& sample);
 
 // Of uniform fans, which take no iteration: the nearest point of the edge's line, and the direction from there.
 
@@ -74,9 +80,10 @@ struct FanEdge {
   EdgeNormals near, far;        ///< far: of the neighbour's edge, which runs the other way
   Vec3 chord, inwards;          ///< from the first corner to the second, and to the near triangle's third
   bool boundary = false;
-  bool straight = false;        ///< a straight edge between sides of constant normals: the same fan all along
+  bool flat_near = false, flat_far = false;  ///< constant normals along that side
+  bool straight = false;        ///< a straight edge between such sides: the same fan all along
 };
-/// Completes an edge of which all but `straight` is given: tells whether it is, and then sets `fan` but for its point.
+/// Completes an edge of which all but the last three is given, and where it is straight sets `fan` but for its point.
 void prepare_fan(FanEdge& edge, EdgeFan& fan);
 /// Brings `fan` to fraction f of its edge.
 void move_fan(const FanEdge& edge, double f, EdgeFan& fan);

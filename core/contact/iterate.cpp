@@ -227,7 +227,7 @@ void record(IterationContext& context, const IterationResult& now, const Paramet
 void sample_place(IterationContext& context, TrackedPlane& plane, SurfaceSample& sample) {
   const NormalForm form = context.settings.normal_form;
   if (plane.feature == Feature::face) {
-    evaluate(context.cache.patch(plane.triangle, form), plane.u, plane.v, sample);
+    context.cache.sample(plane.triangle, form, plane.u, plane.v, sample);
   } else if (plane.feature == Feature::edge) {
     const EdgeFan& fan = context.cache.fan(plane.triangle, plane.side, edge_fraction(plane.side, plane.u, plane.v), form);
     plane.turn = clamp_turn(fan, facing_turn(fan, context.finger, context.pose));
@@ -243,11 +243,14 @@ namespace {
 
 /// Sample of the plane kept from the last tick: edges and vertices keep the normal they had.
 SurfaceSample kept_place_sample(IterationContext& context, TrackedPlane& plane) {
-  if (plane.feature == Feature::face) return evaluate(context.cache.patch(plane.triangle, context.settings.normal_form), plane.u, plane.v);
+  SurfaceSample s;
+  if (plane.feature == Feature::face) {
+    context.cache.sample(plane.triangle, context.settings.normal_form, plane.u, plane.v, s);
+    return s;
+  }
   if (plane.feature == Feature::vertex) return vertex_sample_at(context, plane, plane.normal);
   const EdgeFan& fan = context.cache.fan(plane.triangle, plane.side, edge_fraction(plane.side, plane.u, plane.v),
                                context.settings.normal_form);
-  SurfaceSample s;
   edge_sample(fan, plane.turn, s);
   if (glm::dot(s.normal, plane.normal) < 1.0 - 1e-14) {  // of another normal form, or given from outside
     plane.turn = clamp_turn(fan, turn_of(fan, plane.normal));

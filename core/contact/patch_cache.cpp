@@ -1,9 +1,12 @@
 #include "core/contact/patch_cache.h"
 
+#include "core/base/tolerances.h"
+
 namespace tangent {
 
 void PatchCache::fill(CachedPatch& slot, std::uint32_t t, NormalForm form) {
   slot.patch = make_patch(*mesh_, t, form);
+  slot.flat = is_flat(slot.patch, kStraightEdge);
   slot.triangle = t;
   slot.form = form;
 }

@@ -15,6 +15,7 @@ namespace tangent {
 struct CachedPatch {
   std::uint32_t triangle = kNone;
   NormalForm form = NormalForm::bernstein;
+  bool flat = false;
   PnPatch patch;
 };
 
@@ -58,9 +59,16 @@ class PatchCache {
 
   /// Patch of triangle `t`. The reference is good until the next call.
   const PnPatch& patch(std::uint32_t t, NormalForm form) {
-    CachedPatch& slot = slots_[t % kSlots];
-    if (slot.triangle != t || slot.form != form) fill(slot, t, form);
-    return slot.patch;
+    return patch_slot(t, form).patch;
+  }
+  /// Its sample at (u, v): most of a polyhedron is flat, where it takes no evaluation.
+  void sample(std::uint32_t t, NormalForm form, double u, double v, SurfaceSample& sample) {
+    const CachedPatch& slot = patch_slot(t, form);
+    if (slot.flat) {
+      evaluate_flat(slot.patch, u, v, sample);
+    } else {
+      evaluate(slot.patch, u, v, sample);
+    }
   }
   /// Fan at fraction f of edge `side` of triangle `t`, which runs from corner `side` to the next. Precondition: not a smooth
   /// edge. The reference is good until the next call.
@@ -89,6 +97,11 @@ class PatchCache {
  private:
   /// Direct-mapped. A contact revisits the few triangles around it.
   static constexpr std::uint32_t kSlots = 16;
+  CachedPatch& patch_slot(std::uint32_t t, NormalForm form) {
+    CachedPatch& slot = slots_[t % kSlots];
+    if (slot.triangle != t || slot.form != form) fill(slot, t, form);
+    return slot;
+  }
   void fill(CachedPatch& slot, std::uint32_t t, NormalForm form);
   void fill(CachedFan& slot, std::uint32_t t, std::uint32_t side, NormalForm form);
   void fill(VertexSurroundings& vertex, std::uint32_t t, std::uint32_t corner, NormalForm form);
@@ -105,7 +118,9 @@ class PatchCache {
 template <class OnFace, class OnRay>
 void PatchCache::compute_around(std::uint32_t t, std::uint32_t corner, NormalForm form, OnFace on_face, OnRay on_ray) {
   around_vertex(*mesh_, t, corner, [&](std::uint32_t at, std::uint32_t k) {
-    on_face(at, k, evaluate(patch(at, form), k == 1 ? 1.0 : 0.0, k == 2 ? 1.0 : 0.0));
+    SurfaceSample there;
+    sample(at, form, k == 1 ? 1.0 : 0.0, k == 2 ? 1.0 : 0.0, there);
+    on_face(at, k, there);
     if (mesh_->edge_kind(at, k) != EdgeKind::smooth) on_ray(at, k, 0.0, fan(at, k, 0.0, form));
     const std::uint32_t ending = (k + 2) % 3;  // lies beyond nothing: no other face has it as the one that starts here
     if (mesh_->edge_kind(at, ending) == EdgeKind::boundary) on_ray(at, ending, 1.0, fan(at, ending, 1.0, form));

@@ -10,10 +10,21 @@
 namespace tangent {
 namespace {
 
+/// On flat ground every method steps along the travel. Where that turns away from both sides of the corner it leads nowhere between
+/// them: a t1 + b t2 with a, b >= 0 has no negative product with both t1 and t2.
+bool turns_from_flat(const Vec3& travel, std::uint32_t corner, const SurfaceSample& s) {
+  if (s.normal_u != Vec3(0.0) || s.normal_v != Vec3(0.0)) return false;
+  const Vec3 across = s.point_v - s.point_u;
+  const Vec3 first = corner == 0 ? s.point_u : corner == 1 ? across : -s.point_v;
+  const Vec3 second = corner == 0 ? s.point_v : corner == 1 ? -s.point_u : -across;
+  return glm::dot(travel, first) <= 0.0 && glm::dot(travel, second) <= 0.0;
+}
+
 /// How strongly the face draws the contact from its corner, where its sample is `s`, into itself: length of the step if that
 /// leads inside, else 0.
 double face_pull(IterationContext& context, std::uint32_t t, std::uint32_t corner, const SurfaceSample& s) {
   const PlaneContact c = contact_on_plane(context.finger, context.pose, s.point, s.normal);
+  if (turns_from_flat(c.travel, corner, s)) return 0.0;
   const ContactJacobian j = contact_jacobian(context.finger, context.pose, s, c);
   ParameterStep step = context.settings.method == Method::paper
                            ? paper_face_step(context.cache.mesh(), context.settings, t, s, c)
@@ -30,12 +41,14 @@ double face_pull(IterationContext& context, std::uint32_t t, std::uint32_t corne
 /// The same for a crease or boundary edge that starts (f = 0) or ends (f = 1) at the vertex.
 double edge_pull(IterationContext& context, const EdgeFan& fan, double f) {
   if (!fan.convex()) return 0.0;
+  const double outwards = f == 0.0 ? 1.0 : -1.0;
+  if (fan.uniform && is_round(context.finger) && outwards * glm::dot(context.pose.position - fan.point, fan.tangent) <= 0.0) return 0.0;
   const Vec2 turn = facing_turn(fan, context.finger, context.pose);
   if (!in_fan(fan, turn)) return 0.0;
   SurfaceSample s;
   edge_sample(fan, turn, s);
   const PlaneContact c = contact_on_plane(context.finger, context.pose, s.point, s.normal);
-  const double away = glm::dot(c.travel, fan.tangent) * (f == 0.0 ? 1.0 : -1.0);
+  const double away = outwards * glm::dot(c.travel, fan.tangent);
   return away > 0.0 ? away : 0.0;
 }
 

@@ -132,6 +132,21 @@ void evaluate(const PnPatch& patch, double u, double v, SurfaceSample& s) {
   s.normal_v = per_length * (n.by_v - glm::dot(normal, n.by_v) * normal);
 }
 
+bool is_flat(const PnPatch& patch, double room) {
+  const auto& b = patch.offsets;
+  const Vec3 &p = b[b030], &q = b[b003];
+  const double size2 = std::max({glm::dot(p, p), glm::dot(q, q), glm::dot(q - p, q - p)});
+  const auto at = [&](ControlPoint i, double u, double v) {  // thirds: where an affine patch has it
+    const Vec3 off = b[i] - (u * p + v * q) / 3.0;
+    return glm::dot(off, off) <= room * room * size2;
+  };
+  if (!(at(b210, 1, 0) && at(b120, 2, 0) && at(b021, 2, 1) && at(b012, 1, 2) && at(b102, 0, 2) && at(b201, 0, 1) && at(b111, 1, 1))) return false;
+  return patch.mixed_weight == 2.0 && std::all_of(patch.normals.begin(), patch.normals.end(), [&](const Vec3& n) {
+           const Vec3 off = n - patch.normals[n200];
+           return glm::dot(off, off) <= room * room;
+         });
+}
+
 SurfaceSample evaluate(const PnPatch& patch, double u, double v) {
   SurfaceSample s;
   evaluate(patch, u, v, s);

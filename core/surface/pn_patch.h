@@ -72,6 +72,17 @@ void evaluate(const PnPatch& patch, double u, double v, SurfaceSample& sample);
 Vec3 evaluate_point(const PnPatch& patch, double u, double v);
 Vec3 evaluate_normal(const PnPatch& patch, double u, double v);
 
+/// Whether the patch is the flat triangle itself with one normal all over, to within `room` of its longest side and of a unit normal.
+bool is_flat(const PnPatch& patch, double room);
+/// What `evaluate` gives on such a patch, but for rounding, without its work.
+inline void evaluate_flat(const PnPatch& patch, double u, double v, SurfaceSample& sample) {
+  sample.point_u = patch.offsets[b030];
+  sample.point_v = patch.offsets[b003];
+  sample.point = patch.origin + (u * sample.point_u + v * sample.point_v);
+  sample.normal = patch.normals[n200];
+  sample.normal_u = sample.normal_v = Vec3(0.0);
+}
+
 struct SecondDerivatives {
   Vec3 point_uu, point_uv, point_vv;  ///< m
 };

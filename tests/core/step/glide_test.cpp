@@ -65,7 +65,7 @@ bool same(const EdgeFan& a, const EdgeFan& b) {
     return std::array{f.point, f.point_f, f.tangent, f.tangent_f, f.e1, f.e2, f.near_normal, f.far_normal, f.near_normal_f, f.far_normal_f};
   };
   return vectors(a) == vectors(b) && a.tilt_near == b.tilt_near && a.tilt_far == b.tilt_far && a.far == b.far && a.even == b.even &&
-         (a.even || a.angle == b.angle) && a.uniform == b.uniform && (!a.uniform || (a.start == b.start && a.per_length2 == b.per_length2));
+         a.cot_half == b.cot_half && a.uniform == b.uniform && (!a.uniform || (a.start == b.start && a.per_length2 == b.per_length2));
 }
 
 /// Two meshes in one, side by side.
