@@ -8,6 +8,9 @@
 #include "core/contact/walk.h"
 #include "core/shading/render.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace tangent {
 namespace {
 
@@ -15,22 +18,40 @@ bool glides(const Preset& preset) {
   return preset.solver.method == Method::robust && is_round(preset.finger) && preset.solver.max_iterations > 0 && only_smooth(preset);
 }
 
-/// One Newton step within the triangle. `now`: the kept plane in, the new sample and how it bends out.
-bool glide_on_face(PatchCache& patches, const Preset& preset, const Vec3& centre, IterationResult& now, Glide& glide) {
-  const double radius = round_radius_m(preset.finger), tolerance = preset.solver.tolerance_m;
-  PlaneContact kept;
-  round_contact(radius, centre, now.sample.point, now.sample.normal, kept);
-  const Stability before = now.bend.at_height(kept.height_m);
-  const ParameterStep step = newton_step(now.sample, round_jacobian(now.sample, kept.height_m), kept, now.bend.area_m2 * before.det);
-  if (kept.error_m < tolerance || !trusts_newton(before) || !is_short(step) || !stays_inside(now.plane.u, now.plane.v, step.da, step.db))
-    return false;
-
-  glide.u = now.plane.u + step.da;
-  glide.v = now.plane.v + step.db;
+/// One Newton step within the triangle from `c`, the contact at glide.u, glide.v: then the contact there, in glide.contact.
+inline bool take_step(PatchCache& patches, const Preset& preset, const Vec3& centre, const PlaneContact& c, IterationResult& now, Glide& glide) {
+  const Stability stability = now.bend.at_height(c.height_m);
+  const ParameterStep step = newton_step(now.sample, round_jacobian(now.sample, c.height_m), c, now.bend.area_m2 * stability.det);
+  if (!trusts_newton(stability) || !is_short(step) || !stays_inside(glide.u, glide.v, step.da, step.db)) return false;
+  ++glide.planes;
+  glide.u += step.da;
+  glide.v += step.db;
   patches.sample(now.plane.triangle, preset.solver.normal_form, glide.u, glide.v, now.sample);
-  round_contact(radius, centre, now.sample.point, now.sample.normal, glide.contact);
+  round_contact(round_radius_m(preset.finger), centre, now.sample.point, now.sample.normal, glide.contact);
   now.bend = normal_bend(now.sample);
-  return glide.contact.error_m < tolerance && now.bend.at_height(glide.contact.height_m).stable();
+  return true;
+}
+
+/// The steps after the first. Apart, and called: most ticks take one, and are quicker without a loop.
+[[gnu::noinline]] bool take_more_steps(PatchCache& patches, const Preset& preset, const Vec3& centre, IterationResult& now, Glide& glide) {
+  const int budget = std::min(kTrackBudget, preset.solver.max_iterations);
+  while (!(glide.contact.error_m < preset.solver.tolerance_m)) {
+    const PlaneContact here = glide.contact;
+    if (glide.planes == budget || !take_step(patches, preset, centre, here, now, glide)) return false;
+  }
+  return true;
+}
+
+/// Newton's steps within the triangle. `now`: the kept plane's sample in, the last one's and how it bends out.
+bool glide_on_face(PatchCache& patches, const Preset& preset, const Vec3& centre, IterationResult& now, Glide& glide) {
+  const double tolerance = preset.solver.tolerance_m;
+  glide.u = now.plane.u;
+  glide.v = now.plane.v;
+  PlaneContact kept;
+  round_contact(round_radius_m(preset.finger), centre, now.sample.point, now.sample.normal, kept);
+  if (kept.error_m < tolerance || !take_step(patches, preset, centre, kept, now, glide)) return false;
+  if (!(glide.contact.error_m < tolerance) && !take_more_steps(patches, preset, centre, now, glide)) return false;
+  return now.bend.at_height(glide.contact.height_m).stable();
 }
 
 /// Along a straight edge between flat sides: no iteration at all.
@@ -49,6 +70,7 @@ bool glide_on_uniform_edge(const EdgeFan& fan, const Preset& preset, const Vec3&
   glide.u = uv.x;
   glide.v = uv.y;
   glide.turn = turn;
+  glide.planes = 1;
   uniform_sample(fan, point, turn, normal, now.sample);
   return glide.contact.error_m < tolerance && glide.contact.height_m > 0.0;
 }
@@ -69,6 +91,7 @@ bool glide_on_curved_edge(PatchCache& patches, const EdgeFan& fan, const Preset&
   patches.fan(now.plane.triangle, now.plane.side, edge_fraction(now.plane.side, uv.x, uv.y), preset.solver.normal_form);
   glide.turn = facing_turn(fan, preset.finger, local);
   if (!in_fan(fan, glide.turn)) return false;
+  glide.planes = 1;
   edge_sample(fan, glide.turn, now.sample);
   round_contact(radius, local.position, now.sample.point, now.sample.normal, glide.contact);
   return glide.contact.error_m < tolerance && edge_stability(fan, now.sample, round_jacobian(now.sample, glide.contact.height_m)).stable();
@@ -96,13 +119,14 @@ bool glide_on_vertex(PatchCache& patches, const Preset& preset, const FingerPose
   if (vertex_exit(context, kept).place) return false;
   glide.u = kept.u;
   glide.v = kept.v;
+  glide.planes = 1;
   now.plane = kept;
   now.sample.point = point;
   now.sample.normal = normal;
   return true;
 }
 
-/// `now`: of the kept plane in, of the new one out, if true; otherwise it is spoilt.
+/// `now`: of the kept plane in, of the new one out.
 bool glide_from(StepCache& cache, const Preset& preset, const FingerPose& local, const TrackedPlane& kept, IterationResult& now, Glide& glide) {
   if (kept.feature == Feature::vertex) return glide_on_vertex(cache.patches, preset, local, kept, now, glide);
   if (!cache.holds(kept, preset.solver.normal_form)) return false;
@@ -114,12 +138,14 @@ bool glide_from(StepCache& cache, const Preset& preset, const FingerPose& local,
 
 bool glide(StepCache& cache, const Preset& preset, const FingerPose& local, const TickState& state, Glide& glide) {
   if (!glides(preset)) return false;
+  const Clearance& known = state.clearance;
+  const Vec3 away = local.position - known.centre;
+  if (!(glm::dot(away, away) <= known.free_m * std::abs(known.free_m))) return false;  // something must be looked at, wherever this leads
   IterationResult& now = cache.smooth.contact;
   if (glide_from(cache, preset, local, state.plane, now, glide) && glm::dot(state.plane.normal, now.sample.normal) >= kJumpCosine &&
-      !rival_possible(state.clearance, gone_m(state.clearance, preset.finger, local),
-                      contact_rank(preset.finger, glide.contact) - preset.solver.switch_hysteresis_m))
+      !rival_possible(known, gone_m(known, preset.finger, local), contact_rank(preset.finger, glide.contact) - preset.solver.switch_hysteresis_m))
     return true;
-  now.plane.feature = Feature::none;  // its sample may not be the kept plane's any more
+  if (glide.planes > 0) now.plane.feature = Feature::none;  // its sample isn't the kept plane's any more
   return false;
 }
 
@@ -150,7 +176,7 @@ TickOutput end_glide(StepCache& cache, const Preset& preset, const TickInput& in
           .force_n = rendered.force_n,
           .cld_m = rendered.cld_m,
           .error_m = glide.contact.error_m,
-          .iterations = 1,
+          .iterations = glide.planes,
           .triangle_changes = 0};
 }
 

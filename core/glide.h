@@ -1,21 +1,22 @@
-// What most ticks are: a round finger's contact glides on within its triangle, along its edge or about its vertex, by one new plane.
+// What most ticks are: a round finger's contact glides on within its triangle, along its edge or about its vertex.
 #pragma once
 
 #include "core/step_cache.h"
 
 namespace tangent {
 
-/// The new plane of a tick that glides; its sample is in the cache.
+/// The last plane of a tick that glides; its sample is in the cache.
 struct Glide {
   double u = 0.0, v = 0.0;
   Vec2 turn{1.0, 0.0};  ///< on an edge
   PlaneContact contact;
+  int planes = 0;       ///< taken so far; with the first, the cache no longer holds the kept plane's sample
 };
 
-/// Solves a tick of `robust` where it is like that: only the smooth contact is asked for, the kept plane's sample is in the cache, one
-/// Newton step leads to a stable contact below tolerance, and no other place can be deeper. Without the turns for all other cases it
-/// takes less time, with the same arithmetic and so the same bits. False where the tick is any other. `local`: the finger in local
-/// mesh coordinates.
+/// Solves a tick of `robust` where it is like that: only the smooth contact is asked for, the kept plane's sample is in the cache, Newton's
+/// steps lead to a stable contact below tolerance, and no other place can be deeper. Without the turns for all other cases it takes
+/// less time, with the same arithmetic and so the same bits. False where the tick is any other. `local`: the finger in local mesh
+/// coordinates.
 bool glide(StepCache& cache, const Preset& preset, const FingerPose& local, const TickState& state, Glide& glide);
 
 /// The rest of such a tick: what the next one needs, force and display. `origin`: of the local coordinates, in the world.
