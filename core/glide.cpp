@@ -9,7 +9,6 @@
 #include "core/shading/render.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace tangent {
 namespace {
@@ -139,11 +138,11 @@ bool glide_from(StepCache& cache, const Preset& preset, const FingerPose& local,
 bool glide(StepCache& cache, const Preset& preset, const FingerPose& local, const TickState& state, Glide& glide) {
   if (!glides(preset)) return false;
   const Clearance& known = state.clearance;
-  const Vec3 away = local.position - known.centre;
-  if (!(glm::dot(away, away) <= known.free_m * std::abs(known.free_m))) return false;  // something must be looked at, wherever this leads
+  const double gone = gone_m(known, preset.finger, local);
+  if (!(gone <= known.free_m)) return false;  // something must be looked at, wherever this leads
   IterationResult& now = cache.smooth.contact;
   if (glide_from(cache, preset, local, state.plane, now, glide) && glm::dot(state.plane.normal, now.sample.normal) >= kJumpCosine &&
-      !rival_possible(known, gone_m(known, preset.finger, local), contact_rank(preset.finger, glide.contact) - preset.solver.switch_hysteresis_m))
+      !rival_possible(known, gone, contact_rank(preset.finger, glide.contact) - preset.solver.switch_hysteresis_m))
     return true;
   if (glide.planes > 0) now.plane.feature = Feature::none;  // its sample isn't the kept plane's any more
   return false;

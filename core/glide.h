@@ -7,8 +7,8 @@ namespace tangent {
 
 /// The last plane of a tick that glides; its sample is in the cache.
 struct Glide {
-  double u = 0.0, v = 0.0;
-  Vec2 turn{1.0, 0.0};  ///< on an edge
+  double u, v;
+  Vec2 turn;            ///< on an edge
   PlaneContact contact;
   int planes = 0;       ///< taken so far; with the first, the cache no longer holds the kept plane's sample
 };

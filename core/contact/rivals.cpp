@@ -179,17 +179,11 @@ class RivalSearch {
   int solves_ = 0;
 };
 
-/// How far the support points of a finger can have moved while it turned from one orientation to the other.
-double turned_m(const Finger& finger, const Quat& from, const Quat& to) {
-  if (is_round(finger) || from == to) return 0.0;
-  return finger.turning_m(2.0 * std::acos(std::min(1.0, std::abs(glm::dot(from, to)))));
-}
-
 }  // namespace
 
-double gone_m(const Clearance& known, const Finger& finger, const FingerPose& pose) {
-  const Vec3 d = pose.position - known.centre;
-  return std::sqrt(glm::dot(d, d)) + turned_m(finger, known.orientation, pose.orientation);
+double turned_m(const Finger& finger, const Quat& from, const Quat& to) {
+  if (from == to) return 0.0;
+  return finger.turning_m(2.0 * std::acos(std::min(1.0, std::abs(glm::dot(from, to)))));
 }
 
 // By the triangle inequality, which turning_m obeys too: it is concave in the angle.

@@ -7,11 +7,20 @@
 
 #include "core/contact/seed.h"
 
+#include <cmath>
+
 namespace tangent {
+
+/// How far the support points of a finger that is not round can have moved while it turned from one orientation to the other.
+double turned_m(const Finger& finger, const Quat& from, const Quat& to);
 
 /// How far the finger at `pose` (local) is from where the margins of `known` count from: its centre's displacement, and
 /// for fingers that are not round the most that support points can have moved by its turning.
-double gone_m(const Clearance& known, const Finger& finger, const FingerPose& pose);
+inline double gone_m(const Clearance& known, const Finger& finger, const FingerPose& pose) {
+  const Vec3 d = pose.position - known.centre;
+  const double centre_m = std::sqrt(glm::dot(d, d));
+  return is_round(finger) ? centre_m : centre_m + turned_m(finger, known.orientation, pose.orientation);
+}
 
 /// Whether a finger that is `gone` from known.centre leaves room for a rival of a rank below `bound_m`.
 inline bool rival_possible(const Clearance& known, double gone, double bound_m) {

@@ -130,10 +130,6 @@ void face_the_finger(IterationContext& context, const ContactScene& scene, Selec
 
 }  // namespace
 
-double contact_rank(const Finger& finger, const PlaneContact& contact) {
-  return contact.height_m >= 0.0 ? finger.reach_m() - contact.penetration_m : contact.penetration_m;
-}
-
 void limit_query(ContactQuery& query, const Finger& finger, double rank) {
   query.nearest_m = rank + finger.unroundness_m();
   query.inside_m = rank - finger.reach_m() + finger.unroundness_m();
