@@ -1,0 +1,109 @@
+// The fan of an edge: how a turn's share runs from side to side, and edges whose contact is found without iterating.
+#include "core/contact/patch_cache.h"
+#include "core/contact/plane_contact.h"
+#include "tests/core/scenes.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+using namespace tangent;
+using namespace tangent::test;
+
+namespace {
+
+Vec2 turn_at(double angle) { return {std::cos(angle), std::sin(angle)}; }
+
+/// A fan of which only the far side is given.
+EdgeFan fan_of_angle(double angle) {
+  EdgeFan fan;
+  fan.far = turn_at(angle);
+  fan.cot_half = 1.0 / std::tan(0.5 * angle);
+  return fan;
+}
+
+}  // namespace
+
+TEST_CASE("the share of a fan rises from 0 on the near side to 1 on the far one, with the derivative it says, from slivers to half circles") {
+  for (const double angle : {1e-6, 0.01, 0.5, 1.5707963267948966, 2.5, 3.1, 3.1415926}) {
+    const EdgeFan fan = fan_of_angle(angle);
+    CAPTURE(angle);
+    CHECK(share_of(fan, kNearTurn) == 0.0);
+    CHECK(std::abs(share_of(fan, fan.far) - 1.0) < 1e-9);
+    double last = 0.0;
+    for (int i = 1; i <= 100; ++i) {
+      const double at = angle * i / 100.0, step = 1e-4 * angle;
+      const double share = share_of(fan, turn_at(at));
+      CHECK(share > last);
+      last = share;
+      const double slope = (share_of(fan, turn_at(at + step)) - share_of(fan, turn_at(at - step))) / (2.0 * step);
+      CHECK(std::abs(slope - share_rate(fan, turn_at(at))) < 1e-6 / angle);
+    }
+  }
+}
+
+TEST_CASE("the contact on a straight edge between flat sides is the nearest point of its line, whatever the plane it starts from") {
+  const ScenePtr scene = scene_of(*generate_mesh("cube"));
+  const ContactMesh& mesh = scene->mesh();
+  const auto cache = std::make_unique<PatchCache>(mesh);
+  Random random(73);
+  int tried = 0;
+  double worst = 0.0;
+  for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t) {
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      if (mesh.edge_kind(t, k) != EdgeKind::crease) continue;
+      const double f = random.in(0.1, 0.9);
+      const EdgeFan& fan = cache->fan(t, k, f, NormalForm::bernstein);
+      REQUIRE(fan.uniform);
+      const Vec3 p = mesh.position(t, k), q = mesh.position(t, (k + 1) % 3);
+      // A centre over the fan, somewhere along.
+      const double foot = random.in(0.05, 0.95), share = random.in(0.1, 0.9);
+      const Vec3 centre = p + foot * (q - p) + 0.02 * unit((1.0 - share) * fan.near_normal + share * fan.far_normal);
+      const double to = f + uniform_step(fan, centre - fan.point);
+      const Vec3 point = uniform_point(fan, to);
+      const Vec2 turn = turn_of(fan, centre - point);
+      SurfaceSample sample;
+      uniform_sample(fan, point, turn, uniform_normal(fan, turn), sample);
+      PlaneContact c;
+      round_contact(0.02, centre, sample.point, sample.normal, c);
+      worst = std::max({worst, std::abs(to - foot), c.error_m / 0.02, std::abs(c.height_m - 0.02) / 0.02, glm::distance(point, p + foot * (q - p)) / 0.02});
+      CHECK(in_fan(fan, turn));
+      ++tried;
+    }
+  }
+  REQUIRE(tried >= 24);
+  CHECK(worst < 1e-14);
+}
+
+TEST_CASE("flat patches are told from curved ones, and sampled like them to rounding") {
+  const ScenePtr scene = scene_of(*generate_mesh("octagon")), round = scene_of(make_icosphere(0.040, 1));
+  Random random(74);
+  int flat = 0;
+  for (const ScenePtr& s : {scene, round}) {
+    const ContactMesh& mesh = s->mesh();
+    for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t) {
+      const PnPatch patch = make_patch(mesh, t, NormalForm::bernstein);
+      CHECK(is_flat(patch, 1e-13) == (s == scene));
+      if (s != scene) continue;
+      ++flat;
+      const double u = random.in(0.0, 1.0), v = random.in(0.0, 1.0 - u);
+      SurfaceSample quick;
+      evaluate_flat(patch, u, v, quick);
+      const SurfaceSample full = evaluate(patch, u, v);
+      CHECK(glm::distance(quick.point, full.point) < 1e-16);
+      CHECK(glm::distance(quick.point_u, full.point_u) + glm::distance(quick.point_v, full.point_v) < 1e-15);
+      CHECK(glm::distance(quick.normal, full.normal) < 1e-15);
+      CHECK(glm::length(full.normal_u) + glm::length(full.normal_v) < 1e-14);
+      // A corner's normal turned by a millionth, or a control point moved by as much of a side, is no flat patch any more.
+      PnPatch bent = patch;
+      bent.normals[n110] = unit(bent.normals[n110] + 1e-6 * unit(patch.offsets[b030]));
+      CHECK_FALSE(is_flat(bent, 1e-13));
+      PnPatch bumped = patch;
+      bumped.offsets[b111] += 1e-6 * glm::length(patch.offsets[b030]) * patch.normals[n200];
+      CHECK_FALSE(is_flat(bumped, 1e-13));
+    }
+  }
+  CHECK(flat > 10);
+}
