@@ -14,7 +14,7 @@ namespace tangent {
 namespace {
 
 bool glides(const Preset& preset) {
-  return preset.solver.method == Method::robust && is_round(preset.finger) && preset.solver.max_iterations > 0 && only_smooth(preset);
+  return is_round(preset.finger) && preset.solver.max_iterations > 0 && only_smooth(preset);
 }
 
 /// One Newton step within the triangle from `c`, the contact at glide.u, glide.v: then the contact there, in glide.contact.

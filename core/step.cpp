@@ -173,8 +173,10 @@ static TickOutput step_any(const ContactScene& scene, StepCache& cache, const Pr
 TickOutput Stepper::step(const Preset& preset, const TickInput& input, TickState& state, IterationTrace* trace) {
   const ContactScene& scene = *scene_;
   const FingerPose local{input.finger.position - scene.mesh().origin(), input.finger.orientation};
-  Glide plane;
-  if (!trace && glide(*cache_, preset, local, state, plane)) return end_glide(*cache_, preset, input, scene.mesh().origin(), plane, state);
+  if (!trace && preset.solver.method == Method::robust) {
+    Glide plane;
+    if (glide(*cache_, preset, local, state, plane)) return end_glide(*cache_, preset, input, scene.mesh().origin(), plane, state);
+  }
   return step_any(scene, *cache_, preset, input, local, state, trace);
 }
 

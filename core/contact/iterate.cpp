@@ -24,7 +24,7 @@ struct RunMemory {
   double least = 1e300;   ///< error; when it stops falling, the iteration goes round in circles
   int least_at = 0;
   bool carried = false;   ///< a step was carried past the end of an edge
-  SurfacePlace no_exit;   ///< a vertex that nothing draws this finger away from
+  std::uint32_t no_exit_triangle = kNone, no_exit_corner = 0;  ///< a vertex that nothing draws this finger away from
   Vec3 last_travel{0.0}, last_point{0.0};
 
   void add_error(double error, int evaluation) {
@@ -180,10 +180,11 @@ Proposal next_from_vertex(IterationContext& context, const SurfacePlace& at, Run
   Proposal next;
   now.stability = now.contact.height_m > 0.0 ? Stability{1.0, 2.0} : Stability{0.0, 0.0};
   VertexExit exit;
-  if (memory.no_exit.triangle != at.triangle || memory.no_exit.side != at.side) exit = vertex_exit(context, at);
+  if (memory.no_exit_triangle != at.triangle || memory.no_exit_corner != at.side) exit = vertex_exit(context, at);
   next.step.valid = true;
   if (!exit.place) {
-    memory.no_exit = at;
+    memory.no_exit_triangle = at.triangle;
+    memory.no_exit_corner = at.side;
     if (now.contact.error_m < context.settings.tolerance_m) {
       next.stop = now.stability.stable() ? StopReason::converged : StopReason::unstable;
     } else if (kept) {
