@@ -16,7 +16,8 @@ struct Glide {
 /// Solves a tick of `robust` where it is like that: only the smooth contact is asked for, the kept plane's sample is in the cache, Newton's
 /// steps lead to a stable contact below tolerance, and no other place can be deeper. Without the turns for all other cases it takes
 /// less time, with the same arithmetic and so the same bits. False where the tick is any other. `local`: the finger in local mesh
-/// coordinates. Precondition: the method is robust.
+/// coordinates. Precondition: the method is robust, the
+/// scene 3D; any pose, also one that is not finite (false).
 bool glide(StepCache& cache, const Preset& preset, const FingerPose& local, const TickState& state, Glide& glide);
 
 /// The rest of such a tick: what the next one needs, force and display. `origin`: of the local coordinates, in the world.

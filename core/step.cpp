@@ -162,9 +162,9 @@ static TickOutput step_smooth(const ContactScene& scene, StepCache& cache, const
   return out;
 }
 
+/// A tick of a 3D scene that does not glide.
 static TickOutput step_any(const ContactScene& scene, StepCache& cache, const Preset& preset, const TickInput& input, const FingerPose& local,
                            TickState& state, IterationTrace* trace) {
-  if (scene.planar()) return step_planar(*scene.planar(), preset, input, state, trace);
   if (!is_usable(input.finger)) return step_without_pose(scene, preset, input.t_s, state);
   if (only_smooth(preset)) return step_smooth(scene, cache, preset, input, local, state, trace);
   return step_facets(scene, cache, preset, input, local, state, trace);
@@ -172,6 +172,7 @@ static TickOutput step_any(const ContactScene& scene, StepCache& cache, const Pr
 
 TickOutput Stepper::step(const Preset& preset, const TickInput& input, TickState& state, IterationTrace* trace) {
   const ContactScene& scene = *scene_;
+  if (scene.planar()) return step_planar(*scene.planar(), preset, input, state, trace);
   const FingerPose local{input.finger.position - scene.mesh().origin(), input.finger.orientation};
   if (!trace && preset.solver.method == Method::robust) {
     Glide plane;

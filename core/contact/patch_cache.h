@@ -46,7 +46,7 @@ struct VertexSurroundings {
   std::uint32_t triangle = kNone, corner = 0;  ///< that it was asked for by
   NormalForm form = NormalForm::bernstein;
   bool complete = false;          ///< false: more than kCapacity faces, and nothing is held
-  std::size_t face_count = 0, ray_count = 0;
+  std::size_t face_count = 0;
   std::array<Face, kCapacity> faces;
   std::array<Ray, kCapacity + 1> rays;
 };

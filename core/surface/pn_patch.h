@@ -73,6 +73,7 @@ Vec3 evaluate_point(const PnPatch& patch, double u, double v);
 Vec3 evaluate_normal(const PnPatch& patch, double u, double v);
 
 /// Whether the patch is the flat triangle itself with one normal all over, to within `room` of its longest side and of a unit normal.
+/// Told of Bernstein normals only.
 bool is_flat(const PnPatch& patch, double room);
 /// What `evaluate` gives on such a patch, but for rounding, without its work.
 inline void evaluate_flat(const PnPatch& patch, double u, double v, SurfaceSample& sample) {
