@@ -74,34 +74,36 @@ bool glide_on_uniform_edge(const EdgeFan& fan, const Preset& preset, const Vec3&
   return glide.contact.error_m < tolerance && glide.contact.height_m > 0.0;
 }
 
-/// One Newton step along a curved edge, and the normal turned to face the finger there. `fan` goes along with the contact.
-bool glide_on_curved_edge(PatchCache& patches, const EdgeFan& fan, const Preset& preset, const FingerPose& local, double f, IterationResult& now,
-                          Glide& glide) {
+/// One Newton step along a curved edge, and the normal turned to face the finger there. `fan` goes along with the contact. Apart, so
+/// that the compiler sees through the calls within.
+[[gnu::noinline, gnu::flatten]] bool glide_on_curved_edge(CachedFan& slot, const Preset& preset, const FingerPose& local, IterationResult& now, Glide& glide) {
   const double radius = round_radius_m(preset.finger), tolerance = preset.solver.tolerance_m;
   PlaneContact kept;
   round_contact(radius, local.position, now.sample.point, now.sample.normal, kept);
-  const ContactJacobian before = round_jacobian(now.sample, kept.height_m);
-  const double to = f + newton_step(now.sample, before, kept).da;
-  if (kept.error_m < tolerance || !edge_stability(fan, now.sample, before).stable() || !(to > 0.0 && to < 1.0)) return false;
+  const EdgeBend before = edge_bend(now.sample);
+  const double to = slot.f + round_edge_step(before, kept.height_m, local.position - now.sample.point);
+  if (kept.error_m < tolerance || !before.at_height(kept.height_m).stable() || !(to > 0.0 && to < 1.0)) return false;
 
   const Vec2 uv = edge_point_uv(now.plane.side, to);
   glide.u = uv.x;
   glide.v = uv.y;
-  patches.fan(now.plane.triangle, now.plane.side, edge_fraction(now.plane.side, uv.x, uv.y), preset.solver.normal_form);
-  glide.turn = facing_turn(fan, preset.finger, local);
+  PatchCache::move(slot, edge_fraction(now.plane.side, uv.x, uv.y));
+  const EdgeFan& fan = slot.fan;
+  glide.turn = turn_of(fan, local.position - fan.point);
   if (!in_fan(fan, glide.turn)) return false;
   glide.planes = 1;
   edge_sample(fan, glide.turn, now.sample);
   round_contact(radius, local.position, now.sample.point, now.sample.normal, glide.contact);
-  return glide.contact.error_m < tolerance && edge_stability(fan, now.sample, round_jacobian(now.sample, glide.contact.height_m)).stable();
+  return glide.contact.error_m < tolerance && edge_bend(now.sample).at_height(glide.contact.height_m).stable();
 }
 
 bool glide_on_edge(PatchCache& patches, const Preset& preset, const FingerPose& local, IterationResult& now, Glide& glide) {
   const double f = edge_fraction(now.plane.side, now.plane.u, now.plane.v);
-  const EdgeFan& fan = patches.fan(now.plane.triangle, now.plane.side, f, preset.solver.normal_form);
+  CachedFan& slot = patches.cached_fan(now.plane.triangle, now.plane.side, f, preset.solver.normal_form);
+  const EdgeFan& fan = slot.fan;
   if (now.plane.turn == kNearTurn || now.plane.turn == fan.far) return false;  // wants to turn on into the face, perhaps
   return fan.uniform ? glide_on_uniform_edge(fan, preset, local.position, f, now, glide)
-                     : glide_on_curved_edge(patches, fan, preset, local, f, now, glide);
+                     : glide_on_curved_edge(slot, preset, local, now, glide);
 }
 
 /// On a vertex that nothing draws the finger away from the normal turns to face it.
@@ -148,11 +150,12 @@ bool glide(StepCache& cache, const Preset& preset, const FingerPose& local, cons
   return false;
 }
 
-TickOutput end_glide(StepCache& cache, const Preset& preset, const TickInput& input, const Vec3& origin, const Glide& glide, TickState& state) {
+[[gnu::flatten]] TickOutput end_glide(StepCache& cache, const Preset& preset, const TickInput& input, const FingerSection& section,
+                                      const Vec3& origin, const Glide& glide, TickState& state) {
   IterationResult& now = cache.smooth.contact;
   const Vec3 point = now.sample.point, normal = now.sample.normal;
   const RenderPlane plane{normal, glide.contact.penetration_m, 1.0};
-  const Rendered rendered = render(preset, plane, input.finger, finger_velocity(preset, input.finger.position, input.t_s, state));
+  const Rendered rendered = render(preset, plane, section, finger_velocity(preset, input.finger.position, input.t_s, state));
   now.plane.u = state.plane.u = glide.u;
   now.plane.v = state.plane.v = glide.v;
   if (state.plane.feature == Feature::edge) {

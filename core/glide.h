@@ -20,7 +20,9 @@ struct Glide {
 /// scene 3D; any pose, also one that is not finite (false).
 bool glide(StepCache& cache, const Preset& preset, const FingerPose& local, const TickState& state, Glide& glide);
 
-/// The rest of such a tick: what the next one needs, force and display. `origin`: of the local coordinates, in the world.
-TickOutput end_glide(StepCache& cache, const Preset& preset, const TickInput& input, const Vec3& origin, const Glide& glide, TickState& state);
+/// The rest of such a tick: what the next one needs, force and display. `section`: of input.finger; `origin`: of the local coordinates,
+/// in the world.
+TickOutput end_glide(StepCache& cache, const Preset& preset, const TickInput& input, const FingerSection& section, const Vec3& origin,
+                     const Glide& glide, TickState& state);
 
 }  // namespace tangent

@@ -28,7 +28,7 @@ TickOutput render_again(const ContactScene& scene, const Preset& preset, const T
   solved.cld_m = 0.0;
   const FingerPose pose = scene.planar() ? section_pose(input.finger) : input.finger;
   const Vec3 velocity = finger_velocity(preset, pose.position, input.t_s, kept);
-  const Rendered rendered = render(preset, RenderPlane{solved.normal, solved.penetration_m, 1.0}, pose, velocity);
+  const Rendered rendered = render(preset, RenderPlane{solved.normal, solved.penetration_m, 1.0}, section_of(pose.orientation), velocity);
   solved.force_n = rendered.force_n;
   solved.cld_m = rendered.cld_m;
   return solved;

@@ -155,7 +155,7 @@ static TickOutput step_smooth(const ContactScene& scene, StepCache& cache, const
   RenderPlane plane;
   track_smooth(scene, cache, preset, preset.solver, local, input.t_s, state, trace, plane);
   TickOutput out = describe_smooth(cache.smooth, scene.mesh().origin());
-  const Rendered rendered = render(preset, plane, input.finger, finger_velocity(preset, input.finger.position, input.t_s, state));
+  const Rendered rendered = render(preset, plane, section_of(input.finger.orientation), finger_velocity(preset, input.finger.position, input.t_s, state));
   out.force_n = rendered.force_n;
   out.cld_m = rendered.cld_m;
   keep_pose(input.finger.position, input.t_s, state);
@@ -175,8 +175,9 @@ TickOutput Stepper::step(const Preset& preset, const TickInput& input, TickState
   if (scene.planar()) return step_planar(*scene.planar(), preset, input, state, trace);
   const FingerPose local{input.finger.position - scene.mesh().origin(), input.finger.orientation};
   if (!trace && preset.solver.method == Method::robust) {
+    const FingerSection section = section_of(input.finger.orientation);  // needed last, but has nothing to wait for
     Glide plane;
-    if (glide(*cache_, preset, local, state, plane)) return end_glide(*cache_, preset, input, scene.mesh().origin(), plane, state);
+    if (glide(*cache_, preset, local, state, plane)) return end_glide(*cache_, preset, input, section, scene.mesh().origin(), plane, state);
   }
   return step_any(scene, *cache_, preset, input, local, state, trace);
 }

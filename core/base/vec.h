@@ -20,6 +20,12 @@ using Quat = glm::dquat;  // (w, x, y, z)
 /// reciprocal square root, which costs another rounding). Precondition: v is finite and not zero.
 inline Vec3 unit(const Vec3& v) { return v / std::sqrt(glm::dot(v, v)); }
 
+/// Unit vector along v, or `otherwise` where v vanishes: shorter than 1e-12, for sums of unit vectors.
+inline Vec3 unit_or(const Vec3& v, const Vec3& otherwise) {
+  const double length2 = glm::dot(v, v);
+  return length2 > 1e-24 ? v / std::sqrt(length2) : otherwise;
+}
+
 inline bool is_finite(const Vec3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }

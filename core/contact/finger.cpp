@@ -19,14 +19,6 @@ bool unturned(const Quat& q) { return q.x == 0.0 && q.y == 0.0 && q.z == 0.0; }
 
 Vec3 to_finger_frame(const FingerPose& pose, const Vec3& v) { return unturned(pose.orientation) ? v : glm::conjugate(pose.orientation) * v; }
 
-/// x and z of a vector in the finger frame: in the section that contacts are located in.
-Vec2 to_finger_section(const FingerPose& pose, const Vec3& v) {
-  if (unturned(pose.orientation)) return {v.x, v.z};
-  // The finger's axes are known before the vector is, so that only two dot products wait for it.
-  const Mat3 axes = glm::mat3_cast(pose.orientation);
-  return {glm::dot(axes[0], v), glm::dot(axes[2], v)};
-}
-
 Support ellipsoid_support(const Finger& finger, const FingerPose& pose, const Vec3& normal) {
   // Furthest point along -n of the ellipsoid x = A y, |y| = 1 is -A A n / |A n|.
   const Vec3 n = to_finger_frame(pose, normal);
@@ -128,8 +120,8 @@ static double sphere_arc(double radius, const Vec2& m, double limit_m) {
   return beyond ? std::copysign(limit_m, m.x) : radius * arc_tangent(m.x, -m.y);
 }
 
-double contact_arc_m(const Finger& finger, const FingerPose& pose, const Vec3& normal, double limit_m) {
-  const Vec2 m = -to_finger_section(pose, normal);  // to the contact: distal, and to the nail
+double contact_arc_m(const Finger& finger, const FingerSection& section, const Vec3& normal, double limit_m) {
+  const Vec2 m(-glm::dot(section.distal, normal), -glm::dot(section.dorsal, normal));  // to the contact: distal, and to the nail
   if (finger.shape == FingerShape::sphere) return sphere_arc(finger.radius_m, m, limit_m);
   if (m.x == 0.0 && m.y == 0.0) return 0.0;
   const Vec3& a = finger.semi_axes_m;
@@ -139,8 +131,8 @@ double contact_arc_m(const Finger& finger, const FingerPose& pose, const Vec3& n
     case FingerShape::ellipsoid: return ellipse_arc(a.x, a.z, std::atan2(a.x * m.x, -a.z * m.y));
     case FingerShape::capsule: {
       // Along the straight pad, round the tip, and on the nail side back along the straight part.
-      const double section = std::hypot(m.x, m.y);
-      double straight = finger.half_length_m * m.x / std::hypot(m.x, kSpindle * section);
+      const double within = std::hypot(m.x, m.y);  // the part of the unit normal in the section
+      double straight = finger.half_length_m * m.x / std::hypot(m.x, kSpindle * within);
       if (m.y > 0.0) straight = std::copysign(2.0 * finger.half_length_m / std::hypot(1.0, kSpindle), m.x) - straight;
       return finger.radius_m * std::atan2(m.x, -m.y) + straight;
     }

@@ -46,12 +46,26 @@ struct Support {
 Vec3 support_point(const Finger& finger, const FingerPose& pose, const Vec3& normal);
 Support support_with_derivative(const Finger& finger, const FingerPose& pose, const Vec3& normal);
 
+/// The section of the finger that contacts are located in: its x and z axes in the world.
+struct FingerSection {
+  Vec3 distal, dorsal;
+};
+inline FingerSection section_of(const Quat& orientation) {
+  const Mat3 axes = glm::mat3_cast(orientation);
+  return {axes[0], axes[2]};
+}
+
 /// Contact location: signed arc length on the finger from the fingerpad's middle (-z) along the long axis,
 /// positive distally, for a contact whose surface normal (pointing at the finger) is `normal`, m. For a
 /// sphere R atan2(m.x, -m.z) with m = -normal in the finger frame; 0 for a point; for other shapes arc
 /// length in the x-z section. Where it surely is beyond `limit_m` on either side, any value beyond that may be returned:
 /// a sphere spares itself the arc tangent.
-double contact_arc_m(const Finger& finger, const FingerPose& pose, const Vec3& normal,
+double contact_arc_m(const Finger& finger, const FingerSection& section, const Vec3& normal,
                      double limit_m = std::numeric_limits<double>::infinity());
+
+inline double contact_arc_m(const Finger& finger, const FingerPose& pose, const Vec3& normal,
+                            double limit_m = std::numeric_limits<double>::infinity()) {
+  return contact_arc_m(finger, section_of(pose.orientation), normal, limit_m);
+}
 
 }  // namespace tangent

@@ -108,7 +108,10 @@ struct EdgeMove {
 EdgeMove edge_move(IterationContext& context, const EdgeFan& fan, const IterationResult& now, const ContactJacobian& jacobian, bool has_far) {
   EdgeMove move;
   move.step = newton_step(now.sample, jacobian, now.contact);
-  if (fan.uniform && is_round(context.finger)) move.step.da = uniform_step(fan, context.pose.position - now.sample.point);
+  if (is_round(context.finger)) {
+    const Vec3 d = context.pose.position - now.sample.point;
+    move.step.da = fan.uniform ? uniform_step(fan, d) : round_edge_step(edge_bend(now.sample), now.contact.height_m, d);
+  }
   const bool trusted = move.step.valid && now.stability.stable(), paper = context.settings.method == Method::paper;
   if (!trusted || paper) {
     const double speed2 = glm::dot(fan.point_f, fan.point_f);
@@ -149,7 +152,7 @@ Proposal next_from_edge(IterationContext& context, const TrackedPlane& at, RunMe
   const double f = edge_fraction(at.side, at.u, at.v);
   const EdgeFan& fan = context.cache.fan(at.triangle, at.side, f, context.settings.normal_form);
   const ContactJacobian jacobian = contact_jacobian(context.finger, context.pose, now.sample, now.contact);
-  now.stability = edge_stability(fan, now.sample, jacobian);
+  now.stability = is_round(context.finger) ? edge_bend(now.sample).at_height(now.contact.height_m) : edge_stability(now.sample, jacobian);
   const bool exact = now.contact.error_m < context.settings.tolerance_m;
   if (exact && now.stability.stable()) {
     next.stop = StopReason::converged;

@@ -20,7 +20,7 @@ void PatchCache::fill(CachedFan& slot, std::uint32_t t, std::uint32_t side, Norm
   edge.inwards = mesh_->position(t, (side + 2) % 3) - mesh_->position(t, side);
   const EdgeLink other = mesh_->across(t, side);
   edge.boundary = other.triangle == kNone;
-  if (!edge.boundary) edge.far = edge_normals(patch(other.triangle, form), other.edge);
+  if (!edge.boundary) edge.far = reversed(edge_normals(patch(other.triangle, form), other.edge));
   prepare_fan(edge, slot.fan);
   slot.triangle = t;
   slot.side = side;
@@ -46,11 +46,6 @@ void PatchCache::fill(VertexSurroundings& vertex, std::uint32_t t, std::uint32_t
         vertex.rays[rays++] = {at, side, f, fan};
         vertex.faces[vertex.face_count - 1].rays_end = rays;
       });
-}
-
-void PatchCache::move(CachedFan& slot, double f) {
-  move_fan(slot.edge, f, slot.fan);
-  slot.f = f;
 }
 
 }  // namespace tangent

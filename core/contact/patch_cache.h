@@ -72,12 +72,18 @@ class PatchCache {
   }
   /// Fan at fraction f of edge `side` of triangle `t`, which runs from corner `side` to the next. Precondition: not a smooth
   /// edge. The reference is good until the next call.
-  const EdgeFan& fan(std::uint32_t t, std::uint32_t side, double f, NormalForm form) {
+  const EdgeFan& fan(std::uint32_t t, std::uint32_t side, double f, NormalForm form) { return cached_fan(t, side, f, form).fan; }
+  /// The same, to be moved along its edge.
+  CachedFan& cached_fan(std::uint32_t t, std::uint32_t side, double f, NormalForm form) {
     CachedFan& slot = fans_[(3 * t + side) % kSlots];
     const bool same_edge = slot.triangle == t && slot.side == side && slot.form == form;
     if (!same_edge) fill(slot, t, side, form);
     if (!same_edge || slot.f != f) move(slot, f);
-    return slot.fan;
+    return slot;
+  }
+  static void move(CachedFan& slot, double f) {
+    move_fan(slot.edge, f, slot.fan);
+    slot.f = f;
   }
   /// Visits the faces around the vertex at `corner` of triangle `t`, on_face(triangle, corner, sample), and after each those creases and
   /// boundaries that are its, on_ray(triangle, side, f, fan): every one once. For few enough faces that is all from what was
@@ -107,7 +113,6 @@ class PatchCache {
   void fill(VertexSurroundings& vertex, std::uint32_t t, std::uint32_t corner, NormalForm form);
   template <class OnFace, class OnRay>
   void compute_around(std::uint32_t t, std::uint32_t corner, NormalForm form, OnFace on_face, OnRay on_ray);
-  static void move(CachedFan& slot, double f);
 
   const ContactMesh* mesh_;
   std::array<CachedPatch, kSlots> slots_;

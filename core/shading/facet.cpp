@@ -22,11 +22,6 @@ double corner_angle(const ContactMesh& mesh, std::uint32_t t, std::uint32_t corn
   return std::atan2(std::sqrt(glm::dot(n, n)), glm::dot(a, b));
 }
 
-Vec3 unit_or(const Vec3& v, const Vec3& otherwise) {
-  const double length2 = glm::dot(v, v);
-  return length2 > 1e-24 ? v / std::sqrt(length2) : otherwise;
-}
-
 }  // namespace
 
 Vec3 pseudonormal(const ContactMesh& mesh, std::uint32_t t, double u, double v, Feature& feature) {

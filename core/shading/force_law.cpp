@@ -10,10 +10,10 @@ Vec3 contact_force(const ForceSettings& settings, const Vec3& normal, double pen
   return std::clamp(push, 0.0, settings.limit_n) * normal;
 }
 
-double display_position(const DisplaySettings& settings, const Finger& finger, const FingerPose& pose, const Vec3& normal) {
+double display_position(const DisplaySettings& settings, const Finger& finger, const FingerSection& section, const Vec3& normal) {
   // A little past the stop, so that the clamp below decides what is rendered there.
   const double stop = (1.0 + 1e-9) * 0.5 * settings.finger_arc_m;
-  const double arc = contact_arc_m(finger, pose, normal, stop);
+  const double arc = contact_arc_m(finger, section, normal, stop);
   const double half = 0.5 * settings.travel_m;
   return std::clamp(arc * (settings.travel_m / settings.finger_arc_m), -half, half);
 }

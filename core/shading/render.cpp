@@ -36,8 +36,8 @@ Vec3 rendered_force(const Preset& preset, const RenderPlane& plane, const Vec3& 
   return plane.share > 0.0 ? plane.share * contact_force(preset.force, plane.normal, plane.penetration_m, velocity) : Vec3(0.0);
 }
 
-double rendered_place(const Preset& preset, const RenderPlane& plane, const FingerPose& pose) {
-  return plane.share > 0.0 ? plane.share * display_position(preset.display, preset.finger, pose, plane.normal) : 0.0;
+double rendered_place(const Preset& preset, const RenderPlane& plane, const FingerSection& section) {
+  return plane.share > 0.0 ? plane.share * display_position(preset.display, preset.finger, section, plane.normal) : 0.0;
 }
 
 }  // namespace
@@ -112,11 +112,11 @@ void keep_pose(const Vec3& position, double t_s, TickState& state) {
 
 void render(const Preset& preset, const TickContacts& contacts, const FingerPose& pose, const Vec3& velocity, TickOutput& out) {
   out.force_n = rendered_force(preset, force_plane(preset, contacts), velocity);
-  if (const RenderPlane* tactile = tactile_plane(preset, contacts)) out.cld_m = rendered_place(preset, *tactile, pose);
+  if (const RenderPlane* tactile = tactile_plane(preset, contacts)) out.cld_m = rendered_place(preset, *tactile, section_of(pose.orientation));
 }
 
-Rendered render(const Preset& preset, const RenderPlane& plane, const FingerPose& pose, const Vec3& velocity) {
-  const double place = preset.display.source != TactileSource::held ? rendered_place(preset, plane, pose) : 0.0;  // what takes longest first
+Rendered render(const Preset& preset, const RenderPlane& plane, const FingerSection& section, const Vec3& velocity) {
+  const double place = preset.display.source != TactileSource::held ? rendered_place(preset, plane, section) : 0.0;  // what takes longest first
   return {rendered_force(preset, plane, velocity), place};
 }
 

@@ -53,6 +53,6 @@ struct Rendered {
   double cld_m = 0.0;
 };
 /// The same where the one plane is the source of both (only_smooth).
-Rendered render(const Preset& preset, const RenderPlane& plane, const FingerPose& pose, const Vec3& velocity);
+Rendered render(const Preset& preset, const RenderPlane& plane, const FingerSection& section, const Vec3& velocity);
 
 }  // namespace tangent

@@ -5,12 +5,6 @@
 namespace tangent {
 namespace {
 
-/// Unit vector along v, or `otherwise` where v vanishes.
-Vec3 unit_or(const Vec3& v, const Vec3& otherwise) {
-  const double length2 = glm::dot(v, v);
-  return length2 > 1e-24 ? v / std::sqrt(length2) : otherwise;
-}
-
 /// n110 of Vlachos et al.: the mean of the end normals reflected in the plane across the edge's middle.
 /// Exchanging the ends gives the same bits, so two triangles agree along their edge.
 Vec3 middle_normal(const Vec3& p, const Vec3& q, const Vec3& np, const Vec3& nq, const Vec3& flat) {
@@ -38,14 +32,11 @@ NormalPolynomial evaluate_normal_polynomial(const PnPatch& p, double u, double v
   return {mix(w, u, v, lw, lu, lv), 2.0 * (lu - lw), 2.0 * (lv - lw)};
 }
 
+}  // namespace
+
 Vec3 flat_normal(const PnPatch& p) {
   return unit_or(glm::cross(p.offsets[b030], p.offsets[b003]), Vec3(0.0, 0.0, 1.0));
 }
-
-/// Below this length of the normal polynomial (of order 1) its direction means nothing.
-constexpr double kVanishingNormal = 1e-9;
-
-}  // namespace
 
 Vec3 edge_control_offset(const Vec3& edge, const Vec3& corner_normal) {
   return (edge - glm::dot(edge, corner_normal) * corner_normal) / 3.0;
@@ -169,41 +160,6 @@ SecondDerivatives evaluate_second(const PnPatch& patch, double u, double v) {
   d.point_uv = second(b[b111] - b[b210] - b[b201] + b[b300], b[b021] - b[b120] - b[b111] + b[b210],
                       b[b012] - b[b111] - b[b102] + b[b201]);
   return d;
-}
-
-EdgeCurve edge_curve(const PnPatch& patch, std::uint32_t edge) {
-  static constexpr ControlPoint kCurve[3][4] = {{b300, b210, b120, b030}, {b030, b021, b012, b003}, {b003, b102, b201, b300}};
-  const auto& b = patch.offsets;
-  const auto& curve = kCurve[edge];
-  return {patch.origin, {b[curve[0]], b[curve[1]], b[curve[2]], b[curve[3]]}};
-}
-
-EdgeNormals edge_normals(const PnPatch& patch, std::uint32_t edge) {
-  static constexpr ControlNormal kNormals[3][3] = {{n200, n110, n020}, {n020, n011, n002}, {n002, n101, n200}};
-  const auto& n = patch.normals;
-  const auto& ends = kNormals[edge];
-  return {{n[ends[0]], 0.5 * patch.mixed_weight * n[ends[1]], n[ends[2]]}, flat_normal(patch)};
-}
-
-// de Casteljau along the edge.
-EdgePoint evaluate(const EdgeCurve& curve, double f) {
-  const auto& p = curve.offsets;
-  const double e = 1.0 - f;
-  const Vec3 q0 = e * p[0] + f * p[1], q1 = e * p[1] + f * p[2], q2 = e * p[2] + f * p[3];
-  const Vec3 r0 = e * q0 + f * q1, r1 = e * q1 + f * q2;
-  return {curve.origin + (e * r0 + f * r1), 3.0 * (r1 - r0), 6.0 * ((q2 - q1) - (q1 - q0))};
-}
-
-EdgeNormal evaluate(const EdgeNormals& edge, double f) {
-  const auto& c = edge.normals;
-  const double e = 1.0 - f;
-  const Vec3 r0 = e * c[0] + f * c[1], r1 = e * c[1] + f * c[2];
-  const Vec3 n = e * r0 + f * r1, n_f = 2.0 * (r1 - r0);
-  const double length = std::sqrt(glm::dot(n, n));
-  if (length < kVanishingNormal) return {edge.flat, Vec3(0.0)};
-  const double per_length = 1.0 / length;
-  const Vec3 normal = per_length * n;
-  return {normal, per_length * (n_f - glm::dot(normal, n_f) * normal)};
 }
 
 double directional_curvature(const SurfaceSample& s, double du, double dv) {

@@ -84,32 +84,17 @@ inline void evaluate_flat(const PnPatch& patch, double u, double v, SurfaceSampl
   sample.normal_u = sample.normal_v = Vec3(0.0);
 }
 
+/// Unit normal of the flat triangle; +z where it has no area.
+Vec3 flat_normal(const PnPatch& patch);
+
+/// A normal form is taken to vanish where it is shorter than this: its unit vector would be rounding. Larger: sharp folds get flat
+/// normals; smaller: normals that point anywhere.
+inline constexpr double kVanishingNormal = 1e-9;
+
 struct SecondDerivatives {
   Vec3 point_uu, point_uv, point_vv;  ///< m
 };
 SecondDerivatives evaluate_second(const PnPatch& patch, double u, double v);
-
-/// What an edge of a patch is made of; the other corner plays no part. Edge k runs from corner k to corner k + 1.
-struct EdgeCurve {
-  Vec3 origin;                   ///< corner 0 of the patch, m
-  std::array<Vec3, 4> offsets;   ///< control points - origin, m
-};
-struct EdgeNormals {
-  std::array<Vec3, 3> normals;   ///< coefficients of the quadratic, the middle one weighted
-  Vec3 flat;                     ///< normal of the flat triangle, where the quadratic vanishes
-};
-EdgeCurve edge_curve(const PnPatch& patch, std::uint32_t edge);
-EdgeNormals edge_normals(const PnPatch& patch, std::uint32_t edge);
-
-/// At fraction f of an edge: what `evaluate` gives there but for rounding, at a fraction of its work.
-struct EdgePoint {
-  Vec3 point, point_f, point_ff;  ///< m
-};
-struct EdgeNormal {
-  Vec3 normal, normal_f;          ///< unit, and its derivative
-};
-EdgePoint evaluate(const EdgeCurve& curve, double f);
-EdgeNormal evaluate(const EdgeNormals& normals, double f);
 
 /// |dN|/|dS| along (du, dv), 1/m (Eq. 2). It has no sign and holds the geodesic torsion too.
 /// Scale-free in (du, dv). 0 where dS vanishes.

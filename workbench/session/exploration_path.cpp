@@ -159,13 +159,13 @@ Points shrink(const NearestTriangles& nearest, double pad, Points points, double
   return evenly(points, spacing);
 }
 
-Vec3 unit_or(const Vec3& v, const Vec3& otherwise) {
+Vec3 direction_or(const Vec3& v, const Vec3& otherwise) {
   return glm::dot(v, v) > 1e-12 ? unit(v) : otherwise;
 }
 
 /// Finger frame for a pad that faces -up with the fingertip towards `forward`, rolled by `roll` about its y axis.
 Quat finger_frame(const Vec3& up, const Vec3& forward, double roll) {
-  const Vec3 x = unit_or(forward - glm::dot(forward, up) * up, side_of(up));
+  const Vec3 x = direction_or(forward - glm::dot(forward, up) * up, side_of(up));
   const Quat still = glm::normalize(glm::quat_cast(Mat3(x, glm::cross(up, x), up)));
   return still * Quat(std::cos(0.5 * roll), 0.0, std::sin(0.5 * roll), 0.0);
 }
@@ -203,11 +203,11 @@ ExplorationPath ExplorationPath::build(const ContactScene& scene, double pad_m) 
   Points outward(n), heading(n), short_of(n);
   for (std::size_t i = 0; i < n; ++i) {
     const NearestHit hit = scene.nearest().nearest(centres[i], std::numeric_limits<double>::infinity());
-    outward[i] = unit_or(hit ? centres[i] - hit.point : Vec3(0.0), i > 0 ? outward[i - 1] : Vec3(0, 0, 1));
+    outward[i] = direction_or(hit ? centres[i] - hit.point : Vec3(0.0), i > 0 ? outward[i - 1] : Vec3(0, 0, 1));
     short_of[i] = Vec3(hit ? path.pad_m_ - hit.distance_m : 0.0, 0.0, 0.0);
     // Not along the path: that reverses at the ends of a Lissajous figure, which no finger does within a millimetre.
     const Vec3 east = glm::cross(Vec3(0, 1, 0), centres[i] - box.centre());
-    heading[i] = sheet ? side_of(unit(facing)) : unit_or(east, Vec3(1, 0, 0));
+    heading[i] = sheet ? side_of(unit(facing)) : direction_or(east, Vec3(1, 0, 0));
   }
   // Twice averaged: the mean of a mean turns without corners.
   const auto mean = [&path](const Points& v, double length) {
@@ -223,9 +223,9 @@ ExplorationPath ExplorationPath::build(const ContactScene& scene, double pad_m) 
   const double rolls = std::max(1.0, std::round(path.spacing_m_ * static_cast<double>(n) / kRockingLength));
   path.points_.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
-    const Vec3 pressing = unit_or(press[i], outward[i]);
+    const Vec3 pressing = direction_or(press[i], outward[i]);
     const double roll = kRockingAngle * std::sin(kTau * rolls * static_cast<double>(i) / static_cast<double>(n));
-    const Vec3 turned = unit_or(up[i], pressing);
+    const Vec3 turned = direction_or(up[i], pressing);
     path.points_[i] = {mesh.origin() + centres[i] + lift[i].x * pressing, pressing,
                        planar ? planar_frame(turned, roll) : finger_frame(turned, ahead[i], roll)};
   }
@@ -243,7 +243,7 @@ PathPose ExplorationPath::at(double arc_m, double pad_m, double press_m) const n
               &d = points_[(i + 2) % count];
 
   // Directions of neighbours differ by little, so they never cancel; quaternions may have opposite signs.
-  const Vec3 outward = unit_or(b.outward + t * (c.outward - b.outward), b.outward);
+  const Vec3 outward = direction_or(b.outward + t * (c.outward - b.outward), b.outward);
   const Quat near = glm::dot(b.orientation, c.orientation) < 0.0 ? -c.orientation : c.orientation;
   PathPose pose;
   pose.position_m = catmull_rom(a.centre, b.centre, c.centre, d.centre, t) + (pad_m - pad_m_ - press_m) * outward;

@@ -1,6 +1,7 @@
 // The fan of an edge: how a turn's share runs from side to side, and edges whose contact is found without iterating.
 #include "core/contact/patch_cache.h"
 #include "core/contact/plane_contact.h"
+#include "core/contact/step_rule.h"
 #include "tests/core/scenes.h"
 
 #include <doctest/doctest.h>
@@ -75,6 +76,116 @@ TEST_CASE("the contact on a straight edge between flat sides is the nearest poin
   }
   REQUIRE(tried >= 24);
   CHECK(worst < 1e-14);
+}
+
+namespace {
+
+/// A crease between two triangles, with corner normals that lean along it and differ from side to side.
+PolygonMesh leaning_crease() {
+  PolygonMesh mesh;
+  mesh.name = "leaning crease";
+  mesh.positions = {{0, 0, 0}, {0.02, 0, 0}, {0.01, -0.015, -0.01}, {0.011, 0.016, -0.008}};
+  mesh.normals = {unit({0.3, -0.5, 0.8}), unit({0.1, -0.6, 0.9}), unit({0, -0.6, 0.7}), unit({-0.2, 0.5, 0.8}), unit({0.4, 0.6, 0.7}), unit({0.1, 0.6, 0.7})};
+  mesh.add_face({1, 0, 2});
+  mesh.add_face({0, 1, 3});
+  mesh.corner_normal = {1, 0, 2, 3, 4, 5};
+  return mesh;
+}
+
+/// Visits (edge's fan, a place over it) along every crease of a few meshes with curved ones.
+template <class Visit>
+int over_curved_creases(Visit visit) {
+  Random random(75);
+  int count = 0;
+  for (const PolygonMesh& polygons : {*generate_mesh("cylinder"), *generate_mesh("cone"), leaning_crease()}) {
+    const ScenePtr scene = scene_of(polygons);
+    const ContactMesh& mesh = scene->mesh();
+    const auto cache = std::make_unique<PatchCache>(mesh);
+    for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t)
+      for (std::uint32_t k = 0; k < 3; ++k) {
+        if (mesh.edge_kind(t, k) != EdgeKind::crease) continue;
+        const EdgeFan& fan = cache->fan(t, k, random.in(0.05, 0.95), NormalForm::bernstein);
+        if (fan.uniform || !fan.convex()) continue;
+        const double share = random.in(0.1, 0.9);
+        const Vec3 between = unit((1.0 - share) * fan.near_normal + share * fan.far_normal);
+        visit(fan, fan.point + 0.02 * between + 1e-4 * random.direction());
+        ++count;
+      }
+  }
+  return count;
+}
+
+}  // namespace
+
+TEST_CASE("the turn of a direction is that of its part across the edge, however long what the frame is made of") {
+  double worst = 0.0;
+  const int count = over_curved_creases([&](const EdgeFan& fan, const Vec3& centre) {
+    for (const Vec3& direction : {centre - fan.point, fan.near_normal, fan.far_normal, fan.e2 - 5.0 * fan.tangent}) {
+      const double x = glm::dot(direction, fan.e1), y = glm::dot(direction, fan.e2), length = std::sqrt(x * x + y * y);
+      worst = std::max(worst, glm::distance(turn_of(fan, direction), Vec2(x / length, y / length)));
+    }
+    worst = std::max({worst, std::abs(glm::dot(fan.e1, fan.e2)), std::abs(glm::dot(fan.e1, fan.tangent)), std::abs(glm::length(fan.e1) - 1.0),
+                      std::abs(glm::length(fan.e2) - 1.0), glm::distance(turn_of(fan, fan.far_normal), fan.far)});
+    CHECK(turn_of(fan, fan.e1).x == doctest::Approx(1.0));
+  });
+  REQUIRE(count > 50);
+  CHECK(worst < 1e-14);
+}
+
+TEST_CASE("a round finger's step and stability on an edge, from the height alone, are those of any finger") {
+  double worst = 0.0;
+  int unstable = 0;
+  const int count = over_curved_creases([&](const EdgeFan& fan, const Vec3& centre) {
+    SurfaceSample s;
+    edge_sample(fan, clamp_turn(fan, turn_of(fan, centre - fan.point)), s);
+    for (const double side : {1.0, -1.0}) {  // the finger outside, and as deep inside
+      PlaneContact c;
+      round_contact(0.02, fan.point + side * (centre - fan.point), s.point, s.normal, c);
+      const ContactJacobian j = round_jacobian(s, c.height_m);
+      const EdgeBend bend = edge_bend(s);
+      const Stability quick = bend.at_height(c.height_m), full = edge_stability(s, j);
+      worst = std::max({worst, std::abs(quick.det / full.det - 1.0), std::abs(quick.trace - full.trace) / (std::abs(full.trace) + 0.02)});
+      CHECK(quick.stable() == full.stable());
+      unstable += !quick.stable();
+      const double step = round_edge_step(bend, c.height_m, side * (centre - fan.point)), newton = newton_step(s, j, c).da;
+      worst = std::max(worst, std::abs(step - newton) / (std::abs(newton) + 1e-3));
+    }
+  });
+  REQUIRE(count > 50);
+  CHECK(unstable >= count);
+  CHECK(worst < 1e-10);
+}
+
+TEST_CASE("where the near normal runs along the edge, and where the curve stands still, there is a frame all the same") {
+  // A flat patch edge along x, its near normals tilted into it; then control points that all but coincide.
+  FanEdge edge;
+  EdgeFan fan;
+  edge.chord = {0.01, 0.0, 0.0};
+  edge.inwards = {0.0, 0.01, 0.0};
+  edge.curve.powers = {Vec3(0.0), edge.chord, Vec3(1e-4, 0.0, 1e-3), Vec3(0.0)};
+  for (const Vec3& near : {Vec3(0, 0, 1), Vec3(1, 0, 0), Vec3(-1, 0, 1e-9), Vec3(1, 1e-8, 0)}) {
+    CAPTURE(near.z);
+    edge.near = {{unit(near), Vec3(0.0), Vec3(0.0)}, {0, 0, 1}};
+    edge.far = {{unit(Vec3(0, 1, 1)), Vec3(1e-3, 0, 0), Vec3(0.0)}, {0, 0, 1}};
+    prepare_fan(edge, fan);
+    move_fan(edge, 0.0, fan);
+    CHECK(is_finite(fan.e1));
+    CHECK(std::abs(glm::length(fan.e1) - 1.0) + std::abs(glm::length(fan.e2) - 1.0) + std::abs(glm::dot(fan.e1, fan.e2)) < 1e-12);
+    CHECK(glm::length(turn_of(fan, {0.3, 0.4, 0.5})) == doctest::Approx(1.0));
+    CHECK(glm::length(fan.far) == doctest::Approx(1.0));
+  }
+  // Normals that all but cancel: what is left of them still points where it points.
+  edge.near.powers = {1e-8 * unit(Vec3(0.1, -0.2, 1.0)), Vec3(0, 0, 1e-9), Vec3(0.0)};
+  prepare_fan(edge, fan);
+  move_fan(edge, 0.0, fan);
+  CHECK(glm::dot(fan.e1, fan.near_normal) > 0.99);
+  edge.curve.powers = {Vec3(0.0), Vec3(0.0), 3.0 * edge.chord, -2.0 * edge.chord};  // stands still at both ends
+  edge.near.powers = {Vec3(0, 0, 1), Vec3(0.0), Vec3(0.0)};
+  prepare_fan(edge, fan);
+  move_fan(edge, 0.0, fan);
+  CHECK(glm::distance(fan.tangent, Vec3(1, 0, 0)) < 1e-15);
+  CHECK(fan.tangent_f == Vec3(0.0));
+  CHECK(glm::length(fan.e1) == doctest::Approx(1.0));
 }
 
 TEST_CASE("flat patches are told from curved ones, and sampled like them to rounding") {

@@ -1,4 +1,4 @@
-#include "core/surface/pn_patch.h"
+#include "core/surface/patch_edge.h"
 
 #include "tests/core/oracle.h"
 
@@ -235,6 +235,10 @@ TEST_CASE("along an edge the short evaluation gives what the patch gives there, 
         CHECK(glm::length(p.point_ff - (du * du * d.point_uu + 2.0 * du * dv * d.point_uv + dv * dv * d.point_vv)) <= 1e-15);
         CHECK(glm::length(n.normal - s.normal) <= 1e-15);
         CHECK(glm::length(n.normal_f - (du * s.normal_u + dv * s.normal_v)) <= 1e-14);
+        CHECK(glm::length(unit(n.unscaled) - n.normal) <= 1e-15);
+        const EdgeNormal back = evaluate(reversed(edge_normals(patch, k)), 1.0 - f);
+        CHECK(glm::length(back.normal - n.normal) <= 1e-15);
+        CHECK(glm::length(back.normal_f + n.normal_f) <= 1e-14);
       }
   }
 }
