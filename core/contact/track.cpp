@@ -22,7 +22,9 @@ void adopt(TrackResult& result, const IterationResult& contact, const TrackedPla
 void look_for_rival(IterationContext& context, const ContactScene& scene, TickState& state, double rank, double gone, TrackResult& result) {
   const Vec3 moved = context.pose.position + context.origin - state.last_position;
   const double speed = state.has_previous ? std::sqrt(glm::dot(moved, moved)) : 0.0;
-  const double margin = std::min(kWatchTicks * speed, kLargestWatch * std::abs(rank)) + kSmallestWatch * std::abs(rank);
+  // Where not even one tick ahead can be seen, as after a leap, looking ahead would be for nothing.
+  const double most = kLargestWatch * std::abs(rank), ahead = speed < most ? std::min(kWatchTicks * speed, most) : 0.0;
+  const double margin = ahead + kSmallestWatch * std::abs(rank);
   const double bound = rank - context.settings.switch_hysteresis_m;
   const RivalResult rival = find_rival(context, scene, result.contact, bound, margin, state.clearance, gone);
   result.evaluations += rival.evaluations;

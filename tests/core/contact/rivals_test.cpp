@@ -1,4 +1,5 @@
 // Watching for deeper places: asking seldom finds what asking at every tick finds.
+#include "core/base/tolerances.h"
 #include "core/contact/rivals.h"
 #include "core/mesh/generate.h"
 #include "tests/core/scenes.h"
@@ -117,6 +118,26 @@ TEST_CASE("a finger that runs along a rim asks seldom: the next edge and the ver
   CHECK(on_the_rim == 4000);
   CHECK(asked < 4000 / 5);
   MESSAGE("asked in " << asked << " of 4000 ticks");
+}
+
+TEST_CASE("a finger that leaps looks no further ahead than one at rest: what is there would be behind it in the next tick") {
+  const ScenePtr scene = scene_of(make_icosphere(0.040, 3));
+  const Preset preset = sphere_preset(0.020, Method::robust);
+  for (const bool leaps : {false, true}) {
+    CAPTURE(leaps);
+    Stepper stepper(scene);
+    TickState state;
+    // 1 mm or 5 mm of the way of a centre 19 mm above the ball; a tenth of that is the most that is looked ahead.
+    const double step_rad = (leaps ? 5e-3 : 1e-3) / 0.059;
+    for (int i = 0; i < 20; ++i) {
+      const double at = step_rad * i;
+      const TickOutput out = stepper.step(preset, at_position(1e-3 * i, 0.059 * Vec3(std::sin(at), 0.0, std::cos(at))), state);
+      if (i == 0) continue;
+      CHECK(out.event == TickEvent::none);
+      if (i == 1) CHECK((state.clearance.margin_m > 1.8e-3) != leaps);
+      if (leaps) CHECK(state.clearance.margin_m < 2.1 * kSmallestWatch * 0.019);
+    }
+  }
 }
 
 TEST_CASE("margins count from one place: going and coming back costs nothing, turning does where the finger is not round") {
