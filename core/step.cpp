@@ -151,11 +151,11 @@ static TickOutput step_facets(const ContactScene& scene, StepCache& cache, const
 
 /// A tick that asks for the smooth contact alone.
 static TickOutput step_smooth(const ContactScene& scene, StepCache& cache, const Preset& preset, const TickInput& input,
-                              const FingerPose& local, TickState& state, IterationTrace* trace) {
+                              const FingerPose& local, const FingerSection& section, TickState& state, IterationTrace* trace) {
   RenderPlane plane;
   track_smooth(scene, cache, preset, preset.solver, local, input.t_s, state, trace, plane);
   TickOutput out = describe_smooth(cache.smooth, scene.mesh().origin());
-  const Rendered rendered = render(preset, plane, section_of(input.finger.orientation), finger_velocity(preset, input.finger.position, input.t_s, state));
+  const Rendered rendered = render(preset, plane, section, finger_velocity(preset, input.finger.position, input.t_s, state));
   out.force_n = rendered.force_n;
   out.cld_m = rendered.cld_m;
   keep_pose(input.finger.position, input.t_s, state);
@@ -164,9 +164,9 @@ static TickOutput step_smooth(const ContactScene& scene, StepCache& cache, const
 
 /// A tick of a 3D scene that does not glide.
 static TickOutput step_any(const ContactScene& scene, StepCache& cache, const Preset& preset, const TickInput& input, const FingerPose& local,
-                           TickState& state, IterationTrace* trace) {
+                           const FingerSection& section, TickState& state, IterationTrace* trace) {
   if (!is_usable(input.finger)) return step_without_pose(scene, preset, input.t_s, state);
-  if (only_smooth(preset)) return step_smooth(scene, cache, preset, input, local, state, trace);
+  if (only_smooth(preset)) return step_smooth(scene, cache, preset, input, local, section, state, trace);
   return step_facets(scene, cache, preset, input, local, state, trace);
 }
 
@@ -174,12 +174,12 @@ TickOutput Stepper::step(const Preset& preset, const TickInput& input, TickState
   const ContactScene& scene = *scene_;
   if (scene.planar()) return step_planar(*scene.planar(), preset, input, state, trace);
   const FingerPose local{input.finger.position - scene.mesh().origin(), input.finger.orientation};
+  const FingerSection section = section_of(input.finger.orientation);  // needed last, but has nothing to wait for
   if (!trace && preset.solver.method == Method::robust) {
-    const FingerSection section = section_of(input.finger.orientation);  // needed last, but has nothing to wait for
     Glide plane;
     if (glide(*cache_, preset, local, state, plane)) return end_glide(*cache_, preset, input, section, scene.mesh().origin(), plane, state);
   }
-  return step_any(scene, *cache_, preset, input, local, state, trace);
+  return step_any(scene, *cache_, preset, input, local, section, state, trace);
 }
 
 const char* to_string(Feature feature) {
