@@ -1,7 +1,7 @@
 // Options that say which devices to drive, the same for the window and the monitor.
 #pragma once
 
-#include "devices/maestro/maestro_codec.h"
+#include "workbench/session/maestro_setups.h"
 
 #include <CLI/CLI.hpp>
 
@@ -13,8 +13,7 @@ namespace tangent {
 
 struct DeviceChoice {
   std::string device = "simulated";
-  MaestroCalibration maestro;
-  unsigned maestro_channel = 0;
+  MaestroWish maestro;
   std::filesystem::path packets;
 };
 

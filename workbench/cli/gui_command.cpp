@@ -87,7 +87,6 @@ void add_gui_command(CLI::App& app, CommandResult& result) {
     options->app.mesh_options = options->mesh.build;
     options->app.device = options->devices.device;
     options->app.maestro = options->devices.maestro;
-    options->app.maestro_channel = options->devices.maestro_channel;
     options->app.packets = options->devices.packets;
     result.exit_code = run_gui(options->app);
   });

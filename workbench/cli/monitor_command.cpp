@@ -110,7 +110,7 @@ Status run_monitor(const MonitorOptions& options) {
   wanted.servo.rate_hz = options.servo_hz;
   wanted.devices = options.devices.device;
   if (options.devices.device == "maestro") {
-    const auto setup = chosen_maestro_setup({options.devices.maestro, options.devices.maestro_channel}, maestro_setups_path());
+    const auto setup = chosen_maestro_setup(options.devices.maestro, maestro_setups_path());
     if (!setup) return tl::unexpected(setup.error());
     wanted.maestro = setup->calibration;
     wanted.maestro_channel = setup->channel;

@@ -14,7 +14,7 @@
 #pragma once
 
 #include "core/mesh/contact_mesh.h"
-#include "devices/maestro/maestro_codec.h"
+#include "workbench/session/maestro_setups.h"
 #include "workbench/gui/palette.h"
 
 #include <cstdint>
@@ -38,8 +38,7 @@ struct AppOptions {
   std::filesystem::path preset;         ///< empty: the shipped default
   std::filesystem::path preset_folder;  ///< listed in the presets panel; empty: where `preset` is, or the shipped ones
   std::string device = "simulated";
-  MaestroCalibration maestro;           ///< for the device "maestro"
-  unsigned maestro_channel = 0;
+  MaestroWish maestro;                  ///< for the device "maestro"
   std::filesystem::path packets;        ///< USB packets are written here; empty: nowhere
   double servo_hz = 1000.0;             ///< kSlowestServoHz to kFastestServoHz
   std::filesystem::path settings;       ///< layout and look between runs are kept there; empty: not kept

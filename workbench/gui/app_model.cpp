@@ -120,16 +120,15 @@ std::filesystem::path AppModel::maestro_file() const {
 
 void AppModel::make_session() {
   if (options_.device == "maestro") {
-    const auto setup = chosen_maestro_setup({options_.maestro, options_.maestro_channel}, maestro_file());
+    const auto setup = chosen_maestro_setup(options_.maestro, maestro_file());
     if (!setup) return say(Severity::error, setup.error().message());
-    options_.maestro = setup->calibration;
-    options_.maestro_channel = setup->channel;
+    maestro_ = *setup;
   }
   SessionOptions options;
   options.servo.rate_hz = options_.servo_hz;
   options.devices = options_.device;
-  options.maestro = options_.maestro;
-  options.maestro_channel = options_.maestro_channel;
+  options.maestro = maestro_.calibration;
+  options.maestro_channel = maestro_.channel;
   options.packets = options_.packets;
   options.seed = options_.seed;
   options.history_s = options_.history_s;
@@ -152,8 +151,8 @@ void AppModel::set_device(const std::string& name) {
 
 void AppModel::calibrate_maestro(const MaestroCalibration& calibration, unsigned channel) {
   if (const Status ok = check_calibration(calibration); !ok) return say(Severity::error, ok.error().message());
-  options_.maestro = calibration;
-  options_.maestro_channel = channel;
+  maestro_ = {calibration, channel};
+  options_.maestro = wish_for(maestro_);
   keep_calibration();
   if (options_.device == "maestro") restart_session();
 }
@@ -163,7 +162,7 @@ void AppModel::keep_calibration() {
   if (file.empty()) return;
   const std::string serial = attached_maestro();
   if (serial.empty()) return say(Severity::note, "no Maestro with a serial number is attached: the calibration holds until the window closes");
-  const Status kept = keep_maestro_setup(file, serial, {options_.maestro, options_.maestro_channel});
+  const Status kept = keep_maestro_setup(file, serial, maestro_);
   if (kept) say(Severity::note, "calibration of the Maestro " + serial + " kept in " + file.string());
   else say(Severity::error, kept.error().message());
 }

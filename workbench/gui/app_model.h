@@ -201,8 +201,8 @@ class AppModel {
   const SessionStatus& status() const { return status_; }
   const std::string& device() const { return options_.device; }
   void set_device(const std::string& name);  ///< a new session; the history starts anew
-  const MaestroCalibration& maestro() const { return options_.maestro; }
-  unsigned maestro_channel() const { return options_.maestro_channel; }
+  const MaestroCalibration& maestro() const { return maestro_.calibration; }
+  unsigned maestro_channel() const { return maestro_.channel; }
   /// Taken when it makes sense, and kept for the attached Maestro; a session with a Maestro starts anew with it.
   void calibrate_maestro(const MaestroCalibration& calibration, unsigned channel);
   void set_hand_follows_mouse(bool on);
@@ -253,6 +253,7 @@ class AppModel {
   void show_tick();
 
   AppOptions options_;
+  MaestroSetup maestro_;   ///< in use, with the device "maestro"
   double now_s_ = 0.0;
   SceneLoader loader_;
   std::string mesh_path_, opening_path_;

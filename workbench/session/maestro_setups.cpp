@@ -87,6 +87,20 @@ std::string format_setups(const Setups& setups) {
 
 }  // namespace
 
+MaestroSetup MaestroWish::over(MaestroSetup setup) const {
+  setup.calibration.low_m = low_m.value_or(setup.calibration.low_m);
+  setup.calibration.low_us = low_us.value_or(setup.calibration.low_us);
+  setup.calibration.high_m = high_m.value_or(setup.calibration.high_m);
+  setup.calibration.high_us = high_us.value_or(setup.calibration.high_us);
+  setup.channel = channel.value_or(setup.channel);
+  return setup;
+}
+
+MaestroWish wish_for(const MaestroSetup& setup) {
+  const MaestroCalibration& c = setup.calibration;
+  return {c.low_m, c.low_us, c.high_m, c.high_us, setup.channel};
+}
+
 std::filesystem::path maestro_setups_path() {
   const std::filesystem::path window = window_settings_path();
   return window.empty() ? window : window.parent_path() / kMaestroFile;
@@ -119,13 +133,12 @@ std::string attached_maestro() {
   return {};
 }
 
-Result<MaestroSetup> chosen_maestro_setup(const MaestroSetup& given, const std::filesystem::path& path) {
-  if (!(given == MaestroSetup{}) || path.empty()) return given;
-  const std::string serial = attached_maestro();
-  if (serial.empty()) return given;
+Result<MaestroSetup> chosen_maestro_setup(const MaestroWish& wish, const std::filesystem::path& path) {
+  const std::string serial = wish.complete() || path.empty() ? std::string() : attached_maestro();
+  if (serial.empty()) return wish.over({});
   const auto kept = read_maestro_setup(path, serial);
   if (!kept) return tl::unexpected(kept.error());
-  return kept->value_or(given);
+  return wish.over(kept->value_or(MaestroSetup{}));
 }
 
 }  // namespace tangent

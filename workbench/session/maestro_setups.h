@@ -17,6 +17,16 @@ struct MaestroSetup {
   bool operator==(const MaestroSetup&) const = default;
 };
 
+/// What a person asks for. What is left out stays what is kept for the Maestro, or else the program's own.
+struct MaestroWish {
+  std::optional<double> low_m, low_us, high_m, high_us;
+  std::optional<unsigned> channel;
+  bool complete() const { return low_m && low_us && high_m && high_us && channel; }
+  MaestroSetup over(MaestroSetup setup) const;
+};
+/// All of it.
+MaestroWish wish_for(const MaestroSetup& setup);
+
 inline constexpr const char* kMaestroFile = "maestro.toml";
 
 /// Beside the window's settings; empty when there is no home.
@@ -33,7 +43,8 @@ Status keep_maestro_setup(const std::filesystem::path& path, const std::string& 
 /// Serial number of the first Maestro that is attached; empty: there is none, or it can't be opened.
 std::string attached_maestro();
 
-/// What to drive the attached Maestro with: `given` where it is not the program's own, else what is kept, else the program's own.
-Result<MaestroSetup> chosen_maestro_setup(const MaestroSetup& given, const std::filesystem::path& path);
+/// What to drive the attached Maestro with: what is asked for, else what is kept for it, else the program's own. Fails where what
+/// is kept is needed and can't be read.
+Result<MaestroSetup> chosen_maestro_setup(const MaestroWish& wish, const std::filesystem::path& path);
 
 }  // namespace tangent

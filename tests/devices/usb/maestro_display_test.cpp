@@ -109,6 +109,10 @@ TEST_CASE("a Maestro's calibration is kept by the serial number that it says on 
   CHECK(chosen_maestro_setup({}, file).value() == MaestroSetup{});
   REQUIRE(keep_maestro_setup(file, attached_maestro(), own));
   CHECK(chosen_maestro_setup({}, file).value() == own);
+  MaestroWish wish;
+  wish.channel = 0;   // the program's own, but asked for: the pulses that are kept stay
+  CHECK(chosen_maestro_setup(wish, file).value() == MaestroSetup{own.calibration, 0});
   folder.write("maestro.toml", "[\"00071234\"]\nchannel = 99\n");
   CHECK_FALSE(chosen_maestro_setup({}, file).has_value());   // rather nothing than pulses that nobody meant
+  CHECK(chosen_maestro_setup(wish_for(own), file).value() == own);   // but for who says it all
 }

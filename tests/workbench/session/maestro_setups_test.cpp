@@ -46,8 +46,16 @@ TEST_CASE("a file of calibrations that is not what it should be is refused with 
   CHECK_FALSE(keep_maestro_setup("/proc/nowhere/maestro.toml", "1", kLeft));
 }
 
-TEST_CASE("what is given counts instead of what is kept") {
+TEST_CASE("what is asked for counts instead of what is kept, each value by itself, the program's own included") {
   const TempFolder folder;
-  CHECK(chosen_maestro_setup(kLeft, folder.path() / "maestro.toml").value() == kLeft);
+  CHECK(chosen_maestro_setup(wish_for(kLeft), folder.path() / "maestro.toml").value() == kLeft);
+  CHECK(wish_for(kLeft).over({}) == kLeft);
+  CHECK(MaestroWish{}.over(kLeft) == kLeft);
+  MaestroWish wish;
+  wish.low_us = MaestroCalibration{}.low_us;
+  MaestroSetup expected = kLeft;
+  expected.calibration.low_us = MaestroCalibration{}.low_us;
+  REQUIRE_FALSE(expected == kLeft);
+  CHECK(wish.over(kLeft) == expected);
   CHECK(chosen_maestro_setup({}, {}).value() == MaestroSetup{});
 }
