@@ -2,11 +2,9 @@
 
 #include "core/base/atomic_file.h"
 #include "devices/maestro/maestro_display.h"
-#include "workbench/session/input_file.h"
 #include "workbench/session/preset_schema.h"
+#include "workbench/session/toml_file.h"
 #include "workbench/session/window_settings.h"
-
-#include <toml++/toml.h>
 
 #include <algorithm>
 #include <array>
@@ -53,17 +51,9 @@ Result<MaestroSetup> read_setup(const std::filesystem::path& path, const std::st
 
 Result<Setups> read_setups(const std::filesystem::path& path) {
   Setups setups;
-  std::error_code ignored;
-  if (path.empty() || !std::filesystem::exists(path, ignored)) return setups;
-  const auto text = read_input_file(path, kMaxBytes);
-  if (!text) return tl::unexpected(text.error());
-  toml::table root;
-  try {
-    root = toml::parse(*text);
-  } catch (const toml::parse_error& error) {
-    return fail(std::string(error.description()), path.string() + ":" + std::to_string(error.source().begin.line), kRemedy);
-  }
-  for (const auto& [key, node] : root) {
+  const auto root = read_settings_file(path, kMaxBytes, kRemedy);
+  if (!root) return tl::unexpected(root.error());
+  for (const auto& [key, node] : *root) {
     const std::string serial(key.str());
     if (!node.is_table()) return fail("is not a table", where(path, node, serial), "write a table for each serial number");
     auto setup = read_setup(path, serial, *node.as_table());

@@ -5,8 +5,7 @@
 #include "workbench/session/input_file.h"
 #include "workbench/session/preset_schema.h"
 #include "workbench/session/rendering_condition.h"
-
-#include <toml++/toml.h>
+#include "workbench/session/toml_file.h"
 
 #include <algorithm>
 #include <array>
@@ -240,12 +239,9 @@ std::string value_literal(const PresetKey& row, double value) {
 }  // namespace
 
 Result<PresetFile> parse_preset(std::string_view text, std::string_view name) {
-  try {
-    return PresetReader(name).read(toml::parse(text, name));
-  } catch (const toml::parse_error& error) {
-    return fail(std::string(error.description()),
-                std::string(name) + ":" + std::to_string(error.source().begin.line), "correct the TOML there");
-  }
+  const auto root = parse_toml(text, name, "correct the TOML there");
+  if (!root) return tl::unexpected(root.error());
+  return PresetReader(name).read(*root);
 }
 
 Result<PresetFile> read_preset(const std::filesystem::path& path) {

@@ -1,9 +1,7 @@
 #include "workbench/session/window_settings.h"
 
 #include "core/base/atomic_file.h"
-#include "workbench/session/input_file.h"
-
-#include <toml++/toml.h>
+#include "workbench/session/toml_file.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -57,17 +55,9 @@ std::filesystem::path window_settings_path() {
 
 Result<WindowSettings> read_window_settings(const std::filesystem::path& path) {
   WindowSettings out;
-  std::error_code ignored;
-  if (path.empty() || !std::filesystem::exists(path, ignored)) return out;
-  const auto text = read_input_file(path, kMaxBytes);
-  if (!text) return tl::unexpected(text.error());
-  toml::table root;
-  try {
-    root = toml::parse(*text);
-  } catch (const toml::parse_error& error) {
-    return fail(std::string(error.description()), path.string() + ":" + std::to_string(error.source().begin.line),
-                "delete the file; the window starts with its own layout");
-  }
+  const auto read = read_settings_file(path, kMaxBytes, "delete the file; the window starts with its own layout");
+  if (!read) return tl::unexpected(read.error());
+  const toml::table& root = *read;
   if (const toml::table* layout = root["layout"].as_table()) {
     take(*layout, "left", 100.0, 2000.0, out.left);
     take(*layout, "right", 0.0, 2000.0, out.right);
