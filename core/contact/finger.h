@@ -46,7 +46,7 @@ struct Support {
 Vec3 support_point(const Finger& finger, const FingerPose& pose, const Vec3& normal);
 Support support_with_derivative(const Finger& finger, const FingerPose& pose, const Vec3& normal);
 
-/// The section of the finger that contacts are located in: its x and z axes in the world.
+/// The section of the finger that contacts are located in: its x and z axes, unit vectors in the world.
 struct FingerSection {
   Vec3 distal, dorsal;
 };

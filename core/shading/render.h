@@ -52,7 +52,7 @@ struct Rendered {
   Vec3 force_n{0.0};
   double cld_m = 0.0;
 };
-/// The same where the one plane is the source of both (only_smooth).
+/// The same where the one plane is the source of both (only_smooth). `section`: of the finger; `velocity`: as above.
 Rendered render(const Preset& preset, const RenderPlane& plane, const FingerSection& section, const Vec3& velocity);
 
 }  // namespace tangent

@@ -14,8 +14,8 @@
 #pragma once
 
 #include "core/mesh/contact_mesh.h"
-#include "workbench/session/maestro_setups.h"
 #include "workbench/gui/palette.h"
+#include "workbench/session/maestro_setups.h"
 
 #include <cstdint>
 #include <filesystem>

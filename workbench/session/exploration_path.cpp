@@ -159,6 +159,7 @@ Points shrink(const NearestTriangles& nearest, double pad, Points points, double
   return evenly(points, spacing);
 }
 
+/// Unit vector along v, m, or `otherwise` where v is shorter than a micrometre.
 Vec3 direction_or(const Vec3& v, const Vec3& otherwise) {
   return glm::dot(v, v) > 1e-12 ? unit(v) : otherwise;
 }
