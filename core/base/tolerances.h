@@ -69,6 +69,12 @@ inline constexpr int kTrackBudget = 8;
 /// New planes a seed of `robust` may spend, 1.
 inline constexpr int kSeedBudget = 16;
 
+/// Triangles that one step may cross, 1: beyond, it is no step of an iteration any more and the contact counts as lost. Of `robust`
+/// where it follows the kept contact fewer: after a leap each triangle on the way is one that no cache holds, and seeding anew costs
+/// less than 64 of them. A finger at 1 m/s crosses 24 a tick where 5 million make an 80 mm sphere.
+inline constexpr int kMostCrossings = 256;
+inline constexpr int kMostTrackedCrossings = 64;
+
 /// New planes that a suspected rival costs before its height tells whether it is worth more, and those that it may cost then, 1; both
 /// twice on creases and boundaries. Its place is known to 1/30 of a triangle, where Newton mostly needs one or two,
 /// near a fold more. Fewer: deeper places beside a fold are taken for none; more: rivals that are none cost planes at every tick.

@@ -1,6 +1,7 @@
 // `run` is the loop; faces, edges and vertices each have their own way of going on.
 #include "core/contact/iterate.h"
 
+#include "core/base/tolerances.h"
 #include "core/contact/step_rule.h"
 #include "core/contact/vertex_fan.h"
 #include "core/contact/walk.h"
@@ -61,13 +62,15 @@ ParameterStep face_step(IterationContext& context, const IterationResult& now, c
 }
 
 /// Walks from a face; false if the walk got lost.
-bool move_on_face(const ContactMesh& mesh, const ParameterStep& step, IterationResult& now) {
+bool move_on_face(const IterationContext& context, const ParameterStep& step, IterationResult& now) {
   if (stays_inside(now.plane.u, now.plane.v, step.da, step.db)) {
     now.plane.u += step.da;
     now.plane.v += step.db;
     return true;
   }
-  const WalkResult walk = walk_face(mesh, now.plane.triangle, now.plane.u, now.plane.v, step.da, step.db);
+  const bool tracking = context.seed == 0 && context.settings.method == Method::robust;
+  const WalkResult walk = walk_face(context.cache.mesh(), now.plane.triangle, now.plane.u, now.plane.v, step.da, step.db,
+                                    tracking ? kMostTrackedCrossings : kMostCrossings);
   if (walk.lost) return false;  // the plane stays with its sample
   now.plane.move_to(walk.place);
   now.triangle_changes += walk.triangle_changes;
@@ -304,7 +307,7 @@ bool iterate_face(IterationContext& context, int budget, RunMemory& memory, Iter
   if (step.valid && now.evaluations >= budget) now.stop = why_unconverged(mesh, now, memory, budget);
   if (context.trace) record(context, now, step, step_length(mesh, now.plane.triangle, step), now.stop);
   if (now.stop != StopReason::going_on) return false;
-  if (move_on_face(mesh, step, now)) return true;
+  if (move_on_face(context, step, now)) return true;
   now.stop = StopReason::too_far;
   if (context.trace) context.trace->amend_last(now.stop);
   return false;

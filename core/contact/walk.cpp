@@ -8,9 +8,6 @@
 namespace tangent {
 namespace {
 
-/// A step over more triangles than this is no step of an iteration any more; the caller seeds anew.
-constexpr int kMaxCrossings = 256;
-
 struct Weights {
   double w[3];  // of corners 0, 1, 2
 };
@@ -101,11 +98,11 @@ std::optional<SurfacePlace> walk_past_end(const ContactMesh& mesh, std::uint32_t
   return edges == 1 ? next : std::nullopt;
 }
 
-WalkResult walk_face(const ContactMesh& mesh, std::uint32_t t, double u, double v, double du, double dv) {
+WalkResult walk_face(const ContactMesh& mesh, std::uint32_t t, double u, double v, double du, double dv, int most_crossings) {
   WalkResult result;
   result.place.feature = Feature::face;
   std::uint32_t entered = 3;
-  for (int crossing = 0; crossing <= kMaxCrossings; ++crossing) {
+  for (int crossing = 0; crossing <= most_crossings; ++crossing) {
     const Weights w{{1.0 - u - v, u, v}}, dw{{-du - dv, du, dv}};
     double share = 1.0;
     const std::uint32_t exit = first_exit(w, dw, entered, share);

@@ -38,8 +38,8 @@ struct WalkResult {
 };
 
 /// From (u, v) on triangle t by (du, dv) in that triangle's barycentric frame. Concave creases are crossed
-/// like smooth edges: no finger rests on one.
-WalkResult walk_face(const ContactMesh& mesh, std::uint32_t t, double u, double v, double du, double dv);
+/// like smooth edges: no finger rests on one. Lost after `most_crossings` edges.
+WalkResult walk_face(const ContactMesh& mesh, std::uint32_t t, double u, double v, double du, double dv, int most_crossings);
 
 /// Past the end of a crease or boundary edge k of t (`forwards`: corner k + 1) by `beyond_m`, along the only other such
 /// edge there; no further than its other end. Nothing where the edge ends, branches or bends by over 30 degrees.

@@ -3,7 +3,10 @@
 
 #include "tests/support/temp_folder.h"
 
+#include <doctest/doctest.h>
+
 #include <csignal>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -13,8 +16,19 @@
 
 namespace tangent::testing {
 
+/// Compares as the number it is; in a failed check it also says what the process said.
+struct ExitCode {
+  int number = -1;  ///< -1: ended by a signal
+  std::string said;
+
+  friend bool operator==(const ExitCode& code, int number) { return code.number == number; }
+  friend std::ostream& operator<<(std::ostream& out, const ExitCode& code) {
+    return out << code.number << ", having said \"" << code.said << '"';
+  }
+};
+
 struct ProcessResult {
-  int exit_code = -1;  ///< -1: ended by a signal
+  ExitCode exit_code;
   std::string out, err;
 };
 
@@ -42,7 +56,10 @@ class Process {
     int status = 0;
     while (::waitpid(id_, &status, 0) < 0 && errno == EINTR) {
     }
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_text(folder_.file("out")), read_text(folder_.file("err"))};
+    const std::string err = read_text(folder_.file("err"));
+    // What a sanitizer finds fails the test also where it expects a failure of the program.
+    CHECK_MESSAGE(!contains(err, "Sanitizer"), err);
+    return {{WIFEXITED(status) ? WEXITSTATUS(status) : -1, err}, read_text(folder_.file("out")), err};
   }
 
  private:

@@ -4,6 +4,8 @@
 #include "core/planar/curvature_deviation.h"
 #include "workbench/cli/figure_table.h"
 
+#include <utility>
+
 namespace tangent {
 
 Figure contact_location_figure();           ///< Fig. 4: contact location on the finger over a smooth curve, two and three facets
@@ -13,6 +15,9 @@ Figure local_centre_figure();               ///< Fig. 17: one patch, its local c
 Figure conditions_figure(bool at_threshold);  ///< force direction and contact location against travel, all conditions:
                                               ///< at each one's threshold count of segments, or all at five
 Figure curvature_figure();                  ///< curvature against the circle's, five segments
+
+/// The curve of an outline written in this program, and so a good one.
+inline PlanarCurve curve_of(PlanarPolygon polygon) { return std::move(*PlanarCurve::build(std::move(polygon))); }
 
 struct DeviationRow {
   int segments;

@@ -11,8 +11,6 @@
 namespace tangent {
 namespace {
 
-PlanarCurve curve_of(PlanarPolygon polygon) { return std::move(*PlanarCurve::build(std::move(polygon))); }
-
 std::vector<double> mm(const Vec2& v) { return {1e3 * v.x, 1e3 * v.y}; }
 Vec2 flat(const Vec3& v) { return {v.x, v.y}; }
 

@@ -15,8 +15,6 @@ constexpr double kRadius = 0.020, kPress = 1e-3;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr int kSteps = 2000;
 
-PlanarCurve curve_of(PlanarPolygon polygon) { return std::move(*PlanarCurve::build(std::move(polygon))); }
-
 /// The whole way of the contact shows, so no display's stops.
 Preset figure_preset() {
   Preset preset;

@@ -95,3 +95,30 @@ TEST_CASE("following a crease across its vertices costs fewer planes than stoppi
   CHECK(crossings > 10);
   CHECK(most <= 3);  // to the vertex, turn there, on to the next edge, along it: four
 }
+
+TEST_CASE("robust follows a finger over dozens of small triangles a tick, and seeds after a leap over hundreds, which newton walks") {
+  const ScenePtr scene = scene_of(make_icosphere(0.040, 6));  // sides of 0.75 mm: three triangles a millimetre
+  struct Leap {
+    Method method;
+    double along_m;  // of the contact
+    TickEvent event;
+    bool gives_up;
+  };
+  for (const Leap& leap : {Leap{Method::robust, 6e-3, TickEvent::none, false}, Leap{Method::robust, 40e-3, TickEvent::reseed, true},
+                           Leap{Method::newton, 40e-3, TickEvent::none, false}}) {
+    CAPTURE(to_string(leap.method));
+    CAPTURE(leap.along_m);
+    const Preset preset = sphere_preset(0.020, leap.method);
+    Stepper stepper(scene);
+    TickState state;
+    const auto trace = std::make_unique<IterationTrace>();
+    stepper.step(preset, at_position(0.0, {0.0, 0.0, 0.059}), state);
+    const double a = leap.along_m / 0.040;
+    const TickOutput out = stepper.step(preset, at_position(1e-3, 0.059 * Vec3(std::sin(a), 0.0, std::cos(a))), state, trace.get());
+    CHECK(out.event == leap.event);
+    CHECK(out.error_m < preset.solver.tolerance_m);
+    bool gave_up = false;
+    for (const IterationRecord& r : trace->view()) gave_up |= r.seed == 0 && r.stop == StopReason::too_far;
+    CHECK(gave_up == leap.gives_up);
+  }
+}

@@ -71,8 +71,9 @@ TEST_CASE("nothing that is drawn over the picture lies on the object, whatever i
         ui.model().frame_scene();
         const ItemRect view = *ui.app().items().find("view");
         const int w = static_cast<int>(view.max.x - view.min.x), h = static_cast<int>(view.max.y - view.min.y);
-        const Vec2 cards = overlay_cards(ui.model().view().toggles, ImGui::GetIO().Fonts->Fonts[0]->FontSize);
-        const double toggles = static_cast<double>(ui.app().items().find("view/Display")->max.y - view.min.y);
+        const float below_toggles = ui.app().items().find("view/Display")->max.y;
+        const Vec2 cards = overlay_cards(ui.model().view().toggles, ImGui::GetIO().Fonts->Fonts[0]->FontSize, view.max.y - below_toggles).size;
+        const double toggles = static_cast<double>(below_toggles - view.min.y);
         const ItemRect* bar = map ? ui.app().items().find("view/map_bar") : nullptr;
         const double right = bar != nullptr ? static_cast<double>(bar->min.x - view.min.x) : w;
         for (const NamedView& v : kStandardViews) {
@@ -94,4 +95,27 @@ TEST_CASE("nothing that is drawn over the picture lies on the object, whatever i
       }
     }
   }
+}
+
+TEST_CASE("in a low picture the cards stand side by side, and what still does not fit is left out: nothing reaches into the toggles") {
+  const float em = 10.0f;
+  SceneToggles toggles;
+  toggles.cld_inset = toggles.axes = toggles.colour_bar = toggles.planes = true;
+  const OverlayCards high = overlay_cards(toggles, em, 1e4f);
+  CHECK((high.inset && high.scales && !high.beside));
+  bool beside = false, alone = false, none = false;
+  for (float room = static_cast<float>(high.size.y) + 20.0f; room > 0.0f; room -= 1.0f) {
+    CAPTURE(room);
+    const OverlayCards cards = overlay_cards(toggles, em, room);
+    CHECK(cards.size.y <= static_cast<double>(room));
+    CHECK((cards.size.x > 0.0) == (cards.inset || cards.scales));
+    if (cards.beside) CHECK(cards.size.x > 1.9 * high.size.x - 20.0);
+    CHECK((!cards.beside || (cards.inset && cards.scales)));
+    beside |= cards.beside;
+    alone |= cards.inset != cards.scales;
+    none |= !cards.inset && !cards.scales;
+  }
+  CHECK((beside && alone && none));
+  toggles.cld_inset = false;
+  CHECK(!overlay_cards(toggles, em, 100.0f).beside);
 }

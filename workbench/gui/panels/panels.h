@@ -112,6 +112,7 @@ void draw_device_monitor(const UiContext& ui, AppModel& model, const Rect& rect)
 struct ViewPanel {
   double build_ms_outside = 0.0;   ///< processor time spent in the renderer this frame
   std::optional<Vec3> drag_plane;  ///< where the hand was last led to
+  float top = 0.0f;                ///< height of the toggles along the upper edge, points; of the last frame
   PlanarView planar;               ///< of 2D scenes
 };
 void draw_view_panel(const UiContext& ui, AppModel& model, ViewPanel& state, SceneRenderer* renderer, const Rect& rect);

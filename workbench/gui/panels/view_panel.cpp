@@ -196,7 +196,7 @@ void draw_picture(const UiContext& ui, AppModel& model, ViewPanel& state, SceneR
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   if (renderer.texture() == 0) return;
   draw.AddImage(reinterpret_cast<ImTextureID>(static_cast<std::intptr_t>(renderer.texture())), {rect.x, rect.y}, {rect.right(), rect.bottom()}, {0, 1}, {1, 0});
-  draw_scene_overlay(draw, {rect.x, rect.y}, static_cast<double>(per_point.x), renderer, frame, model.view().camera, ui.fonts);
+  draw_scene_overlay(draw, {rect.x, rect.y}, static_cast<double>(per_point.x), state.top, renderer, frame, model.view().camera, ui.fonts);
 }
 
 }  // namespace
@@ -227,7 +227,9 @@ void draw_view_panel(const UiContext& ui, AppModel& model, ViewPanel& state, Sce
     if (renderer != nullptr) draw_picture(ui, model, state, *renderer, rect);
     const float below_toggles = draw_layer_toggles(ui, model, rect);
     const float map_bar = draw_map_bar(ui, model, rect, below_toggles + ui.px(8));
-    model.view().rooms = rooms_beside({rect.w, rect.h}, below_toggles - rect.y + ui.px(4), map_bar + ui.px(8), overlay_cards(model.view().toggles, ui.fonts.text->FontSize));
+    state.top = below_toggles - rect.y + ui.px(4);
+    const OverlayCards cards = overlay_cards(model.view().toggles, ui.fonts.text->FontSize, rect.h - state.top);
+    model.view().rooms = rooms_beside({rect.w, rect.h}, state.top, map_bar + ui.px(8), cards.size);
   }
   if (model.loading()) {
     const std::string text = "Loading " + model.loading_name();

@@ -177,7 +177,7 @@ void draw_view(OffscreenScreen& screen, SceneRenderer& renderer, const SceneFram
     renderer.render(frame, camera, request.width_px, request.height_px);
     const ImVec2 size{static_cast<float>(request.width_px), static_cast<float>(request.height_px)};
     list.AddImage(reinterpret_cast<ImTextureID>(static_cast<std::intptr_t>(renderer.texture())), {0, 0}, size, {0, 1}, {1, 0});
-    draw_scene_overlay(list, {0, 0}, 1.0, renderer, frame, camera, fonts);
+    draw_scene_overlay(list, {0, 0}, 1.0, 0.0f, renderer, frame, camera, fonts);
     ImGui::Render();
   });
 }

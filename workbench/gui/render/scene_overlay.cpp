@@ -106,16 +106,29 @@ void draw_iteration_bar(const OverlayCanvas& c, ImVec2 at, const SceneFrame& fra
 
 }  // namespace
 
-Vec2 overlay_cards(const SceneToggles& toggles, float em) {
-  const bool bar = toggles.colour_bar && toggles.planes;
-  float height = kBottom;
-  if (toggles.cld_inset) height += kInsetHeight + kGap;
-  if (toggles.axes || bar) height += (!bar ? kAxesHeight : toggles.axes ? kBothHeight : kBarHeight) + kGap;
-  if (height == kBottom) return Vec2(0.0);
-  return {static_cast<double>((kLeft + (toggles.cld_inset || toggles.axes ? kAxesWidth : kBarWidth) + kGap) * em), static_cast<double>(height * em)};
+/// Of the card with axes and scales, with the colour bar, or with both, em.
+static ImVec2 scales_card(bool axes, bool bar) {
+  return {axes ? kAxesWidth : kBarWidth, !bar ? kAxesHeight : axes ? kBothHeight : kBarHeight};
 }
 
-void draw_scene_overlay(ImDrawList& draw_list, const ImVec2& top_left, double pixels_per_point,
+OverlayCards overlay_cards(const SceneToggles& toggles, float em, float room) {
+  const bool bar = toggles.colour_bar && toggles.planes;
+  const ImVec2 scales = scales_card(toggles.axes, bar);
+  const auto fits = [&](float height) { return (kBottom + height + kGap) * em <= room; };
+  OverlayCards cards;
+  cards.inset = toggles.cld_inset && fits(kInsetHeight);
+  cards.scales = (toggles.axes || bar) && fits(scales.y);
+  if (!cards.inset && !cards.scales) return cards;
+  const float inset_width = cards.inset ? kInsetWidth : 0.0f, inset_height = cards.inset ? kInsetHeight + kGap : 0.0f;
+  const float width = cards.scales ? scales.x : 0.0f, height = cards.scales ? scales.y + kGap : 0.0f;
+  cards.beside = cards.inset && cards.scales && !fits(inset_height + scales.y);
+  cards.size = cards.beside ? Vec2(kLeft + inset_width + kGap + width + kGap, kBottom + std::max(inset_height, height))
+                            : Vec2(kLeft + std::max(inset_width, width) + kGap, kBottom + inset_height + height);
+  cards.size *= static_cast<double>(em);
+  return cards;
+}
+
+void draw_scene_overlay(ImDrawList& draw_list, const ImVec2& top_left, double pixels_per_point, float top,
                         const SceneRenderer& renderer, const SceneFrame& frame, const Camera& camera, const ThemeFonts& fonts) {
   const float per_point = static_cast<float>(pixels_per_point);
   const ImVec2 size{static_cast<float>(renderer.width_px()) / per_point, static_cast<float>(renderer.height_px()) / per_point};
@@ -127,29 +140,31 @@ void draw_scene_overlay(ImDrawList& draw_list, const ImVec2& top_left, double pi
   draw_labels(canvas, pixels_per_point, renderer.labels());
   const float em = canvas.em;
   ImVec2 lower_left{top_left.x + kLeft * em, top_left.y + size.y - kBottom * em};
+  const OverlayCards cards = overlay_cards(frame.toggles, em, size.y - top);
   // The inset stands below: the card on top of it grows and shrinks with the tick.
-  if (frame.toggles.cld_inset && (frame.cld_commanded_m || frame.cld_measured_m)) {
+  if (cards.inset && (frame.cld_commanded_m || frame.cld_measured_m)) {
     draw_cld_inset(canvas, {lower_left.x + kInsetWidth * em, lower_left.y}, frame.display_travel_m,
                    frame.cld_commanded_m ? &*frame.cld_commanded_m : nullptr,
                    frame.cld_measured_m ? &*frame.cld_measured_m : nullptr);
-    lower_left.y -= (kInsetHeight + kGap) * em;
+    if (cards.beside) lower_left.x += (kInsetWidth + kGap) * em;
+    else lower_left.y -= (kInsetHeight + kGap) * em;
   }
-  const bool bar = frame.toggles.colour_bar && frame.toggles.planes && frame.trace.size() > 1;
-  if (frame.toggles.axes || bar) {  // behind them, so that they read on any facet
-    const float width = frame.toggles.axes ? kAxesWidth : kBarWidth;
-    const float height = !bar ? kAxesHeight : frame.toggles.axes ? kBothHeight : kBarHeight;
-    canvas.card({lower_left.x, lower_left.y - height * em}, {lower_left.x + width * em, lower_left.y});
+  const bool bar = cards.scales && frame.toggles.colour_bar && frame.toggles.planes && frame.trace.size() > 1;
+  const bool axes = cards.scales && frame.toggles.axes;
+  if (axes || bar) {  // behind them, so that they read on any facet
+    const ImVec2 card = scales_card(axes, bar);
+    canvas.card({lower_left.x, lower_left.y - card.y * em}, {lower_left.x + card.x * em, lower_left.y});
   }
   lower_left = {lower_left.x + 0.3f * em, lower_left.y - 0.2f * em};
   float left = lower_left.x + 0.4f * em;
-  if (frame.toggles.axes) {
+  if (axes) {
     draw_triad(canvas, {lower_left.x + 2.1f * em, lower_left.y - 2.1f * em}, camera);
     left += 4.9f * em;
     const double metres_per_point = camera.metres_per_pixel(camera.target, renderer.height_px()) * pixels_per_point;
     draw_scales(canvas, {left, lower_left.y - 0.7f * em}, metres_per_point, renderer, frame);
   }
   if (bar) {
-    draw_iteration_bar(canvas, {left, lower_left.y - (frame.toggles.axes ? 4.0f : 1.4f) * em}, frame);
+    draw_iteration_bar(canvas, {left, lower_left.y - (axes ? 4.0f : 1.4f) * em}, frame);
   }
   draw_list.PopClipRect();
 }

@@ -11,13 +11,18 @@ namespace tangent {
 
 struct ThemeFonts;
 
-/// Width and height, from the picture's lower left corner, of the cards that stand there: the most they take. `em`: height
-/// of the window's text.
-Vec2 overlay_cards(const SceneToggles& toggles, float em);
+/// The cards in the picture's lower left corner: the display's inset, and on it axes, scales and colour bar.
+struct OverlayCards {
+  bool inset = false, scales = false;  ///< which are there: those that are wanted and fit
+  bool beside = false;                 ///< side by side: the picture is too low for one on the other
+  Vec2 size{0.0};                      ///< the most they take, from the corner
+};
+/// `em`: height of the window's text. `room`: height over the picture's lower edge where nothing else is drawn.
+OverlayCards overlay_cards(const SceneToggles& toggles, float em, float room);
 
 /// `top_left`: of the picture, in ImGui's coordinates. `pixels_per_point`: the picture's pixels per ImGui
-/// coordinate (1 when it is shown pixel for pixel).
-void draw_scene_overlay(ImDrawList& draw_list, const ImVec2& top_left, double pixels_per_point,
+/// coordinate (1 when it is shown pixel for pixel). `top`: what is drawn along its upper edge is this high.
+void draw_scene_overlay(ImDrawList& draw_list, const ImVec2& top_left, double pixels_per_point, float top,
                         const SceneRenderer& renderer, const SceneFrame& frame, const Camera& camera,
                         const ThemeFonts& fonts);
 
