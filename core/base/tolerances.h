@@ -70,8 +70,9 @@ inline constexpr int kTrackBudget = 8;
 inline constexpr int kSeedBudget = 16;
 
 /// Triangles that one step may cross, 1: beyond, it is no step of an iteration any more and the contact counts as lost. Of `robust`
-/// where it follows the kept contact fewer: after a leap each triangle on the way is one that no cache holds, and seeding anew costs
-/// less than 64 of them. A finger at 1 m/s crosses 24 a tick where 5 million make an 80 mm sphere.
+/// where it follows the kept contact fewer: after a leap no cache holds the triangles on the way. With 256 there, too, the 99th
+/// percentile of ticks at random places on 5 million triangles of an 80 mm sphere was 276 to 381 us, with 64 it is 135 to 175
+/// (`bench --suite scale --ticks 1000`). At 1 m/s a finger crosses 24 of those triangles a tick.
 inline constexpr int kMostCrossings = 256;
 inline constexpr int kMostTrackedCrossings = 64;
 

@@ -38,7 +38,7 @@ struct WalkResult {
 };
 
 /// From (u, v) on triangle t by (du, dv) in that triangle's barycentric frame. Concave creases are crossed
-/// like smooth edges: no finger rests on one. Lost after `most_crossings` edges.
+/// like smooth edges: no finger rests on one. Lost where it crosses more edges than `most_crossings`.
 WalkResult walk_face(const ContactMesh& mesh, std::uint32_t t, double u, double v, double du, double dv, int most_crossings);
 
 /// Past the end of a crease or boundary edge k of t (`forwards`: corner k + 1) by `beyond_m`, along the only other such

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/planar/curvature_deviation.h"
+#include "core/planar/curve.h"
 #include "workbench/cli/figure_table.h"
 
 #include <utility>

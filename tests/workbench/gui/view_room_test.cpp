@@ -109,7 +109,7 @@ TEST_CASE("in a low picture the cards stand side by side, and what still does no
     const OverlayCards cards = overlay_cards(toggles, em, room);
     CHECK(cards.size.y <= static_cast<double>(room));
     CHECK((cards.size.x > 0.0) == (cards.inset || cards.scales));
-    if (cards.beside) CHECK(cards.size.x > 1.9 * high.size.x - 20.0);
+    if (cards.beside) CHECK(cards.size.x > 1.9 * high.size.x);
     CHECK((!cards.beside || (cards.inset && cards.scales)));
     beside |= cards.beside;
     alone |= cards.inset != cards.scales;

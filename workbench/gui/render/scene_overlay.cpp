@@ -104,12 +104,12 @@ void draw_iteration_bar(const OverlayCanvas& c, ImVec2 at, const SceneFrame& fra
            c.colours.text, last);
 }
 
-}  // namespace
-
-/// Of the card with axes and scales, with the colour bar, or with both, em.
-static ImVec2 scales_card(bool axes, bool bar) {
+// Width and height of the card with axes and scales, with the colour bar, or with both, em.
+ImVec2 scales_card(bool axes, bool bar) {
   return {axes ? kAxesWidth : kBarWidth, !bar ? kAxesHeight : axes ? kBothHeight : kBarHeight};
 }
+
+}  // namespace
 
 OverlayCards overlay_cards(const SceneToggles& toggles, float em, float room) {
   const bool bar = toggles.colour_bar && toggles.planes;

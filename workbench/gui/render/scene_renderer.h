@@ -6,7 +6,7 @@
 // Use, once a frame, before the ImGui draw data is rendered:
 //   renderer.render(frame, camera, width_px, height_px);
 //   ImGui::Image(texture id, size, {0, 1}, {1, 0});             // GL's rows count from the bottom
-//   draw_scene_overlay(draw_list, top_left, pixels_per_point, renderer, frame, camera);
+//   draw_scene_overlay(draw_list, top_left, pixels_per_point, top, renderer, frame, camera, fonts);
 #pragma once
 
 #include "core/base/result.h"
