@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/base/result.h"
-#include "core/preset.h"
+#include "core/preset/preset.h"
 #include "devices/device_state.h"
 #include "devices/fault_injection.h"
 #include "devices/link_report.h"

@@ -1,7 +1,7 @@
 #include "core/contact/contact_derivative.h"
 
-#include "core/contact/iterate.h"
-#include "core/contact/step_rule.h"
+#include "core/contact/follow/iterate.h"
+#include "core/contact/follow/step_rule.h"
 
 namespace tangent {
 

@@ -5,7 +5,7 @@
 // X_a da + X_b db = dc in the plane normal to N. Holds on faces, edges (a along the edge, b turning) and vertices.
 #pragma once
 
-#include "core/step.h"
+#include "core/tick/step.h"
 
 namespace tangent {
 

@@ -9,7 +9,7 @@
 // Immutable, no allocation in a query, any number of threads.
 #pragma once
 
-#include "core/contact/finger.h"
+#include "core/finger/finger.h"
 #include "core/mesh/contact_mesh.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #include "core/contact/edge_fan.h"
 
 #include "core/base/tolerances.h"
-#include "core/contact/plane_contact.h"
+#include "core/finger/plane_contact.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 // side's normal towards the far side's: solving on an edge takes no angle, sine or arc tangent.
 #pragma once
 
-#include "core/contact/finger.h"
+#include "core/finger/finger.h"
 #include "core/surface/patch_edge.h"
 
 #include <algorithm>

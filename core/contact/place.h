@@ -14,8 +14,8 @@
 
 #include "core/contact/edge_fan.h"
 #include "core/contact/patch_cache.h"
-#include "core/contact/plane_contact.h"
-#include "core/step.h"
+#include "core/finger/plane_contact.h"
+#include "core/tick/step.h"
 
 namespace tangent {
 

@@ -9,7 +9,7 @@
 #pragma once
 
 #include "core/planar/polygon.h"
-#include "core/preset.h"
+#include "core/preset/preset.h"
 
 #include <array>
 #include <cstdint>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/planar/curve.h"
-#include "core/step.h"
+#include "core/tick/step.h"
 
 namespace tangent {
 

@@ -1,8 +1,8 @@
 // What the raw polygon gives without smoothing, in the terms of the raw mesh: the 2D baselines.
 #pragma once
 
+#include "core/baseline/two_pass.h"
 #include "core/planar/curve.h"
-#include "core/shading/two_pass.h"
 
 namespace tangent {
 

@@ -1,8 +1,8 @@
 // From a contact to what the devices render: force and place on the display.
 #pragma once
 
-#include "core/contact/finger.h"
-#include "core/preset.h"
+#include "core/finger/finger.h"
+#include "core/preset/preset.h"
 
 namespace tangent {
 

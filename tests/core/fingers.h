@@ -1,7 +1,7 @@
 // Fingers of every shape for the tests of the contact.
 #pragma once
 
-#include "core/contact/finger.h"
+#include "core/finger/finger.h"
 
 namespace tangent::test {
 

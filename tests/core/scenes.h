@@ -1,9 +1,9 @@
 // Scenes that several tests share.
 #pragma once
 
-#include "core/mesh/generate.h"
-#include "core/mesh/mesh_io.h"
-#include "core/step.h"
+#include "core/io/mesh_io.h"
+#include "core/lab/objects/generate.h"
+#include "core/tick/step.h"
 
 #include <doctest/doctest.h>
 

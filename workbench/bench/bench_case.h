@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/mesh/contact_mesh.h"
-#include "core/step.h"
+#include "core/tick/step.h"
 
 #include <filesystem>
 #include <functional>

@@ -1,7 +1,7 @@
 // Ways of the finger for benchmark scenes. Poses 1 ms apart, world frame, metres; deterministic.
 #pragma once
 
-#include "core/step.h"
+#include "core/tick/step.h"
 
 #include <functional>
 #include <vector>

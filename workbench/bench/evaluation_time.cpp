@@ -1,7 +1,7 @@
 #include "workbench/bench/evaluation_time.h"
 
+#include "core/lab/measure/distribution.h"
 #include "core/surface/mesh_patch.h"
-#include "core/tuning/distribution.h"
 
 #include <algorithm>
 #include <vector>

@@ -1,7 +1,7 @@
 // The yardstick: one evaluation of point, normal and all first derivatives of a patch.
 #pragma once
 
-#include "core/step.h"
+#include "core/tick/step.h"
 #include "workbench/bench/tick_clock.h"
 
 #include <span>

@@ -1,6 +1,6 @@
 // Hard by the mesh, by the finger's way over it, by the finger itself, or by scale and numbers.
-#include "core/mesh/generate.h"
-#include "core/mesh/generate_hard.h"
+#include "core/lab/objects/generate.h"
+#include "core/lab/objects/generate_hard.h"
 #include "workbench/bench/bench_case.h"
 #include "workbench/bench/case_paths.h"
 

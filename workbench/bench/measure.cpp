@@ -1,10 +1,10 @@
 #include "workbench/bench/measure.h"
 
-#include "core/contact/plane_contact.h"
-#include "core/shading/render.h"
-#include "core/tuning/closed_work.h"
-#include "core/tuning/converged_answer.h"
-#include "core/tuning/distribution.h"
+#include "core/finger/plane_contact.h"
+#include "core/lab/measure/closed_work.h"
+#include "core/lab/measure/converged_answer.h"
+#include "core/lab/measure/distribution.h"
+#include "core/tick/render.h"
 #include "workbench/bench/allocation_count.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
-#include "core/base/atomic_file.h"
-#include "core/mesh/generate.h"
-#include "core/mesh/mesh_io.h"
+#include "core/io/atomic_file.h"
+#include "core/io/mesh_io.h"
+#include "core/lab/objects/generate.h"
 #include "workbench/bench/case_paths.h"
 #include "workbench/bench/measure.h"
 

@@ -1,4 +1,4 @@
-#include "core/mesh/generate.h"
+#include "core/lab/objects/generate.h"
 #include "workbench/bench/bench_case.h"
 #include "workbench/bench/case_paths.h"
 

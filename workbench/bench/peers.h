@@ -1,8 +1,8 @@
 // What other libraries take for the closest point on the raw mesh: the query alone, no contact, no shading.
 #pragma once
 
-#include "core/step.h"
-#include "core/tuning/distribution.h"
+#include "core/lab/measure/distribution.h"
+#include "core/tick/step.h"
 #include "workbench/bench/tick_clock.h"
 
 #include <algorithm>

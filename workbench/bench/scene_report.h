@@ -1,7 +1,7 @@
 // Everything the benchmark measures of one scene, as plain data.
 #pragma once
 
-#include "core/tuning/scene_statistics.h"
+#include "core/lab/measure/scene_statistics.h"
 #include "workbench/bench/bench_case.h"
 #include "workbench/bench/evaluation_time.h"
 #include "workbench/bench/peers.h"
@@ -13,7 +13,7 @@
 
 namespace tangent::bench {
 
-/// Work of the force around small closed paths (core/tuning/closed_work.h).
+/// Work of the force around small closed paths (core/lab/measure/closed_work.h).
 struct WorkReport {
   int loops = 0, broken = 0;      ///< broken: with an unconverged tick; left out of the figures
   double mean_j = 0.0, max_j = 0.0;          ///< of |work|

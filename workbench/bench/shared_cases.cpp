@@ -1,7 +1,7 @@
 #include "core/base/text.h"
-#include "core/mesh/mesh_io.h"
+#include "core/io/mesh_io.h"
+#include "core/io/pose_file.h"
 #include "workbench/bench/bench_case.h"
-#include "workbench/session/pose_file.h"
 
 #include <algorithm>
 

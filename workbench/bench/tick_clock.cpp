@@ -1,6 +1,6 @@
 #include "workbench/bench/tick_clock.h"
 
-#include "core/tuning/distribution.h"
+#include "core/lab/measure/distribution.h"
 
 #include <algorithm>
 #include <array>

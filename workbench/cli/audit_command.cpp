@@ -1,12 +1,12 @@
 // workbench audit: what a contact solver will meet on a mesh.
-#include "core/base/atomic_file.h"
+#include "core/io/atomic_file.h"
+#include "core/io/rendering_condition.h"
 #include "workbench/cli/audit_report.h"
 #include "workbench/cli/command.h"
 #include "workbench/cli/mesh_options.h"
 #include "workbench/cli/messages.h"
 #include "workbench/cli/number_option.h"
 #include "workbench/cli/text_format.h"
-#include "workbench/session/rendering_condition.h"
 
 #include <nlohmann/json.hpp>
 

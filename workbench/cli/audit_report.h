@@ -1,8 +1,8 @@
 // A mesh's health, for people and for programs.
 #pragma once
 
-#include "core/mesh/mesh_audit.h"
-#include "core/tuning/perception.h"
+#include "core/lab/audit/mesh_audit.h"
+#include "core/lab/measure/perception.h"
 
 #include <nlohmann/json_fwd.hpp>
 

@@ -1,5 +1,5 @@
 // workbench bench: speed against error, for every method.
-#include "core/base/atomic_file.h"
+#include "core/io/atomic_file.h"
 #include "workbench/bench/measure.h"
 #include "workbench/bench/report_json.h"
 #include "workbench/cli/bench_plot.h"

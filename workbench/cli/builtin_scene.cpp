@@ -1,6 +1,6 @@
 #include "workbench/cli/builtin_scene.h"
 
-#include "core/mesh/generate.h"
+#include "core/lab/objects/generate.h"
 
 #include <cmath>
 #include <numbers>

@@ -1,7 +1,7 @@
 // The scene that is there without any file: a sphere of 320 triangles and a finger that slides over it.
 #pragma once
 
-#include "core/step.h"
+#include "core/tick/step.h"
 
 #include <memory>
 #include <vector>

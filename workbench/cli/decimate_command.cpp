@@ -1,9 +1,10 @@
 // workbench decimate: as few triangles as a finger can't tell from many.
-#include "core/base/atomic_file.h"
-#include "core/mesh/mesh_io.h"
-#include "core/tuning/decimate.h"
-#include "core/tuning/gain_tuning.h"
-#include "core/tuning/perception.h"
+#include "core/io/atomic_file.h"
+#include "core/io/mesh_io.h"
+#include "core/io/rendering_condition.h"
+#include "core/lab/gains/gain_tuning.h"
+#include "core/lab/measure/decimate.h"
+#include "core/lab/measure/perception.h"
 #include "workbench/cli/command.h"
 #include "workbench/cli/exploration_poses.h"
 #include "workbench/cli/interrupt.h"
@@ -11,7 +12,6 @@
 #include "workbench/cli/messages.h"
 #include "workbench/cli/number_option.h"
 #include "workbench/cli/text_format.h"
-#include "workbench/session/rendering_condition.h"
 
 #include <nlohmann/json.hpp>
 

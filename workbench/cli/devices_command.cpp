@@ -1,5 +1,5 @@
 // workbench devices: what is attached, what it can do, and why it can't be opened.
-#include "core/base/atomic_file.h"
+#include "core/io/atomic_file.h"
 #include "devices/cld/cld_controller.h"
 #include "devices/device_set.h"
 #include "workbench/cli/command.h"

@@ -1,7 +1,7 @@
 // Poses for runs that name no pose file: the simulated hand's way over a mesh, at the paper's speed.
 #pragma once
 
-#include "core/step.h"
+#include "core/tick/step.h"
 
 #include <vector>
 

@@ -1,7 +1,7 @@
 #include "workbench/cli/figure_table.h"
 
-#include "core/base/atomic_file.h"
 #include "core/base/text.h"
+#include "core/io/atomic_file.h"
 #include "workbench/cli/text_format.h"
 
 #include <array>

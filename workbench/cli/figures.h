@@ -1,7 +1,7 @@
 // The figures of the paper that this program reproduces, computed by its own 2D algorithm.
 #pragma once
 
-#include "core/planar/curvature_deviation.h"
+#include "core/lab/measure/curvature_deviation.h"
 #include "core/planar/curve.h"
 #include "workbench/cli/figure_table.h"
 

@@ -1,9 +1,9 @@
 // Figures of a finger that moves over the paper's arc.
-#include "core/planar/planar_step.h"
-#include "core/tuning/perception_thresholds.h"
+#include "core/io/rendering_condition.h"
+#include "core/lab/measure/perception_thresholds.h"
+#include "core/tick/planar_step.h"
 #include "workbench/cli/figures.h"
 #include "workbench/cli/text_format.h"
-#include "workbench/session/rendering_condition.h"
 
 #include <cmath>
 #include <limits>

@@ -1,7 +1,7 @@
 // workbench make: the paper's objects and the hard cases, as OBJ.
-#include "core/mesh/generate.h"
-#include "core/mesh/generate_hard.h"
-#include "core/mesh/mesh_io.h"
+#include "core/io/mesh_io.h"
+#include "core/lab/objects/generate.h"
+#include "core/lab/objects/generate_hard.h"
 #include "workbench/cli/command.h"
 #include "workbench/cli/mesh_options.h"
 #include "workbench/cli/messages.h"

@@ -1,7 +1,7 @@
 #include "workbench/cli/mesh_options.h"
 
-#include "core/mesh/mesh_io.h"
-#include "core/planar/polygon_io.h"
+#include "core/io/mesh_io.h"
+#include "core/io/polygon_io.h"
 #include "workbench/cli/number_option.h"
 
 #include <array>

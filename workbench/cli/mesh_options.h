@@ -3,7 +3,7 @@
 
 #include "core/mesh/contact_mesh.h"
 #include "core/mesh/polygon_mesh.h"
-#include "core/step.h"
+#include "core/tick/step.h"
 
 #include <CLI/CLI.hpp>
 

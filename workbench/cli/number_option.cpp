@@ -1,7 +1,7 @@
 #include "workbench/cli/number_option.h"
 
 #include "core/base/text.h"
-#include "workbench/session/preset_schema.h"
+#include "core/preset/schema.h"
 
 #include <algorithm>
 #include <cmath>

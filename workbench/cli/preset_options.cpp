@@ -1,7 +1,7 @@
 #include "workbench/cli/preset_options.h"
 
+#include "core/io/rendering_condition.h"
 #include "workbench/cli/number_option.h"
-#include "workbench/session/rendering_condition.h"
 
 namespace tangent {
 namespace {

@@ -1,8 +1,8 @@
 // The preset of a run: a file if one is named, then the options that override single values.
 #pragma once
 
-#include "workbench/session/preset_file.h"
-#include "workbench/session/preset_schema.h"
+#include "core/io/preset_file.h"
+#include "core/preset/schema.h"
 
 #include <CLI/CLI.hpp>
 

@@ -1,5 +1,7 @@
 // workbench solve: every pose of a file, one tick each, into ticks.csv.
-#include "core/base/atomic_file.h"
+#include "core/io/atomic_file.h"
+#include "core/io/pose_file.h"
+#include "core/io/ticks_file.h"
 #include "workbench/cli/command.h"
 #include "workbench/cli/interrupt.h"
 #include "workbench/cli/mesh_options.h"
@@ -8,8 +10,6 @@
 #include "workbench/cli/progress.h"
 #include "workbench/cli/solve_report.h"
 #include "workbench/cli/stopwatch.h"
-#include "workbench/session/pose_file.h"
-#include "workbench/session/ticks_file.h"
 
 #include <nlohmann/json.hpp>
 

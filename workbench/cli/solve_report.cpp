@@ -1,8 +1,8 @@
 #include "workbench/cli/solve_report.h"
 
+#include "core/preset/schema.h"
 #include "workbench/cli/mesh_text.h"
 #include "workbench/cli/text_format.h"
-#include "workbench/session/preset_schema.h"
 
 #include <nlohmann/json.hpp>
 

@@ -1,10 +1,10 @@
 // The outcome of a solve, for people and for programs.
 #pragma once
 
+#include "core/io/preset_file.h"
 #include "core/mesh/contact_mesh.h"
 #include "core/planar/curve.h"
 #include "workbench/cli/solve_statistics.h"
-#include "workbench/session/preset_file.h"
 
 #include <nlohmann/json_fwd.hpp>
 

@@ -1,8 +1,8 @@
 // What a run of ticks amounts to: counts, iterations, error and time, as percentiles.
 #pragma once
 
-#include "core/step.h"
-#include "core/tuning/distribution.h"
+#include "core/lab/measure/distribution.h"
+#include "core/tick/step.h"
 
 #include <array>
 #include <cstdint>

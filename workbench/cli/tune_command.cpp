@@ -1,7 +1,8 @@
 // workbench tune: gains of the paper's iteration, found by measuring on a mesh, into a preset.
-#include "core/base/atomic_file.h"
-#include "core/tuning/distribution.h"
-#include "core/tuning/gain_tuning.h"
+#include "core/io/atomic_file.h"
+#include "core/io/pose_file.h"
+#include "core/lab/gains/gain_tuning.h"
+#include "core/lab/measure/distribution.h"
 #include "workbench/cli/command.h"
 #include "workbench/cli/exploration_poses.h"
 #include "workbench/cli/interrupt.h"
@@ -12,7 +13,6 @@
 #include "workbench/cli/stopwatch.h"
 #include "workbench/cli/text_format.h"
 #include "workbench/cli/tune_report.h"
-#include "workbench/session/pose_file.h"
 
 #include <algorithm>
 #include <cstdio>

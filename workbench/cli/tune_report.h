@@ -1,10 +1,10 @@
 // The outcome of a tuning: a table for people, and the [about] of the preset it writes.
 #pragma once
 
+#include "core/io/preset_file.h"
+#include "core/lab/gains/gain_tuning.h"
+#include "core/lab/gains/ground.h"
 #include "core/mesh/contact_mesh.h"
-#include "core/tuning/gain_tuning.h"
-#include "core/tuning/ground.h"
-#include "workbench/session/preset_file.h"
 
 #include <string>
 #include <vector>

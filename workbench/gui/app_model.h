@@ -3,6 +3,7 @@
 // call it; tests drive it through them and look here first.
 #pragma once
 
+#include "core/io/rendering_condition.h"
 #include "workbench/gui/app.h"
 #include "workbench/gui/error_fan.h"
 #include "workbench/gui/layout.h"
@@ -15,10 +16,9 @@
 #include "workbench/gui/render/scene_renderer.h"
 #include "workbench/gui/scene_loader.h"
 #include "workbench/gui/tick_view.h"
-#include "workbench/session/window_settings.h"
 #include "workbench/gui/time_machine.h"
 #include "workbench/session/bookmarks.h"
-#include "workbench/session/rendering_condition.h"
+#include "workbench/session/window_settings.h"
 
 #include <array>
 #include <map>

@@ -1,6 +1,6 @@
 #include "workbench/gui/export_samples.h"
 
-#include "core/base/atomic_file.h"
+#include "core/io/atomic_file.h"
 
 #include <charconv>
 

@@ -1,8 +1,8 @@
 // The preset being edited: where it came from, what was changed since, and the files beside it. No ImGui.
 #pragma once
 
-#include "workbench/session/preset_file.h"
-#include "workbench/session/preset_schema.h"
+#include "core/io/preset_file.h"
+#include "core/preset/schema.h"
 
 #include <filesystem>
 #include <string>

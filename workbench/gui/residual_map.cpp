@@ -1,6 +1,6 @@
 #include "workbench/gui/residual_map.h"
 
-#include "core/contact/plane_contact.h"
+#include "core/finger/plane_contact.h"
 #include "core/planar/polygon.h"
 #include "core/surface/mesh_patch.h"
 

@@ -6,7 +6,7 @@
 // nearest of them goes on as its polynomial does, so that contours don't end in the air; `inside` tells.
 #pragma once
 
-#include "core/step.h"
+#include "core/tick/step.h"
 
 #include <array>
 #include <optional>

@@ -1,10 +1,10 @@
 #include "workbench/gui/scene_loader.h"
 
-#include "core/mesh/generate.h"
-#include "core/mesh/generate_hard.h"
-#include "core/mesh/mesh_io.h"
-#include "core/planar/planar_step.h"
-#include "core/planar/polygon_io.h"
+#include "core/io/mesh_io.h"
+#include "core/io/polygon_io.h"
+#include "core/lab/objects/generate.h"
+#include "core/lab/objects/generate_hard.h"
+#include "core/tick/planar_step.h"
 
 #include <algorithm>
 #include <chrono>

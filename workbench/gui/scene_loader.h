@@ -2,10 +2,10 @@
 // while it is already in use, audits it. The window asks once a frame what has come.
 #pragma once
 
-#include "core/mesh/mesh_audit.h"
-#include "core/tuning/perception.h"
-#include "core/mesh/mesh_findings.h"
-#include "core/step.h"
+#include "core/lab/audit/mesh_audit.h"
+#include "core/lab/audit/mesh_findings.h"
+#include "core/lab/measure/perception.h"
+#include "core/tick/step.h"
 #include "workbench/session/session.h"
 
 #include <future>

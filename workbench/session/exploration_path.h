@@ -6,8 +6,8 @@
 // Deterministic. World frame, metres.
 #pragma once
 
-#include "core/contact/finger.h"
-#include "core/step.h"
+#include "core/finger/finger.h"
+#include "core/tick/step.h"
 
 #include <cstddef>
 #include <vector>

@@ -1,9 +1,9 @@
 #include "workbench/session/maestro_setups.h"
 
-#include "core/base/atomic_file.h"
+#include "core/io/atomic_file.h"
+#include "core/io/toml_file.h"
+#include "core/preset/schema.h"
 #include "devices/maestro/maestro_display.h"
-#include "workbench/session/preset_schema.h"
-#include "workbench/session/toml_file.h"
 #include "workbench/session/window_settings.h"
 
 #include <algorithm>

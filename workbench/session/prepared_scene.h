@@ -1,7 +1,7 @@
 // A scene with everything the servo needs for it, so that changing scenes costs the servo a pointer.
 #pragma once
 
-#include "core/step.h"
+#include "core/tick/step.h"
 #include "workbench/session/exploration_path.h"
 
 #include <cstdint>

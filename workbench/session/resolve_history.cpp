@@ -1,6 +1,6 @@
 #include "workbench/session/resolve_history.h"
 
-#include "core/render_again.h"
+#include "core/tick/render_again.h"
 
 #include <algorithm>
 #include <bit>

@@ -1,7 +1,7 @@
 // Everything that crosses between the servo thread and the others. Nothing in here waits.
 #pragma once
 
-#include "core/preset.h"
+#include "core/preset/preset.h"
 #include "devices/base/mailbox.h"
 #include "devices/base/ring.h"
 #include "devices/fault_injection.h"

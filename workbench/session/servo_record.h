@@ -2,7 +2,7 @@
 // the GUI's ring, the recorder's ring and the history.
 #pragma once
 
-#include "core/step.h"
+#include "core/tick/step.h"
 #include "devices/device_state.h"
 #include "devices/safety_gate.h"
 

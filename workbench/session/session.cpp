@@ -1,9 +1,9 @@
 #include "workbench/session/session.h"
 
+#include "core/io/rendering_condition.h"
+#include "core/preset/schema.h"
 #include "devices/device_set.h"
 #include "devices/usb/packet_recorder.h"
-#include "workbench/session/preset_schema.h"
-#include "workbench/session/rendering_condition.h"
 #include "workbench/session/servo.h"
 #include "workbench/session/tick_again.h"
 

@@ -10,7 +10,7 @@
 #pragma once
 
 #include "core/base/result.h"
-#include "core/step.h"
+#include "core/tick/step.h"
 #include "devices/contact_display.h"
 #include "devices/force_device.h"
 #include "devices/maestro/maestro_codec.h"

@@ -2,7 +2,7 @@
 // of lower priority than the rest of the program; the owner polls and never waits.
 #pragma once
 
-#include "core/tuning/surface_map.h"
+#include "core/lab/measure/surface_map.h"
 
 #include <array>
 #include <atomic>

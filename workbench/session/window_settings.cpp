@@ -1,7 +1,7 @@
 #include "workbench/session/window_settings.h"
 
-#include "core/base/atomic_file.h"
-#include "workbench/session/toml_file.h"
+#include "core/io/atomic_file.h"
+#include "core/io/toml_file.h"
 
 #include <algorithm>
 #include <cstdlib>

@@ -1,6 +1,6 @@
 // The search over the hierarchy passes by no triangle that holds a contact.
 #include "core/contact/contact_hierarchy.h"
-#include "core/contact/step_rule.h"
+#include "core/contact/follow/step_rule.h"
 #include "tests/core/scenes.h"
 
 #include <doctest/doctest.h>

@@ -1,5 +1,5 @@
 // Contact and normal are continuous: across smooth edges, through the fans of creases and corners, off a rim.
-#include "core/contact/step_rule.h"
+#include "core/contact/follow/step_rule.h"
 #include "tests/core/scenes.h"
 
 #include <doctest/doctest.h>

@@ -1,4 +1,4 @@
-#include "core/contact/step_rule.h"
+#include "core/contact/follow/step_rule.h"
 #include "tests/core/oracle.h"
 #include "tests/core/scenes.h"
 

@@ -1,8 +1,8 @@
 // Numbering, placing, scale, hash, memory and refusals of the builder.
 #include "core/mesh/contact_mesh.h"
 
-#include "core/mesh/generate.h"
-#include "core/mesh/mesh_io.h"
+#include "core/io/mesh_io.h"
+#include "core/lab/objects/generate.h"
 #include "tests/core/mesh/contact_mesh_checks.h"
 #include "tests/core/mesh/sample_meshes.h"
 

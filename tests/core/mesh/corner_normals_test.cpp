@@ -1,7 +1,7 @@
 // Normals and creases as the contact mesh shows them.
+#include "core/lab/objects/generate.h"
 #include "core/mesh/contact_mesh.h"
 #include "core/mesh/corner_normals.h"
-#include "core/mesh/generate.h"
 #include "core/mesh/triangle_shape.h"
 #include "tests/core/mesh/sample_meshes.h"
 

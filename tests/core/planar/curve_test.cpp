@@ -1,4 +1,4 @@
-#include "core/planar/arc.h"
+#include "core/lab/objects/arc.h"
 #include "core/planar/curve.h"
 
 #include <doctest/doctest.h>

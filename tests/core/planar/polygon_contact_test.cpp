@@ -1,6 +1,6 @@
 // The 2D baselines against cases computed by hand.
-#include "core/planar/planar_step.h"
 #include "core/planar/polygon_contact.h"
+#include "core/tick/planar_step.h"
 #include "tests/core/scenes.h"
 
 #include <numbers>

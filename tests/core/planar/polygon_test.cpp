@@ -1,5 +1,5 @@
-#include "core/planar/arc.h"
-#include "core/planar/polygon_io.h"
+#include "core/io/polygon_io.h"
+#include "core/lab/objects/arc.h"
 #include "tests/support/temp_folder.h"
 
 #include <doctest/doctest.h>

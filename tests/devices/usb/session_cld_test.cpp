@@ -1,7 +1,7 @@
 // A whole session with a CLD controller on a cable: servo thread, link thread, gate. Faults on the cable take the force away.
 #include "workbench/session/session.h"
 
-#include "core/mesh/generate.h"
+#include "core/lab/objects/generate.h"
 #include "tests/devices/usb/emulation/cld_model.h"
 #include "tests/devices/usb/emulation/testbed.h"
 #include "tests/devices/usb/usb_checks.h"

@@ -1,4 +1,4 @@
-#include "core/tuning/scene_statistics.h"
+#include "core/lab/measure/scene_statistics.h"
 #include "workbench/bench/bench_case.h"
 
 #include <doctest/doctest.h>

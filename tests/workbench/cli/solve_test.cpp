@@ -1,6 +1,6 @@
 // workbench solve, run as a process: its files, its options, and what becomes of bad ones.
+#include "core/io/ticks_file.h"
 #include "tests/support/process.h"
-#include "workbench/session/ticks_file.h"
 
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>

@@ -1,10 +1,10 @@
 // workbench tune, run as a process, and the claims of the presets that ship.
+#include "core/io/preset_file.h"
+#include "core/lab/gains/gain_tuning.h"
 #include "tests/support/process.h"
-#include "core/tuning/gain_tuning.h"
 #include "workbench/cli/exploration_poses.h"
 #include "workbench/cli/mesh_options.h"
 #include "workbench/cli/mesh_text.h"
-#include "workbench/session/preset_file.h"
 
 #include <doctest/doctest.h>
 

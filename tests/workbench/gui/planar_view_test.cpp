@@ -1,7 +1,7 @@
 // 2D scenes in the window, the condition by name, and the panel on smoothness as felt.
+#include "core/io/rendering_condition.h"
 #include "tests/support/temp_folder.h"
 #include "tests/workbench/gui/headless_app.h"
-#include "workbench/session/rendering_condition.h"
 
 #include <string>
 

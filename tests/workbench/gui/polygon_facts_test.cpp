@@ -3,7 +3,7 @@
 #include "tests/support/temp_folder.h"
 #include "tests/workbench/gui/headless_app.h"
 
-#include "core/planar/polygon_io.h"
+#include "core/io/polygon_io.h"
 
 using namespace tangent;
 using namespace tangent::test;

@@ -1,6 +1,6 @@
 #include "workbench/gui/residual_map.h"
 
-#include "core/mesh/generate.h"
+#include "core/lab/objects/generate.h"
 
 #include <doctest/doctest.h>
 

@@ -1,7 +1,7 @@
 #include "workbench/gui/time_machine.h"
 
-#include "core/mesh/generate.h"
-#include "core/mesh/mesh_io.h"
+#include "core/io/mesh_io.h"
+#include "core/lab/objects/generate.h"
 
 #include <doctest/doctest.h>
 

@@ -2,7 +2,7 @@
 #include "headless_app.h"
 #include "real_window.h"
 
-#include "workbench/session/preset_file.h"
+#include "core/io/preset_file.h"
 #include "workbench/session/window_settings.h"
 
 #include <algorithm>

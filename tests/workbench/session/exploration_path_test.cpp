@@ -1,7 +1,7 @@
 #include "workbench/session/exploration_path.h"
 
-#include "core/mesh/mesh_io.h"
-#include "core/planar/arc.h"
+#include "core/io/mesh_io.h"
+#include "core/lab/objects/arc.h"
 #include "tests/workbench/session/session_fixture.h"
 
 #include <doctest/doctest.h>

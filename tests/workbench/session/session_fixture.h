@@ -1,8 +1,8 @@
 // Scenes, device doubles and a made-up clock for the session's tests.
 #pragma once
 
-#include "core/mesh/generate.h"
-#include "core/step.h"
+#include "core/lab/objects/generate.h"
+#include "core/tick/step.h"
 #include "devices/device_set.h"
 #include "workbench/session/servo_clock.h"
 #include "workbench/session/servo_tick.h"

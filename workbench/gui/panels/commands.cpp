@@ -1,7 +1,7 @@
 #include "workbench/gui/panels/commands.h"
 
-#include "core/mesh/generate.h"
-#include "core/mesh/generate_hard.h"
+#include "core/lab/objects/generate.h"
+#include "core/lab/objects/generate_hard.h"
 #include "devices/device_set.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // The line under the solver's gains that says what they should be here, and why.
-#include "core/tuning/gain_advice.h"
+#include "core/lab/gains/gain_advice.h"
 
 #include "workbench/gui/panels/panels.h"
 #include "workbench/gui/widgets.h"

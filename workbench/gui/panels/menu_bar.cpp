@@ -1,5 +1,5 @@
 // The top bar: file and view menus, scene, preset, the simulated hand, and the stop button.
-#include "core/mesh/generate.h"
+#include "core/lab/objects/generate.h"
 #include "workbench/gui/panels/panels.h"
 #include "workbench/gui/widgets.h"
 

@@ -1,5 +1,5 @@
 // The mesh: what it is and what a contact solver will meet on it.
-#include "core/mesh/generate.h"
+#include "core/lab/objects/generate.h"
 #include "workbench/gui/panels/panels.h"
 #include "workbench/gui/polygon_facts.h"
 #include "workbench/gui/widgets.h"

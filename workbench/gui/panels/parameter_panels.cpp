@@ -1,7 +1,7 @@
 // Favourites, solver, finger, force, display and safety: one row for each key of the preset schema.
+#include "core/io/rendering_condition.h"
 #include "workbench/gui/panels/panels.h"
 #include "workbench/gui/widgets.h"
-#include "workbench/session/rendering_condition.h"
 
 namespace tangent {
 

@@ -1,8 +1,8 @@
 // Smoothness as a person feels it: the mesh's angles against the threshold of a rendering condition, in one sentence, a
 // table of all conditions and the worst edges. The heat map is the map "Facet angle".
+#include "core/io/rendering_condition.h"
 #include "workbench/gui/panels/panels.h"
 #include "workbench/gui/widgets.h"
-#include "workbench/session/rendering_condition.h"
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 #include "workbench/gui/platform/scene_shots.h"
 
-#include "core/mesh/generate.h"
-#include "core/mesh/mesh_io.h"
+#include "core/io/mesh_io.h"
+#include "core/lab/objects/generate.h"
 #include "workbench/gui/platform/offscreen.h"
 #include "workbench/gui/render/scene_overlay.h"
 #include "workbench/gui/render/staged_scene.h"

@@ -1,12 +1,12 @@
 #include "workbench/gui/platform/window_shots.h"
 
-#include "core/planar/polygon_io.h"
+#include "core/io/polygon_io.h"
+#include "core/preset/schema.h"
 #include "workbench/gui/app.h"
 #include "workbench/gui/app_model.h"
 #include "workbench/gui/panels/panels.h"
 #include "workbench/gui/platform/offscreen.h"
 #include "workbench/gui/render/scene_renderer.h"
-#include "workbench/session/preset_schema.h"
 
 #include <imgui.h>
 

@@ -7,8 +7,8 @@
 
 #include "workbench/gui/plots/channel_store.h"
 #include "workbench/gui/plots/kept_bars.h"
-#include "workbench/gui/plots/time_axis.h"
 #include "workbench/gui/plots/plot_marks.h"
+#include "workbench/gui/plots/time_axis.h"
 #include "workbench/gui/plots/value_axis.h"
 #include "workbench/gui/ui_context.h"
 

@@ -1,6 +1,6 @@
 #include "workbench/gui/render/image.h"
 
-#include "core/base/atomic_file.h"
+#include "core/io/atomic_file.h"
 
 #include <epoxy/gl.h>
 #include <stb_image_write.h>

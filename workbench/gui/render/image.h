@@ -23,7 +23,7 @@ struct Image {
 /// Colour of a framebuffer object (0: the window). Needs a current GL context.
 Image read_pixels(unsigned framebuffer, int width, int height);
 
-/// Written whole or not at all (core/base/atomic_file.h). Alpha is written as opaque.
+/// Written whole or not at all (core/io/atomic_file.h). Alpha is written as opaque.
 Status write_png(const Image& image, const std::filesystem::path& path);
 
 }  // namespace tangent

@@ -10,7 +10,7 @@
 #pragma once
 
 #include "core/base/result.h"
-#include "core/step.h"
+#include "core/tick/step.h"
 #include "workbench/gui/palette.h"
 #include "workbench/gui/render/camera.h"
 #include "workbench/gui/render/surface_paint.h"

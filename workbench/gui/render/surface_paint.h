@@ -12,7 +12,7 @@
 
 namespace tangent {
 
-/// Values of a map over the surface (core/tuning/surface_map.h), one for each part of each usable triangle.
+/// Values of a map over the surface (core/lab/measure/surface_map.h), one for each part of each usable triangle.
 struct MapPaint {
   std::span<const float> values;  ///< has to live as long as `version` is shown
   std::uint64_t version = 0;      ///< another one: the values are others

@@ -2,7 +2,7 @@
 // stand-in for motion, feature edges), then the smooth surface. The drawing thread polls and never waits.
 #pragma once
 
-#include "core/step.h"
+#include "core/tick/step.h"
 #include "workbench/gui/render/surface_mesh.h"
 
 #include <atomic>

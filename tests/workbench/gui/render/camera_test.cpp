@@ -1,6 +1,6 @@
 #include "workbench/gui/render/camera.h"
 
-#include "core/mesh/generate.h"
+#include "core/lab/objects/generate.h"
 #include "workbench/gui/render/scene_renderer.h"
 
 #include <doctest/doctest.h>

@@ -1,7 +1,7 @@
 #include "workbench/gui/render/scene_renderer.h"
 
-#include "core/mesh/generate.h"
-#include "core/mesh/mesh_io.h"
+#include "core/io/mesh_io.h"
+#include "core/lab/objects/generate.h"
 #include "tests/support/temp_folder.h"
 #include "workbench/gui/platform/offscreen.h"
 #include "workbench/gui/render/shader_program.h"

@@ -1,6 +1,6 @@
 #include "workbench/gui/render/surface_mesh.h"
 
-#include "core/mesh/generate.h"
+#include "core/lab/objects/generate.h"
 #include "core/surface/mesh_patch.h"
 
 #include <doctest/doctest.h>

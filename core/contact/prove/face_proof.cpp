@@ -1,0 +1,264 @@
+#include "core/contact/prove/face_proof.h"
+
+#include "core/base/tolerances.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace tangent {
+namespace {
+
+using Quintic = std::array<double, 21>;
+/// f as a map to the plane: the components along t and s side by side, so that both go through one instruction.
+using QuinticMap = std::array<Vec2, 21>;
+
+struct Exponents {
+  int i, j, k;  // of w, u, v
+};
+constexpr Exponents kCubicExponents[10] = {{3, 0, 0}, {0, 3, 0}, {0, 0, 3}, {2, 1, 0}, {1, 2, 0},
+                                           {0, 2, 1}, {0, 1, 2}, {1, 0, 2}, {2, 0, 1}, {1, 1, 1}};
+constexpr Exponents kQuadraticExponents[6] = {{2, 0, 0}, {0, 2, 0}, {0, 0, 2}, {1, 1, 0}, {0, 1, 1}, {1, 0, 1}};
+
+constexpr int factorial(int n) { return n < 2 ? 1 : n * factorial(n - 1); }
+constexpr double multinomial(Exponents e) {
+  return static_cast<double>(factorial(e.i + e.j + e.k)) / (factorial(e.i) * factorial(e.j) * factorial(e.k));
+}
+constexpr int quintic_index(int i, int j) { return (5 - i) * (6 - i) / 2 + (5 - i - j); }
+
+/// Weights of the product of two Bernstein forms: C(3;I) C(2;J) / C(5;I+J).
+struct ProductTable {
+  int index[10][6]{};
+  double weight[10][6]{};
+  constexpr ProductTable() {
+    for (int a = 0; a < 10; ++a)
+      for (int b = 0; b < 6; ++b) {
+        const Exponents p = kCubicExponents[a], q = kQuadraticExponents[b];
+        const Exponents sum{p.i + q.i, p.j + q.j, p.k + q.k};
+        index[a][b] = quintic_index(sum.i, sum.j);
+        weight[a][b] = multinomial(p) * multinomial(q) / multinomial(sum);
+      }
+  }
+};
+constexpr ProductTable kProduct;
+
+double cross(const Vec2& a, const Vec2& b) { return a.x * b.y - a.y * b.x; }
+
+/// f over a part of the patch whose corners lie at these (u, v).
+struct Part {
+  QuinticMap f;
+  std::array<Vec2, 3> corner;
+  int depth = 0;
+  double at_least = 0.0;  ///< margin of the part it was halved from
+
+  /// Distance of 0 from the values of f, as far as the three lines along the images of the sides can tell: for a
+  /// linear f they bound its image exactly. 0 where they don't exclude it.
+  double margin() const {
+    const Vec2 f0 = at_corner(0), f1 = at_corner(1), f2 = at_corner(2);
+    return std::max({beside(f1 - f0), beside(f2 - f1), beside(f0 - f2)});
+  }
+
+  /// Distance of 0 from the coefficients across direction `side`, 0 if they lie on both sides of it.
+  double beside(const Vec2& side) const {
+    const double length2 = glm::dot(side, side);
+    if (!(length2 > 0.0)) return 0.0;
+    double low = 1e300, high = -1e300;
+    for (const Vec2& x : f) {
+      const double across = side.y * x.x - side.x * x.y;
+      low = std::min(low, across);
+      high = std::max(high, across);
+    }
+    return std::max({0.0, low, -high}) / std::sqrt(length2);
+  }
+
+  /// (u, v) where the linear interpolation of f vanishes, within the part.
+  Vec2 linear_zero() const {
+    const Vec2 f0 = at_corner(0), a = at_corner(1) - f0, b = at_corner(2) - f0;
+    const double det = cross(a, b);
+    double x = 1.0 / 3.0, y = 1.0 / 3.0;
+    if (det != 0.0) {
+      x = std::clamp(cross(b, f0) / det, 0.0, 1.0);
+      y = std::clamp(cross(f0, a) / det, 0.0, 1.0 - x);
+    }
+    return corner[0] + x * (corner[1] - corner[0]) + y * (corner[2] - corner[0]);
+  }
+
+  Vec2 at_corner(int k) const {
+    constexpr int kIndex[3] = {quintic_index(5, 0), quintic_index(0, 5), quintic_index(0, 0)};
+    return f[kIndex[k]];
+  }
+};
+
+/// Halves of f at the middle of the edge from corner 0 to corner 1, by de Casteljau along each row of that direction.
+void bisect(const QuinticMap& f, QuinticMap& first, QuinticMap& second) {
+  for (int k = 0; k <= 5; ++k) {
+    const int degree = 5 - k;
+    Vec2 row[6];
+    for (int j = 0; j <= degree; ++j) row[j] = f[quintic_index(degree - j, j)];
+    for (int level = 0; level <= degree; ++level) {
+      first[quintic_index(degree - level, level)] = row[0];
+      second[quintic_index(level, degree - level)] = row[degree - level];
+      for (int j = 0; j < degree - level; ++j) row[j] = 0.5 * (row[j] + row[j + 1]);
+    }
+  }
+}
+
+/// Corner 0 becomes the last, so that the next bisection halves another edge.
+void turn(const Part& part, Part& turned) {
+  for (int i = 0; i <= 5; ++i)
+    for (int j = 0; i + j <= 5; ++j) turned.f[quintic_index(j, 5 - i - j)] = part.f[quintic_index(i, j)];
+  turned.corner = {part.corner[1], part.corner[2], part.corner[0]};
+  turned.depth = part.depth;
+  turned.at_least = part.at_least;
+}
+
+/// Whether a contact in this part could be stable: det M and trace M of the linear interpolation of f, where
+/// -df is the image of the step and `edge_u`, `edge_v` are the flat triangle's sides in the same two directions.
+bool could_be_stable(const Part& part, const Vec2& edge_u, const Vec2& edge_v) {
+  const auto flat = [&](int k) { return part.corner[k].x * edge_u + part.corner[k].y * edge_v; };
+  const Vec2 a = flat(1) - flat(0), b = flat(2) - flat(0);
+  const Vec2 xa = part.at_corner(0) - part.at_corner(1), xb = part.at_corner(0) - part.at_corner(2);
+  const double area = cross(a, b);
+  return cross(xa, xb) * area >= 0.0 && (cross(xa, b) + cross(a, xb)) * area >= 0.0;
+}
+
+/// Excludes what can be of the parts of `whole`, each by `enough_m` if a few bisections give that much.
+void bisect_parts(const Part& whole, const Vec2& edge_u, const Vec2& edge_v, double enough_m, PatchExclusion& result) {
+  std::array<Part, kBisections + 2> stack;
+  std::size_t size = 0;
+  stack[size++] = whole;
+  double margin = 1e300;
+  double smallest = 1e300;
+  result.possible = false;
+  for (int tests = 0; size > 0; ++tests) {
+    const Part part = stack[--size];
+    const double here = std::max(part.margin(), part.at_least);
+    // Halving sharpens a margin, but only the least one counts.
+    const bool sharpen = here < enough_m && here < margin && part.depth < kSharpenings;
+    if (here > 0.0 && !sharpen) {
+      margin = std::min(margin, here);
+      continue;
+    }
+    if (part.depth < kBisections && tests < kBisectionTests) {
+      Part first, second;
+      bisect(part.f, first.f, second.f);
+      const Vec2 middle = 0.5 * (part.corner[0] + part.corner[1]);
+      first.corner = {part.corner[0], middle, part.corner[2]};
+      second.corner = {middle, part.corner[1], part.corner[2]};
+      first.depth = second.depth = part.depth + 1;
+      first.at_least = second.at_least = here;
+      turn(first, stack[size++]);
+      turn(second, stack[size++]);
+      continue;
+    }
+    margin = std::min(margin, here);
+    if (here > 0.0 || !could_be_stable(part, edge_u, edge_v)) continue;
+    const Vec2 uv = part.linear_zero();
+    const Vec2 middle = (part.at_corner(0) + part.at_corner(1) + part.at_corner(2)) / 3.0;
+    const double off = glm::dot(middle, middle);
+    if (off >= smallest) continue;
+    smallest = off;
+    result.possible = true;
+    result.u = uv.x;
+    result.v = uv.y;
+  }
+  result.margin_m = margin;
+}
+
+/// Products of the cubic d and the quadratic n, term by term with constant indices and weights.
+template <std::size_t... Term>
+void multiply_miss(const std::array<Vec3, 10>& d, const std::array<Vec3, 6>& n, QuinticMap& f, std::index_sequence<Term...>) {
+  const auto add = [&]<std::size_t A, std::size_t B>() {
+    f[kProduct.index[A][B]] += kProduct.weight[A][B] * (n[B].z * Vec2(d[A].x, d[A].y) - d[A].z * Vec2(n[B].x, n[B].y));
+  };
+  (add.template operator()<Term / 6, Term % 6>(), ...);
+}
+
+template <std::size_t... Term>
+void multiply_height(const std::array<Vec3, 10>& d, const std::array<Vec3, 6>& n, Quintic& height, std::index_sequence<Term...>) {
+  ((height[kProduct.index[Term / 6][Term % 6]] += kProduct.weight[Term / 6][Term % 6] * glm::dot(d[Term / 6], n[Term % 6])), ...);
+}
+
+/// S at (u, v) and (c - S).N, without the derivatives that a plane for stepping needs. `c` and S relative to corner 0.
+double estimated_height(const PnPatch& patch, const Vec3& c, double u, double v, Vec3& point) {
+  const double w = 1.0 - u - v;
+  const auto& b = patch.offsets;
+  point = w * w * w * b[b300] + u * u * u * b[b030] + v * v * v * b[b003] + 6.0 * w * u * v * b[b111] +
+          3.0 * (w * w * (u * b[b210] + v * b[b201]) + u * u * (w * b[b120] + v * b[b021]) + v * v * (u * b[b012] + w * b[b102]));
+  const auto& n = patch.normals;
+  const Vec3 normal = w * w * n[n200] + u * u * n[n020] + v * v * n[n002] +
+                      patch.mixed_weight * (w * u * n[n110] + u * v * n[n011] + w * v * n[n101]);
+  return glm::dot(c - point, normal) / std::sqrt(glm::dot(normal, normal));
+}
+
+}  // namespace
+
+PatchExclusion exclude_contact(const PnPatch& patch, const Vec3& centre, double enough_m) {
+  // Mixed terms weighted 1 (NormalForm::vlachos) are half control normals of the Bernstein form.
+  const double mixed = 0.5 * patch.mixed_weight;
+  const Vec3 sum = patch.normals[n200] + patch.normals[n020] + patch.normals[n002];
+  const double length = std::sqrt(glm::dot(sum, sum));
+  if (length < 0.1) return {};
+  const Vec3 axis = sum / length;
+  const Vec3 c = centre - patch.origin;
+  const Vec3 away = c - (patch.offsets[b030] + patch.offsets[b003]) / 3.0;
+  Vec3 t = away - glm::dot(away, axis) * axis;
+  const double sideways = std::sqrt(glm::dot(t, t));
+  if (sideways > 1e-6 * std::sqrt(glm::dot(away, away))) {
+    t /= sideways;
+  } else {
+    t = unit(glm::cross(axis, std::abs(axis.x) < 0.6 ? Vec3(1, 0, 0) : Vec3(0, 1, 0)));
+  }
+  const Vec3 s = glm::cross(axis, t);
+
+  // Both factors in the frame (t, s, axis).
+  std::array<Vec3, 6> n;
+  for (std::size_t b = 0; b < 6; ++b) {
+    const Vec3 normal = (b < n110 ? 1.0 : mixed) * patch.normals[b];
+    n[b] = {glm::dot(normal, t), glm::dot(normal, s), glm::dot(normal, axis)};
+  }
+  std::array<Vec3, 10> d;
+  for (std::size_t a = 0; a < 10; ++a) {
+    const Vec3 to_centre = c - patch.offsets[a];
+    d[a] = {glm::dot(to_centre, t), glm::dot(to_centre, s), glm::dot(to_centre, axis)};
+  }
+  Part whole;
+  whole.f.fill(Vec2(0.0));
+  whole.corner = {Vec2(0.0, 0.0), Vec2(1.0, 0.0), Vec2(0.0, 1.0)};
+  multiply_miss(d, n, whole.f, std::make_index_sequence<60>());
+  PatchExclusion result;
+  const double at_once = whole.margin();
+  if (at_once > 0.0 && at_once >= enough_m) {
+    result.margin_m = at_once;
+    result.possible = false;
+    return result;
+  }
+  Quintic height{};
+  multiply_height(d, n, height, std::make_index_sequence<60>());
+  result.least_height_m = std::max(0.0, *std::min_element(height.begin(), height.end()));
+  const Vec3& e1 = patch.offsets[b030];
+  const Vec3& e2 = patch.offsets[b003];
+  bisect_parts(whole, {glm::dot(e1, t), glm::dot(e1, s)}, {glm::dot(e2, t), glm::dot(e2, s)}, enough_m, result);
+  result.margin_m = std::max(result.margin_m, at_once);
+  if (result.margin_m > 0.0) result.possible = false;
+  if (!result.possible) return result;
+  result.height_m = estimated_height(patch, c, result.u, result.v, result.point);
+  result.point += patch.origin;
+  return result;
+}
+
+double corner_exclusion(const ContactMesh& mesh, std::uint32_t t, const Vec3& centre) {
+  constexpr double kGentle = 0.75;  // corner normals within 41 degrees: the patch bends less than it is wide
+  const auto p = mesh.positions(t);
+  const auto n = mesh.normals(t);
+  if (glm::dot(n[0], n[1]) < kGentle || glm::dot(n[1], n[2]) < kGentle || glm::dot(n[2], n[0]) < kGentle) return 0.0;
+  const Vec3 a = glm::cross(centre - p[0], n[0]), b = glm::cross(centre - p[1], n[1]), c = glm::cross(centre - p[2], n[2]);
+  const Vec3 mean = (a + b + c) / 3.0;
+  const auto square = [](const Vec3& v) { return glm::dot(v, v); };
+  const double wide2 = std::max({square(a - mean), square(b - mean), square(c - mean)});
+  return std::max(0.0, std::sqrt(square(mean)) - 2.0 * std::sqrt(wide2));
+}
+
+}  // namespace tangent

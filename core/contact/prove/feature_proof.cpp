@@ -1,0 +1,146 @@
+#include "core/contact/prove/feature_proof.h"
+
+#include "core/mesh/vertex_ring.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tangent {
+namespace {
+
+constexpr int kCurveHalvings = 3;
+
+/// An edge of a triangle by its curve's control points, local coordinates.
+struct EdgeEnds {
+  Vec3 p, q;                    ///< corners
+  Vec3 from_p, from_q;          ///< unit: along the curve away from p; away from q
+  Vec3 np, nq;                  ///< corner normals of the triangle
+  Vec3 inside;                  ///< the opposite corner
+  std::array<Vec3, 4> curve;    ///< control points
+};
+
+EdgeEnds edge_ends(const ContactMesh& mesh, const PnPatch& patch, std::uint32_t t, std::uint32_t edge) {
+  static constexpr ControlPoint kNearFirst[3] = {b210, b021, b102}, kNearSecond[3] = {b120, b012, b201};
+  EdgeEnds e;
+  const std::uint32_t j = (edge + 1) % 3;
+  e.p = mesh.position(t, edge);
+  e.q = mesh.position(t, j);
+  e.np = mesh.normal(t, edge);
+  e.nq = mesh.normal(t, j);
+  e.inside = mesh.position(t, (edge + 2) % 3);
+  const Vec3 chord = (e.q - e.p) / std::sqrt(glm::dot(e.q - e.p, e.q - e.p));
+  const auto direction = [](const Vec3& v, const Vec3& otherwise) {
+    const double length2 = glm::dot(v, v);
+    return length2 > 0.0 ? v / std::sqrt(length2) : otherwise;
+  };
+  e.curve = {e.p, patch.control_point(kNearFirst[edge]), patch.control_point(kNearSecond[edge]), e.q};
+  e.from_p = direction(e.curve[1] - e.p, chord);
+  e.from_q = direction(e.curve[2] - e.q, -chord);
+  return e;
+}
+
+/// How far c lies beyond an end of the edge, seen along the curve there; the normals may lean along it by `tilt`.
+double beyond_ends(const EdgeEnds& e, const Vec3& centre) {
+  const auto behind = [&](const Vec3& point, const Vec3& inwards, const Vec3& normal) {
+    const Vec3 d = centre - point;
+    return -glm::dot(d, inwards) - std::sqrt(glm::dot(d, d)) * std::abs(glm::dot(normal, inwards));
+  };
+  return std::max(behind(e.p, e.from_p, e.np), behind(e.q, e.from_q, e.nq));
+}
+
+/// Lower bound of the distance from c to a cubic with these control points: to its chord, less how far they leave it.
+/// Halved while that is under `enough`, at most `halvings` times.
+double curve_distance(const std::array<Vec3, 4>& b, const Vec3& c, double enough, int halvings) {
+  const Vec3 chord = b[3] - b[0];
+  const double length2 = glm::dot(chord, chord);
+  const auto from_chord = [&](const Vec3& x) {
+    const Vec3 d = x - b[0];
+    const double along = length2 > 0.0 ? std::clamp(glm::dot(d, chord) / length2, 0.0, 1.0) : 0.0;
+    return glm::distance(d, along * chord);
+  };
+  const double least = from_chord(c) - std::max(from_chord(b[1]), from_chord(b[2]));
+  if (least >= enough || halvings == 0) return least;
+  const Vec3 ab = 0.5 * (b[0] + b[1]), bc = 0.5 * (b[1] + b[2]), cd = 0.5 * (b[2] + b[3]);
+  const Vec3 abc = 0.5 * (ab + bc), bcd = 0.5 * (bc + cd), middle = 0.5 * (abc + bcd);
+  const double first = curve_distance({b[0], ab, abc, middle}, c, enough, halvings - 1);
+  return first < enough && halvings == 1 ? first : std::min(first, curve_distance({middle, bcd, cd, b[3]}, c, enough, halvings - 1));
+}
+
+/// How far c lies over the triangle rather than over the edge's fan, at both ends.
+double over_face(const EdgeEnds& e, const Vec3& centre) {
+  const auto at = [&](const Vec3& point, const Vec3& tangent, const Vec3& normal) {
+    Vec3 away = glm::cross(tangent, normal);
+    const double length2 = glm::dot(away, away);
+    if (!(length2 > 1e-12)) return 0.0;
+    away /= glm::dot(away, e.inside - point) > 0.0 ? -std::sqrt(length2) : std::sqrt(length2);
+    return -glm::dot(centre - point, away);
+  };
+  return std::min(at(e.p, e.from_p, e.np), at(e.q, e.from_q, e.nq));
+}
+
+}  // namespace
+
+/// Strongest pull of the edges around a vertex on a contact that rests on it, as a distance: positive where the
+/// contact leaves it along one of them.
+static double vertex_pull(const ContactMesh& mesh, std::uint32_t t, std::uint32_t corner, const Vec3& centre) {
+  const Vec3 d = centre - mesh.position(t, corner);
+  double strongest = -std::numeric_limits<double>::max();
+  const auto pull = [&](const Vec3& offset) {
+    const double length2 = glm::dot(offset, offset);
+    if (length2 > 0.0) strongest = std::max(strongest, glm::dot(d, offset) / std::sqrt(length2));
+  };
+  around_vertex(mesh, t, corner, [&](std::uint32_t at, std::uint32_t k) {
+    const Vec3 starting = mesh.position(at, (k + 1) % 3) - mesh.position(at, k);
+    if (mesh.edge_kind(at, k) == EdgeKind::crease) {
+      const EdgeLink other = mesh.across(at, k);
+      pull(crease_control_offset(starting, mesh.normal(at, k), mesh.normal(other.triangle, (other.edge + 1) % 3)));
+    } else {
+      pull(edge_control_offset(starting, mesh.normal(at, k)));
+    }
+    if (mesh.edge_kind(at, (k + 2) % 3) == EdgeKind::boundary)
+      pull(edge_control_offset(mesh.position(at, (k + 2) % 3) - mesh.position(at, k), mesh.normal(at, k)));
+  });
+  return strongest;
+}
+
+/// Names of an edge, the same from both its triangles, and of a vertex.
+static std::uint64_t edge_key(const ContactMesh& mesh, std::uint32_t t, std::uint32_t k) {
+  const EdgeLink other = mesh.across(t, k);
+  return other.triangle < t ? std::uint64_t{other.triangle} << 2 | other.edge : std::uint64_t{t} << 2 | k;
+}
+static std::uint64_t vertex_key(const ContactMesh& mesh, std::uint32_t t, std::uint32_t k) {
+  return std::uint64_t{mesh.vertex(t, k)} << 2 | 3u;
+}
+
+double exclude_feature_contacts(PatchCache& cache, std::uint32_t t, NormalForm form, const Vec3& centre, double bound_m,
+                                double enough_m, FeatureMemory* memory) {
+  const ContactMesh& mesh = cache.mesh();
+  std::array<EdgeEnds, 3> ends;
+  {
+    const PnPatch& patch = cache.patch(t, form);
+    for (std::uint32_t k = 0; k < 3; ++k) ends[k] = edge_ends(mesh, patch, t, k);
+  }
+  double margin = std::numeric_limits<double>::max();
+  for (std::uint32_t k = 0; k < 3; ++k) {
+    if (mesh.edge_kind(t, k) == EdgeKind::smooth || (memory && memory->knows(edge_key(mesh, t, k)))) continue;
+    double safe = std::max(beyond_ends(ends[k], centre), over_face(ends[k], centre));
+    const EdgeLink other = mesh.across(t, k);
+    if (safe < enough_m && other.triangle != kNone)
+      safe = std::max(safe, over_face(edge_ends(mesh, cache.patch(other.triangle, form), other.triangle, other.edge), centre));
+    if (safe < enough_m) safe = std::max(safe, 0.5 * (curve_distance(ends[k].curve, centre, bound_m + 2.0 * enough_m, kCurveHalvings) - bound_m));
+    margin = std::min(margin, std::max(0.0, safe));
+    if (memory && safe > 0.0) memory->add(edge_key(mesh, t, k));
+  }
+  for (std::uint32_t k = 0; k < 3; ++k) {
+    if (!mesh.feature_corner(t, k) || (memory && memory->knows(vertex_key(mesh, t, k)))) continue;
+    const Vec3 d = centre - mesh.position(t, k);
+    double safe = 0.5 * (std::sqrt(glm::dot(d, d)) - bound_m);
+    if (safe < enough_m) safe = std::max(safe, vertex_pull(mesh, t, k, centre));
+    margin = std::min(margin, std::max(0.0, safe));
+    if (memory && safe > 0.0) memory->add(vertex_key(mesh, t, k));
+  }
+  return margin;
+}
+
+}  // namespace tangent

@@ -1,0 +1,215 @@
+#include "core/contact/search/rivals.h"
+
+#include "core/base/tolerances.h"
+#include "core/contact/nearest_triangles.h"
+#include "core/contact/prove/basin.h"
+#include "core/contact/prove/triangle_proof.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tangent {
+namespace {
+
+constexpr double kForever = std::numeric_limits<double>::infinity();
+
+Vec3 interpolated_normal(const ContactMesh& mesh, std::uint32_t t, double u, double v) {
+  const auto n = mesh.normals(t);
+  return unit((1.0 - u - v) * n[0] + u * n[1] + v * n[2]);
+}
+
+/// How far the centre may go before a rival that ranks `gap` behind can overtake: heights change along their normals,
+/// and in second order by the square of the way over the height, near a fold by more.
+double overtaking_margin(const KnownContact& tracked, const Vec3& rival_normal, double rival_height, double gap) {
+  const Vec3 apart = tracked.normal - rival_normal;
+  const double rate = std::sqrt(glm::dot(apart, apart)) + 1e-3;
+  const double bend = 2.0 / std::max(1e-12, std::min(std::abs(tracked.height_m), std::abs(rival_height)));
+  // Smaller root of rate m + bend m^2 = gap.
+  return kOvertakingRoom * 2.0 * gap / (rate + std::sqrt(rate * rate + 4.0 * bend * gap));
+}
+
+/// What one triangle means for the tracked contact.
+struct Look {
+  double margin_m = kForever;  ///< how far the centre may go before it must be looked at again
+  bool contact = false;        ///< it holds a contact, whose surroundings are left out of the search on its behalf
+};
+
+/// The least of the margins. Shortened by far more than floats are rounded by: at a margin itself a contact may be there.
+void set_free(Clearance& known) {
+  double least = known.margin_m;
+  for (const WatchedTriangle& watched : known.watched)
+    if (watched.triangle != kNone) least = std::min(least, double{watched.margin_m});
+  known.free_m = (1.0 - 1e-6) * least;
+}
+
+class RivalSearch {
+ public:
+  RivalSearch(IterationContext& context, const ContactScene& scene, const IterationResult& tracked, double bound_m, double margin_m)
+      : scene_(scene), tracked_(tracked), bound_m_(bound_m), margin_m_(margin_m), deepest_(bound_m), settings_(robust(context.settings)),
+        context_{context.cache, settings_, context.finger, context.pose, context.origin, context.trace, 0} {
+    remember(tracked);
+  }
+
+  /// Every triangle that could hold a rival.
+  void everywhere(RivalResult& result) {
+    Clearance& clearance = result.clearance;
+    clearance.margin_m = margin_m_;
+    ContactQuery query;
+    query.centre = context_.pose.position;
+    query.margin_m = margin_m_;
+    query.tilt_rad = context_.finger.tilt_rad();
+    limit_query(query, context_.finger, bound_m_ + 2.0 * margin_m_);
+    scene_.hierarchy().visit(query, [&](std::uint32_t t, ContactQuery& q) {
+      const Look look = look_at(t, q.margin_m, result);
+      const double margin = look.contact ? look.margin_m : watch(clearance, t, look.margin_m);
+      if (margin < clearance.margin_m) {
+        clearance.margin_m = q.margin_m = margin;
+        limit_query(q, context_.finger, bound_m_ + 2.0 * margin);
+      }
+      return solves_ < kMaxSolves;
+    });
+    clearance.height_m = bound_m_ + 2.0 * clearance.margin_m;
+    if (solves_ >= kMaxSolves) clearance.margin_m = 0.0;
+    set_free(clearance);
+  }
+
+  /// Only the watched triangles whose time has come; `result.clearance` counts from the present pose.
+  void once_more(RivalResult& result) {
+    Clearance& clearance = result.clearance;
+    for (WatchedTriangle& watched : clearance.watched) {
+      if (watched.triangle == kNone || watched.margin_m > 0.0f) continue;
+      const Look look = look_at(watched.triangle, clearance.margin_m, result);
+      if (look.contact) clearance.margin_m = std::min(clearance.margin_m, look.margin_m);
+      watched.margin_m = static_cast<float>(look.margin_m);
+      if (look.contact || look.margin_m >= clearance.margin_m) watched = {};
+    }
+    set_free(clearance);
+  }
+
+ private:
+  static SolverSettings robust(SolverSettings settings) {
+    settings.method = Method::robust;
+    return settings;
+  }
+
+  /// Puts a triangle on the list if it is among the soonest. Returns the margin of the one that is not.
+  double watch(Clearance& clearance, std::uint32_t t, double margin) {
+    if (margin >= clearance.margin_m) return margin;
+    WatchedTriangle* latest = &clearance.watched[0];
+    for (WatchedTriangle& w : clearance.watched) {
+      if (w.triangle == kNone) {
+        w = {t, static_cast<float>(margin)};
+        return kForever;
+      }
+      if (w.margin_m > latest->margin_m) latest = &w;
+    }
+    if (margin >= latest->margin_m) return margin;
+    const double dropped = latest->margin_m;
+    *latest = {t, static_cast<float>(margin)};
+    return dropped;
+  }
+
+  void remember(const IterationResult& r) {
+    if (known_count_ == known_.size()) return;
+    known_[known_count_++] = known_contact(context_.cache.mesh(), r.plane, r.contact.height_m);
+  }
+
+  Look look_at(std::uint32_t t, double enough_m, RivalResult& result) {
+    const ContactMesh& mesh = context_.cache.mesh();
+    for (std::size_t i = 0; i < known_count_; ++i)
+      if (same_basin(context_.cache, settings_.normal_form, t, known_[i], enough_m)) return {};
+    const PatchExclusion proof = exclude_triangle(context_, t, bound_m_, enough_m, &features_);
+    if (!proof.possible) return {proof.margin_m > 0.0 ? proof.margin_m : kUnresolvedMargin * margin_m_, false};
+    if (proof.height_m != 0.0 && is_tracked(proof)) return {};
+    const double guess = proof.height_m >= 0.0 ? proof.height_m : context_.finger.reach_m() - proof.height_m;
+    const double behind = guess - bound_m_;
+    if (proof.height_m != 0.0 && behind > kHeightGuess * guess)  // a rival, but not a deeper one yet
+      return {overtaking_margin(known_[0], interpolated_normal(mesh, t, proof.u, proof.v), proof.height_m, behind), false};
+    return solve(t, proof, result);
+  }
+
+  /// Seen from the next triangle, the tracked contact on or near their common side.
+  bool is_tracked(const PatchExclusion& proof) const {
+    const Vec3 apart = proof.point - tracked_.plane.point;
+    const double near = kSamePlace * known_[0].size_m;
+    return glm::dot(apart, apart) < near * near &&
+           std::abs(proof.height_m - tracked_.contact.height_m) < kHeightGuess * std::abs(tracked_.contact.height_m);
+  }
+
+  Look solve(std::uint32_t t, const PatchExclusion& proof, RivalResult& result) {
+    context_.seed = static_cast<std::uint8_t>(std::min(++solves_, 255));
+    TrackedPlane start;
+    start.feature = Feature::face;
+    start.triangle = t;
+    start.u = proof.u;
+    start.v = std::min(proof.v, 1.0 - proof.u);
+    IterationResult r;
+    const int share = context_.cache.mesh().interior(t) ? 1 : 2;
+    iterate(context_, start, share * kRivalBudget, r);
+    result.evaluations += r.evaluations;
+    if (r.stop == StopReason::iteration_limit && contact_rank(context_.finger, r.contact) < deepest_) {
+      const TrackedPlane so_far = r.plane;
+      iterate(context_, so_far, share * kDeeperRivalBudget, r);
+      result.evaluations += r.evaluations;
+    }
+    // No contact there now, but one may come up: ask again before long.
+    if (!r.converged()) return {kUnresolvedMargin * margin_m_, false};
+    const Vec3 apart = r.plane.point - tracked_.plane.point;
+    const double same = 10.0 * settings_.tolerance_m;
+    if (glm::dot(apart, apart) <= same * same) return {};
+    remember(r);
+    const double rank = contact_rank(context_.finger, r.contact);
+    if (rank < deepest_) {
+      deepest_ = rank;
+      result.best = r;
+      result.deeper = true;
+    }
+    return {overtaking_margin(known_[0], r.plane.normal, r.contact.height_m, std::max(0.0, rank - bound_m_)), true};
+  }
+
+  const ContactScene& scene_;
+  const IterationResult& tracked_;
+  double bound_m_, margin_m_, deepest_;
+  SolverSettings settings_;
+  IterationContext context_;
+  FeatureMemory features_;
+  std::array<KnownContact, kKnownContacts> known_;
+  std::size_t known_count_ = 0;
+  int solves_ = 0;
+};
+
+}  // namespace
+
+double turned_m(const Finger& finger, const Quat& from, const Quat& to) {
+  if (from == to) return 0.0;
+  return finger.turning_m(2.0 * std::acos(std::min(1.0, std::abs(glm::dot(from, to)))));
+}
+
+// By the triangle inequality, which turning_m obeys too: it is concave in the angle.
+void recentre(Clearance& known, const FingerPose& pose, double gone) {
+  known.centre = pose.position;
+  known.orientation = pose.orientation;
+  known.margin_m -= gone;
+  known.height_m -= gone;
+  for (WatchedTriangle& watched : known.watched) watched.margin_m -= static_cast<float>(gone);
+  set_free(known);
+}
+
+RivalResult find_rival(IterationContext& context, const ContactScene& scene, const IterationResult& tracked,
+                       double bound_m, double margin_m, const Clearance& known, double gone) {
+  RivalSearch search(context, scene, tracked, bound_m, margin_m);
+  RivalResult result;
+  if (gone > known.margin_m || bound_m > known.height_m - gone) {
+    result.clearance.centre = context.pose.position;
+    result.clearance.orientation = context.pose.orientation;
+    search.everywhere(result);
+  } else {
+    result.clearance = known;
+    recentre(result.clearance, context.pose, gone);
+    search.once_more(result);
+  }
+  return result;
+}
+
+}  // namespace tangent

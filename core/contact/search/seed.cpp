@@ -1,0 +1,158 @@
+#include "core/contact/search/seed.h"
+
+#include "core/base/tolerances.h"
+#include "core/contact/prove/triangle_proof.h"
+#include "core/finger/facing_normal.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace tangent {
+namespace {
+
+SurfacePlace face_at(std::uint32_t triangle, double u, double v) {
+  SurfacePlace place;
+  place.feature = Feature::face;
+  place.triangle = triangle;
+  place.u = u;
+  place.v = std::min(v, 1.0 - u);
+  return place;
+}
+
+/// A capsule's side is all but straight: its Newton steps turn the normal only so far at a time.
+int seed_budget(const Finger& finger) { return is_round(finger) ? kSeedBudget : 4 * kSeedBudget; }
+
+/// Keeps the best of many seeds: converged before unstable before unconverged, then the least rank or error.
+struct Selection {
+  SeedResult result;
+  int group = 3;
+  double value = std::numeric_limits<double>::infinity();
+
+  bool offer(const IterationContext& context, const IterationResult& r) {
+    result.evaluations += r.evaluations;
+    const bool exact = r.contact.error_m < context.settings.tolerance_m;
+    const int here = r.converged() ? 0 : r.stop == StopReason::unstable && exact ? 1 : 2;
+    const double rank = here == 2 ? r.contact.error_m : contact_rank(context.finger, r.contact);
+    if (here < group || (here == group && rank < value)) {
+      group = here;
+      value = rank;
+      result.best = r;
+    }
+    result.found = group == 0;
+    return r.converged();
+  }
+};
+
+void seed_by_hierarchy(IterationContext& context, const ContactScene& scene, Selection& selection) {
+  ContactQuery query;
+  query.centre = context.pose.position;
+  query.nearest_m = query.inside_m = std::numeric_limits<double>::max();
+  query.tilt_rad = context.finger.tilt_rad();
+  int solves = 0;
+  scene.hierarchy().visit(query, [&](std::uint32_t t, ContactQuery& q) {
+    const PatchExclusion proof = exclude_triangle(context, t, selection.group == 0 ? selection.value : std::numeric_limits<double>::max());
+    if (proof.margin_m > 0.0) return true;
+    context.seed = static_cast<std::uint8_t>(std::min(++solves, 255));
+    IterationResult r;
+    iterate(context, face_at(t, proof.u, proof.v), seed_budget(context.finger), r);
+    selection.offer(context, r);
+    if (selection.group == 0) limit_query(q, context.finger, selection.value);
+    return solves < kMaxSolves;
+  });
+}
+
+/// Whether a contact lies so much further off than the raw mesh that a nearer one must have been missed. Asks only for
+/// triangles nearer than that, of which there are none as a rule, so the query ends early.
+bool implausible(IterationContext& context, const ContactScene& scene, const IterationResult& found, double rank) {
+  if (!is_round(context.finger)) return false;
+  const double bulge = patch_bulge(context.cache.patch(found.plane.triangle, context.settings.normal_form));
+  const double nearer = rank / (1.0 + kImplausibleShare) - 2.0 * bulge;
+  return nearer > 0.0 && scene.nearest().nearest(context.pose.position, nearer);
+}
+
+/// What is known of the distance to the nearest triangle before asking.
+double known_radius(const IterationContext& context, const TrackedPlane& kept) {
+  if (kept.feature == Feature::none) return std::numeric_limits<double>::infinity();
+  return closest_on_triangle(context.cache.mesh(), kept.triangle, context.pose.position).distance_m;
+}
+
+void seed_by_distance(IterationContext& context, const ContactScene& scene, std::size_t seeds, double radius, int budget, bool twice,
+                      Selection& selection) {
+  std::array<NearestHit, kSeeds> hits;
+  const std::size_t count = scene.nearest().nearest_several(context.pose.position, radius, std::span(hits).first(seeds));
+  for (std::size_t i = 0; i < count; ++i) {
+    context.seed = static_cast<std::uint8_t>(i + 1);
+    IterationResult r;
+    iterate(context, face_at(hits[i].triangle, hits[i].u, hits[i].v), budget, r);
+    if (selection.offer(context, r) || !twice) continue;
+    // A folded patch can hide its contact from its closest point; its middle is a second chance.
+    iterate(context, face_at(hits[i].triangle, 1.0 / 3.0, 1.0 / 3.0), budget, r);
+    selection.offer(context, r);
+  }
+}
+
+/// Last resort, where no seed finds a contact of the interpolated normals, or none near the raw mesh: the place near the raw mesh's closest points
+/// whose plane, turned to face the finger, is touched deepest. Its error is nought, its normal is the finger's.
+void face_the_finger(IterationContext& context, const ContactScene& scene, Selection& selection) {
+  std::array<NearestHit, kSeeds> hits;
+  const std::size_t count =
+      scene.nearest().nearest_several(context.pose.position, std::numeric_limits<double>::infinity(), std::span(hits));
+  for (std::size_t i = 0; i < count; ++i) {
+    IterationResult r;
+    r.plane.move_to(face_at(hits[i].triangle, hits[i].u, hits[i].v));
+    sample_place(context, r.plane, r.sample);
+    r.evaluations = 1;
+    const Vec3 interpolated = r.plane.normal;
+    const bool inside = glm::dot(context.pose.position - r.plane.point, interpolated) < 0.0;
+    r.plane.normal = facing_normal(context.finger, context.pose, r.plane.point, interpolated, inside ? FacingSide::back : FacingSide::front);
+    r.contact = contact_on_plane(context.finger, context.pose, r.plane.point, r.plane.normal);
+    r.stop = r.contact.error_m < context.settings.tolerance_m ? StopReason::converged : StopReason::iteration_limit;
+    selection.offer(context, r);
+  }
+  if (!context.trace || !selection.result.found) return;
+  const IterationResult& best = selection.result.best;
+  IterationRecord record;
+  record.feature = best.plane.feature;
+  record.stop = best.stop;
+  record.seed = 255;
+  record.triangle = best.plane.triangle;
+  record.u = best.plane.u;
+  record.v = best.plane.v;
+  record.point = record.contact = context.origin + best.plane.point;
+  record.normal = best.plane.normal;
+  record.travel = best.contact.travel;
+  record.error_m = best.contact.error_m;
+  record.distance_m = best.contact.penetration_m;
+  context.trace->push(record);
+}
+
+}  // namespace
+
+void limit_query(ContactQuery& query, const Finger& finger, double rank) {
+  query.nearest_m = rank + finger.unroundness_m();
+  query.inside_m = rank - finger.reach_m() + finger.unroundness_m();
+}
+
+SeedResult seed_contact(IterationContext& context, const ContactScene& scene, const TrackedPlane& kept) {
+  Selection selection;
+  if (context.settings.method != Method::robust) {
+    seed_by_distance(context, scene, 1, known_radius(context, kept), context.settings.max_iterations, false, selection);
+  } else {
+    seed_by_hierarchy(context, scene, selection);
+    if (selection.group != 0 || implausible(context, scene, selection.result.best, selection.value))
+      seed_by_distance(context, scene, kSeeds, std::numeric_limits<double>::infinity(), seed_budget(context.finger), true, selection);
+    if (selection.group == 2 || (selection.group == 0 && implausible(context, scene, selection.result.best, selection.value)))
+      face_the_finger(context, scene, selection);
+  }
+  context.seed = 0;
+  if (context.settings.method == Method::robust && selection.group == 1) {
+    // Every contact there is unstable: the finger touches all round (at a sphere's centre, say). Show the nearest.
+    selection.result.found = true;
+    selection.result.best.stop = StopReason::converged;
+  }
+  return selection.result;
+}
+
+}  // namespace tangent

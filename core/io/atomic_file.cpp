@@ -1,0 +1,137 @@
+#include "core/io/atomic_file.h"
+
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <utility>
+
+namespace tangent {
+namespace {
+
+constexpr std::size_t kBufferBytes = 1 << 18;
+constexpr const char* kRemedy = "check that the directory exists, is writable and has room";
+
+tl::unexpected<Error> system_failure(const char* doing, const std::filesystem::path& target) {
+  const int code = errno;
+  return fail(std::string("cannot ") + doing + ": " + std::strerror(code), target.string(), kRemedy);
+}
+
+/// Opens a new file beside `place`. The name holds the process and an attempt number: leftovers of a
+/// crashed run, or a second writer, only cost another attempt.
+int open_beside(const std::filesystem::path& place, mode_t mode, std::filesystem::path& temporary) {
+  for (int attempt = 0; attempt < 1000; ++attempt) {
+    std::string name(1, '.');
+    name.append(place.filename().string(), 0, 200);
+    name.append(".tmp-").append(std::to_string(::getpid())).append(1, '-').append(std::to_string(attempt));
+    temporary = place.parent_path() / name;
+    const int fd = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
+    if (fd >= 0 || errno != EEXIST) return fd;
+  }
+  return -1;
+}
+
+/// Makes a rename last through a power cut; where directories can't be synced there is nothing to do.
+void sync_directory(const std::filesystem::path& directory) {
+  const int fd = ::open(directory.empty() ? "." : directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (fd < 0) return;
+  ::fsync(fd);
+  ::close(fd);
+}
+
+}  // namespace
+
+Result<AtomicFile> AtomicFile::create(const std::filesystem::path& target) {
+  if (target.empty()) return fail("no file name to write to", "", "name a file");
+  AtomicFile file;
+  file.target_ = target;
+  file.place_ = target;
+  struct stat info {};
+  const bool exists = ::stat(target.c_str(), &info) == 0;
+  if (exists && S_ISDIR(info.st_mode)) return fail("is a directory", target.string(), "name a file in it");
+  if (exists && ::access(target.c_str(), W_OK) != 0) return system_failure("write", target);
+
+  if (exists && !S_ISREG(info.st_mode)) {
+    file.fd_ = ::open(target.c_str(), O_WRONLY | O_CLOEXEC);
+    if (file.fd_ < 0) return system_failure("write", target);
+    return file;
+  }
+  std::error_code ignored;  // a link that can't be followed is then replaced itself
+  if (std::filesystem::is_symlink(target, ignored)) {
+    const std::filesystem::path followed = std::filesystem::weakly_canonical(target, ignored);
+    if (!followed.empty()) file.place_ = followed;
+  }
+  const mode_t mode = exists ? info.st_mode & 07777 : 0666;
+  file.fd_ = open_beside(file.place_, mode, file.temporary_);
+  if (file.fd_ < 0) {
+    const auto failure = system_failure("create a temporary file beside it", target);
+    file.temporary_.clear();
+    return failure;
+  }
+  if (exists) (void)::fchmod(file.fd_, mode);  // the umask took bits off; the old file had them
+  return file;
+}
+
+AtomicFile::AtomicFile(AtomicFile&& other) noexcept
+    : target_(std::move(other.target_)), place_(std::move(other.place_)), temporary_(std::move(other.temporary_)),
+      buffer_(std::move(other.buffer_)), fd_(std::exchange(other.fd_, -1)), status_(std::move(other.status_)) {
+  other.temporary_.clear();
+}
+
+AtomicFile::~AtomicFile() {
+  if (fd_ >= 0) ::close(fd_);
+  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+}
+
+Status AtomicFile::write(std::string_view bytes) {
+  buffer_ += bytes;
+  if (buffer_.size() >= kBufferBytes) flush();
+  return status_;
+}
+
+void AtomicFile::flush() {
+  std::string_view left = buffer_;
+  while (!left.empty() && status_) {
+    const ssize_t written = ::write(fd_, left.data(), left.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) {
+      record_failure("write");
+    } else {
+      left.remove_prefix(static_cast<std::size_t>(written));
+    }
+  }
+  buffer_.clear();
+}
+
+Status AtomicFile::commit(bool durable) {
+  flush();
+  const bool in_place = temporary_.empty();
+  // EINVAL, ENOTSUP: this file system has nothing to sync, so nothing was lost.
+  if (durable && status_ && !in_place && ::fsync(fd_) != 0 && errno != EINVAL && errno != ENOTSUP) {
+    record_failure("sync");
+  }
+  // close reports what a network file system only finds out now
+  if (::close(std::exchange(fd_, -1)) != 0) record_failure("close");
+  if (!status_ || in_place) return status_;
+  if (::rename(temporary_.c_str(), place_.c_str()) != 0) {
+    record_failure("put the new file in place");
+    return status_;
+  }
+  temporary_.clear();
+  if (durable) sync_directory(place_.parent_path());
+  return status_;
+}
+
+void AtomicFile::record_failure(const char* doing) {
+  if (status_) status_ = system_failure(doing, target_);
+}
+
+Status write_file_atomic(const std::filesystem::path& target, std::string_view content) {
+  Result<AtomicFile> file = AtomicFile::create(target);
+  if (!file) return tl::unexpected<Error>(file.error());
+  if (const Status written = file->write(content); !written) return written;
+  return file->commit(true);
+}
+
+}  // namespace tangent

@@ -1,0 +1,278 @@
+#include "core/io/preset_file.h"
+
+#include "core/base/text.h"
+#include "core/io/atomic_file.h"
+#include "core/io/input_file.h"
+#include "core/io/rendering_condition.h"
+#include "core/io/toml_file.h"
+#include "core/preset/schema.h"
+
+#include <algorithm>
+#include <array>
+#include <sstream>
+
+namespace tangent {
+namespace {
+
+constexpr std::size_t kMaxBytes = std::size_t{1} << 20;  // a preset is a few kilobytes
+struct AboutText {
+  std::string_view key;
+  std::string PresetAbout::* field;
+};
+constexpr std::array<AboutText, 7> kAboutTexts{{
+  {"name", &PresetAbout::name},
+  {"date", &PresetAbout::date},
+  {"program_version", &PresetAbout::program_version},
+  {"mesh_name", &PresetAbout::mesh_name},
+  {"mesh_hash", &PresetAbout::mesh_hash},
+  {"device", &PresetAbout::device},
+  {"note", &PresetAbout::note},
+}};
+constexpr std::string_view kMeasured = "measured";
+constexpr std::string_view kCondition = "condition";
+
+std::string_view type_name(const toml::node& node) {
+  switch (node.type()) {
+    case toml::node_type::table: return "a table";
+    case toml::node_type::array: return "an array";
+    case toml::node_type::string: return "text";
+    case toml::node_type::integer: return "a whole number";
+    case toml::node_type::floating_point: return "a number with a fraction";
+    case toml::node_type::boolean: return "true or false";
+    default: return "a date or time";
+  }
+}
+
+/// Reads one file; keeps its name for the messages.
+class PresetReader {
+ public:
+  explicit PresetReader(std::string_view name) : name_(name) {}
+
+  Result<PresetFile> read(const toml::table& root) {
+    for (const auto& [key, node] : root) {
+      if (Status status = key == kCondition ? read_condition(key, node) : read_table(key, node); !status)
+        return tl::unexpected(status.error());
+    }
+    if (Status status = apply_condition(root); !status) return tl::unexpected(status.error());
+    return std::move(file_);
+  }
+
+ private:
+  std::string where(const toml::source_region& region, std::string_view key) const {
+    return name_ + ":" + std::to_string(region.begin.line) + (key.empty() ? "" : " ") + std::string(key);
+  }
+
+  Status read_table(const toml::key& key, const toml::node& node) {
+    const auto tables = preset_tables();
+    if (std::find(tables.begin(), tables.end(), key.str()) == tables.end()) {
+      return fail("unknown table or key", where(key.source(), key.str()), "allowed: the key condition and the tables " + choices_text(tables));
+    }
+    const toml::table* table = node.as_table();
+    if (table == nullptr) {
+      return fail("is " + std::string(type_name(node)), where(key.source(), key.str()),
+                  "write the table [" + std::string(key.str()) + "]");
+    }
+    for (const auto& [inner, value] : *table) {
+      const Status status = key == "about" ? read_about(inner, value) : read_value(key.str(), inner, value);
+      if (!status) return status;
+    }
+    return {};
+  }
+
+  Status read_condition(const toml::key& key, const toml::node& node) {
+    condition_ = node.is_string() ? find_condition(node.as_string()->get()) : nullptr;
+    condition_where_ = where(key.source(), kCondition);
+    if (condition_ != nullptr) return {};
+    return fail(node.is_string() ? "\"" + node.as_string()->get() + "\" is no rendering condition" : "is " + std::string(type_name(node)),
+                condition_where_, "allowed: " + choices_text(kConditionNames));
+  }
+
+  /// The condition sets the sources that the file leaves open; what the file says of them must agree.
+  Status apply_condition(const toml::table& root) {
+    if (condition_ == nullptr) return {};
+    Preset wanted = file_.preset;
+    set_condition(wanted, *condition_);
+    const bool force_named = root["force"]["source"].node() != nullptr, tactile_named = root["display"]["source"].node() != nullptr;
+    if ((force_named && wanted.force.source != file_.preset.force.source) ||
+        (tactile_named && wanted.display.source != file_.preset.display.source))
+      return fail("condition " + std::string(condition_->name) + " is " + std::string(condition_->words) + ", the sources say otherwise",
+                  condition_where_, "leave out force.source and display.source, or the condition");
+    file_.preset = wanted;
+    return {};
+  }
+
+  Status read_value(std::string_view table, const toml::key& key, const toml::node& node) {
+    const std::string full = std::string(table) + "." + std::string(key.str());
+    const PresetKey* row = find_preset_key(table, key.str());
+    if (row == nullptr) {
+      std::vector<std::string_view> known;
+      for (const PresetKey& k : preset_keys()) {
+        if (k.table == table) known.push_back(k.key);
+      }
+      return fail("unknown key", where(key.source(), full), "allowed: " + choices_text(known));
+    }
+    const auto wrong_type = [&] {
+      return fail("is " + std::string(type_name(node)), where(key.source(), full), "allowed: " + row->allowed());
+    };
+    double value = 0.0;
+    std::string shown;
+    if (row->kind == KeyKind::choice) {
+      if (!node.is_string()) return wrong_type();
+      value = row->choice_index(node.as_string()->get());
+      shown = "\"" + node.as_string()->get() + "\"";
+    } else if (node.is_integer()) {
+      value = static_cast<double>(node.as_integer()->get());
+      append_double(shown, value);
+    } else if (node.is_floating_point() && row->kind == KeyKind::number) {
+      value = node.as_floating_point()->get();
+      append_double(shown, value);
+    } else {
+      return wrong_type();
+    }
+    if (!row->allows(value)) {
+      return fail(shown + " is out of range", where(key.source(), full), "allowed: " + row->allowed());
+    }
+    row->set(file_.preset, value);
+    return {};
+  }
+
+  Status read_about(const toml::key& key, const toml::node& node) {
+    const std::string full = "about." + std::string(key.str());
+    if (key == kMeasured) return read_measured(key, node);
+    for (const AboutText& known : kAboutTexts) {
+      if (key != known.key) continue;
+      if (!node.is_string()) {
+        return fail("is " + std::string(type_name(node)), where(key.source(), full), "allowed: text in quotes");
+      }
+      file_.about.*known.field = node.as_string()->get();
+      return {};
+    }
+    std::vector<std::string_view> names;
+    for (const AboutText& known : kAboutTexts) names.push_back(known.key);
+    names.push_back("the table measured");
+    return fail("unknown key", where(key.source(), full), "allowed: " + choices_text(names));
+  }
+
+  Status read_measured(const toml::key& key, const toml::node& node) {
+    const toml::table* table = node.as_table();
+    if (table == nullptr) {
+      return fail("is " + std::string(type_name(node)), where(key.source(), "about.measured"),
+                  "write the table [about.measured]");
+    }
+    // The library sorts keys by name; a person reads them in the order they were written.
+    std::vector<std::pair<const toml::key*, const toml::node*>> entries;
+    for (const auto& [inner, value] : *table) entries.emplace_back(&inner, &value);
+    std::sort(entries.begin(), entries.end(), [](const auto& a, const auto& b) {
+      const toml::source_position& x = a.first->source().begin;
+      const toml::source_position& y = b.first->source().begin;
+      return x.line != y.line ? x.line < y.line : x.column < y.column;
+    });
+    for (const auto& [inner, value] : entries) {
+      auto& measured = file_.about.measured;
+      if (value->is_string()) {
+        measured.emplace_back(inner->str(), value->as_string()->get());
+      } else if (value->is_number()) {
+        measured.emplace_back(inner->str(), *value->value<double>());
+      } else {
+        return fail("is " + std::string(type_name(*value)),
+                    where(inner->source(), "about.measured." + std::string(inner->str())), "allowed: a number or text");
+      }
+    }
+    return {};
+  }
+
+  std::string name_;
+  PresetFile file_;
+  const RenderingCondition* condition_ = nullptr;
+  std::string condition_where_;
+};
+
+/// Text as a TOML basic string, by the library's own rules for escapes.
+std::string quoted(const std::string& text) {
+  std::ostringstream out;
+  // literal and multi-line strings would be chosen for some texts; keep one form
+  out << toml::toml_formatter{toml::value<std::string>(text),
+                              toml::toml_formatter::default_flags & ~(toml::format_flags::allow_literal_strings |
+                                                                      toml::format_flags::allow_multi_line_strings)};
+  return out.str();
+}
+
+std::string quoted_key(const std::string& key) {
+  const bool bare = !key.empty() && std::all_of(key.begin(), key.end(), [](unsigned char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+  });
+  return bare ? key : quoted(key);
+}
+
+/// A TOML float: always with a point or an exponent.
+std::string float_text(double value) {
+  std::string text;
+  append_double(text, value);
+  if (text.find_first_of(".en") == std::string::npos) text += ".0";
+  return text;
+}
+
+void format_about(const PresetAbout& about, std::string& text) {
+  text += "[about]\n";
+  for (const AboutText& known : kAboutTexts) {
+    const std::string& value = about.*known.field;
+    if (!value.empty()) text.append(known.key).append(" = ").append(quoted(value)).append("\n");
+  }
+  if (about.measured.empty()) return;
+  text += "\n[about.measured]\n";
+  for (const auto& [key, value] : about.measured) {
+    text += quoted_key(key) + " = ";
+    text += std::holds_alternative<double>(value) ? float_text(std::get<double>(value))
+                                                  : quoted(std::get<std::string>(value));
+    text += "\n";
+  }
+}
+
+std::string value_literal(const PresetKey& row, double value) {
+  switch (row.kind) {
+    case KeyKind::choice: return "\"" + row.value_text(value) + "\"";
+    case KeyKind::integer: return row.value_text(value);
+    default: return float_text(value);
+  }
+}
+
+}  // namespace
+
+Result<PresetFile> parse_preset(std::string_view text, std::string_view name) {
+  const auto root = parse_toml(text, name, "correct the TOML there");
+  if (!root) return tl::unexpected(root.error());
+  return PresetReader(name).read(*root);
+}
+
+Result<PresetFile> read_preset(const std::filesystem::path& path) {
+  const Result<std::string> text = read_input_file(path, kMaxBytes);
+  if (!text) return tl::unexpected(text.error());
+  return parse_preset(*text, path.string());
+}
+
+std::string format_preset(const PresetFile& file) {
+  std::string text = "# Tuning preset of Tangent Workbench. Everything in SI units; missing keys keep their defaults.\n\n";
+  if (const RenderingCondition* condition = condition_of(file.preset)) {
+    std::string line = "condition = \"" + std::string(condition->name) + "\"";
+    line.resize(40, ' ');
+    text += line + " # " + choices_text(kConditionNames) + ": sets force.source and display.source\n\n";
+  }
+  format_about(file.about, text);
+  for (const std::string_view table : preset_tables().subspan(1)) {
+    text.append("\n[").append(table).append("]\n");
+    for (const PresetKey& row : preset_keys()) {
+      if (row.table != table) continue;
+      std::string line = std::string(row.key) + " = " + value_literal(row, row.get(file.preset));
+      if (line.size() < 40) line.resize(40, ' ');
+      text += line + " # " + row.allowed() + "\n";
+    }
+  }
+  return text;
+}
+
+Status write_preset(const PresetFile& file, const std::filesystem::path& path) {
+  if (Status status = check_preset(file.preset); !status) return status;
+  return write_file_atomic(path, format_preset(file));
+}
+
+}  // namespace tangent

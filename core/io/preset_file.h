@@ -1,0 +1,49 @@
+// Presets on disk: TOML, one table per group of core/preset/preset.h with its field names as keys, and an [about]
+// table that says where the values come from. Missing keys keep their defaults; anything unknown, of the
+// wrong type or out of range is an error that names key, line and allowed range (preset_schema.h). A key `condition`
+// above the tables names a rendering condition of the paper, which stands for force.source and display.source.
+#pragma once
+
+#include "core/base/result.h"
+#include "core/preset/preset.h"
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace tangent {
+
+/// Where a preset comes from, and what was measured with it. Every field may be empty.
+struct PresetAbout {
+  std::string name;
+  std::string date;             ///< ISO 8601: "2026-03-31"
+  std::string program_version;
+  std::string mesh_name;
+  std::string mesh_hash;        ///< ContactMesh::content_hash(), 16 hex digits
+  std::string device;
+  std::string note;
+  /// [about.measured], in the order of the file: free keys, numbers or text, for instance mean_iterations,
+  /// max_error_um and the command that measured them.
+  std::vector<std::pair<std::string, std::variant<double, std::string>>> measured;
+  bool operator==(const PresetAbout&) const = default;
+};
+
+struct PresetFile {
+  PresetAbout about;
+  Preset preset;
+  bool operator==(const PresetFile&) const = default;
+};
+
+/// `name` stands for the file in messages.
+Result<PresetFile> parse_preset(std::string_view text, std::string_view name);
+Result<PresetFile> read_preset(const std::filesystem::path& path);
+
+/// Every key with its unit and range beside it; numbers read back as exactly the same double.
+std::string format_preset(const PresetFile& file);
+/// Atomic. Fails on a preset outside its ranges, so that what is written can be read.
+Status write_preset(const PresetFile& file, const std::filesystem::path& path);
+
+}  // namespace tangent

@@ -1,0 +1,297 @@
+#include "core/io/ply_header.h"
+#include "core/io/readers.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+
+namespace tangent {
+namespace {
+
+// Two sources of values with one interface. `begin` and `end` stand around each element; false from any
+// call means that `failure` tells why.
+
+class TextSource {
+ public:
+  static constexpr PlyEncoding kEncoding = PlyEncoding::ascii;
+
+  TextSource(TextCursor& text, std::string /*path*/) : text_(text) {}
+
+  bool begin() {
+    if (text_.next_content()) [[likely]] return true;
+    problem_ = "the file ends before it";
+    return false;
+  }
+  bool number(PlyType, double& value) {
+    const std::optional<double> read = text_.number();
+    if (read) value = *read;
+    return read.has_value();
+  }
+  bool integer(PlyType, std::int64_t& value) {
+    const std::optional<std::int64_t> read = text_.integer();
+    if (read) value = *read;
+    return read.has_value();
+  }
+  bool expect(PlyType, std::uint64_t) { return true; }
+  bool skip(PlyType type, std::uint64_t count) {
+    double ignored = 0.0;
+    for (std::uint64_t i = 0; i < count; ++i) {
+      if (!number(type, ignored)) return false;
+    }
+    return true;
+  }
+  bool end() {
+    if (text_.line_done()) [[likely]] {
+      text_.next_line();
+      return true;
+    }
+    problem_ = "more values on the line than the header lists";
+    return false;
+  }
+  std::size_t bytes_left() const { return text_.bytes_left() + 1; }  // the last line end may be missing
+  bool nothing_left() { return !text_.next_content(); }
+  std::string where(const std::string&, std::uint64_t) const {
+    return text_.file() + ":" + std::to_string(text_.line());
+  }
+  tl::unexpected<Error> failure(const std::string& element, std::uint64_t index) const {
+    if (problem_.empty()) return text_.failure();
+    return text_.fail_here(element + " " + std::to_string(index) + ": " + problem_, "export the mesh again");
+  }
+
+ private:
+  TextCursor& text_;
+  std::string problem_;
+};
+
+template <PlyEncoding encoding>
+class BinarySource {
+ public:
+  static constexpr PlyEncoding kEncoding = encoding;
+
+  BinarySource(TextCursor& text, std::string path)
+      : at_(text.position()), end_(text.position() + text.bytes_left()), path_(std::move(path)) {}
+
+  bool begin() { return true; }
+  bool end() { return true; }
+  bool number(PlyType type, double& value) { return expect(type, 1) && load(type, value); }
+  bool integer(PlyType type, std::int64_t& value) { return expect(type, 1) && load(type, value); }
+  /// Are there bytes for `count` values? Asked before anything is sized by a list's length.
+  bool expect(PlyType type, std::uint64_t count) const { return count <= bytes_left() / size_in_bytes(type); }
+  bool skip(PlyType type, std::uint64_t count) {
+    if (!expect(type, count)) return false;
+    at_ += count * size_in_bytes(type);
+    return true;
+  }
+  std::size_t bytes_left() const { return static_cast<std::size_t>(end_ - at_); }
+  // Some writers close the file with a line end or padding.
+  bool nothing_left() const {
+    return std::all_of(at_, end_, [](char c) { return c == '\n' || c == '\r' || c == ' ' || c == '\0'; });
+  }
+  std::string where(const std::string& element, std::uint64_t index) const {
+    return path_ + " " + element + " " + std::to_string(index);
+  }
+  tl::unexpected<Error> failure(const std::string& element, std::uint64_t index) const {
+    return fail("the file ends inside this element", where(element, index), "the file is truncated: export it again");
+  }
+
+ private:
+  template <class T>
+  T take() {
+    std::array<char, sizeof(T)> bytes;
+    std::memcpy(bytes.data(), at_, sizeof(T));
+    at_ += sizeof(T);
+    constexpr bool kFileIsLittle = encoding == PlyEncoding::little_endian;
+    if constexpr (kFileIsLittle != (std::endian::native == std::endian::little)) {
+      std::reverse(bytes.begin(), bytes.end());
+    }
+    return std::bit_cast<T>(bytes);
+  }
+  template <class Out>
+  bool load(PlyType type, Out& value) {
+    switch (type) {
+      case PlyType::int8: value = static_cast<Out>(take<std::int8_t>()); return true;
+      case PlyType::uint8: value = static_cast<Out>(take<std::uint8_t>()); return true;
+      case PlyType::int16: value = static_cast<Out>(take<std::int16_t>()); return true;
+      case PlyType::uint16: value = static_cast<Out>(take<std::uint16_t>()); return true;
+      case PlyType::int32: value = static_cast<Out>(take<std::int32_t>()); return true;
+      case PlyType::uint32: value = static_cast<Out>(take<std::uint32_t>()); return true;
+      // Integers are never asked of these two: the header of an index list was checked.
+      case PlyType::float32: value = static_cast<Out>(take<float>()); return true;
+      case PlyType::float64: value = static_cast<Out>(take<double>()); return true;
+    }
+    return false;
+  }
+
+  const char* at_;
+  const char* end_;
+  std::string path_;
+};
+
+template <class Source>
+class PlyBody {
+ public:
+  PlyBody(TextCursor& text, const PlyHeader& header)
+      : source_(text, text.file()), path_(text.file()), header_(header),
+        vertex_count_(header.find("vertex")->count) {}
+
+  Result<PolygonMesh> read() {
+    for (const PlyElement& element : header_.elements) {
+      Status done = check_promise(element);
+      if (done && element.name == "vertex") {
+        done = read_vertices(element);
+      } else if (done && element.name == "face") {
+        done = read_faces(element);
+      } else if (done) {
+        done = skip_element(element);
+      }
+      if (!done) return tl::unexpected<Error>(done.error());
+    }
+    if (!source_.nothing_left()) {
+      return fail("the file goes on after the last element that its header lists", path_,
+                  "the header's counts are wrong: export the mesh again");
+    }
+    if (!mesh_.normals.empty()) mesh_.corner_normal = mesh_.corner_position;
+    return std::move(mesh_);
+  }
+
+ private:
+  /// A count that the rest of the file can't hold is refused before anything is sized by it.
+  Status check_promise(const PlyElement& element) const {
+    const std::size_t smallest = element.smallest_size(Source::kEncoding);
+    const std::string what = "the header promises " + std::to_string(element.count) + " of element " +
+                             show_token(element.name);
+    if (smallest != 0 && element.count > source_.bytes_left() / smallest) {
+      return fail(what + ", at least " + std::to_string(smallest) + " bytes each; " +
+                      std::to_string(source_.bytes_left()) + " bytes are left in the file",
+                  path_, "the file is truncated or its header is wrong: export it again");
+    }
+    if (element.count > kMaxMeshItems) return fail(what + ", more than 4294967294", path_, "use a smaller mesh");
+    return {};
+  }
+
+  Status read_vertices(const PlyElement& element) {
+    static constexpr std::array<std::string_view, 6> kSlots{"x", "y", "z", "nx", "ny", "nz"};
+    std::vector<std::size_t> slot_of;  // property -> place in `values`; the last place takes what is ignored
+    for (const PlyProperty& p : element.properties) {
+      const auto slot = p.is_list ? kSlots.end() : std::find(kSlots.begin(), kSlots.end(), p.name);
+      slot_of.push_back(static_cast<std::size_t>(slot - kSlots.begin()));
+    }
+    const auto has = [&](std::size_t slot) { return std::find(slot_of.begin(), slot_of.end(), slot) != slot_of.end(); };
+    if (!has(0) || !has(1) || !has(2)) return fail("element \"vertex\" lacks x, y or z", path_, "export the mesh again");
+    const bool normals = has(3) && has(4) && has(5);
+
+    mesh_.positions.reserve(element.count);
+    if (normals) mesh_.normals.reserve(element.count);
+    std::array<double, 7> values{};
+    for (std::uint64_t i = 0; i < element.count; ++i) {
+      bool good = source_.begin();
+      for (std::size_t k = 0; good && k < slot_of.size(); ++k) {
+        const PlyProperty& property = element.properties[k];
+        good = property.is_list ? skip_list(property) : source_.number(property.type, values[slot_of[k]]);
+      }
+      if (!good || !source_.end()) return bad_element(element.name, i);
+      mesh_.positions.emplace_back(values[0], values[1], values[2]);
+      if (normals) mesh_.normals.emplace_back(values[3], values[4], values[5]);
+    }
+    return {};
+  }
+
+  Status read_faces(const PlyElement& element) {
+    const PlyProperty* indices = element.find("vertex_indices");
+    if (indices == nullptr) indices = element.find("vertex_index");
+    if (indices == nullptr || !indices->is_list || !is_integer(indices->type)) {
+      return fail("element \"face\" has no integer list vertex_indices (or vertex_index)", path_,
+                  "export the mesh again");
+    }
+    mesh_.face_offsets.reserve(element.count + 1);
+    for (std::uint64_t i = 0; i < element.count; ++i) {
+      bool good = source_.begin();
+      for (const PlyProperty& property : element.properties) {
+        good = good && (&property == indices ? read_corners(property) : skip_property(property));
+      }
+      if (!good || !source_.end()) return bad_element(element.name, i);
+      mesh_.face_offsets.push_back(static_cast<std::uint32_t>(mesh_.corner_position.size()));
+    }
+    return {};
+  }
+
+  bool read_corners(const PlyProperty& list) {
+    std::int64_t count = 0;
+    if (!read_length(list, count)) return false;
+    if (!source_.expect(list.type, static_cast<std::uint64_t>(count))) return false;
+    for (std::int64_t k = 0; k < count; ++k) {
+      std::int64_t index = 0;
+      if (!source_.integer(list.type, index)) return false;
+      if (index < 0 || static_cast<std::uint64_t>(index) >= vertex_count_) {
+        problem_ = "vertex index " + std::to_string(index) + " is out of range (the file has " +
+                   std::to_string(vertex_count_) + " vertices, counted from 0)";
+        return false;
+      }
+      mesh_.corner_position.push_back(static_cast<std::uint32_t>(index));
+    }
+    if (mesh_.corner_position.size() > kMaxMeshItems) problem_ = "more than 4294967294 corners";
+    return problem_.empty();
+  }
+
+  tl::unexpected<Error> bad_element(const std::string& element, std::uint64_t index) const {
+    if (problem_.empty()) return source_.failure(element, index);
+    return fail(problem_, source_.where(element, index), "export the mesh again");
+  }
+
+  bool read_length(const PlyProperty& list, std::int64_t& count) {
+    if (!source_.integer(list.count_type, count)) return false;
+    if (count < 0) problem_ = "list " + show_token(list.name) + " has a negative length";
+    return count >= 0;
+  }
+
+  bool skip_list(const PlyProperty& list) {
+    std::int64_t count = 0;
+    return read_length(list, count) &&
+           source_.skip(list.type, static_cast<std::uint64_t>(count));
+  }
+
+  bool skip_property(const PlyProperty& property) {
+    return property.is_list ? skip_list(property) : source_.skip(property.type, 1);
+  }
+
+  Status skip_element(const PlyElement& element) {
+    // Elements without properties take no room, so nothing bounds their count: don't go through them.
+    if (element.properties.empty()) return {};
+    for (std::uint64_t i = 0; i < element.count; ++i) {
+      bool good = source_.begin();
+      for (const PlyProperty& property : element.properties) {
+        good = good && skip_property(property);
+      }
+      if (!good || !source_.end()) return bad_element(element.name, i);
+    }
+    return {};
+  }
+
+  Source source_;
+  const std::string& path_;
+  const PlyHeader& header_;
+  std::uint64_t vertex_count_;
+  PolygonMesh mesh_;
+  std::string problem_;
+};
+
+}  // namespace
+
+Result<PolygonMesh> read_ply(const FileBytes& file, const std::string& path) {
+  TextCursor text(file.begin(), file.end(), path, LineContinuation::none);
+  const Result<PlyHeader> header = read_ply_header(text);
+  if (!header) return tl::unexpected<Error>(header.error());
+  if (header->find("vertex") == nullptr) return fail("the file has no element \"vertex\"", path, "export it again");
+  if (header->find("tristrips") != nullptr && header->find("face") == nullptr) {
+    return fail("the file holds triangle strips, which are not read", path, "export it with faces");
+  }
+  switch (header->encoding) {
+    case PlyEncoding::ascii: return PlyBody<TextSource>(text, *header).read();
+    case PlyEncoding::little_endian: return PlyBody<BinarySource<PlyEncoding::little_endian>>(text, *header).read();
+    case PlyEncoding::big_endian: return PlyBody<BinarySource<PlyEncoding::big_endian>>(text, *header).read();
+  }
+  return fail("unknown PLY format", path);
+}
+
+}  // namespace tangent

@@ -1,0 +1,27 @@
+// Work that the rendered force does around a closed path. k * penetration * N is no gradient (N is not the gradient of
+// the penetration), so a device gains or loses energy in going round.
+#pragma once
+
+#include "core/tick/step.h"
+
+#include <span>
+#include <vector>
+
+namespace tangent {
+
+struct ClosedWork {
+  double work_j = 0.0;         ///< of the force on the finger, once round; positive: the finger gains energy
+  double peak_energy_j = 0.0;  ///< largest stored energy on the way, half the force times the penetration
+  bool broken = false;         ///< a tick on the way was unconverged
+  /// |work| over the peak energy; 0 where there was no contact.
+  double relative() const;
+};
+
+/// Steps once round to find the contact, once more to integrate F.dx by the trapezoidal rule. `loop`: positions of a
+/// closed path, the first not repeated; times are 1 ms apart. Damping is left out.
+ClosedWork work_around(Stepper& stepper, const Preset& preset, std::span<const FingerPose> loop);
+
+/// `count` poses around a circle of `radius_m` through `middle`, in the plane normal to `axis` (unit).
+std::vector<FingerPose> circle_of_poses(const FingerPose& middle, const Vec3& axis, double radius_m, int count);
+
+}  // namespace tangent

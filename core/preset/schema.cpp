@@ -1,0 +1,287 @@
+#include "core/preset/schema.h"
+
+#include "core/base/text.h"
+
+#include <array>
+#include <cmath>
+#include <type_traits>
+
+namespace tangent {
+namespace {
+
+// Accessors of one field, made from the two member pointers that lead to it.
+template <auto Group, auto Field>
+double read(const Preset& preset) {
+  return static_cast<double>((preset.*Group).*Field);
+}
+template <auto Group, auto Field>
+void write(Preset& preset, double value) {
+  auto& field = (preset.*Group).*Field;
+  using Value = std::remove_reference_t<decltype(field)>;
+  if constexpr (std::is_same_v<Value, double>) field = value;
+  else field = static_cast<Value>(static_cast<int>(value));
+}
+template <int Axis>
+double read_semi_axis(const Preset& preset) {
+  return preset.finger.semi_axes_m[Axis];
+}
+template <int Axis>
+void write_semi_axis(Preset& preset, double value) {
+  preset.finger.semi_axes_m[Axis] = value;
+}
+
+// In the order of the enumerations of core/preset/preset.h and core/finger/finger.h.
+constexpr std::array<std::string_view, 6> kMethods{"paper", "newton", "robust", "facet", "force-shading", "two-pass"};
+constexpr std::array<std::string_view, 2> kDistanceReadings{"proxy", "centre"};
+constexpr std::array<std::string_view, 2> kNormalForms{"bernstein", "vlachos"};
+constexpr std::array<std::string_view, 2> kLocalCentres{"bisectors", "midpoint"};
+constexpr std::array<std::string_view, 4> kFingerShapes{"point", "sphere", "ellipsoid", "capsule"};
+constexpr std::array<std::string_view, 4> kForceSources{"method", "facet", "force-shading", "smooth"};
+constexpr std::array<std::string_view, 4> kTactileSources{"method", "held", "facet", "smooth"};
+
+template <auto Group, auto Field, std::size_t N>
+constexpr PresetKey choice(std::string_view table, std::string_view key, std::string_view label,
+                           const std::array<std::string_view, N>& choices, std::string_view doc,
+                           std::string_view option = {}) {
+  return {.table = table, .key = key, .kind = KeyKind::choice, .label = label, .unit = {}, .doc = doc,
+          .min = 0.0, .max = double(N - 1), .slider_min = 0.0, .slider_max = double(N - 1),
+          .choices = choices, .option = option, .get = read<Group, Field>, .set = write<Group, Field>};
+}
+
+constexpr PresetKey semi_axis(std::string_view key, std::string_view label, std::string_view doc,
+                              double (*get)(const Preset&), void (*set)(Preset&, double)) {
+  return {.table = "finger", .key = key, .label = label, .unit = "m", .doc = doc, .min = 1e-5, .max = 1.0,
+          .slider_min = 0.001, .slider_max = 0.05, .logarithmic = true, .get = get, .set = set};
+}
+
+using S = SolverSettings;
+using O = ForceSettings;
+using D = DisplaySettings;
+using C = ControllerSettings;
+using G = SafetySettings;
+constexpr auto kSolver = &Preset::solver;
+constexpr auto kFinger = &Preset::finger;
+constexpr auto kForce = &Preset::force;
+constexpr auto kDisplay = &Preset::display;
+constexpr auto kController = &Preset::controller;
+constexpr auto kSafety = &Preset::safety;
+
+constexpr std::array kKeys{
+  // solver
+  choice<kSolver, &S::method>("solver", "method", "Method", kMethods,
+    "How the contact is found: the paper's iteration, Newton's, Newton's with safeguards (robust), or one of the "
+    "methods they are compared with.", "method"),
+  PresetKey{.table = "solver", .key = "gain_overall", .label = "Overall gain G_o", .unit = "1",
+    .doc = "G_o of Eq. 1: part of the travel vector that the paper's iteration takes as a step.",
+    .min = 0.0, .max = 10.0, .slider_min = 0.0, .slider_max = 2.0, .option = "gain-overall",
+    .get = read<kSolver, &S::gain_overall>, .set = write<kSolver, &S::gain_overall>},
+  PresetKey{.table = "solver", .key = "gain_curvature_m", .label = "Curvature gain G_k", .unit = "m",
+    .doc = "G_k of Eq. 1: shortens steps where the surface is curved. About the finger's radius suits most objects; "
+           "larger is slower and steadier.",
+    .min = 0.0, .max = 10.0, .slider_min = 0.0, .slider_max = 0.1, .option = "gain-curvature-m", .option_unit = "m",
+    .get = read<kSolver, &S::gain_curvature_m>, .set = write<kSolver, &S::gain_curvature_m>},
+  PresetKey{.table = "solver", .key = "gain_distance_per_m", .label = "Distance gain G_d", .unit = "1/m",
+    .doc = "G_d of Eq. 1: shortens steps when the finger is far from the plane. Larger is slower and steadier.",
+    .min = 0.0, .max = 1e5, .slider_min = 0.0, .slider_max = 500.0, .option = "gain-distance-per-m",
+    .option_unit = "1/m", .get = read<kSolver, &S::gain_distance_per_m>, .set = write<kSolver, &S::gain_distance_per_m>},
+  choice<kSolver, &S::distance_reading>("solver", "distance_reading", "Distance d", kDistanceReadings,
+    "What d of Eq. 1 stands for: the distance from the finger to the proxy touching the plane (R - h), or from the "
+    "finger's centre to the plane (h).", "distance-reading"),
+  PresetKey{.table = "solver", .key = "tolerance_m", .label = "Tolerance", .unit = "m",
+    .doc = "A tick has converged when surface and finger contact are closer than this.",
+    .min = 1e-12, .max = 1e-3, .slider_min = 1e-9, .slider_max = 1e-4, .logarithmic = true,
+    .option = "tolerance-um", .option_per_si = 1e6, .option_unit = "um",
+    .get = read<kSolver, &S::tolerance_m>, .set = write<kSolver, &S::tolerance_m>},
+  PresetKey{.table = "solver", .key = "max_iterations", .kind = KeyKind::integer, .label = "Iteration limit", .unit = "1",
+    .doc = "New tangent planes a tick may compute before its tracking is given up.",
+    .min = 1.0, .max = 10000.0, .slider_min = 1.0, .slider_max = 200.0, .logarithmic = true,
+    .option = "max-iterations", .get = read<kSolver, &S::max_iterations>, .set = write<kSolver, &S::max_iterations>},
+  choice<kSolver, &S::normal_form>("solver", "normal_form", "Normal form", kNormalForms,
+    "Weight of the mixed terms of the quadratic normal: 2, a true Bernstein form, or 1, as Vlachos et al. print it.",
+    "normal-form"),
+  PresetKey{.table = "solver", .key = "switch_hysteresis_m", .label = "Switch hysteresis", .unit = "m",
+    .doc = "A nonadjacent place takes the contact over when the finger is deeper in it by this much.",
+    .min = 0.0, .max = 0.1, .slider_min = 0.0, .slider_max = 1e-3,
+    .get = read<kSolver, &S::switch_hysteresis_m>, .set = write<kSolver, &S::switch_hysteresis_m>},
+  choice<kSolver, &S::local_centre>("solver", "local_centre", "Local centre", kLocalCentres,
+    "2D scenes: where angles along a patch are seen from: the meeting point of its segments' perpendicular bisectors, or "
+    "the midpoint of their far ends.", "local-centre"),
+
+  // finger
+  choice<kFinger, &Finger::shape>("finger", "shape", "Shape", kFingerShapes, "Shape of the fingertip."),
+  PresetKey{.table = "finger", .key = "radius_m", .label = "Radius", .unit = "m",
+    .doc = "Radius of a sphere or capsule finger; a point has none.",
+    .min = 0.0, .max = 1.0, .slider_min = 0.001, .slider_max = 0.05, .option = "finger-radius-mm",
+    .option_per_si = 1e3, .option_unit = "mm", .get = read<kFinger, &Finger::radius_m>,
+    .set = write<kFinger, &Finger::radius_m>},
+  semi_axis("semi_axis_x_m", "Semi-axis x", "Ellipsoid finger: half its length along the finger.",
+            read_semi_axis<0>, write_semi_axis<0>),
+  semi_axis("semi_axis_y_m", "Semi-axis y", "Ellipsoid finger: half its width across the finger.",
+            read_semi_axis<1>, write_semi_axis<1>),
+  semi_axis("semi_axis_z_m", "Semi-axis z", "Ellipsoid finger: half its height, out of the fingerpad.",
+            read_semi_axis<2>, write_semi_axis<2>),
+  PresetKey{.table = "finger", .key = "half_length_m", .label = "Half length", .unit = "m",
+    .doc = "Capsule finger: half the length of its axis, which lies along the finger.",
+    .min = 0.0, .max = 1.0, .slider_min = 0.0, .slider_max = 0.05, .get = read<kFinger, &Finger::half_length_m>,
+    .set = write<kFinger, &Finger::half_length_m>},
+
+  // force
+  PresetKey{.table = "force", .key = "stiffness_n_per_m", .label = "Stiffness", .unit = "N/m",
+    .doc = "Force along the normal per metre of penetration.",
+    .min = 0.0, .max = 1e5, .slider_min = 10.0, .slider_max = 5000.0, .logarithmic = true,
+    .option = "stiffness-n-per-m", .option_unit = "N/m", .get = read<kForce, &O::stiffness_n_per_m>,
+    .set = write<kForce, &O::stiffness_n_per_m>},
+  PresetKey{.table = "force", .key = "damping_n_s_per_m", .label = "Damping", .unit = "N s/m",
+    .doc = "Force along the normal against the finger's speed along it, in contact.",
+    .min = 0.0, .max = 1000.0, .slider_min = 0.0, .slider_max = 10.0, .get = read<kForce, &O::damping_n_s_per_m>,
+    .set = write<kForce, &O::damping_n_s_per_m>},
+  PresetKey{.table = "force", .key = "limit_n", .label = "Limit", .unit = "N",
+    .doc = "The rendered force never exceeds this.",
+    .min = 0.0, .max = 100.0, .slider_min = 0.0, .slider_max = 20.0, .get = read<kForce, &O::limit_n>,
+    .set = write<kForce, &O::limit_n>},
+  choice<kForce, &O::source>("force", "source", "Source", kForceSources,
+    "Which contact the force comes from: the method's own, the facets', the facets' with interpolated normals, or "
+    "the smooth surface's."),
+
+  // display
+  PresetKey{.table = "display", .key = "finger_arc_m", .label = "Finger arc", .unit = "m",
+    .doc = "This much arc on the finger, centred on the fingerpad, maps to the display's travel.",
+    .min = 1e-4, .max = 1.0, .slider_min = 1e-3, .slider_max = 0.05, .get = read<kDisplay, &D::finger_arc_m>,
+    .set = write<kDisplay, &D::finger_arc_m>},
+  PresetKey{.table = "display", .key = "travel_m", .label = "Travel", .unit = "m",
+    .doc = "Travel of the contact location display; positions are clamped to it.",
+    .min = 0.0, .max = 1.0, .slider_min = 0.0, .slider_max = 0.05, .get = read<kDisplay, &D::travel_m>,
+    .set = write<kDisplay, &D::travel_m>},
+  choice<kDisplay, &D::source>("display", "source", "Source", kTactileSources,
+    "Which contact the display shows: the method's own, none (held at the centre), the facets', or the smooth "
+    "surface's."),
+
+  // controller
+  PresetKey{.table = "controller", .key = "p_per_s2", .label = "Gain P", .unit = "1/s2",
+    .doc = "Of the position loop in the display's controller: acceleration per distance from the target. 0: all four gains are "
+           "the device's own.",
+    .min = 0.0, .max = 1e7, .slider_min = 0.0, .slider_max = 20000.0, .get = read<kController, &C::p_per_s2>,
+    .set = write<kController, &C::p_per_s2>},
+  PresetKey{.table = "controller", .key = "i_per_s3", .label = "Gain I", .unit = "1/s3",
+    .doc = "Of the position loop: acceleration per distance from the target and time. Takes out what friction leaves.",
+    .min = 0.0, .max = 1e9, .slider_min = 0.0, .slider_max = 200000.0, .get = read<kController, &C::i_per_s3>,
+    .set = write<kController, &C::i_per_s3>},
+  PresetKey{.table = "controller", .key = "d_per_s", .label = "Gain D", .unit = "1/s",
+    .doc = "Of the position loop: acceleration per speed, against it. Negative where the drive's own drag is more than wanted.",
+    .min = -1000.0, .max = 10000.0, .slider_min = 0.0, .slider_max = 300.0, .get = read<kController, &C::d_per_s>,
+    .set = write<kController, &C::d_per_s>},
+  PresetKey{.table = "controller", .key = "target_weight", .label = "Target weight", .unit = "1",
+    .doc = "Of the target in the proportional part. Less than 1 takes away overshoot; at rest the target is reached all the same.",
+    .min = 0.0, .max = 1.0, .slider_min = 0.0, .slider_max = 1.0, .get = read<kController, &C::target_weight>,
+    .set = write<kController, &C::target_weight>},
+  PresetKey{.table = "controller", .key = "lowest_m", .label = "Lowest target", .unit = "m",
+    .doc = "Proximal end of what the display is sent. Its travel bounds targets as well.",
+    .min = -0.1, .max = 0.0, .slider_min = -0.025, .slider_max = 0.0, .get = read<kController, &C::lowest_m>,
+    .set = write<kController, &C::lowest_m>},
+  PresetKey{.table = "controller", .key = "highest_m", .label = "Highest target", .unit = "m",
+    .doc = "Distal end of what the display is sent. Its travel bounds targets as well.",
+    .min = 0.0, .max = 0.1, .slider_min = 0.0, .slider_max = 0.025, .get = read<kController, &C::highest_m>,
+    .set = write<kController, &C::highest_m>},
+  PresetKey{.table = "controller", .key = "fastest_m_per_s", .label = "Fastest target", .unit = "m/s",
+    .doc = "The controller's target moves no faster. 0: as fast as the drive goes. Below 0.1 mm/s the safety gate takes the "
+           "roller for stuck.",
+    .min = 0.0, .max = 10.0, .slider_min = 0.0, .slider_max = 0.5, .get = read<kController, &C::fastest_m_per_s>,
+    .set = write<kController, &C::fastest_m_per_s>},
+  PresetKey{.table = "controller", .key = "largest_current_a", .label = "Largest current", .unit = "A",
+    .doc = "Of the display's motor. 0: the device's own; the simulated drive's is 0.5 A.",
+    .min = 0.0, .max = 65.0, .slider_min = 0.0, .slider_max = 1.0, .get = read<kController, &C::largest_current_a>,
+    .set = write<kController, &C::largest_current_a>},
+
+  // safety
+  PresetKey{.table = "safety", .key = "unconverged_hold_s", .label = "Hold", .unit = "s",
+    .doc = "An unconverged tick renders the last converged plane for this long.",
+    .min = 0.0, .max = 1.0, .slider_min = 0.0, .slider_max = 0.05, .get = read<kSafety, &G::unconverged_hold_s>,
+    .set = write<kSafety, &G::unconverged_hold_s>},
+  PresetKey{.table = "safety", .key = "unconverged_ramp_s", .label = "Ramp", .unit = "s",
+    .doc = "After the hold, force and display ramp to zero over this long.",
+    .min = 0.0, .max = 1.0, .slider_min = 0.0, .slider_max = 0.05, .get = read<kSafety, &G::unconverged_ramp_s>,
+    .set = write<kSafety, &G::unconverged_ramp_s>},
+};
+
+constexpr std::array<std::string_view, 7> kTables{"about", "solver", "finger", "force", "display", "controller", "safety"};
+
+}  // namespace
+
+std::string PresetKey::full_name() const { return std::string(table) + "." + std::string(key); }
+
+double PresetKey::default_value() const { return get(Preset{}); }
+
+bool PresetKey::allows(double value) const {
+  // Written so that a NaN is refused.
+  const bool in_range = value >= min && value <= max;
+  return in_range && (kind == KeyKind::number || std::floor(value) == value);
+}
+
+std::string PresetKey::allowed() const {
+  if (kind == KeyKind::choice) return choices_text(choices);
+  return (kind == KeyKind::integer ? "a whole number from " : "") + range_text(min, max, unit == "1" ? "" : unit);
+}
+
+int PresetKey::choice_index(std::string_view name) const {
+  for (std::size_t i = 0; i < choices.size(); ++i) {
+    if (choices[i] == name) return static_cast<int>(i);
+  }
+  return -1;
+}
+
+std::string PresetKey::value_text(double value) const {
+  if (kind == KeyKind::choice) return std::string(choices[static_cast<std::size_t>(value)]);
+  std::string text;
+  append_double(text, value);
+  return text;
+}
+
+std::span<const PresetKey> preset_keys() { return kKeys; }
+
+std::span<const std::string_view> preset_tables() { return kTables; }
+
+const PresetKey* find_preset_key(std::string_view table, std::string_view key) {
+  for (const PresetKey& row : kKeys) {
+    if (row.table == table && row.key == key) return &row;
+  }
+  return nullptr;
+}
+
+Status check_preset(const Preset& preset) {
+  for (const PresetKey& row : kKeys) {
+    const double value = row.get(preset);
+    if (row.allows(value)) continue;
+    std::string text;
+    append_double(text, value);
+    return fail(text + " is out of range", row.full_name(), "allowed: " + row.allowed());
+  }
+  const FingerShape shape = preset.finger.shape;
+  if (preset.solver.method == Method::two_pass && shape != FingerShape::point && shape != FingerShape::sphere)
+    return fail("the two-pass proxy takes point and sphere fingers only", "solver.method", "choose another method or finger.shape");
+  return {};
+}
+
+std::string range_text(double min, double max, std::string_view unit) {
+  // "100000", not "1e+05": people type these numbers.
+  const auto append = [](std::string& text, double value) {
+    if (std::floor(value) == value && std::abs(value) <= 1e9) text += std::to_string(static_cast<long long>(value));
+    else append_double(text, value);
+  };
+  std::string text;
+  append(text, min);
+  text += " to ";
+  append(text, max);
+  if (!unit.empty()) text.append(" ").append(unit);
+  return text;
+}
+
+std::string choices_text(std::span<const std::string_view> choices) {
+  std::string text;
+  for (std::size_t i = 0; i < choices.size(); ++i) {
+    if (i != 0) text += i + 1 == choices.size() ? " or " : ", ";
+    text += choices[i];
+  }
+  return text;
+}
+
+}  // namespace tangent

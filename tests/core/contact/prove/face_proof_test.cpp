@@ -1,0 +1,141 @@
+// A patch that holds a contact is never excluded, nor does one come up while the centre moves less than the margin.
+#include "core/contact/prove/face_proof.h"
+#include "core/surface/mesh_patch.h"
+#include "tests/core/scenes.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+using namespace tangent;
+using namespace tangent::test;
+
+namespace {
+
+/// A patch of random size, place, shape and bend.
+PnPatch random_patch(Random& random) {
+  const double size = std::pow(10.0, random.in(-3.0, 1.0));
+  const Vec3 at = random.in_cube(3.0 * size), axis = random.direction();
+  const double bend = random.in(0.0, 1.2);
+  std::array<Vec3, 3> p, n;
+  for (int k = 0; k < 3; ++k) {
+    p[k] = at + size * random.in_cube(1.0);
+    n[k] = unit(axis + bend * random.in_cube(1.0));
+  }
+  return make_pn_patch(p, n, random.below(2) ? NormalForm::bernstein : NormalForm::vlachos);
+}
+
+std::vector<PnPatch> mesh_patches() {
+  std::vector<PnPatch> patches;
+  std::vector<ScenePtr> scenes{scene_of(make_icosphere(0.040, 1)), scene_of(make_torus(0.040, 0.015, 24, 12)),
+                               scene_of(*generate_mesh("cube", {.rounding_m = 1.5e-3}))};
+  if (auto spot = shared_scene("spot.obj", 180.0)) scenes.push_back(spot);
+  for (const ScenePtr& scene : scenes)
+    for (std::uint32_t t = 0; t < scene->mesh().triangle_count(); t += 7) patches.push_back(make_patch(scene->mesh(), t));
+  return patches;
+}
+
+double patch_size(const PnPatch& p) { return std::max(glm::length(p.offsets[b030]), glm::length(p.offsets[b003])); }
+
+struct Findings {
+  int wrong = 0, tried = 0;
+};
+
+/// Builds contacts on the patch from the answer and asks whether they are ruled out.
+void contacts_on(const PnPatch& patch, Random& random, int count, Findings& f) {
+  for (int i = 0; i < count; ++i) {
+    const Vec2 uv = i == 0 ? Vec2(0.0, 0.0) : i == 1 ? Vec2(1.0, 0.0) : random.barycentric();
+    const SurfaceSample s = evaluate(patch, uv.x, uv.y);
+    const double h = patch_size(patch) * (i % 2 ? random.in(-5.0, 5.0) : random.in(-0.3, 0.3));
+    const PatchExclusion e = exclude_contact(patch, s.point + h * s.normal);
+    // Rounding may leave a coefficient's sign to chance at a corner: 1e-12 of the scene.
+    const double noise = 1e-12 * (std::abs(h) + patch_size(patch) + glm::length(patch.origin));
+    ++f.tried;
+    f.wrong += e.margin_m > noise;
+    if (h >= 0.0) f.wrong += e.least_height_m > h + noise;
+  }
+}
+
+}  // namespace
+
+TEST_CASE("no patch is excluded for a centre over or under one of its own points") {
+  Random random(120);
+  Findings f;
+  for (int i = 0; i < rounds(5000); ++i) contacts_on(random_patch(random), random, 20, f);
+  for (const PnPatch& patch : mesh_patches()) contacts_on(patch, random, 20, f);
+  CHECK(f.tried > rounds(5000) * 20);
+  CHECK(f.wrong == 0);
+}
+
+TEST_CASE("where a patch is excluded no contact comes up while the centre moves less than the margin") {
+  // The other way round: from a centre with a contact, any centre that excludes the patch is at least its margin away.
+  Random random(121);
+  int excluded = 0, wrong = 0, wider = 0, narrower = 0;
+  const auto patches = mesh_patches();
+  for (int i = 0; i < rounds(200000); ++i) {
+    const PnPatch patch = i % 2 ? random_patch(random) : patches[random.below(static_cast<std::uint32_t>(patches.size()))];
+    const Vec2 uv = random.barycentric();
+    const SurfaceSample s = evaluate(patch, uv.x, uv.y);
+    const double size = patch_size(patch), h = size * random.in(-3.0, 3.0);
+    const Vec3 with_contact = s.point + h * s.normal;
+    const double gone = size * std::pow(10.0, random.in(-3.0, 0.7));
+    const Vec3 centre = with_contact + gone * random.direction();
+    const PatchExclusion e = exclude_contact(patch, centre), sharpened = exclude_contact(patch, centre, 10.0 * size);
+    excluded += e.margin_m > 0.0;
+    wider += e.margin_m > 0.0 && sharpened.margin_m > 1.05 * e.margin_m;
+    narrower += sharpened.margin_m < e.margin_m;
+    wrong += std::max(e.margin_m, sharpened.margin_m) > gone * (1.0 + 1e-9);
+  }
+  CHECK(narrower < wider / 100);  // bisections spent on sharpening are missing elsewhere
+  CHECK(wider > excluded / 10);
+  CHECK(excluded > rounds(200000) / 20);
+  CHECK(wrong == 0);
+}
+
+TEST_CASE("the least height is a lower bound of what moving the centre can make of it") {
+  Random random(122);
+  int said = 0, wrong = 0;
+  for (int i = 0; i < rounds(50000); ++i) {
+    const PnPatch patch = random_patch(random);
+    const Vec3 c = patch.origin + patch_size(patch) * 5.0 * random.in_cube(1.0);
+    const PatchExclusion e = exclude_contact(patch, c);
+    if (e.least_height_m <= 0.0) continue;
+    ++said;
+    for (int k = 0; k < 10; ++k) {
+      const Vec2 uv = random.barycentric();
+      const SurfaceSample s = evaluate(patch, uv.x, uv.y);
+      wrong += glm::dot(c - s.point, s.normal) < e.least_height_m * (1.0 - 1e-12);
+    }
+  }
+  CHECK(said > rounds(50000) / 20);
+  CHECK(wrong == 0);
+}
+
+TEST_CASE("most patches far from being touched are excluded: the proof is not empty") {
+  const auto scene = scene_of(make_icosphere(0.040, 2));
+  Random random(123);
+  int excluded = 0, asked = 0;
+  for (int i = 0; i < 100; ++i) {
+    const Vec3 centre = 0.059 * random.direction();
+    for (std::uint32_t t = 0; t < scene->mesh().triangle_count(); ++t) {
+      ++asked;
+      excluded += exclude_contact(make_patch(scene->mesh(), t), centre).margin_m > 0.0;
+    }
+  }
+  CHECK(excluded > asked * 9 / 10);
+}
+
+TEST_CASE("scaling patch and centre scales margin and height, and moving both moves nothing") {
+  Random random(124);
+  for (int i = 0; i < 300; ++i) {
+    PnPatch patch = random_patch(random);
+    const Vec3 c = patch.origin + 2.0 * patch_size(patch) * random.in_cube(1.0);
+    const PatchExclusion e = exclude_contact(patch, c);
+    PnPatch large = patch;
+    large.origin *= 0x1p20;
+    for (Vec3& o : large.offsets) o *= 0x1p20;
+    const PatchExclusion scaled = exclude_contact(large, 0x1p20 * c);
+    CHECK(scaled.margin_m == 0x1p20 * e.margin_m);
+    CHECK(scaled.least_height_m == 0x1p20 * e.least_height_m);
+  }
+}

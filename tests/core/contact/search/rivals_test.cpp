@@ -1,0 +1,179 @@
+// Watching for deeper places: asking seldom finds what asking at every tick finds.
+#include "core/base/tolerances.h"
+#include "core/contact/search/rivals.h"
+#include "core/lab/objects/generate.h"
+#include "tests/core/scenes.h"
+
+#include <doctest/doctest.h>
+
+using namespace tangent;
+using namespace tangent::test;
+
+namespace {
+
+/// A finger that wanders over two bumps, too large for the valley between them.
+std::vector<TickInput> wander(int ticks, double speed_m) {
+  std::vector<TickInput> poses;
+  for (int i = 0; i < ticks; ++i) {
+    const double s = speed_m * i;
+    poses.push_back({1e-3 * i, {Vec3(0.006 * std::sin(s / 0.004), 0.004 * std::sin(s / 0.0093), 0.0105), Quat(1.0, 0.0, 0.0, 0.0)}});
+  }
+  return poses;
+}
+
+ScenePtr bumps() {
+  return scene_of(height_field(0.020, 60, [](double x, double y) {
+    return 0.003 * std::exp(-((x - 0.005) * (x - 0.005) + y * y) / 1.2e-5) + 0.003 * std::exp(-((x + 0.005) * (x + 0.005) + y * y) / 1.2e-5);
+  }));
+}
+
+}  // namespace
+
+TEST_CASE("a search that waits for its margins switches when one at every tick would, and to the same place") {
+  const ScenePtr scene = bumps();
+  const Preset preset = sphere_preset(0.010, Method::robust);
+  Stepper seldom(scene), always(scene);
+  TickState a, b;
+  int switches = 0, differ = 0;
+  for (const TickInput& input : wander(rounds(20000), 2e-5)) {
+    const TickOutput x = seldom.step(preset, input, a);
+    b.clearance = Clearance{};
+    const TickOutput y = always.step(preset, input, b);
+    switches += x.event == TickEvent::switched;
+    differ += x.triangle != y.triangle || std::abs(x.penetration_m - y.penetration_m) > 2.0 * preset.solver.tolerance_m;
+  }
+  CHECK(switches > 0);
+  CHECK(differ == 0);
+}
+
+TEST_CASE("most ticks ask nothing, and most that ask look at single triangles") {
+  const ScenePtr scene = bumps();
+  const Preset preset = sphere_preset(0.010, Method::robust);
+  Stepper stepper(scene);
+  TickState state;
+  int whole = 0, asked = 0, ticks = 0;
+  Vec3 centre(0.0);
+  double rest = -1.0;
+  for (const TickInput& input : wander(rounds(20000), 2e-5)) {
+    stepper.step(preset, input, state);
+    ++ticks;
+    asked += state.clearance.centre != centre;
+    whole += state.clearance.margin_m > rest;  // it only shrinks between searches
+    rest = state.clearance.margin_m;
+    centre = state.clearance.centre;
+  }
+  CHECK(whole > 0);
+  CHECK(whole < ticks / 4);
+  CHECK(asked < ticks / 2);
+}
+
+TEST_CASE("a finger that trembles in place asks a few times in all, and gets what asking at every tick gets") {
+  const ScenePtr scene = scene_of(make_torus(0.040, 0.015, 48, 24));
+  const Preset preset = sphere_preset(0.020, Method::robust);
+  constexpr double kReach = 1e-5;  // m
+  Random random(31);
+  for (const bool tremor : {false, true}) {
+    CAPTURE(tremor);
+    for (int place = 0; place < 5; ++place) {
+      // Pressed about 1 mm deep from above, somewhere on the torus.
+      const double ring = random.in(0.0, 6.28), across = random.in(-0.010, 0.010);
+      const Vec3 rest((0.040 + across) * std::cos(ring), (0.040 + across) * std::sin(ring), std::sqrt(0.034 * 0.034 - across * across));
+      Stepper seldom(scene), always(scene);
+      TickState a, b;
+      int asked = 0, differ = 0;
+      for (int i = 0; i < rounds(10000); ++i) {
+        // A new place within 10 um at each tick, or to and fro in a Lissajous figure at 9 and 11 Hz as a hand does.
+        const Vec3 off = tremor ? kReach * Vec3(std::sin(0.0565 * i), std::sin(0.0691 * i), 0.3 * std::sin(0.0565 * i))
+                                : random.in(0.0, kReach) * random.direction();
+        const Vec3 centre = a.clearance.centre;
+        const TickOutput x = seldom.step(preset, at_position(1e-3 * i, rest + off), a);
+        asked += a.clearance.centre != centre;
+        b.clearance = Clearance{};
+        const TickOutput y = always.step(preset, at_position(1e-3 * i, rest + off), b);
+        differ += x.triangle != y.triangle || x.u != y.u || x.v != y.v || x.contact != y.contact || x.force_n != y.force_n;
+      }
+      CHECK(asked <= 4);
+      CHECK(differ == 0);
+    }
+  }
+}
+
+TEST_CASE("a finger that runs along a rim asks seldom: the next edge and the vertex before it lead the contact back") {
+  const auto cylinder = generate_mesh("cylinder", {});
+  REQUIRE(cylinder);
+  const ScenePtr scene = scene_of(*cylinder);
+  const Preset preset = sphere_preset(0.020, Method::robust);
+  Stepper stepper(scene);
+  TickState state;
+  Vec3 centre(0.0);
+  int asked = 0, on_the_rim = 0;
+  for (int i = 0; i < 4000; ++i) {
+    // 1 mm deep on the rim of 40 mm about the x axis, from between the side and the end.
+    const double turn = 0.1 * i / 40.0, out = 0.040 + 0.019 * std::sqrt(0.5);
+    const TickOutput tick = stepper.step(preset, at_position(1e-3 * i, Vec3(out, out * std::cos(turn), out * std::sin(turn))), state);
+    on_the_rim += tick.status == TickStatus::edge || tick.status == TickStatus::vertex;
+    asked += state.clearance.centre != centre;
+    centre = state.clearance.centre;
+  }
+  CHECK(on_the_rim == 4000);
+  CHECK(asked < 4000 / 5);
+  MESSAGE("asked in " << asked << " of 4000 ticks");
+}
+
+TEST_CASE("a finger that leaps looks no further ahead than one at rest: what is there would be behind it in the next tick") {
+  const ScenePtr scene = scene_of(make_icosphere(0.040, 3));
+  const Preset preset = sphere_preset(0.020, Method::robust);
+  for (const bool leaps : {false, true}) {
+    CAPTURE(leaps);
+    Stepper stepper(scene);
+    TickState state;
+    // 1 mm or 5 mm of the way of a centre 19 mm above the ball; a tenth of that is the most that is looked ahead.
+    const double step_rad = (leaps ? 5e-3 : 1e-3) / 0.059;
+    for (int i = 0; i < 20; ++i) {
+      const double at = step_rad * i;
+      const TickOutput out = stepper.step(preset, at_position(1e-3 * i, 0.059 * Vec3(std::sin(at), 0.0, std::cos(at))), state);
+      if (i == 0) continue;
+      CHECK(out.event == TickEvent::none);
+      if (i == 1) CHECK((state.clearance.margin_m > 1.8e-3) != leaps);
+      if (leaps) CHECK(state.clearance.margin_m < 2.1 * kSmallestWatch * 0.019);
+    }
+  }
+}
+
+TEST_CASE("margins count from one place: going and coming back costs nothing, turning does where the finger is not round") {
+  Clearance fresh;
+  fresh.margin_m = 1e-3;
+  fresh.height_m = 0.02;
+  fresh.watched[0] = {7, 5e-4f};
+  const Quat straight(1.0, 0.0, 0.0, 0.0), turned = glm::angleAxis(1e-3, Vec3(0.0, 0.0, 1.0));
+  Finger sphere, ellipsoid;
+  ellipsoid.shape = FingerShape::ellipsoid;
+
+  CHECK(gone_m(fresh, sphere, {Vec3(3e-4, 0.0, 0.0), turned}) == doctest::Approx(3e-4).epsilon(1e-12));
+  CHECK(gone_m(fresh, sphere, {Vec3(0.0), straight}) == 0.0);
+  CHECK(gone_m(fresh, ellipsoid, {Vec3(0.0), turned}) > 1e-3 * 0.020);
+  CHECK(gone_m(fresh, ellipsoid, {Vec3(0.0), straight}) == 0.0);
+  CHECK(gone_m(fresh, ellipsoid, {Vec3(0.0), glm::angleAxis(1.0, Vec3(0.0, 1.0, 0.0))}) > 1e-3);
+
+  // Seen from 0.3 mm off, each margin is shorter by that; the ball reaches to the first one.
+  Clearance c = fresh;
+  recentre(c, {Vec3(3e-4, 0.0, 0.0), turned}, 3e-4);
+  CHECK(c.centre == Vec3(3e-4, 0.0, 0.0));
+  CHECK(c.margin_m == doctest::Approx(7e-4).epsilon(1e-12));
+  CHECK(c.height_m == doctest::Approx(0.0197).epsilon(1e-12));
+  CHECK(c.watched[0].margin_m == doctest::Approx(2e-4).epsilon(1e-5));
+  CHECK(c.free_m == doctest::Approx(2e-4).epsilon(1e-5));
+  CHECK(c.free_m < 2e-4);
+  CHECK(!rival_possible(c, 0.0, 0.0196));
+  CHECK(rival_possible(c, 0.0, 0.0198));
+  CHECK(!rival_possible(c, 1e-4, 0.0195));
+  CHECK(rival_possible(c, 1e-4, 0.01965));  // ranks behind 0.0197 may have come nearer by the way gone
+  CHECK(rival_possible(c, 2.1e-4, 0.0));    // the watched triangle is due
+}
+
+TEST_CASE("nothing is known before the first search") { CHECK(rival_possible(Clearance{}, 0.0, -1.0)); }
+
+TEST_CASE("unlimited clearance stays so") {
+  Clearance c = Clearance::unlimited();
+  CHECK(!rival_possible(c, gone_m(c, Finger{}, {Vec3(1.0, 2.0, 3.0), Quat(1.0, 0.0, 0.0, 0.0)}), 1e9));
+}

@@ -1,0 +1,90 @@
+#include "core/io/pose_file.h"
+
+#include "tests/support/temp_folder.h"
+
+#include <doctest/doctest.h>
+
+#include <string>
+
+using namespace tangent;
+using tangent::testing::TempFolder;
+using tangent::testing::contains;
+
+namespace {
+
+constexpr std::string_view kHeader = "t_s,x_m,y_m,z_m\n";
+
+std::string refusal(const std::string& text) {
+  const Result<std::vector<TickInput>> poses = parse_poses(text, "p.csv");
+  REQUIRE_FALSE(poses);
+  return poses.error().message();
+}
+std::string body_refusal(const std::string& lines) { return refusal(std::string(kHeader) + lines); }
+
+}  // namespace
+
+TEST_CASE("positions read as the nearest doubles and without a quaternion the finger is upright") {
+  const auto poses = parse_poses("t_s,x_m,y_m,z_m\n0,0.1,-2e-3,3\n0.001,1,2,3\n", "p.csv");
+  REQUIRE(poses);
+  REQUIRE(poses->size() == 2);
+  CHECK((*poses)[0].t_s == 0.0);
+  CHECK((*poses)[0].finger.position == Vec3(0.1, -2e-3, 3.0));
+  CHECK((*poses)[0].finger.orientation == Quat(1.0, 0.0, 0.0, 0.0));
+  CHECK((*poses)[1].t_s == 0.001);
+}
+
+TEST_CASE("line ends of either kind, a missing last one, a byte order mark and blank lines at the end") {
+  for (const char* text : {"t_s,x_m,y_m,z_m\r\n0,1,2,3\r\n1,1,2,3\r\n", "t_s,x_m,y_m,z_m\n0,1,2,3\n1,1,2,3",
+                           "\xEF\xBB\xBFt_s,x_m,y_m,z_m\n0,1,2,3\n1,1,2,3\n\n\r\n"}) {
+    const auto poses = parse_poses(text, "p.csv");
+    REQUIRE(poses);
+    CHECK(poses->size() == 2);
+  }
+}
+
+TEST_CASE("quaternions near unit length are normalised, others refused") {
+  const std::string header = "t_s,x_m,y_m,z_m,qw,qx,qy,qz\n";
+  const auto poses = parse_poses(header + "0,0,0,0,0.7071,0.7071,0,0\n", "p.csv");
+  REQUIRE(poses);
+  const Quat q = (*poses)[0].finger.orientation;
+  CHECK(glm::dot(q, q) == doctest::Approx(1.0).epsilon(1e-15));
+  CHECK(q.w == q.x);
+  CHECK(contains(refusal(header + "0,0,0,0,0,0,0,0\n"), "p.csv:2: the quaternion's length is 0; allowed: 0.999 to 1.001"));
+  CHECK(contains(refusal(header + "0,0,0,0,1,0,0,0\n1,0,0,0,1,1,0,0\n"), "p.csv:3: the quaternion's length is 1.41"));
+  CHECK(contains(refusal(header + "0,0,0,0,1e200,0,0,0\n"), "the quaternion's length is 1e+200"));
+}
+
+TEST_CASE("another header is refused") {
+  CHECK(contains(refusal("x,y,z\n1,2,3\n"), "p.csv:1: the header is \"x,y,z\"; write t_s,x_m,y_m,z_m or"));
+  CHECK(contains(refusal("0,1,2,3\n"), "p.csv:1: the header"));
+  CHECK(contains(refusal("t_s,x_m,y_m,z_m,qw\n"), "p.csv:1: the header"));
+  CHECK(contains(refusal(std::string("\x7f" "ELF\x00\x01\xff", 7) + std::string(1000, 'x')), "p.csv:1: the header is \"?ELF"));
+}
+
+TEST_CASE("numbers that are not finite are refused with line and column") {
+  CHECK(body_refusal("0,0,0,0\n1,0,nan,0\n") == "p.csv:3: y_m is \"nan\"; write a finite decimal number");
+  CHECK(contains(body_refusal("0,inf,0,0\n"), "p.csv:2: x_m is \"inf\""));
+  CHECK(contains(body_refusal("0,1e400,0,0\n"), "p.csv:2: x_m is \"1e400\""));
+  CHECK(contains(body_refusal("0,,0,0\n"), "p.csv:2: x_m is \"\""));
+  CHECK(contains(body_refusal("0,1 m,0,0\n"), "p.csv:2: x_m is \"1 m\""));
+  CHECK(contains(body_refusal("0,2e9,0,0\n"), "p.csv:2: x_m is out of range"));
+}
+
+TEST_CASE("wrong numbers of columns are refused with the line") {
+  CHECK(contains(body_refusal("0,0,0,0\n0.1,0,0\n"), "p.csv:3: only 3 columns; write 4 numbers"));
+  CHECK(contains(body_refusal("0,0,0,0,1,0,0,0\n"), "p.csv:2: more columns than the header names"));
+  CHECK(contains(body_refusal("0,0,0,0,\n"), "p.csv:2: more columns"));
+  CHECK(contains(body_refusal("0,0,0,0\n\n1,0,0,0\n"), "p.csv:3: t_s is \"\""));
+}
+
+TEST_CASE("time must increase") {
+  CHECK(contains(body_refusal("0,0,0,0\n1,0,0,0\n1,0,0,0\n"), "p.csv:4: t_s does not increase"));
+  CHECK(contains(body_refusal("1,0,0,0\n0.5,0,0,0\n"), "p.csv:3: t_s does not increase"));
+}
+
+TEST_CASE("a file without poses is refused by name") {
+  CHECK(contains(refusal(std::string(kHeader)), "p.csv: no poses"));
+  const TempFolder folder;
+  CHECK(contains(read_poses(folder.write("empty.csv", "")).error().message(), "empty.csv: the file is empty"));
+  CHECK(contains(read_poses(folder.file("none.csv")).error().message(), "none.csv: can't be opened"));
+}

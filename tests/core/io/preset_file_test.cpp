@@ -1,0 +1,150 @@
+#include "core/io/preset_file.h"
+
+#include "core/preset/schema.h"
+#include "tests/support/temp_folder.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <random>
+
+using namespace tangent;
+using tangent::testing::TempFolder;
+using tangent::testing::contains;
+
+namespace {
+
+/// Message for a text that must be refused.
+std::string refusal(std::string_view text) {
+  const Result<PresetFile> file = parse_preset(text, "p.toml");
+  REQUIRE_FALSE(file);
+  return file.error().message();
+}
+
+/// A preset with every value somewhere in its range, with as many digits as doubles have.
+Preset random_preset(std::mt19937_64& random) {
+  Preset preset;
+  for (const PresetKey& key : preset_keys()) {
+    std::uniform_real_distribution<double> between(0.0, 1.0);
+    double value = key.min + between(random) * (key.max - key.min);
+    if (key.kind != KeyKind::number) value = std::round(value);
+    key.set(preset, std::clamp(value, key.min, key.max));
+  }
+  return preset;
+}
+
+}  // namespace
+
+TEST_CASE("an empty preset is the default") {
+  const Result<PresetFile> file = parse_preset("", "p.toml");
+  REQUIRE(file);
+  CHECK(*file == PresetFile{});
+}
+
+TEST_CASE("what is written reads back as the same doubles") {
+  std::mt19937_64 random(7);
+  for (int i = 0; i < 200; ++i) {
+    const PresetFile file{{}, random_preset(random)};
+    const Result<PresetFile> back = parse_preset(format_preset(file), "p.toml");
+    REQUIRE(back);
+    CHECK(*back == file);
+  }
+}
+
+TEST_CASE("where a preset comes from reads back, whatever the text") {
+  PresetFile file;
+  file.about = {.name = "quotes \" and \\ and 'these'", .date = "2026-03-31", .program_version = "0.1.0",
+                .mesh_name = "W\xC3\xBCrfel.obj", .mesh_hash = "00ff00ff00ff00ff", .device = "simulated",
+                .note = "two\nlines\tand a tab",
+                .measured = {{"p99_iterations", 2.0}, {"mean_iterations", 1.0 / 3.0}, {"a key with blanks", 1e-300},
+                             {"command", std::string("workbench solve x.obj")}}};
+  const Result<PresetFile> back = parse_preset(format_preset(file), "p.toml");
+  REQUIRE(back);
+  CHECK(*back == file);
+}
+
+TEST_CASE("missing keys keep their defaults and whole numbers are numbers") {
+  const Result<PresetFile> file = parse_preset("[solver]\ngain_overall = 1\nmethod = \"paper\"\n", "p.toml");
+  REQUIRE(file);
+  Preset expected;
+  expected.solver.gain_overall = 1.0;
+  expected.solver.method = Method::paper;
+  CHECK(file->preset == expected);
+}
+
+TEST_CASE("unknown keys and tables are named with their line and what is allowed") {
+  const std::string key = refusal("[solver]\ngain_overall = 1.0\ngain_curvatura_m = 0.02\n");
+  CHECK(contains(key, "p.toml:3 solver.gain_curvatura_m: unknown key; allowed: "));
+  CHECK(contains(key, "gain_curvature_m"));
+  CHECK(contains(refusal("[force]\n[haptics]\nx = 1\n"), "p.toml:2 haptics: unknown table"));
+  CHECK(contains(refusal("stiffness = 3\n"), "p.toml:1 stiffness: unknown table or key"));
+  CHECK(contains(refusal("[about]\nauthor = \"me\"\n"), "p.toml:2 about.author: unknown key"));
+  CHECK(contains(refusal("solver = 3\n"), "p.toml:1 solver: is a whole number; write the table [solver]"));
+  CHECK(contains(refusal("[solver]\nmethod.name = \"paper\"\n"), "solver.method: is a table"));
+}
+
+TEST_CASE("wrong types are named with the allowed range") {
+  CHECK(refusal("[force]\nstiffness_n_per_m = \"stiff\"\n") ==
+        "p.toml:2 force.stiffness_n_per_m: is text; allowed: 0 to 100000 N/m");
+  CHECK(refusal("\n[solver]\nmax_iterations = 50.0\n") ==
+        "p.toml:3 solver.max_iterations: is a number with a fraction; allowed: a whole number from 1 to 10000");
+  CHECK(contains(refusal("[solver]\nmethod = 2\n"), "solver.method: is a whole number; allowed: paper, newton"));
+  CHECK(contains(refusal("[solver]\ntolerance_m = [1e-6]\n"), "is an array"));
+  CHECK(contains(refusal("[solver]\ntolerance_m = true\n"), "is true or false"));
+  CHECK(contains(refusal("[solver]\ntolerance_m = 2026-01-01\n"), "is a date or time"));
+  CHECK(contains(refusal("[about]\nname = 3\n"), "p.toml:2 about.name: is a whole number; allowed: text"));
+  CHECK(contains(refusal("[about.measured]\nx = [1]\n"), "about.measured.x: is an array"));
+}
+
+TEST_CASE("out-of-range values are named with the allowed range") {
+  CHECK(refusal("[solver]\ngain_overall = -0.5\n") == "p.toml:2 solver.gain_overall: -0.5 is out of range; allowed: 0 to 10");
+  CHECK(contains(refusal("[solver]\ntolerance_m = -1e-6\n"), "allowed: 1e-12 to 0.001 m"));
+  CHECK(contains(refusal("[solver]\ntolerance_m = nan\n"), "solver.tolerance_m: nan is out of range"));
+  CHECK(contains(refusal("[force]\nlimit_n = inf\n"), "force.limit_n: inf is out of range"));
+  CHECK(contains(refusal("[solver]\nmax_iterations = 0\n"), "0 is out of range"));
+  CHECK(contains(refusal("[solver]\nmax_iterations = 9223372036854775807\n"), "is out of range"));
+  CHECK(contains(refusal("[solver]\nmethod = \"magic\"\n"), "\"magic\" is out of range; allowed: paper,"));
+}
+
+TEST_CASE("broken TOML is named with its line") {
+  CHECK(contains(refusal("[solver]\ngain_overall = \n"), "p.toml:2"));
+  CHECK(contains(refusal("[solver]\ngain_overall = 1\ngain_overall = 2\n"), "p.toml:3"));
+  CHECK(contains(refusal(std::string_view("\x7f\x45LF\x01\x00\xff\xfe", 8)), "p.toml:1"));
+  CHECK(contains(refusal("a = " + std::string(100000, '[')), "p.toml:1"));
+}
+
+TEST_CASE("a preset is saved whole or not at all") {
+  const TempFolder folder;
+  PresetFile file;
+  file.about.name = "soft";
+  REQUIRE(write_preset(file, folder.file("p.toml")));
+  const Result<PresetFile> back = read_preset(folder.file("p.toml"));
+  REQUIRE(back);
+  CHECK(*back == file);
+  file.preset.force.limit_n = -1.0;
+  CHECK_FALSE(write_preset(file, folder.file("p.toml")));
+  CHECK(*read_preset(folder.file("p.toml")) == *back);
+  CHECK_FALSE(write_preset(PresetFile{}, folder.file("no/folder/p.toml")));
+  CHECK(folder.entry_count() == 1);
+}
+
+TEST_CASE("missing, empty and huge preset files are refused by name") {
+  const TempFolder folder;
+  CHECK(contains(read_preset(folder.file("none.toml")).error().message(), "none.toml: can't be opened: No such file"));
+  CHECK(contains(read_preset(folder.write("empty.toml", "")).error().message(), "empty.toml: the file is empty"));
+  CHECK(contains(read_preset("/dev/zero").error().message(), "larger than 1 MiB"));
+  CHECK_FALSE(read_preset(folder.path()));
+}
+
+TEST_CASE("every preset that ships can be read") {
+  std::size_t count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(TANGENT_SOURCE_DIR "/presets")) {
+    CAPTURE(entry.path().string());
+    const Result<PresetFile> file = read_preset(entry.path());
+    if (!file) FAIL_CHECK(file.error().message());
+    ++count;
+  }
+  CHECK(count > 0);
+}

@@ -1,0 +1,248 @@
+// Ticks on 2D scenes: contacts known by hand, tracking against brute force, corners, ends, other places.
+#include "core/lab/objects/arc.h"
+#include "core/tick/planar_step.h"
+#include "tests/core/scenes.h"
+
+#include <limits>
+#include <numbers>
+
+using namespace tangent;
+using namespace tangent::test;
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+PlanarCurve curve_of(std::vector<Vec2> vertices, bool closed = false) {
+  auto curve = PlanarCurve::build({"test", std::move(vertices), closed});
+  REQUIRE_MESSAGE(curve.has_value(), (curve ? "" : curve.error().message()));
+  return std::move(*curve);
+}
+
+TickOutput once(const PlanarCurve& curve, const Preset& preset, const Vec2& at, IterationTrace* trace = nullptr) {
+  TickState state;
+  return step_planar(curve, preset, at_position(0.0, {at.x, at.y, 0.0}), state, trace);
+}
+
+/// Smallest |height| over a dense sampling of all patches: lines whose contact is at their own place, and corners.
+double nearest_height(const PlanarCurve& curve, const Vec2& world) {
+  const Vec2 c = world - curve.origin();
+  double least = std::numeric_limits<double>::infinity();
+  constexpr int kSamples = 2000;
+  for (std::uint32_t i = 0; i < curve.patch_count(); ++i) {
+    const auto along = [&](double t) {
+      const LineSample s = curve.sample(i, LocalCentre::bisectors, t);
+      return glm::dot(c - s.place, s.direction);
+    };
+    double before = along(0.0);
+    if (curve.patch(i).joint_after != CurveJoint::smooth || curve.patch(i).joint_before != CurveJoint::smooth)
+      least = std::min(least, glm::length(c - curve.vertex(i)) + 1e-12);
+    for (int k = 1; k <= kSamples; ++k) {
+      const double t = static_cast<double>(k) / kSamples, now = along(t);
+      if (before >= 0.0 && now <= 0.0) {
+        const LineSample s = curve.sample(i, LocalCentre::bisectors, t - 0.5 / kSamples);
+        least = std::min(least, std::abs(glm::dot(c - s.place, s.normal)));
+      }
+      before = now;
+    }
+  }
+  return least;
+}
+
+PlanarCurve blob() {
+  Random random(7);
+  std::vector<Vec2> v;
+  for (int i = 0; i < 24; ++i) {
+    const double angle = 2.0 * kPi * i / 24, r = 0.05 * random.in(0.75, 1.25);
+    v.emplace_back(r * std::cos(angle), r * std::sin(angle));
+  }
+  return curve_of(v, true);
+}
+
+}  // namespace
+
+TEST_CASE("on a straight polygon the 2D contact is the finger's foot, in one line, whatever the method") {
+  const PlanarCurve line = curve_of({{-0.05, 0.01}, {0.0, 0.01}, {0.05, 0.01}, {0.06, 0.02}});
+  for (const Method method : {Method::paper, Method::newton, Method::robust, Method::facet, Method::force_shading, Method::two_pass}) {
+    CAPTURE(name_of(method));
+    const TickOutput out = once(line, sphere_preset(0.020, method), {-0.012, 0.029});
+    CHECK(out.status == TickStatus::face);
+    CHECK(glm::length(out.contact - Vec3(-0.012, 0.01, 0.0)) < 1e-12);
+    CHECK(out.penetration_m == doctest::Approx(0.001).epsilon(1e-9));
+    CHECK(glm::length(out.force_n - Vec3(0.0, 0.8, 0.0)) < 1e-8);
+    CHECK(out.cld_m == doctest::Approx(0.0).scale(1.0));
+  }
+}
+
+TEST_CASE("an inscribed polygon of a circle gives the circle's normal and contact within a part in a thousand") {
+  const PlanarCurve circle = curve_of(make_regular_polygon(24, 0.05, ArcPlacement::tangent).vertices, true);
+  const Preset preset = sphere_preset(0.020, Method::robust);
+  for (int i = 0; i < 100; ++i) {
+    const double a = 0.063 * i;
+    const Vec3 out_of(std::cos(a), std::sin(a), 0.0);
+    const TickOutput out = once(circle, preset, 0.069 * Vec2(out_of.x, out_of.y));
+    CHECK(angle_deg(out.normal, out_of) < 0.02);
+    CHECK(glm::length(out.contact - 0.05 * out_of) < 5e-5);
+    CHECK(out.penetration_m == doctest::Approx(0.001).epsilon(2e-2));
+  }
+}
+
+TEST_CASE("tracking a circle finger and a point around a ragged outline never loses the nearest place") {
+  const PlanarCurve curve = blob();
+  for (const double radius : {0.0, 0.005, 0.020}) {
+    Preset preset = sphere_preset(radius, Method::robust);
+    preset.solver.switch_hysteresis_m = 0.0;
+    TickState state;
+    int unconverged = 0, worse = 0, switches = 0;
+    constexpr int kTicks = 6000;
+    for (int i = 0; i < kTicks; ++i) {
+      const double a = 2.0 * kPi * i / kTicks;
+      const Vec2 at = (0.066 + 0.002 * std::sin(9.0 * a) + 0.3 * radius) * Vec2(std::cos(a), std::sin(a));
+      const TickOutput out = step_planar(curve, preset, at_position(1e-3 * i, {at.x, at.y, 0.0}), state, nullptr);
+      unconverged += out.status == TickStatus::unconverged;
+      switches += out.event == TickEvent::switched;
+      if (i % 20 != 0) continue;
+      const double height = (radius > 0.0 ? radius : 0.0) - out.penetration_m;
+      worse += std::abs(height) > nearest_height(curve, at) + 1e-5;
+    }
+    CAPTURE(radius);
+    CHECK(unconverged == 0);
+    CHECK(worse == 0);
+    CHECK(switches > 0);
+  }
+}
+
+TEST_CASE("on the paper's arc the appendix's iteration tracks in about three lines a tick") {
+  const PlanarCurve arc = curve_of(make_paper_arc(5).vertices);
+  const Preset preset = sphere_preset(0.020, Method::paper);
+  TickState state;
+  int iterations = 0, unconverged = 0;
+  constexpr int kTicks = 1000;  // 0.1 m/s
+  for (int i = 0; i < kTicks; ++i) {
+    const double a = kPaperArcRad * (static_cast<double>(i) / kTicks - 0.5);
+    const double distance = kPaperArcRadius + 0.019;
+    const TickOutput out = step_planar(arc, preset, at_position(1e-3 * i, {distance * std::sin(a), distance * std::cos(a), 0.0}), state, nullptr);
+    iterations += out.iterations;
+    unconverged += out.status == TickStatus::unconverged;
+    CHECK(out.error_m < 1e-6);
+    CHECK(angle_deg(out.normal, {std::sin(a), std::cos(a), 0.0}) < 0.2);
+  }
+  CHECK(unconverged == 0);
+  CHECK(static_cast<double>(iterations) / kTicks > 1.0);
+  CHECK(static_cast<double>(iterations) / kTicks < 3.5);
+}
+
+TEST_CASE("at a sharp corner the contact rests on the vertex and the normal turns with the finger") {
+  const PlanarCurve roof = curve_of({{-0.1, 0.0}, {0.0, 0.1}, {0.0, 0.1}, {0.1, 0.0}});
+  Preset preset = sphere_preset(0.020, Method::robust);
+  preset.display.finger_arc_m = preset.display.travel_m = 0.060;
+  TickState state;
+  for (int i = -10; i <= 10; ++i) {
+    const double a = 0.08 * i;  // up to 46 degrees: past the fan's ends at 45
+    const Vec3 at(0.019 * std::sin(a), 0.1 + 0.019 * std::cos(a), 0.0);
+    const TickOutput out = step_planar(roof, preset, at_position(0.01 * i, at), state, nullptr);
+    CHECK(out.status == (std::abs(a) < kPi / 4 ? TickStatus::vertex : TickStatus::face));
+    const double turned = std::clamp(a, -kPi / 4, kPi / 4);
+    CHECK(angle_deg(out.normal, {std::sin(turned), std::cos(turned), 0.0}) < 1e-9);
+    CHECK(out.cld_m == doctest::Approx(-0.020 * turned).epsilon(1e-9).scale(1e-3));
+  }
+}
+
+TEST_CASE("in a sharp notch the finger rests on the side it is deeper in and changes sides with a switch") {
+  const PlanarCurve notch = curve_of({{-0.1, 0.1}, {0.0, 0.0}, {0.0, 0.0}, {0.1, 0.1}});
+  const Preset preset = sphere_preset(0.020, Method::robust);
+  TickState state;
+  int switches = 0;
+  for (int i = -100; i <= 100; ++i) {
+    const double x = 1e-5 * i;
+    const TickOutput out = step_planar(notch, preset, at_position(1e-3 * i, {x, 0.0275, 0.0}), state, nullptr);
+    REQUIRE(out.status == TickStatus::face);
+    switches += out.event == TickEvent::switched;
+    if (std::abs(x) > 1e-4) CHECK(out.normal.x * x < 0.0);
+  }
+  CHECK(switches == 1);
+}
+
+TEST_CASE("beyond an open end the contact rests on the end vertex") {
+  const PlanarCurve line = curve_of({{0.0, 0.0}, {0.05, 0.0}, {0.1, 0.01}});
+  for (const Method method : {Method::paper, Method::robust}) {
+    const TickOutput out = once(line, sphere_preset(0.020, method), {-0.012, 0.014});
+    CHECK(out.status == TickStatus::vertex);
+    CHECK(glm::length(out.contact) < 1e-12);
+    CHECK(out.penetration_m == doctest::Approx(0.020 - std::hypot(0.012, 0.014)));
+  }
+}
+
+TEST_CASE("a nonadjacent place that is nearer takes over with a switch, and not before the hysteresis") {
+  // A wide U: two walls 30 mm apart, a finger of 14.9 mm between them.
+  const PlanarCurve u = curve_of({{-0.015, 0.1}, {-0.015, 0.02}, {0.0, 0.0}, {0.015, 0.02}, {0.015, 0.1}});
+  Preset preset = sphere_preset(0.0155, Method::robust);
+  preset.solver.switch_hysteresis_m = 200e-6;
+  TickState state;
+  double switched_at = 0.0;
+  for (int i = -100; i <= 100; ++i) {
+    const double x = 1e-5 * i;
+    const TickOutput out = step_planar(u, preset, at_position(1e-3 * i, {x, 0.08, 0.0}), state, nullptr);
+    if (out.event == TickEvent::switched) switched_at = x;
+    CHECK(out.normal.x * (switched_at == 0.0 ? 1.0 : -1.0) > 0.0);
+  }
+  CHECK(switched_at == doctest::Approx(1e-4).epsilon(0.15));
+}
+
+TEST_CASE("iterations of a 2D tick are recorded, from the kept line to the converged one") {
+  const PlanarCurve arc = curve_of(make_paper_arc(3).vertices);
+  auto trace = std::make_unique<IterationTrace>();
+  const TickOutput out = once(arc, sphere_preset(0.020, Method::paper), {0.02, 0.1285}, trace.get());
+  REQUIRE(trace->size == static_cast<std::size_t>(out.iterations));
+  CHECK(trace->size > 2);
+  for (std::size_t i = 0; i < trace->size; ++i) {
+    const IterationRecord& r = trace->records[i];
+    CHECK(r.error_m == doctest::Approx(glm::length(r.travel)));
+    CHECK(std::abs(glm::dot(r.travel, r.normal)) < 1e-15);
+    if (i > 0) CHECK(r.error_m < trace->records[i - 1].error_m);
+    CHECK((r.stop == StopReason::converged) == (i + 1 == trace->size));
+  }
+  CHECK(glm::length(trace->records[trace->size - 1].point - out.contact) == 0.0);
+}
+
+TEST_CASE("a 2D scene steps like any other: z ignored, turned and moved with the polygon, the same bits when traced") {
+  auto scene = ContactScene::build(curve_of(make_paper_arc(5).vertices));
+  REQUIRE(scene.has_value());
+  CHECK((*scene)->planar() != nullptr);
+  Stepper stepper(*scene);
+  const Preset preset = sphere_preset(0.020, Method::robust);
+  TickState a, b;
+  auto trace = std::make_unique<IterationTrace>();
+  for (int i = 0; i < 50; ++i) {
+    trace->clear();
+    const TickOutput flat = stepper.step(preset, at_position(1e-3 * i, {1e-3 * i, 0.125, 0.0}), a);
+    const TickOutput deep = stepper.step(preset, at_position(1e-3 * i, {1e-3 * i, 0.125, 7.0}), b, trace.get());
+    BitHash x, y;
+    x.add(flat), y.add(deep);
+    CHECK(x.value() == y.value());
+  }
+
+  std::vector<Vec2> moved;
+  const double turn = 0.7;
+  const auto map = [&](const Vec2& v) { return Vec2(std::cos(turn) * v.x - std::sin(turn) * v.y + 3.0, std::sin(turn) * v.x + std::cos(turn) * v.y - 2.0); };
+  for (const Vec2& v : make_paper_arc(5).vertices) moved.push_back(map(v));
+  const PlanarCurve turned = curve_of(moved), straight = curve_of(make_paper_arc(5).vertices);
+  const Vec2 at(0.03, 0.122);
+  TickState s, t;
+  const TickOutput here = step_planar(straight, preset, at_position(0.0, {at.x, at.y, 0.0}), s, nullptr);
+  const TickInput there{0.0, {{map(at).x, map(at).y, 0.0}, Quat(std::cos(0.5 * turn), 0.0, 0.0, std::sin(0.5 * turn))}};
+  const TickOutput out = step_planar(turned, preset, there, t, nullptr);
+  CHECK(glm::length(Vec2(out.contact.x, out.contact.y) - map({here.contact.x, here.contact.y})) < 1e-9);
+  CHECK(out.cld_m == doctest::Approx(here.cld_m).epsilon(1e-6));
+  CHECK(out.penetration_m == doctest::Approx(here.penetration_m).epsilon(1e-6));
+}
+
+TEST_CASE("a pose that is not finite leaves a 2D tick unconverged and its output finite") {
+  const PlanarCurve arc = curve_of(make_paper_arc(5).vertices);
+  const Preset preset = sphere_preset(0.020, Method::robust);
+  TickState state;
+  step_planar(arc, preset, at_position(0.0, {0.0, 0.125, 0.0}), state, nullptr);
+  const TickOutput out = step_planar(arc, preset, at_position(1e-3, {std::numeric_limits<double>::quiet_NaN(), 0.125, 0.0}), state, nullptr);
+  CHECK(out.status == TickStatus::unconverged);
+  CHECK(all_finite(out));
+}
