@@ -16,7 +16,8 @@ const std::vector<std::string>& device_set_names() {
 Result<DeviceSet> make_devices(std::string_view name, const DeviceOptions& options) {
   const auto& names = device_set_names();
   if (std::find(names.begin(), names.end(), name) == names.end()) {
-    return fail("unknown device \"" + std::string(name) + "\"", "--device", "choose simulated, ideal, cld, maestro or none");
+    return fail("unknown device \"" + std::string(name) + "\"", "--device",
+                "choose simulated, ideal, cld, maestro or none");
   }
   DeviceSet set;
   if (name == "none") return set;
@@ -43,7 +44,8 @@ Result<DeviceSet> make_devices(std::string_view name, const DeviceOptions& optio
 }
 
 bool all_simulated(const DeviceSet& devices) {
-  return (!devices.force || devices.force->capabilities().simulated) && (!devices.display || devices.display->capabilities().simulated);
+  return (!devices.force || devices.force->capabilities().simulated) &&
+         (!devices.display || devices.display->capabilities().simulated);
 }
 
 }  // namespace tangent

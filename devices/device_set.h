@@ -19,9 +19,9 @@ struct DeviceSet {
 };
 
 struct DeviceOptions {
-  std::uint64_t seed = 1;      ///< of the simulated devices
+  std::uint64_t seed = 1;  ///< of the simulated devices
   MaestroOptions maestro{};
-  UsbTap* tap = nullptr;       ///< sees every USB packet; must outlive the devices
+  UsbTap* tap = nullptr;  ///< sees every USB packet; must outlive the devices
 };
 
 /// "simulated": force device and contact display with the figures of the real ones.

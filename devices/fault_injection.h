@@ -19,7 +19,7 @@ enum class InjectedFault : std::uint8_t {
 
 struct FaultInjection {
   InjectedFault kind = InjectedFault::none;
-  std::uint32_t ticks = 100;   ///< how long
+  std::uint32_t ticks = 100;  ///< how long
 };
 
 /// "drop-out", "stuck-encoder", "delay-burst", "noise"; without "none".
@@ -34,8 +34,10 @@ class InjectedFaultTimer {
   void begin(const FaultInjection& fault) noexcept { fault_ = fault; }
   /// Once per exchange: the fault to have in it.
   InjectedFault next() noexcept {
-    if (fault_.ticks == 0) fault_.kind = InjectedFault::none;
-    else --fault_.ticks;
+    if (fault_.ticks == 0)
+      fault_.kind = InjectedFault::none;
+    else
+      --fault_.ticks;
     return fault_.kind;
   }
 

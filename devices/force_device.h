@@ -19,22 +19,22 @@ class SimulatedHand;
 
 /// What a force device can do, as data. Zero: not known or not there.
 struct ForceCapabilities {
-  std::string name;                      ///< for people: "simulated PHANToM-like"
+  std::string name;  ///< for people: "simulated PHANToM-like"
   bool simulated = false;
   bool senses_orientation = false;
-  double peak_force_n = 0.0;             ///< never to be exceeded
-  double continuous_force_n = 0.0;       ///< can be held for ever
+  double peak_force_n = 0.0;        ///< never to be exceeded
+  double continuous_force_n = 0.0;  ///< can be held for ever
   double position_resolution_m = 0.0;
   double apparent_mass_kg = 0.0;
   double largest_stiffness_n_per_m = 0.0;
-  Vec3 workspace_half_size_m{0.0};       ///< box around the origin
-  double rate_hz = 0.0;                  ///< of exchanges it is made for
-  double firmware_timeout_s = 0.0;       ///< without a command its firmware stops the force; 0: it has no time-out
+  Vec3 workspace_half_size_m{0.0};  ///< box around the origin
+  double rate_hz = 0.0;             ///< of exchanges it is made for
+  double firmware_timeout_s = 0.0;  ///< without a command its firmware stops the force; 0: it has no time-out
 };
 
 struct ForceCommand {
   std::uint64_t tick = 0;
-  Vec3 force_n{0.0};                     ///< world; ignored unless ready
+  Vec3 force_n{0.0};  ///< world; ignored unless ready
   DeviceRequest request = DeviceRequest::none;
 };
 
@@ -61,10 +61,16 @@ class ForceDevice {
   virtual ForceSample exchange(const ForceCommand& command, double dt_s) noexcept = 0;
 
   /// Any thread. False: there is no cable to report on.
-  virtual bool report(LinkReport& out) const { static_cast<void>(out); return false; }
+  virtual bool report(LinkReport& out) const {
+    static_cast<void>(out);
+    return false;
+  }
 
   /// Pretends a fault, by name, from the next exchange on. False: a real device, which brings its own. Servo thread.
-  virtual bool inject(const FaultInjection& fault) noexcept { static_cast<void>(fault); return false; }
+  virtual bool inject(const FaultInjection& fault) noexcept {
+    static_cast<void>(fault);
+    return false;
+  }
 
   /// The simulated hand that holds the device; null for a real one, whose hand needs no leading.
   virtual SimulatedHand* hand() noexcept { return nullptr; }

@@ -22,7 +22,8 @@ double ForceBudget::allowed(double peak, double continuous) const noexcept {
 
 void ForceBudget::spend(double force, double peak, double continuous, double dt_s) noexcept {
   if (continuous <= 0.0 || continuous >= peak) return;
-  store_n2s_ = std::clamp(store_n2s_ + (force * force - continuous * continuous) * dt_s, 0.0, full_store(peak, continuous));
+  store_n2s_ =
+      std::clamp(store_n2s_ + (force * force - continuous * continuous) * dt_s, 0.0, full_store(peak, continuous));
 }
 
 void ShakeWatch::add(const Vec3& force, const Vec3& moved, double dt_s) noexcept {
@@ -35,9 +36,7 @@ void ShakeWatch::add(const Vec3& force, const Vec3& moved, double dt_s) noexcept
   work_j_ = std::max(0.0, work_j_ + glm::dot(force - slow_force_, velocity - slow_velocity_) * dt_s);
 }
 
-double ShakeWatch::share() const noexcept {
-  return std::clamp((kStop_j - work_j_) / (kStop_j - kSoften_j), 0.0, 1.0);
-}
+double ShakeWatch::share() const noexcept { return std::clamp((kStop_j - work_j_) / (kStop_j - kSoften_j), 0.0, 1.0); }
 
 bool FrozenPositionWatch::add(const Vec3& position) noexcept {
   const std::size_t last = (next_ + kTicks - 1) % kTicks;

@@ -13,7 +13,7 @@ namespace tangent {
 /// it from ever switching.
 class ForceBudget {
  public:
-  static constexpr double kPeakHold_s = 2.0;   ///< assumed: makers rarely say; on the careful side
+  static constexpr double kPeakHold_s = 2.0;  ///< assumed: makers rarely say; on the careful side
 
   /// N; continuous 0: not known, no limit but the peak.
   double allowed(double peak, double continuous) const noexcept;
@@ -32,13 +32,13 @@ class ShakeWatch {
  public:
   static constexpr double kSlowest_hz = 5.0;
   static constexpr double kMemory_s = 0.25;
-  static constexpr double kSoften_j = 4e-3;   ///< from here on the force is reduced ...
-  static constexpr double kStop_j = 12e-3;    ///< ... to nothing here, and the gate stops
+  static constexpr double kSoften_j = 4e-3;  ///< from here on the force is reduced ...
+  static constexpr double kStop_j = 12e-3;   ///< ... to nothing here, and the gate stops
 
   /// `force` acted while the device moved by `moved`.
   void add(const Vec3& force, const Vec3& moved, double dt_s) noexcept;
   double work_j() const noexcept { return work_j_; }
-  double share() const noexcept;              ///< of the force that may pass, 0 to 1
+  double share() const noexcept;  ///< of the force that may pass, 0 to 1
   bool stop() const noexcept { return work_j_ >= kStop_j; }
   void forget() noexcept { *this = {}; }
 
@@ -53,8 +53,8 @@ class ShakeWatch {
 class FrozenPositionWatch {
  public:
   static constexpr std::size_t kTicks = 20;
-  static constexpr std::size_t kMovingTicks = 15;      ///< of the kTicks before
-  static constexpr double kMoved_m = 1e-3;             ///< end to end in them
+  static constexpr std::size_t kMovingTicks = 15;  ///< of the kTicks before
+  static constexpr double kMoved_m = 1e-3;         ///< end to end in them
 
   /// True once it is stuck.
   bool add(const Vec3& position) noexcept;

@@ -7,46 +7,74 @@ namespace tangent {
 
 const char* to_string(GateState state) {
   switch (state) {
-    case GateState::disarmed: return "disarmed";
-    case GateState::ramping: return "ramping";
-    case GateState::armed: return "armed";
-    case GateState::faulted: return "faulted";
+    case GateState::disarmed:
+      return "disarmed";
+    case GateState::ramping:
+      return "ramping";
+    case GateState::armed:
+      return "armed";
+    case GateState::faulted:
+      return "faulted";
   }
   return "?";
 }
 
 const char* to_string(GateFault fault) {
   switch (fault) {
-    case GateFault::none: return "none";
-    case GateFault::force_not_finite: return "force not finite";
-    case GateFault::display_not_finite: return "display target not finite";
-    case GateFault::force_device: return "force device not ready";
-    case GateFault::contact_display: return "contact display not ready";
-    case GateFault::position_not_finite: return "position not finite";
-    case GateFault::position_jumped: return "position jumped";
-    case GateFault::position_frozen: return "position frozen";
-    case GateFault::display_jumped: return "display jumped";
-    case GateFault::display_frozen: return "display frozen";
-    case GateFault::stale_sample: return "stale sample";
-    case GateFault::late_tick: return "late tick";
-    case GateFault::shaking: return "shaking";
+    case GateFault::none:
+      return "none";
+    case GateFault::force_not_finite:
+      return "force not finite";
+    case GateFault::display_not_finite:
+      return "display target not finite";
+    case GateFault::force_device:
+      return "force device not ready";
+    case GateFault::contact_display:
+      return "contact display not ready";
+    case GateFault::position_not_finite:
+      return "position not finite";
+    case GateFault::position_jumped:
+      return "position jumped";
+    case GateFault::position_frozen:
+      return "position frozen";
+    case GateFault::display_jumped:
+      return "display jumped";
+    case GateFault::display_frozen:
+      return "display frozen";
+    case GateFault::stale_sample:
+      return "stale sample";
+    case GateFault::late_tick:
+      return "late tick";
+    case GateFault::shaking:
+      return "shaking";
   }
   return "?";
 }
 
 const char* to_string(GateAction action) {
   switch (action) {
-    case GateAction::force_clamped: return "force clamped";
-    case GateAction::slew_limited: return "slew limited";
-    case GateAction::ramped_in: return "ramped in";
-    case GateAction::display_clamped: return "display clamped";
-    case GateAction::refused_not_finite: return "refused, not finite";
-    case GateAction::withheld: return "withheld";
-    case GateAction::workspace_faded: return "outside workspace";
-    case GateAction::heat_clamped: return "clamped by heat";
-    case GateAction::shake_reduced: return "shaking, reduced";
-    case GateAction::ramped_out: return "ramped out";
-    case GateAction::count_: break;
+    case GateAction::force_clamped:
+      return "force clamped";
+    case GateAction::slew_limited:
+      return "slew limited";
+    case GateAction::ramped_in:
+      return "ramped in";
+    case GateAction::display_clamped:
+      return "display clamped";
+    case GateAction::refused_not_finite:
+      return "refused, not finite";
+    case GateAction::withheld:
+      return "withheld";
+    case GateAction::workspace_faded:
+      return "outside workspace";
+    case GateAction::heat_clamped:
+      return "clamped by heat";
+    case GateAction::shake_reduced:
+      return "shaking, reduced";
+    case GateAction::ramped_out:
+      return "ramped out";
+    case GateAction::count_:
+      break;
   }
   return "?";
 }
@@ -82,7 +110,7 @@ void SafetyGate::arm() noexcept {
   fault_ = GateFault::none;
   since_armed_s_ = 0.0;
   force_was_ready_ = display_was_ready_ = falling_ = false;
-  forget_motion();   // not the motors' heat: re-arming does not cool them
+  forget_motion();  // not the motors' heat: re-arming does not cool them
 }
 
 void SafetyGate::stop() noexcept {
@@ -123,7 +151,9 @@ bool SafetyGate::check_finite(const GateInput& input, GateOutput& out) noexcept 
   const bool position = input.force_device != DeviceState::ready || is_finite(input.position_m);
   if (force && display && position) return true;
   note(GateAction::refused_not_finite, out);
-  latch(!force ? GateFault::force_not_finite : !display ? GateFault::display_not_finite : GateFault::position_not_finite);
+  latch(!force     ? GateFault::force_not_finite
+        : !display ? GateFault::display_not_finite
+                   : GateFault::position_not_finite);
   falling_ = false;
   return force;
 }
@@ -228,7 +258,8 @@ void SafetyGate::pass_display(const GateInput& input, GateOutput& out) noexcept 
   if (live()) {
     double end = 0.5 * limits_.display_travel_m;
     if (input.display_travel_m > 0.0) end = std::min(end, 0.5 * input.display_travel_m);
-    const double target = std::clamp(input.display_m, std::clamp(input.display_lowest_m, -end, end), std::clamp(input.display_highest_m, -end, end));
+    const double target = std::clamp(input.display_m, std::clamp(input.display_lowest_m, -end, end),
+                                     std::clamp(input.display_highest_m, -end, end));
     if (target != input.display_m && input.display != DeviceState::absent) note(GateAction::display_clamped, out);
     last_display_m_ = target;
   }

@@ -26,41 +26,41 @@ enum class GateState : std::uint8_t {
   disarmed,  ///< no force
   ramping,   ///< armed, force growing in
   armed,
-  faulted,   ///< no force until re-armed
+  faulted,  ///< no force until re-armed
 };
 
 enum class GateFault : std::uint8_t {
   none,
   force_not_finite,
   display_not_finite,
-  force_device,         ///< left ready while armed
-  contact_display,      ///< left ready while armed
+  force_device,     ///< left ready while armed
+  contact_display,  ///< left ready while armed
   position_not_finite,
-  position_jumped,      ///< moved faster than any hand
-  position_frozen,      ///< was moving, then read the same for 20 ticks
-  display_jumped,       ///< the roller moved faster than any drive
-  display_frozen,       ///< far from its target, and read the same for 50 ticks
-  stale_sample,         ///< no new measurement in time
+  position_jumped,  ///< moved faster than any hand
+  position_frozen,  ///< was moving, then read the same for 20 ticks
+  display_jumped,   ///< the roller moved faster than any drive
+  display_frozen,   ///< far from its target, and read the same for 50 ticks
+  stale_sample,     ///< no new measurement in time
   late_tick,
-  shaking,              ///< the loop did work on the hand
+  shaking,  ///< the loop did work on the hand
 };
 
 /// What the gate did to a tick's output.
 enum class GateAction : std::uint8_t {
-  force_clamped,      ///< above the device's peak force
-  slew_limited,       ///< changed faster than allowed
-  ramped_in,          ///< reduced, since armed a moment ago
-  display_clamped,    ///< beyond the display's travel
-  refused_not_finite, ///< zero sent instead
-  withheld,           ///< a force was asked for while disarmed, faulted or not yet ready
-  workspace_faded,    ///< reduced, outside the device's workspace
-  heat_clamped,       ///< above what the motors' heat allows
-  shake_reduced,      ///< reduced, the loop shakes
-  ramped_out,         ///< on the way to zero after a late tick or a stale sample
+  force_clamped,       ///< above the device's peak force
+  slew_limited,        ///< changed faster than allowed
+  ramped_in,           ///< reduced, since armed a moment ago
+  display_clamped,     ///< beyond the display's travel
+  refused_not_finite,  ///< zero sent instead
+  withheld,            ///< a force was asked for while disarmed, faulted or not yet ready
+  workspace_faded,     ///< reduced, outside the device's workspace
+  heat_clamped,        ///< above what the motors' heat allows
+  shake_reduced,       ///< reduced, the loop shakes
+  ramped_out,          ///< on the way to zero after a late tick or a stale sample
   count_
 };
 inline constexpr std::size_t kGateActionCount = static_cast<std::size_t>(GateAction::count_);
-using GateActions = std::uint16_t;   ///< bit per GateAction
+using GateActions = std::uint16_t;  ///< bit per GateAction
 static_assert(kGateActionCount <= 16);
 
 const char* to_string(GateState state);
@@ -68,31 +68,31 @@ const char* to_string(GateFault fault);
 const char* to_string(GateAction action);
 
 struct GateLimits {
-  double peak_force_n = 0.0;          ///< of the device; 0: no force at all
-  double slew_n_per_s = 2000.0;       ///< fastest change of the force; the fall to zero of a stop or fault is not held back
-  double ramp_s = 0.25;               ///< from arming to full force
-  double display_travel_m = 0.0;      ///< end to end
-  double continuous_force_n = 0.0;    ///< of the device; 0: not known, no limit
-  Vec3 workspace_half_size_m{0.0};    ///< box around the workspace's centre; 0: no limit along that axis
-  double workspace_margin_m = 5e-3;   ///< beyond the box, over which the force fades out
-  double fastest_m_per_s = 10.0;      ///< of the finger; a hand flicks at 2 to 3
-  double fastest_display_m_per_s = 1.0;   ///< of the roller; a drive does 0.2
-  double stale_s = 10e-3;             ///< oldest sample that may make a force
-  double late_s = 20e-3;              ///< longest tick
+  double peak_force_n = 0.0;      ///< of the device; 0: no force at all
+  double slew_n_per_s = 2000.0;   ///< fastest change of the force; the fall to zero of a stop or fault is not held back
+  double ramp_s = 0.25;           ///< from arming to full force
+  double display_travel_m = 0.0;  ///< end to end
+  double continuous_force_n = 0.0;       ///< of the device; 0: not known, no limit
+  Vec3 workspace_half_size_m{0.0};       ///< box around the workspace's centre; 0: no limit along that axis
+  double workspace_margin_m = 5e-3;      ///< beyond the box, over which the force fades out
+  double fastest_m_per_s = 10.0;         ///< of the finger; a hand flicks at 2 to 3
+  double fastest_display_m_per_s = 1.0;  ///< of the roller; a drive does 0.2
+  double stale_s = 10e-3;                ///< oldest sample that may make a force
+  double late_s = 20e-3;                 ///< longest tick
 };
 
 struct GateInput {
   Vec3 force_n{0.0};
   double display_m = 0.0;
   DeviceState force_device = DeviceState::absent;
-  DeviceState display = DeviceState::absent;   ///< absent: there is none, which is no fault
-  Vec3 position_m{0.0};               ///< of the finger, as measured, world
-  double position_age_s = 0.0;        ///< since it was measured
-  double display_measured_m = 0.0;    ///< of the roller
+  DeviceState display = DeviceState::absent;  ///< absent: there is none, which is no fault
+  Vec3 position_m{0.0};                       ///< of the finger, as measured, world
+  double position_age_s = 0.0;                ///< since it was measured
+  double display_measured_m = 0.0;            ///< of the roller
   double display_age_s = 0.0;
-  double display_travel_m = 0.0;      ///< of the display itself; less than the limit counts, 0: not known
-  double display_lowest_m = -1.0, display_highest_m = 1.0;   ///< of targets, asked for; the travel counts too
-  bool display_measures = false;      ///< display_measured_m comes from a sensor
+  double display_travel_m = 0.0;  ///< of the display itself; less than the limit counts, 0: not known
+  double display_lowest_m = -1.0, display_highest_m = 1.0;  ///< of targets, asked for; the travel counts too
+  bool display_measures = false;                            ///< display_measured_m comes from a sensor
 };
 
 struct GateOutput {

@@ -1,5 +1,5 @@
-// What can be laid on facets and surface: a map's values as colours, and triangles left out. The order of patches is that
-// of the usable triangles; parts of a patch as in core/lab/measure/surface_map.h.
+// What can be laid on facets and surface: a map's values as colours, and triangles left out. The order of patches
+// is that of the usable triangles; parts of a patch as in core/lab/measure/surface_map.h.
 uniform int map_level;              // parts along a patch's edge; 0: no map
 uniform samplerBuffer map_values;   // level^2 a patch
 uniform sampler2D map_colours;      // one row

@@ -6,8 +6,8 @@
 
 namespace tangent {
 
-/// atan t for |t| <= tan(pi/8): t times the polynomial in t^2 through Chebyshev's points of atan(t)/t there; off by less
-/// than 4e-16. In pairs rather than by Horner's rule, so that the processor has two things to do at a time.
+/// atan t for |t| <= tan(pi/8): t times the polynomial in t^2 through Chebyshev's points of atan(t)/t there; off by
+/// less than 4e-16. In pairs rather than by Horner's rule, so that the processor has two things to do at a time.
 inline double arc_tangent_of_small(double t) {
   const double z = t * t, z2 = z * z, z4 = z2 * z2;
   const double p01 = 0.9999999999999990408 + -0.33333333333221434047 * z;

@@ -51,15 +51,15 @@ inline constexpr double kWildNormalDeg = 60.0;
 /// that a search gives up on a sound contact; smaller: wild steps near a fold.
 inline constexpr double kNewtonMinDet = 0.01;
 
-/// Longest step of `robust`, in travels, 1, where it is no short one: below kShortStep of the triangle in both parameters.
-/// A convex point contact needs at most 1/(1 + h k); only ground near a fold asks for more. Larger: leaps to other
-/// places; smaller: slow approach in concave ground, by a part of the way each plane.
+/// Longest step of `robust`, in travels, 1, where it is no short one: below kShortStep of the triangle in both
+/// parameters. A convex point contact needs at most 1/(1 + h k); only ground near a fold asks for more. Larger: leaps
+/// to other places; smaller: slow approach in concave ground, by a part of the way each plane.
 inline constexpr double kLongestStepPerTravel = 4.0, kShortStep = 0.05;
 
 /// Ratio. An edge whose curve leaves its chord by less than this part of its length, between normals that turn by less
-/// than this (rad), is straight: its fan of normals is the same all along and computed once; a patch that leaves its triangle by no more
-/// is flat. Rounding leaves 1e-16.
-/// Larger: contacts on all but straight edges are off by that part of the edge; smaller: flat sides turned in space are missed.
+/// than this (rad), is straight: its fan of normals is the same all along and computed once; a patch that leaves its
+/// triangle by no more is flat. Rounding leaves 1e-16. Larger: contacts on all but straight edges are off by that part
+/// of the edge; smaller: flat sides turned in space are missed.
 inline constexpr double kStraightEdge = 1e-13;
 
 /// New planes `robust` spends on following the kept contact before it seeds anew, 1. More: a stale contact
@@ -69,16 +69,18 @@ inline constexpr int kTrackBudget = 8;
 /// New planes a seed of `robust` may spend, 1.
 inline constexpr int kSeedBudget = 16;
 
-/// Triangles that one step may cross, 1: beyond, it is no step of an iteration any more and the contact counts as lost. Of `robust`
-/// where it follows the kept contact fewer: after a leap no cache holds the triangles on the way. With 256 there, too, the 99th
-/// percentile of ticks at random places on 5 million triangles of an 80 mm sphere was 276 to 381 us, with 64 it is 135 to 175
+/// Triangles that one step may cross, 1: beyond, it is no step of an iteration any more and the contact counts as lost.
+/// Of `robust` where it follows the kept contact fewer: after a leap no cache holds the triangles on the way. With 256
+/// there, too, the 99th percentile of ticks at random places on 5 million triangles of an 80 mm sphere was 276 to 381
+/// us, with 64 it is 135 to 175
 /// (`bench --suite scale --ticks 1000`). At 1 m/s a finger crosses 24 of those triangles a tick.
 inline constexpr int kMostCrossings = 256;
 inline constexpr int kMostTrackedCrossings = 64;
 
-/// New planes that a suspected rival costs before its height tells whether it is worth more, and those that it may cost then, 1; both
-/// twice on creases and boundaries. Its place is known to 1/30 of a triangle, where Newton mostly needs one or two,
-/// near a fold more. Fewer: deeper places beside a fold are taken for none; more: rivals that are none cost planes at every tick.
+/// New planes that a suspected rival costs before its height tells whether it is worth more, and those that it may cost
+/// then, 1; both twice on creases and boundaries. Its place is known to 1/30 of a triangle, where Newton mostly needs
+/// one or two, near a fold more. Fewer: deeper places beside a fold are taken for none; more: rivals that are none cost
+/// planes at every tick.
 inline constexpr int kRivalBudget = 2, kDeeperRivalBudget = 5;
 
 /// Nearest triangles that seed a contact where the hierarchy finds none, 1: the nearest triangle's patch often holds
@@ -97,12 +99,14 @@ inline constexpr double kJumpCosine = 0.984807753012208;
 /// searches.
 inline constexpr double kWatchTicks = 12.0;
 
-/// Least and largest look-ahead, as a part of the contact's height: at rest still 40 um for a finger of 20 mm, wider than
-/// a hand at rest trembles. Larger: searches over more triangles; smaller: a trembling finger leaves the ball again and again.
+/// Least and largest look-ahead, as a part of the contact's height: at rest still 40 um for a finger of 20 mm, wider
+/// than a hand at rest trembles. Larger: searches over more triangles; smaller: a trembling finger leaves the ball
+/// again and again.
 inline constexpr double kSmallestWatch = 2e-3, kLargestWatch = 0.1;
 
-/// Part of the look-ahead that remains where a triangle could neither be ruled out nor be solved: half a tick. A contact comes
-/// up there at once where the offset surface unfolds. Larger: it takes over late; smaller: nothing, the next tick looks anyway.
+/// Part of the look-ahead that remains where a triangle could neither be ruled out nor be solved: half a tick. A
+/// contact comes up there at once where the offset surface unfolds. Larger: it takes over late; smaller: nothing, the
+/// next tick looks anyway.
 inline constexpr double kUnresolvedMargin = 0.5 / kWatchTicks;
 
 /// Contacts whose surroundings one search for rivals remembers, 1.
@@ -119,8 +123,9 @@ inline constexpr int kBisections = 12, kBisectionTests = 48;
 /// solved for before they can take over; smaller: a takeover may come a tick late.
 inline constexpr double kHeightGuess = 1e-4;
 
-/// Part of the way to a takeover, as first and second order tell it, that is gone before a rival is looked at again. Larger:
-/// near a fold, where heights bend by more than that, it comes a tick late; smaller: rivals are looked at more often.
+/// Part of the way to a takeover, as first and second order tell it, that is gone before a rival is looked at again.
+/// Larger: near a fold, where heights bend by more than that, it comes a tick late; smaller: rivals are looked at more
+/// often.
 inline constexpr double kOvertakingRoom = 0.5;
 
 /// A suspected rival as near to the tracked contact as this part of a triangle's side, and as high within kHeightGuess,
@@ -131,8 +136,9 @@ inline constexpr double kSamePlace = 0.0625;
 /// Part of the raw mesh's distance by which a seeded contact may lie further off before more seeds are tried.
 inline constexpr double kImplausibleShare = 0.02;
 
-/// 1 + h k keeps this far from 0 on the slope that leads to a contact, less 1: h k, the curvature times the height, is above
-/// -kFoldRoom. Larger: folds within a triangle hide deeper contacts; smaller: hollow ground near the contact is searched.
+/// 1 + h k keeps this far from 0 on the slope that leads to a contact, less 1: h k, the curvature times the height, is
+/// above -kFoldRoom. Larger: folds within a triangle hide deeper contacts; smaller: hollow ground near the contact is
+/// searched.
 inline constexpr double kFoldRoom = 0.1;
 
 /// Around a contact, its own slope reaches this many look-aheads and a triangle far, as a ratio. Larger: places behind

@@ -5,8 +5,8 @@
 
 namespace tangent {
 
-inline constexpr double kMillimetre = 1e-3;  // m
-inline constexpr double kMicrometre = 1e-6;  // m
+inline constexpr double kMillimetre = 1e-3;                  // m
+inline constexpr double kMicrometre = 1e-6;                  // m
 inline constexpr double kDegree = std::numbers::pi / 180.0;  // rad
 
 }  // namespace tangent

@@ -26,9 +26,7 @@ inline Vec3 unit_or(const Vec3& v, const Vec3& otherwise) {
   return length2 > 1e-24 ? v / std::sqrt(length2) : otherwise;
 }
 
-inline bool is_finite(const Vec3& v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
+inline bool is_finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 /// Axis-aligned box, metres. Empty (min > max) when default-constructed.
 struct Box {

@@ -46,7 +46,8 @@ Vec3 pseudonormal(const ContactMesh& mesh, std::uint32_t t, double u, double v, 
   return face;
 }
 
-FacetContact facet_contact(const ContactMesh& mesh, const NearestTriangles& nearest, const Vec3& centre, double tolerance_m) {
+FacetContact facet_contact(const ContactMesh& mesh, const NearestTriangles& nearest, const Vec3& centre,
+                           double tolerance_m) {
   FacetContact contact;
   contact.hit = nearest.nearest(centre, std::numeric_limits<double>::infinity());
   if (!contact.hit) return contact;

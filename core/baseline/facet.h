@@ -15,7 +15,8 @@ struct FacetContact {
   double height_m = 0.0;            ///< signed distance of the centre
 };
 /// `tolerance_m`: nearer than this the direction c - q means nothing and the pseudonormal is taken.
-FacetContact facet_contact(const ContactMesh& mesh, const NearestTriangles& nearest, const Vec3& centre_local, double tolerance_m);
+FacetContact facet_contact(const ContactMesh& mesh, const NearestTriangles& nearest, const Vec3& centre_local,
+                           double tolerance_m);
 
 /// Linearly interpolated corner normals at the facet contact (Morgenbesser & Srinivasan 1996): direction of
 /// the force-shading baseline; place and depth stay the facet's.

@@ -34,7 +34,9 @@ std::optional<Vec3> on_planes(const HalfSpace* const* chosen, int count, const V
   const Vec3 &a = chosen[0]->normal, &b = chosen[1]->normal, &c = chosen[2]->normal;
   const double det = glm::dot(a, glm::cross(b, c));
   if (std::abs(det) < kParallel) return std::nullopt;
-  return (chosen[0]->offset * glm::cross(b, c) + chosen[1]->offset * glm::cross(c, a) + chosen[2]->offset * glm::cross(a, b)) / det;
+  return (chosen[0]->offset * glm::cross(b, c) + chosen[1]->offset * glm::cross(c, a) +
+          chosen[2]->offset * glm::cross(a, b)) /
+         det;
 }
 
 /// The best point over all sets of up to three active planes.

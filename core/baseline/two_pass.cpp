@@ -20,7 +20,9 @@ TwoPassContact two_pass_contact(const ProxySurface& surface, const Vec3& centre,
   if (!at_finger.found) return out;
   out.found = true;
   const auto on_surface = [&](const FacetContact& facet) { return facet.hit.point + radius * facet.normal; };
-  const auto near = [&](const Vec3& at, double reach, ProxyObstacles& closest) { return surface.near(at, reach, closest); };
+  const auto near = [&](const Vec3& at, double reach, ProxyObstacles& closest) {
+    return surface.near(at, reach, closest);
+  };
 
   // First pass: the ordinary proxy. A new one starts at the finger, or straight above it on the surface.
   const bool follow = kept != nullptr && glm::length(*kept - centre) <= leap_m;

@@ -38,7 +38,9 @@ class MeshProxySurface final : public ProxySurface {
   /// Both must outlive it.
   MeshProxySurface(const ContactMesh& mesh, const NearestTriangles& nearest, double tolerance_m)
       : mesh_(mesh), nearest_(nearest), tolerance_m_(tolerance_m) {}
-  FacetContact nearest(const Vec3& centre) const override { return facet_contact(mesh_, nearest_, centre, tolerance_m_); }
+  FacetContact nearest(const Vec3& centre) const override {
+    return facet_contact(mesh_, nearest_, centre, tolerance_m_);
+  }
   Vec3 interpolated_normal(const FacetContact& facet) const override { return force_shading_normal(mesh_, facet); }
   std::size_t near(const Vec3& centre, double reach_m, ProxyObstacles& closest) const override;
 

@@ -10,9 +10,9 @@
 namespace tangent {
 
 struct ContactDerivative {
-  bool valid = false;             ///< false where the contact is singular (det M = 0)
-  Mat3 contact_by_position{0.0};  ///< dS/dc, 1
-  Mat3 normal_by_position{0.0};   ///< dN/dc, 1/m
+  bool valid = false;                 ///< false where the contact is singular (det M = 0)
+  Mat3 contact_by_position{0.0};      ///< dS/dc, 1
+  Mat3 normal_by_position{0.0};       ///< dN/dc, 1/m
   Vec3 penetration_by_position{0.0};  ///< gradient of the penetration, 1; -N only if N is the surface's true normal
 };
 

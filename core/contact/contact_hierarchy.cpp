@@ -102,8 +102,10 @@ class ContactHierarchyBuilder {
       if (!mesh_.usable(t)) continue;
       const Vec3 middle = (mesh_.position(t, 0) + mesh_.position(t, 1) + mesh_.position(t, 2)) / 3.0;
       const Vec3 cell = glm::clamp((middle - low) / side, Vec3(0.0), Vec3(1.0)) * cells;
-      keyed.emplace_back(spread_bits(static_cast<std::uint64_t>(cell.x)) | spread_bits(static_cast<std::uint64_t>(cell.y)) << 1 |
-                             spread_bits(static_cast<std::uint64_t>(cell.z)) << 2, t);
+      keyed.emplace_back(spread_bits(static_cast<std::uint64_t>(cell.x)) |
+                             spread_bits(static_cast<std::uint64_t>(cell.y)) << 1 |
+                             spread_bits(static_cast<std::uint64_t>(cell.z)) << 2,
+                         t);
     }
     std::sort(keyed.begin(), keyed.end());
     tree_.order_.reserve(keyed.size());
@@ -165,7 +167,8 @@ class ContactHierarchyBuilder {
       if (!mesh_.feature_corner(t, k)) continue;
       around_vertex(mesh_, t, k, [&](std::uint32_t other, std::uint32_t corner) {
         normals.add(mesh_.normal(other, corner));
-        if (mesh_.edge_kind(other, corner) == EdgeKind::boundary || mesh_.edge_kind(other, (corner + 2) % 3) == EdgeKind::boundary)
+        if (mesh_.edge_kind(other, corner) == EdgeKind::boundary ||
+            mesh_.edge_kind(other, (corner + 2) % 3) == EdgeKind::boundary)
           normals.add_everything();
       });
     }

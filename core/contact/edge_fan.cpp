@@ -21,8 +21,8 @@ bool constant(const EdgeNormals& n) {
 bool is_straight(const FanEdge& edge) {
   const double room = kStraightEdge * std::sqrt(edge.chord2);
   const Vec3 start = evaluate(edge.curve, 0.0).point_f, end = evaluate(edge.curve, 1.0).point_f;
-  return glm::distance(start, edge.chord) <= room && glm::distance(end, edge.chord) <= room &&
-         edge.flat_near && (edge.boundary || edge.flat_far);
+  return glm::distance(start, edge.chord) <= room && glm::distance(end, edge.chord) <= room && edge.flat_near &&
+         (edge.boundary || edge.flat_far);
 }
 
 /// Where all coefficients of a side's normals are the same, there is nothing to evaluate.
@@ -89,7 +89,8 @@ void straighten(const FanEdge& edge, EdgeFan& fan) {
   fan.point_f = edge.chord;
   fan.tangent_f = fan.near_normal_f = fan.far_normal_f = Vec3(0.0);
   if (std::abs(fan.tilt_far - fan.tilt_near) <= 2.0 * kStraightEdge) fan.tilt_far = fan.tilt_near;
-  if (std::abs(fan.tilt_near) <= 2.0 * kStraightEdge && fan.tilt_far == fan.tilt_near) fan.tilt_near = fan.tilt_far = 0.0;
+  if (std::abs(fan.tilt_near) <= 2.0 * kStraightEdge && fan.tilt_far == fan.tilt_near)
+    fan.tilt_near = fan.tilt_far = 0.0;
   fan.even = fan.tilt_near == fan.tilt_far;
   fan.uniform = fan.tilt_near == 0.0 && fan.tilt_far == 0.0;
   fan.start = edge.curve.origin + edge.curve.powers[0];

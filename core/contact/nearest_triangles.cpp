@@ -87,7 +87,8 @@ void on_bounds(const RTCBoundsFunctionArguments* args) {
 }
 
 /// Ray against a flat triangle in double; both sides count. Returns the distance, or infinity.
-double intersect(const ContactMesh& mesh, std::uint32_t t, const Vec3& origin, const Vec3& direction, double& u, double& v) {
+double intersect(const ContactMesh& mesh, std::uint32_t t, const Vec3& origin, const Vec3& direction, double& u,
+                 double& v) {
   constexpr double kMiss = std::numeric_limits<double>::infinity();
   const Vec3& a = mesh.position(t, 0);
   const Vec3 ab = mesh.position(t, 1) - a, ac = mesh.position(t, 2) - a;
@@ -133,7 +134,8 @@ bool on_memory(void* counter, ssize_t bytes, bool /*post*/) {
 }  // namespace
 
 NearestHit closest_on_triangle(const ContactMesh& mesh, std::uint32_t t, const Vec3& query) {
-  const TrianglePoint p = closest_point_on_triangle(mesh.position(t, 0), mesh.position(t, 1), mesh.position(t, 2), query);
+  const TrianglePoint p =
+      closest_point_on_triangle(mesh.position(t, 0), mesh.position(t, 1), mesh.position(t, 2), query);
   return {t, std::sqrt(p.distance2), p.u, p.v, p.point};
 }
 

@@ -1,5 +1,5 @@
-// Patches of the triangles the contact lately walked over, built when a triangle is entered, and the edges it was on. What is held
-// grows with the contact, not with the mesh. A pure function of (mesh, normal form): a cold cache gives
+// Patches of the triangles the contact lately walked over, built when a triangle is entered, and the edges it was on.
+// What is held grows with the contact, not with the mesh. A pure function of (mesh, normal form): a cold cache gives
 // the same bits, later.
 #pragma once
 
@@ -29,23 +29,23 @@ struct CachedFan {
   EdgeFan fan;
 };
 
-/// The faces around a vertex, in the order of around_vertex, and the creases and boundaries that meet there, with their samples and fans at
-/// it: what decides whether a contact rests on it, and stays the same while it does.
+/// The faces around a vertex, in the order of around_vertex, and the creases and boundaries that meet there, with their
+/// samples and fans at it: what decides whether a contact rests on it, and stays the same while it does.
 struct VertexSurroundings {
   static constexpr std::size_t kCapacity = 64;
   struct Face {
     std::uint32_t triangle = kNone, corner = 0;
-    std::size_t rays_end = 0;     ///< its rays are those before this one and after the last face's
+    std::size_t rays_end = 0;  ///< its rays are those before this one and after the last face's
     SurfaceSample sample;
   };
   struct Ray {
     std::uint32_t triangle = kNone, side = 0;
-    double f = 0.0;               ///< of the edge at the vertex: 0 where it starts there, 1 where it ends there
+    double f = 0.0;  ///< of the edge at the vertex: 0 where it starts there, 1 where it ends there
     EdgeFan fan;
   };
   std::uint32_t triangle = kNone, corner = 0;  ///< that it was asked for by
   NormalForm form = NormalForm::bernstein;
-  bool complete = false;          ///< false: more than kCapacity faces, and nothing is held
+  bool complete = false;  ///< false: more than kCapacity faces, and nothing is held
   std::size_t face_count = 0;
   std::array<Face, kCapacity> faces;
   std::array<Ray, kCapacity + 1> rays;
@@ -58,9 +58,7 @@ class PatchCache {
   const ContactMesh& mesh() const { return *mesh_; }
 
   /// Patch of triangle `t`. The reference is good until the next call.
-  const PnPatch& patch(std::uint32_t t, NormalForm form) {
-    return patch_slot(t, form).patch;
-  }
+  const PnPatch& patch(std::uint32_t t, NormalForm form) { return patch_slot(t, form).patch; }
   /// Its sample at (u, v): most of a polyhedron is flat, where it takes no evaluation.
   void sample(std::uint32_t t, NormalForm form, double u, double v, SurfaceSample& sample) {
     const CachedPatch& slot = patch_slot(t, form);
@@ -70,9 +68,11 @@ class PatchCache {
       evaluate(slot.patch, u, v, sample);
     }
   }
-  /// Fan at fraction f of edge `side` of triangle `t`, which runs from corner `side` to the next. Precondition: not a smooth
-  /// edge. The reference is good until the next call.
-  const EdgeFan& fan(std::uint32_t t, std::uint32_t side, double f, NormalForm form) { return cached_fan(t, side, f, form).fan; }
+  /// Fan at fraction f of edge `side` of triangle `t`, which runs from corner `side` to the next. Precondition: not a
+  /// smooth edge. The reference is good until the next call.
+  const EdgeFan& fan(std::uint32_t t, std::uint32_t side, double f, NormalForm form) {
+    return cached_fan(t, side, f, form).fan;
+  }
   /// The same, to be moved along its edge.
   CachedFan& cached_fan(std::uint32_t t, std::uint32_t side, double f, NormalForm form) {
     CachedFan& slot = fans_[(3 * t + side) % kSlots];
@@ -85,9 +85,9 @@ class PatchCache {
     move_fan(slot.edge, f, slot.fan);
     slot.f = f;
   }
-  /// Visits the faces around the vertex at `corner` of triangle `t`, on_face(triangle, corner, sample), and after each those creases and
-  /// boundaries that are its, on_ray(triangle, side, f, fan): every one once. For few enough faces that is all from what was
-  /// kept of the last time.
+  /// Visits the faces around the vertex at `corner` of triangle `t`, on_face(triangle, corner, sample), and after each
+  /// those creases and boundaries that are its, on_ray(triangle, side, f, fan): every one once. For few enough faces
+  /// that is all from what was kept of the last time.
   template <class OnFace, class OnRay>
   void around(std::uint32_t t, std::uint32_t corner, NormalForm form, OnFace on_face, OnRay on_ray) {
     if (vertex_.triangle != t || vertex_.corner != corner || vertex_.form != form) fill(vertex_, t, corner, form);
@@ -96,7 +96,8 @@ class PatchCache {
     for (std::size_t i = 0; i < vertex_.face_count; ++i) {
       const VertexSurroundings::Face& face = vertex_.faces[i];
       on_face(face.triangle, face.corner, face.sample);
-      for (; r < face.rays_end; ++r) on_ray(vertex_.rays[r].triangle, vertex_.rays[r].side, vertex_.rays[r].f, vertex_.rays[r].fan);
+      for (; r < face.rays_end; ++r)
+        on_ray(vertex_.rays[r].triangle, vertex_.rays[r].side, vertex_.rays[r].f, vertex_.rays[r].fan);
     }
   }
 

@@ -19,8 +19,8 @@ constexpr double kNewtonTurn = 1e-6;
 /// rad. A unit vector is rounded by more.
 constexpr double kNoTurn = 1e-15;
 
-/// Newton's step down `sign` * penetration with the second derivative's eigenvalues taken as positive: downhill wherever
-/// it is, and Newton's own at a minimum.
+/// Newton's step down `sign` * penetration with the second derivative's eigenvalues taken as positive: downhill
+/// wherever it is, and Newton's own at a minimum.
 Vec3 downhill_turn(const Mat3& h, double sign, const Vec3& normal, const Vec3& travel) {
   const Vec3 a = unit(glm::cross(normal, std::abs(normal.x) < 0.6 ? Vec3(1, 0, 0) : Vec3(0, 1, 0)));
   const Vec3 b = glm::cross(normal, a);
@@ -39,7 +39,8 @@ Vec3 downhill_turn(const Mat3& h, double sign, const Vec3& normal, const Vec3& t
 
 }  // namespace
 
-Vec3 facing_normal(const Finger& finger, const FingerPose& pose, const Vec3& point, const Vec3& start, FacingSide side) {
+Vec3 facing_normal(const Finger& finger, const FingerPose& pose, const Vec3& point, const Vec3& start,
+                   FacingSide side) {
   constexpr int kTurns = 60, kHalvings = 40;
   const double sign = side == FacingSide::front ? 1.0 : -1.0;
   const Vec3 d = pose.position - point;

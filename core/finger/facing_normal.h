@@ -15,6 +15,7 @@ enum class FacingSide : std::uint8_t {
 /// Unit normal N of the plane through `point` whose contact with the finger is `point`: p(N) + penetration N = point.
 /// +-unit(c - point) for a round finger; for others the least (front) or largest (back) penetration over all N near
 /// `start`, a unit vector, which also stands in where the centre is the point. `pose` and `point` in the same frame.
-Vec3 facing_normal(const Finger& finger, const FingerPose& pose, const Vec3& point, const Vec3& start, FacingSide side = FacingSide::front);
+Vec3 facing_normal(const Finger& finger, const FingerPose& pose, const Vec3& point, const Vec3& start,
+                   FacingSide side = FacingSide::front);
 
 }  // namespace tangent

@@ -17,7 +17,9 @@ constexpr double kSpindle = 0.01;
 /// Most devices measure no turn.
 bool unturned(const Quat& q) { return q.x == 0.0 && q.y == 0.0 && q.z == 0.0; }
 
-Vec3 to_finger_frame(const FingerPose& pose, const Vec3& v) { return unturned(pose.orientation) ? v : glm::conjugate(pose.orientation) * v; }
+Vec3 to_finger_frame(const FingerPose& pose, const Vec3& v) {
+  return unturned(pose.orientation) ? v : glm::conjugate(pose.orientation) * v;
+}
 
 Support ellipsoid_support(const Finger& finger, const FingerPose& pose, const Vec3& normal) {
   // Furthest point along -n of the ellipsoid x = A y, |y| = 1 is -A A n / |A n|.
@@ -60,10 +62,14 @@ double ellipse_arc(double a, double c, double t) {
 
 double Finger::reach_m() const {
   switch (shape) {
-    case FingerShape::point: return 0.0;
-    case FingerShape::sphere: return radius_m;
-    case FingerShape::ellipsoid: return std::max({semi_axes_m.x, semi_axes_m.y, semi_axes_m.z});
-    case FingerShape::capsule: return radius_m + half_length_m * std::sqrt(1.0 + kSpindle * kSpindle);
+    case FingerShape::point:
+      return 0.0;
+    case FingerShape::sphere:
+      return radius_m;
+    case FingerShape::ellipsoid:
+      return std::max({semi_axes_m.x, semi_axes_m.y, semi_axes_m.z});
+    case FingerShape::capsule:
+      return radius_m + half_length_m * std::sqrt(1.0 + kSpindle * kSpindle);
   }
   return 0.0;
 }
@@ -71,9 +77,12 @@ double Finger::reach_m() const {
 double Finger::unroundness_m() const {
   switch (shape) {
     case FingerShape::point:
-    case FingerShape::sphere: return 0.0;
-    case FingerShape::ellipsoid: return reach_m() - std::min({semi_axes_m.x, semi_axes_m.y, semi_axes_m.z});
-    case FingerShape::capsule: return reach_m() - radius_m;
+    case FingerShape::sphere:
+      return 0.0;
+    case FingerShape::ellipsoid:
+      return reach_m() - std::min({semi_axes_m.x, semi_axes_m.y, semi_axes_m.z});
+    case FingerShape::capsule:
+      return reach_m() - radius_m;
   }
   return 0.0;
 }
@@ -91,19 +100,28 @@ double Finger::turning_m(double turn_rad) const {
   double widest = 0.0;  // radius of curvature
   switch (shape) {
     case FingerShape::point:
-    case FingerShape::sphere: return 0.0;
-    case FingerShape::ellipsoid: widest = reach_m() * reach_m() / (reach_m() - unroundness_m()); break;
-    case FingerShape::capsule: widest = radius_m + half_length_m / kSpindle; break;
+    case FingerShape::sphere:
+      return 0.0;
+    case FingerShape::ellipsoid:
+      widest = reach_m() * reach_m() / (reach_m() - unroundness_m());
+      break;
+    case FingerShape::capsule:
+      widest = radius_m + half_length_m / kSpindle;
+      break;
   }
   return reach_m() * turn_rad + std::min(2.0 * reach_m(), widest * turn_rad);
 }
 
 Support support_with_derivative(const Finger& finger, const FingerPose& pose, const Vec3& normal) {
   switch (finger.shape) {
-    case FingerShape::point: return {pose.position, Mat3(0.0)};
-    case FingerShape::sphere: return {pose.position - finger.radius_m * normal, Mat3(-finger.radius_m)};
-    case FingerShape::ellipsoid: return ellipsoid_support(finger, pose, normal);
-    case FingerShape::capsule: return capsule_support(finger, pose, normal);
+    case FingerShape::point:
+      return {pose.position, Mat3(0.0)};
+    case FingerShape::sphere:
+      return {pose.position - finger.radius_m * normal, Mat3(-finger.radius_m)};
+    case FingerShape::ellipsoid:
+      return ellipsoid_support(finger, pose, normal);
+    case FingerShape::capsule:
+      return capsule_support(finger, pose, normal);
   }
   return {pose.position, Mat3(0.0)};
 }
@@ -116,19 +134,23 @@ Vec3 support_point(const Finger& finger, const FingerPose& pose, const Vec3& nor
 /// on the nail's side.
 static double sphere_arc(double radius, const Vec2& m, double limit_m) {
   const double across = radius * m.x;
-  const bool beyond = m.y > 0.0 ? limit_m < 1.5 * radius : across * across > limit_m * limit_m * (m.x * m.x + m.y * m.y);
+  const bool beyond =
+      m.y > 0.0 ? limit_m < 1.5 * radius : across * across > limit_m * limit_m * (m.x * m.x + m.y * m.y);
   return beyond ? std::copysign(limit_m, m.x) : radius * arc_tangent(m.x, -m.y);
 }
 
 double contact_arc_m(const Finger& finger, const FingerSection& section, const Vec3& normal, double limit_m) {
-  const Vec2 m(-glm::dot(section.distal, normal), -glm::dot(section.dorsal, normal));  // to the contact: distal, and to the nail
+  const Vec2 m(-glm::dot(section.distal, normal),
+               -glm::dot(section.dorsal, normal));  // to the contact: distal, and to the nail
   if (finger.shape == FingerShape::sphere) return sphere_arc(finger.radius_m, m, limit_m);
   if (m.x == 0.0 && m.y == 0.0) return 0.0;
   const Vec3& a = finger.semi_axes_m;
   switch (finger.shape) {
     case FingerShape::point:
-    case FingerShape::sphere: return 0.0;
-    case FingerShape::ellipsoid: return ellipse_arc(a.x, a.z, std::atan2(a.x * m.x, -a.z * m.y));
+    case FingerShape::sphere:
+      return 0.0;
+    case FingerShape::ellipsoid:
+      return ellipse_arc(a.x, a.z, std::atan2(a.x * m.x, -a.z * m.y));
     case FingerShape::capsule: {
       // Along the straight pad, round the tip, and on the nail side back along the straight part.
       const double within = std::hypot(m.x, m.y);  // the part of the unit normal in the section

@@ -15,9 +15,9 @@ enum class FingerShape : std::uint8_t { point, sphere, ellipsoid, capsule };
 
 struct Finger {
   FingerShape shape = FingerShape::sphere;
-  double radius_m = 0.020;                       ///< sphere and capsule
-  Vec3 semi_axes_m{0.020, 0.010, 0.010};         ///< ellipsoid: along finger x, y, z
-  double half_length_m = 0.010;                  ///< capsule: half the axis segment, along finger x
+  double radius_m = 0.020;                ///< sphere and capsule
+  Vec3 semi_axes_m{0.020, 0.010, 0.010};  ///< ellipsoid: along finger x, y, z
+  double half_length_m = 0.010;           ///< capsule: half the axis segment, along finger x
 
   bool operator==(const Finger&) const = default;
   /// Largest extent of the shape from its centre, m (0 for a point).
@@ -28,19 +28,20 @@ struct Finger {
   /// room for contacts somewhat off the surface; 0 for point and sphere.
   double tilt_rad() const;
   /// No support point of a fixed normal moves further from the centre's view than this while the finger turns by
-  /// `turn_rad`, m: it turns along, and slides over the shape by its radius of curvature at most. 0 for point and sphere.
+  /// `turn_rad`, m: it turns along, and slides over the shape by its radius of curvature at most. 0 for point and
+  /// sphere.
   double turning_m(double turn_rad) const;
 };
 
 struct FingerPose {
-  Vec3 position{0.0};                  ///< centre of the shape, world, m
+  Vec3 position{0.0};                    ///< centre of the shape, world, m
   Quat orientation{1.0, 0.0, 0.0, 0.0};  ///< unit; finger frame -> world
 };
 
 /// Support point in direction -N and its derivative.
 struct Support {
-  Vec3 point;          ///< p(N): the point of the finger furthest along -N, m
-  Mat3 by_normal;      ///< dp/dN restricted to tangents of N, m (sphere: -R I)
+  Vec3 point;      ///< p(N): the point of the finger furthest along -N, m
+  Mat3 by_normal;  ///< dp/dN restricted to tangents of N, m (sphere: -R I)
 };
 
 Vec3 support_point(const Finger& finger, const FingerPose& pose, const Vec3& normal);
@@ -58,8 +59,8 @@ inline FingerSection section_of(const Quat& orientation) {
 /// Contact location: signed arc length on the finger from the fingerpad's middle (-z) along the long axis,
 /// positive distally, for a contact whose surface normal (pointing at the finger) is `normal`, m. For a
 /// sphere R atan2(m.x, -m.z) with m = -normal in the finger frame; 0 for a point; for other shapes arc
-/// length in the x-z section. Where it surely is beyond `limit_m` on either side, any value beyond that may be returned:
-/// a sphere spares itself the arc tangent.
+/// length in the x-z section. Where it surely is beyond `limit_m` on either side, any value beyond that may be
+/// returned: a sphere spares itself the arc tangent.
 double contact_arc_m(const Finger& finger, const FingerSection& section, const Vec3& normal,
                      double limit_m = std::numeric_limits<double>::infinity());
 

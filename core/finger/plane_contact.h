@@ -17,10 +17,14 @@ struct PlaneContact {
 PlaneContact contact_of_support(const Finger& finger, const FingerPose& pose, const Vec3& point, const Vec3& normal);
 
 /// A point or a sphere: its support point lies under its centre whatever the plane.
-inline bool is_round(const Finger& finger) { return finger.shape == FingerShape::point || finger.shape == FingerShape::sphere; }
+inline bool is_round(const Finger& finger) {
+  return finger.shape == FingerShape::point || finger.shape == FingerShape::sphere;
+}
 
 /// Of a round finger: 0 for a point.
-inline double round_radius_m(const Finger& finger) { return finger.shape == FingerShape::sphere ? finger.radius_m : 0.0; }
+inline double round_radius_m(const Finger& finger) {
+  return finger.shape == FingerShape::sphere ? finger.radius_m : 0.0;
+}
 
 /// For round fingers. In place: the solver's loop spares itself the copy.
 inline void round_contact(double radius_m, const Vec3& centre, const Vec3& point, const Vec3& normal, PlaneContact& c) {
@@ -34,14 +38,16 @@ inline void round_contact(double radius_m, const Vec3& centre, const Vec3& point
 }
 
 /// `pose` and `point` in the same frame; `normal`: unit.
-inline void contact_on_plane(const Finger& finger, const FingerPose& pose, const Vec3& point, const Vec3& normal, PlaneContact& c) {
+inline void contact_on_plane(const Finger& finger, const FingerPose& pose, const Vec3& point, const Vec3& normal,
+                             PlaneContact& c) {
   if (is_round(finger)) {
     round_contact(round_radius_m(finger), pose.position, point, normal, c);
   } else {
     c = contact_of_support(finger, pose, point, normal);
   }
 }
-inline PlaneContact contact_on_plane(const Finger& finger, const FingerPose& pose, const Vec3& point, const Vec3& normal) {
+inline PlaneContact contact_on_plane(const Finger& finger, const FingerPose& pose, const Vec3& point,
+                                     const Vec3& normal) {
   PlaneContact c;
   contact_on_plane(finger, pose, point, normal, c);
   return c;

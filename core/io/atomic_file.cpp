@@ -1,10 +1,10 @@
 #include "core/io/atomic_file.h"
 
-#include <cerrno>
-#include <cstring>
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <cerrno>
+#include <cstring>
 #include <utility>
 
 namespace tangent {
@@ -74,8 +74,12 @@ Result<AtomicFile> AtomicFile::create(const std::filesystem::path& target) {
 }
 
 AtomicFile::AtomicFile(AtomicFile&& other) noexcept
-    : target_(std::move(other.target_)), place_(std::move(other.place_)), temporary_(std::move(other.temporary_)),
-      buffer_(std::move(other.buffer_)), fd_(std::exchange(other.fd_, -1)), status_(std::move(other.status_)) {
+    : target_(std::move(other.target_)),
+      place_(std::move(other.place_)),
+      temporary_(std::move(other.temporary_)),
+      buffer_(std::move(other.buffer_)),
+      fd_(std::exchange(other.fd_, -1)),
+      status_(std::move(other.status_)) {
   other.temporary_.clear();
 }
 

@@ -1,11 +1,11 @@
 #include "core/io/file_bytes.h"
 
-#include <cerrno>
-#include <cstring>
 #include <fcntl.h>
-#include <new>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <cerrno>
+#include <cstring>
+#include <new>
 
 namespace tangent {
 namespace {

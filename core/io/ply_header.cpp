@@ -9,12 +9,22 @@ namespace tangent {
 namespace {
 
 std::optional<PlyType> type_called(std::string_view name) {
-  static constexpr std::array<std::pair<std::string_view, PlyType>, 16> kTypes{{
-      {"char", PlyType::int8}, {"int8", PlyType::int8}, {"uchar", PlyType::uint8}, {"uint8", PlyType::uint8},
-      {"short", PlyType::int16}, {"int16", PlyType::int16}, {"ushort", PlyType::uint16}, {"uint16", PlyType::uint16},
-      {"int", PlyType::int32}, {"int32", PlyType::int32}, {"uint", PlyType::uint32}, {"uint32", PlyType::uint32},
-      {"float", PlyType::float32}, {"float32", PlyType::float32}, {"double", PlyType::float64},
-      {"float64", PlyType::float64}}};
+  static constexpr std::array<std::pair<std::string_view, PlyType>, 16> kTypes{{{"char", PlyType::int8},
+                                                                                {"int8", PlyType::int8},
+                                                                                {"uchar", PlyType::uint8},
+                                                                                {"uint8", PlyType::uint8},
+                                                                                {"short", PlyType::int16},
+                                                                                {"int16", PlyType::int16},
+                                                                                {"ushort", PlyType::uint16},
+                                                                                {"uint16", PlyType::uint16},
+                                                                                {"int", PlyType::int32},
+                                                                                {"int32", PlyType::int32},
+                                                                                {"uint", PlyType::uint32},
+                                                                                {"uint32", PlyType::uint32},
+                                                                                {"float", PlyType::float32},
+                                                                                {"float32", PlyType::float32},
+                                                                                {"double", PlyType::float64},
+                                                                                {"float64", PlyType::float64}}};
   for (const auto& [known, type] : kTypes) {
     if (known == name) return type;
   }
@@ -51,7 +61,8 @@ Status read_element(TextCursor& text, PlyHeader& header) {
   const std::optional<std::int64_t> count = text.integer();
   if (!count) return text.failure();
   if (*count < 0) return text.fail_here("element " + show_token(element.name) + " has a negative count");
-  if (header.find(element.name) != nullptr) return text.fail_here("element " + show_token(element.name) + " comes twice");
+  if (header.find(element.name) != nullptr)
+    return text.fail_here("element " + show_token(element.name) + " comes twice");
   element.count = static_cast<std::uint64_t>(*count);
   header.elements.push_back(std::move(element));
   return {};
@@ -67,7 +78,8 @@ Status read_property(TextCursor& text, PlyHeader& header) {
     word = text.token();
     const std::optional<PlyType> count_type = type_called(word);
     if (!count_type || !is_integer(*count_type)) {
-      return text.fail_here("the length of a list can't be of type " + show_token(word), "use an integer type, e.g. uchar");
+      return text.fail_here("the length of a list can't be of type " + show_token(word),
+                            "use an integer type, e.g. uchar");
     }
     property.count_type = *count_type;
     word = text.token();
@@ -78,7 +90,8 @@ Status read_property(TextCursor& text, PlyHeader& header) {
   property.name = text.token();
   if (property.name.empty()) return text.fail_here("a property without a name");
   if (element.find(property.name) != nullptr) {
-    return text.fail_here("property " + show_token(property.name) + " comes twice in element " + show_token(element.name));
+    return text.fail_here("property " + show_token(property.name) + " comes twice in element " +
+                          show_token(element.name));
   }
   element.properties.push_back(std::move(property));
   return {};

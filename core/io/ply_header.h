@@ -6,7 +6,6 @@
 #include "core/io/text_cursor.h"
 
 #include <cstddef>
-#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -21,14 +20,14 @@ inline bool is_integer(PlyType type) { return type < PlyType::float32; }
 
 struct PlyProperty {
   std::string name;
-  PlyType type = PlyType::float32;        ///< of the value, or of a list's items
+  PlyType type = PlyType::float32;  ///< of the value, or of a list's items
   bool is_list = false;
-  PlyType count_type = PlyType::uint8;    ///< of a list's length
+  PlyType count_type = PlyType::uint8;  ///< of a list's length
 };
 
 struct PlyElement {
   std::string name;
-  std::uint64_t count = 0;                ///< as promised; checked against the file before it is believed
+  std::uint64_t count = 0;  ///< as promised; checked against the file before it is believed
   std::vector<PlyProperty> properties;
 
   /// Bytes one of these takes at the least (lists empty).

@@ -53,7 +53,8 @@ Result<PlanarPolygon> closed_and_checked(PlanarPolygon polygon) {
 /// Vertices and the one polyline of an OBJ file.
 class PolylineReader {
  public:
-  PolylineReader(std::string name, double metres_per_unit) : name_(std::move(name)), metres_per_unit_(metres_per_unit) {}
+  PolylineReader(std::string name, double metres_per_unit)
+      : name_(std::move(name)), metres_per_unit_(metres_per_unit) {}
 
   Status line(std::string_view text, std::size_t number) {
     text = text.substr(0, text.find('#'));
@@ -71,7 +72,8 @@ class PolylineReader {
       const Vec3& p = vertices_[i];
       // Not flat is no 2D scene; taking z away could make it cross itself.
       if (p.z != vertices_[chain_.front()].z)
-        return fail("the polyline is not flat: z of vertex " + std::to_string(i + 1) + " differs", name_, "give all vertices the same z");
+        return fail("the polyline is not flat: z of vertex " + std::to_string(i + 1) + " differs", name_,
+                    "give all vertices the same z");
       polygon.vertices.emplace_back(metres_per_unit_ * p.x, metres_per_unit_ * p.y);
     }
     return closed_and_checked(std::move(polygon));
@@ -83,7 +85,8 @@ class PolylineReader {
     for (int axis = 0; axis < 3; ++axis) {
       const std::string_view word = take_word(text);
       const std::optional<double> value = parse_finite_double(word);
-      if (!value) return fail("a coordinate is " + shown(word), at_line(name_, number), "write three finite decimal numbers");
+      if (!value)
+        return fail("a coordinate is " + shown(word), at_line(name_, number), "write three finite decimal numbers");
       p[axis] = *value;
     }
     vertices_.push_back(p);
@@ -96,12 +99,14 @@ class PolylineReader {
       word = word.substr(0, word.find('/'));
       const std::optional<double> value = parse_finite_double(word);
       const double count = static_cast<double>(vertices_.size());
-      if (!value || *value != static_cast<double>(static_cast<std::int64_t>(*value)) || *value == 0.0 || std::abs(*value) > count)
+      if (!value || *value != static_cast<double>(static_cast<std::int64_t>(*value)) || *value == 0.0 ||
+          std::abs(*value) > count)
         return fail("the polyline names vertex " + shown(word), at_line(name_, number),
                     "name one of the " + std::to_string(vertices_.size()) + " vertices listed before it");
       const auto index = static_cast<std::size_t>(*value > 0.0 ? *value - 1.0 : count + *value);
       if (first && !chain_.empty() && chain_.back() != index)
-        return fail("a second polyline that does not go on where the first ends", at_line(name_, number), "give one polyline a file");
+        return fail("a second polyline that does not go on where the first ends", at_line(name_, number),
+                    "give one polyline a file");
       if (!first || chain_.empty()) chain_.push_back(index);
       first = false;
     }
@@ -116,7 +121,8 @@ class PolylineReader {
 
 std::string lower_extension(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return extension;
 }
 
@@ -174,8 +180,9 @@ bool is_planar_file(const std::filesystem::path& path) {
 Result<PlanarPolygon> read_polygon(const std::filesystem::path& path, double metres_per_unit) {
   const Result<FileBytes> file = read_file_bytes(path);
   if (!file) return tl::unexpected(file.error());
-  Result<PlanarPolygon> polygon = lower_extension(path) == ".csv" ? parse_polygon_csv(file->view(), path.string())
-                                                                  : parse_polygon_obj(file->view(), path.string(), metres_per_unit);
+  Result<PlanarPolygon> polygon = lower_extension(path) == ".csv"
+                                      ? parse_polygon_csv(file->view(), path.string())
+                                      : parse_polygon_obj(file->view(), path.string(), metres_per_unit);
   if (polygon) polygon->name = path.filename().string();
   return polygon;
 }

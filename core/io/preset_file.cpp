@@ -17,29 +17,36 @@ namespace {
 constexpr std::size_t kMaxBytes = std::size_t{1} << 20;  // a preset is a few kilobytes
 struct AboutText {
   std::string_view key;
-  std::string PresetAbout::* field;
+  std::string PresetAbout::*field;
 };
 constexpr std::array<AboutText, 7> kAboutTexts{{
-  {"name", &PresetAbout::name},
-  {"date", &PresetAbout::date},
-  {"program_version", &PresetAbout::program_version},
-  {"mesh_name", &PresetAbout::mesh_name},
-  {"mesh_hash", &PresetAbout::mesh_hash},
-  {"device", &PresetAbout::device},
-  {"note", &PresetAbout::note},
+    {"name", &PresetAbout::name},
+    {"date", &PresetAbout::date},
+    {"program_version", &PresetAbout::program_version},
+    {"mesh_name", &PresetAbout::mesh_name},
+    {"mesh_hash", &PresetAbout::mesh_hash},
+    {"device", &PresetAbout::device},
+    {"note", &PresetAbout::note},
 }};
 constexpr std::string_view kMeasured = "measured";
 constexpr std::string_view kCondition = "condition";
 
 std::string_view type_name(const toml::node& node) {
   switch (node.type()) {
-    case toml::node_type::table: return "a table";
-    case toml::node_type::array: return "an array";
-    case toml::node_type::string: return "text";
-    case toml::node_type::integer: return "a whole number";
-    case toml::node_type::floating_point: return "a number with a fraction";
-    case toml::node_type::boolean: return "true or false";
-    default: return "a date or time";
+    case toml::node_type::table:
+      return "a table";
+    case toml::node_type::array:
+      return "an array";
+    case toml::node_type::string:
+      return "text";
+    case toml::node_type::integer:
+      return "a whole number";
+    case toml::node_type::floating_point:
+      return "a number with a fraction";
+    case toml::node_type::boolean:
+      return "true or false";
+    default:
+      return "a date or time";
   }
 }
 
@@ -65,7 +72,8 @@ class PresetReader {
   Status read_table(const toml::key& key, const toml::node& node) {
     const auto tables = preset_tables();
     if (std::find(tables.begin(), tables.end(), key.str()) == tables.end()) {
-      return fail("unknown table or key", where(key.source(), key.str()), "allowed: the key condition and the tables " + choices_text(tables));
+      return fail("unknown table or key", where(key.source(), key.str()),
+                  "allowed: the key condition and the tables " + choices_text(tables));
     }
     const toml::table* table = node.as_table();
     if (table == nullptr) {
@@ -83,7 +91,8 @@ class PresetReader {
     condition_ = node.is_string() ? find_condition(node.as_string()->get()) : nullptr;
     condition_where_ = where(key.source(), kCondition);
     if (condition_ != nullptr) return {};
-    return fail(node.is_string() ? "\"" + node.as_string()->get() + "\" is no rendering condition" : "is " + std::string(type_name(node)),
+    return fail(node.is_string() ? "\"" + node.as_string()->get() + "\" is no rendering condition"
+                                 : "is " + std::string(type_name(node)),
                 condition_where_, "allowed: " + choices_text(kConditionNames));
   }
 
@@ -92,10 +101,12 @@ class PresetReader {
     if (condition_ == nullptr) return {};
     Preset wanted = file_.preset;
     set_condition(wanted, *condition_);
-    const bool force_named = root["force"]["source"].node() != nullptr, tactile_named = root["display"]["source"].node() != nullptr;
+    const bool force_named = root["force"]["source"].node() != nullptr,
+               tactile_named = root["display"]["source"].node() != nullptr;
     if ((force_named && wanted.force.source != file_.preset.force.source) ||
         (tactile_named && wanted.display.source != file_.preset.display.source))
-      return fail("condition " + std::string(condition_->name) + " is " + std::string(condition_->words) + ", the sources say otherwise",
+      return fail("condition " + std::string(condition_->name) + " is " + std::string(condition_->words) +
+                      ", the sources say otherwise",
                   condition_where_, "leave out force.source and display.source, or the condition");
     file_.preset = wanted;
     return {};
@@ -230,9 +241,12 @@ void format_about(const PresetAbout& about, std::string& text) {
 
 std::string value_literal(const PresetKey& row, double value) {
   switch (row.kind) {
-    case KeyKind::choice: return "\"" + row.value_text(value) + "\"";
-    case KeyKind::integer: return row.value_text(value);
-    default: return float_text(value);
+    case KeyKind::choice:
+      return "\"" + row.value_text(value) + "\"";
+    case KeyKind::integer:
+      return row.value_text(value);
+    default:
+      return float_text(value);
   }
 }
 
@@ -251,7 +265,8 @@ Result<PresetFile> read_preset(const std::filesystem::path& path) {
 }
 
 std::string format_preset(const PresetFile& file) {
-  std::string text = "# Tuning preset of Tangent Workbench. Everything in SI units; missing keys keep their defaults.\n\n";
+  std::string text =
+      "# Tuning preset of Tangent Workbench. Everything in SI units; missing keys keep their defaults.\n\n";
   if (const RenderingCondition* condition = condition_of(file.preset)) {
     std::string line = "condition = \"" + std::string(condition->name) + "\"";
     line.resize(40, ' ');

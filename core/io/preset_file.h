@@ -19,10 +19,10 @@ namespace tangent {
 /// Where a preset comes from, and what was measured with it. Every field may be empty.
 struct PresetAbout {
   std::string name;
-  std::string date;             ///< ISO 8601: "2026-03-31"
+  std::string date;  ///< ISO 8601: "2026-03-31"
   std::string program_version;
   std::string mesh_name;
-  std::string mesh_hash;        ///< ContactMesh::content_hash(), 16 hex digits
+  std::string mesh_hash;  ///< ContactMesh::content_hash(), 16 hex digits
   std::string device;
   std::string note;
   /// [about.measured], in the order of the file: free keys, numbers or text, for instance mean_iterations,

@@ -177,7 +177,8 @@ class ObjReader {
   }
 
   Status check_count(std::size_t count, const char* items) const {
-    if (count <= kMaxMeshItems) [[likely]] return {};
+    if (count <= kMaxMeshItems) [[likely]]
+      return {};
     return text_.fail_here(std::string("more than 4294967294 ") + items, "use a smaller mesh");
   }
 

@@ -19,7 +19,8 @@ class TextSource {
   TextSource(TextCursor& text, std::string /*path*/) : text_(text) {}
 
   bool begin() {
-    if (text_.next_content()) [[likely]] return true;
+    if (text_.next_content()) [[likely]]
+      return true;
     problem_ = "the file ends before it";
     return false;
   }
@@ -110,15 +111,31 @@ class BinarySource {
   template <class Out>
   bool load(PlyType type, Out& value) {
     switch (type) {
-      case PlyType::int8: value = static_cast<Out>(take<std::int8_t>()); return true;
-      case PlyType::uint8: value = static_cast<Out>(take<std::uint8_t>()); return true;
-      case PlyType::int16: value = static_cast<Out>(take<std::int16_t>()); return true;
-      case PlyType::uint16: value = static_cast<Out>(take<std::uint16_t>()); return true;
-      case PlyType::int32: value = static_cast<Out>(take<std::int32_t>()); return true;
-      case PlyType::uint32: value = static_cast<Out>(take<std::uint32_t>()); return true;
+      case PlyType::int8:
+        value = static_cast<Out>(take<std::int8_t>());
+        return true;
+      case PlyType::uint8:
+        value = static_cast<Out>(take<std::uint8_t>());
+        return true;
+      case PlyType::int16:
+        value = static_cast<Out>(take<std::int16_t>());
+        return true;
+      case PlyType::uint16:
+        value = static_cast<Out>(take<std::uint16_t>());
+        return true;
+      case PlyType::int32:
+        value = static_cast<Out>(take<std::int32_t>());
+        return true;
+      case PlyType::uint32:
+        value = static_cast<Out>(take<std::uint32_t>());
+        return true;
       // Integers are never asked of these two: the header of an index list was checked.
-      case PlyType::float32: value = static_cast<Out>(take<float>()); return true;
-      case PlyType::float64: value = static_cast<Out>(take<double>()); return true;
+      case PlyType::float32:
+        value = static_cast<Out>(take<float>());
+        return true;
+      case PlyType::float64:
+        value = static_cast<Out>(take<double>());
+        return true;
     }
     return false;
   }
@@ -132,8 +149,7 @@ template <class Source>
 class PlyBody {
  public:
   PlyBody(TextCursor& text, const PlyHeader& header)
-      : source_(text, text.file()), path_(text.file()), header_(header),
-        vertex_count_(header.find("vertex")->count) {}
+      : source_(text, text.file()), path_(text.file()), header_(header), vertex_count_(header.find("vertex")->count) {}
 
   Result<PolygonMesh> read() {
     for (const PlyElement& element : header_.elements) {
@@ -159,8 +175,8 @@ class PlyBody {
   /// A count that the rest of the file can't hold is refused before anything is sized by it.
   Status check_promise(const PlyElement& element) const {
     const std::size_t smallest = element.smallest_size(Source::kEncoding);
-    const std::string what = "the header promises " + std::to_string(element.count) + " of element " +
-                             show_token(element.name);
+    const std::string what =
+        "the header promises " + std::to_string(element.count) + " of element " + show_token(element.name);
     if (smallest != 0 && element.count > source_.bytes_left() / smallest) {
       return fail(what + ", at least " + std::to_string(smallest) + " bytes each; " +
                       std::to_string(source_.bytes_left()) + " bytes are left in the file",
@@ -178,7 +194,8 @@ class PlyBody {
       slot_of.push_back(static_cast<std::size_t>(slot - kSlots.begin()));
     }
     const auto has = [&](std::size_t slot) { return std::find(slot_of.begin(), slot_of.end(), slot) != slot_of.end(); };
-    if (!has(0) || !has(1) || !has(2)) return fail("element \"vertex\" lacks x, y or z", path_, "export the mesh again");
+    if (!has(0) || !has(1) || !has(2))
+      return fail("element \"vertex\" lacks x, y or z", path_, "export the mesh again");
     const bool normals = has(3) && has(4) && has(5);
 
     mesh_.positions.reserve(element.count);
@@ -247,8 +264,7 @@ class PlyBody {
 
   bool skip_list(const PlyProperty& list) {
     std::int64_t count = 0;
-    return read_length(list, count) &&
-           source_.skip(list.type, static_cast<std::uint64_t>(count));
+    return read_length(list, count) && source_.skip(list.type, static_cast<std::uint64_t>(count));
   }
 
   bool skip_property(const PlyProperty& property) {
@@ -287,9 +303,12 @@ Result<PolygonMesh> read_ply(const FileBytes& file, const std::string& path) {
     return fail("the file holds triangle strips, which are not read", path, "export it with faces");
   }
   switch (header->encoding) {
-    case PlyEncoding::ascii: return PlyBody<TextSource>(text, *header).read();
-    case PlyEncoding::little_endian: return PlyBody<BinarySource<PlyEncoding::little_endian>>(text, *header).read();
-    case PlyEncoding::big_endian: return PlyBody<BinarySource<PlyEncoding::big_endian>>(text, *header).read();
+    case PlyEncoding::ascii:
+      return PlyBody<TextSource>(text, *header).read();
+    case PlyEncoding::little_endian:
+      return PlyBody<BinarySource<PlyEncoding::little_endian>>(text, *header).read();
+    case PlyEncoding::big_endian:
+      return PlyBody<BinarySource<PlyEncoding::big_endian>>(text, *header).read();
   }
   return fail("unknown PLY format", path);
 }

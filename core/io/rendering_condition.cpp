@@ -11,9 +11,10 @@ void set_condition(Preset& preset, const RenderingCondition& condition) {
 }
 
 const RenderingCondition* condition_of(const Preset& preset) {
-  const auto found = std::find_if(kRenderingConditions.begin(), kRenderingConditions.end(), [&](const RenderingCondition& c) {
-    return c.force == preset.force.source && c.tactile == preset.display.source;
-  });
+  const auto found =
+      std::find_if(kRenderingConditions.begin(), kRenderingConditions.end(), [&](const RenderingCondition& c) {
+        return c.force == preset.force.source && c.tactile == preset.display.source;
+      });
   return found == kRenderingConditions.end() ? nullptr : &*found;
 }
 

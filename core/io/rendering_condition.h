@@ -10,19 +10,19 @@
 namespace tangent {
 
 struct RenderingCondition {
-  std::string_view name;   ///< "C1"
+  std::string_view name;  ///< "C1"
   ForceSource force;
   TactileSource tactile;   ///< held: the display parks at its centre
   std::string_view words;  ///< "facet force, tactile held"
 };
 
 inline constexpr std::array<RenderingCondition, 6> kRenderingConditions{{
-  {"C1", ForceSource::facet, TactileSource::held, "facet force, tactile held"},
-  {"C2", ForceSource::force_shading, TactileSource::held, "force shading, tactile held"},
-  {"C3", ForceSource::facet, TactileSource::facet, "facet force, facet tactile"},
-  {"C4", ForceSource::facet, TactileSource::smooth, "facet force, smooth tactile"},
-  {"P1", ForceSource::smooth, TactileSource::smooth, "force and tactile smooth"},
-  {"P2", ForceSource::force_shading, TactileSource::facet, "force shading, facet tactile"},
+    {"C1", ForceSource::facet, TactileSource::held, "facet force, tactile held"},
+    {"C2", ForceSource::force_shading, TactileSource::held, "force shading, tactile held"},
+    {"C3", ForceSource::facet, TactileSource::facet, "facet force, facet tactile"},
+    {"C4", ForceSource::facet, TactileSource::smooth, "facet force, smooth tactile"},
+    {"P1", ForceSource::smooth, TactileSource::smooth, "force and tactile smooth"},
+    {"P2", ForceSource::force_shading, TactileSource::facet, "force shading, facet tactile"},
 }};
 /// The names alone, in the same order.
 inline constexpr std::array<std::string_view, 6> kConditionNames{"C1", "C2", "C3", "C4", "P1", "P2"};
@@ -32,8 +32,9 @@ void set_condition(Preset& preset, const RenderingCondition& condition);
 const RenderingCondition* condition_of(const Preset& preset);
 const RenderingCondition* find_condition(std::string_view name);
 
-/// Whether the devices there are can render it: a contact that is to be displayed (tactile facet or smooth) needs a contact
-/// location display, and a force source by name a force device. The method's own sources go wherever there is a device.
+/// Whether the devices there are can render it: a contact that is to be displayed (tactile facet or smooth) needs a
+/// contact location display, and a force source by name a force device. The method's own sources go wherever there is a
+/// device.
 Status check_devices(const Preset& preset, bool has_force_device, bool has_display);
 
 }  // namespace tangent

@@ -39,7 +39,8 @@ std::optional<double> TextCursor::number() {
   if (read.status == ScanStatus::ok) [[likely]] {
     const char* start = at_;
     at_ = read.next;
-    if (at_separator()) [[likely]] return read.value;
+    if (at_separator()) [[likely]]
+      return read.value;
     at_ = start;
   }
   if (line_done()) {

@@ -74,7 +74,8 @@ class TextCursor {
  private:
   static bool is_separator(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == '#'; }
   bool at_continuation() const {
-    if (*at_ != '\\' || continuation_ != LineContinuation::backslash) [[likely]] return false;
+    if (*at_ != '\\' || continuation_ != LineContinuation::backslash) [[likely]]
+      return false;
     // The '\n' at end_ is not the file's: a backslash before it continues nothing.
     return (at_[1] == '\n' && at_ + 1 < end_) || (at_[1] == '\r' && at_ + 2 < end_ && at_[2] == '\n');
   }

@@ -259,14 +259,22 @@ Result<ContactMesh> ContactMesh::build(const PolygonMesh& source, const ContactM
 
 const char* to_string(MeshDefect defect) {
   switch (defect) {
-    case MeshDefect::face_under_three_corners: return "face under three corners";
-    case MeshDefect::non_finite_vertex: return "vertex that is not finite";
-    case MeshDefect::degenerate_triangle: return "degenerate triangle";
-    case MeshDefect::duplicate_triangle: return "duplicate triangle";
-    case MeshDefect::non_manifold_triangle: return "non-manifold triangle";
-    case MeshDefect::bad_normal: return "bad normal";
-    case MeshDefect::unreferenced_vertex: return "unreferenced vertex";
-    case MeshDefect::count_: break;
+    case MeshDefect::face_under_three_corners:
+      return "face under three corners";
+    case MeshDefect::non_finite_vertex:
+      return "vertex that is not finite";
+    case MeshDefect::degenerate_triangle:
+      return "degenerate triangle";
+    case MeshDefect::duplicate_triangle:
+      return "duplicate triangle";
+    case MeshDefect::non_manifold_triangle:
+      return "non-manifold triangle";
+    case MeshDefect::bad_normal:
+      return "bad normal";
+    case MeshDefect::unreferenced_vertex:
+      return "unreferenced vertex";
+    case MeshDefect::count_:
+      break;
   }
   return "unknown defect";
 }

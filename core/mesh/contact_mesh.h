@@ -47,13 +47,13 @@ struct EdgeLink {
 
 /// What the builder met and what it did about it; every item counts, the first few are named.
 enum class MeshDefect : std::uint8_t {
-  face_under_three_corners,    ///< skipped (no triangle numbers are spent on it)
-  non_finite_vertex,           ///< NaN, infinite or beyond kLargestCoordinate: triangles that use it are skipped
-  degenerate_triangle,         ///< repeated corner or no area: skipped
-  duplicate_triangle,          ///< same three corners in the same turn as an earlier one: skipped
-  non_manifold_triangle,       ///< can't be attached to its neighbours as a surface: kept, its edges are boundaries
-  bad_normal,                  ///< file normal zero or not finite: computed one used there
-  unreferenced_vertex,         ///< ignored
+  face_under_three_corners,  ///< skipped (no triangle numbers are spent on it)
+  non_finite_vertex,         ///< NaN, infinite or beyond kLargestCoordinate: triangles that use it are skipped
+  degenerate_triangle,       ///< repeated corner or no area: skipped
+  duplicate_triangle,        ///< same three corners in the same turn as an earlier one: skipped
+  non_manifold_triangle,     ///< can't be attached to its neighbours as a surface: kept, its edges are boundaries
+  bad_normal,                ///< file normal zero or not finite: computed one used there
+  unreferenced_vertex,       ///< ignored
   count_
 };
 inline constexpr std::size_t kMeshDefectCount = static_cast<std::size_t>(MeshDefect::count_);
@@ -143,7 +143,7 @@ class ContactMesh {
   std::vector<std::array<std::uint32_t, 3>> vertices_;
   std::vector<std::array<std::uint32_t, 3>> normal_index_;
   std::vector<std::array<std::uint32_t, 3>> links_;  ///< triangle << 2 | edge, or kNone
-  std::vector<std::uint8_t> crease_bits_;            ///< bit k: edge k is a crease; bit 3+k: corner k touches a feature edge
+  std::vector<std::uint8_t> crease_bits_;  ///< bit k: edge k is a crease; bit 3+k: corner k touches a feature edge
   std::array<MeshDefectList, kMeshDefectCount> defects_;
   std::vector<std::string> notes_;
 };

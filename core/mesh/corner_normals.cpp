@@ -62,9 +62,7 @@ void normals_at_plain_vertices(const SurfaceView& s, std::span<const Vec3> faces
 
 /// The corners of one smooth fan, counter-clockwise, without crossing a sharp edge.
 void collect_fan(const SurfaceView& s, std::span<const std::uint8_t> sharp, Corner start, std::vector<Corner>& fan) {
-  const auto left = [&](Corner c) {
-    return sharp[c.triangle] & bit(edge_left(c)) ? Corner{} : turn_left(s.links, c);
-  };
+  const auto left = [&](Corner c) { return sharp[c.triangle] & bit(edge_left(c)) ? Corner{} : turn_left(s.links, c); };
   const auto right = [&](Corner c) {
     return sharp[c.triangle] & bit(edge_right(c)) ? Corner{} : turn_right(s.links, c);
   };
@@ -115,8 +113,7 @@ std::vector<std::uint8_t> sharp_edges(const SurfaceView& s, std::span<const Vec3
   return sharp;
 }
 
-CornerNormals computed_normals(const SurfaceView& s, std::span<const Vec3> faces,
-                               std::span<const std::uint8_t> sharp) {
+CornerNormals computed_normals(const SurfaceView& s, std::span<const Vec3> faces, std::span<const std::uint8_t> sharp) {
   CornerNormals out;
   out.normals.reserve(s.positions.size());
   out.index.assign(s.triangles.size(), {kNone, kNone, kNone});
@@ -128,8 +125,7 @@ CornerNormals computed_normals(const SurfaceView& s, std::span<const Vec3> faces
       if (out.index[t][k] != kNone) continue;
       collect_fan(s, sharp, {t, k}, fan);
       WeightedNormal normal;
-      for (const Corner& c : fan)
-        normal.add(angles(s, c.triangle)[static_cast<int>(c.corner)], faces[c.triangle]);
+      for (const Corner& c : fan) normal.add(angles(s, c.triangle)[static_cast<int>(c.corner)], faces[c.triangle]);
       const bool cancelled = normal.cancelled();
       if (!cancelled) out.normals.push_back(unit(normal.sum));
       for (const Corner& c : fan) {

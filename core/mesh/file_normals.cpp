@@ -22,8 +22,11 @@ std::optional<Vec3> direction(const Vec3& n) {
 class NormalPool {
  public:
   NormalPool(const PolygonMesh& source, const std::function<CornerNormals()>& computed)
-      : source_(source), compute_(computed), weld_(weld_exact(source.normals, kAnyFinite)),
-        from_file_(weld_.count(), kNone), bad_(source.normals.size(), false) {}
+      : source_(source),
+        compute_(computed),
+        weld_(weld_exact(source.normals, kAnyFinite)),
+        from_file_(weld_.count(), kNone),
+        bad_(source.normals.size(), false) {}
 
   std::uint32_t pick(std::uint32_t source_normal, Corner corner, FileNormals& out) {
     if (source_normal == kNone) {

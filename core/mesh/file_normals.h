@@ -12,9 +12,9 @@ namespace tangent {
 
 struct FileNormals {
   CornerNormals corners;
-  MeshDefectList bad;            ///< normals (file numbering) that are zero or not finite and that a used triangle has
-  std::uint64_t from_file = 0;   ///< corners
-  std::uint64_t missing = 0;     ///< corners without a normal in the file
+  MeshDefectList bad;           ///< normals (file numbering) that are zero or not finite and that a used triangle has
+  std::uint64_t from_file = 0;  ///< corners
+  std::uint64_t missing = 0;    ///< corners without a normal in the file
 };
 
 /// True when every corner of the faces with three corners or more has a normal (and there is one).

@@ -14,9 +14,9 @@ inline constexpr std::uint32_t kNone = 0xFFFFFFFFu;  ///< "no index"
 
 /// Faces are polygons with any number of corners (also fewer than three: the audit names them).
 struct PolygonMesh {
-  std::string name;                          ///< file name or generator name, for messages
-  std::vector<Vec3> positions;               ///< metres
-  std::vector<Vec3> normals;                 ///< as in the file, not necessarily unit
+  std::string name;                            ///< file name or generator name, for messages
+  std::vector<Vec3> positions;                 ///< metres
+  std::vector<Vec3> normals;                   ///< as in the file, not necessarily unit
   std::vector<std::uint32_t> face_offsets{0};  ///< face f has corners [face_offsets[f], face_offsets[f+1])
   std::vector<std::uint32_t> corner_position;  ///< index into positions
   std::vector<std::uint32_t> corner_normal;    ///< index into normals or kNone; empty: no corner has one

@@ -61,8 +61,8 @@ void settle(std::vector<Index3>& triangles, std::span<const Claim> claims, std::
     const std::uint32_t t = claims[0].packed >> 2;
     std::size_t n = 1;
     while (n < claims.size() && claims[n].packed >> 2 == t) ++n;
-    const auto taken = std::find_if(claims.begin(), claims.begin() + n,
-                                    [&](const Claim& c) { return holder[c.direction] != kNone; });
+    const auto taken =
+        std::find_if(claims.begin(), claims.begin() + n, [&](const Claim& c) { return holder[c.direction] != kNone; });
     if (taken == claims.begin() + n) {
       for (const Claim& c : claims.first(n)) holder[c.direction] = c.packed;
     } else {

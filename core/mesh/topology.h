@@ -11,7 +11,8 @@
 // Why not OpenMesh's add_face here: measured on this data (one core), it took 1.5 s for a 5.24M-triangle
 // icosphere in file order but 7.3 s shuffled, and 6.9 s for a shuffled cone of 40,000 sides, growing with the square of
 // the valence. By the way it walks one fan per vertex (read, not tried) it would also refuse the second fan at a vertex
-// whose first is closed, and miss edges that sit in another fan. OpenMesh carries the surface once it is one: half_edges.h.
+// whose first is closed, and miss edges that sit in another fan. OpenMesh carries the surface once it is one:
+// half_edges.h.
 #pragma once
 
 #include "core/mesh/fan_walk.h"
@@ -22,10 +23,10 @@
 namespace tangent {
 
 struct Topology {
-  std::vector<Index3> links;             ///< per triangle and edge: triangle << 2 | edge across, kNone at a boundary
-  std::vector<std::uint32_t> copy_of;    ///< new vertex vertex_count + i stands where vertex copy_of[i] is
-  std::vector<std::uint32_t> duplicates; ///< triangles taken out, ascending
-  std::vector<std::uint32_t> detached;   ///< triangles kept apart, ascending
+  std::vector<Index3> links;              ///< per triangle and edge: triangle << 2 | edge across, kNone at a boundary
+  std::vector<std::uint32_t> copy_of;     ///< new vertex vertex_count + i stands where vertex copy_of[i] is
+  std::vector<std::uint32_t> duplicates;  ///< triangles taken out, ascending
+  std::vector<std::uint32_t> detached;    ///< triangles kept apart, ascending
 };
 
 /// Works on `triangles` in place: duplicates become {kNone, kNone, kNone}, split vertices get new numbers from

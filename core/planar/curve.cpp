@@ -29,7 +29,8 @@ void add_centres(CurvePatch& patch, const Vec2& previous, const Vec2& next) {
   if (patch.straight) return;
   patch.centre[0] = bisector_centre(patch.first, l1, patch.last, l2);
   patch.centre[1] = 0.5 * (previous + next);
-  for (std::size_t i = 0; i < 2; ++i) patch.turn_rad[i] = angle(patch.first - patch.centre[i], patch.last - patch.centre[i]);
+  for (std::size_t i = 0; i < 2; ++i)
+    patch.turn_rad[i] = angle(patch.first - patch.centre[i], patch.last - patch.centre[i]);
 }
 
 void add_disc(CurvePatch& patch) {

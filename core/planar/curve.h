@@ -31,8 +31,8 @@ struct CurvePatch {
   std::array<double, 2> turn_rad;  ///< by LocalCentre: angle from P1 to P3 about it, signed
   bool straight = false;           ///< P1, P2, P3 on one line: parameters are parts of the way
   CurveJoint joint_before = CurveJoint::smooth, joint_after = CurveJoint::smooth;
-  Vec2 disc_centre;                ///< a disc that holds the patch
-  double disc_radius = 0.0;        ///< m
+  Vec2 disc_centre;          ///< a disc that holds the patch
+  double disc_radius = 0.0;  ///< m
 };
 
 /// The tangent line of a patch at t, with derivatives by t, and the place on it that has t as its parameter.
@@ -56,10 +56,10 @@ class PlanarCurve {
   bool closed() const { return polygon_.closed; }
   std::uint32_t after(std::uint32_t i) const { return i + 1 < patch_count() ? i + 1 : 0; }
   std::uint32_t before(std::uint32_t i) const { return i > 0 ? i - 1 : patch_count() - 1; }
-  double side() const { return side_; }                      ///< +1: the finger is to the left, -1: to the right
+  double side() const { return side_; }  ///< +1: the finger is to the left, -1: to the right
   Vec2 normal_of(const Vec2& direction) const { return side_ * Vec2(-direction.y, direction.x); }
   Vec2 vertex(std::uint32_t i) const { return patches_[i].vertex; }
-  double size_m() const { return size_; }                    ///< longest side of the box
+  double size_m() const { return size_; }  ///< longest side of the box
 
   /// Any finite t; between 0 and 1 for the patch itself.
   LineSample sample(std::uint32_t patch, LocalCentre centre, double t) const;

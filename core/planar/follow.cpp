@@ -55,7 +55,9 @@ class Follower {
     line.curvature = rendered_curvature(s);
     line.residual = x_.curve.parameter(patch, centre_, line.contact) - t;
     const double along_t = glm::dot(arm, s.direction_t) - glm::dot(s.foot_t, s.direction);
-    line.slope = x_.curve.parameter_rate(patch, centre_, line.contact, s.foot_t + along_t * s.direction + along * s.direction_t) - 1.0;
+    line.slope = x_.curve.parameter_rate(patch, centre_, line.contact,
+                                         s.foot_t + along_t * s.direction + along * s.direction_t) -
+                 1.0;
     return line;
   }
 
@@ -135,7 +137,8 @@ class Follower {
     next.t = std::clamp(x_.curve.parameter(next.patch, centre_, x_.centre), 0.0, 1.0);
     ++out_.patch_changes;
     // Deep in a notch each side points to the other.
-    return out_.patch_changes > 2 * static_cast<int>(x_.curve.patch_count()) + 8 ? StopReason::cycling : StopReason::going_on;
+    return out_.patch_changes > 2 * static_cast<int>(x_.curve.patch_count()) + 8 ? StopReason::cycling
+                                                                                 : StopReason::going_on;
   }
 
   StopReason leave_vertex(const Line& line, PlanarPlace& next) {
@@ -201,7 +204,8 @@ bool end_contact(const PlanarContext& x, std::uint32_t patch, bool after, Planar
   if (joint == CurveJoint::end) {
     if (!(glm::dot(arm, after ? here.direction : -here.direction) > 0.0)) return false;
   } else {
-    const LineSample there = after ? x.curve.sample(x.curve.after(patch), kind, 0.0) : x.curve.sample(x.curve.before(patch), kind, 1.0);
+    const LineSample there =
+        after ? x.curve.sample(x.curve.after(patch), kind, 0.0) : x.curve.sample(x.curve.before(patch), kind, 1.0);
     const Vec2 in = after ? here.direction : there.direction, out = after ? there.direction : here.direction;
     // Convex towards the finger: stable from outside. In a notch only a finger behind the surface rests on the vertex.
     if (x.curve.side() * cross(in, out) > 0.0) sign = -1.0;

@@ -13,8 +13,8 @@ struct PlanarPlace {
   Feature feature = Feature::none;  ///< face: on a patch; vertex: at an end (t is 0 or 1)
   std::uint32_t patch = 0;
   double t = 0.0;
-  Vec2 point{0.0};                  ///< local, m
-  Vec2 normal{0.0, 1.0};            ///< unit
+  Vec2 point{0.0};        ///< local, m
+  Vec2 normal{0.0, 1.0};  ///< unit
 };
 
 struct PlanarContact {
@@ -31,10 +31,10 @@ struct PlanarContact {
 struct PlanarContext {
   const PlanarCurve& curve;
   const SolverSettings& settings;
-  Vec2 centre;             ///< of the finger, local, m
-  double radius_m = 0.0;   ///< 0: a point
+  Vec2 centre;            ///< of the finger, local, m
+  double radius_m = 0.0;  ///< 0: a point
   IterationTrace* trace = nullptr;
-  std::uint8_t seed = 0;   ///< for the trace
+  std::uint8_t seed = 0;  ///< for the trace
 };
 
 /// Iterates from `start` until the error is below tolerance. A kept start costs no evaluation, any other one.

@@ -54,7 +54,8 @@ Status check_vertices(const PlanarPolygon& polygon) {
       return fail(number(i) + " is not a finite place", polygon.name, "write finite coordinates");
   }
   std::vector<Vec2> different = v;
-  std::sort(different.begin(), different.end(), [](const Vec2& a, const Vec2& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
+  std::sort(different.begin(), different.end(),
+            [](const Vec2& a, const Vec2& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
   const auto count = std::unique(different.begin(), different.end()) - different.begin();
   if (count < 3)
     return fail("only " + std::to_string(count) + " different " + (count == 1 ? "vertex" : "vertices"), polygon.name,
@@ -72,7 +73,8 @@ Status check_repeats(const PlanarPolygon& polygon) {
                 "a vertex twice in a row is a sharp corner, which needs a segment on both sides");
   for (std::size_t i = 0; i < (polygon.closed ? n : n - 2); ++i) {
     if (v[i] == v[(i + 1) % n] && v[i] == v[(i + 2) % n])
-      return fail(number(i) + " is there three times or more in a row", polygon.name, "twice makes a sharp corner; leave the others out");
+      return fail(number(i) + " is there three times or more in a row", polygon.name,
+                  "twice makes a sharp corner; leave the others out");
   }
   return {};
 }
@@ -83,7 +85,8 @@ Status check_folds(const PlanarPolygon& polygon, const std::vector<Segment>& seg
     const Vec2 a = segments[i].b - segments[i].a, b = next.b - next.a;
     const double scale = std::sqrt(glm::dot(a, a) * glm::dot(b, b));
     if (glm::dot(a, b) < 0.0 && std::abs(cross(a, b)) <= kFoldedSine * scale)
-      return fail("the polygon folds back onto itself at " + number(next.from), polygon.name, "take the vertex out or move it aside");
+      return fail("the polygon folds back onto itself at " + number(next.from), polygon.name,
+                  "take the vertex out or move it aside");
   }
   return {};
 }
@@ -94,8 +97,8 @@ Status check_ends(const PlanarPolygon& polygon, const std::vector<Segment>& segm
   for (const Segment& s : segments) length += glm::length(s.b - s.a);
   const double gap = glm::length(polygon.vertices.back() - polygon.vertices.front());
   if (gap >= kNearlyClosed * length / static_cast<double>(segments.size())) return {};
-  return fail("the polygon is not closed, but its ends all but meet (" + std::to_string(gap * 1e6) + " um apart)", polygon.name,
-              "to close it, repeat the first vertex at the end, exactly");
+  return fail("the polygon is not closed, but its ends all but meet (" + std::to_string(gap * 1e6) + " um apart)",
+              polygon.name, "to close it, repeat the first vertex at the end, exactly");
 }
 
 /// Which side of a-b each end of c-d is on decides; ends on the line count as touching.
@@ -104,7 +107,8 @@ bool touch(const Segment& p, const Segment& q) {
     const double c = cross(s.b - s.a, t.a - s.a), d = cross(s.b - s.a, t.b - s.a);
     return (c > 0.0 && d > 0.0) || (c < 0.0 && d < 0.0);
   };
-  const Vec2 p_low = glm::min(p.a, p.b), p_high = glm::max(p.a, p.b), q_low = glm::min(q.a, q.b), q_high = glm::max(q.a, q.b);
+  const Vec2 p_low = glm::min(p.a, p.b), p_high = glm::max(p.a, p.b), q_low = glm::min(q.a, q.b),
+             q_high = glm::max(q.a, q.b);
   if (p_high.x < q_low.x || q_high.x < p_low.x || p_high.y < q_low.y || q_high.y < p_low.y) return false;
   return !apart(p, q) && !apart(q, p);
 }
@@ -138,8 +142,9 @@ Status check_polygon(const PlanarPolygon& polygon) {
   if (Status status = check_ends(polygon, segments); !status) return status;
   if (Status status = check_folds(polygon, segments); !status) return status;
   if (const auto crossing = find_crossing(segments, polygon.closed))
-    return fail("the polygon crosses or touches itself: the segments after vertices " + std::to_string(segments[crossing->first].from) +
-                    " and " + std::to_string(segments[crossing->second].from),
+    return fail("the polygon crosses or touches itself: the segments after vertices " +
+                    std::to_string(segments[crossing->first].from) + " and " +
+                    std::to_string(segments[crossing->second].from),
                 polygon.name, "move the vertices apart");
   return {};
 }

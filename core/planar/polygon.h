@@ -14,14 +14,14 @@ namespace tangent {
 /// Closed polygons do not repeat their first vertex at the end. The finger touches a closed polygon from outside,
 /// whichever way it turns, and an open one from its left, as one goes along.
 struct PlanarPolygon {
-  std::string name;            ///< file or generator name, for messages
+  std::string name;  ///< file or generator name, for messages
   std::vector<Vec2> vertices;
   bool closed = false;
 };
 
 inline constexpr std::size_t kMostPlanarVertices = 1'000'000;
 
-double cross(const Vec2& a, const Vec2& b);  ///< z of the cross product
+double cross(const Vec2& a, const Vec2& b);           ///< z of the cross product
 double signed_area_m2(const PlanarPolygon& polygon);  ///< of a closed one; positive: counter-clockwise
 
 /// Whether the 2D algorithm can take it. Fails, naming the vertices (from 0), on: fewer than three different vertices;

@@ -58,7 +58,8 @@ FacetContact PolygonSurface::nearest(const Vec3& centre) const {
     // A sharp corner's two segments share the vertex though they are two patches apart.
     const std::uint32_t i = contact.hit.triangle;
     std::uint32_t other = part == 0.0 ? curve_.before(i) : curve_.after(i);
-    if (!has_segment(other) && (part == 0.0 ? curve_.patch(i).joint_before : curve_.patch(other).joint_after) == CurveJoint::corner)
+    if (!has_segment(other) &&
+        (part == 0.0 ? curve_.patch(i).joint_before : curve_.patch(other).joint_after) == CurveJoint::corner)
       other = part == 0.0 ? curve_.before(other) : curve_.after(other);
     if (has_segment(other)) {
       const Vec2 sum = outward + segment_normal(other);
@@ -67,14 +68,16 @@ FacetContact PolygonSurface::nearest(const Vec3& centre) const {
   }
   const Vec2 d(centre.x - contact.hit.point.x, centre.y - contact.hit.point.y);
   const double side = glm::dot(d, outward) < 0.0 ? -1.0 : 1.0;
-  contact.normal = contact.hit.distance_m < tolerance_m_ ? lifted(outward) : (side / contact.hit.distance_m) * lifted(d);
+  contact.normal =
+      contact.hit.distance_m < tolerance_m_ ? lifted(outward) : (side / contact.hit.distance_m) * lifted(d);
   contact.height_m = side * contact.hit.distance_m;
   return contact;
 }
 
 Vec3 PolygonSurface::interpolated_normal(const FacetContact& facet) const {
   const double part = facet.hit.u;
-  const Vec2 sum = (1.0 - part) * vertex_normal(facet.hit.triangle, false) + part * vertex_normal(facet.hit.triangle, true);
+  const Vec2 sum =
+      (1.0 - part) * vertex_normal(facet.hit.triangle, false) + part * vertex_normal(facet.hit.triangle, true);
   const double length = glm::length(sum);
   return length > 1e-12 ? lifted(sum / length) : facet.normal;
 }

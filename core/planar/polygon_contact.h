@@ -6,8 +6,8 @@
 
 namespace tangent {
 
-/// The polygon's segments as facets. A hit's `triangle` is the segment's first vertex, `u` the part of the way along it;
-/// z is 0. Every query looks at every segment.
+/// The polygon's segments as facets. A hit's `triangle` is the segment's first vertex, `u` the part of the way along
+/// it; z is 0. Every query looks at every segment.
 class PolygonSurface final : public ProxySurface {
  public:
   /// `curve` must outlive it. `tolerance_m`: as for facet_contact.

@@ -52,9 +52,7 @@ class Tracker {
   }
 
  private:
-  void follow_from(const PlanarPlace& start, bool kept, int budget) {
-    take(follow(x_, start, kept, budget));
-  }
+  void follow_from(const PlanarPlace& start, bool kept, int budget) { take(follow(x_, start, kept, budget)); }
   void take(const PlanarContact& contact) {
     out_.evaluations += contact.evaluations;
     out_.patch_changes += contact.patch_changes;
@@ -69,8 +67,12 @@ class Tracker {
   void find_again(int limit) {
     const std::uint32_t nearest = nearest_patch();
     ++x_.seed;
-    follow_from({Feature::face, nearest, std::clamp(x_.curve.parameter(nearest, x_.settings.local_centre, x_.centre), 0.0, 1.0), {}, {}}, false,
-                x_.settings.method == Method::robust ? kSeedLines : limit);
+    follow_from({Feature::face,
+                 nearest,
+                 std::clamp(x_.curve.parameter(nearest, x_.settings.local_centre, x_.centre), 0.0, 1.0),
+                 {},
+                 {}},
+                false, x_.settings.method == Method::robust ? kSeedLines : limit);
     if (x_.settings.method != Method::robust || out_.converged()) return;
     PlanarContact best;
     if (search(std::numeric_limits<double>::infinity(), kNone, best)) take_found(best);
@@ -138,7 +140,8 @@ class Tracker {
     const CurvePatch& p = x_.curve.patch(i);
     const double first = along_first(x_, p), last = along_last(x_, p);
     if (first >= 0.0 && last <= 0.0) return bracket(0.0, 1.0);
-    // Both ends point the same way: none, or a stable and an unstable one, which takes ground concave towards the finger.
+    // Both ends point the same way: none, or a stable and an unstable one, which takes ground concave towards the
+    // finger.
     const bool concave = x_.curve.side() * cross(p.vertex - p.first, p.last - p.vertex) > 0.0;
     const bool ahead = glm::dot(x_.centre - p.vertex, x_.curve.normal_of(p.last - p.first)) > 0.0;
     if (p.straight || concave != ahead || (first < 0.0 && last > 0.0)) return;
@@ -166,7 +169,8 @@ class Tracker {
       const double middle = 0.5 * (low + high);
       contact = follow(quiet, {Feature::face, i, middle, {}, {}}, false, 6);
       out_.evaluations += contact.evaluations;
-      const bool inside = contact.place.patch == i && contact.place.feature == Feature::face && contact.place.t >= low && contact.place.t <= high;
+      const bool inside = contact.place.patch == i && contact.place.feature == Feature::face &&
+                          contact.place.t >= low && contact.place.t <= high;
       if (contact.converged() && (inside || contact.patch_changes > 0)) return contact;
       (residual(i, middle) > 0.0 ? low : high) = middle;
     }

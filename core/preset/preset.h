@@ -25,29 +25,29 @@ enum class TactileSource : std::uint8_t { method, held, facet, smooth };
 
 struct SolverSettings {
   Method method = Method::robust;
-  double gain_overall = 1.0;            ///< G_o of Eq. 1, 1
-  double gain_curvature_m = 0.020;      ///< G_k of Eq. 1, m
-  double gain_distance_per_m = 0.0;     ///< G_d of Eq. 1, 1/m
+  double gain_overall = 1.0;         ///< G_o of Eq. 1, 1
+  double gain_curvature_m = 0.020;   ///< G_k of Eq. 1, m
+  double gain_distance_per_m = 0.0;  ///< G_d of Eq. 1, 1/m
   DistanceReading distance_reading = DistanceReading::proxy;
-  double tolerance_m = 1e-6;            ///< converged below this error
-  int max_iterations = 50;              ///< new tangent planes a tick, before tracking gives up
+  double tolerance_m = 1e-6;  ///< converged below this error
+  int max_iterations = 50;    ///< new tangent planes a tick, before tracking gives up
   NormalForm normal_form = NormalForm::bernstein;
-  double switch_hysteresis_m = 20e-6;   ///< a nonadjacent place must be deeper by this to take over
+  double switch_hysteresis_m = 20e-6;                 ///< a nonadjacent place must be deeper by this to take over
   LocalCentre local_centre = LocalCentre::bisectors;  ///< 2D scenes only
   bool operator==(const SolverSettings&) const = default;
 };
 
 struct ForceSettings {
   double stiffness_n_per_m = 800.0;
-  double damping_n_s_per_m = 0.0;       ///< along the normal
-  double limit_n = 8.5;                 ///< the rendered force never exceeds this
+  double damping_n_s_per_m = 0.0;  ///< along the normal
+  double limit_n = 8.5;            ///< the rendered force never exceeds this
   ForceSource source = ForceSource::method;
   bool operator==(const ForceSettings&) const = default;
 };
 
 struct DisplaySettings {
-  double finger_arc_m = 16e-3;          ///< this much arc on the finger ...
-  double travel_m = 16e-3;              ///< ... maps linearly to this much travel, centred; clamped to it
+  double finger_arc_m = 16e-3;  ///< this much arc on the finger ...
+  double travel_m = 16e-3;      ///< ... maps linearly to this much travel, centred; clamped to it
   TactileSource source = TactileSource::method;
   bool operator==(const DisplaySettings&) const = default;
 };
@@ -55,19 +55,19 @@ struct DisplaySettings {
 /// The position loop in the display's own controller, and what it lets through:
 ///   u = p (weight target - x) + i integral(target - x) - d x'
 struct ControllerSettings {
-  double p_per_s2 = 0.0;                ///< 0: all four gains are the device's own
+  double p_per_s2 = 0.0;  ///< 0: all four gains are the device's own
   double i_per_s3 = 0.0;
   double d_per_s = 0.0;
-  double target_weight = 1.0;           ///< of the target in the proportional part, 0 to 1
-  double lowest_m = -25e-3, highest_m = 25e-3;   ///< of targets; the display's travel bounds them as well
-  double fastest_m_per_s = 0.0;         ///< of the target; 0: as fast as the drive goes
-  double largest_current_a = 0.0;       ///< of the motor; 0: the device's own
+  double target_weight = 1.0;                   ///< of the target in the proportional part, 0 to 1
+  double lowest_m = -25e-3, highest_m = 25e-3;  ///< of targets; the display's travel bounds them as well
+  double fastest_m_per_s = 0.0;                 ///< of the target; 0: as fast as the drive goes
+  double largest_current_a = 0.0;               ///< of the motor; 0: the device's own
   bool operator==(const ControllerSettings&) const = default;
 };
 
 struct SafetySettings {
-  double unconverged_hold_s = 5e-3;     ///< last converged plane renders this long ...
-  double unconverged_ramp_s = 5e-3;     ///< ... then force and display ramp to zero over this long
+  double unconverged_hold_s = 5e-3;  ///< last converged plane renders this long ...
+  double unconverged_ramp_s = 5e-3;  ///< ... then force and display ramp to zero over this long
   bool operator==(const SafetySettings&) const = default;
 };
 

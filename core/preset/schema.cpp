@@ -18,8 +18,10 @@ template <auto Group, auto Field>
 void write(Preset& preset, double value) {
   auto& field = (preset.*Group).*Field;
   using Value = std::remove_reference_t<decltype(field)>;
-  if constexpr (std::is_same_v<Value, double>) field = value;
-  else field = static_cast<Value>(static_cast<int>(value));
+  if constexpr (std::is_same_v<Value, double>)
+    field = value;
+  else
+    field = static_cast<Value>(static_cast<int>(value));
 }
 template <int Axis>
 double read_semi_axis(const Preset& preset) {
@@ -43,15 +45,36 @@ template <auto Group, auto Field, std::size_t N>
 constexpr PresetKey choice(std::string_view table, std::string_view key, std::string_view label,
                            const std::array<std::string_view, N>& choices, std::string_view doc,
                            std::string_view option = {}) {
-  return {.table = table, .key = key, .kind = KeyKind::choice, .label = label, .unit = {}, .doc = doc,
-          .min = 0.0, .max = double(N - 1), .slider_min = 0.0, .slider_max = double(N - 1),
-          .choices = choices, .option = option, .get = read<Group, Field>, .set = write<Group, Field>};
+  return {.table = table,
+          .key = key,
+          .kind = KeyKind::choice,
+          .label = label,
+          .unit = {},
+          .doc = doc,
+          .min = 0.0,
+          .max = double(N - 1),
+          .slider_min = 0.0,
+          .slider_max = double(N - 1),
+          .choices = choices,
+          .option = option,
+          .get = read<Group, Field>,
+          .set = write<Group, Field>};
 }
 
 constexpr PresetKey semi_axis(std::string_view key, std::string_view label, std::string_view doc,
                               double (*get)(const Preset&), void (*set)(Preset&, double)) {
-  return {.table = "finger", .key = key, .label = label, .unit = "m", .doc = doc, .min = 1e-5, .max = 1.0,
-          .slider_min = 0.001, .slider_max = 0.05, .logarithmic = true, .get = get, .set = set};
+  return {.table = "finger",
+          .key = key,
+          .label = label,
+          .unit = "m",
+          .doc = doc,
+          .min = 1e-5,
+          .max = 1.0,
+          .slider_min = 0.001,
+          .slider_max = 0.05,
+          .logarithmic = true,
+          .get = get,
+          .set = set};
 }
 
 using S = SolverSettings;
@@ -66,6 +89,7 @@ constexpr auto kDisplay = &Preset::display;
 constexpr auto kController = &Preset::controller;
 constexpr auto kSafety = &Preset::safety;
 
+// clang-format off
 constexpr std::array kKeys{
   // solver
   choice<kSolver, &S::method>("solver", "method", "Method", kMethods,
@@ -83,7 +107,8 @@ constexpr std::array kKeys{
   PresetKey{.table = "solver", .key = "gain_distance_per_m", .label = "Distance gain G_d", .unit = "1/m",
     .doc = "G_d of Eq. 1: shortens steps when the finger is far from the plane. Larger is slower and steadier.",
     .min = 0.0, .max = 1e5, .slider_min = 0.0, .slider_max = 500.0, .option = "gain-distance-per-m",
-    .option_unit = "1/m", .get = read<kSolver, &S::gain_distance_per_m>, .set = write<kSolver, &S::gain_distance_per_m>},
+    .option_unit = "1/m",
+    .get = read<kSolver, &S::gain_distance_per_m>, .set = write<kSolver, &S::gain_distance_per_m>},
   choice<kSolver, &S::distance_reading>("solver", "distance_reading", "Distance d", kDistanceReadings,
     "What d of Eq. 1 stands for: the distance from the finger to the proxy touching the plane (R - h), or from the "
     "finger's centre to the plane (h).", "distance-reading"),
@@ -92,7 +117,8 @@ constexpr std::array kKeys{
     .min = 1e-12, .max = 1e-3, .slider_min = 1e-9, .slider_max = 1e-4, .logarithmic = true,
     .option = "tolerance-um", .option_per_si = 1e6, .option_unit = "um",
     .get = read<kSolver, &S::tolerance_m>, .set = write<kSolver, &S::tolerance_m>},
-  PresetKey{.table = "solver", .key = "max_iterations", .kind = KeyKind::integer, .label = "Iteration limit", .unit = "1",
+  PresetKey{.table = "solver", .key = "max_iterations", .kind = KeyKind::integer,
+    .label = "Iteration limit", .unit = "1",
     .doc = "New tangent planes a tick may compute before its tracking is given up.",
     .min = 1.0, .max = 10000.0, .slider_min = 1.0, .slider_max = 200.0, .logarithmic = true,
     .option = "max-iterations", .get = read<kSolver, &S::max_iterations>, .set = write<kSolver, &S::max_iterations>},
@@ -104,7 +130,8 @@ constexpr std::array kKeys{
     .min = 0.0, .max = 0.1, .slider_min = 0.0, .slider_max = 1e-3,
     .get = read<kSolver, &S::switch_hysteresis_m>, .set = write<kSolver, &S::switch_hysteresis_m>},
   choice<kSolver, &S::local_centre>("solver", "local_centre", "Local centre", kLocalCentres,
-    "2D scenes: where angles along a patch are seen from: the meeting point of its segments' perpendicular bisectors, or "
+    "2D scenes: where angles along a patch are seen from: the meeting point of its segments' perpendicular "
+    "bisectors, or "
     "the midpoint of their far ends.", "local-centre"),
 
   // finger
@@ -158,7 +185,8 @@ constexpr std::array kKeys{
 
   // controller
   PresetKey{.table = "controller", .key = "p_per_s2", .label = "Gain P", .unit = "1/s2",
-    .doc = "Of the position loop in the display's controller: acceleration per distance from the target. 0: all four gains are "
+    .doc = "Of the position loop in the display's controller: acceleration per distance from the target. 0: all four "
+           "gains are "
            "the device's own.",
     .min = 0.0, .max = 1e7, .slider_min = 0.0, .slider_max = 20000.0, .get = read<kController, &C::p_per_s2>,
     .set = write<kController, &C::p_per_s2>},
@@ -167,11 +195,13 @@ constexpr std::array kKeys{
     .min = 0.0, .max = 1e9, .slider_min = 0.0, .slider_max = 200000.0, .get = read<kController, &C::i_per_s3>,
     .set = write<kController, &C::i_per_s3>},
   PresetKey{.table = "controller", .key = "d_per_s", .label = "Gain D", .unit = "1/s",
-    .doc = "Of the position loop: acceleration per speed, against it. Negative where the drive's own drag is more than wanted.",
+    .doc = "Of the position loop: acceleration per speed, against it. Negative where the drive's own drag is more "
+           "than wanted.",
     .min = -1000.0, .max = 10000.0, .slider_min = 0.0, .slider_max = 300.0, .get = read<kController, &C::d_per_s>,
     .set = write<kController, &C::d_per_s>},
   PresetKey{.table = "controller", .key = "target_weight", .label = "Target weight", .unit = "1",
-    .doc = "Of the target in the proportional part. Less than 1 takes away overshoot; at rest the target is reached all the same.",
+    .doc = "Of the target in the proportional part. Less than 1 takes away overshoot; at rest the target "
+           "is reached all the same.",
     .min = 0.0, .max = 1.0, .slider_min = 0.0, .slider_max = 1.0, .get = read<kController, &C::target_weight>,
     .set = write<kController, &C::target_weight>},
   PresetKey{.table = "controller", .key = "lowest_m", .label = "Lowest target", .unit = "m",
@@ -183,7 +213,8 @@ constexpr std::array kKeys{
     .min = 0.0, .max = 0.1, .slider_min = 0.0, .slider_max = 0.025, .get = read<kController, &C::highest_m>,
     .set = write<kController, &C::highest_m>},
   PresetKey{.table = "controller", .key = "fastest_m_per_s", .label = "Fastest target", .unit = "m/s",
-    .doc = "The controller's target moves no faster. 0: as fast as the drive goes. Below 0.1 mm/s the safety gate takes the "
+    .doc = "The controller's target moves no faster. 0: as fast as the drive goes. Below 0.1 mm/s the "
+           "safety gate takes the "
            "roller for stuck.",
     .min = 0.0, .max = 10.0, .slider_min = 0.0, .slider_max = 0.5, .get = read<kController, &C::fastest_m_per_s>,
     .set = write<kController, &C::fastest_m_per_s>},
@@ -202,8 +233,10 @@ constexpr std::array kKeys{
     .min = 0.0, .max = 1.0, .slider_min = 0.0, .slider_max = 0.05, .get = read<kSafety, &G::unconverged_ramp_s>,
     .set = write<kSafety, &G::unconverged_ramp_s>},
 };
+// clang-format on
 
-constexpr std::array<std::string_view, 7> kTables{"about", "solver", "finger", "force", "display", "controller", "safety"};
+constexpr std::array<std::string_view, 7> kTables{"about",   "solver",     "finger", "force",
+                                                  "display", "controller", "safety"};
 
 }  // namespace
 
@@ -257,15 +290,18 @@ Status check_preset(const Preset& preset) {
   }
   const FingerShape shape = preset.finger.shape;
   if (preset.solver.method == Method::two_pass && shape != FingerShape::point && shape != FingerShape::sphere)
-    return fail("the two-pass proxy takes point and sphere fingers only", "solver.method", "choose another method or finger.shape");
+    return fail("the two-pass proxy takes point and sphere fingers only", "solver.method",
+                "choose another method or finger.shape");
   return {};
 }
 
 std::string range_text(double min, double max, std::string_view unit) {
   // "100000", not "1e+05": people type these numbers.
   const auto append = [](std::string& text, double value) {
-    if (std::floor(value) == value && std::abs(value) <= 1e9) text += std::to_string(static_cast<long long>(value));
-    else append_double(text, value);
+    if (std::floor(value) == value && std::abs(value) <= 1e9)
+      text += std::to_string(static_cast<long long>(value));
+    else
+      append_double(text, value);
   };
   std::string text;
   append(text, min);

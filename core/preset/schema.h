@@ -22,28 +22,28 @@ enum class KeyKind : std::uint8_t {
 
 /// One tunable value. Values travel as double, whatever the kind: integers and indices are exact in it.
 struct PresetKey {
-  std::string_view table;    ///< "solver"
-  std::string_view key;      ///< "gain_overall": the name in core/preset/preset.h (an ellipsoid's axes are three keys)
+  std::string_view table;  ///< "solver"
+  std::string_view key;    ///< "gain_overall": the name in core/preset/preset.h (an ellipsoid's axes are three keys)
   KeyKind kind = KeyKind::number;
-  std::string_view label;    ///< short name for a panel
-  std::string_view unit;     ///< SI: "m", "1/m"; "1" for a pure number; empty for choices
-  std::string_view doc;      ///< what it does, one or two sentences
+  std::string_view label;                     ///< short name for a panel
+  std::string_view unit;                      ///< SI: "m", "1/m"; "1" for a pure number; empty for choices
+  std::string_view doc;                       ///< what it does, one or two sentences
   double min = 0.0, max = 0.0;                ///< allowed, both ends included
   double slider_min = 0.0, slider_max = 0.0;  ///< where tuning usually happens
   bool logarithmic = false;                   ///< spans several powers of ten
   std::span<const std::string_view> choices = {};
-  std::string_view option = {};      ///< long option of the command line without the dashes; empty: none
-  double option_per_si = 1.0;        ///< what 1 in SI is in the option's unit (1e6 for --tolerance-um)
-  std::string_view option_unit = {}; ///< unit of the option's number, for messages
+  std::string_view option = {};       ///< long option of the command line without the dashes; empty: none
+  double option_per_si = 1.0;         ///< what 1 in SI is in the option's unit (1e6 for --tolerance-um)
+  std::string_view option_unit = {};  ///< unit of the option's number, for messages
   double (*get)(const Preset&) = nullptr;
   void (*set)(Preset&, double) = nullptr;  ///< precondition: allows(value)
 
-  std::string full_name() const;               ///< "solver.gain_overall"
+  std::string full_name() const;  ///< "solver.gain_overall"
   double default_value() const;
-  bool allows(double value) const;             ///< finite, in range, whole unless a number
-  std::string allowed() const;                 ///< "0 to 10", "1e-12 to 0.001 m", "paper, newton or robust"
+  bool allows(double value) const;                ///< finite, in range, whole unless a number
+  std::string allowed() const;                    ///< "0 to 10", "1e-12 to 0.001 m", "paper, newton or robust"
   int choice_index(std::string_view name) const;  ///< -1: no such choice
-  std::string value_text(double value) const;  ///< as a preset file writes it, without quotes
+  std::string value_text(double value) const;     ///< as a preset file writes it, without quotes
 };
 
 std::span<const PresetKey> preset_keys();

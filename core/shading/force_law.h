@@ -11,8 +11,10 @@ namespace tangent {
 Vec3 contact_force(const ForceSettings& settings, const Vec3& normal, double penetration_m, const Vec3& velocity);
 
 /// Contact location on the finger mapped linearly to the display's travel, centred and clamped to it, m.
-double display_position(const DisplaySettings& settings, const Finger& finger, const FingerSection& section, const Vec3& normal);
-inline double display_position(const DisplaySettings& settings, const Finger& finger, const FingerPose& pose, const Vec3& normal) {
+double display_position(const DisplaySettings& settings, const Finger& finger, const FingerSection& section,
+                        const Vec3& normal);
+inline double display_position(const DisplaySettings& settings, const Finger& finger, const FingerPose& pose,
+                               const Vec3& normal) {
   return display_position(settings, finger, section_of(pose.orientation), normal);
 }
 

@@ -3,7 +3,8 @@
 namespace tangent {
 
 EdgeCurve edge_curve(const PnPatch& patch, std::uint32_t edge) {
-  static constexpr ControlPoint kCurve[3][4] = {{b300, b210, b120, b030}, {b030, b021, b012, b003}, {b003, b102, b201, b300}};
+  static constexpr ControlPoint kCurve[3][4] = {
+      {b300, b210, b120, b030}, {b030, b021, b012, b003}, {b003, b102, b201, b300}};
   const auto& b = patch.offsets;
   const Vec3 &p0 = b[kCurve[edge][0]], &p1 = b[kCurve[edge][1]], &p2 = b[kCurve[edge][2]], &p3 = b[kCurve[edge][3]];
   return {patch.origin, {p0, 3.0 * (p1 - p0), 3.0 * ((p2 - p1) - (p1 - p0)), (p3 - p0) - 3.0 * (p2 - p1)}};

@@ -1,5 +1,6 @@
-// One edge of a PN triangle: the cubic curve and the quadratic normal of its side, at a fraction of the patch's work. Edge k runs
-// from corner k to corner k + 1; the other corner plays no part. Inline: a contact on a curved edge is little else.
+// One edge of a PN triangle: the cubic curve and the quadratic normal of its side, at a fraction of the patch's work.
+// Edge k runs from corner k to corner k + 1; the other corner plays no part. Inline: a contact on a curved edge is
+// little else.
 #pragma once
 
 #include "core/surface/pn_patch.h"
@@ -10,13 +11,13 @@ namespace tangent {
 
 /// The curve as a polynomial in the fraction f of the edge, from its first corner.
 struct EdgeCurve {
-  Vec3 origin;                   ///< corner 0 of the patch, m
-  std::array<Vec3, 4> powers;    ///< point - origin = powers[0] + f powers[1] + f^2 powers[2] + f^3 powers[3], m
+  Vec3 origin;                 ///< corner 0 of the patch, m
+  std::array<Vec3, 4> powers;  ///< point - origin = powers[0] + f powers[1] + f^2 powers[2] + f^3 powers[3], m
 };
 /// The normals before they are given unit length, likewise.
 struct EdgeNormals {
   std::array<Vec3, 3> powers;
-  Vec3 flat;                     ///< normal of the flat triangle, where the polynomial vanishes
+  Vec3 flat;  ///< normal of the flat triangle, where the polynomial vanishes
 };
 EdgeCurve edge_curve(const PnPatch& patch, std::uint32_t edge);
 EdgeNormals edge_normals(const PnPatch& patch, std::uint32_t edge);
@@ -28,8 +29,8 @@ struct EdgePoint {
   Vec3 point, point_f, point_ff;  ///< m
 };
 struct EdgeNormal {
-  Vec3 normal, normal_f;          ///< unit, and its derivative
-  Vec3 unscaled;                  ///< along `normal`, before it is divided by its length
+  Vec3 normal, normal_f;  ///< unit, and its derivative
+  Vec3 unscaled;          ///< along `normal`, before it is divided by its length
 };
 
 inline EdgePoint evaluate(const EdgeCurve& curve, double f) {

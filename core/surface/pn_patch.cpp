@@ -131,7 +131,9 @@ bool is_flat(const PnPatch& patch, double room) {
     const Vec3 off = b[i] - (u * p + v * q) / 3.0;
     return glm::dot(off, off) <= room * room * size2;
   };
-  if (!(at(b210, 1, 0) && at(b120, 2, 0) && at(b021, 2, 1) && at(b012, 1, 2) && at(b102, 0, 2) && at(b201, 0, 1) && at(b111, 1, 1))) return false;
+  if (!(at(b210, 1, 0) && at(b120, 2, 0) && at(b021, 2, 1) && at(b012, 1, 2) && at(b102, 0, 2) && at(b201, 0, 1) &&
+        at(b111, 1, 1)))
+    return false;
   return patch.mixed_weight == 2.0 && std::all_of(patch.normals.begin(), patch.normals.end(), [&](const Vec3& n) {
            const Vec3 off = n - patch.normals[n200];
            return glm::dot(off, off) <= room * room;
@@ -151,12 +153,14 @@ SecondDerivatives evaluate_second(const PnPatch& patch, double u, double v) {
   const double w = 1.0 - u - v;
   const auto& b = patch.offsets;
   // Second differences of the control net along u (w -> u) and v (w -> v), one linear level left.
-  const auto second = [&](const Vec3& at_w, const Vec3& at_u, const Vec3& at_v) { return 6.0 * mix(w, u, v, at_w, at_u, at_v); };
+  const auto second = [&](const Vec3& at_w, const Vec3& at_u, const Vec3& at_v) {
+    return 6.0 * mix(w, u, v, at_w, at_u, at_v);
+  };
   SecondDerivatives d;
-  d.point_uu = second(b[b120] - 2.0 * b[b210] + b[b300], b[b030] - 2.0 * b[b120] + b[b210],
-                      b[b021] - 2.0 * b[b111] + b[b201]);
-  d.point_vv = second(b[b102] - 2.0 * b[b201] + b[b300], b[b012] - 2.0 * b[b111] + b[b210],
-                      b[b003] - 2.0 * b[b102] + b[b201]);
+  d.point_uu =
+      second(b[b120] - 2.0 * b[b210] + b[b300], b[b030] - 2.0 * b[b120] + b[b210], b[b021] - 2.0 * b[b111] + b[b201]);
+  d.point_vv =
+      second(b[b102] - 2.0 * b[b201] + b[b300], b[b012] - 2.0 * b[b111] + b[b210], b[b003] - 2.0 * b[b102] + b[b201]);
   d.point_uv = second(b[b111] - b[b210] - b[b201] + b[b300], b[b021] - b[b120] - b[b111] + b[b210],
                       b[b012] - b[b111] - b[b102] + b[b201]);
   return d;

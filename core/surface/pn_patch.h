@@ -72,8 +72,8 @@ void evaluate(const PnPatch& patch, double u, double v, SurfaceSample& sample);
 Vec3 evaluate_point(const PnPatch& patch, double u, double v);
 Vec3 evaluate_normal(const PnPatch& patch, double u, double v);
 
-/// Whether the patch is the flat triangle itself with one normal all over, to within `room` of its longest side and of a unit normal.
-/// Told of Bernstein normals only.
+/// Whether the patch is the flat triangle itself with one normal all over, to within `room` of its longest side and of
+/// a unit normal. Told of Bernstein normals only.
 bool is_flat(const PnPatch& patch, double room);
 /// What `evaluate` gives on such a patch, but for rounding, without its work.
 inline void evaluate_flat(const PnPatch& patch, double u, double v, SurfaceSample& sample) {
@@ -87,8 +87,8 @@ inline void evaluate_flat(const PnPatch& patch, double u, double v, SurfaceSampl
 /// Unit normal of the flat triangle; +z where it has no area.
 Vec3 flat_normal(const PnPatch& patch);
 
-/// A normal form is taken to vanish where it is shorter than this: its unit vector would be rounding. Larger: sharp folds get flat
-/// normals; smaller: normals that point anywhere.
+/// A normal form is taken to vanish where it is shorter than this: its unit vector would be rounding. Larger: sharp
+/// folds get flat normals; smaller: normals that point anywhere.
 inline constexpr double kVanishingNormal = 1e-9;
 
 struct SecondDerivatives {

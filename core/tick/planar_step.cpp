@@ -17,7 +17,9 @@ constexpr double kLeapShare = 0.25;
 Vec3 lifted(const Vec2& v) { return {v.x, v.y, 0.0}; }
 Vec2 flat(const Vec3& v) { return {v.x, v.y}; }
 
-PlanarPlace place_of(const TrackedPlane& plane) { return {plane.feature, plane.triangle, plane.u, flat(plane.point), flat(plane.normal)}; }
+PlanarPlace place_of(const TrackedPlane& plane) {
+  return {plane.feature, plane.triangle, plane.u, flat(plane.point), flat(plane.normal)};
+}
 
 TrackedPlane plane_of(const PlanarPlace& place) {
   TrackedPlane plane;
@@ -31,7 +33,8 @@ TrackedPlane plane_of(const PlanarPlace& place) {
 }
 
 /// The plane that an unconverged tick renders: the last converged one at the present pose, ramping to zero.
-RenderPlane last_converged_plane(const Preset& preset, const TickState& state, const Vec2& centre, double radius, double t_s) {
+RenderPlane last_converged_plane(const Preset& preset, const TickState& state, const Vec2& centre, double radius,
+                                 double t_s) {
   RenderPlane plane;
   plane.share = 0.0;
   if (!state.has_converged) return plane;
@@ -41,7 +44,8 @@ RenderPlane last_converged_plane(const Preset& preset, const TickState& state, c
   return plane;
 }
 
-RenderPlane track_smooth(const PlanarContext& context, const Preset& preset, double t_s, TickState& state, PlanarTrack& track) {
+RenderPlane track_smooth(const PlanarContext& context, const Preset& preset, double t_s, TickState& state,
+                         PlanarTrack& track) {
   // A state kept on another scene names patches that this one may not have.
   const bool ours = state.plane.triangle < context.curve.patch_count();
   track = track_planar(context, ours ? place_of(state.plane) : PlanarPlace{});
@@ -78,13 +82,15 @@ FingerPose section_pose(const FingerPose& pose) {
   return {{pose.position.x, pose.position.y, 0.0}, about_z * lay_down};
 }
 
-TickOutput step_planar(const PlanarCurve& curve, const Preset& preset, const TickInput& input, TickState& state, IterationTrace* trace) {
+TickOutput step_planar(const PlanarCurve& curve, const Preset& preset, const TickInput& input, TickState& state,
+                       IterationTrace* trace) {
   TickOutput out;
   out.normal = Vec3(0.0, 1.0, 0.0);
   TickContacts contacts;
   const double radius = preset.finger.shape == FingerShape::point ? 0.0 : preset.finger.radius_m;
   const Vec3 origin = lifted(curve.origin());
-  if (!is_finite(input.finger.position) || !std::isfinite(glm::dot(input.finger.orientation, input.finger.orientation))) {
+  if (!is_finite(input.finger.position) ||
+      !std::isfinite(glm::dot(input.finger.orientation, input.finger.orientation))) {
     const FingerPose last = section_pose({state.last_position, Quat(1.0, 0.0, 0.0, 0.0)});
     contacts.smooth_plane = last_converged_plane(preset, state, flat(last.position - origin), radius, input.t_s);
     contacts.facet_plane = contacts.shaded_plane = contacts.proxy_force = contacts.proxy_place = contacts.smooth_plane;
@@ -99,7 +105,8 @@ TickOutput step_planar(const PlanarCurve& curve, const Preset& preset, const Tic
     SolverSettings settings = preset.solver;
     if (!is_smooth(method)) settings.method = Method::robust;
     PlanarTrack track;
-    contacts.smooth_plane = track_smooth({curve, settings, flat(centre), radius, trace, 0}, preset, input.t_s, state, track);
+    contacts.smooth_plane =
+        track_smooth({curve, settings, flat(centre), radius, trace, 0}, preset, input.t_s, state, track);
     if (is_smooth(method)) describe_smooth(track, radius, origin, out);
   }
   if (wants_facet(preset)) {
@@ -110,7 +117,8 @@ TickOutput step_planar(const PlanarCurve& curve, const Preset& preset, const Tic
     if (method == Method::facet) describe_facet(facet, contacts.facet_plane, origin, out);
     if (method == Method::force_shading) describe_facet(facet, contacts.shaded_plane, origin, out);
   }
-  if (method == Method::two_pass) step_two_pass(surface, preset, centre, origin, kLeapShare * curve.size_m(), state, contacts, out);
+  if (method == Method::two_pass)
+    step_two_pass(surface, preset, centre, origin, kLeapShare * curve.size_m(), state, contacts, out);
 
   render(preset, contacts, pose, finger_velocity(preset, pose.position, input.t_s, state), out);
   keep_pose(pose.position, input.t_s, state);
@@ -130,8 +138,10 @@ PolygonMesh ribbon(const PlanarCurve& curve, double half_width_m) {
     const Vec3 na = lifted(surface.vertex_normal(i, false)), nb = lifted(surface.vertex_normal(i, true));
     for (const Vec3& n : {na, nb, nb, na}) mesh.normals.push_back(n);
     // Counter-clockwise as seen from the finger's side.
-    if (curve.side() > 0.0) mesh.add_face({base + 3, base + 2, base + 1, base});
-    else mesh.add_face({base, base + 1, base + 2, base + 3});
+    if (curve.side() > 0.0)
+      mesh.add_face({base + 3, base + 2, base + 1, base});
+    else
+      mesh.add_face({base, base + 1, base + 2, base + 3});
   }
   mesh.corner_normal = mesh.corner_position;
   return mesh;

@@ -13,7 +13,8 @@
 
 namespace tangent {
 
-TickOutput step_planar(const PlanarCurve& curve, const Preset& preset, const TickInput& input, TickState& state, IterationTrace* trace);
+TickOutput step_planar(const PlanarCurve& curve, const Preset& preset, const TickInput& input, TickState& state,
+                       IterationTrace* trace);
 
 /// The pose with the finger's x-z section laid in the plane.
 FingerPose section_pose(const FingerPose& pose);

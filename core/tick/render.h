@@ -36,16 +36,18 @@ double unconverged_share(const SafetySettings& safety, double since_s);
 void describe_facet(const FacetContact& facet, const RenderPlane& plane, const Vec3& origin, TickOutput& out);
 
 /// The two-pass method's tick: contact, state and output.
-void step_two_pass(const ProxySurface& surface, const Preset& preset, const Vec3& centre_local, const Vec3& origin, double leap_m,
-                   TickState& state, TickContacts& contacts, TickOutput& out);
+void step_two_pass(const ProxySurface& surface, const Preset& preset, const Vec3& centre_local, const Vec3& origin,
+                   double leap_m, TickState& state, TickContacts& contacts, TickOutput& out);
 
-/// Of the finger since the last tick, world, m/s; zero where nothing asks for it (no damping) or there was no last tick.
+/// Of the finger since the last tick, world, m/s; zero where nothing asks for it (no damping) or there was no last
+/// tick.
 Vec3 finger_velocity(const Preset& preset, const Vec3& position, double t_s, const TickState& state);
 /// What the next tick's velocity needs.
 void keep_pose(const Vec3& position, double t_s, TickState& state);
 
 /// Force and display of a tick, from the planes of the preset's sources. `velocity`: of the finger, world, m/s.
-void render(const Preset& preset, const TickContacts& contacts, const FingerPose& pose, const Vec3& velocity, TickOutput& out);
+void render(const Preset& preset, const TickContacts& contacts, const FingerPose& pose, const Vec3& velocity,
+            TickOutput& out);
 
 /// What the devices get.
 struct Rendered {

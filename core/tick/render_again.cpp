@@ -20,15 +20,18 @@ SolverSettings read_by_solver(SolverSettings settings) {
 }  // namespace
 
 bool same_contacts(const Preset& a, const Preset& b) {
-  return only_smooth(a) && only_smooth(b) && a.finger == b.finger && read_by_solver(a.solver) == read_by_solver(b.solver);
+  return only_smooth(a) && only_smooth(b) && a.finger == b.finger &&
+         read_by_solver(a.solver) == read_by_solver(b.solver);
 }
 
-TickOutput render_again(const ContactScene& scene, const Preset& preset, const TickInput& input, const TickState& kept, TickOutput solved) {
+TickOutput render_again(const ContactScene& scene, const Preset& preset, const TickInput& input, const TickState& kept,
+                        TickOutput solved) {
   solved.force_n = Vec3(0.0);
   solved.cld_m = 0.0;
   const FingerPose pose = scene.planar() ? section_pose(input.finger) : input.finger;
   const Vec3 velocity = finger_velocity(preset, pose.position, input.t_s, kept);
-  const Rendered rendered = render(preset, RenderPlane{solved.normal, solved.penetration_m, 1.0}, section_of(pose.orientation), velocity);
+  const Rendered rendered =
+      render(preset, RenderPlane{solved.normal, solved.penetration_m, 1.0}, section_of(pose.orientation), velocity);
   solved.force_n = rendered.force_n;
   solved.cld_m = rendered.cld_m;
   return solved;

@@ -82,8 +82,9 @@ Stepper& Stepper::operator=(Stepper&&) noexcept = default;
 Stepper::~Stepper() = default;
 
 /// Solves for the smooth contact and updates what the next tick keeps.
-static void track_smooth(const ContactScene& scene, StepCache& cache, const Preset& preset, const SolverSettings& settings,
-                         const FingerPose& local, double t_s, TickState& state, IterationTrace* trace, RenderPlane& plane) {
+static void track_smooth(const ContactScene& scene, StepCache& cache, const Preset& preset,
+                         const SolverSettings& settings, const FingerPose& local, double t_s, TickState& state,
+                         IterationTrace* trace, RenderPlane& plane) {
   IterationContext context{cache.patches, settings, preset.finger, local, scene.mesh().origin(), trace, 0};
   track(context, scene, state, cache.holds(state.plane, settings.normal_form), cache.smooth);
   cache.form = settings.normal_form;
@@ -101,7 +102,8 @@ static void track_smooth(const ContactScene& scene, StepCache& cache, const Pres
 }
 
 /// The raw mesh's contact, as facet and with interpolated normals.
-static FacetContact find_facet(const ContactScene& scene, const Preset& preset, const FingerPose& local, TickContacts& contacts) {
+static FacetContact find_facet(const ContactScene& scene, const Preset& preset, const FingerPose& local,
+                               TickContacts& contacts) {
   const FacetContact facet = facet_contact(scene.mesh(), scene.nearest(), local.position, preset.solver.tolerance_m);
   if (!facet.found) return facet;
   const double depth = contact_on_plane(preset.finger, local, facet.hit.point, facet.normal).penetration_m;
@@ -111,10 +113,12 @@ static FacetContact find_facet(const ContactScene& scene, const Preset& preset, 
 }
 
 /// A tick of a pose that is not finite: what was rendered last, at the last position.
-static TickOutput step_without_pose(const ContactScene& scene, const Preset& preset, double t_s, const TickState& state) {
+static TickOutput step_without_pose(const ContactScene& scene, const Preset& preset, double t_s,
+                                    const TickState& state) {
   const FingerPose last{state.last_position, Quat(1.0, 0.0, 0.0, 0.0)};
   TickContacts contacts;
-  contacts.smooth_plane = last_converged_plane(preset, state, {last.position - scene.mesh().origin(), last.orientation}, t_s);
+  contacts.smooth_plane =
+      last_converged_plane(preset, state, {last.position - scene.mesh().origin(), last.orientation}, t_s);
   contacts.facet_plane = contacts.shaded_plane = contacts.proxy_force = contacts.proxy_place = contacts.smooth_plane;
   TickOutput out;
   render(preset, contacts, last, Vec3(0.0), out);
@@ -142,7 +146,8 @@ static TickOutput step_facets(const ContactScene& scene, StepCache& cache, const
   if (method == Method::two_pass) {
     constexpr double kLeapShare = 0.25;  // of the box's diagonal: a proxy further from the finger is given up
     const MeshProxySurface surface(mesh, scene.nearest(), preset.solver.tolerance_m);
-    step_two_pass(surface, preset, local.position, mesh.origin(), kLeapShare * glm::length(mesh.bounds().size()), state, contacts, out);
+    step_two_pass(surface, preset, local.position, mesh.origin(), kLeapShare * glm::length(mesh.bounds().size()), state,
+                  contacts, out);
   }
   render(preset, contacts, input.finger, finger_velocity(preset, input.finger.position, input.t_s, state), out);
   keep_pose(input.finger.position, input.t_s, state);
@@ -151,11 +156,13 @@ static TickOutput step_facets(const ContactScene& scene, StepCache& cache, const
 
 /// A tick that asks for the smooth contact alone.
 static TickOutput step_smooth(const ContactScene& scene, StepCache& cache, const Preset& preset, const TickInput& input,
-                              const FingerPose& local, const FingerSection& section, TickState& state, IterationTrace* trace) {
+                              const FingerPose& local, const FingerSection& section, TickState& state,
+                              IterationTrace* trace) {
   RenderPlane plane;
   track_smooth(scene, cache, preset, preset.solver, local, input.t_s, state, trace, plane);
   TickOutput out = describe_smooth(cache.smooth, scene.mesh().origin());
-  const Rendered rendered = render(preset, plane, section, finger_velocity(preset, input.finger.position, input.t_s, state));
+  const Rendered rendered =
+      render(preset, plane, section, finger_velocity(preset, input.finger.position, input.t_s, state));
   out.force_n = rendered.force_n;
   out.cld_m = rendered.cld_m;
   keep_pose(input.finger.position, input.t_s, state);
@@ -163,8 +170,9 @@ static TickOutput step_smooth(const ContactScene& scene, StepCache& cache, const
 }
 
 /// A tick of a 3D scene that does not glide.
-static TickOutput step_any(const ContactScene& scene, StepCache& cache, const Preset& preset, const TickInput& input, const FingerPose& local,
-                           const FingerSection& section, TickState& state, IterationTrace* trace) {
+static TickOutput step_any(const ContactScene& scene, StepCache& cache, const Preset& preset, const TickInput& input,
+                           const FingerPose& local, const FingerSection& section, TickState& state,
+                           IterationTrace* trace) {
   if (!is_usable(input.finger)) return step_without_pose(scene, preset, input.t_s, state);
   if (only_smooth(preset)) return step_smooth(scene, cache, preset, input, local, section, state, trace);
   return step_facets(scene, cache, preset, input, local, state, trace);
@@ -177,66 +185,96 @@ TickOutput Stepper::step(const Preset& preset, const TickInput& input, TickState
   const FingerSection section = section_of(input.finger.orientation);  // needed last, but has nothing to wait for
   if (!trace && preset.solver.method == Method::robust) {
     Glide plane;
-    if (glide(*cache_, preset, local, state, plane)) return end_glide(*cache_, preset, input, section, scene.mesh().origin(), plane, state);
+    if (glide(*cache_, preset, local, state, plane))
+      return end_glide(*cache_, preset, input, section, scene.mesh().origin(), plane, state);
   }
   return step_any(scene, *cache_, preset, input, local, section, state, trace);
 }
 
 const char* to_string(Feature feature) {
   switch (feature) {
-    case Feature::face: return "face";
-    case Feature::edge: return "edge";
-    case Feature::vertex: return "vertex";
-    case Feature::none: break;
+    case Feature::face:
+      return "face";
+    case Feature::edge:
+      return "edge";
+    case Feature::vertex:
+      return "vertex";
+    case Feature::none:
+      break;
   }
   return "none";
 }
 
 const char* to_string(TickStatus status) {
   switch (status) {
-    case TickStatus::free: return "free";
-    case TickStatus::face: return "face";
-    case TickStatus::edge: return "edge";
-    case TickStatus::vertex: return "vertex";
-    case TickStatus::unconverged: break;
+    case TickStatus::free:
+      return "free";
+    case TickStatus::face:
+      return "face";
+    case TickStatus::edge:
+      return "edge";
+    case TickStatus::vertex:
+      return "vertex";
+    case TickStatus::unconverged:
+      break;
   }
   return "unconverged";
 }
 
 const char* to_string(TickEvent event) {
   switch (event) {
-    case TickEvent::none: break;
-    case TickEvent::first: return "first";
-    case TickEvent::reseed: return "reseed";
-    case TickEvent::switched: return "switch";
-    case TickEvent::branch: return "branch";
+    case TickEvent::none:
+      break;
+    case TickEvent::first:
+      return "first";
+    case TickEvent::reseed:
+      return "reseed";
+    case TickEvent::switched:
+      return "switch";
+    case TickEvent::branch:
+      return "branch";
   }
   return "none";
 }
 
 const char* to_string(Method method) {
   switch (method) {
-    case Method::paper: return "paper";
-    case Method::newton: return "newton";
-    case Method::robust: break;
-    case Method::facet: return "facet";
-    case Method::force_shading: return "force-shading";
-    case Method::two_pass: return "two-pass";
+    case Method::paper:
+      return "paper";
+    case Method::newton:
+      return "newton";
+    case Method::robust:
+      break;
+    case Method::facet:
+      return "facet";
+    case Method::force_shading:
+      return "force-shading";
+    case Method::two_pass:
+      return "two-pass";
   }
   return "robust";
 }
 
 const char* to_string(StopReason reason) {
   switch (reason) {
-    case StopReason::going_on: return "going_on";
-    case StopReason::converged: return "converged";
-    case StopReason::iteration_limit: return "iteration_limit";
-    case StopReason::cycling: return "cycling";
-    case StopReason::unstable: return "unstable";
-    case StopReason::left_boundary: return "left_boundary";
-    case StopReason::singular_patch: return "singular_patch";
-    case StopReason::too_far: return "too_far";
-    case StopReason::leapt: return "leapt";
+    case StopReason::going_on:
+      return "going_on";
+    case StopReason::converged:
+      return "converged";
+    case StopReason::iteration_limit:
+      return "iteration_limit";
+    case StopReason::cycling:
+      return "cycling";
+    case StopReason::unstable:
+      return "unstable";
+    case StopReason::left_boundary:
+      return "left_boundary";
+    case StopReason::singular_patch:
+      return "singular_patch";
+    case StopReason::too_far:
+      return "too_far";
+    case StopReason::leapt:
+      return "leapt";
   }
   return "going_on";
 }

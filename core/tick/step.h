@@ -50,17 +50,17 @@ const char* to_string(Method method);    ///< "force-shading", "two-pass"
 /// that edge or corner).
 struct SurfacePlace {
   Feature feature = Feature::none;
-  std::uint8_t side = 0;            ///< edge: which edge of the triangle; vertex: which corner
+  std::uint8_t side = 0;  ///< edge: which edge of the triangle; vertex: which corner
   std::uint32_t triangle = kNone;
   double u = 0.0, v = 0.0;
 };
 
-/// Where the tangent plane touches the smooth surface. The normal belongs to the place for faces; on edges and vertices it
-/// turns within the fan.
+/// Where the tangent plane touches the smooth surface. The normal belongs to the place for faces; on edges and vertices
+/// it turns within the fan.
 struct TrackedPlane : SurfacePlace {
-  Vec3 point{0.0};                  ///< S, local mesh coordinates, m
-  Vec3 normal{0.0, 0.0, 1.0};       ///< N, unit
-  Vec2 turn{1.0, 0.0};              ///< edge: direction of N about the edge (contact/edge_fan.h); else unused
+  Vec3 point{0.0};             ///< S, local mesh coordinates, m
+  Vec3 normal{0.0, 0.0, 1.0};  ///< N, unit
+  Vec2 turn{1.0, 0.0};         ///< edge: direction of N about the edge (contact/edge_fan.h); else unused
 
   /// Point and normal there are still to be computed.
   void move_to(const SurfacePlace& place) { static_cast<SurfacePlace&>(*this) = place; }
@@ -69,20 +69,21 @@ struct TrackedPlane : SurfacePlace {
 /// A triangle that holds no deeper contact, but could before others do.
 struct WatchedTriangle {
   std::uint32_t triangle = kNone;
-  float margin_m = 0.0f;            ///< how far from Clearance::centre the finger may go before it must be looked at again
+  float margin_m = 0.0f;  ///< how far from Clearance::centre the finger may go before it must be looked at again
   bool operator==(const WatchedTriangle&) const = default;
 };
 
-/// Where no other place can be deeper than the tracked one: in a ball about the place where that was found out last. Within
-/// it nothing is asked, however long the finger moves there. All distances are the finger's from `centre` and
+/// Where no other place can be deeper than the tracked one: in a ball about the place where that was found out last.
+/// Within it nothing is asked, however long the finger moves there. All distances are the finger's from `centre` and
 /// `orientation` (contact/rivals.h: gone_m).
 struct Clearance {
   static constexpr std::size_t kWatched = 8;
-  Vec3 centre{0.0};                 ///< local
+  Vec3 centre{0.0};  ///< local
   Quat orientation{1.0, 0.0, 0.0, 0.0};
-  double free_m = -1.0;             ///< radius of the ball: up to here nothing needs to be looked at; negative: not known
-  double margin_m = -1.0;           ///< up to here no triangle outside the tracked basin and the watched ones holds a contact ...
-  double height_m = 0.0;            ///< ... of a rank below this less the distance gone
+  double free_m = -1.0;  ///< radius of the ball: up to here nothing needs to be looked at; negative: not known
+  double margin_m =
+      -1.0;               ///< up to here no triangle outside the tracked basin and the watched ones holds a contact ...
+  double height_m = 0.0;  ///< ... of a rank below this less the distance gone
   std::array<WatchedTriangle, kWatched> watched;
 
   /// No other place counts as deeper, however far the finger goes: the contact is only followed.
@@ -95,21 +96,21 @@ struct Clearance {
 
 /// What is rendered on while no contact is found.
 struct ConvergedPlane {
-  Vec3 point{0.0};                  ///< local, m
+  Vec3 point{0.0};  ///< local, m
   Vec3 normal{0.0, 0.0, 1.0};
 };
 
 /// Everything one tick hands to the next. Trivially copyable.
 struct TickState {
-  TrackedPlane plane;               ///< feature none: nothing tracked yet
-  ConvergedPlane last_converged;    ///< of the last converged tick, if has_converged
-  double last_converged_s = 0.0;    ///< its time
-  Vec3 last_position{0.0};          ///< finger position of the previous tick, world, m
+  TrackedPlane plane;             ///< feature none: nothing tracked yet
+  ConvergedPlane last_converged;  ///< of the last converged tick, if has_converged
+  double last_converged_s = 0.0;  ///< its time
+  Vec3 last_position{0.0};        ///< finger position of the previous tick, world, m
   double last_t_s = 0.0;
-  std::uint8_t has_previous = 0;    ///< last_position and last_t_s are set
-  std::uint8_t has_converged = 0;   ///< there was a converged tick
+  std::uint8_t has_previous = 0;   ///< last_position and last_t_s are set
+  std::uint8_t has_converged = 0;  ///< there was a converged tick
   Clearance clearance;
-  Vec3 proxy{0.0};                  ///< of the two-pass method, local, m
+  Vec3 proxy{0.0};  ///< of the two-pass method, local, m
   std::uint8_t has_proxy = 0;
 };
 
@@ -130,20 +131,20 @@ struct TickOutput {
   Vec3 force_n{0.0};
   double cld_m = 0.0;
   double error_m = 0.0;
-  std::int32_t iterations = 0;        ///< surface evaluations of this tick, seeds included
+  std::int32_t iterations = 0;  ///< surface evaluations of this tick, seeds included
   std::int32_t triangle_changes = 0;
 };
 
 enum class StopReason : std::uint8_t {
-  going_on,         ///< not the last iteration
-  converged,        ///< error below tolerance
+  going_on,   ///< not the last iteration
+  converged,  ///< error below tolerance
   iteration_limit,
-  cycling,          ///< came back to a place it had been, or the error stopped falling
-  unstable,         ///< the solution it runs to has det M <= 0 or trace M <= 0
-  left_boundary,    ///< ran out through a mesh boundary
-  singular_patch,   ///< no step can be computed there
-  too_far,          ///< the finger is out of reach of the tracked place: the walk to it got lost
-  leapt,            ///< converged, but on another place: the normal turned by over 10 degrees in one tick
+  cycling,         ///< came back to a place it had been, or the error stopped falling
+  unstable,        ///< the solution it runs to has det M <= 0 or trace M <= 0
+  left_boundary,   ///< ran out through a mesh boundary
+  singular_patch,  ///< no step can be computed there
+  too_far,         ///< the finger is out of reach of the tracked place: the walk to it got lost
+  leapt,           ///< converged, but on another place: the normal turned by over 10 degrees in one tick
 };
 const char* to_string(StopReason reason);
 
@@ -151,7 +152,7 @@ const char* to_string(StopReason reason);
 struct IterationRecord {
   Feature feature = Feature::none;
   StopReason stop = StopReason::going_on;
-  std::uint8_t seed = 0;              ///< 0: tracking; n: the n-th seed of a re-seeding
+  std::uint8_t seed = 0;  ///< 0: tracking; n: the n-th seed of a re-seeding
   std::uint32_t triangle = kNone;
   double u = 0.0, v = 0.0;
   Vec3 point{0.0};                    ///< S: where the plane touches the surface
@@ -174,7 +175,10 @@ struct IterationTrace {
   std::size_t lost = 0;
   void clear() { size = lost = 0; }
   void push(const IterationRecord& r) {
-    if (size < kCapacity) records[size++] = r; else ++lost;
+    if (size < kCapacity)
+      records[size++] = r;
+    else
+      ++lost;
   }
   void amend_last(StopReason stop) {
     if (size > 0 && lost == 0) records[size - 1].stop = stop;
@@ -207,7 +211,7 @@ class Stepper {
 struct TickRecord {
   std::uint64_t tick = 0;
   std::uint32_t preset_id = 0;
-  TickState kept;       ///< the state before the tick
+  TickState kept;  ///< the state before the tick
   TickInput input;
   TickOutput output;
   double solve_ns = 0.0;

@@ -19,7 +19,8 @@ void adopt(TrackResult& result, const IterationResult& contact, const TrackedPla
 }
 
 /// Looks for a deeper place, where there could be one. `rank`: of the tracked contact.
-void look_for_rival(IterationContext& context, const ContactScene& scene, TickState& state, double rank, double gone, TrackResult& result) {
+void look_for_rival(IterationContext& context, const ContactScene& scene, TickState& state, double rank, double gone,
+                    TrackResult& result) {
   const Vec3 moved = context.pose.position + context.origin - state.last_position;
   const double speed = state.has_previous ? std::sqrt(glm::dot(moved, moved)) : 0.0;
   // Where not even one tick ahead can be seen, as after a leap, looking ahead would be for nothing.
@@ -43,7 +44,8 @@ void watch_for_rivals(IterationContext& context, const ContactScene& scene, Tick
 
 }  // namespace
 
-void track(IterationContext& context, const ContactScene& scene, TickState& state, bool sample_kept, TrackResult& result) {
+void track(IterationContext& context, const ContactScene& scene, TickState& state, bool sample_kept,
+           TrackResult& result) {
   result.event = TickEvent::none;
   result.evaluations = 0;
   result.triangle_changes = 0;

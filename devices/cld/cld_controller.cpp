@@ -18,17 +18,25 @@ void raise(std::atomic<std::uint64_t>& counter, std::uint64_t by = 1) noexcept {
 
 DeviceFault fault_of(CldDeviceFault fault) {
   switch (fault) {
-    case CldDeviceFault::none: return DeviceFault::actuator;
-    case CldDeviceFault::watchdog: return DeviceFault::watchdog;
-    case CldDeviceFault::encoder: return DeviceFault::sensor;
-    case CldDeviceFault::overcurrent: return DeviceFault::actuator;
-    case CldDeviceFault::homing_failed: return DeviceFault::actuator;
-    case CldDeviceFault::bad_command: return DeviceFault::bad_command;
+    case CldDeviceFault::none:
+      return DeviceFault::actuator;
+    case CldDeviceFault::watchdog:
+      return DeviceFault::watchdog;
+    case CldDeviceFault::encoder:
+      return DeviceFault::sensor;
+    case CldDeviceFault::overcurrent:
+      return DeviceFault::actuator;
+    case CldDeviceFault::homing_failed:
+      return DeviceFault::actuator;
+    case CldDeviceFault::bad_command:
+      return DeviceFault::bad_command;
   }
   return DeviceFault::actuator;
 }
 
-bool fit(const CldInfo& info) { return info.travel_nm > 0 && info.telemetry_hz > 0 && info.watchdog_ms >= 10 && info.watchdog_ms <= 200; }
+bool fit(const CldInfo& info) {
+  return info.travel_nm > 0 && info.telemetry_hz > 0 && info.watchdog_ms >= 10 && info.watchdog_ms <= 200;
+}
 
 }  // namespace
 
@@ -42,8 +50,13 @@ UsbLinkOptions cld_link_options() {
 
 CldController::CldController(const CldControllerOptions& options)
     : options_(options),
-      capabilities_{.name = "CLD controller", .travel_m = 20e-3, .resolution_m = 0.8e-6, .bandwidth_hz = 12.0, .rate_hz = 1000.0,
-                    .firmware_timeout_s = 50e-3, .has_controller = true},
+      capabilities_{.name = "CLD controller",
+                    .travel_m = 20e-3,
+                    .resolution_m = 0.8e-6,
+                    .bandwidth_hz = 12.0,
+                    .rate_hz = 1000.0,
+                    .firmware_timeout_s = 50e-3,
+                    .has_controller = true},
       link_(options.link, *this, options.tap) {}
 
 Status CldController::open() {
@@ -73,23 +86,29 @@ void CldController::put_frame(const CldFrame& frame, std::int64_t now_ns) noexce
 }
 
 void CldController::put_settings(std::int64_t now_ns) noexcept {
-  const auto whole = [](double value, double unit, double most) { return std::round(std::clamp(value / unit, -most, most)); };
+  const auto whole = [](double value, double unit, double most) {
+    return std::round(std::clamp(value / unit, -most, most));
+  };
   const ControllerSettings& s = settings_;
   put_frame(to_frame(CldWireGains{.p_per_s2 = static_cast<std::uint32_t>(whole(s.p_per_s2, 1.0, 4e9)),
                                   .i_per_s3 = static_cast<std::uint32_t>(whole(s.i_per_s3, 1.0, 4e9)),
                                   .d_milli_per_s = static_cast<std::int32_t>(whole(s.d_per_s, 1e-3, 2e9)),
-                                  .target_weight_per_65535 = static_cast<std::uint16_t>(whole(s.target_weight, 1.0 / 65535.0, 65535.0))},
-                     next_sequence_++), now_ns);
+                                  .target_weight_per_65535 =
+                                      static_cast<std::uint16_t>(whole(s.target_weight, 1.0 / 65535.0, 65535.0))},
+                     next_sequence_++),
+            now_ns);
   put_frame(to_frame(CldWireLimits{.lowest_nm = static_cast<std::int32_t>(whole(s.lowest_m, 1e-9, 2e9)),
                                    .highest_nm = static_cast<std::int32_t>(whole(s.highest_m, 1e-9, 2e9)),
                                    .fastest_um_per_s = static_cast<std::uint32_t>(whole(s.fastest_m_per_s, 1e-6, 4e9)),
-                                   .largest_current_ma = static_cast<std::uint16_t>(whole(s.largest_current_a, 1e-3, 65535.0))},
-                     next_sequence_++), now_ns);
+                                   .largest_current_ma =
+                                       static_cast<std::uint16_t>(whole(s.largest_current_a, 1e-3, 65535.0))},
+                     next_sequence_++),
+            now_ns);
   settings_unsent_ = false;
 }
 
 void CldController::flush() noexcept {
-  if (packet_held_ == 0 || !link_.can_send()) return;   // the next turn takes it along
+  if (packet_held_ == 0 || !link_.can_send()) return;  // the next turn takes it along
   link_.send({packet_.data(), packet_held_});
   packet_held_ = 0;
 }
@@ -101,7 +120,7 @@ void CldController::on_open(UsbLink&) noexcept {
   packet_held_ = 0;
   opened_ns_ = next_hello_ns_ = usb_now_ns();
   Outgoing old;
-  while (commands_.pop(old)) {}   // meant for the connection before
+  while (commands_.pop(old)) {}  // meant for the connection before
   connection_.fetch_add(1, std::memory_order_release);
 }
 
@@ -122,7 +141,9 @@ void CldController::on_turn(UsbLink&, std::int64_t now_ns) noexcept {
   // What a busy cable has no room for stays in its queue, in order.
   while (link_.can_send() && commands_.pop(out)) {
     const std::uint16_t sequence = next_sequence_++;
-    put_frame(out.type == CldType::target ? to_frame(CldTarget{out.target_nm}, sequence) : bare_frame(out.type, sequence), now_ns);
+    put_frame(
+        out.type == CldType::target ? to_frame(CldTarget{out.target_nm}, sequence) : bare_frame(out.type, sequence),
+        now_ns);
   }
   flush();
 }
@@ -163,7 +184,9 @@ void CldController::take_info(const CldFrame& frame) noexcept {
   if (!info || !fit(*info)) return unfit_connection_.store(connection, kRelaxed);
   info_travel_nm_.store(info->travel_nm, kRelaxed);
   info_step_pm_.store(info->step_pm, kRelaxed);
-  info_rates_.store(std::uint64_t{info->bandwidth_centihz} << 32 | std::uint64_t{info->telemetry_hz} << 16 | info->watchdog_ms, kRelaxed);
+  info_rates_.store(
+      std::uint64_t{info->bandwidth_centihz} << 32 | std::uint64_t{info->telemetry_hz} << 16 | info->watchdog_ms,
+      kRelaxed);
   info_serial_.store(info->serial, kRelaxed);
   info_firmware_.store(info->firmware_version, kRelaxed);
   unfit_connection_.store(0, kRelaxed);
@@ -174,11 +197,13 @@ void CldController::take_info(const CldFrame& frame) noexcept {
 void CldController::take_telemetry(const CldFrame& frame, std::int64_t now_ns) noexcept {
   const auto telemetry = to_telemetry(frame);
   if (!telemetry) return;
-  if (heard_any_ && now_ns > last_telemetry_ns_) arrival_us_.add(static_cast<std::uint64_t>((now_ns - last_telemetry_ns_) / 1000));
+  if (heard_any_ && now_ns > last_telemetry_ns_)
+    arrival_us_.add(static_cast<std::uint64_t>((now_ns - last_telemetry_ns_) / 1000));
   if (!heard_any_ || telemetry->heard_sequence != last_heard_sequence_) {
     const std::int64_t sent = sent_ns_[telemetry->heard_sequence & 255u];
     const auto outstanding = static_cast<std::uint16_t>(next_sequence_ - telemetry->heard_sequence);
-    if (heard_any_ && outstanding < 256 && sent > 0) round_trip_us_.add(static_cast<std::uint64_t>((now_ns - sent) / 1000));
+    if (heard_any_ && outstanding < 256 && sent > 0)
+      round_trip_us_.add(static_cast<std::uint64_t>((now_ns - sent) / 1000));
     last_heard_sequence_ = telemetry->heard_sequence;
   }
   heard_any_ = true;
@@ -207,16 +232,20 @@ DeviceState CldController::state_now(std::int64_t now_ns, DeviceFault& fault) no
   const bool current = ever_heard_ && newest_.connection == connection;
   if (info_connection_.load(kRelaxed) != connection || !current) return DeviceState::open;
   if (now_ns - newest_.at_ns > to_ns(options_.silence_s)) {
-    lost_connection_ = connection;   // stays so until a person clears it
+    lost_connection_ = connection;  // stays so until a person clears it
     fault = DeviceFault::disconnected;
     return DeviceState::faulted;
   }
   const bool homed = homed_connection_ == connection;
   switch (newest_.telemetry.state) {
-    case CldDeviceState::idle: return DeviceState::firmware;
-    case CldDeviceState::homing: return homed ? DeviceState::homing : DeviceState::firmware;
-    case CldDeviceState::ready: return homed ? DeviceState::ready : DeviceState::firmware;
-    case CldDeviceState::faulted: break;
+    case CldDeviceState::idle:
+      return DeviceState::firmware;
+    case CldDeviceState::homing:
+      return homed ? DeviceState::homing : DeviceState::firmware;
+    case CldDeviceState::ready:
+      return homed ? DeviceState::ready : DeviceState::firmware;
+    case CldDeviceState::faulted:
+      break;
   }
   fault = fault_of(newest_.telemetry.fault);
   return DeviceState::faulted;
@@ -284,7 +313,8 @@ bool CldController::report(LinkReport& out) const {
     out.rate_hz = static_cast<double>((rates >> 16) & 0xffffu);
     out.firmware_timeout_s = static_cast<double>(rates & 0xffffu) * 1e-3;
   }
-  if (!out.connected) out.problem = usb_error(link_.problem(), capabilities_.name).message();
+  if (!out.connected)
+    out.problem = usb_error(link_.problem(), capabilities_.name).message();
   else if (unfit_connection_.load(kRelaxed) == connection)
     out.problem = usb_error(UsbProblem::wrong_interface, capabilities_.name).message();
   out.packets_in = usb.packets_in;

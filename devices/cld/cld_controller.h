@@ -23,8 +23,8 @@ UsbLinkOptions cld_link_options();
 
 struct CldControllerOptions {
   UsbLinkOptions link = cld_link_options();
-  double silence_s = 0.1;                       ///< without telemetry: lost
-  double info_timeout_s = 0.5;                  ///< without a fit info: no firmware
+  double silence_s = 0.1;       ///< without telemetry: lost
+  double info_timeout_s = 0.5;  ///< without a fit info: no firmware
   UsbTap* tap = nullptr;
 };
 
@@ -78,15 +78,15 @@ class CldController final : public ContactDisplay, private UsbLinkHandler {
   UsbLink link_;
   Ring<Outgoing> commands_{256};
   Ring<Heard> telemetry_{1024};
-  Mailbox<ControllerSettings> new_settings_;    ///< servo to link
+  Mailbox<ControllerSettings> new_settings_;  ///< servo to link
 
   // Written by the link's thread, read by any.
-  std::atomic<std::uint32_t> connection_{0};    ///< odd while connected, one more with every change
+  std::atomic<std::uint32_t> connection_{0};  ///< odd while connected, one more with every change
   std::atomic<std::uint64_t> info_travel_nm_{0}, info_step_pm_{0}, info_rates_{0};
   std::atomic<std::uint32_t> info_serial_{0}, info_connection_{0}, unfit_connection_{0};
   std::atomic<std::uint16_t> info_firmware_{0};
-  std::atomic<std::uint64_t> frames_{0}, crc_errors_{0}, skipped_bytes_{0}, cut_packets_{0}, lost_{0}, doubled_{0}, late_{0},
-      lost_by_device_{0}, refused_{0}, unsent_{0};
+  std::atomic<std::uint64_t> frames_{0}, crc_errors_{0}, skipped_bytes_{0}, cut_packets_{0}, lost_{0}, doubled_{0},
+      late_{0}, lost_by_device_{0}, refused_{0}, unsent_{0};
   std::array<std::atomic<std::uint64_t>, 8> last_packet_{};
   std::atomic<std::uint32_t> last_packet_bytes_{0};
   LogHistogram round_trip_us_, arrival_us_;

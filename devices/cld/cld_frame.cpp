@@ -72,7 +72,9 @@ std::optional<CldFrame> CldParser::next() noexcept {
       drop(1);
       continue;
     }
-    CldFrame frame{.version = buffer_[1], .type = buffer_[2], .sequence = read_u16(&buffer_[4]),
+    CldFrame frame{.version = buffer_[1],
+                   .type = buffer_[2],
+                   .sequence = read_u16(&buffer_[4]),
                    .length = static_cast<std::uint8_t>(length)};
     std::copy_n(buffer_.begin() + kCldHeaderBytes, length, frame.payload.begin());
     ++counts_.frames;
@@ -82,7 +84,7 @@ std::optional<CldFrame> CldParser::next() noexcept {
 }
 
 std::optional<CldFrame> CldParser::feed(std::uint8_t byte) noexcept {
-  buffer_[held_++] = byte;   // room: a full buffer is a whole frame, taken or dropped before it returned
+  buffer_[held_++] = byte;  // room: a full buffer is a whole frame, taken or dropped before it returned
   return next();
 }
 

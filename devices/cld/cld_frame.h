@@ -23,8 +23,8 @@ struct CldFrame {
   std::uint8_t version = kCldVersion;
   std::uint8_t type = 0;
   std::uint16_t sequence = 0;
-  std::uint8_t length = 0;                                    ///< of the payload
-  std::array<std::uint8_t, kCldLargestPayload> payload{};     ///< zero beyond length
+  std::uint8_t length = 0;                                 ///< of the payload
+  std::array<std::uint8_t, kCldLargestPayload> payload{};  ///< zero beyond length
 
   std::span<const std::uint8_t> bytes() const { return {payload.data(), length}; }
   bool operator==(const CldFrame&) const = default;
@@ -40,8 +40,8 @@ std::size_t encode_frame(const CldFrame& frame, std::span<std::uint8_t> out) noe
 struct CldParserCounts {
   std::uint64_t frames = 0;
   std::uint64_t crc_errors = 0;
-  std::uint64_t wrong_lengths = 0;     ///< a length no frame has
-  std::uint64_t skipped_bytes = 0;     ///< between frames
+  std::uint64_t wrong_lengths = 0;  ///< a length no frame has
+  std::uint64_t skipped_bytes = 0;  ///< between frames
 };
 
 /// Finds frames in a stream that may be split, merged or damaged. After damage it looks for the next sync byte
@@ -79,14 +79,14 @@ class CldSequence {
   enum class Arrival : std::uint8_t { in_order, after_loss, doubled, late };
   Arrival add(std::uint16_t sequence) noexcept;
   void restart() noexcept { known_ = false; }
-  std::uint64_t lost() const { return lost_; }        ///< less those that came late after all
+  std::uint64_t lost() const { return lost_; }  ///< less those that came late after all
   std::uint64_t doubled() const { return doubled_; }
   std::uint64_t late() const { return late_; }
 
  private:
   bool known_ = false;
   std::uint16_t newest_ = 0;
-  std::uint64_t seen_ = 0;   ///< bit i: newest - i came
+  std::uint64_t seen_ = 0;  ///< bit i: newest - i came
   std::uint64_t lost_ = 0, doubled_ = 0, late_ = 0;
 };
 

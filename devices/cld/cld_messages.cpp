@@ -8,27 +8,43 @@ namespace tangent {
 namespace {
 
 // Type and fields of each message, in wire order: writing, reading and length all come from here.
-template <class M> constexpr CldType kType{};
-template <class M> constexpr std::tuple<> kFields{};
+template <class M>
+constexpr CldType kType{};
+template <class M>
+constexpr std::tuple<> kFields{};
 
-template <> constexpr auto kType<CldTarget> = CldType::target;
-template <> constexpr auto kFields<CldTarget> = std::tuple(&CldTarget::target_nm);
-template <> constexpr auto kType<CldWireGains> = CldType::gains;
-template <> constexpr auto kFields<CldWireGains> =
-    std::tuple(&CldWireGains::p_per_s2, &CldWireGains::i_per_s3, &CldWireGains::d_milli_per_s, &CldWireGains::target_weight_per_65535);
-template <> constexpr auto kType<CldWireLimits> = CldType::limits;
-template <> constexpr auto kFields<CldWireLimits> =
-    std::tuple(&CldWireLimits::lowest_nm, &CldWireLimits::highest_nm, &CldWireLimits::fastest_um_per_s, &CldWireLimits::largest_current_ma);
-template <> constexpr auto kType<CldInfo> = CldType::info;
-template <> constexpr auto kFields<CldInfo> =
-    std::tuple(&CldInfo::firmware_version, &CldInfo::serial, &CldInfo::travel_nm, &CldInfo::step_pm, &CldInfo::bandwidth_centihz,
-               &CldInfo::telemetry_hz, &CldInfo::watchdog_ms);
-template <> constexpr auto kType<CldTelemetry> = CldType::telemetry;
-template <> constexpr auto kFields<CldTelemetry> =
-    std::tuple(&CldTelemetry::time_us, &CldTelemetry::position_nm, &CldTelemetry::target_nm, &CldTelemetry::current_ma, &CldTelemetry::state,
-               &CldTelemetry::fault, &CldTelemetry::heard_sequence, &CldTelemetry::missed_frames);
-template <> constexpr auto kType<CldRefused> = CldType::refused;
-template <> constexpr auto kFields<CldRefused> = std::tuple(&CldRefused::type, &CldRefused::sequence, &CldRefused::reason);
+template <>
+constexpr auto kType<CldTarget> = CldType::target;
+template <>
+constexpr auto kFields<CldTarget> = std::tuple(&CldTarget::target_nm);
+template <>
+constexpr auto kType<CldWireGains> = CldType::gains;
+template <>
+constexpr auto kFields<CldWireGains> = std::tuple(&CldWireGains::p_per_s2, &CldWireGains::i_per_s3,
+                                                  &CldWireGains::d_milli_per_s, &CldWireGains::target_weight_per_65535);
+template <>
+constexpr auto kType<CldWireLimits> = CldType::limits;
+template <>
+constexpr auto kFields<CldWireLimits> = std::tuple(&CldWireLimits::lowest_nm, &CldWireLimits::highest_nm,
+                                                   &CldWireLimits::fastest_um_per_s,
+                                                   &CldWireLimits::largest_current_ma);
+template <>
+constexpr auto kType<CldInfo> = CldType::info;
+template <>
+constexpr auto kFields<CldInfo> = std::tuple(&CldInfo::firmware_version, &CldInfo::serial, &CldInfo::travel_nm,
+                                             &CldInfo::step_pm, &CldInfo::bandwidth_centihz, &CldInfo::telemetry_hz,
+                                             &CldInfo::watchdog_ms);
+template <>
+constexpr auto kType<CldTelemetry> = CldType::telemetry;
+template <>
+constexpr auto kFields<CldTelemetry> = std::tuple(&CldTelemetry::time_us, &CldTelemetry::position_nm,
+                                                  &CldTelemetry::target_nm, &CldTelemetry::current_ma,
+                                                  &CldTelemetry::state, &CldTelemetry::fault,
+                                                  &CldTelemetry::heard_sequence, &CldTelemetry::missed_frames);
+template <>
+constexpr auto kType<CldRefused> = CldType::refused;
+template <>
+constexpr auto kFields<CldRefused> = std::tuple(&CldRefused::type, &CldRefused::sequence, &CldRefused::reason);
 
 /// Little-endian; an enumeration as the number it stands for.
 template <class T>
@@ -68,7 +84,8 @@ template <class M>
 std::optional<M> read(const CldFrame& frame) noexcept {
   M message;
   const std::size_t length = std::apply([&](auto... field) { return (sizeof(message.*field) + ...); }, kFields<M>);
-  if (frame.version != kCldVersion || frame.type != static_cast<std::uint8_t>(kType<M>) || frame.length != length) return std::nullopt;
+  if (frame.version != kCldVersion || frame.type != static_cast<std::uint8_t>(kType<M>) || frame.length != length)
+    return std::nullopt;
   std::size_t at = 0;
   std::apply([&](auto... field) { (take(frame, at, message.*field), ...); }, kFields<M>);
   return message;
@@ -76,7 +93,9 @@ std::optional<M> read(const CldFrame& frame) noexcept {
 
 }  // namespace
 
-CldFrame bare_frame(CldType type, std::uint16_t sequence) noexcept { return {.type = static_cast<std::uint8_t>(type), .sequence = sequence}; }
+CldFrame bare_frame(CldType type, std::uint16_t sequence) noexcept {
+  return {.type = static_cast<std::uint8_t>(type), .sequence = sequence};
+}
 
 CldFrame to_frame(const CldTarget& m, std::uint16_t sequence) noexcept { return written(m, sequence); }
 CldFrame to_frame(const CldWireGains& m, std::uint16_t sequence) noexcept { return written(m, sequence); }
@@ -100,22 +119,32 @@ std::optional<CldTelemetry> to_telemetry(const CldFrame& frame) noexcept {
 
 const char* to_string(CldDeviceState state) {
   switch (state) {
-    case CldDeviceState::idle: return "idle";
-    case CldDeviceState::homing: return "homing";
-    case CldDeviceState::ready: return "ready";
-    case CldDeviceState::faulted: return "faulted";
+    case CldDeviceState::idle:
+      return "idle";
+    case CldDeviceState::homing:
+      return "homing";
+    case CldDeviceState::ready:
+      return "ready";
+    case CldDeviceState::faulted:
+      return "faulted";
   }
   return "?";
 }
 
 const char* to_string(CldDeviceFault fault) {
   switch (fault) {
-    case CldDeviceFault::none: return "none";
-    case CldDeviceFault::watchdog: return "watchdog";
-    case CldDeviceFault::encoder: return "encoder";
-    case CldDeviceFault::overcurrent: return "overcurrent";
-    case CldDeviceFault::homing_failed: return "homing failed";
-    case CldDeviceFault::bad_command: return "bad command";
+    case CldDeviceFault::none:
+      return "none";
+    case CldDeviceFault::watchdog:
+      return "watchdog";
+    case CldDeviceFault::encoder:
+      return "encoder";
+    case CldDeviceFault::overcurrent:
+      return "overcurrent";
+    case CldDeviceFault::homing_failed:
+      return "homing failed";
+    case CldDeviceFault::bad_command:
+      return "bad command";
   }
   return "?";
 }

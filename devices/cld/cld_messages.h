@@ -31,7 +31,7 @@ struct CldTarget {
   std::int32_t target_nm = 0;
 };
 
-struct CldWireGains {                        ///< of the PID; see devices/simulated/cld_mechanism.h
+struct CldWireGains {  ///< of the PID; see devices/simulated/cld_mechanism.h
   std::uint32_t p_per_s2 = 0;
   std::uint32_t i_per_s3 = 0;
   std::int32_t d_milli_per_s = 0;
@@ -40,35 +40,35 @@ struct CldWireGains {                        ///< of the PID; see devices/simula
 
 struct CldWireLimits {
   std::int32_t lowest_nm = 0, highest_nm = 0;
-  std::uint32_t fastest_um_per_s = 0;        ///< of the target; 0: as fast as the drive goes
-  std::uint16_t largest_current_ma = 0;      ///< 0: the firmware's own
+  std::uint32_t fastest_um_per_s = 0;    ///< of the target; 0: as fast as the drive goes
+  std::uint16_t largest_current_ma = 0;  ///< 0: the firmware's own
 };
 
 struct CldInfo {
-  std::uint16_t firmware_version = 0;        ///< major * 256 + minor
+  std::uint16_t firmware_version = 0;  ///< major * 256 + minor
   std::uint32_t serial = 0;
-  std::uint32_t travel_nm = 0;               ///< end to end
-  std::uint32_t step_pm = 0;                 ///< of the encoder
+  std::uint32_t travel_nm = 0;  ///< end to end
+  std::uint32_t step_pm = 0;    ///< of the encoder
   std::uint16_t bandwidth_centihz = 0;
   std::uint16_t telemetry_hz = 0;
   std::uint16_t watchdog_ms = 0;
 };
 
 struct CldTelemetry {
-  std::uint32_t time_us = 0;                 ///< of the device, wraps
+  std::uint32_t time_us = 0;  ///< of the device, wraps
   std::int32_t position_nm = 0;
-  std::int32_t target_nm = 0;                ///< in force
+  std::int32_t target_nm = 0;  ///< in force
   std::int16_t current_ma = 0;
   CldDeviceState state = CldDeviceState::idle;
   CldDeviceFault fault = CldDeviceFault::none;
-  std::uint16_t heard_sequence = 0;          ///< of the newest host frame the device took
-  std::uint16_t missed_frames = 0;           ///< host frames lost by their sequence, wraps
+  std::uint16_t heard_sequence = 0;  ///< of the newest host frame the device took
+  std::uint16_t missed_frames = 0;   ///< host frames lost by their sequence, wraps
 };
 
 struct CldRefused {
-  std::uint8_t type = 0;                     ///< of the frame refused
+  std::uint8_t type = 0;  ///< of the frame refused
   std::uint16_t sequence = 0;
-  std::uint8_t reason = 0;                   ///< 1 version, 2 type, 3 length, 4 value, 5 not in this state
+  std::uint8_t reason = 0;  ///< 1 version, 2 type, 3 length, 4 value, 5 not in this state
 };
 
 CldFrame to_frame(const CldTarget& message, std::uint16_t sequence) noexcept;

@@ -25,14 +25,17 @@ UsbControl maestro_acceleration(std::uint8_t channel, std::uint8_t acceleration)
 }
 
 Status check_calibration(const MaestroCalibration& c) {
-  const auto bad = [](const std::string& what) { return fail(what, "Maestro calibration", "measure two places of the roller and their pulses"); };
+  const auto bad = [](const std::string& what) {
+    return fail(what, "Maestro calibration", "measure two places of the roller and their pulses");
+  };
   for (const double v : {c.low_m, c.high_m, c.low_us, c.high_us}) {
     if (!std::isfinite(v)) return bad("a value is not finite");
   }
   if (!(c.low_m < c.high_m)) return bad("the low place is not below the high one");
   if (std::abs(c.low_us - c.high_us) < 1.0) return bad("both places have the same pulse");
   for (const double us : {c.low_us, c.high_us}) {
-    if (us < kShortest_us || us > kLongest_us) return bad("a pulse of " + std::to_string(us) + " us is outside 400 to 2600 us");
+    if (us < kShortest_us || us > kLongest_us)
+      return bad("a pulse of " + std::to_string(us) + " us is outside 400 to 2600 us");
   }
   return {};
 }

@@ -1,6 +1,6 @@
 // Pololu Maestro servo controllers, as far as they are used here: control transfers and the map from travel to pulse
-// width. Pure. Requests as in Pololu's Maestro USB protocol: vendor type, no data; a target is a pulse width in quarters
-// of a microsecond, 0 switches the channel off.
+// width. Pure. Requests as in Pololu's Maestro USB protocol: vendor type, no data; a target is a pulse width in
+// quarters of a microsecond, 0 switches the channel off.
 #pragma once
 
 #include "core/base/result.h"
@@ -11,7 +11,7 @@
 namespace tangent {
 
 inline constexpr std::uint16_t kMaestroVendor = 0x1FFB;
-inline constexpr std::uint16_t kMaestroProducts[]{0x0089, 0x008A, 0x008B, 0x008C};   ///< Micro 6, Mini 12, 18, 24
+inline constexpr std::uint16_t kMaestroProducts[]{0x0089, 0x008A, 0x008B, 0x008C};  ///< Micro 6, Mini 12, 18, 24
 
 UsbControl maestro_target(std::uint8_t channel, std::uint16_t quarter_us);
 /// 0.25 us / 10 ms; 0: unlimited.

@@ -27,7 +27,7 @@ UsbLinkOptions maestro_link_options() {
   UsbLinkOptions o;
   o.match.vendor = kMaestroVendor;
   o.match.products.assign(std::begin(kMaestroProducts), std::end(kMaestroProducts));
-  o.interface_number = -1;   // its requests go to the device
+  o.interface_number = -1;  // its requests go to the device
   return o;
 }
 
@@ -38,7 +38,8 @@ Status MaestroDisplay::open() {
   if (opened_) return fail("is already open", capabilities_.name, "close it first");
   if (const Status ok = check_calibration(options_.calibration); !ok) return ok;
   if (capabilities_.travel_m <= 0.0) {
-    return fail("0 is not between the two places", "Maestro calibration", "measure places on either side of the middle");
+    return fail("0 is not between the two places", "Maestro calibration",
+                "measure places on either side of the middle");
   }
   if (const Status started = link_.start(); !started) return started;
   opened_ = true;
@@ -47,7 +48,7 @@ Status MaestroDisplay::open() {
 
 void MaestroDisplay::close() {
   if (!opened_) return;
-  targets_.put(0);   // off
+  targets_.put(0);  // off
   link_.stop();
   machine_.enter(DeviceState::absent);
   opened_ = false;
@@ -60,7 +61,7 @@ void MaestroDisplay::on_open(UsbLink& link) noexcept {
   unsent_ = false;
   failures_.store(0, kRelaxed);
   std::uint16_t old = 0;
-  targets_.take(old);   // meant for the connection before
+  targets_.take(old);  // meant for the connection before
   sent_ns_ = usb_now_ns();
   in_flight_ += link.send_control(maestro_speed(options_.channel, options_.speed));
   in_flight_ += link.send_control(maestro_acceleration(options_.channel, options_.acceleration));
@@ -101,7 +102,8 @@ void MaestroDisplay::update_state(const DisplayCommand& command, double dt_s) no
     seen_connection_ = connection;
   }
   if (connection % 2 == 0) return;
-  if (machine_.state() == DeviceState::open && answered_.load(std::memory_order_acquire) == connection) machine_.enter(DeviceState::firmware);
+  if (machine_.state() == DeviceState::open && answered_.load(std::memory_order_acquire) == connection)
+    machine_.enter(DeviceState::firmware);
   if (failures_.load(kRelaxed) >= kFailuresToLoss) machine_.fail(DeviceFault::disconnected);
   if (machine_.state() == DeviceState::homing) {
     homing_for_s_ += dt_s;

@@ -17,10 +17,10 @@ UsbLinkOptions maestro_link_options();
 
 struct MaestroOptions {
   std::uint8_t channel = 0;
-  std::uint16_t speed = 0;               ///< see maestro_speed
+  std::uint16_t speed = 0;  ///< see maestro_speed
   std::uint8_t acceleration = 0;
   MaestroCalibration calibration{};
-  double settle_s = 0.5;                 ///< homing: time to reach the middle
+  double settle_s = 0.5;  ///< homing: time to reach the middle
   UsbLinkOptions link = maestro_link_options();
   UsbTap* tap = nullptr;
 };
@@ -49,10 +49,10 @@ class MaestroDisplay final : public ContactDisplay, private UsbLinkHandler {
   MaestroOptions options_;
   DisplayCapabilities capabilities_;
   UsbLink link_;
-  Mailbox<std::uint16_t> targets_;                ///< quarter us, 0: off; servo to link
-  std::atomic<std::uint32_t> connection_{0};      ///< odd while connected
-  std::atomic<std::uint32_t> answered_{0};        ///< connection in which a setting was taken
-  std::atomic<std::uint32_t> failures_{0};        ///< control transfers in a row that failed
+  Mailbox<std::uint16_t> targets_;            ///< quarter us, 0: off; servo to link
+  std::atomic<std::uint32_t> connection_{0};  ///< odd while connected
+  std::atomic<std::uint32_t> answered_{0};    ///< connection in which a setting was taken
+  std::atomic<std::uint32_t> failures_{0};    ///< control transfers in a row that failed
   LogHistogram round_trip_us_;
 
   // Link's thread.

@@ -36,7 +36,8 @@ void CldMechanism::set_gains(const CldGains& gains) noexcept {
 
 double CldMechanism::limited(double target_m) const noexcept {
   const double end = 0.5 * options_.travel_m;
-  const double target = std::clamp(std::clamp(target_m, -end, end), std::max(limits_.lowest_m, -end), std::min(limits_.highest_m, end));
+  const double target =
+      std::clamp(std::clamp(target_m, -end, end), std::max(limits_.lowest_m, -end), std::min(limits_.highest_m, end));
   if (limits_.fastest_m_per_s <= 0.0) return target;
   const double most = limits_.fastest_m_per_s * kPeriod_s;
   return std::clamp(target, target_ - most, target_ + most);
@@ -49,9 +50,12 @@ void CldMechanism::control(double target_m, double reading_m) noexcept {
   const double target = rounded(target_, options_.step_m);
   const double velocity = (reading_m - last_reading_) / kPeriod_s;
   last_reading_ = reading_m;
-  const double wanted = gains_.p_per_s2 * (gains_.target_weight * target - reading_m) + integral_ - gains_.d_per_s * velocity;
+  const double wanted =
+      gains_.p_per_s2 * (gains_.target_weight * target - reading_m) + integral_ - gains_.d_per_s * velocity;
   const double full = options_.full_acceleration_m_per_s2;
-  const double most = limits_.largest_current_a > 0.0 ? full * std::min(1.0, limits_.largest_current_a / options_.full_current_a) : full;
+  const double most = limits_.largest_current_a > 0.0
+                          ? full * std::min(1.0, limits_.largest_current_a / options_.full_current_a)
+                          : full;
   const double got = std::clamp(wanted, -most, most);
   // The integral rests while the current is at its limit.
   if (got == wanted) integral_ += gains_.i_per_s3 * (target - reading_m) * kPeriod_s;
@@ -66,7 +70,8 @@ void CldMechanism::hold() noexcept {
   integral_ = gains_.p_per_s2 * (1.0 - gains_.target_weight) * last_reading_;
 }
 
-// x'' = b - c x' over one period, exactly: v -> b/c + (v - b/c) e, x -> x + b/c T + (v - b/c) (1 - e) / c, e = exp(-c T).
+// x'' = b - c x' over one period, exactly: v -> b/c + (v - b/c) e, x -> x + b/c T + (v - b/c) (1 - e) / c, e = exp(-c
+// T).
 void CldMechanism::move(double acceleration) noexcept {
   const double c = options_.drag_per_s, decay = std::exp(-c * kPeriod_s);
   const double terminal = acceleration / c;

@@ -6,7 +6,8 @@
 //   motor      x'' = a u - c x'        u: current, -1 to 1 of the largest
 //   encoder    x in steps; the roller follows x through the backlash
 //   target     within the limits, no faster than they say
-//   control    u = (kp (b target - encoder) + ki integral(e) - kd x') / a,  e = target - encoder,  x' from two encoder readings
+//   control    u = (kp (b target - encoder) + ki integral(e) - kd x') / a,  e = target - encoder,  x' from two encoder
+//   readings
 // The three gains put the poles of the loop at w (-1 +- i) / sqrt(2) and w / 8, where w = 2 pi bandwidth: the first two
 // are -3 dB at the bandwidth, the third, slow one takes out what friction leaves.
 #pragma once
@@ -14,13 +15,13 @@
 namespace tangent {
 
 struct CldMechanismOptions {
-  double travel_m = 20e-3;          ///< end to end
-  double bandwidth_hz = 12.0;       ///< -3 dB. The paper's: over 5 Hz
-  double step_m = 0.8e-6;           ///< of drive and encoder; 0: exact
-  double backlash_m = 20e-6;        ///< between drive and roller; assumed, as makers rarely say
-  double full_acceleration_m_per_s2 = 200.0;   ///< a: of the free drive at the largest current
-  double full_current_a = 0.5;      ///< the largest the motor takes
-  double drag_per_s = 20.0;         ///< c
+  double travel_m = 20e-3;                    ///< end to end
+  double bandwidth_hz = 12.0;                 ///< -3 dB. The paper's: over 5 Hz
+  double step_m = 0.8e-6;                     ///< of drive and encoder; 0: exact
+  double backlash_m = 20e-6;                  ///< between drive and roller; assumed, as makers rarely say
+  double full_acceleration_m_per_s2 = 200.0;  ///< a: of the free drive at the largest current
+  double full_current_a = 0.5;                ///< the largest the motor takes
+  double drag_per_s = 20.0;                   ///< c
 };
 
 /// Gains of the PID in SI: acceleration per error, per error and time, per velocity.
@@ -28,21 +29,21 @@ struct CldGains {
   double p_per_s2 = 0.0;
   double i_per_s3 = 0.0;
   double d_per_s = 0.0;
-  double target_weight = 1.0;   ///< of the target in the proportional part, 0 to 1
+  double target_weight = 1.0;  ///< of the target in the proportional part, 0 to 1
 };
 
 /// Of targets and current; within the travel and what the motor takes.
 struct CldLimits {
   double lowest_m = -1.0, highest_m = 1.0;
-  double fastest_m_per_s = 0.0;     ///< of the target; 0: any
-  double largest_current_a = 0.0;   ///< 0: the motor's
+  double fastest_m_per_s = 0.0;    ///< of the target; 0: any
+  double largest_current_a = 0.0;  ///< 0: the motor's
 };
 
 CldGains gains_for(double bandwidth_hz, double drag_per_s);
 
 class CldMechanism {
  public:
-  static constexpr double kPeriod_s = 1e-3;   ///< of the controller
+  static constexpr double kPeriod_s = 1e-3;  ///< of the controller
 
   explicit CldMechanism(const CldMechanismOptions& options = {});
 
@@ -58,10 +59,10 @@ class CldMechanism {
 
   const CldMechanismOptions& options() const { return options_; }
   const CldGains& gains() const { return gains_; }
-  double encoder_m() const noexcept;                    ///< drive, in steps
-  double drive_m() const { return position_; }          ///< before the encoder
-  double roller_m() const { return roller_; }           ///< behind the backlash
-  double current() const { return current_; }           ///< -1 to 1 of the largest
+  double encoder_m() const noexcept;            ///< drive, in steps
+  double drive_m() const { return position_; }  ///< before the encoder
+  double roller_m() const { return roller_; }   ///< behind the backlash
+  double current() const { return current_; }   ///< -1 to 1 of the largest
 
  private:
   void move(double acceleration) noexcept;
@@ -70,7 +71,7 @@ class CldMechanism {
   CldMechanismOptions options_;
   CldGains gains_;
   CldLimits limits_;
-  double target_ = 0.0;             ///< last, after the limits
+  double target_ = 0.0;  ///< last, after the limits
   double position_ = 0.0, velocity_ = 0.0, roller_ = 0.0, current_ = 0.0;
   double integral_ = 0.0, last_reading_ = 0.0;
 };

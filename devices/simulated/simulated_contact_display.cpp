@@ -6,7 +6,7 @@ namespace tangent {
 
 namespace {
 
-constexpr double kNoise_m = 2e-3;   // of an injected fault: beyond any roller's speed at 1 kHz
+constexpr double kNoise_m = 2e-3;  // of an injected fault: beyond any roller's speed at 1 kHz
 
 DisplayCapabilities describe(const SimulatedDisplayOptions& options) {
   return {.name = "simulated contact display",
@@ -22,7 +22,11 @@ DisplayCapabilities describe(const SimulatedDisplayOptions& options) {
 }  // namespace
 
 SimulatedContactDisplay::SimulatedContactDisplay(const SimulatedDisplayOptions& options)
-    : options_(options), capabilities_(describe(options)), life_(options.homing_s), random_(options.seed), mechanism_(options.mechanism) {}
+    : options_(options),
+      capabilities_(describe(options)),
+      life_(options.homing_s),
+      random_(options.seed),
+      mechanism_(options.mechanism) {}
 
 void SimulatedContactDisplay::set_controller(const ControllerSettings& s) noexcept {
   mechanism_.set_gains({s.p_per_s2, s.i_per_s3, s.d_per_s, s.target_weight});
@@ -48,9 +52,12 @@ DisplaySample SimulatedContactDisplay::exchange(const DisplayCommand& command, d
   // Half a period of tolerance, so that rounding of many small steps loses none.
   while (since_control_s_ > 0.5 * CldMechanism::kPeriod_s) {
     since_control_s_ -= CldMechanism::kPeriod_s;
-    if (!moves) mechanism_.hold();
-    else if (life_.injected() == InjectedFault::stuck_encoder) mechanism_.control(target, shown_m_);
-    else mechanism_.control(target);
+    if (!moves)
+      mechanism_.hold();
+    else if (life_.injected() == InjectedFault::stuck_encoder)
+      mechanism_.control(target, shown_m_);
+    else
+      mechanism_.control(target);
   }
   return measure(dt_s);
 }

@@ -16,7 +16,7 @@ namespace tangent {
 struct SimulatedDisplayOptions {
   CldMechanismOptions mechanism;
   double homing_s = 0.25;
-  std::uint64_t seed = 1;          ///< of injected noise
+  std::uint64_t seed = 1;  ///< of injected noise
 };
 
 class SimulatedContactDisplay final : public ContactDisplay {

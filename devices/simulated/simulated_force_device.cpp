@@ -56,8 +56,7 @@ void SimulatedForceDevice::update_tremor(double dt_s) noexcept {
   const double drive = options_.tremor_m * std::sqrt(4.0 * kTremorDamping * w * w * w / dt_s);
   for (int axis = 0; axis < 3; ++axis) {
     const double push = drive * uniform_noise(random_);
-    tremor_velocity_[axis] +=
-        dt_s * (push - w * w * tremor_[axis] - 2.0 * kTremorDamping * w * tremor_velocity_[axis]);
+    tremor_velocity_[axis] += dt_s * (push - w * w * tremor_[axis] - 2.0 * kTremorDamping * w * tremor_velocity_[axis]);
     tremor_[axis] += dt_s * tremor_velocity_[axis];
   }
 }

@@ -17,15 +17,15 @@ namespace tangent {
 
 struct SimulatedForceOptions {
   std::uint64_t seed = 1;
-  double device_mass_kg = 0.075;         ///< apparent
-  double hand_mass_kg = 0.1;             ///< of finger and hand that move with it
+  double device_mass_kg = 0.075;  ///< apparent
+  double hand_mass_kg = 0.1;      ///< of finger and hand that move with it
   double hand_stiffness_n_per_m = 400.0;
   double hand_damping_n_s_per_m = 12.0;  ///< about half of critical against a contact of 400 N/m
   double tremor_m = 10e-6;               ///< RMS along each axis, around 9 Hz; 0: none
   double position_step_m = 0.03e-3;      ///< of the encoders; 0: exact
   double friction_n = 0.04;              ///< of the drives, dry; 0: none
   double homing_s = 0.1;
-  int substeps = 4;                      ///< of the integration in one exchange
+  int substeps = 4;  ///< of the integration in one exchange
 };
 
 class SimulatedForceDevice final : public ForceDevice, public SimulatedHand {
@@ -61,8 +61,8 @@ class SimulatedForceDevice final : public ForceDevice, public SimulatedHand {
   SimulatedLife life_;
   HandTarget target_;
   Vec3 position_{0.0}, velocity_{0.0};
-  Vec3 shown_{0.0};                      ///< what the encoders last said
-  double age_s_ = 0.0;                   ///< since then
+  Vec3 shown_{0.0};     ///< what the encoders last said
+  double age_s_ = 0.0;  ///< since then
   Vec3 tremor_{0.0}, tremor_velocity_{0.0};
   std::mt19937_64 random_;
 };

@@ -1,5 +1,5 @@
-// What the simulated devices have in common: they are opened, home for a while, are asked for things, and have the faults
-// they are told to have.
+// What the simulated devices have in common: they are opened, home for a while, are asked for things, and have the
+// faults they are told to have.
 #pragma once
 
 #include "core/base/result.h"
@@ -26,7 +26,7 @@ class SimulatedLife {
   DeviceState state() const { return machine_.state(); }
   DeviceFault fault() const { return machine_.fault(); }
   bool ready() const { return machine_.ready(); }
-  InjectedFault injected() const { return injected_; }   ///< in the present exchange
+  InjectedFault injected() const { return injected_; }  ///< in the present exchange
 
  private:
   DeviceStateMachine machine_;

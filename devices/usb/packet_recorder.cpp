@@ -30,8 +30,11 @@ PacketRecorder::~PacketRecorder() {
   std::fclose(file_);
 }
 
-void PacketRecorder::packet(Direction direction, std::int64_t time_ns, std::span<const std::uint8_t> bytes, int status) noexcept {
-  Packet p{.time_ns = time_ns, .status = status, .direction = direction,
+void PacketRecorder::packet(Direction direction, std::int64_t time_ns, std::span<const std::uint8_t> bytes,
+                            int status) noexcept {
+  Packet p{.time_ns = time_ns,
+           .status = status,
+           .direction = direction,
            .length = static_cast<std::uint8_t>(std::min(bytes.size(), kUsbPacketBytes))};
   std::copy_n(bytes.begin(), p.length, p.bytes.begin());
   ring_.push(p);

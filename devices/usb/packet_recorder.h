@@ -23,7 +23,8 @@ class PacketRecorder final : public UsbTap {
   PacketRecorder(const PacketRecorder&) = delete;
   PacketRecorder& operator=(const PacketRecorder&) = delete;
 
-  void packet(Direction direction, std::int64_t time_ns, std::span<const std::uint8_t> bytes, int status) noexcept override;
+  void packet(Direction direction, std::int64_t time_ns, std::span<const std::uint8_t> bytes,
+              int status) noexcept override;
   std::uint64_t drops() const noexcept { return ring_.drops(); }
 
  private:

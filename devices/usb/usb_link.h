@@ -1,5 +1,5 @@
-// One USB device kept open: finds it, opens it, keeps packets flowing, notices when it is pulled, and comes back when it
-// is plugged in again. Knows nothing of what the packets mean.
+// One USB device kept open: finds it, opens it, keeps packets flowing, notices when it is pulled, and comes back when
+// it is plugged in again. Knows nothing of what the packets mean.
 //
 // A thread of its own does all of it. IN transfers are always in flight, OUT and control transfers come from a fixed
 // pool; after opening nothing allocates. Other threads only wake it. Hot-plug by libusb where it can; where it can't,
@@ -16,16 +16,16 @@ namespace tangent {
 
 struct UsbLinkOptions {
   UsbMatch match;
-  int interface_number = 0;           ///< claimed; -1: none, control transfers alone
-  std::uint8_t in_endpoint = 0;       ///< 0: none
-  std::uint8_t out_endpoint = 0;      ///< 0: none
-  int in_transfers = 8;               ///< in flight at any time
-  int out_transfers = 8;              ///< OUT and control together
-  unsigned time_out_ms = 100;         ///< of OUT and control transfers
+  int interface_number = 0;       ///< claimed; -1: none, control transfers alone
+  std::uint8_t in_endpoint = 0;   ///< 0: none
+  std::uint8_t out_endpoint = 0;  ///< 0: none
+  int in_transfers = 8;           ///< in flight at any time
+  int out_transfers = 8;          ///< OUT and control together
+  unsigned time_out_ms = 100;     ///< of OUT and control transfers
 };
 
 struct UsbControl {
-  std::uint8_t request_type = 0x40;   ///< host to device, vendor, device
+  std::uint8_t request_type = 0x40;  ///< host to device, vendor, device
   std::uint8_t request = 0;
   std::uint16_t value = 0, index = 0;
 };
@@ -59,10 +59,11 @@ class UsbLink {
   /// Any thread; does not wait.
   void wake() noexcept;
   bool connected() const noexcept;
-  UsbProblem problem() const noexcept;   ///< why it isn't connected
+  UsbProblem problem() const noexcept;  ///< why it isn't connected
   const UsbCounters& counters() const noexcept;
 
-  /// Link's thread. False, and counted, when every transfer is in flight. Precondition: bytes.size() <= kUsbPacketBytes.
+  /// Link's thread. False, and counted, when every transfer is in flight. Precondition: bytes.size() <=
+  /// kUsbPacketBytes.
   bool send(std::span<const std::uint8_t> bytes) noexcept;
   bool send_control(const UsbControl& control) noexcept;
   /// Link's thread: whether a transfer is free.
@@ -70,7 +71,7 @@ class UsbLink {
   /// Link's thread: closes and looks for the device anew (it talks nonsense).
   void reconnect() noexcept;
 
-  struct Impl;   ///< known to the transport alone
+  struct Impl;  ///< known to the transport alone
 
  private:
   std::unique_ptr<Impl> impl_;

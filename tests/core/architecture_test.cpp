@@ -9,9 +9,11 @@
 namespace {
 
 /// "file:line: text" of every include in `room` that names one of `forbidden`.
-std::vector<std::string> offending_includes(const std::string& room, const std::vector<std::string>& forbidden, int& files) {
+std::vector<std::string> offending_includes(const std::string& room, const std::vector<std::string>& forbidden,
+                                            int& files) {
   std::vector<std::string> found;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(std::filesystem::path(TANGENT_SOURCE_DIR) / room)) {
+  for (const auto& entry :
+       std::filesystem::recursive_directory_iterator(std::filesystem::path(TANGENT_SOURCE_DIR) / room)) {
     const auto extension = entry.path().extension();
     if (extension != ".h" && extension != ".cpp") continue;
     ++files;
@@ -36,7 +38,8 @@ void check_room(const std::string& room, const std::vector<std::string>& forbidd
 }  // namespace
 
 TEST_CASE("core includes no threads, clocks, graphics or devices, and nothing above it") {
-  check_room("core", {"thread>", "mutex>", "condition_variable>", "chrono>", "GL/", "epoxy/", "imgui", "GLFW", "libusb", "devices/", "workbench/"});
+  check_room("core", {"thread>", "mutex>", "condition_variable>", "chrono>", "GL/", "epoxy/", "imgui", "GLFW", "libusb",
+                      "devices/", "workbench/"});
 }
 
 TEST_CASE("devices include core, no graphics and nothing of the workbench") {
@@ -44,7 +47,8 @@ TEST_CASE("devices include core, no graphics and nothing of the workbench") {
 }
 
 TEST_CASE("the session includes no graphics, panels or commands") {
-  check_room("workbench/session", {"GL/", "epoxy/", "imgui", "GLFW", "workbench/gui", "workbench/cli", "workbench/bench"});
+  check_room("workbench/session",
+             {"GL/", "epoxy/", "imgui", "GLFW", "workbench/gui", "workbench/cli", "workbench/bench"});
 }
 
 TEST_CASE("the window includes no commands") { check_room("workbench/gui", {"workbench/cli", "workbench/bench"}); }

@@ -5,7 +5,8 @@
 
 namespace tangent::test {
 
-inline constexpr FingerShape kFingerShapes[] = {FingerShape::point, FingerShape::sphere, FingerShape::ellipsoid, FingerShape::capsule};
+inline constexpr FingerShape kFingerShapes[] = {FingerShape::point, FingerShape::sphere, FingerShape::ellipsoid,
+                                                FingerShape::capsule};
 
 /// Of a fingertip's size, the ellipsoid of three different axes.
 inline Finger finger_of(FingerShape shape) {

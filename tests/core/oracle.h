@@ -17,6 +17,8 @@ inline nlohmann::json read_oracle(const std::string& name) {
   return nlohmann::json::parse(file);
 }
 
-inline Vec3 vec3(const nlohmann::json& j) { return {j.at(0).get<double>(), j.at(1).get<double>(), j.at(2).get<double>()}; }
+inline Vec3 vec3(const nlohmann::json& j) {
+  return {j.at(0).get<double>(), j.at(1).get<double>(), j.at(2).get<double>()};
+}
 
 }  // namespace tangent::test

@@ -83,7 +83,8 @@ inline ScenePtr shared_scene(const std::string& name, double crease_deg) {
 }
 
 /// One tick from nothing.
-inline TickOutput solve_once(const ScenePtr& scene, const Preset& preset, const FingerPose& pose, IterationTrace* trace = nullptr) {
+inline TickOutput solve_once(const ScenePtr& scene, const Preset& preset, const FingerPose& pose,
+                             IterationTrace* trace = nullptr) {
   Stepper stepper(scene);
   TickState state;
   return stepper.step(preset, {0.0, pose}, state, trace);
@@ -149,15 +150,20 @@ inline double angle_deg(const Vec3& a, const Vec3& b) {
 class BitHash {
  public:
   void add(const void* data, std::size_t size) {
-    for (std::size_t i = 0; i < size; ++i) value_ = (value_ ^ static_cast<const unsigned char*>(data)[i]) * 1099511628211ull;
+    for (std::size_t i = 0; i < size; ++i)
+      value_ = (value_ ^ static_cast<const unsigned char*>(data)[i]) * 1099511628211ull;
   }
   void add(double x) { add(&x, sizeof x); }
   void add(const Vec3& v) { add(v.x), add(v.y), add(v.z); }
   void add(const TickOutput& o) {
     add(o.contact), add(o.normal), add(o.force_n);
     add(o.penetration_m), add(o.cld_m), add(o.error_m), add(o.u), add(o.v);
-    const std::int32_t whole[6] = {static_cast<std::int32_t>(o.status), static_cast<std::int32_t>(o.event),
-                                   static_cast<std::int32_t>(o.triangle), o.iterations, o.triangle_changes, 0};
+    const std::int32_t whole[6] = {static_cast<std::int32_t>(o.status),
+                                   static_cast<std::int32_t>(o.event),
+                                   static_cast<std::int32_t>(o.triangle),
+                                   o.iterations,
+                                   o.triangle_changes,
+                                   0};
     add(whole, sizeof whole);
   }
   std::uint64_t value() const { return value_; }

@@ -42,7 +42,7 @@ TEST_CASE("peak force may be held for the stated time, then the motors' heat all
   CHECK(budget.allowed(8.5, 1.4) == 8.5);
   for (int i = 0; i < 600'000; ++i) budget.spend(1.4, 8.5, 1.4, kDt);  // for ever
   CHECK(budget.allowed(8.5, 1.4) == 8.5);
-  CHECK(ForceBudget{}.allowed(8.5, 0.0) == 8.5);                       // not known: no limit of its own
+  CHECK(ForceBudget{}.allowed(8.5, 0.0) == 8.5);  // not known: no limit of its own
 }
 
 TEST_CASE("a spring does no work on a shaking hand, a late one does, as much as theory says") {
@@ -72,7 +72,7 @@ TEST_CASE("the share of force that passes falls from one to nothing between soft
   ShakeWatch watch;
   double last = 1.0;
   for (int i = 0; i < 200 && !watch.stop(); ++i) {
-    const double sign = (i / 5) % 2 == 0 ? 1.0 : -1.0;   // pushes the way it moves, 100 times a second
+    const double sign = (i / 5) % 2 == 0 ? 1.0 : -1.0;  // pushes the way it moves, 100 times a second
     watch.add(Vec3(0, 0, 2.0 * sign), Vec3(0, 0, 0.1e-3 * sign), kDt);
     CHECK(watch.share() <= last);
     CHECK((watch.share() < 1.0) == (watch.work_j() > ShakeWatch::kSoften_j));
@@ -87,7 +87,7 @@ TEST_CASE("a position that freezes while moving is found after 20 ticks - rest, 
   FrozenPositionWatch frozen;
   int found = -1;
   for (int i = 0; i < 200 && found < 0; ++i) {
-    if (frozen.add(quantised(0.1 * kDt * std::min(i, 100)))) found = i;   // 100 mm/s until tick 100
+    if (frozen.add(quantised(0.1 * kDt * std::min(i, 100)))) found = i;  // 100 mm/s until tick 100
   }
   CHECK(found == 120);
 
@@ -95,7 +95,7 @@ TEST_CASE("a position that freezes while moving is found after 20 ticks - rest, 
   for (int i = 0; i < 5000; ++i) CHECK_FALSE(resting.add(quantised(0.01)));
   FrozenPositionWatch dithering;
   for (int i = 0; i < 5000; ++i) CHECK_FALSE(dithering.add(quantised(i < 2500 ? 0.03e-3 * (i % 2) : 0.0)));
-  FrozenPositionWatch turning;   // a hand that reverses at 5 m/s^2
+  FrozenPositionWatch turning;  // a hand that reverses at 5 m/s^2
   for (int i = 0; i < 5000; ++i) CHECK_FALSE(turning.add(quantised(5.0 / 1600.0 * std::sin(40.0 * i * kDt))));
 }
 
@@ -103,7 +103,7 @@ TEST_CASE("a roller far from its target that does not move is found after 50 tic
   FrozenDisplayWatch frozen;
   int ticks = 1;
   while (!frozen.add(1e-3, 3e-3)) REQUIRE(++ticks < 100);
-  CHECK(ticks == 51);   // the first reading has nothing to be compared with
+  CHECK(ticks == 51);  // the first reading has nothing to be compared with
   FrozenDisplayWatch near;
   for (int i = 0; i < 500; ++i) CHECK_FALSE(near.add(1e-3, 1.4e-3));
 }

@@ -123,8 +123,10 @@ TEST_CASE("a force or target that is not finite stops the force until a person r
       SafetyGate gate = armed_gate();
       gate.pass(ready_input(Vec3(1, 1, 1), 2e-3), kDt);
       GateInput input = ready_input(Vec3(1, 1, 1), 2e-3);
-      if (where < 3) input.force_n[where] = bad;
-      else input.display_m = bad;
+      if (where < 3)
+        input.force_n[where] = bad;
+      else
+        input.display_m = bad;
       const GateOutput out = gate.pass(input, kDt);
       CHECK(out.force_n == Vec3(0.0));
       CHECK(out.display_m == 2e-3);  // holds still
@@ -193,7 +195,7 @@ TEST_CASE("the display's target is clamped to its travel, and holds while stoppe
 TEST_CASE("beyond the workspace the force fades out over the margin, wherever the workspace was placed") {
   GateLimits l = limits();
   l.slew_n_per_s = 1e9;
-  l.workspace_half_size_m = Vec3(0.1, 0.0, 0.05);   // no limit along y
+  l.workspace_half_size_m = Vec3(0.1, 0.0, 0.05);  // no limit along y
   for (const Vec3 centre : {Vec3(0.0), Vec3(3, -2, 1)}) {
     const auto force_at = [&](const Vec3& offset, bool faded) {
       SafetyGate gate = armed_gate(l);
@@ -223,7 +225,7 @@ TEST_CASE("held at peak force, the gate comes down to the continuous force by it
     if (i > 10) fastest_change = std::max(fastest_change, std::abs(force - last));
   }
   CHECK(force == doctest::Approx(1.4).epsilon(0.01));
-  CHECK(fastest_change < 0.01);   // never a jolt
+  CHECK(fastest_change < 0.01);  // never a jolt
   CHECK(count(gate, GateAction::heat_clamped) > 50'000);
   CHECK(gate.state() == GateState::armed);
   // Re-arming does not cool the motors.

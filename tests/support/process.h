@@ -54,8 +54,7 @@ class Process {
 
   ProcessResult wait() const {
     int status = 0;
-    while (::waitpid(id_, &status, 0) < 0 && errno == EINTR) {
-    }
+    while (::waitpid(id_, &status, 0) < 0 && errno == EINTR) {}
     const std::string err = read_text(folder_.file("err"));
     // What a sanitizer finds fails the test also where it expects a failure of the program.
     CHECK_MESSAGE(!contains(err, "Sanitizer"), err);

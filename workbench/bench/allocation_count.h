@@ -7,8 +7,8 @@
 namespace tangent {
 
 struct AllocationCount {
-  bool counted = false;      ///< false: this program does not count
-  std::uint64_t count = 0;   ///< of the calling thread, since it started
+  bool counted = false;     ///< false: this program does not count
+  std::uint64_t count = 0;  ///< of the calling thread, since it started
 };
 AllocationCount allocation_count() noexcept;
 

@@ -16,10 +16,10 @@ using ScenePtr = std::shared_ptr<const ContactScene>;
 
 struct BenchCase {
   std::string name;
-  std::string what;                            ///< one line: what is hard about it, or what it is
+  std::string what;  ///< one line: what is hard about it, or what it is
   std::function<Result<PolygonMesh>()> mesh;
   ContactMeshOptions options;
-  Preset preset;                               ///< finger and tolerance; the method is set by whoever runs it
+  Preset preset;  ///< finger and tolerance; the method is set by whoever runs it
   /// One pose a millisecond, `ticks` of them; the same arguments give the same poses.
   std::function<Result<std::vector<TickInput>>(const ContactScene&, const Finger&, int ticks)> poses;
 };
@@ -31,8 +31,8 @@ std::vector<BenchCase> paper_cases();
 /// Generated hard cases.
 std::vector<BenchCase> hard_cases();
 
-/// Every pose file of `poses` (NAME-rXXX.csv, XXX: finger radius, mm) on its mesh (`meshes`/NAME.obj, fitted to 80 mm), with
-/// creases at 180 and at 45 degrees. All poses are used whatever the number of ticks asked for.
+/// Every pose file of `poses` (NAME-rXXX.csv, XXX: finger radius, mm) on its mesh (`meshes`/NAME.obj, fitted to 80 mm),
+/// with creases at 180 and at 45 degrees. All poses are used whatever the number of ticks asked for.
 Result<std::vector<BenchCase>> shared_cases(const std::filesystem::path& meshes, const std::filesystem::path& poses);
 
 Result<ScenePtr> build_scene(const BenchCase& bench_case);

@@ -41,7 +41,8 @@ Poses around_ball(const Vec3& centre, double distance, double speed, int ticks) 
   double turn = 0.0;
   for (int i = 0; i < ticks; ++i) {
     const double up = kSwing * std::sin(kRate * turn);
-    poses.push_back(at(i, centre + distance * Vec3(std::cos(up) * std::cos(turn), std::cos(up) * std::sin(turn), std::sin(up))));
+    poses.push_back(
+        at(i, centre + distance * Vec3(std::cos(up) * std::cos(turn), std::cos(up) * std::sin(turn), std::sin(up))));
     const double climb = kSwing * kRate * std::cos(kRate * turn);
     turn += speed * kTickSeconds / (distance * std::hypot(std::cos(up), climb));
   }
@@ -73,7 +74,8 @@ Poses swing(const Vec3& middle, const Vec3& amplitude, double speed, int ticks) 
   Poses poses;
   for (int i = 0; i < ticks; ++i) {
     const double s = rate * kTickSeconds * i;
-    poses.push_back(at(i, middle + amplitude * Vec3(std::sin(s), std::sin(0.7320508 * s + 0.4), std::sin(0.4142136 * s + 1.1))));
+    poses.push_back(
+        at(i, middle + amplitude * Vec3(std::sin(s), std::sin(0.7320508 * s + 0.4), std::sin(0.4142136 * s + 1.1))));
   }
   return poses;
 }
@@ -131,7 +133,8 @@ Poses random_in_cube(const Vec3& centre, double half, int ticks) {
 Poses with_turning(Poses poses) {
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const double s = 1e-3 * static_cast<double>(i);
-    const Quat turn = glm::normalize(Quat(1.0, 0.5 * std::sin(3.0 * s), 0.4 * std::sin(2.3 * s), 0.8 * std::sin(1.1 * s)));
+    const Quat turn =
+        glm::normalize(Quat(1.0, 0.5 * std::sin(3.0 * s), 0.4 * std::sin(2.3 * s), 0.8 * std::sin(1.1 * s)));
     poses[i].finger.orientation = glm::normalize(poses[i].finger.orientation * turn);
   }
   return poses;

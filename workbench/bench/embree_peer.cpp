@@ -4,7 +4,8 @@
 
 namespace tangent::bench {
 
-PeerReport embree_peer(const ContactScene& scene, std::span<const TickInput> poses, int repeats, const TickClock& clock, const Stop& stop) {
+PeerReport embree_peer(const ContactScene& scene, std::span<const TickInput> poses, int repeats, const TickClock& clock,
+                       const Stop& stop) {
   PeerReport report;
   report.name = "embree closest point";
   // Stored, so that no query is optimised away.

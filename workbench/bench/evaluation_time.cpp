@@ -19,7 +19,8 @@ std::vector<Place> places_of(const ContactMesh& mesh, std::span<const TickOutput
   std::vector<Place> places;
   for (std::size_t i = 0; i < kPlaces && !ticks.empty(); ++i) {
     const TickOutput& tick = ticks[i * ticks.size() / kPlaces];
-    if (tick.triangle != kNone && mesh.usable(tick.triangle)) places.push_back({make_patch(mesh, tick.triangle, form), tick.u, tick.v});
+    if (tick.triangle != kNone && mesh.usable(tick.triangle))
+      places.push_back({make_patch(mesh, tick.triangle, form), tick.u, tick.v});
   }
   for (std::uint32_t t = 0; places.empty() && t < mesh.triangle_count(); ++t) {
     if (mesh.usable(t)) places.push_back({make_patch(mesh, t, form), 0.3, 0.3});
@@ -62,7 +63,8 @@ double alone_ns(const std::vector<Place>& places, const TickClock& clock, double
 
 }  // namespace
 
-EvaluationTime evaluation_time(const ContactMesh& mesh, std::span<const TickOutput> ticks, NormalForm form, const TickClock& clock) {
+EvaluationTime evaluation_time(const ContactMesh& mesh, std::span<const TickOutput> ticks, NormalForm form,
+                               const TickClock& clock) {
   constexpr int kRounds = 24;
   const std::vector<Place> places = places_of(mesh, ticks, form);
   EvaluationTime best{1e300, 1e300, 0.0};

@@ -14,7 +14,9 @@ struct EvaluationTime {
   double alone_ns = 0.0;       ///< middle mean of many timed one by one, clock taken off, as ticks are: what ratios use
 };
 
-/// On the patches of up to 16 of the ticks' triangles (as many as a stepper keeps), at the ticks' places. Least of several rounds.
-EvaluationTime evaluation_time(const ContactMesh& mesh, std::span<const TickOutput> ticks, NormalForm form, const TickClock& clock);
+/// On the patches of up to 16 of the ticks' triangles (as many as a stepper keeps), at the ticks' places. Least of
+/// several rounds.
+EvaluationTime evaluation_time(const ContactMesh& mesh, std::span<const TickOutput> ticks, NormalForm form,
+                               const TickClock& clock);
 
 }  // namespace tangent::bench

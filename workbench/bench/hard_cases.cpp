@@ -27,14 +27,18 @@ BenchCase make_case(const std::string& name, const std::string& what, const std:
   return c;
 }
 
-Poses exploring(const ContactScene& scene, const Finger& finger, int ticks) { return explore(scene, finger, kSpeed, kPress, ticks); }
+Poses exploring(const ContactScene& scene, const Finger& finger, int ticks) {
+  return explore(scene, finger, kSpeed, kPress, ticks);
+}
 
 PathOf swinging(const Vec3& middle, const Vec3& amplitude) {
   return [=](const ContactScene&, const Finger&, int ticks) { return swing(middle, amplitude, kSpeed, ticks); };
 }
 
 PathOf passing(std::vector<Vec3> points) {
-  return [points = std::move(points)](const ContactScene&, const Finger&, int ticks) { return through(points, kSpeed, ticks); };
+  return [points = std::move(points)](const ContactScene&, const Finger&, int ticks) {
+    return through(points, kSpeed, ticks);
+  };
 }
 
 /// Every hard mesh, explored as the simulated hand does it or on a way of its own.
@@ -44,7 +48,12 @@ void add_hard_meshes(std::vector<BenchCase>& cases) {
     BenchCase& c = cases.back();
     const auto take = [&](PathOf path) { c.poses = make_case("", "", "", std::move(path)).poses; };
     if (name == "two_plates") take(swinging(Vec3(0.0), Vec3(0.033, 0.033, 0.3e-3)));
-    if (name == "thin_fin") take(passing({{0.0, 0.0, 0.01905}, {0.045, 0.004, 0.01905}, {0.049, 0.004, 0.0}, {0.045, 0.004, -0.01905}, {0.0, 0.0, -0.01905}}));
+    if (name == "thin_fin")
+      take(passing({{0.0, 0.0, 0.01905},
+                    {0.045, 0.004, 0.01905},
+                    {0.049, 0.004, 0.0},
+                    {0.045, 0.004, -0.01905},
+                    {0.0, 0.0, -0.01905}}));
     if (name == "narrow_cup") take(swinging(Vec3(0.0, 0.0, 0.012), Vec3(0.004, 0.004, 0.002)));
     if (name == "exact_pipe") take(swinging(Vec3(0.0, 0.0, 0.0), Vec3(0.5e-3, 0.030, 1e-3)));
     if (name == "crease_dart") c.options.crease_rad = 15.0 * kDegree;
@@ -72,44 +81,67 @@ void add_hard_ways(std::vector<BenchCase>& cases) {
   add("groove_narrower_than_finger", "concave radius of 5.7 mm: the finger rests on both walls", "groove", exploring);
   add("groove_bottom", "the finger's centre far below where it fits, between the walls", "groove",
       swinging(Vec3(0.0, 0.0, 0.010), Vec3(0.006, 0.030, 0.004)));
-  add("cone_apex", "over the apex of a sharp cone", "cone", 
-      passing({{0.0185, 0.032, 1e-3}, {0.0485, 0.017, 1e-3}, {0.055, 0.0115, 0.5e-3}, {0.059, 0.0, 0.0}, {0.055, -0.006, -0.010}, {0.0485, -0.009, -0.0145}, {0.0185, -0.016, -0.0277}}));
+  add("cone_apex", "over the apex of a sharp cone", "cone",
+      passing({{0.0185, 0.032, 1e-3},
+               {0.0485, 0.017, 1e-3},
+               {0.055, 0.0115, 0.5e-3},
+               {0.059, 0.0, 0.0},
+               {0.055, -0.006, -0.010},
+               {0.0485, -0.009, -0.0145},
+               {0.0185, -0.016, -0.0277}}));
   add("cube_corner", "round a corner of a sharp cube", "cube",
-      passing({{0.0, 0.0, 0.0473}, {0.0385, 0.0385, 0.0385}, {0.0473, 0.0, 0.0}, {0.0385, 0.0385, 0.0385}, {0.0, 0.0473, 0.0}}));
+      passing({{0.0, 0.0, 0.0473},
+               {0.0385, 0.0385, 0.0385},
+               {0.0473, 0.0, 0.0},
+               {0.0385, 0.0385, 0.0385},
+               {0.0, 0.0473, 0.0}}));
   BenchCase& coarse = add("coarse_sphere_20", "a sphere of 20 triangles", "icosphere", exploring);
   coarse.mesh = [] { return Result<PolygonMesh>(make_icosphere(0.040, 0)); };
-  add("leaps", "another place every 20 ticks", "torus",
-      [](const ContactScene& scene, const Finger& finger, int ticks) { return with_leaps(exploring(scene, finger, ticks), 20); });
+  add("leaps", "another place every 20 ticks", "torus", [](const ContactScene& scene, const Finger& finger, int ticks) {
+    return with_leaps(exploring(scene, finger, ticks), 20);
+  });
   add("zero_motion", "every pose held for 100 ticks", "torus",
-      [](const ContactScene& scene, const Finger& finger, int ticks) { return held(with_leaps(exploring(scene, finger, ticks), 1), 100); });
-  BenchCase& on = add("pose_on_vertices", "a point finger exactly on vertices and edges", "icosphere",
-                      [](const ContactScene& scene, const Finger&, int ticks) { return along_edges(scene, 0.0, 32, ticks); });
+      [](const ContactScene& scene, const Finger& finger, int ticks) {
+        return held(with_leaps(exploring(scene, finger, ticks), 1), 100);
+      });
+  BenchCase& on =
+      add("pose_on_vertices", "a point finger exactly on vertices and edges", "icosphere",
+          [](const ContactScene& scene, const Finger&, int ticks) { return along_edges(scene, 0.0, 32, ticks); });
   on.preset.finger.shape = FingerShape::point;
   add("pose_over_vertices", "the finger exactly above vertices and edges", "icosphere",
-      [](const ContactScene& scene, const Finger& finger, int ticks) { return along_edges(scene, finger.radius_m - kPress, 64, ticks); });
+      [](const ContactScene& scene, const Finger& finger, int ticks) {
+        return along_edges(scene, finger.radius_m - kPress, 64, ticks);
+      });
   add("centre_on_vertices", "the finger's centre exactly on vertices and edges", "icosphere",
       [](const ContactScene& scene, const Finger&, int ticks) { return along_edges(scene, 0.0, 32, ticks); });
-  add("pose_inside", "the finger's centre inside a cube, across its medial planes", "cube", swinging(Vec3(0.0), Vec3(0.025)));
+  add("pose_inside", "the finger's centre inside a cube, across its medial planes", "cube",
+      swinging(Vec3(0.0), Vec3(0.025)));
   add("sphere_centre", "through the centre of a sphere, where every triangle holds a contact", "icosphere",
       passing({{-0.01, 0.0, 0.0}, {0.01, 0.0, 0.0}, {0.0, 0.01, 0.0}, {0.0, -0.01, 0.0}}));
-  add("far_away", "from 0.3 m and from 1 m off to contact and back, at 2 m/s", "torus", [](const ContactScene&, const Finger&, int ticks) {
-    return through({{0.3, 0.1, 0.05}, {0.0735, 0.0, 0.0}, {0.2, 1.0, 0.4}}, 2.0, ticks);
+  add("far_away", "from 0.3 m and from 1 m off to contact and back, at 2 m/s", "torus",
+      [](const ContactScene&, const Finger&, int ticks) {
+        return through({{0.3, 0.1, 0.05}, {0.0735, 0.0, 0.0}, {0.2, 1.0, 0.4}}, 2.0, ticks);
+      });
+  add("fast_10_m_per_s", "10 mm a tick", "torus", [](const ContactScene& scene, const Finger& finger, int ticks) {
+    return explore(scene, finger, 10.0, kPress, ticks);
   });
-  add("fast_10_m_per_s", "10 mm a tick", "torus",
-      [](const ContactScene& scene, const Finger& finger, int ticks) { return explore(scene, finger, 10.0, kPress, ticks); });
   add("random_poses", "anywhere in a cube of 120 mm, each tick anew", "noisy_sphere",
       [](const ContactScene&, const Finger&, int ticks) { return random_in_cube(Vec3(0.0), 0.060, ticks); });
 }
 
 /// Other fingers.
 void add_hard_fingers(std::vector<BenchCase>& cases) {
-  const auto turning = [](const ContactScene& scene, const Finger& finger, int ticks) { return with_turning(exploring(scene, finger, ticks)); };
+  const auto turning = [](const ContactScene& scene, const Finger& finger, int ticks) {
+    return with_turning(exploring(scene, finger, ticks));
+  };
   for (const char* mesh : {"torus", "cube"}) {
-    BenchCase ellipsoid = make_case(std::string("ellipsoid_finger_on_") + mesh, "semi-axes 20, 10 and 8 mm, turning", mesh, turning);
+    BenchCase ellipsoid =
+        make_case(std::string("ellipsoid_finger_on_") + mesh, "semi-axes 20, 10 and 8 mm, turning", mesh, turning);
     ellipsoid.preset.finger.shape = FingerShape::ellipsoid;
     ellipsoid.preset.finger.semi_axes_m = Vec3(0.020, 0.010, 0.008);
     cases.push_back(std::move(ellipsoid));
-    BenchCase capsule = make_case(std::string("capsule_finger_on_") + mesh, "8 mm round an axis of 20 mm, turning", mesh, turning);
+    BenchCase capsule =
+        make_case(std::string("capsule_finger_on_") + mesh, "8 mm round an axis of 20 mm, turning", mesh, turning);
     capsule.preset.finger.shape = FingerShape::capsule;
     capsule.preset.finger.radius_m = 0.008;
     capsule.preset.finger.half_length_m = 0.010;
@@ -139,13 +171,15 @@ BenchCase scaled_sphere(const std::string& name, const std::string& what, double
 void add_hard_numbers(std::vector<BenchCase>& cases) {
   cases.push_back(scaled_sphere("mesh_1um", "1 um across", 1e-6, Vec3(0.0)));
   cases.push_back(scaled_sphere("mesh_1km", "1 km across", 1e3, Vec3(0.0)));
-  cases.push_back(scaled_sphere("far_from_origin_1km", "80 mm across, 1 km from the origin", 0.080, Vec3(600.0, -640.0, 480.0)));
+  cases.push_back(
+      scaled_sphere("far_from_origin_1km", "80 mm across, 1 km from the origin", 0.080, Vec3(600.0, -640.0, 480.0)));
   cases.push_back(make_case("tolerance_1e-12", "converged below 1e-12 m", "torus", exploring));
   cases.back().preset.solver.tolerance_m = 1e-12;
   BenchCase sharp = make_case("tolerance_1e-12_sharp", "converged below 1e-12 m on sharp edges", "cube", exploring);
   sharp.preset.solver.tolerance_m = 1e-12;
   cases.push_back(std::move(sharp));
-  BenchCase vlachos = make_case("vlachos_normals", "the normal form that dents between the corners", "torus", exploring);
+  BenchCase vlachos =
+      make_case("vlachos_normals", "the normal form that dents between the corners", "torus", exploring);
   vlachos.preset.solver.normal_form = NormalForm::vlachos;
   cases.push_back(std::move(vlachos));
 }

@@ -26,7 +26,8 @@ WorkReport measure_work(const ScenePtr& scene, const Preset& preset, std::span<c
   WorkReport report;
   for (std::size_t i = 0; i < kLoops && !stop(); ++i) {
     const std::size_t tick = i * poses.size() / kLoops;
-    const ClosedWork work = work_around(stepper, preset, circle_of_poses(poses[tick].finger, reference[tick].normal, radius, kSteps));
+    const ClosedWork work =
+        work_around(stepper, preset, circle_of_poses(poses[tick].finger, reference[tick].normal, radius, kSteps));
     ++report.loops;
     if (work.broken) {
       ++report.broken;
@@ -40,9 +41,9 @@ WorkReport measure_work(const ScenePtr& scene, const Preset& preset, std::span<c
   return report;
 }
 
-MethodReport measure_method(Method method, const BenchCase& bench_case, const ScenePtr& scene, std::span<const TickInput> poses,
-                            std::span<const TickOutput> reference, std::span<const TickOutput> facet, const MeasureOptions& options,
-                            const TickClock& clock) {
+MethodReport measure_method(Method method, const BenchCase& bench_case, const ScenePtr& scene,
+                            std::span<const TickInput> poses, std::span<const TickOutput> reference,
+                            std::span<const TickOutput> facet, const MeasureOptions& options, const TickClock& clock) {
   MethodReport report;
   report.method = method;
   Preset preset = bench_case.preset;
@@ -55,13 +56,15 @@ MethodReport measure_method(Method method, const BenchCase& bench_case, const Sc
   report.allocations = run.allocations;
   report.allocations_counted = allocation_count().counted;
   if (run.stopped) return report;
-  if (is_smooth(method)) report.from_own = difference_from_own(scene, preset, poses, options.stop, report.places_without_solution);
+  if (is_smooth(method))
+    report.from_own = difference_from_own(scene, preset, poses, options.stop, report.places_without_solution);
   RunComparison comparison;
   comparison.reserve(poses.size());
   for (std::size_t i = 0; i < run.outputs.size(); ++i) {
     comparison.add(run.outputs[i], reference[i]);
     if (run.outputs[i].status == TickStatus::unconverged || !is_round(preset.finger)) continue;
-    report.max_depth_gap_m = std::max(report.max_depth_gap_m, std::abs(run.outputs[i].penetration_m - facet[i].penetration_m));
+    report.max_depth_gap_m =
+        std::max(report.max_depth_gap_m, std::abs(run.outputs[i].penetration_m - facet[i].penetration_m));
   }
   report.from_reference = comparison.result();
   report.work = measure_work(scene, preset, poses, reference, options.stop);
@@ -70,8 +73,8 @@ MethodReport measure_method(Method method, const BenchCase& bench_case, const Sc
 
 }  // namespace
 
-TimedRun timed_run(const ScenePtr& scene, const Preset& preset, std::span<const TickInput> poses, int repeats, const TickClock& clock,
-                   const Stop& stop) {
+TimedRun timed_run(const ScenePtr& scene, const Preset& preset, std::span<const TickInput> poses, int repeats,
+                   const TickClock& clock, const Stop& stop) {
   TimedRun run;
   run.outputs.resize(poses.size());
   run.ns.assign(poses.size(), 1e300);
@@ -103,7 +106,8 @@ TimedRun timed_run(const ScenePtr& scene, const Preset& preset, std::span<const 
 
 Preset with_best_gain(const ScenePtr& scene, Preset preset, std::span<const TickInput> poses, const Stop& stop) {
   constexpr std::size_t kTrialTicks = 2000;
-  const double length = preset.finger.reach_m() > 0.0 ? preset.finger.reach_m() : 0.25 * glm::length(scene->mesh().bounds().size());
+  const double length =
+      preset.finger.reach_m() > 0.0 ? preset.finger.reach_m() : 0.25 * glm::length(scene->mesh().bounds().size());
   const std::span<const TickInput> trial = poses.first(std::min(poses.size(), kTrialTicks));
   double best_gain = length;
   std::pair<std::uint64_t, double> best{~0ull, 0.0};
@@ -124,8 +128,8 @@ Preset with_best_gain(const ScenePtr& scene, Preset preset, std::span<const Tick
   return preset;
 }
 
-RunDifference difference_from_own(const ScenePtr& scene, const Preset& preset, std::span<const TickInput> poses, const Stop& stop,
-                                  std::uint64_t& lost) {
+RunDifference difference_from_own(const ScenePtr& scene, const Preset& preset, std::span<const TickInput> poses,
+                                  const Stop& stop, std::uint64_t& lost) {
   const double tolerance = std::min(converged_tolerance_m(*scene, preset.finger), 0.1 * preset.solver.tolerance_m);
   Stepper stepper(scene), exact(scene);
   TickState state;
@@ -151,7 +155,8 @@ RunDifference difference_from_own(const ScenePtr& scene, const Preset& preset, s
 }
 
 std::optional<SceneReport> measure_scene(const std::string& suite, const BenchCase& bench_case, const ScenePtr& scene,
-                                         const std::vector<TickInput>& poses, const MeasureOptions& options, const TickClock& clock) {
+                                         const std::vector<TickInput>& poses, const MeasureOptions& options,
+                                         const TickClock& clock) {
   SceneReport report;
   report.suite = suite;
   report.name = bench_case.name;
@@ -172,17 +177,19 @@ std::optional<SceneReport> measure_scene(const std::string& suite, const BenchCa
 
   report.evaluation = evaluation_time(scene->mesh(), reference.outputs, bench_case.preset.solver.normal_form, clock);
   for (const Method method : kMeasuredMethods) {
-    report.methods.push_back(measure_method(method, bench_case, scene, poses, reference.outputs, facet.outputs, options, clock));
+    report.methods.push_back(
+        measure_method(method, bench_case, scene, poses, reference.outputs, facet.outputs, options, clock));
     if (options.stop()) return std::nullopt;
   }
   report.peers.push_back(embree_peer(*scene, poses, options.repeats, clock, options.stop));
-  if (auto cgal = cgal_peer(*scene, poses, options.repeats, clock, options.stop)) report.peers.push_back(std::move(*cgal));
+  if (auto cgal = cgal_peer(*scene, poses, options.repeats, clock, options.stop))
+    report.peers.push_back(std::move(*cgal));
   if (options.stop()) return std::nullopt;
   return report;
 }
 
-Result<std::optional<SceneReport>> measure_case(const std::string& suite, const BenchCase& bench_case, const MeasureOptions& options,
-                                                const TickClock& clock) {
+Result<std::optional<SceneReport>> measure_case(const std::string& suite, const BenchCase& bench_case,
+                                                const MeasureOptions& options, const TickClock& clock) {
   const Result<ScenePtr> scene = build_scene(bench_case);
   if (!scene) return tl::unexpected(scene.error());
   const auto poses = bench_case.poses(**scene, bench_case.preset.finger, options.ticks);

@@ -14,42 +14,45 @@ struct MeasureOptions {
 };
 
 /// The methods that are measured, in the order of reports.
-inline constexpr std::array kMeasuredMethods{Method::paper, Method::newton, Method::robust, Method::facet,
-                                             Method::force_shading, Method::two_pass};
+inline constexpr std::array kMeasuredMethods{Method::paper, Method::newton,        Method::robust,
+                                             Method::facet, Method::force_shading, Method::two_pass};
 
 /// None when stopped before the end.
 std::optional<SceneReport> measure_scene(const std::string& suite, const BenchCase& bench_case, const ScenePtr& scene,
-                                         const std::vector<TickInput>& poses, const MeasureOptions& options, const TickClock& clock);
+                                         const std::vector<TickInput>& poses, const MeasureOptions& options,
+                                         const TickClock& clock);
 
 /// Builds the case's scene and poses and measures it. None when stopped; an error when it can't be built.
-Result<std::optional<SceneReport>> measure_case(const std::string& suite, const BenchCase& bench_case, const MeasureOptions& options,
-                                                const TickClock& clock);
+Result<std::optional<SceneReport>> measure_case(const std::string& suite, const BenchCase& bench_case,
+                                                const MeasureOptions& options, const TickClock& clock);
 
-/// Icospheres of radius 40 mm from 1,280 to at most `most_triangles`: each is written to a temporary PLY, read, built, and
-/// explored by a 20 mm finger at 20 mm/s; then another place every tick. Calls done(report) after each.
+/// Icospheres of radius 40 mm from 1,280 to at most `most_triangles`: each is written to a temporary PLY, read, built,
+/// and explored by a 20 mm finger at 20 mm/s; then another place every tick. Calls done(report) after each.
 Status measure_scale(std::uint32_t most_triangles, const MeasureOptions& options, const TickClock& clock,
                      const std::function<void(SceneReport)>& done);
 
 /// Sweeps the tolerance from 1e-3 to 1e-9 mm on one case.
-Result<std::optional<WorkPrecisionReport>> measure_work_precision(const BenchCase& bench_case, const MeasureOptions& options,
+Result<std::optional<WorkPrecisionReport>> measure_work_precision(const BenchCase& bench_case,
+                                                                  const MeasureOptions& options,
                                                                   const TickClock& clock);
 
 /// Outputs of a run and the time of every tick.
 struct TimedRun {
   std::vector<TickOutput> outputs;
-  std::vector<double> ns;      ///< of each tick, the least of its passes
-  double typical_ns = 0.0;     ///< middle mean of all ticks of all passes
+  std::vector<double> ns;   ///< of each tick, the least of its passes
+  double typical_ns = 0.0;  ///< middle mean of all ticks of all passes
   std::uint64_t allocations = 0;
   bool stopped = false;
 };
-TimedRun timed_run(const ScenePtr& scene, const Preset& preset, std::span<const TickInput> poses, int repeats, const TickClock& clock,
-                   const Stop& stop);
+TimedRun timed_run(const ScenePtr& scene, const Preset& preset, std::span<const TickInput> poses, int repeats,
+                   const TickClock& clock, const Stop& stop);
 
-/// `preset` with the G_k, of 0 to 4 times the finger's reach, that leaves the fewest ticks unconverged, then takes the fewest iterations.
+/// `preset` with the G_k, of 0 to 4 times the finger's reach, that leaves the fewest ticks unconverged, then takes the
+/// fewest iterations.
 Preset with_best_gain(const ScenePtr& scene, Preset preset, std::span<const TickInput> poses, const Stop& stop);
 
 /// How far the run's answers are from the same places solved on. `lost`: converged ticks where that led elsewhere.
-RunDifference difference_from_own(const ScenePtr& scene, const Preset& preset, std::span<const TickInput> poses, const Stop& stop,
-                                  std::uint64_t& lost);
+RunDifference difference_from_own(const ScenePtr& scene, const Preset& preset, std::span<const TickInput> poses,
+                                  const Stop& stop, std::uint64_t& lost);
 
 }  // namespace tangent::bench

@@ -20,9 +20,11 @@ Status write_ply(const PolygonMesh& mesh, const std::filesystem::path& path) {
   Result<AtomicFile> file = AtomicFile::create(path);
   if (!file) return tl::unexpected(file.error());
   std::string text = "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(mesh.positions.size()) +
-                     "\nproperty double x\nproperty double y\nproperty double z\nelement face " + std::to_string(mesh.face_count()) +
-                     "\nproperty list uchar uint vertex_indices\nend_header\n";
-  const auto append = [&text](const void* data, std::size_t size) { text.append(static_cast<const char*>(data), size); };
+                     "\nproperty double x\nproperty double y\nproperty double z\nelement face " +
+                     std::to_string(mesh.face_count()) + "\nproperty list uchar uint vertex_indices\nend_header\n";
+  const auto append = [&text](const void* data, std::size_t size) {
+    text.append(static_cast<const char*>(data), size);
+  };
   for (const Vec3& p : mesh.positions) append(&p.x, 3 * sizeof(double));
   for (std::size_t f = 0; f < mesh.face_count(); ++f) {
     text.push_back(static_cast<char>(mesh.face(f).size()));
@@ -69,7 +71,8 @@ Result<ScenePtr> load_icosphere(int subdivisions, LoadReport& load) {
 
 /// Another place of the ball every tick: what finding a contact costs. The places are too many for a pass to warm the
 /// caches for the next.
-RunStatistics measure_reseeding(const ScenePtr& scene, const Preset& preset, const MeasureOptions& options, const TickClock& clock) {
+RunStatistics measure_reseeding(const ScenePtr& scene, const Preset& preset, const MeasureOptions& options,
+                                const TickClock& clock) {
   const Vec3 origin = scene->mesh().origin();
   const double distance = kBallRadius + preset.finger.radius_m - kPress;
   std::vector<TickInput> poses = random_in_cube(Vec3(0.0), 1.0, std::min(options.ticks, 4000));
@@ -94,7 +97,8 @@ Status measure_scale(std::uint32_t most_triangles, const MeasureOptions& options
     LoadReport load;
     const Result<ScenePtr> scene = load_icosphere(subdivisions, load);
     if (!scene) return tl::unexpected(scene.error());
-    const auto poses = around_ball((*scene)->mesh().origin(), kBallRadius + c.preset.finger.radius_m - kPress, kSpeed, options.ticks);
+    const auto poses =
+        around_ball((*scene)->mesh().origin(), kBallRadius + c.preset.finger.radius_m - kPress, kSpeed, options.ticks);
     std::optional<SceneReport> report = measure_scene("scale", c, *scene, poses, once, clock);
     if (!report) return {};
     report->load = load;

@@ -42,7 +42,8 @@ WorkPrecisionPoint measure_flat(const ScenePtr& scene, const Preset& preset, con
 
 }  // namespace
 
-Result<std::optional<WorkPrecisionReport>> measure_work_precision(const BenchCase& bench_case, const MeasureOptions& options,
+Result<std::optional<WorkPrecisionReport>> measure_work_precision(const BenchCase& bench_case,
+                                                                  const MeasureOptions& options,
                                                                   const TickClock& clock) {
   const Result<ScenePtr> scene = build_scene(bench_case);
   if (!scene) return tl::unexpected(scene.error());

@@ -3,7 +3,8 @@
 
 namespace tangent::bench {
 
-std::optional<PeerReport> cgal_peer(const ContactScene&, std::span<const TickInput>, int, const TickClock&, const Stop&) {
+std::optional<PeerReport> cgal_peer(const ContactScene&, std::span<const TickInput>, int, const TickClock&,
+                                    const Stop&) {
   return std::nullopt;
 }
 

@@ -13,7 +13,9 @@ std::vector<BenchCase> paper_cases() {
     c.what = what;
     c.mesh = [=] { return generate_mesh(object, {.rounding_m = rounding}); };
     c.preset.finger.radius_m = 0.020;
-    c.poses = [=](const ContactScene& scene, const Finger& finger, int ticks) { return explore(scene, finger, kSpeed, kPress, ticks); };
+    c.poses = [=](const ContactScene& scene, const Finger& finger, int ticks) {
+      return explore(scene, finger, kSpeed, kPress, ticks);
+    };
     cases.push_back(std::move(c));
   };
   add("sphere", 0.0, "icosphere_320", "icosphere of 320 triangles, radius 40 mm");
@@ -21,7 +23,8 @@ std::vector<BenchCase> paper_cases() {
     return around_ball(scene.mesh().origin(), 0.040 + finger.radius_m - kPress, kSpeed, ticks);
   };
   const std::vector<std::string> objects{"cone", "cylinder", "cube", "tetrahedron", "octagon", "triangle", "hexagon"};
-  for (const std::string& object : objects) add(object, kRounding, object + "_rounded", object + ", edges rounded by 1.5 mm");
+  for (const std::string& object : objects)
+    add(object, kRounding, object + "_rounded", object + ", edges rounded by 1.5 mm");
   for (const std::string& object : objects) add(object, 0.0, object + "_sharp", object + " with sharp edges");
   return cases;
 }

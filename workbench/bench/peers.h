@@ -18,25 +18,26 @@ using Stop = std::function<bool()>;  ///< asked now and then: true ends the work
 
 struct PeerReport {
   std::string name;
-  double build_s = 0.0;            ///< of its search tree; 0 for Embree, whose tree the scene holds anyway
-  Distribution ns;                 ///< of one query
+  double build_s = 0.0;                 ///< of its search tree; 0 for Embree, whose tree the scene holds anyway
+  Distribution ns;                      ///< of one query
   double largest_disagreement_m = 0.0;  ///< of its distances from Embree's
 };
 
 /// Embree through NearestTriangles::nearest: culled in float, exact in double.
-PeerReport embree_peer(const ContactScene& scene, std::span<const TickInput> poses, int repeats, const TickClock& clock, const Stop& stop);
+PeerReport embree_peer(const ContactScene& scene, std::span<const TickInput> poses, int repeats, const TickClock& clock,
+                       const Stop& stop);
 
 /// Larger meshes are left out, for memory and the time the tree takes to build.
 inline constexpr std::uint32_t kMostCgalTriangles = 2'000'000;
 
 /// CGAL's AABB tree. None in a program built without CGAL, and for meshes over kMostCgalTriangles.
-std::optional<PeerReport> cgal_peer(const ContactScene& scene, std::span<const TickInput> poses, int repeats, const TickClock& clock,
-                                    const Stop& stop);
+std::optional<PeerReport> cgal_peer(const ContactScene& scene, std::span<const TickInput> poses, int repeats,
+                                    const TickClock& clock, const Stop& stop);
 
 /// Times query(point) at every pose; its least of `repeats` passes.
 template <class Query>
-Distribution query_times(const ContactScene& scene, std::span<const TickInput> poses, int repeats, const TickClock& clock, const Stop& stop,
-                         Query query) {
+Distribution query_times(const ContactScene& scene, std::span<const TickInput> poses, int repeats,
+                         const TickClock& clock, const Stop& stop, Query query) {
   std::vector<double> ns(poses.size(), 1e300);
   for (int pass = 0; pass < repeats; ++pass) {
     for (std::size_t i = 0; i < poses.size(); ++i) {

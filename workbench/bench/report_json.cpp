@@ -8,8 +8,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json distribution_json(const Distribution& d, double scale = 1.0) {
-  return {{"count", d.count}, {"mean", d.mean * scale}, {"p50", d.p50 * scale}, {"p99", d.p99 * scale},
-          {"p99_9", d.p999 * scale}, {"worst", d.max * scale}};
+  return {{"count", d.count},     {"mean", d.mean * scale},  {"p50", d.p50 * scale},
+          {"p99", d.p99 * scale}, {"p99_9", d.p999 * scale}, {"worst", d.max * scale}};
 }
 
 Json run_json(const RunStatistics& s) {
@@ -18,10 +18,16 @@ Json run_json(const RunStatistics& s) {
           {"first_unconverged_tick", s.unconverged() > 0 ? Json(s.first_unconverged) : Json(nullptr)},
           {"not_finite", s.not_finite},
           {"unmarked_jumps", s.unmarked_jumps},
-          {"events", {{"first", s.count(TickEvent::first)}, {"reseed", s.count(TickEvent::reseed)},
-                      {"switch", s.count(TickEvent::switched)}, {"branch", s.count(TickEvent::branch)}}},
-          {"statuses", {{"free", s.count(TickStatus::free)}, {"face", s.count(TickStatus::face)},
-                        {"edge", s.count(TickStatus::edge)}, {"vertex", s.count(TickStatus::vertex)}}},
+          {"events",
+           {{"first", s.count(TickEvent::first)},
+            {"reseed", s.count(TickEvent::reseed)},
+            {"switch", s.count(TickEvent::switched)},
+            {"branch", s.count(TickEvent::branch)}}},
+          {"statuses",
+           {{"free", s.count(TickStatus::free)},
+            {"face", s.count(TickStatus::face)},
+            {"edge", s.count(TickStatus::edge)},
+            {"vertex", s.count(TickStatus::vertex)}}},
           {"max_error_um", s.max_error_m / kMicrometre},
           {"tick_ns", distribution_json(s.ns)},
           {"tick_without_event_ns", distribution_json(s.eventless_ns)},
@@ -51,8 +57,11 @@ Json method_json(const SceneReport& scene, const MethodReport& m) {
   json["error_from_robust_converged"] = difference_json(m.from_reference);
   json["max_depth_gap_mm"] = m.max_depth_gap_m / kMillimetre;
   json["allocations"] = m.allocations_counted ? Json(m.allocations) : Json(nullptr);
-  json["closed_path_work"] = {{"loops", m.work.loops}, {"broken_loops", m.work.broken}, {"mean_mj", m.work.mean_j * 1e3},
-                              {"max_mj", m.work.max_j * 1e3}, {"max_per_peak_energy", m.work.max_relative}};
+  json["closed_path_work"] = {{"loops", m.work.loops},
+                              {"broken_loops", m.work.broken},
+                              {"mean_mj", m.work.mean_j * 1e3},
+                              {"max_mj", m.work.max_j * 1e3},
+                              {"max_per_peak_energy", m.work.max_relative}};
   return json;
 }
 
@@ -64,16 +73,24 @@ Json scene_json(const SceneReport& scene) {
             {"memory_bytes", scene.memory_bytes},
             {"memory_bytes_per_triangle", static_cast<double>(scene.memory_bytes) / scene.triangles},
             {"ticks", scene.ticks},
-            {"evaluation_ns", {{"throughput", scene.evaluation.throughput_ns}, {"latency", scene.evaluation.latency_ns}, {"alone", scene.evaluation.alone_ns}}},
+            {"evaluation_ns",
+             {{"throughput", scene.evaluation.throughput_ns},
+              {"latency", scene.evaluation.latency_ns},
+              {"alone", scene.evaluation.alone_ns}}},
             {"converged_tolerance_m", scene.converged_tolerance_m}};
   if (scene.load.ready_s() > 0.0) {
-    json["load"] = {{"generate_s", scene.load.generate_s}, {"read_s", scene.load.read_s}, {"mesh_s", scene.load.mesh_s},
-                    {"structures_s", scene.load.structures_s}, {"ready_s", scene.load.ready_s()}};
+    json["load"] = {{"generate_s", scene.load.generate_s},
+                    {"read_s", scene.load.read_s},
+                    {"mesh_s", scene.load.mesh_s},
+                    {"structures_s", scene.load.structures_s},
+                    {"ready_s", scene.load.ready_s()}};
   }
   if (scene.reseeding) json["another_place_every_tick"] = run_json(*scene.reseeding);
   for (const MethodReport& m : scene.methods) json["methods"].push_back(method_json(scene, m));
   for (const PeerReport& p : scene.peers) {
-    json["peers"].push_back({{"peer", p.name}, {"build_s", p.build_s}, {"query_ns", distribution_json(p.ns)},
+    json["peers"].push_back({{"peer", p.name},
+                             {"build_s", p.build_s},
+                             {"query_ns", distribution_json(p.ns)},
                              {"largest_disagreement_m", p.largest_disagreement_m}});
   }
   return json;
@@ -85,8 +102,11 @@ Json work_precision_json(const WorkPrecisionReport& report) {
     Json points = Json::array();
     for (const WorkPrecisionPoint& p : curve.points) {
       points.push_back({{"tolerance_mm", p.tolerance_m > 0.0 ? Json(p.tolerance_m / kMillimetre) : Json(nullptr)},
-                        {"mean_tick_ns", p.mean_ns}, {"p50_tick_ns", p.p50_ns}, {"contact_error_p50_um", p.error_p50_m / kMicrometre},
-                        {"contact_error_p99_um", p.error_p99_m / kMicrometre}, {"unconverged_share", p.unconverged_share}});
+                        {"mean_tick_ns", p.mean_ns},
+                        {"p50_tick_ns", p.p50_ns},
+                        {"contact_error_p50_um", p.error_p50_m / kMicrometre},
+                        {"contact_error_p99_um", p.error_p99_m / kMicrometre},
+                        {"unconverged_share", p.unconverged_share}});
     }
     json["curves"].push_back({{"method", to_string(curve.method)}, {"points", points}});
   }
@@ -112,7 +132,8 @@ nlohmann::ordered_json report_json(const BenchReport& report) {
             {"scenes", Json::array()},
             {"work_precision", Json::array()}};
   for (const SceneReport& scene : report.scenes) json["scenes"].push_back(scene_json(scene));
-  for (const WorkPrecisionReport& curves : report.work_precision) json["work_precision"].push_back(work_precision_json(curves));
+  for (const WorkPrecisionReport& curves : report.work_precision)
+    json["work_precision"].push_back(work_precision_json(curves));
   return json;
 }
 

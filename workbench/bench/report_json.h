@@ -9,7 +9,8 @@ namespace tangent::bench {
 
 nlohmann::ordered_json report_json(const BenchReport& report);
 
-/// Typical tick without its clock in evaluations, and in typical ticks of `paper`; 0 where there is nothing to compare with.
+/// Typical tick without its clock in evaluations, and in typical ticks of `paper`; 0 where there is nothing to compare
+/// with.
 double ticks_per_evaluation(const SceneReport& scene, const MethodReport& method);
 double ticks_per_paper_tick(const SceneReport& scene, const MethodReport& method);
 

@@ -15,21 +15,22 @@ namespace tangent::bench {
 
 /// Work of the force around small closed paths (core/lab/measure/closed_work.h).
 struct WorkReport {
-  int loops = 0, broken = 0;      ///< broken: with an unconverged tick; left out of the figures
-  double mean_j = 0.0, max_j = 0.0;          ///< of |work|
-  double max_relative = 0.0;      ///< |work| over the peak stored energy of its loop
+  int loops = 0, broken = 0;         ///< broken: with an unconverged tick; left out of the figures
+  double mean_j = 0.0, max_j = 0.0;  ///< of |work|
+  double max_relative = 0.0;         ///< |work| over the peak stored energy of its loop
 };
 
 struct MethodReport {
   Method method = Method::robust;
-  double gain_curvature_m = 0.0;          ///< `paper`: the best found for the scene
+  double gain_curvature_m = 0.0;  ///< `paper`: the best found for the scene
   RunStatistics run;
-  double typical_ns = 0.0;                ///< middle mean of all ticks of all passes: what ratios use
-  std::optional<RunDifference> from_own;  ///< from the same place solved on to the converged tolerance; none for facet methods
+  double typical_ns = 0.0;  ///< middle mean of all ticks of all passes: what ratios use
+  std::optional<RunDifference>
+      from_own;  ///< from the same place solved on to the converged tolerance; none for facet methods
   std::uint64_t places_without_solution = 0;  ///< converged ticks where solving on led elsewhere
-  RunDifference from_reference;           ///< from `robust` at the converged tolerance
-  /// Largest |penetration - that of the raw mesh| of the converged ticks: more than the patches bulge where a deeper place
-  /// is missed, or where raw mesh and normals disagree about the outside. 0 for fingers that are not round.
+  RunDifference from_reference;               ///< from `robust` at the converged tolerance
+  /// Largest |penetration - that of the raw mesh| of the converged ticks: more than the patches bulge where a deeper
+  /// place is missed, or where raw mesh and normals disagree about the outside. 0 for fingers that are not round.
   double max_depth_gap_m = 0.0;
   std::uint64_t allocations = 0;
   bool allocations_counted = false;
@@ -69,7 +70,7 @@ struct WorkPrecisionPoint {
 };
 struct WorkPrecisionCurve {
   Method method = Method::robust;
-  std::vector<WorkPrecisionPoint> points;   ///< one for methods without a tolerance
+  std::vector<WorkPrecisionPoint> points;  ///< one for methods without a tolerance
 };
 struct WorkPrecisionReport {
   std::string scene;

@@ -22,7 +22,9 @@ Result<PoseFile> pose_file(const fs::path& meshes, const fs::path& poses) {
   const std::string stem = poses.stem().string();
   const std::size_t mark = stem.rfind("-r");
   const auto radius = mark == std::string::npos ? std::nullopt : parse_finite_double(stem.substr(mark + 2));
-  if (!radius) return fail("the name doesn't end in -r and the finger's radius in mm", poses.string(), "name it like spot-r020.csv");
+  if (!radius)
+    return fail("the name doesn't end in -r and the finger's radius in mm", poses.string(),
+                "name it like spot-r020.csv");
   return PoseFile{meshes / (stem.substr(0, mark) + ".obj"), poses, *radius * kMillimetre};
 }
 

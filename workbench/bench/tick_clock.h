@@ -10,8 +10,8 @@
 
 namespace tangent::bench {
 
-/// The processor's time-stamp counter, fenced, where it runs at one rate whatever the processor does; else the system's clock.
-/// That one lets what is timed overlap with its own reading, which takes a third off an evaluation.
+/// The processor's time-stamp counter, fenced, where it runs at one rate whatever the processor does; else the system's
+/// clock. That one lets what is timed overlap with its own reading, which takes a third off an evaluation.
 class TickClock {
  public:
   /// Measures the counter's rate against the system's clock, three times for 10 ms, and what two readings with nothing
@@ -20,7 +20,8 @@ class TickClock {
 
   /// Nanoseconds of the system's clock: for what takes milliseconds.
   static std::int64_t now() {
-    return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch()).count();
+    return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch())
+        .count();
   }
 
   /// A reading for elapsed_ns(). What is before it is done before, what is after it begins after.

@@ -31,8 +31,8 @@ Status write_heat_map(const AuditOptions& options, const ContactMesh& mesh, cons
     if (!mesh.usable(t)) continue;
     const auto p = mesh.positions(t);
     const Vec3 middle = mesh.origin() + (p[0] + p[1] + p[2]) / 3.0;
-    text += format("%u,%.9g,%.9g,%.9g,%.6g,%.6g\n", t, middle.x, middle.y, middle.z, static_cast<double>(ratio[t]) * threshold.mean_deg,
-                   static_cast<double>(ratio[t]));
+    text += format("%u,%.9g,%.9g,%.9g,%.6g,%.6g\n", t, middle.x, middle.y, middle.z,
+                   static_cast<double>(ratio[t]) * threshold.mean_deg, static_cast<double>(ratio[t]));
   }
   return write_file_atomic(options.heat_map, text);
 }
@@ -61,10 +61,15 @@ void add_audit_command(CLI::App& app, CommandResult& result) {
   auto options = std::make_shared<AuditOptions>();
   add_mesh_options(*command, options->mesh);
   command->add_option("--json", options->json, "The same for programs")->type_name("F.json");
-  command->add_option("--heat-map", options->heat_map, "Per triangle, the largest angle to a neighbour and its ratio to the threshold")
+  command
+      ->add_option("--heat-map", options->heat_map,
+                   "Per triangle, the largest angle to a neighbour and its ratio to the threshold")
       ->type_name("F.csv");
-  add_choice_option(*command, "--condition", kConditionNames, "Rendering condition of verdict, worst edges and heat map (default C3)",
-                    [options = options.get()](int index) { options->condition = threshold_index(kConditionNames[static_cast<std::size_t>(index)]); });
+  add_choice_option(*command, "--condition", kConditionNames,
+                    "Rendering condition of verdict, worst edges and heat map (default C3)",
+                    [options = options.get()](int index) {
+                      options->condition = threshold_index(kConditionNames[static_cast<std::size_t>(index)]);
+                    });
   command->callback([options, &result] {
     const Status status = run_audit(*options);
     if (!status) print_message("audit", status.error().message());

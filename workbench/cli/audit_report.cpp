@@ -30,39 +30,56 @@ std::string triple(const Vec3& v) { return format("%.6g  %.6g  %.6g mm", v.x * 1
 
 /// How the facets' angles compare with what a finger feels, condition by condition.
 std::string smoothness_text(const PerceptionAudit& a, int condition) {
-  std::string text = format("smoothness: %llu edges between facets of a curve (median %.4g deg, largest %.4g deg); %llu in flat faces, "
-                            "%llu creases, %llu at boundaries left out\n",
-                            (unsigned long long)a.curve_edges, a.median_curve_deg, a.largest_curve_deg, (unsigned long long)a.flat_edges,
-                            (unsigned long long)a.crease_edges, (unsigned long long)a.boundary_edges);
+  std::string text = format(
+      "smoothness: %llu edges between facets of a curve (median %.4g deg, largest %.4g deg); %llu in flat faces, "
+      "%llu creases, %llu at boundaries left out\n",
+      (unsigned long long)a.curve_edges, a.median_curve_deg, a.largest_curve_deg, (unsigned long long)a.flat_edges,
+      (unsigned long long)a.crease_edges, (unsigned long long)a.boundary_edges);
   for (const ConditionFeel& feel : a.conditions) {
     const PerceptionThreshold& t = feel.threshold;
     std::string threshold = format("%.1f deg", t.mean_deg);
     threshold += t.interval_deg ? format(" [%.2f, %.2f]", t.interval_deg->first, t.interval_deg->second) : " (pilot)";
-    text += format("  %s  %-24s felt %6.2f %% of edges, %6.2f %% of length (%.4g mm)", std::string(t.condition).c_str(), threshold.c_str(),
-                   100.0 * feel.felt_share(), 100.0 * feel.felt_length_share(), 1e3 * feel.felt_length_m);
+    text += format("  %s  %-24s felt %6.2f %% of edges, %6.2f %% of length (%.4g mm)", std::string(t.condition).c_str(),
+                   threshold.c_str(), 100.0 * feel.felt_share(), 100.0 * feel.felt_length_share(),
+                   1e3 * feel.felt_length_m);
     if (t.interval_deg) text += format(", %llu within the interval", (unsigned long long)feel.doubtful);
     text += "\n";
   }
   const ConditionFeel& chosen = a.conditions[static_cast<std::size_t>(condition)];
   if (!chosen.worst.empty()) text += format("worst under %s\n", std::string(chosen.threshold.condition).c_str());
   for (const FeltEdge& e : chosen.worst)
-    text += format("  %7.3f deg  %8.4g mm long  triangle %u edge %u  at %.4g %.4g %.4g mm\n", e.angle_deg, 1e3 * e.length_m, e.triangle, e.edge,
-                   1e3 * e.middle_m.x, 1e3 * e.middle_m.y, 1e3 * e.middle_m.z);
+    text += format("  %7.3f deg  %8.4g mm long  triangle %u edge %u  at %.4g %.4g %.4g mm\n", e.angle_deg,
+                   1e3 * e.length_m, e.triangle, e.edge, 1e3 * e.middle_m.x, 1e3 * e.middle_m.y, 1e3 * e.middle_m.z);
   return text + "verdict: " + verdict(a, condition) + "\n";
 }
 
 Json smoothness_json(const PerceptionAudit& a, int condition) {
-  Json out = {{"curve_edges", a.curve_edges}, {"flat_edges", a.flat_edges}, {"crease_edges", a.crease_edges},
-              {"boundary_edges", a.boundary_edges}, {"median_curve_deg", a.median_curve_deg}, {"largest_curve_deg", a.largest_curve_deg},
-              {"condition", kPerceptionThresholds[static_cast<std::size_t>(condition)].condition}, {"verdict", verdict(a, condition)}};
+  Json out = {{"curve_edges", a.curve_edges},
+              {"flat_edges", a.flat_edges},
+              {"crease_edges", a.crease_edges},
+              {"boundary_edges", a.boundary_edges},
+              {"median_curve_deg", a.median_curve_deg},
+              {"largest_curve_deg", a.largest_curve_deg},
+              {"condition", kPerceptionThresholds[static_cast<std::size_t>(condition)].condition},
+              {"verdict", verdict(a, condition)}};
   for (const ConditionFeel& feel : a.conditions) {
     const PerceptionThreshold& t = feel.threshold;
     Json worst = Json::array();
     for (const FeltEdge& e : feel.worst)
-      worst.push_back({{"triangle", e.triangle}, {"edge", e.edge}, {"angle_deg", e.angle_deg}, {"length_m", e.length_m}, {"middle_m", to_json(e.middle_m)}});
-    Json row = {{"threshold_deg", t.mean_deg}, {"interval_deg", nullptr}, {"pilot", !t.interval_deg.has_value()},
-                {"felt_edges", feel.felt}, {"felt_share", feel.felt_share()}, {"felt_length_m", feel.felt_length_m},
-                {"felt_length_share", feel.felt_length_share()}, {"above_interval", feel.surely_felt}, {"within_interval", feel.doubtful},
+      worst.push_back({{"triangle", e.triangle},
+                       {"edge", e.edge},
+                       {"angle_deg", e.angle_deg},
+                       {"length_m", e.length_m},
+                       {"middle_m", to_json(e.middle_m)}});
+    Json row = {{"threshold_deg", t.mean_deg},
+                {"interval_deg", nullptr},
+                {"pilot", !t.interval_deg.has_value()},
+                {"felt_edges", feel.felt},
+                {"felt_share", feel.felt_share()},
+                {"felt_length_m", feel.felt_length_m},
+                {"felt_length_share", feel.felt_length_share()},
+                {"above_interval", feel.surely_felt},
+                {"within_interval", feel.doubtful},
                 {"worst", worst}};
     if (t.interval_deg) row["interval_deg"] = {t.interval_deg->first, t.interval_deg->second};
     out["conditions"][std::string(t.condition)] = row;
@@ -76,8 +93,8 @@ std::string audit_text(const MeshAudit& a, const PerceptionAudit& perception, in
   std::string text = mesh.name() + "\n";
   text += row("file", format("%llu vertices, %llu faces", (unsigned long long)a.file_vertices,
                              (unsigned long long)a.file_faces));
-  text += row("triangles", format("%llu, %llu usable", (unsigned long long)a.triangles,
-                                  (unsigned long long)a.usable_triangles));
+  text += row("triangles",
+              format("%llu, %llu usable", (unsigned long long)a.triangles, (unsigned long long)a.usable_triangles));
   text += row("vertices", a.vertices);
   text += row("edges", a.edges);
   text += row("box from", triple(a.box_min_m));
@@ -109,36 +126,38 @@ std::string audit_text(const MeshAudit& a, const PerceptionAudit& perception, in
 
 Json audit_json(const MeshAudit& a, const PerceptionAudit& perception, int condition, const ContactMesh& mesh) {
   return {
-    {"program_version", TANGENT_VERSION},
-    {"mesh", {{"name", mesh.name()}, {"hash", hash_text(mesh.content_hash())},
-              {"normals_used", mesh.normals_used() == NormalSource::file ? "file" : "computed"},
-              {"fit_scale", mesh.scale_applied()}}},
-    {"file_vertices", a.file_vertices},
-    {"file_faces", a.file_faces},
-    {"triangles", a.triangles},
-    {"usable_triangles", a.usable_triangles},
-    {"vertices", a.vertices},
-    {"edges", a.edges},
-    {"box_min_m", to_json(a.box_min_m)},
-    {"box_max_m", to_json(a.box_max_m)},
-    {"area_m2", a.area_m2},
-    {"components", a.components},
-    {"boundary_edges", a.boundary_edges},
-    {"boundary_loops", a.boundary_loops},
-    {"non_manifold_edges", a.non_manifold_edges},
-    {"non_manifold_vertices", a.non_manifold_vertices},
-    {"inconsistent_edges", a.inconsistent_edges},
-    {"crease_edges", a.crease_edges},
-    {"slivers", {{"count", a.sliver_triangles}, {"first", a.first_slivers}}},
-    {"flipped_normals", {{"count", a.flipped_normals}, {"first", a.first_flipped}}},
-    {"wild_normals", a.wild_normals},
-    {"max_normal_to_face_deg", a.max_normal_to_face_deg},
-    {"edge_length_m", to_json(a.edge_length_m)},
-    {"dihedral_deg", to_json(a.dihedral_deg)},
-    {"aspect", to_json(a.aspect)},
-    {"defects", defects_json(mesh)},
-    {"smoothness", smoothness_json(perception, condition)},
-    {"notes", mesh.notes()},
+      {"program_version", TANGENT_VERSION},
+      {"mesh",
+       {{"name", mesh.name()},
+        {"hash", hash_text(mesh.content_hash())},
+        {"normals_used", mesh.normals_used() == NormalSource::file ? "file" : "computed"},
+        {"fit_scale", mesh.scale_applied()}}},
+      {"file_vertices", a.file_vertices},
+      {"file_faces", a.file_faces},
+      {"triangles", a.triangles},
+      {"usable_triangles", a.usable_triangles},
+      {"vertices", a.vertices},
+      {"edges", a.edges},
+      {"box_min_m", to_json(a.box_min_m)},
+      {"box_max_m", to_json(a.box_max_m)},
+      {"area_m2", a.area_m2},
+      {"components", a.components},
+      {"boundary_edges", a.boundary_edges},
+      {"boundary_loops", a.boundary_loops},
+      {"non_manifold_edges", a.non_manifold_edges},
+      {"non_manifold_vertices", a.non_manifold_vertices},
+      {"inconsistent_edges", a.inconsistent_edges},
+      {"crease_edges", a.crease_edges},
+      {"slivers", {{"count", a.sliver_triangles}, {"first", a.first_slivers}}},
+      {"flipped_normals", {{"count", a.flipped_normals}, {"first", a.first_flipped}}},
+      {"wild_normals", a.wild_normals},
+      {"max_normal_to_face_deg", a.max_normal_to_face_deg},
+      {"edge_length_m", to_json(a.edge_length_m)},
+      {"dihedral_deg", to_json(a.dihedral_deg)},
+      {"aspect", to_json(a.aspect)},
+      {"defects", defects_json(mesh)},
+      {"smoothness", smoothness_json(perception, condition)},
+      {"notes", mesh.notes()},
   };
 }
 

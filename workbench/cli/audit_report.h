@@ -11,8 +11,10 @@
 namespace tangent {
 
 /// `condition`: index into kPerceptionThresholds of the one that the worst edges and the verdict are for.
-std::string audit_text(const MeshAudit& audit, const PerceptionAudit& perception, int condition, const ContactMesh& mesh);
+std::string audit_text(const MeshAudit& audit, const PerceptionAudit& perception, int condition,
+                       const ContactMesh& mesh);
 /// The layout is part of the program's contract (README, "Files").
-nlohmann::ordered_json audit_json(const MeshAudit& audit, const PerceptionAudit& perception, int condition, const ContactMesh& mesh);
+nlohmann::ordered_json audit_json(const MeshAudit& audit, const PerceptionAudit& perception, int condition,
+                                  const ContactMesh& mesh);
 
 }  // namespace tangent

@@ -37,7 +37,9 @@ bool wants(const BenchOptions& options, Suite suite) { return options.suite == s
 class SceneLine {
  public:
   SceneLine(std::string_view suite, std::string_view scene) : shown_(::isatty(STDERR_FILENO) == 1) {
-    if (shown_) std::fprintf(stderr, "\r\033[K%.*s: %.*s", static_cast<int>(suite.size()), suite.data(), static_cast<int>(scene.size()), scene.data());
+    if (shown_)
+      std::fprintf(stderr, "\r\033[K%.*s: %.*s", static_cast<int>(suite.size()), suite.data(),
+                   static_cast<int>(scene.size()), scene.data());
   }
   SceneLine(const SceneLine&) = delete;
   SceneLine& operator=(const SceneLine&) = delete;
@@ -55,8 +57,8 @@ void keep(BenchReport& report, SceneReport scene) {
   report.scenes.push_back(std::move(scene));
 }
 
-Status run_cases(const std::string& suite, const std::vector<BenchCase>& cases, const BenchOptions& options, const TickClock& clock,
-                 BenchReport& report) {
+Status run_cases(const std::string& suite, const std::vector<BenchCase>& cases, const BenchOptions& options,
+                 const TickClock& clock, BenchReport& report) {
   for (const BenchCase& c : cases) {
     if (InterruptGuard::requested()) return {};
     if (c.name.find(options.only) == std::string::npos) continue;
@@ -98,7 +100,8 @@ Status run_suites(const BenchOptions& options, const TickClock& clock, BenchRepo
     status = run_cases("shared", *cases, options, clock, report);
   }
   if (status && wants(options, Suite::scale)) {
-    status = measure_scale(options.most_triangles, options.measure, clock, [&](SceneReport scene) { keep(report, std::move(scene)); });
+    status = measure_scale(options.most_triangles, options.measure, clock,
+                           [&](SceneReport scene) { keep(report, std::move(scene)); });
   }
   if (status && !options.plot.empty()) status = run_work_precision(options, clock, report);
   return status;
@@ -135,7 +138,9 @@ Status run_bench(BenchOptions options, bool& interrupted) {
   std::fputs(summary_text(report).c_str(), stdout);
   // What was measured before a failure is kept too.
   const Status written = write_results(options, report);
-  if (interrupted) print_message("bench", "interrupted after " + std::to_string(report.scenes.size()) + " scenes; what was measured is kept");
+  if (interrupted)
+    print_message("bench",
+                  "interrupted after " + std::to_string(report.scenes.size()) + " scenes; what was measured is kept");
   return status ? written : status;
 }
 
@@ -145,23 +150,32 @@ void add_bench_command(CLI::App& app, CommandResult& result) {
   CLI::App* command = app.add_subcommand("bench", "Measure speed against error, for every method");
   auto options = std::make_shared<BenchOptions>();
   BenchOptions* o = options.get();
-  add_choice_option(*command, "--suite", kSuites, "Scenes: the paper's objects (default), hard cases, 1k to 5M triangles, or all",
+  add_choice_option(*command, "--suite", kSuites,
+                    "Scenes: the paper's objects (default), hard cases, 1k to 5M triangles, or all",
                     [o](int i) { o->suite = static_cast<Suite>(i); });
-  add_number_option(*command, "--ticks", {.min = 1, .max = 10'000'000, .whole = true}, "Ticks of each scene (default 10000)",
-                    [o](double n) { o->measure.ticks = static_cast<int>(n); });
-  add_number_option(*command, "--repeats", {.min = 1, .max = 100, .whole = true}, "Passes; a tick's time is its least (default 3)",
+  add_number_option(*command, "--ticks", {.min = 1, .max = 10'000'000, .whole = true},
+                    "Ticks of each scene (default 10000)", [o](double n) { o->measure.ticks = static_cast<int>(n); });
+  add_number_option(*command, "--repeats", {.min = 1, .max = 100, .whole = true},
+                    "Passes; a tick's time is its least (default 3)",
                     [o](double n) { o->measure.repeats = static_cast<int>(n); });
-  add_number_option(*command, "--max-triangles", {.min = 1280, .max = 6e6, .whole = true}, "Largest mesh of the scale suite (default all)",
+  add_number_option(*command, "--max-triangles", {.min = 1280, .max = 6e6, .whole = true},
+                    "Largest mesh of the scale suite (default all)",
                     [o](double n) { o->most_triangles = static_cast<std::uint32_t>(n); });
   command->add_option("--only", options->only, "Only scenes whose name contains this")->type_name("TEXT");
   command->add_option("--json", options->json, "Everything measured")->type_name("F.json");
-  command->add_option("--plot", options->plot, "Time against error as the tolerance sweeps from 1e-3 to 1e-9 mm")->type_name("F.svg");
-  CLI::Option* meshes = command->add_option("--meshes", options->meshes, "Real meshes besides: NAME.obj, fitted to 80 mm")->type_name("DIR");
-  CLI::Option* poses = command->add_option("--poses", options->poses, "Poses on them: NAME-rXXX.csv, finger radius XXX mm")->type_name("DIR");
+  command->add_option("--plot", options->plot, "Time against error as the tolerance sweeps from 1e-3 to 1e-9 mm")
+      ->type_name("F.svg");
+  CLI::Option* meshes =
+      command->add_option("--meshes", options->meshes, "Real meshes besides: NAME.obj, fitted to 80 mm")
+          ->type_name("DIR");
+  CLI::Option* poses =
+      command->add_option("--poses", options->poses, "Poses on them: NAME-rXXX.csv, finger radius XXX mm")
+          ->type_name("DIR");
   meshes->needs(poses);
   poses->needs(meshes);
   command->callback([options, &result] {
-    if (!options->json.empty() && options->json == options->plot) throw CLI::ValidationError("--plot", "names the same file as --json");
+    if (!options->json.empty() && options->json == options->plot)
+      throw CLI::ValidationError("--plot", "names the same file as --json");
     bool interrupted = false;
     const Status status = run_bench(*options, interrupted);
     if (!status) print_message("bench", status.error().message());

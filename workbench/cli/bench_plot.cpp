@@ -12,18 +12,20 @@ namespace tangent::bench {
 namespace {
 
 constexpr double kPanelWidth = 300, kPanelHeight = 270, kLeft = 74, kGap = 30, kTop = 62, kBottom = 62, kRight = 18;
-constexpr double kFloorUm = 1e-9;           // errors are drawn no smaller
-constexpr double kMostUnconverged = 0.01;   // of a point that is drawn
+constexpr double kFloorUm = 1e-9;          // errors are drawn no smaller
+constexpr double kMostUnconverged = 0.01;  // of a point that is drawn
 
 struct MethodStyle {
   Method method;
   const char* colour;
   const char* label;
 };
-constexpr std::array kStyles{
-    MethodStyle{Method::paper, "#D55E00", "paper, best G_k"}, MethodStyle{Method::newton, "#0072B2", "newton"},
-    MethodStyle{Method::robust, "#009E73", "robust"},         MethodStyle{Method::facet, "#E69F00", "facet"},
-    MethodStyle{Method::force_shading, "#CC79A7", "force shading"}, MethodStyle{Method::two_pass, "#56B4E9", "two-pass"}};
+constexpr std::array kStyles{MethodStyle{Method::paper, "#D55E00", "paper, best G_k"},
+                             MethodStyle{Method::newton, "#0072B2", "newton"},
+                             MethodStyle{Method::robust, "#009E73", "robust"},
+                             MethodStyle{Method::facet, "#E69F00", "facet"},
+                             MethodStyle{Method::force_shading, "#CC79A7", "force shading"},
+                             MethodStyle{Method::two_pass, "#56B4E9", "two-pass"}};
 
 const MethodStyle& style_of(Method method) {
   for (const MethodStyle& style : kStyles)
@@ -80,11 +82,14 @@ std::string axes(const Frame& f, const WorkPrecisionReport& panel, bool first) {
     if (first) svg += text_at(f.x - 8, y + 4, "end", power(e));
     for (int k = 2; k < 10 && e < f.times.high; ++k) {
       const double minor = f.at_y(k * std::pow(10.0, e));
-      svg += format("<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" class=\"axis\"/>\n", f.x, minor, f.x + 3.0, minor);
+      svg += format("<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" class=\"axis\"/>\n", f.x, minor, f.x + 3.0,
+                    minor);
     }
   }
-  svg += format("<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" class=\"frame\"/>\n", f.x, f.y, kPanelWidth, kPanelHeight);
-  svg += text_at(f.x, f.y - 8, "start", format("%s, %u triangles", panel.scene.c_str(), panel.triangles), " class=\"title\"");
+  svg += format("<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" class=\"frame\"/>\n", f.x, f.y, kPanelWidth,
+                kPanelHeight);
+  svg += text_at(f.x, f.y - 8, "start", format("%s, %u triangles", panel.scene.c_str(), panel.triangles),
+                 " class=\"title\"");
   svg += text_at(f.x + 0.5 * kPanelWidth, bottom + 40, "middle", "contact error, 99th percentile (\xC2\xB5m)");
   return svg;
 }
@@ -93,9 +98,11 @@ std::string axes(const Frame& f, const WorkPrecisionReport& panel, bool first) {
 std::string marker(double x, double y, const MethodStyle& style) {
   if (!is_smooth(style.method)) {
     const double half = style.method == Method::facet ? 6.5 : style.method == Method::force_shading ? 4.5 : 2.5;
-    return format("<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" fill=\"%s\"/>\n", x - half, y - half, 2 * half, 2 * half, style.colour);
+    return format("<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" fill=\"%s\"/>\n", x - half, y - half,
+                  2 * half, 2 * half, style.colour);
   }
-  return format("<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\" fill=\"%s\"/>\n", x, y, style.method == Method::newton ? 5.2 : 3.2, style.colour);
+  return format("<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\" fill=\"%s\"/>\n", x, y,
+                style.method == Method::newton ? 5.2 : 3.2, style.colour);
 }
 
 std::string curve_svg(const Frame& f, const WorkPrecisionCurve& curve) {
@@ -107,7 +114,9 @@ std::string curve_svg(const Frame& f, const WorkPrecisionCurve& curve) {
     line += format("%.1f,%.1f ", x, y);
     markers += marker(x, y, style);
   }
-  return format("<polyline points=\"%s\" fill=\"none\" stroke=\"%s\" stroke-width=\"1.8\"/>\n", line.c_str(), style.colour) + markers;
+  return format("<polyline points=\"%s\" fill=\"none\" stroke=\"%s\" stroke-width=\"1.8\"/>\n", line.c_str(),
+                style.colour) +
+         markers;
 }
 
 std::string legend() {
@@ -124,7 +133,8 @@ std::string legend() {
 
 std::string work_precision_svg(std::span<const WorkPrecisionReport> panels) {
   const auto count = static_cast<double>(panels.size());
-  const double width = kLeft + count * kPanelWidth + (count - 1) * kGap + kRight, height = kTop + kPanelHeight + kBottom;
+  const double width = kLeft + count * kPanelWidth + (count - 1) * kGap + kRight,
+               height = kTop + kPanelHeight + kBottom;
   std::string svg = format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%.0f\" height=\"%.0f\" viewBox=\"0 0 %.0f %.0f\" "
       "font-family=\"Inter, Helvetica, Arial, sans-serif\" font-size=\"12\" fill=\"#222\">\n"
@@ -141,7 +151,8 @@ std::string work_precision_svg(std::span<const WorkPrecisionReport> panels) {
     for (const WorkPrecisionCurve& curve : panels[i].curves) svg += curve_svg(frame, curve);
   }
   const double middle = kTop + 0.5 * kPanelHeight;
-  svg += text_at(20, middle, "middle", "time per tick, mean (ns)", format(" transform=\"rotate(-90 20 %.1f)\"", middle).c_str());
+  svg += text_at(20, middle, "middle", "time per tick, mean (ns)",
+                 format(" transform=\"rotate(-90 20 %.1f)\"", middle).c_str());
   return svg + "</svg>\n";
 }
 

@@ -1,5 +1,5 @@
-// The work-precision plot as an SVG file: time per tick against the contact's error as the tolerance sweeps, log-log, one
-// panel a scene, one curve a method. Colours by Okabe & Ito, which differ for the colour-blind too.
+// The work-precision plot as an SVG file: time per tick against the contact's error as the tolerance sweeps, log-log,
+// one panel a scene, one curve a method. Colours by Okabe & Ito, which differ for the colour-blind too.
 #pragma once
 
 #include "workbench/bench/scene_report.h"

@@ -31,8 +31,10 @@ int run_without_command() {
     report.statistics.add(output, watch.nanoseconds());
   }
   report.solve_seconds = solving.seconds();
-  std::fputs(("The built-in scene, 0.1 m/s, 1 mm deep (workbench --help lists what else there is)\n" + solve_text(report))
-                 .c_str(), stdout);
+  std::fputs(
+      ("The built-in scene, 0.1 m/s, 1 mm deep (workbench --help lists what else there is)\n" + solve_text(report))
+          .c_str(),
+      stdout);
   return kDone;
 }
 

@@ -57,7 +57,8 @@ std::uint64_t count_over(const ContactMesh& mesh, double limit_deg) {
   std::uint64_t sides = 0;
   for (std::size_t t = 0; t < angles.sense.size(); ++t)
     for (std::size_t k = 0; k < 3; ++k)
-      sides += angles.sense[t][k] == EdgeSense::curve && static_cast<double>(angles.angle_deg[t][k]) > limit_deg * (1.0 + 1e-6);
+      sides += angles.sense[t][k] == EdgeSense::curve &&
+               static_cast<double>(angles.angle_deg[t][k]) > limit_deg * (1.0 + 1e-6);
   return sides / 2;
 }
 
@@ -70,7 +71,8 @@ Result<std::shared_ptr<const ContactScene>> scene_of(const PolygonMesh& mesh) {
 }
 
 /// Decimates, measures, and does it again more carefully until the whole keeps the distance.
-Status decimate_within(const ContactScene& original, DecimateReport& report, std::shared_ptr<const ContactScene>& coarse) {
+Status decimate_within(const ContactScene& original, DecimateReport& report,
+                       std::shared_ptr<const ContactScene>& coarse) {
   const InterruptGuard interrupt;
   for (int round = 0; round < kMostRounds; ++round) {
     report.result = decimate(original, report.limits, [] { return !InterruptGuard::requested(); });
@@ -86,42 +88,66 @@ Status decimate_within(const ContactScene& original, DecimateReport& report, std
 }
 
 std::string deviation_text(const char* from, const SurfaceDeviation& d) {
-  return format("  %-26s mean %.4g um, RMS %.4g um, largest %.4g um (%llu points%s)\n", from, 1e6 * d.mean_m, 1e6 * d.rms_m, 1e6 * d.largest_m,
-                (unsigned long long)d.samples, d.unresolved ? format(", %llu unresolved", (unsigned long long)d.unresolved).c_str() : "");
+  return format("  %-26s mean %.4g um, RMS %.4g um, largest %.4g um (%llu points%s)\n", from, 1e6 * d.mean_m,
+                1e6 * d.rms_m, 1e6 * d.largest_m, (unsigned long long)d.samples,
+                d.unresolved ? format(", %llu unresolved", (unsigned long long)d.unresolved).c_str() : "");
 }
 
 std::string report_text(const DecimateReport& r) {
   const double limit = angle_limit_deg(r.threshold);
-  std::string text = format("%s under %s: facets may turn by %.2f deg%s\n", r.mesh.c_str(), std::string(r.threshold.condition).c_str(), limit,
-                            r.threshold.interval_deg ? ", the lower end of the threshold's interval" : ", the mean of a pilot study; there is no interval");
-  text += format("  triangles                  %llu -> %llu, factor %.2f%s\n", (unsigned long long)r.result.before, (unsigned long long)r.result.after,
+  std::string text = format("%s under %s: facets may turn by %.2f deg%s\n", r.mesh.c_str(),
+                            std::string(r.threshold.condition).c_str(), limit,
+                            r.threshold.interval_deg ? ", the lower end of the threshold's interval"
+                                                     : ", the mean of a pilot study; there is no interval");
+  text += format("  triangles                  %llu -> %llu, factor %.2f%s\n", (unsigned long long)r.result.before,
+                 (unsigned long long)r.result.after,
                  static_cast<double>(r.result.before) / static_cast<double>(std::max<std::uint64_t>(1, r.result.after)),
                  r.result.stopped ? " (interrupted: it could be coarser)" : "");
-  text += format("  angles of smooth edges     median %.3f -> %.3f deg, largest %.3f -> %.3f deg\n", r.angles_before.median_curve_deg,
-                 r.angles_after.median_curve_deg, r.angles_before.largest_curve_deg, r.angles_after.largest_curve_deg);
-  text += format("  above the limit            %llu of %llu -> %llu of %llu%s\n", (unsigned long long)r.over_before, (unsigned long long)r.angles_before.curve_edges,
-                 (unsigned long long)r.over_after, (unsigned long long)r.angles_after.curve_edges,
+  text += format("  angles of smooth edges     median %.3f -> %.3f deg, largest %.3f -> %.3f deg\n",
+                 r.angles_before.median_curve_deg, r.angles_after.median_curve_deg, r.angles_before.largest_curve_deg,
+                 r.angles_after.largest_curve_deg);
+  text += format("  above the limit            %llu of %llu -> %llu of %llu%s\n", (unsigned long long)r.over_before,
+                 (unsigned long long)r.angles_before.curve_edges, (unsigned long long)r.over_after,
+                 (unsigned long long)r.angles_after.curve_edges,
                  r.over_after ? ": edges of the original that no collapse could better; none was made" : "");
   text += format("  smooth surface, limit      %.4g um\n", 1e6 * r.deviation_limit_m);
   text += deviation_text("  new from old", r.new_from_old) + deviation_text("  old from new", r.old_from_new);
   if (!r.within()) text += "  the limit was not kept everywhere; give a larger one, or look at the mesh there\n";
-  text += format("  solver on the result       %llu ticks, %llu unconverged, %.3f iterations a tick, error %.3g um at most\n", (unsigned long long)r.run.ticks,
-                 (unsigned long long)r.run.unconverged, r.run.mean_iterations(), 1e6 * r.run.max_error_m);
+  text += format(
+      "  solver on the result       %llu ticks, %llu unconverged, %.3f iterations a tick, error %.3g um at most\n",
+      (unsigned long long)r.run.ticks, (unsigned long long)r.run.unconverged, r.run.mean_iterations(),
+      1e6 * r.run.max_error_m);
   return text;
 }
 
 nlohmann::ordered_json to_json(const SurfaceDeviation& d) {
-  return {{"samples", d.samples}, {"unresolved", d.unresolved}, {"mean_m", d.mean_m}, {"rms_m", d.rms_m}, {"largest_m", d.largest_m}};
+  return {{"samples", d.samples},
+          {"unresolved", d.unresolved},
+          {"mean_m", d.mean_m},
+          {"rms_m", d.rms_m},
+          {"largest_m", d.largest_m}};
 }
 
 nlohmann::ordered_json report_json(const DecimateReport& r) {
-  return {{"program_version", TANGENT_VERSION}, {"mesh", r.mesh}, {"condition", r.threshold.condition}, {"pilot", !r.threshold.interval_deg.has_value()},
-          {"angle_limit_deg", angle_limit_deg(r.threshold)}, {"triangles_before", r.result.before}, {"triangles_after", r.result.after},
+  return {{"program_version", TANGENT_VERSION},
+          {"mesh", r.mesh},
+          {"condition", r.threshold.condition},
+          {"pilot", !r.threshold.interval_deg.has_value()},
+          {"angle_limit_deg", angle_limit_deg(r.threshold)},
+          {"triangles_before", r.result.before},
+          {"triangles_after", r.result.after},
           {"median_deg", {{"before", r.angles_before.median_curve_deg}, {"after", r.angles_after.median_curve_deg}}},
           {"largest_deg", {{"before", r.angles_before.largest_curve_deg}, {"after", r.angles_after.largest_curve_deg}}},
-          {"edges_above", {{"before", r.over_before}, {"after", r.over_after}}}, {"deviation_limit_m", r.deviation_limit_m},
-          {"new_from_old", to_json(r.new_from_old)}, {"old_from_new", to_json(r.old_from_new)}, {"within", r.within()},
-          {"solver", {{"ticks", r.run.ticks}, {"unconverged", r.run.unconverged}, {"mean_iterations", r.run.mean_iterations()}, {"max_error_m", r.run.max_error_m}}},
+          {"edges_above", {{"before", r.over_before}, {"after", r.over_after}}},
+          {"deviation_limit_m", r.deviation_limit_m},
+          {"new_from_old", to_json(r.new_from_old)},
+          {"old_from_new", to_json(r.old_from_new)},
+          {"within", r.within()},
+          {"solver",
+           {{"ticks", r.run.ticks},
+            {"unconverged", r.run.unconverged},
+            {"mean_iterations", r.run.mean_iterations()},
+            {"max_error_m", r.run.max_error_m}}},
           {"interrupted", r.result.stopped}};
 }
 
@@ -140,7 +166,8 @@ Status run_decimate(const DecimateOptions& options, bool& complete) {
   DecimateReport report;
   report.mesh = mesh.name();
   report.threshold = kPerceptionThresholds[static_cast<std::size_t>(options.condition)];
-  report.deviation_limit_m = options.deviation_m > 0.0 ? options.deviation_m : kDeviationShare * std::max({size.x, size.y, size.z});
+  report.deviation_limit_m =
+      options.deviation_m > 0.0 ? options.deviation_m : kDeviationShare * std::max({size.x, size.y, size.z});
   report.limits.angle_deg = angle_limit_deg(report.threshold);
   report.limits.deviation_m = report.deviation_limit_m;
   std::shared_ptr<const ContactScene> coarse;
@@ -164,12 +191,18 @@ Status run_decimate(const DecimateOptions& options, bool& complete) {
 }  // namespace
 
 void add_decimate_command(CLI::App& app, CommandResult& result) {
-  CLI::App* command = app.add_subcommand("decimate", "As few triangles as a finger can't tell from many, under a rendering condition");
+  CLI::App* command =
+      app.add_subcommand("decimate", "As few triangles as a finger can't tell from many, under a rendering condition");
   auto options = std::make_shared<DecimateOptions>();
   add_mesh_options(*command, options->mesh);
-  command->add_option("--out", options->out, "The coarse mesh, with normals, in the unit of MESH")->required()->type_name("F.obj");
-  add_choice_option(*command, "--condition", kConditionNames, "Whose threshold no smooth edge may exceed (default P1: force and tactile shading)",
-                    [options = options.get()](int i) { options->condition = threshold_index(kConditionNames[static_cast<std::size_t>(i)]); });
+  command->add_option("--out", options->out, "The coarse mesh, with normals, in the unit of MESH")
+      ->required()
+      ->type_name("F.obj");
+  add_choice_option(*command, "--condition", kConditionNames,
+                    "Whose threshold no smooth edge may exceed (default P1: force and tactile shading)",
+                    [options = options.get()](int i) {
+                      options->condition = threshold_index(kConditionNames[static_cast<std::size_t>(i)]);
+                    });
   add_number_option(*command, "--max-deviation-um", {.min = 1e-3, .max = 1e6, .unit = "um"},
                     "Distance that the smooth surfaces keep, both ways (default: 0.1 % of the longest side)",
                     [options = options.get()](double um) { options->deviation_m = um / 1e6; });

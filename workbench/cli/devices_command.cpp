@@ -16,21 +16,24 @@
 namespace tangent {
 namespace {
 
-constexpr int kAskFor_ms = 1000;   // a controller answers within a few
+constexpr int kAskFor_ms = 1000;  // a controller answers within a few
 
 std::string timeout_text(double seconds) {
-  return seconds > 0.0 ? format("stops by itself %.0f ms after the last command", seconds * 1e3) : "no time-out of its own";
+  return seconds > 0.0 ? format("stops by itself %.0f ms after the last command", seconds * 1e3)
+                       : "no time-out of its own";
 }
 
 std::string force_text(const ForceCapabilities& c) {
-  return format("%s\n  force      peak %.1f N, continuous %.1f N\n  position   %.0f um steps; workspace %.0f x %.0f x %.0f mm\n"
-                "  mass       %.0f g apparent\n  rate       %.0f Hz\n  firmware   %s\n",
-                c.name.c_str(), c.peak_force_n, c.continuous_force_n, c.position_resolution_m * 1e6, c.workspace_half_size_m.x * 2e3,
-                c.workspace_half_size_m.y * 2e3, c.workspace_half_size_m.z * 2e3, c.apparent_mass_kg * 1e3, c.rate_hz,
-                timeout_text(c.firmware_timeout_s).c_str());
+  return format(
+      "%s\n  force      peak %.1f N, continuous %.1f N\n  position   %.0f um steps; workspace %.0f x %.0f x %.0f mm\n"
+      "  mass       %.0f g apparent\n  rate       %.0f Hz\n  firmware   %s\n",
+      c.name.c_str(), c.peak_force_n, c.continuous_force_n, c.position_resolution_m * 1e6,
+      c.workspace_half_size_m.x * 2e3, c.workspace_half_size_m.y * 2e3, c.workspace_half_size_m.z * 2e3,
+      c.apparent_mass_kg * 1e3, c.rate_hz, timeout_text(c.firmware_timeout_s).c_str());
 }
 
-std::string display_text(const std::string& name, double travel_m, double step_m, double bandwidth_hz, double rate_hz, double timeout_s) {
+std::string display_text(const std::string& name, double travel_m, double step_m, double bandwidth_hz, double rate_hz,
+                         double timeout_s) {
   std::string text = name + format("\n  travel     %.1f mm, %.2f um steps\n", travel_m * 1e3, step_m * 1e6);
   if (bandwidth_hz > 0.0) text += format("  bandwidth  %.1f Hz\n", bandwidth_hz);
   return text + format("  rate       %.0f Hz\n  firmware   %s\n", rate_hz, timeout_text(timeout_s).c_str());
@@ -59,8 +62,8 @@ std::string usb_name(const UsbDeviceInfo& d, const char* kind) {
 }
 
 nlohmann::json usb_json(const UsbDeviceInfo& d, const char* kind) {
-  nlohmann::json j{{"kind", kind}, {"vendor", d.vendor}, {"product", d.product}, {"bus", d.bus}, {"address", d.address},
-                   {"can_be_opened", d.problem == UsbProblem::none}};
+  nlohmann::json j{{"kind", kind}, {"vendor", d.vendor},   {"product", d.product},
+                   {"bus", d.bus}, {"address", d.address}, {"can_be_opened", d.problem == UsbProblem::none}};
   if (d.problem != UsbProblem::none) j["problem"] = usb_error(d.problem, kind, d.problem_detail).message();
   return j;
 }
@@ -79,11 +82,13 @@ std::string attached_text(const UsbDeviceInfo& d, const char* kind, bool cld, nl
   const LinkReport said = ask_cld();
   if (said.identity.empty()) {
     report.back()["problem"] = usb_error(UsbProblem::wrong_interface, kind).message();
-    return usb_name(d, kind) + "\n  does not answer as a CLD controller\n  load its firmware (devices/cld_protocol.md)\n";
+    return usb_name(d, kind) +
+           "\n  does not answer as a CLD controller\n  load its firmware (devices/cld_protocol.md)\n";
   }
   report.back()["identity"] = said.identity;
   report.back()["travel_m"] = said.travel_m;
-  return display_text(usb_name(d, kind) + ", " + said.identity, said.travel_m, said.resolution_m, said.bandwidth_hz, said.rate_hz, said.firmware_timeout_s);
+  return display_text(usb_name(d, kind) + ", " + said.identity, said.travel_m, said.resolution_m, said.bandwidth_hz,
+                      said.rate_hz, said.firmware_timeout_s);
 }
 
 Status run_devices(const std::filesystem::path& json_file) {
@@ -91,11 +96,17 @@ Status run_devices(const std::filesystem::path& json_file) {
   const auto simulated = make_devices("simulated");
   const DisplayCapabilities& display = simulated->display->capabilities();
   text += force_text(simulated->force->capabilities()) + "\n" +
-          display_text(display.name, display.travel_m, display.resolution_m, display.bandwidth_hz, display.rate_hz, display.firmware_timeout_s);
+          display_text(display.name, display.travel_m, display.resolution_m, display.bandwidth_hz, display.rate_hz,
+                       display.firmware_timeout_s);
   text += "\nUSB\n\n";
   nlohmann::json report = nlohmann::json::array();
-  struct Kind { const char* name; UsbLinkOptions link; bool cld; };
-  for (const Kind& kind : {Kind{"CLD controller", cld_link_options(), true}, Kind{"Pololu Maestro", maestro_link_options(), false}}) {
+  struct Kind {
+    const char* name;
+    UsbLinkOptions link;
+    bool cld;
+  };
+  for (const Kind& kind :
+       {Kind{"CLD controller", cld_link_options(), true}, Kind{"Pololu Maestro", maestro_link_options(), false}}) {
     const auto found = list_usb_devices(kind.link.match, kind.link.interface_number);
     if (!found) {
       text += found.error().what + "\n  " + found.error().remedy + "\n";

@@ -15,7 +15,7 @@ struct ExplorationPoses {
   std::vector<TickInput> poses;
   double length_m = 0.0;  ///< of the closed path
   double press_m = 0.0;
-  bool whole = true;      ///< false: the path is longer than the ticks allowed
+  bool whole = true;  ///< false: the path is longer than the ticks allowed
 };
 
 /// Once around the path of workbench/session/exploration_path.h, 1 ms a tick, but no more than 100,000 ticks.

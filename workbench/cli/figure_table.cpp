@@ -31,7 +31,8 @@ set style line 9 lc rgb '#999999' lw 1 dt (6,4)
 )";
 
 std::string replaced(std::string text, const std::string& what, const std::string& by) {
-  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + by.size())) text.replace(at, what.size(), by);
+  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + by.size()))
+    text.replace(at, what.size(), by);
   return text;
 }
 
@@ -44,7 +45,8 @@ Status run_gnuplot(const std::string& script, const std::string& name) {
   std::FILE* pipe = ::popen("gnuplot 1>&2", "w");
   if (pipe == nullptr) return fail("gnuplot can't be started", name);
   const bool written = std::fwrite(script.data(), 1, script.size(), pipe) == script.size();
-  if (const int code = ::pclose(pipe); !written || code != 0) return fail("gnuplot could not draw it", name, "see its message above");
+  if (const int code = ::pclose(pipe); !written || code != 0)
+    return fail("gnuplot could not draw it", name, "see its message above");
   return {};
 }
 
@@ -71,9 +73,11 @@ Status write_figure(const Figure& figure, const std::filesystem::path& folder) {
   }
   // Drawn beside its place and moved there whole.
   const std::filesystem::path target = folder / (figure.name + ".svg"), part = folder / (figure.name + ".svg.part");
-  std::string script = format("set terminal svg size %d,%d dynamic enhanced font 'Inter, Helvetica, Arial,13' background rgb 'white'\n",
-                              figure.width_px, figure.height_px);
-  script += "set output " + quoted(part.string()) + "\n" + kCommon + "DIR = " + quoted(folder.string()) + "\n" + figure.script + "unset output\n";
+  std::string script =
+      format("set terminal svg size %d,%d dynamic enhanced font 'Inter, Helvetica, Arial,13' background rgb 'white'\n",
+             figure.width_px, figure.height_px);
+  script += "set output " + quoted(part.string()) + "\n" + kCommon + "DIR = " + quoted(folder.string()) + "\n" +
+            figure.script + "unset output\n";
   if (Status status = run_gnuplot(script, target.string()); !status) return status;
   std::error_code error;
   std::filesystem::rename(part, target, error);

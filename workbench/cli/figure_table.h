@@ -24,8 +24,8 @@ struct FigureData {
 };
 
 struct Figure {
-  std::string name;      ///< of the files, without extension
-  std::string title;     ///< what it shows, for the list that is printed
+  std::string name;   ///< of the files, without extension
+  std::string title;  ///< what it shows, for the list that is printed
   int width_px = 760, height_px = 480;
   std::vector<FigureData> data = {};
   /// gnuplot commands after the common ones; `$DIR/` stands for the folder.

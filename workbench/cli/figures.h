@@ -9,13 +9,13 @@
 
 namespace tangent {
 
-Figure contact_location_figure();           ///< Fig. 4: contact location on the finger over a smooth curve, two and three facets
-Figure iterations_figure();                 ///< Fig. 6: the tangent lines of one tick, in cross-section
-Figure patches_figure();                    ///< Fig. 15: polygon, smooth curve, patches
-Figure local_centre_figure();               ///< Fig. 17: one patch, its local centre and a tangent line
+Figure contact_location_figure();  ///< Fig. 4: contact location on the finger over a smooth curve, two and three facets
+Figure iterations_figure();        ///< Fig. 6: the tangent lines of one tick, in cross-section
+Figure patches_figure();           ///< Fig. 15: polygon, smooth curve, patches
+Figure local_centre_figure();      ///< Fig. 17: one patch, its local centre and a tangent line
 Figure conditions_figure(bool at_threshold);  ///< force direction and contact location against travel, all conditions:
                                               ///< at each one's threshold count of segments, or all at five
-Figure curvature_figure();                  ///< curvature against the circle's, five segments
+Figure curvature_figure();                    ///< curvature against the circle's, five segments
 
 /// The curve of an outline written in this program, and so a good one.
 inline PlanarCurve curve_of(PlanarPolygon polygon) { return std::move(*PlanarCurve::build(std::move(polygon))); }

@@ -12,20 +12,25 @@ namespace {
 
 /// Beside the paper's "less than 0.4 % at five segments".
 std::string deviation_text() {
-  std::string text = "curvature of the rendered curve against the circle's, over the paper's arc (the paper: under 0.4 % at five segments)\n"
-                     "  placement   local centre   segments   RMS, %    largest, %\n";
+  std::string text =
+      "curvature of the rendered curve against the circle's, over the paper's arc (the paper: under 0.4 % at five "
+      "segments)\n"
+      "  placement   local centre   segments   RMS, %    largest, %\n";
   for (const DeviationRow& row : deviation_rows())
-    text += format("  %-11s %-14s %8d   %-9.4g %-9.4g\n", row.placement == ArcPlacement::tangent ? "tangent" : "inscribed",
-                   row.centre == LocalCentre::bisectors ? "bisectors" : "midpoint", row.segments, 100.0 * row.deviation.rms, 100.0 * row.deviation.largest);
+    text +=
+        format("  %-11s %-14s %8d   %-9.4g %-9.4g\n", row.placement == ArcPlacement::tangent ? "tangent" : "inscribed",
+               row.centre == LocalCentre::bisectors ? "bisectors" : "midpoint", row.segments, 100.0 * row.deviation.rms,
+               100.0 * row.deviation.largest);
   return text;
 }
 
 Status write_figures(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  if (error || !std::filesystem::is_directory(folder)) return fail("is no folder that can be made", folder.string(), "name another with --out");
-  for (const Figure& figure : {contact_location_figure(), iterations_figure(), patches_figure(), local_centre_figure(), conditions_figure(true),
-                               conditions_figure(false), curvature_figure()}) {
+  if (error || !std::filesystem::is_directory(folder))
+    return fail("is no folder that can be made", folder.string(), "name another with --out");
+  for (const Figure& figure : {contact_location_figure(), iterations_figure(), patches_figure(), local_centre_figure(),
+                               conditions_figure(true), conditions_figure(false), curvature_figure()}) {
     if (Status status = write_figure(figure, folder); !status) return status;
     std::fputs(format("%s.svg: %s\n", (folder / figure.name).c_str(), figure.title.c_str()).c_str(), stdout);
   }
@@ -36,7 +41,8 @@ Status write_figures(const std::filesystem::path& folder) {
 }  // namespace
 
 void add_figures_command(CLI::App& app, CommandResult& result) {
-  CLI::App* command = app.add_subcommand("figures", "The paper's figures by the 2D algorithm: SVG, with the data as CSV beside each");
+  CLI::App* command =
+      app.add_subcommand("figures", "The paper's figures by the 2D algorithm: SVG, with the data as CSV beside each");
   auto folder = std::make_shared<std::filesystem::path>();
   command->add_option("--out", *folder, "Folder to write into; made if it isn't there")->required()->type_name("DIR");
   command->callback([folder, &result] {

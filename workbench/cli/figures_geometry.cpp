@@ -36,7 +36,8 @@ FigureTable circle_table(const Vec2& centre, double radius) {
 FigureTable curve_table(const PlanarCurve& curve) {
   FigureTable table = points();
   for (std::uint32_t i = 0; i < curve.patch_count(); ++i)
-    for (int k = 0; k <= 40; ++k) table.rows.push_back(mm(curve.origin() + curve.sample(i, LocalCentre::bisectors, k / 40.0).place));
+    for (int k = 0; k <= 40; ++k)
+      table.rows.push_back(mm(curve.origin() + curve.sample(i, LocalCentre::bisectors, k / 40.0).place));
   return table;
 }
 
@@ -44,7 +45,8 @@ FigureTable curve_table(const PlanarCurve& curve) {
 void add_patch_region(const PlanarCurve& curve, std::uint32_t i, FigureTable& table) {
   const CurvePatch& p = curve.patch(i);
   for (const Vec2& v : {p.first, p.vertex, p.last}) table.rows.push_back(mm(curve.origin() + v));
-  for (int k = 40; k >= 0; --k) table.rows.push_back(mm(curve.origin() + curve.sample(i, LocalCentre::bisectors, k / 40.0).place));
+  for (int k = 40; k >= 0; --k)
+    table.rows.push_back(mm(curve.origin() + curve.sample(i, LocalCentre::bisectors, k / 40.0).place));
   table.part();
 }
 
@@ -53,13 +55,18 @@ constexpr const char* kPicture = "set size ratio -1\nset grid\nset xlabel 'x (mm
 }  // namespace
 
 Figure iterations_figure() {
-  Figure figure{.name = "fig06-iterations", .title = "the tangent lines of one tick, in cross-section", .width_px = 960, .height_px = 480};
+  Figure figure{.name = "fig06-iterations",
+                .title = "the tangent lines of one tick, in cross-section",
+                .width_px = 960,
+                .height_px = 480};
   const PlanarCurve curve = curve_of(make_paper_arc(3));
   // A finger that has leapt by 27 mm since the last tick, so that there is something to see.
   Preset preset;
   preset.solver.method = Method::paper;
   const double depth = 0.003, distance = kPaperArcRadius + preset.finger.radius_m - depth;
-  const auto at = [&](double a) { return TickInput{a, {{distance * std::sin(a), distance * std::cos(a), 0.0}, Quat(1.0, 0.0, 0.0, 0.0)}}; };
+  const auto at = [&](double a) {
+    return TickInput{a, {{distance * std::sin(a), distance * std::cos(a), 0.0}, Quat(1.0, 0.0, 0.0, 0.0)}};
+  };
   TickState state;
   auto trace = std::make_unique<IterationTrace>();
   step_planar(curve, preset, at(-0.10), state, nullptr);
@@ -71,11 +78,16 @@ Figure iterations_figure() {
   for (std::size_t i = 0; i < trace->size; ++i) {
     const IterationRecord& r = trace->records[i];
     const Vec2 along(r.normal.y, -r.normal.x);
-    for (const double s : {-0.034, 0.034}) lines.rows.push_back({static_cast<double>(i), 1e3 * (r.point.x + s * along.x), 1e3 * (r.point.y + s * along.y)});
+    for (const double s : {-0.034, 0.034})
+      lines.rows.push_back({static_cast<double>(i), 1e3 * (r.point.x + s * along.x), 1e3 * (r.point.y + s * along.y)});
     lines.part();
-    contacts.rows.push_back({static_cast<double>(i), 1e3 * r.point.x, 1e3 * r.point.y, 1e3 * r.contact.x, 1e3 * r.contact.y, 1e6 * r.error_m});
+    contacts.rows.push_back({static_cast<double>(i), 1e3 * r.point.x, 1e3 * r.point.y, 1e3 * r.contact.x,
+                             1e3 * r.contact.y, 1e6 * r.error_m});
   }
-  figure.data = {{"", contacts}, {"-lines", lines}, {"-polygon", polygon_table(curve.polygon())}, {"-curve", curve_table(curve)},
+  figure.data = {{"", contacts},
+                 {"-lines", lines},
+                 {"-polygon", polygon_table(curve.polygon())},
+                 {"-curve", curve_table(curve)},
                  {"-finger", circle_table(flat(now.finger.position), preset.finger.radius_m)}};
   figure.script = std::string(kPicture) + R"(set xrange [-48:56]
 set yrange [88:150]
@@ -96,8 +108,20 @@ plot N.'-finger.csv' using 1:2 skip 1 with filledcurves lc rgb '#f3e3d8' notitle
 }
 
 Figure patches_figure() {
-  Figure figure{.name = "fig15-patches", .title = "polygon, smooth curve and patches; one vertex given twice", .width_px = 820, .height_px = 480};
-  const PlanarCurve curve = curve_of({"outline", {{-0.060, 0.0}, {-0.045, 0.030}, {-0.015, 0.042}, {0.008, 0.018}, {0.030, 0.022}, {0.042, 0.046}, {0.042, 0.046}, {0.066, 0.008}}, false});
+  Figure figure{.name = "fig15-patches",
+                .title = "polygon, smooth curve and patches; one vertex given twice",
+                .width_px = 820,
+                .height_px = 480};
+  const PlanarCurve curve = curve_of({"outline",
+                                      {{-0.060, 0.0},
+                                       {-0.045, 0.030},
+                                       {-0.015, 0.042},
+                                       {0.008, 0.018},
+                                       {0.030, 0.022},
+                                       {0.042, 0.046},
+                                       {0.042, 0.046},
+                                       {0.066, 0.008}},
+                                      false});
   FigureTable even = points(), odd = points(), ends = points(), vertices = points();
   for (std::uint32_t i = 0; i < curve.patch_count(); ++i) {
     if (!curve.patch(i).straight) add_patch_region(curve, i, i % 2 ? odd : even);
@@ -105,7 +129,11 @@ Figure patches_figure() {
     ends.rows.push_back(mm(curve.origin() + curve.patch(i).last));
     vertices.rows.push_back(mm(curve.origin() + curve.patch(i).vertex));
   }
-  figure.data = {{"", curve_table(curve)}, {"-polygon", polygon_table(curve.polygon())}, {"-patches-even", even}, {"-patches-odd", odd}, {"-midpoints", ends}};
+  figure.data = {{"", curve_table(curve)},
+                 {"-polygon", polygon_table(curve.polygon())},
+                 {"-patches-even", even},
+                 {"-patches-odd", odd},
+                 {"-midpoints", ends}};
   figure.script = std::string(kPicture) + R"(set xrange [-66:72]
 set yrange [-4:62]
 N = DIR.'/fig15-patches'
@@ -121,7 +149,10 @@ plot N.'-patches-even.csv' using 1:2 skip 1 with filledcurves lc rgb '#cfe4f3' t
 }
 
 Figure local_centre_figure() {
-  Figure figure{.name = "fig17-local-centre", .title = "one patch: its local centre, and the tangent line at the contact's angle", .width_px = 720, .height_px = 580};
+  Figure figure{.name = "fig17-local-centre",
+                .title = "one patch: its local centre, and the tangent line at the contact's angle",
+                .width_px = 720,
+                .height_px = 580};
   const PlanarCurve curve = curve_of({"patch", {{-0.040, 0.0}, {-0.004, 0.030}, {0.046, 0.010}}, false});
   const CurvePatch& p = curve.patch(1);
   const double t = 0.62;
@@ -135,15 +166,23 @@ Figure local_centre_figure() {
     rays.part();
   }
   for (const double way : {-0.022, 0.022}) line.rows.push_back(world(s.place + way * s.direction));
-  for (const Vec2& v : {p.first, p.vertex, p.last, s.foot, p.vertex + t * (p.last - p.vertex), s.place, p.centre[0]}) named.rows.push_back(world(v));
-  figure.data = {{"", named}, {"-polygon", polygon_table(curve.polygon())}, {"-curve", curve_table(curve)}, {"-patch", region}, {"-rays", rays}, {"-line", line}};
+  for (const Vec2& v : {p.first, p.vertex, p.last, s.foot, p.vertex + t * (p.last - p.vertex), s.place, p.centre[0]})
+    named.rows.push_back(world(v));
+  figure.data = {{"", named},
+                 {"-polygon", polygon_table(curve.polygon())},
+                 {"-curve", curve_table(curve)},
+                 {"-patch", region},
+                 {"-rays", rays},
+                 {"-line", line}};
   const auto label = [&](const char* text, const Vec2& at, const char* how) {
     const auto v = world(at);
     return format("set label '%s' at %.6g,%.6g %s\n", text, v[0], v[1], how);
   };
-  figure.script = std::string(kPicture) + label("P_1", p.first, "right offset -0.8,0.6") + label("P_2", p.vertex, "center offset 0,0.9") +
-                  label("P_3", p.last, "left offset 0.8,0.6") + label("P_{12}", s.foot, "right offset -0.2,0.9") +
-                  label("P_{23}", p.vertex + t * (p.last - p.vertex), "left offset 0.5,0.9") + label("contact", s.place, "left offset 0.4,-1.0") +
+  figure.script = std::string(kPicture) + label("P_1", p.first, "right offset -0.8,0.6") +
+                  label("P_2", p.vertex, "center offset 0,0.9") + label("P_3", p.last, "left offset 0.8,0.6") +
+                  label("P_{12}", s.foot, "right offset -0.2,0.9") +
+                  label("P_{23}", p.vertex + t * (p.last - p.vertex), "left offset 0.5,0.9") +
+                  label("contact", s.place, "left offset 0.4,-1.0") +
                   label("local centre", p.centre[0], "left offset 1,0") + R"(set xrange [-46:52]
 set key left bottom
 set yrange [-36:40]

@@ -33,7 +33,8 @@ std::vector<Sample> slide(const PlanarCurve& curve, const Preset& preset) {
   std::vector<Sample> samples;
   TickState state;
   for (int i = 0; i <= kSteps; ++i) {
-    const double a = kPaperArcRad * (static_cast<double>(i) / kSteps - 0.5), distance = kPaperArcRadius + kRadius - kPress;
+    const double a = kPaperArcRad * (static_cast<double>(i) / kSteps - 0.5),
+                 distance = kPaperArcRadius + kRadius - kPress;
     const TickInput input{1e-3 * i, {{distance * std::sin(a), distance * std::cos(a), 0.0}, Quat(1.0, 0.0, 0.0, 0.0)}};
     samples.push_back({kPaperArcRadius * a, a, step_planar(curve, preset, input, state, nullptr)});
   }
@@ -53,7 +54,8 @@ int threshold_segments(std::string_view condition) {
 }
 
 Figure contact_location_figure() {
-  Figure figure{.name = "fig04-contact-location", .title = "contact location on the finger over a smooth curve, two and three facets"};
+  Figure figure{.name = "fig04-contact-location",
+                .title = "contact location on the finger over a smooth curve, two and three facets"};
   FigureTable table{{"finger_travel_mm", "smooth_curve_mm", "two_facets_mm", "three_facets_mm"}, {}};
   Preset facet = figure_preset();
   facet.solver.method = Method::facet;
@@ -61,7 +63,8 @@ Figure contact_location_figure() {
   const auto two = slide(curve_of(make_paper_arc(2, ArcPlacement::tangent, 1)), facet);
   const auto three = slide(curve_of(make_paper_arc(3, ArcPlacement::tangent, 1)), facet);
   for (std::size_t i = 0; i < two.size(); ++i)
-    table.rows.push_back({1e3 * two[i].travel_m, -1e3 * kRadius * two[i].angle_rad, 1e3 * two[i].output.cld_m, 1e3 * three[i].output.cld_m});
+    table.rows.push_back({1e3 * two[i].travel_m, -1e3 * kRadius * two[i].angle_rad, 1e3 * two[i].output.cld_m,
+                          1e3 * three[i].output.cld_m});
   figure.data.push_back({"", std::move(table)});
   figure.script = R"(set xrange [-50:50]
 set xlabel 'finger travel along the arc (mm)'
@@ -76,10 +79,13 @@ plot F using 1:2 skip 1 with lines ls 8 title 'smooth curve (circle)', \
 }
 
 Figure conditions_figure(bool at_threshold) {
-  Figure figure{.name = at_threshold ? "conditions-at-threshold" : "conditions-five-segments",
-                .title = at_threshold ? "force direction and contact location of the six conditions, each at its threshold's segment count"
-                                      : "the same at five segments, where every condition can be told apart",
-                .width_px = 1180, .height_px = 560};
+  Figure figure{
+      .name = at_threshold ? "conditions-at-threshold" : "conditions-five-segments",
+      .title = at_threshold
+                   ? "force direction and contact location of the six conditions, each at its threshold's segment count"
+                   : "the same at five segments, where every condition can be told apart",
+      .width_px = 1180,
+      .height_px = 560};
   FigureTable table{{"travel_mm", "circle_deg", "circle_mm"}, {}};
   std::vector<std::vector<Sample>> runs;
   for (const RenderingCondition& condition : kRenderingConditions) {
@@ -101,10 +107,11 @@ Figure conditions_figure(bool at_threshold) {
     table.rows.push_back(std::move(row));
   }
   figure.data.push_back({"", std::move(table)});
-  figure.script = "F = DIR.'/" + figure.name + ".csv'\narray T[6] = [" ;
+  figure.script = "F = DIR.'/" + figure.name + ".csv'\narray T[6] = [";
   for (const RenderingCondition& condition : kRenderingConditions) {
     const int segments = at_threshold ? threshold_segments(condition.name) : 5;
-    figure.script += format("%s'%s, %d segments'", condition.name == "C1" ? "" : ", ", std::string(condition.name).c_str(), segments);
+    figure.script += format("%s'%s, %d segments'", condition.name == "C1" ? "" : ", ",
+                            std::string(condition.name).c_str(), segments);
   }
   figure.script += R"(]
 set multiplot
@@ -140,21 +147,25 @@ unset multiplot
 }
 
 Figure curvature_figure() {
-  Figure figure{.name = "curvature-deviation", .title = "curvature of the rendered curve against the circle's, five segments; with the table"};
+  Figure figure{.name = "curvature-deviation",
+                .title = "curvature of the rendered curve against the circle's, five segments; with the table"};
   FigureTable curve_table{{"t", "tangent_percent", "inscribed_percent"}, {}};
-  const PlanarCurve tangent_arc = curve_of(make_paper_arc(5)), inscribed = curve_of(make_paper_arc(5, ArcPlacement::inscribed));
+  const PlanarCurve tangent_arc = curve_of(make_paper_arc(5)),
+                    inscribed = curve_of(make_paper_arc(5, ArcPlacement::inscribed));
   const auto percent = [](const PlanarCurve& curve, std::uint32_t patch, double t) {
     return 100.0 * (rendered_curvature(curve.sample(patch, LocalCentre::bisectors, t)) * kPaperArcRadius - 1.0);
   };
   for (int i = 0; i <= 300; ++i) {
     const double t = i / 100.0;
     const auto patch = static_cast<std::uint32_t>(std::min(2.0, t));
-    curve_table.rows.push_back({t, percent(tangent_arc, 2 + patch, t - patch), percent(inscribed, 2 + patch, t - patch)});
+    curve_table.rows.push_back(
+        {t, percent(tangent_arc, 2 + patch, t - patch), percent(inscribed, 2 + patch, t - patch)});
   }
   FigureTable table{{"segments", "placement_tangent", "centre_bisectors", "rms_percent", "largest_percent"}, {}};
   for (const DeviationRow& row : deviation_rows())
     table.rows.push_back({static_cast<double>(row.segments), row.placement == ArcPlacement::tangent ? 1.0 : 0.0,
-                          row.centre == LocalCentre::bisectors ? 1.0 : 0.0, 100.0 * row.deviation.rms, 100.0 * row.deviation.largest});
+                          row.centre == LocalCentre::bisectors ? 1.0 : 0.0, 100.0 * row.deviation.rms,
+                          100.0 * row.deviation.largest});
   figure.data.push_back({"", std::move(curve_table)});
   figure.data.push_back({"-table", std::move(table)});
   figure.script = R"(set xlabel 'parameter t, over three patches'
@@ -173,7 +184,8 @@ std::vector<DeviationRow> deviation_rows() {
   std::vector<DeviationRow> rows;
   for (const ArcPlacement placement : {ArcPlacement::tangent, ArcPlacement::inscribed})
     for (const LocalCentre centre : {LocalCentre::bisectors, LocalCentre::midpoint})
-      for (const int segments : {3, 5, 9, 16}) rows.push_back({segments, placement, centre, curvature_deviation(segments, placement, centre)});
+      for (const int segments : {3, 5, 9, 16})
+        rows.push_back({segments, placement, centre, curvature_deviation(segments, placement, centre)});
   return rows;
 }
 

@@ -54,8 +54,10 @@ int draw_builtin_pictures(const std::string& reason) {
     }
     names += (names.empty() ? "" : ", ") + file.filename().string();
   }
-  std::fputs(format("%s; pictures of the built-in scene instead: %s in %s\n", reason.c_str(), names.c_str(),
-                    directory.c_str()).c_str(), stdout);
+  std::fputs(
+      format("%s; pictures of the built-in scene instead: %s in %s\n", reason.c_str(), names.c_str(), directory.c_str())
+          .c_str(),
+      stdout);
   return kDone;
 }
 
@@ -72,10 +74,11 @@ void add_gui_command(CLI::App& app, CommandResult& result) {
   CLI::App* command = app.add_subcommand("gui", "Open the window");
   auto options = std::make_shared<GuiOptions>();
   add_mesh_options(*command, options->mesh, false);
-  command->add_option("--preset", options->app.preset, "Preset to start with (default: the shipped one)")->type_name("F.toml");
+  command->add_option("--preset", options->app.preset, "Preset to start with (default: the shipped one)")
+      ->type_name("F.toml");
   add_device_options(*command, options->devices);
-  add_number_option(*command, "--servo-hz", {.min = kSlowestServoHz, .max = kFastestServoHz, .unit = "Hz"}, "Rate of the servo (default 1000)",
-                    [options](double hz) { options->app.servo_hz = hz; });
+  add_number_option(*command, "--servo-hz", {.min = kSlowestServoHz, .max = kFastestServoHz, .unit = "Hz"},
+                    "Rate of the servo (default 1000)", [options](double hz) { options->app.servo_hz = hz; });
   add_number_option(*command, "--history-minutes", {.min = 0.1, .max = 120.0, .unit = "min"},
                     "Minutes of ticks to look back at, within 1 GiB: 30 at 1 kHz (default 10)",
                     [options](double minutes) { options->app.history_s = 60.0 * minutes; });

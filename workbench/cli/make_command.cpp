@@ -35,7 +35,9 @@ int run_make(const MakeOptions& options) {
     return kFailed;
   }
   std::fputs(format("%s: %s, %zu vertices, %zu faces\n", options.file.c_str(), options.object.c_str(),
-                    mesh->positions.size(), mesh->face_count()).c_str(), stdout);
+                    mesh->positions.size(), mesh->face_count())
+                 .c_str(),
+             stdout);
   return kDone;
 }
 

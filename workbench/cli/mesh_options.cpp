@@ -16,13 +16,16 @@ constexpr std::array<std::string_view, 3> kNormals{"auto", "file", "computed"}; 
 }  // namespace
 
 void add_unit_option(CLI::App& app, double& metres_per_unit, const std::string& doc) {
-  add_choice_option(app, "--unit", kUnits, doc, [&](int unit) {
-    metres_per_unit = kMetresPerUnit[static_cast<std::size_t>(unit)];
-  });
+  add_choice_option(app, "--unit", kUnits, doc,
+                    [&](int unit) { metres_per_unit = kMetresPerUnit[static_cast<std::size_t>(unit)]; });
 }
 
 void add_mesh_options(CLI::App& app, MeshOptions& options, bool mesh_required) {
-  app.add_option("MESH", options.file, "Mesh file: .obj, .ply, .stl or .off; for solve and gui also a polygon: .csv (x_m,y_m) or .obj with a line element")->required(mesh_required)->type_name("");
+  app.add_option("MESH", options.file,
+                 "Mesh file: .obj, .ply, .stl or .off; for solve and gui also a polygon: .csv (x_m,y_m) or .obj with a "
+                 "line element")
+      ->required(mesh_required)
+      ->type_name("");
   add_unit_option(app, options.metres_per_unit, "Unit of the file's coordinates (default mm)");
   add_number_option(app, "--fit-mm", {.min = 1e-3, .max = 1e9, .unit = "mm"},
                     "Bounding-box centre to the origin, longest side to this (default: as in the file)",

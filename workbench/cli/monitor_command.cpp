@@ -22,7 +22,7 @@ namespace {
 
 struct MonitorOptions {
   DeviceChoice devices;
-  double seconds = 0.0;    ///< 0: until q or Ctrl-C
+  double seconds = 0.0;  ///< 0: until q or Ctrl-C
   double servo_hz = 1000.0;
   std::string inject;
   bool inject_display = false, stay_stopped = false;
@@ -58,12 +58,22 @@ class Keys {
 /// False: quit.
 bool handle(char key, Session& session) {
   switch (key) {
-    case 'q': return false;
-    case 'a': session.arm(); break;
-    case 's': session.stop(); break;
-    case 'h': session.home(); break;
-    case 'r': std::printf("\n%s", monitor_report(session).c_str()); break;
-    default: break;
+    case 'q':
+      return false;
+    case 'a':
+      session.arm();
+      break;
+    case 's':
+      session.stop();
+      break;
+    case 'h':
+      session.home();
+      break;
+    case 'r':
+      std::printf("\n%s", monitor_report(session).c_str());
+      break;
+    default:
+      break;
   }
   return true;
 }
@@ -133,12 +143,16 @@ void add_monitor_command(CLI::App& app, CommandResult& result) {
   CLI::App* command = app.add_subcommand("monitor", "Devices, rates and the safety gate, live in the terminal");
   auto options = std::make_shared<MonitorOptions>();
   add_device_options(*command, options->devices);
-  add_number_option(*command, "--seconds", {.min = 0, .max = 86400, .unit = "s"}, "How long (default: until q or Ctrl-C)",
-                    [options](double v) { options->seconds = v; });
-  add_number_option(*command, "--servo-hz", {.min = kSlowestServoHz, .max = kFastestServoHz, .unit = "Hz"}, "Rate of the servo (default 1000)",
-                    [options](double v) { options->servo_hz = v; });
-  command->add_option("--inject", options->inject, "Fault to give the simulated device once armed: drop-out, stuck-encoder, delay-burst or noise")->type_name("FAULT");
-  command->add_flag("--inject-display", options->inject_display, "Give it to the contact display instead of the force device");
+  add_number_option(*command, "--seconds", {.min = 0, .max = 86400, .unit = "s"},
+                    "How long (default: until q or Ctrl-C)", [options](double v) { options->seconds = v; });
+  add_number_option(*command, "--servo-hz", {.min = kSlowestServoHz, .max = kFastestServoHz, .unit = "Hz"},
+                    "Rate of the servo (default 1000)", [options](double v) { options->servo_hz = v; });
+  command
+      ->add_option("--inject", options->inject,
+                   "Fault to give the simulated device once armed: drop-out, stuck-encoder, delay-burst or noise")
+      ->type_name("FAULT");
+  command->add_flag("--inject-display", options->inject_display,
+                    "Give it to the contact display instead of the force device");
   command->add_flag("--stay-stopped", options->stay_stopped, "No force until a is pressed");
   command->callback([options, &result] {
     const Status status = run_monitor(*options);

@@ -13,8 +13,10 @@ void add_key_option(CLI::App& app, const PresetKey& key, PresetOptions& options)
     add_choice_option(app, name, key.choices, std::string(key.doc), set);
     return;
   }
-  const NumberRange range{.min = key.min * key.option_per_si, .max = key.max * key.option_per_si,
-                          .unit = key.option_unit, .whole = key.kind == KeyKind::integer};
+  const NumberRange range{.min = key.min * key.option_per_si,
+                          .max = key.max * key.option_per_si,
+                          .unit = key.option_unit,
+                          .whole = key.kind == KeyKind::integer};
   std::string doc(key.doc);
   if (key.option == "finger-radius-mm") doc += " 0: a point finger.";
   // Dividing by a whole number rounds once: 1.1 mm becomes the double nearest to 0.0011 m.
@@ -34,10 +36,12 @@ void apply_override(Preset& preset, const PresetKey& key, double value) {
 }  // namespace
 
 void add_preset_options(CLI::App& app, PresetOptions& options) {
-  app.add_option("--preset", options.file, "Tuning preset to start from (default: built-in values)")->type_name("F.toml");
-  add_choice_option(app, "--condition", kConditionNames,
-                    "Rendering condition of the paper: sources of force and tactile display (default: the method's own)",
-                    [&](int index) { options.condition = index; });
+  app.add_option("--preset", options.file, "Tuning preset to start from (default: built-in values)")
+      ->type_name("F.toml");
+  add_choice_option(
+      app, "--condition", kConditionNames,
+      "Rendering condition of the paper: sources of force and tactile display (default: the method's own)",
+      [&](int index) { options.condition = index; });
   for (const PresetKey& key : preset_keys()) {
     if (!key.option.empty()) add_key_option(app, key, options);
   }

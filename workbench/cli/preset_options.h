@@ -13,8 +13,8 @@
 namespace tangent {
 
 struct PresetOptions {
-  std::filesystem::path file;                                ///< empty: the defaults
-  int condition = -1;                                        ///< index into kRenderingConditions; -1: none named
+  std::filesystem::path file;                                  ///< empty: the defaults
+  int condition = -1;                                          ///< index into kRenderingConditions; -1: none named
   std::vector<std::pair<const PresetKey*, double>> overrides;  ///< SI
 };
 

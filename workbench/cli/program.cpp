@@ -12,11 +12,10 @@ namespace {
 using AddCommand = void (*)(CLI::App&, CommandResult&);
 constexpr AddCommand kCommands[]{
 #ifdef TANGENT_HAS_GUI
-    add_gui_command, add_shot_command,
+    add_gui_command,     add_shot_command,
 #endif
-    add_solve_command, add_audit_command, add_make_command, add_bench_command, add_tune_command, add_figures_command,
-    add_decimate_command,
-    add_devices_command, add_monitor_command};
+    add_solve_command,   add_audit_command,    add_make_command,    add_bench_command,  add_tune_command,
+    add_figures_command, add_decimate_command, add_devices_command, add_monitor_command};
 
 std::string chosen_command(const CLI::App& app) {
   const std::vector<CLI::App*> chosen = app.get_subcommands();

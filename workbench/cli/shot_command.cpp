@@ -34,7 +34,8 @@ Status write_shot(const ShotRequest& request, const std::filesystem::path& file)
   const Result<Image> picture = take_shot(request);
   if (!picture) return tl::unexpected(picture.error());
   if (Status written = write_png(*picture, file); !written) return written;
-  std::fputs(format("%s: %s, %d x %d\n", file.c_str(), request.view.c_str(), picture->width, picture->height).c_str(), stdout);
+  std::fputs(format("%s: %s, %d x %d\n", file.c_str(), request.view.c_str(), picture->width, picture->height).c_str(),
+             stdout);
   return {};
 }
 
@@ -50,7 +51,8 @@ int run_shot(const ShotOptions& options) {
   const auto& views = shot_views();
   const bool all = request.view == "all";
   if (!all && std::none_of(views.begin(), views.end(), [&](const ShotView& v) { return v.name == request.view; })) {
-    print_message("shot", "there is no view \"" + request.view + "\"; choose one of: " + shot_view_names() + " (or list, all)");
+    print_message("shot",
+                  "there is no view \"" + request.view + "\"; choose one of: " + shot_view_names() + " (or list, all)");
     return kUsage;
   }
   if (options.file.empty()) {
@@ -72,19 +74,21 @@ int run_shot(const ShotOptions& options) {
 }  // namespace
 
 void add_shot_command(CLI::App& app, CommandResult& result) {
-  CLI::App* command = app.add_subcommand("shot", "Write a view of the window or of the 3D scene as PNG; needs no display");
+  CLI::App* command =
+      app.add_subcommand("shot", "Write a view of the window or of the 3D scene as PNG; needs no display");
   auto options = std::make_shared<ShotOptions>();
   ShotRequest* request = &options->request;
   add_mesh_options(*command, options->mesh, false);
   command->add_option("--view", request->view, "Name of the view; list: names them all; all: every one")
-      ->required()->type_name("NAME");
+      ->required()
+      ->type_name("NAME");
   command->add_option("--out", options->file, "File to write; with --view all: a directory")->type_name("F.png");
   command->add_option("--preset", request->preset, "Preset of the window's views (default: the program's own values)")
       ->type_name("F.toml");
-  add_number_option(*command, "--width", {.min = 64, .max = 8192, .unit = "pixels", .whole = true}, "Width (default 1280)",
-                    [request](double n) { request->width_px = static_cast<int>(n); });
-  add_number_option(*command, "--height", {.min = 64, .max = 8192, .unit = "pixels", .whole = true}, "Height (default 720)",
-                    [request](double n) { request->height_px = static_cast<int>(n); });
+  add_number_option(*command, "--width", {.min = 64, .max = 8192, .unit = "pixels", .whole = true},
+                    "Width (default 1280)", [request](double n) { request->width_px = static_cast<int>(n); });
+  add_number_option(*command, "--height", {.min = 64, .max = 8192, .unit = "pixels", .whole = true},
+                    "Height (default 720)", [request](double n) { request->height_px = static_cast<int>(n); });
   add_number_option(*command, "--scale", {.min = 0.5, .max = 4.0},
                     "Size of text and lines; 2 for a HiDPI picture (default 1; views of the scene: height / 720)",
                     [request](double scale) { request->scale = scale; });

@@ -138,8 +138,8 @@ Status solve(const SolveOptions& options, bool& interrupted) {
 /// Two outputs in one file, or an output over an input, would lose data.
 void refuse_shared_paths(const SolveOptions& options) {
   const std::pair<const char*, const std::filesystem::path*> files[]{
-    {"MESH", &options.mesh.file}, {"--poses", &options.poses},     {"--preset", &options.preset.file},
-    {"--out", &options.ticks},    {"--summary", &options.summary}, {"--iterations", &options.iterations}};
+      {"MESH", &options.mesh.file}, {"--poses", &options.poses},     {"--preset", &options.preset.file},
+      {"--out", &options.ticks},    {"--summary", &options.summary}, {"--iterations", &options.iterations}};
   constexpr std::size_t kInputs = 3;
   for (std::size_t i = kInputs; i < std::size(files); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
@@ -160,9 +160,11 @@ void add_solve_command(CLI::App& app, CommandResult& result) {
   auto options = std::make_shared<SolveOptions>();
   add_mesh_options(*command, options->mesh);
   command->add_option("--poses", options->poses, "Finger poses: t_s,x_m,y_m,z_m[,qw,qx,qy,qz]")
-      ->required()->type_name("F.csv");
+      ->required()
+      ->type_name("F.csv");
   command->add_option("--out", options->ticks, "Ticks: contact, force, display, iterations, time")
-      ->required()->type_name("F.csv");
+      ->required()
+      ->type_name("F.csv");
   command->add_option("--summary", options->summary, "Counts and percentiles of the run")->type_name("F.json");
   command->add_option("--iterations", options->iterations, "Every tangent plane of every tick")->type_name("F.csv");
   add_preset_options(*command, options->preset);

@@ -20,9 +20,12 @@ Json to_json(const Preset& preset) {
   for (const PresetKey& key : preset_keys()) {
     Json& slot = out[std::string(key.table)][std::string(key.key)];
     const double value = key.get(preset);
-    if (key.kind == KeyKind::choice) slot = key.value_text(value);
-    else if (key.kind == KeyKind::integer) slot = static_cast<int>(value);
-    else slot = value;
+    if (key.kind == KeyKind::choice)
+      slot = key.value_text(value);
+    else if (key.kind == KeyKind::integer)
+      slot = static_cast<int>(value);
+    else
+      slot = value;
   }
   return out;
 }
@@ -55,8 +58,10 @@ std::string size_text(const SolveReport& report) {
 
 std::string finger_text(const Finger& finger) {
   switch (finger.shape) {
-    case FingerShape::point: return "point finger";
-    case FingerShape::sphere: return format("sphere finger of %g mm", finger.radius_m * 1e3);
+    case FingerShape::point:
+      return "point finger";
+    case FingerShape::sphere:
+      return format("sphere finger of %g mm", finger.radius_m * 1e3);
     case FingerShape::ellipsoid:
       return format("ellipsoid finger of %g, %g, %g mm", finger.semi_axes_m.x * 1e3, finger.semi_axes_m.y * 1e3,
                     finger.semi_axes_m.z * 1e3);
@@ -100,21 +105,25 @@ Json solve_json(const SolveReport& report) {
     scene["closed"] = report.planar->closed();
   }
   return {
-    {"program_version", TANGENT_VERSION},
-    {"scene", scene},
-    {"mesh", {{"name", mesh.name()}, {"hash", hash_text(mesh.content_hash())},
-              {"triangles", mesh.triangle_count()}, {"usable_triangles", mesh.usable_triangle_count()},
-              {"defects", defects_json(mesh)}, {"notes", mesh.notes()}}},
-    {"poses", {{"name", report.poses_name}, {"count", report.poses}}},
-    {"preset", {{"name", report.preset_name}, {"values", to_json(report.preset.preset)}}},
-    {"interrupted", report.interrupted},
-    {"ticks", s.ticks()},
-    {"statuses", counts_json(s, kTickStatuses)},
-    {"events", counts_json(s, kTickEvents)},
-    {"iterations", {{"all", to_json(s.iterations())}, {"event_free", to_json(s.event_free_iterations())}}},
-    {"max_error_m", s.max_error_m()},
-    {"solve_ns", to_json(s.solve_ns())},
-    {"seconds", {{"load", report.load_seconds}, {"solve", report.solve_seconds}}},
+      {"program_version", TANGENT_VERSION},
+      {"scene", scene},
+      {"mesh",
+       {{"name", mesh.name()},
+        {"hash", hash_text(mesh.content_hash())},
+        {"triangles", mesh.triangle_count()},
+        {"usable_triangles", mesh.usable_triangle_count()},
+        {"defects", defects_json(mesh)},
+        {"notes", mesh.notes()}}},
+      {"poses", {{"name", report.poses_name}, {"count", report.poses}}},
+      {"preset", {{"name", report.preset_name}, {"values", to_json(report.preset.preset)}}},
+      {"interrupted", report.interrupted},
+      {"ticks", s.ticks()},
+      {"statuses", counts_json(s, kTickStatuses)},
+      {"events", counts_json(s, kTickEvents)},
+      {"iterations", {{"all", to_json(s.iterations())}, {"event_free", to_json(s.event_free_iterations())}}},
+      {"max_error_m", s.max_error_m()},
+      {"solve_ns", to_json(s.solve_ns())},
+      {"seconds", {{"load", report.load_seconds}, {"solve", report.solve_seconds}}},
   };
 }
 

@@ -16,12 +16,12 @@ struct SolveReport {
   const ContactMesh* mesh = nullptr;
   const PlanarCurve* planar = nullptr;  ///< of a 2D scene; `mesh` is then its ribbon
   PresetFile preset;
-  std::string preset_name;          ///< file, or "built-in values"
+  std::string preset_name;  ///< file, or "built-in values"
   std::string poses_name;
   std::uint64_t poses = 0;
   bool interrupted = false;
-  double load_seconds = 0.0;        ///< poses, mesh, query structure
-  double solve_seconds = 0.0;       ///< ticks and their output
+  double load_seconds = 0.0;   ///< poses, mesh, query structure
+  double solve_seconds = 0.0;  ///< ticks and their output
   SolveStatistics statistics;
 };
 

@@ -71,9 +71,9 @@ Result<std::vector<TickInput>> find_poses(const TuneOptions& options, const Cont
     return read_poses(options.poses);
   }
   ExplorationPoses explored = exploration_poses(scene, report.preset.preset.finger);
-  report.poses = format("exploration path, %g m/s, %g mm deep, %.3g of %.3g m", kExplorationSpeed, explored.press_m * 1e3,
-                        kExplorationSpeed * kExplorationTick * static_cast<double>(explored.poses.size()),
-                        explored.length_m);
+  report.poses =
+      format("exploration path, %g m/s, %g mm deep, %.3g of %.3g m", kExplorationSpeed, explored.press_m * 1e3,
+             kExplorationSpeed * kExplorationTick * static_cast<double>(explored.poses.size()), explored.length_m);
   return std::move(explored.poses);
 }
 
@@ -95,7 +95,8 @@ MethodRun run_method(const std::shared_ptr<const ContactScene>& scene, Preset pr
   return run;
 }
 
-GainTuning tune(const std::shared_ptr<const ContactScene>& scene, const Preset& base, std::span<const TickInput> poses) {
+GainTuning tune(const std::shared_ptr<const ContactScene>& scene, const Preset& base,
+                std::span<const TickInput> poses) {
   const GainGrid grid = make_gain_grid(gain_length(*scene, base.finger));
   Progress progress("gains tried", grid.coarse.size());
   return tune_gains(scene, base, poses, grid, [&progress](std::size_t done, std::size_t planned) {
@@ -152,7 +153,8 @@ void check_usage(const TuneOptions& options) {
     if (key->key != "method" || value <= static_cast<double>(Method::robust)) continue;
     throw CLI::ValidationError("--method", key->value_text(value) + " has no gains; allowed: paper, newton or robust");
   }
-  const std::pair<const char*, const std::filesystem::path*> inputs[]{{"MESH", &options.mesh.file}, {"--poses", &options.poses}};
+  const std::pair<const char*, const std::filesystem::path*> inputs[]{{"MESH", &options.mesh.file},
+                                                                      {"--poses", &options.poses}};
   for (const auto& [name, path] : inputs) {
     std::error_code error;
     if (!path->empty() && (*path == options.out || std::filesystem::equivalent(*path, options.out, error)))
@@ -164,12 +166,14 @@ void check_usage(const TuneOptions& options) {
 
 void add_tune_command(CLI::App& app, CommandResult& result) {
   CLI::App* command = app.add_subcommand("tune", "Find the gains of the paper's iteration by measuring on a mesh");
-  command->footer("The gains are those of the paper's iteration (Eq. 1), whatever --method the preset is to use "
-                  "(default paper). Ctrl-C keeps the best so far.");
+  command->footer(
+      "The gains are those of the paper's iteration (Eq. 1), whatever --method the preset is to use "
+      "(default paper). Ctrl-C keeps the best so far.");
   auto options = std::make_shared<TuneOptions>();
   add_mesh_options(*command, options->mesh);
-  command->add_option("--poses", options->poses,
-                      "Finger poses: t_s,x_m,y_m,z_m[,qw,qx,qy,qz] (default: explores the mesh at 0.1 m/s, 1 mm deep)")
+  command
+      ->add_option("--poses", options->poses,
+                   "Finger poses: t_s,x_m,y_m,z_m[,qw,qx,qy,qz] (default: explores the mesh at 0.1 m/s, 1 mm deep)")
       ->type_name("F.csv");
   command->add_option("--out", options->out, "Preset to write")->required()->type_name("preset.toml");
   add_preset_options(*command, options->preset);

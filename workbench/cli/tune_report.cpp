@@ -29,10 +29,12 @@ std::string trial_line(const char* name, const GainTrial& trial) {
 
 std::string run_line(const MethodRun& run) {
   const RunScore& s = run.score;
-  return format("%-8s mean %.3f  p99 %d  max %d iterations, %llu unconverged, %llu reseeded, error at most %.6g um, "
-                "median %.2f us a tick\n", to_string(run.method), s.mean_iterations(), s.p99_iterations, s.max_iterations,
-                static_cast<unsigned long long>(s.unconverged), static_cast<unsigned long long>(s.reseeded),
-                s.max_error_m * 1e6, run.median_ns * 1e-3);
+  return format(
+      "%-8s mean %.3f  p99 %d  max %d iterations, %llu unconverged, %llu reseeded, error at most %.6g um, "
+      "median %.2f us a tick\n",
+      to_string(run.method), s.mean_iterations(), s.p99_iterations, s.max_iterations,
+      static_cast<unsigned long long>(s.unconverged), static_cast<unsigned long long>(s.reseeded), s.max_error_m * 1e6,
+      run.median_ns * 1e-3);
 }
 
 std::string ground_lines(const MethodRun& run) {
@@ -58,35 +60,34 @@ void describe_measurement(TuneReport& report) {
                                      : "Gains of the paper's iteration, tuned by measuring.";
   const auto count = [](auto n) { return static_cast<double>(n); };
   const RunScore& own = report.own.score;
-  about.measured = {
-    {"command", report.command},
-    {"poses", report.poses},
-    {"ticks", count(own.ticks)},
-    {"mean_iterations", rounded(own.mean_iterations(), 1e4)},
-    {"p99_iterations", count(own.p99_iterations)},
-    {"max_iterations", count(own.max_iterations)},
-    {"unconverged_ticks", count(own.unconverged)},
-    {"reseeded_ticks", count(own.reseeded)},
-    {"max_error_um", rounded(own.max_error_m * 1e6, 1e9)},
-    {"median_solve_ns", rounded(report.own.median_ns, 1.0)}};
+  about.measured = {{"command", report.command},
+                    {"poses", report.poses},
+                    {"ticks", count(own.ticks)},
+                    {"mean_iterations", rounded(own.mean_iterations(), 1e4)},
+                    {"p99_iterations", count(own.p99_iterations)},
+                    {"max_iterations", count(own.max_iterations)},
+                    {"unconverged_ticks", count(own.unconverged)},
+                    {"reseeded_ticks", count(own.reseeded)},
+                    {"max_error_um", rounded(own.max_error_m * 1e6, 1e9)},
+                    {"median_solve_ns", rounded(report.own.median_ns, 1.0)}};
   for (const Ground ground : kGrounds) {
     if (report.own.grounds.share(ground) == 0.0) continue;
     const std::string name = to_string(ground);
     about.measured.emplace_back(name + "_ground_share", rounded(report.own.grounds.share(ground), 1e4));
-    about.measured.emplace_back(name + "_ground_mean_iterations", rounded(report.own.grounds.mean_iterations(ground), 1e4));
+    about.measured.emplace_back(name + "_ground_mean_iterations",
+                                rounded(report.own.grounds.mean_iterations(ground), 1e4));
   }
   for (const MethodRun& run : report.others) {
     const std::string name = to_string(run.method);
-    about.measured.insert(about.measured.end(), {
-      {name + "_mean_iterations", rounded(run.score.mean_iterations(), 1e4)},
-      {name + "_p99_iterations", count(run.score.p99_iterations)},
-      {name + "_unconverged_ticks", count(run.score.unconverged)},
-      {name + "_median_solve_ns", rounded(run.median_ns, 1.0)}});
+    about.measured.insert(about.measured.end(), {{name + "_mean_iterations", rounded(run.score.mean_iterations(), 1e4)},
+                                                 {name + "_p99_iterations", count(run.score.p99_iterations)},
+                                                 {name + "_unconverged_ticks", count(run.score.unconverged)},
+                                                 {name + "_median_solve_ns", rounded(run.median_ns, 1.0)}});
   }
   if (report.tuning.untuned.score.ticks == 0) return;
-  about.measured.insert(about.measured.end(), {
-    {"untuned_mean_iterations", rounded(report.tuning.untuned.score.mean_iterations(), 1e4)},
-    {"untuned_unconverged_ticks", count(report.tuning.untuned.score.unconverged)}});
+  about.measured.insert(about.measured.end(),
+                        {{"untuned_mean_iterations", rounded(report.tuning.untuned.score.mean_iterations(), 1e4)},
+                         {"untuned_unconverged_ticks", count(report.tuning.untuned.score.unconverged)}});
 }
 
 std::string tune_text(const TuneReport& report) {

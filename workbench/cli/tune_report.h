@@ -21,11 +21,11 @@ struct MethodRun {
 
 struct TuneReport {
   const ContactMesh* mesh = nullptr;
-  PresetFile preset;            ///< as it will be written
-  std::string poses;            ///< what they are, in words
-  std::string command;          ///< that was run
+  PresetFile preset;    ///< as it will be written
+  std::string poses;    ///< what they are, in words
+  std::string command;  ///< that was run
   GainTuning tuning;
-  MethodRun own;                ///< the preset's method
+  MethodRun own;                  ///< the preset's method
   std::vector<MethodRun> others;  ///< the other two of paper, newton and robust
 };
 

@@ -41,8 +41,9 @@ struct App::Ui {
 
 namespace {
 
-constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
-                                    ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNav;
+constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus |
+                                    ImGuiWindowFlags_NoNav;
 
 }  // namespace
 
@@ -84,7 +85,9 @@ void App::Ui::draw_splitters(const UiContext& ui, AppModel& model, const Layout&
     tooltip(ui, "Drag: more room for one side");
     const bool lit = ImGui::IsItemHovered() || ImGui::IsItemActive();
     if (lit) ImGui::SetMouseCursor(vertical ? ImGuiMouseCursor_ResizeEW : ImGuiMouseCursor_ResizeNS);
-    if (lit) ImGui::GetWindowDrawList()->AddRectFilled({rect.x, rect.y}, {rect.right(), rect.bottom()}, ui.colours.accent_soft);
+    if (lit)
+      ImGui::GetWindowDrawList()->AddRectFilled({rect.x, rect.y}, {rect.right(), rect.bottom()},
+                                                ui.colours.accent_soft);
     const ImVec2 delta = ImGui::IsItemActive() ? ImGui::GetIO().MouseDelta : ImVec2(0, 0);
     ImGui::End();
     ImGui::PopStyleColor();
@@ -104,9 +107,10 @@ void App::Ui::draw_column(const char* name, const Rect& rect, const UiContext& u
   ImGui::SetNextWindowPos({rect.x, rect.y});
   ImGui::SetNextWindowSize({rect.w, rect.h});
   // The scroll bar keeps its room, so that nothing jumps when a section is folded.
-  constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove |
-                                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNav |
-                                     ImGuiWindowFlags_AlwaysVerticalScrollbar;
+  constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
+                                     ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove |
+                                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus |
+                                     ImGuiWindowFlags_NoNav | ImGuiWindowFlags_AlwaysVerticalScrollbar;
   bool& scrolls = left ? left_scrolls : right_scrolls;
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(ui.px(8), ui.px(4)));
   if (!scrolls) ImGui::PushStyleColor(ImGuiCol_ScrollbarGrab, IM_COL32_BLACK_TRANS);
@@ -135,14 +139,26 @@ void App::Ui::draw_column(const char* name, const Rect& rect, const UiContext& u
 void App::frame(const FrameInput& input) {
   const double begin = thread_cpu_ms();
   for (const std::string& file : input.dropped_files) {
-    if (std::filesystem::path(file).extension() == ".toml") model_->load_preset(file); else model_->open_mesh(file);
+    if (std::filesystem::path(file).extension() == ".toml")
+      model_->load_preset(file);
+    else
+      model_->open_mesh(file);
   }
   model_->update(input.now_s);
   const Theme theme = ui_->theme.value_or(model_->theme());
   const float scale = ui_->font_scale.value_or(1.0f);
   ui_->items.begin_frame();
   ImGui::NewFrame();
-  const UiContext ui{ui_->items, ui_->typing, ui_->resting, theme_colours(theme), palette(theme), ui_->fonts, model_->open_sections(), scale, input.now_s, &model_->section_wanted()};
+  const UiContext ui{ui_->items,
+                     ui_->typing,
+                     ui_->resting,
+                     theme_colours(theme),
+                     palette(theme),
+                     ui_->fonts,
+                     model_->open_sections(),
+                     scale,
+                     input.now_s,
+                     &model_->section_wanted()};
   const Layout layout = compute_layout(model_->sizes(), input.width, input.height, scale);
   handle_shortcuts(*model_, ui_->menu);
   model_->map().set_felt_angle(felt_angle_rad(*model_, ui_->perception));
@@ -156,8 +172,10 @@ void App::frame(const FrameInput& input) {
   ui_->draw_splitters(ui, *model_, layout);
   draw_toasts(ui, *model_, layout.view);
   draw_menu_bar(ui, *model_, ui_->menu, layout.menu);
-  const Rect middle{layout.left.right(), layout.menu.bottom(), input.width - layout.left.right() - layout.right.w, layout.transport.y - layout.menu.bottom()};
-  draw_shortcut_sheet(ui, *model_, ui_->menu, {0.0f, layout.menu.bottom(), input.width, layout.transport.y - layout.menu.bottom()});
+  const Rect middle{layout.left.right(), layout.menu.bottom(), input.width - layout.left.right() - layout.right.w,
+                    layout.transport.y - layout.menu.bottom()};
+  draw_shortcut_sheet(ui, *model_, ui_->menu,
+                      {0.0f, layout.menu.bottom(), input.width, layout.transport.y - layout.menu.bottom()});
   draw_command_palette(ui, *model_, ui_->menu, middle);
   if (!ImGui::IsAnyItemActive()) model_->end_gesture();
   ImGui::Render();
@@ -175,17 +193,20 @@ bool App::wants_close() const { return model_->wants_close(); }
 
 bool App::wants_frames() const {
   const bool refining = ui_->renderer != nullptr && ui_->renderer->refining();
-  return !model_->paused() || model_->loading() || model_->auditing() || model_->map().running() || model_->time_machine().busy() || refining;
+  return !model_->paused() || model_->loading() || model_->auditing() || model_->map().running() ||
+         model_->time_machine().busy() || refining;
 }
 
 std::optional<std::filesystem::path> App::take_screenshot_request() { return model_->take_screenshot_request(); }
 
 std::string App::title() const {
   const auto& scene = model_->scene();
-  std::string text = scene != nullptr ? std::filesystem::path(scene->mesh().name()).filename().string() : std::string("no mesh");
+  std::string text =
+      scene != nullptr ? std::filesystem::path(scene->mesh().name()).filename().string() : std::string("no mesh");
   text += " - " + model_->presets().name() + (model_->presets().changed() ? "*" : "");
   const ServoRecord* record = model_->tick().record();
-  if (model_->paused() && record != nullptr) text += printed(" - paused at %.3f s", static_cast<double>(record->tick.tick) * model_->tick_period_s());
+  if (model_->paused() && record != nullptr)
+    text += printed(" - paused at %.3f s", static_cast<double>(record->tick.tick) * model_->tick_period_s());
   return text + " - Tangent Workbench";
 }
 

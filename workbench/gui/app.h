@@ -32,21 +32,21 @@ enum class PlotsMode : std::uint8_t;
 class SceneRenderer;
 
 struct AppOptions {
-  std::string mesh;                     ///< a file, or the name of a generated object; empty: the built-in scene
-  double metres_per_unit = 1e-3;        ///< of the mesh file (--unit)
+  std::string mesh;               ///< a file, or the name of a generated object; empty: the built-in scene
+  double metres_per_unit = 1e-3;  ///< of the mesh file (--unit)
   ContactMeshOptions mesh_options;
   std::filesystem::path preset;         ///< empty: the shipped default
   std::filesystem::path preset_folder;  ///< listed in the presets panel; empty: where `preset` is, or the shipped ones
   std::string device = "simulated";
-  MaestroWish maestro;                  ///< for the device "maestro"
-  std::filesystem::path packets;        ///< USB packets are written here; empty: nowhere
-  double servo_hz = 1000.0;             ///< kSlowestServoHz to kFastestServoHz
-  std::filesystem::path settings;       ///< layout and look between runs are kept there; empty: not kept
-  std::filesystem::path screenshots;    ///< folder of F12's pictures; empty: the current one
-  double history_s = 600.0;             ///< ticks kept, within kLargestHistoryBytes
-  std::filesystem::path record;         ///< recording to write; empty: none
+  MaestroWish maestro;                ///< for the device "maestro"
+  std::filesystem::path packets;      ///< USB packets are written here; empty: nowhere
+  double servo_hz = 1000.0;           ///< kSlowestServoHz to kFastestServoHz
+  std::filesystem::path settings;     ///< layout and look between runs are kept there; empty: not kept
+  std::filesystem::path screenshots;  ///< folder of F12's pictures; empty: the current one
+  double history_s = 600.0;           ///< ticks kept, within kLargestHistoryBytes
+  std::filesystem::path record;       ///< recording to write; empty: none
   Theme theme = Theme::dark;
-  std::uint64_t seed = 1;               ///< of the simulated devices
+  std::uint64_t seed = 1;  ///< of the simulated devices
   /// No servo thread: `advance` steps the session, on the caller's thread, with a time of its own, so that
   /// the same calls give the same picture. For pictures and tests.
   bool deterministic = false;
@@ -79,14 +79,14 @@ class App {
   /// ImGui::NewFrame, the whole window, ImGui::Render.
   void frame(const FrameInput& input);
 
-  void show_plots(PlotsMode mode, bool values);   ///< as their buttons do
+  void show_plots(PlotsMode mode, bool values);  ///< as their buttons do
 
   /// Deterministic mode: `ticks` servo ticks, now. Otherwise nothing.
   void advance(std::uint64_t ticks);
 
-  bool wants_close() const;    ///< file > quit was chosen
-  bool wants_frames() const;   ///< something moves by itself: draw again without waiting for input
-  std::string title() const;   ///< for the window: mesh, preset, time in view while paused
+  bool wants_close() const;   ///< file > quit was chosen
+  bool wants_frames() const;  ///< something moves by itself: draw again without waiting for input
+  std::string title() const;  ///< for the window: mesh, preset, time in view while paused
   /// Where the frame just drawn is to be written as a PNG, once for each request; the platform has the pixels.
   std::optional<std::filesystem::path> take_screenshot_request();
 

@@ -14,7 +14,8 @@ namespace {
 
 /// As many ticks as the session keeps.
 std::size_t plotted_ticks(double history_s, double servo_hz) {
-  return static_cast<std::size_t>(std::min(history_s * servo_hz, static_cast<double>(kLargestHistoryBytes / sizeof(ServoRecord))));
+  return static_cast<std::size_t>(
+      std::min(history_s * servo_hz, static_cast<double>(kLargestHistoryBytes / sizeof(ServoRecord))));
 }
 constexpr const char* kBuiltInScene = "torus";
 constexpr double kSettingsEvery_s = 2.0;
@@ -38,17 +39,21 @@ std::string hex16(std::uint64_t value) {
 }  // namespace
 
 AppModel::AppModel(const AppOptions& options)
-    : options_(options), store_(kChannelCount, plotted_ticks(options.history_s, options.servo_hz)),
-      time_machine_(options.deterministic ? 0u : std::max(1u, std::thread::hardware_concurrency())), theme_(options.theme) {
+    : options_(options),
+      store_(kChannelCount, plotted_ticks(options.history_s, options.servo_hz)),
+      time_machine_(options.deterministic ? 0u : std::max(1u, std::thread::hardware_concurrency())),
+      theme_(options.theme) {
   if (!options_.screenshots.empty()) export_folder_ = options_.screenshots;
   preset_folder_ = options_.preset_folder;
   // A preset brings its neighbours with it.
   if (preset_folder_.empty() && options_.preset.has_parent_path()) preset_folder_ = options_.preset.parent_path();
-  if (preset_folder_.empty()) preset_folder_ = options_.preset.empty() ? std::filesystem::path(TANGENT_PRESET_DIR) : ".";
+  if (preset_folder_.empty())
+    preset_folder_ = options_.preset.empty() ? std::filesystem::path(TANGENT_PRESET_DIR) : ".";
   take_settings();
   refresh_preset_files();
   if (!options_.preset.empty()) load_preset(options_.preset);
-  if (!options_.record.empty()) say(Severity::warning, "recording to a file is not there yet; " + options_.record.string() + " is not written");
+  if (!options_.record.empty())
+    say(Severity::warning, "recording to a file is not there yet; " + options_.record.string() + " is not written");
   open_mesh(options_.mesh.empty() ? kBuiltInScene : options_.mesh);
   if (scene_ == nullptr && !loader_.busy()) open_mesh(kBuiltInScene);
 }
@@ -70,7 +75,8 @@ void AppModel::update(double now_s) {
   show_tick();
   if (now_s_ - settings_looked_at_s_ > kSettingsEvery_s) keep_settings();
   // A 2D scene has no mesh to lay a map on.
-  map_.update(scene_ != nullptr && scene_->planar() != nullptr ? nullptr : scene_, presets().current(), now_s_, slots_.gesture_open(), options_.deterministic);
+  map_.update(scene_ != nullptr && scene_->planar() != nullptr ? nullptr : scene_, presets().current(), now_s_,
+              slots_.gesture_open(), options_.deterministic);
 }
 
 void AppModel::advance(std::uint64_t ticks) {
@@ -88,7 +94,10 @@ void AppModel::open_mesh(const std::string& mesh) {
     return;
   }
   auto loaded = load_scene(request);
-  if (!loaded) say(Severity::error, loaded.error().message()); else take_scene(std::move(*loaded));
+  if (!loaded)
+    say(Severity::error, loaded.error().message());
+  else
+    take_scene(std::move(*loaded));
 }
 
 void AppModel::take_scene(LoadedScene loaded) {
@@ -108,10 +117,14 @@ void AppModel::take_scene(LoadedScene loaded) {
     warn_of_size();
   }
   for (const std::string& note : scene_->mesh().notes()) say(Severity::note, note);
-  if (session_ != nullptr) session_->set_scene(std::move(loaded.prepared));
-  else make_session();
-  if (options_.deterministic) report_ = report_on(*polygons_, scene_->mesh());
-  else loader_.request_audit(polygons_, scene_);
+  if (session_ != nullptr)
+    session_->set_scene(std::move(loaded.prepared));
+  else
+    make_session();
+  if (options_.deterministic)
+    report_ = report_on(*polygons_, scene_->mesh());
+  else
+    loader_.request_audit(polygons_, scene_);
 }
 
 std::filesystem::path AppModel::maestro_file() const {
@@ -161,10 +174,14 @@ void AppModel::keep_calibration() {
   const std::filesystem::path file = maestro_file();
   if (file.empty()) return;
   const std::string serial = attached_maestro();
-  if (serial.empty()) return say(Severity::note, "no Maestro with a serial number is attached: the calibration holds until the window closes");
+  if (serial.empty())
+    return say(Severity::note,
+               "no Maestro with a serial number is attached: the calibration holds until the window closes");
   const Status kept = keep_maestro_setup(file, serial, maestro_);
-  if (kept) say(Severity::note, "calibration of the Maestro " + serial + " kept in " + file.string());
-  else say(Severity::error, kept.error().message());
+  if (kept)
+    say(Severity::note, "calibration of the Maestro " + serial + " kept in " + file.string());
+  else
+    say(Severity::error, kept.error().message());
 }
 
 void AppModel::restart_session() {
@@ -205,7 +222,8 @@ void AppModel::look_at_place(const Vec3& point_world, const Vec3& normal, std::u
 }
 
 void AppModel::look_at_worst() {
-  if (map_.worst().empty()) return say(Severity::note, map_.on ? "no place is worse than the others" : "choose a map first");
+  if (map_.worst().empty())
+    return say(Severity::note, map_.on ? "no place is worse than the others" : "choose a map first");
   const MapPlace& place = map_.worst()[worst_shown_++ % map_.worst().size()];
   look_at_place(place.point_world, place.normal, place.triangle);
 }
@@ -233,7 +251,9 @@ void AppModel::set_condition(const RenderingCondition& condition) {
 void AppModel::slide_value(const PresetKey& key, double value) {
   const std::string name = key.full_name();
   const std::string what = name + " slid to " + display_with_unit(key, std::clamp(value, key.min, key.max));
-  if (slots_.apply(what, [&](PresetEditor& editor) { return editor.set(key, value); }, name)) send_preset(what);
+  if (slots_.apply(
+          what, [&](PresetEditor& editor) { return editor.set(key, value); }, name))
+    send_preset(what);
 }
 
 void AppModel::type_value(const PresetKey& key, const std::string& text) {
@@ -367,7 +387,10 @@ bool AppModel::stopped() const {
 
 void AppModel::toggle_stop() {
   if (session_ == nullptr) return;
-  if (stopped()) session_->arm(); else session_->stop();
+  if (stopped())
+    session_->arm();
+  else
+    session_->stop();
 }
 
 void AppModel::set_ui_scale(float scale) { ui_scale_ = std::clamp(scale, 0.6f, 3.0f); }

@@ -21,9 +21,9 @@
 #include "workbench/session/window_settings.h"
 
 #include <array>
-#include <map>
 #include <filesystem>
 #include <future>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -35,7 +35,15 @@ namespace tangent {
 
 /// Channels of the plots, SI.
 enum class Channel : std::uint8_t {
-  force_x, force_y, force_z, force_magnitude, cld_commanded, cld_measured, error, iterations, tick_time,
+  force_x,
+  force_y,
+  force_z,
+  force_magnitude,
+  cld_commanded,
+  cld_measured,
+  error,
+  iterations,
+  tick_time,
   event,  ///< EventRank as a number; gaps where nothing happened
   count_
 };
@@ -47,18 +55,18 @@ enum class EventRank : std::uint8_t { moved = 1, reseeded, unconverged, fault };
 /// A part of the window as a PNG file.
 struct PictureRequest {
   std::filesystem::path path;
-  Rect of;            ///< ImGui's coordinates
+  Rect of;  ///< ImGui's coordinates
 };
 
 /// The preset changed at this tick.
 struct ParameterMark {
   std::uint64_t tick = 0;
-  std::string text;   ///< "Curvature gain G_k 20 -> 13 mm", or how many keys
+  std::string text;  ///< "Curvature gain G_k 20 -> 13 mm", or how many keys
 };
 
 /// What of the mesh is being looked at.
 struct Inspection {
-  std::optional<FindingKind> kind;    ///< the finding shown
+  std::optional<FindingKind> kind;  ///< the finding shown
   std::size_t index = 0;
   std::vector<std::uint32_t> marked;  ///< its triangles, outlined in the view
 };
@@ -107,22 +115,22 @@ class AppModel {
   std::optional<double> fit_m() const { return options_.mesh_options.fit_m; }
   void set_mesh_unit(double metres_per_unit);      ///< of the file; reads it anew
   void set_mesh_fit(std::optional<double> fit_m);  ///< longest side; none: as in the file
-  void frame_scene();                       ///< camera on the whole mesh, beside what is drawn over the picture
+  void frame_scene();                              ///< camera on the whole mesh, beside what is drawn over the picture
   /// Turns the camera to a place on the surface, seen a little from the side, and picks the triangle.
   void look_at_place(const Vec3& point_world, const Vec3& normal, std::uint32_t triangle);
 
-  void look_at_worst();                     ///< of the map; again: the next worst
+  void look_at_worst();  ///< of the map; again: the next worst
   void look_from_standard(StandardView view);
   void set_y_up(bool y_up);
-  void copy_camera();                       ///< to the clipboard, as text
+  void copy_camera();  ///< to the clipboard, as text
   void paste_camera();
   double crease_angle_rad() const { return options_.mesh_options.crease_rad; }
-  void set_crease_angle(double rad);        ///< builds the mesh anew; the view stays
+  void set_crease_angle(double rad);  ///< builds the mesh anew; the view stays
   const Inspection& inspection() const { return inspection_; }
   void show_finding(FindingKind kind, std::size_t index);  ///< goes there and marks its triangles
-  void isolate_marked();                    ///< the marked triangles, or the picked one, and their neighbours
-  void isolate_part();                      ///< the connected part that holds one of them
-  void show_all();                          ///< no isolation, no marks
+  void isolate_marked();  ///< the marked triangles, or the picked one, and their neighbours
+  void isolate_part();    ///< the connected part that holds one of them
+  void show_all();        ///< no isolation, no marks
 
   // The map over the mesh.
   MapView& map() { return map_; }
@@ -140,7 +148,7 @@ class AppModel {
   void revert_value(const PresetKey& key);
   void revert_preset();
   void load_preset(const std::filesystem::path& path);
-  bool save_preset(const std::string& name);  ///< writes over one that is there; a message says where, or why not
+  bool save_preset(const std::string& name);       ///< writes over one that is there; a message says where, or why not
   bool has_preset(const std::string& name) const;  ///< a file of this name is in the folder
   const std::filesystem::path& preset_folder() const { return preset_folder_; }
   const std::vector<std::filesystem::path>& preset_files() const { return preset_files_; }
@@ -166,18 +174,19 @@ class AppModel {
   void step_iteration(int by);           ///< through the iterations; past the ends, on to the next tick
   const TickView& tick() const { return tick_; }
   TickView& tick() { return tick_; }
-  const ErrorFan& error_fan() const { return error_fan_; }   ///< of the ticks up to the one in view
+  const ErrorFan& error_fan() const { return error_fan_; }  ///< of the ticks up to the one in view
   Bookmarks& bookmarks() { return bookmarks_; }
   const Bookmarks& bookmarks() const { return bookmarks_; }
-  void add_bookmark();                   ///< on the tick in view
-  void go_to_bookmark(int by);           ///< the next (1) or the one before (-1); says so when there is none
+  void add_bookmark();          ///< on the tick in view
+  void go_to_bookmark(int by);  ///< the next (1) or the one before (-1); says so when there is none
   std::span<const ParameterMark> parameter_marks() const { return parameter_marks_; }
-  std::size_t history_bytes() const, most_history_bytes() const;   ///< of the records; the plots have store()
+  std::size_t history_bytes() const, most_history_bytes() const;  ///< of the records; the plots have store()
 
   // Out of the window, into export_folder(); a message says where. Files there are never written over.
-  void export_ticks(std::uint64_t from, std::uint64_t to);   ///< CSV, ticks from ... to - 1; on a worker unless deterministic
+  void export_ticks(std::uint64_t from,
+                    std::uint64_t to);  ///< CSV, ticks from ... to - 1; on a worker unless deterministic
   bool exporting() const { return exporting_.valid(); }
-  void ask_for_picture(const std::string& what, const Rect& of);   ///< of the next frame, by the platform
+  void ask_for_picture(const std::string& what, const Rect& of);  ///< of the next frame, by the platform
   std::optional<PictureRequest> take_picture_request() { return std::exchange(picture_request_, std::nullopt); }
   const std::filesystem::path& export_folder() const { return export_folder_; }
   void set_export_folder(std::filesystem::path folder) { export_folder_ = std::move(folder); }
@@ -186,7 +195,7 @@ class AppModel {
   TimeMachine& time_machine() { return time_machine_; }
   const TimeMachine& time_machine() const { return time_machine_; }
   std::shared_ptr<const Ghost> ghost() const { return time_machine_.ghost(); }
-  void solve_past_again();               ///< with the present values, whatever they were. Pauses
+  void solve_past_again();  ///< with the present values, whatever they were. Pauses
   std::uint64_t first_tick() const { return store_.first_tick(); }
   std::uint64_t end_tick() const { return store_.end_tick(); }
   double tick_period_s() const;
@@ -207,7 +216,7 @@ class AppModel {
   void calibrate_maestro(const MaestroCalibration& calibration, unsigned channel);
   void set_hand_follows_mouse(bool on);
   void lead_hand(const Vec3& finger_centre_world_m);
-  bool stopped() const;                  ///< the gate lets no force through until armed
+  bool stopped() const;  ///< the gate lets no force through until armed
   void toggle_stop();
 
   // Messages, look, window.
@@ -219,13 +228,13 @@ class AppModel {
   LayoutSizes& sizes() { return sizes_; }
   Theme theme() const { return theme_; }
   void set_theme(Theme theme) { theme_ = theme; }
-  float ui_scale() const { return ui_scale_; }              ///< the user's own factor on top of the monitor's
+  float ui_scale() const { return ui_scale_; }  ///< the user's own factor on top of the monitor's
   void set_ui_scale(float scale);
   std::map<std::string, bool>& open_sections() { return settings_.sections; }
   /// Unfolds a section and scrolls its column to it; the column is shown.
   void show_section(const std::string& title, bool in_left_column);
   std::string& section_wanted() { return section_wanted_; }
-  void reset_layout();                                      ///< sizes and sections as they were at first
+  void reset_layout();                                          ///< sizes and sections as they were at first
   const WindowSettings& settings() const { return settings_; }  ///< as of the last frame
   void ask_for_screenshot() { screenshot_wanted_ = true; }
   std::optional<std::filesystem::path> take_screenshot_request();
@@ -241,7 +250,7 @@ class AppModel {
   std::vector<std::uint32_t> marked_or_picked() const;
   void isolate(const std::vector<std::uint32_t>& triangles);
   void make_session();
-  std::filesystem::path maestro_file() const;   ///< empty: nothing is kept
+  std::filesystem::path maestro_file() const;  ///< empty: nothing is kept
   void keep_calibration();
   void restart_session();
   void send_preset(const std::string& what);
@@ -253,7 +262,7 @@ class AppModel {
   void show_tick();
 
   AppOptions options_;
-  MaestroSetup maestro_;   ///< in use, with the device "maestro"
+  MaestroSetup maestro_;  ///< in use, with the device "maestro"
   double now_s_ = 0.0;
   SceneLoader loader_;
   std::string mesh_path_, opening_path_;
@@ -284,11 +293,11 @@ class AppModel {
   TimeAxis axis_;
   Bookmarks bookmarks_;
   std::vector<ParameterMark> parameter_marks_;
-  std::optional<std::uint32_t> last_preset_id_;   ///< of the newest record
+  std::optional<std::uint32_t> last_preset_id_;  ///< of the newest record
   TimeMachine time_machine_;
-  Preset paused_with_;                            ///< values when the view was paused
+  Preset paused_with_;  ///< values when the view was paused
   std::filesystem::path export_folder_ = ".";
-  std::future<Result<std::string>> exporting_;    ///< what was written
+  std::future<Result<std::string>> exporting_;  ///< what was written
   std::optional<PictureRequest> picture_request_;
 
   MapView map_;

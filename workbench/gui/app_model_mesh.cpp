@@ -14,7 +14,8 @@ void AppModel::set_mesh_unit(double metres_per_unit) {
 }
 
 void AppModel::set_mesh_fit(std::optional<double> fit_m) {
-  if (fit_m && !(*fit_m >= 1e-6 && *fit_m <= 1e6)) return say(Severity::error, "the longest side must be 0.001 to 1000000000 mm");
+  if (fit_m && !(*fit_m >= 1e-6 && *fit_m <= 1e6))
+    return say(Severity::error, "the longest side must be 0.001 to 1000000000 mm");
   if (fit_m == options_.mesh_options.fit_m) return;
   options_.mesh_options.fit_m = fit_m;
   if (!mesh_path_.empty()) open_mesh(mesh_path_);
@@ -26,8 +27,10 @@ void AppModel::warn_of_size() {
   const double longest = std::max({size.x, size.y, size.z}), finger = 2.0 * presets().current().finger.reach_m();
   if (finger <= 0.0 || (longest > 0.05 * finger && longest < 200.0 * finger)) return;
   char text[160];
-  std::snprintf(text, sizeof text, "the mesh is %.3g mm long and the finger %.3g mm: Unit of the file and Longest side in the panel Mesh change that", longest * 1e3,
-                finger * 1e3);
+  std::snprintf(text, sizeof text,
+                "the mesh is %.3g mm long and the finger %.3g mm: Unit of the file and Longest side in the panel Mesh "
+                "change that",
+                longest * 1e3, finger * 1e3);
   say(Severity::warning, text);
 }
 
@@ -37,13 +40,17 @@ void AppModel::set_crease_angle(double rad) {
   if (rad == options_.mesh_options.crease_rad) return;
   options_.mesh_options.crease_rad = rad;
   opening_path_ = mesh_path_;
-  SceneRequest request{mesh_path_, options_.metres_per_unit, options_.mesh_options, presets().current().finger, polygons_};
+  SceneRequest request{mesh_path_, options_.metres_per_unit, options_.mesh_options, presets().current().finger,
+                       polygons_};
   if (!options_.deterministic) {
     loader_.request(std::move(request));
     return;
   }
   auto built = load_scene(request);
-  if (!built) say(Severity::error, built.error().message()); else take_scene(std::move(*built));
+  if (!built)
+    say(Severity::error, built.error().message());
+  else
+    take_scene(std::move(*built));
 }
 
 void AppModel::show_finding(FindingKind kind, std::size_t index) {
@@ -57,7 +64,8 @@ void AppModel::show_finding(FindingKind kind, std::size_t index) {
   view_.isolation.reset();
   const std::uint32_t first = inspection_.marked.empty() ? kNone : inspection_.marked.front();
   look_at_place(mesh.origin() + finding.place, finding.normal, first);
-  view_.camera.distance_m = std::clamp(6.0 * finding.extent_m, 0.02 * view_.camera.scene_radius_m, 4.0 * view_.camera.scene_radius_m);
+  view_.camera.distance_m =
+      std::clamp(6.0 * finding.extent_m, 0.02 * view_.camera.scene_radius_m, 4.0 * view_.camera.scene_radius_m);
 }
 
 std::vector<std::uint32_t> AppModel::marked_or_picked() const {

@@ -16,14 +16,18 @@ constexpr std::size_t kMostParameterMarks = 2000;
 
 float event_of(const ServoRecord& r) {
   const auto rank = [](EventRank e) { return static_cast<float>(e); };
-  if (r.device.gate_fault != GateFault::none || r.device.force_fault != DeviceFault::none || r.device.display_fault != DeviceFault::none)
+  if (r.device.gate_fault != GateFault::none || r.device.force_fault != DeviceFault::none ||
+      r.device.display_fault != DeviceFault::none)
     return rank(EventRank::fault);
   if (r.tick.output.status == TickStatus::unconverged) return rank(EventRank::unconverged);
   switch (r.tick.output.event) {
-    case TickEvent::reseed: return rank(EventRank::reseeded);
+    case TickEvent::reseed:
+      return rank(EventRank::reseeded);
     case TickEvent::switched:
-    case TickEvent::branch: return rank(EventRank::moved);
-    default: return std::nanf("");
+    case TickEvent::branch:
+      return rank(EventRank::moved);
+    default:
+      return std::nanf("");
   }
 }
 
@@ -38,7 +42,8 @@ std::string change_text(const Preset& before, const Preset& now) {
       continue;
     }
     const std::string unit(display_unit(key).name);
-    text = std::string(key.label) + " " + display_text(key, was) + " \u2192 " + display_text(key, is) + (unit.empty() ? "" : " " + unit);
+    text = std::string(key.label) + " " + display_text(key, was) + " \u2192 " + display_text(key, is) +
+           (unit.empty() ? "" : " " + unit);
   }
   if (more > 0) text += " and " + std::to_string(more) + " more";
   return text;
@@ -46,9 +51,7 @@ std::string change_text(const Preset& before, const Preset& now) {
 
 }  // namespace
 
-double AppModel::tick_period_s() const {
-  return session_ != nullptr ? 1.0 / session_->options().servo.rate_hz : 1e-3;
-}
+double AppModel::tick_period_s() const { return session_ != nullptr ? 1.0 / session_->options().servo.rate_hz : 1e-3; }
 
 void AppModel::take_records() {
   take_export();
@@ -57,18 +60,26 @@ void AppModel::take_records() {
   const History& history = session_->history();
   if (!history.empty()) {
     // A history whose newest tick lies before ours is another run.
-    const std::uint64_t next = history.newest().tick.tick < store_.end_tick() && history.newest().tick.tick + 1 != store_.end_tick()
-                                   ? history.oldest().tick.tick : store_.end_tick();
+    const std::uint64_t next =
+        history.newest().tick.tick < store_.end_tick() && history.newest().tick.tick + 1 != store_.end_tick()
+            ? history.oldest().tick.tick
+            : store_.end_tick();
     std::array<float, kChannelCount> row{};
     for (std::size_t i = history.lower_bound(next); i < history.size(); ++i) {
       const ServoRecord& r = history[i];
       const Vec3& f = r.device.force_command_n;
       // In simulated time nothing is measured: a gap rather than a zero.
       const float tick_time = r.tick_ns > 0.0 ? static_cast<float>(r.tick_ns * 1e-9) : std::nanf("");
-      row = {static_cast<float>(f.x), static_cast<float>(f.y), static_cast<float>(f.z),
-             static_cast<float>(glm::length(f)), static_cast<float>(r.device.cld_command_m),
-             static_cast<float>(r.device.cld_measured_m), static_cast<float>(r.tick.output.error_m),
-             static_cast<float>(r.tick.output.iterations), tick_time, event_of(r)};
+      row = {static_cast<float>(f.x),
+             static_cast<float>(f.y),
+             static_cast<float>(f.z),
+             static_cast<float>(glm::length(f)),
+             static_cast<float>(r.device.cld_command_m),
+             static_cast<float>(r.device.cld_measured_m),
+             static_cast<float>(r.tick.output.error_m),
+             static_cast<float>(r.tick.output.iterations),
+             tick_time,
+             event_of(r)};
       store_.push(r.tick.tick, row);
       bookmarks_.watch(r);
       mark_parameters(r);
@@ -132,7 +143,8 @@ void AppModel::step_tick(std::int64_t by) {
   if (session_ == nullptr || session_->history().empty()) return;
   set_paused(true);
   const History& history = session_->history();
-  const std::size_t now = std::min(history.lower_bound(cursor_.value_or(history.newest().tick.tick)), history.size() - 1);
+  const std::size_t now =
+      std::min(history.lower_bound(cursor_.value_or(history.newest().tick.tick)), history.size() - 1);
   const auto last = static_cast<std::int64_t>(history.size()) - 1;
   const std::int64_t to = std::clamp(static_cast<std::int64_t>(now) + by, std::int64_t{0}, last);
   select_tick(history[static_cast<std::size_t>(to)].tick.tick);
@@ -169,7 +181,9 @@ void AppModel::mark_parameters(const ServoRecord& record) {
 }
 
 std::size_t AppModel::history_bytes() const { return session_ != nullptr ? session_->history().memory_bytes() : 0; }
-std::size_t AppModel::most_history_bytes() const { return session_ != nullptr ? session_->history().most_memory_bytes() : 0; }
+std::size_t AppModel::most_history_bytes() const {
+  return session_ != nullptr ? session_->history().most_memory_bytes() : 0;
+}
 
 void AppModel::add_bookmark() {
   const ServoRecord* record = tick_.record();
@@ -183,14 +197,18 @@ void AppModel::go_to_bookmark(int by) {
   const std::uint64_t now = record->tick.tick;
   const Bookmark* to = by > 0 ? bookmarks_.after(now) : bookmarks_.before(now);
   // A person's bookmark outlives its tick.
-  if (to == nullptr || to->tick < first_tick()) say(Severity::note, by > 0 ? "no later bookmark" : "no earlier bookmark");
-  else select_tick(to->tick);
+  if (to == nullptr || to->tick < first_tick())
+    say(Severity::note, by > 0 ? "no later bookmark" : "no earlier bookmark");
+  else
+    select_tick(to->tick);
 }
 
 void AppModel::ask_for_ghost() {
   if (!paused_ || !time_machine_.is_open()) return;
-  if (presets().current() == paused_with_) time_machine_.forget_request();
-  else time_machine_.request(presets().current(), axis_.from(), axis_.to());
+  if (presets().current() == paused_with_)
+    time_machine_.forget_request();
+  else
+    time_machine_.request(presets().current(), axis_.from(), axis_.to());
 }
 
 std::filesystem::path AppModel::free_path(const std::string& stem, const char* extension) const {
@@ -217,11 +235,15 @@ void AppModel::export_ticks(std::uint64_t from, std::uint64_t to) {
 void AppModel::take_export() {
   if (!exporting_.valid() || exporting_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
   const Result<std::string> done = exporting_.get();
-  if (done) say(Severity::note, *done);
-  else say(Severity::error, done.error().message());
+  if (done)
+    say(Severity::note, *done);
+  else
+    say(Severity::error, done.error().message());
 }
 
-void AppModel::ask_for_picture(const std::string& what, const Rect& of) { picture_request_ = PictureRequest{free_path(what, ".png"), of}; }
+void AppModel::ask_for_picture(const std::string& what, const Rect& of) {
+  picture_request_ = PictureRequest{free_path(what, ".png"), of};
+}
 
 void AppModel::solve_past_again() {
   set_paused(true);

@@ -23,8 +23,10 @@ std::string time_stamp() {
 }  // namespace
 
 void AppModel::take_settings() {
-  if (auto read = read_window_settings(options_.settings)) settings_ = std::move(*read);
-  else say(Severity::warning, read.error().message());
+  if (auto read = read_window_settings(options_.settings))
+    settings_ = std::move(*read);
+  else
+    say(Severity::warning, read.error().message());
   written_settings_ = settings_;
   if (options_.settings.empty()) return;
   sizes_.left = static_cast<float>(settings_.left);
@@ -61,7 +63,8 @@ void AppModel::keep_settings() {
   settings_.favourites = favourites_;
   settings_.colour_map = colour_map_names()[static_cast<std::size_t>(map_.colours)];
   if (options_.settings.empty() || settings_ == written_settings_) return;
-  if (auto written = write_window_settings(settings_, options_.settings); !written) say(Severity::warning, written.error().message());
+  if (auto written = write_window_settings(settings_, options_.settings); !written)
+    say(Severity::warning, written.error().message());
   written_settings_ = settings_;  // said once, not every two seconds
 }
 
@@ -72,7 +75,8 @@ void AppModel::reset_layout() {
 
 // Who looks at the whole scene goes on doing so; who has gone near to something stays there.
 void AppModel::look_from_standard(StandardView view) {
-  const bool whole = view_.camera.target == view_.camera.scene_centre && view_.camera.distance_m == view_.framed_distance_m;
+  const bool whole =
+      view_.camera.target == view_.camera.scene_centre && view_.camera.distance_m == view_.framed_distance_m;
   view_.camera = standard_view(view, view_.camera);
   if (whole) frame_scene();
 }
@@ -90,8 +94,10 @@ void AppModel::copy_camera() {
 void AppModel::paste_camera() {
   const char* text = ImGui::GetClipboardText();
   const auto camera = parse_camera(text != nullptr ? text : "", view_.camera);
-  if (camera) view_.camera = *camera;
-  else say(Severity::error, "the clipboard holds no camera; copy one with Ctrl+Shift+C");
+  if (camera)
+    view_.camera = *camera;
+  else
+    say(Severity::error, "the clipboard holds no camera; copy one with Ctrl+Shift+C");
 }
 
 std::optional<std::filesystem::path> AppModel::take_screenshot_request() {
@@ -100,7 +106,8 @@ std::optional<std::filesystem::path> AppModel::take_screenshot_request() {
   const std::string name = "tangent-workbench-" + time_stamp();
   std::filesystem::path path = options_.screenshots / (name + ".png");
   std::error_code ignored;
-  for (int i = 2; std::filesystem::exists(path, ignored); ++i) path = options_.screenshots / (name + "-" + std::to_string(i) + ".png");
+  for (int i = 2; std::filesystem::exists(path, ignored); ++i)
+    path = options_.screenshots / (name + "-" + std::to_string(i) + ".png");
   return path;
 }
 

@@ -25,7 +25,8 @@ LinearRgb from_oklab(const Oklab& c) {
   const double l = cube(c.L + 0.3963377774 * c.a + 0.2158037573 * c.b);
   const double m = cube(c.L - 0.1055613458 * c.a - 0.0638541728 * c.b);
   const double s = cube(c.L - 0.0894841775 * c.a - 1.2914855480 * c.b);
-  return {4.0767416621 * l - 3.3077115913 * m + 0.2309699292 * s, -1.2684380046 * l + 2.6097574011 * m - 0.3413193965 * s,
+  return {4.0767416621 * l - 3.3077115913 * m + 0.2309699292 * s,
+          -1.2684380046 * l + 2.6097574011 * m - 0.3413193965 * s,
           -0.0041960863 * l - 0.7034186147 * m + 1.7076147010 * s};
 }
 
@@ -61,13 +62,15 @@ double distance(const Oklab& a, const Oklab& b) { return std::hypot(a.L - b.L, a
 Oklab on_path(ColourMap map, double t) {
   const auto mix_of = [t](double from, double to) { return from + (to - from) * t; };
   switch (map) {
-    case ColourMap::tide: return shown(mix_of(0.27, 0.93), 0.145 + 0.03 * t, mix_of(300.0, 103.0) * kDegree);
+    case ColourMap::tide:
+      return shown(mix_of(0.27, 0.93), 0.145 + 0.03 * t, mix_of(300.0, 103.0) * kDegree);
     case ColourMap::dusk: {
       // Straight through grey, from blue to the yellow opposite.
       const Oklab from = shown(0.26, 0.11, 265.0 * kDegree), to = shown(0.93, 0.15, 100.0 * kDegree);
       return {mix_of(from.L, to.L), mix_of(from.a, to.a), mix_of(from.b, to.b)};
     }
-    case ColourMap::grey: return {mix_of(0.22, 0.96), 0.0, 0.0};
+    case ColourMap::grey:
+      return {mix_of(0.22, 0.96), 0.0, 0.0};
     default: {
       const double side = 2.0 * t - 1.0, out = std::abs(side);
       return shown(0.95 - 0.50 * out, 0.17 * std::pow(out, 0.8), (side < 0.0 ? 256.0 : 52.0) * kDegree);
@@ -98,11 +101,13 @@ std::array<Rgba, kColourMapSize> walk(ColourMap map) {
 std::span<const std::string_view> colour_map_names() { return kNames; }
 
 Oklab to_oklab(const Rgba& srgb) {
-  const double r = to_linear(static_cast<double>(srgb.r)), g = to_linear(static_cast<double>(srgb.g)), b = to_linear(static_cast<double>(srgb.b));
+  const double r = to_linear(static_cast<double>(srgb.r)), g = to_linear(static_cast<double>(srgb.g)),
+               b = to_linear(static_cast<double>(srgb.b));
   const double l = std::cbrt(0.4122214708 * r + 0.5363325363 * g + 0.0514459929 * b);
   const double m = std::cbrt(0.2119034982 * r + 0.6806995451 * g + 0.1073969566 * b);
   const double s = std::cbrt(0.0883024619 * r + 0.2817188376 * g + 0.6299787005 * b);
-  return {0.2104542553 * l + 0.7936177850 * m - 0.0040720468 * s, 1.9779984951 * l - 2.4285922050 * m + 0.4505937099 * s,
+  return {0.2104542553 * l + 0.7936177850 * m - 0.0040720468 * s,
+          1.9779984951 * l - 2.4285922050 * m + 0.4505937099 * s,
           0.0259040371 * l + 0.7827717662 * m - 0.8086757660 * s};
 }
 

@@ -1,6 +1,6 @@
-// Colour maps for values: computed here, in Oklab, from a handful of numbers (hue, lightness and chroma at the ends). Each
-// is a path of strictly rising lightness, so that it orders values for every eye and in grey, walked in equal steps of
-// Oklab distance, so that equal differences of the value look equal.
+// Colour maps for values: computed here, in Oklab, from a handful of numbers (hue, lightness and chroma at the ends).
+// Each is a path of strictly rising lightness, so that it orders values for every eye and in grey, walked in equal
+// steps of Oklab distance, so that equal differences of the value look equal.
 //
 // Oklab: B. Ottosson, "A perceptual color space for image processing", 2020.
 #pragma once
@@ -15,8 +15,8 @@
 namespace tangent {
 
 enum class ColourMap : std::uint8_t {
-  tide,     ///< violet, teal, yellow: most steps that can be told apart
-  dusk,     ///< blue, grey, yellow: two hues, which red-green blind eyes see as others do
+  tide,  ///< violet, teal, yellow: most steps that can be told apart
+  dusk,  ///< blue, grey, yellow: two hues, which red-green blind eyes see as others do
   grey,
   balance,  ///< blue, near white, orange: values about a middle; lightness rises to the middle and falls again
   count_

@@ -9,7 +9,8 @@ void ErrorFan::show(Session& session, std::uint64_t tick) {
   const History& history = session.history();
   if (curves_.empty() || tick < curves_.back().tick || tick - curves_.back().tick >= kTicks) curves_.clear();
   const std::uint64_t from = curves_.empty() ? (tick >= kTicks ? tick - kTicks + 1 : 0) : curves_.back().tick + 1;
-  for (std::size_t i = history.lower_bound(from); i < history.size() && history[i].tick.tick <= tick; ++i) add(session, history[i]);
+  for (std::size_t i = history.lower_bound(from); i < history.size() && history[i].tick.tick <= tick; ++i)
+    add(session, history[i]);
   while (curves_.size() > kTicks) curves_.pop_front();
 }
 

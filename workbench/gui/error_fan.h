@@ -19,8 +19,8 @@ class ErrorFan {
 
   struct Curve {
     std::uint64_t tick = 0;
-    std::vector<float> error_m;          ///< by iteration, [0] the kept plane
-    std::vector<std::uint8_t> seed;      ///< of each: curves break where it changes
+    std::vector<float> error_m;      ///< by iteration, [0] the kept plane
+    std::vector<std::uint8_t> seed;  ///< of each: curves break where it changes
   };
 
   /// The kTicks ticks up to `tick`, those that are kept.
@@ -28,7 +28,7 @@ class ErrorFan {
   void clear() { curves_.clear(); }
   /// By tick; the last is `tick` itself.
   const std::deque<Curve>& curves() const { return curves_; }
-  std::size_t longest() const;   ///< iterations of the curve with the most
+  std::size_t longest() const;  ///< iterations of the curve with the most
 
  private:
   void add(Session& session, const ServoRecord& record);
@@ -36,8 +36,9 @@ class ErrorFan {
   std::unique_ptr<IterationTrace> trace_ = std::make_unique<IterationTrace>();
 };
 
-/// Iterations that the error plot has room for. Where time stands still they are those of the tick in view: one that takes two
-/// must not be squeezed by one before it that took fifty. While it runs the axis has to stand still, and holds all of the fan.
+/// Iterations that the error plot has room for. Where time stands still they are those of the tick in view: one that
+/// takes two must not be squeezed by one before it that took fifty. While it runs the axis has to stand still, and
+/// holds all of the fan.
 std::size_t iterations_shown(std::size_t of_tick, std::size_t longest_of_fan, bool paused);
 
 }  // namespace tangent

@@ -41,7 +41,8 @@ class Row {
 
 }  // namespace
 
-Result<std::size_t> export_samples(const HistorySnapshot& records, std::uint64_t from, std::uint64_t to, const std::filesystem::path& path) {
+Result<std::size_t> export_samples(const HistorySnapshot& records, std::uint64_t from, std::uint64_t to,
+                                   const std::filesystem::path& path) {
   auto file = AtomicFile::create(path);
   if (!file) return tl::unexpected(file.error());
   if (Status ok = file->write(kHeader); !ok) return tl::unexpected(ok.error());
@@ -52,7 +53,10 @@ Result<std::size_t> export_samples(const HistorySnapshot& records, std::uint64_t
     const TickOutput& out = r.tick.output;
     row.clear();
     row.put(r.tick.tick).put(r.tick.input.t_s).put(to_string(out.status)).put(to_string(out.event));
-    if (out.triangle == kNone) row.put("-1"); else row.put(out.triangle);
+    if (out.triangle == kNone)
+      row.put("-1");
+    else
+      row.put(out.triangle);
     row.put(out.u).put(out.v).put(out.penetration_m).put(out.error_m).put(out.iterations).put(out.force_n);
     row.put(r.device.force_command_n).put(out.cld_m).put(r.device.cld_command_m).put(r.device.cld_measured_m);
     row.put(r.tick.input.finger.position).put(r.tick.preset_id).put(to_string(r.device.gate_state));

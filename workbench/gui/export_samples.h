@@ -10,6 +10,7 @@
 namespace tangent {
 
 /// Ticks from ... to - 1. Lost ticks have no line. Written whole or not at all. Returns how many lines there are.
-Result<std::size_t> export_samples(const HistorySnapshot& records, std::uint64_t from, std::uint64_t to, const std::filesystem::path& path);
+Result<std::size_t> export_samples(const HistorySnapshot& records, std::uint64_t from, std::uint64_t to,
+                                   const std::filesystem::path& path);
 
 }  // namespace tangent

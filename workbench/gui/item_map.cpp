@@ -4,9 +4,7 @@
 
 namespace tangent {
 
-void ItemMap::note_last(std::string_view path) {
-  note(path, ImGui::GetItemRectMin(), ImGui::GetItemRectMax());
-}
+void ItemMap::note_last(std::string_view path) { note(path, ImGui::GetItemRectMin(), ImGui::GetItemRectMax()); }
 
 void ItemMap::note(std::string_view path, ImVec2 min, ImVec2 max) {
   ItemRect rect;

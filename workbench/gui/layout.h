@@ -12,9 +12,9 @@ struct Rect {
 
 /// What the user drags, in points (times the scale: pixels).
 struct LayoutSizes {
-  float left = 312.0f;    ///< parameter column
-  float right = 0.0f;     ///< iterations, mesh, devices; 0: not dragged yet, a share of the window
-  float plots = 0.0f;     ///< height of the plots; 0: the same
+  float left = 312.0f;  ///< parameter column
+  float right = 0.0f;   ///< iterations, mesh, devices; 0: not dragged yet, a share of the window
+  float plots = 0.0f;   ///< height of the plots; 0: the same
   bool show_left = true, show_right = true, show_plots = true;
 };
 
@@ -26,8 +26,8 @@ struct Layout {
 /// Keeps the 3D view at least 280 x 160 points by taking from the others.
 Layout compute_layout(const LayoutSizes& sizes, float width, float height, float scale);
 
-/// Lets a splitter be dragged by (dx, dy) pixels: new sizes, clamped to the ranges that make sense. `shown`: the width of the
-/// column, or the height of the plots, as it is.
+/// Lets a splitter be dragged by (dx, dy) pixels: new sizes, clamped to the ranges that make sense. `shown`: the width
+/// of the column, or the height of the plots, as it is.
 LayoutSizes drag_left(LayoutSizes sizes, float dx, float scale);
 LayoutSizes drag_right(LayoutSizes sizes, float dx, float shown, float scale);
 LayoutSizes drag_plots(LayoutSizes sizes, float dy, float shown, float scale);

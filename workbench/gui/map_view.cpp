@@ -10,18 +10,21 @@ namespace tangent {
 namespace {
 
 constexpr std::size_t kSolvePlaces = 60'000, kShapePlaces = 250'000, kTouchPlaces = 60'000;  // at most, on small meshes
-constexpr double kPatience_s = 0.3;        // a changed preset has to stay so long
-constexpr double kCopyEvery_s = 0.25;      // while values come in
+constexpr double kPatience_s = 0.3;             // a changed preset has to stay so long
+constexpr double kCopyEvery_s = 0.25;           // while values come in
 constexpr std::size_t kStatisticsOf = 400'000;  // values that percentiles are taken from
 constexpr std::size_t kWorstShown = 8, kWorstTried = 4'000;
-constexpr double kWorstApart = 0.05;       // of the mesh's diagonal
-constexpr double kMostDecades = 6.0;       // of a logarithmic range that is found by itself
+constexpr double kWorstApart = 0.05;  // of the mesh's diagonal
+constexpr double kMostDecades = 6.0;  // of a logarithmic range that is found by itself
 
 std::size_t places_budget(MapGroup group) {
   switch (group) {
-    case MapGroup::solve: return kSolvePlaces;
-    case MapGroup::touch: return kTouchPlaces;
-    default: return kShapePlaces;
+    case MapGroup::solve:
+      return kSolvePlaces;
+    case MapGroup::touch:
+      return kTouchPlaces;
+    default:
+      return kShapePlaces;
   }
 }
 
@@ -35,10 +38,14 @@ double nth(std::vector<float>& values, double share) {
 
 std::optional<double> MapView::limit() const {
   switch (quantity) {
-    case MapQuantity::touch_radius: return 1.0;
-    case MapQuantity::gain_margin: return 0.0;
-    case MapQuantity::facet_angle: return felt_angle_rad_;
-    default: return std::nullopt;
+    case MapQuantity::touch_radius:
+      return 1.0;
+    case MapQuantity::gain_margin:
+      return 0.0;
+    case MapQuantity::facet_angle:
+      return felt_angle_rad_;
+    default:
+      return std::nullopt;
   }
 }
 
@@ -75,7 +82,8 @@ void MapView::set_automatic_range() {
   refresh_range();
 }
 
-MapView::Inputs MapView::inputs_for(MapGroup wanted, const std::shared_ptr<const ContactScene>& scene, const Preset& preset) const {
+MapView::Inputs MapView::inputs_for(MapGroup wanted, const std::shared_ptr<const ContactScene>& scene,
+                                    const Preset& preset) const {
   Inputs in{scene.get(), preset.solver, preset.finger, options};
   in.options.level = map_level_within(places_budget(wanted), scene->mesh().usable_triangle_count());
   if (wanted == MapGroup::touch) {  // of all solver settings the form of the normals alone counts
@@ -85,7 +93,8 @@ MapView::Inputs MapView::inputs_for(MapGroup wanted, const std::shared_ptr<const
   return in;
 }
 
-void MapView::update(const std::shared_ptr<const ContactScene>& scene, const Preset& preset, double now_s, bool hold, bool at_once) {
+void MapView::update(const std::shared_ptr<const ContactScene>& scene, const Preset& preset, double now_s, bool hold,
+                     bool at_once) {
   if (!on || scene == nullptr) {
     for (Group& g : groups_) {
       if (g.job.running()) g.job.cancel();
@@ -149,7 +158,10 @@ void MapView::take_values(double now_s, bool at_once) {
   }
   refresh_range();
   // Sorting millions takes longer than a frame may: once, at the end.
-  if (values_.size() <= kStatisticsOf || done == job.places()) refresh_worst(); else worst_.clear();
+  if (values_.size() <= kStatisticsOf || done == job.places())
+    refresh_worst();
+  else
+    worst_.clear();
 }
 
 void MapView::refresh_range() {
@@ -215,7 +227,8 @@ void MapView::refresh_histogram() {
     if (!is_map_value(values_[i])) continue;
     const double share = map_share(*shown, static_cast<double>(values_[i]));
     if (std::isnan(share)) continue;  // no share of a range that is one value
-    const auto bin = static_cast<std::size_t>(std::clamp(share * MapStatistics::kBins, 0.0, MapStatistics::kBins - 1.0));
+    const auto bin =
+        static_cast<std::size_t>(std::clamp(share * MapStatistics::kBins, 0.0, MapStatistics::kBins - 1.0));
     ++s.bins[bin];
   }
   s.fullest = *std::max_element(s.bins.begin(), s.bins.end());
@@ -272,7 +285,8 @@ std::optional<MapPaint> MapView::paint() const {
 }
 
 std::optional<double> MapView::value_at(std::uint32_t triangle, double u, double v) const {
-  if (!on || values_of_ != quantity || group().scene == nullptr || triangle >= group().scene->mesh().triangle_count()) return std::nullopt;
+  if (!on || values_of_ != quantity || group().scene == nullptr || triangle >= group().scene->mesh().triangle_count())
+    return std::nullopt;
   const std::size_t index = index_of_.empty() ? triangle : index_of_[triangle];
   if (index == kNone) return std::nullopt;
   const unsigned level = group().job.options().level;

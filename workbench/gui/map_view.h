@@ -24,8 +24,8 @@ struct MapStatistics {
   static constexpr std::size_t kBins = 64;
   std::size_t values = 0, none = 0, pending = 0;  ///< places with a value, without one, not computed yet
   double min = 0.0, max = 0.0, mean = 0.0, p99 = 0.0;
-  double share_beyond_limit = 0.0;                ///< share of values on the wrong side of MapView::limit()
-  std::array<std::uint32_t, kBins> bins{};        ///< over the colour bar's range; what lies outside is in the end bins
+  double share_beyond_limit = 0.0;          ///< share of values on the wrong side of MapView::limit()
+  std::array<std::uint32_t, kBins> bins{};  ///< over the colour bar's range; what lies outside is in the end bins
   std::uint32_t fullest = 0;
 };
 
@@ -45,8 +45,8 @@ class MapView {
   void set_range(double low, double high);
   void set_automatic_range();
   bool automatic_range() const { return automatic_range_; }
-  /// Marked on the colour bar, wherever its ends are: touch radius 1, gain margin 0, the facet angle that can be felt. None
-  /// for the others.
+  /// Marked on the colour bar, wherever its ends are: touch radius 1, gain margin 0, the facet angle that can be felt.
+  /// None for the others.
   std::optional<double> limit() const;
   /// Angle between facets from which on a finger feels them, rad; it depends on the rendering condition.
   void set_felt_angle(double rad);
@@ -55,7 +55,8 @@ class MapView {
 
   /// Once a frame. Starts what has to be computed and takes in what is done. `hold`: something is being dragged, wait.
   /// `at_once`: computes here and now.
-  void update(const std::shared_ptr<const ContactScene>& scene, const Preset& preset, double now_s, bool hold, bool at_once);
+  void update(const std::shared_ptr<const ContactScene>& scene, const Preset& preset, double now_s, bool hold,
+              bool at_once);
   void compute_again() { wanted_again_ = true; }
   void cancel();
   bool running() const;

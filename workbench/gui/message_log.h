@@ -16,14 +16,14 @@ struct Message {
   double at_s = 0.0;        ///< when it came last
   std::uint32_t times = 1;  ///< the same text over and over is one message
   bool dismissed = false;
-  bool toast = true;        ///< false: in the log alone, because too many came at once
+  bool toast = true;  ///< false: in the log alone, because too many came at once
 };
 
 class MessageLog {
  public:
   static constexpr std::size_t kKept = 500;
-  static constexpr double kToastBurst = 4.0;        ///< toasts that may come at once ...
-  static constexpr double kToastEvery_s = 2.0;      ///< ... and then one in so long
+  static constexpr double kToastBurst = 4.0;    ///< toasts that may come at once ...
+  static constexpr double kToastEvery_s = 2.0;  ///< ... and then one in so long
   static constexpr double kHeldBackShown_s = 5.0;
   static constexpr double kSameWithin_s = 10.0;  ///< the same text within this is counted, not repeated
 

@@ -37,12 +37,13 @@ struct Palette {
   Rgba cld_commanded, cld_measured;
   Rgba error, iterations, tick_time;
   Rgba contact, normal, finger, penetration, control_net, crease, boundary, selection;
-  Rgba mesh, mesh_wire, smooth_surface;             ///< facets, their edges, the PN surface
-  Rgba accent;                                      ///< the one colour of the interface itself
+  Rgba mesh, mesh_wire, smooth_surface;  ///< facets, their edges, the PN surface
+  Rgba accent;                           ///< the one colour of the interface itself
   Rgba good, warning, bad;
   Rgba text, text_dim, panel, background_top, background_bottom;
 };
 
+// clang-format off
 constexpr Palette kDarkPalette{
     .force_x = rgb_hex(0xE8703A), .force_y = rgb_hex(0x2DB88F), .force_z = rgb_hex(0x4A9FE0),
     .force_magnitude = rgb_hex(0xF2AE2E),
@@ -56,7 +57,9 @@ constexpr Palette kDarkPalette{
     .good = rgb_hex(0x2DB88F), .warning = rgb_hex(0xF2AE2E), .bad = rgb_hex(0xE8592A),
     .text = rgb_hex(0xE4E7EB), .text_dim = rgb_hex(0x9099A4), .panel = rgb_hex(0x1B1E23),
     .background_top = rgb_hex(0x343A43), .background_bottom = rgb_hex(0x1E2226)};
+// clang-format on
 
+// clang-format off
 constexpr Palette kLightPalette{
     .force_x = rgb_hex(0xC24F00), .force_y = rgb_hex(0x007F5C), .force_z = rgb_hex(0x0067A3),
     .force_magnitude = rgb_hex(0xC77F00),
@@ -70,11 +73,12 @@ constexpr Palette kLightPalette{
     .good = rgb_hex(0x007F5C), .warning = rgb_hex(0xB97700), .bad = rgb_hex(0xC23B00),
     .text = rgb_hex(0x1D2228), .text_dim = rgb_hex(0x66707B), .panel = rgb_hex(0xF3F4F6),
     .background_top = rgb_hex(0xFAFBFC), .background_bottom = rgb_hex(0xDDE2E8)};
+// clang-format on
 
 constexpr const Palette& palette(Theme theme) { return theme == Theme::dark ? kDarkPalette : kLightPalette; }
 
-/// Colour of iteration `i` of `count` (the kept plane is 0): the colour map tide, its darkest tenth left out so that the
-/// first plane shows on a dark background.
+/// Colour of iteration `i` of `count` (the kept plane is 0): the colour map tide, its darkest tenth left out so that
+/// the first plane shows on a dark background.
 Rgba iteration_colour(std::size_t i, std::size_t count);
 
 }  // namespace tangent

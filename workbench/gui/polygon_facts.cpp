@@ -12,7 +12,10 @@ PolygonFacts facts_of(const PlanarPolygon& polygon) {
     low = glm::min(low, here);
     high = glm::max(high, here);
     if (i + 1 == count && !polygon.closed) break;
-    if (here == next) ++facts.corners; else ++facts.segments;
+    if (here == next)
+      ++facts.corners;
+    else
+      ++facts.segments;
     facts.length_m += glm::length(next - here);
   }
   facts.vertices = count - facts.corners;

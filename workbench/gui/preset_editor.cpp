@@ -16,10 +16,11 @@ struct TypedUnit {
   std::string_view name, kind;
   double scale;
 };
-constexpr std::array kTypedUnits{
-    TypedUnit{"m", "m", 1.0},        TypedUnit{"mm", "m", kMillimetre}, TypedUnit{"um", "m", kMicrometre},
-    TypedUnit{"\u00b5m", "m", kMicrometre}, TypedUnit{"s", "s", 1.0},   TypedUnit{"ms", "s", 1e-3},
-    TypedUnit{"N/m", "N/m", 1.0},    TypedUnit{"N/mm", "N/m", 1e3},     TypedUnit{"N", "N", 1.0}};
+constexpr std::array kTypedUnits{TypedUnit{"m", "m", 1.0},          TypedUnit{"mm", "m", kMillimetre},
+                                 TypedUnit{"um", "m", kMicrometre}, TypedUnit{"\u00b5m", "m", kMicrometre},
+                                 TypedUnit{"s", "s", 1.0},          TypedUnit{"ms", "s", 1e-3},
+                                 TypedUnit{"N/m", "N/m", 1.0},      TypedUnit{"N/mm", "N/m", 1e3},
+                                 TypedUnit{"N", "N", 1.0}};
 
 std::string_view trim(std::string_view text) {
   const auto blank = [](char c) { return c == ' ' || c == '\t'; };
@@ -113,7 +114,8 @@ std::string display_with_unit(const PresetKey& key, double value) {
 std::string display_range(const PresetKey& key) {
   if (key.kind == KeyKind::choice) return key.allowed();
   const std::string_view unit = display_unit(key).name;
-  return display_text(key, key.min) + " to " + display_text(key, key.max) + (unit.empty() ? "" : " " + std::string(unit));
+  return display_text(key, key.min) + " to " + display_text(key, key.max) +
+         (unit.empty() ? "" : " " + std::string(unit));
 }
 
 Result<double> parse_typed(const PresetKey& key, std::string_view text) {
@@ -123,7 +125,8 @@ Result<double> parse_typed(const PresetKey& key, std::string_view text) {
   double number = 0.0;
   const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), number);
   const auto refuse = [&] {
-    return fail("\"" + std::string(whole) + "\" is not a value of " + key.full_name(), {}, "type " + display_range(key));
+    return fail("\"" + std::string(whole) + "\" is not a value of " + key.full_name(), {},
+                "type " + display_range(key));
   };
   if (error != std::errc() || !std::isfinite(number)) return refuse();
   const std::string_view unit = trim(rest.substr(static_cast<std::size_t>(end - rest.data())));

@@ -21,8 +21,10 @@ class PresetEditor {
  public:
   const Preset& current() const { return current_; }
   const PresetFile& loaded() const { return loaded_; }
-  const std::string& name() const { return name_; }               ///< of the file without ".toml"; "built-in": the program's own values
-  const std::filesystem::path& path() const { return path_; }     ///< empty: never saved
+  const std::string& name() const {
+    return name_;
+  }  ///< of the file without ".toml"; "built-in": the program's own values
+  const std::filesystem::path& path() const { return path_; }  ///< empty: never saved
   bool changed() const { return !(current_ == loaded_.preset); }
   std::vector<PresetChange> changes() const;
 
@@ -56,8 +58,8 @@ std::vector<std::filesystem::path> list_presets(const std::filesystem::path& fol
 
 /// How a value is shown and typed in a panel: lengths in mm or um, times in ms.
 struct DisplayUnit {
-  std::string_view name;   ///< "mm"; empty for pure numbers
-  double scale = 1.0;      ///< SI value of 1 in it
+  std::string_view name;  ///< "mm"; empty for pure numbers
+  double scale = 1.0;     ///< SI value of 1 in it
 };
 DisplayUnit display_unit(const PresetKey& key);
 /// The value in its display unit, six digits.

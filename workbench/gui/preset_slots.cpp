@@ -26,7 +26,8 @@ bool PresetSlots::apply(std::string what, const std::function<bool(PresetEditor&
   Step step = now();
   if (!change(step.slots[step.active])) return false;
   step.what = std::move(what);
-  const bool goes_on = gesture_open_ && !gesture.empty() && at_ > 0 && at_ + 1 == steps_.size() && now().gesture == gesture;
+  const bool goes_on =
+      gesture_open_ && !gesture.empty() && at_ > 0 && at_ + 1 == steps_.size() && now().gesture == gesture;
   step.gesture = gesture;
   if (goes_on) {
     steps_[at_] = std::move(step);

@@ -19,7 +19,7 @@ class PresetSlots {
 
   PresetSlots() { steps_.push_back({{}, 0, "start", {}}); }
 
-  std::size_t active_slot() const { return now().active; }            ///< 0: A, 1: B
+  std::size_t active_slot() const { return now().active; }  ///< 0: A, 1: B
   const PresetEditor& active() const { return slot(active_slot()); }
   const PresetEditor& slot(std::size_t i) const { return now().slots[i]; }
 
@@ -29,7 +29,7 @@ class PresetSlots {
   void end_gesture() { gesture_open_ = false; }
   bool gesture_open() const { return gesture_open_; }
 
-  bool toggle();        ///< the other slot becomes the active one; true if the preset is another one now
+  bool toggle();         ///< the other slot becomes the active one; true if the preset is another one now
   void copy_to_other();  ///< what is active, into the other slot
 
   /// The active slot's values were written to a file: undoing earlier changes must not bring the old file back.
@@ -37,8 +37,8 @@ class PresetSlots {
 
   bool can_undo() const { return at_ > 0; }
   bool can_redo() const { return at_ + 1 < steps_.size(); }
-  const std::string& undo_name() const { return steps_[at_].what; }       ///< precondition: can_undo()
-  const std::string& redo_name() const { return steps_[at_ + 1].what; }   ///< precondition: can_redo()
+  const std::string& undo_name() const { return steps_[at_].what; }      ///< precondition: can_undo()
+  const std::string& redo_name() const { return steps_[at_ + 1].what; }  ///< precondition: can_redo()
   bool undo();
   bool redo();
 

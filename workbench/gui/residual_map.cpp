@@ -25,11 +25,15 @@ Vec2 third_corner(const Vec2& from, const Vec2& to, double from_third, double to
 
 }  // namespace
 
-ResidualMap::ResidualMap(std::shared_ptr<const ContactScene> scene, std::uint32_t triangle, const Finger& finger, NormalForm form,
-                         const TickInput& input)
-    : scene_(std::move(scene)), finger_(finger), local_{input.finger.position - scene_->mesh().origin(), input.finger.orientation} {
+ResidualMap::ResidualMap(std::shared_ptr<const ContactScene> scene, std::uint32_t triangle, const Finger& finger,
+                         NormalForm form, const TickInput& input)
+    : scene_(std::move(scene)),
+      finger_(finger),
+      local_{input.finger.position - scene_->mesh().origin(), input.finger.orientation} {
   const ContactMesh& mesh = scene_->mesh();
-  const auto length = [&](std::uint32_t t, std::uint32_t a, std::uint32_t b) { return glm::length(mesh.position(t, b) - mesh.position(t, a)); };
+  const auto length = [&](std::uint32_t t, std::uint32_t a, std::uint32_t b) {
+    return glm::length(mesh.position(t, b) - mesh.position(t, a));
+  };
   FlatTriangle base{triangle, {}};
   base.corners[1] = {length(triangle, 0, 1), 0.0};
   base.corners[2] = third_corner(base.corners[0], base.corners[1], length(triangle, 0, 2), length(triangle, 1, 2));
@@ -45,7 +49,8 @@ ResidualMap::ResidualMap(std::shared_ptr<const ContactScene> scene, std::uint32_
     FlatTriangle next{link.triangle, {}};
     next.corners[reversed ? a : b] = from;
     next.corners[reversed ? b : a] = to;
-    next.corners[c] = third_corner(from, to, length(link.triangle, reversed ? a : b, c), length(link.triangle, reversed ? b : a, c));
+    next.corners[c] =
+        third_corner(from, to, length(link.triangle, reversed ? a : b, c), length(link.triangle, reversed ? b : a, c));
     triangles_.push_back(next);
   }
   for (const FlatTriangle& t : triangles_) patches_.push_back(make_patch(mesh, t.triangle, form));
@@ -76,7 +81,9 @@ ResidualMap::Located ResidualMap::locate(const Vec2& at) const {
 double ResidualMap::residual(const Vec2& at) const {
   const Located place = locate(at);
   const PnPatch& patch = patches_[place.index];
-  return contact_on_plane(finger_, local_, evaluate_point(patch, place.u, place.v), evaluate_normal(patch, place.u, place.v)).error_m;
+  return contact_on_plane(finger_, local_, evaluate_point(patch, place.u, place.v),
+                          evaluate_normal(patch, place.u, place.v))
+      .error_m;
 }
 
 bool ResidualMap::inside(const Vec2& at) const { return locate(at).outside == 0.0; }
@@ -112,7 +119,8 @@ void ResidualMap::sample(const FlatView& view, int columns, int rows) {
   for (int row = 0; row < rows; ++row) {
     for (int column = 0; column < columns; ++column) {
       const Vec2 share(static_cast<double>(column) / (columns - 1), static_cast<double>(row) / (rows - 1));
-      log_.push_back(static_cast<float>(std::log10(std::max(residual(view.min + share * view.size()), kLeastResidual))));
+      log_.push_back(
+          static_cast<float>(std::log10(std::max(residual(view.min + share * view.size()), kLeastResidual))));
     }
   }
 }
@@ -122,9 +130,12 @@ std::vector<ContourSegment> ResidualMap::contours() const {
   std::vector<ContourSegment> out;
   if (columns_ < 2 || rows_ < 2) return out;
   const auto at = [&](int column, int row) {
-    return view_.min + Vec2(static_cast<double>(column) / (columns_ - 1), static_cast<double>(row) / (rows_ - 1)) * view_.size();
+    return view_.min +
+           Vec2(static_cast<double>(column) / (columns_ - 1), static_cast<double>(row) / (rows_ - 1)) * view_.size();
   };
-  const auto value = [&](int column, int row) { return 2.0 * static_cast<double>(log_[static_cast<std::size_t>(row * columns_ + column)]); };
+  const auto value = [&](int column, int row) {
+    return 2.0 * static_cast<double>(log_[static_cast<std::size_t>(row * columns_ + column)]);
+  };
   const auto cut = [&](const std::array<Vec2, 3>& p, const std::array<double, 3>& f) {
     const auto [least, most] = std::minmax({f[0], f[1], f[2]});
     for (int level = static_cast<int>(std::ceil(least)); static_cast<double>(level) < most; ++level) {
@@ -141,7 +152,8 @@ std::vector<ContourSegment> ResidualMap::contours() const {
   for (int row = 0; row + 1 < rows_; ++row) {
     for (int column = 0; column + 1 < columns_; ++column) {
       const Vec2 a = at(column, row), b = at(column + 1, row), c = at(column + 1, row + 1), d = at(column, row + 1);
-      const double fa = value(column, row), fb = value(column + 1, row), fc = value(column + 1, row + 1), fd = value(column, row + 1);
+      const double fa = value(column, row), fb = value(column + 1, row), fc = value(column + 1, row + 1),
+                   fd = value(column, row + 1);
       cut({a, b, c}, {fa, fb, fc});
       cut({a, c, d}, {fa, fc, fd});
     }

@@ -17,7 +17,7 @@ namespace tangent {
 
 struct FlatTriangle {
   std::uint32_t triangle = kNone;
-  std::array<Vec2, 3> corners;         ///< flat
+  std::array<Vec2, 3> corners;  ///< flat
 };
 
 /// The range of flat coordinates that is looked at.
@@ -28,7 +28,7 @@ struct FlatView {
 
 struct ContourSegment {
   Vec2 a, b;
-  int level = 0;                       ///< half decades: the residual is 10^(level / 2) m
+  int level = 0;  ///< half decades: the residual is 10^(level / 2) m
 };
 
 class ResidualMap {
@@ -37,7 +37,7 @@ class ResidualMap {
   ResidualMap(std::shared_ptr<const ContactScene> scene, std::uint32_t triangle, const Finger& finger, NormalForm form,
               const TickInput& input);
 
-  std::span<const FlatTriangle> triangles() const { return triangles_; }   ///< [0]: the base
+  std::span<const FlatTriangle> triangles() const { return triangles_; }  ///< [0]: the base
   /// Flat place of a plane; none: it touches another triangle.
   std::optional<Vec2> place(std::uint32_t triangle, double u, double v) const;
   /// Residual at a flat point, m.
@@ -59,9 +59,9 @@ class ResidualMap {
 
  private:
   struct Located {
-    std::size_t index = 0;             ///< of triangles_
+    std::size_t index = 0;  ///< of triangles_
     double u = 0.0, v = 0.0;
-    double outside = 0.0;              ///< most negative weight, negated; 0: inside
+    double outside = 0.0;  ///< most negative weight, negated; 0: inside
   };
   Located locate(const Vec2& at) const;
 

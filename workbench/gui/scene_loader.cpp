@@ -43,7 +43,9 @@ Result<LoadedScene> load_planar(const SceneRequest& request) {
 
 }  // namespace
 
-MeshReport report_on(const PolygonMesh& polygons, const ContactMesh& mesh) { return {audit_mesh(polygons, mesh), find_defects(polygons, mesh), audit_perception(mesh, facet_angles(mesh))}; }
+MeshReport report_on(const PolygonMesh& polygons, const ContactMesh& mesh) {
+  return {audit_mesh(polygons, mesh), find_defects(polygons, mesh), audit_perception(mesh, facet_angles(mesh))};
+}
 
 Result<LoadedScene> load_scene(const SceneRequest& request) {
   const auto begin = std::chrono::steady_clock::now();
@@ -89,7 +91,8 @@ std::optional<Result<LoadedScene>> SceneLoader::poll() {
   return out;
 }
 
-void SceneLoader::request_audit(std::shared_ptr<const PolygonMesh> polygons, std::shared_ptr<const ContactScene> scene) {
+void SceneLoader::request_audit(std::shared_ptr<const PolygonMesh> polygons,
+                                std::shared_ptr<const ContactScene> scene) {
   audit_waiting_ = {std::move(polygons), std::move(scene)};
 }
 

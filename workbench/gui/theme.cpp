@@ -75,7 +75,10 @@ void set_colours(ImGuiStyle& style, Theme theme) {
   ImVec4 accent_half = unpack(c.accent);
   accent_half.w = 0.45f;
   ImVec4* to = style.Colors;
-  if (theme == Theme::dark) ImGui::StyleColorsDark(&style); else ImGui::StyleColorsLight(&style);
+  if (theme == Theme::dark)
+    ImGui::StyleColorsDark(&style);
+  else
+    ImGui::StyleColorsLight(&style);
   to[ImGuiCol_Text] = unpack(c.text);
   to[ImGuiCol_TextDisabled] = unpack(c.text_dim);
   to[ImGuiCol_WindowBg] = unpack(c.panel);
@@ -113,12 +116,13 @@ struct FontChoice {
 };
 constexpr FontChoice kInter{"/usr/share/fonts/opentype/inter/Inter-Regular.otf", "fonts-inter"};
 constexpr FontChoice kInterStrong{"/usr/share/fonts/opentype/inter/Inter-SemiBold.otf", "fonts-inter"};
-constexpr FontChoice kMono{"/usr/share/fonts/truetype/jetbrains-mono/JetBrainsMono-Regular.ttf", "fonts-jetbrains-mono"};
+constexpr FontChoice kMono{"/usr/share/fonts/truetype/jetbrains-mono/JetBrainsMono-Regular.ttf",
+                           "fonts-jetbrains-mono"};
 
 /// Latin, Greek (mu), the few arrows and signs the labels use.
 const ImWchar* glyph_ranges() {
-  static const ImWchar ranges[] = {0x0020, 0x00FF, 0x0391, 0x03C9, 0x2010, 0x2026, 0x2070, 0x209C, 0x2190, 0x2193,
-                                   0x2202, 0x2207, 0x2212, 0x2212, 0x2248, 0x2265, 0};
+  static const ImWchar ranges[] = {0x0020, 0x00FF, 0x0391, 0x03C9, 0x2010, 0x2026, 0x2070, 0x209C, 0x2190,
+                                   0x2193, 0x2202, 0x2207, 0x2212, 0x2212, 0x2248, 0x2265, 0};
   return ranges;
 }
 

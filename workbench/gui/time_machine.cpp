@@ -23,8 +23,8 @@ std::shared_ptr<const ChannelStore> make_channels(const RecordedRun& run, const 
     if (!tick.solved) continue;
     float* row = rows.data() + kGhostChannelCount * (tick.tick - first);
     const float x = tick.force_n[0], y = tick.force_n[1], z = tick.force_n[2];
-    const float values[kGhostChannelCount] = {x, y, z, std::sqrt(x * x + y * y + z * z), tick.cld_m, tick.error_m,
-                                              static_cast<float>(tick.iterations)};
+    const float values[kGhostChannelCount] = {
+        x, y, z, std::sqrt(x * x + y * y + z * z), tick.cld_m, tick.error_m, static_cast<float>(tick.iterations)};
     std::copy(std::begin(values), std::end(values), row);
   }
   auto store = std::make_shared<ChannelStore>(kGhostChannelCount, end - first);
@@ -40,7 +40,7 @@ struct TimeMachine::Job {
       : run(std::move(part)), preset(under), resolver(run, under, timed), chunks(resolver.chunk_count()) {}
 
   const RecordedRun run;
-  const std::optional<Preset> preset;   ///< none: verifies
+  const std::optional<Preset> preset;  ///< none: verifies
   HistoryResolver resolver;
   const std::size_t chunks;
   bool whole = false;
@@ -124,7 +124,8 @@ std::shared_ptr<const Ghost> TimeMachine::verified() const {
   return verified_;
 }
 
-std::shared_ptr<TimeMachine::Job> TimeMachine::make_job(std::optional<Preset> preset, std::size_t begin, std::size_t end) const {
+std::shared_ptr<TimeMachine::Job> TimeMachine::make_job(std::optional<Preset> preset, std::size_t begin,
+                                                        std::size_t end) const {
   RecordedRun part = *run_;
   part.records = run_->records.slice(begin, end);
   auto job = std::make_shared<Job>(std::move(part), std::move(preset), !threads_.empty());
@@ -139,8 +140,11 @@ void TimeMachine::schedule() {
     const std::size_t size = run_->records.size();
     if (want_view_) {
       want_view_ = false;
-      const auto to_record = [&](double tick) { return run_->records.lower_bound(static_cast<std::uint64_t>(std::max(0.0, tick))); };
-      const std::size_t end = to_record(to_), begin = std::max(to_record(from_), end > kViewTicks ? end - kViewTicks : 0);
+      const auto to_record = [&](double tick) {
+        return run_->records.lower_bound(static_cast<std::uint64_t>(std::max(0.0, tick)));
+      };
+      const std::size_t end = to_record(to_),
+                        begin = std::max(to_record(from_), end > kViewTicks ? end - kViewTicks : 0);
       if (begin >= end || (end - begin) * kMuchLonger > size) continue;
       job_ = make_job(wanted_, begin, end);
     } else if (want_whole_) {
@@ -167,7 +171,8 @@ void TimeMachine::work(std::stop_token stop) {
     std::shared_ptr<Job> job;
     {
       std::unique_lock lock(guard_);
-      wake_.wait(lock, stop, [this] { return job_ != nullptr && job_->next.load() < std::max<std::size_t>(1, job_->chunks); });
+      wake_.wait(lock, stop,
+                 [this] { return job_ != nullptr && job_->next.load() < std::max<std::size_t>(1, job_->chunks); });
       if (stop.stop_requested()) return;
       job = job_;
     }
@@ -211,6 +216,5 @@ void TimeMachine::publish(Job& job) {
   put();
   schedule();
 }
-
 
 }  // namespace tangent

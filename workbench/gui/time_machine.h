@@ -22,9 +22,9 @@ inline constexpr std::size_t kGhostChannelCount = static_cast<std::size_t>(Ghost
 /// The past under another preset. Numbers and channels cover first_tick ... end_tick - 1 of the channels.
 struct Ghost {
   Preset preset;
-  ResolvedHistory numbers;           ///< .ticks is empty: the channels hold them
+  ResolvedHistory numbers;  ///< .ticks is empty: the channels hold them
   std::shared_ptr<const ChannelStore> channels;
-  bool whole = false;                ///< of the whole past; else of what is in view, the rest to come
+  bool whole = false;  ///< of the whole past; else of what is in view, the rest to come
 };
 
 class TimeMachine {
@@ -44,7 +44,7 @@ class TimeMachine {
 
   /// Solves the past under `preset`, what lies in from_tick ... to_tick first. Replaces what was asked for before.
   void request(const Preset& preset, double from_tick, double to_tick);
-  void forget_request();   ///< no ghost
+  void forget_request();  ///< no ghost
   bool busy() const;
 
   /// Newest ghost that answers a request, whole or of what is in view; null: none yet.
@@ -60,11 +60,11 @@ class TimeMachine {
   void work_on(Job& job);
   void publish(Job& job);
 
-  std::shared_ptr<const RecordedRun> run_;   ///< written by the owner alone, under the lock
+  std::shared_ptr<const RecordedRun> run_;  ///< written by the owner alone, under the lock
 
-  mutable std::mutex guard_;   ///< of everything below
+  mutable std::mutex guard_;  ///< of everything below
   std::condition_variable_any wake_;
-  std::shared_ptr<Job> job_;   ///< under way
+  std::shared_ptr<Job> job_;  ///< under way
   std::optional<Preset> wanted_;
   double from_ = 0.0, to_ = 0.0;
   bool want_view_ = false, want_whole_ = false, want_verified_ = false;

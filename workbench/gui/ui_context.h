@@ -14,19 +14,20 @@ namespace tangent {
 struct Typing {
   ImGuiID id = 0;
   std::string text, shown;
-  std::string field;          ///< path of the value field that is being typed in
-  bool focus_field = false;   ///< it has yet to take the focus
-  bool tab_on = false;        ///< Tab left a field: the next one drawn takes over
-  double slide_from = 0.0;    ///< share when the drag began
-  float slide_x = 0.0f;       ///< mouse when it began
+  std::string field;         ///< path of the value field that is being typed in
+  bool focus_field = false;  ///< it has yet to take the focus
+  bool tab_on = false;       ///< Tab left a field: the next one drawn takes over
+  double slide_from = 0.0;   ///< share when the drag began
+  float slide_x = 0.0f;      ///< mouse when it began
 };
 
-/// What the pointer rests on, and how long, for tooltips. ImGui's own timer starts anew every frame where items overlap.
+/// What the pointer rests on, and how long, for tooltips. ImGui's own timer starts anew every frame where items
+/// overlap.
 struct Resting {
   ImGuiID id = 0;
   float seconds = 0.0f;
   int frame = 0;
-  bool typed_over = false;    ///< a key was pressed since the pointer moved: the hand is elsewhere
+  bool typed_over = false;  ///< a key was pressed since the pointer moved: the hand is elsewhere
 };
 
 struct UiContext {
@@ -39,7 +40,7 @@ struct UiContext {
   std::map<std::string, bool>& open_sections;  ///< by title, of those that were ever folded or unfolded
   float scale = 1.0f;
   double now_s = 0.0;
-  std::string* section_wanted = nullptr;       ///< title of the one to unfold and to scroll to; emptied when that is done
+  std::string* section_wanted = nullptr;  ///< title of the one to unfold and to scroll to; emptied when that is done
 
   float px(float points) const { return points * scale; }
 };

@@ -25,11 +25,25 @@ void draw_icon(ImDrawList& draw, Icon icon, ImVec2 c, float r, ImU32 ink) {
   };
   const float line = std::max(1.0f, 0.2f * r);
   switch (icon) {
-    case Icon::first: bar(c.x - 0.65f * r); triangle(c.x + 0.2f * r, -1.0f); break;
-    case Icon::live: bar(c.x + 0.65f * r); triangle(c.x - 0.2f * r, 1.0f); break;
-    case Icon::step_back: triangle(c.x - 0.3f * r, -1.0f); bar(c.x + 0.65f * r); break;
-    case Icon::step_forward: triangle(c.x + 0.3f * r, 1.0f); bar(c.x - 0.65f * r); break;
-    case Icon::play: triangle(c.x, 1.15f); break;
+    case Icon::first:
+      bar(c.x - 0.65f * r);
+      triangle(c.x + 0.2f * r, -1.0f);
+      break;
+    case Icon::live:
+      bar(c.x + 0.65f * r);
+      triangle(c.x - 0.2f * r, 1.0f);
+      break;
+    case Icon::step_back:
+      triangle(c.x - 0.3f * r, -1.0f);
+      bar(c.x + 0.65f * r);
+      break;
+    case Icon::step_forward:
+      triangle(c.x + 0.3f * r, 1.0f);
+      bar(c.x - 0.65f * r);
+      break;
+    case Icon::play:
+      triangle(c.x, 1.15f);
+      break;
     case Icon::pause:
       draw.AddRectFilled({c.x - 0.6f * r, c.y - 0.75f * r}, {c.x - 0.18f * r, c.y + 0.75f * r}, ink);
       draw.AddRectFilled({c.x + 0.18f * r, c.y - 0.75f * r}, {c.x + 0.6f * r, c.y + 0.75f * r}, ink);
@@ -37,7 +51,8 @@ void draw_icon(ImDrawList& draw, Icon icon, ImVec2 c, float r, ImU32 ink) {
     case Icon::previous:
     case Icon::next: {
       const float d = icon == Icon::next ? 1.0f : -1.0f;
-      const ImVec2 points[3] = {{c.x - d * 0.35f * r, c.y - 0.65f * r}, {c.x + d * 0.4f * r, c.y}, {c.x - d * 0.35f * r, c.y + 0.65f * r}};
+      const ImVec2 points[3] = {
+          {c.x - d * 0.35f * r, c.y - 0.65f * r}, {c.x + d * 0.4f * r, c.y}, {c.x - d * 0.35f * r, c.y + 0.65f * r}};
       draw.AddPolyline(points, 3, ink, 0, 1.4f * line);
       break;
     }
@@ -47,17 +62,20 @@ void draw_icon(ImDrawList& draw, Icon icon, ImVec2 c, float r, ImU32 ink) {
       // A ribbon with a notch; with a chevron beside it where it leads somewhere.
       const float d = icon == Icon::bookmark ? 0.0f : icon == Icon::bookmark_on ? 1.0f : -1.0f;
       const float x = c.x - d * 0.45f * r, w = 0.42f * r, h = 0.8f * r;
-      const ImVec2 ribbon[5] = {{x - w, c.y - h}, {x + w, c.y - h}, {x + w, c.y + h}, {x, c.y + 0.35f * h}, {x - w, c.y + h}};
+      const ImVec2 ribbon[5] = {
+          {x - w, c.y - h}, {x + w, c.y - h}, {x + w, c.y + h}, {x, c.y + 0.35f * h}, {x - w, c.y + h}};
       draw.AddPolyline(ribbon, 5, ink, ImDrawFlags_Closed, line);
       if (d == 0.0f) break;
-      const ImVec2 points[3] = {{c.x + d * 0.4f * r, c.y - 0.5f * r}, {c.x + d * 0.95f * r, c.y}, {c.x + d * 0.4f * r, c.y + 0.5f * r}};
+      const ImVec2 points[3] = {
+          {c.x + d * 0.4f * r, c.y - 0.5f * r}, {c.x + d * 0.95f * r, c.y}, {c.x + d * 0.4f * r, c.y + 0.5f * r}};
       draw.AddPolyline(points, 3, ink, 0, 1.2f * line);
       break;
     }
     case Icon::reset:
       draw.PathArcTo(c, 0.62f * r, -2.3f, 2.6f, 16);
       draw.PathStroke(ink, 0, line);
-      draw.AddTriangleFilled({c.x - 0.85f * r, c.y - 0.35f * r}, {c.x - 0.02f * r, c.y - 0.55f * r}, {c.x - 0.62f * r, c.y - 0.98f * r}, ink);
+      draw.AddTriangleFilled({c.x - 0.85f * r, c.y - 0.35f * r}, {c.x - 0.02f * r, c.y - 0.55f * r},
+                             {c.x - 0.62f * r, c.y - 0.98f * r}, ink);
       break;
   }
 }
@@ -72,7 +90,8 @@ void draw_star(ImDrawList& draw, ImVec2 centre, float radius, ImU32 ink) {
     const float angle = 0.2f * std::numbers::pi_v<float> * static_cast<float>(tenth) - 0.5f * std::numbers::pi_v<float>;
     return ImVec2(centre.x + r * std::cos(angle), centre.y + r * std::sin(angle));
   };
-  for (int i = 0; i < 10; i += 2) draw.AddQuadFilled(centre, at(i - 1, 0.42f * radius), at(i, radius), at(i + 1, 0.42f * radius), ink);
+  for (int i = 0; i < 10; i += 2)
+    draw.AddQuadFilled(centre, at(i - 1, 0.42f * radius), at(i, radius), at(i + 1, 0.42f * radius), ink);
 }
 
 bool section(const UiContext& ui, const char* title, bool open_at_first) {
@@ -99,10 +118,13 @@ bool section(const UiContext& ui, const char* title, bool open_at_first) {
   const ImU32 ink = hovered ? ui.colours.text : ui.colours.text_dim;
   const ImVec2 c{at.x + ui.px(4), at.y + 0.5f * height};
   const float r = ui.px(4);
-  if (open) draw.AddTriangleFilled({c.x - r, c.y - 0.6f * r}, {c.x + r, c.y - 0.6f * r}, {c.x, c.y + 0.7f * r}, ink);
-  else draw.AddTriangleFilled({c.x - 0.6f * r, c.y - r}, {c.x - 0.6f * r, c.y + r}, {c.x + 0.7f * r, c.y}, ink);
+  if (open)
+    draw.AddTriangleFilled({c.x - r, c.y - 0.6f * r}, {c.x + r, c.y - 0.6f * r}, {c.x, c.y + 0.7f * r}, ink);
+  else
+    draw.AddTriangleFilled({c.x - 0.6f * r, c.y - r}, {c.x - 0.6f * r, c.y + r}, {c.x + 0.7f * r, c.y}, ink);
   ImFont* font = ui.fonts.strong;
-  draw.AddText(font, font->FontSize, {at.x + ui.px(15), at.y + 0.5f * (height - font->FontSize) - ui.px(1)}, ui.colours.text, title);
+  draw.AddText(font, font->FontSize, {at.x + ui.px(15), at.y + 0.5f * (height - font->FontSize) - ui.px(1)},
+               ui.colours.text, title);
   return open;
 }
 
@@ -199,7 +221,8 @@ ValueFieldResult value_field(const UiContext& ui, std::string_view path, const V
   const float unit_room = ui.px(34);
   const auto centred = [&](const ImFont* font) { return std::round(at.y + 0.5f * (height - font->FontSize)); };
   const std::string unit(field.unit);
-  draw.AddText(ui.fonts.small, ui.fonts.small->FontSize, {end.x - unit_room + ui.px(3), centred(ui.fonts.small)}, ui.colours.text_dim, unit.c_str());
+  draw.AddText(ui.fonts.small, ui.fonts.small->FontSize, {end.x - unit_room + ui.px(3), centred(ui.fonts.small)},
+               ui.colours.text_dim, unit.c_str());
   ImFont* number = ui.fonts.number;
   const float w = number->CalcTextSizeA(number->FontSize, 1e9f, 0.0f, field.text.c_str()).x;
   draw.AddText(number, number->FontSize, {end.x - unit_room - w, centred(number)}, ui.colours.text, field.text.c_str());
@@ -216,10 +239,14 @@ bool icon_button(const UiContext& ui, std::string_view path, Icon icon, const ch
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const bool plain = icon == Icon::reset;
   if (on || hovered || !plain) {
-    const ImU32 fill = on ? ui.colours.accent_fill : ImGui::GetColorU32(hovered ? ImGuiCol_ButtonHovered : ImGuiCol_Button);
+    const ImU32 fill =
+        on ? ui.colours.accent_fill : ImGui::GetColorU32(hovered ? ImGuiCol_ButtonHovered : ImGuiCol_Button);
     if (!plain || hovered) draw.AddRectFilled(at, {at.x + width, at.y + side}, fill, ui.px(3));
   }
-  const ImU32 ink = !enabled ? ui.colours.text_faint : on ? ui.colours.accent : hovered ? ui.colours.text : ui.colours.text_dim;
+  const ImU32 ink = !enabled  ? ui.colours.text_faint
+                    : on      ? ui.colours.accent
+                    : hovered ? ui.colours.text
+                              : ui.colours.text_dim;
   draw_icon(draw, icon, {at.x + 0.5f * width, at.y + 0.5f * side}, plain ? ui.px(5.5f) : ui.px(6.5f), ink);
   tooltip(ui, tip);
   return pressed;
@@ -247,7 +274,8 @@ bool toggle_button(const UiContext& ui, std::string_view path, const char* text,
 bool choice_row(const UiContext& ui, std::string_view path, float width, std::span<const std::string_view> choices,
                 int& chosen, bool again) {
   bool changed = false;
-  const std::string current(choices[static_cast<std::size_t>(std::clamp(chosen, 0, static_cast<int>(choices.size()) - 1))]);
+  const std::string current(
+      choices[static_cast<std::size_t>(std::clamp(chosen, 0, static_cast<int>(choices.size()) - 1))]);
   ImGui::SetNextItemWidth(width);
   const bool open = ImGui::BeginCombo(id_of(path).c_str(), current.c_str());
   ui.items.note_last(path);
@@ -265,7 +293,8 @@ bool choice_row(const UiContext& ui, std::string_view path, float width, std::sp
   return changed;
 }
 
-void fact(const UiContext& ui, const char* label, const std::string& value, const char* unit, std::optional<ImU32> ink) {
+void fact(const UiContext& ui, const char* label, const std::string& value, const char* unit,
+          std::optional<ImU32> ink) {
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const float width = ImGui::GetContentRegionAvail().x;
   ImFont* number = ui.fonts.number;
@@ -274,21 +303,25 @@ void fact(const UiContext& ui, const char* label, const std::string& value, cons
   const float unit_width = unit[0] != '\0' ? ui.px(40) : 0.0f;
   const float w = number->CalcTextSizeA(number->FontSize, 1e9f, 0.0f, value.c_str()).x;
   draw.AddText(text, text->FontSize, at, ui.colours.text_dim, label);
-  draw.AddText(number, number->FontSize, {at.x + width - unit_width - w, at.y + ui.px(1)}, ink.value_or(ui.colours.text), value.c_str());
-  if (unit_width > 0.0f) draw.AddText(text, text->FontSize, {at.x + width - unit_width + ui.px(4), at.y}, ui.colours.text_dim, unit);
+  draw.AddText(number, number->FontSize, {at.x + width - unit_width - w, at.y + ui.px(1)},
+               ink.value_or(ui.colours.text), value.c_str());
+  if (unit_width > 0.0f)
+    draw.AddText(text, text->FontSize, {at.x + width - unit_width + ui.px(4), at.y}, ui.colours.text_dim, unit);
   ImGui::Dummy({width, text->FontSize});
 }
 
 namespace {
 
-/// Beside what it explains: at the pointer it would cover the value that is about to be changed. Tall items are pointed into.
+/// Beside what it explains: at the pointer it would cover the value that is about to be changed. Tall items are pointed
+/// into.
 void place_tooltip(const UiContext& ui) {
   const ImVec2 min = ImGui::GetItemRectMin(), max = ImGui::GetItemRectMax();
   if (max.y - min.y > ui.px(60)) return;
   const ImVec2 screen = ImGui::GetIO().DisplaySize;
   const float x = ImGui::GetIO().MousePos.x;
   const bool low = min.y > 0.6f * screen.y, right = x > 0.6f * screen.x;
-  ImGui::SetNextWindowPos({x, low ? min.y - ui.px(4) : max.y + ui.px(4)}, ImGuiCond_Always, {right ? 1.0f : 0.0f, low ? 1.0f : 0.0f});
+  ImGui::SetNextWindowPos({x, low ? min.y - ui.px(4) : max.y + ui.px(4)}, ImGuiCond_Always,
+                          {right ? 1.0f : 0.0f, low ? 1.0f : 0.0f});
 }
 
 bool any_key_down() {
@@ -313,8 +346,10 @@ void tooltip(const UiContext& ui, std::string_view text) {
   if (frame != resting.frame) resting.seconds += ImGui::GetIO().DeltaTime;
   resting.frame = frame;
   const ImVec2 moved = ImGui::GetIO().MouseDelta;
-  if (moved.x != 0.0f || moved.y != 0.0f) resting.typed_over = false;
-  else if (any_key_down()) resting.typed_over = true;
+  if (moved.x != 0.0f || moved.y != 0.0f)
+    resting.typed_over = false;
+  else if (any_key_down())
+    resting.typed_over = true;
   if (resting.seconds < 0.35f || resting.typed_over) return;
   place_tooltip(ui);
   ImGui::BeginTooltip();

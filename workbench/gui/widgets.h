@@ -1,10 +1,11 @@
-// The few widgets of our own: value fields that slide and take typed values on Enter or when they lose the focus, section headings, rows of facts, drawn icons. Each notes itself in the item map.
+// The few widgets of our own: value fields that slide and take typed values on Enter or when they lose the focus,
+// section headings, rows of facts, drawn icons. Each notes itself in the item map.
 #pragma once
 
 #include "workbench/gui/ui_context.h"
 
-#include <span>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -22,17 +23,30 @@ std::optional<std::string> number_box(const UiContext& ui, std::string_view path
 /// times finer), a click types.
 struct ValueField {
   float width = 100.0f;
-  double share = 0.0;      ///< 0..1 of the range, filled
-  std::string text;        ///< the value
+  double share = 0.0;  ///< 0..1 of the range, filled
+  std::string text;    ///< the value
   std::string_view unit;
 };
 struct ValueFieldResult {
-  std::optional<double> slid;         ///< new share
-  std::optional<std::string> typed;   ///< committed text
+  std::optional<double> slid;        ///< new share
+  std::optional<std::string> typed;  ///< committed text
 };
 ValueFieldResult value_field(const UiContext& ui, std::string_view path, const ValueField& field);
 
-enum class Icon { first, step_back, pause, play, step_forward, live, previous, next, reset, bookmark, bookmark_back, bookmark_on };
+enum class Icon {
+  first,
+  step_back,
+  pause,
+  play,
+  step_forward,
+  live,
+  previous,
+  next,
+  reset,
+  bookmark,
+  bookmark_back,
+  bookmark_on
+};
 /// A square button with a drawn icon; `on` tints it with the accent.
 bool icon_button(const UiContext& ui, std::string_view path, Icon icon, const char* tooltip, bool on = false,
                  bool enabled = true);
@@ -41,13 +55,13 @@ void draw_star(ImDrawList& draw, ImVec2 centre, float radius, ImU32 ink);
 /// A text button that stays pressed.
 bool toggle_button(const UiContext& ui, std::string_view path, const char* text, bool& on, const char* tooltip);
 bool text_button(const UiContext& ui, std::string_view path, const char* text, const char* tooltip);
-/// The input field submitted next under this label takes what is typed from this frame on. (SetKeyboardFocusHere would take
-/// two frames more, and what is typed meanwhile would be lost.)
+/// The input field submitted next under this label takes what is typed from this frame on. (SetKeyboardFocusHere would
+/// take two frames more, and what is typed meanwhile would be lost.)
 void edit_next(const char* label);
 /// A field takes what is typed, at this moment. (io.WantTextInput still says so a frame after Enter.)
 bool text_is_edited();
-/// A combo box. Each choice is noted as path/choice while it is open. Returns whether another one was chosen; with `again` also
-/// when it was the present one.
+/// A combo box. Each choice is noted as path/choice while it is open. Returns whether another one was chosen; with
+/// `again` also when it was the present one.
 bool choice_row(const UiContext& ui, std::string_view path, float width, std::span<const std::string_view> choices,
                 int& chosen, bool again = false);
 

@@ -16,7 +16,8 @@ std::string text_of(const char* pattern, double value) {
 std::string fault_of(const DeviceTelemetry& device) {
   if (device.gate_fault != GateFault::none) return std::string("safety gate: ") + to_string(device.gate_fault);
   if (device.force_fault != DeviceFault::none) return std::string("force device: ") + to_string(device.force_fault);
-  if (device.display_fault != DeviceFault::none) return std::string("contact display: ") + to_string(device.display_fault);
+  if (device.display_fault != DeviceFault::none)
+    return std::string("contact display: ") + to_string(device.display_fault);
   return {};
 }
 
@@ -24,13 +25,20 @@ std::string fault_of(const DeviceTelemetry& device) {
 
 const char* to_string(BookmarkKind kind) {
   switch (kind) {
-    case BookmarkKind::user: return "bookmark";
-    case BookmarkKind::unconverged: return "unconverged";
-    case BookmarkKind::reseeded: return "reseeded";
-    case BookmarkKind::iterations: return "iterations";
-    case BookmarkKind::force: return "force";
-    case BookmarkKind::device_fault: return "device fault";
-    case BookmarkKind::count_: break;
+    case BookmarkKind::user:
+      return "bookmark";
+    case BookmarkKind::unconverged:
+      return "unconverged";
+    case BookmarkKind::reseeded:
+      return "reseeded";
+    case BookmarkKind::iterations:
+      return "iterations";
+    case BookmarkKind::force:
+      return "force";
+    case BookmarkKind::device_fault:
+      return "device fault";
+    case BookmarkKind::count_:
+      break;
   }
   return "bookmark";
 }
@@ -48,9 +56,11 @@ void Bookmarks::watch(const ServoRecord& record) {
   if (out.iterations > triggers.iterations_over && wants(BookmarkKind::iterations))
     fire(BookmarkKind::iterations, record, text_of("%.0f planes", out.iterations));
   const double force = glm::length(record.device.force_command_n);
-  if (force > triggers.force_over_n && wants(BookmarkKind::force)) fire(BookmarkKind::force, record, text_of("%.2f N", force));
+  if (force > triggers.force_over_n && wants(BookmarkKind::force))
+    fire(BookmarkKind::force, record, text_of("%.2f N", force));
   if (wants(BookmarkKind::device_fault)) {
-    if (std::string fault = fault_of(record.device); !fault.empty()) fire(BookmarkKind::device_fault, record, std::move(fault));
+    if (std::string fault = fault_of(record.device); !fault.empty())
+      fire(BookmarkKind::device_fault, record, std::move(fault));
   }
 }
 
@@ -63,7 +73,8 @@ void Bookmarks::fire(BookmarkKind kind, const ServoRecord& record, std::string n
     return;
   }
   if (automatic_ == kMostAutomatic) {
-    const auto oldest = std::find_if(all_.begin(), all_.end(), [](const Bookmark& b) { return b.kind != BookmarkKind::user; });
+    const auto oldest =
+        std::find_if(all_.begin(), all_.end(), [](const Bookmark& b) { return b.kind != BookmarkKind::user; });
     remove(oldest->id);
   }
   latest = insert({0, kind, record.tick.tick, record.tick.tick, record.tick.input.t_s, 1, std::move(note)});
@@ -72,7 +83,8 @@ void Bookmarks::fire(BookmarkKind kind, const ServoRecord& record, std::string n
 
 std::uint32_t Bookmarks::insert(Bookmark mark) {
   mark.id = next_id_++;
-  const auto at = std::upper_bound(all_.begin(), all_.end(), mark.tick, [](std::uint64_t tick, const Bookmark& b) { return tick < b.tick; });
+  const auto at = std::upper_bound(all_.begin(), all_.end(), mark.tick,
+                                   [](std::uint64_t tick, const Bookmark& b) { return tick < b.tick; });
   return all_.insert(at, std::move(mark))->id;
 }
 
@@ -98,7 +110,8 @@ void Bookmarks::remove(std::uint32_t id) {
 
 void Bookmarks::forget_before(std::uint64_t tick) {
   if (all_.empty() || all_.front().last_tick >= tick) return;
-  automatic_ -= std::erase_if(all_, [tick](const Bookmark& b) { return b.kind != BookmarkKind::user && b.last_tick < tick; });
+  automatic_ -=
+      std::erase_if(all_, [tick](const Bookmark& b) { return b.kind != BookmarkKind::user && b.last_tick < tick; });
 }
 
 void Bookmarks::clear_automatic() {

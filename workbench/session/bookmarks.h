@@ -27,7 +27,7 @@ struct Bookmark {
 struct BookmarkTriggers {
   std::array<bool, kBookmarkKindCount> on{false, true, true, true, true, true};  ///< by kind; user: never
   std::int32_t iterations_over = 20;
-  double force_over_n = 6.0;              ///< of the force sent to the device
+  double force_over_n = 6.0;  ///< of the force sent to the device
 };
 
 class Bookmarks {
@@ -50,7 +50,7 @@ class Bookmarks {
   /// By tick.
   const std::vector<Bookmark>& all() const { return all_; }
   const Bookmark* find(std::uint32_t id) const;
-  const Bookmark* after(std::uint64_t tick) const;   ///< null: none
+  const Bookmark* after(std::uint64_t tick) const;  ///< null: none
   const Bookmark* before(std::uint64_t tick) const;
 
  private:

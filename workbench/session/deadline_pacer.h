@@ -31,7 +31,7 @@ class DeadlinePacer {
   double rate_hz_, period_ns_;
   bool by_deadlines_;
   std::int64_t origin_ns_ = 0;
-  std::uint64_t due_ = 0;        ///< periods from the origin to the next deadline
+  std::uint64_t due_ = 0;  ///< periods from the origin to the next deadline
   std::uint64_t ticks_ = 0;
   std::uint64_t last_due_ = 0;
   std::int64_t last_start_ns_ = 0;

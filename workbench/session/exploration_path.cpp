@@ -13,12 +13,12 @@ constexpr double kTau = 2.0 * std::numbers::pi;
 constexpr std::size_t kRawPoints = 1024;
 constexpr int kShrinkRounds = 20;
 constexpr int kLastSmoothings = 10;
-constexpr double kPointSpacing = 1.5e-3;         // m, where that gives neither too few nor too many points
+constexpr double kPointSpacing = 1.5e-3;  // m, where that gives neither too few nor too many points
 constexpr std::size_t kFewestPoints = 256, kMostPoints = 8192;
-constexpr double kNormalWindow = 8e-3;           // m of way over which the pressing direction is averaged
-constexpr double kOrientationWindow = 40e-3;     // m of way over which the hand turns with the surface
-constexpr double kRockingAngle = 0.25;           // rad: a person rolls the finger; keeps the display moving
-constexpr double kRockingLength = 0.13;          // m of way, roughly, for one roll
+constexpr double kNormalWindow = 8e-3;        // m of way over which the pressing direction is averaged
+constexpr double kOrientationWindow = 40e-3;  // m of way over which the hand turns with the surface
+constexpr double kRockingAngle = 0.25;        // rad: a person rolls the finger; keeps the display moving
+constexpr double kRockingLength = 0.13;       // m of way, roughly, for one roll
 
 using Points = std::vector<Vec3>;
 
@@ -160,9 +160,7 @@ Points shrink(const NearestTriangles& nearest, double pad, Points points, double
 }
 
 /// Unit vector along v, m, or `otherwise` where v is shorter than a micrometre.
-Vec3 direction_or(const Vec3& v, const Vec3& otherwise) {
-  return glm::dot(v, v) > 1e-12 ? unit(v) : otherwise;
-}
+Vec3 direction_or(const Vec3& v, const Vec3& otherwise) { return glm::dot(v, v) > 1e-12 ? unit(v) : otherwise; }
 
 /// Finger frame for a pad that faces -up with the fingertip towards `forward`, rolled by `roll` about its y axis.
 Quat finger_frame(const Vec3& up, const Vec3& forward, double roll) {
@@ -179,10 +177,13 @@ Vec3 catmull_rom(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, dou
 
 double pad_distance_m(const Finger& finger) {
   switch (finger.shape) {
-    case FingerShape::point: return 0.0;
-    case FingerShape::ellipsoid: return finger.semi_axes_m.z;
+    case FingerShape::point:
+      return 0.0;
+    case FingerShape::ellipsoid:
+      return finger.semi_axes_m.z;
     case FingerShape::sphere:
-    case FingerShape::capsule: break;
+    case FingerShape::capsule:
+      break;
   }
   return finger.radius_m;
 }
@@ -197,7 +198,9 @@ ExplorationPath ExplorationPath::build(const ContactScene& scene, double pad_m) 
   const Vec3 facing = mean_normal(mesh);
   const bool sheet = glm::length(facing) > 0.5;
   const PlanarCurve* planar = scene.planar();
-  Points raw = planar ? along(*planar, path.pad_m_) : sheet ? over(box, unit(facing), path.pad_m_) : around(box, path.pad_m_);
+  Points raw = planar  ? along(*planar, path.pad_m_)
+               : sheet ? over(box, unit(facing), path.pad_m_)
+                       : around(box, path.pad_m_);
   const Points centres = shrink(scene.nearest(), path.pad_m_, std::move(raw), path.spacing_m_);
 
   const std::size_t n = centres.size();

@@ -24,8 +24,8 @@ struct PathPose {
 
 class ExplorationPath {
  public:
-  /// Asks for the nearest triangle some 25,000 times (0.1 s on 69k triangles). `pad_m`: of the finger it is made for, >= 0; other fingers may
-  /// follow it too, exactly if smaller.
+  /// Asks for the nearest triangle some 25,000 times (0.1 s on 69k triangles). `pad_m`: of the finger it is made for,
+  /// >= 0; other fingers may follow it too, exactly if smaller.
   static ExplorationPath build(const ContactScene& scene, double pad_m);
 
   double length_m() const { return spacing_m_ * static_cast<double>(points_.size()); }
@@ -37,12 +37,12 @@ class ExplorationPath {
 
  private:
   struct Point {
-    Vec3 centre;       ///< of a finger with the pad distance built for, just touching
-    Vec3 outward;      ///< unit, smoothed: from the surface to the finger
+    Vec3 centre;   ///< of a finger with the pad distance built for, just touching
+    Vec3 outward;  ///< unit, smoothed: from the surface to the finger
     Quat orientation;
   };
 
-  std::vector<Point> points_;   ///< evenly spaced, closed
+  std::vector<Point> points_;  ///< evenly spaced, closed
   double spacing_m_ = 1.0;
   double pad_m_ = 0.0;
 };

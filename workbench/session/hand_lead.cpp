@@ -7,8 +7,8 @@ namespace tangent {
 
 namespace {
 
-constexpr double kApproachTime = 0.5;      // s from off the surface to the full press
-constexpr double kApproachHeight = 3e-3;   // m
+constexpr double kApproachTime = 0.5;     // s from off the surface to the full press
+constexpr double kApproachHeight = 3e-3;  // m
 // m/s; of the hand itself. A path that turns about a small feature moves the finger's centre faster than its pad;
 // a click far away moves the hand there, not at once.
 constexpr double kHandSpeedLimit = 1.0;

@@ -20,8 +20,8 @@ class HandLead {
   PathPose wanted(const ExplorationPath& path, double pad_m) const noexcept;
 
   HandCommand command_;
-  double way_m_ = 0.0;         ///< along the path
-  double approach_s_ = 0.0;    ///< since begin
+  double way_m_ = 0.0;       ///< along the path
+  double approach_s_ = 0.0;  ///< since begin
   PathPose goal_;
 };
 

@@ -12,7 +12,7 @@ enum class HandMode : std::uint8_t {
   point,    ///< to a point that a person sets
 };
 
-inline constexpr double kFastestHand = 0.5;   // m/s, along the path
+inline constexpr double kFastestHand = 0.5;  // m/s, along the path
 
 struct HandSettings {
   HandMode mode = HandMode::explore;
@@ -25,7 +25,7 @@ struct HandSettings {
 /// What the servo is told.
 struct HandCommand {
   HandSettings settings;
-  Vec3 point_m{0.0};           ///< HandMode::point, world
+  Vec3 point_m{0.0};  ///< HandMode::point, world
 };
 
 }  // namespace tangent

@@ -13,8 +13,10 @@ std::size_t first_not_before(const Records& records, std::uint64_t tick) {
   std::size_t low = 0, high = records.size();
   while (low < high) {
     const std::size_t middle = low + (high - low) / 2;
-    if (records[middle].tick.tick < tick) low = middle + 1;
-    else high = middle;
+    if (records[middle].tick.tick < tick)
+      low = middle + 1;
+    else
+      high = middle;
   }
   return low;
 }

@@ -65,7 +65,7 @@ class History {
 
  private:
   std::size_t capacity_, block_;
-  std::size_t head_ = 0;   ///< where the oldest is in the first block
+  std::size_t head_ = 0;  ///< where the oldest is in the first block
   std::size_t size_ = 0;
   std::deque<std::shared_ptr<ServoRecord[]>> blocks_;
 };

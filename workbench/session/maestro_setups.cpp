@@ -22,17 +22,18 @@ constexpr double kMostChannel = 23.0;
 constexpr std::array<std::string_view, 5> kKeys{"channel", "low_m", "low_us", "high_m", "high_us"};
 constexpr const char* kRemedy = "correct it, or delete the file and calibrate again";
 
-using Setups = std::map<std::string, MaestroSetup>;   // by serial number
+using Setups = std::map<std::string, MaestroSetup>;  // by serial number
 
 std::string where(const std::filesystem::path& path, const toml::node& node, const std::string& what) {
   return path.string() + ":" + std::to_string(node.source().begin.line) + " " + what;
 }
 
-Result<MaestroSetup> read_setup(const std::filesystem::path& path, const std::string& serial, const toml::table& table) {
+Result<MaestroSetup> read_setup(const std::filesystem::path& path, const std::string& serial,
+                                const toml::table& table) {
   MaestroSetup setup;
   double channel = 0.0;
-  const std::array<double*, kKeys.size()> fields{&channel, &setup.calibration.low_m, &setup.calibration.low_us, &setup.calibration.high_m,
-                                                 &setup.calibration.high_us};
+  const std::array<double*, kKeys.size()> fields{&channel, &setup.calibration.low_m, &setup.calibration.low_us,
+                                                 &setup.calibration.high_m, &setup.calibration.high_us};
   for (const auto& [key, node] : table) {
     const auto known = std::find(kKeys.begin(), kKeys.end(), key.str());
     const std::string place = where(path, node, serial + "." + std::string(key.str()));
@@ -40,7 +41,8 @@ Result<MaestroSetup> read_setup(const std::filesystem::path& path, const std::st
     if (!node.is_number()) return fail("is not a number", place, kRemedy);
     *fields[static_cast<std::size_t>(known - kKeys.begin())] = *node.value<double>();
   }
-  if (table.size() != kKeys.size()) return fail("a key is missing", where(path, table, serial), "it needs " + choices_text(kKeys));
+  if (table.size() != kKeys.size())
+    return fail("a key is missing", where(path, table, serial), "it needs " + choices_text(kKeys));
   if (!(channel >= 0.0 && channel <= kMostChannel) || channel != std::floor(channel))
     return fail("is no channel", where(path, table, serial + ".channel"), "allowed: 0 to 23");
   if (const Status sound = check_calibration(setup.calibration); !sound)
@@ -55,7 +57,8 @@ Result<Setups> read_setups(const std::filesystem::path& path) {
   if (!root) return tl::unexpected(root.error());
   for (const auto& [key, node] : *root) {
     const std::string serial(key.str());
-    if (!node.is_table()) return fail("is not a table", where(path, node, serial), "write a table for each serial number");
+    if (!node.is_table())
+      return fail("is not a table", where(path, node, serial), "write a table for each serial number");
     auto setup = read_setup(path, serial, *node.as_table());
     if (!setup) return tl::unexpected(setup.error());
     setups[serial] = *setup;
@@ -67,11 +70,15 @@ std::string format_setups(const Setups& setups) {
   toml::table root;
   for (const auto& [serial, setup] : setups) {
     const MaestroCalibration& c = setup.calibration;
-    root.insert(serial, toml::table{{"channel", static_cast<std::int64_t>(setup.channel)}, {"low_m", c.low_m}, {"low_us", c.low_us},
-                                    {"high_m", c.high_m}, {"high_us", c.high_us}});
+    root.insert(serial, toml::table{{"channel", static_cast<std::int64_t>(setup.channel)},
+                                    {"low_m", c.low_m},
+                                    {"low_us", c.low_us},
+                                    {"high_m", c.high_m},
+                                    {"high_us", c.high_us}});
   }
   std::ostringstream text;
-  text << "# Pololu Maestros by serial number: two places of the roller and the pulses that hold it there.\n" << root << "\n";
+  text << "# Pololu Maestros by serial number: two places of the roller and the pulses that hold it there.\n"
+       << root << "\n";
   return text.str();
 }
 

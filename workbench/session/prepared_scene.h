@@ -18,7 +18,7 @@ class PreparedScene {
   std::shared_ptr<const ContactScene> scene;
   Stepper stepper;
   ExplorationPath path;
-  std::uint32_t id = 0;   ///< given by the session
+  std::uint32_t id = 0;  ///< given by the session
 };
 
 }  // namespace tangent

@@ -81,8 +81,10 @@ void join(ContactChange& into, const ContactChange& next) {
 
 /// Joined to the last one if it is near. Past kMostChanges it is left out.
 void append(std::vector<ContactChange>& changes, const ContactChange& next) {
-  if (!changes.empty() && next.first_tick <= changes.back().last_tick + kJoinWithin) join(changes.back(), next);
-  else if (changes.size() < ResolvedHistory::kMostChanges) changes.push_back(next);
+  if (!changes.empty() && next.first_tick <= changes.back().last_tick + kJoinWithin)
+    join(changes.back(), next);
+  else if (changes.size() < ResolvedHistory::kMostChanges)
+    changes.push_back(next);
 }
 
 /// Where there is a contact: free, touching, or none that could be found.
@@ -140,7 +142,8 @@ class HistoryResolver::Replay {
   std::optional<TickOutput> step(const ServoRecord& record, bool& taken_over) {
     const TickRecord& tick = record.tick;
     enter_scene(record);
-    const bool follows = before_ != nullptr && record.scene_id == before_->scene_id && tick.tick == before_->tick.tick + 1;
+    const bool follows =
+        before_ != nullptr && record.scene_id == before_->scene_id && tick.tick == before_->tick.tick + 1;
     if (!follows) as_recorded_ = true;
     before_ = &record;
     taken_over = false;
@@ -186,12 +189,12 @@ class HistoryResolver::Replay {
   }
 
   const RecordedRun& run_;
-  const Preset* wish_;                 ///< null: each tick under its own
-  std::optional<Stepper> stepper_;     ///< none: the scene is gone
+  const Preset* wish_;              ///< null: each tick under its own
+  std::optional<Stepper> stepper_;  ///< none: the scene is gone
   const ServoRecord* before_ = nullptr;
   TickState state_;
-  bool as_recorded_ = true;            ///< the state before the next tick is the recorded one, whatever `state_` holds
-  const Preset* compared_ = nullptr;   ///< recorded preset that `alike_` was found for
+  bool as_recorded_ = true;           ///< the state before the next tick is the recorded one, whatever `state_` holds
+  const Preset* compared_ = nullptr;  ///< recorded preset that `alike_` was found for
   bool alike_ = false;
 };
 
@@ -210,7 +213,8 @@ void HistoryResolver::solve_chunk(std::size_t chunk) {
     if (!out) continue;
     const Vec3 d = out->contact - was.contact;
     ticks_[i] = {.tick = record.tick.tick,
-                 .force_n = {static_cast<float>(out->force_n.x), static_cast<float>(out->force_n.y), static_cast<float>(out->force_n.z)},
+                 .force_n = {static_cast<float>(out->force_n.x), static_cast<float>(out->force_n.y),
+                             static_cast<float>(out->force_n.z)},
                  .cld_m = static_cast<float>(out->cld_m),
                  .error_m = static_cast<float>(out->error_m),
                  .moved_m = static_cast<float>(std::sqrt(glm::dot(d, d))),
@@ -243,7 +247,8 @@ ResolvedHistory HistoryResolver::finish() {
   }
   out.recorded = recorded.done();
   out.resolved = resolved.done();
-  if (out.resolved.ticks > 0 && out.taken_over == 0) out.ns_per_tick = static_cast<double>(ns) / static_cast<double>(out.resolved.ticks);
+  if (out.resolved.ticks > 0 && out.taken_over == 0)
+    out.ns_per_tick = static_cast<double>(ns) / static_cast<double>(out.resolved.ticks);
   out.ticks = std::move(ticks_);
   return out;
 }

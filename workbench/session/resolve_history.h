@@ -5,8 +5,9 @@
 // that was recorded there and then keeps its own, as the servo does; it takes the recorded one again wherever ticks are
 // missing or the scene changed. Under the recorded presets every tick gives the recorded bits.
 //
-// A preset that differs from the recorded one in nothing that the solver reads has the recorded contacts: they are taken
-// over, and only force and display are computed again. Without a preset everything is solved, so that this verifies.
+// A preset that differs from the recorded one in nothing that the solver reads has the recorded contacts: they are
+// taken over, and only force and display are computed again. Without a preset everything is solved, so that this
+// verifies.
 #pragma once
 
 #include "workbench/session/session.h"
@@ -22,21 +23,21 @@ struct ResolvedTick {
   std::uint64_t tick = 0;
   float force_n[3] = {0.0f, 0.0f, 0.0f};
   float cld_m = 0.0f, error_m = 0.0f;
-  float moved_m = 0.0f;             ///< contact to recorded contact
+  float moved_m = 0.0f;  ///< contact to recorded contact
   std::int32_t iterations = 0;
   TickStatus status = TickStatus::unconverged;
-  bool contact_changed = false;     ///< see contact_changed()
-  bool same_bits = false;           ///< as the recorded output
-  bool solved = false;              ///< false: its scene is gone, or its chunk was left out
+  bool contact_changed = false;  ///< see contact_changed()
+  bool same_bits = false;        ///< as the recorded output
+  bool solved = false;           ///< false: its scene is gone, or its chunk was left out
 };
 
 /// A run of ticks whose contact changed, gaps of a few ticks included.
 struct ContactChange {
   std::uint64_t first_tick = 0, last_tick = 0;
-  std::uint64_t worst_tick = 0;     ///< where it moved most
-  double moved_m = 0.0;             ///< there
+  std::uint64_t worst_tick = 0;                                                       ///< where it moved most
+  double moved_m = 0.0;                                                               ///< there
   TickStatus recorded = TickStatus::unconverged, resolved = TickStatus::unconverged;  ///< there
-  std::uint64_t ticks = 0;          ///< changed ones among them
+  std::uint64_t ticks = 0;                                                            ///< changed ones among them
 };
 
 struct RunNumbers {
@@ -47,13 +48,13 @@ struct RunNumbers {
 };
 
 struct ResolvedHistory {
-  std::vector<ResolvedTick> ticks;      ///< in the order of the records
-  RunNumbers recorded, resolved;        ///< over the ticks that were solved
-  std::vector<ContactChange> changes;   ///< in order, the first kMostChanges
-  std::uint64_t changed_ticks = 0;      ///< all
-  std::uint64_t different_ticks = 0;    ///< not the same bits
-  std::uint64_t taken_over = 0;         ///< contacts that are the recorded ones, since the solver reads nothing that changed
-  double ns_per_tick = 0.0;             ///< processor time; 0: not measured, as where contacts were taken over
+  std::vector<ResolvedTick> ticks;     ///< in the order of the records
+  RunNumbers recorded, resolved;       ///< over the ticks that were solved
+  std::vector<ContactChange> changes;  ///< in order, the first kMostChanges
+  std::uint64_t changed_ticks = 0;     ///< all
+  std::uint64_t different_ticks = 0;   ///< not the same bits
+  std::uint64_t taken_over = 0;  ///< contacts that are the recorded ones, since the solver reads nothing that changed
+  double ns_per_tick = 0.0;      ///< processor time; 0: not measured, as where contacts were taken over
   bool complete = false;
 
   static constexpr std::size_t kMostChanges = 1000;
@@ -68,7 +69,8 @@ class HistoryResolver {
  public:
   static constexpr std::size_t kChunk = 2048, kLeadIn = 32;  ///< ticks
 
-  /// `preset`: for every tick; none: each is solved under the one it was recorded with. `timed`: measures processor time.
+  /// `preset`: for every tick; none: each is solved under the one it was recorded with. `timed`: measures processor
+  /// time.
   HistoryResolver(const RecordedRun& run, std::optional<Preset> preset, bool timed);
   ~HistoryResolver();
 
@@ -88,7 +90,7 @@ class HistoryResolver {
   std::optional<Preset> preset_;
   bool timed_;
   std::vector<ResolvedTick> ticks_;
-  std::vector<ChunkSummary> summaries_;   ///< one a chunk, written by the thread that solves it
+  std::vector<ChunkSummary> summaries_;  ///< one a chunk, written by the thread that solves it
 };
 
 }  // namespace tangent

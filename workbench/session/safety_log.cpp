@@ -12,14 +12,18 @@ void SafetyLog::watch(const ServoRecord& record) {
   const DeviceTelemetry& now = record.device;
   const auto device = [&](const char* name, DeviceState before, DeviceState state, DeviceFault fault) {
     if (state == before) return;
-    if (state == DeviceState::faulted) add(Kind::fault, record, std::string(name) + ": " + to_string(fault));
-    else add(Kind::state, record, std::string(name) + ": " + to_string(state));
+    if (state == DeviceState::faulted)
+      add(Kind::fault, record, std::string(name) + ": " + to_string(fault));
+    else
+      add(Kind::state, record, std::string(name) + ": " + to_string(state));
   };
   device("force device", last_.force_state, now.force_state, now.force_fault);
   device("contact display", last_.display_state, now.display_state, now.display_fault);
   if (now.gate_state != last_.gate_state) {
-    if (now.gate_state == GateState::faulted) add(Kind::fault, record, std::string("safety gate: ") + to_string(now.gate_fault));
-    else add(Kind::state, record, std::string("safety gate: ") + to_string(now.gate_state));
+    if (now.gate_state == GateState::faulted)
+      add(Kind::fault, record, std::string("safety gate: ") + to_string(now.gate_fault));
+    else
+      add(Kind::state, record, std::string("safety gate: ") + to_string(now.gate_state));
   }
   for (std::size_t i = 0; i < kGateActionCount; ++i) {
     const auto action = static_cast<GateAction>(i);
@@ -27,7 +31,8 @@ void SafetyLog::watch(const ServoRecord& record) {
     const bool known = last_action_tick_[i] > 0 && record.tick.tick + 1 - last_action_tick_[i] <= kQuietTicks;
     last_action_tick_[i] = record.tick.tick + 1;
     // Arming and stopping say these already.
-    if (!known && action != GateAction::ramped_in && action != GateAction::withheld) add(Kind::action, record, to_string(action));
+    if (!known && action != GateAction::ramped_in && action != GateAction::withheld)
+      add(Kind::action, record, to_string(action));
   }
   last_ = now;
 }

@@ -1,5 +1,5 @@
-// What happened to devices and safety gate, in words, from the servo's records: changes of state, faults, and the gate's
-// interventions (the first tick of each run of them).
+// What happened to devices and safety gate, in words, from the servo's records: changes of state, faults, and the
+// gate's interventions (the first tick of each run of them).
 #pragma once
 
 #include "workbench/session/servo_record.h"
@@ -15,13 +15,13 @@ struct SafetyEntry {
   Kind kind = Kind::state;
   std::uint64_t tick = 0;
   double t_s = 0.0;
-  std::string text;   ///< "force device: ready", "safety gate: late tick", "force clamped"
+  std::string text;  ///< "force device: ready", "safety gate: late tick", "force clamped"
 };
 
 class SafetyLog {
  public:
-  static constexpr std::size_t kMost = 500;      ///< older entries are forgotten
-  static constexpr std::uint64_t kQuietTicks = 500;   ///< an action is told again after so long without it
+  static constexpr std::size_t kMost = 500;          ///< older entries are forgotten
+  static constexpr std::uint64_t kQuietTicks = 500;  ///< an action is told again after so long without it
 
   void watch(const ServoRecord& record);
   const std::deque<SafetyEntry>& entries() const { return entries_; }
@@ -31,7 +31,7 @@ class SafetyLog {
 
   std::deque<SafetyEntry> entries_;
   DeviceTelemetry last_;
-  std::array<std::uint64_t, kGateActionCount> last_action_tick_{};   ///< + 1; 0: never
+  std::array<std::uint64_t, kGateActionCount> last_action_tick_{};  ///< + 1; 0: never
 };
 
 }  // namespace tangent

@@ -20,7 +20,10 @@ bool may_lock_all() noexcept {
 }  // namespace
 
 Servo::Servo(ServoTick& tick, ServoStatistics& statistics, const ServoOptions& options, ServoClock& clock)
-    : tick_(tick), statistics_(statistics), options_(options), clock_(clock),
+    : tick_(tick),
+      statistics_(statistics),
+      options_(options),
+      clock_(clock),
       pacer_(options.rate_hz, options.time_by_deadlines) {
   pacer_.start(0);
 }

@@ -28,7 +28,7 @@ enum class ForceSwitch : std::uint8_t { stop, arm, home };
 /// A fault that a simulated device is told to have.
 struct FaultLetter {
   FaultInjection injection;
-  bool display = false;   ///< the contact display's; else the force device's
+  bool display = false;  ///< the contact display's; else the force device's
 };
 
 /// Hands whole scenes to the servo and used ones back, so that the servo never frees anything.
@@ -40,7 +40,9 @@ class SceneExchange {
   }
 
   /// Owner. Replaces a scene that the servo has not taken yet.
-  void offer(std::unique_ptr<PreparedScene> scene) { delete offered_.exchange(scene.release(), std::memory_order_acq_rel); }
+  void offer(std::unique_ptr<PreparedScene> scene) {
+    delete offered_.exchange(scene.release(), std::memory_order_acq_rel);
+  }
   /// Owner. Frees what the servo gave back.
   void collect() {
     PreparedScene* retired = nullptr;

@@ -14,8 +14,8 @@ inline constexpr double kSlowestServoHz = 100.0;
 inline constexpr double kFastestServoHz = 10'000.0;
 
 struct ServoOptions {
-  double rate_hz = 1000.0;          ///< kSlowestServoHz to kFastestServoHz
-  bool realtime = true;             ///< ask for SCHED_FIFO and locked memory; goes on without
+  double rate_hz = 1000.0;  ///< kSlowestServoHz to kFastestServoHz
+  bool realtime = true;     ///< ask for SCHED_FIFO and locked memory; goes on without
   int fifo_priority = 40;
   /// Time of a tick as the solver and the devices see it: deadlines (real devices), or tick / rate (simulated
   /// ones, so that N ticks give the same bits however late they ran).
@@ -33,7 +33,7 @@ struct RealtimeGrant {
 struct ServoStatus {
   bool running = false;
   double nominal_hz = 0.0;
-  double rate_hz = 0.0;                ///< measured over the last second or so; 0 until there is one
+  double rate_hz = 0.0;  ///< measured over the last second or so; 0 until there is one
   std::uint64_t ticks = 0;
   std::uint64_t late_ticks = 0;        ///< ticks before which at least one deadline was missed
   std::uint64_t missed_deadlines = 0;  ///< skipped
@@ -42,8 +42,8 @@ struct ServoStatus {
   double tick_mean_ns = 0.0, tick_p50_ns = 0.0, tick_p99_ns = 0.0, tick_p999_ns = 0.0;  ///< percentiles to 1/16
   double tick_worst_ns = 0.0;
   double lateness_worst_ns = 0.0, lateness_p99_ns = 0.0;
-  std::uint32_t preset_id = 0;         ///< applied
-  std::uint32_t scene_id = 0;          ///< applied
+  std::uint32_t preset_id = 0;  ///< applied
+  std::uint32_t scene_id = 0;   ///< applied
   GateState gate_state = GateState::disarmed;
   GateFault gate_fault = GateFault::none;
   std::array<std::uint64_t, kGateActionCount> gate_counts{};

@@ -41,7 +41,7 @@ class ServoStatistics {
   std::atomic<GateFault> gate_fault_{GateFault::none};
   std::array<std::atomic<std::uint64_t>, kGateActionCount> gate_counts_{};
   LogHistogram tick_ns_, lateness_ns_, period_ns_;
-  std::int64_t window_start_ns_ = 0;   // servo thread only
+  std::int64_t window_start_ns_ = 0;  // servo thread only
   std::uint64_t window_ticks_ = 0;
 };
 

@@ -18,8 +18,13 @@ GateLimits gate_limits(const DeviceSet& devices) {
 
 ServoTick::ServoTick(DeviceSet& devices, ServoChannels& channels, ServoStatistics& statistics,
                      std::unique_ptr<PreparedScene> scene, const PresetLetter& preset, NanosecondClock clock)
-    : devices_(devices), channels_(channels), statistics_(statistics), clock_(clock), gate_(gate_limits(devices)),
-      scene_(scene.release()), preset_(preset) {
+    : devices_(devices),
+      channels_(channels),
+      statistics_(statistics),
+      clock_(clock),
+      gate_(gate_limits(devices)),
+      scene_(scene.release()),
+      preset_(preset) {
   const HandTarget start = hand_.begin(scene_->path, pad_distance_m(preset_.preset.finger));
   force_sample_.position_m = start.position_m;
   force_sample_.orientation = start.orientation;
@@ -119,19 +124,20 @@ void ServoTick::exchange(double dt_s, ServoRecord& record) noexcept {
 }
 
 void ServoTick::gate(double dt_s, ServoRecord& record) noexcept {
-  const GateOutput out = gate_.pass({.force_n = record.tick.output.force_n,
-                                     .display_m = record.tick.output.cld_m,
-                                     .force_device = force_sample_.state,
-                                     .display = display_sample_.state,
-                                     .position_m = force_sample_.position_m,
-                                     .position_age_s = force_sample_.age_s,
-                                     .display_measured_m = display_sample_.position_m,
-                                     .display_age_s = display_sample_.age_s,
-                                     .display_travel_m = display_sample_.travel_m,
-                                     .display_lowest_m = preset_.preset.controller.lowest_m,
-                                     .display_highest_m = preset_.preset.controller.highest_m,
-                                     .display_measures = devices_.display && devices_.display->capabilities().measures_position},
-                                    dt_s);
+  const GateOutput out =
+      gate_.pass({.force_n = record.tick.output.force_n,
+                  .display_m = record.tick.output.cld_m,
+                  .force_device = force_sample_.state,
+                  .display = display_sample_.state,
+                  .position_m = force_sample_.position_m,
+                  .position_age_s = force_sample_.age_s,
+                  .display_measured_m = display_sample_.position_m,
+                  .display_age_s = display_sample_.age_s,
+                  .display_travel_m = display_sample_.travel_m,
+                  .display_lowest_m = preset_.preset.controller.lowest_m,
+                  .display_highest_m = preset_.preset.controller.highest_m,
+                  .display_measures = devices_.display && devices_.display->capabilities().measures_position},
+                 dt_s);
   force_command_.force_n = out.force_n;
   display_command_.target_m = out.display_m;
   record.device.gate_state = out.state;

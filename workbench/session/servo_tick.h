@@ -50,7 +50,7 @@ class ServoTick {
   ServoStatistics& statistics_;
   NanosecondClock clock_;
   SafetyGate gate_;
-  PreparedScene* scene_;          ///< owned; given back through the channels when replaced
+  PreparedScene* scene_;  ///< owned; given back through the channels when replaced
   PresetLetter preset_;
   HandLead hand_;
   TickState state_;

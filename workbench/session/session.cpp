@@ -30,7 +30,8 @@ Status check_options(const SessionOptions& options) {
     return fail("the servo can't run at " + std::to_string(rate) + " Hz", "servo rate",
                 "choose " + range_text(kSlowestServoHz, kFastestServoHz, "Hz"));
   }
-  if (!(options.history_s >= 0.0)) return fail("the history can't be that long", "history_s", "give seconds, 0 or more");
+  if (!(options.history_s >= 0.0))
+    return fail("the history can't be that long", "history_s", "give seconds, 0 or more");
   return {};
 }
 
@@ -42,8 +43,14 @@ void PreparedSceneDeleter::operator()(PreparedScene* scene) const { delete scene
 struct Session::Impl {
   Impl(SessionOptions o, std::unique_ptr<PacketRecorder> r, DeviceSet d, std::unique_ptr<PreparedScene> prepared,
        const Preset& preset)
-      : options(std::move(o)), packets(std::move(r)), devices(std::move(d)), channels(options.servo.ring_records), scene(prepared->scene),
-        path(prepared->path), history(history_capacity(options)), hand(options.hand) {
+      : options(std::move(o)),
+        packets(std::move(r)),
+        devices(std::move(d)),
+        channels(options.servo.ring_records),
+        scene(prepared->scene),
+        path(prepared->path),
+        history(history_capacity(options)),
+        hand(options.hand) {
     presets.push_back(preset);
     scenes.emplace(0, scene);
     tick = std::make_unique<ServoTick>(devices, channels, statistics, std::move(prepared), PresetLetter{0, preset},
@@ -61,10 +68,10 @@ struct Session::Impl {
   std::unique_ptr<Servo> servo;
   bool started = false;
 
-  std::deque<Preset> presets;   ///< by id; a deque keeps what it handed out in place
+  std::deque<Preset> presets;  ///< by id; a deque keeps what it handed out in place
   std::shared_ptr<const ContactScene> scene;
   ExplorationPath path;
-  std::map<std::uint32_t, std::shared_ptr<const ContactScene>> scenes;   ///< that records of the history ran on
+  std::map<std::uint32_t, std::shared_ptr<const ContactScene>> scenes;  ///< that records of the history ran on
   std::uint32_t scene_id = 0;
   History history;
   SafetyLog log;
@@ -110,7 +117,8 @@ Result<std::unique_ptr<Session>> Session::create(std::shared_ptr<const ContactSc
     if (const Status ok = devices->display->open(); !ok) return tl::unexpected(ok.error());
   }
   auto prepared = std::make_unique<PreparedScene>(std::move(scene), preset.finger);
-  auto impl = std::make_unique<Impl>(std::move(options), std::move(packets), std::move(*devices), std::move(prepared), preset);
+  auto impl =
+      std::make_unique<Impl>(std::move(options), std::move(packets), std::move(*devices), std::move(prepared), preset);
   impl->send_hand();
   return std::unique_ptr<Session>(new Session(std::move(impl)));
 }
@@ -127,8 +135,10 @@ void Session::start() {
 void Session::shut_down() {
   if (!impl_->started) return;
   impl_->started = false;
-  if (impl_->options.threaded) impl_->servo->stop();
-  else impl_->tick->release(1.0 / impl_->options.servo.rate_hz);
+  if (impl_->options.threaded)
+    impl_->servo->stop();
+  else
+    impl_->tick->release(1.0 / impl_->options.servo.rate_hz);
   poll();
 }
 
@@ -178,7 +188,9 @@ Result<std::uint32_t> Session::set_preset(const Preset& preset) {
 }
 
 const Preset& Session::preset() const { return impl_->presets.back(); }
-const Preset* Session::preset(std::uint32_t id) const { return id < impl_->presets.size() ? &impl_->presets[id] : nullptr; }
+const Preset* Session::preset(std::uint32_t id) const {
+  return id < impl_->presets.size() ? &impl_->presets[id] : nullptr;
+}
 std::uint32_t Session::preset_id() const { return static_cast<std::uint32_t>(impl_->presets.size() - 1); }
 
 // --- Scene ---------------------------------------------------------------------------------------------
@@ -271,11 +283,14 @@ SessionStatus Session::status() const {
     s.display_fault = device.display_fault;
   }
   const RealtimeGrant& got = s.servo.realtime;
-  if (!impl_->options.threaded) s.realtime_note = "no servo thread";
-  else if (!impl_->options.servo.realtime) s.realtime_note = "ordinary scheduling";
-  else s.realtime_note = std::string(got.fifo ? "SCHED_FIFO " + std::to_string(impl_->options.servo.fifo_priority)
-                                              : "SCHED_FIFO refused") +
-                         (got.memory_locked ? ", memory locked" : ", memory not locked");
+  if (!impl_->options.threaded)
+    s.realtime_note = "no servo thread";
+  else if (!impl_->options.servo.realtime)
+    s.realtime_note = "ordinary scheduling";
+  else
+    s.realtime_note = std::string(got.fifo ? "SCHED_FIFO " + std::to_string(impl_->options.servo.fifo_priority)
+                                           : "SCHED_FIFO refused") +
+                      (got.memory_locked ? ", memory locked" : ", memory not locked");
   return s;
 }
 
@@ -290,7 +305,9 @@ const DisplayCapabilities* Session::display_capabilities() const {
 const SessionOptions& Session::options() const { return impl_->options; }
 const SafetyLog& Session::safety_log() const { return impl_->log; }
 GateLimits Session::gate_limits() const { return tangent::gate_limits(impl_->devices); }
-bool Session::display_report(LinkReport& out) const { return impl_->devices.display && impl_->devices.display->report(out); }
+bool Session::display_report(LinkReport& out) const {
+  return impl_->devices.display && impl_->devices.display->report(out);
+}
 const LogHistogram& Session::lateness_ns() const { return impl_->statistics.lateness_ns(); }
 const LogHistogram& Session::period_ns() const { return impl_->statistics.period_ns(); }
 

@@ -38,9 +38,9 @@ struct SessionOptions {
   std::string devices = "simulated";  ///< see devices/device_set.h
   MaestroCalibration maestro;         ///< for "maestro"
   unsigned maestro_channel = 0;
-  std::filesystem::path packets;      ///< every USB packet is written here; empty: nowhere
-  std::uint64_t seed = 1;             ///< of the simulated devices
-  double history_s = 600.0;           ///< kept for the GUI, within kLargestHistoryBytes
+  std::filesystem::path packets;  ///< every USB packet is written here; empty: nowhere
+  std::uint64_t seed = 1;         ///< of the simulated devices
+  double history_s = 600.0;       ///< kept for the GUI, within kLargestHistoryBytes
   bool threaded = true;
   bool arm_on_start = true;
   HandSettings hand;
@@ -48,16 +48,18 @@ struct SessionOptions {
 
 /// A scene with what the servo needs for it, built in any thread: patch caches and the exploration path.
 class PreparedScene;
-struct PreparedSceneDeleter { void operator()(PreparedScene* scene) const; };
+struct PreparedSceneDeleter {
+  void operator()(PreparedScene* scene) const;
+};
 using PreparedScenePtr = std::unique_ptr<PreparedScene, PreparedSceneDeleter>;
 
 struct SessionStatus {
   ServoStatus servo;
   DeviceState force_state = DeviceState::absent, display_state = DeviceState::absent;
   DeviceFault force_fault = DeviceFault::none, display_fault = DeviceFault::none;
-  std::uint32_t preset_sent = 0;   ///< newest; servo.preset_id says which one runs
+  std::uint32_t preset_sent = 0;  ///< newest; servo.preset_id says which one runs
   std::uint32_t scene_sent = 0;
-  std::string realtime_note;       ///< "SCHED_FIFO 40, memory locked" or what was refused
+  std::string realtime_note;  ///< "SCHED_FIFO 40, memory locked" or what was refused
 };
 
 /// Everything needed to step the history again, in any thread: records, presets by id, scenes by id.
@@ -76,8 +78,8 @@ class Session {
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
-  void start();                         ///< starts the servo thread (threaded), homes and, if asked to, arms
-  void shut_down();                     ///< stops force and thread; the history stays. Also at destruction
+  void start();      ///< starts the servo thread (threaded), homes and, if asked to, arms
+  void shut_down();  ///< stops force and thread; the history stays. Also at destruction
   bool running() const;
   /// Not threaded: n ticks, now, polled into the history. Threaded: nothing.
   void advance(std::uint64_t ticks);
@@ -85,13 +87,13 @@ class Session {
   /// Moves new records into the history and frees what the servo has retired. Returns how many came.
   std::size_t poll();
   const History& history() const;
-  RecordedRun recorded_run() const;   ///< of the history as it is now
+  RecordedRun recorded_run() const;  ///< of the history as it is now
 
   // Presets. Whole ones, applied at the start of a tick; the latest wins.
   /// Returns the id by which records name it (the present id if nothing changed). Fails when out of range.
   Result<std::uint32_t> set_preset(const Preset& preset);
-  const Preset& preset() const;                        ///< the latest sent
-  const Preset* preset(std::uint32_t id) const;        ///< any ever sent; null for an id never given
+  const Preset& preset() const;                  ///< the latest sent
+  const Preset* preset(std::uint32_t id) const;  ///< any ever sent; null for an id never given
   std::uint32_t preset_id() const;
 
   // Scene.
@@ -99,11 +101,11 @@ class Session {
   /// The servo changes over at its next tick; the hand goes to the start of the new path, and force ramps in anew.
   /// Returns the id by which records name it.
   std::uint32_t set_scene(PreparedScenePtr scene);
-  std::uint32_t set_scene(std::shared_ptr<const ContactScene> scene);   ///< prepares it here, in the caller's thread
-  const std::shared_ptr<const ContactScene>& scene() const;             ///< the latest sent
+  std::uint32_t set_scene(std::shared_ptr<const ContactScene> scene);  ///< prepares it here, in the caller's thread
+  const std::shared_ptr<const ContactScene>& scene() const;            ///< the latest sent
   /// Scene of a record; null once no record of the history uses it.
   std::shared_ptr<const ContactScene> scene(std::uint32_t id) const;
-  const ExplorationPath& path() const;                                  ///< of the latest scene
+  const ExplorationPath& path() const;  ///< of the latest scene
 
   // Hand and force.
   void set_hand(const HandSettings& settings);
@@ -122,7 +124,7 @@ class Session {
   Result<TickOutput> re_step(const ServoRecord& record, const Preset& preset, IterationTrace& trace);
 
   SessionStatus status() const;
-  const ForceCapabilities* force_capabilities() const;    ///< null: none
+  const ForceCapabilities* force_capabilities() const;  ///< null: none
   const DisplayCapabilities* display_capabilities() const;
   const SessionOptions& options() const;
   /// Stops, faults and changes of the devices' states, oldest first.
@@ -130,8 +132,8 @@ class Session {
   GateLimits gate_limits() const;
   /// The display's cable; false: it has none.
   bool display_report(LinkReport& out) const;
-  const LogHistogram& lateness_ns() const;   ///< of the servo's ticks after their deadlines
-  const LogHistogram& period_ns() const;     ///< from tick to tick
+  const LogHistogram& lateness_ns() const;  ///< of the servo's ticks after their deadlines
+  const LogHistogram& period_ns() const;    ///< from tick to tick
 
   /// The recorder's ring. Records go into it from attach to detach; one thread pops.
   void attach_recorder();

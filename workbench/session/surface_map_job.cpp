@@ -19,7 +19,8 @@ void lower_priority() {
 #endif
 }
 
-/// Near the golden section of n, and without a common divisor: steps of it visit all of 0..n-1, evenly spread at any time.
+/// Near the golden section of n, and without a common divisor: steps of it visit all of 0..n-1, evenly spread at any
+/// time.
 std::size_t scattering_stride(std::size_t n) {
   std::size_t stride = std::max<std::size_t>(1, static_cast<std::size_t>(0.618033988749895 * static_cast<double>(n)));
   while (std::gcd(stride, n) != 1) ++stride;
@@ -47,8 +48,8 @@ void SurfaceMapJob::wait() {
   threads_.clear();
 }
 
-void SurfaceMapJob::start(std::shared_ptr<const ContactScene> scene, const Preset& preset, const MapOptions& options, MapGroup group,
-                          unsigned threads) {
+void SurfaceMapJob::start(std::shared_ptr<const ContactScene> scene, const Preset& preset, const MapOptions& options,
+                          MapGroup group, unsigned threads) {
   cancel();
   options_ = options;
   options_.level = std::clamp(options_.level, 1u, kLargestMapLevel);
@@ -61,12 +62,16 @@ void SurfaceMapJob::start(std::shared_ptr<const ContactScene> scene, const Prese
   places_ = triangles_.size() * options_.level * options_.level;
   stride_ = scattering_stride(triangles_.size());
   for (std::size_t q = 0; q < kMapQuantityCount; ++q) {
-    if (group_of(static_cast<MapQuantity>(q)) == group) values_[q].assign(places_, kMapPending); else values_[q] = {};
+    if (group_of(static_cast<MapQuantity>(q)) == group)
+      values_[q].assign(places_, kMapPending);
+    else
+      values_[q] = {};
   }
   next_.store(0, std::memory_order_relaxed);
   done_.store(0, std::memory_order_relaxed);
   cancelled_.store(false, std::memory_order_relaxed);
-  for (unsigned i = 0; i < thread_count(threads); ++i) threads_.emplace_back([this, scene, preset] { work(scene, preset); });
+  for (unsigned i = 0; i < thread_count(threads); ++i)
+    threads_.emplace_back([this, scene, preset] { work(scene, preset); });
 }
 
 void SurfaceMapJob::work(const std::shared_ptr<const ContactScene>& scene, const Preset& preset) {
@@ -84,7 +89,8 @@ void SurfaceMapJob::work(const std::shared_ptr<const ContactScene>& scene, const
       for (unsigned part = 0; part < parts; ++part) {
         mapper.compute(group_, triangles_[triangle], part, values);
         for (std::size_t q = 0; q < kMapQuantityCount; ++q) {
-          if (!values_[q].empty()) std::atomic_ref(values_[q][triangle * parts + part]).store(values[q], std::memory_order_relaxed);
+          if (!values_[q].empty())
+            std::atomic_ref(values_[q][triangle * parts + part]).store(values[q], std::memory_order_relaxed);
         }
       }
       done_.fetch_add(parts, std::memory_order_release);

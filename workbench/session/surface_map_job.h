@@ -1,5 +1,5 @@
-// A map over the whole surface, computed in the background: progress, cancel, and the values so far at any time. Threads
-// of lower priority than the rest of the program; the owner polls and never waits.
+// A map over the whole surface, computed in the background: progress, cancel, and the values so far at any time.
+// Threads of lower priority than the rest of the program; the owner polls and never waits.
 #pragma once
 
 #include "core/lab/measure/surface_map.h"
@@ -26,8 +26,10 @@ class SurfaceMapJob {
   void wait();    ///< until it is done: for pictures and tests
 
   bool running() const { return done_places() < places() && !cancelled_.load(std::memory_order_relaxed); }
-  double progress() const { return places() > 0 ? static_cast<double>(done_places()) / static_cast<double>(places()) : 0.0; }
-  std::size_t places() const { return places_; }          ///< usable triangles x level^2; 0: nothing was started
+  double progress() const {
+    return places() > 0 ? static_cast<double>(done_places()) / static_cast<double>(places()) : 0.0;
+  }
+  std::size_t places() const { return places_; }  ///< usable triangles x level^2; 0: nothing was started
   std::size_t done_places() const { return done_.load(std::memory_order_acquire); }
 
   /// Copies a quantity of the group: index `usable triangle` * level^2 + part. Safe while it is computed; values are

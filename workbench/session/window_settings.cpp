@@ -47,9 +47,12 @@ std::filesystem::path window_settings_path() {
   const char* home = std::getenv("HOME");
   std::filesystem::path folder;
   // The specification has relative paths ignored.
-  if (config != nullptr && config[0] == '/') folder = config;
-  else if (home != nullptr && home[0] == '/') folder = std::filesystem::path(home) / ".config";
-  else return {};
+  if (config != nullptr && config[0] == '/')
+    folder = config;
+  else if (home != nullptr && home[0] == '/')
+    folder = std::filesystem::path(home) / ".config";
+  else
+    return {};
   return folder / "tangent-workbench" / "window.toml";
 }
 
@@ -88,9 +91,15 @@ std::string format_window_settings(const WindowSettings& s) {
   toml::table sections;
   for (const auto& [title, open] : s.sections) sections.insert(title, open);
   const toml::table root{
-      {"layout", toml::table{{"left", s.left}, {"right", s.right}, {"plots", s.plots}, {"show_left", s.show_left},
-                             {"show_right", s.show_right}, {"show_plots", s.show_plots}}},
-      {"look", toml::table{{"light_theme", s.light_theme}, {"text_size", s.text_size}, {"y_up", s.y_up}, {"colour_map", s.colour_map}}},
+      {"layout", toml::table{{"left", s.left},
+                             {"right", s.right},
+                             {"plots", s.plots},
+                             {"show_left", s.show_left},
+                             {"show_right", s.show_right},
+                             {"show_plots", s.show_plots}}},
+      {"look",
+       toml::table{
+           {"light_theme", s.light_theme}, {"text_size", s.text_size}, {"y_up", s.y_up}, {"colour_map", s.colour_map}}},
       {"sections", sections},
       {"lists", toml::table{{"favourites", as_array(s.favourites)}, {"recent_meshes", as_array(s.recent_meshes)}}}};
   std::ostringstream text;

@@ -22,9 +22,9 @@ struct Proposal {
 
 /// What the planes of one run so far leave for the next.
 struct RunMemory {
-  double least = 1e300;   ///< error; when it stops falling, the iteration goes round in circles
+  double least = 1e300;  ///< error; when it stops falling, the iteration goes round in circles
   int least_at = 0;
-  bool carried = false;   ///< a step was carried past the end of an edge
+  bool carried = false;                                        ///< a step was carried past the end of an edge
   std::uint32_t no_exit_triangle = kNone, no_exit_corner = 0;  ///< a vertex that nothing draws this finger away from
   Vec3 last_travel{0.0}, last_point{0.0};
 
@@ -34,9 +34,9 @@ struct RunMemory {
     least_at = evaluation;
   }
 
-  /// Along a long finger the contact runs from one end to the other while the normal turns by a little, so that Newton's
-  /// steps can overshoot to and fro for ever. After one that turned the travel round without halving it, the next goes
-  /// back half way at most.
+  /// Along a long finger the contact runs from one end to the other while the normal turns by a little, so that
+  /// Newton's steps can overshoot to and fro for ever. After one that turned the travel round without halving it, the
+  /// next goes back half way at most.
   void rein_in(const IterationResult& now, ParameterStep& step) {
     const Vec3 travel = now.contact.travel, moved = now.sample.point - last_point;
     if (glm::dot(travel, last_travel) < 0.0 && glm::dot(travel, travel) > 0.25 * glm::dot(last_travel, last_travel)) {
@@ -55,9 +55,12 @@ struct RunMemory {
 
 ParameterStep face_step(IterationContext& context, const IterationResult& now, const ContactJacobian& jacobian) {
   switch (context.settings.method) {
-    case Method::newton: return newton_step(now.sample, jacobian, now.contact);
-    case Method::robust: return robust_face_step(now.sample, jacobian, now.stability, now.contact, now.bend.area_m2);
-    default: return paper_face_step(context.cache.mesh(), context.settings, now.plane.triangle, now.sample, now.contact);
+    case Method::newton:
+      return newton_step(now.sample, jacobian, now.contact);
+    case Method::robust:
+      return robust_face_step(now.sample, jacobian, now.stability, now.contact, now.bend.area_m2);
+    default:
+      return paper_face_step(context.cache.mesh(), context.settings, now.plane.triangle, now.sample, now.contact);
   }
 }
 
@@ -69,8 +72,8 @@ bool move_on_face(const IterationContext& context, const ParameterStep& step, It
     return true;
   }
   const bool tracking = context.seed == 0 && context.settings.method == Method::robust;
-  const WalkResult walk = walk_face(context.cache.mesh(), now.plane.triangle, now.plane.u, now.plane.v, step.da, step.db,
-                                    tracking ? kMostTrackedCrossings : kMostCrossings);
+  const WalkResult walk = walk_face(context.cache.mesh(), now.plane.triangle, now.plane.u, now.plane.v, step.da,
+                                    step.db, tracking ? kMostTrackedCrossings : kMostCrossings);
   if (walk.lost) return false;  // the plane stays with its sample
   now.plane.move_to(walk.place);
   now.triangle_changes += walk.triangle_changes;
@@ -78,13 +81,15 @@ bool move_on_face(const IterationContext& context, const ParameterStep& step, It
 }
 
 double step_length(const ContactMesh& mesh, std::uint32_t t, const ParameterStep& step) {
-  const Vec3 s = step.da * (mesh.position(t, 1) - mesh.position(t, 0)) + step.db * (mesh.position(t, 2) - mesh.position(t, 0));
+  const Vec3 s =
+      step.da * (mesh.position(t, 1) - mesh.position(t, 0)) + step.db * (mesh.position(t, 2) - mesh.position(t, 0));
   return std::sqrt(glm::dot(s, s));
 }
 
 /// A move along an edge, on to the vertex where it starts at an end. A step past an end is carried on along the crease,
 /// once in a run: where the contact wants to rest on the vertex, the next step leads back and stops there.
-SurfacePlace move_along_edge(const ContactMesh& mesh, const SurfacePlace& at, double f, double df, const EdgeFan& fan, RunMemory& memory) {
+SurfacePlace move_along_edge(const ContactMesh& mesh, const SurfacePlace& at, double f, double df, const EdgeFan& fan,
+                             RunMemory& memory) {
   const bool forwards = df > 0.0;
   if (forwards ? f >= 1.0 : df < 0.0 && f <= 0.0) {
     SurfacePlace p = at;
@@ -95,7 +100,8 @@ SurfacePlace move_along_edge(const ContactMesh& mesh, const SurfacePlace& at, do
   const double to = f + df, beyond = forwards ? to - 1.0 : -to;
   if (beyond > 0.0 && !memory.carried) {
     memory.carried = true;
-    if (const auto next = walk_past_end(mesh, at.triangle, at.side, forwards, beyond * glm::length(fan.point_f))) return *next;
+    if (const auto next = walk_past_end(mesh, at.triangle, at.side, forwards, beyond * glm::length(fan.point_f)))
+      return *next;
   }
   return place_on_edge(at.triangle, at.side, std::clamp(to, 0.0, 1.0));
 }
@@ -103,12 +109,13 @@ SurfacePlace move_along_edge(const ContactMesh& mesh, const SurfacePlace& at, do
 /// Where a contact on an edge wants to go: along it by Newton's step or, where that is not to be trusted or for the
 /// paper's method, by the travel; or off it, into the face on one side.
 struct EdgeMove {
-  ParameterStep step;       ///< da: along f, db: of the turn
-  double df_travel = 0.0;   ///< f by the travel alone; 0 where the step is Newton's
+  ParameterStep step;      ///< da: along f, db: of the turn
+  double df_travel = 0.0;  ///< f by the travel alone; 0 where the step is Newton's
   bool into_near = false, into_far = false;
 };
 
-EdgeMove edge_move(IterationContext& context, const EdgeFan& fan, const IterationResult& now, const ContactJacobian& jacobian, bool has_far) {
+EdgeMove edge_move(IterationContext& context, const EdgeFan& fan, const IterationResult& now,
+                   const ContactJacobian& jacobian, bool has_far) {
   EdgeMove move;
   move.step = newton_step(now.sample, jacobian, now.contact);
   if (is_round(context.finger)) {
@@ -155,7 +162,8 @@ Proposal next_from_edge(IterationContext& context, const TrackedPlane& at, RunMe
   const double f = edge_fraction(at.side, at.u, at.v);
   const EdgeFan& fan = context.cache.fan(at.triangle, at.side, f, context.settings.normal_form);
   const ContactJacobian jacobian = contact_jacobian(context.finger, context.pose, now.sample, now.contact);
-  now.stability = is_round(context.finger) ? edge_bend(now.sample).at_height(now.contact.height_m) : edge_stability(now.sample, jacobian);
+  now.stability = is_round(context.finger) ? edge_bend(now.sample).at_height(now.contact.height_m)
+                                           : edge_stability(now.sample, jacobian);
   const bool exact = now.contact.error_m < context.settings.tolerance_m;
   if (exact && now.stability.stable()) {
     next.stop = StopReason::converged;
@@ -164,8 +172,10 @@ Proposal next_from_edge(IterationContext& context, const TrackedPlane& at, RunMe
   const EdgeLink other = mesh.across(at.triangle, at.side);
   const EdgeMove move = edge_move(context, fan, now, jacobian, other.triangle != kNone);
   next.step = move.step;
-  // The paper's contact slides along the edge first: what is left across it then says which face, without going to and fro.
-  const bool slide = context.settings.method == Method::paper && std::abs(move.df_travel) * glm::length(fan.point_f) > 0.5 * now.contact.error_m;
+  // The paper's contact slides along the edge first: what is left across it then says which face, without going to and
+  // fro.
+  const bool slide = context.settings.method == Method::paper &&
+                     std::abs(move.df_travel) * glm::length(fan.point_f) > 0.5 * now.contact.error_m;
   if (move.into_near && !slide) {
     next.place = place_on_face(at.triangle, at.u, at.v);
     return next;
@@ -178,11 +188,13 @@ Proposal next_from_edge(IterationContext& context, const TrackedPlane& at, RunMe
   }
   const bool leaves = move.into_near || move.into_far;
   next.place = move_along_edge(mesh, at, f, leaves ? move.step.da : std::clamp(move.step.da, -2.0, 2.0), fan, memory);
-  if (!leaves && rests_on_edge(context, fan, at, next.place)) next.stop = exact ? StopReason::unstable : StopReason::singular_patch;
+  if (!leaves && rests_on_edge(context, fan, at, next.place))
+    next.stop = exact ? StopReason::unstable : StopReason::singular_patch;
   return next;
 }
 
-Proposal next_from_vertex(IterationContext& context, const SurfacePlace& at, RunMemory& memory, IterationResult& now, bool kept) {
+Proposal next_from_vertex(IterationContext& context, const SurfacePlace& at, RunMemory& memory, IterationResult& now,
+                          bool kept) {
   Proposal next;
   now.stability = now.contact.height_m > 0.0 ? Stability{1.0, 2.0} : Stability{0.0, 0.0};
   VertexExit exit;
@@ -205,7 +217,8 @@ Proposal next_from_vertex(IterationContext& context, const SurfacePlace& at, Run
   return next;
 }
 
-void record(IterationContext& context, const IterationResult& now, const ParameterStep& step, double step_m, StopReason stop) {
+void record(IterationContext& context, const IterationResult& now, const ParameterStep& step, double step_m,
+            StopReason stop) {
   IterationRecord r;
   r.feature = now.plane.feature;
   r.stop = stop;
@@ -220,8 +233,7 @@ void record(IterationContext& context, const IterationResult& now, const Paramet
   r.error_m = now.contact.error_m;
   r.gain = stop == StopReason::going_on ? step.gain : 0.0;
   r.curvature_per_m = step.curvature_per_m;
-  if (r.curvature_per_m == 0.0)
-    r.curvature_per_m = directional_curvature(now.sample, step.da, step.db);
+  if (r.curvature_per_m == 0.0) r.curvature_per_m = directional_curvature(now.sample, step.da, step.db);
   r.distance_m = paper_distance(context.settings, now.contact);
   r.step_m = step_m;
   r.det_m = now.stability.det;
@@ -236,7 +248,8 @@ void sample_place(IterationContext& context, TrackedPlane& plane, SurfaceSample&
   if (plane.feature == Feature::face) {
     context.cache.sample(plane.triangle, form, plane.u, plane.v, sample);
   } else if (plane.feature == Feature::edge) {
-    const EdgeFan& fan = context.cache.fan(plane.triangle, plane.side, edge_fraction(plane.side, plane.u, plane.v), form);
+    const EdgeFan& fan =
+        context.cache.fan(plane.triangle, plane.side, edge_fraction(plane.side, plane.u, plane.v), form);
     plane.turn = clamp_turn(fan, facing_turn(fan, context.finger, context.pose));
     edge_sample(fan, plane.turn, sample);
   } else {
@@ -257,7 +270,7 @@ SurfaceSample kept_place_sample(IterationContext& context, TrackedPlane& plane) 
   }
   if (plane.feature == Feature::vertex) return vertex_sample_at(context, plane, plane.normal);
   const EdgeFan& fan = context.cache.fan(plane.triangle, plane.side, edge_fraction(plane.side, plane.u, plane.v),
-                               context.settings.normal_form);
+                                         context.settings.normal_form);
   edge_sample(fan, plane.turn, s);
   if (glm::dot(s.normal, plane.normal) < 1.0 - 1e-14) {  // of another normal form, or given from outside
     plane.turn = clamp_turn(fan, turn_of(fan, plane.normal));
@@ -281,7 +294,8 @@ bool iterate_feature(IterationContext& context, bool kept, int budget, RunMemory
                                                      : next_from_vertex(context, now.plane, memory, now, kept);
   if (next.stop == StopReason::going_on && now.evaluations >= budget)
     next.stop = why_unconverged(context.cache.mesh(), now, memory, budget);
-  if (context.trace) record(context, now, next.step, std::abs(next.step.da) * glm::length(now.sample.point_u), next.stop);
+  if (context.trace)
+    record(context, now, next.step, std::abs(next.step.da) * glm::length(now.sample.point_u), next.stop);
   now.stop = next.stop;
   if (next.stop != StopReason::going_on) return false;
   now.triangle_changes += next.triangle_changes;
@@ -296,7 +310,8 @@ bool iterate_face(IterationContext& context, int budget, RunMemory& memory, Iter
   if (!exact || !round) jacobian = contact_jacobian(context.finger, context.pose, now.sample, now.contact);
   now.stability = round ? now.bend.at_height(now.contact.height_m) : face_stability(now.sample, jacobian);
   if (exact) {
-    now.stop = context.settings.method == Method::robust && !now.stability.stable() ? StopReason::unstable : StopReason::converged;
+    now.stop = context.settings.method == Method::robust && !now.stability.stable() ? StopReason::unstable
+                                                                                    : StopReason::converged;
     if (context.trace) record(context, now, ParameterStep{}, 0.0, now.stop);
     return false;
   }
@@ -344,7 +359,8 @@ void iterate(IterationContext& context, const SurfacePlace& start, int budget, I
   run(context, false, budget, result);
 }
 
-void iterate_kept(IterationContext& context, const TrackedPlane& kept, bool sample_kept, int budget, IterationResult& result) {
+void iterate_kept(IterationContext& context, const TrackedPlane& kept, bool sample_kept, int budget,
+                  IterationResult& result) {
   if (!sample_kept) {
     result.plane = kept;
     result.sample = kept_place_sample(context, result.plane);

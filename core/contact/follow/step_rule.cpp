@@ -21,7 +21,8 @@ bool solve_in_plane(const Vec3& xa, const Vec3& xb, const Vec3& n, const Vec3& r
 }  // namespace
 
 double paper_gain(const SolverSettings& g, double curvature_per_m, double distance_m) {
-  return g.gain_overall / ((1.0 + g.gain_curvature_m * curvature_per_m) * (1.0 + g.gain_distance_per_m * std::abs(distance_m)));
+  return g.gain_overall /
+         ((1.0 + g.gain_curvature_m * curvature_per_m) * (1.0 + g.gain_distance_per_m * std::abs(distance_m)));
 }
 
 double paper_distance(const SolverSettings& settings, const PlaneContact& c) {

@@ -26,7 +26,8 @@ struct ContactJacobian {
 inline ContactJacobian round_jacobian(const SurfaceSample& s, double height_m) {
   return {s.point_u + height_m * s.normal_u, s.point_v + height_m * s.normal_v};
 }
-inline ContactJacobian contact_jacobian(const Finger& finger, const FingerPose& pose, const SurfaceSample& s, const PlaneContact& c) {
+inline ContactJacobian contact_jacobian(const Finger& finger, const FingerPose& pose, const SurfaceSample& s,
+                                        const PlaneContact& c) {
   if (is_round(finger)) return round_jacobian(s, c.height_m);
   const Mat3 h = offset_derivative(finger, pose, s.normal, c.penetration_m);
   return {s.point_u + h * s.normal_u, s.point_v + h * s.normal_v};
@@ -39,30 +40,32 @@ inline Stability face_stability(const SurfaceSample& s, const ContactJacobian& j
   const double area = glm::dot(s.point_u, sb_turned);
   if (area == 0.0) return {0.0, 0.0};
   const double per_area = 1.0 / area;
-  return {glm::dot(j.xa, xb_turned) * per_area, (glm::dot(j.xa, sb_turned) + glm::dot(s.point_u, xb_turned)) * per_area};
+  return {glm::dot(j.xa, xb_turned) * per_area,
+          (glm::dot(j.xa, sb_turned) + glm::dot(s.point_u, xb_turned)) * per_area};
 }
 
-/// Sum and product of the curvatures of the normals at a sample: with X = S + h N above, M = I + h W, W the map of dS to dN
-/// in the plane.
+/// Sum and product of the curvatures of the normals at a sample: with X = S + h N above, M = I + h W, W the map of dS
+/// to dN in the plane.
 inline NormalBend normal_bend(const SurfaceSample& s) {
   const Vec3 sb_turned = glm::cross(s.point_v, s.normal), nb_turned = glm::cross(s.normal_v, s.normal);
   const double area = glm::dot(s.point_u, sb_turned);
   if (area == 0.0) return {0.0, 0.0, 0.0, 0.0};
   const double per_area = 1.0 / area;
-  return {1.0, (glm::dot(s.normal_u, sb_turned) + glm::dot(s.point_u, nb_turned)) * per_area, glm::dot(s.normal_u, nb_turned) * per_area, area};
+  return {1.0, (glm::dot(s.normal_u, sb_turned) + glm::dot(s.point_u, nb_turned)) * per_area,
+          glm::dot(s.normal_u, nb_turned) * per_area, area};
 }
 
-/// How the planes of an edge bend around a sample, whatever the finger: of a round one the step along the edge and the stability
-/// of a contact follow from it and the height alone.
+/// How the planes of an edge bend around a sample, whatever the finger: of a round one the step along the edge and the
+/// stability of a contact follow from it and the height alone.
 struct EdgeBend {
-  Vec3 along;                   ///< N_v x N: in the plane, across the turn
-  double speed = 0.0;           ///< S_f . along
-  double bend = 0.0;            ///< N_f . along
-  double turn2 = 0.0;           ///< |N_v|^2
+  Vec3 along;          ///< N_v x N: in the plane, across the turn
+  double speed = 0.0;  ///< S_f . along
+  double bend = 0.0;   ///< N_f . along
+  double turn2 = 0.0;  ///< |N_v|^2
   /// X_f . along
   double rate(double h) const { return speed + h * bend; }
-  /// Along an edge a contact is stable when a step along it moves the plane's contact the same way; across it the fan is convex,
-  /// which is stable for a finger outside (h > 0).
+  /// Along an edge a contact is stable when a step along it moves the plane's contact the same way; across it the fan
+  /// is convex, which is stable for a finger outside (h > 0).
   Stability at_height(double h) const {
     const double by_step = speed > 0.0 ? rate(h) : -rate(h), by_turn = h * turn2;
     return {by_step * by_turn, by_step + by_turn};
@@ -113,10 +116,14 @@ inline ParameterStep newton_step(const SurfaceSample& s, const ContactJacobian& 
   return newton_step(s, j, c, glm::dot(j.xa, glm::cross(j.xb, s.normal)));
 }
 
-/// newton_step along an edge for a round finger, of which only the part along f: with S_v = 0 the turn drops out. `d`: centre - S.
-inline double round_edge_step(const EdgeBend& bend, double height_m, const Vec3& d) { return glm::dot(d, bend.along) / bend.rate(height_m); }
+/// newton_step along an edge for a round finger, of which only the part along f: with S_v = 0 the turn drops out. `d`:
+/// centre - S.
+inline double round_edge_step(const EdgeBend& bend, double height_m, const Vec3& d) {
+  return glm::dot(d, bend.along) / bend.rate(height_m);
+}
 
-/// Where Newton's step is taken without a second look: M is well inside the stable region, and the step short against the triangle.
+/// Where Newton's step is taken without a second look: M is well inside the stable region, and the step short against
+/// the triangle.
 inline bool trusts_newton(const Stability& stability) { return stability.det > kNewtonMinDet && stability.trace > 0.0; }
 inline bool is_short(const ParameterStep& step) { return std::max(std::abs(step.da), std::abs(step.db)) <= kShortStep; }
 

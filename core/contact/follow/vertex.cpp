@@ -10,8 +10,8 @@
 namespace tangent {
 namespace {
 
-/// On flat ground every method steps along the travel. Where that turns away from both sides of the corner it leads nowhere between
-/// them: a t1 + b t2 with a, b >= 0 has no negative product with both t1 and t2.
+/// On flat ground every method steps along the travel. Where that turns away from both sides of the corner it leads
+/// nowhere between them: a t1 + b t2 with a, b >= 0 has no negative product with both t1 and t2.
 bool turns_from_flat(const Vec3& travel, std::uint32_t corner, const SurfaceSample& s) {
   if (s.normal_u != Vec3(0.0) || s.normal_v != Vec3(0.0)) return false;
   const Vec3 across = s.point_v - s.point_u;
@@ -20,15 +20,16 @@ bool turns_from_flat(const Vec3& travel, std::uint32_t corner, const SurfaceSamp
   return glm::dot(travel, first) <= 0.0 && glm::dot(travel, second) <= 0.0;
 }
 
-/// How strongly the face draws the contact from its corner, where its sample is `s`, into itself: length of the step if that
-/// leads inside, else 0.
+/// How strongly the face draws the contact from its corner, where its sample is `s`, into itself: length of the step if
+/// that leads inside, else 0.
 double face_pull(IterationContext& context, std::uint32_t t, std::uint32_t corner, const SurfaceSample& s) {
   const PlaneContact c = contact_on_plane(context.finger, context.pose, s.point, s.normal);
   if (turns_from_flat(c.travel, corner, s)) return 0.0;
   const ContactJacobian j = contact_jacobian(context.finger, context.pose, s, c);
-  ParameterStep step = context.settings.method == Method::paper
-                           ? paper_face_step(context.cache.mesh(), context.settings, t, s, c)
-                           : robust_face_step(s, j, face_stability(s, j), c, glm::dot(s.point_u, glm::cross(s.point_v, s.normal)));
+  ParameterStep step =
+      context.settings.method == Method::paper
+          ? paper_face_step(context.cache.mesh(), context.settings, t, s, c)
+          : robust_face_step(s, j, face_stability(s, j), c, glm::dot(s.point_u, glm::cross(s.point_v, s.normal)));
   if (!step.valid) return 0.0;
   const double change[3] = {-step.da - step.db, step.da, step.db};
   // Along a side it still leads inside: on a symmetry line of the mesh no triangle would have it otherwise.
@@ -42,7 +43,9 @@ double face_pull(IterationContext& context, std::uint32_t t, std::uint32_t corne
 double edge_pull(IterationContext& context, const EdgeFan& fan, double f) {
   if (!fan.convex()) return 0.0;
   const double outwards = f == 0.0 ? 1.0 : -1.0;
-  if (fan.uniform && is_round(context.finger) && outwards * glm::dot(context.pose.position - fan.point, fan.tangent) <= 0.0) return 0.0;
+  if (fan.uniform && is_round(context.finger) &&
+      outwards * glm::dot(context.pose.position - fan.point, fan.tangent) <= 0.0)
+    return 0.0;
   const Vec2 turn = facing_turn(fan, context.finger, context.pose);
   if (!in_fan(fan, turn)) return 0.0;
   SurfaceSample s;
@@ -77,7 +80,8 @@ SurfaceSample vertex_sample_at(IterationContext& context, const SurfacePlace& ve
 SurfaceSample vertex_sample(IterationContext& context, const SurfacePlace& vertex) {
   const ContactMesh& mesh = context.cache.mesh();
   const Vec3& point = mesh.position(vertex.triangle, vertex.side);
-  return vertex_sample_at(context, vertex, facing_normal(context.finger, context.pose, point, mesh.normal(vertex.triangle, vertex.side)));
+  return vertex_sample_at(
+      context, vertex, facing_normal(context.finger, context.pose, point, mesh.normal(vertex.triangle, vertex.side)));
 }
 
 namespace {

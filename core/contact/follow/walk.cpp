@@ -15,7 +15,6 @@ struct Weights {
 /// Edge k is where the weight of this corner is zero.
 constexpr std::uint32_t opposite_corner(std::uint32_t edge) { return (edge + 2) % 3; }
 
-
 /// In-plane unit vector from edge k towards the opposite corner, zero for a degenerate triangle.
 Vec3 inward(const ContactMesh& mesh, std::uint32_t t, std::uint32_t edge, const Vec3& edge_unit) {
   const Vec3 to_corner = mesh.position(t, opposite_corner(edge)) - mesh.position(t, edge);
@@ -72,7 +71,8 @@ bool concave_crease(const ContactMesh& mesh, std::uint32_t t, std::uint32_t edge
   return glm::dot(far_corner - middle, near_normal) + glm::dot(near_corner - middle, far_normal) > 0.0;
 }
 
-std::optional<SurfacePlace> walk_past_end(const ContactMesh& mesh, std::uint32_t t, std::uint32_t edge, bool forwards, double beyond_m) {
+std::optional<SurfacePlace> walk_past_end(const ContactMesh& mesh, std::uint32_t t, std::uint32_t edge, bool forwards,
+                                          double beyond_m) {
   constexpr double kStraight = 0.866;
   const std::uint32_t corner = forwards ? (edge + 1) % 3 : edge, from = forwards ? edge : (edge + 1) % 3;
   const std::uint32_t origin = mesh.vertex(t, from);
@@ -98,7 +98,8 @@ std::optional<SurfacePlace> walk_past_end(const ContactMesh& mesh, std::uint32_t
   return edges == 1 ? next : std::nullopt;
 }
 
-WalkResult walk_face(const ContactMesh& mesh, std::uint32_t t, double u, double v, double du, double dv, int most_crossings) {
+WalkResult walk_face(const ContactMesh& mesh, std::uint32_t t, double u, double v, double du, double dv,
+                     int most_crossings) {
   WalkResult result;
   result.place.feature = Feature::face;
   std::uint32_t entered = 3;

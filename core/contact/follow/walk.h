@@ -32,18 +32,20 @@ inline bool stays_inside(double u, double v, double du, double dv) {
 }
 
 struct WalkResult {
-  SurfacePlace place;             ///< feature face, or edge where a crease or boundary stopped it
+  SurfacePlace place;  ///< feature face, or edge where a crease or boundary stopped it
   int triangle_changes = 0;
-  bool lost = false;              ///< gave up: too many crossings or a degenerate triangle in the way
+  bool lost = false;  ///< gave up: too many crossings or a degenerate triangle in the way
 };
 
 /// From (u, v) on triangle t by (du, dv) in that triangle's barycentric frame. Concave creases are crossed
 /// like smooth edges: no finger rests on one. Lost where it crosses more edges than `most_crossings`.
-WalkResult walk_face(const ContactMesh& mesh, std::uint32_t t, double u, double v, double du, double dv, int most_crossings);
+WalkResult walk_face(const ContactMesh& mesh, std::uint32_t t, double u, double v, double du, double dv,
+                     int most_crossings);
 
 /// Past the end of a crease or boundary edge k of t (`forwards`: corner k + 1) by `beyond_m`, along the only other such
 /// edge there; no further than its other end. Nothing where the edge ends, branches or bends by over 30 degrees.
-std::optional<SurfacePlace> walk_past_end(const ContactMesh& mesh, std::uint32_t t, std::uint32_t edge, bool forwards, double beyond_m);
+std::optional<SurfacePlace> walk_past_end(const ContactMesh& mesh, std::uint32_t t, std::uint32_t edge, bool forwards,
+                                          double beyond_m);
 
 /// True where the far side of crease edge k rises above the near side's tangent planes.
 bool concave_crease(const ContactMesh& mesh, std::uint32_t t, std::uint32_t edge);

@@ -63,7 +63,13 @@ struct PatchPlaces {
 }  // namespace
 
 KnownContact known_contact(const ContactMesh& mesh, const TrackedPlane& plane, double height_m) {
-  return {plane.feature, plane.side, plane.triangle, plane.point, plane.normal, height_m, longest_side(mesh, plane.triangle)};
+  return {plane.feature,
+          plane.side,
+          plane.triangle,
+          plane.point,
+          plane.normal,
+          height_m,
+          longest_side(mesh, plane.triangle)};
 }
 
 bool same_basin(PatchCache& cache, NormalForm form, std::uint32_t t, const KnownContact& known, double margin_m) {
@@ -74,7 +80,8 @@ bool same_basin(PatchCache& cache, NormalForm form, std::uint32_t t, const Known
     const Vec3 corner = mesh.position(t, k), normal = mesh.normal(t, k), along = corner - known.point;
     const double agreement = glm::dot(normal, known.normal);
     const double reach = known.size_m + (agreement > kGentleCosine ? kGentleReach : kBasinReach) * margin_m;
-    if (glm::dot(along, along) > reach * reach || agreement < kBasinCosine || !on_slope(corner, normal, known)) return false;
+    if (glm::dot(along, along) > reach * reach || agreement < kBasinCosine || !on_slope(corner, normal, known))
+      return false;
   }
   // Normals turn more within a patch than between its corners.
   const PatchPlaces places(cache.patch(t, form));

@@ -169,7 +169,8 @@ void bisect_parts(const Part& whole, const Vec2& edge_u, const Vec2& edge_v, dou
 
 /// Products of the cubic d and the quadratic n, term by term with constant indices and weights.
 template <std::size_t... Term>
-void multiply_miss(const std::array<Vec3, 10>& d, const std::array<Vec3, 6>& n, QuinticMap& f, std::index_sequence<Term...>) {
+void multiply_miss(const std::array<Vec3, 10>& d, const std::array<Vec3, 6>& n, QuinticMap& f,
+                   std::index_sequence<Term...>) {
   const auto add = [&]<std::size_t A, std::size_t B>() {
     f[kProduct.index[A][B]] += kProduct.weight[A][B] * (n[B].z * Vec2(d[A].x, d[A].y) - d[A].z * Vec2(n[B].x, n[B].y));
   };
@@ -177,8 +178,11 @@ void multiply_miss(const std::array<Vec3, 10>& d, const std::array<Vec3, 6>& n, 
 }
 
 template <std::size_t... Term>
-void multiply_height(const std::array<Vec3, 10>& d, const std::array<Vec3, 6>& n, Quintic& height, std::index_sequence<Term...>) {
-  ((height[kProduct.index[Term / 6][Term % 6]] += kProduct.weight[Term / 6][Term % 6] * glm::dot(d[Term / 6], n[Term % 6])), ...);
+void multiply_height(const std::array<Vec3, 10>& d, const std::array<Vec3, 6>& n, Quintic& height,
+                     std::index_sequence<Term...>) {
+  ((height[kProduct.index[Term / 6][Term % 6]] +=
+    kProduct.weight[Term / 6][Term % 6] * glm::dot(d[Term / 6], n[Term % 6])),
+   ...);
 }
 
 /// S at (u, v) and (c - S).N, without the derivatives that a plane for stepping needs. `c` and S relative to corner 0.
@@ -186,7 +190,8 @@ double estimated_height(const PnPatch& patch, const Vec3& c, double u, double v,
   const double w = 1.0 - u - v;
   const auto& b = patch.offsets;
   point = w * w * w * b[b300] + u * u * u * b[b030] + v * v * v * b[b003] + 6.0 * w * u * v * b[b111] +
-          3.0 * (w * w * (u * b[b210] + v * b[b201]) + u * u * (w * b[b120] + v * b[b021]) + v * v * (u * b[b012] + w * b[b102]));
+          3.0 * (w * w * (u * b[b210] + v * b[b201]) + u * u * (w * b[b120] + v * b[b021]) +
+                 v * v * (u * b[b012] + w * b[b102]));
   const auto& n = patch.normals;
   const Vec3 normal = w * w * n[n200] + u * u * n[n020] + v * v * n[n002] +
                       patch.mixed_weight * (w * u * n[n110] + u * v * n[n011] + w * v * n[n101]);
@@ -254,7 +259,8 @@ double corner_exclusion(const ContactMesh& mesh, std::uint32_t t, const Vec3& ce
   const auto p = mesh.positions(t);
   const auto n = mesh.normals(t);
   if (glm::dot(n[0], n[1]) < kGentle || glm::dot(n[1], n[2]) < kGentle || glm::dot(n[2], n[0]) < kGentle) return 0.0;
-  const Vec3 a = glm::cross(centre - p[0], n[0]), b = glm::cross(centre - p[1], n[1]), c = glm::cross(centre - p[2], n[2]);
+  const Vec3 a = glm::cross(centre - p[0], n[0]), b = glm::cross(centre - p[1], n[1]),
+             c = glm::cross(centre - p[2], n[2]);
   const Vec3 mean = (a + b + c) / 3.0;
   const auto square = [](const Vec3& v) { return glm::dot(v, v); };
   const double wide2 = std::max({square(a - mean), square(b - mean), square(c - mean)});

@@ -18,18 +18,19 @@ struct PatchExclusion {
   double least_height_m = 0.0;  ///< lower bound of h of any contact on the face with h >= 0
   bool possible = true;         ///< a stable contact may be there, near (u, v), with a height near height_m
   double u = 1.0 / 3.0, v = 1.0 / 3.0;
-  Vec3 point{0.0};              ///< of the patch there
-  double height_m = 0.0;        ///< 0: not known, nor is the point
+  Vec3 point{0.0};        ///< of the patch there
+  double height_m = 0.0;  ///< 0: not known, nor is the point
 };
 
 /// `centre` in the patch's coordinates. Faces only: edges and vertices have fans of normals of their own. Where the
 /// whole patch can't be excluded, it is bisected: parts are excluded one by one until what is left is a contact, to
-/// 1/2^kBisections of the patch, or until the left parts would be unstable (det M or trace M below zero). A margin under `enough_m` is sharpened by a few
-/// bisections; more than that isn't asked for.
+/// 1/2^kBisections of the patch, or until the left parts would be unstable (det M or trace M below zero). A margin
+/// under `enough_m` is sharpened by a few bisections; more than that isn't asked for.
 PatchExclusion exclude_contact(const PnPatch& patch, const Vec3& centre, double enough_m = 0.0);
 
 /// A first look at a face from its corners alone, without its patch: by how much the triangle of the corners' misses
-/// (c - P) x N stays clear of zero, after as much room for the patch's bending as that triangle is wide. 0: look closer.
+/// (c - P) x N stays clear of zero, after as much room for the patch's bending as that triangle is wide. 0: look
+/// closer.
 double corner_exclusion(const ContactMesh& mesh, std::uint32_t t, const Vec3& centre);
 
 }  // namespace tangent

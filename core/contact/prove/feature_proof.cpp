@@ -13,11 +13,11 @@ constexpr int kCurveHalvings = 3;
 
 /// An edge of a triangle by its curve's control points, local coordinates.
 struct EdgeEnds {
-  Vec3 p, q;                    ///< corners
-  Vec3 from_p, from_q;          ///< unit: along the curve away from p; away from q
-  Vec3 np, nq;                  ///< corner normals of the triangle
-  Vec3 inside;                  ///< the opposite corner
-  std::array<Vec3, 4> curve;    ///< control points
+  Vec3 p, q;                  ///< corners
+  Vec3 from_p, from_q;        ///< unit: along the curve away from p; away from q
+  Vec3 np, nq;                ///< corner normals of the triangle
+  Vec3 inside;                ///< the opposite corner
+  std::array<Vec3, 4> curve;  ///< control points
 };
 
 EdgeEnds edge_ends(const ContactMesh& mesh, const PnPatch& patch, std::uint32_t t, std::uint32_t edge) {
@@ -64,7 +64,9 @@ double curve_distance(const std::array<Vec3, 4>& b, const Vec3& c, double enough
   const Vec3 ab = 0.5 * (b[0] + b[1]), bc = 0.5 * (b[1] + b[2]), cd = 0.5 * (b[2] + b[3]);
   const Vec3 abc = 0.5 * (ab + bc), bcd = 0.5 * (bc + cd), middle = 0.5 * (abc + bcd);
   const double first = curve_distance({b[0], ab, abc, middle}, c, enough, halvings - 1);
-  return first < enough && halvings == 1 ? first : std::min(first, curve_distance({middle, bcd, cd, b[3]}, c, enough, halvings - 1));
+  return first < enough && halvings == 1
+             ? first
+             : std::min(first, curve_distance({middle, bcd, cd, b[3]}, c, enough, halvings - 1));
 }
 
 /// How far c lies over the triangle rather than over the edge's fan, at both ends.
@@ -127,8 +129,11 @@ double exclude_feature_contacts(PatchCache& cache, std::uint32_t t, NormalForm f
     double safe = std::max(beyond_ends(ends[k], centre), over_face(ends[k], centre));
     const EdgeLink other = mesh.across(t, k);
     if (safe < enough_m && other.triangle != kNone)
-      safe = std::max(safe, over_face(edge_ends(mesh, cache.patch(other.triangle, form), other.triangle, other.edge), centre));
-    if (safe < enough_m) safe = std::max(safe, 0.5 * (curve_distance(ends[k].curve, centre, bound_m + 2.0 * enough_m, kCurveHalvings) - bound_m));
+      safe = std::max(
+          safe, over_face(edge_ends(mesh, cache.patch(other.triangle, form), other.triangle, other.edge), centre));
+    if (safe < enough_m)
+      safe = std::max(
+          safe, 0.5 * (curve_distance(ends[k].curve, centre, bound_m + 2.0 * enough_m, kCurveHalvings) - bound_m));
     margin = std::min(margin, std::max(0.0, safe));
     if (memory && safe > 0.0) memory->add(edge_key(mesh, t, k));
   }

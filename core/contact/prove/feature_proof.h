@@ -1,4 +1,5 @@
-// Proof that the crease and boundary edges and vertices of a triangle hold no contact, and for how far around the centre.
+// Proof that the crease and boundary edges and vertices of a triangle hold no contact, and for how far around the
+// centre.
 #pragma once
 
 #include "core/contact/patch_cache.h"
@@ -23,7 +24,8 @@ class FeatureMemory {
 /// How far the centre may go until a contact on the crease or boundary edges of triangle t or on their ends can come
 /// up that is nearer than `bound_m`; the largest double where there are none, 0 where one may be there now. Judged from
 /// the ends of each edge: seen along the edge the centre passes its end once, seen across it leaves the face for the
-/// fan once. A margin under `enough_m` is worth some effort to widen. What `memory` knows is left out, what is excluded added to it.
+/// fan once. A margin under `enough_m` is worth some effort to widen. What `memory` knows is left out, what is excluded
+/// added to it.
 double exclude_feature_contacts(PatchCache& cache, std::uint32_t t, NormalForm form, const Vec3& centre, double bound_m,
                                 double enough_m = 0.0, FeatureMemory* memory = nullptr);
 

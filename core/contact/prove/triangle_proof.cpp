@@ -17,7 +17,8 @@ double exclude_unround(IterationContext& context, std::uint32_t t) {
   if (glm::dot(sum, sum) < 4.0) return 0.0;
   const Vec3 support = support_point(context.finger, context.pose, unit(sum));
   double moves = 0.0;
-  for (const Vec3& normal : n) moves = std::max(moves, glm::distance(support, support_point(context.finger, context.pose, normal)));
+  for (const Vec3& normal : n)
+    moves = std::max(moves, glm::distance(support, support_point(context.finger, context.pose, normal)));
   return std::max(0.0, corner_exclusion(mesh, t, support) - kRoom * moves);
 }
 
@@ -47,7 +48,8 @@ PatchExclusion exclude_face(IterationContext& context, std::uint32_t t, double b
 
 }  // namespace
 
-PatchExclusion exclude_triangle(IterationContext& context, std::uint32_t t, double bound_m, double enough_m, FeatureMemory* memory) {
+PatchExclusion exclude_triangle(IterationContext& context, std::uint32_t t, double bound_m, double enough_m,
+                                FeatureMemory* memory) {
   const ContactMesh& mesh = context.cache.mesh();
   if (!is_round(context.finger)) {
     if (!mesh.interior(t)) return unknown(context, t);
@@ -58,8 +60,8 @@ PatchExclusion exclude_triangle(IterationContext& context, std::uint32_t t, doub
   }
   PatchExclusion proof = exclude_face(context, t, bound_m, enough_m);
   if (mesh.interior(t)) return proof;
-  const double features =
-      exclude_feature_contacts(context.cache, t, context.settings.normal_form, context.pose.position, bound_m, enough_m, memory);
+  const double features = exclude_feature_contacts(context.cache, t, context.settings.normal_form,
+                                                   context.pose.position, bound_m, enough_m, memory);
   if (features <= 0.0) return unknown(context, t);
   proof.margin_m = std::min(proof.margin_m, features);
   return proof;

@@ -35,7 +35,8 @@ struct Look {
   bool contact = false;        ///< it holds a contact, whose surroundings are left out of the search on its behalf
 };
 
-/// The least of the margins. Shortened by far more than floats are rounded by: at a margin itself a contact may be there.
+/// The least of the margins. Shortened by far more than floats are rounded by: at a margin itself a contact may be
+/// there.
 void set_free(Clearance& known) {
   double least = known.margin_m;
   for (const WatchedTriangle& watched : known.watched)
@@ -45,8 +46,14 @@ void set_free(Clearance& known) {
 
 class RivalSearch {
  public:
-  RivalSearch(IterationContext& context, const ContactScene& scene, const IterationResult& tracked, double bound_m, double margin_m)
-      : scene_(scene), tracked_(tracked), bound_m_(bound_m), margin_m_(margin_m), deepest_(bound_m), settings_(robust(context.settings)),
+  RivalSearch(IterationContext& context, const ContactScene& scene, const IterationResult& tracked, double bound_m,
+              double margin_m)
+      : scene_(scene),
+        tracked_(tracked),
+        bound_m_(bound_m),
+        margin_m_(margin_m),
+        deepest_(bound_m),
+        settings_(robust(context.settings)),
         context_{context.cache, settings_, context.finger, context.pose, context.origin, context.trace, 0} {
     remember(tracked);
   }
@@ -125,7 +132,8 @@ class RivalSearch {
     const double guess = proof.height_m >= 0.0 ? proof.height_m : context_.finger.reach_m() - proof.height_m;
     const double behind = guess - bound_m_;
     if (proof.height_m != 0.0 && behind > kHeightGuess * guess)  // a rival, but not a deeper one yet
-      return {overtaking_margin(known_[0], interpolated_normal(mesh, t, proof.u, proof.v), proof.height_m, behind), false};
+      return {overtaking_margin(known_[0], interpolated_normal(mesh, t, proof.u, proof.v), proof.height_m, behind),
+              false};
     return solve(t, proof, result);
   }
 

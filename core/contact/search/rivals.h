@@ -11,7 +11,8 @@
 
 namespace tangent {
 
-/// How far the support points of a finger that is not round can have moved while it turned from one orientation to the other.
+/// How far the support points of a finger that is not round can have moved while it turned from one orientation to the
+/// other.
 double turned_m(const Finger& finger, const Quat& from, const Quat& to);
 
 /// How far the finger at `pose` (local) is from where the margins of `known` count from: its centre's displacement, and
@@ -31,15 +32,15 @@ inline bool rival_possible(const Clearance& known, double gone, double bound_m) 
 void recentre(Clearance& known, const FingerPose& pose, double gone);
 
 struct RivalResult {
-  bool deeper = false;       ///< `best` is a stable contact whose rank is below the wanted bound
+  bool deeper = false;  ///< `best` is a stable contact whose rank is below the wanted bound
   IterationResult best;
   int evaluations = 0;
-  Clearance clearance;       ///< until when nothing needs to be looked at again
+  Clearance clearance;  ///< until when nothing needs to be looked at again
 };
 
 /// `bound_m`: rank that a rival must be below to take over. `margin_m`: how far one would like to go without
-/// searching again. `known`: the last search; the finger is `gone` from there. Beyond its margin all is searched, within it
-/// only the watched triangles whose time has come. Uses the `robust` rule whatever the method.
+/// searching again. `known`: the last search; the finger is `gone` from there. Beyond its margin all is searched,
+/// within it only the watched triangles whose time has come. Uses the `robust` rule whatever the method.
 RivalResult find_rival(IterationContext& context, const ContactScene& scene, const IterationResult& tracked,
                        double bound_m, double margin_m, const Clearance& known, double gone);
 

@@ -52,7 +52,8 @@ void seed_by_hierarchy(IterationContext& context, const ContactScene& scene, Sel
   query.tilt_rad = context.finger.tilt_rad();
   int solves = 0;
   scene.hierarchy().visit(query, [&](std::uint32_t t, ContactQuery& q) {
-    const PatchExclusion proof = exclude_triangle(context, t, selection.group == 0 ? selection.value : std::numeric_limits<double>::max());
+    const PatchExclusion proof =
+        exclude_triangle(context, t, selection.group == 0 ? selection.value : std::numeric_limits<double>::max());
     if (proof.margin_m > 0.0) return true;
     context.seed = static_cast<std::uint8_t>(std::min(++solves, 255));
     IterationResult r;
@@ -78,10 +79,11 @@ double known_radius(const IterationContext& context, const TrackedPlane& kept) {
   return closest_on_triangle(context.cache.mesh(), kept.triangle, context.pose.position).distance_m;
 }
 
-void seed_by_distance(IterationContext& context, const ContactScene& scene, std::size_t seeds, double radius, int budget, bool twice,
-                      Selection& selection) {
+void seed_by_distance(IterationContext& context, const ContactScene& scene, std::size_t seeds, double radius,
+                      int budget, bool twice, Selection& selection) {
   std::array<NearestHit, kSeeds> hits;
-  const std::size_t count = scene.nearest().nearest_several(context.pose.position, radius, std::span(hits).first(seeds));
+  const std::size_t count =
+      scene.nearest().nearest_several(context.pose.position, radius, std::span(hits).first(seeds));
   for (std::size_t i = 0; i < count; ++i) {
     context.seed = static_cast<std::uint8_t>(i + 1);
     IterationResult r;
@@ -93,8 +95,9 @@ void seed_by_distance(IterationContext& context, const ContactScene& scene, std:
   }
 }
 
-/// Last resort, where no seed finds a contact of the interpolated normals, or none near the raw mesh: the place near the raw mesh's closest points
-/// whose plane, turned to face the finger, is touched deepest. Its error is nought, its normal is the finger's.
+/// Last resort, where no seed finds a contact of the interpolated normals, or none near the raw mesh: the place near
+/// the raw mesh's closest points whose plane, turned to face the finger, is touched deepest. Its error is nought, its
+/// normal is the finger's.
 void face_the_finger(IterationContext& context, const ContactScene& scene, Selection& selection) {
   std::array<NearestHit, kSeeds> hits;
   const std::size_t count =
@@ -106,7 +109,8 @@ void face_the_finger(IterationContext& context, const ContactScene& scene, Selec
     r.evaluations = 1;
     const Vec3 interpolated = r.plane.normal;
     const bool inside = glm::dot(context.pose.position - r.plane.point, interpolated) < 0.0;
-    r.plane.normal = facing_normal(context.finger, context.pose, r.plane.point, interpolated, inside ? FacingSide::back : FacingSide::front);
+    r.plane.normal = facing_normal(context.finger, context.pose, r.plane.point, interpolated,
+                                   inside ? FacingSide::back : FacingSide::front);
     r.contact = contact_on_plane(context.finger, context.pose, r.plane.point, r.plane.normal);
     r.stop = r.contact.error_m < context.settings.tolerance_m ? StopReason::converged : StopReason::iteration_limit;
     selection.offer(context, r);
@@ -142,8 +146,10 @@ SeedResult seed_contact(IterationContext& context, const ContactScene& scene, co
   } else {
     seed_by_hierarchy(context, scene, selection);
     if (selection.group != 0 || implausible(context, scene, selection.result.best, selection.value))
-      seed_by_distance(context, scene, kSeeds, std::numeric_limits<double>::infinity(), seed_budget(context.finger), true, selection);
-    if (selection.group == 2 || (selection.group == 0 && implausible(context, scene, selection.result.best, selection.value)))
+      seed_by_distance(context, scene, kSeeds, std::numeric_limits<double>::infinity(), seed_budget(context.finger),
+                       true, selection);
+    if (selection.group == 2 ||
+        (selection.group == 0 && implausible(context, scene, selection.result.best, selection.value)))
       face_the_finger(context, scene, selection);
   }
   context.seed = 0;

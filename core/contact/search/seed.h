@@ -17,9 +17,9 @@ inline double contact_rank(const Finger& finger, const PlaneContact& contact) {
 void limit_query(ContactQuery& query, const Finger& finger, double rank);
 
 struct SeedResult {
-  bool found = false;        ///< a converged contact
-  IterationResult best;      ///< that, or the seed with the smallest error
-  int evaluations = 0;       ///< of all seeds together
+  bool found = false;    ///< a converged contact
+  IterationResult best;  ///< that, or the seed with the smallest error
+  int evaluations = 0;   ///< of all seeds together
 };
 
 /// `paper` and `newton` start at the closest point of the nearest triangle and iterate to their limit.

@@ -71,7 +71,9 @@ void audit_edges(const ContactMesh& mesh, MeshAudit& out) {
   std::vector<double> lengths, dihedrals;
   lengths.reserve(m.n_edges());
   dihedrals.reserve(m.n_edges());
-  const auto position = [&](OpenMesh::VertexHandle v) { return mesh.vertex_position(static_cast<std::uint32_t>(v.idx())); };
+  const auto position = [&](OpenMesh::VertexHandle v) {
+    return mesh.vertex_position(static_cast<std::uint32_t>(v.idx()));
+  };
   const auto normal_of = [&](OpenMesh::FaceHandle f) {
     const auto [a, b, c] = mesh.positions(half.triangle_of[static_cast<std::size_t>(f.idx())]);
     return face_normal(a, b, c);

@@ -59,7 +59,8 @@ class Collector {
 
  private:
   static void trim(std::vector<MeshFinding>& list) {
-    std::stable_sort(list.begin(), list.end(), [](const MeshFinding& a, const MeshFinding& b) { return a.size > b.size; });
+    std::stable_sort(list.begin(), list.end(),
+                     [](const MeshFinding& a, const MeshFinding& b) { return a.size > b.size; });
     if (list.size() > MeshFindings::kMostListed) list.resize(MeshFindings::kMostListed);
   }
   MeshFindings& out_;
@@ -85,8 +86,10 @@ void find_bad_triangles(const ContactMesh& mesh, Collector& found) {
     if (aspect * kSliverAspect > 1.0) found.add(FindingKind::sliver, aspect, [&] { return at_triangle(mesh, t); });
     double widest = 0.0;
     for (std::uint32_t k = 0; k < 3; ++k) widest = std::max(widest, angle_deg(mesh.normal(t, k), twice / twice_area));
-    if (widest > 90.0) found.add(FindingKind::flipped_normal, widest, [&] { return at_triangle(mesh, t); });
-    else if (widest > kWildNormalDeg) found.add(FindingKind::wild_normal, widest, [&] { return at_triangle(mesh, t); });
+    if (widest > 90.0)
+      found.add(FindingKind::flipped_normal, widest, [&] { return at_triangle(mesh, t); });
+    else if (widest > kWildNormalDeg)
+      found.add(FindingKind::wild_normal, widest, [&] { return at_triangle(mesh, t); });
   }
 }
 
@@ -113,7 +116,8 @@ void find_loops(const ContactMesh& mesh, Collector& found) {
       const Vec3& to = mesh.vertex_position(static_cast<std::uint32_t>(m.to_vertex_handle(h).idx()));
       length += glm::length(to - from);
       box.include(from);
-      const std::uint32_t t = half.triangle_of[static_cast<std::size_t>(m.face_handle(m.opposite_halfedge_handle(h)).idx())];
+      const std::uint32_t t =
+          half.triangle_of[static_cast<std::size_t>(m.face_handle(m.opposite_halfedge_handle(h)).idx())];
       const auto [a, b, c] = mesh.positions(t);
       normal += area_vector(a, b, c);
       if (triangles.size() < MeshFindings::kMostTriangles) triangles.push_back(t);
@@ -150,15 +154,16 @@ void find_bad_edges(const ContactMesh& mesh, Collector& found) {
     const Vec3& a = positions[weld.first[low]];
     const Vec3& b = positions[weld.first[uses[0].far_vertex()]];
     const double length = glm::length(b - a);
-    found.add(crowded ? FindingKind::non_manifold_edge : FindingKind::inconsistent_edge, crowded ? static_cast<double>(uses.size()) : length, [&] {
-      MeshFinding f = at_triangle(mesh, uses[0].triangle());
-      f.triangles.clear();
-      for (const EdgeUse& use : uses) f.triangles.push_back(use.triangle());
-      std::sort(f.triangles.begin(), f.triangles.end());
-      f.place = 0.5 * (a + b);
-      f.extent_m = std::max(f.extent_m, length);
-      return f;
-    });
+    found.add(crowded ? FindingKind::non_manifold_edge : FindingKind::inconsistent_edge,
+              crowded ? static_cast<double>(uses.size()) : length, [&] {
+                MeshFinding f = at_triangle(mesh, uses[0].triangle());
+                f.triangles.clear();
+                for (const EdgeUse& use : uses) f.triangles.push_back(use.triangle());
+                std::sort(f.triangles.begin(), f.triangles.end());
+                f.place = 0.5 * (a + b);
+                f.extent_m = std::max(f.extent_m, length);
+                return f;
+              });
   });
 }
 
@@ -185,7 +190,8 @@ class SourcePlaces {
     for (std::size_t f = 0; f < source_.face_count(); ++f) {
       const auto face = source_.face(f);
       const std::uint64_t fans = face.size() >= 3 ? face.size() - 2 : 0;
-      if (left < fans) return {source_.positions[face[0]], source_.positions[face[left + 1]], source_.positions[face[left + 2]]};
+      if (left < fans)
+        return {source_.positions[face[0]], source_.positions[face[left + 1]], source_.positions[face[left + 2]]};
       left -= fans;
     }
     return {};

@@ -37,7 +37,7 @@ struct MeshFinding {
 };
 
 struct MeshFindings {
-  static constexpr std::size_t kMostListed = 100;    ///< of a kind, the largest first
+  static constexpr std::size_t kMostListed = 100;  ///< of a kind, the largest first
   static constexpr std::size_t kMostTriangles = 4096;
   std::array<std::vector<MeshFinding>, kFindingKindCount> listed;
   std::array<std::uint64_t, kFindingKindCount> found{};  ///< also those not listed

@@ -13,7 +13,9 @@ GainAdvice advise_gains(const ContactMesh& mesh, const Preset& preset, const std
   GainAdvice out;
   out.gain_curvature_m = out.height_m = preset.finger.reach_m();
   out.k1_per_m = out.k2_per_m = out.ideal1 = out.ideal2 = out.left_now = out.left_advised = kNothing;
-  if (!at || at->status != TickStatus::face || at->triangle == kNone || at->triangle >= mesh.triangle_count() || !mesh.usable(at->triangle)) return out;
+  if (!at || at->status != TickStatus::face || at->triangle == kNone || at->triangle >= mesh.triangle_count() ||
+      !mesh.usable(at->triangle))
+    return out;
   const PnPatch patch = make_patch(mesh, at->triangle, preset.solver.normal_form);
   const SurfaceSample s = evaluate(patch, at->u, at->v);
   const PrincipalCurvatures k = principal_curvatures(s, evaluate_second(patch, at->u, at->v));

@@ -155,8 +155,10 @@ RunScore score_run(Stepper& stepper, const Preset& preset, std::span<const TickI
     score.max_iterations = std::max(score.max_iterations, output.iterations);
     iterations.push_back(output.iterations);
     if (output.event == TickEvent::reseed) ++score.reseeded;
-    if (output.status == TickStatus::unconverged) ++score.unconverged;
-    else score.max_error_m = std::max(score.max_error_m, output.error_m);
+    if (output.status == TickStatus::unconverged)
+      ++score.unconverged;
+    else
+      score.max_error_m = std::max(score.max_error_m, output.error_m);
   }
   score.p99_iterations = static_cast<std::int32_t>(distribution(std::move(iterations)).p99);
   return score;

@@ -26,11 +26,11 @@ SolverSettings with_gains(SolverSettings settings, const Gains& gains);
 struct RunScore {
   std::uint64_t ticks = 0;
   std::uint64_t unconverged = 0;
-  std::uint64_t reseeded = 0;           ///< ticks whose tracking gave up, converged after all or not
-  std::uint64_t iterations = 0;         ///< of all ticks
-  std::int32_t p99_iterations = 0;      ///< nearest rank
+  std::uint64_t reseeded = 0;       ///< ticks whose tracking gave up, converged after all or not
+  std::uint64_t iterations = 0;     ///< of all ticks
+  std::int32_t p99_iterations = 0;  ///< nearest rank
   std::int32_t max_iterations = 0;
-  double max_error_m = 0.0;             ///< of the converged ticks
+  double max_error_m = 0.0;  ///< of the converged ticks
   double mean_iterations() const { return ticks ? static_cast<double>(iterations) / static_cast<double>(ticks) : 0.0; }
 };
 
@@ -63,18 +63,19 @@ GainGrid make_gain_grid(double length_m);
 inline constexpr std::size_t kBestTrials = 10;
 
 struct GainTuning {
-  std::vector<GainTrial> best;    ///< up to kBestTrials, best first; empty: stopped before any run was complete
-  GainTrial untuned;              ///< G_o 1, G_k 0, G_d 0; ticks 0: stopped before it was done
-  std::size_t tried = 0;          ///< gains tried in all, those included whose run ended early for being worse
-  bool stopped = false;           ///< `keep_going` said no; `best` holds what was done by then
+  std::vector<GainTrial> best;  ///< up to kBestTrials, best first; empty: stopped before any run was complete
+  GainTrial untuned;            ///< G_o 1, G_k 0, G_d 0; ticks 0: stopped before it was done
+  std::size_t tried = 0;        ///< gains tried in all, those included whose run ended early for being worse
+  bool stopped = false;         ///< `keep_going` said no; `best` holds what was done by then
 };
 
 /// Asked before every trial and now and then within one; how many trials are done, how many there will be at least.
 using KeepTuning = std::function<bool(std::size_t done, std::size_t planned)>;
 
-/// Tunes the gains of the paper's iteration, untuned first; everything else is as in `base`, whose method does not matter.
-/// The walk tries the six neighbours of the best point, doubling no step, halving all of them where none is better,
-/// down to the grid's resolution. Runs that can't come among the best any more end early. Precondition: poses not empty.
+/// Tunes the gains of the paper's iteration, untuned first; everything else is as in `base`, whose method does not
+/// matter. The walk tries the six neighbours of the best point, doubling no step, halving all of them where none is
+/// better, down to the grid's resolution. Runs that can't come among the best any more end early. Precondition: poses
+/// not empty.
 GainTuning tune_gains(std::shared_ptr<const ContactScene> scene, const Preset& base, std::span<const TickInput> poses,
                       const GainGrid& grid, const KeepTuning& keep_going = {});
 

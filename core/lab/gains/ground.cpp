@@ -10,10 +10,14 @@ namespace tangent {
 
 const char* to_string(Ground ground) {
   switch (ground) {
-    case Ground::flat: return "flat";
-    case Ground::gentle: return "gentle";
-    case Ground::tight: return "tight";
-    case Ground::sharp: break;
+    case Ground::flat:
+      return "flat";
+    case Ground::gentle:
+      return "gentle";
+    case Ground::tight:
+      return "tight";
+    case Ground::sharp:
+      break;
   }
   return "sharp";
 }

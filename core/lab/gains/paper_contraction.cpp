@@ -11,9 +11,9 @@
 namespace tangent {
 namespace {
 
-constexpr int kDirections = 4;    // of a half turn: the map of -t is minus the map of t
-constexpr int kSettling = 24;     // steps until the direction has settled or goes round
-constexpr int kMeasured = 16;     // steps whose mean shrinkage counts; whole periods of the alternation between two gains
+constexpr int kDirections = 4;  // of a half turn: the map of -t is minus the map of t
+constexpr int kSettling = 24;   // steps until the direction has settled or goes round
+constexpr int kMeasured = 16;   // steps whose mean shrinkage counts; whole periods of the alternation between two gains
 constexpr double kLanded = 1e-9;  // shrinkage that is as good as none left
 
 /// Error after one plane over the error before it, and the direction of the travel left.

@@ -28,15 +28,16 @@ ClosedWork work_around(Stepper& stepper, const Preset& preset, std::span<const F
     const TickOutput now = step(pose);
     result.broken = result.broken || now.status == TickStatus::unconverged;
     result.work_j += 0.5 * glm::dot(before.force_n + now.force_n, pose.position - loop[i - 1].position);
-    result.peak_energy_j =
-        std::max(result.peak_energy_j, 0.5 * std::sqrt(glm::dot(now.force_n, now.force_n)) * std::max(0.0, now.penetration_m));
+    result.peak_energy_j = std::max(
+        result.peak_energy_j, 0.5 * std::sqrt(glm::dot(now.force_n, now.force_n)) * std::max(0.0, now.penetration_m));
     before = now;
   }
   return result;
 }
 
 std::vector<FingerPose> circle_of_poses(const FingerPose& middle, const Vec3& axis, double radius_m, int count) {
-  const Vec3 a = unit(glm::cross(axis, std::abs(axis.x) < 0.9 ? Vec3(1, 0, 0) : Vec3(0, 1, 0))), b = glm::cross(axis, a);
+  const Vec3 a = unit(glm::cross(axis, std::abs(axis.x) < 0.9 ? Vec3(1, 0, 0) : Vec3(0, 1, 0))),
+             b = glm::cross(axis, a);
   std::vector<FingerPose> loop(static_cast<std::size_t>(count), middle);
   for (int i = 0; i < count; ++i) {
     const Vec2 c = circle_point(i, count);

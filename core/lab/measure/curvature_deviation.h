@@ -11,9 +11,9 @@ struct CurvatureDeviation {
   double largest = 0.0;  ///< magnitude, 1
 };
 
-/// Over the whole patches of the paper's arc; the curvature is that of the rendered curve: |dN| over the way of the contact
-/// (rendered_curvature). All patches of an arc are alike, so one is sampled, at `samples` places.
-/// Precondition: segments >= 2.
+/// Over the whole patches of the paper's arc; the curvature is that of the rendered curve: |dN| over the way of the
+/// contact (rendered_curvature). All patches of an arc are alike, so one is sampled, at `samples` places. Precondition:
+/// segments >= 2.
 CurvatureDeviation curvature_deviation(int segments, ArcPlacement placement, LocalCentre centre, int samples = 4000);
 
 }  // namespace tangent

@@ -82,8 +82,8 @@ class FeelModule : public OpenMesh::Decimater::ModBaseT<MeshT> {
     for (auto it = mesh.vv_iter(ci.v0); it.is_valid(); ++it) ring_.push_back(*it);
   }
 
-  /// The decimater looks anew at the neighbours of the vertex that went. The vertices across the changed triangles' edges
-  /// were judged with the old ones: they wait for the next pass.
+  /// The decimater looks anew at the neighbours of the vertex that went. The vertices across the changed triangles'
+  /// edges were judged with the old ones: they wait for the next pass.
   void postprocess_collapse(const CollapseInfo& ci) override {
     Mesh& mesh = Base::mesh();
     for (auto it = mesh.vf_iter(ci.v1); it.is_valid(); ++it) {
@@ -165,7 +165,8 @@ class FeelModule : public OpenMesh::Decimater::ModBaseT<MeshT> {
   }
 
   bool near_original(const PnPatch& patch) {
-    constexpr std::array<std::array<double, 2>, 7> kSamples{{{1.0 / 3, 1.0 / 3}, {0.5, 0.0}, {0.5, 0.5}, {0.0, 0.5}, {0.6, 0.2}, {0.2, 0.6}, {0.2, 0.2}}};
+    constexpr std::array<std::array<double, 2>, 7> kSamples{
+        {{1.0 / 3, 1.0 / 3}, {0.5, 0.0}, {0.5, 0.5}, {0.0, 0.5}, {0.6, 0.2}, {0.2, 0.6}, {0.2, 0.2}}};
     for (const auto& [u, v] : kSamples) {
       const Vec3 point = evaluate_point(patch, u, v);
       const NearestHit hit = c_->original.nearest().nearest(point, std::numeric_limits<double>::infinity());
@@ -196,7 +197,8 @@ Working to_working(const ContactMesh& mesh, Constraints& constraints) {
     const Face face = out.add_face(handle(0), handle(1), handle(2));
     for (std::uint32_t k = 0; k < 3; ++k) {
       if (mesh.feature_corner(t, k)) constraints.fixed[mesh.vertex(t, k)] = true;
-      if (mesh.edge_kind(t, k) == EdgeKind::crease) constraints.creases.insert(pair_key(handle(k), handle((k + 1) % 3)));
+      if (mesh.edge_kind(t, k) == EdgeKind::crease)
+        constraints.creases.insert(pair_key(handle(k), handle((k + 1) % 3)));
     }
     if (!face.is_valid()) {
       for (std::uint32_t k = 0; k < 3; ++k) constraints.fixed[mesh.vertex(t, k)] = true;
@@ -267,7 +269,8 @@ PolygonMesh from_working(const Working& mesh, Constraints& constraints, const Co
 
 /// Collapses until none is allowed among the vertices that have not to wait. Returns how many were made.
 std::size_t one_pass(Working& mesh, Constraints& constraints) {
-  for (const Vertex v : mesh.vertices()) mesh.status(v).set_locked(constraints.fixed[static_cast<std::size_t>(v.idx())]);
+  for (const Vertex v : mesh.vertices())
+    mesh.status(v).set_locked(constraints.fixed[static_cast<std::size_t>(v.idx())]);
   OpenMesh::Decimater::DecimaterT<Working> decimater(mesh);
   OpenMesh::Decimater::ModQuadricT<Working>::Handle quadric;
   FeelModule<Working>::Handle feel;
@@ -281,7 +284,8 @@ std::size_t one_pass(Working& mesh, Constraints& constraints) {
 
 }  // namespace
 
-DecimateResult decimate(const ContactScene& original, const DecimateLimits& limits, const std::function<bool()>& keep_going) {
+DecimateResult decimate(const ContactScene& original, const DecimateLimits& limits,
+                        const std::function<bool()>& keep_going) {
   DecimateResult result;
   result.before = original.mesh().usable_triangle_count();
   Constraints constraints{original, limits, {}, {}, {}};

@@ -1,8 +1,9 @@
 // As few triangles as a finger can't tell from many: decimation under a perception threshold.
 //
-// OpenMesh's decimater collapses half-edges, cheapest first by quadric error, as long as no smooth edge it makes exceeds
-// the angle at which facets are felt, and the smooth surface over the new triangles stays near the smooth surface
-// over the old ones. Vertices stay where they are and keep their normals; vertices on creases and boundaries stay.
+// OpenMesh's decimater collapses half-edges, cheapest first by quadric error, as long as no smooth edge it makes
+// exceeds the angle at which facets are felt, and the smooth surface over the new triangles stays near the smooth
+// surface over the old ones. Vertices stay where they are and keep their normals; vertices on creases and boundaries
+// stay.
 #pragma once
 
 #include "core/tick/step.h"
@@ -14,20 +15,22 @@
 namespace tangent {
 
 struct DecimateLimits {
-  double angle_deg = 0.0;      ///< largest angle between facets across a smooth edge that a collapse may leave
-  double deviation_m = 0.0;    ///< largest distance of the new smooth surface from the old one, along the old one's normal
-  double aspect = 12.0;        ///< longest side over smallest height of a new triangle, unless the old ones were worse
+  double angle_deg = 0.0;  ///< largest angle between facets across a smooth edge that a collapse may leave
+  double deviation_m =
+      0.0;               ///< largest distance of the new smooth surface from the old one, along the old one's normal
+  double aspect = 12.0;  ///< longest side over smallest height of a new triangle, unless the old ones were worse
 };
 
 struct DecimateResult {
-  PolygonMesh mesh;            ///< triangles with normals at the corners, metres, world
+  PolygonMesh mesh;                     ///< triangles with normals at the corners, metres, world
   std::uint64_t before = 0, after = 0;  ///< triangles
   int passes = 0;
-  bool stopped = false;        ///< `keep_going` said no; the mesh is good, but not as coarse as it could be
+  bool stopped = false;  ///< `keep_going` said no; the mesh is good, but not as coarse as it could be
 };
 
 /// Precondition: limits positive. `keep_going` is asked now and then.
-DecimateResult decimate(const ContactScene& original, const DecimateLimits& limits, const std::function<bool()>& keep_going = {});
+DecimateResult decimate(const ContactScene& original, const DecimateLimits& limits,
+                        const std::function<bool()>& keep_going = {});
 
 /// Distances of samples of one smooth surface from another, m.
 struct SurfaceDeviation {

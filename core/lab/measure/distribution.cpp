@@ -27,7 +27,8 @@ double middle_mean(std::vector<double> values) {
   if (values.empty()) return 0.0;
   std::sort(values.begin(), values.end());
   const auto quarter = static_cast<std::ptrdiff_t>(values.size() / 4);
-  return std::accumulate(values.begin() + quarter, values.end() - quarter, 0.0) / static_cast<double>(values.size() - 2 * static_cast<std::size_t>(quarter));
+  return std::accumulate(values.begin() + quarter, values.end() - quarter, 0.0) /
+         static_cast<double>(values.size() - 2 * static_cast<std::size_t>(quarter));
 }
 
 }  // namespace tangent

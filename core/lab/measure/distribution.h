@@ -14,8 +14,8 @@ struct Distribution {
 /// All zero where there are no values. Precondition: none is NaN.
 Distribution distribution(std::vector<double> values);
 
-/// Mean of the middle half of the values (interquartile mean), 0 of none: as little moved by outliers as a median, and finer
-/// than the steps in which a clock reads. Precondition: none is NaN.
+/// Mean of the middle half of the values (interquartile mean), 0 of none: as little moved by outliers as a median, and
+/// finer than the steps in which a clock reads. Precondition: none is NaN.
 double middle_mean(std::vector<double> values);
 
 }  // namespace tangent

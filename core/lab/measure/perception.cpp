@@ -42,8 +42,10 @@ void add_edge(const FeltEdge& edge, ConditionFeel& feel) {
   const double lower = feel.threshold.interval_deg ? feel.threshold.interval_deg->first : feel.threshold.mean_deg;
   ++feel.curve_edges;
   feel.curve_length_m += edge.length_m;
-  if (edge.angle_deg > upper) ++feel.surely_felt;
-  else if (edge.angle_deg > lower) ++feel.doubtful;
+  if (edge.angle_deg > upper)
+    ++feel.surely_felt;
+  else if (edge.angle_deg > lower)
+    ++feel.doubtful;
   if (edge.angle_deg <= feel.threshold.mean_deg) return;
   ++feel.felt;
   feel.felt_length_m += edge.length_m;
@@ -57,15 +59,19 @@ void add_edge(const FeltEdge& edge, ConditionFeel& feel) {
 std::string share_text(double share) {
   char text[32];
   // No more than there is: 0.03 % must not read as none, 99.97 % not as all.
-  if (share > 0.0 && share < 0.1) std::snprintf(text, sizeof text, "%.2g %%", 100.0 * share);
-  else std::snprintf(text, sizeof text, "%.0f %%", std::floor(100.0 * share));
+  if (share > 0.0 && share < 0.1)
+    std::snprintf(text, sizeof text, "%.2g %%", 100.0 * share);
+  else
+    std::snprintf(text, sizeof text, "%.0f %%", std::floor(100.0 * share));
   return text;
 }
 
 std::string edges_text(const ConditionFeel& feel) {
   char above[48];
   std::snprintf(above, sizeof above, " above %.1f deg", feel.threshold.mean_deg);
-  const std::string share = feel.felt == 0 ? "none are" : feel.felt == feel.curve_edges ? "all edges are" : share_text(feel.felt_share()) + " of edges are";
+  const std::string share = feel.felt == 0                  ? "none are"
+                            : feel.felt == feel.curve_edges ? "all edges are"
+                                                            : share_text(feel.felt_share()) + " of edges are";
   return share + above;
 }
 
@@ -95,10 +101,17 @@ PerceptionAudit audit_perception(const ContactMesh& mesh, const FacetAngles& ang
   std::vector<float> curve;
   for_each_edge(mesh, [&](std::uint32_t t, std::uint32_t k) {
     switch (angles.sense[t][k]) {
-      case EdgeSense::flat: ++audit.flat_edges; return;
-      case EdgeSense::crease: ++audit.crease_edges; return;
-      case EdgeSense::boundary: ++audit.boundary_edges; return;
-      case EdgeSense::curve: break;
+      case EdgeSense::flat:
+        ++audit.flat_edges;
+        return;
+      case EdgeSense::crease:
+        ++audit.crease_edges;
+        return;
+      case EdgeSense::boundary:
+        ++audit.boundary_edges;
+        return;
+      case EdgeSense::curve:
+        break;
     }
     ++audit.curve_edges;
     curve.push_back(angles.angle_deg[t][k]);
@@ -120,14 +133,20 @@ int threshold_index(std::string_view condition) {
 }
 
 std::string verdict(const PerceptionAudit& audit, int condition) {
-  if (audit.curve_edges == 0) return "no edge lies between facets of a curve: there is nothing that shading would smooth";
+  if (audit.curve_edges == 0)
+    return "no edge lies between facets of a curve: there is nothing that shading would smooth";
   const ConditionFeel& chosen = audit.conditions[static_cast<std::size_t>(condition)];
   const bool pilot = !chosen.threshold.interval_deg;
-  std::string text = "under " + std::string(chosen.threshold.condition) + (pilot ? " (pilot data) " : " ") + edges_text(chosen);
-  if (chosen.felt == 0) text += chosen.doubtful == 0 ? ": it will feel smooth" : ", but some within the threshold's interval: it may feel smooth";
-  else text += ": facets will be felt";
+  std::string text =
+      "under " + std::string(chosen.threshold.condition) + (pilot ? " (pilot data) " : " ") + edges_text(chosen);
+  if (chosen.felt == 0)
+    text += chosen.doubtful == 0 ? ": it will feel smooth"
+                                 : ", but some within the threshold's interval: it may feel smooth";
+  else
+    text += ": facets will be felt";
   if (chosen.threshold.condition == "P1") return text;
-  return text + "; with force and tactile shading (P1, pilot data) " + edges_text(audit.conditions[static_cast<std::size_t>(threshold_index("P1"))]);
+  return text + "; with force and tactile shading (P1, pilot data) " +
+         edges_text(audit.conditions[static_cast<std::size_t>(threshold_index("P1"))]);
 }
 
 double largest_curve_angle_rad(const ContactMesh& mesh, std::uint32_t t) {

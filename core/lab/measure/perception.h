@@ -22,8 +22,8 @@ enum class EdgeSense : std::uint8_t {
   boundary,  ///< nothing on the other side
 };
 
-/// Degrees. Facets this close to one plane belong to a flat face: coordinates printed with six digits turn them by less.
-/// Sixteen times below the lowest threshold, so nothing that could be felt is called flat.
+/// Degrees. Facets this close to one plane belong to a flat face: coordinates printed with six digits turn them by
+/// less. Sixteen times below the lowest threshold, so nothing that could be felt is called flat.
 inline constexpr double kFlatEdgeDeg = 0.01;
 
 /// Per triangle and edge, as in the contact mesh.
@@ -38,7 +38,7 @@ struct FeltEdge {
   std::uint32_t triangle = kNone;  ///< the lower numbered of the two
   std::uint32_t edge = 0;
   double angle_deg = 0.0, length_m = 0.0;
-  Vec3 middle_m{0.0};              ///< world
+  Vec3 middle_m{0.0};  ///< world
 };
 
 inline constexpr std::size_t kWorstEdges = 10;
@@ -46,12 +46,12 @@ inline constexpr std::size_t kWorstEdges = 10;
 /// What one condition makes of a mesh.
 struct ConditionFeel {
   PerceptionThreshold threshold;
-  std::uint64_t curve_edges = 0;   ///< that the shares are of
-  std::uint64_t felt = 0;          ///< above the mean
-  std::uint64_t surely_felt = 0;   ///< above the interval; as `felt` where there is none
-  std::uint64_t doubtful = 0;      ///< within the interval
+  std::uint64_t curve_edges = 0;  ///< that the shares are of
+  std::uint64_t felt = 0;         ///< above the mean
+  std::uint64_t surely_felt = 0;  ///< above the interval; as `felt` where there is none
+  std::uint64_t doubtful = 0;     ///< within the interval
   double curve_length_m = 0.0, felt_length_m = 0.0;
-  std::vector<FeltEdge> worst;     ///< largest angles first, up to kWorstEdges, felt ones only
+  std::vector<FeltEdge> worst;  ///< largest angles first, up to kWorstEdges, felt ones only
   double felt_share() const { return curve_edges ? static_cast<double>(felt) / static_cast<double>(curve_edges) : 0.0; }
   double felt_length_share() const { return curve_length_m > 0.0 ? felt_length_m / curve_length_m : 0.0; }
 };
@@ -69,11 +69,12 @@ int threshold_index(std::string_view condition);
 /// One sentence: what the condition makes of the mesh, and what full shading would.
 std::string verdict(const PerceptionAudit& audit, int condition);
 
-/// Largest angle between triangle t and a neighbour across an edge of a curve, rad; 0: it has none. Precondition: usable.
+/// Largest angle between triangle t and a neighbour across an edge of a curve, rad; 0: it has none. Precondition:
+/// usable.
 double largest_curve_angle_rad(const ContactMesh& mesh, std::uint32_t t);
 
-/// Per triangle: its largest angle to a neighbour over the threshold's mean, edges of curves only. What a heat map shows:
-/// above 1 it is felt.
+/// Per triangle: its largest angle to a neighbour over the threshold's mean, edges of curves only. What a heat map
+/// shows: above 1 it is felt.
 std::vector<float> felt_ratio(const FacetAngles& angles, const PerceptionThreshold& threshold);
 
 }  // namespace tangent

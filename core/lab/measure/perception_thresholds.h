@@ -18,12 +18,12 @@ struct PerceptionThreshold {
 };
 
 inline constexpr std::array<PerceptionThreshold, 6> kPerceptionThresholds{{
-  {"C1", 0.5, {{0.37, 0.75}}},
-  {"C2", 3.4, {{3.05, 3.84}}},
-  {"C3", 0.2, {{0.16, 0.27}}},
-  {"C4", 3.5, {{2.84, 4.59}}},
-  {"P1", 14.8, std::nullopt},
-  {"P2", 0.2, std::nullopt},
+    {"C1", 0.5, {{0.37, 0.75}}},
+    {"C2", 3.4, {{3.05, 3.84}}},
+    {"C3", 0.2, {{0.16, 0.27}}},
+    {"C4", 3.5, {{2.84, 4.59}}},
+    {"P1", 14.8, std::nullopt},
+    {"P2", 0.2, std::nullopt},
 }};
 
 }  // namespace tangent

@@ -13,8 +13,8 @@ double length(const Vec3& v) { return std::sqrt(glm::dot(v, v)); }
 }  // namespace
 
 bool all_finite(const TickOutput& o) {
-  return is_finite(o.contact) && is_finite(o.normal) && is_finite(o.force_n) && std::isfinite(o.u) && std::isfinite(o.v) &&
-         std::isfinite(o.penetration_m) && std::isfinite(o.cld_m) && std::isfinite(o.error_m);
+  return is_finite(o.contact) && is_finite(o.normal) && is_finite(o.force_n) && std::isfinite(o.u) &&
+         std::isfinite(o.v) && std::isfinite(o.penetration_m) && std::isfinite(o.cld_m) && std::isfinite(o.error_m);
 }
 
 RunStatistics run_statistics(std::span<const TickInput> inputs, std::span<const TickOutput> outputs,
@@ -34,7 +34,8 @@ RunStatistics run_statistics(std::span<const TickInput> inputs, std::span<const 
     if (o.event == TickEvent::none) iterations.push_back(o.iterations);
     if (!ns.empty() && o.event == TickEvent::none) eventless_ns.push_back(ns[i]);
     if (!ns.empty() && (o.event == TickEvent::first || o.event == TickEvent::reseed)) seeding_ns.push_back(ns[i]);
-    if (i == 0 || o.event != TickEvent::none || !converged || outputs[i - 1].status == TickStatus::unconverged) continue;
+    if (i == 0 || o.event != TickEvent::none || !converged || outputs[i - 1].status == TickStatus::unconverged)
+      continue;
     const bool slow = length(inputs[i].finger.position - inputs[i - 1].finger.position) < slow_m;
     if (slow && glm::dot(o.normal, outputs[i - 1].normal) < kJumpCosine) ++s.unmarked_jumps;
   }
@@ -47,7 +48,8 @@ RunStatistics run_statistics(std::span<const TickInput> inputs, std::span<const 
 }
 
 TickDifference difference(const TickOutput& a, const TickOutput& b) {
-  return {length(a.contact - b.contact), std::atan2(length(glm::cross(a.normal, b.normal)), glm::dot(a.normal, b.normal)),
+  return {length(a.contact - b.contact),
+          std::atan2(length(glm::cross(a.normal, b.normal)), glm::dot(a.normal, b.normal)),
           length(a.force_n - b.force_n), std::abs(a.cld_m - b.cld_m)};
 }
 
@@ -65,8 +67,9 @@ void RunComparison::add(const TickOutput& a, const TickOutput& b) {
 }
 
 RunDifference RunComparison::result() const {
-  return {contact_m_.size(), left_out_, distribution(contact_m_), distribution(normal_rad_), distribution(force_n_),
-          distribution(display_m_)};
+  return {contact_m_.size(),        left_out_,
+          distribution(contact_m_), distribution(normal_rad_),
+          distribution(force_n_),   distribution(display_m_)};
 }
 
 }  // namespace tangent

@@ -17,15 +17,15 @@ struct RunStatistics {
   std::uint64_t ticks = 0;
   std::array<std::uint64_t, kTickStatusCount> statuses{};  ///< by TickStatus
   std::array<std::uint64_t, kTickEventCount> events{};     ///< by TickEvent
-  std::uint64_t not_finite = 0;        ///< ticks with a NaN or an infinity anywhere in their output
-  std::uint64_t unmarked_jumps = 0;    ///< see below
-  std::uint64_t first_unconverged = 0; ///< tick; meaningful where there is one
-  double max_error_m = 0.0;            ///< of the converged ticks
-  Distribution iterations;             ///< of ticks without event
+  std::uint64_t not_finite = 0;                            ///< ticks with a NaN or an infinity anywhere in their output
+  std::uint64_t unmarked_jumps = 0;                        ///< see below
+  std::uint64_t first_unconverged = 0;                     ///< tick; meaningful where there is one
+  double max_error_m = 0.0;                                ///< of the converged ticks
+  Distribution iterations;                                 ///< of ticks without event
   Distribution all_iterations;
-  Distribution ns;                     ///< of all ticks
+  Distribution ns;  ///< of all ticks
   Distribution eventless_ns;
-  Distribution seeding_ns;             ///< of ticks with event `first` or `reseed`
+  Distribution seeding_ns;  ///< of ticks with event `first` or `reseed`
 
   std::uint64_t count(TickStatus s) const { return statuses[static_cast<std::size_t>(s)]; }
   std::uint64_t count(TickEvent e) const { return events[static_cast<std::size_t>(e)]; }
@@ -44,8 +44,8 @@ struct TickDifference {
 TickDifference difference(const TickOutput& a, const TickOutput& b);
 
 struct RunDifference {
-  std::uint64_t compared = 0;   ///< ticks that converged in both runs
-  std::uint64_t left_out = 0;   ///< the others
+  std::uint64_t compared = 0;  ///< ticks that converged in both runs
+  std::uint64_t left_out = 0;  ///< the others
   Distribution contact_m, normal_rad, force_n, display_m;
 };
 

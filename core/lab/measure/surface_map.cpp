@@ -14,9 +14,9 @@
 namespace tangent {
 namespace {
 
-constexpr double kWorstMargin = -1.0;     // runaway gains: how fast they run away says nothing more
-constexpr int kBallSteps = 16;            // of the shrinking ball; it settles in 2 to 6
-constexpr double kBallShare = 1e-3;       // what may stick into the ball, of its radius
+constexpr double kWorstMargin = -1.0;          // runaway gains: how fast they run away says nothing more
+constexpr int kBallSteps = 16;                 // of the shrinking ball; it settles in 2 to 6
+constexpr double kBallShare = 1e-3;            // what may stick into the ball, of its radius
 constexpr double kOwnGround = 20.0 * kDegree;  // seen from the ball's centre: nearer than that it is the same wall
 
 constexpr std::array<MapQuantityInfo, kMapQuantityCount> kInfo{{
@@ -31,15 +31,18 @@ constexpr std::array<MapQuantityInfo, kMapQuantityCount> kInfo{{
     {"curvature", "Curvature", "1/m", 1.0, false, true, false,
      "Larger of the principal curvatures of the smooth surface, without sign"},
     {"touch-radius", "Touch radius", "R", 1.0, true, true, false,
-     "Largest ball that can touch here without touching elsewhere, in finger radii R. Below 1 the finger touches two walls "
+     "Largest ball that can touch here without touching elsewhere, in finger radii R. Below 1 the finger touches two "
+     "walls "
      "at once; 4 and more are not told apart"},
     {"normal-deviation", "Normal deviation", "deg", 1.0 / kDegree, false, true, false,
      "Angle between the interpolated normal N, which is rendered, and the true normal of the surface S"},
     {"facet-angle", "Facet angle", "deg", 1.0 / kDegree, false, false, false,
-     "Largest angle between the flat triangle and a neighbour; edges of flat faces, creases and boundaries left out. What a finger "
+     "Largest angle between the flat triangle and a neighbour; edges of flat faces, creases and boundaries left out. "
+     "What a finger "
      "feels of it depends on the rendering condition: see Smoothness as felt"},
     {"gain-margin", "Gain margin", "", 1.0, true, false, true,
-     "1 minus the share of the error that a plane of the paper's iteration leaves with the present gains. 1: lands at once; below 0: "
+     "1 minus the share of the error that a plane of the paper's iteration leaves with the present gains. 1: lands at "
+     "once; below 0: "
      "does not converge"},
 }};
 
@@ -49,7 +52,8 @@ SurfaceSample sample_of(const PnPatch& patch, double u, double v) { return evalu
 
 /// Whether the finger can rest there: the contact is a stable one.
 bool stable_contact(const Finger& finger, const FingerPose& pose, const SurfaceSample& s) {
-  const Stability m = face_stability(s, contact_jacobian(finger, pose, s, contact_on_plane(finger, pose, s.point, s.normal)));
+  const Stability m =
+      face_stability(s, contact_jacobian(finger, pose, s, contact_on_plane(finger, pose, s.point, s.normal)));
   return m.det > 0.0 && m.trace > 0.0;
 }
 
@@ -68,9 +72,12 @@ MapGroup group_of(MapQuantity quantity) {
     case MapQuantity::iterations_worst:
     case MapQuantity::iterations_mean:
     case MapQuantity::failures:
-    case MapQuantity::error: return MapGroup::solve;
-    case MapQuantity::touch_radius: return MapGroup::touch;
-    default: return MapGroup::shape;
+    case MapQuantity::error:
+      return MapGroup::solve;
+    case MapQuantity::touch_radius:
+      return MapGroup::touch;
+    default:
+      return MapGroup::shape;
   }
 }
 
@@ -97,8 +104,11 @@ unsigned map_part_at(unsigned level, double u, double v) {
 }
 
 SurfaceMapper::SurfaceMapper(std::shared_ptr<const ContactScene> scene, const Preset& preset, const MapOptions& options)
-    : scene_(std::move(scene)), preset_(preset), options_(options),
-      answer_tolerance_m_(converged_tolerance_m(*scene_, preset.finger)), stepper_(scene_) {
+    : scene_(std::move(scene)),
+      preset_(preset),
+      options_(options),
+      answer_tolerance_m_(converged_tolerance_m(*scene_, preset.finger)),
+      stepper_(scene_) {
   options_.level = std::clamp(options_.level, 1u, kLargestMapLevel);
   options_.directions = std::max(options_.directions, 1u);
 }
@@ -115,9 +125,12 @@ void SurfaceMapper::compute(MapGroup group, std::uint32_t t, unsigned part, MapV
   patch_of(t);
   const Vec2 uv = map_part_centroid(options_.level, part);
   switch (group) {
-    case MapGroup::solve: return compute_solve(t, uv.x, uv.y, values);
-    case MapGroup::shape: return compute_shape(t, uv.x, uv.y, values);
-    default: return compute_touch(t, uv.x, uv.y, values);
+    case MapGroup::solve:
+      return compute_solve(t, uv.x, uv.y, values);
+    case MapGroup::shape:
+      return compute_shape(t, uv.x, uv.y, values);
+    default:
+      return compute_touch(t, uv.x, uv.y, values);
   }
 }
 

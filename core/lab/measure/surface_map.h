@@ -1,10 +1,11 @@
 // Maps over the mesh: what a contact solver, a finger and the gains of Eq. 1 will meet at every place of the smooth
 // surface, before anybody touches it there.
 //
-// Places: every usable triangle's patch is cut into level^2 parts of the parameter triangle, and each part has one value, at
-// its centroid. Solver quantities start from the finger resting at the place and move it by one tick's travel in
-// several directions around and once straight in (positions x approach directions); each is one tick of
-// core/tick/step.h from that kept plane, with no search for deeper places, so that it shows the iteration and nothing else.
+// Places: every usable triangle's patch is cut into level^2 parts of the parameter triangle, and each part has one
+// value, at its centroid. Solver quantities start from the finger resting at the place and move it by one tick's travel
+// in several directions around and once straight in (positions x approach directions); each is one tick of
+// core/tick/step.h from that kept plane, with no search for deeper places, so that it shows the iteration and nothing
+// else.
 //
 // Pure: no threads or clocks. The same arguments give the same values whatever the order of places.
 #pragma once
@@ -41,9 +42,9 @@ inline constexpr std::size_t kMapGroupCount = static_cast<std::size_t>(MapGroup:
 MapGroup group_of(MapQuantity quantity);
 
 struct MapQuantityInfo {
-  std::string_view key;     ///< "iterations-worst"
-  std::string_view label;   ///< "Iterations, worst"
-  std::string_view unit;    ///< in which it is shown; empty: a pure number
+  std::string_view key;    ///< "iterations-worst"
+  std::string_view label;  ///< "Iterations, worst"
+  std::string_view unit;   ///< in which it is shown; empty: a pure number
   double shown_per_si = 1.0;
   bool low_is_worse = false;
   bool logarithmic = false;  ///< spans powers of ten
@@ -55,16 +56,16 @@ const MapQuantityInfo& info_of(MapQuantity quantity);
 /// Touch radii are not looked for beyond this, in finger reaches.
 inline constexpr double kLargestTouch = 4.0;
 
-/// Values that are none, as floats so that a GPU can tell them without NaN: not computed yet; computed, and there is none
-/// (the finger can't rest there, or no move converged).
+/// Values that are none, as floats so that a GPU can tell them without NaN: not computed yet; computed, and there is
+/// none (the finger can't rest there, or no move converged).
 inline constexpr float kMapPending = -3.0e38f, kMapNoValue = -2.0e38f;
 inline bool is_map_value(float value) { return value > -1.0e38f; }
 
 struct MapOptions {
-  unsigned level = 1;         ///< parts along a patch's edge, 1..kLargestMapLevel
-  unsigned directions = 8;    ///< moves around; one straight in is added. At least 1
-  double press_m = 1e-3;      ///< how deep the finger rests
-  double move_m = 1e-4;       ///< travel of one tick: 0.1 m/s at 1 kHz
+  unsigned level = 1;       ///< parts along a patch's edge, 1..kLargestMapLevel
+  unsigned directions = 8;  ///< moves around; one straight in is added. At least 1
+  double press_m = 1e-3;    ///< how deep the finger rests
+  double move_m = 1e-4;     ///< travel of one tick: 0.1 m/s at 1 kHz
   bool operator==(const MapOptions&) const = default;
 };
 inline constexpr unsigned kLargestMapLevel = 32;
@@ -72,7 +73,8 @@ inline constexpr unsigned kLargestMapLevel = 32;
 /// Largest level with at most `budget` places in all.
 unsigned map_level_within(std::size_t budget, std::uint32_t usable_triangles);
 
-/// Barycentric u, v of the centroid of part `i` < level^2. Parts go in rows of constant v; lower and upper ones take turns.
+/// Barycentric u, v of the centroid of part `i` < level^2. Parts go in rows of constant v; lower and upper ones take
+/// turns.
 Vec2 map_part_centroid(unsigned level, unsigned i);
 /// The part that (u, v) lies in.
 unsigned map_part_at(unsigned level, double u, double v);

@@ -13,7 +13,8 @@ PlanarPolygon make_paper_arc(int segments, ArcPlacement placement, int beyond, d
   const double turn = facet_turn_rad(segments, placement);
   const double distance = placement == ArcPlacement::tangent ? radius_m / std::cos(0.5 * turn) : radius_m;
   PlanarPolygon polygon;
-  polygon.name = "arc of " + std::to_string(segments) + (placement == ArcPlacement::tangent ? " tangent" : " inscribed") + " facets";
+  polygon.name = "arc of " + std::to_string(segments) +
+                 (placement == ArcPlacement::tangent ? " tangent" : " inscribed") + " facets";
   const int facets = segments + 2 * beyond;
   for (int i = 0; i <= facets; ++i) {
     const double angle = (static_cast<double>(i) - 0.5 * static_cast<double>(facets)) * turn;

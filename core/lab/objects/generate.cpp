@@ -13,9 +13,9 @@ namespace {
 /// What an object does with the options, and how it is made from them once they are checked.
 struct Generator {
   const char* name;
-  int default_segments;              ///< 0: only a rounded edge has segments, by default as many as fillet_steps
+  int default_segments;  ///< 0: only a rounded edge has segments, by default as many as fillet_steps
   int least_segments, most_segments;
-  double largest_rounding_m;         ///< 0: no edge to round
+  double largest_rounding_m;  ///< 0: no edge to round
   bool can_face;
   PolygonMesh (*make)(int segments, double rounding_m);
 };
@@ -57,8 +57,7 @@ const std::vector<Generator>& generators() {
          [](int n, double r) { return revolve(r == 0.0 ? sharp_cone() : rounded_cone(r), n); }},
         {"cylinder", 32, 3, 4096, share(cylinder_inradius()), false,
          [](int n, double r) { return revolve(r == 0.0 ? sharp_cylinder() : rounded_cylinder(r), n); }},
-        {"cube", 0, 1, 64, share(cube().inradius), false,
-         [](int n, double r) { return polyhedron(cube(), n, r); }},
+        {"cube", 0, 1, 64, share(cube().inradius), false, [](int n, double r) { return polyhedron(cube(), n, r); }},
         // Smooth all over: rounded, it stays as it is.
         {"sphere", 2, 1, 9, share(kObjectRadius), false, sphere},
         {"tetrahedron", 0, 1, 64, share(make_tetrahedron().inradius), true,
@@ -70,8 +69,7 @@ const std::vector<Generator>& generators() {
         {"hexagon", 0, 1, 64, share(hexagon().inradius), false,
          [](int n, double r) { return polyhedron(hexagon(), n, r); }},
         {"icosphere", 2, 1, 9, 0.0, false, sphere},
-        {"torus", 48, 6, 4096, 0.0, false,
-         [](int n, double) { return make_torus(kObjectRadius, 0.015, n, n / 2); }},
+        {"torus", 48, 6, 4096, 0.0, false, [](int n, double) { return make_torus(kObjectRadius, 0.015, n, n / 2); }},
         {"saddle", 32, 1, 2048, 0.0, false, [](int n, double) { return make_saddle(n); }},
         {"groove", 64, 8, 2048, 0.0, false, [](int n, double) { return make_groove(n); }},
     };
@@ -161,7 +159,8 @@ Result<PolygonMesh> generate_mesh(std::string_view name, const GenerateOptions& 
     return fail("there is no object called \"" + std::string(name) + "\"", "", "choose one of " + choices);
   }
   if (const Status good = check(*found, options); !good) return tl::unexpected<Error>(good.error());
-  PolygonMesh mesh = found->make(options.segments == 0 ? found->default_segments : options.segments, options.rounding_m);
+  PolygonMesh mesh =
+      found->make(options.segments == 0 ? found->default_segments : options.segments, options.rounding_m);
   if (found->can_face && options.facing == Facing::left) mirror_x(mesh);
   make_exact_in_millimetres(mesh);
   mesh.name = name;

@@ -16,7 +16,8 @@ struct HardMesh {
 
 constexpr std::array kHardMeshes{
     HardMesh{"trough", "concave ground barely wider than a 20 mm finger", make_trough},
-    HardMesh{"exact_pipe", "half pipe of exactly the finger's radius: where it just touches, it touches everywhere", make_exact_pipe},
+    HardMesh{"exact_pipe", "half pipe of exactly the finger's radius: where it just touches, it touches everywhere",
+             make_exact_pipe},
     HardMesh{"dimple", "a pit of 7 mm radius of curvature in a plate", make_dimple},
     HardMesh{"two_plates", "two plates that face each other closer than the finger is thick", make_two_plates},
     HardMesh{"thin_fin", "a sharp plate 0.1 mm thick", make_thin_fin},
@@ -28,7 +29,8 @@ constexpr std::array kHardMeshes{
     HardMesh{"crease_dart", "a crease that ends inside the surface", make_crease_dart},
     HardMesh{"notched_cube", "corners where convex and concave creases meet", make_notched_cube},
     HardMesh{"staircase", "convex and concave creases in turn, 4 mm apart", make_staircase},
-    HardMesh{"zero_normals", "a sphere whose file normals are zero or not finite at every third vertex", make_zero_normals},
+    HardMesh{"zero_normals", "a sphere whose file normals are zero or not finite at every third vertex",
+             make_zero_normals},
     HardMesh{"flipped_normals", "a sphere whose file normals point inwards", make_flipped_normals},
     HardMesh{"mixed_orientation", "a sphere with every third face turned round", make_mixed_orientation},
     HardMesh{"triangle_soup", "a sphere whose triangles share no vertex in the file", make_triangle_soup},
@@ -39,7 +41,8 @@ constexpr std::array kHardMeshes{
 };
 
 const HardMesh* find(std::string_view name) {
-  const auto found = std::find_if(kHardMeshes.begin(), kHardMeshes.end(), [&](const HardMesh& m) { return m.name == name; });
+  const auto found =
+      std::find_if(kHardMeshes.begin(), kHardMeshes.end(), [&](const HardMesh& m) { return m.name == name; });
   return found == kHardMeshes.end() ? nullptr : &*found;
 }
 

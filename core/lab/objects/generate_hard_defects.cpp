@@ -63,7 +63,8 @@ PolygonMesh make_duplicate_faces() {
   PolygonMesh mesh = sphere_without_normals();
   const std::size_t faces = mesh.face_count();
   for (std::size_t f = 0; f < faces; f += 5) {
-    const std::uint32_t a = mesh.corner_position[3 * f], b = mesh.corner_position[3 * f + 1], c = mesh.corner_position[3 * f + 2];
+    const std::uint32_t a = mesh.corner_position[3 * f], b = mesh.corner_position[3 * f + 1],
+                        c = mesh.corner_position[3 * f + 2];
     if (f % 2 == 0) {
       mesh.add_face({b, c, a});
     } else {
@@ -79,7 +80,8 @@ PolygonMesh make_degenerate_faces() {
   PolygonMesh mesh;
   mesh.positions = good.positions;
   for (std::size_t f = 0; f < good.face_count(); ++f) {
-    const std::uint32_t a = good.corner_position[3 * f], b = good.corner_position[3 * f + 1], c = good.corner_position[3 * f + 2];
+    const std::uint32_t a = good.corner_position[3 * f], b = good.corner_position[3 * f + 1],
+                        c = good.corner_position[3 * f + 2];
     mesh.add_face({a, b, c});
     if (f % 8 != 0) continue;
     mesh.add_face({a, a, b});

@@ -11,8 +11,8 @@
 namespace tangent {
 namespace {
 
-constexpr double kHalfSize = 0.040;       // m
-constexpr double kFingerRadius = 0.020;   // m, that the shapes are made for
+constexpr double kHalfSize = 0.040;      // m
+constexpr double kFingerRadius = 0.020;  // m, that the shapes are made for
 
 /// Grid of (columns + 1) x (rows + 1) points, number j (columns + 1) + i, into triangles.
 void add_grid(PolygonMesh& mesh, std::uint32_t first, int columns, int rows, bool turned = false) {
@@ -99,7 +99,8 @@ PolygonMesh make_exact_pipe() {
 
 PolygonMesh make_dimple() {
   constexpr double kDepth = 0.005, kWidth = 0.006;
-  return height_sheet(kHalfSize, 64, [](double x, double y) { return -kDepth * std::exp(-(x * x + y * y) / (2.0 * kWidth * kWidth)); });
+  return height_sheet(
+      kHalfSize, 64, [](double x, double y) { return -kDepth * std::exp(-(x * x + y * y) / (2.0 * kWidth * kWidth)); });
 }
 
 PolygonMesh make_two_plates() {
@@ -107,7 +108,8 @@ PolygonMesh make_two_plates() {
   constexpr int kCells = 12;
   PolygonMesh mesh = height_sheet(0.030, kCells, [](double, double) { return -kHalfGap; });
   const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-  for (std::uint32_t i = 0; i < first; ++i) mesh.positions.push_back({mesh.positions[i].x, mesh.positions[i].y, kHalfGap});
+  for (std::uint32_t i = 0; i < first; ++i)
+    mesh.positions.push_back({mesh.positions[i].x, mesh.positions[i].y, kHalfGap});
   add_grid(mesh, first, kCells, kCells, true);
   return mesh;
 }
@@ -117,7 +119,12 @@ PolygonMesh make_thin_fin() {
   for (int i = 0; i < 8; ++i) {
     mesh.positions.emplace_back(i & 1 ? 0.030 : -0.030, i & 2 ? 0.030 : -0.030, i & 4 ? 0.05e-3 : -0.05e-3);
   }
-  for (const auto& q : {std::array<std::uint32_t, 4>{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}) {
+  for (const auto& q : {std::array<std::uint32_t, 4>{0, 2, 3, 1},
+                        {4, 5, 7, 6},
+                        {0, 1, 5, 4},
+                        {2, 6, 7, 3},
+                        {0, 4, 6, 2},
+                        {1, 3, 7, 5}}) {
     mesh.add_face({q[0], q[1], q[2], q[3]});
   }
   return mesh;
@@ -130,7 +137,8 @@ PolygonMesh make_needle_arch() {
   std::vector<SheetLine> profile;
   for (int i = 0; i <= kStrips; ++i) {
     const double a = (-70.0 + 140.0 * i / kStrips) * kDegree;
-    for (const double angle : {a, a + kNeedle}) profile.push_back({kRadius * std::sin(angle), kRadius * std::cos(angle)});
+    for (const double angle : {a, a + kNeedle})
+      profile.push_back({kRadius * std::sin(angle), kRadius * std::cos(angle)});
   }
   return swept_sheet(profile, 1);
 }
@@ -166,7 +174,9 @@ PolygonMesh make_moebius() {
 
 // Flat for x < 0; from there a ridge along x rises whose slopes steepen smoothly from 0 to 45 degrees.
 PolygonMesh make_crease_dart() {
-  return height_sheet(kHalfSize, 32, [](double x, double y) { return x <= 0.0 ? 0.0 : -std::abs(y) * (x / kHalfSize) * (x / kHalfSize); });
+  return height_sheet(kHalfSize, 32, [](double x, double y) {
+    return x <= 0.0 ? 0.0 : -std::abs(y) * (x / kHalfSize) * (x / kHalfSize);
+  });
 }
 
 PolygonMesh make_notched_cube() {
@@ -181,12 +191,18 @@ PolygonMesh make_notched_cube() {
   for (int cell = 0; cell < 8; ++cell) {
     const int x = cell & 1, y = cell >> 1 & 1, z = cell >> 2;
     if (!filled(x, y, z)) continue;
-    if (!filled(x - 1, y, z)) mesh.add_face({point(x, y, z), point(x, y, z + 1), point(x, y + 1, z + 1), point(x, y + 1, z)});
-    if (!filled(x + 1, y, z)) mesh.add_face({point(x + 1, y, z), point(x + 1, y + 1, z), point(x + 1, y + 1, z + 1), point(x + 1, y, z + 1)});
-    if (!filled(x, y - 1, z)) mesh.add_face({point(x, y, z), point(x + 1, y, z), point(x + 1, y, z + 1), point(x, y, z + 1)});
-    if (!filled(x, y + 1, z)) mesh.add_face({point(x, y + 1, z), point(x, y + 1, z + 1), point(x + 1, y + 1, z + 1), point(x + 1, y + 1, z)});
-    if (!filled(x, y, z - 1)) mesh.add_face({point(x, y, z), point(x, y + 1, z), point(x + 1, y + 1, z), point(x + 1, y, z)});
-    if (!filled(x, y, z + 1)) mesh.add_face({point(x, y, z + 1), point(x + 1, y, z + 1), point(x + 1, y + 1, z + 1), point(x, y + 1, z + 1)});
+    if (!filled(x - 1, y, z))
+      mesh.add_face({point(x, y, z), point(x, y, z + 1), point(x, y + 1, z + 1), point(x, y + 1, z)});
+    if (!filled(x + 1, y, z))
+      mesh.add_face({point(x + 1, y, z), point(x + 1, y + 1, z), point(x + 1, y + 1, z + 1), point(x + 1, y, z + 1)});
+    if (!filled(x, y - 1, z))
+      mesh.add_face({point(x, y, z), point(x + 1, y, z), point(x + 1, y, z + 1), point(x, y, z + 1)});
+    if (!filled(x, y + 1, z))
+      mesh.add_face({point(x, y + 1, z), point(x, y + 1, z + 1), point(x + 1, y + 1, z + 1), point(x + 1, y + 1, z)});
+    if (!filled(x, y, z - 1))
+      mesh.add_face({point(x, y, z), point(x, y + 1, z), point(x + 1, y + 1, z), point(x + 1, y, z)});
+    if (!filled(x, y, z + 1))
+      mesh.add_face({point(x, y, z + 1), point(x + 1, y, z + 1), point(x + 1, y + 1, z + 1), point(x, y + 1, z + 1)});
   }
   return mesh;
 }

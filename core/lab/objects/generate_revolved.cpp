@@ -69,9 +69,14 @@ class Revolution {
     MeshAssembly::Corner corner{rings_[k].position, after ? rings_[k].normal_after : rings_[k].normal_before};
     if (!is_pole(point)) corner.position += around;
     switch (normals_of(point, after ? point.normal_after : point.normal_before)) {
-      case Normals::one: break;
-      case Normals::per_corner: corner.normal += around; break;
-      case Normals::per_segment: corner.normal += segment; break;
+      case Normals::one:
+        break;
+      case Normals::per_corner:
+        corner.normal += around;
+        break;
+      case Normals::per_segment:
+        corner.normal += segment;
+        break;
     }
     return corner;
   }

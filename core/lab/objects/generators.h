@@ -32,8 +32,8 @@ struct ConvexPolyhedron {
   std::vector<std::vector<std::uint32_t>> faces;  ///< vertex loops, counter-clockwise seen from outside
   std::vector<Vec3> face_normals;                 ///< unit, outward
   Vec3 centre{0.0};
-  std::vector<double> face_distances;             ///< from the centre; its foot lies well inside the face
-  double inradius = 0.0;                          ///< of the largest ball inside
+  std::vector<double> face_distances;  ///< from the centre; its foot lies well inside the face
+  double inradius = 0.0;               ///< of the largest ball inside
 };
 
 /// Regular polygon inscribed in the circle of radius kObjectRadius, its first corner `turn_percent` of a
@@ -44,7 +44,8 @@ ConvexPolyhedron make_tetrahedron();
 
 PolygonMesh sharp_polyhedron(const ConvexPolyhedron& body);
 /// All edges and corners replaced by cylinders and spheres of radius `rounding_m`, each turn in
-/// `steps` steps. The faces stay in their planes, so only pointed corners lose length. Precondition: 0 < rounding_m < inradius.
+/// `steps` steps. The faces stay in their planes, so only pointed corners lose length. Precondition: 0 < rounding_m <
+/// inradius.
 PolygonMesh rounded_polyhedron(const ConvexPolyhedron& body, double rounding_m, int steps);
 
 /// One ring of a body of revolution about x: every profile point is a circle, or a pole where radius_m is 0.

@@ -8,14 +8,16 @@ namespace {
 
 bool has_interface(libusb_device* device, const std::array<std::uint8_t, 3>& wanted) {
   libusb_config_descriptor* config = nullptr;
-  if (libusb_get_active_config_descriptor(device, &config) != 0 && libusb_get_config_descriptor(device, 0, &config) != 0) {
+  if (libusb_get_active_config_descriptor(device, &config) != 0 &&
+      libusb_get_config_descriptor(device, 0, &config) != 0) {
     return false;
   }
   bool found = false;
   for (int i = 0; i < config->bNumInterfaces; ++i) {
     for (int j = 0; j < config->interface[i].num_altsetting; ++j) {
       const libusb_interface_descriptor& d = config->interface[i].altsetting[j];
-      found = found || (d.bInterfaceClass == wanted[0] && d.bInterfaceSubClass == wanted[1] && d.bInterfaceProtocol == wanted[2]);
+      found = found || (d.bInterfaceClass == wanted[0] && d.bInterfaceSubClass == wanted[1] &&
+                        d.bInterfaceProtocol == wanted[2]);
     }
   }
   libusb_free_config_descriptor(config);
@@ -58,7 +60,8 @@ void each_match(libusb_context* context, const UsbMatch& match, Each&& each) {
 Result<LibusbContext> open_libusb() {
   libusb_context* context = nullptr;
   if (const int code = libusb_init(&context); code != 0) {
-    return fail(std::string("libusb does not start (") + libusb_error_name(code) + ")", "USB", "check that /dev/bus/usb can be read");
+    return fail(std::string("libusb does not start (") + libusb_error_name(code) + ")", "USB",
+                "check that /dev/bus/usb can be read");
   }
   return LibusbContext(context);
 }
@@ -67,7 +70,8 @@ bool matches(libusb_device* device, const UsbMatch& match) {
   libusb_device_descriptor d{};
   if (libusb_get_device_descriptor(device, &d) != 0) return false;
   if (match.vendor != 0 && d.idVendor != match.vendor) return false;
-  if (!match.products.empty() && std::find(match.products.begin(), match.products.end(), d.idProduct) == match.products.end()) {
+  if (!match.products.empty() &&
+      std::find(match.products.begin(), match.products.end(), d.idProduct) == match.products.end()) {
     return false;
   }
   return !match.interface_class || has_interface(device, *match.interface_class);
@@ -75,12 +79,18 @@ bool matches(libusb_device* device, const UsbMatch& match) {
 
 UsbProblem problem_of(int code) {
   switch (code) {
-    case 0: return UsbProblem::none;
-    case LIBUSB_ERROR_ACCESS: return UsbProblem::no_permission;
-    case LIBUSB_ERROR_BUSY: return UsbProblem::busy;
-    case LIBUSB_ERROR_NOT_FOUND: return UsbProblem::wrong_interface;
-    case LIBUSB_ERROR_NO_DEVICE: return UsbProblem::not_attached;
-    default: return UsbProblem::other;
+    case 0:
+      return UsbProblem::none;
+    case LIBUSB_ERROR_ACCESS:
+      return UsbProblem::no_permission;
+    case LIBUSB_ERROR_BUSY:
+      return UsbProblem::busy;
+    case LIBUSB_ERROR_NOT_FOUND:
+      return UsbProblem::wrong_interface;
+    case LIBUSB_ERROR_NO_DEVICE:
+      return UsbProblem::not_attached;
+    default:
+      return UsbProblem::other;
   }
 }
 
@@ -101,7 +111,9 @@ Result<std::vector<UsbDeviceInfo>> list_usb_devices(const UsbMatch& match, int i
   each_match(context->get(), match, [&](libusb_device* device) {
     libusb_device_descriptor d{};
     libusb_get_device_descriptor(device, &d);
-    UsbDeviceInfo info{.vendor = d.idVendor, .product = d.idProduct, .bus = libusb_get_bus_number(device),
+    UsbDeviceInfo info{.vendor = d.idVendor,
+                       .product = d.idProduct,
+                       .bus = libusb_get_bus_number(device),
                        .address = libusb_get_device_address(device)};
     LibusbHandle handle;
     const int code = open_and_claim(device, interface_number, handle);

@@ -9,8 +9,12 @@
 
 namespace tangent {
 
-struct LibusbContextCloser { void operator()(libusb_context* c) const { libusb_exit(c); } };
-struct LibusbHandleCloser { void operator()(libusb_device_handle* h) const { libusb_close(h); } };
+struct LibusbContextCloser {
+  void operator()(libusb_context* c) const { libusb_exit(c); }
+};
+struct LibusbHandleCloser {
+  void operator()(libusb_device_handle* h) const { libusb_close(h); }
+};
 using LibusbContext = std::unique_ptr<libusb_context, LibusbContextCloser>;
 using LibusbHandle = std::unique_ptr<libusb_device_handle, LibusbHandleCloser>;
 

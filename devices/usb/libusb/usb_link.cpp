@@ -15,9 +15,9 @@ namespace tangent {
 namespace {
 
 constexpr auto kRelaxed = std::memory_order_relaxed;
-constexpr int kOpenTurn_ms = 5;             ///< longest sleep while open
-constexpr int kClosedTurn_ms = 50;          ///< ... while waiting for the device
-constexpr std::int64_t kLook_ns = 500'000'000;   ///< between looks at the bus
+constexpr int kOpenTurn_ms = 5;                 ///< longest sleep while open
+constexpr int kClosedTurn_ms = 50;              ///< ... while waiting for the device
+constexpr std::int64_t kLook_ns = 500'000'000;  ///< between looks at the bus
 constexpr std::int64_t kDrain_ns = 2'000'000'000;
 
 void raise(std::atomic<std::uint64_t>& counter) noexcept { counter.store(counter.load(kRelaxed) + 1, kRelaxed); }
@@ -33,7 +33,8 @@ struct PooledTransfer {
 };
 
 struct UsbLink::Impl {
-  Impl(UsbLink& l, UsbLinkOptions o, UsbLinkHandler& h, UsbTap* t) : link(l), options(std::move(o)), handler(h), tap(t) {}
+  Impl(UsbLink& l, UsbLinkOptions o, UsbLinkHandler& h, UsbTap* t)
+      : link(l), options(std::move(o)), handler(h), tap(t) {}
 
   UsbLink& link;
   UsbLinkOptions options;
@@ -48,7 +49,7 @@ struct UsbLink::Impl {
   // Link's thread only.
   LibusbContext context;
   LibusbHandle handle;
-  std::vector<PooledTransfer> pool;         ///< IN first
+  std::vector<PooledTransfer> pool;  ///< IN first
   std::vector<pollfd> polled;
   bool polled_stale = true, lost = false, hotplug = false, look_now = true;
   libusb_hotplug_callback_handle hotplug_handle = 0;
@@ -134,9 +135,10 @@ void UsbLink::Impl::free_pool() noexcept {
 void UsbLink::Impl::watch_hotplug() {
   if (libusb_has_capability(LIBUSB_CAP_HAS_HOTPLUG) == 0) return;
   const int vendor = options.match.vendor != 0 ? options.match.vendor : LIBUSB_HOTPLUG_MATCH_ANY;
-  hotplug = libusb_hotplug_register_callback(
-                context.get(), LIBUSB_HOTPLUG_EVENT_DEVICE_ARRIVED | LIBUSB_HOTPLUG_EVENT_DEVICE_LEFT, LIBUSB_HOTPLUG_NO_FLAGS,
-                vendor, LIBUSB_HOTPLUG_MATCH_ANY, LIBUSB_HOTPLUG_MATCH_ANY, &on_hotplug, this, &hotplug_handle) == 0;
+  hotplug = libusb_hotplug_register_callback(context.get(),
+                                             LIBUSB_HOTPLUG_EVENT_DEVICE_ARRIVED | LIBUSB_HOTPLUG_EVENT_DEVICE_LEFT,
+                                             LIBUSB_HOTPLUG_NO_FLAGS, vendor, LIBUSB_HOTPLUG_MATCH_ANY,
+                                             LIBUSB_HOTPLUG_MATCH_ANY, &on_hotplug, this, &hotplug_handle) == 0;
 }
 
 // --- The thread ----------------------------------------------------------------------------------------
@@ -167,7 +169,8 @@ void UsbLink::Impl::refresh_polled() {
   polled_stale = false;
   polled.assign(1, {wake_fd, POLLIN, 0});
   const libusb_pollfd** list = libusb_get_pollfds(context.get());
-  for (const libusb_pollfd** fd = list; fd != nullptr && *fd != nullptr; ++fd) polled.push_back({(*fd)->fd, (*fd)->events, 0});
+  for (const libusb_pollfd** fd = list; fd != nullptr && *fd != nullptr; ++fd)
+    polled.push_back({(*fd)->fd, (*fd)->events, 0});
   libusb_free_pollfds(list);
 }
 
@@ -208,7 +211,7 @@ void UsbLink::Impl::try_open() noexcept {
 
 void UsbLink::Impl::close() noexcept {
   connected.store(false, std::memory_order_release);
-  lost = true;   // completions from here on are not resubmitted
+  lost = true;  // completions from here on are not resubmitted
   for (PooledTransfer& t : pool) {
     if (t.in_flight) libusb_cancel_transfer(t.transfer);
   }
@@ -271,16 +274,24 @@ void UsbLink::Impl::completed(PooledTransfer& t) noexcept {
   const auto status = t.transfer->status;
   const bool control = t.transfer->type == LIBUSB_TRANSFER_TYPE_CONTROL;
   switch (status) {
-    case LIBUSB_TRANSFER_COMPLETED: break;
-    case LIBUSB_TRANSFER_CANCELLED: return;
-    case LIBUSB_TRANSFER_NO_DEVICE: lost = true; return;
+    case LIBUSB_TRANSFER_COMPLETED:
+      break;
+    case LIBUSB_TRANSFER_CANCELLED:
+      return;
+    case LIBUSB_TRANSFER_NO_DEVICE:
+      lost = true;
+      return;
     case LIBUSB_TRANSFER_STALL:
       raise(counters.stalls);
       // Waits for one answer of the device; the servo does not wait for this thread.
       if (!control && !lost) libusb_clear_halt(handle.get(), t.transfer->endpoint);
       break;
-    case LIBUSB_TRANSFER_TIMED_OUT: raise(counters.time_outs); break;
-    default: raise(counters.errors); break;
+    case LIBUSB_TRANSFER_TIMED_OUT:
+      raise(counters.time_outs);
+      break;
+    default:
+      raise(counters.errors);
+      break;
   }
   if (lost) return;
   if (t.in) {
@@ -304,8 +315,10 @@ void LIBUSB_CALL on_completed(libusb_transfer* transfer) {
 
 int LIBUSB_CALL on_hotplug(libusb_context*, libusb_device* device, libusb_hotplug_event event, void* user) {
   auto& impl = *static_cast<UsbLink::Impl*>(user);
-  if (event == LIBUSB_HOTPLUG_EVENT_DEVICE_ARRIVED) impl.look_now = true;
-  else if (impl.handle && libusb_get_device(impl.handle.get()) == device) impl.lost = true;
+  if (event == LIBUSB_HOTPLUG_EVENT_DEVICE_ARRIVED)
+    impl.look_now = true;
+  else if (impl.handle && libusb_get_device(impl.handle.get()) == device)
+    impl.lost = true;
   return 0;
 }
 
@@ -348,7 +361,8 @@ bool UsbLink::send_control(const UsbControl& control) noexcept {
   PooledTransfer* t = impl_->free_transfer();
   if (t == nullptr) return false;
   libusb_fill_control_setup(t->bytes.data(), control.request_type, control.request, control.value, control.index, 0);
-  libusb_fill_control_transfer(t->transfer, impl_->handle.get(), t->bytes.data(), &on_completed, t, impl_->options.time_out_ms);
+  libusb_fill_control_transfer(t->transfer, impl_->handle.get(), t->bytes.data(), &on_completed, t,
+                               impl_->options.time_out_ms);
   if (impl_->tap != nullptr) {
     impl_->tap->packet(UsbTap::Direction::control, usb_now_ns(), {t->bytes.data(), LIBUSB_CONTROL_SETUP_SIZE}, 0);
   }

@@ -22,8 +22,9 @@ TEST_CASE("a finite decimal number parses to the nearest double") {
 }
 
 TEST_CASE("what is not one finite number is refused") {
-  for (const char* text : {"", " ", "nan", "NaN", "-nan", "inf", "-Infinity", "1e999", "-1e999", "1 ", " 1", "1x", "1,5",
-                           "0x10", "--1", "+-1", "++1", "1e", "e5", ".", "1.2.3", "1_000", "true"}) {
+  for (const char* text :
+       {"",    " ",    "nan", "NaN", "-nan", "inf", "-Infinity", "1e999", "-1e999", "1 ",    " 1",  "1x",
+        "1,5", "0x10", "--1", "+-1", "++1",  "1e",  "e5",        ".",     "1.2.3",  "1_000", "true"}) {
     CAPTURE(text);
     CHECK_FALSE(parse_finite_double(text).has_value());
   }

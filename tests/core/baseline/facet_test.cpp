@@ -16,8 +16,10 @@ ScenePtr cube() {
   static const ScenePtr scene = [] {
     PolygonMesh mesh;
     mesh.name = "cube";
-    for (int i = 0; i < 8; ++i) mesh.positions.emplace_back(i & 1 ? 0.05 : -0.05, i & 2 ? 0.05 : -0.05, i & 4 ? 0.05 : -0.05);
-    for (const auto& q : std::vector<std::array<std::uint32_t, 4>>{{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}) {
+    for (int i = 0; i < 8; ++i)
+      mesh.positions.emplace_back(i & 1 ? 0.05 : -0.05, i & 2 ? 0.05 : -0.05, i & 4 ? 0.05 : -0.05);
+    for (const auto& q : std::vector<std::array<std::uint32_t, 4>>{
+             {0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}) {
       mesh.add_face({q[0], q[1], q[2]});
       mesh.add_face({q[0], q[2], q[3]});
     }
@@ -84,10 +86,12 @@ TEST_CASE("force shading interpolates the corner normals at the nearest point") 
     const std::uint32_t t = random.below(mesh.triangle_count());
     const Vec2 uv = random.barycentric();
     const Vec3 on = (1.0 - uv.x - uv.y) * mesh.position(t, 0) + uv.x * mesh.position(t, 1) + uv.y * mesh.position(t, 2);
-    const Vec3 centre = on + 0.02 * unit(glm::cross(mesh.position(t, 1) - mesh.position(t, 0), mesh.position(t, 2) - mesh.position(t, 0)));
+    const Vec3 centre = on + 0.02 * unit(glm::cross(mesh.position(t, 1) - mesh.position(t, 0),
+                                                    mesh.position(t, 2) - mesh.position(t, 0)));
     const FacetContact c = facet_contact(mesh, sphere->nearest(), centre, 1e-6);
     const Vec3 n = force_shading_normal(mesh, c);
-    const Vec3 expected = unit((1.0 - uv.x - uv.y) * mesh.normal(t, 0) + uv.x * mesh.normal(t, 1) + uv.y * mesh.normal(t, 2));
+    const Vec3 expected =
+        unit((1.0 - uv.x - uv.y) * mesh.normal(t, 0) + uv.x * mesh.normal(t, 1) + uv.y * mesh.normal(t, 2));
     CHECK(glm::length(n - expected) <= 1e-12);
     facet = std::max(facet, angle_deg(c.normal, unit(on)));
     shaded = std::max(shaded, angle_deg(n, unit(on)));
@@ -132,12 +136,12 @@ TEST_CASE("force and display each come from the source the preset names: the pap
     const TickOutput* force_of;
     const TickOutput* cld_of;  // null: held
   };
-  for (const Condition& c : {Condition{ForceSource::facet, TactileSource::held, &facet, nullptr},           // C1
-                             Condition{ForceSource::force_shading, TactileSource::held, &shaded, nullptr},  // C2
-                             Condition{ForceSource::facet, TactileSource::facet, &facet, &facet},           // C3
-                             Condition{ForceSource::facet, TactileSource::smooth, &facet, &smooth},         // C4
-                             Condition{ForceSource::smooth, TactileSource::smooth, &smooth, &smooth},       // P1
-                             Condition{ForceSource::force_shading, TactileSource::facet, &shaded, &facet}}) // P2
+  for (const Condition& c : {Condition{ForceSource::facet, TactileSource::held, &facet, nullptr},            // C1
+                             Condition{ForceSource::force_shading, TactileSource::held, &shaded, nullptr},   // C2
+                             Condition{ForceSource::facet, TactileSource::facet, &facet, &facet},            // C3
+                             Condition{ForceSource::facet, TactileSource::smooth, &facet, &smooth},          // C4
+                             Condition{ForceSource::smooth, TactileSource::smooth, &smooth, &smooth},        // P1
+                             Condition{ForceSource::force_shading, TactileSource::facet, &shaded, &facet}})  // P2
     for (const Method method : {Method::robust, Method::facet, Method::force_shading}) {
       const TickOutput out = solve(method, c.force, c.tactile);
       CHECK(glm::length(out.force_n - c.force_of->force_n) == 0.0);

@@ -78,7 +78,8 @@ TEST_CASE("the proxy keeps to its side of a thin plate where the nearest face do
   // Two plates 1 mm apart, back to back: a wall.
   PolygonMesh wall;
   wall.name = "wall";
-  wall.positions = {{-0.1, -0.1, 0}, {0.1, -0.1, 0}, {0.1, 0.1, 0}, {-0.1, 0.1, 0}, {-0.1, -0.1, -1e-3}, {0.1, -0.1, -1e-3}, {0.1, 0.1, -1e-3}, {-0.1, 0.1, -1e-3}};
+  wall.positions = {{-0.1, -0.1, 0},     {0.1, -0.1, 0},     {0.1, 0.1, 0},     {-0.1, 0.1, 0},
+                    {-0.1, -0.1, -1e-3}, {0.1, -0.1, -1e-3}, {0.1, 0.1, -1e-3}, {-0.1, 0.1, -1e-3}};
   wall.add_face({0, 1, 2, 3});
   wall.add_face({7, 6, 5, 4});
   const ScenePtr scene = scene_of(wall);
@@ -90,9 +91,9 @@ TEST_CASE("the proxy keeps to its side of a thin plate where the nearest face do
     out = stepper.step(sphere_preset(0.0, Method::two_pass), input, state);
     facet = stepper.step(sphere_preset(0.0, Method::facet), input, facet_state);
   }
-  CHECK(out.normal.z > 0.999);                                  // 2 mm deep, still pushed back up
+  CHECK(out.normal.z > 0.999);  // 2 mm deep, still pushed back up
   CHECK(out.penetration_m == doctest::Approx(2e-3).epsilon(1e-3));
-  CHECK(facet.normal.z < -0.999);                               // out of the back
+  CHECK(facet.normal.z < -0.999);  // out of the back
 }
 
 TEST_CASE("the proxy rolls over the edge of a cube as the finger goes around it, and never enters it") {
@@ -106,12 +107,16 @@ TEST_CASE("the proxy rolls over the edge of a cube as the finger goes around it,
     // From above the top face, around the edge, to the side: the centre 9 mm off the body, 1 mm deep.
     const double s = -0.010 + 0.034 * i / 2000.0, quarter = 0.009 * 1.5707963267948966;
     Vec3 at;
-    if (s < 0.0) at = {0.0, half + s, half + 0.009};
-    else if (s < quarter) at = {0.0, half + 0.009 * std::sin(s / 0.009), half + 0.009 * std::cos(s / 0.009)};
-    else at = {0.0, half + 0.009, half - (s - quarter)};
+    if (s < 0.0)
+      at = {0.0, half + s, half + 0.009};
+    else if (s < quarter)
+      at = {0.0, half + 0.009 * std::sin(s / 0.009), half + 0.009 * std::cos(s / 0.009)};
+    else
+      at = {0.0, half + 0.009, half - (s - quarter)};
     const TickOutput out = stepper.step(sphere_preset(radius, Method::two_pass), at_position(1e-3 * i, at), state);
     free_ticks += out.status == TickStatus::free;
-    least_gap = std::min(least_gap, facet_contact(scene->mesh(), scene->nearest(), state.proxy, 1e-6).height_m - radius);
+    least_gap =
+        std::min(least_gap, facet_contact(scene->mesh(), scene->nearest(), state.proxy, 1e-6).height_m - radius);
     CHECK(out.penetration_m < 1.6e-3);
   }
   CHECK(free_ticks == 0);

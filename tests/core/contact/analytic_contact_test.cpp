@@ -40,7 +40,8 @@ struct Deviation {
   double contact_m = 0.0, normal_deg = 0.0, penetration_m = 0.0, force_n = 0.0;
   int wrong_status = 0;
 
-  void add(const Preset& preset, const TickOutput& out, const Vec3& contact, const Vec3& normal, double penetration_m_) {
+  void add(const Preset& preset, const TickOutput& out, const Vec3& contact, const Vec3& normal,
+           double penetration_m_) {
     if (std::abs(penetration_m_) < 5e-6) return;  // pressed or free is decided within the patches' bulge error
     const TickStatus expected = penetration_m_ < 0.0 ? TickStatus::free : TickStatus::face;
     wrong_status += out.status != expected;
@@ -53,8 +54,8 @@ struct Deviation {
 };
 
 void report(const char* where, Method method, double radius, const Deviation& d) {
-  MESSAGE(std::string(where) << ", " << name_of(method) << ", R " << radius << " m: contact " << d.contact_m << " m, normal "
-                             << d.normal_deg << " deg, penetration " << d.penetration_m << " m");
+  MESSAGE(std::string(where) << ", " << name_of(method) << ", R " << radius << " m: contact " << d.contact_m
+                             << " m, normal " << d.normal_deg << " deg, penetration " << d.penetration_m << " m");
 }
 
 /// Random poses about the torus (axis z), `depth` deep for a finger of radius `radius`.
@@ -134,7 +135,7 @@ TEST_CASE("over an icosphere contact, normal and depth are those of the sphere, 
       }
       report("icosphere", method, radius, d);
       CHECK(d.wrong_status == 0);
-      CHECK(d.contact_m <= 2e-6);      // the patches' bulge error is 1.2 um
+      CHECK(d.contact_m <= 2e-6);  // the patches' bulge error is 1.2 um
       CHECK(d.penetration_m <= 2e-6);
       CHECK(d.normal_deg <= 0.01);
       CHECK(d.force_n <= 1e-12);
@@ -175,8 +176,8 @@ TEST_CASE("over a cylinder with computed normals contact and normal are those of
       for (int i = 0; i < rounds(500); ++i) {
         const double angle = random.in(0.0, 6.283), x = random.in(-0.025, 0.025), depth = random.in(-0.005, 0.002);
         const Vec3 normal(0.0, std::cos(angle), std::sin(angle));
-        d.add(preset, solve_once(cylinder(), preset, Vec3(x, 0, 0) + (0.040 + radius - depth) * normal), Vec3(x, 0, 0) + 0.040 * normal,
-              normal, depth);
+        d.add(preset, solve_once(cylinder(), preset, Vec3(x, 0, 0) + (0.040 + radius - depth) * normal),
+              Vec3(x, 0, 0) + 0.040 * normal, normal, depth);
       }
       report("cylinder", method, radius, d);
       CHECK(d.wrong_status == 0);

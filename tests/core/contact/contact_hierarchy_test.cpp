@@ -98,9 +98,10 @@ Findings search(const ScenePtr& scene, int centres, std::uint64_t seed) {
 }  // namespace
 
 TEST_CASE("a search visits every triangle that holds a contact, from outside and inside, at rest and on the move") {
-  std::vector<ScenePtr> scenes{scene_of(make_icosphere(0.040, 2)), scene_of(make_torus(0.040, 0.015, 32, 16)),
-                               scene_of(*generate_mesh("octagon")), scene_of(*generate_mesh("cube", {.rounding_m = 1.5e-3})),
-                               scene_of(height_field(0.05, 12, [](double x, double y) { return 0.01 * std::sin(80 * x) * std::cos(60 * y); }))};
+  std::vector<ScenePtr> scenes{
+      scene_of(make_icosphere(0.040, 2)), scene_of(make_torus(0.040, 0.015, 32, 16)),
+      scene_of(*generate_mesh("octagon")), scene_of(*generate_mesh("cube", {.rounding_m = 1.5e-3})),
+      scene_of(height_field(0.05, 12, [](double x, double y) { return 0.01 * std::sin(80 * x) * std::cos(60 * y); }))};
   for (const ScenePtr& scene : scenes) {
     const Findings f = search(scene, rounds(200), 130);
     CHECK(f.contacts > rounds(200) / 4);
@@ -131,7 +132,8 @@ TEST_CASE("a search visits the triangles of a box's edge and corner contacts") {
         // A direction inside the fan of the edge, and one inside the octant of its first corner.
         const double f = random.in(0.0, 1.0), h = random.in(0.001, 0.03);
         const Vec3 on = (1.0 - f) * mesh.position(t, k) + f * mesh.position(t, (k + 1) % 3);
-        const Vec3 fan = unit(random.in(0.0, 1.0) * mesh.normal(t, k) + random.in(0.0, 1.0) * mesh.normal(other.triangle, other.edge));
+        const Vec3 fan = unit(random.in(0.0, 1.0) * mesh.normal(t, k) +
+                              random.in(0.0, 1.0) * mesh.normal(other.triangle, other.edge));
         const Vec3 corner = mesh.position(t, k), octant = unit(glm::sign(corner) * glm::abs(random.direction()));
         for (const auto& [point, n] : {std::pair(on, fan), std::pair(corner, octant)}) {
           ContactQuery query;

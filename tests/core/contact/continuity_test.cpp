@@ -42,8 +42,8 @@ Answer answer(const PnPatch& patch, Vec2 uv, double h, const Vec3& move) {
 
 struct Crossing {
   int crossed = 0, unstable = 0;
-  int jumps = 0;    ///< the contact, its normal or its depth moved further than the surface makes it, unmarked
-  int restarts = 0; ///< not followed, but seeded anew and marked so
+  int jumps = 0;     ///< the contact, its normal or its depth moved further than the surface makes it, unmarked
+  int restarts = 0;  ///< not followed, but seeded anew and marked so
 };
 
 /// Steps across `edges` random smooth edges by 1e-6 m, from one side to the other.
@@ -66,7 +66,8 @@ Crossing cross_edges(const ScenePtr& scene, double radius, int edges, Method met
     const Vec3 along = mesh.position(t, (k + 1) % 3) - mesh.position(t, k);
     const Vec3 across = unit(glm::cross(along, s.normal));  // out of the triangle
     const double h = radius - kDepth;
-    const Answer mine = answer(patch, uv, h, -kStep * across), theirs = answer(make_patch(mesh, other.triangle), other_uv, h, kStep * across);
+    const Answer mine = answer(patch, uv, h, -kStep * across),
+                 theirs = answer(make_patch(mesh, other.triangle), other_uv, h, kStep * across);
     if (!mine.stable || !theirs.stable) {
       ++crossing.unstable;
       continue;
@@ -83,13 +84,15 @@ Crossing cross_edges(const ScenePtr& scene, double radius, int edges, Method met
     state.clearance = Clearance::unlimited();  // this is about following
     const TickOutput before = stepper.step(preset, at_position(0.0, centre - kStep * across), state);
     const TickOutput after = stepper.step(preset, at_position(1e-3, centre + kStep * across), state);
-    const double contact_m = glm::length(after.contact - before.contact), normal = glm::length(after.normal - before.normal);
+    const double contact_m = glm::length(after.contact - before.contact),
+                 normal = glm::length(after.normal - before.normal);
     const bool smooth = contact_m <= 1.1 * (mine.contact_m + theirs.contact_m) + 1e-9 &&
                         normal <= 1.1 * (mine.normal + theirs.normal) + 1e-7 &&
                         std::abs(after.penetration_m - before.penetration_m) <= 3.0 * kStep;
     const bool marked = before.event != TickEvent::none || after.event != TickEvent::none;
     crossing.restarts += marked;
-    crossing.jumps += !marked && (!smooth || before.status == TickStatus::unconverged || after.status == TickStatus::unconverged);
+    crossing.jumps +=
+        !marked && (!smooth || before.status == TickStatus::unconverged || after.status == TickStatus::unconverged);
   }
   MESSAGE(name_of(method) << ": " << crossing.crossed << " edges crossed, " << crossing.unstable
                           << " left out where a side is close to unstable, " << crossing.jumps << " jumps, "
@@ -102,8 +105,10 @@ ScenePtr box() {
   static const ScenePtr scene = [] {
     PolygonMesh mesh;
     mesh.name = "box";
-    for (int i = 0; i < 8; ++i) mesh.positions.emplace_back(i & 1 ? 0.020 : -0.020, i & 2 ? 0.030 : -0.030, i & 4 ? 0.040 : -0.040);
-    for (const auto& q : std::vector<std::array<std::uint32_t, 4>>{{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}) {
+    for (int i = 0; i < 8; ++i)
+      mesh.positions.emplace_back(i & 1 ? 0.020 : -0.020, i & 2 ? 0.030 : -0.030, i & 4 ? 0.040 : -0.040);
+    for (const auto& q : std::vector<std::array<std::uint32_t, 4>>{
+             {0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}) {
       mesh.add_face({q[0], q[1], q[2]});
       mesh.add_face({q[0], q[2], q[3]});
     }
@@ -127,7 +132,8 @@ class Walk {
 
   /// The finger pressed kDepth deep at `point` from direction `normal`.
   void expect(const Vec3& point, const Vec3& normal, TickStatus status) {
-    const TickOutput out = stepper_.step(preset_, at_position(1e-3 * ticks_, point + (kRadius - kDepth) * normal), state_);
+    const TickOutput out =
+        stepper_.step(preset_, at_position(1e-3 * ticks_, point + (kRadius - kDepth) * normal), state_);
     ++ticks_;
     if (out.status != status) ++wrong_status;
     if (ticks_ > 1 && out.event != TickEvent::none) ++events;
@@ -195,7 +201,8 @@ TEST_CASE("round a sharp edge of a box the contact stays on the edge while the n
       Walk walk(box(), method);
       const auto at = [&](double y, double z) { return Vec3(x, y, z); };
       for (double y = 0.025; y < 0.030 - 1e-5; y += 1e-5) walk.expect(at(y, 0.040), kZ, TickStatus::face);
-      for (double a = 0.001; a < 0.5 * kPi; a += 0.001) walk.expect(at(0.030, 0.040), between(kZ, kY, a), TickStatus::edge);
+      for (double a = 0.001; a < 0.5 * kPi; a += 0.001)
+        walk.expect(at(0.030, 0.040), between(kZ, kY, a), TickStatus::edge);
       for (double z = 0.040 - 1e-5; z > 0.035; z -= 1e-5) walk.expect(at(0.030, z), kY, TickStatus::face);
       // And back again.
       for (double a = 0.5 * kPi - 0.001; a > 0.0; a -= 0.001) {
@@ -211,7 +218,8 @@ TEST_CASE("along a sharp edge of a box the contact slides on the edge under a ti
   for (const Method method : kSmoothMethods) {
     CAPTURE(name_of(method));
     Walk walk(box(), method);
-    for (double x = -0.019; x < 0.019; x += 1e-4) walk.expect({x, 0.030, 0.040}, between(kZ, kY, 0.8 + 10.0 * x), TickStatus::edge);
+    for (double x = -0.019; x < 0.019; x += 1e-4)
+      walk.expect({x, 0.030, 0.040}, between(kZ, kY, 0.8 + 10.0 * x), TickStatus::edge);
     walk.check();
   }
 }
@@ -221,7 +229,8 @@ TEST_CASE("round the corner of a box the contact stays on the corner while the n
     CAPTURE(name_of(method));
     Walk walk(box(), method);
     // Along an edge to the corner, over the corner, out along another edge.
-    for (double x = 0.015; x < 0.020 - 1e-5; x += 1e-5) walk.expect({x, 0.030, 0.040}, between(kZ, kY, 0.7), TickStatus::edge);
+    for (double x = 0.015; x < 0.020 - 1e-5; x += 1e-5)
+      walk.expect({x, 0.030, 0.040}, between(kZ, kY, 0.7), TickStatus::edge);
     const Vec3 in_edge = between(kZ, kY, 0.7);
     for (double a = 0.002; a < 1.2; a += 0.002) walk.expect(kCorner, between(in_edge, kX, a), TickStatus::vertex);
     walk.check();
@@ -254,7 +263,8 @@ TEST_CASE("off the rim of an open plate the normal turns through the fan and the
     CAPTURE(name_of(method));
     Walk walk(plate, method);
     for (double x = 0.045; x < 0.050 - 1e-5; x += 1e-5) walk.expect({x, 0.0123, 0.0}, kZ, TickStatus::face);
-    for (double a = 0.001; a < 0.9 * kPi; a += 0.002) walk.expect({0.050, 0.0123, 0.0}, between(kZ, kX, a), TickStatus::edge);
+    for (double a = 0.001; a < 0.9 * kPi; a += 0.002)
+      walk.expect({0.050, 0.0123, 0.0}, between(kZ, kX, a), TickStatus::edge);
     walk.check();
   }
 }
@@ -279,7 +289,8 @@ TEST_CASE("no finger rests on a concave edge: it touches one side or the other, 
     CAPTURE(name_of(method));
     for (const double x : {-0.003, -0.001, 0.001, 0.003}) {
       // The ball of radius R rests in the valley with its centre at height R sqrt 2; pushed in a little.
-      const TickOutput out = solve_once(valley, walking_preset(method), origin + Vec3(x, 0.004, kRadius * std::sqrt(2.0) - 0.001));
+      const TickOutput out =
+          solve_once(valley, walking_preset(method), origin + Vec3(x, 0.004, kRadius * std::sqrt(2.0) - 0.001));
       CHECK(out.status == TickStatus::face);
       CHECK(out.normal.x * x < 0.0);  // the side it is nearer to pushes it back
       CHECK(std::abs(out.normal.x) == doctest::Approx(std::sqrt(0.5)).epsilon(1e-9));

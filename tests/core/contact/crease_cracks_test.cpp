@@ -45,7 +45,8 @@ Cracks widest_crack(const ContactMesh& mesh, EdgeKind kind, bool count_darts) {
         cracks.widest = std::max(cracks.widest, gap / size);
       }
       if (!count_darts) continue;
-      for (const std::uint32_t corner : {k, (k + 1) % 3}) cracks.darts += feature_edges_at(mesh, mesh.vertex(t, corner)) == 1;
+      for (const std::uint32_t corner : {k, (k + 1) % 3})
+        cracks.darts += feature_edges_at(mesh, mesh.vertex(t, corner)) == 1;
     }
   }
   return cracks;
@@ -149,13 +150,17 @@ TEST_CASE("the fan of a crease begins at the one face's normal and ends at the o
           const EdgeLink other = mesh.across(t, k);
           const Vec2 a = edge_point_uv(k, f), b = edge_point_uv(other.edge, 1.0 - f);
           CHECK(glm::length(fan.point - evaluate_point(make_patch(mesh, t), a.x, a.y)) <= 1e-15);
-          CHECK(glm::length(sample_at(fan, kNearTurn).normal - evaluate_normal(make_patch(mesh, t), a.x, a.y)) <= 1e-14);
-          CHECK(glm::length(sample_at(fan, fan.far).normal - evaluate_normal(make_patch(mesh, other.triangle), b.x, b.y)) <= 1e-14);
+          CHECK(glm::length(sample_at(fan, kNearTurn).normal - evaluate_normal(make_patch(mesh, t), a.x, a.y)) <=
+                1e-14);
+          CHECK(glm::length(sample_at(fan, fan.far).normal -
+                            evaluate_normal(make_patch(mesh, other.triangle), b.x, b.y)) <= 1e-14);
           for (const double turn : {0.2, 0.7}) {
             const double angle = turn * std::atan2(fan.far.y, fan.far.x);
             const SurfaceSample n = sample_at(fan, turned_by(angle));
             CHECK(glm::length(n.normal) == doctest::Approx(1.0).epsilon(1e-14));
-            const Vec3 difference = (sample_at(fan, turned_by(angle + 1e-6)).normal - sample_at(fan, turned_by(angle - 1e-6)).normal) / 2e-6;
+            const Vec3 difference =
+                (sample_at(fan, turned_by(angle + 1e-6)).normal - sample_at(fan, turned_by(angle - 1e-6)).normal) /
+                2e-6;
             CHECK(glm::length(difference - n.normal_v) <= 1e-8);
           }
         }

@@ -27,7 +27,9 @@ EdgeFan fan_of_angle(double angle) {
 
 }  // namespace
 
-TEST_CASE("the share of a fan rises from 0 on the near side to 1 on the far one, with the derivative it says, from slivers to half circles") {
+TEST_CASE(
+    "the share of a fan rises from 0 on the near side to 1 on the far one, with the derivative it says, from slivers "
+    "to half circles") {
   for (const double angle : {1e-6, 0.01, 0.5, 1.5707963267948966, 2.5, 3.1, 3.1415926}) {
     const EdgeFan fan = fan_of_angle(angle);
     CAPTURE(angle);
@@ -45,7 +47,9 @@ TEST_CASE("the share of a fan rises from 0 on the near side to 1 on the far one,
   }
 }
 
-TEST_CASE("the contact on a straight edge between flat sides is the nearest point of its line, whatever the plane it starts from") {
+TEST_CASE(
+    "the contact on a straight edge between flat sides is the nearest point of its line, whatever the plane it starts "
+    "from") {
   const ScenePtr scene = scene_of(*generate_mesh("cube"));
   const ContactMesh& mesh = scene->mesh();
   const auto cache = std::make_unique<PatchCache>(mesh);
@@ -69,7 +73,8 @@ TEST_CASE("the contact on a straight edge between flat sides is the nearest poin
       uniform_sample(fan, point, turn, uniform_normal(fan, turn), sample);
       PlaneContact c;
       round_contact(0.02, centre, sample.point, sample.normal, c);
-      worst = std::max({worst, std::abs(to - foot), c.error_m / 0.02, std::abs(c.height_m - 0.02) / 0.02, glm::distance(point, p + foot * (q - p)) / 0.02});
+      worst = std::max({worst, std::abs(to - foot), c.error_m / 0.02, std::abs(c.height_m - 0.02) / 0.02,
+                        glm::distance(point, p + foot * (q - p)) / 0.02});
       CHECK(in_fan(fan, turn));
       ++tried;
     }
@@ -85,7 +90,8 @@ PolygonMesh leaning_crease() {
   PolygonMesh mesh;
   mesh.name = "leaning crease";
   mesh.positions = {{0, 0, 0}, {0.02, 0, 0}, {0.01, -0.015, -0.01}, {0.011, 0.016, -0.008}};
-  mesh.normals = {unit({0.3, -0.5, 0.8}), unit({0.1, -0.6, 0.9}), unit({0, -0.6, 0.7}), unit({-0.2, 0.5, 0.8}), unit({0.4, 0.6, 0.7}), unit({0.1, 0.6, 0.7})};
+  mesh.normals = {unit({0.3, -0.5, 0.8}), unit({0.1, -0.6, 0.9}), unit({0, -0.6, 0.7}),
+                  unit({-0.2, 0.5, 0.8}), unit({0.4, 0.6, 0.7}),  unit({0.1, 0.6, 0.7})};
   mesh.add_face({1, 0, 2});
   mesh.add_face({0, 1, 3});
   mesh.corner_normal = {1, 0, 2, 3, 4, 5};
@@ -124,8 +130,9 @@ TEST_CASE("the turn of a direction is that of its part across the edge, however 
       const double x = glm::dot(direction, fan.e1), y = glm::dot(direction, fan.e2), length = std::sqrt(x * x + y * y);
       worst = std::max(worst, glm::distance(turn_of(fan, direction), Vec2(x / length, y / length)));
     }
-    worst = std::max({worst, std::abs(glm::dot(fan.e1, fan.e2)), std::abs(glm::dot(fan.e1, fan.tangent)), std::abs(glm::length(fan.e1) - 1.0),
-                      std::abs(glm::length(fan.e2) - 1.0), glm::distance(turn_of(fan, fan.far_normal), fan.far)});
+    worst = std::max({worst, std::abs(glm::dot(fan.e1, fan.e2)), std::abs(glm::dot(fan.e1, fan.tangent)),
+                      std::abs(glm::length(fan.e1) - 1.0), std::abs(glm::length(fan.e2) - 1.0),
+                      glm::distance(turn_of(fan, fan.far_normal), fan.far)});
     CHECK(turn_of(fan, fan.e1).x == doctest::Approx(1.0));
   });
   REQUIRE(count > 50);
@@ -144,10 +151,12 @@ TEST_CASE("a round finger's step and stability on an edge, from the height alone
       const ContactJacobian j = round_jacobian(s, c.height_m);
       const EdgeBend bend = edge_bend(s);
       const Stability quick = bend.at_height(c.height_m), full = edge_stability(s, j);
-      worst = std::max({worst, std::abs(quick.det / full.det - 1.0), std::abs(quick.trace - full.trace) / (std::abs(full.trace) + 0.02)});
+      worst = std::max({worst, std::abs(quick.det / full.det - 1.0),
+                        std::abs(quick.trace - full.trace) / (std::abs(full.trace) + 0.02)});
       CHECK(quick.stable() == full.stable());
       unstable += !quick.stable();
-      const double step = round_edge_step(bend, c.height_m, side * (centre - fan.point)), newton = newton_step(s, j, c).da;
+      const double step = round_edge_step(bend, c.height_m, side * (centre - fan.point)),
+                   newton = newton_step(s, j, c).da;
       worst = std::max(worst, std::abs(step - newton) / (std::abs(newton) + 1e-3));
     }
   });
@@ -156,7 +165,8 @@ TEST_CASE("a round finger's step and stability on an edge, from the height alone
   CHECK(worst < 1e-10);
 }
 
-TEST_CASE("where the near normal runs along the edge, and where the curve stands still, there is a frame all the same") {
+TEST_CASE(
+    "where the near normal runs along the edge, and where the curve stands still, there is a frame all the same") {
   // A flat patch edge along x, its near normals tilted into it; then control points that all but coincide.
   FanEdge edge;
   EdgeFan fan;
@@ -170,7 +180,9 @@ TEST_CASE("where the near normal runs along the edge, and where the curve stands
     prepare_fan(edge, fan);
     move_fan(edge, 0.0, fan);
     CHECK(is_finite(fan.e1));
-    CHECK(std::abs(glm::length(fan.e1) - 1.0) + std::abs(glm::length(fan.e2) - 1.0) + std::abs(glm::dot(fan.e1, fan.e2)) < 1e-12);
+    CHECK(std::abs(glm::length(fan.e1) - 1.0) + std::abs(glm::length(fan.e2) - 1.0) +
+              std::abs(glm::dot(fan.e1, fan.e2)) <
+          1e-12);
     CHECK(glm::length(turn_of(fan, {0.3, 0.4, 0.5})) == doctest::Approx(1.0));
     CHECK(glm::length(fan.far) == doctest::Approx(1.0));
   }
@@ -207,7 +219,8 @@ TEST_CASE("flat patches are told from curved ones, and sampled like them to roun
       CHECK(glm::distance(quick.point_u, full.point_u) + glm::distance(quick.point_v, full.point_v) < 1e-15);
       CHECK(glm::distance(quick.normal, full.normal) < 1e-15);
       CHECK(glm::length(full.normal_u) + glm::length(full.normal_v) < 1e-14);
-      // A corner's normal turned by a millionth, or a control point moved by as much of a side, is no flat patch any more.
+      // A corner's normal turned by a millionth, or a control point moved by as much of a side, is no flat patch any
+      // more.
       PnPatch bent = patch;
       bent.normals[n110] = unit(bent.normals[n110] + 1e-6 * unit(patch.offsets[b030]));
       CHECK_FALSE(is_flat(bent, 1e-13));

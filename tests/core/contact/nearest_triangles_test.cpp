@@ -55,7 +55,8 @@ int different_queries(const ScenePtr& scene, int queries, std::uint64_t seed) {
   const double size = glm::length(mesh.bounds().size());
   int wrong = 0;
   for (int i = 0; i < queries; ++i) {
-    const Vec3 q = i % 3 == 0 ? random.in_cube(size) : 0.5 * (mesh.bounds().min + mesh.bounds().max) + random.in_cube(0.5 * size);
+    const Vec3 q =
+        i % 3 == 0 ? random.in_cube(size) : 0.5 * (mesh.bounds().min + mesh.bounds().max) + random.in_cube(0.5 * size);
     wrong += different(mesh, scene->nearest(), q, kInf);
     wrong += different(mesh, scene->nearest(), q, random.in(0.0, 0.3) * size);
   }
@@ -92,7 +93,9 @@ TEST_CASE("ties go to the lowest triangle number, at vertices, on edges and at t
     for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t)
       for (std::uint32_t k = 0; k < 3; ++k) {
         const Vec3 p = mesh.position(t, k), middle = 0.5 * (p + mesh.position(t, (k + 1) % 3));
-        for (const double out : {0.5, 1.0, 1.7}) wrong += different(mesh, scene->nearest(), out * p, kInf) + different(mesh, scene->nearest(), out * middle, kInf);
+        for (const double out : {0.5, 1.0, 1.7})
+          wrong +=
+              different(mesh, scene->nearest(), out * p, kInf) + different(mesh, scene->nearest(), out * middle, kInf);
       }
     CHECK(wrong == 0);
   }
@@ -138,8 +141,10 @@ TEST_CASE("further away still a triangle is found that reaches as far towards th
       const NearestHit hit = scene->nearest().nearest(far * direction, kInf);
       REQUIRE(hit);
       double found = -1.0, furthest = -1.0;
-      for (std::uint32_t k = 0; k < 3; ++k) found = std::max(found, glm::dot(mesh.position(hit.triangle, k), direction));
-      for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) furthest = std::max(furthest, glm::dot(mesh.vertex_position(v), direction));
+      for (std::uint32_t k = 0; k < 3; ++k)
+        found = std::max(found, glm::dot(mesh.position(hit.triangle, k), direction));
+      for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v)
+        furthest = std::max(furthest, glm::dot(mesh.vertex_position(v), direction));
       CHECK(found >= furthest - 1e-5 * glm::length(mesh.bounds().size()));
       CHECK(hit.distance_m == doctest::Approx(far).epsilon(1e-6));
     }
@@ -155,7 +160,8 @@ TEST_CASE("tiny and huge meshes give the same nearest triangles as those of ordi
 
 TEST_CASE("a ray hits the first triangle along it, from outside and from inside, or none") {
   Random random(112);
-  for (const ScenePtr& scene : {scene_of(make_icosphere(0.040, 2)), scene_of(make_torus(0.040, 0.015, 48, 24)), scene_of(sample::cube(0.05))}) {
+  for (const ScenePtr& scene :
+       {scene_of(make_icosphere(0.040, 2)), scene_of(make_torus(0.040, 0.015, 48, 24)), scene_of(sample::cube(0.05))}) {
     const ContactMesh& mesh = scene->mesh();
     int wrong = 0, hits = 0;
     for (int i = 0; i < rounds(3000); ++i) {
@@ -179,7 +185,8 @@ TEST_CASE("a ray hits the first triangle along it, from outside and from inside,
       if (!hit || !std::isfinite(first)) continue;
       ++hits;
       wrong += std::abs(hit.distance_m - first) > 1e-12;
-      const Vec3 at = (1.0 - hit.u - hit.v) * mesh.position(hit.triangle, 0) + hit.u * mesh.position(hit.triangle, 1) + hit.v * mesh.position(hit.triangle, 2);
+      const Vec3 at = (1.0 - hit.u - hit.v) * mesh.position(hit.triangle, 0) + hit.u * mesh.position(hit.triangle, 1) +
+                      hit.v * mesh.position(hit.triangle, 2);
       wrong += glm::length(at - (origin + hit.distance_m * direction)) > 1e-12;
     }
     CHECK(hits > rounds(3000) / 30);
@@ -209,7 +216,8 @@ TEST_CASE("queries from several threads at once give the same answers as alone")
   for (std::size_t k = 0; k < hits.size(); ++k) {
     CHECK(rays[k] == alone_rays);
     int wrong = 0;
-    for (int i = 0; i < kQueries; ++i) wrong += !same(hits[k][static_cast<std::size_t>(i)], alone[static_cast<std::size_t>(i)]);
+    for (int i = 0; i < kQueries; ++i)
+      wrong += !same(hits[k][static_cast<std::size_t>(i)], alone[static_cast<std::size_t>(i)]);
     CHECK(wrong == 0);
   }
 }
@@ -223,7 +231,9 @@ TEST_CASE("steppers on several threads over one scene give the same ticks as alo
     TickState state;
     const Preset preset = sphere_preset(0.012, Method::robust);
     for (int i = 0; i < rounds(2000); ++i)
-      hash.add(stepper.step(preset, at_position(1e-3 * i, i % 10 ? state.last_position + random.in_cube(1e-4) : random.in_cube(0.06)), state));
+      hash.add(stepper.step(
+          preset, at_position(1e-3 * i, i % 10 ? state.last_position + random.in_cube(1e-4) : random.in_cube(0.06)),
+          state));
     return hash.value();
   };
   const std::uint64_t alone = walk();

@@ -78,8 +78,9 @@ Outcome track_oracle(Method method, double away, Takes takes) {
     outcome.normal = std::max(outcome.normal, glm::length(out.normal - o.normal));
     outcome.penetration_m = std::max(outcome.penetration_m, std::abs(out.penetration_m - o.penetration_m));
   }
-  MESSAGE(std::string(to_string(method)) << ": " << outcome.found << " of " << outcome.tried << " found; largest deviation: contact "
-          << outcome.contact_m << " m, normal " << outcome.normal << ", penetration " << outcome.penetration_m << " m");
+  MESSAGE(std::string(to_string(method)) << ": " << outcome.found << " of " << outcome.tried
+                                         << " found; largest deviation: contact " << outcome.contact_m << " m, normal "
+                                         << outcome.normal << ", penetration " << outcome.penetration_m << " m");
   return outcome;
 }
 

@@ -62,7 +62,8 @@ Outcome press(const ScenePtr& scene, Place (*place_of)(Random&), FingerShape sha
     pose.position = place.point - kDepth * place.normal - support_point(preset.finger, pose, place.normal);
     // Start beside the place, as tracking does: the closest point to the centre of a long finger can be far away.
     TickState state;
-    const NearestHit hit = scene->nearest().nearest(place.point - scene->mesh().origin() + start_off_m * random.direction(), 1.0);
+    const NearestHit hit =
+        scene->nearest().nearest(place.point - scene->mesh().origin() + start_off_m * random.direction(), 1.0);
     state.plane.feature = Feature::face;
     state.plane.triangle = hit.triangle;
     state.plane.u = hit.u;
@@ -85,7 +86,8 @@ Outcome press(const ScenePtr& scene, Place (*place_of)(Random&), FingerShape sha
 void press_all(const ScenePtr& scene, Place (*place_of)(Random&), double contact_m, double normal_deg,
                bool robust_capsule = true) {
   for (const Method method : kSmoothMethods)
-    for (const FingerShape shape : {FingerShape::point, FingerShape::sphere, FingerShape::ellipsoid, FingerShape::capsule}) {
+    for (const FingerShape shape :
+         {FingerShape::point, FingerShape::sphere, FingerShape::ellipsoid, FingerShape::capsule}) {
       if (method == Method::robust && shape == FingerShape::capsule && !robust_capsule) continue;
       CAPTURE(name_of(method));
       CAPTURE(static_cast<int>(shape));
@@ -115,10 +117,11 @@ TEST_CASE("every method converges with every finger shape on a torus, to the tor
 // Along its side the capsule's radius of curvature is 50 times its size: without reins Newton's steps swing between
 // contacts at its two ends, for ever in about 1 of 6,000 poses.
 TEST_CASE("robust finds a capsule's contact from a millimetre off, on every pose") {
-  const Outcome sphere = press(scene_of(make_icosphere(0.040, 3)), on_sphere, FingerShape::capsule, Method::robust, rounds(6000), 1e-3);
+  const Outcome sphere =
+      press(scene_of(make_icosphere(0.040, 3)), on_sphere, FingerShape::capsule, Method::robust, rounds(6000), 1e-3);
   CHECK(sphere.unconverged == 0);
-  const Outcome torus =
-      press(scene_of(make_torus(0.040, 0.015, 240, 120)), on_torus, FingerShape::capsule, Method::robust, rounds(6000), 1e-3);
+  const Outcome torus = press(scene_of(make_torus(0.040, 0.015, 240, 120)), on_torus, FingerShape::capsule,
+                              Method::robust, rounds(6000), 1e-3);
   CHECK(torus.unconverged == 0);
   CHECK(torus.contact_m <= 1e-5);
 }

@@ -9,7 +9,8 @@ using namespace tangent;
 using namespace tangent::test;
 
 // On the flank of a capsule Newton's steps alone run from end to end, and leave errors of its half length.
-TEST_CASE("the finger touches a plane turned to face it at the given point, wherever that is in, on or off the finger") {
+TEST_CASE(
+    "the finger touches a plane turned to face it at the given point, wherever that is in, on or off the finger") {
   Random random(3);
   for (const FingerShape shape : kFingerShapes) {
     const Finger finger = finger_of(shape);
@@ -20,7 +21,8 @@ TEST_CASE("the finger touches a plane turned to face it at the given point, wher
       const Vec3 point = pose.position + random.in_cube(within);
       for (const FacingSide side : {FacingSide::front, FacingSide::back}) {
         const Vec3 normal = facing_normal(finger, pose, point, random.direction(), side);
-        worst = std::max({worst, contact_on_plane(finger, pose, point, normal).error_m, std::abs(glm::length(normal) - 1.0)});
+        worst = std::max(
+            {worst, contact_on_plane(finger, pose, point, normal).error_m, std::abs(glm::length(normal) - 1.0)});
       }
     }
     CAPTURE(static_cast<int>(shape));
@@ -42,8 +44,10 @@ TEST_CASE("facing from the front shows the finger's nearest point, from the back
       const double depth = contact_on_plane(finger, pose, point, back).penetration_m;
       CHECK(gap > 0.0);
       CHECK(glm::dot(pose.position - point, back) < 0.0);
-      for (int k = 0; k < 20; ++k) {  // no tangent plane of the finger is further off or deeper under the point, near either normal
-        const Vec3 near_front = unit(front + 0.05 * random.direction()), near_back = unit(back + 0.05 * random.direction());
+      for (int k = 0; k < 20;
+           ++k) {  // no tangent plane of the finger is further off or deeper under the point, near either normal
+        const Vec3 near_front = unit(front + 0.05 * random.direction()),
+                   near_back = unit(back + 0.05 * random.direction());
         CHECK(-contact_on_plane(finger, pose, point, near_front).penetration_m <= gap + 1e-15);
         CHECK(contact_on_plane(finger, pose, point, near_back).penetration_m <= depth + 1e-15);
       }

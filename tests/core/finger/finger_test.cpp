@@ -19,13 +19,16 @@ constexpr double kPi = std::numbers::pi;
 Vec3 surface_point(const Finger& finger, const FingerPose& pose, Random& random) {
   const Vec3 d = random.direction();
   switch (finger.shape) {
-    case FingerShape::sphere: return pose.position + finger.radius_m * d;
-    case FingerShape::ellipsoid: return pose.position + pose.orientation * (finger.semi_axes_m * d);
+    case FingerShape::sphere:
+      return pose.position + finger.radius_m * d;
+    case FingerShape::ellipsoid:
+      return pose.position + pose.orientation * (finger.semi_axes_m * d);
     case FingerShape::capsule: {
       const double along = random.in(-finger.half_length_m, finger.half_length_m);
       return pose.position + pose.orientation * Vec3(along, 0.0, 0.0) + finger.radius_m * d;
     }
-    case FingerShape::point: break;
+    case FingerShape::point:
+      break;
   }
   return pose.position;
 }
@@ -61,7 +64,9 @@ TEST_CASE("the support point of a sphere and an ellipsoid lies on them - that of
   for (int i = 0; i < 200; ++i) {
     const FingerPose pose = random_pose(random);
     const Vec3 n = random.direction();
-    const auto local = [&](const Finger& f) { return glm::conjugate(pose.orientation) * (support_point(f, pose, n) - pose.position); };
+    const auto local = [&](const Finger& f) {
+      return glm::conjugate(pose.orientation) * (support_point(f, pose, n) - pose.position);
+    };
     const Finger sphere = finger_of(FingerShape::sphere);
     CHECK(glm::length(local(sphere)) == doctest::Approx(sphere.radius_m).epsilon(1e-14));
     const Finger ellipsoid = finger_of(FingerShape::ellipsoid);
@@ -91,7 +96,8 @@ TEST_CASE("dp/dN is the derivative of the support point") {
       const Vec3 minus = support_point(finger, pose, std::cos(kTurn) * n - std::sin(kTurn) * d);
       const Vec3 difference = (plus - minus) / (2.0 * kTurn);
       // Near the capsule's waist the spindle's tip radius is 1/kSpindle of its length: differences of third order show.
-      CHECK(glm::length(by_normal * d - difference) <= 1e-7 * std::max(finger.reach_m(), glm::length(difference)) + 1e-10);
+      CHECK(glm::length(by_normal * d - difference) <=
+            1e-7 * std::max(finger.reach_m(), glm::length(difference)) + 1e-10);
     }
   }
 }
@@ -116,7 +122,8 @@ TEST_CASE("dp/dN is symmetric and turns no normal towards itself") {
 
 TEST_CASE("an ellipsoid with equal axes and a capsule without length are spheres") {
   Random random(5);
-  Finger sphere = finger_of(FingerShape::sphere), ball = finger_of(FingerShape::ellipsoid), capsule = finger_of(FingerShape::capsule);
+  Finger sphere = finger_of(FingerShape::sphere), ball = finger_of(FingerShape::ellipsoid),
+         capsule = finger_of(FingerShape::capsule);
   ball.semi_axes_m = Vec3(sphere.radius_m);
   capsule.half_length_m = 0.0;
   for (int i = 0; i < 100; ++i) {
@@ -146,7 +153,8 @@ TEST_CASE("the contact location of a point finger is zero") {
 
 namespace {
 
-/// Walks the contact from the pad's middle distally up to `limit` rad; true if the location grows all the way and is odd.
+/// Walks the contact from the pad's middle distally up to `limit` rad; true if the location grows all the way and is
+/// odd.
 bool grows_and_is_odd(const Finger& finger, double limit) {
   double last = 0.0;
   for (double angle = 0.01; angle < limit; angle += 0.01) {
@@ -166,14 +174,16 @@ TEST_CASE("the contact location is positive distally, odd, and grows with the an
 }
 
 TEST_CASE("past the fingertip the contact location goes on growing along the nail side: sphere, ellipsoid") {
-  for (const FingerShape shape : {FingerShape::sphere, FingerShape::ellipsoid}) CHECK(grows_and_is_odd(finger_of(shape), 3.14));
+  for (const FingerShape shape : {FingerShape::sphere, FingerShape::ellipsoid})
+    CHECK(grows_and_is_odd(finger_of(shape), 3.14));
 }
 
 // Fails: the straight part shrinks to nothing past the fingertip, where the contact runs back along the nail side.
 TEST_CASE("past the fingertip the contact location goes on growing along the nail side: capsule") {
   const Finger finger = finger_of(FingerShape::capsule);
   CHECK(grows_and_is_odd(finger, 3.1));
-  CHECK(contact_arc_m(finger, level(), normal_for(1e-9, 1.0)) == doctest::Approx(2.0 * finger.half_length_m + kPi * finger.radius_m).epsilon(1e-3));
+  CHECK(contact_arc_m(finger, level(), normal_for(1e-9, 1.0)) ==
+        doctest::Approx(2.0 * finger.half_length_m + kPi * finger.radius_m).epsilon(1e-3));
 }
 
 TEST_CASE("the contact location of an ellipsoid is the arc of its section, integrated numerically") {
@@ -191,7 +201,8 @@ TEST_CASE("the contact location of an ellipsoid is the arc of its section, integ
         sum += speed * (i == 0 || i == kSteps ? 1.0 : i % 2 ? 4.0 : 2.0);
       }
       const double arc = sum * end / kSteps / 3.0;
-      CHECK(contact_arc_m(finger, level(), normal_for(std::sin(angle), -std::cos(angle))) == doctest::Approx(arc).epsilon(1e-10));
+      CHECK(contact_arc_m(finger, level(), normal_for(std::sin(angle), -std::cos(angle))) ==
+            doctest::Approx(arc).epsilon(1e-10));
     }
   }
 }
@@ -211,7 +222,9 @@ TEST_CASE("the contact location of a capsule is its straight part and the arc of
 TEST_CASE("the contact location is continuous through the fingertip and through the fingerpad") {
   for (const FingerShape shape : {FingerShape::sphere, FingerShape::ellipsoid, FingerShape::capsule}) {
     const Finger finger = finger_of(shape);
-    const auto arc = [&](double angle) { return contact_arc_m(finger, level(), normal_for(std::sin(angle), -std::cos(angle))); };
+    const auto arc = [&](double angle) {
+      return contact_arc_m(finger, level(), normal_for(std::sin(angle), -std::cos(angle)));
+    };
     for (const double at : {0.0, 0.5 * kPi, -0.5 * kPi, 2.5, -2.5})
       CHECK(std::abs(arc(at + 1e-9) - arc(at - 1e-9)) <= 1e-8 * (shape == FingerShape::capsule ? 1.0 : 0.02));
   }
@@ -224,7 +237,8 @@ TEST_CASE("turning finger and normal together changes no contact location") {
     for (int i = 0; i < 100; ++i) {
       const FingerPose pose = random_pose(random);
       const Vec3 n = random.direction();
-      CHECK(contact_arc_m(finger, pose, pose.orientation * n) == doctest::Approx(contact_arc_m(finger, level(), n)).epsilon(1e-9));
+      CHECK(contact_arc_m(finger, pose, pose.orientation * n) ==
+            doctest::Approx(contact_arc_m(finger, level(), n)).epsilon(1e-9));
     }
   }
 }
@@ -281,7 +295,8 @@ TEST_CASE("while the finger turns, no support point moves further than turning_m
       const Quat from = glm::normalize(Quat(random.in(-1, 1), random.in(-1, 1), random.in(-1, 1), random.in(-1, 1)));
       const Quat to = glm::angleAxis(turn, random.direction()) * from;
       const Vec3 n = random.direction();
-      const double moved = glm::distance(support_point(finger, {Vec3(0.0), from}, n), support_point(finger, {Vec3(0.0), to}, n));
+      const double moved =
+          glm::distance(support_point(finger, {Vec3(0.0), from}, n), support_point(finger, {Vec3(0.0), to}, n));
       largest = std::max(largest, moved / finger.turning_m(turn));
     }
     CHECK(largest <= 1.0);

@@ -3,9 +3,9 @@
 
 #include <doctest/doctest.h>
 
-#include <string>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <string>
 
 using namespace tangent;
 using tangent::testing::read_text;

@@ -87,7 +87,8 @@ TEST_CASE("a file without faces is refused in every format") {
   for (const auto& [name, content] :
        {std::pair<std::string, std::string>{"a.obj", kTriangle},
         {"blank.obj", "\n"},
-        {"a.ply", ply("ascii", "element vertex 1\nproperty float x\nproperty float y\nproperty float z\nend_header\n1 2 3\n")},
+        {"a.ply",
+         ply("ascii", "element vertex 1\nproperty float x\nproperty float y\nproperty float z\nend_header\n1 2 3\n")},
         {"a.stl", binary_stl(0, 0)},
         {"b.stl", "solid nothing\nendsolid nothing\n"},
         {"a.off", "OFF\n1 0 0\n1 2 3\n"}}) {
@@ -169,10 +170,12 @@ TEST_CASE("PLY: a bad header is named by line") {
   place_and_text(ply("ascii", "element vertex 1\nelement vertex 1\n"), ":4", "twice");
   place_and_text(ply("ascii", "rubbish\n"), ":3", "unknown PLY header keyword");
   place_and_text(ply("ascii", "element vertex 1"), ":3", "ends inside the PLY header");
-  place_and_text(ply("ascii", "element face 0\nproperty list uchar int vertex_indices\nend_header\n"), "", "\"vertex\"");
+  place_and_text(ply("ascii", "element face 0\nproperty list uchar int vertex_indices\nend_header\n"), "",
+                 "\"vertex\"");
   place_and_text(ply("ascii", "element vertex 1\nproperty float x\nend_header\n1\n"), "", "lacks x, y or z");
-  place_and_text(ply("ascii", "element vertex 1\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"
-                              "property list uchar float vertex_indices\nend_header\n0 0 0\n3 0 0 0\n"),
+  place_and_text(ply("ascii",
+                     "element vertex 1\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"
+                     "property list uchar float vertex_indices\nend_header\n0 0 0\n3 0 0 0\n"),
                  "", "integer list");
 }
 
@@ -265,10 +268,12 @@ TEST_CASE("counts of billions in a small file are refused before memory is taken
             "a.ply", ply("binary_little_endian",
                          "element vertex 4000000000\nproperty float x\nproperty float y\nproperty float z\n"
                          "element face 1\nproperty list uchar int vertex_indices\nend_header\n")},
-        {"b.ply", ply("ascii", "element vertex 4000000000\nproperty float x\nproperty float y\nproperty float z\n"
-                               "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n")},
-        {"c.ply", ply("binary_big_endian", "element vertex 0\nproperty float x\nproperty float y\nproperty float z\n"
-                                           "element face 4000000000\nproperty list uchar int vertex_indices\nend_header\n")},
+        {"b.ply", ply("ascii",
+                      "element vertex 4000000000\nproperty float x\nproperty float y\nproperty float z\n"
+                      "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n")},
+        {"c.ply", ply("binary_big_endian",
+                      "element vertex 0\nproperty float x\nproperty float y\nproperty float z\n"
+                      "element face 4000000000\nproperty list uchar int vertex_indices\nend_header\n")},
         {"d.ply", ply("binary_little_endian",
                       "element vertex 9223372036854775807\nproperty double x\nproperty double y\nproperty double z\n"
                       "element face 1\nproperty list uchar int vertex_indices\nend_header\n")},
@@ -280,10 +285,10 @@ TEST_CASE("counts of billions in a small file are refused before memory is taken
 }
 
 TEST_CASE("a list length of billions in a small file is refused before memory is taken") {
-  const std::string content =
-      ply("binary_little_endian", "element vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
+  const std::string content = ply("binary_little_endian",
+                                  "element vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
                                   "element face 1\nproperty list uint int vertex_indices\nend_header\n") +
-      std::string(12, '\0') + "\xff\xff\xff\xff" + std::string(64, '\0');
+                              std::string(12, '\0') + "\xff\xff\xff\xff" + std::string(64, '\0');
   const Error error = error_of("a.ply", content);
   CHECK(error.where == " face 0");
   CHECK(contains(error.what, "the file ends inside"));

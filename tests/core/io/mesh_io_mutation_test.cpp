@@ -47,8 +47,8 @@ std::string seed(const std::string& format) {
            bytes({5}) + bytes({0, 1, 0}) + "\0"s + "\3\0\0\0\0\1\0\0\0\2\0\0\0"s + "\2\0\0\0\0\1\0\0\0"s;
   }
   if (format == "c.ply") {
-    return "ply\nformat binary_big_endian" + header + bytes({0, 0, 0}) + "\0"s + bytes({1, 0, 0}) + "\1"s +
-           bytes({5}) + bytes({0, 1, 0}) + "\0"s + "\3\0\0\0\0\0\0\0\1\0\0\0\2"s + "\2\0\0\0\0\0\0\0\1"s;
+    return "ply\nformat binary_big_endian" + header + bytes({0, 0, 0}) + "\0"s + bytes({1, 0, 0}) + "\1"s + bytes({5}) +
+           bytes({0, 1, 0}) + "\0"s + "\3\0\0\0\0\0\0\0\1\0\0\0\2"s + "\2\0\0\0\0\0\0\0\1"s;
   }
   if (format == "a.stl") {
     return "solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n"
@@ -65,10 +65,37 @@ std::string seed(const std::string& format) {
 /// One of the ways in which files break: flipped bits, other bytes, pieces cut out, doubled or swapped in
 /// from tokens that mean something, truncation.
 void damage(std::string& text, std::mt19937& random) {
-  static const std::vector<std::string> tokens = {
-      "nan", "-inf", "1e999", "-1", "0", "4294967295", "4294967296", "9223372036854775807", "-9223372036854775808",
-      "18446744073709551616", "\n", "\r", "\\\n", "\\", "#", "/", "//", " ", "f ", "v ", "list ", "element ", "property ",
-      "end_header\n", "solid ", "vertex ", "endloop", "OFF", std::string(1, '\0'), "\xff\xff\xff\xff", "\xEF\xBB\xBF"};
+  static const std::vector<std::string> tokens = {"nan",
+                                                  "-inf",
+                                                  "1e999",
+                                                  "-1",
+                                                  "0",
+                                                  "4294967295",
+                                                  "4294967296",
+                                                  "9223372036854775807",
+                                                  "-9223372036854775808",
+                                                  "18446744073709551616",
+                                                  "\n",
+                                                  "\r",
+                                                  "\\\n",
+                                                  "\\",
+                                                  "#",
+                                                  "/",
+                                                  "//",
+                                                  " ",
+                                                  "f ",
+                                                  "v ",
+                                                  "list ",
+                                                  "element ",
+                                                  "property ",
+                                                  "end_header\n",
+                                                  "solid ",
+                                                  "vertex ",
+                                                  "endloop",
+                                                  "OFF",
+                                                  std::string(1, '\0'),
+                                                  "\xff\xff\xff\xff",
+                                                  "\xEF\xBB\xBF"};
   const auto below = [&](std::size_t n) { return n == 0 ? 0 : random() % n; };
   const std::size_t at = below(text.size());
   switch (random() % 6) {
@@ -78,9 +105,15 @@ void damage(std::string& text, std::mt19937& random) {
     case 1:
       if (!text.empty()) text[at] = static_cast<char>(random());
       break;
-    case 2: text.erase(at, below(12)); break;
-    case 3: text.insert(at, text.substr(below(text.size()), below(40))); break;
-    case 4: text.replace(at, below(6), tokens[below(tokens.size())]); break;
+    case 2:
+      text.erase(at, below(12));
+      break;
+    case 3:
+      text.insert(at, text.substr(below(text.size()), below(40)));
+      break;
+    case 4:
+      text.replace(at, below(6), tokens[below(tokens.size())]);
+      break;
     default:
       if (random() % 4 == 0) text.resize(at);
       break;

@@ -49,10 +49,11 @@ constexpr std::string_view kPlyTwoFacesHeader =
 
 TEST_CASE("OBJ: polygons, comments and everything around them") {
   const TempFolder folder;
-  const PolygonMesh mesh = must_read(folder, "a.obj",
-                                     "# made by hand\nmtllib x.mtl\no thing\nv 0 0 0\n  v\t1 0 0 # comment\nvt 0.5 0.5\n"
-                                     "v 1 1.5 0 1.0\nv 0 1 -0.25 0.1 0.2 0.3\n\ng group\nusemtl m\ns off\n"
-                                     "f 1 2 3 4\nl 1 2\nf 3 2 1\n");
+  const PolygonMesh mesh =
+      must_read(folder, "a.obj",
+                "# made by hand\nmtllib x.mtl\no thing\nv 0 0 0\n  v\t1 0 0 # comment\nvt 0.5 0.5\n"
+                "v 1 1.5 0 1.0\nv 0 1 -0.25 0.1 0.2 0.3\n\ng group\nusemtl m\ns off\n"
+                "f 1 2 3 4\nl 1 2\nf 3 2 1\n");
   check_two_faces(mesh);
   CHECK(mesh.normals.empty());
   CHECK(mesh.corner_normal.empty());
@@ -61,20 +62,20 @@ TEST_CASE("OBJ: polygons, comments and everything around them") {
 
 TEST_CASE("OBJ: Windows line ends, a byte order mark and a missing last line end change nothing") {
   const TempFolder folder;
-  check_two_faces(must_read(folder, "a.OBJ",
-                            "\xEF\xBB\xBFv 0 0 0\r\nv 1 0 0\r\nv 1 1.5 0\r\nv 0 1 -0.25\r\nf 1 2 3 4\r\nf 3 2 1"));
+  check_two_faces(
+      must_read(folder, "a.OBJ", "\xEF\xBB\xBFv 0 0 0\r\nv 1 0 0\r\nv 1 1.5 0\r\nv 0 1 -0.25\r\nf 1 2 3 4\r\nf 3 2 1"));
 }
 
 TEST_CASE("OBJ: a backslash continues the line") {
   const TempFolder folder;
-  check_two_faces(must_read(folder, "a.obj",
-                            "v 0 0 0\nv 1 \\\n 0 0\nv 1 1.5 0\nv 0 1 -0.25\nf 1 2 \\\r\n3 4\nf 3 2 1\\\n"));
+  check_two_faces(
+      must_read(folder, "a.obj", "v 0 0 0\nv 1 \\\n 0 0\nv 1 1.5 0\nv 0 1 -0.25\nf 1 2 \\\r\n3 4\nf 3 2 1\\\n"));
 }
 
 TEST_CASE("OBJ: relative indices count back from the latest element") {
   const TempFolder folder;
-  const PolygonMesh mesh = must_read(folder, "a.obj",
-                                     "v 0 0 0\nv 1 0 0\nv 1 1 0\nvn 0 0 1\nf -3//-1 -2//-1 -1//-1\nv 5 5 5\nf -1 -4 2\n");
+  const PolygonMesh mesh =
+      must_read(folder, "a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nvn 0 0 1\nf -3//-1 -2//-1 -1//-1\nv 5 5 5\nf -1 -4 2\n");
   CHECK(mesh.corner_position == Indices{0, 1, 2, 3, 0, 1});
   CHECK(mesh.corner_normal == Indices{0, 0, 0, kNone, kNone, kNone});
 }
@@ -248,8 +249,7 @@ TEST_CASE("OFF: polygons, comments, counts on the first line, colours left aside
 
 TEST_CASE("OFF: vertex normals of NOFF") {
   const TempFolder folder;
-  const PolygonMesh mesh =
-      must_read(folder, "a.off", "NOFF\n3 1 0\n0 0 0 0 0 1\n1 0 0 0 1 0\n0 1 0 1 0 0\n3 2 1 0\n");
+  const PolygonMesh mesh = must_read(folder, "a.off", "NOFF\n3 1 0\n0 0 0 0 0 1\n1 0 0 0 1 0\n0 1 0 1 0 0\n3 2 1 0\n");
   CHECK(mesh.normals == std::vector<Vec3>{{0, 0, 1}, {0, 1, 0}, {1, 0, 0}});
   CHECK(mesh.corner_normal == Indices{2, 1, 0});
 }

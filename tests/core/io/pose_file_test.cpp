@@ -7,8 +7,8 @@
 #include <string>
 
 using namespace tangent;
-using tangent::testing::TempFolder;
 using tangent::testing::contains;
+using tangent::testing::TempFolder;
 
 namespace {
 
@@ -49,7 +49,8 @@ TEST_CASE("quaternions near unit length are normalised, others refused") {
   const Quat q = (*poses)[0].finger.orientation;
   CHECK(glm::dot(q, q) == doctest::Approx(1.0).epsilon(1e-15));
   CHECK(q.w == q.x);
-  CHECK(contains(refusal(header + "0,0,0,0,0,0,0,0\n"), "p.csv:2: the quaternion's length is 0; allowed: 0.999 to 1.001"));
+  CHECK(contains(refusal(header + "0,0,0,0,0,0,0,0\n"),
+                 "p.csv:2: the quaternion's length is 0; allowed: 0.999 to 1.001"));
   CHECK(contains(refusal(header + "0,0,0,0,1,0,0,0\n1,0,0,0,1,1,0,0\n"), "p.csv:3: the quaternion's length is 1.41"));
   CHECK(contains(refusal(header + "0,0,0,0,1e200,0,0,0\n"), "the quaternion's length is 1e+200"));
 }
@@ -58,7 +59,11 @@ TEST_CASE("another header is refused") {
   CHECK(contains(refusal("x,y,z\n1,2,3\n"), "p.csv:1: the header is \"x,y,z\"; write t_s,x_m,y_m,z_m or"));
   CHECK(contains(refusal("0,1,2,3\n"), "p.csv:1: the header"));
   CHECK(contains(refusal("t_s,x_m,y_m,z_m,qw\n"), "p.csv:1: the header"));
-  CHECK(contains(refusal(std::string("\x7f" "ELF\x00\x01\xff", 7) + std::string(1000, 'x')), "p.csv:1: the header is \"?ELF"));
+  CHECK(contains(refusal(std::string("\x7f"
+                                     "ELF\x00\x01\xff",
+                                     7) +
+                         std::string(1000, 'x')),
+                 "p.csv:1: the header is \"?ELF"));
 }
 
 TEST_CASE("numbers that are not finite are refused with line and column") {

@@ -11,8 +11,8 @@
 #include <random>
 
 using namespace tangent;
-using tangent::testing::TempFolder;
 using tangent::testing::contains;
+using tangent::testing::TempFolder;
 
 namespace {
 
@@ -55,10 +55,16 @@ TEST_CASE("what is written reads back as the same doubles") {
 
 TEST_CASE("where a preset comes from reads back, whatever the text") {
   PresetFile file;
-  file.about = {.name = "quotes \" and \\ and 'these'", .date = "2026-03-31", .program_version = "0.1.0",
-                .mesh_name = "W\xC3\xBCrfel.obj", .mesh_hash = "00ff00ff00ff00ff", .device = "simulated",
+  file.about = {.name = "quotes \" and \\ and 'these'",
+                .date = "2026-03-31",
+                .program_version = "0.1.0",
+                .mesh_name = "W\xC3\xBCrfel.obj",
+                .mesh_hash = "00ff00ff00ff00ff",
+                .device = "simulated",
                 .note = "two\nlines\tand a tab",
-                .measured = {{"p99_iterations", 2.0}, {"mean_iterations", 1.0 / 3.0}, {"a key with blanks", 1e-300},
+                .measured = {{"p99_iterations", 2.0},
+                             {"mean_iterations", 1.0 / 3.0},
+                             {"a key with blanks", 1e-300},
                              {"command", std::string("workbench solve x.obj")}}};
   const Result<PresetFile> back = parse_preset(format_preset(file), "p.toml");
   REQUIRE(back);
@@ -99,7 +105,8 @@ TEST_CASE("wrong types are named with the allowed range") {
 }
 
 TEST_CASE("out-of-range values are named with the allowed range") {
-  CHECK(refusal("[solver]\ngain_overall = -0.5\n") == "p.toml:2 solver.gain_overall: -0.5 is out of range; allowed: 0 to 10");
+  CHECK(refusal("[solver]\ngain_overall = -0.5\n") ==
+        "p.toml:2 solver.gain_overall: -0.5 is out of range; allowed: 0 to 10");
   CHECK(contains(refusal("[solver]\ntolerance_m = -1e-6\n"), "allowed: 1e-12 to 0.001 m"));
   CHECK(contains(refusal("[solver]\ntolerance_m = nan\n"), "solver.tolerance_m: nan is out of range"));
   CHECK(contains(refusal("[force]\nlimit_n = inf\n"), "force.limit_n: inf is out of range"));

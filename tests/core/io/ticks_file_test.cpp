@@ -11,9 +11,9 @@
 #include <sstream>
 
 using namespace tangent;
-using tangent::testing::TempFolder;
 using tangent::testing::contains;
 using tangent::testing::read_text;
+using tangent::testing::TempFolder;
 
 namespace {
 
@@ -77,8 +77,9 @@ TEST_CASE("every double of a tick reads back with the same bits") {
     CHECK(same(1, row.t_s));
     CHECK(text[2] == "edge");
     CHECK(text[3] == "17");
-    const double values[]{o.u, o.v, o.contact.x, o.contact.y, o.contact.z, o.normal.x, o.normal.y, o.normal.z,
-                          o.penetration_m, o.force_n.x, o.force_n.y, o.force_n.z, o.cld_m, o.error_m};
+    const double values[]{o.u,         o.v,         o.contact.x, o.contact.y,     o.contact.z,
+                          o.normal.x,  o.normal.y,  o.normal.z,  o.penetration_m, o.force_n.x,
+                          o.force_n.y, o.force_n.z, o.cld_m,     o.error_m};
     for (std::size_t k = 0; k < std::size(values); ++k) CHECK(same(4 + k, values[k]));
     CHECK(text[18] == "3");
     CHECK(text[19] == "0");

@@ -34,23 +34,37 @@ TEST_CASE("minus zero and zero are the same position") {
 
 TEST_CASE("positions one rounding apart stay two vertices: there is no welding distance") {
   const double near = std::nextafter(1.0, 2.0);
-  const ContactMesh m = build(sample::mesh({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 0, 0}, {near, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {3, 4, 5}}));
+  const ContactMesh m = build(
+      sample::mesh({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 0, 0}, {near, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {3, 4, 5}}));
   CHECK(m.across(0, 2).triangle == kNone);
   CHECK(count_boundary(m) == 6);
 }
 
 TEST_CASE("polygons are numbered as fans in file order, faces under three corners take no number") {
   std::vector<Vec3> p;
-  for (int i = 0; i < 1000; ++i) p.push_back(Vec3(std::cos(i * 2 * 3.14159265 / 1000), std::sin(i * 2 * 3.14159265 / 1000), 0));
+  for (int i = 0; i < 1000; ++i)
+    p.push_back(Vec3(std::cos(i * 2 * 3.14159265 / 1000), std::sin(i * 2 * 3.14159265 / 1000), 0));
   std::vector<std::uint32_t> big(1000);
   for (std::uint32_t i = 0; i < 1000; ++i) big[i] = i;
   const ContactMesh m = build(sample::mesh(p, {{0, 1}, {0, 250, 500, 750}, {}, {7}, {1, 0, 999}, big}), computed());
   REQUIRE(m.triangle_count() == 2 + 1 + 998);
   check_defects(m, MeshDefect::face_under_three_corners, {0, 2, 3});
   const auto corner = [&](std::uint32_t t, std::uint32_t k) { return m.position(t, k) + m.origin(); };
-  for (const auto& [t, k, v] : std::vector<std::array<std::uint32_t, 3>>{
-           {0, 0, 0}, {0, 1, 250}, {0, 2, 500}, {1, 0, 0}, {1, 1, 500}, {1, 2, 750}, {2, 0, 1}, {2, 1, 0}, {2, 2, 999},
-           {3, 0, 0}, {3, 1, 1}, {3, 2, 2}, {1000, 0, 0}, {1000, 1, 998}, {1000, 2, 999}}) {
+  for (const auto& [t, k, v] : std::vector<std::array<std::uint32_t, 3>>{{0, 0, 0},
+                                                                         {0, 1, 250},
+                                                                         {0, 2, 500},
+                                                                         {1, 0, 0},
+                                                                         {1, 1, 500},
+                                                                         {1, 2, 750},
+                                                                         {2, 0, 1},
+                                                                         {2, 1, 0},
+                                                                         {2, 2, 999},
+                                                                         {3, 0, 0},
+                                                                         {3, 1, 1},
+                                                                         {3, 2, 2},
+                                                                         {1000, 0, 0},
+                                                                         {1000, 1, 998},
+                                                                         {1000, 2, 999}}) {
     CAPTURE(t);
     CAPTURE(k);
     CHECK(glm::length(corner(t, k) - p[v]) < 1e-15);
@@ -77,14 +91,15 @@ TEST_CASE("what can't be built is refused with a reason") {
     o.fit_m = nonsense;
     CHECK_FALSE(ContactMesh::build(sample::cube(), o));
   }
-  for (const double nonsense : {std::nan(""), -1.0, 190.0}) CHECK_FALSE(ContactMesh::build(sample::cube(), computed(nonsense)));
+  for (const double nonsense : {std::nan(""), -1.0, 190.0})
+    CHECK_FALSE(ContactMesh::build(sample::cube(), computed(nonsense)));
 }
 
 TEST_CASE("origin is the middle of the box of what can be used - fit puts it at the world's origin") {
   auto source = sample::moved(sample::cube(), 0.5, Vec3(3, 4, 5));
   source.positions.push_back(Vec3(100, 100, 100));  // unreferenced
   source.positions.push_back(Vec3(200, 200, 200));
-  source.add_face({0, 9, 9});                       // degenerate
+  source.add_face({0, 9, 9});  // degenerate
   ContactMesh m = build(source);
   CHECK(m.origin() == Vec3(3, 4, 5));
   CHECK(m.bounds().min == Vec3(-0.5));
@@ -101,7 +116,8 @@ TEST_CASE("origin is the middle of the box of what can be used - fit puts it at 
 TEST_CASE("same topology and normals in micrometres, millimetres, kilometres, and a kilometre away") {
   const PolygonMesh sphere = make_icosphere(0.5, 3);
   const ContactMesh one = build(sphere, computed());
-  for (const auto& [scale, off] : std::vector<std::pair<double, double>>{{1e-6, 0}, {1e-3, 0}, {1e3, 0}, {1, 1e3}, {1e-3, 1e3}, {1e-6, 1e3}}) {
+  for (const auto& [scale, off] :
+       std::vector<std::pair<double, double>>{{1e-6, 0}, {1e-3, 0}, {1e3, 0}, {1, 1e3}, {1e-3, 1e3}, {1e-6, 1e3}}) {
     CAPTURE(scale);
     CAPTURE(off);
     const ContactMesh m = build(sample::moved(sphere, scale, off * unit(Vec3(1, 2, -3))), computed());
@@ -113,7 +129,8 @@ TEST_CASE("same topology and normals in micrometres, millimetres, kilometres, an
     bool same_links = true;
     for (std::uint32_t t = 0; t < m.triangle_count(); ++t)
       for (std::uint32_t k = 0; k < 3; ++k) {
-        same_links = same_links && m.across(t, k).triangle == one.across(t, k).triangle && m.edge_kind(t, k) == EdgeKind::smooth;
+        same_links =
+            same_links && m.across(t, k).triangle == one.across(t, k).triangle && m.edge_kind(t, k) == EdgeKind::smooth;
         worst = std::max(worst, glm::length(m.normal(t, k) - one.normal(t, k)));
       }
     CHECK(same_links);
@@ -123,7 +140,9 @@ TEST_CASE("same topology and normals in micrometres, millimetres, kilometres, an
 }
 
 TEST_CASE("content hash names the content") {
-  const auto hash = [](const PolygonMesh& m, double crease = 45.0) { return build(m, computed(crease)).content_hash(); };
+  const auto hash = [](const PolygonMesh& m, double crease = 45.0) {
+    return build(m, computed(crease)).content_hash();
+  };
   const std::uint64_t one = hash(sample::cube());
   auto same = sample::cube();
   same.positions.push_back(Vec3(7, 7, 7));  // unreferenced

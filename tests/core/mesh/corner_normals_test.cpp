@@ -1,7 +1,7 @@
 // Normals and creases as the contact mesh shows them.
+#include "core/mesh/corner_normals.h"
 #include "core/lab/objects/generate.h"
 #include "core/mesh/contact_mesh.h"
-#include "core/mesh/corner_normals.h"
 #include "core/mesh/triangle_shape.h"
 #include "tests/core/mesh/sample_meshes.h"
 
@@ -83,7 +83,9 @@ TEST_CASE("an edge at exactly the crease angle is no crease, one above it is") {
 
 TEST_CASE("a crease that ends inside the surface does not split its end vertex") {
   // A roof along x < 0 that runs out into the plane at the middle of the grid.
-  const PolygonMesh dart = sample::grid(8, [](double x, double y) { return x < -0.5 ? (1.0 - std::abs(y)) * std::min(1.0, -0.45 * x) * (std::abs(y) < 1.0) : 0.0; });
+  const PolygonMesh dart = sample::grid(8, [](double x, double y) {
+    return x < -0.5 ? (1.0 - std::abs(y)) * std::min(1.0, -0.45 * x) * (std::abs(y) < 1.0) : 0.0;
+  });
   const ContactMesh m = build(dart, NormalSource::computed, 30.0);
   REQUIRE(creases(m) > 0);
   std::uint32_t ends = 0;
@@ -111,7 +113,8 @@ TEST_CASE("a crease that ends inside the surface does not split its end vertex")
 
 TEST_CASE("a fan between two creases has one normal of its own") {
   // A tent: two slopes over the ridge y = 0; each side has the normal of its slope right up to the ridge.
-  const ContactMesh m = build(sample::grid(6, [](double, double y) { return -std::abs(y); }), NormalSource::computed, 45.0);
+  const ContactMesh m =
+      build(sample::grid(6, [](double, double y) { return -std::abs(y); }), NormalSource::computed, 45.0);
   CHECK(creases(m) == 6);
   for (std::uint32_t t = 0; t < m.triangle_count(); ++t) {
     const auto [a, b, c] = m.positions(t);
@@ -170,7 +173,8 @@ TEST_CASE("bad file normals are named and computed ones stand in") {
   for (std::uint32_t t = 0; t < m.triangle_count(); ++t)
     for (std::uint32_t k = 0; k < 3; ++k) CHECK(glm::dot(m.normal(t, k), unit(m.position(t, k))) > 0.99);
 
-  const ContactMesh none = build(with_normals(sphere, std::vector<Vec3>(normals.size(), Vec3(0.0))), NormalSource::automatic);
+  const ContactMesh none =
+      build(with_normals(sphere, std::vector<Vec3>(normals.size(), Vec3(0.0))), NormalSource::automatic);
   CHECK(none.normals_used() == NormalSource::computed);
   CHECK(none.defects(MeshDefect::bad_normal).count == sphere.positions.size());
   CHECK(creases(none) == 0);

@@ -75,7 +75,8 @@ struct NormalHealth {
 
 inline NormalHealth normal_health(const PolygonMesh& mesh) {
   NormalHealth health;
-  for (const Vec3& n : mesh.normals) health.worst_length = std::max(health.worst_length, std::abs(glm::length(n) - 1.0));
+  for (const Vec3& n : mesh.normals)
+    health.worst_length = std::max(health.worst_length, std::abs(glm::length(n) - 1.0));
   for_each_triangle(mesh, [&](const auto& t) {
     const auto p = [&](int k) { return mesh.positions[mesh.corner_position[t[k]]]; };
     const Vec3 across = unit(glm::cross(p(1) - p(0), p(2) - p(0)));

@@ -70,7 +70,8 @@ inline PolygonMesh moebius(int n) {
   for (int i = 0; i < n; ++i) {
     const double a = 2.0 * 3.14159265358979 * i / n;
     for (const double s : {-0.3, 0.3})
-      p.push_back(Vec3((1 + s * std::cos(a / 2)) * std::cos(a), (1 + s * std::cos(a / 2)) * std::sin(a), s * std::sin(a / 2)));
+      p.push_back(
+          Vec3((1 + s * std::cos(a / 2)) * std::cos(a), (1 + s * std::cos(a / 2)) * std::sin(a), s * std::sin(a / 2)));
   }
   const auto count = static_cast<std::uint32_t>(2 * n);
   for (std::uint32_t i = 0; i < count; i += 2) {

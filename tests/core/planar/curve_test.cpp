@@ -1,5 +1,5 @@
-#include "core/lab/objects/arc.h"
 #include "core/planar/curve.h"
+#include "core/lab/objects/arc.h"
 
 #include <doctest/doctest.h>
 
@@ -56,7 +56,8 @@ TEST_CASE("the bisectors' centre of equal segments is the centre of the circle t
 }
 
 TEST_CASE("the finger's side: left of an open polygon, outside of a closed one whichever way it turns") {
-  CHECK(curve_of({{0, 0}, {0.1, 0}, {0.2, 0.01}}).sample(0, LocalCentre::bisectors, 0.5).normal.y == doctest::Approx(1.0));
+  CHECK(curve_of({{0, 0}, {0.1, 0}, {0.2, 0.01}}).sample(0, LocalCentre::bisectors, 0.5).normal.y ==
+        doctest::Approx(1.0));
   std::vector<Vec2> square{{0, 0}, {0.1, 0}, {0.1, 0.1}, {0, 0.1}};
   CHECK(curve_of(square, true).sample(0, LocalCentre::bisectors, 1.0).normal.y == doctest::Approx(-1.0));
   std::reverse(square.begin(), square.end());

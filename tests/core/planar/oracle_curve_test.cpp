@@ -14,7 +14,8 @@ TEST_CASE("converged 2D contacts agree with the 40-digit oracle to 1e-12 m") {
     double worst_m = 0.0, worst_normal = 0.0, worst_t = 0.0;
     for (const auto& entry : oracle.at("curves")) {
       PlanarPolygon polygon;
-      for (const auto& v : entry.at("vertices_m")) polygon.vertices.emplace_back(v.at(0).get<double>(), v.at(1).get<double>());
+      for (const auto& v : entry.at("vertices_m"))
+        polygon.vertices.emplace_back(v.at(0).get<double>(), v.at(1).get<double>());
       const auto curve = PlanarCurve::build(std::move(polygon));
       REQUIRE(curve.has_value());
       for (const auto& c : entry.at("contacts")) {
@@ -28,9 +29,11 @@ TEST_CASE("converged 2D contacts agree with the 40-digit oracle to 1e-12 m") {
         CHECK(std::abs(static_cast<int>(out.triangle) - c.at("vertex").get<int>()) <= 1);
         const Vec3 contact(c.at("contact_m").at(0).get<double>(), c.at("contact_m").at(1).get<double>(), 0.0);
         const Vec3 normal(c.at("normal").at(0).get<double>(), c.at("normal").at(1).get<double>(), 0.0);
-        worst_m = std::max({worst_m, glm::length(out.contact - contact), std::abs(0.020 - out.penetration_m - c.at("height_m").get<double>())});
+        worst_m = std::max({worst_m, glm::length(out.contact - contact),
+                            std::abs(0.020 - out.penetration_m - c.at("height_m").get<double>())});
         worst_normal = std::max(worst_normal, glm::length(out.normal - normal));
-        if (static_cast<int>(out.triangle) == c.at("vertex").get<int>()) worst_t = std::max(worst_t, std::abs(out.u - c.at("t").get<double>()));
+        if (static_cast<int>(out.triangle) == c.at("vertex").get<int>())
+          worst_t = std::max(worst_t, std::abs(out.u - c.at("t").get<double>()));
         ++contacts;
       }
     }
@@ -39,6 +42,7 @@ TEST_CASE("converged 2D contacts agree with the 40-digit oracle to 1e-12 m") {
     CHECK(worst_m <= 1e-12);
     CHECK(worst_normal <= 1e-12);
     CHECK(worst_t <= 1e-10);
-    MESSAGE(name_of(method) << ": " << contacts << " contacts within " << worst_m << " m, normals within " << worst_normal);
+    MESSAGE(name_of(method) << ": " << contacts << " contacts within " << worst_m << " m, normals within "
+                            << worst_normal);
   }
 }

@@ -26,7 +26,8 @@ TickOutput once(const PlanarCurve& curve, Method method, const Vec3& at, double 
 
 }  // namespace
 
-TEST_CASE("2D facet: nearest point, its segment's normal - on a vertex from the vertex to the finger - behind it turned") {
+TEST_CASE(
+    "2D facet: nearest point, its segment's normal - on a vertex from the vertex to the finger - behind it turned") {
   const PlanarCurve curve = roof();
   // 19 mm off the right-hand slope, 30 mm down it.
   const Vec3 foot = 0.030 * Vec3(kHalf, -kHalf, 0.0), normal(kHalf, kHalf, 0.0);
@@ -64,8 +65,8 @@ TEST_CASE("2D two-pass: the spring leans with the shaded plane while the proxy s
   const Vec3 along(kHalf, -kHalf, 0.0), slope(kHalf, kHalf, 0.0);
   const Vec3 foot = part * length * along;
   const TickOutput out = once(curve, Method::two_pass, foot + (0.020 - depth) * slope);
-  // In the segment's own frame the shaded normal is (s, c); the goal is depth c (s, c) off the finger, so depth (1 - c^2)
-  // below the surface, and the second update lifts it straight up: the spring is depth (s c, 1).
+  // In the segment's own frame the shaded normal is (s, c); the goal is depth c (s, c) off the finger, so depth (1 -
+  // c^2) below the surface, and the second update lifts it straight up: the spring is depth (s c, 1).
   const Vec3 shaded = unit((1.0 - part) * Vec3(0.0, 1.0, 0.0) + part * slope);
   const double s = glm::dot(shaded, along), c = glm::dot(shaded, slope);
   const Vec3 spring = depth * (s * c * along + slope);
@@ -85,7 +86,8 @@ TEST_CASE("2D conditions: force and tactile sources are chosen apart") {
     TickState state;
     return step_planar(curve, preset, at_position(0.0, at), state, nullptr);
   };
-  const TickOutput facet = once(curve, Method::facet, at), shaded = once(curve, Method::force_shading, at), smooth = once(curve, Method::robust, at);
+  const TickOutput facet = once(curve, Method::facet, at), shaded = once(curve, Method::force_shading, at),
+                   smooth = once(curve, Method::robust, at);
   REQUIRE(glm::length(facet.force_n - smooth.force_n) > 1e-3);
   CHECK(glm::length(with(ForceSource::facet, TactileSource::held).force_n - facet.force_n) < 1e-12);
   CHECK(with(ForceSource::facet, TactileSource::held).cld_m == 0.0);

@@ -41,7 +41,8 @@ TEST_CASE("a CSV polygon is open, or closed when its first vertex comes again at
 }
 
 TEST_CASE("an OBJ polyline takes its unit, several elements in a chain, and indices from the end") {
-  const auto polygon = parse_polygon_obj("# a line\nv 0 0 5\nv 10 0 5\nv 10 10 5\nv 0 10 5\nl 1 2 3\nl 3 -1\n", "p.obj", 1e-3);
+  const auto polygon =
+      parse_polygon_obj("# a line\nv 0 0 5\nv 10 0 5\nv 10 10 5\nv 0 10 5\nl 1 2 3\nl 3 -1\n", "p.obj", 1e-3);
   REQUIRE_MESSAGE(polygon, (polygon ? "" : polygon.error().message()));
   CHECK(polygon->vertices.size() == 4);
   CHECK(polygon->vertices[2] == Vec2(0.01, 0.01));
@@ -103,8 +104,10 @@ TEST_CASE("the paper's arc: facets touch it at their midpoints, or stand on it w
   const PlanarPolygon tangent_arc = make_paper_arc(5, ArcPlacement::tangent, 0);
   CHECK(tangent_arc.vertices.size() == 6);
   for (std::size_t i = 0; i < 5; ++i)
-    CHECK(glm::length(0.5 * (tangent_arc.vertices[i] + tangent_arc.vertices[i + 1])) == doctest::Approx(kPaperArcRadius).epsilon(1e-14));
-  for (const Vec2& v : make_paper_arc(5, ArcPlacement::inscribed, 1).vertices) CHECK(glm::length(v) == doctest::Approx(kPaperArcRadius).epsilon(1e-14));
+    CHECK(glm::length(0.5 * (tangent_arc.vertices[i] + tangent_arc.vertices[i + 1])) ==
+          doctest::Approx(kPaperArcRadius).epsilon(1e-14));
+  for (const Vec2& v : make_paper_arc(5, ArcPlacement::inscribed, 1).vertices)
+    CHECK(glm::length(v) == doctest::Approx(kPaperArcRadius).epsilon(1e-14));
   // The paper: 16.3 segments are 3.38 degrees, 15.6 are 3.54.
   CHECK(kPaperArcRad / 15.3 * 180.0 / 3.14159265358979 == doctest::Approx(3.38).epsilon(2e-3));
   CHECK(facet_turn_rad(16, ArcPlacement::tangent) == doctest::Approx(kPaperArcRad / 15));

@@ -33,8 +33,12 @@ OraclePatch build(const nlohmann::json& j) {
 // 1e-12 of the patch's size; slivers lose what their aspect ratio amplifies.
 double tolerance(const OraclePatch& o) { return o.conditioning < 30.0 ? 1e-12 : 1e-12 * o.conditioning; }
 
-std::array<Vec3, 3> some_positions() { return {Vec3(0.01, 0.02, -0.01), Vec3(0.05, 0.01, 0.0), Vec3(0.02, 0.06, 0.01)}; }
-std::array<Vec3, 3> some_normals() { return {unit(Vec3(-0.3, -0.2, 1)), unit(Vec3(0.4, -0.1, 1)), unit(Vec3(0.0, 0.5, 1))}; }
+std::array<Vec3, 3> some_positions() {
+  return {Vec3(0.01, 0.02, -0.01), Vec3(0.05, 0.01, 0.0), Vec3(0.02, 0.06, 0.01)};
+}
+std::array<Vec3, 3> some_normals() {
+  return {unit(Vec3(-0.3, -0.2, 1)), unit(Vec3(0.4, -0.1, 1)), unit(Vec3(0.0, 0.5, 1))};
+}
 
 }  // namespace
 
@@ -48,7 +52,8 @@ TEST_CASE("control net, points, normals, derivatives and curvatures agree with t
     const double tol = tolerance(o);
     CAPTURE(j["kind"].get<std::string>());
     for (int i = 0; i < 10; ++i)
-      CHECK(glm::length(o.patch.control_point(ControlPoint(i)) - vec3(j["control_points"][kPoints[i]])) <= tol * o.size);
+      CHECK(glm::length(o.patch.control_point(ControlPoint(i)) - vec3(j["control_points"][kPoints[i]])) <=
+            tol * o.size);
     for (int i = 0; i < 6; ++i) CHECK(glm::length(o.patch.normals[i] - vec3(j["control_normals"][kNormals[i]])) <= tol);
     for (const auto& s : j["samples"]) {
       const SurfaceSample e = evaluate(o.patch, s["u"].get<double>(), s["v"].get<double>());
@@ -57,12 +62,14 @@ TEST_CASE("control net, points, normals, derivatives and curvatures agree with t
         return glm::length(a - b) / std::max(1.0, glm::length(b));
       };
       const double point = glm::length(e.point - vec3(s["point"])) / o.size;
-      const double derivative = std::max(glm::length(e.point_u - vec3(s["point_u"])), glm::length(e.point_v - vec3(s["point_v"]))) / o.size;
+      const double derivative =
+          std::max(glm::length(e.point_u - vec3(s["point_u"])), glm::length(e.point_v - vec3(s["point_v"]))) / o.size;
       const double normal = glm::length(e.normal - vec3(s["normal"]));
       const double turn = std::max(relative(e.normal_u, "normal_u"), relative(e.normal_v, "normal_v"));
       const Vec2 direction(s["direction"][0].get<double>(), s["direction"][1].get<double>());
       const double k = s["curvature"].get<double>();
-      const double curvature = std::abs(directional_curvature(e, direction.x, direction.y) - k) / std::max(k, 1.0 / o.size);
+      const double curvature =
+          std::abs(directional_curvature(e, direction.x, direction.y) - k) / std::max(k, 1.0 / o.size);
       CHECK(point <= tol);
       CHECK(derivative <= tol);
       CHECK(normal <= tol);
@@ -129,8 +136,10 @@ TEST_CASE("principal and normal curvatures of a paraboloid at its vertex are its
   const double a = 30.0, b = -12.0;
   const Vec2 corner[3] = {{-0.02, -0.02}, {0.03, -0.01}, {-0.01, 0.04}};
   const auto quadratic_blossom = [&](Vec2 p, Vec2 q) { return -0.5 * (a * p.x * q.x + b * p.y * q.y); };
-  const int triples[10][3] = {{0, 0, 0}, {1, 1, 1}, {2, 2, 2}, {0, 0, 1}, {0, 1, 1}, {1, 1, 2}, {1, 2, 2}, {0, 2, 2}, {0, 0, 2}, {0, 1, 2}};
-  PnPatch patch = make_pn_patch({Vec3(corner[0], 0), Vec3(corner[1], 0), Vec3(corner[2], 0)}, {Vec3(0, 0, 1), Vec3(0, 0, 1), Vec3(0, 0, 1)});
+  const int triples[10][3] = {{0, 0, 0}, {1, 1, 1}, {2, 2, 2}, {0, 0, 1}, {0, 1, 1},
+                              {1, 1, 2}, {1, 2, 2}, {0, 2, 2}, {0, 0, 2}, {0, 1, 2}};
+  PnPatch patch = make_pn_patch({Vec3(corner[0], 0), Vec3(corner[1], 0), Vec3(corner[2], 0)},
+                                {Vec3(0, 0, 1), Vec3(0, 0, 1), Vec3(0, 0, 1)});
   for (int i = 0; i < 10; ++i) {
     const Vec2 p = corner[triples[i][0]], q = corner[triples[i][1]], r = corner[triples[i][2]];
     const double z = (quadratic_blossom(p, q) + quadratic_blossom(q, r) + quadratic_blossom(p, r)) / 3.0;
@@ -153,8 +162,12 @@ TEST_CASE("normal curvature is signed, |dN/ds| holds the torsion too: |dN/ds|^2 
   // Normals of a saddle with principal curvatures +k and -k: at 45 degrees k_n = 0 and |dN/ds| = k.
   const double k = 20.0, e = 1e-3;
   const auto normal = [&](double x, double y) { return unit(Vec3(k * x, -k * y, 1.0)); };
-  const SurfaceSample s{Vec3(0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1),
-                        (normal(e, 0) - normal(-e, 0)) / (2 * e), (normal(0, e) - normal(0, -e)) / (2 * e)};
+  const SurfaceSample s{Vec3(0),
+                        Vec3(1, 0, 0),
+                        Vec3(0, 1, 0),
+                        Vec3(0, 0, 1),
+                        (normal(e, 0) - normal(-e, 0)) / (2 * e),
+                        (normal(0, e) - normal(0, -e)) / (2 * e)};
   CHECK(normal_curvature(s, 1, 0) == doctest::Approx(k).epsilon(1e-3));
   CHECK(normal_curvature(s, 0, 1) == doctest::Approx(-k).epsilon(1e-3));
   CHECK(std::abs(normal_curvature(s, 1, 1)) < 1e-9 * k);
@@ -209,7 +222,8 @@ TEST_CASE("a crease control point goes over into the smooth one and into the cre
 }
 
 TEST_CASE("a normal polynomial that vanishes falls back to the flat normal without NaN") {
-  const PnPatch patch = make_pn_patch({Vec3(0), Vec3(1, 0, 0), Vec3(0, 1, 0)}, {Vec3(0, 0, 1), Vec3(0, 0, -1), Vec3(0, 0, 1)});
+  const PnPatch patch =
+      make_pn_patch({Vec3(0), Vec3(1, 0, 0), Vec3(0, 1, 0)}, {Vec3(0, 0, 1), Vec3(0, 0, -1), Vec3(0, 0, 1)});
   for (int i = 0; i <= 40; ++i)
     for (int j = 0; i + j <= 40; ++j) {
       const SurfaceSample s = evaluate(patch, i / 40.0, j / 40.0);
@@ -232,7 +246,8 @@ TEST_CASE("along an edge the short evaluation gives what the patch gives there, 
         const EdgeNormal n = evaluate(edge_normals(patch, k), f);
         CHECK(glm::length(p.point - s.point) <= 1e-16);
         CHECK(glm::length(p.point_f - (du * s.point_u + dv * s.point_v)) <= 1e-16);
-        CHECK(glm::length(p.point_ff - (du * du * d.point_uu + 2.0 * du * dv * d.point_uv + dv * dv * d.point_vv)) <= 1e-15);
+        CHECK(glm::length(p.point_ff - (du * du * d.point_uu + 2.0 * du * dv * d.point_uv + dv * dv * d.point_vv)) <=
+              1e-15);
         CHECK(glm::length(n.normal - s.normal) <= 1e-15);
         CHECK(glm::length(n.normal_f - (du * s.normal_u + dv * s.normal_v)) <= 1e-14);
         CHECK(glm::length(unit(n.unscaled) - n.normal) <= 1e-15);

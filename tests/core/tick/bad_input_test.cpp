@@ -14,8 +14,10 @@ namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInf = std::numeric_limits<double>::infinity();
-constexpr std::array<Method, 5> kMethods{Method::paper, Method::newton, Method::robust, Method::facet, Method::force_shading};
-constexpr std::array<FingerShape, 4> kShapes{FingerShape::point, FingerShape::sphere, FingerShape::ellipsoid, FingerShape::capsule};
+constexpr std::array<Method, 5> kMethods{Method::paper, Method::newton, Method::robust, Method::facet,
+                                         Method::force_shading};
+constexpr std::array<FingerShape, 4> kShapes{FingerShape::point, FingerShape::sphere, FingerShape::ellipsoid,
+                                             FingerShape::capsule};
 
 ScenePtr icosphere() {
   static const ScenePtr scene = scene_of(make_icosphere(0.040, 2));
@@ -32,11 +34,12 @@ Preset preset_of(Method method, FingerShape shape, double size) {
 }
 
 bool state_is_finite(const TickState& s) {
-  return is_finite(s.plane.point) && is_finite(s.plane.normal) && std::isfinite(s.plane.u) && std::isfinite(s.plane.v) &&
-         is_finite(s.last_converged.point) && is_finite(s.last_converged.normal);
+  return is_finite(s.plane.point) && is_finite(s.plane.normal) && std::isfinite(s.plane.u) &&
+         std::isfinite(s.plane.v) && is_finite(s.last_converged.point) && is_finite(s.last_converged.normal);
 }
 
-/// Ticks whose output or state isn't finite, whose normal isn't unit, or that claim a contact with an error over the tolerance.
+/// Ticks whose output or state isn't finite, whose normal isn't unit, or that claim a contact with an error over the
+/// tolerance.
 struct Faults {
   int not_finite = 0, not_unit = 0, untrue = 0, unconverged = 0, ticks = 0;
   void add(const Preset& preset, const TickOutput& out, const TickState& state) {
@@ -96,8 +99,8 @@ TEST_CASE("a pose that is not finite gives an unconverged tick without NaN, and 
           const TickOutput before = good(0.0);
           const TickState kept = state;
           FingerPose pose{{0.0, 0.001, 0.057}, Quat(1.0, 0.0, 0.0, 0.0)};
-          double* parts[7] = {&pose.position.x, &pose.position.y, &pose.position.z,
-                              &pose.orientation.w, &pose.orientation.x, &pose.orientation.y, &pose.orientation.z};
+          double* parts[7] = {&pose.position.x,    &pose.position.y,    &pose.position.z,   &pose.orientation.w,
+                              &pose.orientation.x, &pose.orientation.y, &pose.orientation.z};
           *parts[where] = bad;
           const TickOutput out = stepper.step(preset, {1e-3, pose}, state);
           CHECK(out.status == TickStatus::unconverged);
@@ -164,7 +167,9 @@ TEST_CASE("a zero or unnormalised quaternion puts out no NaN with long fingers e
       }
 }
 
-TEST_CASE("robust converges at every vertex, on every edge, on faces, at the centre and close to the surface of an icosphere") {
+TEST_CASE(
+    "robust converges at every vertex, on every edge, on faces, at the centre and close to the surface of an "
+    "icosphere") {
   const ContactMesh& mesh = icosphere()->mesh();
   std::vector<Vec3> poses{Vec3(0.0), {1e-12, 0.0, 0.0}};
   for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t) {
@@ -256,7 +261,8 @@ TEST_CASE("the same pose twice takes no iteration the second time and gives the 
           if (first.status == TickStatus::unconverged) continue;
           ++tried;
           more += second.iterations != 0;
-          moved += second.triangle != first.triangle || second.u != first.u || second.v != first.v || second.event != TickEvent::none;
+          moved += second.triangle != first.triangle || second.u != first.u || second.v != first.v ||
+                   second.event != TickEvent::none;
         }
         CHECK(tried > 25);
         CHECK(more == 0);
@@ -336,10 +342,12 @@ TEST_CASE("normals that are zero, not finite, reversed or all over the place put
 }
 
 TEST_CASE("one triangle, a Moebius strip, a bow tie and two plates back to back put out no NaN") {
-  PolygonMesh bow_tie = sample::mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0.3}}, {{0, 1, 2}, {0, 3, 4}});
+  PolygonMesh bow_tie =
+      sample::mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0.3}}, {{0, 1, 2}, {0, 3, 4}});
   PolygonMesh back_to_back = sample::mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 1}});
   PolygonMesh one = sample::mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
-  for (const PolygonMesh& mesh : {one, sample::moebius(24), bow_tie, back_to_back, sample::cube(), sample::grid(3, [](double x, double y) { return x * y; })}) {
+  for (const PolygonMesh& mesh : {one, sample::moebius(24), bow_tie, back_to_back, sample::cube(),
+                                  sample::grid(3, [](double x, double y) { return x * y; })}) {
     const Faults faults = random_poses(scene_of(mesh), rounds(2000), 94, kAllMethods);
     faults.check();
   }
@@ -347,7 +355,8 @@ TEST_CASE("one triangle, a Moebius strip, a bow tie and two plates back to back 
 
 TEST_CASE("robust always finds a contact with the sphere finger on one triangle, a Moebius strip and sharp bodies") {
   PolygonMesh one = sample::mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
-  for (const PolygonMesh& mesh : {one, sample::moebius(24), sample::cube(), *generate_mesh("octagon"), *generate_mesh("cone")}) {
+  for (const PolygonMesh& mesh :
+       {one, sample::moebius(24), sample::cube(), *generate_mesh("octagon"), *generate_mesh("cone")}) {
     const auto scene = scene_of(mesh);
     const double size = glm::length(scene->mesh().bounds().size());
     Preset preset = preset_of(Method::robust, FingerShape::sphere, 0.1 * size);
@@ -357,7 +366,9 @@ TEST_CASE("robust always finds a contact with the sphere finger on one triangle,
     int unconverged = 0;
     for (int i = 0; i < rounds(2000); ++i) {
       TickState state;
-      unconverged += stepper.step(preset, at_position(0.0, scene->mesh().origin() + random.in_cube(size)), state).status == TickStatus::unconverged;
+      unconverged +=
+          stepper.step(preset, at_position(0.0, scene->mesh().origin() + random.in_cube(size)), state).status ==
+          TickStatus::unconverged;
     }
     CAPTURE(mesh.positions.size());
     CHECK(unconverged == 0);
@@ -388,7 +399,8 @@ TEST_CASE("random poses with the other methods on random triangle soups put out 
     auto built = ContactMesh::build(sample::soup(seed, 4 + static_cast<int>(seed % 20), 3 + static_cast<int>(seed)));
     if (!built) continue;
     auto scene = ContactScene::build(std::move(*built));
-    const Faults f = random_poses(*scene, rounds(500), seed, {Method::paper, Method::newton, Method::facet, Method::force_shading});
+    const Faults f =
+        random_poses(*scene, rounds(500), seed, {Method::paper, Method::newton, Method::facet, Method::force_shading});
     all.not_finite += f.not_finite, all.not_unit += f.not_unit, all.untrue += f.untrue, all.ticks += f.ticks;
   }
   all.check();

@@ -119,8 +119,10 @@ TEST_CASE("a deeper place elsewhere takes over once, by the hysteresis, marked s
       for (int i = 0; i <= 2000; ++i) {
         const double z = -0.001 + 1e-6 * i;
         const TickOutput out = stepper.step(preset, at_position(1e-3 * i, {0.0031, 0.0017, z}), state);
-        if (out.event == TickEvent::switched) ++switches, at = z;
-        else if (i > 0 && out.event != TickEvent::none) ++other;
+        if (out.event == TickEvent::switched)
+          ++switches, at = z;
+        else if (i > 0 && out.event != TickEvent::none)
+          ++other;
         CHECK(std::abs(out.penetration_m - (0.0005 + (switches ? z : -z))) <= 1e-12);
         CHECK(out.normal.z == doctest::Approx(switches ? -1.0 : 1.0));
       }
@@ -133,7 +135,8 @@ TEST_CASE("a deeper place elsewhere takes over once, by the hysteresis, marked s
   }
 }
 
-TEST_CASE("without a converged contact the last plane holds for 5 ms, then ramps to zero over 5 ms, at the present pose") {
+TEST_CASE(
+    "without a converged contact the last plane holds for 5 ms, then ramps to zero over 5 ms, at the present pose") {
   for (const Method method : kSmoothMethods) {
     CAPTURE(name_of(method));
     Preset good = sphere_preset(0.020, method);
@@ -196,7 +199,8 @@ TEST_CASE("the paper's iteration without curvature gain does not converge on the
   double force = 1.0;
   for (int i = 0; i < 30; ++i) {
     const double a = 0.002 * i + 0.05;
-    const TickOutput out = stepper.step(preset, at_position(1e-3 * i, 0.074 * Vec3(std::cos(a), std::sin(a), 0.02)), state);
+    const TickOutput out =
+        stepper.step(preset, at_position(1e-3 * i, 0.074 * Vec3(std::cos(a), std::sin(a), 0.02)), state);
     unconverged += out.status == TickStatus::unconverged;
     force = glm::length(out.force_n);
   }
@@ -207,7 +211,8 @@ TEST_CASE("the paper's iteration without curvature gain does not converge on the
 TEST_CASE("a free finger has a plane and a display position, but no force") {
   for (const Method method : kSmoothMethods) {
     const Preset preset = sphere_preset(0.020, method);
-    const TickOutput out = solve_once(icosphere(), preset, {0.061 * unit(Vec3(0.3, 0.1, 1.0)), Quat(1.0, 0.0, 0.0, 0.0)});
+    const TickOutput out =
+        solve_once(icosphere(), preset, {0.061 * unit(Vec3(0.3, 0.1, 1.0)), Quat(1.0, 0.0, 0.0, 0.0)});
     CHECK(out.status == TickStatus::free);
     CHECK(out.penetration_m == doctest::Approx(-0.001).epsilon(2e-3));
     CHECK(glm::length(out.force_n) == 0.0);
@@ -227,5 +232,5 @@ TEST_CASE("damping acts along the normal with the finger's speed, and not on the
   const TickOutput out = stepper.step(preset, at_position(2e-3, {0.059, 0.0, 0.0}), state);
   CHECK(glm::dot(out.force_n, out.normal) == doctest::Approx(800.0 * out.penetration_m - 0.5).epsilon(1e-4));
   const TickOutput fast = stepper.step(preset, at_position(3e-3, {0.0595, 0.0, 0.0}), state);  // 0.5 m/s outwards
-  CHECK(glm::length(fast.force_n) == 0.0);  // never pulls
+  CHECK(glm::length(fast.force_n) == 0.0);                                                     // never pulls
 }

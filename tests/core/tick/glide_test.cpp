@@ -14,12 +14,14 @@ using namespace tangent::test;
 namespace {
 
 std::vector<ScenePtr> scenes() {
-  std::vector<ScenePtr> all{scene_of(make_icosphere(0.040, 2)), scene_of(*generate_mesh("cube", {.rounding_m = 1.5e-3}))};
+  std::vector<ScenePtr> all{scene_of(make_icosphere(0.040, 2)),
+                            scene_of(*generate_mesh("cube", {.rounding_m = 1.5e-3}))};
   for (const char* name : {"cube", "octagon", "cylinder", "cone"}) all.push_back(scene_of(*generate_mesh(name)));
   return all;
 }
 
-/// A centre that goes round an object of 80 mm on slowly turning circles, up and down, and now and then leaps or stands still.
+/// A centre that goes round an object of 80 mm on slowly turning circles, up and down, and now and then leaps or stands
+/// still.
 class Rounds {
  public:
   TickInput next() {
@@ -38,34 +40,37 @@ class Rounds {
 };
 
 std::array<double, 14> numbers_of(const TickOutput& o) {
-  return {o.u,          o.v,          o.contact.x, o.contact.y, o.contact.z, o.normal.x,      o.normal.y,
-          o.normal.z,   o.force_n.x,  o.force_n.y, o.force_n.z, o.cld_m,      o.error_m,       o.penetration_m};
+  return {o.u,        o.v,         o.contact.x, o.contact.y, o.contact.z, o.normal.x, o.normal.y,
+          o.normal.z, o.force_n.x, o.force_n.y, o.force_n.z, o.cld_m,     o.error_m,  o.penetration_m};
 }
 
 bool same(const TickOutput& a, const TickOutput& b) {
   const auto x = numbers_of(a), y = numbers_of(b);
-  return std::memcmp(x.data(), y.data(), sizeof x) == 0 && a.status == b.status && a.event == b.event && a.triangle == b.triangle &&
-         a.iterations == b.iterations && a.triangle_changes == b.triangle_changes;
+  return std::memcmp(x.data(), y.data(), sizeof x) == 0 && a.status == b.status && a.event == b.event &&
+         a.triangle == b.triangle && a.iterations == b.iterations && a.triangle_changes == b.triangle_changes;
 }
 
 bool same(const TrackedPlane& a, const TrackedPlane& b) {
-  return a.feature == b.feature && a.side == b.side && a.triangle == b.triangle && a.u == b.u && a.v == b.v && a.point == b.point &&
-         a.normal == b.normal && a.turn == b.turn;
+  return a.feature == b.feature && a.side == b.side && a.triangle == b.triangle && a.u == b.u && a.v == b.v &&
+         a.point == b.point && a.normal == b.normal && a.turn == b.turn;
 }
 
 bool same(const TickState& a, const TickState& b) {
-  return same(a.plane, b.plane) && a.last_converged.point == b.last_converged.point && a.last_converged.normal == b.last_converged.normal &&
-         a.has_converged == b.has_converged && a.last_converged_s == b.last_converged_s && a.last_position == b.last_position &&
-         a.last_t_s == b.last_t_s && a.clearance.free_m == b.clearance.free_m && a.clearance.centre == b.clearance.centre;
+  return same(a.plane, b.plane) && a.last_converged.point == b.last_converged.point &&
+         a.last_converged.normal == b.last_converged.normal && a.has_converged == b.has_converged &&
+         a.last_converged_s == b.last_converged_s && a.last_position == b.last_position && a.last_t_s == b.last_t_s &&
+         a.clearance.free_m == b.clearance.free_m && a.clearance.centre == b.clearance.centre;
 }
 
 /// Every number of a fan, and its flags.
 bool same(const EdgeFan& a, const EdgeFan& b) {
   const auto vectors = [](const EdgeFan& f) {
-    return std::array{f.point, f.point_f, f.tangent, f.tangent_f, f.e1, f.e2, f.near_normal, f.far_normal, f.near_normal_f, f.far_normal_f};
+    return std::array{f.point, f.point_f,     f.tangent,    f.tangent_f,     f.e1,
+                      f.e2,    f.near_normal, f.far_normal, f.near_normal_f, f.far_normal_f};
   };
-  return vectors(a) == vectors(b) && a.tilt_near == b.tilt_near && a.tilt_far == b.tilt_far && a.far == b.far && a.even == b.even &&
-         a.cot_half == b.cot_half && a.uniform == b.uniform && (!a.uniform || (a.start == b.start && a.per_length2 == b.per_length2));
+  return vectors(a) == vectors(b) && a.tilt_near == b.tilt_near && a.tilt_far == b.tilt_far && a.far == b.far &&
+         a.even == b.even && a.cot_half == b.cot_half && a.uniform == b.uniform &&
+         (!a.uniform || (a.start == b.start && a.per_length2 == b.per_length2));
 }
 
 /// Two meshes in one, side by side.
@@ -76,7 +81,8 @@ PolygonMesh side_by_side(const PolygonMesh& a, const PolygonMesh& b, const Vec3&
   const auto first = static_cast<std::uint32_t>(a.positions.size());
   for (const Vec3& p : b.positions) both.positions.push_back(p + offset);
   for (std::size_t f = 0; f + 1 < b.face_offsets.size(); ++f) {
-    for (std::uint32_t c = b.face_offsets[f]; c < b.face_offsets[f + 1]; ++c) both.corner_position.push_back(first + b.corner_position[c]);
+    for (std::uint32_t c = b.face_offsets[f]; c < b.face_offsets[f + 1]; ++c)
+      both.corner_position.push_back(first + b.corner_position[c]);
     both.face_offsets.push_back(static_cast<std::uint32_t>(both.corner_position.size()));
   }
   return both;
@@ -84,7 +90,9 @@ PolygonMesh side_by_side(const PolygonMesh& a, const PolygonMesh& b, const Vec3&
 
 }  // namespace
 
-TEST_CASE("a tick that glides gives output and state of the long way, which traced ticks and a cold stepper take, bit for bit") {
+TEST_CASE(
+    "a tick that glides gives output and state of the long way, which traced ticks and a cold stepper take, bit for "
+    "bit") {
   const auto trace = std::make_unique<IterationTrace>();
   for (const ScenePtr& scene : scenes()) {
     for (const FingerShape shape : {FingerShape::sphere, FingerShape::point}) {
@@ -102,7 +110,8 @@ TEST_CASE("a tick that glides gives output and state of the long way, which trac
         const TickOutput out = stepper.step(preset, input, state);
         trace->clear();
         Stepper cold(scene), traced(scene);
-        different += !same(out, cold.step(preset, input, cold_state)) || !same(out, traced.step(preset, input, traced_state, trace.get()));
+        different += !same(out, cold.step(preset, input, cold_state)) ||
+                     !same(out, traced.step(preset, input, traced_state, trace.get()));
         different_state += !same(state, cold_state) || !same(state, traced_state);
         one_plane += out.event == TickEvent::none && out.iterations == 1;
       }
@@ -140,7 +149,9 @@ TEST_CASE("a fan is the same whatever edge its place in the cache was of before"
   CHECK(uniform < ticks - ticks / 20);
 }
 
-TEST_CASE("around a vertex the cache gives every face and every crease once, and the same a second time and with more faces than it holds") {
+TEST_CASE(
+    "around a vertex the cache gives every face and every crease once, and the same a second time and with more faces "
+    "than it holds") {
   const ScenePtr fan = scene_of(*generate_mesh("cone", {.segments = 200}));
   for (const ScenePtr& scene : {scene_of(*generate_mesh("octagon")), fan}) {
     const ContactMesh& mesh = scene->mesh();
@@ -149,7 +160,9 @@ TEST_CASE("around a vertex the cache gives every face and every crease once, and
     for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t) {
       for (std::uint32_t k = 0; k < 3; ++k) {
         std::size_t faces = 0, creases = 0;
-        around_vertex(mesh, t, k, [&](std::uint32_t at, std::uint32_t c) { ++faces, creases += mesh.edge_kind(at, c) == EdgeKind::crease; });
+        around_vertex(mesh, t, k, [&](std::uint32_t at, std::uint32_t c) {
+          ++faces, creases += mesh.edge_kind(at, c) == EdgeKind::crease;
+        });
         for (int time = 0; time < 2; ++time) {
           std::size_t seen = 0, rays = 0, off = 0;
           cache->around(
@@ -158,7 +171,9 @@ TEST_CASE("around a vertex the cache gives every face and every crease once, and
                 ++seen;
                 off += glm::distance(s.point, mesh.position(t, k)) > 1e-15 || mesh.vertex(at, c) != mesh.vertex(t, k);
               },
-              [&](std::uint32_t, std::uint32_t, double, const EdgeFan& f) { ++rays, off += glm::distance(f.point, mesh.position(t, k)) > 1e-15; });
+              [&](std::uint32_t, std::uint32_t, double, const EdgeFan& f) {
+                ++rays, off += glm::distance(f.point, mesh.position(t, k)) > 1e-15;
+              });
           CHECK(seen == faces);
           CHECK(rays == creases);
           CHECK(off == 0);

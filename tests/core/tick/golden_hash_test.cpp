@@ -45,8 +45,8 @@ ScenePtr portable_scene(const PolygonMesh& source) {
 }
 
 std::vector<ScenePtr> scenes() {
-  return {portable_scene(make_torus(0.040, 0.015, 48, 24)), portable_scene(*generate_mesh("cube", {.rounding_m = 1.5e-3})),
-          portable_scene(*generate_mesh("octagon"))};
+  return {portable_scene(make_torus(0.040, 0.015, 48, 24)),
+          portable_scene(*generate_mesh("cube", {.rounding_m = 1.5e-3})), portable_scene(*generate_mesh("octagon"))};
 }
 
 /// Turns v about the given axis by the angle whose half has tangent t: no sine, no cosine.
@@ -153,9 +153,10 @@ TEST_CASE("a cold stepper gives a recorded tick the same bits: replay, scrubbing
         Stepper cold(scene);
         TickState again = record.kept;
         different += !same_bits(cold.step(preset, record.input, again), record.output);
-        different_state += again.plane.triangle != state.plane.triangle || again.plane.u != state.plane.u ||
-                           again.plane.normal != state.plane.normal || again.clearance.margin_m != state.clearance.margin_m ||
-                           again.clearance.centre != state.clearance.centre || again.clearance.watched != state.clearance.watched;
+        different_state +=
+            again.plane.triangle != state.plane.triangle || again.plane.u != state.plane.u ||
+            again.plane.normal != state.plane.normal || again.clearance.margin_m != state.clearance.margin_m ||
+            again.clearance.centre != state.clearance.centre || again.clearance.watched != state.clearance.watched;
       }
     }
     CAPTURE(name_of(method));
@@ -222,6 +223,7 @@ TEST_CASE("a tick's kept state is plain bytes: a copy of it goes on in the same 
   std::memcpy(&copy, bytes, sizeof copy);
   Path ahead = path;
   int different = 0;
-  for (int i = 0; i < 500; ++i) different += !same_bits(a.step(preset, path.next(), state), b.step(preset, ahead.next(), copy));
+  for (int i = 0; i < 500; ++i)
+    different += !same_bits(a.step(preset, path.next(), state), b.step(preset, ahead.next(), copy));
   CHECK(different == 0);
 }

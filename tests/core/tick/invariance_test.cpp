@@ -37,7 +37,8 @@ std::vector<Vec3> path_over(const PolygonMesh& mesh, double radius, int ticks) {
     if (!hit) continue;
     const Vec3 on = from - hit.distance_m * direction;
     const NearestHit nearest = scene->nearest().nearest(on + radius * direction, size);
-    path.push_back(scene->mesh().origin() + nearest.point + (radius - 5e-4) * unit(on + radius * direction - nearest.point));
+    path.push_back(scene->mesh().origin() + nearest.point +
+                   (radius - 5e-4) * unit(on + radius * direction - nearest.point));
   }
   return path;
 }
@@ -63,13 +64,15 @@ Preset scaled(Preset p, double scale) {
   return p;
 }
 
-std::vector<TickOutput> run(const ScenePtr& scene, const Preset& preset, const std::vector<Vec3>& path, double scale = 1.0,
-                            const Vec3& move = Vec3(0.0), const Quat& turn = Quat(1.0, 0.0, 0.0, 0.0)) {
+std::vector<TickOutput> run(const ScenePtr& scene, const Preset& preset, const std::vector<Vec3>& path,
+                            double scale = 1.0, const Vec3& move = Vec3(0.0),
+                            const Quat& turn = Quat(1.0, 0.0, 0.0, 0.0)) {
   Stepper stepper(scene);
   TickState state;
   std::vector<TickOutput> ticks;
   for (const Vec3& p : path)
-    ticks.push_back(stepper.step(preset, {1e-3 * static_cast<double>(ticks.size()), {scale * (turn * p) + move, turn}}, state));
+    ticks.push_back(
+        stepper.step(preset, {1e-3 * static_cast<double>(ticks.size()), {scale * (turn * p) + move, turn}}, state));
   return ticks;
 }
 
@@ -93,7 +96,8 @@ struct Difference {
   double uv = 0.0, contact_m = 0.0, normal = 0.0;
 };
 
-Difference compare(const std::vector<TickOutput>& a, const std::vector<TickOutput>& b, double scale, const Vec3& move, const Quat& turn) {
+Difference compare(const std::vector<TickOutput>& a, const std::vector<TickOutput>& b, double scale, const Vec3& move,
+                   const Quat& turn) {
   REQUIRE(a.size() == b.size());
   REQUIRE(a.size() > 100);
   Difference d;
@@ -120,7 +124,8 @@ TEST_CASE("a mesh 1024 times smaller or a million times larger gives the same bi
         CAPTURE(std::string(s.name));
         CAPTURE(name_of(method));
         CAPTURE(scale);
-        const auto other = run(scene_of(transformed(s.mesh, scale, Vec3(0.0), kNoTurn)), scaled(preset, scale), s.path, scale);
+        const auto other =
+            run(scene_of(transformed(s.mesh, scale, Vec3(0.0), kNoTurn)), scaled(preset, scale), s.path, scale);
         const Difference d = compare(metres, other, scale, Vec3(0.0), kNoTurn);
         CHECK(d.status == 0);
         CHECK(d.iterations == 0);
@@ -142,7 +147,8 @@ TEST_CASE("the same mesh in millimetres, metres and kilometres gives the same ba
         CAPTURE(std::string(s.name));
         CAPTURE(name_of(method));
         CAPTURE(scale);
-        const auto other = run(scene_of(transformed(s.mesh, scale, Vec3(0.0), kNoTurn)), scaled(preset, scale), s.path, scale);
+        const auto other =
+            run(scene_of(transformed(s.mesh, scale, Vec3(0.0), kNoTurn)), scaled(preset, scale), s.path, scale);
         const Difference d = compare(metres, other, scale, Vec3(0.0), kNoTurn);
         CHECK(d.status == 0);
         CHECK(d.iterations <= d.ticks / 50);
@@ -178,12 +184,14 @@ TEST_CASE("turning mesh and finger together turns the contact with them") {
       Preset preset = base_preset(method);
       preset.solver.tolerance_m = 1e-11;
       const auto straight = run(scene_of(s.mesh), preset, s.path);
-      const auto turned = run(scene_of(transformed(s.mesh, 1.0, Vec3(0.0), turn)), preset, s.path, 1.0, Vec3(0.0), turn);
+      const auto turned =
+          run(scene_of(transformed(s.mesh, 1.0, Vec3(0.0), turn)), preset, s.path, 1.0, Vec3(0.0), turn);
       const Difference d = compare(straight, turned, 1.0, Vec3(0.0), turn);
       CHECK(d.contact_m <= 1e-9);
       CHECK(d.normal <= 1e-8);
       double cld = 0.0;
-      for (std::size_t i = 0; i < straight.size(); ++i) cld = std::max(cld, std::abs(straight[i].cld_m - turned[i].cld_m));
+      for (std::size_t i = 0; i < straight.size(); ++i)
+        cld = std::max(cld, std::abs(straight[i].cld_m - turned[i].cld_m));
       CHECK(cld <= 1e-9);
     }
 }
@@ -194,7 +202,8 @@ TEST_CASE("the order of the triangles and of their corners changes no contact") 
     Random random(42);
     std::vector<std::uint32_t> order(s.mesh.face_count());
     std::iota(order.begin(), order.end(), 0u);
-    for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random.below(static_cast<std::uint32_t>(i))]);
+    for (std::size_t i = order.size(); i > 1; --i)
+      std::swap(order[i - 1], order[random.below(static_cast<std::uint32_t>(i))]);
     shuffled.corner_position.clear();
     shuffled.corner_normal.clear();
     shuffled.face_offsets = {0};
@@ -204,7 +213,8 @@ TEST_CASE("the order of the triangles and of their corners changes no contact") 
       for (std::uint32_t k = 0; k < face.size(); ++k) {
         const std::size_t corner = (first + k) % face.size();
         shuffled.corner_position.push_back(face[corner]);
-        if (!s.mesh.corner_normal.empty()) shuffled.corner_normal.push_back(s.mesh.corner_normal[s.mesh.face_offsets[f] + corner]);
+        if (!s.mesh.corner_normal.empty())
+          shuffled.corner_normal.push_back(s.mesh.corner_normal[s.mesh.face_offsets[f] + corner]);
       }
       shuffled.face_offsets.push_back(static_cast<std::uint32_t>(shuffled.corner_position.size()));
     }
@@ -237,7 +247,8 @@ TEST_CASE("the fandisk gives the same contacts in millimetres, and a kilometre a
   Preset preset = base_preset(Method::robust);
   preset.finger.radius_m = 0.005;
   const auto metres = run(scene_of(mesh), preset, poses);
-  const auto large = run(scene_of(transformed(mesh, 0x1p10, Vec3(0.0), kNoTurn)), scaled(preset, 0x1p10), poses, 0x1p10);
+  const auto large =
+      run(scene_of(transformed(mesh, 0x1p10, Vec3(0.0), kNoTurn)), scaled(preset, 0x1p10), poses, 0x1p10);
   const Difference scale = compare(metres, large, 0x1p10, Vec3(0.0), kNoTurn);
   CHECK(scale.status == 0);
   CHECK(scale.iterations == 0);

@@ -1,6 +1,6 @@
 // Ticks on 2D scenes: contacts known by hand, tracking against brute force, corners, ends, other places.
-#include "core/lab/objects/arc.h"
 #include "core/tick/planar_step.h"
+#include "core/lab/objects/arc.h"
 #include "tests/core/scenes.h"
 
 #include <limits>
@@ -63,7 +63,8 @@ PlanarCurve blob() {
 
 TEST_CASE("on a straight polygon the 2D contact is the finger's foot, in one line, whatever the method") {
   const PlanarCurve line = curve_of({{-0.05, 0.01}, {0.0, 0.01}, {0.05, 0.01}, {0.06, 0.02}});
-  for (const Method method : {Method::paper, Method::newton, Method::robust, Method::facet, Method::force_shading, Method::two_pass}) {
+  for (const Method method :
+       {Method::paper, Method::newton, Method::robust, Method::facet, Method::force_shading, Method::two_pass}) {
     CAPTURE(name_of(method));
     const TickOutput out = once(line, sphere_preset(0.020, method), {-0.012, 0.029});
     CHECK(out.status == TickStatus::face);
@@ -121,7 +122,8 @@ TEST_CASE("on the paper's arc the appendix's iteration tracks in about three lin
   for (int i = 0; i < kTicks; ++i) {
     const double a = kPaperArcRad * (static_cast<double>(i) / kTicks - 0.5);
     const double distance = kPaperArcRadius + 0.019;
-    const TickOutput out = step_planar(arc, preset, at_position(1e-3 * i, {distance * std::sin(a), distance * std::cos(a), 0.0}), state, nullptr);
+    const TickOutput out = step_planar(
+        arc, preset, at_position(1e-3 * i, {distance * std::sin(a), distance * std::cos(a), 0.0}), state, nullptr);
     iterations += out.iterations;
     unconverged += out.status == TickStatus::unconverged;
     CHECK(out.error_m < 1e-6);
@@ -224,7 +226,9 @@ TEST_CASE("a 2D scene steps like any other: z ignored, turned and moved with the
 
   std::vector<Vec2> moved;
   const double turn = 0.7;
-  const auto map = [&](const Vec2& v) { return Vec2(std::cos(turn) * v.x - std::sin(turn) * v.y + 3.0, std::sin(turn) * v.x + std::cos(turn) * v.y - 2.0); };
+  const auto map = [&](const Vec2& v) {
+    return Vec2(std::cos(turn) * v.x - std::sin(turn) * v.y + 3.0, std::sin(turn) * v.x + std::cos(turn) * v.y - 2.0);
+  };
   for (const Vec2& v : make_paper_arc(5).vertices) moved.push_back(map(v));
   const PlanarCurve turned = curve_of(moved), straight = curve_of(make_paper_arc(5).vertices);
   const Vec2 at(0.03, 0.122);
@@ -242,7 +246,8 @@ TEST_CASE("a pose that is not finite leaves a 2D tick unconverged and its output
   const Preset preset = sphere_preset(0.020, Method::robust);
   TickState state;
   step_planar(arc, preset, at_position(0.0, {0.0, 0.125, 0.0}), state, nullptr);
-  const TickOutput out = step_planar(arc, preset, at_position(1e-3, {std::numeric_limits<double>::quiet_NaN(), 0.125, 0.0}), state, nullptr);
+  const TickOutput out = step_planar(
+      arc, preset, at_position(1e-3, {std::numeric_limits<double>::quiet_NaN(), 0.125, 0.0}), state, nullptr);
   CHECK(out.status == TickStatus::unconverged);
   CHECK(all_finite(out));
 }

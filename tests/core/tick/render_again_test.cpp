@@ -12,16 +12,20 @@ using namespace tangent::test;
 namespace {
 
 ScenePtr outline() {
-  PlanarPolygon polygon{"outline", {{-0.060, -0.030}, {0.055, -0.034}, {0.055, -0.034}, {0.048, 0.018}, {0.022, 0.004}, {-0.050, 0.034}}, true};
+  PlanarPolygon polygon{
+      "outline",
+      {{-0.060, -0.030}, {0.055, -0.034}, {0.055, -0.034}, {0.048, 0.018}, {0.022, 0.004}, {-0.050, 0.034}},
+      true};
   auto curve = PlanarCurve::build(polygon);
   REQUIRE(curve);
   return *ContactScene::build(std::move(*curve));
 }
 
 bool same(const TickOutput& a, const TickOutput& b) {
-  return a.status == b.status && a.event == b.event && a.triangle == b.triangle && a.u == b.u && a.v == b.v && a.contact == b.contact &&
-         a.normal == b.normal && a.penetration_m == b.penetration_m && a.force_n == b.force_n && a.cld_m == b.cld_m &&
-         a.error_m == b.error_m && a.iterations == b.iterations && a.triangle_changes == b.triangle_changes;
+  return a.status == b.status && a.event == b.event && a.triangle == b.triangle && a.u == b.u && a.v == b.v &&
+         a.contact == b.contact && a.normal == b.normal && a.penetration_m == b.penetration_m &&
+         a.force_n == b.force_n && a.cld_m == b.cld_m && a.error_m == b.error_m && a.iterations == b.iterations &&
+         a.triangle_changes == b.triangle_changes;
 }
 
 /// Around a torus or an outline, in and out of contact.
@@ -70,19 +74,23 @@ TEST_CASE("force and display rendered again from a known contact are a step's, b
 
 TEST_CASE("presets have the same contacts unless they differ in something that their method reads") {
   using Change = std::function<void(Preset&)>;
-  const std::vector<Change> gains{[](Preset& p) { p.solver.gain_overall = 0.7; }, [](Preset& p) { p.solver.gain_curvature_m = 0.0137; },
+  const std::vector<Change> gains{[](Preset& p) { p.solver.gain_overall = 0.7; },
+                                  [](Preset& p) { p.solver.gain_curvature_m = 0.0137; },
                                   [](Preset& p) { p.solver.gain_distance_per_m = 3.0; },
                                   [](Preset& p) { p.solver.distance_reading = DistanceReading::centre; }};
-  const std::vector<Change> read{[](Preset& p) { p.solver.tolerance_m = 2e-6; }, [](Preset& p) { p.solver.max_iterations = 7; },
+  const std::vector<Change> read{[](Preset& p) { p.solver.tolerance_m = 2e-6; },
+                                 [](Preset& p) { p.solver.max_iterations = 7; },
                                  [](Preset& p) { p.solver.normal_form = NormalForm::vlachos; },
                                  [](Preset& p) { p.solver.switch_hysteresis_m = 1e-4; },
                                  [](Preset& p) { p.solver.local_centre = LocalCentre::midpoint; },
-                                 [](Preset& p) { p.finger.radius_m = 0.011; }, [](Preset& p) { p.solver.method = Method::facet; },
+                                 [](Preset& p) { p.finger.radius_m = 0.011; },
+                                 [](Preset& p) { p.solver.method = Method::facet; },
                                  [](Preset& p) { p.force.source = ForceSource::facet; },
                                  [](Preset& p) { p.display.source = TactileSource::facet; }};
-  const std::vector<Change> rendered{[](Preset& p) { p.force.stiffness_n_per_m = 1.0; }, [](Preset& p) { p.force.limit_n = 1.0; },
-                                     [](Preset& p) { p.display.travel_m = 1e-3; }, [](Preset& p) { p.safety.unconverged_ramp_s = 1.0; },
-                                     [](Preset& p) { p.display.source = TactileSource::held; }};
+  const std::vector<Change> rendered{
+      [](Preset& p) { p.force.stiffness_n_per_m = 1.0; }, [](Preset& p) { p.force.limit_n = 1.0; },
+      [](Preset& p) { p.display.travel_m = 1e-3; }, [](Preset& p) { p.safety.unconverged_ramp_s = 1.0; },
+      [](Preset& p) { p.display.source = TactileSource::held; }};
   for (const Method method : {Method::robust, Method::newton, Method::paper}) {
     const Preset own = sphere_preset(0.010, method);
     const auto same_after = [&](const Change& change) {

@@ -35,7 +35,8 @@ Vec3 finger_at(int tick) {
 }
 
 bool same_place(const IterationRecord& r, const TickOutput& o) {
-  return r.triangle == o.triangle && r.u == o.u && r.v == o.v && r.error_m == o.error_m && glm::length(r.point - o.contact) == 0.0;
+  return r.triangle == o.triangle && r.u == o.u && r.v == o.v && r.error_m == o.error_m &&
+         glm::length(r.point - o.contact) == 0.0;
 }
 
 /// Calls check(trace, output, kept state) for every tick.
@@ -60,20 +61,22 @@ TEST_CASE("a converged tick's contact is a converged record of its trace - alone
     for (const Method method : kSmoothMethods) {
       CAPTURE(name_of(method));
       int converged = 0, missing = 0, last = 0, alone = 0;
-      every_tick(scene, traced_preset(method), 1000, [&](const IterationTrace& trace, const TickOutput& out, const TickState&) {
-        if (out.status == TickStatus::unconverged) return;
-        ++converged;
-        bool found = false, only_tracking = true;
-        for (const IterationRecord& r : trace.view()) {
-          found |= r.stop == StopReason::converged && same_place(r, out);
-          only_tracking &= r.seed == 0;
-        }
-        missing += !found;
-        if (!only_tracking) return;
-        ++alone;
-        const IterationRecord& end = trace.records[trace.size - 1];
-        last += end.stop == StopReason::converged && same_place(end, out) && end.error_m < 1e-6 && glm::length(end.normal - out.normal) == 0.0;
-      });
+      every_tick(scene, traced_preset(method), 1000,
+                 [&](const IterationTrace& trace, const TickOutput& out, const TickState&) {
+                   if (out.status == TickStatus::unconverged) return;
+                   ++converged;
+                   bool found = false, only_tracking = true;
+                   for (const IterationRecord& r : trace.view()) {
+                     found |= r.stop == StopReason::converged && same_place(r, out);
+                     only_tracking &= r.seed == 0;
+                   }
+                   missing += !found;
+                   if (!only_tracking) return;
+                   ++alone;
+                   const IterationRecord& end = trace.records[trace.size - 1];
+                   last += end.stop == StopReason::converged && same_place(end, out) && end.error_m < 1e-6 &&
+                           glm::length(end.normal - out.normal) == 0.0;
+                 });
       CHECK(converged > 900);
       CHECK(alone > 300);
       CHECK(missing == 0);
@@ -86,14 +89,18 @@ TEST_CASE("iterations count the new planes: every record but the kept plane's") 
     for (const Method method : kSmoothMethods) {
       CAPTURE(name_of(method));
       int wrong = 0, kept_wrong = 0;
-      every_tick(scene, traced_preset(method), 1000, [&](const IterationTrace& trace, const TickOutput& out, const TickState& kept) {
-        REQUIRE(trace.lost == 0);
-        const int from_kept = kept.plane.feature == Feature::none ? 0 : 1;
-        wrong += static_cast<int>(trace.size) - from_kept != out.iterations;
-        const IterationRecord& first = trace.records[0];
-        if (from_kept) kept_wrong += first.seed != 0 || first.triangle != kept.plane.triangle || first.u != kept.plane.u || first.v != kept.plane.v;
-        else kept_wrong += first.seed == 0;
-      });
+      every_tick(scene, traced_preset(method), 1000,
+                 [&](const IterationTrace& trace, const TickOutput& out, const TickState& kept) {
+                   REQUIRE(trace.lost == 0);
+                   const int from_kept = kept.plane.feature == Feature::none ? 0 : 1;
+                   wrong += static_cast<int>(trace.size) - from_kept != out.iterations;
+                   const IterationRecord& first = trace.records[0];
+                   if (from_kept)
+                     kept_wrong += first.seed != 0 || first.triangle != kept.plane.triangle ||
+                                   first.u != kept.plane.u || first.v != kept.plane.v;
+                   else
+                     kept_wrong += first.seed == 0;
+                 });
       CHECK(wrong == 0);
       CHECK(kept_wrong == 0);
     }
@@ -103,15 +110,16 @@ TEST_CASE("every record's plane, contact, travel and error fit together") {
   for (const Method method : kSmoothMethods) {
     double worst = 0.0;
     int at = 0;
-    every_tick(box(), traced_preset(method), 1000, [&](const IterationTrace& trace, const TickOutput&, const TickState&) {
-      const Vec3 centre = finger_at(at++);
-      for (const IterationRecord& r : trace.view()) {
-        const double h = glm::dot(centre - r.point, r.normal);
-        worst = std::max({worst, glm::length(r.contact - r.point - r.travel), std::abs(glm::length(r.travel) - r.error_m),
-                          std::abs(glm::dot(r.travel, r.normal)), glm::length(centre - h * r.normal - r.contact),
-                          std::abs(glm::length(r.normal) - 1.0)});
-      }
-    });
+    every_tick(
+        box(), traced_preset(method), 1000, [&](const IterationTrace& trace, const TickOutput&, const TickState&) {
+          const Vec3 centre = finger_at(at++);
+          for (const IterationRecord& r : trace.view()) {
+            const double h = glm::dot(centre - r.point, r.normal);
+            worst = std::max({worst, glm::length(r.contact - r.point - r.travel),
+                              std::abs(glm::length(r.travel) - r.error_m), std::abs(glm::dot(r.travel, r.normal)),
+                              glm::length(centre - h * r.normal - r.contact), std::abs(glm::length(r.normal) - 1.0)});
+          }
+        });
     CAPTURE(name_of(method));
     CHECK(worst <= 1e-14);
   }
@@ -128,7 +136,8 @@ TEST_CASE("the paper's gain column is Eq. 1 of its curvature and distance column
       const Vec3 centre = finger_at(at++);
       for (const IterationRecord& r : trace.view()) {
         const double h = glm::dot(centre - r.point, r.normal);
-        worst_distance = std::max(worst_distance, std::abs(r.distance_m - (reading == DistanceReading::proxy ? 0.020 - h : h)));
+        worst_distance =
+            std::max(worst_distance, std::abs(r.distance_m - (reading == DistanceReading::proxy ? 0.020 - h : h)));
         if (r.stop != StopReason::going_on || r.seed > 1) continue;  // rivals are looked for by another rule
         ++steps;
         const double eq1 = 0.9 / ((1.0 + 0.015 * r.curvature_per_m) * (1.0 + 3.0 * std::abs(r.distance_m)));
@@ -169,7 +178,8 @@ TEST_CASE("where every new plane counts, the limit on iterations holds for the p
       preset.solver.max_iterations = limit;
       preset.solver.tolerance_m = 0.0;  // no error is below it
       auto trace = std::make_unique<IterationTrace>();
-      const TickOutput out = solve_once(torus(), preset, {Vec3(0.070, 0.004, 0.013), Quat(1.0, 0.0, 0.0, 0.0)}, trace.get());
+      const TickOutput out =
+          solve_once(torus(), preset, {Vec3(0.070, 0.004, 0.013), Quat(1.0, 0.0, 0.0, 0.0)}, trace.get());
       CAPTURE(name_of(method));
       CHECK(out.status == TickStatus::unconverged);
       CHECK(out.iterations == limit);

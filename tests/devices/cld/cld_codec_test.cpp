@@ -20,9 +20,11 @@ Bytes encoded(const CldFrame& frame) {
 }
 
 CldFrame random_frame(std::mt19937& random, std::uint16_t sequence) {
-  CldFrame frame{.type = static_cast<std::uint8_t>(random()), .sequence = sequence,
+  CldFrame frame{.type = static_cast<std::uint8_t>(random()),
+                 .sequence = sequence,
                  .length = static_cast<std::uint8_t>(random() % (kCldLargestPayload + 1))};
-  for (std::size_t i = 0; i < frame.length; ++i) frame.payload[i] = static_cast<std::uint8_t>(random() % 4 == 0 ? kCldSync : random());
+  for (std::size_t i = 0; i < frame.length; ++i)
+    frame.payload[i] = static_cast<std::uint8_t>(random() % 4 == 0 ? kCldSync : random());
   return frame;
 }
 
@@ -54,9 +56,14 @@ TEST_CASE("every message survives the wire, at its extremes and at random") {
   const auto any16 = [&random] { return static_cast<std::uint16_t>(random()); };
   for (int i = 0; i < 2000; ++i) {
     const std::uint16_t sequence = any16();
-    const CldTelemetry t{.time_us = any32(), .position_nm = static_cast<std::int32_t>(any32()), .target_nm = INT32_MIN,
-                         .current_ma = static_cast<std::int16_t>(any16()), .state = static_cast<CldDeviceState>(random() % 4),
-                         .fault = static_cast<CldDeviceFault>(random() % 6), .heard_sequence = any16(), .missed_frames = any16()};
+    const CldTelemetry t{.time_us = any32(),
+                         .position_nm = static_cast<std::int32_t>(any32()),
+                         .target_nm = INT32_MIN,
+                         .current_ma = static_cast<std::int16_t>(any16()),
+                         .state = static_cast<CldDeviceState>(random() % 4),
+                         .fault = static_cast<CldDeviceFault>(random() % 6),
+                         .heard_sequence = any16(),
+                         .missed_frames = any16()};
     CldParser parser;
     const auto frames = parsed(parser, encoded(to_frame(t, sequence)));
     REQUIRE(frames.size() == 1);
@@ -148,7 +155,7 @@ TEST_CASE("garbage between frames costs no frame but those it hides for a moment
     sent.push_back(random_frame(random, static_cast<std::uint16_t>(i)));
     feed(encoded(sent.back()));
   }
-  feed(Bytes(kCldLargestFrame, 0));   // pushes out what rubbish has made wait
+  feed(Bytes(kCldLargestFrame, 0));  // pushes out what rubbish has made wait
   CHECK(got == sent);
   CHECK(parser.counts().skipped_bytes > 0);
 }
@@ -178,7 +185,9 @@ TEST_CASE("any bytes at all may be fed: no frame without a right check, no byte 
   CldParser parser;
   std::uint64_t in_frames = 0, fed = 0;
   for (int i = 0; i < 400'000; ++i) {
-    const auto byte = static_cast<std::uint8_t>(random() % 8 == 0 ? kCldSync : random() % 8 == 1 ? random() % 50 : random());
+    const auto byte = static_cast<std::uint8_t>(random() % 8 == 0   ? kCldSync
+                                                : random() % 8 == 1 ? random() % 50
+                                                                    : random());
     ++fed;
     for (auto frame = parser.feed(byte); frame; frame = parser.next()) {
       in_frames += kCldHeaderBytes + frame->length + kCldCrcBytes;

@@ -72,7 +72,7 @@ TEST_CASE("the drive never leaves its travel, and its encoder reads in steps") {
 
 TEST_CASE("the roller follows the drive through the backlash: late by half of it, either way") {
   CldMechanism cld;
-  auto creep = [&cld, at = 0.0](double to) mutable {   // slowly, so that nothing overshoots
+  auto creep = [&cld, at = 0.0](double to) mutable {  // slowly, so that nothing overshoots
     const double from = at;
     for (int i = 1; i <= 4000; ++i) cld.control(at = from + (to - from) * std::min(1.0, i / 3000.0));
   };

@@ -59,7 +59,8 @@ TEST_CASE("the same targets give the same bits") {
     SimulatedContactDisplay display;
     make_ready(display);
     std::vector<double> x;
-    for (int i = 0; i < 3000; ++i) x.push_back(display.exchange({.target_m = 8e-3 * std::sin(0.01 * i)}, kDt).position_m);
+    for (int i = 0; i < 3000; ++i)
+      x.push_back(display.exchange({.target_m = 8e-3 * std::sin(0.01 * i)}, kDt).position_m);
     return x;
   };
   const auto a = run(), b = run();
@@ -85,7 +86,9 @@ TEST_CASE("injected faults of the display: named, and over after their time") {
   SimulatedContactDisplay display;
   make_ready(display);
   const auto sample = [&display](double target = 5e-3) { return display.exchange({.target_m = target}, kDt); };
-  const auto run = [&](int ticks) { for (int i = 0; i < ticks; ++i) sample(); };
+  const auto run = [&](int ticks) {
+    for (int i = 0; i < ticks; ++i) sample();
+  };
 
   display.inject({InjectedFault::delay_burst, 10});
   const double before = display.mechanism().encoder_m();
@@ -106,7 +109,8 @@ TEST_CASE("injected faults of the display: named, and over after their time") {
 
   display.inject({InjectedFault::noise, 50});
   double furthest = 0.0;
-  for (int i = 0; i < 50; ++i) furthest = std::max(furthest, std::abs(sample().position_m - display.mechanism().encoder_m()));
+  for (int i = 0; i < 50; ++i)
+    furthest = std::max(furthest, std::abs(sample().position_m - display.mechanism().encoder_m()));
   CHECK(furthest > 1e-3);
   CHECK(furthest <= 2e-3);
   s = sample();
@@ -114,6 +118,7 @@ TEST_CASE("injected faults of the display: named, and over after their time") {
 
   display.inject({InjectedFault::drop_out, 5});
   CHECK(sample().fault == DeviceFault::disconnected);
-  for (int i = 1; i < 5; ++i) CHECK(display.exchange({.request = DeviceRequest::clear_fault}, kDt).state == DeviceState::faulted);
+  for (int i = 1; i < 5; ++i)
+    CHECK(display.exchange({.request = DeviceRequest::clear_fault}, kDt).state == DeviceState::faulted);
   CHECK(display.exchange({.request = DeviceRequest::clear_fault}, kDt).state == DeviceState::open);
 }

@@ -237,7 +237,8 @@ TEST_CASE("injected faults of the force device: named, and over after their time
   }
   device.inject({InjectedFault::noise, 10});
   double furthest = 0.0;
-  for (int i = 0; i < 10; ++i) furthest = std::max(furthest, glm::length(sample().position_m - device.exact_position_m()));
+  for (int i = 0; i < 10; ++i)
+    furthest = std::max(furthest, glm::length(sample().position_m - device.exact_position_m()));
   CHECK(furthest > 10e-3);
   CHECK(glm::length(sample().position_m - device.exact_position_m()) < 0.1e-3);
 

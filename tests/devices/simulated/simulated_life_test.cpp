@@ -48,7 +48,8 @@ TEST_CASE("a simulated device is opened once, and homes for as long as it was to
   CHECK(life.state() == DeviceState::absent);
 }
 
-TEST_CASE("a simulated device that is ready faults on a value that is not finite, and on the fault it is told to have") {
+TEST_CASE(
+    "a simulated device that is ready faults on a value that is not finite, and on the fault it is told to have") {
   SimulatedLife asleep = opened();
   asleep.update(DeviceRequest::none, false, kTick_s);
   CHECK(asleep.fault() == DeviceFault::none);

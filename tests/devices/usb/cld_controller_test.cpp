@@ -22,10 +22,16 @@ struct Bench {
   PluggedDevice device;
   CldController cld;
   DisplaySample sample;
-  std::vector<std::int32_t> sent;   ///< nm, all targets
+  std::vector<std::int32_t> sent;  ///< nm, all targets
 
   // Watchdog and silence are for the tests that are about them: no other shall hang on the machine's load.
-  struct Setting { NodeBy by = NodeBy::shim; bool watchdog = false; double silence_s = 10.0; bool has_firmware = true; std::uint16_t telemetry_hz = 1000; };
+  struct Setting {
+    NodeBy by = NodeBy::shim;
+    bool watchdog = false;
+    double silence_s = 10.0;
+    bool has_firmware = true;
+    std::uint16_t telemetry_hz = 1000;
+  };
   static CldControllerOptions options(double silence_s) {
     CldControllerOptions o;
     o.silence_s = silence_s;
@@ -47,7 +53,9 @@ struct Bench {
     if (sample.state == DeviceState::ready) sent.push_back(static_cast<std::int32_t>(std::lround(target * 1e9)));
     return sample;
   }
-  bool reach(DeviceState state, double target = 0.0) { return eventually([&] { return exchange(target).state == state; }); }
+  bool reach(DeviceState state, double target = 0.0) {
+    return eventually([&] { return exchange(target).state == state; });
+  }
   void make_ready() {
     REQUIRE(reach(DeviceState::firmware));
     exchange(0.0, DeviceRequest::home);
@@ -91,7 +99,7 @@ TEST_CASE("the CLD controller is found, asked what it is, homed and followed") {
   CHECK(eventually([&] { return std::abs(b.exchange(4e-3).position_m - 4e-3) < 5e-6; }));
   CHECK(b.sample.state == DeviceState::ready);
   b.exchange(0.0, DeviceRequest::stop);
-  CHECK(b.reach(DeviceState::firmware));   // knows its firmware, has to be homed again
+  CHECK(b.reach(DeviceState::firmware));  // knows its firmware, has to be homed again
 }
 
 TEST_CASE("gains and limits reach the controller when they change, and one that is plugged in anew") {
@@ -99,10 +107,19 @@ TEST_CASE("gains and limits reach the controller when they change, and one that 
   b.make_ready();
   const auto gains = [&] { return b.device.board.with_model([&] { return b.model.mechanism().gains(); }); };
   const CldGains own = gains();
-  ControllerSettings wanted{.p_per_s2 = 2500.0, .i_per_s3 = 12000.0, .d_per_s = 70.25, .target_weight = 0.75, .lowest_m = -3e-3, .highest_m = 4e-3,
-                            .fastest_m_per_s = 0.2, .largest_current_a = 0.25};
+  ControllerSettings wanted{.p_per_s2 = 2500.0,
+                            .i_per_s3 = 12000.0,
+                            .d_per_s = 70.25,
+                            .target_weight = 0.75,
+                            .lowest_m = -3e-3,
+                            .highest_m = 4e-3,
+                            .fastest_m_per_s = 0.2,
+                            .largest_current_a = 0.25};
   b.cld.set_controller(wanted);
-  REQUIRE(eventually([&] { b.exchange(); return gains().p_per_s2 == 2500.0; }));
+  REQUIRE(eventually([&] {
+    b.exchange();
+    return gains().p_per_s2 == 2500.0;
+  }));
   CHECK(gains().i_per_s3 == 12000.0);
   CHECK(gains().d_per_s == doctest::Approx(70.25));
   CHECK(gains().target_weight == doctest::Approx(0.75).epsilon(1e-4));
@@ -110,12 +127,21 @@ TEST_CASE("gains and limits reach the controller when they change, and one that 
   CHECK(eventually([&] { return std::abs(b.exchange(9e-3).position_m - 4e-3) < 5e-6; }));
   b.device.unplug();
   REQUIRE(b.reach(DeviceState::absent));
-  b.device.board.with_model([&] { b.model.forget_settings(); return 0; });
+  b.device.board.with_model([&] {
+    b.model.forget_settings();
+    return 0;
+  });
   b.device.plug_in();
   REQUIRE(b.reach(DeviceState::firmware));
-  CHECK(eventually([&] { b.exchange(); return gains().p_per_s2 == 2500.0; }));
+  CHECK(eventually([&] {
+    b.exchange();
+    return gains().p_per_s2 == 2500.0;
+  }));
   b.cld.set_controller({});
-  CHECK(eventually([&] { b.exchange(); return gains().p_per_s2 == own.p_per_s2; }));
+  CHECK(eventually([&] {
+    b.exchange();
+    return gains().p_per_s2 == own.p_per_s2;
+  }));
   CHECK(b.report().refused == 0);
 }
 
@@ -134,9 +160,11 @@ TEST_CASE("10,000 ticks at 1 kHz: none lost, none doubled, either way") {
   }
   timespec ended{};
   clock_gettime(CLOCK_MONOTONIC, &ended);
-  const double wall = static_cast<double>(ended.tv_sec - began.tv_sec) + 1e-9 * static_cast<double>(ended.tv_nsec - began.tv_nsec);
+  const double wall =
+      static_cast<double>(ended.tv_sec - began.tv_sec) + 1e-9 * static_cast<double>(ended.tv_nsec - began.tv_nsec);
   const double processor = processor_s() - processor_before;
-  REQUIRE(eventually([&] { return b.device.board.with_model([&] { return b.model.targets.size(); }) >= b.sent.size(); }));
+  REQUIRE(
+      eventually([&] { return b.device.board.with_model([&] { return b.model.targets.size(); }) >= b.sent.size(); }));
   CHECK(b.sent.size() >= kTicks);
   b.device.halt();
   CHECK((b.model.targets == b.sent));
@@ -150,26 +178,41 @@ TEST_CASE("10,000 ticks at 1 kHz: none lost, none doubled, either way") {
   CHECK(r.crc_errors == 0);
   CHECK(r.dropped_commands == 0);
   CHECK(r.refused_sends == 0);
-  MESSAGE("10,000 ticks: processor " << 100.0 * processor / wall << " % of a core (both ends, emulation included), round trip p50 "
-                                     << r.round_trip_us->percentile(0.5) << " us, p99 " << r.round_trip_us->percentile(0.99) << " us");
+  MESSAGE("10,000 ticks: processor " << 100.0 * processor / wall
+                                     << " % of a core (both ends, emulation included), round trip p50 "
+                                     << r.round_trip_us->percentile(0.5) << " us, p99 "
+                                     << r.round_trip_us->percentile(0.99) << " us");
 }
 
-TEST_CASE("split, merged, doubled and disordered packets, garbage and wrong checks cost what they hold and nothing else") {
-  struct Case { WireFault fault; std::uint64_t crc_errors, lost, doubled, late; };
-  for (const Case c : {Case{WireFault::split, 0, 0, 0, 0}, Case{WireFault::merged, 0, 0, 0, 0}, Case{WireFault::empty, 0, 0, 0, 0},
-                       Case{WireFault::garbage, 1, 0, 0, 0}, Case{WireFault::doubled, 0, 0, 1, 0},
-                       Case{WireFault::out_of_order, 0, 0, 0, 1}, Case{WireFault::crc_error, 1, 1, 0, 0}}) {
+TEST_CASE(
+    "split, merged, doubled and disordered packets, garbage and wrong checks cost what they hold and nothing else") {
+  struct Case {
+    WireFault fault;
+    std::uint64_t crc_errors, lost, doubled, late;
+  };
+  for (const Case c :
+       {Case{WireFault::split, 0, 0, 0, 0}, Case{WireFault::merged, 0, 0, 0, 0}, Case{WireFault::empty, 0, 0, 0, 0},
+        Case{WireFault::garbage, 1, 0, 0, 0}, Case{WireFault::doubled, 0, 0, 1, 0},
+        Case{WireFault::out_of_order, 0, 0, 0, 1}, Case{WireFault::crc_error, 1, 1, 0, 0}}) {
     CAPTURE(static_cast<int>(c.fault));
     Bench b;
     b.make_ready();
     constexpr int kTimes = 20;
     for (int i = 0; i < kTimes; ++i) {
-      const auto sent = b.device.board.with_model([&] { b.model.next_wire = c.fault; return b.model.telemetry_sent; });
-      REQUIRE(eventually([&] { b.exchange(1e-3); return b.device.board.with_model([&] { return b.model.telemetry_sent; }) > sent + 3; }));
+      const auto sent = b.device.board.with_model([&] {
+        b.model.next_wire = c.fault;
+        return b.model.telemetry_sent;
+      });
+      REQUIRE(eventually([&] {
+        b.exchange(1e-3);
+        return b.device.board.with_model([&] { return b.model.telemetry_sent; }) > sent + 3;
+      }));
     }
     CHECK(b.sample.state == DeviceState::ready);
     b.device.halt();
-    REQUIRE(eventually([&] { return b.report().lost == kTimes * c.lost && b.report().frames + b.report().crc_errors >= b.model.telemetry_sent; }));
+    REQUIRE(eventually([&] {
+      return b.report().lost == kTimes * c.lost && b.report().frames + b.report().crc_errors >= b.model.telemetry_sent;
+    }));
     const LinkReport r = b.report();
     // Bytes of a rejected frame are looked through again, and may look like a frame once more.
     CHECK(r.crc_errors >= kTimes * c.crc_errors);
@@ -179,7 +222,8 @@ TEST_CASE("split, merged, doubled and disordered packets, garbage and wrong chec
     CHECK(r.late == kTimes * c.late);
     // A frame cut in two makes one; garbage may look like the start of a frame.
     if (c.fault == WireFault::split) CHECK(r.short_packets == kTimes);
-    if (c.fault == WireFault::merged || c.fault == WireFault::empty || c.fault == WireFault::doubled) CHECK(r.short_packets == 0);
+    if (c.fault == WireFault::merged || c.fault == WireFault::empty || c.fault == WireFault::doubled)
+      CHECK(r.short_packets == 0);
     if (c.fault == WireFault::empty) CHECK(r.empty_packets == kTimes);
   }
 }
@@ -189,18 +233,28 @@ TEST_CASE("stalls, bus errors and time-outs are counted and survived") {
   b.make_ready();
   for (const BusFault fault : {BusFault::stall, BusFault::error}) {
     b.device.board.with_model([&] { b.model.next_in = fault; });
-    CHECK(eventually([&] { b.exchange(1e-3); return (fault == BusFault::stall ? b.report().stalls : b.report().errors) >= 1; }));
+    CHECK(eventually([&] {
+      b.exchange(1e-3);
+      return (fault == BusFault::stall ? b.report().stalls : b.report().errors) >= 1;
+    }));
     b.device.board.with_model([&] { b.model.next_out = fault; });
-    CHECK(eventually([&] { b.exchange(1e-3); return (fault == BusFault::stall ? b.report().stalls : b.report().errors) >= 2; }));
+    CHECK(eventually([&] {
+      b.exchange(1e-3);
+      return (fault == BusFault::stall ? b.report().stalls : b.report().errors) >= 2;
+    }));
   }
   b.device.board.with_model([&] { b.model.next_out = BusFault::time_out; });
-  CHECK(eventually([&] { b.exchange(1e-3); return b.report().time_outs >= 1; }));
+  CHECK(eventually([&] {
+    b.exchange(1e-3);
+    return b.report().time_outs >= 1;
+  }));
   CHECK(eventually([&] { return std::abs(b.exchange(2e-3).position_m - 2e-3) < 5e-6; }));
   CHECK(b.sample.state == DeviceState::ready);
   CHECK(b.report().lost_by_device >= 1);
 }
 
-TEST_CASE("unplugged in the middle of transfers the display is absent - plugged in again it has to be homed, and goes on") {
+TEST_CASE(
+    "unplugged in the middle of transfers the display is absent - plugged in again it has to be homed, and goes on") {
   Bench b;
   for (int round = 0; round < 5; ++round) {
     b.make_ready();
@@ -210,7 +264,7 @@ TEST_CASE("unplugged in the middle of transfers the display is absent - plugged 
     CHECK_FALSE(b.report().connected);
     CHECK(b.report().problem.find("not attached") != std::string::npos);
     b.device.plug_in();
-    REQUIRE(b.reach(DeviceState::firmware));   // not ready by itself
+    REQUIRE(b.reach(DeviceState::firmware));  // not ready by itself
     for (int i = 0; i < 20; ++i) CHECK(b.exchange(3e-3).state == DeviceState::firmware);
   }
   b.make_ready();
@@ -221,7 +275,8 @@ TEST_CASE("unplugged in the middle of transfers the display is absent - plugged 
 TEST_CASE("without targets the firmware's watchdog stops the drive, and the host says so") {
   Bench b({.watchdog = true});
   b.make_ready();
-  REQUIRE(eventually([&] { return b.device.board.with_model([&] { return b.model.state() == CldDeviceState::faulted; }); }));
+  REQUIRE(eventually(
+      [&] { return b.device.board.with_model([&] { return b.model.state() == CldDeviceState::faulted; }); }));
   CHECK(b.device.board.with_model([&] { return b.model.watchdog_fired; }) == 1);
   REQUIRE(b.reach(DeviceState::faulted));
   CHECK(b.sample.fault == DeviceFault::watchdog);
@@ -247,7 +302,9 @@ TEST_CASE("a device that falls silent is lost until a person clears it - its las
   b.device.board.with_model([&] { b.model.telemetry_on = true; });
   for (int i = 0; i < 50; ++i) CHECK(b.exchange().state == DeviceState::faulted);
   b.exchange(0.0, DeviceRequest::clear_fault);
-  REQUIRE(eventually([&] { return b.exchange().state != DeviceState::faulted || (b.exchange(0.0, DeviceRequest::clear_fault), false); }));
+  REQUIRE(eventually([&] {
+    return b.exchange().state != DeviceState::faulted || (b.exchange(0.0, DeviceRequest::clear_fault), false);
+  }));
   b.make_ready();
 }
 
@@ -271,7 +328,10 @@ TEST_CASE("a device that may not be opened says which rule to install, and works
   CldController cld;
   REQUIRE(cld.open());
   LinkReport r;
-  REQUIRE(eventually([&] { cld.report(r); return r.problem.find("60-tangent-workbench.rules") != std::string::npos; }));
+  REQUIRE(eventually([&] {
+    cld.report(r);
+    return r.problem.find("60-tangent-workbench.rules") != std::string::npos;
+  }));
   CHECK(cld.exchange({}, kDt).state == DeviceState::absent);
   device.unplug();
   device.plug_in();

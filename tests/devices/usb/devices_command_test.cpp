@@ -96,5 +96,5 @@ TEST_CASE("workbench monitor drives the display on the cable and reports") {
   CHECK(has(text, "contact display: ready"));
   CHECK(testing::read_text(packets).size() > 10'000);
   CHECK_FALSE(device.board.with_model([&] { return cld.targets.empty(); }));
-  CHECK(device.board.with_model([&] { return cld.state(); }) == CldDeviceState::idle);   // let go at the end
+  CHECK(device.board.with_model([&] { return cld.state(); }) == CldDeviceState::idle);  // let go at the end
 }

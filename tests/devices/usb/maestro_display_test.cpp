@@ -32,29 +32,41 @@ struct Bench {
   const DisplaySample& exchange(double target = 0.0, DeviceRequest request = DeviceRequest::none) {
     return sample = display.exchange({.target_m = target, .request = request}, kDt);
   }
-  bool reach(DeviceState state) { return eventually([&] { return exchange().state == state; }); }
+  bool reach(DeviceState state) {
+    return eventually([&] { return exchange().state == state; });
+  }
   void make_ready() {
     REQUIRE(reach(DeviceState::firmware));
     exchange(0.0, DeviceRequest::home);
     REQUIRE(reach(DeviceState::ready));
   }
-  template <class F> auto seen(F&& f) { return device.board.with_model(f); }
+  template <class F>
+  auto seen(F&& f) {
+    return device.board.with_model(f);
+  }
 };
 
 }  // namespace
 
-TEST_CASE("the Maestro gets speed and acceleration, goes to the middle, and follows its target in quarter microseconds") {
+TEST_CASE(
+    "the Maestro gets speed and acceleration, goes to the middle, and follows its target in quarter microseconds") {
   Bench b;
   b.make_ready();
   CHECK(b.seen([&] { return b.model.speeds[0]; }) == 120);
   CHECK(b.seen([&] { return b.model.accelerations[0]; }) == 9);
   CHECK(eventually([&] { return b.seen([&] { return b.model.targets[0]; }) == 6000; }));
-  CHECK(eventually([&] { b.exchange(5e-3); return b.seen([&] { return b.model.targets[0]; }) == 7000; }));
+  CHECK(eventually([&] {
+    b.exchange(5e-3);
+    return b.seen([&] { return b.model.targets[0]; }) == 7000;
+  }));
   CHECK(b.sample.position_m == doctest::Approx(5e-3));
   CHECK_FALSE(b.display.capabilities().measures_position);
-  CHECK(b.display.capabilities().firmware_timeout_s == 0.0);   // stated: it has none
+  CHECK(b.display.capabilities().firmware_timeout_s == 0.0);  // stated: it has none
   b.exchange(0.0, DeviceRequest::stop);
-  CHECK(eventually([&] { b.exchange(); return b.seen([&] { return b.model.targets[0]; }) == 0; }));   // off
+  CHECK(eventually([&] {
+    b.exchange();
+    return b.seen([&] { return b.model.targets[0]; }) == 0;
+  }));  // off
 }
 
 TEST_CASE("10,000 ticks: the Maestro's targets come in order, and the last one arrives") {
@@ -64,9 +76,12 @@ TEST_CASE("10,000 ticks: the Maestro's targets come in order, and the last one a
   clock_gettime(CLOCK_MONOTONIC, &due);
   for (int i = 1; i <= 10'000; ++i) {
     REQUIRE(b.exchange(9e-3 * i / 10'000.0).state == DeviceState::ready);
-    if (i % 4 != 0) continue;   // 4 kHz on average: faster than the bus, so that some are skipped
+    if (i % 4 != 0) continue;  // 4 kHz on average: faster than the bus, so that some are skipped
     due.tv_nsec += 1'000'000;
-    if (due.tv_nsec >= 1'000'000'000) { due.tv_nsec -= 1'000'000'000; ++due.tv_sec; }
+    if (due.tv_nsec >= 1'000'000'000) {
+      due.tv_nsec -= 1'000'000'000;
+      ++due.tv_sec;
+    }
     clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &due, nullptr);
   }
   const std::uint16_t last = quarter_us_at({}, 9e-3);
@@ -84,15 +99,24 @@ TEST_CASE("a Maestro that is unplugged is absent, one that refuses every request
   REQUIRE(b.reach(DeviceState::absent));
   b.device.plug_in();
   b.make_ready();
-  b.seen([&] { b.model.stalls = true; return 0; });
+  b.seen([&] {
+    b.model.stalls = true;
+    return 0;
+  });
   REQUIRE(b.reach(DeviceState::faulted));
   CHECK(b.sample.fault == DeviceFault::disconnected);
   LinkReport r;
   b.display.report(r);
   CHECK(r.stalls >= 3);
-  b.seen([&] { b.model.stalls = false; return 0; });
+  b.seen([&] {
+    b.model.stalls = false;
+    return 0;
+  });
   b.exchange(0.0, DeviceRequest::clear_fault);
-  CHECK(eventually([&] { b.exchange(); return b.sample.state == DeviceState::firmware; }));
+  CHECK(eventually([&] {
+    b.exchange();
+    return b.sample.state == DeviceState::firmware;
+  }));
 }
 
 TEST_CASE("a Maestro's calibration is kept by the serial number that it says on the bus") {
@@ -110,9 +134,9 @@ TEST_CASE("a Maestro's calibration is kept by the serial number that it says on 
   REQUIRE(keep_maestro_setup(file, attached_maestro(), own));
   CHECK(chosen_maestro_setup({}, file).value() == own);
   MaestroWish wish;
-  wish.channel = 0;   // the program's own, but asked for: the pulses that are kept stay
+  wish.channel = 0;  // the program's own, but asked for: the pulses that are kept stay
   CHECK(chosen_maestro_setup(wish, file).value() == MaestroSetup{own.calibration, 0});
   folder.write("maestro.toml", "[\"00071234\"]\nchannel = 99\n");
-  CHECK_FALSE(chosen_maestro_setup({}, file).has_value());   // rather nothing than pulses that nobody meant
-  CHECK(chosen_maestro_setup(wish_for(own), file).value() == own);   // but for who says it all
+  CHECK_FALSE(chosen_maestro_setup({}, file).has_value());          // rather nothing than pulses that nobody meant
+  CHECK(chosen_maestro_setup(wish_for(own), file).value() == own);  // but for who says it all
 }

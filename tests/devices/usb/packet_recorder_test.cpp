@@ -28,7 +28,11 @@ TEST_CASE("every packet of a link is written down and reads back as the frames i
     CldController cld(options);
     REQUIRE(cld.open());
     LinkReport report;
-    REQUIRE(eventually([&] { cld.exchange({}, 1e-3); cld.report(report); return report.packets_in > 200; }));
+    REQUIRE(eventually([&] {
+      cld.exchange({}, 1e-3);
+      cld.report(report);
+      return report.packets_in > 200;
+    }));
     cld.close();
     cld.report(report);
     in = report.packets_in;
@@ -50,11 +54,14 @@ TEST_CASE("every packet of a link is written down and reads back as the frames i
     CHECK(hex.size() == 2 * size);
     if (direction != "in") continue;
     ++counted;
-    for (std::size_t i = 0; i < size; ++i) parser.feed(static_cast<std::uint8_t>(std::stoi(hex.substr(2 * i, 2), nullptr, 16)));
+    for (std::size_t i = 0; i < size; ++i)
+      parser.feed(static_cast<std::uint8_t>(std::stoi(hex.substr(2 * i, 2), nullptr, 16)));
   }
   CHECK(counted == in);
   CHECK(parser.counts().frames >= 200);
   CHECK(parser.counts().crc_errors == 0);
 }
 
-TEST_CASE("a file that can't be written is refused") { CHECK_FALSE(PacketRecorder::create("/no/such/folder/packets.txt")); }
+TEST_CASE("a file that can't be written is refused") {
+  CHECK_FALSE(PacketRecorder::create("/no/such/folder/packets.txt"));
+}

@@ -1,4 +1,5 @@
-// A whole session with a CLD controller on a cable: servo thread, link thread, gate. Faults on the cable take the force away.
+// A whole session with a CLD controller on a cable: servo thread, link thread, gate. Faults on the cable take the force
+// away.
 #include "workbench/session/session.h"
 
 #include "core/lab/objects/generate.h"
@@ -30,7 +31,7 @@ struct Bench {
   std::vector<ServoRecord> records;
 
   Bench() {
-    model.watchdog_on = false;   // the gate is what is tested here
+    model.watchdog_on = false;  // the gate is what is tested here
     device.plug_in();
     device.run();
     SessionOptions options;
@@ -54,21 +55,29 @@ struct Bench {
       // The machine under the tests is no real-time one: a late tick is a person's business, and the test is one.
       if (session->status().servo.gate_state == GateState::faulted) session->arm();
       return !records.empty() && records.back().device.display_state == DeviceState::ready &&
-             records.back().device.gate_state == GateState::armed && records.back().device.force_rendered_n != Vec3(0.0);
+             records.back().device.gate_state == GateState::armed &&
+             records.back().device.force_rendered_n != Vec3(0.0);
     });
   }
   /// Ticks from the first in which the gate is faulted to the first without force at the device.
   int ticks_to_zero(std::size_t from, GateFault& fault) {
-    REQUIRE(eventually([&] { take(); return records.back().device.gate_state == GateState::faulted; }));
+    REQUIRE(eventually([&] {
+      take();
+      return records.back().device.gate_state == GateState::faulted;
+    }));
     const std::size_t enough = records.size() + 20;
-    REQUIRE(eventually([&] { take(); return records.size() >= enough; }));
+    REQUIRE(eventually([&] {
+      take();
+      return records.size() >= enough;
+    }));
     std::size_t first = from;
     while (records[first].device.gate_state != GateState::faulted) ++first;
     fault = records[first].device.gate_fault;
     int ticks = 0;
     while (records[first + static_cast<std::size_t>(ticks)].device.force_command_n != Vec3(0.0)) ++ticks;
-    for (std::size_t i = first + static_cast<std::size_t>(ticks); i < records.size(); ++i) CHECK(records[i].device.force_command_n == Vec3(0.0));
-    return ticks + 1;   // the command of a tick is rendered in the next
+    for (std::size_t i = first + static_cast<std::size_t>(ticks); i < records.size(); ++i)
+      CHECK(records[i].device.force_command_n == Vec3(0.0));
+    return ticks + 1;  // the command of a tick is rendered in the next
   }
 };
 
@@ -85,8 +94,13 @@ TEST_CASE("a session with a CLD on USB keeps the clock's time, homes it and driv
   CHECK(link.round_trip_us->count() > 0);
 }
 
-TEST_CASE("faults on the cable and in the controller: the force is gone within two ticks of being known, and a person re-arms") {
-  struct Case { const char* name; std::function<void(Bench&)> cause; };
+TEST_CASE(
+    "faults on the cable and in the controller: the force is gone within two ticks of being known, and a person "
+    "re-arms") {
+  struct Case {
+    const char* name;
+    std::function<void(Bench&)> cause;
+  };
   const Case cases[]{
       {"unplugged", [](Bench& b) { b.device.unplug(); }},
       {"silent", [](Bench& b) { b.device.board.with_model([&] { b.model.telemetry_on = false; }); }},
@@ -108,11 +122,20 @@ TEST_CASE("unplugged and plugged in again under a session, nothing moves until a
   Bench b;
   REQUIRE(b.armed_and_ready());
   b.device.unplug();
-  REQUIRE(eventually([&] { b.take(); return b.session->status().servo.gate_state == GateState::faulted; }));
+  REQUIRE(eventually([&] {
+    b.take();
+    return b.session->status().servo.gate_state == GateState::faulted;
+  }));
   b.device.plug_in();
-  REQUIRE(eventually([&] { b.take(); return b.records.back().device.display_state == DeviceState::firmware; }));
+  REQUIRE(eventually([&] {
+    b.take();
+    return b.records.back().device.display_state == DeviceState::firmware;
+  }));
   const std::size_t from = b.records.size();
-  REQUIRE(eventually([&] { b.take(); return b.records.size() > from + 200; }));
+  REQUIRE(eventually([&] {
+    b.take();
+    return b.records.size() > from + 200;
+  }));
   for (std::size_t i = from; i < b.records.size(); ++i) {
     CHECK(b.records[i].device.display_state == DeviceState::firmware);
     CHECK(b.records[i].device.force_command_n == Vec3(0.0));

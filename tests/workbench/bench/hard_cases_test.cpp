@@ -73,7 +73,8 @@ TEST_CASE("round the corner of a cube every contact is as deep as the raw mesh's
     int wrong = 0;
     for (const TickInput& input : *poses) {
       const double smooth = smooth_stepper.step(c.preset, input, smooth_state).penetration_m;
-      wrong += std::abs(smooth - flat_stepper.step(flat, input, flat_state).penetration_m) > c.preset.solver.switch_hysteresis_m;
+      wrong += std::abs(smooth - flat_stepper.step(flat, input, flat_state).penetration_m) >
+               c.preset.solver.switch_hysteresis_m;
     }
     CHECK(wrong == 0);
   }

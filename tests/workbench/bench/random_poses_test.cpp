@@ -39,15 +39,16 @@ bool wanted(const BenchCase& c) {
 struct Counts {
   bool built = false;
   long ticks = 0;
-  long not_finite = 0;    ///< output or kept state
-  long not_unit = 0;      ///< normals
-  long untrue = 0;        ///< converged by name, but with an error over the tolerance or a force over the limit
+  long not_finite = 0;  ///< output or kept state
+  long not_unit = 0;    ///< normals
+  long untrue = 0;      ///< converged by name, but with an error over the tolerance or a force over the limit
   long unconverged = 0;
 };
 
 bool kept_is_finite(const TickState& s) {
-  return is_finite(s.plane.point) && is_finite(s.plane.normal) && std::isfinite(s.plane.u) && std::isfinite(s.plane.v) &&
-         std::isfinite(glm::dot(s.plane.turn, s.plane.turn)) && is_finite(s.last_converged.point) && is_finite(s.last_converged.normal);
+  return is_finite(s.plane.point) && is_finite(s.plane.normal) && std::isfinite(s.plane.u) &&
+         std::isfinite(s.plane.v) && std::isfinite(glm::dot(s.plane.turn, s.plane.turn)) &&
+         is_finite(s.last_converged.point) && is_finite(s.last_converged.normal);
 }
 
 /// Anywhere around, on and in the mesh, turned anyhow; every fourth pose is a leap, the others go on from there.
@@ -90,7 +91,8 @@ TEST_CASE("random poses on every hard case put out no NaN, and robust has an ans
     std::vector<std::jthread> workers;
     for (unsigned i = 0; i < std::max(1u, std::thread::hardware_concurrency()); ++i)
       workers.emplace_back([&] {
-        for (std::size_t k = next++; k < cases.size(); k = next++) counts[k] = random_poses(cases[k], pose_count(), first_seed() + k);
+        for (std::size_t k = next++; k < cases.size(); k = next++)
+          counts[k] = random_poses(cases[k], pose_count(), first_seed() + k);
       });
   }
   long ticks = 0;
@@ -115,21 +117,36 @@ struct HardPose {
 };
 const HardPose kHardPoses[] = {
     // The surface's weak direction (det M of 0.02 and 0.04): steps too short to arrive from any seed.
-    {{{0.036257960329207306, 0.021647348459245618, -0.0035787812426245234}, {0.90848836309671832, -0.19441954881853207, 0.24440751045071885, -0.27769570034540608}}, 0.022774},
-    {{{-0.0049068887829580386, -0.0018296632501952294, 0.03110531392818567}, {-0.5079788991772165, -0.090420412057016009, 0.85529247625294613, 0.047501233028695335}}, -0.022627},
+    {{{0.036257960329207306, 0.021647348459245618, -0.0035787812426245234},
+      {0.90848836309671832, -0.19441954881853207, 0.24440751045071885, -0.27769570034540608}},
+     0.022774},
+    {{{-0.0049068887829580386, -0.0018296632501952294, 0.03110531392818567},
+      {-0.5079788991772165, -0.090420412057016009, 0.85529247625294613, 0.047501233028695335}},
+     -0.022627},
     // Inside the tube and along it: no stable contact, and none unstable that a seed runs into.
-    {{{0.04115417905616147, 0.0020659305407445352, -0.00048502533802356914}, {0.80535821218007475, -0.038714473566988206, 0.047592799839945722, -0.58960517722789685}}, 0.0},
-    {{{0.031009751383898089, 0.014079180438336062, -0.0015198395123949119}, {-0.71634948405176802, 0.39734377913868563, -0.030337179927552988, 0.57274863019704947}}, 0.0},
-    {{{-0.031078657034384314, -0.0068126892133906431, -0.0044374950407303883}, {-0.25795240647071749, -0.65346452588990145, 0.41340766665678064, 0.579257085022573}}, 0.0},
-    {{{-0.013281290477628046, -0.035361852646265006, 0.0037411095221624941}, {0.084505217558282761, 0.15531951042324418, -0.28036383702986062, 0.94346745400845944}}, 0.0},
-    {{{0.0096691344620638987, 0.03802832546618104, 0.0027421365422258606}, {-0.96141858715716344, -0.020353912115933404, -0.1419605240183402, 0.23474928785991864}}, 0.0},
+    {{{0.04115417905616147, 0.0020659305407445352, -0.00048502533802356914},
+      {0.80535821218007475, -0.038714473566988206, 0.047592799839945722, -0.58960517722789685}},
+     0.0},
+    {{{0.031009751383898089, 0.014079180438336062, -0.0015198395123949119},
+      {-0.71634948405176802, 0.39734377913868563, -0.030337179927552988, 0.57274863019704947}},
+     0.0},
+    {{{-0.031078657034384314, -0.0068126892133906431, -0.0044374950407303883},
+      {-0.25795240647071749, -0.65346452588990145, 0.41340766665678064, 0.579257085022573}},
+     0.0},
+    {{{-0.013281290477628046, -0.035361852646265006, 0.0037411095221624941},
+      {0.084505217558282761, 0.15531951042324418, -0.28036383702986062, 0.94346745400845944}},
+     0.0},
+    {{{0.0096691344620638987, 0.03802832546618104, 0.0027421365422258606},
+      {-0.96141858715716344, -0.020353912115933404, -0.1419605240183402, 0.23474928785991864}},
+     0.0},
 };
 
 }  // namespace
 
 TEST_CASE("a capsule in and around a torus has an answer where seeds arrive late, and where there is no contact") {
   const std::vector<BenchCase> cases = hard_cases();
-  const auto c = std::find_if(cases.begin(), cases.end(), [](const BenchCase& x) { return x.name == "capsule_finger_on_torus"; });
+  const auto c =
+      std::find_if(cases.begin(), cases.end(), [](const BenchCase& x) { return x.name == "capsule_finger_on_torus"; });
   REQUIRE(c != cases.end());
   const Result<bench::ScenePtr> scene = build_scene(*c);
   REQUIRE(scene.has_value());

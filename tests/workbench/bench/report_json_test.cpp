@@ -50,14 +50,17 @@ TEST_CASE("the report has its keys, units converted") {
   report.scenes.push_back(scene_report());
   report.work_precision.push_back({"made_by_hand", 1000, {{Method::robust, {{1e-6, 250.0, 200.0, 1e-9, 2e-9, 0.0}}}}});
   const nlohmann::ordered_json json = report_json(report);
-  for (const char* key : {"program_version", "interrupted", "passes", "clock_overhead_ns", "scenes", "work_precision"}) CHECK(json.contains(key));
+  for (const char* key : {"program_version", "interrupted", "passes", "clock_overhead_ns", "scenes", "work_precision"})
+    CHECK(json.contains(key));
   const auto& scene = json["scenes"][0];
-  for (const char* key : {"suite", "scene", "what", "triangles", "memory_bytes", "memory_bytes_per_triangle", "ticks", "evaluation_ns", "methods", "peers"})
+  for (const char* key : {"suite", "scene", "what", "triangles", "memory_bytes", "memory_bytes_per_triangle", "ticks",
+                          "evaluation_ns", "methods", "peers"})
     CHECK(scene.contains(key));
   CHECK(scene["memory_bytes_per_triangle"] == 200.0);
   const auto& robust = scene["methods"][1];
-  for (const char* key : {"method", "ticks", "unconverged", "events", "tick_ns", "seeding_tick_ns", "iterations_without_event", "ticks_per_evaluation",
-                          "ticks_per_paper_tick", "error_from_own_converged", "error_from_robust_converged", "closed_path_work", "allocations"})
+  for (const char* key : {"method", "ticks", "unconverged", "events", "tick_ns", "seeding_tick_ns",
+                          "iterations_without_event", "ticks_per_evaluation", "ticks_per_paper_tick",
+                          "error_from_own_converged", "error_from_robust_converged", "closed_path_work", "allocations"})
     CHECK(robust.contains(key));
   CHECK(robust["typical_tick_ns"] == 100.0);
   for (const char* key : {"p50", "p99", "p99_9", "worst"}) CHECK(robust["tick_ns"].contains(key));

@@ -28,8 +28,9 @@ TEST_CASE("a closed sphere is found healthy, in text and JSON") {
 
 TEST_CASE("what can't be used is counted and named by index, and the work goes on") {
   const TempFolder folder;
-  const std::string mesh = folder.write("odd.obj", "v 0 0 0\nv 10 0 0\nv 0 10 0\nv 0 0 10\nv 5 5 5\n"
-                                                   "f 1 2 3\nf 1 1 2\nf 1 2 3\nf 1 2\nf 1 4 2\n");
+  const std::string mesh = folder.write("odd.obj",
+                                        "v 0 0 0\nv 10 0 0\nv 0 10 0\nv 0 0 10\nv 5 5 5\n"
+                                        "f 1 2 3\nf 1 1 2\nf 1 2 3\nf 1 2\nf 1 4 2\n");
   const ProcessResult result = run_workbench({"audit", mesh, "--json", folder.file("audit.json")});
   CAPTURE(result.err);
   REQUIRE(result.exit_code == 0);
@@ -68,7 +69,8 @@ TEST_CASE("meshes that hold nothing usable are refused with the file and the lin
   const TempFolder folder;
   const auto refused = [&](const std::string& name, const std::string& contents, const std::string& message) {
     CAPTURE(name);
-    const ProcessResult result = run_workbench({"audit", folder.write(name, contents), "--json", folder.file("audit.json")});
+    const ProcessResult result =
+        run_workbench({"audit", folder.write(name, contents), "--json", folder.file("audit.json")});
     CAPTURE(result.err);
     CHECK(result.exit_code == 1);
     CHECK(contains(result.err, name));
@@ -81,6 +83,8 @@ TEST_CASE("meshes that hold nothing usable are refused with the file and the lin
   refused("flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n", "usable");
   refused("hollow.obj", "v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "usable");
   refused("format.xyz", "0 0 0\n", "format");
-  refused("promise.ply", "ply\nformat binary_little_endian 1.0\nelement vertex 4294967295\nproperty float x\n"
-                         "property float y\nproperty float z\nend_header\n1234", "promise.ply");
+  refused("promise.ply",
+          "ply\nformat binary_little_endian 1.0\nelement vertex 4294967295\nproperty float x\n"
+          "property float y\nproperty float z\nend_header\n1234",
+          "promise.ply");
 }

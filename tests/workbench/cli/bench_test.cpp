@@ -9,11 +9,12 @@ using namespace tangent::testing;
 TEST_CASE("bench prints a table and writes JSON and a plot") {
   const TempFolder folder;
   const std::string json_file = folder.file("b.json"), plot = folder.file("b.svg");
-  const ProcessResult result =
-      run_workbench({"bench", "--suite", "paper", "--only", "icosphere", "--ticks", "30", "--json", json_file, "--plot", plot});
+  const ProcessResult result = run_workbench(
+      {"bench", "--suite", "paper", "--only", "icosphere", "--ticks", "30", "--json", json_file, "--plot", plot});
   REQUIRE(result.exit_code == 0);
   CHECK(result.err.empty());
-  for (const char* word : {"icosphere_320", "paper", "newton", "robust", "facet", "force-shading", "embree", "robust: 0 of 30 ticks"})
+  for (const char* word :
+       {"icosphere_320", "paper", "newton", "robust", "facet", "force-shading", "embree", "robust: 0 of 30 ticks"})
     CHECK(contains(result.out, word));
   const auto json = nlohmann::json::parse(read_text(json_file));
   CHECK(json["interrupted"] == false);
@@ -39,7 +40,9 @@ TEST_CASE("bench runs real meshes from folders and says what is wrong with them"
   std::filesystem::create_directory(folder.path() / "meshes");
   std::filesystem::create_directory(folder.path() / "poses");
   const std::string meshes = folder.file("meshes"), poses = folder.file("poses");
-  const auto run = [&] { return run_workbench({"bench", "--only", "ball", "--meshes", meshes, "--poses", poses, "--repeats", "1"}); };
+  const auto run = [&] {
+    return run_workbench({"bench", "--only", "ball", "--meshes", meshes, "--poses", poses, "--repeats", "1"});
+  };
 
   CHECK(run().exit_code == 1);  // no pose file
   folder.write("poses/ball-r020.csv", "t_s,x_m,y_m,z_m\n0,0.0595,0,0\n0.001,0.0595,0.0001,0\n");

@@ -35,8 +35,8 @@ TEST_CASE("figures writes every figure as SVG with its CSV, and the curvature ta
   const ProcessResult result = run_workbench({"figures", "--out", out});
   CAPTURE(result.err);
   REQUIRE(result.exit_code == 0);
-  for (const char* name : {"fig04-contact-location", "fig06-iterations", "fig15-patches", "fig17-local-centre", "conditions-at-threshold",
-                           "conditions-five-segments", "curvature-deviation"}) {
+  for (const char* name : {"fig04-contact-location", "fig06-iterations", "fig15-patches", "fig17-local-centre",
+                           "conditions-at-threshold", "conditions-five-segments", "curvature-deviation"}) {
     CAPTURE(name);
     CHECK(contains(read_text(out + "/" + name + ".svg"), "</svg>"));
     CHECK(rows_of(out + "/" + name + ".csv").size() > 3);
@@ -48,7 +48,7 @@ TEST_CASE("figures writes every figure as SVG with its CSV, and the curvature ta
   const auto contact = rows_of(out + "/fig04-contact-location.csv");
   for (std::size_t i = 1; i < contact.size(); ++i) still += std::abs(contact[i][2] - contact[i - 1][2]) < 1e-9;
   CHECK(still > static_cast<int>(contact.size()) * 9 / 10);
-  CHECK(contact.front()[2] == doctest::Approx(9.02).epsilon(1e-3));   // 20 mm times half of 0.902 rad
+  CHECK(contact.front()[2] == doctest::Approx(9.02).epsilon(1e-3));  // 20 mm times half of 0.902 rad
   CHECK(contact.back()[3] == doctest::Approx(-9.02).epsilon(1e-3));
 
   // Five segments: full shading follows the circle, facets are off by half a facet's turn, a held display stands at 0.

@@ -40,8 +40,11 @@ TEST_CASE("an object that does not exist is wrong usage and nothing is written")
   CHECK(result.exit_code == 2);
   CHECK(contains(result.err, "teapot"));
   CHECK(contains(result.err, "icosphere"));
-  for (const auto& [option, value] : {std::pair("--segments", "0"), {"--segments", "-3"}, {"--rounding-mm", "nan"},
-                                      {"--rounding-mm", "-1"}, {"--facing", "up"}}) {
+  for (const auto& [option, value] : {std::pair("--segments", "0"),
+                                      {"--segments", "-3"},
+                                      {"--rounding-mm", "nan"},
+                                      {"--rounding-mm", "-1"},
+                                      {"--facing", "up"}}) {
     CAPTURE(option);
     CHECK(run_workbench({"make", "cube", "--out", folder.file("o.obj"), option, value}).exit_code == 2);
   }

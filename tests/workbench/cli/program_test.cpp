@@ -46,9 +46,9 @@ TEST_CASE("wrong usage leaves with 2 and says what is wrong") {
 }
 
 TEST_CASE("no option takes nan, inf or text for a number") {
-  for (const char* option : {"--finger-radius-mm", "--tolerance-um", "--max-iterations", "--gain-overall",
-                             "--gain-curvature-m", "--gain-distance-per-m", "--stiffness-n-per-m", "--fit-mm",
-                             "--crease-deg"}) {
+  for (const char* option :
+       {"--finger-radius-mm", "--tolerance-um", "--max-iterations", "--gain-overall", "--gain-curvature-m",
+        "--gain-distance-per-m", "--stiffness-n-per-m", "--fit-mm", "--crease-deg"}) {
     for (const char* bad : {"nan", "-nan", "inf", "-inf", "1e999", "", "5mm", "0x10", "1,5"}) {
       CAPTURE(option);
       CAPTURE(bad);
@@ -80,12 +80,14 @@ TEST_CASE("unknown words are refused with the ones there are") {
 }
 
 TEST_CASE("an output that would overwrite an input or another output is refused") {
-  check_refused(run_workbench({"solve", "m.obj", "--poses", "p.csv", "--out", "p.csv"}), "--out: names the same file as --poses");
+  check_refused(run_workbench({"solve", "m.obj", "--poses", "p.csv", "--out", "p.csv"}),
+                "--out: names the same file as --poses");
   check_refused(run_workbench({"solve", "m.obj", "--poses", "p.csv", "--out", "t.csv", "--summary", "t.csv"}),
                 "--summary: names the same file as --out");
   const TempFolder folder;
   const std::string mesh = folder.write("m.obj", "v 0 0 0\n");
-  check_refused(run_workbench({"solve", mesh, "--poses", "p.csv", "--out", folder.file("../") + folder.path().filename().string() + "/m.obj"}),
+  check_refused(run_workbench({"solve", mesh, "--poses", "p.csv", "--out",
+                               folder.file("../") + folder.path().filename().string() + "/m.obj"}),
                 "--out: names the same file as MESH");
   CHECK(read_text(mesh) == "v 0 0 0\n");
 }

@@ -27,7 +27,8 @@ bool no_gl() {
 TEST_CASE("shot lists its views") {
   const ProcessResult list = run_workbench({"shot", "--view", "list"});
   CHECK(list.exit_code == 0);
-  for (const char* name : {"overview", "control-net", "iterations", "plots", "cone", "sphere"}) CHECK(contains(list.out, name));
+  for (const char* name : {"overview", "control-net", "iterations", "plots", "cone", "sphere"})
+    CHECK(contains(list.out, name));
 }
 
 TEST_CASE("shot refuses an unknown view and a missing target, naming the choices") {
@@ -46,7 +47,8 @@ TEST_CASE("shot writes a picture of the size asked for, the same every time") {
   if (no_gl()) return;
   const TempFolder folder;
   for (const char* name : {"a.png", "b.png"}) {
-    const ProcessResult done = run_workbench({"shot", "--view", "octagon", "--out", folder.file(name), "--width", "320", "--height", "200"});
+    const ProcessResult done =
+        run_workbench({"shot", "--view", "octagon", "--out", folder.file(name), "--width", "320", "--height", "200"});
     CHECK(done.exit_code == 0);
     CHECK(done.err == "");
   }
@@ -61,7 +63,8 @@ TEST_CASE("text and lines of a picture of the scene grow with its height, unless
   if (no_gl()) return;
   const TempFolder folder;
   const auto shot = [&](const char* name, std::vector<std::string> more) {
-    std::vector<std::string> arguments{"shot", "--view", "octagon", "--out", folder.file(name), "--width", "640", "--height", "1080"};
+    std::vector<std::string> arguments{"shot",    "--view", "octagon",  "--out", folder.file(name),
+                                       "--width", "640",    "--height", "1080"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     REQUIRE(run_workbench(arguments).exit_code == 0);
     return read_text(folder.file(name));
@@ -75,7 +78,8 @@ TEST_CASE("the window is drawn without a display, plots filled, the same every t
   if (no_gl()) return;
   const TempFolder folder;
   for (const char* name : {"a.png", "b.png"}) {
-    const ProcessResult done = run_workbench({"shot", "--view", "overview", "--out", folder.file(name), "--width", "800", "--height", "600"});
+    const ProcessResult done =
+        run_workbench({"shot", "--view", "overview", "--out", folder.file(name), "--width", "800", "--height", "600"});
     CHECK(done.exit_code == 0);
     CHECK(done.err == "");
   }
@@ -87,14 +91,17 @@ TEST_CASE("the window is drawn without a display, plots filled, the same every t
 TEST_CASE("shot says what is wrong with a mesh or a target, and leaves nothing behind") {
   if (no_gl()) return;
   const TempFolder folder;
-  const ProcessResult no_mesh = run_workbench({"shot", folder.file("none.obj"), "--view", "facets", "--out", folder.file("a.png")});
+  const ProcessResult no_mesh =
+      run_workbench({"shot", folder.file("none.obj"), "--view", "facets", "--out", folder.file("a.png")});
   CHECK(no_mesh.exit_code == 1);
   CHECK(contains(no_mesh.err, "none.obj"));
   // The window would go on with its built-in scene; a picture of that is not what was asked for.
-  const ProcessResult no_window = run_workbench({"shot", folder.file("none.obj"), "--view", "overview", "--out", folder.file("a.png")});
+  const ProcessResult no_window =
+      run_workbench({"shot", folder.file("none.obj"), "--view", "overview", "--out", folder.file("a.png")});
   CHECK(no_window.exit_code == 1);
   CHECK(contains(no_window.err, "none.obj"));
-  const ProcessResult no_preset = run_workbench({"shot", "--view", "overview", "--preset", folder.file("none.toml"), "--out", folder.file("a.png")});
+  const ProcessResult no_preset = run_workbench(
+      {"shot", "--view", "overview", "--preset", folder.file("none.toml"), "--out", folder.file("a.png")});
   CHECK(no_preset.exit_code == 1);
   CHECK(contains(no_preset.err, "none.toml"));
   const ProcessResult no_place = run_workbench({"shot", "--view", "cube", "--out", folder.file("nowhere/a.png")});

@@ -43,7 +43,8 @@ std::vector<std::string> fields_of(const std::string& text, int row) {
 TEST_CASE("solve takes a CSV polygon as it takes a mesh, with every method, and records its iterations") {
   const Scene scene;
   for (const char* method : {"paper", "newton", "robust", "facet", "force-shading", "two-pass"}) {
-    const ProcessResult out = scene.solve({"--method", method, "--iterations", scene.folder.file("it.csv"), "--summary", scene.folder.file("s.json")});
+    const ProcessResult out = scene.solve(
+        {"--method", method, "--iterations", scene.folder.file("it.csv"), "--summary", scene.folder.file("s.json")});
     CAPTURE(out.err);
     REQUIRE(out.exit_code == 0);
     CHECK(contains(out.out, "101 ticks on arc.csv (open polygon, 5 vertices)"));

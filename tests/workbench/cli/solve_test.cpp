@@ -146,10 +146,13 @@ TEST_CASE("the trace has the planes that the ticks counted") {
 
 TEST_CASE("options override the preset file, which overrides the built-in values") {
   const Scene scene(20);
-  const std::string preset = scene.folder.write(
-      "p.toml", "[solver]\nmethod = \"newton\"\ntolerance_m = 5e-7\n[finger]\nshape = \"point\"\n[force]\nstiffness_n_per_m = 100\n");
-  REQUIRE(scene.solve({"--preset", preset, "--tolerance-um", "0.1", "--finger-radius-mm", "12.5", "--condition", "C1",
-                       "--summary", scene.folder.file("summary.json")}).exit_code == 0);
+  const std::string preset = scene.folder.write("p.toml",
+                                                "[solver]\nmethod = \"newton\"\ntolerance_m = 5e-7\n[finger]\nshape = "
+                                                "\"point\"\n[force]\nstiffness_n_per_m = 100\n");
+  REQUIRE(scene
+              .solve({"--preset", preset, "--tolerance-um", "0.1", "--finger-radius-mm", "12.5", "--condition", "C1",
+                      "--summary", scene.folder.file("summary.json")})
+              .exit_code == 0);
   const nlohmann::json values = scene.summary()["preset"]["values"];
   CHECK(values["solver"]["method"] == "newton");
   CHECK(values["solver"]["tolerance_m"].get<double>() == doctest::Approx(1e-7).epsilon(1e-12));
@@ -183,12 +186,15 @@ TEST_CASE("bad files are named, leave with 1 and leave nothing behind") {
     return scene.solve({"--preset", scene.folder.write("bad.toml", text)});
   };
   const auto with_poses = [&](const std::string& text) {
-    return run_workbench({"solve", scene.mesh, "--poses", scene.folder.write("bad.csv", text), "--out", scene.folder.file("ticks.csv")});
+    return run_workbench(
+        {"solve", scene.mesh, "--poses", scene.folder.write("bad.csv", text), "--out", scene.folder.file("ticks.csv")});
   };
   SUBCASE("presets") {
     check_failed(with_preset("[solver]\ngain = 1\n"), "bad.toml:2 solver.gain: unknown key");
-    check_failed(with_preset("[solver]\ngain_overall = \"big\"\n"), "bad.toml:2 solver.gain_overall: is text; allowed: 0 to 10");
-    check_failed(with_preset("[solver]\ngain_overall = 11\n"), "bad.toml:2 solver.gain_overall: 11 is out of range; allowed: 0 to 10");
+    check_failed(with_preset("[solver]\ngain_overall = \"big\"\n"),
+                 "bad.toml:2 solver.gain_overall: is text; allowed: 0 to 10");
+    check_failed(with_preset("[solver]\ngain_overall = 11\n"),
+                 "bad.toml:2 solver.gain_overall: 11 is out of range; allowed: 0 to 10");
     check_failed(with_preset("[solver]\ngain_overall = nan\n"), "is out of range");
     check_failed(with_preset("[solver\n"), "bad.toml:1");
     check_failed(scene.solve({"--preset", scene.folder.file("none.toml")}), "none.toml: can't be opened");
@@ -201,10 +207,11 @@ TEST_CASE("bad files are named, leave with 1 and leave nothing behind") {
     check_failed(with_poses("t_s,x_m,y_m,z_m\n"), "bad.csv: no poses");
   }
   SUBCASE("meshes") {
-    check_failed(run_workbench({"solve", scene.folder.file("none.obj"), "--poses", scene.poses, "--out", scene.folder.file("ticks.csv")}),
+    check_failed(run_workbench({"solve", scene.folder.file("none.obj"), "--poses", scene.poses, "--out",
+                                scene.folder.file("ticks.csv")}),
                  "none.obj");
-    check_failed(run_workbench({"solve", scene.folder.write("bad.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n"), "--poses",
-                                scene.poses, "--out", scene.folder.file("ticks.csv")}),
+    check_failed(run_workbench({"solve", scene.folder.write("bad.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n"),
+                                "--poses", scene.poses, "--out", scene.folder.file("ticks.csv")}),
                  "bad.obj:4");
   }
 }
@@ -247,12 +254,14 @@ TEST_CASE("Ctrl-C keeps the ticks that are done and says so") {
   }
   const std::string poses = folder.write("poses.csv", text);
   const Process process({"solve", mesh, "--poses", poses, "--out", ticks, "--summary", folder.file("summary.json"),
-                         "--method", "paper", "--gain-curvature-m", "0", "--max-iterations", "1000", "--tolerance-um", "1e-6"});
+                         "--method", "paper", "--gain-curvature-m", "0", "--max-iterations", "1000", "--tolerance-um",
+                         "1e-6"});
   // Its temporary file shows that it is at work.
   const auto at_work = [&] {
     for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
       std::error_code gone;
-      if (contains(entry.path().filename().string(), ".tmp-") && std::filesystem::file_size(entry, gone) > 100000 && !gone) {
+      if (contains(entry.path().filename().string(), ".tmp-") && std::filesystem::file_size(entry, gone) > 100000 &&
+          !gone) {
         return true;
       }
     }

@@ -27,7 +27,8 @@ struct TuneFolder {
     std::string text = "t_s,x_m,y_m,z_m\n";
     for (int i = 0; i < 300; ++i) {
       const double a = 1e-4 / 0.059 * i;
-      text += std::to_string(1e-3 * i) + "," + std::to_string(0.059 * std::sin(a)) + ",0.001," + std::to_string(0.059 * std::cos(a)) + "\n";
+      text += std::to_string(1e-3 * i) + "," + std::to_string(0.059 * std::sin(a)) + ",0.001," +
+              std::to_string(0.059 * std::cos(a)) + "\n";
     }
     return folder.write("poses.csv", text);
   }
@@ -43,8 +44,10 @@ struct Claims {
   std::map<std::string, std::string> texts;
   explicit Claims(const PresetAbout& about) {
     for (const auto& [key, value] : about.measured) {
-      if (const double* number = std::get_if<double>(&value)) numbers[key] = *number;
-      else texts[key] = std::get<std::string>(value);
+      if (const double* number = std::get_if<double>(&value))
+        numbers[key] = *number;
+      else
+        texts[key] = std::get<std::string>(value);
     }
   }
 };
@@ -230,7 +233,8 @@ TEST_CASE("the default preset is robust, carries tuned gains and measures what i
   CHECK(file.preset.solver.method == Method::robust);
 }
 
-TEST_CASE("320 triangles of a sphere take at most 1.5 iterations a tick with the gains that ship, every tick below 1 um") {
+TEST_CASE(
+    "320 triangles of a sphere take at most 1.5 iterations a tick with the gains that ship, every tick below 1 um") {
   const auto scene = scene_of_object("icosphere");
   REQUIRE(scene->mesh().triangle_count() == 320);
   for (const std::string name : {"sphere", "default"}) {

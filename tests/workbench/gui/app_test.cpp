@@ -265,9 +265,11 @@ TEST_CASE("the wheel over a plot zooms time about the pointer once it is held") 
   ui.run();
   ui.click("transport/pause");
   const ItemRect rect = *ui.app().items().find("plots/force");
-  const ImVec2 at{std::floor(rect.min.x + 0.3f * (rect.max.x - rect.min.x)), std::floor(rect.centre().y)};  // ImGui rounds the mouse down
+  const ImVec2 at{std::floor(rect.min.x + 0.3f * (rect.max.x - rect.min.x)),
+                  std::floor(rect.centre().y)};  // ImGui rounds the mouse down
   const auto tick_at = [&] {
-    return ui.model().axis().tick_at(static_cast<double>(at.x), static_cast<double>(rect.min.x), static_cast<double>(rect.max.x - rect.min.x));
+    return ui.model().axis().tick_at(static_cast<double>(at.x), static_cast<double>(rect.min.x),
+                                     static_cast<double>(rect.max.x - rect.min.x));
   };
   const double before = tick_at(), span = ui.model().axis().span();
   ui.wheel(at, 2.0f);
@@ -384,7 +386,8 @@ TEST_CASE("the display's controller is tuned in a section of its own, and bounds
   CHECK(ui.app().items().find("controller/p_per_s2") == nullptr);
   ui.click("section/Display controller");
   ui.frames(2);
-  for (const char* key : {"i_per_s3", "d_per_s", "target_weight", "lowest_m", "highest_m", "fastest_m_per_s", "largest_current_a"}) {
+  for (const char* key :
+       {"i_per_s3", "d_per_s", "target_weight", "lowest_m", "highest_m", "fastest_m_per_s", "largest_current_a"}) {
     CAPTURE(std::string(key));
     CHECK(ui.app().items().find(std::string("controller/") + key) != nullptr);
   }
@@ -433,7 +436,11 @@ TEST_CASE("a preset that was there before is written over only when asked for tw
 }
 
 TEST_CASE("frames build at any size and scale, with and without history, for every method") {
-  for (const auto& [w, h, scale] : {std::tuple{1280.0f, 720.0f, 1.0f}, {3840.0f, 2160.0f, 1.0f}, {3840.0f, 2160.0f, 2.0f}, {320.0f, 200.0f, 1.0f}, {40.0f, 30.0f, 2.0f}}) {
+  for (const auto& [w, h, scale] : {std::tuple{1280.0f, 720.0f, 1.0f},
+                                    {3840.0f, 2160.0f, 1.0f},
+                                    {3840.0f, 2160.0f, 2.0f},
+                                    {320.0f, 200.0f, 1.0f},
+                                    {40.0f, 30.0f, 2.0f}}) {
     CAPTURE(w);
     CAPTURE(scale);
     AppOptions none = HeadlessApp::deterministic_options();
@@ -681,10 +688,12 @@ TEST_CASE("a slice cuts the picture open and lets the pointer through") {
   CHECK(ui.model().view().slice->offset_m > at);
 }
 
-TEST_CASE("a file in metres, taken for millimetres, is warned of - its unit and its longest side are chosen in the window") {
+TEST_CASE(
+    "a file in metres, taken for millimetres, is warned of - its unit and its longest side are chosen in the window") {
   const testing::TempFolder folder;
   AppOptions options = HeadlessApp::deterministic_options();
-  options.mesh = folder.write("small.obj", "v 0 0 0\nv 0.06 0 0\nv 0 0.06 0\nv 0 0 0.06\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n");
+  options.mesh =
+      folder.write("small.obj", "v 0 0 0\nv 0.06 0 0\nv 0 0.06 0\nv 0 0 0.06\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n");
   HeadlessApp ui(options, 1280.0f, 2400.0f);
   const auto longest_mm = [&] {
     const Vec3 size = ui.model().scene()->mesh().bounds().size();
@@ -692,7 +701,8 @@ TEST_CASE("a file in metres, taken for millimetres, is warned of - its unit and 
   };
   const auto warnings = [&] {
     const auto& all = ui.model().messages().all();
-    return std::count_if(all.begin(), all.end(), [](const auto& m) { return testing::contains(m.text, "Unit of the file"); });
+    return std::count_if(all.begin(), all.end(),
+                         [](const auto& m) { return testing::contains(m.text, "Unit of the file"); });
   };
   ui.frames(3);
   CHECK(longest_mm() == doctest::Approx(0.06));

@@ -45,11 +45,17 @@ Matrix cones() {
   return out;
 }
 
-/// A colour as an eye without one kind of cone sees it: that response is a combination of the other two, such that white
-/// and blue (without the short cone: red) stay what they are.
+/// A colour as an eye without one kind of cone sees it: that response is a combination of the other two, such that
+/// white and blue (without the short cone: red) stay what they are.
 Rgba without_cone(const Rgba& c, std::size_t missing) {
-  const auto linear = [](float x) { return static_cast<double>(x) <= 0.04045 ? static_cast<double>(x) / 12.92 : std::pow((static_cast<double>(x) + 0.055) / 1.055, 2.4); };
-  const auto srgb = [](double x) { x = std::clamp(x, 0.0, 1.0); return static_cast<float>(x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1.0 / 2.4) - 0.055); };
+  const auto linear = [](float x) {
+    return static_cast<double>(x) <= 0.04045 ? static_cast<double>(x) / 12.92
+                                             : std::pow((static_cast<double>(x) + 0.055) / 1.055, 2.4);
+  };
+  const auto srgb = [](double x) {
+    x = std::clamp(x, 0.0, 1.0);
+    return static_cast<float>(x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1.0 / 2.4) - 0.055);
+  };
   const Matrix to = cones(), back = inverse(to);
   Vec v = times(to, {linear(c.r), linear(c.g), linear(c.b)});
   const Vec white = times(to, {1, 1, 1}), anchor = times(to, missing == 2 ? Vec{1, 0, 0} : Vec{0, 0, 1});

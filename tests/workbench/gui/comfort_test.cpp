@@ -53,7 +53,10 @@ TEST_CASE("everything in the window explains itself when the pointer rests on it
   ui.frames(2);
   // The view itself is where one works; a tooltip would be in the way. Plots and the table show their values instead.
   std::set<std::string> silent = without_tooltip(ui);
-  std::erase_if(silent, [](const std::string& path) { return path == "view" || path.starts_with("plots/") || path.starts_with("toast/") || path.starts_with("iterations/"); });
+  std::erase_if(silent, [](const std::string& path) {
+    return path == "view" || path.starts_with("plots/") || path.starts_with("toast/") ||
+           path.starts_with("iterations/");
+  });
   for (const std::string& path : silent) MESSAGE("no tooltip: ", path);
   CHECK(silent.empty());
 }
@@ -108,7 +111,8 @@ TEST_CASE("a tooltip goes when a key is pressed, and comes again when the pointe
 }
 
 TEST_CASE("no window of the program is modal") {
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(std::string(TANGENT_SOURCE_DIR) + "/workbench/gui")) {
+  for (const auto& entry :
+       std::filesystem::recursive_directory_iterator(std::string(TANGENT_SOURCE_DIR) + "/workbench/gui")) {
     if (!entry.is_regular_file()) continue;
     CAPTURE(entry.path().string());
     CHECK_FALSE(testing::contains(testing::read_text(entry.path()), "PopupModal"));
@@ -168,13 +172,16 @@ TEST_CASE("what the menus have is among the commands, the device monitor and the
   CHECK(ui.model().device() == "ideal");
   MenuBar menu;
   const auto commands = window_commands(ui.model(), menu);
-  for (const char* name : {"Mesh: load again", "Show: plane after the tick", "Show: creases and boundaries", "Show: control normals"}) {
+  for (const char* name :
+       {"Mesh: load again", "Show: plane after the tick", "Show: creases and boundaries", "Show: control normals"}) {
     CAPTURE(std::string(name));
     CHECK(std::any_of(commands.begin(), commands.end(), [&](const Command& c) { return c.name == name; }));
   }
 }
 
-TEST_CASE("at 1280 x 720 every section of both columns is one command away: unfolded, at the top or as far up as the column goes") {
+TEST_CASE(
+    "at 1280 x 720 every section of both columns is one command away: unfolded, at the top or as far up as the column "
+    "goes") {
   HeadlessApp ui;
   ui.app().advance(2000);
   ui.frames(2);
@@ -278,7 +285,8 @@ TEST_CASE("F1 shows all keys on a sheet, and every command can be run") {
   CHECK(names.size() > 60);
 }
 
-TEST_CASE("layout, look, favourites, folded sections and recent files come back in the next run - default layout forgets") {
+TEST_CASE(
+    "layout, look, favourites, folded sections and recent files come back in the next run - default layout forgets") {
   const testing::TempFolder folder;
   AppOptions options = HeadlessApp::deterministic_options();
   options.settings = folder.path() / "window.toml";

@@ -17,7 +17,8 @@ namespace tangent::test {
 
 class HeadlessApp {
  public:
-  explicit HeadlessApp(AppOptions options = deterministic_options(), float width = 1280.0f, float height = 720.0f, float scale = 1.0f) {
+  explicit HeadlessApp(AppOptions options = deterministic_options(), float width = 1280.0f, float height = 720.0f,
+                       float scale = 1.0f) {
     ImGui::CreateContext();
     ImGuiIO& io = ImGui::GetIO();
     io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
@@ -120,7 +121,8 @@ class HeadlessApp {
     frame();
   }
 
-  static constexpr int kEnter = 257, kEscape = 256, kTab = 258, kLeft = 263, kRight = 262, kSpace = 32, kHome = 268, kEnd = 269;
+  static constexpr int kEnter = 257, kEscape = 256, kTab = 258, kLeft = 263, kRight = 262, kSpace = 32, kHome = 268,
+                       kEnd = 269;
 
  private:
   FrameInput input_;

@@ -8,8 +8,11 @@
 using namespace tangent;
 
 TEST_CASE("the parts fill the window without overlapping, from 1280 x 720 to 4K at any scale") {
-  for (const auto& [w, h, scale] : {std::tuple{1280.0f, 720.0f, 1.0f}, {3840.0f, 2160.0f, 1.0f}, {3840.0f, 2160.0f, 2.0f},
-                                    {1920.0f, 1080.0f, 1.5f}, {1280.0f, 720.0f, 2.0f}}) {
+  for (const auto& [w, h, scale] : {std::tuple{1280.0f, 720.0f, 1.0f},
+                                    {3840.0f, 2160.0f, 1.0f},
+                                    {3840.0f, 2160.0f, 2.0f},
+                                    {1920.0f, 1080.0f, 1.5f},
+                                    {1280.0f, 720.0f, 2.0f}}) {
     const Layout l = compute_layout({}, w, h, scale);
     CAPTURE(w);
     CAPTURE(scale);

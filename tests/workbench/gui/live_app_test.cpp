@@ -79,7 +79,8 @@ TEST_CASE("measure: processor time of building a frame with the bunny and all pl
         ms.push_back(ui.app().last_build_ms());
       }
       std::sort(ms.begin(), ms.end());
-      MESSAGE(w, " x ", h, ", ", span * 1e-3, " s in view: median ", ms[150], " ms, p99 ", ms[297], " ms, worst ", ms[299], " ms");
+      MESSAGE(w, " x ", h, ", ", span * 1e-3, " s in view: median ", ms[150], " ms, p99 ", ms[297], " ms, worst ",
+              ms[299], " ms");
     }
   }
 }

@@ -138,7 +138,8 @@ TEST_CASE("meshes with skipped triangles have their values at the right ones") {
   with_rubbish.name = "rubbish first";
   with_rubbish.positions = mesh.positions;
   with_rubbish.add_face({0, 0, 1});
-  for (std::size_t f = 0; f < mesh.face_count(); ++f) with_rubbish.add_face({mesh.face(f)[0], mesh.face(f)[1], mesh.face(f)[2]});
+  for (std::size_t f = 0; f < mesh.face_count(); ++f)
+    with_rubbish.add_face({mesh.face(f)[0], mesh.face(f)[1], mesh.face(f)[2]});
   const auto scene = scene_of(with_rubbish);
   REQUIRE_FALSE(scene->mesh().usable(0));
   const Preset preset = sphere_preset(0.020, Method::paper);
@@ -150,6 +151,7 @@ TEST_CASE("meshes with skipped triangles have their values at the right ones") {
   MapValues one{};
   mapper.compute(MapGroup::shape, 7, 3, one);
   const Vec2 uv = map_part_centroid(options.level, 3);
-  CHECK(map.value_at(7, uv.x, uv.y) == static_cast<double>(one[static_cast<std::size_t>(MapQuantity::normal_deviation)]));
+  CHECK(map.value_at(7, uv.x, uv.y) ==
+        static_cast<double>(one[static_cast<std::size_t>(MapQuantity::normal_deviation)]));
   CHECK_FALSE(map.value_at(0, 0.3, 0.3).has_value());
 }

@@ -23,7 +23,8 @@ std::filesystem::path folder_with_meshes() {
 
 TEST_CASE("completion offers meshes and folders that begin with what was typed") {
   const std::string at = folder_with_meshes().string() + "/";
-  CHECK(complete_mesh_path(at, 100) == std::vector<std::string>{at + "bracket.obj", at + "bracket_old.OBJ", at + "parts/", at + "wheel.stl"});
+  CHECK(complete_mesh_path(at, 100) ==
+        std::vector<std::string>{at + "bracket.obj", at + "bracket_old.OBJ", at + "parts/", at + "wheel.stl"});
   CHECK(complete_mesh_path(at + "br", 100).size() == 2);
   CHECK(common_start(complete_mesh_path(at + "b", 100)) == at + "bracket");
   CHECK(complete_mesh_path(at + ".h", 100).size() == 1);

@@ -45,7 +45,8 @@ TEST_CASE("a CSV polygon opens as a 2D scene, is explored, and its view pans and
 
 TEST_CASE("the inset keeps off a polygon, and F frames it again and again") {
   const tangent::testing::TempFolder folder;
-  const std::string file = folder.write("box.csv", "x_m,y_m\n-0.06,-0.02\n0.06,-0.02\n0.06,0.03\n-0.06,0.03\n-0.06,-0.02\n");
+  const std::string file =
+      folder.write("box.csv", "x_m,y_m\n-0.06,-0.02\n0.06,-0.02\n0.06,0.03\n-0.06,0.03\n-0.06,-0.02\n");
   for (const auto& [width, height] : {std::pair{1280.0f, 720.0f}, {2560.0f, 1440.0f}, {900.0f, 900.0f}}) {
     CAPTURE(width);
     HeadlessApp app(options_for(file), width, height);
@@ -55,7 +56,8 @@ TEST_CASE("the inset keeps off a polygon, and F frames it again and again") {
     const ItemRect framed = outline(), inset = *app.app().items().find("planar/inset");
     CHECK((framed.min.x >= inset.max.x || framed.max.y <= inset.min.y));
     CHECK(framed.min.y >= app.app().items().find("planar/Display")->max.y);
-    CHECK(framed.max.x - framed.min.x > 0.25f * (app.app().items().find("view")->max.x - app.app().items().find("view")->min.x));
+    CHECK(framed.max.x - framed.min.x >
+          0.25f * (app.app().items().find("view")->max.x - app.app().items().find("view")->min.x));
     for (int again = 0; again < 2; ++again) {
       app.drag("view", {60.0f, 20.0f});
       CHECK(outline().min.x == doctest::Approx(framed.min.x + 60.0f));

@@ -160,7 +160,8 @@ TEST_CASE("PNG asks the platform for the plots' part of the window, which is cut
   CHECK(request->of.y <= plot.min.y);
   CHECK(request->of.bottom() >= plot.max.y);
   Image whole{3200, 2000, std::vector<std::uint8_t>(4 * 3200 * 2000)};
-  for (int y = 0; y < 2000; ++y) whole.rgba[4 * (static_cast<std::size_t>(y) * 3200)] = static_cast<std::uint8_t>(y % 251);
+  for (int y = 0; y < 2000; ++y)
+    whole.rgba[4 * (static_cast<std::size_t>(y) * 3200)] = static_cast<std::uint8_t>(y % 251);
   const Image part = cut_out(whole, {0.0f, 100.0f, 50.0f, 20.0f}, 2.0);
   CHECK(part.width == 100);
   CHECK(part.height == 40);

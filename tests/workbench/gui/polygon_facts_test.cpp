@@ -12,7 +12,9 @@ using tangent::testing::TempFolder;
 namespace {
 
 /// A rectangle of 40 mm x 30 mm whose last vertex is sharp.
-PlanarPolygon rectangle(bool closed) { return {"rectangle.csv", {{0.0, 0.0}, {0.04, 0.0}, {0.04, 0.03}, {0.0, 0.03}, {0.0, 0.03}}, closed}; }
+PlanarPolygon rectangle(bool closed) {
+  return {"rectangle.csv", {{0.0, 0.0}, {0.04, 0.0}, {0.04, 0.03}, {0.0, 0.03}, {0.0, 0.03}}, closed};
+}
 
 }  // namespace
 

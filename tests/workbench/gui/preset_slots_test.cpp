@@ -12,7 +12,8 @@ const PresetKey& gain() { return *find_preset_key("solver", "gain_overall"); }
 const PresetKey& radius() { return *find_preset_key("finger", "radius_m"); }
 
 bool set(PresetSlots& slots, const PresetKey& key, double value, std::string_view gesture = {}) {
-  return slots.apply(key.full_name(), [&](PresetEditor& editor) { return editor.set(key, value); }, gesture);
+  return slots.apply(
+      key.full_name(), [&](PresetEditor& editor) { return editor.set(key, value); }, gesture);
 }
 
 double gain_of(const PresetSlots& slots) { return slots.active().current().solver.gain_overall; }

@@ -16,7 +16,9 @@ namespace {
 
 constexpr int kPatience = 600;  // tenths of a second: builds under sanitizers draw slowly
 
-std::string printed_point(float x, float y) { return std::to_string(static_cast<int>(x)) + " " + std::to_string(static_cast<int>(y)); }
+std::string printed_point(float x, float y) {
+  return std::to_string(static_cast<int>(x)) + " " + std::to_string(static_cast<int>(y));
+}
 
 std::string contents(const std::filesystem::path& file) {
   std::ifstream in(file);
@@ -38,13 +40,21 @@ number=$((100 + $$ % 20000))
 for try in 1 2 3 4 5; do
   export DISPLAY=:$number
   Xvfb $DISPLAY -noreset -screen 0 $screen >/dev/null 2>&1 & xvfb=$!
-  for i in $(seq $patience); do kill -0 $xvfb 2>/dev/null || break; xdotool getdisplaygeometry >/dev/null 2>&1 && break 2; sleep 0.1; done
+  for i in $(seq $patience); do
+    kill -0 $xvfb 2>/dev/null || break
+    xdotool getdisplaygeometry >/dev/null 2>&1 && break 2
+    sleep 0.1
+  done
   number=$((number + 1))
 done
 )";
 
 const char* const kOpening = R"(
-for i in $(seq $patience); do window=$(xdotool search --name 'Tangent Workbench' 2>/dev/null | head -1); test -n "$window" && break; sleep 0.1; done
+for i in $(seq $patience); do
+  window=$(xdotool search --name 'Tangent Workbench' 2>/dev/null | head -1)
+  test -n "$window" && break
+  sleep 0.1
+done
 test -n "$window" || { echo "no window"; exit 3; }
 xdotool windowmove $window 0 0
 )";
@@ -79,26 +89,32 @@ WindowScript& WindowScript::click(float x, float y) {
   return line("xdotool mousemove " + printed_point(x, y) + " sleep 0.2 mousedown 1 sleep 0.1 mouseup 1 sleep 0.2");
 }
 WindowScript& WindowScript::drag(float x, float y, float dx, float dy) {
-  return line("xdotool mousemove " + printed_point(x, y) + " sleep 0.2 mousedown 1 sleep 0.2 mousemove " + printed_point(x + 0.5f * dx, y + 0.5f * dy) +
-              " sleep 0.1 mousemove " + printed_point(x + dx, y + dy) + " sleep 0.2 mouseup 1 sleep 0.2");
+  return line("xdotool mousemove " + printed_point(x, y) + " sleep 0.2 mousedown 1 sleep 0.2 mousemove " +
+              printed_point(x + 0.5f * dx, y + 0.5f * dy) + " sleep 0.1 mousemove " + printed_point(x + dx, y + dy) +
+              " sleep 0.2 mouseup 1 sleep 0.2");
 }
 WindowScript& WindowScript::wheel(float x, float y, int notches) {
-  return line("xdotool mousemove " + printed_point(x, y) + " sleep 0.1 click --delay 30 --repeat " + std::to_string(std::abs(notches)) +
-              (notches > 0 ? " 4" : " 5"));
+  return line("xdotool mousemove " + printed_point(x, y) + " sleep 0.1 click --delay 30 --repeat " +
+              std::to_string(std::abs(notches)) + (notches > 0 ? " 4" : " 5"));
 }
 WindowScript& WindowScript::until_title(const std::string& pattern) { return line("until_title '" + pattern + "'"); }
 WindowScript& WindowScript::until_there(const std::string& pattern) { return line("until_there '" + pattern + "'"); }
 
 void drive(const WindowRun& run, const WindowScript& script) {
   const auto file = run.folder / "drive.sh";
-  std::ofstream(file) << "cd " << run.folder.string() << "\nexport XDG_CONFIG_HOME=" << run.folder.string() << "/config\npatience=" << kPatience
-                      << "\nscreen=" << run.width << "x" << run.height << "x24\n"
-                      << "trap 'kill $program $xvfb 2>/dev/null; wait $xvfb 2>/dev/null' EXIT\n" << kFunctions
-                      // The GL driver leaks from a module that is unloaded by the time leaks are looked for; ours are found elsewhere.
-                      << "ASAN_OPTIONS=\"$ASAN_OPTIONS:detect_leaks=0\" " << TANGENT_PROGRAM << " gui " << run.arguments << " >program.log 2>&1 & program=$!\n"
-                      << kOpening << "xdotool windowsize $window " << run.width << " " << run.height << "\nuntil_title '" << run.shown << "'\n"
-                      << script.text() << (run.quit ? "xdotool key ctrl+q\n" : "") << kEnding;
-  const int status = std::system(("sh " + file.string() + " >" + (run.folder / "script.log").string() + " 2>&1").c_str());
+  std::ofstream(file)
+      << "cd " << run.folder.string() << "\nexport XDG_CONFIG_HOME=" << run.folder.string()
+      << "/config\npatience=" << kPatience << "\nscreen=" << run.width << "x" << run.height << "x24\n"
+      << "trap 'kill $program $xvfb 2>/dev/null; wait $xvfb 2>/dev/null' EXIT\n"
+      << kFunctions
+      // The GL driver leaks from a module that is unloaded by the time leaks are looked for; ours are found elsewhere.
+      << "ASAN_OPTIONS=\"$ASAN_OPTIONS:detect_leaks=0\" " << TANGENT_PROGRAM << " gui " << run.arguments
+      << " >program.log 2>&1 & program=$!\n"
+      << kOpening << "xdotool windowsize $window " << run.width << " " << run.height << "\nuntil_title '" << run.shown
+      << "'\n"
+      << script.text() << (run.quit ? "xdotool key ctrl+q\n" : "") << kEnding;
+  const int status =
+      std::system(("sh " + file.string() + " >" + (run.folder / "script.log").string() + " 2>&1").c_str());
   INFO("program: ", contents(run.folder / "program.log"));
   INFO("script: ", contents(run.folder / "script.log"));
   REQUIRE(WIFEXITED(status));

@@ -1,5 +1,6 @@
-// The program's real window on a display of its own (Xvfb), driven with xdotool. Scripts wait for what the window's title
-// says (mesh, preset, whether it is changed, the time in view) instead of sleeping for as long as a quick machine needs.
+// The program's real window on a display of its own (Xvfb), driven with xdotool. Scripts wait for what the window's
+// title says (mesh, preset, whether it is changed, the time in view) instead of sleeping for as long as a quick machine
+// needs.
 #pragma once
 
 #include <filesystem>
@@ -18,15 +19,15 @@ std::filesystem::path fresh_folder(const char* name);
 class WindowScript {
  public:
   WindowScript& line(const std::string& shell);
-  WindowScript& keys(const std::string& names);                 ///< as xdotool names them, with blanks between
+  WindowScript& keys(const std::string& names);  ///< as xdotool names them, with blanks between
   WindowScript& type(const std::string& text);
   WindowScript& click(float x, float y);
   WindowScript& drag(float x, float y, float dx, float dy);
-  WindowScript& wheel(float x, float y, int notches);           ///< up for more than 0
+  WindowScript& wheel(float x, float y, int notches);  ///< up for more than 0
   /// Until the title matches this grep pattern; the script ends with 5 when that takes too long. Every wait has to
   /// change something: what matches already is passed at once.
   WindowScript& until_title(const std::string& pattern);
-  WindowScript& until_there(const std::string& pattern);        ///< a file, by a shell pattern; ends with 6
+  WindowScript& until_there(const std::string& pattern);  ///< a file, by a shell pattern; ends with 6
   const std::string& text() const { return text_; }
 
  private:
@@ -34,12 +35,12 @@ class WindowScript {
 };
 
 struct WindowRun {
-  std::filesystem::path folder;     ///< where it runs, and keeps its settings in config/
-  std::string arguments;            ///< after `workbench gui`
-  std::string shown = "^icosphere"; ///< the title when it is ready
+  std::filesystem::path folder;      ///< where it runs, and keeps its settings in config/
+  std::string arguments;             ///< after `workbench gui`
+  std::string shown = "^icosphere";  ///< the title when it is ready
   int width = 1000, height = 700;
-  bool quit = true;                 ///< with Ctrl-Q at the end; else the script ends it
-  int exit_status = 0;              ///< expected
+  bool quit = true;     ///< with Ctrl-Q at the end; else the script ends it
+  int exit_status = 0;  ///< expected
 };
 
 /// Runs it to its end and checks the exit status; what the program and the script said is logged with a failure.

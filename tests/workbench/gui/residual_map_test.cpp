@@ -72,7 +72,8 @@ TEST_CASE("flat triangles keep their lengths, and neighbours lie on the other si
   }
   const auto& base = map.triangles()[0].corners;
   for (std::size_t i = 1; i < 4; ++i) {
-    const Vec2 middle = (map.triangles()[i].corners[0] + map.triangles()[i].corners[1] + map.triangles()[i].corners[2]) / 3.0;
+    const Vec2 middle =
+        (map.triangles()[i].corners[0] + map.triangles()[i].corners[1] + map.triangles()[i].corners[2]) / 3.0;
     double least = 1.0;
     for (std::size_t k = 0; k < 3; ++k) {
       const Vec2 e = base[(k + 1) % 3] - base[k], d = middle - base[k];

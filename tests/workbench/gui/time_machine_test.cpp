@@ -27,7 +27,8 @@ std::shared_ptr<const ContactScene> torus() {
   return scene;
 }
 
-std::unique_ptr<Session> explored(std::shared_ptr<const ContactScene> scene, const Preset& preset, std::uint64_t ticks) {
+std::unique_ptr<Session> explored(std::shared_ptr<const ContactScene> scene, const Preset& preset,
+                                  std::uint64_t ticks) {
   SessionOptions options;
   options.threaded = false;
   auto session = Session::create(std::move(scene), preset, options);
@@ -70,7 +71,8 @@ TEST_CASE("the past verifies, and unchanged gains give a ghost without a differe
       const TickOutput& out = session->history()[tick].tick.output;
       CHECK(ghost.value(static_cast<std::size_t>(GhostChannel::force_z), tick) == static_cast<float>(out.force_n.z));
       CHECK(ghost.value(static_cast<std::size_t>(GhostChannel::cld), tick) == static_cast<float>(out.cld_m));
-      CHECK(ghost.value(static_cast<std::size_t>(GhostChannel::iterations), tick) == static_cast<float>(out.iterations));
+      CHECK(ghost.value(static_cast<std::size_t>(GhostChannel::iterations), tick) ==
+            static_cast<float>(out.iterations));
     }
   }
 }
@@ -124,7 +126,8 @@ namespace {
 
 /// How long it takes from a wish to its ghost, over `wishes` of them. `change` makes the i-th wish.
 template <class Change>
-void measure_ghosts(const std::string& name, const std::shared_ptr<const ContactScene>& scene, Preset preset, int wishes, Change change) {
+void measure_ghosts(const std::string& name, const std::shared_ptr<const ContactScene>& scene, Preset preset,
+                    int wishes, Change change) {
   const auto session = explored(scene, preset, 60'000);
   TimeMachine machine(std::max(1u, std::thread::hardware_concurrency()));
   machine.open(session->recorded_run());
@@ -136,13 +139,15 @@ void measure_ghosts(const std::string& name, const std::shared_ptr<const Contact
     change(wish, i);
     const auto began = std::chrono::steady_clock::now();
     machine.request(wish, 0.0, 60'000.0);
-    while (!machine.ghost() || !(machine.ghost()->preset == wish)) std::this_thread::sleep_for(std::chrono::microseconds(100));
+    while (!machine.ghost() || !(machine.ghost()->preset == wish))
+      std::this_thread::sleep_for(std::chrono::microseconds(100));
     ms.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - began).count());
   }
   std::sort(ms.begin(), ms.end());
   const auto at = [&](double share) { return ms[static_cast<std::size_t>(share * static_cast<double>(wishes - 1))]; };
-  MESSAGE(name, ": least ", ms.front(), " ms, median ", at(0.5), " ms, p99 ", at(0.99), " ms, worst ", ms.back(), " ms; contacts taken over: ",
-          machine.ghost()->numbers.taken_over, " of ", machine.ghost()->numbers.resolved.ticks);
+  MESSAGE(name, ": least ", ms.front(), " ms, median ", at(0.5), " ms, p99 ", at(0.99), " ms, worst ", ms.back(),
+          " ms; contacts taken over: ", machine.ghost()->numbers.taken_over, " of ",
+          machine.ghost()->numbers.resolved.ticks);
 }
 
 }  // namespace

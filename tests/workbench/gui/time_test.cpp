@@ -260,7 +260,8 @@ TEST_CASE("a click on a dot of the path map selects that plane") {
   CHECK(ui.model().tick().selected().has_value());
 }
 
-TEST_CASE("the error plot has room for the tick in view where time stands still, and for all of the fan while it runs") {
+TEST_CASE(
+    "the error plot has room for the tick in view where time stands still, and for all of the fan while it runs") {
   CHECK(iterations_shown(3, 40, true) == 5);
   CHECK(iterations_shown(22, 40, true) == 22);
   CHECK(iterations_shown(3, 40, false) == 40);

@@ -56,12 +56,14 @@ TEST_CASE("rooms are what a card in the corner and bars along the edges leave") 
   CHECK(above.width == doctest::Approx(1.45));
   CHECK(above.height == doctest::Approx(0.35));
   CHECK(above.shift.y == doctest::Approx(0.225));
-  for (const ViewRoom& room : rooms_beside({10.0, 0.0}, 40.0, 20.0, {200.0, 220.0})) CHECK((room.width > 0.0 && room.height > 0.0));
+  for (const ViewRoom& room : rooms_beside({10.0, 0.0}, 40.0, 20.0, {200.0, 220.0}))
+    CHECK((room.width > 0.0 && room.height > 0.0));
 }
 
 TEST_CASE("nothing that is drawn over the picture lies on the object, whatever it is and wherever it is seen from") {
   for (const auto& [width, height] : {std::pair{1280.0f, 720.0f}, {2560.0f, 1440.0f}, {1000.0f, 900.0f}}) {
-    for (const char* object : {"torus", "icosphere", "cube", "cylinder", "tetrahedron", "triangle", "saddle", "two_plates", "open_bowl"}) {
+    for (const char* object :
+         {"torus", "icosphere", "cube", "cylinder", "tetrahedron", "triangle", "saddle", "two_plates", "open_bowl"}) {
       AppOptions options = HeadlessApp::deterministic_options();
       options.mesh = object;
       HeadlessApp ui(options, width, height);
@@ -72,7 +74,9 @@ TEST_CASE("nothing that is drawn over the picture lies on the object, whatever i
         const ItemRect view = *ui.app().items().find("view");
         const int w = static_cast<int>(view.max.x - view.min.x), h = static_cast<int>(view.max.y - view.min.y);
         const float below_toggles = ui.app().items().find("view/Display")->max.y;
-        const Vec2 cards = overlay_cards(ui.model().view().toggles, ImGui::GetIO().Fonts->Fonts[0]->FontSize, view.max.y - below_toggles).size;
+        const Vec2 cards = overlay_cards(ui.model().view().toggles, ImGui::GetIO().Fonts->Fonts[0]->FontSize,
+                                         view.max.y - below_toggles)
+                               .size;
         const double toggles = static_cast<double>(below_toggles - view.min.y);
         const ItemRect* bar = map ? ui.app().items().find("view/map_bar") : nullptr;
         const double right = bar != nullptr ? static_cast<double>(bar->min.x - view.min.x) : w;
@@ -97,7 +101,9 @@ TEST_CASE("nothing that is drawn over the picture lies on the object, whatever i
   }
 }
 
-TEST_CASE("in a low picture the cards stand side by side, and what still does not fit is left out: nothing reaches into the toggles") {
+TEST_CASE(
+    "in a low picture the cards stand side by side, and what still does not fit is left out: nothing reaches into the "
+    "toggles") {
   const float em = 10.0f;
   SceneToggles toggles;
   toggles.cld_inset = toggles.axes = toggles.colour_bar = toggles.planes = true;

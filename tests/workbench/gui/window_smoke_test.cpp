@@ -38,16 +38,18 @@ class Script : public WindowScript {
   HeadlessApp layout_;
 };
 
-std::filesystem::path settings_in(const std::filesystem::path& folder) { return folder / "config" / "tangent-workbench" / "window.toml"; }
+std::filesystem::path settings_in(const std::filesystem::path& folder) {
+  return folder / "config" / "tangent-workbench" / "window.toml";
+}
 
 void write_tetrahedron(const std::filesystem::path& file) {
   std::ofstream(file) << "v 0 0 0\nv 60 0 0\nv 0 60 0\nv 0 0 60\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
 }
 
-#define REQUIRE_DISPLAY()                                    \
-  if (!can_drive_windows()) {                                \
-    MESSAGE("skipped: Xvfb and xdotool are not installed");  \
-    return;                                                  \
+#define REQUIRE_DISPLAY()                                   \
+  if (!can_drive_windows()) {                               \
+    MESSAGE("skipped: Xvfb and xdotool are not installed"); \
+    return;                                                 \
   }
 
 }  // namespace
@@ -66,7 +68,12 @@ TEST_CASE("the real window opens a mesh, takes a typed gain, pauses, steps, save
   script.press("transport/pause").until_title("paused at");
   script.press("transport/step_back").keys("Left period");
   script.press("presets/name").type("typed").keys("Return").until_title("tetra.obj - typed - ");
-  drive({.folder = folder, .arguments = mesh.string() + " --preset " + preset.string(), .shown = "^tetra.obj - start - ", .width = 1600, .height = kTall}, script);
+  drive({.folder = folder,
+         .arguments = mesh.string() + " --preset " + preset.string(),
+         .shown = "^tetra.obj - start - ",
+         .width = 1600,
+         .height = kTall},
+        script);
   const auto written = read_preset(saved);
   REQUIRE(written.has_value());
   CHECK(written->preset.solver.gain_overall == 0.625);
@@ -131,7 +138,11 @@ TEST_CASE("the real window takes every tap of a key, however quick") {
     for (int i = 0; i < 25; ++i) rights += " Right";
     return rights;
   }());
-  script.until_title("paused at 0.02[5-9] s").keys("shift+Right").until_title("paused at 0.03[5-9] s").keys("Left Left").until_title("paused at 0.03[3-7] s");
+  script.until_title("paused at 0.02[5-9] s")
+      .keys("shift+Right")
+      .until_title("paused at 0.03[5-9] s")
+      .keys("Left Left")
+      .until_title("paused at 0.03[3-7] s");
   drive({.folder = folder, .arguments = "icosphere"}, script);
 }
 
@@ -163,14 +174,20 @@ TEST_CASE("the real window opens a mesh by its typed path, and says what is wron
   write_tetrahedron(folder / "tetra.obj");
   std::ofstream(folder / "rubbish.obj") << "v 1 2\nf 1 2 3\n";
   WindowScript script;
-  script.keys("ctrl+o").type((folder / "rubbish.obj").string()).keys("Return").line("sleep 1").keys("space").until_title("^icosphere.* - paused at");
+  script.keys("ctrl+o")
+      .type((folder / "rubbish.obj").string())
+      .keys("Return")
+      .line("sleep 1")
+      .keys("space")
+      .until_title("^icosphere.* - paused at");
   script.keys("ctrl+o").type((folder / "tetra.obj").string()).keys("Return").until_title("^tetra.obj - ");
   drive({.folder = folder, .arguments = "icosphere"}, script);
   const auto kept = read_window_settings(settings_in(folder));
   REQUIRE(kept.has_value());
   REQUIRE_FALSE(kept->recent_meshes.empty());
   CHECK(kept->recent_meshes.front().ends_with("tetra.obj"));
-  CHECK(std::none_of(kept->recent_meshes.begin(), kept->recent_meshes.end(), [](const std::string& m) { return m.ends_with("rubbish.obj"); }));
+  CHECK(std::none_of(kept->recent_meshes.begin(), kept->recent_meshes.end(),
+                     [](const std::string& m) { return m.ends_with("rubbish.obj"); }));
 }
 
 TEST_CASE("the real window closes by its menu") {
@@ -200,7 +217,8 @@ TEST_CASE("the real window lives through any size, and turns of the wheel everyw
 TEST_CASE("the real window ends on a signal as on Ctrl-Q, and keeps its settings") {
   REQUIRE_DISPLAY();
   const auto folder = fresh_folder("tangent_window_smoke_signal");
-  drive({.folder = folder, .arguments = "icosphere", .quit = false}, WindowScript{}.keys("space").until_title("paused at").line("kill -TERM $program"));
+  drive({.folder = folder, .arguments = "icosphere", .quit = false},
+        WindowScript{}.keys("space").until_title("paused at").line("kill -TERM $program"));
   const auto kept = read_window_settings(settings_in(folder));
   REQUIRE(kept.has_value());
   CHECK(kept->recent_meshes == std::vector<std::string>{"icosphere"});
@@ -212,7 +230,10 @@ TEST_CASE("the real window shows a polygon of the plane, and the device monitor 
   std::ofstream(folder / "outline.csv") << "x_m,y_m\n0,0\n0.05,0\n0.06,0.03\n0.03,0.05\n0,0.04\n";
   WindowScript script;
   script.keys("ctrl+p").type("monitor").keys("Return").line("sleep 0.5").keys("ctrl+p").type("monitor").keys("Return");
-  script.keys("space").until_title("^outline.csv - .* - paused at").keys("k F12").until_there("tangent-workbench-*.png");
+  script.keys("space")
+      .until_title("^outline.csv - .* - paused at")
+      .keys("k F12")
+      .until_there("tangent-workbench-*.png");
   drive({.folder = folder, .arguments = "outline.csv", .shown = "^outline.csv"}, script);
 }
 

@@ -31,8 +31,8 @@ TEST_CASE("each trigger marks the tick that fired it, and calm ticks none") {
     marks.watch(r);
   }
   const std::vector<std::pair<BookmarkKind, std::uint64_t>> expected{
-      {BookmarkKind::unconverged, 500}, {BookmarkKind::reseeded, 1000}, {BookmarkKind::iterations, 1500},
-      {BookmarkKind::force, 2000}, {BookmarkKind::device_fault, 2500}, {BookmarkKind::device_fault, 3000}};
+      {BookmarkKind::unconverged, 500}, {BookmarkKind::reseeded, 1000},     {BookmarkKind::iterations, 1500},
+      {BookmarkKind::force, 2000},      {BookmarkKind::device_fault, 2500}, {BookmarkKind::device_fault, 3000}};
   REQUIRE(marks.all().size() == expected.size());
   for (std::size_t i = 0; i < expected.size(); ++i) {
     CHECK(marks.all()[i].kind == expected[i].first);

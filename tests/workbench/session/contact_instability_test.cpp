@@ -23,7 +23,7 @@ bool theory_shakes(const SimulatedForceOptions& o, double stiffness) {
   double x = 1e-3, v = 0.0, early = 0.0, late = 0.0;
   for (int tick = 0; tick < 8000; ++tick) {
     const double force = -stiffness * x;
-    for (int i = 0; i < o.substeps; ++i) {   // as the device integrates
+    for (int i = 0; i < o.substeps; ++i) {  // as the device integrates
       const double h = kDt / o.substeps;
       v += h / m * (-o.hand_stiffness_n_per_m * x - o.hand_damping_n_s_per_m * v + force);
       x += h * v;
@@ -45,9 +45,9 @@ double theory_limit(const SimulatedForceOptions& o) {
 }
 
 struct Run {
-  double amplitude_m = 0.0;     ///< half of peak to peak over the last half second
+  double amplitude_m = 0.0;  ///< half of peak to peak over the last half second
   GateFault fault = GateFault::none;
-  std::uint64_t reduced = 0;    ///< ticks in which the gate took force away for shaking, after the first second
+  std::uint64_t reduced = 0;  ///< ticks in which the gate took force away for shaking, after the first second
 };
 
 /// The hand presses on a sphere, straight down, with the solver in the loop.
@@ -91,14 +91,16 @@ TEST_CASE("contact is stable below the stiffness theory gives for the hand and s
     const Run below = press(o, 0.8 * limit), above = press(o, 1.3 * limit);
     MESSAGE("hand damping " << damping << " N s/m: shakes from " << limit << " N/m; at 0.8 of it by "
                             << below.amplitude_m * 1e6 << " um, at 1.3 of it by " << above.amplitude_m * 1e6 << " um");
-    CHECK(below.amplitude_m < 25e-6);   // tremor of 10 um RMS
+    CHECK(below.amplitude_m < 25e-6);  // tremor of 10 um RMS
     CHECK(above.amplitude_m > 5.0 * below.amplitude_m);
     CHECK(below.fault == GateFault::none);
     CHECK(below.reduced == 0);
   }
 }
 
-TEST_CASE("a hand that presses hard on a shaking contact is spared: the gate reduces the force, and leaves a stable contact alone") {
+TEST_CASE(
+    "a hand that presses hard on a shaking contact is spared: the gate reduces the force, and leaves a stable contact "
+    "alone") {
   for (const double damping : {4.0, 8.0}) {
     SimulatedForceOptions o;
     o.hand_damping_n_s_per_m = damping;

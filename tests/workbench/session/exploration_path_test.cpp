@@ -22,10 +22,10 @@ namespace {
 constexpr double kTick = 0.1 * 1e-3;  // m of way a tick, at 0.1 m/s and 1 kHz
 
 struct Walk {
-  double longest_step = 0.0;      ///< m between ticks, of the finger's centre
-  double largest_turn = 0.0;      ///< rad between ticks
+  double longest_step = 0.0;                ///< m between ticks, of the finger's centre
+  double largest_turn = 0.0;                ///< rad between ticks
   double deepest = -1.0, shallowest = 1.0;  ///< penetration of the centre's sphere into the raw mesh, m
-  double touching = 0.0;          ///< share of ticks
+  double touching = 0.0;                    ///< share of ticks
 };
 
 Walk walk(const ContactScene& scene, double pad, double press) {
@@ -39,7 +39,8 @@ Walk walk(const ContactScene& scene, double pad, double press) {
     w.longest_step = std::max(w.longest_step, glm::length(pose.position_m - last.position_m));
     const double half = std::min(1.0, std::abs(glm::dot(pose.orientation, last.orientation)));
     w.largest_turn = std::max(w.largest_turn, 2.0 * std::acos(half));
-    const auto hit = scene.nearest().nearest(pose.position_m - scene.mesh().origin(), std::numeric_limits<double>::infinity());
+    const auto hit =
+        scene.nearest().nearest(pose.position_m - scene.mesh().origin(), std::numeric_limits<double>::infinity());
     const double depth = pad - hit.distance_m;
     w.deepest = std::max(w.deepest, depth);
     w.shallowest = std::min(w.shallowest, depth);
@@ -105,9 +106,9 @@ TEST_CASE("the path never leaps over scanned and modelled meshes") {
     REQUIRE(scene);
     CAPTURE(name);
     const Walk w = walk(**scene, 0.010, 1e-3);
-    MESSAGE(std::string(name) << ": longest step " << w.longest_step * 1e3 << " mm, largest turn " << w.largest_turn / kDegree
-                 << " deg, depth " << w.shallowest * 1e3 << " to " << w.deepest * 1e3 << " mm, touching "
-                 << 100.0 * w.touching << " %");
+    MESSAGE(std::string(name) << ": longest step " << w.longest_step * 1e3 << " mm, largest turn "
+                              << w.largest_turn / kDegree << " deg, depth " << w.shallowest * 1e3 << " to "
+                              << w.deepest * 1e3 << " mm, touching " << 100.0 * w.touching << " %");
     CHECK(w.longest_step < 3.0 * kTick);
     CHECK(w.largest_turn < 1.0 * kDegree);
     CHECK(w.touching > 0.9);

@@ -9,8 +9,8 @@ using namespace tangent::test;
 namespace {
 
 struct Outcome {
-  int ticks_to_fault = 0;     ///< from the injection to the gate's fault
-  int ticks_to_zero = 0;      ///< from the gate's fault to no force at the device
+  int ticks_to_fault = 0;  ///< from the injection to the gate's fault
+  int ticks_to_zero = 0;   ///< from the gate's fault to no force at the device
   GateFault fault = GateFault::none;
 };
 
@@ -34,9 +34,11 @@ Outcome inject(InjectedFault kind, bool display) {
     r = bench.run();
     REQUIRE(++outcome.ticks_to_zero < 100);
   }
-  MESSAGE(std::string(to_string(kind)) << std::string(display ? ", display: " : ", force device: ") << outcome.ticks_to_fault << " ticks until "
-                                       << std::string(to_string(outcome.fault)) << ", " << outcome.ticks_to_zero << " more without force");
-  for (int i = 0; i < 300; ++i) {   // the fault passes; the force stays away
+  MESSAGE(std::string(to_string(kind)) << std::string(display ? ", display: " : ", force device: ")
+                                       << outcome.ticks_to_fault << " ticks until "
+                                       << std::string(to_string(outcome.fault)) << ", " << outcome.ticks_to_zero
+                                       << " more without force");
+  for (int i = 0; i < 300; ++i) {  // the fault passes; the force stays away
     r = bench.run();
     CHECK(r.device.force_command_n == Vec3(0.0));
     CHECK(r.device.gate_state == GateState::faulted);
@@ -59,11 +61,11 @@ TEST_CASE("every fault injected into the force device is found, and the force is
   CHECK(noise.ticks_to_zero <= 2);
   const Outcome delay = inject(InjectedFault::delay_burst, false);
   CHECK(delay.fault == GateFault::stale_sample);
-  CHECK(delay.ticks_to_fault <= 11);    // 10 ms old is the oldest that may make a force
+  CHECK(delay.ticks_to_fault <= 11);  // 10 ms old is the oldest that may make a force
   CHECK(delay.ticks_to_zero <= 2);
   const Outcome stuck = inject(InjectedFault::stuck_encoder, false);
   CHECK(stuck.fault == GateFault::position_frozen);
-  CHECK(stuck.ticks_to_fault <= 24);    // 20 equal readings, and those that were equal by chance before
+  CHECK(stuck.ticks_to_fault <= 24);  // 20 equal readings, and those that were equal by chance before
   CHECK(stuck.ticks_to_zero <= 2);
 }
 

@@ -29,14 +29,17 @@ TEST_CASE("calibrations are kept by serial number, each reads back, and the othe
 TEST_CASE("a file of calibrations that is not what it should be is refused with its line, and left as it is") {
   const TempFolder folder;
   const std::string good = "channel = 0\nlow_m = -0.01\nlow_us = 1000\nhigh_m = 0.01\n";
-  for (const auto& [text, place, what] :
-       {std::tuple{std::string("[1]\nlow_m = = 3\n"), ":2", ""}, {"x = 3\n", ":1", "not a table"}, {"[1]\n" + good, ":1", "missing"},
-        {"[1]\n" + good + "high_us = \"many\"\n", ":6", "not a number"}, {"[1]\n" + good + "higher_us = 3\n", ":6", "unknown"},
-        {"[1]\n" + good + "high_us = 1000\n", ":1", "same pulse"}, {"[1]\n" + good + "high_us = 9000\n", ":1", "outside"},
-        {"[1]\n" + good + "high_us = nan\n", ":1", "finite"}}) {
+  for (const auto& [text, place, what] : {std::tuple{std::string("[1]\nlow_m = = 3\n"), ":2", ""},
+                                          {"x = 3\n", ":1", "not a table"},
+                                          {"[1]\n" + good, ":1", "missing"},
+                                          {"[1]\n" + good + "high_us = \"many\"\n", ":6", "not a number"},
+                                          {"[1]\n" + good + "higher_us = 3\n", ":6", "unknown"},
+                                          {"[1]\n" + good + "high_us = 1000\n", ":1", "same pulse"},
+                                          {"[1]\n" + good + "high_us = 9000\n", ":1", "outside"},
+                                          {"[1]\n" + good + "high_us = nan\n", ":1", "finite"}}) {
     CAPTURE(text);
     const std::string file = folder.write("maestro.toml", text);
-    const auto read = read_maestro_setup(file, "2");   // another's: the file is wrong all the same
+    const auto read = read_maestro_setup(file, "2");  // another's: the file is wrong all the same
     REQUIRE_FALSE(read.has_value());
     CHECK(contains(read.error().where, place));
     CHECK(contains(read.error().what, what));

@@ -35,7 +35,13 @@ namespace {
 /// A 2D outline with a sharp corner and a hollow.
 std::shared_ptr<const ContactScene> outline_scene() {
   PlanarPolygon outline{"outline", {}, true};
-  for (const Vec2& v : {Vec2{-0.060, -0.030}, {0.055, -0.034}, {0.055, -0.034}, {0.048, 0.018}, {0.022, 0.004}, {-0.004, 0.012}, {-0.050, 0.034}})
+  for (const Vec2& v : {Vec2{-0.060, -0.030},
+                        {0.055, -0.034},
+                        {0.055, -0.034},
+                        {0.048, 0.018},
+                        {0.022, 0.004},
+                        {-0.004, 0.012},
+                        {-0.050, 0.034}})
     outline.vertices.push_back(v);
   auto curve = PlanarCurve::build(outline);
   REQUIRE(curve);
@@ -48,7 +54,8 @@ std::shared_ptr<const ContactScene> outline_scene() {
 
 TEST_CASE("unchanged gains give zero different bits, for every method, on a mesh and in 2D") {
   for (const auto& scene : {test::torus_scene(), outline_scene()}) {
-    for (const Method method : {Method::robust, Method::paper, Method::newton, Method::facet, Method::force_shading, Method::two_pass}) {
+    for (const Method method :
+         {Method::robust, Method::paper, Method::newton, Method::facet, Method::force_shading, Method::two_pass}) {
       CAPTURE((scene->planar() != nullptr ? "2D" : "mesh"));
       CAPTURE(to_string(method));
       Preset preset;
@@ -123,7 +130,7 @@ TEST_CASE("contacts are taken over where the solver reads nothing that changed, 
       auto session = session_on(scene, own);
       session->advance(HistoryResolver::kChunk);
       Preset other = own;
-      other.solver.gain_curvature_m = 0.006;   // not read by robust
+      other.solver.gain_curvature_m = 0.006;  // not read by robust
       other.solver.gain_overall = 0.8;
       other.solver.tolerance_m = tolerance_m;  // read
       other.force.stiffness_n_per_m = 500.0;
@@ -131,7 +138,8 @@ TEST_CASE("contacts are taken over where the solver reads nothing that changed, 
       const RecordedRun run = session->recorded_run();
       const ResolvedHistory again = resolve(run, other);
       CHECK(again.different_ticks > 1000);
-      CHECK(again.taken_over == (tolerance_m == own.solver.tolerance_m ? HistoryResolver::kChunk - again.recorded.unconverged : 0));
+      CHECK(again.taken_over ==
+            (tolerance_m == own.solver.tolerance_m ? HistoryResolver::kChunk - again.recorded.unconverged : 0));
       Stepper plain(scene);
       TickState state = run.records[0].tick.kept;
       for (std::size_t i = 0; i < run.records.size(); ++i) {

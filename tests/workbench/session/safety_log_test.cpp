@@ -10,7 +10,8 @@ using namespace tangent::test;
 namespace {
 
 bool has(const SafetyLog& log, SafetyEntry::Kind kind, const std::string& text) {
-  return std::any_of(log.entries().begin(), log.entries().end(), [&](const SafetyEntry& e) { return e.kind == kind && e.text == text; });
+  return std::any_of(log.entries().begin(), log.entries().end(),
+                     [&](const SafetyEntry& e) { return e.kind == kind && e.text == text; });
 }
 
 }  // namespace
@@ -30,7 +31,7 @@ TEST_CASE("states, faults and interventions are told once each, with their tick"
   CHECK(has(log, SafetyEntry::Kind::fault, "safety gate: position jumped"));
   const auto size = log.entries().size();
   for (int i = 0; i < 1000; ++i) log.watch(bench.run());
-  CHECK(log.entries().size() == size);   // nothing new
+  CHECK(log.entries().size() == size);  // nothing new
   for (std::size_t i = 1; i < size; ++i) CHECK(log.entries()[i - 1].tick <= log.entries()[i].tick);
 }
 

@@ -19,7 +19,8 @@ struct ClockedServo {
   std::atomic<std::uint64_t> sleeps{0};
 
   /// Runs at least `ticks`; `oversleep` gives ns by number of the sleep.
-  ServoStatus run(const ServoOptions& options, std::uint64_t ticks, std::function<std::int64_t(std::uint64_t)> oversleep) {
+  ServoStatus run(const ServoOptions& options, std::uint64_t ticks,
+                  std::function<std::int64_t(std::uint64_t)> oversleep) {
     clock.oversleep_ns = [this, oversleep] { return oversleep(sleeps++); };
     Servo servo(*bench.tick, bench.statistics, options, clock);
     servo.start();
@@ -46,7 +47,8 @@ ServoOptions quiet(double rate = 1000.0) {
 TEST_CASE("a servo whose clock keeps its deadlines is never late, and measures its rate") {
   for (const double rate : {100.0, 1000.0, 10'000.0}) {
     ClockedServo s;
-    const ServoStatus status = s.run(quiet(rate), static_cast<std::uint64_t>(3.0 * rate), [](std::uint64_t) { return 0; });
+    const ServoStatus status =
+        s.run(quiet(rate), static_cast<std::uint64_t>(3.0 * rate), [](std::uint64_t) { return 0; });
     CHECK(status.late_ticks == 0);
     CHECK(status.missed_deadlines == 0);
     CHECK(status.lateness_worst_ns == 0.0);

@@ -139,7 +139,7 @@ TEST_CASE("a preset's gains and limits reach the display's controller, from the 
     const ServoRecord r = bench.run();
     REQUIRE(std::abs(r.device.cld_command_m) <= 1e-3);
     clamped = clamped || ((r.device.gate_actions >> static_cast<unsigned>(GateAction::display_clamped)) & 1u) != 0;
-    REQUIRE(r.device.gate_fault == GateFault::none);   // the roller follows what it is sent
+    REQUIRE(r.device.gate_fault == GateFault::none);  // the roller follows what it is sent
   }
   CHECK(clamped);
   CHECK(mechanism.gains().p_per_s2 == CldMechanism().gains().p_per_s2);
@@ -185,8 +185,10 @@ TEST_CASE("every fault of the simulated devices stops the force within two ticks
       open(bench.devices);
       bench.arm();
       REQUIRE(glm::length(bench.run(1500).device.force_rendered_n) > 0.3);
-      if (display) static_cast<SimulatedContactDisplay&>(*bench.devices.display).inject(fault);
-      else static_cast<SimulatedForceDevice&>(*bench.devices.force).inject(fault);
+      if (display)
+        static_cast<SimulatedContactDisplay&>(*bench.devices.display).inject(fault);
+      else
+        static_cast<SimulatedForceDevice&>(*bench.devices.force).inject(fault);
       const ServoRecord first = bench.run();
       CHECK(first.device.gate_state == GateState::faulted);
       CHECK((display ? first.device.display_fault : first.device.force_fault) == fault);

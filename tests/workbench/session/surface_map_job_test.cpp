@@ -30,7 +30,8 @@ TEST_CASE("a map computed by several threads is the one that a single mapper com
   }
 }
 
-TEST_CASE("a map can be cancelled, what is done stays and is spread over the surface - another can be started over it") {
+TEST_CASE(
+    "a map can be cancelled, what is done stays and is spread over the surface - another can be started over it") {
   const auto scene = scene_of(make_icosphere(0.040, 5));
   SurfaceMapJob job;
   MapOptions options;

@@ -34,7 +34,9 @@ TEST_CASE("a missing file gives the defaults, a broken one an error with its lin
   const auto broken = read_window_settings(folder.write("broken.toml", "[layout]\nleft = = 3\n"));
   REQUIRE_FALSE(broken.has_value());
   CHECK(contains(broken.error().where, ":2"));
-  const auto strange = read_window_settings(folder.write("strange.toml", "[layout]\nleft = \"wide\"\nright = 1e9\n[look]\ntext_size = -4\nnew_thing = 3\n[lists]\nfavourites = 7\n"));
+  const auto strange = read_window_settings(folder.write(
+      "strange.toml",
+      "[layout]\nleft = \"wide\"\nright = 1e9\n[look]\ntext_size = -4\nnew_thing = 3\n[lists]\nfavourites = 7\n"));
   REQUIRE(strange.has_value());
   CHECK(strange->left == WindowSettings{}.left);
   CHECK(strange->right == 2000.0);
@@ -57,5 +59,8 @@ TEST_CASE("the path follows XDG_CONFIG_HOME when it is absolute, else the home f
   CHECK(window_settings_path() == "/tmp/config/tangent-workbench/window.toml");
   ::setenv("XDG_CONFIG_HOME", "relative", 1);
   CHECK(window_settings_path().string().find("relative") == std::string::npos);
-  if (old != nullptr) ::setenv("XDG_CONFIG_HOME", kept.c_str(), 1); else ::unsetenv("XDG_CONFIG_HOME");
+  if (old != nullptr)
+    ::setenv("XDG_CONFIG_HOME", kept.c_str(), 1);
+  else
+    ::unsetenv("XDG_CONFIG_HOME");
 }

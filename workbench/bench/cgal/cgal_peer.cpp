@@ -22,15 +22,16 @@ Kernel::Point_3 point(const Vec3& p) { return {p.x, p.y, p.z}; }
 
 }  // namespace
 
-std::optional<PeerReport> cgal_peer(const ContactScene& scene, std::span<const TickInput> poses, int repeats, const TickClock& clock,
-                                    const Stop& stop) {
+std::optional<PeerReport> cgal_peer(const ContactScene& scene, std::span<const TickInput> poses, int repeats,
+                                    const TickClock& clock, const Stop& stop) {
   const ContactMesh& mesh = scene.mesh();
   if (mesh.triangle_count() > kMostCgalTriangles) return std::nullopt;
   PeerReport report;
   report.name = "cgal closest point";
   Triangles triangles;
   for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t) {
-    if (mesh.usable(t)) triangles.emplace_back(point(mesh.position(t, 0)), point(mesh.position(t, 1)), point(mesh.position(t, 2)));
+    if (mesh.usable(t))
+      triangles.emplace_back(point(mesh.position(t, 0)), point(mesh.position(t, 1)), point(mesh.position(t, 2)));
   }
   const std::int64_t start = TickClock::now();
   Tree tree(triangles.begin(), triangles.end());
@@ -45,7 +46,8 @@ std::optional<PeerReport> cgal_peer(const ContactScene& scene, std::span<const T
   for (std::size_t i = 0; i < poses.size() && !stop(); ++i) {
     const Vec3 query = poses[i].finger.position - mesh.origin(), d = query - closest[i];
     const double exact = scene.nearest().nearest(query, std::numeric_limits<double>::infinity()).distance_m;
-    report.largest_disagreement_m = std::max(report.largest_disagreement_m, std::abs(std::sqrt(glm::dot(d, d)) - exact));
+    report.largest_disagreement_m =
+        std::max(report.largest_disagreement_m, std::abs(std::sqrt(glm::dot(d, d)) - exact));
   }
   return report;
 }

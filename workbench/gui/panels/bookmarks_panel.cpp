@@ -11,12 +11,18 @@ namespace tangent {
 
 ImU32 bookmark_ink(const UiContext& ui, BookmarkKind kind) {
   switch (kind) {
-    case BookmarkKind::user: return ui.colours.accent;
-    case BookmarkKind::reseeded: return packed(ui.palette.cld_measured);
-    case BookmarkKind::iterations: return packed(ui.palette.iterations);
-    case BookmarkKind::force: return packed(ui.palette.force_magnitude);
-    case BookmarkKind::unconverged: return ui.colours.warning;
-    default: return ui.colours.bad;
+    case BookmarkKind::user:
+      return ui.colours.accent;
+    case BookmarkKind::reseeded:
+      return packed(ui.palette.cld_measured);
+    case BookmarkKind::iterations:
+      return packed(ui.palette.iterations);
+    case BookmarkKind::force:
+      return packed(ui.palette.force_magnitude);
+    case BookmarkKind::unconverged:
+      return ui.colours.warning;
+    default:
+      return ui.colours.bad;
   }
 }
 
@@ -35,15 +41,19 @@ constexpr std::array kTriggers{
     TriggerRow{BookmarkKind::device_fault, "Device fault", "A fault of a device or of the safety gate"}};
 
 /// Whoever drags or types the number of a trigger.
-void threshold(const UiContext& ui, AppModel& model, const char* path, double& value, double most, const char* unit, bool whole) {
-  const auto result = value_field(ui, path, {ImGui::GetContentRegionAvail().x, value / most, short_number(value), unit});
+void threshold(const UiContext& ui, AppModel& model, const char* path, double& value, double most, const char* unit,
+               bool whole) {
+  const auto result =
+      value_field(ui, path, {ImGui::GetContentRegionAvail().x, value / most, short_number(value), unit});
   double wanted = value;
   if (result.slid) wanted = *result.slid * most;
   if (result.typed) {
     char* end = nullptr;
     const double typed = std::strtod(result.typed->c_str(), &end);
-    if (end == result.typed->c_str() || !std::isfinite(typed)) model.say(Severity::error, "\"" + *result.typed + "\" is not a number");
-    else wanted = typed;
+    if (end == result.typed->c_str() || !std::isfinite(typed))
+      model.say(Severity::error, "\"" + *result.typed + "\" is not a number");
+    else
+      wanted = typed;
   }
   wanted = std::clamp(wanted, 0.0, most);
   value = whole ? std::round(wanted) : std::round(wanted * 10.0) / 10.0;
@@ -80,26 +90,33 @@ void draw_row(const UiContext& ui, AppModel& model, const Bookmark& mark, std::s
   ImGui::PushStyleColor(ImGuiCol_Text, gone ? ui.colours.text_faint : ui.colours.text);
   ImGui::PushFont(ui.fonts.small_number);
   const std::string text = printed("  %9.3f  ", mark.t_s);
-  if (ImGui::Selectable((text + "##bookmark" + std::to_string(mark.id)).c_str(), here, ImGuiSelectableFlags_AllowItemOverlap) && !gone)
+  if (ImGui::Selectable((text + "##bookmark" + std::to_string(mark.id)).c_str(), here,
+                        ImGuiSelectableFlags_AllowItemOverlap) &&
+      !gone)
     model.select_tick(std::max(mark.tick, model.first_tick()));
   const float text_width = ImGui::CalcTextSize(text.c_str()).x;
   ImGui::PopFont();
   // The note lies over the rest of the row.
   ui.items.note(printed("bookmarks/row/%zu", i), at, {at.x + text_width, at.y + height});
-  const std::string span = mark.ticks > 1 ? printed("ticks %llu to %llu, %u of them", static_cast<unsigned long long>(mark.tick), static_cast<unsigned long long>(mark.last_tick), mark.ticks)
-                                          : printed("tick %llu", static_cast<unsigned long long>(mark.tick));
+  const std::string span = mark.ticks > 1
+                               ? printed("ticks %llu to %llu, %u of them", static_cast<unsigned long long>(mark.tick),
+                                         static_cast<unsigned long long>(mark.last_tick), mark.ticks)
+                               : printed("tick %llu", static_cast<unsigned long long>(mark.tick));
   tooltip(ui, gone ? span + ", no longer kept" : span);
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  draw.AddRectFilled({at.x, at.y + ui.px(2)}, {at.x + ui.px(6), at.y + height - ui.px(1)}, bookmark_ink(ui, mark.kind), ui.px(1.5f));
+  draw.AddRectFilled({at.x, at.y + ui.px(2)}, {at.x + ui.px(6), at.y + height - ui.px(1)}, bookmark_ink(ui, mark.kind),
+                     ui.px(1.5f));
   const float x = text_width + ui.px(2), remove = ui.px(18);
   ImGui::PushFont(ui.fonts.small);
   ImGui::SameLine(x);
   if (mark.kind == BookmarkKind::user) {
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(ui.px(3), 0.0f));
-    if (auto note = number_box(ui, printed("bookmarks/note/%u", mark.id), ImGui::GetContentRegionAvail().x - remove, mark.note))
+    if (auto note =
+            number_box(ui, printed("bookmarks/note/%u", mark.id), ImGui::GetContentRegionAvail().x - remove, mark.note))
       model.bookmarks().set_note(mark.id, *note);
     ImGui::PopStyleVar();
-    if (mark.note.empty() && !ImGui::IsItemActive()) draw.AddText({ImGui::GetItemRectMin().x + ui.px(3), at.y}, ui.colours.text_faint, "note");
+    if (mark.note.empty() && !ImGui::IsItemActive())
+      draw.AddText({ImGui::GetItemRectMin().x + ui.px(3), at.y}, ui.colours.text_faint, "note");
   } else {
     const std::string times = mark.ticks > 1 ? printed(" \u00d7%u", mark.ticks) : std::string();
     ImGui::Text("%s%s, %s", to_string(mark.kind), times.c_str(), mark.note.c_str());
@@ -125,7 +142,8 @@ void draw_bookmarks_panel(const UiContext& ui, AppModel& model, BookmarksPanel& 
   ImGui::SameLine();
   toggle_button(ui, "bookmarks/triggers", "Triggers", state.triggers_open, "What sets bookmarks by itself");
   ImGui::SameLine();
-  if (text_button(ui, "bookmarks/clear", "Clear triggered", "Removes those that triggers set")) model.bookmarks().clear_automatic();
+  if (text_button(ui, "bookmarks/clear", "Clear triggered", "Removes those that triggers set"))
+    model.bookmarks().clear_automatic();
   if (state.triggers_open) draw_triggers(ui, model);
   const std::size_t count = model.bookmarks().all().size();
   if (count == 0) {

@@ -13,7 +13,8 @@ namespace {
 
 constexpr int kUp = 265, kDown = 264;  // GLFW's codes
 constexpr std::size_t kRows = 12;
-constexpr ImGuiWindowFlags kFloating = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav;
+constexpr ImGuiWindowFlags kFloating =
+    ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav;
 
 void begin_floating(const UiContext& ui, const char* name, ImVec2 at, ImVec2 size) {
   ImGui::SetNextWindowPos(at);
@@ -37,7 +38,8 @@ void draw_keys(const UiContext& ui, const std::string& keys, float right, float 
   ImFont* font = ui.fonts.small_number;
   const float w = font->CalcTextSizeA(font->FontSize, 1e9f, 0.0f, keys.c_str()).x;
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  draw.AddRectFilled({right - w - ui.px(10), y - ui.px(1)}, {right, y + font->FontSize + ui.px(3)}, ui.colours.field, ui.px(3));
+  draw.AddRectFilled({right - w - ui.px(10), y - ui.px(1)}, {right, y + font->FontSize + ui.px(3)}, ui.colours.field,
+                     ui.px(3));
   draw.AddText(font, font->FontSize, {right - w - ui.px(5), y + ui.px(1)}, ui.colours.text_dim, keys.c_str());
 }
 
@@ -64,7 +66,8 @@ void draw_command_palette(const UiContext& ui, AppModel& model, MenuBar& menu, c
   if (state.focus) edit_next("##command");
   state.focus = false;
   const std::string before = state.text;
-  const bool enter = ImGui::InputTextWithHint("##command", "what to do", &state.text, ImGuiInputTextFlags_EnterReturnsTrue);
+  const bool enter =
+      ImGui::InputTextWithHint("##command", "what to do", &state.text, ImGuiInputTextFlags_EnterReturnsTrue);
   ui.items.note_last("palette/text");
   tooltip(ui, "Some letters of a command; up and down choose, Enter does it, Esc puts this away");
   const bool left = ImGui::IsItemDeactivated() && !enter;
@@ -78,9 +81,12 @@ void draw_command_palette(const UiContext& ui, AppModel& model, MenuBar& menu, c
     const float w = ImGui::GetContentRegionAvail().x;
     if (ImGui::InvisibleButton(printed("##command%d", i).c_str(), {w, row - ui.px(4)})) run = i;
     ui.items.note_last(printed("palette/%d", i));
-    if (ImGui::IsItemHovered() && (ImGui::GetIO().MouseDelta.x != 0.0f || ImGui::GetIO().MouseDelta.y != 0.0f)) state.chosen = i;
+    if (ImGui::IsItemHovered() && (ImGui::GetIO().MouseDelta.x != 0.0f || ImGui::GetIO().MouseDelta.y != 0.0f))
+      state.chosen = i;
     if (ImGui::IsItemActive()) run = run < 0 && ImGui::IsMouseReleased(ImGuiMouseButton_Left) ? i : run;
-    if (i == state.chosen) draw.AddRectFilled({at.x - ui.px(4), at.y}, {at.x + w + ui.px(4), at.y + row - ui.px(4)}, ui.colours.accent_fill, ui.px(3));
+    if (i == state.chosen)
+      draw.AddRectFilled({at.x - ui.px(4), at.y}, {at.x + w + ui.px(4), at.y + row - ui.px(4)}, ui.colours.accent_fill,
+                         ui.px(3));
     draw.AddText({at.x + ui.px(4), at.y + ui.px(2)}, ui.colours.text, command.name.c_str());
     draw_keys(ui, command.keys, at.x + w - ui.px(2), at.y + ui.px(2));
   }
@@ -107,7 +113,8 @@ void draw_shortcut_sheet(const UiContext& ui, AppModel& model, MenuBar& menu, co
   const std::size_t columns = std::clamp<std::size_t>((lines.size() + most_rows - 1) / most_rows, 1, 3);
   const std::size_t rows = (lines.size() + columns - 1) / columns;
   float column = ui.px(390);
-  for (const auto& line : lines) column = std::max(column, ui.px(152 + 16) + ImGui::CalcTextSize(line.second.c_str()).x);
+  for (const auto& line : lines)
+    column = std::max(column, ui.px(152 + 16) + ImGui::CalcTextSize(line.second.c_str()).x);
   constexpr const char* kNote = "F1 or a click puts this away; Ctrl+P finds every command by name";
   const float heading = ui.px(90) + ui.fonts.small->CalcTextSizeA(ui.fonts.small->FontSize, 1e9f, 0.0f, kNote).x;
   const float width = std::min(std::max(column * static_cast<float>(columns), heading) + ui.px(24), over.w - ui.px(16));
@@ -116,14 +123,18 @@ void draw_shortcut_sheet(const UiContext& ui, AppModel& model, MenuBar& menu, co
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const ImVec2 at = ImGui::GetCursorScreenPos();
   draw.AddText(ui.fonts.strong, ui.fonts.strong->FontSize, at, ui.colours.text, "Shortcuts");
-  draw.AddText(ui.fonts.small, ui.fonts.small->FontSize, {at.x + ui.px(90), at.y + ui.px(1)}, ui.colours.text_dim, kNote);
+  draw.AddText(ui.fonts.small, ui.fonts.small->FontSize, {at.x + ui.px(90), at.y + ui.px(1)}, ui.colours.text_dim,
+               kNote);
   const float step = (width - ui.px(24)) / static_cast<float>(columns);
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    const float x = at.x + step * static_cast<float>(i / rows), y = at.y + ui.px(28) + row * static_cast<float>(i % rows);
+    const float x = at.x + step * static_cast<float>(i / rows),
+                y = at.y + ui.px(28) + row * static_cast<float>(i % rows);
     draw_keys(ui, lines[i].first, x + ui.px(142), y);
     draw.AddText({x + ui.px(152), y - ui.px(1)}, ui.colours.text, lines[i].second.c_str());
   }
-  if (ImGui::InvisibleButton("##put_away", {std::max(1.0f, ImGui::GetContentRegionAvail().x), std::max(1.0f, ImGui::GetContentRegionAvail().y)})) menu.sheet = false;
+  if (ImGui::InvisibleButton("##put_away", {std::max(1.0f, ImGui::GetContentRegionAvail().x),
+                                            std::max(1.0f, ImGui::GetContentRegionAvail().y)}))
+    menu.sheet = false;
   ui.items.note_last("shortcuts");
   end_floating();
 }

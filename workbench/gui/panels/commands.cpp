@@ -14,7 +14,8 @@ namespace {
 void add_view_commands(std::vector<Command>& out, AppModel& model) {
   out.push_back({"View: frame the mesh", "F", [&model] { model.frame_scene(); }});
   for (const NamedView& v : kStandardViews) {
-    out.push_back({std::string("View: from the ") + v.name, v.key, [&model, view = v.view] { model.look_from_standard(view); }});
+    out.push_back(
+        {std::string("View: from the ") + v.name, v.key, [&model, view = v.view] { model.look_from_standard(view); }});
   }
   out.push_back({"View: y axis up, or z axis", "U", [&model] { model.set_y_up(!model.view().camera.y_up); }});
   out.push_back({"View: copy the camera", "Ctrl+Shift+C", [&model] { model.copy_camera(); }});
@@ -25,20 +26,31 @@ void add_view_commands(std::vector<Command>& out, AppModel& model) {
     const char* name;
     bool SceneToggles::*on;
   };
-  for (const Layer& layer : {Layer{"facets", &SceneToggles::shaded}, Layer{"edges", &SceneToggles::wireframe}, Layer{"smooth surface", &SceneToggles::smooth_surface},
-                             Layer{"control net", &SceneToggles::control_net}, Layer{"neighbours' control nets", &SceneToggles::control_net_neighbours},
-                             Layer{"labels", &SceneToggles::control_point_labels}, Layer{"vertex normals", &SceneToggles::vertex_normals},
-                             Layer{"control normals", &SceneToggles::control_normals}, Layer{"creases and boundaries", &SceneToggles::creases},
-                             Layer{"planes", &SceneToggles::planes}, Layer{"plane after the tick", &SceneToggles::tracked_plane}, Layer{"finger", &SceneToggles::finger}, Layer{"force", &SceneToggles::force},
-                             Layer{"display inset", &SceneToggles::cld_inset}, Layer{"axes and scale", &SceneToggles::axes}}) {
-    out.push_back({std::string("Show: ") + layer.name, "", [&model, on = layer.on] { model.view().toggles.*on = !(model.view().toggles.*on); }});
+  for (const Layer& layer :
+       {Layer{"facets", &SceneToggles::shaded}, Layer{"edges", &SceneToggles::wireframe},
+        Layer{"smooth surface", &SceneToggles::smooth_surface}, Layer{"control net", &SceneToggles::control_net},
+        Layer{"neighbours' control nets", &SceneToggles::control_net_neighbours},
+        Layer{"labels", &SceneToggles::control_point_labels}, Layer{"vertex normals", &SceneToggles::vertex_normals},
+        Layer{"control normals", &SceneToggles::control_normals},
+        Layer{"creases and boundaries", &SceneToggles::creases}, Layer{"planes", &SceneToggles::planes},
+        Layer{"plane after the tick", &SceneToggles::tracked_plane}, Layer{"finger", &SceneToggles::finger},
+        Layer{"force", &SceneToggles::force}, Layer{"display inset", &SceneToggles::cld_inset},
+        Layer{"axes and scale", &SceneToggles::axes}}) {
+    out.push_back({std::string("Show: ") + layer.name, "",
+                   [&model, on = layer.on] { model.view().toggles.*on = !(model.view().toggles.*on); }});
   }
 }
 
 void add_panel_commands(std::vector<Command>& out, AppModel& model) {
-  const auto add = [&](const char* title, bool left) { out.push_back({std::string("Panel: ") + title, "", [&model, title, left] { model.show_section(title, left); }}); };
-  for (const char* title : {"Solver", "Finger", "Force", "Display", "Display controller", "Safety", "Compare", "Presets"}) add(title, true);
-  for (const char* title : {"Iterations", "Time machine", "Bookmarks", "Map", "Smoothness as felt", "Inspect", "Mesh", "Devices", "Messages"}) add(title, false);
+  const auto add = [&](const char* title, bool left) {
+    out.push_back({std::string("Panel: ") + title, "", [&model, title, left] { model.show_section(title, left); }});
+  };
+  for (const char* title :
+       {"Solver", "Finger", "Force", "Display", "Display controller", "Safety", "Compare", "Presets"})
+    add(title, true);
+  for (const char* title : {"Iterations", "Time machine", "Bookmarks", "Map", "Smoothness as felt", "Inspect", "Mesh",
+                            "Devices", "Messages"})
+    add(title, false);
 }
 
 void add_window_commands(std::vector<Command>& out, AppModel& model, MenuBar& menu) {
@@ -50,7 +62,8 @@ void add_window_commands(std::vector<Command>& out, AppModel& model, MenuBar& me
   out.push_back({"Window: smaller text", "Ctrl+-", [&model] { model.set_ui_scale(model.ui_scale() / 1.1f); }});
   out.push_back({"Window: normal text", "Ctrl+0", [&model] { model.set_ui_scale(1.0f); }});
   out.push_back({"Window: parameters on or off", "", [&model] { model.sizes().show_left = !model.sizes().show_left; }});
-  out.push_back({"Window: right column on or off", "", [&model] { model.sizes().show_right = !model.sizes().show_right; }});
+  out.push_back(
+      {"Window: right column on or off", "", [&model] { model.sizes().show_right = !model.sizes().show_right; }});
   out.push_back({"Window: plots on or off", "", [&model] { model.sizes().show_plots = !model.sizes().show_plots; }});
   out.push_back({"Window: default layout", "", [&model] { model.reset_layout(); }});
   out.push_back({"Window: quit", "Ctrl+Q", [&model] { model.ask_to_close(); }});
@@ -69,8 +82,10 @@ void add_time_commands(std::vector<Command>& out, AppModel& model) {
                    model.export_ticks(from, to);
                  }});
   out.push_back({"Force: stop, or arm", "", [&model] { model.toggle_stop(); }});
-  for (const std::string& name : device_set_names()) out.push_back({"Device: " + name, "", [&model, name] { model.set_device(name); }});
-  out.push_back({"Hand: follows the mouse, or explores by itself", "M", [&model] { model.set_hand_follows_mouse(!model.view().hand_follows_mouse); }});
+  for (const std::string& name : device_set_names())
+    out.push_back({"Device: " + name, "", [&model, name] { model.set_device(name); }});
+  out.push_back({"Hand: follows the mouse, or explores by itself", "M",
+                 [&model] { model.set_hand_follows_mouse(!model.view().hand_follows_mouse); }});
 }
 
 void add_preset_commands(std::vector<Command>& out, AppModel& model) {
@@ -79,7 +94,8 @@ void add_preset_commands(std::vector<Command>& out, AppModel& model) {
   out.push_back({"Preset: switch between A and B", "B", [&model] { model.toggle_ab(); }});
   out.push_back({"Preset: copy to the other of A and B", "", [&model] { model.copy_ab(); }});
   out.push_back({"Preset: revert all changes", "", [&model] { model.revert_preset(); }});
-  for (const auto& file : model.preset_files()) out.push_back({"Preset: load " + file.stem().string(), "", [&model, file] { model.load_preset(file); }});
+  for (const auto& file : model.preset_files())
+    out.push_back({"Preset: load " + file.stem().string(), "", [&model, file] { model.load_preset(file); }});
 }
 
 void add_mesh_commands(std::vector<Command>& out, AppModel& model, MenuBar& menu) {
@@ -87,9 +103,11 @@ void add_mesh_commands(std::vector<Command>& out, AppModel& model, MenuBar& menu
   out.push_back({"Mesh: load again", "", [&model] {
                    if (!model.mesh_path().empty()) model.open_mesh(std::string(model.mesh_path()));
                  }});
-  for (const std::string& mesh : model.settings().recent_meshes) out.push_back({"Mesh: open again " + mesh, "", [&model, mesh] { model.open_mesh(mesh); }});
+  for (const std::string& mesh : model.settings().recent_meshes)
+    out.push_back({"Mesh: open again " + mesh, "", [&model, mesh] { model.open_mesh(mesh); }});
   for (const auto* names : {&generator_names(), &hard_mesh_names()}) {
-    for (const std::string& object : *names) out.push_back({"Mesh: make " + object, "", [&model, object] { model.open_mesh(object); }});
+    for (const std::string& object : *names)
+      out.push_back({"Mesh: make " + object, "", [&model, object] { model.open_mesh(object); }});
   }
   out.push_back({"Map: none", "", [&model] { model.map().on = false; }});
   for (std::size_t q = 0; q < kMapQuantityCount; ++q) {
@@ -119,14 +137,11 @@ std::vector<Command> window_commands(AppModel& model, MenuBar& menu) {
 }
 
 const std::vector<KeyNote>& further_keys() {
-  static const std::vector<KeyNote> kNotes{{"Left, Right", "Step by one tick (with Shift ten)"},
-                                           {", and .", "Step by one iteration, on into the next tick"},
-                                           {"Esc", "Stop the force; put away what is open"},
-                                           {"Left drag", "Orbit; slides a value (Shift: finer)"},
-                                           {"Right drag, Shift drag", "Pan the view"},
-                                           {"Wheel", "Zoom about the pointer: view, plots, time"},
-                                           {"Click", "Pick a triangle; type a value"},
-                                           {"Tab", "Take the typed value and go on to the next"}};
+  static const std::vector<KeyNote> kNotes{
+      {"Left, Right", "Step by one tick (with Shift ten)"}, {", and .", "Step by one iteration, on into the next tick"},
+      {"Esc", "Stop the force; put away what is open"},     {"Left drag", "Orbit; slides a value (Shift: finer)"},
+      {"Right drag, Shift drag", "Pan the view"},           {"Wheel", "Zoom about the pointer: view, plots, time"},
+      {"Click", "Pick a triangle; type a value"},           {"Tab", "Take the typed value and go on to the next"}};
   return kNotes;
 }
 

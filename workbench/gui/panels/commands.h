@@ -11,8 +11,8 @@
 namespace tangent {
 
 struct Command {
-  std::string name;              ///< "View: frame the mesh"
-  std::string keys;              ///< "Ctrl+Z"; empty: none
+  std::string name;  ///< "View: frame the mesh"
+  std::string keys;  ///< "Ctrl+Z"; empty: none
   std::function<void()> run;
 };
 

@@ -43,26 +43,38 @@ void draw_slots(const UiContext& ui, AppModel& model) {
   for (std::size_t i = 0; i < 2; ++i) {
     bool on = slots.active_slot() == i;
     const std::string text = std::string(" ") + slot_name(i) + " ";
-    if (toggle_button(ui, std::string("compare/slot/") + slot_name(i), text.c_str(), on, "The preset that is edited and rendered. B switches to the other one") && on)
+    if (toggle_button(ui, std::string("compare/slot/") + slot_name(i), text.c_str(), on,
+                      "The preset that is edited and rendered. B switches to the other one") &&
+        on)
       model.toggle_ab();
     ImGui::SameLine(0, ui.px(3));
   }
   const std::string copy = std::string("Copy to ") + slot_name(1 - slots.active_slot());
   if (text_button(ui, "compare/copy", copy.c_str(), "The other one gets the present values")) model.copy_ab();
   ImGui::SameLine(0, ui.px(14));
-  if (text_button(ui, "compare/undo", "Undo", slots.can_undo() ? ("Takes back: " + slots.undo_name() + " (Ctrl+Z)").c_str() : "Nothing to undo (Ctrl+Z)")) model.undo();
+  if (text_button(
+          ui, "compare/undo", "Undo",
+          slots.can_undo() ? ("Takes back: " + slots.undo_name() + " (Ctrl+Z)").c_str() : "Nothing to undo (Ctrl+Z)"))
+    model.undo();
   ImGui::SameLine(0, ui.px(3));
-  if (text_button(ui, "compare/redo", "Redo", slots.can_redo() ? ("Does again: " + slots.redo_name() + " (Ctrl+Y)").c_str() : "Nothing to redo (Ctrl+Y)")) model.redo();
+  if (text_button(
+          ui, "compare/redo", "Redo",
+          slots.can_redo() ? ("Does again: " + slots.redo_name() + " (Ctrl+Y)").c_str() : "Nothing to redo (Ctrl+Y)"))
+    model.redo();
 }
 
-void draw_side(const UiContext& ui, const char* path, ComparePanel::Side& side, const std::vector<std::string>& names, float width) {
+void draw_side(const UiContext& ui, const char* path, ComparePanel::Side& side, const std::vector<std::string>& names,
+               float width) {
   std::vector<std::string_view> choices(names.begin(), names.end());
   side.choice = std::clamp(side.choice, 0, static_cast<int>(choices.size()) - 1);
   choice_row(ui, path, width, choices, side.choice);
-  tooltip(ui, "What to compare: the two presets in hand, the loaded file, the program's own values, or a file of the folder");
+  tooltip(
+      ui,
+      "What to compare: the two presets in hand, the loaded file, the program's own values, or a file of the folder");
 }
 
-void draw_differences(const UiContext& ui, AppModel& model, const std::vector<PresetChange>& changes, float value_width) {
+void draw_differences(const UiContext& ui, AppModel& model, const std::vector<PresetChange>& changes,
+                      float value_width) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const float height = ui.px(18), width = ImGui::GetContentRegionAvail().x;
   ImFont* number = ui.fonts.small_number;
@@ -72,15 +84,18 @@ void draw_differences(const UiContext& ui, AppModel& model, const std::vector<Pr
     if (ImGui::InvisibleButton(("##diff/" + name).c_str(), {width, height})) model.set_value(*change.key, change.now);
     ui.items.note_last("compare/key/" + name);
     if (ImGui::IsItemHovered()) draw.AddRectFilled(at, {at.x + width, at.y + height}, ui.colours.accent_soft, ui.px(2));
-    tooltip(ui, std::string(change.key->label) + ", " + name + "\n" + display_with_unit(*change.key, change.loaded) + " on the left, " +
-                    display_with_unit(*change.key, change.now) + " on the right. A click takes the right one over.");
+    tooltip(ui, std::string(change.key->label) + ", " + name + "\n" + display_with_unit(*change.key, change.loaded) +
+                    " on the left, " + display_with_unit(*change.key, change.now) +
+                    " on the right. A click takes the right one over.");
     const auto value = [&](double v, float right) {
       const std::string text = display_with_unit(*change.key, v);
       const float w = number->CalcTextSizeA(number->FontSize, 1e9f, 0.0f, text.c_str()).x;
-      draw.AddText(number, number->FontSize, {right - std::min(w, value_width - ui.px(4)), at.y + ui.px(3)}, ui.colours.text, text.c_str());
+      draw.AddText(number, number->FontSize, {right - std::min(w, value_width - ui.px(4)), at.y + ui.px(3)},
+                   ui.colours.text, text.c_str());
     };
     draw.PushClipRect(at, {at.x + width - 2.0f * value_width, at.y + height}, true);
-    draw.AddText(ui.fonts.small, ui.fonts.small->FontSize, {at.x, at.y + ui.px(2)}, ui.colours.text_dim, std::string(change.key->label).c_str());
+    draw.AddText(ui.fonts.small, ui.fonts.small->FontSize, {at.x, at.y + ui.px(2)}, ui.colours.text_dim,
+                 std::string(change.key->label).c_str());
     draw.PopClipRect();
     value(change.loaded, at.x + width - value_width);
     value(change.now, at.x + width);

@@ -10,7 +10,8 @@ namespace tangent {
 
 namespace {
 
-constexpr std::array<const char*, 10> kPoints{"b300", "b030", "b003", "b210", "b120", "b021", "b012", "b102", "b201", "b111"};
+constexpr std::array<const char*, 10> kPoints{"b300", "b030", "b003", "b210", "b120",
+                                              "b021", "b012", "b102", "b201", "b111"};
 constexpr std::array<const char*, 6> kNormals{"n200", "n020", "n002", "n110", "n011", "n101"};
 
 std::string as_text(const PnPatch& patch, const Vec3& origin) {
@@ -42,7 +43,8 @@ void draw_control_net_table(const UiContext& ui, const AppModel& model, std::uin
     draw.AddText(font, font->FontSize, at, ui.colours.text_dim, name);
     for (std::size_t i = 0; i < 3; ++i) {
       const float w = font->CalcTextSizeA(font->FontSize, 1e9f, 0.0f, cells[i].c_str()).x;
-      draw.AddText(font, font->FontSize, {at.x + name_width + column * static_cast<float>(i + 1) - w, at.y}, ink, cells[i].c_str());
+      draw.AddText(font, font->FontSize, {at.x + name_width + column * static_cast<float>(i + 1) - w, at.y}, ink,
+                   cells[i].c_str());
     }
     ImGui::Dummy({width, number->FontSize});
   };
@@ -58,7 +60,8 @@ void draw_control_net_table(const UiContext& ui, const AppModel& model, std::uin
     row(kNormals[i], {printed("%.6f", n.x), printed("%.6f", n.y), printed("%.6f", n.z)}, ui.colours.text, number);
   }
   ImGui::PopStyleVar();
-  if (text_button(ui, "mesh/copy_net", "Copy numbers", "All control points and normals as text, in metres, every digit")) {
+  if (text_button(ui, "mesh/copy_net", "Copy numbers",
+                  "All control points and normals as text, in metres, every digit")) {
     ImGui::SetClipboardText(as_text(patch, mesh.origin()).c_str());
   }
   ImGui::SameLine();

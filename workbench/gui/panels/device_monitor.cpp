@@ -1,5 +1,5 @@
-// The device monitor, in place of the 3D view: states, rates, histograms, limits and clamps, the fault log, raw values, and
-// the buttons of whoever stands beside the device.
+// The device monitor, in place of the 3D view: states, rates, histograms, limits and clamps, the fault log, raw values,
+// and the buttons of whoever stands beside the device.
 #include "workbench/gui/panels/monitor_histogram.h"
 #include "workbench/gui/panels/panels.h"
 #include "workbench/gui/widgets.h"
@@ -46,13 +46,20 @@ void draw_states(const UiContext& ui, AppModel& model) {
   Session& session = *model.session();
   const ForceCapabilities* force = session.force_capabilities();
   const DisplayCapabilities* display = session.display_capabilities();
-  fact(ui, force != nullptr ? force->name.c_str() : "Force device", state_text(s.force_state, s.force_fault), "", state_ink(ui, s.force_state));
-  fact(ui, display != nullptr ? display->name.c_str() : "Contact display", state_text(s.display_state, s.display_fault), "", state_ink(ui, s.display_state));
+  fact(ui, force != nullptr ? force->name.c_str() : "Force device", state_text(s.force_state, s.force_fault), "",
+       state_ink(ui, s.force_state));
+  fact(ui, display != nullptr ? display->name.c_str() : "Contact display", state_text(s.display_state, s.display_fault),
+       "", state_ink(ui, s.display_state));
   const bool faulted = s.servo.gate_state == GateState::faulted;
-  fact(ui, "Safety gate", std::string(to_string(s.servo.gate_state)) + (faulted ? std::string(": ") + to_string(s.servo.gate_fault) : ""), "",
-       faulted ? ui.colours.bad : s.servo.gate_state == GateState::armed ? ui.colours.good : ui.colours.warning);
+  fact(ui, "Safety gate",
+       std::string(to_string(s.servo.gate_state)) + (faulted ? std::string(": ") + to_string(s.servo.gate_fault) : ""),
+       "",
+       faulted                                  ? ui.colours.bad
+       : s.servo.gate_state == GateState::armed ? ui.colours.good
+                                                : ui.colours.warning);
   ImGui::Dummy({1, ui.px(2)});
-  if (text_button(ui, "monitor/arm", "Re-arm", "Clears faults, homes what has to be homed, and lets the force grow in")) session.arm();
+  if (text_button(ui, "monitor/arm", "Re-arm", "Clears faults, homes what has to be homed, and lets the force grow in"))
+    session.arm();
   ImGui::SameLine();
   if (text_button(ui, "monitor/stop", "Stop", "No force until armed (Escape)")) session.stop();
   ImGui::SameLine();
@@ -70,11 +77,15 @@ void draw_limits(const UiContext& ui, const AppModel& model) {
   fact(ui, "Display travel", printed("%.1f", limits.display_travel_m * 1e3), "mm");
   const ControllerSettings& controller = model.session()->preset().controller;
   const double end = 0.5 * limits.display_travel_m;
-  fact(ui, "Display targets", printed("%.1f to %.1f", std::max(controller.lowest_m, -end) * 1e3, std::min(controller.highest_m, end) * 1e3), "mm");
+  fact(ui, "Display targets",
+       printed("%.1f to %.1f", std::max(controller.lowest_m, -end) * 1e3, std::min(controller.highest_m, end) * 1e3),
+       "mm");
   fact(ui, "Oldest sample / longest tick", printed("%.0f / %.0f", limits.stale_s * 1e3, limits.late_s * 1e3), "ms");
   const auto timeout = [](double s) { return s > 0.0 ? printed("%.0f ms", s * 1e3) : std::string("none"); };
-  if (const auto* can = model.session()->force_capabilities()) fact(ui, "Time-out, force device", timeout(can->firmware_timeout_s));
-  if (const auto* can = model.session()->display_capabilities()) fact(ui, "Time-out, display", timeout(can->firmware_timeout_s));
+  if (const auto* can = model.session()->force_capabilities())
+    fact(ui, "Time-out, force device", timeout(can->firmware_timeout_s));
+  if (const auto* can = model.session()->display_capabilities())
+    fact(ui, "Time-out, display", timeout(can->firmware_timeout_s));
   heading(ui, "Gate");
   fact(ui, "Faults", count_text(servo.gate_faults), "", servo.gate_faults > 0 ? ui.colours.bad : ui.colours.text);
   for (std::size_t i = 0; i < kGateActionCount; ++i) {
@@ -91,21 +102,27 @@ void draw_raw(const UiContext& ui, const AppModel& model) {
   const Vec3 p = r.tick.input.finger.position * 1e3, f = r.device.force_command_n;
   fact(ui, "Position", printed("%.3f %.3f %.3f", p.x, p.y, p.z), "mm");
   fact(ui, "Force sent", printed("%.3f %.3f %.3f", f.x, f.y, f.z), "N");
-  fact(ui, "Roller, measured / sent", printed("%.4f / %.4f", r.device.cld_measured_m * 1e3, r.device.cld_command_m * 1e3), "mm");
-  fact(ui, "Age of position / roller", printed("%.2f / %.2f", r.device.force_age_s * 1e3, r.device.display_age_s * 1e3), "ms");
+  fact(ui, "Roller, measured / sent",
+       printed("%.4f / %.4f", r.device.cld_measured_m * 1e3, r.device.cld_command_m * 1e3), "mm");
+  fact(ui, "Age of position / roller", printed("%.2f / %.2f", r.device.force_age_s * 1e3, r.device.display_age_s * 1e3),
+       "ms");
 }
 
 void draw_link(const UiContext& ui, const LinkReport& link) {
   heading(ui, "Cable");
-  fact(ui, "Connection", link.connected ? "connected" : "not connected", "", link.connected ? ui.colours.good : ui.colours.warning);
+  fact(ui, "Connection", link.connected ? "connected" : "not connected", "",
+       link.connected ? ui.colours.good : ui.colours.warning);
   if (!link.identity.empty()) dim_text(ui, link.identity);
   if (!link.problem.empty()) dim_text(ui, link.problem);
-  fact(ui, "Packets in / out / control", count_text(link.packets_in) + " / " + count_text(link.packets_out) + " / " + count_text(link.controls));
-  fact(ui, "Stalls / time-outs / errors", count_text(link.stalls) + " / " + count_text(link.time_outs) + " / " + count_text(link.errors));
+  fact(ui, "Packets in / out / control",
+       count_text(link.packets_in) + " / " + count_text(link.packets_out) + " / " + count_text(link.controls));
+  fact(ui, "Stalls / time-outs / errors",
+       count_text(link.stalls) + " / " + count_text(link.time_outs) + " / " + count_text(link.errors));
   fact(ui, "Short / empty packets", count_text(link.short_packets) + " / " + count_text(link.empty_packets));
   fact(ui, "Refused sends", count_text(link.refused_sends));
   fact(ui, "Connects", count_text(link.connects));
-  fact(ui, "Wrong checks / lost / doubled", count_text(link.crc_errors) + " / " + count_text(link.lost) + " / " + count_text(link.doubled));
+  fact(ui, "Wrong checks / lost / doubled",
+       count_text(link.crc_errors) + " / " + count_text(link.lost) + " / " + count_text(link.doubled));
   fact(ui, "Lost by device / refused", count_text(link.lost_by_device) + " / " + count_text(link.refused));
   if (link.last_packet_bytes == 0) return;
   std::string hex;
@@ -152,8 +169,10 @@ void draw_calibration(const UiContext& ui, AppModel& model) {
     const auto typed = number_box(ui, path, std::min(ui.px(100), width - label), short_number(value / scale));
     char* end = nullptr;
     const double number = typed ? std::strtod(typed->c_str(), &end) : 0.0;
-    if (typed && end != typed->c_str() && std::isfinite(number)) value = number * scale;
-    else if (typed) model.say(Severity::error, "\"" + *typed + "\" is not a number");
+    if (typed && end != typed->c_str() && std::isfinite(number))
+      value = number * scale;
+    else if (typed)
+      model.say(Severity::error, "\"" + *typed + "\" is not a number");
   };
   row("Lower place, mm", "monitor/maestro/low_mm", c.low_m, 1e-3);
   row("Its pulse, \u00b5s", "monitor/maestro/low_us", c.low_us, 1.0);
@@ -171,9 +190,12 @@ void draw_log(const UiContext& ui, const AppModel& model) {
   std::size_t shown = 0;
   for (auto e = entries.rbegin(); e != entries.rend() && shown < kShown; ++e, ++shown) {
     const ImVec2 at = ImGui::GetCursorScreenPos();
-    const ImU32 ink = e->kind == SafetyEntry::Kind::fault ? ui.colours.bad : e->kind == SafetyEntry::Kind::action ? ui.colours.warning : ui.colours.text;
+    const ImU32 ink = e->kind == SafetyEntry::Kind::fault    ? ui.colours.bad
+                      : e->kind == SafetyEntry::Kind::action ? ui.colours.warning
+                                                             : ui.colours.text;
     ImDrawList& draw = *ImGui::GetWindowDrawList();
-    draw.AddText(number, number->FontSize, {at.x, at.y + ui.px(1)}, ui.colours.text_dim, printed("%9.3f s", e->t_s).c_str());
+    draw.AddText(number, number->FontSize, {at.x, at.y + ui.px(1)}, ui.colours.text_dim,
+                 printed("%9.3f s", e->t_s).c_str());
     draw.AddText(ui.fonts.small, ui.fonts.small->FontSize, {at.x + ui.px(84), at.y}, ink, e->text.c_str());
     ImGui::Dummy({1, ui.fonts.small->FontSize});
   }
@@ -188,16 +210,20 @@ void draw_state_column(const UiContext& ui, AppModel& model) {
 void draw_rates(const UiContext& ui, const AppModel& model, bool cable, const LinkReport& link, float room) {
   const ServoStatus& servo = model.status().servo;
   const Session& session = *model.session();
-  fact(ui, "Rate, measured / asked for", (servo.rate_hz > 0.0 ? printed("%.1f", servo.rate_hz) : std::string("-")) + printed(" / %.0f", servo.nominal_hz), "Hz");
+  fact(ui, "Rate, measured / asked for",
+       (servo.rate_hz > 0.0 ? printed("%.1f", servo.rate_hz) : std::string("-")) + printed(" / %.0f", servo.nominal_hz),
+       "Hz");
   fact(ui, "Ticks / late ticks", count_text(servo.ticks) + " / " + count_text(servo.late_ticks));
   ImGui::Dummy({1, ui.px(4)});
   const bool round_trip = cable && link.round_trip_us != nullptr, arrival = cable && link.arrival_us != nullptr;
-  const float around = ui.px(42);   // each one's title and axis
+  const float around = ui.px(42);  // each one's title and axis
   const float height = std::clamp(room / static_cast<float>(2 + round_trip + arrival) - around, ui.px(64), ui.px(240));
   draw_duration_histogram(ui, "Tick to tick", session.period_ns(), 1.0, colour(ui.palette.tick_time), height);
   draw_duration_histogram(ui, "Late by", session.lateness_ns(), 1.0, colour(ui.palette.force_x), height);
-  if (round_trip) draw_duration_histogram(ui, "Round trip", *link.round_trip_us, 1e3, colour(ui.palette.cld_commanded), height);
-  if (arrival) draw_duration_histogram(ui, "Between samples", *link.arrival_us, 1e3, colour(ui.palette.cld_measured), height);
+  if (round_trip)
+    draw_duration_histogram(ui, "Round trip", *link.round_trip_us, 1e3, colour(ui.palette.cld_commanded), height);
+  if (arrival)
+    draw_duration_histogram(ui, "Between samples", *link.arrival_us, 1e3, colour(ui.palette.cld_measured), height);
 }
 
 void draw_values(const UiContext& ui, const AppModel& model, bool cable, const LinkReport& link) {
@@ -219,7 +245,8 @@ void draw_columns(const UiContext& ui, AppModel& model) {
   const int columns = room > ui.px(1200) ? 3 : room > ui.px(456) ? 2 : 1;
   const float width = std::min(room, static_cast<float>(columns) * ui.px(columns == 3 ? 640 : 600));
   ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, ImVec2(ui.px(columns == 3 ? 16 : 10), 0));
-  if (ImGui::BeginTable("##monitor", columns, ImGuiTableFlags_SizingStretchSame | ImGuiTableFlags_NoPadOuterX, {width, 0})) {
+  if (ImGui::BeginTable("##monitor", columns, ImGuiTableFlags_SizingStretchSame | ImGuiTableFlags_NoPadOuterX,
+                        {width, 0})) {
     ImGui::TableNextColumn();
     draw_state_column(ui, model);
     if (columns < 3) draw_values(ui, model, cable, link);
@@ -243,7 +270,8 @@ void draw_device_monitor(const UiContext& ui, AppModel& model, const Rect& rect)
   ImGui::SetNextWindowPos({rect.x, rect.y});
   ImGui::SetNextWindowSize({rect.w, rect.h});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(ui.px(12), ui.px(8)));
-  constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove |
+  constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
+                                     ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove |
                                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav;
   ImGui::Begin("##device_monitor", nullptr, flags);
   ImGui::PopStyleVar();

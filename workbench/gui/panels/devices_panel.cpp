@@ -12,10 +12,14 @@ namespace {
 
 ImU32 state_ink(const UiContext& ui, DeviceState state) {
   switch (state) {
-    case DeviceState::ready: return ui.colours.good;
-    case DeviceState::faulted: return ui.colours.bad;
-    case DeviceState::absent: return ui.colours.text_faint;
-    default: return ui.colours.warning;
+    case DeviceState::ready:
+      return ui.colours.good;
+    case DeviceState::faulted:
+      return ui.colours.bad;
+    case DeviceState::absent:
+      return ui.colours.text_faint;
+    default:
+      return ui.colours.warning;
   }
 }
 
@@ -41,19 +45,22 @@ DeviceTelemetry seen(const AppModel& model) {
 void draw_force_device(const UiContext& ui, const AppModel& model) {
   const ForceCapabilities* can = model.session()->force_capabilities();
   const DeviceTelemetry status = seen(model);
-  fact(ui, can != nullptr ? can->name.c_str() : "Force device", state_text(status.force_state, status.force_fault), "", state_ink(ui, status.force_state));
+  fact(ui, can != nullptr ? can->name.c_str() : "Force device", state_text(status.force_state, status.force_fault), "",
+       state_ink(ui, status.force_state));
   if (can == nullptr) return;
-  tooltip(ui, printed("Peak %.1f N, continuous %.1f N, resolution %.0f \u00b5m, apparent mass %.0f g%s", can->peak_force_n,
-                     can->continuous_force_n, can->position_resolution_m * 1e6, can->apparent_mass_kg * 1e3, can->simulated ? ", simulated" : ""));
+  tooltip(ui, printed("Peak %.1f N, continuous %.1f N, resolution %.0f \u00b5m, apparent mass %.0f g%s",
+                      can->peak_force_n, can->continuous_force_n, can->position_resolution_m * 1e6,
+                      can->apparent_mass_kg * 1e3, can->simulated ? ", simulated" : ""));
 }
 
 void draw_display(const UiContext& ui, const AppModel& model) {
   const DisplayCapabilities* can = model.session()->display_capabilities();
   const DeviceTelemetry status = seen(model);
-  fact(ui, can != nullptr ? can->name.c_str() : "Contact display", state_text(status.display_state, status.display_fault), "", state_ink(ui, status.display_state));
+  fact(ui, can != nullptr ? can->name.c_str() : "Contact display",
+       state_text(status.display_state, status.display_fault), "", state_ink(ui, status.display_state));
   if (can == nullptr) return;
-  tooltip(ui, printed("Travel %.0f mm, resolution %.1f \u00b5m, bandwidth %.0f Hz%s", can->travel_m * 1e3, can->resolution_m * 1e6,
-                     can->bandwidth_hz, can->simulated ? ", simulated" : ""));
+  tooltip(ui, printed("Travel %.0f mm, resolution %.1f \u00b5m, bandwidth %.0f Hz%s", can->travel_m * 1e3,
+                      can->resolution_m * 1e6, can->bandwidth_hz, can->simulated ? ", simulated" : ""));
 }
 
 void draw_gate(const UiContext& ui, AppModel& model) {
@@ -61,7 +68,8 @@ void draw_gate(const UiContext& ui, AppModel& model) {
   const DeviceTelemetry device = seen(model);
   const bool armed = device.gate_state == GateState::armed;
   const bool faulted = device.gate_state == GateState::faulted;
-  const std::string text = std::string(to_string(device.gate_state)) + (faulted ? std::string(": ") + to_string(device.gate_fault) : "");
+  const std::string text =
+      std::string(to_string(device.gate_state)) + (faulted ? std::string(": ") + to_string(device.gate_fault) : "");
   fact(ui, "Safety gate", text, "", armed ? ui.colours.good : faulted ? ui.colours.bad : ui.colours.warning);
   if (model.paused()) {
     for (std::size_t i = 0; i < kGateActionCount; ++i) {
@@ -71,7 +79,8 @@ void draw_gate(const UiContext& ui, AppModel& model) {
   }
   for (std::size_t i = 0; i < kGateActionCount; ++i) {
     if (servo.gate_counts[i] == 0) continue;
-    fact(ui, to_string(static_cast<GateAction>(i)), printed("%llu", static_cast<unsigned long long>(servo.gate_counts[i])), "ticks");
+    fact(ui, to_string(static_cast<GateAction>(i)),
+         printed("%llu", static_cast<unsigned long long>(servo.gate_counts[i])), "ticks");
   }
 }
 
@@ -84,7 +93,8 @@ void draw_tick(const UiContext& ui, const AppModel& model) {
   fact(ui, "Force asked for", printed("%.3f", length(r.tick.output.force_n)), "N");
   fact(ui, "Force rendered", printed("%.3f", length(r.device.force_rendered_n)), "N");
   tooltip(ui, "By the device while this tick's position was measured");
-  fact(ui, "Display sent / measured", printed("%.3f / %.3f", r.device.cld_command_m * 1e3, r.device.cld_measured_m * 1e3), "mm");
+  fact(ui, "Display sent / measured",
+       printed("%.3f / %.3f", r.device.cld_command_m * 1e3, r.device.cld_measured_m * 1e3), "mm");
   fact(ui, "Missed deadlines before", printed("%u", r.missed_deadlines));
   if (r.tick_ns <= 0.0) return;  // simulated time
   fact(ui, "Tick / solver", printed("%.1f / %.1f", r.tick_ns * 1e-3, r.tick.solve_ns * 1e-3), "\u00b5s");
@@ -97,7 +107,8 @@ void draw_servo(const UiContext& ui, const AppModel& model) {
   fact(ui, "Tick p50 / p99", printed("%.1f / %.1f", servo.tick_p50_ns * 1e-3, servo.tick_p99_ns * 1e-3), "\u00b5s");
   tooltip(ui, "Whole tick: exchange with the devices, solver, safety gate");
   fact(ui, "Tick worst", printed("%.1f", servo.tick_worst_ns * 1e-3), "\u00b5s");
-  fact(ui, "Lateness p99 / worst", printed("%.0f / %.0f", servo.lateness_p99_ns * 1e-3, servo.lateness_worst_ns * 1e-3), "\u00b5s");
+  fact(ui, "Lateness p99 / worst", printed("%.0f / %.0f", servo.lateness_p99_ns * 1e-3, servo.lateness_worst_ns * 1e-3),
+       "\u00b5s");
   fact(ui, "Late ticks", printed("%llu", static_cast<unsigned long long>(servo.late_ticks)));
   fact(ui, "Missed deadlines", printed("%llu", static_cast<unsigned long long>(servo.missed_deadlines)));
   if (!model.status().realtime_note.empty()) {
@@ -112,11 +123,13 @@ void draw_servo(const UiContext& ui, const AppModel& model) {
 void draw_hand(const UiContext& ui, AppModel& model) {
   HandSettings hand = model.session()->hand();
   bool follows = model.view().hand_follows_mouse;
-  if (toggle_button(ui, "devices/hand_follows_mouse", "Hand follows mouse", follows,
-                    "Drag on the surface in the 3D view to lead the simulated hand (M). Off: it explores the mesh by itself"))
+  if (toggle_button(
+          ui, "devices/hand_follows_mouse", "Hand follows mouse", follows,
+          "Drag on the surface in the 3D view to lead the simulated hand (M). Off: it explores the mesh by itself"))
     model.set_hand_follows_mouse(follows);
   const float width = ImGui::GetContentRegionAvail().x, label = ui.px(116);
-  const auto row = [&](const char* title, const char* path, double& value, double most, double scale, const char* unit, const char* doc) {
+  const auto row = [&](const char* title, const char* path, double& value, double most, double scale, const char* unit,
+                       const char* doc) {
     ImGui::AlignTextToFramePadding();
     ImGui::TextUnformatted(title);
     tooltip(ui, doc);
@@ -127,11 +140,14 @@ void draw_hand(const UiContext& ui, AppModel& model) {
     if (!result.typed) return;
     char* end = nullptr;
     const double typed = std::strtod(result.typed->c_str(), &end);
-    if (end != result.typed->c_str() && std::isfinite(typed)) value = std::clamp(typed * scale, 0.0, most);
-    else model.say(Severity::error, "\"" + *result.typed + "\" is not a number");
+    if (end != result.typed->c_str() && std::isfinite(typed))
+      value = std::clamp(typed * scale, 0.0, most);
+    else
+      model.say(Severity::error, "\"" + *result.typed + "\" is not a number");
   };
   const HandSettings before = hand;
-  row("Hand speed", "devices/hand_speed", hand.speed_m_per_s, 0.5, 1e-3, "mm/s", "Along the exploration path; 0: rests");
+  row("Hand speed", "devices/hand_speed", hand.speed_m_per_s, 0.5, 1e-3, "mm/s",
+      "Along the exploration path; 0: rests");
   row("Hand depth", "devices/hand_press", hand.press_m, 10e-3, 1e-3, "mm",
       "How far inside the surface the hand aims. The finger is held back by the rendered force, so it goes less deep");
   if (!(hand == before)) model.session()->set_hand(hand);
@@ -146,14 +162,19 @@ void draw_devices_panel(const UiContext& ui, AppModel& model, FoldedPanel& state
     return;
   }
   const bool past = model.paused() && model.tick().record() != nullptr;
-  if (past) fact(ui, "At tick", printed("%llu", static_cast<unsigned long long>(model.tick().record()->tick.tick)), "", ui.colours.accent);
+  if (past)
+    fact(ui, "At tick", printed("%llu", static_cast<unsigned long long>(model.tick().record()->tick.tick)), "",
+         ui.colours.accent);
   draw_force_device(ui, model);
   draw_display(ui, model);
   draw_gate(ui, model);
-  if (past) draw_tick(ui, model);
-  else draw_servo(ui, model);
+  if (past)
+    draw_tick(ui, model);
+  else
+    draw_servo(ui, model);
   draw_hand(ui, model);
-  toggle_button(ui, "devices/monitor", "Monitor", model.view().device_monitor, "Rates, histograms, limits and faults, in place of the 3D view");
+  toggle_button(ui, "devices/monitor", "Monitor", model.view().device_monitor,
+                "Rates, histograms, limits and faults, in place of the 3D view");
   ImGui::Dummy({1, ui.px(3)});
 }
 

@@ -15,12 +15,17 @@ constexpr std::size_t kRowsShown = 8;
 std::string size_text(const MeshFinding& f) {
   switch (f.kind) {
     case FindingKind::boundary_loop:
-    case FindingKind::inconsistent_edge: return printed("%.4g mm", f.size * 1e3);
-    case FindingKind::non_manifold_edge: return printed("%.0f triangles", f.size);
+    case FindingKind::inconsistent_edge:
+      return printed("%.4g mm", f.size * 1e3);
+    case FindingKind::non_manifold_edge:
+      return printed("%.0f triangles", f.size);
     case FindingKind::flipped_normal:
-    case FindingKind::wild_normal: return printed("%.3g deg", f.size);
-    case FindingKind::sliver: return printed("%.3g : 1", f.size);
-    default: return "";
+    case FindingKind::wild_normal:
+      return printed("%.3g deg", f.size);
+    case FindingKind::sliver:
+      return printed("%.3g : 1", f.size);
+    default:
+      return "";
   }
 }
 
@@ -34,10 +39,13 @@ void draw_finding(const UiContext& ui, AppModel& model, FindingKind kind, std::s
   if (ImGui::InvisibleButton(("##" + path).c_str(), {width, height})) model.show_finding(kind, i);
   ui.items.note_last(path);
   tooltip(ui, "A click goes there and marks its triangles; a second click on Isolate leaves them alone in the view");
-  if (shown || ImGui::IsItemHovered()) draw.AddRectFilled(at, {at.x + width, at.y + height}, shown ? ui.colours.accent_fill : ui.colours.accent_soft, ui.px(2));
+  if (shown || ImGui::IsItemHovered())
+    draw.AddRectFilled(at, {at.x + width, at.y + height}, shown ? ui.colours.accent_fill : ui.colours.accent_soft,
+                       ui.px(2));
   ImFont* number = ui.fonts.small_number;
   const std::string name = f.triangles.size() == 1 ? printed("triangle %u", f.triangles.front())
-                                                   : printed("%zu triangles from %u", f.triangles.size(), f.triangles.empty() ? 0u : f.triangles.front());
+                                                   : printed("%zu triangles from %u", f.triangles.size(),
+                                                             f.triangles.empty() ? 0u : f.triangles.front());
   const std::string size = size_text(f);
   draw.AddText(number, number->FontSize, {at.x + ui.px(14), at.y + ui.px(2)}, ui.colours.text, name.c_str());
   const float w = number->CalcTextSizeA(number->FontSize, 1e9f, 0.0f, size.c_str()).x;
@@ -66,18 +74,25 @@ void draw_findings(const UiContext& ui, AppModel& model, InspectPanel& state) {
     const ImVec2 c{at.x + ui.px(5), at.y + 0.5f * height};
     // The kind that is being looked at is open by itself.
     const bool open = state.open_kinds[k] != (model.inspection().kind == kind);
-    if (open) draw.AddTriangleFilled({c.x - r, c.y - 0.6f * r}, {c.x + r, c.y - 0.6f * r}, {c.x, c.y + 0.7f * r}, ui.colours.text_dim);
-    else draw.AddTriangleFilled({c.x - 0.6f * r, c.y - r}, {c.x - 0.6f * r, c.y + r}, {c.x + 0.7f * r, c.y}, ui.colours.text_dim);
+    if (open)
+      draw.AddTriangleFilled({c.x - r, c.y - 0.6f * r}, {c.x + r, c.y - 0.6f * r}, {c.x, c.y + 0.7f * r},
+                             ui.colours.text_dim);
+    else
+      draw.AddTriangleFilled({c.x - 0.6f * r, c.y - r}, {c.x - 0.6f * r, c.y + r}, {c.x + 0.7f * r, c.y},
+                             ui.colours.text_dim);
     draw.AddText({at.x + ui.px(14), at.y + ui.px(2)}, ui.colours.text, std::string(label_of(kind)).c_str());
     const std::string count = printed("%llu", static_cast<unsigned long long>(findings->count(kind)));
-    const bool bad = kind == FindingKind::non_manifold_edge || kind == FindingKind::inconsistent_edge || kind == FindingKind::flipped_normal;
+    const bool bad = kind == FindingKind::non_manifold_edge || kind == FindingKind::inconsistent_edge ||
+                     kind == FindingKind::flipped_normal;
     const float w = ui.fonts.number->CalcTextSizeA(ui.fonts.number->FontSize, 1e9f, 0.0f, count.c_str()).x;
-    draw.AddText(ui.fonts.number, ui.fonts.number->FontSize, {at.x + width - w, at.y + ui.px(3)}, bad ? ui.colours.bad : ui.colours.warning, count.c_str());
+    draw.AddText(ui.fonts.number, ui.fonts.number->FontSize, {at.x + width - w, at.y + ui.px(3)},
+                 bad ? ui.colours.bad : ui.colours.warning, count.c_str());
     if (!open) continue;
     const auto& list = findings->of(kind);
     for (std::size_t i = 0; i < std::min(list.size(), kRowsShown); ++i) draw_finding(ui, model, kind, i);
     if (findings->count(kind) > kRowsShown) {
-      ImGui::TextDisabled("   and %llu more, smaller", static_cast<unsigned long long>(findings->count(kind) - kRowsShown));
+      ImGui::TextDisabled("   and %llu more, smaller",
+                          static_cast<unsigned long long>(findings->count(kind) - kRowsShown));
     }
   }
   if (!any) ImGui::TextDisabled("Nothing is wrong with this mesh");
@@ -85,9 +100,15 @@ void draw_findings(const UiContext& ui, AppModel& model, InspectPanel& state) {
 
 void draw_isolation(const UiContext& ui, AppModel& model) {
   const bool something = !model.inspection().marked.empty() || model.view().picked_triangle != kNone;
-  if (text_button(ui, "inspect/isolate", "Isolate", something ? "Draws the marked or picked triangles and their neighbours alone" : "Mark a finding or pick a triangle first")) model.isolate_marked();
+  if (text_button(ui, "inspect/isolate", "Isolate",
+                  something ? "Draws the marked or picked triangles and their neighbours alone"
+                            : "Mark a finding or pick a triangle first"))
+    model.isolate_marked();
   ImGui::SameLine(0, ui.px(3));
-  if (text_button(ui, "inspect/isolate_part", "Isolate part", something ? "Draws the connected part that holds the marked or picked triangle alone" : "Mark a finding or pick a triangle first")) model.isolate_part();
+  if (text_button(ui, "inspect/isolate_part", "Isolate part",
+                  something ? "Draws the connected part that holds the marked or picked triangle alone"
+                            : "Mark a finding or pick a triangle first"))
+    model.isolate_part();
   ImGui::SameLine(0, ui.px(3));
   if (text_button(ui, "inspect/show_all", "Show all", "Draws every triangle again and marks none")) model.show_all();
 }
@@ -109,22 +130,30 @@ void draw_slice(const UiContext& ui, AppModel& model) {
   int axis = chosen_slice(slice);
   const Box box = world_bounds(*model.scene());
   if (choice_row(ui, "inspect/slice", ui.px(118), kSlices, axis, true)) {
-    if (axis == 0) slice.reset();
-    else slice = SlicePlane{axis == 4 ? -model.view().camera.forward() : Vec3(axis == 1, axis == 2, axis == 3), 0.0};
+    if (axis == 0)
+      slice.reset();
+    else
+      slice = SlicePlane{axis == 4 ? -model.view().camera.forward() : Vec3(axis == 1, axis == 2, axis == 3), 0.0};
     if (slice) slice->offset_m = glm::dot(slice->normal, box.centre());
   }
-  tooltip(ui, "Cuts the picture open with a plane; what is nearer than it is not drawn and not picked. \"across the view\" again: as one looks now");
+  tooltip(ui,
+          "Cuts the picture open with a plane; what is nearer than it is not drawn and not picked. \"across the view\" "
+          "again: as one looks now");
   if (!slice) return;
   // From one side of the box to the other along the normal.
-  const double reach = 0.5 * glm::dot(glm::abs(slice->normal), box.size()), middle = glm::dot(slice->normal, box.centre());
+  const double reach = 0.5 * glm::dot(glm::abs(slice->normal), box.size()),
+               middle = glm::dot(slice->normal, box.centre());
   ImGui::SameLine(0, ui.px(3));
   const double share = std::clamp((slice->offset_m - middle + reach) / std::max(2.0 * reach, 1e-30), 0.0, 1.0);
-  const auto result = value_field(ui, "inspect/slice_at", {width - ui.px(118 + 3 + 44 + 3), share, printed("%.2f", (slice->offset_m) * 1e3), "mm"});
+  const auto result = value_field(
+      ui, "inspect/slice_at", {width - ui.px(118 + 3 + 44 + 3), share, printed("%.2f", (slice->offset_m) * 1e3), "mm"});
   if (result.slid) slice->offset_m = middle + (2.0 * *result.slid - 1.0) * reach;
-  if (result.typed) slice->offset_m = std::clamp(std::atof(result.typed->c_str()) * 1e-3, middle - reach, middle + reach);
+  if (result.typed)
+    slice->offset_m = std::clamp(std::atof(result.typed->c_str()) * 1e-3, middle - reach, middle + reach);
   tooltip(ui, "Where the plane is along its normal");
   ImGui::SameLine(0, ui.px(3));
-  if (text_button(ui, "inspect/slice_flip", "Flip", "The other side is cut away")) *slice = {-slice->normal, -slice->offset_m};
+  if (text_button(ui, "inspect/slice_flip", "Flip", "The other side is cut away"))
+    *slice = {-slice->normal, -slice->offset_m};
 }
 
 void draw_crease(const UiContext& ui, AppModel& model) {
@@ -133,10 +162,13 @@ void draw_crease(const UiContext& ui, AppModel& model) {
   ImGui::TextDisabled("Creases above");
   ImGui::SameLine(ui.px(118 + 3 + 8));
   const double degrees = model.crease_angle_rad() / kDegree;
-  const auto result = value_field(ui, "inspect/crease", {width - ui.px(118 + 3), degrees / 180.0, printed("%.4g", degrees), "deg"});
+  const auto result =
+      value_field(ui, "inspect/crease", {width - ui.px(118 + 3), degrees / 180.0, printed("%.4g", degrees), "deg"});
   const bool from_file = model.scene()->mesh().normals_used() == NormalSource::file;
-  tooltip(ui, from_file ? "The normals are the file's: it alone says where creases are"
-                        : "Edges whose facets meet at a larger angle are creases; the mesh is built anew while this is dragged");
+  tooltip(ui,
+          from_file
+              ? "The normals are the file's: it alone says where creases are"
+              : "Edges whose facets meet at a larger angle are creases; the mesh is built anew while this is dragged");
   if (from_file) return;
   if (result.slid) model.set_crease_angle(std::round(*result.slid * 360.0) * 0.5 * kDegree);
   if (result.typed) model.set_crease_angle(std::atof(result.typed->c_str()) * kDegree);
@@ -144,7 +176,9 @@ void draw_crease(const UiContext& ui, AppModel& model) {
 
 }  // namespace
 
-std::string_view slice_choice(const std::optional<SlicePlane>& slice) { return kSlices[static_cast<std::size_t>(chosen_slice(slice))]; }
+std::string_view slice_choice(const std::optional<SlicePlane>& slice) {
+  return kSlices[static_cast<std::size_t>(chosen_slice(slice))];
+}
 
 void draw_inspect_panel(const UiContext& ui, AppModel& model, InspectPanel& state) {
   if (!section(ui, "Inspect", state.open)) return;
@@ -165,7 +199,8 @@ void draw_inspect_panel(const UiContext& ui, AppModel& model, InspectPanel& stat
   ImGui::SameLine(0, ui.px(3));
   toggle_button(ui, "inspect/creases", "Creases", show.creases, "Crease and boundary edges");
   ImGui::SameLine(0, ui.px(3));
-  toggle_button(ui, "inspect/net", "Net of picked", model.view().net_of_picked, "The control net of the picked triangle instead of the tracked one");
+  toggle_button(ui, "inspect/net", "Net of picked", model.view().net_of_picked,
+                "The control net of the picked triangle instead of the tracked one");
   ImGui::Dummy({1, ui.px(3)});
 }
 

@@ -21,7 +21,8 @@ constexpr std::array kColumns{
     Column{"error", "\u00b5m", 9, "Distance between the surface point and the finger's contact on the plane there"},
     Column{"step", "\u00b5m", 8, "Length of the step on the base triangle that followed"},
     Column{"gain", "", 6, "Gain of Eq. 1 for that step; 0 where none was taken"},
-    Column{"triangle", "", 8, "Triangle the plane touches, in file order; in a 2D scene the vertex whose patch the line touches"},
+    Column{"triangle", "", 8,
+           "Triangle the plane touches, in file order; in a 2D scene the vertex whose patch the line touches"},
     Column{"u", "", 6, "Weight of the triangle's second corner"},
     Column{"v", "", 6, "Weight of the triangle's third corner"},
     Column{"w", "", 6, "Weight of the triangle's first corner"},
@@ -38,18 +39,30 @@ void right_aligned(const char* text) {
 
 std::string cell(const IterationRecord& r, std::size_t column) {
   switch (column) {
-    case 1: return r.error_m < 1e-3 ? printed("%.4f", r.error_m * 1e6) : printed("%.3e", r.error_m * 1e6);
-    case 2: return printed("%.2f", r.step_m * 1e6);
-    case 3: return printed("%.3f", r.gain);
-    case 4: return r.triangle == kNone ? std::string("-") : printed("%u", r.triangle);
-    case 5: return printed("%.4f", r.u);
-    case 6: return printed("%.4f", r.v);
-    case 7: return printed("%.4f", 1.0 - r.u - r.v);
-    case 8: return printed("%.2f", r.curvature_per_m);
-    case 9: return printed("%.4f", r.distance_m * 1e3);
-    case 10: return printed("%d", static_cast<int>(r.seed));
-    case 11: return r.stop == StopReason::going_on ? std::string() : std::string(to_string(r.stop));
-    default: return {};
+    case 1:
+      return r.error_m < 1e-3 ? printed("%.4f", r.error_m * 1e6) : printed("%.3e", r.error_m * 1e6);
+    case 2:
+      return printed("%.2f", r.step_m * 1e6);
+    case 3:
+      return printed("%.3f", r.gain);
+    case 4:
+      return r.triangle == kNone ? std::string("-") : printed("%u", r.triangle);
+    case 5:
+      return printed("%.4f", r.u);
+    case 6:
+      return printed("%.4f", r.v);
+    case 7:
+      return printed("%.4f", 1.0 - r.u - r.v);
+    case 8:
+      return printed("%.2f", r.curvature_per_m);
+    case 9:
+      return printed("%.4f", r.distance_m * 1e3);
+    case 10:
+      return printed("%d", static_cast<int>(r.seed));
+    case 11:
+      return r.stop == StopReason::going_on ? std::string() : std::string(to_string(r.stop));
+    default:
+      return {};
   }
 }
 
@@ -58,9 +71,13 @@ void draw_header(const UiContext& ui, bool planar) {
   ImGui::PushFont(ui.fonts.small);
   for (std::size_t c = 0; c < kColumns.size(); ++c) {
     if (!ImGui::TableNextColumn()) continue;
-    std::string title = kColumns[c].unit[0] != '\0' ? printed("%s %s", kColumns[c].title, kColumns[c].unit) : kColumns[c].title;
+    std::string title =
+        kColumns[c].unit[0] != '\0' ? printed("%s %s", kColumns[c].title, kColumns[c].unit) : kColumns[c].title;
     if (planar && title == "triangle") title = "vertex";
-    if (c == 11) ImGui::TextUnformatted(title.c_str()); else right_aligned(title.c_str());
+    if (c == 11)
+      ImGui::TextUnformatted(title.c_str());
+    else
+      right_aligned(title.c_str());
     tooltip(ui, kColumns[c].doc);
   }
   ImGui::PopFont();
@@ -79,7 +96,8 @@ void draw_row(const UiContext& ui, AppModel& model, std::size_t i, std::size_t c
   // The row reaches past what is scrolled into view; its first cell is always there.
   ui.items.note(printed("iterations/row/%zu", i), at, {at.x + ui.px(16), at.y + ImGui::GetTextLineHeight()});
   const float side = ui.px(7), y = at.y + 0.5f * ImGui::GetTextLineHeight();
-  ImGui::GetWindowDrawList()->AddRectFilled({at.x, y - 0.5f * side}, {at.x + side, y + 0.5f * side}, packed(iteration_colour(i, count)), ui.px(1.5f));
+  ImGui::GetWindowDrawList()->AddRectFilled({at.x, y - 0.5f * side}, {at.x + side, y + 0.5f * side},
+                                            packed(iteration_colour(i, count)), ui.px(1.5f));
   ImGui::SameLine(0.0f, 0.0f);
   right_aligned(printed("%zu", i).c_str());
   for (std::size_t c = 1; c < kColumns.size(); ++c) {
@@ -115,8 +133,9 @@ void draw_iterations_panel(const UiContext& ui, AppModel& model, IterationsPanel
   ImGui::Text("%s%s", to_string(out.status), event.c_str());
   ImGui::PopStyleColor();
   ImGui::SameLine();
-  ImGui::TextDisabled("%d new %s%s, %d %s change%s", out.iterations, planar ? "line" : "plane", out.iterations == 1 ? "" : "s",
-                      out.triangle_changes, planar ? "vertex" : "triangle", out.triangle_changes == 1 ? "" : "s");
+  ImGui::TextDisabled("%d new %s%s, %d %s change%s", out.iterations, planar ? "line" : "plane",
+                      out.iterations == 1 ? "" : "s", out.triangle_changes, planar ? "vertex" : "triangle",
+                      out.triangle_changes == 1 ? "" : "s");
   ImGui::PopFont();
   if (!model.tick().problem().empty()) ImGui::TextWrapped("%s", model.tick().problem().c_str());
 
@@ -138,12 +157,14 @@ void draw_iterations_panel(const UiContext& ui, AppModel& model, IterationsPanel
     // Selected elsewhere (keys, 3D view, plots): its row comes into view.
     if (model.tick().selected() != state.shown_selection) {
       state.shown_selection = model.tick().selected();
-      if (state.shown_selection) ImGui::SetScrollY(std::max(0.0f, (static_cast<float>(*state.shown_selection) - 2.0f) * row));
+      if (state.shown_selection)
+        ImGui::SetScrollY(std::max(0.0f, (static_cast<float>(*state.shown_selection) - 2.0f) * row));
     }
     ImGuiListClipper clipper;
     clipper.Begin(static_cast<int>(iterations.size()));
     while (clipper.Step()) {
-      for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) draw_row(ui, model, static_cast<std::size_t>(i), iterations.size());
+      for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i)
+        draw_row(ui, model, static_cast<std::size_t>(i), iterations.size());
     }
     ImGui::EndTable();
   }

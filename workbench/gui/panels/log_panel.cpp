@@ -10,9 +10,12 @@ namespace {
 
 ImU32 ink_of(const UiContext& ui, Severity severity) {
   switch (severity) {
-    case Severity::error: return ui.colours.bad;
-    case Severity::warning: return ui.colours.warning;
-    default: return ui.colours.text_dim;
+    case Severity::error:
+      return ui.colours.bad;
+    case Severity::warning:
+      return ui.colours.warning;
+    default:
+      return ui.colours.text_dim;
   }
 }
 
@@ -39,10 +42,13 @@ void draw_log_panel(const UiContext& ui, AppModel& model, LogPanel& state) {
   ImGui::PushFont(ui.fonts.small);
   for (std::size_t i = all.size(); i-- > 0;) {
     const Message& m = all[i];
-    const bool wanted = m.severity == Severity::error ? state.errors : m.severity == Severity::warning ? state.warnings : state.notes;
+    const bool wanted = m.severity == Severity::error     ? state.errors
+                        : m.severity == Severity::warning ? state.warnings
+                                                          : state.notes;
     if (!wanted || (!state.filter.empty() && m.text.find(state.filter) == std::string::npos)) continue;
     ++shown;
-    const std::string line = printed("%7.1f s  ", m.at_s) + m.text + (m.times > 1 ? printed(" (%u times)", m.times) : std::string());
+    const std::string line =
+        printed("%7.1f s  ", m.at_s) + m.text + (m.times > 1 ? printed(" (%u times)", m.times) : std::string());
     if (copy) copied += line + "\n";
     ImGui::PushStyleColor(ImGuiCol_Text, ink_of(ui, m.severity));
     ImGui::TextWrapped("%s", line.c_str());
@@ -74,7 +80,8 @@ void draw_toasts(const UiContext& ui, AppModel& model, const Rect& over) {
     ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(1, 1));
     ImGui::PushStyleColor(ImGuiCol_WindowBg, ui.colours.panel_header);
     constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoSavedSettings |
-                                       ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoMove;
+                                       ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav |
+                                       ImGuiWindowFlags_NoMove;
     ImGui::Begin(printed("##toast%d", shown).c_str(), nullptr, flags);
     const ImVec2 at = ImGui::GetWindowPos();
     if (ImGui::InvisibleButton("##dismiss", {width, height})) model.messages().dismiss(i);
@@ -82,7 +89,8 @@ void draw_toasts(const UiContext& ui, AppModel& model, const Rect& over) {
     tooltip(ui, "A click puts it away; it stays under Messages");
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     draw.AddRectFilled(at, {at.x + ui.px(4), at.y + height}, ink_of(ui, m.severity), ui.px(2));
-    draw.AddText(ui.fonts.text, ui.fonts.text->FontSize, {at.x + ui.px(14), at.y + ui.px(6)}, ui.colours.text, text.c_str(), nullptr, wrap);
+    draw.AddText(ui.fonts.text, ui.fonts.text->FontSize, {at.x + ui.px(14), at.y + ui.px(6)}, ui.colours.text,
+                 text.c_str(), nullptr, wrap);
     ImGui::End();
     ImGui::PopStyleColor();
     ImGui::PopStyleVar(3);
@@ -92,7 +100,8 @@ void draw_toasts(const UiContext& ui, AppModel& model, const Rect& over) {
   const std::size_t held_back = model.messages().held_back(model.now_s());
   if (held_back == 0 || width < ui.px(80)) return;
   const std::string more = printed("and %zu more under Messages", held_back);
-  ImGui::GetForegroundDrawList()->AddText(ui.fonts.small, ui.fonts.small->FontSize, {over.x + ui.px(14), y}, ui.colours.text_dim, more.c_str());
+  ImGui::GetForegroundDrawList()->AddText(ui.fonts.small, ui.fonts.small->FontSize, {over.x + ui.px(14), y},
+                                          ui.colours.text_dim, more.c_str());
 }
 
 }  // namespace tangent

@@ -1,5 +1,5 @@
-// The map over the mesh: which quantity, how it is coloured, how far it is computed, and where it is worst. The colour bar
-// stands in the 3D view (map_bar.cpp).
+// The map over the mesh: which quantity, how it is coloured, how far it is computed, and where it is worst. The colour
+// bar stands in the 3D view (map_bar.cpp).
 #include "workbench/gui/panels/panels.h"
 #include "workbench/gui/widgets.h"
 
@@ -31,14 +31,19 @@ void draw_choice(const UiContext& ui, MapView& map) {
 
 void draw_progress(const UiContext& ui, MapView& map) {
   const ImVec2 at = ImGui::GetCursorScreenPos();
-  const float button = ui.px(64), width = ImGui::GetContentRegionAvail().x - button - ui.px(6), height = ImGui::GetFrameHeight();
+  const float button = ui.px(64), width = ImGui::GetContentRegionAvail().x - button - ui.px(6),
+              height = ImGui::GetFrameHeight();
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const float share = static_cast<float>(map.progress());
   draw.AddRectFilled(at, {at.x + width, at.y + height}, ui.colours.field, ui.px(3));
-  if (share > 0.0f) draw.AddRectFilled(at, {at.x + std::max(ui.px(4), share * width), at.y + height}, ui.colours.accent_soft, ui.px(3));
-  std::string text = map.running() ? printed("%3.0f %%", std::floor(100.0 * map.progress())) : map.progress() >= 1.0 ? "complete" : "stopped";
+  if (share > 0.0f)
+    draw.AddRectFilled(at, {at.x + std::max(ui.px(4), share * width), at.y + height}, ui.colours.accent_soft, ui.px(3));
+  std::string text = map.running()           ? printed("%3.0f %%", std::floor(100.0 * map.progress()))
+                     : map.progress() >= 1.0 ? "complete"
+                                             : "stopped";
   if (map.stale()) text += ", of earlier values";
-  draw.AddText({at.x + ui.px(8), at.y + 0.5f * (height - ImGui::GetFontSize())}, map.stale() ? ui.colours.warning : ui.colours.text_dim, text.c_str());
+  draw.AddText({at.x + ui.px(8), at.y + 0.5f * (height - ImGui::GetFontSize())},
+               map.stale() ? ui.colours.warning : ui.colours.text_dim, text.c_str());
   ImGui::Dummy({width, height});
   ui.items.note_last("map/progress");
   tooltip(ui, "Computed in the background, scattered over the surface, so that what is there is a fair sample of all");
@@ -70,12 +75,16 @@ void draw_range(const UiContext& ui, MapView& map) {
   ImGui::SameLine(0, ui.px(4));
   bool automatic = map.automatic_range();
   if (toggle_button(ui, "map/auto", "Auto", automatic, "The range of nearly all values: 0.5 to 99.5 % of them")) {
-    if (automatic) map.set_automatic_range(); else map.set_range(map.low(), map.high());
+    if (automatic)
+      map.set_automatic_range();
+    else
+      map.set_range(map.low(), map.high());
   }
   if (info_of(map.quantity).about_zero) return;
   ImGui::SameLine(0, ui.px(4));
   bool logarithmic = map.logarithmic();
-  if (toggle_button(ui, "map/log", "Log", logarithmic, "Equal steps of colour are equal factors")) map.set_logarithmic(logarithmic);
+  if (toggle_button(ui, "map/log", "Log", logarithmic, "Equal steps of colour are equal factors"))
+    map.set_logarithmic(logarithmic);
 }
 
 void draw_look(const UiContext& ui, MapView& map) {
@@ -86,11 +95,15 @@ void draw_look(const UiContext& ui, MapView& map) {
     ImGui::TextDisabled("Blue and orange, white at 0");
     ImGui::SameLine(width - ui.px(112) + ui.px(8));
   } else {
-    if (choice_row(ui, "map/colours", width - ui.px(116), colour_map_names(), colours)) map.colours = static_cast<ColourMap>(colours);
-    tooltip(ui, "Equal steps of colour look equally large, and lightness alone orders the values, so that every eye can read them");
+    if (choice_row(ui, "map/colours", width - ui.px(116), colour_map_names(), colours))
+      map.colours = static_cast<ColourMap>(colours);
+    tooltip(ui,
+            "Equal steps of colour look equally large, and lightness alone orders the values, so that every eye can "
+            "read them");
     ImGui::SameLine(0, ui.px(4));
   }
-  toggle_button(ui, "map/follow", "Follow preset", map.follow_changes, "Computes anew when the preset or the mesh changes");
+  toggle_button(ui, "map/follow", "Follow preset", map.follow_changes,
+                "Computes anew when the preset or the mesh changes");
 }
 
 void draw_moves(const UiContext& ui, MapView& map) {
@@ -105,11 +118,14 @@ void draw_moves(const UiContext& ui, MapView& map) {
     ImGui::TextDisabled("%s", unit);
     return typed ? parsed(*typed) : std::nullopt;
   };
-  if (const auto v = row("map/directions", "Directions", map.options.directions, "", "Moves around that are tried from every place, 1 to 32; one straight in is added"))
+  if (const auto v = row("map/directions", "Directions", map.options.directions, "",
+                         "Moves around that are tried from every place, 1 to 32; one straight in is added"))
     map.options.directions = static_cast<unsigned>(std::clamp(*v, 1.0, 32.0));
-  if (const auto v = row("map/move", "Move a tick", map.options.move_m * 1e3, "mm", "How far the finger moves: 0.1 mm is 0.1 m/s at 1 kHz"))
+  if (const auto v = row("map/move", "Move a tick", map.options.move_m * 1e3, "mm",
+                         "How far the finger moves: 0.1 mm is 0.1 m/s at 1 kHz"))
     map.options.move_m = std::clamp(*v, 1e-4, 10.0) * 1e-3;
-  if (const auto v = row("map/press", "Pressed in", map.options.press_m * 1e3, "mm", "How deep the finger rests at every place"))
+  if (const auto v =
+          row("map/press", "Pressed in", map.options.press_m * 1e3, "mm", "How deep the finger rests at every place"))
     map.options.press_m = std::clamp(*v, 0.0, 20.0) * 1e-3;
 }
 
@@ -122,16 +138,21 @@ void draw_figures(const UiContext& ui, const MapView& map) {
   tooltip(ui, "Of all places computed so far");
   if (!info_of(map.quantity).low_is_worse) fact(ui, "99th percentile", s.values > 0 ? value(s.p99) : "-", unit);
   if (const auto limit = map.limit()) {
-    const std::string label = printed("%s %.3g%s", info_of(map.quantity).low_is_worse ? "Below" : "Above", shown(map, *limit), unit_suffix(map).c_str());
-    fact(ui, label.c_str(), printed("%.2f", 100.0 * s.share_beyond_limit), "%", s.share_beyond_limit > 0.0 ? std::optional(ui.colours.warning) : std::nullopt);
-    tooltip(ui, map.quantity == MapQuantity::touch_radius  ? "Share of the places at which the finger touches two walls"
-                : map.quantity == MapQuantity::facet_angle ? "Share of the places whose facet is felt under the condition of Smoothness as felt"
-                                                           : "Share of the places at which the paper's iteration does not converge");
+    const std::string label = printed("%s %.3g%s", info_of(map.quantity).low_is_worse ? "Below" : "Above",
+                                      shown(map, *limit), unit_suffix(map).c_str());
+    fact(ui, label.c_str(), printed("%.2f", 100.0 * s.share_beyond_limit), "%",
+         s.share_beyond_limit > 0.0 ? std::optional(ui.colours.warning) : std::nullopt);
+    tooltip(ui, map.quantity == MapQuantity::touch_radius ? "Share of the places at which the finger touches two walls"
+                : map.quantity == MapQuantity::facet_angle
+                    ? "Share of the places whose facet is felt under the condition of Smoothness as felt"
+                    : "Share of the places at which the paper's iteration does not converge");
   }
   const auto all = static_cast<double>(std::max<std::size_t>(1, s.values + s.none));
   if (group_of(map.quantity) == MapGroup::solve) {
     fact(ui, "Finger can't rest", printed("%.2f", 100.0 * static_cast<double>(s.none) / all), "%");
-    tooltip(ui, "Share of the places without a value: the contact there is unstable, as in grooves tighter than the finger, or no move converged");
+    tooltip(ui,
+            "Share of the places without a value: the contact there is unstable, as in grooves tighter than the "
+            "finger, or no move converged");
   }
 }
 
@@ -145,18 +166,25 @@ void draw_worst(const UiContext& ui, AppModel& model) {
   for (std::size_t i = 0; i < map.worst().size(); ++i) {
     const MapPlace& place = map.worst()[i];
     const ImVec2 at = ImGui::GetCursorScreenPos();
-    if (ImGui::InvisibleButton(printed("##worst%zu", i).c_str(), {width, height})) model.look_at_place(place.point_world, place.normal, place.triangle);
+    if (ImGui::InvisibleButton(printed("##worst%zu", i).c_str(), {width, height}))
+      model.look_at_place(place.point_world, place.normal, place.triangle);
     ui.items.note_last(printed("map/worst/%zu", i));
     tooltip(ui, "Turns the view there and picks the triangle");
     const bool picked = model.view().picked_triangle == place.triangle;
-    if (ImGui::IsItemHovered() || picked) draw.AddRectFilled(at, {at.x + width, at.y + height}, picked ? ui.colours.accent_fill : ui.colours.accent_soft, ui.px(2));
+    if (ImGui::IsItemHovered() || picked)
+      draw.AddRectFilled(at, {at.x + width, at.y + height}, picked ? ui.colours.accent_fill : ui.colours.accent_soft,
+                         ui.px(2));
     const auto paint = map.paint();
-    if (paint) draw.AddRectFilled({at.x + ui.px(2), at.y + ui.px(3)}, {at.x + ui.px(14), at.y + height - ui.px(3)}, packed(map_colour(*paint, place.value)), ui.px(2));
+    if (paint)
+      draw.AddRectFilled({at.x + ui.px(2), at.y + ui.px(3)}, {at.x + ui.px(14), at.y + height - ui.px(3)},
+                         packed(map_colour(*paint, place.value)), ui.px(2));
     ImFont* number = ui.fonts.small_number;
-    draw.AddText(number, number->FontSize, {at.x + ui.px(20), at.y + ui.px(3)}, ui.colours.text, (printed("%.4g", shown(map, place.value)) + unit_suffix(map)).c_str());
+    draw.AddText(number, number->FontSize, {at.x + ui.px(20), at.y + ui.px(3)}, ui.colours.text,
+                 (printed("%.4g", shown(map, place.value)) + unit_suffix(map)).c_str());
     const std::string where = printed("triangle %u", place.triangle);
     const float w = number->CalcTextSizeA(number->FontSize, 1e9f, 0.0f, where.c_str()).x;
-    draw.AddText(number, number->FontSize, {at.x + width - w - ui.px(4), at.y + ui.px(3)}, ui.colours.text_dim, where.c_str());
+    draw.AddText(number, number->FontSize, {at.x + width - w - ui.px(4), at.y + ui.px(3)}, ui.colours.text_dim,
+                 where.c_str());
   }
 }
 

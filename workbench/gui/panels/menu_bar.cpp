@@ -14,7 +14,8 @@ void draw_path_bar(const UiContext& ui, AppModel& model, PathBar& bar, const Rec
 namespace {
 
 /// A button that drops a menu below itself. Returns whether the menu is open; then call ImGui::EndPopup.
-bool drop_button(const UiContext& ui, std::string_view path, const std::string& text, const char* tip, float width = 0.0f) {
+bool drop_button(const UiContext& ui, std::string_view path, const std::string& text, const char* tip,
+                 float width = 0.0f) {
   const std::string id = std::string(path);
   const ImVec2 at = ImGui::GetCursorScreenPos();
   ImGui::PushStyleVar(ImGuiStyleVar_ButtonTextAlign, ImVec2(width > 0.0f ? 0.0f : 0.5f, 0.5f));
@@ -26,13 +27,15 @@ bool drop_button(const UiContext& ui, std::string_view path, const std::string& 
     const ImVec2 max = ImGui::GetItemRectMax();
     const float r = ui.px(3.5f);
     const ImVec2 c{max.x - ui.px(10), 0.5f * (at.y + max.y)};
-    ImGui::GetWindowDrawList()->AddTriangleFilled({c.x - r, c.y - 0.5f * r}, {c.x + r, c.y - 0.5f * r}, {c.x, c.y + 0.7f * r}, ui.colours.text_dim);
+    ImGui::GetWindowDrawList()->AddTriangleFilled({c.x - r, c.y - 0.5f * r}, {c.x + r, c.y - 0.5f * r},
+                                                  {c.x, c.y + 0.7f * r}, ui.colours.text_dim);
   }
   ImGui::SetNextWindowPos({at.x, ImGui::GetItemRectMax().y + ui.px(2)});
   return ImGui::BeginPopup(id.c_str());
 }
 
-bool menu_item(const UiContext& ui, std::string_view path, const char* text, const char* tip, const char* key = nullptr, bool on = false) {
+bool menu_item(const UiContext& ui, std::string_view path, const char* text, const char* tip, const char* key = nullptr,
+               bool on = false) {
   const bool chosen = ImGui::MenuItem(text, key, on);
   ui.items.note_last(path);
   tooltip(ui, tip);
@@ -41,76 +44,114 @@ bool menu_item(const UiContext& ui, std::string_view path, const char* text, con
 
 void draw_file_menu(const UiContext& ui, AppModel& model, MenuBar& state) {
   if (!drop_button(ui, "menu/file", "File", "Meshes, screenshots, quit")) return;
-  if (menu_item(ui, "menu/file/open", "Open mesh...", "Type a path: OBJ, PLY, STL or OFF; Tab completes it", "Ctrl+O")) state.path.open = state.path.focus = true;
+  if (menu_item(ui, "menu/file/open", "Open mesh...", "Type a path: OBJ, PLY, STL or OFF; Tab completes it", "Ctrl+O"))
+    state.path.open = state.path.focus = true;
   if (ImGui::BeginMenu("Recent")) {
     const std::vector<std::string> recent = model.settings().recent_meshes;  // opening one changes the order
     for (std::size_t i = 0; i < recent.size(); ++i) {
-      if (menu_item(ui, "menu/file/recent/" + std::to_string(i), recent[i].c_str(), "Opens it again")) model.open_mesh(recent[i]);
+      if (menu_item(ui, "menu/file/recent/" + std::to_string(i), recent[i].c_str(), "Opens it again"))
+        model.open_mesh(recent[i]);
     }
     ImGui::EndMenu();
   }
   ui.items.note_last("menu/file/recent");
-  if (menu_item(ui, "menu/file/reload", "Load the mesh again", "Reads the file anew") && !model.mesh_path().empty()) model.open_mesh(model.mesh_path());
+  if (menu_item(ui, "menu/file/reload", "Load the mesh again", "Reads the file anew") && !model.mesh_path().empty())
+    model.open_mesh(model.mesh_path());
   ImGui::Separator();
-  if (menu_item(ui, "menu/file/screenshot", "Screenshot", "Writes the window as a PNG into the folder the program was started in", "F12")) model.ask_for_screenshot();
-  if (menu_item(ui, "menu/file/commands", "Commands...", "Every command by name", "Ctrl+P")) state.palette.open = state.palette.focus = true;
-  if (menu_item(ui, "menu/file/shortcuts", "Shortcuts", "All keys on a sheet", "F1", state.sheet)) state.sheet = !state.sheet;
+  if (menu_item(ui, "menu/file/screenshot", "Screenshot",
+                "Writes the window as a PNG into the folder the program was started in", "F12"))
+    model.ask_for_screenshot();
+  if (menu_item(ui, "menu/file/commands", "Commands...", "Every command by name", "Ctrl+P"))
+    state.palette.open = state.palette.focus = true;
+  if (menu_item(ui, "menu/file/shortcuts", "Shortcuts", "All keys on a sheet", "F1", state.sheet))
+    state.sheet = !state.sheet;
   ImGui::Separator();
-  if (menu_item(ui, "menu/file/quit", "Quit", "Ends the program; the force goes to zero first", "Ctrl+Q")) model.ask_to_close();
+  if (menu_item(ui, "menu/file/quit", "Quit", "Ends the program; the force goes to zero first", "Ctrl+Q"))
+    model.ask_to_close();
   ImGui::EndPopup();
 }
 
 void draw_camera_items(const UiContext& ui, AppModel& model) {
-  if (menu_item(ui, "menu/view/frame", "Frame the mesh", "All of it in view, from the present direction", "F")) model.frame_scene();
+  if (menu_item(ui, "menu/view/frame", "Frame the mesh", "All of it in view, from the present direction", "F"))
+    model.frame_scene();
   if (ImGui::BeginMenu("Look from")) {
     for (const NamedView& v : kStandardViews) {
       std::string title = v.name;
       title[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(title[0])));
-      if (menu_item(ui, "menu/view/from/" + title, title.c_str(), "Turns the camera there; what it looks at stays", v.key)) model.look_from_standard(v.view);
+      if (menu_item(ui, "menu/view/from/" + title, title.c_str(), "Turns the camera there; what it looks at stays",
+                    v.key))
+        model.look_from_standard(v.view);
     }
     ImGui::EndMenu();
   }
   ui.items.note_last("menu/view/from");
-  if (menu_item(ui, "menu/view/y_up", "y axis up", "For meshes that stand on y, as many scans do", "U", model.view().camera.y_up)) model.set_y_up(!model.view().camera.y_up);
-  if (menu_item(ui, "menu/view/copy_camera", "Copy camera", "The view as one line of text, for another window or another day", "Ctrl+Shift+C")) model.copy_camera();
-  if (menu_item(ui, "menu/view/paste_camera", "Paste camera", "The view that was copied", "Ctrl+Shift+V")) model.paste_camera();
+  if (menu_item(ui, "menu/view/y_up", "y axis up", "For meshes that stand on y, as many scans do", "U",
+                model.view().camera.y_up))
+    model.set_y_up(!model.view().camera.y_up);
+  if (menu_item(ui, "menu/view/copy_camera", "Copy camera",
+                "The view as one line of text, for another window or another day", "Ctrl+Shift+C"))
+    model.copy_camera();
+  if (menu_item(ui, "menu/view/paste_camera", "Paste camera", "The view that was copied", "Ctrl+Shift+V"))
+    model.paste_camera();
 }
 
 void draw_view_menu(const UiContext& ui, AppModel& model) {
   if (!drop_button(ui, "menu/view", "View", "Layout, camera, what is drawn, colours, text size")) return;
   LayoutSizes& sizes = model.sizes();
-  if (menu_item(ui, "menu/view/left", "Parameters", "The left column", nullptr, sizes.show_left)) sizes.show_left = !sizes.show_left;
-  if (menu_item(ui, "menu/view/right", "Iterations, maps, mesh, devices", "The right column", nullptr, sizes.show_right)) sizes.show_right = !sizes.show_right;
-  if (menu_item(ui, "menu/view/plots", "Plots", "Curves over time, below", nullptr, sizes.show_plots)) sizes.show_plots = !sizes.show_plots;
-  if (menu_item(ui, "menu/view/monitor", "Device monitor", "Rates, histograms, limits and faults, in place of the 3D view", nullptr, model.view().device_monitor)) model.view().device_monitor = !model.view().device_monitor;
-  if (menu_item(ui, "menu/view/reset", "Default layout", "Columns, plots and sections as they were at first")) model.reset_layout();
+  if (menu_item(ui, "menu/view/left", "Parameters", "The left column", nullptr, sizes.show_left))
+    sizes.show_left = !sizes.show_left;
+  if (menu_item(ui, "menu/view/right", "Iterations, maps, mesh, devices", "The right column", nullptr,
+                sizes.show_right))
+    sizes.show_right = !sizes.show_right;
+  if (menu_item(ui, "menu/view/plots", "Plots", "Curves over time, below", nullptr, sizes.show_plots))
+    sizes.show_plots = !sizes.show_plots;
+  if (menu_item(ui, "menu/view/monitor", "Device monitor",
+                "Rates, histograms, limits and faults, in place of the 3D view", nullptr, model.view().device_monitor))
+    model.view().device_monitor = !model.view().device_monitor;
+  if (menu_item(ui, "menu/view/reset", "Default layout", "Columns, plots and sections as they were at first"))
+    model.reset_layout();
   ImGui::Separator();
   draw_camera_items(ui, model);
   ImGui::Separator();
   SceneToggles& show = model.view().toggles;
-  if (menu_item(ui, "menu/view/creases", "Creases and boundaries", "Sharp edges and rims, as strong lines", nullptr, show.creases)) show.creases = !show.creases;
-  if (menu_item(ui, "menu/view/control_normals", "Control normals", "The six control normals of the shown net", nullptr, show.control_normals)) show.control_normals = !show.control_normals;
-  if (menu_item(ui, "menu/view/tracked_plane", "Plane after the tick", "The tangent plane that is kept for the next tick", nullptr, show.tracked_plane)) show.tracked_plane = !show.tracked_plane;
-  if (menu_item(ui, "menu/view/axes", "Axes and scale", "Orientation and scale bars in the corner", nullptr, show.axes)) show.axes = !show.axes;
+  if (menu_item(ui, "menu/view/creases", "Creases and boundaries", "Sharp edges and rims, as strong lines", nullptr,
+                show.creases))
+    show.creases = !show.creases;
+  if (menu_item(ui, "menu/view/control_normals", "Control normals", "The six control normals of the shown net", nullptr,
+                show.control_normals))
+    show.control_normals = !show.control_normals;
+  if (menu_item(ui, "menu/view/tracked_plane", "Plane after the tick",
+                "The tangent plane that is kept for the next tick", nullptr, show.tracked_plane))
+    show.tracked_plane = !show.tracked_plane;
+  if (menu_item(ui, "menu/view/axes", "Axes and scale", "Orientation and scale bars in the corner", nullptr, show.axes))
+    show.axes = !show.axes;
   ImGui::Separator();
   const bool dark = model.theme() == Theme::dark;
   if (menu_item(ui, "menu/view/dark", "Dark", "Light text on dark ground", nullptr, dark)) model.set_theme(Theme::dark);
-  if (menu_item(ui, "menu/view/light", "Light", "Dark text on light ground", nullptr, !dark)) model.set_theme(Theme::light);
-  if (menu_item(ui, "menu/view/larger", "Larger text", "Everything a tenth larger", "Ctrl++")) model.set_ui_scale(model.ui_scale() * 1.1f);
-  if (menu_item(ui, "menu/view/smaller", "Smaller text", "Everything a tenth smaller", "Ctrl+-")) model.set_ui_scale(model.ui_scale() / 1.1f);
-  if (menu_item(ui, "menu/view/normal", "Normal text", "The size that the monitor asks for", "Ctrl+0")) model.set_ui_scale(1.0f);
+  if (menu_item(ui, "menu/view/light", "Light", "Dark text on light ground", nullptr, !dark))
+    model.set_theme(Theme::light);
+  if (menu_item(ui, "menu/view/larger", "Larger text", "Everything a tenth larger", "Ctrl++"))
+    model.set_ui_scale(model.ui_scale() * 1.1f);
+  if (menu_item(ui, "menu/view/smaller", "Smaller text", "Everything a tenth smaller", "Ctrl+-"))
+    model.set_ui_scale(model.ui_scale() / 1.1f);
+  if (menu_item(ui, "menu/view/normal", "Normal text", "The size that the monitor asks for", "Ctrl+0"))
+    model.set_ui_scale(1.0f);
   ImGui::EndPopup();
 }
 
 void draw_scene_menu(const UiContext& ui, AppModel& model, MenuBar& state, float width) {
-  std::string name = model.scene() != nullptr ? std::filesystem::path(model.scene()->mesh().name()).filename().string() : "no mesh";
+  std::string name =
+      model.scene() != nullptr ? std::filesystem::path(model.scene()->mesh().name()).filename().string() : "no mesh";
   if (model.loading()) name = "loading " + std::filesystem::path(model.loading_name()).filename().string();
   if (!drop_button(ui, "menu/scene", name, "The mesh; also drop a file into the window", width)) return;
   for (const std::string& object : generator_names()) {
-    if (menu_item(ui, "menu/scene/" + object, object.c_str(), "A generated object", nullptr, object == model.mesh_path())) model.open_mesh(object);
+    if (menu_item(ui, "menu/scene/" + object, object.c_str(), "A generated object", nullptr,
+                  object == model.mesh_path()))
+      model.open_mesh(object);
   }
   ImGui::Separator();
-  if (menu_item(ui, "menu/scene/open", "Open mesh...", "Type a path: OBJ, PLY, STL or OFF; Tab completes it", "Ctrl+O")) state.path.open = state.path.focus = true;
+  if (menu_item(ui, "menu/scene/open", "Open mesh...", "Type a path: OBJ, PLY, STL or OFF; Tab completes it", "Ctrl+O"))
+    state.path.open = state.path.focus = true;
   ImGui::EndPopup();
 }
 
@@ -119,18 +160,23 @@ void draw_preset_menu(const UiContext& ui, AppModel& model, float width) {
   if (!drop_button(ui, "menu/preset", name, "The preset; * when it was changed since loading", width)) return;
   for (const auto& file : model.preset_files()) {
     const std::string stem = file.stem().string();
-    if (menu_item(ui, "menu/preset/" + stem, stem.c_str(), "Loads this preset; undo brings the present one back", nullptr, file == model.presets().path())) model.load_preset(file);
+    if (menu_item(ui, "menu/preset/" + stem, stem.c_str(), "Loads this preset; undo brings the present one back",
+                  nullptr, file == model.presets().path()))
+      model.load_preset(file);
   }
   if (model.preset_files().empty()) ImGui::TextDisabled("No presets");
   ImGui::Separator();
-  if (menu_item(ui, "menu/preset/revert", "Revert all changes", "Every key back to the loaded value")) model.revert_preset();
+  if (menu_item(ui, "menu/preset/revert", "Revert all changes", "Every key back to the loaded value"))
+    model.revert_preset();
   ImGui::EndPopup();
 }
 
 void draw_device_menu(const UiContext& ui, AppModel& model, float width) {
   if (!drop_button(ui, "menu/device", model.device(), "The devices that are driven", width)) return;
   for (const char* name : {"simulated", "none"}) {
-    if (menu_item(ui, std::string("menu/device/") + name, name, "A new session with these devices; the history starts anew", nullptr, model.device() == name)) model.set_device(name);
+    if (menu_item(ui, std::string("menu/device/") + name, name,
+                  "A new session with these devices; the history starts anew", nullptr, model.device() == name))
+      model.set_device(name);
   }
   ImGui::EndPopup();
 }
@@ -149,7 +195,8 @@ void draw_stop(const UiContext& ui, AppModel& model, const Rect& rect) {
   if (ImGui::Button((std::string(text) + "##stop").c_str(), {width, 0.0f})) model.toggle_stop();
   ImGui::PopStyleColor(3);
   ui.items.note_last("menu/stop");
-  tooltip(ui, stopped ? "Clears faults and lets the force in again, over a quarter of a second" : "No force until armed again (Esc)");
+  tooltip(ui, stopped ? "Clears faults and lets the force in again, over a quarter of a second"
+                      : "No force until armed again (Esc)");
 }
 
 }  // namespace
@@ -158,8 +205,9 @@ void draw_menu_bar(const UiContext& ui, AppModel& model, MenuBar& state, const R
   ImGui::SetNextWindowPos({rect.x, rect.y});
   ImGui::SetNextWindowSize({rect.w, rect.h});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(ui.px(8), 0));
-  constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
-                                     ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNav;
+  constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus |
+                                     ImGuiWindowFlags_NoNav;
   ImGui::Begin("##menu", nullptr, flags);
   ImGui::PopStyleVar();
   ImGui::SetCursorPosY(0.5f * (rect.h - ImGui::GetFrameHeight()));
@@ -183,7 +231,9 @@ void draw_menu_bar(const UiContext& ui, AppModel& model, MenuBar& state, const R
   draw_device_menu(ui, model, ui.px(110));
   ImGui::SameLine(0, ui.px(12));
   bool follows = model.view().hand_follows_mouse;
-  if (toggle_button(ui, "menu/hand", "Hand follows mouse", follows, "Drag on the surface in the 3D view to lead the simulated hand (M). Off: it explores the mesh by itself"))
+  if (toggle_button(
+          ui, "menu/hand", "Hand follows mouse", follows,
+          "Drag on the surface in the 3D view to lead the simulated hand (M). Off: it explores the mesh by itself"))
     model.set_hand_follows_mouse(follows);
   draw_stop(ui, model, rect);
   ImGui::End();

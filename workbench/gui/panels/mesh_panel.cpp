@@ -25,16 +25,24 @@ void draw_audit(const UiContext& ui, const MeshAudit& a) {
   const ImU32 warning = ui.colours.warning, bad = ui.colours.bad;
   fact(ui, "Area", printed("%.2f", a.area_m2 * 1e4), "cm\u00b2");
   fact(ui, "Parts", count(a.components));
-  fact(ui, "Edge length", printed("%.3g / %.3g / %.3g", a.edge_length_m.min * 1e3, a.edge_length_m.median * 1e3, a.edge_length_m.max * 1e3), "mm");
+  fact(
+      ui, "Edge length",
+      printed("%.3g / %.3g / %.3g", a.edge_length_m.min * 1e3, a.edge_length_m.median * 1e3, a.edge_length_m.max * 1e3),
+      "mm");
   tooltip(ui, "Shortest, median, longest");
-  fact(ui, "Dihedral angle", printed("%.3g / %.3g / %.3g", a.dihedral_deg.min, a.dihedral_deg.median, a.dihedral_deg.max), "deg");
-  tooltip(ui, "Between adjacent facets: smallest, median, largest. Below 0.5 deg facets feel smooth even with plain force rendering (condition C1); below 3.4 deg with force shading (C2)");
+  fact(ui, "Dihedral angle",
+       printed("%.3g / %.3g / %.3g", a.dihedral_deg.min, a.dihedral_deg.median, a.dihedral_deg.max), "deg");
+  tooltip(ui,
+          "Between adjacent facets: smallest, median, largest. Below 0.5 deg facets feel smooth even with plain force "
+          "rendering (condition C1); below 3.4 deg with force shading (C2)");
   fact(ui, "Crease edges", count(a.crease_edges));
-  problem(ui, "Boundary edges", a.boundary_edges, warning, "The surface ends there; contacts on them are edge contacts");
+  problem(ui, "Boundary edges", a.boundary_edges, warning,
+          "The surface ends there; contacts on them are edge contacts");
   problem(ui, "Boundary loops", a.boundary_loops, warning, "Holes and rims");
   problem(ui, "Non-manifold edges", a.non_manifold_edges, bad, "Shared by three triangles or more");
   problem(ui, "Non-manifold vertices", a.non_manifold_vertices, bad, "Their triangles form more than one fan");
-  problem(ui, "Inconsistent edges", a.inconsistent_edges, bad, "Both triangles turn the same way along them: one of them is inside out");
+  problem(ui, "Inconsistent edges", a.inconsistent_edges, bad,
+          "Both triangles turn the same way along them: one of them is inside out");
   problem(ui, "Slivers", a.sliver_triangles, warning, "Very thin triangles");
   problem(ui, "Flipped normals", a.flipped_normals, bad, "Corner normals that point against their facet");
   problem(ui, "Wild normals", a.wild_normals, warning, "Corner normals over 60 deg from their facet's");
@@ -92,23 +100,28 @@ void draw_size_choices(const UiContext& ui, AppModel& model) {
       if (kFileUnits[i].metres == model.metres_per_unit()) chosen = static_cast<int>(i);
     }
     label("Unit of the file");
-    if (choice_row(ui, "mesh/unit", width, names, chosen)) model.set_mesh_unit(kFileUnits[static_cast<std::size_t>(chosen)].metres);
+    if (choice_row(ui, "mesh/unit", width, names, chosen))
+      model.set_mesh_unit(kFileUnits[static_cast<std::size_t>(chosen)].metres);
     tooltip(ui, "What one unit of its coordinates is; the file is read anew (--unit)");
   }
   label("Longest side, mm");
-  const auto typed = number_box(ui, "mesh/fit_mm", width, model.fit_m() ? short_number(*model.fit_m() * 1e3) : std::string("as it is"));
+  const auto typed = number_box(ui, "mesh/fit_mm", width,
+                                model.fit_m() ? short_number(*model.fit_m() * 1e3) : std::string("as it is"));
   tooltip(ui, "Type a length to scale the mesh to it, with its middle at the origin; nothing: as it is (--fit-mm)");
   if (!typed) return;
   const double number = std::strtod(typed->c_str(), nullptr);
-  if (number == 0.0) model.set_mesh_fit(std::nullopt);
-  else model.set_mesh_fit(number * 1e-3);
+  if (number == 0.0)
+    model.set_mesh_fit(std::nullopt);
+  else
+    model.set_mesh_fit(number * 1e-3);
 }
 
 /// Not the ribbon that it is drawn with.
 void draw_polygon(const UiContext& ui, const PlanarPolygon& polygon) {
   const PolygonFacts facts = facts_of(polygon);
   fact(ui, "Outline", polygon.closed ? "closed" : "open");
-  tooltip(ui, polygon.closed ? "The finger touches it from outside" : "The finger touches it from its left, as one goes along");
+  tooltip(ui, polygon.closed ? "The finger touches it from outside"
+                             : "The finger touches it from its left, as one goes along");
   fact(ui, "Segments", count(facts.segments));
   ui.items.note_last("mesh/segments");
   tooltip(ui, "Between vertices that differ");
@@ -144,8 +157,10 @@ void draw_mesh_panel(const UiContext& ui, AppModel& model, FoldedPanel& state) {
   draw_size_choices(ui, model);
   fact(ui, "Normals", mesh.normals_used() == NormalSource::file ? "from the file" : "computed");
   fact(ui, "Memory", printed("%.1f", static_cast<double>(model.scene()->memory_bytes()) / 1e6), "MB");
-  if (const MeshAudit* audit = model.audit()) draw_audit(ui, *audit);
-  else if (model.auditing()) ImGui::TextDisabled("Audit running");
+  if (const MeshAudit* audit = model.audit())
+    draw_audit(ui, *audit);
+  else if (model.auditing())
+    ImGui::TextDisabled("Audit running");
   draw_defects(ui, mesh);
   draw_picked(ui, model);
   ImGui::Dummy({1, ui.px(3)});

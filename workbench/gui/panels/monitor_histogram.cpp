@@ -9,11 +9,12 @@ namespace tangent {
 
 namespace {
 
-constexpr double kFloor_ns = 1000.0;   // durations below a microsecond are drawn as one
+constexpr double kFloor_ns = 1000.0;  // durations below a microsecond are drawn as one
 
 int column_of(std::uint64_t value, std::uint64_t least) {
   // The rounding keeps whole decades where they belong.
-  return static_cast<int>(std::floor(std::log10(static_cast<double>(std::max(value, least))) * DecadeColumns::kPerDecade + 1e-9));
+  return static_cast<int>(
+      std::floor(std::log10(static_cast<double>(std::max(value, least))) * DecadeColumns::kPerDecade + 1e-9));
 }
 
 }  // namespace
@@ -33,7 +34,8 @@ DecadeColumns decade_columns(const LogHistogram& histogram, std::uint64_t least)
   for (std::size_t bin = 0; bin < LogHistogram::kBins; ++bin) {
     const std::uint64_t count = histogram.count_in(bin);
     if (count == 0) continue;
-    const int c = std::clamp(column_of(LogHistogram::top_of(bin), least), first, last);   // counts may have come in between
+    const int c =
+        std::clamp(column_of(LogHistogram::top_of(bin), least), first, last);  // counts may have come in between
     std::uint64_t& column = columns.counts[static_cast<std::size_t>(c - first)];
     column += count;
     columns.most = std::max(columns.most, column);
@@ -41,12 +43,14 @@ DecadeColumns decade_columns(const LogHistogram& histogram, std::uint64_t least)
   return columns;
 }
 
-void draw_duration_histogram(const UiContext& ui, const char* title, const LogHistogram& histogram, double ns_per_count, ImU32 ink, float height) {
+void draw_duration_histogram(const UiContext& ui, const char* title, const LogHistogram& histogram, double ns_per_count,
+                             ImU32 ink, float height) {
   const double to_ms = ns_per_count * 1e-6;
   const auto least = static_cast<std::uint64_t>(std::max(1.0, kFloor_ns / ns_per_count));
   const DecadeColumns columns = decade_columns(histogram, least);
   const std::string numbers = columns.counts.empty() ? std::string("nothing yet")
-                                                     : printed("p50 %.3g  p99 %.3g", histogram.percentile(0.5) * to_ms, histogram.percentile(0.99) * to_ms);
+                                                     : printed("p50 %.3g  p99 %.3g", histogram.percentile(0.5) * to_ms,
+                                                               histogram.percentile(0.99) * to_ms);
   fact(ui, title, numbers, columns.counts.empty() ? "" : "ms");
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const float width = ImGui::GetContentRegionAvail().x;
@@ -57,9 +61,14 @@ void draw_duration_histogram(const UiContext& ui, const char* title, const LogHi
   ImGui::Dummy({width, height});
   // Whole decades, at least three, around what there is.
   const int per = DecadeColumns::kPerDecade;
-  const int offset = static_cast<int>(std::lround(std::log10(to_ms)));   // value 10^k is 10^(k + offset) ms
-  int low = columns.counts.empty() ? -offset - 2 : static_cast<int>(std::floor(static_cast<double>(columns.first) / per));
-  int high = columns.counts.empty() ? -offset + 1 : static_cast<int>(std::floor(static_cast<double>(columns.first + static_cast<int>(columns.counts.size()) - 1) / per)) + 1;
+  const int offset = static_cast<int>(std::lround(std::log10(to_ms)));  // value 10^k is 10^(k + offset) ms
+  int low =
+      columns.counts.empty() ? -offset - 2 : static_cast<int>(std::floor(static_cast<double>(columns.first) / per));
+  int high = columns.counts.empty()
+                 ? -offset + 1
+                 : static_cast<int>(std::floor(
+                       static_cast<double>(columns.first + static_cast<int>(columns.counts.size()) - 1) / per)) +
+                       1;
   while (high - low < 3) (high - (-offset) <= -offset - low ? high : low) += high - (-offset) <= -offset - low ? 1 : -1;
   const float column_width = width / static_cast<float>((high - low) * per);
   for (int decade = low; decade <= high; ++decade) {

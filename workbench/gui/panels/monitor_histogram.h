@@ -11,14 +11,15 @@ namespace tangent {
 /// Counts in 8 columns a decade of the value.
 struct DecadeColumns {
   static constexpr int kPerDecade = 8;
-  int first = 0;                        ///< column of 10^(first / kPerDecade)
-  std::vector<std::uint64_t> counts;    ///< empty: nothing was counted
+  int first = 0;                      ///< column of 10^(first / kPerDecade)
+  std::vector<std::uint64_t> counts;  ///< empty: nothing was counted
   std::uint64_t most = 0;
 };
 /// `least`: smaller values count as this one.
 DecadeColumns decade_columns(const LogHistogram& histogram, std::uint64_t least = 1);
 
 /// Title with median and 99th percentile, bars, axis in milliseconds. `ns_per_count`: of the histogram's values.
-void draw_duration_histogram(const UiContext& ui, const char* title, const LogHistogram& histogram, double ns_per_count, ImU32 ink, float height);
+void draw_duration_histogram(const UiContext& ui, const char* title, const LogHistogram& histogram, double ns_per_count,
+                             ImU32 ink, float height);
 
 }  // namespace tangent

@@ -19,7 +19,8 @@ namespace tangent {
 
 // Left column.
 struct ParameterPanels {
-  bool favourites = true, solver = true, finger = true, force = true, display = true, controller = false, safety = false;
+  bool favourites = true, solver = true, finger = true, force = true, display = true, controller = false,
+       safety = false;
 };
 void draw_parameter_panels(const UiContext& ui, AppModel& model, ParameterPanels& state);
 
@@ -39,19 +40,19 @@ void draw_compare_panel(const UiContext& ui, AppModel& model, ComparePanel& stat
 
 struct PresetsPanel {
   bool open = true;
-  std::string name;      ///< typed, to save under
-  std::string asked_for; ///< a file of this name is there: pressed once more it is written over
-  std::string written;   ///< saved here before: no question is asked again
+  std::string name;       ///< typed, to save under
+  std::string asked_for;  ///< a file of this name is there: pressed once more it is written over
+  std::string written;    ///< saved here before: no question is asked again
 };
 void draw_presets_panel(const UiContext& ui, AppModel& model, PresetsPanel& state);
 
 // Right column.
 struct PathMapPanel {
-  bool close_up = true;   ///< as near as the path needs; else the whole base triangle
+  bool close_up = true;  ///< as near as the path needs; else the whole base triangle
 };
 struct IterationsPanel {
   bool open = true;
-  std::optional<std::size_t> shown_selection;   ///< the table was last scrolled to this one
+  std::optional<std::size_t> shown_selection;  ///< the table was last scrolled to this one
   PathMapPanel map;
 };
 void draw_iterations_panel(const UiContext& ui, AppModel& model, IterationsPanel& state);
@@ -62,7 +63,8 @@ struct MapPanel {
   bool open = true;
 };
 void draw_map_panel(const UiContext& ui, AppModel& model, MapPanel& state);
-/// The colour bar, inside the 3D view's window, below `top`. Returns the width it takes at the right; 0: it isn't there.
+/// The colour bar, inside the 3D view's window, below `top`. Returns the width it takes at the right; 0: it isn't
+/// there.
 float draw_map_bar(const UiContext& ui, AppModel& model, const Rect& view, float top);
 /// The value at a place under the pointer.
 void draw_map_hover(const UiContext& ui, AppModel& model, std::uint32_t triangle, double u, double v);
@@ -124,23 +126,23 @@ struct PlotsPanel {
   std::vector<PlotView> plots;
   PlotLink link;
   PlotsMode mode = PlotsMode::time;
-  bool values = false;                    ///< the table of numbers beside the curves
-  int x = 0, y = 2;                       ///< curves by number: X-Y; spectrum and histogram show x
+  bool values = false;  ///< the table of numbers beside the curves
+  int x = 0, y = 2;     ///< curves by number: X-Y; spectrum and histogram show x
   SampleCells cells;
   Spectrum spectrum;
-  int spectrum_of = -1;                   ///< curve, range and moment of `spectrum`
+  int spectrum_of = -1;  ///< curve, range and moment of `spectrum`
   std::uint64_t spectrum_from = 0, spectrum_to = 0;
   double spectrum_at_s = -1.0;
-  std::array<ImU32, 4> event_inks{};      ///< by EventRank - 1
-  std::vector<TickMark> changes, flags;   ///< of this frame
+  std::array<ImU32, 4> event_inks{};     ///< by EventRank - 1
+  std::vector<TickMark> changes, flags;  ///< of this frame
 };
 PlotsPanel make_plots_panel();
 /// A curve of the plots, whichever plot it is in.
 struct CurveRef {
   const PlotSpec* plot = nullptr;
   const PlotSeries* series = nullptr;
-  std::string name() const;               ///< "Force x"
-  std::string with_unit() const;          ///< "Force x, N"
+  std::string name() const;       ///< "Force x"
+  std::string with_unit() const;  ///< "Force x, N"
 };
 std::vector<CurveRef> curves_of(const PlotsPanel& state);
 /// Ticks in view: from and one past the last, cut to what is kept.
@@ -155,7 +157,7 @@ void draw_status_line(const UiContext& ui, AppModel& model, const Rect& rect, do
 
 // Above.
 struct PathBar {
-  bool open = false;       ///< typing a mesh path
+  bool open = false;  ///< typing a mesh path
   bool focus = false;
   std::string text;
   std::vector<std::string> matches;

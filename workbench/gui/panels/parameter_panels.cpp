@@ -20,18 +20,21 @@ bool applies(const PresetKey& key, const Preset& preset) {
 
 /// Why a value changes nothing at present; empty: it counts.
 std::string_view idle_because(const PresetKey& key, const AppModel& model) {
-  if (key.table == "controller" && !key.key.ends_with("est_m")) {   // the gate keeps targets within bounds for any display
+  if (key.table == "controller" &&
+      !key.key.ends_with("est_m")) {  // the gate keeps targets within bounds for any display
     const DisplayCapabilities* display = model.session() != nullptr ? model.session()->display_capabilities() : nullptr;
     if (display == nullptr || !display->has_controller) return "The present display has no controller that takes it.";
     const bool gain = key.key != "fastest_m_per_s" && key.key != "largest_current_a" && key.key != "p_per_s2";
-    return gain && model.presets().current().controller.p_per_s2 == 0.0 ? "Gain P is 0: the device uses its own gains." : "";
+    return gain && model.presets().current().controller.p_per_s2 == 0.0 ? "Gain P is 0: the device uses its own gains."
+                                                                        : "";
   }
   if (key.table != "solver") return {};
   const bool planar = model.scene() != nullptr && model.scene()->planar() != nullptr;
   if (key.key == "local_centre" && !planar) return "Used in 2D scenes only.";
   // Eq. 1's gains steer the paper's iteration alone.
   const bool of_paper = key.key.starts_with("gain_") || key.key == "distance_reading";
-  return of_paper && model.presets().current().solver.method != Method::paper ? "Used by the method \"paper\" only." : "";
+  return of_paper && model.presets().current().solver.method != Method::paper ? "Used by the method \"paper\" only."
+                                                                              : "";
 }
 
 std::string explain(const PresetKey& key, std::string_view idle) {
@@ -44,19 +47,24 @@ std::string explain(const PresetKey& key, std::string_view idle) {
   return text;
 }
 
-/// The name: a star in front of a favourite, a dot before a value that is no longer the loaded one; a click makes it one.
-void draw_label(const UiContext& ui, AppModel& model, const PresetKey& key, const std::string& path, float width, std::string_view idle) {
+/// The name: a star in front of a favourite, a dot before a value that is no longer the loaded one; a click makes it
+/// one.
+void draw_label(const UiContext& ui, AppModel& model, const PresetKey& key, const std::string& path, float width,
+                std::string_view idle) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const ImVec2 at = ImGui::GetCursorScreenPos();
-  if (ImGui::InvisibleButton(("##label/" + path).c_str(), {width, ImGui::GetFrameHeight()})) model.toggle_favourite(key);
+  if (ImGui::InvisibleButton(("##label/" + path).c_str(), {width, ImGui::GetFrameHeight()}))
+    model.toggle_favourite(key);
   ui.items.note_last(path + "/label");
   const bool hovered = ImGui::IsItemHovered();
   tooltip(ui, explain(key, idle));
   const float text_y = std::round(at.y + 0.5f * (ImGui::GetFrameHeight() - ui.fonts.text->FontSize));
   const ImVec2 mark{at.x + ui.px(2), text_y + 0.55f * ui.fonts.text->FontSize};
   const bool changed = key.get(model.presets().current()) != key.get(model.presets().loaded().preset);
-  if (changed) draw.AddCircleFilled(mark, ui.px(2.5f), ui.colours.accent);
-  else if (hovered || model.is_favourite(key)) draw_star(draw, mark, ui.px(4.5f), hovered ? ui.colours.text_dim : ui.colours.warning);
+  if (changed)
+    draw.AddCircleFilled(mark, ui.px(2.5f), ui.colours.accent);
+  else if (hovered || model.is_favourite(key))
+    draw_star(draw, mark, ui.px(4.5f), hovered ? ui.colours.text_dim : ui.colours.warning);
   draw.PushClipRect(at, {at.x + width, at.y + ImGui::GetFrameHeight()}, true);
   const std::string label(key.label);
   draw.AddText({at.x + ui.px(9), text_y}, !idle.empty() ? ui.colours.text_faint : ui.colours.text, label.c_str());
@@ -82,7 +90,8 @@ void draw_row(const UiContext& ui, AppModel& model, const PresetKey& key, const 
     if (choice_row(ui, path, field_width, key.choices, chosen)) model.set_value(key, chosen);
   } else {
     const DisplayUnit unit = display_unit(key);
-    const auto result = value_field(ui, path, {field_width, slider_share(key, value), display_text(key, value), unit.name});
+    const auto result =
+        value_field(ui, path, {field_width, slider_share(key, value), display_text(key, value), unit.name});
     if (result.slid) model.slide_value(key, slider_value(key, *result.slid));
     if (result.typed) model.type_value(key, *result.typed);
   }
@@ -120,7 +129,8 @@ void draw_condition_row(const UiContext& ui, AppModel& model) {
   if (choice_row(ui, "force/condition", width - label_width - ui.px(20), names, chosen) && chosen > 0)
     model.set_condition(kRenderingConditions[static_cast<std::size_t>(chosen - 1)]);
   tooltip(ui, "The paper's rendering conditions: sources of force and display together. " +
-                  (present != nullptr ? std::string(present->words) : std::string("The present sources make none of them")));
+                  (present != nullptr ? std::string(present->words)
+                                      : std::string("The present sources make none of them")));
 }
 
 void draw_table(const UiContext& ui, AppModel& model, const char* title, std::string_view table, bool& open) {

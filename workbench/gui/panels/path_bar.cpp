@@ -16,7 +16,8 @@ namespace {
 
 bool is_mesh_file(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   constexpr std::array<const char*, 5> known{".obj", ".ply", ".stl", ".off", ".csv"};
   return std::find(known.begin(), known.end(), extension) != known.end();
 }
@@ -46,13 +47,16 @@ std::vector<std::string> complete_mesh_path(const std::string& typed, std::size_
   const std::string start = slash == std::string::npos ? expanded : expanded.substr(slash + 1);
   std::vector<std::string> out;
   std::error_code failed;
-  for (fs::directory_iterator it(folder.empty() ? fs::path(".") : fs::path(folder), failed), end; !failed && it != end; it.increment(failed)) {
+  for (fs::directory_iterator it(folder.empty() ? fs::path(".") : fs::path(folder), failed), end; !failed && it != end;
+       it.increment(failed)) {
     const std::string name = it->path().filename().string();
     // Hidden files only when asked for.
     if (!name.starts_with(start) || (start.empty() && name.starts_with("."))) continue;
     std::error_code ignored;
-    if (it->is_directory(ignored)) out.push_back(folder + name + "/");
-    else if (is_mesh_file(it->path())) out.push_back(folder + name);
+    if (it->is_directory(ignored))
+      out.push_back(folder + name + "/");
+    else if (is_mesh_file(it->path()))
+      out.push_back(folder + name);
   }
   std::sort(out.begin(), out.end());
   if (out.size() > most) out.resize(most);
@@ -76,15 +80,19 @@ void draw_path_bar(const UiContext& ui, AppModel& model, PathBar& bar, const Rec
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, ui.px(5));
   ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1.0f);
   ImGui::PushStyleColor(ImGuiCol_WindowBg, ui.colours.panel_header);
-  constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
-                                     ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoNav;
+  constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize |
+                                     ImGuiWindowFlags_NoNav;
   if (bar.focus) ImGui::SetNextWindowFocus();
   ImGui::Begin("##path_bar", nullptr, flags);
   ImGui::TextDisabled("Open a mesh (obj, ply, stl, off, or csv of a polygon). Tab completes, Enter opens");
   ImGui::SetNextItemWidth(-1.0f);
   if (bar.focus) edit_next("##path");
   bar.focus = false;
-  const bool enter = ImGui::InputText("##path", &bar.text, ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_CallbackCompletion | ImGuiInputTextFlags_AutoSelectAll, complete);
+  const bool enter = ImGui::InputText(
+      "##path", &bar.text,
+      ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_CallbackCompletion | ImGuiInputTextFlags_AutoSelectAll,
+      complete);
   ui.items.note_last("path_bar/text");
   const bool left = ImGui::IsItemDeactivated() && !enter;
   bar.matches = complete_mesh_path(bar.text, 8);

@@ -16,11 +16,12 @@ namespace {
 /// Flat coordinates onto the screen, the same scale both ways, up is up.
 struct Placement {
   ImVec2 min, max;
-  FlatView view;   ///< of the shape of the rectangle
+  FlatView view;  ///< of the shape of the rectangle
 
   ImVec2 at(const Vec2& p) const {
     const Vec2 share = (p - view.min) / view.size();
-    return {min.x + static_cast<float>(share.x) * (max.x - min.x), max.y - static_cast<float>(share.y) * (max.y - min.y)};
+    return {min.x + static_cast<float>(share.x) * (max.x - min.x),
+            max.y - static_cast<float>(share.y) * (max.y - min.y)};
   }
 };
 
@@ -54,13 +55,17 @@ void draw_field(const UiContext& ui, const ResidualMap& map, const Placement& on
     for (int c = 0; c < columns; ++c) {
       const Vec2 share(static_cast<double>(c) / (columns - 1), static_cast<double>(r) / (rows - 1));
       const float depth = (map.log_residuals()[node(c, r)] - low) / std::max(1e-3f, high - low);
-      draw.PrimWriteVtx(on.at(on.view.min + share * on.view.size()), ImGui::GetIO().Fonts->TexUvWhitePixel, field_ink(ui, 0.35f + 0.65f * depth));
+      draw.PrimWriteVtx(on.at(on.view.min + share * on.view.size()), ImGui::GetIO().Fonts->TexUvWhitePixel,
+                        field_ink(ui, 0.35f + 0.65f * depth));
     }
   }
   for (int r = 0; r + 1 < rows; ++r) {
     for (int c = 0; c + 1 < columns; ++c) {
-      const auto index = [&](int dc, int dr) { return static_cast<ImDrawIdx>(static_cast<std::size_t>(first) + node(c + dc, r + dr)); };
-      for (const ImDrawIdx i : {index(0, 0), index(1, 0), index(1, 1), index(0, 0), index(1, 1), index(0, 1)}) draw.PrimWriteIdx(i);
+      const auto index = [&](int dc, int dr) {
+        return static_cast<ImDrawIdx>(static_cast<std::size_t>(first) + node(c + dc, r + dr));
+      };
+      for (const ImDrawIdx i : {index(0, 0), index(1, 0), index(1, 1), index(0, 0), index(1, 1), index(0, 1)})
+        draw.PrimWriteIdx(i);
     }
   }
 }
@@ -81,7 +86,7 @@ struct ContourLabel {
 float merit_of(const UiContext& ui, ImVec2 place, std::span<const ImVec2> planes) {
   float nearest = ui.px(40);
   for (const ImVec2& p : planes) nearest = std::min(nearest, std::hypot(p.x - place.x - ui.px(20), p.y - place.y));
-  return nearest + 1e-3f * place.y;   // the lowest where all are clear
+  return nearest + 1e-3f * place.y;  // the lowest where all are clear
 }
 
 /// Whole decades are stronger, and one place of each says which it is.
@@ -96,25 +101,32 @@ void draw_contours(const UiContext& ui, const ResidualMap& map, const Placement&
     draw.AddLine(a, b, decade ? strong : weak, ui.px(1));
     if (!decade) continue;
     const ImVec2 m{0.5f * (a.x + b.x), 0.5f * (a.y + b.y)};
-    const bool room = m.x > on.min.x + ui.px(4) && m.x < on.max.x - ui.px(48) && m.y > on.min.y + ui.px(8) && m.y < on.max.y - ui.px(8);
+    const bool room = m.x > on.min.x + ui.px(4) && m.x < on.max.x - ui.px(48) && m.y > on.min.y + ui.px(8) &&
+                      m.y < on.max.y - ui.px(8);
     if (!room) continue;
     const float merit = merit_of(ui, m, planes);
-    const auto known = std::find_if(labels.begin(), labels.end(), [&](const ContourLabel& l) { return l.level == s.level; });
-    if (known == labels.end()) labels.push_back({s.level, m, merit});
-    else if (merit > known->merit) *known = {s.level, m, merit};
+    const auto known =
+        std::find_if(labels.begin(), labels.end(), [&](const ContourLabel& l) { return l.level == s.level; });
+    if (known == labels.end())
+      labels.push_back({s.level, m, merit});
+    else if (merit > known->merit)
+      *known = {s.level, m, merit};
   }
   // The outer ones have more room: where two would lie over each other the inner one stays away.
-  std::sort(labels.begin(), labels.end(), [](const ContourLabel& a, const ContourLabel& b) { return a.level > b.level; });
+  std::sort(labels.begin(), labels.end(),
+            [](const ContourLabel& a, const ContourLabel& b) { return a.level > b.level; });
   for (std::size_t i = 0; i < labels.size(); ++i) {
     const auto& [level, at, merit] = labels[i];
-    const bool covered = std::any_of(labels.begin(), labels.begin() + static_cast<std::ptrdiff_t>(i), [&](const ContourLabel& l) {
-      return std::abs(l.at.y - at.y) < ui.px(13) && std::abs(l.at.x - at.x) < ui.px(46);
-    });
+    const bool covered =
+        std::any_of(labels.begin(), labels.begin() + static_cast<std::ptrdiff_t>(i), [&](const ContourLabel& l) {
+          return std::abs(l.at.y - at.y) < ui.px(13) && std::abs(l.at.x - at.x) < ui.px(46);
+        });
     if (covered || merit < ui.px(16)) continue;
     const std::string text = residual_text(std::pow(10.0, level / 2));
     const float w = font->CalcTextSizeA(font->FontSize, 1e9f, 0.0f, text.c_str()).x;
     const ImVec2 p{at.x + ui.px(2), at.y - 0.5f * font->FontSize};
-    draw.AddRectFilled({p.x - ui.px(2), p.y}, {p.x + w + ui.px(2), p.y + font->FontSize}, packed(with_alpha(ui.palette.panel, 0.7f)), ui.px(2));
+    draw.AddRectFilled({p.x - ui.px(2), p.y}, {p.x + w + ui.px(2), p.y + font->FontSize},
+                       packed(with_alpha(ui.palette.panel, 0.7f)), ui.px(2));
     draw.AddText(font, font->FontSize, p, ui.colours.text_dim, text.c_str());
   }
 }
@@ -126,8 +138,11 @@ void draw_edges(const UiContext& ui, const AppModel& model, const ResidualMap& m
     const FlatTriangle& t = map.triangles()[i];
     for (std::uint32_t k = 0; k < 3; ++k) {
       const EdgeKind kind = mesh.edge_kind(t.triangle, k);
-      const Rgba colour = kind == EdgeKind::crease ? ui.palette.crease : kind == EdgeKind::boundary ? ui.palette.boundary : ui.palette.text;
-      draw.AddLine(on.at(t.corners[k]), on.at(t.corners[(k + 1) % 3]), packed(with_alpha(colour, i == 0 ? 0.95f : 0.45f)), ui.px(i == 0 ? 1.6f : 1.0f));
+      const Rgba colour = kind == EdgeKind::crease     ? ui.palette.crease
+                          : kind == EdgeKind::boundary ? ui.palette.boundary
+                                                       : ui.palette.text;
+      draw.AddLine(on.at(t.corners[k]), on.at(t.corners[(k + 1) % 3]),
+                   packed(with_alpha(colour, i == 0 ? 0.95f : 0.45f)), ui.px(i == 0 ? 1.6f : 1.0f));
     }
   }
   const char* names[3] = {"w", "u", "v"};
@@ -140,8 +155,8 @@ void draw_edges(const UiContext& ui, const AppModel& model, const ResidualMap& m
 }
 
 /// Returns how many planes lie elsewhere; `pointed`: the plane under the mouse.
-std::size_t draw_path(const UiContext& ui, const AppModel& model, const ResidualMap& map, const Placement& on, bool mouse_here,
-                      std::optional<std::size_t>& pointed) {
+std::size_t draw_path(const UiContext& ui, const AppModel& model, const ResidualMap& map, const Placement& on,
+                      bool mouse_here, std::optional<std::size_t>& pointed) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const auto iterations = model.tick().iterations();
   const ImVec2 mouse = ImGui::GetIO().MousePos;
@@ -161,7 +176,8 @@ std::size_t draw_path(const UiContext& ui, const AppModel& model, const Residual
   for (std::size_t i = 1; i < points.size(); ++i) {
     if (!points[i] || !points[i - 1] || iterations[i].seed != iterations[i - 1].seed) continue;
     draw.AddLine(*points[i - 1], *points[i], packed(with_alpha(ui.palette.panel, 0.8f)), ui.px(3.5f));
-    draw.AddLine(*points[i - 1], *points[i], packed(mix(iteration_colour(i - 1, iterations.size()), ui.palette.text, 0.35f)), ui.px(1.6f));
+    draw.AddLine(*points[i - 1], *points[i],
+                 packed(mix(iteration_colour(i - 1, iterations.size()), ui.palette.text, 0.35f)), ui.px(1.6f));
   }
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!points[i]) continue;
@@ -179,7 +195,8 @@ void draw_heading(const UiContext& ui, const ResidualMap& map, const Placement& 
   const std::string width = across >= 1e-3 ? printed("%.3g mm", across * 1e3) : printed("%.3g \u00b5m", across * 1e6);
   std::string text = printed("triangle %u, %s across", map.triangles()[0].triangle, width.c_str());
   if (elsewhere > 0) text += printed("; %zu plane%s elsewhere", elsewhere, elsewhere == 1 ? "" : "s");
-  draw.AddText(ui.fonts.small, ui.fonts.small->FontSize, {on.min.x, on.max.y + ui.px(2)}, ui.colours.text_dim, text.c_str());
+  draw.AddText(ui.fonts.small, ui.fonts.small->FontSize, {on.min.x, on.max.y + ui.px(2)}, ui.colours.text_dim,
+               text.c_str());
 }
 
 }  // namespace
@@ -188,17 +205,21 @@ void draw_path_map(const UiContext& ui, AppModel& model, PathMapPanel& state) {
   ImGui::PushFont(ui.fonts.small);
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted("Path over (u, v)");
-  tooltip(ui, "Where the planes touch the triangle, laid flat with its neighbours. Colour and contours: the residual |c - h N - S| that a plane there would leave");
+  tooltip(ui,
+          "Where the planes touch the triangle, laid flat with its neighbours. Colour and contours: the residual |c - "
+          "h N - S| that a plane there would leave");
   ImGui::SameLine();
   ImGui::TextDisabled("|c \u2212 hN \u2212 S|");
   ImGui::SameLine(ImGui::GetContentRegionMax().x - ui.px(98));
   bool path = state.close_up, triangle = !state.close_up;
   if (toggle_button(ui, "iterations/map_path", "Path", path, "As near as the path needs")) state.close_up = true;
   ImGui::SameLine(0, ui.px(3));
-  if (toggle_button(ui, "iterations/map_triangle", "Triangle", triangle, "The whole base triangle")) state.close_up = false;
+  if (toggle_button(ui, "iterations/map_triangle", "Triangle", triangle, "The whole base triangle"))
+    state.close_up = false;
   ImGui::PopFont();
 
-  const float width = std::max(1.0f, ImGui::GetContentRegionAvail().x - ui.px(4)), height = std::clamp(0.22f * ImGui::GetWindowHeight(), ui.px(196), ui.px(320));
+  const float width = std::max(1.0f, ImGui::GetContentRegionAvail().x - ui.px(4)),
+              height = std::clamp(0.22f * ImGui::GetWindowHeight(), ui.px(196), ui.px(320));
   const ImVec2 at = ImGui::GetCursorScreenPos();
   ImGui::InvisibleButton("##path_map", {width, height + ui.px(18)});
   ui.items.note_last("iterations/path_map");
@@ -207,12 +228,14 @@ void draw_path_map(const UiContext& ui, AppModel& model, PathMapPanel& state) {
   const ImVec2 end{at.x + width, at.y + height};
   const std::uint32_t triangle_index = base_triangle(model);
   const ServoRecord* record = model.tick().record();
-  const bool there = record != nullptr && model.scene() != nullptr && triangle_index < model.scene()->mesh().triangle_count() && width > ui.px(60) &&
-                     model.session()->scene(record->scene_id) == model.scene() && model.scene()->mesh().usable(triangle_index) &&
-                     is_finite(record->tick.input.finger.position);
+  const bool there = record != nullptr && model.scene() != nullptr &&
+                     triangle_index < model.scene()->mesh().triangle_count() && width > ui.px(60) &&
+                     model.session()->scene(record->scene_id) == model.scene() &&
+                     model.scene()->mesh().usable(triangle_index) && is_finite(record->tick.input.finger.position);
   draw.AddRectFilled(at, end, ui.colours.plot);
   if (!there) {
-    draw.AddText(ui.fonts.small, ui.fonts.small->FontSize, {at.x + ui.px(8), at.y + ui.px(8)}, ui.colours.text_faint, "no planes on this mesh");
+    draw.AddText(ui.fonts.small, ui.fonts.small->FontSize, {at.x + ui.px(8), at.y + ui.px(8)}, ui.colours.text_faint,
+                 "no planes on this mesh");
     return;
   }
   const Preset* then = model.session()->preset(record->tick.preset_id);
@@ -234,7 +257,8 @@ void draw_path_map(const UiContext& ui, AppModel& model, PathMapPanel& state) {
   draw.PopClipRect();
   draw_heading(ui, map, on, elsewhere);
   if (!pointed) return;
-  ImGui::SetTooltip("iteration %zu: %s \u00b5m", *pointed, short_number(model.tick().iterations()[*pointed].error_m * 1e6).c_str());
+  ImGui::SetTooltip("iteration %zu: %s \u00b5m", *pointed,
+                    short_number(model.tick().iterations()[*pointed].error_m * 1e6).c_str());
   if (!clicked) return;
   model.set_paused(true);
   model.tick().select(pointed);

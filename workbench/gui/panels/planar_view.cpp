@@ -12,36 +12,40 @@ namespace tangent {
 
 namespace {
 
-constexpr double kForceScale = 0.006;     // m of arrow per N
-constexpr double kInsetLeft = 0.6, kInsetBottom = 0.7;   // em, from the view's corner
-constexpr float kScaleHeight = 44.0f;     // points, over the inset
-constexpr std::size_t kMostPatchesNamed = 5000;  // beyond, only the polygon and the curve are drawn
+constexpr double kForceScale = 0.006;                   // m of arrow per N
+constexpr double kInsetLeft = 0.6, kInsetBottom = 0.7;  // em, from the view's corner
+constexpr float kScaleHeight = 44.0f;                   // points, over the inset
+constexpr std::size_t kMostPatchesNamed = 5000;         // beyond, only the polygon and the curve are drawn
 
 struct PlanarToggle {
   const char* name;
   bool PlanarView::*on;
   const char* doc;
 };
-constexpr std::array kToggles{PlanarToggle{"Patches", &PlanarView::patches, "One a vertex: between its control polygon and the curve"},
-                              PlanarToggle{"Polygon", &PlanarView::polygon, "The polygon as it is"},
-                              PlanarToggle{"Curve", &PlanarView::curve, "The smooth curve that is rendered"},
-                              PlanarToggle{"Centres", &PlanarView::centres, "Local centres with the angles of their patches: the tracked patch's, and small ones of all"},
-                              PlanarToggle{"Tangents", &PlanarView::tangents, "Tangent lines of the tick's iterations, coloured by order"},
-                              PlanarToggle{"Finger", &PlanarView::finger, "The finger, with its contact"},
-                              PlanarToggle{"Force", &PlanarView::force, "The rendered force, 6 mm a newton"},
-                              PlanarToggle{"Display", &PlanarView::display, "The fingerpad from the side, with the roller where it is"}};
+constexpr std::array kToggles{
+    PlanarToggle{"Patches", &PlanarView::patches, "One a vertex: between its control polygon and the curve"},
+    PlanarToggle{"Polygon", &PlanarView::polygon, "The polygon as it is"},
+    PlanarToggle{"Curve", &PlanarView::curve, "The smooth curve that is rendered"},
+    PlanarToggle{"Centres", &PlanarView::centres,
+                 "Local centres with the angles of their patches: the tracked patch's, and small ones of all"},
+    PlanarToggle{"Tangents", &PlanarView::tangents, "Tangent lines of the tick's iterations, coloured by order"},
+    PlanarToggle{"Finger", &PlanarView::finger, "The finger, with its contact"},
+    PlanarToggle{"Force", &PlanarView::force, "The rendered force, 6 mm a newton"},
+    PlanarToggle{"Display", &PlanarView::display, "The fingerpad from the side, with the roller where it is"}};
 
 /// From the scene to pixels and back; y up.
 class Paper {
  public:
-  Paper(const PlanarView& view, const Rect& rect) : view_(view), middle_{rect.x + 0.5f * rect.w, rect.y + 0.5f * rect.h} {}
+  Paper(const PlanarView& view, const Rect& rect)
+      : view_(view), middle_{rect.x + 0.5f * rect.w, rect.y + 0.5f * rect.h} {}
   ImVec2 at(const Vec2& world) const {
     const Vec2 d = view_.px_per_m * (world - view_.centre);
     return {middle_.x + static_cast<float>(d.x), middle_.y - static_cast<float>(d.y)};
   }
   ImVec2 at(const Vec3& world) const { return at(Vec2(world.x, world.y)); }
   Vec2 world(ImVec2 pixel) const {
-    return view_.centre + Vec2(static_cast<double>(pixel.x - middle_.x), static_cast<double>(middle_.y - pixel.y)) / view_.px_per_m;
+    return view_.centre +
+           Vec2(static_cast<double>(pixel.x - middle_.x), static_cast<double>(middle_.y - pixel.y)) / view_.px_per_m;
   }
   float length(double metres) const { return static_cast<float>(metres * view_.px_per_m); }
 
@@ -56,7 +60,8 @@ void frame_all(const UiContext& ui, const AppModel& model, PlanarView& view, con
   const Vec3 origin = model.scene()->mesh().origin(), size = box.size();
   const double reach = 1.5 * model.presets().current().finger.reach_m();
   const double em = ui.fonts.text->FontSize, height = rect.h;
-  const Vec2 card{(kInsetLeft + kInsetWidth + 1.0) * em, ui.px(kScaleHeight) + (view.display ? (kInsetBottom + kInsetHeight) * em : 0.0)};
+  const Vec2 card{(kInsetLeft + kInsetWidth + 1.0) * em,
+                  ui.px(kScaleHeight) + (view.display ? (kInsetBottom + kInsetHeight) * em : 0.0)};
   view.px_per_m = 0.0;
   for (const ViewRoom& room : rooms_beside({rect.w, rect.h}, ui.px(34), ui.px(8), card)) {
     const double px_per_m = 0.94 * height * std::min(room.width / (size.x + reach), room.height / (size.y + reach));
@@ -91,11 +96,13 @@ std::vector<ImVec2> curve_points(const PlanarCurve& curve, std::uint32_t patch, 
   const float reach = paper.length(glm::length(p.last - p.first));
   const int steps = p.straight ? 1 : std::clamp(static_cast<int>(reach / 6.0f), 4, 64);
   std::vector<ImVec2> points;
-  for (int k = 0; k <= steps; ++k) points.push_back(paper.at(curve.origin() + curve.sample(patch, kind, static_cast<double>(k) / steps).place));
+  for (int k = 0; k <= steps; ++k)
+    points.push_back(paper.at(curve.origin() + curve.sample(patch, kind, static_cast<double>(k) / steps).place));
   return points;
 }
 
-void draw_curve(const UiContext& ui, const PlanarView& view, const PlanarCurve& curve, LocalCentre kind, const Paper& paper, ImDrawList& draw) {
+void draw_curve(const UiContext& ui, const PlanarView& view, const PlanarCurve& curve, LocalCentre kind,
+                const Paper& paper, ImDrawList& draw) {
   const Palette& c = ui.palette;
   const bool detail = curve.patch_count() <= kMostPatchesNamed;
   for (std::uint32_t i = 0; i < curve.patch_count(); ++i) {
@@ -108,20 +115,25 @@ void draw_curve(const UiContext& ui, const PlanarView& view, const PlanarCurve& 
       // Softened edges of neighbours would show as lines.
       const ImDrawListFlags flags = draw.Flags;
       draw.Flags &= ~ImDrawListFlags_AntiAliasedFill;
-      for (std::size_t k = 0; k + 1 < points.size(); ++k) draw.AddTriangleFilled(vertex, points[k], points[k + 1], fill);
+      for (std::size_t k = 0; k + 1 < points.size(); ++k)
+        draw.AddTriangleFilled(vertex, points[k], points[k + 1], fill);
       draw.Flags = flags;
     }
     if (view.polygon && p.joint_after == CurveJoint::smooth) {
       const ImVec2 a = paper.at(curve.origin() + p.vertex), b = paper.at(curve.origin() + curve.vertex(curve.after(i)));
       draw.AddLine(a, b, colour(c.mesh), ui.px(1.2f));
     }
-    if (view.polygon && detail) draw.AddCircleFilled(paper.at(curve.origin() + p.vertex), ui.px(2.4f), colour(c.mesh), 12);
-    if (view.curve) draw.AddPolyline(points.data(), static_cast<int>(points.size()), colour(c.smooth_surface), 0, ui.px(2.4f));
-    if (view.patches && detail) draw.AddCircle(paper.at(curve.origin() + p.last), ui.px(2.6f), colour(c.text_dim), 12, ui.px(1.0f));
+    if (view.polygon && detail)
+      draw.AddCircleFilled(paper.at(curve.origin() + p.vertex), ui.px(2.4f), colour(c.mesh), 12);
+    if (view.curve)
+      draw.AddPolyline(points.data(), static_cast<int>(points.size()), colour(c.smooth_surface), 0, ui.px(2.4f));
+    if (view.patches && detail)
+      draw.AddCircle(paper.at(curve.origin() + p.last), ui.px(2.6f), colour(c.text_dim), 12, ui.px(1.0f));
   }
 }
 
-void draw_centres(const UiContext& ui, const PlanarCurve& curve, LocalCentre kind, std::uint32_t tracked, const Paper& paper, ImDrawList& draw) {
+void draw_centres(const UiContext& ui, const PlanarCurve& curve, LocalCentre kind, std::uint32_t tracked,
+                  const Paper& paper, ImDrawList& draw) {
   for (std::uint32_t i = 0; i < curve.patch_count(); ++i) {
     const CurvePatch& p = curve.patch(i);
     if (p.straight || (curve.patch_count() > 200 && i != tracked)) continue;
@@ -144,7 +156,8 @@ void draw_tangents(const UiContext& ui, const AppModel& model, const Paper& pape
     const ImVec2 middle = paper.at(r.point);
     const Vec2 along = reach * Vec2(r.normal.y, r.normal.x);  // in pixels, y down
     const ImVec2 half{static_cast<float>(along.x), static_cast<float>(along.y)};
-    draw.AddLine({middle.x - half.x, middle.y - half.y}, {middle.x + half.x, middle.y + half.y}, colour(ink), ui.px(selected ? 3.0f : 1.6f));
+    draw.AddLine({middle.x - half.x, middle.y - half.y}, {middle.x + half.x, middle.y + half.y}, colour(ink),
+                 ui.px(selected ? 3.0f : 1.6f));
     draw.AddCircleFilled(middle, ui.px(selected ? 4.5f : 3.0f), colour(ink), 16);
     // Where the finger would have it.
     draw.AddLine(middle, paper.at(r.contact), colour(ink, 0.6f), ui.px(1.0f));
@@ -152,7 +165,8 @@ void draw_tangents(const UiContext& ui, const AppModel& model, const Paper& pape
   }
 }
 
-void draw_finger(const UiContext& ui, const Finger& finger, const TickRecord& tick, const Paper& paper, ImDrawList& draw) {
+void draw_finger(const UiContext& ui, const Finger& finger, const TickRecord& tick, const Paper& paper,
+                 ImDrawList& draw) {
   const Palette& c = ui.palette;
   const ImVec2 centre = paper.at(tick.input.finger.position);
   const float radius = finger.shape == FingerShape::point ? 0.0f : paper.length(finger.radius_m);
@@ -162,8 +176,10 @@ void draw_finger(const UiContext& ui, const Finger& finger, const TickRecord& ti
     // The fingerpad's middle: the contact location counts from here.
     const Vec3 x = tick.input.finger.orientation * Vec3(1.0, 0.0, 0.0);
     const double turn = std::atan2(x.y, x.x);
-    const ImVec2 pad{centre.x + radius * static_cast<float>(std::sin(turn)), centre.y + radius * static_cast<float>(std::cos(turn))};
-    draw.AddLine({centre.x + 0.9f * (pad.x - centre.x), centre.y + 0.9f * (pad.y - centre.y)}, pad, colour(c.finger), ui.px(2.0f));
+    const ImVec2 pad{centre.x + radius * static_cast<float>(std::sin(turn)),
+                     centre.y + radius * static_cast<float>(std::cos(turn))};
+    draw.AddLine({centre.x + 0.9f * (pad.x - centre.x), centre.y + 0.9f * (pad.y - centre.y)}, pad, colour(c.finger),
+                 ui.px(2.0f));
     // The contact on the finger, and the way from the pad's middle.
     const Vec3& n = tick.output.normal;
     const float a0 = std::atan2(pad.y - centre.y, pad.x - centre.x);
@@ -171,7 +187,8 @@ void draw_finger(const UiContext& ui, const Finger& finger, const TickRecord& ti
     const float way = std::remainder(a1 - a0, 6.2831853f);
     draw.PathArcTo(centre, radius, a0, a0 + way, 48);
     draw.PathStroke(colour(c.cld_commanded), 0, ui.px(3.2f));
-    draw.AddCircleFilled({centre.x + radius * std::cos(a1), centre.y + radius * std::sin(a1)}, ui.px(4.5f), colour(c.cld_commanded), 20);
+    draw.AddCircleFilled({centre.x + radius * std::cos(a1), centre.y + radius * std::sin(a1)}, ui.px(4.5f),
+                         colour(c.cld_commanded), 20);
   } else {
     draw.AddCircleFilled(centre, ui.px(4.0f), colour(c.finger), 20);
   }
@@ -181,19 +198,25 @@ void draw_force(const UiContext& ui, const TickOutput& out, const Paper& paper, 
   const double size = glm::length(out.force_n);
   if (!(size > 1e-9)) return;
   const ImVec2 from = paper.at(out.contact), to = paper.at(out.contact + kForceScale * out.force_n);
-  const float dx = to.x - from.x, dy = to.y - from.y, length = std::max(1e-3f, std::sqrt(dx * dx + dy * dy)), head = std::min(ui.px(10), length);
+  const float dx = to.x - from.x, dy = to.y - from.y, length = std::max(1e-3f, std::sqrt(dx * dx + dy * dy)),
+              head = std::min(ui.px(10), length);
   const ImVec2 d{dx / length, dy / length}, neck{to.x - head * d.x, to.y - head * d.y};
   const ImU32 ink = colour(ui.palette.force_magnitude);
   draw.AddLine(from, neck, ink, ui.px(2.6f));
-  draw.AddTriangleFilled(to, {neck.x - 0.42f * head * d.y, neck.y + 0.42f * head * d.x}, {neck.x + 0.42f * head * d.y, neck.y - 0.42f * head * d.x}, ink);
+  draw.AddTriangleFilled(to, {neck.x - 0.42f * head * d.y, neck.y + 0.42f * head * d.x},
+                         {neck.x + 0.42f * head * d.y, neck.y - 0.42f * head * d.x}, ink);
 }
 
 /// A length that is 1, 2 or 5 times a power of ten and about a tenth of the view.
 void draw_scale(const UiContext& ui, const PlanarView& view, const Rect& rect, ImDrawList& draw) {
-  const double wanted = 0.12 * static_cast<double>(rect.w) / view.px_per_m, decade = std::pow(10.0, std::floor(std::log10(wanted)));
+  const double wanted = 0.12 * static_cast<double>(rect.w) / view.px_per_m,
+               decade = std::pow(10.0, std::floor(std::log10(wanted)));
   const double length = decade * (wanted / decade >= 5.0 ? 5.0 : wanted / decade >= 2.0 ? 2.0 : 1.0);
-  const float under = view.display ? static_cast<float>(kInsetBottom + static_cast<double>(kInsetHeight)) * ui.fonts.text->FontSize : 0.0f;
-  const float y = rect.bottom() - under - ui.px(16), x = rect.x + ui.px(16), w = static_cast<float>(length * view.px_per_m);
+  const float under =
+      view.display ? static_cast<float>(kInsetBottom + static_cast<double>(kInsetHeight)) * ui.fonts.text->FontSize
+                   : 0.0f;
+  const float y = rect.bottom() - under - ui.px(16), x = rect.x + ui.px(16),
+              w = static_cast<float>(length * view.px_per_m);
   const ImU32 ink = ui.colours.text_dim;
   draw.AddLine({x, y}, {x + w, y}, ink, ui.px(1.6f));
   for (const float end : {x, x + w}) draw.AddLine({end, y - ui.px(4)}, {end, y + ui.px(4)}, ink, ui.px(1.6f));
@@ -226,10 +249,13 @@ void draw_planar_view(const UiContext& ui, AppModel& model, PlanarView& view, co
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   draw.PushClipRect({rect.x, rect.y}, {rect.right(), rect.bottom()}, true);
   const ServoRecord* record = model.tick().record();
-  const Preset* then = record != nullptr && model.session() != nullptr ? model.session()->preset(record->tick.preset_id) : nullptr;
-  if (record != nullptr && view.finger) draw_finger(ui, (then != nullptr ? *then : model.presets().current()).finger, record->tick, paper, draw);
+  const Preset* then =
+      record != nullptr && model.session() != nullptr ? model.session()->preset(record->tick.preset_id) : nullptr;
+  if (record != nullptr && view.finger)
+    draw_finger(ui, (then != nullptr ? *then : model.presets().current()).finger, record->tick, paper, draw);
   draw_curve(ui, view, curve, kind, paper, draw);
-  if (view.centres) draw_centres(ui, curve, kind, record != nullptr ? record->tick.output.triangle : kNone, paper, draw);
+  if (view.centres)
+    draw_centres(ui, curve, kind, record != nullptr ? record->tick.output.triangle : kNone, paper, draw);
   if (view.tangents) draw_tangents(ui, model, paper, rect, draw);
   if (record != nullptr) {
     draw.AddCircleFilled(paper.at(record->tick.output.contact), ui.px(3.6f), colour(ui.palette.contact), 16);
@@ -238,14 +264,17 @@ void draw_planar_view(const UiContext& ui, AppModel& model, PlanarView& view, co
   draw_scale(ui, view, rect, draw);
   const Box& box = model.scene()->mesh().bounds();
   const Vec3 origin = model.scene()->mesh().origin(), half = 0.5 * box.size();
-  ui.items.note("planar/outline", paper.at(origin + Vec3(-half.x, half.y, 0.0)), paper.at(origin + Vec3(half.x, -half.y, 0.0)));
+  ui.items.note("planar/outline", paper.at(origin + Vec3(-half.x, half.y, 0.0)),
+                paper.at(origin + Vec3(half.x, -half.y, 0.0)));
   if (record != nullptr && view.display) {
     const float em = ui.fonts.text->FontSize;
-    const OverlayCanvas canvas{draw, {rect.x, rect.y}, {rect.w, rect.h}, ui.palette, ui.fonts.small, ui.fonts.small_number, em};
-    const ImVec2 corner{rect.x + (static_cast<float>(kInsetLeft) + kInsetWidth) * em, rect.bottom() - static_cast<float>(kInsetBottom) * em};
+    const OverlayCanvas canvas{
+        draw, {rect.x, rect.y}, {rect.w, rect.h}, ui.palette, ui.fonts.small, ui.fonts.small_number, em};
+    const ImVec2 corner{rect.x + (static_cast<float>(kInsetLeft) + kInsetWidth) * em,
+                        rect.bottom() - static_cast<float>(kInsetBottom) * em};
     ui.items.note("planar/inset", {rect.x, corner.y - kInsetHeight * em}, corner);
-    draw_cld_inset(canvas, corner, model.presets().current().display.travel_m,
-                   &record->device.cld_command_m, &record->device.cld_measured_m);
+    draw_cld_inset(canvas, corner, model.presets().current().display.travel_m, &record->device.cld_command_m,
+                   &record->device.cld_measured_m);
   }
   draw.PopClipRect();
   draw_toggles(ui, view, rect);

@@ -12,7 +12,7 @@ namespace tangent {
 
 namespace {
 
-constexpr std::uint64_t kMostJoined = 8000;      ///< ticks: fewer are drawn one by one, joined
+constexpr std::uint64_t kMostJoined = 8000;  ///< ticks: fewer are drawn one by one, joined
 constexpr double kSpectrumEvery_s = 0.2;
 /// A hand moves and trembles below this; what is above comes from the loop.
 constexpr double kHandUpTo_hz = 20.0;
@@ -28,12 +28,14 @@ PlainAxis axis_over(const MinMax& range, double scale, std::string label) {
 
 void say_empty(const UiContext& ui, const PlotArea& area, const char* text) {
   ImFont* font = ui.fonts.small;
-  text_at(*ImGui::GetWindowDrawList(), font, {0.5f * (area.min.x + area.max.x - text_width(font, text)), 0.5f * (area.min.y + area.max.y)},
+  text_at(*ImGui::GetWindowDrawList(), font,
+          {0.5f * (area.min.x + area.max.x - text_width(font, text)), 0.5f * (area.min.y + area.max.y)},
           ui.colours.text_faint, text);
 }
 
 /// Which curve is shown.
-void draw_choice(const UiContext& ui, const char* path, const char* label, const std::vector<CurveRef>& curves, int& chosen, float width) {
+void draw_choice(const UiContext& ui, const char* path, const char* label, const std::vector<CurveRef>& curves,
+                 int& chosen, float width) {
   std::vector<std::string> names;
   for (const CurveRef& curve : curves) names.push_back(curve.name());
   const std::vector<std::string_view> views(names.begin(), names.end());
@@ -44,12 +46,15 @@ void draw_choice(const UiContext& ui, const char* path, const char* label, const
   ImGui::SameLine(0, ui.px(12));
 }
 
-void draw_histogram(const UiContext& ui, AppModel& model, PlotsPanel& state, const CurveRef& curve, const PlotArea& area) {
+void draw_histogram(const UiContext& ui, AppModel& model, PlotsPanel& state, const CurveRef& curve,
+                    const PlotArea& area) {
   const auto [from, to] = ticks_in_view(model);
   state.cells.update(model.store(), {curve.series->channel, std::nullopt, from, to, 96, 1});
   const SampleCells& cells = state.cells;
   const bool mine = cells.query().x == curve.series->channel && !cells.query().y && !cells.counts().empty();
-  PlainPlot plot{area, axis_over(mine ? cells.x_range() : MinMax{}, curve.plot->scale, curve.with_unit()), {0.0, 1.0, false, "Ticks"}};
+  PlainPlot plot{area,
+                 axis_over(mine ? cells.x_range() : MinMax{}, curve.plot->scale, curve.with_unit()),
+                 {0.0, 1.0, false, "Ticks"}};
   if (mine && cells.most() > 0) {
     plot.y.high = static_cast<double>(cells.most());
     widen_to_nice(plot.y.low, plot.y.high, 4);
@@ -62,7 +67,8 @@ void draw_histogram(const UiContext& ui, AppModel& model, PlotsPanel& state, con
   }
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   draw.PushClipRect(area.min, area.max, true);
-  const double low = static_cast<double>(cells.x_range().min) * curve.plot->scale, high = static_cast<double>(cells.x_range().max) * curve.plot->scale;
+  const double low = static_cast<double>(cells.x_range().min) * curve.plot->scale,
+               high = static_cast<double>(cells.x_range().max) * curve.plot->scale;
   const double cell = (high - low) / static_cast<double>(cells.query().columns);
   for (std::size_t i = 0; i < cells.query().columns; ++i) {
     if (cells.counts()[i] == 0) continue;
@@ -75,7 +81,8 @@ void draw_histogram(const UiContext& ui, AppModel& model, PlotsPanel& state, con
   draw.PopClipRect();
 }
 
-void draw_spectrum(const UiContext& ui, AppModel& model, PlotsPanel& state, const CurveRef& curve, const PlotArea& area) {
+void draw_spectrum(const UiContext& ui, AppModel& model, PlotsPanel& state, const CurveRef& curve,
+                   const PlotArea& area) {
   const auto [from, to] = ticks_in_view(model);
   const bool other = state.spectrum_of != state.x || state.spectrum_from != from || state.spectrum_to != to;
   if (other && (state.spectrum_of != state.x || std::abs(model.now_s() - state.spectrum_at_s) >= kSpectrumEvery_s)) {
@@ -94,10 +101,13 @@ void draw_spectrum(const UiContext& ui, AppModel& model, PlotsPanel& state, cons
     plot.y.high = std::pow(10.0, std::ceil(std::log10(static_cast<double>(s.amplitude[s.peak]) * scale) + 0.05));
     plot.y.low = plot.y.high * 1e-6;
     const char* unit = curve.plot->unit.c_str();
-    plot.y.label += printed(": largest %.3g %s at %.4g Hz", static_cast<double>(s.amplitude[s.peak]) * scale, unit, s.peak_hz());
+    plot.y.label +=
+        printed(": largest %.3g %s at %.4g Hz", static_cast<double>(s.amplitude[s.peak]) * scale, unit, s.peak_hz());
     if (const std::size_t buzz = s.peak_above(kHandUpTo_hz); buzz > 0 && buzz != s.peak)
-      plot.y.label += printed(", faster than a hand %.3g %s at %.4g Hz", static_cast<double>(s.amplitude[buzz]) * scale, unit, s.bin_hz * static_cast<double>(buzz));
-    plot.y.label += printed("   (%zu segment%s of %zu ticks, Hann)", s.segments, s.segments == 1 ? "" : "s", s.segment_ticks);
+      plot.y.label += printed(", faster than a hand %.3g %s at %.4g Hz", static_cast<double>(s.amplitude[buzz]) * scale,
+                              unit, s.bin_hz * static_cast<double>(buzz));
+    plot.y.label +=
+        printed("   (%zu segment%s of %zu ticks, Hann)", s.segments, s.segments == 1 ? "" : "s", s.segment_ticks);
   }
   draw_axes(ui, plot);
   if (s.empty() || s.peak == 0) {
@@ -111,7 +121,8 @@ void draw_spectrum(const UiContext& ui, AppModel& model, PlotsPanel& state, cons
     const double value = std::max(static_cast<double>(s.amplitude[i]) * curve.plot->scale, plot.y.low * 0.1);
     line.push_back(plot.at(s.bin_hz * static_cast<double>(i), value));
   }
-  draw.AddPolyline(line.data(), static_cast<int>(line.size()), packed(ui.palette.*curve.series->colour), 0, ui.px(1.3f));
+  draw.AddPolyline(line.data(), static_cast<int>(line.size()), packed(ui.palette.*curve.series->colour), 0,
+                   ui.px(1.3f));
   for (const std::size_t peak : {s.peak, s.peak_above(kHandUpTo_hz)}) {
     if (peak > 0) draw.AddCircle(line[peak - 1], ui.px(5), ui.colours.text, 20, ui.px(1.2f));
   }
@@ -119,11 +130,14 @@ void draw_spectrum(const UiContext& ui, AppModel& model, PlotsPanel& state, cons
   const ImVec2 mouse = ImGui::GetIO().MousePos;
   if (!ImGui::IsMouseHoveringRect(area.min, area.max)) return;
   const double hz = plot.x.value_at(static_cast<double>((mouse.x - area.min.x) / area.width()));
-  const auto bin = std::clamp<std::size_t>(static_cast<std::size_t>(std::lround(hz / s.bin_hz)), 1, s.amplitude.size() - 1);
-  ImGui::SetTooltip("%.4g Hz: %.4g %s", s.bin_hz * static_cast<double>(bin), static_cast<double>(s.amplitude[bin]) * curve.plot->scale, curve.plot->unit.c_str());
+  const auto bin =
+      std::clamp<std::size_t>(static_cast<std::size_t>(std::lround(hz / s.bin_hz)), 1, s.amplitude.size() - 1);
+  ImGui::SetTooltip("%.4g Hz: %.4g %s", s.bin_hz * static_cast<double>(bin),
+                    static_cast<double>(s.amplitude[bin]) * curve.plot->scale, curve.plot->unit.c_str());
 }
 
-void draw_xy(const UiContext& ui, AppModel& model, PlotsPanel& state, const CurveRef& cx, const CurveRef& cy, const PlotArea& area) {
+void draw_xy(const UiContext& ui, AppModel& model, PlotsPanel& state, const CurveRef& cx, const CurveRef& cy,
+             const PlotArea& area) {
   const auto [from, to] = ticks_in_view(model);
   const ChannelStore& store = model.store();
   const double sx = cx.plot->scale, sy = cy.plot->scale;
@@ -151,23 +165,33 @@ void draw_xy(const UiContext& ui, AppModel& model, PlotsPanel& state, const Curv
   } else if (state.cells.query().y && !state.cells.counts().empty()) {
     const SampleCells& cells = state.cells;
     const std::size_t columns = cells.query().columns, rows = cells.query().rows;
-    const auto place = [&](const MinMax& range, double share) { return static_cast<double>(range.min) + share * static_cast<double>(range.max - range.min); };
+    const auto place = [&](const MinMax& range, double share) {
+      return static_cast<double>(range.min) + share * static_cast<double>(range.max - range.min);
+    };
     for (std::size_t i = 0; i < cells.counts().size(); ++i) {
       if (cells.counts()[i] == 0) continue;
       const double c = static_cast<double>(i % columns), r = static_cast<double>(i / columns);
-      const ImVec2 a = plot.at(sx * place(cells.x_range(), c / static_cast<double>(columns)), sy * place(cells.y_range(), (r + 1.0) / static_cast<double>(rows)));
-      const ImVec2 b = plot.at(sx * place(cells.x_range(), (c + 1.0) / static_cast<double>(columns)), sy * place(cells.y_range(), r / static_cast<double>(rows)));
-      const float share = std::log1p(static_cast<float>(cells.counts()[i])) / std::log1p(static_cast<float>(cells.most()));
-      draw.AddRectFilled(a, {std::max(b.x, a.x + 1.0f), std::max(b.y, a.y + 1.0f)}, packed(with_alpha(ink, 0.2f + 0.8f * share)));
+      const ImVec2 a = plot.at(sx * place(cells.x_range(), c / static_cast<double>(columns)),
+                               sy * place(cells.y_range(), (r + 1.0) / static_cast<double>(rows)));
+      const ImVec2 b = plot.at(sx * place(cells.x_range(), (c + 1.0) / static_cast<double>(columns)),
+                               sy * place(cells.y_range(), r / static_cast<double>(rows)));
+      const float share =
+          std::log1p(static_cast<float>(cells.counts()[i])) / std::log1p(static_cast<float>(cells.most()));
+      draw.AddRectFilled(a, {std::max(b.x, a.x + 1.0f), std::max(b.y, a.y + 1.0f)},
+                         packed(with_alpha(ink, 0.2f + 0.8f * share)));
     }
   }
   const ServoRecord* record = model.tick().record();
   if (record != nullptr) {
-    const float x = store.value(cx.series->channel, record->tick.tick), y = store.value(cy.series->channel, record->tick.tick);
-    if (!std::isnan(x) && !std::isnan(y)) draw.AddCircle(plot.at(static_cast<double>(x) * sx, static_cast<double>(y) * sy), ui.px(5), ui.colours.accent, 20, ui.px(1.8f));
+    const float x = store.value(cx.series->channel, record->tick.tick),
+                y = store.value(cy.series->channel, record->tick.tick);
+    if (!std::isnan(x) && !std::isnan(y))
+      draw.AddCircle(plot.at(static_cast<double>(x) * sx, static_cast<double>(y) * sy), ui.px(5), ui.colours.accent, 20,
+                     ui.px(1.8f));
   }
   draw.PopClipRect();
-  if (store.min_max(cx.series->channel, from, to).empty() || store.min_max(cy.series->channel, from, to).empty()) say_empty(ui, area, "no samples in view");
+  if (store.min_max(cx.series->channel, from, to).empty() || store.min_max(cy.series->channel, from, to).empty())
+    say_empty(ui, area, "no samples in view");
 }
 
 }  // namespace
@@ -178,7 +202,8 @@ void draw_other_plot(const UiContext& ui, AppModel& model, PlotsPanel& state, co
   state.x = std::clamp(state.x, 0, last);
   state.y = std::clamp(state.y, 0, last);
   ImGui::SetCursorScreenPos({rect.x, rect.y});
-  ImGui::BeginChild("other_plot", {rect.w, rect.h}, false, ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NoNav);
+  ImGui::BeginChild("other_plot", {rect.w, rect.h}, false,
+                    ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NoNav);
   ImGui::PushFont(ui.fonts.small);
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(ui.px(6), ui.px(2)));
   ImGui::SetCursorScreenPos({rect.x + ui.px(8), rect.y + ui.px(2)});
@@ -191,9 +216,12 @@ void draw_other_plot(const UiContext& ui, AppModel& model, PlotsPanel& state, co
   const PlotArea area = plain_area(ui, {rect.x, rect.y + used}, {rect.w, rect.h - used});
   if (area.width() > ui.px(40) && area.height() > ui.px(20)) {
     const CurveRef& x = curves[static_cast<std::size_t>(state.x)];
-    if (state.mode == PlotsMode::histogram) draw_histogram(ui, model, state, x, area);
-    else if (state.mode == PlotsMode::spectrum) draw_spectrum(ui, model, state, x, area);
-    else draw_xy(ui, model, state, x, curves[static_cast<std::size_t>(state.y)], area);
+    if (state.mode == PlotsMode::histogram)
+      draw_histogram(ui, model, state, x, area);
+    else if (state.mode == PlotsMode::spectrum)
+      draw_spectrum(ui, model, state, x, area);
+    else
+      draw_xy(ui, model, state, x, curves[static_cast<std::size_t>(state.y)], area);
   }
   ImGui::EndChild();
   ui.items.note("plots/other", area.min, area.max);

@@ -20,9 +20,12 @@ struct Cell {
   int column;
   float weight;  ///< of the column's height
 };
-constexpr std::array kThreeColumns{Cell{0, 0, 1.0f}, Cell{1, 1, 0.5f}, Cell{2, 1, 0.5f}, Cell{3, 2, 0.5f}, Cell{4, 2, 0.5f}};
-constexpr std::array kTwoColumns{Cell{0, 0, 0.5f}, Cell{1, 0, 0.5f}, Cell{2, 1, 0.34f}, Cell{3, 1, 0.33f}, Cell{4, 1, 0.33f}};
-constexpr std::array kOneColumn{Cell{0, 0, 0.28f}, Cell{1, 0, 0.18f}, Cell{2, 0, 0.18f}, Cell{3, 0, 0.18f}, Cell{4, 0, 0.18f}};
+constexpr std::array kThreeColumns{Cell{0, 0, 1.0f}, Cell{1, 1, 0.5f}, Cell{2, 1, 0.5f}, Cell{3, 2, 0.5f},
+                                   Cell{4, 2, 0.5f}};
+constexpr std::array kTwoColumns{Cell{0, 0, 0.5f}, Cell{1, 0, 0.5f}, Cell{2, 1, 0.34f}, Cell{3, 1, 0.33f},
+                                 Cell{4, 1, 0.33f}};
+constexpr std::array kOneColumn{Cell{0, 0, 0.28f}, Cell{1, 0, 0.18f}, Cell{2, 0, 0.18f}, Cell{3, 0, 0.18f},
+                                Cell{4, 0, 0.18f}};
 
 struct Arrangement {
   const std::array<Cell, 5>* cells;
@@ -39,10 +42,11 @@ Arrangement arrange(float width, float height) {
 
 /// Of this frame.
 static void collect_marks(const UiContext& ui, const AppModel& model, PlotsPanel& state) {
-  state.event_inks = {ui.colours.text_faint, bookmark_ink(ui, BookmarkKind::reseeded), bookmark_ink(ui, BookmarkKind::unconverged),
-                      bookmark_ink(ui, BookmarkKind::device_fault)};
+  state.event_inks = {ui.colours.text_faint, bookmark_ink(ui, BookmarkKind::reseeded),
+                      bookmark_ink(ui, BookmarkKind::unconverged), bookmark_ink(ui, BookmarkKind::device_fault)};
   state.changes.clear();
-  for (const ParameterMark& mark : model.parameter_marks()) state.changes.push_back({mark.tick, mark.tick, mark.text, ui.colours.accent});
+  for (const ParameterMark& mark : model.parameter_marks())
+    state.changes.push_back({mark.tick, mark.tick, mark.text, ui.colours.accent});
   state.flags.clear();
   for (const Bookmark& mark : model.bookmarks().all()) {
     const bool mine = mark.kind == BookmarkKind::user;
@@ -66,26 +70,55 @@ std::vector<CurveRef> curves_of(const PlotsPanel& state) {
 
 std::pair<std::uint64_t, std::uint64_t> ticks_in_view(const AppModel& model) {
   const ChannelStore& store = model.store();
-  const auto tick = [&](double t) { return std::clamp(static_cast<std::uint64_t>(std::max(0.0, std::ceil(t))), store.first_tick(), store.end_tick()); };
+  const auto tick = [&](double t) {
+    return std::clamp(static_cast<std::uint64_t>(std::max(0.0, std::ceil(t))), store.first_tick(), store.end_tick());
+  };
   return {tick(model.axis().from()), tick(model.axis().to())};
 }
 
 PlotsPanel make_plots_panel() {
   PlotsPanel panel;
-  panel.plots.emplace_back(PlotSpec{.id = "force", .title = "Force", .unit = "N", .format = "%7.3f",
-      .series = {{"x", at(Channel::force_x), &Palette::force_x, false, true, at(GhostChannel::force_x)},
-                 {"y", at(Channel::force_y), &Palette::force_y, false, true, at(GhostChannel::force_y)},
-                 {"z", at(Channel::force_z), &Palette::force_z, false, true, at(GhostChannel::force_z)},
-                 {"total", at(Channel::force_magnitude), &Palette::force_magnitude, false, true, at(GhostChannel::force_magnitude)}}});
-  panel.plots.emplace_back(PlotSpec{.id = "cld", .title = "Display", .unit = "mm", .scale = 1e3, .format = "%7.3f",
-      .series = {{"commanded", at(Channel::cld_commanded), &Palette::cld_commanded, false, true, at(GhostChannel::cld)}, {"measured", at(Channel::cld_measured), &Palette::cld_measured}}});
-  panel.plots.emplace_back(PlotSpec{.id = "error", .title = "Error", .unit = "\u00b5m", .scale = 1e6, .log = true, .floor = 1e-6, .format = "%-8.3g",
-      .series = {{"error", at(Channel::error), &Palette::error, false, true, at(GhostChannel::error)}}});
-  panel.plots.emplace_back(PlotSpec{.id = "iterations", .title = "Iterations", .unit = "", .counts = true, .format = "%-4.0f",
-      .series = {{"iterations", at(Channel::iterations), &Palette::iterations, true, true, at(GhostChannel::iterations)}}});
-  panel.plots.emplace_back(PlotSpec{.id = "tick_time", .title = "Tick time", .unit = "\u00b5s", .scale = 1e6, .format = "%-7.1f",
-      .nothing = "simulated time: no clock",
-      .series = {{"tick time", at(Channel::tick_time), &Palette::tick_time}}});
+  panel.plots.emplace_back(
+      PlotSpec{.id = "force",
+               .title = "Force",
+               .unit = "N",
+               .format = "%7.3f",
+               .series = {{"x", at(Channel::force_x), &Palette::force_x, false, true, at(GhostChannel::force_x)},
+                          {"y", at(Channel::force_y), &Palette::force_y, false, true, at(GhostChannel::force_y)},
+                          {"z", at(Channel::force_z), &Palette::force_z, false, true, at(GhostChannel::force_z)},
+                          {"total", at(Channel::force_magnitude), &Palette::force_magnitude, false, true,
+                           at(GhostChannel::force_magnitude)}}});
+  panel.plots.emplace_back(PlotSpec{
+      .id = "cld",
+      .title = "Display",
+      .unit = "mm",
+      .scale = 1e3,
+      .format = "%7.3f",
+      .series = {{"commanded", at(Channel::cld_commanded), &Palette::cld_commanded, false, true, at(GhostChannel::cld)},
+                 {"measured", at(Channel::cld_measured), &Palette::cld_measured}}});
+  panel.plots.emplace_back(
+      PlotSpec{.id = "error",
+               .title = "Error",
+               .unit = "\u00b5m",
+               .scale = 1e6,
+               .log = true,
+               .floor = 1e-6,
+               .format = "%-8.3g",
+               .series = {{"error", at(Channel::error), &Palette::error, false, true, at(GhostChannel::error)}}});
+  panel.plots.emplace_back(PlotSpec{.id = "iterations",
+                                    .title = "Iterations",
+                                    .unit = "",
+                                    .counts = true,
+                                    .format = "%-4.0f",
+                                    .series = {{"iterations", at(Channel::iterations), &Palette::iterations, true, true,
+                                                at(GhostChannel::iterations)}}});
+  panel.plots.emplace_back(PlotSpec{.id = "tick_time",
+                                    .title = "Tick time",
+                                    .unit = "\u00b5s",
+                                    .scale = 1e6,
+                                    .format = "%-7.1f",
+                                    .nothing = "simulated time: no clock",
+                                    .series = {{"tick time", at(Channel::tick_time), &Palette::tick_time}}});
   return panel;
 }
 
@@ -104,9 +137,11 @@ static void draw_time_plots(const UiContext& ui, AppModel& model, PlotsPanel& st
     const float h = std::floor(cell.weight * height) + (last ? labels : 0.0f);
     // A draw list each: its 16-bit indices are then the plot's own.
     ImGui::SetCursorScreenPos({rect.x + static_cast<float>(cell.column) * column_width, top});
-    ImGui::BeginChild(state.plots[cell.plot].spec().id.c_str(), {column_width, h}, false, ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NoNav);
+    ImGui::BeginChild(state.plots[cell.plot].spec().id.c_str(), {column_width, h}, false,
+                      ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NoNav);
     const double reference = cell.plot == 2 ? model.presets().current().solver.tolerance_m : std::nan("");
-    state.plots[cell.plot].draw(ui, model.store(), model.axis(), link, ImGui::GetWindowPos(), {column_width, h}, last, reference);
+    state.plots[cell.plot].draw(ui, model.store(), model.axis(), link, ImGui::GetWindowPos(), {column_width, h}, last,
+                                reference);
     ImGui::EndChild();
     top += h;
   }
@@ -117,8 +152,9 @@ void draw_plots_panel(const UiContext& ui, AppModel& model, PlotsPanel& state, c
   ImGui::SetNextWindowPos({rect.x, rect.y});
   ImGui::SetNextWindowSize({rect.w, rect.h});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0, 0));
-  constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
-                                     ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoScrollWithMouse;
+  constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus |
+                                     ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoScrollWithMouse;
   ImGui::Begin("##plots", nullptr, flags);
   ImGui::PopStyleVar();
   PlotLink& link = state.link;
@@ -137,13 +173,16 @@ void draw_plots_panel(const UiContext& ui, AppModel& model, PlotsPanel& state, c
   draw_plots_toolbar(ui, model, state, {rect.x, rect.y, rect.w, bar}, rect);
   Rect rest{rect.x, rect.y + bar, rect.w, rect.h - bar};
   if (state.values && rect.w > ui.px(700)) {
-    const int extra = (state.link.ghost != nullptr) + state.link.a.has_value() + state.link.b.has_value() + (state.link.a && state.link.b);
+    const int extra = (state.link.ghost != nullptr) + state.link.a.has_value() + state.link.b.has_value() +
+                      (state.link.a && state.link.b);
     const float table = std::min(ui.px(166.0f + 62.0f * static_cast<float>(5 + extra)), 0.5f * rect.w);
     rest.w -= table;
     draw_values_table(ui, model, state, {rest.right(), rest.y, table, rest.h});
   }
-  if (state.mode == PlotsMode::time) draw_time_plots(ui, model, state, rest);
-  else draw_other_plot(ui, model, state, rest);
+  if (state.mode == PlotsMode::time)
+    draw_time_plots(ui, model, state, rest);
+  else
+    draw_other_plot(ui, model, state, rest);
   ImGui::End();
   if (link.clicked && !model.store().empty()) model.select_tick(*link.clicked);
 }

@@ -15,30 +15,36 @@ void draw_modes(const UiContext& ui, PlotsPanel& state) {
     const char* name;
     const char* doc;
   };
-  constexpr Mode kModes[] = {{PlotsMode::time, "Time", "Every curve against time"},
-                             {PlotsMode::xy, "X-Y", "One curve against another, for the ticks in view"},
-                             {PlotsMode::spectrum, "Spectrum", "What frequencies a curve holds: is the loop buzzing?"},
-                             {PlotsMode::histogram, "Histogram", "How often a curve had which value, for the ticks in view"}};
+  constexpr Mode kModes[] = {
+      {PlotsMode::time, "Time", "Every curve against time"},
+      {PlotsMode::xy, "X-Y", "One curve against another, for the ticks in view"},
+      {PlotsMode::spectrum, "Spectrum", "What frequencies a curve holds: is the loop buzzing?"},
+      {PlotsMode::histogram, "Histogram", "How often a curve had which value, for the ticks in view"}};
   for (const Mode& m : kModes) {
     bool on = state.mode == m.mode;
     if (toggle_button(ui, std::string("plots/mode/") + m.name, m.name, on, m.doc)) state.mode = m.mode;
     ImGui::SameLine(0, ui.px(3));
   }
-  toggle_button(ui, "plots/values", "Values", state.values, "Minimum, maximum, mean and RMS of what is in view, values at A and B");
+  toggle_button(ui, "plots/values", "Values", state.values,
+                "Minimum, maximum, mean and RMS of what is in view, values at A and B");
   ImGui::SameLine(0, ui.px(14));
 }
 
 /// Follow: the newest tick stays at the right. Hold: the axis stands, the tick in view goes on. Inspect: time stands.
 void draw_following(const UiContext& ui, AppModel& model) {
   bool follow = !model.paused() && model.axis().following(), inspect = model.paused(), hold = !follow && !inspect;
-  if (toggle_button(ui, "plots/follow", "Follow", follow, "The newest tick stays at the right edge (End)")) model.go_live();
+  if (toggle_button(ui, "plots/follow", "Follow", follow, "The newest tick stays at the right edge (End)"))
+    model.go_live();
   ImGui::SameLine(0, ui.px(3));
-  if (toggle_button(ui, "plots/hold", "Hold", hold, "The axes stand still, the rest of the window goes on; panning does the same")) {
+  if (toggle_button(ui, "plots/hold", "Hold", hold,
+                    "The axes stand still, the rest of the window goes on; panning does the same")) {
     model.set_paused(false);
     model.axis().hold();
   }
   ImGui::SameLine(0, ui.px(3));
-  if (toggle_button(ui, "plots/inspect", "Inspect", inspect, "Time stands still on one tick everywhere in the window (Space)")) model.set_paused(true);
+  if (toggle_button(ui, "plots/inspect", "Inspect", inspect,
+                    "Time stands still on one tick everywhere in the window (Space)"))
+    model.set_paused(true);
   ImGui::SameLine(0, ui.px(14));
 }
 
@@ -47,7 +53,10 @@ void draw_cursors(const UiContext& ui, AppModel& model, PlotLink& link) {
     bool on = cursor.has_value();
     if (toggle_button(ui, path, letter, on, doc)) {
       const ServoRecord* record = model.tick().record();
-      if (!on || record == nullptr) cursor.reset(); else cursor = record->tick.tick;
+      if (!on || record == nullptr)
+        cursor.reset();
+      else
+        cursor = record->tick.tick;
     }
     ImGui::SameLine(0, ui.px(3));
   };
@@ -56,7 +65,8 @@ void draw_cursors(const UiContext& ui, AppModel& model, PlotLink& link) {
   if (!link.a || !link.b) return;
   const double dt = (static_cast<double>(*link.b) - static_cast<double>(*link.a)) * link.tick_period_s;
   ImGui::PushFont(ui.fonts.small_number);
-  const std::string text = printed("B\u2212A %.3f s", dt) + (dt != 0.0 ? printed(" %.4g Hz", 1.0 / std::abs(dt)) : std::string());
+  const std::string text =
+      printed("B\u2212A %.3f s", dt) + (dt != 0.0 ? printed(" %.4g Hz", 1.0 / std::abs(dt)) : std::string());
   ImGui::TextUnformatted(text.c_str());
   ImGui::PopFont();
   ImGui::SameLine(0, ui.px(14));
@@ -65,9 +75,10 @@ void draw_cursors(const UiContext& ui, AppModel& model, PlotLink& link) {
 void draw_ghost_note(const UiContext& ui, const AppModel& model, float right) {
   const auto ghost = model.ghost();
   if (!ghost) return;
-  const std::string text = printed("Ghost, same motion assumed: iterations %.2f \u2192 %.2f, contact changed in %llu ticks",
-                                   ghost->numbers.recorded.mean_iterations, ghost->numbers.resolved.mean_iterations,
-                                   static_cast<unsigned long long>(ghost->numbers.changed_ticks));
+  const std::string text =
+      printed("Ghost, same motion assumed: iterations %.2f \u2192 %.2f, contact changed in %llu ticks",
+              ghost->numbers.recorded.mean_iterations, ghost->numbers.resolved.mean_iterations,
+              static_cast<unsigned long long>(ghost->numbers.changed_ticks));
   const char* shorter = "Ghost: same motion assumed";
   ImGui::SetCursorPosX(ImGui::GetCursorPosX() + ui.px(11));
   const float room = right - ImGui::GetCursorScreenPos().x - ui.px(10);
@@ -95,14 +106,18 @@ void draw_plots_toolbar(const UiContext& ui, AppModel& model, PlotsPanel& state,
   draw_ghost_note(ui, model, out_x);
   if (ImGui::GetCursorScreenPos().x < out_x) {
     ImGui::SetCursorScreenPos({out_x, rect.y + 0.5f * (rect.h - ImGui::GetFrameHeight())});
-    if (text_button(ui, "plots/csv", "CSV", "Every recorded tick in view, all channels, as a CSV file; between A and B if both are set")) {
+    if (text_button(ui, "plots/csv", "CSV",
+                    "Every recorded tick in view, all channels, as a CSV file; between A and B if both are set")) {
       const auto [from, to] = ticks_in_view(model);
       const auto& [a, b] = std::pair(state.link.a, state.link.b);
-      if (a && b) model.export_ticks(std::min(*a, *b), std::max(*a, *b) + 1);
-      else model.export_ticks(from, to);
+      if (a && b)
+        model.export_ticks(std::min(*a, *b), std::max(*a, *b) + 1);
+      else
+        model.export_ticks(from, to);
     }
     ImGui::SameLine(0, ui.px(3));
-    if (text_button(ui, "plots/png", "PNG", "The plots as they are, as a PNG file")) model.ask_for_picture("plots", whole);
+    if (text_button(ui, "plots/png", "PNG", "The plots as they are, as a PNG file"))
+      model.ask_for_picture("plots", whole);
   }
   ImGui::PopStyleVar();
   ImGui::PopFont();

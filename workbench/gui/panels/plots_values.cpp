@@ -12,19 +12,30 @@ namespace {
 
 constexpr std::array kTitles{"now", "ghost", "A", "B", "B\u2212A", "min", "max", "mean", "RMS"};
 
-std::array<double, kTitles.size()> values_of(const AppModel& model, const PlotLink& link, const CurveRef& curve, std::uint64_t from, std::uint64_t to) {
+std::array<double, kTitles.size()> values_of(const AppModel& model, const PlotLink& link, const CurveRef& curve,
+                                             std::uint64_t from, std::uint64_t to) {
   const ChannelStore& store = model.store();
   const std::size_t channel = curve.series->channel;
   const double nan = std::nan("");
-  const auto at = [&](const std::optional<std::uint64_t>& tick) { return tick ? static_cast<double>(store.value(channel, *tick)) : nan; };
+  const auto at = [&](const std::optional<std::uint64_t>& tick) {
+    return tick ? static_cast<double>(store.value(channel, *tick)) : nan;
+  };
   const ServoRecord* record = model.tick().record();
   const std::optional<std::uint64_t> now = record != nullptr ? std::optional(record->tick.tick) : std::nullopt;
   const MinMax range = store.min_max(channel, from, to);
   const SampleSums sums = store.sums(channel, from, to);
-  const double ghost = link.ghost != nullptr && curve.series->ghost && now ? static_cast<double>(link.ghost->value(*curve.series->ghost, *now)) : nan;
-  std::array<double, kTitles.size()> out{at(now), ghost, at(link.a), at(link.b), at(link.b) - at(link.a),
-                                         range.empty() ? nan : static_cast<double>(range.min), range.empty() ? nan : static_cast<double>(range.max),
-                                         sums.mean(), sums.rms()};
+  const double ghost = link.ghost != nullptr && curve.series->ghost && now
+                           ? static_cast<double>(link.ghost->value(*curve.series->ghost, *now))
+                           : nan;
+  std::array<double, kTitles.size()> out{at(now),
+                                         ghost,
+                                         at(link.a),
+                                         at(link.b),
+                                         at(link.b) - at(link.a),
+                                         range.empty() ? nan : static_cast<double>(range.min),
+                                         range.empty() ? nan : static_cast<double>(range.max),
+                                         sums.mean(),
+                                         sums.rms()};
   for (double& v : out) v *= curve.plot->scale;
   return out;
 }
@@ -40,7 +51,8 @@ void draw_values_table(const UiContext& ui, AppModel& model, PlotsPanel& state, 
   ImFont* text = ui.fonts.small;
   // What there is nothing to say of takes no room.
   const PlotLink& link = state.link;
-  const std::array<bool, kTitles.size()> wanted{true, link.ghost != nullptr, link.a.has_value(), link.b.has_value(), link.a && link.b, true, true, true, true};
+  const std::array<bool, kTitles.size()> wanted{
+      true, link.ghost != nullptr, link.a.has_value(), link.b.has_value(), link.a && link.b, true, true, true, true};
   std::array<std::size_t, kTitles.size()> place{};
   std::size_t shown = 0;
   for (std::size_t c = 0; c < kTitles.size(); ++c) place[c] = wanted[c] ? shown++ : shown;
@@ -49,7 +61,11 @@ void draw_values_table(const UiContext& ui, AppModel& model, PlotsPanel& state, 
   ImVec2 at = ImGui::GetCursorScreenPos();
   const auto right = [&](ImFont* f, std::size_t c, ImU32 ink, const char* value) {
     if (!wanted[c]) return;
-    draw.AddText(f, f->FontSize, {at.x + name_width + static_cast<float>(place[c] + 1) * column - f->CalcTextSizeA(f->FontSize, 1e9f, 0.0f, value).x, at.y}, ink, value);
+    draw.AddText(f, f->FontSize,
+                 {at.x + name_width + static_cast<float>(place[c] + 1) * column -
+                      f->CalcTextSizeA(f->FontSize, 1e9f, 0.0f, value).x,
+                  at.y},
+                 ink, value);
   };
   const std::string heading = printed("%llu ticks in view", static_cast<unsigned long long>(to - from));
   draw.AddText(text, text->FontSize, at, ui.colours.text_dim, heading.c_str());
@@ -60,7 +76,8 @@ void draw_values_table(const UiContext& ui, AppModel& model, PlotsPanel& state, 
     draw.AddRectFilled({at.x, at.y + ui.px(2)}, {at.x + ui.px(8), at.y + ui.px(10)}, ink, ui.px(2));
     draw.AddText(text, text->FontSize, {at.x + ui.px(13), at.y}, ui.colours.text, curve.with_unit().c_str());
     const auto values = values_of(model, link, curve, from, to);
-    for (std::size_t c = 0; c < values.size(); ++c) right(font, c, ui.colours.text, std::isnan(values[c]) ? "\u2013" : printed("%.3g", values[c]).c_str());
+    for (std::size_t c = 0; c < values.size(); ++c)
+      right(font, c, ui.colours.text, std::isnan(values[c]) ? "\u2013" : printed("%.3g", values[c]).c_str());
     at.y += text->FontSize + ui.px(4);
   }
   ImGui::Dummy({1.0f, at.y - ImGui::GetCursorScreenPos().y});

@@ -34,7 +34,8 @@ void draw_changes(const UiContext& ui, AppModel& model) {
     const std::string name = change.key->full_name();
     const float width = ImGui::GetContentRegionAvail().x;
     const ImVec2 at = ImGui::GetCursorScreenPos();
-    const std::string text = display_with_unit(*change.key, change.loaded) + " \u2192 " + display_with_unit(*change.key, change.now);
+    const std::string text =
+        display_with_unit(*change.key, change.loaded) + " \u2192 " + display_with_unit(*change.key, change.now);
     ImGui::TextUnformatted(name.c_str());
     ImGui::PushFont(ui.fonts.small_number);
     const float w = ImGui::CalcTextSize(text.c_str()).x;
@@ -42,7 +43,8 @@ void draw_changes(const UiContext& ui, AppModel& model) {
     ImGui::TextUnformatted(text.c_str());
     ImGui::PopFont();
     ImGui::SetCursorScreenPos({at.x + width - ui.px(17), at.y - ui.px(3)});
-    if (icon_button(ui, "presets/revert/" + name, Icon::reset, "Back to the loaded value")) model.revert_value(*change.key);
+    if (icon_button(ui, "presets/revert/" + name, Icon::reset, "Back to the loaded value"))
+      model.revert_value(*change.key);
     ImGui::SetCursorScreenPos({at.x, at.y + ui.px(19)});
   }
   ImGui::Dummy({1, 1});
@@ -53,7 +55,8 @@ void draw_changes(const UiContext& ui, AppModel& model) {
 void save(AppModel& model, PresetsPanel& state) {
   if (state.name != state.written && state.name != state.asked_for && model.has_preset(state.name)) {
     state.asked_for = state.name;
-    model.say(Severity::warning, "a preset \"" + state.name + "\" is there already; press Replace to write over it, or type another name");
+    model.say(Severity::warning,
+              "a preset \"" + state.name + "\" is there already; press Replace to write over it, or type another name");
     return;
   }
   state.asked_for.clear();
@@ -69,12 +72,14 @@ void draw_presets_panel(const UiContext& ui, AppModel& model, PresetsPanel& stat
   const char* const text = replaces ? "Replace" : "Save as";
   const float button = ImGui::CalcTextSize(text).x + 2.0f * ImGui::GetStyle().FramePadding.x;
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - button - ImGui::GetStyle().ItemSpacing.x);
-  const bool enter = ImGui::InputTextWithHint("##preset_name", "name", &state.name, ImGuiInputTextFlags_EnterReturnsTrue);
+  const bool enter =
+      ImGui::InputTextWithHint("##preset_name", "name", &state.name, ImGuiInputTextFlags_EnterReturnsTrue);
   ui.items.note_last("presets/name");
   tooltip(ui, "Name of the file to save the present values in, without .toml");
   ImGui::SameLine();
-  const bool pressed = text_button(ui, "presets/save", text, replaces ? "Writes over the preset of this name, and what was measured with it"
-                                                                       : "Writes the present values into the preset folder under this name");
+  const bool pressed = text_button(ui, "presets/save", text,
+                                   replaces ? "Writes over the preset of this name, and what was measured with it"
+                                            : "Writes the present values into the preset folder under this name");
   if (enter || pressed) save(model, state);
   ImGui::Dummy({1, ui.px(1)});
   draw_changes(ui, model);

@@ -41,7 +41,9 @@ void handle_shortcuts(AppModel& model, MenuBar& menu) {
     handle_ctrl_keys(model);
     return;
   }
-  const auto named = [](ImGuiKey key, bool repeat = false) { return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key), repeat); };
+  const auto named = [](ImGuiKey key, bool repeat = false) {
+    return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key), repeat);
+  };
   for (const NamedView& v : kStandardViews) {
     if (letter(v.key[0])) model.look_from_standard(v.view);
   }
@@ -63,8 +65,10 @@ void handle_shortcuts(AppModel& model, MenuBar& menu) {
   if (letter('F')) model.frame_scene();
   if (letter('M')) model.set_hand_follows_mouse(!model.view().hand_follows_mouse);
   if (named(ImGuiKey_Escape) && !menu.path.open && !menu.palette.open) {
-    if (menu.sheet) menu.sheet = false;
-    else if (!model.stopped()) model.toggle_stop();
+    if (menu.sheet)
+      menu.sheet = false;
+    else if (!model.stopped())
+      model.toggle_stop();
   }
 }
 

@@ -13,7 +13,7 @@ std::string count_text(std::uint64_t n) { return printed("%llu", static_cast<uns
 struct ComparedRow {
   const char* label;
   std::string recorded, again;
-  int better = 0;   ///< the ghost is better (1) or worse (-1)
+  int better = 0;  ///< the ghost is better (1) or worse (-1)
 };
 
 int sign_of(double recorded, double again) {
@@ -26,9 +26,12 @@ std::vector<ComparedRow> compared_rows(const Ghost& ghost, const Ghost* verified
   const RunNumbers& is = ghost.numbers.resolved;
   const auto um = [](double m) { return printed("%.3g", m * 1e6); };
   std::vector<ComparedRow> rows{
-      {"Iterations, mean", printed("%.3f", was.mean_iterations), printed("%.3f", is.mean_iterations), sign_of(was.mean_iterations, is.mean_iterations)},
-      {"p99", printed("%d", was.p99_iterations), printed("%d", is.p99_iterations), sign_of(was.p99_iterations, is.p99_iterations)},
-      {"most", printed("%d", was.most_iterations), printed("%d", is.most_iterations), sign_of(was.most_iterations, is.most_iterations)},
+      {"Iterations, mean", printed("%.3f", was.mean_iterations), printed("%.3f", is.mean_iterations),
+       sign_of(was.mean_iterations, is.mean_iterations)},
+      {"p99", printed("%d", was.p99_iterations), printed("%d", is.p99_iterations),
+       sign_of(was.p99_iterations, is.p99_iterations)},
+      {"most", printed("%d", was.most_iterations), printed("%d", is.most_iterations),
+       sign_of(was.most_iterations, is.most_iterations)},
       {"Error, mean \u00b5m", um(was.mean_error_m), um(is.mean_error_m), sign_of(was.mean_error_m, is.mean_error_m)},
       {"worst \u00b5m", um(was.worst_error_m), um(is.worst_error_m), sign_of(was.worst_error_m, is.worst_error_m)},
       {"Unconverged", count_text(was.unconverged), count_text(is.unconverged),
@@ -36,7 +39,8 @@ std::vector<ComparedRow> compared_rows(const Ghost& ghost, const Ghost* verified
   // Both solved in the background, so that like is compared with like; absent where time is not measured.
   const double before_ns = verified != nullptr ? verified->numbers.ns_per_tick : 0.0;
   if (before_ns > 0.0 && ghost.numbers.ns_per_tick > 0.0)
-    rows.push_back({"Time a tick, ns", printed("%.0f", before_ns), printed("%.0f", ghost.numbers.ns_per_tick), sign_of(before_ns, ghost.numbers.ns_per_tick)});
+    rows.push_back({"Time a tick, ns", printed("%.0f", before_ns), printed("%.0f", ghost.numbers.ns_per_tick),
+                    sign_of(before_ns, ghost.numbers.ns_per_tick)});
   return rows;
 }
 
@@ -57,7 +61,10 @@ void draw_comparison(const UiContext& ui, const Ghost& ghost, const Ghost* verif
   };
   line("", "recorded", "solved again", ui.colours.text_dim, ui.fonts.small);
   for (const ComparedRow& row : compared_rows(ghost, verified)) {
-    const ImU32 ink = row.recorded == row.again ? ui.colours.text : row.better > 0 ? ui.colours.good : row.better < 0 ? ui.colours.warning : ui.colours.text;
+    const ImU32 ink = row.recorded == row.again ? ui.colours.text
+                      : row.better > 0          ? ui.colours.good
+                      : row.better < 0          ? ui.colours.warning
+                                                : ui.colours.text;
     line(row.label, row.recorded, row.again, ink, ui.fonts.small_number);
   }
 }
@@ -65,12 +72,18 @@ void draw_comparison(const UiContext& ui, const Ghost& ghost, const Ghost* verif
 void draw_changes(const UiContext& ui, AppModel& model, const Ghost& ghost) {
   const ResolvedHistory& numbers = ghost.numbers;
   ImGui::PushFont(ui.fonts.small);
-  ImGui::Text("Contact changed in %s of %s ticks", count_text(numbers.changed_ticks).c_str(), count_text(numbers.resolved.ticks).c_str());
-  tooltip(ui, "Touching, free or unconverged where it was not, or moved by more than ten tolerances. A click goes to where it moved most");
+  ImGui::Text("Contact changed in %s of %s ticks", count_text(numbers.changed_ticks).c_str(),
+              count_text(numbers.resolved.ticks).c_str());
+  tooltip(ui,
+          "Touching, free or unconverged where it was not, or moved by more than ten tolerances. A click goes to where "
+          "it moved most");
   ImGui::TextDisabled("%s ticks differ in any bit", count_text(numbers.different_ticks).c_str());
   if (numbers.taken_over > 0) {
-    ImGui::TextDisabled("Contacts as recorded: %s", numbers.taken_over == numbers.resolved.ticks ? "all" : count_text(numbers.taken_over).c_str());
-    tooltip(ui, "The method reads none of the values that changed: the same contacts, in the same time. Force and display are computed again");
+    ImGui::TextDisabled("Contacts as recorded: %s",
+                        numbers.taken_over == numbers.resolved.ticks ? "all" : count_text(numbers.taken_over).c_str());
+    tooltip(ui,
+            "The method reads none of the values that changed: the same contacts, in the same time. Force and display "
+            "are computed again");
   }
   ImGui::PopFont();
   if (numbers.changes.empty()) return;
@@ -84,13 +97,19 @@ void draw_changes(const UiContext& ui, AppModel& model, const Ghost& ghost) {
   while (clipper.Step()) {
     for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
       const ContactChange& c = numbers.changes[static_cast<std::size_t>(i)];
-      const std::string moved = c.moved_m < 1e-3 ? printed("%6.1f \u00b5m", c.moved_m * 1e6) : printed("%6.2f mm", c.moved_m * 1e3);
-      const std::string what = c.recorded == c.resolved ? std::string() : printed("  %s \u2192 %s", to_string(c.recorded), to_string(c.resolved));
-      const std::string text = printed("%9llu %5llu", static_cast<unsigned long long>(c.first_tick), static_cast<unsigned long long>(c.ticks)) + "  " + moved + what;
+      const std::string moved =
+          c.moved_m < 1e-3 ? printed("%6.1f \u00b5m", c.moved_m * 1e6) : printed("%6.2f mm", c.moved_m * 1e3);
+      const std::string what = c.recorded == c.resolved
+                                   ? std::string()
+                                   : printed("  %s \u2192 %s", to_string(c.recorded), to_string(c.resolved));
+      const std::string text = printed("%9llu %5llu", static_cast<unsigned long long>(c.first_tick),
+                                       static_cast<unsigned long long>(c.ticks)) +
+                               "  " + moved + what;
       const bool here = seen != nullptr && seen->tick.tick >= c.first_tick && seen->tick.tick <= c.last_tick;
       if (ImGui::Selectable((text + printed("##change%d", i)).c_str(), here)) model.select_tick(c.worst_tick);
       ui.items.note_last(printed("time_machine/change/%d", i));
-      tooltip(ui, printed("Ticks %llu to %llu", static_cast<unsigned long long>(c.first_tick), static_cast<unsigned long long>(c.last_tick)));
+      tooltip(ui, printed("Ticks %llu to %llu", static_cast<unsigned long long>(c.first_tick),
+                          static_cast<unsigned long long>(c.last_tick)));
     }
   }
   ImGui::EndChild();
@@ -102,9 +121,12 @@ void draw_state(const UiContext& ui, const AppModel& model) {
   const auto verified = machine.verified();
   const std::size_t ticks = machine.run()->records.size();
   fact(ui, "The past", printed("%.1f", static_cast<double>(ticks) * model.tick_period_s()), "s");
-  if (!verified) fact(ui, "Replay", "checking ...");
-  else if (verified->numbers.different_ticks == 0) fact(ui, "Replay", "same bits in every tick", "", ui.colours.good);
-  else fact(ui, "Replay", count_text(verified->numbers.different_ticks) + " ticks differ", "", ui.colours.bad);
+  if (!verified)
+    fact(ui, "Replay", "checking ...");
+  else if (verified->numbers.different_ticks == 0)
+    fact(ui, "Replay", "same bits in every tick", "", ui.colours.good);
+  else
+    fact(ui, "Replay", count_text(verified->numbers.different_ticks) + " ticks differ", "", ui.colours.bad);
   tooltip(ui, "Every tick stepped again under the values it was recorded with");
 }
 
@@ -116,7 +138,9 @@ void draw_time_machine_panel(const UiContext& ui, AppModel& model, FoldedPanel& 
   if (!model.time_machine().is_open()) {
     ImGui::PushFont(ui.fonts.small);
     ImGui::PushStyleColor(ImGuiCol_Text, ui.colours.text_dim);
-    ImGui::TextWrapped("Pause (Space), then change a value: the whole past is solved again with it, and drawn beside what was recorded.");
+    ImGui::TextWrapped(
+        "Pause (Space), then change a value: the whole past is solved again with it, and drawn beside what was "
+        "recorded.");
     ImGui::PopStyleColor();
     ImGui::PopFont();
     return;
@@ -124,7 +148,9 @@ void draw_time_machine_panel(const UiContext& ui, AppModel& model, FoldedPanel& 
   draw_state(ui, model);
   const auto ghost = model.ghost();
   if (!ghost) {
-    if (text_button(ui, "time_machine/solve", "Solve the past with the present values", "Changing any value does this by itself")) model.solve_past_again();
+    if (text_button(ui, "time_machine/solve", "Solve the past with the present values",
+                    "Changing any value does this by itself"))
+      model.solve_past_again();
     ImGui::Dummy({1, ui.px(3)});
     return;
   }
@@ -134,7 +160,9 @@ void draw_time_machine_panel(const UiContext& ui, AppModel& model, FoldedPanel& 
   ImGui::PopStyleColor();
   ImGui::PopFont();
   ui.items.note_last("time_machine/same_motion");
-  tooltip(ui, "The hand moved under the recorded values; with others it would have moved otherwise. This compares the solver on the same poses");
+  tooltip(ui,
+          "The hand moved under the recorded values; with others it would have moved otherwise. This compares the "
+          "solver on the same poses");
   draw_comparison(ui, *ghost, model.time_machine().verified().get());
   draw_changes(ui, model, *ghost);
   ImGui::Dummy({1, ui.px(3)});

@@ -100,7 +100,8 @@ void lead_hand(AppModel& model, ViewPanel& state, const Vec2& pixel, int w, int 
   const auto hit = pick(model, pixel, w, h);
   if (hit) {
     const Vec3 point = ray.origin + ray.direction * hit.distance_m;
-    Vec3 normal = (1.0 - hit.u - hit.v) * mesh.normal(hit.triangle, 0) + hit.u * mesh.normal(hit.triangle, 1) + hit.v * mesh.normal(hit.triangle, 2);
+    Vec3 normal = (1.0 - hit.u - hit.v) * mesh.normal(hit.triangle, 0) + hit.u * mesh.normal(hit.triangle, 1) +
+                  hit.v * mesh.normal(hit.triangle, 2);
     if (glm::dot(normal, normal) < 1e-12) return;
     normal = unit(normal);
     // Seen from inside, the finger stays on the side the normals point to.
@@ -191,24 +192,29 @@ void draw_picture(const UiContext& ui, AppModel& model, ViewPanel& state, SceneR
   renderer.set_scene(model.scene(), model.presets().current().solver.normal_form);
   SceneFrame frame = scene_frame(model);
   frame.pixel_scale = static_cast<double>(ui.scale * per_point.y);
-  renderer.render(frame, model.view().camera, static_cast<int>(std::lround(rect.w * per_point.x)), static_cast<int>(std::lround(rect.h * per_point.y)));
+  renderer.render(frame, model.view().camera, static_cast<int>(std::lround(rect.w * per_point.x)),
+                  static_cast<int>(std::lround(rect.h * per_point.y)));
   state.build_ms_outside = thread_cpu_ms() - begin;
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   if (renderer.texture() == 0) return;
-  draw.AddImage(reinterpret_cast<ImTextureID>(static_cast<std::intptr_t>(renderer.texture())), {rect.x, rect.y}, {rect.right(), rect.bottom()}, {0, 1}, {1, 0});
-  draw_scene_overlay(draw, {rect.x, rect.y}, static_cast<double>(per_point.x), state.top, renderer, frame, model.view().camera, ui.fonts);
+  draw.AddImage(reinterpret_cast<ImTextureID>(static_cast<std::intptr_t>(renderer.texture())), {rect.x, rect.y},
+                {rect.right(), rect.bottom()}, {0, 1}, {1, 0});
+  draw_scene_overlay(draw, {rect.x, rect.y}, static_cast<double>(per_point.x), state.top, renderer, frame,
+                     model.view().camera, ui.fonts);
 }
 
 }  // namespace
 
-void draw_view_panel(const UiContext& ui, AppModel& model, ViewPanel& state, SceneRenderer* renderer, const Rect& rect) {
+void draw_view_panel(const UiContext& ui, AppModel& model, ViewPanel& state, SceneRenderer* renderer,
+                     const Rect& rect) {
   state.build_ms_outside = 0.0;
   if (rect.w < 8.0f || rect.h < 8.0f) return;
   ImGui::SetNextWindowPos({rect.x, rect.y});
   ImGui::SetNextWindowSize({rect.w, rect.h});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0, 0));
-  constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
-                                     ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NoNav;
+  constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus |
+                                     ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NoNav;
   ImGui::Begin("##view", nullptr, flags);
   ImGui::PopStyleVar();
   ImDrawList& draw = *ImGui::GetWindowDrawList();
@@ -217,7 +223,9 @@ void draw_view_panel(const UiContext& ui, AppModel& model, ViewPanel& state, Sce
 
   // The toggles come first and the picture's button lets them have the mouse.
   ImGui::SetCursorScreenPos({rect.x, rect.y});
-  ImGui::InvisibleButton("##scene", {rect.w, rect.h}, ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight | ImGuiButtonFlags_MouseButtonMiddle);
+  ImGui::InvisibleButton(
+      "##scene", {rect.w, rect.h},
+      ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight | ImGuiButtonFlags_MouseButtonMiddle);
   ImGui::SetItemAllowOverlap();
   ui.items.note_last("view");
   if (model.scene() != nullptr && model.scene()->planar() != nullptr) {

@@ -25,7 +25,9 @@ void InputQueue::key(int code, bool down) {
   if (code >= 0 && code < IM_ARRAYSIZE(ImGuiIO::KeysDown)) events_.push_back({Kind::key, code, down});
 }
 
-void InputQueue::character(unsigned int code_point) { events_.push_back({Kind::character, static_cast<int>(code_point)}); }
+void InputQueue::character(unsigned int code_point) {
+  events_.push_back({Kind::character, static_cast<int>(code_point)});
+}
 
 void InputQueue::button(int index, bool down) {
   if (index < 0 || index >= static_cast<int>(buttons_.size())) return;
@@ -51,10 +53,14 @@ bool InputQueue::fits(const Event& event, const Shown& shown, const ImGuiIO& io)
       if (event.modifier()) return !shown.press && shown.buttons.none() && !shown.wheel;
       return !event.down || (!shown.press && !shown.text && shown.buttons.none());
     }
-    case Kind::character: return shown.buttons.none();
-    case Kind::button: return !shown.buttons[static_cast<std::size_t>(event.code)] && !shown.press && !shown.text && !shown.moved;
-    case Kind::position: return shown.buttons.none() && !shown.wheel;
-    case Kind::wheel: return shown.buttons.none();
+    case Kind::character:
+      return shown.buttons.none();
+    case Kind::button:
+      return !shown.buttons[static_cast<std::size_t>(event.code)] && !shown.press && !shown.text && !shown.moved;
+    case Kind::position:
+      return shown.buttons.none() && !shown.wheel;
+    case Kind::wheel:
+      return shown.buttons.none();
   }
   return true;
 }

@@ -1,6 +1,6 @@
 // What a hand does between two frames, in its order. ImGui 1.86 has no event queue: it looks at which keys and buttons
-// are down and where the pointer is when a frame begins. In a slow frame a quick tap, a second tap of the same key, or a
-// click followed by a move would be lost or misplaced. Here events wait until a frame can show each of them.
+// are down and where the pointer is when a frame begins. In a slow frame a quick tap, a second tap of the same key, or
+// a click followed by a move would be lost or misplaced. Here events wait until a frame can show each of them.
 #pragma once
 
 #include <imgui.h>
@@ -22,9 +22,9 @@ class InputQueue {
   void wheel(float x, float y);
 
   /// Before ImGui::NewFrame, after the back end wrote `io`: as many events as one frame can show apart. What follows
-  /// waits for the next: a second change of a key, a press after another press or after text, a change of Ctrl, Shift or
-  /// Alt after a press, a move after a click, a button after a move (what is dragged
-  /// follows the moves of the frames in which its button is down).
+  /// waits for the next: a second change of a key, a press after another press or after text, a change of Ctrl, Shift
+  /// or Alt after a press, a move after a click, a button after a move (what is dragged follows the moves of the frames
+  /// in which its button is down).
   void apply(ImGuiIO& io);
   bool waiting() const { return !events_.empty(); }  ///< something is left for the next frame
 

@@ -35,9 +35,9 @@ Result<OffscreenContext> OffscreenContext::open() {
   EGLConfig config = nullptr;
   EGLint count = 0;
   if (!eglChooseConfig(display, kConfig.data(), &config, 1, &count) || count < 1) return no_gl("no fitting EGL config");
-  constexpr std::array<EGLint, 7> kContext{EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, 3,
-                                           EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                                           EGL_NONE};
+  constexpr std::array<EGLint, 7> kContext{
+      EGL_CONTEXT_MAJOR_VERSION,           3,       EGL_CONTEXT_MINOR_VERSION, 3, EGL_CONTEXT_OPENGL_PROFILE_MASK,
+      EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
   const EGLContext context = eglCreateContext(display, config, EGL_NO_CONTEXT, kContext.data());
   if (context == EGL_NO_CONTEXT) return no_gl("the driver has no OpenGL 3.3 core");
   if (!eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context)) {

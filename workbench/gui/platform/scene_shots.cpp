@@ -45,7 +45,8 @@ SceneView object_view(const char* name, const char* shows, Vec3 approach) {
 }
 
 SceneView control_net_view() {
-  SceneView view{"control-net", "PN control net of the tracked triangle and its neighbours, labelled", "icosphere", 0.0, {}, {}};
+  SceneView view{
+      "control-net", "PN control net of the tracked triangle and its neighbours, labelled", "icosphere", 0.0, {}, {}};
   view.staging.preset.finger.radius_m = 0.005;
   view.toggles.control_normals = view.toggles.control_net_neighbours = view.toggles.control_point_labels = true;
   view.toggles.planes = view.toggles.finger = view.toggles.cld_inset = false;
@@ -144,8 +145,10 @@ Camera aimed_camera(const SceneView& view, const StagedScene& staged, double asp
   camera.yaw_rad = view.yaw_rad;
   camera.pitch_rad = view.pitch_rad;
   const TickOutput& output = staged.tick.output;
-  if (view.aim == SceneView::Aim::whole) camera.fit(drawn_points(staged, view.toggles.finger), 1.12, aspect);
-  else camera.frame(world_bounds(*staged.scene), 1.05, ViewRoom{.width = aspect});
+  if (view.aim == SceneView::Aim::whole)
+    camera.fit(drawn_points(staged, view.toggles.finger), 1.12, aspect);
+  else
+    camera.frame(world_bounds(*staged.scene), 1.05, ViewRoom{.width = aspect});
   if (view.aim == SceneView::Aim::contact && output.triangle != kNone) {
     const auto p = staged.scene->mesh().positions(output.triangle);
     const Vec3 origin = staged.scene->mesh().origin();
@@ -176,7 +179,8 @@ void draw_view(OffscreenScreen& screen, SceneRenderer& renderer, const SceneFram
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     renderer.render(frame, camera, request.width_px, request.height_px);
     const ImVec2 size{static_cast<float>(request.width_px), static_cast<float>(request.height_px)};
-    list.AddImage(reinterpret_cast<ImTextureID>(static_cast<std::intptr_t>(renderer.texture())), {0, 0}, size, {0, 1}, {1, 0});
+    list.AddImage(reinterpret_cast<ImTextureID>(static_cast<std::intptr_t>(renderer.texture())), {0, 0}, size, {0, 1},
+                  {1, 0});
     draw_scene_overlay(list, {0, 0}, 1.0, 0.0f, renderer, frame, camera, fonts);
     ImGui::Render();
   });
@@ -194,8 +198,8 @@ const std::vector<ShotView>& scene_shot_views() {
 }
 
 Result<Image> take_scene_shot(const ShotRequest& request) {
-  const auto view = std::find_if(all_views().begin(), all_views().end(),
-                                 [&](const SceneView& v) { return v.name == request.view; });
+  const auto view =
+      std::find_if(all_views().begin(), all_views().end(), [&](const SceneView& v) { return v.name == request.view; });
   Result<std::shared_ptr<const ContactScene>> scene = open_scene(*view, request);
   if (!scene) return tl::unexpected(scene.error());
   Result<std::unique_ptr<OffscreenScreen>> screen = OffscreenScreen::open(request.width_px, request.height_px);
@@ -211,7 +215,8 @@ Result<Image> take_scene_shot(const ShotRequest& request) {
   renderer.wait_for_tessellation();
   SceneFrame frame = staged.frame(view->toggles, request.theme.value_or(Theme::light));
   frame.pixel_scale = scale_of(request);
-  draw_view(**screen, renderer, frame, aimed_camera(*view, staged, static_cast<double>(request.width_px) / request.height_px, request.y_up),
+  draw_view(**screen, renderer, frame,
+            aimed_camera(*view, staged, static_cast<double>(request.width_px) / request.height_px, request.y_up),
             request);
   return (*screen)->picture();
 }

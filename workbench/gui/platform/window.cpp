@@ -22,10 +22,10 @@
 namespace tangent {
 namespace {
 
-constexpr double kFrameInterval = 1.0 / 60.0;    // s, where the driver does not wait for the screen
-constexpr double kIdleInterval = 0.25;           // s between frames when nothing moves
-constexpr double kShaderCheckInterval = 0.5;     // s
-constexpr int kSettlingFrames = 4;               // ImGui needs some frames after an event until all has settled
+constexpr double kFrameInterval = 1.0 / 60.0;  // s, where the driver does not wait for the screen
+constexpr double kIdleInterval = 0.25;         // s between frames when nothing moves
+constexpr double kShaderCheckInterval = 0.5;   // s
+constexpr int kSettlingFrames = 4;             // ImGui needs some frames after an event until all has settled
 
 std::string glfw_reason() {
   const char* text = nullptr;
@@ -121,11 +121,14 @@ void draw_frame(GLFWwindow* window, App& app, const FrameInput& input, InputQueu
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
   if (const auto file = app.take_screenshot_request()) {
     const Status written = write_png(read_pixels(0, width_px, height_px), *file);
-    if (written) app.model().say(Severity::note, "screenshot written to " + file->string());
-    else app.model().say(Severity::error, written.error().message());
+    if (written)
+      app.model().say(Severity::note, "screenshot written to " + file->string());
+    else
+      app.model().say(Severity::error, written.error().message());
   }
   if (const auto request = app.model().take_picture_request()) {
-    save_picture(app.model(), *request, read_pixels(0, width_px, height_px), static_cast<double>(ImGui::GetIO().DisplayFramebufferScale.x));
+    save_picture(app.model(), *request, read_pixels(0, width_px, height_px),
+                 static_cast<double>(ImGui::GetIO().DisplayFramebufferScale.x));
   }
   glfwSwapBuffers(window);
 }
@@ -154,20 +157,28 @@ class FrameLoop {
   }
 
  private:
-  static InputQueue& events(GLFWwindow* window) { return static_cast<FrameLoop*>(glfwGetWindowUserPointer(window))->events_; }
+  static InputQueue& events(GLFWwindow* window) {
+    return static_cast<FrameLoop*>(glfwGetWindowUserPointer(window))->events_;
+  }
 
   void listen() {
     glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int, int action, int) {
       if (action != GLFW_REPEAT) events(w).key(key, action == GLFW_PRESS);  // ImGui repeats by itself
     });
     glfwSetCharCallback(window_, [](GLFWwindow* w, unsigned int code_point) { events(w).character(code_point); });
-    glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int button, int action, int) { events(w).button(button, action == GLFW_PRESS); });
-    glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double x, double y) { events(w).position(static_cast<float>(x), static_cast<float>(y)); });
+    glfwSetMouseButtonCallback(
+        window_, [](GLFWwindow* w, int button, int action, int) { events(w).button(button, action == GLFW_PRESS); });
+    glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double x, double y) {
+      events(w).position(static_cast<float>(x), static_cast<float>(y));
+    });
     glfwSetCursorEnterCallback(window_, [](GLFWwindow* w, int entered) {
       if (entered == GLFW_FALSE) events(w).pointer_left();
     });
-    glfwSetScrollCallback(window_, [](GLFWwindow* w, double x, double y) { events(w).wheel(static_cast<float>(x), static_cast<float>(y)); });
-    glfwSetWindowFocusCallback(window_, [](GLFWwindow*, int focused) { ImGui::GetIO().AddFocusEvent(focused == GLFW_TRUE); });
+    glfwSetScrollCallback(window_, [](GLFWwindow* w, double x, double y) {
+      events(w).wheel(static_cast<float>(x), static_cast<float>(y));
+    });
+    glfwSetWindowFocusCallback(window_,
+                               [](GLFWwindow*, int focused) { ImGui::GetIO().AddFocusEvent(focused == GLFW_TRUE); });
     if (glfwGetWindowAttrib(window_, GLFW_HOVERED) == GLFW_TRUE) {  // where it is before it first moves
       double x = 0.0, y = 0.0;
       glfwGetCursorPos(window_, &x, &y);

@@ -18,11 +18,11 @@
 namespace tangent {
 namespace {
 
-constexpr std::uint64_t kTicks = 12'000;     // of simulated exploration before the picture ...
-constexpr std::uint64_t kMostTicks = 24'000; // ... and on until the contact is well in view
+constexpr std::uint64_t kTicks = 12'000;      // of simulated exploration before the picture ...
+constexpr std::uint64_t kMostTicks = 24'000;  // ... and on until the contact is well in view
 constexpr std::uint64_t kTicksPerFrame = 50;
-constexpr int kSettlingFrames = 4;           // ImGui lays out over some frames
-constexpr double kFrame = 1.0 / 60.0;        // s
+constexpr int kSettlingFrames = 4;     // ImGui lays out over some frames
+constexpr double kFrame = 1.0 / 60.0;  // s
 
 struct WindowView {
   const char* name;
@@ -104,8 +104,8 @@ void enlarge_plots(AppModel& model) {
 
 /// The right column has room for this section alone.
 void fold_but(AppModel& model, const char* section) {
-  for (const char* other :
-       {"Iterations", "Time machine", "Bookmarks", "Map", "Smoothness as felt", "Inspect", "Mesh", "Devices", "Messages"}) {
+  for (const char* other : {"Iterations", "Time machine", "Bookmarks", "Map", "Smoothness as felt", "Inspect", "Mesh",
+                            "Devices", "Messages"}) {
     model.open_sections()[other] = std::string_view(other) == section;
   }
 }
@@ -200,7 +200,14 @@ void inspect_plots(AppModel& model) {
 void open_outline(AppModel& model) {
   if (model.scene() != nullptr && model.scene()->planar() != nullptr) return;
   PlanarPolygon outline{"outline.csv", {}, true};
-  for (const Vec2& v : {Vec2{-0.060, -0.030}, {0.055, -0.034}, {0.055, -0.034}, {0.048, 0.018}, {0.022, 0.004}, {-0.004, 0.012}, {-0.018, 0.040}, {-0.050, 0.034}})
+  for (const Vec2& v : {Vec2{-0.060, -0.030},
+                        {0.055, -0.034},
+                        {0.055, -0.034},
+                        {0.048, 0.018},
+                        {0.022, 0.004},
+                        {-0.004, 0.012},
+                        {-0.018, 0.040},
+                        {-0.050, 0.034}})
     outline.vertices.push_back(v);
   std::error_code failed;
   const auto path = std::filesystem::temp_directory_path(failed) / "tangent-outline.csv";
@@ -243,14 +250,15 @@ void disturb_devices(AppModel& model) {
 }
 
 constexpr WindowView kViews[] = {
-    {"overview", "the whole window after 12 s of simulated exploration", Theme::dark, show_surface, look_from_contact_side},
+    {"overview", "the whole window after 12 s of simulated exploration", Theme::dark, show_surface,
+     look_from_contact_side},
     {"light", "the same in the light theme", Theme::light, show_surface, look_from_contact_side},
     {"iterations", "the window paused on the tick with the most iterations of the paper's method", Theme::dark,
      solve_with_paper, look_at_busiest_tick},
     {"map-iterations", "map: planes that the paper's iteration takes, worst of the moves", Theme::dark,
      show_paper_map<MapQuantity::iterations_worst>, look_from_contact_side},
-    {"map-failures", "map: share of the moves on which the paper's iteration fails", Theme::dark,
-     show_failures, look_from_contact_side},
+    {"map-failures", "map: share of the moves on which the paper's iteration fails", Theme::dark, show_failures,
+     look_from_contact_side},
     {"map-error", "map: error of the paper's iteration against the converged answer", Theme::dark,
      show_paper_map<MapQuantity::error>, look_from_contact_side},
     {"map-curvature", "map: curvature", Theme::light, show_map<MapQuantity::curvature>, look_from_contact_side},
@@ -258,23 +266,29 @@ constexpr WindowView kViews[] = {
      show_map<MapQuantity::touch_radius>, look_from_contact_side},
     {"map-normals", "map: interpolated normal against the true one", Theme::dark,
      show_map<MapQuantity::normal_deviation>, look_from_contact_side},
-    {"map-facet-angle", "heat map of the facets' angles, with the verdict on how smooth it feels", Theme::dark, show_facet_angles, look_from_contact_side},
-    {"planar", "a 2D scene: polygon, smooth curve, patches, and the tangent lines of a tick", Theme::dark, open_outline, look_at_busiest_planar_tick},
+    {"map-facet-angle", "heat map of the facets' angles, with the verdict on how smooth it feels", Theme::dark,
+     show_facet_angles, look_from_contact_side},
+    {"planar", "a 2D scene: polygon, smooth curve, patches, and the tangent lines of a tick", Theme::dark, open_outline,
+     look_at_busiest_planar_tick},
     {"map-gain-margin", "map: stability margin of the paper's iteration with the present gains", Theme::dark,
      show_paper_map<MapQuantity::gain_margin>, look_from_contact_side},
-    {"time-machine", "the past solved again with a smaller gain, drawn beside what was recorded", Theme::dark, tune_paper,
-     drag_gain_of_the_past},
+    {"time-machine", "the past solved again with a smaller gain, drawn beside what was recorded", Theme::dark,
+     tune_paper, drag_gain_of_the_past},
     {"inspect", "mesh inspection: a defect found, marked and listed", Theme::dark, inspect, look_at_first_finding},
     {"slice", "the body cut open", Theme::dark, inspect, slice_open},
-    {"parameters", "favourites, gain advice, and two presets side by side", Theme::dark, tune_and_compare, look_from_contact_side},
+    {"parameters", "favourites, gain advice, and two presets side by side", Theme::dark, tune_and_compare,
+     look_from_contact_side},
     {"palette", "the command palette", Theme::dark, show_surface, look_from_contact_side, 'P', true},
     {"shortcuts", "the sheet of shortcuts", Theme::dark, show_surface, look_from_contact_side, 290},
     {"monitor", "the device monitor after a delay burst, and re-armed", Theme::dark, show_surface, disturb_devices},
     {"plots", "the window with the plots enlarged", Theme::dark, enlarge_plots, look_from_contact_side},
-    {"plots-values", "the plots with their numbers beside them", Theme::dark, enlarge_plots, inspect_plots, 0, false, PlotsMode::time, true},
+    {"plots-values", "the plots with their numbers beside them", Theme::dark, enlarge_plots, inspect_plots, 0, false,
+     PlotsMode::time, true},
     {"plots-xy", "force in x against force in z", Theme::dark, enlarge_plots, inspect_plots, 0, false, PlotsMode::xy},
-    {"plots-spectrum", "spectrum of the force", Theme::dark, enlarge_plots, inspect_plots, 0, false, PlotsMode::spectrum},
-    {"plots-histogram", "histogram of the force", Theme::light, enlarge_plots, inspect_plots, 0, false, PlotsMode::histogram},
+    {"plots-spectrum", "spectrum of the force", Theme::dark, enlarge_plots, inspect_plots, 0, false,
+     PlotsMode::spectrum},
+    {"plots-histogram", "histogram of the force", Theme::light, enlarge_plots, inspect_plots, 0, false,
+     PlotsMode::histogram},
 };
 
 /// Feeds the app frames of simulated time.
@@ -318,8 +332,8 @@ AppOptions app_options(const ShotRequest& request, const WindowView& view) {
   return options;
 }
 
-/// The window itself goes on with what stands in for a mesh or a preset that it can't read; a picture of that is not the one
-/// that was asked for.
+/// The window itself goes on with what stands in for a mesh or a preset that it can't read; a picture of that is not
+/// the one that was asked for.
 Status check_start(const AppModel& model) {
   for (const Message& message : model.messages().all()) {
     if (message.severity == Severity::error) return fail(message.text);
@@ -353,7 +367,8 @@ Result<Image> take_window_shot(const ShotRequest& request) {
   feeder.frame();
   view.arrange(app.model());
   app.show_plots(view.plots, view.values);
-  for (std::uint64_t done = 0; done < kTicks || (done < kMostTicks && !contact_in_view(app.model())); done += kTicksPerFrame) {
+  for (std::uint64_t done = 0; done < kTicks || (done < kMostTicks && !contact_in_view(app.model()));
+       done += kTicksPerFrame) {
     app.advance(kTicksPerFrame);
     feeder.frame();  // without a renderer: only the plots and panels follow
   }

@@ -12,7 +12,9 @@ double PlainAxis::share(double value) const {
   return (value - low) / (high - low);
 }
 
-double PlainAxis::value_at(double share) const { return log ? low * std::pow(high / low, share) : low + share * (high - low); }
+double PlainAxis::value_at(double share) const {
+  return log ? low * std::pow(high / low, share) : low + share * (high - low);
+}
 
 PlotArea plain_area(const UiContext& ui, ImVec2 pos, ImVec2 size) {
   PlotArea area;
@@ -32,14 +34,18 @@ void draw_axes(const UiContext& ui, const PlainPlot& plot) {
   draw.AddRectFilled(area.min, area.max, ui.colours.plot);
   const int rows = std::max(1, static_cast<int>(area.height() / (2.2f * font->FontSize)));
   const int columns = std::max(1, static_cast<int>(area.width() / (5.5f * font->FontSize)));
-  const auto ticks = [](const PlainAxis& axis, int most) { return axis.log ? log_ticks(axis.low, axis.high, most) : linear_ticks(axis.low, axis.high, most); };
+  const auto ticks = [](const PlainAxis& axis, int most) {
+    return axis.log ? log_ticks(axis.low, axis.high, most) : linear_ticks(axis.low, axis.high, most);
+  };
   for (const AxisTick& tick : ticks(plot.y, rows)) {
     const float y = std::round(area.max.y - static_cast<float>(plot.y.share(tick.value)) * area.height());
     if (y < area.min.y - 1.0f || y > area.max.y + 1.0f) continue;
     draw.AddLine({area.min.x, y}, {area.max.x, y}, tick.major ? ui.colours.grid : ui.colours.grid_minor);
     if (!tick.major) continue;
-    const float label_y = std::clamp(y - 0.5f * font->FontSize, area.min.y - 0.2f * font->FontSize, area.max.y - 0.9f * font->FontSize);
-    text_at(draw, font, {area.min.x - ui.px(5) - text_width(font, tick.label.c_str()), label_y}, ui.colours.text_dim, tick.label.c_str());
+    const float label_y =
+        std::clamp(y - 0.5f * font->FontSize, area.min.y - 0.2f * font->FontSize, area.max.y - 0.9f * font->FontSize);
+    text_at(draw, font, {area.min.x - ui.px(5) - text_width(font, tick.label.c_str()), label_y}, ui.colours.text_dim,
+            tick.label.c_str());
   }
   const float unit_from = area.max.x - text_width(ui.fonts.small, plot.x.label.c_str());
   for (const AxisTick& tick : ticks(plot.x, columns)) {
@@ -49,7 +55,8 @@ void draw_axes(const UiContext& ui, const PlainPlot& plot) {
     if (!tick.major) continue;
     const float w = text_width(font, tick.label.c_str());
     if (x + 0.5f * w > unit_from - ui.px(6)) continue;
-    text_at(draw, font, {std::max(x - 0.5f * w, area.pos.x), area.max.y + ui.px(3)}, ui.colours.text_dim, tick.label.c_str());
+    text_at(draw, font, {std::max(x - 0.5f * w, area.pos.x), area.max.y + ui.px(3)}, ui.colours.text_dim,
+            tick.label.c_str());
   }
   text_at(draw, ui.fonts.small, {unit_from, area.max.y + ui.px(3)}, ui.colours.text_dim, plot.x.label.c_str());
   text_at(draw, ui.fonts.small, {area.min.x, area.pos.y + ui.px(3)}, ui.colours.text, plot.y.label.c_str());

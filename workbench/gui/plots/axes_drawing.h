@@ -9,9 +9,9 @@
 namespace tangent {
 
 struct PlainAxis {
-  double low = 0.0, high = 1.0;   ///< displayed units; log: both > 0
+  double low = 0.0, high = 1.0;  ///< displayed units; log: both > 0
   bool log = false;
-  std::string label;              ///< with its unit
+  std::string label;  ///< with its unit
   /// 0 at the lower end, 1 at the upper.
   double share(double value) const;
   double value_at(double share) const;
@@ -21,7 +21,8 @@ struct PlainPlot {
   PlotArea area;
   PlainAxis x, y;
   ImVec2 at(double x_value, double y_value) const {
-    return {area.min.x + static_cast<float>(x.share(x_value)) * area.width(), area.max.y - static_cast<float>(y.share(y_value)) * area.height()};
+    return {area.min.x + static_cast<float>(x.share(x_value)) * area.width(),
+            area.max.y - static_cast<float>(y.share(y_value)) * area.height()};
   }
 };
 

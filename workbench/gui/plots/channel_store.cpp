@@ -16,8 +16,8 @@ std::uint64_t next_generation() {
   return ++last;
 }
 
-// Four floats at a time. The choices are written so that a NaN fails them and leaves the range as it was, and so that each is
-// one instruction.
+// Four floats at a time. The choices are written so that a NaN fails them and leaves the range as it was, and so that
+// each is one instruction.
 using Four = float __attribute__((vector_size(16)));
 
 Four load(const void* from) {
@@ -113,8 +113,10 @@ void ChannelStore::put(std::uint64_t tick, std::span<const float> values) {
 void ChannelStore::complete(std::size_t level, std::size_t channel, std::uint64_t start) {
   const std::uint64_t half = std::uint64_t{1} << (shift_of(level) - 1);
   MinMax range;
-  if (level == 1) fold(samples_.get() + place(0, channel, start), std::size_t{1} << kSmallestShift, range);
-  else fold(&block(level - 1, channel, start), 2, range);
+  if (level == 1)
+    fold(samples_.get() + place(0, channel, start), std::size_t{1} << kSmallestShift, range);
+  else
+    fold(&block(level - 1, channel, start), 2, range);
   block(level, channel, start) = range;
   if (level < kFirstSumLevel) return;
   SampleSums sums;
@@ -146,10 +148,12 @@ void ChannelStore::assign(std::uint64_t first, std::span<const float> rows) {
 void ChannelStore::assign_channel(std::size_t channel, std::uint64_t first, std::span<const float> rows) {
   const std::uint64_t end = first + rows.size() / channels_;
   const float* value = rows.data() + channel;
-  for (std::uint64_t tick = first; tick < end; ++tick, value += channels_) samples_[channel * capacity_ + slot(tick)] = *value;
+  for (std::uint64_t tick = first; tick < end; ++tick, value += channels_)
+    samples_[channel * capacity_ + slot(tick)] = *value;
   for (std::size_t level = 1; level <= kLevels; ++level) {
     const std::uint64_t length = std::uint64_t{1} << shift_of(level);
-    for (std::uint64_t start = (first + length - 1) / length * length; start + length <= end; start += length) complete(level, channel, start);
+    for (std::uint64_t start = (first + length - 1) / length * length; start + length <= end; start += length)
+      complete(level, channel, start);
   }
 }
 
@@ -158,9 +162,9 @@ float ChannelStore::value(std::size_t channel, std::uint64_t tick) const {
   return samples_[channel * capacity_ + slot(tick)];
 }
 
-// Calls visit(level, slot, count) for runs of blocks that lie side by side and together are from <= tick < to, cut to what is
-// kept: up the levels to the largest that fit, and down again. A block that starts and ends within what is kept has had
-// none of its ticks written over. Level 0 are the samples.
+// Calls visit(level, slot, count) for runs of blocks that lie side by side and together are from <= tick < to, cut to
+// what is kept: up the levels to the largest that fit, and down again. A block that starts and ends within what is kept
+// has had none of its ticks written over. Level 0 are the samples.
 template <class Visit>
 void ChannelStore::visit_blocks(std::uint64_t from, std::uint64_t to, Visit visit) const {
   std::uint64_t tick = std::max(from, first_);
@@ -193,18 +197,22 @@ MinMax ChannelStore::min_max(std::size_t channel, std::uint64_t from, std::uint6
     return range;
   }
   visit_blocks(from, to, [&](std::size_t level, std::size_t at, std::size_t count) {
-    if (level == 0) fold(samples_.get() + channel * capacity_ + at, count, range);
-    else fold(levels_[level - 1].data() + channel * (capacity_ >> shift_of(level)) + at, count, range);
+    if (level == 0)
+      fold(samples_.get() + channel * capacity_ + at, count, range);
+    else
+      fold(levels_[level - 1].data() + channel * (capacity_ >> shift_of(level)) + at, count, range);
   });
   return range;
 }
 
 // Side by side on one level, the reads of a row are one stream; and all its ranges have as many.
-void ChannelStore::min_max_row(std::size_t channel, std::uint64_t from, std::uint64_t ticks, std::span<MinMax> out) const {
+void ChannelStore::min_max_row(std::size_t channel, std::uint64_t from, std::uint64_t ticks,
+                               std::span<MinMax> out) const {
   std::size_t level = 0;
   const auto aligned = [&](std::size_t of) { return ((from | ticks) & ((std::uint64_t{1} << shift_of(of)) - 1)) == 0; };
   while (level < kLevels && aligned(level + 1)) ++level;
-  const std::size_t shift = shift_of(level), count = static_cast<std::size_t>(ticks >> shift), ring = capacity_ >> shift;
+  const std::size_t shift = shift_of(level), count = static_cast<std::size_t>(ticks >> shift),
+                    ring = capacity_ >> shift;
   const auto fold_all = [&](const auto* items) {
     for (std::size_t i = 0; i < out.size(); ++i) {
       const std::uint64_t begin = from + i * ticks;
@@ -217,8 +225,10 @@ void ChannelStore::min_max_row(std::size_t channel, std::uint64_t from, std::uin
       fold(items + at, count, out[i]);
     }
   };
-  if (level == 0) fold_all(samples_.get() + channel * ring);
-  else fold_all(levels_[level - 1].data() + channel * ring);
+  if (level == 0)
+    fold_all(samples_.get() + channel * ring);
+  else
+    fold_all(levels_[level - 1].data() + channel * ring);
 }
 
 SampleSums ChannelStore::sums(std::size_t channel, std::uint64_t from, std::uint64_t to) const {

@@ -74,8 +74,8 @@ class ChannelStore {
   void assign(std::uint64_t first, std::span<const float> rows);
 
   bool empty() const { return first_ == end_; }
-  /// Of what is kept; no two stores ever have the same. While it stays, ticks that were there are what they were: only newer ones
-  /// come and the oldest go.
+  /// Of what is kept; no two stores ever have the same. While it stays, ticks that were there are what they were: only
+  /// newer ones come and the oldest go.
   std::uint64_t generation() const { return generation_; }
   std::uint64_t first_tick() const { return first_; }  ///< oldest kept
   std::uint64_t end_tick() const { return end_; }      ///< one past the newest
@@ -84,14 +84,14 @@ class ChannelStore {
   float value(std::size_t channel, std::uint64_t tick) const;
   /// Over from <= tick < to, cut to what is kept.
   MinMax min_max(std::size_t channel, std::uint64_t from, std::uint64_t to) const;
-  /// The same for out.size() ranges of `ticks` ticks each, one after the other from `from` on: many at once, best where `ticks`
-  /// and `from` are whole blocks, 8 to 15 of them.
+  /// The same for out.size() ranges of `ticks` ticks each, one after the other from `from` on: many at once, best where
+  /// `ticks` and `from` are whole blocks, 8 to 15 of them.
   void min_max_row(std::size_t channel, std::uint64_t from, std::uint64_t ticks, std::span<MinMax> out) const;
   SampleSums sums(std::size_t channel, std::uint64_t from, std::uint64_t to) const;
 
  private:
-  // Level 0 are the samples; above it a block is two of the level below, but for the smallest. With larger steps the columns whose
-  // ticks lie just short of the next level would read several times as many blocks as the others.
+  // Level 0 are the samples; above it a block is two of the level below, but for the smallest. With larger steps the
+  // columns whose ticks lie just short of the next level would read several times as many blocks as the others.
   static constexpr std::size_t kLevels = 16, kSmallestShift = 3;
   static constexpr std::size_t shift_of(std::size_t level) { return level == 0 ? 0 : kSmallestShift + level - 1; }
   static constexpr std::size_t kFirstSumLevel = 4;
@@ -103,16 +103,20 @@ class ChannelStore {
   std::size_t place(std::size_t level, std::size_t channel, std::uint64_t tick) const {
     return channel * (capacity_ >> shift_of(level)) + (slot(tick) >> shift_of(level));
   }
-  MinMax& block(std::size_t level, std::size_t channel, std::uint64_t tick) { return levels_[level - 1][place(level, channel, tick)]; }
-  SampleSums& sum_block(std::size_t level, std::size_t channel, std::uint64_t tick) { return sums_[level - kFirstSumLevel][place(level, channel, tick)]; }
+  MinMax& block(std::size_t level, std::size_t channel, std::uint64_t tick) {
+    return levels_[level - 1][place(level, channel, tick)];
+  }
+  SampleSums& sum_block(std::size_t level, std::size_t channel, std::uint64_t tick) {
+    return sums_[level - kFirstSumLevel][place(level, channel, tick)];
+  }
   template <class Visit>
   void visit_blocks(std::uint64_t from, std::uint64_t to, Visit visit) const;
 
   std::size_t channels_ = 0, capacity_ = 0;
   std::uint64_t first_ = 0, end_ = 0, generation_ = 0;
-  std::unique_ptr<float[]> samples_;             ///< [channel][slot]; memory is touched as it fills
-  std::vector<std::vector<MinMax>> levels_;      ///< [level - 1][channel][block]
-  std::vector<std::vector<SampleSums>> sums_;    ///< [level - kFirstSumLevel][channel][block]
+  std::unique_ptr<float[]> samples_;           ///< [channel][slot]; memory is touched as it fills
+  std::vector<std::vector<MinMax>> levels_;    ///< [level - 1][channel][block]
+  std::vector<std::vector<SampleSums>> sums_;  ///< [level - kFirstSumLevel][channel][block]
   std::vector<float> gap_;
 };
 

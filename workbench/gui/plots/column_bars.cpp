@@ -9,8 +9,8 @@ namespace {
 
 std::uint64_t to_tick(double t) { return t <= 0.0 ? 0 : static_cast<std::uint64_t>(t); }
 
-/// Ticks of a column where a pixel holds `per_pixel`: 8 to 15 times a power of two, so that rounding down costs at most a ninth
-/// of it.
+/// Ticks of a column where a pixel holds `per_pixel`: 8 to 15 times a power of two, so that rounding down costs at most
+/// a ninth of it.
 double whole_blocks(double per_pixel) {
   constexpr double least = 8.0;
   if (per_pixel < least) return per_pixel;
@@ -21,15 +21,20 @@ double whole_blocks(double per_pixel) {
 
 }  // namespace
 
-std::uint64_t PixelColumns::tick_of(std::int64_t column) const { return to_tick(std::ceil(static_cast<double>(column) * per_column)); }
+std::uint64_t PixelColumns::tick_of(std::int64_t column) const {
+  return to_tick(std::ceil(static_cast<double>(column) * per_column));
+}
 
 float PixelColumns::x_of(std::int64_t column) const {
   return static_cast<float>((static_cast<double>(column) * per_column - left_tick) / per_pixel);
 }
 
-void PixelColumns::min_max(const ChannelStore& store, std::size_t channel, std::int64_t column, std::span<MinMax> out) const {
-  if (per_column == std::floor(per_column)) return store.min_max_row(channel, tick_of(column), static_cast<std::uint64_t>(per_column), out);
-  for (std::size_t i = 0; i < out.size(); ++i, ++column) out[i] = store.min_max(channel, tick_of(column), tick_of(column + 1));
+void PixelColumns::min_max(const ChannelStore& store, std::size_t channel, std::int64_t column,
+                           std::span<MinMax> out) const {
+  if (per_column == std::floor(per_column))
+    return store.min_max_row(channel, tick_of(column), static_cast<std::uint64_t>(per_column), out);
+  for (std::size_t i = 0; i < out.size(); ++i, ++column)
+    out[i] = store.min_max(channel, tick_of(column), tick_of(column + 1));
 }
 
 PixelColumns pixel_columns(const ChannelStore& store, const TimeAxis& axis, float width_px) {

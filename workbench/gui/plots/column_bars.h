@@ -13,20 +13,20 @@ namespace tangent {
 inline constexpr double kTicksPerColumnForBars = 2.0;
 
 struct ColumnBar {
-  float x = 0.0f;     ///< left edge of the column, pixels from the plot's left
-  MinMax range;       ///< of the ticks in it
+  float x = 0.0f;  ///< left edge of the column, pixels from the plot's left
+  MinMax range;    ///< of the ticks in it
 };
 
-/// The columns that what is kept is drawn in. A column is a pixel wide or up to a ninth narrower: from eight ticks on it holds
-/// 8 to 15 times a power of two, and then takes a few reads of the store's pyramid that lie side by side. Columns are counted from tick 0, so
-/// that bars keep their shape while the axis scrolls.
+/// The columns that what is kept is drawn in. A column is a pixel wide or up to a ninth narrower: from eight ticks on
+/// it holds 8 to 15 times a power of two, and then takes a few reads of the store's pyramid that lie side by side.
+/// Columns are counted from tick 0, so that bars keep their shape while the axis scrolls.
 struct PixelColumns {
-  double per_column = 1.0;          ///< ticks
-  double per_pixel = 1.0;           ///< ticks; at least per_column
-  double left_tick = 0.0;           ///< at the plot's left
-  std::int64_t first = 0, end = 0;  ///< one past the last
-  std::uint64_t tick_of(std::int64_t column) const;   ///< its first; the next one's is one past its last
-  float x_of(std::int64_t column) const;              ///< pixels from the plot's left
+  double per_column = 1.0;                           ///< ticks
+  double per_pixel = 1.0;                            ///< ticks; at least per_column
+  double left_tick = 0.0;                            ///< at the plot's left
+  std::int64_t first = 0, end = 0;                   ///< one past the last
+  std::uint64_t tick_of(std::int64_t column) const;  ///< its first; the next one's is one past its last
+  float x_of(std::int64_t column) const;             ///< pixels from the plot's left
   /// Of out.size() columns from `column` on.
   void min_max(const ChannelStore& store, std::size_t channel, std::int64_t column, std::span<MinMax> out) const;
 };
@@ -37,7 +37,7 @@ void column_bars(const ChannelStore& store, std::size_t channel, const TimeAxis&
                  std::vector<ColumnBar>& out);
 
 struct SamplePoint {
-  float x = 0.0f;     ///< pixels from the plot's left
+  float x = 0.0f;  ///< pixels from the plot's left
   float value = 0.0f;
   bool after_gap = false;  ///< don't join it to the one before
 };

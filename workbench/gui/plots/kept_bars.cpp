@@ -4,7 +4,8 @@
 
 namespace tangent {
 
-const std::vector<ColumnBar>& KeptBars::update(const ChannelStore& store, std::size_t channel, const TimeAxis& axis, float width_px) {
+const std::vector<ColumnBar>& KeptBars::update(const ChannelStore& store, std::size_t channel, const TimeAxis& axis,
+                                               float width_px) {
   const PixelColumns columns = pixel_columns(store, axis, width_px);
   const Source source{store.generation(), channel, columns.per_column};
   // Kept is what is still in view, has all its ticks, and had them when it was read.
@@ -20,11 +21,14 @@ const std::vector<ColumnBar>& KeptBars::update(const ChannelStore& store, std::s
   computed_ = 0;
   const auto compute = [&](std::int64_t begin, std::int64_t end) {
     const auto count = static_cast<std::size_t>(end - begin);
-    columns.min_max(store, channel, begin, std::span(next_).subspan(static_cast<std::size_t>(begin - columns.first), count));
+    columns.min_max(store, channel, begin,
+                    std::span(next_).subspan(static_cast<std::size_t>(begin - columns.first), count));
     computed_ += count;
   };
   compute(columns.first, from);
-  if (from < to) std::copy(ranges_.begin() + (from - first_), ranges_.begin() + (to - first_), next_.begin() + (from - columns.first));
+  if (from < to)
+    std::copy(ranges_.begin() + (from - first_), ranges_.begin() + (to - first_),
+              next_.begin() + (from - columns.first));
   compute(to, columns.end);
   ranges_.swap(next_);
   source_ = source;

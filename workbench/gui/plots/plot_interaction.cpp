@@ -36,9 +36,12 @@ void PlotView::interact(const UiContext& ui, TimeAxis& axis, PlotLink& link, con
   if (ImGui::IsItemDeactivated() && !dragged_ && ImGui::IsMouseReleased(ImGuiMouseButton_Left) &&
       !ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left) && under >= 0.0) {
     const auto tick = static_cast<std::uint64_t>(under + 0.5);
-    if (io.KeyCtrl) link.a = tick;
-    else if (io.KeyShift) link.b = tick;
-    else link.clicked = tick;
+    if (io.KeyCtrl)
+      link.a = tick;
+    else if (io.KeyShift)
+      link.b = tick;
+    else
+      link.clicked = tick;
   }
   if (ImGui::IsItemHovered() && ImGui::IsMouseClicked(ImGuiMouseButton_Right)) {
     box_from_ = under;
@@ -54,7 +57,9 @@ void PlotView::interact_box(const UiContext& ui, TimeAxis& axis, const PlotArea&
   box_from_.reset();
   if (std::abs(under - from) / axis.span() <= 0.01) return;
   if (std::abs(y - box_y_) > ui.px(kHighBox)) {
-    const auto value = [&](float at) { return values_.value_at(static_cast<double>((area.max.y - at) / area.height()), spec_.log); };
+    const auto value = [&](float at) {
+      return values_.value_at(static_cast<double>((area.max.y - at) / area.height()), spec_.log);
+    };
     values_.show(value(std::max(y, box_y_)), value(std::min(y, box_y_)));
   }
   axis.show(std::min(under, from), std::max(under, from));
@@ -65,7 +70,8 @@ void PlotView::interact_values(const UiContext& ui, const PlotArea& area) {
   ImGui::InvisibleButton("values", {area.gutter - ui.px(2), area.height()});
   ui.items.note_last("plots/" + spec_.id + "/values");
   const ImGuiIO& io = ImGui::GetIO();
-  if (ImGui::IsItemActive() && io.MouseDelta.y != 0.0f) values_.pan(static_cast<double>(io.MouseDelta.y / area.height()), spec_.log);
+  if (ImGui::IsItemActive() && io.MouseDelta.y != 0.0f)
+    values_.pan(static_cast<double>(io.MouseDelta.y / area.height()), spec_.log);
   if (!ImGui::IsItemHovered()) return;
   ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeNS);
   if (io.MouseWheel != 0.0f) {
@@ -81,12 +87,14 @@ void PlotView::interact_time_labels(const UiContext& ui, TimeAxis& axis, const P
   ImGui::InvisibleButton("time", {area.width(), std::max(1.0f, area.pos.y + area.size.y - area.max.y - ui.px(2))});
   ui.items.note_last("plots/" + spec_.id + "/time");
   const ImGuiIO& io = ImGui::GetIO();
-  if (ImGui::IsItemActive() && io.MouseDelta.x != 0.0f) axis.pan(-static_cast<double>(io.MouseDelta.x / area.width()) * axis.span());
+  if (ImGui::IsItemActive() && io.MouseDelta.x != 0.0f)
+    axis.pan(-static_cast<double>(io.MouseDelta.x / area.width()) * axis.span());
   if (!ImGui::IsItemHovered()) return;
   ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
   if (io.MouseWheel != 0.0f) {
     axis.zoom(std::pow(0.8, static_cast<double>(io.MouseWheel)),
-              axis.tick_at(static_cast<double>(io.MousePos.x), static_cast<double>(area.min.x), static_cast<double>(area.width())));
+              axis.tick_at(static_cast<double>(io.MousePos.x), static_cast<double>(area.min.x),
+                           static_cast<double>(area.width())));
     ImGui::GetIO().MouseWheel = 0.0f;
   }
   if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) axis.show_all();

@@ -15,10 +15,12 @@ struct CursorLabel {
   float left = 0.0f, right = 0.0f;
   char text[48] = "";
 };
-CursorLabel cursor_label(const UiContext& ui, const TimeAxis& axis, const PlotLink& link, const PlotArea& area, double tick) {
+CursorLabel cursor_label(const UiContext& ui, const TimeAxis& axis, const PlotLink& link, const PlotArea& area,
+                         double tick) {
   CursorLabel label;
   std::snprintf(label.text, sizeof label.text, "%.3f s", tick * link.tick_period_s);
-  const float x = std::round(static_cast<float>(axis.x_at(tick, static_cast<double>(area.min.x), static_cast<double>(area.width()))));
+  const float x = std::round(
+      static_cast<float>(axis.x_at(tick, static_cast<double>(area.min.x), static_cast<double>(area.width()))));
   const float w = text_width(ui.fonts.small_number, label.text) + ui.px(8);
   label.left = std::clamp(x - 0.5f * w, area.min.x, std::max(area.min.x, area.max.x - w));
   label.right = label.left + w;
@@ -56,7 +58,9 @@ void PlotView::draw(const UiContext& ui, const ChannelStore& store, TimeAxis& ax
   if (nothing_in_view_) {
     const char* text = spec_.nothing.c_str();
     ImFont* font = ui.fonts.small;
-    text_at(draw, font, {area.min.x + 0.5f * (area.width() - text_width(font, text)), area.min.y + 0.5f * (area.height() - font->FontSize)},
+    text_at(draw, font,
+            {area.min.x + 0.5f * (area.width() - text_width(font, text)),
+             area.min.y + 0.5f * (area.height() - font->FontSize)},
             ui.colours.text_faint, text);
   }
   draw_series(ui, store, axis, link, area);
@@ -84,7 +88,10 @@ void PlotView::fit(const ChannelStore& store, const TimeAxis& axis, const PlotLi
   if (spec_.counts) visible.max += 0.25f;
   visible.min = static_cast<float>(static_cast<double>(visible.min) * spec_.scale);
   visible.max = static_cast<float>(static_cast<double>(visible.max) * spec_.scale);
-  if (spec_.log) values_.fit_log(visible, spec_.floor); else values_.fit_linear(visible, spec_.with_zero);
+  if (spec_.log)
+    values_.fit_log(visible, spec_.floor);
+  else
+    values_.fit_linear(visible, spec_.with_zero);
 }
 
 void PlotView::draw_grid(const UiContext& ui, const TimeAxis& axis, const PlotLink& link, const PlotArea& area,
@@ -94,10 +101,11 @@ void PlotView::draw_grid(const UiContext& ui, const TimeAxis& axis, const PlotLi
   ImFont* font = ui.fonts.small_number;
   const float half = 0.5f * font->FontSize;
   const int rows = std::max(1, static_cast<int>(area.height() / (2.2f * font->FontSize)));
-  const auto values = spec_.log ? log_ticks(values_.low(), values_.high(), rows)
-                                : linear_ticks(values_.low(), values_.high(), rows);
+  const auto values =
+      spec_.log ? log_ticks(values_.low(), values_.high(), rows) : linear_ticks(values_.low(), values_.high(), rows);
   for (AxisTick tick : values) {
-    if (spec_.counts && tick.major && tick.value == std::floor(tick.value)) tick.label.erase(std::min(tick.label.find('.'), tick.label.size()));
+    if (spec_.counts && tick.major && tick.value == std::floor(tick.value))
+      tick.label.erase(std::min(tick.label.find('.'), tick.label.size()));
     const double share = values_.share(tick.value, spec_.log);
     const float y = std::round(area.max.y - static_cast<float>(share) * area.height());
     if (y > area.min.y && y < area.max.y) {
@@ -136,8 +144,8 @@ void PlotView::draw_grid(const UiContext& ui, const TimeAxis& axis, const PlotLi
   }
 }
 
-void PlotView::draw_curve(const UiContext& ui, const ChannelStore& store, std::size_t channel, KeptBars& kept, const TimeAxis& axis,
-                          const PlotArea& area, ImU32 ink, bool steps) {
+void PlotView::draw_curve(const UiContext& ui, const ChannelStore& store, std::size_t channel, KeptBars& kept,
+                          const TimeAxis& axis, const PlotArea& area, ImU32 ink, bool steps) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const CurveArea where{area.min, area.max};
   const bool bars = axis.span() / static_cast<double>(area.width()) >= kTicksPerColumnForBars;
@@ -147,24 +155,32 @@ void PlotView::draw_curve(const UiContext& ui, const ChannelStore& store, std::s
     const bool dots = static_cast<double>(area.width()) / axis.span() > static_cast<double>(ui.px(7));
     draw_samples(draw, where, points_, line_, to_y, ink, ui.px(1.5f), steps, dots ? ui.px(2.2f) : 0.0f);
   };
-  const auto y_of = [&](double share) { return area.max.y - static_cast<float>(std::clamp(share, -1.0, 2.0)) * area.height(); };
-  if (spec_.log) return draw_with([&](float value) { return y_of(values_.share(static_cast<double>(value) * spec_.scale, true)); });
+  const auto y_of = [&](double share) {
+    return area.max.y - static_cast<float>(std::clamp(share, -1.0, 2.0)) * area.height();
+  };
+  if (spec_.log)
+    return draw_with([&](float value) { return y_of(values_.share(static_cast<double>(value) * spec_.scale, true)); });
   // A division for each of tens of thousands of bars would show in the time of a frame.
-  const double gain = spec_.scale / (values_.high() - values_.low()), offset = values_.low() / (values_.high() - values_.low());
+  const double gain = spec_.scale / (values_.high() - values_.low()),
+               offset = values_.low() / (values_.high() - values_.low());
   draw_with([&](float value) { return y_of(static_cast<double>(value) * gain - offset); });
 }
 
-void PlotView::draw_series(const UiContext& ui, const ChannelStore& store, const TimeAxis& axis, const PlotLink& link, const PlotArea& area) {
+void PlotView::draw_series(const UiContext& ui, const ChannelStore& store, const TimeAxis& axis, const PlotLink& link,
+                           const PlotArea& area) {
   curves_.resize(spec_.series.size());
   // Ghosts first: where nothing changed they are hidden by what was recorded.
   for (std::size_t i = 0; i < curves_.size(); ++i) {
     const PlotSeries& series = spec_.series[i];
     if (!series.visible || link.ghost == nullptr || !series.ghost) continue;
-    draw_curve(ui, *link.ghost, *series.ghost, curves_[i].ghost, axis, area, packed(mix(ui.palette.*series.colour, ui.palette.text, 0.65f)), series.steps);
+    draw_curve(ui, *link.ghost, *series.ghost, curves_[i].ghost, axis, area,
+               packed(mix(ui.palette.*series.colour, ui.palette.text, 0.65f)), series.steps);
   }
   for (std::size_t i = 0; i < curves_.size(); ++i) {
     const PlotSeries& series = spec_.series[i];
-    if (series.visible) draw_curve(ui, store, series.channel, curves_[i].recorded, axis, area, packed(ui.palette.*series.colour), series.steps);
+    if (series.visible)
+      draw_curve(ui, store, series.channel, curves_[i].recorded, axis, area, packed(ui.palette.*series.colour),
+                 series.steps);
   }
 }
 
@@ -178,7 +194,8 @@ void PlotView::draw_cursors(const UiContext& ui, const TimeAxis& axis, const Plo
     draw.AddLine({x, area.min.y}, {x, area.max.y}, ink, ui.px(1));
     if (!label || !time_labels) return;
     const CursorLabel card = cursor_label(ui, axis, link, area, tick);
-    draw.AddRectFilled({card.left, area.max.y + ui.px(1)}, {card.right, area.max.y + ui.px(17)}, ui.colours.panel_header, ui.px(2));
+    draw.AddRectFilled({card.left, area.max.y + ui.px(1)}, {card.right, area.max.y + ui.px(17)},
+                       ui.colours.panel_header, ui.px(2));
     text_at(draw, ui.fonts.small_number, {card.left + ui.px(4), area.max.y + ui.px(2)}, ui.colours.text, card.text);
   };
   if (box_from_) {
@@ -186,8 +203,8 @@ void PlotView::draw_cursors(const UiContext& ui, const TimeAxis& axis, const Plo
     const float x1 = std::clamp(ImGui::GetIO().MousePos.x, area.min.x, area.max.x);
     const float y = std::clamp(ImGui::GetIO().MousePos.y, area.min.y, area.max.y);
     const bool high = std::abs(y - box_y_) > ui.px(kHighBox);
-    draw.AddRectFilled({std::min(x0, x1), high ? std::min(y, box_y_) : area.min.y}, {std::max(x0, x1), high ? std::max(y, box_y_) : area.max.y},
-                       ui.colours.accent_soft);
+    draw.AddRectFilled({std::min(x0, x1), high ? std::min(y, box_y_) : area.min.y},
+                       {std::max(x0, x1), high ? std::max(y, box_y_) : area.max.y}, ui.colours.accent_soft);
   }
   const auto lettered = [&](const std::optional<std::uint64_t>& tick, const char* letter) {
     if (!tick || !in_view(axis, static_cast<double>(*tick))) return;
@@ -214,9 +231,12 @@ void PlotView::draw_header(const UiContext& ui, const ChannelStore& store, const
   x += text_width(ui.fonts.small, spec_.unit.c_str()) + ui.px(10);
 
   std::optional<std::uint64_t> tick;
-  if (link.hover && *link.hover >= 0.0) tick = static_cast<std::uint64_t>(*link.hover + 0.5);
-  else if (link.cursor) tick = link.cursor;
-  else if (!store.empty()) tick = store.end_tick() - 1;
+  if (link.hover && *link.hover >= 0.0)
+    tick = static_cast<std::uint64_t>(*link.hover + 0.5);
+  else if (link.cursor)
+    tick = link.cursor;
+  else if (!store.empty())
+    tick = store.end_tick() - 1;
 
   const float digit = text_width(ui.fonts.small_number, "0");
   for (PlotSeries& series : spec_.series) {
@@ -236,15 +256,20 @@ void PlotView::draw_header(const UiContext& ui, const ChannelStore& store, const
     ImGui::PushID(series.name.c_str());
     if (ImGui::InvisibleButton("toggle", {width, area.header})) series.visible = !series.visible;
     ui.items.note_last("plots/" + spec_.id + "/" + series.name);
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s %s (click to hide or show)", spec_.title.c_str(), series.name.c_str());
+    if (ImGui::IsItemHovered())
+      ImGui::SetTooltip("%s %s (click to hide or show)", spec_.title.c_str(), series.name.c_str());
     ImGui::PopID();
     const ImU32 ink = packed(ui.palette.*series.colour);
     const float middle = y + 0.5f * ui.fonts.small->FontSize;
     const ImVec2 box_min{x, middle - 0.5f * box + ui.px(1)}, box_max{x + box, middle + 0.5f * box + ui.px(1)};
-    if (series.visible) draw.AddRectFilled(box_min, box_max, ink, ui.px(2));
-    else draw.AddRect(box_min, box_max, ink, ui.px(2));
+    if (series.visible)
+      draw.AddRectFilled(box_min, box_max, ink, ui.px(2));
+    else
+      draw.AddRect(box_min, box_max, ink, ui.px(2));
     float at = x + box + ui.px(4);
-    if (!only_one) text_at(draw, ui.fonts.small, {at, y}, series.visible ? ui.colours.text : ui.colours.text_faint, series.name.c_str());
+    if (!only_one)
+      text_at(draw, ui.fonts.small, {at, y}, series.visible ? ui.colours.text : ui.colours.text_faint,
+              series.name.c_str());
     at += name_width + ui.px(3);
     if (with_value && text[0] != '\0') text_at(draw, ui.fonts.small_number, {at, y}, ui.colours.text, text);
     x += width + ui.px(6);

@@ -1,8 +1,8 @@
 // One plot of some channels against the shared time axis. Wheel zooms time about the pointer, dragging pans,
 // right-dragging boxes a range of time, of values too when the box is high, double-click shows all. Over the value
 // labels the wheel zooms the values alone, dragging moves them and a double-click fits them again; over the time labels
-// wheel and drag do the same to time. A click reports the tick under the pointer; with Ctrl it sets cursor A, with Shift
-// cursor B.
+// wheel and drag do the same to time. A click reports the tick under the pointer; with Ctrl it sets cursor A, with
+// Shift cursor B.
 #pragma once
 
 #include "workbench/gui/plots/channel_store.h"
@@ -27,21 +27,21 @@ struct PlotSeries {
   std::string name;
   std::size_t channel = 0;
   Rgba Palette::*colour = nullptr;
-  bool steps = false;     ///< holds its value until the next tick (counts)
+  bool steps = false;  ///< holds its value until the next tick (counts)
   bool visible = true;
   std::optional<std::size_t> ghost = std::nullopt;  ///< channel of PlotLink::ghost drawn beside it
 };
 
 struct PlotSpec {
-  std::string id;         ///< item map: "plots/<id>"
+  std::string id;  ///< item map: "plots/<id>"
   std::string title;
   std::string unit;
-  double scale = 1.0;     ///< displayed = channel value * scale
+  double scale = 1.0;  ///< displayed = channel value * scale
   bool log = false;
-  bool counts = false;    ///< only whole numbers are labelled
+  bool counts = false;  ///< only whole numbers are labelled
   bool with_zero = true;
-  double floor = 1e-6;    ///< of a log axis, displayed unit
-  const char* format = "%8.3f";  ///< of the value under the cursor
+  double floor = 1e-6;                         ///< of a log axis, displayed unit
+  const char* format = "%8.3f";                ///< of the value under the cursor
   std::string nothing = "no samples in view";  ///< said where there are none
   std::vector<PlotSeries> series;
 };
@@ -49,12 +49,12 @@ struct PlotSpec {
 /// What the plots share besides their time axis.
 struct PlotLink {
   double tick_period_s = 1e-3;
-  std::optional<std::uint64_t> cursor;      ///< the tick in view when time stands still
-  std::optional<double> hover;              ///< under the pointer, from the last frame
-  std::optional<double> hover_next;         ///< found while drawing this frame
-  std::optional<std::uint64_t> clicked;     ///< the user clicked this tick
-  std::optional<std::uint64_t> a, b;        ///< measuring cursors
-  const ChannelStore* ghost = nullptr;      ///< the same ticks solved again
+  std::optional<std::uint64_t> cursor;   ///< the tick in view when time stands still
+  std::optional<double> hover;           ///< under the pointer, from the last frame
+  std::optional<double> hover_next;      ///< found while drawing this frame
+  std::optional<std::uint64_t> clicked;  ///< the user clicked this tick
+  std::optional<std::uint64_t> a, b;     ///< measuring cursors
+  const ChannelStore* ghost = nullptr;   ///< the same ticks solved again
   PlotMarks marks;
 };
 
@@ -74,11 +74,14 @@ class PlotView {
  private:
   void draw_header(const UiContext& ui, const ChannelStore& store, const PlotLink& link, const PlotArea& area);
   void fit(const ChannelStore& store, const TimeAxis& axis, const PlotLink& link, double reference);
-  void draw_grid(const UiContext& ui, const TimeAxis& axis, const PlotLink& link, const PlotArea& area, bool time_labels);
-  void draw_series(const UiContext& ui, const ChannelStore& store, const TimeAxis& axis, const PlotLink& link, const PlotArea& area);
-  void draw_curve(const UiContext& ui, const ChannelStore& store, std::size_t channel, KeptBars& kept, const TimeAxis& axis,
-                  const PlotArea& area, ImU32 ink, bool steps);
-  void draw_cursors(const UiContext& ui, const TimeAxis& axis, const PlotLink& link, const PlotArea& area, bool time_labels);
+  void draw_grid(const UiContext& ui, const TimeAxis& axis, const PlotLink& link, const PlotArea& area,
+                 bool time_labels);
+  void draw_series(const UiContext& ui, const ChannelStore& store, const TimeAxis& axis, const PlotLink& link,
+                   const PlotArea& area);
+  void draw_curve(const UiContext& ui, const ChannelStore& store, std::size_t channel, KeptBars& kept,
+                  const TimeAxis& axis, const PlotArea& area, ImU32 ink, bool steps);
+  void draw_cursors(const UiContext& ui, const TimeAxis& axis, const PlotLink& link, const PlotArea& area,
+                    bool time_labels);
   void interact(const UiContext& ui, TimeAxis& axis, PlotLink& link, const PlotArea& area);
   void interact_box(const UiContext& ui, TimeAxis& axis, const PlotArea& area, double under);
   void interact_values(const UiContext& ui, const PlotArea& area);
@@ -93,7 +96,7 @@ class PlotView {
   struct CurveBars {
     KeptBars recorded, ghost;
   };
-  std::vector<CurveBars> curves_;   ///< by series
+  std::vector<CurveBars> curves_;  ///< by series
   KeptBars events_;
   std::vector<SamplePoint> points_;
   std::vector<ImVec2> line_;

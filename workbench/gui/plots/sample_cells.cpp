@@ -8,7 +8,8 @@ namespace {
 
 std::size_t cell_of(float value, const MinMax& range, std::size_t count) {
   if (!(range.max > range.min)) return 0;
-  const double share = (static_cast<double>(value) - static_cast<double>(range.min)) / (static_cast<double>(range.max) - static_cast<double>(range.min));
+  const double share = (static_cast<double>(value) - static_cast<double>(range.min)) /
+                       (static_cast<double>(range.max) - static_cast<double>(range.min));
   return std::min(count - 1, static_cast<std::size_t>(std::max(0.0, share) * static_cast<double>(count)));
 }
 

@@ -11,9 +11,9 @@
 namespace tangent {
 
 struct CellQuery {
-  std::size_t x = 0;                       ///< channel
-  std::optional<std::size_t> y;            ///< none: a histogram
-  std::uint64_t from = 0, to = 0;          ///< ticks
+  std::size_t x = 0;               ///< channel
+  std::optional<std::size_t> y;    ///< none: a histogram
+  std::uint64_t from = 0, to = 0;  ///< ticks
   std::size_t columns = 64, rows = 1;
   bool operator==(const CellQuery&) const = default;
 };
@@ -27,7 +27,7 @@ class SampleCells {
   void update(const ChannelStore& store, const CellQuery& query);
 
   /// Of the last query that is done; empty: none yet.
-  const std::vector<std::uint32_t>& counts() const { return done_.counts; }   ///< row by row
+  const std::vector<std::uint32_t>& counts() const { return done_.counts; }  ///< row by row
   const CellQuery& query() const { return done_.query; }
   MinMax x_range() const { return done_.x; }
   MinMax y_range() const { return done_.y; }

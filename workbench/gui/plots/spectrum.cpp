@@ -15,7 +15,8 @@ namespace {
 constexpr std::size_t kLongest = 4096, kShortest = 64, kMostSegments = 32;
 
 /// One segment without its mean, windowed. False when there is a gap in it.
-bool take_segment(const ChannelStore& store, std::size_t channel, std::uint64_t begin, const std::vector<float>& window, std::vector<float>& out) {
+bool take_segment(const ChannelStore& store, std::size_t channel, std::uint64_t begin, const std::vector<float>& window,
+                  std::vector<float>& out) {
   double sum = 0.0;
   for (std::size_t i = 0; i < window.size(); ++i) {
     out[i] = store.value(channel, begin + i);
@@ -37,7 +38,8 @@ std::size_t Spectrum::peak_above(double hz) const {
   return best;
 }
 
-Spectrum amplitude_spectrum(const ChannelStore& store, std::size_t channel, std::uint64_t from, std::uint64_t to, double rate_hz) {
+Spectrum amplitude_spectrum(const ChannelStore& store, std::size_t channel, std::uint64_t from, std::uint64_t to,
+                            double rate_hz) {
   Spectrum out;
   from = std::max(from, store.first_tick());
   to = std::min(to, store.end_tick());
@@ -50,8 +52,8 @@ Spectrum amplitude_spectrum(const ChannelStore& store, std::size_t channel, std:
     window[i] = static_cast<float>(w);
     window_sum += w;
   }
-  const std::unique_ptr<kiss_fftr_state, void (*)(kiss_fftr_cfg)> fft(kiss_fftr_alloc(static_cast<int>(n), 0, nullptr, nullptr),
-                                                                     [](kiss_fftr_cfg plan) { kiss_fftr_free(plan); });
+  const std::unique_ptr<kiss_fftr_state, void (*)(kiss_fftr_cfg)> fft(
+      kiss_fftr_alloc(static_cast<int>(n), 0, nullptr, nullptr), [](kiss_fftr_cfg plan) { kiss_fftr_free(plan); });
   std::vector<kiss_fft_cpx> bins(n / 2 + 1);
   std::vector<double> power(n / 2 + 1);
   const std::uint64_t room = to - from - n;

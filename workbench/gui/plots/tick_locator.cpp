@@ -9,9 +9,7 @@ namespace tangent {
 namespace {
 
 /// Steps are powers of ten times 1, 2 or 5: the decimals that show a multiple of one without rounding.
-int decimals_of(double step) {
-  return std::max(0, static_cast<int>(std::ceil(-std::log10(step) - 1e-9)));
-}
+int decimals_of(double step) { return std::max(0, static_cast<int>(std::ceil(-std::log10(step) - 1e-9))); }
 
 std::string decimal_label(double value, double step) {
   char text[64];

@@ -8,8 +8,8 @@ namespace tangent {
 
 struct AxisTick {
   double value = 0.0;
-  bool major = true;    ///< labelled, stronger grid line
-  std::string label;    ///< empty for minor ticks
+  bool major = true;  ///< labelled, stronger grid line
+  std::string label;  ///< empty for minor ticks
 };
 
 /// Step 1, 2 or 5 times a power of ten, the smallest that gives at most `most` steps over the range.

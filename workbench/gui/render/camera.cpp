@@ -60,7 +60,8 @@ void Camera::zoom_at(double factor, const Vec2& pixel, int width_px, int height_
   const double before = metres_per_pixel(target, height_px);
   zoom(factor);
   const double moved = before - metres_per_pixel(target, height_px);
-  const Vec2 from_middle = pixel - 0.5 * Vec2(width_px, height_px) - static_cast<double>(height_px) * Vec2(shift.x, -shift.y);
+  const Vec2 from_middle =
+      pixel - 0.5 * Vec2(width_px, height_px) - static_cast<double>(height_px) * Vec2(shift.x, -shift.y);
   target += moved * (from_middle.x * right() - from_middle.y * up());
 }
 
@@ -75,7 +76,8 @@ void Camera::frame(const Box& world_box, double margin, const ViewRoom& room) {
   double needed = 0.0;
   for (int corner = 0; corner < 8; ++corner) {
     const Vec3 p = half * Vec3(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
-    const double across = std::max(std::abs(glm::dot(p, right())) / room.width, std::abs(glm::dot(p, up())) / room.height);
+    const double across =
+        std::max(std::abs(glm::dot(p, right())) / room.width, std::abs(glm::dot(p, up())) / room.height);
     needed = std::max(needed, widen * across - glm::dot(p, forward()));
   }
   distance_m = std::max(needed, 0.1 * scene_radius_m);
@@ -92,9 +94,9 @@ void Camera::frame(const Box& world_box, double margin, std::span<const ViewRoom
   *this = best;
 }
 
-// A point at (x, y) across and z further than the target is within a slope a of the middle where |x - tx| <= a (z + d): of all
-// points, tx >= max(x - a z) - a d and tx <= min(x + a z) + a d. The least d at the opening's slope gives the distance; at that
-// distance the least slope that all points are within gives the middle.
+// A point at (x, y) across and z further than the target is within a slope a of the middle where |x - tx| <= a (z + d):
+// of all points, tx >= max(x - a z) - a d and tx <= min(x + a z) + a d. The least d at the opening's slope gives the
+// distance; at that distance the least slope that all points are within gives the middle.
 void Camera::fit(std::span<const Vec3> world_points, double margin, double aspect) {
   Box box;
   for (const Vec3& p : world_points) box.include(p);
@@ -149,7 +151,7 @@ double Camera::far_m() const { return glm::length(eye() - scene_centre) + 3.0 * 
 glm::dmat4 Camera::projection(int width_px, int height_px) const {
   const double aspect = static_cast<double>(std::max(width_px, 1)) / std::max(height_px, 1);
   glm::dmat4 through = glm::perspective(fov_rad, aspect, near_m(), far_m());
-  through[2][0] = -2.0 * shift.x / aspect;   // the column is divided by -z
+  through[2][0] = -2.0 * shift.x / aspect;  // the column is divided by -z
   through[2][1] = -2.0 * shift.y;
   return through;
 }

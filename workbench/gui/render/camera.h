@@ -11,26 +11,26 @@
 namespace tangent {
 
 struct Ray {
-  Vec3 origin{0.0};               ///< world, m
+  Vec3 origin{0.0};                ///< world, m
   Vec3 direction{0.0, 0.0, -1.0};  ///< unit
 };
 
 /// The part of a view that an object is to be seen in, in heights of the view.
 struct ViewRoom {
   double width = 1.3, height = 1.0;
-  Vec2 shift{0.0};             ///< its middle from the view's: right and up positive
+  Vec2 shift{0.0};  ///< its middle from the view's: right and up positive
 };
 
 struct Camera {
-  Vec3 target{0.0};            ///< looked at and orbited about, world, m
-  double distance_m = 0.3;     ///< eye to target
-  double yaw_rad = -0.6;       ///< about the up axis; 0: eye on the -y side of the target (+z with y_up)
-  double pitch_rad = 0.45;     ///< eye above the horizon; within +-89 deg
-  double fov_rad = 0.6;        ///< vertical opening
+  Vec3 target{0.0};             ///< looked at and orbited about, world, m
+  double distance_m = 0.3;      ///< eye to target
+  double yaw_rad = -0.6;        ///< about the up axis; 0: eye on the -y side of the target (+z with y_up)
+  double pitch_rad = 0.45;      ///< eye above the horizon; within +-89 deg
+  double fov_rad = 0.6;         ///< vertical opening
   double scene_radius_m = 0.1;  ///< from frame(): sets zoom limits and the depth range
-  Vec3 scene_centre{0.0};      ///< from frame()
-  bool y_up = false;           ///< +y is up on screen (many scanned meshes); else +z
-  Vec2 shift{0.0};             ///< where the target appears, from the view's middle, in its heights: a lens moved sideways
+  Vec3 scene_centre{0.0};       ///< from frame()
+  bool y_up = false;            ///< +y is up on screen (many scanned meshes); else +z
+  Vec2 shift{0.0};  ///< where the target appears, from the view's middle, in its heights: a lens moved sideways
 
   bool operator==(const Camera&) const = default;
 
@@ -48,13 +48,13 @@ struct Camera {
   void zoom(double factor);
   /// The same, keeping what lies under the pixel at the target's depth where it is.
   void zoom_at(double factor, const Vec2& pixel, int width_px, int height_px);
-  /// Looks at the whole box, keeping the direction: its corners fit that part of the view, with `margin` to spare (1: one
-  /// touches). No effect for an empty box.
+  /// Looks at the whole box, keeping the direction: its corners fit that part of the view, with `margin` to spare (1:
+  /// one touches). No effect for an empty box.
   void frame(const Box& world_box, double margin = 1.1, const ViewRoom& room = {});
   /// The same in the room that shows it largest, the first of equals. Precondition: there is one.
   void frame(const Box& world_box, double margin, std::span<const ViewRoom> rooms);
-  /// The same as near as these points allow, and with as much room on one side of them as on the other; what the camera turns
-  /// about is then not their centre. Nothing changes without points.
+  /// The same as near as these points allow, and with as much room on one side of them as on the other; what the camera
+  /// turns about is then not their centre. Nothing changes without points.
   void fit(std::span<const Vec3> world_points, double margin, double aspect);
 
   /// World relative to `origin` -> eye space (eye looks along -z). Subtracting the origin in double before

@@ -9,7 +9,7 @@
 namespace tangent {
 namespace {
 
-constexpr float kRollerRadius = 5e-3f;   // m
+constexpr float kRollerRadius = 5e-3f;  // m
 constexpr float kHalfView = 19e-3f;     // m, of the rail shown
 constexpr float kFingerHeight = 0.62f;  // of life size: the inset is about the roller
 constexpr float kEmPerMetre = 235.0f;

@@ -72,7 +72,8 @@ SurfaceMesh clustered_mesh(const ContactMesh& mesh, double scale_m, std::size_t 
     const Vec3 point = c.weight > 0.0 ? c.point / c.weight : Vec3(0.0);
     const Vec3 normal = glm::dot(c.normal, c.normal) > 0.0 ? unit(c.normal) : Vec3(0.0, 0.0, 1.0);
     out.vertices.push_back({{static_cast<float>(point.x), static_cast<float>(point.y), static_cast<float>(point.z)},
-                            packed_normal(normal), {0, 0, 0, 0}});
+                            packed_normal(normal),
+                            {0, 0, 0, 0}});
   }
   for_each_kept(mesh, cluster, [&](std::uint32_t source, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
     out.indices.insert(out.indices.end(), {a, b, c});

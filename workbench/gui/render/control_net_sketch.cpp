@@ -12,10 +12,24 @@ namespace {
 struct NetLine {
   ControlPoint a, b;
 };
-constexpr std::array<NetLine, 9> kBorder{{{b300, b210}, {b210, b120}, {b120, b030}, {b030, b021}, {b021, b012},
-                                          {b012, b003}, {b003, b102}, {b102, b201}, {b201, b300}}};
-constexpr std::array<NetLine, 9> kInner{{{b210, b201}, {b120, b021}, {b012, b102}, {b210, b111}, {b201, b111},
-                                         {b120, b111}, {b021, b111}, {b012, b111}, {b102, b111}}};
+constexpr std::array<NetLine, 9> kBorder{{{b300, b210},
+                                          {b210, b120},
+                                          {b120, b030},
+                                          {b030, b021},
+                                          {b021, b012},
+                                          {b012, b003},
+                                          {b003, b102},
+                                          {b102, b201},
+                                          {b201, b300}}};
+constexpr std::array<NetLine, 9> kInner{{{b210, b201},
+                                         {b120, b021},
+                                         {b012, b102},
+                                         {b210, b111},
+                                         {b201, b111},
+                                         {b120, b111},
+                                         {b021, b111},
+                                         {b012, b111},
+                                         {b102, b111}}};
 constexpr std::array<const char*, 10> kPointNames{"b300", "b030", "b003", "b210", "b120",
                                                   "b021", "b012", "b102", "b201", "b111"};
 struct NormalPlace {
@@ -53,22 +67,28 @@ void draw_patch(Sketch& sketch, const PnPatch& patch, const Vec3& origin, Rgba c
 }
 
 /// Lines and points shrink with the patch on screen, so that a small one is not buried under its net.
-void draw_net(Sketch& sketch, const SketchContext& c, const PnPatch& patch, const Vec3& origin, Rgba colour, double strength) {
-  const double size_px = patch_size(patch) / c.camera.metres_per_pixel(origin + patch.origin, c.height_px) / c.frame.pixel_scale;
+void draw_net(Sketch& sketch, const SketchContext& c, const PnPatch& patch, const Vec3& origin, Rgba colour,
+              double strength) {
+  const double size_px =
+      patch_size(patch) / c.camera.metres_per_pixel(origin + patch.origin, c.height_px) / c.frame.pixel_scale;
   const double shrink = std::clamp(size_px / 110.0, 0.35, 1.0);
   const auto line = [&](const NetLine& l, float alpha, double width) {
-    sketch.line(origin + patch.control_point(l.a), origin + patch.control_point(l.b), with_alpha(colour, alpha), shrink * width);
+    sketch.line(origin + patch.control_point(l.a), origin + patch.control_point(l.b), with_alpha(colour, alpha),
+                shrink * width);
   };
   const float a = static_cast<float>(strength);
   // A dark casing under the border: pale lines stay legible on lit facets.
   for (const NetLine& l : kBorder) {
-    sketch.line(origin + patch.control_point(l.a), origin + patch.control_point(l.b), {0.07f, 0.08f, 0.09f, 0.55f * a}, shrink * 4.0);
+    sketch.line(origin + patch.control_point(l.a), origin + patch.control_point(l.b), {0.07f, 0.08f, 0.09f, 0.55f * a},
+                shrink * 4.0);
   }
   for (const NetLine& l : kInner) line(l, 0.7f * a, 1.4);
   for (const NetLine& l : kBorder) line(l, a, 2.0);
   for (std::size_t i = 0; i < patch.offsets.size(); ++i) {
     sketch.point(origin + patch.control_point(static_cast<ControlPoint>(i)), with_alpha(colour, a),
-                 shrink * (strength < 1.0 ? 4.5 : i < 3 ? 9.0 : 7.0));
+                 shrink * (strength < 1.0 ? 4.5
+                           : i < 3        ? 9.0
+                                          : 7.0));
   }
 }
 

@@ -83,7 +83,8 @@ void MeshLayer::take_arrays(const SceneFrame& frame) {
     facets_.begin_upload(std::move(coarse->facets));
     stand_in_has_sources_ = !coarse->stand_in.sources.empty();
     if (stand_in_has_sources_) {
-      stand_in_sources_.upload(coarse->stand_in.sources.data(), coarse->stand_in.sources.size() * sizeof(std::uint32_t), GL_R32UI);
+      stand_in_sources_.upload(coarse->stand_in.sources.data(), coarse->stand_in.sources.size() * sizeof(std::uint32_t),
+                               GL_R32UI);
     }
     stand_in_.begin_upload(std::move(coarse->stand_in));
     features_ = std::move(coarse->edges);
@@ -182,16 +183,25 @@ void MeshLayer::draw(const ScenePrograms& programs, const SceneFrame& frame, con
   glDisable(GL_CLIP_DISTANCE0);
 }
 
-void MeshLayer::draw_pass(const ScenePrograms& programs, const SceneFrame& frame, const ViewMatrices& view, PassKind kind,
-                          std::size_t first, std::size_t count) const {
+void MeshLayer::draw_pass(const ScenePrograms& programs, const SceneFrame& frame, const ViewMatrices& view,
+                          PassKind kind, std::size_t first, std::size_t count) const {
   const bool facets = kind == PassKind::facets;
-  if (facets) use_facet_program(programs, frame, view); else use_surface_program(programs, frame, view);
+  if (facets)
+    use_facet_program(programs, frame, view);
+  else
+    use_surface_program(programs, frame, view);
   (facets ? programs.facets : programs.surface).set("first_triangle", static_cast<int>(first));
   const bool blended = facets ? !frame.toggles.shaded : kind == PassKind::surface && frame.toggles.shaded;
-  if (blended) glEnable(GL_BLEND); else glDisable(GL_BLEND);
+  if (blended)
+    glEnable(GL_BLEND);
+  else
+    glDisable(GL_BLEND);
   const GLboolean colour = kind != PassKind::surface_depth;
   glColorMask(colour, colour, colour, colour);
-  if (facets) facets_.draw(first, count); else (smooth_.ready() ? smooth_ : stand_in_).draw(first, count);
+  if (facets)
+    facets_.draw(first, count);
+  else
+    (smooth_.ready() ? smooth_ : stand_in_).draw(first, count);
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   glDisable(GL_BLEND);
 }
@@ -205,13 +215,16 @@ glm::vec4 MeshLayer::slice_of(const SceneFrame& frame) const {
 void MeshLayer::apply_paint(const ShaderProgram& program, const SceneFrame& frame) const {
   const Palette& colours = palette(frame.theme);
   program.set("slice", slice_of(frame));
-  paint_.apply(program, frame.map.has_value(), mix(colours.mesh, colours.background_bottom, 0.45f), mix(colours.mesh, colours.text, 0.1f));
+  paint_.apply(program, frame.map.has_value(), mix(colours.mesh, colours.background_bottom, 0.45f),
+               mix(colours.mesh, colours.text, 0.1f));
 }
 
-void MeshLayer::use_facet_program(const ScenePrograms& programs, const SceneFrame& frame, const ViewMatrices& view) const {
+void MeshLayer::use_facet_program(const ScenePrograms& programs, const SceneFrame& frame,
+                                  const ViewMatrices& view) const {
   const Palette& colours = palette(frame.theme);
   const bool fill = frame.toggles.shaded;
-  const Rgba wire = fill ? with_alpha(colours.mesh_wire, frame.map ? 0.35f : 0.72f) : with_alpha(colours.text_dim, 0.9f);
+  const Rgba wire =
+      fill ? with_alpha(colours.mesh_wire, frame.map ? 0.35f : 0.72f) : with_alpha(colours.text_dim, 0.9f);
   programs.facets.use();
   view.apply(programs.facets);
   programs.facets.set("albedo", rgb(colours.mesh));
@@ -229,7 +242,8 @@ bool MeshLayer::too_dense_to_move(const SceneToggles& on) const {
   return facets + patches > kMovingTriangles && stand_in_.ready();
 }
 
-void MeshLayer::use_surface_program(const ScenePrograms& programs, const SceneFrame& frame, const ViewMatrices& view) const {
+void MeshLayer::use_surface_program(const ScenePrograms& programs, const SceneFrame& frame,
+                                    const ViewMatrices& view) const {
   const Palette& colours = palette(frame.theme);
   const bool alone = !frame.toggles.shaded;
   programs.surface.use();

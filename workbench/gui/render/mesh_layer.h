@@ -16,7 +16,7 @@ namespace tangent {
 
 /// How far the drawing of one picture has come. A dense mesh is drawn over several frames, so that none takes long.
 struct DrawProgress {
-  std::size_t next = 0;   ///< triangle of all passes to go on with
+  std::size_t next = 0;  ///< triangle of all passes to go on with
   bool done = false;
 };
 
@@ -27,8 +27,8 @@ class MeshLayer {
   /// Uploads what the worker has finished, a slice a call.
   void take_arrays(const SceneFrame& frame);
 
-  /// Draws into the bound framebuffer, from where `progress` is on, about `budget` triangles. `moving`: a coarse stand-in
-  /// for facets and surface if they are dense, at once.
+  /// Draws into the bound framebuffer, from where `progress` is on, about `budget` triangles. `moving`: a coarse
+  /// stand-in for facets and surface if they are dense, at once.
   void draw(const ScenePrograms& programs, const SceneFrame& frame, const Camera& camera, int width_px, int height_px,
             bool moving, std::size_t budget, DrawProgress& progress);
   /// Triangles of a whole picture.
@@ -52,8 +52,8 @@ class MeshLayer {
   std::vector<Pass> passes(const SceneToggles& on) const;
   void refresh_strokes(const SceneFrame& frame);
   void clear_background(const ScenePrograms& programs, const Palette& colours) const;
-  void draw_pass(const ScenePrograms& programs, const SceneFrame& frame, const ViewMatrices& view, PassKind kind, std::size_t first,
-                 std::size_t count) const;
+  void draw_pass(const ScenePrograms& programs, const SceneFrame& frame, const ViewMatrices& view, PassKind kind,
+                 std::size_t first, std::size_t count) const;
   void use_facet_program(const ScenePrograms& programs, const SceneFrame& frame, const ViewMatrices& view) const;
   void use_surface_program(const ScenePrograms& programs, const SceneFrame& frame, const ViewMatrices& view) const;
   void draw_stand_in(const ScenePrograms& programs, const SceneFrame& frame, const ViewMatrices& view) const;

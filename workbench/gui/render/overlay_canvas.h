@@ -15,13 +15,15 @@ struct OverlayCanvas {
   ImDrawList& list;
   ImVec2 top_left, size;  ///< of the picture
   const Palette& colours;
-  ImFont* text_font;      ///< each at the size it was made for: scaled, its letters blur
+  ImFont* text_font;  ///< each at the size it was made for: scaled, its letters blur
   ImFont* number_font;
-  float em;               ///< what lengths are measured in: the height of the window's text
+  float em;  ///< what lengths are measured in: the height of the window's text
 
   ImU32 ink(Rgba c, float alpha = 1.0f) const { return packed(with_alpha(c, alpha * c.a)); }
 
-  static ImVec2 text_size(const ImFont* font, const std::string& text) { return font->CalcTextSizeA(font->FontSize, 1e6f, 0.0f, text.c_str()); }
+  static ImVec2 text_size(const ImFont* font, const std::string& text) {
+    return font->CalcTextSizeA(font->FontSize, 1e6f, 0.0f, text.c_str());
+  }
   void text(const ImFont* font, ImVec2 at, Rgba colour, const std::string& words) const {
     list.AddText(font, font->FontSize, {std::round(at.x), std::round(at.y)}, ink(colour), words.c_str());
   }
@@ -41,7 +43,7 @@ struct OverlayCanvas {
   }
 };
 
-inline constexpr float kInsetWidth = 14.0f, kInsetHeight = 8.9f;   ///< em
+inline constexpr float kInsetWidth = 14.0f, kInsetHeight = 8.9f;  ///< em
 
 /// Fingerpad seen from the side with the roller where it is; its card's lower right corner at `corner`.
 void draw_cld_inset(const OverlayCanvas& canvas, ImVec2 corner, double travel_m, const double* commanded_m,

@@ -36,14 +36,16 @@ void PaintBuffers::upload_colours(ColourMap map, bool reversed) {
   const auto& table = colour_table(map);
   for (std::size_t i = 0; i < row.size(); ++i) row[i] = packed(table[reversed ? row.size() - 1 - i : i]);
   glBindTexture(GL_TEXTURE_2D, colours_.create());
-  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, static_cast<GLsizei>(row.size()), 1, 0, GL_RGBA, GL_UNSIGNED_BYTE, row.data());
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, static_cast<GLsizei>(row.size()), 1, 0, GL_RGBA, GL_UNSIGNED_BYTE,
+               row.data());
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
 }
 
-void PaintBuffers::take(const std::optional<MapPaint>& map, const std::shared_ptr<const Isolation>& isolation, const ContactMesh& mesh) {
+void PaintBuffers::take(const std::optional<MapPaint>& map, const std::shared_ptr<const Isolation>& isolation,
+                        const ContactMesh& mesh) {
   if (map && uploaded_values_ != map->version) {
     values_.upload(map->values.data(), map->values.size_bytes(), GL_R32F);
     uploaded_values_ = map->version;

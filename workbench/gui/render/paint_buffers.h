@@ -25,9 +25,11 @@ class PaintBuffers {
  public:
   void create();
   /// Uploads what is not there yet.
-  void take(const std::optional<MapPaint>& map, const std::shared_ptr<const Isolation>& isolation, const ContactMesh& mesh);
+  void take(const std::optional<MapPaint>& map, const std::shared_ptr<const Isolation>& isolation,
+            const ContactMesh& mesh);
   /// Sets map, isolation and slice of the program in use; to be called whenever a program of facets or surface is used.
-  /// `slice`: in the program's own coordinates, kept where dot(slice, (p, 1)) >= 0. `map`: whether to show it, if there is one.
+  /// `slice`: in the program's own coordinates, kept where dot(slice, (p, 1)) >= 0. `map`: whether to show it, if there
+  /// is one.
   void apply(const ShaderProgram& program, bool map, Rgba pending, Rgba none) const;
 
  private:

@@ -12,9 +12,11 @@ std::string length_text(double metres) {
     double metres;
     const char* name;
   };
-  static constexpr std::array<Unit, 5> kUnits{{{1e3, "km"}, {1.0, "m"}, {1e-3, "mm"}, {1e-6, "\xC2\xB5m"}, {1e-9, "nm"}}};
+  static constexpr std::array<Unit, 5> kUnits{
+      {{1e3, "km"}, {1.0, "m"}, {1e-3, "mm"}, {1e-6, "\xC2\xB5m"}, {1e-9, "nm"}}};
   const double size = std::abs(metres);
-  const auto fits = std::find_if(kUnits.begin(), kUnits.end() - 1, [&](const Unit& u) { return size >= 0.9995 * u.metres; });
+  const auto fits =
+      std::find_if(kUnits.begin(), kUnits.end() - 1, [&](const Unit& u) { return size >= 0.9995 * u.metres; });
   const double value = size == 0.0 ? 0.0 : metres / fits->metres;
   char text[48];
   // Beyond what the units reach: not a row of digits, and no "0.00" that isn't zero.

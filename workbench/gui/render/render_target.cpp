@@ -43,8 +43,8 @@ void RenderTarget::bind() const {
 void RenderTarget::copy_from(const RenderTarget& source) const {
   glBindFramebuffer(GL_READ_FRAMEBUFFER, source.framebuffer_.id());
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer_.id());
-  glBlitFramebuffer(0, 0, width_px_, height_px_, 0, 0, width_px_, height_px_,
-                    GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT, GL_NEAREST);
+  glBlitFramebuffer(0, 0, width_px_, height_px_, 0, 0, width_px_, height_px_, GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT,
+                    GL_NEAREST);
 }
 
 }  // namespace tangent

@@ -27,7 +27,8 @@ void FacetBuffer::begin_upload(std::vector<FacetVertex> vertices) {
   count_ = 0;
   glBindVertexArray(array_.create());
   glBindBuffer(GL_ARRAY_BUFFER, vertices_.create());
-  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(waiting_.size() * sizeof(FacetVertex)), nullptr, GL_STATIC_DRAW);
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(waiting_.size() * sizeof(FacetVertex)), nullptr,
+               GL_STATIC_DRAW);
   vertex_attribute(0, 3, GL_FLOAT, false, sizeof(FacetVertex), offsetof(FacetVertex, position));
   vertex_attribute(1, 4, GL_INT_2_10_10_10_REV, true, sizeof(FacetVertex), offsetof(FacetVertex, face_normal));
   glBindVertexArray(0);
@@ -178,8 +179,9 @@ void append_ball(std::vector<SolidVertex>& out) {
 }
 
 void append_cap(std::vector<SolidVertex>& out, double half) {
-  append_band(out, [=](double a) { return around_x(0.0, 1.0, a, half, half, 0.0); },
-              [=](double a) { return around_x(0.0, 0.0, a, half, half, 0.0); });
+  append_band(
+      out, [=](double a) { return around_x(0.0, 1.0, a, half, half, 0.0); },
+      [=](double a) { return around_x(0.0, 0.0, a, half, half, 0.0); });
 }
 
 }  // namespace
@@ -193,13 +195,15 @@ void SolidBuffer::create() {
   append_ball(vertices);
   close(SolidShape::ball, 0);
   std::size_t first = vertices.size();
-  append_band(vertices, [](double a) { return around_x(0.0, 1.0, a, -1.0, 0.0, 1.0); },
-              [](double a) { return around_x(0.0, 1.0, a, 1.0, 0.0, 1.0); });
+  append_band(
+      vertices, [](double a) { return around_x(0.0, 1.0, a, -1.0, 0.0, 1.0); },
+      [](double a) { return around_x(0.0, 1.0, a, 1.0, 0.0, 1.0); });
   append_cap(vertices, -1.0);
   close(SolidShape::cylinder, first);
   first = vertices.size();
-  append_band(vertices, [](double a) { return around_x(0.0, 1.0, a, -1.0, 1.0, 1.0); },
-              [](double a) { return around_x(0.0, 0.0, a, 1.0, 1.0, 1.0); });
+  append_band(
+      vertices, [](double a) { return around_x(0.0, 1.0, a, -1.0, 1.0, 1.0); },
+      [](double a) { return around_x(0.0, 0.0, a, 1.0, 1.0, 1.0); });
   append_cap(vertices, -1.0);
   close(SolidShape::cone, first);
   glBindVertexArray(array_.create());

@@ -25,7 +25,8 @@ void draw_labels(const OverlayCanvas& c, double pixels_per_point, std::span<cons
     const Vec2 half(0.5 * size.x, 0.5 * size.y);
     const double clear = 0.55 * c.em;
     const Vec2 centre = label.pixel / pixels_per_point + label.away * clear + label.away * half;
-    const ImVec2 at{c.top_left.x + static_cast<float>(centre.x - half.x), c.top_left.y + static_cast<float>(centre.y - half.y)};
+    const ImVec2 at{c.top_left.x + static_cast<float>(centre.x - half.x),
+                    c.top_left.y + static_cast<float>(centre.y - half.y)};
     c.haloed(c.number_font, at, mix(label.colour, c.colours.text, 0.55f), label.text);
   }
 }
@@ -129,12 +130,12 @@ OverlayCards overlay_cards(const SceneToggles& toggles, float em, float room) {
 }
 
 void draw_scene_overlay(ImDrawList& draw_list, const ImVec2& top_left, double pixels_per_point, float top,
-                        const SceneRenderer& renderer, const SceneFrame& frame, const Camera& camera, const ThemeFonts& fonts) {
+                        const SceneRenderer& renderer, const SceneFrame& frame, const Camera& camera,
+                        const ThemeFonts& fonts) {
   const float per_point = static_cast<float>(pixels_per_point);
-  const ImVec2 size{static_cast<float>(renderer.width_px()) / per_point, static_cast<float>(renderer.height_px()) / per_point};
-  const OverlayCanvas canvas{draw_list, top_left,
-                             size,      palette(frame.theme),
-                             fonts.small, fonts.small_number,
+  const ImVec2 size{static_cast<float>(renderer.width_px()) / per_point,
+                    static_cast<float>(renderer.height_px()) / per_point};
+  const OverlayCanvas canvas{draw_list,           top_left, size, palette(frame.theme), fonts.small, fonts.small_number,
                              fonts.text->FontSize};
   draw_list.PushClipRect(top_left, {top_left.x + size.x, top_left.y + size.y}, true);
   draw_labels(canvas, pixels_per_point, renderer.labels());
@@ -146,8 +147,10 @@ void draw_scene_overlay(ImDrawList& draw_list, const ImVec2& top_left, double pi
     draw_cld_inset(canvas, {lower_left.x + kInsetWidth * em, lower_left.y}, frame.display_travel_m,
                    frame.cld_commanded_m ? &*frame.cld_commanded_m : nullptr,
                    frame.cld_measured_m ? &*frame.cld_measured_m : nullptr);
-    if (cards.beside) lower_left.x += (kInsetWidth + kGap) * em;
-    else lower_left.y -= (kInsetHeight + kGap) * em;
+    if (cards.beside)
+      lower_left.x += (kInsetWidth + kGap) * em;
+    else
+      lower_left.y -= (kInsetHeight + kGap) * em;
   }
   const bool bar = cards.scales && frame.toggles.colour_bar && frame.toggles.planes && frame.trace.size() > 1;
   const bool axes = cards.scales && frame.toggles.axes;

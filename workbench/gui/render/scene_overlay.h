@@ -17,7 +17,8 @@ struct OverlayCards {
   bool beside = false;                 ///< side by side: the picture is too low for one on the other
   Vec2 size{0.0};                      ///< width and height that they take at most, from the corner, points
 };
-/// `em`: height of the window's text, points. `room`: height over the picture's lower edge where nothing else is drawn, points.
+/// `em`: height of the window's text, points. `room`: height over the picture's lower edge where nothing else is drawn,
+/// points.
 OverlayCards overlay_cards(const SceneToggles& toggles, float em, float room);
 
 /// `top_left`: of the picture, in ImGui's coordinates. `pixels_per_point`: the picture's pixels per ImGui

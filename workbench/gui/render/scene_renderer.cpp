@@ -21,7 +21,7 @@ constexpr int kSamples = 4;
 // Triangles drawn in one frame at rest; more are spread over several, behind the stand-in. A software GL draws a few
 // million a second.
 constexpr std::size_t kSoftwareSlice = 150'000, kHardwareSlice = 8'000'000;
-constexpr std::size_t kHardwareMoving = 2'000'000;  // a GPU draws so many in every frame of a turn
+constexpr std::size_t kHardwareMoving = 2'000'000;       // a GPU draws so many in every frame of a turn
 constexpr std::uint32_t kSoftwareMultisampled = 30'000;  // triangles; more, and a software GL takes too long a frame
 
 /// All that the mesh layer's picture depends on.
@@ -129,15 +129,25 @@ void SceneRenderer::Impl::build_sketch(const SceneFrame& frame, const Camera& ca
 }
 
 /// Draws what is due of the mesh; the target whose picture is to be shown now, null when it can't be had.
-const RenderTarget* SceneRenderer::Impl::draw_mesh(const SceneFrame& frame, const Camera& camera, int width_px, int height_px) {
+const RenderTarget* SceneRenderer::Impl::draw_mesh(const SceneFrame& frame, const Camera& camera, int width_px,
+                                                   int height_px) {
   calls_at_rest = camera == last_camera ? calls_at_rest + 1 : 0;
   last_camera = camera;
   const bool still = frame.quality == RenderQuality::still;
   resting = still || calls_at_rest >= kFramesToRest;
   const std::size_t slice = still ? ~std::size_t{0} : software_gl ? kSoftwareSlice : kHardwareSlice;
   const bool in_slices = resting && mesh.scene() && mesh.drawn_triangles(frame.toggles) > slice;
-  const MeshLayerKey key{camera,   frame.toggles,  frame.theme,      width_px,    height_px, frame.pixel_scale,
-                         !resting, mesh.version(), programs.version, frame.slice, frame.isolation ? frame.isolation->version + 1 : 0};
+  const MeshLayerKey key{camera,
+                         frame.toggles,
+                         frame.theme,
+                         width_px,
+                         height_px,
+                         frame.pixel_scale,
+                         !resting,
+                         mesh.version(),
+                         programs.version,
+                         frame.slice,
+                         frame.isolation ? frame.isolation->version + 1 : 0};
   const int samples = !resting ? 0 : wants_multisampling(frame) ? kSamples : 0;
   const auto sized = [&](RenderTarget& target, int wanted) {
     // A driver that can't multisample this size still gives a picture.
@@ -193,8 +203,9 @@ double SceneRenderer::force_metres_per_newton() const { return impl_->force_metr
 void SceneRenderer::reload_changed_shaders() { impl_->programs.reload_changed(); }
 const std::string& SceneRenderer::shader_error() const { return impl_->programs.error; }
 
-NearestTriangles::RayHit pick_triangle(const ContactScene& scene, const Camera& camera, const Vec2& pixel,
-                                       int width_px, int height_px, const std::optional<SlicePlane>& slice, const Isolation* isolation) {
+NearestTriangles::RayHit pick_triangle(const ContactScene& scene, const Camera& camera, const Vec2& pixel, int width_px,
+                                       int height_px, const std::optional<SlicePlane>& slice,
+                                       const Isolation* isolation) {
   constexpr int kMostLayers = 256;
   const Ray ray = camera.ray_through(pixel, width_px, height_px);
   const ContactMesh& mesh = scene.mesh();
@@ -204,7 +215,8 @@ NearestTriangles::RayHit pick_triangle(const ContactScene& scene, const Camera& 
   };
   double gone = 0.0;
   for (int layer = 0; layer < kMostLayers; ++layer) {
-    NearestTriangles::RayHit hit = scene.nearest().cast(ray.origin - mesh.origin() + gone * ray.direction, ray.direction);
+    NearestTriangles::RayHit hit =
+        scene.nearest().cast(ray.origin - mesh.origin() + gone * ray.direction, ray.direction);
     if (!hit) return hit;
     hit.distance_m += gone;
     const bool cut = slice && slice->cuts(ray.origin + hit.distance_m * ray.direction);

@@ -24,9 +24,9 @@
 namespace tangent {
 
 struct SceneToggles {
-  bool shaded = true;                   ///< flat facets of the mesh
-  bool wireframe = true;                ///< facet edges; on the smooth surface alone: its patch borders
-  bool creases = true;                  ///< crease and boundary edges
+  bool shaded = true;     ///< flat facets of the mesh
+  bool wireframe = true;  ///< facet edges; on the smooth surface alone: its patch borders
+  bool creases = true;    ///< crease and boundary edges
   bool vertex_normals = false;
   bool smooth_surface = false;          ///< the PN surface; translucent over the facets when both are on
   bool control_net = true;              ///< of the tracked (or picked) triangle: ten points and their net
@@ -34,15 +34,15 @@ struct SceneToggles {
   bool control_net_neighbours = false;  ///< also of the three triangles across its edges
   bool control_point_labels = false;    ///< b300 ... b111 (and n200 ... with control_normals)
   bool finger = true;
-  bool penetration = true;              ///< the finger's lowest point to the contact
-  bool force = true;                    ///< arrow; its scale is in force_metres_per_newton()
+  bool penetration = true;  ///< the finger's lowest point to the contact
+  bool force = true;        ///< arrow; its scale is in force_metres_per_newton()
   bool contact = true;
-  bool tracked_plane = false;           ///< the plane after the tick
-  bool planes = true;                   ///< the tangent planes of the tick's iterations, joined by a line
-  bool trail = false;                   ///< where the contact has been (SceneFrame::trail)
-  bool cld_inset = true;                ///< overlay: fingerpad from the side and the roller
-  bool colour_bar = true;               ///< overlay: iteration order
-  bool axes = true;                     ///< overlay: orientation triad and scale bar
+  bool tracked_plane = false;  ///< the plane after the tick
+  bool planes = true;          ///< the tangent planes of the tick's iterations, joined by a line
+  bool trail = false;          ///< where the contact has been (SceneFrame::trail)
+  bool cld_inset = true;       ///< overlay: fingerpad from the side and the roller
+  bool colour_bar = true;      ///< overlay: iteration order
+  bool axes = true;            ///< overlay: orientation triad and scale bar
   bool operator==(const SceneToggles&) const = default;
 };
 
@@ -55,22 +55,22 @@ struct SceneFrame {
   SceneToggles toggles;
   Theme theme = Theme::dark;
   RenderQuality quality = RenderQuality::automatic;
-  double pixel_scale = 1.0;                     ///< widths of lines and points; 2 on a HiDPI screen
+  double pixel_scale = 1.0;  ///< widths of lines and points; 2 on a HiDPI screen
   Finger finger;
-  std::optional<TickRecord> tick;               ///< the tick in view; none: mesh only
-  std::span<const IterationRecord> trace;       ///< that tick stepped again with tracing, [0]: kept plane
+  std::optional<TickRecord> tick;          ///< the tick in view; none: mesh only
+  std::span<const IterationRecord> trace;  ///< that tick stepped again with tracing, [0]: kept plane
   std::optional<std::size_t> selected_iteration;
-  std::uint32_t picked_triangle = kNone;        ///< clicked: outlined; its net is shown if nothing is tracked
+  std::uint32_t picked_triangle = kNone;  ///< clicked: outlined; its net is shown if nothing is tracked
   std::uint32_t hovered_triangle = kNone;
   std::span<const std::uint32_t> marked_triangles;  ///< outlined
-  bool net_of_picked = false;                   ///< control net of the picked instead of the tracked triangle
-  double display_travel_m = 0.016;              ///< preset.display.travel_m, for the inset
+  bool net_of_picked = false;                       ///< control net of the picked instead of the tracked triangle
+  double display_travel_m = 0.016;                  ///< preset.display.travel_m, for the inset
   std::optional<double> cld_commanded_m;
   std::optional<double> cld_measured_m;
-  std::span<const Vec3> trail;                  ///< past contacts, oldest first
-  std::optional<MapPaint> map;                  ///< colours of facets and surface
+  std::span<const Vec3> trail;  ///< past contacts, oldest first
+  std::optional<MapPaint> map;  ///< colours of facets and surface
   std::optional<SlicePlane> slice;
-  std::shared_ptr<const Isolation> isolation;   ///< null: all triangles
+  std::shared_ptr<const Isolation> isolation;  ///< null: all triangles
 };
 
 /// Text the overlay puts beside a 3D point, in pixels of the view (top left is 0, 0).
@@ -124,8 +124,8 @@ class SceneRenderer {
 };
 
 /// First facet under a pixel that is neither cut away nor left out.
-NearestTriangles::RayHit pick_triangle(const ContactScene& scene, const Camera& camera, const Vec2& pixel,
-                                       int width_px, int height_px, const std::optional<SlicePlane>& slice = {},
+NearestTriangles::RayHit pick_triangle(const ContactScene& scene, const Camera& camera, const Vec2& pixel, int width_px,
+                                       int height_px, const std::optional<SlicePlane>& slice = {},
                                        const Isolation* isolation = nullptr);
 /// World box of the scene, for Camera::frame.
 Box world_bounds(const ContactScene& scene);

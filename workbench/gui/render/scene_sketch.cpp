@@ -49,7 +49,9 @@ void draw_finger(Sketch& sketch, const SketchContext& c) {
   const Rgba glass = with_alpha(colour, 0.20f);
   constexpr double kRim = 0.9;
   switch (finger.shape) {
-    case FingerShape::point: sketch.point(pose.position, colour, 10.0); break;
+    case FingerShape::point:
+      sketch.point(pose.position, colour, 10.0);
+      break;
     case FingerShape::sphere:
       sketch.ellipsoid(pose.position, pose.orientation, Vec3(radius), 0.0, glass, kRim);
       break;

@@ -97,9 +97,7 @@ Result<GLuint> build(const fs::path& directory, const std::string& name, Files& 
   const fs::path vertex_path = directory / (name + ".vert.glsl");
   const Result<GLuint> vertex = compile(GL_VERTEX_SHADER, vertex_path, files);
   const Result<GLuint> fragment = compile(GL_FRAGMENT_SHADER, directory / (name + ".frag.glsl"), files);
-  Result<GLuint> program = !vertex     ? vertex
-                           : !fragment ? fragment
-                                       : link(*vertex, *fragment, vertex_path.string());
+  Result<GLuint> program = !vertex ? vertex : !fragment ? fragment : link(*vertex, *fragment, vertex_path.string());
   if (vertex) glDeleteShader(*vertex);
   if (fragment) glDeleteShader(*fragment);
   return program;

@@ -44,7 +44,8 @@ void Sketch::line(const Vec3& a, const Vec3& b, Rgba colour, double width_px) {
 void Sketch::point(const Vec3& p, Rgba colour, double diameter_px) {
   const std::array<float, 3> at = local(p);
   const float diameter = static_cast<float>(diameter_px);
-  strokes_.push_back({at, at, packed({0.07f, 0.08f, 0.09f, 0.9f * colour.a}), diameter + std::min(2.5f, 0.5f * diameter)});
+  strokes_.push_back(
+      {at, at, packed({0.07f, 0.08f, 0.09f, 0.9f * colour.a}), diameter + std::min(2.5f, 0.5f * diameter)});
   strokes_.push_back({at, at, packed(colour), diameter});
 }
 
@@ -92,10 +93,18 @@ void Sketch::arrow(const Vec3& from, const Vec3& to, double shaft_radius_m, Rgba
   const float radius = static_cast<float>(shaft_radius_m / scale_m_);
   const float half_shaft = static_cast<float>(0.5 * shaft / scale_m_);
   const float half_head = static_cast<float>(0.5 * head / scale_m_);
-  solids_.push_back({SolidShape::cylinder, rigid(x, y, z, local(from + 0.5 * shaft * x)), {1.0f, radius, radius},
-                     half_shaft, colour, colour.a});
-  solids_.push_back({SolidShape::cone, rigid(x, y, z, local(from + (shaft + 0.5 * head) * x)),
-                     {2.0f * half_head, 2.3f * radius, 2.3f * radius}, half_head, colour, colour.a});
+  solids_.push_back({SolidShape::cylinder,
+                     rigid(x, y, z, local(from + 0.5 * shaft * x)),
+                     {1.0f, radius, radius},
+                     half_shaft,
+                     colour,
+                     colour.a});
+  solids_.push_back({SolidShape::cone,
+                     rigid(x, y, z, local(from + (shaft + 0.5 * head) * x)),
+                     {2.0f * half_head, 2.3f * radius, 2.3f * radius},
+                     half_head,
+                     colour,
+                     colour.a});
 }
 
 }  // namespace tangent

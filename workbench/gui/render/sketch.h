@@ -34,7 +34,7 @@ struct Solid {
   glm::mat4 place{1.0f};  ///< body frame -> sketch frame, rigid
   glm::vec3 semi_axes{1.0f};
   float half_length = 0.0f;
-  Rgba colour;               ///< alpha: opacity where it faces the eye
+  Rgba colour;  ///< alpha: opacity where it faces the eye
   float rim_opacity = 1.0f;
 };
 

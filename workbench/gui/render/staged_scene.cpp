@@ -9,8 +9,8 @@
 namespace tangent {
 namespace {
 
-constexpr double kTick = 1e-3;    // s
-constexpr double kSpeed = 0.1;    // m/s
+constexpr double kTick = 1e-3;  // s
+constexpr double kSpeed = 0.1;  // m/s
 constexpr int kApproachTicks = 40;
 
 /// Any unit vector across `n`, leaning to world x where it can.
@@ -54,7 +54,8 @@ StagedScene stage_finger(std::shared_ptr<const ContactScene> scene, const Stagin
   const int ticks = kApproachTicks + slide_ticks + 1;
   for (int i = 0; i < ticks; ++i) {
     const double pressed = std::min(1.0, static_cast<double>(i + 1) / kApproachTicks);
-    const double travelled = std::max(0, i - kApproachTicks) * kSpeed * kTick + (i + 1 == ticks ? staging.last_jump_m : 0.0);
+    const double travelled =
+        std::max(0, i - kApproachTicks) * kSpeed * kTick + (i + 1 == ticks ? staging.last_jump_m : 0.0);
     TickRecord record;
     record.tick = static_cast<std::uint64_t>(i);
     record.kept = state;

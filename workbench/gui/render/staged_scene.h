@@ -20,9 +20,9 @@ struct Staging {
 struct StagedScene {
   std::shared_ptr<const ContactScene> scene;
   Preset preset;
-  TickRecord tick;                                 ///< the last tick
-  std::unique_ptr<IterationTrace> trace;           ///< of the last tick
-  std::vector<Vec3> trail;                         ///< contacts, oldest first
+  TickRecord tick;                        ///< the last tick
+  std::unique_ptr<IterationTrace> trace;  ///< of the last tick
+  std::vector<Vec3> trail;                ///< contacts, oldest first
 
   /// Everything of it in a frame with these toggles; spans point into *this.
   SceneFrame frame(const SceneToggles& toggles, Theme theme) const;

@@ -105,7 +105,8 @@ SurfaceMesh tessellate(const ContactMesh& mesh, NormalForm form, unsigned level,
     for (unsigned j = 0; j <= level; ++j) {
       for (unsigned i = 0; i + j <= level; ++i) {
         const double u = static_cast<double>(i) / level, v = static_cast<double>(j) / level;
-        out.vertices.push_back(surface_vertex(evaluate_point(patch, u, v), evaluate_normal(patch, u, v), u, v, scale_m));
+        out.vertices.push_back(
+            surface_vertex(evaluate_point(patch, u, v), evaluate_normal(patch, u, v), u, v, scale_m));
       }
     }
   }

@@ -6,7 +6,9 @@
 namespace tangent {
 
 namespace {
-double on_axis(const MapPaint& paint, double value) { return paint.logarithmic ? std::log(std::max(value, 1e-30)) : value; }
+double on_axis(const MapPaint& paint, double value) {
+  return paint.logarithmic ? std::log(std::max(value, 1e-30)) : value;
+}
 }  // namespace
 
 double map_share(const MapPaint& paint, double value) {

@@ -17,8 +17,8 @@ struct MapPaint {
   std::span<const float> values;  ///< has to live as long as `version` is shown
   std::uint64_t version = 0;      ///< another one: the values are others
   unsigned level = 1;
-  double low = 0.0, high = 1.0;   ///< values of the first and the last colour; low < high
-  bool logarithmic = false;       ///< then both above 0
+  double low = 0.0, high = 1.0;  ///< values of the first and the last colour; low < high
+  bool logarithmic = false;      ///< then both above 0
   ColourMap colours = ColourMap::tide;
   bool reversed = false;
 

@@ -27,8 +27,9 @@ void SurfaceWorker::work(std::stop_token stop, std::shared_ptr<const ContactScen
                          double scale_m, std::size_t triangle_budget) {
   const ContactMesh& mesh = scene->mesh();
   CoarseArrays coarse{facet_vertices(mesh, scale_m),
-                      mesh.usable_triangle_count() <= kStandInTriangles ? corner_normal_mesh(mesh, scale_m)
-                                                                        : clustered_mesh(mesh, scale_m, kStandInTriangles),
+                      mesh.usable_triangle_count() <= kStandInTriangles
+                          ? corner_normal_mesh(mesh, scale_m)
+                          : clustered_mesh(mesh, scale_m, kStandInTriangles),
                       feature_edges(mesh, scale_m)};
   if (stop.stop_requested()) return;
   {

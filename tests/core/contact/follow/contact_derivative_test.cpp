@@ -42,7 +42,8 @@ double worst_deviation(const ScenePtr& scene, const Finger& finger, double dista
       ++compared;
       worst = std::max(worst, glm::length((plus.contact - minus.contact) / (2 * e) - d.contact_by_position[k]));
       worst = std::max(worst, 0.02 * glm::length((plus.normal - minus.normal) / (2 * e) - d.normal_by_position[k]));
-      worst = std::max(worst, std::abs((plus.penetration_m - minus.penetration_m) / (2 * e) - d.penetration_by_position[k]));
+      worst = std::max(worst,
+                       std::abs((plus.penetration_m - minus.penetration_m) / (2 * e) - d.penetration_by_position[k]));
     }
   }
   CHECK(compared > count);

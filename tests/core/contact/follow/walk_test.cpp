@@ -23,7 +23,8 @@ std::vector<Edge> feature_edges(const ContactMesh& mesh) {
 }
 
 Vec3 flat_point(const ContactMesh& mesh, const SurfacePlace& p) {
-  return (1.0 - p.u - p.v) * mesh.position(p.triangle, 0) + p.u * mesh.position(p.triangle, 1) + p.v * mesh.position(p.triangle, 2);
+  return (1.0 - p.u - p.v) * mesh.position(p.triangle, 0) + p.u * mesh.position(p.triangle, 1) +
+         p.v * mesh.position(p.triangle, 2);
 }
 
 }  // namespace
@@ -34,7 +35,8 @@ TEST_CASE("past the end of an edge of a cylinder's rim a step goes on along the 
   int walked = 0;
   for (const Edge& e : feature_edges(mesh))
     for (const bool forwards : {false, true}) {
-      const Vec3 end = mesh.position(e.t, forwards ? (e.k + 1) % 3 : e.k), from = mesh.position(e.t, forwards ? e.k : (e.k + 1) % 3);
+      const Vec3 end = mesh.position(e.t, forwards ? (e.k + 1) % 3 : e.k),
+                 from = mesh.position(e.t, forwards ? e.k : (e.k + 1) % 3);
       const auto next = walk_past_end(mesh, e.t, e.k, forwards, 1e-4);
       REQUIRE(next.has_value());
       ++walked;
@@ -52,7 +54,8 @@ TEST_CASE("past the end of an edge of a cylinder's rim a step goes on along the 
   CHECK(walked > 100);
 }
 
-TEST_CASE("at a cube's corner, where three creases meet, and at a sheet's corner, where its border bends, a step ends") {
+TEST_CASE(
+    "at a cube's corner, where three creases meet, and at a sheet's corner, where its border bends, a step ends") {
   const ScenePtr cube = scene_of(*generate_mesh("cube"));
   for (const Edge& e : feature_edges(cube->mesh()))
     for (const bool forwards : {false, true}) CHECK(!walk_past_end(cube->mesh(), e.t, e.k, forwards, 1e-4));
@@ -96,7 +99,9 @@ TEST_CASE("following a crease across its vertices costs fewer planes than stoppi
   CHECK(most <= 3);  // to the vertex, turn there, on to the next edge, along it: four
 }
 
-TEST_CASE("robust follows a finger over dozens of small triangles a tick, and seeds after a leap over hundreds, which newton walks") {
+TEST_CASE(
+    "robust follows a finger over dozens of small triangles a tick, and seeds after a leap over hundreds, which newton "
+    "walks") {
   const ScenePtr scene = scene_of(make_icosphere(0.040, 6));  // sides of 0.75 mm: three triangles a millimetre
   struct Leap {
     Method method;
@@ -104,8 +109,9 @@ TEST_CASE("robust follows a finger over dozens of small triangles a tick, and se
     TickEvent event;
     bool gives_up;
   };
-  for (const Leap& leap : {Leap{Method::robust, 6e-3, TickEvent::none, false}, Leap{Method::robust, 40e-3, TickEvent::reseed, true},
-                           Leap{Method::newton, 40e-3, TickEvent::none, false}}) {
+  for (const Leap& leap :
+       {Leap{Method::robust, 6e-3, TickEvent::none, false}, Leap{Method::robust, 40e-3, TickEvent::reseed, true},
+        Leap{Method::newton, 40e-3, TickEvent::none, false}}) {
     CAPTURE(to_string(leap.method));
     CAPTURE(leap.along_m);
     const Preset preset = sphere_preset(0.020, leap.method);
@@ -114,7 +120,8 @@ TEST_CASE("robust follows a finger over dozens of small triangles a tick, and se
     const auto trace = std::make_unique<IterationTrace>();
     stepper.step(preset, at_position(0.0, {0.0, 0.0, 0.059}), state);
     const double a = leap.along_m / 0.040;
-    const TickOutput out = stepper.step(preset, at_position(1e-3, 0.059 * Vec3(std::sin(a), 0.0, std::cos(a))), state, trace.get());
+    const TickOutput out =
+        stepper.step(preset, at_position(1e-3, 0.059 * Vec3(std::sin(a), 0.0, std::cos(a))), state, trace.get());
     CHECK(out.event == leap.event);
     CHECK(out.error_m < preset.solver.tolerance_m);
     bool gave_up = false;

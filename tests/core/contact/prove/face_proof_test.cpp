@@ -31,7 +31,8 @@ std::vector<PnPatch> mesh_patches() {
                                scene_of(*generate_mesh("cube", {.rounding_m = 1.5e-3}))};
   if (auto spot = shared_scene("spot.obj", 180.0)) scenes.push_back(spot);
   for (const ScenePtr& scene : scenes)
-    for (std::uint32_t t = 0; t < scene->mesh().triangle_count(); t += 7) patches.push_back(make_patch(scene->mesh(), t));
+    for (std::uint32_t t = 0; t < scene->mesh().triangle_count(); t += 7)
+      patches.push_back(make_patch(scene->mesh(), t));
   return patches;
 }
 
@@ -73,7 +74,8 @@ TEST_CASE("where a patch is excluded no contact comes up while the centre moves 
   int excluded = 0, wrong = 0, wider = 0, narrower = 0;
   const auto patches = mesh_patches();
   for (int i = 0; i < rounds(200000); ++i) {
-    const PnPatch patch = i % 2 ? random_patch(random) : patches[random.below(static_cast<std::uint32_t>(patches.size()))];
+    const PnPatch patch =
+        i % 2 ? random_patch(random) : patches[random.below(static_cast<std::uint32_t>(patches.size()))];
     const Vec2 uv = random.barycentric();
     const SurfaceSample s = evaluate(patch, uv.x, uv.y);
     const double size = patch_size(patch), h = size * random.in(-3.0, 3.0);

@@ -1,6 +1,6 @@
 // Watching for deeper places: asking seldom finds what asking at every tick finds.
-#include "core/base/tolerances.h"
 #include "core/contact/search/rivals.h"
+#include "core/base/tolerances.h"
 #include "core/lab/objects/generate.h"
 #include "tests/core/scenes.h"
 
@@ -16,14 +16,17 @@ std::vector<TickInput> wander(int ticks, double speed_m) {
   std::vector<TickInput> poses;
   for (int i = 0; i < ticks; ++i) {
     const double s = speed_m * i;
-    poses.push_back({1e-3 * i, {Vec3(0.006 * std::sin(s / 0.004), 0.004 * std::sin(s / 0.0093), 0.0105), Quat(1.0, 0.0, 0.0, 0.0)}});
+    poses.push_back(
+        {1e-3 * i,
+         {Vec3(0.006 * std::sin(s / 0.004), 0.004 * std::sin(s / 0.0093), 0.0105), Quat(1.0, 0.0, 0.0, 0.0)}});
   }
   return poses;
 }
 
 ScenePtr bumps() {
   return scene_of(height_field(0.020, 60, [](double x, double y) {
-    return 0.003 * std::exp(-((x - 0.005) * (x - 0.005) + y * y) / 1.2e-5) + 0.003 * std::exp(-((x + 0.005) * (x + 0.005) + y * y) / 1.2e-5);
+    return 0.003 * std::exp(-((x - 0.005) * (x - 0.005) + y * y) / 1.2e-5) +
+           0.003 * std::exp(-((x + 0.005) * (x + 0.005) + y * y) / 1.2e-5);
   }));
 }
 
@@ -77,7 +80,8 @@ TEST_CASE("a finger that trembles in place asks a few times in all, and gets wha
     for (int place = 0; place < 5; ++place) {
       // Pressed about 1 mm deep from above, somewhere on the torus.
       const double ring = random.in(0.0, 6.28), across = random.in(-0.010, 0.010);
-      const Vec3 rest((0.040 + across) * std::cos(ring), (0.040 + across) * std::sin(ring), std::sqrt(0.034 * 0.034 - across * across));
+      const Vec3 rest((0.040 + across) * std::cos(ring), (0.040 + across) * std::sin(ring),
+                      std::sqrt(0.034 * 0.034 - across * across));
       Stepper seldom(scene), always(scene);
       TickState a, b;
       int asked = 0, differ = 0;
@@ -90,7 +94,8 @@ TEST_CASE("a finger that trembles in place asks a few times in all, and gets wha
         asked += a.clearance.centre != centre;
         b.clearance = Clearance{};
         const TickOutput y = always.step(preset, at_position(1e-3 * i, rest + off), b);
-        differ += x.triangle != y.triangle || x.u != y.u || x.v != y.v || x.contact != y.contact || x.force_n != y.force_n;
+        differ +=
+            x.triangle != y.triangle || x.u != y.u || x.v != y.v || x.contact != y.contact || x.force_n != y.force_n;
       }
       CHECK(asked <= 4);
       CHECK(differ == 0);
@@ -110,7 +115,8 @@ TEST_CASE("a finger that runs along a rim asks seldom: the next edge and the ver
   for (int i = 0; i < 4000; ++i) {
     // 1 mm deep on the rim of 40 mm about the x axis, from between the side and the end.
     const double turn = 0.1 * i / 40.0, out = 0.040 + 0.019 * std::sqrt(0.5);
-    const TickOutput tick = stepper.step(preset, at_position(1e-3 * i, Vec3(out, out * std::cos(turn), out * std::sin(turn))), state);
+    const TickOutput tick =
+        stepper.step(preset, at_position(1e-3 * i, Vec3(out, out * std::cos(turn), out * std::sin(turn))), state);
     on_the_rim += tick.status == TickStatus::edge || tick.status == TickStatus::vertex;
     asked += state.clearance.centre != centre;
     centre = state.clearance.centre;
@@ -120,7 +126,8 @@ TEST_CASE("a finger that runs along a rim asks seldom: the next edge and the ver
   MESSAGE("asked in " << asked << " of 4000 ticks");
 }
 
-TEST_CASE("a finger that leaps looks no further ahead than one at rest: what is there would be behind it in the next tick") {
+TEST_CASE(
+    "a finger that leaps looks no further ahead than one at rest: what is there would be behind it in the next tick") {
   const ScenePtr scene = scene_of(make_icosphere(0.040, 3));
   const Preset preset = sphere_preset(0.020, Method::robust);
   for (const bool leaps : {false, true}) {
@@ -131,7 +138,8 @@ TEST_CASE("a finger that leaps looks no further ahead than one at rest: what is 
     const double step_rad = (leaps ? 5e-3 : 1e-3) / 0.059;
     for (int i = 0; i < 20; ++i) {
       const double at = step_rad * i;
-      const TickOutput out = stepper.step(preset, at_position(1e-3 * i, 0.059 * Vec3(std::sin(at), 0.0, std::cos(at))), state);
+      const TickOutput out =
+          stepper.step(preset, at_position(1e-3 * i, 0.059 * Vec3(std::sin(at), 0.0, std::cos(at))), state);
       if (i == 0) continue;
       CHECK(out.event == TickEvent::none);
       if (i == 1) CHECK((state.clearance.margin_m > 1.8e-3) != leaps);
@@ -140,7 +148,8 @@ TEST_CASE("a finger that leaps looks no further ahead than one at rest: what is 
   }
 }
 
-TEST_CASE("margins count from one place: going and coming back costs nothing, turning does where the finger is not round") {
+TEST_CASE(
+    "margins count from one place: going and coming back costs nothing, turning does where the finger is not round") {
   Clearance fresh;
   fresh.margin_m = 1e-3;
   fresh.height_m = 0.02;

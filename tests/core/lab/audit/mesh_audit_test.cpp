@@ -68,7 +68,8 @@ TEST_CASE("audit counts boundary loops and parts") {
 }
 
 TEST_CASE("audit tells three fins, bow ties and wrong turns apart") {
-  const MeshAudit fins = audit(sample::mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}}, {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}));
+  const MeshAudit fins =
+      audit(sample::mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}}, {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}));
   CHECK(fins.non_manifold_edges == 1);
   CHECK(fins.non_manifold_vertices == 0);
   CHECK(fins.inconsistent_edges == 0);
@@ -76,7 +77,8 @@ TEST_CASE("audit tells three fins, bow ties and wrong turns apart") {
   CHECK(fins.boundary_edges == 4 + 3);
   CHECK(fins.boundary_loops == 2);
 
-  const MeshAudit tie = audit(sample::mesh({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {-1, 0, 0}, {-1, -1, 0}}, {{0, 1, 2}, {0, 3, 4}}));
+  const MeshAudit tie =
+      audit(sample::mesh({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {-1, 0, 0}, {-1, -1, 0}}, {{0, 1, 2}, {0, 3, 4}}));
   CHECK(tie.non_manifold_edges == 0);
   CHECK(tie.non_manifold_vertices == 1);
   CHECK(tie.components == 2);
@@ -128,12 +130,14 @@ TEST_CASE("half-edge structure is closed under next, opposite and turning on ran
     std::size_t wrong = 0, around = 0, used = 0;
     for (const auto h : m.halfedges()) {
       const auto next = m.next_halfedge_handle(h);
-      wrong += !next.is_valid() || m.to_vertex_handle(h) != m.from_vertex_handle(next) || m.face_handle(h) != m.face_handle(next);
+      wrong += !next.is_valid() || m.to_vertex_handle(h) != m.from_vertex_handle(next) ||
+               m.face_handle(h) != m.face_handle(next);
     }
     for (const auto f : m.faces()) {
       std::uint32_t k = 0;
       for (const auto h : m.fh_range(f)) {
-        wrong += static_cast<std::uint32_t>(m.from_vertex_handle(h).idx()) != mesh->vertex(half.triangle_of[static_cast<std::size_t>(f.idx())], k++);
+        wrong += static_cast<std::uint32_t>(m.from_vertex_handle(h).idx()) !=
+                 mesh->vertex(half.triangle_of[static_cast<std::size_t>(f.idx())], k++);
         ++used;
       }
       wrong += k != 3;

@@ -12,7 +12,15 @@ using namespace tangent::sample;
 TEST_CASE("degenerate triangles are skipped and named, slivers are kept, at any scale and place") {
   for (const double scale : {1e-6, 1e-3, 1.0, 1e3}) {
     CAPTURE(scale);
-    auto source = sample::mesh({{0, 0, 0}, {1, 0, 0}, {0.3, 1e-5, 0}, {0.4, -1e-9, 0}, {2, 0, 0}, {0, 0, 0}, {0.1, 0.2, 0.3}, {0.2, 0.4, 0.6}, {0.7, 1.4, 2.1}},
+    auto source = sample::mesh({{0, 0, 0},
+                                {1, 0, 0},
+                                {0.3, 1e-5, 0},
+                                {0.4, -1e-9, 0},
+                                {2, 0, 0},
+                                {0, 0, 0},
+                                {0.1, 0.2, 0.3},
+                                {0.2, 0.4, 0.6},
+                                {0.7, 1.4, 2.1}},
                                {{0, 1, 2}, {0, 3, 1}, {0, 1, 4}, {0, 0, 2}, {5, 0, 2}, {6, 7, 8}, {1, 4, 8}});
     const ContactMesh m = build(sample::moved(source, scale));
     check_defects(m, MeshDefect::degenerate_triangle, {2, 3, 4, 5});
@@ -22,7 +30,8 @@ TEST_CASE("degenerate triangles are skipped and named, slivers are kept, at any 
     check_sound(m);
   }
   // A kilometre off, doubles hold a tenth of a picometre: a 1 mm triangle on a line stays on it.
-  const auto line = sample::mesh({{0.1, 0.2, 0.3}, {0.2, 0.4, 0.6}, {0.7, 1.4, 2.1}, {1, 0, 0}}, {{0, 1, 2}, {0, 1, 3}});
+  const auto line =
+      sample::mesh({{0.1, 0.2, 0.3}, {0.2, 0.4, 0.6}, {0.7, 1.4, 2.1}, {1, 0, 0}}, {{0, 1, 2}, {0, 1, 3}});
   check_defects(build(sample::moved(line, 1e-3, Vec3(577.1, -612.3, 541.7))), MeshDefect::degenerate_triangle, {0});
 }
 
@@ -65,15 +74,16 @@ TEST_CASE("a third fin is kept apart with vertices of its own") {
 }
 
 TEST_CASE("bow tie: two open fans, and two closed ones, become one vertex each") {
-  const ContactMesh open = build(sample::mesh({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {-1, 0, 0}, {-1, -1, 0}}, {{0, 1, 2}, {0, 3, 4}}));
+  const ContactMesh open =
+      build(sample::mesh({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {-1, 0, 0}, {-1, -1, 0}}, {{0, 1, 2}, {0, 3, 4}}));
   CHECK(open.vertex_count() == 6);
   CHECK(open.vertex(0, 0) != open.vertex(1, 0));
   check_one_fan_per_vertex(open);
 
   // Two tetrahedra tip to tip, their triangles in turn.
-  const ContactMesh closed = build(sample::mesh(
-      {{0, 0, 0}, {1, 0, 1}, {-1, 1, 1}, {-1, -1, 1}, {1, 0, -1}, {-1, 1, -1}, {-1, -1, -1}},
-      {{0, 2, 1}, {0, 4, 5}, {0, 3, 2}, {0, 5, 6}, {0, 1, 3}, {0, 6, 4}, {1, 2, 3}, {4, 6, 5}}));
+  const ContactMesh closed =
+      build(sample::mesh({{0, 0, 0}, {1, 0, 1}, {-1, 1, 1}, {-1, -1, 1}, {1, 0, -1}, {-1, 1, -1}, {-1, -1, -1}},
+                         {{0, 2, 1}, {0, 4, 5}, {0, 3, 2}, {0, 5, 6}, {0, 1, 3}, {0, 6, 4}, {1, 2, 3}, {4, 6, 5}}));
   CHECK(closed.vertex_count() == 8);
   CHECK(count_boundary(closed) == 0);
   check_defects(closed, MeshDefect::non_manifold_triangle, {});
@@ -128,12 +138,14 @@ TEST_CASE("random soups: sound, one fan per vertex, nothing lost without a count
     if (!built) continue;
     check_sound(*built);
     check_one_fan_per_vertex(*built);
-    std::uint64_t with_nan = 0, t = 0, skipped = built->defects(MeshDefect::degenerate_triangle).count +
-                                                 built->defects(MeshDefect::duplicate_triangle).count;
+    std::uint64_t with_nan = 0, t = 0,
+                  skipped = built->defects(MeshDefect::degenerate_triangle).count +
+                            built->defects(MeshDefect::duplicate_triangle).count;
     for (std::size_t f = 0; f < source.face_count(); ++f)
       for (std::size_t k = 2; k < source.face(f).size(); ++k, ++t) {
         const auto face = source.face(f);
-        with_nan += !is_finite(source.positions[face[0]]) || !is_finite(source.positions[face[k - 1]]) || !is_finite(source.positions[face[k]]);
+        with_nan += !is_finite(source.positions[face[0]]) || !is_finite(source.positions[face[k - 1]]) ||
+                    !is_finite(source.positions[face[k]]);
       }
     CHECK(built->triangle_count() == t);
     CHECK(built->usable_triangle_count() + skipped + with_nan == t);

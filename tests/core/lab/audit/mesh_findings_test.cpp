@@ -52,7 +52,8 @@ TEST_CASE("an open sheet has one loop, at its middle, of its length, with the tr
 }
 
 TEST_CASE("the findings are as many as the audit counts, on every hard mesh") {
-  for (const std::string name : {"fin_on_plate", "mixed_orientation", "flipped_normals", "needle_arch", "duplicate_faces", "degenerate_faces", "open_bowl", "triangle_soup"}) {
+  for (const std::string name : {"fin_on_plate", "mixed_orientation", "flipped_normals", "needle_arch",
+                                 "duplicate_faces", "degenerate_faces", "open_bowl", "triangle_soup"}) {
     CAPTURE(name);
     auto source = generate_mesh(name);
     REQUIRE(source.has_value());
@@ -66,7 +67,8 @@ TEST_CASE("the findings are as many as the audit counts, on every hard mesh") {
     CHECK(f.findings.count(FindingKind::degenerate) == f.mesh.defects(MeshDefect::degenerate_triangle).count);
     CHECK(f.findings.count(FindingKind::duplicate) == f.mesh.defects(MeshDefect::duplicate_triangle).count);
     for (const auto& list : f.findings.listed) {
-      CHECK(std::is_sorted(list.begin(), list.end(), [](const MeshFinding& a, const MeshFinding& b) { return a.size > b.size; }));
+      CHECK(std::is_sorted(list.begin(), list.end(),
+                           [](const MeshFinding& a, const MeshFinding& b) { return a.size > b.size; }));
       for (const MeshFinding& finding : list) {
         CHECK_FALSE(finding.triangles.empty());
         CHECK(is_finite(finding.place));

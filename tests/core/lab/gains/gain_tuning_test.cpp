@@ -78,7 +78,8 @@ TEST_CASE("a score is what the ticks add up to") {
 
 TEST_CASE("tuned gains beat the untuned ones by far, and every tick converges") {
   const std::vector<TickInput> poses = slide(rounds(2000));
-  const GainTuning tuning = tune_gains(coarse_sphere(), sphere_preset(0.020, Method::paper), poses, make_gain_grid(0.020));
+  const GainTuning tuning =
+      tune_gains(coarse_sphere(), sphere_preset(0.020, Method::paper), poses, make_gain_grid(0.020));
   REQUIRE_FALSE(tuning.best.empty());
   CHECK_FALSE(tuning.stopped);
   CHECK(tuning.untuned.gains == Gains{1.0, 0.0, 0.0});
@@ -97,7 +98,8 @@ TEST_CASE("ending bad runs early changes nothing: the best are those of all the 
   const Preset base = sphere_preset(0.020, Method::paper);
   const GainGrid grid = small_grid();
   // The walk is stopped at once: only the grid is tried.
-  const GainTuning tuning = tune_gains(scene, base, poses, grid, [&](std::size_t done, std::size_t) { return done < grid.coarse.size(); });
+  const GainTuning tuning =
+      tune_gains(scene, base, poses, grid, [&](std::size_t done, std::size_t) { return done < grid.coarse.size(); });
   CHECK(tuning.stopped);
   CHECK(tuning.tried == grid.coarse.size());
   std::vector<GainTrial> all;
@@ -125,7 +127,8 @@ TEST_CASE("the walk ends where no neighbour is better") {
   const GainTuning tuning = tune_gains(scene, base, poses, grid);
   const GainTrial& best = tuning.best.front();
   Stepper stepper(scene);
-  for (const Gains& step : {Gains{grid.fine.overall, 0, 0}, Gains{0, grid.fine.curvature_m, 0}, Gains{0, 0, grid.fine.distance_per_m}}) {
+  for (const Gains& step :
+       {Gains{grid.fine.overall, 0, 0}, Gains{0, grid.fine.curvature_m, 0}, Gains{0, 0, grid.fine.distance_per_m}}) {
     for (const double sign : {-1.0, 1.0}) {
       const Gains at{best.gains.overall + sign * step.overall, best.gains.curvature_m + sign * step.curvature_m,
                      best.gains.distance_per_m + sign * step.distance_per_m};
@@ -149,11 +152,13 @@ TEST_CASE("the same arguments give the same gains, whatever the base's method") 
 TEST_CASE("a tuning that is stopped keeps the complete runs, and none where there was none") {
   const std::vector<TickInput> poses = slide(1000);
   const Preset base = sphere_preset(0.020, Method::paper);
-  const GainTuning none = tune_gains(coarse_sphere(), base, poses, small_grid(), [](std::size_t, std::size_t) { return false; });
+  const GainTuning none =
+      tune_gains(coarse_sphere(), base, poses, small_grid(), [](std::size_t, std::size_t) { return false; });
   CHECK(none.stopped);
   CHECK(none.best.empty());
   CHECK(none.untuned.score.ticks == 0);
-  const GainTuning three = tune_gains(coarse_sphere(), base, poses, small_grid(), [](std::size_t done, std::size_t) { return done < 3; });
+  const GainTuning three =
+      tune_gains(coarse_sphere(), base, poses, small_grid(), [](std::size_t done, std::size_t) { return done < 3; });
   CHECK(three.stopped);
   CHECK(three.tried == 3);
   CHECK(three.best.size() == 3);

@@ -14,7 +14,8 @@ namespace {
 
 constexpr double kRadius = 0.020, kDepth = 1e-3;
 
-double contraction_at(const ContactMesh& mesh, const Preset& preset, std::uint32_t t, double u, double v, double depth = kDepth) {
+double contraction_at(const ContactMesh& mesh, const Preset& preset, std::uint32_t t, double u, double v,
+                      double depth = kDepth) {
   return paper_contraction(mesh, t, evaluate(make_patch(mesh, t), u, v), preset, depth);
 }
 
@@ -55,7 +56,8 @@ TEST_CASE("on an edge of radius r every plane leaves (h/r)/(2 + h/r) whatever th
   REQUIRE(out.triangle != kNone);
   for (const Gains& gains : {Gains{1.0, 0.019, 0.0}, Gains{0.85, 0.010, 0.0}, Gains{0.9, 0.015, 50.0}}) {
     CAPTURE(gains.curvature_m);
-    const double left = contraction_at(scene->mesh(), with(gains.overall, gains.curvature_m, gains.distance_per_m), out.triangle, out.u, out.v);
+    const double left = contraction_at(scene->mesh(), with(gains.overall, gains.curvature_m, gains.distance_per_m),
+                                       out.triangle, out.u, out.v);
     CHECK(left == doctest::Approx(theory).epsilon(0.01));
   }
   // Long and short steps take turns and leave less.
@@ -75,8 +77,10 @@ TEST_CASE("it foretells the planes that the solver computes") {
   IterationTrace trace;
   const TickOutput out = stepper.step(preset, input, state, &trace);
   REQUIRE(trace.size > 5);
-  const double measured = std::pow(trace.records[trace.size - 1].error_m / trace.records[3].error_m, 1.0 / static_cast<double>(trace.size - 4));
-  CHECK(contraction_at(scene->mesh(), preset, out.triangle, out.u, out.v, out.penetration_m) == doctest::Approx(measured).epsilon(0.03));
+  const double measured = std::pow(trace.records[trace.size - 1].error_m / trace.records[3].error_m,
+                                   1.0 / static_cast<double>(trace.size - 4));
+  CHECK(contraction_at(scene->mesh(), preset, out.triangle, out.u, out.v, out.penetration_m) ==
+        doctest::Approx(measured).epsilon(0.03));
 }
 
 TEST_CASE("the advice is the height of the finger's centre, with what it brings at the contact") {

@@ -1,11 +1,11 @@
 // Why the paper's iteration needs more than 2 to 3 planes on rounded edges unless it crosses them squarely.
 //
-// Across an edge of radius r the ideal factor of a step is 1/(1 + h/r), along it 1. One factor g leaves |1 - g (1 + h/r)|
-// of the travel across and 1 - g of that along. Where one shrinks faster than the other the travel turns towards the
-// other, k = |dN/ds| along it follows, and with it the gain, until both shrink alike: g = 2/(2 + h/r). From there every
-// plane leaves h/r / (2 + h/r) of the error, whatever the gains: 0.864 for r = 1.5 mm and h = 19 mm. (Where G_k is too
-// small for the edge, it does not converge at all.) Gains with G_o well above 1 never settle there; long and short steps
-// take turns and leave 0.67, but on flat ground G_o - 1.
+// Across an edge of radius r the ideal factor of a step is 1/(1 + h/r), along it 1. One factor g leaves |1 - g (1 +
+// h/r)| of the travel across and 1 - g of that along. Where one shrinks faster than the other the travel turns towards
+// the other, k = |dN/ds| along it follows, and with it the gain, until both shrink alike: g = 2/(2 + h/r). From there
+// every plane leaves h/r / (2 + h/r) of the error, whatever the gains: 0.864 for r = 1.5 mm and h = 19 mm. (Where G_k
+// is too small for the edge, it does not converge at all.) Gains with G_o well above 1 never settle there; long and
+// short steps take turns and leave 0.67, but on flat ground G_o - 1.
 #include "core/lab/gains/gain_tuning.h"
 #include "core/lab/gains/ground.h"
 
@@ -64,7 +64,8 @@ TEST_CASE("strokes squarely over rounded edges cost the paper's iteration one pl
   const RunScore square = run(scene, Method::paper, 0.0), slight = run(scene, Method::paper, 1.0),
                  oblique = run(scene, Method::paper, 45.0);
   for (const auto& [angle, score] : {std::pair(0, square), {1, slight}, {45, oblique}}) {
-    MESSAGE("paper, " << angle << " deg off square: mean " << score.mean_iterations() << ", max " << score.max_iterations);
+    MESSAGE("paper, " << angle << " deg off square: mean " << score.mean_iterations() << ", max "
+                      << score.max_iterations);
     CHECK(score.unconverged == 0);
   }
   CHECK(square.mean_iterations() < 1.2);
@@ -82,7 +83,8 @@ TEST_CASE("in an oblique crossing every plane leaves the part of the error that 
   const ScenePtr scene = rounded_cube();
   const double height = kRadius - kDepth, theory = height / kRounding / (2.0 + height / kRounding);
   const std::vector<TickInput> poses = stroke(45.0 * kDegree, 1100);
-  for (const Gains& gains : {Gains{1.0, 0.019, 0.0}, Gains{0.85, 0.010, 0.0}, Gains{0.9, 0.015, 50.0}, Gains{1.46, 0.0782, 0.0}}) {
+  for (const Gains& gains :
+       {Gains{1.0, 0.019, 0.0}, Gains{0.85, 0.010, 0.0}, Gains{0.9, 0.015, 50.0}, Gains{1.46, 0.0782, 0.0}}) {
     CAPTURE(gains.curvature_m);
     Preset preset = sphere_preset(kRadius, Method::paper);
     preset.solver = with_gains(preset.solver, gains);
@@ -95,16 +97,20 @@ TEST_CASE("in an oblique crossing every plane leaves the part of the error that 
       trace.clear();
       const TickOutput out = stepper.step(preset, input, state, &trace);
       const auto records = trace.view();
-      if (out.triangle == kNone || records.size() < 12 || ground_of(scene->mesh(), preset, out) != Ground::tight) continue;
+      if (out.triangle == kNone || records.size() < 12 || ground_of(scene->mesh(), preset, out) != Ground::tight)
+        continue;
       // The first planes still turn the travel.
-      for (std::size_t i = 9; i < records.size(); ++i) log_sum += std::log(records[i].error_m / records[i - 1].error_m), ++count;
+      for (std::size_t i = 9; i < records.size(); ++i)
+        log_sum += std::log(records[i].error_m / records[i - 1].error_m), ++count;
     }
     REQUIRE(count > 500);
     const double rate = std::exp(log_sum / count);
-    MESSAGE("G_o " << gains.overall << ", G_k " << gains.curvature_m << " m: every plane leaves " << rate << " of the error, theory "
-                   << theory);
-    if (gains.overall <= 1.0) CHECK(rate == doctest::Approx(theory).epsilon(0.01));
-    else CHECK(rate == doctest::Approx(0.67).epsilon(0.03));
+    MESSAGE("G_o " << gains.overall << ", G_k " << gains.curvature_m << " m: every plane leaves " << rate
+                   << " of the error, theory " << theory);
+    if (gains.overall <= 1.0)
+      CHECK(rate == doctest::Approx(theory).epsilon(0.01));
+    else
+      CHECK(rate == doctest::Approx(0.67).epsilon(0.03));
   }
 }
 

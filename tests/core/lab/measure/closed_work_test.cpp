@@ -14,9 +14,11 @@ namespace {
 
 const Vec3 kUp(0, 0, 1);
 
-ClosedWork around(const ScenePtr& scene, Method method, const Vec3& middle, const Vec3& axis, double radius, int steps = 256) {
+ClosedWork around(const ScenePtr& scene, Method method, const Vec3& middle, const Vec3& axis, double radius,
+                  int steps = 256) {
   Stepper stepper(scene);
-  return work_around(stepper, sphere_preset(0.020, method), circle_of_poses({middle, Quat(1, 0, 0, 0)}, axis, radius, steps));
+  return work_around(stepper, sphere_preset(0.020, method),
+                     circle_of_poses({middle, Quat(1, 0, 0, 0)}, axis, radius, steps));
 }
 
 }  // namespace

@@ -30,7 +30,8 @@ TEST_CASE("a fine sphere decimates to the limit's angle, keeps its smooth surfac
   CHECK(audit.crease_edges == 0);
   CHECK(audit.largest_curve_deg <= limit_deg + 1e-4);
   CHECK(audit.largest_curve_deg > 0.8 * limit_deg);
-  for (const SurfaceDeviation& d : {surface_deviation(*coarse, *fine, 20000), surface_deviation(*fine, *coarse, 20000)}) {
+  for (const SurfaceDeviation& d :
+       {surface_deviation(*coarse, *fine, 20000), surface_deviation(*fine, *coarse, 20000)}) {
     CHECK(d.unresolved == 0);
     CHECK(d.largest_m < deviation);
     CHECK(d.rms_m < 0.3 * deviation);
@@ -42,7 +43,8 @@ TEST_CASE("a fine sphere decimates to the limit's angle, keeps its smooth surfac
   for (int i = 0; i < 2000; ++i) {
     const double a = 6.283185307179586 * i / 2000.0;
     const Vec3 out_of = unit(Vec3(std::cos(a), std::sin(a), 0.4 * std::sin(5.0 * a)));
-    const TickOutput out = stepper.step(sphere_preset(0.020, Method::robust), at_position(1e-3 * i, 0.059 * out_of), state);
+    const TickOutput out =
+        stepper.step(sphere_preset(0.020, Method::robust), at_position(1e-3 * i, 0.059 * out_of), state);
     unconverged += out.status == TickStatus::unconverged;
     CHECK(angle_deg(out.normal, out_of) < 2.0);
   }
@@ -79,7 +81,9 @@ TEST_CASE("creases and boundaries keep their vertices, and corner normals stay o
   const DecimateResult flat = decimate(*sheet, {14.8, 100e-6});
   CHECK(flat.after < flat.before / 2);
   const ScenePtr coarse_sheet = with_file_normals(flat.mesh);
-  const auto count = [](const ScenePtr& s) { return audit_perception(s->mesh(), facet_angles(s->mesh())).boundary_edges; };
+  const auto count = [](const ScenePtr& s) {
+    return audit_perception(s->mesh(), facet_angles(s->mesh())).boundary_edges;
+  };
   CHECK(count(coarse_sheet) == count(sheet));
 }
 

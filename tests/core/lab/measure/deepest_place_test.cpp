@@ -46,13 +46,16 @@ TEST_CASE("on real meshes the tracked contact is the deepest place, as a search 
           unconverged += tracked.status == TickStatus::unconverged;
           TickState fresh;
           const TickOutput cold = searching.step(preset, input, fresh);
-          // The hysteresis may hold a place that is shallower by that much, and a rival's height is guessed to kHeightGuess.
-          const double behind = cold.penetration_m - tracked.penetration_m - preset.solver.switch_hysteresis_m - preset.solver.tolerance_m;
+          // The hysteresis may hold a place that is shallower by that much, and a rival's height is guessed to
+          // kHeightGuess.
+          const double behind = cold.penetration_m - tracked.penetration_m - preset.solver.switch_hysteresis_m -
+                                preset.solver.tolerance_m;
           late += behind > 0.0;
           shallower += behind > 2.0 * kHeightGuess * radius;
         }
-        MESSAGE(file << ", creases " << crease_deg << ": " << unconverged << " of " << poses.size() << " ticks unconverged, " << late
-                     << " behind a deeper place, " << shallower << " by more than heights are guessed to");
+        MESSAGE(file << ", creases " << crease_deg << ": " << unconverged << " of " << poses.size()
+                     << " ticks unconverged, " << late << " behind a deeper place, " << shallower
+                     << " by more than heights are guessed to");
         CHECK(unconverged == 0);
         CHECK(shallower == 0);
       }

@@ -15,7 +15,9 @@ ContactMesh mesh_of(const PolygonMesh& source) {
 }
 PerceptionAudit audit_of(const ContactMesh& mesh) { return audit_perception(mesh, facet_angles(mesh)); }
 
-const ConditionFeel& feel(const PerceptionAudit& audit, const char* name) { return audit.conditions[static_cast<std::size_t>(threshold_index(name))]; }
+const ConditionFeel& feel(const PerceptionAudit& audit, const char* name) {
+  return audit.conditions[static_cast<std::size_t>(threshold_index(name))];
+}
 
 /// A cylinder's wall of `around` facets, `length` long, open: every edge along it turns by 360/around degrees.
 PolygonMesh wall(int around) {
@@ -49,11 +51,13 @@ TEST_CASE("a cylinder of 36 facets: 10 degrees at each, diagonals flat, ends bou
   CHECK(feel(audit, "P1").felt == 0);
   CHECK(feel(audit, "P1").worst.empty());
   CHECK(verdict(audit, threshold_index("C3")) ==
-        "under C3 all edges are above 0.2 deg: facets will be felt; with force and tactile shading (P1, pilot data) none are above 14.8 deg");
+        "under C3 all edges are above 0.2 deg: facets will be felt; with force and tactile shading (P1, pilot data) "
+        "none are above 14.8 deg");
 }
 
 TEST_CASE("within the interval an edge is doubtful, above the mean it is felt") {
-  const PerceptionAudit audit = audit_of(mesh_of(wall(100)));  // 3.6 degrees: C4 is 3.5 [2.84, 4.59], C2 3.4 [3.05, 3.84]
+  const PerceptionAudit audit =
+      audit_of(mesh_of(wall(100)));  // 3.6 degrees: C4 is 3.5 [2.84, 4.59], C2 3.4 [3.05, 3.84]
   CHECK(feel(audit, "C4").felt == 100);
   CHECK(feel(audit, "C4").doubtful == 100);
   CHECK(feel(audit, "C4").surely_felt == 0);
@@ -61,7 +65,8 @@ TEST_CASE("within the interval an edge is doubtful, above the mean it is felt") 
   CHECK(feel(finer, "C2").felt == 0);
   CHECK(feel(finer, "C2").doubtful == 110);
   CHECK(verdict(finer, threshold_index("C2")) ==
-        "under C2 none are above 3.4 deg, but some within the threshold's interval: it may feel smooth; with force and tactile "
+        "under C2 none are above 3.4 deg, but some within the threshold's interval: it may feel smooth; with force and "
+        "tactile "
         "shading (P1, pilot data) none are above 14.8 deg");
 }
 

@@ -35,8 +35,9 @@ const Vec3 kTurned(std::sin(20.0 * kDegree), 0.0, std::cos(20.0 * kDegree));
 TEST_CASE("counts and percentiles of a run made by hand") {
   const std::vector<TickInput> inputs{pose(0), pose(0), pose(0), pose(0), pose(0)};
   const std::vector<TickOutput> outputs{
-      tick(TickStatus::face, TickEvent::first, 9), tick(TickStatus::face, TickEvent::none, 1), tick(TickStatus::unconverged, TickEvent::reseed, 50),
-      tick(TickStatus::edge, TickEvent::switched, 4), tick(TickStatus::free, TickEvent::none, 3)};
+      tick(TickStatus::face, TickEvent::first, 9), tick(TickStatus::face, TickEvent::none, 1),
+      tick(TickStatus::unconverged, TickEvent::reseed, 50), tick(TickStatus::edge, TickEvent::switched, 4),
+      tick(TickStatus::free, TickEvent::none, 3)};
   const std::vector<double> ns{900, 100, 5000, 400, 300};
   const RunStatistics s = run_statistics(inputs, outputs, ns);
   CHECK(s.ticks == 5);
@@ -59,7 +60,8 @@ TEST_CASE("counts and percentiles of a run made by hand") {
 TEST_CASE("a jump of the normal counts only without event and where the finger moved little") {
   const auto jumps = [](TickEvent event, double step_m, const Vec3& normal) {
     const std::vector<TickInput> inputs{pose(0), pose(step_m)};
-    const std::vector<TickOutput> outputs{tick(TickStatus::face, TickEvent::first, 1), tick(TickStatus::face, event, 1, normal)};
+    const std::vector<TickOutput> outputs{tick(TickStatus::face, TickEvent::first, 1),
+                                          tick(TickStatus::face, event, 1, normal)};
     return run_statistics(inputs, outputs, {}).unmarked_jumps;
   };
   CHECK(jumps(TickEvent::none, 1e-4, kTurned) == 1);

@@ -40,14 +40,17 @@ TEST_CASE("parts cover a patch once each, and their centroids lie in them") {
     }
     CHECK(seen.size() == level * level);
     CHECK(sum_u / (level * level) == doctest::Approx(1.0 / 3.0));  // the parts have equal areas
-    for (const Vec2 corner : {Vec2(0, 0), Vec2(1, 0), Vec2(0, 1)}) CHECK(map_part_at(level, corner.x, corner.y) < level * level);
+    for (const Vec2 corner : {Vec2(0, 0), Vec2(1, 0), Vec2(0, 1)})
+      CHECK(map_part_at(level, corner.x, corner.y) < level * level);
   }
   CHECK(map_level_within(100'000, 320) == 17);
   CHECK(map_level_within(100'000, 5'000'000) == 1);
   CHECK(map_level_within(1'000'000, 1) == kLargestMapLevel);
 }
 
-TEST_CASE("on a sphere: curvature 1/r, hardly any normal deviation, nothing touches twice, robust takes one plane and fails nowhere") {
+TEST_CASE(
+    "on a sphere: curvature 1/r, hardly any normal deviation, nothing touches twice, robust takes one plane and fails "
+    "nowhere") {
   const auto scene = scene_of(make_icosphere(0.040, 3));
   const Preset preset = sphere_preset(0.020, Method::robust);
   MapOptions options;
@@ -72,7 +75,8 @@ TEST_CASE("the paper's iteration without curvature gain takes more planes than w
   plain.solver.gain_curvature_m = 0.0;
   tuned.solver.gain_curvature_m = 0.019;
   SurfaceMapper with_plain(scene, plain, {}), with_tuned(scene, tuned, {});
-  CHECK(value_of(with_plain, MapQuantity::iterations_mean, 7, 0) > 2.0f * value_of(with_tuned, MapQuantity::iterations_mean, 7, 0));
+  CHECK(value_of(with_plain, MapQuantity::iterations_mean, 7, 0) >
+        2.0f * value_of(with_tuned, MapQuantity::iterations_mean, 7, 0));
   CHECK(value_of(with_plain, MapQuantity::gain_margin, 7, 0) == doctest::Approx(1.0 - 0.019 / 0.040).epsilon(0.05));
   CHECK(value_of(with_tuned, MapQuantity::gain_margin, 7, 0) > 0.95f);
 }
@@ -106,12 +110,14 @@ TEST_CASE("beside a concave crease the ball that fits is told by the other wall"
   const auto scene = scene_of(height_field(0.03, 60, [](double x, double) { return std::max(0.0, x - 0.0) * 1.0; }));
   const Preset preset = sphere_preset(0.020, Method::robust);
   SurfaceMapper mapper(scene, preset, {});
-  // Walls at 135 degrees inside: the ball that touches the flat at distance d from the crease has r = d / tan(22.5 deg).
+  // Walls at 135 degrees inside: the ball that touches the flat at distance d from the crease has r = d / tan(22.5
+  // deg).
   const double d = 0.0055;
   const NearestHit at = scene->nearest().nearest(Vec3(-d, 0.0005, 0.0) - scene->mesh().origin(), 1.0);
   REQUIRE(at);
   double mean_x = 0.0;
-  for (std::uint32_t k = 0; k < 3; ++k) mean_x += (scene->mesh().position(at.triangle, k).x + scene->mesh().origin().x) / 3.0;
+  for (std::uint32_t k = 0; k < 3; ++k)
+    mean_x += (scene->mesh().position(at.triangle, k).x + scene->mesh().origin().x) / 3.0;
   const double expected = -mean_x / std::tan(22.5 * kDegree) / 0.020;
   CHECK(value_of(mapper, MapQuantity::touch_radius, at.triangle, 0) == doctest::Approx(expected).epsilon(0.1));
 }

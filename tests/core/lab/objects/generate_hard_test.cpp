@@ -49,7 +49,9 @@ TEST_CASE("hard meshes take no options and unknown names are refused") {
 
 TEST_CASE("each defective mesh has the defect it is named after") {
   CHECK(defects("zero_normals", MeshDefect::bad_normal) > 200);
-  CHECK(defects("duplicate_faces", MeshDefect::duplicate_triangle) + defects("duplicate_faces", MeshDefect::non_manifold_triangle) == 256);
+  CHECK(defects("duplicate_faces", MeshDefect::duplicate_triangle) +
+            defects("duplicate_faces", MeshDefect::non_manifold_triangle) ==
+        256);
   CHECK(defects("degenerate_faces", MeshDefect::degenerate_triangle) == 320);
   CHECK(defects("degenerate_faces", MeshDefect::face_under_three_corners) == 160);
   CHECK(defects("fin_on_plate", MeshDefect::non_manifold_triangle) == 16);
@@ -83,9 +85,9 @@ TEST_CASE("the needles have an aspect of 1e5 and the dart's crease ends inside")
         ++creases;
         furthest = std::max(furthest, std::abs(dart->origin().y + dart->position(t, e).y));
       }
-  CHECK(creases > 4);          // both sides count
-  CHECK(creases < 2 * 16);     // not from rim to rim
-  CHECK(furthest == 0.0);      // on the ridge
+  CHECK(creases > 4);       // both sides count
+  CHECK(creases < 2 * 16);  // not from rim to rim
+  CHECK(furthest == 0.0);   // on the ridge
 }
 
 TEST_CASE("the Moebius band has one rim and no consistent orientation") {

@@ -1,5 +1,5 @@
-#include "core/base/units.h"
 #include "core/lab/objects/generate.h"
+#include "core/base/units.h"
 #include "core/lab/objects/generators.h"
 #include "tests/core/mesh/mesh_measures.h"
 
@@ -25,7 +25,7 @@ PolygonMesh make(std::string_view name, const GenerateOptions& options = {}) {
   return std::move(*mesh);
 }
 
-const std::vector<std::string> kPaperObjects = {"cone",    "cylinder", "cube",    "sphere",
+const std::vector<std::string> kPaperObjects = {"cone",        "cylinder", "cube",     "sphere",
                                                 "tetrahedron", "octagon",  "triangle", "hexagon"};
 const std::vector<std::string> kPolyhedra = {"cube", "tetrahedron", "octagon", "triangle", "hexagon"};
 

@@ -60,8 +60,8 @@ void CldModel::take(const CldFrame& frame) {
     }
     case CldType::gains:
       if (const auto g = to_gains(frame)) {
-        mechanism_.set_gains({static_cast<double>(g->p_per_s2), static_cast<double>(g->i_per_s3), g->d_milli_per_s * 1e-3,
-                              g->target_weight_per_65535 / 65535.0});
+        mechanism_.set_gains({static_cast<double>(g->p_per_s2), static_cast<double>(g->i_per_s3),
+                              g->d_milli_per_s * 1e-3, g->target_weight_per_65535 / 65535.0});
       } else {
         refuse(frame, 3);
       }
@@ -70,7 +70,8 @@ void CldModel::take(const CldFrame& frame) {
       if (const auto l = to_limits(frame)) {
         lowest_nm_ = l->lowest_nm;
         highest_nm_ = l->highest_nm;
-        mechanism_.set_limits({l->lowest_nm * 1e-9, l->highest_nm * 1e-9, l->fastest_um_per_s * 1e-6, l->largest_current_ma * 1e-3});
+        mechanism_.set_limits(
+            {l->lowest_nm * 1e-9, l->highest_nm * 1e-9, l->fastest_um_per_s * 1e-6, l->largest_current_ma * 1e-3});
       } else {
         refuse(frame, 4);
       }
@@ -90,7 +91,8 @@ void CldModel::take(const CldFrame& frame) {
         fault_ = CldDeviceFault::none;
       }
       return;
-    default: return refuse(frame, 2);
+    default:
+      return refuse(frame, 2);
   }
 }
 
@@ -125,9 +127,13 @@ void CldModel::tick() {
   run_drive();
   if (!telemetry_on) return;
   const double reading = encoder_stuck ? stuck_at_ : mechanism_.encoder_m();
-  send(to_frame(CldTelemetry{.time_us = time_us_, .position_nm = static_cast<std::int32_t>(std::lround(reading * 1e9)),
-                             .target_nm = target_nm_, .current_ma = static_cast<std::int16_t>(std::lround(mechanism_.current() * 500)),
-                             .state = state_, .fault = fault_, .heard_sequence = heard_sequence_,
+  send(to_frame(CldTelemetry{.time_us = time_us_,
+                             .position_nm = static_cast<std::int32_t>(std::lround(reading * 1e9)),
+                             .target_nm = target_nm_,
+                             .current_ma = static_cast<std::int16_t>(std::lround(mechanism_.current() * 500)),
+                             .state = state_,
+                             .fault = fault_,
+                             .heard_sequence = heard_sequence_,
                              .missed_frames = static_cast<std::uint16_t>(sequence_.lost())},
                 out_sequence_++));
   ++telemetry_sent;
@@ -147,7 +153,8 @@ void CldModel::send(const CldFrame& frame) {
   const Bytes kept = std::exchange(kept_, {});
   const WireFault fault = std::exchange(next_wire, WireFault::none);
   switch (fault) {
-    case WireFault::none: break;
+    case WireFault::none:
+      break;
     case WireFault::split:
       put({bytes.begin(), bytes.begin() + 5});
       put({bytes.begin() + 5, bytes.end()});
@@ -155,12 +162,20 @@ void CldModel::send(const CldFrame& frame) {
     case WireFault::merged:
     case WireFault::out_of_order:
       kept_ = bytes;
-      kept_.push_back(fault == WireFault::merged ? 1 : 0);   // a mark, taken off below
+      kept_.push_back(fault == WireFault::merged ? 1 : 0);  // a mark, taken off below
       return;
-    case WireFault::garbage: put({0xC5, 0x01, 0x82, 0x14, 9, 9, 9}); break;
-    case WireFault::doubled: put(bytes); break;
-    case WireFault::crc_error: bytes[8] ^= 0x10u; break;
-    case WireFault::empty: in_packets.emplace_back(); break;
+    case WireFault::garbage:
+      put({0xC5, 0x01, 0x82, 0x14, 9, 9, 9});
+      break;
+    case WireFault::doubled:
+      put(bytes);
+      break;
+    case WireFault::crc_error:
+      bytes[8] ^= 0x10u;
+      break;
+    case WireFault::empty:
+      in_packets.emplace_back();
+      break;
   }
   if (!kept.empty()) {
     const bool merged = kept.back() == 1;

@@ -15,16 +15,16 @@ enum class WireFault { none, split, merged, garbage, doubled, out_of_order, crc_
 class CldModel final : public UsbModel {
  public:
   std::uint16_t watchdog_ms = 50;
-  bool watchdog_on = true;           ///< off: a machine that stalls under the tests does not trip it
-  bool has_firmware = true;          ///< false: says nothing
-  std::uint16_t telemetry_hz = 1000; ///< 0: an info that no host may accept
+  bool watchdog_on = true;            ///< off: a machine that stalls under the tests does not trip it
+  bool has_firmware = true;           ///< false: says nothing
+  std::uint16_t telemetry_hz = 1000;  ///< 0: an info that no host may accept
   bool encoder_stuck = false;
   bool telemetry_on = true;
   int homing_ticks = 100;
   WireFault next_wire = WireFault::none;
   /// Targets by their place in the order of arrival, and how often each sequence number came.
   std::vector<std::int32_t> targets;
-  std::map<std::uint32_t, int> heard;        ///< frames by running sequence number
+  std::map<std::uint32_t, int> heard;  ///< frames by running sequence number
   std::uint64_t watchdog_fired = 0, telemetry_sent = 0;
 
   Bytes descriptors() const override;
@@ -34,7 +34,11 @@ class CldModel final : public UsbModel {
   void reset() override;
 
   /// As after its power was off.
-  void forget_settings() { mechanism_ = CldMechanism(); lowest_nm_ = -10'000'000; highest_nm_ = 10'000'000; }
+  void forget_settings() {
+    mechanism_ = CldMechanism();
+    lowest_nm_ = -10'000'000;
+    highest_nm_ = 10'000'000;
+  }
 
   CldDeviceState state() const { return state_; }
   const CldMechanism& mechanism() const { return mechanism_; }
@@ -56,7 +60,7 @@ class CldModel final : public UsbModel {
   std::int32_t target_nm_ = 0, lowest_nm_ = -10'000'000, highest_nm_ = 10'000'000;
   int homing_left_ = 0, since_target_ = 0, stuck_for_ = 0;
   double stuck_at_ = 0.0;
-  Bytes kept_;               ///< waits for the next frame: merged, out of order
+  Bytes kept_;  ///< waits for the next frame: merged, out of order
 };
 
 }  // namespace tangent::emulation

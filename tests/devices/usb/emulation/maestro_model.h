@@ -10,9 +10,9 @@ namespace tangent::emulation {
 class MaestroModel final : public UsbModel {
  public:
   std::array<std::uint16_t, 6> targets{}, speeds{}, accelerations{};
-  std::vector<std::uint16_t> history;     ///< targets of channel 0, in order
+  std::vector<std::uint16_t> history;  ///< targets of channel 0, in order
   bool stalls = false;
-  std::string serial;                     ///< ASCII; empty: it says none
+  std::string serial;  ///< ASCII; empty: it says none
 
   Bytes descriptors() const override {
     Bytes d = device_descriptor(0x1FFB, 0x0089);
@@ -24,7 +24,8 @@ class MaestroModel final : public UsbModel {
   void on_out(std::uint8_t, std::span<const std::uint8_t>) override {}
   bool on_control(const ControlSetup& s, Bytes& answer) override {
     answer.clear();
-    if (s.request_type == 0x80 && s.request == 6 && s.value >> 8 == 3 && !serial.empty()) return string_descriptor(s.value & 0xffu, answer);
+    if (s.request_type == 0x80 && s.request == 6 && s.value >> 8 == 3 && !serial.empty())
+      return string_descriptor(s.value & 0xffu, answer);
     const std::size_t channel = s.index & 0x7fu;
     if (stalls || s.request_type != 0x40 || channel >= targets.size()) return false;
     if (s.request == 0x85) {
@@ -39,9 +40,12 @@ class MaestroModel final : public UsbModel {
     return false;
   }
   bool string_descriptor(unsigned index, Bytes& answer) const {
-    if (index == 0) answer = {4, 3, 0x09, 0x04};   // in English
-    else if (index == kSerialString) answer = {static_cast<std::uint8_t>(2 + 2 * serial.size()), 3};
-    for (std::size_t i = 0; index == kSerialString && i < serial.size(); ++i) answer.insert(answer.end(), {static_cast<std::uint8_t>(serial[i]), 0});
+    if (index == 0)
+      answer = {4, 3, 0x09, 0x04};  // in English
+    else if (index == kSerialString)
+      answer = {static_cast<std::uint8_t>(2 + 2 * serial.size()), 3};
+    for (std::size_t i = 0; index == kSerialString && i < serial.size(); ++i)
+      answer.insert(answer.end(), {static_cast<std::uint8_t>(serial[i]), 0});
     return !answer.empty();
   }
   void tick() override {}

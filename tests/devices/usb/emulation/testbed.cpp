@@ -32,7 +32,12 @@ Testbed::Testbed() : testbed_(umockdev_testbed_new()) {}
 Testbed::~Testbed() { g_object_unref(testbed_); }
 
 PluggedDevice::PluggedDevice(Testbed& testbed, UsbModel& model, int address, NodeBy by)
-    : board(model), testbed_(testbed), model_(model), address_(address), by_(by), node_(number("/dev/bus/usb/001/%03d", address)),
+    : board(model),
+      testbed_(testbed),
+      model_(model),
+      address_(address),
+      by_(by),
+      node_(number("/dev/bus/usb/001/%03d", address)),
       syspath_(number("/sys/devices/pci0000:00/usb1/1-%d", address)) {}
 
 PluggedDevice::~PluggedDevice() {
@@ -45,9 +50,10 @@ void PluggedDevice::plug_in(int open_error) {
   if (by_ == NodeBy::shim) attach_board(node_, board, open_error);
   const Bytes d = model_.descriptors();
   const auto id = [&d](std::size_t at) { return number("%04x", d[at] | (d[at + 1] << 8)); };
-  const std::string device = "P: " + syspath_.substr(4) + "\nN: bus/usb/" + node_.substr(13) + "\nE: DEVTYPE=usb_device\nE: SUBSYSTEM=usb\n" +
-                             "E: DEVNAME=" + node_ + "\nE: BUSNUM=001\n" + number("E: DEVNUM=%03d\n", address_) +
-                             "A: busnum=1\n" + number("A: devnum=%d\n", address_) + "A: idVendor=" + id(8) + "\nA: idProduct=" + id(10) +
+  const std::string device = "P: " + syspath_.substr(4) + "\nN: bus/usb/" + node_.substr(13) +
+                             "\nE: DEVTYPE=usb_device\nE: SUBSYSTEM=usb\n" + "E: DEVNAME=" + node_ +
+                             "\nE: BUSNUM=001\n" + number("E: DEVNUM=%03d\n", address_) + "A: busnum=1\n" +
+                             number("A: devnum=%d\n", address_) + "A: idVendor=" + id(8) + "\nA: idProduct=" + id(10) +
                              "\nA: bConfigurationValue=1\nA: speed=12\nH: descriptors=" + hex(d) + "\n";
   GError* error = nullptr;
   if (!umockdev_testbed_add_from_string(testbed_.mock(), device.c_str(), &error)) {

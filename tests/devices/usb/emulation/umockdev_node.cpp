@@ -21,14 +21,15 @@ struct RemoteUrb {
   UMockdevIoctlData* urb = nullptr;
   UMockdevIoctlData* buffer = nullptr;
   std::vector<unsigned char> bytes;
-  alignas(usbdevfs_urb) std::array<unsigned char, sizeof(usbdevfs_urb)> memory{};   // ends in a flexible array: no member by itself
+  alignas(usbdevfs_urb)
+      std::array<unsigned char, sizeof(usbdevfs_urb)> memory{};  // ends in a flexible array: no member by itself
 
   usbdevfs_urb& local() { return *reinterpret_cast<usbdevfs_urb*>(memory.data()); }
 };
 
 struct NodeState {
   UsbfsBoard* board = nullptr;
-  std::list<RemoteUrb> urbs;   // addresses stay
+  std::list<RemoteUrb> urbs;  // addresses stay
 };
 
 unsigned long pointer_in(UMockdevIoctlData* data) {
@@ -67,7 +68,8 @@ int submit(NodeState& state, UMockdevIoctlData* argument) {
 
 int discard(NodeState& state, UMockdevIoctlData* argument) {
   const unsigned long address = pointer_in(argument);
-  const auto found = std::find_if(state.urbs.begin(), state.urbs.end(), [&](const RemoteUrb& r) { return r.urb->client_addr == address; });
+  const auto found = std::find_if(state.urbs.begin(), state.urbs.end(),
+                                  [&](const RemoteUrb& r) { return r.urb->client_addr == address; });
   return found == state.urbs.end() ? -EINVAL : state.board->ioctl(USBDEVFS_DISCARDURB, &found->local());
 }
 
@@ -75,8 +77,10 @@ int reap(NodeState& state, UMockdevIoctlData* argument) {
   void* done = nullptr;
   const int code = state.board->ioctl(USBDEVFS_REAPURBNDELAY, static_cast<void*>(&done));
   if (code < 0) return code;
-  const auto r = std::find_if(state.urbs.begin(), state.urbs.end(), [&](RemoteUrb& u) { return static_cast<void*>(&u.local()) == done; });
-  if (r->buffer != nullptr) write_back(r->buffer, 0, r->bytes.data(), static_cast<std::size_t>(r->local().buffer_length));
+  const auto r = std::find_if(state.urbs.begin(), state.urbs.end(),
+                              [&](RemoteUrb& u) { return static_cast<void*>(&u.local()) == done; });
+  if (r->buffer != nullptr)
+    write_back(r->buffer, 0, r->bytes.data(), static_cast<std::size_t>(r->local().buffer_length));
   write_back(r->urb, offsetof(usbdevfs_urb, status), &r->local().status, sizeof(int));
   write_back(r->urb, offsetof(usbdevfs_urb, actual_length), &r->local().actual_length, sizeof(int));
   UMockdevIoctlData* out = umockdev_ioctl_data_resolve(argument, 0, sizeof(void*), nullptr);
@@ -88,10 +92,13 @@ int reap(NodeState& state, UMockdevIoctlData* argument) {
 
 int answer(NodeState& state, gulong request, UMockdevIoctlData* argument) {
   switch (request) {
-    case USBDEVFS_SUBMITURB: return submit(state, argument);
-    case USBDEVFS_DISCARDURB: return discard(state, argument);
+    case USBDEVFS_SUBMITURB:
+      return submit(state, argument);
+    case USBDEVFS_DISCARDURB:
+      return discard(state, argument);
     case USBDEVFS_REAPURB:
-    case USBDEVFS_REAPURBNDELAY: return reap(state, argument);
+    case USBDEVFS_REAPURBNDELAY:
+      return reap(state, argument);
     case USBDEVFS_GET_CAPABILITIES: {
       std::uint32_t capabilities = 0;
       const int code = state.board->ioctl(request, &capabilities);
@@ -100,12 +107,15 @@ int answer(NodeState& state, gulong request, UMockdevIoctlData* argument) {
       umockdev_ioctl_data_unref(out);
       return code;
     }
-    default: return state.board->ioctl(request, nullptr);   // none of these look at their argument
+    default:
+      return state.board->ioctl(request, nullptr);  // none of these look at their argument
   }
 }
 
 // GObject's way of a derived class.
-struct TangentNodeClass { UMockdevIoctlBaseClass parent; };
+struct TangentNodeClass {
+  UMockdevIoctlBaseClass parent;
+};
 struct TangentNode {
   UMockdevIoctlBase parent;
   NodeState* state;
@@ -126,8 +136,9 @@ void init_class(gpointer type, gpointer) {
 }
 
 GType node_type() {
-  static const GType type = g_type_register_static_simple(UMOCKDEV_TYPE_IOCTL_BASE, "TangentNode", sizeof(TangentNodeClass),
-                                                          &init_class, sizeof(TangentNode), nullptr, GTypeFlags(0));
+  static const GType type =
+      g_type_register_static_simple(UMOCKDEV_TYPE_IOCTL_BASE, "TangentNode", sizeof(TangentNodeClass), &init_class,
+                                    sizeof(TangentNode), nullptr, GTypeFlags(0));
   return type;
 }
 
@@ -140,7 +151,8 @@ void finalize(GObject* object) {
 
 namespace tangent::emulation {
 
-UmockdevNode::UmockdevNode(UMockdevTestbed* testbed, const std::string& path, UsbfsBoard& board) : testbed_(testbed), path_(path) {
+UmockdevNode::UmockdevNode(UMockdevTestbed* testbed, const std::string& path, UsbfsBoard& board)
+    : testbed_(testbed), path_(path) {
   auto* node = static_cast<TangentNode*>(g_object_new(node_type(), nullptr));
   node->state = new NodeState{&board, {}};
   GError* error = nullptr;

@@ -12,17 +12,25 @@ int UsbfsBoard::ioctl(unsigned long request, void* argument) {
   if (request == USBDEVFS_DISCARDURB) return discard(static_cast<usbdevfs_urb*>(argument));
   if (!plugged_) return -ENODEV;
   switch (request) {
-    case USBDEVFS_GET_CAPABILITIES: *static_cast<std::uint32_t*>(argument) = 0; return 0;
-    case USBDEVFS_SUBMITURB: return submit(static_cast<usbdevfs_urb*>(argument));
-    case USBDEVFS_CLAIMINTERFACE: return -claim_error;
+    case USBDEVFS_GET_CAPABILITIES:
+      *static_cast<std::uint32_t*>(argument) = 0;
+      return 0;
+    case USBDEVFS_SUBMITURB:
+      return submit(static_cast<usbdevfs_urb*>(argument));
+    case USBDEVFS_CLAIMINTERFACE:
+      return -claim_error;
     case USBDEVFS_RELEASEINTERFACE:
     case USBDEVFS_CLEAR_HALT:
     case USBDEVFS_SETINTERFACE:
     case USBDEVFS_SETCONFIGURATION:
-    case USBDEVFS_RESET: return 0;
-    case USBDEVFS_GETDRIVER: return -ENODATA;
-    case USBDEVFS_IOCTL: return -ENODATA;   // no driver to attach or detach
-    default: return -ENOTTY;
+    case USBDEVFS_RESET:
+      return 0;
+    case USBDEVFS_GETDRIVER:
+      return -ENODATA;
+    case USBDEVFS_IOCTL:
+      return -ENODATA;  // no driver to attach or detach
+    default:
+      return -ENOTTY;
   }
 }
 
@@ -45,13 +53,20 @@ int UsbfsBoard::submit(usbdevfs_urb* urb) {
   }
   switch (std::exchange(model_.next_out, BusFault::none)) {
     case BusFault::none:
-      model_.on_out(urb->endpoint, {static_cast<std::uint8_t*>(urb->buffer), static_cast<std::size_t>(urb->buffer_length)});
+      model_.on_out(urb->endpoint,
+                    {static_cast<std::uint8_t*>(urb->buffer), static_cast<std::size_t>(urb->buffer_length)});
       complete(urb, 0, urb->buffer_length);
       serve_in();
       break;
-    case BusFault::stall: complete(urb, -EPIPE, 0); break;
-    case BusFault::error: complete(urb, -EPROTO, 0); break;
-    case BusFault::time_out: waiting_.push_back(urb); break;   // never answered; the host discards it
+    case BusFault::stall:
+      complete(urb, -EPIPE, 0);
+      break;
+    case BusFault::error:
+      complete(urb, -EPROTO, 0);
+      break;
+    case BusFault::time_out:
+      waiting_.push_back(urb);
+      break;  // never answered; the host discards it
   }
   return 0;
 }
@@ -82,9 +97,14 @@ void UsbfsBoard::serve_in() {
     usbdevfs_urb* taken = *urb;
     waiting_.erase(urb);
     switch (std::exchange(model_.next_in, BusFault::none)) {
-      case BusFault::stall: complete(taken, -EPIPE, 0); continue;
-      case BusFault::error: complete(taken, -EPROTO, 0); continue;
-      default: break;
+      case BusFault::stall:
+        complete(taken, -EPIPE, 0);
+        continue;
+      case BusFault::error:
+        complete(taken, -EPROTO, 0);
+        continue;
+      default:
+        break;
     }
     Bytes packet = std::move(model_.in_packets.front());
     model_.in_packets.pop_front();

@@ -27,14 +27,14 @@ class UsbfsBoard {
   void unplug();
   void plug_in();
   bool plugged() const { return plugged_; }
-  void vanish_handle();                         ///< the node was closed: URBs are forgotten
+  void vanish_handle();  ///< the node was closed: URBs are forgotten
   template <class F>
   auto with_model(F&& f) {
     const std::scoped_lock lock(mutex_);
     return f();
   }
 
-  int claim_error = 0;                          ///< errno that claiming meets
+  int claim_error = 0;  ///< errno that claiming meets
   /// Called, under the lock, when there is something to reap, and when there no longer is.
   std::function<void(bool ready)> on_ready;
 

@@ -27,9 +27,18 @@ struct Handle {
 constexpr std::size_t kPipe = 4096;
 
 // Never destroyed: other threads may still close files while the process ends.
-std::mutex& guard() { static auto* m = new std::mutex; return *m; }
-std::map<std::string, Node>& nodes() { static auto* m = new std::map<std::string, Node>; return *m; }
-std::map<int, Handle>& handles() { static auto* m = new std::map<int, Handle>; return *m; }
+std::mutex& guard() {
+  static auto* m = new std::mutex;
+  return *m;
+}
+std::map<std::string, Node>& nodes() {
+  static auto* m = new std::map<std::string, Node>;
+  return *m;
+}
+std::map<int, Handle>& handles() {
+  static auto* m = new std::map<int, Handle>;
+  return *m;
+}
 
 using CloseCall = int (*)(int);
 CloseCall real_close() {
@@ -159,5 +168,4 @@ __attribute__((visibility("default"))) int close(int fd) {
   }
   return real_close()(fd);
 }
-
 }

@@ -52,7 +52,9 @@ TEST_CASE("minima and maxima over any range equal those found sample by sample, 
   }
 }
 
-TEST_CASE("a row of ranges equals its ranges found sample by sample: whole blocks, odd ones, over the ring's end, beyond what is kept") {
+TEST_CASE(
+    "a row of ranges equals its ranges found sample by sample: whole blocks, odd ones, over the ring's end, beyond "
+    "what is kept") {
   ChannelStore store(1, 1);
   std::mt19937 random(17);
   std::uniform_real_distribution<float> value(-1.0f, 1.0f);
@@ -62,7 +64,8 @@ TEST_CASE("a row of ranges equals its ranges found sample by sample: whole block
   }
   std::vector<MinMax> row(40);
   for (const std::uint64_t ticks : {3u, 8u, 9u, 16u, 24u, 60u, 64u, 120u, 176u, 448u, 480u, 512u, 513u, 3584u, 7680u}) {
-    for (const std::uint64_t around : {store.first_tick(), std::uint64_t{262'144}, std::uint64_t{400'000}, store.end_tick()}) {
+    for (const std::uint64_t around :
+         {store.first_tick(), std::uint64_t{262'144}, std::uint64_t{400'000}, store.end_tick()}) {
       const std::uint64_t from = (around / ticks - 20) * ticks;
       store.min_max_row(0, from, ticks, row);
       for (std::size_t i = 0; i < row.size(); ++i) {

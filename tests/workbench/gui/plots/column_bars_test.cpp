@@ -12,7 +12,8 @@ namespace {
 ChannelStore sine_with_spike(std::uint64_t count, std::uint64_t spike_at) {
   ChannelStore store(1, count);
   for (std::uint64_t t = 0; t < count; ++t) {
-    store.push(t, std::vector<float>{t == spike_at ? 50.0f : static_cast<float>(std::sin(static_cast<double>(t) * 1e-3))});
+    store.push(t,
+               std::vector<float>{t == spike_at ? 50.0f : static_cast<float>(std::sin(static_cast<double>(t) * 1e-3))});
   }
   return store;
 }

@@ -16,7 +16,8 @@ std::vector<ColumnBar> brute_force(const ChannelStore& store, std::size_t channe
   std::vector<ColumnBar> out;
   for (std::int64_t column = columns.first; column < columns.end; ++column) {
     MinMax range;
-    for (std::uint64_t t = columns.tick_of(column); t < columns.tick_of(column + 1); ++t) range.include(store.value(channel, t));
+    for (std::uint64_t t = columns.tick_of(column); t < columns.tick_of(column + 1); ++t)
+      range.include(store.value(channel, t));
     if (!range.empty()) out.push_back({columns.x_of(column), range});
   }
   return out;
@@ -61,16 +62,36 @@ TEST_CASE("kept bars are those computed anew, whatever is done to axis and store
   for (int i = 0; i < 400; ++i) {
     CAPTURE(i);
     switch (what(noise.random)) {
-      case 0: axis.follow(); break;
-      case 1: axis.show(262'000.0 + 150'000.0 * share(noise.random), 262'000.0 + 300'000.0 * share(noise.random)); break;
-      case 2: axis.zoom(0.7, axis.from() + share(noise.random) * axis.span()); break;
-      case 3: axis.zoom(1.4, axis.from() + share(noise.random) * axis.span()); break;
-      case 4: axis.pan((share(noise.random) - 0.5) * 0.2 * axis.span()); break;
-      case 5: axis.set_span(static_cast<double>(width) * std::floor(3.0 + 200.0 * share(noise.random))); break;
-      case 6: width = 300.0f + 50.0f * static_cast<float>(what(noise.random)); break;
-      case 7: channel = 1 - channel; break;
-      case 8: noise.push(store, 17'000); break;   // now and then past the end of the ring
-      default: noise.push(store, 16); break;
+      case 0:
+        axis.follow();
+        break;
+      case 1:
+        axis.show(262'000.0 + 150'000.0 * share(noise.random), 262'000.0 + 300'000.0 * share(noise.random));
+        break;
+      case 2:
+        axis.zoom(0.7, axis.from() + share(noise.random) * axis.span());
+        break;
+      case 3:
+        axis.zoom(1.4, axis.from() + share(noise.random) * axis.span());
+        break;
+      case 4:
+        axis.pan((share(noise.random) - 0.5) * 0.2 * axis.span());
+        break;
+      case 5:
+        axis.set_span(static_cast<double>(width) * std::floor(3.0 + 200.0 * share(noise.random)));
+        break;
+      case 6:
+        width = 300.0f + 50.0f * static_cast<float>(what(noise.random));
+        break;
+      case 7:
+        channel = 1 - channel;
+        break;
+      case 8:
+        noise.push(store, 17'000);
+        break;  // now and then past the end of the ring
+      default:
+        noise.push(store, 16);
+        break;
     }
     axis.update(store.first_tick(), store.end_tick(), static_cast<double>(store.capacity()));
     require_same(kept.update(store, channel, axis, width), brute_force(store, channel, axis, width));

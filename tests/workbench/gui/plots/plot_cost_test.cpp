@@ -16,7 +16,7 @@ using tangent::test::HeadlessApp;
 
 namespace {
 
-constexpr std::uint64_t kHour = 3'600'000;      // ticks at 1 kHz
+constexpr std::uint64_t kHour = 3'600'000;  // ticks at 1 kHz
 constexpr std::uint64_t kTicksAFrame = 16;
 constexpr std::size_t kPlots = 6;
 constexpr std::size_t kMostChannels = 24, kEvents = kMostChannels;  // the last channel holds events
@@ -45,8 +45,8 @@ ChannelStore& hour() {
 
 struct Load {
   std::size_t channels = kMostChannels;
-  bool statistics = false;   ///< minimum, maximum, mean and RMS of what is in view, as text beside the curves
-  int columns = 3;           ///< of plots across the window
+  bool statistics = false;  ///< minimum, maximum, mean and RMS of what is in view, as text beside the curves
+  int columns = 3;          ///< of plots across the window
 };
 
 /// A window of plots and nothing else, with frames as the workbench makes them.
@@ -57,7 +57,8 @@ class PlotBench {
       PlotSpec spec;
       spec.id = "p" + std::to_string(p);
       spec.title = "Plot";
-      for (std::size_t c = p; c < load.channels; c += kPlots) spec.series.push_back({"c" + std::to_string(c), c, &Palette::force_x});
+      for (std::size_t c = p; c < load.channels; c += kPlots)
+        spec.series.push_back({"c" + std::to_string(c), c, &Palette::force_x});
       if (!spec.series.empty()) plots_.emplace_back(std::move(spec));
     }
     link_.marks.event_channel = kEvents;
@@ -84,25 +85,29 @@ class PlotBench {
   void draw(const ChannelStore& store) {
     ImFont* font = ImGui::GetIO().Fonts->Fonts[0];
     const ThemeFonts fonts{font, font, font, font, font};
-    const UiContext ui{items_, typing_, resting_, theme_colours(Theme::dark), palette(Theme::dark), fonts, sections_, 1.0f, 0.0};
+    const UiContext ui{items_,    typing_, resting_, theme_colours(Theme::dark), palette(Theme::dark), fonts,
+                       sections_, 1.0f,    0.0};
     const int rows = (static_cast<int>(kPlots) + load_.columns - 1) / load_.columns;
     const ImVec2 size{kWidth / static_cast<float>(load_.columns), kHeight / static_cast<float>(rows)};
     for (std::size_t p = 0; p < plots_.size(); ++p) {
       const int at = static_cast<int>(p);
-      ImGui::SetNextWindowPos({static_cast<float>(at % load_.columns) * size.x, static_cast<float>(at / load_.columns) * size.y});
+      ImGui::SetNextWindowPos(
+          {static_cast<float>(at % load_.columns) * size.x, static_cast<float>(at / load_.columns) * size.y});
       ImGui::SetNextWindowSize(size);
       ImGui::Begin(plots_[p].spec().id.c_str(), nullptr, ImGuiWindowFlags_NoDecoration);
       plots_[p].draw(ui, store, axis_, link_, ImGui::GetWindowPos(), size, true);
       ImGui::End();
     }
     if (!load_.statistics) return;
-    const auto from = static_cast<std::uint64_t>(std::max(0.0, axis_.from())), to = static_cast<std::uint64_t>(axis_.to());
+    const auto from = static_cast<std::uint64_t>(std::max(0.0, axis_.from())),
+               to = static_cast<std::uint64_t>(axis_.to());
     ImGui::SetNextWindowPos({0.0f, 0.0f});
     ImGui::Begin("statistics", nullptr, ImGuiWindowFlags_NoDecoration);
     for (std::size_t c = 0; c < load_.channels; ++c) {
       const MinMax range = store.min_max(c, from, to);
       const SampleSums sums = store.sums(c, from, to);
-      ImGui::Text("%.3g %.3g %.3g %.3g", static_cast<double>(range.min), static_cast<double>(range.max), sums.mean(), sums.rms());
+      ImGui::Text("%.3g %.3g %.3g %.3g", static_cast<double>(range.min), static_cast<double>(range.max), sums.mean(),
+                  sums.rms());
     }
     ImGui::End();
   }
@@ -130,8 +135,9 @@ void measure(const std::string& what, const Load& load, double span, const std::
     ms.push_back(bench.frame());
   }
   std::sort(ms.begin(), ms.end());
-  std::printf("| %-9s | %6.0f s | %2zu | %s | %4.0f px | %5.2f | %5.2f | %5.2f |\n", what.c_str(), span * 1e-3, load.channels, load.statistics ? "yes" : "no ",
-              static_cast<double>(kWidth) / load.columns, ms[kFrames / 2], ms[kFrames * 99 / 100], ms.back());
+  std::printf("| %-9s | %6.0f s | %2zu | %s | %4.0f px | %5.2f | %5.2f | %5.2f |\n", what.c_str(), span * 1e-3,
+              load.channels, load.statistics ? "yes" : "no ", static_cast<double>(kWidth) / load.columns,
+              ms[kFrames / 2], ms[kFrames * 99 / 100], ms.back());
 }
 
 void follow(TimeAxis& axis, int) { axis.follow(); }

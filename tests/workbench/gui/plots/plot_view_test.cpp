@@ -35,7 +35,8 @@ class OnePlot {
   void frame(const ChannelStore& store) {
     ImFont* font = ImGui::GetIO().Fonts->Fonts[0];
     const ThemeFonts fonts{font, font, font, font, font};
-    const UiContext ui{items_, typing_, resting_, theme_colours(Theme::dark), palette(Theme::dark), fonts, sections_, 1.0f, 0.0};
+    const UiContext ui{items_,    typing_, resting_, theme_colours(Theme::dark), palette(Theme::dark), fonts,
+                       sections_, 1.0f,    0.0};
     ImGui::NewFrame();
     ImGui::SetNextWindowPos({0.0f, 0.0f});
     ImGui::SetNextWindowSize(size_);
@@ -52,24 +53,30 @@ class OnePlot {
       const ImDrawList& list = *data.CmdLists[i];
       if (std::string_view(list._OwnerName) != "one plot") continue;
       for (const ImDrawVert& v : list.VtxBuffer) {
-        if ((v.col & ~IM_COL32_A_MASK) == (ink & ~IM_COL32_A_MASK) && v.pos.y >= area().min.y - 60.0f) curve_.push_back(v);
+        if ((v.col & ~IM_COL32_A_MASK) == (ink & ~IM_COL32_A_MASK) && v.pos.y >= area().min.y - 60.0f)
+          curve_.push_back(v);
         if (v.pos.y > area().max.y) below_.push_back(v);
       }
     }
   }
   double y_of(float value) const {
-    return static_cast<double>(area().max.y) - plot_->values().share(static_cast<double>(value), false) * static_cast<double>(area().max.y - area().min.y);
+    return static_cast<double>(area().max.y) -
+           plot_->values().share(static_cast<double>(value), false) * static_cast<double>(area().max.y - area().min.y);
   }
   double x_of(std::uint64_t tick) const {
-    return axis_.x_at(static_cast<double>(tick), static_cast<double>(area().min.x), static_cast<double>(area().max.x - area().min.x));
+    return axis_.x_at(static_cast<double>(tick), static_cast<double>(area().min.x),
+                      static_cast<double>(area().max.x - area().min.x));
   }
-  bool bars() const { return axis_.span() / static_cast<double>(area().max.x - area().min.x) >= kTicksPerColumnForBars; }
+  bool bars() const {
+    return axis_.span() / static_cast<double>(area().max.x - area().min.x) >= kTicksPerColumnForBars;
+  }
 
   /// Where vertices of an ink lie below the plot, left to right.
   std::pair<float, float> below(ImU32 ink) const {
     std::pair<float, float> x{1e9f, -1e9f};
     for (const ImDrawVert& v : below_) {
-      if ((v.col & ~IM_COL32_A_MASK) == (ink & ~IM_COL32_A_MASK)) x = {std::min(x.first, v.pos.x), std::max(x.second, v.pos.x)};
+      if ((v.col & ~IM_COL32_A_MASK) == (ink & ~IM_COL32_A_MASK))
+        x = {std::min(x.first, v.pos.x), std::max(x.second, v.pos.x)};
     }
     return x;
   }
@@ -84,7 +91,9 @@ class OnePlot {
     std::vector<float> out;
     const auto y = static_cast<float>(y_of(value));
     for (std::size_t i = 0; i < curve_.size(); ++i) {
-      if (curve_[i].pos.y <= y + 0.01f && curve_[i].pos.y >= area().min.y - 1.0f && (out.empty() || curve_[i].pos.x > out.back() + 1.5f || curve_[i].pos.x < out.back())) out.push_back(curve_[i].pos.x);
+      if (curve_[i].pos.y <= y + 0.01f && curve_[i].pos.y >= area().min.y - 1.0f &&
+          (out.empty() || curve_[i].pos.x > out.back() + 1.5f || curve_[i].pos.x < out.back()))
+        out.push_back(curve_[i].pos.x);
     }
     return out;
   }
@@ -93,7 +102,8 @@ class OnePlot {
     int count = 0;
     for (std::size_t i = 0; i + 4 <= curve_.size(); ++i) {
       double mx = 0.0, my = 0.0;
-      for (std::size_t k = i; k < i + 4; ++k) mx += 0.25 * static_cast<double>(curve_[k].pos.x), my += 0.25 * static_cast<double>(curve_[k].pos.y);
+      for (std::size_t k = i; k < i + 4; ++k)
+        mx += 0.25 * static_cast<double>(curve_[k].pos.x), my += 0.25 * static_cast<double>(curve_[k].pos.y);
       if (std::abs(mx - x) < 0.05 && std::abs(my - y) < 0.05) ++count;
     }
     return count;
@@ -127,15 +137,25 @@ void require_spike_drawn(const OnePlot& plot, std::uint64_t spike, bool alone) {
 
 }  // namespace
 
-TEST_CASE("a spike of one sample among 3.6 million is drawn at every zoom and while it scrolls, in the place it belongs to") {
+TEST_CASE(
+    "a spike of one sample among 3.6 million is drawn at every zoom and while it scrolls, in the place it belongs to") {
   HeadlessApp host;  // a font, a style
   struct Case {
-    std::uint64_t first, spike;   ///< tick of the first sample; samples after it
+    std::uint64_t first, spike;  ///< tick of the first sample; samples after it
   };
   // First and last sample, both sides of the pyramid's blocks, within one, and where the ring of 4,194,304 begins anew.
-  constexpr std::array cases{Case{0, 0},         Case{0, kHour - 1}, Case{0, 7},           Case{0, 8},           Case{0, 262'143},
-                             Case{0, 262'144},   Case{0, 2'222'222}, Case{1'000'003, 0},   Case{1'000'003, kHour - 1},
-                             Case{1'000'003, 3'194'300}, Case{1'000'003, 3'194'301}, Case{1'000'003, 1'618'033}};
+  constexpr std::array cases{Case{0, 0},
+                             Case{0, kHour - 1},
+                             Case{0, 7},
+                             Case{0, 8},
+                             Case{0, 262'143},
+                             Case{0, 262'144},
+                             Case{0, 2'222'222},
+                             Case{1'000'003, 0},
+                             Case{1'000'003, kHour - 1},
+                             Case{1'000'003, 3'194'300},
+                             Case{1'000'003, 3'194'301},
+                             Case{1'000'003, 1'618'033}};
   std::vector<float> rows(kHour, kUsual);
   ChannelStore store(1, kHour);
   OnePlot narrow({291.0f, 120.0f}), wide({1291.0f, 200.0f});

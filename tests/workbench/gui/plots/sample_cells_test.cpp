@@ -52,7 +52,9 @@ TEST_CASE("every sample of the range is counted once, in the cell it belongs to"
   }
   CHECK(cells.total() == total);
   std::uint64_t apart = 0;
-  for (std::size_t i = 0; i < 40; ++i) apart += static_cast<std::uint64_t>(std::abs(static_cast<double>(cells.counts()[i]) - static_cast<double>(slow[i])));
+  for (std::size_t i = 0; i < 40; ++i)
+    apart +=
+        static_cast<std::uint64_t>(std::abs(static_cast<double>(cells.counts()[i]) - static_cast<double>(slow[i])));
   CHECK(apart <= 4);  // rounding at a cell's border
   CHECK(std::accumulate(cells.counts().begin(), cells.counts().end(), std::uint64_t{0}) == total);
 }

@@ -15,7 +15,8 @@ constexpr double kRate = 1000.0;
 ChannelStore sine(double hz, double amplitude, double offset, std::uint64_t ticks) {
   std::vector<float> rows;
   for (std::uint64_t t = 0; t < ticks; ++t) {
-    rows.push_back(static_cast<float>(offset + amplitude * std::sin(2.0 * std::numbers::pi * hz * static_cast<double>(t) / kRate)));
+    rows.push_back(static_cast<float>(
+        offset + amplitude * std::sin(2.0 * std::numbers::pi * hz * static_cast<double>(t) / kRate)));
   }
   ChannelStore store(1, ticks);
   store.assign(0, rows);

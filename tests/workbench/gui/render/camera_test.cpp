@@ -72,15 +72,16 @@ TEST_CASE("a shifted camera sees its target there, whatever its direction, and z
   }
   const Vec2 pixel(620.0, 180.0);
   const Ray before = camera.ray_through(pixel, kWidth, kHeight);
-  const Vec3 there = before.origin + before.direction * (camera.distance_m / glm::dot(before.direction, camera.forward()));
+  const Vec3 there =
+      before.origin + before.direction * (camera.distance_m / glm::dot(before.direction, camera.forward()));
   camera.zoom_at(0.7, pixel, kWidth, kHeight);
   CHECK(glm::length(Vec2(camera.project(there, kWidth, kHeight)) - pixel) < 1e-6);
 }
 
 TEST_CASE("of several rooms the one that shows most is framed in, the first of equals") {
   Camera camera;
-  const ViewRoom small{.width = 0.4, .height = 0.4, .shift = {0.3, 0.3}}, large{.width = 0.8, .height = 0.8, .shift = {0.1, 0.1}},
-      same{.width = 0.8, .height = 0.8, .shift = {-0.1, 0.1}};
+  const ViewRoom small{.width = 0.4, .height = 0.4, .shift = {0.3, 0.3}},
+      large{.width = 0.8, .height = 0.8, .shift = {0.1, 0.1}}, same{.width = 0.8, .height = 0.8, .shift = {-0.1, 0.1}};
   camera.frame(cube_box(Vec3(0.0), 0.04), 1.0, std::array{small, large, same});
   CHECK(camera.shift == large.shift);
 }
@@ -136,8 +137,11 @@ TEST_CASE("zooming keeps what lies under the pointer at the target's depth, with
   CHECK(camera.distance_m == kept);
 }
 
-TEST_CASE("fitted points are all in the picture, with as much room on one side as on the other and the least of it where they are widest") {
-  const std::vector<Vec3> points{{1.05, -2.0, 0.5}, {0.97, -2.03, 0.48}, {1.0, -1.96, 0.52}, {1.01, -2.0, 0.57}, {0.99, -2.01, 0.47}};
+TEST_CASE(
+    "fitted points are all in the picture, with as much room on one side as on the other and the least of it where "
+    "they are widest") {
+  const std::vector<Vec3> points{
+      {1.05, -2.0, 0.5}, {0.97, -2.03, 0.48}, {1.0, -1.96, 0.52}, {1.01, -2.0, 0.57}, {0.99, -2.01, 0.47}};
   for (const double margin : {1.0, 1.2}) {
     for (const double yaw : {-2.0, -0.6, 0.3, 1.7}) {
       Camera camera;

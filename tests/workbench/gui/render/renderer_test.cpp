@@ -25,11 +25,11 @@ namespace {
 constexpr int kWidth = 480, kHeight = 360;
 
 /// A test ends here, saying so, where no off-screen GL exists.
-#define REQUIRE_GL(context)                                                      \
-  const auto context = OffscreenContext::open();                                 \
-  if (!context) {                                                                \
-    MESSAGE("skipped: " << context.error().message());                           \
-    return;                                                                      \
+#define REQUIRE_GL(context)                            \
+  const auto context = OffscreenContext::open();       \
+  if (!context) {                                      \
+    MESSAGE("skipped: " << context.error().message()); \
+    return;                                            \
   }
 
 std::shared_ptr<const ContactScene> scene_of(PolygonMesh mesh) {
@@ -142,7 +142,8 @@ TEST_CASE("a micrometre and a kilometre body, near and far from the origin, make
     Vec3 offset;
   };
   // The converged tolerance of 1 um is physical: the small body's contact may lie a pixel elsewhere.
-  for (const Copy& copy : {Copy{1e-3, Vec3(0.0)}, Copy{12.5e-6, Vec3(0.0)}, Copy{25e3, Vec3(0.0)}, Copy{1.0, Vec3(1000.0, 0, -300.0)}}) {
+  for (const Copy& copy :
+       {Copy{1e-3, Vec3(0.0)}, Copy{12.5e-6, Vec3(0.0)}, Copy{25e3, Vec3(0.0)}, Copy{1.0, Vec3(1000.0, 0, -300.0)}}) {
     CAPTURE(copy.scale);
     const auto scene = scene_of(placed(sphere, copy.scale, copy.offset));
     SceneToggles mesh_alone = toggles;
@@ -251,7 +252,8 @@ TEST_CASE("a scanned mesh of 69,451 triangles orbits with its smooth surface - t
     }
     const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     const double processor = static_cast<double>(std::clock() - begin_cpu) / CLOCKS_PER_SEC;
-    return std::to_string(frames / wall) + " frames/s, " + std::to_string(1e3 * processor / frames) + " ms of processor time each";
+    return std::to_string(frames / wall) + " frames/s, " + std::to_string(1e3 * processor / frames) +
+           " ms of processor time each";
   };
   const std::string moving = rate(30, 0.02), resting = rate(30, 0.0);
   const std::string driver = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
@@ -306,7 +308,8 @@ TEST_CASE("a shader that does not compile is reported with its file and line, in
 
   folder.write("part.glsl", "float half_of(float x) {\n  return x * missing;\n}\n");
   folder.write("uses.vert.glsl", "#version 330 core\nvoid main() { gl_Position = vec4(0.0); }\n");
-  folder.write("uses.frag.glsl", "#version 330 core\n#include \"part.glsl\"\nout vec4 c;\nvoid main() { c = vec4(half_of(1.0)); }\n");
+  folder.write("uses.frag.glsl",
+               "#version 330 core\n#include \"part.glsl\"\nout vec4 c;\nvoid main() { c = vec4(half_of(1.0)); }\n");
   const auto included = ShaderProgram::load(folder.path(), "uses");
   REQUIRE_FALSE(included);
   CAPTURE(included.error().message());
@@ -321,13 +324,15 @@ TEST_CASE("a changed shader is loaded again - one with a mistake leaves the last
   REQUIRE_GL(context);
   const TempFolder folder;
   folder.write("live.vert.glsl", "#version 330 core\nvoid main() { gl_Position = vec4(0.0); }\n");
-  const std::string fragment = folder.write("live.frag.glsl", "#version 330 core\nout vec4 c;\nvoid main() { c = vec4(1.0); }\n");
+  const std::string fragment =
+      folder.write("live.frag.glsl", "#version 330 core\nout vec4 c;\nvoid main() { c = vec4(1.0); }\n");
   auto program = ShaderProgram::load(folder.path(), "live");
   REQUIRE(program);
   const unsigned first = program->id();
   const auto touch = [&](std::string_view text, int seconds) {
     folder.write("live.frag.glsl", text);
-    std::filesystem::last_write_time(fragment, std::filesystem::last_write_time(fragment) + std::chrono::seconds(seconds));
+    std::filesystem::last_write_time(fragment,
+                                     std::filesystem::last_write_time(fragment) + std::chrono::seconds(seconds));
   };
   CHECK(program->reload_if_changed());
   CHECK(program->id() == first);
@@ -376,13 +381,15 @@ TEST_CASE("five million triangles: orbiting, coming to rest and picking are repo
     return 1e3 * std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   };
   double longest_upload = 0.0;
-  for (int i = 0; i < 400 && renderer.refining(); ++i) longest_upload = std::max(longest_upload, timed([&] { renderer.render(frame, camera, 1280, 720); }));
+  for (int i = 0; i < 400 && renderer.refining(); ++i)
+    longest_upload = std::max(longest_upload, timed([&] { renderer.render(frame, camera, 1280, 720); }));
   std::vector<double> moving, resting;
   for (int i = 0; i < 60; ++i) {
     camera.orbit(0.02, 0.0);
     moving.push_back(timed([&] { renderer.render(frame, camera, 1280, 720); }));
   }
-  for (int i = 0; i < 400 && (i < 4 || renderer.refining()); ++i) resting.push_back(timed([&] { renderer.render(frame, camera, 1280, 720); }));
+  for (int i = 0; i < 400 && (i < 4 || renderer.refining()); ++i)
+    resting.push_back(timed([&] { renderer.render(frame, camera, 1280, 720); }));
   CHECK_FALSE(renderer.refining());
   std::vector<double> picks;
   std::size_t hits = 0;
@@ -394,7 +401,9 @@ TEST_CASE("five million triangles: orbiting, coming to rest and picking are repo
   std::sort(moving.begin(), moving.end());
   std::sort(picks.begin(), picks.end());
   const double at_rest = *std::max_element(resting.begin(), resting.end());
-  MESSAGE("1280 x 720 on " << std::string(reinterpret_cast<const char*>(glGetString(GL_RENDERER))) << ": orbiting " << moving[moving.size() / 2] << " ms a frame (median), "
-          << moving.back() << " worst; to the full picture at rest " << resting.size() << " frames, longest " << at_rest << " ms; longest frame while loading "
-          << longest_upload << " ms; picking " << picks[picks.size() / 2] << " ms median, " << picks.back() << " worst");
+  MESSAGE("1280 x 720 on " << std::string(reinterpret_cast<const char*>(glGetString(GL_RENDERER))) << ": orbiting "
+                           << moving[moving.size() / 2] << " ms a frame (median), " << moving.back()
+                           << " worst; to the full picture at rest " << resting.size() << " frames, longest " << at_rest
+                           << " ms; longest frame while loading " << longest_upload << " ms; picking "
+                           << picks[picks.size() / 2] << " ms median, " << picks.back() << " worst");
 }

@@ -20,8 +20,11 @@ ContactMesh built(std::string_view name, const GenerateOptions& options = {}) {
 Vec3 to_vec(const std::array<float, 3>& p) { return {p[0], p[1], p[2]}; }
 
 Vec3 unpacked(std::uint32_t packed) {
-  const auto signed_ten = [](std::uint32_t bits) { return bits & 0x200u ? static_cast<int>(bits) - 1024 : static_cast<int>(bits); };
-  return Vec3(signed_ten(packed & 0x3FFu), signed_ten((packed >> 10) & 0x3FFu), signed_ten((packed >> 20) & 0x3FFu)) / 511.0;
+  const auto signed_ten = [](std::uint32_t bits) {
+    return bits & 0x200u ? static_cast<int>(bits) - 1024 : static_cast<int>(bits);
+  };
+  return Vec3(signed_ten(packed & 0x3FFu), signed_ten((packed >> 10) & 0x3FFu), signed_ten((packed >> 20) & 0x3FFu)) /
+         511.0;
 }
 
 SurfaceMesh tessellated(const ContactMesh& mesh, unsigned level, double scale) {
@@ -41,7 +44,8 @@ std::map<Edge, int> welded_edge_uses(const SurfaceMesh& surface, double reach) {
   std::vector<std::uint32_t> welded(surface.vertices.size());
   for (std::size_t i = 0; i < surface.vertices.size(); ++i) {
     const Vec3 p = to_vec(surface.vertices[i].position);
-    const std::array<long, 3> cell{std::lround(p.x / (4 * reach)), std::lround(p.y / (4 * reach)), std::lround(p.z / (4 * reach))};
+    const std::array<long, 3> cell{std::lround(p.x / (4 * reach)), std::lround(p.y / (4 * reach)),
+                                   std::lround(p.z / (4 * reach))};
     std::uint32_t found = kNone;
     for (long dx = -1; dx <= 1; ++dx)
       for (long dy = -1; dy <= 1; ++dy)
