@@ -26,6 +26,9 @@ inline Vec3 unit_or(const Vec3& v, const Vec3& otherwise) {
   return length2 > 1e-24 ? v / std::sqrt(length2) : otherwise;
 }
 
+/// A vector of the plane, in space.
+inline Vec3 lifted(const Vec2& v) { return {v.x, v.y, 0.0}; }
+
 inline bool is_finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 /// Axis-aligned box, metres. Empty (min > max) when default-constructed.

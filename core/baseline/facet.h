@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/contact/nearest_triangles.h"
-#include "core/tick/step.h"
+#include "core/contact/surface_place.h"
 
 namespace tangent {
 

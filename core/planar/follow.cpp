@@ -11,8 +11,6 @@ constexpr double kNewtonSlope = -0.05;
 /// Longest step of `robust` on a patch, in parameters, and the one taken where the contact is unstable.
 constexpr double kLongestStep = 1.0, kDownhillStep = 0.25;
 
-Vec3 lifted(const Vec2& v) { return {v.x, v.y, 0.0}; }
-
 /// A tangent line with the finger's contact on it.
 struct Line {
   PlanarPlace place;

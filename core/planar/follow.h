@@ -2,8 +2,9 @@
 // contact on the present line has an angle about the local centre; the line at that parameter is the next one.
 #pragma once
 
+#include "core/contact/surface_place.h"
+#include "core/contact/trace.h"
 #include "core/planar/curve.h"
-#include "core/tick/step.h"
 
 namespace tangent {
 

@@ -13,8 +13,6 @@ double nearest_part(const Vec2& a, const Vec2& b, const Vec2& at) {
   return std::clamp(glm::dot(at - a, way) / glm::dot(way, way), 0.0, 1.0);
 }
 
-Vec3 lifted(const Vec2& v) { return {v.x, v.y, 0.0}; }
-
 }  // namespace
 
 bool PolygonSurface::has_segment(std::uint32_t i) const { return curve_.patch(i).joint_after == CurveJoint::smooth; }

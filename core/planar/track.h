@@ -1,6 +1,7 @@
 // Follows the contact on a planar curve from tick to tick, finds it again, and hands over to a nearer place elsewhere.
 #pragma once
 
+#include "core/contact/decide/tick_event.h"
 #include "core/planar/follow.h"
 
 namespace tangent {

@@ -5,11 +5,19 @@
 #include "core/finger/finger.h"
 #include "core/surface/pn_patch.h"
 
+#include <array>
 #include <cstdint>
+#include <string_view>
 
 namespace tangent {
 
 enum class Method : std::uint8_t { paper, newton, robust, facet, force_shading, two_pass };
+/// As files, options and reports write them, in the order of the enumeration.
+inline constexpr std::array<std::string_view, 6> kMethodNames{"paper", "newton",        "robust",
+                                                              "facet", "force-shading", "two-pass"};
+inline constexpr const char* to_string(Method m) { return kMethodNames[static_cast<std::size_t>(m)].data(); }
+/// Whether a method finds the contact of the smooth surface; the others take the raw mesh's.
+inline constexpr bool is_smooth(Method m) { return m == Method::paper || m == Method::newton || m == Method::robust; }
 /// Which distance Eq. 1's d stands for.
 enum class DistanceReading : std::uint8_t {
   proxy,   ///< d = R - h: user's finger to the proxy that touches the plane (the default)

@@ -33,7 +33,6 @@ void write_semi_axis(Preset& preset, double value) {
 }
 
 // In the order of the enumerations of core/preset/preset.h and core/finger/finger.h.
-constexpr std::array<std::string_view, 6> kMethods{"paper", "newton", "robust", "facet", "force-shading", "two-pass"};
 constexpr std::array<std::string_view, 2> kDistanceReadings{"proxy", "centre"};
 constexpr std::array<std::string_view, 2> kNormalForms{"bernstein", "vlachos"};
 constexpr std::array<std::string_view, 2> kLocalCentres{"bisectors", "midpoint"};
@@ -92,7 +91,7 @@ constexpr auto kSafety = &Preset::safety;
 // clang-format off
 constexpr std::array kKeys{
   // solver
-  choice<kSolver, &S::method>("solver", "method", "Method", kMethods,
+  choice<kSolver, &S::method>("solver", "method", "Method", kMethodNames,
     "How the contact is found: the paper's iteration, Newton's, Newton's with safeguards (robust), or one of the "
     "methods they are compared with.", "method"),
   PresetKey{.table = "solver", .key = "gain_overall", .label = "Overall gain G_o", .unit = "1",

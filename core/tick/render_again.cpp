@@ -1,7 +1,7 @@
 #include "core/tick/render_again.h"
 
-#include "core/tick/planar_step.h"
-#include "core/tick/render.h"
+#include "core/tick/planar_contacts.h"
+#include "core/tick/rendering.h"
 
 namespace tangent {
 namespace {
@@ -26,14 +26,10 @@ bool same_contacts(const Preset& a, const Preset& b) {
 
 TickOutput render_again(const ContactScene& scene, const Preset& preset, const TickInput& input, const TickState& kept,
                         TickOutput solved) {
-  solved.force_n = Vec3(0.0);
-  solved.cld_m = 0.0;
   const FingerPose pose = scene.planar() ? section_pose(input.finger) : input.finger;
-  const Vec3 velocity = finger_velocity(preset, pose.position, input.t_s, kept);
-  const Rendered rendered =
-      render(preset, RenderPlane{solved.normal, solved.penetration_m, 1.0}, section_of(pose.orientation), velocity);
-  solved.force_n = rendered.force_n;
-  solved.cld_m = rendered.cld_m;
+  TickPlanes planes;
+  planes.smooth = {solved.normal, solved.penetration_m, 1.0};
+  render_planes(preset, planes, pose, finger_velocity(preset, pose.position, input.t_s, kept), solved);
   return solved;
 }
 

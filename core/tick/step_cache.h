@@ -2,7 +2,7 @@
 // gives the same bits, later.
 #pragma once
 
-#include "core/tick/track.h"
+#include "core/contact/decide/decide.h"
 
 namespace tangent {
 
@@ -21,7 +21,7 @@ class StepCache {
   }
 
   PatchCache patches;
-  TrackResult smooth;  ///< of the last tick
+  DecidedContact smooth;  ///< of the last tick
   NormalForm form = NormalForm::bernstein;
 };
 

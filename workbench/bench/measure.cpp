@@ -4,7 +4,7 @@
 #include "core/lab/measure/closed_work.h"
 #include "core/lab/measure/converged_answer.h"
 #include "core/lab/measure/distribution.h"
-#include "core/tick/render.h"
+#include "core/shading/render.h"
 #include "workbench/bench/allocation_count.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 #include "core/lab/measure/converged_answer.h"
-#include "core/tick/render.h"
+#include "core/shading/render.h"
 #include "workbench/bench/measure.h"
 
 namespace tangent::bench {

@@ -1,7 +1,7 @@
 #include "workbench/cli/bench_plot.h"
 
 #include "core/base/units.h"
-#include "core/tick/render.h"
+#include "core/shading/render.h"
 #include "workbench/cli/text_format.h"
 
 #include <algorithm>

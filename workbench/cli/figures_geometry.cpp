@@ -1,5 +1,5 @@
 // Figures of the 2D geometry: a tick's tangent lines, polygon and curve, the local centre.
-#include "core/tick/planar_step.h"
+#include "core/tick/step.h"
 #include "workbench/cli/figures.h"
 #include "workbench/cli/text_format.h"
 

@@ -1,7 +1,7 @@
 // Figures of a finger that moves over the paper's arc.
 #include "core/io/rendering_condition.h"
 #include "core/lab/measure/perception_thresholds.h"
-#include "core/tick/planar_step.h"
+#include "core/tick/step.h"
 #include "workbench/cli/figures.h"
 #include "workbench/cli/text_format.h"
 

@@ -4,7 +4,7 @@
 #include "core/io/polygon_io.h"
 #include "core/lab/objects/generate.h"
 #include "core/lab/objects/generate_hard.h"
-#include "core/tick/planar_step.h"
+#include "core/planar/ribbon.h"
 
 #include <algorithm>
 #include <chrono>

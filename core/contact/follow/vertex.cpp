@@ -1,11 +1,10 @@
 #include "core/contact/follow/vertex.h"
 
-#include "core/contact/follow/step_rule.h"
-#include "core/contact/follow/walk.h"
 #include "core/finger/facing_normal.h"
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace tangent {
 namespace {
@@ -22,7 +21,7 @@ bool turns_from_flat(const Vec3& travel, std::uint32_t corner, const SurfaceSamp
 
 /// How strongly the face draws the contact from its corner, where its sample is `s`, into itself: length of the step if
 /// that leads inside, else 0.
-double face_pull(IterationContext& context, std::uint32_t t, std::uint32_t corner, const SurfaceSample& s) {
+double face_pull(ContactContext& context, std::uint32_t t, std::uint32_t corner, const SurfaceSample& s) {
   const PlaneContact c = contact_on_plane(context.finger, context.pose, s.point, s.normal);
   if (turns_from_flat(c.travel, corner, s)) return 0.0;
   const ContactJacobian j = contact_jacobian(context.finger, context.pose, s, c);
@@ -40,7 +39,7 @@ double face_pull(IterationContext& context, std::uint32_t t, std::uint32_t corne
 }
 
 /// The same for a crease or boundary edge that starts (f = 0) or ends (f = 1) at the vertex.
-double edge_pull(IterationContext& context, const EdgeFan& fan, double f) {
+double edge_pull(ContactContext& context, const EdgeFan& fan, double f) {
   if (!fan.convex()) return 0.0;
   const double outwards = f == 0.0 ? 1.0 : -1.0;
   if (fan.uniform && is_round(context.finger) &&
@@ -54,10 +53,6 @@ double edge_pull(IterationContext& context, const EdgeFan& fan, double f) {
   const double away = outwards * glm::dot(c.travel, fan.tangent);
   return away > 0.0 ? away : 0.0;
 }
-
-}  // namespace
-
-namespace {
 
 /// A sample that stands still at `point` while its normal turns freely.
 SurfaceSample standing_sample(const Vec3& point, const Vec3& normal) {
@@ -73,11 +68,11 @@ SurfaceSample standing_sample(const Vec3& point, const Vec3& normal) {
 
 }  // namespace
 
-SurfaceSample vertex_sample_at(IterationContext& context, const SurfacePlace& vertex, const Vec3& normal) {
+SurfaceSample vertex_sample_at(ContactContext& context, const SurfacePlace& vertex, const Vec3& normal) {
   return standing_sample(context.cache.mesh().position(vertex.triangle, vertex.side), normal);
 }
 
-SurfaceSample vertex_sample(IterationContext& context, const SurfacePlace& vertex) {
+SurfaceSample vertex_sample(ContactContext& context, const SurfacePlace& vertex) {
   const ContactMesh& mesh = context.cache.mesh();
   const Vec3& point = mesh.position(vertex.triangle, vertex.side);
   return vertex_sample_at(
@@ -89,7 +84,7 @@ namespace {
 /// Looks for the strongest pull away from a vertex.
 class ExitSearch {
  public:
-  explicit ExitSearch(IterationContext& context) : context_(context) {
+  explicit ExitSearch(ContactContext& context) : context_(context) {
     const double size = std::max(context.finger.reach_m(), glm::length(context.cache.mesh().bounds().size()));
     strongest_ = std::min(1e-9 * size, 0.1 * context.settings.tolerance_m);
   }
@@ -100,29 +95,54 @@ class ExitSearch {
   void ray(std::uint32_t t, std::uint32_t side, double f, const EdgeFan& fan) {
     offer(edge_pull(context_, fan, f), Feature::edge, t, side, edge_point_uv(side, f));
   }
-  const VertexExit& best() const { return best_; }
+  const std::optional<SurfacePlace>& best() const { return best_; }
 
  private:
   void offer(double pull, Feature feature, std::uint32_t t, std::uint32_t side, const Vec2& uv) {
     if (!(pull > strongest_)) return;
     strongest_ = pull;
-    best_.place = SurfacePlace{feature, static_cast<std::uint8_t>(side), t, uv.x, uv.y};
+    best_ = SurfacePlace{feature, static_cast<std::uint8_t>(side), t, uv.x, uv.y};
   }
 
-  IterationContext& context_;
+  ContactContext& context_;
   double strongest_;
-  VertexExit best_;
+  std::optional<SurfacePlace> best_;
 };
 
-}  // namespace
-
-VertexExit vertex_exit(IterationContext& context, const SurfacePlace& vertex) {
+/// The edge or face around a vertex that draws the contact most; none: it rests.
+std::optional<SurfacePlace> exit_from(ContactContext& context, const SurfacePlace& vertex) {
   ExitSearch search(context);
   context.cache.around(
       vertex.triangle, vertex.side, context.settings.normal_form,
       [&](std::uint32_t t, std::uint32_t corner, const SurfaceSample& sample) { search.face(t, corner, sample); },
       [&](std::uint32_t t, std::uint32_t side, double f, const EdgeFan& fan) { search.ray(t, side, f, fan); });
   return search.best();
+}
+
+}  // namespace
+
+Proposal next_from_vertex(ContactContext& context, const SurfacePlace& at, RunMemory& memory, IterationResult& now,
+                          bool kept) {
+  Proposal next;
+  now.stability = now.contact.height_m > 0.0 ? Stability{1.0, 2.0} : Stability{0.0, 0.0};
+  std::optional<SurfacePlace> exit;
+  if (memory.no_exit_triangle != at.triangle || memory.no_exit_corner != at.side) exit = exit_from(context, at);
+  next.step.valid = true;
+  if (!exit) {
+    memory.no_exit_triangle = at.triangle;
+    memory.no_exit_corner = at.side;
+    if (now.contact.error_m < context.settings.tolerance_m) {
+      next.stop = now.stability.stable() ? StopReason::converged : StopReason::unstable;
+    } else if (kept) {
+      next.place = at;  // turn the kept plane to face the finger
+    } else {
+      next.stop = StopReason::singular_patch;
+    }
+    return next;
+  }
+  next.place = *exit;
+  next.triangle_changes = exit->triangle != at.triangle ? 1 : 0;
+  return next;
 }
 
 }  // namespace tangent

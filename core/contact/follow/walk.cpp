@@ -117,12 +117,7 @@ WalkResult walk_face(const ContactMesh& mesh, std::uint32_t t, double u, double 
     const double f = std::clamp(edge_fraction(exit, u + share * du, v + share * dv), 0.0, 1.0);
     const EdgeKind kind = mesh.edge_kind(t, exit);
     if (kind == EdgeKind::boundary || (kind == EdgeKind::crease && !concave_crease(mesh, t, exit))) {
-      const Vec2 uv = edge_point_uv(exit, f);
-      result.place.feature = Feature::edge;
-      result.place.side = static_cast<std::uint8_t>(exit);
-      result.place.triangle = t;
-      result.place.u = uv.x;
-      result.place.v = uv.y;
+      result.place = place_on_edge(t, exit, f);
       return result;
     }
     // Unfold: keep what is left of the step along and across the edge, across now into the neighbour.

@@ -2,28 +2,12 @@
 // about the edges it crosses, until it ends inside a triangle or at a crease or boundary edge.
 #pragma once
 
-#include "core/contact/place.h"
+#include "core/contact/surface_place.h"
+#include "core/mesh/contact_mesh.h"
 
 #include <optional>
 
 namespace tangent {
-
-inline SurfacePlace place_on_face(std::uint32_t t, double u, double v) {
-  SurfacePlace p;
-  p.feature = Feature::face;
-  p.triangle = t;
-  p.u = u;
-  p.v = v;
-  return p;
-}
-
-inline SurfacePlace place_on_edge(std::uint32_t t, std::uint32_t edge, double f) {
-  const Vec2 uv = edge_point_uv(edge, f);
-  SurfacePlace p = place_on_face(t, uv.x, uv.y);
-  p.feature = Feature::edge;
-  p.side = static_cast<std::uint8_t>(edge);
-  return p;
-}
 
 /// True where (u, v) + (du, dv) stays inside the triangle; most steps do.
 inline bool stays_inside(double u, double v, double du, double dv) {

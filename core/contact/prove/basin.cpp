@@ -1,7 +1,7 @@
 #include "core/contact/prove/basin.h"
 
 #include "core/base/tolerances.h"
-#include "core/contact/place.h"
+#include "core/contact/surface_place.h"
 
 #include <algorithm>
 #include <array>

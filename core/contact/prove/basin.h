@@ -6,7 +6,7 @@
 #pragma once
 
 #include "core/contact/patch_cache.h"
-#include "core/tick/step.h"
+#include "core/contact/tracked_plane.h"
 
 namespace tangent {
 

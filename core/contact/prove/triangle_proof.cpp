@@ -1,6 +1,7 @@
 #include "core/contact/prove/triangle_proof.h"
 
 #include "core/contact/nearest_triangles.h"
+#include "core/finger/plane_contact.h"
 
 #include <algorithm>
 
@@ -9,7 +10,7 @@ namespace {
 
 /// corner_exclusion for other than round fingers: seen from the support point p(A) of the triangle's mean normal A, the
 /// contact p(N) + depth N of a normal N of the patch misses the line along N by no more than p moves between A and N.
-double exclude_unround(IterationContext& context, std::uint32_t t) {
+double exclude_unround(ContactContext& context, std::uint32_t t) {
   constexpr double kRoom = 1.5;  // from the corner normals to any normal of the patch
   const ContactMesh& mesh = context.cache.mesh();
   const auto n = mesh.normals(t);
@@ -23,7 +24,7 @@ double exclude_unround(IterationContext& context, std::uint32_t t) {
 }
 
 /// Nothing proved; a solve had best start at the triangle's closest point.
-PatchExclusion unknown(const IterationContext& context, std::uint32_t t) {
+PatchExclusion unknown(const ContactContext& context, std::uint32_t t) {
   const NearestHit hit = closest_on_triangle(context.cache.mesh(), t, context.pose.position);
   PatchExclusion nothing;
   nothing.u = hit.u;
@@ -31,7 +32,7 @@ PatchExclusion unknown(const IterationContext& context, std::uint32_t t) {
   return nothing;
 }
 
-PatchExclusion exclude_face(IterationContext& context, std::uint32_t t, double bound_m, double enough_m) {
+PatchExclusion exclude_face(ContactContext& context, std::uint32_t t, double bound_m, double enough_m) {
   const Vec3& centre = context.pose.position;
   PatchExclusion proof;
   const double at_once = corner_exclusion(context.cache.mesh(), t, centre);
@@ -48,7 +49,7 @@ PatchExclusion exclude_face(IterationContext& context, std::uint32_t t, double b
 
 }  // namespace
 
-PatchExclusion exclude_triangle(IterationContext& context, std::uint32_t t, double bound_m, double enough_m,
+PatchExclusion exclude_triangle(ContactContext& context, std::uint32_t t, double bound_m, double enough_m,
                                 FeatureMemory* memory) {
   const ContactMesh& mesh = context.cache.mesh();
   if (!is_round(context.finger)) {

@@ -1,7 +1,7 @@
 // Proof that a triangle holds no contact, face, edges and vertices together.
 #pragma once
 
-#include "core/contact/follow/iterate.h"
+#include "core/contact/context.h"
 #include "core/contact/prove/face_proof.h"
 #include "core/contact/prove/feature_proof.h"
 
@@ -10,7 +10,7 @@ namespace tangent {
 /// Proof that triangle t holds no contact of a rank under `bound_m`, its crease and boundary edges included; the margin
 /// is how far the centre may go until it could. One under `enough_m` is worth some effort to widen. `memory`: features
 /// that need not be looked at again, or null.
-PatchExclusion exclude_triangle(IterationContext& context, std::uint32_t t, double bound_m, double enough_m = 0.0,
+PatchExclusion exclude_triangle(ContactContext& context, std::uint32_t t, double bound_m, double enough_m = 0.0,
                                 FeatureMemory* memory = nullptr);
 
 }  // namespace tangent

@@ -1,8 +1,10 @@
 #include "core/contact/search/rivals.h"
 
 #include "core/base/tolerances.h"
+#include "core/contact/contact_rank.h"
 #include "core/contact/nearest_triangles.h"
 #include "core/contact/prove/basin.h"
+#include "core/contact/prove/clearance_check.h"
 #include "core/contact/prove/triangle_proof.h"
 
 #include <algorithm>
@@ -35,20 +37,11 @@ struct Look {
   bool contact = false;        ///< it holds a contact, whose surroundings are left out of the search on its behalf
 };
 
-/// The least of the margins. Shortened by far more than floats are rounded by: at a margin itself a contact may be
-/// there.
-void set_free(Clearance& known) {
-  double least = known.margin_m;
-  for (const WatchedTriangle& watched : known.watched)
-    if (watched.triangle != kNone) least = std::min(least, double{watched.margin_m});
-  known.free_m = (1.0 - 1e-6) * least;
-}
-
 class RivalSearch {
  public:
-  RivalSearch(IterationContext& context, const ContactScene& scene, const IterationResult& tracked, double bound_m,
+  RivalSearch(ContactContext& context, const SearchStructures& search, const IterationResult& tracked, double bound_m,
               double margin_m)
-      : scene_(scene),
+      : search_(search),
         tracked_(tracked),
         bound_m_(bound_m),
         margin_m_(margin_m),
@@ -67,7 +60,7 @@ class RivalSearch {
     query.margin_m = margin_m_;
     query.tilt_rad = context_.finger.tilt_rad();
     limit_query(query, context_.finger, bound_m_ + 2.0 * margin_m_);
-    scene_.hierarchy().visit(query, [&](std::uint32_t t, ContactQuery& q) {
+    search_.hierarchy.visit(query, [&](std::uint32_t t, ContactQuery& q) {
       const Look look = look_at(t, q.margin_m, result);
       const double margin = look.contact ? look.margin_m : watch(clearance, t, look.margin_m);
       if (margin < clearance.margin_m) {
@@ -147,11 +140,7 @@ class RivalSearch {
 
   Look solve(std::uint32_t t, const PatchExclusion& proof, RivalResult& result) {
     context_.seed = static_cast<std::uint8_t>(std::min(++solves_, 255));
-    TrackedPlane start;
-    start.feature = Feature::face;
-    start.triangle = t;
-    start.u = proof.u;
-    start.v = std::min(proof.v, 1.0 - proof.u);
+    const SurfacePlace start = place_on_face(t, proof.u, std::min(proof.v, 1.0 - proof.u));
     IterationResult r;
     const int share = context_.cache.mesh().interior(t) ? 1 : 2;
     iterate(context_, start, share * kRivalBudget, r);
@@ -176,11 +165,11 @@ class RivalSearch {
     return {overtaking_margin(known_[0], r.plane.normal, r.contact.height_m, std::max(0.0, rank - bound_m_)), true};
   }
 
-  const ContactScene& scene_;
+  const SearchStructures search_;
   const IterationResult& tracked_;
   double bound_m_, margin_m_, deepest_;
   SolverSettings settings_;
-  IterationContext context_;
+  ContactContext context_;
   FeatureMemory features_;
   std::array<KnownContact, kKnownContacts> known_;
   std::size_t known_count_ = 0;
@@ -189,33 +178,25 @@ class RivalSearch {
 
 }  // namespace
 
-double turned_m(const Finger& finger, const Quat& from, const Quat& to) {
-  if (from == to) return 0.0;
-  return finger.turning_m(2.0 * std::acos(std::min(1.0, std::abs(glm::dot(from, to)))));
+double look_ahead_m(double rank, double moved_m) {
+  // Where not even one tick ahead can be seen, as after a leap, looking ahead would be for nothing.
+  const double most = kLargestWatch * std::abs(rank);
+  const double ahead = moved_m < most ? std::min(kWatchTicks * moved_m, most) : 0.0;
+  return ahead + kSmallestWatch * std::abs(rank);
 }
 
-// By the triangle inequality, which turning_m obeys too: it is concave in the angle.
-void recentre(Clearance& known, const FingerPose& pose, double gone) {
-  known.centre = pose.position;
-  known.orientation = pose.orientation;
-  known.margin_m -= gone;
-  known.height_m -= gone;
-  for (WatchedTriangle& watched : known.watched) watched.margin_m -= static_cast<float>(gone);
-  set_free(known);
-}
-
-RivalResult find_rival(IterationContext& context, const ContactScene& scene, const IterationResult& tracked,
+RivalResult find_rival(ContactContext& context, const SearchStructures& search, const IterationResult& tracked,
                        double bound_m, double margin_m, const Clearance& known, double gone) {
-  RivalSearch search(context, scene, tracked, bound_m, margin_m);
+  RivalSearch rivals(context, search, tracked, bound_m, margin_m);
   RivalResult result;
   if (gone > known.margin_m || bound_m > known.height_m - gone) {
     result.clearance.centre = context.pose.position;
     result.clearance.orientation = context.pose.orientation;
-    search.everywhere(result);
+    rivals.everywhere(result);
   } else {
     result.clearance = known;
     recentre(result.clearance, context.pose, gone);
-    search.once_more(result);
+    rivals.once_more(result);
   }
   return result;
 }

@@ -1,6 +1,7 @@
 #include "core/contact/search/seed.h"
 
 #include "core/base/tolerances.h"
+#include "core/contact/contact_rank.h"
 #include "core/contact/prove/triangle_proof.h"
 #include "core/finger/facing_normal.h"
 
@@ -13,12 +14,7 @@ namespace tangent {
 namespace {
 
 SurfacePlace face_at(std::uint32_t triangle, double u, double v) {
-  SurfacePlace place;
-  place.feature = Feature::face;
-  place.triangle = triangle;
-  place.u = u;
-  place.v = std::min(v, 1.0 - u);
-  return place;
+  return place_on_face(triangle, u, std::min(v, 1.0 - u));
 }
 
 /// A capsule's side is all but straight: its Newton steps turn the normal only so far at a time.
@@ -30,7 +26,7 @@ struct Selection {
   int group = 3;
   double value = std::numeric_limits<double>::infinity();
 
-  bool offer(const IterationContext& context, const IterationResult& r) {
+  bool offer(const ContactContext& context, const IterationResult& r) {
     result.evaluations += r.evaluations;
     const bool exact = r.contact.error_m < context.settings.tolerance_m;
     const int here = r.converged() ? 0 : r.stop == StopReason::unstable && exact ? 1 : 2;
@@ -45,13 +41,13 @@ struct Selection {
   }
 };
 
-void seed_by_hierarchy(IterationContext& context, const ContactScene& scene, Selection& selection) {
+void seed_by_hierarchy(ContactContext& context, const SearchStructures& search, Selection& selection) {
   ContactQuery query;
   query.centre = context.pose.position;
   query.nearest_m = query.inside_m = std::numeric_limits<double>::max();
   query.tilt_rad = context.finger.tilt_rad();
   int solves = 0;
-  scene.hierarchy().visit(query, [&](std::uint32_t t, ContactQuery& q) {
+  search.hierarchy.visit(query, [&](std::uint32_t t, ContactQuery& q) {
     const PatchExclusion proof =
         exclude_triangle(context, t, selection.group == 0 ? selection.value : std::numeric_limits<double>::max());
     if (proof.margin_m > 0.0) return true;
@@ -66,24 +62,23 @@ void seed_by_hierarchy(IterationContext& context, const ContactScene& scene, Sel
 
 /// Whether a contact lies so much further off than the raw mesh that a nearer one must have been missed. Asks only for
 /// triangles nearer than that, of which there are none as a rule, so the query ends early.
-bool implausible(IterationContext& context, const ContactScene& scene, const IterationResult& found, double rank) {
+bool implausible(ContactContext& context, const SearchStructures& search, const IterationResult& found, double rank) {
   if (!is_round(context.finger)) return false;
   const double bulge = patch_bulge(context.cache.patch(found.plane.triangle, context.settings.normal_form));
   const double nearer = rank / (1.0 + kImplausibleShare) - 2.0 * bulge;
-  return nearer > 0.0 && scene.nearest().nearest(context.pose.position, nearer);
+  return nearer > 0.0 && search.nearest.nearest(context.pose.position, nearer);
 }
 
 /// What is known of the distance to the nearest triangle before asking.
-double known_radius(const IterationContext& context, const TrackedPlane& kept) {
+double known_radius(const ContactContext& context, const TrackedPlane& kept) {
   if (kept.feature == Feature::none) return std::numeric_limits<double>::infinity();
   return closest_on_triangle(context.cache.mesh(), kept.triangle, context.pose.position).distance_m;
 }
 
-void seed_by_distance(IterationContext& context, const ContactScene& scene, std::size_t seeds, double radius,
+void seed_by_distance(ContactContext& context, const SearchStructures& search, std::size_t seeds, double radius,
                       int budget, bool twice, Selection& selection) {
   std::array<NearestHit, kSeeds> hits;
-  const std::size_t count =
-      scene.nearest().nearest_several(context.pose.position, radius, std::span(hits).first(seeds));
+  const std::size_t count = search.nearest.nearest_several(context.pose.position, radius, std::span(hits).first(seeds));
   for (std::size_t i = 0; i < count; ++i) {
     context.seed = static_cast<std::uint8_t>(i + 1);
     IterationResult r;
@@ -98,10 +93,10 @@ void seed_by_distance(IterationContext& context, const ContactScene& scene, std:
 /// Last resort, where no seed finds a contact of the interpolated normals, or none near the raw mesh: the place near
 /// the raw mesh's closest points whose plane, turned to face the finger, is touched deepest. Its error is nought, its
 /// normal is the finger's.
-void face_the_finger(IterationContext& context, const ContactScene& scene, Selection& selection) {
+void face_the_finger(ContactContext& context, const SearchStructures& search, Selection& selection) {
   std::array<NearestHit, kSeeds> hits;
   const std::size_t count =
-      scene.nearest().nearest_several(context.pose.position, std::numeric_limits<double>::infinity(), std::span(hits));
+      search.nearest.nearest_several(context.pose.position, std::numeric_limits<double>::infinity(), std::span(hits));
   for (std::size_t i = 0; i < count; ++i) {
     IterationResult r;
     r.plane.move_to(face_at(hits[i].triangle, hits[i].u, hits[i].v));
@@ -134,23 +129,19 @@ void face_the_finger(IterationContext& context, const ContactScene& scene, Selec
 
 }  // namespace
 
-void limit_query(ContactQuery& query, const Finger& finger, double rank) {
-  query.nearest_m = rank + finger.unroundness_m();
-  query.inside_m = rank - finger.reach_m() + finger.unroundness_m();
-}
-
-SeedResult seed_contact(IterationContext& context, const ContactScene& scene, const TrackedPlane& kept) {
+SeedResult seed_contact(ContactContext& context, const SearchStructures& search, const TrackedPlane& kept) {
   Selection selection;
   if (context.settings.method != Method::robust) {
-    seed_by_distance(context, scene, 1, known_radius(context, kept), context.settings.max_iterations, false, selection);
+    seed_by_distance(context, search, 1, known_radius(context, kept), context.settings.max_iterations, false,
+                     selection);
   } else {
-    seed_by_hierarchy(context, scene, selection);
-    if (selection.group != 0 || implausible(context, scene, selection.result.best, selection.value))
-      seed_by_distance(context, scene, kSeeds, std::numeric_limits<double>::infinity(), seed_budget(context.finger),
+    seed_by_hierarchy(context, search, selection);
+    if (selection.group != 0 || implausible(context, search, selection.result.best, selection.value))
+      seed_by_distance(context, search, kSeeds, std::numeric_limits<double>::infinity(), seed_budget(context.finger),
                        true, selection);
     if (selection.group == 2 ||
-        (selection.group == 0 && implausible(context, scene, selection.result.best, selection.value)))
-      face_the_finger(context, scene, selection);
+        (selection.group == 0 && implausible(context, search, selection.result.best, selection.value)))
+      face_the_finger(context, search, selection);
   }
   context.seed = 0;
   if (context.settings.method == Method::robust && selection.group == 1) {

@@ -1,5 +1,5 @@
 // Creases do not crack: both sides of every crease edge run along the same curve.
-#include "core/contact/place.h"
+#include "core/contact/patch_cache.h"
 #include "core/surface/mesh_patch.h"
 #include "tests/core/scenes.h"
 

@@ -1,6 +1,6 @@
 // The 2D algorithm against 40-digit values.
 #include "core/planar/track.h"
-#include "core/tick/planar_step.h"
+#include "core/tick/step.h"
 #include "tests/core/oracle.h"
 #include "tests/core/scenes.h"
 

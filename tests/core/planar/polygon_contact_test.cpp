@@ -1,6 +1,6 @@
 // The 2D baselines against cases computed by hand.
 #include "core/planar/polygon_contact.h"
-#include "core/tick/planar_step.h"
+#include "core/tick/step.h"
 #include "tests/core/scenes.h"
 
 #include <numbers>

@@ -1,6 +1,6 @@
 #include "workbench/bench/measure.h"
 
-#include "core/tick/render.h"
+#include "core/shading/render.h"
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,4 @@
-// Ticks that glide are a shorter way to the same bits; what the cache holds of edges and vertices is what they are.
+// What a stepper keeps between ticks changes no bits; what it holds of edges and vertices is what they are.
 #include "core/contact/patch_cache.h"
 #include "tests/core/scenes.h"
 
@@ -90,9 +90,7 @@ PolygonMesh side_by_side(const PolygonMesh& a, const PolygonMesh& b, const Vec3&
 
 }  // namespace
 
-TEST_CASE(
-    "a tick that glides gives output and state of the long way, which traced ticks and a cold stepper take, bit for "
-    "bit") {
+TEST_CASE("a tick has the same output and state, bit by bit, with a warm cache, a cold one, and traced") {
   const auto trace = std::make_unique<IterationTrace>();
   for (const ScenePtr& scene : scenes()) {
     for (const FingerShape shape : {FingerShape::sphere, FingerShape::point}) {

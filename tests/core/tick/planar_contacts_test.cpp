@@ -1,5 +1,5 @@
 // Ticks on 2D scenes: contacts known by hand, tracking against brute force, corners, ends, other places.
-#include "core/tick/planar_step.h"
+#include "core/tick/step.h"
 #include "core/lab/objects/arc.h"
 #include "tests/core/scenes.h"
 

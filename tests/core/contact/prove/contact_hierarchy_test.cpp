@@ -1,5 +1,5 @@
 // The search over the hierarchy passes by no triangle that holds a contact.
-#include "core/contact/contact_hierarchy.h"
+#include "core/contact/prove/contact_hierarchy.h"
 #include "core/contact/follow/step_rule.h"
 #include "tests/core/scenes.h"
 

@@ -1,4 +1,4 @@
-#include "core/contact/contact_hierarchy.h"
+#include "core/contact/prove/contact_hierarchy.h"
 
 #include "core/mesh/vertex_ring.h"
 #include "core/surface/mesh_patch.h"
@@ -182,6 +182,11 @@ ContactHierarchy ContactHierarchy::build(const ContactMesh& mesh) {
   ContactHierarchy tree;
   ContactHierarchyBuilder(mesh, tree).build();
   return tree;
+}
+
+void limit_query(ContactQuery& query, const Finger& finger, double rank) {
+  query.nearest_m = rank + finger.unroundness_m();
+  query.inside_m = rank - finger.reach_m() + finger.unroundness_m();
 }
 
 }  // namespace tangent

@@ -1,4 +1,4 @@
-// One tick in the plane: what Stepper::step does for a 2D scene.
+// The contacts of a tick in the plane: what mesh_contacts.h does for a 2D scene.
 //
 // The polygon lies in the world's x-y plane; z of a pose is ignored. The finger is seen in its x-z section: its +x
 // (distal) and its -z (out of the fingerpad) lie in the plane, the fingerpad facing -y for the identity pose. Of a
@@ -9,17 +9,19 @@
 #pragma once
 
 #include "core/planar/curve.h"
-#include "core/tick/step.h"
+#include "core/tick/sources.h"
+#include "core/tick/tick_context.h"
 
 namespace tangent {
 
-TickOutput step_planar(const PlanarCurve& curve, const Preset& preset, const TickInput& input, TickState& state,
-                       IterationTrace* trace);
+/// Planes for force and display, and the row of the method, but for force and display. Precondition: a usable pose, of
+/// which `tick` has the section.
+void find_planar_contacts(const PlanarCurve& curve, const TickContext& tick, TickPlanes& planes, TickOutput& out);
 
 /// The pose with the finger's x-z section laid in the plane.
 FingerPose section_pose(const FingerPose& pose);
 
-/// A ribbon along the polygon, extruded by `half_width_m` to either side of z = 0, for views of the scene.
-PolygonMesh ribbon(const PlanarCurve& curve, double half_width_m);
+/// A point stays one; every other shape is a circle of its radius.
+Finger section_finger(const Finger& finger);
 
 }  // namespace tangent

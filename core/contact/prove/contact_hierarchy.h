@@ -29,6 +29,9 @@ struct ContactQuery {
   double tilt_rad = 0.0;   ///< how far c - S may lean from N: 0 for point and sphere, more for other fingers
 };
 
+/// Bounds of a query that shall only see contacts of a rank below `rank` (contact_rank.h).
+void limit_query(ContactQuery& query, const Finger& finger, double rank);
+
 class ContactHierarchy {
  public:
   static ContactHierarchy build(const ContactMesh& mesh);

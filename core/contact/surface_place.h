@@ -1,4 +1,4 @@
-// A place on the smooth surface where a tangent plane can touch, with what a solver step needs there.
+// A place on the smooth surface where a tangent plane can touch.
 //
 // Three kinds of place share one form, a SurfaceSample: a point and a normal that depend on two parameters, with
 // their derivatives in its _u and _v:
@@ -12,22 +12,31 @@
 // contact leaves a face for an edge, and likewise at the ends of an edge.
 #pragma once
 
-#include "core/contact/edge_fan.h"
-#include "core/contact/patch_cache.h"
-#include "core/finger/plane_contact.h"
-#include "core/tick/step.h"
+#include "core/base/vec.h"
+#include "core/mesh/polygon_mesh.h"
+
+#include <cstdint>
 
 namespace tangent {
+
+enum class Feature : std::uint8_t { none, face, edge, vertex };
+const char* to_string(Feature feature);
+
+/// A place on the smooth surface. u and v are the barycentric weights on `triangle` (for an edge or vertex they lie on
+/// that edge or corner).
+struct SurfacePlace {
+  Feature feature = Feature::none;
+  std::uint8_t side = 0;  ///< edge: which edge of the triangle; vertex: which corner
+  std::uint32_t triangle = kNone;
+  double u = 0.0, v = 0.0;
+};
 
 /// Barycentric (u, v) of the point at fraction f of edge k, exactly on the edge.
 inline Vec2 edge_point_uv(std::uint32_t edge, double f) {
   switch (edge) {
-    case 0:
-      return {f, 0.0};
-    case 1:
-      return {1.0 - f, f};
-    default:
-      return {0.0, 1.0 - f};
+    case 0: return {f, 0.0};
+    case 1: return {1.0 - f, f};
+    default: return {0.0, 1.0 - f};
   }
 }
 
@@ -37,13 +46,17 @@ inline Vec2 corner_uv(std::uint32_t corner) { return {corner == 1 ? 1.0 : 0.0, c
 /// Fraction f of a point (u, v) on edge k.
 inline double edge_fraction(std::uint32_t edge, double u, double v) {
   switch (edge) {
-    case 0:
-      return u;
-    case 1:
-      return v;
-    default:
-      return 1.0 - v;
+    case 0: return u;
+    case 1: return v;
+    default: return 1.0 - v;
   }
+}
+
+inline SurfacePlace place_on_face(std::uint32_t t, double u, double v) { return {Feature::face, 0, t, u, v}; }
+
+inline SurfacePlace place_on_edge(std::uint32_t t, std::uint32_t edge, double f) {
+  const Vec2 uv = edge_point_uv(edge, f);
+  return {Feature::edge, static_cast<std::uint8_t>(edge), t, uv.x, uv.y};
 }
 
 }  // namespace tangent

@@ -1,0 +1,40 @@
+// What is known of the places that the finger does not touch: until when none of them can be the deepest.
+#pragma once
+
+#include "core/base/vec.h"
+#include "core/mesh/polygon_mesh.h"
+
+#include <array>
+#include <cstdint>
+#include <limits>
+
+namespace tangent {
+
+/// A triangle that holds no deeper contact, but could before others do.
+struct WatchedTriangle {
+  std::uint32_t triangle = kNone;
+  float margin_m = 0.0f;  ///< how far from Clearance::centre the finger may go before it must be looked at again
+  bool operator==(const WatchedTriangle&) const = default;
+};
+
+/// Where no other place can be deeper than the tracked one: in a ball about the place where that was found out last.
+/// Within it nothing is asked, however long the finger moves there. All distances are the finger's from `centre` and
+/// `orientation` (prove/clearance_check.h: gone_m).
+struct Clearance {
+  static constexpr std::size_t kWatched = 8;
+  Vec3 centre{0.0};  ///< local
+  Quat orientation{1.0, 0.0, 0.0, 0.0};
+  double free_m = -1.0;    ///< radius of the ball: up to here nothing needs to be looked at; negative: not known
+  double margin_m = -1.0;  ///< up to here no triangle outside the tracked basin and the watched ones holds a contact ...
+  double height_m = 0.0;   ///< ... of a rank below this less the distance gone
+  std::array<WatchedTriangle, kWatched> watched;
+
+  /// No other place counts as deeper, however far the finger goes: the contact is only followed.
+  static Clearance unlimited() {
+    Clearance c;
+    c.free_m = c.margin_m = c.height_m = std::numeric_limits<double>::infinity();
+    return c;
+  }
+};
+
+}  // namespace tangent

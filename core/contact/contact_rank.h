@@ -1,0 +1,16 @@
+// The order in which contacts count: deepest first.
+#pragma once
+
+#include "core/finger/plane_contact.h"
+
+namespace tangent {
+
+/// How far off a contact is, m; smaller is deeper. For a contact on the outside (h >= 0) it is the finger's
+/// reach less the penetration, which for a sphere is h; a contact seen from inside ranks by how deep the finger's
+/// centre is, after every outside contact that is nearer than that plus the reach.
+inline double contact_rank(const Finger& finger, const PlaneContact& contact) {
+  if (contact.height_m < 0.0) return contact.penetration_m;
+  return (is_round(finger) ? round_radius_m(finger) : finger.reach_m()) - contact.penetration_m;
+}
+
+}  // namespace tangent

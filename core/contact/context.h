@@ -1,0 +1,21 @@
+// What stays the same through one tick's search for the contact.
+#pragma once
+
+#include "core/contact/patch_cache.h"
+#include "core/contact/trace.h"
+#include "core/finger/finger.h"
+#include "core/preset/preset.h"
+
+namespace tangent {
+
+struct ContactContext {
+  PatchCache& cache;
+  const SolverSettings& settings;
+  const Finger& finger;
+  const FingerPose& pose;  ///< local mesh coordinates
+  Vec3 origin;             ///< of the local coordinates, for the trace
+  IterationTrace* trace = nullptr;
+  std::uint8_t seed = 0;  ///< 0 while following the kept plane; the number of the seed otherwise
+};
+
+}  // namespace tangent

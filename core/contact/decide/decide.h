@@ -1,0 +1,36 @@
+// Which place is rendered: the followed contact, a deeper one that takes over, or the one a lost contact starts anew
+// at.
+#pragma once
+
+#include "core/contact/contact_rank.h"
+#include "core/contact/decide/tick_event.h"
+#include "core/contact/follow/follow.h"
+#include "core/contact/search/rivals.h"
+#include "core/contact/search/seed.h"
+
+namespace tangent {
+
+/// The contact that a tick renders, and what it cost.
+struct DecidedContact {
+  IterationResult contact;  ///< the converged one, or the best there was
+  TickEvent event = TickEvent::none;
+  int evaluations = 0;  ///< of the whole tick, lost tracking and seeds included
+  int triangle_changes = 0;
+  bool converged() const { return contact.converged(); }
+};
+
+/// Rank that another place must be below to take over from a contact of rank `rank`: deeper by the switch hysteresis.
+inline double takeover_bound_m(const SolverSettings& settings, double rank) {
+  return rank - settings.switch_hysteresis_m;
+}
+
+/// The followed contact stays (decided.contact holds it), until another is decided on. `first`: there was none.
+void decide_followed(Followed followed, bool first, DecidedContact& decided);
+
+/// A deeper place takes over, if one was found.
+void decide_rival(const RivalResult& rival, const TrackedPlane& kept, DecidedContact& decided);
+
+/// Where following failed: the seeded contact, or the lost one where seeding did no better.
+void decide_start(const SeedResult& seeded, const TrackedPlane& kept, DecidedContact& decided);
+
+}  // namespace tangent

@@ -1,0 +1,30 @@
+#include "core/contact/prove/clearance_check.h"
+
+#include <algorithm>
+
+namespace tangent {
+
+double turned_m(const Finger& finger, const Quat& from, const Quat& to) {
+  if (from == to) return 0.0;
+  return finger.turning_m(2.0 * std::acos(std::min(1.0, std::abs(glm::dot(from, to)))));
+}
+
+// Shortened by far more than floats are rounded by: at a margin itself a contact may be there.
+void set_free(Clearance& known) {
+  double least = known.margin_m;
+  for (const WatchedTriangle& watched : known.watched)
+    if (watched.triangle != kNone) least = std::min(least, double{watched.margin_m});
+  known.free_m = (1.0 - 1e-6) * least;
+}
+
+// By the triangle inequality, which turning_m obeys too: it is concave in the angle.
+void recentre(Clearance& known, const FingerPose& pose, double gone) {
+  known.centre = pose.position;
+  known.orientation = pose.orientation;
+  known.margin_m -= gone;
+  known.height_m -= gone;
+  for (WatchedTriangle& watched : known.watched) watched.margin_m -= static_cast<float>(gone);
+  set_free(known);
+}
+
+}  // namespace tangent

@@ -1,0 +1,35 @@
+// Can another place be deeper by now? Asked at every tick, answered without looking at the surface: from how far the
+// finger has gone since the last search found out (contact/clearance.h).
+#pragma once
+
+#include "core/contact/clearance.h"
+#include "core/finger/plane_contact.h"
+
+#include <cmath>
+
+namespace tangent {
+
+/// How far the support points of a finger that is not round can have moved while it turned from one orientation to the
+/// other, m.
+double turned_m(const Finger& finger, const Quat& from, const Quat& to);
+
+/// How far the finger at `pose` (local) is from where the margins of `known` count from, m: its centre's displacement,
+/// and for fingers that are not round the most that support points can have moved by its turning.
+inline double gone_m(const Clearance& known, const Finger& finger, const FingerPose& pose) {
+  const Vec3 d = pose.position - known.centre;
+  const double centre_m = std::sqrt(glm::dot(d, d));
+  return is_round(finger) ? centre_m : centre_m + turned_m(finger, known.orientation, pose.orientation);
+}
+
+/// Whether a finger that is `gone` from known.centre leaves room for a place of a rank below `bound_m`.
+inline bool deeper_possible(const Clearance& known, double gone, double bound_m) {
+  return gone > known.free_m || bound_m > known.height_m - gone;
+}
+
+/// The least of the margins, as the radius up to which nothing is asked.
+void set_free(Clearance& known);
+
+/// The same knowledge seen from `pose`, `gone` away: what is left of the margins there.
+void recentre(Clearance& known, const FingerPose& pose, double gone);
+
+}  // namespace tangent

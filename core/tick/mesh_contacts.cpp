@@ -1,0 +1,75 @@
+#include "core/tick/mesh_contacts.h"
+
+#include "core/tick/raw_contacts.h"
+#include "core/tick/smooth_contact.h"
+
+namespace tangent {
+namespace {
+
+/// The smooth contact by `settings`; updates what the next tick keeps of it.
+RenderPlane find_smooth(const ContactScene& scene, StepCache& cache, const TickContext& tick,
+                        const SolverSettings& settings) {
+  ContactContext context{cache.patches, settings, tick.finger, tick.local, tick.origin, tick.trace, 0};
+  const bool sample_is_kept = cache.holds(tick.state.plane, settings.normal_form);
+  find_smooth_contact(context, scene.search(), sample_is_kept, tick.state, cache.smooth);
+  cache.form = settings.normal_form;
+  const IterationResult& contact = cache.smooth.contact;
+  tick.state.plane = contact.plane;
+  if (!cache.smooth.converged()) return last_converged_plane(tick);
+  return keep_converged_plane(tick, contact.contact.penetration_m);
+}
+
+void describe_smooth(const DecidedContact& decided, const Vec3& origin, TickOutput& out) {
+  const IterationResult& c = decided.contact;
+  out.status = decided.converged() ? status_of(c.plane.feature, c.contact.penetration_m) : TickStatus::unconverged;
+  out.event = decided.event;
+  out.triangle = c.plane.triangle;
+  out.u = c.plane.u;
+  out.v = c.plane.v;
+  out.contact = origin + c.plane.point;
+  out.normal = c.plane.normal;
+  out.penetration_m = c.contact.penetration_m;
+  out.error_m = c.contact.error_m;
+  out.iterations = decided.evaluations;
+  out.triangle_changes = decided.triangle_changes;
+}
+
+/// The smooth contact for a source that asks for it beside a method on the raw mesh.
+RenderPlane find_smooth_beside(const ContactScene& scene, StepCache& cache, const TickContext& tick) {
+  SolverSettings settings = tick.preset.solver;
+  settings.method = Method::robust;
+  return find_smooth(scene, cache, tick, settings);
+}
+
+/// Facet and force shading.
+void find_facet(const ContactScene& scene, const TickContext& tick, TickPlanes& planes, TickOutput& out) {
+  const ContactMesh& mesh = scene.mesh();
+  const FacetContact facet = facet_contact(mesh, scene.nearest(), tick.local.position, tick.preset.solver.tolerance_m);
+  if (!facet.found) return;
+  const double depth = contact_on_plane(tick.finger, tick.local, facet.hit.point, facet.normal).penetration_m;
+  offer_facet(tick, facet, force_shading_normal(mesh, facet), depth, planes, out);
+}
+
+void find_two_pass(const ContactScene& scene, const TickContext& tick, TickPlanes& planes, TickOutput& out) {
+  constexpr double kLeapShare = 0.25;  // of the box's diagonal: a proxy further from the finger is given up
+  const MeshProxySurface surface(scene.mesh(), scene.nearest(), tick.preset.solver.tolerance_m);
+  find_two_pass_contact(tick, surface, kLeapShare * glm::length(scene.mesh().bounds().size()), planes, out);
+}
+
+}  // namespace
+
+void find_mesh_contacts(const ContactScene& scene, StepCache& cache, const TickContext& tick, TickPlanes& planes,
+                        TickOutput& out) {
+  const Preset& preset = tick.preset;
+  if (is_smooth(preset.solver.method)) {
+    planes.smooth = find_smooth(scene, cache, tick, preset.solver);
+    describe_smooth(cache.smooth, tick.origin, out);
+    if (only_smooth(preset)) return;  // most ticks
+  } else if (wants_smooth(preset)) {
+    planes.smooth = find_smooth_beside(scene, cache, tick);
+  }
+  if (wants_facet(preset)) find_facet(scene, tick, planes, out);
+  if (preset.solver.method == Method::two_pass) find_two_pass(scene, tick, planes, out);
+}
+
+}  // namespace tangent

@@ -1,0 +1,97 @@
+#include "core/tick/planar_contacts.h"
+
+#include "core/finger/plane_contact.h"
+#include "core/planar/polygon_contact.h"
+#include "core/planar/track.h"
+#include "core/tick/raw_contacts.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace tangent {
+namespace {
+
+/// A proxy this far from the finger, in sizes of the polygon, is given up.
+constexpr double kLeapShare = 0.25;
+
+Vec2 flat(const Vec3& v) { return {v.x, v.y}; }
+double radius_m(const TickContext& tick) { return round_radius_m(tick.finger); }
+
+PlanarPlace place_of(const TrackedPlane& plane) {
+  return {plane.feature, plane.triangle, plane.u, flat(plane.point), flat(plane.normal)};
+}
+
+TrackedPlane plane_of(const PlanarPlace& place) {
+  TrackedPlane plane;
+  plane.feature = place.feature;
+  plane.side = place.t > 0.5 ? 1 : 0;
+  plane.triangle = place.patch;
+  plane.u = place.t;
+  plane.point = lifted(place.point);
+  plane.normal = lifted(place.normal);
+  return plane;
+}
+
+RenderPlane find_smooth(const PlanarCurve& curve, const TickContext& tick, const SolverSettings& settings,
+                        PlanarTrack& track) {
+  const PlanarContext context{curve, settings, flat(tick.local.position), radius_m(tick), tick.trace, 0};
+  // A state kept on another scene names patches that this one may not have.
+  const bool ours = tick.state.plane.triangle < curve.patch_count();
+  track = track_planar(context, ours ? place_of(tick.state.plane) : PlanarPlace{});
+  tick.state.plane = plane_of(track.contact.place);
+  if (!track.converged()) return last_converged_plane(tick);
+  return keep_converged_plane(tick, radius_m(tick) - track.contact.height_m);
+}
+
+void describe_smooth(const PlanarTrack& track, const TickContext& tick, TickOutput& out) {
+  const PlanarContact& c = track.contact;
+  out.penetration_m = radius_m(tick) - c.height_m;
+  out.status = track.converged() ? status_of(c.place.feature, out.penetration_m) : TickStatus::unconverged;
+  out.triangle = c.place.patch;
+  out.u = c.place.t;
+  out.contact = tick.origin + lifted(c.place.point);
+  out.normal = lifted(c.place.normal);
+  out.error_m = c.error_m;
+  out.event = track.event;
+  out.iterations = track.evaluations;
+  out.triangle_changes = track.patch_changes;
+}
+
+}  // namespace
+
+FingerPose section_pose(const FingerPose& pose) {
+  const Vec3 x = pose.orientation * Vec3(1.0, 0.0, 0.0);
+  const double turn = std::atan2(x.y, x.x);
+  const Quat about_z(std::cos(0.5 * turn), 0.0, 0.0, std::sin(0.5 * turn));
+  // Finger z to the plane's y: a quarter turn back about x.
+  const Quat lay_down(std::numbers::sqrt2 / 2.0, -std::numbers::sqrt2 / 2.0, 0.0, 0.0);
+  return {{pose.position.x, pose.position.y, 0.0}, about_z * lay_down};
+}
+
+Finger section_finger(const Finger& finger) {
+  Finger section = finger;
+  if (section.shape != FingerShape::point) section.shape = FingerShape::sphere;
+  return section;
+}
+
+void find_planar_contacts(const PlanarCurve& curve, const TickContext& tick, TickPlanes& planes, TickOutput& out) {
+  const Preset& preset = tick.preset;
+  const Vec3& centre = tick.local.position;
+  if (wants_smooth(preset)) {
+    SolverSettings settings = preset.solver;
+    if (!is_smooth(settings.method)) settings.method = Method::robust;
+    PlanarTrack track;
+    planes.smooth = find_smooth(curve, tick, settings, track);
+    if (is_smooth(preset.solver.method)) describe_smooth(track, tick, out);
+  }
+  const PolygonSurface surface(curve, preset.solver.tolerance_m);
+  if (wants_facet(preset)) {
+    const FacetContact facet = surface.nearest(centre);
+    const double depth = radius_m(tick) - facet.height_m;
+    offer_facet(tick, facet, surface.interpolated_normal(facet), depth, planes, out);
+  }
+  if (preset.solver.method == Method::two_pass)
+    find_two_pass_contact(tick, surface, kLeapShare * curve.size_m(), planes, out);
+}
+
+}  // namespace tangent

@@ -1,0 +1,14 @@
+// The contact with the smooth surface in one tick: follow, prove, search, decide.
+#pragma once
+
+#include "core/contact/decide/decide.h"
+#include "core/tick/tick.h"
+
+namespace tangent {
+
+/// `decided` of the last tick in, of this one out. `sample_is_kept`: decided.contact still is the plane and sample of
+/// state.plane. The context's pose is local. Of the state only the clearance is changed, where something was looked at.
+void find_smooth_contact(ContactContext& context, const SearchStructures& search, bool sample_is_kept, TickState& state,
+                         DecidedContact& decided);
+
+}  // namespace tangent

@@ -1,0 +1,69 @@
+// Which contacts a preset asks for, and which of them force and display are rendered from: the rendering condition.
+#pragma once
+
+#include "core/preset/preset.h"
+#include "core/shading/render.h"
+
+namespace tangent {
+
+/// Planes of one tick: of those contacts that the method, the force source and the tactile source ask for.
+struct TickPlanes {
+  RenderPlane smooth, facet, shaded;
+  RenderPlane proxy_force, proxy_place;  ///< of the two-pass method: spring, and the surface under the proxy
+};
+
+/// Facet or force shading; the two-pass method finds its own.
+inline bool wants_facet(const Preset& preset) {
+  return preset.solver.method == Method::facet || preset.solver.method == Method::force_shading ||
+         preset.force.source == ForceSource::facet || preset.force.source == ForceSource::force_shading ||
+         preset.display.source == TactileSource::facet;
+}
+
+inline bool wants_smooth(const Preset& preset) {
+  return is_smooth(preset.solver.method) || preset.force.source == ForceSource::smooth ||
+         preset.display.source == TactileSource::smooth;
+}
+
+/// The smooth method's own contact and no other, as most ticks do.
+inline bool only_smooth(const Preset& preset) { return is_smooth(preset.solver.method) && !wants_facet(preset); }
+
+inline const RenderPlane& force_plane(const Preset& preset, const TickPlanes& planes) {
+  switch (preset.force.source) {
+    case ForceSource::facet:
+      return planes.facet;
+    case ForceSource::force_shading:
+      return planes.shaded;
+    case ForceSource::smooth:
+      return planes.smooth;
+    case ForceSource::method:
+      break;
+  }
+  switch (preset.solver.method) {
+    case Method::facet:
+      return planes.facet;
+    case Method::force_shading:
+      return planes.shaded;
+    case Method::two_pass:
+      return planes.proxy_force;
+    default:
+      return planes.smooth;
+  }
+}
+
+/// Null: the display is held at its centre.
+inline const RenderPlane* tactile_plane(const Preset& preset, const TickPlanes& planes) {
+  switch (preset.display.source) {
+    case TactileSource::held:
+      return nullptr;
+    case TactileSource::facet:
+      return &planes.facet;
+    case TactileSource::smooth:
+      return &planes.smooth;
+    case TactileSource::method:
+      break;
+  }
+  if (preset.solver.method == Method::two_pass) return &planes.proxy_place;
+  return is_smooth(preset.solver.method) ? &planes.smooth : &planes.facet;
+}
+
+}  // namespace tangent
