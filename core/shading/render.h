@@ -9,10 +9,13 @@ namespace tangent {
 
 /// A plane in the world and how deep the finger is in it.
 struct RenderPlane {
-  Vec3 normal{0.0, 0.0, 1.0};
-  double penetration_m = 0.0;
-  double share = 1.0;  ///< 1; less while an unconverged tick ramps out; 0: nothing to render
+  Vec3 normal;  ///< unit
+  double penetration_m;
+  double share;  ///< 1; less while an unconverged tick ramps out; 0: nothing to render
 };
+
+/// Touched nowhere.
+inline constexpr RenderPlane kNoPlane{{0.0, 0.0, 1.0}, 0.0, 1.0};
 
 /// What the devices get.
 struct Rendered {

@@ -7,16 +7,19 @@ namespace tangent {
 namespace {
 
 /// The smooth contact by `settings`; updates what the next tick keeps of it.
-RenderPlane find_smooth(const ContactScene& scene, StepCache& cache, const TickContext& tick,
-                        const SolverSettings& settings) {
+inline void find_smooth(const ContactScene& scene, StepCache& cache, const TickContext& tick, const SolverSettings& settings,
+                 RenderPlane& plane) {
   ContactContext context{cache.patches, settings, tick.finger, tick.local, tick.origin, tick.trace, 0};
   const bool sample_is_kept = cache.holds(tick.state.plane, settings.normal_form);
   find_smooth_contact(context, scene.search(), sample_is_kept, tick.state, cache.smooth);
   cache.form = settings.normal_form;
   const IterationResult& contact = cache.smooth.contact;
   tick.state.plane = contact.plane;
-  if (!cache.smooth.converged()) return last_converged_plane(tick);
-  return keep_converged_plane(tick, contact.contact.penetration_m);
+  if (cache.smooth.converged()) {
+    keep_converged_plane(tick, contact.contact.penetration_m, plane);
+  } else {
+    plane = last_converged_plane(tick);
+  }
 }
 
 void describe_smooth(const DecidedContact& decided, const Vec3& origin, TickOutput& out) {
@@ -35,10 +38,10 @@ void describe_smooth(const DecidedContact& decided, const Vec3& origin, TickOutp
 }
 
 /// The smooth contact for a source that asks for it beside a method on the raw mesh.
-RenderPlane find_smooth_beside(const ContactScene& scene, StepCache& cache, const TickContext& tick) {
+void find_smooth_beside(const ContactScene& scene, StepCache& cache, const TickContext& tick, RenderPlane& plane) {
   SolverSettings settings = tick.preset.solver;
   settings.method = Method::robust;
-  return find_smooth(scene, cache, tick, settings);
+  find_smooth(scene, cache, tick, settings, plane);
 }
 
 /// Facet and force shading.
@@ -61,12 +64,13 @@ void find_two_pass(const ContactScene& scene, const TickContext& tick, TickPlane
 void find_mesh_contacts(const ContactScene& scene, StepCache& cache, const TickContext& tick, TickPlanes& planes,
                         TickOutput& out) {
   const Preset& preset = tick.preset;
+  if (!only_smooth(preset)) planes = TickPlanes::all(kNoPlane);
   if (is_smooth(preset.solver.method)) {
-    planes.smooth = find_smooth(scene, cache, tick, preset.solver);
+    find_smooth(scene, cache, tick, preset.solver, planes.smooth);
     describe_smooth(cache.smooth, tick.origin, out);
     if (only_smooth(preset)) return;  // most ticks
   } else if (wants_smooth(preset)) {
-    planes.smooth = find_smooth_beside(scene, cache, tick);
+    find_smooth_beside(scene, cache, tick, planes.smooth);
   }
   if (wants_facet(preset)) find_facet(scene, tick, planes, out);
   if (preset.solver.method == Method::two_pass) find_two_pass(scene, tick, planes, out);

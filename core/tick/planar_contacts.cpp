@@ -40,7 +40,9 @@ RenderPlane find_smooth(const PlanarCurve& curve, const TickContext& tick, const
   track = track_planar(context, ours ? place_of(tick.state.plane) : PlanarPlace{});
   tick.state.plane = plane_of(track.contact.place);
   if (!track.converged()) return last_converged_plane(tick);
-  return keep_converged_plane(tick, radius_m(tick) - track.contact.height_m);
+  RenderPlane plane;
+  keep_converged_plane(tick, radius_m(tick) - track.contact.height_m, plane);
+  return plane;
 }
 
 void describe_smooth(const PlanarTrack& track, const TickContext& tick, TickOutput& out) {
@@ -77,6 +79,7 @@ Finger section_finger(const Finger& finger) {
 void find_planar_contacts(const PlanarCurve& curve, const TickContext& tick, TickPlanes& planes, TickOutput& out) {
   const Preset& preset = tick.preset;
   const Vec3& centre = tick.local.position;
+  planes = TickPlanes::all(kNoPlane);
   if (wants_smooth(preset)) {
     SolverSettings settings = preset.solver;
     if (!is_smooth(settings.method)) settings.method = Method::robust;

@@ -27,9 +27,10 @@ bool same_contacts(const Preset& a, const Preset& b) {
 TickOutput render_again(const ContactScene& scene, const Preset& preset, const TickInput& input, const TickState& kept,
                         TickOutput solved) {
   const FingerPose pose = scene.planar() ? section_pose(input.finger) : input.finger;
-  TickPlanes planes;
+  TickPlanes planes = TickPlanes::all(kNoPlane);
   planes.smooth = {solved.normal, solved.penetration_m, 1.0};
-  render_planes(preset, planes, pose, finger_velocity(preset, pose.position, input.t_s, kept), solved);
+  render_planes(preset, planes, section_of(pose.orientation), finger_velocity(preset, pose.position, input.t_s, kept),
+                solved);
   return solved;
 }
 

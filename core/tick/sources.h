@@ -6,10 +6,13 @@
 
 namespace tangent {
 
-/// Planes of one tick: of those contacts that the method, the force source and the tactile source ask for.
+/// Planes of one tick: of those contacts that the method, the force source and the tactile source ask for. Not
+/// initialised: most ticks need one.
 struct TickPlanes {
   RenderPlane smooth, facet, shaded;
   RenderPlane proxy_force, proxy_place;  ///< of the two-pass method: spring, and the surface under the proxy
+
+  static TickPlanes all(const RenderPlane& plane) { return {plane, plane, plane, plane, plane}; }
 };
 
 /// Facet or force shading; the two-pass method finds its own.

@@ -8,21 +8,31 @@
 
 namespace tangent {
 
+/// By reference: what a tick has just written would be waited for if it were copied on.
 struct TickContext {
   const Preset& preset;
   const Finger& finger;  ///< the preset's; in 2D its section, a point or a circle
-  double t_s = 0.0;
-  FingerPose local;  ///< of the finger, in the scene's local coordinates
-  Vec3 origin{0.0};  ///< world = origin + local
+  double t_s;
+  const FingerPose& pose;   ///< of the finger, world; in 2D its section's
+  const FingerPose& local;  ///< the same in the scene's local coordinates
+  const Vec3& origin;       ///< world = origin + local
   TickState& state;
-  IterationTrace* trace = nullptr;
+  IterationTrace* trace;
 };
 
 /// The plane that an unconverged tick renders: the last converged one at the present pose, ramping to zero; share 0
 /// where there is none.
 RenderPlane last_converged_plane(const TickContext& tick);
 
-/// Keeps state.plane as the last converged one, touched `penetration_m` deep, and gives it for rendering.
-RenderPlane keep_converged_plane(const TickContext& tick, double penetration_m);
+/// Keeps state.plane as the last converged one, touched `penetration_m` deep, and gives it for rendering in `plane`.
+inline void keep_converged_plane(const TickContext& tick, double penetration_m, RenderPlane& plane) {
+  TickState& state = tick.state;
+  state.last_converged = {state.plane.point, state.plane.normal};
+  state.has_converged = 1;
+  state.last_converged_s = tick.t_s;
+  plane.normal = state.plane.normal;
+  plane.penetration_m = penetration_m;
+  plane.share = 1.0;
+}
 
 }  // namespace tangent
