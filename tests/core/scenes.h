@@ -4,6 +4,7 @@
 #include "core/io/mesh_io.h"
 #include "core/lab/objects/generate.h"
 #include "core/tick/step.h"
+#include "tests/support/meshes.h"
 
 #include <doctest/doctest.h>
 
@@ -67,13 +68,8 @@ inline Preset sphere_preset(double radius_m, Method method) {
 
 inline TickInput at_position(double t_s, const Vec3& position) { return {t_s, {position, Quat(1.0, 0.0, 0.0, 0.0)}}; }
 
-/// A mesh of the shared collection, or null (with a message) where it isn't there.
-inline ScenePtr shared_scene(const std::string& name, double crease_deg) {
-  const std::filesystem::path path = std::filesystem::path(TANGENT_SHARED_ASSETS) / "meshes" / name;
-  if (!std::filesystem::exists(path)) {
-    MESSAGE("skipped: " << path.string() << " is not there");
-    return nullptr;
-  }
+/// A mesh of a file, fitted to 80 mm.
+inline ScenePtr file_scene(const std::filesystem::path& path, double crease_deg) {
   const auto mesh = read_mesh(path, 1e-3);
   REQUIRE_MESSAGE(mesh.has_value(), (mesh ? "" : mesh.error().message()));
   ContactMeshOptions options;
@@ -81,6 +77,8 @@ inline ScenePtr shared_scene(const std::string& name, double crease_deg) {
   options.crease_rad = crease_deg * kDegree;
   return scene_of(*mesh, options);
 }
+
+inline ScenePtr spot_scene(double crease_deg) { return file_scene(testing::spot_file(), crease_deg); }
 
 /// One tick from nothing.
 inline TickOutput solve_once(const ScenePtr& scene, const Preset& preset, const FingerPose& pose,

@@ -184,8 +184,7 @@ TEST_CASE("contact, normal and depth are continuous across the edges of an icosp
 }
 
 TEST_CASE("across the edges of spot the contact is followed and nothing jumps where both sides are stable") {
-  const auto scene = shared_scene("spot.obj", 180.0);
-  if (!scene) return;
+  const auto scene = spot_scene(180.0);
   for (const double radius : {0.005, 0.020}) {
     const Crossing c = cross_edges(scene, radius, 5000, Method::robust);
     CHECK(c.jumps == 0);

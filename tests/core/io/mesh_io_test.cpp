@@ -1,5 +1,6 @@
 #include "core/io/mesh_io.h"
 #include "core/lab/objects/generate.h"
+#include "tests/support/meshes.h"
 #include "tests/support/temp_folder.h"
 
 #include <doctest/doctest.h>
@@ -10,7 +11,7 @@
 #include <limits>
 
 using namespace tangent;
-using tangent::testing::TempFolder;
+using namespace tangent::testing;
 
 namespace {
 
@@ -300,18 +301,21 @@ TEST_CASE("a mesh that can't be written leaves nothing behind") {
 
 // ---- real meshes
 
-TEST_CASE("the shared meshes load whole") {
-  const std::filesystem::path meshes = std::filesystem::path(TANGENT_SHARED_ASSETS) / "meshes";
-  if (!std::filesystem::exists(meshes)) {
-    MESSAGE("skipped: no shared meshes");
-    return;
-  }
-  const auto counts = [&](const char* name) {
-    const Result<PolygonMesh> mesh = read_mesh(meshes / name, 1.0);
-    REQUIRE(mesh);
-    return std::pair(mesh->positions.size(), mesh->face_count());
-  };
-  CHECK(counts("spot.obj") == std::pair<std::size_t, std::size_t>(2930, 5856));
-  CHECK(counts("fandisk.obj") == std::pair<std::size_t, std::size_t>(6475, 12946));
-  CHECK(counts("stanford-bunny.obj") == std::pair<std::size_t, std::size_t>(35947, 69451));
+namespace {
+
+/// Positions and faces.
+std::pair<std::size_t, std::size_t> counts(const std::filesystem::path& file) {
+  const Result<PolygonMesh> mesh = read_mesh(file, 1.0);
+  REQUIRE(mesh);
+  return {mesh->positions.size(), mesh->face_count()};
+}
+
+}  // namespace
+
+TEST_CASE("spot loads whole") { CHECK(counts(spot_file()) == std::pair<std::size_t, std::size_t>(2930, 5856)); }
+
+TEST_CASE("the fandisk and the bunny load whole") {
+  if (!shared_files_there({"meshes/fandisk.obj", "meshes/stanford-bunny.obj"})) return;
+  CHECK(counts(shared_file("meshes/fandisk.obj")) == std::pair<std::size_t, std::size_t>(6475, 12946));
+  CHECK(counts(shared_file("meshes/stanford-bunny.obj")) == std::pair<std::size_t, std::size_t>(35947, 69451));
 }

@@ -5,6 +5,7 @@
 #include "core/lab/objects/generate.h"
 #include "tests/core/mesh/contact_mesh_checks.h"
 #include "tests/core/mesh/sample_meshes.h"
+#include "tests/support/meshes.h"
 
 #include <doctest/doctest.h>
 
@@ -12,6 +13,7 @@
 
 using namespace tangent;
 using namespace tangent::sample;
+using namespace tangent::testing;
 
 TEST_CASE("cube of unwelded corners becomes eight vertices, closed") {
   const ContactMesh m = build(sample::unwelded(sample::cube()));
@@ -177,24 +179,29 @@ TEST_CASE("under 100 bytes a triangle") {
   CHECK(build(sample::unwelded(sphere), computed()).memory_bytes() < 70 * sphere.face_count());
 }
 
-TEST_CASE("the bunny, spot and fandisk build without loss") {
-  const std::filesystem::path folder = std::filesystem::path(TANGENT_SHARED_ASSETS) / "meshes";
-  if (!std::filesystem::exists(folder)) {
-    MESSAGE("skipped: no shared meshes");
-    return;
+namespace {
+
+void check_built_without_loss(const std::filesystem::path& file) {
+  CAPTURE(file.string());
+  const auto source = read_mesh(file, 1.0);
+  REQUIRE(source);
+  const ContactMesh m = build(*source);
+  CHECK(m.usable_triangle_count() == m.triangle_count());
+  for (std::size_t i = 0; i < kMeshDefectCount; ++i) {
+    const auto kind = static_cast<MeshDefect>(i);
+    CAPTURE(std::string(to_string(kind)));
+    if (kind != MeshDefect::unreferenced_vertex) CHECK(m.defects(kind).count == 0);
   }
-  for (const char* file : {"stanford-bunny.obj", "spot.obj", "fandisk.obj"}) {
-    CAPTURE(file);
-    const auto source = read_mesh(folder / file, 1.0);
-    REQUIRE(source);
-    const ContactMesh m = build(*source);
-    CHECK(m.usable_triangle_count() == m.triangle_count());
-    for (std::size_t i = 0; i < kMeshDefectCount; ++i) {
-      const auto kind = static_cast<MeshDefect>(i);
-      CAPTURE(std::string(to_string(kind)));
-      if (kind != MeshDefect::unreferenced_vertex) CHECK(m.defects(kind).count == 0);
-    }
-    check_sound(m);
-    check_one_fan_per_vertex(m);
-  }
+  check_sound(m);
+  check_one_fan_per_vertex(m);
+}
+
+}  // namespace
+
+TEST_CASE("spot builds without loss") { check_built_without_loss(spot_file()); }
+
+TEST_CASE("the bunny and the fandisk build without loss") {
+  if (!shared_files_there({"meshes/stanford-bunny.obj", "meshes/fandisk.obj"})) return;
+  for (const char* file : {"meshes/stanford-bunny.obj", "meshes/fandisk.obj"})
+    check_built_without_loss(shared_file(file));
 }

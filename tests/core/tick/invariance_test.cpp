@@ -231,12 +231,8 @@ TEST_CASE("the order of the triangles and of their corners changes no contact") 
 }
 
 TEST_CASE("the fandisk gives the same contacts in millimetres, and a kilometre away") {
-  const std::filesystem::path path = std::filesystem::path(TANGENT_SHARED_ASSETS) / "meshes" / "fandisk.obj";
-  if (!std::filesystem::exists(path)) {
-    MESSAGE("skipped: " << path.string() << " is not there");
-    return;
-  }
-  PolygonMesh mesh = *read_mesh(path, 1e-3);
+  if (!testing::shared_files_there({"meshes/fandisk.obj"})) return;
+  PolygonMesh mesh = *read_mesh(testing::shared_file("meshes/fandisk.obj"), 1e-3);
   mesh.normals.clear();
   mesh.corner_normal.clear();
   Box box;

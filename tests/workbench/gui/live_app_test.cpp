@@ -1,6 +1,8 @@
 // The window with a servo thread and workers of its own, as it really runs. Nothing here depends on how fast.
 #include "headless_app.h"
 
+#include "tests/support/meshes.h"
+
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
@@ -59,11 +61,8 @@ TEST_CASE("the last mesh asked for is the one that is opened") {
 
 // What a frame costs. Not a test: run with --no-skip to measure.
 TEST_CASE("measure: processor time of building a frame with the bunny and all plots" * doctest::skip()) {
-  const std::filesystem::path bunny = std::filesystem::path(TANGENT_SHARED_ASSETS) / "meshes/stanford-bunny.obj";
-  if (!std::filesystem::exists(bunny)) {
-    MESSAGE("skipped: no ", bunny.string());
-    return;
-  }
+  if (!testing::shared_files_there({"meshes/stanford-bunny.obj"})) return;
+  const std::filesystem::path bunny = testing::shared_file("meshes/stanford-bunny.obj");
   for (const auto& [w, h] : {std::pair{1280.0f, 720.0f}, {3840.0f, 2160.0f}}) {
     AppOptions options = HeadlessApp::deterministic_options();
     options.mesh = bunny.string();

@@ -2,6 +2,7 @@
 
 #include "core/io/mesh_io.h"
 #include "core/lab/objects/generate.h"
+#include "tests/support/meshes.h"
 
 #include <doctest/doctest.h>
 
@@ -168,7 +169,7 @@ TEST_CASE("measure: 60 s of history solved again, from the wish to the ghost" * 
   };
   measure("torus", torus(), 300);
   measure("rounded cube", scene_of(*generate_mesh("cube", {.rounding_m = 1.5e-3})), 300);
-  const std::filesystem::path bunny = std::filesystem::path(TANGENT_SHARED_ASSETS) / "meshes/stanford-bunny.obj";
+  const std::filesystem::path bunny = testing::shared_file("meshes/stanford-bunny.obj");
   if (!std::filesystem::exists(bunny)) return;
   measure("bunny", scene_of(*read_mesh(bunny, 1.0), {.fit_m = 0.08}), 10);
 }

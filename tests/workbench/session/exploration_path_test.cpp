@@ -2,6 +2,7 @@
 
 #include "core/io/mesh_io.h"
 #include "core/lab/objects/arc.h"
+#include "tests/support/meshes.h"
 #include "tests/workbench/session/session_fixture.h"
 
 #include <doctest/doctest.h>
@@ -90,29 +91,35 @@ TEST_CASE("the path never leaps and keeps touching, over round, hollow, sharp an
   }
 }
 
-TEST_CASE("the path never leaps over scanned and modelled meshes") {
-  if (!std::filesystem::exists(TANGENT_SHARED_ASSETS "/meshes")) {
-    MESSAGE("skipped: no shared meshes");
-    return;
-  }
-  for (const char* name : {"spot.obj", "fandisk.obj", "stanford-bunny.obj"}) {
-    const auto source = read_mesh(std::filesystem::path(TANGENT_SHARED_ASSETS "/meshes") / name, 1e-3);
-    REQUIRE(source);
-    ContactMeshOptions options;
-    options.fit_m = 0.1;
-    auto mesh = ContactMesh::build(*source, options);
-    REQUIRE(mesh);
-    auto scene = ContactScene::build(std::move(*mesh));
-    REQUIRE(scene);
-    CAPTURE(name);
-    const Walk w = walk(**scene, 0.010, 1e-3);
-    MESSAGE(std::string(name) << ": longest step " << w.longest_step * 1e3 << " mm, largest turn "
-                              << w.largest_turn / kDegree << " deg, depth " << w.shallowest * 1e3 << " to "
-                              << w.deepest * 1e3 << " mm, touching " << 100.0 * w.touching << " %");
-    CHECK(w.longest_step < 3.0 * kTick);
-    CHECK(w.largest_turn < 1.0 * kDegree);
-    CHECK(w.touching > 0.9);
-  }
+namespace {
+
+void check_no_leap(const std::filesystem::path& file) {
+  const auto source = read_mesh(file, 1e-3);
+  REQUIRE(source);
+  ContactMeshOptions options;
+  options.fit_m = 0.1;
+  auto mesh = ContactMesh::build(*source, options);
+  REQUIRE(mesh);
+  auto scene = ContactScene::build(std::move(*mesh));
+  REQUIRE(scene);
+  CAPTURE(file.string());
+  const Walk w = walk(**scene, 0.010, 1e-3);
+  MESSAGE(file.stem().string() << ": longest step " << w.longest_step * 1e3 << " mm, largest turn "
+                               << w.largest_turn / kDegree << " deg, depth " << w.shallowest * 1e3 << " to "
+                               << w.deepest * 1e3 << " mm, touching " << 100.0 * w.touching << " %");
+  CHECK(w.longest_step < 3.0 * kTick);
+  CHECK(w.largest_turn < 1.0 * kDegree);
+  CHECK(w.touching > 0.9);
+}
+
+}  // namespace
+
+TEST_CASE("the path never leaps over spot") { check_no_leap(testing::spot_file()); }
+
+TEST_CASE("the path never leaps over the fandisk and the bunny") {
+  if (!testing::shared_files_there({"meshes/fandisk.obj", "meshes/stanford-bunny.obj"})) return;
+  for (const char* file : {"meshes/fandisk.obj", "meshes/stanford-bunny.obj"})
+    check_no_leap(testing::shared_file(file));
 }
 
 TEST_CASE("the fingerpad faces the surface, within its rocking") {

@@ -111,8 +111,7 @@ TEST_CASE("a search visits every triangle that holds a contact, from outside and
 }
 
 TEST_CASE("a search of spot visits every triangle that holds a contact, and few others") {
-  const auto spot = shared_scene("spot.obj", 180.0);
-  if (!spot) return;
+  const auto spot = spot_scene(180.0);
   const Findings f = search(spot, rounds(40), 131);
   CHECK(f.contacts > rounds(40));
   CHECK(f.missed == 0);

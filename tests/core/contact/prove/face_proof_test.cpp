@@ -28,8 +28,7 @@ PnPatch random_patch(Random& random) {
 std::vector<PnPatch> mesh_patches() {
   std::vector<PnPatch> patches;
   std::vector<ScenePtr> scenes{scene_of(make_icosphere(0.040, 1)), scene_of(make_torus(0.040, 0.015, 24, 12)),
-                               scene_of(*generate_mesh("cube", {.rounding_m = 1.5e-3}))};
-  if (auto spot = shared_scene("spot.obj", 180.0)) scenes.push_back(spot);
+                               scene_of(*generate_mesh("cube", {.rounding_m = 1.5e-3})), spot_scene(180.0)};
   for (const ScenePtr& scene : scenes)
     for (std::uint32_t t = 0; t < scene->mesh().triangle_count(); t += 7)
       patches.push_back(make_patch(scene->mesh(), t));

@@ -2,6 +2,7 @@
 
 #include "core/io/mesh_io.h"
 #include "core/lab/objects/generate.h"
+#include "tests/support/meshes.h"
 #include "tests/support/temp_folder.h"
 #include "workbench/gui/platform/offscreen.h"
 #include "workbench/gui/render/shader_program.h"
@@ -219,11 +220,8 @@ TEST_CASE("a moving camera gets a picture at once and a better one when it rests
 
 TEST_CASE("a scanned mesh of 69,451 triangles orbits with its smooth surface - the rate is reported") {
   REQUIRE_GL(context);
-  const std::filesystem::path bunny = std::filesystem::path(TANGENT_SHARED_ASSETS) / "meshes/stanford-bunny.obj";
-  if (!std::filesystem::exists(bunny)) {
-    MESSAGE("skipped: no " << bunny.string());
-    return;
-  }
+  if (!shared_files_there({"meshes/stanford-bunny.obj"})) return;
+  const std::filesystem::path bunny = shared_file("meshes/stanford-bunny.obj");
   ContactMeshOptions options;
   options.fit_m = 0.080;
   const auto scene = ContactScene::build(ContactMesh::build(read_mesh(bunny, 1e-3).value(), options).value()).value();

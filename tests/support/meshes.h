@@ -1,0 +1,31 @@
+// Files of meshes and poses that tests read: those of tests/assets, which are always there, and larger ones of a folder
+// that not everybody has (TANGENT_SHARED_ASSETS, see tests/README.md).
+#pragma once
+
+#include <doctest/doctest.h>
+
+#include <filesystem>
+#include <initializer_list>
+#include <string>
+
+namespace tangent::testing {
+
+/// spot, 5,856 triangles.
+inline std::filesystem::path spot_file() { return std::filesystem::path(TANGENT_TEST_ASSETS) / "meshes/spot.obj"; }
+
+inline std::filesystem::path shared_file(const std::string& name) {
+  return std::filesystem::path(TANGENT_SHARED_ASSETS) / name;
+}
+
+/// To be asked before anything else of a case, which returns on false: ctest reports a case that printed this message
+/// as skipped, whatever else it checked.
+inline bool shared_files_there(std::initializer_list<const char*> names) {
+  for (const char* name : names) {
+    if (std::filesystem::exists(shared_file(name))) continue;
+    MESSAGE("skipped: no " << shared_file(name).string());
+    return false;
+  }
+  return true;
+}
+
+}  // namespace tangent::testing
