@@ -1,4 +1,4 @@
-// One reader per file format (private to core/mesh; read_mesh chooses among them). Each fills positions
+// One reader per file format (private to core/io; read_mesh chooses among them). Each fills positions
 // in the file's unit, normals, faces and corner normals, in file order; read_mesh names and scales them.
 #pragma once
 

@@ -1,5 +1,6 @@
 // ticks.csv: one line per tick, and the trace of every tangent plane of every tick. Columns are part of the
-// program's contract (README, "Files"). Numbers print so that a double reads back exactly; no NaN is written.
+// program's contract (workbench/README.md, "Files"). Numbers print so that a double reads back exactly; no NaN is
+// written.
 #pragma once
 
 #include "core/io/atomic_file.h"

@@ -13,7 +13,7 @@ namespace tangent {
 /// `condition`: index into kPerceptionThresholds of the one that the worst edges and the verdict are for.
 std::string audit_text(const MeshAudit& audit, const PerceptionAudit& perception, int condition,
                        const ContactMesh& mesh);
-/// The layout is part of the program's contract (README, "Files").
+/// The layout is part of the program's contract (workbench/README.md, "Files").
 nlohmann::ordered_json audit_json(const MeshAudit& audit, const PerceptionAudit& perception, int condition,
                                   const ContactMesh& mesh);
 

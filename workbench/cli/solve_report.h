@@ -27,7 +27,7 @@ struct SolveReport {
 
 /// A dozen lines for a terminal.
 std::string solve_text(const SolveReport& report);
-/// The layout is part of the program's contract (README, "Files").
+/// The layout is part of the program's contract (workbench/README.md, "Files").
 nlohmann::ordered_json solve_json(const SolveReport& report);
 
 }  // namespace tangent
