@@ -151,4 +151,14 @@ inline constexpr double kGentleCosine = 0.99, kGentleReach = 1.5;
 /// Cosine of the angle by which normals may differ from the contact's on its own slope.
 inline constexpr double kBasinCosine = 0.9;
 
+// --- Rendering ----------------------------------------------------------------------------------------
+
+/// N/s: by this much the force may change without the finger's moving. A tenth of a newton takes 5 ms, the peak of a
+/// Premium 0.4 s. Larger: a switch of contacts is felt as a knock; smaller: the surface seems to give way after one.
+inline constexpr double kForceFade = 20.0;
+
+/// Travels of the display a second, 1/s, likewise: 0.26 m/s for 16 mm, about what its spindle can do. Larger: a leap of the
+/// contact is felt as a click; smaller: the display lags behind a finger that turns quickly.
+inline constexpr double kDisplayFade = 16.0;
+
 }  // namespace tangent

@@ -61,6 +61,8 @@ std::string_view not_finite(const TickRow& row) {
   if (!std::isfinite(o.penetration_m)) return "penetration_m";
   if (!is_finite(o.force_n)) return "force_n";
   if (!std::isfinite(o.cld_m)) return "cld_m";
+  if (!is_finite(o.decided_force_n)) return "decided_force_n";
+  if (!std::isfinite(o.decided_cld_m)) return "decided_cld_m";
   if (!std::isfinite(o.error_m)) return "error_m";
   if (!std::isfinite(row.solve_ns)) return "solve_ns";
   return {};
@@ -89,7 +91,9 @@ Status append_tick_row(std::string& text, const TickRow& row) {
   append_field(text, std::int64_t{o.iterations});
   append_field(text, std::int64_t{o.triangle_changes});
   append_field(text, to_string(o.event));
-  append_double(text, row.solve_ns);
+  append_field(text, row.solve_ns);
+  append_field(text, o.decided_force_n);
+  append_double(text, o.decided_cld_m);
   text += '\n';
   return {};
 }

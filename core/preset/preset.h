@@ -29,6 +29,11 @@ enum class LocalCentre : std::uint8_t {
   midpoint,   ///< midpoint of their far ends; offered by the paper, and poor
 };
 enum class ForceSource : std::uint8_t { method, facet, force_shading, smooth };
+/// What is faded in instead of leaping (shading/blend.h).
+enum class ForceBlend : std::uint8_t {
+  off,     ///< nothing: every tick renders what it decided
+  events,  ///< whatever the finger's motion does not explain (the default)
+};
 enum class TactileSource : std::uint8_t { method, held, facet, smooth };
 
 struct SolverSettings {
@@ -50,6 +55,7 @@ struct ForceSettings {
   double damping_n_s_per_m = 0.0;  ///< along the normal
   double limit_n = 8.5;            ///< the rendered force never exceeds this
   ForceSource source = ForceSource::method;
+  ForceBlend blend = ForceBlend::events;  ///< of force and display
   bool operator==(const ForceSettings&) const = default;
 };
 

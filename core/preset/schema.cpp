@@ -37,6 +37,7 @@ constexpr std::array<std::string_view, 2> kDistanceReadings{"proxy", "centre"};
 constexpr std::array<std::string_view, 2> kNormalForms{"bernstein", "vlachos"};
 constexpr std::array<std::string_view, 2> kLocalCentres{"bisectors", "midpoint"};
 constexpr std::array<std::string_view, 4> kFingerShapes{"point", "sphere", "ellipsoid", "capsule"};
+constexpr std::array<std::string_view, 2> kForceBlends{"off", "events"};
 constexpr std::array<std::string_view, 4> kForceSources{"method", "facet", "force-shading", "smooth"};
 constexpr std::array<std::string_view, 4> kTactileSources{"method", "held", "facet", "smooth"};
 
@@ -165,6 +166,9 @@ constexpr std::array kKeys{
     .doc = "The rendered force never exceeds this.",
     .min = 0.0, .max = 100.0, .slider_min = 0.0, .slider_max = 20.0, .get = read<kForce, &O::limit_n>,
     .set = write<kForce, &O::limit_n>},
+  choice<kForce, &O::blend>("force", "blend", "Fade", kForceBlends,
+    "What the finger's motion does not explain (a switch of contacts, one found anew, a change of preset) is faded in "
+    "over some ticks (events), or rendered at once (off). Force and display.", "force-blend"),
   choice<kForce, &O::source>("force", "source", "Source", kForceSources,
     "Which contact the force comes from: the method's own, the facets', the facets' with interpolated normals, or "
     "the smooth surface's."),

@@ -7,8 +7,8 @@ namespace tangent {
 namespace {
 
 /// The smooth contact by `settings`; updates what the next tick keeps of it.
-inline void find_smooth(const ContactScene& scene, StepCache& cache, const TickContext& tick, const SolverSettings& settings,
-                 RenderPlane& plane) {
+inline void find_smooth(const ContactScene& scene, StepCache& cache, const TickContext& tick,
+                        const SolverSettings& settings, RenderPlane& plane) {
   ContactContext context{cache.patches, settings, tick.finger, tick.local, tick.origin, tick.trace, 0};
   const bool sample_is_kept = cache.holds(tick.state.plane, settings.normal_form);
   find_smooth_contact(context, scene.search(), sample_is_kept, tick.state, cache.smooth);

@@ -25,12 +25,12 @@ bool same_contacts(const Preset& a, const Preset& b) {
 }
 
 TickOutput render_again(const ContactScene& scene, const Preset& preset, const TickInput& input, const TickState& kept,
-                        TickOutput solved) {
+                        RenderedState& rendered, TickOutput solved) {
   const FingerPose pose = scene.planar() ? section_pose(input.finger) : input.finger;
   TickPlanes planes = TickPlanes::all(kNoPlane);
   planes.smooth = {solved.normal, solved.penetration_m, 1.0};
-  render_planes(preset, planes, section_of(pose.orientation), finger_velocity(preset, pose.position, input.t_s, kept),
-                solved);
+  const FingerWay way = finger_way(pose.position, input.t_s, kept);
+  render_planes(preset, planes, section_of(pose.orientation), way, finger_velocity(preset, way), rendered, solved);
   return solved;
 }
 

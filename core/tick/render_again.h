@@ -12,8 +12,9 @@ namespace tangent {
 bool same_contacts(const Preset& a, const Preset& b);
 
 /// The output of a tick whose contact is known: `solved` is its output under a preset with the same contacts, `kept`
-/// the state before it. The bits that Stepper::step gives. Precondition: it converged.
+/// the state before it, `rendered` what `preset` rendered in the tick before; updated. The bits that Stepper::step
+/// gives. Precondition: it converged.
 TickOutput render_again(const ContactScene& scene, const Preset& preset, const TickInput& input, const TickState& kept,
-                        TickOutput solved);
+                        RenderedState& rendered, TickOutput solved);
 
 }  // namespace tangent

@@ -26,15 +26,17 @@ void run_tick(const TickContext& tick, TickOutput& out, FindContacts find_contac
   const FingerSection section = section_of(tick.pose.orientation);  // needed last, but has nothing to wait for
   TickPlanes planes;
   find_contacts(planes);
-  const Vec3 velocity = finger_velocity(tick.preset, tick.pose.position, tick.t_s, tick.state);
-  render_planes(tick.preset, planes, section, velocity, out);
+  const FingerWay way = finger_way(tick.pose.position, tick.t_s, tick.state);
+  const Vec3 velocity = finger_velocity(tick.preset, way);
+  render_planes(tick.preset, planes, section, way, velocity, tick.state.rendered, out);
   keep_pose(tick.pose.position, tick.t_s, tick.state);
 }
 
 /// A tick whose pose can't be used: what was rendered last is rendered on, where the finger was last.
 void run_without_pose(const TickContext& tick, TickOutput& out) {
   const TickPlanes planes = TickPlanes::all(last_converged_plane(tick));
-  render_planes(tick.preset, planes, section_of(tick.pose.orientation), Vec3(0.0), out);
+  const FingerWay way = finger_way(tick.pose.position, tick.t_s, tick.state);
+  render_planes(tick.preset, planes, section_of(tick.pose.orientation), way, Vec3(0.0), tick.state.rendered, out);
 }
 
 FingerPose last_pose(const TickState& state) { return {state.last_position, Quat(1.0, 0.0, 0.0, 0.0)}; }

@@ -5,6 +5,7 @@
 #include "core/contact/decide/tick_event.h"
 #include "core/contact/tracked_plane.h"
 #include "core/finger/finger.h"
+#include "core/shading/blend.h"
 
 #include <cstdint>
 
@@ -33,6 +34,7 @@ struct TickState {
   Clearance clearance;
   Vec3 proxy{0.0};  ///< of the two-pass method, local, m
   std::uint8_t has_proxy = 0;
+  RenderedState rendered;
 };
 
 struct TickInput {
@@ -54,6 +56,8 @@ struct TickOutput {
   double error_m = 0.0;
   std::int32_t iterations = 0;  ///< surface evaluations of this tick, seeds included
   std::int32_t triangle_changes = 0;
+  Vec3 decided_force_n{0.0};  ///< force and display before they were blended with those of the last tick
+  double decided_cld_m = 0.0;
 };
 
 /// What crosses the rings from the servo to its watchers: enough to compute the tick again.

@@ -144,7 +144,10 @@ class HistoryResolver::Replay {
     enter_scene(record);
     const bool follows =
         before_ != nullptr && record.scene_id == before_->scene_id && tick.tick == before_->tick.tick + 1;
-    if (!follows) as_recorded_ = true;
+    if (!follows) {
+      as_recorded_ = true;
+      rendered_ = tick.kept.rendered;
+    }
     before_ = &record;
     taken_over = false;
     if (!stepper_ || preset(record) == nullptr) {
@@ -154,11 +157,16 @@ class HistoryResolver::Replay {
     const bool alike = wish_ != nullptr && same_contacts_as(recorded_preset(record));
     if (alike && as_recorded_ && tick.output.status != TickStatus::unconverged) {
       taken_over = true;
-      return render_again(stepper_->scene(), *wish_, tick.input, tick.kept, tick.output);
+      return render_again(stepper_->scene(), *wish_, tick.input, tick.kept, rendered_, tick.output);
     }
-    if (as_recorded_) state_ = tick.kept;
+    if (as_recorded_) {
+      state_ = tick.kept;
+      state_.rendered = rendered_;
+    }
     as_recorded_ = as_recorded_ && alike;
-    return stepper_->step(*preset(record), tick.input, state_);
+    const TickOutput out = stepper_->step(*preset(record), tick.input, state_);
+    rendered_ = state_.rendered;
+    return out;
   }
 
   double tolerance_m(const ServoRecord& record) const {
@@ -193,6 +201,7 @@ class HistoryResolver::Replay {
   std::optional<Stepper> stepper_;  ///< none: the scene is gone
   const ServoRecord* before_ = nullptr;
   TickState state_;
+  RenderedState rendered_;            ///< of the tick before, by what is solved here
   bool as_recorded_ = true;           ///< the state before the next tick is the recorded one, whatever `state_` holds
   const Preset* compared_ = nullptr;  ///< recorded preset that `alike_` was found for
   bool alike_ = false;

@@ -1,0 +1,87 @@
+#include "core/shading/blend.h"
+
+#include "core/base/tolerances.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tangent {
+namespace {
+
+/// 0 where the force comes from the smooth surface, which has no edges of its own.
+double force_rule(const Preset& preset) {
+  const Method method = preset.solver.method;
+  const ForceSource source = preset.force.source;
+  if (source == ForceSource::smooth || (source == ForceSource::method && is_smooth(method))) return 0.0;
+  const ForceSettings& f = preset.force;
+  return 1.0 + static_cast<double>(source) + 8.0 * static_cast<double>(method) + f.stiffness_n_per_m +
+         std::sqrt(2.0) * f.damping_n_s_per_m + std::sqrt(3.0) * f.limit_n;
+}
+
+double display_rule(const Preset& preset) {
+  const Method method = preset.solver.method;
+  const TactileSource source = preset.display.source;
+  if (source == TactileSource::smooth || (source == TactileSource::method && is_smooth(method))) return 0.0;
+  return 1.0 + static_cast<double>(source) + 8.0 * static_cast<double>(method) + 1e3 * preset.display.travel_m +
+         1e3 * std::sqrt(2.0) * preset.display.finger_arc_m;
+}
+
+/// The last force as a plane that stays where it was: what it pushes with after the finger has moved.
+Vec3 left_of_last(const Vec3& last, const Vec3& moved, double stiffness) {
+  const double length = std::sqrt(glm::dot(last, last));
+  if (length == 0.0) return Vec3(0.0);
+  const Vec3 normal = last / length;
+  return std::max(0.0, length - stiffness * glm::dot(normal, moved)) * normal;
+}
+
+/// How far to go from `old` to `decided`, 0 to 1, so that the force is at most `most` from the last one. That holds for
+/// `old` itself, or nothing does.
+double share_within(const Vec3& last, const Vec3& old, const Vec3& decided, double most) {
+  const Vec3 off = old - last, way = decided - old;
+  const double a = glm::dot(way, way), b = glm::dot(off, way), c = glm::dot(off, off) - most * most;
+  if (a == 0.0) return 1.0;
+  const double root2 = b * b - a * c;
+  if (!(root2 > 0.0)) return 0.0;
+  return std::clamp((std::sqrt(root2) - b) / a, 0.0, 1.0);
+}
+
+/// `fades` of the last tick in, of this one out.
+bool limits(double rule, double last_rule, bool on, std::uint8_t& fades) {
+  fades = fades || rule != last_rule;
+  return on && (rule == 0.0 || fades);
+}
+
+}  // namespace
+
+Rendered blend(const Preset& preset, const FingerWay& way, const Rendered& decided, RenderedState& state) {
+  const RenderedState last = state;
+  state.force_rule = force_rule(preset);
+  state.display_rule = display_rule(preset);
+  Rendered out = decided;
+  if (last.has) {
+    const bool on = preset.force.blend == ForceBlend::events;
+    const double gone = std::sqrt(glm::dot(way.moved, way.moved));
+    if (limits(state.force_rule, last.force_rule, on, state.force_fades)) {
+      const double stiffness = preset.force.stiffness_n_per_m, most = kForceFade * way.dt_s + 2.0 * stiffness * gone;
+      const Vec3 change = decided.force_n - last.force_n;
+      if (glm::dot(change, change) > most * most) {
+        const Vec3 old = left_of_last(last.force_n, way.moved, stiffness);
+        out.force_n = old + share_within(last.force_n, old, decided.force_n, most) * (decided.force_n - old);
+      } else {
+        state.force_fades = 0;
+      }
+    }
+    if (limits(state.display_rule, last.display_rule, on, state.display_fades)) {
+      const double scale = preset.display.travel_m / preset.display.finger_arc_m;
+      const double most = kDisplayFade * preset.display.travel_m * way.dt_s + 2.0 * scale * gone;
+      out.cld_m = std::clamp(decided.cld_m, last.cld_m - most, last.cld_m + most);
+      if (out.cld_m == decided.cld_m) state.display_fades = 0;
+    }
+  }
+  state.force_n = out.force_n;
+  state.cld_m = out.cld_m;
+  state.has = 1;
+  return out;
+}
+
+}  // namespace tangent

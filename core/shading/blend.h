@@ -1,0 +1,36 @@
+// A force and a display that never leap: what the finger's motion does not explain is faded in.
+//
+// A contact that switches to a deeper place, is found anew or comes back, and a preset that changes, would move force
+// and display at once by as much as they differ. The finger feels a smooth surface only if such decisions are not felt:
+// the force may change by kForceFade a second, and by what the finger's own motion explains, twice stiffness times its
+// way. Until then the old plane fades into the new one; the old plane stays where it is, so that moving off it ends its
+// force. What remains of the old plane is known from the last rendered force f alone: a plane across f, |f|/stiffness
+// deep where the finger was then.
+#pragma once
+
+#include "core/shading/render.h"
+
+namespace tangent {
+
+/// What the last tick rendered: where the next one starts from.
+struct RenderedState {
+  Vec3 force_n{0.0};  ///< world
+  double cld_m = 0.0;
+  double force_rule = 0.0;    ///< a number that tells presets apart whose force has edges of its own; 0: smooth
+  double display_rule = 0.0;  ///< likewise of the display
+  std::uint8_t has = 0;       ///< the above is set
+  std::uint8_t force_fades = 0, display_fades = 0;  ///< a change of preset is still being faded in
+};
+
+/// Of the finger since the last tick.
+struct FingerWay {
+  Vec3 moved{0.0};    ///< world, m
+  double dt_s = 0.0;  ///< 0: none, or not known
+};
+
+/// What a tick is to render, from what it decided to and what the last one rendered; updates `state`. Where the
+/// preset's force has edges of its own (facet, force shading, two-pass) only a change of preset fades, likewise its
+/// display.
+Rendered blend(const Preset& preset, const FingerWay& way, const Rendered& decided, RenderedState& state);
+
+}  // namespace tangent
