@@ -27,7 +27,7 @@ struct Methods {
   constexpr bool operator==(const Methods&) const = default;
 };
 constexpr Methods only(Method method) { return {1u << static_cast<unsigned>(method)}; }
-inline constexpr Methods kNoMethod{}, kEveryMethod{~0u};
+inline constexpr Methods kNoMethod{}, kEveryMethod{(1u << kMethodNames.size()) - 1u};
 
 /// For a value that counts only under some values of others.
 struct KeyCondition {

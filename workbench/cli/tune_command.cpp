@@ -150,8 +150,11 @@ Status run_tune(const TuneOptions& options, bool& interrupted) {
 void check_usage(const TuneOptions& options) {
   for (const PresetOverride& o : options.preset.overrides) {
     if (o.key->tuned) throw CLI::ValidationError(o.by, "is what tune finds; leave it out");
-    if (!names_method(o) || o.value <= static_cast<double>(Method::robust)) continue;
-    throw CLI::ValidationError(o.by, o.key->value_text(o.value) + " has no gains; allowed: paper, newton or robust");
+    if (!names_method(o) || is_smooth(static_cast<Method>(o.value))) continue;
+    std::vector<std::string_view> allowed;
+    for (std::size_t i = 0; i < kMethodNames.size(); ++i)
+      if (is_smooth(static_cast<Method>(i))) allowed.push_back(kMethodNames[i]);
+    throw CLI::ValidationError(o.by, o.key->value_text(o.value) + " has no gains; allowed: " + choices_text(allowed));
   }
   const std::pair<const char*, const std::filesystem::path*> inputs[]{{"MESH", &options.mesh.file},
                                                                       {"--poses", &options.poses}};

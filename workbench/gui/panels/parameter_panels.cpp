@@ -18,10 +18,9 @@ bool has_meaning(const PresetKey& key, const Preset& preset) {
 
 /// "the method "paper"", "the methods "newton" and "robust"".
 std::string method_names(Methods methods) {
-  const auto names = find_preset_key("solver", "method")->choices;
   std::vector<std::string> quoted;
-  for (std::size_t i = 0; i < names.size(); ++i)
-    if (methods.has(static_cast<Method>(i))) quoted.push_back("\"" + std::string(names[i]) + "\"");
+  for (std::size_t i = 0; i < kMethodNames.size(); ++i)
+    if (methods.has(static_cast<Method>(i))) quoted.push_back("\"" + std::string(kMethodNames[i]) + "\"");
   std::string text = quoted.size() == 1 ? "the method " : "the methods ";
   for (std::size_t i = 0; i < quoted.size(); ++i)
     text += (i == 0 ? "" : i + 1 == quoted.size() ? " and " : ", ") + quoted[i];
