@@ -2,25 +2,18 @@
 
 #include "core/base/text.h"
 #include "core/io/atomic_file.h"
+#include "core/io/csv_table.h"
 #include "core/io/file_bytes.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <optional>
 
 namespace tangent {
 namespace {
 
-constexpr std::string_view kHeader = "x_m,y_m";
-
-/// Cuts the next line off `text`, without its line end.
-std::string_view take_line(std::string_view& text) {
-  const std::size_t end = text.find('\n');
-  std::string_view line = text.substr(0, end);
-  text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-  if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
-  return line;
-}
+constexpr std::array<std::string_view, 2> kColumns{"x_m", "y_m"};
 
 /// Cuts the next word off `line`.
 std::string_view take_word(std::string_view& line) {
@@ -29,12 +22,6 @@ std::string_view take_word(std::string_view& line) {
   const std::string_view word = line.substr(0, line.find_first_of(" \t"));
   line.remove_prefix(word.size());
   return word;
-}
-
-std::string shown(std::string_view text) {
-  std::string out = "\"";
-  for (const char c : text.substr(0, 40)) out += c >= ' ' && c < 127 ? c : '?';
-  return out + (text.size() > 40 ? "...\"" : "\"");
 }
 
 std::string at_line(const std::string& name, std::size_t line) { return name + ":" + std::to_string(line); }
@@ -86,7 +73,7 @@ class PolylineReader {
       const std::string_view word = take_word(text);
       const std::optional<double> value = parse_finite_double(word);
       if (!value)
-        return fail("a coordinate is " + shown(word), at_line(name_, number), "write three finite decimal numbers");
+        return fail("a coordinate is " + show_text(word), at_line(name_, number), "write three finite decimal numbers");
       p[axis] = *value;
     }
     vertices_.push_back(p);
@@ -101,7 +88,7 @@ class PolylineReader {
       const double count = static_cast<double>(vertices_.size());
       if (!value || *value != static_cast<double>(static_cast<std::int64_t>(*value)) || *value == 0.0 ||
           std::abs(*value) > count)
-        return fail("the polyline names vertex " + shown(word), at_line(name_, number),
+        return fail("the polyline names vertex " + show_text(word), at_line(name_, number),
                     "name one of the " + std::to_string(vertices_.size()) + " vertices listed before it");
       const auto index = static_cast<std::size_t>(*value > 0.0 ? *value - 1.0 : count + *value);
       if (first && !chain_.empty() && chain_.back() != index)
@@ -129,27 +116,14 @@ std::string lower_extension(const std::filesystem::path& path) {
 }  // namespace
 
 Result<PlanarPolygon> parse_polygon_csv(std::string_view text, const std::string& name) {
-  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
-  if (const std::string_view header = take_line(text); header != kHeader)
-    return fail("the header is " + shown(header), at_line(name, 1), "write " + std::string(kHeader));
+  Result<CsvTable> table = CsvTable::open(text, name, kColumns);
+  if (!table) return tl::unexpected(table.error());
   PlanarPolygon polygon;
   polygon.name = name;
-  for (std::size_t number = 2; !text.empty(); ++number) {
-    const std::string_view line = take_line(text);
-    if (line.empty() && text.find_first_not_of("\r\n") == std::string_view::npos) break;  // blank end
-    const std::size_t comma = line.find(',');
-    if (comma == std::string_view::npos)
-      return fail("only one column: " + shown(line), at_line(name, number), "write two numbers separated by a comma");
-    const std::string_view fields[2]{line.substr(0, comma), line.substr(comma + 1)};
-    Vec2 vertex(0.0);
-    for (int axis = 0; axis < 2; ++axis) {
-      const std::optional<double> value = parse_finite_double(fields[axis]);
-      if (!value)
-        return fail(std::string(axis == 0 ? "x_m" : "y_m") + " is " + shown(fields[axis]), at_line(name, number),
-                    "write a finite decimal number, two a line");
-      vertex[axis] = *value;
-    }
-    polygon.vertices.push_back(vertex);
+  std::array<double, kColumns.size()> numbers{};
+  while (table->next_line()) {
+    if (Status status = table->read_numbers(numbers); !status) return tl::unexpected(status.error());
+    polygon.vertices.emplace_back(numbers[0], numbers[1]);
   }
   return closed_and_checked(std::move(polygon));
 }
@@ -188,7 +162,7 @@ Result<PlanarPolygon> read_polygon(const std::filesystem::path& path, double met
 }
 
 Status write_polygon(const PlanarPolygon& polygon, const std::filesystem::path& path) {
-  std::string text(kHeader);
+  std::string text = std::string(kColumns[0]) + "," + std::string(kColumns[1]);
   const std::size_t count = polygon.vertices.size() + (polygon.closed ? 1 : 0);
   for (std::size_t i = 0; i < count; ++i) {
     const Vec2& v = polygon.vertices[i % polygon.vertices.size()];

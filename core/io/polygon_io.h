@@ -1,4 +1,4 @@
-// Polygons from files: a CSV with header `x_m,y_m`, or an OBJ with one polyline.
+// Polygons from files: a CSV with columns `x_m` and `y_m`, by name, or an OBJ with one polyline.
 #pragma once
 
 #include "core/planar/polygon.h"

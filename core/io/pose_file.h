@@ -1,5 +1,6 @@
-// Finger poses from a CSV file: header `t_s,x_m,y_m,z_m`, optionally followed by `,qw,qx,qy,qz`, then one
-// pose a line. World frame, SI; the quaternion maps the finger frame to the world (identity when absent).
+// Finger poses from a CSV file: columns `t_s,x_m,y_m,z_m` and, all or none, `qw,qx,qy,qz`, by name in any order, others
+// passed over; one pose a line. World frame, SI; the quaternion maps the finger frame to the world (identity when
+// absent).
 #pragma once
 
 #include "core/base/result.h"
@@ -16,8 +17,8 @@ inline constexpr double kQuaternionLengthTolerance = 1e-3;
 /// Positions further out than this are taken for a slip of units or a damaged file, m.
 inline constexpr double kFarthestPose = 1e9;
 
-/// `name` stands for the file in messages. Errors name the line: wrong header or number of columns, anything
-/// that is not a finite number, time that does not increase, a quaternion that is not a rotation, no poses.
+/// `name` stands for the file in messages. Errors name the line: a column that is missing, another number of fields,
+/// anything that is not a finite number, time that does not increase, a quaternion that is not a rotation, no poses.
 Result<std::vector<TickInput>> parse_poses(std::string_view text, std::string_view name);
 Result<std::vector<TickInput>> read_poses(const std::filesystem::path& path);
 

@@ -2,6 +2,7 @@
 
 #include "core/base/text.h"
 #include "core/io/atomic_file.h"
+#include "core/io/file_format.h"
 #include "core/io/input_file.h"
 #include "core/io/rendering_condition.h"
 #include "core/io/toml_file.h"
@@ -28,8 +29,12 @@ constexpr std::array<AboutText, 7> kAboutTexts{{
     {"device", &PresetAbout::device},
     {"note", &PresetAbout::note},
 }};
+constexpr std::string_view kAbout = "about";
 constexpr std::string_view kMeasured = "measured";
 constexpr std::string_view kCondition = "condition";
+
+constexpr std::array<MigrationStep, 1> kSteps{only_number};
+constexpr FileFormats kFormats{"preset", kSteps};
 
 std::string_view type_name(const toml::node& node) {
   switch (node.type()) {
@@ -70,10 +75,11 @@ class PresetReader {
   }
 
   Status read_table(const toml::key& key, const toml::node& node) {
-    const auto tables = preset_tables();
+    std::vector<std::string_view> tables{kAbout};
+    for (const PresetTable& known : preset_tables()) tables.push_back(known.name);
     if (std::find(tables.begin(), tables.end(), key.str()) == tables.end()) {
       return fail("unknown table or key", where(key.source(), key.str()),
-                  "allowed: the key condition and the tables " + choices_text(tables));
+                  "allowed: the keys format and condition and the tables " + choices_text(tables));
     }
     const toml::table* table = node.as_table();
     if (table == nullptr) {
@@ -81,7 +87,7 @@ class PresetReader {
                   "write the table [" + std::string(key.str()) + "]");
     }
     for (const auto& [inner, value] : *table) {
-      const Status status = key == "about" ? read_about(inner, value) : read_value(key.str(), inner, value);
+      const Status status = key == kAbout ? read_about(inner, value) : read_value(key.str(), inner, value);
       if (!status) return status;
     }
     return {};
@@ -253,8 +259,9 @@ std::string value_literal(const PresetKey& row, double value) {
 }  // namespace
 
 Result<PresetFile> parse_preset(std::string_view text, std::string_view name) {
-  const auto root = parse_toml(text, name, "correct the TOML there");
+  auto root = parse_toml(text, name, "correct the TOML there");
   if (!root) return tl::unexpected(root.error());
+  if (const Status status = migrate(*root, kFormats, name); !status) return tl::unexpected(status.error());
   return PresetReader(name).read(*root);
 }
 
@@ -266,17 +273,18 @@ Result<PresetFile> read_preset(const std::filesystem::path& path) {
 
 std::string format_preset(const PresetFile& file) {
   std::string text =
-      "# Tuning preset of Tangent Workbench. Everything in SI units; missing keys keep their defaults.\n\n";
+      "# Tuning preset of Tangent Workbench. Everything in SI units; missing keys keep their defaults.\n\n" +
+      kFormats.line() + "\n";
   if (const RenderingCondition* condition = condition_of(file.preset)) {
     std::string line = "condition = \"" + std::string(condition->name) + "\"";
     line.resize(40, ' ');
     text += line + " # " + choices_text(kConditionNames) + ": sets force.source and display.source\n\n";
   }
   format_about(file.about, text);
-  for (const std::string_view table : preset_tables().subspan(1)) {
-    text.append("\n[").append(table).append("]\n");
+  for (const PresetTable& table : preset_tables()) {
+    text.append("\n[").append(table.name).append("]\n");
     for (const PresetKey& row : preset_keys()) {
-      if (row.table != table) continue;
+      if (row.table != table.name) continue;
       std::string line = std::string(row.key) + " = " + value_literal(row, row.get(file.preset));
       if (line.size() < 40) line.resize(40, ' ');
       text += line + " # " + row.allowed() + "\n";

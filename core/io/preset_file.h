@@ -1,7 +1,8 @@
 // Presets on disk: TOML, one table per group of core/preset/preset.h with its field names as keys, and an [about]
 // table that says where the values come from. Missing keys keep their defaults; anything unknown, of the
-// wrong type or out of range is an error that names key, line and allowed range (preset_schema.h). A key `condition`
-// above the tables names a rendering condition of the paper, which stands for force.source and display.source.
+// wrong type or out of range is an error that names key, line and allowed range (core/preset/schema.h). Above the
+// tables stand the key `format` (core/io/file_format.h) and, where wanted, `condition`: a rendering condition of the
+// paper, which stands for force.source and display.source.
 #pragma once
 
 #include "core/base/result.h"

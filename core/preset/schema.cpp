@@ -2,6 +2,7 @@
 
 #include "core/base/text.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <type_traits>
@@ -41,40 +42,21 @@ constexpr std::array<std::string_view, 2> kForceBlends{"off", "events"};
 constexpr std::array<std::string_view, 4> kForceSources{"method", "facet", "force-shading", "smooth"};
 constexpr std::array<std::string_view, 4> kTactileSources{"method", "held", "facet", "smooth"};
 
-template <auto Group, auto Field, std::size_t N>
-constexpr PresetKey choice(std::string_view table, std::string_view key, std::string_view label,
-                           const std::array<std::string_view, N>& choices, std::string_view doc,
-                           std::string_view option = {}) {
-  return {.table = table,
-          .key = key,
-          .kind = KeyKind::choice,
-          .label = label,
-          .unit = {},
-          .doc = doc,
-          .min = 0.0,
-          .max = double(N - 1),
-          .slider_min = 0.0,
-          .slider_max = double(N - 1),
-          .choices = choices,
-          .option = option,
-          .get = read<Group, Field>,
-          .set = write<Group, Field>};
+/// A row of a number in one field.
+template <auto Group, auto Field>
+constexpr PresetKey value(PresetKey row) {
+  row.get = read<Group, Field>;
+  row.set = write<Group, Field>;
+  return row;
 }
 
-constexpr PresetKey semi_axis(std::string_view key, std::string_view label, std::string_view doc,
-                              double (*get)(const Preset&), void (*set)(Preset&, double)) {
-  return {.table = "finger",
-          .key = key,
-          .label = label,
-          .unit = "m",
-          .doc = doc,
-          .min = 1e-5,
-          .max = 1.0,
-          .slider_min = 0.001,
-          .slider_max = 0.05,
-          .logarithmic = true,
-          .get = get,
-          .set = set};
+/// A row of an enumeration, whose values are called `names` in their order.
+template <auto Group, auto Field, std::size_t N>
+constexpr PresetKey choice(PresetKey row, const std::array<std::string_view, N>& names) {
+  row.kind = KeyKind::choice;
+  row.choices = names;
+  row.max = row.slider_max = double(N - 1);
+  return value<Group, Field>(row);
 }
 
 using S = SolverSettings;
@@ -89,157 +71,180 @@ constexpr auto kDisplay = &Preset::display;
 constexpr auto kController = &Preset::controller;
 constexpr auto kSafety = &Preset::safety;
 
+// When a value counts.
+constexpr Methods kPaper = only(Method::paper);
+constexpr KeyCondition kRoundFinger{
+    [](const Preset& p) { return p.finger.shape == FingerShape::sphere || p.finger.shape == FingerShape::capsule; }};
+constexpr KeyCondition kEllipsoid{[](const Preset& p) { return p.finger.shape == FingerShape::ellipsoid; }};
+constexpr KeyCondition kCapsule{[](const Preset& p) { return p.finger.shape == FingerShape::capsule; }};
+constexpr KeyCondition kOwnLoop{[](const Preset& p) { return p.controller.p_per_s2 != 0.0; },
+                                "Gain P is 0: the device uses its own gains."};
+
+/// A point has no radius, and what has one is a sphere unless it is a capsule already.
+void set_radius_and_shape(Preset& preset, double radius_m) {
+  preset.finger.radius_m = radius_m;
+  if (radius_m == 0.0)
+    preset.finger.shape = FingerShape::point;
+  else if (preset.finger.shape != FingerShape::capsule)
+    preset.finger.shape = FingerShape::sphere;
+}
+
 // clang-format off
 constexpr std::array kKeys{
   // solver
-  choice<kSolver, &S::method>("solver", "method", "Method", kMethodNames,
-    "How the contact is found: the paper's iteration, Newton's, Newton's with safeguards (robust), or one of the "
-    "methods they are compared with.", "method"),
-  PresetKey{.table = "solver", .key = "gain_overall", .label = "Overall gain G_o", .unit = "1",
+  choice<kSolver, &S::method>({.table = "solver", .key = "method", .label = "Method",
+    .doc = "How the contact is found: the paper's iteration, Newton's, Newton's with safeguards (robust), or one of "
+           "the methods they are compared with.",
+    .read_by = kEveryMethod, .option = "method"}, kMethodNames),
+  value<kSolver, &S::gain_overall>({.table = "solver", .key = "gain_overall", .label = "Overall gain G_o", .unit = "1",
     .doc = "G_o of Eq. 1: part of the travel vector that the paper's iteration takes as a step.",
-    .min = 0.0, .max = 10.0, .slider_min = 0.0, .slider_max = 2.0, .option = "gain-overall",
-    .get = read<kSolver, &S::gain_overall>, .set = write<kSolver, &S::gain_overall>},
-  PresetKey{.table = "solver", .key = "gain_curvature_m", .label = "Curvature gain G_k", .unit = "m",
+    .min = 0.0, .max = 10.0, .slider_min = 0.0, .slider_max = 2.0,
+    .read_by = kPaper, .tuned = true, .option = "gain-overall"}),
+  value<kSolver, &S::gain_curvature_m>({.table = "solver", .key = "gain_curvature_m", .label = "Curvature gain G_k",
+    .unit = "m",
     .doc = "G_k of Eq. 1: shortens steps where the surface is curved. About the finger's radius suits most objects; "
            "larger is slower and steadier.",
-    .min = 0.0, .max = 10.0, .slider_min = 0.0, .slider_max = 0.1, .option = "gain-curvature-m", .option_unit = "m",
-    .get = read<kSolver, &S::gain_curvature_m>, .set = write<kSolver, &S::gain_curvature_m>},
-  PresetKey{.table = "solver", .key = "gain_distance_per_m", .label = "Distance gain G_d", .unit = "1/m",
+    .min = 0.0, .max = 10.0, .slider_min = 0.0, .slider_max = 0.1,
+    .read_by = kPaper, .tuned = true, .option = "gain-curvature-m"}),
+  value<kSolver, &S::gain_distance_per_m>({.table = "solver", .key = "gain_distance_per_m",
+    .label = "Distance gain G_d", .unit = "1/m",
     .doc = "G_d of Eq. 1: shortens steps when the finger is far from the plane. Larger is slower and steadier.",
-    .min = 0.0, .max = 1e5, .slider_min = 0.0, .slider_max = 500.0, .option = "gain-distance-per-m",
-    .option_unit = "1/m",
-    .get = read<kSolver, &S::gain_distance_per_m>, .set = write<kSolver, &S::gain_distance_per_m>},
-  choice<kSolver, &S::distance_reading>("solver", "distance_reading", "Distance d", kDistanceReadings,
-    "What d of Eq. 1 stands for: the distance from the finger to the proxy touching the plane (R - h), or from the "
-    "finger's centre to the plane (h).", "distance-reading"),
-  PresetKey{.table = "solver", .key = "tolerance_m", .label = "Tolerance", .unit = "m",
+    .min = 0.0, .max = 1e5, .slider_min = 0.0, .slider_max = 500.0,
+    .read_by = kPaper, .tuned = true, .option = "gain-distance-per-m"}),
+  choice<kSolver, &S::distance_reading>({.table = "solver", .key = "distance_reading", .label = "Distance d",
+    .doc = "What d of Eq. 1 stands for: the distance from the finger to the proxy touching the plane (R - h), or from "
+           "the finger's centre to the plane (h).",
+    .read_by = kPaper, .option = "distance-reading"}, kDistanceReadings),
+  value<kSolver, &S::tolerance_m>({.table = "solver", .key = "tolerance_m", .label = "Tolerance", .unit = "m",
     .doc = "A tick has converged when surface and finger contact are closer than this.",
     .min = 1e-12, .max = 1e-3, .slider_min = 1e-9, .slider_max = 1e-4, .logarithmic = true,
-    .option = "tolerance-um", .option_per_si = 1e6, .option_unit = "um",
-    .get = read<kSolver, &S::tolerance_m>, .set = write<kSolver, &S::tolerance_m>},
-  PresetKey{.table = "solver", .key = "max_iterations", .kind = KeyKind::integer,
+    .read_by = kEveryMethod, .option = "tolerance-um", .option_per_si = 1e6}),
+  value<kSolver, &S::max_iterations>({.table = "solver", .key = "max_iterations", .kind = KeyKind::integer,
     .label = "Iteration limit", .unit = "1",
     .doc = "New tangent planes a tick may compute before its tracking is given up.",
     .min = 1.0, .max = 10000.0, .slider_min = 1.0, .slider_max = 200.0, .logarithmic = true,
-    .option = "max-iterations", .get = read<kSolver, &S::max_iterations>, .set = write<kSolver, &S::max_iterations>},
-  choice<kSolver, &S::normal_form>("solver", "normal_form", "Normal form", kNormalForms,
-    "Weight of the mixed terms of the quadratic normal: 2, a true Bernstein form, or 1, as Vlachos et al. print it.",
-    "normal-form"),
-  PresetKey{.table = "solver", .key = "switch_hysteresis_m", .label = "Switch hysteresis", .unit = "m",
+    .read_by = kEveryMethod, .option = "max-iterations"}),
+  choice<kSolver, &S::normal_form>({.table = "solver", .key = "normal_form", .label = "Normal form",
+    .doc = "Weight of the mixed terms of the quadratic normal: 2, a true Bernstein form, or 1, as Vlachos et al. print "
+           "it.",
+    .read_by = kEveryMethod, .option = "normal-form"}, kNormalForms),
+  value<kSolver, &S::switch_hysteresis_m>({.table = "solver", .key = "switch_hysteresis_m",
+    .label = "Switch hysteresis", .unit = "m",
     .doc = "A nonadjacent place takes the contact over when the finger is deeper in it by this much.",
-    .min = 0.0, .max = 0.1, .slider_min = 0.0, .slider_max = 1e-3,
-    .get = read<kSolver, &S::switch_hysteresis_m>, .set = write<kSolver, &S::switch_hysteresis_m>},
-  choice<kSolver, &S::local_centre>("solver", "local_centre", "Local centre", kLocalCentres,
-    "2D scenes: where angles along a patch are seen from: the meeting point of its segments' perpendicular "
-    "bisectors, or "
-    "the midpoint of their far ends.", "local-centre"),
+    .min = 0.0, .max = 0.1, .slider_min = 0.0, .slider_max = 1e-3, .read_by = kEveryMethod}),
+  choice<kSolver, &S::local_centre>({.table = "solver", .key = "local_centre", .label = "Local centre",
+    .doc = "2D scenes: where angles along a patch are seen from: the meeting point of its segments' perpendicular "
+           "bisectors, or the midpoint of their far ends.",
+    .read_by = kEveryMethod, .planar_only = true, .option = "local-centre"}, kLocalCentres),
 
   // finger
-  choice<kFinger, &Finger::shape>("finger", "shape", "Shape", kFingerShapes, "Shape of the fingertip."),
-  PresetKey{.table = "finger", .key = "radius_m", .label = "Radius", .unit = "m",
+  choice<kFinger, &Finger::shape>({.table = "finger", .key = "shape", .label = "Shape",
+    .doc = "Shape of the fingertip.", .read_by = kEveryMethod}, kFingerShapes),
+  value<kFinger, &Finger::radius_m>({.table = "finger", .key = "radius_m", .label = "Radius", .unit = "m",
     .doc = "Radius of a sphere or capsule finger; a point has none.",
-    .min = 0.0, .max = 1.0, .slider_min = 0.001, .slider_max = 0.05, .option = "finger-radius-mm",
-    .option_per_si = 1e3, .option_unit = "mm", .get = read<kFinger, &Finger::radius_m>,
-    .set = write<kFinger, &Finger::radius_m>},
-  semi_axis("semi_axis_x_m", "Semi-axis x", "Ellipsoid finger: half its length along the finger.",
-            read_semi_axis<0>, write_semi_axis<0>),
-  semi_axis("semi_axis_y_m", "Semi-axis y", "Ellipsoid finger: half its width across the finger.",
-            read_semi_axis<1>, write_semi_axis<1>),
-  semi_axis("semi_axis_z_m", "Semi-axis z", "Ellipsoid finger: half its height, out of the fingerpad.",
-            read_semi_axis<2>, write_semi_axis<2>),
-  PresetKey{.table = "finger", .key = "half_length_m", .label = "Half length", .unit = "m",
-    .doc = "Capsule finger: half the length of its axis, which lies along the finger.",
-    .min = 0.0, .max = 1.0, .slider_min = 0.0, .slider_max = 0.05, .get = read<kFinger, &Finger::half_length_m>,
-    .set = write<kFinger, &Finger::half_length_m>},
+    .min = 0.0, .max = 1.0, .slider_min = 0.001, .slider_max = 0.05,
+    .read_by = kEveryMethod, .condition = kRoundFinger, .option = "finger-radius-mm", .option_per_si = 1e3,
+    .option_doc = "0: a point finger.", .option_set = set_radius_and_shape}),
+  PresetKey{.table = "finger", .key = "semi_axis_x_m", .label = "Semi-axis x", .unit = "m",
+    .doc = "Ellipsoid finger: half its length along the finger.",
+    .min = 1e-5, .max = 1.0, .slider_min = 0.001, .slider_max = 0.05, .logarithmic = true,
+    .read_by = kEveryMethod, .condition = kEllipsoid, .get = read_semi_axis<0>, .set = write_semi_axis<0>},
+  PresetKey{.table = "finger", .key = "semi_axis_y_m", .label = "Semi-axis y", .unit = "m",
+    .doc = "Ellipsoid finger: half its width across the finger.",
+    .min = 1e-5, .max = 1.0, .slider_min = 0.001, .slider_max = 0.05, .logarithmic = true,
+    .read_by = kEveryMethod, .condition = kEllipsoid, .get = read_semi_axis<1>, .set = write_semi_axis<1>},
+  PresetKey{.table = "finger", .key = "semi_axis_z_m", .label = "Semi-axis z", .unit = "m",
+    .doc = "Ellipsoid finger: half its height, out of the fingerpad.",
+    .min = 1e-5, .max = 1.0, .slider_min = 0.001, .slider_max = 0.05, .logarithmic = true,
+    .read_by = kEveryMethod, .condition = kEllipsoid, .get = read_semi_axis<2>, .set = write_semi_axis<2>},
+  value<kFinger, &Finger::half_length_m>({.table = "finger", .key = "half_length_m", .label = "Half length",
+    .unit = "m", .doc = "Capsule finger: half the length of its axis, which lies along the finger.",
+    .min = 0.0, .max = 1.0, .slider_min = 0.0, .slider_max = 0.05,
+    .read_by = kEveryMethod, .condition = kCapsule}),
 
   // force
-  PresetKey{.table = "force", .key = "stiffness_n_per_m", .label = "Stiffness", .unit = "N/m",
-    .doc = "Force along the normal per metre of penetration.",
+  value<kForce, &O::stiffness_n_per_m>({.table = "force", .key = "stiffness_n_per_m", .label = "Stiffness",
+    .unit = "N/m", .doc = "Force along the normal per metre of penetration.",
     .min = 0.0, .max = 1e5, .slider_min = 10.0, .slider_max = 5000.0, .logarithmic = true,
-    .option = "stiffness-n-per-m", .option_unit = "N/m", .get = read<kForce, &O::stiffness_n_per_m>,
-    .set = write<kForce, &O::stiffness_n_per_m>},
-  PresetKey{.table = "force", .key = "damping_n_s_per_m", .label = "Damping", .unit = "N s/m",
-    .doc = "Force along the normal against the finger's speed along it, in contact.",
-    .min = 0.0, .max = 1000.0, .slider_min = 0.0, .slider_max = 10.0, .get = read<kForce, &O::damping_n_s_per_m>,
-    .set = write<kForce, &O::damping_n_s_per_m>},
-  PresetKey{.table = "force", .key = "limit_n", .label = "Limit", .unit = "N",
+    .option = "stiffness-n-per-m"}),
+  value<kForce, &O::damping_n_s_per_m>({.table = "force", .key = "damping_n_s_per_m", .label = "Damping",
+    .unit = "N s/m", .doc = "Force along the normal against the finger's speed along it, in contact.",
+    .min = 0.0, .max = 1000.0, .slider_min = 0.0, .slider_max = 10.0}),
+  value<kForce, &O::limit_n>({.table = "force", .key = "limit_n", .label = "Limit", .unit = "N",
     .doc = "The rendered force never exceeds this.",
-    .min = 0.0, .max = 100.0, .slider_min = 0.0, .slider_max = 20.0, .get = read<kForce, &O::limit_n>,
-    .set = write<kForce, &O::limit_n>},
-  choice<kForce, &O::blend>("force", "blend", "Fade", kForceBlends,
-    "What the finger's motion does not explain (a switch of contacts, one found anew, a change of preset) is faded in "
-    "over some ticks (events), or rendered at once (off). Force and display.", "force-blend"),
-  choice<kForce, &O::source>("force", "source", "Source", kForceSources,
-    "Which contact the force comes from: the method's own, the facets', the facets' with interpolated normals, or "
-    "the smooth surface's."),
+    .min = 0.0, .max = 100.0, .slider_min = 0.0, .slider_max = 20.0}),
+  choice<kForce, &O::blend>({.table = "force", .key = "blend", .label = "Fade",
+    .doc = "What the finger's motion does not explain (a switch of contacts, one found anew, a change of preset) is "
+           "faded in over some ticks (events), or rendered at once (off). Force and display.",
+    .option = "force-blend"}, kForceBlends),
+  choice<kForce, &O::source>({.table = "force", .key = "source", .label = "Source",
+    .doc = "Which contact the force comes from: the method's own, the facets', the facets' with interpolated normals, "
+           "or the smooth surface's."}, kForceSources),
 
   // display
-  PresetKey{.table = "display", .key = "finger_arc_m", .label = "Finger arc", .unit = "m",
+  value<kDisplay, &D::finger_arc_m>({.table = "display", .key = "finger_arc_m", .label = "Finger arc", .unit = "m",
     .doc = "This much arc on the finger, centred on the fingerpad, maps to the display's travel.",
-    .min = 1e-4, .max = 1.0, .slider_min = 1e-3, .slider_max = 0.05, .get = read<kDisplay, &D::finger_arc_m>,
-    .set = write<kDisplay, &D::finger_arc_m>},
-  PresetKey{.table = "display", .key = "travel_m", .label = "Travel", .unit = "m",
+    .min = 1e-4, .max = 1.0, .slider_min = 1e-3, .slider_max = 0.05}),
+  value<kDisplay, &D::travel_m>({.table = "display", .key = "travel_m", .label = "Travel", .unit = "m",
     .doc = "Travel of the contact location display; positions are clamped to it.",
-    .min = 0.0, .max = 1.0, .slider_min = 0.0, .slider_max = 0.05, .get = read<kDisplay, &D::travel_m>,
-    .set = write<kDisplay, &D::travel_m>},
-  choice<kDisplay, &D::source>("display", "source", "Source", kTactileSources,
-    "Which contact the display shows: the method's own, none (held at the centre), the facets', or the smooth "
-    "surface's."),
+    .min = 0.0, .max = 1.0, .slider_min = 0.0, .slider_max = 0.05}),
+  choice<kDisplay, &D::source>({.table = "display", .key = "source", .label = "Source",
+    .doc = "Which contact the display shows: the method's own, none (held at the centre), the facets', or the smooth "
+           "surface's."}, kTactileSources),
 
   // controller
-  PresetKey{.table = "controller", .key = "p_per_s2", .label = "Gain P", .unit = "1/s2",
+  value<kController, &C::p_per_s2>({.table = "controller", .key = "p_per_s2", .label = "Gain P", .unit = "1/s2",
     .doc = "Of the position loop in the display's controller: acceleration per distance from the target. 0: all four "
-           "gains are "
-           "the device's own.",
-    .min = 0.0, .max = 1e7, .slider_min = 0.0, .slider_max = 20000.0, .get = read<kController, &C::p_per_s2>,
-    .set = write<kController, &C::p_per_s2>},
-  PresetKey{.table = "controller", .key = "i_per_s3", .label = "Gain I", .unit = "1/s3",
+           "gains are the device's own.",
+    .min = 0.0, .max = 1e7, .slider_min = 0.0, .slider_max = 20000.0, .needs_controller = true}),
+  value<kController, &C::i_per_s3>({.table = "controller", .key = "i_per_s3", .label = "Gain I", .unit = "1/s3",
     .doc = "Of the position loop: acceleration per distance from the target and time. Takes out what friction leaves.",
-    .min = 0.0, .max = 1e9, .slider_min = 0.0, .slider_max = 200000.0, .get = read<kController, &C::i_per_s3>,
-    .set = write<kController, &C::i_per_s3>},
-  PresetKey{.table = "controller", .key = "d_per_s", .label = "Gain D", .unit = "1/s",
+    .min = 0.0, .max = 1e9, .slider_min = 0.0, .slider_max = 200000.0,
+    .needs_controller = true, .condition = kOwnLoop}),
+  value<kController, &C::d_per_s>({.table = "controller", .key = "d_per_s", .label = "Gain D", .unit = "1/s",
     .doc = "Of the position loop: acceleration per speed, against it. Negative where the drive's own drag is more "
            "than wanted.",
-    .min = -1000.0, .max = 10000.0, .slider_min = 0.0, .slider_max = 300.0, .get = read<kController, &C::d_per_s>,
-    .set = write<kController, &C::d_per_s>},
-  PresetKey{.table = "controller", .key = "target_weight", .label = "Target weight", .unit = "1",
-    .doc = "Of the target in the proportional part. Less than 1 takes away overshoot; at rest the target "
-           "is reached all the same.",
-    .min = 0.0, .max = 1.0, .slider_min = 0.0, .slider_max = 1.0, .get = read<kController, &C::target_weight>,
-    .set = write<kController, &C::target_weight>},
-  PresetKey{.table = "controller", .key = "lowest_m", .label = "Lowest target", .unit = "m",
+    .min = -1000.0, .max = 10000.0, .slider_min = 0.0, .slider_max = 300.0,
+    .needs_controller = true, .condition = kOwnLoop}),
+  value<kController, &C::target_weight>({.table = "controller", .key = "target_weight", .label = "Target weight",
+    .unit = "1",
+    .doc = "Of the target in the proportional part. Less than 1 takes away overshoot; at rest the target is reached "
+           "all the same.",
+    .min = 0.0, .max = 1.0, .slider_min = 0.0, .slider_max = 1.0,
+    .needs_controller = true, .condition = kOwnLoop}),
+  // The gate keeps targets within these two for any display.
+  value<kController, &C::lowest_m>({.table = "controller", .key = "lowest_m", .label = "Lowest target", .unit = "m",
     .doc = "Proximal end of what the display is sent. Its travel bounds targets as well.",
-    .min = -0.1, .max = 0.0, .slider_min = -0.025, .slider_max = 0.0, .get = read<kController, &C::lowest_m>,
-    .set = write<kController, &C::lowest_m>},
-  PresetKey{.table = "controller", .key = "highest_m", .label = "Highest target", .unit = "m",
+    .min = -0.1, .max = 0.0, .slider_min = -0.025, .slider_max = 0.0}),
+  value<kController, &C::highest_m>({.table = "controller", .key = "highest_m", .label = "Highest target", .unit = "m",
     .doc = "Distal end of what the display is sent. Its travel bounds targets as well.",
-    .min = 0.0, .max = 0.1, .slider_min = 0.0, .slider_max = 0.025, .get = read<kController, &C::highest_m>,
-    .set = write<kController, &C::highest_m>},
-  PresetKey{.table = "controller", .key = "fastest_m_per_s", .label = "Fastest target", .unit = "m/s",
-    .doc = "The controller's target moves no faster. 0: as fast as the drive goes. Below 0.1 mm/s the "
-           "safety gate takes the "
-           "roller for stuck.",
-    .min = 0.0, .max = 10.0, .slider_min = 0.0, .slider_max = 0.5, .get = read<kController, &C::fastest_m_per_s>,
-    .set = write<kController, &C::fastest_m_per_s>},
-  PresetKey{.table = "controller", .key = "largest_current_a", .label = "Largest current", .unit = "A",
+    .min = 0.0, .max = 0.1, .slider_min = 0.0, .slider_max = 0.025}),
+  value<kController, &C::fastest_m_per_s>({.table = "controller", .key = "fastest_m_per_s", .label = "Fastest target",
+    .unit = "m/s",
+    .doc = "The controller's target moves no faster. 0: as fast as the drive goes. Below 0.1 mm/s the safety gate "
+           "takes the roller for stuck.",
+    .min = 0.0, .max = 10.0, .slider_min = 0.0, .slider_max = 0.5, .needs_controller = true}),
+  value<kController, &C::largest_current_a>({.table = "controller", .key = "largest_current_a",
+    .label = "Largest current", .unit = "A",
     .doc = "Of the display's motor. 0: the device's own; the simulated drive's is 0.5 A.",
-    .min = 0.0, .max = 65.0, .slider_min = 0.0, .slider_max = 1.0, .get = read<kController, &C::largest_current_a>,
-    .set = write<kController, &C::largest_current_a>},
+    .min = 0.0, .max = 65.0, .slider_min = 0.0, .slider_max = 1.0, .needs_controller = true}),
 
   // safety
-  PresetKey{.table = "safety", .key = "unconverged_hold_s", .label = "Hold", .unit = "s",
+  value<kSafety, &G::unconverged_hold_s>({.table = "safety", .key = "unconverged_hold_s", .label = "Hold", .unit = "s",
     .doc = "An unconverged tick renders the last converged plane for this long.",
-    .min = 0.0, .max = 1.0, .slider_min = 0.0, .slider_max = 0.05, .get = read<kSafety, &G::unconverged_hold_s>,
-    .set = write<kSafety, &G::unconverged_hold_s>},
-  PresetKey{.table = "safety", .key = "unconverged_ramp_s", .label = "Ramp", .unit = "s",
+    .min = 0.0, .max = 1.0, .slider_min = 0.0, .slider_max = 0.05}),
+  value<kSafety, &G::unconverged_ramp_s>({.table = "safety", .key = "unconverged_ramp_s", .label = "Ramp", .unit = "s",
     .doc = "After the hold, force and display ramp to zero over this long.",
-    .min = 0.0, .max = 1.0, .slider_min = 0.0, .slider_max = 0.05, .get = read<kSafety, &G::unconverged_ramp_s>,
-    .set = write<kSafety, &G::unconverged_ramp_s>},
+    .min = 0.0, .max = 1.0, .slider_min = 0.0, .slider_max = 0.05}),
 };
 // clang-format on
 
-constexpr std::array<std::string_view, 7> kTables{"about",   "solver",     "finger", "force",
-                                                  "display", "controller", "safety"};
+constexpr std::array<PresetTable, 6> kTables{{{"solver", "Solver"},
+                                              {"finger", "Finger"},
+                                              {"force", "Force"},
+                                              {"display", "Display"},
+                                              {"controller", "Display controller", true},
+                                              {"safety", "Safety", true}}};
 
 }  // namespace
 
@@ -274,13 +279,25 @@ std::string PresetKey::value_text(double value) const {
 
 std::span<const PresetKey> preset_keys() { return kKeys; }
 
-std::span<const std::string_view> preset_tables() { return kTables; }
+std::span<const PresetTable> preset_tables() { return kTables; }
 
 const PresetKey* find_preset_key(std::string_view table, std::string_view key) {
   for (const PresetKey& row : kKeys) {
     if (row.table == table && row.key == key) return &row;
   }
   return nullptr;
+}
+
+const PresetKey* find_preset_key(std::string_view full_name) {
+  const std::size_t dot = full_name.find('.');
+  return dot == std::string_view::npos ? nullptr : find_preset_key(full_name.substr(0, dot), full_name.substr(dot + 1));
+}
+
+bool same_for_solver(const Preset& a, const Preset& b) {
+  const Method method = a.solver.method;
+  return method == b.solver.method && std::all_of(kKeys.begin(), kKeys.end(), [&](const PresetKey& row) {
+           return !row.read_by.has(method) || row.get(a) == row.get(b);
+         });
 }
 
 Status check_preset(const Preset& preset) {

@@ -1,27 +1,13 @@
 #include "core/tick/render_again.h"
 
+#include "core/preset/schema.h"
 #include "core/tick/planar_contacts.h"
 #include "core/tick/rendering.h"
 
 namespace tangent {
-namespace {
-
-/// What the smooth methods read of a preset, everything else at its default.
-SolverSettings read_by_solver(SolverSettings settings) {
-  if (settings.method == Method::paper) return settings;
-  const SolverSettings unread;
-  settings.gain_overall = unread.gain_overall;
-  settings.gain_curvature_m = unread.gain_curvature_m;
-  settings.gain_distance_per_m = unread.gain_distance_per_m;
-  settings.distance_reading = unread.distance_reading;
-  return settings;
-}
-
-}  // namespace
 
 bool same_contacts(const Preset& a, const Preset& b) {
-  return only_smooth(a) && only_smooth(b) && a.finger == b.finger &&
-         read_by_solver(a.solver) == read_by_solver(b.solver);
+  return only_smooth(a) && only_smooth(b) && same_for_solver(a, b);
 }
 
 TickOutput render_again(const ContactScene& scene, const Preset& preset, const TickInput& input, const TickState& kept,

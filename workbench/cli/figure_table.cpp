@@ -15,6 +15,7 @@ namespace {
 
 /// Journal-like: thin black axes, faint grid, colours that a colour-blind reader can tell apart (Okabe & Ito).
 constexpr const char* kCommon = R"(set datafile separator ','
+set datafile columnheaders
 set encoding utf8
 set border 3 lw 1 lc rgb '#444444'
 set tics nomirror out scale 0.6 textcolor rgb '#222222'

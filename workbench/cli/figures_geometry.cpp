@@ -93,16 +93,16 @@ Figure iterations_figure() {
 set yrange [88:150]
 N = DIR.'/fig06-iterations'
 set key outside right top
-plot N.'-finger.csv' using 1:2 skip 1 with filledcurves lc rgb '#f3e3d8' notitle, \
-     N.'-finger.csv' using 1:2 skip 1 with lines lc rgb '#c9a48e' lw 1 title 'finger', \
-     N.'-polygon.csv' using 1:2 skip 1 with lines ls 9 title 'polygon', \
-     N.'-curve.csv' using 1:2 skip 1 with lines ls 8 lw 2 title 'smooth curve', \
-     N.'-lines.csv' every :::0::0 skip 1 using 2:3 with lines ls 2 title 'kept tangent line', \
-     N.'-lines.csv' every :::1::1 skip 1 using 2:3 with lines ls 5 title 'iteration 1', \
-     N.'-lines.csv' every :::2::2 skip 1 using 2:3 with lines ls 1 title 'iteration 2', \
-     N.'-lines.csv' every :::3 skip 1 using 2:3 with lines ls 3 lw 1 title 'later', \
-     N.'.csv' using 4:5 skip 1 with points pt 6 ps 0.9 lc rgb '#222222' title 'contact on the line', \
-     N.'.csv' using 2:3 skip 1 with points pt 7 ps 0.5 lc rgb '#222222' title 'place on the curve'
+plot N.'-finger.csv' using 'x_mm':'y_mm' with filledcurves lc rgb '#f3e3d8' notitle, \
+     N.'-finger.csv' using 'x_mm':'y_mm' with lines lc rgb '#c9a48e' lw 1 title 'finger', \
+     N.'-polygon.csv' using 'x_mm':'y_mm' with lines ls 9 title 'polygon', \
+     N.'-curve.csv' using 'x_mm':'y_mm' with lines ls 8 lw 2 title 'smooth curve', \
+     N.'-lines.csv' every :::0::0 using 'x_mm':'y_mm' with lines ls 2 title 'kept tangent line', \
+     N.'-lines.csv' every :::1::1 using 'x_mm':'y_mm' with lines ls 5 title 'iteration 1', \
+     N.'-lines.csv' every :::2::2 using 'x_mm':'y_mm' with lines ls 1 title 'iteration 2', \
+     N.'-lines.csv' every :::3 using 'x_mm':'y_mm' with lines ls 3 lw 1 title 'later', \
+     N.'.csv' using 'contact_x_mm':'contact_y_mm' with points pt 6 ps 0.9 lc rgb '#222222' title 'contact on the line', \
+     N.'.csv' using 'place_x_mm':'place_y_mm' with points pt 7 ps 0.5 lc rgb '#222222' title 'place on the curve'
 )";
   return figure;
 }
@@ -139,11 +139,11 @@ set yrange [-4:62]
 N = DIR.'/fig15-patches'
 set label 'vertex given twice:' at 45,51 textcolor rgb '#444444'
 set label 'a sharp corner' at 45,47.5 textcolor rgb '#444444'
-plot N.'-patches-even.csv' using 1:2 skip 1 with filledcurves lc rgb '#cfe4f3' title 'patches', \
-     N.'-patches-odd.csv' using 1:2 skip 1 with filledcurves lc rgb '#f7dcc9' notitle, \
-     N.'-polygon.csv' using 1:2 skip 1 with linespoints lc rgb '#888888' lw 1.2 pt 7 ps 0.5 title 'polygon', \
-     N.'.csv' using 1:2 skip 1 with lines ls 8 lw 2.4 title 'smooth curve', \
-     N.'-midpoints.csv' using 1:2 skip 1 with points pt 6 ps 0.7 lc rgb '#D55E00' title 'midpoints: patches meet'
+plot N.'-patches-even.csv' using 'x_mm':'y_mm' with filledcurves lc rgb '#cfe4f3' title 'patches', \
+     N.'-patches-odd.csv' using 'x_mm':'y_mm' with filledcurves lc rgb '#f7dcc9' notitle, \
+     N.'-polygon.csv' using 'x_mm':'y_mm' with linespoints lc rgb '#888888' lw 1.2 pt 7 ps 0.5 title 'polygon', \
+     N.'.csv' using 'x_mm':'y_mm' with lines ls 8 lw 2.4 title 'smooth curve', \
+     N.'-midpoints.csv' using 'x_mm':'y_mm' with points pt 6 ps 0.7 lc rgb '#D55E00' title 'midpoints: patches meet'
 )";
   return figure;
 }
@@ -187,12 +187,12 @@ Figure local_centre_figure() {
 set key left bottom
 set yrange [-36:40]
 N = DIR.'/fig17-local-centre'
-plot N.'-patch.csv' using 1:2 skip 1 with filledcurves lc rgb '#cfe4f3' title 'patch', \
-     N.'-polygon.csv' using 1:2 skip 1 with lines lc rgb '#888888' lw 1.2 title 'polygon', \
-     N.'-curve.csv' using 1:2 skip 1 with lines ls 8 lw 2.4 title 'smooth curve', \
-     N.'-rays.csv' using 1:2 skip 1 with lines ls 9 title 'angles from the local centre', \
-     N.'-line.csv' using 1:2 skip 1 with lines ls 2 title 'tangent line at t = 0.62', \
-     N.'.csv' using 1:2 skip 1 with points pt 7 ps 0.6 lc rgb '#222222' notitle
+plot N.'-patch.csv' using 'x_mm':'y_mm' with filledcurves lc rgb '#cfe4f3' title 'patch', \
+     N.'-polygon.csv' using 'x_mm':'y_mm' with lines lc rgb '#888888' lw 1.2 title 'polygon', \
+     N.'-curve.csv' using 'x_mm':'y_mm' with lines ls 8 lw 2.4 title 'smooth curve', \
+     N.'-rays.csv' using 'x_mm':'y_mm' with lines ls 9 title 'angles from the local centre', \
+     N.'-line.csv' using 'x_mm':'y_mm' with lines ls 2 title 'tangent line at t = 0.62', \
+     N.'.csv' using 'x_mm':'y_mm' with points pt 7 ps 0.6 lc rgb '#222222' notitle
 )";
   return figure;
 }

@@ -71,9 +71,9 @@ set xlabel 'finger travel along the arc (mm)'
 set ylabel 'contact location on the finger (mm, distal positive)'
 set key right top
 F = DIR.'/fig04-contact-location.csv'
-plot F using 1:2 skip 1 with lines ls 8 title 'smooth curve (circle)', \
-     F using 1:3 skip 1 with lines ls 2 title 'two facets', \
-     F using 1:4 skip 1 with lines ls 1 title 'three facets'
+plot F using 'finger_travel_mm':'smooth_curve_mm' with lines ls 8 title 'smooth curve (circle)', \
+     F using 'finger_travel_mm':'two_facets_mm' with lines ls 2 title 'two facets', \
+     F using 'finger_travel_mm':'three_facets_mm' with lines ls 1 title 'three facets'
 )";
   return figure;
 }
@@ -107,12 +107,16 @@ Figure conditions_figure(bool at_threshold) {
     table.rows.push_back(std::move(row));
   }
   figure.data.push_back({"", std::move(table)});
-  figure.script = "F = DIR.'/" + figure.name + ".csv'\narray T[6] = [";
+  std::string names, titles;
   for (const RenderingCondition& condition : kRenderingConditions) {
     const int segments = at_threshold ? threshold_segments(condition.name) : 5;
-    figure.script += format("%s'%s, %d segments'", condition.name == "C1" ? "" : ", ",
-                            std::string(condition.name).c_str(), segments);
+    const std::string name(condition.name), comma(names.empty() ? "" : ", ");
+    names += comma + "'" + name + "'";
+    titles += comma + format("'%s, %d segments'", name.c_str(), segments);
   }
+  const std::string count = "[" + std::to_string(kRenderingConditions.size()) + "]";
+  figure.script =
+      "F = DIR.'/" + figure.name + ".csv'\narray C" + count + " = [" + names + "]\narray T" + count + " = [" + titles;
   figure.script += R"(]
 set multiplot
 set key off
@@ -130,7 +134,8 @@ do for [i=1:6] {
   unset xlabel
   if (i==1) { set ylabel 'force direction (deg)' offset 1,0; set format y '%g' } else { unset ylabel; set format y '' }
   set title T[i] font ',13' offset 0,-0.6
-  plot F using 1:2 skip 1 with lines ls 9, F using 1:(column(2+2*i)) skip 1 with lines ls 2
+  plot F using 'travel_mm':'circle_deg' with lines ls 9, \
+       F using 'travel_mm':(column(C[i].'_force_deg')) with lines ls 2
   set tmargin at screen 0.50
   set bmargin at screen 0.12
   set yrange [-12:12]
@@ -139,7 +144,8 @@ do for [i=1:6] {
   set xlabel 'travel (mm)'
   if (i==1) { set ylabel 'contact location (mm)' offset 1,0; set format y '%g' } else { unset ylabel; set format y '' }
   unset title
-  plot F using 1:3 skip 1 with lines ls 9, F using 1:(column(3+2*i)) skip 1 with lines ls 1
+  plot F using 'travel_mm':'circle_mm' with lines ls 9, \
+       F using 'travel_mm':(column(C[i].'_contact_mm')) with lines ls 1
 }
 unset multiplot
 )";
@@ -174,8 +180,8 @@ set yrange [-1:1.2]
 set key right top
 set arrow from graph 0, first 0 to graph 1, first 0 nohead ls 9
 F = DIR.'/curvature-deviation.csv'
-plot F using 1:2 skip 1 with lines ls 1 title 'facets tangent to the circle', \
-     F using 1:3 skip 1 with lines ls 2 title 'vertices on the circle'
+plot F using 't':'tangent_percent' with lines ls 1 title 'facets tangent to the circle', \
+     F using 't':'inscribed_percent' with lines ls 2 title 'vertices on the circle'
 )";
   return figure;
 }

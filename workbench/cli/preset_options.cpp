@@ -1,36 +1,47 @@
 #include "workbench/cli/preset_options.h"
 
+#include "core/base/text.h"
 #include "core/io/rendering_condition.h"
 #include "workbench/cli/number_option.h"
+#include "workbench/session/unit_labels.h"
 
 namespace tangent {
 namespace {
 
 void add_key_option(CLI::App& app, const PresetKey& key, PresetOptions& options) {
   const std::string name = "--" + std::string(key.option);
-  const auto set = [&options, &key](double value) { options.overrides.emplace_back(&key, value); };
+  const auto set = [&options, &key, name](double value) {
+    options.overrides.push_back({&key, value, name, key.option_set != nullptr ? key.option_set : key.set});
+  };
   if (key.kind == KeyKind::choice) {
     add_choice_option(app, name, key.choices, std::string(key.doc), set);
     return;
   }
   const NumberRange range{.min = key.min * key.option_per_si,
                           .max = key.max * key.option_per_si,
-                          .unit = key.option_unit,
+                          .unit = unit_of_size(key.unit, 1.0 / key.option_per_si).plain,
                           .whole = key.kind == KeyKind::integer};
   std::string doc(key.doc);
-  if (key.option == "finger-radius-mm") doc += " 0: a point finger.";
+  if (!key.option_doc.empty()) doc.append(" ").append(key.option_doc);
   // Dividing by a whole number rounds once: 1.1 mm becomes the double nearest to 0.0011 m.
   add_number_option(app, name, range, doc, [set, per_si = key.option_per_si](double value) { set(value / per_si); });
 }
 
-void apply_override(Preset& preset, const PresetKey& key, double value) {
-  key.set(preset, value);
-  if (key.option != "finger-radius-mm") return;
-  if (value == 0.0) {
-    preset.finger.shape = FingerShape::point;
-  } else if (preset.finger.shape != FingerShape::capsule) {
-    preset.finger.shape = FingerShape::sphere;
-  }
+void refuse_assignment(const std::string& text, const std::string& why) {
+  throw CLI::ValidationError("--set", "'" + text + "' " + why);
+}
+
+/// "solver.tolerance_m=1e-6": the key, and the value as a preset file has it.
+PresetOverride parse_assignment(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  const PresetKey* key = find_preset_key(std::string_view(text).substr(0, equals));
+  if (equals == std::string::npos || key == nullptr)
+    refuse_assignment(text, "names no key of a preset; write TABLE.KEY=VALUE with the names that a preset file has");
+  const std::string_view value = std::string_view(text).substr(equals + 1);
+  const std::optional<double> number =
+      key->kind == KeyKind::choice ? std::optional<double>(key->choice_index(value)) : parse_finite_double(value);
+  if (!number || !key->allows(*number)) refuse_assignment(text, "is out of range; allowed: " + key->allowed());
+  return {key, *number, "--set " + key->full_name(), key->set};
 }
 
 }  // namespace
@@ -45,6 +56,14 @@ void add_preset_options(CLI::App& app, PresetOptions& options) {
   for (const PresetKey& key : preset_keys()) {
     if (!key.option.empty()) add_key_option(app, key, options);
   }
+  const auto assign = [&](const std::vector<std::string>& texts) {
+    for (const std::string& text : texts) options.overrides.push_back(parse_assignment(text));
+  };
+  app.add_option_function<std::vector<std::string>>("--set", assign,
+                                                    "Any value of the preset by its key in the file, SI; again for "
+                                                    "more of them, after all other options")
+      ->type_name("TABLE.KEY=VALUE")
+      ->allow_extra_args(false);
 }
 
 Result<PresetFile> load_preset(const PresetOptions& options) {
@@ -57,7 +76,7 @@ Result<PresetFile> load_preset(const PresetOptions& options) {
   if (options.condition >= 0) {
     set_condition(file.preset, kRenderingConditions[static_cast<std::size_t>(options.condition)]);
   }
-  for (const auto& [key, value] : options.overrides) apply_override(file.preset, *key, value);
+  for (const PresetOverride& o : options.overrides) o.set(file.preset, o.value);
   if (const Status status = check_preset(file.preset); !status) return tl::unexpected(status.error());
   return file;
 }

@@ -7,22 +7,31 @@
 #include <CLI/CLI.hpp>
 
 #include <filesystem>
-#include <utility>
+#include <string>
 #include <vector>
 
 namespace tangent {
 
-struct PresetOptions {
-  std::filesystem::path file;                                  ///< empty: the defaults
-  int condition = -1;                                          ///< index into kRenderingConditions; -1: none named
-  std::vector<std::pair<const PresetKey*, double>> overrides;  ///< SI
+/// One value that an option sets.
+struct PresetOverride {
+  const PresetKey* key = nullptr;
+  double value = 0.0;  ///< SI
+  std::string by;      ///< "--tolerance-um", "--set solver.tolerance_m": for messages
+  void (*set)(Preset&, double) = nullptr;
 };
 
-/// --preset, --condition and one option per key of the schema that has one. `options` must outlive the parser.
+struct PresetOptions {
+  std::filesystem::path file;  ///< empty: the defaults
+  int condition = -1;          ///< index into kRenderingConditions; -1: none named
+  std::vector<PresetOverride> overrides;
+};
+
+/// --preset, --condition, one option per key of the schema that names one, and --set for every key. `options` must
+/// outlive the parser.
 void add_preset_options(CLI::App& app, PresetOptions& options);
 
-/// File, then condition, then single values. A radius of 0 makes a point finger; any other radius makes a
-/// sphere of a point or an ellipsoid. Fails on a file or a combination of values that can't be used.
+/// File, then condition, then single values, those of --set last. Fails on a file or a combination of values that can't
+/// be used.
 Result<PresetFile> load_preset(const PresetOptions& options);
 
 }  // namespace tangent

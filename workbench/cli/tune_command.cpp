@@ -48,13 +48,14 @@ std::string command_text(const CLI::App& command) {
   return text;
 }
 
+bool names_method(const PresetOverride& o) { return o.key == find_preset_key("solver", "method"); }
+
 /// The paper's method unless the options name another.
 Result<PresetFile> load_base(const PresetOptions& options) {
   Result<PresetFile> base = load_preset(options);
   if (!base) return base;
-  const bool named = std::any_of(options.overrides.begin(), options.overrides.end(),
-                                 [](const auto& o) { return o.first->key == "method"; });
-  if (!named) base->preset.solver.method = Method::paper;
+  if (std::none_of(options.overrides.begin(), options.overrides.end(), names_method))
+    base->preset.solver.method = Method::paper;
   return base;
 }
 
@@ -147,11 +148,13 @@ Status run_tune(const TuneOptions& options, bool& interrupted) {
 }
 
 void check_usage(const TuneOptions& options) {
-  for (const auto& [key, value] : options.preset.overrides) {
-    if (key->key.starts_with("gain_"))
-      throw CLI::ValidationError("--" + std::string(key->option), "is what tune finds; leave it out");
-    if (key->key != "method" || value <= static_cast<double>(Method::robust)) continue;
-    throw CLI::ValidationError("--method", key->value_text(value) + " has no gains; allowed: paper, newton or robust");
+  for (const PresetOverride& o : options.preset.overrides) {
+    if (o.key->tuned) throw CLI::ValidationError(o.by, "is what tune finds; leave it out");
+    if (!names_method(o) || is_smooth(static_cast<Method>(o.value))) continue;
+    std::vector<std::string_view> allowed;
+    for (std::size_t i = 0; i < kMethodNames.size(); ++i)
+      if (is_smooth(static_cast<Method>(i))) allowed.push_back(kMethodNames[i]);
+    throw CLI::ValidationError(o.by, o.key->value_text(o.value) + " has no gains; allowed: " + choices_text(allowed));
   }
   const std::pair<const char*, const std::filesystem::path*> inputs[]{{"MESH", &options.mesh.file},
                                                                       {"--poses", &options.poses}};

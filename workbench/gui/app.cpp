@@ -21,7 +21,6 @@ struct App::Ui {
   std::optional<float> font_scale;  ///< the atlas was built for
   std::optional<Theme> theme;       ///< the style was set for
   MenuBar menu;
-  ParameterPanels parameters;
   PresetsPanel presets;
   ComparePanel compare;
   IterationsPanel iterations;
@@ -119,7 +118,7 @@ void App::Ui::draw_column(const char* name, const Rect& rect, const UiContext& u
   ImGui::PopStyleVar();
   scrolls = ImGui::GetScrollMaxY() > 0.0f;
   if (left) {
-    draw_parameter_panels(ui, model, parameters);
+    draw_parameter_panels(ui, model);
     draw_compare_panel(ui, model, compare);
     draw_presets_panel(ui, model, presets);
   } else {

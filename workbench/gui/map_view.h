@@ -4,6 +4,7 @@
 
 #include "workbench/gui/render/surface_paint.h"
 #include "workbench/session/surface_map_job.h"
+#include "workbench/session/unit_labels.h"
 
 #include <array>
 #include <memory>
@@ -11,6 +12,9 @@
 #include <vector>
 
 namespace tangent {
+
+/// In which a quantity's values are shown.
+inline UnitLabel unit_of(MapQuantity quantity) { return shown_unit(info_of(quantity).unit, info_of(quantity).typical); }
 
 struct MapPlace {
   std::uint32_t triangle = kNone;

@@ -1,9 +1,8 @@
 #include "workbench/gui/preset_editor.h"
 
-#include "core/base/units.h"
+#include "workbench/session/unit_labels.h"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
@@ -11,16 +10,6 @@
 namespace tangent {
 
 namespace {
-
-struct TypedUnit {
-  std::string_view name, kind;
-  double scale;
-};
-constexpr std::array kTypedUnits{TypedUnit{"m", "m", 1.0},          TypedUnit{"mm", "m", kMillimetre},
-                                 TypedUnit{"um", "m", kMicrometre}, TypedUnit{"\u00b5m", "m", kMicrometre},
-                                 TypedUnit{"s", "s", 1.0},          TypedUnit{"ms", "s", 1e-3},
-                                 TypedUnit{"N/m", "N/m", 1.0},      TypedUnit{"N/mm", "N/m", 1e3},
-                                 TypedUnit{"N", "N", 1.0}};
 
 std::string_view trim(std::string_view text) {
   const auto blank = [](char c) { return c == ' ' || c == '\t'; };
@@ -89,13 +78,9 @@ std::vector<std::filesystem::path> list_presets(const std::filesystem::path& fol
 }
 
 DisplayUnit display_unit(const PresetKey& key) {
-  if (key.unit == "m") {
-    const double typical = key.logarithmic ? key.default_value() : std::max(key.slider_max, -key.slider_min);
-    return typical <= 1.0001e-3 ? DisplayUnit{"\u00b5m", kMicrometre} : DisplayUnit{"mm", kMillimetre};
-  }
-  if (key.unit == "s") return {"ms", 1e-3};
-  if (key.unit == "1") return {"", 1.0};
-  return {key.unit, 1.0};
+  const double typical = key.logarithmic ? key.default_value() : std::max(key.slider_max, -key.slider_min);
+  const UnitLabel shown = shown_unit(key.unit, typical);
+  return {shown.name, shown.si_value};
 }
 
 std::string display_text(const PresetKey& key, double value) {
@@ -132,9 +117,7 @@ Result<double> parse_typed(const PresetKey& key, std::string_view text) {
   const std::string_view unit = trim(rest.substr(static_cast<std::size_t>(end - rest.data())));
   const DisplayUnit shown = display_unit(key);
   if (unit.empty() || unit == shown.name) return number * shown.scale;
-  for (const TypedUnit& typed : kTypedUnits) {
-    if (typed.name == unit && typed.kind == key.unit) return number * typed.scale;
-  }
+  if (const UnitLabel* typed = find_unit(key.unit, unit)) return number * typed->si_value;
   return refuse();
 }
 

@@ -56,7 +56,7 @@ class PresetEditor {
 /// The folder's *.toml, by name. Empty when it can't be read.
 std::vector<std::filesystem::path> list_presets(const std::filesystem::path& folder);
 
-/// How a value is shown and typed in a panel: lengths in mm or um, times in ms.
+/// How a value is shown and typed in a panel: lengths in mm or um, times in ms (workbench/session/unit_labels.h).
 struct DisplayUnit {
   std::string_view name;  ///< "mm"; empty for pure numbers
   double scale = 1.0;     ///< SI value of 1 in it

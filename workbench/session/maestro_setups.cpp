@@ -1,6 +1,7 @@
 #include "workbench/session/maestro_setups.h"
 
 #include "core/io/atomic_file.h"
+#include "core/io/file_format.h"
 #include "core/io/toml_file.h"
 #include "core/preset/schema.h"
 #include "devices/maestro/maestro_display.h"
@@ -18,6 +19,8 @@ namespace tangent {
 namespace {
 
 constexpr std::size_t kMaxBytes = std::size_t{1} << 20;
+constexpr std::array<MigrationStep, 1> kSteps{only_number};
+constexpr FileFormats kFormats{"calibration", kSteps};
 constexpr double kMostChannel = 23.0;
 constexpr std::array<std::string_view, 5> kKeys{"channel", "low_m", "low_us", "high_m", "high_us"};
 constexpr const char* kRemedy = "correct it, or delete the file and calibrate again";
@@ -53,8 +56,9 @@ Result<MaestroSetup> read_setup(const std::filesystem::path& path, const std::st
 
 Result<Setups> read_setups(const std::filesystem::path& path) {
   Setups setups;
-  const auto root = read_settings_file(path, kMaxBytes, kRemedy);
+  auto root = read_settings_file(path, kMaxBytes, kRemedy);
   if (!root) return tl::unexpected(root.error());
+  if (const Status status = migrate(*root, kFormats, path.string()); !status) return tl::unexpected(status.error());
   for (const auto& [key, node] : *root) {
     const std::string serial(key.str());
     if (!node.is_table())
@@ -78,7 +82,7 @@ std::string format_setups(const Setups& setups) {
   }
   std::ostringstream text;
   text << "# Pololu Maestros by serial number: two places of the roller and the pulses that hold it there.\n"
-       << root << "\n";
+       << kFormats.line() << root << "\n";
   return text.str();
 }
 
@@ -112,6 +116,7 @@ Result<std::optional<MaestroSetup>> read_maestro_setup(const std::filesystem::pa
 }
 
 Status keep_maestro_setup(const std::filesystem::path& path, const std::string& serial, const MaestroSetup& setup) {
+  if (serial == kFormatKey) return fail("no serial number", serial, "give the Maestro another one");
   auto setups = read_setups(path);
   if (!setups) return tl::unexpected(setups.error());
   (*setups)[serial] = setup;

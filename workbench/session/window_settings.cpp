@@ -1,9 +1,11 @@
 #include "workbench/session/window_settings.h"
 
 #include "core/io/atomic_file.h"
+#include "core/io/file_format.h"
 #include "core/io/toml_file.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <sstream>
 #include <system_error>
@@ -12,6 +14,8 @@ namespace tangent {
 namespace {
 
 constexpr std::size_t kMaxBytes = std::size_t{1} << 20;
+constexpr std::array<MigrationStep, 1> kSteps{only_number};
+constexpr FileFormats kFormats{"window settings", kSteps};
 
 void take(const toml::table& from, const char* key, double low, double high, double& to) {
   if (const auto value = from[key].value<double>()) to = std::clamp(*value, low, high);
@@ -58,8 +62,9 @@ std::filesystem::path window_settings_path() {
 
 Result<WindowSettings> read_window_settings(const std::filesystem::path& path) {
   WindowSettings out;
-  const auto read = read_settings_file(path, kMaxBytes, "delete the file; the window starts with its own layout");
+  auto read = read_settings_file(path, kMaxBytes, "delete the file; the window starts with its own layout");
   if (!read) return tl::unexpected(read.error());
+  if (const Status status = migrate(*read, kFormats, path.string()); !status) return tl::unexpected(status.error());
   const toml::table& root = *read;
   if (const toml::table* layout = root["layout"].as_table()) {
     take(*layout, "left", 100.0, 2000.0, out.left);
@@ -103,7 +108,8 @@ std::string format_window_settings(const WindowSettings& s) {
       {"sections", sections},
       {"lists", toml::table{{"favourites", as_array(s.favourites)}, {"recent_meshes", as_array(s.recent_meshes)}}}};
   std::ostringstream text;
-  text << "# The window's layout and look, kept between runs. Delete the file for the program's own.\n" << root << "\n";
+  text << "# The window's layout and look, kept between runs. Delete the file for the program's own.\n"
+       << kFormats.line() << root << "\n";
   return text.str();
 }
 

@@ -33,8 +33,8 @@ struct WindowSettings {
 std::filesystem::path window_settings_path();
 
 /// Keys that are unknown or of another type are passed over and numbers brought into their ranges, so that what another
-/// version wrote does no harm. Fails on a file that is there and can't be read as TOML; a missing one gives the
-/// defaults.
+/// version wrote does no harm. Fails on a file that is there and can't be read as TOML, or whose format (core/io/
+/// file_format.h) is newer than this program; a missing one gives the defaults.
 Result<WindowSettings> read_window_settings(const std::filesystem::path& path);
 std::string format_window_settings(const WindowSettings& settings);
 /// Atomic; makes the folder.

@@ -14,17 +14,9 @@
 namespace tangent {
 namespace {
 
-struct KindText {
-  std::string_view label, unit;
-};
-constexpr std::array<KindText, kFindingKindCount> kTexts{{{"Boundary loops", "mm"},
-                                                          {"Non-manifold edges", "triangles"},
-                                                          {"Inconsistent edges", "mm"},
-                                                          {"Flipped normals", "deg"},
-                                                          {"Wild normals", "deg"},
-                                                          {"Slivers", ": 1"},
-                                                          {"Degenerate", ""},
-                                                          {"Duplicates", ""}}};
+constexpr std::array<std::string_view, kFindingKindCount> kLabels{
+    "Boundary loops", "Non-manifold edges", "Inconsistent edges", "Flipped normals", "Wild normals",
+    "Slivers",        "Degenerate",         "Duplicates"};
 
 double angle_deg(const Vec3& a, const Vec3& b) {
   const Vec3 x = glm::cross(a, b);
@@ -224,8 +216,7 @@ void name_skipped(const PolygonMesh& source, const ContactMesh& mesh, MeshFindin
 
 }  // namespace
 
-std::string_view label_of(FindingKind kind) { return kTexts[static_cast<std::size_t>(kind)].label; }
-std::string_view unit_of(FindingKind kind) { return kTexts[static_cast<std::size_t>(kind)].unit; }
+std::string_view label_of(FindingKind kind) { return kLabels[static_cast<std::size_t>(kind)]; }
 
 MeshFindings find_defects(const PolygonMesh& source, const ContactMesh& mesh) {
   MeshFindings out;

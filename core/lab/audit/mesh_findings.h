@@ -25,7 +25,6 @@ enum class FindingKind : std::uint8_t {
 };
 inline constexpr std::size_t kFindingKindCount = static_cast<std::size_t>(FindingKind::count_);
 std::string_view label_of(FindingKind kind);  ///< "Boundary loops"
-std::string_view unit_of(FindingKind kind);   ///< of the size, shown: "mm", "deg", ""
 
 struct MeshFinding {
   FindingKind kind = FindingKind::boundary_loop;

@@ -20,27 +20,27 @@ constexpr double kBallShare = 1e-3;            // what may stick into the ball, 
 constexpr double kOwnGround = 20.0 * kDegree;  // seen from the ball's centre: nearer than that it is the same wall
 
 constexpr std::array<MapQuantityInfo, kMapQuantityCount> kInfo{{
-    {"iterations-worst", "Iterations, worst", "", 1.0, false, false, false,
+    {"iterations-worst", "Iterations, worst", "1", 10.0, false, false, false,
      "Tangent planes that the worst of the moves took"},
-    {"iterations-mean", "Iterations, mean", "", 1.0, false, false, false,
+    {"iterations-mean", "Iterations, mean", "1", 10.0, false, false, false,
      "Tangent planes a move took, mean of the directions"},
-    {"failures", "Failures", "%", 100.0, false, false, false,
+    {"failures", "Failures", "share", 0.1, false, false, false,
      "Share of the moves on which tracking gave up or did not converge"},
-    {"error", "Error", "\u00b5m", 1e6, false, true, false,
+    {"error", "Error", "m", 1e-6, false, true, false,
      "Distance of the contact from the fully converged one, worst of the moves that converged"},
-    {"curvature", "Curvature", "1/m", 1.0, false, true, false,
+    {"curvature", "Curvature", "1/m", 100.0, false, true, false,
      "Larger of the principal curvatures of the smooth surface, without sign"},
     {"touch-radius", "Touch radius", "R", 1.0, true, true, false,
      "Largest ball that can touch here without touching elsewhere, in finger radii R. Below 1 the finger touches two "
      "walls "
      "at once; 4 and more are not told apart"},
-    {"normal-deviation", "Normal deviation", "deg", 1.0 / kDegree, false, true, false,
+    {"normal-deviation", "Normal deviation", "rad", 0.1, false, true, false,
      "Angle between the interpolated normal N, which is rendered, and the true normal of the surface S"},
-    {"facet-angle", "Facet angle", "deg", 1.0 / kDegree, false, false, false,
+    {"facet-angle", "Facet angle", "rad", 0.1, false, false, false,
      "Largest angle between the flat triangle and a neighbour; edges of flat faces, creases and boundaries left out. "
      "What a finger "
      "feels of it depends on the rendering condition: see Smoothness as felt"},
-    {"gain-margin", "Gain margin", "", 1.0, true, false, true,
+    {"gain-margin", "Gain margin", "1", 1.0, true, false, true,
      "1 minus the share of the error that a plane of the paper's iteration leaves with the present gains. 1: lands at "
      "once; below 0: "
      "does not converge"},

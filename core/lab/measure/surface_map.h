@@ -44,8 +44,8 @@ MapGroup group_of(MapQuantity quantity);
 struct MapQuantityInfo {
   std::string_view key;    ///< "iterations-worst"
   std::string_view label;  ///< "Iterations, worst"
-  std::string_view unit;   ///< in which it is shown; empty: a pure number
-  double shown_per_si = 1.0;
+  std::string_view unit;   ///< SI: "m", "1/m", "rad"; "1": a pure number; "share": 0 to 1; "R": in finger reaches
+  double typical = 1.0;    ///< about how large it usually is
   bool low_is_worse = false;
   bool logarithmic = false;  ///< spans powers of ten
   bool about_zero = false;   ///< two sides of zero mean two things

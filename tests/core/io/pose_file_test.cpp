@@ -55,10 +55,23 @@ TEST_CASE("quaternions near unit length are normalised, others refused") {
   CHECK(contains(refusal(header + "0,0,0,0,1e200,0,0,0\n"), "the quaternion's length is 1e+200"));
 }
 
+TEST_CASE("columns go by name: in any order, with others among them") {
+  const auto poses = parse_poses("qx,z_m,qw,note,y_m,x_m,qz,t_s,qy\n0,3,1,edge,2,1,0,0.5,0\n", "p.csv");
+  REQUIRE(poses);
+  CHECK((*poses)[0].t_s == 0.5);
+  CHECK((*poses)[0].finger.position == Vec3(1.0, 2.0, 3.0));
+  CHECK((*poses)[0].finger.orientation == Quat(1.0, 0.0, 0.0, 0.0));
+  const auto more = parse_poses("t_s,x_m,y_m,z_m,force_x_n\n0,1,2,3,nan\n", "p.csv");
+  REQUIRE(more);
+  CHECK((*more)[0].finger.position == Vec3(1.0, 2.0, 3.0));
+  CHECK(contains(refusal("t_s,x_m,z_m\n0,1,2\n"), "y_m is missing"));
+}
+
 TEST_CASE("another header is refused") {
-  CHECK(contains(refusal("x,y,z\n1,2,3\n"), "p.csv:1: the header is \"x,y,z\"; write t_s,x_m,y_m,z_m or"));
+  CHECK(contains(refusal("x,y,z\n1,2,3\n"),
+                 "p.csv:1: the header is \"x,y,z\": t_s is missing; write the columns t_s,x_m,y_m,z_m, and"));
   CHECK(contains(refusal("0,1,2,3\n"), "p.csv:1: the header"));
-  CHECK(contains(refusal("t_s,x_m,y_m,z_m,qw\n"), "p.csv:1: the header"));
+  CHECK(contains(refusal("t_s,x_m,y_m,z_m,qw\n"), "p.csv:1: the header is \"t_s,x_m,y_m,z_m,qw\": qx is missing"));
   CHECK(contains(refusal(std::string("\x7f"
                                      "ELF\x00\x01\xff",
                                      7) +
@@ -76,7 +89,7 @@ TEST_CASE("numbers that are not finite are refused with line and column") {
 }
 
 TEST_CASE("wrong numbers of columns are refused with the line") {
-  CHECK(contains(body_refusal("0,0,0,0\n0.1,0,0\n"), "p.csv:3: only 3 columns; write 4 numbers"));
+  CHECK(contains(body_refusal("0,0,0,0\n0.1,0,0\n"), "p.csv:3: only 3 of 4 columns; write 4 fields"));
   CHECK(contains(body_refusal("0,0,0,0,1,0,0,0\n"), "p.csv:2: more columns than the header names"));
   CHECK(contains(body_refusal("0,0,0,0,\n"), "p.csv:2: more columns"));
   CHECK(contains(body_refusal("0,0,0,0\n\n1,0,0,0\n"), "p.csv:3: t_s is \"\""));

@@ -53,6 +53,45 @@ TEST_CASE("what is written reads back as the same doubles") {
   }
 }
 
+TEST_CASE("every key is written under its table, and by itself reads back as set") {
+  for (const PresetKey& key : preset_keys()) {
+    CAPTURE(key.full_name());
+    PresetFile file;
+    key.set(file.preset, key.default_value() == key.max ? key.min : key.max);
+    CHECK_FALSE(file == PresetFile{});
+    const std::string text = format_preset(file);
+    const Result<PresetFile> back = parse_preset(text, "p.toml");
+    REQUIRE(back);
+    CHECK(*back == file);
+    const std::size_t table = text.find("\n[" + std::string(key.table) + "]\n");
+    REQUIRE(table != std::string::npos);
+    const std::size_t line = text.find("\n" + std::string(key.key) + " = ", table);
+    CHECK(line < text.find("\n[", table + 1));
+  }
+}
+
+TEST_CASE("the format is the first key, and a file without one is read as it always was") {
+  const std::string text = format_preset(PresetFile{});
+  const std::size_t key = text.find("\nformat = 1\n");
+  REQUIRE(key != std::string::npos);
+  CHECK(text.find('=') == key + 8);
+  CHECK(text.find('[') > key);
+  CHECK(parse_preset("format = 0\n[force]\nlimit_n = 3\n", "p.toml")->preset.force.limit_n == 3.0);
+  CHECK(parse_preset("[force]\nlimit_n = 3\n", "p.toml")->preset.force.limit_n == 3.0);
+  CHECK(parse_preset("format = 1\n[force]\nlimit_n = 3\n", "p.toml")->preset.force.limit_n == 3.0);
+}
+
+TEST_CASE("a preset of a newer format is refused, and says what to do") {
+  CHECK(refusal("# note\nformat = 7\n[solver]\nnew_key = 1\n") ==
+        "p.toml:2 format: this file has format 7, this program reads up to 1; use the program that wrote it or a newer "
+        "one, or write the preset file anew with this one");
+  for (const char* wrong : {"format = -1\n", "format = 1.0\n", "format = \"1\"\n", "[format]\nx = 1\n"}) {
+    CAPTURE(wrong);
+    CHECK(contains(refusal(wrong),
+                   "p.toml:1 format: is no format of a preset file; allowed: a whole number from 0 to 1"));
+  }
+}
+
 TEST_CASE("where a preset comes from reads back, whatever the text") {
   PresetFile file;
   file.about = {.name = "quotes \" and \\ and 'these'",
@@ -152,6 +191,14 @@ TEST_CASE("every preset that ships can be read") {
     const Result<PresetFile> file = read_preset(entry.path());
     if (!file) FAIL_CHECK(file.error().message());
     ++count;
+    // Without its format, as presets were before they had one, it is the same preset.
+    std::string text = tangent::testing::read_text(entry.path());
+    const std::size_t line = text.find("format = 1\n");
+    REQUIRE(line == text.find_first_not_of('\n', text.find('\n')));  // first below the comment
+    text.erase(line, std::string_view("format = 1\n").size());
+    const Result<PresetFile> older = parse_preset(text, "older.toml");
+    REQUIRE(older);
+    CHECK(*older == *file);
   }
   CHECK(count > 0);
 }

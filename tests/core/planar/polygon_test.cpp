@@ -55,8 +55,8 @@ TEST_CASE("bad polygons are refused with what, where and what to do") {
   has(csv_error("0,0\n0,0\n0.1,0\n0.2,0.1\n"), "the first vertex is repeated");
   has(csv_error("0,0\n0.1,nan\n0.2,0\n"), "p.csv:3: y_m is \"nan\"");
   has(csv_error("0,0\ninf,0\n0.2,0\n"), "p.csv:3: x_m is \"inf\"");
-  has(csv_error("0\n0.1\n"), "p.csv:2: only one column");
-  has(csv_error("0,0,0\n0.1,0,0\n"), "p.csv:2: y_m is \"0,0\"");
+  has(csv_error("0\n0.1\n"), "p.csv:2: only 1 of 2 columns");
+  has(csv_error("0,0,0\n0.1,0,0\n"), "p.csv:2: more columns than the header names");
   has(csv_error("0,0\n0.1,0.1\n0.1,0\n0,0.1\n"), "crosses or touches itself: the segments after vertices 0 and 2");
   has(csv_error("0,0\n0.1,0\n0.2,0\n0.1,0.1\n0.1,0\n0,-0.1\n"), "crosses or touches itself");
   has(csv_error("0,0\n0.1,0\n0.05,0\n0.05,0.1\n"), "folds back onto itself at vertex 1");
@@ -64,7 +64,10 @@ TEST_CASE("bad polygons are refused with what, where and what to do") {
   has(csv_error("0,0\n1e31,0\n0,1\n"), "vertex 1 is not a finite place");
   const auto header = parse_polygon_csv("x,y\n0,0\n", "p.csv");
   REQUIRE_FALSE(header);
-  has(header.error().message(), "p.csv:1: the header is \"x,y\"; write x_m,y_m");
+  has(header.error().message(), "p.csv:1: the header is \"x,y\": x_m is missing; write the columns x_m,y_m");
+  const auto turned = parse_polygon_csv("note,y_m,x_m\na,0,0\nb,0,0.1\nc,0.2,0.1\n", "p.csv");
+  REQUIRE(turned);
+  CHECK(turned->vertices == std::vector<Vec2>{{0.0, 0.0}, {0.1, 0.0}, {0.1, 0.2}});
   const auto empty = parse_polygon_csv("x_m,y_m\n", "p.csv");
   REQUIRE_FALSE(empty);
   has(obj_error("v 0 0 0\nv 1 0 0\nv 1 1 0\n"), "no polyline");

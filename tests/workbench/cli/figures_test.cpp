@@ -1,5 +1,7 @@
 // workbench figures, run as a process: the data are the figures' own claims.
+#include "workbench/cli/figures.h"
 #include "tests/support/process.h"
+#include "workbench/cli/figure_table.h"
 
 #include <doctest/doctest.h>
 
@@ -8,6 +10,7 @@
 #include <filesystem>
 #include <sstream>
 
+using namespace tangent;
 using namespace tangent::testing;
 
 namespace {
@@ -61,6 +64,35 @@ TEST_CASE("figures writes every figure as SVG with its CSV, and the curvature ta
   CHECK(p1 < 0.05);
   CHECK(c1 == doctest::Approx(0.902 / 4 / 2 * 180 / 3.14159265).epsilon(0.2));
   CHECK(held == 0.0);
+}
+
+TEST_CASE("every column that a figure draws by name is in its tables") {
+  // gnuplot draws nothing for a name that it doesn't find, and says nothing.
+  int names = 0;
+  for (const Figure& figure : {contact_location_figure(), iterations_figure(), patches_figure(), local_centre_figure(),
+                               conditions_figure(true), conditions_figure(false), curvature_figure()}) {
+    std::vector<std::string> columns;
+    for (const FigureData& data : figure.data)
+      columns.insert(columns.end(), data.table.columns.begin(), data.table.columns.end());
+    for (std::size_t at = figure.script.find(" using "); at != std::string::npos;
+         at = figure.script.find(" using ", at + 1)) {
+      const std::string drawn = figure.script.substr(at, figure.script.find(" with ", at) - at);
+      for (std::size_t open = drawn.find('\''); open != std::string::npos;) {
+        const std::size_t close = drawn.find('\'', open + 1);
+        const std::string name = drawn.substr(open + 1, close - open - 1);
+        CAPTURE(figure.name);
+        CAPTURE(name);
+        // "_force_deg" stands behind the name of a condition.
+        CHECK(std::any_of(columns.begin(), columns.end(), [&](const std::string& column) {
+          return name.starts_with('_') ? column.ends_with(name) : column == name;
+        }));
+        ++names;
+        open = drawn.find('\'', close + 1);
+      }
+      CHECK(drawn.find_first_of("123456789") == std::string::npos);
+    }
+  }
+  CHECK(names > 30);
 }
 
 TEST_CASE("figures says where it can't write") {

@@ -1,8 +1,10 @@
 // The program's manners: exit codes, help, and arguments that make no sense.
+#include "core/preset/schema.h"
 #include "tests/support/process.h"
 
 #include <doctest/doctest.h>
 
+using namespace tangent;
 using namespace tangent::testing;
 
 namespace {
@@ -46,13 +48,14 @@ TEST_CASE("wrong usage leaves with 2 and says what is wrong") {
 }
 
 TEST_CASE("no option takes nan, inf or text for a number") {
-  for (const char* option :
-       {"--finger-radius-mm", "--tolerance-um", "--max-iterations", "--gain-overall", "--gain-curvature-m",
-        "--gain-distance-per-m", "--stiffness-n-per-m", "--fit-mm", "--crease-deg"}) {
+  std::vector<std::string> options{"--fit-mm", "--crease-deg"};
+  for (const PresetKey& key : preset_keys())
+    if (!key.option.empty() && key.kind != KeyKind::choice) options.push_back("--" + std::string(key.option));
+  for (const std::string& option : options) {
     for (const char* bad : {"nan", "-nan", "inf", "-inf", "1e999", "", "5mm", "0x10", "1,5"}) {
       CAPTURE(option);
       CAPTURE(bad);
-      check_refused(solve_with(option, bad), std::string(option) + ": '" + bad + "' is not a finite number; allowed: ");
+      check_refused(solve_with(option, bad), option + ": '" + bad + "' is not a finite number; allowed: ");
     }
   }
 }

@@ -1,6 +1,7 @@
 // workbench tune, run as a process, and the claims of the presets that ship.
 #include "core/io/preset_file.h"
 #include "core/lab/gains/gain_tuning.h"
+#include "core/preset/schema.h"
 #include "tests/support/process.h"
 #include "workbench/cli/exploration_poses.h"
 #include "workbench/cli/mesh_options.h"
@@ -158,7 +159,12 @@ TEST_CASE("tuning what has no gains, or over its own input, is wrong usage") {
     CHECK(contains(result.err, message));
   };
   refused({"--method", "facet"}, "facet has no gains; allowed: paper, newton or robust");
-  refused({"--gain-curvature-m", "0.02"}, "is what tune finds");
+  for (const PresetKey& key : preset_keys()) {
+    if (!key.tuned) continue;
+    refused({"--" + std::string(key.option), "0.02"}, "--" + std::string(key.option) + ": is what tune finds");
+    refused({"--set", key.full_name() + "=0.02"}, "--set " + key.full_name() + ": is what tune finds");
+  }
+  refused({"--set", "solver.method=two-pass"}, "two-pass has no gains; allowed: paper, newton or robust");
   refused({"--tolerance-um", "nan"}, "not a finite number");
   refused({"--poses", t.preset}, "names the same file as --poses");
   CHECK(run_workbench({"tune", t.mesh, "--out", t.mesh}).exit_code == 2);

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <set>
 #include <tuple>
 
 using namespace tangent;
@@ -460,6 +461,31 @@ TEST_CASE("frames build at any size and scale, with and without history, for eve
     ui.frames(2);
     CHECK(ImGui::GetDrawData()->TotalVtxCount > 0);
   }
+}
+
+TEST_CASE("every key of the schema has its row in the panel of its table, wherever it means anything") {
+  HeadlessApp ui(HeadlessApp::deterministic_options(), 1280.0f, 2400.0f);
+  for (const PresetTable& table : preset_tables()) {
+    ui.model().show_section(std::string(table.title), true);
+    ui.frames(2);
+    CHECK(ui.app().items().find("section/" + std::string(table.title)) != nullptr);
+  }
+  const PresetKey& shape = *find_preset_key("finger", "shape");
+  std::set<std::string> seen;
+  for (std::size_t s = 0; s < shape.choices.size(); ++s) {
+    ui.model().set_value(shape, static_cast<double>(s));
+    ui.frames(2);
+    for (const PresetKey& key : preset_keys()) {
+      CAPTURE(key.full_name());
+      CAPTURE(s);
+      const KeyCondition& c = key.condition;
+      const bool meant = c.holds == nullptr || !c.otherwise.empty() || c.holds(ui.model().presets().current());
+      const std::string path = std::string(key.table) + "/" + std::string(key.key) + "/label";
+      CHECK((ui.app().items().find(path) != nullptr) == meant);
+      if (meant) seen.insert(key.full_name());
+    }
+  }
+  CHECK(seen.size() == preset_keys().size());
 }
 
 TEST_CASE("another device starts another session, with a history of its own") {

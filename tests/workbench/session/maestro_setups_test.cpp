@@ -49,6 +49,25 @@ TEST_CASE("a file of calibrations that is not what it should be is refused with 
   CHECK_FALSE(keep_maestro_setup("/proc/nowhere/maestro.toml", "1", kLeft));
 }
 
+TEST_CASE("calibrations without a format are read as before, and a newer format is refused and left as it is") {
+  const TempFolder folder;
+  const auto path = folder.path() / "maestro.toml";
+  REQUIRE(keep_maestro_setup(path, "1", kLeft));
+  std::string text = read_text(path);
+  const std::size_t line = text.find("format = 1\n");
+  REQUIRE(line != std::string::npos);
+  CHECK(text.find('[') > line);
+  text.erase(line, std::string("format = 1\n").size());
+  CHECK(read_maestro_setup(folder.write("maestro.toml", text), "1").value() == kLeft);
+  const std::string newer = folder.write("maestro.toml", "format = 2\n" + text);
+  const auto read = read_maestro_setup(newer, "1");
+  REQUIRE_FALSE(read.has_value());
+  CHECK(contains(read.error().message(), "maestro.toml:1 format: this file has format 2, this program reads up to 1"));
+  CHECK_FALSE(keep_maestro_setup(newer, "1", kRight));
+  CHECK(read_text(newer) == "format = 2\n" + text);
+  CHECK_FALSE(keep_maestro_setup(folder.path() / "none.toml", "format", kLeft));  // the one name that is taken
+}
+
 TEST_CASE("what is asked for counts instead of what is kept, each value by itself, the program's own included") {
   const TempFolder folder;
   CHECK(chosen_maestro_setup(wish_for(kLeft), folder.path() / "maestro.toml").value() == kLeft);

@@ -44,6 +44,22 @@ TEST_CASE("a missing file gives the defaults, a broken one an error with its lin
   CHECK(strange->favourites.empty());
 }
 
+TEST_CASE("settings without a format are read as before, and a newer format is refused by name") {
+  const TempFolder folder;
+  WindowSettings s;
+  s.left = 401.5;
+  std::string text = format_window_settings(s);
+  const std::size_t line = text.find("format = 1\n");
+  REQUIRE(line != std::string::npos);
+  CHECK(text.find('[') > line);
+  CHECK(*read_window_settings(folder.write("now.toml", text)) == s);
+  text.erase(line, std::string("format = 1\n").size());
+  CHECK(*read_window_settings(folder.write("older.toml", text)) == s);
+  const auto newer = read_window_settings(folder.write("newer.toml", "format = 2\n" + text));
+  REQUIRE_FALSE(newer.has_value());
+  CHECK(contains(newer.error().message(), "newer.toml:1 format: this file has format 2, this program reads up to 1"));
+}
+
 TEST_CASE("the latest mesh comes first, once, and the list is bounded") {
   WindowSettings s;
   for (int i = 0; i < 30; ++i) s.opened("mesh" + std::to_string(i % 20));

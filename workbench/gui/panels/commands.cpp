@@ -45,9 +45,8 @@ void add_panel_commands(std::vector<Command>& out, AppModel& model) {
   const auto add = [&](const char* title, bool left) {
     out.push_back({std::string("Panel: ") + title, "", [&model, title, left] { model.show_section(title, left); }});
   };
-  for (const char* title :
-       {"Solver", "Finger", "Force", "Display", "Display controller", "Safety", "Compare", "Presets"})
-    add(title, true);
+  for (const PresetTable& table : preset_tables()) add(table.title.data(), true);
+  for (const char* title : {"Compare", "Presets"}) add(title, true);
   for (const char* title : {"Iterations", "Time machine", "Bookmarks", "Map", "Smoothness as felt", "Inspect", "Mesh",
                             "Devices", "Messages"})
     add(title, false);

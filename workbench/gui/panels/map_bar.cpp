@@ -15,8 +15,8 @@ constexpr float kBarWidth = 14.0f, kHistogramWidth = 44.0f, kPad = 8.0f;
 constexpr float kBeyond = 14.0f;  ///< for the mark of a limit that is not on the bar
 
 /// The value whose place on the bar is to get a number, in shown units: the ends, and round ones between.
-std::vector<double> bar_labels(const MapPaint& paint, double per_si, double most) {
-  const double low = paint.low * per_si, high = paint.high * per_si;
+std::vector<double> bar_labels(const MapPaint& paint, double unit, double most) {
+  const double low = paint.low / unit, high = paint.high / unit;
   std::vector<double> round;
   const double decades = paint.logarithmic ? std::log10(high / low) : 0.0;
   if (decades > 1.2) {
@@ -34,7 +34,7 @@ std::vector<double> bar_labels(const MapPaint& paint, double per_si, double most
   std::vector<double> out{low, high};
   // A round value too near an end would be written over it.
   for (const double value : round) {
-    const double share = map_share(paint, value / per_si);
+    const double share = map_share(paint, value * unit);
     if (share > 0.7 / most && share < 1.0 - 0.7 / most) out.push_back(value);
   }
   std::sort(out.begin(), out.end());
@@ -89,10 +89,11 @@ float draw_map_bar(const UiContext& ui, AppModel& model, const Rect& view, float
   const auto paint = map.paint();
   if (!paint) return 0.0f;
   const MapQuantityInfo& info = info_of(map.quantity);
+  const UnitLabel unit = unit_of(map.quantity);
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   ImFont* number = ui.fonts.small_number;
   const float line = number->FontSize;
-  const std::string title = std::string(info.label) + (info.unit.empty() ? "" : ", " + std::string(info.unit));
+  const std::string title = std::string(info.label) + (unit.name.empty() ? "" : ", " + std::string(unit.name));
   const float title_width = ui.fonts.small->CalcTextSizeA(ui.fonts.small->FontSize, 1e9f, 0.0f, title.c_str()).x;
   const float label_width = number->CalcTextSizeA(line, 1e9f, 0.0f, "0.00000").x;
   const float width =
@@ -135,8 +136,8 @@ float draw_map_bar(const UiContext& ui, AppModel& model, const Rect& view, float
     draw.AddRectFilled({bar.x - ui.px(3) - length, y1}, {bar.x - ui.px(3), std::max(y0 - 0.5f, y1 + 1.0f)},
                        ui.colours.text_dim);
   }
-  for (const double value : bar_labels(*paint, info.shown_per_si, static_cast<double>(height / (2.2f * line)))) {
-    const float y = bar.bottom() - bar.h * static_cast<float>(map_share(*paint, value / info.shown_per_si));
+  for (const double value : bar_labels(*paint, unit.si_value, static_cast<double>(height / (2.2f * line)))) {
+    const float y = bar.bottom() - bar.h * static_cast<float>(map_share(*paint, value * unit.si_value));
     const bool in_the_way = limit && std::abs(y - (bar.bottom() - bar.h * static_cast<float>(limit_share))) < line &&
                             y > bar.y + 1.0f && y < bar.bottom() - 1.0f;
     if (in_the_way) continue;  // of the limit's own number
@@ -144,7 +145,7 @@ float draw_map_bar(const UiContext& ui, AppModel& model, const Rect& view, float
     draw.AddText(number, line, {bar.right() + ui.px(7), y - 0.5f * line}, ui.colours.text,
                  printed("%.4g", value).c_str());
   }
-  if (limit) draw_limit(ui, bar, limit_share, *limit * info.shown_per_si);
+  if (limit) draw_limit(ui, bar, limit_share, *limit / unit.si_value);
   ImGui::SetCursorScreenPos({card.x, card.y});
   ImGui::InvisibleButton("##map_bar", {card.w, card.h});
   ui.items.note_last("view/map_bar");
@@ -161,9 +162,9 @@ void draw_map_hover(const UiContext& ui, AppModel& model, std::uint32_t triangle
   const auto value = model.map().value_at(triangle, u, v);
   const auto paint = model.map().paint();
   if (!paint) return;
-  const MapQuantityInfo& info = info_of(model.map().quantity);
+  const UnitLabel unit = unit_of(model.map().quantity);
   const std::string text =
-      value ? printed("%.4g", *value * info.shown_per_si) + (info.unit.empty() ? "" : " " + std::string(info.unit))
+      value ? printed("%.4g", *value / unit.si_value) + (unit.name.empty() ? "" : " " + std::string(unit.name))
             : "no value";
   const std::string where = printed("triangle %u", triangle);
   ImDrawList& draw = *ImGui::GetForegroundDrawList();

@@ -10,10 +10,10 @@ namespace tangent {
 
 namespace {
 
-double shown(const MapView& map, double value) { return value * info_of(map.quantity).shown_per_si; }
+double shown(const MapView& map, double value) { return value / unit_of(map.quantity).si_value; }
 
 std::string unit_suffix(const MapView& map) {
-  const std::string_view unit = info_of(map.quantity).unit;
+  const std::string_view unit = unit_of(map.quantity).name;
   return unit.empty() ? "" : " " + std::string(unit);
 }
 
@@ -62,7 +62,7 @@ std::optional<double> parsed(const std::string& text) {
 }
 
 void draw_range(const UiContext& ui, MapView& map) {
-  const double per_si = info_of(map.quantity).shown_per_si;
+  const double unit = unit_of(map.quantity).si_value;
   const float width = ImGui::GetContentRegionAvail().x;
   const float box = std::floor((width - ui.px(118)) * 0.5f);
   const auto typed_low = number_box(ui, "map/low", box, printed("%.4g", shown(map, map.low())));
@@ -70,8 +70,8 @@ void draw_range(const UiContext& ui, MapView& map) {
   ImGui::SameLine(0, ui.px(4));
   const auto typed_high = number_box(ui, "map/high", box, printed("%.4g", shown(map, map.high())));
   tooltip(ui, "Value of the last colour; also dragged at the upper half of the colour bar");
-  if (const auto v = typed_low ? parsed(*typed_low) : std::nullopt) map.set_range(*v / per_si, map.high());
-  if (const auto v = typed_high ? parsed(*typed_high) : std::nullopt) map.set_range(map.low(), *v / per_si);
+  if (const auto v = typed_low ? parsed(*typed_low) : std::nullopt) map.set_range(*v * unit, map.high());
+  if (const auto v = typed_high ? parsed(*typed_high) : std::nullopt) map.set_range(map.low(), *v * unit);
   ImGui::SameLine(0, ui.px(4));
   bool automatic = map.automatic_range();
   if (toggle_button(ui, "map/auto", "Auto", automatic, "The range of nearly all values: 0.5 to 99.5 % of them")) {
@@ -131,7 +131,7 @@ void draw_moves(const UiContext& ui, MapView& map) {
 
 void draw_figures(const UiContext& ui, const MapView& map) {
   const MapStatistics& s = map.statistics();
-  const char* unit = info_of(map.quantity).unit.data();
+  const char* unit = unit_of(map.quantity).name.data();
   const auto value = [&](double v) { return printed("%.4g", shown(map, v)); };
   fact(ui, "Mean", s.values > 0 ? value(s.mean) : "-", unit);
   fact(ui, "Smallest / largest", s.values > 0 ? value(s.min) + " / " + value(s.max) : "-", unit);

@@ -18,11 +18,7 @@
 namespace tangent {
 
 // Left column.
-struct ParameterPanels {
-  bool favourites = true, solver = true, finger = true, force = true, display = true, controller = false,
-       safety = false;
-};
-void draw_parameter_panels(const UiContext& ui, AppModel& model, ParameterPanels& state);
+void draw_parameter_panels(const UiContext& ui, AppModel& model);
 
 /// What the gains should be at the contact in view, and why. Nothing unless they are used.
 void draw_gain_advice(const UiContext& ui, AppModel& model);

@@ -1,4 +1,4 @@
-// Favourites, solver, finger, force, display and safety: one row for each key of the preset schema.
+// Favourites, then the tables of the preset schema: one row for each key.
 #include "core/io/rendering_condition.h"
 #include "workbench/gui/panels/panels.h"
 #include "workbench/gui/widgets.h"
@@ -7,34 +7,38 @@ namespace tangent {
 
 namespace {
 
-/// Whether a key does anything under the present choices; the others stay away.
-bool applies(const PresetKey& key, const Preset& preset) {
-  const FingerShape shape = preset.finger.shape;
-  if (key.table == "finger") {
-    if (key.key.starts_with("semi_axis")) return shape == FingerShape::ellipsoid;
-    if (key.key == "half_length_m") return shape == FingerShape::capsule;
-    if (key.key == "radius_m") return shape == FingerShape::sphere || shape == FingerShape::capsule;
-  }
-  return true;
+bool holds(const KeyCondition& condition, const Preset& preset) {
+  return condition.holds == nullptr || condition.holds(preset);
+}
+
+/// Whether a key means anything under the present choices; the others stay away.
+bool has_meaning(const PresetKey& key, const Preset& preset) {
+  return !key.condition.otherwise.empty() || holds(key.condition, preset);
+}
+
+/// "the method "paper"", "the methods "newton" and "robust"".
+std::string method_names(Methods methods) {
+  std::vector<std::string> quoted;
+  for (std::size_t i = 0; i < kMethodNames.size(); ++i)
+    if (methods.has(static_cast<Method>(i))) quoted.push_back("\"" + std::string(kMethodNames[i]) + "\"");
+  std::string text = quoted.size() == 1 ? "the method " : "the methods ";
+  for (std::size_t i = 0; i < quoted.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == quoted.size() ? " and " : ", ") + quoted[i];
+  return text;
 }
 
 /// Why a value changes nothing at present; empty: it counts.
-std::string_view idle_because(const PresetKey& key, const AppModel& model) {
-  if (key.table == "controller" &&
-      !key.key.ends_with("est_m")) {  // the gate keeps targets within bounds for any display
+std::string idle_because(const PresetKey& key, const AppModel& model) {
+  const Preset& preset = model.presets().current();
+  if (key.needs_controller) {
     const DisplayCapabilities* display = model.session() != nullptr ? model.session()->display_capabilities() : nullptr;
     if (display == nullptr || !display->has_controller) return "The present display has no controller that takes it.";
-    const bool gain = key.key != "fastest_m_per_s" && key.key != "largest_current_a" && key.key != "p_per_s2";
-    return gain && model.presets().current().controller.p_per_s2 == 0.0 ? "Gain P is 0: the device uses its own gains."
-                                                                        : "";
   }
-  if (key.table != "solver") return {};
-  const bool planar = model.scene() != nullptr && model.scene()->planar() != nullptr;
-  if (key.key == "local_centre" && !planar) return "Used in 2D scenes only.";
-  // Eq. 1's gains steer the paper's iteration alone.
-  const bool of_paper = key.key.starts_with("gain_") || key.key == "distance_reading";
-  return of_paper && model.presets().current().solver.method != Method::paper ? "Used by the method \"paper\" only."
-                                                                              : "";
+  if (key.planar_only && (model.scene() == nullptr || model.scene()->planar() == nullptr))
+    return "Used in 2D scenes only.";
+  if (key.read_by != kNoMethod && !key.read_by.has(preset.solver.method))
+    return "Used by " + method_names(key.read_by) + " only.";
+  return holds(key.condition, preset) ? "" : std::string(key.condition.otherwise);
 }
 
 std::string explain(const PresetKey& key, std::string_view idle) {
@@ -76,7 +80,7 @@ void draw_row(const UiContext& ui, AppModel& model, const PresetKey& key, const 
   const Preset& preset = model.presets().current();
   const double value = key.get(preset);
   const std::string path = prefix + std::string(key.table) + "/" + std::string(key.key);
-  const std::string_view idle = idle_because(key, model);
+  const std::string idle = idle_because(key, model);
   const float width = ImGui::GetContentRegionAvail().x;
   const float label_width = std::max(ui.px(128), 0.42f * width);
   const float reset_width = ui.px(20);
@@ -106,8 +110,8 @@ void draw_row(const UiContext& ui, AppModel& model, const PresetKey& key, const 
   }
 }
 
-void draw_favourites(const UiContext& ui, AppModel& model, bool& open) {
-  if (model.favourites().empty() || !section(ui, "Favourites", open)) return;
+void draw_favourites(const UiContext& ui, AppModel& model) {
+  if (model.favourites().empty() || !section(ui, "Favourites", true)) return;
   for (const PresetKey& key : preset_keys()) {
     if (model.is_favourite(key)) draw_row(ui, model, key, "favourites/");
   }
@@ -133,26 +137,21 @@ void draw_condition_row(const UiContext& ui, AppModel& model) {
                                       : std::string("The present sources make none of them")));
 }
 
-void draw_table(const UiContext& ui, AppModel& model, const char* title, std::string_view table, bool& open) {
-  if (!section(ui, title, open)) return;
+void draw_table(const UiContext& ui, AppModel& model, const PresetTable& table) {
+  if (!section(ui, table.title.data(), !table.seldom)) return;
   for (const PresetKey& key : preset_keys()) {
-    if (key.table == table && applies(key, model.presets().current())) draw_row(ui, model, key);
+    if (key.table == table.name && has_meaning(key, model.presets().current())) draw_row(ui, model, key);
   }
-  if (table == "solver") draw_gain_advice(ui, model);
-  if (table == "force") draw_condition_row(ui, model);
+  if (table.name == "solver") draw_gain_advice(ui, model);
+  if (table.name == "force") draw_condition_row(ui, model);
   ImGui::Dummy({1, ui.px(2)});
 }
 
 }  // namespace
 
-void draw_parameter_panels(const UiContext& ui, AppModel& model, ParameterPanels& state) {
-  draw_favourites(ui, model, state.favourites);
-  draw_table(ui, model, "Solver", "solver", state.solver);
-  draw_table(ui, model, "Finger", "finger", state.finger);
-  draw_table(ui, model, "Force", "force", state.force);
-  draw_table(ui, model, "Display", "display", state.display);
-  draw_table(ui, model, "Display controller", "controller", state.controller);
-  draw_table(ui, model, "Safety", "safety", state.safety);
+void draw_parameter_panels(const UiContext& ui, AppModel& model) {
+  draw_favourites(ui, model);
+  for (const PresetTable& table : preset_tables()) draw_table(ui, model, table);
 }
 
 }  // namespace tangent

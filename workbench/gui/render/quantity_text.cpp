@@ -1,32 +1,33 @@
 #include "workbench/gui/render/quantity_text.h"
 
+#include "workbench/session/unit_labels.h"
+
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 
 namespace tangent {
 
 std::string length_text(double metres) {
-  struct Unit {
-    double metres;
-    const char* name;
-  };
-  static constexpr std::array<Unit, 5> kUnits{
-      {{1e3, "km"}, {1.0, "m"}, {1e-3, "mm"}, {1e-6, "\xC2\xB5m"}, {1e-9, "nm"}}};
+  const auto units = labels_of("m");
   const double size = std::abs(metres);
   const auto fits =
-      std::find_if(kUnits.begin(), kUnits.end() - 1, [&](const Unit& u) { return size >= 0.9995 * u.metres; });
-  const double value = size == 0.0 ? 0.0 : metres / fits->metres;
+      std::find_if(units.begin(), units.end() - 1, [&](const UnitLabel& u) { return size >= 0.9995 * u.si_value; });
+  const double value = size == 0.0 ? 0.0 : metres / fits->si_value;
+  const std::string unit(size == 0.0 ? shown_unit("m", 1.0).name : fits->name);
   char text[48];
   // Beyond what the units reach: not a row of digits, and no "0.00" that isn't zero.
   if (std::abs(value) >= 1e5 || (value != 0.0 && std::abs(value) < 9.5e-3)) {
-    std::snprintf(text, sizeof text, "%.3g %s", value, fits->name);
+    std::snprintf(text, sizeof text, "%.3g %s", value, unit.c_str());
   } else if (std::abs(value - std::round(value)) <= 1e-9 * std::abs(value)) {
-    std::snprintf(text, sizeof text, "%.0f %s", value, size == 0.0 ? "mm" : fits->name);
+    std::snprintf(text, sizeof text, "%.0f %s", value, unit.c_str());
   } else {
     const double magnitude = std::abs(value);
-    std::snprintf(text, sizeof text, "%.*f %s", magnitude >= 99.95 ? 0 : magnitude >= 9.995 ? 1 : 2, value, fits->name);
+    std::snprintf(text, sizeof text, "%.*f %s",
+                  magnitude >= 99.95   ? 0
+                  : magnitude >= 9.995 ? 1
+                                       : 2,
+                  value, unit.c_str());
   }
   return text;
 }
