@@ -95,6 +95,18 @@ inline constexpr int kMaxSolves = 256;
 /// smaller: fast turns on small radii count as jumps.
 inline constexpr double kJumpCosine = 0.984807753012208;
 
+/// Metres by which the depth of a contact may change in a tick beside what the finger's motion explains: 0.02 N at
+/// 800 N/m, the force that a fade lets through in a millisecond. Larger: leaps pass unmarked; smaller: rounding is marked.
+inline constexpr double kLeapDepth = 25e-6;
+
+/// Metres by which a place may be deeper than the tracked one was, beside the finger's motion and the switch hysteresis,
+/// when it is first found: what a search may have come late by. Deeper ones were never entered from outside: the finger
+/// has come by behind them. Larger: sheets push from behind; smaller: an honest switch is refused.
+inline constexpr double kEnteredDepth = 1e-4;
+
+/// Metres. A finger that goes further in one tick has been put elsewhere, and what it is in counts as entered.
+inline constexpr double kLeapOfFinger = 5e-3;
+
 /// Ticks, at the finger's present speed, that the search for deeper places looks ahead. More: fewer, larger
 /// searches.
 inline constexpr double kWatchTicks = 12.0;
@@ -160,5 +172,18 @@ inline constexpr double kForceFade = 20.0;
 /// Travels of the display a second, 1/s, likewise: 0.26 m/s for 16 mm, about what its spindle can do. Larger: a leap of the
 /// contact is felt as a click; smaller: the display lags behind a finger that turns quickly.
 inline constexpr double kDisplayFade = 16.0;
+
+/// Seconds that a display stays where it is after the contact has switched to another place: a tremor between two walls
+/// switches every few ticks, and a display that followed each would rattle. Larger: it comes late; smaller: it rattles.
+inline constexpr double kDisplayWait = 0.05;
+
+/// Least part of a contact's direction that lies in the finger's section, 1: at less, within 15 degrees of the finger's
+/// sides, the place along the finger is left as it was. Larger: the display holds where it could still show something;
+/// smaller: it races from end to end as the contact passes the side.
+inline constexpr double kPadSection = 0.2588;
+
+/// Hz, cut-off of the velocity that damping uses: a first-order filter that lags by 1/(2 pi f), 3.2 ms. Encoder steps of
+/// 0.03 mm at 1 kHz are 0.03 m/s of noise unfiltered. Larger: the noise is felt; smaller: damping comes too late to damp.
+inline constexpr double kVelocityCutoff = 50.0;
 
 }  // namespace tangent

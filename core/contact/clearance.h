@@ -24,9 +24,10 @@ struct Clearance {
   static constexpr std::size_t kWatched = 8;
   Vec3 centre{0.0};  ///< local
   Quat orientation{1.0, 0.0, 0.0, 0.0};
-  double free_m = -1.0;    ///< radius of the ball: up to here nothing needs to be looked at; negative: not known
-  double margin_m = -1.0;  ///< up to here no triangle outside the tracked basin and the watched ones holds a contact ...
-  double height_m = 0.0;   ///< ... of a rank below this less the distance gone
+  double free_m = -1.0;  ///< radius of the ball: up to here nothing needs to be looked at; negative: not known
+  double margin_m =
+      -1.0;               ///< up to here no triangle outside the tracked basin and the watched ones holds a contact ...
+  double height_m = 0.0;  ///< ... of a rank below this less the distance gone
   std::array<WatchedTriangle, kWatched> watched;
 
   /// No other place counts as deeper, however far the finger goes: the contact is only followed.

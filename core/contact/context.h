@@ -16,6 +16,7 @@ struct ContactContext {
   Vec3 origin;             ///< of the local coordinates, for the trace
   IterationTrace* trace = nullptr;
   std::uint8_t seed = 0;  ///< 0 while following the kept plane; the number of the seed otherwise
+  double moved_m = 0.0;   ///< the finger's way since the last tick
 };
 
 }  // namespace tangent

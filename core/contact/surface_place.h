@@ -34,9 +34,12 @@ struct SurfacePlace {
 /// Barycentric (u, v) of the point at fraction f of edge k, exactly on the edge.
 inline Vec2 edge_point_uv(std::uint32_t edge, double f) {
   switch (edge) {
-    case 0: return {f, 0.0};
-    case 1: return {1.0 - f, f};
-    default: return {0.0, 1.0 - f};
+    case 0:
+      return {f, 0.0};
+    case 1:
+      return {1.0 - f, f};
+    default:
+      return {0.0, 1.0 - f};
   }
 }
 
@@ -46,9 +49,12 @@ inline Vec2 corner_uv(std::uint32_t corner) { return {corner == 1 ? 1.0 : 0.0, c
 /// Fraction f of a point (u, v) on edge k.
 inline double edge_fraction(std::uint32_t edge, double u, double v) {
   switch (edge) {
-    case 0: return u;
-    case 1: return v;
-    default: return 1.0 - v;
+    case 0:
+      return u;
+    case 1:
+      return v;
+    default:
+      return 1.0 - v;
   }
 }
 

@@ -11,15 +11,15 @@
 namespace tangent {
 
 enum class StopReason : std::uint8_t {
-  going_on,         ///< not the last iteration
-  converged,        ///< error below tolerance
+  going_on,   ///< not the last iteration
+  converged,  ///< error below tolerance
   iteration_limit,
-  cycling,          ///< came back to a place it had been, or the error stopped falling
-  unstable,         ///< the solution it runs to has det M <= 0 or trace M <= 0
-  left_boundary,    ///< ran out through a mesh boundary
-  singular_patch,   ///< no step can be computed there
-  too_far,          ///< the finger is out of reach of the tracked place: the walk to it got lost
-  leapt,            ///< converged, but on another place: the normal turned by over 10 degrees in one tick
+  cycling,         ///< came back to a place it had been, or the error stopped falling
+  unstable,        ///< the solution it runs to has det M <= 0 or trace M <= 0
+  left_boundary,   ///< ran out through a mesh boundary
+  singular_patch,  ///< no step can be computed there
+  too_far,         ///< the finger is out of reach of the tracked place: the walk to it got lost
+  leapt,           ///< converged, but on another place: the normal turned by over 10 degrees in one tick
 };
 const char* to_string(StopReason reason);
 
@@ -27,7 +27,7 @@ const char* to_string(StopReason reason);
 struct IterationRecord {
   Feature feature = Feature::none;
   StopReason stop = StopReason::going_on;
-  std::uint8_t seed = 0;              ///< 0: tracking; n: the n-th seed of a re-seeding
+  std::uint8_t seed = 0;  ///< 0: tracking; n: the n-th seed of a re-seeding
   std::uint32_t triangle = kNone;
   double u = 0.0, v = 0.0;
   Vec3 point{0.0};                    ///< S: where the plane touches the surface
@@ -50,7 +50,10 @@ struct IterationTrace {
   std::size_t lost = 0;
   void clear() { size = lost = 0; }
   void push(const IterationRecord& r) {
-    if (size < kCapacity) records[size++] = r; else ++lost;
+    if (size < kCapacity)
+      records[size++] = r;
+    else
+      ++lost;
   }
   void amend_last(StopReason stop) {
     if (size > 0 && lost == 0) records[size - 1].stop = stop;

@@ -51,9 +51,16 @@ bool limits(double rule, double last_rule, bool on, std::uint8_t& fades) {
   return on && (rule == 0.0 || fades);
 }
 
+/// Where the display is to go: to the contact, unless it is off the pad or has only just come to another place.
+double display_target(const Rendered& decided, bool switched, double dt_s, RenderedState& state) {
+  state.display_waits_s = switched ? kDisplayWait : std::max(0.0, state.display_waits_s - dt_s);
+  return decided.off_pad || state.display_waits_s > 0.0 ? state.cld_m : decided.cld_m;
+}
+
 }  // namespace
 
-Rendered blend(const Preset& preset, const FingerWay& way, const Rendered& decided, RenderedState& state) {
+Rendered blend(const Preset& preset, const FingerWay& way, const Rendered& decided, bool switched,
+               RenderedState& state) {
   const RenderedState last = state;
   state.force_rule = force_rule(preset);
   state.display_rule = display_rule(preset);
@@ -74,7 +81,9 @@ Rendered blend(const Preset& preset, const FingerWay& way, const Rendered& decid
     if (limits(state.display_rule, last.display_rule, on, state.display_fades)) {
       const double scale = preset.display.travel_m / preset.display.finger_arc_m;
       const double most = kDisplayFade * preset.display.travel_m * way.dt_s + 2.0 * scale * gone;
-      out.cld_m = std::clamp(decided.cld_m, last.cld_m - most, last.cld_m + most);
+      const double target =
+          state.display_rule == 0.0 ? display_target(decided, switched, way.dt_s, state) : decided.cld_m;
+      out.cld_m = std::clamp(target, last.cld_m - most, last.cld_m + most);
       if (out.cld_m == decided.cld_m) state.display_fades = 0;
     }
   }

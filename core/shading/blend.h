@@ -16,9 +16,11 @@ namespace tangent {
 struct RenderedState {
   Vec3 force_n{0.0};  ///< world
   double cld_m = 0.0;
-  double force_rule = 0.0;    ///< a number that tells presets apart whose force has edges of its own; 0: smooth
-  double display_rule = 0.0;  ///< likewise of the display
-  std::uint8_t has = 0;       ///< the above is set
+  double force_rule = 0.0;       ///< a number that tells presets apart whose force has edges of its own; 0: smooth
+  double display_rule = 0.0;     ///< likewise of the display
+  Vec3 velocity{0.0};            ///< of the finger, filtered for damping, world, m/s
+  double display_waits_s = 0.0;  ///< after a switch of contacts the display stays this much longer
+  std::uint8_t has = 0;          ///< the above is set
   std::uint8_t force_fades = 0, display_fades = 0;  ///< a change of preset is still being faded in
 };
 
@@ -28,9 +30,10 @@ struct FingerWay {
   double dt_s = 0.0;  ///< 0: none, or not known
 };
 
-/// What a tick is to render, from what it decided to and what the last one rendered; updates `state`. Where the
-/// preset's force has edges of its own (facet, force shading, two-pass) only a change of preset fades, likewise its
-/// display.
-Rendered blend(const Preset& preset, const FingerWay& way, const Rendered& decided, RenderedState& state);
+/// What a tick is to render, from what it decided to and what the last one rendered; updates `state`. Where the preset's
+/// force has edges of its own (facet, force shading, two-pass) only a change of preset fades, likewise its display. The
+/// display holds where the contact is off the pad, and for kDisplayWait after the contact `switched` to another place.
+Rendered blend(const Preset& preset, const FingerWay& way, const Rendered& decided, bool switched,
+               RenderedState& state);
 
 }  // namespace tangent

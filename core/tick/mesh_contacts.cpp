@@ -1,6 +1,7 @@
 #include "core/tick/mesh_contacts.h"
 
 #include "core/tick/raw_contacts.h"
+#include "core/tick/rendering.h"
 #include "core/tick/smooth_contact.h"
 
 namespace tangent {
@@ -9,7 +10,9 @@ namespace {
 /// The smooth contact by `settings`; updates what the next tick keeps of it.
 inline void find_smooth(const ContactScene& scene, StepCache& cache, const TickContext& tick,
                         const SolverSettings& settings, RenderPlane& plane) {
-  ContactContext context{cache.patches, settings, tick.finger, tick.local, tick.origin, tick.trace, 0};
+  ContactContext context{
+      cache.patches, settings,   tick.finger, tick.local,
+      tick.origin,   tick.trace, 0,           glm::length(finger_way(tick.pose.position, tick.t_s, tick.state).moved)};
   const bool sample_is_kept = cache.holds(tick.state.plane, settings.normal_form);
   find_smooth_contact(context, scene.search(), sample_is_kept, tick.state, cache.smooth);
   cache.form = settings.normal_form;

@@ -16,7 +16,7 @@ TickOutput render_again(const ContactScene& scene, const Preset& preset, const T
   TickPlanes planes = TickPlanes::all(kNoPlane);
   planes.smooth = {solved.normal, solved.penetration_m, 1.0};
   const FingerWay way = finger_way(pose.position, input.t_s, kept);
-  render_planes(preset, planes, section_of(pose.orientation), way, finger_velocity(preset, way), rendered, solved);
+  render_planes(preset, planes, section_of(pose.orientation), way, rendered, solved);
   return solved;
 }
 

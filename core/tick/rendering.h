@@ -1,8 +1,11 @@
 // The end of a tick: what the devices get from its planes. Inline: every tick ends so.
 #pragma once
 
+#include "core/base/tolerances.h"
 #include "core/tick/sources.h"
 #include "core/tick/tick.h"
+
+#include <numbers>
 
 namespace tangent {
 
@@ -12,21 +15,27 @@ inline FingerWay finger_way(const Vec3& position, double t_s, const TickState& s
   return {position - state.last_position, t_s > state.last_t_s ? t_s - state.last_t_s : 0.0};
 }
 
-/// World, m/s; zero where nothing asks for it (no damping).
-inline Vec3 finger_velocity(const Preset& preset, const FingerWay& way) {
-  if (preset.force.damping_n_s_per_m == 0.0 || !(way.dt_s > 0.0)) return Vec3(0.0);
-  return way.moved / way.dt_s;
+/// World, m/s, by a filter of cut-off kVelocityCutoff; zero where nothing asks for it (no damping). Updates the one of
+/// `rendered`. However near two stamps are, it changes by no more than 2 pi kVelocityCutoff times the way between them.
+inline Vec3 finger_velocity(const Preset& preset, const FingerWay& way, RenderedState& rendered) {
+  if (preset.force.damping_n_s_per_m == 0.0) return Vec3(0.0);
+  constexpr double kRate = 2.0 * std::numbers::pi * kVelocityCutoff;
+  const double lag = 1.0 / (1.0 + kRate * way.dt_s);
+  rendered.velocity = lag * (rendered.velocity + kRate * way.moved);  // v += (1 - lag) (moved/dt - v)
+  return rendered.velocity;
 }
 
 /// Sets force and display of `out` from the planes of the preset's sources, blended with what was `rendered` last.
-/// `section`: of the finger, world; `velocity`: m/s.
+/// `section`: of the finger, world.
 inline void render_planes(const Preset& preset, const TickPlanes& planes, const FingerSection& section,
-                          const FingerWay& way, const Vec3& velocity, RenderedState& rendered, TickOutput& out) {
+                          const FingerWay& way, RenderedState& rendered, TickOutput& out) {
+  const Vec3 velocity = finger_velocity(preset, way, rendered);
   const Rendered decided =
       render(preset, force_plane(preset, planes), tactile_plane(preset, planes), section, velocity);
   out.decided_force_n = decided.force_n;
   out.decided_cld_m = decided.cld_m;
-  const Rendered blended = blend(preset, way, decided, rendered);
+  const bool switched = out.event != TickEvent::none && out.event != TickEvent::first;
+  const Rendered blended = blend(preset, way, decided, switched, rendered);
   out.force_n = blended.force_n;
   out.cld_m = blended.cld_m;
 }

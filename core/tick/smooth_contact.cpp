@@ -2,17 +2,8 @@
 
 #include "core/contact/prove/clearance_check.h"
 
-#include <cmath>
-
 namespace tangent {
 namespace {
-
-/// The finger's way since the last tick, m.
-double moved_m(const ContactContext& context, const TickState& state) {
-  if (!state.has_previous) return 0.0;
-  const Vec3 moved = context.pose.position + context.origin - state.last_position;
-  return std::sqrt(glm::dot(moved, moved));
-}
 
 /// Asks whether another place can be deeper than the followed contact, and only then looks.
 void watch_others(ContactContext& context, const SearchStructures& search, TickState& state, DecidedContact& decided) {
@@ -20,10 +11,10 @@ void watch_others(ContactContext& context, const SearchStructures& search, TickS
   const double bound = takeover_bound_m(context.settings, rank);
   const double gone = gone_m(state.clearance, context.finger, context.pose);
   if (!deeper_possible(state.clearance, gone, bound)) return;
-  const double ahead = look_ahead_m(rank, moved_m(context, state));
+  const double ahead = look_ahead_m(rank, context.moved_m);
   const RivalResult rival = find_rival(context, search, decided.contact, bound, ahead, state.clearance, gone);
-  decide_rival(rival, state.plane, decided);
-  state.clearance = rival.deeper ? Clearance{} : rival.clearance;
+  const bool taken_over = decide_rival(context, rival, state.plane, decided);
+  state.clearance = taken_over ? Clearance{} : rival.clearance;
 }
 
 }  // namespace

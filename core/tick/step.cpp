@@ -27,8 +27,7 @@ void run_tick(const TickContext& tick, TickOutput& out, FindContacts find_contac
   TickPlanes planes;
   find_contacts(planes);
   const FingerWay way = finger_way(tick.pose.position, tick.t_s, tick.state);
-  const Vec3 velocity = finger_velocity(tick.preset, way);
-  render_planes(tick.preset, planes, section, way, velocity, tick.state.rendered, out);
+  render_planes(tick.preset, planes, section, way, tick.state.rendered, out);
   keep_pose(tick.pose.position, tick.t_s, tick.state);
 }
 
@@ -36,7 +35,7 @@ void run_tick(const TickContext& tick, TickOutput& out, FindContacts find_contac
 void run_without_pose(const TickContext& tick, TickOutput& out) {
   const TickPlanes planes = TickPlanes::all(last_converged_plane(tick));
   const FingerWay way = finger_way(tick.pose.position, tick.t_s, tick.state);
-  render_planes(tick.preset, planes, section_of(tick.pose.orientation), way, Vec3(0.0), tick.state.rendered, out);
+  render_planes(tick.preset, planes, section_of(tick.pose.orientation), way, tick.state.rendered, out);
 }
 
 FingerPose last_pose(const TickState& state) { return {state.last_position, Quat(1.0, 0.0, 0.0, 0.0)}; }

@@ -1,5 +1,7 @@
 #include "core/contact/decide/decide.h"
 
+#include "core/base/tolerances.h"
+
 #include <algorithm>
 
 namespace tangent {
@@ -18,11 +20,20 @@ void decide_followed(Followed followed, bool first, DecidedContact& decided) {
   decided.triangle_changes = first ? 0 : decided.contact.triangle_changes;
 }
 
-void decide_rival(const RivalResult& rival, const TrackedPlane& kept, DecidedContact& decided) {
+bool was_entered(const ContactContext& context, double depth_m, double tracked_depth_m) {
+  if (context.moved_m > kLeapOfFinger) return true;
+  const double explained = 2.0 * context.moved_m + context.settings.switch_hysteresis_m + kEnteredDepth;
+  return depth_m <= std::max(0.0, tracked_depth_m) + explained;
+}
+
+bool decide_rival(const ContactContext& context, const RivalResult& rival, const TrackedPlane& kept,
+                  DecidedContact& decided) {
   decided.evaluations += rival.evaluations;
-  if (!rival.deeper) return;
+  if (!rival.deeper) return false;
+  if (!was_entered(context, rival.best.contact.penetration_m, decided.contact.contact.penetration_m)) return false;
   adopt(rival.best, kept, decided);
   decided.event = TickEvent::switched;
+  return true;
 }
 
 void decide_start(const SeedResult& seeded, const TrackedPlane& kept, DecidedContact& decided) {

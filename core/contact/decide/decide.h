@@ -27,8 +27,13 @@ inline double takeover_bound_m(const SolverSettings& settings, double rank) {
 /// The followed contact stays (decided.contact holds it), until another is decided on. `first`: there was none.
 void decide_followed(Followed followed, bool first, DecidedContact& decided);
 
-/// A deeper place takes over, if one was found.
-void decide_rival(const RivalResult& rival, const TrackedPlane& kept, DecidedContact& decided);
+/// Whether a place this deep can have been entered from outside since the last tick, at which none was deeper than the
+/// tracked one by more than the hysteresis: no depth changes by more than the finger moves.
+bool was_entered(const ContactContext& context, double depth_m, double tracked_depth_m);
+
+/// A deeper place takes over, if one was found that was entered. True where it did.
+bool decide_rival(const ContactContext& context, const RivalResult& rival, const TrackedPlane& kept,
+                  DecidedContact& decided);
 
 /// Where following failed: the seeded contact, or the lost one where seeding did no better.
 void decide_start(const SeedResult& seeded, const TrackedPlane& kept, DecidedContact& decided);

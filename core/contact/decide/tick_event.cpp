@@ -4,11 +4,16 @@ namespace tangent {
 
 const char* to_string(TickEvent event) {
   switch (event) {
-    case TickEvent::none: break;
-    case TickEvent::first: return "first";
-    case TickEvent::reseed: return "reseed";
-    case TickEvent::switched: return "switch";
-    case TickEvent::branch: return "branch";
+    case TickEvent::none:
+      break;
+    case TickEvent::first:
+      return "first";
+    case TickEvent::reseed:
+      return "reseed";
+    case TickEvent::switched:
+      return "switch";
+    case TickEvent::branch:
+      return "branch";
   }
   return "none";
 }
