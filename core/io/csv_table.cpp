@@ -99,8 +99,9 @@ Status CsvTable::read_numbers(std::span<double> numbers) const {
     }
     const bool wanted_more = i + 1 < count;
     if ((end != last) != wanted_more) {
-      return fail(wanted_more ? "only " + std::to_string(i + 1) + " of " + std::to_string(count) + " columns"
-                              : "more columns than the header names",
+      return fail(!wanted_more ? "more columns than the header names"
+                  : i == 0     ? "only one column"
+                               : "only " + std::to_string(i + 1) + " columns",
                   where(), "write " + std::to_string(count) + " fields separated by commas");
     }
     next = end == last ? end : end + 1;

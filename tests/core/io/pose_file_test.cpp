@@ -89,7 +89,7 @@ TEST_CASE("numbers that are not finite are refused with line and column") {
 }
 
 TEST_CASE("wrong numbers of columns are refused with the line") {
-  CHECK(contains(body_refusal("0,0,0,0\n0.1,0,0\n"), "p.csv:3: only 3 of 4 columns; write 4 fields"));
+  CHECK(contains(body_refusal("0,0,0,0\n0.1,0,0\n"), "p.csv:3: only 3 columns; write 4 fields"));
   CHECK(contains(body_refusal("0,0,0,0,1,0,0,0\n"), "p.csv:2: more columns than the header names"));
   CHECK(contains(body_refusal("0,0,0,0,\n"), "p.csv:2: more columns"));
   CHECK(contains(body_refusal("0,0,0,0\n\n1,0,0,0\n"), "p.csv:3: t_s is \"\""));
