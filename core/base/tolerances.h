@@ -95,17 +95,19 @@ inline constexpr int kMaxSolves = 256;
 /// smaller: fast turns on small radii count as jumps.
 inline constexpr double kJumpCosine = 0.984807753012208;
 
-/// Metres by which the depth of a contact may change in a tick beside what the finger's motion explains: 0.02 N at
+// The next three are in switch hystereses (20 um unless the preset says otherwise), so that they go with the scene's size.
+
+/// By this much the depth of a contact may change in a tick beside what the finger's motion explains: 25 um, 0.02 N at
 /// 800 N/m, the force that a fade lets through in a millisecond. Larger: leaps pass unmarked; smaller: rounding is marked.
-inline constexpr double kLeapDepth = 25e-6;
+inline constexpr double kLeapDepth = 1.25;
 
-/// Metres by which a place may be deeper than the tracked one was, beside the finger's motion and the switch hysteresis,
-/// when it is first found: what a search may have come late by. Deeper ones were never entered from outside: the finger
+/// By this much a place may be deeper than the tracked one was, beside the finger's motion and the hysteresis itself, when
+/// it is first found: 100 um, what a search may have come late by. Deeper ones were never entered from outside: the finger
 /// has come by behind them. Larger: sheets push from behind; smaller: an honest switch is refused.
-inline constexpr double kEnteredDepth = 1e-4;
+inline constexpr double kEnteredDepth = 5.0;
 
-/// Metres. A finger that goes further in one tick has been put elsewhere, and what it is in counts as entered.
-inline constexpr double kLeapOfFinger = 5e-3;
+/// A finger that goes further in one tick, 5 mm, has been put elsewhere, and what it is in counts as entered.
+inline constexpr double kLeapOfFinger = 250.0;
 
 /// Ticks, at the finger's present speed, that the search for deeper places looks ahead. More: fewer, larger
 /// searches.

@@ -17,6 +17,9 @@ struct ContactContext {
   IterationTrace* trace = nullptr;
   std::uint8_t seed = 0;  ///< 0 while following the kept plane; the number of the seed otherwise
   double moved_m = 0.0;   ///< the finger's way since the last tick
+
+  /// A length given in switch hystereses (base/tolerances.h), m.
+  double hystereses_m(double count) const { return count * settings.switch_hysteresis_m; }
 };
 
 }  // namespace tangent

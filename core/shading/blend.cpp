@@ -59,33 +59,47 @@ double display_target(const Rendered& decided, bool switched, double dt_s, Rende
 
 }  // namespace
 
+namespace {
+
+void blend_force(const Preset& preset, const FingerWay& way, const Vec3& decided, const RenderedState& last,
+                 RenderedState& state, Vec3& force) {
+  const double stiffness = preset.force.stiffness_n_per_m;
+  const double most = kForceFade * way.dt_s + 2.0 * stiffness * std::sqrt(glm::dot(way.moved, way.moved));
+  const Vec3 change = decided - last.force_n;
+  if (glm::dot(change, change) <= most * most) {
+    state.force_fades = 0;
+    return;
+  }
+  const Vec3 old = left_of_last(last.force_n, way.moved, stiffness);
+  force = old + share_within(last.force_n, old, decided, most) * (decided - old);
+  const double length = std::sqrt(glm::dot(force, force));  // the limit may have been lowered, and counts at once
+  if (length > preset.force.limit_n) force *= preset.force.limit_n / length;
+}
+
+void blend_display(const Preset& preset, const FingerWay& way, const Rendered& decided, bool switched,
+                   const RenderedState& last, RenderedState& state, double& cld_m) {
+  const DisplaySettings& d = preset.display;
+  const double gone = std::sqrt(glm::dot(way.moved, way.moved)), half = 0.5 * d.travel_m;
+  const double most = kDisplayFade * d.travel_m * way.dt_s + 2.0 * d.travel_m / d.finger_arc_m * gone;
+  const double target = state.display_rule == 0.0 ? display_target(decided, switched, way.dt_s, state) : decided.cld_m;
+  cld_m = std::clamp(std::clamp(target, last.cld_m - most, last.cld_m + most), -half, half);
+  if (cld_m == decided.cld_m) state.display_fades = 0;
+}
+
+}  // namespace
+
 Rendered blend(const Preset& preset, const FingerWay& way, const Rendered& decided, bool switched,
                RenderedState& state) {
   const RenderedState last = state;
   state.force_rule = force_rule(preset);
   state.display_rule = display_rule(preset);
   Rendered out = decided;
-  if (last.has) {
+  if (last.has && !decided.ramps_out) {
     const bool on = preset.force.blend == ForceBlend::events;
-    const double gone = std::sqrt(glm::dot(way.moved, way.moved));
-    if (limits(state.force_rule, last.force_rule, on, state.force_fades)) {
-      const double stiffness = preset.force.stiffness_n_per_m, most = kForceFade * way.dt_s + 2.0 * stiffness * gone;
-      const Vec3 change = decided.force_n - last.force_n;
-      if (glm::dot(change, change) > most * most) {
-        const Vec3 old = left_of_last(last.force_n, way.moved, stiffness);
-        out.force_n = old + share_within(last.force_n, old, decided.force_n, most) * (decided.force_n - old);
-      } else {
-        state.force_fades = 0;
-      }
-    }
-    if (limits(state.display_rule, last.display_rule, on, state.display_fades)) {
-      const double scale = preset.display.travel_m / preset.display.finger_arc_m;
-      const double most = kDisplayFade * preset.display.travel_m * way.dt_s + 2.0 * scale * gone;
-      const double target =
-          state.display_rule == 0.0 ? display_target(decided, switched, way.dt_s, state) : decided.cld_m;
-      out.cld_m = std::clamp(target, last.cld_m - most, last.cld_m + most);
-      if (out.cld_m == decided.cld_m) state.display_fades = 0;
-    }
+    if (limits(state.force_rule, last.force_rule, on, state.force_fades))
+      blend_force(preset, way, decided.force_n, last, state, out.force_n);
+    if (limits(state.display_rule, last.display_rule, on, state.display_fades))
+      blend_display(preset, way, decided, switched, last, state, out.cld_m);
   }
   state.force_n = out.force_n;
   state.cld_m = out.cld_m;

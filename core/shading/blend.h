@@ -30,9 +30,10 @@ struct FingerWay {
   double dt_s = 0.0;  ///< 0: none, or not known
 };
 
-/// What a tick is to render, from what it decided to and what the last one rendered; updates `state`. Where the preset's
-/// force has edges of its own (facet, force shading, two-pass) only a change of preset fades, likewise its display. The
-/// display holds where the contact is off the pad, and for kDisplayWait after the contact `switched` to another place.
+/// What a tick is to render, from what it decided to and what the last one rendered; updates `state`. Where the
+/// preset's force has edges of its own (facet, force shading, two-pass) only a change of preset fades, likewise its
+/// display. The display holds where the contact is off the pad, and for kDisplayWait after the contact `switched` to
+/// another place. An unconverged tick that ramps to zero is not held up, and the preset's force limit holds at once.
 Rendered blend(const Preset& preset, const FingerWay& way, const Rendered& decided, bool switched,
                RenderedState& state);
 

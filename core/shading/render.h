@@ -19,9 +19,10 @@ inline constexpr RenderPlane kNoPlane{{0.0, 0.0, 1.0}, 0.0, 1.0};
 
 /// What the devices get.
 struct Rendered {
-  Vec3 force_n{0.0};     ///< on the finger, world, N
-  double cld_m = 0.0;    ///< of the contact location display, from its centre, m
-  bool off_pad = false;  ///< the contact is where no display reaches, and cld_m says nothing
+  Vec3 force_n{0.0};       ///< on the finger, world, N
+  double cld_m = 0.0;      ///< of the contact location display, from its centre, m
+  bool ramps_out = false;  ///< an unconverged tick on its way to zero
+  bool off_pad = false;    ///< the contact is where no display reaches, and cld_m says nothing
 };
 
 /// Force from one plane and place from another. `tactile`: null: the display is held at its centre. `section`: of the

@@ -4,6 +4,8 @@
 #include "core/tick/rendering.h"
 #include "core/tick/smooth_contact.h"
 
+#include <algorithm>
+
 namespace tangent {
 namespace {
 
@@ -19,20 +21,22 @@ inline void find_smooth(const ContactScene& scene, StepCache& cache, const TickC
   const IterationResult& contact = cache.smooth.contact;
   tick.state.plane = contact.plane;
   if (cache.smooth.converged()) {
-    keep_converged_plane(tick, contact.contact.penetration_m, plane);
+    const double depth = contact.contact.penetration_m;
+    keep_converged_plane(tick, tick.state.unentered ? std::min(0.0, depth) : depth, plane);
   } else {
     plane = last_converged_plane(tick);
   }
 }
 
-void describe_smooth(const DecidedContact& decided, const Vec3& origin, TickOutput& out) {
+void describe_smooth(const DecidedContact& decided, const TickContext& tick, TickOutput& out) {
   const IterationResult& c = decided.contact;
   out.status = decided.converged() ? status_of(c.plane.feature, c.contact.penetration_m) : TickStatus::unconverged;
+  if (decided.converged() && tick.state.unentered) out.status = TickStatus::free;
   out.event = decided.event;
   out.triangle = c.plane.triangle;
   out.u = c.plane.u;
   out.v = c.plane.v;
-  out.contact = origin + c.plane.point;
+  out.contact = tick.origin + c.plane.point;
   out.normal = c.plane.normal;
   out.penetration_m = c.contact.penetration_m;
   out.error_m = c.contact.error_m;
@@ -70,7 +74,7 @@ void find_mesh_contacts(const ContactScene& scene, StepCache& cache, const TickC
   if (!only_smooth(preset)) planes = TickPlanes::all(kNoPlane);
   if (is_smooth(preset.solver.method)) {
     find_smooth(scene, cache, tick, preset.solver, planes.smooth);
-    describe_smooth(cache.smooth, tick.origin, out);
+    describe_smooth(cache.smooth, tick, out);
     if (only_smooth(preset)) return;  // most ticks
   } else if (wants_smooth(preset)) {
     find_smooth_beside(scene, cache, tick, planes.smooth);

@@ -4,6 +4,8 @@
 #include "core/tick/planar_contacts.h"
 #include "core/tick/rendering.h"
 
+#include <algorithm>
+
 namespace tangent {
 
 bool same_contacts(const Preset& a, const Preset& b) {
@@ -14,7 +16,8 @@ TickOutput render_again(const ContactScene& scene, const Preset& preset, const T
                         RenderedState& rendered, TickOutput solved) {
   const FingerPose pose = scene.planar() ? section_pose(input.finger) : input.finger;
   TickPlanes planes = TickPlanes::all(kNoPlane);
-  planes.smooth = {solved.normal, solved.penetration_m, 1.0};
+  const bool touched = solved.status != TickStatus::free;
+  planes.smooth = {solved.normal, touched ? solved.penetration_m : std::min(0.0, solved.penetration_m), 1.0};
   const FingerWay way = finger_way(pose.position, input.t_s, kept);
   render_planes(preset, planes, section_of(pose.orientation), way, rendered, solved);
   return solved;

@@ -11,6 +11,7 @@
 
 namespace tangent {
 
+/// `free`: not touching: out of reach of the surface, or behind a place that was never entered from outside.
 enum class TickStatus : std::uint8_t { free, face, edge, vertex, unconverged };
 const char* to_string(TickStatus status);
 /// Of a converged contact: `free` where the finger does not reach the surface.
@@ -34,6 +35,7 @@ struct TickState {
   Clearance clearance;
   Vec3 proxy{0.0};  ///< of the two-pass method, local, m
   std::uint8_t has_proxy = 0;
+  std::uint8_t unentered = 0;  ///< the tracked place was found from behind: it does not push until it is left
   RenderedState rendered;
 };
 

@@ -21,16 +21,21 @@ void decide_followed(Followed followed, bool first, DecidedContact& decided) {
 }
 
 bool was_entered(const ContactContext& context, double depth_m, double tracked_depth_m) {
-  if (context.moved_m > kLeapOfFinger) return true;
-  const double explained = 2.0 * context.moved_m + context.settings.switch_hysteresis_m + kEnteredDepth;
+  if (context.moved_m > context.hystereses_m(kLeapOfFinger)) return true;
+  const double explained = 2.0 * context.moved_m + context.hystereses_m(1.0 + kEnteredDepth);
   return depth_m <= std::max(0.0, tracked_depth_m) + explained;
 }
 
-bool decide_rival(const ContactContext& context, const RivalResult& rival, const TrackedPlane& kept,
-                  DecidedContact& decided) {
+bool is_unentered(const ContactContext& context, double depth_m, double before_m) {
+  return context.moved_m <= context.hystereses_m(kLeapOfFinger) &&
+         depth_m > std::max(0.0, before_m) + context.hystereses_m(kLeapOfFinger);
+}
+
+bool decide_rival(const ContactContext& context, const RivalResult& rival, double tracked_depth_m,
+                  const TrackedPlane& kept, DecidedContact& decided) {
   decided.evaluations += rival.evaluations;
   if (!rival.deeper) return false;
-  if (!was_entered(context, rival.best.contact.penetration_m, decided.contact.contact.penetration_m)) return false;
+  if (!was_entered(context, rival.best.contact.penetration_m, tracked_depth_m)) return false;
   adopt(rival.best, kept, decided);
   decided.event = TickEvent::switched;
   return true;

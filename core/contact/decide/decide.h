@@ -31,9 +31,14 @@ void decide_followed(Followed followed, bool first, DecidedContact& decided);
 /// tracked one by more than the hysteresis: no depth changes by more than the finger moves.
 bool was_entered(const ContactContext& context, double depth_m, double tracked_depth_m);
 
+/// Whether a place where a lost contact starts anew is one that the finger can't have come into from outside: deeper by
+/// over kLeapOfFinger than what was tracked, although the finger has hardly moved. `before_m`: depth of what was
+/// tracked.
+bool is_unentered(const ContactContext& context, double depth_m, double before_m);
+
 /// A deeper place takes over, if one was found that was entered. True where it did.
-bool decide_rival(const ContactContext& context, const RivalResult& rival, const TrackedPlane& kept,
-                  DecidedContact& decided);
+bool decide_rival(const ContactContext& context, const RivalResult& rival, double tracked_depth_m,
+                  const TrackedPlane& kept, DecidedContact& decided);
 
 /// Where following failed: the seeded contact, or the lost one where seeding did no better.
 void decide_start(const SeedResult& seeded, const TrackedPlane& kept, DecidedContact& decided);

@@ -13,6 +13,7 @@ namespace {
 bool has_turned_over(const ContactContext& context, const TrackedPlane& kept, const IterationResult& now) {
   const double cosine = glm::dot(kept.normal, now.plane.normal);
   if (cosine >= kJumpCosine) return false;
+  if (context.moved_m > context.hystereses_m(kLeapOfFinger)) return true;
   const double explained = 2.0 * context.moved_m / std::abs(now.contact.height_m);
   return std::acos(std::max(-1.0, cosine)) - std::acos(kJumpCosine) > explained;
 }
@@ -21,7 +22,7 @@ bool has_turned_over(const ContactContext& context, const TrackedPlane& kept, co
 bool has_leapt_in_depth(const ContactContext& context, const TrackedPlane& kept, const IterationResult& now) {
   const double before = contact_on_plane(context.finger, context.pose, kept.point, kept.normal).penetration_m;
   const Vec3 change = std::max(0.0, now.contact.penetration_m) * now.plane.normal - std::max(0.0, before) * kept.normal;
-  const double explained = 2.0 * context.moved_m + kLeapDepth;
+  const double explained = 2.0 * context.moved_m + context.hystereses_m(kLeapDepth);
   return glm::dot(change, change) > explained * explained;
 }
 

@@ -111,7 +111,7 @@ TEST_CASE(
   };
   for (const Leap& leap :
        {Leap{Method::robust, 6e-3, TickEvent::none, false}, Leap{Method::robust, 40e-3, TickEvent::reseed, true},
-        Leap{Method::newton, 40e-3, TickEvent::none, false}}) {
+        Leap{Method::newton, 40e-3, TickEvent::branch, false}}) {
     CAPTURE(to_string(leap.method));
     CAPTURE(leap.along_m);
     const Preset preset = sphere_preset(0.020, leap.method);
