@@ -1,9 +1,9 @@
 #include "workbench/gui/app.h"
 
-#include "workbench/gui/app_model.h"
+#include "workbench/gui/model/app_model.h"
 #include "workbench/gui/panels/panels.h"
-#include "workbench/gui/thread_time.h"
-#include "workbench/gui/widgets.h"
+#include "workbench/gui/platform/thread_time.h"
+#include "workbench/gui/widgets/widgets.h"
 
 #include <algorithm>
 #include <cmath>

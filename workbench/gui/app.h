@@ -14,7 +14,7 @@
 #pragma once
 
 #include "core/mesh/contact_mesh.h"
-#include "workbench/gui/palette.h"
+#include "workbench/gui/theme/palette.h"
 #include "workbench/session/maestro_setups.h"
 
 #include <cstdint>

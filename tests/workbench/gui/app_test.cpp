@@ -1,5 +1,5 @@
 // The window driven like a user would, without a window. Model state is what counts.
-#include "headless_app.h"
+#include "tests/workbench/gui/headless_app.h"
 
 #include "tests/support/temp_folder.h"
 #include "workbench/gui/panels/panels.h"

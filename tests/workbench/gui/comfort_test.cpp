@@ -1,5 +1,5 @@
 // What makes the window pleasant: everything explains itself, everything has a name, nothing is forgotten.
-#include "headless_app.h"
+#include "tests/workbench/gui/headless_app.h"
 
 #include "tests/support/temp_folder.h"
 #include "workbench/gui/panels/commands.h"

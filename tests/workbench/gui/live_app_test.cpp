@@ -1,5 +1,5 @@
 // The window with a servo thread and workers of its own, as it really runs. Nothing here depends on how fast.
-#include "headless_app.h"
+#include "tests/workbench/gui/headless_app.h"
 
 #include "tests/support/meshes.h"
 

@@ -1,6 +1,6 @@
 // Bookmarks: those a person set, with notes, and those that triggers set; and the triggers.
 #include "workbench/gui/panels/panels.h"
-#include "workbench/gui/widgets.h"
+#include "workbench/gui/widgets/widgets.h"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 // A and B, undo and redo, and two presets side by side: the keys in which they differ.
 #include "workbench/gui/panels/panels.h"
-#include "workbench/gui/widgets.h"
+#include "workbench/gui/widgets/widgets.h"
 
 #include <algorithm>
 

@@ -2,7 +2,7 @@
 #include "core/surface/mesh_patch.h"
 
 #include "workbench/gui/panels/panels.h"
-#include "workbench/gui/widgets.h"
+#include "workbench/gui/widgets/widgets.h"
 
 #include <array>
 

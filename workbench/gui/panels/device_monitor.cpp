@@ -2,7 +2,7 @@
 // and the buttons of whoever stands beside the device.
 #include "workbench/gui/panels/monitor_histogram.h"
 #include "workbench/gui/panels/panels.h"
-#include "workbench/gui/widgets.h"
+#include "workbench/gui/widgets/widgets.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // The devices: what they are, how they are, what the safety gate does, and the simulated hand.
 #include "workbench/gui/panels/panels.h"
-#include "workbench/gui/widgets.h"
+#include "workbench/gui/widgets/widgets.h"
 
 #include <algorithm>
 #include <cmath>

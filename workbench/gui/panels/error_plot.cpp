@@ -3,7 +3,7 @@
 #include "workbench/gui/panels/panels.h"
 #include "workbench/gui/plots/curve_drawing.h"
 #include "workbench/gui/plots/tick_locator.h"
-#include "workbench/gui/widgets.h"
+#include "workbench/gui/widgets/widgets.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 #include "core/lab/gains/gain_advice.h"
 
 #include "workbench/gui/panels/panels.h"
-#include "workbench/gui/widgets.h"
+#include "workbench/gui/widgets/widgets.h"
 
 #include <cmath>
 

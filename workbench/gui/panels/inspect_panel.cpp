@@ -1,6 +1,6 @@
 // Mesh inspection: the defects one by one, with the way to each; isolate, slice plane, crease angle.
 #include "workbench/gui/panels/panels.h"
-#include "workbench/gui/widgets.h"
+#include "workbench/gui/widgets/widgets.h"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 // The iterations of the tick in view, one tangent plane a row, linked to the 3D view both ways.
 #include "workbench/gui/panels/panels.h"
-#include "workbench/gui/widgets.h"
+#include "workbench/gui/widgets/widgets.h"
 
 #include <algorithm>
 #include <array>

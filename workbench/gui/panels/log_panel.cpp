@@ -1,6 +1,6 @@
 // Everything the program has said, newest first.
 #include "workbench/gui/panels/panels.h"
-#include "workbench/gui/widgets.h"
+#include "workbench/gui/widgets/widgets.h"
 
 #include <imgui_stdlib.h>
 

@@ -2,7 +2,7 @@
 // upper end of the range, its lower half the lower end; a double click finds the range by itself.
 #include "workbench/gui/panels/panels.h"
 #include "workbench/gui/render/quantity_text.h"
-#include "workbench/gui/widgets.h"
+#include "workbench/gui/widgets/widgets.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // The map over the mesh: which quantity, how it is coloured, how far it is computed, and where it is worst. The colour
 // bar stands in the 3D view (map_bar.cpp).
 #include "workbench/gui/panels/panels.h"
-#include "workbench/gui/widgets.h"
+#include "workbench/gui/widgets/widgets.h"
 
 #include <charconv>
 #include <cmath>

@@ -1,7 +1,7 @@
 // The top bar: file and view menus, scene, preset, the simulated hand, and the stop button.
 #include "core/lab/objects/generate.h"
 #include "workbench/gui/panels/panels.h"
-#include "workbench/gui/widgets.h"
+#include "workbench/gui/widgets/widgets.h"
 
 #include <algorithm>
 #include <cctype>

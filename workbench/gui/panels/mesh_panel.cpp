@@ -1,8 +1,8 @@
 // The mesh: what it is and what a contact solver will meet on it.
 #include "core/lab/objects/generate.h"
+#include "workbench/gui/model/polygon_facts.h"
 #include "workbench/gui/panels/panels.h"
-#include "workbench/gui/polygon_facts.h"
-#include "workbench/gui/widgets.h"
+#include "workbench/gui/widgets/widgets.h"
 
 #include <algorithm>
 #include <array>

@@ -2,12 +2,12 @@
 // calls it; what a panel has to remember between frames is a struct of its own. One panel, one file.
 #pragma once
 
-#include "workbench/gui/app_model.h"
+#include "workbench/gui/model/app_model.h"
 #include "workbench/gui/panels/planar_view.h"
 #include "workbench/gui/plots/plot_view.h"
 #include "workbench/gui/plots/sample_cells.h"
 #include "workbench/gui/plots/spectrum.h"
-#include "workbench/gui/ui_context.h"
+#include "workbench/gui/widgets/ui_context.h"
 
 #include <array>
 #include <cstdint>

@@ -1,7 +1,7 @@
 // Favourites, then the tables of the preset schema: one row for each key.
 #include "core/io/rendering_condition.h"
 #include "workbench/gui/panels/panels.h"
-#include "workbench/gui/widgets.h"
+#include "workbench/gui/widgets/widgets.h"
 
 namespace tangent {
 

@@ -1,6 +1,6 @@
 // Typing the path of a mesh: Tab completes, Enter opens, Esc puts it away.
 #include "workbench/gui/panels/panels.h"
-#include "workbench/gui/widgets.h"
+#include "workbench/gui/widgets/widgets.h"
 
 #include <imgui_stdlib.h>
 

@@ -1,9 +1,9 @@
 // The way of a tick's iterations over (u, v): the base triangle laid flat, its neighbours unfolded, the residual
 // |c - h N - S| as colour and contours, and the planes as dots in the colours they have everywhere. A path that runs
 // down to a hole converges; one that circles a hole cycles; one that goes where there is none runs away.
+#include "workbench/gui/map/residual_map.h"
 #include "workbench/gui/panels/panels.h"
-#include "workbench/gui/residual_map.h"
-#include "workbench/gui/widgets.h"
+#include "workbench/gui/widgets/widgets.h"
 
 #include <algorithm>
 #include <cmath>

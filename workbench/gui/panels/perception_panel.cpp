@@ -2,7 +2,7 @@
 // table of all conditions and the worst edges. The heat map is the map "Facet angle".
 #include "core/io/rendering_condition.h"
 #include "workbench/gui/panels/panels.h"
-#include "workbench/gui/widgets.h"
+#include "workbench/gui/widgets/widgets.h"
 
 #include <algorithm>
 

@@ -1,8 +1,8 @@
 #include "workbench/gui/panels/planar_view.h"
 
+#include "workbench/gui/layout/view_room.h"
 #include "workbench/gui/render/overlay_canvas.h"
-#include "workbench/gui/view_room.h"
-#include "workbench/gui/widgets.h"
+#include "workbench/gui/widgets/widgets.h"
 
 #include <algorithm>
 #include <array>

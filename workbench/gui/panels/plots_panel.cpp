@@ -1,7 +1,7 @@
 // The live plots, all on one time axis: side by side in columns where the panel is wide and low, stacked where it is
 // high enough.
 #include "workbench/gui/panels/panels.h"
-#include "workbench/gui/widgets.h"
+#include "workbench/gui/widgets/widgets.h"
 
 #include <algorithm>
 #include <array>

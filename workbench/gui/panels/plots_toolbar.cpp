@@ -1,7 +1,7 @@
 // Above the plots: what they show, whether time is followed, held or inspected, the cursors A and B, what the ghost is,
 // and the ways out: CSV and PNG.
 #include "workbench/gui/panels/panels.h"
-#include "workbench/gui/widgets.h"
+#include "workbench/gui/widgets/widgets.h"
 
 #include <cmath>
 

@@ -1,7 +1,7 @@
 // Numbers to the curves: the true samples at the time cursor, at A and at B, their difference, and what the samples in
 // view amount to.
 #include "workbench/gui/panels/panels.h"
-#include "workbench/gui/widgets.h"
+#include "workbench/gui/widgets/widgets.h"
 
 #include <array>
 #include <cmath>

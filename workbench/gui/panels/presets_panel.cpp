@@ -1,6 +1,6 @@
 // Presets: the files beside the program, save as, and what was changed since the present one was loaded.
 #include "workbench/gui/panels/panels.h"
-#include "workbench/gui/widgets.h"
+#include "workbench/gui/widgets/widgets.h"
 
 #include <imgui_stdlib.h>
 

@@ -1,6 +1,6 @@
 // One line: servo rate, late ticks, drops, tick time, and what the window itself costs.
 #include "workbench/gui/panels/panels.h"
-#include "workbench/gui/widgets.h"
+#include "workbench/gui/widgets/widgets.h"
 
 #include <cmath>
 

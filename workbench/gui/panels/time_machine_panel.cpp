@@ -1,6 +1,6 @@
 // The past under other values: what changing a gain would have done to the ticks that were recorded.
 #include "workbench/gui/panels/panels.h"
-#include "workbench/gui/widgets.h"
+#include "workbench/gui/widgets/widgets.h"
 
 #include <cmath>
 

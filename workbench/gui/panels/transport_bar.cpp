@@ -1,6 +1,6 @@
 // Time: pause, step by tick and by iteration, back to live, and the kept history as a strip to scrub in.
 #include "workbench/gui/panels/panels.h"
-#include "workbench/gui/widgets.h"
+#include "workbench/gui/widgets/widgets.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,11 +1,11 @@
 // The 3D view: the renderer's picture, what is written on it, and the mouse. Left or middle drag orbits, right drag
 // (or Shift) pans, the wheel zooms about the pointer, a click picks a triangle. With "hand follows mouse" a left
 // drag on the surface leads the simulated hand.
+#include "workbench/gui/layout/view_room.h"
 #include "workbench/gui/panels/panels.h"
+#include "workbench/gui/platform/thread_time.h"
 #include "workbench/gui/render/scene_overlay.h"
-#include "workbench/gui/thread_time.h"
-#include "workbench/gui/view_room.h"
-#include "workbench/gui/widgets.h"
+#include "workbench/gui/widgets/widgets.h"
 
 #include <array>
 #include <cmath>

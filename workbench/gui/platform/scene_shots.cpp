@@ -5,7 +5,7 @@
 #include "workbench/gui/platform/offscreen.h"
 #include "workbench/gui/render/scene_overlay.h"
 #include "workbench/gui/render/staged_scene.h"
-#include "workbench/gui/theme.h"
+#include "workbench/gui/theme/theme.h"
 
 #include <imgui.h>
 

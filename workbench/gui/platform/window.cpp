@@ -1,6 +1,6 @@
 #include "workbench/gui/platform/window.h"
 
-#include "workbench/gui/app_model.h"
+#include "workbench/gui/model/app_model.h"
 #include "workbench/gui/platform/input_queue.h"
 #include "workbench/gui/platform/save_picture.h"
 #include "workbench/gui/render/image.h"

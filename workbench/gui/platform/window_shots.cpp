@@ -3,7 +3,7 @@
 #include "core/io/polygon_io.h"
 #include "core/preset/schema.h"
 #include "workbench/gui/app.h"
-#include "workbench/gui/app_model.h"
+#include "workbench/gui/model/app_model.h"
 #include "workbench/gui/panels/panels.h"
 #include "workbench/gui/platform/offscreen.h"
 #include "workbench/gui/render/scene_renderer.h"
