@@ -30,7 +30,7 @@ struct RunningApp : HeadlessApp {
   void run(std::uint64_t ticks = 1500) {
     app().advance(ticks);
     frame();
-    REQUIRE(model().end_tick() >= ticks);
+    REQUIRE(model().time().end_tick() >= ticks);
   }
 };
 
@@ -46,69 +46,69 @@ bool said(const AppModel& model, Severity severity, const char* part) {
 TEST_CASE("clicking Pause freezes the tick in view - live again follows the newest") {
   RunningApp ui;
   ui.run();
-  CHECK_FALSE(ui.model().paused());
+  CHECK_FALSE(ui.model().time().paused());
   ui.click("transport/pause");
-  REQUIRE(ui.model().paused());
-  const std::uint64_t frozen = ui.model().tick().record()->tick.tick;
+  REQUIRE(ui.model().time().paused());
+  const std::uint64_t frozen = ui.model().time().tick().record()->tick.tick;
   ui.run(200);
-  CHECK(ui.model().tick().record()->tick.tick == frozen);
-  CHECK(ui.model().end_tick() > frozen + 100);  // the recording went on
+  CHECK(ui.model().time().tick().record()->tick.tick == frozen);
+  CHECK(ui.model().time().end_tick() > frozen + 100);  // the recording went on
   ui.click("transport/live");
-  CHECK_FALSE(ui.model().paused());
-  CHECK(ui.model().tick().record()->tick.tick == ui.model().end_tick() - 1);
+  CHECK_FALSE(ui.model().time().paused());
+  CHECK(ui.model().time().tick().record()->tick.tick == ui.model().time().end_tick() - 1);
 }
 
 TEST_CASE("buttons and arrow keys step by one tick, back and forth") {
   RunningApp ui;
   ui.run();
   ui.click("transport/pause");
-  const std::uint64_t at = ui.model().tick().record()->tick.tick;
+  const std::uint64_t at = ui.model().time().tick().record()->tick.tick;
   ui.click("transport/step_back");
-  CHECK(ui.model().tick().record()->tick.tick == at - 1);
+  CHECK(ui.model().time().tick().record()->tick.tick == at - 1);
   ui.key(HeadlessApp::kLeft);
-  CHECK(ui.model().tick().record()->tick.tick == at - 2);
+  CHECK(ui.model().time().tick().record()->tick.tick == at - 2);
   ui.key(HeadlessApp::kRight);
   ui.click("transport/step_forward");
-  CHECK(ui.model().tick().record()->tick.tick == at);
+  CHECK(ui.model().time().tick().record()->tick.tick == at);
   ui.click("transport/step_forward");  // there is no later one
-  CHECK(ui.model().tick().record()->tick.tick == ui.model().end_tick() - 1);
+  CHECK(ui.model().time().tick().record()->tick.tick == ui.model().time().end_tick() - 1);
   ui.key(HeadlessApp::kHome);
-  CHECK(ui.model().tick().record()->tick.tick == ui.model().first_tick());
+  CHECK(ui.model().time().tick().record()->tick.tick == ui.model().time().first_tick());
   ui.key(HeadlessApp::kEnd);
-  CHECK_FALSE(ui.model().paused());
+  CHECK_FALSE(ui.model().time().paused());
 }
 
 TEST_CASE("full stop and comma walk through the iterations and on into the neighbouring ticks") {
   RunningApp ui;
   ui.run();
   ui.key(HeadlessApp::kSpace);
-  REQUIRE(ui.model().paused());
-  const std::uint64_t at = ui.model().tick().record()->tick.tick;
-  const std::size_t count = ui.model().tick().iterations().size();
+  REQUIRE(ui.model().time().paused());
+  const std::uint64_t at = ui.model().time().tick().record()->tick.tick;
+  const std::size_t count = ui.model().time().tick().iterations().size();
   REQUIRE(count >= 1);
-  ui.model().select_tick(at - 5);
+  ui.model().time().select_tick(at - 5);
   ui.frame();
-  const std::size_t here = ui.model().tick().iterations().size();
+  const std::size_t here = ui.model().time().tick().iterations().size();
   for (std::size_t i = 0; i < here; ++i) {
     ui.key('.');
-    CHECK(ui.model().tick().selected() == i);
+    CHECK(ui.model().time().tick().selected() == i);
   }
   ui.key('.');
-  CHECK(ui.model().tick().record()->tick.tick == at - 4);
-  CHECK(ui.model().tick().selected() == std::size_t{0});
+  CHECK(ui.model().time().tick().record()->tick.tick == at - 4);
+  CHECK(ui.model().time().tick().selected() == std::size_t{0});
   ui.key(',');
-  CHECK(ui.model().tick().record()->tick.tick == at - 5);
-  CHECK(ui.model().tick().selected() == here - 1);
+  CHECK(ui.model().time().tick().record()->tick.tick == at - 5);
+  CHECK(ui.model().time().tick().selected() == here - 1);
 }
 
 TEST_CASE("the iterations in view are those of the recorded tick, computed again") {
   RunningApp ui;
   ui.run();
   for (std::uint64_t back : {1u, 77u, 500u}) {
-    ui.model().select_tick(ui.model().end_tick() - back);
-    const ServoRecord& record = *ui.model().tick().record();
-    CHECK(ui.model().tick().problem().empty());
-    const auto iterations = ui.model().tick().iterations();
+    ui.model().time().select_tick(ui.model().time().end_tick() - back);
+    const ServoRecord& record = *ui.model().time().tick().record();
+    CHECK(ui.model().time().tick().problem().empty());
+    const auto iterations = ui.model().time().tick().iterations();
     REQUIRE(!iterations.empty());
     CHECK(iterations.back().error_m == record.tick.output.error_m);
   }
@@ -117,22 +117,22 @@ TEST_CASE("the iterations in view are those of the recorded tick, computed again
 TEST_CASE("a gain that is typed is sent once, on Enter, as a whole preset") {
   RunningApp ui;
   ui.run();
-  const std::uint64_t sent = ui.model().presets_sent();
+  const std::uint64_t sent = ui.model().presets().sent();
   ui.click("solver/gain_overall");
   ui.frame();
   ui.type("1");
   ui.type("3");
   ui.type("4");
-  CHECK(ui.model().presets_sent() == sent);  // never 1, 13, 134 on the way
+  CHECK(ui.model().presets().sent() == sent);  // never 1, 13, 134 on the way
   CHECK(ui.model().presets().current().solver.gain_overall == 1.0);
   for (int i = 0; i < 3; ++i) ui.key(259);
   ui.type("0.75");
   ui.key(HeadlessApp::kEnter);
   CHECK(ui.model().presets().current().solver.gain_overall == 0.75);
-  CHECK(ui.model().presets_sent() == sent + 1);
-  CHECK(ui.model().session()->preset().solver.gain_overall == 0.75);
+  CHECK(ui.model().presets().sent() == sent + 1);
+  CHECK(ui.model().devices().session()->preset().solver.gain_overall == 0.75);
   ui.run(5);
-  CHECK(ui.model().status().servo.preset_id == ui.model().session()->preset_id());
+  CHECK(ui.model().devices().status().servo.preset_id == ui.model().devices().session()->preset_id());
 }
 
 TEST_CASE("a typed value counts when the focus goes elsewhere, and not after Escape") {
@@ -198,11 +198,11 @@ TEST_CASE("dragging a value slides it, live - reset brings the program's own val
   ui.drag("solver/gain_overall", {30.0f, 0.0f});
   const double slid = ui.model().presets().current().solver.gain_overall;
   CHECK(slid > 1.0);
-  CHECK(ui.model().session()->preset().solver.gain_overall == slid);
-  CHECK(ui.model().presets().changed());
+  CHECK(ui.model().devices().session()->preset().solver.gain_overall == slid);
+  CHECK(ui.model().presets().editor().changed());
   ui.click("solver/gain_overall/reset");
   CHECK(ui.model().presets().current().solver.gain_overall == 1.0);
-  CHECK_FALSE(ui.model().presets().changed());
+  CHECK_FALSE(ui.model().presets().editor().changed());
 }
 
 TEST_CASE("a broken preset is refused with a message, and the old one stays") {
@@ -214,25 +214,25 @@ TEST_CASE("a broken preset is refused with a message, and the old one stays") {
   RunningApp ui(options);
   ui.run(50);
   const Preset before = ui.model().presets().current();
-  ui.model().load_preset(folder / "broken.toml");
+  ui.model().presets().load(folder / "broken.toml");
   ui.frame();
   CHECK(ui.model().presets().current() == before);
-  CHECK(ui.model().session()->preset() == before);
+  CHECK(ui.model().devices().session()->preset() == before);
   CHECK(said(ui.model(), Severity::error, "no_such_key"));
   CHECK(ui.app().items().find("toast/0") != nullptr);
   ui.click("toast/0");
   CHECK(ui.app().items().find("toast/0") == nullptr);
-  ui.model().load_preset(folder / "good.toml");
-  CHECK(ui.model().session()->preset().solver.gain_overall == 0.25);
+  ui.model().presets().load(folder / "good.toml");
+  CHECK(ui.model().devices().session()->preset().solver.gain_overall == 0.25);
 }
 
 TEST_CASE("a mesh that can't be read leaves the old scene and says why") {
   RunningApp ui;
   ui.run(50);
-  const auto scene = ui.model().scene();
+  const auto scene = ui.model().scene().current();
   ui.input().dropped_files = {"/nowhere/missing.obj"};
   ui.frame();
-  CHECK(ui.model().scene() == scene);
+  CHECK(ui.model().scene().current() == scene);
   CHECK(said(ui.model(), Severity::error, "missing.obj"));
   ui.run(50);
 }
@@ -241,7 +241,7 @@ TEST_CASE("an unreadable mesh on the command line still opens the window, with t
   AppOptions options = HeadlessApp::deterministic_options();
   options.mesh = "/nowhere/missing.obj";
   RunningApp ui(options);
-  CHECK(ui.model().scene() != nullptr);
+  CHECK(ui.model().scene().current() != nullptr);
   CHECK(said(ui.model(), Severity::error, "missing.obj"));
   ui.run(50);
 }
@@ -253,12 +253,12 @@ TEST_CASE("a dropped mesh is opened, audited and touched") {
   ui.run(50);
   ui.input().dropped_files = {(folder / "tetra.obj").string()};
   ui.frame();
-  REQUIRE(ui.model().scene() != nullptr);
-  CHECK(ui.model().scene()->mesh().usable_triangle_count() == 4);
-  REQUIRE(ui.model().audit() != nullptr);
-  CHECK(ui.model().audit()->usable_triangles == 4);
+  REQUIRE(ui.model().scene().current() != nullptr);
+  CHECK(ui.model().scene().current()->mesh().usable_triangle_count() == 4);
+  REQUIRE(ui.model().scene().audit() != nullptr);
+  CHECK(ui.model().scene().audit()->usable_triangles == 4);
   ui.run(200);
-  CHECK(ui.model().tick().problem().empty());
+  CHECK(ui.model().time().tick().problem().empty());
 }
 
 TEST_CASE("the wheel over a plot zooms time about the pointer once it is held") {
@@ -269,28 +269,28 @@ TEST_CASE("the wheel over a plot zooms time about the pointer once it is held") 
   const ImVec2 at{std::floor(rect.min.x + 0.3f * (rect.max.x - rect.min.x)),
                   std::floor(rect.centre().y)};  // ImGui rounds the mouse down
   const auto tick_at = [&] {
-    return ui.model().axis().tick_at(static_cast<double>(at.x), static_cast<double>(rect.min.x),
-                                     static_cast<double>(rect.max.x - rect.min.x));
+    return ui.model().time().axis().tick_at(static_cast<double>(at.x), static_cast<double>(rect.min.x),
+                                            static_cast<double>(rect.max.x - rect.min.x));
   };
-  const double before = tick_at(), span = ui.model().axis().span();
+  const double before = tick_at(), span = ui.model().time().axis().span();
   ui.wheel(at, 2.0f);
-  CHECK(ui.model().axis().span() < span);
+  CHECK(ui.model().time().axis().span() < span);
   CHECK(tick_at() == doctest::Approx(before));
 }
 
 TEST_CASE("dragging a plot pans and stops following - clicking it selects that tick") {
   RunningApp ui;
   ui.run();
-  REQUIRE(ui.model().axis().following());
-  ui.model().axis().set_span(1000.0);
+  REQUIRE(ui.model().time().axis().following());
+  ui.model().time().axis().set_span(1000.0);
   ui.frame();
   ui.drag("plots/error", {40.0f, 0.0f});
-  CHECK_FALSE(ui.model().axis().following());
-  CHECK(ui.model().axis().to() < 1500.0);
+  CHECK_FALSE(ui.model().time().axis().following());
+  CHECK(ui.model().time().axis().to() < 1500.0);
   ui.click("plots/error");
-  REQUIRE(ui.model().paused());
-  const double middle = 0.5 * (ui.model().axis().from() + ui.model().axis().to());
-  CHECK(std::abs(static_cast<double>(ui.model().tick().record()->tick.tick) - middle) <= 3.0);
+  REQUIRE(ui.model().time().paused());
+  const double middle = 0.5 * (ui.model().time().axis().from() + ui.model().time().axis().to());
+  CHECK(std::abs(static_cast<double>(ui.model().time().tick().record()->tick.tick) - middle) <= 3.0);
 }
 
 TEST_CASE("legend entries hide and show their curve") {
@@ -315,7 +315,7 @@ TEST_CASE("dragging in the 3D view orbits, the wheel zooms, F frames, a click pi
   CHECK(glm::length(ui.model().view().camera.target - before.target) > 1e-4);
   ui.key('F');
   Camera framed = ui.model().view().camera;
-  framed.frame(world_bounds(*ui.model().scene()), 1.05, ui.model().view().rooms);
+  framed.frame(world_bounds(*ui.model().scene().current()), 1.05, ui.model().view().rooms);
   CHECK(ui.model().view().camera == framed);
   CHECK(glm::length(framed.target - before.target) < 1e-12);
   ui.click("view");
@@ -326,38 +326,38 @@ TEST_CASE("with the hand on the mouse, dragging on the surface leads the finger 
   RunningApp ui;
   ui.run(300);
   ui.key('M');
-  REQUIRE(ui.model().view().hand_follows_mouse);
+  REQUIRE(ui.model().devices().hand_follows_mouse());
   const Camera before = ui.model().view().camera;
   ui.drag("view", {10.0f, 0.0f});
   CHECK(ui.model().view().camera == before);
-  CHECK(ui.model().session()->hand().mode == HandMode::point);
+  CHECK(ui.model().devices().session()->hand().mode == HandMode::point);
   ui.run(3000);
-  const Vec3 finger = ui.model().tick().record()->tick.input.finger.position;
-  const Vec3 target = ui.model().tick().record()->device.hand_target_m;
+  const Vec3 finger = ui.model().time().tick().record()->tick.input.finger.position;
+  const Vec3 target = ui.model().time().tick().record()->device.hand_target_m;
   CHECK(glm::length(finger - target) < 5e-3);
   CHECK(glm::dot(unit(finger), unit(before.eye() - before.target)) > 0.8);  // on the side that was clicked
   ui.click("menu/hand");
-  CHECK(ui.model().session()->hand().mode == HandMode::explore);
+  CHECK(ui.model().devices().session()->hand().mode == HandMode::explore);
 }
 
 TEST_CASE("the stop button takes the force away until it is armed again") {
   RunningApp ui;
   ui.run(2000);
-  REQUIRE_FALSE(ui.model().stopped());
+  REQUIRE_FALSE(ui.model().devices().stopped());
   ui.click("menu/stop");
   ui.run(20);
-  CHECK(ui.model().stopped());
-  CHECK(glm::length(ui.model().tick().record()->device.force_command_n) == 0.0);
+  CHECK(ui.model().devices().stopped());
+  CHECK(glm::length(ui.model().time().tick().record()->device.force_command_n) == 0.0);
   ui.click("menu/stop");
   ui.run(500);
-  CHECK_FALSE(ui.model().stopped());
+  CHECK_FALSE(ui.model().devices().stopped());
 }
 
 TEST_CASE("splitters give room to their neighbours") {
   RunningApp ui;
-  const float left = ui.model().sizes().left;
+  const float left = ui.model().window().sizes().left;
   ui.drag("splitter/left", {40.0f, 0.0f});
-  CHECK(ui.model().sizes().left == doctest::Approx(left + 40.0f));
+  CHECK(ui.model().window().sizes().left == doctest::Approx(left + 40.0f));
   const float view = ui.app().items().find("view")->max.y;
   ui.drag("splitter/plots", {0.0f, -30.0f});
   CHECK(ui.app().items().find("view")->max.y == doctest::Approx(view - 30.0f));
@@ -368,15 +368,15 @@ TEST_CASE("saving under a name makes a preset file that the list shows") {
   AppOptions options = HeadlessApp::deterministic_options();
   options.preset_folder = folder;
   RunningApp ui(options, 1280.0f, 2000.0f);
-  ui.model().set_value(*find_preset_key("solver", "gain_overall"), 0.4);
+  ui.model().presets().set_value(*find_preset_key("solver", "gain_overall"), 0.4);
   ui.frame();
   ui.click("presets/name");
   ui.type("mine");
   ui.click("presets/save");
   CHECK(std::filesystem::exists(folder / "mine.toml"));
-  CHECK_FALSE(ui.model().presets().changed());
+  CHECK_FALSE(ui.model().presets().editor().changed());
   CHECK(ui.app().items().find("presets/file/mine") != nullptr);
-  ui.model().set_value(*find_preset_key("solver", "gain_overall"), 0.6);
+  ui.model().presets().set_value(*find_preset_key("solver", "gain_overall"), 0.6);
   ui.frame();
   ui.click("presets/revert/solver.gain_overall");
   CHECK(ui.model().presets().current().solver.gain_overall == 0.4);
@@ -398,13 +398,13 @@ TEST_CASE("the display's controller is tuned in a section of its own, and bounds
   ui.click("controller/highest_m");
   ui.type("3");
   ui.key(HeadlessApp::kEnter);
-  CHECK(ui.model().session()->preset().controller.p_per_s2 == 2500.0);
-  CHECK(ui.model().session()->preset().controller.highest_m == doctest::Approx(3e-3));
+  CHECK(ui.model().devices().session()->preset().controller.p_per_s2 == 2500.0);
+  CHECK(ui.model().devices().session()->preset().controller.highest_m == doctest::Approx(3e-3));
   ui.run(3000);
   double furthest = 0.0;
   for (std::uint64_t tick = 1000; tick < 3000; ++tick) {
-    ui.model().select_tick(tick);
-    furthest = std::max(furthest, ui.model().tick().record()->device.cld_command_m);
+    ui.model().time().select_tick(tick);
+    furthest = std::max(furthest, ui.model().time().tick().record()->device.cld_command_m);
   }
   CHECK(furthest == doctest::Approx(3e-3));
 }
@@ -420,7 +420,7 @@ TEST_CASE("a preset that was there before is written over only when asked for tw
   AppOptions options = HeadlessApp::deterministic_options();
   options.preset_folder = folder;
   RunningApp ui(options, 1280.0f, 2000.0f);
-  ui.model().set_value(*find_preset_key("solver", "gain_overall"), 0.4);
+  ui.model().presets().set_value(*find_preset_key("solver", "gain_overall"), 0.4);
   ui.frame();
   ui.click("presets/name");
   ui.type("mine");
@@ -430,7 +430,7 @@ TEST_CASE("a preset that was there before is written over only when asked for tw
   ui.click("presets/save");
   CHECK(read_preset(folder / "mine.toml")->preset.solver.gain_overall == 0.4);
   // One's own work of a moment ago: no question.
-  ui.model().set_value(*find_preset_key("solver", "gain_overall"), 0.6);
+  ui.model().presets().set_value(*find_preset_key("solver", "gain_overall"), 0.6);
   ui.frame();
   ui.click("presets/save");
   CHECK(read_preset(folder / "mine.toml")->preset.solver.gain_overall == 0.6);
@@ -452,12 +452,12 @@ TEST_CASE("frames build at any size and scale, with and without history, for eve
     }
     RunningApp ui(HeadlessApp::deterministic_options(), w, h, scale);
     for (int method = 0; method < 6; ++method) {
-      ui.model().set_value(*find_preset_key("solver", "method"), method);
+      ui.model().presets().set_value(*find_preset_key("solver", "method"), method);
       ui.run(40);
       ui.frames(2);
     }
-    ui.model().set_theme(Theme::light);
-    ui.model().set_ui_scale(1.3f);
+    ui.model().window().set_theme(Theme::light);
+    ui.model().window().set_ui_scale(1.3f);
     ui.frames(2);
     CHECK(ImGui::GetDrawData()->TotalVtxCount > 0);
   }
@@ -466,14 +466,14 @@ TEST_CASE("frames build at any size and scale, with and without history, for eve
 TEST_CASE("every key of the schema has its row in the panel of its table, wherever it means anything") {
   HeadlessApp ui(HeadlessApp::deterministic_options(), 1280.0f, 2400.0f);
   for (const PresetTable& table : preset_tables()) {
-    ui.model().show_section(std::string(table.title), true);
+    ui.model().window().show_section(std::string(table.title), true);
     ui.frames(2);
     CHECK(ui.app().items().find("section/" + std::string(table.title)) != nullptr);
   }
   const PresetKey& shape = *find_preset_key("finger", "shape");
   std::set<std::string> seen;
   for (std::size_t s = 0; s < shape.choices.size(); ++s) {
-    ui.model().set_value(shape, static_cast<double>(s));
+    ui.model().presets().set_value(shape, static_cast<double>(s));
     ui.frames(2);
     for (const PresetKey& key : preset_keys()) {
       CAPTURE(key.full_name());
@@ -493,14 +493,14 @@ TEST_CASE("another device starts another session, with a history of its own") {
   ui.run(300);
   ui.click("menu/device");
   ui.click("menu/device/none");
-  CHECK(ui.model().device() == "none");
-  REQUIRE(ui.model().session() != nullptr);
-  CHECK(ui.model().session()->force_capabilities() == nullptr);
+  CHECK(ui.model().devices().name() == "none");
+  REQUIRE(ui.model().devices().session() != nullptr);
+  CHECK(ui.model().devices().session()->force_capabilities() == nullptr);
   ui.click("menu/device");
   ui.click("menu/device/simulated");
   ui.run(100);
-  CHECK(ui.model().end_tick() == 100);
-  CHECK(ui.model().status().force_state != DeviceState::absent);
+  CHECK(ui.model().time().end_tick() == 100);
+  CHECK(ui.model().devices().status().force_state != DeviceState::absent);
 }
 
 TEST_CASE("an unknown device is said to be one, and the window still comes up") {
@@ -508,7 +508,7 @@ TEST_CASE("an unknown device is said to be one, and the window still comes up") 
   options.device = "toaster";
   HeadlessApp ui(options);
   ui.frames(3);
-  CHECK(ui.model().session() == nullptr);
+  CHECK(ui.model().devices().session() == nullptr);
   CHECK(said(ui.model(), Severity::error, "toaster"));
   ui.click("transport/pause");
   ui.key(HeadlessApp::kLeft);
@@ -519,33 +519,33 @@ TEST_CASE("a click on a row of the iteration table pauses and selects that itera
   RunningApp ui;
   ui.run();
   ui.click("iterations/row/0");
-  CHECK(ui.model().paused());
-  CHECK(ui.model().tick().selected() == std::size_t{0});
+  CHECK(ui.model().time().paused());
+  CHECK(ui.model().time().tick().selected() == std::size_t{0});
   ui.click("iterations/row/0");
-  CHECK_FALSE(ui.model().tick().selected().has_value());
+  CHECK_FALSE(ui.model().time().tick().selected().has_value());
 }
 
 TEST_CASE("typing 1345 sends 1345 once, never 1, 13 or 134, and undo takes it back whole") {
   RunningApp ui;
   ui.run(50);
-  const std::uint64_t sent = ui.model().presets_sent();
+  const std::uint64_t sent = ui.model().presets().sent();
   const double before = ui.model().presets().current().force.stiffness_n_per_m;
   ui.click("force/stiffness_n_per_m");
   ui.frame();
   for (const char* digit : {"1", "3", "4", "5"}) {
     ui.type(digit);
     ui.frames(2);
-    CHECK(ui.model().presets_sent() == sent);
-    CHECK(ui.model().session()->preset().force.stiffness_n_per_m == before);
+    CHECK(ui.model().presets().sent() == sent);
+    CHECK(ui.model().devices().session()->preset().force.stiffness_n_per_m == before);
   }
   ui.key(HeadlessApp::kEnter);
-  CHECK(ui.model().presets_sent() == sent + 1);
-  CHECK(ui.model().session()->preset().force.stiffness_n_per_m == 1345.0);
-  CHECK(ui.model().preset_note(ui.model().session()->preset_id()).find("1345") != std::string::npos);
+  CHECK(ui.model().presets().sent() == sent + 1);
+  CHECK(ui.model().devices().session()->preset().force.stiffness_n_per_m == 1345.0);
+  CHECK(ui.model().presets().note(ui.model().devices().session()->preset_id()).find("1345") != std::string::npos);
   ui.chord('Z');
-  CHECK(ui.model().session()->preset().force.stiffness_n_per_m == before);
+  CHECK(ui.model().devices().session()->preset().force.stiffness_n_per_m == before);
   ui.chord('Y');
-  CHECK(ui.model().session()->preset().force.stiffness_n_per_m == 1345.0);
+  CHECK(ui.model().devices().session()->preset().force.stiffness_n_per_m == 1345.0);
 }
 
 TEST_CASE("a drag is undone in one step") {
@@ -564,35 +564,35 @@ TEST_CASE("a drag is undone in one step") {
 TEST_CASE("one key switches between A and B, whole and at once, and the difference is listed and can be taken over") {
   RunningApp ui(HeadlessApp::deterministic_options(), 1280.0f, 2000.0f);
   ui.run(50);
-  ui.model().set_value(*find_preset_key("solver", "gain_overall"), 0.4);
-  ui.model().set_value(*find_preset_key("finger", "radius_m"), 0.009);
+  ui.model().presets().set_value(*find_preset_key("solver", "gain_overall"), 0.4);
+  ui.model().presets().set_value(*find_preset_key("finger", "radius_m"), 0.009);
   ui.frame();
   ui.key('B');
-  CHECK(ui.model().preset_slots().active_slot() == 1);
-  CHECK(ui.model().session()->preset().solver.gain_overall == 1.0);
+  CHECK(ui.model().presets().slots().active_slot() == 1);
+  CHECK(ui.model().devices().session()->preset().solver.gain_overall == 1.0);
   CHECK(ui.app().items().find("compare/key/finger.radius_m") != nullptr);
   ui.key('B');
-  CHECK(ui.model().session()->preset().solver.gain_overall == 0.4);
+  CHECK(ui.model().devices().session()->preset().solver.gain_overall == 0.4);
   ui.click("compare/key/solver.gain_overall");  // A on the left, B on the right
-  CHECK(ui.model().session()->preset().solver.gain_overall == 1.0);
+  CHECK(ui.model().devices().session()->preset().solver.gain_overall == 1.0);
   CHECK(ui.app().items().find("compare/key/solver.gain_overall") == nullptr);
   ui.click("compare/copy");
   ui.key('B');
-  CHECK(ui.model().session()->preset().finger.radius_m == 0.009);
+  CHECK(ui.model().devices().session()->preset().finger.radius_m == 0.009);
 }
 
 TEST_CASE("a click on a name makes it a favourite, which is drawn once more on top and works there") {
   RunningApp ui;
   ui.run(50);
   ui.click("solver/gain_overall/label");
-  CHECK(ui.model().favourites() == std::vector<std::string>{"solver.gain_overall"});
+  CHECK(ui.model().window().favourites() == std::vector<std::string>{"solver.gain_overall"});
   ui.click("favourites/solver/gain_overall");
   ui.frame();
   ui.type("0.625");
   ui.key(HeadlessApp::kEnter);
   CHECK(ui.model().presets().current().solver.gain_overall == 0.625);
   ui.click("favourites/solver/gain_overall/label");
-  CHECK(ui.model().favourites().empty());
+  CHECK(ui.model().window().favourites().empty());
   ui.frame();
   CHECK(ui.app().items().find("favourites/solver/gain_overall") == nullptr);
 }
@@ -601,8 +601,8 @@ TEST_CASE("the gain advice stands under the gains of the paper's method and can 
   RunningApp ui(HeadlessApp::deterministic_options(), 1280.0f, 2000.0f);
   ui.run();
   CHECK(ui.app().items().find("solver/advice") == nullptr);  // robust has no gains
-  ui.model().set_value(*find_preset_key("solver", "method"), static_cast<double>(Method::paper));
-  ui.model().set_value(*find_preset_key("solver", "gain_curvature_m"), 0.001);
+  ui.model().presets().set_value(*find_preset_key("solver", "method"), static_cast<double>(Method::paper));
+  ui.model().presets().set_value(*find_preset_key("solver", "gain_curvature_m"), 0.001);
   ui.run(50);
   ui.click("solver/advice/set");
   CHECK(ui.model().presets().current().solver.gain_curvature_m == ui.model().presets().current().finger.radius_m);
@@ -650,27 +650,28 @@ TEST_CASE("a finding is listed, gone to, marked, isolated and left again") {
   options.mesh = "fin_on_plate";
   RunningApp ui(options, 1280.0f, 2400.0f);
   ui.frame();
-  REQUIRE(ui.model().findings() != nullptr);
-  REQUIRE(ui.model().findings()->count(FindingKind::non_manifold_edge) > 0);
+  REQUIRE(ui.model().scene().findings() != nullptr);
+  REQUIRE(ui.model().scene().findings()->count(FindingKind::non_manifold_edge) > 0);
   const std::string kind = "inspect/" + std::to_string(static_cast<int>(FindingKind::non_manifold_edge));
   ui.click(kind);
   ui.click(kind + "/0");
-  const MeshFinding& finding = ui.model().findings()->of(FindingKind::non_manifold_edge)[0];
-  CHECK(ui.model().inspection().marked.size() >= 3);
-  CHECK(glm::length(ui.model().view().camera.target - (ui.model().scene()->mesh().origin() + finding.place)) < 1e-12);
+  const MeshFinding& finding = ui.model().scene().findings()->of(FindingKind::non_manifold_edge)[0];
+  CHECK(ui.model().view().inspection().marked.size() >= 3);
+  CHECK(glm::length(ui.model().view().camera.target - (ui.model().scene().current()->mesh().origin() + finding.place)) <
+        1e-12);
   ui.click("inspect/isolate");
   REQUIRE(ui.model().view().isolation != nullptr);
   std::size_t kept = 0;
   for (const std::uint8_t k : ui.model().view().isolation->kept) kept += k;
-  CHECK(kept >= ui.model().inspection().marked.size());
-  CHECK(kept < ui.model().scene()->mesh().triangle_count() / 2);
+  CHECK(kept >= ui.model().view().inspection().marked.size());
+  CHECK(kept < ui.model().scene().current()->mesh().triangle_count() / 2);
   ui.click("inspect/isolate_part");
   std::size_t part = 0;
   for (const std::uint8_t k : ui.model().view().isolation->kept) part += k;
   CHECK(part > kept);
   ui.click("inspect/show_all");
   CHECK(ui.model().view().isolation == nullptr);
-  CHECK(ui.model().inspection().marked.empty());
+  CHECK(ui.model().view().inspection().marked.empty());
 }
 
 TEST_CASE("the crease angle is live: the mesh is built anew, the view and the picked triangle stay") {
@@ -678,7 +679,7 @@ TEST_CASE("the crease angle is live: the mesh is built anew, the view and the pi
   options.mesh_options.normals = NormalSource::computed;
   RunningApp ui(options, 1280.0f, 2400.0f);
   ui.run(50);
-  REQUIRE(ui.model().audit()->crease_edges == 0);
+  REQUIRE(ui.model().scene().audit()->crease_edges == 0);
   ui.drag("view", {40.0f, 10.0f});
   const Camera camera = ui.model().view().camera;
   ui.model().view().picked_triangle = 3;
@@ -686,12 +687,12 @@ TEST_CASE("the crease angle is live: the mesh is built anew, the view and the pi
   ui.frame();
   ui.type("2");
   ui.key(HeadlessApp::kEnter);
-  CHECK(ui.model().crease_angle_rad() == doctest::Approx(2.0 * kDegree));
-  CHECK(ui.model().audit()->crease_edges == ui.model().audit()->edges);
+  CHECK(ui.model().scene().crease_angle_rad() == doctest::Approx(2.0 * kDegree));
+  CHECK(ui.model().scene().audit()->crease_edges == ui.model().scene().audit()->edges);
   CHECK(ui.model().view().camera == camera);
   CHECK(ui.model().view().picked_triangle == 3);
   ui.run(50);
-  CHECK(ui.model().tick().problem().empty());
+  CHECK(ui.model().time().tick().problem().empty());
 }
 
 TEST_CASE("a slice cuts the picture open and lets the pointer through") {
@@ -700,7 +701,7 @@ TEST_CASE("a slice cuts the picture open and lets the pointer through") {
   ui.click("inspect/slice");
   ui.click("inspect/slice/across the view");
   REQUIRE(ui.model().view().slice.has_value());
-  const auto& scene = *ui.model().scene();
+  const auto& scene = *ui.model().scene().current();
   const Camera& camera = ui.model().view().camera;
   const auto whole = pick_triangle(scene, camera, Vec2(200, 150), 400, 300);
   const auto cut = pick_triangle(scene, camera, Vec2(200, 150), 400, 300, ui.model().view().slice);
@@ -722,7 +723,7 @@ TEST_CASE(
       folder.write("small.obj", "v 0 0 0\nv 0.06 0 0\nv 0 0.06 0\nv 0 0 0.06\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n");
   HeadlessApp ui(options, 1280.0f, 2400.0f);
   const auto longest_mm = [&] {
-    const Vec3 size = ui.model().scene()->mesh().bounds().size();
+    const Vec3 size = ui.model().scene().current()->mesh().bounds().size();
     return 1e3 * std::max({size.x, size.y, size.z});
   };
   const auto warnings = [&] {
@@ -733,8 +734,9 @@ TEST_CASE(
   ui.frames(3);
   CHECK(longest_mm() == doctest::Approx(0.06));
   CHECK(warnings() == 1);
-  for (const char* title : {"Iterations", "Smoothness as felt", "Map"}) ui.model().open_sections()[title] = false;
-  ui.model().open_sections()["Mesh"] = true;
+  for (const char* title : {"Iterations", "Smoothness as felt", "Map"})
+    ui.model().window().open_sections()[title] = false;
+  ui.model().window().open_sections()["Mesh"] = true;
   ui.frames(2);
   ui.click("mesh/unit");
   ui.click("mesh/unit/m");
@@ -800,7 +802,8 @@ TEST_CASE("the picked triangle's control net can be copied with every digit") {
   const std::string text = ImGui::GetClipboardText();
   CHECK(text.find("b111,") != std::string::npos);
   CHECK(text.find("n101,") != std::string::npos);
-  const Vec3 corner = ui.model().scene()->mesh().origin() + ui.model().scene()->mesh().position(7, 0);
+  const Vec3 corner =
+      ui.model().scene().current()->mesh().origin() + ui.model().scene().current()->mesh().position(7, 0);
   double x = 0, y = 0, z = 0;
   REQUIRE(std::sscanf(text.c_str() + text.find("b300,"), "b300,%lf,%lf,%lf", &x, &y, &z) == 3);
   CHECK(glm::length(Vec3(x, y, z) - corner) < 1e-16);

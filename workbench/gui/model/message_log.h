@@ -38,6 +38,10 @@ class MessageLog {
     messages_.back().toast = take_toast(now_s);
     if (messages_.size() > kKept) messages_.pop_front();
   }
+  /// The clock of what is said from now on.
+  void set_now(double now_s) { now_s_ = now_s; }
+  double now_s() const { return now_s_; }
+  void say(Severity severity, std::string text) { add(severity, std::move(text), now_s_); }
   /// Oldest first.
   const std::deque<Message>& all() const { return messages_; }
   void clear() { messages_.clear(); }
@@ -65,6 +69,7 @@ class MessageLog {
   }
 
   std::deque<Message> messages_;
+  double now_s_ = 0.0;
   double toasts_left_ = kToastBurst, toasts_at_s_ = 0.0;
 };
 

@@ -1,92 +1,106 @@
-// The part of the model that looks into the mesh: findings, isolation, creases.
-#include "workbench/gui/model/app_model.h"
+#include "workbench/gui/model/view_model.h"
+
+#include <imgui.h>
 
 #include <algorithm>
-#include <cmath>
-#include <cstdio>
+#include <utility>
 
 namespace tangent {
 
-void AppModel::set_mesh_unit(double metres_per_unit) {
-  if (metres_per_unit == options_.metres_per_unit) return;
-  options_.metres_per_unit = metres_per_unit;
-  if (!mesh_path_.empty()) open_mesh(mesh_path_);
+ViewModel::ViewModel(const SceneModel& scene, const MapView& map, MessageLog& messages)
+    : scene_(scene), map_(map), messages_(messages) {}
+
+void ViewModel::look_at_new_scene() {
+  worst_shown_ = 0;
+  picked_triangle = hovered_triangle = kNone;
+  isolation.reset();
+  slice.reset();
+  inspection_ = {};
+  frame_scene();
 }
 
-void AppModel::set_mesh_fit(std::optional<double> fit_m) {
-  if (fit_m && !(*fit_m >= 1e-6 && *fit_m <= 1e6))
-    return say(Severity::error, "the longest side must be 0.001 to 1000000000 mm");
-  if (fit_m == options_.mesh_options.fit_m) return;
-  options_.mesh_options.fit_m = fit_m;
-  if (!mesh_path_.empty()) open_mesh(mesh_path_);
+void ViewModel::frame_scene() {
+  if (scene_.current() == nullptr) return;
+  camera.frame(world_bounds(*scene_.current()), 1.05, rooms);
+  framed_distance_m = camera.distance_m;
+  ++framings;
 }
 
-/// A file does not say what its unit is: one in metres, taken for millimetres, is a grain under the finger.
-void AppModel::warn_of_size() {
-  const Vec3 size = scene_->mesh().bounds().size();
-  const double longest = std::max({size.x, size.y, size.z}), finger = 2.0 * presets().current().finger.reach_m();
-  if (finger <= 0.0 || (longest > 0.05 * finger && longest < 200.0 * finger)) return;
-  char text[160];
-  std::snprintf(text, sizeof text,
-                "the mesh is %.3g mm long and the finger %.3g mm: Unit of the file and Longest side in the panel Mesh "
-                "change that",
-                longest * 1e3, finger * 1e3);
-  say(Severity::warning, text);
+void ViewModel::look_at_place(const Vec3& point_world, const Vec3& normal, std::uint32_t triangle) {
+  camera.look_from(normal);
+  camera.orbit(0.35, camera.pitch_rad > 0.6 ? -0.3 : 0.3);
+  camera.target = point_world;
+  camera.distance_m = std::clamp(camera.distance_m, 0.05 * camera.scene_radius_m, 1.2 * camera.scene_radius_m);
+  picked_triangle = triangle;
 }
 
-void AppModel::set_crease_angle(double rad) {
-  if (!std::isfinite(rad) || polygons_ == nullptr || scene_->planar() != nullptr) return;
-  rad = std::clamp(rad, 0.0, 180.0 * kDegree);
-  if (rad == options_.mesh_options.crease_rad) return;
-  options_.mesh_options.crease_rad = rad;
-  opening_path_ = mesh_path_;
-  SceneRequest request{mesh_path_, options_.metres_per_unit, options_.mesh_options, presets().current().finger,
-                       polygons_};
-  if (!options_.deterministic) {
-    loader_.request(std::move(request));
-    return;
-  }
-  auto built = load_scene(request);
-  if (!built)
-    say(Severity::error, built.error().message());
+void ViewModel::look_at_worst() {
+  if (map_.worst().empty())
+    return messages_.say(Severity::note, map_.on ? "no place is worse than the others" : "choose a map first");
+  const MapPlace& place = map_.worst()[worst_shown_++ % map_.worst().size()];
+  look_at_place(place.point_world, place.normal, place.triangle);
+}
+
+// Who looks at the whole scene goes on doing so; who has gone near to something stays there.
+void ViewModel::look_from_standard(StandardView from) {
+  const bool whole = camera.target == camera.scene_centre && camera.distance_m == framed_distance_m;
+  camera = standard_view(from, camera);
+  if (whole) frame_scene();
+}
+
+void ViewModel::set_y_up(bool y_up) {
+  camera.y_up = y_up;
+  frame_scene();
+}
+
+void ViewModel::copy_camera() {
+  ImGui::SetClipboardText(camera_text(camera).c_str());
+  messages_.say(Severity::note, "the camera is on the clipboard");
+}
+
+void ViewModel::paste_camera() {
+  const char* text = ImGui::GetClipboardText();
+  if (const auto pasted = parse_camera(text != nullptr ? text : "", camera))
+    camera = *pasted;
   else
-    take_scene(std::move(*built));
+    messages_.say(Severity::error, "the clipboard holds no camera; copy one with Ctrl+Shift+C");
 }
 
-void AppModel::show_finding(FindingKind kind, std::size_t index) {
-  if (!report_ || scene_ == nullptr || index >= report_->findings.of(kind).size()) return;
-  const MeshFinding& finding = report_->findings.of(kind)[index];
-  const ContactMesh& mesh = scene_->mesh();
+void ViewModel::show_finding(FindingKind kind, std::size_t index) {
+  const MeshFindings* findings = scene_.findings();
+  if (findings == nullptr || scene_.current() == nullptr || index >= findings->of(kind).size()) return;
+  const MeshFinding& finding = findings->of(kind)[index];
+  const ContactMesh& mesh = scene_.current()->mesh();
   inspection_ = {kind, index, {}};
   for (const std::uint32_t t : finding.triangles) {
     if (t < mesh.triangle_count() && mesh.usable(t)) inspection_.marked.push_back(t);
   }
-  view_.isolation.reset();
+  isolation.reset();
   const std::uint32_t first = inspection_.marked.empty() ? kNone : inspection_.marked.front();
   look_at_place(mesh.origin() + finding.place, finding.normal, first);
-  view_.camera.distance_m =
-      std::clamp(6.0 * finding.extent_m, 0.02 * view_.camera.scene_radius_m, 4.0 * view_.camera.scene_radius_m);
+  camera.distance_m = std::clamp(6.0 * finding.extent_m, 0.02 * camera.scene_radius_m, 4.0 * camera.scene_radius_m);
 }
 
-std::vector<std::uint32_t> AppModel::marked_or_picked() const {
+std::vector<std::uint32_t> ViewModel::marked_or_picked() const {
   if (!inspection_.marked.empty()) return inspection_.marked;
-  const std::uint32_t picked = view_.picked_triangle;
-  if (scene_ == nullptr || picked >= scene_->mesh().triangle_count() || !scene_->mesh().usable(picked)) return {};
-  return {picked};
+  if (scene_.current() == nullptr) return {};
+  const ContactMesh& mesh = scene_.current()->mesh();
+  if (picked_triangle >= mesh.triangle_count() || !mesh.usable(picked_triangle)) return {};
+  return {picked_triangle};
 }
 
-void AppModel::isolate(const std::vector<std::uint32_t>& triangles) {
-  auto isolation = std::make_shared<Isolation>();
-  isolation->version = ++isolations_;
-  isolation->kept.assign(scene_->mesh().triangle_count(), 0);
-  for (const std::uint32_t t : triangles) isolation->kept[t] = 1;
-  view_.isolation = std::move(isolation);
+void ViewModel::isolate(const std::vector<std::uint32_t>& triangles) {
+  auto shown = std::make_shared<Isolation>();
+  shown->version = ++isolations_;
+  shown->kept.assign(scene_.current()->mesh().triangle_count(), 0);
+  for (const std::uint32_t t : triangles) shown->kept[t] = 1;
+  isolation = std::move(shown);
 }
 
-void AppModel::isolate_marked() {
+void ViewModel::isolate_marked() {
   std::vector<std::uint32_t> kept = marked_or_picked();
-  if (kept.empty()) return say(Severity::note, "mark a finding or pick a triangle first");
-  const ContactMesh& mesh = scene_->mesh();
+  if (kept.empty()) return messages_.say(Severity::note, "mark a finding or pick a triangle first");
+  const ContactMesh& mesh = scene_.current()->mesh();
   const std::size_t own = kept.size();
   for (std::size_t i = 0; i < own; ++i) {
     for (std::uint32_t e = 0; e < 3; ++e) {
@@ -96,10 +110,10 @@ void AppModel::isolate_marked() {
   isolate(kept);
 }
 
-void AppModel::isolate_part() {
+void ViewModel::isolate_part() {
   std::vector<std::uint32_t> part = marked_or_picked();
-  if (part.empty()) return say(Severity::note, "mark a finding or pick a triangle first");
-  const ContactMesh& mesh = scene_->mesh();
+  if (part.empty()) return messages_.say(Severity::note, "mark a finding or pick a triangle first");
+  const ContactMesh& mesh = scene_.current()->mesh();
   std::vector<bool> seen(mesh.triangle_count(), false);
   for (const std::uint32_t t : part) seen[t] = true;
   for (std::size_t i = 0; i < part.size(); ++i) {
@@ -113,8 +127,8 @@ void AppModel::isolate_part() {
   isolate(part);
 }
 
-void AppModel::show_all() {
-  view_.isolation.reset();
+void ViewModel::show_all() {
+  isolation.reset();
   inspection_ = {};
 }
 

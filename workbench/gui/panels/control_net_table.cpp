@@ -31,7 +31,7 @@ std::string as_text(const PnPatch& patch, const Vec3& origin) {
 }  // namespace
 
 void draw_control_net_table(const UiContext& ui, const AppModel& model, std::uint32_t triangle) {
-  const ContactMesh& mesh = model.scene()->mesh();
+  const ContactMesh& mesh = model.scene().current()->mesh();
   const PnPatch patch = make_patch(mesh, triangle, model.presets().current().solver.normal_form);
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   ImFont* number = ui.fonts.small_number;

@@ -167,7 +167,7 @@ void draw_worst(const UiContext& ui, AppModel& model) {
     const MapPlace& place = map.worst()[i];
     const ImVec2 at = ImGui::GetCursorScreenPos();
     if (ImGui::InvisibleButton(printed("##worst%zu", i).c_str(), {width, height}))
-      model.look_at_place(place.point_world, place.normal, place.triangle);
+      model.view().look_at_place(place.point_world, place.normal, place.triangle);
     ui.items.note_last(printed("map/worst/%zu", i));
     tooltip(ui, "Turns the view there and picks the triangle");
     const bool picked = model.view().picked_triangle == place.triangle;

@@ -62,7 +62,7 @@ void draw_defects(const UiContext& ui, const ContactMesh& mesh) {
 
 void draw_picked(const UiContext& ui, AppModel& model) {
   const std::uint32_t t = model.view().picked_triangle;
-  const ContactMesh& mesh = model.scene()->mesh();
+  const ContactMesh& mesh = model.scene().current()->mesh();
   if (t == kNone || t >= mesh.triangle_count() || !mesh.usable(t)) return;
   ImGui::Separator();
   fact(ui, "Picked triangle", count(t));
@@ -91,29 +91,30 @@ void draw_size_choices(const UiContext& ui, AppModel& model) {
     ImGui::SameLine(column);
   };
   const auto& generated = generator_names();
-  const bool file = std::find(generated.begin(), generated.end(), model.mesh_path()) == generated.end();
+  const bool file = std::find(generated.begin(), generated.end(), model.scene().path()) == generated.end();
   if (file) {
     std::array<std::string_view, kFileUnits.size()> names;
     int chosen = 0;
     for (std::size_t i = 0; i < kFileUnits.size(); ++i) {
       names[i] = kFileUnits[i].name;
-      if (kFileUnits[i].metres == model.metres_per_unit()) chosen = static_cast<int>(i);
+      if (kFileUnits[i].metres == model.scene().metres_per_unit()) chosen = static_cast<int>(i);
     }
     label("Unit of the file");
     if (choice_row(ui, "mesh/unit", width, names, chosen))
-      model.set_mesh_unit(kFileUnits[static_cast<std::size_t>(chosen)].metres);
+      model.scene().set_unit(kFileUnits[static_cast<std::size_t>(chosen)].metres);
     tooltip(ui, "What one unit of its coordinates is; the file is read anew (--unit)");
   }
   label("Longest side, mm");
-  const auto typed = number_box(ui, "mesh/fit_mm", width,
-                                model.fit_m() ? short_number(*model.fit_m() * 1e3) : std::string("as it is"));
+  const auto typed =
+      number_box(ui, "mesh/fit_mm", width,
+                 model.scene().fit_m() ? short_number(*model.scene().fit_m() * 1e3) : std::string("as it is"));
   tooltip(ui, "Type a length to scale the mesh to it, with its middle at the origin; nothing: as it is (--fit-mm)");
   if (!typed) return;
   const double number = std::strtod(typed->c_str(), nullptr);
   if (number == 0.0)
-    model.set_mesh_fit(std::nullopt);
+    model.scene().set_fit(std::nullopt);
   else
-    model.set_mesh_fit(number * 1e-3);
+    model.scene().set_fit(number * 1e-3);
 }
 
 /// Not the ribbon that it is drawn with.
@@ -136,14 +137,14 @@ void draw_polygon(const UiContext& ui, const PlanarPolygon& polygon) {
 
 void draw_mesh_panel(const UiContext& ui, AppModel& model, FoldedPanel& state) {
   if (!section(ui, "Mesh", state.open)) return;
-  if (model.scene() == nullptr) {
-    ImGui::TextDisabled(model.loading() ? "Loading" : "No mesh");
+  if (model.scene().current() == nullptr) {
+    ImGui::TextDisabled(model.scene().loading() ? "Loading" : "No mesh");
     return;
   }
-  const ContactMesh& mesh = model.scene()->mesh();
+  const ContactMesh& mesh = model.scene().current()->mesh();
   fact(ui, "Name", std::filesystem::path(mesh.name()).filename().string());
   tooltip(ui, mesh.name());
-  if (const PlanarCurve* curve = model.scene()->planar()) {
+  if (const PlanarCurve* curve = model.scene().current()->planar()) {
     draw_polygon(ui, curve->polygon());
     ImGui::Dummy({1, ui.px(3)});
     return;
@@ -156,10 +157,10 @@ void draw_mesh_panel(const UiContext& ui, AppModel& model, FoldedPanel& state) {
   fact(ui, "Size", printed("%.4g \u00d7 %.4g \u00d7 %.4g", size.x, size.y, size.z), "mm");
   draw_size_choices(ui, model);
   fact(ui, "Normals", mesh.normals_used() == NormalSource::file ? "from the file" : "computed");
-  fact(ui, "Memory", printed("%.1f", static_cast<double>(model.scene()->memory_bytes()) / 1e6), "MB");
-  if (const MeshAudit* audit = model.audit())
+  fact(ui, "Memory", printed("%.1f", static_cast<double>(model.scene().current()->memory_bytes()) / 1e6), "MB");
+  if (const MeshAudit* audit = model.scene().audit())
     draw_audit(ui, *audit);
-  else if (model.auditing())
+  else if (model.scene().auditing())
     ImGui::TextDisabled("Audit running");
   draw_defects(ui, mesh);
   draw_picked(ui, model);

@@ -108,12 +108,12 @@ void draw_path_bar(const UiContext& ui, AppModel& model, PathBar& bar, const Rec
     bar.text = match;
     bar.focus = match.back() == '/';
     if (match.back() != '/') {
-      model.open_mesh(match);
+      model.scene().open(match);
       bar.open = false;
     }
   }
   if (enter && !bar.text.empty()) {
-    model.open_mesh(expand_home(bar.text));
+    model.scene().open(expand_home(bar.text));
     bar.open = false;
   }
   const bool elsewhere = left && !picked && !ImGui::IsWindowHovered(ImGuiHoveredFlags_ChildWindows);

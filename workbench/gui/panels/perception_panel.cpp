@@ -80,13 +80,13 @@ void draw_worst(const UiContext& ui, AppModel& model, const ConditionFeel& feel)
   tooltip(ui, "A click goes there");
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   ImFont* number = ui.fonts.small_number;
-  const ContactMesh& mesh = model.scene()->mesh();
+  const ContactMesh& mesh = model.scene().current()->mesh();
   const float width = ImGui::GetContentRegionAvail().x, height = ui.px(18);
   for (std::size_t i = 0; i < std::min<std::size_t>(5, feel.worst.size()); ++i) {
     const FeltEdge& edge = feel.worst[i];
     const ImVec2 at = ImGui::GetCursorScreenPos();
     if (ImGui::InvisibleButton(printed("##felt%zu", i).c_str(), {width, height}))
-      model.look_at_place(edge.middle_m, mesh.normal(edge.triangle, edge.edge), edge.triangle);
+      model.view().look_at_place(edge.middle_m, mesh.normal(edge.triangle, edge.edge), edge.triangle);
     ui.items.note_last(printed("perception/worst/%zu", i));
     if (ImGui::IsItemHovered()) draw.AddRectFilled(at, {at.x + width, at.y + height}, ui.colours.accent_soft, ui.px(2));
     const std::string text = printed("%7.2f deg  %7.3f mm long", edge.angle_deg, 1e3 * edge.length_m),
@@ -106,13 +106,13 @@ double felt_angle_rad(const AppModel& model, const PerceptionPanel& state) {
 
 void draw_perception_panel(const UiContext& ui, AppModel& model, PerceptionPanel& state) {
   if (!section(ui, "Smoothness as felt", state.open)) return;
-  if (model.scene() != nullptr && model.scene()->planar() != nullptr) {
+  if (model.scene().current() != nullptr && model.scene().current()->planar() != nullptr) {
     ImGui::TextDisabled("For meshes; this is a 2D scene");
     return;
   }
-  const PerceptionAudit* audit = model.perception();
+  const PerceptionAudit* audit = model.scene().perception();
   if (audit == nullptr) {
-    ImGui::TextDisabled(model.auditing() ? "Audit running" : "No mesh");
+    ImGui::TextDisabled(model.scene().auditing() ? "Audit running" : "No mesh");
     return;
   }
   const std::size_t chosen = chosen_condition(model, state);

@@ -49,7 +49,7 @@ void draw_choice(const UiContext& ui, const char* path, const char* label, const
 void draw_histogram(const UiContext& ui, AppModel& model, PlotsPanel& state, const CurveRef& curve,
                     const PlotArea& area) {
   const auto [from, to] = ticks_in_view(model);
-  state.cells.update(model.store(), {curve.series->channel, std::nullopt, from, to, 96, 1});
+  state.cells.update(model.time().store(), {curve.series->channel, std::nullopt, from, to, 96, 1});
   const SampleCells& cells = state.cells;
   const bool mine = cells.query().x == curve.series->channel && !cells.query().y && !cells.counts().empty();
   PlainPlot plot{area,
@@ -86,7 +86,8 @@ void draw_spectrum(const UiContext& ui, AppModel& model, PlotsPanel& state, cons
   const auto [from, to] = ticks_in_view(model);
   const bool other = state.spectrum_of != state.x || state.spectrum_from != from || state.spectrum_to != to;
   if (other && (state.spectrum_of != state.x || std::abs(model.now_s() - state.spectrum_at_s) >= kSpectrumEvery_s)) {
-    state.spectrum = amplitude_spectrum(model.store(), curve.series->channel, from, to, 1.0 / model.tick_period_s());
+    state.spectrum =
+        amplitude_spectrum(model.time().store(), curve.series->channel, from, to, 1.0 / model.time().tick_period_s());
     state.spectrum_of = state.x;
     state.spectrum_from = from;
     state.spectrum_to = to;
@@ -139,7 +140,7 @@ void draw_spectrum(const UiContext& ui, AppModel& model, PlotsPanel& state, cons
 void draw_xy(const UiContext& ui, AppModel& model, PlotsPanel& state, const CurveRef& cx, const CurveRef& cy,
              const PlotArea& area) {
   const auto [from, to] = ticks_in_view(model);
-  const ChannelStore& store = model.store();
+  const ChannelStore& store = model.time().store();
   const double sx = cx.plot->scale, sy = cy.plot->scale;
   PlainPlot plot{area, axis_over(store.min_max(cx.series->channel, from, to), sx, cx.with_unit()),
                  axis_over(store.min_max(cy.series->channel, from, to), sy, cy.with_unit())};
@@ -181,7 +182,7 @@ void draw_xy(const UiContext& ui, AppModel& model, PlotsPanel& state, const Curv
                          packed(with_alpha(ink, 0.2f + 0.8f * share)));
     }
   }
-  const ServoRecord* record = model.tick().record();
+  const ServoRecord* record = model.time().tick().record();
   if (record != nullptr) {
     const float x = store.value(cx.series->channel, record->tick.tick),
                 y = store.value(cy.series->channel, record->tick.tick);

@@ -32,19 +32,20 @@ void draw_modes(const UiContext& ui, PlotsPanel& state) {
 
 /// Follow: the newest tick stays at the right. Hold: the axis stands, the tick in view goes on. Inspect: time stands.
 void draw_following(const UiContext& ui, AppModel& model) {
-  bool follow = !model.paused() && model.axis().following(), inspect = model.paused(), hold = !follow && !inspect;
+  bool follow = !model.time().paused() && model.time().axis().following(), inspect = model.time().paused(),
+       hold = !follow && !inspect;
   if (toggle_button(ui, "plots/follow", "Follow", follow, "The newest tick stays at the right edge (End)"))
-    model.go_live();
+    model.time().go_live();
   ImGui::SameLine(0, ui.px(3));
   if (toggle_button(ui, "plots/hold", "Hold", hold,
                     "The axes stand still, the rest of the window goes on; panning does the same")) {
-    model.set_paused(false);
-    model.axis().hold();
+    model.time().set_paused(false);
+    model.time().axis().hold();
   }
   ImGui::SameLine(0, ui.px(3));
   if (toggle_button(ui, "plots/inspect", "Inspect", inspect,
                     "Time stands still on one tick everywhere in the window (Space)"))
-    model.set_paused(true);
+    model.time().set_paused(true);
   ImGui::SameLine(0, ui.px(14));
 }
 
@@ -52,7 +53,7 @@ void draw_cursors(const UiContext& ui, AppModel& model, PlotLink& link) {
   const auto place = [&](const char* path, const char* letter, std::optional<std::uint64_t>& cursor, const char* doc) {
     bool on = cursor.has_value();
     if (toggle_button(ui, path, letter, on, doc)) {
-      const ServoRecord* record = model.tick().record();
+      const ServoRecord* record = model.time().tick().record();
       if (!on || record == nullptr)
         cursor.reset();
       else
@@ -73,7 +74,7 @@ void draw_cursors(const UiContext& ui, AppModel& model, PlotLink& link) {
 }
 
 void draw_ghost_note(const UiContext& ui, const AppModel& model, float right) {
-  const auto ghost = model.ghost();
+  const auto ghost = model.time().ghost();
   if (!ghost) return;
   const std::string text =
       printed("Ghost, same motion assumed: iterations %.2f \u2192 %.2f, contact changed in %llu ticks",
@@ -111,13 +112,13 @@ void draw_plots_toolbar(const UiContext& ui, AppModel& model, PlotsPanel& state,
       const auto [from, to] = ticks_in_view(model);
       const auto& [a, b] = std::pair(state.link.a, state.link.b);
       if (a && b)
-        model.export_ticks(std::min(*a, *b), std::max(*a, *b) + 1);
+        model.exports().write_ticks(std::min(*a, *b), std::max(*a, *b) + 1);
       else
-        model.export_ticks(from, to);
+        model.exports().write_ticks(from, to);
     }
     ImGui::SameLine(0, ui.px(3));
     if (text_button(ui, "plots/png", "PNG", "The plots as they are, as a PNG file"))
-      model.ask_for_picture("plots", whole);
+      model.exports().ask_for_picture("plots", whole);
   }
   ImGui::PopStyleVar();
   ImGui::PopFont();

@@ -14,13 +14,13 @@ constexpr std::array kTitles{"now", "ghost", "A", "B", "B\u2212A", "min", "max",
 
 std::array<double, kTitles.size()> values_of(const AppModel& model, const PlotLink& link, const CurveRef& curve,
                                              std::uint64_t from, std::uint64_t to) {
-  const ChannelStore& store = model.store();
+  const ChannelStore& store = model.time().store();
   const std::size_t channel = curve.series->channel;
   const double nan = std::nan("");
   const auto at = [&](const std::optional<std::uint64_t>& tick) {
     return tick ? static_cast<double>(store.value(channel, *tick)) : nan;
   };
-  const ServoRecord* record = model.tick().record();
+  const ServoRecord* record = model.time().tick().record();
   const std::optional<std::uint64_t> now = record != nullptr ? std::optional(record->tick.tick) : std::nullopt;
   const MinMax range = store.min_max(channel, from, to);
   const SampleSums sums = store.sums(channel, from, to);

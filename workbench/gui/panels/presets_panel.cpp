@@ -9,22 +9,23 @@ namespace tangent {
 namespace {
 
 void draw_files(const UiContext& ui, AppModel& model) {
-  if (model.preset_files().empty()) {
-    ImGui::TextDisabled("No presets in %s", model.preset_folder().filename().c_str());
+  if (model.presets().files().empty()) {
+    ImGui::TextDisabled("No presets in %s", model.presets().folder().filename().c_str());
     return;
   }
-  for (const auto& file : model.preset_files()) {
+  for (const auto& file : model.presets().files()) {
     const std::string name = file.stem().string();
-    const bool current = file.stem() == model.presets().path().stem() && !model.presets().path().empty();
-    if (ImGui::Selectable(name.c_str(), current)) model.load_preset(file);
+    const bool current =
+        file.stem() == model.presets().editor().path().stem() && !model.presets().editor().path().empty();
+    if (ImGui::Selectable(name.c_str(), current)) model.presets().load(file);
     ui.items.note_last("presets/file/" + name);
     tooltip(ui, "Load " + file.string());
   }
 }
 
 void draw_changes(const UiContext& ui, AppModel& model) {
-  const auto changes = model.presets().changes();
-  const std::string from = model.presets().name();
+  const auto changes = model.presets().editor().changes();
+  const std::string from = model.presets().editor().name();
   if (changes.empty()) {
     ImGui::TextDisabled("Nothing changed since %s", from.c_str());
     return;
@@ -44,23 +45,27 @@ void draw_changes(const UiContext& ui, AppModel& model) {
     ImGui::PopFont();
     ImGui::SetCursorScreenPos({at.x + width - ui.px(17), at.y - ui.px(3)});
     if (icon_button(ui, "presets/revert/" + name, Icon::reset, "Back to the loaded value"))
-      model.revert_value(*change.key);
+      model.presets().revert_value(*change.key);
     ImGui::SetCursorScreenPos({at.x, at.y + ui.px(19)});
   }
   ImGui::Dummy({1, 1});
-  if (text_button(ui, "presets/revert_all", "Revert all", "Every key back to the loaded value")) model.revert_preset();
+  if (text_button(ui, "presets/revert_all", "Revert all", "Every key back to the loaded value"))
+    model.presets().revert_all();
 }
 
 /// A file that was there before asks to be pressed for twice: the presets that ship hold what was measured with them.
 void save(AppModel& model, PresetsPanel& state) {
-  if (state.name != state.written && state.name != state.asked_for && model.has_preset(state.name)) {
+  if (state.name != state.written && state.name != state.asked_for && model.presets().has(state.name)) {
     state.asked_for = state.name;
-    model.say(Severity::warning,
-              "a preset \"" + state.name + "\" is there already; press Replace to write over it, or type another name");
+    model.messages().say(
+        Severity::warning,
+        "a preset \"" + state.name + "\" is there already; press Replace to write over it, or type another name");
     return;
   }
   state.asked_for.clear();
-  if (model.save_preset(state.name)) state.written = state.name;
+  const ContactScene* scene = model.scene().current().get();
+  if (model.presets().save(state.name, scene != nullptr ? &scene->mesh() : nullptr, model.devices().name()))
+    state.written = state.name;
 }
 
 }  // namespace

@@ -43,7 +43,7 @@ void draw_status_line(const UiContext& ui, AppModel& model, const Rect& rect, do
   const auto time = [](double ns, int width) {
     return ns > 0.0 ? printed("%*.1f \u00b5s", width, ns * 1e-3) : printed("%*s", width, "-");
   };
-  const ServoStatus& servo = model.status().servo;
+  const ServoStatus& servo = model.devices().status().servo;
   const ImU32 plain = ui.colours.text, warn = ui.colours.warning;
   put("rate", "Servo",
       servo.rate_hz > 0.0 ? printed("%7.1f Hz", servo.rate_hz)
@@ -58,17 +58,19 @@ void draw_status_line(const UiContext& ui, AppModel& model, const Rect& rect, do
       "Records that did not fit into the ring to the window");
   put("p99", "Tick p99", time(servo.tick_p99_ns, 6), 10, plain, "99 of 100 ticks took no longer");
   put("worst", "worst", time(servo.tick_worst_ns, 7), 11, plain, "The longest tick so far");
-  const double kept_s = static_cast<double>(model.end_tick() - model.first_tick()) * model.tick_period_s();
+  const double kept_s =
+      static_cast<double>(model.time().end_tick() - model.time().first_tick()) * model.time().tick_period_s();
   const double mib = 1.0 / (1024.0 * 1024.0);
   put("history", "History", printed("%5.1f s", kept_s), 8, plain, "How far back one can scrub");
   put("memory", "in",
-      printed("%3.0f of %.0f MiB", static_cast<double>(model.history_bytes() + model.store().memory_bytes()) * mib,
-              static_cast<double>(model.most_history_bytes() + model.store().memory_bytes()) * mib),
+      printed("%3.0f of %.0f MiB",
+              static_cast<double>(model.time().history_bytes() + model.time().store().memory_bytes()) * mib,
+              static_cast<double>(model.time().most_history_bytes() + model.time().store().memory_bytes()) * mib),
       15, plain, "What the history takes of what it may");
   // Pictures are the same every time: no wall-clock numbers in them.
-  const std::string right = model.options().deterministic ? std::string()
-                                                          : printed("frame %.2f ms   %.0f/s", build_ms,
-                                                                    static_cast<double>(ImGui::GetIO().Framerate));
+  const std::string right = model.deterministic() ? std::string()
+                                                  : printed("frame %.2f ms   %.0f/s", build_ms,
+                                                            static_cast<double>(ImGui::GetIO().Framerate));
   const float w = number->CalcTextSizeA(number->FontSize, 1e9f, 0.0f, right.c_str()).x;
   if (x + w < rect.right() - ui.px(10))
     draw.AddText(number, number->FontSize, {rect.right() - w - ui.px(10), y_number}, ui.colours.text_dim,

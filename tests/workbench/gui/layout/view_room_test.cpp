@@ -19,7 +19,7 @@ struct Extent {
 /// Of the mesh's vertices in the picture.
 Extent extent_of(const AppModel& model, int w, int h) {
   Extent e;
-  const ContactMesh& mesh = model.scene()->mesh();
+  const ContactMesh& mesh = model.scene().current()->mesh();
   for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t) {
     for (const Vec3& p : mesh.positions(t)) {
       const Vec3 at = model.view().camera.project(mesh.origin() + p, w, h);
@@ -34,14 +34,14 @@ Extent extent_of(const AppModel& model, int w, int h) {
 
 TEST_CASE("a standard view frames the whole scene anew, and keeps near to what was gone near to") {
   HeadlessApp ui;
-  ui.model().frame_scene();
-  ui.model().look_from_standard(StandardView::top);
+  ui.model().view().frame_scene();
+  ui.model().view().look_from_standard(StandardView::top);
   Camera expected = ui.model().view().camera;
-  expected.frame(world_bounds(*ui.model().scene()), 1.05, ui.model().view().rooms);
+  expected.frame(world_bounds(*ui.model().scene().current()), 1.05, ui.model().view().rooms);
   CHECK(ui.model().view().camera == expected);
   ui.model().view().camera.zoom(0.3);
   const double near = ui.model().view().camera.distance_m;
-  ui.model().look_from_standard(StandardView::front);
+  ui.model().view().look_from_standard(StandardView::front);
   CHECK(ui.model().view().camera.distance_m == near);
 }
 
@@ -70,7 +70,7 @@ TEST_CASE("nothing that is drawn over the picture lies on the object, whatever i
       for (const bool map : {false, true}) {
         ui.model().map().on = map;
         ui.frames(2);
-        ui.model().frame_scene();
+        ui.model().view().frame_scene();
         const ItemRect view = *ui.app().items().find("view");
         const int w = static_cast<int>(view.max.x - view.min.x), h = static_cast<int>(view.max.y - view.min.y);
         const float below_toggles = ui.app().items().find("view/Display")->max.y;
@@ -85,7 +85,7 @@ TEST_CASE("nothing that is drawn over the picture lies on the object, whatever i
           CAPTURE(std::string(v.name));
           CAPTURE(width);
           CAPTURE(map);
-          ui.model().look_from_standard(v.view);
+          ui.model().view().look_from_standard(v.view);
           const Extent e = extent_of(ui.model(), w, h);
           CAPTURE(e.bottom - (h - cards.y));
           CAPTURE(e.left - cards.x);

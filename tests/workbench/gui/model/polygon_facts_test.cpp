@@ -39,14 +39,14 @@ TEST_CASE("the panels describe a 2D scene's polygon, not the ribbon it is drawn 
   AppOptions options = HeadlessApp::deterministic_options();
   options.mesh = file.string();
   HeadlessApp ui(options, 1920.0f, 1080.0f);
-  for (const char* title : {"Iterations", "Smoothness as felt"}) ui.model().open_sections()[title] = false;
-  for (const char* title : {"Mesh", "Inspect"}) ui.model().open_sections()[title] = true;
+  for (const char* title : {"Iterations", "Smoothness as felt"}) ui.model().window().open_sections()[title] = false;
+  for (const char* title : {"Mesh", "Inspect"}) ui.model().window().open_sections()[title] = true;
   ui.frames(3);
-  REQUIRE(ui.model().scene()->planar() != nullptr);
+  REQUIRE(ui.model().scene().current()->planar() != nullptr);
   CHECK(ui.app().items().find("mesh/segments") != nullptr);
   CHECK(ui.app().items().find("mesh/triangles") == nullptr);
   CHECK(ui.app().items().find("inspect/slice") == nullptr);
-  ui.model().open_mesh("torus");
+  ui.model().scene().open("torus");
   ui.frames(3);
   CHECK(ui.app().items().find("mesh/segments") == nullptr);
   CHECK(ui.app().items().find("mesh/triangles") != nullptr);

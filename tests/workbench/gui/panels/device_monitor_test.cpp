@@ -34,24 +34,24 @@ TEST_CASE("the columns of a histogram hold every count, at its decade") {
 TEST_CASE("the device monitor stops, homes and re-arms, and injects faults that the gate catches") {
   HeadlessApp ui(HeadlessApp::deterministic_options(), 1920.0f, 1080.0f);
   run(ui, 1500);
-  REQUIRE(ui.model().status().servo.gate_state == GateState::armed);
+  REQUIRE(ui.model().devices().status().servo.gate_state == GateState::armed);
   ui.click("menu/view");
   ui.click("menu/view/monitor");
   REQUIRE(ui.model().view().device_monitor);
   ui.click("monitor/stop");
   run(ui, 10);
-  CHECK(ui.model().status().servo.gate_state == GateState::disarmed);
+  CHECK(ui.model().devices().status().servo.gate_state == GateState::disarmed);
   ui.click("monitor/home");
   run(ui, 10);
-  CHECK(ui.model().status().force_state == DeviceState::homing);
+  CHECK(ui.model().devices().status().force_state == DeviceState::homing);
   run(ui, 1000);
-  CHECK(ui.model().status().servo.gate_state == GateState::disarmed);
+  CHECK(ui.model().devices().status().servo.gate_state == GateState::disarmed);
   ui.click("monitor/arm");
   run(ui, 1500);
-  CHECK(ui.model().status().servo.gate_state == GateState::armed);
+  CHECK(ui.model().devices().status().servo.gate_state == GateState::armed);
   ui.click("monitor/inject/force/drop-out");
   run(ui, 10);
-  CHECK(ui.model().status().servo.gate_fault == GateFault::force_device);
+  CHECK(ui.model().devices().status().servo.gate_fault == GateFault::force_device);
   ui.click("monitor/close");
   CHECK_FALSE(ui.model().view().device_monitor);
 }

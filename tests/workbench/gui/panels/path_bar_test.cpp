@@ -52,5 +52,5 @@ TEST_CASE("a path typed with Tab and Enter opens the mesh") {
   ui.frames(2);
   ui.type((at + "bracket.obj").c_str());
   ui.key(HeadlessApp::kEnter);
-  CHECK(ui.model().scene()->mesh().usable_triangle_count() == 1);
+  CHECK(ui.model().scene().current()->mesh().usable_triangle_count() == 1);
 }

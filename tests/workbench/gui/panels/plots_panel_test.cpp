@@ -33,26 +33,26 @@ bool said(const AppModel& model, const char* part) {
 TEST_CASE("follow, hold and inspect are one button each, and say which it is") {
   PlotsApp ui;
   ui.run(2000);
-  CHECK(ui.model().axis().following());
+  CHECK(ui.model().time().axis().following());
   ui.click("plots/hold");
-  CHECK_FALSE(ui.model().axis().following());
-  CHECK_FALSE(ui.model().paused());
-  const double to = ui.model().axis().to();
+  CHECK_FALSE(ui.model().time().axis().following());
+  CHECK_FALSE(ui.model().time().paused());
+  const double to = ui.model().time().axis().to();
   ui.run(300);
-  CHECK(ui.model().axis().to() == to);
-  CHECK(ui.model().tick().record()->tick.tick == 2299);  // the rest of the window goes on
+  CHECK(ui.model().time().axis().to() == to);
+  CHECK(ui.model().time().tick().record()->tick.tick == 2299);  // the rest of the window goes on
   ui.click("plots/inspect");
-  CHECK(ui.model().paused());
+  CHECK(ui.model().time().paused());
   ui.click("plots/follow");
-  CHECK_FALSE(ui.model().paused());
-  CHECK(ui.model().axis().to() == 2300.0);
+  CHECK_FALSE(ui.model().time().paused());
+  CHECK(ui.model().time().axis().to() == 2300.0);
 }
 
 TEST_CASE("every mode draws, with an empty store, a short one and a long one") {
   PlotsApp ui;
   for (const std::uint64_t ticks : {0u, 40u, 3000u, 6000u}) {
     ui.run(ticks);
-    ui.model().axis().show_all();
+    ui.model().time().axis().show_all();
     for (const char* mode : {"X-Y", "Spectrum", "Histogram", "Time"}) {
       ui.click(std::string("plots/mode/") + mode);
       ui.frames(3);
@@ -73,11 +73,11 @@ TEST_CASE("every mode draws, with an empty store, a short one and a long one") {
 TEST_CASE("Ctrl-click sets A and Shift-click B, without leaving the tick in view - CSV then writes what lies between") {
   const tangent::testing::TempFolder folder;
   PlotsApp ui;
-  ui.model().set_export_folder(folder.path());
+  ui.model().exports().set_folder(folder.path());
   ui.run(3000);
   ui.click("transport/pause");
-  const std::uint64_t seen = ui.model().tick().record()->tick.tick;
-  ui.model().axis().show(1000.0, 2000.0);
+  const std::uint64_t seen = ui.model().time().tick().record()->tick.tick;
+  ui.model().time().axis().show(1000.0, 2000.0);
   ui.frame();
   const ItemRect rect = *ui.app().items().find("plots/force");
   const auto click_at = [&](float share, bool ctrl) {
@@ -91,7 +91,7 @@ TEST_CASE("Ctrl-click sets A and Shift-click B, without leaving the tick in view
   };
   click_at(0.25f, true);
   click_at(0.5f, false);
-  CHECK(ui.model().tick().record()->tick.tick == seen);
+  CHECK(ui.model().time().tick().record()->tick.tick == seen);
   ui.click("plots/csv");
   REQUIRE(said(ui.model(), "ticks written to"));
   std::filesystem::path written;
@@ -115,10 +115,10 @@ TEST_CASE("Ctrl-click sets A and Shift-click B, without leaving the tick in view
 TEST_CASE("exported samples read back as the recorded doubles - a file is never written over") {
   const tangent::testing::TempFolder folder;
   PlotsApp ui;
-  ui.model().set_export_folder(folder.path());
+  ui.model().exports().set_folder(folder.path());
   ui.run(200);
-  ui.model().export_ticks(50, 60);
-  ui.model().export_ticks(50, 60);
+  ui.model().exports().write_ticks(50, 60);
+  ui.model().exports().write_ticks(50, 60);
   CHECK(folder.entry_count() == 2);
   std::ifstream file(folder.path() / "ticks-50-59.csv");
   std::string line;
@@ -129,7 +129,7 @@ TEST_CASE("exported samples read back as the recorded doubles - a file is never 
   std::vector<std::string> cells;
   for (std::istringstream row(line); std::getline(row, line, ',');) cells.push_back(line);
   REQUIRE(cells.size() == names.size());
-  const ServoRecord& record = *ui.model().session()->history().find(50);
+  const ServoRecord& record = *ui.model().devices().session()->history().find(50);
   const auto value = [&](const char* name) {
     for (std::size_t i = 0; i < names.size(); ++i) {
       if (names[i] == name) return std::stod(cells[i]);
@@ -142,20 +142,20 @@ TEST_CASE("exported samples read back as the recorded doubles - a file is never 
   CHECK(value("error_m") == record.tick.output.error_m);
   CHECK(value("cld_measured_m") == record.device.cld_measured_m);
   CHECK(value("finger_x_m") == record.tick.input.finger.position.x);
-  ui.model().set_export_folder("/nowhere/at/all");
-  ui.model().export_ticks(50, 60);
+  ui.model().exports().set_folder("/nowhere/at/all");
+  ui.model().exports().write_ticks(50, 60);
   CHECK(ui.model().messages().all().back().severity == Severity::error);
 }
 
 TEST_CASE("PNG asks the platform for the plots' part of the window, which is cut out of it") {
   const tangent::testing::TempFolder folder;
   PlotsApp ui;
-  ui.model().set_export_folder(folder.path());
+  ui.model().exports().set_folder(folder.path());
   ui.run(100);
   ui.click("plots/png");
-  const auto request = ui.model().take_picture_request();
+  const auto request = ui.model().exports().take_picture_request();
   REQUIRE(request);
-  CHECK_FALSE(ui.model().take_picture_request());
+  CHECK_FALSE(ui.model().exports().take_picture_request());
   const ItemRect plot = *ui.app().items().find("plots/force");
   CHECK(request->of.y <= plot.min.y);
   CHECK(request->of.bottom() >= plot.max.y);
