@@ -34,7 +34,7 @@ struct App::Ui {
   ViewPanel view;
   PlotsPanel plots = make_plots_panel();
 
-  void draw_splitters(const UiContext& ui, AppModel& model, const Layout& layout);
+  void draw_splitters(const UiContext& ui, WindowModel& window, const Layout& layout);
   void draw_column(const char* name, const Rect& rect, const UiContext& ui, AppModel& model, bool left);
 };
 
@@ -70,7 +70,7 @@ bool App::prepare(const FrameInput& input) {
   return true;
 }
 
-void App::Ui::draw_splitters(const UiContext& ui, AppModel& model, const Layout& layout) {
+void App::Ui::draw_splitters(const UiContext& ui, WindowModel& window, const Layout& layout) {
   const auto splitter = [&](const char* name, const Rect& rect, bool vertical) {
     if (rect.w < 1.0f || rect.h < 1.0f) return ImVec2(0, 0);
     ImGui::SetNextWindowPos({rect.x, rect.y});
@@ -93,7 +93,7 @@ void App::Ui::draw_splitters(const UiContext& ui, AppModel& model, const Layout&
     ImGui::PopStyleVar(2);
     return delta;
   };
-  LayoutSizes& sizes = model.window().sizes();
+  LayoutSizes& sizes = window.sizes();
   sizes = drag_left(sizes, splitter("##splitter/left", layout.left_splitter, true).x, ui.scale);
   const float dx = splitter("##splitter/right", layout.right_splitter, true).x;
   if (dx != 0.0f) sizes = drag_right(sizes, dx, layout.right.w, ui.scale);
@@ -123,14 +123,14 @@ void App::Ui::draw_column(const char* name, const Rect& rect, const UiContext& u
     draw_presets_panel(ui, model, presets);
   } else {
     draw_iterations_panel(ui, model, iterations);
-    draw_time_machine_panel(ui, model, time_machine);
+    draw_time_machine_panel(ui, model.time(), time_machine);
     draw_bookmarks_panel(ui, model, bookmarks);
     draw_map_panel(ui, model, map);
     draw_perception_panel(ui, model, perception);
     draw_inspect_panel(ui, model, inspect);
     draw_mesh_panel(ui, model, mesh);
     draw_devices_panel(ui, model, devices);
-    draw_log_panel(ui, model, log);
+    draw_log_panel(ui, model.messages(), log);
   }
   ImGui::End();
 }
@@ -160,15 +160,15 @@ void App::frame(const FrameInput& input) {
                      &model_->window().section_wanted()};
   const Layout layout = compute_layout(model_->window().sizes(), input.width, input.height, scale);
   handle_shortcuts(*model_, ui_->menu);
-  model_->map().set_felt_angle(felt_angle_rad(*model_, ui_->perception));
+  model_->map().set_felt_angle(felt_angle_rad(model_->presets(), ui_->perception));
   draw_view_panel(ui, *model_, ui_->view, ui_->renderer, layout.view);
   draw_device_monitor(ui, *model_, layout.view);
   ui_->draw_column("##left", layout.left, ui, *model_, true);
   ui_->draw_column("##right", layout.right, ui, *model_, false);
   draw_plots_panel(ui, *model_, ui_->plots, layout.plots);
-  draw_transport_bar(ui, *model_, layout.transport);
+  draw_transport_bar(ui, model_->time(), layout.transport);
   draw_status_line(ui, *model_, layout.status, last_build_ms_);
-  ui_->draw_splitters(ui, *model_, layout);
+  ui_->draw_splitters(ui, model_->window(), layout);
   draw_toasts(ui, *model_, layout.view);
   draw_menu_bar(ui, *model_, ui_->menu, layout.menu);
   const Rect middle{layout.left.right(), layout.menu.bottom(), input.width - layout.left.right() - layout.right.w,

@@ -82,7 +82,7 @@ void add_time_commands(std::vector<Command>& out, AppModel& model) {
   out.push_back({"Time: next bookmark", "]", [&model] { model.time().go_to_bookmark(1); }});
   out.push_back({"Time: solve the past with the present values", "", [&model] { model.time().solve_past_again(); }});
   out.push_back({"Plots: ticks in view as CSV", "", [&model] {
-                   const auto [from, to] = ticks_in_view(model);
+                   const auto [from, to] = ticks_in_view(model.time());
                    model.exports().write_ticks(from, to);
                  }});
   out.push_back({"Force: stop, or arm", "", [&model] { model.devices().toggle_stop(); }});

@@ -85,8 +85,8 @@ void draw_gate(const UiContext& ui, AppModel& model) {
 }
 
 /// One tick's own numbers, where time stands still.
-void draw_tick(const UiContext& ui, const AppModel& model) {
-  const ServoRecord& r = *model.time().tick().record();
+void draw_tick(const UiContext& ui, const TimeModel& time) {
+  const ServoRecord& r = *time.tick().record();
   const auto length = [](const Vec3& v) { return glm::length(v); };
   fact(ui, "Force sent", printed("%.3f", length(r.device.force_command_n)), "N");
   tooltip(ui, "By the safety gate to the device, in this tick");
@@ -101,8 +101,8 @@ void draw_tick(const UiContext& ui, const AppModel& model) {
   fact(ui, "Lateness", printed("%.0f", r.lateness_ns * 1e-3), "\u00b5s");
 }
 
-void draw_servo(const UiContext& ui, const AppModel& model) {
-  const ServoStatus& servo = model.devices().status().servo;
+void draw_servo(const UiContext& ui, const DeviceModel& devices) {
+  const ServoStatus& servo = devices.status().servo;
   fact(ui, "Rate", printed("%.1f", servo.rate_hz), "Hz");
   fact(ui, "Tick p50 / p99", printed("%.1f / %.1f", servo.tick_p50_ns * 1e-3, servo.tick_p99_ns * 1e-3), "\u00b5s");
   tooltip(ui, "Whole tick: exchange with the devices, solver, safety gate");
@@ -111,10 +111,10 @@ void draw_servo(const UiContext& ui, const AppModel& model) {
        "\u00b5s");
   fact(ui, "Late ticks", printed("%llu", static_cast<unsigned long long>(servo.late_ticks)));
   fact(ui, "Missed deadlines", printed("%llu", static_cast<unsigned long long>(servo.missed_deadlines)));
-  if (!model.devices().status().realtime_note.empty()) {
+  if (!devices.status().realtime_note.empty()) {
     ImGui::PushFont(ui.fonts.small);
     ImGui::PushStyleColor(ImGuiCol_Text, ui.colours.text_dim);
-    ImGui::TextWrapped("%s", model.devices().status().realtime_note.c_str());
+    ImGui::TextWrapped("%s", devices.status().realtime_note.c_str());
     ImGui::PopStyleColor();
     ImGui::PopFont();
   }
@@ -169,9 +169,9 @@ void draw_devices_panel(const UiContext& ui, AppModel& model, FoldedPanel& state
   draw_display(ui, model);
   draw_gate(ui, model);
   if (past)
-    draw_tick(ui, model);
+    draw_tick(ui, model.time());
   else
-    draw_servo(ui, model);
+    draw_servo(ui, model.devices());
   draw_hand(ui, model);
   toggle_button(ui, "devices/monitor", "Monitor", model.view().device_monitor,
                 "Rates, histograms, limits and faults, in place of the 3D view");

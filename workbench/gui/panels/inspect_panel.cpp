@@ -98,20 +98,19 @@ void draw_findings(const UiContext& ui, AppModel& model, InspectPanel& state) {
   if (!any) ImGui::TextDisabled("Nothing is wrong with this mesh");
 }
 
-void draw_isolation(const UiContext& ui, AppModel& model) {
-  const bool something = !model.view().inspection().marked.empty() || model.view().picked_triangle != kNone;
+void draw_isolation(const UiContext& ui, ViewModel& view) {
+  const bool something = !view.inspection().marked.empty() || view.picked_triangle != kNone;
   if (text_button(ui, "inspect/isolate", "Isolate",
                   something ? "Draws the marked or picked triangles and their neighbours alone"
                             : "Mark a finding or pick a triangle first"))
-    model.view().isolate_marked();
+    view.isolate_marked();
   ImGui::SameLine(0, ui.px(3));
   if (text_button(ui, "inspect/isolate_part", "Isolate part",
                   something ? "Draws the connected part that holds the marked or picked triangle alone"
                             : "Mark a finding or pick a triangle first"))
-    model.view().isolate_part();
+    view.isolate_part();
   ImGui::SameLine(0, ui.px(3));
-  if (text_button(ui, "inspect/show_all", "Show all", "Draws every triangle again and marks none"))
-    model.view().show_all();
+  if (text_button(ui, "inspect/show_all", "Show all", "Draws every triangle again and marks none")) view.show_all();
 }
 
 constexpr std::array<std::string_view, 5> kSlices{"no slice", "across x", "across y", "across z", "across the view"};
@@ -157,22 +156,22 @@ void draw_slice(const UiContext& ui, AppModel& model) {
     *slice = {-slice->normal, -slice->offset_m};
 }
 
-void draw_crease(const UiContext& ui, AppModel& model) {
+void draw_crease(const UiContext& ui, SceneModel& scene) {
   const float width = ImGui::GetContentRegionAvail().x;
   ImGui::AlignTextToFramePadding();
   ImGui::TextDisabled("Creases above");
   ImGui::SameLine(ui.px(118 + 3 + 8));
-  const double degrees = model.scene().crease_angle_rad() / kDegree;
+  const double degrees = scene.crease_angle_rad() / kDegree;
   const auto result =
       value_field(ui, "inspect/crease", {width - ui.px(118 + 3), degrees / 180.0, printed("%.4g", degrees), "deg"});
-  const bool from_file = model.scene().current()->mesh().normals_used() == NormalSource::file;
+  const bool from_file = scene.current()->mesh().normals_used() == NormalSource::file;
   tooltip(ui,
           from_file
               ? "The normals are the file's: it alone says where creases are"
               : "Edges whose facets meet at a larger angle are creases; the mesh is built anew while this is dragged");
   if (from_file) return;
-  if (result.slid) model.scene().set_crease_angle(std::round(*result.slid * 360.0) * 0.5 * kDegree);
-  if (result.typed) model.scene().set_crease_angle(std::atof(result.typed->c_str()) * kDegree);
+  if (result.slid) scene.set_crease_angle(std::round(*result.slid * 360.0) * 0.5 * kDegree);
+  if (result.typed) scene.set_crease_angle(std::atof(result.typed->c_str()) * kDegree);
 }
 
 }  // namespace
@@ -192,9 +191,9 @@ void draw_inspect_panel(const UiContext& ui, AppModel& model, InspectPanel& stat
     return;
   }
   draw_findings(ui, model, state);
-  draw_isolation(ui, model);
+  draw_isolation(ui, model.view());
   draw_slice(ui, model);
-  draw_crease(ui, model);
+  draw_crease(ui, model.scene());
   SceneToggles& show = model.view().toggles;
   toggle_button(ui, "inspect/normals", "Normals", show.vertex_normals, "Vertex normals");
   ImGui::SameLine(0, ui.px(3));

@@ -83,15 +83,15 @@ void draw_header(const UiContext& ui, bool planar) {
   ImGui::PopFont();
 }
 
-void draw_row(const UiContext& ui, AppModel& model, std::size_t i, std::size_t count) {
-  const IterationRecord& r = model.time().tick().iterations()[i];
+void draw_row(const UiContext& ui, TimeModel& time, std::size_t i, std::size_t count) {
+  const IterationRecord& r = time.tick().iterations()[i];
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
   const ImVec2 at = ImGui::GetCursorScreenPos();
-  const bool selected = model.time().tick().selected() == i;
+  const bool selected = time.tick().selected() == i;
   if (ImGui::Selectable(printed("##iteration%zu", i).c_str(), selected, ImGuiSelectableFlags_SpanAllColumns)) {
-    model.time().set_paused(true);
-    model.time().tick().select(selected ? std::nullopt : std::optional(i));
+    time.set_paused(true);
+    time.tick().select(selected ? std::nullopt : std::optional(i));
   }
   // The row reaches past what is scrolled into view; its first cell is always there.
   ui.items.note(printed("iterations/row/%zu", i), at, {at.x + ui.px(16), at.y + ImGui::GetTextLineHeight()});
@@ -164,7 +164,7 @@ void draw_iterations_panel(const UiContext& ui, AppModel& model, IterationsPanel
     clipper.Begin(static_cast<int>(iterations.size()));
     while (clipper.Step()) {
       for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i)
-        draw_row(ui, model, static_cast<std::size_t>(i), iterations.size());
+        draw_row(ui, model.time(), static_cast<std::size_t>(i), iterations.size());
     }
     ImGui::EndTable();
   }

@@ -120,8 +120,8 @@ void draw_favourites(const UiContext& ui, AppModel& model) {
 }
 
 /// The paper's conditions by name: both sources at once.
-void draw_condition_row(const UiContext& ui, AppModel& model) {
-  const RenderingCondition* present = condition_of(model.presets().current());
+void draw_condition_row(const UiContext& ui, PresetModel& presets) {
+  const RenderingCondition* present = condition_of(presets.current());
   std::array<std::string_view, kConditionNames.size() + 1> names{"none of the six"};
   std::copy(kConditionNames.begin(), kConditionNames.end(), names.begin() + 1);
   const float width = ImGui::GetContentRegionAvail().x, label_width = std::max(ui.px(128), 0.42f * width);
@@ -132,7 +132,7 @@ void draw_condition_row(const UiContext& ui, AppModel& model) {
   ImGui::SetCursorScreenPos({at.x + label_width, at.y});
   int chosen = present != nullptr ? static_cast<int>(present - kRenderingConditions.data()) + 1 : 0;
   if (choice_row(ui, "force/condition", width - label_width - ui.px(20), names, chosen) && chosen > 0)
-    model.presets().set_condition(kRenderingConditions[static_cast<std::size_t>(chosen - 1)]);
+    presets.set_condition(kRenderingConditions[static_cast<std::size_t>(chosen - 1)]);
   tooltip(ui, "The paper's rendering conditions: sources of force and display together. " +
                   (present != nullptr ? std::string(present->words)
                                       : std::string("The present sources make none of them")));
@@ -144,7 +144,7 @@ void draw_table(const UiContext& ui, AppModel& model, const PresetTable& table) 
     if (key.table == table.name && has_meaning(key, model.presets().current())) draw_row(ui, model, key);
   }
   if (table.name == "solver") draw_gain_advice(ui, model);
-  if (table.name == "force") draw_condition_row(ui, model);
+  if (table.name == "force") draw_condition_row(ui, model.presets());
   ImGui::Dummy({1, ui.px(2)});
 }
 

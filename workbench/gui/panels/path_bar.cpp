@@ -73,7 +73,7 @@ std::string common_start(const std::vector<std::string>& texts) {
   return common;
 }
 
-void draw_path_bar(const UiContext& ui, AppModel& model, PathBar& bar, const Rect& under) {
+void draw_path_bar(const UiContext& ui, SceneModel& scene, PathBar& bar, const Rect& under) {
   const float width = std::min(ui.px(560), under.w - ui.px(20));
   ImGui::SetNextWindowPos({under.x + 0.5f * (under.w - width), under.bottom() + ui.px(4)});
   ImGui::SetNextWindowSize({width, 0.0f});
@@ -108,12 +108,12 @@ void draw_path_bar(const UiContext& ui, AppModel& model, PathBar& bar, const Rec
     bar.text = match;
     bar.focus = match.back() == '/';
     if (match.back() != '/') {
-      model.scene().open(match);
+      scene.open(match);
       bar.open = false;
     }
   }
   if (enter && !bar.text.empty()) {
-    model.scene().open(expand_home(bar.text));
+    scene.open(expand_home(bar.text));
     bar.open = false;
   }
   const bool elsewhere = left && !picked && !ImGui::IsWindowHovered(ImGuiHoveredFlags_ChildWindows);

@@ -34,10 +34,10 @@ Placement fitted(const FlatView& wanted, ImVec2 min, ImVec2 max) {
 }
 
 /// The triangle of the selected plane, else the one where the tick ended.
-std::uint32_t base_triangle(const AppModel& model) {
-  const auto iterations = model.time().tick().iterations();
+std::uint32_t base_triangle(const TimeModel& time) {
+  const auto iterations = time.tick().iterations();
   if (iterations.empty()) return kNone;
-  return iterations[model.time().tick().selected().value_or(iterations.size() - 1)].triangle;
+  return iterations[time.tick().selected().value_or(iterations.size() - 1)].triangle;
 }
 
 ImU32 field_ink(const UiContext& ui, float share) {
@@ -131,9 +131,9 @@ void draw_contours(const UiContext& ui, const ResidualMap& map, const Placement&
   }
 }
 
-void draw_edges(const UiContext& ui, const AppModel& model, const ResidualMap& map, const Placement& on) {
+void draw_edges(const UiContext& ui, const SceneModel& scene, const ResidualMap& map, const Placement& on) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  const ContactMesh& mesh = model.scene().current()->mesh();
+  const ContactMesh& mesh = scene.current()->mesh();
   for (std::size_t i = map.triangles().size(); i-- > 0;) {
     const FlatTriangle& t = map.triangles()[i];
     for (std::uint32_t k = 0; k < 3; ++k) {
@@ -155,10 +155,10 @@ void draw_edges(const UiContext& ui, const AppModel& model, const ResidualMap& m
 }
 
 /// Returns how many planes lie elsewhere; `pointed`: the plane under the mouse.
-std::size_t draw_path(const UiContext& ui, const AppModel& model, const ResidualMap& map, const Placement& on,
+std::size_t draw_path(const UiContext& ui, const TimeModel& time, const ResidualMap& map, const Placement& on,
                       bool mouse_here, std::optional<std::size_t>& pointed) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  const auto iterations = model.time().tick().iterations();
+  const auto iterations = time.tick().iterations();
   const ImVec2 mouse = ImGui::GetIO().MousePos;
   std::vector<std::optional<ImVec2>> points;
   std::size_t elsewhere = 0;
@@ -181,7 +181,7 @@ std::size_t draw_path(const UiContext& ui, const AppModel& model, const Residual
   }
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!points[i]) continue;
-    const bool marked = model.time().tick().selected() == i || pointed == i;
+    const bool marked = time.tick().selected() == i || pointed == i;
     draw.AddCircleFilled(*points[i], ui.px(marked ? 5.5f : 4.2f), packed(ui.palette.panel), 16);
     draw.AddCircleFilled(*points[i], ui.px(marked ? 4.5f : 3.2f), packed(iteration_colour(i, iterations.size())), 16);
     if (marked) draw.AddCircle(*points[i], ui.px(7), ui.colours.text, 20, ui.px(1.2f));
@@ -199,9 +199,7 @@ void draw_heading(const UiContext& ui, const ResidualMap& map, const Placement& 
                text.c_str());
 }
 
-}  // namespace
-
-void draw_path_map(const UiContext& ui, AppModel& model, PathMapPanel& state) {
+void draw_title(const UiContext& ui, PathMapPanel& state) {
   ImGui::PushFont(ui.fonts.small);
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted("Path over (u, v)");
@@ -217,6 +215,12 @@ void draw_path_map(const UiContext& ui, AppModel& model, PathMapPanel& state) {
   if (toggle_button(ui, "iterations/map_triangle", "Triangle", triangle, "The whole base triangle"))
     state.close_up = false;
   ImGui::PopFont();
+}
+
+}  // namespace
+
+void draw_path_map(const UiContext& ui, AppModel& model, PathMapPanel& state) {
+  draw_title(ui, state);
 
   const float width = std::max(1.0f, ImGui::GetContentRegionAvail().x - ui.px(4)),
               height = std::clamp(0.22f * ImGui::GetWindowHeight(), ui.px(196), ui.px(320));
@@ -226,7 +230,7 @@ void draw_path_map(const UiContext& ui, AppModel& model, PathMapPanel& state) {
   const bool clicked = ImGui::IsItemClicked(), mouse_here = ImGui::IsItemHovered();
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const ImVec2 end{at.x + width, at.y + height};
-  const std::uint32_t triangle_index = base_triangle(model);
+  const std::uint32_t triangle_index = base_triangle(model.time());
   const ServoRecord* record = model.time().tick().record();
   const bool there = record != nullptr && model.scene().current() != nullptr &&
                      triangle_index < model.scene().current()->mesh().triangle_count() && width > ui.px(60) &&
@@ -254,9 +258,9 @@ void draw_path_map(const UiContext& ui, AppModel& model, PathMapPanel& state) {
     if (const auto flat = map.place(r.triangle, r.u, r.v)) planes.push_back(on.at(*flat));
   }
   draw_contours(ui, map, on, planes);
-  draw_edges(ui, model, map, on);
+  draw_edges(ui, model.scene(), map, on);
   std::optional<std::size_t> pointed;
-  const std::size_t elsewhere = draw_path(ui, model, map, on, mouse_here, pointed);
+  const std::size_t elsewhere = draw_path(ui, model.time(), map, on, mouse_here, pointed);
   draw.PopClipRect();
   draw_heading(ui, map, on, elsewhere);
   if (!pointed) return;

@@ -73,13 +73,13 @@ void frame_all(const UiContext& ui, const AppModel& model, PlanarView& view, con
   view.framings = model.view().framings;
 }
 
-void interact(AppModel& model, PlanarView& view, const Rect& rect) {
+void interact(DeviceModel& devices, PlanarView& view, const Rect& rect) {
   const ImGuiIO& io = ImGui::GetIO();
   const Paper paper(view, rect);
-  const bool leading = model.devices().hand_follows_mouse() && !io.KeyShift;
+  const bool leading = devices.hand_follows_mouse() && !io.KeyShift;
   if (ImGui::IsItemActive() && leading && ImGui::IsMouseDown(ImGuiMouseButton_Left)) {
     const Vec2 at = paper.world(io.MousePos);
-    model.devices().lead_hand({at.x, at.y, 0.0});
+    devices.lead_hand({at.x, at.y, 0.0});
   } else if (ImGui::IsItemActive()) {
     view.centre -= Vec2(static_cast<double>(io.MouseDelta.x), -static_cast<double>(io.MouseDelta.y)) / view.px_per_m;
   }
@@ -146,13 +146,13 @@ void draw_centres(const UiContext& ui, const PlanarCurve& curve, LocalCentre kin
   }
 }
 
-void draw_tangents(const UiContext& ui, const AppModel& model, const Paper& paper, const Rect& rect, ImDrawList& draw) {
-  const auto trace = model.time().tick().iterations();
+void draw_tangents(const UiContext& ui, const TimeModel& time, const Paper& paper, const Rect& rect, ImDrawList& draw) {
+  const auto trace = time.tick().iterations();
   const double reach = 0.22 * static_cast<double>(std::min(rect.w, rect.h));
   for (std::size_t i = 0; i < trace.size(); ++i) {
     const IterationRecord& r = trace[i];
     const Rgba ink = iteration_colour(i, trace.size());
-    const bool selected = model.time().tick().selected() == i;
+    const bool selected = time.tick().selected() == i;
     const ImVec2 middle = paper.at(r.point);
     const Vec2 along = reach * Vec2(r.normal.y, r.normal.x);  // in pixels, y down
     const ImVec2 half{static_cast<float>(along.x), static_cast<float>(along.y)};
@@ -244,7 +244,7 @@ void draw_planar_view(const UiContext& ui, AppModel& model, PlanarView& view, co
   const PlanarCurve& curve = *model.scene().current()->planar();
   if (view.framed != model.scene().current().get() || view.framings != model.view().framings)
     frame_all(ui, model, view, rect);
-  interact(model, view, rect);
+  interact(model.devices(), view, rect);
   const Paper paper(view, rect);
   const LocalCentre kind = model.presets().current().solver.local_centre;
   ImDrawList& draw = *ImGui::GetWindowDrawList();
@@ -258,7 +258,7 @@ void draw_planar_view(const UiContext& ui, AppModel& model, PlanarView& view, co
   draw_curve(ui, view, curve, kind, paper, draw);
   if (view.centres)
     draw_centres(ui, curve, kind, record != nullptr ? record->tick.output.triangle : kNone, paper, draw);
-  if (view.tangents) draw_tangents(ui, model, paper, rect, draw);
+  if (view.tangents) draw_tangents(ui, model.time(), paper, rect, draw);
   if (record != nullptr) {
     draw.AddCircleFilled(paper.at(record->tick.output.contact), ui.px(3.6f), colour(ui.palette.contact), 16);
     if (view.force) draw_force(ui, record->tick.output, paper, draw);

@@ -33,7 +33,7 @@ constexpr std::array kLayers{
     LayerToggle{"Display", &SceneToggles::cld_inset, "The fingerpad from the side, with the roller where it is"}};
 
 /// Returns where they end below.
-float draw_layer_toggles(const UiContext& ui, AppModel& model, const Rect& rect) {
+float draw_layer_toggles(const UiContext& ui, ViewModel& view, const Rect& rect) {
   ImGui::PushFont(ui.fonts.small);
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(ui.px(3), ui.px(3)));
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(ui.px(6), ui.px(2)));
@@ -45,7 +45,7 @@ float draw_layer_toggles(const UiContext& ui, AppModel& model, const Rect& rect)
       y += ImGui::GetFrameHeight() + ui.px(3);
     }
     ImGui::SetCursorScreenPos({x, y});
-    toggle_button(ui, std::string("view/") + layer.name, layer.name, model.view().toggles.*layer.on, layer.doc);
+    toggle_button(ui, std::string("view/") + layer.name, layer.name, view.toggles.*layer.on, layer.doc);
     x += w + ui.px(3);
   }
   const float below = y + ImGui::GetFrameHeight();
@@ -183,7 +183,7 @@ void interact(const UiContext& ui, AppModel& model, ViewPanel& state, const Rect
   if (!resting || !model.map().on) return;
   if (const auto hit = pick(model, pixel, w, h)) {
     view.hovered_triangle = hit.triangle;
-    draw_map_hover(ui, model, hit.triangle, hit.u, hit.v);
+    draw_map_hover(ui, model.map(), hit.triangle, hit.u, hit.v);
   }
 }
 
@@ -234,7 +234,7 @@ void draw_view_panel(const UiContext& ui, AppModel& model, ViewPanel& state, Sce
   } else {
     interact(ui, model, state, rect);
     if (renderer != nullptr) draw_picture(ui, model, state, *renderer, rect);
-    const float below_toggles = draw_layer_toggles(ui, model, rect);
+    const float below_toggles = draw_layer_toggles(ui, model.view(), rect);
     const float map_bar = draw_map_bar(ui, model, rect, below_toggles + ui.px(8));
     state.top = below_toggles - rect.y + ui.px(4);
     const OverlayCards cards = overlay_cards(model.view().toggles, ui.fonts.text->FontSize, rect.h - state.top);

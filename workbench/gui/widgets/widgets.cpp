@@ -15,6 +15,18 @@ namespace tangent {
 
 namespace {
 
+/// A ribbon with a notch; with a chevron beside it where it leads somewhere: `d` -1 back, 1 on.
+void draw_ribbon(ImDrawList& draw, ImVec2 c, float r, float d, float line, ImU32 ink) {
+  const float x = c.x - d * 0.45f * r, w = 0.42f * r, h = 0.8f * r;
+  const ImVec2 ribbon[5] = {
+      {x - w, c.y - h}, {x + w, c.y - h}, {x + w, c.y + h}, {x, c.y + 0.35f * h}, {x - w, c.y + h}};
+  draw.AddPolyline(ribbon, 5, ink, ImDrawFlags_Closed, line);
+  if (d == 0.0f) return;
+  const ImVec2 points[3] = {
+      {c.x + d * 0.4f * r, c.y - 0.5f * r}, {c.x + d * 0.95f * r, c.y}, {c.x + d * 0.4f * r, c.y + 0.5f * r}};
+  draw.AddPolyline(points, 3, ink, 0, 1.2f * line);
+}
+
 void draw_icon(ImDrawList& draw, Icon icon, ImVec2 c, float r, ImU32 ink) {
   const auto triangle = [&](float x, float direction) {
     draw.AddTriangleFilled({x - direction * 0.55f * r, c.y - 0.75f * r}, {x - direction * 0.55f * r, c.y + 0.75f * r},
@@ -58,19 +70,9 @@ void draw_icon(ImDrawList& draw, Icon icon, ImVec2 c, float r, ImU32 ink) {
     }
     case Icon::bookmark:
     case Icon::bookmark_back:
-    case Icon::bookmark_on: {
-      // A ribbon with a notch; with a chevron beside it where it leads somewhere.
-      const float d = icon == Icon::bookmark ? 0.0f : icon == Icon::bookmark_on ? 1.0f : -1.0f;
-      const float x = c.x - d * 0.45f * r, w = 0.42f * r, h = 0.8f * r;
-      const ImVec2 ribbon[5] = {
-          {x - w, c.y - h}, {x + w, c.y - h}, {x + w, c.y + h}, {x, c.y + 0.35f * h}, {x - w, c.y + h}};
-      draw.AddPolyline(ribbon, 5, ink, ImDrawFlags_Closed, line);
-      if (d == 0.0f) break;
-      const ImVec2 points[3] = {
-          {c.x + d * 0.4f * r, c.y - 0.5f * r}, {c.x + d * 0.95f * r, c.y}, {c.x + d * 0.4f * r, c.y + 0.5f * r}};
-      draw.AddPolyline(points, 3, ink, 0, 1.2f * line);
+    case Icon::bookmark_on:
+      draw_ribbon(draw, c, r, icon == Icon::bookmark ? 0.0f : icon == Icon::bookmark_on ? 1.0f : -1.0f, line, ink);
       break;
-    }
     case Icon::reset:
       draw.PathArcTo(c, 0.62f * r, -2.3f, 2.6f, 16);
       draw.PathStroke(ink, 0, line);
@@ -160,6 +162,54 @@ std::optional<std::string> number_box(const UiContext& ui, std::string_view path
   return result;
 }
 
+namespace {
+
+/// The field that is being typed in.
+std::optional<std::string> type_in_field(const UiContext& ui, std::string_view path, const ValueField& field) {
+  Typing& state = ui.typing;
+  const bool focus = std::exchange(state.focus_field, false);
+  const bool was_active = state.id != 0;
+  std::optional<std::string> typed = number_box(ui, path, field.width, field.text, focus);
+  if (was_active && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Tab), false)) {
+    // ImGui would go round its text boxes, of which this is the only one: the next field becomes one instead.
+    if (!typed && state.text != state.shown) typed = state.text;
+    ImGui::ClearActiveID();
+    state.id = 0;
+    state.field.clear();
+    state.tab_on = true;
+  } else if (ImGui::IsItemDeactivated()) {
+    state.field.clear();
+  }
+  return typed;
+}
+
+/// The last item as a filled field.
+void draw_field(const UiContext& ui, const ValueField& field, ImVec2 at, double share) {
+  const float height = ImGui::GetFrameHeight();
+  const bool lit = ImGui::IsItemHovered() || ImGui::IsItemActive();
+  if (lit) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const ImVec2 end{at.x + field.width, at.y + height};
+  const float round = ui.px(3);
+  draw.AddRectFilled(at, end, ImGui::GetColorU32(lit ? ImGuiCol_FrameBgHovered : ImGuiCol_FrameBg), round);
+  const float filled = static_cast<float>(std::clamp(share, 0.0, 1.0)) * field.width;
+  if (filled >= 1.0f) {
+    draw.PushClipRect(at, {at.x + filled, end.y}, true);
+    draw.AddRectFilled(at, end, ui.colours.accent_soft, round);
+    draw.PopClipRect();
+  }
+  const float unit_room = ui.px(34);
+  const auto centred = [&](const ImFont* font) { return std::round(at.y + 0.5f * (height - font->FontSize)); };
+  const std::string unit(field.unit);
+  draw.AddText(ui.fonts.small, ui.fonts.small->FontSize, {end.x - unit_room + ui.px(3), centred(ui.fonts.small)},
+               ui.colours.text_dim, unit.c_str());
+  ImFont* number = ui.fonts.number;
+  const float w = number->CalcTextSizeA(number->FontSize, 1e9f, 0.0f, field.text.c_str()).x;
+  draw.AddText(number, number->FontSize, {end.x - unit_room - w, centred(number)}, ui.colours.text, field.text.c_str());
+}
+
+}  // namespace
+
 ValueFieldResult value_field(const UiContext& ui, std::string_view path, const ValueField& field) {
   ValueFieldResult out;
   Typing& state = ui.typing;
@@ -169,19 +219,7 @@ ValueFieldResult value_field(const UiContext& ui, std::string_view path, const V
     state.focus_field = true;
   }
   if (state.field == path) {
-    const bool focus = std::exchange(state.focus_field, false);
-    const bool was_active = state.id != 0;
-    out.typed = number_box(ui, path, field.width, field.text, focus);
-    if (was_active && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Tab), false)) {
-      // ImGui would go round its text boxes, of which this is the only one: the next field becomes one instead.
-      if (!out.typed && state.text != state.shown) out.typed = state.text;
-      ImGui::ClearActiveID();
-      state.id = 0;
-      state.field.clear();
-      state.tab_on = true;
-    } else if (ImGui::IsItemDeactivated()) {
-      state.field.clear();
-    }
+    out.typed = type_in_field(ui, path, field);
     return out;
   }
   const ImVec2 at = ImGui::GetCursorScreenPos();
@@ -206,26 +244,7 @@ ValueFieldResult value_field(const UiContext& ui, std::string_view path, const V
     number_box(ui, path, field.width, field.text, true);
     return out;
   }
-  const bool lit = ImGui::IsItemHovered() || ImGui::IsItemActive();
-  if (lit) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
-  ImDrawList& draw = *ImGui::GetWindowDrawList();
-  const ImVec2 end{at.x + field.width, at.y + height};
-  const float round = ui.px(3);
-  draw.AddRectFilled(at, end, ImGui::GetColorU32(lit ? ImGuiCol_FrameBgHovered : ImGuiCol_FrameBg), round);
-  const float filled = static_cast<float>(std::clamp(share, 0.0, 1.0)) * field.width;
-  if (filled >= 1.0f) {
-    draw.PushClipRect(at, {at.x + filled, end.y}, true);
-    draw.AddRectFilled(at, end, ui.colours.accent_soft, round);
-    draw.PopClipRect();
-  }
-  const float unit_room = ui.px(34);
-  const auto centred = [&](const ImFont* font) { return std::round(at.y + 0.5f * (height - font->FontSize)); };
-  const std::string unit(field.unit);
-  draw.AddText(ui.fonts.small, ui.fonts.small->FontSize, {end.x - unit_room + ui.px(3), centred(ui.fonts.small)},
-               ui.colours.text_dim, unit.c_str());
-  ImFont* number = ui.fonts.number;
-  const float w = number->CalcTextSizeA(number->FontSize, 1e9f, 0.0f, field.text.c_str()).x;
-  draw.AddText(number, number->FontSize, {end.x - unit_room - w, centred(number)}, ui.colours.text, field.text.c_str());
+  draw_field(ui, field, at, share);
   return out;
 }
 
