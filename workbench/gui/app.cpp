@@ -2,7 +2,7 @@
 
 #include "workbench/gui/model/app_model.h"
 #include "workbench/gui/panels/panels.h"
-#include "workbench/gui/platform/thread_time.h"
+#include "workbench/gui/widgets/thread_time.h"
 #include "workbench/gui/widgets/widgets.h"
 
 #include <algorithm>

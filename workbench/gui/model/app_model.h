@@ -10,8 +10,8 @@
 //   view, map  --(look that outlives the window)-->  window     kept_look()
 #pragma once
 
-#include "workbench/gui/app.h"
 #include "workbench/gui/map/map_view.h"
+#include "workbench/gui/model/app_options.h"
 #include "workbench/gui/model/device_model.h"
 #include "workbench/gui/model/export_model.h"
 #include "workbench/gui/model/message_log.h"

@@ -2,7 +2,7 @@
 // there is a scene, and made anew with other devices.
 #pragma once
 
-#include "workbench/gui/app.h"
+#include "workbench/gui/model/app_options.h"
 #include "workbench/gui/model/message_log.h"
 #include "workbench/gui/model/preset_model.h"
 #include "workbench/gui/model/scene_model.h"

@@ -2,8 +2,8 @@
 // where. Files that are there are never written over.
 #pragma once
 
-#include "workbench/gui/app.h"
 #include "workbench/gui/layout/layout.h"
+#include "workbench/gui/model/app_options.h"
 #include "workbench/gui/model/device_model.h"
 #include "workbench/gui/model/message_log.h"
 

@@ -4,7 +4,7 @@
 
 #include "core/io/rendering_condition.h"
 #include "core/mesh/contact_mesh.h"
-#include "workbench/gui/app.h"
+#include "workbench/gui/model/app_options.h"
 #include "workbench/gui/model/message_log.h"
 #include "workbench/gui/model/preset_slots.h"
 

@@ -2,7 +2,7 @@
 // unless the window is deterministic.
 #pragma once
 
-#include "workbench/gui/app.h"
+#include "workbench/gui/model/app_options.h"
 #include "workbench/gui/model/message_log.h"
 #include "workbench/gui/model/preset_model.h"
 #include "workbench/gui/model/scene_loader.h"

@@ -2,7 +2,7 @@
 // view, never the servo or the recording.
 #pragma once
 
-#include "workbench/gui/app.h"
+#include "workbench/gui/model/app_options.h"
 #include "workbench/gui/model/device_model.h"
 #include "workbench/gui/model/error_fan.h"
 #include "workbench/gui/model/message_log.h"

@@ -1,10 +1,10 @@
 // The window itself: its layout and look, what of it is kept between runs, and the wish to close it.
 #pragma once
 
-#include "workbench/gui/app.h"
 #include "workbench/gui/layout/layout.h"
-#include "workbench/gui/map/colour_map.h"
+#include "workbench/gui/model/app_options.h"
 #include "workbench/gui/model/message_log.h"
+#include "workbench/gui/theme/colour_map.h"
 #include "workbench/session/window_settings.h"
 
 #include <filesystem>

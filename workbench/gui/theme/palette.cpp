@@ -1,6 +1,6 @@
 #include "workbench/gui/theme/palette.h"
 
-#include "workbench/gui/map/colour_map.h"
+#include "workbench/gui/theme/colour_map.h"
 
 #include <algorithm>
 

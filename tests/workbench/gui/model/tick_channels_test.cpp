@@ -35,13 +35,15 @@ TEST_CASE("a tick's numbers go to the channels of their names, in SI") {
 }
 
 TEST_CASE("what was not measured and what did not happen is a gap") {
-  const ServoRecord record;
+  ServoRecord record;
+  record.tick.output.status = TickStatus::face;
   CHECK(std::isnan(value(record, Channel::tick_time)));
   CHECK(std::isnan(value(record, Channel::event)));
 }
 
 TEST_CASE("of what happened in a tick the worst is its mark") {
   ServoRecord record;
+  record.tick.output.status = TickStatus::face;
   const auto mark = [&] { return static_cast<EventRank>(value(record, Channel::event)); };
   record.tick.output.event = TickEvent::switched;
   CHECK(mark() == EventRank::moved);

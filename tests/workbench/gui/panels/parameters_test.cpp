@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <iterator>
+#include <set>
+#include <string>
 
 using namespace tangent;
 using tangent::test::HeadlessApp;

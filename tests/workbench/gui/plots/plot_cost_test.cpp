@@ -2,8 +2,8 @@
 // to measure. Nothing passes or fails by time.
 #include "tests/workbench/gui/headless_app.h"
 
-#include "workbench/gui/platform/thread_time.h"
 #include "workbench/gui/plots/plot_view.h"
+#include "workbench/gui/widgets/thread_time.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "workbench/gui/map/colour_map.h"
+#include "workbench/gui/theme/colour_map.h"
 
 #include "core/base/units.h"
 
