@@ -22,8 +22,11 @@ enum class NormalForm : std::uint8_t { bernstein, vlachos };
 
 /// Control points b_ijk (i for w, j for u, k for v) in this order.
 enum ControlPoint : std::uint8_t { b300, b030, b003, b210, b120, b021, b012, b102, b201, b111 };
+inline constexpr std::array<const char*, 10> kControlPointNames{"b300", "b030", "b003", "b210", "b120",
+                                                                "b021", "b012", "b102", "b201", "b111"};
 /// Control normals n_ijk, unit length, in this order.
 enum ControlNormal : std::uint8_t { n200, n020, n002, n110, n011, n101 };
+inline constexpr std::array<const char*, 6> kControlNormalNames{"n200", "n020", "n002", "n110", "n011", "n101"};
 
 /// Control points are held relative to corner 0, so that a small patch far from the origin keeps its digits.
 struct PnPatch {

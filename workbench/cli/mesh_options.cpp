@@ -3,21 +3,20 @@
 #include "core/io/mesh_io.h"
 #include "core/io/polygon_io.h"
 #include "workbench/cli/number_option.h"
+#include "workbench/session/file_units.h"
 
 #include <array>
 
 namespace tangent {
 namespace {
 
-constexpr std::array<std::string_view, 4> kUnits{"mm", "cm", "m", "in"};
-constexpr std::array<double, 4> kMetresPerUnit{1e-3, 1e-2, 1.0, 0.0254};
 constexpr std::array<std::string_view, 3> kNormals{"auto", "file", "computed"};  // order of NormalSource
 
 }  // namespace
 
 void add_unit_option(CLI::App& app, double& metres_per_unit, const std::string& doc) {
-  add_choice_option(app, "--unit", kUnits, doc,
-                    [&](int unit) { metres_per_unit = kMetresPerUnit[static_cast<std::size_t>(unit)]; });
+  add_choice_option(app, "--unit", kFileUnitNames, doc,
+                    [&](int unit) { metres_per_unit = kFileUnits[static_cast<std::size_t>(unit)].metres; });
 }
 
 void add_mesh_options(CLI::App& app, MeshOptions& options, bool mesh_required) {

@@ -1,9 +1,9 @@
 #include "workbench/gui/app.h"
 
-#include "workbench/gui/app_model.h"
+#include "workbench/gui/model/app_model.h"
 #include "workbench/gui/panels/panels.h"
-#include "workbench/gui/thread_time.h"
-#include "workbench/gui/widgets.h"
+#include "workbench/gui/widgets/thread_time.h"
+#include "workbench/gui/widgets/widgets.h"
 
 #include <algorithm>
 #include <cmath>
@@ -34,7 +34,7 @@ struct App::Ui {
   ViewPanel view;
   PlotsPanel plots = make_plots_panel();
 
-  void draw_splitters(const UiContext& ui, AppModel& model, const Layout& layout);
+  void draw_splitters(const UiContext& ui, WindowModel& window, const Layout& layout);
   void draw_column(const char* name, const Rect& rect, const UiContext& ui, AppModel& model, bool left);
 };
 
@@ -58,19 +58,19 @@ bool App::prepare(const FrameInput& input) {
   ImGuiIO& io = ImGui::GetIO();
   io.DisplaySize = {input.width, input.height};
   io.DeltaTime = static_cast<float>(std::clamp(input.dt_s, 1e-6, 1.0));
-  const float scale = std::clamp(input.content_scale * model_->ui_scale(), 0.5f, 6.0f);
+  const float scale = std::clamp(input.content_scale * model_->window().ui_scale(), 0.5f, 6.0f);
   const bool fonts = ui_->font_scale != scale;
-  if (fonts || ui_->theme != model_->theme()) apply_theme(model_->theme(), scale);
-  ui_->theme = model_->theme();
+  if (fonts || ui_->theme != model_->window().theme()) apply_theme(model_->window().theme(), scale);
+  ui_->theme = model_->window().theme();
   if (!fonts) return false;
   std::vector<std::string> missing;
   ui_->fonts = load_fonts(scale, missing);
-  for (std::string& line : missing) model_->say(Severity::warning, std::move(line));
+  for (std::string& line : missing) model_->messages().say(Severity::warning, std::move(line));
   ui_->font_scale = scale;
   return true;
 }
 
-void App::Ui::draw_splitters(const UiContext& ui, AppModel& model, const Layout& layout) {
+void App::Ui::draw_splitters(const UiContext& ui, WindowModel& window, const Layout& layout) {
   const auto splitter = [&](const char* name, const Rect& rect, bool vertical) {
     if (rect.w < 1.0f || rect.h < 1.0f) return ImVec2(0, 0);
     ImGui::SetNextWindowPos({rect.x, rect.y});
@@ -93,7 +93,7 @@ void App::Ui::draw_splitters(const UiContext& ui, AppModel& model, const Layout&
     ImGui::PopStyleVar(2);
     return delta;
   };
-  LayoutSizes& sizes = model.sizes();
+  LayoutSizes& sizes = window.sizes();
   sizes = drag_left(sizes, splitter("##splitter/left", layout.left_splitter, true).x, ui.scale);
   const float dx = splitter("##splitter/right", layout.right_splitter, true).x;
   if (dx != 0.0f) sizes = drag_right(sizes, dx, layout.right.w, ui.scale);
@@ -123,14 +123,14 @@ void App::Ui::draw_column(const char* name, const Rect& rect, const UiContext& u
     draw_presets_panel(ui, model, presets);
   } else {
     draw_iterations_panel(ui, model, iterations);
-    draw_time_machine_panel(ui, model, time_machine);
+    draw_time_machine_panel(ui, model.time(), time_machine);
     draw_bookmarks_panel(ui, model, bookmarks);
     draw_map_panel(ui, model, map);
     draw_perception_panel(ui, model, perception);
     draw_inspect_panel(ui, model, inspect);
     draw_mesh_panel(ui, model, mesh);
     draw_devices_panel(ui, model, devices);
-    draw_log_panel(ui, model, log);
+    draw_log_panel(ui, model.messages(), log);
   }
   ImGui::End();
 }
@@ -139,12 +139,12 @@ void App::frame(const FrameInput& input) {
   const double begin = thread_cpu_ms();
   for (const std::string& file : input.dropped_files) {
     if (std::filesystem::path(file).extension() == ".toml")
-      model_->load_preset(file);
+      model_->presets().load(file);
     else
-      model_->open_mesh(file);
+      model_->scene().open(file);
   }
   model_->update(input.now_s);
-  const Theme theme = ui_->theme.value_or(model_->theme());
+  const Theme theme = ui_->theme.value_or(model_->window().theme());
   const float scale = ui_->font_scale.value_or(1.0f);
   ui_->items.begin_frame();
   ImGui::NewFrame();
@@ -154,21 +154,21 @@ void App::frame(const FrameInput& input) {
                      theme_colours(theme),
                      palette(theme),
                      ui_->fonts,
-                     model_->open_sections(),
+                     model_->window().open_sections(),
                      scale,
                      input.now_s,
-                     &model_->section_wanted()};
-  const Layout layout = compute_layout(model_->sizes(), input.width, input.height, scale);
+                     &model_->window().section_wanted()};
+  const Layout layout = compute_layout(model_->window().sizes(), input.width, input.height, scale);
   handle_shortcuts(*model_, ui_->menu);
-  model_->map().set_felt_angle(felt_angle_rad(*model_, ui_->perception));
+  model_->map().set_felt_angle(felt_angle_rad(model_->presets(), ui_->perception));
   draw_view_panel(ui, *model_, ui_->view, ui_->renderer, layout.view);
   draw_device_monitor(ui, *model_, layout.view);
   ui_->draw_column("##left", layout.left, ui, *model_, true);
   ui_->draw_column("##right", layout.right, ui, *model_, false);
   draw_plots_panel(ui, *model_, ui_->plots, layout.plots);
-  draw_transport_bar(ui, *model_, layout.transport);
+  draw_transport_bar(ui, model_->time(), layout.transport);
   draw_status_line(ui, *model_, layout.status, last_build_ms_);
-  ui_->draw_splitters(ui, *model_, layout);
+  ui_->draw_splitters(ui, model_->window(), layout);
   draw_toasts(ui, *model_, layout.view);
   draw_menu_bar(ui, *model_, ui_->menu, layout.menu);
   const Rect middle{layout.left.right(), layout.menu.bottom(), input.width - layout.left.right() - layout.right.w,
@@ -176,7 +176,7 @@ void App::frame(const FrameInput& input) {
   draw_shortcut_sheet(ui, *model_, ui_->menu,
                       {0.0f, layout.menu.bottom(), input.width, layout.transport.y - layout.menu.bottom()});
   draw_command_palette(ui, *model_, ui_->menu, middle);
-  if (!ImGui::IsAnyItemActive()) model_->end_gesture();
+  if (!ImGui::IsAnyItemActive()) model_->presets().end_gesture();
   ImGui::Render();
   last_build_ms_ = thread_cpu_ms() - begin - ui_->view.build_ms_outside;
 }
@@ -188,24 +188,26 @@ void App::show_plots(PlotsMode mode, bool values) {
 
 void App::advance(std::uint64_t ticks) { model_->advance(ticks); }
 
-bool App::wants_close() const { return model_->wants_close(); }
+bool App::wants_close() const { return model_->window().wants_close(); }
 
 bool App::wants_frames() const {
   const bool refining = ui_->renderer != nullptr && ui_->renderer->refining();
-  return !model_->paused() || model_->loading() || model_->auditing() || model_->map().running() ||
-         model_->time_machine().busy() || refining;
+  return !model_->time().paused() || model_->scene().loading() || model_->scene().auditing() ||
+         model_->map().running() || model_->time().time_machine().busy() || refining;
 }
 
-std::optional<std::filesystem::path> App::take_screenshot_request() { return model_->take_screenshot_request(); }
+std::optional<std::filesystem::path> App::take_screenshot_request() {
+  return model_->exports().take_screenshot_request();
+}
 
 std::string App::title() const {
-  const auto& scene = model_->scene();
+  const auto& scene = model_->scene().current();
   std::string text =
       scene != nullptr ? std::filesystem::path(scene->mesh().name()).filename().string() : std::string("no mesh");
-  text += " - " + model_->presets().name() + (model_->presets().changed() ? "*" : "");
-  const ServoRecord* record = model_->tick().record();
-  if (model_->paused() && record != nullptr)
-    text += printed(" - paused at %.3f s", static_cast<double>(record->tick.tick) * model_->tick_period_s());
+  text += " - " + model_->presets().editor().name() + (model_->presets().editor().changed() ? "*" : "");
+  const ServoRecord* record = model_->time().tick().record();
+  if (model_->time().paused() && record != nullptr)
+    text += printed(" - paused at %.3f s", static_cast<double>(record->tick.tick) * model_->time().tick_period_s());
   return text + " - Tangent Workbench";
 }
 

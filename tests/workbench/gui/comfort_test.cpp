@@ -1,5 +1,5 @@
 // What makes the window pleasant: everything explains itself, everything has a name, nothing is forgotten.
-#include "headless_app.h"
+#include "tests/workbench/gui/headless_app.h"
 
 #include "tests/support/temp_folder.h"
 #include "workbench/gui/panels/commands.h"
@@ -49,7 +49,7 @@ TEST_CASE("everything in the window explains itself when the pointer rests on it
   HeadlessApp ui(options, 2400.0f, 3600.0f);
   ui.app().advance(600);
   ui.model().map().on = true;
-  ui.model().set_value(*find_preset_key("solver", "method"), static_cast<double>(Method::paper));
+  ui.model().presets().set_value(*find_preset_key("solver", "method"), static_cast<double>(Method::paper));
   ui.frames(2);
   // The view itself is where one works; a tooltip would be in the way. Plots and the table show their values instead.
   std::set<std::string> silent = without_tooltip(ui);
@@ -136,7 +136,7 @@ TEST_CASE("Ctrl+P, some letters and Enter do a command - Esc puts the palette aw
   REQUIRE(ui.app().items().find("palette/text") != nullptr);
   ui.type("window: light");
   ui.key(HeadlessApp::kEnter);
-  CHECK(ui.model().theme() == Theme::light);
+  CHECK(ui.model().window().theme() == Theme::light);
   ui.frame();
   CHECK(ui.app().items().find("palette/text") == nullptr);
   ui.chord('P');
@@ -149,7 +149,7 @@ TEST_CASE("Ctrl+P, some letters and Enter do a command - Esc puts the palette aw
   ui.key(HeadlessApp::kEscape);
   ui.frame();
   CHECK(ui.app().items().find("palette/text") == nullptr);
-  CHECK_FALSE(ui.model().stopped());
+  CHECK_FALSE(ui.model().devices().stopped());
 }
 
 TEST_CASE("what the menus have is among the commands, the device monitor and the devices too") {
@@ -169,7 +169,7 @@ TEST_CASE("what the menus have is among the commands, the device monitor and the
   ui.frames(2);
   ui.key(HeadlessApp::kEnter);
   ui.frames(2);
-  CHECK(ui.model().device() == "ideal");
+  CHECK(ui.model().devices().name() == "ideal");
   MenuBar menu;
   const auto commands = window_commands(ui.model(), menu);
   for (const char* name :
@@ -192,19 +192,19 @@ TEST_CASE(
     CAPTURE(command.name);
     ++panels;
     const std::string title = command.name.substr(7);
-    ui.model().sizes().show_left = ui.model().sizes().show_right = false;
-    ui.model().open_sections()[title] = false;
+    ui.model().window().sizes().show_left = ui.model().window().sizes().show_right = false;
+    ui.model().window().open_sections()[title] = false;
     ui.frames(2);
     command.run();
     ui.frames(3);
     const ItemRect* header = ui.app().items().find("section/" + title);
     REQUIRE(header != nullptr);
     CHECK(header->visible);
-    CHECK(ui.model().open_sections()[title]);
+    CHECK(ui.model().window().open_sections()[title]);
     const ImGuiWindow* column = ImGui::FindWindowByName(header->min.x < 640.0f ? "##left" : "##right");
     REQUIRE(column != nullptr);
     CHECK((header->min.y < column->Pos.y + 30.0f || column->Scroll.y == column->ScrollMax.y));
-    CHECK(ui.model().section_wanted().empty());
+    CHECK(ui.model().window().section_wanted().empty());
   }
   CHECK(panels == 17);
 }
@@ -218,8 +218,8 @@ TEST_CASE("the window's own keys work while text is typed - letters and editing 
   REQUIRE(ImGui::GetIO().WantTextInput);
   ui.key(HeadlessApp::kSpace);
   ui.key('M');
-  CHECK_FALSE(ui.model().paused());
-  CHECK_FALSE(ui.model().view().hand_follows_mouse);
+  CHECK_FALSE(ui.model().time().paused());
+  CHECK_FALSE(ui.model().devices().hand_follows_mouse());
   ui.key(290);
   CHECK(ui.app().items().find("shortcuts") != nullptr);
   CHECK_FALSE(ui.app().wants_close());
@@ -236,11 +236,11 @@ TEST_CASE("the key that follows Enter is the window's again, in the very next fr
   ImGuiIO& io = ImGui::GetIO();
   io.KeysDown[HeadlessApp::kEnter] = true;
   ui.frame();
-  CHECK(ui.model().theme() == Theme::light);
+  CHECK(ui.model().window().theme() == Theme::light);
   io.KeysDown[HeadlessApp::kEnter] = false;
   io.KeysDown[HeadlessApp::kSpace] = true;
   ui.frame();
-  CHECK(ui.model().paused());
+  CHECK(ui.model().time().paused());
 }
 
 TEST_CASE("the title names mesh, preset, changes, and the time in view while it stands") {
@@ -251,12 +251,12 @@ TEST_CASE("the title names mesh, preset, changes, and the time in view while it 
   CHECK(live.find("icosphere") == 0);
   CHECK(live.find("paused") == std::string::npos);
   CHECK(live.find('*') == std::string::npos);
-  ui.model().select_tick(1234);
+  ui.model().time().select_tick(1234);
   ui.frame();
   CHECK(ui.app().title().find(" - paused at 1.234 s - Tangent Workbench") != std::string::npos);
   ui.key(HeadlessApp::kLeft);
   CHECK(ui.app().title().find(" - paused at 1.233 s - ") != std::string::npos);
-  ui.model().go_live();
+  ui.model().time().go_live();
   ui.frame();
   CHECK(ui.app().title() == live);
 }
@@ -269,9 +269,9 @@ TEST_CASE("F1 shows all keys on a sheet, and every command can be run") {
   ui.key(HeadlessApp::kEscape);
   ui.frame();
   CHECK(ui.app().items().find("shortcuts") == nullptr);
-  CHECK_FALSE(ui.model().stopped());
+  CHECK_FALSE(ui.model().devices().stopped());
   const testing::TempFolder folder;
-  ui.model().set_export_folder(folder.path());
+  ui.model().exports().set_folder(folder.path());
   MenuBar menu;
   std::set<std::string> names;
   for (const Command& command : window_commands(ui.model(), menu)) {
@@ -295,22 +295,22 @@ TEST_CASE(
     ui.drag("splitter/left", {40.0f, 0.0f});
     ui.click("section/Finger");
     ui.click("solver/gain_overall/label");
-    ui.model().set_theme(Theme::light);
-    ui.model().set_ui_scale(1.2f);
-    ui.model().set_y_up(true);
+    ui.model().window().set_theme(Theme::light);
+    ui.model().window().set_ui_scale(1.2f);
+    ui.model().view().set_y_up(true);
     ui.frame();
   }
   HeadlessApp ui(options);
-  CHECK(ui.model().sizes().left == doctest::Approx(LayoutSizes{}.left + 40.0f));
+  CHECK(ui.model().window().sizes().left == doctest::Approx(LayoutSizes{}.left + 40.0f));
   CHECK(ui.app().items().find("finger/radius_m") == nullptr);
-  CHECK(ui.model().favourites() == std::vector<std::string>{"solver.gain_overall"});
-  CHECK(ui.model().theme() == Theme::light);
-  CHECK(ui.model().ui_scale() == doctest::Approx(1.2f));
+  CHECK(ui.model().window().favourites() == std::vector<std::string>{"solver.gain_overall"});
+  CHECK(ui.model().window().theme() == Theme::light);
+  CHECK(ui.model().window().ui_scale() == doctest::Approx(1.2f));
   CHECK(ui.model().view().camera.y_up);
-  CHECK(ui.model().settings().recent_meshes == std::vector<std::string>{"icosphere"});
-  ui.model().reset_layout();
+  CHECK(ui.model().window().settings().recent_meshes == std::vector<std::string>{"icosphere"});
+  ui.model().window().reset_layout();
   ui.frame();
-  CHECK(ui.model().sizes().left == LayoutSizes{}.left);
+  CHECK(ui.model().window().sizes().left == LayoutSizes{}.left);
   CHECK(ui.app().items().find("finger/radius_m") != nullptr);
 }
 
@@ -320,7 +320,7 @@ TEST_CASE("a broken settings file is said and left behind - the window starts al
   options.settings = folder.write("window.toml", "[layout\n");
   HeadlessApp ui(options);
   CHECK(ui.model().messages().all().front().severity == Severity::warning);
-  CHECK(ui.model().sizes().left == LayoutSizes{}.left);
+  CHECK(ui.model().window().sizes().left == LayoutSizes{}.left);
 }
 
 TEST_CASE("toasts come at a bearable rate - the log has all of them") {
@@ -338,8 +338,8 @@ TEST_CASE("toasts come at a bearable rate - the log has all of them") {
 
 TEST_CASE("the log can be filtered, copied and cleared") {
   HeadlessApp ui(HeadlessApp::deterministic_options(), 1280.0f, 4000.0f);
-  ui.model().say(Severity::note, "an apple");
-  ui.model().say(Severity::error, "a pear");
+  ui.model().messages().say(Severity::note, "an apple");
+  ui.model().messages().say(Severity::error, "a pear");
   ui.frame();
   ui.click("log/notes");
   ui.click("log/copy");

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "workbench/gui/app.h"
-#include "workbench/gui/app_model.h"
-#include "workbench/gui/item_map.h"
+#include "workbench/gui/model/app_model.h"
+#include "workbench/gui/widgets/item_map.h"
 
 #include <doctest/doctest.h>
 #include <imgui.h>

@@ -1,5 +1,5 @@
 // The window with a servo thread and workers of its own, as it really runs. Nothing here depends on how fast.
-#include "headless_app.h"
+#include "tests/workbench/gui/headless_app.h"
 
 #include "tests/support/meshes.h"
 
@@ -32,21 +32,21 @@ TEST_CASE("a live session: records come while frames are built, gains reach the 
   AppOptions options;
   options.mesh = "icosphere";
   HeadlessApp ui(options);
-  REQUIRE(frames_until(ui, [&] { return ui.model().end_tick() > 500; }));
-  CHECK(ui.model().audit() != nullptr);
-  ui.model().set_value(*find_preset_key("solver", "gain_curvature_m"), 0.013);
-  const std::uint32_t sent = ui.model().session()->preset_id();
-  REQUIRE(frames_until(ui, [&] { return ui.model().status().servo.preset_id == sent; }));
+  REQUIRE(frames_until(ui, [&] { return ui.model().time().end_tick() > 500; }));
+  CHECK(ui.model().scene().audit() != nullptr);
+  ui.model().presets().set_value(*find_preset_key("solver", "gain_curvature_m"), 0.013);
+  const std::uint32_t sent = ui.model().devices().session()->preset_id();
+  REQUIRE(frames_until(ui, [&] { return ui.model().devices().status().servo.preset_id == sent; }));
   ui.click("transport/pause");
-  const std::uint64_t frozen = ui.model().tick().record()->tick.tick;
-  REQUIRE(frames_until(ui, [&] { return ui.model().end_tick() > frozen + 300; }));
-  CHECK(ui.model().tick().record()->tick.tick == frozen);
-  ui.model().open_mesh("torus");
-  REQUIRE(frames_until(ui, [&] { return !ui.model().loading() && ui.model().mesh_path() == "torus"; }));
+  const std::uint64_t frozen = ui.model().time().tick().record()->tick.tick;
+  REQUIRE(frames_until(ui, [&] { return ui.model().time().end_tick() > frozen + 300; }));
+  CHECK(ui.model().time().tick().record()->tick.tick == frozen);
+  ui.model().scene().open("torus");
+  REQUIRE(frames_until(ui, [&] { return !ui.model().scene().loading() && ui.model().scene().path() == "torus"; }));
   ui.click("transport/live");
-  const std::uint64_t then = ui.model().end_tick();
-  REQUIRE(frames_until(ui, [&] { return ui.model().end_tick() > then + 500; }));
-  CHECK(ui.model().tick().problem().empty());
+  const std::uint64_t then = ui.model().time().end_tick();
+  REQUIRE(frames_until(ui, [&] { return ui.model().time().end_tick() > then + 500; }));
+  CHECK(ui.model().time().tick().problem().empty());
   CHECK(ui.model().messages().all().empty());
 }
 
@@ -54,9 +54,9 @@ TEST_CASE("the last mesh asked for is the one that is opened") {
   AppOptions options;
   options.mesh = "icosphere";
   HeadlessApp ui(options);
-  for (const char* name : {"torus", "cube", "saddle", "cone"}) ui.model().open_mesh(name);
-  REQUIRE(frames_until(ui, [&] { return !ui.model().loading(); }));
-  CHECK(ui.model().mesh_path() == "cone");
+  for (const char* name : {"torus", "cube", "saddle", "cone"}) ui.model().scene().open(name);
+  REQUIRE(frames_until(ui, [&] { return !ui.model().scene().loading(); }));
+  CHECK(ui.model().scene().path() == "cone");
 }
 
 // What a frame costs. Not a test: run with --no-skip to measure.
@@ -70,7 +70,7 @@ TEST_CASE("measure: processor time of building a frame with the bunny and all pl
     HeadlessApp ui(options, w, h);
     for (int i = 0; i < 120; ++i) ui.app().advance(1000);
     for (const double span : {5000.0, 120'000.0}) {
-      ui.model().axis().set_span(span);
+      ui.model().time().axis().set_span(span);
       std::vector<double> ms;
       for (int i = 0; i < 300; ++i) {
         ui.app().advance(16);

@@ -1,4 +1,4 @@
-#include "real_window.h"
+#include "tests/workbench/gui/real_window.h"
 
 #include <doctest/doctest.h>
 

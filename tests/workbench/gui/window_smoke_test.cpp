@@ -1,6 +1,6 @@
 // The real window, from its opening to its close: what only a window, its events and its files can show.
-#include "headless_app.h"
-#include "real_window.h"
+#include "tests/workbench/gui/headless_app.h"
+#include "tests/workbench/gui/real_window.h"
 
 #include "core/io/preset_file.h"
 #include "workbench/session/window_settings.h"

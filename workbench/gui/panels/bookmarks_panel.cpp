@@ -1,6 +1,6 @@
 // Bookmarks: those a person set, with notes, and those that triggers set; and the triggers.
 #include "workbench/gui/panels/panels.h"
-#include "workbench/gui/widgets.h"
+#include "workbench/gui/widgets/widgets.h"
 
 #include <algorithm>
 #include <array>
@@ -41,8 +41,8 @@ constexpr std::array kTriggers{
     TriggerRow{BookmarkKind::device_fault, "Device fault", "A fault of a device or of the safety gate"}};
 
 /// Whoever drags or types the number of a trigger.
-void threshold(const UiContext& ui, AppModel& model, const char* path, double& value, double most, const char* unit,
-               bool whole) {
+void threshold(const UiContext& ui, MessageLog& messages, const char* path, double& value, double most,
+               const char* unit, bool whole) {
   const auto result =
       value_field(ui, path, {ImGui::GetContentRegionAvail().x, value / most, short_number(value), unit});
   double wanted = value;
@@ -51,7 +51,7 @@ void threshold(const UiContext& ui, AppModel& model, const char* path, double& v
     char* end = nullptr;
     const double typed = std::strtod(result.typed->c_str(), &end);
     if (end == result.typed->c_str() || !std::isfinite(typed))
-      model.say(Severity::error, "\"" + *result.typed + "\" is not a number");
+      messages.say(Severity::error, "\"" + *result.typed + "\" is not a number");
     else
       wanted = typed;
   }
@@ -60,7 +60,7 @@ void threshold(const UiContext& ui, AppModel& model, const char* path, double& v
 }
 
 void draw_triggers(const UiContext& ui, AppModel& model) {
-  BookmarkTriggers& triggers = model.bookmarks().triggers;
+  BookmarkTriggers& triggers = model.time().bookmarks().triggers;
   for (const TriggerRow& row : kTriggers) {
     bool& on = triggers.on[static_cast<std::size_t>(row.kind)];
     const std::string path = std::string("bookmarks/trigger/") + to_string(row.kind);
@@ -73,18 +73,18 @@ void draw_triggers(const UiContext& ui, AppModel& model) {
     ImGui::SameLine(ui.px(150));
     if (row.kind == BookmarkKind::iterations) {
       double over = triggers.iterations_over;
-      threshold(ui, model, "bookmarks/iterations_over", over, 200.0, "", true);
+      threshold(ui, model.messages(), "bookmarks/iterations_over", over, 200.0, "", true);
       triggers.iterations_over = static_cast<std::int32_t>(over);
     } else {
-      threshold(ui, model, "bookmarks/force_over", triggers.force_over_n, 20.0, "N", false);
+      threshold(ui, model.messages(), "bookmarks/force_over", triggers.force_over_n, 20.0, "N", false);
     }
   }
 }
 
-void draw_row(const UiContext& ui, AppModel& model, const Bookmark& mark, std::size_t i) {
-  const ServoRecord* seen = model.tick().record();
+void draw_row(const UiContext& ui, TimeModel& time, const Bookmark& mark, std::size_t i) {
+  const ServoRecord* seen = time.tick().record();
   const bool here = seen != nullptr && seen->tick.tick >= mark.tick && seen->tick.tick <= mark.last_tick;
-  const bool gone = mark.last_tick < model.first_tick();
+  const bool gone = mark.last_tick < time.first_tick();
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const float height = ImGui::GetTextLineHeight();
   ImGui::PushStyleColor(ImGuiCol_Text, gone ? ui.colours.text_faint : ui.colours.text);
@@ -93,7 +93,7 @@ void draw_row(const UiContext& ui, AppModel& model, const Bookmark& mark, std::s
   if (ImGui::Selectable((text + "##bookmark" + std::to_string(mark.id)).c_str(), here,
                         ImGuiSelectableFlags_AllowItemOverlap) &&
       !gone)
-    model.select_tick(std::max(mark.tick, model.first_tick()));
+    time.select_tick(std::max(mark.tick, time.first_tick()));
   const float text_width = ImGui::CalcTextSize(text.c_str()).x;
   ImGui::PopFont();
   // The note lies over the rest of the row.
@@ -113,7 +113,7 @@ void draw_row(const UiContext& ui, AppModel& model, const Bookmark& mark, std::s
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(ui.px(3), 0.0f));
     if (auto note =
             number_box(ui, printed("bookmarks/note/%u", mark.id), ImGui::GetContentRegionAvail().x - remove, mark.note))
-      model.bookmarks().set_note(mark.id, *note);
+      time.bookmarks().set_note(mark.id, *note);
     ImGui::PopStyleVar();
     if (mark.note.empty() && !ImGui::IsItemActive())
       draw.AddText({ImGui::GetItemRectMin().x + ui.px(3), at.y}, ui.colours.text_faint, "note");
@@ -124,7 +124,7 @@ void draw_row(const UiContext& ui, AppModel& model, const Bookmark& mark, std::s
   ImGui::SameLine();
   ImGui::SetCursorPosX(ImGui::GetWindowContentRegionMax().x - remove + ui.px(4));
   const std::uint32_t id = mark.id;
-  if (ImGui::SmallButton(printed("\u00d7##remove%u", id).c_str())) model.bookmarks().remove(id);
+  if (ImGui::SmallButton(printed("\u00d7##remove%u", id).c_str())) time.bookmarks().remove(id);
   ui.items.note_last(printed("bookmarks/remove/%zu", i));
   ImGui::PopFont();
   ImGui::PopStyleColor();
@@ -134,18 +134,18 @@ void draw_row(const UiContext& ui, AppModel& model, const Bookmark& mark, std::s
 
 void draw_bookmarks_panel(const UiContext& ui, AppModel& model, BookmarksPanel& state) {
   if (!section(ui, "Bookmarks", state.open)) return;
-  const bool any = model.tick().record() != nullptr;
+  const bool any = model.time().tick().record() != nullptr;
   if (text_button(ui, "bookmarks/add", "Add", "A bookmark on the tick in view (K)") && any) {
-    model.set_paused(true);
-    model.add_bookmark();
+    model.time().set_paused(true);
+    model.time().add_bookmark();
   }
   ImGui::SameLine();
   toggle_button(ui, "bookmarks/triggers", "Triggers", state.triggers_open, "What sets bookmarks by itself");
   ImGui::SameLine();
   if (text_button(ui, "bookmarks/clear", "Clear triggered", "Removes those that triggers set"))
-    model.bookmarks().clear_automatic();
+    model.time().bookmarks().clear_automatic();
   if (state.triggers_open) draw_triggers(ui, model);
-  const std::size_t count = model.bookmarks().all().size();
+  const std::size_t count = model.time().bookmarks().all().size();
   if (count == 0) {
     ImGui::PushFont(ui.fonts.small);
     ImGui::TextDisabled("None. K sets one, [ and ] go from one to the next");
@@ -155,7 +155,8 @@ void draw_bookmarks_panel(const UiContext& ui, AppModel& model, BookmarksPanel& 
   const float row = ImGui::GetTextLineHeight() + ImGui::GetStyle().ItemSpacing.y;
   ImGui::BeginChild("bookmarks", {0.0f, row * static_cast<float>(std::min<std::size_t>(6, count)) + ui.px(12)}, true);
   // A row may remove itself: the list is looked at anew for each.
-  for (std::size_t i = 0; i < model.bookmarks().all().size(); ++i) draw_row(ui, model, model.bookmarks().all()[i], i);
+  for (std::size_t i = 0; i < model.time().bookmarks().all().size(); ++i)
+    draw_row(ui, model.time(), model.time().bookmarks().all()[i], i);
   ImGui::EndChild();
   ImGui::Dummy({1, ui.px(3)});
 }

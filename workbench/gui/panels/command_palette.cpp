@@ -1,7 +1,7 @@
 // The command palette (Ctrl+P) and the sheet of shortcuts (F1). Neither holds anything up: the servo, the plots and the
 // view go on behind them.
 #include "workbench/gui/panels/commands.h"
-#include "workbench/gui/widgets.h"
+#include "workbench/gui/widgets/widgets.h"
 
 #include <imgui_stdlib.h>
 

@@ -12,15 +12,15 @@ namespace tangent {
 namespace {
 
 void add_view_commands(std::vector<Command>& out, AppModel& model) {
-  out.push_back({"View: frame the mesh", "F", [&model] { model.frame_scene(); }});
+  out.push_back({"View: frame the mesh", "F", [&model] { model.view().frame_scene(); }});
   for (const NamedView& v : kStandardViews) {
-    out.push_back(
-        {std::string("View: from the ") + v.name, v.key, [&model, view = v.view] { model.look_from_standard(view); }});
+    out.push_back({std::string("View: from the ") + v.name, v.key,
+                   [&model, view = v.view] { model.view().look_from_standard(view); }});
   }
-  out.push_back({"View: y axis up, or z axis", "U", [&model] { model.set_y_up(!model.view().camera.y_up); }});
-  out.push_back({"View: copy the camera", "Ctrl+Shift+C", [&model] { model.copy_camera(); }});
-  out.push_back({"View: paste the camera", "Ctrl+Shift+V", [&model] { model.paste_camera(); }});
-  out.push_back({"View: screenshot", "F12", [&model] { model.ask_for_screenshot(); }});
+  out.push_back({"View: y axis up, or z axis", "U", [&model] { model.view().set_y_up(!model.view().camera.y_up); }});
+  out.push_back({"View: copy the camera", "Ctrl+Shift+C", [&model] { model.view().copy_camera(); }});
+  out.push_back({"View: paste the camera", "Ctrl+Shift+V", [&model] { model.view().paste_camera(); }});
+  out.push_back({"View: screenshot", "F12", [&model] { model.exports().ask_for_screenshot(); }});
   out.push_back({"View: device monitor", "", [&model] { model.view().device_monitor = !model.view().device_monitor; }});
   struct Layer {
     const char* name;
@@ -43,7 +43,8 @@ void add_view_commands(std::vector<Command>& out, AppModel& model) {
 
 void add_panel_commands(std::vector<Command>& out, AppModel& model) {
   const auto add = [&](const char* title, bool left) {
-    out.push_back({std::string("Panel: ") + title, "", [&model, title, left] { model.show_section(title, left); }});
+    out.push_back(
+        {std::string("Panel: ") + title, "", [&model, title, left] { model.window().show_section(title, left); }});
   };
   for (const PresetTable& table : preset_tables()) add(table.title.data(), true);
   for (const char* title : {"Compare", "Presets"}) add(title, true);
@@ -55,58 +56,62 @@ void add_panel_commands(std::vector<Command>& out, AppModel& model) {
 void add_window_commands(std::vector<Command>& out, AppModel& model, MenuBar& menu) {
   out.push_back({"Window: command palette", "Ctrl+P", [&menu] { menu.palette.open = menu.palette.focus = true; }});
   out.push_back({"Window: shortcuts", "F1", [&menu] { menu.sheet = !menu.sheet; }});
-  out.push_back({"Window: dark", "", [&model] { model.set_theme(Theme::dark); }});
-  out.push_back({"Window: light", "", [&model] { model.set_theme(Theme::light); }});
-  out.push_back({"Window: larger text", "Ctrl++", [&model] { model.set_ui_scale(model.ui_scale() * 1.1f); }});
-  out.push_back({"Window: smaller text", "Ctrl+-", [&model] { model.set_ui_scale(model.ui_scale() / 1.1f); }});
-  out.push_back({"Window: normal text", "Ctrl+0", [&model] { model.set_ui_scale(1.0f); }});
-  out.push_back({"Window: parameters on or off", "", [&model] { model.sizes().show_left = !model.sizes().show_left; }});
+  out.push_back({"Window: dark", "", [&model] { model.window().set_theme(Theme::dark); }});
+  out.push_back({"Window: light", "", [&model] { model.window().set_theme(Theme::light); }});
   out.push_back(
-      {"Window: right column on or off", "", [&model] { model.sizes().show_right = !model.sizes().show_right; }});
-  out.push_back({"Window: plots on or off", "", [&model] { model.sizes().show_plots = !model.sizes().show_plots; }});
-  out.push_back({"Window: default layout", "", [&model] { model.reset_layout(); }});
-  out.push_back({"Window: quit", "Ctrl+Q", [&model] { model.ask_to_close(); }});
+      {"Window: larger text", "Ctrl++", [&model] { model.window().set_ui_scale(model.window().ui_scale() * 1.1f); }});
+  out.push_back(
+      {"Window: smaller text", "Ctrl+-", [&model] { model.window().set_ui_scale(model.window().ui_scale() / 1.1f); }});
+  out.push_back({"Window: normal text", "Ctrl+0", [&model] { model.window().set_ui_scale(1.0f); }});
+  out.push_back({"Window: parameters on or off", "",
+                 [&model] { model.window().sizes().show_left = !model.window().sizes().show_left; }});
+  out.push_back({"Window: right column on or off", "",
+                 [&model] { model.window().sizes().show_right = !model.window().sizes().show_right; }});
+  out.push_back({"Window: plots on or off", "",
+                 [&model] { model.window().sizes().show_plots = !model.window().sizes().show_plots; }});
+  out.push_back({"Window: default layout", "", [&model] { model.window().reset_layout(); }});
+  out.push_back({"Window: quit", "Ctrl+Q", [&model] { model.window().ask_to_close(); }});
 }
 
 void add_time_commands(std::vector<Command>& out, AppModel& model) {
-  out.push_back({"Time: pause or go on", "Space", [&model] { model.set_paused(!model.paused()); }});
-  out.push_back({"Time: newest tick, live", "End", [&model] { model.go_live(); }});
-  out.push_back({"Time: oldest tick", "Home", [&model] { model.select_tick(model.first_tick()); }});
-  out.push_back({"Time: bookmark this tick", "K", [&model] { model.add_bookmark(); }});
-  out.push_back({"Time: previous bookmark", "[", [&model] { model.go_to_bookmark(-1); }});
-  out.push_back({"Time: next bookmark", "]", [&model] { model.go_to_bookmark(1); }});
-  out.push_back({"Time: solve the past with the present values", "", [&model] { model.solve_past_again(); }});
+  out.push_back({"Time: pause or go on", "Space", [&model] { model.time().set_paused(!model.time().paused()); }});
+  out.push_back({"Time: newest tick, live", "End", [&model] { model.time().go_live(); }});
+  out.push_back({"Time: oldest tick", "Home", [&model] { model.time().select_tick(model.time().first_tick()); }});
+  out.push_back({"Time: bookmark this tick", "K", [&model] { model.time().add_bookmark(); }});
+  out.push_back({"Time: previous bookmark", "[", [&model] { model.time().go_to_bookmark(-1); }});
+  out.push_back({"Time: next bookmark", "]", [&model] { model.time().go_to_bookmark(1); }});
+  out.push_back({"Time: solve the past with the present values", "", [&model] { model.time().solve_past_again(); }});
   out.push_back({"Plots: ticks in view as CSV", "", [&model] {
-                   const auto [from, to] = ticks_in_view(model);
-                   model.export_ticks(from, to);
+                   const auto [from, to] = ticks_in_view(model.time());
+                   model.exports().write_ticks(from, to);
                  }});
-  out.push_back({"Force: stop, or arm", "", [&model] { model.toggle_stop(); }});
+  out.push_back({"Force: stop, or arm", "", [&model] { model.devices().toggle_stop(); }});
   for (const std::string& name : device_set_names())
-    out.push_back({"Device: " + name, "", [&model, name] { model.set_device(name); }});
+    out.push_back({"Device: " + name, "", [&model, name] { model.devices().choose(name); }});
   out.push_back({"Hand: follows the mouse, or explores by itself", "M",
-                 [&model] { model.set_hand_follows_mouse(!model.view().hand_follows_mouse); }});
+                 [&model] { model.devices().set_hand_follows_mouse(!model.devices().hand_follows_mouse()); }});
 }
 
 void add_preset_commands(std::vector<Command>& out, AppModel& model) {
-  out.push_back({"Preset: undo", "Ctrl+Z", [&model] { model.undo(); }});
-  out.push_back({"Preset: redo", "Ctrl+Y", [&model] { model.redo(); }});
-  out.push_back({"Preset: switch between A and B", "B", [&model] { model.toggle_ab(); }});
-  out.push_back({"Preset: copy to the other of A and B", "", [&model] { model.copy_ab(); }});
-  out.push_back({"Preset: revert all changes", "", [&model] { model.revert_preset(); }});
-  for (const auto& file : model.preset_files())
-    out.push_back({"Preset: load " + file.stem().string(), "", [&model, file] { model.load_preset(file); }});
+  out.push_back({"Preset: undo", "Ctrl+Z", [&model] { model.presets().undo(); }});
+  out.push_back({"Preset: redo", "Ctrl+Y", [&model] { model.presets().redo(); }});
+  out.push_back({"Preset: switch between A and B", "B", [&model] { model.presets().toggle_ab(); }});
+  out.push_back({"Preset: copy to the other of A and B", "", [&model] { model.presets().copy_ab(); }});
+  out.push_back({"Preset: revert all changes", "", [&model] { model.presets().revert_all(); }});
+  for (const auto& file : model.presets().files())
+    out.push_back({"Preset: load " + file.stem().string(), "", [&model, file] { model.presets().load(file); }});
 }
 
 void add_mesh_commands(std::vector<Command>& out, AppModel& model, MenuBar& menu) {
   out.push_back({"Mesh: open a file", "Ctrl+O", [&menu] { menu.path.open = menu.path.focus = true; }});
   out.push_back({"Mesh: load again", "", [&model] {
-                   if (!model.mesh_path().empty()) model.open_mesh(std::string(model.mesh_path()));
+                   if (!model.scene().path().empty()) model.scene().open(std::string(model.scene().path()));
                  }});
-  for (const std::string& mesh : model.settings().recent_meshes)
-    out.push_back({"Mesh: open again " + mesh, "", [&model, mesh] { model.open_mesh(mesh); }});
+  for (const std::string& mesh : model.window().settings().recent_meshes)
+    out.push_back({"Mesh: open again " + mesh, "", [&model, mesh] { model.scene().open(mesh); }});
   for (const auto* names : {&generator_names(), &hard_mesh_names()}) {
     for (const std::string& object : *names)
-      out.push_back({"Mesh: make " + object, "", [&model, object] { model.open_mesh(object); }});
+      out.push_back({"Mesh: make " + object, "", [&model, object] { model.scene().open(object); }});
   }
   out.push_back({"Map: none", "", [&model] { model.map().on = false; }});
   for (std::size_t q = 0; q < kMapQuantityCount; ++q) {
@@ -116,10 +121,10 @@ void add_mesh_commands(std::vector<Command>& out, AppModel& model, MenuBar& menu
                      model.map().set_quantity(quantity);
                    }});
   }
-  out.push_back({"Map: go to the worst place", "W", [&model] { model.look_at_worst(); }});
-  out.push_back({"Inspect: isolate", "I", [&model] { model.isolate_marked(); }});
-  out.push_back({"Inspect: isolate part", "", [&model] { model.isolate_part(); }});
-  out.push_back({"Inspect: show all", "Shift+I", [&model] { model.show_all(); }});
+  out.push_back({"Map: go to the worst place", "W", [&model] { model.view().look_at_worst(); }});
+  out.push_back({"Inspect: isolate", "I", [&model] { model.view().isolate_marked(); }});
+  out.push_back({"Inspect: isolate part", "", [&model] { model.view().isolate_part(); }});
+  out.push_back({"Inspect: show all", "Shift+I", [&model] { model.view().show_all(); }});
 }
 
 }  // namespace

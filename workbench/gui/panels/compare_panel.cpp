@@ -1,6 +1,6 @@
 // A and B, undo and redo, and two presets side by side: the keys in which they differ.
 #include "workbench/gui/panels/panels.h"
-#include "workbench/gui/widgets.h"
+#include "workbench/gui/widgets/widgets.h"
 
 #include <algorithm>
 
@@ -11,56 +11,56 @@ namespace {
 /// What can be compared: A, B, the loaded file, the program's own values, then the folder's files.
 constexpr std::size_t kOwn = 4;
 
-std::vector<std::string> names_to_compare(const AppModel& model) {
+std::vector<std::string> names_to_compare(const PresetModel& presets) {
   std::vector<std::string> names{"A", "B", "as loaded", "program's own"};
-  for (const auto& file : model.preset_files()) names.push_back(file.stem().string());
+  for (const auto& file : presets.files()) names.push_back(file.stem().string());
   return names;
 }
 
 /// The preset of a choice; files are read when they are chosen.
 Preset chosen_preset(AppModel& model, ComparePanel::Side& side) {
-  const PresetSlots& slots = model.preset_slots();
+  const PresetSlots& slots = model.presets().slots();
   if (side.choice < 2) return slots.slot(static_cast<std::size_t>(side.choice)).current();
-  if (side.choice == 2) return model.presets().loaded().preset;
+  if (side.choice == 2) return model.presets().editor().loaded().preset;
   if (side.choice == 3) return Preset{};
-  const auto& files = model.preset_files();
+  const auto& files = model.presets().files();
   const std::size_t file = static_cast<std::size_t>(side.choice) - kOwn;
   if (file >= files.size()) {
     side.choice = 2;
-    return model.presets().loaded().preset;
+    return model.presets().editor().loaded().preset;
   }
   if (side.read != files[file]) {
     side.read = files[file];
     const auto read = read_preset(files[file]);
-    if (!read) model.say(Severity::error, read.error().message());
+    if (!read) model.messages().say(Severity::error, read.error().message());
     side.preset = read ? read->preset : Preset{};
   }
   return side.preset;
 }
 
-void draw_slots(const UiContext& ui, AppModel& model) {
-  const PresetSlots& slots = model.preset_slots();
+void draw_slots(const UiContext& ui, PresetModel& presets) {
+  const PresetSlots& slots = presets.slots();
   for (std::size_t i = 0; i < 2; ++i) {
     bool on = slots.active_slot() == i;
     const std::string text = std::string(" ") + slot_name(i) + " ";
     if (toggle_button(ui, std::string("compare/slot/") + slot_name(i), text.c_str(), on,
                       "The preset that is edited and rendered. B switches to the other one") &&
         on)
-      model.toggle_ab();
+      presets.toggle_ab();
     ImGui::SameLine(0, ui.px(3));
   }
   const std::string copy = std::string("Copy to ") + slot_name(1 - slots.active_slot());
-  if (text_button(ui, "compare/copy", copy.c_str(), "The other one gets the present values")) model.copy_ab();
+  if (text_button(ui, "compare/copy", copy.c_str(), "The other one gets the present values")) presets.copy_ab();
   ImGui::SameLine(0, ui.px(14));
   if (text_button(
           ui, "compare/undo", "Undo",
           slots.can_undo() ? ("Takes back: " + slots.undo_name() + " (Ctrl+Z)").c_str() : "Nothing to undo (Ctrl+Z)"))
-    model.undo();
+    presets.undo();
   ImGui::SameLine(0, ui.px(3));
   if (text_button(
           ui, "compare/redo", "Redo",
           slots.can_redo() ? ("Does again: " + slots.redo_name() + " (Ctrl+Y)").c_str() : "Nothing to redo (Ctrl+Y)"))
-    model.redo();
+    presets.redo();
 }
 
 void draw_side(const UiContext& ui, const char* path, ComparePanel::Side& side, const std::vector<std::string>& names,
@@ -73,7 +73,7 @@ void draw_side(const UiContext& ui, const char* path, ComparePanel::Side& side, 
       "What to compare: the two presets in hand, the loaded file, the program's own values, or a file of the folder");
 }
 
-void draw_differences(const UiContext& ui, AppModel& model, const std::vector<PresetChange>& changes,
+void draw_differences(const UiContext& ui, PresetModel& presets, const std::vector<PresetChange>& changes,
                       float value_width) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const float height = ui.px(18), width = ImGui::GetContentRegionAvail().x;
@@ -81,7 +81,7 @@ void draw_differences(const UiContext& ui, AppModel& model, const std::vector<Pr
   for (const PresetChange& change : changes) {
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const std::string name = change.key->full_name();
-    if (ImGui::InvisibleButton(("##diff/" + name).c_str(), {width, height})) model.set_value(*change.key, change.now);
+    if (ImGui::InvisibleButton(("##diff/" + name).c_str(), {width, height})) presets.set_value(*change.key, change.now);
     ui.items.note_last("compare/key/" + name);
     if (ImGui::IsItemHovered()) draw.AddRectFilled(at, {at.x + width, at.y + height}, ui.colours.accent_soft, ui.px(2));
     tooltip(ui, std::string(change.key->label) + ", " + name + "\n" + display_with_unit(*change.key, change.loaded) +
@@ -106,8 +106,8 @@ void draw_differences(const UiContext& ui, AppModel& model, const std::vector<Pr
 
 void draw_compare_panel(const UiContext& ui, AppModel& model, ComparePanel& state) {
   if (!section(ui, "Compare", state.open)) return;
-  draw_slots(ui, model);
-  const std::vector<std::string> names = names_to_compare(model);
+  draw_slots(ui, model.presets());
+  const std::vector<std::string> names = names_to_compare(model.presets());
   const float width = ImGui::GetContentRegionAvail().x;
   const float value_width = 0.33f * width;
   const ImVec2 at = ImGui::GetCursorScreenPos();
@@ -117,7 +117,7 @@ void draw_compare_panel(const UiContext& ui, AppModel& model, ComparePanel& stat
   draw_side(ui, "compare/right", state.right, names, value_width);
   const auto changes = differences(chosen_preset(model, state.left), chosen_preset(model, state.right));
   if (changes.empty()) ImGui::TextDisabled("No key differs");
-  draw_differences(ui, model, changes, value_width);
+  draw_differences(ui, model.presets(), changes, value_width);
   ImGui::Dummy({1, ui.px(3)});
 }
 

@@ -2,7 +2,7 @@
 #include "core/surface/mesh_patch.h"
 
 #include "workbench/gui/panels/panels.h"
-#include "workbench/gui/widgets.h"
+#include "workbench/gui/widgets/widgets.h"
 
 #include <array>
 
@@ -10,20 +10,16 @@ namespace tangent {
 
 namespace {
 
-constexpr std::array<const char*, 10> kPoints{"b300", "b030", "b003", "b210", "b120",
-                                              "b021", "b012", "b102", "b201", "b111"};
-constexpr std::array<const char*, 6> kNormals{"n200", "n020", "n002", "n110", "n011", "n101"};
-
 std::string as_text(const PnPatch& patch, const Vec3& origin) {
   std::string text = "control_point,x_m,y_m,z_m\n";
-  for (std::size_t i = 0; i < kPoints.size(); ++i) {
+  for (std::size_t i = 0; i < kControlPointNames.size(); ++i) {
     const Vec3 p = origin + patch.control_point(i);
-    text += printed("%s,%.17g,%.17g,%.17g\n", kPoints[i], p.x, p.y, p.z);
+    text += printed("%s,%.17g,%.17g,%.17g\n", kControlPointNames[i], p.x, p.y, p.z);
   }
   text += "control_normal,x,y,z\n";
-  for (std::size_t i = 0; i < kNormals.size(); ++i) {
+  for (std::size_t i = 0; i < kControlNormalNames.size(); ++i) {
     const Vec3& n = patch.normals[i];
-    text += printed("%s,%.17g,%.17g,%.17g\n", kNormals[i], n.x, n.y, n.z);
+    text += printed("%s,%.17g,%.17g,%.17g\n", kControlNormalNames[i], n.x, n.y, n.z);
   }
   return text;
 }
@@ -31,7 +27,7 @@ std::string as_text(const PnPatch& patch, const Vec3& origin) {
 }  // namespace
 
 void draw_control_net_table(const UiContext& ui, const AppModel& model, std::uint32_t triangle) {
-  const ContactMesh& mesh = model.scene()->mesh();
+  const ContactMesh& mesh = model.scene().current()->mesh();
   const PnPatch patch = make_patch(mesh, triangle, model.presets().current().solver.normal_form);
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   ImFont* number = ui.fonts.small_number;
@@ -50,14 +46,16 @@ void draw_control_net_table(const UiContext& ui, const AppModel& model, std::uin
   };
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(0, line - number->FontSize));
   row("Points", {"x mm", "y mm", "z mm"}, ui.colours.text_dim, small);
-  for (std::size_t i = 0; i < kPoints.size(); ++i) {
+  for (std::size_t i = 0; i < kControlPointNames.size(); ++i) {
     const Vec3 p = (mesh.origin() + patch.control_point(i)) * 1e3;
-    row(kPoints[i], {printed("%.4f", p.x), printed("%.4f", p.y), printed("%.4f", p.z)}, ui.colours.text, number);
+    row(kControlPointNames[i], {printed("%.4f", p.x), printed("%.4f", p.y), printed("%.4f", p.z)}, ui.colours.text,
+        number);
   }
   row("Normals", {"x", "y", "z"}, ui.colours.text_dim, small);
-  for (std::size_t i = 0; i < kNormals.size(); ++i) {
+  for (std::size_t i = 0; i < kControlNormalNames.size(); ++i) {
     const Vec3& n = patch.normals[i];
-    row(kNormals[i], {printed("%.6f", n.x), printed("%.6f", n.y), printed("%.6f", n.z)}, ui.colours.text, number);
+    row(kControlNormalNames[i], {printed("%.6f", n.x), printed("%.6f", n.y), printed("%.6f", n.z)}, ui.colours.text,
+        number);
   }
   ImGui::PopStyleVar();
   if (text_button(ui, "mesh/copy_net", "Copy numbers",

@@ -2,7 +2,7 @@
 // and the buttons of whoever stands beside the device.
 #include "workbench/gui/panels/monitor_histogram.h"
 #include "workbench/gui/panels/panels.h"
-#include "workbench/gui/widgets.h"
+#include "workbench/gui/widgets/widgets.h"
 
 #include <algorithm>
 #include <cmath>
@@ -41,9 +41,9 @@ void dim_text(const UiContext& ui, const std::string& text) {
   ImGui::PopStyleColor();
 }
 
-void draw_states(const UiContext& ui, AppModel& model) {
-  const SessionStatus& s = model.status();
-  Session& session = *model.session();
+void draw_states(const UiContext& ui, DeviceModel& devices) {
+  const SessionStatus& s = devices.status();
+  Session& session = *devices.session();
   const ForceCapabilities* force = session.force_capabilities();
   const DisplayCapabilities* display = session.display_capabilities();
   fact(ui, force != nullptr ? force->name.c_str() : "Force device", state_text(s.force_state, s.force_fault), "",
@@ -66,25 +66,25 @@ void draw_states(const UiContext& ui, AppModel& model) {
   if (text_button(ui, "monitor/home", "Home", "No force, and both devices find their zero again")) session.home();
 }
 
-void draw_limits(const UiContext& ui, const AppModel& model) {
-  const GateLimits limits = model.session()->gate_limits();
-  const ServoStatus& servo = model.status().servo;
+void draw_limits(const UiContext& ui, const DeviceModel& devices) {
+  const GateLimits limits = devices.session()->gate_limits();
+  const ServoStatus& servo = devices.status().servo;
   heading(ui, "Limits");
   fact(ui, "Peak / continuous force", printed("%.1f / %.1f", limits.peak_force_n, limits.continuous_force_n), "N");
   fact(ui, "Change of force", printed("%.0f", limits.slew_n_per_s), "N/s");
   const Vec3 size = 2e3 * limits.workspace_half_size_m;
   fact(ui, "Workspace", printed("%.0f x %.0f x %.0f", size.x, size.y, size.z), "mm");
   fact(ui, "Display travel", printed("%.1f", limits.display_travel_m * 1e3), "mm");
-  const ControllerSettings& controller = model.session()->preset().controller;
+  const ControllerSettings& controller = devices.session()->preset().controller;
   const double end = 0.5 * limits.display_travel_m;
   fact(ui, "Display targets",
        printed("%.1f to %.1f", std::max(controller.lowest_m, -end) * 1e3, std::min(controller.highest_m, end) * 1e3),
        "mm");
   fact(ui, "Oldest sample / longest tick", printed("%.0f / %.0f", limits.stale_s * 1e3, limits.late_s * 1e3), "ms");
   const auto timeout = [](double s) { return s > 0.0 ? printed("%.0f ms", s * 1e3) : std::string("none"); };
-  if (const auto* can = model.session()->force_capabilities())
+  if (const auto* can = devices.session()->force_capabilities())
     fact(ui, "Time-out, force device", timeout(can->firmware_timeout_s));
-  if (const auto* can = model.session()->display_capabilities())
+  if (const auto* can = devices.session()->display_capabilities())
     fact(ui, "Time-out, display", timeout(can->firmware_timeout_s));
   heading(ui, "Gate");
   fact(ui, "Faults", count_text(servo.gate_faults), "", servo.gate_faults > 0 ? ui.colours.bad : ui.colours.text);
@@ -94,9 +94,9 @@ void draw_limits(const UiContext& ui, const AppModel& model) {
   }
 }
 
-void draw_raw(const UiContext& ui, const AppModel& model) {
+void draw_raw(const UiContext& ui, const DeviceModel& devices) {
   heading(ui, "Raw values");
-  const History& history = model.session()->history();
+  const History& history = devices.session()->history();
   if (history.empty()) return dim_text(ui, "No tick yet");
   const ServoRecord& r = history.newest();
   const Vec3 p = r.tick.input.finger.position * 1e3, f = r.device.force_command_n;
@@ -132,9 +132,9 @@ void draw_link(const UiContext& ui, const LinkReport& link) {
   ImGui::PopFont();
 }
 
-void draw_injection(const UiContext& ui, AppModel& model) {
+void draw_injection(const UiContext& ui, DeviceModel& devices) {
   heading(ui, "Faults of the simulated devices");
-  Session& session = *model.session();
+  Session& session = *devices.session();
   const auto row = [&](const char* title, const char* path, bool display) {
     dim_text(ui, title);
     const float end = ImGui::GetCursorScreenPos().x + ImGui::GetContentRegionAvail().x;
@@ -160,7 +160,7 @@ void draw_injection(const UiContext& ui, AppModel& model) {
 void draw_calibration(const UiContext& ui, AppModel& model) {
   heading(ui, "Calibration of the servo");
   dim_text(ui, "Two places of the roller, measured with a calliper, and the pulses that hold it there.");
-  MaestroCalibration c = model.maestro();
+  MaestroCalibration c = model.devices().maestro();
   const float width = ImGui::GetContentRegionAvail().x, label = ui.px(140);
   const auto row = [&](const char* title, const char* path, double& value, double scale) {
     ImGui::AlignTextToFramePadding();
@@ -172,18 +172,18 @@ void draw_calibration(const UiContext& ui, AppModel& model) {
     if (typed && end != typed->c_str() && std::isfinite(number))
       value = number * scale;
     else if (typed)
-      model.say(Severity::error, "\"" + *typed + "\" is not a number");
+      model.messages().say(Severity::error, "\"" + *typed + "\" is not a number");
   };
   row("Lower place, mm", "monitor/maestro/low_mm", c.low_m, 1e-3);
   row("Its pulse, \u00b5s", "monitor/maestro/low_us", c.low_us, 1.0);
   row("Upper place, mm", "monitor/maestro/high_mm", c.high_m, 1e-3);
   row("Its pulse, \u00b5s", "monitor/maestro/high_us", c.high_us, 1.0);
-  if (!(c == model.maestro())) model.calibrate_maestro(c, model.maestro_channel());
+  if (!(c == model.devices().maestro())) model.devices().calibrate_maestro(c, model.devices().maestro_channel());
 }
 
-void draw_log(const UiContext& ui, const AppModel& model) {
+void draw_log(const UiContext& ui, const DeviceModel& devices) {
   heading(ui, "Log");
-  const auto& entries = model.session()->safety_log().entries();
+  const auto& entries = devices.session()->safety_log().entries();
   if (entries.empty()) return dim_text(ui, "Nothing yet");
   ImFont* number = ui.fonts.small_number;
   constexpr std::size_t kShown = 60;
@@ -201,15 +201,15 @@ void draw_log(const UiContext& ui, const AppModel& model) {
   }
 }
 
-void draw_state_column(const UiContext& ui, AppModel& model) {
-  draw_states(ui, model);
-  draw_limits(ui, model);
+void draw_state_column(const UiContext& ui, DeviceModel& devices) {
+  draw_states(ui, devices);
+  draw_limits(ui, devices);
 }
 
 /// `room`: height for the histograms.
-void draw_rates(const UiContext& ui, const AppModel& model, bool cable, const LinkReport& link, float room) {
-  const ServoStatus& servo = model.status().servo;
-  const Session& session = *model.session();
+void draw_rates(const UiContext& ui, const DeviceModel& devices, bool cable, const LinkReport& link, float room) {
+  const ServoStatus& servo = devices.status().servo;
+  const Session& session = *devices.session();
   fact(ui, "Rate, measured / asked for",
        (servo.rate_hz > 0.0 ? printed("%.1f", servo.rate_hz) : std::string("-")) + printed(" / %.0f", servo.nominal_hz),
        "Hz");
@@ -226,21 +226,21 @@ void draw_rates(const UiContext& ui, const AppModel& model, bool cable, const Li
     draw_duration_histogram(ui, "Between samples", *link.arrival_us, 1e3, colour(ui.palette.cld_measured), height);
 }
 
-void draw_values(const UiContext& ui, const AppModel& model, bool cable, const LinkReport& link) {
-  draw_raw(ui, model);
+void draw_values(const UiContext& ui, const DeviceModel& devices, bool cable, const LinkReport& link) {
+  draw_raw(ui, devices);
   if (cable) draw_link(ui, link);
 }
 
 void draw_service_column(const UiContext& ui, AppModel& model) {
-  draw_injection(ui, model);
-  if (model.device() == "maestro") draw_calibration(ui, model);
-  draw_log(ui, model);
+  draw_injection(ui, model.devices());
+  if (model.devices().name() == "maestro") draw_calibration(ui, model);
+  draw_log(ui, model.devices());
 }
 
 /// As many columns as there is width for, each as wide as labels and their values can be read together.
 void draw_columns(const UiContext& ui, AppModel& model) {
   LinkReport link;
-  const bool cable = model.session()->display_report(link);
+  const bool cable = model.devices().session()->display_report(link);
   const float room = ImGui::GetContentRegionAvail().x, high = ImGui::GetContentRegionAvail().y;
   const int columns = room > ui.px(1200) ? 3 : room > ui.px(456) ? 2 : 1;
   const float width = std::min(room, static_cast<float>(columns) * ui.px(columns == 3 ? 640 : 600));
@@ -248,13 +248,13 @@ void draw_columns(const UiContext& ui, AppModel& model) {
   if (ImGui::BeginTable("##monitor", columns, ImGuiTableFlags_SizingStretchSame | ImGuiTableFlags_NoPadOuterX,
                         {width, 0})) {
     ImGui::TableNextColumn();
-    draw_state_column(ui, model);
-    if (columns < 3) draw_values(ui, model, cable, link);
+    draw_state_column(ui, model.devices());
+    if (columns < 3) draw_values(ui, model.devices(), cable, link);
     ImGui::TableNextColumn();
     // In a column of their own the histograms take what the values below them leave.
-    draw_rates(ui, model, cable, link, columns == 3 ? high - ui.px(cable ? 420 : 190) : 0.0f);
+    draw_rates(ui, model.devices(), cable, link, columns == 3 ? high - ui.px(cable ? 420 : 190) : 0.0f);
     if (columns == 3) {
-      draw_values(ui, model, cable, link);
+      draw_values(ui, model.devices(), cable, link);
       ImGui::TableNextColumn();
     }
     draw_service_column(ui, model);
@@ -281,7 +281,7 @@ void draw_device_monitor(const UiContext& ui, AppModel& model, const Rect& rect)
   ImGui::PopFont();
   ImGui::SameLine(ImGui::GetWindowWidth() - ui.px(80));
   if (text_button(ui, "monitor/close", "Close", "Back to the 3D view")) model.view().device_monitor = false;
-  if (model.session() == nullptr) {
+  if (model.devices().session() == nullptr) {
     ImGui::TextDisabled("No session");
   } else {
     draw_columns(ui, model);

@@ -1,6 +1,6 @@
 // The devices: what they are, how they are, what the safety gate does, and the simulated hand.
 #include "workbench/gui/panels/panels.h"
-#include "workbench/gui/widgets.h"
+#include "workbench/gui/widgets/widgets.h"
 
 #include <algorithm>
 #include <cmath>
@@ -29,10 +29,10 @@ std::string state_text(DeviceState state, DeviceFault fault) {
 
 /// The devices at the tick in view: as they are now, or as they were.
 DeviceTelemetry seen(const AppModel& model) {
-  const ServoRecord* record = model.tick().record();
-  if (model.paused() && record != nullptr) return record->device;
+  const ServoRecord* record = model.time().tick().record();
+  if (model.time().paused() && record != nullptr) return record->device;
   DeviceTelemetry now;
-  const SessionStatus& status = model.status();
+  const SessionStatus& status = model.devices().status();
   now.force_state = status.force_state;
   now.force_fault = status.force_fault;
   now.display_state = status.display_state;
@@ -43,7 +43,7 @@ DeviceTelemetry seen(const AppModel& model) {
 }
 
 void draw_force_device(const UiContext& ui, const AppModel& model) {
-  const ForceCapabilities* can = model.session()->force_capabilities();
+  const ForceCapabilities* can = model.devices().session()->force_capabilities();
   const DeviceTelemetry status = seen(model);
   fact(ui, can != nullptr ? can->name.c_str() : "Force device", state_text(status.force_state, status.force_fault), "",
        state_ink(ui, status.force_state));
@@ -54,7 +54,7 @@ void draw_force_device(const UiContext& ui, const AppModel& model) {
 }
 
 void draw_display(const UiContext& ui, const AppModel& model) {
-  const DisplayCapabilities* can = model.session()->display_capabilities();
+  const DisplayCapabilities* can = model.devices().session()->display_capabilities();
   const DeviceTelemetry status = seen(model);
   fact(ui, can != nullptr ? can->name.c_str() : "Contact display",
        state_text(status.display_state, status.display_fault), "", state_ink(ui, status.display_state));
@@ -64,14 +64,14 @@ void draw_display(const UiContext& ui, const AppModel& model) {
 }
 
 void draw_gate(const UiContext& ui, AppModel& model) {
-  const ServoStatus& servo = model.status().servo;
+  const ServoStatus& servo = model.devices().status().servo;
   const DeviceTelemetry device = seen(model);
   const bool armed = device.gate_state == GateState::armed;
   const bool faulted = device.gate_state == GateState::faulted;
   const std::string text =
       std::string(to_string(device.gate_state)) + (faulted ? std::string(": ") + to_string(device.gate_fault) : "");
   fact(ui, "Safety gate", text, "", armed ? ui.colours.good : faulted ? ui.colours.bad : ui.colours.warning);
-  if (model.paused()) {
+  if (model.time().paused()) {
     for (std::size_t i = 0; i < kGateActionCount; ++i) {
       if ((device.gate_actions >> i) & 1u) fact(ui, to_string(static_cast<GateAction>(i)), "in this tick");
     }
@@ -85,8 +85,8 @@ void draw_gate(const UiContext& ui, AppModel& model) {
 }
 
 /// One tick's own numbers, where time stands still.
-void draw_tick(const UiContext& ui, const AppModel& model) {
-  const ServoRecord& r = *model.tick().record();
+void draw_tick(const UiContext& ui, const TimeModel& time) {
+  const ServoRecord& r = *time.tick().record();
   const auto length = [](const Vec3& v) { return glm::length(v); };
   fact(ui, "Force sent", printed("%.3f", length(r.device.force_command_n)), "N");
   tooltip(ui, "By the safety gate to the device, in this tick");
@@ -101,8 +101,8 @@ void draw_tick(const UiContext& ui, const AppModel& model) {
   fact(ui, "Lateness", printed("%.0f", r.lateness_ns * 1e-3), "\u00b5s");
 }
 
-void draw_servo(const UiContext& ui, const AppModel& model) {
-  const ServoStatus& servo = model.status().servo;
+void draw_servo(const UiContext& ui, const DeviceModel& devices) {
+  const ServoStatus& servo = devices.status().servo;
   fact(ui, "Rate", printed("%.1f", servo.rate_hz), "Hz");
   fact(ui, "Tick p50 / p99", printed("%.1f / %.1f", servo.tick_p50_ns * 1e-3, servo.tick_p99_ns * 1e-3), "\u00b5s");
   tooltip(ui, "Whole tick: exchange with the devices, solver, safety gate");
@@ -111,22 +111,22 @@ void draw_servo(const UiContext& ui, const AppModel& model) {
        "\u00b5s");
   fact(ui, "Late ticks", printed("%llu", static_cast<unsigned long long>(servo.late_ticks)));
   fact(ui, "Missed deadlines", printed("%llu", static_cast<unsigned long long>(servo.missed_deadlines)));
-  if (!model.status().realtime_note.empty()) {
+  if (!devices.status().realtime_note.empty()) {
     ImGui::PushFont(ui.fonts.small);
     ImGui::PushStyleColor(ImGuiCol_Text, ui.colours.text_dim);
-    ImGui::TextWrapped("%s", model.status().realtime_note.c_str());
+    ImGui::TextWrapped("%s", devices.status().realtime_note.c_str());
     ImGui::PopStyleColor();
     ImGui::PopFont();
   }
 }
 
 void draw_hand(const UiContext& ui, AppModel& model) {
-  HandSettings hand = model.session()->hand();
-  bool follows = model.view().hand_follows_mouse;
+  HandSettings hand = model.devices().session()->hand();
+  bool follows = model.devices().hand_follows_mouse();
   if (toggle_button(
           ui, "devices/hand_follows_mouse", "Hand follows mouse", follows,
           "Drag on the surface in the 3D view to lead the simulated hand (M). Off: it explores the mesh by itself"))
-    model.set_hand_follows_mouse(follows);
+    model.devices().set_hand_follows_mouse(follows);
   const float width = ImGui::GetContentRegionAvail().x, label = ui.px(116);
   const auto row = [&](const char* title, const char* path, double& value, double most, double scale, const char* unit,
                        const char* doc) {
@@ -143,35 +143,35 @@ void draw_hand(const UiContext& ui, AppModel& model) {
     if (end != result.typed->c_str() && std::isfinite(typed))
       value = std::clamp(typed * scale, 0.0, most);
     else
-      model.say(Severity::error, "\"" + *result.typed + "\" is not a number");
+      model.messages().say(Severity::error, "\"" + *result.typed + "\" is not a number");
   };
   const HandSettings before = hand;
   row("Hand speed", "devices/hand_speed", hand.speed_m_per_s, 0.5, 1e-3, "mm/s",
       "Along the exploration path; 0: rests");
   row("Hand depth", "devices/hand_press", hand.press_m, 10e-3, 1e-3, "mm",
       "How far inside the surface the hand aims. The finger is held back by the rendered force, so it goes less deep");
-  if (!(hand == before)) model.session()->set_hand(hand);
+  if (!(hand == before)) model.devices().session()->set_hand(hand);
 }
 
 }  // namespace
 
 void draw_devices_panel(const UiContext& ui, AppModel& model, FoldedPanel& state) {
   if (!section(ui, "Devices", state.open)) return;
-  if (model.session() == nullptr) {
+  if (model.devices().session() == nullptr) {
     ImGui::TextDisabled("No session");
     return;
   }
-  const bool past = model.paused() && model.tick().record() != nullptr;
+  const bool past = model.time().paused() && model.time().tick().record() != nullptr;
   if (past)
-    fact(ui, "At tick", printed("%llu", static_cast<unsigned long long>(model.tick().record()->tick.tick)), "",
+    fact(ui, "At tick", printed("%llu", static_cast<unsigned long long>(model.time().tick().record()->tick.tick)), "",
          ui.colours.accent);
   draw_force_device(ui, model);
   draw_display(ui, model);
   draw_gate(ui, model);
   if (past)
-    draw_tick(ui, model);
+    draw_tick(ui, model.time());
   else
-    draw_servo(ui, model);
+    draw_servo(ui, model.devices());
   draw_hand(ui, model);
   toggle_button(ui, "devices/monitor", "Monitor", model.view().device_monitor,
                 "Rates, histograms, limits and faults, in place of the 3D view");

@@ -3,7 +3,7 @@
 #include "workbench/gui/panels/panels.h"
 #include "workbench/gui/plots/curve_drawing.h"
 #include "workbench/gui/plots/tick_locator.h"
-#include "workbench/gui/widgets.h"
+#include "workbench/gui/widgets/widgets.h"
 
 #include <algorithm>
 #include <cmath>
@@ -145,7 +145,7 @@ void draw_dots(const UiContext& ui, const ErrorScale& scale, std::span<const Ite
 }  // namespace
 
 void draw_error_plot(const UiContext& ui, AppModel& model) {
-  const auto iterations = model.tick().iterations();
+  const auto iterations = model.time().tick().iterations();
   const float width = ImGui::GetContentRegionAvail().x,
               height = std::clamp(0.16f * ImGui::GetWindowHeight(), ui.px(132), ui.px(220));
   const ImVec2 at = ImGui::GetCursorScreenPos();
@@ -160,17 +160,18 @@ void draw_error_plot(const UiContext& ui, AppModel& model) {
   draw.AddText(font, font->FontSize, {min.x + ui.px(34), at.y + ui.px(2)}, ui.colours.text_dim,
                "\u00b5m, by iteration; faint: the 60 ticks before");
   const double tolerance_um = model.presets().current().solver.tolerance_m * 1e6;
-  const std::size_t shown = iterations_shown(iterations.size(), model.error_fan().longest(), model.paused());
-  const ErrorScale scale = make_scale(ui, iterations, model.error_fan(), shown, tolerance_um, min, max);
+  const std::size_t shown =
+      iterations_shown(iterations.size(), model.time().error_fan().longest(), model.time().paused());
+  const ErrorScale scale = make_scale(ui, iterations, model.time().error_fan(), shown, tolerance_um, min, max);
   draw_grid(ui, scale, tolerance_um);
-  draw_fan(ui, scale, model.error_fan(), shown);
+  draw_fan(ui, scale, model.time().error_fan(), shown);
   const auto hovered = mouse_here ? under_mouse(ui, scale, iterations) : std::nullopt;
-  draw_dots(ui, scale, iterations, model.tick().selected(), hovered);
+  draw_dots(ui, scale, iterations, model.time().tick().selected(), hovered);
   if (!hovered) return;
   ImGui::SetTooltip("iteration %zu: %s \u00b5m", *hovered, short_number(iterations[*hovered].error_m * 1e6).c_str());
   if (!clicked) return;
-  model.set_paused(true);
-  model.tick().select(hovered);
+  model.time().set_paused(true);
+  model.time().tick().select(hovered);
 }
 
 }  // namespace tangent

@@ -2,7 +2,7 @@
 #include "core/lab/gains/gain_advice.h"
 
 #include "workbench/gui/panels/panels.h"
-#include "workbench/gui/widgets.h"
+#include "workbench/gui/widgets/widgets.h"
 
 #include <cmath>
 
@@ -36,12 +36,14 @@ std::string reason(const GainAdvice& a) {
 void draw_gain_advice(const UiContext& ui, AppModel& model) {
   const Preset& preset = model.presets().current();
   // The 2D iteration has no gains.
-  if (model.scene() == nullptr || model.scene()->planar() != nullptr || preset.solver.method != Method::paper) return;
+  if (model.scene().current() == nullptr || model.scene().current()->planar() != nullptr ||
+      preset.solver.method != Method::paper)
+    return;
   std::optional<TickOutput> contact;
-  const ServoRecord* record = model.tick().record();
-  if (record != nullptr && record->tick.output.triangle < model.scene()->mesh().triangle_count())
+  const ServoRecord* record = model.time().tick().record();
+  if (record != nullptr && record->tick.output.triangle < model.scene().current()->mesh().triangle_count())
     contact = record->tick.output;
-  const GainAdvice advice = advise_gains(model.scene()->mesh(), preset, contact);
+  const GainAdvice advice = advise_gains(model.scene().current()->mesh(), preset, contact);
   const PresetKey& key = *find_preset_key("solver", "gain_curvature_m");
   const float button = ImGui::CalcTextSize("Set").x + 2.0f * ImGui::GetStyle().FramePadding.x;
   const ImVec2 at = ImGui::GetCursorScreenPos();
@@ -61,7 +63,7 @@ void draw_gain_advice(const UiContext& ui, AppModel& model) {
                advice.local && advice.left_now >= 1.0 ? ui.colours.warning : ui.colours.text_dim, effect.c_str());
   ImGui::SetCursorScreenPos({at.x + width - button, at.y + ui.px(2)});
   if (text_button(ui, "solver/advice/set", "Set", "G_k takes the advised value; G_o and G_d stay"))
-    model.set_value(key, advice.gain_curvature_m);
+    model.presets().set_value(key, advice.gain_curvature_m);
   ImGui::SetCursorScreenPos({at.x, at.y + 2.0f * line_height + ui.px(5)});
   ImGui::Dummy({1, 1});
 }

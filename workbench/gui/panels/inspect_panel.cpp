@@ -1,6 +1,6 @@
 // Mesh inspection: the defects one by one, with the way to each; isolate, slice plane, crease angle.
 #include "workbench/gui/panels/panels.h"
-#include "workbench/gui/widgets.h"
+#include "workbench/gui/widgets/widgets.h"
 
 #include <algorithm>
 #include <array>
@@ -30,13 +30,13 @@ std::string size_text(const MeshFinding& f) {
 }
 
 void draw_finding(const UiContext& ui, AppModel& model, FindingKind kind, std::size_t i) {
-  const MeshFinding& f = model.findings()->of(kind)[i];
+  const MeshFinding& f = model.scene().findings()->of(kind)[i];
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const float width = ImGui::GetContentRegionAvail().x, height = ui.px(17);
   const std::string path = printed("inspect/%d/%zu", static_cast<int>(kind), i);
-  const bool shown = model.inspection().kind == kind && model.inspection().index == i;
-  if (ImGui::InvisibleButton(("##" + path).c_str(), {width, height})) model.show_finding(kind, i);
+  const bool shown = model.view().inspection().kind == kind && model.view().inspection().index == i;
+  if (ImGui::InvisibleButton(("##" + path).c_str(), {width, height})) model.view().show_finding(kind, i);
   ui.items.note_last(path);
   tooltip(ui, "A click goes there and marks its triangles; a second click on Isolate leaves them alone in the view");
   if (shown || ImGui::IsItemHovered())
@@ -53,9 +53,9 @@ void draw_finding(const UiContext& ui, AppModel& model, FindingKind kind, std::s
 }
 
 void draw_findings(const UiContext& ui, AppModel& model, InspectPanel& state) {
-  const MeshFindings* findings = model.findings();
+  const MeshFindings* findings = model.scene().findings();
   if (findings == nullptr) {
-    ImGui::TextDisabled(model.auditing() ? "Audit running" : "No mesh");
+    ImGui::TextDisabled(model.scene().auditing() ? "Audit running" : "No mesh");
     return;
   }
   ImDrawList& draw = *ImGui::GetWindowDrawList();
@@ -73,7 +73,7 @@ void draw_findings(const UiContext& ui, AppModel& model, InspectPanel& state) {
     const float r = ui.px(3.5f);
     const ImVec2 c{at.x + ui.px(5), at.y + 0.5f * height};
     // The kind that is being looked at is open by itself.
-    const bool open = state.open_kinds[k] != (model.inspection().kind == kind);
+    const bool open = state.open_kinds[k] != (model.view().inspection().kind == kind);
     if (open)
       draw.AddTriangleFilled({c.x - r, c.y - 0.6f * r}, {c.x + r, c.y - 0.6f * r}, {c.x, c.y + 0.7f * r},
                              ui.colours.text_dim);
@@ -98,19 +98,19 @@ void draw_findings(const UiContext& ui, AppModel& model, InspectPanel& state) {
   if (!any) ImGui::TextDisabled("Nothing is wrong with this mesh");
 }
 
-void draw_isolation(const UiContext& ui, AppModel& model) {
-  const bool something = !model.inspection().marked.empty() || model.view().picked_triangle != kNone;
+void draw_isolation(const UiContext& ui, ViewModel& view) {
+  const bool something = !view.inspection().marked.empty() || view.picked_triangle != kNone;
   if (text_button(ui, "inspect/isolate", "Isolate",
                   something ? "Draws the marked or picked triangles and their neighbours alone"
                             : "Mark a finding or pick a triangle first"))
-    model.isolate_marked();
+    view.isolate_marked();
   ImGui::SameLine(0, ui.px(3));
   if (text_button(ui, "inspect/isolate_part", "Isolate part",
                   something ? "Draws the connected part that holds the marked or picked triangle alone"
                             : "Mark a finding or pick a triangle first"))
-    model.isolate_part();
+    view.isolate_part();
   ImGui::SameLine(0, ui.px(3));
-  if (text_button(ui, "inspect/show_all", "Show all", "Draws every triangle again and marks none")) model.show_all();
+  if (text_button(ui, "inspect/show_all", "Show all", "Draws every triangle again and marks none")) view.show_all();
 }
 
 constexpr std::array<std::string_view, 5> kSlices{"no slice", "across x", "across y", "across z", "across the view"};
@@ -128,7 +128,7 @@ void draw_slice(const UiContext& ui, AppModel& model) {
   std::optional<SlicePlane>& slice = model.view().slice;
   const float width = ImGui::GetContentRegionAvail().x;
   int axis = chosen_slice(slice);
-  const Box box = world_bounds(*model.scene());
+  const Box box = world_bounds(*model.scene().current());
   if (choice_row(ui, "inspect/slice", ui.px(118), kSlices, axis, true)) {
     if (axis == 0)
       slice.reset();
@@ -156,22 +156,22 @@ void draw_slice(const UiContext& ui, AppModel& model) {
     *slice = {-slice->normal, -slice->offset_m};
 }
 
-void draw_crease(const UiContext& ui, AppModel& model) {
+void draw_crease(const UiContext& ui, SceneModel& scene) {
   const float width = ImGui::GetContentRegionAvail().x;
   ImGui::AlignTextToFramePadding();
   ImGui::TextDisabled("Creases above");
   ImGui::SameLine(ui.px(118 + 3 + 8));
-  const double degrees = model.crease_angle_rad() / kDegree;
+  const double degrees = scene.crease_angle_rad() / kDegree;
   const auto result =
       value_field(ui, "inspect/crease", {width - ui.px(118 + 3), degrees / 180.0, printed("%.4g", degrees), "deg"});
-  const bool from_file = model.scene()->mesh().normals_used() == NormalSource::file;
+  const bool from_file = scene.current()->mesh().normals_used() == NormalSource::file;
   tooltip(ui,
           from_file
               ? "The normals are the file's: it alone says where creases are"
               : "Edges whose facets meet at a larger angle are creases; the mesh is built anew while this is dragged");
   if (from_file) return;
-  if (result.slid) model.set_crease_angle(std::round(*result.slid * 360.0) * 0.5 * kDegree);
-  if (result.typed) model.set_crease_angle(std::atof(result.typed->c_str()) * kDegree);
+  if (result.slid) scene.set_crease_angle(std::round(*result.slid * 360.0) * 0.5 * kDegree);
+  if (result.typed) scene.set_crease_angle(std::atof(result.typed->c_str()) * kDegree);
 }
 
 }  // namespace
@@ -182,18 +182,18 @@ std::string_view slice_choice(const std::optional<SlicePlane>& slice) {
 
 void draw_inspect_panel(const UiContext& ui, AppModel& model, InspectPanel& state) {
   if (!section(ui, "Inspect", state.open)) return;
-  if (model.scene() == nullptr) {
-    ImGui::TextDisabled(model.loading() ? "Loading" : "No mesh");
+  if (model.scene().current() == nullptr) {
+    ImGui::TextDisabled(model.scene().loading() ? "Loading" : "No mesh");
     return;
   }
-  if (model.scene()->planar() != nullptr) {
+  if (model.scene().current()->planar() != nullptr) {
     ImGui::TextDisabled("For meshes; this is a 2D scene");
     return;
   }
   draw_findings(ui, model, state);
-  draw_isolation(ui, model);
+  draw_isolation(ui, model.view());
   draw_slice(ui, model);
-  draw_crease(ui, model);
+  draw_crease(ui, model.scene());
   SceneToggles& show = model.view().toggles;
   toggle_button(ui, "inspect/normals", "Normals", show.vertex_normals, "Vertex normals");
   ImGui::SameLine(0, ui.px(3));

@@ -1,6 +1,6 @@
 // The iterations of the tick in view, one tangent plane a row, linked to the 3D view both ways.
 #include "workbench/gui/panels/panels.h"
-#include "workbench/gui/widgets.h"
+#include "workbench/gui/widgets/widgets.h"
 
 #include <algorithm>
 #include <array>
@@ -83,15 +83,15 @@ void draw_header(const UiContext& ui, bool planar) {
   ImGui::PopFont();
 }
 
-void draw_row(const UiContext& ui, AppModel& model, std::size_t i, std::size_t count) {
-  const IterationRecord& r = model.tick().iterations()[i];
+void draw_row(const UiContext& ui, TimeModel& time, std::size_t i, std::size_t count) {
+  const IterationRecord& r = time.tick().iterations()[i];
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
   const ImVec2 at = ImGui::GetCursorScreenPos();
-  const bool selected = model.tick().selected() == i;
+  const bool selected = time.tick().selected() == i;
   if (ImGui::Selectable(printed("##iteration%zu", i).c_str(), selected, ImGuiSelectableFlags_SpanAllColumns)) {
-    model.set_paused(true);
-    model.tick().select(selected ? std::nullopt : std::optional(i));
+    time.set_paused(true);
+    time.tick().select(selected ? std::nullopt : std::optional(i));
   }
   // The row reaches past what is scrolled into view; its first cell is always there.
   ui.items.note(printed("iterations/row/%zu", i), at, {at.x + ui.px(16), at.y + ImGui::GetTextLineHeight()});
@@ -118,14 +118,14 @@ void draw_row(const UiContext& ui, AppModel& model, std::size_t i, std::size_t c
 
 void draw_iterations_panel(const UiContext& ui, AppModel& model, IterationsPanel& state) {
   if (!section(ui, "Iterations", state.open)) return;
-  const auto iterations = model.tick().iterations();
-  const ServoRecord* record = model.tick().record();
+  const auto iterations = model.time().tick().iterations();
+  const ServoRecord* record = model.time().tick().record();
   if (record == nullptr) {
     ImGui::TextDisabled("No tick yet");
     return;
   }
   const TickOutput& out = record->tick.output;
-  const bool planar = model.scene() != nullptr && model.scene()->planar() != nullptr;
+  const bool planar = model.scene().current() != nullptr && model.scene().current()->planar() != nullptr;
   ImGui::PushFont(ui.fonts.small);
   const bool bad = out.status == TickStatus::unconverged;
   ImGui::PushStyleColor(ImGuiCol_Text, bad ? ui.colours.warning : ui.colours.text);
@@ -137,7 +137,7 @@ void draw_iterations_panel(const UiContext& ui, AppModel& model, IterationsPanel
                       out.iterations == 1 ? "" : "s", out.triangle_changes, planar ? "vertex" : "triangle",
                       out.triangle_changes == 1 ? "" : "s");
   ImGui::PopFont();
-  if (!model.tick().problem().empty()) ImGui::TextWrapped("%s", model.tick().problem().c_str());
+  if (!model.time().tick().problem().empty()) ImGui::TextWrapped("%s", model.time().tick().problem().c_str());
 
   ImGui::PushFont(ui.fonts.small_number);
   ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, ImVec2(ui.px(4), ui.px(1.5f)));
@@ -155,8 +155,8 @@ void draw_iterations_panel(const UiContext& ui, AppModel& model, IterationsPanel
     ImGui::TableSetupScrollFreeze(1, 1);
     draw_header(ui, planar);
     // Selected elsewhere (keys, 3D view, plots): its row comes into view.
-    if (model.tick().selected() != state.shown_selection) {
-      state.shown_selection = model.tick().selected();
+    if (model.time().tick().selected() != state.shown_selection) {
+      state.shown_selection = model.time().tick().selected();
       if (state.shown_selection)
         ImGui::SetScrollY(std::max(0.0f, (static_cast<float>(*state.shown_selection) - 2.0f) * row));
     }
@@ -164,7 +164,7 @@ void draw_iterations_panel(const UiContext& ui, AppModel& model, IterationsPanel
     clipper.Begin(static_cast<int>(iterations.size()));
     while (clipper.Step()) {
       for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i)
-        draw_row(ui, model, static_cast<std::size_t>(i), iterations.size());
+        draw_row(ui, model.time(), static_cast<std::size_t>(i), iterations.size());
     }
     ImGui::EndTable();
   }

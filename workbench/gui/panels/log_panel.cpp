@@ -1,6 +1,6 @@
 // Everything the program has said, newest first.
 #include "workbench/gui/panels/panels.h"
-#include "workbench/gui/widgets.h"
+#include "workbench/gui/widgets/widgets.h"
 
 #include <imgui_stdlib.h>
 
@@ -21,9 +21,9 @@ ImU32 ink_of(const UiContext& ui, Severity severity) {
 
 }  // namespace
 
-void draw_log_panel(const UiContext& ui, AppModel& model, LogPanel& state) {
+void draw_log_panel(const UiContext& ui, MessageLog& messages, LogPanel& state) {
   if (!section(ui, "Messages", state.open)) return;
-  const auto& all = model.messages().all();
+  const auto& all = messages.all();
   toggle_button(ui, "log/notes", "Notes", state.notes, "What was done");
   ImGui::SameLine(0, ui.px(3));
   toggle_button(ui, "log/warnings", "Warnings", state.warnings, "What to look at");
@@ -32,7 +32,7 @@ void draw_log_panel(const UiContext& ui, AppModel& model, LogPanel& state) {
   ImGui::SameLine(0, ui.px(10));
   const bool copy = text_button(ui, "log/copy", "Copy", "The messages shown, as text");
   ImGui::SameLine(0, ui.px(3));
-  if (text_button(ui, "log/clear", "Clear", "Forgets all messages")) model.messages().clear();
+  if (text_button(ui, "log/clear", "Clear", "Forgets all messages")) messages.clear();
   ImGui::SetNextItemWidth(-1.0f);
   ImGui::InputTextWithHint("##log_filter", "only those with these letters", &state.filter);
   ui.items.note_last("log/filter");

@@ -2,7 +2,7 @@
 // upper end of the range, its lower half the lower end; a double click finds the range by itself.
 #include "workbench/gui/panels/panels.h"
 #include "workbench/gui/render/quantity_text.h"
-#include "workbench/gui/widgets.h"
+#include "workbench/gui/widgets/widgets.h"
 
 #include <algorithm>
 #include <cmath>
@@ -82,6 +82,55 @@ void draw_limit(const UiContext& ui, const Rect& bar, double share, double shown
   ui.items.note("view/map_bar/limit", {bar.x, y - 1.0f}, {bar.right(), y + 1.0f});
 }
 
+void draw_colours(const UiContext& ui, const MapPaint& paint, const Rect& bar) {
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const auto& table = colour_table(paint.colours);
+  constexpr int kSteps = 64;
+  for (int i = 0; i < kSteps; ++i) {
+    const auto at = [&](int k) {
+      const int index = k * (static_cast<int>(table.size()) - 1) / kSteps;
+      return packed(
+          table[static_cast<std::size_t>(paint.reversed ? static_cast<int>(table.size()) - 1 - index : index)]);
+    };
+    const float y0 = bar.bottom() - bar.h * static_cast<float>(i) / kSteps,
+                y1 = bar.bottom() - bar.h * static_cast<float>(i + 1) / kSteps;
+    draw.AddRectFilledMultiColor({bar.x, y1}, {bar.right(), y0}, at(i + 1), at(i + 1), at(i), at(i));
+  }
+  draw.AddRect({bar.x - 1, bar.y - 1}, {bar.right() + 1, bar.bottom() + 1}, ui.colours.border);
+}
+
+void draw_bins(const UiContext& ui, const MapStatistics& s, const Rect& bar) {
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  for (std::size_t i = 0; i < MapStatistics::kBins && s.fullest > 0; ++i) {
+    if (s.bins[i] == 0) continue;
+    // A bin with anything in it is at least a pixel long: the few bad places are what one looks for.
+    const float length =
+        std::max(1.0f, ui.px(kHistogramWidth - 6.0f) * static_cast<float>(s.bins[i]) / static_cast<float>(s.fullest));
+    const float y1 = bar.bottom() - bar.h * static_cast<float>(i + 1) / MapStatistics::kBins,
+                y0 = bar.bottom() - bar.h * static_cast<float>(i) / MapStatistics::kBins;
+    draw.AddRectFilled({bar.x - ui.px(3) - length, y1}, {bar.x - ui.px(3), std::max(y0 - 0.5f, y1 + 1.0f)},
+                       ui.colours.text_dim);
+  }
+}
+
+/// `unit_si`: 1 of the unit shown; `limit_share`: where the limit's own number stands.
+void draw_numbers(const UiContext& ui, const MapPaint& paint, double unit_si, const Rect& bar,
+                  std::optional<double> limit_share) {
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  ImFont* number = ui.fonts.small_number;
+  const float line = number->FontSize;
+  for (const double value : bar_labels(paint, unit_si, static_cast<double>(bar.h / (2.2f * line)))) {
+    const float y = bar.bottom() - bar.h * static_cast<float>(map_share(paint, value * unit_si));
+    const bool in_the_way = limit_share &&
+                            std::abs(y - (bar.bottom() - bar.h * static_cast<float>(*limit_share))) < line &&
+                            y > bar.y + 1.0f && y < bar.bottom() - 1.0f;
+    if (in_the_way) continue;  // of the limit's own number
+    draw.AddLine({bar.right() + 1, y}, {bar.right() + ui.px(4), y}, ui.colours.text_dim);
+    draw.AddText(number, line, {bar.right() + ui.px(7), y - 0.5f * line}, ui.colours.text,
+                 printed("%.4g", value).c_str());
+  }
+}
+
 }  // namespace
 
 float draw_map_bar(const UiContext& ui, AppModel& model, const Rect& view, float top) {
@@ -92,10 +141,9 @@ float draw_map_bar(const UiContext& ui, AppModel& model, const Rect& view, float
   const UnitLabel unit = unit_of(map.quantity);
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   ImFont* number = ui.fonts.small_number;
-  const float line = number->FontSize;
   const std::string title = std::string(info.label) + (unit.name.empty() ? "" : ", " + std::string(unit.name));
   const float title_width = ui.fonts.small->CalcTextSizeA(ui.fonts.small->FontSize, 1e9f, 0.0f, title.c_str()).x;
-  const float label_width = number->CalcTextSizeA(line, 1e9f, 0.0f, "0.00000").x;
+  const float label_width = number->CalcTextSizeA(number->FontSize, 1e9f, 0.0f, "0.00000").x;
   const float width =
       std::max(title_width, ui.px(kHistogramWidth + kBarWidth + 10.0f) + label_width) + 2.0f * ui.px(kPad);
   const float height = std::clamp(view.bottom() - top - ui.px(60), ui.px(90), ui.px(300));
@@ -111,40 +159,9 @@ float draw_map_bar(const UiContext& ui, AppModel& model, const Rect& view, float
                title.c_str());
   const Rect bar{card.x + ui.px(kPad + kHistogramWidth), card.y + ui.px(26) + above, ui.px(kBarWidth), height};
 
-  const auto& table = colour_table(paint->colours);
-  constexpr int kSteps = 64;
-  for (int i = 0; i < kSteps; ++i) {
-    const auto at = [&](int k) {
-      const int index = k * (static_cast<int>(table.size()) - 1) / kSteps;
-      return packed(
-          table[static_cast<std::size_t>(paint->reversed ? static_cast<int>(table.size()) - 1 - index : index)]);
-    };
-    const float y0 = bar.bottom() - bar.h * static_cast<float>(i) / kSteps,
-                y1 = bar.bottom() - bar.h * static_cast<float>(i + 1) / kSteps;
-    draw.AddRectFilledMultiColor({bar.x, y1}, {bar.right(), y0}, at(i + 1), at(i + 1), at(i), at(i));
-  }
-  draw.AddRect({bar.x - 1, bar.y - 1}, {bar.right() + 1, bar.bottom() + 1}, ui.colours.border);
-
-  const MapStatistics& s = map.statistics();
-  for (std::size_t i = 0; i < MapStatistics::kBins && s.fullest > 0; ++i) {
-    if (s.bins[i] == 0) continue;
-    // A bin with anything in it is at least a pixel long: the few bad places are what one looks for.
-    const float length =
-        std::max(1.0f, ui.px(kHistogramWidth - 6.0f) * static_cast<float>(s.bins[i]) / static_cast<float>(s.fullest));
-    const float y1 = bar.bottom() - bar.h * static_cast<float>(i + 1) / MapStatistics::kBins,
-                y0 = bar.bottom() - bar.h * static_cast<float>(i) / MapStatistics::kBins;
-    draw.AddRectFilled({bar.x - ui.px(3) - length, y1}, {bar.x - ui.px(3), std::max(y0 - 0.5f, y1 + 1.0f)},
-                       ui.colours.text_dim);
-  }
-  for (const double value : bar_labels(*paint, unit.si_value, static_cast<double>(height / (2.2f * line)))) {
-    const float y = bar.bottom() - bar.h * static_cast<float>(map_share(*paint, value * unit.si_value));
-    const bool in_the_way = limit && std::abs(y - (bar.bottom() - bar.h * static_cast<float>(limit_share))) < line &&
-                            y > bar.y + 1.0f && y < bar.bottom() - 1.0f;
-    if (in_the_way) continue;  // of the limit's own number
-    draw.AddLine({bar.right() + 1, y}, {bar.right() + ui.px(4), y}, ui.colours.text_dim);
-    draw.AddText(number, line, {bar.right() + ui.px(7), y - 0.5f * line}, ui.colours.text,
-                 printed("%.4g", value).c_str());
-  }
+  draw_colours(ui, *paint, bar);
+  draw_bins(ui, map.statistics(), bar);
+  draw_numbers(ui, *paint, unit.si_value, bar, limit ? std::optional(limit_share) : std::nullopt);
   if (limit) draw_limit(ui, bar, limit_share, *limit / unit.si_value);
   ImGui::SetCursorScreenPos({card.x, card.y});
   ImGui::InvisibleButton("##map_bar", {card.w, card.h});
@@ -158,11 +175,11 @@ float draw_map_bar(const UiContext& ui, AppModel& model, const Rect& view, float
 }
 
 /// Value under the pointer, beside it.
-void draw_map_hover(const UiContext& ui, AppModel& model, std::uint32_t triangle, double u, double v) {
-  const auto value = model.map().value_at(triangle, u, v);
-  const auto paint = model.map().paint();
+void draw_map_hover(const UiContext& ui, MapView& map, std::uint32_t triangle, double u, double v) {
+  const auto value = map.value_at(triangle, u, v);
+  const auto paint = map.paint();
   if (!paint) return;
-  const UnitLabel unit = unit_of(model.map().quantity);
+  const UnitLabel unit = unit_of(map.quantity);
   const std::string text =
       value ? printed("%.4g", *value / unit.si_value) + (unit.name.empty() ? "" : " " + std::string(unit.name))
             : "no value";

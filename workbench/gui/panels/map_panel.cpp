@@ -1,7 +1,7 @@
 // The map over the mesh: which quantity, how it is coloured, how far it is computed, and where it is worst. The colour
 // bar stands in the 3D view (map_bar.cpp).
 #include "workbench/gui/panels/panels.h"
-#include "workbench/gui/widgets.h"
+#include "workbench/gui/widgets/widgets.h"
 
 #include <charconv>
 #include <cmath>
@@ -167,7 +167,7 @@ void draw_worst(const UiContext& ui, AppModel& model) {
     const MapPlace& place = map.worst()[i];
     const ImVec2 at = ImGui::GetCursorScreenPos();
     if (ImGui::InvisibleButton(printed("##worst%zu", i).c_str(), {width, height}))
-      model.look_at_place(place.point_world, place.normal, place.triangle);
+      model.view().look_at_place(place.point_world, place.normal, place.triangle);
     ui.items.note_last(printed("map/worst/%zu", i));
     tooltip(ui, "Turns the view there and picks the triangle");
     const bool picked = model.view().picked_triangle == place.triangle;

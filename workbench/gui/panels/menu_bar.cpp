@@ -1,7 +1,7 @@
 // The top bar: file and view menus, scene, preset, the simulated hand, and the stop button.
 #include "core/lab/objects/generate.h"
 #include "workbench/gui/panels/panels.h"
-#include "workbench/gui/widgets.h"
+#include "workbench/gui/widgets/widgets.h"
 
 #include <algorithm>
 #include <cctype>
@@ -9,7 +9,7 @@
 
 namespace tangent {
 
-void draw_path_bar(const UiContext& ui, AppModel& model, PathBar& bar, const Rect& under);
+void draw_path_bar(const UiContext& ui, SceneModel& scene, PathBar& bar, const Rect& under);
 
 namespace {
 
@@ -47,57 +47,57 @@ void draw_file_menu(const UiContext& ui, AppModel& model, MenuBar& state) {
   if (menu_item(ui, "menu/file/open", "Open mesh...", "Type a path: OBJ, PLY, STL or OFF; Tab completes it", "Ctrl+O"))
     state.path.open = state.path.focus = true;
   if (ImGui::BeginMenu("Recent")) {
-    const std::vector<std::string> recent = model.settings().recent_meshes;  // opening one changes the order
+    const std::vector<std::string> recent = model.window().settings().recent_meshes;  // opening one changes the order
     for (std::size_t i = 0; i < recent.size(); ++i) {
       if (menu_item(ui, "menu/file/recent/" + std::to_string(i), recent[i].c_str(), "Opens it again"))
-        model.open_mesh(recent[i]);
+        model.scene().open(recent[i]);
     }
     ImGui::EndMenu();
   }
   ui.items.note_last("menu/file/recent");
-  if (menu_item(ui, "menu/file/reload", "Load the mesh again", "Reads the file anew") && !model.mesh_path().empty())
-    model.open_mesh(model.mesh_path());
+  if (menu_item(ui, "menu/file/reload", "Load the mesh again", "Reads the file anew") && !model.scene().path().empty())
+    model.scene().open(model.scene().path());
   ImGui::Separator();
   if (menu_item(ui, "menu/file/screenshot", "Screenshot",
                 "Writes the window as a PNG into the folder the program was started in", "F12"))
-    model.ask_for_screenshot();
+    model.exports().ask_for_screenshot();
   if (menu_item(ui, "menu/file/commands", "Commands...", "Every command by name", "Ctrl+P"))
     state.palette.open = state.palette.focus = true;
   if (menu_item(ui, "menu/file/shortcuts", "Shortcuts", "All keys on a sheet", "F1", state.sheet))
     state.sheet = !state.sheet;
   ImGui::Separator();
   if (menu_item(ui, "menu/file/quit", "Quit", "Ends the program; the force goes to zero first", "Ctrl+Q"))
-    model.ask_to_close();
+    model.window().ask_to_close();
   ImGui::EndPopup();
 }
 
-void draw_camera_items(const UiContext& ui, AppModel& model) {
+void draw_camera_items(const UiContext& ui, ViewModel& view) {
   if (menu_item(ui, "menu/view/frame", "Frame the mesh", "All of it in view, from the present direction", "F"))
-    model.frame_scene();
+    view.frame_scene();
   if (ImGui::BeginMenu("Look from")) {
     for (const NamedView& v : kStandardViews) {
       std::string title = v.name;
       title[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(title[0])));
       if (menu_item(ui, "menu/view/from/" + title, title.c_str(), "Turns the camera there; what it looks at stays",
                     v.key))
-        model.look_from_standard(v.view);
+        view.look_from_standard(v.view);
     }
     ImGui::EndMenu();
   }
   ui.items.note_last("menu/view/from");
   if (menu_item(ui, "menu/view/y_up", "y axis up", "For meshes that stand on y, as many scans do", "U",
-                model.view().camera.y_up))
-    model.set_y_up(!model.view().camera.y_up);
+                view.camera.y_up))
+    view.set_y_up(!view.camera.y_up);
   if (menu_item(ui, "menu/view/copy_camera", "Copy camera",
                 "The view as one line of text, for another window or another day", "Ctrl+Shift+C"))
-    model.copy_camera();
+    view.copy_camera();
   if (menu_item(ui, "menu/view/paste_camera", "Paste camera", "The view that was copied", "Ctrl+Shift+V"))
-    model.paste_camera();
+    view.paste_camera();
 }
 
 void draw_view_menu(const UiContext& ui, AppModel& model) {
   if (!drop_button(ui, "menu/view", "View", "Layout, camera, what is drawn, colours, text size")) return;
-  LayoutSizes& sizes = model.sizes();
+  LayoutSizes& sizes = model.window().sizes();
   if (menu_item(ui, "menu/view/left", "Parameters", "The left column", nullptr, sizes.show_left))
     sizes.show_left = !sizes.show_left;
   if (menu_item(ui, "menu/view/right", "Iterations, maps, mesh, devices", "The right column", nullptr,
@@ -109,9 +109,9 @@ void draw_view_menu(const UiContext& ui, AppModel& model) {
                 "Rates, histograms, limits and faults, in place of the 3D view", nullptr, model.view().device_monitor))
     model.view().device_monitor = !model.view().device_monitor;
   if (menu_item(ui, "menu/view/reset", "Default layout", "Columns, plots and sections as they were at first"))
-    model.reset_layout();
+    model.window().reset_layout();
   ImGui::Separator();
-  draw_camera_items(ui, model);
+  draw_camera_items(ui, model.view());
   ImGui::Separator();
   SceneToggles& show = model.view().toggles;
   if (menu_item(ui, "menu/view/creases", "Creases and boundaries", "Sharp edges and rims, as strong lines", nullptr,
@@ -126,28 +126,29 @@ void draw_view_menu(const UiContext& ui, AppModel& model) {
   if (menu_item(ui, "menu/view/axes", "Axes and scale", "Orientation and scale bars in the corner", nullptr, show.axes))
     show.axes = !show.axes;
   ImGui::Separator();
-  const bool dark = model.theme() == Theme::dark;
-  if (menu_item(ui, "menu/view/dark", "Dark", "Light text on dark ground", nullptr, dark)) model.set_theme(Theme::dark);
+  const bool dark = model.window().theme() == Theme::dark;
+  if (menu_item(ui, "menu/view/dark", "Dark", "Light text on dark ground", nullptr, dark))
+    model.window().set_theme(Theme::dark);
   if (menu_item(ui, "menu/view/light", "Light", "Dark text on light ground", nullptr, !dark))
-    model.set_theme(Theme::light);
+    model.window().set_theme(Theme::light);
   if (menu_item(ui, "menu/view/larger", "Larger text", "Everything a tenth larger", "Ctrl++"))
-    model.set_ui_scale(model.ui_scale() * 1.1f);
+    model.window().set_ui_scale(model.window().ui_scale() * 1.1f);
   if (menu_item(ui, "menu/view/smaller", "Smaller text", "Everything a tenth smaller", "Ctrl+-"))
-    model.set_ui_scale(model.ui_scale() / 1.1f);
+    model.window().set_ui_scale(model.window().ui_scale() / 1.1f);
   if (menu_item(ui, "menu/view/normal", "Normal text", "The size that the monitor asks for", "Ctrl+0"))
-    model.set_ui_scale(1.0f);
+    model.window().set_ui_scale(1.0f);
   ImGui::EndPopup();
 }
 
-void draw_scene_menu(const UiContext& ui, AppModel& model, MenuBar& state, float width) {
-  std::string name =
-      model.scene() != nullptr ? std::filesystem::path(model.scene()->mesh().name()).filename().string() : "no mesh";
-  if (model.loading()) name = "loading " + std::filesystem::path(model.loading_name()).filename().string();
+void draw_scene_menu(const UiContext& ui, SceneModel& scene, MenuBar& state, float width) {
+  std::string name = scene.current() != nullptr
+                         ? std::filesystem::path(scene.current()->mesh().name()).filename().string()
+                         : "no mesh";
+  if (scene.loading()) name = "loading " + std::filesystem::path(scene.loading_name()).filename().string();
   if (!drop_button(ui, "menu/scene", name, "The mesh; also drop a file into the window", width)) return;
   for (const std::string& object : generator_names()) {
-    if (menu_item(ui, "menu/scene/" + object, object.c_str(), "A generated object", nullptr,
-                  object == model.mesh_path()))
-      model.open_mesh(object);
+    if (menu_item(ui, "menu/scene/" + object, object.c_str(), "A generated object", nullptr, object == scene.path()))
+      scene.open(object);
   }
   ImGui::Separator();
   if (menu_item(ui, "menu/scene/open", "Open mesh...", "Type a path: OBJ, PLY, STL or OFF; Tab completes it", "Ctrl+O"))
@@ -155,35 +156,35 @@ void draw_scene_menu(const UiContext& ui, AppModel& model, MenuBar& state, float
   ImGui::EndPopup();
 }
 
-void draw_preset_menu(const UiContext& ui, AppModel& model, float width) {
-  const std::string name = model.presets().name() + (model.presets().changed() ? " *" : "");
+void draw_preset_menu(const UiContext& ui, PresetModel& presets, float width) {
+  const std::string name = presets.editor().name() + (presets.editor().changed() ? " *" : "");
   if (!drop_button(ui, "menu/preset", name, "The preset; * when it was changed since loading", width)) return;
-  for (const auto& file : model.preset_files()) {
+  for (const auto& file : presets.files()) {
     const std::string stem = file.stem().string();
     if (menu_item(ui, "menu/preset/" + stem, stem.c_str(), "Loads this preset; undo brings the present one back",
-                  nullptr, file == model.presets().path()))
-      model.load_preset(file);
+                  nullptr, file == presets.editor().path()))
+      presets.load(file);
   }
-  if (model.preset_files().empty()) ImGui::TextDisabled("No presets");
+  if (presets.files().empty()) ImGui::TextDisabled("No presets");
   ImGui::Separator();
   if (menu_item(ui, "menu/preset/revert", "Revert all changes", "Every key back to the loaded value"))
-    model.revert_preset();
+    presets.revert_all();
   ImGui::EndPopup();
 }
 
-void draw_device_menu(const UiContext& ui, AppModel& model, float width) {
-  if (!drop_button(ui, "menu/device", model.device(), "The devices that are driven", width)) return;
+void draw_device_menu(const UiContext& ui, DeviceModel& devices, float width) {
+  if (!drop_button(ui, "menu/device", devices.name(), "The devices that are driven", width)) return;
   for (const char* name : {"simulated", "none"}) {
     if (menu_item(ui, std::string("menu/device/") + name, name,
-                  "A new session with these devices; the history starts anew", nullptr, model.device() == name))
-      model.set_device(name);
+                  "A new session with these devices; the history starts anew", nullptr, devices.name() == name))
+      devices.choose(name);
   }
   ImGui::EndPopup();
 }
 
 /// The one button that must be found at once: red and on the right.
-void draw_stop(const UiContext& ui, AppModel& model, const Rect& rect) {
-  const bool stopped = model.stopped();
+void draw_stop(const UiContext& ui, DeviceModel& devices, const Rect& rect) {
+  const bool stopped = devices.stopped();
   const char* text = stopped ? "Arm" : "Stop force";
   const float width = ImGui::CalcTextSize("Stop force").x + ui.px(22);
   ImGui::SameLine();
@@ -192,7 +193,7 @@ void draw_stop(const UiContext& ui, AppModel& model, const Rect& rect) {
   ImGui::PushStyleColor(ImGuiCol_Button, stopped ? fill : ImVec4(fill.x, fill.y, fill.z, 0.75f));
   ImGui::PushStyleColor(ImGuiCol_ButtonHovered, fill);
   ImGui::PushStyleColor(ImGuiCol_Text, stopped ? ui.colours.text : IM_COL32_WHITE);
-  if (ImGui::Button((std::string(text) + "##stop").c_str(), {width, 0.0f})) model.toggle_stop();
+  if (ImGui::Button((std::string(text) + "##stop").c_str(), {width, 0.0f})) devices.toggle_stop();
   ImGui::PopStyleColor(3);
   ui.items.note_last("menu/stop");
   tooltip(ui, stopped ? "Clears faults and lets the force in again, over a quarter of a second"
@@ -222,22 +223,22 @@ void draw_menu_bar(const UiContext& ui, AppModel& model, MenuBar& state, const R
     ImGui::SameLine(0, ui.px(5));
   };
   label("Mesh");
-  draw_scene_menu(ui, model, state, room);
+  draw_scene_menu(ui, model.scene(), state, room);
   ImGui::SameLine(0, ui.px(12));
   label("Preset");
-  draw_preset_menu(ui, model, room);
+  draw_preset_menu(ui, model.presets(), room);
   ImGui::SameLine(0, ui.px(12));
   label("Device");
-  draw_device_menu(ui, model, ui.px(110));
+  draw_device_menu(ui, model.devices(), ui.px(110));
   ImGui::SameLine(0, ui.px(12));
-  bool follows = model.view().hand_follows_mouse;
+  bool follows = model.devices().hand_follows_mouse();
   if (toggle_button(
           ui, "menu/hand", "Hand follows mouse", follows,
           "Drag on the surface in the 3D view to lead the simulated hand (M). Off: it explores the mesh by itself"))
-    model.set_hand_follows_mouse(follows);
-  draw_stop(ui, model, rect);
+    model.devices().set_hand_follows_mouse(follows);
+  draw_stop(ui, model.devices(), rect);
   ImGui::End();
-  if (state.path.open) draw_path_bar(ui, model, state.path, rect);
+  if (state.path.open) draw_path_bar(ui, model.scene(), state.path, rect);
 }
 
 }  // namespace tangent

@@ -1,8 +1,9 @@
 // The mesh: what it is and what a contact solver will meet on it.
 #include "core/lab/objects/generate.h"
+#include "workbench/gui/model/polygon_facts.h"
 #include "workbench/gui/panels/panels.h"
-#include "workbench/gui/polygon_facts.h"
-#include "workbench/gui/widgets.h"
+#include "workbench/gui/widgets/widgets.h"
+#include "workbench/session/file_units.h"
 
 #include <algorithm>
 #include <array>
@@ -62,7 +63,7 @@ void draw_defects(const UiContext& ui, const ContactMesh& mesh) {
 
 void draw_picked(const UiContext& ui, AppModel& model) {
   const std::uint32_t t = model.view().picked_triangle;
-  const ContactMesh& mesh = model.scene()->mesh();
+  const ContactMesh& mesh = model.scene().current()->mesh();
   if (t == kNone || t >= mesh.triangle_count() || !mesh.usable(t)) return;
   ImGui::Separator();
   fact(ui, "Picked triangle", count(t));
@@ -76,14 +77,8 @@ void draw_picked(const UiContext& ui, AppModel& model) {
   if (text_button(ui, "mesh/unpick", "Unpick", "Picks nothing")) model.view().picked_triangle = kNone;
 }
 
-struct FileUnit {
-  std::string_view name;
-  double metres;
-};
-constexpr std::array kFileUnits{FileUnit{"mm", 1e-3}, FileUnit{"cm", 1e-2}, FileUnit{"m", 1.0}, FileUnit{"in", 0.0254}};
-
 /// What the file doesn't say, and how large the mesh shall be.
-void draw_size_choices(const UiContext& ui, AppModel& model) {
+void draw_size_choices(const UiContext& ui, SceneModel& scene) {
   const float column = ui.px(140), width = ui.px(110);
   const auto label = [&](const char* text) {
     ImGui::AlignTextToFramePadding();
@@ -91,29 +86,27 @@ void draw_size_choices(const UiContext& ui, AppModel& model) {
     ImGui::SameLine(column);
   };
   const auto& generated = generator_names();
-  const bool file = std::find(generated.begin(), generated.end(), model.mesh_path()) == generated.end();
+  const bool file = std::find(generated.begin(), generated.end(), scene.path()) == generated.end();
   if (file) {
-    std::array<std::string_view, kFileUnits.size()> names;
     int chosen = 0;
     for (std::size_t i = 0; i < kFileUnits.size(); ++i) {
-      names[i] = kFileUnits[i].name;
-      if (kFileUnits[i].metres == model.metres_per_unit()) chosen = static_cast<int>(i);
+      if (kFileUnits[i].metres == scene.metres_per_unit()) chosen = static_cast<int>(i);
     }
     label("Unit of the file");
-    if (choice_row(ui, "mesh/unit", width, names, chosen))
-      model.set_mesh_unit(kFileUnits[static_cast<std::size_t>(chosen)].metres);
+    if (choice_row(ui, "mesh/unit", width, kFileUnitNames, chosen))
+      scene.set_unit(kFileUnits[static_cast<std::size_t>(chosen)].metres);
     tooltip(ui, "What one unit of its coordinates is; the file is read anew (--unit)");
   }
   label("Longest side, mm");
   const auto typed = number_box(ui, "mesh/fit_mm", width,
-                                model.fit_m() ? short_number(*model.fit_m() * 1e3) : std::string("as it is"));
+                                scene.fit_m() ? short_number(*scene.fit_m() * 1e3) : std::string("as it is"));
   tooltip(ui, "Type a length to scale the mesh to it, with its middle at the origin; nothing: as it is (--fit-mm)");
   if (!typed) return;
   const double number = std::strtod(typed->c_str(), nullptr);
   if (number == 0.0)
-    model.set_mesh_fit(std::nullopt);
+    scene.set_fit(std::nullopt);
   else
-    model.set_mesh_fit(number * 1e-3);
+    scene.set_fit(number * 1e-3);
 }
 
 /// Not the ribbon that it is drawn with.
@@ -136,14 +129,14 @@ void draw_polygon(const UiContext& ui, const PlanarPolygon& polygon) {
 
 void draw_mesh_panel(const UiContext& ui, AppModel& model, FoldedPanel& state) {
   if (!section(ui, "Mesh", state.open)) return;
-  if (model.scene() == nullptr) {
-    ImGui::TextDisabled(model.loading() ? "Loading" : "No mesh");
+  if (model.scene().current() == nullptr) {
+    ImGui::TextDisabled(model.scene().loading() ? "Loading" : "No mesh");
     return;
   }
-  const ContactMesh& mesh = model.scene()->mesh();
+  const ContactMesh& mesh = model.scene().current()->mesh();
   fact(ui, "Name", std::filesystem::path(mesh.name()).filename().string());
   tooltip(ui, mesh.name());
-  if (const PlanarCurve* curve = model.scene()->planar()) {
+  if (const PlanarCurve* curve = model.scene().current()->planar()) {
     draw_polygon(ui, curve->polygon());
     ImGui::Dummy({1, ui.px(3)});
     return;
@@ -154,12 +147,12 @@ void draw_mesh_panel(const UiContext& ui, AppModel& model, FoldedPanel& state) {
   fact(ui, "Vertices", count(mesh.vertex_count()));
   const Vec3 size = mesh.bounds().size() * 1e3;
   fact(ui, "Size", printed("%.4g \u00d7 %.4g \u00d7 %.4g", size.x, size.y, size.z), "mm");
-  draw_size_choices(ui, model);
+  draw_size_choices(ui, model.scene());
   fact(ui, "Normals", mesh.normals_used() == NormalSource::file ? "from the file" : "computed");
-  fact(ui, "Memory", printed("%.1f", static_cast<double>(model.scene()->memory_bytes()) / 1e6), "MB");
-  if (const MeshAudit* audit = model.audit())
+  fact(ui, "Memory", printed("%.1f", static_cast<double>(model.scene().current()->memory_bytes()) / 1e6), "MB");
+  if (const MeshAudit* audit = model.scene().audit())
     draw_audit(ui, *audit);
-  else if (model.auditing())
+  else if (model.scene().auditing())
     ImGui::TextDisabled("Audit running");
   draw_defects(ui, mesh);
   draw_picked(ui, model);

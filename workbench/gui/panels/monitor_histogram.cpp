@@ -1,6 +1,6 @@
 #include "workbench/gui/panels/monitor_histogram.h"
 
-#include "workbench/gui/widgets.h"
+#include "workbench/gui/widgets/widgets.h"
 
 #include <algorithm>
 #include <cmath>

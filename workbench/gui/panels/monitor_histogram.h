@@ -2,7 +2,7 @@
 #pragma once
 
 #include "devices/base/log_histogram.h"
-#include "workbench/gui/ui_context.h"
+#include "workbench/gui/widgets/ui_context.h"
 
 #include <vector>
 

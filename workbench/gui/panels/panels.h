@@ -2,12 +2,12 @@
 // calls it; what a panel has to remember between frames is a struct of its own. One panel, one file.
 #pragma once
 
-#include "workbench/gui/app_model.h"
+#include "workbench/gui/model/app_model.h"
 #include "workbench/gui/panels/planar_view.h"
 #include "workbench/gui/plots/plot_view.h"
 #include "workbench/gui/plots/sample_cells.h"
 #include "workbench/gui/plots/spectrum.h"
-#include "workbench/gui/ui_context.h"
+#include "workbench/gui/widgets/ui_context.h"
 
 #include <array>
 #include <cstdint>
@@ -63,7 +63,7 @@ void draw_map_panel(const UiContext& ui, AppModel& model, MapPanel& state);
 /// there.
 float draw_map_bar(const UiContext& ui, AppModel& model, const Rect& view, float top);
 /// The value at a place under the pointer.
-void draw_map_hover(const UiContext& ui, AppModel& model, std::uint32_t triangle, double u, double v);
+void draw_map_hover(const UiContext& ui, MapView& map, std::uint32_t triangle, double u, double v);
 
 struct InspectPanel {
   bool open = true;
@@ -81,12 +81,12 @@ struct PerceptionPanel {
 };
 void draw_perception_panel(const UiContext& ui, AppModel& model, PerceptionPanel& state);
 /// Threshold of the chosen condition.
-double felt_angle_rad(const AppModel& model, const PerceptionPanel& state);
+double felt_angle_rad(const PresetModel& presets, const PerceptionPanel& state);
 
 struct FoldedPanel {
   bool open = true;
 };
-void draw_time_machine_panel(const UiContext& ui, AppModel& model, FoldedPanel& state);
+void draw_time_machine_panel(const UiContext& ui, TimeModel& time, FoldedPanel& state);
 
 struct BookmarksPanel {
   bool open = true;
@@ -102,7 +102,7 @@ struct LogPanel {
   bool notes = true, warnings = true, errors = true;
   std::string filter;
 };
-void draw_log_panel(const UiContext& ui, AppModel& model, LogPanel& state);
+void draw_log_panel(const UiContext& ui, MessageLog& messages, LogPanel& state);
 /// In place of the 3D view while it is asked for.
 void draw_device_monitor(const UiContext& ui, AppModel& model, const Rect& rect);
 
@@ -142,13 +142,13 @@ struct CurveRef {
 };
 std::vector<CurveRef> curves_of(const PlotsPanel& state);
 /// Ticks in view: from and one past the last, cut to what is kept.
-std::pair<std::uint64_t, std::uint64_t> ticks_in_view(const AppModel& model);
+std::pair<std::uint64_t, std::uint64_t> ticks_in_view(const TimeModel& time);
 void draw_plots_toolbar(const UiContext& ui, AppModel& model, PlotsPanel& state, const Rect& rect, const Rect& whole);
-void draw_values_table(const UiContext& ui, AppModel& model, PlotsPanel& state, const Rect& rect);
+void draw_values_table(const UiContext& ui, TimeModel& time, PlotsPanel& state, const Rect& rect);
 /// X-Y, spectrum or histogram.
 void draw_other_plot(const UiContext& ui, AppModel& model, PlotsPanel& state, const Rect& rect);
 void draw_plots_panel(const UiContext& ui, AppModel& model, PlotsPanel& state, const Rect& rect);
-void draw_transport_bar(const UiContext& ui, AppModel& model, const Rect& rect);
+void draw_transport_bar(const UiContext& ui, TimeModel& time, const Rect& rect);
 void draw_status_line(const UiContext& ui, AppModel& model, const Rect& rect, double build_ms);
 
 // Above.

@@ -1,7 +1,7 @@
 // Favourites, then the tables of the preset schema: one row for each key.
 #include "core/io/rendering_condition.h"
 #include "workbench/gui/panels/panels.h"
-#include "workbench/gui/widgets.h"
+#include "workbench/gui/widgets/widgets.h"
 
 namespace tangent {
 
@@ -31,10 +31,11 @@ std::string method_names(Methods methods) {
 std::string idle_because(const PresetKey& key, const AppModel& model) {
   const Preset& preset = model.presets().current();
   if (key.needs_controller) {
-    const DisplayCapabilities* display = model.session() != nullptr ? model.session()->display_capabilities() : nullptr;
+    const DisplayCapabilities* display =
+        model.devices().session() != nullptr ? model.devices().session()->display_capabilities() : nullptr;
     if (display == nullptr || !display->has_controller) return "The present display has no controller that takes it.";
   }
-  if (key.planar_only && (model.scene() == nullptr || model.scene()->planar() == nullptr))
+  if (key.planar_only && (model.scene().current() == nullptr || model.scene().current()->planar() == nullptr))
     return "Used in 2D scenes only.";
   if (key.read_by != kNoMethod && !key.read_by.has(preset.solver.method))
     return "Used by " + method_names(key.read_by) + " only.";
@@ -58,16 +59,16 @@ void draw_label(const UiContext& ui, AppModel& model, const PresetKey& key, cons
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const ImVec2 at = ImGui::GetCursorScreenPos();
   if (ImGui::InvisibleButton(("##label/" + path).c_str(), {width, ImGui::GetFrameHeight()}))
-    model.toggle_favourite(key);
+    model.window().toggle_favourite(key);
   ui.items.note_last(path + "/label");
   const bool hovered = ImGui::IsItemHovered();
   tooltip(ui, explain(key, idle));
   const float text_y = std::round(at.y + 0.5f * (ImGui::GetFrameHeight() - ui.fonts.text->FontSize));
   const ImVec2 mark{at.x + ui.px(2), text_y + 0.55f * ui.fonts.text->FontSize};
-  const bool changed = key.get(model.presets().current()) != key.get(model.presets().loaded().preset);
+  const bool changed = key.get(model.presets().current()) != key.get(model.presets().editor().loaded().preset);
   if (changed)
     draw.AddCircleFilled(mark, ui.px(2.5f), ui.colours.accent);
-  else if (hovered || model.is_favourite(key))
+  else if (hovered || model.window().is_favourite(key))
     draw_star(draw, mark, ui.px(4.5f), hovered ? ui.colours.text_dim : ui.colours.warning);
   draw.PushClipRect(at, {at.x + width, at.y + ImGui::GetFrameHeight()}, true);
   const std::string label(key.label);
@@ -91,36 +92,36 @@ void draw_row(const UiContext& ui, AppModel& model, const PresetKey& key, const 
   const float field_width = width - label_width - reset_width;
   if (key.kind == KeyKind::choice) {
     int chosen = static_cast<int>(value);
-    if (choice_row(ui, path, field_width, key.choices, chosen)) model.set_value(key, chosen);
+    if (choice_row(ui, path, field_width, key.choices, chosen)) model.presets().set_value(key, chosen);
   } else {
     const DisplayUnit unit = display_unit(key);
     const auto result =
         value_field(ui, path, {field_width, slider_share(key, value), display_text(key, value), unit.name});
-    if (result.slid) model.slide_value(key, slider_value(key, *result.slid));
-    if (result.typed) model.type_value(key, *result.typed);
+    if (result.slid) model.presets().slide_value(key, slider_value(key, *result.slid));
+    if (result.typed) model.presets().type_value(key, *result.typed);
   }
   tooltip(ui, explain(key, idle));
 
   ImGui::SetCursorScreenPos({at.x + width - reset_width + ui.px(3), at.y});
   if (value != key.default_value()) {
     const std::string what = "Back to " + display_with_unit(key, key.default_value()) + ", the program's own value";
-    if (icon_button(ui, path + "/reset", Icon::reset, what.c_str())) model.reset_value(key);
+    if (icon_button(ui, path + "/reset", Icon::reset, what.c_str())) model.presets().reset_value(key);
   } else {
     ImGui::Dummy({ui.px(10), ImGui::GetFrameHeight()});
   }
 }
 
 void draw_favourites(const UiContext& ui, AppModel& model) {
-  if (model.favourites().empty() || !section(ui, "Favourites", true)) return;
+  if (model.window().favourites().empty() || !section(ui, "Favourites", true)) return;
   for (const PresetKey& key : preset_keys()) {
-    if (model.is_favourite(key)) draw_row(ui, model, key, "favourites/");
+    if (model.window().is_favourite(key)) draw_row(ui, model, key, "favourites/");
   }
   ImGui::Dummy({1, ui.px(2)});
 }
 
 /// The paper's conditions by name: both sources at once.
-void draw_condition_row(const UiContext& ui, AppModel& model) {
-  const RenderingCondition* present = condition_of(model.presets().current());
+void draw_condition_row(const UiContext& ui, PresetModel& presets) {
+  const RenderingCondition* present = condition_of(presets.current());
   std::array<std::string_view, kConditionNames.size() + 1> names{"none of the six"};
   std::copy(kConditionNames.begin(), kConditionNames.end(), names.begin() + 1);
   const float width = ImGui::GetContentRegionAvail().x, label_width = std::max(ui.px(128), 0.42f * width);
@@ -131,7 +132,7 @@ void draw_condition_row(const UiContext& ui, AppModel& model) {
   ImGui::SetCursorScreenPos({at.x + label_width, at.y});
   int chosen = present != nullptr ? static_cast<int>(present - kRenderingConditions.data()) + 1 : 0;
   if (choice_row(ui, "force/condition", width - label_width - ui.px(20), names, chosen) && chosen > 0)
-    model.set_condition(kRenderingConditions[static_cast<std::size_t>(chosen - 1)]);
+    presets.set_condition(kRenderingConditions[static_cast<std::size_t>(chosen - 1)]);
   tooltip(ui, "The paper's rendering conditions: sources of force and display together. " +
                   (present != nullptr ? std::string(present->words)
                                       : std::string("The present sources make none of them")));
@@ -143,7 +144,7 @@ void draw_table(const UiContext& ui, AppModel& model, const PresetTable& table) 
     if (key.table == table.name && has_meaning(key, model.presets().current())) draw_row(ui, model, key);
   }
   if (table.name == "solver") draw_gain_advice(ui, model);
-  if (table.name == "force") draw_condition_row(ui, model);
+  if (table.name == "force") draw_condition_row(ui, model.presets());
   ImGui::Dummy({1, ui.px(2)});
 }
 

@@ -1,6 +1,6 @@
 // Typing the path of a mesh: Tab completes, Enter opens, Esc puts it away.
 #include "workbench/gui/panels/panels.h"
-#include "workbench/gui/widgets.h"
+#include "workbench/gui/widgets/widgets.h"
 
 #include <imgui_stdlib.h>
 
@@ -73,7 +73,7 @@ std::string common_start(const std::vector<std::string>& texts) {
   return common;
 }
 
-void draw_path_bar(const UiContext& ui, AppModel& model, PathBar& bar, const Rect& under) {
+void draw_path_bar(const UiContext& ui, SceneModel& scene, PathBar& bar, const Rect& under) {
   const float width = std::min(ui.px(560), under.w - ui.px(20));
   ImGui::SetNextWindowPos({under.x + 0.5f * (under.w - width), under.bottom() + ui.px(4)});
   ImGui::SetNextWindowSize({width, 0.0f});
@@ -108,12 +108,12 @@ void draw_path_bar(const UiContext& ui, AppModel& model, PathBar& bar, const Rec
     bar.text = match;
     bar.focus = match.back() == '/';
     if (match.back() != '/') {
-      model.open_mesh(match);
+      scene.open(match);
       bar.open = false;
     }
   }
   if (enter && !bar.text.empty()) {
-    model.open_mesh(expand_home(bar.text));
+    scene.open(expand_home(bar.text));
     bar.open = false;
   }
   const bool elsewhere = left && !picked && !ImGui::IsWindowHovered(ImGuiHoveredFlags_ChildWindows);

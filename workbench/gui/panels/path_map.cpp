@@ -1,9 +1,9 @@
 // The way of a tick's iterations over (u, v): the base triangle laid flat, its neighbours unfolded, the residual
 // |c - h N - S| as colour and contours, and the planes as dots in the colours they have everywhere. A path that runs
 // down to a hole converges; one that circles a hole cycles; one that goes where there is none runs away.
+#include "workbench/gui/map/residual_map.h"
 #include "workbench/gui/panels/panels.h"
-#include "workbench/gui/residual_map.h"
-#include "workbench/gui/widgets.h"
+#include "workbench/gui/widgets/widgets.h"
 
 #include <algorithm>
 #include <cmath>
@@ -34,10 +34,10 @@ Placement fitted(const FlatView& wanted, ImVec2 min, ImVec2 max) {
 }
 
 /// The triangle of the selected plane, else the one where the tick ended.
-std::uint32_t base_triangle(const AppModel& model) {
-  const auto iterations = model.tick().iterations();
+std::uint32_t base_triangle(const TimeModel& time) {
+  const auto iterations = time.tick().iterations();
   if (iterations.empty()) return kNone;
-  return iterations[model.tick().selected().value_or(iterations.size() - 1)].triangle;
+  return iterations[time.tick().selected().value_or(iterations.size() - 1)].triangle;
 }
 
 ImU32 field_ink(const UiContext& ui, float share) {
@@ -131,9 +131,9 @@ void draw_contours(const UiContext& ui, const ResidualMap& map, const Placement&
   }
 }
 
-void draw_edges(const UiContext& ui, const AppModel& model, const ResidualMap& map, const Placement& on) {
+void draw_edges(const UiContext& ui, const SceneModel& scene, const ResidualMap& map, const Placement& on) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  const ContactMesh& mesh = model.scene()->mesh();
+  const ContactMesh& mesh = scene.current()->mesh();
   for (std::size_t i = map.triangles().size(); i-- > 0;) {
     const FlatTriangle& t = map.triangles()[i];
     for (std::uint32_t k = 0; k < 3; ++k) {
@@ -155,10 +155,10 @@ void draw_edges(const UiContext& ui, const AppModel& model, const ResidualMap& m
 }
 
 /// Returns how many planes lie elsewhere; `pointed`: the plane under the mouse.
-std::size_t draw_path(const UiContext& ui, const AppModel& model, const ResidualMap& map, const Placement& on,
+std::size_t draw_path(const UiContext& ui, const TimeModel& time, const ResidualMap& map, const Placement& on,
                       bool mouse_here, std::optional<std::size_t>& pointed) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  const auto iterations = model.tick().iterations();
+  const auto iterations = time.tick().iterations();
   const ImVec2 mouse = ImGui::GetIO().MousePos;
   std::vector<std::optional<ImVec2>> points;
   std::size_t elsewhere = 0;
@@ -181,7 +181,7 @@ std::size_t draw_path(const UiContext& ui, const AppModel& model, const Residual
   }
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!points[i]) continue;
-    const bool marked = model.tick().selected() == i || pointed == i;
+    const bool marked = time.tick().selected() == i || pointed == i;
     draw.AddCircleFilled(*points[i], ui.px(marked ? 5.5f : 4.2f), packed(ui.palette.panel), 16);
     draw.AddCircleFilled(*points[i], ui.px(marked ? 4.5f : 3.2f), packed(iteration_colour(i, iterations.size())), 16);
     if (marked) draw.AddCircle(*points[i], ui.px(7), ui.colours.text, 20, ui.px(1.2f));
@@ -199,9 +199,7 @@ void draw_heading(const UiContext& ui, const ResidualMap& map, const Placement& 
                text.c_str());
 }
 
-}  // namespace
-
-void draw_path_map(const UiContext& ui, AppModel& model, PathMapPanel& state) {
+void draw_title(const UiContext& ui, PathMapPanel& state) {
   ImGui::PushFont(ui.fonts.small);
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted("Path over (u, v)");
@@ -217,6 +215,12 @@ void draw_path_map(const UiContext& ui, AppModel& model, PathMapPanel& state) {
   if (toggle_button(ui, "iterations/map_triangle", "Triangle", triangle, "The whole base triangle"))
     state.close_up = false;
   ImGui::PopFont();
+}
+
+}  // namespace
+
+void draw_path_map(const UiContext& ui, AppModel& model, PathMapPanel& state) {
+  draw_title(ui, state);
 
   const float width = std::max(1.0f, ImGui::GetContentRegionAvail().x - ui.px(4)),
               height = std::clamp(0.22f * ImGui::GetWindowHeight(), ui.px(196), ui.px(320));
@@ -226,42 +230,45 @@ void draw_path_map(const UiContext& ui, AppModel& model, PathMapPanel& state) {
   const bool clicked = ImGui::IsItemClicked(), mouse_here = ImGui::IsItemHovered();
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const ImVec2 end{at.x + width, at.y + height};
-  const std::uint32_t triangle_index = base_triangle(model);
-  const ServoRecord* record = model.tick().record();
-  const bool there = record != nullptr && model.scene() != nullptr &&
-                     triangle_index < model.scene()->mesh().triangle_count() && width > ui.px(60) &&
-                     model.session()->scene(record->scene_id) == model.scene() &&
-                     model.scene()->mesh().usable(triangle_index) && is_finite(record->tick.input.finger.position);
+  const std::uint32_t triangle_index = base_triangle(model.time());
+  const ServoRecord* record = model.time().tick().record();
+  const bool there = record != nullptr && model.scene().current() != nullptr &&
+                     triangle_index < model.scene().current()->mesh().triangle_count() && width > ui.px(60) &&
+                     model.devices().session()->scene(record->scene_id) == model.scene().current() &&
+                     model.scene().current()->mesh().usable(triangle_index) &&
+                     is_finite(record->tick.input.finger.position);
   draw.AddRectFilled(at, end, ui.colours.plot);
   if (!there) {
     draw.AddText(ui.fonts.small, ui.fonts.small->FontSize, {at.x + ui.px(8), at.y + ui.px(8)}, ui.colours.text_faint,
                  "no planes on this mesh");
     return;
   }
-  const Preset* then = model.session()->preset(record->tick.preset_id);
+  const Preset* then = model.devices().session()->preset(record->tick.preset_id);
   const Preset& preset = then != nullptr ? *then : model.presets().current();
-  ResidualMap map(model.scene(), triangle_index, preset.finger, preset.solver.normal_form, record->tick.input);
-  const Placement on = fitted(state.close_up ? map.path_view(model.tick().iterations()) : map.whole_view(), at, end);
+  ResidualMap map(model.scene().current(), triangle_index, preset.finger, preset.solver.normal_form,
+                  record->tick.input);
+  const Placement on =
+      fitted(state.close_up ? map.path_view(model.time().tick().iterations()) : map.whole_view(), at, end);
   map.sample(on.view, 61, 39);
   const auto [low, high] = std::minmax_element(map.log_residuals().begin(), map.log_residuals().end());
   draw.PushClipRect(at, end, true);
   draw_field(ui, map, on, *low, *high);
   std::vector<ImVec2> planes;
-  for (const IterationRecord& r : model.tick().iterations()) {
+  for (const IterationRecord& r : model.time().tick().iterations()) {
     if (const auto flat = map.place(r.triangle, r.u, r.v)) planes.push_back(on.at(*flat));
   }
   draw_contours(ui, map, on, planes);
-  draw_edges(ui, model, map, on);
+  draw_edges(ui, model.scene(), map, on);
   std::optional<std::size_t> pointed;
-  const std::size_t elsewhere = draw_path(ui, model, map, on, mouse_here, pointed);
+  const std::size_t elsewhere = draw_path(ui, model.time(), map, on, mouse_here, pointed);
   draw.PopClipRect();
   draw_heading(ui, map, on, elsewhere);
   if (!pointed) return;
   ImGui::SetTooltip("iteration %zu: %s \u00b5m", *pointed,
-                    short_number(model.tick().iterations()[*pointed].error_m * 1e6).c_str());
+                    short_number(model.time().tick().iterations()[*pointed].error_m * 1e6).c_str());
   if (!clicked) return;
-  model.set_paused(true);
-  model.tick().select(pointed);
+  model.time().set_paused(true);
+  model.time().tick().select(pointed);
 }
 
 }  // namespace tangent

@@ -2,7 +2,7 @@
 // table of all conditions and the worst edges. The heat map is the map "Facet angle".
 #include "core/io/rendering_condition.h"
 #include "workbench/gui/panels/panels.h"
-#include "workbench/gui/widgets.h"
+#include "workbench/gui/widgets/widgets.h"
 
 #include <algorithm>
 
@@ -10,13 +10,13 @@ namespace tangent {
 
 namespace {
 
-std::size_t chosen_condition(const AppModel& model, const PerceptionPanel& state) {
+std::size_t chosen_condition(const PresetModel& presets, const PerceptionPanel& state) {
   if (state.condition >= 0) return static_cast<std::size_t>(state.condition);
-  const RenderingCondition* own = condition_of(model.presets().current());
+  const RenderingCondition* own = condition_of(presets.current());
   return own != nullptr ? static_cast<std::size_t>(own - kRenderingConditions.data()) : 2;  // C3: nothing shaded
 }
 
-void draw_choice(const UiContext& ui, AppModel& model, PerceptionPanel& state, int chosen) {
+void draw_choice(const UiContext& ui, MapView& map, PerceptionPanel& state, int chosen) {
   const float width = ImGui::GetContentRegionAvail().x;
   std::array<std::string, kRenderingConditions.size()> texts;
   std::array<std::string_view, kRenderingConditions.size()> names;
@@ -27,13 +27,13 @@ void draw_choice(const UiContext& ui, AppModel& model, PerceptionPanel& state, i
   if (choice_row(ui, "perception/condition", width - ui.px(96), names, chosen)) state.condition = chosen;
   tooltip(ui, "Rendering condition of the verdict and the worst edges; until chosen, the preset's own, or C3");
   ImGui::SameLine(0, ui.px(4));
-  bool shown = model.map().on && model.map().quantity == MapQuantity::facet_angle;
+  bool shown = map.on && map.quantity == MapQuantity::facet_angle;
   if (!toggle_button(
           ui, "perception/map", "Heat map", shown,
           "Colours every triangle by its largest angle to a neighbour; the threshold is marked on the colour bar"))
     return;
-  model.map().on = shown;
-  if (shown) model.map().set_quantity(MapQuantity::facet_angle);
+  map.on = shown;
+  if (shown) map.set_quantity(MapQuantity::facet_angle);
 }
 
 /// Threshold, share felt as a bar, and in figures.
@@ -80,13 +80,13 @@ void draw_worst(const UiContext& ui, AppModel& model, const ConditionFeel& feel)
   tooltip(ui, "A click goes there");
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   ImFont* number = ui.fonts.small_number;
-  const ContactMesh& mesh = model.scene()->mesh();
+  const ContactMesh& mesh = model.scene().current()->mesh();
   const float width = ImGui::GetContentRegionAvail().x, height = ui.px(18);
   for (std::size_t i = 0; i < std::min<std::size_t>(5, feel.worst.size()); ++i) {
     const FeltEdge& edge = feel.worst[i];
     const ImVec2 at = ImGui::GetCursorScreenPos();
     if (ImGui::InvisibleButton(printed("##felt%zu", i).c_str(), {width, height}))
-      model.look_at_place(edge.middle_m, mesh.normal(edge.triangle, edge.edge), edge.triangle);
+      model.view().look_at_place(edge.middle_m, mesh.normal(edge.triangle, edge.edge), edge.triangle);
     ui.items.note_last(printed("perception/worst/%zu", i));
     if (ImGui::IsItemHovered()) draw.AddRectFilled(at, {at.x + width, at.y + height}, ui.colours.accent_soft, ui.px(2));
     const std::string text = printed("%7.2f deg  %7.3f mm long", edge.angle_deg, 1e3 * edge.length_m),
@@ -100,23 +100,23 @@ void draw_worst(const UiContext& ui, AppModel& model, const ConditionFeel& feel)
 
 }  // namespace
 
-double felt_angle_rad(const AppModel& model, const PerceptionPanel& state) {
-  return kPerceptionThresholds[chosen_condition(model, state)].mean_deg * kDegree;
+double felt_angle_rad(const PresetModel& presets, const PerceptionPanel& state) {
+  return kPerceptionThresholds[chosen_condition(presets, state)].mean_deg * kDegree;
 }
 
 void draw_perception_panel(const UiContext& ui, AppModel& model, PerceptionPanel& state) {
   if (!section(ui, "Smoothness as felt", state.open)) return;
-  if (model.scene() != nullptr && model.scene()->planar() != nullptr) {
+  if (model.scene().current() != nullptr && model.scene().current()->planar() != nullptr) {
     ImGui::TextDisabled("For meshes; this is a 2D scene");
     return;
   }
-  const PerceptionAudit* audit = model.perception();
+  const PerceptionAudit* audit = model.scene().perception();
   if (audit == nullptr) {
-    ImGui::TextDisabled(model.auditing() ? "Audit running" : "No mesh");
+    ImGui::TextDisabled(model.scene().auditing() ? "Audit running" : "No mesh");
     return;
   }
-  const std::size_t chosen = chosen_condition(model, state);
-  draw_choice(ui, model, state, static_cast<int>(chosen));
+  const std::size_t chosen = chosen_condition(model.presets(), state);
+  draw_choice(ui, model.map(), state, static_cast<int>(chosen));
   std::string sentence = verdict(*audit, static_cast<int>(chosen));
   sentence[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(sentence[0])));
   ImGui::PushTextWrapPos(0.0f);

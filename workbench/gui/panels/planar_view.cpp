@@ -1,8 +1,8 @@
 #include "workbench/gui/panels/planar_view.h"
 
+#include "workbench/gui/layout/view_room.h"
 #include "workbench/gui/render/overlay_canvas.h"
-#include "workbench/gui/view_room.h"
-#include "workbench/gui/widgets.h"
+#include "workbench/gui/widgets/widgets.h"
 
 #include <algorithm>
 #include <array>
@@ -56,8 +56,8 @@ class Paper {
 
 /// The whole polygon with a finger beside it, where nothing else is drawn.
 void frame_all(const UiContext& ui, const AppModel& model, PlanarView& view, const Rect& rect) {
-  const Box& box = model.scene()->mesh().bounds();
-  const Vec3 origin = model.scene()->mesh().origin(), size = box.size();
+  const Box& box = model.scene().current()->mesh().bounds();
+  const Vec3 origin = model.scene().current()->mesh().origin(), size = box.size();
   const double reach = 1.5 * model.presets().current().finger.reach_m();
   const double em = ui.fonts.text->FontSize, height = rect.h;
   const Vec2 card{(kInsetLeft + kInsetWidth + 1.0) * em,
@@ -69,17 +69,17 @@ void frame_all(const UiContext& ui, const AppModel& model, PlanarView& view, con
     view.px_per_m = px_per_m;
     view.centre = Vec2(origin.x, origin.y) + Vec2(0.0, 0.4 * reach) - room.shift * height / px_per_m;
   }
-  view.framed = model.scene().get();
+  view.framed = model.scene().current().get();
   view.framings = model.view().framings;
 }
 
-void interact(AppModel& model, PlanarView& view, const Rect& rect) {
+void interact(DeviceModel& devices, PlanarView& view, const Rect& rect) {
   const ImGuiIO& io = ImGui::GetIO();
   const Paper paper(view, rect);
-  const bool leading = model.view().hand_follows_mouse && !io.KeyShift;
+  const bool leading = devices.hand_follows_mouse() && !io.KeyShift;
   if (ImGui::IsItemActive() && leading && ImGui::IsMouseDown(ImGuiMouseButton_Left)) {
     const Vec2 at = paper.world(io.MousePos);
-    model.lead_hand({at.x, at.y, 0.0});
+    devices.lead_hand({at.x, at.y, 0.0});
   } else if (ImGui::IsItemActive()) {
     view.centre -= Vec2(static_cast<double>(io.MouseDelta.x), -static_cast<double>(io.MouseDelta.y)) / view.px_per_m;
   }
@@ -146,13 +146,13 @@ void draw_centres(const UiContext& ui, const PlanarCurve& curve, LocalCentre kin
   }
 }
 
-void draw_tangents(const UiContext& ui, const AppModel& model, const Paper& paper, const Rect& rect, ImDrawList& draw) {
-  const auto trace = model.tick().iterations();
+void draw_tangents(const UiContext& ui, const TimeModel& time, const Paper& paper, const Rect& rect, ImDrawList& draw) {
+  const auto trace = time.tick().iterations();
   const double reach = 0.22 * static_cast<double>(std::min(rect.w, rect.h));
   for (std::size_t i = 0; i < trace.size(); ++i) {
     const IterationRecord& r = trace[i];
     const Rgba ink = iteration_colour(i, trace.size());
-    const bool selected = model.tick().selected() == i;
+    const bool selected = time.tick().selected() == i;
     const ImVec2 middle = paper.at(r.point);
     const Vec2 along = reach * Vec2(r.normal.y, r.normal.x);  // in pixels, y down
     const ImVec2 half{static_cast<float>(along.x), static_cast<float>(along.y)};
@@ -241,29 +241,31 @@ void draw_toggles(const UiContext& ui, PlanarView& view, const Rect& rect) {
 }  // namespace
 
 void draw_planar_view(const UiContext& ui, AppModel& model, PlanarView& view, const Rect& rect) {
-  const PlanarCurve& curve = *model.scene()->planar();
-  if (view.framed != model.scene().get() || view.framings != model.view().framings) frame_all(ui, model, view, rect);
-  interact(model, view, rect);
+  const PlanarCurve& curve = *model.scene().current()->planar();
+  if (view.framed != model.scene().current().get() || view.framings != model.view().framings)
+    frame_all(ui, model, view, rect);
+  interact(model.devices(), view, rect);
   const Paper paper(view, rect);
   const LocalCentre kind = model.presets().current().solver.local_centre;
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   draw.PushClipRect({rect.x, rect.y}, {rect.right(), rect.bottom()}, true);
-  const ServoRecord* record = model.tick().record();
-  const Preset* then =
-      record != nullptr && model.session() != nullptr ? model.session()->preset(record->tick.preset_id) : nullptr;
+  const ServoRecord* record = model.time().tick().record();
+  const Preset* then = record != nullptr && model.devices().session() != nullptr
+                           ? model.devices().session()->preset(record->tick.preset_id)
+                           : nullptr;
   if (record != nullptr && view.finger)
     draw_finger(ui, (then != nullptr ? *then : model.presets().current()).finger, record->tick, paper, draw);
   draw_curve(ui, view, curve, kind, paper, draw);
   if (view.centres)
     draw_centres(ui, curve, kind, record != nullptr ? record->tick.output.triangle : kNone, paper, draw);
-  if (view.tangents) draw_tangents(ui, model, paper, rect, draw);
+  if (view.tangents) draw_tangents(ui, model.time(), paper, rect, draw);
   if (record != nullptr) {
     draw.AddCircleFilled(paper.at(record->tick.output.contact), ui.px(3.6f), colour(ui.palette.contact), 16);
     if (view.force) draw_force(ui, record->tick.output, paper, draw);
   }
   draw_scale(ui, view, rect, draw);
-  const Box& box = model.scene()->mesh().bounds();
-  const Vec3 origin = model.scene()->mesh().origin(), half = 0.5 * box.size();
+  const Box& box = model.scene().current()->mesh().bounds();
+  const Vec3 origin = model.scene().current()->mesh().origin(), half = 0.5 * box.size();
   ui.items.note("planar/outline", paper.at(origin + Vec3(-half.x, half.y, 0.0)),
                 paper.at(origin + Vec3(half.x, -half.y, 0.0)));
   if (record != nullptr && view.display) {

@@ -2,8 +2,8 @@
 // the finger with its contact, the force. It takes the 3D view's place.
 #pragma once
 
-#include "workbench/gui/app_model.h"
-#include "workbench/gui/ui_context.h"
+#include "workbench/gui/model/app_model.h"
+#include "workbench/gui/widgets/ui_context.h"
 
 namespace tangent {
 

@@ -3,7 +3,7 @@
 #include "workbench/gui/panels/panels.h"
 #include "workbench/gui/plots/axes_drawing.h"
 #include "workbench/gui/plots/tick_locator.h"
-#include "workbench/gui/widgets.h"
+#include "workbench/gui/widgets/widgets.h"
 
 #include <algorithm>
 #include <cmath>
@@ -46,10 +46,10 @@ void draw_choice(const UiContext& ui, const char* path, const char* label, const
   ImGui::SameLine(0, ui.px(12));
 }
 
-void draw_histogram(const UiContext& ui, AppModel& model, PlotsPanel& state, const CurveRef& curve,
+void draw_histogram(const UiContext& ui, TimeModel& time, PlotsPanel& state, const CurveRef& curve,
                     const PlotArea& area) {
-  const auto [from, to] = ticks_in_view(model);
-  state.cells.update(model.store(), {curve.series->channel, std::nullopt, from, to, 96, 1});
+  const auto [from, to] = ticks_in_view(time);
+  state.cells.update(time.store(), {curve.series->channel, std::nullopt, from, to, 96, 1});
   const SampleCells& cells = state.cells;
   const bool mine = cells.query().x == curve.series->channel && !cells.query().y && !cells.counts().empty();
   PlainPlot plot{area,
@@ -83,10 +83,11 @@ void draw_histogram(const UiContext& ui, AppModel& model, PlotsPanel& state, con
 
 void draw_spectrum(const UiContext& ui, AppModel& model, PlotsPanel& state, const CurveRef& curve,
                    const PlotArea& area) {
-  const auto [from, to] = ticks_in_view(model);
+  const auto [from, to] = ticks_in_view(model.time());
   const bool other = state.spectrum_of != state.x || state.spectrum_from != from || state.spectrum_to != to;
   if (other && (state.spectrum_of != state.x || std::abs(model.now_s() - state.spectrum_at_s) >= kSpectrumEvery_s)) {
-    state.spectrum = amplitude_spectrum(model.store(), curve.series->channel, from, to, 1.0 / model.tick_period_s());
+    state.spectrum =
+        amplitude_spectrum(model.time().store(), curve.series->channel, from, to, 1.0 / model.time().tick_period_s());
     state.spectrum_of = state.x;
     state.spectrum_from = from;
     state.spectrum_to = to;
@@ -136,10 +137,10 @@ void draw_spectrum(const UiContext& ui, AppModel& model, PlotsPanel& state, cons
                     static_cast<double>(s.amplitude[bin]) * curve.plot->scale, curve.plot->unit.c_str());
 }
 
-void draw_xy(const UiContext& ui, AppModel& model, PlotsPanel& state, const CurveRef& cx, const CurveRef& cy,
+void draw_xy(const UiContext& ui, TimeModel& time, PlotsPanel& state, const CurveRef& cx, const CurveRef& cy,
              const PlotArea& area) {
-  const auto [from, to] = ticks_in_view(model);
-  const ChannelStore& store = model.store();
+  const auto [from, to] = ticks_in_view(time);
+  const ChannelStore& store = time.store();
   const double sx = cx.plot->scale, sy = cy.plot->scale;
   PlainPlot plot{area, axis_over(store.min_max(cx.series->channel, from, to), sx, cx.with_unit()),
                  axis_over(store.min_max(cy.series->channel, from, to), sy, cy.with_unit())};
@@ -181,7 +182,7 @@ void draw_xy(const UiContext& ui, AppModel& model, PlotsPanel& state, const Curv
                          packed(with_alpha(ink, 0.2f + 0.8f * share)));
     }
   }
-  const ServoRecord* record = model.tick().record();
+  const ServoRecord* record = time.tick().record();
   if (record != nullptr) {
     const float x = store.value(cx.series->channel, record->tick.tick),
                 y = store.value(cy.series->channel, record->tick.tick);
@@ -217,11 +218,11 @@ void draw_other_plot(const UiContext& ui, AppModel& model, PlotsPanel& state, co
   if (area.width() > ui.px(40) && area.height() > ui.px(20)) {
     const CurveRef& x = curves[static_cast<std::size_t>(state.x)];
     if (state.mode == PlotsMode::histogram)
-      draw_histogram(ui, model, state, x, area);
+      draw_histogram(ui, model.time(), state, x, area);
     else if (state.mode == PlotsMode::spectrum)
       draw_spectrum(ui, model, state, x, area);
     else
-      draw_xy(ui, model, state, x, curves[static_cast<std::size_t>(state.y)], area);
+      draw_xy(ui, model.time(), state, x, curves[static_cast<std::size_t>(state.y)], area);
   }
   ImGui::EndChild();
   ui.items.note("plots/other", area.min, area.max);

@@ -1,7 +1,7 @@
 // The live plots, all on one time axis: side by side in columns where the panel is wide and low, stacked where it is
 // high enough.
 #include "workbench/gui/panels/panels.h"
-#include "workbench/gui/widgets.h"
+#include "workbench/gui/widgets/widgets.h"
 
 #include <algorithm>
 #include <array>
@@ -41,14 +41,14 @@ Arrangement arrange(float width, float height) {
 }  // namespace
 
 /// Of this frame.
-static void collect_marks(const UiContext& ui, const AppModel& model, PlotsPanel& state) {
+static void collect_marks(const UiContext& ui, const TimeModel& time, PlotsPanel& state) {
   state.event_inks = {ui.colours.text_faint, bookmark_ink(ui, BookmarkKind::reseeded),
                       bookmark_ink(ui, BookmarkKind::unconverged), bookmark_ink(ui, BookmarkKind::device_fault)};
   state.changes.clear();
-  for (const ParameterMark& mark : model.parameter_marks())
+  for (const ParameterMark& mark : time.parameter_marks())
     state.changes.push_back({mark.tick, mark.tick, mark.text, ui.colours.accent});
   state.flags.clear();
-  for (const Bookmark& mark : model.bookmarks().all()) {
+  for (const Bookmark& mark : time.bookmarks().all()) {
     const bool mine = mark.kind == BookmarkKind::user;
     const std::string note = mark.note.empty() ? std::string() : ": " + mark.note;
     state.flags.push_back({mark.tick, mark.last_tick, to_string(mark.kind) + note, bookmark_ink(ui, mark.kind)});
@@ -68,12 +68,12 @@ std::vector<CurveRef> curves_of(const PlotsPanel& state) {
   return out;
 }
 
-std::pair<std::uint64_t, std::uint64_t> ticks_in_view(const AppModel& model) {
-  const ChannelStore& store = model.store();
+std::pair<std::uint64_t, std::uint64_t> ticks_in_view(const TimeModel& time) {
+  const ChannelStore& store = time.store();
   const auto tick = [&](double t) {
     return std::clamp(static_cast<std::uint64_t>(std::max(0.0, std::ceil(t))), store.first_tick(), store.end_tick());
   };
-  return {tick(model.axis().from()), tick(model.axis().to())};
+  return {tick(time.axis().from()), tick(time.axis().to())};
 }
 
 PlotsPanel make_plots_panel() {
@@ -140,8 +140,8 @@ static void draw_time_plots(const UiContext& ui, AppModel& model, PlotsPanel& st
     ImGui::BeginChild(state.plots[cell.plot].spec().id.c_str(), {column_width, h}, false,
                       ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NoNav);
     const double reference = cell.plot == 2 ? model.presets().current().solver.tolerance_m : std::nan("");
-    state.plots[cell.plot].draw(ui, model.store(), model.axis(), link, ImGui::GetWindowPos(), {column_width, h}, last,
-                                reference);
+    state.plots[cell.plot].draw(ui, model.time().store(), model.time().axis(), link, ImGui::GetWindowPos(),
+                                {column_width, h}, last, reference);
     ImGui::EndChild();
     top += h;
   }
@@ -158,16 +158,17 @@ void draw_plots_panel(const UiContext& ui, AppModel& model, PlotsPanel& state, c
   ImGui::Begin("##plots", nullptr, flags);
   ImGui::PopStyleVar();
   PlotLink& link = state.link;
-  link.tick_period_s = model.tick_period_s();
+  link.tick_period_s = model.time().tick_period_s();
   link.hover = link.hover_next;
   link.hover_next.reset();
   link.clicked.reset();
   link.cursor.reset();
-  if (model.paused() && model.tick().record() != nullptr) link.cursor = model.tick().record()->tick.tick;
+  if (model.time().paused() && model.time().tick().record() != nullptr)
+    link.cursor = model.time().tick().record()->tick.tick;
 
-  const std::shared_ptr<const Ghost> ghost = model.ghost();
+  const std::shared_ptr<const Ghost> ghost = model.time().ghost();
   link.ghost = ghost != nullptr ? ghost->channels.get() : nullptr;
-  collect_marks(ui, model, state);
+  collect_marks(ui, model.time(), state);
 
   const float bar = ui.px(24);
   draw_plots_toolbar(ui, model, state, {rect.x, rect.y, rect.w, bar}, rect);
@@ -177,14 +178,14 @@ void draw_plots_panel(const UiContext& ui, AppModel& model, PlotsPanel& state, c
                       (state.link.a && state.link.b);
     const float table = std::min(ui.px(166.0f + 62.0f * static_cast<float>(5 + extra)), 0.5f * rect.w);
     rest.w -= table;
-    draw_values_table(ui, model, state, {rest.right(), rest.y, table, rest.h});
+    draw_values_table(ui, model.time(), state, {rest.right(), rest.y, table, rest.h});
   }
   if (state.mode == PlotsMode::time)
     draw_time_plots(ui, model, state, rest);
   else
     draw_other_plot(ui, model, state, rest);
   ImGui::End();
-  if (link.clicked && !model.store().empty()) model.select_tick(*link.clicked);
+  if (link.clicked && !model.time().store().empty()) model.time().select_tick(*link.clicked);
 }
 
 }  // namespace tangent

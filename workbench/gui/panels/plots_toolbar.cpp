@@ -1,7 +1,7 @@
 // Above the plots: what they show, whether time is followed, held or inspected, the cursors A and B, what the ghost is,
 // and the ways out: CSV and PNG.
 #include "workbench/gui/panels/panels.h"
-#include "workbench/gui/widgets.h"
+#include "workbench/gui/widgets/widgets.h"
 
 #include <cmath>
 
@@ -31,28 +31,28 @@ void draw_modes(const UiContext& ui, PlotsPanel& state) {
 }
 
 /// Follow: the newest tick stays at the right. Hold: the axis stands, the tick in view goes on. Inspect: time stands.
-void draw_following(const UiContext& ui, AppModel& model) {
-  bool follow = !model.paused() && model.axis().following(), inspect = model.paused(), hold = !follow && !inspect;
+void draw_following(const UiContext& ui, TimeModel& time) {
+  bool follow = !time.paused() && time.axis().following(), inspect = time.paused(), hold = !follow && !inspect;
   if (toggle_button(ui, "plots/follow", "Follow", follow, "The newest tick stays at the right edge (End)"))
-    model.go_live();
+    time.go_live();
   ImGui::SameLine(0, ui.px(3));
   if (toggle_button(ui, "plots/hold", "Hold", hold,
                     "The axes stand still, the rest of the window goes on; panning does the same")) {
-    model.set_paused(false);
-    model.axis().hold();
+    time.set_paused(false);
+    time.axis().hold();
   }
   ImGui::SameLine(0, ui.px(3));
   if (toggle_button(ui, "plots/inspect", "Inspect", inspect,
                     "Time stands still on one tick everywhere in the window (Space)"))
-    model.set_paused(true);
+    time.set_paused(true);
   ImGui::SameLine(0, ui.px(14));
 }
 
-void draw_cursors(const UiContext& ui, AppModel& model, PlotLink& link) {
+void draw_cursors(const UiContext& ui, TimeModel& time, PlotLink& link) {
   const auto place = [&](const char* path, const char* letter, std::optional<std::uint64_t>& cursor, const char* doc) {
     bool on = cursor.has_value();
     if (toggle_button(ui, path, letter, on, doc)) {
-      const ServoRecord* record = model.tick().record();
+      const ServoRecord* record = time.tick().record();
       if (!on || record == nullptr)
         cursor.reset();
       else
@@ -72,8 +72,8 @@ void draw_cursors(const UiContext& ui, AppModel& model, PlotLink& link) {
   ImGui::SameLine(0, ui.px(14));
 }
 
-void draw_ghost_note(const UiContext& ui, const AppModel& model, float right) {
-  const auto ghost = model.ghost();
+void draw_ghost_note(const UiContext& ui, const TimeModel& time, float right) {
+  const auto ghost = time.ghost();
   if (!ghost) return;
   const std::string text =
       printed("Ghost, same motion assumed: iterations %.2f \u2192 %.2f, contact changed in %llu ticks",
@@ -99,25 +99,25 @@ void draw_plots_toolbar(const UiContext& ui, AppModel& model, PlotsPanel& state,
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(ui.px(6), ui.px(2)));
   ImGui::SetCursorScreenPos({rect.x + ui.px(8), rect.y + 0.5f * (rect.h - ImGui::GetFrameHeight())});
   draw_modes(ui, state);
-  draw_following(ui, model);
-  draw_cursors(ui, model, state.link);
+  draw_following(ui, model.time());
+  draw_cursors(ui, model.time(), state.link);
   const float out_width = ImGui::CalcTextSize("CSV").x + ImGui::CalcTextSize("PNG").x + ui.px(24 + 3 + 10);
   const float out_x = rect.right() - out_width;
-  draw_ghost_note(ui, model, out_x);
+  draw_ghost_note(ui, model.time(), out_x);
   if (ImGui::GetCursorScreenPos().x < out_x) {
     ImGui::SetCursorScreenPos({out_x, rect.y + 0.5f * (rect.h - ImGui::GetFrameHeight())});
     if (text_button(ui, "plots/csv", "CSV",
                     "Every recorded tick in view, all channels, as a CSV file; between A and B if both are set")) {
-      const auto [from, to] = ticks_in_view(model);
+      const auto [from, to] = ticks_in_view(model.time());
       const auto& [a, b] = std::pair(state.link.a, state.link.b);
       if (a && b)
-        model.export_ticks(std::min(*a, *b), std::max(*a, *b) + 1);
+        model.exports().write_ticks(std::min(*a, *b), std::max(*a, *b) + 1);
       else
-        model.export_ticks(from, to);
+        model.exports().write_ticks(from, to);
     }
     ImGui::SameLine(0, ui.px(3));
     if (text_button(ui, "plots/png", "PNG", "The plots as they are, as a PNG file"))
-      model.ask_for_picture("plots", whole);
+      model.exports().ask_for_picture("plots", whole);
   }
   ImGui::PopStyleVar();
   ImGui::PopFont();

@@ -1,7 +1,7 @@
 // Numbers to the curves: the true samples at the time cursor, at A and at B, their difference, and what the samples in
 // view amount to.
 #include "workbench/gui/panels/panels.h"
-#include "workbench/gui/widgets.h"
+#include "workbench/gui/widgets/widgets.h"
 
 #include <array>
 #include <cmath>
@@ -10,57 +10,72 @@ namespace tangent {
 
 namespace {
 
-constexpr std::array kTitles{"now", "ghost", "A", "B", "B\u2212A", "min", "max", "mean", "RMS"};
+struct Column {
+  const char* title;
+  bool wanted;  ///< what there is nothing to say of takes no room
+};
+constexpr std::size_t kColumns = 9;
 
-std::array<double, kTitles.size()> values_of(const AppModel& model, const PlotLink& link, const CurveRef& curve,
-                                             std::uint64_t from, std::uint64_t to) {
-  const ChannelStore& store = model.store();
+std::array<Column, kColumns> columns_for(const PlotLink& link) {
+  return {{{.title = "now", .wanted = true},
+           {.title = "ghost", .wanted = link.ghost != nullptr},
+           {.title = "A", .wanted = link.a.has_value()},
+           {.title = "B", .wanted = link.b.has_value()},
+           {.title = "B\u2212A", .wanted = link.a && link.b},
+           {.title = "min", .wanted = true},
+           {.title = "max", .wanted = true},
+           {.title = "mean", .wanted = true},
+           {.title = "RMS", .wanted = true}}};
+}
+
+/// By column.
+std::array<double, kColumns> values_of(const TimeModel& time, const PlotLink& link, const CurveRef& curve,
+                                       std::uint64_t from, std::uint64_t to) {
+  const ChannelStore& store = time.store();
   const std::size_t channel = curve.series->channel;
   const double nan = std::nan("");
   const auto at = [&](const std::optional<std::uint64_t>& tick) {
     return tick ? static_cast<double>(store.value(channel, *tick)) : nan;
   };
-  const ServoRecord* record = model.tick().record();
+  const ServoRecord* record = time.tick().record();
   const std::optional<std::uint64_t> now = record != nullptr ? std::optional(record->tick.tick) : std::nullopt;
   const MinMax range = store.min_max(channel, from, to);
   const SampleSums sums = store.sums(channel, from, to);
   const double ghost = link.ghost != nullptr && curve.series->ghost && now
                            ? static_cast<double>(link.ghost->value(*curve.series->ghost, *now))
                            : nan;
-  std::array<double, kTitles.size()> out{at(now),
-                                         ghost,
-                                         at(link.a),
-                                         at(link.b),
-                                         at(link.b) - at(link.a),
-                                         range.empty() ? nan : static_cast<double>(range.min),
-                                         range.empty() ? nan : static_cast<double>(range.max),
-                                         sums.mean(),
-                                         sums.rms()};
+  std::array<double, kColumns> out{at(now),
+                                   ghost,
+                                   at(link.a),
+                                   at(link.b),
+                                   at(link.b) - at(link.a),
+                                   range.empty() ? nan : static_cast<double>(range.min),
+                                   range.empty() ? nan : static_cast<double>(range.max),
+                                   sums.mean(),
+                                   sums.rms()};
   for (double& v : out) v *= curve.plot->scale;
   return out;
 }
 
 }  // namespace
 
-void draw_values_table(const UiContext& ui, AppModel& model, PlotsPanel& state, const Rect& rect) {
+void draw_values_table(const UiContext& ui, TimeModel& time, PlotsPanel& state, const Rect& rect) {
   ImGui::SetCursorScreenPos({rect.x, rect.y});
   ImGui::BeginChild("values", {rect.w - ui.px(8), rect.h}, false, ImGuiWindowFlags_NoNav);
-  const auto [from, to] = ticks_in_view(model);
+  const auto [from, to] = ticks_in_view(time);
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   ImFont* font = ui.fonts.small_number;
   ImFont* text = ui.fonts.small;
-  // What there is nothing to say of takes no room.
   const PlotLink& link = state.link;
-  const std::array<bool, kTitles.size()> wanted{
-      true, link.ghost != nullptr, link.a.has_value(), link.b.has_value(), link.a && link.b, true, true, true, true};
-  std::array<std::size_t, kTitles.size()> place{};
+  const std::array<Column, kColumns> columns = columns_for(link);
+  std::array<std::size_t, kColumns> place{};
   std::size_t shown = 0;
-  for (std::size_t c = 0; c < kTitles.size(); ++c) place[c] = wanted[c] ? shown++ : shown;
+  for (std::size_t c = 0; c < kColumns; ++c) place[c] = columns[c].wanted ? shown++ : shown;
   const float name_width = ui.px(150);
   const float column = std::min(ui.px(76), (rect.w - ui.px(12) - name_width) / static_cast<float>(shown));
   ImVec2 at = ImGui::GetCursorScreenPos();
   const auto right = [&](ImFont* f, std::size_t c, ImU32 ink, const char* value) {
-    if (!wanted[c]) return;
+    if (!columns[c].wanted) return;
     draw.AddText(f, f->FontSize,
                  {at.x + name_width + static_cast<float>(place[c] + 1) * column -
                       f->CalcTextSizeA(f->FontSize, 1e9f, 0.0f, value).x,
@@ -69,13 +84,13 @@ void draw_values_table(const UiContext& ui, AppModel& model, PlotsPanel& state, 
   };
   const std::string heading = printed("%llu ticks in view", static_cast<unsigned long long>(to - from));
   draw.AddText(text, text->FontSize, at, ui.colours.text_dim, heading.c_str());
-  for (std::size_t c = 0; c < kTitles.size(); ++c) right(text, c, ui.colours.text_dim, kTitles[c]);
+  for (std::size_t c = 0; c < kColumns; ++c) right(text, c, ui.colours.text_dim, columns[c].title);
   at.y += text->FontSize + ui.px(5);
   for (const CurveRef& curve : curves_of(state)) {
     const ImU32 ink = packed(ui.palette.*curve.series->colour);
     draw.AddRectFilled({at.x, at.y + ui.px(2)}, {at.x + ui.px(8), at.y + ui.px(10)}, ink, ui.px(2));
     draw.AddText(text, text->FontSize, {at.x + ui.px(13), at.y}, ui.colours.text, curve.with_unit().c_str());
-    const auto values = values_of(model, link, curve, from, to);
+    const auto values = values_of(time, link, curve, from, to);
     for (std::size_t c = 0; c < values.size(); ++c)
       right(font, c, ui.colours.text, std::isnan(values[c]) ? "\u2013" : printed("%.3g", values[c]).c_str());
     at.y += text->FontSize + ui.px(4);

@@ -1,6 +1,6 @@
 // Presets: the files beside the program, save as, and what was changed since the present one was loaded.
 #include "workbench/gui/panels/panels.h"
-#include "workbench/gui/widgets.h"
+#include "workbench/gui/widgets/widgets.h"
 
 #include <imgui_stdlib.h>
 
@@ -8,23 +8,23 @@ namespace tangent {
 
 namespace {
 
-void draw_files(const UiContext& ui, AppModel& model) {
-  if (model.preset_files().empty()) {
-    ImGui::TextDisabled("No presets in %s", model.preset_folder().filename().c_str());
+void draw_files(const UiContext& ui, PresetModel& presets) {
+  if (presets.files().empty()) {
+    ImGui::TextDisabled("No presets in %s", presets.folder().filename().c_str());
     return;
   }
-  for (const auto& file : model.preset_files()) {
+  for (const auto& file : presets.files()) {
     const std::string name = file.stem().string();
-    const bool current = file.stem() == model.presets().path().stem() && !model.presets().path().empty();
-    if (ImGui::Selectable(name.c_str(), current)) model.load_preset(file);
+    const bool current = file.stem() == presets.editor().path().stem() && !presets.editor().path().empty();
+    if (ImGui::Selectable(name.c_str(), current)) presets.load(file);
     ui.items.note_last("presets/file/" + name);
     tooltip(ui, "Load " + file.string());
   }
 }
 
-void draw_changes(const UiContext& ui, AppModel& model) {
-  const auto changes = model.presets().changes();
-  const std::string from = model.presets().name();
+void draw_changes(const UiContext& ui, PresetModel& presets) {
+  const auto changes = presets.editor().changes();
+  const std::string from = presets.editor().name();
   if (changes.empty()) {
     ImGui::TextDisabled("Nothing changed since %s", from.c_str());
     return;
@@ -44,30 +44,33 @@ void draw_changes(const UiContext& ui, AppModel& model) {
     ImGui::PopFont();
     ImGui::SetCursorScreenPos({at.x + width - ui.px(17), at.y - ui.px(3)});
     if (icon_button(ui, "presets/revert/" + name, Icon::reset, "Back to the loaded value"))
-      model.revert_value(*change.key);
+      presets.revert_value(*change.key);
     ImGui::SetCursorScreenPos({at.x, at.y + ui.px(19)});
   }
   ImGui::Dummy({1, 1});
-  if (text_button(ui, "presets/revert_all", "Revert all", "Every key back to the loaded value")) model.revert_preset();
+  if (text_button(ui, "presets/revert_all", "Revert all", "Every key back to the loaded value")) presets.revert_all();
 }
 
 /// A file that was there before asks to be pressed for twice: the presets that ship hold what was measured with them.
 void save(AppModel& model, PresetsPanel& state) {
-  if (state.name != state.written && state.name != state.asked_for && model.has_preset(state.name)) {
+  if (state.name != state.written && state.name != state.asked_for && model.presets().has(state.name)) {
     state.asked_for = state.name;
-    model.say(Severity::warning,
-              "a preset \"" + state.name + "\" is there already; press Replace to write over it, or type another name");
+    model.messages().say(
+        Severity::warning,
+        "a preset \"" + state.name + "\" is there already; press Replace to write over it, or type another name");
     return;
   }
   state.asked_for.clear();
-  if (model.save_preset(state.name)) state.written = state.name;
+  const ContactScene* scene = model.scene().current().get();
+  if (model.presets().save(state.name, scene != nullptr ? &scene->mesh() : nullptr, model.devices().name()))
+    state.written = state.name;
 }
 
 }  // namespace
 
 void draw_presets_panel(const UiContext& ui, AppModel& model, PresetsPanel& state) {
   if (!section(ui, "Presets", state.open)) return;
-  draw_files(ui, model);
+  draw_files(ui, model.presets());
   const bool replaces = !state.asked_for.empty() && state.asked_for == state.name;
   const char* const text = replaces ? "Replace" : "Save as";
   const float button = ImGui::CalcTextSize(text).x + 2.0f * ImGui::GetStyle().FramePadding.x;
@@ -82,7 +85,7 @@ void draw_presets_panel(const UiContext& ui, AppModel& model, PresetsPanel& stat
                                             : "Writes the present values into the preset folder under this name");
   if (enter || pressed) save(model, state);
   ImGui::Dummy({1, ui.px(1)});
-  draw_changes(ui, model);
+  draw_changes(ui, model.presets());
   ImGui::Dummy({1, ui.px(3)});
 }
 

@@ -1,6 +1,6 @@
 // Keys. ImGui 1.86 knows letters and signs by the platform's own codes; GLFW's are their ASCII codes, capital.
 #include "workbench/gui/panels/panels.h"
-#include "workbench/gui/widgets.h"
+#include "workbench/gui/widgets/widgets.h"
 
 namespace tangent {
 
@@ -13,22 +13,22 @@ bool letter(char c, bool repeat = false) { return ImGui::IsKeyPressed(c, repeat)
 /// Keys that no text field has a use for: they work while one is typed in, too.
 void handle_window_keys(AppModel& model, MenuBar& menu) {
   const bool ctrl = ImGui::GetIO().KeyCtrl;
-  if (ctrl && letter('Q')) model.ask_to_close();
+  if (ctrl && letter('Q')) model.window().ask_to_close();
   if (ctrl && letter('P')) menu.palette.open = menu.palette.focus = true;
   if (ctrl && letter('O')) menu.path.open = menu.path.focus = true;
   if (ImGui::IsKeyPressed(kF1, false)) menu.sheet = !menu.sheet;
-  if (ImGui::IsKeyPressed(kF12, false)) model.ask_for_screenshot();
+  if (ImGui::IsKeyPressed(kF12, false)) model.exports().ask_for_screenshot();
 }
 
 void handle_ctrl_keys(AppModel& model) {
   const bool shift = ImGui::GetIO().KeyShift;
-  if (shift && letter('C')) model.copy_camera();
-  if (shift && letter('V')) model.paste_camera();
-  if (letter('=')) model.set_ui_scale(model.ui_scale() * 1.1f);
-  if (letter('-')) model.set_ui_scale(model.ui_scale() / 1.1f);
-  if (letter('0')) model.set_ui_scale(1.0f);
-  if (letter('Z', true)) shift ? model.redo() : model.undo();
-  if (letter('Y', true)) model.redo();
+  if (shift && letter('C')) model.view().copy_camera();
+  if (shift && letter('V')) model.view().paste_camera();
+  if (letter('=')) model.window().set_ui_scale(model.window().ui_scale() * 1.1f);
+  if (letter('-')) model.window().set_ui_scale(model.window().ui_scale() / 1.1f);
+  if (letter('0')) model.window().set_ui_scale(1.0f);
+  if (letter('Z', true)) shift ? model.presets().redo() : model.presets().undo();
+  if (letter('Y', true)) model.presets().redo();
 }
 
 }  // namespace
@@ -45,30 +45,30 @@ void handle_shortcuts(AppModel& model, MenuBar& menu) {
     return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key), repeat);
   };
   for (const NamedView& v : kStandardViews) {
-    if (letter(v.key[0])) model.look_from_standard(v.view);
+    if (letter(v.key[0])) model.view().look_from_standard(v.view);
   }
-  if (letter('U')) model.set_y_up(!model.view().camera.y_up);
-  if (letter('W')) model.look_at_worst();
-  if (letter('I')) io.KeyShift ? model.show_all() : model.isolate_marked();
+  if (letter('U')) model.view().set_y_up(!model.view().camera.y_up);
+  if (letter('W')) model.view().look_at_worst();
+  if (letter('I')) io.KeyShift ? model.view().show_all() : model.view().isolate_marked();
   const int by = io.KeyShift ? 10 : 1;
-  if (named(ImGuiKey_Space)) model.set_paused(!model.paused());
-  if (named(ImGuiKey_LeftArrow, true)) model.step_tick(-by);
-  if (named(ImGuiKey_RightArrow, true)) model.step_tick(by);
-  if (letter(',', true)) model.step_iteration(-1);
-  if (letter('.', true)) model.step_iteration(1);
-  if (named(ImGuiKey_Home)) model.select_tick(model.first_tick());
-  if (named(ImGuiKey_End)) model.go_live();
-  if (letter('B')) model.toggle_ab();
-  if (letter('K')) model.add_bookmark();
-  if (letter('[', true)) model.go_to_bookmark(-1);
-  if (letter(']', true)) model.go_to_bookmark(1);
-  if (letter('F')) model.frame_scene();
-  if (letter('M')) model.set_hand_follows_mouse(!model.view().hand_follows_mouse);
+  if (named(ImGuiKey_Space)) model.time().set_paused(!model.time().paused());
+  if (named(ImGuiKey_LeftArrow, true)) model.time().step_tick(-by);
+  if (named(ImGuiKey_RightArrow, true)) model.time().step_tick(by);
+  if (letter(',', true)) model.time().step_iteration(-1);
+  if (letter('.', true)) model.time().step_iteration(1);
+  if (named(ImGuiKey_Home)) model.time().select_tick(model.time().first_tick());
+  if (named(ImGuiKey_End)) model.time().go_live();
+  if (letter('B')) model.presets().toggle_ab();
+  if (letter('K')) model.time().add_bookmark();
+  if (letter('[', true)) model.time().go_to_bookmark(-1);
+  if (letter(']', true)) model.time().go_to_bookmark(1);
+  if (letter('F')) model.view().frame_scene();
+  if (letter('M')) model.devices().set_hand_follows_mouse(!model.devices().hand_follows_mouse());
   if (named(ImGuiKey_Escape) && !menu.path.open && !menu.palette.open) {
     if (menu.sheet)
       menu.sheet = false;
-    else if (!model.stopped())
-      model.toggle_stop();
+    else if (!model.devices().stopped())
+      model.devices().toggle_stop();
   }
 }
 

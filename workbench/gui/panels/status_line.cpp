@@ -1,10 +1,56 @@
 // One line: servo rate, late ticks, drops, tick time, and what the window itself costs.
 #include "workbench/gui/panels/panels.h"
-#include "workbench/gui/widgets.h"
+#include "workbench/gui/widgets/widgets.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace tangent {
+
+namespace {
+
+/// Values side by side, each in a room of its own, so that the line stands still.
+class Values {
+ public:
+  Values(const UiContext& ui, const Rect& rect)
+      : ui_(ui),
+        rect_(rect),
+        y_text_(std::round(rect.y + 0.5f * (rect.h - ui.fonts.small->FontSize))),
+        y_number_(std::round(rect.y + 0.5f * (rect.h - ui.fonts.small_number->FontSize))),
+        x_(rect.x + ui.px(10)) {}
+
+  /// `characters`: room for so many.
+  void put(const char* name, const char* label, const std::string& value, float characters, ImU32 ink,
+           const char* doc) {
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    const ImFont *text = ui_.fonts.small, *number = ui_.fonts.small_number;
+    const float from = x_, digit = number->CalcTextSizeA(number->FontSize, 1e9f, 0.0f, "0").x;
+    draw.AddText(text, text->FontSize, {x_, y_text_}, ui_.colours.text_dim, label);
+    x_ += text->CalcTextSizeA(text->FontSize, 1e9f, 0.0f, label).x + ui_.px(5);
+    draw.AddText(number, number->FontSize, {x_, y_number_}, ink, value.c_str());
+    x_ += characters * digit + ui_.px(16);
+    ImGui::SetCursorScreenPos({from, rect_.y});
+    ImGui::InvisibleButton(name, {std::max(1.0f, x_ - ui_.px(16) - from), rect_.h});
+    ui_.items.note_last(std::string("status/") + name);
+    tooltip(ui_, doc);
+  }
+
+  /// At the right end, if there is room left.
+  void put_right(const std::string& value) {
+    const ImFont* number = ui_.fonts.small_number;
+    const float w = number->CalcTextSizeA(number->FontSize, 1e9f, 0.0f, value.c_str()).x;
+    if (x_ + w >= rect_.right() - ui_.px(10)) return;
+    ImGui::GetWindowDrawList()->AddText(number, number->FontSize, {rect_.right() - w - ui_.px(10), y_number_},
+                                        ui_.colours.text_dim, value.c_str());
+  }
+
+ private:
+  const UiContext& ui_;
+  Rect rect_;
+  float y_text_, y_number_, x_;
+};
+
+}  // namespace
 
 void draw_status_line(const UiContext& ui, AppModel& model, const Rect& rect, double build_ms) {
   ImGui::SetNextWindowPos({rect.x, rect.y});
@@ -18,61 +64,42 @@ void draw_status_line(const UiContext& ui, AppModel& model, const Rect& rect, do
   ImGui::Begin("##status", nullptr, flags);
   ImGui::PopStyleColor();
   ImGui::PopStyleVar(2);
-  ImDrawList& draw = *ImGui::GetWindowDrawList();
-  const float y_text = std::round(rect.y + 0.5f * (rect.h - ui.fonts.small->FontSize));
-  const float y_number = std::round(rect.y + 0.5f * (rect.h - ui.fonts.small_number->FontSize));
-  ImFont* text = ui.fonts.small;
-  ImFont* number = ui.fonts.small_number;
-  const float digit = number->CalcTextSizeA(number->FontSize, 1e9f, 0.0f, "0").x;
-  float x = rect.x + ui.px(10);
-  // Every value has a fixed room, so that the line stands still.
-  const auto put = [&](const char* name, const std::string& label, const std::string& value, float characters,
-                       ImU32 ink, const char* doc) {
-    draw.AddText(text, text->FontSize, {x, y_text}, ui.colours.text_dim, label.c_str());
-    const float from = x;
-    x += text->CalcTextSizeA(text->FontSize, 1e9f, 0.0f, label.c_str()).x + ui.px(5);
-    draw.AddText(number, number->FontSize, {x, y_number}, ink, value.c_str());
-    x += characters * digit + ui.px(16);
-    ImGui::SetCursorScreenPos({from, rect.y});
-    ImGui::InvisibleButton(name, {std::max(1.0f, x - ui.px(16) - from), rect.h});
-    ui.items.note_last(std::string("status/") + name);
-    tooltip(ui, doc);
-  };
+  Values values(ui, rect);
   const auto integer = [](std::uint64_t n) { return printed("%llu", static_cast<unsigned long long>(n)); };
   // In simulated time nothing is measured.
   const auto time = [](double ns, int width) {
     return ns > 0.0 ? printed("%*.1f \u00b5s", width, ns * 1e-3) : printed("%*s", width, "-");
   };
-  const ServoStatus& servo = model.status().servo;
+  const ServoStatus& servo = model.devices().status().servo;
   const ImU32 plain = ui.colours.text, warn = ui.colours.warning;
-  put("rate", "Servo",
-      servo.rate_hz > 0.0 ? printed("%7.1f Hz", servo.rate_hz)
-      : servo.running     ? "   ... Hz"
-                          : "   off",
-      11, plain, "Ticks a second, measured");
+  values.put("rate", "Servo",
+             servo.rate_hz > 0.0 ? printed("%7.1f Hz", servo.rate_hz)
+             : servo.running     ? "   ... Hz"
+                                 : "   off",
+             11, plain, "Ticks a second, measured");
   const double late_share =
       servo.ticks > 0 ? static_cast<double>(servo.late_ticks) / static_cast<double>(servo.ticks) : 0.0;
-  put("late", "Late", printed("%s (%.2f %%)", integer(servo.late_ticks).c_str(), 100.0 * late_share), 16,
-      late_share > 0.01 ? warn : plain, "Ticks before which a deadline was missed");
-  put("drops", "Dropped records", integer(servo.gui_drops), 7, servo.gui_drops > 0 ? warn : plain,
-      "Records that did not fit into the ring to the window");
-  put("p99", "Tick p99", time(servo.tick_p99_ns, 6), 10, plain, "99 of 100 ticks took no longer");
-  put("worst", "worst", time(servo.tick_worst_ns, 7), 11, plain, "The longest tick so far");
-  const double kept_s = static_cast<double>(model.end_tick() - model.first_tick()) * model.tick_period_s();
+  values.put("late", "Late", printed("%s (%.2f %%)", integer(servo.late_ticks).c_str(), 100.0 * late_share), 16,
+             late_share > 0.01 ? warn : plain, "Ticks before which a deadline was missed");
+  values.put("drops", "Dropped records", integer(servo.gui_drops), 7, servo.gui_drops > 0 ? warn : plain,
+             "Records that did not fit into the ring to the window");
+  values.put("p99", "Tick p99", time(servo.tick_p99_ns, 6), 10, plain, "99 of 100 ticks took no longer");
+  values.put("worst", "worst", time(servo.tick_worst_ns, 7), 11, plain, "The longest tick so far");
+  const double kept_s =
+      static_cast<double>(model.time().end_tick() - model.time().first_tick()) * model.time().tick_period_s();
   const double mib = 1.0 / (1024.0 * 1024.0);
-  put("history", "History", printed("%5.1f s", kept_s), 8, plain, "How far back one can scrub");
-  put("memory", "in",
-      printed("%3.0f of %.0f MiB", static_cast<double>(model.history_bytes() + model.store().memory_bytes()) * mib,
-              static_cast<double>(model.most_history_bytes() + model.store().memory_bytes()) * mib),
+  values.put("history", "History", printed("%5.1f s", kept_s), 8, plain, "How far back one can scrub");
+  values.put(
+      "memory", "in",
+      printed("%3.0f of %.0f MiB",
+              static_cast<double>(model.time().history_bytes() + model.time().store().memory_bytes()) * mib,
+              static_cast<double>(model.time().most_history_bytes() + model.time().store().memory_bytes()) * mib),
       15, plain, "What the history takes of what it may");
   // Pictures are the same every time: no wall-clock numbers in them.
-  const std::string right = model.options().deterministic ? std::string()
-                                                          : printed("frame %.2f ms   %.0f/s", build_ms,
-                                                                    static_cast<double>(ImGui::GetIO().Framerate));
-  const float w = number->CalcTextSizeA(number->FontSize, 1e9f, 0.0f, right.c_str()).x;
-  if (x + w < rect.right() - ui.px(10))
-    draw.AddText(number, number->FontSize, {rect.right() - w - ui.px(10), y_number}, ui.colours.text_dim,
-                 right.c_str());
+  const std::string right = model.deterministic() ? std::string()
+                                                  : printed("frame %.2f ms   %.0f/s", build_ms,
+                                                            static_cast<double>(ImGui::GetIO().Framerate));
+  values.put_right(right);
   ImGui::End();
 }
 

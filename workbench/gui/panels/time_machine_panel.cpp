@@ -1,6 +1,6 @@
 // The past under other values: what changing a gain would have done to the ticks that were recorded.
 #include "workbench/gui/panels/panels.h"
-#include "workbench/gui/widgets.h"
+#include "workbench/gui/widgets/widgets.h"
 
 #include <cmath>
 
@@ -69,7 +69,7 @@ void draw_comparison(const UiContext& ui, const Ghost& ghost, const Ghost* verif
   }
 }
 
-void draw_changes(const UiContext& ui, AppModel& model, const Ghost& ghost) {
+void draw_changes(const UiContext& ui, TimeModel& time, const Ghost& ghost) {
   const ResolvedHistory& numbers = ghost.numbers;
   ImGui::PushFont(ui.fonts.small);
   ImGui::Text("Contact changed in %s of %s ticks", count_text(numbers.changed_ticks).c_str(),
@@ -93,7 +93,7 @@ void draw_changes(const UiContext& ui, AppModel& model, const Ghost& ghost) {
   ImGui::BeginChild("changes", {0.0f, height}, true);
   ImGuiListClipper clipper;
   clipper.Begin(static_cast<int>(numbers.changes.size()));
-  const ServoRecord* seen = model.tick().record();
+  const ServoRecord* seen = time.tick().record();
   while (clipper.Step()) {
     for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
       const ContactChange& c = numbers.changes[static_cast<std::size_t>(i)];
@@ -106,7 +106,7 @@ void draw_changes(const UiContext& ui, AppModel& model, const Ghost& ghost) {
                                        static_cast<unsigned long long>(c.ticks)) +
                                "  " + moved + what;
       const bool here = seen != nullptr && seen->tick.tick >= c.first_tick && seen->tick.tick <= c.last_tick;
-      if (ImGui::Selectable((text + printed("##change%d", i)).c_str(), here)) model.select_tick(c.worst_tick);
+      if (ImGui::Selectable((text + printed("##change%d", i)).c_str(), here)) time.select_tick(c.worst_tick);
       ui.items.note_last(printed("time_machine/change/%d", i));
       tooltip(ui, printed("Ticks %llu to %llu", static_cast<unsigned long long>(c.first_tick),
                           static_cast<unsigned long long>(c.last_tick)));
@@ -116,11 +116,11 @@ void draw_changes(const UiContext& ui, AppModel& model, const Ghost& ghost) {
   ImGui::PopFont();
 }
 
-void draw_state(const UiContext& ui, const AppModel& model) {
-  const TimeMachine& machine = model.time_machine();
+void draw_state(const UiContext& ui, const TimeModel& time) {
+  const TimeMachine& machine = time.time_machine();
   const auto verified = machine.verified();
   const std::size_t ticks = machine.run()->records.size();
-  fact(ui, "The past", printed("%.1f", static_cast<double>(ticks) * model.tick_period_s()), "s");
+  fact(ui, "The past", printed("%.1f", static_cast<double>(ticks) * time.tick_period_s()), "s");
   if (!verified)
     fact(ui, "Replay", "checking ...");
   else if (verified->numbers.different_ticks == 0)
@@ -132,10 +132,10 @@ void draw_state(const UiContext& ui, const AppModel& model) {
 
 }  // namespace
 
-void draw_time_machine_panel(const UiContext& ui, AppModel& model, FoldedPanel& state) {
+void draw_time_machine_panel(const UiContext& ui, TimeModel& time, FoldedPanel& state) {
   const bool open = section(ui, "Time machine", state.open);
   if (!open) return;
-  if (!model.time_machine().is_open()) {
+  if (!time.time_machine().is_open()) {
     ImGui::PushFont(ui.fonts.small);
     ImGui::PushStyleColor(ImGuiCol_Text, ui.colours.text_dim);
     ImGui::TextWrapped(
@@ -145,12 +145,12 @@ void draw_time_machine_panel(const UiContext& ui, AppModel& model, FoldedPanel& 
     ImGui::PopFont();
     return;
   }
-  draw_state(ui, model);
-  const auto ghost = model.ghost();
+  draw_state(ui, time);
+  const auto ghost = time.ghost();
   if (!ghost) {
     if (text_button(ui, "time_machine/solve", "Solve the past with the present values",
                     "Changing any value does this by itself"))
-      model.solve_past_again();
+      time.solve_past_again();
     ImGui::Dummy({1, ui.px(3)});
     return;
   }
@@ -163,8 +163,8 @@ void draw_time_machine_panel(const UiContext& ui, AppModel& model, FoldedPanel& 
   tooltip(ui,
           "The hand moved under the recorded values; with others it would have moved otherwise. This compares the "
           "solver on the same poses");
-  draw_comparison(ui, *ghost, model.time_machine().verified().get());
-  draw_changes(ui, model, *ghost);
+  draw_comparison(ui, *ghost, time.time_machine().verified().get());
+  draw_changes(ui, time, *ghost);
   ImGui::Dummy({1, ui.px(3)});
 }
 

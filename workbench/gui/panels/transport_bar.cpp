@@ -1,6 +1,6 @@
 // Time: pause, step by tick and by iteration, back to live, and the kept history as a strip to scrub in.
 #include "workbench/gui/panels/panels.h"
-#include "workbench/gui/widgets.h"
+#include "workbench/gui/widgets/widgets.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@ namespace tangent {
 namespace {
 
 /// The whole kept history; the range the plots show; unconverged or slow ticks stand out by their iterations.
-void draw_strip(const UiContext& ui, AppModel& model, float width) {
+void draw_strip(const UiContext& ui, TimeModel& time, float width) {
   const float height = ImGui::GetFrameHeight();
   const ImVec2 at = ImGui::GetCursorScreenPos();
   if (width < ui.px(40)) return;
@@ -19,22 +19,22 @@ void draw_strip(const UiContext& ui, AppModel& model, float width) {
   tooltip(ui, "The kept history. Drag to scrub; the lit part is what the plots show");
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   draw.AddRectFilled(at, {at.x + width, at.y + height}, ui.colours.field, ui.px(3));
-  const double first = static_cast<double>(model.first_tick()), end = static_cast<double>(model.end_tick());
+  const double first = static_cast<double>(time.first_tick()), end = static_cast<double>(time.end_tick());
   if (!(end > first)) return;
   // Until the history is full it grows from the left at a fixed scale, so that the strip doesn't shrink under the
   // pointer; afterwards it scrolls.
   const double span =
-      std::max(end - first, std::min(static_cast<double>(model.store().capacity()), 30.0 / model.tick_period_s()));
+      std::max(end - first, std::min(static_cast<double>(time.store().capacity()), 30.0 / time.tick_period_s()));
   const auto x_of = [&](double tick) {
     return at.x + static_cast<float>(std::clamp((tick - first) / span, 0.0, 1.0)) * width;
   };
   TimeAxis whole;
-  whole.update(model.first_tick(), model.end_tick(), span + 1.0);
+  whole.update(time.first_tick(), time.end_tick(), span + 1.0);
   whole.show(first, first + span);
   static thread_local std::vector<ColumnBar> bars;
-  column_bars(model.store(), static_cast<std::size_t>(Channel::iterations), whole, width, bars);
+  column_bars(time.store(), static_cast<std::size_t>(Channel::iterations), whole, width, bars);
   const MinMax most =
-      model.store().min_max(static_cast<std::size_t>(Channel::iterations), model.first_tick(), model.end_tick());
+      time.store().min_max(static_cast<std::size_t>(Channel::iterations), time.first_tick(), time.end_tick());
   const float top = std::max(8.0f, most.empty() ? 8.0f : most.max);
   for (const ColumnBar& bar : bars) {
     // Logarithmic: one tick of 90 iterations must not flatten the ones and twos.
@@ -43,7 +43,7 @@ void draw_strip(const UiContext& ui, AppModel& model, float width) {
                        {at.x + bar.x + 1.0f, at.y + height - ui.px(2)},
                        packed(with_alpha(ui.palette.iterations, 0.55f)));
   }
-  for (const Bookmark& mark : model.bookmarks().all()) {
+  for (const Bookmark& mark : time.bookmarks().all()) {
     if (static_cast<double>(mark.last_tick) < first) continue;
     const float x0 = std::floor(x_of(static_cast<double>(mark.tick))),
                 x1 = std::max(x0 + ui.px(2), x_of(static_cast<double>(mark.last_tick)));
@@ -51,59 +51,49 @@ void draw_strip(const UiContext& ui, AppModel& model, float width) {
     draw.AddRectFilled({x0, at.y}, {x1, at.y + ui.px(3)}, bookmark_ink(ui, mark.kind));
     draw.AddRectFilled({x0, at.y}, {x0 + ui.px(1.5f), at.y + deep}, bookmark_ink(ui, mark.kind));
   }
-  draw.AddRectFilled({x_of(model.axis().from()), at.y}, {x_of(model.axis().to()), at.y + height},
-                     ui.colours.accent_soft, ui.px(2));
-  if (const ServoRecord* record = model.tick().record()) {
+  draw.AddRectFilled({x_of(time.axis().from()), at.y}, {x_of(time.axis().to()), at.y + height}, ui.colours.accent_soft,
+                     ui.px(2));
+  if (const ServoRecord* record = time.tick().record()) {
     const float x = x_of(static_cast<double>(record->tick.tick));
     draw.AddRectFilled({x - ui.px(1), at.y}, {x + ui.px(1), at.y + height},
-                       model.paused() ? ui.colours.accent : ui.colours.text_dim);
+                       time.paused() ? ui.colours.accent : ui.colours.text_dim);
   }
   if (ImGui::IsItemActive()) {
     const double tick = first + static_cast<double>((ImGui::GetIO().MousePos.x - at.x) / width) * span;
-    model.select_tick(static_cast<std::uint64_t>(std::clamp(tick, first, end - 1.0)));
+    time.select_tick(static_cast<std::uint64_t>(std::clamp(tick, first, end - 1.0)));
   }
 }
 
-}  // namespace
-
-void draw_transport_bar(const UiContext& ui, AppModel& model, const Rect& rect) {
-  ImGui::SetNextWindowPos({rect.x, rect.y});
-  ImGui::SetNextWindowSize({rect.w, rect.h});
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(ui.px(8), 0));
-  constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
-                                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus |
-                                     ImGuiWindowFlags_NoNav;
-  ImGui::Begin("##transport", nullptr, flags);
-  ImGui::PopStyleVar();
-  ImGui::SetCursorPosY(0.5f * (rect.h - ImGui::GetFrameHeight()));
-  const bool any = !model.store().empty();
-  const bool paused = model.paused();
+/// `any`: there are ticks.
+void draw_tick_buttons(const UiContext& ui, TimeModel& time, bool any) {
+  const bool paused = time.paused();
   if (icon_button(ui, "transport/first", Icon::first, "Oldest tick kept (Home)", false, any))
-    model.select_tick(model.first_tick());
+    time.select_tick(time.first_tick());
   ImGui::SameLine(0, ui.px(3));
   if (icon_button(ui, "transport/step_back", Icon::step_back, "One tick back (Left; Shift: ten)", false, any))
-    model.step_tick(-1);
+    time.step_tick(-1);
   ImGui::SameLine(0, ui.px(3));
   if (icon_button(ui, "transport/pause", paused ? Icon::play : Icon::pause,
                   paused ? "Back to live (Space)" : "Freeze the view (Space). The servo goes on", paused, any))
-    model.set_paused(!paused);
+    time.set_paused(!paused);
   ImGui::SameLine(0, ui.px(3));
   if (icon_button(ui, "transport/step_forward", Icon::step_forward, "One tick on (Right; Shift: ten)", false, any))
-    model.step_tick(1);
+    time.step_tick(1);
   ImGui::SameLine(0, ui.px(3));
   if (icon_button(ui, "transport/live", Icon::live, "Live, at the newest tick (End)",
-                  !paused && model.axis().following(), any))
-    model.go_live();
+                  !paused && time.axis().following(), any))
+    time.go_live();
+}
 
-  ImGui::SameLine(0, ui.px(14));
+void draw_iteration_buttons(const UiContext& ui, TimeModel& time, bool any) {
   if (icon_button(ui, "transport/iteration_back", Icon::previous, "One iteration back (comma)", false, any))
-    model.step_iteration(-1);
+    time.step_iteration(-1);
   ImGui::SameLine(0, ui.px(3));
   ImGui::PushFont(ui.fonts.number);
-  const std::size_t count = model.tick().iterations().size();
-  const std::string which = count == 0                ? " -/-"
-                            : model.tick().selected() ? printed("%2zu/%zu", *model.tick().selected(), count - 1)
-                                                      : printed(" -/%zu", count - 1);
+  const std::size_t count = time.tick().iterations().size();
+  const std::string which = count == 0               ? " -/-"
+                            : time.tick().selected() ? printed("%2zu/%zu", *time.tick().selected(), count - 1)
+                                                     : printed(" -/%zu", count - 1);
   const float which_x = ImGui::GetCursorPosX();
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted(which.c_str());
@@ -111,21 +101,21 @@ void draw_transport_bar(const UiContext& ui, AppModel& model, const Rect& rect) 
   ImGui::SetCursorPosX(which_x + 6.0f * ImGui::CalcTextSize("0").x + ui.px(4));
   ImGui::PopFont();
   if (icon_button(ui, "transport/iteration_on", Icon::next, "One iteration on (full stop)", false, any))
-    model.step_iteration(1);
+    time.step_iteration(1);
+}
 
-  ImGui::SameLine(0, ui.px(14));
+void draw_bookmark_buttons(const UiContext& ui, TimeModel& time, bool any) {
   if (icon_button(ui, "transport/bookmark_back", Icon::bookmark_back, "The bookmark before ([)", false, any))
-    model.go_to_bookmark(-1);
+    time.go_to_bookmark(-1);
   ImGui::SameLine(0, ui.px(3));
   if (icon_button(ui, "transport/bookmark", Icon::bookmark, "A bookmark on the tick in view (K)", false, any))
-    model.add_bookmark();
+    time.add_bookmark();
   ImGui::SameLine(0, ui.px(3));
   if (icon_button(ui, "transport/bookmark_on", Icon::bookmark_on, "The next bookmark (])", false, any))
-    model.go_to_bookmark(1);
+    time.go_to_bookmark(1);
+}
 
-  ImGui::SameLine(0, ui.px(14));
-  ImGui::AlignTextToFramePadding();
-  const ServoRecord* record = model.tick().record();
+void draw_captions(const UiContext& ui, const ServoRecord* record) {
   const auto caption = [&](const char* label, const std::string& value, float characters) {
     ImGui::TextDisabled("%s", label);
     ImGui::SameLine(0, ui.px(5));
@@ -139,7 +129,30 @@ void draw_transport_bar(const UiContext& ui, AppModel& model, const Rect& rect) 
   };
   caption("tick", record != nullptr ? printed("%llu", static_cast<unsigned long long>(record->tick.tick)) : "-", 9.0f);
   caption("t", record != nullptr ? printed("%.3f s", record->tick.input.t_s) : "-", 10.0f);
-  draw_strip(ui, model, ImGui::GetContentRegionAvail().x);
+}
+
+}  // namespace
+
+void draw_transport_bar(const UiContext& ui, TimeModel& time, const Rect& rect) {
+  ImGui::SetNextWindowPos({rect.x, rect.y});
+  ImGui::SetNextWindowSize({rect.w, rect.h});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(ui.px(8), 0));
+  constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus |
+                                     ImGuiWindowFlags_NoNav;
+  ImGui::Begin("##transport", nullptr, flags);
+  ImGui::PopStyleVar();
+  ImGui::SetCursorPosY(0.5f * (rect.h - ImGui::GetFrameHeight()));
+  const bool any = !time.store().empty();
+  draw_tick_buttons(ui, time, any);
+  ImGui::SameLine(0, ui.px(14));
+  draw_iteration_buttons(ui, time, any);
+  ImGui::SameLine(0, ui.px(14));
+  draw_bookmark_buttons(ui, time, any);
+  ImGui::SameLine(0, ui.px(14));
+  ImGui::AlignTextToFramePadding();
+  draw_captions(ui, time.tick().record());
+  draw_strip(ui, time, ImGui::GetContentRegionAvail().x);
   ImGui::End();
 }
 

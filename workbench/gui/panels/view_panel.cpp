@@ -1,11 +1,11 @@
 // The 3D view: the renderer's picture, what is written on it, and the mouse. Left or middle drag orbits, right drag
 // (or Shift) pans, the wheel zooms about the pointer, a click picks a triangle. With "hand follows mouse" a left
 // drag on the surface leads the simulated hand.
+#include "workbench/gui/layout/view_room.h"
 #include "workbench/gui/panels/panels.h"
 #include "workbench/gui/render/scene_overlay.h"
-#include "workbench/gui/thread_time.h"
-#include "workbench/gui/view_room.h"
-#include "workbench/gui/widgets.h"
+#include "workbench/gui/widgets/thread_time.h"
+#include "workbench/gui/widgets/widgets.h"
 
 #include <array>
 #include <cmath>
@@ -33,7 +33,7 @@ constexpr std::array kLayers{
     LayerToggle{"Display", &SceneToggles::cld_inset, "The fingerpad from the side, with the roller where it is"}};
 
 /// Returns where they end below.
-float draw_layer_toggles(const UiContext& ui, AppModel& model, const Rect& rect) {
+float draw_layer_toggles(const UiContext& ui, ViewModel& view, const Rect& rect) {
   ImGui::PushFont(ui.fonts.small);
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(ui.px(3), ui.px(3)));
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(ui.px(6), ui.px(2)));
@@ -45,7 +45,7 @@ float draw_layer_toggles(const UiContext& ui, AppModel& model, const Rect& rect)
       y += ImGui::GetFrameHeight() + ui.px(3);
     }
     ImGui::SetCursorScreenPos({x, y});
-    toggle_button(ui, std::string("view/") + layer.name, layer.name, model.view().toggles.*layer.on, layer.doc);
+    toggle_button(ui, std::string("view/") + layer.name, layer.name, view.toggles.*layer.on, layer.doc);
     x += w + ui.px(3);
   }
   const float below = y + ImGui::GetFrameHeight();
@@ -56,28 +56,29 @@ float draw_layer_toggles(const UiContext& ui, AppModel& model, const Rect& rect)
 
 SceneFrame scene_frame(const AppModel& model) {
   SceneFrame frame;
-  const ViewState& view = model.view();
+  const ViewModel& view = model.view();
   frame.toggles = view.toggles;
-  frame.theme = model.theme();
+  frame.theme = model.window().theme();
   frame.quality = view.quality;
   const Preset& preset = model.presets().current();
   frame.finger = preset.finger;
   frame.display_travel_m = preset.display.travel_m;
   frame.picked_triangle = view.picked_triangle;
   frame.hovered_triangle = view.hovered_triangle;
-  frame.marked_triangles = model.inspection().marked;
+  frame.marked_triangles = model.view().inspection().marked;
   frame.net_of_picked = view.net_of_picked;
   frame.map = model.map().paint();
   frame.slice = view.slice;
   frame.isolation = view.isolation;
-  if (const ServoRecord* record = model.tick().record()) {
+  if (const ServoRecord* record = model.time().tick().record()) {
     frame.tick = record->tick;
-    frame.trace = model.tick().iterations();
-    frame.selected_iteration = model.tick().selected();
+    frame.trace = model.time().tick().iterations();
+    frame.selected_iteration = model.time().tick().selected();
     frame.cld_commanded_m = record->device.cld_command_m;
     frame.cld_measured_m = record->device.cld_measured_m;
     // The tick may have run under another preset than the one being edited.
-    const Preset* then = model.session() != nullptr ? model.session()->preset(record->tick.preset_id) : nullptr;
+    const Preset* then =
+        model.devices().session() != nullptr ? model.devices().session()->preset(record->tick.preset_id) : nullptr;
     if (then != nullptr) frame.finger = then->finger;
   }
   return frame;
@@ -85,17 +86,17 @@ SceneFrame scene_frame(const AppModel& model) {
 
 /// The finger's centre for a hand led to a place on the surface: on its normal, pressed in by the hand's depth.
 Vec3 finger_centre(const AppModel& model, const Vec3& point, const Vec3& normal) {
-  const double depth = model.session() != nullptr ? model.session()->hand().press_m : 0.0;
+  const double depth = model.devices().session() != nullptr ? model.devices().session()->hand().press_m : 0.0;
   return point + normal * (model.presets().current().finger.reach_m() - depth);
 }
 
 NearestTriangles::RayHit pick(const AppModel& model, const Vec2& pixel, int w, int h) {
-  const ViewState& view = model.view();
-  return pick_triangle(*model.scene(), view.camera, pixel, w, h, view.slice, view.isolation.get());
+  const ViewModel& view = model.view();
+  return pick_triangle(*model.scene().current(), view.camera, pixel, w, h, view.slice, view.isolation.get());
 }
 
 void lead_hand(AppModel& model, ViewPanel& state, const Vec2& pixel, int w, int h) {
-  const ContactMesh& mesh = model.scene()->mesh();
+  const ContactMesh& mesh = model.scene().current()->mesh();
   const Ray ray = model.view().camera.ray_through(pixel, w, h);
   const auto hit = pick(model, pixel, w, h);
   if (hit) {
@@ -115,7 +116,7 @@ void lead_hand(AppModel& model, ViewPanel& state, const Vec2& pixel, int w, int 
   } else {
     return;
   }
-  model.lead_hand(*state.drag_plane);
+  model.devices().lead_hand(*state.drag_plane);
 }
 
 void orbit_pan_zoom(const UiContext& ui, Camera& camera, const Rect& rect, bool orbit_with_left) {
@@ -143,7 +144,7 @@ std::optional<std::size_t> plane_under(const UiContext& ui, const AppModel& mode
   std::optional<std::size_t> found;
   if (!model.view().toggles.planes) return found;
   double nearest = static_cast<double>(ui.px(9));
-  const auto iterations = model.tick().iterations();
+  const auto iterations = model.time().tick().iterations();
   for (std::size_t i = 0; i < iterations.size(); ++i) {
     if (iterations[i].feature == Feature::none) continue;
     const Vec3 p = model.view().camera.project(iterations[i].point, w, h);
@@ -158,20 +159,20 @@ std::optional<std::size_t> plane_under(const UiContext& ui, const AppModel& mode
 
 void interact(const UiContext& ui, AppModel& model, ViewPanel& state, const Rect& rect) {
   const ImGuiIO& io = ImGui::GetIO();
-  ViewState& view = model.view();
+  ViewModel& view = model.view();
   const int w = static_cast<int>(rect.w), h = static_cast<int>(rect.h);
   const Vec2 pixel(static_cast<double>(io.MousePos.x - rect.x), static_cast<double>(io.MousePos.y - rect.y));
-  const bool leading = view.hand_follows_mouse && !io.KeyShift;
+  const bool leading = model.devices().hand_follows_mouse() && !io.KeyShift;
   orbit_pan_zoom(ui, view.camera, rect, !leading);
   view.hovered_triangle = kNone;
-  if (model.scene() == nullptr) return;
+  if (model.scene().current() == nullptr) return;
   const bool dragged = io.MouseDragMaxDistanceSqr[0] > ui.px(4) * ui.px(4);
   if (leading && ImGui::IsItemActive() && ImGui::IsMouseDown(ImGuiMouseButton_Left)) {
     lead_hand(model, state, pixel, w, h);
   } else if (ImGui::IsItemDeactivated() && ImGui::IsMouseReleased(ImGuiMouseButton_Left) && !dragged && !leading) {
     // Where time stands still, a plane's point selects its row; anywhere else a click picks the triangle.
-    if (const auto plane = model.paused() ? plane_under(ui, model, pixel, w, h) : std::nullopt) {
-      model.tick().select(model.tick().selected() == plane ? std::nullopt : plane);
+    if (const auto plane = model.time().paused() ? plane_under(ui, model, pixel, w, h) : std::nullopt) {
+      model.time().tick().select(model.time().tick().selected() == plane ? std::nullopt : plane);
     } else {
       const auto hit = pick(model, pixel, w, h);
       view.picked_triangle = hit.triangle == view.picked_triangle ? kNone : hit.triangle;
@@ -182,14 +183,14 @@ void interact(const UiContext& ui, AppModel& model, ViewPanel& state, const Rect
   if (!resting || !model.map().on) return;
   if (const auto hit = pick(model, pixel, w, h)) {
     view.hovered_triangle = hit.triangle;
-    draw_map_hover(ui, model, hit.triangle, hit.u, hit.v);
+    draw_map_hover(ui, model.map(), hit.triangle, hit.u, hit.v);
   }
 }
 
 void draw_picture(const UiContext& ui, AppModel& model, ViewPanel& state, SceneRenderer& renderer, const Rect& rect) {
   const ImVec2 per_point = ImGui::GetIO().DisplayFramebufferScale;
   const double begin = thread_cpu_ms();
-  renderer.set_scene(model.scene(), model.presets().current().solver.normal_form);
+  renderer.set_scene(model.scene().current(), model.presets().current().solver.normal_form);
   SceneFrame frame = scene_frame(model);
   frame.pixel_scale = static_cast<double>(ui.scale * per_point.y);
   renderer.render(frame, model.view().camera, static_cast<int>(std::lround(rect.w * per_point.x)),
@@ -228,23 +229,23 @@ void draw_view_panel(const UiContext& ui, AppModel& model, ViewPanel& state, Sce
       ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight | ImGuiButtonFlags_MouseButtonMiddle);
   ImGui::SetItemAllowOverlap();
   ui.items.note_last("view");
-  if (model.scene() != nullptr && model.scene()->planar() != nullptr) {
+  if (model.scene().current() != nullptr && model.scene().current()->planar() != nullptr) {
     draw_planar_view(ui, model, state.planar, rect);
   } else {
     interact(ui, model, state, rect);
     if (renderer != nullptr) draw_picture(ui, model, state, *renderer, rect);
-    const float below_toggles = draw_layer_toggles(ui, model, rect);
+    const float below_toggles = draw_layer_toggles(ui, model.view(), rect);
     const float map_bar = draw_map_bar(ui, model, rect, below_toggles + ui.px(8));
     state.top = below_toggles - rect.y + ui.px(4);
     const OverlayCards cards = overlay_cards(model.view().toggles, ui.fonts.text->FontSize, rect.h - state.top);
     model.view().rooms = rooms_beside({rect.w, rect.h}, state.top, map_bar + ui.px(8), cards.size);
   }
-  if (model.loading()) {
-    const std::string text = "Loading " + model.loading_name();
+  if (model.scene().loading()) {
+    const std::string text = "Loading " + model.scene().loading_name();
     const ImVec2 size = ImGui::CalcTextSize(text.c_str());
     draw.AddText({rect.x + 0.5f * (rect.w - size.x), rect.y + 0.5f * rect.h}, ui.colours.text, text.c_str());
   }
-  if (model.view().hand_follows_mouse) {
+  if (model.devices().hand_follows_mouse()) {
     const char* text = "Hand follows mouse: drag on the surface";
     const ImVec2 size = ImGui::CalcTextSize(text);
     draw.AddText({rect.x + 0.5f * (rect.w - size.x), rect.bottom() - size.y - ui.px(8)}, ui.colours.accent, text);

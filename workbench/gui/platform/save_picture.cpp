@@ -23,9 +23,9 @@ void save_picture(AppModel& model, const PictureRequest& request, const Image& w
   const Image picture = cut_out(whole, request.of, pixels_per_point);
   if (picture.rgba.empty()) return;
   if (Status written = write_png(picture, request.path); !written)
-    model.say(Severity::error, written.error().message());
+    model.messages().say(Severity::error, written.error().message());
   else
-    model.say(Severity::note, "picture written to " + std::filesystem::absolute(request.path).string());
+    model.messages().say(Severity::note, "picture written to " + std::filesystem::absolute(request.path).string());
 }
 
 }  // namespace tangent

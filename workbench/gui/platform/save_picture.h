@@ -1,7 +1,7 @@
 // A part of the window as a PNG file, from the pixels of the whole.
 #pragma once
 
-#include "workbench/gui/app_model.h"
+#include "workbench/gui/model/app_model.h"
 #include "workbench/gui/render/image.h"
 
 namespace tangent {

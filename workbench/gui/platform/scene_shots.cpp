@@ -5,7 +5,7 @@
 #include "workbench/gui/platform/offscreen.h"
 #include "workbench/gui/render/scene_overlay.h"
 #include "workbench/gui/render/staged_scene.h"
-#include "workbench/gui/theme.h"
+#include "workbench/gui/theme/theme.h"
 
 #include <imgui.h>
 
@@ -68,11 +68,15 @@ SceneView planes_view() {
   return view;
 }
 
-SceneView surface_view(const char* name, const char* shows, bool shaded, bool smooth, bool normals) {
+struct Shown {
+  bool facets = false, smooth_surface = false, vertex_normals = false;
+};
+
+SceneView surface_view(const char* name, const char* shows, const Shown& shown) {
   SceneView view{name, shows, "torus", 0.0, {}, object_toggles()};
-  view.toggles.shaded = shaded;
-  view.toggles.smooth_surface = smooth;
-  view.toggles.vertex_normals = normals;
+  view.toggles.shaded = shown.facets;
+  view.toggles.smooth_surface = shown.smooth_surface;
+  view.toggles.vertex_normals = shown.vertex_normals;
   view.staging.preset.finger.radius_m = 0.008;
   view.staging.approach = {-0.9, -0.7, 0.8};
   return view;
@@ -82,10 +86,10 @@ const std::vector<SceneView>& all_views() {
   static const std::vector<SceneView> kViews{
       control_net_view(),
       planes_view(),
-      surface_view("facets", "the mesh as the file holds it", true, false, false),
-      surface_view("smooth-surface", "the smooth surface alone, with its patch borders", false, true, false),
-      surface_view("both-surfaces", "the smooth surface over its facets", true, true, false),
-      surface_view("normals", "corner normals", true, false, true),
+      surface_view("facets", "the mesh as the file holds it", {.facets = true}),
+      surface_view("smooth-surface", "the smooth surface alone, with its patch borders", {.smooth_surface = true}),
+      surface_view("both-surfaces", "the smooth surface over its facets", {.facets = true, .smooth_surface = true}),
+      surface_view("normals", "corner normals", {.facets = true, .vertex_normals = true}),
       object_view("cone", "the paper's cone, edges rounded by 1.5 mm", {0.1, -0.6, 1.0}),
       object_view("cylinder", "the paper's cylinder, edges rounded by 1.5 mm", {0.1, -0.5, 1.0}),
       object_view("cube", "the paper's cube, edges rounded by 1.5 mm", {0.5, -0.3, 1.0}),

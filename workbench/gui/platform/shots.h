@@ -4,8 +4,8 @@
 
 #include "core/base/result.h"
 #include "core/mesh/contact_mesh.h"
-#include "workbench/gui/palette.h"
 #include "workbench/gui/render/image.h"
+#include "workbench/gui/theme/palette.h"
 
 #include <filesystem>
 #include <optional>

@@ -1,6 +1,6 @@
 #include "workbench/gui/platform/window.h"
 
-#include "workbench/gui/app_model.h"
+#include "workbench/gui/model/app_model.h"
 #include "workbench/gui/platform/input_queue.h"
 #include "workbench/gui/platform/save_picture.h"
 #include "workbench/gui/render/image.h"
@@ -122,11 +122,11 @@ void draw_frame(GLFWwindow* window, App& app, const FrameInput& input, InputQueu
   if (const auto file = app.take_screenshot_request()) {
     const Status written = write_png(read_pixels(0, width_px, height_px), *file);
     if (written)
-      app.model().say(Severity::note, "screenshot written to " + file->string());
+      app.model().messages().say(Severity::note, "screenshot written to " + file->string());
     else
-      app.model().say(Severity::error, written.error().message());
+      app.model().messages().say(Severity::error, written.error().message());
   }
-  if (const auto request = app.model().take_picture_request()) {
+  if (const auto request = app.model().exports().take_picture_request()) {
     save_picture(app.model(), *request, read_pixels(0, width_px, height_px),
                  static_cast<double>(ImGui::GetIO().DisplayFramebufferScale.x));
   }
@@ -208,7 +208,7 @@ class FrameLoop {
     renderer_.reload_changed_shaders();
     if (renderer_.shader_error() == shader_error_) return;
     shader_error_ = renderer_.shader_error();
-    if (!shader_error_.empty()) app_.model().say(Severity::error, shader_error_);
+    if (!shader_error_.empty()) app_.model().messages().say(Severity::error, shader_error_);
   }
 
   GLFWwindow* window_;

@@ -3,7 +3,7 @@
 #include "core/io/polygon_io.h"
 #include "core/preset/schema.h"
 #include "workbench/gui/app.h"
-#include "workbench/gui/app_model.h"
+#include "workbench/gui/model/app_model.h"
 #include "workbench/gui/panels/panels.h"
 #include "workbench/gui/platform/offscreen.h"
 #include "workbench/gui/render/scene_renderer.h"
@@ -38,7 +38,7 @@ struct WindowView {
 
 /// The finger rests on top of the body, leaning to one side.
 bool contact_in_view(const AppModel& model) {
-  const ServoRecord* record = model.tick().record();
+  const ServoRecord* record = model.time().tick().record();
   if (record == nullptr) return false;
   const Vec3& normal = record->tick.output.normal;
   const double upwards = model.view().camera.y_up ? normal.y : normal.z;
@@ -47,14 +47,14 @@ bool contact_in_view(const AppModel& model) {
 
 /// Camera to the side of the contact, whole mesh in view.
 void look_from_contact_side(AppModel& model) {
-  const ServoRecord* record = model.tick().record();
-  if (record == nullptr || model.scene() == nullptr) return;
+  const ServoRecord* record = model.time().tick().record();
+  if (record == nullptr || model.scene().current() == nullptr) return;
   Camera& camera = model.view().camera;
   const Vec3& normal = record->tick.output.normal;
   // yaw 0 looks from -y: the eye stands beside the contact's normal.
   camera.yaw_rad = std::atan2(normal.x, camera.y_up ? normal.z : -normal.y) + 1.2;
   camera.pitch_rad = 0.5;
-  Box box = world_bounds(*model.scene());
+  Box box = world_bounds(*model.scene().current());
   const Vec3 reach(0.8 * model.presets().current().finger.reach_m());
   if (model.view().toggles.finger) {
     box.include(record->tick.input.finger.position - reach);
@@ -65,19 +65,19 @@ void look_from_contact_side(AppModel& model) {
 
 /// The tick with the most iterations among the last few thousand: there is something to see in it.
 void look_at_busiest_tick(AppModel& model) {
-  const std::uint64_t end = model.end_tick();
-  const std::uint64_t begin = std::max(model.first_tick(), end > 5000 ? end - 5000 : 0);
+  const std::uint64_t end = model.time().end_tick();
+  const std::uint64_t begin = std::max(model.time().first_tick(), end > 5000 ? end - 5000 : 0);
   std::uint64_t busiest = end > 0 ? end - 1 : 0;
   std::size_t most = 0;
   for (std::uint64_t tick = begin; tick < end; ++tick) {
-    model.select_tick(tick);
-    const std::size_t count = model.tick().iterations().size();
+    model.time().select_tick(tick);
+    const std::size_t count = model.time().tick().iterations().size();
     if (count > most && contact_in_view(model)) most = count, busiest = tick;
   }
-  model.select_tick(busiest);
+  model.time().select_tick(busiest);
   look_from_contact_side(model);
   Box points;
-  for (const IterationRecord& it : model.tick().iterations()) points.include(it.point);
+  for (const IterationRecord& it : model.time().tick().iterations()) points.include(it.point);
   Camera& camera = model.view().camera;
   if (points.empty()) return;
   camera.target = points.centre();
@@ -89,7 +89,9 @@ void show_surface(AppModel& model) { model.view().toggles.smooth_surface = true;
 
 /// The paper's iteration with a gain too small for this ground: it swings before it settles.
 void solve_with_paper(AppModel& model) {
-  const auto set = [&](std::string_view key, double value) { model.set_value(*find_preset_key("solver", key), value); };
+  const auto set = [&](std::string_view key, double value) {
+    model.presets().set_value(*find_preset_key("solver", key), value);
+  };
   set("method", static_cast<double>(Method::paper));
   set("gain_curvature_m", 4e-3);
   // What would lie over the planes, or hide how deep the finger is.
@@ -98,15 +100,15 @@ void solve_with_paper(AppModel& model) {
 }
 
 void enlarge_plots(AppModel& model) {
-  model.sizes().plots = 420.0f;
-  model.sizes().show_right = false;
+  model.window().sizes().plots = 420.0f;
+  model.window().sizes().show_right = false;
 }
 
 /// The right column has room for this section alone.
 void fold_but(AppModel& model, const char* section) {
   for (const char* other : {"Iterations", "Time machine", "Bookmarks", "Map", "Smoothness as felt", "Inspect", "Mesh",
                             "Devices", "Messages"}) {
-    model.open_sections()[other] = std::string_view(other) == section;
+    model.window().open_sections()[other] = std::string_view(other) == section;
   }
 }
 
@@ -125,32 +127,32 @@ void show_map(AppModel& model) {
 /// The same under the paper's method.
 template <MapQuantity quantity>
 void show_paper_map(AppModel& model) {
-  model.set_value(*find_preset_key("solver", "method"), static_cast<double>(Method::paper));
+  model.presets().set_value(*find_preset_key("solver", "method"), static_cast<double>(Method::paper));
   show_map<quantity>(model);
 }
 
 /// Under the paper's method with a gain that it swings with where the body curves away from itself.
 void show_failures(AppModel& model) {
-  model.set_value(*find_preset_key("solver", "gain_curvature_m"), 2.5e-3);
+  model.presets().set_value(*find_preset_key("solver", "gain_curvature_m"), 2.5e-3);
   show_paper_map<MapQuantity::failures>(model);
 }
 
 void tune_paper(AppModel& model) {
-  model.set_value(*find_preset_key("solver", "method"), static_cast<double>(Method::paper));
-  model.sizes().plots = 240.0f;
+  model.presets().set_value(*find_preset_key("solver", "method"), static_cast<double>(Method::paper));
+  model.window().sizes().plots = 240.0f;
 }
 
 /// Paused, and the gain brought down: what was recorded, and what it would have been.
 void drag_gain_of_the_past(AppModel& model) {
   fold_but(model, "Time machine");
   look_from_contact_side(model);
-  model.set_paused(true);
-  const std::uint64_t end = model.end_tick();
-  model.select_tick(end > 2600 ? end - 2600 : 0);
-  model.add_bookmark();
-  model.bookmarks().set_note(model.bookmarks().all().front().id, "over the inner side");
-  model.axis().show(static_cast<double>(end) - 4000.0, static_cast<double>(end));
-  model.set_value(*find_preset_key("solver", "gain_curvature_m"), 9e-3);
+  model.time().set_paused(true);
+  const std::uint64_t end = model.time().end_tick();
+  model.time().select_tick(end > 2600 ? end - 2600 : 0);
+  model.time().add_bookmark();
+  model.time().bookmarks().set_note(model.time().bookmarks().all().front().id, "over the inner side");
+  model.time().axis().show(static_cast<double>(end) - 4000.0, static_cast<double>(end));
+  model.presets().set_value(*find_preset_key("solver", "gain_curvature_m"), 9e-3);
 }
 
 /// A body with a hole, cut open, with the defects listed and the first one shown.
@@ -162,24 +164,25 @@ void inspect(AppModel& model) {
 }
 
 void look_at_first_finding(AppModel& model) {
-  if (model.findings() == nullptr) return;
+  if (model.scene().findings() == nullptr) return;
   for (std::size_t k = 0; k < kFindingKindCount; ++k) {
     const auto kind = static_cast<FindingKind>(k);
-    if (model.findings()->of(kind).empty()) continue;
-    model.show_finding(kind, 0);
-    model.isolate_part();
+    if (model.scene().findings()->of(kind).empty()) continue;
+    model.view().show_finding(kind, 0);
+    model.view().isolate_part();
     return;
   }
 }
 
 /// A under the paper's method with a small gain, B as loaded: what differs, and the advice.
 void tune_and_compare(AppModel& model) {
-  for (const char* folded : {"Finger", "Force", "Display", "Safety", "Presets"}) model.open_sections()[folded] = false;
-  model.toggle_favourite(*find_preset_key("solver", "gain_curvature_m"));
-  model.set_value(*find_preset_key("solver", "method"), static_cast<double>(Method::paper));
-  model.set_value(*find_preset_key("solver", "gain_curvature_m"), 6e-3);
-  model.set_value(*find_preset_key("solver", "tolerance_m"), 2e-6);
-  model.sizes().show_plots = false;
+  for (const char* folded : {"Finger", "Force", "Display", "Safety", "Presets"})
+    model.window().open_sections()[folded] = false;
+  model.window().toggle_favourite(*find_preset_key("solver", "gain_curvature_m"));
+  model.presets().set_value(*find_preset_key("solver", "method"), static_cast<double>(Method::paper));
+  model.presets().set_value(*find_preset_key("solver", "gain_curvature_m"), 6e-3);
+  model.presets().set_value(*find_preset_key("solver", "tolerance_m"), 2e-6);
+  model.window().sizes().show_plots = false;
 }
 
 /// Half of the body, seen from the cut.
@@ -192,13 +195,13 @@ void slice_open(AppModel& model) {
 
 /// Paused near the end.
 void inspect_plots(AppModel& model) {
-  model.select_tick(model.end_tick() - 900);
+  model.time().select_tick(model.time().end_tick() - 900);
   look_from_contact_side(model);
 }
 
 /// A 2D scene of its own where no polygon is given: an outline with a corner.
 void open_outline(AppModel& model) {
-  if (model.scene() != nullptr && model.scene()->planar() != nullptr) return;
+  if (model.scene().current() != nullptr && model.scene().current()->planar() != nullptr) return;
   PlanarPolygon outline{"outline.csv", {}, true};
   for (const Vec2& v : {Vec2{-0.060, -0.030},
                         {0.055, -0.034},
@@ -211,37 +214,37 @@ void open_outline(AppModel& model) {
     outline.vertices.push_back(v);
   std::error_code failed;
   const auto path = std::filesystem::temp_directory_path(failed) / "tangent-outline.csv";
-  if (write_polygon(outline, path)) model.open_mesh(path.string());
-  model.set_value(*find_preset_key("finger", "radius_m"), 0.008);
-  model.set_value(*find_preset_key("solver", "method"), static_cast<double>(Method::paper));
-  model.sizes().show_left = false;
-  model.sizes().plots = 210.0f;
+  if (write_polygon(outline, path)) model.scene().open(path.string());
+  model.presets().set_value(*find_preset_key("finger", "radius_m"), 0.008);
+  model.presets().set_value(*find_preset_key("solver", "method"), static_cast<double>(Method::paper));
+  model.window().sizes().show_left = false;
+  model.window().sizes().plots = 210.0f;
 }
 
 /// Paused where the tangent lines can be told apart.
 void look_at_busiest_planar_tick(AppModel& model) {
-  const std::uint64_t end = model.end_tick();
+  const std::uint64_t end = model.time().end_tick();
   std::uint64_t busiest = end > 0 ? end - 1 : 0;
   double widest = 0.0;
   for (std::uint64_t tick = end > 6000 ? end - 6000 : 0; tick < end; ++tick) {
-    model.select_tick(tick);
-    const auto trace = model.tick().iterations();
+    model.time().select_tick(tick);
+    const auto trace = model.time().tick().iterations();
     if (trace.size() < 3) continue;
     const double spread = glm::length(trace.front().point - trace.back().point);
     if (spread > widest) widest = spread, busiest = tick;
   }
-  model.select_tick(busiest);
+  model.time().select_tick(busiest);
 }
 
 void show_facet_angles(AppModel& model) {
   show_map<MapQuantity::facet_angle>(model);
-  model.set_condition(*find_condition("C2"));
+  model.presets().set_condition(*find_condition("C2"));
 }
 
 /// Armed, disturbed, stopped by the gate.
 void disturb_devices(AppModel& model) {
   model.view().device_monitor = true;
-  Session& session = *model.session();
+  Session& session = *model.devices().session();
   session.inject({InjectedFault::delay_burst, 100}, false);
   model.advance(400);
   session.arm();

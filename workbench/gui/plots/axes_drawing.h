@@ -2,7 +2,7 @@
 #pragma once
 
 #include "workbench/gui/plots/plot_area.h"
-#include "workbench/gui/ui_context.h"
+#include "workbench/gui/widgets/ui_context.h"
 
 #include <string>
 

@@ -5,7 +5,7 @@
 #include "workbench/gui/plots/kept_bars.h"
 #include "workbench/gui/plots/plot_area.h"
 #include "workbench/gui/plots/time_axis.h"
-#include "workbench/gui/ui_context.h"
+#include "workbench/gui/widgets/ui_context.h"
 
 #include <cstdint>
 #include <functional>

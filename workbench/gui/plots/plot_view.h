@@ -10,7 +10,7 @@
 #include "workbench/gui/plots/plot_marks.h"
 #include "workbench/gui/plots/time_axis.h"
 #include "workbench/gui/plots/value_axis.h"
-#include "workbench/gui/ui_context.h"
+#include "workbench/gui/widgets/ui_context.h"
 
 #include <cmath>
 #include <limits>

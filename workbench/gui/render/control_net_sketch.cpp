@@ -30,14 +30,9 @@ constexpr std::array<NetLine, 9> kInner{{{b210, b201},
                                          {b021, b111},
                                          {b012, b111},
                                          {b102, b111}}};
-constexpr std::array<const char*, 10> kPointNames{"b300", "b030", "b003", "b210", "b120",
-                                                  "b021", "b012", "b102", "b201", "b111"};
-struct NormalPlace {
-  const char* name;
-  double u, v;
-};
-constexpr std::array<NormalPlace, 6> kNormalPlaces{
-    {{"n200", 0, 0}, {"n020", 1, 0}, {"n002", 0, 1}, {"n110", 0.5, 0}, {"n011", 0.5, 0.5}, {"n101", 0, 0.5}}};
+/// (u, v) of the control normals.
+constexpr std::array<std::array<double, 2>, 6> kNormalPlaces{
+    {{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}, {0.5, 0.0}, {0.5, 0.5}, {0.0, 0.5}}};
 constexpr int kPatchLevel = 12;
 
 std::uint32_t net_triangle(const SketchContext& c) {
@@ -101,7 +96,7 @@ void label_net(const SketchContext& c, const PnPatch& patch, const Vec3& origin,
     if (p.z < 0.0 || p.z > 1.0) continue;
     const Vec2 from_middle = Vec2(p) - Vec2(middle);
     const double length = glm::length(from_middle);
-    labels.push_back({Vec2(p), kPointNames[i], colour, length > 1.0 ? from_middle / length : Vec2(0.0, 1.0)});
+    labels.push_back({Vec2(p), kControlPointNames[i], colour, length > 1.0 ? from_middle / length : Vec2(0.0, 1.0)});
   }
 }
 
@@ -110,12 +105,12 @@ void draw_control_normals(Sketch& sketch, const SketchContext& c, const PnPatch&
   const Rgba colour = palette(c.frame.theme).normal;
   const double length = 0.3 * patch_size(patch);
   for (std::size_t i = 0; i < patch.normals.size(); ++i) {
-    const Vec3 from = origin + evaluate_point(patch, kNormalPlaces[i].u, kNormalPlaces[i].v);
+    const Vec3 from = origin + evaluate_point(patch, kNormalPlaces[i][0], kNormalPlaces[i][1]);
     const Vec3 to = from + length * patch.normals[i];
     sketch.arrow(from, to, 0.012 * patch_size(patch), colour);
     if (!c.frame.toggles.control_point_labels) continue;
     const Vec3 p = c.camera.project(to, c.width_px, c.height_px);
-    if (p.z >= 0.0 && p.z <= 1.0) labels.push_back({Vec2(p), kNormalPlaces[i].name, colour, {0.0, -1.0}});
+    if (p.z >= 0.0 && p.z <= 1.0) labels.push_back({Vec2(p), kControlNormalNames[i], colour, {0.0, -1.0}});
   }
 }
 

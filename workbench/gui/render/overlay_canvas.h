@@ -1,7 +1,7 @@
 // Drawing helpers of the overlay: text that reads on any ground, and the sizes that follow the font.
 #pragma once
 
-#include "workbench/gui/palette.h"
+#include "workbench/gui/theme/palette.h"
 
 #include <imgui.h>
 

@@ -2,7 +2,7 @@
 
 #include "workbench/gui/render/overlay_canvas.h"
 #include "workbench/gui/render/quantity_text.h"
-#include "workbench/gui/theme.h"
+#include "workbench/gui/theme/theme.h"
 
 #include <algorithm>
 #include <array>

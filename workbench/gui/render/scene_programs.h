@@ -1,9 +1,9 @@
 // The programs of the 3D view and what all of them take: matrices and the up direction of the light.
 #pragma once
 
-#include "workbench/gui/palette.h"
 #include "workbench/gui/render/camera.h"
 #include "workbench/gui/render/shader_program.h"
+#include "workbench/gui/theme/palette.h"
 
 #include <array>
 

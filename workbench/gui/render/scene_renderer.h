@@ -11,9 +11,9 @@
 
 #include "core/base/result.h"
 #include "core/tick/step.h"
-#include "workbench/gui/palette.h"
 #include "workbench/gui/render/camera.h"
 #include "workbench/gui/render/surface_paint.h"
+#include "workbench/gui/theme/palette.h"
 
 #include <cstdint>
 #include <memory>

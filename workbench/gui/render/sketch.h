@@ -4,7 +4,7 @@
 #pragma once
 
 #include "core/base/vec.h"
-#include "workbench/gui/palette.h"
+#include "workbench/gui/theme/palette.h"
 
 #include <array>
 #include <cstdint>

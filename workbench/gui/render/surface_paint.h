@@ -1,7 +1,7 @@
 // What can be laid on the mesh: a map's values as colours, a cut, and a choice of triangles. Plain data.
 #pragma once
 
-#include "workbench/gui/colour_map.h"
+#include "workbench/gui/theme/colour_map.h"
 
 #include "core/base/vec.h"
 

@@ -3,7 +3,7 @@
 #include "tests/workbench/gui/headless_app.h"
 
 #include "workbench/gui/plots/plot_view.h"
-#include "workbench/gui/thread_time.h"
+#include "workbench/gui/widgets/thread_time.h"
 
 #include <algorithm>
 #include <cmath>

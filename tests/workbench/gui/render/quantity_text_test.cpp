@@ -1,6 +1,6 @@
 #include "workbench/gui/render/quantity_text.h"
 
-#include "workbench/gui/palette.h"
+#include "workbench/gui/theme/palette.h"
 
 #include <doctest/doctest.h>
 

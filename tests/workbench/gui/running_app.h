@@ -1,0 +1,36 @@
+// An app with ticks to look at, and what its tests ask of it.
+#pragma once
+
+#include "tests/workbench/gui/headless_app.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+namespace tangent::test {
+
+inline std::filesystem::path fresh_folder(const char* name) {
+  const auto folder = std::filesystem::temp_directory_path() / name;
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_directories(folder);
+  return folder;
+}
+
+/// 1.5 s of simulated exploration on a sphere.
+struct RunningApp : HeadlessApp {
+  using HeadlessApp::HeadlessApp;
+  void run(std::uint64_t ticks = 1500) {
+    app().advance(ticks);
+    frame();
+    REQUIRE(model().time().end_tick() >= ticks);
+  }
+};
+
+inline bool said(const AppModel& model, Severity severity, const char* part) {
+  for (const Message& m : model.messages().all()) {
+    if (m.severity == severity && m.text.find(part) != std::string::npos) return true;
+  }
+  return false;
+}
+
+}  // namespace tangent::test

@@ -1,0 +1,70 @@
+#include "workbench/gui/model/app_model.h"
+
+#include <utility>
+
+namespace tangent {
+
+AppModel::AppModel(const AppOptions& options)
+    : options_(options),
+      window_(options_, messages_),
+      presets_(options_, messages_, [this](const std::string& what) { preset_changed(what); }),
+      scene_(options_, presets_, messages_, [this](SceneChange change) { scene_loaded(std::move(change)); }),
+      view_(scene_, map_, messages_),
+      devices_(options_, scene_, presets_, messages_, [this] { time_.forget(); }),
+      time_(options_, devices_, presets_, messages_),
+      exports_(options_, devices_, messages_) {
+  if (const auto look = window_.read_settings()) {
+    view_.camera.y_up = look->y_up;
+    map_.colours = look->colours;
+  }
+  presets_.refresh_files();
+  if (!options_.preset.empty()) presets_.load(options_.preset);
+  if (!options_.record.empty())
+    messages_.say(Severity::warning,
+                  "recording to a file is not there yet; " + options_.record.string() + " is not written");
+  scene_.open_first(options_.mesh);
+}
+
+AppModel::~AppModel() { window_.keep_settings(kept_look()); }
+
+void AppModel::update(double now_s) {
+  messages_.set_now(now_s);
+  scene_.update();
+  take_ticks();
+  window_.update(now_s, kept_look());
+  const auto& scene = scene_.current();
+  // A 2D scene has no mesh to lay a map on.
+  map_.update(scene != nullptr && scene->planar() != nullptr ? nullptr : scene, presets_.current(), now_s,
+              presets_.slots().gesture_open(), options_.deterministic);
+}
+
+void AppModel::advance(std::uint64_t ticks) {
+  if (devices_.session() == nullptr || !options_.deterministic) return;
+  devices_.session()->advance(ticks);
+  take_ticks();
+}
+
+void AppModel::take_ticks() {
+  exports_.take_finished();
+  if (devices_.session() == nullptr) return;
+  time_.take_records();
+  devices_.take_status();
+  time_.show_tick();
+}
+
+void AppModel::scene_loaded(SceneChange change) {
+  if (change.opened) {
+    window_.opened(scene_.path());
+    view_.look_at_new_scene();
+  }
+  devices_.take_scene(std::move(change.prepared));
+}
+
+void AppModel::preset_changed(const std::string& what) {
+  const auto id = devices_.send_preset();
+  if (!id) return;
+  presets_.note_sent(*id, what);
+  time_.preset_sent();
+}
+
+}  // namespace tangent

@@ -1,0 +1,78 @@
+// What the window shows and what its user can do, without a line of drawing, in parts. Panels read the parts and call
+// them; tests drive them through panels and look here first.
+//
+// What flows between the parts, and nothing else does:
+//
+//   scene  --(a mesh was opened or built anew)-->  window, view, devices     scene_loaded()
+//   presets  --(values changed)-->  devices --(id of what was sent)--> presets, time     preset_changed()
+//   devices  --(the session ends)-->  time     time().forget()
+//   devices  --(records, status)-->  time, once a frame     take_ticks()
+//   view, map  --(look that outlives the window)-->  window     kept_look()
+#pragma once
+
+#include "workbench/gui/map/map_view.h"
+#include "workbench/gui/model/app_options.h"
+#include "workbench/gui/model/device_model.h"
+#include "workbench/gui/model/export_model.h"
+#include "workbench/gui/model/message_log.h"
+#include "workbench/gui/model/preset_model.h"
+#include "workbench/gui/model/scene_model.h"
+#include "workbench/gui/model/time_model.h"
+#include "workbench/gui/model/view_model.h"
+#include "workbench/gui/model/window_model.h"
+
+#include <cstdint>
+
+namespace tangent {
+
+class AppModel {
+ public:
+  explicit AppModel(const AppOptions& options);
+  ~AppModel();
+
+  /// Once a frame: takes in what the servo and the workers have done.
+  void update(double now_s);
+  /// Deterministic mode only.
+  void advance(std::uint64_t ticks);
+  bool deterministic() const { return options_.deterministic; }
+  double now_s() const { return messages_.now_s(); }  ///< of the last update
+
+  MessageLog& messages() { return messages_; }
+  const MessageLog& messages() const { return messages_; }
+  WindowModel& window() { return window_; }
+  const WindowModel& window() const { return window_; }
+  PresetModel& presets() { return presets_; }
+  const PresetModel& presets() const { return presets_; }
+  SceneModel& scene() { return scene_; }
+  const SceneModel& scene() const { return scene_; }
+  MapView& map() { return map_; }  ///< over the mesh
+  const MapView& map() const { return map_; }
+  ViewModel& view() { return view_; }
+  const ViewModel& view() const { return view_; }
+  DeviceModel& devices() { return devices_; }
+  const DeviceModel& devices() const { return devices_; }
+  TimeModel& time() { return time_; }
+  const TimeModel& time() const { return time_; }
+  ExportModel& exports() { return exports_; }
+  const ExportModel& exports() const { return exports_; }
+
+ private:
+  void scene_loaded(SceneChange change);
+  void preset_changed(const std::string& what);
+  void take_ticks();
+  KeptLook kept_look() const { return {view_.camera.y_up, map_.colours}; }
+
+  // Each part knows those above it at most.
+  const AppOptions options_;
+  MessageLog messages_;
+  WindowModel window_;
+  PresetModel presets_;
+  SceneModel scene_;
+  MapView map_;
+  ViewModel view_;
+  DeviceModel devices_;
+  TimeModel time_;
+  ExportModel exports_;
+};
+
+}  // namespace tangent

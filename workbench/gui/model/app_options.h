@@ -1,0 +1,35 @@
+// What the window starts with.
+#pragma once
+
+#include "core/mesh/contact_mesh.h"
+#include "workbench/gui/theme/palette.h"
+#include "workbench/session/maestro_setups.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+namespace tangent {
+
+struct AppOptions {
+  std::string mesh;               ///< a file, or the name of a generated object; empty: the built-in scene
+  double metres_per_unit = 1e-3;  ///< of the mesh file (--unit)
+  ContactMeshOptions mesh_options;
+  std::filesystem::path preset;         ///< empty: the shipped default
+  std::filesystem::path preset_folder;  ///< listed in the presets panel; empty: where `preset` is, or the shipped ones
+  std::string device = "simulated";
+  MaestroWish maestro;                ///< for the device "maestro"
+  std::filesystem::path packets;      ///< USB packets are written here; empty: nowhere
+  double servo_hz = 1000.0;           ///< kSlowestServoHz to kFastestServoHz
+  std::filesystem::path settings;     ///< layout and look between runs are kept there; empty: not kept
+  std::filesystem::path screenshots;  ///< folder of F12's pictures; empty: the current one
+  double history_s = 600.0;           ///< ticks kept, within kLargestHistoryBytes
+  std::filesystem::path record;       ///< recording to write; empty: none
+  Theme theme = Theme::dark;
+  std::uint64_t seed = 1;  ///< of the simulated devices
+  /// No servo thread: `advance` steps the session, on the caller's thread, with a time of its own, so that
+  /// the same calls give the same picture. For pictures and tests.
+  bool deterministic = false;
+};
+
+}  // namespace tangent

@@ -1,0 +1,142 @@
+#include "workbench/gui/model/device_model.h"
+
+#include "workbench/session/maestro_setups.h"
+
+#include <utility>
+
+namespace tangent {
+
+namespace {
+
+SessionOptions session_options(const AppOptions& from) {
+  SessionOptions options;
+  options.servo.rate_hz = from.servo_hz;
+  options.devices = from.device;
+  options.packets = from.packets;
+  options.seed = from.seed;
+  options.history_s = from.history_s;
+  options.threaded = !from.deterministic;
+  return options;
+}
+
+}  // namespace
+
+DeviceModel::DeviceModel(const AppOptions& options, const SceneModel& scene, const PresetModel& presets,
+                         MessageLog& messages, std::function<void()> session_ended)
+    : scene_(scene),
+      presets_(presets),
+      messages_(messages),
+      session_ended_(std::move(session_ended)),
+      options_(session_options(options)),
+      maestro_wish_(options.maestro) {
+  if (!options.settings.empty()) maestro_file_ = options.settings.parent_path() / kMaestroFile;
+}
+
+void DeviceModel::take_scene(PreparedScenePtr prepared) {
+  if (session_ != nullptr)
+    session_->set_scene(std::move(prepared));
+  else
+    make_session();
+}
+
+void DeviceModel::make_session() {
+  if (options_.devices == "maestro") {
+    const auto setup = chosen_maestro_setup(maestro_wish_, maestro_file_);
+    if (!setup) return messages_.say(Severity::error, setup.error().message());
+    options_.maestro = setup->calibration;
+    options_.maestro_channel = setup->channel;
+  }
+  auto session = Session::create(scene_.current(), presets_.current(), options_);
+  if (!session) {
+    messages_.say(Severity::error, session.error().message());
+    return;
+  }
+  session_ = std::move(*session);
+  session_->start();
+  status_ = session_->status();
+}
+
+void DeviceModel::restart_session() {
+  if (scene_.current() == nullptr) return;
+  // The old session's devices are let go before the new one asks for them.
+  session_.reset();
+  status_ = {};
+  session_ended_();
+  make_session();
+}
+
+void DeviceModel::choose(const std::string& name) {
+  if (name == options_.devices && session_ != nullptr) return;
+  options_.devices = name;
+  restart_session();
+}
+
+std::optional<std::uint32_t> DeviceModel::send_preset() {
+  if (session_ == nullptr) return std::nullopt;
+  auto sent = session_->set_preset(presets_.current());
+  if (sent) return *sent;
+  messages_.say(Severity::error, sent.error().message());
+  return std::nullopt;
+}
+
+void DeviceModel::take_status() {
+  if (session_ == nullptr) return;
+  status_ = session_->status();
+  const GateFault gate_fault = status_.servo.gate_fault;
+  if (gate_fault != last_gate_fault_ && gate_fault != GateFault::none)
+    messages_.say(Severity::error, std::string("force stopped: ") + to_string(gate_fault) + "; press Arm to go on");
+  last_gate_fault_ = gate_fault;
+  if (status_.force_fault != last_fault_ && status_.force_fault != DeviceFault::none)
+    messages_.say(Severity::error, std::string("force device: ") + to_string(status_.force_fault));
+  last_fault_ = status_.force_fault;
+}
+
+void DeviceModel::calibrate_maestro(const MaestroCalibration& calibration, unsigned channel) {
+  if (const Status ok = check_calibration(calibration); !ok)
+    return messages_.say(Severity::error, ok.error().message());
+  const MaestroSetup setup{calibration, channel};
+  options_.maestro = calibration;
+  options_.maestro_channel = channel;
+  maestro_wish_ = wish_for(setup);
+  keep_calibration(setup);
+  if (options_.devices == "maestro") restart_session();
+}
+
+void DeviceModel::keep_calibration(const MaestroSetup& setup) {
+  if (maestro_file_.empty()) return;
+  const std::string serial = attached_maestro();
+  if (serial.empty())
+    return messages_.say(Severity::note,
+                         "no Maestro with a serial number is attached: the calibration holds until the window closes");
+  const Status kept = keep_maestro_setup(maestro_file_, serial, setup);
+  if (kept)
+    messages_.say(Severity::note, "calibration of the Maestro " + serial + " kept in " + maestro_file_.string());
+  else
+    messages_.say(Severity::error, kept.error().message());
+}
+
+void DeviceModel::set_hand_follows_mouse(bool on) {
+  hand_follows_mouse_ = on;
+  if (session_ == nullptr || on) return;
+  HandSettings hand = session_->hand();
+  hand.mode = HandMode::explore;
+  session_->set_hand(hand);
+}
+
+void DeviceModel::lead_hand(const Vec3& finger_centre_world_m) {
+  if (session_ != nullptr) session_->set_hand_target(finger_centre_world_m);
+}
+
+bool DeviceModel::stopped() const {
+  return status_.servo.gate_state == GateState::disarmed || status_.servo.gate_state == GateState::faulted;
+}
+
+void DeviceModel::toggle_stop() {
+  if (session_ == nullptr) return;
+  if (stopped())
+    session_->arm();
+  else
+    session_->stop();
+}
+
+}  // namespace tangent

@@ -1,0 +1,70 @@
+#include "workbench/gui/model/export_model.h"
+
+#include "workbench/gui/model/export_samples.h"
+
+#include <chrono>
+#include <ctime>
+#include <system_error>
+
+namespace tangent {
+
+namespace {
+
+std::string time_stamp() {
+  const std::time_t now = std::time(nullptr);
+  std::tm local{};
+  localtime_r(&now, &local);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y%m%d-%H%M%S", &local);
+  return text;
+}
+
+std::filesystem::path free_path(const std::filesystem::path& folder, const std::string& stem, const char* extension) {
+  for (int i = 1;; ++i) {
+    std::filesystem::path path = folder / (stem + (i > 1 ? "-" + std::to_string(i) : "") + extension);
+    std::error_code ignored;
+    if (!std::filesystem::exists(path, ignored)) return path;
+  }
+}
+
+}  // namespace
+
+ExportModel::ExportModel(const AppOptions& options, const DeviceModel& devices, MessageLog& messages)
+    : devices_(devices), messages_(messages), deterministic_(options.deterministic), screenshots_(options.screenshots) {
+  if (!screenshots_.empty()) folder_ = screenshots_;
+}
+
+void ExportModel::write_ticks(std::uint64_t from, std::uint64_t to) {
+  const Session* session = devices_.session();
+  if (session == nullptr || writing()) return;
+  const auto path =
+      free_path(folder_, "ticks-" + std::to_string(from) + "-" + std::to_string(to > 0 ? to - 1 : 0), ".csv");
+  auto work = [records = session->history().snapshot(), from, to, path]() -> Result<std::string> {
+    const auto lines = export_samples(records, from, to, path);
+    if (!lines) return tl::unexpected(lines.error());
+    return std::to_string(*lines) + " ticks written to " + std::filesystem::absolute(path).string();
+  };
+  writing_ = std::async(deterministic_ ? std::launch::deferred : std::launch::async, std::move(work));
+  if (deterministic_) writing_.wait();
+  take_finished();
+}
+
+void ExportModel::take_finished() {
+  if (!writing_.valid() || writing_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
+  const Result<std::string> done = writing_.get();
+  if (done)
+    messages_.say(Severity::note, *done);
+  else
+    messages_.say(Severity::error, done.error().message());
+}
+
+void ExportModel::ask_for_picture(const std::string& what, const Rect& of) {
+  picture_request_ = PictureRequest{free_path(folder_, what, ".png"), of};
+}
+
+std::optional<std::filesystem::path> ExportModel::take_screenshot_request() {
+  if (!std::exchange(screenshot_wanted_, false)) return std::nullopt;
+  return free_path(screenshots_, "tangent-workbench-" + time_stamp(), ".png");
+}
+
+}  // namespace tangent

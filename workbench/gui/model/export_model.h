@@ -1,0 +1,54 @@
+// What goes out of the window into files: recorded ticks, a plot or the whole window as a picture. A message says
+// where. Files that are there are never written over.
+#pragma once
+
+#include "workbench/gui/layout/layout.h"
+#include "workbench/gui/model/app_options.h"
+#include "workbench/gui/model/device_model.h"
+#include "workbench/gui/model/message_log.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <future>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace tangent {
+
+/// A part of the window as a PNG file.
+struct PictureRequest {
+  std::filesystem::path path;
+  Rect of;  ///< ImGui's coordinates
+};
+
+class ExportModel {
+ public:
+  ExportModel(const AppOptions& options, const DeviceModel& devices, MessageLog& messages);
+
+  const std::filesystem::path& folder() const { return folder_; }
+  void set_folder(std::filesystem::path folder) { folder_ = std::move(folder); }
+
+  /// CSV, ticks from ... to - 1; on a worker unless deterministic.
+  void write_ticks(std::uint64_t from, std::uint64_t to);
+  bool writing() const { return writing_.valid(); }
+  void take_finished();  ///< says what has been written since
+
+  // Of the next frame, by the platform, which has the pixels and takes the request once.
+  void ask_for_picture(const std::string& what, const Rect& of);
+  std::optional<PictureRequest> take_picture_request() { return std::exchange(picture_request_, std::nullopt); }
+  void ask_for_screenshot() { screenshot_wanted_ = true; }
+  std::optional<std::filesystem::path> take_screenshot_request();
+
+ private:
+  const DeviceModel& devices_;
+  MessageLog& messages_;
+  const bool deterministic_;
+  const std::filesystem::path screenshots_;
+  std::filesystem::path folder_ = ".";
+  std::future<Result<std::string>> writing_;  ///< what was written
+  std::optional<PictureRequest> picture_request_;
+  bool screenshot_wanted_ = false;
+};
+
+}  // namespace tangent

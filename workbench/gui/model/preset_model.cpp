@@ -1,0 +1,173 @@
+#include "workbench/gui/model/preset_model.h"
+
+#include "core/mesh/contact_mesh.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <ctime>
+#include <utility>
+
+namespace tangent {
+
+namespace {
+
+constexpr std::size_t kMostNotes = 4096;  // a dragged slider sends one preset a frame
+
+std::string today() {
+  const std::time_t now = std::time(nullptr);
+  std::tm local{};
+  localtime_r(&now, &local);
+  char text[16];
+  std::strftime(text, sizeof text, "%Y-%m-%d", &local);
+  return text;
+}
+
+std::string hex16(std::uint64_t value) {
+  char text[20];
+  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(value));
+  return text;
+}
+
+std::string change_text(const PresetKey& key, double from, double to) {
+  return key.full_name() + " " + display_with_unit(key, from) + " \u2192 " + display_with_unit(key, to);
+}
+
+/// A preset brings its neighbours with it.
+std::filesystem::path folder_for(const AppOptions& options) {
+  if (!options.preset_folder.empty()) return options.preset_folder;
+  if (options.preset.has_parent_path()) return options.preset.parent_path();
+  return options.preset.empty() ? std::filesystem::path(TANGENT_PRESET_DIR) : ".";
+}
+
+}  // namespace
+
+PresetModel::PresetModel(const AppOptions& options, MessageLog& messages,
+                         std::function<void(const std::string& what)> changed)
+    : messages_(messages), changed_(std::move(changed)), folder_(folder_for(options)) {}
+
+void PresetModel::set_value(const PresetKey& key, double value) {
+  const double before = key.get(current());
+  PresetEditor tried = editor();
+  if (!tried.set(key, value)) return;
+  const std::string what = change_text(key, before, key.get(tried.current()));
+  if (slots_.apply(what, [&](PresetEditor& editor) { return editor.set(key, value); })) changed_(what);
+}
+
+void PresetModel::set_condition(const RenderingCondition& condition) {
+  const std::string what = "rendering condition " + std::string(condition.name);
+  Preset wanted = current();
+  tangent::set_condition(wanted, condition);
+  const PresetKey &force = *find_preset_key("force", "source"), &tactile = *find_preset_key("display", "source");
+  const auto set = [&](PresetEditor& editor) {
+    const bool one = editor.set(force, force.get(wanted));
+    return editor.set(tactile, tactile.get(wanted)) || one;
+  };
+  if (slots_.apply(what, set)) changed_(what);
+}
+
+void PresetModel::slide_value(const PresetKey& key, double value) {
+  const std::string name = key.full_name();
+  const std::string what = name + " slid to " + display_with_unit(key, std::clamp(value, key.min, key.max));
+  if (slots_.apply(
+          what, [&](PresetEditor& editor) { return editor.set(key, value); }, name))
+    changed_(what);
+}
+
+void PresetModel::type_value(const PresetKey& key, const std::string& text) {
+  const auto value = parse_typed(key, text);
+  if (!value) {
+    messages_.say(Severity::error, value.error().message());
+    return;
+  }
+  if (*value < key.min || *value > key.max) {
+    messages_.say(Severity::warning,
+                  key.full_name() + " goes from " + display_range(key) + "; " + text + " was cut to that");
+  }
+  set_value(key, *value);
+}
+
+void PresetModel::revert_all() {
+  const std::string what = "revert to " + editor().name();
+  const auto revert = [](PresetEditor& editor) {
+    const bool changed = editor.changed();
+    editor.revert_all();
+    return changed;
+  };
+  if (slots_.apply(what, revert)) changed_(what);
+}
+
+void PresetModel::load(const std::filesystem::path& path) {
+  PresetEditor loaded = editor();
+  if (auto read = loaded.load(path); !read) {
+    messages_.say(Severity::error, read.error().message());
+    return;
+  }
+  const std::string what = "load " + loaded.name();
+  slots_.apply(what, [&](PresetEditor& editor) {
+    editor = loaded;
+    return true;
+  });
+  changed_(what);
+  messages_.say(Severity::note, "preset " + editor().name() + " loaded");
+}
+
+void PresetModel::undo() {
+  if (!slots_.can_undo()) return messages_.say(Severity::note, "nothing to undo");
+  const std::string what = "undo " + slots_.undo_name();
+  slots_.undo();
+  changed_(what);
+  messages_.say(Severity::note, what);
+}
+
+void PresetModel::redo() {
+  if (!slots_.can_redo()) return messages_.say(Severity::note, "nothing to redo");
+  slots_.redo();
+  const std::string what = "redo " + slots_.undo_name();
+  changed_(what);
+  messages_.say(Severity::note, what);
+}
+
+void PresetModel::toggle_ab() {
+  const bool another = slots_.toggle();
+  const std::string what = std::string("switch to ") + slot_name(slots_.active_slot());
+  if (another) changed_(what);
+}
+
+const std::string& PresetModel::note(std::uint32_t preset_id) const {
+  static const std::string kNothing;
+  const auto found = notes_.find(preset_id);
+  return found == notes_.end() ? kNothing : found->second;
+}
+
+bool PresetModel::save(const std::string& name, const ContactMesh* mesh, const std::string& device) {
+  PresetAbout about = editor().loaded().about;
+  about.date = today();
+  about.measured.clear();  // they were measured with other values
+  if (mesh != nullptr) {
+    about.mesh_name = mesh->name();
+    about.mesh_hash = hex16(mesh->content_hash());
+  }
+  about.device = device;
+  if (auto saved = slots_.save_as(folder_, name, std::move(about)); !saved) {
+    messages_.say(Severity::error, saved.error().message());
+    return false;
+  }
+  refresh_files();
+  messages_.say(Severity::note, "preset saved as " + editor().path().string());
+  return true;
+}
+
+bool PresetModel::has(const std::string& name) const {
+  std::error_code ignored;
+  return !name.empty() && std::filesystem::exists(folder_ / (name + ".toml"), ignored);
+}
+
+void PresetModel::refresh_files() { files_ = list_presets(folder_); }
+
+void PresetModel::note_sent(std::uint32_t preset_id, const std::string& what) {
+  ++sent_;
+  notes_[preset_id] = what;
+  if (notes_.size() > kMostNotes) notes_.erase(notes_.begin());
+}
+
+}  // namespace tangent

@@ -1,0 +1,65 @@
+// The values in use: two presets side by side, every step that led to them, and the files they come from. Every change
+// goes to the servo as a whole preset.
+#pragma once
+
+#include "core/io/rendering_condition.h"
+#include "core/mesh/contact_mesh.h"
+#include "workbench/gui/model/app_options.h"
+#include "workbench/gui/model/message_log.h"
+#include "workbench/gui/model/preset_slots.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace tangent {
+
+class PresetModel {
+ public:
+  /// `changed` is called whenever current() is to go to the servo, with what was done: "solver.gain_overall 1 → 0.75".
+  PresetModel(const AppOptions& options, MessageLog& messages, std::function<void(const std::string& what)> changed);
+
+  const Preset& current() const { return slots_.active().current(); }
+  const PresetEditor& editor() const { return slots_.active(); }
+  const PresetSlots& slots() const { return slots_; }
+
+  void set_value(const PresetKey& key, double value);
+  void slide_value(const PresetKey& key, double value);  ///< one step of undo until end_gesture()
+  void end_gesture() { slots_.end_gesture(); }
+  void type_value(const PresetKey& key, const std::string& text);  ///< a message when it is no number
+  void reset_value(const PresetKey& key) { set_value(key, key.default_value()); }
+  void revert_value(const PresetKey& key) { set_value(key, key.get(editor().loaded().preset)); }
+  void revert_all();
+  void set_condition(const RenderingCondition& condition);  ///< both sources, one step of undo
+  void undo();
+  void redo();
+  void toggle_ab();
+  void copy_ab() { slots_.copy_to_other(); }
+
+  void load(const std::filesystem::path& path);
+  /// Writes over one that is there; a message says where, or why not. What it was tuned on goes into the file.
+  bool save(const std::string& name, const ContactMesh* mesh, const std::string& device);
+  bool has(const std::string& name) const;  ///< a file of this name is in the folder
+  const std::filesystem::path& folder() const { return folder_; }
+  const std::vector<std::filesystem::path>& files() const { return files_; }
+  void refresh_files();
+
+  void note_sent(std::uint32_t preset_id, const std::string& what);
+  std::uint64_t sent() const { return sent_; }  ///< how many so far
+  /// What was done to get the preset of this id; empty: nothing is known.
+  const std::string& note(std::uint32_t preset_id) const;
+
+ private:
+  MessageLog& messages_;
+  std::function<void(const std::string& what)> changed_;
+  PresetSlots slots_;
+  std::map<std::uint32_t, std::string> notes_;
+  std::filesystem::path folder_;
+  std::vector<std::filesystem::path> files_;
+  std::uint64_t sent_ = 0;
+};
+
+}  // namespace tangent

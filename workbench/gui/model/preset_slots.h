@@ -1,0 +1,65 @@
+// Two presets side by side, A and B, one of which is edited and rendered, and every step that led here: undo and redo
+// of any change, loading and switching included. No ImGui.
+#pragma once
+
+#include "workbench/gui/model/preset_editor.h"
+
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tangent {
+
+class PresetSlots {
+ public:
+  static constexpr std::size_t kMostSteps = 256;
+
+  PresetSlots() { steps_.push_back({{}, 0, "start", {}}); }
+
+  std::size_t active_slot() const { return now().active; }  ///< 0: A, 1: B
+  const PresetEditor& active() const { return slot(active_slot()); }
+  const PresetEditor& slot(std::size_t i) const { return now().slots[i]; }
+
+  /// Runs `change` on the active slot and records a step named `what` if it says that something changed. Steps of the
+  /// same non-empty `gesture` become one until end_gesture().
+  bool apply(std::string what, const std::function<bool(PresetEditor&)>& change, std::string_view gesture = {});
+  void end_gesture() { gesture_open_ = false; }
+  bool gesture_open() const { return gesture_open_; }
+
+  bool toggle();         ///< the other slot becomes the active one; true if the preset is another one now
+  void copy_to_other();  ///< what is active, into the other slot
+
+  /// The active slot's values were written to a file: undoing earlier changes must not bring the old file back.
+  Status save_as(const std::filesystem::path& folder, const std::string& name, PresetAbout about);
+
+  bool can_undo() const { return at_ > 0; }
+  bool can_redo() const { return at_ + 1 < steps_.size(); }
+  const std::string& undo_name() const { return steps_[at_].what; }      ///< precondition: can_undo()
+  const std::string& redo_name() const { return steps_[at_ + 1].what; }  ///< precondition: can_redo()
+  bool undo();
+  bool redo();
+
+ private:
+  struct Step {
+    std::array<PresetEditor, 2> slots;
+    std::size_t active;
+    std::string what, gesture;
+  };
+  const Step& now() const { return steps_[at_]; }
+  void push(Step step);
+
+  std::vector<Step> steps_;
+  std::size_t at_ = 0;
+  bool gesture_open_ = false;
+};
+
+/// "A" or "B".
+const char* slot_name(std::size_t slot);
+
+/// Keys in which two presets differ; `loaded` is the first's value, `now` the second's.
+std::vector<PresetChange> differences(const Preset& first, const Preset& second);
+
+}  // namespace tangent

@@ -1,0 +1,74 @@
+// The mesh (or polygon) that is explored: which one, how its file is read, how healthy it is. Opened on a worker,
+// unless the window is deterministic.
+#pragma once
+
+#include "workbench/gui/model/app_options.h"
+#include "workbench/gui/model/message_log.h"
+#include "workbench/gui/model/preset_model.h"
+#include "workbench/gui/model/scene_loader.h"
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace tangent {
+
+/// The current scene is another one now.
+struct SceneChange {
+  PreparedScenePtr prepared;  ///< for the servo
+  bool opened = false;        ///< false: the same mesh, built with another option
+};
+
+class SceneModel {
+ public:
+  /// `changed` is called whenever current() is another scene.
+  SceneModel(const AppOptions& options, const PresetModel& presets, MessageLog& messages,
+             std::function<void(SceneChange)> changed);
+
+  void open_first(const std::string& mesh);  ///< empty, or when it can't be opened: the built-in scene
+  void open(const std::string& mesh);        ///< a file or a generated object
+  void update();                             ///< takes in what the workers have done
+
+  /// Null until the first one is there.
+  const std::shared_ptr<const ContactScene>& current() const { return scene_; }
+  const PolygonMesh* polygons() const { return polygons_.get(); }
+  const std::string& path() const { return path_; }
+  bool loading() const { return loader_.busy(); }
+  const std::string& loading_name() const { return loader_.name(); }
+  double load_seconds() const { return load_seconds_; }
+
+  // Null until they are there.
+  const MeshAudit* audit() const { return report_ ? &report_->audit : nullptr; }
+  const PerceptionAudit* perception() const { return report_ ? &report_->perception : nullptr; }
+  const MeshFindings* findings() const { return report_ ? &report_->findings : nullptr; }
+  bool auditing() const { return loader_.auditing(); }
+
+  // How the file is read; a change reads or builds the mesh anew.
+  double metres_per_unit() const { return metres_per_unit_; }
+  void set_unit(double metres_per_unit);
+  std::optional<double> fit_m() const { return mesh_options_.fit_m; }
+  void set_fit(std::optional<double> fit_m);  ///< longest side; none: as in the file
+  double crease_angle_rad() const { return mesh_options_.crease_rad; }
+  void set_crease_angle(double rad);  ///< the view stays
+
+ private:
+  void load(std::shared_ptr<const PolygonMesh> polygons);
+  void take(LoadedScene loaded);
+  void warn_of_size();
+
+  const PresetModel& presets_;
+  MessageLog& messages_;
+  std::function<void(SceneChange)> changed_;
+  const bool deterministic_;
+  double metres_per_unit_;
+  ContactMeshOptions mesh_options_;
+  SceneLoader loader_;
+  std::string path_, opening_path_;
+  std::shared_ptr<const ContactScene> scene_;
+  std::shared_ptr<const PolygonMesh> polygons_;
+  std::optional<MeshReport> report_;
+  double load_seconds_ = 0.0;
+};
+
+}  // namespace tangent

@@ -1,0 +1,34 @@
+// What a tick contributes to the plots.
+#pragma once
+
+#include "workbench/session/session.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace tangent {
+
+/// Channels of the plots, SI.
+enum class Channel : std::uint8_t {
+  force_x,
+  force_y,
+  force_z,
+  force_magnitude,
+  cld_commanded,
+  cld_measured,
+  error,
+  iterations,
+  tick_time,
+  event,  ///< EventRank as a number; gaps where nothing happened
+  count_
+};
+inline constexpr std::size_t kChannelCount = static_cast<std::size_t>(Channel::count_);
+
+/// What a tick is marked with in the plots; a column of pixels shows the highest of its ticks.
+enum class EventRank : std::uint8_t { moved = 1, reseeded, unconverged, fault };
+
+/// By channel.
+std::array<float, kChannelCount> channel_row(const ServoRecord& record);
+
+}  // namespace tangent

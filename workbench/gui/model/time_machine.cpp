@@ -1,0 +1,220 @@
+#include "workbench/gui/model/time_machine.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+namespace tangent {
+
+namespace {
+
+/// What is in view is answered first, up to so many ticks, where the past is kMuchLonger than that.
+constexpr std::size_t kViewTicks = 60 * 1024;
+constexpr std::size_t kMuchLonger = 4;
+/// A run over the whole past that has taken this long gives way to a newer wish.
+constexpr std::chrono::milliseconds kPatience{50};
+
+std::shared_ptr<const ChannelStore> make_channels(const RecordedRun& run, const ResolvedHistory& numbers) {
+  if (run.records.empty()) return std::make_shared<ChannelStore>(kGhostChannelCount, 1);
+  const std::uint64_t first = run.records.oldest().tick.tick, end = run.records.newest().tick.tick + 1;
+  std::vector<float> rows(kGhostChannelCount * (end - first), std::numeric_limits<float>::quiet_NaN());
+  for (const ResolvedTick& tick : numbers.ticks) {
+    if (!tick.solved) continue;
+    float* row = rows.data() + kGhostChannelCount * (tick.tick - first);
+    const float x = tick.force_n[0], y = tick.force_n[1], z = tick.force_n[2];
+    const float values[kGhostChannelCount] = {
+        x, y, z, std::sqrt(x * x + y * y + z * z), tick.cld_m, tick.error_m, static_cast<float>(tick.iterations)};
+    std::copy(std::begin(values), std::end(values), row);
+  }
+  auto store = std::make_shared<ChannelStore>(kGhostChannelCount, end - first);
+  store->assign(first, rows);
+  return store;
+}
+
+}  // namespace
+
+/// One run of the past under one preset, shared by the threads that work on it.
+struct TimeMachine::Job {
+  Job(RecordedRun part, std::optional<Preset> under, bool timed)
+      : run(std::move(part)), preset(under), resolver(run, under, timed), chunks(resolver.chunk_count()) {}
+
+  const RecordedRun run;
+  const std::optional<Preset> preset;  ///< none: verifies
+  HistoryResolver resolver;
+  const std::size_t chunks;
+  bool whole = false;
+  std::uint64_t generation = 0;
+  const std::chrono::steady_clock::time_point began = std::chrono::steady_clock::now();
+  std::atomic<std::size_t> next{0}, done{0};
+  std::atomic<bool> cancelled{false};
+};
+
+TimeMachine::TimeMachine(unsigned threads) {
+  for (unsigned i = 0; i < threads; ++i) threads_.emplace_back([this](std::stop_token stop) { work(std::move(stop)); });
+}
+
+TimeMachine::~TimeMachine() {
+  close();
+  for (std::jthread& thread : threads_) thread.request_stop();
+  wake_.notify_all();
+}
+
+void TimeMachine::open(RecordedRun run) {
+  close();
+  const std::scoped_lock lock(guard_);
+  run_ = std::make_shared<const RecordedRun>(std::move(run));
+  want_verified_ = true;
+  schedule();
+}
+
+void TimeMachine::close() {
+  const std::scoped_lock lock(guard_);
+  if (job_) job_->cancelled = true;
+  job_.reset();
+  run_.reset();
+  wanted_.reset();
+  want_view_ = want_whole_ = want_verified_ = false;
+  ghost_.reset();
+  verified_.reset();
+  ++generation_;
+}
+
+void TimeMachine::request(const Preset& preset, double from_tick, double to_tick) {
+  if (!run_) return;
+  const std::scoped_lock lock(guard_);
+  wanted_ = preset;
+  from_ = from_tick;
+  to_ = to_tick;
+  want_view_ = want_whole_ = true;
+  // A run over what is in view is nearly done; the rest, and the check, can wait.
+  if (job_ && job_->whole && std::chrono::steady_clock::now() - job_->began > kPatience) {
+    if (!job_->preset) want_verified_ = true;
+    job_->cancelled = true;
+    job_.reset();
+  }
+  schedule();
+}
+
+void TimeMachine::forget_request() {
+  const std::scoped_lock lock(guard_);
+  if (job_ && job_->preset) {
+    job_->cancelled = true;
+    job_.reset();
+  }
+  wanted_.reset();
+  want_view_ = want_whole_ = false;
+  ghost_.reset();
+  ++generation_;
+  schedule();
+}
+
+bool TimeMachine::busy() const {
+  const std::scoped_lock lock(guard_);
+  return job_ != nullptr || want_view_ || want_whole_ || want_verified_;
+}
+
+std::shared_ptr<const Ghost> TimeMachine::ghost() const {
+  const std::scoped_lock lock(guard_);
+  return ghost_;
+}
+
+std::shared_ptr<const Ghost> TimeMachine::verified() const {
+  const std::scoped_lock lock(guard_);
+  return verified_;
+}
+
+std::shared_ptr<TimeMachine::Job> TimeMachine::make_job(std::optional<Preset> preset, std::size_t begin,
+                                                        std::size_t end) const {
+  RecordedRun part = *run_;
+  part.records = run_->records.slice(begin, end);
+  auto job = std::make_shared<Job>(std::move(part), std::move(preset), !threads_.empty());
+  job->whole = begin == 0 && end == run_->records.size();
+  job->generation = generation_;
+  return job;
+}
+
+/// The next job, if none is under way. Under the lock.
+void TimeMachine::schedule() {
+  while (!job_ && run_) {
+    const std::size_t size = run_->records.size();
+    if (want_view_) {
+      want_view_ = false;
+      const auto to_record = [&](double tick) {
+        return run_->records.lower_bound(static_cast<std::uint64_t>(std::max(0.0, tick)));
+      };
+      const std::size_t end = to_record(to_),
+                        begin = std::max(to_record(from_), end > kViewTicks ? end - kViewTicks : 0);
+      if (begin >= end || (end - begin) * kMuchLonger > size) continue;
+      job_ = make_job(wanted_, begin, end);
+    } else if (want_whole_) {
+      want_whole_ = false;
+      job_ = make_job(wanted_, 0, size);
+    } else if (want_verified_) {
+      want_verified_ = false;
+      job_ = make_job(std::nullopt, 0, size);
+    } else {
+      return;
+    }
+    if (!threads_.empty()) {
+      wake_.notify_all();
+      return;
+    }
+    const std::shared_ptr<Job> job = job_;
+    for (std::size_t chunk = 0; chunk < job->chunks; ++chunk) job->resolver.solve_chunk(chunk);
+    publish(*job);
+  }
+}
+
+void TimeMachine::work(std::stop_token stop) {
+  while (!stop.stop_requested()) {
+    std::shared_ptr<Job> job;
+    {
+      std::unique_lock lock(guard_);
+      wake_.wait(lock, stop,
+                 [this] { return job_ != nullptr && job_->next.load() < std::max<std::size_t>(1, job_->chunks); });
+      if (stop.stop_requested()) return;
+      job = job_;
+    }
+    work_on(*job);
+  }
+}
+
+/// Whoever finishes the last chunk sums up.
+void TimeMachine::work_on(Job& job) {
+  for (;;) {
+    const std::size_t chunk = job.next.fetch_add(1);
+    if (chunk >= std::max<std::size_t>(1, job.chunks) || job.cancelled) return;
+    if (job.chunks > 0) job.resolver.solve_chunk(chunk);
+    if (job.done.fetch_add(1) + 1 < job.chunks) continue;
+    if (job.cancelled) return;
+    publish(job);
+    return;
+  }
+}
+
+/// Outside the lock with threads, so that the window never waits for it; without threads the lock is held anyway.
+void TimeMachine::publish(Job& job) {
+  auto ghost = std::make_shared<Ghost>();
+  ghost->numbers = job.resolver.finish();
+  ghost->whole = job.whole;
+  if (job.preset) {
+    ghost->preset = *job.preset;
+    ghost->channels = make_channels(job.run, ghost->numbers);
+  }
+  ghost->numbers.ticks = {};
+  const auto put = [&] {
+    if (job.generation != generation_ || job_.get() != &job) return;
+    (job.preset ? ghost_ : verified_) = std::move(ghost);
+    job_.reset();
+  };
+  if (threads_.empty()) {
+    put();
+    return;
+  }
+  const std::scoped_lock lock(guard_);
+  put();
+  schedule();
+}
+
+}  // namespace tangent

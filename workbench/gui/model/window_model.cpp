@@ -1,0 +1,85 @@
+#include "workbench/gui/model/window_model.h"
+
+#include "core/preset/schema.h"
+
+#include <algorithm>
+
+namespace tangent {
+
+namespace {
+
+constexpr double kSettingsEvery_s = 2.0;
+
+}  // namespace
+
+WindowModel::WindowModel(const AppOptions& options, MessageLog& messages)
+    : settings_file_(options.settings), messages_(messages), theme_(options.theme) {}
+
+std::optional<KeptLook> WindowModel::read_settings() {
+  if (auto read = read_window_settings(settings_file_))
+    settings_ = std::move(*read);
+  else
+    messages_.say(Severity::warning, read.error().message());
+  written_settings_ = settings_;
+  if (settings_file_.empty()) return std::nullopt;
+  sizes_.left = static_cast<float>(settings_.left);
+  sizes_.right = static_cast<float>(settings_.right);
+  sizes_.plots = static_cast<float>(settings_.plots);
+  sizes_.show_left = settings_.show_left;
+  sizes_.show_right = settings_.show_right;
+  sizes_.show_plots = settings_.show_plots;
+  theme_ = settings_.light_theme ? Theme::light : Theme::dark;
+  ui_scale_ = static_cast<float>(settings_.text_size);
+  favourites_ = settings_.favourites;
+  KeptLook look{settings_.y_up};
+  const auto names = colour_map_names();
+  const auto found = std::find(names.begin(), names.end(), settings_.colour_map);
+  if (found != names.end()) look.colours = static_cast<ColourMap>(found - names.begin());
+  return look;
+}
+
+void WindowModel::update(double now_s, const KeptLook& look) {
+  now_s_ = now_s;
+  if (now_s_ - settings_looked_at_s_ > kSettingsEvery_s) keep_settings(look);
+}
+
+void WindowModel::keep_settings(const KeptLook& look) {
+  settings_looked_at_s_ = now_s_;
+  settings_.left = static_cast<double>(sizes_.left);
+  settings_.right = static_cast<double>(sizes_.right);
+  settings_.plots = static_cast<double>(sizes_.plots);
+  settings_.show_left = sizes_.show_left;
+  settings_.show_right = sizes_.show_right;
+  settings_.show_plots = sizes_.show_plots;
+  settings_.light_theme = theme_ == Theme::light;
+  settings_.text_size = static_cast<double>(ui_scale_);
+  settings_.y_up = look.y_up;
+  settings_.favourites = favourites_;
+  settings_.colour_map = colour_map_names()[static_cast<std::size_t>(look.colours)];
+  if (settings_file_.empty() || settings_ == written_settings_) return;
+  if (auto written = write_window_settings(settings_, settings_file_); !written)
+    messages_.say(Severity::warning, written.error().message());
+  written_settings_ = settings_;  // said once, not every two seconds
+}
+
+void WindowModel::set_ui_scale(float scale) { ui_scale_ = std::clamp(scale, 0.6f, 3.0f); }
+
+void WindowModel::show_section(const std::string& title, bool in_left_column) {
+  (in_left_column ? sizes_.show_left : sizes_.show_right) = true;
+  section_wanted_ = title;
+}
+
+void WindowModel::reset_layout() {
+  sizes_ = {};
+  settings_.sections.clear();
+}
+
+bool WindowModel::is_favourite(const PresetKey& key) const {
+  return std::find(favourites_.begin(), favourites_.end(), key.full_name()) != favourites_.end();
+}
+
+void WindowModel::toggle_favourite(const PresetKey& key) {
+  if (std::erase(favourites_, key.full_name()) == 0) favourites_.push_back(key.full_name());
+}
+
+}  // namespace tangent

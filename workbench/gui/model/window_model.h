@@ -1,0 +1,71 @@
+// The window itself: its layout and look, what of it is kept between runs, and the wish to close it.
+#pragma once
+
+#include "workbench/gui/layout/layout.h"
+#include "workbench/gui/model/app_options.h"
+#include "workbench/gui/model/message_log.h"
+#include "workbench/gui/theme/colour_map.h"
+#include "workbench/session/window_settings.h"
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tangent {
+
+struct PresetKey;
+
+/// What of other parts is kept between runs.
+struct KeptLook {
+  bool y_up = false;
+  ColourMap colours = ColourMap::tide;
+};
+
+class WindowModel {
+ public:
+  WindowModel(const AppOptions& options, MessageLog& messages);
+
+  /// As the last run left the window; none: settings are not kept.
+  std::optional<KeptLook> read_settings();
+  /// Once a frame; writes what has changed, every now and then.
+  void update(double now_s, const KeptLook& look);
+  void keep_settings(const KeptLook& look);
+  void opened(const std::string& mesh) { settings_.opened(mesh); }
+  const WindowSettings& settings() const { return settings_; }  ///< as of the last frame
+
+  LayoutSizes& sizes() { return sizes_; }
+  const LayoutSizes& sizes() const { return sizes_; }
+  Theme theme() const { return theme_; }
+  void set_theme(Theme theme) { theme_ = theme; }
+  float ui_scale() const { return ui_scale_; }  ///< the user's own factor on top of the monitor's
+  void set_ui_scale(float scale);
+  std::map<std::string, bool>& open_sections() { return settings_.sections; }
+  /// Unfolds a section and scrolls its column to it; the column is shown.
+  void show_section(const std::string& title, bool in_left_column);
+  std::string& section_wanted() { return section_wanted_; }
+  void reset_layout();  ///< sizes and sections as they were at first
+
+  std::vector<std::string>& favourites() { return favourites_; }  ///< full names of preset keys, in order
+  const std::vector<std::string>& favourites() const { return favourites_; }
+  bool is_favourite(const PresetKey& key) const;
+  void toggle_favourite(const PresetKey& key);
+
+  void ask_to_close() { wants_close_ = true; }
+  bool wants_close() const { return wants_close_; }
+
+ private:
+  const std::filesystem::path settings_file_;  ///< empty: nothing is kept
+  MessageLog& messages_;
+  LayoutSizes sizes_;
+  Theme theme_;
+  float ui_scale_ = 1.0f;
+  WindowSettings settings_, written_settings_;
+  double now_s_ = 0.0, settings_looked_at_s_ = 0.0;
+  std::vector<std::string> favourites_;
+  std::string section_wanted_;
+  bool wants_close_ = false;
+};
+
+}  // namespace tangent

@@ -1,0 +1,50 @@
+// Look of the window: colours, spacing and fonts. One accent colour; text in Inter, numbers in JetBrains
+// Mono, both from Debian's packages (fonts-inter, fonts-jetbrains-mono). Colours of quantities: palette.h.
+#pragma once
+
+#include "workbench/gui/theme/palette.h"
+
+#include <imgui.h>
+
+#include <string>
+#include <vector>
+
+namespace tangent {
+
+/// Colours of the interface that stand for no quantity. Packed as ImGui does.
+struct ThemeColours {
+  ImU32 window;        ///< between the panels
+  ImU32 panel;         ///< behind widgets
+  ImU32 panel_header;  ///< section titles
+  ImU32 field;         ///< type-in boxes, slider grooves
+  ImU32 plot;          ///< behind curves
+  ImU32 grid, grid_minor;
+  ImU32 border;
+  ImU32 text, text_dim, text_faint;
+  ImU32 accent, accent_soft;  ///< soft: translucent, fills behind text
+  ImU32 accent_fill;          ///< the same over a panel, opaque: buttons that are on
+  ImU32 good, warning, bad;
+};
+
+/// Fonts of the present atlas. All non-null once `load_fonts` ran.
+struct ThemeFonts {
+  ImFont* text = nullptr;          ///< Inter
+  ImFont* strong = nullptr;        ///< Inter SemiBold: section titles
+  ImFont* small = nullptr;         ///< Inter: captions
+  ImFont* number = nullptr;        ///< JetBrains Mono
+  ImFont* small_number = nullptr;  ///< JetBrains Mono: axis labels
+};
+
+const ThemeColours& theme_colours(Theme theme);
+
+/// Style and colours of the present ImGui context, lengths times `scale`.
+void apply_theme(Theme theme, float scale);
+
+/// Replaces the atlas of the present context by our fonts at `scale`. A font file that isn't there is
+/// replaced by ImGui's own font; `missing` then gets one line naming the package.
+ThemeFonts load_fonts(float scale, std::vector<std::string>& missing);
+
+inline ImU32 colour(const Rgba& c) { return packed(c); }
+inline ImU32 colour(const Rgba& c, float alpha) { return packed(with_alpha(c, alpha)); }
+
+}  // namespace tangent

@@ -1,0 +1,80 @@
+// The few widgets of our own: value fields that slide and take typed values on Enter or when they lose the focus,
+// section headings, rows of facts, drawn icons. Each notes itself in the item map.
+#pragma once
+
+#include "workbench/gui/widgets/ui_context.h"
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace tangent {
+
+/// A section's title bar; click folds it, which is kept between runs. Returns whether the contents are to be drawn.
+bool section(const UiContext& ui, const char* title, bool open_at_first);
+
+/// A box that shows `text` (a formatted number). Returns what was typed, once, on Enter, Tab or a click
+/// elsewhere; nothing on Escape or when it wasn't changed. `focus`: starts typing now.
+std::optional<std::string> number_box(const UiContext& ui, std::string_view path, float width, const std::string& text,
+                                      bool focus = false);
+
+/// Slider and number box in one, as in Blender: a filled field with value and unit; dragging slides (with Shift ten
+/// times finer), a click types.
+struct ValueField {
+  float width = 100.0f;
+  double share = 0.0;  ///< 0..1 of the range, filled
+  std::string text;    ///< the value
+  std::string_view unit;
+};
+struct ValueFieldResult {
+  std::optional<double> slid;        ///< new share
+  std::optional<std::string> typed;  ///< committed text
+};
+ValueFieldResult value_field(const UiContext& ui, std::string_view path, const ValueField& field);
+
+enum class Icon {
+  first,
+  step_back,
+  pause,
+  play,
+  step_forward,
+  live,
+  previous,
+  next,
+  reset,
+  bookmark,
+  bookmark_back,
+  bookmark_on
+};
+/// A square button with a drawn icon; `on` tints it with the accent.
+bool icon_button(const UiContext& ui, std::string_view path, Icon icon, const char* tooltip, bool on = false,
+                 bool enabled = true);
+/// Five points about `centre`, filled.
+void draw_star(ImDrawList& draw, ImVec2 centre, float radius, ImU32 ink);
+/// A text button that stays pressed.
+bool toggle_button(const UiContext& ui, std::string_view path, const char* text, bool& on, const char* tooltip);
+bool text_button(const UiContext& ui, std::string_view path, const char* text, const char* tooltip);
+/// The input field submitted next under this label takes what is typed from this frame on. (SetKeyboardFocusHere would
+/// take two frames more, and what is typed meanwhile would be lost.)
+void edit_next(const char* label);
+/// A field takes what is typed, at this moment. (io.WantTextInput still says so a frame after Enter.)
+bool text_is_edited();
+/// A combo box. Each choice is noted as path/choice while it is open. Returns whether another one was chosen; with
+/// `again` also when it was the present one.
+bool choice_row(const UiContext& ui, std::string_view path, float width, std::span<const std::string_view> choices,
+                int& chosen, bool again = false);
+
+/// "label ........ value unit": label dim, value in the number font, right-aligned.
+void fact(const UiContext& ui, const char* label, const std::string& value, const char* unit = "",
+          std::optional<ImU32> ink = std::nullopt);
+
+/// Shown when the last item is hovered for a moment and no button of the mouse is down; wrapped at a readable width.
+void tooltip(const UiContext& ui, std::string_view text);
+
+/// printf into a string.
+std::string printed(const char* pattern, ...) __attribute__((format(printf, 1, 2)));
+/// Six significant digits, no trailing zeros: "0.02", "1e-06", "1234.5".
+std::string short_number(double value);
+
+}  // namespace tangent
