@@ -126,9 +126,6 @@ inline constexpr double kUnresolvedMargin = 0.5 / kWatchTicks;
 /// Contacts whose surroundings one search for rivals remembers, 1.
 inline constexpr std::size_t kKnownContacts = 8;
 
-/// Bisections spent on widening the margin of one patch. More: fewer searches, each dearer.
-inline constexpr int kSharpenings = 3;
-
 /// Bisections of a patch in search of a contact, and parts looked at in all. More: fewer false alarms, each of which
 /// costs a few surface evaluations; fewer: cheaper where many contacts are near.
 inline constexpr int kBisections = 12, kBisectionTests = 48;

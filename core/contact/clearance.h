@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <span>
 
 namespace tangent {
 
@@ -21,14 +22,18 @@ struct WatchedTriangle {
 /// Within it nothing is asked, however long the finger moves there. All distances are the finger's from `centre` and
 /// `orientation` (prove/clearance_check.h: gone_m).
 struct Clearance {
-  static constexpr std::size_t kWatched = 8;
+  static constexpr std::size_t kWatched = 64;
   Vec3 centre{0.0};  ///< local
   Quat orientation{1.0, 0.0, 0.0, 0.0};
   double free_m = -1.0;  ///< radius of the ball: up to here nothing needs to be looked at; negative: not known
   double margin_m =
       -1.0;               ///< up to here no triangle outside the tracked basin and the watched ones holds a contact ...
   double height_m = 0.0;  ///< ... of a rank below this less the distance gone
-  std::array<WatchedTriangle, kWatched> watched;
+  std::uint32_t watched_count = 0;
+  std::array<WatchedTriangle, kWatched> watched;  ///< the first watched_count, in no order
+
+  std::span<WatchedTriangle> on_watch() { return {watched.data(), watched_count}; }
+  std::span<const WatchedTriangle> on_watch() const { return {watched.data(), watched_count}; }
 
   /// No other place counts as deeper, however far the finger goes: the contact is only followed.
   static Clearance unlimited() {

@@ -4,11 +4,11 @@
 
 namespace tangent {
 
-void PatchCache::fill(CachedPatch& slot, std::uint32_t t, NormalForm form) {
-  slot.patch = make_patch(*mesh_, t, form);
-  slot.flat = is_flat(slot.patch, kStraightEdge);
-  slot.triangle = t;
-  slot.form = form;
+void PatchCache::fill(std::uint32_t slot, std::uint32_t t, NormalForm form) {
+  CachedPatch& cached = patches_[slot];
+  cached.patch = make_patch(*mesh_, t, form);
+  cached.flat = is_flat(cached.patch, kStraightEdge);
+  held_[slot] = {t, form};
 }
 
 void PatchCache::fill(CachedFan& slot, std::uint32_t t, std::uint32_t side, NormalForm form) {

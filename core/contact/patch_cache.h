@@ -8,15 +8,21 @@
 #include "core/surface/mesh_patch.h"
 
 #include <array>
+#include <memory>
+#include <vector>
 
 namespace tangent {
 
-/// A patch and what it was built from.
 struct CachedPatch {
+  bool flat;
+  PnPatch patch;
+};
+
+/// What a patch was built from.
+struct PatchKey {
   std::uint32_t triangle = kNone;
   NormalForm form = NormalForm::bernstein;
-  bool flat = false;
-  PnPatch patch;
+  bool operator==(const PatchKey&) const = default;
 };
 
 /// A crease or boundary edge, the fan at the place where it was asked for last, and what they were built from.
@@ -53,7 +59,8 @@ struct VertexSurroundings {
 
 class PatchCache {
  public:
-  explicit PatchCache(const ContactMesh& mesh) : mesh_(&mesh) {}
+  explicit PatchCache(const ContactMesh& mesh)
+      : mesh_(&mesh), held_(kPatches), patches_(std::make_unique_for_overwrite<CachedPatch[]>(kPatches)) {}
 
   const ContactMesh& mesh() const { return *mesh_; }
 
@@ -102,21 +109,23 @@ class PatchCache {
   }
 
  private:
-  /// Direct-mapped. A contact revisits the few triangles around it.
-  static constexpr std::uint32_t kSlots = 16;
-  CachedPatch& patch_slot(std::uint32_t t, NormalForm form) {
-    CachedPatch& slot = slots_[t % kSlots];
-    if (slot.triangle != t || slot.form != form) fill(slot, t, form);
-    return slot;
+  /// Direct-mapped. A contact revisits the few triangles around it, a search those of the last one: on rough ground
+  /// hundreds.
+  static constexpr std::uint32_t kPatches = 512, kSlots = 16;
+  const CachedPatch& patch_slot(std::uint32_t t, NormalForm form) {
+    const std::uint32_t slot = t % kPatches;
+    if (held_[slot] != PatchKey{t, form}) fill(slot, t, form);
+    return patches_[slot];
   }
-  void fill(CachedPatch& slot, std::uint32_t t, NormalForm form);
+  void fill(std::uint32_t slot, std::uint32_t t, NormalForm form);
   void fill(CachedFan& slot, std::uint32_t t, std::uint32_t side, NormalForm form);
   void fill(VertexSurroundings& vertex, std::uint32_t t, std::uint32_t corner, NormalForm form);
   template <class OnFace, class OnRay>
   void compute_around(std::uint32_t t, std::uint32_t corner, NormalForm form, OnFace on_face, OnRay on_ray);
 
   const ContactMesh* mesh_;
-  std::array<CachedPatch, kSlots> slots_;
+  std::vector<PatchKey> held_;
+  std::unique_ptr<CachedPatch[]> patches_;  ///< as held_ says
   std::array<CachedFan, kSlots> fans_;
   VertexSurroundings vertex_;
 };

@@ -41,13 +41,18 @@ bool on_slope(const Vec3& point, const Vec3& normal, const KnownContact& known) 
 struct PatchPlaces {
   std::array<Vec3, 6> point, normal;
 
+  /// The middles from the control points of their own side: half way the Bernstein weights are 1 3 3 1 and 1 2 1.
   explicit PatchPlaces(const PnPatch& patch) {
+    constexpr ControlPoint kFirst[3] = {b210, b021, b102}, kSecond[3] = {b120, b012, b201};
+    constexpr ControlNormal kMixed[3] = {n110, n011, n101};
     for (std::uint32_t k = 0; k < 3; ++k) {
-      const Vec2 middle = edge_point_uv(k, 0.5);
+      const std::uint32_t j = (k + 1) % 3;
       point[k] = patch.control_point(k);
       normal[k] = patch.normals[k];
-      point[3 + k] = evaluate_point(patch, middle.x, middle.y);
-      normal[3 + k] = evaluate_normal(patch, middle.x, middle.y);
+      point[3 + k] = patch.origin + 0.125 * (patch.offsets[k] + patch.offsets[j] +
+                                             3.0 * (patch.offsets[kFirst[k]] + patch.offsets[kSecond[k]]));
+      const Vec3 middle = patch.normals[k] + patch.normals[j] + patch.mixed_weight * patch.normals[kMixed[k]];
+      normal[3 + k] = middle / std::sqrt(glm::dot(middle, middle));
     }
   }
 
@@ -76,12 +81,18 @@ bool same_basin(PatchCache& cache, NormalForm form, std::uint32_t t, const Known
   const ContactMesh& mesh = cache.mesh();
   if (t == known.triangle) return true;
   if (known.feature != Feature::face && shares_feature(mesh, t, known)) return true;
+  const double widest = known.size_m + kGentleReach * margin_m;
+  for (std::uint32_t k = 0; k < 3; ++k) {  // most fail here
+    const Vec3 along = mesh.position(t, k) - known.point;
+    if (glm::dot(along, along) > widest * widest) return false;
+  }
   for (std::uint32_t k = 0; k < 3; ++k) {
-    const Vec3 corner = mesh.position(t, k), normal = mesh.normal(t, k), along = corner - known.point;
+    const Vec3 &corner = mesh.position(t, k), &normal = mesh.normal(t, k);
+    const Vec3 along = corner - known.point;
     const double agreement = glm::dot(normal, known.normal);
-    const double reach = known.size_m + (agreement > kGentleCosine ? kGentleReach : kBasinReach) * margin_m;
-    if (glm::dot(along, along) > reach * reach || agreement < kBasinCosine || !on_slope(corner, normal, known))
-      return false;
+    if (agreement < kBasinCosine) return false;
+    const double reach = agreement > kGentleCosine ? widest : known.size_m + kBasinReach * margin_m;
+    if (glm::dot(along, along) > reach * reach || !on_slope(corner, normal, known)) return false;
   }
   // Normals turn more within a patch than between its corners.
   const PatchPlaces places(cache.patch(t, form));

@@ -12,8 +12,7 @@ double turned_m(const Finger& finger, const Quat& from, const Quat& to) {
 // Shortened by far more than floats are rounded by: at a margin itself a contact may be there.
 void set_free(Clearance& known) {
   double least = known.margin_m;
-  for (const WatchedTriangle& watched : known.watched)
-    if (watched.triangle != kNone) least = std::min(least, double{watched.margin_m});
+  for (const WatchedTriangle& watched : known.on_watch()) least = std::min(least, double{watched.margin_m});
   known.free_m = (1.0 - 1e-6) * least;
 }
 
@@ -23,7 +22,7 @@ void recentre(Clearance& known, const FingerPose& pose, double gone) {
   known.orientation = pose.orientation;
   known.margin_m -= gone;
   known.height_m -= gone;
-  for (WatchedTriangle& watched : known.watched) watched.margin_m -= static_cast<float>(gone);
+  for (WatchedTriangle& watched : known.on_watch()) watched.margin_m -= static_cast<float>(gone);
   set_free(known);
 }
 

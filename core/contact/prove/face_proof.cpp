@@ -44,6 +44,7 @@ struct ProductTable {
 };
 constexpr ProductTable kProduct;
 
+Vec2 perpendicular(const Vec2& a) { return {-a.y, a.x}; }
 double cross(const Vec2& a, const Vec2& b) { return a.x * b.y - a.y * b.x; }
 
 /// f over a part of the patch whose corners lie at these (u, v).
@@ -51,13 +52,13 @@ struct Part {
   QuinticMap f;
   std::array<Vec2, 3> corner;
   int depth = 0;
-  double at_least = 0.0;  ///< margin of the part it was halved from
 
-  /// Distance of 0 from the values of f, as far as the three lines along the images of the sides can tell: for a
-  /// linear f they bound its image exactly. 0 where they don't exclude it.
+  /// Distance of 0 from the values of f, as far as the three lines along the images of the sides and the one across the
+  /// direction to their middle can tell. 0 where they don't exclude it.
   double margin() const {
     const Vec2 f0 = at_corner(0), f1 = at_corner(1), f2 = at_corner(2);
-    return std::max({beside(f1 - f0), beside(f2 - f1), beside(f0 - f2)});
+    const double sides = std::max({beside(f1 - f0), beside(f2 - f1), beside(f0 - f2)});
+    return std::max(sides, beside(perpendicular(f0 + f1 + f2)));
   }
 
   /// Distance of 0 from the coefficients across direction `side`, 0 if they lie on both sides of it.
@@ -111,7 +112,6 @@ void turn(const Part& part, Part& turned) {
     for (int j = 0; i + j <= 5; ++j) turned.f[quintic_index(j, 5 - i - j)] = part.f[quintic_index(i, j)];
   turned.corner = {part.corner[1], part.corner[2], part.corner[0]};
   turned.depth = part.depth;
-  turned.at_least = part.at_least;
 }
 
 /// Whether a contact in this part could be stable: det M and trace M of the linear interpolation of f, where
@@ -124,8 +124,8 @@ bool could_be_stable(const Part& part, const Vec2& edge_u, const Vec2& edge_v) {
   return cross(xa, xb) * area >= 0.0 && (cross(xa, b) + cross(a, xb)) * area >= 0.0;
 }
 
-/// Excludes what can be of the parts of `whole`, each by `enough_m` if a few bisections give that much.
-void bisect_parts(const Part& whole, const Vec2& edge_u, const Vec2& edge_v, double enough_m, PatchExclusion& result) {
+/// Excludes what can be of the parts of `whole`.
+void bisect_parts(const Part& whole, const Vec2& edge_u, const Vec2& edge_v, PatchExclusion& result) {
   std::array<Part, kBisections + 2> stack;
   std::size_t size = 0;
   stack[size++] = whole;
@@ -134,10 +134,8 @@ void bisect_parts(const Part& whole, const Vec2& edge_u, const Vec2& edge_v, dou
   result.possible = false;
   for (int tests = 0; size > 0; ++tests) {
     const Part part = stack[--size];
-    const double here = std::max(part.margin(), part.at_least);
-    // Halving sharpens a margin, but only the least one counts.
-    const bool sharpen = here < enough_m && here < margin && part.depth < kSharpenings;
-    if (here > 0.0 && !sharpen) {
+    const double here = part.margin();
+    if (here > 0.0) {
       margin = std::min(margin, here);
       continue;
     }
@@ -148,13 +146,12 @@ void bisect_parts(const Part& whole, const Vec2& edge_u, const Vec2& edge_v, dou
       first.corner = {part.corner[0], middle, part.corner[2]};
       second.corner = {middle, part.corner[1], part.corner[2]};
       first.depth = second.depth = part.depth + 1;
-      first.at_least = second.at_least = here;
       turn(first, stack[size++]);
       turn(second, stack[size++]);
       continue;
     }
-    margin = std::min(margin, here);
-    if (here > 0.0 || !could_be_stable(part, edge_u, edge_v)) continue;
+    margin = 0.0;
+    if (!could_be_stable(part, edge_u, edge_v)) continue;
     const Vec2 uv = part.linear_zero();
     const Vec2 middle = (part.at_corner(0) + part.at_corner(1) + part.at_corner(2)) / 3.0;
     const double off = glm::dot(middle, middle);
@@ -234,19 +231,16 @@ PatchExclusion exclude_contact(const PnPatch& patch, const Vec3& centre, double 
   whole.corner = {Vec2(0.0, 0.0), Vec2(1.0, 0.0), Vec2(0.0, 1.0)};
   multiply_miss(d, n, whole.f, std::make_index_sequence<60>());
   PatchExclusion result;
-  const double at_once = whole.margin();
-  if (at_once > 0.0 && at_once >= enough_m) {
-    result.margin_m = at_once;
-    result.possible = false;
-    return result;
-  }
+  result.margin_m = whole.margin();
+  if (result.margin_m > 0.0) result.possible = false;
+  if (result.margin_m > 0.0 && result.margin_m >= enough_m) return result;
   Quintic height{};
   multiply_height(d, n, height, std::make_index_sequence<60>());
   result.least_height_m = std::max(0.0, *std::min_element(height.begin(), height.end()));
+  if (!result.possible) return result;
   const Vec3& e1 = patch.offsets[b030];
   const Vec3& e2 = patch.offsets[b003];
-  bisect_parts(whole, {glm::dot(e1, t), glm::dot(e1, s)}, {glm::dot(e2, t), glm::dot(e2, s)}, enough_m, result);
-  result.margin_m = std::max(result.margin_m, at_once);
+  bisect_parts(whole, {glm::dot(e1, t), glm::dot(e1, s)}, {glm::dot(e2, t), glm::dot(e2, s)}, result);
   if (result.margin_m > 0.0) result.possible = false;
   if (!result.possible) return result;
   result.height_m = estimated_height(patch, c, result.u, result.v, result.point);

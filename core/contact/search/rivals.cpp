@@ -77,13 +77,18 @@ class RivalSearch {
   /// Only the watched triangles whose time has come; `result.clearance` counts from the present pose.
   void once_more(RivalResult& result) {
     Clearance& clearance = result.clearance;
-    for (WatchedTriangle& watched : clearance.watched) {
-      if (watched.triangle == kNone || watched.margin_m > 0.0f) continue;
+    std::uint32_t kept = 0;
+    for (const WatchedTriangle& watched : clearance.on_watch()) {
+      if (watched.margin_m > 0.0f) {
+        clearance.watched[kept++] = watched;
+        continue;
+      }
       const Look look = look_at(watched.triangle, clearance.margin_m, result);
       if (look.contact) clearance.margin_m = std::min(clearance.margin_m, look.margin_m);
-      watched.margin_m = static_cast<float>(look.margin_m);
-      if (look.contact || look.margin_m >= clearance.margin_m) watched = {};
+      if (!look.contact && look.margin_m < clearance.margin_m)
+        clearance.watched[kept++] = {watched.triangle, static_cast<float>(look.margin_m)};
     }
+    clearance.watched_count = kept;
     set_free(clearance);
   }
 
@@ -93,20 +98,21 @@ class RivalSearch {
     return settings;
   }
 
-  /// Puts a triangle on the list if it is among the soonest. Returns the margin of the one that is not.
-  double watch(Clearance& clearance, std::uint32_t t, double margin) {
+  /// Puts a triangle on the list if it is among the soonest. Returns the margin of the one that is not. A heap while it
+  /// grows, the latest on top.
+  static double watch(Clearance& clearance, std::uint32_t t, double margin) {
     if (margin >= clearance.margin_m) return margin;
-    WatchedTriangle* latest = &clearance.watched[0];
-    for (WatchedTriangle& w : clearance.watched) {
-      if (w.triangle == kNone) {
-        w = {t, static_cast<float>(margin)};
-        return kForever;
-      }
-      if (w.margin_m > latest->margin_m) latest = &w;
+    const auto sooner = [](const WatchedTriangle& a, const WatchedTriangle& b) { return a.margin_m < b.margin_m; };
+    const auto first = clearance.watched.begin();
+    double dropped = kForever;
+    if (clearance.watched_count == Clearance::kWatched) {
+      if (margin >= first->margin_m) return margin;
+      dropped = first->margin_m;
+      std::pop_heap(first, clearance.watched.end(), sooner);
+      --clearance.watched_count;
     }
-    if (margin >= latest->margin_m) return margin;
-    const double dropped = latest->margin_m;
-    *latest = {t, static_cast<float>(margin)};
+    first[clearance.watched_count++] = {t, static_cast<float>(margin)};
+    std::push_heap(first, first + clearance.watched_count, sooner);
     return dropped;
   }
 

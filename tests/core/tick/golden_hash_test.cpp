@@ -211,6 +211,7 @@ TEST_CASE("a preset changed between ticks acts on the next tick, and back again 
 TEST_CASE("a tick's kept state is plain bytes: a copy of it goes on in the same way") {
   static_assert(std::is_trivially_copyable_v<TickState>);
   static_assert(std::is_trivially_copyable_v<TickRecord>);
+  static_assert(sizeof(TickState) <= 1024);
   const auto scene = scenes()[1];
   const Preset preset = golden_preset(Method::robust);
   Stepper a(scene), b(scene);
