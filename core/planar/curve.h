@@ -8,6 +8,7 @@
 // Coordinates are local: relative to the centre of the polygon's box.
 #pragma once
 
+#include "core/planar/patch_index.h"
 #include "core/planar/polygon.h"
 #include "core/preset/preset.h"
 
@@ -31,8 +32,8 @@ struct CurvePatch {
   std::array<double, 2> turn_rad;  ///< by LocalCentre: angle from P1 to P3 about it, signed
   bool straight = false;           ///< P1, P2, P3 on one line: parameters are parts of the way
   CurveJoint joint_before = CurveJoint::smooth, joint_after = CurveJoint::smooth;
-  Vec2 disc_centre;          ///< a disc that holds the patch
-  double disc_radius = 0.0;  ///< m
+  PlanarBox box;                 ///< holds every place of the patch
+  std::array<double, 2> room_m;  ///< by LocalCentre: places leave the triangle P1, P2, P3 by at most this
 };
 
 /// The tangent line of a patch at t, with derivatives by t, and the place on it that has t as its parameter.
@@ -59,7 +60,11 @@ class PlanarCurve {
   double side() const { return side_; }  ///< +1: the finger is to the left, -1: to the right
   Vec2 normal_of(const Vec2& direction) const { return side_ * Vec2(-direction.y, direction.x); }
   Vec2 vertex(std::uint32_t i) const { return patches_[i].vertex; }
+  /// No place of the patch is nearer to `at` than this, m; below zero within its room.
+  double distance_bound_m(std::uint32_t patch, LocalCentre centre, const Vec2& at) const;
   double size_m() const { return size_; }  ///< longest side of the box
+  /// Patches by place. The box of item i also holds the segment from vertex i to the next.
+  const PatchIndex& index() const { return index_; }
 
   /// Any finite t; between 0 and 1 for the patch itself.
   LineSample sample(std::uint32_t patch, LocalCentre centre, double t) const;
@@ -76,6 +81,7 @@ class PlanarCurve {
   Vec2 origin_{0.0};
   double side_ = 1.0, size_ = 0.0;
   std::vector<CurvePatch> patches_;
+  PatchIndex index_;
 };
 
 /// |dN| / |dplace| at t, 1/m: curvature of the rendered curve as the finger meets it.

@@ -10,6 +10,8 @@ namespace {
 constexpr double kNewtonSlope = -0.05;
 /// Longest step of `robust` on a patch, in parameters, and the one taken where the contact is unstable.
 constexpr double kLongestStep = 1.0, kDownhillStep = 0.25;
+/// Patches that one step of `robust` may cross: at 1 m/s a finger crosses a metre in a million patches at that rate.
+constexpr int kMostPatches = 1024;
 
 /// A tangent line with the finger's contact on it.
 struct Line {
@@ -17,11 +19,14 @@ struct Line {
   Vec2 contact{0.0};
   double height = 0.0, error = 0.0, curvature = 0.0;
   double residual = 0.0;  ///< parameter of the contact less that of the line
+  bool ahead = false;     ///< the contact is ahead of the line's place
   double slope = -1.0;    ///< derivative of the residual by t: -(1 + height * curvature)
 };
 
 class Follower {
  public:
+  double stability_at(std::uint32_t patch, double t) const { return -patch_line(patch, t).slope; }
+
   Follower(const PlanarContext& context) : x_(context), centre_(context.settings.local_centre) {}
 
   PlanarContact run(const PlanarPlace& start, bool kept, int budget) {
@@ -52,6 +57,7 @@ class Follower {
     line.error = glm::length(line.contact - s.place);
     line.curvature = rendered_curvature(s);
     line.residual = x_.curve.parameter(patch, centre_, line.contact) - t;
+    line.ahead = glm::dot(line.contact - s.place, s.direction) > 0.0;
     const double along_t = glm::dot(arm, s.direction_t) - glm::dot(s.foot_t, s.direction);
     line.slope = x_.curve.parameter_rate(patch, centre_, line.contact,
                                          s.foot_t + along_t * s.direction + along * s.direction_t) -
@@ -102,7 +108,8 @@ class Follower {
   /// The next place after `line`; not `going_on`: there is none.
   StopReason advance(const Line& line, PlanarPlace& next) {
     if (line.place.feature == Feature::vertex) return leave_vertex(line, next);
-    const double t = next_parameter(line);
+    double t = next_parameter(line);
+    if (x_.settings.method == Method::robust) stay_between(line, t);
     if (!std::isfinite(t)) return StopReason::singular_patch;
     next = {Feature::face, line.place.patch, t, {}, {}};
     if (t < 0.0) return cross_end(line, false, next);
@@ -110,15 +117,31 @@ class Follower {
     return StopReason::going_on;
   }
 
+  /// A patch that the finger is ahead of at its start and behind of at its end holds the contact. A step that would
+  /// leave it, or the part of it that is left after the lines so far, halves that part.
+  void stay_between(const Line& line, double& t) {
+    if (line.place.patch != between_) {
+      between_ = line.place.patch;
+      const CurvePatch& p = x_.curve.patch(between_);
+      holds_ = ahead_at_start(p, x_.centre) >= 0.0 && ahead_at_end(p, x_.centre) <= 0.0;
+      low_ = 0.0, high_ = 1.0;
+    }
+    if (!holds_) return;
+    (line.ahead ? low_ : high_) = line.place.t;
+    if (!(t >= low_ && t <= high_)) t = 0.5 * (low_ + high_);
+  }
+
   StopReason cross_end(const Line& line, bool after, PlanarPlace& next) {
     const std::uint32_t patch = line.place.patch;
     const CurvePatch& p = x_.curve.patch(patch);
     const CurveJoint joint = after ? p.joint_after : p.joint_before;
+    const bool robust = x_.settings.method == Method::robust;
     if (joint == CurveJoint::smooth) {
       next.patch = after ? x_.curve.after(patch) : x_.curve.before(patch);
-      next.t = std::clamp(x_.curve.parameter(next.patch, centre_, line.contact), 0.0, 1.0);
-      // The contact's angle seen from the new centre can lie on the old side of the joint.
       ++out_.patch_changes;
+      const bool walked = robust && walk_on(after, next.patch);
+      // The contact's angle seen from the new centre can lie on the old side of the joint.
+      next.t = std::clamp(x_.curve.parameter(next.patch, centre_, walked ? x_.centre : line.contact), 0.0, 1.0);
       return StopReason::going_on;
     }
     PlanarContact corner;
@@ -137,6 +160,19 @@ class Follower {
     // Deep in a notch each side points to the other.
     return out_.patch_changes > 2 * static_cast<int>(x_.curve.patch_count()) + 8 ? StopReason::cycling
                                                                                  : StopReason::going_on;
+  }
+
+  /// Goes on over patches that the finger has passed as a whole, without evaluating lines on them.
+  bool walk_on(bool after, std::uint32_t& patch) {
+    const std::uint32_t start = patch;
+    for (int crossed = 0; crossed < kMostPatches; ++crossed) {
+      const CurvePatch& p = x_.curve.patch(patch);
+      if (after ? !(ahead_at_end(p, x_.centre) > 0.0) : !(ahead_at_start(p, x_.centre) < 0.0)) break;
+      if ((after ? p.joint_after : p.joint_before) != CurveJoint::smooth) break;
+      patch = after ? x_.curve.after(patch) : x_.curve.before(patch);
+      ++out_.patch_changes;
+    }
+    return patch != start;
   }
 
   StopReason leave_vertex(const Line& line, PlanarPlace& next) {
@@ -184,10 +220,27 @@ class Follower {
 
   const PlanarContext& x_;
   LocalCentre centre_;
+  std::uint32_t between_ = kNone;  ///< patch of which low_ and high_ tell
+  bool holds_ = false;
+  double low_ = 0.0, high_ = 1.0;
   PlanarContact out_;
 };
 
 }  // namespace
+
+double ahead_at_start(const CurvePatch& p, const Vec2& centre) {
+  const Vec2 way = p.vertex == p.first ? p.last - p.first : p.vertex - p.first;
+  return glm::dot(centre - p.first, way);
+}
+
+double ahead_at_end(const CurvePatch& p, const Vec2& centre) {
+  const Vec2 way = p.vertex == p.last ? p.last - p.first : p.last - p.vertex;
+  return glm::dot(centre - p.last, way);
+}
+
+double stability_at(const PlanarContext& context, std::uint32_t patch, double t) {
+  return Follower(context).stability_at(patch, t);
+}
 
 bool end_contact(const PlanarContext& x, std::uint32_t patch, bool after, PlanarContact& contact) {
   const CurvePatch& p = x.curve.patch(patch);

@@ -44,6 +44,15 @@ struct PlanarContext {
 /// - robust: the same with steps of at most a patch, downhill where the slope says unstable.
 PlanarContact follow(const PlanarContext& context, const PlanarPlace& start, bool kept, int budget);
 
+/// 1 + height * curvature at a place of a patch, as PlanarContact has it.
+double stability_at(const PlanarContext& context, std::uint32_t patch, double t);
+
+/// How far ahead of the patch's start, of its end, the finger's centre is, along the polygon: of either sign; as a
+/// length times that of the segment there. A stable contact lies between the start and the end where the first is
+/// positive and the second negative.
+double ahead_at_start(const CurvePatch& patch, const Vec2& centre);
+double ahead_at_end(const CurvePatch& patch, const Vec2& centre);
+
 /// The stable contact at an end of a patch, if the finger's direction lies in the fan there. `after`: at t = 1.
 bool end_contact(const PlanarContext& context, std::uint32_t patch, bool after, PlanarContact& contact);
 

@@ -36,16 +36,16 @@ FacetContact PolygonSurface::nearest(const Vec3& centre) const {
   const Vec2 at(centre.x, centre.y);
   FacetContact contact;
   double least = std::numeric_limits<double>::infinity();
-  for (std::uint32_t i = 0; i < curve_.patch_count(); ++i) {
-    if (!has_segment(i)) continue;
+  curve_.index().each_within(at, least, [&](std::uint32_t i) {
+    if (!has_segment(i)) return;
     const Vec2 a = curve_.vertex(i), b = end_of(i);
     const double part = nearest_part(a, b, at);
     const Vec2 point = part == 1.0 ? b : a + part * (b - a), d = at - point;
     const double distance2 = glm::dot(d, d);
-    if (distance2 >= least) continue;
+    if (distance2 > least || (distance2 == least && i > contact.hit.triangle)) return;
     least = distance2;
     contact.hit = {i, 0.0, part, 0.0, lifted(point)};
-  }
+  });
   contact.found = true;
   contact.hit.distance_m = std::sqrt(least);
   const double part = contact.hit.u;
@@ -82,22 +82,31 @@ Vec3 PolygonSurface::interpolated_normal(const FacetContact& facet) const {
 
 std::size_t PolygonSurface::near(const Vec3& centre, double reach_m, ProxyObstacles& closest) const {
   const Vec2 at(centre.x, centre.y);
-  std::array<double, kProxyObstacles> distance2;
+  struct Obstacle {
+    double distance2;
+    std::uint32_t segment;
+    bool operator<(const Obstacle& other) const {
+      return distance2 != other.distance2 ? distance2 < other.distance2 : segment < other.segment;
+    }
+  };
+  std::array<Obstacle, kProxyObstacles> found;
   std::size_t count = 0;
-  for (std::uint32_t i = 0; i < curve_.patch_count(); ++i) {
-    if (!has_segment(i)) continue;
+  double bound2 = reach_m * reach_m;
+  curve_.index().each_within(at, bound2, [&](std::uint32_t i) {
+    if (!has_segment(i)) return;
     const Vec2 a = curve_.vertex(i), b = end_of(i);
     const Vec2 point = a + nearest_part(a, b, at) * (b - a), d = at - point;
-    const double d2 = glm::dot(d, d);
-    if (d2 > reach_m * reach_m || (count == kProxyObstacles && d2 >= distance2[count - 1])) continue;
+    const Obstacle here{glm::dot(d, d), i};
+    if (here.distance2 > bound2 || (count == kProxyObstacles && !(here < found[count - 1]))) return;
     std::size_t k = count < kProxyObstacles ? count++ : count - 1;
-    for (; k > 0 && distance2[k - 1] > d2; --k) {
-      distance2[k] = distance2[k - 1];
+    for (; k > 0 && here < found[k - 1]; --k) {
+      found[k] = found[k - 1];
       closest[k] = closest[k - 1];
     }
-    distance2[k] = d2;
+    found[k] = here;
     closest[k] = lifted(point);
-  }
+    if (count == kProxyObstacles) bound2 = found[count - 1].distance2;
+  });
   return count;
 }
 

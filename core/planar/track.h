@@ -13,9 +13,9 @@ struct PlanarTrack {
   bool converged() const { return contact.converged(); }
 };
 
-/// `kept`: the last tick's place; feature none: nothing is tracked. Each tick looks at every patch's disc (a few ns
-/// each), and solves on those that could hold a place nearer than the tracked one by more than the hysteresis. Nearer
-/// is meant on either side of the surface: a finger deep in a wall belongs to the side it is closest to.
+/// `kept`: the last tick's place; feature none: nothing is tracked. Each tick asks the index for the patches that could
+/// hold a place nearer than the tracked one by more than the hysteresis, the tracked one's own patch among them, and
+/// solves on those.
 PlanarTrack track_planar(PlanarContext context, const PlanarPlace& kept);
 
 }  // namespace tangent

@@ -1,0 +1,26 @@
+// Stable contacts of a finger with a planar curve wherever they are, and the nearest of them. Nearest is meant on
+// either side of the surface: a finger deep in a wall belongs to the side it is closest to.
+#pragma once
+
+#include "core/planar/follow.h"
+
+namespace tangent {
+
+/// Contacts that are asked for.
+struct PlanarRival {
+  double below_m = 0.0;  ///< |height| less than this; infinity allowed
+  PlanarPlace besides;   ///< the contact that is known already; feature none: none is
+};
+
+/// The nearest of the contacts that patch `i` holds, one or several, as `rival` asks for; false: there is none.
+/// `evaluations` grows by the lines looked at.
+bool nearest_on_patch(const PlanarContext& context, std::uint32_t i, const PlanarRival& rival, PlanarContact& best,
+                      int& evaluations);
+
+/// The nearest of all, of equally near ones that of the lowest patch. Looks at the patches that are near enough.
+bool nearest_contact(const PlanarContext& context, PlanarRival rival, PlanarContact& best, int& evaluations);
+
+/// The patch that is nearest to the finger's centre, judged by its ends and its middle, and how near these are.
+std::uint32_t nearest_patch(const PlanarContext& context, double& distance_m);
+
+}  // namespace tangent
