@@ -95,15 +95,17 @@ inline constexpr int kMaxSolves = 256;
 /// smaller: fast turns on small radii count as jumps.
 inline constexpr double kJumpCosine = 0.984807753012208;
 
-// The next three are in switch hystereses (20 um unless the preset says otherwise), so that they go with the scene's size.
+// The next three are in switch hystereses (20 um unless the preset says otherwise), so that they go with the scene's
+// size.
 
 /// By this much the depth of a contact may change in a tick beside what the finger's motion explains: 25 um, 0.02 N at
-/// 800 N/m, the force that a fade lets through in a millisecond. Larger: leaps pass unmarked; smaller: rounding is marked.
+/// 800 N/m, the force that a fade lets through in a millisecond. Larger: leaps pass unmarked; smaller: rounding is
+/// marked.
 inline constexpr double kLeapDepth = 1.25;
 
-/// By this much a place may be deeper than the tracked one was, beside the finger's motion and the hysteresis itself, when
-/// it is first found: 100 um, what a search may have come late by. Deeper ones were never entered from outside: the finger
-/// has come by behind them. Larger: sheets push from behind; smaller: an honest switch is refused.
+/// By this much a place may be deeper than the tracked one was, beside the finger's motion and the hysteresis itself,
+/// when it is first found: 100 um, what a search may have come late by. Deeper ones were never entered from outside:
+/// the finger has come by behind them. Larger: sheets push from behind; smaller: an honest switch is refused.
 inline constexpr double kEnteredDepth = 5.0;
 
 /// A finger that goes further in one tick, 5 mm, has been put elsewhere, and what it is in counts as entered.
@@ -168,8 +170,8 @@ inline constexpr double kBasinCosine = 0.9;
 /// Premium 0.4 s. Larger: a switch of contacts is felt as a knock; smaller: the surface seems to give way after one.
 inline constexpr double kForceFade = 20.0;
 
-/// Travels of the display a second, 1/s, likewise: 0.26 m/s for 16 mm, about what its spindle can do. Larger: a leap of the
-/// contact is felt as a click; smaller: the display lags behind a finger that turns quickly.
+/// Travels of the display a second, 1/s, likewise: 0.26 m/s for 16 mm, about what its spindle can do. Larger: a leap of
+/// the contact is felt as a click; smaller: the display lags behind a finger that turns quickly.
 inline constexpr double kDisplayFade = 16.0;
 
 /// Seconds that a display stays where it is after the contact has switched to another place: a tremor between two walls
@@ -181,8 +183,9 @@ inline constexpr double kDisplayWait = 0.05;
 /// smaller: it races from end to end as the contact passes the side.
 inline constexpr double kPadSection = 0.2588;
 
-/// Hz, cut-off of the velocity that damping uses: a first-order filter that lags by 1/(2 pi f), 3.2 ms. Encoder steps of
-/// 0.03 mm at 1 kHz are 0.03 m/s of noise unfiltered. Larger: the noise is felt; smaller: damping comes too late to damp.
+/// Hz, cut-off of the velocity that damping uses: a first-order filter that lags by 1/(2 pi f), 3.2 ms. Encoder steps
+/// of 0.03 mm at 1 kHz are 0.03 m/s of noise unfiltered. Larger: the noise is felt; smaller: damping comes too late to
+/// damp.
 inline constexpr double kVelocityCutoff = 50.0;
 
 }  // namespace tangent

@@ -4,10 +4,14 @@ namespace tangent {
 
 const char* to_string(Feature feature) {
   switch (feature) {
-    case Feature::face: return "face";
-    case Feature::edge: return "edge";
-    case Feature::vertex: return "vertex";
-    case Feature::none: break;
+    case Feature::face:
+      return "face";
+    case Feature::edge:
+      return "edge";
+    case Feature::vertex:
+      return "vertex";
+    case Feature::none:
+      break;
   }
   return "none";
 }

@@ -1,6 +1,6 @@
 // Ticks on 2D scenes: contacts known by hand, tracking against brute force, corners, ends, other places.
-#include "core/tick/step.h"
 #include "core/lab/objects/arc.h"
+#include "core/tick/step.h"
 #include "tests/core/scenes.h"
 
 #include <limits>
