@@ -166,7 +166,7 @@ TEST_CASE("a file includes from its own room and from those below it, and from n
   CHECK(checked > 1000);
 }
 
-TEST_CASE("core has no threads, clocks, graphics or USB; files belong to core/io alone") {
+TEST_CASE("core has no threads, clocks, graphics or USB, and files belong to core/io alone") {
   check_unknown("core", {"thread", "mutex", "condition_variable", "future", "stop_token", "chrono", "ctime", "pthread",
                          "GL/", "epoxy/", "imgui", "GLFW", "libusb"});
   check_unknown("core", {"filesystem", "fstream", "toml++/", "nlohmann/"}, "core/io");

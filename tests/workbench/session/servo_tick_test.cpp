@@ -112,13 +112,14 @@ TEST_CASE("a preset is applied whole at the next tick, and the record says which
   PressedBench p;
   p.bench.arm();
   CHECK(p.bench.run(400).tick.preset_id == 0);
-  const double before = glm::length(p.bench.run().tick.output.force_n);
+  const double before = glm::length(p.bench.run().tick.output.decided_force_n);
   Preset stiff;
   stiff.force.stiffness_n_per_m *= 2.0;
   p.bench.channels.presets.put({7, stiff});
   const ServoRecord r = p.bench.run();
   CHECK(r.tick.preset_id == 7);
-  CHECK(glm::length(r.tick.output.force_n) == doctest::Approx(2.0 * before).epsilon(1e-6));
+  CHECK(glm::length(r.tick.output.decided_force_n) == doctest::Approx(2.0 * before).epsilon(1e-6));
+  CHECK(glm::length(r.tick.output.force_n) < 1.1 * before);  // faded in
 }
 
 TEST_CASE("a preset's gains and limits reach the display's controller, from the first and under way") {

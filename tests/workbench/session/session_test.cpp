@@ -110,7 +110,7 @@ TEST_CASE("a tick can be stepped under another preset") {
   REQUIRE(record.tick.output.force_n != Vec3(0.0));
   const auto output = session->re_step(record, stiff, *trace);
   REQUIRE(output);
-  CHECK(glm::length(output->force_n) == doctest::Approx(2.0 * glm::length(record.tick.output.force_n)));
+  CHECK(glm::length(output->decided_force_n) == doctest::Approx(2.0 * glm::length(record.tick.output.decided_force_n)));
 }
 
 TEST_CASE("a tick whose scene is gone from the history says so") {
