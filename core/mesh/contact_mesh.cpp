@@ -1,4 +1,4 @@
-// Builds the contact mesh in stages: check, weld, triangulate, place, connect, shade, hash.
+// Builds the contact mesh in stages: check, weld, triangulate, place, connect, shade, turn, hash.
 #include "core/mesh/contact_mesh.h"
 
 #include "core/base/tolerances.h"
@@ -6,11 +6,13 @@
 #include "core/mesh/corner_normals.h"
 #include "core/mesh/edge_table.h"
 #include "core/mesh/file_normals.h"
+#include "core/mesh/inside_out.h"
 #include "core/mesh/topology.h"
 #include "core/mesh/triangle_shape.h"
 #include "core/mesh/weld.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <numbers>
 
 namespace tangent {
@@ -29,6 +31,7 @@ class ContactMeshBuilder {
     if (mesh_.usable_count_ == 0) return nothing_usable();
     connect();
     if (Status ok = shade(); !ok) return tl::unexpected(ok.error());
+    turn_inside_out();
     finish();
     return std::move(mesh_);
   }
@@ -42,6 +45,7 @@ class ContactMeshBuilder {
   void connect();
   Status shade();
   void take_file_normals(const SurfaceView& surface, std::span<const Vec3> faces);
+  void turn_inside_out();
   void finish();
   tl::unexpected<Error> nothing_usable() const;
 
@@ -228,6 +232,34 @@ void ContactMeshBuilder::take_file_normals(const SurfaceView& surface, std::span
     mesh_.notes_.push_back(some_computed ? "--crease-deg applies only where the file gives no usable normal"
                                          : "--crease-deg is ignored with normals from the file");
   }
+}
+
+/// Says which closed parts look inwards, and turns them over where that is asked for.
+void ContactMeshBuilder::turn_inside_out() {
+  const InsideOut inside_out = find_inside_out(surface());
+  if (!inside_out.any()) {
+    if (options_.turn_over) mesh_.notes_.push_back("nothing is inside out: nothing was turned over");
+    return;
+  }
+  mesh_.inside_out_ = inside_out.triangles;
+  mesh_.turned_over_ = options_.turn_over;
+  std::string note = inside_out.triangles == mesh_.usable_count_
+                         ? "the mesh is inside out"
+                         : std::to_string(inside_out.parts) + (inside_out.parts == 1 ? " part" : " parts") + " of " +
+                               std::to_string(inside_out.triangles) + " triangles inside out";
+  char volume[32];
+  std::snprintf(volume, sizeof volume, "%.4g", inside_out.volume_m3 * 1e9);
+  note += std::string(" (closed, with a volume of ") + volume + " mm3)";
+  if (!options_.turn_over) {
+    mesh_.notes_.push_back(note + ": a finger would feel it from within; --turn-over turns it over");
+    return;
+  }
+  mesh_.notes_.push_back(note + ": turned over");
+  turn_over(inside_out.found, mesh_.vertices_, mesh_.links_);
+  CornerNormals normals{std::move(mesh_.normals_), std::move(mesh_.normal_index_)};
+  turn_normals_over(inside_out.found, surface(), normals);
+  mesh_.normals_ = std::move(normals.normals);
+  mesh_.normal_index_ = std::move(normals.index);
 }
 
 void ContactMeshBuilder::finish() {

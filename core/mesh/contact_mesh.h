@@ -31,6 +31,9 @@ struct ContactMeshOptions {
   std::optional<double> fit_m;  ///< bounding-box centre to the origin, longest side to this; none: as in the file
   NormalSource normals = NormalSource::automatic;
   double crease_rad = 45.0 * kDegree;  ///< edges whose dihedral angle exceeds this are creases (computed normals only)
+  /// Turns closed parts over that are inside out (inside_out.h). Of their triangles corner 1 is the file's third corner
+  /// and corner 2 its second.
+  bool turn_over = false;
 };
 
 enum class EdgeKind : std::uint8_t {
@@ -115,6 +118,9 @@ class ContactMesh {
   bool feature_corner(std::uint32_t t, std::uint32_t corner) const { return (crease_bits_[t] >> (3 + corner)) & 1u; }
 
   const MeshDefectList& defects(MeshDefect kind) const { return defects_[static_cast<std::size_t>(kind)]; }
+  /// Triangles of closed parts that look inwards, as the file has them, and whether they were turned over.
+  std::uint64_t inside_out_triangles() const { return inside_out_; }
+  bool turned_over() const { return turned_over_; }
   /// Notes for the user, e.g. "--crease-deg is ignored with normals from the file".
   const std::vector<std::string>& notes() const { return notes_; }
   NormalSource normals_used() const { return normals_used_; }  ///< file or computed
@@ -137,6 +143,8 @@ class ContactMesh {
   double scale_ = 1.0;
   std::uint64_t content_hash_ = 0;
   std::uint32_t usable_count_ = 0;
+  std::uint64_t inside_out_ = 0;
+  bool turned_over_ = false;
   NormalSource normals_used_ = NormalSource::computed;
   std::vector<Vec3> positions_;
   std::vector<Vec3> normals_;

@@ -107,6 +107,10 @@ std::string audit_text(const MeshAudit& a, const PerceptionAudit& perception, in
   text += row("non-manifold vertices", a.non_manifold_vertices);
   text += row("inconsistent edges", a.inconsistent_edges);
   text += row("crease edges", a.crease_edges);
+  text += row("inside out", mesh.inside_out_triangles() == 0
+                                ? std::string("no")
+                                : format("%llu triangles%s", (unsigned long long)mesh.inside_out_triangles(),
+                                         mesh.turned_over() ? ", turned over" : ""));
   text += row("slivers", a.sliver_triangles, a.first_slivers);
   text += row("normals against face", a.flipped_normals, a.first_flipped);
   text += row("normals over 60 deg off", a.wild_normals);
@@ -148,6 +152,7 @@ Json audit_json(const MeshAudit& a, const PerceptionAudit& perception, int condi
       {"non_manifold_vertices", a.non_manifold_vertices},
       {"inconsistent_edges", a.inconsistent_edges},
       {"crease_edges", a.crease_edges},
+      {"inside_out", {{"triangles", mesh.inside_out_triangles()}, {"turned_over", mesh.turned_over()}}},
       {"slivers", {{"count", a.sliver_triangles}, {"first", a.first_slivers}}},
       {"flipped_normals", {{"count", a.flipped_normals}, {"first", a.first_flipped}}},
       {"wild_normals", a.wild_normals},

@@ -35,6 +35,7 @@ void add_mesh_options(CLI::App& app, MeshOptions& options, bool mesh_required) {
   add_number_option(app, "--crease-deg", {.min = 0.0, .max = 180.0, .unit = "deg"},
                     "Edges whose dihedral angle exceeds this are creases; 180: none (default 45)",
                     [&](double value) { options.build.crease_rad = value * kDegree; });
+  app.add_flag("--turn-over", options.build.turn_over, "Turn closed parts over that are inside out");
 }
 
 Result<LoadedMesh> load_mesh(const MeshOptions& options) {

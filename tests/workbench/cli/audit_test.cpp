@@ -4,6 +4,8 @@
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
 
+#include <cstdlib>
+
 using namespace tangent::testing;
 
 TEST_CASE("a closed sphere is found healthy, in text and JSON") {
@@ -87,4 +89,45 @@ TEST_CASE("meshes that hold nothing usable are refused with the file and the lin
           "ply\nformat binary_little_endian 1.0\nelement vertex 4294967295\nproperty float x\n"
           "property float y\nproperty float z\nend_header\n1234",
           "promise.ply");
+}
+
+TEST_CASE("a closed mesh that is inside out is said by audit and solve, and turned over on request") {
+  const TempFolder folder;
+  const std::string mesh = folder.write("inside.obj",
+                                        "v 0 0 0\nv 60 0 0\nv 0 60 0\nv 0 0 60\n"
+                                        "f 1 2 3\nf 1 4 2\nf 1 3 4\nf 2 4 3\n");
+  const ProcessResult found = run_workbench({"audit", mesh, "--json", folder.file("audit.json")});
+  REQUIRE(found.exit_code == 0);
+  CHECK(contains(found.out, "inside out               4 triangles\n"));
+  CHECK(contains(found.out, "note: the mesh is inside out (closed, with a volume of -3.6e+04 mm3)"));
+  const auto audit = nlohmann::json::parse(read_text(folder.file("audit.json")));
+  CHECK(audit["inside_out"]["triangles"] == 4);
+  CHECK(audit["inside_out"]["turned_over"] == false);
+  const ProcessResult turned = run_workbench({"audit", mesh, "--turn-over"});
+  CHECK(contains(turned.out, "inside out               4 triangles, turned over\n"));
+
+  // A finger of 5 mm, 1 mm deep in the face below.
+  const std::string poses = folder.write("poses.csv", "t_s,x_m,y_m,z_m\n0,0.015,0.015,-0.004\n");
+  const auto penetration = [&](std::vector<std::string> more) {
+    std::vector<std::string> arguments{"solve",
+                                       mesh,
+                                       "--poses",
+                                       poses,
+                                       "--out",
+                                       folder.file("ticks.csv"),
+                                       "--summary",
+                                       folder.file("s.json"),
+                                       "--finger-radius-mm",
+                                       "5"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const ProcessResult result = run_workbench(arguments);
+    REQUIRE(result.exit_code == 0);
+    CHECK(contains(result.out, more.empty() ? "--turn-over turns it over" : ": turned over"));
+    const std::string ticks = read_text(folder.file("ticks.csv"));
+    std::string row = ticks.substr(ticks.find('\n') + 1);
+    for (int i = 0; i < 12; ++i) row = row.substr(row.find(',') + 1);
+    return std::strtod(row.c_str(), nullptr);
+  };
+  CHECK(penetration({}) == doctest::Approx(0.009));
+  CHECK(penetration({"--turn-over"}) == doctest::Approx(0.001));
 }
