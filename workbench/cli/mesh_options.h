@@ -17,7 +17,8 @@ struct MeshOptions {
   ContactMeshOptions build;
 };
 
-/// MESH (a positional argument), --unit, --fit-mm, --normals, --crease-deg, --turn-over. `options` must outlive the parser.
+/// MESH (a positional argument), --unit, --fit-mm, --normals, --crease-deg, --turn-over. `options` must outlive the
+/// parser.
 void add_mesh_options(CLI::App& app, MeshOptions& options, bool mesh_required = true);
 
 /// Option `--unit mm|cm|m|in` alone.

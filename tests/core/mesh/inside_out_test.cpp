@@ -129,7 +129,7 @@ TEST_CASE("the file's normals are turned where they look inwards, too, and kept 
   }
 }
 
-TEST_CASE("a cavity looks inwards as it should; a hollow body that is inside out is turned with its cavity") {
+TEST_CASE("a cavity looks inwards as it should, and a hollow body that is inside out is turned with its cavity") {
   PolygonMesh hollow = ball();
   add(hollow, flipped(ball()), 0.5, Vec3(0.0));
   CHECK(built(hollow).inside_out_triangles() == 0);
@@ -140,7 +140,7 @@ TEST_CASE("a cavity looks inwards as it should; a hollow body that is inside out
   CHECK(touch(built(flipped(hollow), true)).penetration_m < 0.6e-3);
 }
 
-TEST_CASE("of two bodies the one that is inside out is turned; open sheets have no inside") {
+TEST_CASE("of two bodies the one that is inside out is turned, and open sheets have no inside") {
   PolygonMesh two = ball();
   add(two, flipped(ball()), 1.0, Vec3(0.2, 0.0, 0.0));
   const ContactMesh mesh = built(two);
