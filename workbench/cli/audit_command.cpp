@@ -5,7 +5,7 @@
 #include "workbench/cli/command.h"
 #include "workbench/cli/mesh_options.h"
 #include "workbench/cli/messages.h"
-#include "workbench/cli/number_option.h"
+#include "workbench/cli/option.h"
 #include "workbench/cli/text_format.h"
 
 #include <nlohmann/json.hpp>
@@ -57,20 +57,18 @@ Status run_audit(const AuditOptions& options) {
 }  // namespace
 
 void add_audit_command(CLI::App& app, CommandResult& result) {
-  CLI::App* command = app.add_subcommand("audit", "Mesh health: counts, boundaries, defects, angles, smoothness");
+  CLI::App* command = add_command(app, "audit", "Mesh health: counts, boundaries, defects, angles, smoothness");
   auto options = std::make_shared<AuditOptions>();
   add_mesh_options(*command, options->mesh);
-  command->add_option("--json", options->json, "The same for programs")->type_name("F.json");
-  command
-      ->add_option("--heat-map", options->heat_map,
-                   "Per triangle, the largest angle to a neighbour and its ratio to the threshold")
-      ->type_name("F.csv");
+  add_text_option(*command, "--json", options->json, "The same for programs", "F.json");
+  add_text_option(*command, "--heat-map", options->heat_map,
+                  "Per triangle, the largest angle to a neighbour and its ratio to the threshold", "F.csv");
   add_choice_option(*command, "--condition", kConditionNames,
                     "Rendering condition of verdict, worst edges and heat map (default C3)",
                     [options = options.get()](int index) {
                       options->condition = threshold_index(kConditionNames[static_cast<std::size_t>(index)]);
                     });
-  command->callback([options, &result] {
+  on_run(*command, [options, &result] {
     const Status status = run_audit(*options);
     if (!status) print_message("audit", status.error().message());
     result.exit_code = status ? kDone : kFailed;

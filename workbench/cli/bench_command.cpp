@@ -7,7 +7,7 @@
 #include "workbench/cli/command.h"
 #include "workbench/cli/interrupt.h"
 #include "workbench/cli/messages.h"
-#include "workbench/cli/number_option.h"
+#include "workbench/cli/option.h"
 
 #include <array>
 #include <cstdio>
@@ -147,7 +147,7 @@ Status run_bench(BenchOptions options, bool& interrupted) {
 }  // namespace
 
 void add_bench_command(CLI::App& app, CommandResult& result) {
-  CLI::App* command = app.add_subcommand("bench", "Measure speed against error, for every method");
+  CLI::App* command = add_command(app, "bench", "Measure speed against error, for every method");
   auto options = std::make_shared<BenchOptions>();
   BenchOptions* o = options.get();
   add_choice_option(*command, "--suite", kSuites,
@@ -161,21 +161,16 @@ void add_bench_command(CLI::App& app, CommandResult& result) {
   add_number_option(*command, "--max-triangles", {.min = 1280, .max = 6e6, .whole = true},
                     "Largest mesh of the scale suite (default all)",
                     [o](double n) { o->most_triangles = static_cast<std::uint32_t>(n); });
-  command->add_option("--only", options->only, "Only scenes whose name contains this")->type_name("TEXT");
-  command->add_option("--json", options->json, "Everything measured")->type_name("F.json");
-  command->add_option("--plot", options->plot, "Time against error as the tolerance sweeps from 1e-3 to 1e-9 mm")
-      ->type_name("F.svg");
-  CLI::Option* meshes =
-      command->add_option("--meshes", options->meshes, "Real meshes besides: NAME.obj, fitted to 80 mm")
-          ->type_name("DIR");
-  CLI::Option* poses =
-      command->add_option("--poses", options->poses, "Poses on them: NAME-rXXX.csv, finger radius XXX mm")
-          ->type_name("DIR");
-  meshes->needs(poses);
-  poses->needs(meshes);
-  command->callback([options, &result] {
+  add_text_option(*command, "--only", options->only, "Only scenes whose name contains this", "TEXT");
+  add_text_option(*command, "--json", options->json, "Everything measured", "F.json");
+  add_text_option(*command, "--plot", options->plot, "Time against error as the tolerance sweeps from 1e-3 to 1e-9 mm",
+                  "F.svg");
+  add_text_option(*command, "--meshes", options->meshes, "Real meshes besides: NAME.obj, fitted to 80 mm", "DIR");
+  add_text_option(*command, "--poses", options->poses, "Poses on them: NAME-rXXX.csv, finger radius XXX mm", "DIR");
+  require_together(*command, "--meshes", "--poses");
+  on_run(*command, [options, &result] {
     if (!options->json.empty() && options->json == options->plot)
-      throw CLI::ValidationError("--plot", "names the same file as --json");
+      refuse_option("--plot", "names the same file as --json");
     bool interrupted = false;
     const Status status = run_bench(*options, interrupted);
     if (!status) print_message("bench", status.error().message());

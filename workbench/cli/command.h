@@ -2,7 +2,9 @@
 // comes, leaves its exit code behind.
 #pragma once
 
-#include <CLI/CLI.hpp>
+namespace CLI {
+class App;
+}
 
 namespace tangent {
 

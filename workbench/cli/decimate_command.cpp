@@ -10,7 +10,7 @@
 #include "workbench/cli/interrupt.h"
 #include "workbench/cli/mesh_options.h"
 #include "workbench/cli/messages.h"
-#include "workbench/cli/number_option.h"
+#include "workbench/cli/option.h"
 #include "workbench/cli/text_format.h"
 
 #include <nlohmann/json.hpp>
@@ -192,12 +192,11 @@ Status run_decimate(const DecimateOptions& options, bool& complete) {
 
 void add_decimate_command(CLI::App& app, CommandResult& result) {
   CLI::App* command =
-      app.add_subcommand("decimate", "As few triangles as a finger can't tell from many, under a rendering condition");
+      add_command(app, "decimate", "As few triangles as a finger can't tell from many, under a rendering condition");
   auto options = std::make_shared<DecimateOptions>();
   add_mesh_options(*command, options->mesh);
-  command->add_option("--out", options->out, "The coarse mesh, with normals, in the unit of MESH")
-      ->required()
-      ->type_name("F.obj");
+  add_text_option(*command, "--out", options->out, "The coarse mesh, with normals, in the unit of MESH", "F.obj",
+                  Needed::yes);
   add_choice_option(*command, "--condition", kConditionNames,
                     "Whose threshold no smooth edge may exceed (default P1: force and tactile shading)",
                     [options = options.get()](int i) {
@@ -206,8 +205,8 @@ void add_decimate_command(CLI::App& app, CommandResult& result) {
   add_number_option(*command, "--max-deviation-um", {.min = 1e-3, .max = 1e6, .unit = "um"},
                     "Distance that the smooth surfaces keep, both ways (default: 0.1 % of the longest side)",
                     [options = options.get()](double um) { options->deviation_m = um / 1e6; });
-  command->add_option("--json", options->json, "The report for programs")->type_name("F.json");
-  command->callback([options, &result] {
+  add_text_option(*command, "--json", options->json, "The report for programs", "F.json");
+  on_run(*command, [options, &result] {
     bool complete = false;
     const Status status = run_decimate(*options, complete);
     if (!status) print_message("decimate", status.error().message());

@@ -3,11 +3,13 @@
 
 #include "workbench/session/maestro_setups.h"
 
-#include <CLI/CLI.hpp>
-
 #include <filesystem>
 #include <memory>
 #include <string>
+
+namespace CLI {
+class App;
+}
 
 namespace tangent {
 

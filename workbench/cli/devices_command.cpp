@@ -4,6 +4,7 @@
 #include "devices/device_set.h"
 #include "workbench/cli/command.h"
 #include "workbench/cli/messages.h"
+#include "workbench/cli/option.h"
 #include "workbench/cli/text_format.h"
 
 #include <nlohmann/json.hpp>
@@ -126,10 +127,10 @@ Status run_devices(const std::filesystem::path& json_file) {
 }  // namespace
 
 void add_devices_command(CLI::App& app, CommandResult& result) {
-  CLI::App* command = app.add_subcommand("devices", "What is attached, what it can do, why it can't be opened");
+  CLI::App* command = add_command(app, "devices", "What is attached, what it can do, why it can't be opened");
   auto json = std::make_shared<std::filesystem::path>();
-  command->add_option("--json", *json, "USB devices for programs")->type_name("F.json");
-  command->callback([json, &result] {
+  add_text_option(*command, "--json", *json, "USB devices for programs", "F.json");
+  on_run(*command, [json, &result] {
     const Status status = run_devices(*json);
     if (!status) print_message("devices", status.error().message());
     result.exit_code = status ? kDone : kFailed;

@@ -2,6 +2,7 @@
 #include "workbench/cli/command.h"
 #include "workbench/cli/figures.h"
 #include "workbench/cli/messages.h"
+#include "workbench/cli/option.h"
 #include "workbench/cli/text_format.h"
 
 #include <cstdio>
@@ -42,10 +43,10 @@ Status write_figures(const std::filesystem::path& folder) {
 
 void add_figures_command(CLI::App& app, CommandResult& result) {
   CLI::App* command =
-      app.add_subcommand("figures", "The paper's figures by the 2D algorithm: SVG, with the data as CSV beside each");
+      add_command(app, "figures", "The paper's figures by the 2D algorithm: SVG, with the data as CSV beside each");
   auto folder = std::make_shared<std::filesystem::path>();
-  command->add_option("--out", *folder, "Folder to write into; made if it isn't there")->required()->type_name("DIR");
-  command->callback([folder, &result] {
+  add_text_option(*command, "--out", *folder, "Folder to write into; made if it isn't there", "DIR", Needed::yes);
+  on_run(*command, [folder, &result] {
     const Status status = write_figures(*folder);
     if (!status) print_message("figures", status.error().message());
     result.exit_code = status ? kDone : kFailed;

@@ -5,7 +5,7 @@
 #include "workbench/cli/command.h"
 #include "workbench/cli/mesh_options.h"
 #include "workbench/cli/messages.h"
-#include "workbench/cli/number_option.h"
+#include "workbench/cli/option.h"
 #include "workbench/cli/text_format.h"
 
 #include <array>
@@ -44,14 +44,14 @@ int run_make(const MakeOptions& options) {
 }  // namespace
 
 void add_make_command(CLI::App& app, CommandResult& result) {
-  CLI::App* command = app.add_subcommand("make", "Write one of the paper's objects or a hard case as OBJ");
+  CLI::App* command = add_command(app, "make", "Write one of the paper's objects or a hard case as OBJ");
   auto options = std::make_shared<MakeOptions>();
   std::string names;
   for (const std::string& name : generator_names()) names += (names.empty() ? "" : " ") + name;
   names += "; hard cases:";
   for (const std::string& name : hard_mesh_names()) names += " " + name;
-  command->add_option("OBJECT", options->object, names)->required()->type_name("");
-  command->add_option("--out", options->file, "File to write")->required()->type_name("F.obj");
+  add_text_option(*command, "OBJECT", options->object, names, "", Needed::yes);
+  add_text_option(*command, "--out", options->file, "File to write", "F.obj", Needed::yes);
   add_number_option(*command, "--segments", {.min = 1, .max = 100000, .whole = true},
                     "Around a round object, subdivisions of an icosphere, lines of a grid (default: the object's own)",
                     [options = options.get()](double n) { options->generate.segments = static_cast<int>(n); });
@@ -61,7 +61,7 @@ void add_make_command(CLI::App& app, CommandResult& result) {
   add_choice_option(*command, "--facing", kFacings, "Where the apex of a cone or tetrahedron points (default right)",
                     [options = options.get()](int i) { options->generate.facing = static_cast<Facing>(i); });
   add_unit_option(*command, options->metres_per_unit, "Unit of the file's coordinates (default mm)");
-  command->callback([options, &result] { result.exit_code = run_make(*options); });
+  on_run(*command, [options, &result] { result.exit_code = run_make(*options); });
 }
 
 }  // namespace tangent

@@ -5,9 +5,11 @@
 #include "core/mesh/polygon_mesh.h"
 #include "core/tick/step.h"
 
-#include <CLI/CLI.hpp>
-
 #include <filesystem>
+
+namespace CLI {
+class App;
+}
 
 namespace tangent {
 

@@ -4,11 +4,13 @@
 #include "core/io/preset_file.h"
 #include "core/preset/schema.h"
 
-#include <CLI/CLI.hpp>
-
 #include <filesystem>
 #include <string>
 #include <vector>
+
+namespace CLI {
+class App;
+}
 
 namespace tangent {
 

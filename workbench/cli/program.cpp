@@ -2,6 +2,8 @@
 #include "workbench/cli/command.h"
 #include "workbench/cli/messages.h"
 
+#include <CLI/CLI.hpp>
+
 #include <cstdio>
 #include <exception>
 #include <new>

@@ -6,6 +6,7 @@
 #include "workbench/cli/interrupt.h"
 #include "workbench/cli/mesh_options.h"
 #include "workbench/cli/messages.h"
+#include "workbench/cli/option.h"
 #include "workbench/cli/preset_options.h"
 #include "workbench/cli/progress.h"
 #include "workbench/cli/solve_report.h"
@@ -148,7 +149,7 @@ void refuse_shared_paths(const SolveOptions& options) {
       const bool same = *files[i].second == *files[j].second ||
                         (std::filesystem::is_regular_file(*files[i].second, error) &&
                          std::filesystem::equivalent(*files[i].second, *files[j].second, error));
-      if (same) throw CLI::ValidationError(files[i].first, std::string("names the same file as ") + files[j].first);
+      if (same) refuse_option(files[i].first, std::string("names the same file as ") + files[j].first);
     }
   }
 }
@@ -156,19 +157,17 @@ void refuse_shared_paths(const SolveOptions& options) {
 }  // namespace
 
 void add_solve_command(CLI::App& app, CommandResult& result) {
-  CLI::App* command = app.add_subcommand("solve", "Solve every pose of a file on a mesh: one line a tick");
+  CLI::App* command = add_command(app, "solve", "Solve every pose of a file on a mesh: one line a tick");
   auto options = std::make_shared<SolveOptions>();
   add_mesh_options(*command, options->mesh);
-  command->add_option("--poses", options->poses, "Finger poses: t_s,x_m,y_m,z_m[,qw,qx,qy,qz]")
-      ->required()
-      ->type_name("F.csv");
-  command->add_option("--out", options->ticks, "Ticks: contact, force, display, iterations, time")
-      ->required()
-      ->type_name("F.csv");
-  command->add_option("--summary", options->summary, "Counts and percentiles of the run")->type_name("F.json");
-  command->add_option("--iterations", options->iterations, "Every tangent plane of every tick")->type_name("F.csv");
+  add_text_option(*command, "--poses", options->poses, "Finger poses: t_s,x_m,y_m,z_m[,qw,qx,qy,qz]", "F.csv",
+                  Needed::yes);
+  add_text_option(*command, "--out", options->ticks, "Ticks: contact, force, display, iterations, time", "F.csv",
+                  Needed::yes);
+  add_text_option(*command, "--summary", options->summary, "Counts and percentiles of the run", "F.json");
+  add_text_option(*command, "--iterations", options->iterations, "Every tangent plane of every tick", "F.csv");
   add_preset_options(*command, options->preset);
-  command->callback([options, &result] {
+  on_run(*command, [options, &result] {
     refuse_shared_paths(*options);
     bool interrupted = false;
     const Status status = solve(*options, interrupted);

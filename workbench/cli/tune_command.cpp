@@ -8,6 +8,7 @@
 #include "workbench/cli/interrupt.h"
 #include "workbench/cli/mesh_options.h"
 #include "workbench/cli/messages.h"
+#include "workbench/cli/option.h"
 #include "workbench/cli/preset_options.h"
 #include "workbench/cli/progress.h"
 #include "workbench/cli/stopwatch.h"
@@ -38,12 +39,10 @@ std::string shell_word(const std::string& word) {
 }
 
 std::string command_text(const CLI::App& command) {
-  std::string text = "workbench " + command.get_name();
-  for (const CLI::Option* option : command.get_options()) {
-    for (const std::string& value : option->results()) {
-      if (!option->get_positional()) text += " " + option->get_name();
-      text += " " + shell_word(value);
-    }
+  std::string text = "workbench tune";
+  for (const GivenOption& option : given_options(command)) {
+    if (!option.name.empty()) text += " " + option.name;
+    text += " " + shell_word(option.value);
   }
   return text;
 }
@@ -149,38 +148,37 @@ Status run_tune(const TuneOptions& options, bool& interrupted) {
 
 void check_usage(const TuneOptions& options) {
   for (const PresetOverride& o : options.preset.overrides) {
-    if (o.key->tuned) throw CLI::ValidationError(o.by, "is what tune finds; leave it out");
+    if (o.key->tuned) refuse_option(o.by, "is what tune finds; leave it out");
     if (!names_method(o) || is_smooth(static_cast<Method>(o.value))) continue;
     std::vector<std::string_view> allowed;
     for (std::size_t i = 0; i < kMethodNames.size(); ++i)
       if (is_smooth(static_cast<Method>(i))) allowed.push_back(kMethodNames[i]);
-    throw CLI::ValidationError(o.by, o.key->value_text(o.value) + " has no gains; allowed: " + choices_text(allowed));
+    refuse_option(o.by, o.key->value_text(o.value) + " has no gains; allowed: " + choices_text(allowed));
   }
   const std::pair<const char*, const std::filesystem::path*> inputs[]{{"MESH", &options.mesh.file},
                                                                       {"--poses", &options.poses}};
   for (const auto& [name, path] : inputs) {
     std::error_code error;
     if (!path->empty() && (*path == options.out || std::filesystem::equivalent(*path, options.out, error)))
-      throw CLI::ValidationError("--out", std::string("names the same file as ") + name);
+      refuse_option("--out", std::string("names the same file as ") + name);
   }
 }
 
 }  // namespace
 
 void add_tune_command(CLI::App& app, CommandResult& result) {
-  CLI::App* command = app.add_subcommand("tune", "Find the gains of the paper's iteration by measuring on a mesh");
-  command->footer(
-      "The gains are those of the paper's iteration (Eq. 1), whatever --method the preset is to use "
-      "(default paper). Ctrl-C keeps the best so far.");
+  CLI::App* command =
+      add_command(app, "tune", "Find the gains of the paper's iteration by measuring on a mesh",
+                  "The gains are those of the paper's iteration (Eq. 1), whatever --method the preset is to use "
+                  "(default paper). Ctrl-C keeps the best so far.");
   auto options = std::make_shared<TuneOptions>();
   add_mesh_options(*command, options->mesh);
-  command
-      ->add_option("--poses", options->poses,
-                   "Finger poses: t_s,x_m,y_m,z_m[,qw,qx,qy,qz] (default: explores the mesh at 0.1 m/s, 1 mm deep)")
-      ->type_name("F.csv");
-  command->add_option("--out", options->out, "Preset to write")->required()->type_name("preset.toml");
+  add_text_option(*command, "--poses", options->poses,
+                  "Finger poses: t_s,x_m,y_m,z_m[,qw,qx,qy,qz] (default: explores the mesh at 0.1 m/s, 1 mm deep)",
+                  "F.csv");
+  add_text_option(*command, "--out", options->out, "Preset to write", "preset.toml", Needed::yes);
   add_preset_options(*command, options->preset);
-  command->callback([command, options, &result] {
+  on_run(*command, [command, options, &result] {
     check_usage(*options);
     options->command = command_text(*command);
     bool interrupted = false;

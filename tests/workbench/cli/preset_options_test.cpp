@@ -6,6 +6,7 @@
 #include "workbench/session/unit_labels.h"
 
 #include <doctest/doctest.h>
+#include <CLI/CLI.hpp>
 
 #include <optional>
 
