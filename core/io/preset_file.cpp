@@ -15,7 +15,7 @@
 namespace tangent {
 namespace {
 
-constexpr std::size_t kMaxBytes = std::size_t{1} << 20;  // a preset is a few kilobytes
+constexpr std::size_t kMaxPresetBytes = std::size_t{1} << 20;  // a preset is a few kilobytes
 struct AboutText {
   std::string_view key;
   std::string PresetAbout::*field;
@@ -165,6 +165,7 @@ class PresetReader {
       return {};
     }
     std::vector<std::string_view> names;
+    names.reserve(std::size(kAboutTexts) + 1);
     for (const AboutText& known : kAboutTexts) names.push_back(known.key);
     names.push_back("the table measured");
     return fail("unknown key", where(key.source(), full), "allowed: " + choices_text(names));
@@ -266,7 +267,7 @@ Result<PresetFile> parse_preset(std::string_view text, std::string_view name) {
 }
 
 Result<PresetFile> read_preset(const std::filesystem::path& path) {
-  const Result<std::string> text = read_input_file(path, kMaxBytes);
+  const Result<std::string> text = read_input_file(path, kMaxPresetBytes);
   if (!text) return tl::unexpected(text.error());
   return parse_preset(*text, path.string());
 }

@@ -11,7 +11,7 @@
 namespace tangent::bench {
 namespace {
 
-constexpr double kBallRadius = 0.040, kSpeed = 0.020, kPress = 1e-3;
+constexpr double kBallRadius = 0.040, kBallSpeed = 0.020, kBallPress = 1e-3;
 
 double seconds_since(std::int64_t start) { return 1e-9 * static_cast<double>(TickClock::now() - start); }
 
@@ -74,7 +74,7 @@ Result<ScenePtr> load_icosphere(int subdivisions, LoadReport& load) {
 RunStatistics measure_reseeding(const ScenePtr& scene, const Preset& preset, const MeasureOptions& options,
                                 const TickClock& clock) {
   const Vec3 origin = scene->mesh().origin();
-  const double distance = kBallRadius + preset.finger.radius_m - kPress;
+  const double distance = kBallRadius + preset.finger.radius_m - kBallPress;
   std::vector<TickInput> poses = random_in_cube(Vec3(0.0), 1.0, std::min(options.ticks, 4000));
   for (TickInput& pose : poses) pose.finger.position = origin + distance * unit(pose.finger.position);
   const TimedRun run = timed_run(scene, preset, poses, options.repeats, clock, options.stop);
@@ -97,8 +97,8 @@ Status measure_scale(std::uint32_t most_triangles, const MeasureOptions& options
     LoadReport load;
     const Result<ScenePtr> scene = load_icosphere(subdivisions, load);
     if (!scene) return tl::unexpected(scene.error());
-    const auto poses =
-        around_ball((*scene)->mesh().origin(), kBallRadius + c.preset.finger.radius_m - kPress, kSpeed, options.ticks);
+    const auto poses = around_ball((*scene)->mesh().origin(), kBallRadius + c.preset.finger.radius_m - kBallPress,
+                                   kBallSpeed, options.ticks);
     std::optional<SceneReport> report = measure_scene("scale", c, *scene, poses, once, clock);
     if (!report) return {};
     report->load = load;

@@ -56,9 +56,9 @@ const UnitLabel* find_unit(std::string_view si, std::string_view typed) {
   return nullptr;
 }
 
-UnitLabel unit_of_size(std::string_view si, double si_value) {
+UnitLabel unit_of_size(std::string_view si, double in_si) {
   for (const UnitLabel& label : labels_of(si)) {
-    if (std::abs(label.si_value - si_value) <= 1e-9 * si_value) return label;
+    if (std::abs(label.in_si - in_si) <= 1e-9 * in_si) return label;
   }
   return si_itself(si);
 }

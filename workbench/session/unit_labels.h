@@ -11,7 +11,7 @@ struct UnitLabel {
   std::string_view si;     ///< "m"
   std::string_view name;   ///< "µm"; empty for pure numbers
   std::string_view plain;  ///< "um": in ASCII, for a command line
-  double si_value = 1.0;   ///< of 1 in it
+  double in_si = 1.0;      ///< of 1 in it
   double shown_to = 0.0;  ///< for quantities that usually are at most this large, SI; 0: never shown unasked, but typed
 };
 
@@ -24,7 +24,7 @@ UnitLabel shown_unit(std::string_view si, double typical);
 /// What a person may have typed behind a number, plain or not; nullptr: no unit of this quantity.
 const UnitLabel* find_unit(std::string_view si, std::string_view typed);
 
-/// The unit of which one is `si_value`: "mm" for m and 1e-3. Its SI unit where none is listed.
-UnitLabel unit_of_size(std::string_view si, double si_value);
+/// The unit of which one is `in_si`: "mm" for m and 1e-3. Its SI unit where none is listed.
+UnitLabel unit_of_size(std::string_view si, double in_si);
 
 }  // namespace tangent

@@ -10,7 +10,7 @@ using namespace tangent::test;
 
 namespace {
 
-ScenePtr icosphere() {
+ScenePtr event_sphere() {
   static const ScenePtr scene = scene_of(make_icosphere(0.040, 3));
   return scene;
 }
@@ -47,7 +47,7 @@ ScenePtr slot() {
 TEST_CASE("the first tick is first, the following ones have no event") {
   for (const Method method : kSmoothMethods) {
     Preset preset = sphere_preset(0.020, method);
-    Stepper stepper(icosphere());
+    Stepper stepper(event_sphere());
     TickState state;
     for (int i = 0; i < 200; ++i) {
       const TickOutput out = stepper.step(preset, at_position(1e-3 * i, pressed({1.0, 0.002 * i, 0.001 * i})), state);
@@ -64,7 +64,7 @@ TEST_CASE("after a leap that tracking can't follow, the contact is seeded anew a
     preset.solver.max_iterations = 6;
     int marked = 0, right = 0, leaps = 0;
     Random random(60);
-    Stepper stepper(icosphere());
+    Stepper stepper(event_sphere());
     TickState state;
     Vec3 direction(1, 0, 0);
     stepper.step(preset, at_position(0.0, pressed(direction)), state);
@@ -87,7 +87,7 @@ TEST_CASE("after a leap that tracking can't follow, the contact is seeded anew a
 TEST_CASE("robust marks every turn of the normal by over ten degrees in a tick") {
   Random random(61);
   const Preset preset = sphere_preset(0.012, Method::robust);
-  for (const ScenePtr& scene : {torus(), icosphere()}) {
+  for (const ScenePtr& scene : {torus(), event_sphere()}) {
     Stepper stepper(scene);
     TickState state;
     TickOutput last = stepper.step(preset, at_position(0.0, Vec3(0.06, 0.0, 0.0)), state);
@@ -142,7 +142,7 @@ TEST_CASE(
     Preset good = sphere_preset(0.020, method);
     good.display.travel_m = good.display.finger_arc_m;
     const Preset bad = unconvergeable(good);
-    Stepper stepper(icosphere());
+    Stepper stepper(event_sphere());
     TickState state;
     const Vec3 n0 = unit(Vec3(1.0, 0.3, -0.5));
     const TickOutput last = stepper.step(good, at_position(1.0, pressed(n0)), state);
@@ -169,7 +169,7 @@ TEST_CASE(
 TEST_CASE("hold and ramp follow the preset") {
   Preset good = sphere_preset(0.020, Method::robust);
   good.safety = {2e-3, 0.0};
-  Stepper stepper(icosphere());
+  Stepper stepper(event_sphere());
   TickState state;
   stepper.step(good, at_position(0.0, pressed({1, 0.2, 0.1})), state);
   const Preset bad = unconvergeable(good);
@@ -180,7 +180,7 @@ TEST_CASE("hold and ramp follow the preset") {
 TEST_CASE("without any converged contact so far force and display are zero") {
   for (const Method method : kSmoothMethods) {
     const Preset bad = unconvergeable(sphere_preset(0.020, method));
-    Stepper stepper(icosphere());
+    Stepper stepper(event_sphere());
     TickState state;
     for (int i = 0; i < 5; ++i) {
       const TickOutput out = stepper.step(bad, at_position(1e-3 * i, pressed({1.0, 0.3 + 0.01 * i, -0.5})), state);
@@ -213,7 +213,7 @@ TEST_CASE("a free finger has a plane and a display position, but no force") {
   for (const Method method : kSmoothMethods) {
     const Preset preset = sphere_preset(0.020, method);
     const TickOutput out =
-        solve_once(icosphere(), preset, {0.061 * unit(Vec3(0.3, 0.1, 1.0)), Quat(1.0, 0.0, 0.0, 0.0)});
+        solve_once(event_sphere(), preset, {0.061 * unit(Vec3(0.3, 0.1, 1.0)), Quat(1.0, 0.0, 0.0, 0.0)});
     CHECK(out.status == TickStatus::free);
     CHECK(out.penetration_m == doctest::Approx(-0.001).epsilon(2e-3));
     CHECK(glm::length(out.force_n) == 0.0);
@@ -224,7 +224,7 @@ TEST_CASE("a free finger has a plane and a display position, but no force") {
 TEST_CASE("damping acts along the normal with the finger's speed, and not on the first tick") {
   Preset preset = sphere_preset(0.020, Method::robust);
   preset.force.damping_n_s_per_m = 5.0;
-  Stepper stepper(icosphere());
+  Stepper stepper(event_sphere());
   TickState state;
   const TickOutput first = stepper.step(preset, at_position(0.0, {0.059, 0.0, 0.0}), state);
   CHECK(glm::length(first.force_n) == doctest::Approx(800.0 * first.penetration_m).epsilon(1e-12));

@@ -30,12 +30,12 @@ Rows read_csv(const std::string& path) {
 }
 
 /// A folder with a sphere of 40 mm and a finger of 20 mm that slides over it, 1 mm deep.
-struct Scene {
+struct SolveScene {
   TempFolder folder;
   std::string mesh = folder.file("sphere.obj");
   std::string poses;
 
-  explicit Scene(int count = 200) {
+  explicit SolveScene(int count = 200) {
     REQUIRE(run_workbench({"make", "icosphere", "--out", mesh}).exit_code == 0);
     std::ostringstream text;
     text.precision(17);
@@ -71,7 +71,7 @@ std::size_t column(const std::string& name) {
 }  // namespace
 
 TEST_CASE("every pose becomes a line, in order, converged, with the promised columns") {
-  const Scene scene;
+  const SolveScene scene;
   const ProcessResult result = scene.solve();
   CAPTURE(result.err);
   REQUIRE(result.exit_code == 0);
@@ -96,7 +96,7 @@ TEST_CASE("every pose becomes a line, in order, converged, with the promised col
 }
 
 TEST_CASE("the summary agrees with the ticks") {
-  const Scene scene;
+  const SolveScene scene;
   REQUIRE(scene.solve({"--summary", scene.folder.file("summary.json")}).exit_code == 0);
   const nlohmann::json summary = scene.summary();
   const Rows rows = scene.ticks();
@@ -120,7 +120,7 @@ TEST_CASE("the summary agrees with the ticks") {
 }
 
 TEST_CASE("the trace has the planes that the ticks counted") {
-  const Scene scene(20);
+  const SolveScene scene(20);
   REQUIRE(scene.solve({"--iterations", scene.folder.file("iterations.csv")}).exit_code == 0);
   const Rows trace = read_csv(scene.folder.file("iterations.csv"));
   const Rows ticks = scene.ticks();
@@ -134,7 +134,7 @@ TEST_CASE("the trace has the planes that the ticks counted") {
   }
   CHECK(last_stop == "converged");
   // The same ticks, traced or not.
-  const Scene untraced(20);
+  const SolveScene untraced(20);
   REQUIRE(untraced.solve().exit_code == 0);
   Rows plain = untraced.ticks();
   REQUIRE(plain.size() == ticks.size());
@@ -145,7 +145,7 @@ TEST_CASE("the trace has the planes that the ticks counted") {
 }
 
 TEST_CASE("options override the preset file, which overrides the built-in values") {
-  const Scene scene(20);
+  const SolveScene scene(20);
   const std::string preset = scene.folder.write("p.toml",
                                                 "[solver]\nmethod = \"newton\"\ntolerance_m = 5e-7\n[finger]\nshape = "
                                                 "\"point\"\n[force]\nstiffness_n_per_m = 100\n");
@@ -168,14 +168,14 @@ TEST_CASE("options override the preset file, which overrides the built-in values
 }
 
 TEST_CASE("a radius of zero is a point finger") {
-  const Scene scene(20);
+  const SolveScene scene(20);
   REQUIRE(scene.solve({"--finger-radius-mm", "0", "--summary", scene.folder.file("summary.json")}).exit_code == 0);
   CHECK(scene.summary()["preset"]["values"]["finger"]["shape"] == "point");
   CHECK(scene.ticks()[1][column("status")] == "free");
 }
 
 TEST_CASE("bad files are named, leave with 1 and leave nothing behind") {
-  const Scene scene(5);
+  const SolveScene scene(5);
   const auto check_failed = [&](const ProcessResult& result, const std::string& message) {
     CHECK(result.exit_code == 1);
     CAPTURE(result.err);
@@ -217,7 +217,7 @@ TEST_CASE("bad files are named, leave with 1 and leave nothing behind") {
 }
 
 TEST_CASE("an output that can't be written is named before any work and nothing is left") {
-  const Scene scene(5);
+  const SolveScene scene(5);
   const std::size_t before = scene.folder.entry_count();
   const auto run = [&](const std::string& out, const std::vector<std::string>& more) {
     std::vector<std::string> arguments{"solve", scene.mesh, "--poses", scene.poses, "--out", out};

@@ -4,6 +4,7 @@
 #include "core/lab/objects/generate.h"
 #include "core/tick/step.h"
 #include "devices/device_set.h"
+#include "tests/core/scenes.h"
 #include "workbench/session/servo_clock.h"
 #include "workbench/session/servo_tick.h"
 
@@ -15,14 +16,6 @@
 #include <vector>
 
 namespace tangent::test {
-
-inline std::shared_ptr<const ContactScene> scene_of(const PolygonMesh& source) {
-  auto mesh = ContactMesh::build(source);
-  REQUIRE(mesh);
-  auto scene = ContactScene::build(std::move(*mesh));
-  REQUIRE(scene);
-  return *scene;
-}
 
 inline std::shared_ptr<const ContactScene> sphere_scene() {
   static const auto scene = scene_of(make_icosphere(0.040, 3));

@@ -80,7 +80,7 @@ std::vector<std::filesystem::path> list_presets(const std::filesystem::path& fol
 DisplayUnit display_unit(const PresetKey& key) {
   const double typical = key.logarithmic ? key.default_value() : std::max(key.slider_max, -key.slider_min);
   const UnitLabel shown = shown_unit(key.unit, typical);
-  return {shown.name, shown.si_value};
+  return {shown.name, shown.in_si};
 }
 
 std::string display_text(const PresetKey& key, double value) {
@@ -117,7 +117,7 @@ Result<double> parse_typed(const PresetKey& key, std::string_view text) {
   const std::string_view unit = trim(rest.substr(static_cast<std::size_t>(end - rest.data())));
   const DisplayUnit shown = display_unit(key);
   if (unit.empty() || unit == shown.name) return number * shown.scale;
-  if (const UnitLabel* typed = find_unit(key.unit, unit)) return number * typed->si_value;
+  if (const UnitLabel* typed = find_unit(key.unit, unit)) return number * typed->in_si;
   return refuse();
 }
 

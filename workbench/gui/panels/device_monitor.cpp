@@ -14,13 +14,13 @@ namespace {
 
 std::string count_text(std::uint64_t n) { return printed("%llu", static_cast<unsigned long long>(n)); }
 
-ImU32 state_ink(const UiContext& ui, DeviceState state) {
+ImU32 monitor_ink(const UiContext& ui, DeviceState state) {
   if (state == DeviceState::ready) return ui.colours.good;
   if (state == DeviceState::faulted) return ui.colours.bad;
   return state == DeviceState::absent ? ui.colours.text_faint : ui.colours.warning;
 }
 
-std::string state_text(DeviceState state, DeviceFault fault) {
+std::string monitor_text(DeviceState state, DeviceFault fault) {
   return std::string(to_string(state)) + (fault == DeviceFault::none ? "" : std::string(": ") + to_string(fault));
 }
 
@@ -46,10 +46,10 @@ void draw_states(const UiContext& ui, DeviceModel& devices) {
   Session& session = *devices.session();
   const ForceCapabilities* force = session.force_capabilities();
   const DisplayCapabilities* display = session.display_capabilities();
-  fact(ui, force != nullptr ? force->name.c_str() : "Force device", state_text(s.force_state, s.force_fault), "",
-       state_ink(ui, s.force_state));
-  fact(ui, display != nullptr ? display->name.c_str() : "Contact display", state_text(s.display_state, s.display_fault),
-       "", state_ink(ui, s.display_state));
+  fact(ui, force != nullptr ? force->name.c_str() : "Force device", monitor_text(s.force_state, s.force_fault), "",
+       monitor_ink(ui, s.force_state));
+  fact(ui, display != nullptr ? display->name.c_str() : "Contact display",
+       monitor_text(s.display_state, s.display_fault), "", monitor_ink(ui, s.display_state));
   const bool faulted = s.servo.gate_state == GateState::faulted;
   fact(ui, "Safety gate",
        std::string(to_string(s.servo.gate_state)) + (faulted ? std::string(": ") + to_string(s.servo.gate_fault) : ""),

@@ -161,8 +161,8 @@ float draw_map_bar(const UiContext& ui, AppModel& model, const Rect& view, float
 
   draw_colours(ui, *paint, bar);
   draw_bins(ui, map.statistics(), bar);
-  draw_numbers(ui, *paint, unit.si_value, bar, limit ? std::optional(limit_share) : std::nullopt);
-  if (limit) draw_limit(ui, bar, limit_share, *limit / unit.si_value);
+  draw_numbers(ui, *paint, unit.in_si, bar, limit ? std::optional(limit_share) : std::nullopt);
+  if (limit) draw_limit(ui, bar, limit_share, *limit / unit.in_si);
   ImGui::SetCursorScreenPos({card.x, card.y});
   ImGui::InvisibleButton("##map_bar", {card.w, card.h});
   ui.items.note_last("view/map_bar");
@@ -181,7 +181,7 @@ void draw_map_hover(const UiContext& ui, MapView& map, std::uint32_t triangle, d
   if (!paint) return;
   const UnitLabel unit = unit_of(map.quantity);
   const std::string text =
-      value ? printed("%.4g", *value / unit.si_value) + (unit.name.empty() ? "" : " " + std::string(unit.name))
+      value ? printed("%.4g", *value / unit.in_si) + (unit.name.empty() ? "" : " " + std::string(unit.name))
             : "no value";
   const std::string where = printed("triangle %u", triangle);
   ImDrawList& draw = *ImGui::GetForegroundDrawList();

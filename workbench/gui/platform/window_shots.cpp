@@ -21,7 +21,7 @@ namespace {
 constexpr std::uint64_t kTicks = 12'000;      // of simulated exploration before the picture ...
 constexpr std::uint64_t kMostTicks = 24'000;  // ... and on until the contact is well in view
 constexpr std::uint64_t kTicksPerFrame = 50;
-constexpr int kSettlingFrames = 4;     // ImGui lays out over some frames
+constexpr int kLayoutFrames = 4;       // ImGui lays out over some frames
 constexpr double kFrame = 1.0 / 60.0;  // s
 
 struct WindowView {
@@ -380,7 +380,7 @@ Result<Image> take_window_shot(const ShotRequest& request) {
   feeder.frame();
   renderer.wait_for_tessellation();
   if (view.key != 0) feeder.press(view.key, view.ctrl);
-  for (int i = 0; i < kSettlingFrames; ++i) feeder.frame();
+  for (int i = 0; i < kLayoutFrames; ++i) feeder.frame();
   return (*screen)->picture();
 }
 

@@ -12,8 +12,8 @@ std::string length_text(double metres) {
   const auto units = labels_of("m");
   const double size = std::abs(metres);
   const auto fits =
-      std::find_if(units.begin(), units.end() - 1, [&](const UnitLabel& u) { return size >= 0.9995 * u.si_value; });
-  const double value = size == 0.0 ? 0.0 : metres / fits->si_value;
+      std::find_if(units.begin(), units.end() - 1, [&](const UnitLabel& u) { return size >= 0.9995 * u.in_si; });
+  const double value = size == 0.0 ? 0.0 : metres / fits->in_si;
   const std::string unit(size == 0.0 ? shown_unit("m", 1.0).name : fits->name);
   char text[48];
   // Beyond what the units reach: not a row of digits, and no "0.00" that isn't zero.
