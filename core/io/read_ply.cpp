@@ -16,7 +16,7 @@ class TextSource {
  public:
   static constexpr PlyEncoding kEncoding = PlyEncoding::ascii;
 
-  TextSource(TextCursor& text, std::string /*path*/) : text_(text) {}
+  TextSource(TextCursor& text, const std::string& /*path*/) : text_(text) {}
 
   bool begin() {
     if (text_.next_content()) [[likely]]

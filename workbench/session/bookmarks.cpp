@@ -97,7 +97,9 @@ std::uint32_t Bookmarks::add(std::uint64_t tick, double t_s) {
 
 void Bookmarks::set_note(std::uint32_t id, std::string note) {
   for (Bookmark& b : all_) {
-    if (b.id == id) b.note = std::move(note);
+    if (b.id != id) continue;
+    b.note = std::move(note);
+    return;
   }
 }
 

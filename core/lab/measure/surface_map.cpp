@@ -90,9 +90,9 @@ unsigned map_level_within(std::size_t budget, std::uint32_t usable_triangles) {
 Vec2 map_part_centroid(unsigned level, unsigned i) {
   unsigned row = 0;
   while (row + 1 < level && (row + 1) * (2 * level - row - 1) <= i) ++row;
-  const unsigned in_row = i - row * (2 * level - row);
+  const unsigned in_row = i - row * (2 * level - row), column = in_row / 2;
   const double third = in_row % 2 == 0 ? 1.0 / 3.0 : 2.0 / 3.0;
-  return {(in_row / 2 + third) / level, (row + third) / level};
+  return {(column + third) / level, (row + third) / level};
 }
 
 unsigned map_part_at(unsigned level, double u, double v) {
