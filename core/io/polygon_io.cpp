@@ -113,6 +113,17 @@ std::string lower_extension(const std::filesystem::path& path) {
   return extension;
 }
 
+std::string obj_text(const PlanarPolygon& polygon, double metres_per_unit) {
+  std::string text = "# " + polygon.name + "\n", line = "l";
+  for (std::size_t i = 0; i < polygon.vertices.size(); ++i) {
+    append_double(text += "v ", polygon.vertices[i].x / metres_per_unit);
+    append_double(text += ' ', polygon.vertices[i].y / metres_per_unit);
+    text += " 0\n";
+    line += " " + std::to_string(i + 1);
+  }
+  return text + line + (polygon.closed ? " 1\n" : "\n");
+}
+
 }  // namespace
 
 Result<PlanarPolygon> parse_polygon_csv(std::string_view text, const std::string& name) {
@@ -161,7 +172,8 @@ Result<PlanarPolygon> read_polygon(const std::filesystem::path& path, double met
   return polygon;
 }
 
-Status write_polygon(const PlanarPolygon& polygon, const std::filesystem::path& path) {
+Status write_polygon(const PlanarPolygon& polygon, const std::filesystem::path& path, double metres_per_unit) {
+  if (lower_extension(path) == ".obj") return write_file_atomic(path, obj_text(polygon, metres_per_unit));
   std::string text = std::string(kColumns[0]) + "," + std::string(kColumns[1]);
   const std::size_t count = polygon.vertices.size() + (polygon.closed ? 1 : 0);
   for (std::size_t i = 0; i < count; ++i) {

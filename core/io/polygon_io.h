@@ -20,7 +20,8 @@ Result<PlanarPolygon> read_polygon(const std::filesystem::path& path, double met
 Result<PlanarPolygon> parse_polygon_csv(std::string_view text, const std::string& name);
 Result<PlanarPolygon> parse_polygon_obj(std::string_view text, const std::string& name, double metres_per_unit);
 
-/// CSV; a closed polygon repeats its first vertex. Atomic.
-Status write_polygon(const PlanarPolygon& polygon, const std::filesystem::path& path);
+/// CSV, or, where the name ends in .obj, an OBJ with one line element, in units of `metres_per_unit`. A closed polygon
+/// repeats its first vertex. Atomic.
+Status write_polygon(const PlanarPolygon& polygon, const std::filesystem::path& path, double metres_per_unit = 1.0);
 
 }  // namespace tangent

@@ -16,10 +16,14 @@ namespace tangent {
 inline constexpr double kQuaternionLengthTolerance = 1e-3;
 /// Positions further out than this are taken for a slip of units or a damaged file, m.
 inline constexpr double kFarthestPose = 1e9;
+/// Time from a pose to the next, at least, s: 1 MHz, a hundred times the fastest servo.
+inline constexpr double kLeastStampStep = 1e-6;
 
 /// `name` stands for the file in messages. Errors name the line: a column that is missing, another number of fields,
-/// anything that is not a finite number, time that does not increase, a quaternion that is not a rotation, no poses.
+/// anything that is not a finite number, time that does not increase by kLeastStampStep, a quaternion that is not a
+/// rotation, no poses.
 Result<std::vector<TickInput>> parse_poses(std::string_view text, std::string_view name);
+/// A file of more than 1 GiB is refused, and one without end as soon as it shows that it is no text (input_file.h).
 Result<std::vector<TickInput>> read_poses(const std::filesystem::path& path);
 
 }  // namespace tangent

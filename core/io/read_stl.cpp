@@ -81,8 +81,12 @@ class TextStl {
       if (step) step = expect(word);
     }
     if (!step) return step;
+    int corners = 0;
     for (std::string word = next_word(); word != "endloop"; word = next_word()) {
       if (word != "vertex") return unexpected_word(word, "vertex or endloop");
+      if (++corners > 3)
+        return text_.fail_here("a facet with more than three vertices",
+                               "facets of STL are triangles: export it again, or as OBJ with its polygons");
       const std::optional<Vec3> position = text_.vector();
       if (!position) return text_.failure();
       if (mesh_.positions.size() == kMaxMeshItems) return text_.fail_here("more than 4294967294 vertices");

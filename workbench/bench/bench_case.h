@@ -19,7 +19,8 @@ struct BenchCase {
   std::string what;  ///< one line: what is hard about it, or what it is
   std::function<Result<PolygonMesh>()> mesh;
   ContactMeshOptions options;
-  Preset preset;  ///< finger and tolerance; the method is set by whoever runs it
+  Preset preset;           ///< finger and tolerance; the method is set by whoever runs it
+  bool own_gains = false;  ///< `paper` runs with the preset's gains; otherwise with the best G_k found for the case
   /// One pose a millisecond, `ticks` of them; the same arguments give the same poses.
   std::function<Result<std::vector<TickInput>>(const ContactScene&, const Finger&, int ticks)> poses;
 };
@@ -27,6 +28,10 @@ struct BenchCase {
 /// The paper's objects, rounded by 1.5 mm and sharp, and the icosphere of 320 triangles; a 20 mm sphere finger pressed
 /// about 1 mm deep moves at 0.1 m/s.
 std::vector<BenchCase> paper_cases();
+
+/// The paper's seven objects, rounded, stroked as its participants did (stroke_path.h) at 0.1 m/s, 1 mm deep, by a 20
+/// mm finger with G_o 1 and G_k 19 mm, the height of its centre over the surface.
+std::vector<BenchCase> stroke_cases();
 
 /// Generated hard cases.
 std::vector<BenchCase> hard_cases();

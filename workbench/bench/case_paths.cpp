@@ -1,6 +1,7 @@
 #include "workbench/bench/case_paths.h"
 
 #include "workbench/session/exploration_path.h"
+#include "workbench/session/stroke_path.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,11 +22,8 @@ Poses renumbered(Poses poses) {
   return poses;
 }
 
-}  // namespace
-
-Poses explore(const ContactScene& scene, const Finger& finger, double speed, double press, int ticks) {
-  const double pad = pad_distance_m(finger);
-  const ExplorationPath path = ExplorationPath::build(scene, pad);
+template <class Path>
+Poses along(const Path& path, double pad, double speed, double press, int ticks) {
   Poses poses;
   for (int i = 0; i < ticks; ++i) {
     const PathPose pose = path.at(speed * kTickSeconds * i, pad, press);
@@ -33,6 +31,20 @@ Poses explore(const ContactScene& scene, const Finger& finger, double speed, dou
     poses.back().finger.orientation = pose.orientation;
   }
   return poses;
+}
+
+}  // namespace
+
+Poses explore(const ContactScene& scene, const Finger& finger, double speed, double press, int ticks) {
+  const double pad = pad_distance_m(finger);
+  return along(ExplorationPath::build(scene, pad), pad, speed, press, ticks);
+}
+
+Result<Poses> stroke(const ContactScene& scene, const Finger& finger, double speed, double press, int ticks) {
+  const double pad = pad_distance_m(finger);
+  const Result<StrokePath> path = StrokePath::build(scene, pad);
+  if (!path) return tl::unexpected(path.error());
+  return along(*path, pad, speed, press, ticks);
 }
 
 Poses around_ball(const Vec3& centre, double distance, double speed, int ticks) {

@@ -15,6 +15,9 @@ inline constexpr double kTickSeconds = 1e-3;
 /// Over the mesh as the simulated hand explores it (ExplorationPath).
 Poses explore(const ContactScene& scene, const Finger& finger, double speed_m_per_s, double press_m, int ticks);
 
+/// Over the mesh in the strokes of the paper's participants (StrokePath), again and again.
+Result<Poses> stroke(const ContactScene& scene, const Finger& finger, double speed_m_per_s, double press_m, int ticks);
+
 /// Round and round a ball at `distance_m` from `centre`, swinging up and down so that no turn repeats another.
 Poses around_ball(const Vec3& centre, double distance_m, double speed_m_per_s, int ticks);
 

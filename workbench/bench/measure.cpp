@@ -48,7 +48,7 @@ MethodReport measure_method(Method method, const BenchCase& bench_case, const Sc
   report.method = method;
   Preset preset = bench_case.preset;
   preset.solver.method = method;
-  if (method == Method::paper) preset = with_best_gain(scene, preset, poses, options.stop);
+  if (method == Method::paper && !bench_case.own_gains) preset = with_best_gain(scene, preset, poses, options.stop);
   report.gain_curvature_m = preset.solver.gain_curvature_m;
   const TimedRun run = timed_run(scene, preset, poses, options.repeats, clock, options.stop);
   report.run = run_statistics(poses, run.outputs, run.ns);

@@ -20,8 +20,8 @@ namespace {
 
 using namespace bench;
 
-enum class Suite { paper, hard, scale, all };
-constexpr std::array<std::string_view, 4> kSuites{"paper", "hard", "scale", "all"};  // order of Suite
+enum class Suite { paper, strokes, hard, scale, all };
+constexpr std::array<std::string_view, 5> kSuites{"paper", "strokes", "hard", "scale", "all"};  // order of Suite
 
 struct BenchOptions {
   Suite suite = Suite::paper;
@@ -93,6 +93,7 @@ Status run_work_precision(const BenchOptions& options, const TickClock& clock, B
 Status run_suites(const BenchOptions& options, const TickClock& clock, BenchReport& report) {
   Status status;
   if (wants(options, Suite::paper)) status = run_cases("paper", paper_cases(), options, clock, report);
+  if (status && wants(options, Suite::strokes)) status = run_cases("strokes", stroke_cases(), options, clock, report);
   if (status && wants(options, Suite::hard)) status = run_cases("hard", hard_cases(), options, clock, report);
   if (status && !options.poses.empty()) {
     const Result<std::vector<BenchCase>> cases = shared_cases(options.meshes, options.poses);
@@ -150,9 +151,11 @@ void add_bench_command(CLI::App& app, CommandResult& result) {
   CLI::App* command = app.add_subcommand("bench", "Measure speed against error, for every method");
   auto options = std::make_shared<BenchOptions>();
   BenchOptions* o = options.get();
-  add_choice_option(*command, "--suite", kSuites,
-                    "Scenes: the paper's objects (default), hard cases, 1k to 5M triangles, or all",
-                    [o](int i) { o->suite = static_cast<Suite>(i); });
+  add_choice_option(
+      *command, "--suite", kSuites,
+      "Scenes: the paper's objects explored all over (default), the same in the strokes of its participants, "
+      "hard cases, 1k to 5M triangles, or all",
+      [o](int i) { o->suite = static_cast<Suite>(i); });
   add_number_option(*command, "--ticks", {.min = 1, .max = 10'000'000, .whole = true},
                     "Ticks of each scene (default 10000)", [o](double n) { o->measure.ticks = static_cast<int>(n); });
   add_number_option(*command, "--repeats", {.min = 1, .max = 100, .whole = true},

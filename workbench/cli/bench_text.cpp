@@ -51,6 +51,22 @@ std::string flatness_text(const BenchReport& report) {
                 smallest->triangles);
 }
 
+/// The paper: two to three iterations on average. Mean over the objects of the strokes suite.
+std::string strokes_text(const BenchReport& report) {
+  double sum = 0.0, most = 0.0;
+  int objects = 0;
+  for (const SceneReport& scene : report.scenes) {
+    const MethodReport* paper = scene.suite == "strokes" ? scene.of(Method::paper) : nullptr;
+    if (paper == nullptr) continue;
+    sum += paper->run.all_iterations.mean;
+    most = std::max(most, paper->run.all_iterations.mean);
+    ++objects;
+  }
+  if (objects == 0) return {};
+  return format("strokes suite: paper takes %.2f planes a tick on average over %d objects, %.2f at most\n",
+                sum / objects, objects, most);
+}
+
 }  // namespace
 
 std::string report_legend(const BenchReport& report) {
@@ -120,7 +136,7 @@ std::string summary_text(const BenchReport& report) {
     text += format("paper suite: typical tick of robust at most %.2f evaluations and %.2f ticks of paper\n",
                    worst_evaluations, worst_paper);
   }
-  return text + flatness_text(report);
+  return text + strokes_text(report) + flatness_text(report);
 }
 
 }  // namespace tangent::bench

@@ -178,7 +178,9 @@ Status run_decimate(const DecimateOptions& options, bool& complete) {
   report.over_after = count_over(coarse->mesh(), report.limits.angle_deg);
   const Preset preset;
   Stepper stepper(coarse);
-  report.run = score_run(stepper, preset, exploration_poses(*coarse, preset.finger).poses);
+  const auto explored = exploration_poses(*coarse, preset.finger, ExplorationKind::around, ExplorationPace::steady);
+  if (!explored) return tl::unexpected(explored.error());
+  report.run = score_run(stepper, preset, explored->poses);
 
   if (Status status = write_obj(report.result.mesh, options.out, options.mesh.metres_per_unit); !status) return status;
   if (!options.json.empty())

@@ -1,5 +1,6 @@
 #include "workbench/cli/solve_report.h"
 
+#include "core/lab/audit/finger_size.h"
 #include "core/preset/schema.h"
 #include "workbench/cli/mesh_text.h"
 #include "workbench/cli/text_format.h"
@@ -73,6 +74,12 @@ std::string finger_text(const Finger& finger) {
 
 }  // namespace
 
+std::vector<std::string> SolveReport::notes() const {
+  std::vector<std::string> all = mesh->notes();
+  if (std::string size = finger_size_note(*mesh, preset.preset.finger); !size.empty()) all.push_back(std::move(size));
+  return all;
+}
+
 std::string solve_text(const SolveReport& report) {
   const SolveStatistics& s = report.statistics;
   const ContactMesh& mesh = *report.mesh;
@@ -92,7 +99,7 @@ std::string solve_text(const SolveReport& report) {
   text += format("  seconds     loading %.3f, solving %.3f\n", report.load_seconds, report.solve_seconds);
   const std::string defects = defects_text(mesh);
   if (!defects.empty()) text += "mesh: found and dealt with (numbers of the first)\n" + defects;
-  for (const std::string& note : mesh.notes()) text += "note: " + note + "\n";
+  for (const std::string& note : report.notes()) text += "note: " + note + "\n";
   return text;
 }
 
@@ -113,7 +120,7 @@ Json solve_json(const SolveReport& report) {
         {"triangles", mesh.triangle_count()},
         {"usable_triangles", mesh.usable_triangle_count()},
         {"defects", defects_json(mesh)},
-        {"notes", mesh.notes()}}},
+        {"notes", report.notes()}}},
       {"poses", {{"name", report.poses_name}, {"count", report.poses}}},
       {"preset", {{"name", report.preset_name}, {"values", to_json(report.preset.preset)}}},
       {"interrupted", report.interrupted},

@@ -9,6 +9,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include <string>
+#include <vector>
 
 namespace tangent {
 
@@ -23,6 +24,8 @@ struct SolveReport {
   double load_seconds = 0.0;   ///< poses, mesh, query structure
   double solve_seconds = 0.0;  ///< ticks and their output
   SolveStatistics statistics;
+
+  std::vector<std::string> notes() const;  ///< on the mesh, and on the finger where it does not fit the mesh
 };
 
 /// A dozen lines for a terminal.

@@ -8,6 +8,7 @@
 #include "workbench/cli/interrupt.h"
 #include "workbench/cli/mesh_options.h"
 #include "workbench/cli/messages.h"
+#include "workbench/cli/number_option.h"
 #include "workbench/cli/preset_options.h"
 #include "workbench/cli/progress.h"
 #include "workbench/cli/stopwatch.h"
@@ -25,6 +26,7 @@ struct TuneOptions {
   MeshOptions mesh;
   PresetOptions preset;
   std::filesystem::path poses, out;
+  ExplorationKind path = ExplorationKind::around;
   std::string command;  ///< as typed, with every option by its long name
 };
 
@@ -71,11 +73,16 @@ Result<std::vector<TickInput>> find_poses(const TuneOptions& options, const Cont
     report.poses = options.poses.filename().string();
     return read_poses(options.poses);
   }
-  ExplorationPoses explored = exploration_poses(scene, report.preset.preset.finger);
-  report.poses =
-      format("exploration path, %g m/s, %g mm deep, %.3g of %.3g m", kExplorationSpeed, explored.press_m * 1e3,
-             kExplorationSpeed * kExplorationTick * static_cast<double>(explored.poses.size()), explored.length_m);
-  return std::move(explored.poses);
+  Result<ExplorationPoses> explored =
+      exploration_poses(scene, report.preset.preset.finger, options.path, ExplorationPace::varied);
+  if (!explored) return tl::unexpected(explored.error());
+  constexpr double kSlow = 1.0 - kExplorationSpeedSwing, kFast = 1.0 + kExplorationSpeedSwing;
+  const double mm = explored->press_m * 1e3;
+  report.poses = format("%s, %g to %g m/s, %g to %g mm deep, %.3g of %.3g m",
+                        options.path == ExplorationKind::around ? "exploration path" : "strokes",
+                        kExplorationSpeed * kSlow, kExplorationSpeed * kFast, mm * (1.0 - kExplorationPressSwing),
+                        mm * (1.0 + kExplorationPressSwing), explored->way_m, explored->length_m);
+  return std::move(explored->poses);
 }
 
 MethodRun run_method(const std::shared_ptr<const ContactScene>& scene, Preset preset, Method method,
@@ -174,10 +181,13 @@ void add_tune_command(CLI::App& app, CommandResult& result) {
       "(default paper). Ctrl-C keeps the best so far.");
   auto options = std::make_shared<TuneOptions>();
   add_mesh_options(*command, options->mesh);
-  command
-      ->add_option("--poses", options->poses,
-                   "Finger poses: t_s,x_m,y_m,z_m[,qw,qx,qy,qz] (default: explores the mesh at 0.1 m/s, 1 mm deep)")
+  command->add_option("--poses", options->poses, "Finger poses: t_s,x_m,y_m,z_m[,qw,qx,qy,qz] (default: --path)")
       ->type_name("F.csv");
+  add_choice_option(
+      *command, "--path", kExplorationNames,
+      "How the mesh is explored, at 0.05 to 0.15 m/s, 0.4 to 1.6 mm deep: all over (around, the default), "
+      "or left and right over its top, then forward and back, as the paper's participants (strokes)",
+      [options = options.get()](int kind) { options->path = static_cast<ExplorationKind>(kind); });
   command->add_option("--out", options->out, "Preset to write")->required()->type_name("preset.toml");
   add_preset_options(*command, options->preset);
   command->callback([command, options, &result] {

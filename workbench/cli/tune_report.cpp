@@ -1,5 +1,6 @@
 #include "workbench/cli/tune_report.h"
 
+#include "core/lab/audit/finger_size.h"
 #include "workbench/cli/mesh_text.h"
 #include "workbench/cli/text_format.h"
 
@@ -104,6 +105,8 @@ std::string tune_text(const TuneReport& report) {
   if (const auto left = tuning.best.front().score.unconverged; left != 0)
     text += format("note: %llu ticks of the paper's iteration did not converge with any gains tried\n",
                    static_cast<unsigned long long>(left));
+  if (const std::string note = finger_size_note(*report.mesh, report.preset.preset.finger); !note.empty())
+    text += "note: " + note + "\n";
   return text;
 }
 

@@ -5,9 +5,8 @@
 
 namespace tangent {
 
-/// The arc of the paper's experiments: 0.902 rad and 100 mm of way.
-inline constexpr double kPaperArcRad = 0.902, kPaperArcLength = 0.100;
-inline constexpr double kPaperArcRadius = kPaperArcLength / kPaperArcRad;
+/// The arc of the paper's experiments: 0.902 rad of a circle of 100 mm radius, 90.2 mm of way (Doxon et al. 5.2.2).
+inline constexpr double kPaperArcRad = 0.902, kPaperArcRadius = 0.100;
 
 enum class ArcPlacement : std::uint8_t {
   tangent,    ///< facets of angle/(n-1) rad that touch the arc at their midpoints: the paper's segment counts

@@ -180,7 +180,10 @@ TEST_CASE("missing, empty and huge preset files are refused by name") {
   const TempFolder folder;
   CHECK(contains(read_preset(folder.file("none.toml")).error().message(), "none.toml: can't be opened: No such file"));
   CHECK(contains(read_preset(folder.write("empty.toml", "")).error().message(), "empty.toml: the file is empty"));
-  CHECK(contains(read_preset("/dev/zero").error().message(), "larger than 1 MiB"));
+  CHECK(contains(read_preset("/dev/zero").error().message(), "/dev/zero:1: holds a zero byte"));
+  std::string comments;
+  while (comments.size() <= 1 << 20) comments += "# a comment of a preset that goes on and on\n";
+  CHECK(contains(read_preset(folder.write("huge.toml", comments)).error().message(), "larger than 1 MiB"));
   CHECK_FALSE(read_preset(folder.path()));
 }
 

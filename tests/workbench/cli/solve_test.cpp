@@ -205,6 +205,9 @@ TEST_CASE("bad files are named, leave with 1 and leave nothing behind") {
     check_failed(with_poses("t_s,x_m,y_m,z_m\n0,0,0\n"), "bad.csv:2: only 3 columns");
     check_failed(with_poses(""), "bad.csv: the file is empty");
     check_failed(with_poses("t_s,x_m,y_m,z_m\n"), "bad.csv: no poses");
+    check_failed(with_poses("t_s,x_m,y_m,z_m\n0,0,0,0\n1e-7,0,0,0\n"), "bad.csv:3: t_s increases by only 1e-07");
+    check_failed(run_workbench({"solve", scene.mesh, "--poses", "/dev/zero", "--out", scene.folder.file("ticks.csv")}),
+                 "/dev/zero:1: holds a zero byte");
   }
   SUBCASE("meshes") {
     check_failed(run_workbench({"solve", scene.folder.file("none.obj"), "--poses", scene.poses, "--out",
@@ -214,6 +217,17 @@ TEST_CASE("bad files are named, leave with 1 and leave nothing behind") {
                                 "--poses", scene.poses, "--out", scene.folder.file("ticks.csv")}),
                  "bad.obj:4");
   }
+}
+
+TEST_CASE("a finger a thousand times larger than the mesh is solved for and remarked on") {
+  const Scene scene(50);
+  const ProcessResult result =
+      scene.solve({"--fit-mm", "1", "--finger-radius-mm", "1000", "--summary", scene.folder.file("summary.json")});
+  CHECK(result.exit_code == 0);
+  CHECK(contains(result.out, "note: the finger reaches 1000 mm, 1000 times the mesh's longest side of 1 mm"));
+  REQUIRE(scene.summary()["mesh"]["notes"].size() == 1);
+  CHECK(contains(scene.summary()["mesh"]["notes"][0].get<std::string>(), "check --unit or --fit-mm"));
+  CHECK(scene.summary()["ticks"] == 50);
 }
 
 TEST_CASE("an output that can't be written is named before any work and nothing is left") {
