@@ -44,13 +44,6 @@ void describe_smooth(const DecidedContact& decided, const TickContext& tick, Tic
   out.triangle_changes = decided.triangle_changes;
 }
 
-/// The smooth contact for a source that asks for it beside a method on the raw mesh.
-void find_smooth_beside(const ContactScene& scene, StepCache& cache, const TickContext& tick, RenderPlane& plane) {
-  SolverSettings settings = tick.preset.solver;
-  settings.method = Method::robust;
-  find_smooth(scene, cache, tick, settings, plane);
-}
-
 /// Facet and force shading.
 void find_facet(const ContactScene& scene, const TickContext& tick, TickPlanes& planes, TickOutput& out) {
   const ContactMesh& mesh = scene.mesh();
@@ -71,16 +64,20 @@ void find_two_pass(const ContactScene& scene, const TickContext& tick, TickPlane
 void find_mesh_contacts(const ContactScene& scene, StepCache& cache, const TickContext& tick, TickPlanes& planes,
                         TickOutput& out) {
   const Preset& preset = tick.preset;
-  if (!only_smooth(preset)) planes = TickPlanes::all(kNoPlane);
-  if (is_smooth(preset.solver.method)) {
+  if (only_smooth(preset)) {  // most ticks
     find_smooth(scene, cache, tick, preset.solver, planes.smooth);
-    describe_smooth(cache.smooth, tick, out);
-    if (only_smooth(preset)) return;  // most ticks
-  } else if (wants_smooth(preset)) {
-    find_smooth_beside(scene, cache, tick, planes.smooth);
+    return describe_smooth(cache.smooth, tick, out);
+  }
+  planes = TickPlanes::all(kNoPlane);
+  const Method reported = reported_method(preset);
+  if (wants_smooth(preset)) {
+    SolverSettings settings = preset.solver;
+    if (!is_smooth(settings.method)) settings.method = Method::robust;
+    find_smooth(scene, cache, tick, settings, planes.smooth);
+    if (is_smooth(reported)) describe_smooth(cache.smooth, tick, out);
   }
   if (wants_facet(preset)) find_facet(scene, tick, planes, out);
-  if (preset.solver.method == Method::two_pass) find_two_pass(scene, tick, planes, out);
+  if (reported == Method::two_pass) find_two_pass(scene, tick, planes, out);
 }
 
 }  // namespace tangent

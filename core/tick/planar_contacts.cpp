@@ -80,12 +80,13 @@ void find_planar_contacts(const PlanarCurve& curve, const TickContext& tick, Tic
   const Preset& preset = tick.preset;
   const Vec3& centre = tick.local.position;
   planes = TickPlanes::all(kNoPlane);
+  const Method reported = reported_method(preset);
   if (wants_smooth(preset)) {
     SolverSettings settings = preset.solver;
     if (!is_smooth(settings.method)) settings.method = Method::robust;
     PlanarTrack track;
     planes.smooth = find_smooth(curve, tick, settings, track);
-    if (is_smooth(preset.solver.method)) describe_smooth(track, tick, out);
+    if (is_smooth(reported)) describe_smooth(track, tick, out);
   }
   const PolygonSurface surface(curve, preset.solver.tolerance_m);
   if (wants_facet(preset)) {
@@ -93,8 +94,7 @@ void find_planar_contacts(const PlanarCurve& curve, const TickContext& tick, Tic
     const double depth = radius_m(tick) - facet.height_m;
     offer_facet(tick, facet, surface.interpolated_normal(facet), depth, planes, out);
   }
-  if (preset.solver.method == Method::two_pass)
-    find_two_pass_contact(tick, surface, kLeapShare * curve.size_m(), planes, out);
+  if (reported == Method::two_pass) find_two_pass_contact(tick, surface, kLeapShare * curve.size_m(), planes, out);
 }
 
 }  // namespace tangent

@@ -43,7 +43,7 @@ FingerPose last_pose(const TickState& state) { return {state.last_position, Quat
 }  // namespace
 
 Stepper::Stepper(std::shared_ptr<const ContactScene> scene)
-    : scene_(std::move(scene)), cache_(std::make_unique<StepCache>(scene_->mesh())) {}
+    : scene_(std::move(scene)), cache_(scene_->planar() ? nullptr : std::make_unique<StepCache>(scene_->mesh())) {}
 Stepper::Stepper(Stepper&&) noexcept = default;
 Stepper& Stepper::operator=(Stepper&&) noexcept = default;
 Stepper::~Stepper() = default;

@@ -3,6 +3,7 @@
 #include "core/lab/objects/generate.h"
 #include "workbench/bench/case_paths.h"
 #include "workbench/bench/measure.h"
+#include "workbench/session/two_threads.h"
 
 #include <unistd.h>
 
@@ -64,7 +65,7 @@ Result<ScenePtr> load_icosphere(int subdivisions, LoadReport& load) {
   if (!mesh) return tl::unexpected(mesh.error());
   load.mesh_s = seconds_since(start);
   start = TickClock::now();
-  Result<ScenePtr> scene = ContactScene::build(std::move(*mesh));
+  Result<ScenePtr> scene = ContactScene::build(std::move(*mesh), {}, run_on_two_threads);
   load.structures_s = seconds_since(start);
   return scene;
 }

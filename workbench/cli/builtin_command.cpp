@@ -31,6 +31,7 @@ int run_without_command() {
     report.statistics.add(output, watch.nanoseconds());
   }
   report.solve_seconds = solving.seconds();
+  report.scene_bytes = (*scene)->memory_bytes();
   std::fputs(
       ("The built-in scene, 0.1 m/s, 1 mm deep (workbench --help lists what else there is)\n" + solve_text(report))
           .c_str(),

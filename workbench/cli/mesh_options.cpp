@@ -4,6 +4,7 @@
 #include "core/io/polygon_io.h"
 #include "workbench/cli/number_option.h"
 #include "workbench/session/file_units.h"
+#include "workbench/session/two_threads.h"
 
 #include <array>
 
@@ -50,18 +51,18 @@ Result<LoadedMesh> load_mesh(const MeshOptions& options) {
   return LoadedMesh{std::move(*source), std::move(*mesh)};
 }
 
-Result<std::shared_ptr<const ContactScene>> load_contact_scene(const MeshOptions& options) {
+Result<std::shared_ptr<const ContactScene>> load_contact_scene(const MeshOptions& options, const SceneParts& parts) {
   if (!is_planar_file(options.file)) {
     Result<LoadedMesh> loaded = load_mesh(options);
     if (!loaded) return tl::unexpected(loaded.error());
-    return ContactScene::build(std::move(loaded->mesh));
+    return ContactScene::build(std::move(loaded->mesh), parts, run_on_two_threads);
   }
   Result<PlanarPolygon> polygon = read_polygon(options.file, options.metres_per_unit);
   if (!polygon) return tl::unexpected(polygon.error());
   if (options.build.fit_m) fit_polygon(*polygon, *options.build.fit_m);
   Result<PlanarCurve> curve = PlanarCurve::build(std::move(*polygon));
   if (!curve) return tl::unexpected(curve.error());
-  return ContactScene::build(std::move(*curve));
+  return ContactScene::build(std::move(*curve), parts);
 }
 
 }  // namespace tangent

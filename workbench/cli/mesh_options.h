@@ -32,7 +32,7 @@ struct LoadedMesh {
 /// Reads and builds. Fails with the reader's or the builder's message.
 Result<LoadedMesh> load_mesh(const MeshOptions& options);
 
-/// The scene for contacts: a mesh, or a 2D scene where the file holds a polygon (planar/polygon_io.h).
-Result<std::shared_ptr<const ContactScene>> load_contact_scene(const MeshOptions& options);
+/// The scene for contacts: a mesh, or a 2D scene where the file holds a polygon (planar/polygon_io.h), with `parts`.
+Result<std::shared_ptr<const ContactScene>> load_contact_scene(const MeshOptions& options, const SceneParts& parts);
 
 }  // namespace tangent

@@ -108,12 +108,12 @@ Status solve(const SolveOptions& options, bool& interrupted) {
   if (Status status = probe_outputs(options); !status) return status;
   const Result<std::vector<TickInput>> poses = read_poses(options.poses);
   if (!poses) return tl::unexpected(poses.error());
-  const Result<std::shared_ptr<const ContactScene>> scene = load_contact_scene(options.mesh);
+  const Result<std::shared_ptr<const ContactScene>> scene = load_contact_scene(options.mesh, parts_for(preset->preset));
   if (!scene) return tl::unexpected(scene.error());
   if (Status status = check_shape(**scene, preset->preset); !status) return status;
   report.load_seconds = loading.seconds();
 
-  report.mesh = &(*scene)->mesh();
+  report.mesh = (*scene)->has_mesh() ? &(*scene)->mesh() : nullptr;
   report.planar = (*scene)->planar();
   report.preset = std::move(*preset);
   report.preset_name = options.preset.file.empty() ? "built-in values" : options.preset.file.string();
@@ -126,6 +126,7 @@ Status solve(const SolveOptions& options, bool& interrupted) {
   if (Status status = step_all(stepper, *poses, *outputs, report); !status) return status;
   interrupted = report.interrupted;
   report.solve_seconds = solving.seconds();
+  report.scene_bytes = (*scene)->memory_bytes();
   if (Status status = commit(*outputs, options, report); !status) return status;
   std::fputs(solve_text(report).c_str(), stdout);
   if (interrupted) {

@@ -72,21 +72,36 @@ std::string finger_text(const Finger& finger) {
   return {};
 }
 
+std::string scene_name(const SolveReport& report) {
+  return report.mesh != nullptr ? report.mesh->name() : report.planar->polygon().name;
+}
+
+Json mesh_json(const SolveReport& report) {
+  const ContactMesh& mesh = *report.mesh;
+  return {{"name", mesh.name()},
+          {"hash", hash_text(mesh.content_hash())},
+          {"triangles", mesh.triangle_count()},
+          {"usable_triangles", mesh.usable_triangle_count()},
+          {"defects", defects_json(mesh)},
+          {"notes", report.notes()}};
+}
+
 }  // namespace
 
 std::vector<std::string> SolveReport::notes() const {
-  std::vector<std::string> all = mesh->notes();
-  if (std::string size = finger_size_note(*mesh, preset.preset.finger); !size.empty()) all.push_back(std::move(size));
+  std::vector<std::string> all = mesh != nullptr ? mesh->notes() : std::vector<std::string>{};
+  const double longest_m = mesh != nullptr ? longest_side_m(*mesh) : planar->size_m();
+  if (std::string size = finger_size_note(longest_m, preset.preset.finger); !size.empty())
+    all.push_back(std::move(size));
   return all;
 }
 
 std::string solve_text(const SolveReport& report) {
   const SolveStatistics& s = report.statistics;
-  const ContactMesh& mesh = *report.mesh;
   const Preset& preset = report.preset.preset;
   const Distribution ns = s.solve_ns();
   std::string text = format("%llu ticks on %s (%s), %s, method %s%s\n", (unsigned long long)s.ticks(),
-                            mesh.name().c_str(), size_text(report).c_str(), finger_text(preset.finger).c_str(),
+                            scene_name(report).c_str(), size_text(report).c_str(), finger_text(preset.finger).c_str(),
                             to_string(preset.solver.method), report.interrupted ? ", interrupted" : "");
   text += "  status      " + counts_text(s, kTickStatuses) + "\n";
   text += "  events      " + counts_text(s, kTickEvents) + "\n";
@@ -97,7 +112,8 @@ std::string solve_text(const SolveReport& report) {
   text += format("  tick time   p50 %.2f us  p99 %.2f us  p99.9 %.2f us  max %.2f us\n", ns.p50 * 1e-3, ns.p99 * 1e-3,
                  ns.p999 * 1e-3, ns.max * 1e-3);
   text += format("  seconds     loading %.3f, solving %.3f\n", report.load_seconds, report.solve_seconds);
-  const std::string defects = defects_text(mesh);
+  text += format("  memory      %.3f MB of scene\n", 1e-6 * static_cast<double>(report.scene_bytes));
+  const std::string defects = report.mesh != nullptr ? defects_text(*report.mesh) : std::string();
   if (!defects.empty()) text += "mesh: found and dealt with (numbers of the first)\n" + defects;
   for (const std::string& note : report.notes()) text += "note: " + note + "\n";
   return text;
@@ -105,22 +121,17 @@ std::string solve_text(const SolveReport& report) {
 
 Json solve_json(const SolveReport& report) {
   const SolveStatistics& s = report.statistics;
-  const ContactMesh& mesh = *report.mesh;
-  Json scene = {{"dimensions", report.planar != nullptr ? 2 : 3}};
+  Json scene = {{"dimensions", report.planar != nullptr ? 2 : 3}, {"memory_bytes", report.scene_bytes}};
   if (report.planar != nullptr) {
+    scene["name"] = scene_name(report);
     scene["vertices"] = report.planar->patch_count();
     scene["closed"] = report.planar->closed();
+    scene["notes"] = report.notes();
   }
   return {
       {"program_version", TANGENT_VERSION},
       {"scene", scene},
-      {"mesh",
-       {{"name", mesh.name()},
-        {"hash", hash_text(mesh.content_hash())},
-        {"triangles", mesh.triangle_count()},
-        {"usable_triangles", mesh.usable_triangle_count()},
-        {"defects", defects_json(mesh)},
-        {"notes", report.notes()}}},
+      {"mesh", report.mesh != nullptr ? mesh_json(report) : Json()},
       {"poses", {{"name", report.poses_name}, {"count", report.poses}}},
       {"preset", {{"name", report.preset_name}, {"values", to_json(report.preset.preset)}}},
       {"interrupted", report.interrupted},

@@ -14,15 +14,16 @@
 namespace tangent {
 
 struct SolveReport {
-  const ContactMesh* mesh = nullptr;
-  const PlanarCurve* planar = nullptr;  ///< of a 2D scene; `mesh` is then its ribbon
+  const ContactMesh* mesh = nullptr;    ///< null: a 2D scene
+  const PlanarCurve* planar = nullptr;  ///< null: a 3D scene
   PresetFile preset;
   std::string preset_name;  ///< file, or "built-in values"
   std::string poses_name;
   std::uint64_t poses = 0;
   bool interrupted = false;
-  double load_seconds = 0.0;   ///< poses, mesh, query structure
-  double solve_seconds = 0.0;  ///< ticks and their output
+  std::size_t scene_bytes = 0;  ///< mesh or curve, and what searches read of it
+  double load_seconds = 0.0;    ///< poses, mesh, query structure
+  double solve_seconds = 0.0;   ///< ticks and their output
   SolveStatistics statistics;
 
   std::vector<std::string> notes() const;  ///< on the mesh, and on the finger where it does not fit the mesh

@@ -105,7 +105,8 @@ std::string tune_text(const TuneReport& report) {
   if (const auto left = tuning.best.front().score.unconverged; left != 0)
     text += format("note: %llu ticks of the paper's iteration did not converge with any gains tried\n",
                    static_cast<unsigned long long>(left));
-  if (const std::string note = finger_size_note(*report.mesh, report.preset.preset.finger); !note.empty())
+  if (const std::string note = finger_size_note(longest_side_m(*report.mesh), report.preset.preset.finger);
+      !note.empty())
     text += "note: " + note + "\n";
   return text;
 }

@@ -12,7 +12,10 @@ namespace tangent {
 /// under 0.2 mm; the contact itself is found at any ratio.
 inline constexpr double kFingerToMesh = 100.0;
 
-/// Empty where the finger's size is plausible; else both sizes, and which options to check.
-std::string finger_size_note(const ContactMesh& mesh, const Finger& finger);
+/// Of a mesh or polygon whose longest side is `longest_m`: empty where the finger's size is plausible; else both sizes,
+/// and which options to check.
+std::string finger_size_note(double longest_m, const Finger& finger);
+
+double longest_side_m(const ContactMesh& mesh);  ///< of its box
 
 }  // namespace tangent

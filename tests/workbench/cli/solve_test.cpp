@@ -119,6 +119,26 @@ TEST_CASE("the summary agrees with the ticks") {
   CHECK(summary["mesh"]["triangles"] == 320);
 }
 
+TEST_CASE("a run by facets holds less than one by a smooth method, and C1 reports the facets' contact") {
+  const Scene scene(50);
+  const auto run = [&](std::vector<std::string> options) {
+    options.insert(options.end(), {"--summary", scene.folder.file("summary.json")});
+    REQUIRE(scene.solve(options).exit_code == 0);
+    return scene.ticks();
+  };
+  run({"--method", "robust"});
+  const double smooth = scene.summary()["scene"]["memory_bytes"].get<double>();
+  const Rows facet = run({"--method", "facet"});
+  CHECK(scene.summary()["scene"]["memory_bytes"].get<double>() < smooth);
+  const Rows c1 = run({"--method", "robust", "--condition", "C1"});
+  CHECK(scene.summary()["scene"]["memory_bytes"].get<double>() < smooth);
+  for (std::size_t i = 1; i < c1.size(); ++i) {
+    for (const char* name :
+         {"triangle", "normal_x", "normal_y", "normal_z", "penetration_m", "force_x_n", "iterations"})
+      CHECK(c1[i][column(name)] == facet[i][column(name)]);
+  }
+}
+
 TEST_CASE("the trace has the planes that the ticks counted") {
   const Scene scene(20);
   REQUIRE(scene.solve({"--iterations", scene.folder.file("iterations.csv")}).exit_code == 0);

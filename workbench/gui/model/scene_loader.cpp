@@ -5,6 +5,7 @@
 #include "core/lab/objects/generate.h"
 #include "core/lab/objects/generate_hard.h"
 #include "core/planar/ribbon.h"
+#include "workbench/session/two_threads.h"
 
 #include <algorithm>
 #include <chrono>
@@ -64,7 +65,7 @@ Result<LoadedScene> load_scene(const SceneRequest& request) {
   }
   auto mesh = ContactMesh::build(*out.polygons, request.options);
   if (!mesh) return tl::unexpected(mesh.error());
-  auto scene = ContactScene::build(std::move(*mesh));
+  auto scene = ContactScene::build(std::move(*mesh), {}, run_on_two_threads);
   if (!scene) return tl::unexpected(scene.error());
   out.scene = std::move(*scene);
   out.prepared = Session::prepare(out.scene, request.finger);

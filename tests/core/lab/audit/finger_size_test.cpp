@@ -11,7 +11,7 @@ TEST_CASE("a finger a thousand times larger than the mesh is remarked on with bo
   const auto mesh = ContactMesh::build(height_field(0.01, 2, [](double, double) { return 0.0; }));
   REQUIRE(mesh);
   const auto note = [&](double radius_m) {
-    return finger_size_note(*mesh, sphere_preset(radius_m, Method::robust).finger);
+    return finger_size_note(longest_side_m(*mesh), sphere_preset(radius_m, Method::robust).finger);
   };
   CHECK(contains(note(20.0), "the finger reaches 2e+04 mm, 1000 times the mesh's longest side of 20 mm: check --unit"));
   CHECK(note(0.02).empty());
@@ -26,5 +26,5 @@ TEST_CASE("the note counts how far a finger of any shape reaches") {
   Finger finger;
   finger.shape = FingerShape::ellipsoid;
   finger.semi_axes_m = Vec3(0.01, 3.0, 0.01);
-  CHECK(contains(finger_size_note(*mesh, finger), "reaches 3000 mm, 150 times"));
+  CHECK(contains(finger_size_note(longest_side_m(*mesh), finger), "reaches 3000 mm, 150 times"));
 }
