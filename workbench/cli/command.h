@@ -4,6 +4,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include <span>
+
 namespace tangent {
 
 /// Exit codes of the program.
@@ -26,18 +28,21 @@ void add_figures_command(CLI::App& app, CommandResult& result);
 void add_decimate_command(CLI::App& app, CommandResult& result);
 void add_devices_command(CLI::App& app, CommandResult& result);
 void add_monitor_command(CLI::App& app, CommandResult& result);
-#ifdef TANGENT_HAS_GUI
-void add_gui_command(CLI::App& app, CommandResult& result);
-void add_shot_command(CLI::App& app, CommandResult& result);
 
-/// Without a subcommand: the window on the built-in scene; without a display, pictures of it.
-int run_gui_or_pictures();
-#endif
+/// What the subcommands of workbench-window do (window/), which `workbench` lists, too.
+inline constexpr const char* kGuiCommandText = "Open the window";
+inline constexpr const char* kShotCommandText =
+    "Write a view of the window or of the 3D scene as PNG; needs no display";
 
-/// What the program does without a subcommand.
+using AddCommand = void (*)(CLI::App&, CommandResult&);
+
+/// Those of the program without a window.
+std::span<const AddCommand> headless_commands();
+
+/// What the program does without a subcommand and without the window: solves the built-in scene.
 int run_without_command();
 
 /// Parses the arguments and runs what they ask for. Returns the exit code.
-int run_program(int argc, const char* const* argv);
+int run_program(int argc, const char* const* argv, std::span<const AddCommand> commands, int (*without_command)());
 
 }  // namespace tangent

@@ -1,6 +1,5 @@
 // workbench gui: the window; and what the program does without a subcommand: the window on the built-in
 // scene, or, where there is no display, pictures of it.
-#ifdef TANGENT_HAS_GUI
 #include "workbench/cli/command.h"
 #include "workbench/cli/device_options.h"
 #include "workbench/cli/interrupt.h"
@@ -8,6 +7,7 @@
 #include "workbench/cli/messages.h"
 #include "workbench/cli/number_option.h"
 #include "workbench/cli/text_format.h"
+#include "workbench/cli/window/window_commands.h"
 #include "workbench/gui/platform/shots.h"
 #include "workbench/gui/platform/window.h"
 #include "workbench/session/servo_options.h"
@@ -71,7 +71,7 @@ int run_gui_or_pictures() {
 }
 
 void add_gui_command(CLI::App& app, CommandResult& result) {
-  CLI::App* command = app.add_subcommand("gui", "Open the window");
+  CLI::App* command = app.add_subcommand("gui", kGuiCommandText);
   auto options = std::make_shared<GuiOptions>();
   add_mesh_options(*command, options->mesh, false);
   command->add_option("--preset", options->app.preset, "Preset to start with (default: the shipped one)")
@@ -96,4 +96,3 @@ void add_gui_command(CLI::App& app, CommandResult& result) {
 }
 
 }  // namespace tangent
-#endif

@@ -1,10 +1,10 @@
 // workbench shot: any view as a PNG, with no display.
-#ifdef TANGENT_HAS_GUI
 #include "workbench/cli/command.h"
 #include "workbench/cli/mesh_options.h"
 #include "workbench/cli/messages.h"
 #include "workbench/cli/number_option.h"
 #include "workbench/cli/text_format.h"
+#include "workbench/cli/window/window_commands.h"
 #include "workbench/gui/platform/shots.h"
 
 #include <algorithm>
@@ -74,8 +74,7 @@ int run_shot(const ShotOptions& options) {
 }  // namespace
 
 void add_shot_command(CLI::App& app, CommandResult& result) {
-  CLI::App* command =
-      app.add_subcommand("shot", "Write a view of the window or of the 3D scene as PNG; needs no display");
+  CLI::App* command = app.add_subcommand("shot", kShotCommandText);
   auto options = std::make_shared<ShotOptions>();
   ShotRequest* request = &options->request;
   add_mesh_options(*command, options->mesh, false);
@@ -100,4 +99,3 @@ void add_shot_command(CLI::App& app, CommandResult& result) {
 }
 
 }  // namespace tangent
-#endif

@@ -35,8 +35,11 @@ class OffscreenScreen {
   /// After the font atlas was built anew.
   void upload_fonts();
   /// One frame. `build` runs where the window's does: after the back end's NewFrame; it writes injected
-  /// input, calls ImGui::NewFrame and ImGui::Render. What it drew is then on the screen.
+  /// input, calls ImGui::NewFrame and ImGui::Render. What it drew is then on the screen, and what the driver kept for
+  /// it is given back.
   void frame(const std::function<void()>& build);
+  /// A frame that nobody looks at: panels and plots follow, nothing is drawn.
+  void unseen_frame(const std::function<void()>& build);
   Image picture() const;
 
  private:

@@ -19,7 +19,7 @@ namespace tangent {
 namespace {
 
 constexpr std::uint64_t kTicks = 12'000;      // of simulated exploration before the picture ...
-constexpr std::uint64_t kMostTicks = 24'000;  // ... and on until the contact is well in view
+constexpr std::uint64_t kMostTicks = 24'000;  // ... and on until the contact is well in view, where it ever was
 constexpr std::uint64_t kTicksPerFrame = 50;
 constexpr int kSettlingFrames = 4;     // ImGui lays out over some frames
 constexpr double kFrame = 1.0 / 60.0;  // s
@@ -305,9 +305,12 @@ class FrameFeeder {
     input_.dt_s = kFrame;
   }
   void frame() {
-    input_.now_s += kFrame;
-    if (app_.prepare(input_)) screen_.upload_fonts();
+    begin();
     screen_.frame([&] { app_.frame(input_); });
+  }
+  void unseen_frame() {
+    begin();
+    screen_.unseen_frame([&] { app_.frame(input_); });
   }
   void press(int key, bool ctrl) {
     ImGuiIO& io = ImGui::GetIO();
@@ -319,6 +322,11 @@ class FrameFeeder {
   }
 
  private:
+  void begin() {
+    input_.now_s += kFrame;
+    if (app_.prepare(input_)) screen_.upload_fonts();
+  }
+
   OffscreenScreen& screen_;
   App& app_;
   FrameInput input_;
@@ -370,10 +378,12 @@ Result<Image> take_window_shot(const ShotRequest& request) {
   feeder.frame();
   view.arrange(app.model());
   app.show_plots(view.plots, view.values);
-  for (std::uint64_t done = 0; done < kTicks || (done < kMostTicks && !contact_in_view(app.model()));
-       done += kTicksPerFrame) {
+  bool seen = false, in_view = false;
+  for (std::uint64_t done = 0; done < kTicks || (seen && !in_view && done < kMostTicks); done += kTicksPerFrame) {
     app.advance(kTicksPerFrame);
-    feeder.frame();  // without a renderer: only the plots and panels follow
+    feeder.unseen_frame();  // without a renderer: only the plots and panels follow
+    in_view = contact_in_view(app.model());
+    seen = seen || in_view;
   }
   view.look(app.model());
   app.set_renderer(&renderer);
