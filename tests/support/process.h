@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -30,6 +31,7 @@ struct ExitCode {
 struct ProcessResult {
   ExitCode exit_code;
   std::string out, err;
+  long peak_kb = 0;  ///< of its memory
 };
 
 /// A process under way. Its output is kept in files, so it never blocks.
@@ -54,11 +56,12 @@ class Process {
 
   ProcessResult wait() const {
     int status = 0;
-    while (::waitpid(id_, &status, 0) < 0 && errno == EINTR) {}
+    struct rusage usage {};
+    while (::wait4(id_, &status, 0, &usage) < 0 && errno == EINTR) {}
     const std::string err = read_text(folder_.file("err"));
     // What a sanitizer finds fails the test also where it expects a failure of the program.
     CHECK_MESSAGE(!contains(err, "Sanitizer"), err);
-    return {{WIFEXITED(status) ? WEXITSTATUS(status) : -1, err}, read_text(folder_.file("out")), err};
+    return {{WIFEXITED(status) ? WEXITSTATUS(status) : -1, err}, read_text(folder_.file("out")), err, usage.ru_maxrss};
   }
 
  private:

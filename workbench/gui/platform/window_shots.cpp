@@ -363,6 +363,10 @@ const std::vector<ShotView>& window_shot_views() {
   return kNamed;
 }
 
+bool explores_on(std::uint64_t done, bool seen, bool in_view) {
+  return done < kTicks || (seen && !in_view && done < kMostTicks);
+}
+
 Result<Image> take_window_shot(const ShotRequest& request) {
   const WindowView& view =
       *std::find_if(std::begin(kViews), std::end(kViews), [&](const WindowView& v) { return v.name == request.view; });
@@ -379,7 +383,7 @@ Result<Image> take_window_shot(const ShotRequest& request) {
   view.arrange(app.model());
   app.show_plots(view.plots, view.values);
   bool seen = false, in_view = false;
-  for (std::uint64_t done = 0; done < kTicks || (seen && !in_view && done < kMostTicks); done += kTicksPerFrame) {
+  for (std::uint64_t done = 0; explores_on(done, seen, in_view); done += kTicksPerFrame) {
     app.advance(kTicksPerFrame);
     feeder.unseen_frame();  // without a renderer: only the plots and panels follow
     in_view = contact_in_view(app.model());
