@@ -11,6 +11,7 @@
 #include "devices/link_report.h"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 namespace tangent {
@@ -39,10 +40,11 @@ struct ForceCommand {
 };
 
 struct ForceSample {
-  Vec3 position_m{0.0};                  ///< finger centre, world, as the encoders read it
-  Quat orientation{1.0, 0.0, 0.0, 0.0};  ///< unit; finger frame -> world
-  double age_s = 0.0;                    ///< of position and orientation: since they were measured
-  Vec3 force_n{0.0};                     ///< rendered during the exchange; zero outside ready
+  Vec3 position_m{0.0};                                 ///< finger centre, world, as the encoders read it
+  Quat orientation{1.0, 0.0, 0.0, 0.0};                 ///< unit; finger frame -> world
+  std::optional<Vec3> velocity_m_per_s = std::nullopt;  ///< of the finger, world, where the device measures it itself
+  double age_s = 0.0;                                   ///< of position and orientation: since they were measured
+  Vec3 force_n{0.0};                                    ///< rendered during the exchange; zero outside ready
   DeviceState state = DeviceState::absent;
   DeviceFault fault = DeviceFault::none;
 };

@@ -111,6 +111,13 @@ inline constexpr double kEnteredDepth = 5.0;
 /// A finger that goes further in one tick, 5 mm, has been put elsewhere, and what it is in counts as entered.
 inline constexpr double kLeapOfFinger = 250.0;
 
+/// Where the force comes from every place that is touched, which of them is the tracked one only matters to the
+/// display: another takes over when it is deeper by this, 100 um, above a hand's tremor of 50. Larger: the display
+/// shows the shallower place; smaller: it goes to and fro. And a place is forgotten when the finger has left it by as
+/// much. Larger: more places are followed in vain; smaller: a trembling finger loses and finds them, each time by a
+/// search.
+inline constexpr double kTremor = 5.0, kLeftTouch = 5.0;
+
 /// Ticks, at the finger's present speed, that the search for deeper places looks ahead. More: fewer, larger
 /// searches.
 inline constexpr double kWatchTicks = 12.0;
@@ -124,6 +131,10 @@ inline constexpr double kSmallestWatch = 2e-3, kLargestWatch = 0.1;
 /// contact comes up there at once where the offset surface unfolds. Larger: it takes over late; smaller: nothing, the
 /// next tick looks anyway.
 inline constexpr double kUnresolvedMargin = 0.5 / kWatchTicks;
+
+/// Solver tolerances. Contacts nearer to each other than this are the same one. Larger: places that merge are one too
+/// soon; smaller: one place solved for twice counts twice.
+inline constexpr double kMergedPlaces = 10.0;
 
 /// Contacts whose surroundings one search for rivals remembers, 1.
 inline constexpr std::size_t kKnownContacts = 8;
@@ -182,10 +193,5 @@ inline constexpr double kDisplayWait = 0.05;
 /// sides, the place along the finger is left as it was. Larger: the display holds where it could still show something;
 /// smaller: it races from end to end as the contact passes the side.
 inline constexpr double kPadSection = 0.2588;
-
-/// Hz, cut-off of the velocity that damping uses: a first-order filter that lags by 1/(2 pi f), 3.2 ms. Encoder steps
-/// of 0.03 mm at 1 kHz are 0.03 m/s of noise unfiltered. Larger: the noise is felt; smaller: damping comes too late to
-/// damp.
-inline constexpr double kVelocityCutoff = 50.0;
 
 }  // namespace tangent

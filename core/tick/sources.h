@@ -10,9 +10,10 @@ namespace tangent {
 /// initialised: most ticks need one.
 struct TickPlanes {
   RenderPlane smooth, facet, shaded;
+  RenderPlane touched;                   ///< of all places that the finger touches, where the preset asks for them
   RenderPlane proxy_force, proxy_place;  ///< of the two-pass method: spring, and the surface under the proxy
 
-  static TickPlanes all(const RenderPlane& plane) { return {plane, plane, plane, plane, plane}; }
+  static TickPlanes all(const RenderPlane& plane) { return {plane, plane, plane, plane, plane, plane}; }
 };
 
 /// Facet or force shading; the two-pass method finds its own.
@@ -27,10 +28,18 @@ inline bool wants_smooth(const Preset& preset) {
          preset.display.source == TactileSource::smooth;
 }
 
+/// Whether the force comes from every place of the smooth surface that the finger touches.
+inline bool wants_touched(const Preset& preset) {
+  return preset.force.contacts == ForceContacts::all &&
+         (preset.force.source == ForceSource::smooth ||
+          (preset.force.source == ForceSource::method && is_smooth(preset.solver.method)));
+}
+
 /// The smooth method's own contact and no other, as most ticks do.
 inline bool only_smooth(const Preset& preset) { return is_smooth(preset.solver.method) && !wants_facet(preset); }
 
 inline const RenderPlane& force_plane(const Preset& preset, const TickPlanes& planes) {
+  if (wants_touched(preset)) return planes.touched;
   switch (preset.force.source) {
     case ForceSource::facet:
       return planes.facet;

@@ -88,6 +88,8 @@ ForceSample SimulatedForceDevice::measure(const Vec3& force, double dt_s) noexce
   if (life_.injected() == InjectedFault::noise) {
     for (int axis = 0; axis < 3; ++axis) sample.position_m[axis] += kNoise_m * uniform_noise(random_);
   }
+  const bool moving = !lost && life_.injected() != InjectedFault::stuck_encoder;
+  if (options_.measures_velocity && moving) sample.velocity_m_per_s = velocity_;
   sample.age_s = age_s_;
   sample.orientation = target_.orientation;
   sample.force_n = force;

@@ -23,6 +23,7 @@ struct SimulatedForceOptions {
   double hand_damping_n_s_per_m = 12.0;  ///< about half of critical against a contact of 400 N/m
   double tremor_m = 10e-6;               ///< RMS along each axis, around 9 Hz; 0: none
   double position_step_m = 0.03e-3;      ///< of the encoders; 0: exact
+  bool measures_velocity = false;        ///< by a tachometer of its own; a Premium has none
   double friction_n = 0.04;              ///< of the drives, dry; 0: none
   double homing_s = 0.1;
   int substeps = 4;  ///< of the integration in one exchange

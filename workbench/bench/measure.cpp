@@ -52,6 +52,9 @@ MethodReport measure_method(Method method, const BenchCase& bench_case, const Sc
   report.gain_curvature_m = preset.solver.gain_curvature_m;
   const TimedRun run = timed_run(scene, preset, poses, options.repeats, clock, options.stop);
   report.run = run_statistics(poses, run.outputs, run.ns);
+  RoughnessCounter roughness;
+  for (std::size_t i = 0; i < run.outputs.size(); ++i) roughness.add(preset, poses[i], run.outputs[i]);
+  report.roughness = roughness.result();
   report.typical_ns = run.typical_ns;
   report.allocations = run.allocations;
   report.allocations_counted = allocation_count().counted;
@@ -62,7 +65,7 @@ MethodReport measure_method(Method method, const BenchCase& bench_case, const Sc
   comparison.reserve(poses.size());
   for (std::size_t i = 0; i < run.outputs.size(); ++i) {
     comparison.add(run.outputs[i], reference[i]);
-    if (run.outputs[i].status == TickStatus::unconverged || !is_round(preset.finger)) continue;
+    if (!is_converged(run.outputs[i].status) || !is_round(preset.finger)) continue;
     report.max_depth_gap_m =
         std::max(report.max_depth_gap_m, std::abs(run.outputs[i].penetration_m - facet[i].penetration_m));
   }
@@ -119,7 +122,7 @@ Preset with_best_gain(const ScenePtr& scene, Preset preset, std::span<const Tick
     for (std::size_t i = 0; i < trial.size(); ++i) {
       if (i % kStopStride == 0 && stop()) return preset;
       const TickOutput output = stepper.step(preset, trial[i], state);
-      score.first += output.status == TickStatus::unconverged;
+      score.first += !is_converged(output.status);
       score.second += output.iterations;
     }
     if (score < best) best = score, best_gain = preset.solver.gain_curvature_m;
@@ -139,7 +142,7 @@ RunDifference difference_from_own(const ScenePtr& scene, const Preset& preset, s
   for (std::size_t i = 0; i < poses.size(); ++i) {
     if (i % kStopStride == 0 && stop()) break;
     const TickOutput output = stepper.step(preset, poses[i], state);
-    if (output.status == TickStatus::unconverged) {
+    if (!is_converged(output.status)) {
       comparison.leave_out();
       continue;
     }

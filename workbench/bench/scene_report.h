@@ -1,6 +1,7 @@
 // Everything the benchmark measures of one scene, as plain data.
 #pragma once
 
+#include "core/lab/measure/roughness.h"
 #include "core/lab/measure/scene_statistics.h"
 #include "workbench/bench/bench_case.h"
 #include "workbench/bench/evaluation_time.h"
@@ -24,6 +25,7 @@ struct MethodReport {
   Method method = Method::robust;
   double gain_curvature_m = 0.0;  ///< `paper`: the best found for the scene
   RunStatistics run;
+  Roughness roughness;      ///< of force and display, before and after fading
   double typical_ns = 0.0;  ///< middle mean of all ticks of all passes: what ratios use
   std::optional<RunDifference>
       from_own;  ///< from the same place solved on to the converged tolerance; none for facet methods

@@ -28,7 +28,7 @@ int run_without_command() {
   for (const TickInput& input : poses) {
     const Stopwatch watch;
     const TickOutput output = stepper.step(report.preset.preset, input, state);
-    report.statistics.add(output, watch.nanoseconds());
+    report.statistics.add(report.preset.preset, input, output, watch.nanoseconds());
   }
   report.solve_seconds = solving.seconds();
   std::fputs(

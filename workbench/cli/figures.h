@@ -17,6 +17,8 @@ Figure conditions_figure(bool at_threshold);  ///< force direction and contact l
                                               ///< at each one's threshold count of segments, or all at five
 Figure curvature_figure();                    ///< curvature against the circle's, five segments
 
+Figure inner_corner_figure();  ///< force over time in an inner corner, as decided, faded, from both walls
+
 /// The curve of an outline written in this program, and so a good one.
 inline PlanarCurve curve_of(PlanarPolygon polygon) { return std::move(*PlanarCurve::build(std::move(polygon))); }
 

@@ -29,8 +29,9 @@ Status write_figures(const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder, error);
   if (error || !std::filesystem::is_directory(folder))
     return fail("is no folder that can be made", folder.string(), "name another with --out");
-  for (const Figure& figure : {contact_location_figure(), iterations_figure(), patches_figure(), local_centre_figure(),
-                               conditions_figure(true), conditions_figure(false), curvature_figure()}) {
+  for (const Figure& figure :
+       {contact_location_figure(), iterations_figure(), patches_figure(), local_centre_figure(),
+        conditions_figure(true), conditions_figure(false), curvature_figure(), inner_corner_figure()}) {
     if (Status status = write_figure(figure, folder); !status) return status;
     std::fputs(format("%s.svg: %s\n", (folder / figure.name).c_str(), figure.title.c_str()).c_str(), stdout);
   }

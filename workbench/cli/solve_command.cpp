@@ -78,7 +78,7 @@ Status step_all(Stepper& stepper, const std::vector<TickInput>& poses, SolveOutp
     if (trace) {
       if (Status status = outputs.iterations->append(row.tick, *trace); !status) return status;
     }
-    report.statistics.add(row.output, row.solve_ns);
+    report.statistics.add(report.preset.preset, input, row.output, row.solve_ns);
     progress.update(++row.tick);
   }
   return {};

@@ -51,6 +51,23 @@ std::string iterations_text(const Distribution& d) {
   return format("mean %.3f  p50 %.0f  p99 %.0f  p99.9 %.0f  max %.0f", d.mean, d.p50, d.p99, d.p999, d.max);
 }
 
+/// Changes from tick to tick, as rendered and as decided before fading. `scale`: from SI to `unit`.
+std::string roughness_text(const SignalRoughness& rendered, const SignalRoughness& decided, double scale,
+                           const char* unit) {
+  const auto one = [&](const SignalRoughness& s) {
+    return format("%.3g %s a tick, %llu changes unexplained by the motion%s", s.mean * scale, unit,
+                  (unsigned long long)s.unexplained,
+                  s.unexplained > 0 ? format(", by up to %.4g %s", s.largest * scale, unit).c_str() : "");
+  };
+  return one(rendered) + "; before fading " + one(decided) + "\n";
+}
+
+Json roughness_json(const SignalRoughness& s, const std::string& unit) {
+  return {{"mean_change_" + unit, s.mean},
+          {"unexplained_ticks", s.unexplained},
+          {"largest_unexplained_" + unit, s.largest}};
+}
+
 std::string size_text(const SolveReport& report) {
   if (report.planar == nullptr) return format("%u triangles", report.mesh->usable_triangle_count());
   return format("%s polygon, %u vertices", report.planar->closed() ? "closed" : "open", report.planar->patch_count());
@@ -87,6 +104,8 @@ std::string solve_text(const SolveReport& report) {
   text += "    no event  " + iterations_text(s.event_free_iterations()) + "\n";
   text += format("  error       max %.4g um of converged ticks (tolerance %g um)\n", s.max_error_m() * 1e6,
                  preset.solver.tolerance_m * 1e6);
+  text += "  force       " + roughness_text(s.roughness().force, s.roughness().decided_force, 1e3, "mN");
+  text += "  display     " + roughness_text(s.roughness().display, s.roughness().decided_display, 1e6, "um");
   text += format("  tick time   p50 %.2f us  p99 %.2f us  p99.9 %.2f us  max %.2f us\n", ns.p50 * 1e-3, ns.p99 * 1e-3,
                  ns.p999 * 1e-3, ns.max * 1e-3);
   text += format("  seconds     loading %.3f, solving %.3f\n", report.load_seconds, report.solve_seconds);
@@ -122,6 +141,11 @@ Json solve_json(const SolveReport& report) {
       {"events", counts_json(s, kTickEvents)},
       {"iterations", {{"all", to_json(s.iterations())}, {"event_free", to_json(s.event_free_iterations())}}},
       {"max_error_m", s.max_error_m()},
+      {"roughness",
+       {{"force", roughness_json(s.roughness().force, "n")},
+        {"decided_force", roughness_json(s.roughness().decided_force, "n")},
+        {"display", roughness_json(s.roughness().display, "m")},
+        {"decided_display", roughness_json(s.roughness().decided_display, "m")}}},
       {"solve_ns", to_json(s.solve_ns())},
       {"seconds", {{"load", report.load_seconds}, {"solve", report.solve_seconds}}},
   };

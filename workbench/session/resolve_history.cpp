@@ -35,7 +35,7 @@ struct RunCounter {
   }
   void add(TickStatus status, double error_m, std::int32_t iterations) {
     ++numbers.ticks;
-    if (status == TickStatus::unconverged) ++numbers.unconverged;
+    if (!is_converged(status)) ++numbers.unconverged;
     error_sum += error_m;
     iteration_sum += iterations;
     numbers.worst_error_m = std::max(numbers.worst_error_m, error_m);
@@ -88,7 +88,7 @@ void append(std::vector<ContactChange>& changes, const ContactChange& next) {
 }
 
 /// Where there is a contact: free, touching, or none that could be found.
-int kind_of(TickStatus status) { return status == TickStatus::free ? 0 : status == TickStatus::unconverged ? 2 : 1; }
+int kind_of(TickStatus status) { return status == TickStatus::free ? 0 : is_converged(status) ? 1 : 2; }
 
 }  // namespace
 
@@ -155,7 +155,7 @@ class HistoryResolver::Replay {
       return std::nullopt;
     }
     const bool alike = wish_ != nullptr && same_contacts_as(recorded_preset(record));
-    if (alike && as_recorded_ && tick.output.status != TickStatus::unconverged) {
+    if (alike && as_recorded_ && is_converged(tick.output.status)) {
       taken_over = true;
       return render_again(stepper_->scene(), *wish_, tick.input, tick.kept, rendered_, tick.output);
     }

@@ -41,7 +41,8 @@ struct ContactChange {
 };
 
 struct RunNumbers {
-  std::uint64_t ticks = 0, unconverged = 0;
+  std::uint64_t ticks = 0;
+  std::uint64_t unconverged = 0;  ///< or `facing`
   double mean_iterations = 0.0;
   std::int32_t p99_iterations = 0, most_iterations = 0;
   double mean_error_m = 0.0, worst_error_m = 0.0;
@@ -60,7 +61,8 @@ struct ResolvedHistory {
   static constexpr std::size_t kMostChanges = 1000;
 };
 
-/// Touching, not touching or unconverged where it was not, or moved by over ten tolerances (of the larger one).
+/// Touching, not touching or without a contact (unconverged, facing) where it was not, or moved by over ten tolerances
+/// (of the larger one).
 bool contact_changed(const TickOutput& recorded, const TickOutput& resolved, double tolerance_m);
 bool same_bits(const TickOutput& a, const TickOutput& b);
 

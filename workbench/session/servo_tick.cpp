@@ -164,7 +164,7 @@ void ServoTick::run(const TickTiming& timing) noexcept {
   tick.tick = tick_;
   tick.preset_id = preset_.id;
   tick.kept = state_;
-  tick.input = {timing.t_s, {force_sample_.position_m, force_sample_.orientation}};
+  tick.input = {timing.t_s, {force_sample_.position_m, force_sample_.orientation}, force_sample_.velocity_m_per_s};
   const std::int64_t step_began = now();
   tick.output = scene_->stepper.step(preset_.preset, tick.input, state_);
   tick.solve_ns = static_cast<double>(now() - step_began);

@@ -23,8 +23,10 @@ Vec3 interpolated_normal(const ContactMesh& mesh, std::uint32_t t, double u, dou
 
 /// How far the centre may go before a rival that ranks `gap` behind can overtake: heights change along their normals,
 /// and in second order by the square of the way over the height, near a fold by more.
-double overtaking_margin(const KnownContact& tracked, const Vec3& rival_normal, double rival_height, double gap) {
-  const Vec3 apart = tracked.normal - rival_normal;
+/// `is_still`: the bound is a fixed height, and not the tracked contact's.
+double overtaking_margin(const KnownContact& tracked, const Vec3& rival_normal, double rival_height, double gap,
+                         bool is_still) {
+  const Vec3 apart = is_still ? rival_normal : tracked.normal - rival_normal;
   const double rate = std::sqrt(glm::dot(apart, apart)) + 1e-3;
   const double bend = 2.0 / std::max(1e-12, std::min(std::abs(tracked.height_m), std::abs(rival_height)));
   // Smaller root of rate m + bend m^2 = gap.
@@ -40,15 +42,18 @@ struct Look {
 class RivalSearch {
  public:
   RivalSearch(ContactContext& context, const SearchStructures& search, const IterationResult& tracked, double bound_m,
-              double margin_m)
+              double margin_m, const TouchedContacts* touched)
       : search_(search),
         tracked_(tracked),
+        touched_(touched),
         bound_m_(bound_m),
         margin_m_(margin_m),
         deepest_(bound_m),
         settings_(robust(context.settings)),
         context_{context.cache, settings_, context.finger, context.pose, context.origin, context.trace, 0} {
-    remember(tracked);
+    remember(tracked.plane, tracked.contact);
+    if (touched)
+      for (const TouchedContact& c : touched->all()) remember(c.plane, c.contact);
   }
 
   /// Every triangle that could hold a rival.
@@ -116,9 +121,19 @@ class RivalSearch {
     return dropped;
   }
 
-  void remember(const IterationResult& r) {
+  void remember(const TrackedPlane& plane, const PlaneContact& contact) {
     if (known_count_ == known_.size()) return;
-    known_[known_count_++] = known_contact(context_.cache.mesh(), r.plane, r.contact.height_m);
+    known_[known_count_++] = known_contact(context_.cache.mesh(), plane, contact.height_m);
+  }
+
+  /// The tracked contact, or one that is followed beside it.
+  bool is_followed(const Vec3& point) const {
+    const double same = kMergedPlaces * settings_.tolerance_m;
+    const auto near = [&](const Vec3& other) { return glm::dot(point - other, point - other) <= same * same; };
+    if (near(tracked_.plane.point)) return true;
+    if (!touched_) return false;
+    const auto all = touched_->all();
+    return std::any_of(all.begin(), all.end(), [&](const TouchedContact& c) { return near(c.plane.point); });
   }
 
   Look look_at(std::uint32_t t, double enough_m, RivalResult& result) {
@@ -131,7 +146,8 @@ class RivalSearch {
     const double guess = proof.height_m >= 0.0 ? proof.height_m : context_.finger.reach_m() - proof.height_m;
     const double behind = guess - bound_m_;
     if (proof.height_m != 0.0 && behind > kHeightGuess * guess)  // a rival, but not a deeper one yet
-      return {overtaking_margin(known_[0], interpolated_normal(mesh, t, proof.u, proof.v), proof.height_m, behind),
+      return {overtaking_margin(known_[0], interpolated_normal(mesh, t, proof.u, proof.v), proof.height_m, behind,
+                                touched_ != nullptr),
               false};
     return solve(t, proof, result);
   }
@@ -158,21 +174,24 @@ class RivalSearch {
     }
     // No contact there now, but one may come up: ask again before long.
     if (!r.converged()) return {kUnresolvedMargin * margin_m_, false};
-    const Vec3 apart = r.plane.point - tracked_.plane.point;
-    const double same = 10.0 * settings_.tolerance_m;
-    if (glm::dot(apart, apart) <= same * same) return {};
-    remember(r);
+    if (is_followed(r.plane.point)) return {};
+    remember(r.plane, r.contact);
     const double rank = contact_rank(context_.finger, r.contact);
+    if (touched_ && rank < bound_m_ && pushes_with_others(r.contact))
+      result.touched.add({r.plane, r.contact}, kMergedPlaces * settings_.tolerance_m);
     if (rank < deepest_) {
       deepest_ = rank;
       result.best = r;
       result.deeper = true;
     }
-    return {overtaking_margin(known_[0], r.plane.normal, r.contact.height_m, std::max(0.0, rank - bound_m_)), true};
+    return {overtaking_margin(known_[0], r.plane.normal, r.contact.height_m, std::max(0.0, rank - bound_m_),
+                              touched_ != nullptr),
+            true};
   }
 
   const SearchStructures search_;
   const IterationResult& tracked_;
+  const TouchedContacts* touched_;
   double bound_m_, margin_m_, deepest_;
   SolverSettings settings_;
   ContactContext context_;
@@ -192,8 +211,9 @@ double look_ahead_m(double rank, double moved_m) {
 }
 
 RivalResult find_rival(ContactContext& context, const SearchStructures& search, const IterationResult& tracked,
-                       double bound_m, double margin_m, const Clearance& known, double gone) {
-  RivalSearch rivals(context, search, tracked, bound_m, margin_m);
+                       double bound_m, double margin_m, const Clearance& known, double gone,
+                       const TouchedContacts* touched) {
+  RivalSearch rivals(context, search, tracked, bound_m, margin_m, touched);
   RivalResult result;
   if (gone > known.margin_m || bound_m > known.height_m - gone) {
     result.clearance.centre = context.pose.position;

@@ -8,6 +8,7 @@
 #include "core/contact/clearance.h"
 #include "core/contact/follow/iterate.h"
 #include "core/contact/search/search_structures.h"
+#include "core/contact/touched.h"
 
 namespace tangent {
 
@@ -19,13 +20,17 @@ struct RivalResult {
   bool deeper = false;  ///< `best` is a stable contact whose rank is below the wanted bound
   IterationResult best;
   int evaluations = 0;
-  Clearance clearance;  ///< until when nothing needs to be looked at again
+  TouchedContacts touched;  ///< new ones below the bound, where they were asked for
+  Clearance clearance;      ///< until when nothing needs to be looked at again
 };
 
 /// `bound_m`: rank that a rival must be below to take over. `margin_m`: how far one would like to go without
 /// searching again. `known`: the last search; the finger is `gone` from there. Beyond its margin all is searched,
-/// within it only the watched triangles whose time has come. Uses the `robust` rule whatever the method.
+/// within it only the watched triangles whose time has come. Uses the `robust` rule whatever the method. `touched`:
+/// places that are followed besides the tracked one, and all others below the bound are asked for; null: only the
+/// deepest is.
 RivalResult find_rival(ContactContext& context, const SearchStructures& search, const IterationResult& tracked,
-                       double bound_m, double margin_m, const Clearance& known, double gone);
+                       double bound_m, double margin_m, const Clearance& known, double gone,
+                       const TouchedContacts* touched = nullptr);
 
 }  // namespace tangent

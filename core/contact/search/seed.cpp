@@ -29,7 +29,7 @@ struct Selection {
   bool offer(const ContactContext& context, const IterationResult& r) {
     result.evaluations += r.evaluations;
     const bool exact = r.contact.error_m < context.settings.tolerance_m;
-    const int here = r.converged() ? 0 : r.stop == StopReason::unstable && exact ? 1 : 2;
+    const int here = r.converged() || r.facing() ? 0 : r.stop == StopReason::unstable && exact ? 1 : 2;
     const double rank = here == 2 ? r.contact.error_m : contact_rank(context.finger, r.contact);
     if (here < group || (here == group && rank < value)) {
       group = here;
@@ -91,8 +91,8 @@ void seed_by_distance(ContactContext& context, const SearchStructures& search, s
 }
 
 /// Last resort, where no seed finds a contact of the interpolated normals, or none near the raw mesh: the place near
-/// the raw mesh's closest points whose plane, turned to face the finger, is touched deepest. Its error is nought, its
-/// normal is the finger's.
+/// the raw mesh's closest points whose plane, turned to face the finger, is touched deepest. Its
+/// normal is the finger's, its error that of the surface's own normal there.
 void face_the_finger(ContactContext& context, const SearchStructures& search, Selection& selection) {
   std::array<NearestHit, kSeeds> hits;
   const std::size_t count =
@@ -103,11 +103,14 @@ void face_the_finger(ContactContext& context, const SearchStructures& search, Se
     sample_place(context, r.plane, r.sample);
     r.evaluations = 1;
     const Vec3 interpolated = r.plane.normal;
+    const PlaneContact own = contact_on_plane(context.finger, context.pose, r.plane.point, interpolated);
     const bool inside = glm::dot(context.pose.position - r.plane.point, interpolated) < 0.0;
     r.plane.normal = facing_normal(context.finger, context.pose, r.plane.point, interpolated,
                                    inside ? FacingSide::back : FacingSide::front);
     r.contact = contact_on_plane(context.finger, context.pose, r.plane.point, r.plane.normal);
-    r.stop = r.contact.error_m < context.settings.tolerance_m ? StopReason::converged : StopReason::iteration_limit;
+    r.stop = r.contact.error_m < context.settings.tolerance_m ? StopReason::facing : StopReason::iteration_limit;
+    r.contact.travel = own.travel;
+    r.contact.error_m = own.error_m;
     selection.offer(context, r);
   }
   if (!context.trace || !selection.result.found) return;

@@ -155,7 +155,7 @@ RunScore score_run(Stepper& stepper, const Preset& preset, std::span<const TickI
     score.max_iterations = std::max(score.max_iterations, output.iterations);
     iterations.push_back(output.iterations);
     if (output.event == TickEvent::reseed) ++score.reseeded;
-    if (output.status == TickStatus::unconverged)
+    if (!is_converged(output.status))
       ++score.unconverged;
     else
       score.max_error_m = std::max(score.max_error_m, output.error_m);

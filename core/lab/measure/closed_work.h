@@ -12,7 +12,7 @@ namespace tangent {
 struct ClosedWork {
   double work_j = 0.0;         ///< of the force on the finger, once round; positive: the finger gains energy
   double peak_energy_j = 0.0;  ///< largest stored energy on the way, half the force times the penetration
-  bool broken = false;         ///< a tick on the way was unconverged
+  bool broken = false;         ///< a tick on the way found no contact
   /// |work| over the peak energy; 0 where there was no contact.
   double relative() const;
 };

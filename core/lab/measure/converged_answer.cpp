@@ -20,7 +20,7 @@ std::optional<TickOutput> converged_answer(Stepper& stepper, const Preset& prese
   from.has_previous = 0;
   from.clearance = Clearance::unlimited();  // the place stays the method's own
   TickOutput answer = stepper.step(exact, input, from);
-  if (answer.status == TickStatus::unconverged || answer.event != TickEvent::none) return std::nullopt;
+  if (!is_converged(answer.status) || answer.event != TickEvent::none) return std::nullopt;
   return answer;
 }
 

@@ -322,7 +322,7 @@ SurfaceDeviation surface_deviation(const ContactScene& from, const ContactScene&
       TickState state;
       const TickInput input{0.0, {mesh.origin() + evaluate_point(patch, u, v), Quat(1.0, 0.0, 0.0, 0.0)}};
       const TickOutput contact = stepper.step(preset, input, state);
-      if (contact.status == TickStatus::unconverged) {
+      if (contact.status == TickStatus::unconverged) {  // the nearest place will do
         ++out.unresolved;
         continue;
       }

@@ -11,17 +11,15 @@
 
 namespace tangent {
 
-inline constexpr std::size_t kTickEventCount = 5, kTickStatusCount = 5;
-
 struct RunStatistics {
   std::uint64_t ticks = 0;
-  std::array<std::uint64_t, kTickStatusCount> statuses{};  ///< by TickStatus
-  std::array<std::uint64_t, kTickEventCount> events{};     ///< by TickEvent
-  std::uint64_t not_finite = 0;                            ///< ticks with a NaN or an infinity anywhere in their output
-  std::uint64_t unmarked_jumps = 0;                        ///< see below
-  std::uint64_t first_unconverged = 0;                     ///< tick; meaningful where there is one
-  double max_error_m = 0.0;                                ///< of the converged ticks
-  Distribution iterations;                                 ///< of ticks without event
+  std::array<std::uint64_t, kTickStatuses.size()> statuses{};  ///< by TickStatus
+  std::array<std::uint64_t, kTickEvents.size()> events{};      ///< by TickEvent
+  std::uint64_t not_finite = 0;         ///< ticks with a NaN or an infinity anywhere in their output
+  std::uint64_t unmarked_jumps = 0;     ///< see below
+  std::uint64_t first_unconverged = 0;  ///< tick; meaningful where there is one
+  double max_error_m = 0.0;             ///< of the converged ticks
+  Distribution iterations;              ///< of ticks without event
   Distribution all_iterations;
   Distribution ns;  ///< of all ticks
   Distribution eventless_ns;

@@ -25,7 +25,7 @@ constexpr std::array<MapQuantityInfo, kMapQuantityCount> kInfo{{
     {"iterations-mean", "Iterations, mean", "1", 10.0, false, false, false,
      "Tangent planes a move took, mean of the directions"},
     {"failures", "Failures", "share", 0.1, false, false, false,
-     "Share of the moves on which tracking gave up or did not converge"},
+     "Share of the moves on which tracking gave up, did not converge, or the surface offered no contact"},
     {"error", "Error", "m", 1e-6, false, true, false,
      "Distance of the contact from the fully converged one, worst of the moves that converged"},
     {"curvature", "Curvature", "1/m", 100.0, false, true, false,
@@ -160,7 +160,7 @@ void SurfaceMapper::compute_solve(std::uint32_t t, double u, double v, MapValues
     const TickOutput out = stepper_.step(preset_, input, state);
     most = std::max(most, static_cast<int>(out.iterations));
     total += out.iterations;
-    if (out.status == TickStatus::unconverged || out.event == TickEvent::reseed) {
+    if (!is_converged(out.status) || out.event == TickEvent::reseed) {
       ++failed;
       continue;
     }

@@ -260,3 +260,21 @@ TEST_CASE("faults are known by name") {
   REQUIRE_FALSE(wrong);
   CHECK(wrong.error().remedy.find("stuck-encoder") != std::string::npos);
 }
+
+TEST_CASE("a device that measures velocity says it, but not while its encoders stand still or it is not heard") {
+  SimulatedForceDevice plain, tacho({.measures_velocity = true});
+  const auto lead = [](SimulatedForceDevice& device, int i) {
+    device.lead({.position_m = Vec3(1e-4 * i, 0.0, 0.0), .velocity_m_per_s = Vec3(0.1, 0.0, 0.0)});
+    return device.exchange({}, 1e-3);
+  };
+  ForceSample sample;
+  for (int i = 0; i < 500; ++i) {
+    CHECK_FALSE(lead(plain, i).velocity_m_per_s.has_value());
+    sample = lead(tacho, i);
+  }
+  REQUIRE(sample.velocity_m_per_s.has_value());
+  CHECK(*sample.velocity_m_per_s == tacho.velocity_m_per_s());
+  CHECK(sample.velocity_m_per_s->x == doctest::Approx(0.1).epsilon(0.05));
+  tacho.inject({InjectedFault::stuck_encoder, 3});
+  CHECK_FALSE(lead(tacho, 501).velocity_m_per_s.has_value());
+}

@@ -11,7 +11,7 @@ float event_of(const ServoRecord& r) {
   if (r.device.gate_fault != GateFault::none || r.device.force_fault != DeviceFault::none ||
       r.device.display_fault != DeviceFault::none)
     return rank(EventRank::fault);
-  if (r.tick.output.status == TickStatus::unconverged) return rank(EventRank::unconverged);
+  if (!is_converged(r.tick.output.status)) return rank(EventRank::unconverged);
   switch (r.tick.output.event) {
     case TickEvent::reseed:
       return rank(EventRank::reseeded);

@@ -34,7 +34,8 @@ struct TriggerRow {
   const char* doc;
 };
 constexpr std::array kTriggers{
-    TriggerRow{BookmarkKind::unconverged, "Unconverged", "A tick that did not converge"},
+    TriggerRow{BookmarkKind::unconverged, "Unconverged",
+               "A tick that did not converge, or where the surface offers no contact (facing)"},
     TriggerRow{BookmarkKind::reseeded, "Reseeded", "Tracking gave up and was seeded from the nearest triangles"},
     TriggerRow{BookmarkKind::iterations, "Iterations over", "More tangent planes than this in one tick"},
     TriggerRow{BookmarkKind::force, "Force over", "More force than this sent to the device"},

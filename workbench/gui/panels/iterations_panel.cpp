@@ -127,7 +127,7 @@ void draw_iterations_panel(const UiContext& ui, AppModel& model, IterationsPanel
   const TickOutput& out = record->tick.output;
   const bool planar = model.scene().current() != nullptr && model.scene().current()->planar() != nullptr;
   ImGui::PushFont(ui.fonts.small);
-  const bool bad = out.status == TickStatus::unconverged;
+  const bool bad = !is_converged(out.status);
   ImGui::PushStyleColor(ImGuiCol_Text, bad ? ui.colours.warning : ui.colours.text);
   const std::string event = out.event == TickEvent::none ? "" : std::string(", ") + to_string(out.event);
   ImGui::Text("%s%s", to_string(out.status), event.c_str());
