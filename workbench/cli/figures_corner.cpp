@@ -61,7 +61,7 @@ Figure inner_corner_figure() {
   }
   figure.data.push_back({"", std::move(table)});
   figure.script = R"(set xrange [0:1]
-set yrange [-0.05:1.25]
+set yrange [-0.05:1]
 set xlabel 'time (s)'
 set ylabel 'force along x (N)'
 set key outside right top
@@ -69,7 +69,7 @@ F = DIR.'/inner-corner.csv'
 plot F using 't_s':'deepest_n' with lines ls 9 title 'deepest place, at once', \
      F using 't_s':'deepest_faded_n' with lines ls 2 title 'deepest place, faded', \
      F using 't_s':'all_n' with lines ls 1 lw 4 title 'all places', \
-     F using 't_s':'god_object_n' with lines ls 8 title 'god-object'
+     F using 't_s':'god_object_n' with lines ls 8 dt 2 title 'god-object'
 )";
   return figure;
 }

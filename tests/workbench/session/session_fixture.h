@@ -39,6 +39,7 @@ struct PuppetForceDevice final : ForceDevice {
   ForceCapabilities caps{.name = "puppet", .peak_force_n = 8.5};
   DeviceState state = DeviceState::ready;
   Vec3 position{0.0};
+  std::optional<Vec3> velocity;  // as it says it measures
   std::vector<ForceCommand> commands;
   std::function<void(PuppetForceDevice&)> before;
 
@@ -51,6 +52,7 @@ struct PuppetForceDevice final : ForceDevice {
     if (before) before(*this);
     ForceSample sample;
     sample.position_m = position;
+    sample.velocity_m_per_s = velocity;
     sample.state = state;
     sample.fault = state == DeviceState::faulted ? DeviceFault::sensor : DeviceFault::none;
     return sample;
