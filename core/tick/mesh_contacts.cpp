@@ -43,6 +43,10 @@ inline void find_smooth(const ContactScene& scene, StepCache& cache, const TickC
     plane = last_converged_plane(tick);
   }
   if (!all) return;
+  if (cache.touched.count == 0) {  // most ticks
+    planes.touched = plane;
+    return;
+  }
   way_out = way_out_of(tick, contact, cache.touched);
   planes.touched = plane_of_way_out(way_out, plane);
 }

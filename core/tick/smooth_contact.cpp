@@ -23,6 +23,13 @@ void watch_others(ContactContext& context, const SearchStructures& search, TickS
   if (taken_over) state.unentered = 0;
 }
 
+/// Depth of the last converged plane at the present pose, m; 0 where there is none or it was not touched.
+double depth_before(const ContactContext& context, const TickState& state) {
+  if (!state.has_converged || state.unentered) return 0.0;
+  const ConvergedPlane& last = state.last_converged;
+  return contact_on_plane(context.finger, context.pose, last.point, last.normal).penetration_m;
+}
+
 /// Where every touched place pushes: the rank below which another place is one of them. The finger touches what ranks
 /// below its reach; where there is no room for more, only deeper places than those count.
 double touching_bound_m(const ContactContext& context, const TouchedContacts& touched) {
@@ -31,24 +38,28 @@ double touching_bound_m(const ContactContext& context, const TouchedContacts& to
   return is_round(finger) ? round_radius_m(finger) : finger.reach_m();
 }
 
-/// Looks for places that are touched and not followed yet; a deeper one that does not push with others takes over.
-void look_for_touched(ContactContext& context, const SearchStructures& search, double takeover_m, TickState& state,
+/// Looks for places that are touched and not followed yet. True where a deeper one that does not push with others takes
+/// over.
+bool look_for_touched(ContactContext& context, const SearchStructures& search, double takeover_m, TickState& state,
                       DecidedContact& decided, TouchedContacts& touched) {
   const double bound = std::max(takeover_m, touching_bound_m(context, touched));
   const double gone = gone_m(state.clearance, context.finger, context.pose);
-  if (!deeper_possible(state.clearance, gone, bound)) return;
+  if (!deeper_possible(state.clearance, gone, bound)) return false;
   const double ahead = look_ahead_m(contact_rank(context.finger, decided.contact.contact), context.moved_m);
   RivalResult rival = find_rival(context, search, decided.contact, bound, ahead, state.clearance, gone, &touched);
   state.clearance = rival.clearance;
-  const double depth = state.unentered ? 0.0 : decided.contact.contact.penetration_m;
+  // Where the contact was lost and a shallower one is gone on with, what the lost one was counts, too.
+  const double depth =
+      std::max(depth_before(context, state), state.unentered ? 0.0 : decided.contact.contact.penetration_m);
   for (const TouchedContact& c : rival.touched.all())
     if (was_entered(step_of(context), c.contact.penetration_m, depth))
       touched.add(c, kMergedPlaces * context.settings.tolerance_m);
   rival.deeper = rival.deeper && !pushes_with_others(rival.best.contact) &&
                  contact_rank(context.finger, rival.best.contact) < takeover_m;
-  if (!decide_rival(context, rival, depth, state.plane, decided)) return;
+  if (!decide_rival(context, rival, depth, state.plane, decided)) return false;
   state.clearance = Clearance{};
   state.unentered = 0;
+  return true;
 }
 
 /// Where every touched place pushes: follows them all, looks for more; the deepest is the one to render on the display.
@@ -60,9 +71,8 @@ void watch_touched(ContactContext& context, const SearchStructures& search, Tick
   const PlaneContact& tracked = decided.contact.contact;
   const double takeover = takeover_bound_m(context.settings, contact_rank(context.finger, tracked),
                                            tracked.penetration_m > 0.0 ? kTremor : 1.0);
-  look_for_touched(context, search, takeover, state, decided, touched);
-  if (touched.count > 0 && !state.unentered && decided.event != TickEvent::switched)
-    decide_touched(context, takeover, touched, state.plane, decided);
+  if (look_for_touched(context, search, takeover, state, decided, touched) || state.unentered) return;
+  decide_touched(context, takeover, touched, state.plane, decided);
 }
 
 /// Where following failed: the deepest of the other places that are touched, if there is one, is the one to go on with.
@@ -73,13 +83,6 @@ bool go_on_with_touched(ContactContext& context, TickState& state, DecidedContac
   const bool found = decide_touched(context, reach, touched, state.plane, decided);
   touched.count = 0;  // they are followed again beside the new one
   return found;
-}
-
-/// Depth of the last converged plane at the present pose, m; 0 where there is none or it was not touched.
-double depth_before(const ContactContext& context, const TickState& state) {
-  if (!state.has_converged || state.unentered) return 0.0;
-  const ConvergedPlane& last = state.last_converged;
-  return contact_on_plane(context.finger, context.pose, last.point, last.normal).penetration_m;
 }
 
 }  // namespace

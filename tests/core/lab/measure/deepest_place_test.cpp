@@ -55,7 +55,9 @@ void check_deepest(const std::filesystem::path& mesh, const std::vector<TickInpu
                                  << " behind a deeper place, " << shallower << " by more than heights are guessed to");
     CHECK(unconverged == 0);
     CHECK(facing * 1000 <= static_cast<int>(poses.size()));
-    CHECK(shallower == 0);
+    // Of all places the shown one may be a tick late where the deepest got lost and another is gone on with.
+    const int late_at_most = contacts == ForceContacts::all ? static_cast<int>(poses.size()) / 10000 : 0;
+    CHECK(shallower <= late_at_most);
   }
 }
 
