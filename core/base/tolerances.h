@@ -120,6 +120,14 @@ inline constexpr double kWatchTicks = 12.0;
 /// again and again.
 inline constexpr double kSmallestWatch = 2e-3, kLargestWatch = 0.1;
 
+/// Switch hystereses (base/tolerances.h above) that a search looks ahead at least, 1.2 mm, times Clearance::ahead:
+/// doubled, up to kMostAhead, by a search that looks at kCheapLooks triangles at most and finds nothing to watch,
+/// halved, down to kLeastAhead, by one that looks at more than kDearLooks. Larger: dear searches on rough ground;
+/// smaller: frequent ones on smooth ground.
+inline constexpr double kWatchReach = 60.0;
+inline constexpr float kLeastAhead = 0.0625f, kMostAhead = 8.0f;
+inline constexpr int kCheapLooks = 12, kDearLooks = 48;
+
 /// Part of the look-ahead that remains where a triangle could neither be ruled out nor be solved: half a tick. A
 /// contact comes up there at once where the offset surface unfolds. Larger: it takes over late; smaller: nothing, the
 /// next tick looks anyway.
@@ -153,6 +161,15 @@ inline constexpr double kImplausibleShare = 0.02;
 /// above -kFoldRoom. Larger: folds within a triangle hide deeper contacts; smaller: hollow ground near the contact is
 /// searched.
 inline constexpr double kFoldRoom = 0.1;
+
+/// Ground is steady, its contacts come and go over its border only, where 1 + h k stays above this at all heights h
+/// that are asked for. Contacts move there by at most the finger's way over the room that is left (below). Larger: more
+/// ground is searched with a margin; smaller: contacts near a fold outrun the ticks.
+inline constexpr double kSteadyRoom = 0.2;
+
+/// Squared sine of the angle between N and the surface's own normal on steady ground at most, 17 degrees. Larger: takes
+/// more of the room; smaller: fewer patches of coarse meshes count.
+inline constexpr double kSteadyLean = 0.09;
 
 /// Around a contact, its own slope reaches this many look-aheads and a triangle far, as a ratio. Larger: places behind
 /// a fold are taken for the slope's; smaller: searches over the triangles that the contact walks to anyway.

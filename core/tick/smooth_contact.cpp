@@ -11,7 +11,7 @@ void watch_others(ContactContext& context, const SearchStructures& search, TickS
   const double bound = takeover_bound_m(context.settings, rank);
   const double gone = gone_m(state.clearance, context.finger, context.pose);
   if (!deeper_possible(state.clearance, gone, bound)) return;
-  const double ahead = look_ahead_m(rank, context.moved_m);
+  const double ahead = look_ahead_m(context, rank, state.clearance.ahead);
   const RivalResult rival = find_rival(context, search, decided.contact, bound, ahead, state.clearance, gone);
   const double depth = state.unentered ? 0.0 : decided.contact.contact.penetration_m;
   const bool taken_over = decide_rival(context, rival, depth, state.plane, decided);

@@ -12,8 +12,8 @@
 namespace tangent {
 
 /// How far ahead a search looks, m: some ticks at the finger's present speed, within shares of the tracked contact's
-/// `rank`. `moved_m`: the finger's way in the last tick.
-double look_ahead_m(double rank, double moved_m);
+/// `rank`, and at least `ahead` times kWatchReach (Clearance::ahead).
+double look_ahead_m(const ContactContext& context, double rank, double ahead);
 
 struct RivalResult {
   bool deeper = false;  ///< `best` is a stable contact whose rank is below the wanted bound

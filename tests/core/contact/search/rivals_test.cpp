@@ -6,6 +6,9 @@
 
 #include <doctest/doctest.h>
 
+#include <array>
+#include <cmath>
+
 using namespace tangent;
 using namespace tangent::test;
 
@@ -30,7 +33,90 @@ ScenePtr bumps() {
   }));
 }
 
+/// Smooth ground of random hills and hollows, 60 mm wide, that bend by a radius of about 3 to 30 mm.
+ScenePtr random_ground(Random& random, int cells) {
+  struct Wave {
+    double x, y, phase, height;
+  };
+  std::array<Wave, 6> waves;
+  for (Wave& wave : waves) {
+    const double length = random.in(0.008, 0.050), turn = random.in(0.0, 6.28);
+    wave = {6.28 / length * std::cos(turn), 6.28 / length * std::sin(turn), random.in(0.0, 6.28),
+            length * length / 40.0 / random.in(0.003, 0.030)};
+  }
+  return scene_of(height_field(0.060, cells, [&](double x, double y) {
+    double z = 0.0;
+    for (const Wave& w : waves) z += w.height * std::sin(w.x * x + w.y * y + w.phase) / 2.5;
+    return z;
+  }));
+}
+
+/// A finger that is led over the ground at 1 mm of depth, by the last contact's normal, or at rest, or at a run.
+struct Wanderer {
+  Vec3 position;
+  Vec3 heading;
+  double step_m = 0.0;
+
+  void go(const TickOutput& last, Random& random) {
+    const Vec3 n = last.normal;
+    if (random.below(100) == 0) heading = random.direction();
+    if (random.below(300) == 0) step_m = random.below(4) == 0 ? 0.0 : 1e-3 * std::pow(10.0, random.in(-2.5, 0.0));
+    if (std::abs(position.x) > 0.022) heading.x = -position.x;
+    if (std::abs(position.y) > 0.022) heading.y = -position.y;
+    const Vec3 along = heading - glm::dot(heading, n) * n;
+    position += step_m * along / std::max(1e-9, std::sqrt(glm::dot(along, along)));
+    position += 0.2 * (last.penetration_m - 1e-3) * n;
+  }
+};
+
 }  // namespace
+
+TEST_CASE("on random ground the tracked contact is the deepest place, as a search from nothing finds it") {
+  Random random(11);
+  int switches = 0, shallower = 0, ticks = 0;
+  for (int ground = 0; ground < 24; ++ground) {
+    const ScenePtr scene = random_ground(random, 12 << random.below(4));
+    const double radius = std::array{0.0, 0.002, 0.005, 0.020}[static_cast<std::size_t>(ground) % 4];
+    Preset preset = sphere_preset(radius, Method::robust);
+    if (radius == 0.0) preset.finger.shape = FingerShape::point;
+    Stepper tracking(scene), searching(scene);
+    TickState state;
+    Wanderer finger{{0.0, 0.0, 0.030 + radius}, {1.0, 0.0, 0.0}};
+    for (int i = 0; i < rounds(4000); ++i) {
+      const TickInput input = at_position(1e-3 * i, finger.position);
+      const TickOutput tracked = tracking.step(preset, input, state);
+      finger.go(tracked, random);
+      switches += tracked.event == TickEvent::switched;
+      ++ticks;
+      // One that was come upon from behind does not push, and no other place is compared with it (decide.h).
+      if (state.unentered) continue;
+      TickState fresh;
+      const TickOutput cold = searching.step(preset, input, fresh);
+      const double behind = cold.penetration_m - tracked.penetration_m - preset.solver.switch_hysteresis_m;
+      shallower += behind > 2.0 * kHeightGuess * std::max(radius, 1e-3) + preset.solver.tolerance_m;
+    }
+  }
+  MESSAGE(switches << " switches in " << ticks << " ticks, " << shallower << " shallower than a search from nothing");
+  CHECK(switches > rounds(100));
+  CHECK(shallower == 0);
+}
+
+TEST_CASE("on a ball, which nowhere folds, a search looks ever further ahead") {
+  const ScenePtr scene = scene_of(make_icosphere(0.040, 3));
+  const Preset preset = sphere_preset(0.020, Method::robust);
+  Stepper stepper(scene);
+  TickState state;
+  int asked = 0;
+  Vec3 centre(0.0);
+  for (int i = 0; i < 4000; ++i) {
+    const double turn = 1e-4 / 0.059 * i;
+    stepper.step(preset, at_position(1e-3 * i, 0.059 * Vec3(std::cos(turn), std::sin(turn), 0.1)), state);
+    asked += state.clearance.centre != centre;
+    centre = state.clearance.centre;
+    CHECK(state.clearance.watched_count == 0);
+  }
+  CHECK(asked < 80);
+}
 
 TEST_CASE("a search that waits for its margins switches when one at every tick would, and to the same place") {
   const ScenePtr scene = bumps();
