@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <unordered_map>
 
 namespace tangent {
 namespace {
@@ -22,13 +23,19 @@ struct Cone {
 class NormalSet {
  public:
   void add(const Vec3& n) {
-    if (size_ == normals_.size()) {
+    for (std::size_t i = 0; i < size_; ++i)
+      if (normals_[i] == n) return;
+    if (everything_ || size_ == normals_.size()) {
       everything_ = true;
       return;
     }
     normals_[size_++] = n;
   }
   void add_everything() { everything_ = true; }
+  void add(const NormalSet& other) {
+    everything_ |= other.everything_;
+    for (std::size_t i = 0; i < other.size_ && !everything_; ++i) add(other.normals_[i]);
+  }
 
   Cone cone() const {
     Vec3 sum(0.0);
@@ -71,6 +78,7 @@ class ContactHierarchyBuilder {
   void build() {
     gather_triangles();
     if (entries_.empty()) return;
+    gather_corners();
     tree_.nodes_.reserve(2 * (entries_.size() / kLeafTriangles + 1));
     tree_.order_.reserve(entries_.size());
     build_node(0, entries_.size());
@@ -97,6 +105,27 @@ class ContactHierarchyBuilder {
       entries_.push_back(
           {{static_cast<float>(middle.x), static_cast<float>(middle.y), static_cast<float>(middle.z)}, t});
     }
+  }
+
+  /// The normals around every vertex where many triangles meet and a contact can rest, once for all of them.
+  void gather_corners() {
+    constexpr std::uint8_t kMany = 16;
+    std::vector<std::uint8_t> met(mesh_.vertex_count());
+    const auto each_corner = [&](auto visit) {
+      for (const Entry& entry : entries_)
+        for (std::uint32_t k = 0; k < 3; ++k)
+          if (mesh_.feature_corner(entry.triangle, k)) visit(entry.triangle, k, mesh_.vertex(entry.triangle, k));
+    };
+    each_corner([&](std::uint32_t, std::uint32_t, std::uint32_t v) { met[v] += met[v] < kMany; });
+    each_corner([&](std::uint32_t t, std::uint32_t k, std::uint32_t v) {
+      if (met[v] == kMany) add_corner(t, k, corners_[v]);
+    });
+  }
+
+  void add_corner(std::uint32_t t, std::uint32_t k, NormalSet& normals) const {
+    normals.add(mesh_.normal(t, k));
+    if (mesh_.edge_kind(t, k) == EdgeKind::boundary || mesh_.edge_kind(t, (k + 2) % 3) == EdgeKind::boundary)
+      normals.add_everything();
   }
 
   /// Halves the triangles across the longest side of the box about their middles. Ties go by number, so that the tree
@@ -180,18 +209,20 @@ class ContactHierarchyBuilder {
       if (mesh_.edge_kind(t, k) == EdgeKind::crease)
         for (const Vec3& n : make_patch(mesh_, mesh_.across(t, k).triangle).normals) normals.add(n);
       if (!mesh_.feature_corner(t, k)) continue;
-      around_vertex(mesh_, t, k, [&](std::uint32_t other, std::uint32_t corner) {
-        normals.add(mesh_.normal(other, corner));
-        if (mesh_.edge_kind(other, corner) == EdgeKind::boundary ||
-            mesh_.edge_kind(other, (corner + 2) % 3) == EdgeKind::boundary)
-          normals.add_everything();
-      });
+      const auto many = corners_.find(mesh_.vertex(t, k));
+      if (many != corners_.end()) {
+        normals.add(many->second);
+      } else {
+        around_vertex(mesh_, t, k,
+                      [&](std::uint32_t other, std::uint32_t corner) { add_corner(other, corner, normals); });
+      }
     }
   }
 
   const ContactMesh& mesh_;
   ContactHierarchy& tree_;
   std::vector<Entry> entries_;
+  std::unordered_map<std::uint32_t, NormalSet> corners_;  ///< by vertex
 };
 
 ContactHierarchy ContactHierarchy::build(const ContactMesh& mesh) {

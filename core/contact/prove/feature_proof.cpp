@@ -10,6 +10,7 @@ namespace tangent {
 namespace {
 
 constexpr int kCurveHalvings = 3;
+constexpr int kManyFaces = 32;  // around a vertex: to be asked for once, not by each of them
 
 /// An edge of a triangle by its curve's control points, local coordinates.
 struct EdgeEnds {
@@ -116,7 +117,8 @@ double over_face(const EdgeEnds& e, const Vec3& centre) {
 
 /// Strongest pull of the edges around a vertex on a contact that rests on it, as a distance: positive where the
 /// contact leaves it along one of them.
-static double vertex_pull(const ContactMesh& mesh, std::uint32_t t, std::uint32_t corner, const Vec3& centre) {
+static double vertex_pull(const ContactMesh& mesh, std::uint32_t t, std::uint32_t corner, const Vec3& centre,
+                          int& faces) {
   const Vec3 d = centre - mesh.position(t, corner);
   double strongest = -std::numeric_limits<double>::max();
   const auto pull = [&](const Vec3& offset) {
@@ -124,6 +126,7 @@ static double vertex_pull(const ContactMesh& mesh, std::uint32_t t, std::uint32_
     if (length2 > 0.0) strongest = std::max(strongest, glm::dot(d, offset) / std::sqrt(length2));
   };
   around_vertex(mesh, t, corner, [&](std::uint32_t at, std::uint32_t k) {
+    ++faces;
     const Vec3 starting = mesh.position(at, (k + 1) % 3) - mesh.position(at, k);
     if (mesh.edge_kind(at, k) == EdgeKind::crease) {
       const EdgeLink other = mesh.across(at, k);
@@ -172,9 +175,12 @@ double exclude_feature_contacts(PatchCache& cache, std::uint32_t t, NormalForm f
     if (!mesh.feature_corner(t, k) || (memory && memory->knows(vertex_key(mesh, t, k)))) continue;
     const Vec3 d = centre - mesh.position(t, k);
     double safe = 0.5 * (std::sqrt(glm::dot(d, d)) - bound_m);
-    if (safe < enough_m) safe = std::max(safe, vertex_pull(mesh, t, k, centre));
+    int faces = 0;
+    if (safe < enough_m || !(safe > 0.0)) safe = std::max(safe, vertex_pull(mesh, t, k, centre, faces));
     margin = std::min(margin, std::max(0.0, safe));
-    if (memory && safe > 0.0) memory->add(vertex_key(mesh, t, k));
+    if (!memory) continue;
+    if (faces > kManyFaces) memory->add_dear(vertex_key(mesh, t, k), safe > 0.0);
+    if (faces <= kManyFaces && safe > 0.0) memory->add(vertex_key(mesh, t, k));
   }
   return margin;
 }

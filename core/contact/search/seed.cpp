@@ -70,8 +70,10 @@ void seed_by_hierarchy(ContactContext& context, const SearchStructures& search, 
   query.tilt_rad = context.finger.tilt_rad();
   if (most < std::numeric_limits<double>::max()) limit_query(query, context.finger, most);
   int solves = 0;
+  FeatureMemory features;
   search.hierarchy.visit(query, [&](std::uint32_t t, ContactQuery& q) {
-    const PatchExclusion proof = exclude_triangle(context, t, selection.group == 0 ? selection.value : most);
+    const PatchExclusion proof =
+        exclude_triangle(context, t, selection.group == 0 ? selection.value : most, 0.0, &features);
     if (proof.margin_m > 0.0) return true;
     context.seed = static_cast<std::uint8_t>(std::min(++solves, 255));
     IterationResult r;
