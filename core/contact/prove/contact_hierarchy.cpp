@@ -231,6 +231,23 @@ ContactHierarchy ContactHierarchy::build(const ContactMesh& mesh) {
   return tree;
 }
 
+bool ContactHierarchy::touchable(const Node& node, const ContactQuery& q) {
+  if (node.cos_half <= 0.0f) return true;
+  const Vec3 low(node.min[0], node.min[1], node.min[2]), high(node.max[0], node.max[1], node.max[2]);
+  const Vec3 axis = unit(Vec3(node.axis[0], node.axis[1], node.axis[2]));
+  const double cos_half = node.cos_half, chord = std::sqrt(2.0 - 2.0 * cos_half);
+  const Vec3 support = support_point(*q.finger, *q.pose, axis);
+  const Vec3 d = support - 0.5 * (low + high);
+  const double radius = 0.5 * glm::distance(low, high) + support_spread_m(*q.finger, *q.pose, axis, chord) + q.margin_m;
+  const double d2 = glm::dot(d, d);
+  if (d2 <= radius * radius) return true;
+  // The angle of d from +-axis is at most half + spread.
+  const double distance = std::sqrt(d2), sin_spread = radius / distance;
+  const double cos_spread = std::sqrt(1.0 - sin_spread * sin_spread), sin_half = std::sqrt(1.0 - cos_half * cos_half);
+  if (sin_half * cos_spread + cos_half * sin_spread < 0.0) return true;
+  return std::abs(glm::dot(d, axis)) >= (cos_half * cos_spread - sin_half * sin_spread) * distance;
+}
+
 void limit_query(ContactQuery& query, const Finger& finger, double rank) {
   query.nearest_m = rank + finger.unroundness_m();
   query.inside_m = rank - finger.reach_m() + finger.unroundness_m();

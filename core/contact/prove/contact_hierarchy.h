@@ -38,6 +38,9 @@ struct ContactQuery {
   bool steady_ground = false;
   bool steady_only = false;  ///< ask of such ground only, and only of what reaches into this box
   Box region;
+  /// A finger that is not round, and its pose: rules out more than tilt_rad does, by support points. Null: none.
+  const Finger* finger = nullptr;
+  const FingerPose* pose = nullptr;
   double here_m = 0.0;  ///< set for the visitor: the margin that its triangle is asked for, margin_m or 0
 };
 
@@ -78,6 +81,9 @@ class ContactHierarchy {
 
   /// Squared distance of the box, or -1 where the node can't hold a contact.
   static double reach2(const Node& node, const ContactQuery& query);
+  /// Whether a finger that is not round can touch the node: a contact has p(N) = S + h N, p(N) the support point, and
+  /// over the node's normals that strays from the one of their axis by no more than support_spread_m.
+  static bool touchable(const Node& node, const ContactQuery& query);
 
   std::vector<Node> nodes_;
   std::vector<std::uint32_t> order_;  ///< triangles, leaf by leaf
@@ -94,6 +100,7 @@ inline double ContactHierarchy::reach2(const Node& node, const ContactQuery& q) 
   const double farthest = std::max(q.nearest_m, q.inside_m);
   if (box2 > farthest * farthest) return -1.0;
   if (node.cos_half <= -1.0f) return box2;
+  if (q.finger) return touchable(node, q) ? box2 : -1.0;
 
   // Seen from c the node's points lie within `spread` of the direction to its middle; c may move by the margin.
   const Vec3 d = q.centre - 0.5 * (low + high);

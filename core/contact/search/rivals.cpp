@@ -206,6 +206,10 @@ class RivalSearch {
     q.margin_m = margin;
     q.tilt_rad = context_.finger.tilt_rad();
     q.steady_ground = steady_;
+    if (!is_round(context_.finger)) {
+      q.finger = &context_.finger;
+      q.pose = &context_.pose;
+    }
     limit_query(q, context_.finger, bound_m_ + 2.0 * margin);
     return q;
   }

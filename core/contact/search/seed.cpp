@@ -68,6 +68,10 @@ void seed_by_hierarchy(ContactContext& context, const SearchStructures& search, 
   query.centre = context.pose.position;
   query.nearest_m = query.inside_m = std::numeric_limits<double>::max();
   query.tilt_rad = context.finger.tilt_rad();
+  if (!is_round(context.finger)) {
+    query.finger = &context.finger;
+    query.pose = &context.pose;
+  }
   if (most < std::numeric_limits<double>::max()) limit_query(query, context.finger, most);
   int solves = 0;
   FeatureMemory features;
