@@ -31,6 +31,10 @@ std::vector<BenchCase> paper_cases();
 /// Generated hard cases.
 std::vector<BenchCase> hard_cases();
 
+/// Balls of 40 mm with 1,280, 20,480 and 327,680 triangles, a point, a 5 mm and a 20 mm sphere 1 mm deep at 0.1 m/s:
+/// where the mean of a tick is compared with that of a bounded nearest-point query.
+std::vector<BenchCase> mean_cases();
+
 /// Every pose file of `poses` (NAME-rXXX.csv, XXX: finger radius, mm) on its mesh (`meshes`/NAME.obj, fitted to 80 mm),
 /// with creases at 180 and at 45 degrees. All poses are used whatever the number of ticks asked for.
 Result<std::vector<BenchCase>> shared_cases(const std::filesystem::path& meshes, const std::filesystem::path& poses);

@@ -182,6 +182,7 @@ std::optional<SceneReport> measure_scene(const std::string& suite, const BenchCa
     if (options.stop()) return std::nullopt;
   }
   report.peers.push_back(embree_peer(*scene, poses, options.repeats, clock, options.stop));
+  report.peers.push_back(embree_bounded_peer(*scene, poses, options.repeats, clock, options.stop));
   if (auto cgal = cgal_peer(*scene, poses, options.repeats, clock, options.stop))
     report.peers.push_back(std::move(*cgal));
   if (options.stop()) return std::nullopt;

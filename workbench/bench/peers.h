@@ -27,6 +27,12 @@ struct PeerReport {
 PeerReport embree_peer(const ContactScene& scene, std::span<const TickInput> poses, int repeats, const TickClock& clock,
                        const Stop& stop);
 
+/// The same, bounded by the distance to the triangle that was the nearest at the last pose: how a nearest point is
+/// tracked from tick to tick.
+PeerReport embree_bounded_peer(const ContactScene& scene, std::span<const TickInput> poses, int repeats,
+                               const TickClock& clock, const Stop& stop);
+inline constexpr const char* kEmbreeBounded = "embree bounded";
+
 /// Larger meshes are left out, for memory and the time the tree takes to build.
 inline constexpr std::uint32_t kMostCgalTriangles = 2'000'000;
 

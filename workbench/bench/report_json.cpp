@@ -52,6 +52,7 @@ Json method_json(const SceneReport& scene, const MethodReport& m) {
   json["typical_tick_ns"] = m.typical_ns;
   json["ticks_per_evaluation"] = ticks_per_evaluation(scene, m);
   json["ticks_per_paper_tick"] = ticks_per_paper_tick(scene, m);
+  json["mean_per_bounded_query"] = mean_per_bounded_query(scene, m);
   json["error_from_own_converged"] = m.from_own ? difference_json(*m.from_own) : Json(nullptr);
   json["places_without_solution"] = m.places_without_solution;
   json["error_from_robust_converged"] = difference_json(m.from_reference);
@@ -122,6 +123,12 @@ double ticks_per_evaluation(const SceneReport& scene, const MethodReport& m) {
 double ticks_per_paper_tick(const SceneReport& scene, const MethodReport& m) {
   const MethodReport* paper = scene.of(Method::paper);
   return paper && paper->typical_ns > 0.0 ? m.typical_ns / paper->typical_ns : 0.0;
+}
+
+double mean_per_bounded_query(const SceneReport& scene, const MethodReport& m) {
+  for (const PeerReport& peer : scene.peers)
+    if (peer.name == kEmbreeBounded && peer.ns.mean > 0.0) return m.run.ns.mean / peer.ns.mean;
+  return 0.0;
 }
 
 nlohmann::ordered_json report_json(const BenchReport& report) {

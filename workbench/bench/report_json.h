@@ -14,4 +14,7 @@ nlohmann::ordered_json report_json(const BenchReport& report);
 double ticks_per_evaluation(const SceneReport& scene, const MethodReport& method);
 double ticks_per_paper_tick(const SceneReport& scene, const MethodReport& method);
 
+/// Mean tick in mean times of Embree's query bounded by the last nearest triangle, in the same run; 0 without.
+double mean_per_bounded_query(const SceneReport& scene, const MethodReport& method);
+
 }  // namespace tangent::bench

@@ -20,8 +20,8 @@ namespace {
 
 using namespace bench;
 
-enum class Suite { paper, hard, scale, all };
-constexpr std::array<std::string_view, 4> kSuites{"paper", "hard", "scale", "all"};  // order of Suite
+enum class Suite { paper, hard, mean, scale, all };
+constexpr std::array<std::string_view, 5> kSuites{"paper", "hard", "mean", "scale", "all"};  // order of Suite
 
 struct BenchOptions {
   Suite suite = Suite::paper;
@@ -94,6 +94,7 @@ Status run_suites(const BenchOptions& options, const TickClock& clock, BenchRepo
   Status status;
   if (wants(options, Suite::paper)) status = run_cases("paper", paper_cases(), options, clock, report);
   if (status && wants(options, Suite::hard)) status = run_cases("hard", hard_cases(), options, clock, report);
+  if (status && wants(options, Suite::mean)) status = run_cases("mean", mean_cases(), options, clock, report);
   if (status && !options.poses.empty()) {
     const Result<std::vector<BenchCase>> cases = shared_cases(options.meshes, options.poses);
     if (!cases) return tl::unexpected(cases.error());
@@ -150,9 +151,10 @@ void add_bench_command(CLI::App& app, CommandResult& result) {
   CLI::App* command = app.add_subcommand("bench", "Measure speed against error, for every method");
   auto options = std::make_shared<BenchOptions>();
   BenchOptions* o = options.get();
-  add_choice_option(*command, "--suite", kSuites,
-                    "Scenes: the paper's objects (default), hard cases, 1k to 5M triangles, or all",
-                    [o](int i) { o->suite = static_cast<Suite>(i); });
+  add_choice_option(
+      *command, "--suite", kSuites,
+      "Scenes: the paper's objects (default), hard cases, balls against Embree's mean, 1k to 5M triangles, or all",
+      [o](int i) { o->suite = static_cast<Suite>(i); });
   add_number_option(*command, "--ticks", {.min = 1, .max = 10'000'000, .whole = true},
                     "Ticks of each scene (default 10000)", [o](double n) { o->measure.ticks = static_cast<int>(n); });
   add_number_option(*command, "--repeats", {.min = 1, .max = 100, .whole = true},

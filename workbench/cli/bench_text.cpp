@@ -12,10 +12,11 @@ namespace {
 std::string method_line(const SceneReport& scene, const MethodReport& m) {
   const RunStatistics& s = m.run;
   std::string line = format(
-      "  %-13s %7.1f %7.0f %7.0f %7.0f %7.0f %5.2f %5.2f  %6.2f %3.0f %3.0f %4.0f  %5llu %5llu %4llu %4llu",
-      to_string(m.method), m.typical_ns, s.ns.p50, s.ns.p99, s.ns.p999, s.ns.max, ticks_per_evaluation(scene, m),
-      ticks_per_paper_tick(scene, m), s.iterations.mean, s.iterations.p99, s.iterations.p999, s.iterations.max,
-      static_cast<unsigned long long>(s.unconverged()), static_cast<unsigned long long>(s.count(TickEvent::reseed)),
+      "  %-13s %7.1f %7.0f %7.0f %7.0f %7.0f %7.0f %5.2f %5.2f  %6.2f %3.0f %3.0f %4.0f  %5llu %5llu %4llu %4llu",
+      to_string(m.method), m.typical_ns, s.ns.mean, s.ns.p50, s.ns.p99, s.ns.p999, s.ns.max,
+      ticks_per_evaluation(scene, m), ticks_per_paper_tick(scene, m), s.iterations.mean, s.iterations.p99,
+      s.iterations.p999, s.iterations.max, static_cast<unsigned long long>(s.unconverged()),
+      static_cast<unsigned long long>(s.count(TickEvent::reseed)),
       static_cast<unsigned long long>(s.count(TickEvent::switched)),
       static_cast<unsigned long long>(s.count(TickEvent::branch)));
   const RunDifference& d = m.from_own ? *m.from_own : m.from_reference;
@@ -78,14 +79,18 @@ std::string scene_text(const SceneReport& scene) {
                    scene.load.read_s, scene.load.mesh_s, scene.load.structures_s);
   }
   text +=
-      "  method            mid     p50     p99   p99.9   worst   /ev  /pap    iter p99 .9 worst   unc  seed  swi  bra  "
+      "  method            mid    mean     p50     p99   p99.9   worst   /ev  /pap    iter p99 .9 worst   unc  seed  "
+      "swi  bra  "
       " contact/um normal/deg force/mN display/um  work/mJ /peak\n";
   for (const MethodReport& m : scene.methods) text += method_line(scene, m);
   for (const PeerReport& p : scene.peers) {
-    text += format("  %-20s         %7.0f %7.0f %7.0f %7.0f (query alone; tree built in %.2f s)\n", p.name.c_str(),
-                   p.ns.p50, p.ns.p99, p.ns.p999, p.ns.max, p.build_s);
+    text += format("  %-20s %7.0f %7.0f %7.0f %7.0f %7.0f (query alone; tree built in %.2f s)\n", p.name.c_str(),
+                   p.ns.mean, p.ns.p50, p.ns.p99, p.ns.p999, p.ns.max, p.build_s);
   }
   const MethodReport* robust = scene.of(Method::robust);
+  if (robust && mean_per_bounded_query(scene, *robust) > 0.0)
+    text += format("  mean tick of robust: %.2f mean queries of embree bounded by the last nearest triangle\n",
+                   mean_per_bounded_query(scene, *robust));
   if (robust && robust->run.count(TickEvent::reseed) > 0)
     text += seeding_text("seeding ticks of robust", robust->run.seeding_ns);
   if (scene.reseeding) text += seeding_text("another place every tick, robust", scene.reseeding->ns);
