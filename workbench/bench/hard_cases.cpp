@@ -61,8 +61,8 @@ void add_hard_meshes(std::vector<BenchCase>& cases) {
   }
 }
 
-/// Known objects on ways that are hard.
-void add_hard_ways(std::vector<BenchCase>& cases) {
+/// Known objects, each place of which is hard.
+void add_hard_places(std::vector<BenchCase>& cases) {
   const auto add = [&](const char* name, const char* what, const char* mesh, PathOf path) -> BenchCase& {
     return cases.emplace_back(make_case(name, what, mesh, std::move(path)));
   };
@@ -97,6 +97,13 @@ void add_hard_ways(std::vector<BenchCase>& cases) {
                {0.0, 0.0473, 0.0}}));
   BenchCase& coarse = add("coarse_sphere_20", "a sphere of 20 triangles", "icosphere", exploring);
   coarse.mesh = [] { return Result<PolygonMesh>(make_icosphere(0.040, 0)); };
+}
+
+/// Known objects on ways that are hard: leaps, rest, poses exactly on features, inside, far off, fast.
+void add_hard_ways(std::vector<BenchCase>& cases) {
+  const auto add = [&](const char* name, const char* what, const char* mesh, PathOf path) -> BenchCase& {
+    return cases.emplace_back(make_case(name, what, mesh, std::move(path)));
+  };
   add("leaps", "another place every 20 ticks", "torus", [](const ContactScene& scene, const Finger& finger, int ticks) {
     return with_leaps(exploring(scene, finger, ticks), 20);
   });
@@ -189,6 +196,7 @@ void add_hard_numbers(std::vector<BenchCase>& cases) {
 std::vector<BenchCase> hard_cases() {
   std::vector<BenchCase> cases;
   add_hard_meshes(cases);
+  add_hard_places(cases);
   add_hard_ways(cases);
   add_hard_fingers(cases);
   add_hard_numbers(cases);

@@ -314,13 +314,21 @@ TEST_CASE(
   CHECK(ui.app().items().find("finger/radius_m") != nullptr);
 }
 
-TEST_CASE("a broken settings file is said and left behind - the window starts all the same") {
+TEST_CASE(
+    "a settings file that is broken or of a newer program is said and not written over - the window starts all the "
+    "same") {
   const testing::TempFolder folder;
   AppOptions options = HeadlessApp::deterministic_options();
-  options.settings = folder.write("window.toml", "[layout\n");
-  HeadlessApp ui(options);
-  CHECK(ui.model().messages().all().front().severity == Severity::warning);
-  CHECK(ui.model().window().sizes().left == LayoutSizes{}.left);
+  for (const std::string text : {"[layout\n", "format = 2\n[layout]\nleft = 400.0\n"}) {
+    options.settings = folder.write("window.toml", text);
+    HeadlessApp ui(options);
+    CHECK(ui.model().messages().all().front().severity == Severity::warning);
+    CHECK(ui.model().window().sizes().left == LayoutSizes{}.left);
+    ui.model().window().set_ui_scale(1.5f);
+    ui.model().window().keep_settings({});
+    std::ifstream file(options.settings);
+    CHECK(std::string(std::istreambuf_iterator<char>(file), {}) == text);
+  }
 }
 
 TEST_CASE("toasts come at a bearable rate - the log has all of them") {

@@ -18,8 +18,10 @@ WindowModel::WindowModel(const AppOptions& options, MessageLog& messages)
 std::optional<KeptLook> WindowModel::read_settings() {
   if (auto read = read_window_settings(settings_file_))
     settings_ = std::move(*read);
-  else
-    messages_.say(Severity::warning, read.error().message());
+  else {
+    settings_are_unread_ = true;
+    messages_.say(Severity::warning, read.error().message() + " (it is left as it is; no layout is saved)");
+  }
   written_settings_ = settings_;
   if (settings_file_.empty()) return std::nullopt;
   sizes_.left = static_cast<float>(settings_.left);
@@ -56,7 +58,7 @@ void WindowModel::keep_settings(const KeptLook& look) {
   settings_.y_up = look.y_up;
   settings_.favourites = favourites_;
   settings_.colour_map = colour_map_names()[static_cast<std::size_t>(look.colours)];
-  if (settings_file_.empty() || settings_ == written_settings_) return;
+  if (settings_file_.empty() || settings_are_unread_ || settings_ == written_settings_) return;
   if (auto written = write_window_settings(settings_, settings_file_); !written)
     messages_.say(Severity::warning, written.error().message());
   written_settings_ = settings_;  // said once, not every two seconds

@@ -62,6 +62,7 @@ class WindowModel {
   Theme theme_;
   float ui_scale_ = 1.0f;
   WindowSettings settings_, written_settings_;
+  bool settings_are_unread_ = false;  ///< broken, or of a newer program: not written over
   double now_s_ = 0.0, settings_looked_at_s_ = 0.0;
   std::vector<std::string> favourites_;
   std::string section_wanted_;
