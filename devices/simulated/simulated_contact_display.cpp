@@ -6,7 +6,7 @@ namespace tangent {
 
 namespace {
 
-constexpr double kNoise_m = 2e-3;  // of an injected fault: beyond any roller's speed at 1 kHz
+constexpr double kNoise_m = 2e-3;  // of an injected fault: faster than any roller at 1 kHz
 
 DisplayCapabilities describe(const SimulatedDisplayOptions& options) {
   return {.name = "simulated contact display",
@@ -49,7 +49,7 @@ DisplaySample SimulatedContactDisplay::exchange(const DisplayCommand& command, d
   const bool moves = life_.ready() || life_.state() == DeviceState::homing;
   const double target = life_.ready() ? command.target_m : 0.0;
   since_control_s_ += dt_s;
-  // Half a period of tolerance, so that rounding of many small steps loses none.
+  // Half a period of tolerance, so that rounding over many small steps loses no period.
   while (since_control_s_ > 0.5 * CldMechanism::kPeriod_s) {
     since_control_s_ -= CldMechanism::kPeriod_s;
     if (!moves)
