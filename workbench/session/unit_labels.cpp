@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kAny = std::numeric_limits<double>::infinity();
 
-// Labels of one SI unit stand together, the largest first.
+// Labels of one SI unit are contiguous, the largest first.
 constexpr std::array kLabels{UnitLabel{"m", "km", "km", 1e3},
                              UnitLabel{"m", "m", "m", 1.0},
                              UnitLabel{"m", "mm", "mm", kMillimetre, kAny},
@@ -41,7 +41,7 @@ UnitLabel shown_unit(std::string_view si, double typical) {
   UnitLabel best = si_itself(si);
   bool found = false;
   for (const UnitLabel& label : labels_of(si)) {
-    // A hair of room: the ends of sliders are rounded numbers.
+    // A small tolerance: the ends of sliders are rounded numbers.
     if (!(typical <= 1.0001 * label.shown_to) || (found && label.shown_to >= best.shown_to)) continue;
     best = label;
     found = true;
