@@ -1,4 +1,4 @@
-// workbench audit: what a contact solver will meet on a mesh.
+// workbench audit: a mesh's defects and difficulties for a contact solver.
 #include "core/io/atomic_file.h"
 #include "core/io/rendering_condition.h"
 #include "workbench/cli/audit_report.h"
@@ -22,7 +22,7 @@ struct AuditOptions {
   int condition = threshold_index("C3");  // the finest: nothing shaded, force and contact location felt
 };
 
-/// One line a triangle: its largest angle to a neighbour, and how that compares with the threshold.
+/// One line per triangle: its largest angle to a neighbour, and how that compares with the threshold.
 Status write_heat_map(const AuditOptions& options, const ContactMesh& mesh, const FacetAngles& angles) {
   const PerceptionThreshold& threshold = kPerceptionThresholds[static_cast<std::size_t>(options.condition)];
   const std::vector<float> ratio = felt_ratio(angles, threshold);

@@ -33,7 +33,7 @@ struct BenchOptions {
 
 bool wants(const BenchOptions& options, Suite suite) { return options.suite == suite || options.suite == Suite::all; }
 
-/// "hard: torus_inner_saddle" on standard error while it is measured, where that is a terminal.
+/// Shows the scene being measured ("hard: torus_inner_saddle") on standard error, if that is a terminal.
 class SceneLine {
  public:
   SceneLine(std::string_view suite, std::string_view scene) : shown_(::isatty(STDERR_FILENO) == 1) {
@@ -74,7 +74,7 @@ Status run_cases(const std::string& suite, const std::vector<BenchCase>& cases, 
   return {};
 }
 
-/// The panels of the plot: easy ground, sharp turns, and a saddle, where one gain cannot suit both directions.
+/// The plot's panels: a smooth object, sharp turns, and a saddle, where no single gain suits both directions.
 Status run_work_precision(const BenchOptions& options, const TickClock& clock, BenchReport& report) {
   std::vector<BenchCase> cases = paper_cases();
   for (BenchCase& c : hard_cases()) cases.push_back(std::move(c));
@@ -107,7 +107,7 @@ Status run_suites(const BenchOptions& options, const TickClock& clock, BenchRepo
   return status;
 }
 
-/// Fails at once, rather than after the work, where a file can't be written.
+/// Checks before the work starts that the file can be written.
 Status probe(const std::filesystem::path& path) {
   if (path.empty()) return {};
   if (const Result<AtomicFile> file = AtomicFile::create(path); !file) return tl::unexpected(file.error());
@@ -136,7 +136,7 @@ Status run_bench(BenchOptions options, bool& interrupted) {
   const Status status = run_suites(options, clock, report);
   report.interrupted = interrupted = InterruptGuard::requested();
   std::fputs(summary_text(report).c_str(), stdout);
-  // What was measured before a failure is kept too.
+  // Also writes what was measured before a failure.
   const Status written = write_results(options, report);
   if (interrupted)
     print_message("bench",

@@ -37,7 +37,7 @@ std::string seeding_text(const char* what, const Distribution& ns) {
                 static_cast<unsigned long long>(ns.count), ns.p50 * 1e-3, ns.p99 * 1e-3, ns.max * 1e-3);
 }
 
-/// Median tick of robust at the largest mesh over that at the smallest, of the scale suite.
+/// Scale suite: ratio of robust's median tick on the largest mesh to that on the smallest.
 std::string flatness_text(const BenchReport& report) {
   const SceneReport *smallest = nullptr, *largest = nullptr;
   for (const SceneReport& scene : report.scenes) {

@@ -1,5 +1,5 @@
-// One subcommand of the program: a function that hangs itself into the argument parser and, when its turn
-// comes, leaves its exit code behind.
+// The program's subcommands. Each is a function that registers itself with the argument parser and, when it is the one
+// asked for, sets the exit code.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -10,7 +10,7 @@ namespace tangent {
 enum ExitCode : int {
   kDone = 0,
   kFailed = 1,  ///< the work failed; standard error says what, where and what to do
-  kUsage = 2,   ///< the arguments make no sense
+  kUsage = 2,   ///< invalid arguments
 };
 
 struct CommandResult {
@@ -30,11 +30,11 @@ void add_monitor_command(CLI::App& app, CommandResult& result);
 void add_gui_command(CLI::App& app, CommandResult& result);
 void add_shot_command(CLI::App& app, CommandResult& result);
 
-/// Without a subcommand: the window on the built-in scene; without a display, pictures of it.
+/// The window on the built-in scene; without a display, PNG files of it. Returns the exit code.
 int run_gui_or_pictures();
 #endif
 
-/// What the program does without a subcommand.
+/// Runs the program without a subcommand. Returns the exit code.
 int run_without_command();
 
 /// Parses the arguments and runs what they ask for. Returns the exit code.

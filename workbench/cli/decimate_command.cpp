@@ -1,4 +1,4 @@
-// workbench decimate: as few triangles as a finger can't tell from many.
+// workbench decimate: reduces a mesh to the fewest triangles that a finger can't tell from the original.
 #include "core/io/atomic_file.h"
 #include "core/io/mesh_io.h"
 #include "core/io/rendering_condition.h"
@@ -24,8 +24,8 @@ namespace {
 
 constexpr std::uint64_t kDeviationSamples = 200000;
 constexpr double kDeviationShare = 1e-3;  // of the longest side, by default
-/// Collapses look at the new surface from the old one, at samples; when the whole, both ways, is further off, they are
-/// done again with this part of the distance.
+/// Collapses check the deviation one way, at samples. When the full two-way deviation is larger than allowed,
+/// decimation is repeated with the distance reduced by this factor.
 constexpr double kTighten = 0.6;
 constexpr int kMostRounds = 4;
 
@@ -44,12 +44,12 @@ struct DecimateReport {
   DecimateResult result;
   PerceptionAudit angles_before, angles_after;
   std::uint64_t over_before = 0, over_after = 0;  ///< curve edges above the limit
-  SurfaceDeviation new_from_old, old_from_new;    ///< of points on the new one from the old one, and the other way
+  SurfaceDeviation new_from_old, old_from_new;    ///< of points on the new surface from the old one, and vice versa
   RunScore run;
   bool within() const { return std::max(new_from_old.largest_m, old_from_new.largest_m) <= deviation_limit_m; }
 };
 
-/// The interval's lower end; a pilot condition has a mean alone.
+/// Lower end of the confidence interval; pilot conditions only have a mean.
 double angle_limit_deg(const PerceptionThreshold& t) { return t.interval_deg ? t.interval_deg->first : t.mean_deg; }
 
 std::uint64_t count_over(const ContactMesh& mesh, double limit_deg) {
@@ -70,7 +70,7 @@ Result<std::shared_ptr<const ContactScene>> scene_of(const PolygonMesh& mesh) {
   return ContactScene::build(std::move(*built));
 }
 
-/// Decimates, measures, and does it again more carefully until the whole keeps the distance.
+/// Decimates and measures; repeats with a smaller distance until the result is within the allowed deviation.
 Status decimate_within(const ContactScene& original, DecimateReport& report,
                        std::shared_ptr<const ContactScene>& coarse) {
   const InterruptGuard interrupt;

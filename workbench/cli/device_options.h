@@ -1,4 +1,4 @@
-// Options that say which devices to drive, the same for the window and the monitor.
+// Options that select the devices, the same for the window and the monitor.
 #pragma once
 
 #include "workbench/session/maestro_setups.h"

@@ -1,4 +1,4 @@
-// workbench devices: what is attached, what it can do, and why it can't be opened.
+// workbench devices: lists attached devices, their capabilities, and why one can't be opened.
 #include "core/io/atomic_file.h"
 #include "devices/cld/cld_controller.h"
 #include "devices/device_set.h"
@@ -16,7 +16,7 @@
 namespace tangent {
 namespace {
 
-constexpr int kAskFor_ms = 1000;  // a controller answers within a few
+constexpr int kAskFor_ms = 1000;  // a controller answers within a few ms
 
 std::string timeout_text(double seconds) {
   return seconds > 0.0 ? format("stops by itself %.0f ms after the last command", seconds * 1e3)
@@ -39,7 +39,7 @@ std::string display_text(const std::string& name, double travel_m, double step_m
   return text + format("  rate       %.0f Hz\n  firmware   %s\n", rate_hz, timeout_text(timeout_s).c_str());
 }
 
-/// Asks the first CLD controller what it is; empty when it doesn't answer.
+/// Queries the first CLD controller's identity; empty when it does not answer.
 LinkReport ask_cld() {
   LinkReport report;
   CldController cld;

@@ -1,4 +1,4 @@
-// Poses for runs that name no pose file: the simulated hand's way over a mesh, at the paper's speed.
+// Poses for runs without a pose file: the simulated hand's path over the mesh, at the paper's speed.
 #pragma once
 
 #include "core/tick/step.h"
@@ -9,7 +9,7 @@ namespace tangent {
 
 inline constexpr double kExplorationSpeed = 0.1;   ///< m/s, of the finger's centre
 inline constexpr double kExplorationTick = 1e-3;   ///< s
-inline constexpr double kExplorationPress = 1e-3;  ///< m; less on meshes under 20 mm, a 20th of their longest side
+inline constexpr double kExplorationPress = 1e-3;  ///< m; at most a 20th of the mesh's longest side
 
 struct ExplorationPoses {
   std::vector<TickInput> poses;
@@ -18,8 +18,7 @@ struct ExplorationPoses {
   bool whole = true;  ///< false: the path is longer than the ticks allowed
 };
 
-/// Once around the path of workbench/session/exploration_path.h, 1 ms a tick, but no more than 100,000 ticks.
-/// Deterministic.
+/// Once around the path of workbench/session/exploration_path.h, 1 ms per tick, at most 100,000 ticks. Deterministic.
 ExplorationPoses exploration_poses(const ContactScene& scene, const Finger& finger);
 
 }  // namespace tangent

@@ -1,4 +1,4 @@
-// workbench figures: the paper's figures and the curvature table, computed anew.
+// workbench figures: reproduces the paper's figures and its curvature table.
 #include "workbench/cli/command.h"
 #include "workbench/cli/figures.h"
 #include "workbench/cli/messages.h"
@@ -10,7 +10,7 @@
 namespace tangent {
 namespace {
 
-/// Beside the paper's "less than 0.4 % at five segments".
+/// The table beside the paper's "less than 0.4 % at five segments".
 std::string deviation_text() {
   std::string text =
       "curvature of the rendered curve against the circle's, over the paper's arc (the paper: under 0.4 % at five "

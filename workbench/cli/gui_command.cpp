@@ -1,5 +1,5 @@
-// workbench gui: the window; and what the program does without a subcommand: the window on the built-in
-// scene, or, where there is no display, pictures of it.
+// workbench gui: the window. Also the program without a subcommand: the window on the built-in scene, or PNG files of
+// it where there is no display.
 #ifdef TANGENT_HAS_GUI
 #include "workbench/cli/command.h"
 #include "workbench/cli/device_options.h"
@@ -35,7 +35,7 @@ int run_gui(const AppOptions& options) {
   return kFailed;
 }
 
-/// The built-in scene as pictures, for a machine without a display.
+/// Draws the built-in scene to PNG files, for a machine without a display.
 int draw_builtin_pictures(const std::string& reason) {
   constexpr std::array<const char*, 4> kPictures{"overview", "iterations", "control-net", "planes"};
   std::error_code failed;

@@ -1,4 +1,4 @@
-// workbench make: the paper's objects and the hard cases, as OBJ.
+// workbench make: writes the paper's objects and the hard cases as OBJ files.
 #include "core/io/mesh_io.h"
 #include "core/lab/objects/generate.h"
 #include "core/lab/objects/generate_hard.h"

@@ -1,4 +1,4 @@
-// workbench monitor: the devices live in a terminal, with the built-in scene under the finger.
+// workbench monitor: live view of the devices in a terminal, with the built-in scene under the finger.
 #include "workbench/cli/builtin_scene.h"
 #include "workbench/cli/command.h"
 #include "workbench/cli/device_options.h"
@@ -28,7 +28,7 @@ struct MonitorOptions {
   bool inject_display = false, stay_stopped = false;
 };
 
-/// Single keys from a terminal while it lives; nothing from anything else.
+/// Reads single keys while it exists, if standard input is a terminal.
 class Keys {
  public:
   Keys() {

@@ -23,7 +23,7 @@ void add_key_option(CLI::App& app, const PresetKey& key, PresetOptions& options)
                           .whole = key.kind == KeyKind::integer};
   std::string doc(key.doc);
   if (!key.option_doc.empty()) doc.append(" ").append(key.option_doc);
-  // Dividing by a whole number rounds once: 1.1 mm becomes the double nearest to 0.0011 m.
+  // Dividing by an integer rounds only once: 1.1 mm becomes the double nearest to 0.0011 m.
   add_number_option(app, name, range, doc, [set, per_si = key.option_per_si](double value) { set(value / per_si); });
 }
 

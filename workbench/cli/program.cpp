@@ -1,4 +1,4 @@
-// The program: its subcommands and what becomes of arguments that make no sense.
+// The program: its subcommands, and the handling of invalid arguments.
 #include "workbench/cli/command.h"
 #include "workbench/cli/messages.h"
 
@@ -26,7 +26,7 @@ int parse_and_run(CLI::App& app, CommandResult& result, int argc, const char* co
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    // Help and version leave by exceptions too, with code 0.
+    // CLI11 reports help and version by exceptions too, with code 0.
     if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return app.exit(error);
     const std::string command = chosen_command(app);
     const std::string help = "workbench" + (command.empty() ? "" : " " + command) + " --help";

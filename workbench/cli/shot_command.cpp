@@ -1,4 +1,4 @@
-// workbench shot: any view as a PNG, with no display.
+// workbench shot: renders any view to a PNG file, without a display.
 #ifdef TANGENT_HAS_GUI
 #include "workbench/cli/command.h"
 #include "workbench/cli/mesh_options.h"

@@ -1,4 +1,4 @@
-// workbench solve: every pose of a file, one tick each, into ticks.csv.
+// workbench solve: steps every pose of a file, one tick each, and writes ticks.csv.
 #include "core/io/atomic_file.h"
 #include "core/io/pose_file.h"
 #include "core/io/ticks_file.h"
@@ -26,18 +26,18 @@ struct SolveOptions {
   std::filesystem::path poses, ticks, summary, iterations;
 };
 
-/// The files of a run, under way.
+/// The output files of a run, being written.
 struct SolveOutputs {
   TicksFile ticks;
   std::optional<IterationsFile> iterations;
 };
 
-/// Fails at once, rather than after the work, where a file can't be written.
+/// Checks before the work starts that the files can be written.
 Status probe_outputs(const SolveOptions& options) {
   for (const std::filesystem::path& path : {options.ticks, options.summary, options.iterations}) {
     std::error_code error;
     const auto status = std::filesystem::status(path, error);
-    // Opening a pipe to try it would look like the end of the data to its reader.
+    // Not for a pipe: opening and closing it would signal the end of the data to its reader.
     if (path.empty() || std::filesystem::is_fifo(status)) continue;
     if (const Result<AtomicFile> file = AtomicFile::create(path); !file) return tl::unexpected(file.error());
   }
@@ -59,7 +59,7 @@ Result<SolveOutputs> create_outputs(const SolveOptions& options) {
 Status step_all(Stepper& stepper, const std::vector<TickInput>& poses, SolveOutputs& outputs, SolveReport& report) {
   const InterruptGuard interrupt;
   Progress progress("ticks", poses.size());
-  // Large, so not on the stack.
+  // Too large for the stack.
   const auto trace = outputs.iterations ? std::make_unique<IterationTrace>() : nullptr;
   TickState state;
   TickRow row;
@@ -93,7 +93,7 @@ Status commit(SolveOutputs& outputs, const SolveOptions& options, const SolveRep
   return write_file_atomic(options.summary, solve_json(report).dump(2) + "\n");
 }
 
-/// In the plane a finger is a point or a circle.
+/// In 2D only a point or a sphere (circle) is a valid finger.
 Status check_shape(const ContactScene& scene, const Preset& preset) {
   const FingerShape shape = preset.finger.shape;
   if (scene.planar() == nullptr || shape == FingerShape::point || shape == FingerShape::sphere) return {};

@@ -1,4 +1,4 @@
-// The outcome of a solve, for people and for programs.
+// Report of a solve, as text and as JSON.
 #pragma once
 
 #include "core/io/preset_file.h"
@@ -27,7 +27,7 @@ struct SolveReport {
 
 /// A dozen lines for a terminal.
 std::string solve_text(const SolveReport& report);
-/// The layout is part of the program's contract (workbench/README.md, "Files").
+/// The layout is documented and stable (workbench/README.md, "Files").
 nlohmann::ordered_json solve_json(const SolveReport& report);
 
 }  // namespace tangent

@@ -1,4 +1,4 @@
-// What a run of ticks amounts to: counts, iterations, error and time, as percentiles.
+// Statistics of a run of ticks: counts, and percentiles of iterations, error and time.
 #pragma once
 
 #include "core/lab/measure/distribution.h"
@@ -26,7 +26,7 @@ class SolveStatistics {
   std::uint64_t count(TickEvent event) const { return events_[static_cast<std::size_t>(event)]; }
   double max_error_m() const { return max_error_m_; }  ///< of the converged ticks
   Distribution iterations() const { return distribution(iterations_); }
-  /// Of the ticks whose event is `none`: tracking alone.
+  /// Over the ticks whose event is `none`, that is, tracking only.
   Distribution event_free_iterations() const { return distribution(event_free_iterations_); }
   Distribution solve_ns() const { return distribution(solve_ns_); }
 

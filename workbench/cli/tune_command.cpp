@@ -1,4 +1,4 @@
-// workbench tune: gains of the paper's iteration, found by measuring on a mesh, into a preset.
+// workbench tune: measures gains for the paper's iteration on a mesh and writes a preset.
 #include "core/io/atomic_file.h"
 #include "core/io/pose_file.h"
 #include "core/lab/gains/gain_tuning.h"
@@ -28,7 +28,7 @@ struct TuneOptions {
   std::string command;  ///< as typed, with every option by its long name
 };
 
-/// One word of a command line, quoted where a shell would take it apart.
+/// A word of a command line, quoted where a shell needs it.
 std::string shell_word(const std::string& word) {
   constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./:,@%";
   if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
@@ -59,7 +59,7 @@ Result<PresetFile> load_base(const PresetOptions& options) {
   return base;
 }
 
-/// What about the ideal G_k is: the finger's reach, or for a point a 20th of the mesh.
+/// Length scale of the ideal G_k: the finger's reach, or a 20th of the mesh for a point finger.
 double gain_length(const ContactScene& scene, const Finger& finger) {
   const double reach = finger.reach_m();
   const double length = reach > 0.0 ? reach : 0.05 * glm::length(scene.mesh().bounds().size());
@@ -114,7 +114,7 @@ Status run_tune(const TuneOptions& options, bool& interrupted) {
   if (!base) return tl::unexpected(base.error());
   report.preset = std::move(*base);
   Preset& preset = report.preset.preset;
-  // Fails at once, rather than after the work.
+  // Checks before the work starts that the file can be written.
   if (const Result<AtomicFile> probe = AtomicFile::create(options.out); !probe) return tl::unexpected(probe.error());
   Result<LoadedMesh> loaded = load_mesh(options.mesh);
   if (!loaded) return tl::unexpected(loaded.error());

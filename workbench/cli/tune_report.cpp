@@ -17,7 +17,7 @@ std::string today() {
                 static_cast<unsigned>(date.day()));
 }
 
-/// A measured number as people write it: means to four decimals, times to the nanosecond.
+/// Rounds a measured number for the preset: means to four decimals, times to the nanosecond.
 double rounded(double value, double per_unit) { return std::round(value * per_unit) / per_unit; }
 
 std::string trial_line(const char* name, const GainTrial& trial) {
