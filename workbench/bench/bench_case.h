@@ -1,4 +1,4 @@
-// One scene of the benchmark: a mesh, a finger and its way over it, named after what it shows.
+// One benchmark scene: a mesh, a finger and its path over the mesh, named after what it shows.
 #pragma once
 
 #include "core/mesh/contact_mesh.h"
@@ -16,11 +16,11 @@ using ScenePtr = std::shared_ptr<const ContactScene>;
 
 struct BenchCase {
   std::string name;
-  std::string what;  ///< one line: what is hard about it, or what it is
+  std::string what;  ///< one line: what it is, or what is hard about it
   std::function<Result<PolygonMesh>()> mesh;
   ContactMeshOptions options;
-  Preset preset;  ///< finger and tolerance; the method is set by whoever runs it
-  /// One pose a millisecond, `ticks` of them; the same arguments give the same poses.
+  Preset preset;  ///< finger and tolerance; measure_scene sets the method
+  /// `ticks` poses, 1 ms apart. Deterministic.
   std::function<Result<std::vector<TickInput>>(const ContactScene&, const Finger&, int ticks)> poses;
 };
 

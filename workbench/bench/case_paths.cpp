@@ -107,7 +107,7 @@ Poses along_edges(const ContactScene& scene, double height, int per_edge, int ti
     const auto over = [&](std::uint32_t k) { return mesh.origin() + mesh.position(t, k) + height * mesh.normal(t, k); };
     poses.push_back(at(i, f == 0.0 ? over(corner) : (1.0 - f) * over(corner) + f * over(next)));
     if ((i + 1) % per_edge != 0) continue;
-    // Every other time on the far side of the edge ahead, so that the way goes on over the mesh.
+    // Every other time on the far side of the edge ahead, so that the path advances over the mesh.
     const std::uint32_t vertex = mesh.vertex(t, next);
     const EdgeLink link = mesh.across(t, next);
     corner = next;

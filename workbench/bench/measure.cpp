@@ -13,9 +13,9 @@
 namespace tangent::bench {
 namespace {
 
-constexpr std::size_t kStopStride = 64;  // ticks between two looks at the stop
+constexpr std::size_t kStopStride = 64;  // ticks between checks of the stop
 
-/// Loops about places of the run: circles of 1/40 of the object's size (2 mm on 80 mm) in the contact's plane.
+/// Closed loops at places of the run: circles of 1/40 of the object's size (2 mm on 80 mm) in the contact's plane.
 WorkReport measure_work(const ScenePtr& scene, const Preset& preset, std::span<const TickInput> poses,
                         std::span<const TickOutput> reference, const Stop& stop) {
   constexpr std::size_t kLoops = 12;

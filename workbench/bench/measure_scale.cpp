@@ -15,7 +15,7 @@ constexpr double kBallRadius = 0.040, kSpeed = 0.020, kPress = 1e-3;
 
 double seconds_since(std::int64_t start) { return 1e-9 * static_cast<double>(TickClock::now() - start); }
 
-/// Binary little-endian PLY without normals, so that reading it does all the work there is.
+/// Binary little-endian PLY without normals, so that reading it includes computing them.
 Status write_ply(const PolygonMesh& mesh, const std::filesystem::path& path) {
   Result<AtomicFile> file = AtomicFile::create(path);
   if (!file) return tl::unexpected(file.error());
@@ -37,7 +37,7 @@ Status write_ply(const PolygonMesh& mesh, const std::filesystem::path& path) {
   return file->commit();
 }
 
-/// A file that goes away with this.
+/// A file that is deleted with this object.
 struct TemporaryFile {
   std::filesystem::path path =
       std::filesystem::temp_directory_path() / ("workbench-bench-" + std::to_string(::getpid()) + ".ply");
@@ -69,8 +69,8 @@ Result<ScenePtr> load_icosphere(int subdivisions, LoadReport& load) {
   return scene;
 }
 
-/// Another place of the ball every tick: what finding a contact costs. The places are too many for a pass to warm the
-/// caches for the next.
+/// Jumps to another place of the ball every tick: the cost of finding a contact. There are too many places for one pass
+/// to warm the caches for the next.
 RunStatistics measure_reseeding(const ScenePtr& scene, const Preset& preset, const MeasureOptions& options,
                                 const TickClock& clock) {
   const Vec3 origin = scene->mesh().origin();
