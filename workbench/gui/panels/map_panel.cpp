@@ -1,5 +1,5 @@
-// The map over the mesh: which quantity, how it is coloured, how far it is computed, and where it is worst. The colour
-// bar stands in the 3D view (map_bar.cpp).
+// Settings of the map over the mesh: quantity, colours, progress, worst places. The colour bar is in the 3D view
+// (map_bar.cpp).
 #include "workbench/gui/panels/panels.h"
 #include "workbench/gui/widgets/widgets.h"
 

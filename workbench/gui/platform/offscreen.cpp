@@ -54,7 +54,7 @@ OffscreenContext::~OffscreenContext() {
   if (context_ == nullptr) return;
   eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
   eglDestroyContext(display_, context_);
-  // The display is the process's; ending it would pull it from under another context.
+  // Not eglTerminate: the EGL display is shared by all contexts of the process.
 }
 
 struct OffscreenScreen::Impl {

@@ -1,4 +1,4 @@
-// The whole window, its session stepped without real time.
+// Screenshots of the whole window, with the session stepped in simulated time.
 #pragma once
 
 #include "workbench/gui/platform/shots.h"

@@ -154,7 +154,7 @@ Status ShaderProgram::reload_if_changed() {
   for (Source& source : sources_) {
     const auto now = written(source.path);
     changed = changed || now != source.written;
-    source.written = now;  // a text that fails is not tried again until it changes again
+    source.written = now;  // text that fails to compile is not tried again until it changes
   }
   if (!changed) return {};
   Result<ShaderProgram> fresh = load(directory_, name_);
