@@ -52,7 +52,7 @@ Result<FileBytes> read_file_bytes(const std::filesystem::path& path) {
     const ssize_t got = ::read(file.fd, bytes.data.get() + bytes.size, size - bytes.size);
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) return system_error("read");
-    if (got == 0) break;  // it shrank meanwhile: the parser sees what is there
+    if (got == 0) break;  // the file shrank meanwhile: parse what was read
     bytes.size += static_cast<std::size_t>(got);
   }
   bytes.data[bytes.size] = '\n';

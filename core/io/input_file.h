@@ -9,8 +9,8 @@
 
 namespace tangent {
 
-/// Fails, naming the path and the system's reason, when it can't be read, is empty, or holds more than
-/// `max_bytes`. Memory grows with what is read, not with a promised size.
+/// Fails, naming the path and the system's reason, when it can't be read, is empty, or has more than `max_bytes`.
+/// Memory grows with the bytes read, not with a stated size.
 Result<std::string> read_input_file(const std::filesystem::path& path, std::size_t max_bytes);
 
 }  // namespace tangent

@@ -26,7 +26,7 @@ std::string_view take_word(std::string_view& line) {
 
 std::string at_line(const std::string& name, std::size_t line) { return name + ":" + std::to_string(line); }
 
-/// Drops a closing vertex and checks.
+/// Drops a repeated closing vertex and checks the polygon.
 Result<PlanarPolygon> closed_and_checked(PlanarPolygon polygon) {
   std::vector<Vec2>& v = polygon.vertices;
   if (v.size() > 1 && v.front() == v.back()) {
@@ -57,7 +57,7 @@ class PolylineReader {
     polygon.name = name_;
     for (const std::size_t i : chain_) {
       const Vec3& p = vertices_[i];
-      // Not flat is no 2D scene; taking z away could make it cross itself.
+      // Must be planar: dropping z could make the polygon cross itself.
       if (p.z != vertices_[chain_.front()].z)
         return fail("the polyline is not flat: z of vertex " + std::to_string(i + 1) + " differs", name_,
                     "give all vertices the same z");

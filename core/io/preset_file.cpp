@@ -102,7 +102,7 @@ class PresetReader {
                 condition_where_, "allowed: " + choices_text(kConditionNames));
   }
 
-  /// The condition sets the sources that the file leaves open; what the file says of them must agree.
+  /// The condition sets the sources that the file does not state; stated ones must agree with it.
   Status apply_condition(const toml::table& root) {
     if (condition_ == nullptr) return {};
     Preset wanted = file_.preset;
@@ -176,7 +176,7 @@ class PresetReader {
       return fail("is " + std::string(type_name(node)), where(key.source(), "about.measured"),
                   "write the table [about.measured]");
     }
-    // The library sorts keys by name; a person reads them in the order they were written.
+    // The library sorts keys by name; we restore the order of the file.
     std::vector<std::pair<const toml::key*, const toml::node*>> entries;
     for (const auto& [inner, value] : *table) entries.emplace_back(&inner, &value);
     std::sort(entries.begin(), entries.end(), [](const auto& a, const auto& b) {
@@ -207,7 +207,7 @@ class PresetReader {
 /// Text as a TOML basic string, by the library's own rules for escapes.
 std::string quoted(const std::string& text) {
   std::ostringstream out;
-  // literal and multi-line strings would be chosen for some texts; keep one form
+  // always a basic string, never a literal or multi-line one
   out << toml::toml_formatter{toml::value<std::string>(text),
                               toml::toml_formatter::default_flags & ~(toml::format_flags::allow_literal_strings |
                                                                       toml::format_flags::allow_multi_line_strings)};

@@ -10,9 +10,9 @@
 namespace tangent {
 namespace {
 
-// Every facet brings its own vertices, and they stay its own: whoever builds topology joins those at
-// exactly the same position. A facet's normal says no more than its corners do, so it is not kept as
-// corner normals (the mesh would come out faceted); it is only checked to be there.
+// Every facet has its own vertices; the topology's builder joins those at exactly the same position. A facet's normal
+// follows from its corners and must not become corner normals (the mesh would be faceted), so it is only checked to be
+// there.
 
 constexpr std::size_t kHeaderBytes = 84;  // 80 of text and a 32-bit count
 constexpr std::size_t kFacetBytes = 50;   // normal, three vertices (12 floats), 2 bytes of attributes
@@ -93,7 +93,7 @@ class TextStl {
     return expect("endfacet");
   }
 
-  /// The next word in lower case, over line ends; empty at the end of the file.
+  /// The next word in lower case, across line ends; empty at the end of the file.
   std::string next_word() {
     if (!text_.next_content()) return {};
     std::string word(text_.token());
