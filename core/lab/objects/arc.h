@@ -1,4 +1,4 @@
-// Polygons that stand for round shapes: the paper's arc, and circles.
+// Polygonal approximations of round shapes: the paper's arc, and circles.
 #pragma once
 
 #include "core/planar/polygon.h"
@@ -14,7 +14,7 @@ enum class ArcPlacement : std::uint8_t {
   inscribed,  ///< n facets of angle/n rad with their ends on the arc
 };
 
-/// Turn between neighbouring facets, rad.
+/// Angle between neighbouring facets, rad.
 double facet_turn_rad(int segments, ArcPlacement placement);
 
 /// About the origin, symmetric to the y axis, from left to right over the top, so that the finger comes from above.
