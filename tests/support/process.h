@@ -1,4 +1,4 @@
-// The program run as a process of its own.
+// Runs the program as a separate process.
 #pragma once
 
 #include "tests/support/temp_folder.h"
@@ -16,7 +16,7 @@
 
 namespace tangent::testing {
 
-/// Compares as the number it is; in a failed check it also says what the process said.
+/// Compares as a number; a failed check also prints the output of the process.
 struct ExitCode {
   int number = -1;  ///< -1: ended by a signal
   std::string said;
@@ -32,7 +32,7 @@ struct ProcessResult {
   std::string out, err;
 };
 
-/// A process under way. Its output is kept in files, so it never blocks.
+/// A running process. Its output goes to files, so it never blocks.
 class Process {
  public:
   explicit Process(std::vector<std::string> arguments, const std::string& program = TANGENT_PROGRAM) {
@@ -56,7 +56,7 @@ class Process {
     int status = 0;
     while (::waitpid(id_, &status, 0) < 0 && errno == EINTR) {}
     const std::string err = read_text(folder_.file("err"));
-    // What a sanitizer finds fails the test also where it expects a failure of the program.
+    // A sanitizer's report fails the test even where the program is expected to fail.
     CHECK_MESSAGE(!contains(err, "Sanitizer"), err);
     return {{WIFEXITED(status) ? WEXITSTATUS(status) : -1, err}, read_text(folder_.file("out")), err};
   }

@@ -1,4 +1,4 @@
-// The fan of an edge: how a turn's share runs from side to side, and edges whose contact is found without iterating.
+// The fan of an edge: how the turn fraction runs from side to side, and edges whose contact is found without iterating.
 #include "core/contact/follow/edge.h"
 #include "core/contact/patch_cache.h"
 #include "core/finger/plane_contact.h"

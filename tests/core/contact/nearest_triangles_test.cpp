@@ -1,4 +1,4 @@
-// The query structure against looking at every triangle.
+// The nearest-triangle structure against brute force over all triangles.
 #include "core/contact/nearest_triangles.h"
 #include "tests/core/mesh/sample_meshes.h"
 #include "tests/core/scenes.h"

@@ -1,5 +1,5 @@
-// Every finger shape with every method, where the contact is known: the finger is placed so that the support point
-// for the normal N of a chosen place lies `depth` under it.
+// Every finger shape with every method at known contacts: the finger is placed so that its support point for the normal
+// N of a chosen place is `depth` below that place.
 #include "tests/core/scenes.h"
 
 #include <doctest/doctest.h>

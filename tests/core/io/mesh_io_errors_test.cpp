@@ -1,4 +1,4 @@
-// Bad mesh files: each fails with a message that says what and where, and takes no memory on its word.
+// Bad mesh files: each fails with a message that says what and where, without allocating by the counts it states.
 #include "core/io/mesh_io.h"
 #include "tests/support/temp_folder.h"
 

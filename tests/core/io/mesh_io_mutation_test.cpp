@@ -1,5 +1,5 @@
-// Damaged files of every format: whatever they hold, reading ends with a mesh whose indices are in range
-// or with an error, and the mesh is no larger than the file can account for.
+// Damaged files of every format: reading gives either a mesh with valid indices, no larger than the file can contain,
+// or an error.
 #include "core/io/readers.h"
 
 #include <doctest/doctest.h>

@@ -1,4 +1,4 @@
-// Closed meshes that look inwards: found by their signed volume, turned over on request.
+// Closed meshes with inward faces: detected by their signed volume, turned over on request.
 #include "core/io/mesh_io.h"
 #include "core/lab/objects/generate.h"
 #include "tests/core/scenes.h"

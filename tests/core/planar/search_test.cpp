@@ -1,5 +1,4 @@
-// The index over a planar curve against scans of all its patches and segments, and contacts that one patch holds two
-// of.
+// The index over a planar curve against brute force over all its patches and segments, and patches with two contacts.
 #include "core/planar/search.h"
 #include "core/lab/objects/arc.h"
 #include "core/planar/polygon_contact.h"

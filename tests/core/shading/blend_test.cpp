@@ -1,4 +1,4 @@
-// Force and display never leap: whatever the finger's motion does not explain is faded in, at a stated rate.
+// Force and display never jump: changes that the finger's motion does not explain are faded in, at a stated rate.
 #include "core/shading/blend.h"
 #include "core/base/tolerances.h"
 #include "tests/core/scenes.h"

@@ -1,5 +1,5 @@
-// A tick allocates nothing: it runs in the servo thread. This file replaces the global operators new
-// and delete of the whole test program by counting ones.
+// A tick does not allocate, since it runs in the servo thread. This file replaces the global operators new and delete
+// of the test program by counting ones.
 #include "tests/core/scenes.h"
 
 #include <doctest/doctest.h>

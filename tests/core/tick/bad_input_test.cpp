@@ -1,4 +1,4 @@
-// Whatever mesh and pose come in: no NaN goes out, nothing crashes, and the next good tick works.
+// For any mesh and pose: no NaN in the output, no crash, and the next good tick works.
 #include "tests/core/mesh/sample_meshes.h"
 #include "tests/core/scenes.h"
 

@@ -1,4 +1,4 @@
-// Events, and what is rendered while a tick has no converged contact.
+// Events, and rendering while there is no converged contact.
 #include "tests/core/scenes.h"
 
 #include <doctest/doctest.h>

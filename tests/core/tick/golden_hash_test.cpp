@@ -1,4 +1,4 @@
-// The same input gives the same bits: in debug and release, traced and untraced, warm and cold.
+// The same input gives bitwise identical results: in debug and release, traced and untraced, warm and cold.
 #include "tests/core/scenes.h"
 
 #include <doctest/doctest.h>

@@ -1,4 +1,4 @@
-// The answer does not depend on the unit, on where the mesh lies, how it is turned, or how its triangles are numbered.
+// The result does not depend on unit, position and orientation of the mesh, nor on the numbering of its triangles.
 #include "tests/core/scenes.h"
 
 #include <doctest/doctest.h>

@@ -1,4 +1,4 @@
-// Ticks on 2D scenes: contacts known by hand, tracking against brute force, corners, ends, other places.
+// Ticks on 2D scenes: contacts computed by hand, tracking against brute force, corners, ends, nonadjacent contacts.
 #include "core/lab/objects/arc.h"
 #include "core/tick/step.h"
 #include "tests/core/scenes.h"

@@ -1,4 +1,4 @@
-// What is rendered again is what a step would have given.
+// Rendering a recorded contact again gives the same as a step.
 #include "core/tick/render_again.h"
 #include "tests/core/scenes.h"
 

@@ -1,4 +1,4 @@
-// What a stepper keeps between ticks changes no bits; what it holds of edges and vertices is what they are.
+// The stepper's caches don't change results, and cached edges and vertices equal computed ones.
 #include "core/contact/patch_cache.h"
 #include "tests/core/scenes.h"
 

@@ -1,4 +1,4 @@
-// workbench devices and workbench monitor on a faked machine.
+// workbench devices and workbench monitor with emulated USB devices.
 #include "workbench/cli/command.h"
 
 #include "tests/devices/usb/emulation/cld_model.h"

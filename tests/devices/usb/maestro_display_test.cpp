@@ -1,4 +1,4 @@
-// The Maestro driver against an emulated one behind the real libusb.
+// The Maestro driver against an emulated Maestro behind the real libusb.
 #include "devices/maestro/maestro_display.h"
 
 #include "tests/devices/usb/emulation/maestro_model.h"

@@ -1,5 +1,5 @@
-// A whole session with a CLD controller on a cable: servo thread, link thread, gate. Faults on the cable take the force
-// away.
+// A whole session with a CLD controller on USB: servo thread, link thread, gate. Faults of the link switch the force
+// off.
 #include "workbench/session/session.h"
 
 #include "core/lab/objects/generate.h"

@@ -1,4 +1,4 @@
-// Random poses on every hard case: whatever comes in, nothing that is not a number goes out, and robust has an answer.
+// Random poses on every hard case: no NaN in the output, and robust always converges.
 #include "tests/core/scenes.h"
 #include "workbench/bench/bench_case.h"
 

@@ -1,4 +1,4 @@
-// workbench figures, run as a process: the data are the figures' own claims.
+// workbench figures, run as a process: checks the claims of the figures on their data.
 #include "workbench/cli/figures.h"
 #include "tests/support/process.h"
 #include "workbench/cli/figure_table.h"

@@ -1,4 +1,4 @@
-// Every value of a preset can be set on the command line, by what its row of the schema says and nothing else.
+// Every value of a preset can be set on the command line, with only its row of the schema.
 #include "workbench/cli/preset_options.h"
 
 #include "core/base/text.h"

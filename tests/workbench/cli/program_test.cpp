@@ -1,4 +1,4 @@
-// The program's manners: exit codes, help, and arguments that make no sense.
+// The program's conventions: exit codes, help, and invalid arguments.
 #include "core/preset/schema.h"
 #include "tests/support/process.h"
 

@@ -1,4 +1,4 @@
-// workbench solve, run as a process: its files, its options, and what becomes of bad ones.
+// workbench solve, run as a process: its files, its options, and errors for bad ones.
 #include "core/io/ticks_file.h"
 #include "tests/support/process.h"
 

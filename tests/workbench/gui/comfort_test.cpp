@@ -1,4 +1,4 @@
-// What makes the window pleasant: everything explains itself, everything has a name, nothing is forgotten.
+// Usability: every control has a tooltip and a name, and settings are remembered.
 #include "tests/workbench/gui/headless_app.h"
 
 #include "tests/support/temp_folder.h"

@@ -1,4 +1,4 @@
-// An app with ticks to look at, and what its tests ask of it.
+// An app with recorded ticks, and helpers for its tests.
 #pragma once
 
 #include "tests/workbench/gui/headless_app.h"

@@ -1,4 +1,4 @@
-// Scenes, device doubles and a made-up clock for the session's tests.
+// Scenes, device test doubles and a fake clock for the session's tests.
 #pragma once
 
 #include "core/lab/objects/generate.h"
@@ -34,7 +34,7 @@ inline std::shared_ptr<const ContactScene> torus_scene() {
   return scene;
 }
 
-/// Says what it is told to say, and remembers what it was commanded.
+/// Returns prescribed samples and records its commands.
 struct PuppetForceDevice final : ForceDevice {
   ForceCapabilities caps{.name = "puppet", .peak_force_n = 8.5};
   DeviceState state = DeviceState::ready;
@@ -57,7 +57,7 @@ struct PuppetForceDevice final : ForceDevice {
   }
 };
 
-/// Time moves when someone sleeps or when a test says so.
+/// Time advances when a thread sleeps or a test sets it.
 struct MadeUpClock final : ServoClock {
   std::int64_t time_ns = 1'000'000'000;
   std::function<std::int64_t()> oversleep_ns = [] { return std::int64_t{0}; };
@@ -67,7 +67,7 @@ struct MadeUpClock final : ServoClock {
   }
 };
 
-/// A ServoTick with its surroundings, driven by hand.
+/// A ServoTick with its channels and devices, run tick by tick.
 struct TickBench {
   DeviceSet devices;
   ServoChannels channels{4096};

@@ -1,4 +1,4 @@
-// How far the finger has gone from where a search's margins count, and what is left of them there.
+// The finger's distance from the pose of the last search, and the remaining margins there.
 #include "core/contact/prove/clearance_check.h"
 
 #include <doctest/doctest.h>

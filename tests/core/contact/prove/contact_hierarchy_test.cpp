@@ -1,4 +1,4 @@
-// The search over the hierarchy passes by no triangle that holds a contact.
+// The search over the hierarchy never skips a triangle that holds a contact.
 #include "core/contact/prove/contact_hierarchy.h"
 #include "core/contact/follow/step_rule.h"
 #include "tests/core/scenes.h"

@@ -1,4 +1,4 @@
-// A patch that holds a contact is never excluded, nor does one come up while the centre moves less than the margin.
+// A patch that holds a contact is never excluded, and no contact appears while the centre moves less than the margin.
 #include "core/contact/prove/face_proof.h"
 #include "core/surface/mesh_patch.h"
 #include "tests/core/scenes.h"

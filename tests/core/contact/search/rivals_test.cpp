@@ -1,4 +1,4 @@
-// Watching for deeper places: asking seldom finds what asking at every tick finds.
+// Searching for deeper places only when the clearance is used up finds the same as searching at every tick.
 #include "core/contact/search/rivals.h"
 #include "core/base/tolerances.h"
 #include "core/lab/objects/generate.h"

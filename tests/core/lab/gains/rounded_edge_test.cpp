@@ -1,11 +1,11 @@
-// Why the paper's iteration needs more than 2 to 3 planes on rounded edges unless it crosses them squarely.
+// Why the paper's iteration needs more than 2 to 3 planes on rounded edges unless it crosses them at right angles.
 //
 // Across an edge of radius r the ideal factor of a step is 1/(1 + h/r), along it 1. One factor g leaves |1 - g (1 +
-// h/r)| of the travel across and 1 - g of that along. Where one shrinks faster than the other the travel turns towards
-// the other, k = |dN/ds| along it follows, and with it the gain, until both shrink alike: g = 2/(2 + h/r). From there
-// every plane leaves h/r / (2 + h/r) of the error, whatever the gains: 0.864 for r = 1.5 mm and h = 19 mm. (Where G_k
-// is too small for the edge, it does not converge at all.) Gains with G_o well above 1 never settle there; long and
-// short steps take turns and leave 0.67, but on flat ground G_o - 1.
+// h/r)| of the travel across and 1 - g of that along. The travel turns towards the component that shrinks more slowly;
+// k = |dN/ds| along the travel follows, and with it the gain, until both shrink alike: g = 2/(2 + h/r). From then on
+// every plane leaves (h/r)/(2 + h/r) of the error, whatever the gains: 0.864 for r = 1.5 mm and h = 19 mm. (If G_k is
+// too small for the edge, it does not converge at all.) Gains with G_o well above 1 don't settle there: long and short
+// steps alternate and leave 0.67 per plane, at the price of G_o - 1 on flat faces.
 #include "core/lab/gains/gain_tuning.h"
 #include "core/lab/gains/ground.h"
 

@@ -1,4 +1,4 @@
-// Whether the tracked contact is the deepest one: a search from nothing at the same pose must not find a deeper place.
+// The tracked contact is the deepest one: a search without kept state at the same pose must not find a deeper place.
 #include "core/base/tolerances.h"
 #include "tests/core/scenes.h"
 

@@ -1,4 +1,4 @@
-// What a plot really draws: the vertices that reach ImGui's draw list.
+// The vertices that a plot adds to ImGui's draw list.
 #include "tests/workbench/gui/headless_app.h"
 
 #include "workbench/gui/plots/plot_view.h"
