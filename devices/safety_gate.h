@@ -91,8 +91,7 @@ struct GateInput {
   double position_age_s = 0.0;                ///< since it was measured
   double display_measured_m = 0.0;            ///< of the roller
   double display_age_s = 0.0;
-  double display_travel_m =
-      0.0;  ///< as reported by the display; the smaller of this and the limit counts; 0: not known
+  double display_travel_m = 0.0;  ///< as reported by the display, 0: not known; the smaller one limits
   double display_lowest_m = -1.0, display_highest_m = 1.0;  ///< requested range of targets, within the travel
   bool display_measures = false;                            ///< display_measured_m comes from a sensor
 };

@@ -12,8 +12,7 @@ struct UnitLabel {
   std::string_view name;   ///< "µm"; empty for pure numbers
   std::string_view plain;  ///< "um": ASCII, for the command line
   double si_value = 1.0;   ///< value of one such unit in SI
-  double shown_to =
-      0.0;  ///< SI; used for quantities typically at most this large; 0: accepted when typed, never chosen
+  double shown_to = 0.0;   ///< SI; for quantities of at most this typical size; 0: only accepted when typed
 };
 
 /// All units of this SI unit, the largest first. Empty: the SI unit itself is shown.

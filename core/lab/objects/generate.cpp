@@ -23,8 +23,7 @@ struct Generator {
 constexpr double kLeastRounding = 0.01 * kMillimetre;
 // With a larger rounding the remaining faces would be slivers between the rounded edges.
 constexpr double kLargestRoundedShare = 0.9;
-constexpr double kCubeHalfEdge =
-    kObjectRadius * std::numbers::sqrt2 / 2.0;  // its square cross-section is inscribed in the circle
+constexpr double kCubeHalfEdge = kObjectRadius * std::numbers::sqrt2 / 2.0;  // square section inscribed in the circle
 
 PolygonMesh polyhedron(const ConvexPolyhedron& body, int segments, double rounding_m) {
   if (rounding_m == 0.0) return sharp_polyhedron(body);

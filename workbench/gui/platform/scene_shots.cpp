@@ -59,8 +59,7 @@ SceneView control_net_view() {
 SceneView planes_view() {
   SceneView view{"planes", "tangent planes of one tick's iterations, in order", "icosphere", 0.0, {}, {}};
   view.staging.preset.solver.method = Method::paper;
-  view.staging.preset.solver.gain_curvature_m =
-      0.0;  // the paper's printed gain overshoots where convex: several planes
+  view.staging.preset.solver.gain_curvature_m = 0.0;  // overshoots where convex: several planes
   view.staging.last_jump_m = 12e-3;
   view.toggles.finger = view.toggles.cld_inset = view.toggles.force = view.toggles.penetration = false;
   view.toggles.control_net = false;
