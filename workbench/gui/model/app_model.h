@@ -3,7 +3,7 @@
 //
 // The only data flow between the parts:
 //
-//   scene  --(a mesh was opened or built anew)-->  window, view, devices     scene_loaded()
+//   scene  --(a mesh was opened or built again)-->  window, view, devices     scene_loaded()
 //   presets  --(values changed)-->  devices --(id of what was sent)--> presets, time     preset_changed()
 //   devices  --(the session ends)-->  time     time().forget()
 //   devices  --(records, status)-->  time, once a frame     take_ticks()
