@@ -44,9 +44,11 @@ class ContactDisplay {
  public:
   virtual ~ContactDisplay() = default;
 
+  /// Any thread; constant for the lifetime of the device.
   virtual const DisplayCapabilities& capabilities() const = 0;
   /// Not while another thread calls exchange. Fails with the cause and what to do about it.
   virtual Status open() = 0;
+  /// Stops the drive and releases the device; may block. Not while another thread calls exchange.
   virtual void close() = 0;
 
   /// Called by the servo thread once per tick. `dt_s`: seconds since the last exchange, > 0. Does not allocate, lock,

@@ -31,6 +31,7 @@ Result<InjectedFault> injected_fault(std::string_view name);
 /// Counts down how long an injected fault lasts. Not thread-safe.
 class InjectedFaultTimer {
  public:
+  /// Replaces a fault that is still active.
   void begin(const FaultInjection& fault) noexcept { fault_ = fault; }
   /// Call once per exchange; returns the fault to simulate in it.
   InjectedFault next() noexcept {

@@ -51,9 +51,11 @@ class ForceDevice {
  public:
   virtual ~ForceDevice() = default;
 
+  /// Any thread; constant for the lifetime of the device.
   virtual const ForceCapabilities& capabilities() const = 0;
   /// Not while another thread calls exchange. Fails with the cause and what to do about it.
   virtual Status open() = 0;
+  /// Stops the force and releases the device; may block. Not while another thread calls exchange.
   virtual void close() = 0;
 
   /// Called by the servo thread once per tick. `dt_s`: seconds since the last exchange, > 0. Does not allocate, lock,

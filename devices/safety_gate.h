@@ -124,9 +124,10 @@ class SafetyGate {
   const GateLimits& limits() const { return limits_; }
   GateState state() const { return state_; }
   GateFault fault() const { return fault_; }
+  /// Ticks in which each action was taken, by GateAction.
   const std::array<std::uint64_t, kGateActionCount>& counts() const { return counts_; }
-  std::uint64_t faults() const { return faults_; }
-  double shake_work_j() const { return shake_.work_j(); }
+  std::uint64_t faults() const { return faults_; }         ///< number of stops by a fault
+  double shake_work_j() const { return shake_.work_j(); }  ///< see ShakeWatch
 
  private:
   bool live() const noexcept { return state_ == GateState::ramping || state_ == GateState::armed; }

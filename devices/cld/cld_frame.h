@@ -78,7 +78,9 @@ class CldParser {
 class CldSequence {
  public:
   enum class Arrival : std::uint8_t { in_order, after_loss, doubled, late };
+  /// Classifies and counts a frame that arrived with this sequence number.
   Arrival add(std::uint16_t sequence) noexcept;
+  /// The next frame is taken as the first of a new connection. Counts stay.
   void restart() noexcept { known_ = false; }
   std::uint64_t lost() const { return lost_; }  ///< without those that arrived late
   std::uint64_t doubled() const { return doubled_; }

@@ -71,6 +71,7 @@ struct CldRefused {
   std::uint8_t reason = 0;  ///< 1 version, 2 type, 3 length, 4 value, 5 not allowed in this state
 };
 
+/// Encodes a message; never fails.
 CldFrame to_frame(const CldTarget& message, std::uint16_t sequence) noexcept;
 CldFrame to_frame(const CldWireGains& message, std::uint16_t sequence) noexcept;
 CldFrame to_frame(const CldWireLimits& message, std::uint16_t sequence) noexcept;

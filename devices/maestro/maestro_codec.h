@@ -13,6 +13,7 @@ namespace tangent {
 inline constexpr std::uint16_t kMaestroVendor = 0x1FFB;
 inline constexpr std::uint16_t kMaestroProducts[]{0x0089, 0x008A, 0x008B, 0x008C};  ///< Micro 6, Mini 12, 18, 24
 
+/// Sets a channel's pulse width in quarter microseconds; 0: off.
 UsbControl maestro_target(std::uint8_t channel, std::uint16_t quarter_us);
 /// `speed` in 0.25 us per 10 ms; 0: unlimited.
 UsbControl maestro_speed(std::uint8_t channel, std::uint16_t speed);

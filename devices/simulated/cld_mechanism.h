@@ -56,6 +56,7 @@ class CldMechanism {
   void hold() noexcept;
   /// p_per_s2 of 0 selects the gains for the bandwidth. Bumpless: a drive at rest stays at rest.
   void set_gains(const CldGains& gains) noexcept;
+  /// In effect from the next control on.
   void set_limits(const CldLimits& limits) noexcept { limits_ = limits; }
 
   const CldMechanismOptions& options() const { return options_; }

@@ -24,6 +24,7 @@ class PacketRecorder final : public UsbTap {
   PacketRecorder(const PacketRecorder&) = delete;
   PacketRecorder& operator=(const PacketRecorder&) = delete;
 
+  /// Link's thread. Copies at most kUsbPacketBytes; counts a drop when the ring is full.
   void packet(Direction direction, std::int64_t time_ns, std::span<const std::uint8_t> bytes,
               int status) noexcept override;
   /// Packets lost because the ring was full. Any thread.

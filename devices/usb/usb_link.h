@@ -36,11 +36,15 @@ class UsbLink;
 class UsbLinkHandler {
  public:
   virtual ~UsbLinkHandler() = default;
+  /// The device was opened and its IN transfers were submitted.
   virtual void on_open(UsbLink& link) noexcept = 0;
+  /// An IN packet; `bytes` are valid during the call. Times are those of usb_now_ns.
   virtual void on_packet(UsbLink& link, std::span<const std::uint8_t> bytes, std::int64_t now_ns) noexcept = 0;
+  /// A control transfer has ended; `good`: without an error.
   virtual void on_control_done(UsbLink& link, bool good, std::int64_t now_ns) noexcept = 0;
   /// After every wake-up, and at least every 5 ms while open.
   virtual void on_turn(UsbLink& link, std::int64_t now_ns) noexcept = 0;
+  /// The device was closed or unplugged.
   virtual void on_closed() noexcept = 0;
 };
 
@@ -54,6 +58,7 @@ class UsbLink {
 
   /// Starts the thread; the device may be attached later. Fails without libusb or when it can't be initialised.
   Status start();
+  /// Sends what is queued, closes the device and joins the thread. Owner's thread; harmless when not started.
   void stop();
 
   /// Makes the thread call on_turn soon. This and the next three: any thread, without waiting.

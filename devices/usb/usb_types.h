@@ -58,6 +58,7 @@ class UsbTap {
  public:
   enum class Direction : std::uint8_t { in, out, control };
   virtual ~UsbTap() = default;
+  /// `time_ns`: usb_now_ns. `status`: libusb's transfer status, 0 if completed. `bytes` are valid during the call.
   virtual void packet(Direction direction, std::int64_t time_ns, std::span<const std::uint8_t> bytes,
                       int status) noexcept = 0;
 };

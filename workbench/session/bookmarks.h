@@ -51,9 +51,9 @@ class Bookmarks {
 
   /// All bookmarks, sorted by tick. Pointers and references are valid until the next change.
   const std::vector<Bookmark>& all() const { return all_; }
-  const Bookmark* find(std::uint32_t id) const;     ///< null: none
-  const Bookmark* after(std::uint64_t tick) const;  ///< null: none
-  const Bookmark* before(std::uint64_t tick) const;
+  const Bookmark* find(std::uint32_t id) const;      ///< null: none
+  const Bookmark* after(std::uint64_t tick) const;   ///< the next one; null: none
+  const Bookmark* before(std::uint64_t tick) const;  ///< the previous one; null: none
 
  private:
   void fire(BookmarkKind kind, const ServoRecord& record, std::string note);

@@ -21,6 +21,7 @@ class DeadlinePacer {
   /// `by_deadlines`: t_s and dt_s follow the deadlines; otherwise t_s is tick / rate (ServoOptions).
   DeadlinePacer(double rate_hz, bool by_deadlines);
 
+  /// `now_ns`: of a monotonic clock, here and in begin. The first deadline is one period later.
   void start(std::int64_t now_ns) noexcept;
   /// The deadline to sleep until, on the clock given to start.
   std::int64_t deadline_ns() const noexcept;

@@ -59,6 +59,7 @@ class History {
   const ServoRecord* find(std::uint64_t tick) const;
   /// Index of the first record with that tick or a later one; size() if there is none.
   std::size_t lower_bound(std::uint64_t tick) const;
+  /// Shares the blocks; copies only pointers to them.
   HistorySnapshot snapshot() const;
 
   std::size_t memory_bytes() const { return blocks_.size() * block_ * sizeof(ServoRecord); }

@@ -22,6 +22,7 @@ struct MaestroWish {
   std::optional<double> low_m, low_us, high_m, high_us;
   std::optional<unsigned> channel;
   bool complete() const { return low_m && low_us && high_m && high_us && channel; }
+  /// `setup` with the requested values in place of its own.
   MaestroSetup over(MaestroSetup setup) const;
 };
 /// A request that states every value of `setup`.

@@ -19,11 +19,12 @@ class Servo {
   Servo(const Servo&) = delete;
   Servo& operator=(const Servo&) = delete;
 
+  /// Starts the thread; does nothing when it runs already.
   void start();
   /// Stops after the current tick, sends the devices zero force, and joins the thread.
   void stop();
   bool running() const { return thread_.joinable(); }
-  RealtimeGrant granted() const { return {fifo_.load(), locked_.load()}; }
+  RealtimeGrant granted() const { return {fifo_.load(), locked_.load()}; }  ///< any thread
 
   /// Runs the next tick now, in the caller's thread, as if it began at its deadline. Precondition: not running.
   void run_one() noexcept;

@@ -17,8 +17,10 @@ class ServoStatistics {
   void add(const ServoRecord& record, const SafetyGate& gate) noexcept;
   /// Servo thread, at the start of a tick (`now_ns`): measures the rate over about a second.
   void note_start(std::int64_t now_ns) noexcept;
+  /// Servo thread, or while it is not running.
   void restart_rate() noexcept { window_start_ns_ = 0; }
 
+  /// Any thread may read these two.
   const LogHistogram& lateness_ns() const { return lateness_ns_; }
   const LogHistogram& period_ns() const { return period_ns_; }
 

@@ -110,7 +110,7 @@ class Session {
   std::shared_ptr<const ContactScene> scene(std::uint32_t id) const;
   const ExplorationPath& path() const;  ///< of the latest scene
 
-  // Hand and force.
+  // Hand and force. Each takes effect at the servo's next tick; until then the latest call of a kind wins.
   void set_hand(const HandSettings& settings);
   const HandSettings& hand() const;
   void set_hand_target(const Vec3& position_world_m);  ///< also selects HandMode::point. Ignored when not finite
@@ -141,7 +141,7 @@ class Session {
   /// The recorder's ring: filled from attach to detach. One thread, which may be another, pops.
   void attach_recorder();
   void detach_recorder();
-  bool pop_recorded(ServoRecord& record);
+  bool pop_recorded(ServoRecord& record);  ///< false when empty
 
  private:
   struct Impl;

@@ -35,6 +35,7 @@ class SurfaceMapJob {
   /// Copies a quantity of the group; index: usable triangle * level^2 + part. May be called while it is computed;
   /// values not computed yet are kMapPending. Empty if the quantity does not belong to the group.
   void copy_values(MapQuantity quantity, std::vector<float>& out) const;
+  /// Group and options of the last start.
   MapGroup group() const { return group_; }
   const MapOptions& options() const { return options_; }
   /// Triangle numbers of the usable triangles, in the order of the values.

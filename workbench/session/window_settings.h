@@ -36,6 +36,7 @@ std::filesystem::path window_settings_path();
 /// load. A missing file gives the defaults. Fails on a file that is not valid TOML or whose format
 /// (core/io/file_format.h) is newer than this program.
 Result<WindowSettings> read_window_settings(const std::filesystem::path& path);
+/// The settings as TOML text.
 std::string format_window_settings(const WindowSettings& settings);
 /// Writes atomically; makes the folder. Fails when it can't be written.
 Status write_window_settings(const WindowSettings& settings, const std::filesystem::path& path);

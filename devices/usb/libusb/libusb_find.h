@@ -20,6 +20,7 @@ using LibusbHandle = std::unique_ptr<libusb_device_handle, LibusbHandleCloser>;
 
 /// Fails, with libusb's error name, when libusb can't be initialised.
 Result<LibusbContext> open_libusb();
+/// Whether an attached device matches; false if its descriptors can't be read.
 bool matches(libusb_device* device, const UsbMatch& match);
 UsbProblem problem_of(int libusb_code);
 
