@@ -1,5 +1,5 @@
-// Options that take a number or one of a few words. A number must be finite and in range; otherwise the error names the
-// option and the allowed values.
+// Options that take a number or one of a few words. A number must be finite and in its range; anything else
+// is refused with a message that names the option and what it allows.
 #pragma once
 
 #include <CLI/CLI.hpp>
