@@ -35,7 +35,7 @@ struct ServoStatus {
   double nominal_hz = 0.0;
   double rate_hz = 0.0;  ///< measured over about the last second; 0 before that
   std::uint64_t ticks = 0;
-  std::uint64_t late_ticks = 0;        ///< ticks that missed at least one deadline
+  std::uint64_t late_ticks = 0;        ///< ticks right after at least one missed deadline
   std::uint64_t missed_deadlines = 0;  ///< skipped
   std::uint64_t gui_drops = 0;         ///< records dropped because the GUI's ring was full
   std::uint64_t recorder_drops = 0;
