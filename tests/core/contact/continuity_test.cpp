@@ -16,8 +16,8 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr double kRadius = 0.020, kDepth = 0.0005;
 
-/// How contact and normal answer a move of a sphere's centre, on one patch: at the place or where the move leads,
-/// whichever is more.
+/// Sensitivity of contact and normal to the motion of a sphere's centre, on one patch: the larger of those at the start
+/// and at the end of the move.
 struct Answer {
   bool stable = false;  ///< well so, here and there
   double contact_m = 0.0, normal = 0.0;

@@ -36,7 +36,7 @@ bool same(const NearestHit& a, const NearestHit& b) {
   return a.triangle == b.triangle && a.distance_m == b.distance_m && a.u == b.u && a.v == b.v && a.point == b.point;
 }
 
-/// Queries that differ from looking at every triangle, in any bit.
+/// Number of queries that differ from brute force in any bit.
 int different(const ContactMesh& mesh, const NearestTriangles& nearest, const Vec3& q, double radius) {
   const auto all = brute_force(mesh, q, radius);
   int wrong = 0;

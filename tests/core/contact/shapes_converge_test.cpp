@@ -114,8 +114,8 @@ TEST_CASE("every method converges with every finger shape on a torus, to the tor
   press_all(scene_of(make_torus(0.040, 0.015, 240, 120)), on_torus, 5e-6, 0.02, false);
 }
 
-// Along its side the capsule's radius of curvature is 50 times its size: without reins Newton's steps swing between
-// contacts at its two ends, for ever in about 1 of 6,000 poses.
+// Along its side the capsule's radius of curvature is 50 times its size: without safeguards Newton's steps alternate
+// between contacts at its two ends, forever in about 1 of 6,000 poses.
 TEST_CASE("robust finds a capsule's contact from a millimetre off, on every pose") {
   const Outcome sphere =
       press(scene_of(make_icosphere(0.040, 3)), on_sphere, FingerShape::capsule, Method::robust, rounds(6000), 1e-3);

@@ -104,7 +104,7 @@ TEST_CASE("injected faults of the display: named, and over after their time") {
   display.inject({InjectedFault::stuck_encoder, 100});
   const double stuck = sample(-5e-3).position_m;
   for (int i = 1; i < 100; ++i) CHECK(sample(-5e-3).position_m == stuck);
-  CHECK(std::abs(display.mechanism().encoder_m() - stuck) > 5e-3);  // the PID, believing it, has run away
+  CHECK(std::abs(display.mechanism().encoder_m() - stuck) > 5e-3);  // the PID, misled by it, has run away
   run(1000);
 
   display.inject({InjectedFault::noise, 50});

@@ -52,7 +52,7 @@ struct Bench {
   bool armed_and_ready() {
     return eventually([&] {
       take();
-      // The machine under the tests is no real-time one: a late tick is a person's business, and the test is one.
+      // The test machine is not real-time, so late ticks occur: the test re-arms, as a person would.
       if (session->status().servo.gate_state == GateState::faulted) session->arm();
       return !records.empty() && records.back().device.display_state == DeviceState::ready &&
              records.back().device.gate_state == GateState::armed &&

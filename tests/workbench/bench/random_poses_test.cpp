@@ -18,14 +18,14 @@ using tangent::test::Random;
 
 namespace {
 
-/// Of each case. TANGENT_RANDOM_POSES asks for another number, TANGENT_RANDOM_CASE for one case alone: a million of
-/// each takes hours.
+/// Poses per case. TANGENT_RANDOM_POSES sets their number, TANGENT_RANDOM_CASE selects one case: a million of each
+/// takes hours.
 long pose_count() {
   if (const char* wanted = std::getenv("TANGENT_RANDOM_POSES")) return std::max(1L, std::atol(wanted));
   return test::rounds(1000);
 }
 
-/// TANGENT_RANDOM_SEED asks for other poses.
+/// TANGENT_RANDOM_SEED selects other poses.
 std::uint64_t first_seed() {
   const char* wanted = std::getenv("TANGENT_RANDOM_SEED");
   return wanted ? std::strtoull(wanted, nullptr, 10) : 100;
@@ -51,7 +51,8 @@ bool kept_is_finite(const TickState& s) {
          is_finite(s.last_converged.point) && is_finite(s.last_converged.normal);
 }
 
-/// Anywhere around, on and in the mesh, turned anyhow; every fourth pose is a leap, the others go on from there.
+/// Anywhere around, on and in the mesh, in random orientations; every fourth pose is a jump, the others continue from
+/// it.
 Counts random_poses(const BenchCase& c, long poses, std::uint64_t seed) {
   Counts counts;
   const Result<bench::ScenePtr> scene = build_scene(c);

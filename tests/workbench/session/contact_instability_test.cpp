@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kDt = 1e-3;
 
-/// Grows (true) or dies out.
+/// Whether the oscillation grows; otherwise it decays.
 bool theory_shakes(const SimulatedForceOptions& o, double stiffness) {
   const double m = o.device_mass_kg + o.hand_mass_kg;
   double x = 1e-3, v = 0.0, early = 0.0, late = 0.0;

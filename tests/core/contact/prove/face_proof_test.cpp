@@ -41,7 +41,7 @@ struct Findings {
   int wrong = 0, tried = 0;
 };
 
-/// Builds contacts on the patch from the answer and asks whether they are ruled out.
+/// Constructs contacts on the patch and checks that none is excluded.
 void contacts_on(const PnPatch& patch, Random& random, int count, Findings& f) {
   for (int i = 0; i < count; ++i) {
     const Vec2 uv = i == 0 ? Vec2(0.0, 0.0) : i == 1 ? Vec2(1.0, 0.0) : random.barycentric();

@@ -86,7 +86,7 @@ TEST_CASE("a finger that trembles in place asks a few times in all, and gets wha
       TickState a, b;
       int asked = 0, differ = 0;
       for (int i = 0; i < rounds(10000); ++i) {
-        // A new place within 10 um at each tick, or to and fro in a Lissajous figure at 9 and 11 Hz as a hand does.
+        // A new position within 10 um at each tick, or a Lissajous figure at 9 and 11 Hz, like a hand's tremor.
         const Vec3 off = tremor ? kReach * Vec3(std::sin(0.0565 * i), std::sin(0.0691 * i), 0.3 * std::sin(0.0565 * i))
                                 : random.in(0.0, kReach) * random.direction();
         const Vec3 centre = a.clearance.centre;

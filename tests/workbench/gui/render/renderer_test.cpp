@@ -25,7 +25,7 @@ namespace {
 
 constexpr int kWidth = 480, kHeight = 360;
 
-/// A test ends here, saying so, where no off-screen GL exists.
+/// Skips the test, with a message, where there is no off-screen GL.
 #define REQUIRE_GL(context)                            \
   const auto context = OffscreenContext::open();       \
   if (!context) {                                      \
