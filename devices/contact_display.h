@@ -1,5 +1,5 @@
-// A contact location display (CLD): moves a roller along the fingerpad to the place of the contact.
-// Talked to like a force device: one exchange a tick, command in, sample out.
+// A contact location display (CLD): moves a roller along the fingerpad to the contact's place.
+// Used like a force device: one exchange per tick, command in, sample out. SI units.
 #pragma once
 
 #include "core/base/result.h"
@@ -13,7 +13,7 @@
 
 namespace tangent {
 
-/// What a contact display can do, as data. Zero: not known.
+/// Capabilities of a contact display. Zero: not known.
 struct DisplayCapabilities {
   std::string name;
   bool simulated = false;
@@ -21,21 +21,21 @@ struct DisplayCapabilities {
   double resolution_m = 0.0;
   double bandwidth_hz = 0.0;
   double rate_hz = 0.0;
-  bool measures_position = true;    ///< false: open loop; samples tell where it was sent
-  double firmware_timeout_s = 0.0;  ///< without a command its firmware stops the drive; 0: it has no time-out
-  bool has_controller = false;      ///< it takes gains, speed and current: see set_controller
+  bool measures_position = true;    ///< false: open loop; samples repeat the last command
+  double firmware_timeout_s = 0.0;  ///< firmware watchdog: stops the drive when no command comes; 0: none
+  bool has_controller = false;      ///< takes gains, speed and current: see set_controller
 };
 
 struct DisplayCommand {
   std::uint64_t tick = 0;
-  double target_m = 0.0;  ///< ignored unless ready
+  double target_m = 0.0;  ///< roller position on the fingerpad, positive distally; ignored unless ready
   DeviceRequest request = DeviceRequest::none;
 };
 
 struct DisplaySample {
   double position_m = 0.0;  ///< of the roller, as measured
   double age_s = 0.0;       ///< since it was measured
-  double travel_m = 0.0;    ///< end to end, as the device itself says; 0: as in the capabilities
+  double travel_m = 0.0;    ///< end to end, as reported by the device; 0: as in the capabilities
   DeviceState state = DeviceState::absent;
   DeviceFault fault = DeviceFault::none;
 };
@@ -44,26 +44,28 @@ class ContactDisplay {
  public:
   virtual ~ContactDisplay() = default;
 
+  /// Any thread; constant for the lifetime of the device.
   virtual const DisplayCapabilities& capabilities() const = 0;
-  /// Not while another thread exchanges. Fails with what hinders it and what to do.
+  /// Not while another thread calls exchange. Fails with the cause and what to do about it.
   virtual Status open() = 0;
+  /// Stops the drive and releases the device; may block. Not while another thread calls exchange.
   virtual void close() = 0;
 
-  /// Called by the servo thread, once a tick; `dt_s` > 0. No allocation, lock, exception or log. Failures show in
-  /// the sample's state.
+  /// Called by the servo thread once per tick. `dt_s`: seconds since the last exchange, > 0. Does not allocate, lock,
+  /// throw or log. Failures show in the sample's state and fault.
   virtual DisplaySample exchange(const DisplayCommand& command, double dt_s) noexcept = 0;
 
-  /// Gains and limits of its position loop, in force from the next exchange on. Servo thread. Passed over by a display
-  /// that has no controller.
+  /// Sets gains and limits of the position loop from the next exchange on. Servo thread. A display without a controller
+  /// ignores it.
   virtual void set_controller(const ControllerSettings& settings) noexcept { static_cast<void>(settings); }
 
-  /// Any thread. False: there is no cable to report on.
+  /// Any thread. False, and `out` unchanged, when the device has no USB link to report on.
   virtual bool report(LinkReport& out) const {
     static_cast<void>(out);
     return false;
   }
 
-  /// Pretends a fault, by name, from the next exchange on. False: a real device, which brings its own. Servo thread.
+  /// Simulates a fault from the next exchange on. Servo thread. False for a real device, which can't.
   virtual bool inject(const FaultInjection& fault) noexcept {
     static_cast<void>(fault);
     return false;

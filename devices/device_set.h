@@ -1,4 +1,4 @@
-// The devices of a session, by name. Either may be missing.
+// The devices of a session, chosen by name. Either may be missing.
 #pragma once
 
 #include "devices/contact_display.h"
@@ -24,16 +24,17 @@ struct DeviceOptions {
   UsbTap* tap = nullptr;  ///< sees every USB packet; must outlive the devices
 };
 
-/// "simulated": force device and contact display with the figures of the real ones.
+/// "simulated": force device and contact display with the data of real ones (PHANToM Premium 1.5, the paper's CLD).
 /// "ideal": the same without encoder steps, tremor, friction and backlash.
-/// "cld": a CLD controller on USB, with the simulated force device. "maestro": a servo on a Pololu Maestro, likewise.
+/// "cld": a CLD controller on USB and the simulated force device. "maestro": a servo on a Pololu Maestro, likewise.
 /// "none": neither.
 const std::vector<std::string>& device_set_names();
 
-/// Not yet opened. Fails on an unknown name, naming the choices.
+/// Makes the devices of that set, not yet opened. Fails on an unknown name; the error lists the choices.
 Result<DeviceSet> make_devices(std::string_view name, const DeviceOptions& options = {});
 
-/// The simulated display follows servo ticks; a device on a cable follows the clock.
+/// Whether every device of the set is simulated. Simulated devices advance with the servo's ticks, real ones with the
+/// clock.
 bool all_simulated(const DeviceSet& devices);
 
 }  // namespace tangent

@@ -1,4 +1,4 @@
-// Faults that a simulated device can be told to have, by name.
+// Faults that can be injected into a simulated device, by name.
 #pragma once
 
 #include "core/base/result.h"
@@ -11,10 +11,10 @@ namespace tangent {
 
 enum class InjectedFault : std::uint8_t {
   none,
-  drop_out,       ///< no answer for a while, as when the plug is pulled
-  stuck_encoder,  ///< the reading stands still, the device moves on
-  delay_burst,    ///< nothing new arrives for a while, then all of it
-  noise,          ///< readings jump about, as with a broken shield
+  drop_out,       ///< no answer for a while, as when it is unplugged
+  stuck_encoder,  ///< the reading freezes while the device moves on
+  delay_burst,    ///< no new sample for a while, then all at once
+  noise,          ///< noisy readings, as with a broken cable shield
 };
 
 struct FaultInjection {
@@ -25,14 +25,15 @@ struct FaultInjection {
 /// "drop-out", "stuck-encoder", "delay-burst", "noise"; without "none".
 std::span<const std::string_view> injected_fault_names();
 const char* to_string(InjectedFault fault);
-/// Fails on an unknown name, naming the choices.
+/// Fails on an unknown name; the error lists the choices.
 Result<InjectedFault> injected_fault(std::string_view name);
 
-/// Keeps an injected fault for as long as it lasts.
+/// Counts down how long an injected fault lasts. Not thread-safe.
 class InjectedFaultTimer {
  public:
+  /// Replaces a fault that is still active.
   void begin(const FaultInjection& fault) noexcept { fault_ = fault; }
-  /// Once per exchange: the fault to have in it.
+  /// Call once per exchange; returns the fault to simulate in it.
   InjectedFault next() noexcept {
     if (fault_.ticks == 0)
       fault_.kind = InjectedFault::none;

@@ -1,7 +1,7 @@
-// A device that measures where the finger is and pushes on it.
+// A force device: measures the finger's position and applies a force to it.
 //
-// Once opened it is talked to by `exchange` alone: one call a tick, command in, sample out. The command is that of
-// the tick before, so a force comes out one tick after the position it answers.
+// Once it is open, `exchange` is the only call: once per tick, command in, sample out. The command is that of the
+// previous tick, so a force is applied one tick after the position it responds to.
 #pragma once
 
 #include "core/base/result.h"
@@ -11,25 +11,26 @@
 #include "devices/link_report.h"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 namespace tangent {
 
 class SimulatedHand;
 
-/// What a force device can do, as data. Zero: not known or not there.
+/// Capabilities of a force device. Zero: not known or not present.
 struct ForceCapabilities {
   std::string name;  ///< for people: "simulated PHANToM-like"
   bool simulated = false;
   bool senses_orientation = false;
-  double peak_force_n = 0.0;        ///< never to be exceeded
-  double continuous_force_n = 0.0;  ///< can be held for ever
+  double peak_force_n = 0.0;        ///< must never be exceeded
+  double continuous_force_n = 0.0;  ///< can be held indefinitely
   double position_resolution_m = 0.0;
   double apparent_mass_kg = 0.0;
   double largest_stiffness_n_per_m = 0.0;
   Vec3 workspace_half_size_m{0.0};  ///< box around the origin
-  double rate_hz = 0.0;             ///< of exchanges it is made for
-  double firmware_timeout_s = 0.0;  ///< without a command its firmware stops the force; 0: it has no time-out
+  double rate_hz = 0.0;             ///< exchanges per second it is designed for
+  double firmware_timeout_s = 0.0;  ///< firmware watchdog: stops the force when no command comes; 0: none
 };
 
 struct ForceCommand {
@@ -39,10 +40,11 @@ struct ForceCommand {
 };
 
 struct ForceSample {
-  Vec3 position_m{0.0};                  ///< finger centre, world, as the encoders read it
-  Quat orientation{1.0, 0.0, 0.0, 0.0};  ///< unit; finger frame -> world
-  double age_s = 0.0;                    ///< of position and orientation: since they were measured
-  Vec3 force_n{0.0};                     ///< rendered during the exchange; zero outside ready
+  Vec3 position_m{0.0};                                 ///< finger centre, world, as the encoders read it
+  Quat orientation{1.0, 0.0, 0.0, 0.0};                 ///< unit; finger frame -> world
+  std::optional<Vec3> velocity_m_per_s = std::nullopt;  ///< of the finger, world, where the device measures it itself
+  double age_s = 0.0;                                   ///< of position and orientation: since they were measured
+  Vec3 force_n{0.0};                                    ///< rendered during the exchange; zero outside ready
   DeviceState state = DeviceState::absent;
   DeviceFault fault = DeviceFault::none;
 };
@@ -51,28 +53,30 @@ class ForceDevice {
  public:
   virtual ~ForceDevice() = default;
 
+  /// Any thread; constant for the lifetime of the device.
   virtual const ForceCapabilities& capabilities() const = 0;
-  /// Not while another thread exchanges. Fails with what hinders it and what to do.
+  /// Not while another thread calls exchange. Fails with the cause and what to do about it.
   virtual Status open() = 0;
+  /// Stops the force and releases the device; may block. Not while another thread calls exchange.
   virtual void close() = 0;
 
-  /// Called by the servo thread, once a tick; `dt_s` since the last one, > 0. No allocation, lock, exception or
-  /// log. Failures show in the sample's state.
+  /// Called by the servo thread once per tick. `dt_s`: seconds since the last exchange, > 0. Does not allocate, lock,
+  /// throw or log. Failures show in the sample's state and fault.
   virtual ForceSample exchange(const ForceCommand& command, double dt_s) noexcept = 0;
 
-  /// Any thread. False: there is no cable to report on.
+  /// Any thread. False, and `out` unchanged, when the device has no USB link to report on.
   virtual bool report(LinkReport& out) const {
     static_cast<void>(out);
     return false;
   }
 
-  /// Pretends a fault, by name, from the next exchange on. False: a real device, which brings its own. Servo thread.
+  /// Simulates a fault from the next exchange on. Servo thread. False for a real device, which can't.
   virtual bool inject(const FaultInjection& fault) noexcept {
     static_cast<void>(fault);
     return false;
   }
 
-  /// The simulated hand that holds the device; null for a real one, whose hand needs no leading.
+  /// The simulated hand that holds the device; null for a real device. Servo thread.
   virtual SimulatedHand* hand() noexcept { return nullptr; }
 };
 

@@ -32,7 +32,7 @@ void ShakeWatch::add(const Vec3& force, const Vec3& moved, double dt_s) noexcept
   slow_force_ += follow * (force - slow_force_);
   slow_velocity_ += follow * (velocity - slow_velocity_);
   work_j_ *= std::exp(-dt_s / kMemory_s);
-  // No credit: what was put in before does not pay for shaking now.
+  // Clamped at zero: energy absorbed earlier gives no credit for shaking now.
   work_j_ = std::max(0.0, work_j_ + glm::dot(force - slow_force_, velocity - slow_velocity_) * dt_s);
 }
 

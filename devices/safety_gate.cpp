@@ -81,8 +81,8 @@ const char* to_string(GateAction action) {
 
 namespace {
 
-/// `v` shortened to `longest`; true when it was longer. Components are brought into range first, so that
-/// squaring them can't overflow.
+/// Scales `v` down to length `longest`; true when it was longer. Clamps the components first, so that squaring them
+/// can't overflow.
 bool shorten(Vec3& v, double longest) {
   const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
   const bool huge = largest > longest;
@@ -92,7 +92,7 @@ bool shorten(Vec3& v, double longest) {
     v *= longest / length;
     return true;
   }
-  // A vector of one component is exactly at the limit now; every other one was longer still.
+  // A vector with one nonzero component is exactly at the limit now; any other was too long as well.
   return huge;
 }
 
@@ -110,7 +110,7 @@ void SafetyGate::arm() noexcept {
   fault_ = GateFault::none;
   since_armed_s_ = 0.0;
   force_was_ready_ = display_was_ready_ = falling_ = false;
-  forget_motion();  // not the motors' heat: re-arming does not cool them
+  forget_motion();  // but not the thermal store: re-arming does not cool the motors
 }
 
 void SafetyGate::stop() noexcept {
@@ -145,7 +145,7 @@ void SafetyGate::note(GateAction action, GateOutput& out) noexcept {
 
 // --- Watching ------------------------------------------------------------------------------------------
 
-/// Latches on what is not finite, armed or not. False: the force isn't.
+/// Latches a fault on any value that is not finite, armed or not. False: the force is not finite.
 bool SafetyGate::check_finite(const GateInput& input, GateOutput& out) noexcept {
   const bool force = is_finite(input.force_n), display = std::isfinite(input.display_m);
   const bool position = input.force_device != DeviceState::ready || is_finite(input.position_m);
@@ -158,8 +158,7 @@ bool SafetyGate::check_finite(const GateInput& input, GateOutput& out) noexcept 
   return force;
 }
 
-// A device that has been ready since arming may not leave that state unnoticed; one that is still homing is
-// waited for.
+// A device that was ready since arming and leaves that state is a fault; one that is still homing is waited for.
 void SafetyGate::watch_devices(const GateInput& input) noexcept {
   const auto failed = [](DeviceState state, bool& was_ready) {
     const bool ready = state == DeviceState::ready;
@@ -253,7 +252,7 @@ Vec3 SafetyGate::limit_force(const GateInput& input, double dt_s, GateOutput& ou
   return force;
 }
 
-// A stopped or faulted display holds still where it was last sent.
+// A stopped or faulted display holds its last target.
 void SafetyGate::pass_display(const GateInput& input, GateOutput& out) noexcept {
   if (live()) {
     double end = 0.5 * limits_.display_travel_m;
@@ -278,7 +277,7 @@ GateOutput SafetyGate::pass(const GateInput& input, double dt_s) noexcept {
   if (live() && device_ready) {
     out.force_n = limit_force(input, dt_s, out);
   } else if (falling_ && device_ready) {
-    // Half, then nothing: zero within two ticks, without the blow of a full force that vanishes.
+    // Half, then zero: no force within two ticks, without the jolt of dropping the full force at once.
     out.force_n = 0.5 * last_force_n_;
     if (out.force_n != Vec3(0.0)) note(GateAction::ramped_out, out);
     falling_ = false;

@@ -1,11 +1,11 @@
-// The hand that holds a simulated force device: led along a path or to a point by whoever runs the simulation.
+// The hand that holds a simulated force device. Whoever runs the simulation moves it along a path or to a point.
 #pragma once
 
 #include "core/base/vec.h"
 
 namespace tangent {
 
-/// Where the hand wants the finger. World frame, SI.
+/// Target of the hand's spring. World frame, SI.
 struct HandTarget {
   Vec3 position_m{0.0};
   Vec3 velocity_m_per_s{0.0};
@@ -15,9 +15,9 @@ struct HandTarget {
 class SimulatedHand {
  public:
   virtual ~SimulatedHand() = default;
-  /// Pulls towards the target from the next exchange on. Same thread as exchange; must be finite.
+  /// Pulls towards the target from the next exchange on. Same thread as exchange. Precondition: all finite.
   virtual void lead(const HandTarget& target) noexcept = 0;
-  /// Puts finger and hand there at once, at the target's velocity.
+  /// Moves finger and hand to the target at once, with its velocity. Same thread and precondition as lead.
   virtual void place(const HandTarget& target) noexcept = 0;
 };
 

@@ -2,7 +2,7 @@
 #include "wire.glsl"
 #include "paint.glsl"
 uniform vec4 wire;        // colour and strength; strength 0: none
-uniform float fill;       // 1: facets, 0: edges alone
+uniform float fill;       // 1: facets, 0: edges only
 uniform float width_px;
 flat in vec3 facet_colour;
 flat in vec3 facet_light;

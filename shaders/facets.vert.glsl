@@ -1,6 +1,6 @@
 #version 330 core
-// Flat facets: three vertices of their own each, so that a facet's light is computed once and its edges
-// come from barycentric weights, with no second pass and no fight over depth.
+// Flat facets, three own vertices each, so that a facet is lit once and its edges come from barycentric weights,
+// without a second pass and without depth fighting.
 #include "lighting.glsl"
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec4 face_normal;
@@ -8,7 +8,7 @@ uniform mat4 model_view;
 uniform mat4 projection;
 uniform vec3 albedo;
 uniform vec3 inside_albedo;
-uniform vec4 slice;       // what has dot(slice, position) < 0 is cut away
+uniform vec4 slice;       // points with dot(slice, position) < 0 are hidden
 flat out vec3 facet_colour;
 flat out vec3 facet_light;
 out vec2 weights;

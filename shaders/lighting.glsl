@@ -1,6 +1,6 @@
-// Soft studio light, fixed to the eye so that turning the object never leaves it dark: a warm key from the
-// upper left, a cool fill from the right, and a sky-to-ground hemisphere about the world's up. Colours are
-// sRGB values throughout; the light is tuned by eye in that space.
+// Soft studio light, fixed to the eye so that the object is lit from every view: a warm key light from the upper left,
+// a cool fill light from the right, and a hemisphere light about the world's up. All colours are sRGB values; the light
+// was tuned by eye in that space.
 uniform vec3 up_eye;  // unit, world up in eye space
 
 vec3 lit(vec3 albedo, vec3 n) {

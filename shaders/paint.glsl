@@ -1,5 +1,5 @@
-// What can be laid on facets and surface: a map's values as colours, and triangles left out. The order of patches
-// is that of the usable triangles; parts of a patch as in core/lab/measure/surface_map.h.
+// Map colours and isolation for facets and surface. Patches are in the order of the usable triangles; parts of a patch
+// as in core/lab/measure/surface_map.h.
 uniform int map_level;              // parts along a patch's edge; 0: no map
 uniform samplerBuffer map_values;   // level^2 a patch
 uniform sampler2D map_colours;      // one row
@@ -37,5 +37,5 @@ vec3 map_colour(int patch_index, vec2 weights) {
   return texture(map_colours, vec2((t * 255.0 + 0.5) / 256.0, 0.5)).rgb;
 }
 
-// A map's colours are to be read: light models the shape and no more.
+// Keeps a map's colours readable: lighting only hints at the shape.
 vec3 lit_map(vec3 colour, vec3 light) { return colour * mix(vec3(1.0), light, 0.42); }

@@ -1,6 +1,6 @@
 #version 330 core
-// Finger and arrows. A unit vertex carries its direction and which half it belongs to along x, so that one
-// mesh makes spheres, ellipsoids and capsules: point = semi_axes * direction + half * half_length along x.
+// Finger and arrows. A unit vertex stores its direction and its half along x, so that one mesh gives spheres,
+// ellipsoids and capsules: point = semi_axes * direction + half * half_length along x.
 layout(location = 0) in vec4 direction_half;  // unit direction, -1 or 1
 layout(location = 1) in vec3 unit_normal;
 uniform mat4 model_view;                      // body frame -> eye, rigid

@@ -1,6 +1,6 @@
 #version 330 core
-// A stroke is an instance: two ends, a colour, a width in pixels; equal ends make a round point. The quad
-// is spread on screen here, and the ends are round.
+// One instance per stroke: two ends, a colour, a width in pixels; equal ends make a round point. The quad is expanded
+// in screen space here; ends are round.
 layout(location = 0) in vec3 end_a;
 layout(location = 1) in vec3 end_b;
 layout(location = 2) in vec4 stroke_colour;
@@ -8,9 +8,9 @@ layout(location = 3) in float stroke_width_px;
 uniform mat4 model_view;
 uniform mat4 projection;
 uniform vec2 view_px;
-uniform float toward_eye;   // share of the distance by which strokes come forward of what they lie on
+uniform float toward_eye;   // depth offset of strokes towards the eye, as a fraction of the distance
 uniform float width_scale;
-uniform vec4 slice;         // what has dot(slice, position) < 0 is cut away
+uniform vec4 slice;         // points with dot(slice, position) < 0 are hidden
 flat out vec4 colour_in;
 flat out vec2 half_width_length;
 noperspective out vec2 place;  // pixels: across, along from end a
@@ -18,7 +18,7 @@ noperspective out vec2 place;  // pixels: across, along from end a
 void main() {
   vec4 a = projection * vec4((model_view * vec4(end_a, 1.0)).xyz * (1.0 - toward_eye), 1.0);
   vec4 b = projection * vec4((model_view * vec4(end_b, 1.0)).xyz * (1.0 - toward_eye), 1.0);
-  // Cut at the near plane, z = -w, before dividing.
+  // Clips at the near plane, z = -w, before the division.
   float da = a.z + a.w, db = b.z + b.w;
   if (da < 0.0 && db > 0.0) a = mix(a, b, (0.0 - da) / (db - da) + 1e-5);
   if (db < 0.0 && da > 0.0) b = mix(b, a, (0.0 - db) / (da - db) + 1e-5);

@@ -22,7 +22,7 @@ void main() {
   if (map_level > 0) shade = lit_map(map_colour(patch_index, weights), lit(vec3(1.0), facing < 0.0 ? -n : n));
   else shade += 0.16 * highlight(facing < 0.0 ? -n : n, to_eye, 60.0);
   if (wire.a > 0.0) shade = mix(shade, wire.rgb, wire.a * edge_coverage(weights, width_px));
-  // A glassy rim: where the surface turns away it is seen through more of itself.
+  // Glassy rim: more opaque towards the silhouette, where the line of sight through the surface is longer.
   float rim = 1.0 - min(abs(facing), 1.0);
   colour = vec4(shade, opacity + (1.0 - opacity) * 0.35 * rim * rim);
 }

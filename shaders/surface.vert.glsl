@@ -5,8 +5,8 @@ layout(location = 1) in vec4 normal;
 layout(location = 2) in vec2 patch_weights;
 uniform mat4 model_view;
 uniform mat4 projection;
-uniform float toward_eye;  // share of the distance: where surface and facets coincide, the surface shows
-uniform vec4 slice;        // what has dot(slice, position) < 0 is cut away
+uniform float toward_eye;  // depth offset, fraction of the distance: the surface wins where it coincides with facets
+uniform vec4 slice;        // points with dot(slice, position) < 0 are hidden
 out vec3 normal_eye;
 out vec3 from_eye;
 out vec2 weights;

@@ -1,6 +1,5 @@
-// Coverage of a triangle's edges, from barycentric weights: a line about `width_px` wide that fades as the
-// triangle shrinks, so that a dense mesh becomes a tint and not a black patch. Weights stand for the
-// triangle's corners 1 and 2.
+// Coverage of a triangle's edges, from barycentric weights: a line about `width_px` wide that fades as the triangle
+// shrinks, so that a dense mesh is tinted, not black. The weights are those of the triangle's corners 1 and 2.
 float edge_coverage(vec2 weights, float width_px) {
   vec3 w = vec3(1.0 - weights.x - weights.y, weights);
   vec3 per_pixel = fwidth(w);

@@ -69,13 +69,10 @@ run_logged() {
   die "$what failed; the whole log: $log"
 }
 
-# build FOLDER TARGET CMAKE-OPTION...: configures when needed, builds when needed, in build/FOLDER.
-build() {
-  local dir="$root/build/$1" target="$2" fresh=()
-  shift 2
-  mkdir -p "$dir"
-  exec 9>"$dir/.lock"
-  flock 9  # two starts at once build one after the other
+# configure FOLDER CMAKE-OPTION...: when needed, in build/FOLDER.
+configure() {
+  local dir="$root/build/$1" fresh=()
+  shift
   # A tree that was moved or copied has a cache that names the old place.
   if [[ -f $dir/CMakeCache.txt ]] && ! grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$dir/CMakeCache.txt"; then
     fresh=(--fresh)
@@ -83,9 +80,20 @@ build() {
   local options="$*"
   if [[ ! -f $dir/build.ninja || $installed_something == 1 || ${#fresh[@]} -gt 0 ||
         $options != "$(cat "$dir/.options" 2>/dev/null)" ]]; then
+    mkdir -p "$dir"
     run_logged "$dir/configure.log" "configuring $dir" cmake "${fresh[@]}" -G Ninja -S "$root" -B "$dir" "$@"
     printf '%s\n' "$options" >"$dir/.options"
   fi
+}
+
+# build FOLDER TARGET CMAKE-OPTION...: configures when needed, builds when needed, in build/FOLDER.
+build() {
+  local folder="$1" dir="$root/build/$1" target="$2"
+  shift 2
+  mkdir -p "$dir"
+  exec 9>"$dir/.lock"
+  flock 9  # two starts at once build one after the other
+  configure "$folder" "$@"
   run_logged "$dir/build.log" "building $dir" "${launch[@]}" ninja -C "$dir" "$target"
   exec 9>&-
 }

@@ -111,6 +111,13 @@ inline constexpr double kEnteredDepth = 5.0;
 /// A finger that goes further in one tick, 5 mm, has been put elsewhere, and what it is in counts as entered.
 inline constexpr double kLeapOfFinger = 250.0;
 
+/// Where the force comes from every place that is touched, which of them is the tracked one only matters to the
+/// display: another takes over when it is deeper by this, 100 um, above a hand's tremor of 50. Larger: the display
+/// shows the shallower place; smaller: it goes to and fro. And a place is forgotten when the finger has left it by as
+/// much. Larger: more places are followed in vain; smaller: a trembling finger loses and finds them, each time by a
+/// search.
+inline constexpr double kTremor = 5.0, kLeftTouch = 5.0;
+
 /// Ticks, at the finger's present speed, that the search for deeper places looks ahead. More: fewer, larger
 /// searches.
 inline constexpr double kWatchTicks = 12.0;
@@ -120,10 +127,22 @@ inline constexpr double kWatchTicks = 12.0;
 /// again and again.
 inline constexpr double kSmallestWatch = 2e-3, kLargestWatch = 0.1;
 
+/// Switch hystereses (base/tolerances.h above) that a search looks ahead at least, 1.2 mm, times Clearance::ahead:
+/// doubled, up to kMostAhead, by a search that looks at kCheapLooks triangles at most and finds nothing to watch,
+/// halved, down to kLeastAhead, by one that looks at more than kDearLooks. Larger: dear searches on rough ground;
+/// smaller: frequent ones on smooth ground.
+inline constexpr double kWatchReach = 60.0;
+inline constexpr float kLeastAhead = 0.0625f, kMostAhead = 8.0f;
+inline constexpr int kCheapLooks = 12, kDearLooks = 48;
+
 /// Part of the look-ahead that remains where a triangle could neither be ruled out nor be solved: half a tick. A
 /// contact comes up there at once where the offset surface unfolds. Larger: it takes over late; smaller: nothing, the
 /// next tick looks anyway.
 inline constexpr double kUnresolvedMargin = 0.5 / kWatchTicks;
+
+/// Solver tolerances. Contacts nearer to each other than this are the same one. Larger: places that merge are one too
+/// soon; smaller: one place solved for twice counts twice.
+inline constexpr double kMergedPlaces = 10.0;
 
 /// Contacts whose surroundings one search for rivals remembers, 1.
 inline constexpr std::size_t kKnownContacts = 8;
@@ -154,6 +173,15 @@ inline constexpr double kImplausibleShare = 0.02;
 /// searched.
 inline constexpr double kFoldRoom = 0.1;
 
+/// Ground is steady, its contacts come and go over its border only, where 1 + h k stays above this at all heights h
+/// that are asked for. Contacts move there by at most the finger's way over the room that is left (below). Larger: more
+/// ground is searched with a margin; smaller: contacts near a fold outrun the ticks.
+inline constexpr double kSteadyRoom = 0.2;
+
+/// Squared sine of the angle between N and the surface's own normal on steady ground at most, 17 degrees. Larger: takes
+/// more of the room; smaller: fewer patches of coarse meshes count.
+inline constexpr double kSteadyLean = 0.09;
+
 /// Around a contact, its own slope reaches this many look-aheads and a triangle far, as a ratio. Larger: places behind
 /// a fold are taken for the slope's; smaller: searches over the triangles that the contact walks to anyway.
 inline constexpr double kBasinReach = 0.25;
@@ -182,10 +210,5 @@ inline constexpr double kDisplayWait = 0.05;
 /// sides, the place along the finger is left as it was. Larger: the display holds where it could still show something;
 /// smaller: it races from end to end as the contact passes the side.
 inline constexpr double kPadSection = 0.2588;
-
-/// Hz, cut-off of the velocity that damping uses: a first-order filter that lags by 1/(2 pi f), 3.2 ms. Encoder steps
-/// of 0.03 mm at 1 kHz are 0.03 m/s of noise unfiltered. Larger: the noise is felt; smaller: damping comes too late to
-/// damp.
-inline constexpr double kVelocityCutoff = 50.0;
 
 }  // namespace tangent

@@ -8,7 +8,13 @@ void PatchCache::fill(std::uint32_t slot, std::uint32_t t, NormalForm form) {
   CachedPatch& cached = patches_[slot];
   cached.patch = make_patch(*mesh_, t, form);
   cached.flat = is_flat(cached.patch, kStraightEdge);
+  cached.bend_known = false;
   held_[slot] = {t, form};
+}
+
+void PatchCache::fill_bend(CachedPatch& slot, std::uint32_t t) const {
+  slot.bend = mesh_->interior(t) ? curvature_bounds(slot.patch) : CurvatureBounds{};
+  slot.bend_known = true;
 }
 
 void PatchCache::fill(CachedFan& slot, std::uint32_t t, std::uint32_t side, NormalForm form) {

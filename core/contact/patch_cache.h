@@ -6,6 +6,7 @@
 #include "core/contact/edge_fan.h"
 #include "core/mesh/vertex_ring.h"
 #include "core/surface/mesh_patch.h"
+#include "core/surface/patch_curvature.h"
 
 #include <array>
 #include <memory>
@@ -15,6 +16,8 @@ namespace tangent {
 
 struct CachedPatch {
   bool flat;
+  bool bend_known;
+  CurvatureBounds bend;
   PnPatch patch;
 };
 
@@ -75,6 +78,12 @@ class PatchCache {
       evaluate(slot.patch, u, v, sample);
     }
   }
+  /// How its patch bends, away from creases and boundaries; unknown beside them.
+  const CurvatureBounds& bend(std::uint32_t t, NormalForm form) {
+    CachedPatch& slot = patch_slot(t, form);
+    if (!slot.bend_known) fill_bend(slot, t);
+    return slot.bend;
+  }
   /// Fan at fraction f of edge `side` of triangle `t`, which runs from corner `side` to the next. Precondition: not a
   /// smooth edge. The reference is good until the next call.
   const EdgeFan& fan(std::uint32_t t, std::uint32_t side, double f, NormalForm form) {
@@ -112,12 +121,13 @@ class PatchCache {
   /// Direct-mapped. A contact revisits the few triangles around it, a search those of the last one: on rough ground
   /// hundreds.
   static constexpr std::uint32_t kPatches = 512, kSlots = 16;
-  const CachedPatch& patch_slot(std::uint32_t t, NormalForm form) {
+  CachedPatch& patch_slot(std::uint32_t t, NormalForm form) {
     const std::uint32_t slot = t % kPatches;
     if (held_[slot] != PatchKey{t, form}) fill(slot, t, form);
     return patches_[slot];
   }
   void fill(std::uint32_t slot, std::uint32_t t, NormalForm form);
+  void fill_bend(CachedPatch& slot, std::uint32_t t) const;
   void fill(CachedFan& slot, std::uint32_t t, std::uint32_t side, NormalForm form);
   void fill(VertexSurroundings& vertex, std::uint32_t t, std::uint32_t corner, NormalForm form);
   template <class OnFace, class OnRay>

@@ -20,6 +20,8 @@ const char* to_string(StopReason reason) {
       return "singular_patch";
     case StopReason::too_far:
       return "too_far";
+    case StopReason::facing:
+      return "facing";
     case StopReason::leapt:
       return "leapt";
   }

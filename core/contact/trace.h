@@ -19,6 +19,7 @@ enum class StopReason : std::uint8_t {
   left_boundary,   ///< ran out through a mesh boundary
   singular_patch,  ///< no step can be computed there
   too_far,         ///< the finger is out of reach of the tracked place: the walk to it got lost
+  facing,          ///< no contact of the surface: the nearest place, its plane turned to face the finger
   leapt,           ///< converged, but on another place: the normal turned by over 10 degrees in one tick
 };
 const char* to_string(StopReason reason);

@@ -33,6 +33,29 @@ Support ellipsoid_support(const Finger& finger, const FingerPose& pose, const Ve
   return {pose.position - pose.orientation * (a2n / length), rotation * local * glm::transpose(rotation)};
 }
 
+Vec3 ellipsoid_support_point(const Finger& finger, const FingerPose& pose, const Vec3& normal) {
+  const Vec3 n = to_finger_frame(pose, normal);
+  const Vec3 a2n = finger.semi_axes_m * finger.semi_axes_m * n;
+  return pose.position - pose.orientation * (a2n / std::sqrt(glm::dot(n, a2n)));
+}
+
+/// Of the ellipsoid -A A n / |A n| as n moves by `chord` at most: the rate is no more than a^2 / |A n|.
+double ellipsoid_spread(const Finger& finger, const FingerPose& pose, const Vec3& axis, double chord) {
+  const double longest = finger.reach_m();
+  const Vec3 an = finger.semi_axes_m * to_finger_frame(pose, axis);
+  const double least = std::max(std::sqrt(glm::dot(an, an)) - longest * chord, longest - finger.unroundness_m());
+  return longest * longest / least * chord;
+}
+
+/// Of the spindle L (along axis + s^2 n) / root, root = sqrt(along^2 + s^2): the first part grows with `along`.
+double capsule_spread(const Finger& finger, const FingerPose& pose, const Vec3& axis, double chord) {
+  const double along = std::abs(glm::dot(pose.orientation * Vec3(1.0, 0.0, 0.0), axis)), s2 = kSpindle * kSpindle;
+  const auto root = [&](double x) { return std::sqrt(x * x + s2); };
+  const double low = along - chord, high = along + chord, least = root(std::max(0.0, low)), most = root(high);
+  const double slides = high / most - low / root(low), turns = s2 * (chord / least + 1.0 / least - 1.0 / most);
+  return finger.radius_m * chord + finger.half_length_m * (slides + turns);
+}
+
 Support capsule_support(const Finger& finger, const FingerPose& pose, const Vec3& normal) {
   const Vec3 axis = pose.orientation * Vec3(1.0, 0.0, 0.0);
   const double along = glm::dot(axis, normal);
@@ -127,7 +150,18 @@ Support support_with_derivative(const Finger& finger, const FingerPose& pose, co
 }
 
 Vec3 support_point(const Finger& finger, const FingerPose& pose, const Vec3& normal) {
+  if (finger.shape == FingerShape::ellipsoid) return ellipsoid_support_point(finger, pose, normal);
   return support_with_derivative(finger, pose, normal).point;
+}
+
+double support_spread_m(const Finger& finger, const FingerPose& pose, const Vec3& axis, double chord) {
+  // The way over the sphere of normals is longer than the chord, by 11 % at a right angle.
+  const double way = 1.12 * chord;
+  double spread = 0.0;
+  if (finger.shape == FingerShape::sphere) spread = finger.radius_m * chord;
+  if (finger.shape == FingerShape::ellipsoid) spread = ellipsoid_spread(finger, pose, axis, way);
+  if (finger.shape == FingerShape::capsule) spread = capsule_spread(finger, pose, axis, way);
+  return std::min(spread, 2.0 * finger.reach_m());
 }
 
 /// Arc on a sphere, or +-limit_m where it is longer: an angle is larger than its sine, and larger than a right angle

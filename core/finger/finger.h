@@ -45,6 +45,9 @@ struct Support {
 };
 
 Vec3 support_point(const Finger& finger, const FingerPose& pose, const Vec3& normal);
+/// No support point of a normal that is off the unit vector `axis` by at most `chord` (up to a right angle, as the
+/// distance of the two) is further from that of `axis` than this, m.
+double support_spread_m(const Finger& finger, const FingerPose& pose, const Vec3& axis, double chord);
 Support support_with_derivative(const Finger& finger, const FingerPose& pose, const Vec3& normal);
 
 /// The section of the finger that contacts are located in: its x and z axes, unit vectors in the world.

@@ -18,7 +18,7 @@ tl::unexpected<Error> system_failure(const char* doing, const std::filesystem::p
   return fail(std::string("cannot ") + doing + ": " + std::strerror(code), target.string(), kRemedy);
 }
 
-/// Opens a new file beside `place`. The name holds the process and an attempt number: leftovers of a
+/// Opens a new file beside `place`. Its name contains the process id and an attempt number, so that leftovers of a
 /// crashed run, or a second writer, only cost another attempt.
 int open_beside(const std::filesystem::path& place, mode_t mode, std::filesystem::path& temporary) {
   for (int attempt = 0; attempt < 1000; ++attempt) {
@@ -32,7 +32,7 @@ int open_beside(const std::filesystem::path& place, mode_t mode, std::filesystem
   return -1;
 }
 
-/// Makes a rename last through a power cut; where directories can't be synced there is nothing to do.
+/// Makes a rename durable; ignored where directories can't be synced.
 void sync_directory(const std::filesystem::path& directory) {
   const int fd = ::open(directory.empty() ? "." : directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (fd < 0) return;
@@ -57,7 +57,7 @@ Result<AtomicFile> AtomicFile::create(const std::filesystem::path& target) {
     if (file.fd_ < 0) return system_failure("write", target);
     return file;
   }
-  std::error_code ignored;  // a link that can't be followed is then replaced itself
+  std::error_code ignored;  // a link that can't be resolved is replaced itself
   if (std::filesystem::is_symlink(target, ignored)) {
     const std::filesystem::path followed = std::filesystem::weakly_canonical(target, ignored);
     if (!followed.empty()) file.place_ = followed;
@@ -69,7 +69,7 @@ Result<AtomicFile> AtomicFile::create(const std::filesystem::path& target) {
     file.temporary_.clear();
     return failure;
   }
-  if (exists) (void)::fchmod(file.fd_, mode);  // the umask took bits off; the old file had them
+  if (exists) (void)::fchmod(file.fd_, mode);  // restores the old file's mode, which the umask may have reduced
   return file;
 }
 
@@ -115,7 +115,7 @@ Status AtomicFile::commit(bool durable) {
   if (durable && status_ && !in_place && ::fsync(fd_) != 0 && errno != EINVAL && errno != ENOTSUP) {
     record_failure("sync");
   }
-  // close reports what a network file system only finds out now
+  // close reports late errors of network file systems
   if (::close(std::exchange(fd_, -1)) != 0) record_failure("close");
   if (!status_ || in_place) return status_;
   if (::rename(temporary_.c_str(), place_.c_str()) != 0) {

@@ -1,5 +1,5 @@
-// Files written whole or not at all: a temporary file beside the target, then a rename. A reader
-// never sees half a file, and a failure leaves the old one as it was.
+// Atomic file writing: a temporary file beside the target, then a rename. A reader never sees half a file, and a
+// failure leaves the old file unchanged.
 #pragma once
 
 #include "core/base/result.h"
@@ -10,9 +10,9 @@
 
 namespace tangent {
 
-/// A file being written. Nothing shows at the target until `commit`; without it the destructor removes
-/// the temporary file. A target that is a device or a pipe (/dev/stdout) is written straight through.
-/// A symbolic link is followed: the file it names is replaced, the link stays.
+/// A file being written. The target is unchanged until `commit`; without it the destructor removes the temporary file.
+/// A target that is a device or a pipe (/dev/stdout) is written directly. A symbolic link is followed: the file it
+/// names is replaced, the link stays.
 class AtomicFile {
  public:
   /// Fails when the target is a directory, is write-protected, or its directory takes no new file.
@@ -36,14 +36,14 @@ class AtomicFile {
   void record_failure(const char* doing);
 
   std::filesystem::path target_;     ///< as the user named it, for messages
-  std::filesystem::path place_;      ///< with links followed
-  std::filesystem::path temporary_;  ///< empty: written straight through, or committed
+  std::filesystem::path place_;      ///< with links resolved
+  std::filesystem::path temporary_;  ///< empty: written directly, or committed
   std::string buffer_;
   int fd_ = -1;
   Status status_;
 };
 
-/// The whole file at once, durably.
+/// Writes the whole file at once, durably.
 Status write_file_atomic(const std::filesystem::path& target, std::string_view content);
 
 }  // namespace tangent

@@ -1,5 +1,5 @@
-// Tables in CSV, read by column name: a header of names, then lines of numbers. Columns may stand in any order, and
-// what nobody asks for is passed over, so that a file from a program with more columns can be read all the same.
+// CSV tables read by column name: a header of names, then lines of numbers. Columns may be in any order, and unknown
+// ones are ignored, so that files with more columns can be read too.
 #pragma once
 
 #include "core/base/result.h"
@@ -19,7 +19,7 @@ std::string show_text(std::string_view text);
 /// Cuts the next line off `text`, without its line end ("\n" or "\r\n").
 std::string_view take_line(std::string_view& text);
 
-/// Goes through one table. Keeps views of what it is given.
+/// Reads one table line by line. Keeps views of its arguments, which must outlive it.
 class CsvTable {
  public:
   /// Reads the header. Fails on one without a column of `needed`, with a column of either kind twice, or with some but
@@ -28,11 +28,11 @@ class CsvTable {
                                std::span<const std::string_view> optional = {});
 
   bool has_optional() const { return has_optional_; }
-  /// Goes to the next line; false at the end, where blank lines may stand.
+  /// Advances to the next line; false at the end (trailing blank lines are allowed).
   bool next_line();
-  /// The line's numbers: those of `needed` in its order, then those of `optional`, which stay as they are where the
-  /// table has none. Fails on one that is not a finite number, and on more or fewer fields than the header names.
-  /// Precondition: room for all of them.
+  /// Reads the line's numbers: those of `needed` in its order, then those of `optional`, which stay unchanged where the
+  /// table has none. Fails on a value that is not a finite number, and on a wrong number of fields. Precondition:
+  /// `numbers` has room for all of them.
   Status read_numbers(std::span<double> numbers) const;
   std::string where() const;  ///< "poses.csv:12"
 

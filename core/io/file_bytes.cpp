@@ -21,6 +21,12 @@ struct Descriptor {
   }
 };
 
+/// Memory takes it (a system without overcommit apart), and then the machine swaps or ends the program.
+bool exceeds_memory(std::size_t bytes) {
+  const long pages = ::sysconf(_SC_PHYS_PAGES), page_bytes = ::sysconf(_SC_PAGESIZE);
+  return pages > 0 && page_bytes > 0 && bytes / static_cast<std::size_t>(page_bytes) >= static_cast<std::size_t>(pages);
+}
+
 }  // namespace
 
 // Read rather than mapped: a mapped file that another program truncates while we parse it (an exporter
@@ -41,6 +47,8 @@ Result<FileBytes> read_file_bytes(const std::filesystem::path& path) {
   const std::size_t size = static_cast<std::size_t>(info.st_size);
   if (size == 0) return fail("the file is empty", path.string(), "export the mesh again");
   if (size > kMaxFileBytes) return fail("the file is larger than 64 GiB", path.string(), "use a smaller mesh");
+  if (exceeds_memory(size))
+    return fail("the file is larger than this machine's memory", path.string(), "use a smaller mesh");
 
   FileBytes bytes;
   try {
@@ -52,7 +60,7 @@ Result<FileBytes> read_file_bytes(const std::filesystem::path& path) {
     const ssize_t got = ::read(file.fd, bytes.data.get() + bytes.size, size - bytes.size);
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) return system_error("read");
-    if (got == 0) break;  // it shrank meanwhile: the parser sees what is there
+    if (got == 0) break;  // the file shrank meanwhile: parse what was read
     bytes.size += static_cast<std::size_t>(got);
   }
   bytes.data[bytes.size] = '\n';

@@ -21,7 +21,8 @@ struct FileBytes {
   std::string_view view() const { return {data.get(), size}; }
 };
 
-/// Reads a regular file. Fails when it is missing, not a regular file, unreadable, empty or too large.
+/// Reads a regular file. Fails when it is missing, not a regular file, unreadable, empty or larger
+/// than 64 GiB or the machine's memory.
 Result<FileBytes> read_file_bytes(const std::filesystem::path& path);
 
 }  // namespace tangent

@@ -9,8 +9,12 @@
 
 namespace tangent {
 
+/// A line of more characters is no table's and no preset's.
+inline constexpr std::size_t kLongestLine = std::size_t{1} << 16;
+
 /// Fails, naming the path and the system's reason, when it can't be read, is empty, or holds more than
-/// `max_bytes`. Memory grows with what is read, not with a promised size.
+/// `max_bytes`; at the first zero byte and the first line above kLongestLine, naming the line, without reading on: a
+/// device that never ends has either. Memory grows with what is read, not with a promised size.
 Result<std::string> read_input_file(const std::filesystem::path& path, std::size_t max_bytes);
 
 }  // namespace tangent

@@ -1,6 +1,6 @@
 // Mesh files in and out: OBJ (polygons, normals per corner), PLY (ascii, binary little and big endian),
 // STL (ascii, binary), OFF. Double precision, file order, nothing dropped. Format by file extension,
-// any letter case. No memory is taken on a header's word: arrays grow with what the file really holds.
+// any letter case. Memory is not allocated by a header's counts: arrays grow with what the file really contains.
 #pragma once
 
 #include "core/base/result.h"
@@ -14,7 +14,7 @@ namespace tangent {
 /// - Normals: OBJ per corner, PLY (nx ny nz) and NOFF per vertex. STL facet normals are not corner normals.
 /// - `nan` and `inf` load as coordinates (ContactMesh skips and counts what uses them); a number too large
 ///   for a double, any other word, an index out of range, a wrong count or bytes left over are errors.
-/// - Colours, texture coordinates, materials, groups, unknown PLY elements and properties are passed over.
+/// - Colours, texture coordinates, materials, groups, unknown PLY elements and properties are ignored.
 /// Errors name the file and the line (text formats) or the element index (binary formats).
 Result<PolygonMesh> read_mesh(const std::filesystem::path& path, double metres_per_unit);
 

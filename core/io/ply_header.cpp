@@ -105,7 +105,7 @@ std::size_t size_in_bytes(PlyType type) {
 }
 
 std::size_t PlyElement::smallest_size(PlyEncoding encoding) const {
-  // In text, each value takes a character and a blank or line end.
+  // In text each value takes at least a character and a blank or line end.
   if (encoding == PlyEncoding::ascii) return 2 * properties.size();
   std::size_t size = 0;
   for (const PlyProperty& p : properties) size += size_in_bytes(p.is_list ? p.count_type : p.type);

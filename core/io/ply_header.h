@@ -27,10 +27,10 @@ struct PlyProperty {
 
 struct PlyElement {
   std::string name;
-  std::uint64_t count = 0;  ///< as promised; checked against the file before it is believed
+  std::uint64_t count = 0;  ///< as stated; checked against the file before use
   std::vector<PlyProperty> properties;
 
-  /// Bytes one of these takes at the least (lists empty).
+  /// Minimum size of one element in bytes (empty lists).
   std::size_t smallest_size(PlyEncoding encoding) const;
   const PlyProperty* find(std::string_view property) const;
 };
@@ -42,7 +42,7 @@ struct PlyHeader {
   const PlyElement* find(std::string_view element) const;
 };
 
-/// Reads up to and including the line `end_header`; `text` then stands at the first byte of the body.
+/// Reads up to and including the line `end_header`; `text` is then at the first byte of the body.
 Result<PlyHeader> read_ply_header(TextCursor& text);
 
 }  // namespace tangent

@@ -26,7 +26,7 @@ std::string_view take_word(std::string_view& line) {
 
 std::string at_line(const std::string& name, std::size_t line) { return name + ":" + std::to_string(line); }
 
-/// Drops a closing vertex and checks.
+/// Drops a repeated closing vertex and checks the polygon.
 Result<PlanarPolygon> closed_and_checked(PlanarPolygon polygon) {
   std::vector<Vec2>& v = polygon.vertices;
   if (v.size() > 1 && v.front() == v.back()) {
@@ -57,7 +57,7 @@ class PolylineReader {
     polygon.name = name_;
     for (const std::size_t i : chain_) {
       const Vec3& p = vertices_[i];
-      // Not flat is no 2D scene; taking z away could make it cross itself.
+      // Must be planar: dropping z could make the polygon cross itself.
       if (p.z != vertices_[chain_.front()].z)
         return fail("the polyline is not flat: z of vertex " + std::to_string(i + 1) + " differs", name_,
                     "give all vertices the same z");
@@ -113,6 +113,17 @@ std::string lower_extension(const std::filesystem::path& path) {
   return extension;
 }
 
+std::string obj_text(const PlanarPolygon& polygon, double metres_per_unit) {
+  std::string text = "# " + polygon.name + "\n", line = "l";
+  for (std::size_t i = 0; i < polygon.vertices.size(); ++i) {
+    append_double(text += "v ", polygon.vertices[i].x / metres_per_unit);
+    append_double(text += ' ', polygon.vertices[i].y / metres_per_unit);
+    text += " 0\n";
+    line += " " + std::to_string(i + 1);
+  }
+  return text + line + (polygon.closed ? " 1\n" : "\n");
+}
+
 }  // namespace
 
 Result<PlanarPolygon> parse_polygon_csv(std::string_view text, const std::string& name) {
@@ -161,7 +172,8 @@ Result<PlanarPolygon> read_polygon(const std::filesystem::path& path, double met
   return polygon;
 }
 
-Status write_polygon(const PlanarPolygon& polygon, const std::filesystem::path& path) {
+Status write_polygon(const PlanarPolygon& polygon, const std::filesystem::path& path, double metres_per_unit) {
+  if (lower_extension(path) == ".obj") return write_file_atomic(path, obj_text(polygon, metres_per_unit));
   std::string text = std::string(kColumns[0]) + "," + std::string(kColumns[1]);
   const std::size_t count = polygon.vertices.size() + (polygon.closed ? 1 : 0);
   for (std::size_t i = 0; i < count; ++i) {

@@ -8,19 +8,19 @@
 
 namespace tangent {
 
-/// Whether a file holds a 2D scene: any .csv, and an .obj with a line element and no face. False for what can't be
-/// read.
+/// Whether a file contains a 2D scene: any .csv, and an .obj with a line element and no face. False if unreadable.
 bool is_planar_file(const std::filesystem::path& path);
 
-/// CSV: metres, one vertex a line. OBJ: coordinates times `metres_per_unit`; one `l` element or several that go on
-/// where the last one ended; z must be the same for all. Closed where the last vertex is the first again. Checked
-/// (check_polygon). Errors name file and line.
+/// CSV: metres, one vertex per line. OBJ: coordinates times `metres_per_unit`; one `l` element or several connected
+/// ones; z must be the same for all. Closed if the last vertex repeats the first. Checked by check_polygon. Errors name
+/// file and line.
 Result<PlanarPolygon> read_polygon(const std::filesystem::path& path, double metres_per_unit);
 
 Result<PlanarPolygon> parse_polygon_csv(std::string_view text, const std::string& name);
 Result<PlanarPolygon> parse_polygon_obj(std::string_view text, const std::string& name, double metres_per_unit);
 
-/// CSV; a closed polygon repeats its first vertex. Atomic.
-Status write_polygon(const PlanarPolygon& polygon, const std::filesystem::path& path);
+/// CSV, or, where the name ends in .obj, an OBJ with one line element, in units of `metres_per_unit`. A closed polygon
+/// repeats its first vertex. Atomic.
+Status write_polygon(const PlanarPolygon& polygon, const std::filesystem::path& path, double metres_per_unit = 1.0);
 
 }  // namespace tangent

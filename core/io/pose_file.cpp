@@ -6,12 +6,13 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <string>
 
 namespace tangent {
 namespace {
 
-constexpr std::size_t kMaxBytes = std::size_t{1} << 32;  // about 80 million poses
+constexpr std::size_t kMaxBytes = std::size_t{1} << 30;  // about 20 million poses: 5.5 hours at 1 kHz
 constexpr std::array<std::string_view, 4> kNeeded{"t_s", "x_m", "y_m", "z_m"};
 constexpr std::array<std::string_view, 4> kQuaternion{"qw", "qx", "qy", "qz"};
 using Numbers = std::array<double, kNeeded.size() + kQuaternion.size()>;
@@ -36,6 +37,16 @@ Result<TickInput> to_input(const CsvTable& table, const Numbers& n) {
   return input;
 }
 
+/// Stamps nearer than that are of a broken clock or in another unit: at them velocities are noise. What the stamps
+/// lost when they were rounded to doubles does not count.
+Status check_stamp(double last_s, double t_s, const CsvTable& table) {
+  const double rounded_off = 2.0 * (std::nextafter(std::abs(t_s), std::numeric_limits<double>::max()) - std::abs(t_s));
+  if (t_s - last_s + rounded_off >= kLeastStampStep) return {};
+  std::string what = "t_s does not increase";
+  if (t_s > last_s) append_double(what = "t_s increases by only ", t_s - last_s);
+  return fail(what, table.where(), "write poses in the order of time, in seconds, at least 1e-6 s apart");
+}
+
 }  // namespace
 
 Result<std::vector<TickInput>> parse_poses(std::string_view text, std::string_view name) {
@@ -47,8 +58,10 @@ Result<std::vector<TickInput>> parse_poses(std::string_view text, std::string_vi
     if (Status status = table->read_numbers(numbers); !status) return tl::unexpected(status.error());
     Result<TickInput> input = to_input(*table, numbers);
     if (!input) return tl::unexpected(input.error());
-    if (!poses.empty() && !(input->t_s > poses.back().t_s))
-      return fail("t_s does not increase", table->where(), "write poses in the order of time, each time once");
+    if (!poses.empty()) {
+      if (Status status = check_stamp(poses.back().t_s, input->t_s, *table); !status)
+        return tl::unexpected(status.error());
+    }
     poses.push_back(*input);
   }
   if (poses.empty()) return fail("no poses", std::string(name), "write at least one line below the header");

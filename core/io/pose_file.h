@@ -1,5 +1,5 @@
 // Finger poses from a CSV file: columns `t_s,x_m,y_m,z_m` and, all or none, `qw,qx,qy,qz`, by name in any order, others
-// passed over; one pose a line. World frame, SI; the quaternion maps the finger frame to the world (identity when
+// ignored; one pose per line. World frame, SI; the quaternion maps the finger frame to the world (identity when
 // absent).
 #pragma once
 
@@ -14,12 +14,16 @@ namespace tangent {
 
 /// A quaternion's length may differ from 1 by this much (rounded decimals); it is then normalised.
 inline constexpr double kQuaternionLengthTolerance = 1e-3;
-/// Positions further out than this are taken for a slip of units or a damaged file, m.
+/// Positions further out than this, m, are refused as a wrong unit or a damaged file.
 inline constexpr double kFarthestPose = 1e9;
+/// Time from a pose to the next, at least, s: 1 MHz, a hundred times the fastest servo.
+inline constexpr double kLeastStampStep = 1e-6;
 
 /// `name` stands for the file in messages. Errors name the line: a column that is missing, another number of fields,
-/// anything that is not a finite number, time that does not increase, a quaternion that is not a rotation, no poses.
+/// anything that is not a finite number, time that does not increase by kLeastStampStep, a quaternion that is not a
+/// rotation, no poses.
 Result<std::vector<TickInput>> parse_poses(std::string_view text, std::string_view name);
+/// A file of more than 1 GiB is refused, and one without end as soon as it shows that it is no text (input_file.h).
 Result<std::vector<TickInput>> read_poses(const std::filesystem::path& path);
 
 }  // namespace tangent

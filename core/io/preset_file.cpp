@@ -15,7 +15,7 @@
 namespace tangent {
 namespace {
 
-constexpr std::size_t kMaxBytes = std::size_t{1} << 20;  // a preset is a few kilobytes
+constexpr std::size_t kMaxPresetBytes = std::size_t{1} << 20;  // a preset is a few kilobytes
 struct AboutText {
   std::string_view key;
   std::string PresetAbout::*field;
@@ -102,7 +102,7 @@ class PresetReader {
                 condition_where_, "allowed: " + choices_text(kConditionNames));
   }
 
-  /// The condition sets the sources that the file leaves open; what the file says of them must agree.
+  /// The condition sets the sources that the file does not state; stated ones must agree with it.
   Status apply_condition(const toml::table& root) {
     if (condition_ == nullptr) return {};
     Preset wanted = file_.preset;
@@ -165,6 +165,7 @@ class PresetReader {
       return {};
     }
     std::vector<std::string_view> names;
+    names.reserve(std::size(kAboutTexts) + 1);
     for (const AboutText& known : kAboutTexts) names.push_back(known.key);
     names.push_back("the table measured");
     return fail("unknown key", where(key.source(), full), "allowed: " + choices_text(names));
@@ -176,7 +177,7 @@ class PresetReader {
       return fail("is " + std::string(type_name(node)), where(key.source(), "about.measured"),
                   "write the table [about.measured]");
     }
-    // The library sorts keys by name; a person reads them in the order they were written.
+    // The library sorts keys by name; we restore the order of the file.
     std::vector<std::pair<const toml::key*, const toml::node*>> entries;
     for (const auto& [inner, value] : *table) entries.emplace_back(&inner, &value);
     std::sort(entries.begin(), entries.end(), [](const auto& a, const auto& b) {
@@ -207,7 +208,7 @@ class PresetReader {
 /// Text as a TOML basic string, by the library's own rules for escapes.
 std::string quoted(const std::string& text) {
   std::ostringstream out;
-  // literal and multi-line strings would be chosen for some texts; keep one form
+  // always a basic string, never a literal or multi-line one
   out << toml::toml_formatter{toml::value<std::string>(text),
                               toml::toml_formatter::default_flags & ~(toml::format_flags::allow_literal_strings |
                                                                       toml::format_flags::allow_multi_line_strings)};
@@ -266,7 +267,7 @@ Result<PresetFile> parse_preset(std::string_view text, std::string_view name) {
 }
 
 Result<PresetFile> read_preset(const std::filesystem::path& path) {
-  const Result<std::string> text = read_input_file(path, kMaxBytes);
+  const Result<std::string> text = read_input_file(path, kMaxPresetBytes);
   if (!text) return tl::unexpected(text.error());
   return parse_preset(*text, path.string());
 }

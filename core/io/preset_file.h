@@ -17,7 +17,7 @@
 
 namespace tangent {
 
-/// Where a preset comes from, and what was measured with it. Every field may be empty.
+/// Origin of a preset and measurements made with it. Every field may be empty.
 struct PresetAbout {
   std::string name;
   std::string date;  ///< ISO 8601: "2026-03-31"
@@ -42,9 +42,9 @@ struct PresetFile {
 Result<PresetFile> parse_preset(std::string_view text, std::string_view name);
 Result<PresetFile> read_preset(const std::filesystem::path& path);
 
-/// Every key with its unit and range beside it; numbers read back as exactly the same double.
+/// Writes every key with its unit and range as a comment; numbers read back as exactly the same double.
 std::string format_preset(const PresetFile& file);
-/// Atomic. Fails on a preset outside its ranges, so that what is written can be read.
+/// Writes atomically. Fails on a preset with values out of range, so that every written file can be read.
 Status write_preset(const PresetFile& file, const std::filesystem::path& path);
 
 }  // namespace tangent

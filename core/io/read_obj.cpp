@@ -11,14 +11,14 @@
 namespace tangent {
 namespace {
 
-/// A reference to an element that the file has not listed yet. Legal when it comes later.
+/// A reference to an element that is not listed yet. Legal if it follows later.
 struct ForwardReference {
   std::uint64_t index;  ///< counted from 1, as in the file
   std::size_t line;
 };
 
-/// Turns OBJ indices into ours. A positive index may run ahead of the elements listed so far; only the
-/// references that exceed all earlier ones are kept, since the first bad one is always among them.
+/// Converts OBJ indices to indices from 0. A positive index may refer to an element further down; only references
+/// larger than all earlier ones are stored, since the first invalid one is always among them.
 class IndexResolver {
  public:
   explicit IndexResolver(const char* element) : element_(element) {}
@@ -45,7 +45,7 @@ class IndexResolver {
     return static_cast<std::uint32_t>(listed - back);
   }
 
-  /// The first reference to an element that never came.
+  /// The first reference to an element that does not exist.
   const ForwardReference* first_unmet(std::size_t listed) {
     const auto unmet = std::find_if(ahead_.begin(), ahead_.end(), [&](const auto& r) { return r.index > listed; });
     if (unmet == ahead_.end()) return nullptr;
@@ -100,8 +100,8 @@ class ObjReader {
   }
 
  private:
-  // Groups, objects, materials, texture coordinates, lines, points and free-form geometry are passed
-  // over, and so are keywords we don't know, as long as the line is text.
+  // Groups, objects, materials, texture coordinates, lines, points, free-form geometry and unknown keywords are
+  // ignored, as long as the line is text.
   Status read_line() {
     const std::string_view keyword = text_.token();
     if (keyword == "v") return read_vertex();

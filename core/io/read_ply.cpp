@@ -9,14 +9,14 @@
 namespace tangent {
 namespace {
 
-// Two sources of values with one interface. `begin` and `end` stand around each element; false from any
-// call means that `failure` tells why.
+// Two sources of values (text and binary) with one interface. `begin` and `end` enclose each element; when a call
+// returns false, `failure` gives the reason.
 
 class TextSource {
  public:
   static constexpr PlyEncoding kEncoding = PlyEncoding::ascii;
 
-  TextSource(TextCursor& text, std::string /*path*/) : text_(text) {}
+  TextSource(TextCursor& text, const std::string& /*path*/) : text_(text) {}
 
   bool begin() {
     if (text_.next_content()) [[likely]]
@@ -77,7 +77,7 @@ class BinarySource {
   bool end() { return true; }
   bool number(PlyType type, double& value) { return expect(type, 1) && load(type, value); }
   bool integer(PlyType type, std::int64_t& value) { return expect(type, 1) && load(type, value); }
-  /// Are there bytes for `count` values? Asked before anything is sized by a list's length.
+  /// Whether the file has bytes for `count` values. Checked before memory is allocated by a list's length.
   bool expect(PlyType type, std::uint64_t count) const { return count <= bytes_left() / size_in_bytes(type); }
   bool skip(PlyType type, std::uint64_t count) {
     if (!expect(type, count)) return false;
@@ -129,7 +129,7 @@ class BinarySource {
       case PlyType::uint32:
         value = static_cast<Out>(take<std::uint32_t>());
         return true;
-      // Integers are never asked of these two: the header of an index list was checked.
+      // Never reached: the header was checked to have integer index lists.
       case PlyType::float32:
         value = static_cast<Out>(take<float>());
         return true;
@@ -172,7 +172,7 @@ class PlyBody {
   }
 
  private:
-  /// A count that the rest of the file can't hold is refused before anything is sized by it.
+  /// Refuses a count that the rest of the file can't contain, before memory is allocated by it.
   Status check_promise(const PlyElement& element) const {
     const std::size_t smallest = element.smallest_size(Source::kEncoding);
     const std::string what =
@@ -188,7 +188,7 @@ class PlyBody {
 
   Status read_vertices(const PlyElement& element) {
     static constexpr std::array<std::string_view, 6> kSlots{"x", "y", "z", "nx", "ny", "nz"};
-    std::vector<std::size_t> slot_of;  // property -> place in `values`; the last place takes what is ignored
+    std::vector<std::size_t> slot_of;  // property -> index in `values`; the last one takes ignored properties
     for (const PlyProperty& p : element.properties) {
       const auto slot = p.is_list ? kSlots.end() : std::find(kSlots.begin(), kSlots.end(), p.name);
       slot_of.push_back(static_cast<std::size_t>(slot - kSlots.begin()));
@@ -272,7 +272,7 @@ class PlyBody {
   }
 
   Status skip_element(const PlyElement& element) {
-    // Elements without properties take no room, so nothing bounds their count: don't go through them.
+    // Elements without properties take no bytes, so their count is unbounded: skip them.
     if (element.properties.empty()) return {};
     for (std::uint64_t i = 0; i < element.count; ++i) {
       bool good = source_.begin();

@@ -10,9 +10,9 @@
 namespace tangent {
 namespace {
 
-// Every facet brings its own vertices, and they stay its own: whoever builds topology joins those at
-// exactly the same position. A facet's normal says no more than its corners do, so it is not kept as
-// corner normals (the mesh would come out faceted); it is only checked to be there.
+// Every facet has its own vertices; the topology's builder joins those at exactly the same position. A facet's normal
+// follows from its corners and must not become corner normals (the mesh would be faceted), so it is only checked to be
+// there.
 
 constexpr std::size_t kHeaderBytes = 84;  // 80 of text and a 32-bit count
 constexpr std::size_t kFacetBytes = 50;   // normal, three vertices (12 floats), 2 bytes of attributes
@@ -81,8 +81,12 @@ class TextStl {
       if (step) step = expect(word);
     }
     if (!step) return step;
+    int corners = 0;
     for (std::string word = next_word(); word != "endloop"; word = next_word()) {
       if (word != "vertex") return unexpected_word(word, "vertex or endloop");
+      if (++corners > 3)
+        return text_.fail_here("a facet with more than three vertices",
+                               "facets of STL are triangles: export it again, or as OBJ with its polygons");
       const std::optional<Vec3> position = text_.vector();
       if (!position) return text_.failure();
       if (mesh_.positions.size() == kMaxMeshItems) return text_.fail_here("more than 4294967294 vertices");
@@ -93,7 +97,7 @@ class TextStl {
     return expect("endfacet");
   }
 
-  /// The next word in lower case, over line ends; empty at the end of the file.
+  /// The next word in lower case, across line ends; empty at the end of the file.
   std::string next_word() {
     if (!text_.next_content()) return {};
     std::string word(text_.token());

@@ -8,13 +8,13 @@ namespace tangent {
 bool TextCursor::next_line() {
   if (at_ >= end_) return false;
   const char* newline = static_cast<const char*>(std::memchr(at_, '\n', static_cast<std::size_t>(end_ - at_)));
-  // The '\n' at end_ itself closes the last line of a file that lacks one; nothing follows it.
+  // The '\n' at end_ ends the last line of a file that lacks one; nothing follows it.
   if (newline == nullptr) {
     at_ = end_;
     return false;
   }
   at_ = newline + 1;
-  if (at_ >= end_) return false;  // errors about the end name the last line that there is
+  if (at_ >= end_) return false;  // errors at the end name the last line
   ++line_;
   return true;
 }

@@ -1,4 +1,4 @@
-// Walks the text of a mesh file token by token, line by line, and makes errors that name file:line.
+// Reads the text of a mesh file token by token and line by line; its errors name file:line.
 #pragma once
 
 #include "core/base/result.h"
@@ -26,26 +26,26 @@ class TextCursor {
     skip_blanks();
     return *at_ == '\n' || *at_ == '#';
   }
-  /// Goes to the start of the next line. False at the end of the file.
+  /// Advances to the start of the next line. False at the end of the file.
   bool next_line();
-  /// Goes to the next token, over line ends, blank lines and comments. False at the end of the file.
+  /// Advances to the next token, across line ends, blank lines and comments. False at the end of the file.
   bool next_content();
 
   /// The characters up to the next blank, comment or line end; empty when the line is done.
   std::string_view token();
-  /// The same without going past it.
+  /// The same without advancing.
   std::string_view token_ahead() {
     const std::string_view ahead = token();
     at_ = ahead.data();
     return ahead;
   }
 
-  /// The next number on the line; nan and inf are numbers. On failure nothing, and `error` is filled.
+  /// The next number on the line; nan and inf are numbers. Empty on failure, with `error` filled.
   std::optional<double> number();
   std::optional<Vec3> vector();
   /// The next integer on the line, any sign.
   std::optional<std::int64_t> integer();
-  /// Reads what is left of the line as numbers and drops them (colours and the like).
+  /// Reads the rest of the line as numbers and discards them (colours and the like).
   bool skip_numbers();
 
   /// One character of look-ahead, for formats with separators inside tokens (OBJ's slashes).
@@ -76,7 +76,7 @@ class TextCursor {
   bool at_continuation() const {
     if (*at_ != '\\' || continuation_ != LineContinuation::backslash) [[likely]]
       return false;
-    // The '\n' at end_ is not the file's: a backslash before it continues nothing.
+    // The '\n' at end_ is not part of the file: a backslash before it is no line continuation.
     return (at_[1] == '\n' && at_ + 1 < end_) || (at_[1] == '\r' && at_ + 2 < end_ && at_[2] == '\n');
   }
   void skip_blanks() {

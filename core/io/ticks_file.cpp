@@ -51,7 +51,7 @@ void append_finite(std::string& text, const Vec3& value) {
   append_finite(text, value.z);
 }
 
-/// Column of the first value that is not finite; empty: there is none.
+/// Column of the first value that is not finite; empty: all are finite.
 std::string_view not_finite(const TickRow& row) {
   const TickOutput& o = row.output;
   if (!std::isfinite(row.t_s)) return "t_s";

@@ -1,5 +1,5 @@
-// ticks.csv: one line per tick, and the trace of every tangent plane of every tick. Columns are part of the
-// program's contract (workbench/README.md, "Files"). Numbers print so that a double reads back exactly; no NaN is
+// ticks.csv: one line per tick; and a second file with every tangent plane of every tick. The columns are documented
+// and stable (workbench/README.md, "Files"). Numbers are printed so that a double reads back exactly; NaN is never
 // written.
 #pragma once
 
@@ -29,12 +29,12 @@ struct TickRow {
   double solve_ns = 0.0;  ///< wall-clock time of the step
 };
 
-/// One line with its line end. A triangle of kNone (nothing tracked) prints as -1. Fails on a value that is
-/// not finite, naming tick and column: that would be a slip of the solver, not of the data.
+/// Appends one line with its line end. A triangle of kNone (nothing tracked) prints as -1. Fails on a value that is not
+/// finite, naming tick and column: that would be an error of the solver, not of the data.
 Status append_tick_row(std::string& text, const TickRow& row);
 
-/// One line with its line end. `iteration` counts from 0, the kept plane. A quantity that is not finite
-/// (curvature on a singular patch) leaves its field empty.
+/// Appends one line with its line end. `iteration` counts from 0, the kept plane. A quantity that is not finite
+/// (curvature on a singular patch) is written as an empty field.
 void append_iteration_row(std::string& text, std::uint64_t tick, std::size_t iteration, const IterationRecord& record);
 
 /// Writes ticks.csv; the file appears under its name with commit().

@@ -14,8 +14,8 @@ void append_index(std::string& line, std::uint32_t index) {
   line.append(digits, written.ptr);
 }
 
-/// A number that times `unit` gives `value` again, bit for bit, where there is one. The quotient is
-/// within an ulp or so of it; rounding decides which neighbour it is.
+/// A number whose product with `unit` is exactly `value`, where there is one. It is the quotient or a neighbouring
+/// double.
 double in_unit(double value, double unit) {
   const double quotient = value / unit;
   if (!std::isfinite(quotient) || quotient * unit == value) return quotient;
@@ -39,7 +39,7 @@ void append_vector(std::string& line, const char* keyword, const Vec3& v) {
 Status write_obj(const PolygonMesh& mesh, const std::filesystem::path& path, double metres_per_unit) {
   Result<AtomicFile> file = AtomicFile::create(path);
   if (!file) return tl::unexpected<Error>(file.error());
-  std::string line;  // what can't be written is reported by commit
+  std::string line;  // write errors are reported by commit
   for (const Vec3& p : mesh.positions) {
     append_vector(line, "v",
                   {in_unit(p.x, metres_per_unit), in_unit(p.y, metres_per_unit), in_unit(p.z, metres_per_unit)});

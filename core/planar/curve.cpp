@@ -186,4 +186,8 @@ LineSample PlanarCurve::sample(std::uint32_t i, LocalCentre kind, double t) cons
 
 double rendered_curvature(const LineSample& s) { return glm::length(s.direction_t) / glm::length(s.place_t); }
 
+std::size_t PlanarCurve::memory_bytes() const {
+  return polygon_.vertices.size() * sizeof(Vec2) + patches_.size() * sizeof(CurvePatch) + index_.memory_bytes();
+}
+
 }  // namespace tangent

@@ -65,6 +65,7 @@ class PlanarCurve {
   double size_m() const { return size_; }  ///< longest side of the box
   /// Patches by place. The box of item i also holds the segment from vertex i to the next.
   const PatchIndex& index() const { return index_; }
+  std::size_t memory_bytes() const;  ///< what the arrays hold
 
   /// Any finite t; between 0 and 1 for the patch itself.
   LineSample sample(std::uint32_t patch, LocalCentre centre, double t) const;

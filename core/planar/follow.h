@@ -36,6 +36,7 @@ struct PlanarContext {
   double radius_m = 0.0;  ///< 0: a point
   IterationTrace* trace = nullptr;
   std::uint8_t seed = 0;  ///< for the trace
+  double moved_m = 0.0;   ///< the finger's way since the last tick
 };
 
 /// Iterates from `start` until the error is below tolerance. A kept start costs no evaluation, any other one.

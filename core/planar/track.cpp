@@ -1,6 +1,7 @@
 #include "core/planar/track.h"
 
 #include "core/base/tolerances.h"
+#include "core/contact/decide/decide.h"
 #include "core/planar/search.h"
 
 #include <algorithm>
@@ -21,7 +22,9 @@ class Tracker {
  public:
   explicit Tracker(PlanarContext& context) : x_(context) {}
 
-  PlanarTrack run(const PlanarPlace& kept) {
+  PlanarTrack run(const PlanarKept& last) {
+    const PlanarPlace& kept = last.place;
+    out_.unentered = last.unentered;
     const bool robust = x_.settings.method == Method::robust;
     const int limit = x_.settings.max_iterations;
     if (kept.feature == Feature::none) {
@@ -31,17 +34,32 @@ class Tracker {
       follow_from(kept, true, robust ? std::min(limit, kTrackLines) : limit);
       if (!out_.converged()) {
         out_.event = TickEvent::reseed;
+        found_again_ = true;
         find_again(limit);
       } else if (leapt(kept)) {
         out_.event = TickEvent::branch;
       }
     }
-    if (out_.converged()) hand_over();
+    if (!out_.converged()) return out_;
+    if (!(depth_m(out_.contact) > 0.0)) out_.unentered = false;  // left: from now on it counts
+    hand_over();
+    if (out_.event == TickEvent::first) out_.unentered = false;
+    if (out_.event != TickEvent::first && out_.event != TickEvent::switched) look_from_outside(last.depth_m);
     return out_;
   }
 
  private:
+  FingerStep finger_step() const { return {x_.moved_m, x_.settings.switch_hysteresis_m}; }
+  double depth_m(const PlanarContact& contact) const { return x_.radius_m - contact.height_m; }
+
   void follow_from(const PlanarPlace& start, bool kept, int budget) { take(follow(x_, start, kept, budget)); }
+  /// Whether the contact, found again or followed round a rim to the other side, has been entered.
+  void look_from_outside(double before_m) {
+    const bool behind = is_unentered(finger_step(), depth_m(out_.contact), before_m);
+    if (behind && !out_.unentered && out_.event == TickEvent::none) out_.event = TickEvent::branch;
+    out_.unentered = behind || (out_.unentered && !found_again_ && !was_put_elsewhere(finger_step()));
+  }
+
   void take(const PlanarContact& contact) {
     out_.evaluations += contact.evaluations;
     out_.patch_changes += contact.patch_changes;
@@ -95,16 +113,22 @@ class Tracker {
     PlanarContact rival;
     if (!nearest_contact(x_, {mine - x_.settings.switch_hysteresis_m, out_.contact.place}, rival, out_.evaluations))
       return;
+    // A first contact and one that was found again start at the deepest place.
+    const bool anew = out_.event == TickEvent::first || found_again_;
+    const double tracked = out_.unentered ? 0.0 : depth_m(out_.contact);
+    if (!anew && !was_entered(finger_step(), depth_m(rival), tracked)) return;
     take_found(rival);
+    out_.unentered = false;
     if (out_.event != TickEvent::first) out_.event = TickEvent::switched;
   }
 
   PlanarContext& x_;
   PlanarTrack out_;
+  bool found_again_ = false;
 };
 
 }  // namespace
 
-PlanarTrack track_planar(PlanarContext context, const PlanarPlace& kept) { return Tracker(context).run(kept); }
+PlanarTrack track_planar(PlanarContext context, const PlanarKept& kept) { return Tracker(context).run(kept); }
 
 }  // namespace tangent

@@ -34,6 +34,11 @@ enum class ForceBlend : std::uint8_t {
   off,     ///< nothing: every tick renders what it decided
   events,  ///< whatever the finger's motion does not explain (the default)
 };
+/// Which of the places that the finger touches push.
+enum class ForceContacts : std::uint8_t {
+  deepest,  ///< the one that the display shows, as in the paper
+  all,      ///< out of all of them by the shortest way (shading/way_out.h; the default)
+};
 enum class TactileSource : std::uint8_t { method, held, facet, smooth };
 
 struct SolverSettings {
@@ -52,10 +57,12 @@ struct SolverSettings {
 
 struct ForceSettings {
   double stiffness_n_per_m = 800.0;
-  double damping_n_s_per_m = 0.0;  ///< along the normal
-  double limit_n = 8.5;            ///< the rendered force never exceeds this
+  double damping_n_s_per_m = 0.0;    ///< along the normal
+  double velocity_cutoff_hz = 50.0;  ///< of the filter of the velocity that damping uses, see core/tick/rendering.h
+  double limit_n = 8.5;              ///< the rendered force never exceeds this
   ForceSource source = ForceSource::method;
-  ForceBlend blend = ForceBlend::events;  ///< of force and display
+  ForceContacts contacts = ForceContacts::all;  ///< of the smooth surface, 3D scenes
+  ForceBlend blend = ForceBlend::events;        ///< of force and display
   bool operator==(const ForceSettings&) const = default;
 };
 

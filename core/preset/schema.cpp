@@ -39,6 +39,7 @@ constexpr std::array<std::string_view, 2> kNormalForms{"bernstein", "vlachos"};
 constexpr std::array<std::string_view, 2> kLocalCentres{"bisectors", "midpoint"};
 constexpr std::array<std::string_view, 4> kFingerShapes{"point", "sphere", "ellipsoid", "capsule"};
 constexpr std::array<std::string_view, 2> kForceBlends{"off", "events"};
+constexpr std::array<std::string_view, 2> kForceContacts{"deepest", "all"};
 constexpr std::array<std::string_view, 4> kForceSources{"method", "facet", "force-shading", "smooth"};
 constexpr std::array<std::string_view, 4> kTactileSources{"method", "held", "facet", "smooth"};
 
@@ -73,8 +74,10 @@ constexpr auto kSafety = &Preset::safety;
 
 // When a value counts.
 constexpr Methods kPaper = only(Method::paper);
+constexpr Methods kSmoothMethods{only(Method::paper).bits | only(Method::newton).bits | only(Method::robust).bits};
 constexpr KeyCondition kRoundFinger{
     [](const Preset& p) { return p.finger.shape == FingerShape::sphere || p.finger.shape == FingerShape::capsule; }};
+constexpr KeyCondition kDamping{[](const Preset& p) { return p.force.damping_n_s_per_m != 0.0; }, "Damping is 0."};
 constexpr KeyCondition kEllipsoid{[](const Preset& p) { return p.finger.shape == FingerShape::ellipsoid; }};
 constexpr KeyCondition kCapsule{[](const Preset& p) { return p.finger.shape == FingerShape::capsule; }};
 constexpr KeyCondition kOwnLoop{[](const Preset& p) { return p.controller.p_per_s2 != 0.0; },
@@ -170,6 +173,11 @@ constexpr std::array kKeys{
   value<kForce, &O::damping_n_s_per_m>({.table = "force", .key = "damping_n_s_per_m", .label = "Damping",
     .unit = "N s/m", .doc = "Force along the normal against the finger's speed along it, in contact.",
     .min = 0.0, .max = 1000.0, .slider_min = 0.0, .slider_max = 10.0}),
+  value<kForce, &O::velocity_cutoff_hz>({.table = "force", .key = "velocity_cutoff_hz", .label = "Velocity cut-off",
+    .unit = "Hz",
+    .doc = "Of the filter of the finger's velocity that damping uses: it lags by 1/(2 pi f), 3.2 ms at 50 Hz, and lets "
+           "2 pi f times an encoder's step through as noise. A velocity that the device measures is taken as it is.",
+    .min = 1.0, .max = 1e4, .slider_min = 10.0, .slider_max = 500.0, .logarithmic = true, .condition = kDamping}),
   value<kForce, &O::limit_n>({.table = "force", .key = "limit_n", .label = "Limit", .unit = "N",
     .doc = "The rendered force never exceeds this.",
     .min = 0.0, .max = 100.0, .slider_min = 0.0, .slider_max = 20.0}),
@@ -177,6 +185,10 @@ constexpr std::array kKeys{
     .doc = "What the finger's motion does not explain (a switch of contacts, one found anew, a change of preset) is "
            "faded in over some ticks (events), or rendered at once (off). Force and display.",
     .option = "force-blend"}, kForceBlends),
+  choice<kForce, &O::contacts>({.table = "force", .key = "contacts", .label = "Contacts",
+    .doc = "Which of the places that the finger touches push: the deepest, as in the paper, or all, by the shortest way "
+           "out of every one. Of the smooth surface of 3D scenes.",
+    .read_by = kSmoothMethods, .option = "force-contacts"}, kForceContacts),
   choice<kForce, &O::source>({.table = "force", .key = "source", .label = "Source",
     .doc = "Which contact the force comes from: the method's own, the facets', the facets' with interpolated normals, "
            "or the smooth surface's."}, kForceSources),

@@ -59,12 +59,22 @@ double display_target(const Rendered& decided, bool switched, double dt_s, Rende
 
 }  // namespace
 
+double most_force_change_n(const Preset& preset, const FingerWay& way) {
+  return kForceFade * way.dt_s + 2.0 * preset.force.stiffness_n_per_m * std::sqrt(glm::dot(way.moved, way.moved));
+}
+
+double most_display_change_m(const Preset& preset, const FingerWay& way) {
+  const DisplaySettings& d = preset.display;
+  const double gone = std::sqrt(glm::dot(way.moved, way.moved));
+  return kDisplayFade * d.travel_m * way.dt_s + 2.0 * d.travel_m / d.finger_arc_m * gone;
+}
+
 namespace {
 
 void blend_force(const Preset& preset, const FingerWay& way, const Vec3& decided, const RenderedState& last,
                  RenderedState& state, Vec3& force) {
   const double stiffness = preset.force.stiffness_n_per_m;
-  const double most = kForceFade * way.dt_s + 2.0 * stiffness * std::sqrt(glm::dot(way.moved, way.moved));
+  const double most = most_force_change_n(preset, way);
   const Vec3 change = decided - last.force_n;
   if (glm::dot(change, change) <= most * most) {
     state.force_fades = 0;
@@ -79,8 +89,7 @@ void blend_force(const Preset& preset, const FingerWay& way, const Vec3& decided
 void blend_display(const Preset& preset, const FingerWay& way, const Rendered& decided, bool switched,
                    const RenderedState& last, RenderedState& state, double& cld_m) {
   const DisplaySettings& d = preset.display;
-  const double gone = std::sqrt(glm::dot(way.moved, way.moved)), half = 0.5 * d.travel_m;
-  const double most = kDisplayFade * d.travel_m * way.dt_s + 2.0 * d.travel_m / d.finger_arc_m * gone;
+  const double half = 0.5 * d.travel_m, most = most_display_change_m(preset, way);
   const double target = state.display_rule == 0.0 ? display_target(decided, switched, way.dt_s, state) : decided.cld_m;
   cld_m = std::clamp(std::clamp(target, last.cld_m - most, last.cld_m + most), -half, half);
   if (cld_m == decided.cld_m) state.display_fades = 0;

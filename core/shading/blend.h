@@ -30,6 +30,11 @@ struct FingerWay {
   double dt_s = 0.0;  ///< 0: none, or not known
 };
 
+/// Most by which force and display may change in a tick: by what the finger's motion explains, and at the rate of a
+/// fade.
+double most_force_change_n(const Preset& preset, const FingerWay& way);
+double most_display_change_m(const Preset& preset, const FingerWay& way);
+
 /// What a tick is to render, from what it decided to and what the last one rendered; updates `state`. Where the
 /// preset's force has edges of its own (facet, force shading, two-pass) only a change of preset fades, likewise its
 /// display. The display holds where the contact is off the pad, and for kDisplayWait after the contact `switched` to

@@ -1,5 +1,6 @@
 #include "core/tick/mesh_contacts.h"
 
+#include "core/shading/way_out.h"
 #include "core/tick/raw_contacts.h"
 #include "core/tick/rendering.h"
 #include "core/tick/smooth_contact.h"
@@ -9,14 +10,29 @@
 namespace tangent {
 namespace {
 
-/// The smooth contact by `settings`; updates what the next tick keeps of it.
+/// The way out of the tracked plane and the others, which push together; zero where there are no others.
+Vec3 way_out_of(const TickContext& tick, const IterationResult& tracked, const TouchedContacts& touched) {
+  if (touched.count == 0 || !tracked.converged() || !pushes_with_others(tracked.contact)) return Vec3(0.0);
+  std::array<RenderPlane, kMostPlanes> planes;
+  std::size_t count = 0;
+  if (!tick.state.unentered) planes[count++] = {tracked.plane.normal, tracked.contact.penetration_m, 1.0};
+  for (const TouchedContact& c : touched.all())
+    if (pushes_with_others(c.contact)) planes[count++] = {c.plane.normal, c.contact.penetration_m, 1.0};
+  return shortest_way_out(std::span(planes).first(count));
+}
+
+/// The smooth contact by `settings`; updates what the next tick keeps of it. `way_out`: of all places that are touched,
+/// where the preset asks for them and there are several; else zero.
 inline void find_smooth(const ContactScene& scene, StepCache& cache, const TickContext& tick,
-                        const SolverSettings& settings, RenderPlane& plane) {
+                        const SolverSettings& settings, TickPlanes& planes, Vec3& way_out) {
+  RenderPlane& plane = planes.smooth;
+  const bool all = wants_touched(tick.preset);
   ContactContext context{
       cache.patches, settings,   tick.finger, tick.local,
       tick.origin,   tick.trace, 0,           glm::length(finger_way(tick.pose.position, tick.t_s, tick.state).moved)};
   const bool sample_is_kept = cache.holds(tick.state.plane, settings.normal_form);
-  find_smooth_contact(context, scene.search(), sample_is_kept, tick.state, cache.smooth);
+  find_smooth_contact(context, scene.search(), sample_is_kept, tick.state, cache.smooth,
+                      all ? &cache.touched : nullptr);
   cache.form = settings.normal_form;
   const IterationResult& contact = cache.smooth.contact;
   tick.state.plane = contact.plane;
@@ -26,12 +42,20 @@ inline void find_smooth(const ContactScene& scene, StepCache& cache, const TickC
   } else {
     plane = last_converged_plane(tick);
   }
+  if (!all) return;
+  if (cache.touched.count == 0) {  // most ticks
+    planes.touched = plane;
+    return;
+  }
+  way_out = way_out_of(tick, contact, cache.touched);
+  planes.touched = plane_of_way_out(way_out, plane);
 }
 
 void describe_smooth(const DecidedContact& decided, const TickContext& tick, TickOutput& out) {
   const IterationResult& c = decided.contact;
-  out.status = decided.converged() ? status_of(c.plane.feature, c.contact.penetration_m) : TickStatus::unconverged;
-  if (decided.converged() && tick.state.unentered) out.status = TickStatus::free;
+  out.status = decided.facing() ? TickStatus::facing : TickStatus::unconverged;
+  if (decided.converged())
+    out.status = tick.state.unentered ? TickStatus::free : status_of(c.plane.feature, c.contact.penetration_m);
   out.event = decided.event;
   out.triangle = c.plane.triangle;
   out.u = c.plane.u;
@@ -42,13 +66,6 @@ void describe_smooth(const DecidedContact& decided, const TickContext& tick, Tic
   out.error_m = c.contact.error_m;
   out.iterations = decided.evaluations;
   out.triangle_changes = decided.triangle_changes;
-}
-
-/// The smooth contact for a source that asks for it beside a method on the raw mesh.
-void find_smooth_beside(const ContactScene& scene, StepCache& cache, const TickContext& tick, RenderPlane& plane) {
-  SolverSettings settings = tick.preset.solver;
-  settings.method = Method::robust;
-  find_smooth(scene, cache, tick, settings, plane);
 }
 
 /// Facet and force shading.
@@ -71,16 +88,20 @@ void find_two_pass(const ContactScene& scene, const TickContext& tick, TickPlane
 void find_mesh_contacts(const ContactScene& scene, StepCache& cache, const TickContext& tick, TickPlanes& planes,
                         TickOutput& out) {
   const Preset& preset = tick.preset;
-  if (!only_smooth(preset)) planes = TickPlanes::all(kNoPlane);
-  if (is_smooth(preset.solver.method)) {
-    find_smooth(scene, cache, tick, preset.solver, planes.smooth);
-    describe_smooth(cache.smooth, tick, out);
-    if (only_smooth(preset)) return;  // most ticks
-  } else if (wants_smooth(preset)) {
-    find_smooth_beside(scene, cache, tick, planes.smooth);
+  if (only_smooth(preset)) {  // most ticks
+    find_smooth(scene, cache, tick, preset.solver, planes, out.way_out_m);
+    return describe_smooth(cache.smooth, tick, out);
+  }
+  planes = TickPlanes::all(kNoPlane);
+  const Method reported = reported_method(preset);
+  if (wants_smooth(preset)) {
+    SolverSettings settings = preset.solver;
+    if (!is_smooth(settings.method)) settings.method = Method::robust;
+    find_smooth(scene, cache, tick, settings, planes, out.way_out_m);
+    if (is_smooth(reported)) describe_smooth(cache.smooth, tick, out);
   }
   if (wants_facet(preset)) find_facet(scene, tick, planes, out);
-  if (preset.solver.method == Method::two_pass) find_two_pass(scene, tick, planes, out);
+  if (reported == Method::two_pass) find_two_pass(scene, tick, planes, out);
 }
 
 }  // namespace tangent

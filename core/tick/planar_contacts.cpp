@@ -4,7 +4,9 @@
 #include "core/planar/polygon_contact.h"
 #include "core/planar/track.h"
 #include "core/tick/raw_contacts.h"
+#include "core/tick/rendering.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -32,16 +34,33 @@ TrackedPlane plane_of(const PlanarPlace& place) {
   return plane;
 }
 
+PlanarKept kept_of(const PlanarCurve& curve, const TickContext& tick) {
+  const TickState& state = tick.state;
+  // A state kept on another scene names patches that this one may not have.
+  if (state.plane.triangle >= curve.patch_count()) return {};
+  PlanarKept kept{place_of(state.plane), 0.0, state.unentered != 0};
+  if (state.has_converged && !state.unentered)
+    kept.depth_m = contact_on_plane(tick.finger, tick.local, state.last_converged.point, state.last_converged.normal)
+                       .penetration_m;
+  return kept;
+}
+
 RenderPlane find_smooth(const PlanarCurve& curve, const TickContext& tick, const SolverSettings& settings,
                         PlanarTrack& track) {
-  const PlanarContext context{curve, settings, flat(tick.local.position), radius_m(tick), tick.trace, 0};
-  // A state kept on another scene names patches that this one may not have.
-  const bool ours = tick.state.plane.triangle < curve.patch_count();
-  track = track_planar(context, ours ? place_of(tick.state.plane) : PlanarPlace{});
+  const PlanarContext context{curve,
+                              settings,
+                              flat(tick.local.position),
+                              radius_m(tick),
+                              tick.trace,
+                              0,
+                              glm::length(finger_way(tick.pose.position, tick.t_s, tick.state).moved)};
+  track = track_planar(context, kept_of(curve, tick));
   tick.state.plane = plane_of(track.contact.place);
   if (!track.converged()) return last_converged_plane(tick);
+  tick.state.unentered = track.unentered;
   RenderPlane plane;
-  keep_converged_plane(tick, radius_m(tick) - track.contact.height_m, plane);
+  const double depth = radius_m(tick) - track.contact.height_m;
+  keep_converged_plane(tick, track.unentered ? std::min(0.0, depth) : depth, plane);
   return plane;
 }
 
@@ -49,6 +68,7 @@ void describe_smooth(const PlanarTrack& track, const TickContext& tick, TickOutp
   const PlanarContact& c = track.contact;
   out.penetration_m = radius_m(tick) - c.height_m;
   out.status = track.converged() ? status_of(c.place.feature, out.penetration_m) : TickStatus::unconverged;
+  if (track.converged() && track.unentered) out.status = TickStatus::free;
   out.triangle = c.place.patch;
   out.u = c.place.t;
   out.contact = tick.origin + lifted(c.place.point);
@@ -80,12 +100,13 @@ void find_planar_contacts(const PlanarCurve& curve, const TickContext& tick, Tic
   const Preset& preset = tick.preset;
   const Vec3& centre = tick.local.position;
   planes = TickPlanes::all(kNoPlane);
+  const Method reported = reported_method(preset);
   if (wants_smooth(preset)) {
     SolverSettings settings = preset.solver;
     if (!is_smooth(settings.method)) settings.method = Method::robust;
     PlanarTrack track;
-    planes.smooth = find_smooth(curve, tick, settings, track);
-    if (is_smooth(preset.solver.method)) describe_smooth(track, tick, out);
+    planes.smooth = planes.touched = find_smooth(curve, tick, settings, track);
+    if (is_smooth(reported)) describe_smooth(track, tick, out);
   }
   const PolygonSurface surface(curve, preset.solver.tolerance_m);
   if (wants_facet(preset)) {
@@ -93,8 +114,7 @@ void find_planar_contacts(const PlanarCurve& curve, const TickContext& tick, Tic
     const double depth = radius_m(tick) - facet.height_m;
     offer_facet(tick, facet, surface.interpolated_normal(facet), depth, planes, out);
   }
-  if (preset.solver.method == Method::two_pass)
-    find_two_pass_contact(tick, surface, kLeapShare * curve.size_m(), planes, out);
+  if (reported == Method::two_pass) find_two_pass_contact(tick, surface, kLeapShare * curve.size_m(), planes, out);
 }
 
 }  // namespace tangent

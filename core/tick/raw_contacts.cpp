@@ -20,8 +20,9 @@ void offer_facet(const TickContext& tick, const FacetContact& facet, const Vec3&
                  TickPlanes& planes, TickOutput& out) {
   planes.facet = {facet.normal, depth_m, 1.0};
   planes.shaded = {shaded_normal, depth_m, 1.0};
-  if (tick.preset.solver.method == Method::facet) describe(tick, facet, planes.facet, out);
-  if (tick.preset.solver.method == Method::force_shading) describe(tick, facet, planes.shaded, out);
+  const Method reported = reported_method(tick.preset);
+  if (reported == Method::facet) describe(tick, facet, planes.facet, out);
+  if (reported == Method::force_shading) describe(tick, facet, planes.shaded, out);
 }
 
 void find_two_pass_contact(const TickContext& tick, const ProxySurface& surface, double leap_m, TickPlanes& planes,

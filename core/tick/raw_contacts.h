@@ -8,8 +8,8 @@
 
 namespace tangent {
 
-/// Planes of facet and force shading, both `depth_m` deep; contact and state of the output where one of them is the
-/// method. `shaded_normal`: interpolated at the facet contact.
+/// Planes of facet and force shading, both `depth_m` deep; contact and state of the output where one of them is
+/// reported. `shaded_normal`: interpolated at the facet contact.
 void offer_facet(const TickContext& tick, const FacetContact& facet, const Vec3& shaded_normal, double depth_m,
                  TickPlanes& planes, TickOutput& out);
 

@@ -1,34 +1,49 @@
 #include "core/tick/scene.h"
 
 #include "core/planar/ribbon.h"
+#include "core/tick/sources.h"
 
 namespace tangent {
 
-Result<std::shared_ptr<const ContactScene>> ContactScene::build(ContactMesh mesh) {
-  return with_queries(std::shared_ptr<ContactScene>(new ContactScene(std::move(mesh))));
+SceneParts parts_for(const Preset& preset) { return {.hierarchy = wants_smooth(preset), .ribbon = false}; }
+
+Result<std::shared_ptr<const ContactScene>> ContactScene::build(ContactMesh mesh, const SceneParts& parts,
+                                                                const RunBoth& run_both) {
+  std::shared_ptr<ContactScene> scene(new ContactScene);
+  scene->mesh_.emplace(std::move(mesh));
+  std::optional<Result<NearestTriangles>> nearest;
+  const auto build_nearest = [&] { nearest.emplace(NearestTriangles::build(*scene->mesh_)); };
+  if (parts.hierarchy) {
+    run_both(build_nearest, [&] { scene->hierarchy(); });
+  } else {
+    build_nearest();
+  }
+  if (!*nearest) return tl::unexpected(nearest->error());
+  scene->nearest_ = std::make_unique<NearestTriangles>(std::move(**nearest));
+  return scene;
 }
 
-Result<std::shared_ptr<const ContactScene>> ContactScene::build(PlanarCurve curve) {
+Result<std::shared_ptr<const ContactScene>> ContactScene::build(PlanarCurve curve, const SceneParts& parts) {
   constexpr double kRibbonShare = 0.1;  // half its width, in sizes of the polygon
-  ContactMeshOptions options;
-  options.normals = NormalSource::file;
-  auto mesh = ContactMesh::build(ribbon(curve, kRibbonShare * curve.size_m()), options);
-  if (!mesh) return tl::unexpected(mesh.error());
-  std::shared_ptr<ContactScene> scene(new ContactScene(std::move(*mesh)));
+  std::shared_ptr<ContactScene> scene(new ContactScene);
+  if (parts.ribbon) {
+    ContactMeshOptions options;
+    options.normals = NormalSource::file;
+    auto mesh = ContactMesh::build(ribbon(curve, kRibbonShare * curve.size_m()), options);
+    if (!mesh) return tl::unexpected(mesh.error());
+    scene->mesh_.emplace(std::move(*mesh));
+    auto nearest = NearestTriangles::build(*scene->mesh_);
+    if (!nearest) return tl::unexpected(nearest.error());
+    scene->nearest_ = std::make_unique<NearestTriangles>(std::move(*nearest));
+  }
   scene->planar_ = std::make_unique<const PlanarCurve>(std::move(curve));
-  return with_queries(std::move(scene));
-}
-
-Result<std::shared_ptr<const ContactScene>> ContactScene::with_queries(std::shared_ptr<ContactScene> scene) {
-  auto nearest = NearestTriangles::build(scene->mesh_);
-  if (!nearest) return tl::unexpected(nearest.error());
-  scene->nearest_ = std::make_unique<NearestTriangles>(std::move(*nearest));
-  scene->hierarchy_ = ContactHierarchy::build(scene->mesh_);
   return scene;
 }
 
 std::size_t ContactScene::memory_bytes() const {
-  return mesh_.memory_bytes() + nearest_->memory_bytes() + hierarchy_.memory_bytes();
+  const ContactHierarchy* hierarchy = hierarchy_.if_built();
+  return (mesh_ ? mesh_->memory_bytes() : 0) + (nearest_ ? nearest_->memory_bytes() : 0) +
+         (hierarchy ? hierarchy->memory_bytes() : 0) + (planar_ ? planar_->memory_bytes() : 0);
 }
 
 }  // namespace tangent

@@ -1,6 +1,10 @@
 #include "core/tick/smooth_contact.h"
 
+#include "core/base/tolerances.h"
+#include "core/contact/follow/follow_touched.h"
 #include "core/contact/prove/clearance_check.h"
+
+#include <algorithm>
 
 namespace tangent {
 namespace {
@@ -11,7 +15,7 @@ void watch_others(ContactContext& context, const SearchStructures& search, TickS
   const double bound = takeover_bound_m(context.settings, rank);
   const double gone = gone_m(state.clearance, context.finger, context.pose);
   if (!deeper_possible(state.clearance, gone, bound)) return;
-  const double ahead = look_ahead_m(rank, context.moved_m);
+  const double ahead = look_ahead_m(context, rank, state.clearance.ahead);
   const RivalResult rival = find_rival(context, search, decided.contact, bound, ahead, state.clearance, gone);
   const double depth = state.unentered ? 0.0 : decided.contact.contact.penetration_m;
   const bool taken_over = decide_rival(context, rival, depth, state.plane, decided);
@@ -26,21 +30,88 @@ double depth_before(const ContactContext& context, const TickState& state) {
   return contact_on_plane(context.finger, context.pose, last.point, last.normal).penetration_m;
 }
 
+/// Where every touched place pushes: the rank below which another place is one of them. The finger touches what ranks
+/// below its reach; where there is no room for more, only deeper places than those count.
+double touching_bound_m(const ContactContext& context, const TouchedContacts& touched) {
+  const Finger& finger = context.finger;
+  if (touched.full()) return takeover_bound_m(context.settings, contact_rank(finger, touched.shallowest().contact));
+  return is_round(finger) ? round_radius_m(finger) : finger.reach_m();
+}
+
+/// Looks for places that are touched and not followed yet. True where a deeper one that does not push with others takes
+/// over.
+bool look_for_touched(ContactContext& context, const SearchStructures& search, double takeover_m, TickState& state,
+                      DecidedContact& decided, TouchedContacts& touched) {
+  const double bound = std::max(takeover_m, touching_bound_m(context, touched));
+  const double gone = gone_m(state.clearance, context.finger, context.pose);
+  if (!deeper_possible(state.clearance, gone, bound)) return false;
+  const double rank = contact_rank(context.finger, decided.contact.contact);
+  const double ahead = look_ahead_m(context, rank, state.clearance.ahead);
+  RivalResult rival = find_rival(context, search, decided.contact, bound, ahead, state.clearance, gone, &touched);
+  state.clearance = rival.clearance;
+  // Where the contact was lost and a shallower one is gone on with, what the lost one was counts, too.
+  const double depth =
+      std::max(depth_before(context, state), state.unentered ? 0.0 : decided.contact.contact.penetration_m);
+  for (const TouchedContact& c : rival.touched.all())
+    if (was_entered(step_of(context), c.contact.penetration_m, depth))
+      touched.add(c, kMergedPlaces * context.settings.tolerance_m);
+  rival.deeper = rival.deeper && !pushes_with_others(rival.best.contact) &&
+                 contact_rank(context.finger, rival.best.contact) < takeover_m;
+  if (!decide_rival(context, rival, depth, state.plane, decided)) return false;
+  state.clearance = Clearance{};
+  state.unentered = 0;
+  return true;
+}
+
+/// Where every touched place pushes: follows them all, looks for more; the deepest is the one to render on the display.
+void watch_touched(ContactContext& context, const SearchStructures& search, TickState& state, DecidedContact& decided,
+                   TouchedContacts& touched) {
+  if (state.touched.count > 0 &&
+      !follow_touched(context, state.touched, &decided.contact.plane, touched, decided.evaluations))
+    state.clearance = Clearance{};  // the surroundings of a place that is followed no more were not looked at
+  const PlaneContact& tracked = decided.contact.contact;
+  const double takeover = takeover_bound_m(context.settings, contact_rank(context.finger, tracked),
+                                           tracked.penetration_m > 0.0 ? kTremor : 1.0);
+  if (look_for_touched(context, search, takeover, state, decided, touched) || state.unentered) return;
+  decide_touched(context, takeover, touched, state.plane, decided);
+}
+
+/// Where following failed: the deepest of the other places that are touched, if there is one, is the one to go on with.
+bool go_on_with_touched(ContactContext& context, TickState& state, DecidedContact& decided, TouchedContacts& touched) {
+  if (state.touched.count == 0) return false;
+  follow_touched(context, state.touched, nullptr, touched, decided.evaluations);
+  const double reach = is_round(context.finger) ? round_radius_m(context.finger) : context.finger.reach_m();
+  const bool found = decide_touched(context, reach, touched, state.plane, decided);
+  touched.count = 0;  // they are followed again beside the new one
+  return found;
+}
+
 }  // namespace
 
 void find_smooth_contact(ContactContext& context, const SearchStructures& search, bool sample_is_kept, TickState& state,
-                         DecidedContact& decided) {
+                         DecidedContact& decided, TouchedContacts* touched) {
   const bool first = state.plane.feature == Feature::none;
+  if (!touched && state.touched.count > 0) {  // they were followed until now, and are looked for no more
+    state.touched.count = 0;
+    state.clearance = Clearance{};
+  }
   const Followed followed = first ? Followed::lost : follow(context, state.plane, sample_is_kept, decided.contact);
   decide_followed(followed, first, decided);
   if (followed != Followed::lost) {
     if (!(decided.contact.contact.penetration_m > 0.0)) state.unentered = 0;  // left: from now on it counts
-    return watch_others(context, search, state, decided);
+    if (!touched) return watch_others(context, search, state, decided);
+  } else if (state.clearance = Clearance{}; touched && go_on_with_touched(context, state, decided, *touched)) {
+    state.unentered = 0;
+  } else {
+    decide_start(seed_contact(context, search, state.plane), state.plane, decided);
+    if (!decided.facing())  // there, nothing could be entered
+      state.unentered =
+          !first && is_unentered(step_of(context), decided.contact.contact.penetration_m, depth_before(context, state));
   }
-  state.clearance = Clearance{};
-  decide_start(seed_contact(context, search, state.plane), state.plane, decided);
-  state.unentered =
-      !first && is_unentered(context, decided.contact.contact.penetration_m, depth_before(context, state));
+  if (!touched) return;
+  touched->count = 0;
+  if (decided.converged()) watch_touched(context, search, state, decided, *touched);
+  if (touched->count > 0 || state.touched.count > 0) state.touched = touched->places();
 }
 
 }  // namespace tangent

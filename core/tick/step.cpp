@@ -27,7 +27,7 @@ void run_tick(const TickContext& tick, TickOutput& out, FindContacts find_contac
   TickPlanes planes;
   find_contacts(planes);
   const FingerWay way = finger_way(tick.pose.position, tick.t_s, tick.state);
-  render_planes(tick.preset, planes, section, way, tick.state.rendered, out);
+  render_planes(tick.preset, planes, section, way, tick.velocity, tick.state.rendered, out);
   keep_pose(tick.pose.position, tick.t_s, tick.state);
 }
 
@@ -35,7 +35,7 @@ void run_tick(const TickContext& tick, TickOutput& out, FindContacts find_contac
 void run_without_pose(const TickContext& tick, TickOutput& out) {
   const TickPlanes planes = TickPlanes::all(last_converged_plane(tick));
   const FingerWay way = finger_way(tick.pose.position, tick.t_s, tick.state);
-  render_planes(tick.preset, planes, section_of(tick.pose.orientation), way, tick.state.rendered, out);
+  render_planes(tick.preset, planes, section_of(tick.pose.orientation), way, std::nullopt, tick.state.rendered, out);
 }
 
 FingerPose last_pose(const TickState& state) { return {state.last_position, Quat(1.0, 0.0, 0.0, 0.0)}; }
@@ -43,7 +43,7 @@ FingerPose last_pose(const TickState& state) { return {state.last_position, Quat
 }  // namespace
 
 Stepper::Stepper(std::shared_ptr<const ContactScene> scene)
-    : scene_(std::move(scene)), cache_(std::make_unique<StepCache>(scene_->mesh())) {}
+    : scene_(std::move(scene)), cache_(scene_->planar() ? nullptr : std::make_unique<StepCache>(scene_->mesh())) {}
 Stepper::Stepper(Stepper&&) noexcept = default;
 Stepper& Stepper::operator=(Stepper&&) noexcept = default;
 Stepper::~Stepper() = default;
@@ -55,7 +55,7 @@ TickOutput Stepper::step(const Preset& preset, const TickInput& input, TickState
   const FingerPose& pose = usable ? input.finger : last;
   const Vec3& origin = scene_->mesh().origin();
   const FingerPose local{pose.position - origin, pose.orientation};
-  const TickContext tick{preset, preset.finger, input.t_s, pose, local, origin, state, trace};
+  const TickContext tick{preset, preset.finger, input.t_s, pose, local, origin, state, trace, input.velocity};
   TickOutput out;
   if (usable) {
     run_tick(tick, out, [&](TickPlanes& planes) { find_mesh_contacts(*scene_, *cache_, tick, planes, out); });
@@ -72,7 +72,7 @@ TickOutput step_planar(const PlanarCurve& curve, const Preset& preset, const Tic
   const FingerPose pose = section_pose(usable ? input.finger : last_pose(state));
   const Vec3 origin = lifted(curve.origin());
   const FingerPose local{pose.position - origin, pose.orientation};
-  const TickContext tick{preset, finger, input.t_s, pose, local, origin, state, trace};
+  const TickContext tick{preset, finger, input.t_s, pose, local, origin, state, trace, input.velocity};
   TickOutput out;
   out.normal = Vec3(0.0, 1.0, 0.0);  // where no contact is found
   if (usable) {

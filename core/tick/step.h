@@ -16,7 +16,7 @@ namespace tangent {
 /// state, so a fresh one gives the same bits, later.
 class StepCache;
 
-/// Owns a StepCache for one scene. Not thread-safe; use one per thread.
+/// Owns a StepCache for one scene (none for a 2D one). Not thread-safe; use one per thread.
 class Stepper {
  public:
   explicit Stepper(std::shared_ptr<const ContactScene> scene);

@@ -21,7 +21,8 @@ class StepCache {
   }
 
   PatchCache patches;
-  DecidedContact smooth;  ///< of the last tick
+  DecidedContact smooth;    ///< of the last tick
+  TouchedContacts touched;  ///< beside it; room for one tick, nothing is read of the last
   NormalForm form = NormalForm::bernstein;
 };
 

@@ -12,6 +12,8 @@ const char* to_string(TickStatus status) {
       return "edge";
     case TickStatus::vertex:
       return "vertex";
+    case TickStatus::facing:
+      return "facing";
     case TickStatus::unconverged:
       break;
   }

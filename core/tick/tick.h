@@ -3,17 +3,33 @@
 
 #include "core/contact/clearance.h"
 #include "core/contact/decide/tick_event.h"
+#include "core/contact/touched.h"
 #include "core/contact/tracked_plane.h"
 #include "core/finger/finger.h"
 #include "core/shading/blend.h"
 
+#include <array>
 #include <cstdint>
+#include <optional>
 
 namespace tangent {
 
-/// `free`: not touching: out of reach of the surface, or behind a place that was never entered from outside.
-enum class TickStatus : std::uint8_t { free, face, edge, vertex, unconverged };
+enum class TickStatus : std::uint8_t {
+  free,  ///< not touching: out of reach of the surface, or behind a place that was never entered from outside
+  face,
+  edge,
+  vertex,
+  unconverged,
+  facing,  ///< the surface offers no contact here: the nearest place, its plane turned to face the finger
+};
+inline constexpr std::array kTickStatuses{TickStatus::free,   TickStatus::face,        TickStatus::edge,
+                                          TickStatus::vertex, TickStatus::unconverged, TickStatus::facing};
 const char* to_string(TickStatus status);
+/// Whether the tick found a contact with the surface, or that there is none in reach. Otherwise force and display come
+/// from the last tick that did, and fade.
+inline bool is_converged(TickStatus status) {
+  return status != TickStatus::facing && status != TickStatus::unconverged;
+}
 /// Of a converged contact: `free` where the finger does not reach the surface.
 TickStatus status_of(Feature feature, double penetration_m);
 
@@ -36,12 +52,14 @@ struct TickState {
   Vec3 proxy{0.0};  ///< of the two-pass method, local, m
   std::uint8_t has_proxy = 0;
   std::uint8_t unentered = 0;  ///< the tracked place was found from behind: it does not push until it is left
+  TouchedPlaces touched;       ///< beside `plane`, where the force comes from all of them
   RenderedState rendered;
 };
 
 struct TickInput {
   double t_s = 0.0;
   FingerPose finger;
+  std::optional<Vec3> velocity = std::nullopt;  ///< of the finger, world, m/s, by the device; none: from its positions
 };
 
 /// One row of ticks.csv. World frame, SI.
@@ -55,11 +73,12 @@ struct TickOutput {
   double penetration_m = 0.0;
   Vec3 force_n{0.0};
   double cld_m = 0.0;
-  double error_m = 0.0;
+  double error_m = 0.0;         ///< `facing`: how far that place is from being a contact
   std::int32_t iterations = 0;  ///< surface evaluations of this tick, seeds included
   std::int32_t triangle_changes = 0;
   Vec3 decided_force_n{0.0};  ///< force and display before they were blended with those of the last tick
   double decided_cld_m = 0.0;
+  Vec3 way_out_m{0.0};  ///< of several places at once, which the force comes from (shading/way_out.h); 0: of the one
 };
 
 /// What crosses the rings from the servo to its watchers: enough to compute the tick again.

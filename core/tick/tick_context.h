@@ -18,6 +18,7 @@ struct TickContext {
   const Vec3& origin;       ///< world = origin + local
   TickState& state;
   IterationTrace* trace;
+  const std::optional<Vec3>& velocity;  ///< of the finger, world, where the device measures it
 };
 
 /// The plane that an unconverged tick renders: the last converged one at the present pose, ramping to zero; share 0

@@ -21,7 +21,7 @@ double LogHistogram::percentile(double share) const noexcept {
     seen += bins_[i].load(std::memory_order_relaxed);
     if (seen >= rank) return static_cast<double>(top_of(i));
   }
-  return static_cast<double>(top_of(kBins - 1));  // counts came between the two sums
+  return static_cast<double>(top_of(kBins - 1));  // another thread added counts while we summed
 }
 
 }  // namespace tangent

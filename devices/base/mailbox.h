@@ -1,8 +1,8 @@
-// A mailbox for whole values from one thread to one other: the latest wins, neither side waits, none is torn.
+// A wait-free mailbox that hands whole values from one thread to another: the latest wins, no value is torn.
 //
-// Three slots: one belongs to the writer, one to the reader, and the third changes hands. Putting a letter in swaps
-// the writer's slot with the third one and marks it fresh; taking it swaps the reader's. Each slot has one owner at
-// any time, so its bytes need no atomics.
+// Triple buffer: one slot belongs to the writer, one to the reader, the third is exchanged. put swaps the writer's slot
+// with the third and marks it fresh; take swaps the reader's slot with it. Each slot has one owner at any time, so its
+// bytes need no atomics.
 #pragma once
 
 #include <array>
@@ -17,13 +17,13 @@ class Mailbox {
   static_assert(std::is_trivially_copyable_v<T>);
 
  public:
-  /// Writer. Replaces a value not yet taken.
+  /// Writer's thread. Replaces a value not yet taken.
   void put(const T& value) noexcept {
     slots_[writing_].value = value;
     writing_ = shared_.exchange(static_cast<std::uint8_t>(writing_ | kFresh), std::memory_order_acq_rel) & kIndex;
   }
 
-  /// Reader. False when nothing came since the last time.
+  /// Reader's thread. False, and `value` unchanged, when nothing new was put since the last take.
   bool take(T& value) noexcept {
     if ((shared_.load(std::memory_order_relaxed) & kFresh) == 0) return false;
     reading_ = shared_.exchange(reading_, std::memory_order_acq_rel) & kIndex;
@@ -33,7 +33,7 @@ class Mailbox {
 
  private:
   static constexpr std::uint8_t kIndex = 3, kFresh = 4;
-  static constexpr std::size_t kCacheLine = 64;  // apart, so that writer and reader don't wait for each other's lines
+  static constexpr std::size_t kCacheLine = 64;  // avoids false sharing between writer and reader
   struct alignas(kCacheLine) Slot {
     T value{};
   };

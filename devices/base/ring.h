@@ -1,4 +1,5 @@
-// A fixed ring from one thread to one other, on Boost.Lockfree. What finds it full is dropped and counted.
+// A wait-free ring of fixed capacity from one producer thread to one consumer thread (Boost.Lockfree). When it is full,
+// new items are dropped and counted.
 #pragma once
 
 #include <boost/lockfree/spsc_queue.hpp>
@@ -15,13 +16,13 @@ class Ring {
   static_assert(std::is_trivially_copyable_v<T>);
 
  public:
-  /// All memory is taken and touched here, so that no push waits for a page. Precondition: capacity > 0.
+  /// Allocates all memory and touches it, so that no push causes a page fault. Precondition: capacity > 0.
   explicit Ring(std::size_t capacity) : queue_(capacity) {
     while (queue_.push(T{})) {}
     queue_.reset();
   }
 
-  /// Producer. False, and counted, when full.
+  /// Producer's thread. False, and counted as a drop, when full.
   bool push(const T& item) noexcept {
     if (queue_.push(item)) return true;
     drops_.store(drops_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
@@ -29,14 +30,14 @@ class Ring {
   }
   std::size_t room() const noexcept { return queue_.write_available(); }  ///< producer
 
-  /// Consumer. False when empty.
+  /// Consumer's thread. False when empty.
   bool pop(T& item) noexcept { return queue_.pop(item); }
 
   std::uint64_t drops() const noexcept { return drops_.load(std::memory_order_relaxed); }  ///< any thread
 
  private:
   boost::lockfree::spsc_queue<T> queue_;
-  std::atomic<std::uint64_t> drops_{0};  // written by the producer alone
+  std::atomic<std::uint64_t> drops_{0};  // written by the producer only
 };
 
 }  // namespace tangent

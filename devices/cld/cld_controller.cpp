@@ -108,7 +108,7 @@ void CldController::put_settings(std::int64_t now_ns) noexcept {
 }
 
 void CldController::flush() noexcept {
-  if (packet_held_ == 0 || !link_.can_send()) return;  // the next turn takes it along
+  if (packet_held_ == 0 || !link_.can_send()) return;  // sent in the next turn
   link_.send({packet_.data(), packet_held_});
   packet_held_ = 0;
 }
@@ -120,7 +120,7 @@ void CldController::on_open(UsbLink&) noexcept {
   packet_held_ = 0;
   opened_ns_ = next_hello_ns_ = usb_now_ns();
   Outgoing old;
-  while (commands_.pop(old)) {}  // meant for the connection before
+  while (commands_.pop(old)) {}  // commands for the previous connection
   connection_.fetch_add(1, std::memory_order_release);
 }
 
@@ -138,7 +138,7 @@ void CldController::on_turn(UsbLink&, std::int64_t now_ns) noexcept {
   if (new_settings_.take(settings_)) settings_unsent_ = true;
   if (settings_unsent_ && info_connection_.load(kRelaxed) == connection && link_.can_send()) put_settings(now_ns);
   Outgoing out;
-  // What a busy cable has no room for stays in its queue, in order.
+  // When all transfers are in flight, the rest stays queued, in order.
   while (link_.can_send() && commands_.pop(out)) {
     const std::uint16_t sequence = next_sequence_++;
     put_frame(
@@ -174,7 +174,7 @@ void CldController::take_frame(const CldFrame& frame, std::int64_t now_ns) noexc
   if (arrival == CldSequence::Arrival::doubled) return;
   if (frame.type == static_cast<std::uint8_t>(CldType::info)) return take_info(frame);
   if (to_refused(frame)) return raise(refused_);
-  // A position older than one already taken is no news.
+  // A position that arrives after a newer one is ignored.
   if (arrival != CldSequence::Arrival::late) take_telemetry(frame, now_ns);
 }
 
@@ -232,7 +232,7 @@ DeviceState CldController::state_now(std::int64_t now_ns, DeviceFault& fault) no
   const bool current = ever_heard_ && newest_.connection == connection;
   if (info_connection_.load(kRelaxed) != connection || !current) return DeviceState::open;
   if (now_ns - newest_.at_ns > to_ns(options_.silence_s)) {
-    lost_connection_ = connection;  // stays so until a person clears it
+    lost_connection_ = connection;  // latched until a person clears the fault
     fault = DeviceFault::disconnected;
     return DeviceState::faulted;
   }

@@ -3,8 +3,9 @@
 //   servo thread                 link's thread
 //   exchange  -- commands -->    frames out, packed into packets
 //             <-- telemetry --   packets in, parsed
-// The two rings are all they share; neither waits. Its state is what the newest telemetry says, no better than what
-// this host asked for: a device that says ready without having been homed since it was plugged in is not.
+// The two threads share these rings and a few atomics; neither waits for the other. The state is that of the newest
+// telemetry, with one exception: a device that reports ready but was not homed by this host since it was plugged in
+// counts as not homed (`firmware`).
 #pragma once
 
 #include "devices/base/mailbox.h"
@@ -18,13 +19,13 @@
 
 namespace tangent {
 
-/// Endpoints, interface and class of the protocol's page.
+/// Endpoints and interface class as given in devices/cld_protocol.md.
 UsbLinkOptions cld_link_options();
 
 struct CldControllerOptions {
   UsbLinkOptions link = cld_link_options();
-  double silence_s = 0.1;       ///< without telemetry: lost
-  double info_timeout_s = 0.5;  ///< without a fit info: no firmware
+  double silence_s = 0.1;       ///< no telemetry for this long: fault `disconnected`
+  double info_timeout_s = 0.5;  ///< no valid info message for this long after opening: fault `firmware`
   UsbTap* tap = nullptr;
 };
 
@@ -33,15 +34,17 @@ class CldController final : public ContactDisplay, private UsbLinkHandler {
   explicit CldController(const CldControllerOptions& options = {});
   ~CldController() override { close(); }
 
-  /// Of the paper's CLD; what the firmware says of itself is in the report.
+  /// Those of the paper's CLD; what the connected firmware reports about itself is in `report`.
   const DisplayCapabilities& capabilities() const override { return capabilities_; }
-  /// Starts looking for the device; it may be plugged in later. Fails when there is no USB.
+  /// Starts the link's thread, which looks for the device; it may be plugged in later. Fails without libusb, or when
+  /// already open.
   Status open() override;
   void close() override;
   DisplaySample exchange(const DisplayCommand& command, double dt_s) noexcept override;
   bool report(LinkReport& out) const override;
 
-  /// Sent now if they are others than before, and to every device that connects if they are not the program's own.
+  /// Servo thread. Sends the settings if they changed; settings other than the defaults are also sent to every device
+  /// that connects later.
   void set_controller(const ControllerSettings& settings) noexcept override;
 
  private:
@@ -80,8 +83,8 @@ class CldController final : public ContactDisplay, private UsbLinkHandler {
   Ring<Heard> telemetry_{1024};
   Mailbox<ControllerSettings> new_settings_;  ///< servo to link
 
-  // Written by the link's thread, read by any.
-  std::atomic<std::uint32_t> connection_{0};  ///< odd while connected, one more with every change
+  // Written by the link's thread, read by any thread.
+  std::atomic<std::uint32_t> connection_{0};  ///< odd while connected, incremented on every change
   std::atomic<std::uint64_t> info_travel_nm_{0}, info_step_pm_{0}, info_rates_{0};
   std::atomic<std::uint32_t> info_serial_{0}, info_connection_{0}, unfit_connection_{0};
   std::atomic<std::uint16_t> info_firmware_{0};

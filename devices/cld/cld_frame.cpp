@@ -47,7 +47,7 @@ void CldParser::drop(std::size_t bytes) noexcept {
   held_ -= bytes;
 }
 
-// Invariant between calls: what is held is the beginning of a frame, or nothing.
+// Invariant between calls: the buffer holds the beginning of a frame, or nothing.
 std::optional<CldFrame> CldParser::next() noexcept {
   for (;;) {
     const auto begin = buffer_.begin(), end = begin + static_cast<std::ptrdiff_t>(held_);
@@ -84,7 +84,7 @@ std::optional<CldFrame> CldParser::next() noexcept {
 }
 
 std::optional<CldFrame> CldParser::feed(std::uint8_t byte) noexcept {
-  buffer_[held_++] = byte;  // room: a full buffer is a whole frame, taken or dropped before it returned
+  buffer_[held_++] = byte;  // has room: next() takes or drops a full buffer before it returns
   return next();
 }
 

@@ -33,35 +33,36 @@ struct CldFrame {
 /// CRC-16/CCITT-FALSE: polynomial 0x1021, start 0xFFFF, not reflected. Of "123456789": 0x29B1.
 std::uint16_t cld_crc(std::span<const std::uint8_t> bytes) noexcept;
 
-/// Bytes written. Preconditions: length <= kCldLargestPayload, out.size() >= kCldLargestFrame.
+/// Writes the frame to `out`; returns the number of bytes written. Preconditions: length <= kCldLargestPayload,
+/// out.size() >= kCldLargestFrame.
 std::size_t encode_frame(const CldFrame& frame, std::span<std::uint8_t> out) noexcept;
 
-/// What the parser met; each grows for ever.
+/// Counts since the parser was made; they never go back.
 struct CldParserCounts {
   std::uint64_t frames = 0;
   std::uint64_t crc_errors = 0;
-  std::uint64_t wrong_lengths = 0;  ///< a length no frame has
+  std::uint64_t wrong_lengths = 0;  ///< length byte above kCldLargestPayload
   std::uint64_t skipped_bytes = 0;  ///< between frames
 };
 
-/// Finds frames in a stream that may be split, merged or damaged. After damage it looks for the next sync byte
-/// inside what it rejected, so that one bad byte costs no good frame behind it.
+/// Finds frames in a byte stream that may be split, merged or damaged. After damage it resynchronises at the next sync
+/// byte inside the rejected bytes, so that one bad byte does not lose the good frame behind it.
 class CldParser {
  public:
-  /// Feeds one byte. A frame that is complete with it; its CRC is right.
+  /// Feeds one byte. Returns the frame that it completes, if its CRC is right.
   std::optional<CldFrame> feed(std::uint8_t byte) noexcept;
-  /// Feeds all; calls `take(frame)` for every frame.
+  /// Feeds all bytes; calls `take(frame)` for every frame found.
   template <class Take>
   void feed(std::span<const std::uint8_t> bytes, Take&& take) {
     for (const std::uint8_t byte : bytes) {
       for (auto frame = feed(byte); frame; frame = next()) take(*frame);
     }
   }
-  /// Another frame among bytes already fed (after a resynchronisation).
+  /// The next frame among bytes already fed, if there is one (after a resynchronisation).
   std::optional<CldFrame> next() noexcept;
-  /// Whether a frame has begun and not ended.
+  /// Whether the parser holds the beginning of a frame.
   bool in_frame() const noexcept { return held_ > 0; }
-  /// Forgets a frame begun (the cable was pulled). Counts stay.
+  /// Discards a partial frame (the cable was pulled). Counts stay.
   void restart() noexcept { held_ = 0; }
   const CldParserCounts& counts() const { return counts_; }
 
@@ -73,20 +74,22 @@ class CldParser {
   CldParserCounts counts_;
 };
 
-/// Tells lost, doubled and disordered frames apart by their sequence numbers, which count modulo 2^16.
+/// Counts lost, duplicated and out-of-order frames by their sequence numbers, which wrap at 2^16.
 class CldSequence {
  public:
   enum class Arrival : std::uint8_t { in_order, after_loss, doubled, late };
+  /// Classifies and counts a frame that arrived with this sequence number.
   Arrival add(std::uint16_t sequence) noexcept;
+  /// The next frame is taken as the first of a new connection. Counts stay.
   void restart() noexcept { known_ = false; }
-  std::uint64_t lost() const { return lost_; }  ///< less those that came late after all
+  std::uint64_t lost() const { return lost_; }  ///< without those that arrived late
   std::uint64_t doubled() const { return doubled_; }
   std::uint64_t late() const { return late_; }
 
  private:
   bool known_ = false;
   std::uint16_t newest_ = 0;
-  std::uint64_t seen_ = 0;  ///< bit i: newest - i came
+  std::uint64_t seen_ = 0;  ///< bit i: frame newest - i has arrived
   std::uint64_t lost_ = 0, doubled_ = 0, late_ = 0;
 };
 

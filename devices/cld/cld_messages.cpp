@@ -7,7 +7,7 @@ namespace tangent {
 
 namespace {
 
-// Type and fields of each message, in wire order: writing, reading and length all come from here.
+// Type and fields of each message in wire order. Encoding, decoding and length are all derived from this list.
 template <class M>
 constexpr CldType kType{};
 template <class M>
@@ -46,7 +46,7 @@ constexpr auto kType<CldRefused> = CldType::refused;
 template <>
 constexpr auto kFields<CldRefused> = std::tuple(&CldRefused::type, &CldRefused::sequence, &CldRefused::reason);
 
-/// Little-endian; an enumeration as the number it stands for.
+/// Little-endian; enumerations as their underlying integer.
 template <class T>
 void put(CldFrame& frame, T value) noexcept {
   if constexpr (std::is_enum_v<T>) {
@@ -79,7 +79,7 @@ CldFrame written(const M& message, std::uint16_t sequence) noexcept {
   return frame;
 }
 
-/// Nothing when the frame is of another version, type or length.
+/// Empty when the frame has another version, type or length.
 template <class M>
 std::optional<M> read(const CldFrame& frame) noexcept {
   M message;

@@ -1,5 +1,5 @@
-// Messages of the CLD protocol (devices/cld_protocol.md): frames <-> structs. Pure; integers on the wire, units in
-// the names. A message of the wrong type or length, or with a value it can't have, is refused.
+// Messages of the CLD protocol (devices/cld_protocol.md): frames <-> structs. Pure functions. Integers on the wire;
+// units are in the names. A frame of the wrong type or length, or with an invalid value, gives no message.
 #pragma once
 
 #include "devices/cld/cld_frame.h"
@@ -41,7 +41,7 @@ struct CldWireGains {  ///< of the PID; see devices/simulated/cld_mechanism.h
 struct CldWireLimits {
   std::int32_t lowest_nm = 0, highest_nm = 0;
   std::uint32_t fastest_um_per_s = 0;    ///< of the target; 0: as fast as the drive goes
-  std::uint16_t largest_current_ma = 0;  ///< 0: the firmware's own
+  std::uint16_t largest_current_ma = 0;  ///< 0: the firmware's own limit
 };
 
 struct CldInfo {
@@ -55,22 +55,23 @@ struct CldInfo {
 };
 
 struct CldTelemetry {
-  std::uint32_t time_us = 0;  ///< of the device, wraps
+  std::uint32_t time_us = 0;  ///< device clock, wraps
   std::int32_t position_nm = 0;
-  std::int32_t target_nm = 0;  ///< in force
+  std::int32_t target_nm = 0;  ///< target in effect
   std::int16_t current_ma = 0;
   CldDeviceState state = CldDeviceState::idle;
   CldDeviceFault fault = CldDeviceFault::none;
-  std::uint16_t heard_sequence = 0;  ///< of the newest host frame the device took
-  std::uint16_t missed_frames = 0;   ///< host frames lost by their sequence, wraps
+  std::uint16_t heard_sequence = 0;  ///< of the newest host frame that the device accepted
+  std::uint16_t missed_frames = 0;   ///< host frames lost, counted by sequence number; wraps
 };
 
 struct CldRefused {
-  std::uint8_t type = 0;  ///< of the frame refused
+  std::uint8_t type = 0;  ///< of the refused frame
   std::uint16_t sequence = 0;
-  std::uint8_t reason = 0;  ///< 1 version, 2 type, 3 length, 4 value, 5 not in this state
+  std::uint8_t reason = 0;  ///< 1 version, 2 type, 3 length, 4 value, 5 not allowed in this state
 };
 
+/// Encodes a message; never fails.
 CldFrame to_frame(const CldTarget& message, std::uint16_t sequence) noexcept;
 CldFrame to_frame(const CldWireGains& message, std::uint16_t sequence) noexcept;
 CldFrame to_frame(const CldWireLimits& message, std::uint16_t sequence) noexcept;
@@ -80,7 +81,7 @@ CldFrame to_frame(const CldRefused& message, std::uint16_t sequence) noexcept;
 /// hello, home, stop, clear_fault: no payload.
 CldFrame bare_frame(CldType type, std::uint16_t sequence) noexcept;
 
-/// Nothing when the frame is of another type, version or length, or holds a state or fault that is none.
+/// Empty when the frame has another type, version or length, or an unknown state or fault.
 std::optional<CldTarget> to_target(const CldFrame& frame) noexcept;
 std::optional<CldWireGains> to_gains(const CldFrame& frame) noexcept;
 std::optional<CldWireLimits> to_limits(const CldFrame& frame) noexcept;

@@ -15,7 +15,7 @@ UsbControl maestro_target(std::uint8_t channel, std::uint16_t quarter_us) {
   return {.request = 0x85, .value = quarter_us, .index = channel};
 }
 
-// Speed and acceleration share a request: the index's high bit says which.
+// Speed and acceleration share a request; the high bit of the index selects which.
 UsbControl maestro_speed(std::uint8_t channel, std::uint16_t speed) {
   return {.request = 0x84, .value = speed, .index = channel};
 }

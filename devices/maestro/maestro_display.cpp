@@ -13,7 +13,7 @@ constexpr std::uint32_t kFailuresToLoss = 3;
 
 DisplayCapabilities describe(const MaestroOptions& o) {
   const MaestroCalibration& c = o.calibration;
-  // The travel is symmetric about 0; where the two places are not, the nearer one bounds it.
+  // The travel is symmetric about 0: of the two calibrated positions the one nearer to 0 bounds it.
   return {.name = "Pololu Maestro",
           .travel_m = 2.0 * std::min(-c.low_m, c.high_m),
           .resolution_m = 0.25 * (c.high_m - c.low_m) / std::abs(c.high_us - c.low_us),
@@ -27,7 +27,7 @@ UsbLinkOptions maestro_link_options() {
   UsbLinkOptions o;
   o.match.vendor = kMaestroVendor;
   o.match.products.assign(std::begin(kMaestroProducts), std::end(kMaestroProducts));
-  o.interface_number = -1;  // its requests go to the device
+  o.interface_number = -1;  // requests address the device, not an interface
   return o;
 }
 
@@ -61,7 +61,7 @@ void MaestroDisplay::on_open(UsbLink& link) noexcept {
   unsent_ = false;
   failures_.store(0, kRelaxed);
   std::uint16_t old = 0;
-  targets_.take(old);  // meant for the connection before
+  targets_.take(old);  // a target for the previous connection
   sent_ns_ = usb_now_ns();
   in_flight_ += link.send_control(maestro_speed(options_.channel, options_.speed));
   in_flight_ += link.send_control(maestro_acceleration(options_.channel, options_.acceleration));
@@ -81,7 +81,7 @@ void MaestroDisplay::on_control_done(UsbLink&, bool good, std::int64_t now_ns) n
   }
 }
 
-// The newest target goes out as soon as there is room; those in between need not.
+// Sends the newest target as soon as a transfer is free; older ones are skipped.
 void MaestroDisplay::on_turn(UsbLink& link, std::int64_t now_ns) noexcept {
   if (targets_.take(wanted_)) unsent_ = true;
   if (!unsent_ || in_flight_ >= kMostInFlight) return;

@@ -1,7 +1,8 @@
-// A contact display made of a hobby servo on a Pololu Maestro: open loop, sent to a place and believed to be there.
+// A contact display built from a hobby servo on a Pololu Maestro. Open loop: no measured position, so the commanded one
+// is reported.
 //
-// The Maestro has no time-out for commands over USB: when the program dies, the servo holds its last place. Where a
-// person could be hurt by that, use a controller with a watchdog (devices/cld_protocol.md).
+// The Maestro has no watchdog for USB commands: when the program dies, the servo holds its last position. Where that
+// could hurt a person, use a controller with a watchdog (devices/cld_protocol.md).
 #pragma once
 
 #include "devices/base/mailbox.h"
@@ -20,7 +21,7 @@ struct MaestroOptions {
   std::uint16_t speed = 0;  ///< see maestro_speed
   std::uint8_t acceleration = 0;
   MaestroCalibration calibration{};
-  double settle_s = 0.5;  ///< homing: time to reach the middle
+  double settle_s = 0.5;  ///< duration of homing: time to reach the middle
   UsbLinkOptions link = maestro_link_options();
   UsbTap* tap = nullptr;
 };
@@ -31,10 +32,11 @@ class MaestroDisplay final : public ContactDisplay, private UsbLinkHandler {
   ~MaestroDisplay() override { close(); }
 
   const DisplayCapabilities& capabilities() const override { return capabilities_; }
-  /// Starts looking for the device; it may be plugged in later. Fails on a calibration that can't be, or without USB.
+  /// Starts the link's thread, which looks for the device; it may be plugged in later. Fails on an invalid calibration
+  /// or without libusb.
   Status open() override;
   void close() override;
-  /// The sample's position is the place last sent, rounded to the Maestro's step.
+  /// The sample's position is the one last commanded, rounded to the Maestro's step.
   DisplaySample exchange(const DisplayCommand& command, double dt_s) noexcept override;
   bool report(LinkReport& out) const override;
 
@@ -51,8 +53,8 @@ class MaestroDisplay final : public ContactDisplay, private UsbLinkHandler {
   UsbLink link_;
   Mailbox<std::uint16_t> targets_;            ///< quarter us, 0: off; servo to link
   std::atomic<std::uint32_t> connection_{0};  ///< odd while connected
-  std::atomic<std::uint32_t> answered_{0};    ///< connection in which a setting was taken
-  std::atomic<std::uint32_t> failures_{0};    ///< control transfers in a row that failed
+  std::atomic<std::uint32_t> answered_{0};    ///< connection in which a setting was acknowledged
+  std::atomic<std::uint32_t> failures_{0};    ///< consecutive failed control transfers
   LogHistogram round_trip_us_;
 
   // Link's thread.

@@ -12,9 +12,9 @@ double rounded(double v, double step) { return step > 0.0 ? std::round(v / step)
 
 }  // namespace
 
-// (s^2 + sqrt(2) w s + w^2)(s + p) with p = w / 8 against s^3 + (c + kd) s^2 + kp s + ki of the closed loop. The slow
-// pole's mark on a step would be an overshoot that takes long to go; with the weight b the closed loop's zero,
-// -ki / (b kp), lies on it.
+// Compares the coefficients of (s^2 + sqrt(2) w s + w^2)(s + p), p = w / 8, with those of the closed loop's
+// s^3 + (c + kd) s^2 + kp s + ki. The slow pole alone would cause a long overshoot after a step; the setpoint weight b
+// places the closed loop's zero, -ki / (b kp), on that pole and cancels it.
 CldGains gains_for(double bandwidth_hz, double drag_per_s) {
   const double w = 2.0 * std::numbers::pi * bandwidth_hz, p = w / 8.0, damping = std::numbers::sqrt2 * w;
   const double kp = w * w + damping * p, ki = w * w * p;
@@ -26,7 +26,8 @@ CldMechanism::CldMechanism(const CldMechanismOptions& options)
 
 double CldMechanism::encoder_m() const noexcept { return rounded(position_, options_.step_m); }
 
-// At rest on its target the proportional part is -kp (1 - b) x, and the integral holds it up: it changes with them.
+// At rest on the target the proportional part is -kp (1 - b) x and the integral balances it, so it is recomputed for
+// the new gains.
 void CldMechanism::set_gains(const CldGains& gains) noexcept {
   const auto held_up = [this] { return gains_.p_per_s2 * (1.0 - gains_.target_weight) * encoder_m(); };
   const double before = held_up();
@@ -57,7 +58,7 @@ void CldMechanism::control(double target_m, double reading_m) noexcept {
                           ? full * std::min(1.0, limits_.largest_current_a / options_.full_current_a)
                           : full;
   const double got = std::clamp(wanted, -most, most);
-  // The integral rests while the current is at its limit.
+  // Anti-windup: the integral is frozen while the current is at its limit.
   if (got == wanted) integral_ += gains_.i_per_s3 * (target - reading_m) * kPeriod_s;
   current_ = got / full;
   move(got);
@@ -66,12 +67,12 @@ void CldMechanism::control(double target_m, double reading_m) noexcept {
 void CldMechanism::hold() noexcept {
   velocity_ = current_ = 0.0;
   target_ = last_reading_ = encoder_m();
-  // Goes on smoothly from here when control resumes.
+  // Bumpless restart: makes control resume from here without a jump.
   integral_ = gains_.p_per_s2 * (1.0 - gains_.target_weight) * last_reading_;
 }
 
-// x'' = b - c x' over one period, exactly: v -> b/c + (v - b/c) e, x -> x + b/c T + (v - b/c) (1 - e) / c, e = exp(-c
-// T).
+// Exact solution of x'' = b - c x' over one period T, with e = exp(-c T):
+// v -> b/c + (v - b/c) e, x -> x + b/c T + (v - b/c) (1 - e) / c.
 void CldMechanism::move(double acceleration) noexcept {
   const double c = options_.drag_per_s, decay = std::exp(-c * kPeriod_s);
   const double terminal = acceleration / c;

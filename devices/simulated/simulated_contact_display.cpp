@@ -6,7 +6,7 @@ namespace tangent {
 
 namespace {
 
-constexpr double kNoise_m = 2e-3;  // of an injected fault: beyond any roller's speed at 1 kHz
+constexpr double kRollerNoise_m = 2e-3;  // of an injected fault: beyond any roller's speed at 1 kHz
 
 DisplayCapabilities describe(const SimulatedDisplayOptions& options) {
   return {.name = "simulated contact display",
@@ -38,7 +38,7 @@ DisplaySample SimulatedContactDisplay::measure(double dt_s) noexcept {
   const bool lost = life_.injected() == InjectedFault::drop_out || life_.injected() == InjectedFault::delay_burst;
   if (!lost && life_.injected() != InjectedFault::stuck_encoder) shown_m_ = mechanism_.encoder_m();
   if (life_.injected() == InjectedFault::noise) {
-    shown_m_ += kNoise_m * (2.0 * static_cast<double>(random_() >> 11) * 0x1p-53 - 1.0);
+    shown_m_ += kRollerNoise_m * (2.0 * static_cast<double>(random_() >> 11) * 0x1p-53 - 1.0);
   }
   if (!lost) age_s_ = 0.0;
   return {.position_m = shown_m_, .age_s = age_s_, .state = life_.state(), .fault = life_.fault()};
@@ -49,7 +49,7 @@ DisplaySample SimulatedContactDisplay::exchange(const DisplayCommand& command, d
   const bool moves = life_.ready() || life_.state() == DeviceState::homing;
   const double target = life_.ready() ? command.target_m : 0.0;
   since_control_s_ += dt_s;
-  // Half a period of tolerance, so that rounding of many small steps loses none.
+  // Half a period of tolerance, so that rounding over many small steps loses no period.
   while (since_control_s_ > 0.5 * CldMechanism::kPeriod_s) {
     since_control_s_ -= CldMechanism::kPeriod_s;
     if (!moves)

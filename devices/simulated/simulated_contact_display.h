@@ -1,7 +1,7 @@
-// A contact display that isn't there: a roller driven by a motor under a PID, between two stops, in steps. Figures of
-// the paper's CLD.
+// Simulated contact display: a roller driven by a motor under a PID, with travel stops and a quantised encoder. Default
+// values are those of the paper's CLD.
 //
-// Pure computation: no clock, no thread. The same commands and time steps give the same bits.
+// Pure computation: no clock, no thread. The same commands and time steps give identical results.
 #pragma once
 
 #include "devices/contact_display.h"
@@ -26,7 +26,7 @@ class SimulatedContactDisplay final : public ContactDisplay {
   const DisplayCapabilities& capabilities() const override { return capabilities_; }
   Status open() override { return life_.open(capabilities_.name); }
   void close() override { life_.close(); }
-  /// The PID runs at 1 kHz whatever dt_s is: as often as whole milliseconds have passed.
+  /// The PID runs at 1 kHz whatever dt_s is: once for each whole millisecond that has passed.
   DisplaySample exchange(const DisplayCommand& command, double dt_s) noexcept override;
   void set_controller(const ControllerSettings& settings) noexcept override;
   bool inject(const FaultInjection& fault) noexcept override {
@@ -34,7 +34,7 @@ class SimulatedContactDisplay final : public ContactDisplay {
     return true;
   }
 
-  /// The next exchange finds the device in this fault. Same thread as exchange.
+  /// Puts the device into this fault at the next exchange. Same thread as exchange.
   void inject(DeviceFault fault) noexcept { life_.inject(fault); }
   const CldMechanism& mechanism() const { return mechanism_; }
 

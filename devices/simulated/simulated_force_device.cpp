@@ -9,8 +9,8 @@ namespace tangent {
 namespace {
 
 constexpr double kTremorHz = 9.0;       // physiological tremor of the hand: 8 to 12 Hz
-constexpr double kTremorDamping = 0.2;  // ratio; smaller: nearer to a pure tone
-constexpr double kNoise_m = 20e-3;      // of an injected fault: readings that jump faster than any hand
+constexpr double kTremorDamping = 0.2;  // damping ratio; smaller: closer to a pure tone
+constexpr double kNoise_m = 20e-3;      // of an injected fault: jumps faster than any hand
 
 ForceCapabilities describe(const SimulatedForceOptions& options) {
   ForceCapabilities c;
@@ -31,7 +31,8 @@ Vec3 rounded(const Vec3& v, double step) {
   return step > 0.0 ? Vec3(std::round(v.x / step), std::round(v.y / step), std::round(v.z / step)) * step : v;
 }
 
-/// Zero mean, unit variance, from the generator's bits alone: standard distributions may differ between libraries.
+/// Uniform noise with zero mean and unit variance, computed from the generator's bits: standard distributions may
+/// differ between libraries.
 double uniform_noise(std::mt19937_64& random) {
   const double zero_to_one = static_cast<double>(random() >> 11) * 0x1p-53;
   return (2.0 * zero_to_one - 1.0) * std::numbers::sqrt3;
@@ -48,8 +49,8 @@ void SimulatedForceDevice::place(const HandTarget& target) noexcept {
   velocity_ = target.velocity_m_per_s;
 }
 
-// White noise through a resonator a'' = -w^2 a - 2 z w a' + s n. With n of unit variance held over a tick dt its
-// spectral density is dt, and the stationary variance of a is s^2 dt / (4 z w^3): solved for s.
+// White noise n through a resonator a'' = -w^2 a - 2 z w a' + s n. With n of unit variance, held over a tick dt, its
+// spectral density is dt and the stationary variance of a is s^2 dt / (4 z w^3), which we solve for s.
 void SimulatedForceDevice::update_tremor(double dt_s) noexcept {
   if (options_.tremor_m <= 0.0) return;
   constexpr double w = 2.0 * std::numbers::pi * kTremorHz;
@@ -72,7 +73,7 @@ void SimulatedForceDevice::integrate(const Vec3& force, double dt_s) noexcept {
     const Vec3 pull = options_.hand_stiffness_n_per_m * (goal - position_) +
                       options_.hand_damping_n_s_per_m * (target_.velocity_m_per_s - velocity_);
     velocity_ += h / mass * (pull + force);
-    // Dry friction takes away what it can and no more: it stops a slow mass and never pushes it back.
+    // Dry friction only removes speed: it stops a slow mass and never pushes it back.
     const double speed = std::sqrt(glm::dot(velocity_, velocity_)), braked = h / mass * options_.friction_n;
     if (options_.friction_n > 0.0) velocity_ *= speed > braked ? (speed - braked) / speed : 0.0;
     position_ += h * velocity_;
@@ -88,6 +89,8 @@ ForceSample SimulatedForceDevice::measure(const Vec3& force, double dt_s) noexce
   if (life_.injected() == InjectedFault::noise) {
     for (int axis = 0; axis < 3; ++axis) sample.position_m[axis] += kNoise_m * uniform_noise(random_);
   }
+  const bool moving = !lost && life_.injected() != InjectedFault::stuck_encoder;
+  if (options_.measures_velocity && moving) sample.velocity_m_per_s = velocity_;
   sample.age_s = age_s_;
   sample.orientation = target_.orientation;
   sample.force_n = force;
@@ -101,7 +104,7 @@ ForceSample SimulatedForceDevice::exchange(const ForceCommand& command, double d
   Vec3 force(0.0);
   if (life_.ready()) {
     force = command.force_n;
-    // The motors give no more than their peak, whatever they are told.
+    // The motors saturate at their peak force.
     const double length = std::sqrt(glm::dot(force, force));
     if (length > capabilities_.peak_force_n) force *= capabilities_.peak_force_n / length;
   }

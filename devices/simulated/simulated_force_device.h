@@ -1,7 +1,7 @@
-// A force device that isn't there: a mass held by a hand, pushed by the commanded force. Figures of the PHANToM
-// Premium 1.5 unless said otherwise.
+// Simulated force device: a mass held by a spring-damper hand and pushed by the commanded force. Default values are
+// those of the PHANToM Premium 1.5 unless stated otherwise. SI units, world frame.
 //
-// Pure computation: no clock, no thread. The same seed, targets, commands and time steps give the same bits.
+// Pure computation: no clock, no thread. The same seed, targets, commands and time steps give identical results.
 //
 //   m x'' = k (g - x) + b (g' - x') + F - friction,   g: the hand's target, moving at its velocity, plus tremor
 #pragma once
@@ -18,14 +18,15 @@ namespace tangent {
 struct SimulatedForceOptions {
   std::uint64_t seed = 1;
   double device_mass_kg = 0.075;  ///< apparent
-  double hand_mass_kg = 0.1;      ///< of finger and hand that move with it
+  double hand_mass_kg = 0.1;      ///< moving mass of finger and hand
   double hand_stiffness_n_per_m = 400.0;
-  double hand_damping_n_s_per_m = 12.0;  ///< about half of critical against a contact of 400 N/m
+  double hand_damping_n_s_per_m = 12.0;  ///< about half critical with a contact of 400 N/m
   double tremor_m = 10e-6;               ///< RMS along each axis, around 9 Hz; 0: none
   double position_step_m = 0.03e-3;      ///< of the encoders; 0: exact
+  bool measures_velocity = false;        ///< by a tachometer of its own; a Premium has none
   double friction_n = 0.04;              ///< of the drives, dry; 0: none
   double homing_s = 0.1;
-  int substeps = 4;  ///< of the integration in one exchange
+  int substeps = 4;  ///< integration steps per exchange
 };
 
 class SimulatedForceDevice final : public ForceDevice, public SimulatedHand {
@@ -45,10 +46,10 @@ class SimulatedForceDevice final : public ForceDevice, public SimulatedHand {
     life_.inject(fault);
     return true;
   }
-  /// The next exchange finds the device in this fault. Same thread as exchange.
+  /// Puts the device into this fault at the next exchange. Same thread as exchange.
   void inject(DeviceFault fault) noexcept { life_.inject(fault); }
 
-  const Vec3& exact_position_m() const { return position_; }  ///< before the encoders
+  const Vec3& exact_position_m() const { return position_; }  ///< before quantisation by the encoders
   const Vec3& velocity_m_per_s() const { return velocity_; }
 
  private:
@@ -61,8 +62,8 @@ class SimulatedForceDevice final : public ForceDevice, public SimulatedHand {
   SimulatedLife life_;
   HandTarget target_;
   Vec3 position_{0.0}, velocity_{0.0};
-  Vec3 shown_{0.0};     ///< what the encoders last said
-  double age_s_ = 0.0;  ///< since then
+  Vec3 shown_{0.0};     ///< last encoder reading
+  double age_s_ = 0.0;  ///< time since that reading
   Vec3 tremor_{0.0}, tremor_velocity_{0.0};
   std::mt19937_64 random_;
 };

@@ -15,7 +15,7 @@ void SimulatedLife::update(DeviceRequest request, bool finite, double dt_s) noex
     machine_.fail(next_fault_);
     next_fault_ = DeviceFault::none;
   }
-  if (machine_.state() == DeviceState::open) machine_.enter(DeviceState::firmware);  // says who it is at once
+  if (machine_.state() == DeviceState::open) machine_.enter(DeviceState::firmware);  // identifies itself at once
   if (machine_.state() == DeviceState::homing) {
     homing_for_s_ += dt_s;
     if (homing_for_s_ >= homing_s_) machine_.enter(DeviceState::ready);

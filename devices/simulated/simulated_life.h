@@ -1,5 +1,5 @@
-// What the simulated devices have in common: they are opened, home for a while, are asked for things, and have the
-// faults they are told to have.
+// State machine shared by the simulated devices: opening, homing for a while, requests, injected faults. Not
+// thread-safe: same thread as exchange.
 #pragma once
 
 #include "core/base/result.h"
@@ -14,19 +14,19 @@ class SimulatedLife {
  public:
   explicit SimulatedLife(double homing_s) : homing_s_(homing_s) {}
 
-  /// `name` is of the device, for the message.
+  /// Fails when already open; `name` is the device's, for the message.
   Status open(const std::string& name);
   void close() { machine_.enter(DeviceState::absent); }
   void inject(const FaultInjection& fault) noexcept { timer_.begin(fault); }
   void inject(DeviceFault fault) noexcept { next_fault_ = fault; }
 
-  /// Once per exchange, before anything moves. `finite`: the command's value is.
+  /// Call once per exchange, before the device is integrated. `finite`: whether the command's value is finite.
   void update(DeviceRequest request, bool finite, double dt_s) noexcept;
 
   DeviceState state() const { return machine_.state(); }
   DeviceFault fault() const { return machine_.fault(); }
   bool ready() const { return machine_.ready(); }
-  InjectedFault injected() const { return injected_; }  ///< in the present exchange
+  InjectedFault injected() const { return injected_; }  ///< in this exchange
 
  private:
   DeviceStateMachine machine_;

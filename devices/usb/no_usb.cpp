@@ -1,4 +1,4 @@
-// In place of the transport where libusb is missing: everything says so.
+// Replaces the transport where libusb is missing: every call fails with that message.
 #include "devices/usb/usb_link.h"
 
 namespace tangent {

@@ -1,7 +1,7 @@
-// Writes every packet of a link to a text file, so that an owner of the hardware can send evidence of what it does.
+// Logs every packet of a link to a text file, for bug reports from owners of the hardware.
 //
-// One line a packet: seconds since the start, direction (in, out, control), status, byte count, bytes in hexadecimal.
-// The link's thread puts packets into a ring; a thread of its own writes them.
+// One line per packet: seconds since the start, direction (in, out, control), status, byte count, bytes in hexadecimal.
+// The link's thread pushes packets into a ring; the recorder's own thread writes them.
 #pragma once
 
 #include "devices/base/ring.h"
@@ -17,14 +17,17 @@ namespace tangent {
 
 class PacketRecorder final : public UsbTap {
  public:
+  /// Fails when the file can't be written.
   static Result<std::unique_ptr<PacketRecorder>> create(const std::filesystem::path& file);
-  /// Writes what is left. After the link has stopped.
+  /// Writes the rest of the ring. Precondition: the link has stopped.
   ~PacketRecorder() override;
   PacketRecorder(const PacketRecorder&) = delete;
   PacketRecorder& operator=(const PacketRecorder&) = delete;
 
+  /// Link's thread. Copies at most kUsbPacketBytes; counts a drop when the ring is full.
   void packet(Direction direction, std::int64_t time_ns, std::span<const std::uint8_t> bytes,
               int status) noexcept override;
+  /// Packets lost because the ring was full. Any thread.
   std::uint64_t drops() const noexcept { return ring_.drops(); }
 
  private:

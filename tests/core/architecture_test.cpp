@@ -1,5 +1,5 @@
-// The rooms of the project and their order stand in README.md, in its block ```rooms; every include of every source
-// file is held against it, and every folder of sources has to be in it.
+// Checks every include of every source file against the order of rooms in README.md (its block ```rooms), and that
+// every folder of sources is listed there.
 #include <doctest/doctest.h>
 
 #include <algorithm>

@@ -80,7 +80,7 @@ inline ScenePtr file_scene(const std::filesystem::path& path, double crease_deg)
 
 inline ScenePtr spot_scene(double crease_deg) { return file_scene(testing::spot_file(), crease_deg); }
 
-/// One tick from nothing.
+/// One tick without kept state.
 inline TickOutput solve_once(const ScenePtr& scene, const Preset& preset, const FingerPose& pose,
                              IterationTrace* trace = nullptr) {
   Stepper stepper(scene);
@@ -105,7 +105,7 @@ inline int rounds(int full) {
 #endif
 }
 
-/// Random numbers that are the same everywhere (the distributions of <random> need not be).
+/// Random numbers that are the same on every platform (the distributions of <random> are not).
 class Random {
  public:
   explicit Random(std::uint64_t seed) : engine_(seed) {}

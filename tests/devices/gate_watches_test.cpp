@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kDt = 1e-3;
 
-/// Work noted of x = A sin(w t) under a spring K that answers `delay_s` late, for a second.
+/// Work measured for x = A sin(w t) against a spring K with a delay of `delay_s`, over a second.
 double shake_work(double amplitude, double hz, double stiffness, double delay_s) {
   ShakeWatch watch;
   const double w = 2.0 * std::numbers::pi * hz;
@@ -48,7 +48,7 @@ TEST_CASE("peak force may be held for the stated time, then the motors' heat all
 TEST_CASE("a spring does no work on a shaking hand, a late one does, as much as theory says") {
   const double spring = shake_work(0.5e-3, 40.0, 1000.0, 0.0);
   const double late = shake_work(0.5e-3, 40.0, 1000.0, 1.5e-3);
-  // Net power K A^2 w sin(w T) / 2 gathers over the memory; the stored energy K A^2 / 2 swings on top of it.
+  // Net power K A^2 w sin(w T) / 2 accumulates over the memory; the stored energy K A^2 / 2 oscillates on top of it.
   const double w = 2.0 * std::numbers::pi * 40.0;
   const double net = 0.5 * 1000.0 * 0.25e-6 * w * std::sin(w * 1.5e-3) * ShakeWatch::kMemory_s;
   CHECK(spring < 0.5 * 1000.0 * 0.25e-6);

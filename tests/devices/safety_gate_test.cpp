@@ -10,7 +10,7 @@ using namespace tangent;
 
 namespace {
 
-constexpr double kDt = 1e-3;
+constexpr double kTick_s = 1e-3;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -23,7 +23,7 @@ GateInput ready_input(const Vec3& force, double display = 0.0) {
 SafetyGate armed_gate(const GateLimits& l = limits()) {
   SafetyGate gate(l);
   gate.arm();
-  gate.pass(ready_input(Vec3(0.0)), kDt);
+  gate.pass(ready_input(Vec3(0.0)), kTick_s);
   return gate;
 }
 
@@ -36,7 +36,7 @@ std::uint64_t count(const SafetyGate& gate, GateAction action) {
 TEST_CASE("a force within the limits passes the armed gate unchanged") {
   SafetyGate gate = armed_gate();
   const Vec3 force(0.3, -0.7, 1.1);
-  const GateOutput out = gate.pass(ready_input(force, 1.25e-3), kDt);
+  const GateOutput out = gate.pass(ready_input(force, 1.25e-3), kTick_s);
   CHECK(out.force_n == force);
   CHECK(out.display_m == 1.25e-3);
   CHECK(out.state == GateState::armed);
@@ -45,20 +45,20 @@ TEST_CASE("a force within the limits passes the armed gate unchanged") {
 
 TEST_CASE("no force passes before arming, after a stop, or while the device isn't ready") {
   SafetyGate gate(limits());
-  CHECK(gate.pass(ready_input(Vec3(1, 0, 0)), kDt).force_n == Vec3(0.0));
+  CHECK(gate.pass(ready_input(Vec3(1, 0, 0)), kTick_s).force_n == Vec3(0.0));
   CHECK(count(gate, GateAction::withheld) == 1);
 
   gate.arm();
   for (const DeviceState state : {DeviceState::absent, DeviceState::open, DeviceState::homing}) {
     GateInput input = ready_input(Vec3(1, 0, 0));
     input.force_device = state;
-    const GateOutput out = gate.pass(input, kDt);
+    const GateOutput out = gate.pass(input, kTick_s);
     CHECK(out.force_n == Vec3(0.0));
     CHECK(out.fault == GateFault::none);
   }
-  CHECK(gate.pass(ready_input(Vec3(1, 0, 0)), kDt).force_n == Vec3(1, 0, 0));
+  CHECK(gate.pass(ready_input(Vec3(1, 0, 0)), kTick_s).force_n == Vec3(1, 0, 0));
   gate.stop();
-  const GateOutput stopped = gate.pass(ready_input(Vec3(1, 0, 0)), kDt);
+  const GateOutput stopped = gate.pass(ready_input(Vec3(1, 0, 0)), kTick_s);
   CHECK(stopped.force_n == Vec3(0.0));
   CHECK(stopped.state == GateState::disarmed);
 }
@@ -68,7 +68,7 @@ TEST_CASE("the force is clamped to the device's peak in its own direction") {
   wide.slew_n_per_s = 1e9;
   for (const Vec3 wanted : {Vec3(20, 0, 0), Vec3(-30, 40, 0), Vec3(1e200, -1e200, 1e200), Vec3(8.4, 8.4, 8.4)}) {
     SafetyGate gate = armed_gate(wide);
-    const GateOutput out = gate.pass(ready_input(wanted), kDt);
+    const GateOutput out = gate.pass(ready_input(wanted), kTick_s);
     CHECK(glm::length(out.force_n) == doctest::Approx(8.5).epsilon(1e-12));
     const Vec3 direction = wanted / std::max({std::abs(wanted.x), std::abs(wanted.y), std::abs(wanted.z)});
     CHECK(glm::length(glm::cross(out.force_n, direction)) < 1e-12);
@@ -84,7 +84,7 @@ TEST_CASE("the force changes no faster than the slew limit, up, down and round")
   int limited = 0;
   for (const Vec3 wanted : {Vec3(8, 0, 0), Vec3(8, 0, 0), Vec3(8, 0, 0), Vec3(8, 0, 0), Vec3(8, 0, 0), Vec3(0, 8, 0),
                             Vec3(0, 8, 0), Vec3(0, 0, 0), Vec3(-8, 0, 0)}) {
-    const GateOutput out = gate.pass(ready_input(wanted), kDt);
+    const GateOutput out = gate.pass(ready_input(wanted), kTick_s);
     CHECK(glm::length(out.force_n - last) <= 2.0 * (1.0 + 1e-12));
     limited += out.did(GateAction::slew_limited);
     last = out.force_n;
@@ -100,12 +100,12 @@ TEST_CASE("after arming the force grows in linearly, and again when the ramp res
   gate.arm();
   const auto ramp = [&gate] {
     for (int tick = 0; tick < 100; ++tick) {
-      const GateOutput out = gate.pass(ready_input(Vec3(0, 0, 1)), kDt);
+      const GateOutput out = gate.pass(ready_input(Vec3(0, 0, 1)), kTick_s);
       CHECK(out.force_n.z == doctest::Approx(tick * 0.01).epsilon(1e-9));
       CHECK(out.state == GateState::ramping);
     }
-    gate.pass(ready_input(Vec3(0, 0, 1)), kDt);
-    const GateOutput full = gate.pass(ready_input(Vec3(0, 0, 1)), kDt);
+    gate.pass(ready_input(Vec3(0, 0, 1)), kTick_s);
+    const GateOutput full = gate.pass(ready_input(Vec3(0, 0, 1)), kTick_s);
     CHECK(full.force_n.z == 1.0);
     CHECK(full.state == GateState::armed);
   };
@@ -114,31 +114,31 @@ TEST_CASE("after arming the force grows in linearly, and again when the ramp res
   ramp();
   gate.stop();
   gate.restart_ramp();  // is no way to arm
-  CHECK(gate.pass(ready_input(Vec3(0, 0, 1)), kDt).state == GateState::disarmed);
+  CHECK(gate.pass(ready_input(Vec3(0, 0, 1)), kTick_s).state == GateState::disarmed);
 }
 
 TEST_CASE("a force or target that is not finite stops the force until a person re-arms") {
   for (const double bad : {kNan, kInfinity, -kInfinity}) {
     for (int where = 0; where < 4; ++where) {
       SafetyGate gate = armed_gate();
-      gate.pass(ready_input(Vec3(1, 1, 1), 2e-3), kDt);
+      gate.pass(ready_input(Vec3(1, 1, 1), 2e-3), kTick_s);
       GateInput input = ready_input(Vec3(1, 1, 1), 2e-3);
       if (where < 3)
         input.force_n[where] = bad;
       else
         input.display_m = bad;
-      const GateOutput out = gate.pass(input, kDt);
+      const GateOutput out = gate.pass(input, kTick_s);
       CHECK(out.force_n == Vec3(0.0));
       CHECK(out.display_m == 2e-3);  // holds still
       CHECK(out.state == GateState::faulted);
       CHECK(out.fault == (where < 3 ? GateFault::force_not_finite : GateFault::display_not_finite));
       CHECK(out.did(GateAction::refused_not_finite));
 
-      CHECK(gate.pass(ready_input(Vec3(1, 1, 1)), kDt).force_n == Vec3(0.0));
+      CHECK(gate.pass(ready_input(Vec3(1, 1, 1)), kTick_s).force_n == Vec3(0.0));
       gate.stop();
       CHECK(gate.state() == GateState::faulted);
       gate.arm();
-      CHECK(gate.pass(ready_input(Vec3(1, 1, 1)), kDt).force_n == Vec3(1, 1, 1));
+      CHECK(gate.pass(ready_input(Vec3(1, 1, 1)), kTick_s).force_n == Vec3(1, 1, 1));
       CHECK(gate.faults() == 1);
     }
   }
@@ -150,10 +150,10 @@ TEST_CASE("a device that leaves ready while armed latches a fault, and coming ba
       SafetyGate gate = armed_gate();
       GateInput input = ready_input(Vec3(0, 0, 1));
       (display ? input.display : input.force_device) = left;
-      const GateOutput out = gate.pass(input, kDt);
+      const GateOutput out = gate.pass(input, kTick_s);
       CHECK(out.force_n == Vec3(0.0));
       CHECK(out.fault == (display ? GateFault::contact_display : GateFault::force_device));
-      CHECK(gate.pass(ready_input(Vec3(0, 0, 1)), kDt).force_n == Vec3(0.0));
+      CHECK(gate.pass(ready_input(Vec3(0, 0, 1)), kTick_s).force_n == Vec3(0.0));
       CHECK(gate.faults() == 1);
     }
   }
@@ -164,8 +164,8 @@ TEST_CASE("a missing display is no fault") {
   gate.arm();
   GateInput input = ready_input(Vec3(0, 0, 1), 0.5);
   input.display = DeviceState::absent;
-  gate.pass(input, kDt);
-  const GateOutput out = gate.pass(input, kDt);
+  gate.pass(input, kTick_s);
+  const GateOutput out = gate.pass(input, kTick_s);
   CHECK(out.force_n == Vec3(0, 0, 1));
   CHECK(out.actions == 0);
 }
@@ -175,21 +175,21 @@ TEST_CASE("the display's target keeps to the bounds asked for, which can't widen
   GateInput input = ready_input(Vec3(0.0), 8e-3);
   input.display_lowest_m = -5.0;
   input.display_highest_m = 4e-3;
-  CHECK(gate.pass(input, kDt).display_m == 4e-3);
+  CHECK(gate.pass(input, kTick_s).display_m == 4e-3);
   CHECK(count(gate, GateAction::display_clamped) == 1);
   input.display_m = -0.5;
-  CHECK(gate.pass(input, kDt).display_m == -0.01);
+  CHECK(gate.pass(input, kTick_s).display_m == -0.01);
   input.display_m = kNan;
-  CHECK(gate.pass(input, kDt).fault == GateFault::display_not_finite);
+  CHECK(gate.pass(input, kTick_s).fault == GateFault::display_not_finite);
 }
 
 TEST_CASE("the display's target is clamped to its travel, and holds while stopped") {
   SafetyGate gate = armed_gate();
-  CHECK(gate.pass(ready_input(Vec3(0.0), 0.5), kDt).display_m == 0.01);
-  CHECK(gate.pass(ready_input(Vec3(0.0), -0.5), kDt).display_m == -0.01);
+  CHECK(gate.pass(ready_input(Vec3(0.0), 0.5), kTick_s).display_m == 0.01);
+  CHECK(gate.pass(ready_input(Vec3(0.0), -0.5), kTick_s).display_m == -0.01);
   CHECK(count(gate, GateAction::display_clamped) == 2);
   gate.stop();
-  CHECK(gate.pass(ready_input(Vec3(0.0), 0.004), kDt).display_m == -0.01);
+  CHECK(gate.pass(ready_input(Vec3(0.0), 0.004), kTick_s).display_m == -0.01);
 }
 
 TEST_CASE("beyond the workspace the force fades out over the margin, wherever the workspace was placed") {
@@ -203,7 +203,7 @@ TEST_CASE("beyond the workspace the force fades out over the margin, wherever th
       gate.restart_ramp();
       GateInput input = ready_input(Vec3(0, 0, 2));
       input.position_m = centre + offset;
-      const GateOutput out = gate.pass(input, kDt);
+      const GateOutput out = gate.pass(input, kTick_s);
       CHECK(out.did(GateAction::workspace_faded) == faded);
       return out.force_n.z;
     };
@@ -221,7 +221,7 @@ TEST_CASE("held at peak force, the gate comes down to the continuous force by it
   double force = 0.0, fastest_change = 0.0;
   for (int i = 0; i < 60'000; ++i) {
     const double last = force;
-    force = gate.pass(ready_input(Vec3(0, 0, 8.5)), kDt).force_n.z;
+    force = gate.pass(ready_input(Vec3(0, 0, 8.5)), kTick_s).force_n.z;
     if (i > 10) fastest_change = std::max(fastest_change, std::abs(force - last));
   }
   CHECK(force == doctest::Approx(1.4).epsilon(0.01));
@@ -231,8 +231,8 @@ TEST_CASE("held at peak force, the gate comes down to the continuous force by it
   // Re-arming does not cool the motors.
   gate.stop();
   gate.arm();
-  gate.pass(ready_input(Vec3(0, 0, 8.5)), kDt);
-  for (int i = 0; i < 5; ++i) force = gate.pass(ready_input(Vec3(0, 0, 8.5)), kDt).force_n.z;
+  gate.pass(ready_input(Vec3(0, 0, 8.5)), kTick_s);
+  for (int i = 0; i < 5; ++i) force = gate.pass(ready_input(Vec3(0, 0, 8.5)), kTick_s).force_n.z;
   CHECK(force < 2.0);
 }
 
@@ -240,20 +240,20 @@ TEST_CASE("a late tick or a stale sample brings the force to zero within two tic
   for (int what = 0; what < 3; ++what) {
     CAPTURE(what);
     SafetyGate gate = armed_gate();
-    REQUIRE(gate.pass(ready_input(Vec3(0, 0, 2)), kDt).force_n.z == 2.0);
+    REQUIRE(gate.pass(ready_input(Vec3(0, 0, 2)), kTick_s).force_n.z == 2.0);
     GateInput input = ready_input(Vec3(0, 0, 2));
     if (what == 1) input.position_age_s = 10.5e-3;
     if (what == 2) input.display_age_s = kNan;
-    const GateOutput first = gate.pass(input, what == 0 ? 21e-3 : kDt);
+    const GateOutput first = gate.pass(input, what == 0 ? 21e-3 : kTick_s);
     CHECK(first.force_n.z == 1.0);
     CHECK(first.did(GateAction::ramped_out));
     CHECK(first.fault == (what == 0 ? GateFault::late_tick : GateFault::stale_sample));
-    CHECK(gate.pass(ready_input(Vec3(0, 0, 2)), kDt).force_n == Vec3(0.0));
-    CHECK(gate.pass(ready_input(Vec3(0, 0, 2)), kDt).force_n == Vec3(0.0));
+    CHECK(gate.pass(ready_input(Vec3(0, 0, 2)), kTick_s).force_n == Vec3(0.0));
+    CHECK(gate.pass(ready_input(Vec3(0, 0, 2)), kTick_s).force_n == Vec3(0.0));
     CHECK(gate.state() == GateState::faulted);
     CHECK(gate.faults() == 1);
     gate.arm();
-    CHECK(gate.pass(ready_input(Vec3(0, 0, 2)), kDt).force_n.z == 2.0);
+    CHECK(gate.pass(ready_input(Vec3(0, 0, 2)), kTick_s).force_n.z == 2.0);
   }
   SafetyGate gate = armed_gate();
   GateInput input = ready_input(Vec3(0, 0, 2));
@@ -264,25 +264,25 @@ TEST_CASE("a late tick or a stale sample brings the force to zero within two tic
 TEST_CASE("a position that jumps, freezes or is not finite stops the force") {
   SafetyGate gate = armed_gate();
   GateInput input = ready_input(Vec3(0, 0, 2));
-  gate.pass(input, kDt);
+  gate.pass(input, kTick_s);
   input.position_m = Vec3(9e-3, 0, 0);
-  CHECK(gate.pass(input, kDt).state == GateState::armed);
+  CHECK(gate.pass(input, kTick_s).state == GateState::armed);
   input.position_m = Vec3(20e-3, 0, 0);
-  GateOutput out = gate.pass(input, kDt);
+  GateOutput out = gate.pass(input, kTick_s);
   CHECK(out.fault == GateFault::position_jumped);
   CHECK(out.force_n == Vec3(0.0));
 
   gate.arm();
-  gate.pass(input, kDt);
+  gate.pass(input, kTick_s);
   input.position_m.y = kNan;
-  out = gate.pass(input, kDt);
+  out = gate.pass(input, kTick_s);
   CHECK(out.fault == GateFault::position_not_finite);
   CHECK(out.force_n == Vec3(0.0));
 
   gate.arm();
   for (int i = 0; i < 60; ++i) {
     input.position_m = Vec3(0.1e-3 * std::min(i, 30), 0, 0);
-    out = gate.pass(input, kDt);
+    out = gate.pass(input, kTick_s);
     CHECK(out.force_n == (i < 50 ? Vec3(0, 0, 2) : Vec3(0.0)));
   }
   CHECK(out.fault == GateFault::position_frozen);
@@ -294,7 +294,7 @@ TEST_CASE("a roller that stands still far from its target stops the force, if th
     GateInput input = ready_input(Vec3(0, 0, 1), 4e-3);
     input.display_measures = measures;
     GateOutput out;
-    for (int i = 0; i < 60; ++i) out = gate.pass(input, kDt);
+    for (int i = 0; i < 60; ++i) out = gate.pass(input, kTick_s);
     CHECK(out.fault == (measures ? GateFault::display_frozen : GateFault::none));
   }
 }

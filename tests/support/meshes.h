@@ -1,5 +1,5 @@
-// Files of meshes and poses that tests read: those of tests/assets, which are always there, and larger ones of a folder
-// that not everybody has (TANGENT_SHARED_ASSETS, see tests/README.md).
+// Mesh and pose files for tests: those of tests/assets, which are always present, and larger ones in an optional folder
+// (TANGENT_SHARED_ASSETS, see tests/README.md).
 #pragma once
 
 #include <doctest/doctest.h>
@@ -17,8 +17,8 @@ inline std::filesystem::path shared_file(const std::string& name) {
   return std::filesystem::path(TANGENT_SHARED_ASSETS) / name;
 }
 
-/// To be asked before anything else of a case, which returns on false: ctest reports a case that printed this message
-/// as skipped, whatever else it checked.
+/// Call first in a test case and return on false: ctest reports a case that printed this message as skipped, whatever
+/// else it checked.
 inline bool shared_files_there(std::initializer_list<const char*> names) {
   for (const char* name : names) {
     if (std::filesystem::exists(shared_file(name))) continue;

@@ -1,4 +1,4 @@
-// The program run as a process of its own.
+// Runs the program as a separate process.
 #pragma once
 
 #include "tests/support/temp_folder.h"
@@ -11,12 +11,13 @@
 #include <vector>
 
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 namespace tangent::testing {
 
-/// Compares as the number it is; in a failed check it also says what the process said.
+/// Compares as a number; a failed check also prints the output of the process.
 struct ExitCode {
   int number = -1;  ///< -1: ended by a signal
   std::string said;
@@ -30,9 +31,10 @@ struct ExitCode {
 struct ProcessResult {
   ExitCode exit_code;
   std::string out, err;
+  long peak_kb = 0;  ///< of its memory
 };
 
-/// A process under way. Its output is kept in files, so it never blocks.
+/// A running process. Its output goes to files, so it never blocks.
 class Process {
  public:
   explicit Process(std::vector<std::string> arguments, const std::string& program = TANGENT_PROGRAM) {
@@ -54,11 +56,12 @@ class Process {
 
   ProcessResult wait() const {
     int status = 0;
-    while (::waitpid(id_, &status, 0) < 0 && errno == EINTR) {}
+    struct rusage usage {};
+    while (::wait4(id_, &status, 0, &usage) < 0 && errno == EINTR) {}
     const std::string err = read_text(folder_.file("err"));
-    // What a sanitizer finds fails the test also where it expects a failure of the program.
+    // A sanitizer's report fails the test even where the program is expected to fail.
     CHECK_MESSAGE(!contains(err, "Sanitizer"), err);
-    return {{WIFEXITED(status) ? WEXITSTATUS(status) : -1, err}, read_text(folder_.file("out")), err};
+    return {{WIFEXITED(status) ? WEXITSTATUS(status) : -1, err}, read_text(folder_.file("out")), err, usage.ru_maxrss};
   }
 
  private:

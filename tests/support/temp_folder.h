@@ -1,14 +1,13 @@
-// A folder of a test's own, removed with everything in it.
+// A temporary folder for a test, removed with its contents.
 #pragma once
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
 #include <string>
 #include <string_view>
-
-#include <stdlib.h>
 
 namespace tangent::testing {
 
@@ -32,7 +31,7 @@ class TempFolder {
     std::ofstream(file(name), std::ios::binary) << contents;
     return file(name);
   }
-  /// Names of the entries, to see that nothing was left behind.
+  /// Number of entries, to check that nothing was left behind.
   std::size_t entry_count() const {
     std::size_t count = 0;
     for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(path_)) ++count;

@@ -1,4 +1,4 @@
-// For programs without the counter: an object file with the same function takes this one's place.
+// For programs without the counter. counting_new.cpp defines the same function and replaces this object file.
 #include "workbench/bench/allocation_count.h"
 
 namespace tangent {

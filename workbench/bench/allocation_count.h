@@ -1,5 +1,5 @@
-// How often this thread has asked the C++ heap for memory. Counted in programs that link tangent_allocation_counter,
-// which replaces operator new; elsewhere the count stays zero.
+// Number of heap allocations (operator new) of this thread. Counted in programs that link tangent_allocation_counter;
+// zero in all others.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,7 @@
 #include "workbench/bench/case_paths.h"
 
 #include "workbench/session/exploration_path.h"
+#include "workbench/session/stroke_path.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,11 +22,8 @@ Poses renumbered(Poses poses) {
   return poses;
 }
 
-}  // namespace
-
-Poses explore(const ContactScene& scene, const Finger& finger, double speed, double press, int ticks) {
-  const double pad = pad_distance_m(finger);
-  const ExplorationPath path = ExplorationPath::build(scene, pad);
+template <class Path>
+Poses along(const Path& path, double pad, double speed, double press, int ticks) {
   Poses poses;
   for (int i = 0; i < ticks; ++i) {
     const PathPose pose = path.at(speed * kTickSeconds * i, pad, press);
@@ -33,6 +31,20 @@ Poses explore(const ContactScene& scene, const Finger& finger, double speed, dou
     poses.back().finger.orientation = pose.orientation;
   }
   return poses;
+}
+
+}  // namespace
+
+Poses explore(const ContactScene& scene, const Finger& finger, double speed, double press, int ticks) {
+  const double pad = pad_distance_m(finger);
+  return along(ExplorationPath::build(scene, pad), pad, speed, press, ticks);
+}
+
+Result<Poses> stroke(const ContactScene& scene, const Finger& finger, double speed, double press, int ticks) {
+  const double pad = pad_distance_m(finger);
+  const Result<StrokePath> path = StrokePath::build(scene, pad);
+  if (!path) return tl::unexpected(path.error());
+  return along(*path, pad, speed, press, ticks);
 }
 
 Poses around_ball(const Vec3& centre, double distance, double speed, int ticks) {
@@ -107,7 +119,7 @@ Poses along_edges(const ContactScene& scene, double height, int per_edge, int ti
     const auto over = [&](std::uint32_t k) { return mesh.origin() + mesh.position(t, k) + height * mesh.normal(t, k); };
     poses.push_back(at(i, f == 0.0 ? over(corner) : (1.0 - f) * over(corner) + f * over(next)));
     if ((i + 1) % per_edge != 0) continue;
-    // Every other time on the far side of the edge ahead, so that the way goes on over the mesh.
+    // Every other time on the far side of the edge ahead, so that the path advances over the mesh.
     const std::uint32_t vertex = mesh.vertex(t, next);
     const EdgeLink link = mesh.across(t, next);
     corner = next;

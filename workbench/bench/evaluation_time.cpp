@@ -28,7 +28,8 @@ std::vector<Place> places_of(const ContactMesh& mesh, std::span<const TickOutput
   return places;
 }
 
-/// `chain`: 0, or so small that it changes no parameter: then each evaluation needs the one before.
+/// `chain`: 0 for independent evaluations; or so small that it changes no parameter, but each evaluation depends on the
+/// previous one.
 double round_ns(const std::vector<Place>& places, double chain, double& sink) {
   constexpr int kEvaluations = 4096;
   double last = 0.0;
@@ -44,7 +45,7 @@ double round_ns(const std::vector<Place>& places, double chain, double& sink) {
   return static_cast<double>(TickClock::now() - from) / kEvaluations;
 }
 
-/// Middle mean of single evaluations, as of single ticks.
+/// Middle mean of evaluations timed one by one, as ticks are.
 double alone_ns(const std::vector<Place>& places, const TickClock& clock, double& sink) {
   constexpr std::size_t kEvaluations = 16384;
   std::vector<double> ns;

@@ -1,4 +1,4 @@
-// The yardstick: one evaluation of point, normal and all first derivatives of a patch.
+// The unit of comparison: the time of one evaluation of a patch's point, normal and all first derivatives.
 #pragma once
 
 #include "core/tick/step.h"
@@ -9,13 +9,13 @@
 namespace tangent::bench {
 
 struct EvaluationTime {
-  double throughput_ns = 0.0;  ///< one of many independent evaluations: the smallest figure there is
-  double latency_ns = 0.0;     ///< each waits for the one before, as in an iteration
-  double alone_ns = 0.0;       ///< middle mean of many timed one by one, clock taken off, as ticks are: what ratios use
+  double throughput_ns = 0.0;  ///< per evaluation, many independent ones: the smallest figure
+  double latency_ns = 0.0;     ///< each depends on the previous one, as in an iteration
+  double alone_ns = 0.0;       ///< middle mean, timed one by one less the clock, as ticks are: used in ratios
 };
 
-/// On the patches of up to 16 of the ticks' triangles (as many as a stepper keeps), at the ticks' places. Least of
-/// several rounds.
+/// Measured on the patches of up to 16 of the ticks' triangles (as many as a stepper keeps), at the ticks' places.
+/// Minimum of several rounds.
 EvaluationTime evaluation_time(const ContactMesh& mesh, std::span<const TickOutput> ticks, NormalForm form,
                                const TickClock& clock);
 

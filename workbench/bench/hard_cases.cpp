@@ -1,4 +1,4 @@
-// Hard by the mesh, by the finger's way over it, by the finger itself, or by scale and numbers.
+// Scenes that are hard by the mesh, by the finger's path over it, by the finger itself, or by scale and numerics.
 #include "core/lab/objects/generate.h"
 #include "core/lab/objects/generate_hard.h"
 #include "workbench/bench/bench_case.h"
@@ -41,7 +41,7 @@ PathOf passing(std::vector<Vec3> points) {
   };
 }
 
-/// Every hard mesh, explored as the simulated hand does it or on a way of its own.
+/// Every hard mesh, explored on the simulated hand's path or on a path of its own.
 void add_hard_meshes(std::vector<BenchCase>& cases) {
   for (const std::string& name : hard_mesh_names()) {
     cases.push_back(make_case(name, std::string(hard_mesh_description(name)), name, exploring));
@@ -61,7 +61,7 @@ void add_hard_meshes(std::vector<BenchCase>& cases) {
   }
 }
 
-/// Known objects, each place of which is hard.
+/// Ordinary objects with a finger at hard places.
 void add_hard_places(std::vector<BenchCase>& cases) {
   const auto add = [&](const char* name, const char* what, const char* mesh, PathOf path) -> BenchCase& {
     return cases.emplace_back(make_case(name, what, mesh, std::move(path)));
@@ -99,7 +99,7 @@ void add_hard_places(std::vector<BenchCase>& cases) {
   coarse.mesh = [] { return Result<PolygonMesh>(make_icosphere(0.040, 0)); };
 }
 
-/// Known objects on ways that are hard: leaps, rest, poses exactly on features, inside, far off, fast.
+/// Ordinary objects on hard paths: leaps, rest, poses exactly on features, inside, far off, fast.
 void add_hard_ways(std::vector<BenchCase>& cases) {
   const auto add = [&](const char* name, const char* what, const char* mesh, PathOf path) -> BenchCase& {
     return cases.emplace_back(make_case(name, what, mesh, std::move(path)));
@@ -159,7 +159,7 @@ void add_hard_fingers(std::vector<BenchCase>& cases) {
   }
 }
 
-/// A sphere of 320 triangles times `scale`, the finger, its way and the tolerance with it, moved by `offset`.
+/// A sphere of 320 triangles, scaled by `scale` together with finger, path and tolerance, moved by `offset`.
 BenchCase scaled_sphere(const std::string& name, const std::string& what, double scale, const Vec3& offset) {
   BenchCase c = make_case(name, what, "", [=](const ContactScene&, const Finger& finger, int ticks) {
     return around_ball(offset, 0.5 * scale + finger.radius_m - scale / 80.0, scale / 0.8, ticks);

@@ -13,9 +13,9 @@
 namespace tangent::bench {
 namespace {
 
-constexpr std::size_t kStopStride = 64;  // ticks between two looks at the stop
+constexpr std::size_t kStopStride = 64;  // ticks between checks of the stop
 
-/// Loops about places of the run: circles of 1/40 of the object's size (2 mm on 80 mm) in the contact's plane.
+/// Closed loops at places of the run: circles of 1/40 of the object's size (2 mm on 80 mm) in the contact's plane.
 WorkReport measure_work(const ScenePtr& scene, const Preset& preset, std::span<const TickInput> poses,
                         std::span<const TickOutput> reference, const Stop& stop) {
   constexpr std::size_t kLoops = 12;
@@ -48,10 +48,13 @@ MethodReport measure_method(Method method, const BenchCase& bench_case, const Sc
   report.method = method;
   Preset preset = bench_case.preset;
   preset.solver.method = method;
-  if (method == Method::paper) preset = with_best_gain(scene, preset, poses, options.stop);
+  if (method == Method::paper && !bench_case.own_gains) preset = with_best_gain(scene, preset, poses, options.stop);
   report.gain_curvature_m = preset.solver.gain_curvature_m;
   const TimedRun run = timed_run(scene, preset, poses, options.repeats, clock, options.stop);
   report.run = run_statistics(poses, run.outputs, run.ns);
+  RoughnessCounter roughness;
+  for (std::size_t i = 0; i < run.outputs.size(); ++i) roughness.add(preset, poses[i], run.outputs[i]);
+  report.roughness = roughness.result();
   report.typical_ns = run.typical_ns;
   report.allocations = run.allocations;
   report.allocations_counted = allocation_count().counted;
@@ -62,7 +65,7 @@ MethodReport measure_method(Method method, const BenchCase& bench_case, const Sc
   comparison.reserve(poses.size());
   for (std::size_t i = 0; i < run.outputs.size(); ++i) {
     comparison.add(run.outputs[i], reference[i]);
-    if (run.outputs[i].status == TickStatus::unconverged || !is_round(preset.finger)) continue;
+    if (!is_converged(run.outputs[i].status) || !is_round(preset.finger)) continue;
     report.max_depth_gap_m =
         std::max(report.max_depth_gap_m, std::abs(run.outputs[i].penetration_m - facet[i].penetration_m));
   }
@@ -119,7 +122,7 @@ Preset with_best_gain(const ScenePtr& scene, Preset preset, std::span<const Tick
     for (std::size_t i = 0; i < trial.size(); ++i) {
       if (i % kStopStride == 0 && stop()) return preset;
       const TickOutput output = stepper.step(preset, trial[i], state);
-      score.first += output.status == TickStatus::unconverged;
+      score.first += !is_converged(output.status);
       score.second += output.iterations;
     }
     if (score < best) best = score, best_gain = preset.solver.gain_curvature_m;
@@ -139,7 +142,7 @@ RunDifference difference_from_own(const ScenePtr& scene, const Preset& preset, s
   for (std::size_t i = 0; i < poses.size(); ++i) {
     if (i % kStopStride == 0 && stop()) break;
     const TickOutput output = stepper.step(preset, poses[i], state);
-    if (output.status == TickStatus::unconverged) {
+    if (!is_converged(output.status)) {
       comparison.leave_out();
       continue;
     }
@@ -182,6 +185,7 @@ std::optional<SceneReport> measure_scene(const std::string& suite, const BenchCa
     if (options.stop()) return std::nullopt;
   }
   report.peers.push_back(embree_peer(*scene, poses, options.repeats, clock, options.stop));
+  report.peers.push_back(embree_bounded_peer(*scene, poses, options.repeats, clock, options.stop));
   if (auto cgal = cgal_peer(*scene, poses, options.repeats, clock, options.stop))
     report.peers.push_back(std::move(*cgal));
   if (options.stop()) return std::nullopt;

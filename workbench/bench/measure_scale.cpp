@@ -3,6 +3,7 @@
 #include "core/lab/objects/generate.h"
 #include "workbench/bench/case_paths.h"
 #include "workbench/bench/measure.h"
+#include "workbench/session/two_threads.h"
 
 #include <unistd.h>
 
@@ -11,11 +12,11 @@
 namespace tangent::bench {
 namespace {
 
-constexpr double kBallRadius = 0.040, kSpeed = 0.020, kPress = 1e-3;
+constexpr double kBallRadius = 0.040, kBallSpeed = 0.020, kBallPress = 1e-3;
 
 double seconds_since(std::int64_t start) { return 1e-9 * static_cast<double>(TickClock::now() - start); }
 
-/// Binary little-endian PLY without normals, so that reading it does all the work there is.
+/// Binary little-endian PLY without normals, so that reading it includes computing them.
 Status write_ply(const PolygonMesh& mesh, const std::filesystem::path& path) {
   Result<AtomicFile> file = AtomicFile::create(path);
   if (!file) return tl::unexpected(file.error());
@@ -37,7 +38,7 @@ Status write_ply(const PolygonMesh& mesh, const std::filesystem::path& path) {
   return file->commit();
 }
 
-/// A file that goes away with this.
+/// A file that is deleted with this object.
 struct TemporaryFile {
   std::filesystem::path path =
       std::filesystem::temp_directory_path() / ("workbench-bench-" + std::to_string(::getpid()) + ".ply");
@@ -64,17 +65,17 @@ Result<ScenePtr> load_icosphere(int subdivisions, LoadReport& load) {
   if (!mesh) return tl::unexpected(mesh.error());
   load.mesh_s = seconds_since(start);
   start = TickClock::now();
-  Result<ScenePtr> scene = ContactScene::build(std::move(*mesh));
+  Result<ScenePtr> scene = ContactScene::build(std::move(*mesh), {}, run_on_two_threads);
   load.structures_s = seconds_since(start);
   return scene;
 }
 
-/// Another place of the ball every tick: what finding a contact costs. The places are too many for a pass to warm the
-/// caches for the next.
+/// Jumps to another place of the ball every tick: the cost of finding a contact. There are too many places for one pass
+/// to warm the caches for the next.
 RunStatistics measure_reseeding(const ScenePtr& scene, const Preset& preset, const MeasureOptions& options,
                                 const TickClock& clock) {
   const Vec3 origin = scene->mesh().origin();
-  const double distance = kBallRadius + preset.finger.radius_m - kPress;
+  const double distance = kBallRadius + preset.finger.radius_m - kBallPress;
   std::vector<TickInput> poses = random_in_cube(Vec3(0.0), 1.0, std::min(options.ticks, 4000));
   for (TickInput& pose : poses) pose.finger.position = origin + distance * unit(pose.finger.position);
   const TimedRun run = timed_run(scene, preset, poses, options.repeats, clock, options.stop);
@@ -97,8 +98,8 @@ Status measure_scale(std::uint32_t most_triangles, const MeasureOptions& options
     LoadReport load;
     const Result<ScenePtr> scene = load_icosphere(subdivisions, load);
     if (!scene) return tl::unexpected(scene.error());
-    const auto poses =
-        around_ball((*scene)->mesh().origin(), kBallRadius + c.preset.finger.radius_m - kPress, kSpeed, options.ticks);
+    const auto poses = around_ball((*scene)->mesh().origin(), kBallRadius + c.preset.finger.radius_m - kBallPress,
+                                   kBallSpeed, options.ticks);
     std::optional<SceneReport> report = measure_scene("scale", c, *scene, poses, once, clock);
     if (!report) return {};
     report->load = load;

@@ -1,4 +1,4 @@
-// For a build without CGAL: the library with the same function takes this one's place.
+// For a build without CGAL. The library with CGAL defines the same function and replaces this object file.
 #include "workbench/bench/peers.h"
 
 namespace tangent::bench {

@@ -4,15 +4,41 @@
 
 namespace tangent::bench {
 
+namespace {
+
+constexpr double kSpeed = 0.1, kPress = 1e-3, kRounding = 1.5e-3, kFingerRadius = 0.020;
+
+}  // namespace
+
+std::vector<BenchCase> stroke_cases() {
+  std::vector<BenchCase> cases;
+  for (const char* object : {"sphere", "cone", "cylinder", "cube", "tetrahedron", "octagon", "triangle"}) {
+    BenchCase c;
+    c.name = std::string(object) + "_strokes";
+    c.what = std::string(object) + ", edges rounded by 1.5 mm, left and right, then forward and back";
+    const double rounding = c.name.starts_with("sphere") ? 0.0 : kRounding;
+    c.mesh = [=] { return generate_mesh(object, {.rounding_m = rounding}); };
+    c.preset.finger.radius_m = kFingerRadius;
+    c.preset.solver.gain_overall = 1.0;
+    c.preset.solver.gain_curvature_m = kFingerRadius - kPress;
+    c.preset.solver.gain_distance_per_m = 0.0;
+    c.own_gains = true;
+    c.poses = [](const ContactScene& scene, const Finger& finger, int ticks) {
+      return stroke(scene, finger, kSpeed, kPress, ticks);
+    };
+    cases.push_back(std::move(c));
+  }
+  return cases;
+}
+
 std::vector<BenchCase> paper_cases() {
-  constexpr double kSpeed = 0.1, kPress = 1e-3, kRounding = 1.5e-3;
   std::vector<BenchCase> cases;
   const auto add = [&](const std::string& object, double rounding, const std::string& name, const std::string& what) {
     BenchCase c;
     c.name = name;
     c.what = what;
     c.mesh = [=] { return generate_mesh(object, {.rounding_m = rounding}); };
-    c.preset.finger.radius_m = 0.020;
+    c.preset.finger.radius_m = kFingerRadius;
     c.poses = [=](const ContactScene& scene, const Finger& finger, int ticks) {
       return explore(scene, finger, kSpeed, kPress, ticks);
     };

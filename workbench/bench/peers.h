@@ -1,4 +1,4 @@
-// What other libraries take for the closest point on the raw mesh: the query alone, no contact, no shading.
+// Times of other libraries for the closest point on the raw mesh: only the query, no contact, no shading.
 #pragma once
 
 #include "core/lab/measure/distribution.h"
@@ -14,27 +14,33 @@
 
 namespace tangent::bench {
 
-using Stop = std::function<bool()>;  ///< asked now and then: true ends the work early
+using Stop = std::function<bool()>;  ///< polled now and then; true ends the work early
 
 struct PeerReport {
   std::string name;
-  double build_s = 0.0;                 ///< of its search tree; 0 for Embree, whose tree the scene holds anyway
+  double build_s = 0.0;                 ///< of its search tree; 0 for Embree, whose tree the scene has anyway
   Distribution ns;                      ///< of one query
-  double largest_disagreement_m = 0.0;  ///< of its distances from Embree's
+  double largest_disagreement_m = 0.0;  ///< between its distances and Embree's
 };
 
 /// Embree through NearestTriangles::nearest: culled in float, exact in double.
 PeerReport embree_peer(const ContactScene& scene, std::span<const TickInput> poses, int repeats, const TickClock& clock,
                        const Stop& stop);
 
+/// The same, bounded by the distance to the triangle that was the nearest at the last pose: how a nearest point is
+/// tracked from tick to tick.
+PeerReport embree_bounded_peer(const ContactScene& scene, std::span<const TickInput> poses, int repeats,
+                               const TickClock& clock, const Stop& stop);
+inline constexpr const char* kEmbreeBounded = "embree bounded";
+
 /// Larger meshes are left out, for memory and the time the tree takes to build.
 inline constexpr std::uint32_t kMostCgalTriangles = 2'000'000;
 
-/// CGAL's AABB tree. None in a program built without CGAL, and for meshes over kMostCgalTriangles.
+/// CGAL's AABB tree. Empty in a program built without CGAL and for meshes over kMostCgalTriangles.
 std::optional<PeerReport> cgal_peer(const ContactScene& scene, std::span<const TickInput> poses, int repeats,
                                     const TickClock& clock, const Stop& stop);
 
-/// Times query(point) at every pose; its least of `repeats` passes.
+/// Times query(point) at every pose; the minimum of `repeats` passes.
 template <class Query>
 Distribution query_times(const ContactScene& scene, std::span<const TickInput> poses, int repeats,
                          const TickClock& clock, const Stop& stop, Query query) {

@@ -12,28 +12,40 @@ Json distribution_json(const Distribution& d, double scale = 1.0) {
           {"p99", d.p99 * scale}, {"p99_9", d.p999 * scale}, {"worst", d.max * scale}};
 }
 
+template <class Values>
+Json counts_json(const RunStatistics& s, const Values& values) {
+  Json json;
+  for (const auto value : values) json[to_string(value)] = s.count(value);
+  return json;
+}
+
 Json run_json(const RunStatistics& s) {
   return {{"ticks", s.ticks},
           {"unconverged", s.unconverged()},
           {"first_unconverged_tick", s.unconverged() > 0 ? Json(s.first_unconverged) : Json(nullptr)},
           {"not_finite", s.not_finite},
           {"unmarked_jumps", s.unmarked_jumps},
-          {"events",
-           {{"first", s.count(TickEvent::first)},
-            {"reseed", s.count(TickEvent::reseed)},
-            {"switch", s.count(TickEvent::switched)},
-            {"branch", s.count(TickEvent::branch)}}},
-          {"statuses",
-           {{"free", s.count(TickStatus::free)},
-            {"face", s.count(TickStatus::face)},
-            {"edge", s.count(TickStatus::edge)},
-            {"vertex", s.count(TickStatus::vertex)}}},
+          {"events", counts_json(s, std::span(kTickEvents).subspan(1))},  // all but `none`
+          {"statuses", counts_json(s, std::span(kTickStatuses))},
           {"max_error_um", s.max_error_m / kMicrometre},
           {"tick_ns", distribution_json(s.ns)},
           {"tick_without_event_ns", distribution_json(s.eventless_ns)},
           {"seeding_tick_ns", distribution_json(s.seeding_ns)},
           {"iterations_without_event", distribution_json(s.iterations)},
           {"iterations", distribution_json(s.all_iterations)}};
+}
+
+Json signal_json(const SignalRoughness& s, double scale, const std::string& unit) {
+  return {{"mean_change_" + unit, s.mean * scale},
+          {"unexplained_ticks", s.unexplained},
+          {"largest_unexplained_" + unit, s.largest * scale}};
+}
+
+Json roughness_json(const Roughness& r) {
+  return {{"force", signal_json(r.force, 1e3, "mn")},
+          {"decided_force", signal_json(r.decided_force, 1e3, "mn")},
+          {"display", signal_json(r.display, 1.0 / kMicrometre, "um")},
+          {"decided_display", signal_json(r.decided_display, 1.0 / kMicrometre, "um")}};
 }
 
 Json difference_json(const RunDifference& d) {
@@ -52,10 +64,12 @@ Json method_json(const SceneReport& scene, const MethodReport& m) {
   json["typical_tick_ns"] = m.typical_ns;
   json["ticks_per_evaluation"] = ticks_per_evaluation(scene, m);
   json["ticks_per_paper_tick"] = ticks_per_paper_tick(scene, m);
+  json["mean_per_bounded_query"] = mean_per_bounded_query(scene, m);
   json["error_from_own_converged"] = m.from_own ? difference_json(*m.from_own) : Json(nullptr);
   json["places_without_solution"] = m.places_without_solution;
   json["error_from_robust_converged"] = difference_json(m.from_reference);
   json["max_depth_gap_mm"] = m.max_depth_gap_m / kMillimetre;
+  json["roughness"] = roughness_json(m.roughness);
   json["allocations"] = m.allocations_counted ? Json(m.allocations) : Json(nullptr);
   json["closed_path_work"] = {{"loops", m.work.loops},
                               {"broken_loops", m.work.broken},
@@ -122,6 +136,12 @@ double ticks_per_evaluation(const SceneReport& scene, const MethodReport& m) {
 double ticks_per_paper_tick(const SceneReport& scene, const MethodReport& m) {
   const MethodReport* paper = scene.of(Method::paper);
   return paper && paper->typical_ns > 0.0 ? m.typical_ns / paper->typical_ns : 0.0;
+}
+
+double mean_per_bounded_query(const SceneReport& scene, const MethodReport& m) {
+  for (const PeerReport& peer : scene.peers)
+    if (peer.name == kEmbreeBounded && peer.ns.mean > 0.0) return m.run.ns.mean / peer.ns.mean;
+  return 0.0;
 }
 
 nlohmann::ordered_json report_json(const BenchReport& report) {

@@ -1,6 +1,7 @@
-// Everything the benchmark measures of one scene, as plain data.
+// Results of the benchmark for one scene, as plain data.
 #pragma once
 
+#include "core/lab/measure/roughness.h"
 #include "core/lab/measure/scene_statistics.h"
 #include "workbench/bench/bench_case.h"
 #include "workbench/bench/evaluation_time.h"
@@ -13,9 +14,9 @@
 
 namespace tangent::bench {
 
-/// Work of the force around small closed paths (core/lab/measure/closed_work.h).
+/// Work of the force along small closed paths (core/lab/measure/closed_work.h).
 struct WorkReport {
-  int loops = 0, broken = 0;         ///< broken: with an unconverged tick; left out of the figures
+  int loops = 0, broken = 0;         ///< broken: with an unconverged tick; excluded from the figures
   double mean_j = 0.0, max_j = 0.0;  ///< of |work|
   double max_relative = 0.0;         ///< |work| over the peak stored energy of its loop
 };
@@ -24,13 +25,15 @@ struct MethodReport {
   Method method = Method::robust;
   double gain_curvature_m = 0.0;  ///< `paper`: the best found for the scene
   RunStatistics run;
+  Roughness roughness;      ///< of force and display, before and after fading
   double typical_ns = 0.0;  ///< middle mean of all ticks of all passes: what ratios use
   std::optional<RunDifference>
-      from_own;  ///< from the same place solved on to the converged tolerance; none for facet methods
-  std::uint64_t places_without_solution = 0;  ///< converged ticks where solving on led elsewhere
+      from_own;  ///< from the same contact iterated to the converged tolerance; none for facet methods
+  std::uint64_t places_without_solution = 0;  ///< converged ticks from which that led to another place
   RunDifference from_reference;               ///< from `robust` at the converged tolerance
-  /// Largest |penetration - that of the raw mesh| of the converged ticks: more than the patches bulge where a deeper
-  /// place is missed, or where raw mesh and normals disagree about the outside. 0 for fingers that are not round.
+  /// Largest |penetration - penetration into the raw mesh| over the converged ticks. Larger than the patches' bulge
+  /// where a deeper place was missed, or where raw mesh and normals disagree about the outside. 0 for fingers that are
+  /// not round.
   double max_depth_gap_m = 0.0;
   std::uint64_t allocations = 0;
   bool allocations_counted = false;

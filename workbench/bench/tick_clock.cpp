@@ -13,7 +13,7 @@
 namespace tangent::bench {
 namespace {
 
-/// Whether the processor says that its counter runs at one rate in every state.
+/// Whether the processor reports an invariant time-stamp counter.
 bool has_steady_counter() {
 #if defined(__x86_64__)
   constexpr unsigned kPowerManagement = 0x80000007, kInvariant = 1u << 8;
@@ -29,7 +29,7 @@ bool has_steady_counter() {
 TickClock::TickClock() : counter_(has_steady_counter()) {
   constexpr int kReadings = 10'000;
   if (counter_) {
-    std::array<double, 3> rates;  // one may be spoilt by an interruption between two readings
+    std::array<double, 3> rates;  // one may be wrong if the thread is interrupted between two readings
     for (double& rate : rates) rate = measured_ns_per_count();
     std::sort(rates.begin(), rates.end());
     ns_per_count_ = rates[1];

@@ -1,4 +1,4 @@
-// Times of single ticks, tens to hundreds of nanoseconds long, with what reading the clock costs taken off.
+// Times single ticks of tens to hundreds of nanoseconds; subtracts the overhead of reading the clock.
 #pragma once
 
 #include <chrono>
@@ -10,21 +10,21 @@
 
 namespace tangent::bench {
 
-/// The processor's time-stamp counter, fenced, where it runs at one rate whatever the processor does; else the system's
-/// clock. That one lets what is timed overlap with its own reading, which takes a third off an evaluation.
+/// The processor's time-stamp counter, fenced, where it is invariant; otherwise the system's clock. The system's clock
+/// lets the timed work overlap with its reading, which makes an evaluation look a third faster.
 class TickClock {
  public:
-  /// Measures the counter's rate against the system's clock, three times for 10 ms, and what two readings with nothing
-  /// between them give: the middle mean of ten thousand.
+  /// Calibrates the counter against the system's clock, three times for 10 ms, and measures the overhead of two
+  /// consecutive readings: the middle mean of ten thousand.
   TickClock();
 
-  /// Nanoseconds of the system's clock: for what takes milliseconds.
+  /// Nanoseconds of the system's clock, for durations of milliseconds.
   static std::int64_t now() {
     return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch())
         .count();
   }
 
-  /// A reading for elapsed_ns(). What is before it is done before, what is after it begins after.
+  /// A reading for elapsed_ns(). Fenced: work before it has finished, work after it has not begun.
   std::int64_t mark() const {
 #if defined(__x86_64__)
     if (counter_) {
@@ -39,7 +39,7 @@ class TickClock {
 
   double overhead_ns() const { return overhead_ns_; }
 
-  /// Between two marks, less the overhead, not below zero.
+  /// Nanoseconds between two marks, less the overhead, not below zero.
   double elapsed_ns(std::int64_t from, std::int64_t to) const {
     const double ns = static_cast<double>(to - from) * ns_per_count_ - overhead_ns_;
     return ns > 0.0 ? ns : 0.0;

@@ -1,11 +1,11 @@
-// workbench audit: what a contact solver will meet on a mesh.
+// workbench audit: a mesh's defects and difficulties for a contact solver.
 #include "core/io/atomic_file.h"
 #include "core/io/rendering_condition.h"
 #include "workbench/cli/audit_report.h"
 #include "workbench/cli/command.h"
 #include "workbench/cli/mesh_options.h"
 #include "workbench/cli/messages.h"
-#include "workbench/cli/number_option.h"
+#include "workbench/cli/option.h"
 #include "workbench/cli/text_format.h"
 
 #include <nlohmann/json.hpp>
@@ -22,7 +22,7 @@ struct AuditOptions {
   int condition = threshold_index("C3");  // the finest: nothing shaded, force and contact location felt
 };
 
-/// One line a triangle: its largest angle to a neighbour, and how that compares with the threshold.
+/// One line per triangle: its largest angle to a neighbour, and how that compares with the threshold.
 Status write_heat_map(const AuditOptions& options, const ContactMesh& mesh, const FacetAngles& angles) {
   const PerceptionThreshold& threshold = kPerceptionThresholds[static_cast<std::size_t>(options.condition)];
   const std::vector<float> ratio = felt_ratio(angles, threshold);
@@ -57,20 +57,18 @@ Status run_audit(const AuditOptions& options) {
 }  // namespace
 
 void add_audit_command(CLI::App& app, CommandResult& result) {
-  CLI::App* command = app.add_subcommand("audit", "Mesh health: counts, boundaries, defects, angles, smoothness");
+  CLI::App* command = add_command(app, "audit", "Mesh health: counts, boundaries, defects, angles, smoothness");
   auto options = std::make_shared<AuditOptions>();
   add_mesh_options(*command, options->mesh);
-  command->add_option("--json", options->json, "The same for programs")->type_name("F.json");
-  command
-      ->add_option("--heat-map", options->heat_map,
-                   "Per triangle, the largest angle to a neighbour and its ratio to the threshold")
-      ->type_name("F.csv");
+  add_text_option(*command, "--json", options->json, "The same for programs", "F.json");
+  add_text_option(*command, "--heat-map", options->heat_map,
+                  "Per triangle, the largest angle to a neighbour and its ratio to the threshold", "F.csv");
   add_choice_option(*command, "--condition", kConditionNames,
                     "Rendering condition of verdict, worst edges and heat map (default C3)",
                     [options = options.get()](int index) {
                       options->condition = threshold_index(kConditionNames[static_cast<std::size_t>(index)]);
                     });
-  command->callback([options, &result] {
+  on_run(*command, [options, &result] {
     const Status status = run_audit(*options);
     if (!status) print_message("audit", status.error().message());
     result.exit_code = status ? kDone : kFailed;

@@ -1,4 +1,4 @@
-// A mesh's health, for people and for programs.
+// Report of a mesh audit, as text and as JSON.
 #pragma once
 
 #include "core/lab/audit/mesh_audit.h"
@@ -10,10 +10,10 @@
 
 namespace tangent {
 
-/// `condition`: index into kPerceptionThresholds of the one that the worst edges and the verdict are for.
+/// `condition`: index into kPerceptionThresholds; worst edges and verdict are given for it.
 std::string audit_text(const MeshAudit& audit, const PerceptionAudit& perception, int condition,
                        const ContactMesh& mesh);
-/// The layout is part of the program's contract (workbench/README.md, "Files").
+/// The layout is documented and stable (workbench/README.md, "Files").
 nlohmann::ordered_json audit_json(const MeshAudit& audit, const PerceptionAudit& perception, int condition,
                                   const ContactMesh& mesh);
 

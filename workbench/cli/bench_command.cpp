@@ -7,7 +7,7 @@
 #include "workbench/cli/command.h"
 #include "workbench/cli/interrupt.h"
 #include "workbench/cli/messages.h"
-#include "workbench/cli/number_option.h"
+#include "workbench/cli/option.h"
 
 #include <array>
 #include <cstdio>
@@ -20,8 +20,9 @@ namespace {
 
 using namespace bench;
 
-enum class Suite { paper, hard, scale, all };
-constexpr std::array<std::string_view, 4> kSuites{"paper", "hard", "scale", "all"};  // order of Suite
+enum class Suite { paper, strokes, hard, mean, scale, all };
+constexpr std::array<std::string_view, 6> kSuites{"paper", "strokes", "hard",
+                                                  "mean",  "scale",   "all"};  // order of Suite
 
 struct BenchOptions {
   Suite suite = Suite::paper;
@@ -33,7 +34,7 @@ struct BenchOptions {
 
 bool wants(const BenchOptions& options, Suite suite) { return options.suite == suite || options.suite == Suite::all; }
 
-/// "hard: torus_inner_saddle" on standard error while it is measured, where that is a terminal.
+/// Shows the scene being measured ("hard: torus_inner_saddle") on standard error, if that is a terminal.
 class SceneLine {
  public:
   SceneLine(std::string_view suite, std::string_view scene) : shown_(::isatty(STDERR_FILENO) == 1) {
@@ -74,7 +75,7 @@ Status run_cases(const std::string& suite, const std::vector<BenchCase>& cases, 
   return {};
 }
 
-/// The panels of the plot: easy ground, sharp turns, and a saddle, where one gain cannot suit both directions.
+/// The plot's panels: a smooth object, sharp turns, and a saddle, where no single gain suits both directions.
 Status run_work_precision(const BenchOptions& options, const TickClock& clock, BenchReport& report) {
   std::vector<BenchCase> cases = paper_cases();
   for (BenchCase& c : hard_cases()) cases.push_back(std::move(c));
@@ -93,7 +94,9 @@ Status run_work_precision(const BenchOptions& options, const TickClock& clock, B
 Status run_suites(const BenchOptions& options, const TickClock& clock, BenchReport& report) {
   Status status;
   if (wants(options, Suite::paper)) status = run_cases("paper", paper_cases(), options, clock, report);
+  if (status && wants(options, Suite::strokes)) status = run_cases("strokes", stroke_cases(), options, clock, report);
   if (status && wants(options, Suite::hard)) status = run_cases("hard", hard_cases(), options, clock, report);
+  if (status && wants(options, Suite::mean)) status = run_cases("mean", mean_cases(), options, clock, report);
   if (status && !options.poses.empty()) {
     const Result<std::vector<BenchCase>> cases = shared_cases(options.meshes, options.poses);
     if (!cases) return tl::unexpected(cases.error());
@@ -107,7 +110,7 @@ Status run_suites(const BenchOptions& options, const TickClock& clock, BenchRepo
   return status;
 }
 
-/// Fails at once, rather than after the work, where a file can't be written.
+/// Checks before the work starts that the file can be written.
 Status probe(const std::filesystem::path& path) {
   if (path.empty()) return {};
   if (const Result<AtomicFile> file = AtomicFile::create(path); !file) return tl::unexpected(file.error());
@@ -136,7 +139,7 @@ Status run_bench(BenchOptions options, bool& interrupted) {
   const Status status = run_suites(options, clock, report);
   report.interrupted = interrupted = InterruptGuard::requested();
   std::fputs(summary_text(report).c_str(), stdout);
-  // What was measured before a failure is kept too.
+  // Also writes what was measured before a failure.
   const Status written = write_results(options, report);
   if (interrupted)
     print_message("bench",
@@ -147,12 +150,14 @@ Status run_bench(BenchOptions options, bool& interrupted) {
 }  // namespace
 
 void add_bench_command(CLI::App& app, CommandResult& result) {
-  CLI::App* command = app.add_subcommand("bench", "Measure speed against error, for every method");
+  CLI::App* command = add_command(app, "bench", "Measure speed against error, for every method");
   auto options = std::make_shared<BenchOptions>();
   BenchOptions* o = options.get();
-  add_choice_option(*command, "--suite", kSuites,
-                    "Scenes: the paper's objects (default), hard cases, 1k to 5M triangles, or all",
-                    [o](int i) { o->suite = static_cast<Suite>(i); });
+  add_choice_option(
+      *command, "--suite", kSuites,
+      "Scenes: the paper's objects explored all over (default), the same in the strokes of its participants, "
+      "hard cases, balls against Embree's mean, 1k to 5M triangles, or all",
+      [o](int i) { o->suite = static_cast<Suite>(i); });
   add_number_option(*command, "--ticks", {.min = 1, .max = 10'000'000, .whole = true},
                     "Ticks of each scene (default 10000)", [o](double n) { o->measure.ticks = static_cast<int>(n); });
   add_number_option(*command, "--repeats", {.min = 1, .max = 100, .whole = true},
@@ -161,21 +166,16 @@ void add_bench_command(CLI::App& app, CommandResult& result) {
   add_number_option(*command, "--max-triangles", {.min = 1280, .max = 6e6, .whole = true},
                     "Largest mesh of the scale suite (default all)",
                     [o](double n) { o->most_triangles = static_cast<std::uint32_t>(n); });
-  command->add_option("--only", options->only, "Only scenes whose name contains this")->type_name("TEXT");
-  command->add_option("--json", options->json, "Everything measured")->type_name("F.json");
-  command->add_option("--plot", options->plot, "Time against error as the tolerance sweeps from 1e-3 to 1e-9 mm")
-      ->type_name("F.svg");
-  CLI::Option* meshes =
-      command->add_option("--meshes", options->meshes, "Real meshes besides: NAME.obj, fitted to 80 mm")
-          ->type_name("DIR");
-  CLI::Option* poses =
-      command->add_option("--poses", options->poses, "Poses on them: NAME-rXXX.csv, finger radius XXX mm")
-          ->type_name("DIR");
-  meshes->needs(poses);
-  poses->needs(meshes);
-  command->callback([options, &result] {
+  add_text_option(*command, "--only", options->only, "Only scenes whose name contains this", "TEXT");
+  add_text_option(*command, "--json", options->json, "Everything measured", "F.json");
+  add_text_option(*command, "--plot", options->plot, "Time against error as the tolerance sweeps from 1e-3 to 1e-9 mm",
+                  "F.svg");
+  add_text_option(*command, "--meshes", options->meshes, "Real meshes besides: NAME.obj, fitted to 80 mm", "DIR");
+  add_text_option(*command, "--poses", options->poses, "Poses on them: NAME-rXXX.csv, finger radius XXX mm", "DIR");
+  require_together(*command, "--meshes", "--poses");
+  on_run(*command, [options, &result] {
     if (!options->json.empty() && options->json == options->plot)
-      throw CLI::ValidationError("--plot", "names the same file as --json");
+      refuse_option("--plot", "names the same file as --json");
     bool interrupted = false;
     const Status status = run_bench(*options, interrupted);
     if (!status) print_message("bench", status.error().message());

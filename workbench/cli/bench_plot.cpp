@@ -12,8 +12,8 @@ namespace tangent::bench {
 namespace {
 
 constexpr double kPanelWidth = 300, kPanelHeight = 270, kLeft = 74, kGap = 30, kTop = 62, kBottom = 62, kRight = 18;
-constexpr double kFloorUm = 1e-9;          // errors are drawn no smaller
-constexpr double kMostUnconverged = 0.01;  // of a point that is drawn
+constexpr double kFloorUm = 1e-9;          // smaller errors are drawn here
+constexpr double kMostUnconverged = 0.01;  // points with a larger share are not drawn
 
 struct MethodStyle {
   Method method;
@@ -33,7 +33,7 @@ const MethodStyle& style_of(Method method) {
   return kStyles.back();
 }
 
-/// Powers of ten that hold all values.
+/// Range of powers of ten that contains all values.
 struct Decades {
   int low = 0, high = 1;
   double place(double value) const { return (std::log10(value) - low) / (high - low); }
@@ -94,7 +94,7 @@ std::string axes(const Frame& f, const WorkPrecisionReport& panel, bool first) {
   return svg;
 }
 
-/// Markers of different sizes, so that one shows behind another at the same place.
+/// Markers differ in size, so that all are visible where they coincide.
 std::string marker(double x, double y, const MethodStyle& style) {
   if (!is_smooth(style.method)) {
     const double half = style.method == Method::facet ? 6.5 : style.method == Method::force_shading ? 4.5 : 2.5;

@@ -1,5 +1,5 @@
-// The work-precision plot as an SVG file: time per tick against the contact's error as the tolerance sweeps, log-log,
-// one panel a scene, one curve a method. Colours by Okabe & Ito, which differ for the colour-blind too.
+// The work-precision plot as SVG: time per tick against the contact's error over a range of tolerances, log-log, one
+// panel per scene, one curve per method. Colour-blind safe palette of Okabe & Ito.
 #pragma once
 
 #include "workbench/bench/scene_report.h"
@@ -9,7 +9,7 @@
 
 namespace tangent::bench {
 
-/// Points with more than 1 % of their ticks unconverged are left out. Errors below 1e-9 um are drawn there.
+/// Points with more than 1 % of their ticks unconverged are left out. Errors below 1e-9 um are drawn at 1e-9 um.
 std::string work_precision_svg(std::span<const WorkPrecisionReport> panels);
 
 }  // namespace tangent::bench

@@ -12,10 +12,11 @@ namespace {
 std::string method_line(const SceneReport& scene, const MethodReport& m) {
   const RunStatistics& s = m.run;
   std::string line = format(
-      "  %-13s %7.1f %7.0f %7.0f %7.0f %7.0f %5.2f %5.2f  %6.2f %3.0f %3.0f %4.0f  %5llu %5llu %4llu %4llu",
-      to_string(m.method), m.typical_ns, s.ns.p50, s.ns.p99, s.ns.p999, s.ns.max, ticks_per_evaluation(scene, m),
-      ticks_per_paper_tick(scene, m), s.iterations.mean, s.iterations.p99, s.iterations.p999, s.iterations.max,
-      static_cast<unsigned long long>(s.unconverged()), static_cast<unsigned long long>(s.count(TickEvent::reseed)),
+      "  %-13s %7.1f %7.0f %7.0f %7.0f %7.0f %7.0f %5.2f %5.2f  %6.2f %3.0f %3.0f %4.0f  %5llu %5llu %4llu %4llu",
+      to_string(m.method), m.typical_ns, s.ns.mean, s.ns.p50, s.ns.p99, s.ns.p999, s.ns.max,
+      ticks_per_evaluation(scene, m), ticks_per_paper_tick(scene, m), s.iterations.mean, s.iterations.p99,
+      s.iterations.p999, s.iterations.max, static_cast<unsigned long long>(s.unconverged()),
+      static_cast<unsigned long long>(s.count(TickEvent::reseed)),
       static_cast<unsigned long long>(s.count(TickEvent::switched)),
       static_cast<unsigned long long>(s.count(TickEvent::branch)));
   const RunDifference& d = m.from_own ? *m.from_own : m.from_reference;
@@ -37,7 +38,7 @@ std::string seeding_text(const char* what, const Distribution& ns) {
                 static_cast<unsigned long long>(ns.count), ns.p50 * 1e-3, ns.p99 * 1e-3, ns.max * 1e-3);
 }
 
-/// Median tick of robust at the largest mesh over that at the smallest, of the scale suite.
+/// Scale suite: ratio of robust's median tick on the largest mesh to that on the smallest.
 std::string flatness_text(const BenchReport& report) {
   const SceneReport *smallest = nullptr, *largest = nullptr;
   for (const SceneReport& scene : report.scenes) {
@@ -49,6 +50,22 @@ std::string flatness_text(const BenchReport& report) {
   return format("flat in size: median tick of robust at %u triangles %.2f times that at %u\n", largest->triangles,
                 largest->of(Method::robust)->run.ns.p50 / smallest->of(Method::robust)->run.ns.p50,
                 smallest->triangles);
+}
+
+/// The paper: two to three iterations on average. Mean over the objects of the strokes suite.
+std::string strokes_text(const BenchReport& report) {
+  double sum = 0.0, most = 0.0;
+  int objects = 0;
+  for (const SceneReport& scene : report.scenes) {
+    const MethodReport* paper = scene.suite == "strokes" ? scene.of(Method::paper) : nullptr;
+    if (paper == nullptr) continue;
+    sum += paper->run.all_iterations.mean;
+    most = std::max(most, paper->run.all_iterations.mean);
+    ++objects;
+  }
+  if (objects == 0) return {};
+  return format("strokes suite: paper takes %.2f planes a tick on average over %d objects, %.2f at most\n",
+                sum / objects, objects, most);
 }
 
 }  // namespace
@@ -78,14 +95,18 @@ std::string scene_text(const SceneReport& scene) {
                    scene.load.read_s, scene.load.mesh_s, scene.load.structures_s);
   }
   text +=
-      "  method            mid     p50     p99   p99.9   worst   /ev  /pap    iter p99 .9 worst   unc  seed  swi  bra  "
+      "  method            mid    mean     p50     p99   p99.9   worst   /ev  /pap    iter p99 .9 worst   unc  seed  "
+      "swi  bra  "
       " contact/um normal/deg force/mN display/um  work/mJ /peak\n";
   for (const MethodReport& m : scene.methods) text += method_line(scene, m);
   for (const PeerReport& p : scene.peers) {
-    text += format("  %-20s         %7.0f %7.0f %7.0f %7.0f (query alone; tree built in %.2f s)\n", p.name.c_str(),
-                   p.ns.p50, p.ns.p99, p.ns.p999, p.ns.max, p.build_s);
+    text += format("  %-20s %7.0f %7.0f %7.0f %7.0f %7.0f (query alone; tree built in %.2f s)\n", p.name.c_str(),
+                   p.ns.mean, p.ns.p50, p.ns.p99, p.ns.p999, p.ns.max, p.build_s);
   }
   const MethodReport* robust = scene.of(Method::robust);
+  if (robust && mean_per_bounded_query(scene, *robust) > 0.0)
+    text += format("  mean tick of robust: %.2f mean queries of embree bounded by the last nearest triangle\n",
+                   mean_per_bounded_query(scene, *robust));
   if (robust && robust->run.count(TickEvent::reseed) > 0)
     text += seeding_text("seeding ticks of robust", robust->run.seeding_ns);
   if (scene.reseeding) text += seeding_text("another place every tick, robust", scene.reseeding->ns);
@@ -120,7 +141,7 @@ std::string summary_text(const BenchReport& report) {
     text += format("paper suite: typical tick of robust at most %.2f evaluations and %.2f ticks of paper\n",
                    worst_evaluations, worst_paper);
   }
-  return text + flatness_text(report);
+  return text + strokes_text(report) + flatness_text(report);
 }
 
 }  // namespace tangent::bench

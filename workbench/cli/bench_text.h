@@ -1,4 +1,4 @@
-// The benchmark's report for people: one line a method.
+// The benchmark's report as text: one line per method.
 #pragma once
 
 #include "workbench/bench/scene_report.h"
@@ -9,7 +9,7 @@ namespace tangent::bench {
 
 std::string report_legend(const BenchReport& report);
 std::string scene_text(const SceneReport& scene);
-/// Over all scenes: what was missed, the flatness in size, the ratios.
+/// Over all scenes: ticks that failed, scaling with mesh size, ratios.
 std::string summary_text(const BenchReport& report);
 
 }  // namespace tangent::bench

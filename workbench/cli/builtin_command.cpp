@@ -28,9 +28,10 @@ int run_without_command() {
   for (const TickInput& input : poses) {
     const Stopwatch watch;
     const TickOutput output = stepper.step(report.preset.preset, input, state);
-    report.statistics.add(output, watch.nanoseconds());
+    report.statistics.add(report.preset.preset, input, output, watch.nanoseconds());
   }
   report.solve_seconds = solving.seconds();
+  report.scene_bytes = (*scene)->memory_bytes();
   std::fputs(
       ("The built-in scene, 0.1 m/s, 1 mm deep (workbench --help lists what else there is)\n" + solve_text(report))
           .c_str(),

@@ -26,8 +26,8 @@ Result<std::shared_ptr<const ContactScene>> builtin_scene() {
 std::vector<TickInput> builtin_poses(double radius_m, int count) {
   const double distance = kSphereRadius + radius_m - kDepth;
   std::vector<TickInput> poses;
-  // Spiral theta in [0, pi], phi = 2 kTurns theta, to and fro. Its speed is
-  // distance * theta' * sqrt(1 + (2 kTurns sin theta)^2), which is held at kSpeed.
+  // Spiral theta in [0, pi], phi = 2 kTurns theta, back and forth. Its speed,
+  // distance * theta' * sqrt(1 + (2 kTurns sin theta)^2), is kept at kSpeed.
   double theta = 0.5, direction = 1.0;
   for (int i = 0; i < count; ++i) {
     const double phi = 2.0 * kTurns * theta;

@@ -1,4 +1,4 @@
-// The scene that is there without any file: a sphere of 320 triangles and a finger that slides over it.
+// The built-in scene, which needs no file: a sphere of 320 triangles and a finger that slides over it.
 #pragma once
 
 #include "core/tick/step.h"

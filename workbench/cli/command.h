@@ -1,8 +1,12 @@
-// One subcommand of the program: a function that hangs itself into the argument parser and, when its turn
-// comes, leaves its exit code behind.
+// The program's subcommands. Each is a function that registers itself with the argument parser and, when it is the one
+// asked for, sets the exit code.
 #pragma once
 
-#include <CLI/CLI.hpp>
+namespace CLI {
+class App;
+}
+
+#include <span>
 
 namespace tangent {
 
@@ -10,7 +14,7 @@ namespace tangent {
 enum ExitCode : int {
   kDone = 0,
   kFailed = 1,  ///< the work failed; standard error says what, where and what to do
-  kUsage = 2,   ///< the arguments make no sense
+  kUsage = 2,   ///< invalid arguments
 };
 
 struct CommandResult {
@@ -26,18 +30,21 @@ void add_figures_command(CLI::App& app, CommandResult& result);
 void add_decimate_command(CLI::App& app, CommandResult& result);
 void add_devices_command(CLI::App& app, CommandResult& result);
 void add_monitor_command(CLI::App& app, CommandResult& result);
-#ifdef TANGENT_HAS_GUI
-void add_gui_command(CLI::App& app, CommandResult& result);
-void add_shot_command(CLI::App& app, CommandResult& result);
 
-/// Without a subcommand: the window on the built-in scene; without a display, pictures of it.
-int run_gui_or_pictures();
-#endif
+/// What the subcommands of workbench-window do (window/), which `workbench` lists, too.
+inline constexpr const char* kGuiCommandText = "Open the window";
+inline constexpr const char* kShotCommandText =
+    "Write a view of the window or of the 3D scene as PNG; needs no display";
 
-/// What the program does without a subcommand.
+using AddCommand = void (*)(CLI::App&, CommandResult&);
+
+/// Those of the program without a window.
+std::span<const AddCommand> headless_commands();
+
+/// What the program does without a subcommand and without the window: solves the built-in scene.
 int run_without_command();
 
 /// Parses the arguments and runs what they ask for. Returns the exit code.
-int run_program(int argc, const char* const* argv);
+int run_program(int argc, const char* const* argv, std::span<const AddCommand> commands, int (*without_command)());
 
 }  // namespace tangent

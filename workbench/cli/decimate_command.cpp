@@ -1,4 +1,4 @@
-// workbench decimate: as few triangles as a finger can't tell from many.
+// workbench decimate: reduces a mesh to the fewest triangles that a finger can't tell from the original.
 #include "core/io/atomic_file.h"
 #include "core/io/mesh_io.h"
 #include "core/io/rendering_condition.h"
@@ -10,7 +10,7 @@
 #include "workbench/cli/interrupt.h"
 #include "workbench/cli/mesh_options.h"
 #include "workbench/cli/messages.h"
-#include "workbench/cli/number_option.h"
+#include "workbench/cli/option.h"
 #include "workbench/cli/text_format.h"
 
 #include <nlohmann/json.hpp>
@@ -24,8 +24,8 @@ namespace {
 
 constexpr std::uint64_t kDeviationSamples = 200000;
 constexpr double kDeviationShare = 1e-3;  // of the longest side, by default
-/// Collapses look at the new surface from the old one, at samples; when the whole, both ways, is further off, they are
-/// done again with this part of the distance.
+/// Collapses check the deviation one way, at samples. When the full two-way deviation is larger than allowed,
+/// decimation is repeated with the distance reduced by this factor.
 constexpr double kTighten = 0.6;
 constexpr int kMostRounds = 4;
 
@@ -44,12 +44,12 @@ struct DecimateReport {
   DecimateResult result;
   PerceptionAudit angles_before, angles_after;
   std::uint64_t over_before = 0, over_after = 0;  ///< curve edges above the limit
-  SurfaceDeviation new_from_old, old_from_new;    ///< of points on the new one from the old one, and the other way
+  SurfaceDeviation new_from_old, old_from_new;    ///< of points on the new surface from the old one, and vice versa
   RunScore run;
   bool within() const { return std::max(new_from_old.largest_m, old_from_new.largest_m) <= deviation_limit_m; }
 };
 
-/// The interval's lower end; a pilot condition has a mean alone.
+/// Lower end of the confidence interval; pilot conditions only have a mean.
 double angle_limit_deg(const PerceptionThreshold& t) { return t.interval_deg ? t.interval_deg->first : t.mean_deg; }
 
 std::uint64_t count_over(const ContactMesh& mesh, double limit_deg) {
@@ -70,7 +70,7 @@ Result<std::shared_ptr<const ContactScene>> scene_of(const PolygonMesh& mesh) {
   return ContactScene::build(std::move(*built));
 }
 
-/// Decimates, measures, and does it again more carefully until the whole keeps the distance.
+/// Decimates and measures; repeats with a smaller distance until the result is within the allowed deviation.
 Status decimate_within(const ContactScene& original, DecimateReport& report,
                        std::shared_ptr<const ContactScene>& coarse) {
   const InterruptGuard interrupt;
@@ -178,7 +178,9 @@ Status run_decimate(const DecimateOptions& options, bool& complete) {
   report.over_after = count_over(coarse->mesh(), report.limits.angle_deg);
   const Preset preset;
   Stepper stepper(coarse);
-  report.run = score_run(stepper, preset, exploration_poses(*coarse, preset.finger).poses);
+  const auto explored = exploration_poses(*coarse, preset.finger, ExplorationKind::around, ExplorationPace::steady);
+  if (!explored) return tl::unexpected(explored.error());
+  report.run = score_run(stepper, preset, explored->poses);
 
   if (Status status = write_obj(report.result.mesh, options.out, options.mesh.metres_per_unit); !status) return status;
   if (!options.json.empty())
@@ -192,12 +194,11 @@ Status run_decimate(const DecimateOptions& options, bool& complete) {
 
 void add_decimate_command(CLI::App& app, CommandResult& result) {
   CLI::App* command =
-      app.add_subcommand("decimate", "As few triangles as a finger can't tell from many, under a rendering condition");
+      add_command(app, "decimate", "As few triangles as a finger can't tell from many, under a rendering condition");
   auto options = std::make_shared<DecimateOptions>();
   add_mesh_options(*command, options->mesh);
-  command->add_option("--out", options->out, "The coarse mesh, with normals, in the unit of MESH")
-      ->required()
-      ->type_name("F.obj");
+  add_text_option(*command, "--out", options->out, "The coarse mesh, with normals, in the unit of MESH", "F.obj",
+                  Needed::yes);
   add_choice_option(*command, "--condition", kConditionNames,
                     "Whose threshold no smooth edge may exceed (default P1: force and tactile shading)",
                     [options = options.get()](int i) {
@@ -206,8 +207,8 @@ void add_decimate_command(CLI::App& app, CommandResult& result) {
   add_number_option(*command, "--max-deviation-um", {.min = 1e-3, .max = 1e6, .unit = "um"},
                     "Distance that the smooth surfaces keep, both ways (default: 0.1 % of the longest side)",
                     [options = options.get()](double um) { options->deviation_m = um / 1e6; });
-  command->add_option("--json", options->json, "The report for programs")->type_name("F.json");
-  command->callback([options, &result] {
+  add_text_option(*command, "--json", options->json, "The report for programs", "F.json");
+  on_run(*command, [options, &result] {
     bool complete = false;
     const Status status = run_decimate(*options, complete);
     if (!status) print_message("decimate", status.error().message());

@@ -1,16 +1,13 @@
 #include "workbench/cli/device_options.h"
 
-#include "workbench/cli/number_option.h"
+#include "workbench/cli/option.h"
 
 namespace tangent {
 
 void add_device_options(CLI::App& command, DeviceChoice& choice) {
-  command
-      .add_option("--device", choice.device,
-                  "Devices to use: simulated, ideal, cld, maestro or none (default simulated)")
-      ->type_name("NAME");
-  command.add_option("--packets", choice.packets, "Write every USB packet into this file, as evidence")
-      ->type_name("F.txt");
+  add_text_option(command, "--device", choice.device,
+                  "Devices to use: simulated, ideal, cld, maestro or none (default simulated)", "NAME");
+  add_text_option(command, "--packets", choice.packets, "Write every USB packet into this file, as evidence", "F.txt");
   add_number_option(command, "--maestro-channel", {.min = 0, .max = 23, .whole = true},
                     "Channel the servo is on (default: as kept, or 0)",
                     [&choice](double v) { choice.maestro.channel = static_cast<unsigned>(v); });

@@ -1,13 +1,15 @@
-// Options that say which devices to drive, the same for the window and the monitor.
+// Options that select the devices, the same for the window and the monitor.
 #pragma once
 
 #include "workbench/session/maestro_setups.h"
 
-#include <CLI/CLI.hpp>
-
 #include <filesystem>
 #include <memory>
 #include <string>
+
+namespace CLI {
+class App;
+}
 
 namespace tangent {
 

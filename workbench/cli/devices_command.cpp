@@ -1,9 +1,10 @@
-// workbench devices: what is attached, what it can do, and why it can't be opened.
+// workbench devices: lists attached devices, their capabilities, and why one can't be opened.
 #include "core/io/atomic_file.h"
 #include "devices/cld/cld_controller.h"
 #include "devices/device_set.h"
 #include "workbench/cli/command.h"
 #include "workbench/cli/messages.h"
+#include "workbench/cli/option.h"
 #include "workbench/cli/text_format.h"
 
 #include <nlohmann/json.hpp>
@@ -16,7 +17,7 @@
 namespace tangent {
 namespace {
 
-constexpr int kAskFor_ms = 1000;  // a controller answers within a few
+constexpr int kAskFor_ms = 1000;  // a controller answers within a few ms
 
 std::string timeout_text(double seconds) {
   return seconds > 0.0 ? format("stops by itself %.0f ms after the last command", seconds * 1e3)
@@ -39,7 +40,7 @@ std::string display_text(const std::string& name, double travel_m, double step_m
   return text + format("  rate       %.0f Hz\n  firmware   %s\n", rate_hz, timeout_text(timeout_s).c_str());
 }
 
-/// Asks the first CLD controller what it is; empty when it doesn't answer.
+/// Queries the first CLD controller's identity; empty when it does not answer.
 LinkReport ask_cld() {
   LinkReport report;
   CldController cld;
@@ -126,10 +127,10 @@ Status run_devices(const std::filesystem::path& json_file) {
 }  // namespace
 
 void add_devices_command(CLI::App& app, CommandResult& result) {
-  CLI::App* command = app.add_subcommand("devices", "What is attached, what it can do, why it can't be opened");
+  CLI::App* command = add_command(app, "devices", "What is attached, what it can do, why it can't be opened");
   auto json = std::make_shared<std::filesystem::path>();
-  command->add_option("--json", *json, "USB devices for programs")->type_name("F.json");
-  command->callback([json, &result] {
+  add_text_option(*command, "--json", *json, "USB devices for programs", "F.json");
+  on_run(*command, [json, &result] {
     const Status status = run_devices(*json);
     if (!status) print_message("devices", status.error().message());
     result.exit_code = status ? kDone : kFailed;

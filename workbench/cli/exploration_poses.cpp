@@ -1,32 +1,54 @@
 #include "workbench/cli/exploration_poses.h"
 
 #include "workbench/session/exploration_path.h"
+#include "workbench/session/stroke_path.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 namespace tangent {
 namespace {
 
-constexpr double kMostTicks = 100000.0;
+constexpr std::size_t kMostTicks = 100000;
 constexpr double kPressShare = 0.05;  // of the mesh's longest side
+
+/// 1 in the mean, by `share` more and less.
+double swing(double way_m, double wave_m, double share) {
+  return 1.0 + share * std::sin(2.0 * std::numbers::pi * way_m / wave_m);
+}
+
+template <class Path>
+void follow(const Path& path, double pad_m, ExplorationPace pace, ExplorationPoses& explored) {
+  const double varied = pace == ExplorationPace::varied ? 1.0 : 0.0;
+  explored.length_m = path.length_m();
+  double way = 0.0;
+  while (way < explored.length_m && explored.poses.size() < kMostTicks) {
+    const double press = explored.press_m * swing(way, kExplorationPressWave, varied * kExplorationPressSwing);
+    const PathPose pose = path.at(way, pad_m, press);
+    explored.poses.push_back(
+        {kExplorationTick * static_cast<double>(explored.poses.size()), {pose.position_m, pose.orientation}});
+    way += kExplorationTick * kExplorationSpeed * swing(way, kExplorationSpeedWave, varied * kExplorationSpeedSwing);
+  }
+  explored.way_m = std::min(way, explored.length_m);
+}
 
 }  // namespace
 
-ExplorationPoses exploration_poses(const ContactScene& scene, const Finger& finger) {
-  ExplorationPoses result;
+Result<ExplorationPoses> exploration_poses(const ContactScene& scene, const Finger& finger, ExplorationKind kind,
+                                           ExplorationPace pace) {
+  ExplorationPoses explored;
   const double pad = pad_distance_m(finger);
-  const ExplorationPath path = ExplorationPath::build(scene, pad);
   const Vec3 size = scene.mesh().bounds().size();
-  result.length_m = path.length_m();
-  result.press_m = std::min(kExplorationPress, kPressShare * std::max({size.x, size.y, size.z}));
-  constexpr double kStep = kExplorationSpeed * kExplorationTick;  // m a tick
-  const double ticks = std::clamp(result.length_m / kStep, 1.0, kMostTicks);
-  result.whole = result.length_m / kStep <= kMostTicks;
-  for (int i = 0; i < static_cast<int>(ticks); ++i) {
-    const PathPose pose = path.at(kStep * i, pad, result.press_m);
-    result.poses.push_back({kExplorationTick * i, {pose.position_m, pose.orientation}});
+  explored.press_m = std::min(kExplorationPress, kPressShare * std::max({size.x, size.y, size.z}));
+  if (kind == ExplorationKind::around) {
+    follow(ExplorationPath::build(scene, pad), pad, pace, explored);
+    return explored;
   }
-  return result;
+  const Result<StrokePath> strokes = StrokePath::build(scene, pad);
+  if (!strokes) return tl::unexpected(strokes.error());
+  follow(*strokes, pad, pace, explored);
+  return explored;
 }
 
 }  // namespace tangent

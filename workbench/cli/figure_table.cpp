@@ -13,7 +13,7 @@
 namespace tangent {
 namespace {
 
-/// Journal-like: thin black axes, faint grid, colours that a colour-blind reader can tell apart (Okabe & Ito).
+/// Journal style: thin black axes, faint grid, the colour-blind safe palette of Okabe & Ito.
 constexpr const char* kCommon = R"(set datafile separator ','
 set datafile columnheaders
 set encoding utf8
@@ -72,7 +72,7 @@ Status write_figure(const Figure& figure, const std::filesystem::path& folder) {
     const auto path = folder / (figure.name + data.suffix + ".csv");
     if (Status status = write_file_atomic(path, data.table.csv()); !status) return status;
   }
-  // Drawn beside its place and moved there whole.
+  // Drawn to a temporary file, then renamed.
   const std::filesystem::path target = folder / (figure.name + ".svg"), part = folder / (figure.name + ".svg.part");
   std::string script =
       format("set terminal svg size %d,%d dynamic enhanced font 'Inter, Helvetica, Arial,13' background rgb 'white'\n",

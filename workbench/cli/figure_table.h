@@ -9,7 +9,7 @@
 
 namespace tangent {
 
-/// Numbers in named columns. A NaN leaves its field empty; an empty row parts curves.
+/// Numbers in named columns. A NaN is written as an empty field; an empty row separates curves.
 struct FigureTable {
   std::vector<std::string> columns;
   std::vector<std::vector<double>> rows;

@@ -1,4 +1,4 @@
-// The figures of the paper that this program reproduces, computed by its own 2D algorithm.
+// The paper's figures that this program reproduces with its own 2D algorithm.
 #pragma once
 
 #include "core/lab/measure/curvature_deviation.h"
@@ -16,6 +16,8 @@ Figure local_centre_figure();      ///< Fig. 17: one patch, its local centre and
 Figure conditions_figure(bool at_threshold);  ///< force direction and contact location against travel, all conditions:
                                               ///< at each one's threshold count of segments, or all at five
 Figure curvature_figure();                    ///< curvature against the circle's, five segments
+
+Figure inner_corner_figure();  ///< force over time in an inner corner, as decided, faded, from both walls
 
 /// The curve of an outline written in this program, and so a good one.
 inline PlanarCurve curve_of(PlanarPolygon polygon) { return std::move(*PlanarCurve::build(std::move(polygon))); }

@@ -1,7 +1,8 @@
-// workbench figures: the paper's figures and the curvature table, computed anew.
+// workbench figures: reproduces the paper's figures and its curvature table.
 #include "workbench/cli/command.h"
 #include "workbench/cli/figures.h"
 #include "workbench/cli/messages.h"
+#include "workbench/cli/option.h"
 #include "workbench/cli/text_format.h"
 
 #include <cstdio>
@@ -10,7 +11,7 @@
 namespace tangent {
 namespace {
 
-/// Beside the paper's "less than 0.4 % at five segments".
+/// The table beside the paper's "less than 0.4 % at five segments".
 std::string deviation_text() {
   std::string text =
       "curvature of the rendered curve against the circle's, over the paper's arc (the paper: under 0.4 % at five "
@@ -29,8 +30,9 @@ Status write_figures(const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder, error);
   if (error || !std::filesystem::is_directory(folder))
     return fail("is no folder that can be made", folder.string(), "name another with --out");
-  for (const Figure& figure : {contact_location_figure(), iterations_figure(), patches_figure(), local_centre_figure(),
-                               conditions_figure(true), conditions_figure(false), curvature_figure()}) {
+  for (const Figure& figure :
+       {contact_location_figure(), iterations_figure(), patches_figure(), local_centre_figure(),
+        conditions_figure(true), conditions_figure(false), curvature_figure(), inner_corner_figure()}) {
     if (Status status = write_figure(figure, folder); !status) return status;
     std::fputs(format("%s.svg: %s\n", (folder / figure.name).c_str(), figure.title.c_str()).c_str(), stdout);
   }
@@ -42,10 +44,10 @@ Status write_figures(const std::filesystem::path& folder) {
 
 void add_figures_command(CLI::App& app, CommandResult& result) {
   CLI::App* command =
-      app.add_subcommand("figures", "The paper's figures by the 2D algorithm: SVG, with the data as CSV beside each");
+      add_command(app, "figures", "The paper's figures by the 2D algorithm: SVG, with the data as CSV beside each");
   auto folder = std::make_shared<std::filesystem::path>();
-  command->add_option("--out", *folder, "Folder to write into; made if it isn't there")->required()->type_name("DIR");
-  command->callback([folder, &result] {
+  add_text_option(*command, "--out", *folder, "Folder to write into; made if it isn't there", "DIR", Needed::yes);
+  on_run(*command, [folder, &result] {
     const Status status = write_figures(*folder);
     if (!status) print_message("figures", status.error().message());
     result.exit_code = status ? kDone : kFailed;

@@ -60,7 +60,7 @@ Figure iterations_figure() {
                 .width_px = 960,
                 .height_px = 480};
   const PlanarCurve curve = curve_of(make_paper_arc(3));
-  // A finger that has leapt by 27 mm since the last tick, so that there is something to see.
+  // The finger has jumped by 27 mm since the last tick, so that several iterations are visible.
   Preset preset;
   preset.solver.method = Method::paper;
   const double depth = 0.003, distance = kPaperArcRadius + preset.finger.radius_m - depth;

@@ -15,7 +15,7 @@ constexpr double kRadius = 0.020, kPress = 1e-3;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr int kSteps = 2000;
 
-/// The whole way of the contact shows, so no display's stops.
+/// No display travel limit, so that the whole path of the contact is visible.
 Preset figure_preset() {
   Preset preset;
   preset.finger.radius_m = kRadius;
@@ -28,7 +28,7 @@ struct Sample {
   TickOutput output;
 };
 
-/// The finger, upright, slides over the arc at the same depth under the circle's own surface.
+/// The upright finger slides over the arc at constant depth below the true circle.
 std::vector<Sample> slide(const PlanarCurve& curve, const Preset& preset) {
   std::vector<Sample> samples;
   TickState state;
@@ -41,7 +41,7 @@ std::vector<Sample> slide(const PlanarCurve& curve, const Preset& preset) {
   return samples;
 }
 
-/// Of a force, from upright, positive to the right.
+/// Angle of a force from upright, positive to the right.
 double direction_deg(const Vec3& force) { return force == Vec3(0.0) ? kNaN : std::atan2(force.x, force.y) / kDegree; }
 
 }  // namespace

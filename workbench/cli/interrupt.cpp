@@ -22,7 +22,7 @@ void install(void (*handler)(int), int flags) {
 
 InterruptGuard::InterruptGuard() {
   interrupted = 0;
-  // SA_RESETHAND: the second signal finds the system's own handler and ends the program.
+  // SA_RESETHAND: the second signal gets the default handler and ends the program.
   install(raise_flag, static_cast<int>(SA_RESETHAND) | SA_RESTART);
 }
 

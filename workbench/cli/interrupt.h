@@ -1,9 +1,9 @@
-// Ctrl-C during long work: the first asks the work to stop and keep what is done, the second ends the program.
+// Ctrl-C during long work: the first requests a stop that keeps the results so far, the second ends the program.
 #pragma once
 
 namespace tangent {
 
-/// While one lives, SIGINT and SIGTERM only raise a flag. One at a time.
+/// While it exists, SIGINT and SIGTERM only set a flag. One instance at a time.
 class InterruptGuard {
  public:
   InterruptGuard();

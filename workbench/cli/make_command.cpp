@@ -1,67 +1,99 @@
-// workbench make: the paper's objects and the hard cases, as OBJ.
+// workbench make: the paper's objects and the hard cases as OBJ, and the 2D arc of its first experiment.
 #include "core/io/mesh_io.h"
+#include "core/io/polygon_io.h"
+#include "core/lab/objects/arc.h"
 #include "core/lab/objects/generate.h"
 #include "core/lab/objects/generate_hard.h"
 #include "workbench/cli/command.h"
 #include "workbench/cli/mesh_options.h"
 #include "workbench/cli/messages.h"
-#include "workbench/cli/number_option.h"
+#include "workbench/cli/option.h"
 #include "workbench/cli/text_format.h"
 
 #include <array>
 #include <cstdio>
 #include <memory>
+#include <optional>
 
 namespace tangent {
 namespace {
 
-constexpr std::array<std::string_view, 2> kFacings{"left", "right"};  // order of Facing
+constexpr std::array<std::string_view, 2> kFacings{"left", "right"};            // order of Facing
+constexpr std::array<std::string_view, 2> kPlacements{"tangent", "inscribed"};  // order of ArcPlacement
+constexpr std::string_view kArc = "arc";
 
 struct MakeOptions {
   std::string object;
   GenerateOptions generate;
   std::filesystem::path file;
   double metres_per_unit = kMillimetre;
+  std::optional<ArcPlacement> placement;
 };
 
-int run_make(const MakeOptions& options) {
-  const Result<PolygonMesh> mesh = generate_mesh(options.object, options.generate);
-  if (!mesh) {
-    print_message("make", mesh.error().message());
-    return kUsage;  // the object or its options do not exist
-  }
-  if (const Status status = write_obj(*mesh, options.file, options.metres_per_unit); !status) {
+int refuse(const std::string& why) {
+  print_message("make", why);
+  return kUsage;  // the object or its options do not exist
+}
+
+int written(const MakeOptions& options, const Status& status, const std::string& what) {
+  if (!status) {
     print_message("make", status.error().message());
     return kFailed;
   }
-  std::fputs(format("%s: %s, %zu vertices, %zu faces\n", options.file.c_str(), options.object.c_str(),
-                    mesh->positions.size(), mesh->face_count())
-                 .c_str(),
-             stdout);
+  std::fputs((options.file.string() + ": " + what + "\n").c_str(), stdout);
   return kDone;
+}
+
+/// One further facet at either end, so that whole patches cover the arc itself.
+int make_arc(const MakeOptions& options) {
+  constexpr int kDefaultSegments = 5, kMostSegments = 10000;
+  const int segments = options.generate.segments == 0 ? kDefaultSegments : options.generate.segments;
+  if (options.generate.rounding_m != 0.0) return refuse("arc has no edges to round; leave out --rounding-mm");
+  if (segments < 2 || segments > kMostSegments) return refuse("arc takes 2 to 10000 --segments");
+  const PlanarPolygon arc = make_paper_arc(segments, options.placement.value_or(ArcPlacement::tangent));
+  return written(options, write_polygon(arc, options.file, options.metres_per_unit),
+                 format("%s and one more at either end, %g rad of a circle of %g mm radius", arc.name.c_str(),
+                        kPaperArcRad, kPaperArcRadius / kMillimetre));
+}
+
+int run_make(const MakeOptions& options) {
+  if (options.object == kArc) return make_arc(options);
+  if (options.placement) return refuse("--placement is of arc; leave it out");
+  const Result<PolygonMesh> mesh = generate_mesh(options.object, options.generate);
+  if (!mesh) return refuse(mesh.error().message());
+  return written(
+      options, write_obj(*mesh, options.file, options.metres_per_unit),
+      format("%s, %zu vertices, %zu faces", options.object.c_str(), mesh->positions.size(), mesh->face_count()));
 }
 
 }  // namespace
 
 void add_make_command(CLI::App& app, CommandResult& result) {
-  CLI::App* command = app.add_subcommand("make", "Write one of the paper's objects or a hard case as OBJ");
+  CLI::App* command = add_command(app, "make", "Write one of the paper's objects or a hard case");
   auto options = std::make_shared<MakeOptions>();
   std::string names;
   for (const std::string& name : generator_names()) names += (names.empty() ? "" : " ") + name;
-  names += "; hard cases:";
+  names += "; in 2D: arc; hard cases:";
   for (const std::string& name : hard_mesh_names()) names += " " + name;
-  command->add_option("OBJECT", options->object, names)->required()->type_name("");
-  command->add_option("--out", options->file, "File to write")->required()->type_name("F.obj");
-  add_number_option(*command, "--segments", {.min = 1, .max = 100000, .whole = true},
-                    "Around a round object, subdivisions of an icosphere, lines of a grid (default: the object's own)",
-                    [options = options.get()](double n) { options->generate.segments = static_cast<int>(n); });
+  add_text_option(*command, "OBJECT", options->object, names, "", Needed::yes);
+  add_text_option(*command, "--out", options->file, "File to write; of the arc also .csv, in metres", "F.obj",
+                  Needed::yes);
+  add_number_option(
+      *command, "--segments", {.min = 1, .max = 100000, .whole = true},
+      "Around a round object, subdivisions of an icosphere, lines of a grid, facets of the arc (default: the "
+      "object's own)",
+      [options = options.get()](double n) { options->generate.segments = static_cast<int>(n); });
   add_number_option(*command, "--rounding-mm", {.min = 0.0, .max = 1000.0, .unit = "mm"},
                     "Radius of the edges; 0: sharp (default)",
                     [options = options.get()](double mm) { options->generate.rounding_m = mm / 1e3; });
   add_choice_option(*command, "--facing", kFacings, "Where the apex of a cone or tetrahedron points (default right)",
                     [options = options.get()](int i) { options->generate.facing = static_cast<Facing>(i); });
+  add_choice_option(*command, "--placement", kPlacements,
+                    "Facets of the arc touch it at their midpoints, as the paper counts them (default), or stand on it "
+                    "with their ends",
+                    [options = options.get()](int i) { options->placement = static_cast<ArcPlacement>(i); });
   add_unit_option(*command, options->metres_per_unit, "Unit of the file's coordinates (default mm)");
-  command->callback([options, &result] { result.exit_code = run_make(*options); });
+  on_run(*command, [options, &result] { result.exit_code = run_make(*options); });
 }
 
 }  // namespace tangent

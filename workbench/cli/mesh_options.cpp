@@ -2,8 +2,9 @@
 
 #include "core/io/mesh_io.h"
 #include "core/io/polygon_io.h"
-#include "workbench/cli/number_option.h"
+#include "workbench/cli/option.h"
 #include "workbench/session/file_units.h"
+#include "workbench/session/two_threads.h"
 
 #include <array>
 
@@ -20,11 +21,11 @@ void add_unit_option(CLI::App& app, double& metres_per_unit, const std::string& 
 }
 
 void add_mesh_options(CLI::App& app, MeshOptions& options, bool mesh_required) {
-  app.add_option("MESH", options.file,
-                 "Mesh file: .obj, .ply, .stl or .off; for solve and gui also a polygon: .csv (x_m,y_m) or .obj with a "
-                 "line element")
-      ->required(mesh_required)
-      ->type_name("");
+  add_text_option(
+      app, "MESH", options.file,
+      "Mesh file: .obj, .ply, .stl or .off; for solve and gui also a polygon: .csv (x_m,y_m) or .obj with a "
+      "line element",
+      "", mesh_required ? Needed::yes : Needed::no);
   add_unit_option(app, options.metres_per_unit, "Unit of the file's coordinates (default mm)");
   add_number_option(app, "--fit-mm", {.min = 1e-3, .max = 1e9, .unit = "mm"},
                     "Bounding-box centre to the origin, longest side to this (default: as in the file)",
@@ -35,7 +36,7 @@ void add_mesh_options(CLI::App& app, MeshOptions& options, bool mesh_required) {
   add_number_option(app, "--crease-deg", {.min = 0.0, .max = 180.0, .unit = "deg"},
                     "Edges whose dihedral angle exceeds this are creases; 180: none (default 45)",
                     [&](double value) { options.build.crease_rad = value * kDegree; });
-  app.add_flag("--turn-over", options.build.turn_over, "Turn closed parts over that are inside out");
+  add_flag(app, "--turn-over", options.build.turn_over, "Turn closed parts over that are inside out");
 }
 
 Result<LoadedMesh> load_mesh(const MeshOptions& options) {
@@ -50,18 +51,18 @@ Result<LoadedMesh> load_mesh(const MeshOptions& options) {
   return LoadedMesh{std::move(*source), std::move(*mesh)};
 }
 
-Result<std::shared_ptr<const ContactScene>> load_contact_scene(const MeshOptions& options) {
+Result<std::shared_ptr<const ContactScene>> load_contact_scene(const MeshOptions& options, const SceneParts& parts) {
   if (!is_planar_file(options.file)) {
     Result<LoadedMesh> loaded = load_mesh(options);
     if (!loaded) return tl::unexpected(loaded.error());
-    return ContactScene::build(std::move(loaded->mesh));
+    return ContactScene::build(std::move(loaded->mesh), parts, run_on_two_threads);
   }
   Result<PlanarPolygon> polygon = read_polygon(options.file, options.metres_per_unit);
   if (!polygon) return tl::unexpected(polygon.error());
   if (options.build.fit_m) fit_polygon(*polygon, *options.build.fit_m);
   Result<PlanarCurve> curve = PlanarCurve::build(std::move(*polygon));
   if (!curve) return tl::unexpected(curve.error());
-  return ContactScene::build(std::move(*curve));
+  return ContactScene::build(std::move(*curve), parts);
 }
 
 }  // namespace tangent

@@ -1,13 +1,15 @@
-// The mesh and how it is read: the same options in every subcommand that takes one.
+// Options of the mesh and how to read it, the same in every subcommand that takes one.
 #pragma once
 
 #include "core/mesh/contact_mesh.h"
 #include "core/mesh/polygon_mesh.h"
 #include "core/tick/step.h"
 
-#include <CLI/CLI.hpp>
-
 #include <filesystem>
+
+namespace CLI {
+class App;
+}
 
 namespace tangent {
 
@@ -29,10 +31,10 @@ struct LoadedMesh {
   ContactMesh mesh;
 };
 
-/// Reads and builds. Fails with the reader's or the builder's message.
+/// Reads the file and builds the mesh. Fails with the reader's or the builder's message.
 Result<LoadedMesh> load_mesh(const MeshOptions& options);
 
-/// The scene for contacts: a mesh, or a 2D scene where the file holds a polygon (planar/polygon_io.h).
-Result<std::shared_ptr<const ContactScene>> load_contact_scene(const MeshOptions& options);
+/// The scene for contacts: a mesh, or a 2D scene where the file holds a polygon (planar/polygon_io.h), with `parts`.
+Result<std::shared_ptr<const ContactScene>> load_contact_scene(const MeshOptions& options, const SceneParts& parts);
 
 }  // namespace tangent

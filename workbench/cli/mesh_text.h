@@ -1,4 +1,4 @@
-// What the mesh builder met, for people and for programs.
+// Defects found by the mesh builder, as text and as JSON.
 #pragma once
 
 #include "core/mesh/contact_mesh.h"
@@ -12,7 +12,7 @@ namespace tangent {
 
 /// {"kind": {"count": n, "first": [...]}}, kinds that did not occur left out.
 nlohmann::ordered_json defects_json(const ContactMesh& mesh);
-/// One line a kind that occurred, indented by two blanks, indices named; empty when there is none.
+/// One line per kind that occurred, indented by two blanks, with the first indices; empty when there is none.
 std::string defects_text(const ContactMesh& mesh);
 /// 16 hex digits.
 std::string hash_text(std::uint64_t hash);

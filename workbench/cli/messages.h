@@ -1,4 +1,4 @@
-// Messages on standard error, all in one form.
+// Messages on standard error, in one format.
 #pragma once
 
 #include <string>

@@ -1,11 +1,11 @@
-// workbench monitor: the devices live in a terminal, with the built-in scene under the finger.
+// workbench monitor: live view of the devices in a terminal, with the built-in scene under the finger.
 #include "workbench/cli/builtin_scene.h"
 #include "workbench/cli/command.h"
 #include "workbench/cli/device_options.h"
 #include "workbench/cli/interrupt.h"
 #include "workbench/cli/messages.h"
 #include "workbench/cli/monitor_text.h"
-#include "workbench/cli/number_option.h"
+#include "workbench/cli/option.h"
 #include "workbench/session/maestro_setups.h"
 
 #include <chrono>
@@ -28,7 +28,7 @@ struct MonitorOptions {
   bool inject_display = false, stay_stopped = false;
 };
 
-/// Single keys from a terminal while it lives; nothing from anything else.
+/// Reads single keys while it exists, if standard input is a terminal.
 class Keys {
  public:
   Keys() {
@@ -140,21 +140,20 @@ Status run_monitor(const MonitorOptions& options) {
 }  // namespace
 
 void add_monitor_command(CLI::App& app, CommandResult& result) {
-  CLI::App* command = app.add_subcommand("monitor", "Devices, rates and the safety gate, live in the terminal");
+  CLI::App* command = add_command(app, "monitor", "Devices, rates and the safety gate, live in the terminal");
   auto options = std::make_shared<MonitorOptions>();
   add_device_options(*command, options->devices);
   add_number_option(*command, "--seconds", {.min = 0, .max = 86400, .unit = "s"},
                     "How long (default: until q or Ctrl-C)", [options](double v) { options->seconds = v; });
   add_number_option(*command, "--servo-hz", {.min = kSlowestServoHz, .max = kFastestServoHz, .unit = "Hz"},
                     "Rate of the servo (default 1000)", [options](double v) { options->servo_hz = v; });
-  command
-      ->add_option("--inject", options->inject,
-                   "Fault to give the simulated device once armed: drop-out, stuck-encoder, delay-burst or noise")
-      ->type_name("FAULT");
-  command->add_flag("--inject-display", options->inject_display,
-                    "Give it to the contact display instead of the force device");
-  command->add_flag("--stay-stopped", options->stay_stopped, "No force until a is pressed");
-  command->callback([options, &result] {
+  add_text_option(*command, "--inject", options->inject,
+                  "Fault to give the simulated device once armed: drop-out, stuck-encoder, delay-burst or noise",
+                  "FAULT");
+  add_flag(*command, "--inject-display", options->inject_display,
+           "Give it to the contact display instead of the force device");
+  add_flag(*command, "--stay-stopped", options->stay_stopped, "No force until a is pressed");
+  on_run(*command, [options, &result] {
     const Status status = run_monitor(*options);
     if (!status) print_message("monitor", status.error().message());
     result.exit_code = status ? kDone : kFailed;

@@ -11,7 +11,7 @@ namespace {
 
 unsigned long long number(std::uint64_t n) { return n; }
 
-/// Bars by powers of two of the value, from the first to the last that has any.
+/// Histogram by powers of two, from the first to the last bin that is not empty.
 std::string histogram_text(const char* title, const LogHistogram& histogram, double scale, const char* unit) {
   const std::uint64_t total = histogram.count();
   std::string text = format("%s: %llu values, p50 %.3g, p99 %.3g, largest %.3g %s\n", title, number(total),

@@ -1,4 +1,4 @@
-// What the monitor shows: a line while it runs, a report at its end.
+// Output of the monitor: a line while it runs, a report at the end.
 #pragma once
 
 #include "workbench/session/session.h"

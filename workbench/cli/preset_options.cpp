@@ -2,7 +2,7 @@
 
 #include "core/base/text.h"
 #include "core/io/rendering_condition.h"
-#include "workbench/cli/number_option.h"
+#include "workbench/cli/option.h"
 #include "workbench/session/unit_labels.h"
 
 namespace tangent {
@@ -23,12 +23,12 @@ void add_key_option(CLI::App& app, const PresetKey& key, PresetOptions& options)
                           .whole = key.kind == KeyKind::integer};
   std::string doc(key.doc);
   if (!key.option_doc.empty()) doc.append(" ").append(key.option_doc);
-  // Dividing by a whole number rounds once: 1.1 mm becomes the double nearest to 0.0011 m.
+  // Dividing by an integer rounds only once: 1.1 mm becomes the double nearest to 0.0011 m.
   add_number_option(app, name, range, doc, [set, per_si = key.option_per_si](double value) { set(value / per_si); });
 }
 
 void refuse_assignment(const std::string& text, const std::string& why) {
-  throw CLI::ValidationError("--set", "'" + text + "' " + why);
+  refuse_option("--set", "'" + text + "' " + why);
 }
 
 /// "solver.tolerance_m=1e-6": the key, and the value as a preset file has it.
@@ -47,8 +47,7 @@ PresetOverride parse_assignment(const std::string& text) {
 }  // namespace
 
 void add_preset_options(CLI::App& app, PresetOptions& options) {
-  app.add_option("--preset", options.file, "Tuning preset to start from (default: built-in values)")
-      ->type_name("F.toml");
+  add_text_option(app, "--preset", options.file, "Tuning preset to start from (default: built-in values)", "F.toml");
   add_choice_option(
       app, "--condition", kConditionNames,
       "Rendering condition of the paper: sources of force and tactile display (default: the method's own)",
@@ -59,11 +58,10 @@ void add_preset_options(CLI::App& app, PresetOptions& options) {
   const auto assign = [&](const std::vector<std::string>& texts) {
     for (const std::string& text : texts) options.overrides.push_back(parse_assignment(text));
   };
-  app.add_option_function<std::vector<std::string>>("--set", assign,
-                                                    "Any value of the preset by its key in the file, SI; again for "
-                                                    "more of them, after all other options")
-      ->type_name("TABLE.KEY=VALUE")
-      ->allow_extra_args(false);
+  add_repeated_option(app, "--set",
+                      "Any value of the preset by its key in the file, SI; again for more of them, after all other "
+                      "options",
+                      "TABLE.KEY=VALUE", assign);
 }
 
 Result<PresetFile> load_preset(const PresetOptions& options) {

@@ -1,18 +1,20 @@
-// The preset of a run: a file if one is named, then the options that override single values.
+// The preset of a run: a file if given, then options that override single values.
 #pragma once
 
 #include "core/io/preset_file.h"
 #include "core/preset/schema.h"
 
-#include <CLI/CLI.hpp>
-
 #include <filesystem>
 #include <string>
 #include <vector>
 
+namespace CLI {
+class App;
+}
+
 namespace tangent {
 
-/// One value that an option sets.
+/// A value set by an option.
 struct PresetOverride {
   const PresetKey* key = nullptr;
   double value = 0.0;  ///< SI

@@ -1,6 +1,8 @@
-// The program: its subcommands and what becomes of arguments that make no sense.
+// The program: its subcommands, and the handling of invalid arguments.
 #include "workbench/cli/command.h"
 #include "workbench/cli/messages.h"
+
+#include <CLI/CLI.hpp>
 
 #include <cstdio>
 #include <exception>
@@ -9,49 +11,48 @@
 namespace tangent {
 namespace {
 
-using AddCommand = void (*)(CLI::App&, CommandResult&);
-constexpr AddCommand kCommands[]{
-#ifdef TANGENT_HAS_GUI
-    add_gui_command,     add_shot_command,
-#endif
-    add_solve_command,   add_audit_command,    add_make_command,    add_bench_command,  add_tune_command,
-    add_figures_command, add_decimate_command, add_devices_command, add_monitor_command};
+/// Named for --help; they never run here (hand_over.h).
+void add_window_commands(CLI::App& app, CommandResult&) {
+  app.add_subcommand("gui", kGuiCommandText);
+  app.add_subcommand("shot", kShotCommandText);
+}
+
+constexpr AddCommand kCommands[]{add_window_commands, add_solve_command,  add_audit_command,   add_make_command,
+                                 add_bench_command,   add_tune_command,   add_figures_command, add_decimate_command,
+                                 add_devices_command, add_monitor_command};
 
 std::string chosen_command(const CLI::App& app) {
   const std::vector<CLI::App*> chosen = app.get_subcommands();
   return chosen.empty() ? std::string() : chosen.front()->get_name();
 }
 
-int parse_and_run(CLI::App& app, CommandResult& result, int argc, const char* const* argv) {
+int parse_and_run(CLI::App& app, CommandResult& result, int argc, const char* const* argv, int (*without_command)()) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    // Help and version leave by exceptions too, with code 0.
+    // CLI11 reports help and version by exceptions too, with code 0.
     if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return app.exit(error);
     const std::string command = chosen_command(app);
     const std::string help = "workbench" + (command.empty() ? "" : " " + command) + " --help";
     print_message(command, std::string(error.what()) + " (see " + help + ")");
     return kUsage;
   }
-#ifdef TANGENT_HAS_GUI
-  if (app.get_subcommands().empty()) return run_gui_or_pictures();
-#else
-  if (app.get_subcommands().empty()) return run_without_command();
-#endif
-  return result.exit_code;
+  return app.get_subcommands().empty() ? without_command() : result.exit_code;
 }
 
 }  // namespace
 
-int run_program(int argc, const char* const* argv) {
+std::span<const AddCommand> headless_commands() { return kCommands; }
+
+int run_program(int argc, const char* const* argv, std::span<const AddCommand> commands, int (*without_command)()) {
   CLI::App app("Tangent Workbench: haptic shading of contact location and force, seen and tuned", "workbench");
   app.set_version_flag("--version", "workbench " TANGENT_VERSION);
   app.require_subcommand(0, 1);
   app.footer("Exit codes: 0 done, 1 the work failed, 2 wrong usage.");
   CommandResult result;
-  for (const AddCommand add : kCommands) add(app, result);
+  for (const AddCommand add : commands) add(app, result);
   try {
-    int code = parse_and_run(app, result, argc, argv);
+    int code = parse_and_run(app, result, argc, argv, without_command);
     if (std::fflush(stdout) != 0) {
       print_message("", "standard output can't be written");
       if (code == kDone) code = kFailed;

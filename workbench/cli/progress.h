@@ -1,4 +1,4 @@
-// One line on standard error that says how far long work is: only when it is a terminal.
+// One-line progress display on standard error, only if that is a terminal.
 #pragma once
 
 #include <chrono>
@@ -9,17 +9,17 @@ namespace tangent {
 
 class Progress {
  public:
-  /// `what`: "ticks". Total: how many there will be.
+  /// `what`: the unit counted, e.g. "ticks"; `total`: their final number.
   Progress(std::string what, std::uint64_t total);
-  ~Progress();  ///< wipes the line
+  ~Progress();  ///< erases the line
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// Cheap enough for every tick: looks at the clock once in kStride calls, draws ten times a second.
+  /// Cheap enough for every tick: reads the clock once in kStride calls, draws ten times a second.
   void update(std::uint64_t done) {
     if (terminal_ && done % kStride == 0) draw(done);
   }
-  /// For work whose end moves: looks at the clock every time.
+  /// For work whose total changes: reads the clock at every call.
   void update(std::uint64_t done, std::uint64_t total) {
     total_ = total;
     if (terminal_) draw(done);

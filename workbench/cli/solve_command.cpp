@@ -1,4 +1,4 @@
-// workbench solve: every pose of a file, one tick each, into ticks.csv.
+// workbench solve: steps every pose of a file, one tick each, and writes ticks.csv.
 #include "core/io/atomic_file.h"
 #include "core/io/pose_file.h"
 #include "core/io/ticks_file.h"
@@ -6,6 +6,7 @@
 #include "workbench/cli/interrupt.h"
 #include "workbench/cli/mesh_options.h"
 #include "workbench/cli/messages.h"
+#include "workbench/cli/option.h"
 #include "workbench/cli/preset_options.h"
 #include "workbench/cli/progress.h"
 #include "workbench/cli/solve_report.h"
@@ -26,18 +27,18 @@ struct SolveOptions {
   std::filesystem::path poses, ticks, summary, iterations;
 };
 
-/// The files of a run, under way.
+/// The output files of a run, being written.
 struct SolveOutputs {
   TicksFile ticks;
   std::optional<IterationsFile> iterations;
 };
 
-/// Fails at once, rather than after the work, where a file can't be written.
+/// Checks before the work starts that the files can be written.
 Status probe_outputs(const SolveOptions& options) {
   for (const std::filesystem::path& path : {options.ticks, options.summary, options.iterations}) {
     std::error_code error;
     const auto status = std::filesystem::status(path, error);
-    // Opening a pipe to try it would look like the end of the data to its reader.
+    // Not for a pipe: opening and closing it would signal the end of the data to its reader.
     if (path.empty() || std::filesystem::is_fifo(status)) continue;
     if (const Result<AtomicFile> file = AtomicFile::create(path); !file) return tl::unexpected(file.error());
   }
@@ -59,7 +60,7 @@ Result<SolveOutputs> create_outputs(const SolveOptions& options) {
 Status step_all(Stepper& stepper, const std::vector<TickInput>& poses, SolveOutputs& outputs, SolveReport& report) {
   const InterruptGuard interrupt;
   Progress progress("ticks", poses.size());
-  // Large, so not on the stack.
+  // Too large for the stack.
   const auto trace = outputs.iterations ? std::make_unique<IterationTrace>() : nullptr;
   TickState state;
   TickRow row;
@@ -78,7 +79,7 @@ Status step_all(Stepper& stepper, const std::vector<TickInput>& poses, SolveOutp
     if (trace) {
       if (Status status = outputs.iterations->append(row.tick, *trace); !status) return status;
     }
-    report.statistics.add(row.output, row.solve_ns);
+    report.statistics.add(report.preset.preset, input, row.output, row.solve_ns);
     progress.update(++row.tick);
   }
   return {};
@@ -93,7 +94,7 @@ Status commit(SolveOutputs& outputs, const SolveOptions& options, const SolveRep
   return write_file_atomic(options.summary, solve_json(report).dump(2) + "\n");
 }
 
-/// In the plane a finger is a point or a circle.
+/// In 2D only a point or a sphere (circle) is a valid finger.
 Status check_shape(const ContactScene& scene, const Preset& preset) {
   const FingerShape shape = preset.finger.shape;
   if (scene.planar() == nullptr || shape == FingerShape::point || shape == FingerShape::sphere) return {};
@@ -108,12 +109,12 @@ Status solve(const SolveOptions& options, bool& interrupted) {
   if (Status status = probe_outputs(options); !status) return status;
   const Result<std::vector<TickInput>> poses = read_poses(options.poses);
   if (!poses) return tl::unexpected(poses.error());
-  const Result<std::shared_ptr<const ContactScene>> scene = load_contact_scene(options.mesh);
+  const Result<std::shared_ptr<const ContactScene>> scene = load_contact_scene(options.mesh, parts_for(preset->preset));
   if (!scene) return tl::unexpected(scene.error());
   if (Status status = check_shape(**scene, preset->preset); !status) return status;
   report.load_seconds = loading.seconds();
 
-  report.mesh = &(*scene)->mesh();
+  report.mesh = (*scene)->has_mesh() ? &(*scene)->mesh() : nullptr;
   report.planar = (*scene)->planar();
   report.preset = std::move(*preset);
   report.preset_name = options.preset.file.empty() ? "built-in values" : options.preset.file.string();
@@ -126,6 +127,7 @@ Status solve(const SolveOptions& options, bool& interrupted) {
   if (Status status = step_all(stepper, *poses, *outputs, report); !status) return status;
   interrupted = report.interrupted;
   report.solve_seconds = solving.seconds();
+  report.scene_bytes = (*scene)->memory_bytes();
   if (Status status = commit(*outputs, options, report); !status) return status;
   std::fputs(solve_text(report).c_str(), stdout);
   if (interrupted) {
@@ -148,7 +150,7 @@ void refuse_shared_paths(const SolveOptions& options) {
       const bool same = *files[i].second == *files[j].second ||
                         (std::filesystem::is_regular_file(*files[i].second, error) &&
                          std::filesystem::equivalent(*files[i].second, *files[j].second, error));
-      if (same) throw CLI::ValidationError(files[i].first, std::string("names the same file as ") + files[j].first);
+      if (same) refuse_option(files[i].first, std::string("names the same file as ") + files[j].first);
     }
   }
 }
@@ -156,19 +158,17 @@ void refuse_shared_paths(const SolveOptions& options) {
 }  // namespace
 
 void add_solve_command(CLI::App& app, CommandResult& result) {
-  CLI::App* command = app.add_subcommand("solve", "Solve every pose of a file on a mesh: one line a tick");
+  CLI::App* command = add_command(app, "solve", "Solve every pose of a file on a mesh: one line a tick");
   auto options = std::make_shared<SolveOptions>();
   add_mesh_options(*command, options->mesh);
-  command->add_option("--poses", options->poses, "Finger poses: t_s,x_m,y_m,z_m[,qw,qx,qy,qz]")
-      ->required()
-      ->type_name("F.csv");
-  command->add_option("--out", options->ticks, "Ticks: contact, force, display, iterations, time")
-      ->required()
-      ->type_name("F.csv");
-  command->add_option("--summary", options->summary, "Counts and percentiles of the run")->type_name("F.json");
-  command->add_option("--iterations", options->iterations, "Every tangent plane of every tick")->type_name("F.csv");
+  add_text_option(*command, "--poses", options->poses, "Finger poses: t_s,x_m,y_m,z_m[,qw,qx,qy,qz]", "F.csv",
+                  Needed::yes);
+  add_text_option(*command, "--out", options->ticks, "Ticks: contact, force, display, iterations, time", "F.csv",
+                  Needed::yes);
+  add_text_option(*command, "--summary", options->summary, "Counts and percentiles of the run", "F.json");
+  add_text_option(*command, "--iterations", options->iterations, "Every tangent plane of every tick", "F.csv");
   add_preset_options(*command, options->preset);
-  command->callback([options, &result] {
+  on_run(*command, [options, &result] {
     refuse_shared_paths(*options);
     bool interrupted = false;
     const Status status = solve(*options, interrupted);

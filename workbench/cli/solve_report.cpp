@@ -1,5 +1,6 @@
 #include "workbench/cli/solve_report.h"
 
+#include "core/lab/audit/finger_size.h"
 #include "core/preset/schema.h"
 #include "workbench/cli/mesh_text.h"
 #include "workbench/cli/text_format.h"
@@ -51,6 +52,23 @@ std::string iterations_text(const Distribution& d) {
   return format("mean %.3f  p50 %.0f  p99 %.0f  p99.9 %.0f  max %.0f", d.mean, d.p50, d.p99, d.p999, d.max);
 }
 
+/// Changes from tick to tick, as rendered and as decided before fading. `scale`: from SI to `unit`.
+std::string roughness_text(const SignalRoughness& rendered, const SignalRoughness& decided, double scale,
+                           const char* unit) {
+  const auto one = [&](const SignalRoughness& s) {
+    return format("%.3g %s a tick, %llu changes unexplained by the motion%s", s.mean * scale, unit,
+                  (unsigned long long)s.unexplained,
+                  s.unexplained > 0 ? format(", by up to %.4g %s", s.largest * scale, unit).c_str() : "");
+  };
+  return one(rendered) + "; before fading " + one(decided) + "\n";
+}
+
+Json roughness_json(const SignalRoughness& s, const std::string& unit) {
+  return {{"mean_change_" + unit, s.mean},
+          {"unexplained_ticks", s.unexplained},
+          {"largest_unexplained_" + unit, s.largest}};
+}
+
 std::string size_text(const SolveReport& report) {
   if (report.planar == nullptr) return format("%u triangles", report.mesh->usable_triangle_count());
   return format("%s polygon, %u vertices", report.planar->closed() ? "closed" : "open", report.planar->patch_count());
@@ -71,15 +89,36 @@ std::string finger_text(const Finger& finger) {
   return {};
 }
 
+std::string scene_name(const SolveReport& report) {
+  return report.mesh != nullptr ? report.mesh->name() : report.planar->polygon().name;
+}
+
+Json mesh_json(const SolveReport& report) {
+  const ContactMesh& mesh = *report.mesh;
+  return {{"name", mesh.name()},
+          {"hash", hash_text(mesh.content_hash())},
+          {"triangles", mesh.triangle_count()},
+          {"usable_triangles", mesh.usable_triangle_count()},
+          {"defects", defects_json(mesh)},
+          {"notes", report.notes()}};
+}
+
 }  // namespace
+
+std::vector<std::string> SolveReport::notes() const {
+  std::vector<std::string> all = mesh != nullptr ? mesh->notes() : std::vector<std::string>{};
+  const double longest_m = mesh != nullptr ? longest_side_m(*mesh) : planar->size_m();
+  if (std::string size = finger_size_note(longest_m, preset.preset.finger); !size.empty())
+    all.push_back(std::move(size));
+  return all;
+}
 
 std::string solve_text(const SolveReport& report) {
   const SolveStatistics& s = report.statistics;
-  const ContactMesh& mesh = *report.mesh;
   const Preset& preset = report.preset.preset;
   const Distribution ns = s.solve_ns();
   std::string text = format("%llu ticks on %s (%s), %s, method %s%s\n", (unsigned long long)s.ticks(),
-                            mesh.name().c_str(), size_text(report).c_str(), finger_text(preset.finger).c_str(),
+                            scene_name(report).c_str(), size_text(report).c_str(), finger_text(preset.finger).c_str(),
                             to_string(preset.solver.method), report.interrupted ? ", interrupted" : "");
   text += "  status      " + counts_text(s, kTickStatuses) + "\n";
   text += "  events      " + counts_text(s, kTickEvents) + "\n";
@@ -87,33 +126,31 @@ std::string solve_text(const SolveReport& report) {
   text += "    no event  " + iterations_text(s.event_free_iterations()) + "\n";
   text += format("  error       max %.4g um of converged ticks (tolerance %g um)\n", s.max_error_m() * 1e6,
                  preset.solver.tolerance_m * 1e6);
+  text += "  force       " + roughness_text(s.roughness().force, s.roughness().decided_force, 1e3, "mN");
+  text += "  display     " + roughness_text(s.roughness().display, s.roughness().decided_display, 1e6, "um");
   text += format("  tick time   p50 %.2f us  p99 %.2f us  p99.9 %.2f us  max %.2f us\n", ns.p50 * 1e-3, ns.p99 * 1e-3,
                  ns.p999 * 1e-3, ns.max * 1e-3);
   text += format("  seconds     loading %.3f, solving %.3f\n", report.load_seconds, report.solve_seconds);
-  const std::string defects = defects_text(mesh);
+  text += format("  memory      %.3f MB of scene\n", 1e-6 * static_cast<double>(report.scene_bytes));
+  const std::string defects = report.mesh != nullptr ? defects_text(*report.mesh) : std::string();
   if (!defects.empty()) text += "mesh: found and dealt with (numbers of the first)\n" + defects;
-  for (const std::string& note : mesh.notes()) text += "note: " + note + "\n";
+  for (const std::string& note : report.notes()) text += "note: " + note + "\n";
   return text;
 }
 
 Json solve_json(const SolveReport& report) {
   const SolveStatistics& s = report.statistics;
-  const ContactMesh& mesh = *report.mesh;
-  Json scene = {{"dimensions", report.planar != nullptr ? 2 : 3}};
+  Json scene = {{"dimensions", report.planar != nullptr ? 2 : 3}, {"memory_bytes", report.scene_bytes}};
   if (report.planar != nullptr) {
+    scene["name"] = scene_name(report);
     scene["vertices"] = report.planar->patch_count();
     scene["closed"] = report.planar->closed();
+    scene["notes"] = report.notes();
   }
   return {
       {"program_version", TANGENT_VERSION},
       {"scene", scene},
-      {"mesh",
-       {{"name", mesh.name()},
-        {"hash", hash_text(mesh.content_hash())},
-        {"triangles", mesh.triangle_count()},
-        {"usable_triangles", mesh.usable_triangle_count()},
-        {"defects", defects_json(mesh)},
-        {"notes", mesh.notes()}}},
+      {"mesh", report.mesh != nullptr ? mesh_json(report) : Json()},
       {"poses", {{"name", report.poses_name}, {"count", report.poses}}},
       {"preset", {{"name", report.preset_name}, {"values", to_json(report.preset.preset)}}},
       {"interrupted", report.interrupted},
@@ -122,6 +159,11 @@ Json solve_json(const SolveReport& report) {
       {"events", counts_json(s, kTickEvents)},
       {"iterations", {{"all", to_json(s.iterations())}, {"event_free", to_json(s.event_free_iterations())}}},
       {"max_error_m", s.max_error_m()},
+      {"roughness",
+       {{"force", roughness_json(s.roughness().force, "n")},
+        {"decided_force", roughness_json(s.roughness().decided_force, "n")},
+        {"display", roughness_json(s.roughness().display, "m")},
+        {"decided_display", roughness_json(s.roughness().decided_display, "m")}}},
       {"solve_ns", to_json(s.solve_ns())},
       {"seconds", {{"load", report.load_seconds}, {"solve", report.solve_seconds}}},
   };

@@ -1,7 +1,8 @@
-// What a run of ticks amounts to: counts, iterations, error and time, as percentiles.
+// Statistics of a run of ticks: counts, and percentiles of iterations, error and time.
 #pragma once
 
 #include "core/lab/measure/distribution.h"
+#include "core/lab/measure/roughness.h"
 #include "core/tick/step.h"
 
 #include <array>
@@ -11,23 +12,19 @@
 
 namespace tangent {
 
-inline constexpr std::array kTickStatuses{TickStatus::free, TickStatus::face, TickStatus::edge, TickStatus::vertex,
-                                          TickStatus::unconverged};
-inline constexpr std::array kTickEvents{TickEvent::none, TickEvent::first, TickEvent::reseed, TickEvent::switched,
-                                        TickEvent::branch};
-
 class SolveStatistics {
  public:
   void reserve(std::size_t ticks);
-  void add(const TickOutput& output, double solve_ns);
+  void add(const Preset& preset, const TickInput& input, const TickOutput& output, double solve_ns);
 
   std::uint64_t ticks() const { return iterations_.size(); }
   std::uint64_t count(TickStatus status) const { return statuses_[static_cast<std::size_t>(status)]; }
   std::uint64_t count(TickEvent event) const { return events_[static_cast<std::size_t>(event)]; }
   double max_error_m() const { return max_error_m_; }  ///< of the converged ticks
   Distribution iterations() const { return distribution(iterations_); }
-  /// Of the ticks whose event is `none`: tracking alone.
+  /// Over the ticks whose event is `none`, that is, tracking only.
   Distribution event_free_iterations() const { return distribution(event_free_iterations_); }
+  const Roughness& roughness() const { return roughness_.result(); }
   Distribution solve_ns() const { return distribution(solve_ns_); }
 
  private:
@@ -35,6 +32,7 @@ class SolveStatistics {
   std::array<std::uint64_t, kTickEvents.size()> events_{};
   std::vector<double> iterations_, event_free_iterations_, solve_ns_;
   double max_error_m_ = 0.0;
+  RoughnessCounter roughness_;
 };
 
 }  // namespace tangent

@@ -1,4 +1,4 @@
-// workbench tune: gains of the paper's iteration, found by measuring on a mesh, into a preset.
+// workbench tune: measures gains for the paper's iteration on a mesh and writes a preset.
 #include "core/io/atomic_file.h"
 #include "core/io/pose_file.h"
 #include "core/lab/gains/gain_tuning.h"
@@ -8,6 +8,7 @@
 #include "workbench/cli/interrupt.h"
 #include "workbench/cli/mesh_options.h"
 #include "workbench/cli/messages.h"
+#include "workbench/cli/option.h"
 #include "workbench/cli/preset_options.h"
 #include "workbench/cli/progress.h"
 #include "workbench/cli/stopwatch.h"
@@ -25,10 +26,11 @@ struct TuneOptions {
   MeshOptions mesh;
   PresetOptions preset;
   std::filesystem::path poses, out;
+  ExplorationKind path = ExplorationKind::around;
   std::string command;  ///< as typed, with every option by its long name
 };
 
-/// One word of a command line, quoted where a shell would take it apart.
+/// A word of a command line, quoted where a shell needs it.
 std::string shell_word(const std::string& word) {
   constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./:,@%";
   if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
@@ -38,12 +40,10 @@ std::string shell_word(const std::string& word) {
 }
 
 std::string command_text(const CLI::App& command) {
-  std::string text = "workbench " + command.get_name();
-  for (const CLI::Option* option : command.get_options()) {
-    for (const std::string& value : option->results()) {
-      if (!option->get_positional()) text += " " + option->get_name();
-      text += " " + shell_word(value);
-    }
+  std::string text = "workbench tune";
+  for (const GivenOption& option : given_options(command)) {
+    if (!option.name.empty()) text += " " + option.name;
+    text += " " + shell_word(option.value);
   }
   return text;
 }
@@ -59,7 +59,7 @@ Result<PresetFile> load_base(const PresetOptions& options) {
   return base;
 }
 
-/// What about the ideal G_k is: the finger's reach, or for a point a 20th of the mesh.
+/// Length scale of the ideal G_k: the finger's reach, or a 20th of the mesh for a point finger.
 double gain_length(const ContactScene& scene, const Finger& finger) {
   const double reach = finger.reach_m();
   const double length = reach > 0.0 ? reach : 0.05 * glm::length(scene.mesh().bounds().size());
@@ -71,11 +71,16 @@ Result<std::vector<TickInput>> find_poses(const TuneOptions& options, const Cont
     report.poses = options.poses.filename().string();
     return read_poses(options.poses);
   }
-  ExplorationPoses explored = exploration_poses(scene, report.preset.preset.finger);
-  report.poses =
-      format("exploration path, %g m/s, %g mm deep, %.3g of %.3g m", kExplorationSpeed, explored.press_m * 1e3,
-             kExplorationSpeed * kExplorationTick * static_cast<double>(explored.poses.size()), explored.length_m);
-  return std::move(explored.poses);
+  Result<ExplorationPoses> explored =
+      exploration_poses(scene, report.preset.preset.finger, options.path, ExplorationPace::varied);
+  if (!explored) return tl::unexpected(explored.error());
+  constexpr double kSlow = 1.0 - kExplorationSpeedSwing, kFast = 1.0 + kExplorationSpeedSwing;
+  const double mm = explored->press_m * 1e3;
+  report.poses = format("%s, %g to %g m/s, %g to %g mm deep, %.3g of %.3g m",
+                        options.path == ExplorationKind::around ? "exploration path" : "strokes",
+                        kExplorationSpeed * kSlow, kExplorationSpeed * kFast, mm * (1.0 - kExplorationPressSwing),
+                        mm * (1.0 + kExplorationPressSwing), explored->way_m, explored->length_m);
+  return std::move(explored->poses);
 }
 
 MethodRun run_method(const std::shared_ptr<const ContactScene>& scene, Preset preset, Method method,
@@ -114,7 +119,7 @@ Status run_tune(const TuneOptions& options, bool& interrupted) {
   if (!base) return tl::unexpected(base.error());
   report.preset = std::move(*base);
   Preset& preset = report.preset.preset;
-  // Fails at once, rather than after the work.
+  // Checks before the work starts that the file can be written.
   if (const Result<AtomicFile> probe = AtomicFile::create(options.out); !probe) return tl::unexpected(probe.error());
   Result<LoadedMesh> loaded = load_mesh(options.mesh);
   if (!loaded) return tl::unexpected(loaded.error());
@@ -149,38 +154,41 @@ Status run_tune(const TuneOptions& options, bool& interrupted) {
 
 void check_usage(const TuneOptions& options) {
   for (const PresetOverride& o : options.preset.overrides) {
-    if (o.key->tuned) throw CLI::ValidationError(o.by, "is what tune finds; leave it out");
+    if (o.key->tuned) refuse_option(o.by, "is what tune finds; leave it out");
     if (!names_method(o) || is_smooth(static_cast<Method>(o.value))) continue;
     std::vector<std::string_view> allowed;
     for (std::size_t i = 0; i < kMethodNames.size(); ++i)
       if (is_smooth(static_cast<Method>(i))) allowed.push_back(kMethodNames[i]);
-    throw CLI::ValidationError(o.by, o.key->value_text(o.value) + " has no gains; allowed: " + choices_text(allowed));
+    refuse_option(o.by, o.key->value_text(o.value) + " has no gains; allowed: " + choices_text(allowed));
   }
   const std::pair<const char*, const std::filesystem::path*> inputs[]{{"MESH", &options.mesh.file},
                                                                       {"--poses", &options.poses}};
   for (const auto& [name, path] : inputs) {
     std::error_code error;
     if (!path->empty() && (*path == options.out || std::filesystem::equivalent(*path, options.out, error)))
-      throw CLI::ValidationError("--out", std::string("names the same file as ") + name);
+      refuse_option("--out", std::string("names the same file as ") + name);
   }
 }
 
 }  // namespace
 
 void add_tune_command(CLI::App& app, CommandResult& result) {
-  CLI::App* command = app.add_subcommand("tune", "Find the gains of the paper's iteration by measuring on a mesh");
-  command->footer(
-      "The gains are those of the paper's iteration (Eq. 1), whatever --method the preset is to use "
-      "(default paper). Ctrl-C keeps the best so far.");
+  CLI::App* command =
+      add_command(app, "tune", "Find the gains of the paper's iteration by measuring on a mesh",
+                  "The gains are those of the paper's iteration (Eq. 1), whatever --method the preset is to use "
+                  "(default paper). Ctrl-C keeps the best so far.");
   auto options = std::make_shared<TuneOptions>();
   add_mesh_options(*command, options->mesh);
-  command
-      ->add_option("--poses", options->poses,
-                   "Finger poses: t_s,x_m,y_m,z_m[,qw,qx,qy,qz] (default: explores the mesh at 0.1 m/s, 1 mm deep)")
-      ->type_name("F.csv");
-  command->add_option("--out", options->out, "Preset to write")->required()->type_name("preset.toml");
+  add_text_option(*command, "--poses", options->poses, "Finger poses: t_s,x_m,y_m,z_m[,qw,qx,qy,qz] (default: --path)",
+                  "F.csv");
+  add_choice_option(
+      *command, "--path", kExplorationNames,
+      "How the mesh is explored, at 0.05 to 0.15 m/s, 0.4 to 1.6 mm deep: all over (around, the default), "
+      "or left and right over its top, then forward and back, as the paper's participants (strokes)",
+      [options = options.get()](int kind) { options->path = static_cast<ExplorationKind>(kind); });
+  add_text_option(*command, "--out", options->out, "Preset to write", "preset.toml", Needed::yes);
   add_preset_options(*command, options->preset);
-  command->callback([command, options, &result] {
+  on_run(*command, [command, options, &result] {
     check_usage(*options);
     options->command = command_text(*command);
     bool interrupted = false;

@@ -1,5 +1,6 @@
 #include "workbench/cli/tune_report.h"
 
+#include "core/lab/audit/finger_size.h"
 #include "workbench/cli/mesh_text.h"
 #include "workbench/cli/text_format.h"
 
@@ -17,7 +18,7 @@ std::string today() {
                 static_cast<unsigned>(date.day()));
 }
 
-/// A measured number as people write it: means to four decimals, times to the nanosecond.
+/// Rounds a measured number for the preset: means to four decimals, times to the nanosecond.
 double rounded(double value, double per_unit) { return std::round(value * per_unit) / per_unit; }
 
 std::string trial_line(const char* name, const GainTrial& trial) {
@@ -104,6 +105,9 @@ std::string tune_text(const TuneReport& report) {
   if (const auto left = tuning.best.front().score.unconverged; left != 0)
     text += format("note: %llu ticks of the paper's iteration did not converge with any gains tried\n",
                    static_cast<unsigned long long>(left));
+  if (const std::string note = finger_size_note(longest_side_m(*report.mesh), report.preset.preset.finger);
+      !note.empty())
+    text += "note: " + note + "\n";
   return text;
 }
 

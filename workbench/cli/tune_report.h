@@ -1,4 +1,4 @@
-// The outcome of a tuning: a table for people, and the [about] of the preset it writes.
+// Report of a tuning: a text table, and the [about] table of the preset it writes.
 #pragma once
 
 #include "core/io/preset_file.h"
@@ -22,7 +22,7 @@ struct MethodRun {
 struct TuneReport {
   const ContactMesh* mesh = nullptr;
   PresetFile preset;    ///< as it will be written
-  std::string poses;    ///< what they are, in words
+  std::string poses;    ///< description of the poses
   std::string command;  ///< that was run
   GainTuning tuning;
   MethodRun own;                  ///< the preset's method
@@ -32,7 +32,7 @@ struct TuneReport {
 /// Fills preset.about from the rest.
 void describe_measurement(TuneReport& report);
 
-/// The ten best gains, the untuned ones, and what each method does with them.
+/// The ten best gains, the untuned ones, and the results of each method with them.
 std::string tune_text(const TuneReport& report);
 
 }  // namespace tangent

@@ -18,8 +18,8 @@ struct App::Ui {
   Typing typing;
   Resting resting;
   ThemeFonts fonts;
-  std::optional<float> font_scale;  ///< the atlas was built for
-  std::optional<Theme> theme;       ///< the style was set for
+  std::optional<float> font_scale;  ///< for which the atlas was built
+  std::optional<Theme> theme;       ///< for which the style was set
   MenuBar menu;
   PresetsPanel presets;
   ComparePanel compare;
@@ -105,7 +105,7 @@ void App::Ui::draw_column(const char* name, const Rect& rect, const UiContext& u
   if (rect.w < ui.px(40) || rect.h < ui.px(30)) return;
   ImGui::SetNextWindowPos({rect.x, rect.y});
   ImGui::SetNextWindowSize({rect.w, rect.h});
-  // The scroll bar keeps its room, so that nothing jumps when a section is folded.
+  // Always reserves room for the scroll bar, so that nothing jumps when a section is folded.
   constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
                                      ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove |
                                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus |

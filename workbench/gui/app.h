@@ -1,4 +1,4 @@
-// The whole window as one object: builds the ImGui frame from plain input, and knows no window system.
+// The whole window as one object: builds the ImGui frame from plain input, independent of any window system.
 //
 // A platform (GLFW window, or off screen) drives it like this, once a frame, on the thread that owns the
 // ImGui context and the GL context:
@@ -29,7 +29,7 @@ class ItemMap;
 enum class PlotsMode : std::uint8_t;
 class SceneRenderer;
 
-/// What a platform tells the frame builder. Mouse and keys come through ImGuiIO.
+/// Input of a frame from the platform. Mouse and keys come through ImGuiIO.
 struct FrameInput {
   float width = 1280.0f, height = 720.0f;  ///< ImGui's coordinates
   float content_scale = 1.0f;              ///< of the monitor: 2 on a HiDPI screen whose coordinates are pixels
@@ -40,38 +40,38 @@ struct FrameInput {
 
 class App {
  public:
-  /// Never fails: what goes wrong (a mesh that can't be read, a preset with an unknown key) is shown in the
-  /// window, and the built-in scene or the default preset stands in.
+  /// Never fails: errors (a mesh that can't be read, a preset with an unknown key) are shown in the window, and the
+  /// built-in scene or the default preset is used instead.
   explicit App(AppOptions options = {});
   ~App();
   App(const App&) = delete;
   App& operator=(const App&) = delete;
 
-  /// Draws the 3D view from now on; null: none. Must outlive the app's last frame.
+  /// The renderer of the 3D view; null: none. Must outlive the app's last frame.
   void set_renderer(SceneRenderer* renderer);
 
-  /// Fonts and style for this scale and theme. True when the font atlas was built anew. Sets DisplaySize
-  /// and DeltaTime too; a back end may set them again.
+  /// Sets fonts and style for this scale and theme. True when the font atlas was rebuilt. Also sets DisplaySize and
+  /// DeltaTime; a back end may set them again.
   bool prepare(const FrameInput& input);
   /// ImGui::NewFrame, the whole window, ImGui::Render.
   void frame(const FrameInput& input);
 
-  void show_plots(PlotsMode mode, bool values);  ///< as their buttons do
+  void show_plots(PlotsMode mode, bool values);  ///< as by their buttons
 
-  /// Deterministic mode: `ticks` servo ticks, now. Otherwise nothing.
+  /// Deterministic mode: runs `ticks` servo ticks now. Otherwise does nothing.
   void advance(std::uint64_t ticks);
 
   bool wants_close() const;   ///< file > quit was chosen
-  bool wants_frames() const;  ///< something moves by itself: draw again without waiting for input
+  bool wants_frames() const;  ///< something is animated: draw again without waiting for input
   std::string title() const;  ///< for the window: mesh, preset, time in view while paused
-  /// Where the frame just drawn is to be written as a PNG, once for each request; the platform has the pixels.
+  /// The file to which the platform should write this frame as a PNG; given once per request.
   std::optional<std::filesystem::path> take_screenshot_request();
 
   AppModel& model() { return *model_; }
   const AppModel& model() const { return *model_; }
-  /// Where the widgets of the last frame were, by label path ("transport/pause").
+  /// Rectangles of the last frame's widgets, by label path ("transport/pause").
   const ItemMap& items() const;
-  double last_build_ms() const { return last_build_ms_; }  ///< CPU time of the last frame(), renderer left out
+  double last_build_ms() const { return last_build_ms_; }  ///< CPU time of the last frame(), without the renderer
 
  private:
   struct Ui;

@@ -1,6 +1,7 @@
 # tangent_gui: the window, the off-screen renderer and everything drawn in them. The only room with GL and ImGui.
 file(GLOB_RECURSE gui_sources CONFIGURE_DEPENDS gui/*.cpp)
 add_library(tangent_gui STATIC ${gui_sources})
+compile_folders_as_one(tangent_gui)
 
 find_package(PkgConfig REQUIRED)
 find_package(glfw3 3.3 REQUIRED)

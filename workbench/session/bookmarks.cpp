@@ -49,8 +49,10 @@ void Bookmarks::watch(const ServoRecord& record) {
   last_tick_ = record.tick.tick;
   const TickOutput& out = record.tick.output;
   const auto wants = [this](BookmarkKind kind) { return triggers.on[static_cast<std::size_t>(kind)]; };
-  if (out.status == TickStatus::unconverged && wants(BookmarkKind::unconverged))
-    fire(BookmarkKind::unconverged, record, text_of("error %.3g \u00b5m", out.error_m * 1e6));
+  if (!is_converged(out.status) && wants(BookmarkKind::unconverged)) {
+    const char* pattern = out.status == TickStatus::facing ? "facing, off by %.3g \u00b5m" : "error %.3g \u00b5m";
+    fire(BookmarkKind::unconverged, record, text_of(pattern, out.error_m * 1e6));
+  }
   if (out.event == TickEvent::reseed && wants(BookmarkKind::reseeded))
     fire(BookmarkKind::reseeded, record, text_of("%.0f planes", out.iterations));
   if (out.iterations > triggers.iterations_over && wants(BookmarkKind::iterations))
@@ -97,7 +99,9 @@ std::uint32_t Bookmarks::add(std::uint64_t tick, double t_s) {
 
 void Bookmarks::set_note(std::uint32_t id, std::string note) {
   for (Bookmark& b : all_) {
-    if (b.id == id) b.note = std::move(note);
+    if (b.id != id) continue;
+    b.note = std::move(note);
+    return;
   }
 }
 

@@ -9,7 +9,7 @@ DeadlinePacer::DeadlinePacer(double rate_hz, bool by_deadlines)
     : rate_hz_(rate_hz), period_ns_(1e9 / rate_hz), by_deadlines_(by_deadlines) {}
 
 void DeadlinePacer::start(std::int64_t now_ns) noexcept {
-  // Ticks and their time go on from where an earlier run stopped; deadlines begin anew, one period from now.
+  // Tick count and time continue from an earlier run; the next deadline is one period from now.
   origin_ns_ = now_ns - static_cast<std::int64_t>(std::llround(static_cast<double>(due_) * period_ns_));
   ++due_;
   last_start_ns_ = 0;

@@ -1,30 +1,31 @@
-// When the servo's ticks are due: absolute deadlines, a whole number of periods from the start, so that no error
-// adds up. A deadline that passed before the tick before it was done is skipped and counted: catching up by a burst
-// would make every later tick late as well.
+// Schedules the servo's ticks by absolute deadlines at whole periods from the start, so that errors don't accumulate. A
+// deadline that has passed before the previous tick was done is skipped and counted: catching up in a burst would delay
+// every later tick too. One thread.
 #pragma once
 
 #include <cstdint>
 
 namespace tangent {
 
-/// What a tick knows about its time.
+/// Timing of one tick.
 struct TickTiming {
-  double t_s = 0.0;                    ///< of the tick, for solver and devices
-  double dt_s = 1e-3;                  ///< since the tick before, > 0
-  std::uint32_t missed_deadlines = 0;  ///< skipped just before
-  double period_ns = 0.0;              ///< start to start; 0 for the first
-  double lateness_ns = 0.0;            ///< start after the deadline waited for, skipped ones included
+  double t_s = 0.0;                    ///< time of the tick, for solver and devices
+  double dt_s = 1e-3;                  ///< since the previous tick, > 0
+  std::uint32_t missed_deadlines = 0;  ///< skipped right before this tick
+  double period_ns = 0.0;              ///< start to start; 0 for the first tick
+  double lateness_ns = 0.0;            ///< start minus the deadline waited for; includes skipped periods
 };
 
 class DeadlinePacer {
  public:
-  /// `by_deadlines`: t_s and dt_s follow the deadlines; otherwise they count ticks (ServoOptions).
+  /// `by_deadlines`: t_s and dt_s follow the deadlines; otherwise t_s is tick / rate (ServoOptions).
   DeadlinePacer(double rate_hz, bool by_deadlines);
 
+  /// `now_ns`: of a monotonic clock, here and in begin. The first deadline is one period later.
   void start(std::int64_t now_ns) noexcept;
-  /// The deadline to sleep until.
+  /// The deadline to sleep until, on the clock given to start.
   std::int64_t deadline_ns() const noexcept;
-  /// The tick that begins now, at or after its deadline. Moves on to the next deadline.
+  /// Timing of the tick that begins now, at or after its deadline. Advances to the next deadline.
   TickTiming begin(std::int64_t now_ns) noexcept;
 
  private:

@@ -13,12 +13,12 @@ constexpr double kTau = 2.0 * std::numbers::pi;
 constexpr std::size_t kRawPoints = 1024;
 constexpr int kShrinkRounds = 20;
 constexpr int kLastSmoothings = 10;
-constexpr double kPointSpacing = 1.5e-3;  // m, where that gives neither too few nor too many points
+constexpr double kPointSpacing = 1.5e-3;  // m, within limits on the number of points
 constexpr std::size_t kFewestPoints = 256, kMostPoints = 8192;
-constexpr double kNormalWindow = 8e-3;        // m of way over which the pressing direction is averaged
-constexpr double kOrientationWindow = 40e-3;  // m of way over which the hand turns with the surface
+constexpr double kNormalWindow = 8e-3;        // m of path over which the pressing direction is averaged
+constexpr double kOrientationWindow = 40e-3;  // m of path over which the hand's orientation is averaged
 constexpr double kRockingAngle = 0.25;        // rad: a person rolls the finger; keeps the display moving
-constexpr double kRockingLength = 0.13;       // m of way, roughly, for one roll
+constexpr double kRockingLength = 0.13;       // m of path per roll, roughly
 
 using Points = std::vector<Vec3>;
 
@@ -27,7 +27,7 @@ std::size_t wrapped(std::ptrdiff_t i, std::size_t n) {
   return static_cast<std::size_t>(((i % m) + m) % m);
 }
 
-/// Sum of area vectors: near zero for a closed mesh, near the whole area for a sheet.
+/// Sum of area vectors: about zero for a closed mesh, of about the whole area for a sheet.
 Vec3 mean_normal(const ContactMesh& mesh) {
   Vec3 sum(0.0);
   double area = 0.0;
@@ -41,13 +41,13 @@ Vec3 mean_normal(const ContactMesh& mesh) {
   return area > 0.0 ? sum / area : Vec3(0.0);
 }
 
-/// A unit vector at right angles to `up`, near x where that is possible.
+/// A unit vector perpendicular to `up`, close to x where possible.
 Vec3 side_of(const Vec3& up) {
   const Vec3 side = std::abs(up.x) < 0.9 ? Vec3(1, 0, 0) : Vec3(0, 1, 0);
   return unit(side - glm::dot(side, up) * up);
 }
 
-/// Five turns about y on an ellipsoid that holds the box and the finger, swinging 50 degrees up and down.
+/// Five turns about y on an ellipsoid around box and finger, oscillating by 50 degrees up and down.
 Points around(const Box& box, double pad) {
   Points points(kRawPoints);
   const Vec3 axes = 0.5 * std::numbers::sqrt3 * box.size() + Vec3(pad);
@@ -106,7 +106,7 @@ void smooth(Points& points, double share) {
   points = std::move(next);
 }
 
-/// Mean over a window of `half` points to either side, closed.
+/// Moving average over `half` points to either side, on a closed sequence.
 Points averaged(const Points& v, std::size_t half) {
   const std::size_t n = v.size();
   half = std::min(half, (n - 1) / 2);
@@ -122,7 +122,7 @@ Points averaged(const Points& v, std::size_t half) {
   return out;
 }
 
-/// Points at equal distances along the closed polygon.
+/// Resamples the closed polygon at equal distances.
 Points evenly(const Points& raw, double& spacing) {
   const std::size_t n = raw.size();
   std::vector<double> way(n + 1, 0.0);
@@ -141,9 +141,9 @@ Points evenly(const Points& raw, double& spacing) {
   return points;
 }
 
-/// Draws the points onto the surface that lies `pad` outside the mesh. Moving straight towards the nearest triangle
-/// by less than its distance crosses nothing, and smoothing in between lets no two neighbours settle far apart. Where
-/// the surface parts neighbours (two legs, a fold), the new points between them find their own way down.
+/// Moves the points onto the offset surface at distance `pad` from the mesh. A step towards the nearest triangle that
+/// is shorter than its distance crosses no surface, and smoothing between steps keeps neighbours together. Where the
+/// surface separates neighbours (two legs, a fold), resampling inserts points between them, which shrink on their own.
 Points shrink(const NearestTriangles& nearest, double pad, Points points, double& spacing) {
   for (int round = 0; round < kShrinkRounds; ++round) {
     const bool late = 2 * round >= kShrinkRounds;
@@ -159,7 +159,7 @@ Points shrink(const NearestTriangles& nearest, double pad, Points points, double
   return evenly(points, spacing);
 }
 
-/// Unit vector along v, m, or `otherwise` where v is shorter than a micrometre.
+/// Unit vector along v (m), or `otherwise` where v is shorter than a micrometre.
 Vec3 direction_or(const Vec3& v, const Vec3& otherwise) { return glm::dot(v, v) > 1e-12 ? unit(v) : otherwise; }
 
 /// Finger frame for a pad that faces -up with the fingertip towards `forward`, rolled by `roll` about its y axis.
@@ -192,7 +192,7 @@ ExplorationPath ExplorationPath::build(const ContactScene& scene, double pad_m) 
   ExplorationPath path;
   const ContactMesh& mesh = scene.mesh();
   const Box& box = mesh.bounds();
-  // A point finger still needs room to shrink from: directions come from points off the surface.
+  // A point finger needs a minimum distance too: directions are computed from points off the surface.
   path.pad_m_ = std::max(pad_m, 0.02 * glm::length(box.size()));
 
   const Vec3 facing = mean_normal(mesh);
@@ -209,11 +209,11 @@ ExplorationPath ExplorationPath::build(const ContactScene& scene, double pad_m) 
     const NearestHit hit = scene.nearest().nearest(centres[i], std::numeric_limits<double>::infinity());
     outward[i] = direction_or(hit ? centres[i] - hit.point : Vec3(0.0), i > 0 ? outward[i - 1] : Vec3(0, 0, 1));
     short_of[i] = Vec3(hit ? path.pad_m_ - hit.distance_m : 0.0, 0.0, 0.0);
-    // Not along the path: that reverses at the ends of a Lissajous figure, which no finger does within a millimetre.
+    // Not the path's direction: it reverses at the ends of a Lissajous figure, faster than a finger can turn.
     const Vec3 east = glm::cross(Vec3(0, 1, 0), centres[i] - box.centre());
     heading[i] = sheet ? side_of(unit(facing)) : direction_or(east, Vec3(1, 0, 0));
   }
-  // Twice averaged: the mean of a mean turns without corners.
+  // Averaged twice, so that the direction changes without corners.
   const auto mean = [&path](const Points& v, double length) {
     const auto half = static_cast<std::size_t>(0.5 * length / path.spacing_m_) + 1;
     return averaged(averaged(v, half), half);
@@ -221,7 +221,7 @@ ExplorationPath ExplorationPath::build(const ContactScene& scene, double pad_m) 
   const Points press = mean(outward, kNormalWindow);
   const Points up = mean(outward, kOrientationWindow), ahead = mean(heading, kOrientationWindow);
 
-  // Smoothing cuts the corners of a curve that bends around a body: mean depth is put back, without its corners.
+  // Smoothing pulls a convex curve inwards: we add the averaged depth back, itself without corners.
   const Points lift = mean(short_of, kNormalWindow);
 
   const double rolls = std::max(1.0, std::round(path.spacing_m_ * static_cast<double>(n) / kRockingLength));
@@ -246,7 +246,7 @@ PathPose ExplorationPath::at(double arc_m, double pad_m, double press_m) const n
   const Point &a = points_[(i + count - 1) % count], &b = points_[i], &c = points_[(i + 1) % count],
               &d = points_[(i + 2) % count];
 
-  // Directions of neighbours differ by little, so they never cancel; quaternions may have opposite signs.
+  // Neighbouring directions differ little, so their sum does not vanish; quaternions may have opposite signs.
   const Vec3 outward = direction_or(b.outward + t * (c.outward - b.outward), b.outward);
   const Quat near = glm::dot(b.orientation, c.orientation) < 0.0 ? -c.orientation : c.orientation;
   PathPose pose;

@@ -1,4 +1,4 @@
-// Units that a mesh file's coordinates may be in, as options and panels call them.
+// Units of a mesh file's coordinates, by the names that options and panels use.
 #pragma once
 
 #include <array>

@@ -9,8 +9,8 @@ namespace {
 
 constexpr double kApproachTime = 0.5;     // s from off the surface to the full press
 constexpr double kApproachHeight = 3e-3;  // m
-// m/s; of the hand itself. A path that turns about a small feature moves the finger's centre faster than its pad;
-// a click far away moves the hand there, not at once.
+// m/s; of the hand itself. On a path around a small feature the finger's centre moves faster than its pad; a click far
+// away moves the hand there at this speed.
 constexpr double kHandSpeedLimit = 1.0;
 
 }  // namespace
@@ -40,7 +40,7 @@ HandTarget HandLead::advance(const ExplorationPath& path, double pad_m, double d
   const double far = std::sqrt(glm::dot(move, move)), farthest = kHandSpeedLimit * dt_s;
   if (far > farthest) move *= farthest / far;
 
-  // The target is where this tick begins; the device carries it on at its velocity until the tick's end.
+  // The position at the start of this tick; the device extrapolates it with the velocity until the tick's end.
   HandTarget target{goal_.position_m, move / dt_s, next.orientation};
   goal_ = {goal_.position_m + move, next.orientation};
   return target;

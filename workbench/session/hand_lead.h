@@ -1,4 +1,5 @@
-// Where the simulated hand goes, tick by tick: along the path or to a point, never faster than a hand can.
+// Target of the simulated hand, tick by tick: along the path or to a point, limited to a hand's speed. World frame, SI.
+// Servo thread; does not allocate.
 #pragma once
 
 #include "devices/simulated_hand.h"
@@ -11,16 +12,16 @@ class HandLead {
  public:
   void command(const HandCommand& command) noexcept { command_ = command; }
 
-  /// To the start of a path, off the surface; what follows approaches it.
+  /// Starts a path off the surface; the following calls of advance approach the surface.
   HandTarget begin(const ExplorationPath& path, double pad_m) noexcept;
-  /// One tick on. Precondition: `path` is the one given to begin. No allocation.
+  /// Target of the next tick. Precondition: `path` is the one given to begin.
   HandTarget advance(const ExplorationPath& path, double pad_m, double dt_s) noexcept;
 
  private:
   PathPose wanted(const ExplorationPath& path, double pad_m) const noexcept;
 
   HandCommand command_;
-  double way_m_ = 0.0;       ///< along the path
+  double way_m_ = 0.0;       ///< arc length along the path
   double approach_s_ = 0.0;  ///< since begin
   PathPose goal_;
 };

@@ -41,7 +41,7 @@ void History::push(const ServoRecord& record) {
     --size_;
     if (++head_ == block_) {
       head_ = 0;
-      blocks_.pop_front();  // a snapshot may still hold it: never written again
+      blocks_.pop_front();  // a snapshot may still share it, so it is never reused
     }
   }
   const std::size_t at = head_ + size_;
@@ -59,7 +59,7 @@ std::size_t History::lower_bound(std::uint64_t tick) const { return first_not_be
 
 const ServoRecord* History::find(std::uint64_t tick) const {
   if (empty() || tick < oldest().tick.tick) return nullptr;
-  // Without drops the place is known at once.
+  // Without dropped records the index follows from the tick.
   const std::uint64_t guess = tick - oldest().tick.tick;
   if (guess < size() && (*this)[guess].tick.tick == tick) return &(*this)[guess];
   const std::size_t i = lower_bound(tick);

@@ -1,7 +1,7 @@
-// The last minutes of servo records, for whoever looks at them: bounded memory, oldest first, found by tick.
+// A bounded history of servo records, oldest first, searchable by tick.
 //
-// Records lie in blocks that are written once. A snapshot shares the blocks, so that another thread can read the
-// records that were there while new ones are being added.
+// Records are stored in blocks that are written once. A snapshot shares the blocks, so that another thread can read the
+// records it contains while new ones are added.
 #pragma once
 
 #include "workbench/session/servo_record.h"
@@ -14,8 +14,8 @@
 
 namespace tangent {
 
-/// Records of a history at one moment. Copies share the blocks; reading needs no lock. Memory that the history has
-/// given up meanwhile stays until the snapshot goes.
+/// The records of a history at one moment. Any thread may read it without a lock; copies share the blocks. Blocks that
+/// the history has dropped since are freed with the last snapshot.
 class HistorySnapshot {
  public:
   HistorySnapshot() = default;
@@ -37,12 +37,13 @@ class HistorySnapshot {
   std::size_t head_ = 0, size_ = 0, block_ = 1;
 };
 
+/// One thread owns it: every call, snapshot() included, comes from that thread.
 class History {
  public:
-  /// Memory comes block by block as it fills: capacity records and one block at most. Precondition: capacity > 0.
+  /// Allocates block by block as it fills, at most `capacity` records plus one block. Precondition: capacity > 0.
   explicit History(std::size_t capacity);
 
-  /// Drops the oldest when full. A tick not after the last one (another run) clears the history first.
+  /// Drops the oldest when full. A tick number that does not increase (a new run) clears the history first.
   void push(const ServoRecord& record);
   void clear();
 
@@ -54,18 +55,19 @@ class History {
   const ServoRecord& oldest() const { return (*this)[0]; }
   const ServoRecord& newest() const { return (*this)[size_ - 1]; }
 
-  /// The record of that tick; null when it was dropped, overwritten or is yet to come. Valid until the next push.
+  /// The record of that tick; null when it is not in the history. Valid until the next push.
   const ServoRecord* find(std::uint64_t tick) const;
   /// Index of the first record with that tick or a later one; size() if there is none.
   std::size_t lower_bound(std::uint64_t tick) const;
+  /// Shares the blocks; copies only pointers to them.
   HistorySnapshot snapshot() const;
 
   std::size_t memory_bytes() const { return blocks_.size() * block_ * sizeof(ServoRecord); }
-  std::size_t most_memory_bytes() const;  ///< what memory_bytes() grows to
+  std::size_t most_memory_bytes() const;  ///< upper bound of memory_bytes()
 
  private:
   std::size_t capacity_, block_;
-  std::size_t head_ = 0;  ///< where the oldest is in the first block
+  std::size_t head_ = 0;  ///< index of the oldest in the first block
   std::size_t size_ = 0;
   std::deque<std::shared_ptr<ServoRecord[]>> blocks_;
 };

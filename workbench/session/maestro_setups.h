@@ -1,5 +1,5 @@
-// Calibrations of Pololu Maestros, kept by serial number in the user's configuration folder: a servo's horn stays where
-// it was screwed on, so what was measured with a calliper holds until it is taken off.
+// Calibrations of Pololu Maestros, stored by serial number in the user's configuration folder: they hold as long as the
+// servo's horn is not taken off. All calls read or write files: not in the servo thread.
 #pragma once
 
 #include "core/base/result.h"
@@ -13,38 +13,39 @@ namespace tangent {
 
 struct MaestroSetup {
   MaestroCalibration calibration;
-  unsigned channel = 0;  ///< the servo is on; 0 to 23
+  unsigned channel = 0;  ///< of the servo, 0 to 23
   bool operator==(const MaestroSetup&) const = default;
 };
 
-/// What a person asks for. What is left out stays what is kept for the Maestro, or else the program's own.
+/// A person's request. A value left out is taken from the stored setup, or else from the defaults.
 struct MaestroWish {
   std::optional<double> low_m, low_us, high_m, high_us;
   std::optional<unsigned> channel;
   bool complete() const { return low_m && low_us && high_m && high_us && channel; }
+  /// `setup` with the requested values in place of its own.
   MaestroSetup over(MaestroSetup setup) const;
 };
-/// All of it.
+/// A request that states every value of `setup`.
 MaestroWish wish_for(const MaestroSetup& setup);
 
 inline constexpr const char* kMaestroFile = "maestro.toml";
 
-/// Beside the window's settings; empty when there is no home.
+/// In the folder of the window's settings; empty when there is no home directory.
 std::filesystem::path maestro_setups_path();
 
-/// Nothing: none is kept for this serial number, or there is no file. Fails on a file that can't be read, an unknown or
-/// missing key, and a calibration that can't be, naming the line: pulses that are not meant are worse than none.
+/// Empty when no setup is stored for this serial number, or there is no file. Fails on an unreadable file, an unknown
+/// or missing key, and an invalid calibration, naming the line: a wrong pulse width is worse than none.
 Result<std::optional<MaestroSetup>> read_maestro_setup(const std::filesystem::path& path, const std::string& serial);
 
-/// Atomic; makes the folder. The setups of other serial numbers stay. Fails as reading does: nothing that a person
-/// wrote there is lost.
+/// Writes atomically; makes the folder. Keeps the setups of other serial numbers. Fails where reading fails, so that a
+/// file with an error in it is not overwritten, and when the file can't be written.
 Status keep_maestro_setup(const std::filesystem::path& path, const std::string& serial, const MaestroSetup& setup);
 
-/// Serial number of the first Maestro that is attached; empty: there is none, or it can't be opened.
+/// Serial number of the first attached Maestro; empty when there is none or it can't be opened.
 std::string attached_maestro();
 
-/// What to drive the attached Maestro with: what is asked for, else what is kept for it, else the program's own. Fails
-/// where what is kept is needed and can't be read.
+/// Setup for the attached Maestro: requested values, else those stored for it, else the defaults. Fails when stored
+/// values are needed and can't be read.
 Result<MaestroSetup> chosen_maestro_setup(const MaestroWish& wish, const std::filesystem::path& path);
 
 }  // namespace tangent

@@ -1,4 +1,4 @@
-// A scene with everything the servo needs for it, so that changing scenes costs the servo a pointer.
+// A scene with everything the servo needs for it, so that the servo changes scenes by swapping a pointer.
 #pragma once
 
 #include "core/tick/step.h"
@@ -11,14 +11,14 @@ namespace tangent {
 
 class PreparedScene {
  public:
-  /// Slow (milliseconds to seconds); any thread.
+  /// Takes milliseconds to seconds. Any thread but the servo's.
   PreparedScene(std::shared_ptr<const ContactScene> from, const Finger& finger)
       : scene(std::move(from)), stepper(scene), path(ExplorationPath::build(*scene, pad_distance_m(finger))) {}
 
   std::shared_ptr<const ContactScene> scene;
   Stepper stepper;
   ExplorationPath path;
-  std::uint32_t id = 0;  ///< given by the session
+  std::uint32_t id = 0;  ///< assigned by the session
 };
 
 }  // namespace tangent

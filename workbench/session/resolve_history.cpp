@@ -11,7 +11,7 @@ namespace tangent {
 
 namespace {
 
-constexpr std::uint64_t kJoinWithin = 20;  ///< ticks: changes nearer than this to each other are one entry
+constexpr std::uint64_t kJoinWithin = 20;  ///< ticks: changes at most this far apart are one entry
 
 std::int64_t thread_ns() {
   timespec t{};
@@ -22,7 +22,7 @@ std::int64_t thread_ns() {
 bool same(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
 bool same(const Vec3& a, const Vec3& b) { return same(a.x, b.x) && same(a.y, b.y) && same(a.z, b.z); }
 
-/// Adds up a run; iterations by how often they occur, for percentiles without sorting.
+/// Accumulates the numbers of a run; a histogram of iterations gives percentiles without sorting.
 struct RunCounter {
   RunNumbers numbers;
   double error_sum = 0.0, iteration_sum = 0.0;
@@ -35,7 +35,7 @@ struct RunCounter {
   }
   void add(TickStatus status, double error_m, std::int32_t iterations) {
     ++numbers.ticks;
-    if (status == TickStatus::unconverged) ++numbers.unconverged;
+    if (!is_converged(status)) ++numbers.unconverged;
     error_sum += error_m;
     iteration_sum += iterations;
     numbers.worst_error_m = std::max(numbers.worst_error_m, error_m);
@@ -79,7 +79,7 @@ void join(ContactChange& into, const ContactChange& next) {
   into.resolved = next.resolved;
 }
 
-/// Joined to the last one if it is near. Past kMostChanges it is left out.
+/// Merges the change with the last one if that is near; drops it beyond kMostChanges.
 void append(std::vector<ContactChange>& changes, const ContactChange& next) {
   if (!changes.empty() && next.first_tick <= changes.back().last_tick + kJoinWithin)
     join(changes.back(), next);
@@ -88,7 +88,7 @@ void append(std::vector<ContactChange>& changes, const ContactChange& next) {
 }
 
 /// Where there is a contact: free, touching, or none that could be found.
-int kind_of(TickStatus status) { return status == TickStatus::free ? 0 : status == TickStatus::unconverged ? 2 : 1; }
+int kind_of(TickStatus status) { return status == TickStatus::free ? 0 : is_converged(status) ? 1 : 2; }
 
 }  // namespace
 
@@ -105,7 +105,7 @@ bool same_bits(const TickOutput& a, const TickOutput& b) {
          a.iterations == b.iterations && a.triangle_changes == b.triangle_changes;
 }
 
-/// What a chunk amounts to.
+/// Results of one chunk.
 struct HistoryResolver::ChunkSummary {
   RunCounter recorded, resolved;
   std::uint64_t different = 0, changed = 0, taken_over = 0;
@@ -133,12 +133,12 @@ HistoryResolver::~HistoryResolver() = default;
 
 std::size_t HistoryResolver::chunk_count() const { return (run_.records.size() + kChunk - 1) / kChunk; }
 
-/// Steps through consecutive records, one scene's stepper and one state after the other.
+/// Steps through consecutive records, carrying state and stepper from one to the next.
 class HistoryResolver::Replay {
  public:
   Replay(const RecordedRun& run, const Preset* wish) : run_(run), wish_(wish) {}
 
-  /// The tick solved again, or none: its scene or its preset is gone. `taken_over`: its contact is the recorded one.
+  /// Solves the tick again; empty when its scene or preset is gone. `taken_over`: its contact is the recorded one.
   std::optional<TickOutput> step(const ServoRecord& record, bool& taken_over) {
     const TickRecord& tick = record.tick;
     enter_scene(record);
@@ -155,7 +155,7 @@ class HistoryResolver::Replay {
       return std::nullopt;
     }
     const bool alike = wish_ != nullptr && same_contacts_as(recorded_preset(record));
-    if (alike && as_recorded_ && tick.output.status != TickStatus::unconverged) {
+    if (alike && as_recorded_ && is_converged(tick.output.status)) {
       taken_over = true;
       return render_again(stepper_->scene(), *wish_, tick.input, tick.kept, rendered_, tick.output);
     }
@@ -197,13 +197,13 @@ class HistoryResolver::Replay {
   }
 
   const RecordedRun& run_;
-  const Preset* wish_;              ///< null: each tick under its own
+  const Preset* wish_;              ///< null: each tick under its recorded preset
   std::optional<Stepper> stepper_;  ///< none: the scene is gone
   const ServoRecord* before_ = nullptr;
   TickState state_;
-  RenderedState rendered_;            ///< of the tick before, by what is solved here
-  bool as_recorded_ = true;           ///< the state before the next tick is the recorded one, whatever `state_` holds
-  const Preset* compared_ = nullptr;  ///< recorded preset that `alike_` was found for
+  RenderedState rendered_;            ///< of the previous tick, as solved here
+  bool as_recorded_ = true;           ///< the next tick starts from the recorded state, not from `state_`
+  const Preset* compared_ = nullptr;  ///< recorded preset for which `alike_` was computed
   bool alike_ = false;
 };
 

@@ -30,7 +30,7 @@ void SafetyLog::watch(const ServoRecord& record) {
     if (((now.gate_actions >> i) & 1u) == 0) continue;
     const bool known = last_action_tick_[i] > 0 && record.tick.tick + 1 - last_action_tick_[i] <= kQuietTicks;
     last_action_tick_[i] = record.tick.tick + 1;
-    // Arming and stopping say these already.
+    // These follow from arming and stopping, which are logged already.
     if (!known && action != GateAction::ramped_in && action != GateAction::withheld)
       add(Kind::action, record, to_string(action));
   }

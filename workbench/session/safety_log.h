@@ -1,5 +1,5 @@
-// What happened to devices and safety gate, in words, from the servo's records: changes of state, faults, and the
-// gate's interventions (the first tick of each run of them).
+// Text log of device and safety gate events, from the servo's records: state changes, faults, and the gate's
+// interventions (the first tick of each run of them). Not thread-safe.
 #pragma once
 
 #include "workbench/session/servo_record.h"
@@ -20,9 +20,10 @@ struct SafetyEntry {
 
 class SafetyLog {
  public:
-  static constexpr std::size_t kMost = 500;          ///< older entries are forgotten
-  static constexpr std::uint64_t kQuietTicks = 500;  ///< an action is told again after so long without it
+  static constexpr std::size_t kMost = 500;          ///< older entries are dropped
+  static constexpr std::uint64_t kQuietTicks = 500;  ///< an action is logged again after this many ticks without it
 
+  /// Call with every record, in order.
   void watch(const ServoRecord& record);
   const std::deque<SafetyEntry>& entries() const { return entries_; }
 

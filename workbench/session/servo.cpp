@@ -11,7 +11,7 @@ namespace tangent {
 
 namespace {
 
-/// Memory may be locked without a limit: with one, allocations anywhere in the program would begin to fail at it.
+/// Whether memory can be locked without a limit: with a limit, allocations beyond it would fail in the whole program.
 bool may_lock_all() noexcept {
   rlimit limit{};
   return geteuid() == 0 || (getrlimit(RLIMIT_MEMLOCK, &limit) == 0 && limit.rlim_cur == RLIM_INFINITY);
@@ -43,15 +43,15 @@ void Servo::stop() {
 
 void Servo::run_one() noexcept { tick_.run(pacer_.begin(pacer_.deadline_ns())); }
 
-// Without these the servo runs as well, only less evenly; what was granted is shown to the user.
+// Without these the servo runs with more jitter; the user is shown what was granted.
 void Servo::ask_for_realtime() noexcept {
   pthread_setname_np(pthread_self(), "servo");
-  prctl(PR_SET_TIMERSLACK, 1UL);  // ns; the default lets a wake-up slip by 50 us
+  prctl(PR_SET_TIMERSLACK, 1UL);  // ns; the default slack delays wake-ups by up to 50 us
   if (!options_.realtime) return;
   sched_param priority{};
   priority.sched_priority = options_.fifo_priority;
   fifo_.store(pthread_setschedparam(pthread_self(), SCHED_FIFO, &priority) == 0);
-  // Pages stay once they were touched; a page never touched is not fetched for it.
+  // ONFAULT: pages are locked once touched; untouched ones are not loaded.
   locked_.store(may_lock_all() && mlockall(MCL_CURRENT | MCL_FUTURE | MCL_ONFAULT) == 0);
 }
 

@@ -1,4 +1,4 @@
-// The servo thread: runs ticks at a fixed rate, by absolute deadlines.
+// The servo thread: runs ticks at a fixed rate, by absolute deadlines. All calls come from the owner's thread.
 #pragma once
 
 #include "workbench/session/deadline_pacer.h"
@@ -19,13 +19,14 @@ class Servo {
   Servo(const Servo&) = delete;
   Servo& operator=(const Servo&) = delete;
 
+  /// Starts the thread; does nothing when it runs already.
   void start();
-  /// After the present tick; the devices get a zero force. Waits for the thread.
+  /// Stops after the current tick, sends the devices zero force, and joins the thread.
   void stop();
   bool running() const { return thread_.joinable(); }
-  RealtimeGrant granted() const { return {fifo_.load(), locked_.load()}; }
+  RealtimeGrant granted() const { return {fifo_.load(), locked_.load()}; }  ///< any thread
 
-  /// The next tick, now, on the caller's thread, as if it began at its deadline. Precondition: not running.
+  /// Runs the next tick now, in the caller's thread, as if it began at its deadline. Precondition: not running.
   void run_one() noexcept;
 
  private:

@@ -1,4 +1,4 @@
-// Everything that crosses between the servo thread and the others. Nothing in here waits.
+// The channels between the servo thread and the others. All are wait-free on the servo's side; none locks.
 #pragma once
 
 #include "core/preset/preset.h"
@@ -22,16 +22,16 @@ struct PresetLetter {
 };
 static_assert(std::is_trivially_copyable_v<PresetLetter>, "presets cross threads as bytes");
 
-/// home: no force until armed, and the devices find their zero again.
+/// home: no force until armed, and the devices home again.
 enum class ForceSwitch : std::uint8_t { stop, arm, home };
 
-/// A fault that a simulated device is told to have.
+/// A fault to inject into a simulated device.
 struct FaultLetter {
   FaultInjection injection;
-  bool display = false;  ///< the contact display's; else the force device's
+  bool display = false;  ///< into the contact display; otherwise into the force device
 };
 
-/// Hands whole scenes to the servo and used ones back, so that the servo never frees anything.
+/// Passes whole scenes to the servo and used ones back to the owner, so that the servo never frees memory.
 class SceneExchange {
  public:
   ~SceneExchange() {
@@ -39,17 +39,18 @@ class SceneExchange {
     collect();
   }
 
-  /// Owner. Replaces a scene that the servo has not taken yet.
+  /// Owner's thread. Replaces a scene that the servo has not taken yet.
   void offer(std::unique_ptr<PreparedScene> scene) {
     delete offered_.exchange(scene.release(), std::memory_order_acq_rel);
   }
-  /// Owner. Frees what the servo gave back.
+  /// Owner's thread. Frees the scenes that the servo gave back.
   void collect() {
     PreparedScene* retired = nullptr;
     while (retired_.pop(retired)) delete retired;
   }
 
-  /// Servo. A new scene in place of `current`, which is given back; null: none, or no room to give back.
+  /// Servo's thread. Returns a new scene and gives `current` back; null when there is no new scene, or no room in the
+  /// return ring.
   PreparedScene* take(PreparedScene* current) noexcept {
     if (offered_.load(std::memory_order_relaxed) == nullptr || retired_.room() == 0) return nullptr;
     PreparedScene* scene = offered_.exchange(nullptr, std::memory_order_acq_rel);

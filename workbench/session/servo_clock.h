@@ -1,4 +1,4 @@
-// The servo's clock: CLOCK_MONOTONIC, or a made-up one in tests.
+// The servo's clock: CLOCK_MONOTONIC, or a fake one in tests.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@ class ServoClock {
  public:
   virtual ~ServoClock() = default;
   virtual std::int64_t now_ns() noexcept = 0;
-  /// Returns at or after `deadline_ns`; at once when that has passed.
+  /// Returns at or after `deadline_ns`; immediately when that has passed.
   virtual void sleep_until(std::int64_t deadline_ns) noexcept = 0;
 };
 
@@ -19,7 +19,7 @@ class MonotonicClock final : public ServoClock {
   void sleep_until(std::int64_t deadline_ns) noexcept override;  ///< clock_nanosleep, absolute
 };
 
-/// CLOCK_MONOTONIC.
+/// CLOCK_MONOTONIC in nanoseconds. Any thread.
 std::int64_t monotonic_ns() noexcept;
 
 }  // namespace tangent

@@ -1,4 +1,4 @@
-// How fast the servo runs, and what it reports about itself.
+// Options of the servo and the status it reports.
 #pragma once
 
 #include "core/base/result.h"
@@ -15,29 +15,29 @@ inline constexpr double kFastestServoHz = 10'000.0;
 
 struct ServoOptions {
   double rate_hz = 1000.0;  ///< kSlowestServoHz to kFastestServoHz
-  bool realtime = true;     ///< ask for SCHED_FIFO and locked memory; goes on without
+  bool realtime = true;     ///< request SCHED_FIFO and locked memory; runs without if refused
   int fifo_priority = 40;
-  /// Time of a tick as the solver and the devices see it: deadlines (real devices), or tick / rate (simulated
-  /// ones, so that N ticks give the same bits however late they ran).
+  /// Tick time for solver and devices. true: the deadlines (real devices); false: tick / rate (simulated devices, so
+  /// that N ticks give identical results however late they ran).
   bool time_by_deadlines = false;
   std::size_t ring_records = 8192;  ///< of each ring
 };
 
-/// What the system granted.
+/// What the operating system granted.
 struct RealtimeGrant {
   bool fifo = false;
   bool memory_locked = false;
 };
 
-/// Counters of the servo; each one is right by itself, the set is not one instant.
+/// Counters of the servo. Each is consistent by itself; together they are not a snapshot of one instant.
 struct ServoStatus {
   bool running = false;
   double nominal_hz = 0.0;
-  double rate_hz = 0.0;  ///< measured over the last second or so; 0 until there is one
+  double rate_hz = 0.0;  ///< measured over about the last second; 0 before that
   std::uint64_t ticks = 0;
-  std::uint64_t late_ticks = 0;        ///< ticks before which at least one deadline was missed
+  std::uint64_t late_ticks = 0;        ///< ticks right after at least one missed deadline
   std::uint64_t missed_deadlines = 0;  ///< skipped
-  std::uint64_t gui_drops = 0;         ///< records that found the GUI's ring full
+  std::uint64_t gui_drops = 0;         ///< records dropped because the GUI's ring was full
   std::uint64_t recorder_drops = 0;
   double tick_mean_ns = 0.0, tick_p50_ns = 0.0, tick_p99_ns = 0.0, tick_p999_ns = 0.0;  ///< percentiles to 1/16
   double tick_worst_ns = 0.0;

@@ -1,5 +1,5 @@
-// What a servo tick tells its watchers: the tick itself, what the devices did, and how long it took. One type for
-// the GUI's ring, the recorder's ring and the history.
+// The record of a servo tick: the tick itself, devices and safety gate, and timing. One type for the GUI's ring, the
+// recorder's ring and the history.
 #pragma once
 
 #include "core/tick/step.h"
@@ -20,24 +20,24 @@ struct DeviceTelemetry {
   GateState gate_state = GateState::disarmed;
   GateFault gate_fault = GateFault::none;
   GateActions gate_actions = 0;  ///< bit per GateAction
-  std::uint8_t hand_led = 0;     ///< hand_target_m is set: a simulated hand leads the finger
-  Vec3 force_command_n{0.0};     ///< what the gate let through of tick.output.force_n
-  Vec3 force_rendered_n{0.0};    ///< by the device while this tick's position was measured
-  Vec3 hand_target_m{0.0};       ///< where the simulated hand pulls the finger
-  double cld_command_m = 0.0;    ///< what the gate let through of tick.output.cld_m
-  double cld_measured_m = 0.0;   ///< roller, measured as this tick began
-  double force_age_s = 0.0;      ///< of the position this tick worked with
-  double display_age_s = 0.0;    ///< of cld_measured_m
+  std::uint8_t hand_led = 0;     ///< 1: a simulated hand leads the finger; hand_target_m is set
+  Vec3 force_command_n{0.0};     ///< tick.output.force_n after the safety gate
+  Vec3 force_rendered_n{0.0};    ///< applied by the device while this tick's position was measured
+  Vec3 hand_target_m{0.0};       ///< target of the simulated hand
+  double cld_command_m = 0.0;    ///< tick.output.cld_m after the safety gate
+  double cld_measured_m = 0.0;   ///< roller position, measured at the start of this tick
+  double force_age_s = 0.0;      ///< age of this tick's position
+  double display_age_s = 0.0;    ///< age of cld_measured_m
 };
 
 struct ServoRecord {
-  TickRecord tick;  ///< tick.solve_ns: the step alone; tick.tick counts from 0
+  TickRecord tick;  ///< tick.solve_ns: the solver step only; tick.tick counts from 0
   DeviceTelemetry device;
-  std::uint32_t scene_id = 0;          ///< which scene the tick ran on (Session::scene)
-  std::uint32_t missed_deadlines = 0;  ///< skipped before this tick
+  std::uint32_t scene_id = 0;          ///< scene the tick ran on (Session::scene)
+  std::uint32_t missed_deadlines = 0;  ///< deadlines skipped before this tick
   double tick_ns = 0.0;                ///< whole tick: exchange, step, gate
-  double period_ns = 0.0;              ///< start to start, since the tick before; 0 for the first
-  double lateness_ns = 0.0;            ///< start after the deadline waited for, skipped ones included
+  double period_ns = 0.0;              ///< start to start; 0 for the first tick
+  double lateness_ns = 0.0;            ///< start minus the deadline waited for; includes skipped periods
 };
 static_assert(std::is_trivially_copyable_v<ServoRecord>);
 

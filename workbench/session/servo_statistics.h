@@ -1,4 +1,4 @@
-// Counters that the servo writes and anyone reads. Relaxed atomics: each is right by itself.
+// Counters written by the servo thread and read by any thread. Relaxed atomics: each is consistent by itself.
 #pragma once
 
 #include "devices/base/log_histogram.h"
@@ -13,16 +13,18 @@ namespace tangent {
 
 class ServoStatistics {
  public:
-  /// Servo thread, once a tick.
+  /// Servo thread, once per tick.
   void add(const ServoRecord& record, const SafetyGate& gate) noexcept;
-  /// Servo thread, as ticks begin at `now_ns`: the rate over about a second.
+  /// Servo thread, at the start of a tick (`now_ns`): measures the rate over about a second.
   void note_start(std::int64_t now_ns) noexcept;
+  /// Servo thread, or while it is not running.
   void restart_rate() noexcept { window_start_ns_ = 0; }
 
+  /// Any thread may read these two.
   const LogHistogram& lateness_ns() const { return lateness_ns_; }
   const LogHistogram& period_ns() const { return period_ns_; }
 
-  /// Any thread. Fills what is counted here.
+  /// Any thread. Fills the fields that are counted here.
   void fill(ServoStatus& status) const noexcept;
 
  private:

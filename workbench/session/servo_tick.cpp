@@ -58,18 +58,18 @@ void ServoTick::take_scene() noexcept {
   scene_ = scene;
   state_ = TickState{};
   gate_.restart_ramp();
-  // Another surface under the finger: a simulated hand starts afresh, off it.
+  // The surface under the finger was replaced: a simulated hand starts again, off the surface.
   const HandTarget start = hand_.begin(scene_->path, pad_distance_m(preset_.preset.finger));
   if (devices_.force && devices_.force->hand()) devices_.force->hand()->place(start);
   place_workspace();
 }
 
-// A simulated device stands where the scene is; a real one's workspace is about the world's origin.
+// A simulated device's workspace is centred on the scene, a real one's on the world's origin.
 void ServoTick::place_workspace() noexcept {
   if (devices_.force && devices_.force->hand()) gate_.place_workspace(scene_->scene->mesh().origin());
 }
 
-// A device that isn't there is ready to be left out. Requests ride with the next command.
+// A missing device counts as ready. Requests travel with the next command.
 void ServoTick::bring_up() noexcept {
   const auto request = [this](DeviceState state) {
     if (state == DeviceState::firmware) return DeviceRequest::home;
@@ -79,7 +79,7 @@ void ServoTick::bring_up() noexcept {
   };
   force_command_.request = display_command_.request = DeviceRequest::none;
   if (!homing_wanted_) {
-    // A display plugged in while all is well may home by itself. After a fault a person decides.
+    // A display plugged in while the gate is live homes automatically. After a fault a person decides.
     const bool well = gate_.state() == GateState::ramping || gate_.state() == GateState::armed;
     if (well) display_command_.request = request(display_sample_.state);
     return;
@@ -105,7 +105,7 @@ void ServoTick::exchange(double dt_s, ServoRecord& record) noexcept {
     if (hand != nullptr) {
       hand->lead(target);
     } else {
-      // Without a force device the finger goes where the hand wants it.
+      // Without a force device the finger follows the hand's target exactly.
       force_sample_.position_m = record.device.hand_target_m;
       force_sample_.orientation = target.orientation;
     }
@@ -164,7 +164,7 @@ void ServoTick::run(const TickTiming& timing) noexcept {
   tick.tick = tick_;
   tick.preset_id = preset_.id;
   tick.kept = state_;
-  tick.input = {timing.t_s, {force_sample_.position_m, force_sample_.orientation}};
+  tick.input = {timing.t_s, {force_sample_.position_m, force_sample_.orientation}, force_sample_.velocity_m_per_s};
   const std::int64_t step_began = now();
   tick.output = scene_->stepper.step(preset_.preset, tick.input, state_);
   tick.solve_ns = static_cast<double>(now() - step_began);

@@ -1,7 +1,7 @@
-// One tick of the servo, from what came in to what goes out: preset, device sample, step, safety gate, device
-// command, record. No thread and no clock of its own, so that the servo, pictures and tests run the same code.
+// One tick of the servo: take a new preset, exchange with the devices, step, safety gate, device command, record. It
+// has no thread or clock of its own, so that servo, screenshots and tests run the same code.
 //
-// Nothing in run() allocates, locks, throws, logs or touches a file.
+// run() does not allocate, lock, throw, log or touch a file.
 #pragma once
 
 #include "devices/device_set.h"
@@ -16,10 +16,10 @@
 
 namespace tangent {
 
-/// Nanoseconds of a monotonic clock; null: time is not measured and reads 0.
+/// A monotonic clock in nanoseconds; null: times are not measured and read 0.
 using NanosecondClock = std::int64_t (*)() noexcept;
 
-/// What the gate has to know of the devices.
+/// Limits of the safety gate for these devices.
 GateLimits gate_limits(const DeviceSet& devices);
 
 class ServoTick {
@@ -31,9 +31,9 @@ class ServoTick {
   ServoTick(const ServoTick&) = delete;
   ServoTick& operator=(const ServoTick&) = delete;
 
-  /// One tick; its record goes into the rings.
+  /// Runs one tick and pushes its record into the rings. One thread (the servo's) at a time.
   void run(const TickTiming& timing) noexcept;
-  /// Zero force to the devices, force disarmed: after the last tick.
+  /// After the last tick: disarms and sends the devices zero force. Same thread as run.
   void release(double dt_s) noexcept;
 
  private:
@@ -59,10 +59,10 @@ class ServoTick {
   DisplaySample display_sample_;
   ForceCommand force_command_;
   DisplayCommand display_command_;
-  bool homing_wanted_ = true;     ///< until every device is ready once
-  bool clearing_wanted_ = false;  ///< faults too
-  bool rehoming_wanted_ = false;  ///< also of devices that are ready
-  bool arming_wanted_ = false;    ///< as soon as they are
+  bool homing_wanted_ = true;     ///< home devices that are not ready, until each was ready once
+  bool clearing_wanted_ = false;  ///< also clear faults
+  bool rehoming_wanted_ = false;  ///< also home devices that are ready
+  bool arming_wanted_ = false;    ///< arm as soon as all devices are ready
 };
 
 }  // namespace tangent

@@ -39,7 +39,7 @@ Status check_options(const SessionOptions& options) {
 
 void PreparedSceneDeleter::operator()(PreparedScene* scene) const { delete scene; }
 
-/// Members in the order in which they depend on each other.
+/// Members in order of dependency.
 struct Session::Impl {
   Impl(SessionOptions o, std::unique_ptr<PacketRecorder> r, DeviceSet d, std::unique_ptr<PreparedScene> prepared,
        const Preset& preset)
@@ -68,10 +68,10 @@ struct Session::Impl {
   std::unique_ptr<Servo> servo;
   bool started = false;
 
-  std::deque<Preset> presets;  ///< by id; a deque keeps what it handed out in place
+  std::deque<Preset> presets;  ///< by id; a deque keeps references valid
   std::shared_ptr<const ContactScene> scene;
   ExplorationPath path;
-  std::map<std::uint32_t, std::shared_ptr<const ContactScene>> scenes;  ///< that records of the history ran on
+  std::map<std::uint32_t, std::shared_ptr<const ContactScene>> scenes;  ///< used by records of the history
   std::uint32_t scene_id = 0;
   History history;
   SafetyLog log;
@@ -83,7 +83,7 @@ struct Session::Impl {
   void forget_scenes();
 };
 
-// A scene stays as long as a record in the history names it, or may still come that does.
+// A scene is kept while a record in the history uses it or one still in the ring may.
 void Session::Impl::forget_scenes() {
   const std::uint32_t oldest = history.empty() ? 0 : history.oldest().scene_id;
   while (!scenes.empty() && scenes.begin()->first < oldest) scenes.erase(scenes.begin());
@@ -156,7 +156,7 @@ void Session::advance(std::uint64_t ticks) {
 }
 
 std::size_t Session::poll() {
-  // No more than a ringful, so that a servo faster than this thread can't hold it here.
+  // At most one ring's worth, so that a servo faster than this thread can't keep it here.
   ServoRecord record;
   std::size_t count = 0;
   while (count < impl_->options.servo.ring_records && impl_->channels.gui.pop(record)) {

@@ -1,8 +1,8 @@
-// A running session as the window and the command line see it: one scene, one preset, devices and a servo, and the
-// history of what it did.
+// A running session, for window and command line: one scene, one preset, devices, a servo, and the history of its
+// records.
 //
-// One thread owns a Session and calls everything here (the GUI's). The servo runs in a thread of its own, or, with
-// `threaded` off, whenever `advance` is called, which gives the same records from the same calls.
+// One thread (the GUI's) owns a Session and makes all calls, unless stated otherwise. The servo runs in its own thread,
+// or, with `threaded` off, inside `advance`, which gives the same records for the same calls. SI units, world frame.
 //
 //   auto session = Session::create(scene, preset, {});
 //   (*session)->start();
@@ -30,7 +30,7 @@ namespace tangent {
 
 class ExplorationPath;
 
-/// The history takes no more memory than this, however long and fast it is to be.
+/// Upper limit of the history's memory, whatever its length and rate.
 inline constexpr std::size_t kLargestHistoryBytes = std::size_t{1} << 30;
 
 struct SessionOptions {
@@ -38,15 +38,15 @@ struct SessionOptions {
   std::string devices = "simulated";  ///< see devices/device_set.h
   MaestroCalibration maestro;         ///< for "maestro"
   unsigned maestro_channel = 0;
-  std::filesystem::path packets;  ///< every USB packet is written here; empty: nowhere
+  std::filesystem::path packets;  ///< file to which every USB packet is logged; empty: none
   std::uint64_t seed = 1;         ///< of the simulated devices
-  double history_s = 600.0;       ///< kept for the GUI, within kLargestHistoryBytes
+  double history_s = 600.0;       ///< length of the history, within kLargestHistoryBytes
   bool threaded = true;
   bool arm_on_start = true;
   HandSettings hand;
 };
 
-/// A scene with what the servo needs for it, built in any thread: patch caches and the exploration path.
+/// A scene with what the servo needs for it (patch caches, exploration path). Can be built in any thread.
 class PreparedScene;
 struct PreparedSceneDeleter {
   void operator()(PreparedScene* scene) const;
@@ -57,9 +57,9 @@ struct SessionStatus {
   ServoStatus servo;
   DeviceState force_state = DeviceState::absent, display_state = DeviceState::absent;
   DeviceFault force_fault = DeviceFault::none, display_fault = DeviceFault::none;
-  std::uint32_t preset_sent = 0;  ///< newest; servo.preset_id says which one runs
+  std::uint32_t preset_sent = 0;  ///< newest preset sent; servo.preset_id is the one in use
   std::uint32_t scene_sent = 0;
-  std::string realtime_note;  ///< "SCHED_FIFO 40, memory locked" or what was refused
+  std::string realtime_note;  ///< "SCHED_FIFO 40, memory locked", or what was refused
 };
 
 /// Everything needed to step the history again, in any thread: records, presets by id, scenes by id.
@@ -71,74 +71,77 @@ struct RecordedRun {
 
 class Session {
  public:
-  /// Opens the devices. Fails on a preset out of range, a rate out of range, an unknown device.
+  /// Opens the devices and prepares the scene (milliseconds to seconds). Fails on a preset or option out of range, an
+  /// unknown device set, a condition the devices can't render, a device that can't be opened, or a packet file that
+  /// can't be written.
   static Result<std::unique_ptr<Session>> create(std::shared_ptr<const ContactScene> scene, const Preset& preset,
                                                  SessionOptions options = {});
   ~Session();
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
-  void start();      ///< starts the servo thread (threaded), homes and, if asked to, arms
-  void shut_down();  ///< stops force and thread; the history stays. Also at destruction
+  void start();      ///< starts the servo thread (threaded), homes, and arms if arm_on_start
+  void shut_down();  ///< stops force and thread; keeps the history. Also called by the destructor
   bool running() const;
-  /// Not threaded: n ticks, now, polled into the history. Threaded: nothing.
+  /// Not threaded: runs n ticks and polls them into the history. Threaded: does nothing.
   void advance(std::uint64_t ticks);
 
-  /// Moves new records into the history and frees what the servo has retired. Returns how many came.
+  /// Moves new records into the history and frees the scenes that the servo gave back. Returns the number of records.
   std::size_t poll();
   const History& history() const;
-  RecordedRun recorded_run() const;  ///< of the history as it is now
+  RecordedRun recorded_run() const;  ///< a snapshot; any thread may read it
 
-  // Presets. Whole ones, applied at the start of a tick; the latest wins.
-  /// Returns the id by which records name it (the present id if nothing changed). Fails when out of range.
+  // Presets are sent whole and applied at the start of a tick; the latest wins.
+  /// Returns the id used in records (the current id if nothing changed). Fails when a value is out of range.
   Result<std::uint32_t> set_preset(const Preset& preset);
   const Preset& preset() const;                  ///< the latest sent
-  const Preset* preset(std::uint32_t id) const;  ///< any ever sent; null for an id never given
+  const Preset* preset(std::uint32_t id) const;  ///< any ever sent; null for an unknown id
   std::uint32_t preset_id() const;
 
   // Scene.
+  /// Any thread; takes milliseconds to seconds.
   static PreparedScenePtr prepare(std::shared_ptr<const ContactScene> scene, const Finger& finger);
-  /// The servo changes over at its next tick; the hand goes to the start of the new path, and force ramps in anew.
-  /// Returns the id by which records name it.
+  /// The servo switches at its next tick; the hand restarts on the new path and the force ramps in again. Returns the
+  /// id used in records.
   std::uint32_t set_scene(PreparedScenePtr scene);
-  std::uint32_t set_scene(std::shared_ptr<const ContactScene> scene);  ///< prepares it here, in the caller's thread
+  std::uint32_t set_scene(std::shared_ptr<const ContactScene> scene);  ///< prepares it in the caller's thread
   const std::shared_ptr<const ContactScene>& scene() const;            ///< the latest sent
   /// Scene of a record; null once no record of the history uses it.
   std::shared_ptr<const ContactScene> scene(std::uint32_t id) const;
   const ExplorationPath& path() const;  ///< of the latest scene
 
-  // Hand and force.
+  // Hand and force. Each takes effect at the servo's next tick; until then the latest call of a kind wins.
   void set_hand(const HandSettings& settings);
   const HandSettings& hand() const;
-  void set_hand_target(const Vec3& position_world_m);  ///< and HandMode::point. Ignored when not finite
-  void arm();                                          ///< also clears faults and homes again where needed
+  void set_hand_target(const Vec3& position_world_m);  ///< also selects HandMode::point. Ignored when not finite
+  void arm();                                          ///< also clears faults and homes where needed
   void stop();                                         ///< no force until armed
-  void home();                                         ///< stops, and lets the devices find their zero again
-  /// A fault in a simulated device, the display's or the force device's. Real ones don't care.
+  void home();                                         ///< stops, and homes the devices again
+  /// Injects a fault into the simulated display or force device. Ignored by real devices.
   void inject(const FaultInjection& fault, bool display);
 
-  /// Computes a recorded tick again, with every iteration. Fails when its scene is gone. The output equals
-  /// record.tick.output, bit by bit.
+  /// Computes a recorded tick again and traces every iteration. The output is bitwise identical to record.tick.output.
+  /// Fails when its scene is gone.
   Result<TickOutput> re_step(const ServoRecord& record, IterationTrace& trace);
-  /// The same tick under another preset, from the same kept state.
+  /// As above, under another preset, from the same kept state.
   Result<TickOutput> re_step(const ServoRecord& record, const Preset& preset, IterationTrace& trace);
 
   SessionStatus status() const;
   const ForceCapabilities* force_capabilities() const;  ///< null: none
   const DisplayCapabilities* display_capabilities() const;
   const SessionOptions& options() const;
-  /// Stops, faults and changes of the devices' states, oldest first.
+  /// Stops, faults and state changes of the devices, oldest first.
   const SafetyLog& safety_log() const;
   GateLimits gate_limits() const;
-  /// The display's cable; false: it has none.
+  /// State of the display's USB link; false when it has none.
   bool display_report(LinkReport& out) const;
-  const LogHistogram& lateness_ns() const;  ///< of the servo's ticks after their deadlines
+  const LogHistogram& lateness_ns() const;  ///< delay of ticks after their deadlines
   const LogHistogram& period_ns() const;    ///< from tick to tick
 
-  /// The recorder's ring. Records go into it from attach to detach; one thread pops.
+  /// The recorder's ring: filled from attach to detach. One thread, which may be another, pops.
   void attach_recorder();
   void detach_recorder();
-  bool pop_recorded(ServoRecord& record);
+  bool pop_recorded(ServoRecord& record);  ///< false when empty
 
  private:
   struct Impl;

@@ -10,17 +10,16 @@
 namespace tangent {
 namespace {
 
-constexpr std::size_t kBatch = 16;  // triangles taken at a time: what a cancel waits for
+constexpr std::size_t kBatch = 16;  // triangles per batch; a cancel waits for a batch at most
 
-/// Threads of ours take what the servo and the window leave. Linux sets the niceness of the calling thread alone.
+/// Background threads yield to servo and window. On Linux niceness is per thread: this sets the caller's.
 void lower_priority() {
 #ifdef __linux__
   setpriority(PRIO_PROCESS, 0, 10);
 #endif
 }
 
-/// Near the golden section of n, and without a common divisor: steps of it visit all of 0..n-1, evenly spread at any
-/// time.
+/// A stride near the golden section of n and coprime to n: it visits all of 0..n-1, evenly spread at any time.
 std::size_t scattering_stride(std::size_t n) {
   std::size_t stride = std::max<std::size_t>(1, static_cast<std::size_t>(0.618033988749895 * static_cast<double>(n)));
   while (std::gcd(stride, n) != 1) ++stride;

@@ -1,5 +1,5 @@
-// A map over the whole surface, computed in the background: progress, cancel, and the values so far at any time.
-// Threads of lower priority than the rest of the program; the owner polls and never waits.
+// Computes a map over the whole surface in background threads of low priority. The owner polls progress and partial
+// values, and can cancel; all calls come from the owner's thread.
 #pragma once
 
 #include "core/lab/measure/surface_map.h"
@@ -18,12 +18,12 @@ class SurfaceMapJob {
  public:
   ~SurfaceMapJob();
 
-  /// Drops what is under way and computes this group for every usable triangle, in an order scattered over the
-  /// surface. `threads` 0: one less than the machine has for servo and window, at most four.
+  /// Cancels a running job and computes this group for every usable triangle, in an order scattered over the surface.
+  /// `threads` 0: the machine's threads less those for servo and window, at most four.
   void start(std::shared_ptr<const ContactScene> scene, const Preset& preset, const MapOptions& options, MapGroup group,
              unsigned threads = 0);
-  void cancel();  ///< what is done stays
-  void wait();    ///< until it is done: for pictures and tests
+  void cancel();  ///< keeps the values computed so far
+  void wait();    ///< blocks until done: for screenshots and tests
 
   bool running() const { return done_places() < places() && !cancelled_.load(std::memory_order_relaxed); }
   double progress() const {
@@ -32,9 +32,10 @@ class SurfaceMapJob {
   std::size_t places() const { return places_; }  ///< usable triangles x level^2; 0: nothing was started
   std::size_t done_places() const { return done_.load(std::memory_order_acquire); }
 
-  /// Copies a quantity of the group: index `usable triangle` * level^2 + part. Safe while it is computed; values are
-  /// kMapPending where they are not there yet. Empty if the quantity is not of the group.
+  /// Copies a quantity of the group; index: usable triangle * level^2 + part. May be called while it is computed;
+  /// values not computed yet are kMapPending. Empty if the quantity does not belong to the group.
   void copy_values(MapQuantity quantity, std::vector<float>& out) const;
+  /// Group and options of the last start.
   MapGroup group() const { return group_; }
   const MapOptions& options() const { return options_; }
   /// Triangle numbers of the usable triangles, in the order of the values.

@@ -1,4 +1,4 @@
-// Recorded ticks computed again, with their iterations: a tick depends on its kept state, input and preset alone.
+// Computes recorded ticks again, with their iterations: a tick depends only on its kept state, input and preset.
 #pragma once
 
 #include "workbench/session/servo_record.h"
@@ -10,7 +10,7 @@ namespace tangent {
 
 class TickAgain {
  public:
-  /// Clears and fills `trace`. The stepper is kept for the next tick of the same scene.
+  /// Clears and fills `trace`. Keeps the stepper for the next tick of the same scene. Not thread-safe.
   TickOutput step(std::shared_ptr<const ContactScene> scene, const Preset& preset, const ServoRecord& record,
                   IterationTrace& trace) {
     if (!stepper_ || &stepper_->scene() != scene.get()) stepper_.emplace(std::move(scene));

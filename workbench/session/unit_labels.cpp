@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kAny = std::numeric_limits<double>::infinity();
 
-// Labels of one SI unit stand together, the largest first.
+// Labels of one SI unit are contiguous, the largest first.
 constexpr std::array kLabels{UnitLabel{"m", "km", "km", 1e3},
                              UnitLabel{"m", "m", "m", 1.0},
                              UnitLabel{"m", "mm", "mm", kMillimetre, kAny},
@@ -41,7 +41,7 @@ UnitLabel shown_unit(std::string_view si, double typical) {
   UnitLabel best = si_itself(si);
   bool found = false;
   for (const UnitLabel& label : labels_of(si)) {
-    // A hair of room: the ends of sliders are rounded numbers.
+    // A small tolerance: the ends of sliders are rounded numbers.
     if (!(typical <= 1.0001 * label.shown_to) || (found && label.shown_to >= best.shown_to)) continue;
     best = label;
     found = true;
@@ -56,9 +56,9 @@ const UnitLabel* find_unit(std::string_view si, std::string_view typed) {
   return nullptr;
 }
 
-UnitLabel unit_of_size(std::string_view si, double si_value) {
+UnitLabel unit_of_size(std::string_view si, double in_si) {
   for (const UnitLabel& label : labels_of(si)) {
-    if (std::abs(label.si_value - si_value) <= 1e-9 * si_value) return label;
+    if (std::abs(label.in_si - in_si) <= 1e-9 * in_si) return label;
   }
   return si_itself(si);
 }

@@ -1,5 +1,5 @@
-// Units in which people are shown values and type them. Inside everything is SI, and core names quantities by their SI
-// unit alone ("m", "1/m", "1" for a pure number); which other unit a panel or an option shows it in stands here, once.
+// Units in which values are shown and typed. Internally everything is SI, and core knows only SI unit names ("m",
+// "1/m", "1" for a pure number); this table says in which other unit a panel or an option shows a quantity.
 #pragma once
 
 #include <span>
@@ -11,20 +11,20 @@ struct UnitLabel {
   std::string_view si;     ///< "m"
   std::string_view name;   ///< "µm"; empty for pure numbers
   std::string_view plain;  ///< "um": in ASCII, for a command line
-  double si_value = 1.0;   ///< of 1 in it
+  double in_si = 1.0;      ///< of 1 in it
   double shown_to = 0.0;  ///< for quantities that usually are at most this large, SI; 0: never shown unasked, but typed
 };
 
-/// Of one SI unit, the largest first. Empty: people are shown the SI unit itself.
+/// All units of this SI unit, the largest first. Empty: the SI unit itself is shown.
 std::span<const UnitLabel> labels_of(std::string_view si);
 
-/// In which a quantity that usually is about `typical` is shown. One that is not listed is shown in its SI unit.
+/// Unit for a quantity of typical size `typical` (SI). The SI unit where none is listed.
 UnitLabel shown_unit(std::string_view si, double typical);
 
-/// What a person may have typed behind a number, plain or not; nullptr: no unit of this quantity.
+/// The unit typed after a number, by name or plain name; nullptr: not a unit of this quantity.
 const UnitLabel* find_unit(std::string_view si, std::string_view typed);
 
-/// The unit of which one is `si_value`: "mm" for m and 1e-3. Its SI unit where none is listed.
-UnitLabel unit_of_size(std::string_view si, double si_value);
+/// The unit of which one is `in_si`: "mm" for m and 1e-3. Its SI unit where none is listed.
+UnitLabel unit_of_size(std::string_view si, double in_si);
 
 }  // namespace tangent

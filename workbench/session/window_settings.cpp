@@ -50,7 +50,7 @@ std::filesystem::path window_settings_path() {
   const char* config = std::getenv("XDG_CONFIG_HOME");
   const char* home = std::getenv("HOME");
   std::filesystem::path folder;
-  // The specification has relative paths ignored.
+  // The XDG specification says to ignore relative paths.
   if (config != nullptr && config[0] == '/')
     folder = config;
   else if (home != nullptr && home[0] == '/')

@@ -1,4 +1,4 @@
-// What the window keeps between runs: layout, look, favourites, recent files. TOML in the user's configuration folder.
+// Window settings kept between runs: layout, theme, favourites, recent files. TOML in the user's configuration folder.
 #pragma once
 
 #include "core/base/result.h"
@@ -14,30 +14,31 @@ namespace tangent {
 struct WindowSettings {
   static constexpr std::size_t kMostRecent = 12;
 
-  double left = 312.0, right = 0.0, plots = 0.0;  ///< points; right and plots 0: a share of the window
+  double left = 312.0, right = 0.0, plots = 0.0;  ///< points; right and plots 0: a fraction of the window
   bool show_left = true, show_right = true, show_plots = true;
   bool light_theme = false;
   double text_size = 1.0;  ///< factor on top of the monitor's
   bool y_up = false;
   std::string colour_map = "tide";
-  std::map<std::string, bool> sections;    ///< by title: open or folded
+  std::map<std::string, bool> sections;    ///< by title: true if open
   std::vector<std::string> favourites;     ///< full names of preset keys
   std::vector<std::string> recent_meshes;  ///< latest first, at most kMostRecent
   bool operator==(const WindowSettings&) const = default;
 
-  /// Moves or puts it to the front.
+  /// Moves this mesh to the front of recent_meshes, or adds it there.
   void opened(const std::string& mesh);
 };
 
-/// $XDG_CONFIG_HOME (else ~/.config) /tangent-workbench/window.toml; empty when there is no home.
+/// $XDG_CONFIG_HOME (else ~/.config)/tangent-workbench/window.toml; empty when there is no home directory.
 std::filesystem::path window_settings_path();
 
-/// Keys that are unknown or of another type are passed over and numbers brought into their ranges, so that what another
-/// version wrote does no harm. Fails on a file that is there and can't be read as TOML, or whose format (core/io/
-/// file_format.h) is newer than this program; a missing one gives the defaults.
+/// Ignores unknown keys and keys of another type, and clamps numbers to their ranges, so that files of other versions
+/// load. A missing file gives the defaults. Fails on a file that is not valid TOML or whose format
+/// (core/io/file_format.h) is newer than this program.
 Result<WindowSettings> read_window_settings(const std::filesystem::path& path);
+/// The settings as TOML text.
 std::string format_window_settings(const WindowSettings& settings);
-/// Atomic; makes the folder.
+/// Writes atomically; makes the folder. Fails when it can't be written.
 Status write_window_settings(const WindowSettings& settings, const std::filesystem::path& path);
 
 }  // namespace tangent

@@ -20,23 +20,42 @@ void decide_followed(Followed followed, bool first, DecidedContact& decided) {
   decided.triangle_changes = first ? 0 : decided.contact.triangle_changes;
 }
 
-bool was_entered(const ContactContext& context, double depth_m, double tracked_depth_m) {
-  if (context.moved_m > context.hystereses_m(kLeapOfFinger)) return true;
-  const double explained = 2.0 * context.moved_m + context.hystereses_m(1.0 + kEnteredDepth);
+bool was_put_elsewhere(const FingerStep& step) { return step.moved_m > kLeapOfFinger * step.switch_hysteresis_m; }
+
+bool was_entered(const FingerStep& step, double depth_m, double tracked_depth_m) {
+  if (was_put_elsewhere(step)) return true;
+  const double explained = 2.0 * step.moved_m + (1.0 + kEnteredDepth) * step.switch_hysteresis_m;
   return depth_m <= std::max(0.0, tracked_depth_m) + explained;
 }
 
-bool is_unentered(const ContactContext& context, double depth_m, double before_m) {
-  return context.moved_m <= context.hystereses_m(kLeapOfFinger) &&
-         depth_m > std::max(0.0, before_m) + context.hystereses_m(kLeapOfFinger);
+bool is_unentered(const FingerStep& step, double depth_m, double before_m) {
+  return !was_put_elsewhere(step) && depth_m > std::max(0.0, before_m) + kLeapOfFinger * step.switch_hysteresis_m;
 }
 
 bool decide_rival(const ContactContext& context, const RivalResult& rival, double tracked_depth_m,
                   const TrackedPlane& kept, DecidedContact& decided) {
   decided.evaluations += rival.evaluations;
   if (!rival.deeper) return false;
-  if (!was_entered(context, rival.best.contact.penetration_m, tracked_depth_m)) return false;
+  if (!was_entered(step_of(context), rival.best.contact.penetration_m, tracked_depth_m)) return false;
   adopt(rival.best, kept, decided);
+  decided.event = TickEvent::switched;
+  return true;
+}
+
+bool decide_touched(ContactContext& context, double bound_m, TouchedContacts& touched, const TrackedPlane& kept,
+                    DecidedContact& decided) {
+  TouchedContact* deepest = nullptr;
+  for (TouchedContact& c : std::span(touched.contacts).first(touched.count))
+    if (!deepest || c.contact.penetration_m > deepest->contact.penetration_m) deepest = &c;
+  if (!deepest || !(contact_rank(context.finger, deepest->contact) < bound_m)) return false;
+  IterationResult contact;
+  ContactContext quiet = context;
+  quiet.trace = nullptr;
+  iterate_kept(quiet, deepest->plane, false, kTrackBudget, contact);
+  decided.evaluations += contact.evaluations;
+  if (!contact.converged()) return false;
+  *deepest = {decided.contact.plane, decided.contact.contact};
+  adopt(contact, kept, decided);
   decided.event = TickEvent::switched;
   return true;
 }

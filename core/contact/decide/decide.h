@@ -7,6 +7,7 @@
 #include "core/contact/follow/follow.h"
 #include "core/contact/search/rivals.h"
 #include "core/contact/search/seed.h"
+#include "core/contact/touched.h"
 
 namespace tangent {
 
@@ -17,28 +18,47 @@ struct DecidedContact {
   int evaluations = 0;  ///< of the whole tick, lost tracking and seeds included
   int triangle_changes = 0;
   bool converged() const { return contact.converged(); }
+  bool facing() const { return contact.facing(); }
 };
 
-/// Rank that another place must be below to take over from a contact of rank `rank`: deeper by the switch hysteresis.
-inline double takeover_bound_m(const SolverSettings& settings, double rank) {
-  return rank - settings.switch_hysteresis_m;
+/// Rank that another place must be below to take over from a contact of rank `rank`: deeper by the switch hysteresis,
+/// or `hystereses` of them.
+inline double takeover_bound_m(const SolverSettings& settings, double rank, double hystereses = 1.0) {
+  return rank - hystereses * settings.switch_hysteresis_m;
 }
 
 /// The followed contact stays (decided.contact holds it), until another is decided on. `first`: there was none.
 void decide_followed(Followed followed, bool first, DecidedContact& decided);
 
+/// How far the finger has come since the last tick, and the length by which such things are judged.
+struct FingerStep {
+  double moved_m = 0.0;
+  double switch_hysteresis_m = 0.0;
+};
+inline FingerStep step_of(const ContactContext& context) {
+  return {context.moved_m, context.settings.switch_hysteresis_m};
+}
+
+/// Whether the finger has been put elsewhere: what it is in then counts as entered.
+bool was_put_elsewhere(const FingerStep& step);
+
 /// Whether a place this deep can have been entered from outside since the last tick, at which none was deeper than the
 /// tracked one by more than the hysteresis: no depth changes by more than the finger moves.
-bool was_entered(const ContactContext& context, double depth_m, double tracked_depth_m);
+bool was_entered(const FingerStep& step, double depth_m, double tracked_depth_m);
 
 /// Whether a place where a lost contact starts anew is one that the finger can't have come into from outside: deeper by
 /// over kLeapOfFinger than what was tracked, although the finger has hardly moved. `before_m`: depth of what was
 /// tracked.
-bool is_unentered(const ContactContext& context, double depth_m, double before_m);
+bool is_unentered(const FingerStep& step, double depth_m, double before_m);
 
 /// A deeper place takes over, if one was found that was entered. True where it did.
 bool decide_rival(const ContactContext& context, const RivalResult& rival, double tracked_depth_m,
                   const TrackedPlane& kept, DecidedContact& decided);
+
+/// The deepest of the `touched` places takes over, if it is below that rank; the one that was rendered goes among them.
+/// True where it did.
+bool decide_touched(ContactContext& context, double bound_m, TouchedContacts& touched, const TrackedPlane& kept,
+                    DecidedContact& decided);
 
 /// Where following failed: the seeded contact, or the lost one where seeding did no better.
 void decide_start(const SeedResult& seeded, const TrackedPlane& kept, DecidedContact& decided);

@@ -1,6 +1,7 @@
 // What became of the contact in a tick.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 namespace tangent {
@@ -12,6 +13,8 @@ enum class TickEvent : std::uint8_t {
   switched,  ///< a deeper nonadjacent place took over
   branch,    ///< the solution folded and the contact moved to another one by itself
 };
+inline constexpr std::array kTickEvents{TickEvent::none, TickEvent::first, TickEvent::reseed, TickEvent::switched,
+                                        TickEvent::branch};
 const char* to_string(TickEvent event);  ///< "switch" for switched
 
 }  // namespace tangent

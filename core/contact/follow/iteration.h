@@ -37,6 +37,7 @@ struct IterationResult {
   int triangle_changes = 0;
   bool met_unstable = false;  ///< an iterate on the way was not stable
   bool converged() const { return stop == StopReason::converged; }
+  bool facing() const { return stop == StopReason::facing; }
 };
 
 }  // namespace tangent

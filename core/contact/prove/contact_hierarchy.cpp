@@ -2,9 +2,11 @@
 
 #include "core/mesh/vertex_ring.h"
 #include "core/surface/mesh_patch.h"
+#include "core/surface/patch_curvature.h"
 
 #include <algorithm>
 #include <limits>
+#include <unordered_map>
 
 namespace tangent {
 namespace {
@@ -21,13 +23,19 @@ struct Cone {
 class NormalSet {
  public:
   void add(const Vec3& n) {
-    if (size_ == normals_.size()) {
+    for (std::size_t i = 0; i < size_; ++i)
+      if (normals_[i] == n) return;
+    if (everything_ || size_ == normals_.size()) {
       everything_ = true;
       return;
     }
     normals_[size_++] = n;
   }
   void add_everything() { everything_ = true; }
+  void add(const NormalSet& other) {
+    everything_ |= other.everything_;
+    for (std::size_t i = 0; i < other.size_ && !everything_; ++i) add(other.normals_[i]);
+  }
 
   Cone cone() const {
     Vec3 sum(0.0);
@@ -61,16 +69,6 @@ Cone merge(const Cone& a, const Cone& b) {
 float below(double x) { return std::nextafter(static_cast<float>(x), -std::numeric_limits<float>::infinity()); }
 float above(double x) { return std::nextafter(static_cast<float>(x), std::numeric_limits<float>::infinity()); }
 
-/// Spreads the low 21 bits of x to every third bit.
-std::uint64_t spread_bits(std::uint64_t x) {
-  x &= 0x1FFFFF;
-  x = (x | x << 32) & 0x1F00000000FFFFull;
-  x = (x | x << 16) & 0x1F0000FF0000FFull;
-  x = (x | x << 8) & 0x100F00F00F00F00Full;
-  x = (x | x << 4) & 0x10C30C30C30C30C3ull;
-  return (x | x << 2) & 0x1249249249249249ull;
-}
-
 }  // namespace
 
 class ContactHierarchyBuilder {
@@ -78,10 +76,12 @@ class ContactHierarchyBuilder {
   ContactHierarchyBuilder(const ContactMesh& mesh, ContactHierarchy& tree) : mesh_(mesh), tree_(tree) {}
 
   void build() {
-    sort_triangles();
-    if (tree_.order_.empty()) return;
-    tree_.nodes_.reserve(2 * (tree_.order_.size() / kLeafTriangles + 1));
-    build_node(0, tree_.order_.size());
+    gather_triangles();
+    if (entries_.empty()) return;
+    gather_corners();
+    tree_.nodes_.reserve(2 * (entries_.size() / kLeafTriangles + 1));
+    tree_.order_.reserve(entries_.size());
+    build_node(0, entries_.size());
     tree_.nodes_.shrink_to_fit();
   }
 
@@ -89,27 +89,63 @@ class ContactHierarchyBuilder {
   struct Bounds {
     Box box;
     Cone cone;
+    CurvatureBounds curvature;
   };
 
-  /// Along a Morton curve: near in space is near in the list, so halving it makes compact nodes.
-  void sort_triangles() {
-    const Vec3 low = mesh_.bounds().min, size = mesh_.bounds().size();
-    const double side = std::max({size.x, size.y, size.z, 1e-300});
-    const double cells = 2097151.0;
-    std::vector<std::pair<std::uint64_t, std::uint32_t>> keyed;
-    keyed.reserve(mesh_.usable_triangle_count());
+  struct Entry {
+    std::array<float, 3> middle;
+    std::uint32_t triangle;
+  };
+
+  void gather_triangles() {
+    entries_.reserve(mesh_.usable_triangle_count());
     for (std::uint32_t t = 0; t < mesh_.triangle_count(); ++t) {
       if (!mesh_.usable(t)) continue;
       const Vec3 middle = (mesh_.position(t, 0) + mesh_.position(t, 1) + mesh_.position(t, 2)) / 3.0;
-      const Vec3 cell = glm::clamp((middle - low) / side, Vec3(0.0), Vec3(1.0)) * cells;
-      keyed.emplace_back(spread_bits(static_cast<std::uint64_t>(cell.x)) |
-                             spread_bits(static_cast<std::uint64_t>(cell.y)) << 1 |
-                             spread_bits(static_cast<std::uint64_t>(cell.z)) << 2,
-                         t);
+      entries_.push_back(
+          {{static_cast<float>(middle.x), static_cast<float>(middle.y), static_cast<float>(middle.z)}, t});
     }
-    std::sort(keyed.begin(), keyed.end());
-    tree_.order_.reserve(keyed.size());
-    for (const auto& [key, t] : keyed) tree_.order_.push_back(t);
+  }
+
+  /// The normals around every vertex where many triangles meet and a contact can rest, once for all of them.
+  void gather_corners() {
+    constexpr std::uint8_t kMany = 16;
+    std::vector<std::uint8_t> met(mesh_.vertex_count());
+    const auto each_corner = [&](auto visit) {
+      for (const Entry& entry : entries_)
+        for (std::uint32_t k = 0; k < 3; ++k)
+          if (mesh_.feature_corner(entry.triangle, k)) visit(entry.triangle, k, mesh_.vertex(entry.triangle, k));
+    };
+    each_corner([&](std::uint32_t, std::uint32_t, std::uint32_t v) { met[v] += met[v] < kMany; });
+    each_corner([&](std::uint32_t t, std::uint32_t k, std::uint32_t v) {
+      if (met[v] == kMany) add_corner(t, k, corners_[v]);
+    });
+  }
+
+  void add_corner(std::uint32_t t, std::uint32_t k, NormalSet& normals) const {
+    normals.add(mesh_.normal(t, k));
+    if (mesh_.edge_kind(t, k) == EdgeKind::boundary || mesh_.edge_kind(t, (k + 2) % 3) == EdgeKind::boundary)
+      normals.add_everything();
+  }
+
+  /// Halves the triangles across the longest side of the box about their middles. Ties go by number, so that the tree
+  /// is the same wherever it is built.
+  std::size_t split(std::size_t first, std::size_t last) {
+    std::array<float, 3> low = entries_[first].middle, high = low;
+    for (std::size_t i = first + 1; i < last; ++i)
+      for (std::size_t k = 0; k < 3; ++k) {
+        low[k] = std::min(low[k], entries_[i].middle[k]);
+        high[k] = std::max(high[k], entries_[i].middle[k]);
+      }
+    std::size_t axis = 0;
+    for (std::size_t k = 1; k < 3; ++k)
+      if (high[k] - low[k] > high[axis] - low[axis]) axis = k;
+    const std::size_t middle = first + (last - first) / 2;
+    const auto at = [&](std::size_t i) { return entries_.begin() + static_cast<std::ptrdiff_t>(i); };
+    std::nth_element(at(first), at(middle), at(last), [&](const Entry& a, const Entry& b) {
+      return a.middle[axis] != b.middle[axis] ? a.middle[axis] < b.middle[axis] : a.triangle < b.triangle;
+    });
+    return middle;
   }
 
   Bounds build_node(std::size_t first, std::size_t last) {
@@ -117,12 +153,13 @@ class ContactHierarchyBuilder {
     tree_.nodes_.emplace_back();
     Bounds bounds;
     if (last - first <= kLeafTriangles) {
-      bounds = triangle_bounds(tree_.order_[first]);
-      for (std::size_t i = first + 1; i < last; ++i) join(bounds, triangle_bounds(tree_.order_[i]));
+      bounds = triangle_bounds(entries_[first].triangle);
+      for (std::size_t i = first + 1; i < last; ++i) join(bounds, triangle_bounds(entries_[i].triangle));
       tree_.nodes_[index].link = ContactHierarchy::kLeaf | static_cast<std::uint32_t>(first);
+      for (std::size_t i = first; i < last; ++i) tree_.order_.push_back(entries_[i].triangle);
       tree_.nodes_[index].count = static_cast<std::uint32_t>(last - first);
     } else {
-      const std::size_t middle = first + (last - first) / 2;
+      const std::size_t middle = split(first, last);
       bounds = build_node(first, middle);
       tree_.nodes_[index].link = static_cast<std::uint32_t>(tree_.nodes_.size());
       tree_.nodes_[index].count = 0;
@@ -136,6 +173,7 @@ class ContactHierarchyBuilder {
     a.box.include(b.box.min);
     a.box.include(b.box.max);
     a.cone = merge(a.cone, b.cone);
+    a.curvature.include(b.curvature);
   }
 
   static void store(ContactHierarchy::Node& node, const Bounds& bounds) {
@@ -144,6 +182,8 @@ class ContactHierarchyBuilder {
       node.max[k] = above(bounds.box.max[k]);
       node.axis[k] = static_cast<float>(bounds.cone.axis[k]);
     }
+    node.least_curvature = below(bounds.curvature.least);
+    node.greatest_curvature = above(bounds.curvature.greatest);
     // 1e-6 covers the rounding of the axis to float.
     node.cos_half = bounds.cone.cos_half <= -1.0 ? -1.0f : below(std::max(-0.9999999, bounds.cone.cos_half - 1e-6));
   }
@@ -154,7 +194,11 @@ class ContactHierarchyBuilder {
     for (std::size_t i = 0; i < 10; ++i) bounds.box.include(patch.control_point(i));
     NormalSet normals;
     for (const Vec3& n : patch.normals) normals.add(n);
-    if (!mesh_.interior(t)) add_feature_normals(t, normals);
+    if (mesh_.interior(t)) {
+      bounds.curvature = curvature_bounds(patch);
+    } else {
+      add_feature_normals(t, normals);
+    }
     bounds.cone = normals.cone();
     return bounds;
   }
@@ -165,23 +209,43 @@ class ContactHierarchyBuilder {
       if (mesh_.edge_kind(t, k) == EdgeKind::crease)
         for (const Vec3& n : make_patch(mesh_, mesh_.across(t, k).triangle).normals) normals.add(n);
       if (!mesh_.feature_corner(t, k)) continue;
-      around_vertex(mesh_, t, k, [&](std::uint32_t other, std::uint32_t corner) {
-        normals.add(mesh_.normal(other, corner));
-        if (mesh_.edge_kind(other, corner) == EdgeKind::boundary ||
-            mesh_.edge_kind(other, (corner + 2) % 3) == EdgeKind::boundary)
-          normals.add_everything();
-      });
+      const auto many = corners_.find(mesh_.vertex(t, k));
+      if (many != corners_.end()) {
+        normals.add(many->second);
+      } else {
+        around_vertex(mesh_, t, k,
+                      [&](std::uint32_t other, std::uint32_t corner) { add_corner(other, corner, normals); });
+      }
     }
   }
 
   const ContactMesh& mesh_;
   ContactHierarchy& tree_;
+  std::vector<Entry> entries_;
+  std::unordered_map<std::uint32_t, NormalSet> corners_;  ///< by vertex
 };
 
 ContactHierarchy ContactHierarchy::build(const ContactMesh& mesh) {
   ContactHierarchy tree;
   ContactHierarchyBuilder(mesh, tree).build();
   return tree;
+}
+
+bool ContactHierarchy::touchable(const Node& node, const ContactQuery& q) {
+  if (node.cos_half <= 0.0f) return true;
+  const Vec3 low(node.min[0], node.min[1], node.min[2]), high(node.max[0], node.max[1], node.max[2]);
+  const Vec3 axis = unit(Vec3(node.axis[0], node.axis[1], node.axis[2]));
+  const double cos_half = node.cos_half, chord = std::sqrt(2.0 - 2.0 * cos_half);
+  const Vec3 support = support_point(*q.finger, *q.pose, axis);
+  const Vec3 d = support - 0.5 * (low + high);
+  const double radius = 0.5 * glm::distance(low, high) + support_spread_m(*q.finger, *q.pose, axis, chord) + q.margin_m;
+  const double d2 = glm::dot(d, d);
+  if (d2 <= radius * radius) return true;
+  // The angle of d from +-axis is at most half + spread.
+  const double distance = std::sqrt(d2), sin_spread = radius / distance;
+  const double cos_spread = std::sqrt(1.0 - sin_spread * sin_spread), sin_half = std::sqrt(1.0 - cos_half * cos_half);
+  if (sin_half * cos_spread + cos_half * sin_spread < 0.0) return true;
+  return std::abs(glm::dot(d, axis)) >= (cos_half * cos_spread - sin_half * sin_spread) * distance;
 }
 
 void limit_query(ContactQuery& query, const Finger& finger, double rank) {

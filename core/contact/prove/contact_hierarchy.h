@@ -6,9 +6,15 @@
 // the convex-hull property. Compare the spatialized normal cone hierarchy of Johnson & Cohen (I3D 2001).
 // Crease edges add the normals of their fans; boundary edges and vertices are not bounded in direction.
 //
+// A node also knows between which curvatures its ground bends. Where that keeps the surface offset by the heights asked
+// for from folding (patch_curvature.h), its contacts come and go over its border only: a search that asks what could
+// come up while c moves need not ask that there, only which contacts there are now. On a ball that is everywhere, so
+// that a search to look ahead costs what one for the present place does.
+//
 // Immutable, no allocation in a query, any number of threads.
 #pragma once
 
+#include "core/base/tolerances.h"
 #include "core/finger/finger.h"
 #include "core/mesh/contact_mesh.h"
 
@@ -27,7 +33,22 @@ struct ContactQuery {
   double inside_m = 0.0;   ///< contacts seen from inside (h < 0) with |h| up to this; negative: none
   double margin_m = 0.0;   ///< also all that could come up while the centre moves by this much
   double tilt_rad = 0.0;   ///< how far c - S may lean from N: 0 for point and sphere, more for other fingers
+  /// Whether margin_m is left out where the ground does not fold. What comes in over its border then comes from a
+  /// triangle that was asked for with the margin. Round fingers and Bernstein normals only.
+  bool steady_ground = false;
+  bool steady_only = false;  ///< ask of such ground only, and only of what reaches into this box
+  Box region;
+  /// A finger that is not round, and its pose: rules out more than tilt_rad does, by support points. Null: none.
+  const Finger* finger = nullptr;
+  const FingerPose* pose = nullptr;
+  double here_m = 0.0;  ///< set for the visitor: the margin that its triangle is asked for, margin_m or 0
 };
+
+/// Whether ground that bends between these curvatures, 1/m, is steady: does not fold at the heights of the query.
+inline bool is_steady(const ContactQuery& query, double least, double greatest) {
+  return query.steady_ground && query.nearest_m * least > kSteadyRoom - 1.0 &&
+         query.inside_m * greatest < 1.0 - kSteadyRoom;
+}
 
 /// Bounds of a query that shall only see contacts of a rank below `rank` (contact_rank.h).
 void limit_query(ContactQuery& query, const Finger& finger, double rank);
@@ -50,15 +71,19 @@ class ContactHierarchy {
 
   /// Preorder: the first child follows its parent.
   struct Node {
-    std::array<float, 3> min, max;  ///< of control points, rounded outwards
-    std::array<float, 3> axis;      ///< of the cone of normals, unit
-    float cos_half;                 ///< of the cone's half angle, rounded down; -1: every direction
-    std::uint32_t link;             ///< second child, or kLeaf | first entry in order_
-    std::uint32_t count;            ///< entries of a leaf
+    std::array<float, 3> min, max;              ///< of control points, rounded outwards
+    std::array<float, 3> axis;                  ///< of the cone of normals, unit
+    float cos_half;                             ///< of the cone's half angle, rounded down; -1: every direction
+    float least_curvature, greatest_curvature;  ///< of its patches, 1/m, rounded outwards
+    std::uint32_t link;                         ///< second child, or kLeaf | first entry in order_
+    std::uint32_t count;                        ///< entries of a leaf
   };
 
   /// Squared distance of the box, or -1 where the node can't hold a contact.
   static double reach2(const Node& node, const ContactQuery& query);
+  /// Whether a finger that is not round can touch the node: a contact has p(N) = S + h N, p(N) the support point, and
+  /// over the node's normals that strays from the one of their axis by no more than support_spread_m.
+  static bool touchable(const Node& node, const ContactQuery& query);
 
   std::vector<Node> nodes_;
   std::vector<std::uint32_t> order_;  ///< triangles, leaf by leaf
@@ -66,15 +91,22 @@ class ContactHierarchy {
 
 inline double ContactHierarchy::reach2(const Node& node, const ContactQuery& q) {
   const Vec3 low(node.min[0], node.min[1], node.min[2]), high(node.max[0], node.max[1], node.max[2]);
+  if (q.steady_only) {
+    const Vec3 beside = glm::max(low - q.region.max, q.region.min - high);
+    if (std::max({beside.x, beside.y, beside.z}) > 0.0) return -1.0;
+  }
   const Vec3 gap = glm::max(glm::max(low - q.centre, q.centre - high), Vec3(0.0));
   const double box2 = glm::dot(gap, gap);
   const double farthest = std::max(q.nearest_m, q.inside_m);
   if (box2 > farthest * farthest) return -1.0;
   if (node.cos_half <= -1.0f) return box2;
+  if (q.finger) return touchable(node, q) ? box2 : -1.0;
 
   // Seen from c the node's points lie within `spread` of the direction to its middle; c may move by the margin.
   const Vec3 d = q.centre - 0.5 * (low + high);
-  const double radius = 0.5 * std::sqrt(glm::dot(high - low, high - low)) + q.margin_m;
+  const double radius =
+      0.5 * std::sqrt(glm::dot(high - low, high - low)) +
+      (q.steady_only || is_steady(q, node.least_curvature, node.greatest_curvature) ? 0.0 : q.margin_m);
   const double d2 = glm::dot(d, d);
   if (d2 <= radius * radius) return box2;
   const double distance = std::sqrt(d2);
@@ -113,6 +145,9 @@ void ContactHierarchy::visit(ContactQuery query, Visit visit) const {
     const Node& node = nodes_[entry.node];
     if (node.link & kLeaf) {
       const std::uint32_t first = node.link & ~kLeaf;
+      const bool stays = is_steady(query, node.least_curvature, node.greatest_curvature);
+      if (query.steady_only && !stays) continue;
+      query.here_m = stays ? 0.0 : query.margin_m;
       for (std::uint32_t i = 0; i < node.count; ++i)
         if (!visit(order_[first + i], query)) return;
       continue;

@@ -10,6 +10,7 @@ namespace tangent {
 namespace {
 
 constexpr int kCurveHalvings = 3;
+constexpr int kManyFaces = 32;  // around a vertex: to be asked for once, not by each of them
 
 /// An edge of a triangle by its curve's control points, local coordinates.
 struct EdgeEnds {
@@ -17,10 +18,12 @@ struct EdgeEnds {
   Vec3 from_p, from_q;        ///< unit: along the curve away from p; away from q
   Vec3 np, nq;                ///< corner normals of the triangle
   Vec3 inside;                ///< the opposite corner
+  Vec3 middle_normal;         ///< of the normals along the edge, np and nq the others
   std::array<Vec3, 4> curve;  ///< control points
 };
 
 EdgeEnds edge_ends(const ContactMesh& mesh, const PnPatch& patch, std::uint32_t t, std::uint32_t edge) {
+  static constexpr ControlNormal kMiddle[3] = {n110, n011, n101};
   static constexpr ControlPoint kNearFirst[3] = {b210, b021, b102}, kNearSecond[3] = {b120, b012, b201};
   EdgeEnds e;
   const std::uint32_t j = (edge + 1) % 3;
@@ -28,6 +31,7 @@ EdgeEnds edge_ends(const ContactMesh& mesh, const PnPatch& patch, std::uint32_t 
   e.q = mesh.position(t, j);
   e.np = mesh.normal(t, edge);
   e.nq = mesh.normal(t, j);
+  e.middle_normal = 0.5 * patch.mixed_weight * patch.normals[kMiddle[edge]];
   e.inside = mesh.position(t, (edge + 2) % 3);
   const Vec3 chord = (e.q - e.p) / std::sqrt(glm::dot(e.q - e.p, e.q - e.p));
   const auto direction = [](const Vec3& v, const Vec3& otherwise) {
@@ -40,13 +44,41 @@ EdgeEnds edge_ends(const ContactMesh& mesh, const PnPatch& patch, std::uint32_t 
   return e;
 }
 
-/// How far c lies beyond an end of the edge, seen along the curve there; the normals may lean along it by `tilt`.
+/// Greatest |N.S'| along the edge, of unit normals: how much they lean along it.
+double lean_along(const EdgeEnds& e, const std::array<Vec3, 3>& speed) {
+  const std::array<Vec3, 3> n{e.np, e.middle_normal, e.nq};
+  const std::array<double, 5> lean{
+      glm::dot(n[0], speed[0]), 0.5 * (glm::dot(n[0], speed[1]) + glm::dot(n[1], speed[0])),
+      (glm::dot(n[0], speed[2]) + 4.0 * glm::dot(n[1], speed[1]) + glm::dot(n[2], speed[0])) / 6.0,
+      0.5 * (glm::dot(n[1], speed[2]) + glm::dot(n[2], speed[1])), glm::dot(n[2], speed[2])};
+  double most = 0.0, shortest = 1.0;
+  for (const double x : lean) most = std::max(most, std::abs(x));
+  const Vec3 axis = unit(n[0] + n[2]);
+  for (const Vec3& x : n) shortest = std::min(shortest, glm::dot(x, axis));
+  return shortest > 0.1 ? most / shortest : std::numeric_limits<double>::max();
+}
+
+/// How far c lies beyond an end of the edge, seen along the curve from every place of it: (c - S).S' is a quintic whose
+/// Bezier coefficients have one sign then. On a contact it is h N.S', which is no more than the normals lean.
 double beyond_ends(const EdgeEnds& e, const Vec3& centre) {
-  const auto behind = [&](const Vec3& point, const Vec3& inwards, const Vec3& normal) {
-    const Vec3 d = centre - point;
-    return -glm::dot(d, inwards) - std::sqrt(glm::dot(d, d)) * std::abs(glm::dot(normal, inwards));
-  };
-  return std::max(behind(e.p, e.from_p, e.np), behind(e.q, e.from_q, e.nq));
+  const std::array<Vec3, 3> speed{3.0 * (e.curve[1] - e.curve[0]), 3.0 * (e.curve[2] - e.curve[1]),
+                                  3.0 * (e.curve[3] - e.curve[2])};
+  const std::array<Vec3, 4> d{centre - e.curve[0], centre - e.curve[1], centre - e.curve[2], centre - e.curve[3]};
+  const auto at = [&](std::size_t i, std::size_t j) { return glm::dot(d[i], speed[j]); };
+  const std::array<double, 6> g{at(0, 0),
+                                (3.0 * at(1, 0) + 2.0 * at(0, 1)) / 5.0,
+                                (3.0 * at(2, 0) + 6.0 * at(1, 1) + at(0, 2)) / 10.0,
+                                (at(3, 0) + 6.0 * at(2, 1) + 3.0 * at(1, 2)) / 10.0,
+                                (2.0 * at(3, 1) + 3.0 * at(2, 2)) / 5.0,
+                                at(3, 2)};
+  const auto [low, high] = std::minmax_element(g.begin(), g.end());
+  const double clear = std::max(*low, -*high);
+  if (clear <= 0.0) return clear;
+  double farthest2 = 0.0, fastest2 = 0.0;
+  for (const Vec3& x : d) farthest2 = std::max(farthest2, glm::dot(x, x));
+  for (const Vec3& x : speed) fastest2 = std::max(fastest2, glm::dot(x, x));
+  const double lean = lean_along(e, speed);
+  return (clear - lean * std::sqrt(farthest2)) / (std::sqrt(fastest2) + lean);
 }
 
 /// Lower bound of the distance from c to a cubic with these control points: to its chord, less how far they leave it.
@@ -85,7 +117,8 @@ double over_face(const EdgeEnds& e, const Vec3& centre) {
 
 /// Strongest pull of the edges around a vertex on a contact that rests on it, as a distance: positive where the
 /// contact leaves it along one of them.
-static double vertex_pull(const ContactMesh& mesh, std::uint32_t t, std::uint32_t corner, const Vec3& centre) {
+static double vertex_pull(const ContactMesh& mesh, std::uint32_t t, std::uint32_t corner, const Vec3& centre,
+                          int& faces) {
   const Vec3 d = centre - mesh.position(t, corner);
   double strongest = -std::numeric_limits<double>::max();
   const auto pull = [&](const Vec3& offset) {
@@ -93,6 +126,7 @@ static double vertex_pull(const ContactMesh& mesh, std::uint32_t t, std::uint32_
     if (length2 > 0.0) strongest = std::max(strongest, glm::dot(d, offset) / std::sqrt(length2));
   };
   around_vertex(mesh, t, corner, [&](std::uint32_t at, std::uint32_t k) {
+    ++faces;
     const Vec3 starting = mesh.position(at, (k + 1) % 3) - mesh.position(at, k);
     if (mesh.edge_kind(at, k) == EdgeKind::crease) {
       const EdgeLink other = mesh.across(at, k);
@@ -141,9 +175,12 @@ double exclude_feature_contacts(PatchCache& cache, std::uint32_t t, NormalForm f
     if (!mesh.feature_corner(t, k) || (memory && memory->knows(vertex_key(mesh, t, k)))) continue;
     const Vec3 d = centre - mesh.position(t, k);
     double safe = 0.5 * (std::sqrt(glm::dot(d, d)) - bound_m);
-    if (safe < enough_m) safe = std::max(safe, vertex_pull(mesh, t, k, centre));
+    int faces = 0;
+    if (safe < enough_m || !(safe > 0.0)) safe = std::max(safe, vertex_pull(mesh, t, k, centre, faces));
     margin = std::min(margin, std::max(0.0, safe));
-    if (memory && safe > 0.0) memory->add(vertex_key(mesh, t, k));
+    if (!memory) continue;
+    if (faces > kManyFaces) memory->add_dear(vertex_key(mesh, t, k), safe > 0.0);
+    if (faces <= kManyFaces && safe > 0.0) memory->add(vertex_key(mesh, t, k));
   }
   return margin;
 }

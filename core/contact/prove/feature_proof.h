@@ -8,15 +8,31 @@
 
 namespace tangent {
 
-/// Edges and vertices that one search has already excluded from another of their triangles. Forgets some.
+/// Edges and vertices that one search has already excluded from another of their triangles. Forgets some; those that
+/// were dear, vertices where many triangles meet, only for others of them. Of these it also knows which were found
+/// possible so often that more starts from the same vertex are in vain.
 class FeatureMemory {
  public:
-  bool knows(std::uint64_t key) const { return seen_[slot(key)] == key; }
+  bool knows(std::uint64_t key) const {
+    return seen_[slot(key)] == key || (dear_[dear_slot(key)].key == key && dear_[dear_slot(key)].tries >= kMostTries);
+  }
   void add(std::uint64_t key) { seen_[slot(key)] = key; }
+  void add_dear(std::uint64_t key, bool excluded) {
+    Dear& dear = dear_[dear_slot(key)];
+    if (dear.key != key) dear = {key, 0};
+    dear.tries = excluded ? kMostTries : dear.tries + 1;
+  }
   FeatureMemory() { seen_.fill(~std::uint64_t{0}); }
 
  private:
-  static constexpr std::size_t kSlots = 64;
+  static constexpr std::size_t kSlots = 64, kDearSlots = 8;
+  static constexpr int kMostTries = 8;
+  struct Dear {
+    std::uint64_t key = ~std::uint64_t{0};
+    int tries = 0;
+  };
+  static std::size_t dear_slot(std::uint64_t key) { return (key >> 2) % kDearSlots; }
+  std::array<Dear, kDearSlots> dear_;
   static std::size_t slot(std::uint64_t key) { return (key ^ key >> 7) % kSlots; }
   std::array<std::uint64_t, kSlots> seen_;
 };

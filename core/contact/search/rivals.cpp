@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 namespace tangent {
 namespace {
@@ -23,53 +24,65 @@ Vec3 interpolated_normal(const ContactMesh& mesh, std::uint32_t t, double u, dou
 
 /// How far the centre may go before a rival that ranks `gap` behind can overtake: heights change along their normals,
 /// and in second order by the square of the way over the height, near a fold by more.
-double overtaking_margin(const KnownContact& tracked, const Vec3& rival_normal, double rival_height, double gap) {
-  const Vec3 apart = tracked.normal - rival_normal;
+/// `is_still`: the bound is a fixed height, and not the tracked contact's.
+double overtaking_margin(const KnownContact& tracked, const Vec3& rival_normal, double rival_height, double gap,
+                         bool is_still) {
+  const Vec3 apart = is_still ? rival_normal : tracked.normal - rival_normal;
   const double rate = std::sqrt(glm::dot(apart, apart)) + 1e-3;
   const double bend = 2.0 / std::max(1e-12, std::min(std::abs(tracked.height_m), std::abs(rival_height)));
   // Smaller root of rate m + bend m^2 = gap.
   return kOvertakingRoom * 2.0 * gap / (rate + std::sqrt(rate * rate + 4.0 * bend * gap));
 }
 
+/// Some ticks at the finger's present speed, within shares of the tracked contact's rank.
+double ticks_ahead_m(double rank, double moved_m) {
+  // Where not even one tick ahead can be seen, as after a leap, looking ahead would be for nothing.
+  const double most = kLargestWatch * std::abs(rank);
+  return (moved_m < most ? std::min(kWatchTicks * moved_m, most) : 0.0) + kSmallestWatch * std::abs(rank);
+}
+
 /// What one triangle means for the tracked contact.
 struct Look {
   double margin_m = kForever;  ///< how far the centre may go before it must be looked at again
-  bool contact = false;        ///< it holds a contact, whose surroundings are left out of the search on its behalf
+  bool holds_rival = false;    ///< it holds a contact, or may, that is not deep enough
+  bool watch = false;          ///< to be looked at by itself then; otherwise only a search of everything tells
 };
 
 class RivalSearch {
  public:
   RivalSearch(ContactContext& context, const SearchStructures& search, const IterationResult& tracked, double bound_m,
-              double margin_m)
+              double margin_m, float ahead, const TouchedContacts* touched)
       : search_(search),
         tracked_(tracked),
+        touched_(touched),
         bound_m_(bound_m),
         margin_m_(margin_m),
+        ahead_(ahead),
+        slope_m_(ticks_ahead_m(contact_rank(context.finger, tracked.contact), context.moved_m)),
         deepest_(bound_m),
         settings_(robust(context.settings)),
-        context_{context.cache, settings_, context.finger, context.pose, context.origin, context.trace, 0} {
-    remember(tracked);
+        steady_(is_round(context.finger) && settings_.normal_form == NormalForm::bernstein),
+        context_{context.cache, settings_, context.finger, context.pose, context.origin,
+                 context.trace, 0,         context.moved_m} {
+    remember(tracked.plane, tracked.contact);
+    if (touched)
+      for (const TouchedContact& c : touched->all()) remember(c.plane, c.contact);
   }
 
   /// Every triangle that could hold a rival.
   void everywhere(RivalResult& result) {
     Clearance& clearance = result.clearance;
     clearance.margin_m = margin_m_;
-    ContactQuery query;
-    query.centre = context_.pose.position;
-    query.margin_m = margin_m_;
-    query.tilt_rad = context_.finger.tilt_rad();
-    limit_query(query, context_.finger, bound_m_ + 2.0 * margin_m_);
-    search_.hierarchy.visit(query, [&](std::uint32_t t, ContactQuery& q) {
-      const Look look = look_at(t, q.margin_m, result);
-      const double margin = look.contact ? look.margin_m : watch(clearance, t, look.margin_m);
-      if (margin < clearance.margin_m) {
-        clearance.margin_m = q.margin_m = margin;
-        limit_query(q, context_.finger, bound_m_ + 2.0 * margin);
-      }
+    int looks = 0;
+    search_.hierarchy.visit(query(margin_m_), [&](std::uint32_t t, ContactQuery& q) {
+      ++looks;
+      const Look look = q.here_m < q.margin_m ? look_at_steady(t, q.margin_m, result) : look_at(t, q.margin_m, result);
+      const double margin = look.watch ? watch(clearance, t, look) : look.margin_m;
+      if (margin < clearance.margin_m) narrow(clearance, margin, q);
       return solves_ < kMaxSolves;
     });
     clearance.height_m = bound_m_ + 2.0 * clearance.margin_m;
+    clearance.ahead = adapted(clearance, looks);
     if (solves_ >= kMaxSolves) clearance.margin_m = 0.0;
     set_free(clearance);
   }
@@ -78,29 +91,46 @@ class RivalSearch {
   void once_more(RivalResult& result) {
     Clearance& clearance = result.clearance;
     std::uint32_t kept = 0;
+    std::uint32_t passed_count = 0;
+    std::array<std::uint32_t, Clearance::kWatched> passed;  // a contact may have gone on from there to steady ground
     for (const WatchedTriangle& watched : clearance.on_watch()) {
       if (watched.margin_m > 0.0f) {
         clearance.watched[kept++] = watched;
         continue;
       }
       const Look look = look_at(watched.triangle, clearance.margin_m, result);
-      if (look.contact) clearance.margin_m = std::min(clearance.margin_m, look.margin_m);
-      if (!look.contact && look.margin_m < clearance.margin_m)
-        clearance.watched[kept++] = {watched.triangle, static_cast<float>(look.margin_m)};
+      if (look.holds_rival ? !watched.holds_rival : watched.holds_rival || look.margin_m < context_.moved_m)
+        passed[passed_count++] = watched.triangle;
+      if (!look.watch) clearance.margin_m = std::min(clearance.margin_m, look.margin_m);
+      if (look.watch && look.margin_m < clearance.margin_m)
+        clearance.watched[kept++] = watched_triangle(watched.triangle, look);
     }
     clearance.watched_count = kept;
+    if (steady_ && passed_count > 0) look_beside(std::span(passed).first(passed_count), result);
     set_free(clearance);
   }
 
  private:
+  /// Further ahead where that was cheap and got as far as was asked for, less far where it was dear.
+  float adapted(const Clearance& clearance, int looks) const {
+    if (looks > kDearLooks) return std::max(kLeastAhead, 0.5f * ahead_);
+    const bool got_there = clearance.watched_count == 0 && clearance.margin_m >= margin_m_;
+    return looks <= kCheapLooks && got_there ? std::min(kMostAhead, 2.0f * ahead_) : ahead_;
+  }
+
   static SolverSettings robust(SolverSettings settings) {
     settings.method = Method::robust;
     return settings;
   }
 
+  static WatchedTriangle watched_triangle(std::uint32_t t, const Look& look) {
+    return {t & 0x7FFFFFFFu, look.holds_rival, static_cast<float>(look.margin_m)};
+  }
+
   /// Puts a triangle on the list if it is among the soonest. Returns the margin of the one that is not. A heap while it
   /// grows, the latest on top.
-  static double watch(Clearance& clearance, std::uint32_t t, double margin) {
+  static double watch(Clearance& clearance, std::uint32_t t, const Look& look) {
+    const double margin = look.margin_m;
     if (margin >= clearance.margin_m) return margin;
     const auto sooner = [](const WatchedTriangle& a, const WatchedTriangle& b) { return a.margin_m < b.margin_m; };
     const auto first = clearance.watched.begin();
@@ -111,30 +141,106 @@ class RivalSearch {
       std::pop_heap(first, clearance.watched.end(), sooner);
       --clearance.watched_count;
     }
-    first[clearance.watched_count++] = {t, static_cast<float>(margin)};
+    first[clearance.watched_count++] = watched_triangle(t, look);
     std::push_heap(first, first + clearance.watched_count, sooner);
     return dropped;
   }
 
-  void remember(const IterationResult& r) {
+  void remember(const TrackedPlane& plane, const PlaneContact& contact) {
     if (known_count_ == known_.size()) return;
-    known_[known_count_++] = known_contact(context_.cache.mesh(), r.plane, r.contact.height_m);
+    known_[known_count_++] = known_contact(context_.cache.mesh(), plane, contact.height_m);
   }
 
-  Look look_at(std::uint32_t t, double enough_m, RivalResult& result) {
+  /// The tracked contact, or one that is followed beside it.
+  bool is_followed(const Vec3& point) const {
+    const double same = kMergedPlaces * settings_.tolerance_m;
+    const auto near = [&](const Vec3& other) { return glm::dot(point - other, point - other) <= same * same; };
+    if (near(tracked_.plane.point)) return true;
+    if (!touched_) return false;
+    const auto all = touched_->all();
+    return std::any_of(all.begin(), all.end(), [&](const TouchedContact& c) { return near(c.plane.point); });
+  }
+
+  /// `up_to_m`: rank below which contacts count.
+  Look look_at(std::uint32_t t, double enough_m, double up_to_m, RivalResult& result) {
     const ContactMesh& mesh = context_.cache.mesh();
     for (std::size_t i = 0; i < known_count_; ++i)
-      if (same_basin(context_.cache, settings_.normal_form, t, known_[i], enough_m)) return {};
-    const PatchExclusion proof = exclude_triangle(context_, t, bound_m_, enough_m, &features_);
-    if (!proof.possible) return {proof.margin_m > 0.0 ? proof.margin_m : kUnresolvedMargin * margin_m_, false};
-    if (proof.height_m != 0.0 && is_tracked(proof)) return {};
+      if (same_basin(context_.cache, settings_.normal_form, t, known_[i], std::min(enough_m, slope_m_)))
+        return own_slope(enough_m);
+    const PatchExclusion proof = exclude_triangle(context_, t, up_to_m, enough_m, &features_);
+    if (!proof.possible && proof.margin_m > 0.0) return {proof.margin_m, false, true};
+    if (!proof.possible) return {kUnresolvedMargin * slope_m_, true, true};
+    if (proof.height_m != 0.0 && is_tracked(proof)) return own_slope(enough_m);
     const double guess = proof.height_m >= 0.0 ? proof.height_m : context_.finger.reach_m() - proof.height_m;
     const double behind = guess - bound_m_;
     if (proof.height_m != 0.0 && behind > kHeightGuess * guess)  // a rival, but not a deeper one yet
-      return {overtaking_margin(known_[0], interpolated_normal(mesh, t, proof.u, proof.v), proof.height_m, behind),
-              false};
-    return solve(t, proof, result);
+      return {overtaking_margin(known_[0], interpolated_normal(mesh, t, proof.u, proof.v), proof.height_m, behind,
+                                touched_ != nullptr),
+              true, true};
+    return solve(t, proof, enough_m, result);
   }
+
+  /// Ground that leads to a known contact. Steady ground does so for good, other ground as far as a look-ahead goes.
+  Look own_slope(double enough_m) const { return enough_m > slope_m_ ? Look{slope_m_} : Look{}; }
+
+  /// The steady ground that a contact may have come to from these triangles since the last tick.
+  void look_beside(std::span<const std::uint32_t> triangles, RivalResult& result) {
+    Clearance& clearance = result.clearance;
+    ContactQuery beside = query(clearance.margin_m);
+    const Vec3 most(context_.moved_m / (kSteadyRoom - kSteadyLean));  // the fastest that it moves there
+    for (const std::uint32_t t : triangles) {
+      if (!meets_steady_ground(t, beside)) continue;
+      const PnPatch& patch = context_.cache.patch(t, settings_.normal_form);
+      for (std::size_t i = 0; i < patch.offsets.size(); ++i) {
+        beside.region.include(patch.control_point(i) + most);
+        beside.region.include(patch.control_point(i) - most);
+      }
+    }
+    if (beside.region.empty()) return;
+    beside.steady_only = true;
+    search_.hierarchy.visit(beside, [&](std::uint32_t other, ContactQuery& q) {
+      const Look look = look_at_steady(other, q.margin_m, result);
+      if (look.margin_m < clearance.margin_m) narrow(clearance, look.margin_m, q);
+      return solves_ < kMaxSolves;
+    });
+    if (solves_ >= kMaxSolves) clearance.margin_m = 0.0;
+  }
+
+  bool meets_steady_ground(std::uint32_t t, const ContactQuery& q) {
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      const std::uint32_t other = context_.cache.mesh().across(t, k).triangle;
+      if (other == kNone) continue;
+      const CurvatureBounds& bend = context_.cache.bend(other, settings_.normal_form);
+      if (is_steady(q, bend.least, bend.greatest)) return true;
+    }
+    return false;
+  }
+
+  ContactQuery query(double margin) const {
+    ContactQuery q;
+    q.centre = context_.pose.position;
+    q.margin_m = margin;
+    q.tilt_rad = context_.finger.tilt_rad();
+    q.steady_ground = steady_;
+    if (!is_round(context_.finger)) {
+      q.finger = &context_.finger;
+      q.pose = &context_.pose;
+    }
+    limit_query(q, context_.finger, bound_m_ + 2.0 * margin);
+    return q;
+  }
+
+  void narrow(Clearance& clearance, double margin, ContactQuery& q) const {
+    clearance.margin_m = q.margin_m = margin;
+    limit_query(q, context_.finger, bound_m_ + 2.0 * margin);
+  }
+
+  /// There a triangle without a contact, deeper or not yet, stays without until one comes in over the border.
+  Look look_at_steady(std::uint32_t t, double margin, RivalResult& result) {
+    const Look look = look_at(t, 0.0, bound_m_ + 2.0 * margin, result);
+    return look.holds_rival ? Look{look.margin_m, true, false} : Look{};
+  }
+  Look look_at(std::uint32_t t, double enough_m, RivalResult& result) { return look_at(t, enough_m, bound_m_, result); }
 
   /// Seen from the next triangle, the tracked contact on or near their common side.
   bool is_tracked(const PatchExclusion& proof) const {
@@ -144,37 +250,46 @@ class RivalSearch {
            std::abs(proof.height_m - tracked_.contact.height_m) < kHeightGuess * std::abs(tracked_.contact.height_m);
   }
 
-  Look solve(std::uint32_t t, const PatchExclusion& proof, RivalResult& result) {
+  Look solve(std::uint32_t t, const PatchExclusion& proof, double enough_m, RivalResult& result) {
     context_.seed = static_cast<std::uint8_t>(std::min(++solves_, 255));
     const SurfacePlace start = place_on_face(t, proof.u, std::min(proof.v, 1.0 - proof.u));
     IterationResult r;
     const int share = context_.cache.mesh().interior(t) ? 1 : 2;
     iterate(context_, start, share * kRivalBudget, r);
     result.evaluations += r.evaluations;
-    if (r.stop == StopReason::iteration_limit && contact_rank(context_.finger, r.contact) < deepest_) {
+    // Whatever it is called: on a boundary, say, it is left_boundary.
+    const bool ran_out = !r.converged() && r.stop != StopReason::unstable && r.evaluations >= share * kRivalBudget;
+    if (ran_out && contact_rank(context_.finger, r.contact) < deepest_) {
       const TrackedPlane so_far = r.plane;
       iterate(context_, so_far, share * kDeeperRivalBudget, r);
       result.evaluations += r.evaluations;
     }
     // No contact there now, but one may come up: ask again before long.
-    if (!r.converged()) return {kUnresolvedMargin * margin_m_, false};
-    const Vec3 apart = r.plane.point - tracked_.plane.point;
-    const double same = 10.0 * settings_.tolerance_m;
-    if (glm::dot(apart, apart) <= same * same) return {};
-    remember(r);
+    if (!r.converged()) return {kUnresolvedMargin * slope_m_, true, true};
+    if (is_followed(r.plane.point)) return own_slope(enough_m);
+    remember(r.plane, r.contact);
     const double rank = contact_rank(context_.finger, r.contact);
+    if (touched_ && rank < bound_m_ && pushes_with_others(r.contact))
+      result.touched.add({r.plane, r.contact}, kMergedPlaces * settings_.tolerance_m);
     if (rank < deepest_) {
       deepest_ = rank;
       result.best = r;
       result.deeper = true;
     }
-    return {overtaking_margin(known_[0], r.plane.normal, r.contact.height_m, std::max(0.0, rank - bound_m_)), true};
+    return {overtaking_margin(known_[0], r.plane.normal, r.contact.height_m, std::max(0.0, rank - bound_m_),
+                              touched_ != nullptr),
+            true, false};
   }
 
   const SearchStructures search_;
   const IterationResult& tracked_;
-  double bound_m_, margin_m_, deepest_;
+  const TouchedContacts* touched_;
+  double bound_m_, margin_m_;
+  float ahead_;
+  double slope_m_;  ///< how far ahead ground that is not steady is taken for a known contact's slope
+  double deepest_;
   SolverSettings settings_;
+  bool steady_;  ///< contacts are followed over steady ground
   ContactContext context_;
   FeatureMemory features_;
   std::array<KnownContact, kKnownContacts> known_;
@@ -184,16 +299,15 @@ class RivalSearch {
 
 }  // namespace
 
-double look_ahead_m(double rank, double moved_m) {
-  // Where not even one tick ahead can be seen, as after a leap, looking ahead would be for nothing.
-  const double most = kLargestWatch * std::abs(rank);
-  const double ahead = moved_m < most ? std::min(kWatchTicks * moved_m, most) : 0.0;
-  return ahead + kSmallestWatch * std::abs(rank);
+double look_ahead_m(const ContactContext& context, double rank, double ahead) {
+  const double wanted = context.hystereses_m(kWatchReach) * ahead;
+  return std::max(ticks_ahead_m(rank, context.moved_m), 2.0 * context.moved_m < wanted ? wanted : 0.0);
 }
 
 RivalResult find_rival(ContactContext& context, const SearchStructures& search, const IterationResult& tracked,
-                       double bound_m, double margin_m, const Clearance& known, double gone) {
-  RivalSearch rivals(context, search, tracked, bound_m, margin_m);
+                       double bound_m, double margin_m, const Clearance& known, double gone,
+                       const TouchedContacts* touched) {
+  RivalSearch rivals(context, search, tracked, bound_m, margin_m, known.ahead, touched);
   RivalResult result;
   if (gone > known.margin_m || bound_m > known.height_m - gone) {
     result.clearance.centre = context.pose.position;

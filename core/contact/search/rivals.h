@@ -8,24 +8,29 @@
 #include "core/contact/clearance.h"
 #include "core/contact/follow/iterate.h"
 #include "core/contact/search/search_structures.h"
+#include "core/contact/touched.h"
 
 namespace tangent {
 
 /// How far ahead a search looks, m: some ticks at the finger's present speed, within shares of the tracked contact's
-/// `rank`. `moved_m`: the finger's way in the last tick.
-double look_ahead_m(double rank, double moved_m);
+/// `rank`, and at least `ahead` times kWatchReach (Clearance::ahead).
+double look_ahead_m(const ContactContext& context, double rank, double ahead);
 
 struct RivalResult {
   bool deeper = false;  ///< `best` is a stable contact whose rank is below the wanted bound
   IterationResult best;
   int evaluations = 0;
-  Clearance clearance;  ///< until when nothing needs to be looked at again
+  TouchedContacts touched;  ///< new ones below the bound, where they were asked for
+  Clearance clearance;      ///< until when nothing needs to be looked at again
 };
 
 /// `bound_m`: rank that a rival must be below to take over. `margin_m`: how far one would like to go without
 /// searching again. `known`: the last search; the finger is `gone` from there. Beyond its margin all is searched,
-/// within it only the watched triangles whose time has come. Uses the `robust` rule whatever the method.
+/// within it only the watched triangles whose time has come. Uses the `robust` rule whatever the method. `touched`:
+/// places that are followed besides the tracked one, and all others below the bound are asked for; null: only the
+/// deepest is.
 RivalResult find_rival(ContactContext& context, const SearchStructures& search, const IterationResult& tracked,
-                       double bound_m, double margin_m, const Clearance& known, double gone);
+                       double bound_m, double margin_m, const Clearance& known, double gone,
+                       const TouchedContacts* touched = nullptr);
 
 }  // namespace tangent

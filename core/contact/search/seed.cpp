@@ -29,7 +29,7 @@ struct Selection {
   bool offer(const ContactContext& context, const IterationResult& r) {
     result.evaluations += r.evaluations;
     const bool exact = r.contact.error_m < context.settings.tolerance_m;
-    const int here = r.converged() ? 0 : r.stop == StopReason::unstable && exact ? 1 : 2;
+    const int here = r.converged() || r.facing() ? 0 : r.stop == StopReason::unstable && exact ? 1 : 2;
     const double rank = here == 2 ? r.contact.error_m : contact_rank(context.finger, r.contact);
     if (here < group || (here == group && rank < value)) {
       group = here;
@@ -41,21 +41,49 @@ struct Selection {
   }
 };
 
-void seed_by_hierarchy(ContactContext& context, const SearchStructures& search, Selection& selection) {
+/// What is known of the distance to the nearest triangle before asking.
+double known_radius(const ContactContext& context, const TrackedPlane& kept) {
+  if (kept.feature == Feature::none) return std::numeric_limits<double>::infinity();
+  return closest_on_triangle(context.cache.mesh(), kept.triangle, context.pose.position).distance_m;
+}
+
+/// A rank that the deepest contact can hardly exceed: that of the raw mesh's nearest triangle, with room for its bulge.
+/// What a search finds below it is what one without it would have found; where it finds nothing it was in vain.
+double likely_rank(ContactContext& context, const SearchStructures& search, double radius) {
+  constexpr double kUnlimited = std::numeric_limits<double>::max();
+  if (!is_round(context.finger)) return kUnlimited;
+  const Vec3& centre = context.pose.position;
+  const NearestHit hit = search.nearest.nearest(centre, radius);
+  if (!hit) return kUnlimited;
+  const double bulge = patch_bulge(context.cache.patch(hit.triangle, context.settings.normal_form));
+  const double further = (1.0 + kImplausibleShare) * hit.distance_m + 2.0 * bulge;
+  const auto n = context.cache.mesh().normals(hit.triangle);
+  const Vec3 normal = (1.0 - hit.u - hit.v) * n[0] + hit.u * n[1] + hit.v * n[2];
+  return glm::dot(centre - hit.point, normal) >= 0.0 ? further : context.finger.reach_m() + further;
+}
+
+/// Contacts of a rank below `most`.
+void seed_by_hierarchy(ContactContext& context, const SearchStructures& search, double most, Selection& selection) {
   ContactQuery query;
   query.centre = context.pose.position;
   query.nearest_m = query.inside_m = std::numeric_limits<double>::max();
   query.tilt_rad = context.finger.tilt_rad();
+  if (!is_round(context.finger)) {
+    query.finger = &context.finger;
+    query.pose = &context.pose;
+  }
+  if (most < std::numeric_limits<double>::max()) limit_query(query, context.finger, most);
   int solves = 0;
+  FeatureMemory features;
   search.hierarchy.visit(query, [&](std::uint32_t t, ContactQuery& q) {
     const PatchExclusion proof =
-        exclude_triangle(context, t, selection.group == 0 ? selection.value : std::numeric_limits<double>::max());
+        exclude_triangle(context, t, selection.group == 0 ? selection.value : most, 0.0, &features);
     if (proof.margin_m > 0.0) return true;
     context.seed = static_cast<std::uint8_t>(std::min(++solves, 255));
     IterationResult r;
     iterate(context, face_at(t, proof.u, proof.v), seed_budget(context.finger), r);
     selection.offer(context, r);
-    if (selection.group == 0) limit_query(q, context.finger, selection.value);
+    if (selection.group == 0) limit_query(q, context.finger, std::min(most, selection.value));
     return solves < kMaxSolves;
   });
 }
@@ -67,12 +95,6 @@ bool implausible(ContactContext& context, const SearchStructures& search, const 
   const double bulge = patch_bulge(context.cache.patch(found.plane.triangle, context.settings.normal_form));
   const double nearer = rank / (1.0 + kImplausibleShare) - 2.0 * bulge;
   return nearer > 0.0 && search.nearest.nearest(context.pose.position, nearer);
-}
-
-/// What is known of the distance to the nearest triangle before asking.
-double known_radius(const ContactContext& context, const TrackedPlane& kept) {
-  if (kept.feature == Feature::none) return std::numeric_limits<double>::infinity();
-  return closest_on_triangle(context.cache.mesh(), kept.triangle, context.pose.position).distance_m;
 }
 
 void seed_by_distance(ContactContext& context, const SearchStructures& search, std::size_t seeds, double radius,
@@ -91,8 +113,8 @@ void seed_by_distance(ContactContext& context, const SearchStructures& search, s
 }
 
 /// Last resort, where no seed finds a contact of the interpolated normals, or none near the raw mesh: the place near
-/// the raw mesh's closest points whose plane, turned to face the finger, is touched deepest. Its error is nought, its
-/// normal is the finger's.
+/// the raw mesh's closest points whose plane, turned to face the finger, is touched deepest. Its
+/// normal is the finger's, its error that of the surface's own normal there.
 void face_the_finger(ContactContext& context, const SearchStructures& search, Selection& selection) {
   std::array<NearestHit, kSeeds> hits;
   const std::size_t count =
@@ -103,11 +125,14 @@ void face_the_finger(ContactContext& context, const SearchStructures& search, Se
     sample_place(context, r.plane, r.sample);
     r.evaluations = 1;
     const Vec3 interpolated = r.plane.normal;
+    const PlaneContact own = contact_on_plane(context.finger, context.pose, r.plane.point, interpolated);
     const bool inside = glm::dot(context.pose.position - r.plane.point, interpolated) < 0.0;
     r.plane.normal = facing_normal(context.finger, context.pose, r.plane.point, interpolated,
                                    inside ? FacingSide::back : FacingSide::front);
     r.contact = contact_on_plane(context.finger, context.pose, r.plane.point, r.plane.normal);
-    r.stop = r.contact.error_m < context.settings.tolerance_m ? StopReason::converged : StopReason::iteration_limit;
+    r.stop = r.contact.error_m < context.settings.tolerance_m ? StopReason::facing : StopReason::iteration_limit;
+    r.contact.travel = own.travel;
+    r.contact.error_m = own.error_m;
     selection.offer(context, r);
   }
   if (!context.trace || !selection.result.found) return;
@@ -135,7 +160,10 @@ SeedResult seed_contact(ContactContext& context, const SearchStructures& search,
     seed_by_distance(context, search, 1, known_radius(context, kept), context.settings.max_iterations, false,
                      selection);
   } else {
-    seed_by_hierarchy(context, search, selection);
+    const double most = likely_rank(context, search, known_radius(context, kept));
+    seed_by_hierarchy(context, search, most, selection);
+    if (!(selection.group == 0 && selection.value < most) && most < std::numeric_limits<double>::max())
+      seed_by_hierarchy(context, search, std::numeric_limits<double>::max(), selection);
     if (selection.group != 0 || implausible(context, search, selection.result.best, selection.value))
       seed_by_distance(context, search, kSeeds, std::numeric_limits<double>::infinity(), seed_budget(context.finger),
                        true, selection);

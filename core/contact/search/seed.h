@@ -7,8 +7,9 @@
 namespace tangent {
 
 struct SeedResult {
-  bool found = false;    ///< a converged contact
-  IterationResult best;  ///< that, or the seed with the smallest error
+  bool found = false;    ///< a converged contact, or the place that faces the finger where there is none
+  IterationResult best;  ///< that, or the seed with the smallest error. Of a place that faces the finger `plane` is the
+                         ///< facing one; travel and error are those of the plane with the surface's own normal.
   int evaluations = 0;   ///< of all seeds together
 };
 

@@ -33,7 +33,7 @@ void name_first(std::vector<std::uint64_t>& first, std::uint64_t index) {
   if (first.size() < MeshDefectList::kNamed && (first.empty() || first.back() != index)) first.push_back(index);
 }
 
-/// Area, aspect, and corner normals against face normals.
+/// Area, aspect ratio, and angles between corner normals and face normals.
 void audit_triangles(const ContactMesh& mesh, MeshAudit& out) {
   std::vector<double> aspects;
   aspects.reserve(mesh.usable_triangle_count());
@@ -43,7 +43,7 @@ void audit_triangles(const ContactMesh& mesh, MeshAudit& out) {
     const Vec3 twice = area_vector(a, b, c);
     const double twice_area = std::sqrt(glm::dot(twice, twice));
     out.area_m2 += 0.5 * twice_area;
-    // The smallest height stands on the longest side.
+    // The smallest height is that over the longest side.
     const double aspect = longest_side2(a, b, c) / twice_area;
     aspects.push_back(aspect);
     if (aspect * kSliverAspect > 1.0) {
@@ -63,7 +63,7 @@ void audit_triangles(const ContactMesh& mesh, MeshAudit& out) {
   out.aspect = min_median_max(aspects);
 }
 
-/// Edges as the solver meets them: lengths, dihedral angles, creases, boundaries and the loops they form.
+/// Edges of the contact mesh: lengths, dihedral angles, creases, boundaries and the loops they form.
 void audit_edges(const ContactMesh& mesh, MeshAudit& out) {
   const HalfEdges half = to_half_edges(mesh);
   const HalfEdgeMesh& m = half.mesh;
@@ -105,8 +105,7 @@ void audit_edges(const ContactMesh& mesh, MeshAudit& out) {
       if (mesh.edge_kind(t, k) == EdgeKind::crease && mesh.across(t, k).triangle > t) ++out.crease_edges;
 }
 
-/// Edges and vertices as the file has them, before any triangle was detached or any vertex split: triangles over
-/// positions.
+/// Edges and vertices as in the file, by position, before any triangle was detached or any vertex split.
 void audit_manifold(const ContactMesh& mesh, MeshAudit& out) {
   std::vector<Vec3> positions(mesh.vertex_count());
   for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) positions[v] = mesh.vertex_position(v);
@@ -127,7 +126,7 @@ void audit_manifold(const ContactMesh& mesh, MeshAudit& out) {
   edges.for_each_edge([&](std::uint32_t, std::span<const EdgeUse> uses) {
     if (uses.size() > 2) ++out.non_manifold_edges;
     if (uses.size() == 2 && uses[0].backward() == uses[1].backward()) ++out.inconsistent_edges;
-    // Triangles on one edge are one part and, at both ends, one fan, however they turn.
+    // Triangles at an edge belong to one component and, at both ends, to one fan, whatever their orientation.
     const auto end_of = [&](const EdgeUse& use, bool far) {
       return mesh.vertex(use.triangle(), far == use.backward() ? use.edge() : next3(use.edge()));
     };

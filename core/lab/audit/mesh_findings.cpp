@@ -27,7 +27,7 @@ Vec3 normal_or_up(const Vec3& a, const Vec3& b, const Vec3& c) {
   return is_degenerate(a, b, c) ? Vec3(0.0, 0.0, 1.0) : face_normal(a, b, c);
 }
 
-/// Keeps the largest ones of each kind, whatever their number.
+/// Keeps the largest findings of each kind, and counts all.
 class Collector {
  public:
   explicit Collector(MeshFindings& out) : out_(out) {}
@@ -85,7 +85,7 @@ void find_bad_triangles(const ContactMesh& mesh, Collector& found) {
   }
 }
 
-/// Holes and rims, walked along their boundary half-edges.
+/// Holes and rims, traversed along their boundary half-edges.
 void find_loops(const ContactMesh& mesh, Collector& found) {
   bool any = false;
   for (std::uint32_t t = 0; t < mesh.triangle_count() && !any; ++t) {
@@ -128,7 +128,7 @@ void find_loops(const ContactMesh& mesh, Collector& found) {
   }
 }
 
-/// As the file has them, before any triangle was detached: over positions.
+/// As in the file, by position, before any triangle was detached.
 void find_bad_edges(const ContactMesh& mesh, Collector& found) {
   std::vector<Vec3> positions(mesh.vertex_count());
   for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) positions[v] = mesh.vertex_position(v);
@@ -159,7 +159,7 @@ void find_bad_edges(const ContactMesh& mesh, Collector& found) {
   });
 }
 
-/// Triangles that were skipped are in the source alone. Local coordinates are its own, moved and scaled.
+/// Corners of triangles that were skipped, which exist only in the source. Converts them to local coordinates.
 class SourcePlaces {
  public:
   SourcePlaces(const PolygonMesh& source, const ContactMesh& mesh) : source_(source), scale_(mesh.scale_applied()) {
@@ -176,7 +176,7 @@ class SourcePlaces {
   }
 
  private:
-  /// Fans (0, k-1, k) of all faces, counted through. Asked for a handful of times only.
+  /// Counts the fans (0, k-1, k) of all faces up to t: slow, but called only a few times.
   std::array<Vec3, 3> corners(std::uint32_t t) const {
     std::uint64_t left = t;
     for (std::size_t f = 0; f < source_.face_count(); ++f) {

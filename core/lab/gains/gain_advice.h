@@ -1,6 +1,6 @@
-// What the gains of Eq. 1 should be for a finger on some ground, with the reason: the residual left by a unit step
-// along a principal direction of curvature k is h k, so the ideal factor is 1/(1 + h k), which Eq. 1 gives with G_o =
-// 1, G_k = h, G_d = 0. h is about the finger's reach. Doxon et al., Eq. 1.
+// Recommended gains of Eq. 1 for a finger at a contact, with the reason: a unit step along a principal direction of
+// curvature k leaves a residual of h k, so the ideal factor is 1/(1 + h k), which Eq. 1 gives with G_o = 1, G_k = h,
+// G_d = 0. h is about the finger's reach. Doxon et al., Eq. 1.
 #pragma once
 
 #include "core/tick/step.h"
@@ -11,16 +11,16 @@ namespace tangent {
 
 struct GainAdvice {
   double gain_curvature_m = 0.0;  ///< advised G_k, m
-  double height_m = 0.0;          ///< h it comes from
+  double height_m = 0.0;          ///< h from which it follows
   // At a contact on a face; NaN without one.
   double k1_per_m = 0.0, k2_per_m = 0.0;      ///< principal curvatures, k1 >= k2, positive convex
-  double ideal1 = 0.0, ideal2 = 0.0;          ///< factors 1/(1 + h k) that they want
+  double ideal1 = 0.0, ideal2 = 0.0;          ///< ideal factors 1/(1 + h k) for k1 and k2
   double left_now = 0.0, left_advised = 0.0;  ///< share of the error that a plane leaves (paper_contraction)
   bool local = false;                         ///< the above hold
 };
 
-/// `at`: the contact to look at; none, or one on an edge or vertex: the advice is the finger's reach alone. A point
-/// finger has no reach: G_k 0.
+/// `at`: the contact to advise on; if empty, or on an edge or vertex, the advice is the finger's reach. A point finger
+/// has no reach: G_k 0.
 GainAdvice advise_gains(const ContactMesh& mesh, const Preset& preset, const std::optional<TickOutput>& at);
 
 }  // namespace tangent

@@ -22,7 +22,7 @@ Lattice lattice_of(const Gains& gains, const Gains& fine) {
           whole(gains.distance_per_m, fine.distance_per_m)};
 }
 
-/// `n` units; a unit below one is divided by its inverse, so that 7 of 1e-4 is the double nearest to 0.0007.
+/// n * unit; for units below one by dividing by the inverse, so that 7 * 1e-4 is the double nearest to 0.0007.
 double multiple(int n, double unit) { return unit < 1.0 ? n / std::round(1.0 / unit) : n * unit; }
 
 Gains gains_at(const Lattice& at, const Gains& fine) {
@@ -36,7 +36,7 @@ double round_number(double x) {
   return power * (digits >= 5.0 ? 5.0 : digits >= 2.0 ? 2.0 : 1.0);
 }
 
-/// One tuning under way.
+/// State of one tuning run.
 class Tuner {
  public:
   Tuner(std::shared_ptr<const ContactScene> scene, const Preset& base, std::span<const TickInput> poses,
@@ -53,7 +53,7 @@ class Tuner {
   }
 
  private:
-  /// False, here and below: told to stop.
+  /// Here and below: false when told to stop.
   bool search() {
     planned_ = grid_.coarse.size();
     if (!attempt(lattice_of(Gains{}, grid_.fine))) return false;
@@ -84,7 +84,7 @@ class Tuner {
     return true;
   }
 
-  /// Whether a run can no longer come among the best, however it goes on.
+  /// Whether a run can no longer be among the best, whatever its remaining ticks.
   bool beaten(const RunScore& so_far) const {
     if (result_.best.size() < kBestTrials) return false;
     const RunScore& last = result_.best.back().score;
@@ -155,7 +155,7 @@ RunScore score_run(Stepper& stepper, const Preset& preset, std::span<const TickI
     score.max_iterations = std::max(score.max_iterations, output.iterations);
     iterations.push_back(output.iterations);
     if (output.event == TickEvent::reseed) ++score.reseeded;
-    if (output.status == TickStatus::unconverged)
+    if (!is_converged(output.status))
       ++score.unconverged;
     else
       score.max_error_m = std::max(score.max_error_m, output.error_m);
@@ -168,7 +168,7 @@ GainGrid make_gain_grid(double length_m) {
   GainGrid grid;
   grid.fine = {0.01, round_number(length_m / 200.0), round_number(0.02 / length_m)};
   grid.largest = {2.0, 10.0 * length_m, 100.0 / length_m};
-  // Likely ones first: the sooner good gains are known, the sooner the runs of bad ones end.
+  // Likely gains first: once good ones are known, runs with bad ones end early.
   for (const double distance : {0.0, 1.0, 4.0, 16.0}) {
     for (const double overall : {1.0, 0.85, 1.15, 0.7, 1.3}) {
       for (const double curvature : {1.0, 0.75, 1.25, 0.5, 1.5, 2.0, 4.0, 0.25, 0.0})

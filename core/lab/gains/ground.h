@@ -1,4 +1,4 @@
-// Iterations by the ground they were spent on: flat, gently curved, or curved tighter than the finger.
+// Iterations by the curvature at the contact ("ground"): flat, gently curved, or curved tighter than the finger.
 //
 // Along a principal direction of curvature k the residual of a unit step is h k, h being about the
 // finger's reach: the ideal factor of a step is 1/(1 + h k). Where one principal direction has h k = 13 (a 1.5 mm edge

@@ -11,12 +11,12 @@
 namespace tangent {
 namespace {
 
-constexpr int kDirections = 4;  // of a half turn: the map of -t is minus the map of t
-constexpr int kSettling = 24;   // steps until the direction has settled or goes round
-constexpr int kMeasured = 16;   // steps whose mean shrinkage counts; whole periods of the alternation between two gains
-constexpr double kLanded = 1e-9;  // shrinkage that is as good as none left
+constexpr int kDirections = 4;    // over half a turn, since the map is odd
+constexpr int kSettling = 24;     // steps until the direction has settled or cycles
+constexpr int kMeasured = 16;     // steps over which the shrinkage is averaged; even, since two gains may alternate
+constexpr double kLanded = 1e-9;  // shrinkage below which nothing is left
 
-/// Error after one plane over the error before it, and the direction of the travel left.
+/// Ratio of the error after one plane to that before it, and the direction of the remaining travel.
 struct Shrinkage {
   double factor;
   Vec3 direction;
@@ -54,7 +54,7 @@ double paper_contraction(const ContactMesh& mesh, std::uint32_t triangle, const 
   const Vec3 along = glm::cross(s.normal, across);
   double worst = 0.0;
   for (int d = 0; d < kDirections; ++d) {
-    // Off the axes: a principal direction is a fixed point of the map, often one that any disturbance leaves.
+    // Off the axes: a principal direction is a fixed point of the map, often an unstable one.
     const double angle = std::numbers::pi * (d + 0.31) / kDirections;
     Vec3 direction = std::cos(angle) * across + std::sin(angle) * along;
     double log_sum = 0.0;

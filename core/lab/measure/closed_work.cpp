@@ -26,7 +26,7 @@ ClosedWork work_around(Stepper& stepper, const Preset& preset, std::span<const F
   for (std::size_t i = 1; i <= loop.size(); ++i) {
     const FingerPose& pose = loop[i % loop.size()];
     const TickOutput now = step(pose);
-    result.broken = result.broken || now.status == TickStatus::unconverged;
+    result.broken = result.broken || !is_converged(now.status);
     result.work_j += 0.5 * glm::dot(before.force_n + now.force_n, pose.position - loop[i - 1].position);
     result.peak_energy_j = std::max(
         result.peak_energy_j, 0.5 * std::sqrt(glm::dot(now.force_n, now.force_n)) * std::max(0.0, now.penetration_m));

@@ -18,9 +18,9 @@ std::optional<TickOutput> converged_answer(Stepper& stepper, const Preset& prese
   exact.solver.tolerance_m = tolerance_m;
   TickState from = state;
   from.has_previous = 0;
-  from.clearance = Clearance::unlimited();  // the place stays the method's own
+  from.clearance = Clearance::unlimited();  // no search: the place stays that of the method
   TickOutput answer = stepper.step(exact, input, from);
-  if (answer.status == TickStatus::unconverged || answer.event != TickEvent::none) return std::nullopt;
+  if (!is_converged(answer.status) || answer.event != TickEvent::none) return std::nullopt;
   return answer;
 }
 

@@ -39,7 +39,7 @@ std::uint64_t pair_key(Vertex a, Vertex b) {
   return static_cast<std::uint64_t>(low) << 32 | static_cast<std::uint64_t>(high);
 }
 
-/// Normals of a triangle's corners, by vertex: a collapse keeps a triangle but changes its half-edges.
+/// Normals of a triangle's corners by vertex, since a collapse keeps the triangle but changes its half-edges.
 struct CornerNormals3 {
   std::array<int, 3> vertex;
   std::array<Vec3, 3> normal;
@@ -50,17 +50,17 @@ struct CornerNormals3 {
   }
 };
 
-/// What all checks look at.
+/// Data for all checks of a collapse.
 struct Constraints {
   const ContactScene& original;
   DecimateLimits limits;
   std::vector<bool> fixed;                    ///< vertices on creases and boundaries
-  std::unordered_set<std::uint64_t> creases;  ///< edges, by their ends, which stay
+  std::unordered_set<std::uint64_t> creases;  ///< edges by their end vertices, which are fixed
   std::vector<CornerNormals3> corners;        ///< by face
   CornerNormals3& of(Face face) { return corners[static_cast<std::size_t>(face.idx())]; }
 };
 
-/// Refuses collapses that a finger would feel.
+/// Rejects collapses that a finger would feel.
 template <class MeshT>
 class FeelModule : public OpenMesh::Decimater::ModBaseT<MeshT> {
  public:
@@ -82,8 +82,8 @@ class FeelModule : public OpenMesh::Decimater::ModBaseT<MeshT> {
     for (auto it = mesh.vv_iter(ci.v0); it.is_valid(); ++it) ring_.push_back(*it);
   }
 
-  /// The decimater looks anew at the neighbours of the vertex that went. The vertices across the changed triangles'
-  /// edges were judged with the old ones: they wait for the next pass.
+  /// The decimater re-evaluates the neighbours of the removed vertex. Vertices across the edges of the changed
+  /// triangles were evaluated with the old triangles, so they are locked until the next pass.
   void postprocess_collapse(const CollapseInfo& ci) override {
     Mesh& mesh = Base::mesh();
     for (auto it = mesh.vf_iter(ci.v1); it.is_valid(); ++it) {
@@ -104,7 +104,7 @@ class FeelModule : public OpenMesh::Decimater::ModBaseT<MeshT> {
     const Vec3 normal1 = c_->of(ci.fl).at(ci.v1);
     const double least_cosine = std::cos(c_->limits.angle_deg * kDegree);
 
-    // Angles first: cheap, and what most collapses fail at.
+    // Angles first: a cheap check that rejects most collapses.
     double old_aspect = 0.0;
     fan_.clear();
     for (auto it = mesh.voh_ccwiter(ci.v0); it.is_valid(); ++it) {
@@ -152,7 +152,7 @@ class FeelModule : public OpenMesh::Decimater::ModBaseT<MeshT> {
     return longest_side2(a, b, c) / std::max(std::sqrt(glm::dot(area, area)), 1e-300);
   }
 
-  /// `across`: a half-edge between a and b; the face on one of its sides stays, the other is replaced.
+  /// `across`: a half-edge between a and b; the face on one side stays, the one on the other is replaced.
   bool smooth_enough(Vertex a, Vertex b, const Vec3& normal, HalfEdge across, double least_cosine) {
     if (c_->creases.contains(pair_key(a, b))) return true;
     const Mesh& mesh = Base::mesh();
@@ -214,7 +214,7 @@ Working to_working(const ContactMesh& mesh, Constraints& constraints) {
   return out;
 }
 
-/// The mesh without what was deleted, and the constraints by its new numbers: the decimater starts from whole meshes.
+/// The mesh without deleted elements, with the constraints renumbered: the decimater needs a mesh without gaps.
 Working compacted(const Working& mesh, Constraints& constraints) {
   Working out;
   std::vector<Vertex> moved(mesh.n_vertices());
@@ -267,7 +267,7 @@ PolygonMesh from_working(const Working& mesh, Constraints& constraints, const Co
   return out;
 }
 
-/// Collapses until none is allowed among the vertices that have not to wait. Returns how many were made.
+/// Collapses until none is allowed among the vertices that are not locked. Returns the number of collapses.
 std::size_t one_pass(Working& mesh, Constraints& constraints) {
   for (const Vertex v : mesh.vertices())
     mesh.status(v).set_locked(constraints.fixed[static_cast<std::size_t>(v.idx())]);
@@ -322,7 +322,7 @@ SurfaceDeviation surface_deviation(const ContactScene& from, const ContactScene&
       TickState state;
       const TickInput input{0.0, {mesh.origin() + evaluate_point(patch, u, v), Quat(1.0, 0.0, 0.0, 0.0)}};
       const TickOutput contact = stepper.step(preset, input, state);
-      if (contact.status == TickStatus::unconverged) {
+      if (contact.status == TickStatus::unconverged) {  // the nearest place will do
         ++out.unresolved;
         continue;
       }

@@ -1,4 +1,4 @@
-// As few triangles as a finger can't tell from many: decimation under a perception threshold.
+// Decimation under a perception threshold: the fewest triangles that a finger can't tell from the original.
 //
 // OpenMesh's decimater collapses half-edges, cheapest first by quadric error, as long as no smooth edge it makes
 // exceeds the angle at which facets are felt, and the smooth surface over the new triangles stays near the smooth
@@ -25,22 +25,22 @@ struct DecimateResult {
   PolygonMesh mesh;                     ///< triangles with normals at the corners, metres, world
   std::uint64_t before = 0, after = 0;  ///< triangles
   int passes = 0;
-  bool stopped = false;  ///< `keep_going` said no; the mesh is good, but not as coarse as it could be
+  bool stopped = false;  ///< `keep_going` returned false; the mesh is valid, but not as coarse as possible
 };
 
-/// Precondition: limits positive. `keep_going` is asked now and then.
+/// Precondition: limits positive. `keep_going` is polled; false stops.
 DecimateResult decimate(const ContactScene& original, const DecimateLimits& limits,
                         const std::function<bool()>& keep_going = {});
 
 /// Distances of samples of one smooth surface from another, m.
 struct SurfaceDeviation {
   std::uint64_t samples = 0;
-  std::uint64_t unresolved = 0;  ///< no contact was found for them; they are left out
+  std::uint64_t unresolved = 0;  ///< samples without a contact, left out
   double mean_m = 0.0, rms_m = 0.0, largest_m = 0.0;
 };
 
-/// One-sided: of points on the smooth surface over `from` to the smooth surface over `to`, by solving for each point's
-/// own contact with it. `most` samples at most, spread over the triangles.
+/// One-sided distance of points on the smooth surface over `from` to that over `to`, by solving for each point's
+/// contact. At most `most` samples, spread over the triangles.
 SurfaceDeviation surface_deviation(const ContactScene& from, const ContactScene& to, std::uint64_t most);
 
 }  // namespace tangent

@@ -1,4 +1,4 @@
-// What many values amount to, as percentiles.
+// Percentiles of many values.
 #pragma once
 
 #include <cstdint>
@@ -6,7 +6,7 @@
 
 namespace tangent {
 
-/// Percentiles are nearest-rank: values that did occur.
+/// Percentiles by nearest rank, so they are values that occurred.
 struct Distribution {
   std::uint64_t count = 0;
   double mean = 0.0, p50 = 0.0, p99 = 0.0, p999 = 0.0, max = 0.0;
@@ -14,8 +14,8 @@ struct Distribution {
 /// All zero where there are no values. Precondition: none is NaN.
 Distribution distribution(std::vector<double> values);
 
-/// Mean of the middle half of the values (interquartile mean), 0 of none: as little moved by outliers as a median, and
-/// finer than the steps in which a clock reads. Precondition: none is NaN.
+/// Interquartile mean, 0 if there are no values: as robust to outliers as a median, and finer than the clock's
+/// resolution. Precondition: none is NaN.
 double middle_mean(std::vector<double> values);
 
 }  // namespace tangent

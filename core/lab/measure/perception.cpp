@@ -58,7 +58,7 @@ void add_edge(const FeltEdge& edge, ConditionFeel& feel) {
 
 std::string share_text(double share) {
   char text[32];
-  // No more than there is: 0.03 % must not read as none, 99.97 % not as all.
+  // Rounding must not turn 0.03 % into none or 99.97 % into all.
   if (share > 0.0 && share < 0.1)
     std::snprintf(text, sizeof text, "%.2g %%", 100.0 * share);
   else

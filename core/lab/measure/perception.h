@@ -1,7 +1,7 @@
-// Which edges of a mesh a finger would feel as edges of facets, under a rendering condition.
+// Which edges of a mesh a finger would feel under a rendering condition.
 //
-// The thresholds are angles between adjacent facets of one curve (Doxon et al.). Edges that are meant as edges, and
-// those inside a flat face, are no facets of a curve and are kept apart.
+// The thresholds are angles between adjacent facets of a curve (Doxon et al.). Intended edges (creases) and edges
+// inside a flat face are counted separately.
 #pragma once
 
 #include "core/lab/measure/perception_thresholds.h"
@@ -17,13 +17,13 @@ namespace tangent {
 
 enum class EdgeSense : std::uint8_t {
   curve,     ///< between two facets of a curved surface
-  flat,      ///< inside a flat face: within kFlatEdgeDeg of no angle at all
-  crease,    ///< meant to be felt: the corner normals differ across it
+  flat,      ///< inside a flat face: angle below kFlatEdgeDeg
+  crease,    ///< intended: the corner normals differ across it
   boundary,  ///< nothing on the other side
 };
 
-/// Degrees. Facets this close to one plane belong to a flat face: coordinates printed with six digits turn them by
-/// less. Sixteen times below the lowest threshold, so nothing that could be felt is called flat.
+/// Degrees. Facets at a smaller angle belong to a flat face: coordinates printed with six digits turn them by less.
+/// Sixteen times below the lowest threshold, so that nothing that could be felt is called flat.
 inline constexpr double kFlatEdgeDeg = 0.01;
 
 /// Per triangle and edge, as in the contact mesh.
@@ -43,13 +43,13 @@ struct FeltEdge {
 
 inline constexpr std::size_t kWorstEdges = 10;
 
-/// What one condition makes of a mesh.
+/// Result of one condition on a mesh.
 struct ConditionFeel {
   PerceptionThreshold threshold;
-  std::uint64_t curve_edges = 0;  ///< that the shares are of
-  std::uint64_t felt = 0;         ///< above the mean
-  std::uint64_t surely_felt = 0;  ///< above the interval; as `felt` where there is none
-  std::uint64_t doubtful = 0;     ///< within the interval
+  std::uint64_t curve_edges = 0;  ///< total, to which shares refer
+  std::uint64_t felt = 0;         ///< above the mean threshold
+  std::uint64_t surely_felt = 0;  ///< above the confidence interval; as `felt` where there is none
+  std::uint64_t doubtful = 0;     ///< within the confidence interval
   double curve_length_m = 0.0, felt_length_m = 0.0;
   std::vector<FeltEdge> worst;  ///< largest angles first, up to kWorstEdges, felt ones only
   double felt_share() const { return curve_edges ? static_cast<double>(felt) / static_cast<double>(curve_edges) : 0.0; }
@@ -66,15 +66,15 @@ PerceptionAudit audit_perception(const ContactMesh& mesh, const FacetAngles& ang
 /// Index into kPerceptionThresholds; -1: no such condition.
 int threshold_index(std::string_view condition);
 
-/// One sentence: what the condition makes of the mesh, and what full shading would.
+/// One sentence on how the mesh feels under the condition, and under full shading.
 std::string verdict(const PerceptionAudit& audit, int condition);
 
 /// Largest angle between triangle t and a neighbour across an edge of a curve, rad; 0: it has none. Precondition:
 /// usable.
 double largest_curve_angle_rad(const ContactMesh& mesh, std::uint32_t t);
 
-/// Per triangle: its largest angle to a neighbour over the threshold's mean, edges of curves only. What a heat map
-/// shows: above 1 it is felt.
+/// Heat map: per triangle its largest angle to a neighbour divided by the threshold's mean, curve edges only. Above 1
+/// it is felt.
 std::vector<float> felt_ratio(const FacetAngles& angles, const PerceptionThreshold& threshold);
 
 }  // namespace tangent

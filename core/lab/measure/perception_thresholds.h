@@ -1,4 +1,4 @@
-// Angle between adjacent facets below which a surface feels smooth, per rendering condition.
+// Largest angle between adjacent facets at which a surface feels smooth, per rendering condition.
 // Source: Doxon, Johnson, Tan & Provancher, "Force and Contact Location Shading Methods for Use Within
 // Two- and Three-Dimensional Polygonal Environments": means and 95 % intervals; P1 and P2 from the pilot
 // study alone, without interval.

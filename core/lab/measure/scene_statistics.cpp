@@ -27,15 +27,14 @@ RunStatistics run_statistics(std::span<const TickInput> inputs, std::span<const 
     ++s.statuses[static_cast<std::size_t>(o.status)];
     ++s.events[static_cast<std::size_t>(o.event)];
     if (!all_finite(o)) ++s.not_finite;
-    const bool converged = o.status != TickStatus::unconverged;
-    if (!converged && s.unconverged() == 1) s.first_unconverged = i;
+    const bool converged = is_converged(o.status);
+    if (o.status == TickStatus::unconverged && s.unconverged() == 1) s.first_unconverged = i;
     if (converged) s.max_error_m = std::max(s.max_error_m, o.error_m);
     all_iterations.push_back(o.iterations);
     if (o.event == TickEvent::none) iterations.push_back(o.iterations);
     if (!ns.empty() && o.event == TickEvent::none) eventless_ns.push_back(ns[i]);
     if (!ns.empty() && (o.event == TickEvent::first || o.event == TickEvent::reseed)) seeding_ns.push_back(ns[i]);
-    if (i == 0 || o.event != TickEvent::none || !converged || outputs[i - 1].status == TickStatus::unconverged)
-      continue;
+    if (i == 0 || o.event != TickEvent::none || !converged || !is_converged(outputs[i - 1].status)) continue;
     const bool slow = length(inputs[i].finger.position - inputs[i - 1].finger.position) < slow_m;
     if (slow && glm::dot(o.normal, outputs[i - 1].normal) < kJumpCosine) ++s.unmarked_jumps;
   }
@@ -58,7 +57,7 @@ void RunComparison::reserve(std::size_t ticks) {
 }
 
 void RunComparison::add(const TickOutput& a, const TickOutput& b) {
-  if (a.status == TickStatus::unconverged || b.status == TickStatus::unconverged) return leave_out();
+  if (!is_converged(a.status) || !is_converged(b.status)) return leave_out();
   const TickDifference d = difference(a, b);
   contact_m_.push_back(d.contact_m);
   normal_rad_.push_back(d.normal_rad);

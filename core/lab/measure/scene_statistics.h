@@ -1,5 +1,5 @@
-// What a method does on a run of ticks, digested: counts, iterations, time, and how far it is from another run of
-// the same poses. Pure; times are measured by the caller.
+// Statistics of a method on a run of ticks: counts, iterations, time, and differences from another run of the same
+// poses. Pure; times are measured by the caller.
 #pragma once
 
 #include "core/lab/measure/distribution.h"
@@ -11,17 +11,15 @@
 
 namespace tangent {
 
-inline constexpr std::size_t kTickEventCount = 5, kTickStatusCount = 5;
-
 struct RunStatistics {
   std::uint64_t ticks = 0;
-  std::array<std::uint64_t, kTickStatusCount> statuses{};  ///< by TickStatus
-  std::array<std::uint64_t, kTickEventCount> events{};     ///< by TickEvent
-  std::uint64_t not_finite = 0;                            ///< ticks with a NaN or an infinity anywhere in their output
-  std::uint64_t unmarked_jumps = 0;                        ///< see below
-  std::uint64_t first_unconverged = 0;                     ///< tick; meaningful where there is one
-  double max_error_m = 0.0;                                ///< of the converged ticks
-  Distribution iterations;                                 ///< of ticks without event
+  std::array<std::uint64_t, kTickStatuses.size()> statuses{};  ///< by TickStatus
+  std::array<std::uint64_t, kTickEvents.size()> events{};      ///< by TickEvent
+  std::uint64_t not_finite = 0;         ///< ticks with a NaN or an infinity anywhere in their output
+  std::uint64_t unmarked_jumps = 0;     ///< see below
+  std::uint64_t first_unconverged = 0;  ///< tick; meaningful where there is one
+  double max_error_m = 0.0;             ///< of the converged ticks
+  Distribution iterations;              ///< of ticks without event
   Distribution all_iterations;
   Distribution ns;  ///< of all ticks
   Distribution eventless_ns;
@@ -37,7 +35,7 @@ struct RunStatistics {
 RunStatistics run_statistics(std::span<const TickInput> inputs, std::span<const TickOutput> outputs,
                              std::span<const double> ns, double slow_m = 0.2e-3);
 
-/// How far two answers to the same pose are apart.
+/// Difference between two outputs for the same pose.
 struct TickDifference {
   double contact_m = 0.0, normal_rad = 0.0, force_n = 0.0, display_m = 0.0;
 };
@@ -49,7 +47,7 @@ struct RunDifference {
   Distribution contact_m, normal_rad, force_n, display_m;
 };
 
-/// Gathers differences tick by tick.
+/// Accumulates differences tick by tick.
 class RunComparison {
  public:
   void reserve(std::size_t ticks);

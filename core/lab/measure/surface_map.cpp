@@ -14,10 +14,10 @@
 namespace tangent {
 namespace {
 
-constexpr double kWorstMargin = -1.0;          // runaway gains: how fast they run away says nothing more
+constexpr double kWorstMargin = -1.0;          // lower limit: how fast the iteration diverges does not matter
 constexpr int kBallSteps = 16;                 // of the shrinking ball; it settles in 2 to 6
-constexpr double kBallShare = 1e-3;            // what may stick into the ball, of its radius
-constexpr double kOwnGround = 20.0 * kDegree;  // seen from the ball's centre: nearer than that it is the same wall
+constexpr double kBallShare = 1e-3;            // allowed intrusion, of the ball's radius
+constexpr double kOwnGround = 20.0 * kDegree;  // angle at the ball's centre: closer points are on the same wall
 
 constexpr std::array<MapQuantityInfo, kMapQuantityCount> kInfo{{
     {"iterations-worst", "Iterations, worst", "1", 10.0, false, false, false,
@@ -25,7 +25,7 @@ constexpr std::array<MapQuantityInfo, kMapQuantityCount> kInfo{{
     {"iterations-mean", "Iterations, mean", "1", 10.0, false, false, false,
      "Tangent planes a move took, mean of the directions"},
     {"failures", "Failures", "share", 0.1, false, false, false,
-     "Share of the moves on which tracking gave up or did not converge"},
+     "Share of the moves on which tracking gave up, did not converge, or the surface offered no contact"},
     {"error", "Error", "m", 1e-6, false, true, false,
      "Distance of the contact from the fully converged one, worst of the moves that converged"},
     {"curvature", "Curvature", "1/m", 100.0, false, true, false,
@@ -50,7 +50,7 @@ float& at(MapValues& values, MapQuantity q) { return values[static_cast<std::siz
 
 SurfaceSample sample_of(const PnPatch& patch, double u, double v) { return evaluate(patch, u, v); }
 
-/// Whether the finger can rest there: the contact is a stable one.
+/// Whether the finger can rest there, that is, the contact is stable.
 bool stable_contact(const Finger& finger, const FingerPose& pose, const SurfaceSample& s) {
   const Stability m =
       face_stability(s, contact_jacobian(finger, pose, s, contact_on_plane(finger, pose, s.point, s.normal)));
@@ -90,9 +90,9 @@ unsigned map_level_within(std::size_t budget, std::uint32_t usable_triangles) {
 Vec2 map_part_centroid(unsigned level, unsigned i) {
   unsigned row = 0;
   while (row + 1 < level && (row + 1) * (2 * level - row - 1) <= i) ++row;
-  const unsigned in_row = i - row * (2 * level - row);
+  const unsigned in_row = i - row * (2 * level - row), column = in_row / 2;
   const double third = in_row % 2 == 0 ? 1.0 / 3.0 : 2.0 / 3.0;
-  return {(in_row / 2 + third) / level, (row + third) / level};
+  return {(column + third) / level, (row + third) / level};
 }
 
 unsigned map_part_at(unsigned level, double u, double v) {
@@ -160,7 +160,7 @@ void SurfaceMapper::compute_solve(std::uint32_t t, double u, double v, MapValues
     const TickOutput out = stepper_.step(preset_, input, state);
     most = std::max(most, static_cast<int>(out.iterations));
     total += out.iterations;
-    if (out.status == TickStatus::unconverged || out.event == TickEvent::reseed) {
+    if (!is_converged(out.status) || out.event == TickEvent::reseed) {
       ++failed;
       continue;
     }
@@ -187,10 +187,10 @@ void SurfaceMapper::compute_shape(std::uint32_t t, double u, double v, MapValues
   at(values, MapQuantity::gain_margin) = static_cast<float>(std::max(kWorstMargin, 1.0 - left));
 }
 
-// The ball that touches S from outside shrinks until nothing of the mesh is inside it: a point q inside lies on the
-// ball of radius |q - S|^2 / (2 N.(q - S)) that touches S too. Where q is seen from the ball's centre close to S, it is
-// the wall that S itself lies on, and the principal curvature there has said how large the ball may be; facets stand a
-// little inside a concave patch and would shrink it to nothing.
+// Shrinking ball: the ball that touches S from outside shrinks until no part of the mesh is inside. A point q inside
+// lies on the touching ball of radius |q - S|^2 / (2 N.(q - S)), which is the next one. Points q close to S, as seen
+// from the ball's centre, are ignored: they are on the wall of S itself, where the principal curvature limits the ball;
+// the facets of a concave patch lie slightly inside it and would shrink it to nothing.
 void SurfaceMapper::compute_touch(std::uint32_t, double u, double v, MapValues& values) const {
   const double reach = preset_.finger.reach_m();
   at(values, MapQuantity::touch_radius) = kMapNoValue;

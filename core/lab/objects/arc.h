@@ -1,20 +1,19 @@
-// Polygons that stand for round shapes: the paper's arc, and circles.
+// Polygonal approximations of round shapes: the paper's arc, and circles.
 #pragma once
 
 #include "core/planar/polygon.h"
 
 namespace tangent {
 
-/// The arc of the paper's experiments: 0.902 rad and 100 mm of way.
-inline constexpr double kPaperArcRad = 0.902, kPaperArcLength = 0.100;
-inline constexpr double kPaperArcRadius = kPaperArcLength / kPaperArcRad;
+/// The arc of the paper's experiments: 0.902 rad of a circle of 100 mm radius, 90.2 mm of way (Doxon et al. 5.2.2).
+inline constexpr double kPaperArcRad = 0.902, kPaperArcRadius = 0.100;
 
 enum class ArcPlacement : std::uint8_t {
   tangent,    ///< facets of angle/(n-1) rad that touch the arc at their midpoints: the paper's segment counts
   inscribed,  ///< n facets of angle/n rad with their ends on the arc
 };
 
-/// Turn between neighbouring facets, rad.
+/// Angle between neighbouring facets, rad.
 double facet_turn_rad(int segments, ArcPlacement placement);
 
 /// About the origin, symmetric to the y axis, from left to right over the top, so that the finger comes from above.

@@ -6,8 +6,7 @@
 
 namespace tangent {
 
-// The angle is folded into the first octant in integers, so that symmetric angles meet the same call
-// of sin and cos.
+// Folds the angle into the first octant in integers, so that symmetric angles use the same call of sin and cos.
 Vec2 circle_point(std::int64_t numerator, std::int64_t denominator) {
   assert(denominator > 0);
   const std::int64_t octant = denominator;  // in units of 1/(8 denominator) turn

@@ -1,4 +1,4 @@
-// Points on the unit circle whose symmetries hold to the last bit.
+// Points on the unit circle with exact symmetries (bitwise).
 #pragma once
 
 #include "core/base/vec.h"

@@ -10,7 +10,7 @@
 namespace tangent {
 namespace {
 
-/// What an object does with the options, and how it is made from them once they are checked.
+/// An object's use of the options, and the function that makes it from checked options.
 struct Generator {
   const char* name;
   int default_segments;  ///< 0: only a rounded edge has segments, by default as many as fillet_steps
@@ -21,9 +21,9 @@ struct Generator {
 };
 
 constexpr double kLeastRounding = 0.01 * kMillimetre;
-// With less of the faces left, they would be slivers between the rounded edges.
+// With a larger rounding the remaining faces would be slivers between the rounded edges.
 constexpr double kLargestRoundedShare = 0.9;
-constexpr double kCubeHalfEdge = kObjectRadius * std::numbers::sqrt2 / 2.0;  // its square section fits the circle
+constexpr double kCubeHalfEdge = kObjectRadius * std::numbers::sqrt2 / 2.0;  // square section inscribed in the circle
 
 PolygonMesh polyhedron(const ConvexPolyhedron& body, int segments, double rounding_m) {
   if (rounding_m == 0.0) return sharp_polyhedron(body);
@@ -41,7 +41,7 @@ PolygonMesh polyhedron(const ConvexPolyhedron& body, int segments, double roundi
   return rounded_polyhedron(body, rounding_m, segments);
 }
 
-// Corners on the sides' middle (50 %) lay a flat side on top where the number of sides is even.
+// 50 % turns by half a side: with an even number of sides a flat side is on top.
 ConvexPolyhedron cube() { return make_prism(4, 50, kCubeHalfEdge); }
 ConvexPolyhedron octagon() { return make_prism(8, 50, kObjectHalfLength); }
 ConvexPolyhedron triangle() { return make_prism(3, 75, kObjectHalfLength); }  // 75 % of 120 deg: a corner on top
@@ -58,7 +58,7 @@ const std::vector<Generator>& generators() {
         {"cylinder", 32, 3, 4096, share(cylinder_inradius()), false,
          [](int n, double r) { return revolve(r == 0.0 ? sharp_cylinder() : rounded_cylinder(r), n); }},
         {"cube", 0, 1, 64, share(cube().inradius), false, [](int n, double r) { return polyhedron(cube(), n, r); }},
-        // Smooth all over: rounded, it stays as it is.
+        // Smooth everywhere: rounding has no effect.
         {"sphere", 2, 1, 9, share(kObjectRadius), false, sphere},
         {"tetrahedron", 0, 1, 64, share(make_tetrahedron().inradius), true,
          [](int n, double r) { return polyhedron(make_tetrahedron(), n, r); }},
@@ -106,8 +106,8 @@ Status check(const Generator& generator, const GenerateOptions& options) {
   return {};
 }
 
-/// Moves every coordinate, by a bit at most, to one that is a double in millimetres times 1e-3 (not all
-/// are). What write_obj writes in millimetres then reads back as exactly this mesh.
+/// Moves every coordinate, by one ulp at most, to one that is a double in millimetres times 1e-3 (not all are), so that
+/// a file by write_obj in millimetres reads back as exactly this mesh.
 void make_exact_in_millimetres(PolygonMesh& mesh) {
   for (Vec3& p : mesh.positions) p = (p / kMillimetre) * kMillimetre;
 }
@@ -115,7 +115,7 @@ void make_exact_in_millimetres(PolygonMesh& mesh) {
 }  // namespace
 
 int fillet_steps(double angle_rad) {
-  constexpr double kSlack = 1e-9;  // a right angle is six steps, whichever way it was rounded
+  constexpr double kSlack = 1e-9;  // a right angle is six steps, however it was rounded
   return std::max(1, static_cast<int>(std::ceil(angle_rad / kFilletStep - kSlack)));
 }
 

@@ -14,11 +14,11 @@ namespace tangent {
 enum class Facing { left, right };  ///< where the apex of cone and tetrahedron points along x: left is -x
 
 struct GenerateOptions {
-  /// Around cone, cylinder, torus; subdivisions of sphere and icosphere; grid lines of saddle and groove;
+  /// Segments around cone, cylinder, torus; subdivisions of sphere and icosphere; grid lines of saddle and groove;
   /// of flat-faced objects the steps across a rounded edge. 0: the object's default.
   int segments = 0;
-  /// Radius of the rounded edges; 0: sharp, with split normals at the edges. Faces stay in their planes, so
-  /// the outer dimensions stay, except at pointed tips. At most 0.9 of the radius of the ball inside.
+  /// Radius of the rounded edges; 0: sharp, with split normals at the edges. Faces stay in their planes, so that the
+  /// outer dimensions are unchanged, except at pointed tips. At most 0.9 of the inradius.
   double rounding_m = 0.0;
   Facing facing = Facing::right;
 };
@@ -27,8 +27,8 @@ struct GenerateOptions {
 /// of radius 40 mm, length 80 mm) and icosphere torus saddle groove.
 const std::vector<std::string>& generator_names();
 
-/// Takes the hard meshes' names too (generate_hard.h).
-/// Fails (naming the choices or the range) on an unknown name or an option out of range.
+/// Also takes the names of the hard meshes (generate_hard.h). Fails on an unknown name or an option out of range,
+/// naming the choices or the range.
 Result<PolygonMesh> generate_mesh(std::string_view name, const GenerateOptions& options = {});
 
 PolygonMesh make_icosphere(double radius_m, int subdivisions);  ///< 20 * 4^subdivisions triangles

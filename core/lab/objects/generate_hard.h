@@ -1,6 +1,5 @@
-// Meshes that are hard on a contact solver or on a mesh reader, each named after what is hard about it.
-// Metres, about 80 mm across, deterministic. Some are defective on purpose: the contact mesh's builder names
-// what it met.
+// Meshes that are hard for a contact solver or a mesh reader, each named after its difficulty. Metres, about 80 mm
+// across, deterministic. Some are defective on purpose: the contact mesh's builder reports their defects.
 #pragma once
 
 #include "core/base/result.h"
@@ -12,10 +11,10 @@
 
 namespace tangent {
 
-/// Names that generate_mesh takes besides those of generator_names(); they have no options.
+/// Names that generate_mesh takes in addition to generator_names(); they have no options.
 const std::vector<std::string>& hard_mesh_names();
 
-/// One line: what is hard about it. Empty for a name that is none of these.
+/// One line on what is hard about it. Empty for an unknown name.
 std::string_view hard_mesh_description(std::string_view name);
 
 /// Fails on an unknown name.

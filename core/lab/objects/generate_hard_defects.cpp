@@ -1,4 +1,4 @@
-// Hard by what is wrong in the file: normals, orientation, sharing, repetition, faces that can't be.
+// Hard because of defects in the file: normals, orientation, shared and repeated elements, impossible faces.
 #include "core/lab/objects/generate.h"
 #include "core/lab/objects/generators_hard.h"
 
@@ -18,7 +18,7 @@ PolygonMesh sphere_without_normals() {
   return mesh;
 }
 
-/// In [-1, 1], the same everywhere (splitmix64).
+/// Noise in [-1, 1], the same on every platform (splitmix64).
 double noise(std::uint64_t i) {
   std::uint64_t z = (i + 1) * 0x9E3779B97F4A7C15ull;
   z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ull;

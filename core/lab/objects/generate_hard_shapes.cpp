@@ -1,4 +1,4 @@
-// Hard by shape: what the finger does not fit, what has edges, rims, slivers and no inside.
+// Hard because of their shape: too narrow for the finger, with edges, rims or slivers, or without an inside.
 #include "core/base/units.h"
 #include "core/base/vec.h"
 #include "core/lab/objects/circle_points.h"

@@ -6,7 +6,7 @@
 namespace tangent {
 namespace {
 
-constexpr double kHalfSize = 0.040;  // m; both plates are 80 mm square
+constexpr double kHalfPlate = 0.040;  // m; both plates are 80 mm square
 
 struct Height {
   double z_m, slope_x, slope_y;
@@ -15,7 +15,7 @@ struct Height {
 /// A grid over the square, normals straight from the slopes. Lines lie exactly symmetric about the axes.
 template <class HeightAt>
 PolygonMesh height_field(int columns, int rows, HeightAt height_at) {
-  const auto line = [](int i, int count) { return kHalfSize * static_cast<double>(2 * i - count) / count; };
+  const auto line = [](int i, int count) { return kHalfPlate * static_cast<double>(2 * i - count) / count; };
   MeshAssembly assembly;
   for (int j = 0; j <= rows; ++j) {
     for (int i = 0; i <= columns; ++i) {

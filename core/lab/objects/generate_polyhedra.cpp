@@ -9,7 +9,7 @@
 namespace tangent {
 namespace {
 
-/// Fills in which faces meet at each vertex, counter-clockwise: their normals then form a right-handed triple.
+/// Finds the faces at each vertex, counter-clockwise, so that their normals form a right-handed triple.
 void find_vertex_faces(ConvexPolyhedron& body) {
   std::vector<std::vector<std::uint32_t>> incident(body.vertices.size());
   for (std::uint32_t f = 0; f < body.faces.size(); ++f) {

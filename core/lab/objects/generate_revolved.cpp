@@ -31,8 +31,8 @@ class Revolution {
 
   static bool is_pole(const ProfilePoint& point) { return point.radius_m == 0.0; }
 
-  /// A pole has the axis for its normal, except a cone's sharp apex: there the normal jumps, and each
-  /// triangle takes the cone's normal at its middle.
+  /// The normal at a pole is the axis, except at a cone's sharp apex, where it is discontinuous: there each triangle
+  /// takes the cone's normal at its middle.
   static Normals normals_of(const ProfilePoint& point, const Vec2& normal) {
     if (!is_pole(point)) return Normals::per_corner;
     return normal.y == 0.0 ? Normals::one : Normals::per_segment;
@@ -103,7 +103,7 @@ class Revolution {
 
 ProfilePoint smooth_point(double x_m, double radius_m, const Vec2& normal) { return {x_m, radius_m, normal, normal}; }
 
-/// Unit normals from `from` to `to`, which lie in the half plane radial >= 0, in equal turns.
+/// Unit normals from `from` to `to`, both in the half plane radial >= 0, at equal angles.
 std::vector<Vec2> turn(const Vec2& from, const Vec2& to) {
   const double start = std::atan2(from.y, from.x), end = std::atan2(to.y, to.x);
   const int steps = fillet_steps(start - end);

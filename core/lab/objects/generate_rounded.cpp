@@ -21,13 +21,13 @@ Vec3 along_arc(const Vec3& a, const Vec3& b, int part, int whole) {
   return unit(std::sin(angle * (whole - part) / whole) * a + std::sin(angle * part / whole) * b);
 }
 
-/// Sum whose bits don't depend on the order of the terms, so that mirrored corners come out mirrored.
+/// A sum that does not depend on the order of its terms, so that mirrored corners are exactly mirrored.
 double sum_any_order(double a, double b, double c) {
   std::array<double, 3> terms{a, b, c};
   std::sort(terms.begin(), terms.end(), [](double p, double q) {
     return std::pair(std::abs(p), std::signbit(p)) < std::pair(std::abs(q), std::signbit(q));
   });
-  // Equal magnitudes of opposite sign cancel exactly in either order only when they meet first.
+  // Equal magnitudes of opposite sign only cancel exactly when added first.
   if (std::abs(terms[1]) == std::abs(terms[2])) return terms[0] + (terms[1] + terms[2]);
   return (terms[0] + terms[1]) + terms[2];
 }
@@ -50,7 +50,7 @@ class SphericalTriangle {
     for (std::size_t k = 0; k < 3; ++k) {
       if (w[k] == 0) return along_arc(normals_[(k + 1) % 3], normals_[(k + 2) % 3], w[(k + 2) % 3], steps_);
     }
-    // Inside: the mean of the three ways to interpolate between two sides keeps the triangle's symmetry.
+    // Inside: the mean of the three interpolations between two sides keeps the triangle's symmetry.
     const Vec3 a = across(0, w), b = across(1, w), c = across(2, w);
     return unit({sum_any_order(a.x, b.x, c.x), sum_any_order(a.y, b.y, c.y), sum_any_order(a.z, b.z, c.z)});
   }
@@ -68,7 +68,7 @@ class SphericalTriangle {
   int steps_;
 };
 
-/// Along a straight edge the surface doesn't turn, but triangles as long as the edge would be slivers.
+/// The surface is straight along an edge, but triangles as long as the edge would be slivers.
 constexpr double kLongestStripAspect = 30.0;
 constexpr int kMostDivisions = 64;
 
@@ -93,7 +93,7 @@ class RoundedBody {
   struct Edge {
     std::uint32_t v, w, left, right;
     int divisions;
-    std::uint32_t first_point;  ///< of those between the ends: (steps_ + 1) for each division line
+    std::uint32_t first_point;  ///< first of the points between the ends: (steps_ + 1) for each division line
   };
 
   Vec3 inner(std::uint32_t v) const { return body_.vertices[v].position - rounding_ * body_.vertices[v].outset; }

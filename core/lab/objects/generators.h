@@ -1,4 +1,4 @@
-// The generators behind generate_mesh (private to core/mesh). Metres; options are already checked.
+// The generators behind generate_mesh (private to core/lab/objects). Metres; options are already checked.
 #pragma once
 
 #include "core/base/vec.h"
@@ -62,12 +62,12 @@ Profile rounded_cylinder(double rounding_m);
 Profile sharp_cone();  ///< base at -x, apex at +x
 Profile rounded_cone(double rounding_m);
 double cylinder_inradius();
-double cone_inradius();  ///< of its section through the axis
+double cone_inradius();  ///< of its cross-section through the axis
 
 PolygonMesh make_saddle(int segments);
 PolygonMesh make_groove(int segments);
 
-/// Mirrored in the plane x = 0, faces turned so that they stay counter-clockwise from outside.
+/// Mirrors in the plane x = 0 and reverses faces, so that they stay counter-clockwise from outside.
 void mirror_x(PolygonMesh& mesh);
 
 }  // namespace tangent

@@ -1,4 +1,4 @@
-// The generators behind the hard meshes (private to core/mesh). Metres, about 80 mm across.
+// The generators behind the hard meshes (private to core/lab/objects). Metres, about 80 mm across.
 #pragma once
 
 #include "core/mesh/polygon_mesh.h"
@@ -47,7 +47,7 @@ PolygonMesh make_crease_dart();
 PolygonMesh make_notched_cube();
 PolygonMesh make_staircase();
 
-// Bodies with something wrong in the file (generate_hard_defects.cpp).
+// Bodies with defects in the file (generate_hard_defects.cpp).
 PolygonMesh make_zero_normals();
 PolygonMesh make_flipped_normals();
 PolygonMesh make_mixed_orientation();

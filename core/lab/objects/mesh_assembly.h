@@ -1,4 +1,4 @@
-// Puts a mesh together corner by corner (private to the generators).
+// Assembles a mesh corner by corner (private to the generators).
 #pragma once
 
 #include "core/mesh/polygon_mesh.h"

@@ -31,7 +31,7 @@ std::string string_of(libusb_device_handle* handle, std::uint8_t index) {
   return got > 0 ? std::string(text.begin(), text.begin() + got) : std::string();
 }
 
-/// Opens and claims; 0 or libusb's code.
+/// Opens a device and claims its interface; returns 0 or libusb's error code.
 int open_and_claim(libusb_device* device, int interface_number, LibusbHandle& out) {
   libusb_device_handle* raw = nullptr;
   if (const int code = libusb_open(device, &raw); code != 0) return code;
@@ -44,7 +44,7 @@ int open_and_claim(libusb_device* device, int interface_number, LibusbHandle& ou
   return 0;
 }
 
-/// Calls `each(device)` until it returns true.
+/// Calls `each(device)` for every match until it returns true.
 template <class Each>
 void each_match(libusb_context* context, const UsbMatch& match, Each&& each) {
   libusb_device** list = nullptr;

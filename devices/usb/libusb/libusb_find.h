@@ -18,11 +18,14 @@ struct LibusbHandleCloser {
 using LibusbContext = std::unique_ptr<libusb_context, LibusbContextCloser>;
 using LibusbHandle = std::unique_ptr<libusb_device_handle, LibusbHandleCloser>;
 
+/// Fails, with libusb's error name, when libusb can't be initialised.
 Result<LibusbContext> open_libusb();
+/// Whether an attached device matches; false if its descriptors can't be read.
 bool matches(libusb_device* device, const UsbMatch& match);
 UsbProblem problem_of(int libusb_code);
 
-/// The first device that matches and can be opened, its interface claimed. `problem`: why there is none.
+/// Opens the first device that matches and claims its interface (-1: none). Null when there is none; `problem` says
+/// why.
 LibusbHandle open_first(libusb_context* context, const UsbMatch& match, int interface_number, UsbProblem& problem);
 
 }  // namespace tangent

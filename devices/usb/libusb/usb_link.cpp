@@ -17,14 +17,14 @@ namespace {
 constexpr auto kRelaxed = std::memory_order_relaxed;
 constexpr int kOpenTurn_ms = 5;                 ///< longest sleep while open
 constexpr int kClosedTurn_ms = 50;              ///< ... while waiting for the device
-constexpr std::int64_t kLook_ns = 500'000'000;  ///< between looks at the bus
+constexpr std::int64_t kLook_ns = 500'000'000;  ///< between scans of the bus
 constexpr std::int64_t kDrain_ns = 2'000'000'000;
 
 void raise(std::atomic<std::uint64_t>& counter) noexcept { counter.store(counter.load(kRelaxed) + 1, kRelaxed); }
 
 }  // namespace
 
-/// One transfer with its memory, made once.
+/// A transfer and its buffer, allocated once.
 struct PooledTransfer {
   UsbLink::Impl* owner = nullptr;
   libusb_transfer* transfer = nullptr;
@@ -49,7 +49,7 @@ struct UsbLink::Impl {
   // Link's thread only.
   LibusbContext context;
   LibusbHandle handle;
-  std::vector<PooledTransfer> pool;  ///< IN first
+  std::vector<PooledTransfer> pool;  ///< IN transfers first
   std::vector<pollfd> polled;
   bool polled_stale = true, lost = false, hotplug = false, look_now = true;
   libusb_hotplug_callback_handle hotplug_handle = 0;
@@ -154,7 +154,7 @@ void UsbLink::Impl::run() noexcept {
     if (handle && lost) close();
   }
   if (handle) {
-    // What was asked for last, a stop, is let out before the rest is cancelled.
+    // Sends what was queued last (a stop command) before the other transfers are cancelled.
     handler.on_turn(link, usb_now_ns());
     const std::int64_t give_up = usb_now_ns() + options.time_out_ms * std::int64_t{1'000'000};
     while (!lost && sends_in_flight() && usb_now_ns() < give_up) {
@@ -185,7 +185,7 @@ void UsbLink::Impl::wait(int timeout_ms) noexcept {
 
 void UsbLink::Impl::try_open() noexcept {
   const std::int64_t now = usb_now_ns();
-  // A device that has just come may not have its permissions yet; so the bus is looked at twice a second anyway.
+  // Also scans twice a second: udev may not have set the permissions yet when hot-plug reports a device.
   if (!look_now && now < next_look_ns) return;
   look_now = false;
   next_look_ns = now + kLook_ns;
@@ -211,7 +211,7 @@ void UsbLink::Impl::try_open() noexcept {
 
 void UsbLink::Impl::close() noexcept {
   connected.store(false, std::memory_order_release);
-  lost = true;  // completions from here on are not resubmitted
+  lost = true;  // from here on completed transfers are not resubmitted
   for (PooledTransfer& t : pool) {
     if (t.in_flight) libusb_cancel_transfer(t.transfer);
   }
@@ -283,7 +283,7 @@ void UsbLink::Impl::completed(PooledTransfer& t) noexcept {
       return;
     case LIBUSB_TRANSFER_STALL:
       raise(counters.stalls);
-      // Waits for one answer of the device; the servo does not wait for this thread.
+      // Blocks for one answer of the device; the servo never waits for this thread.
       if (!control && !lost) libusb_clear_halt(handle.get(), t.transfer->endpoint);
       break;
     case LIBUSB_TRANSFER_TIMED_OUT:

@@ -14,10 +14,10 @@ using namespace tangent::test;
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kRadius = 0.020, kDepth = 0.0005;
+constexpr double kFingerRadius = 0.020, kDepth = 0.0005;
 
-/// How contact and normal answer a move of a sphere's centre, on one patch: at the place or where the move leads,
-/// whichever is more.
+/// Sensitivity of contact and normal to the motion of a sphere's centre, on one patch: the larger of those at the start
+/// and at the end of the move.
 struct Answer {
   bool stable = false;  ///< well so, here and there
   double contact_m = 0.0, normal = 0.0;
@@ -119,7 +119,7 @@ ScenePtr box() {
 const Vec3 kCorner(0.020, 0.030, 0.040);
 
 Preset walking_preset(Method method) {
-  Preset preset = sphere_preset(kRadius, method);
+  Preset preset = sphere_preset(kFingerRadius, method);
   preset.solver.tolerance_m = 1e-8;
   preset.solver.max_iterations = 200;
   return preset;
@@ -133,7 +133,7 @@ class Walk {
   /// The finger pressed kDepth deep at `point` from direction `normal`.
   void expect(const Vec3& point, const Vec3& normal, TickStatus status) {
     const TickOutput out =
-        stepper_.step(preset_, at_position(1e-3 * ticks_, point + (kRadius - kDepth) * normal), state_);
+        stepper_.step(preset_, at_position(1e-3 * ticks_, point + (kFingerRadius - kDepth) * normal), state_);
     ++ticks_;
     if (out.status != status) ++wrong_status;
     if (ticks_ > 1 && out.event != TickEvent::none) ++events;
@@ -244,7 +244,7 @@ TEST_CASE("every direction into the octant of a box's corner is a contact at the
     double contact_m = 0.0, normal_off = 0.0;
     for (int i = 0; i < rounds(500); ++i) {
       const Vec3 n = unit(glm::abs(random.direction()) + 0.05);
-      const TickOutput out = solve_once(box(), preset, kCorner + (kRadius - kDepth) * n);
+      const TickOutput out = solve_once(box(), preset, kCorner + (kFingerRadius - kDepth) * n);
       wrong += out.status != TickStatus::vertex;
       contact_m = std::max(contact_m, glm::length(out.contact - kCorner));
       normal_off = std::max(normal_off, glm::length(out.normal - n));
@@ -289,7 +289,7 @@ TEST_CASE("no finger rests on a concave edge: it touches one side or the other, 
     for (const double x : {-0.003, -0.001, 0.001, 0.003}) {
       // The ball of radius R rests in the valley with its centre at height R sqrt 2; pushed in a little.
       const TickOutput out =
-          solve_once(valley, walking_preset(method), origin + Vec3(x, 0.004, kRadius * std::sqrt(2.0) - 0.001));
+          solve_once(valley, walking_preset(method), origin + Vec3(x, 0.004, kFingerRadius * std::sqrt(2.0) - 0.001));
       CHECK(out.status == TickStatus::face);
       CHECK(out.normal.x * x < 0.0);  // the side it is nearer to pushes it back
       CHECK(std::abs(out.normal.x) == doctest::Approx(std::sqrt(0.5)).epsilon(1e-9));

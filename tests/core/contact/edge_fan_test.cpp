@@ -1,4 +1,4 @@
-// The fan of an edge: how a turn's share runs from side to side, and edges whose contact is found without iterating.
+// The fan of an edge: how the turn fraction runs from side to side, and edges whose contact is found without iterating.
 #include "core/contact/follow/edge.h"
 #include "core/contact/patch_cache.h"
 #include "core/finger/plane_contact.h"
@@ -186,7 +186,7 @@ TEST_CASE(
     CHECK(glm::length(turn_of(fan, {0.3, 0.4, 0.5})) == doctest::Approx(1.0));
     CHECK(glm::length(fan.far) == doctest::Approx(1.0));
   }
-  // Normals that all but cancel: what is left of them still points where it points.
+  // Normals that almost cancel: the direction of their sum stays accurate.
   edge.near.powers = {1e-8 * unit(Vec3(0.1, -0.2, 1.0)), Vec3(0, 0, 1e-9), Vec3(0.0)};
   prepare_fan(edge, fan);
   move_fan(edge, 0.0, fan);

@@ -1,4 +1,4 @@
-// The query structure against looking at every triangle.
+// The nearest-triangle structure against brute force over all triangles.
 #include "core/contact/nearest_triangles.h"
 #include "tests/core/mesh/sample_meshes.h"
 #include "tests/core/scenes.h"
@@ -36,7 +36,7 @@ bool same(const NearestHit& a, const NearestHit& b) {
   return a.triangle == b.triangle && a.distance_m == b.distance_m && a.u == b.u && a.v == b.v && a.point == b.point;
 }
 
-/// Queries that differ from looking at every triangle, in any bit.
+/// Number of queries that differ from brute force in any bit.
 int different(const ContactMesh& mesh, const NearestTriangles& nearest, const Vec3& q, double radius) {
   const auto all = brute_force(mesh, q, radius);
   int wrong = 0;

@@ -1,5 +1,5 @@
-// Every finger shape with every method, where the contact is known: the finger is placed so that the support point
-// for the normal N of a chosen place lies `depth` under it.
+// Every finger shape with every method at known contacts: the finger is placed so that its support point for the normal
+// N of a chosen place is `depth` below that place.
 #include "tests/core/scenes.h"
 
 #include <doctest/doctest.h>
@@ -44,22 +44,22 @@ Preset preset_for(FingerShape shape, Method method) {
   return preset;
 }
 
-struct Outcome {
+struct Convergence {
   int unconverged = 0;
   double contact_m = 0.0, normal_deg = 0.0, penetration_m = 0.0, cld_m = 0.0;
 };
 
-Outcome press(const ScenePtr& scene, Place (*place_of)(Random&), FingerShape shape, Method method, int poses,
-              double start_off_m) {
+Convergence press(const ScenePtr& scene, Place (*place_of)(Random&), FingerShape shape, Method method, int poses,
+                  double start_off_m) {
   Random random(static_cast<std::uint64_t>(shape) * 10 + static_cast<std::uint64_t>(method));
   Preset preset = preset_for(shape, method);
   preset.display.travel_m = preset.display.finger_arc_m = 1.0;
-  Outcome outcome;
+  Convergence outcome;
   for (int i = 0; i < poses; ++i) {
     const Place place = place_of(random);
     FingerPose pose{Vec3(0.0), random.orientation()};
-    constexpr double kDepth = 0.0005;
-    pose.position = place.point - kDepth * place.normal - support_point(preset.finger, pose, place.normal);
+    constexpr double kPressDepth = 0.0005;
+    pose.position = place.point - kPressDepth * place.normal - support_point(preset.finger, pose, place.normal);
     // Start beside the place, as tracking does: the closest point to the centre of a long finger can be far away.
     TickState state;
     const NearestHit hit =
@@ -77,7 +77,7 @@ Outcome press(const ScenePtr& scene, Place (*place_of)(Random&), FingerShape sha
     CHECK(out.error_m < preset.solver.tolerance_m);
     outcome.contact_m = std::max(outcome.contact_m, glm::length(out.contact - place.point));
     outcome.normal_deg = std::max(outcome.normal_deg, angle_deg(out.normal, place.normal));
-    outcome.penetration_m = std::max(outcome.penetration_m, std::abs(out.penetration_m - kDepth));
+    outcome.penetration_m = std::max(outcome.penetration_m, std::abs(out.penetration_m - kPressDepth));
     outcome.cld_m = std::max(outcome.cld_m, std::abs(out.cld_m - contact_arc_m(preset.finger, pose, place.normal)));
   }
   return outcome;
@@ -91,7 +91,7 @@ void press_all(const ScenePtr& scene, Place (*place_of)(Random&), double contact
       if (method == Method::robust && shape == FingerShape::capsule && !robust_capsule) continue;
       CAPTURE(name_of(method));
       CAPTURE(static_cast<int>(shape));
-      const Outcome o = press(scene, place_of, shape, method, rounds(300), 2e-4);
+      const Convergence o = press(scene, place_of, shape, method, rounds(300), 2e-4);
       CHECK(o.unconverged == 0);
       CHECK(o.contact_m <= contact_m);
       CHECK(o.normal_deg <= normal_deg);
@@ -114,14 +114,14 @@ TEST_CASE("every method converges with every finger shape on a torus, to the tor
   press_all(scene_of(make_torus(0.040, 0.015, 240, 120)), on_torus, 5e-6, 0.02, false);
 }
 
-// Along its side the capsule's radius of curvature is 50 times its size: without reins Newton's steps swing between
-// contacts at its two ends, for ever in about 1 of 6,000 poses.
+// Along its side the capsule's radius of curvature is 50 times its size: without safeguards Newton's steps alternate
+// between contacts at its two ends, forever in about 1 of 6,000 poses.
 TEST_CASE("robust finds a capsule's contact from a millimetre off, on every pose") {
-  const Outcome sphere =
+  const Convergence sphere =
       press(scene_of(make_icosphere(0.040, 3)), on_sphere, FingerShape::capsule, Method::robust, rounds(6000), 1e-3);
   CHECK(sphere.unconverged == 0);
-  const Outcome torus = press(scene_of(make_torus(0.040, 0.015, 240, 120)), on_torus, FingerShape::capsule,
-                              Method::robust, rounds(6000), 1e-3);
+  const Convergence torus = press(scene_of(make_torus(0.040, 0.015, 240, 120)), on_torus, FingerShape::capsule,
+                                  Method::robust, rounds(6000), 1e-3);
   CHECK(torus.unconverged == 0);
   CHECK(torus.contact_m <= 1e-5);
 }

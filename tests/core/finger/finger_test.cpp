@@ -305,3 +305,35 @@ TEST_CASE("while the finger turns, no support point moves further than turning_m
   Finger sphere;
   CHECK(sphere.turning_m(1.0) == 0.0);
 }
+
+TEST_CASE("support points stray from that of a cone's axis by no more than the spread says, and about as much") {
+  Random random(47);
+  for (const FingerShape shape :
+       {FingerShape::point, FingerShape::sphere, FingerShape::ellipsoid, FingerShape::capsule}) {
+    CAPTURE(static_cast<int>(shape));
+    int over = 0, wide = 0;
+    for (int i = 0; i < rounds(20000); ++i) {
+      Finger finger;
+      finger.shape = shape;
+      finger.radius_m = random.in(0.001, 0.020);
+      finger.half_length_m = random.in(0.001, 0.020);
+      finger.semi_axes_m = {random.in(0.005, 0.020), random.in(0.005, 0.020), random.in(0.005, 0.020)};
+      const FingerPose pose{random.in_cube(1.0), random.orientation()};
+      const Vec3 axis = random.direction();
+      const double chord = std::pow(10.0, random.in(-4.0, 0.0));
+      const double spread = support_spread_m(finger, pose, axis, chord);
+      // The furthest of some normals on the rim of the cone and within it.
+      double furthest = 0.0;
+      for (int k = 0; k < 40; ++k) {
+        const Vec3 n = unit(axis + random.in(0.9, 1.2) * chord * unit(glm::cross(axis, random.direction())));
+        if (glm::distance(n, axis) > chord) continue;
+        const Vec3 there = support_point(finger, pose, n), here = support_point(finger, pose, axis);
+        furthest = std::max(furthest, glm::distance(there, here));
+      }
+      over += furthest > spread * (1.0 + 1e-9) + 1e-15;
+      wide += spread > 6.0 * furthest && chord < 0.1 && furthest > 0.0;
+    }
+    CHECK(over == 0);
+    CHECK(wide < rounds(20000) / 4);
+  }
+}

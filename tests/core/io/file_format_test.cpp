@@ -11,7 +11,7 @@ using tangent::testing::contains;
 
 namespace {
 
-// A kind of file that has changed twice: a key got another name, then a table to stand in.
+// A file format that has changed twice: a key was renamed, then moved into a table.
 void rename_stiffness(toml::table& root) {
   if (const toml::node* old = root.get("k")) {
     root.insert("stiffness", old->value<double>().value());

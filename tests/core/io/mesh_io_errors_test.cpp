@@ -1,4 +1,4 @@
-// Bad mesh files: each fails with a message that says what and where, and takes no memory on its word.
+// Bad mesh files: each fails with a message that says what and where, without allocating by the counts it states.
 #include "core/io/mesh_io.h"
 #include "tests/support/temp_folder.h"
 
@@ -64,6 +64,10 @@ TEST_CASE("a file that is missing, a directory, a pipe or of unknown format is r
   fails_with(folder.file("directory.obj"), "directory");
   REQUIRE(::mkfifo(folder.file("pipe.obj").c_str(), 0600) == 0);
   fails_with(folder.file("pipe.obj"), "not a regular file");
+  for (const char* endless : {"zero.obj", "zero.ply", "zero.stl", "zero.off"}) {
+    std::filesystem::create_symlink("/dev/zero", folder.file(endless));
+    fails_with(folder.file(endless), "not a regular file");
+  }
   fails_with(folder.write("mesh.fbx", "x"), ".obj, .ply, .stl or .off");
   fails_with(folder.write("mesh", "x"), ".obj, .ply, .stl or .off");
 }
@@ -81,6 +85,17 @@ TEST_CASE("an unreadable file is refused") {
 
 TEST_CASE("an empty file is refused in every format") {
   for (const char* name : {"a.obj", "a.ply", "a.stl", "a.off"}) CHECK(contains(error_of(name, "").what, "empty"));
+}
+
+TEST_CASE("a file larger than the machine's memory is refused before it is read") {
+  const TempFolder folder;
+  const std::string path = folder.write("holes.obj", "v 0 0 0\n");
+  const auto bytes = static_cast<std::uintmax_t>(::sysconf(_SC_PHYS_PAGES)) * ::sysconf(_SC_PAGESIZE);
+  std::filesystem::resize_file(path, bytes + 1);  // all holes: it takes no room
+  const Result<PolygonMesh> mesh = read_mesh(path, 1.0);
+  REQUIRE_FALSE(mesh);
+  CHECK(contains(mesh.error().message(), "holes.obj: the file is larger than"));
+  CHECK(contains(mesh.error().message(), "use a smaller mesh"));
 }
 
 TEST_CASE("a file without faces is refused in every format") {
@@ -236,6 +251,9 @@ TEST_CASE("STL: truncated and malformed files are refused") {
   place_and_text("solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0\n", ":4", "the line ends");
   place_and_text("solid s\nfacet normal 0 0 1\nouter lop\n", ":3", "\"lop\" where loop is expected");
   place_and_text("solid s\nfacet\nouter loop\n", ":3", "where normal is expected");
+  const std::string three = good.substr(0, good.find("endloop"));
+  place_and_text(three + "vertex 1 1 0\nendloop\nendfacet\nendsolid\n", ":7", "a facet with more than three vertices");
+  CHECK(contains(error_of("a.stl", three + "vertex 1 1 0\n").remedy, "facets of STL are triangles"));
 }
 
 TEST_CASE("OFF: a bad file is named by line") {

@@ -1,5 +1,5 @@
-// Damaged files of every format: whatever they hold, reading ends with a mesh whose indices are in range
-// or with an error, and the mesh is no larger than the file can account for.
+// Damaged files of every format: reading gives either a mesh with valid indices, no larger than the file can contain,
+// or an error.
 #include "core/io/readers.h"
 
 #include <doctest/doctest.h>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::array kSeeds = {"a.obj", "a.ply", "b.ply", "c.ply", "a.stl", "b.stl", "a.off", "b.off"};
 
-/// The reader on bytes in memory, allocated to the byte so that a sanitizer sees any step outside.
+/// Runs the reader on bytes in memory, allocated exactly, so that a sanitizer detects any access outside.
 Result<PolygonMesh> read_bytes(const std::string& name, const std::string& content) {
   FileBytes file{std::make_unique_for_overwrite<char[]>(content.size() + 2), content.size()};
   content.copy(file.data.get(), content.size());
@@ -62,8 +62,8 @@ std::string seed(const std::string& format) {
   return "CNOFF\n3 1 0\n0 0 0 0 0 1 1 1 1\n1 0 0 0 0 1 1 1 1\n0 1 0 0 0 1 1 1 1\n3 0 1 2\n";
 }
 
-/// One of the ways in which files break: flipped bits, other bytes, pieces cut out, doubled or swapped in
-/// from tokens that mean something, truncation.
+/// One kind of damage: flipped bits, other bytes, pieces removed, duplicated or replaced by meaningful tokens,
+/// truncation.
 void damage(std::string& text, std::mt19937& random) {
   static const std::vector<std::string> tokens = {"nan",
                                                   "-inf",

@@ -4,7 +4,13 @@
 
 #include <doctest/doctest.h>
 
+#include <csignal>
 #include <string>
+#include <thread>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 using namespace tangent;
 using tangent::testing::contains;
@@ -98,6 +104,52 @@ TEST_CASE("wrong numbers of columns are refused with the line") {
 TEST_CASE("time must increase") {
   CHECK(contains(body_refusal("0,0,0,0\n1,0,0,0\n1,0,0,0\n"), "p.csv:4: t_s does not increase"));
   CHECK(contains(body_refusal("1,0,0,0\n0.5,0,0,0\n"), "p.csv:3: t_s does not increase"));
+}
+
+TEST_CASE("stamps nearer than a microsecond are refused with their distance, whatever the time began at") {
+  CHECK(contains(body_refusal("0,0,0,0\n1e-7,0,0,0\n"),
+                 "p.csv:3: t_s increases by only 1e-07; write poses in the order of time, in seconds, at least 1e-6 s "
+                 "apart"));
+  CHECK(contains(body_refusal("0,0,0,0\n9.9e-7,0,0,0\n"), "t_s increases by only 9.9e-07"));
+  CHECK(contains(body_refusal("1000,0,0,0\n1000.0000001,0,0,0\n"), "t_s increases by only"));
+  // A microsecond apart as written, though doubles that far from zero are not.
+  for (const std::string start : {"0", "1", "86400", "1700000000"}) {
+    CAPTURE(start);
+    const std::string body = start + ".000001,0,0,0\n" + start + ".000002,0,0,0\n" + start + ".000003,0,0,0\n";
+    CHECK(parse_poses(std::string(kHeader) + body, "p.csv"));
+  }
+}
+
+TEST_CASE("a pose file without end is refused at what no text has, with its line") {
+  CHECK(contains(read_poses("/dev/zero").error().message(),
+                 "/dev/zero:1: holds a zero byte, so it is not a text; check that it is the right file"));
+  CHECK_FALSE(read_poses("/dev/urandom"));
+  const TempFolder folder;
+  const std::string poses = std::string(kHeader) + "0,0,0,0\n";
+  CHECK(contains(read_poses(folder.write("zero.csv", poses + std::string(1, '\0'))).error().message(),
+                 "zero.csv:3: holds a zero byte"));
+  CHECK(contains(read_poses(folder.write("line.csv", poses + std::string(70000, '1'))).error().message(),
+                 "line.csv:3: a line of more than 65536 characters"));
+  // The longest line that is one, over the end of a block that is read at once.
+  CHECK(read_poses(folder.write("long.csv", poses + "1,1,1," + std::string(65530, '0') + "\n2,0,0,0\n")));
+}
+
+TEST_CASE("a line without end from a program that never stops writing is refused") {
+  const TempFolder folder;
+  const std::string pipe = folder.file("pipe.csv");
+  REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+  std::thread writer([&] {
+    std::signal(SIGPIPE, SIG_IGN);
+    const int fd = ::open(pipe.c_str(), O_WRONLY);
+    const std::string digits(4096, '7');
+    while (::write(fd, digits.data(), digits.size()) > 0) {}
+    ::close(fd);
+  });
+  const auto poses = read_poses(pipe);
+  writer.join();  // its pipe was closed at the other end
+  std::signal(SIGPIPE, SIG_DFL);
+  REQUIRE_FALSE(poses);
+  CHECK(contains(poses.error().message(), "pipe.csv:1: a line of more than"));
 }
 
 TEST_CASE("a file without poses is refused by name") {

@@ -17,7 +17,7 @@ using tangent::testing::TempFolder;
 namespace {
 
 /// Message for a text that must be refused.
-std::string refusal(std::string_view text) {
+std::string preset_refusal(std::string_view text) {
   const Result<PresetFile> file = parse_preset(text, "p.toml");
   REQUIRE_FALSE(file);
   return file.error().message();
@@ -82,12 +82,12 @@ TEST_CASE("the format is the first key, and a file without one is read as it alw
 }
 
 TEST_CASE("a preset of a newer format is refused, and says what to do") {
-  CHECK(refusal("# note\nformat = 7\n[solver]\nnew_key = 1\n") ==
+  CHECK(preset_refusal("# note\nformat = 7\n[solver]\nnew_key = 1\n") ==
         "p.toml:2 format: this file has format 7, this program reads up to 1; use the program that wrote it or a newer "
         "one, or write the preset file anew with this one");
   for (const char* wrong : {"format = -1\n", "format = 1.0\n", "format = \"1\"\n", "[format]\nx = 1\n"}) {
     CAPTURE(wrong);
-    CHECK(contains(refusal(wrong),
+    CHECK(contains(preset_refusal(wrong),
                    "p.toml:1 format: is no format of a preset file; allowed: a whole number from 0 to 1"));
   }
 }
@@ -120,45 +120,45 @@ TEST_CASE("missing keys keep their defaults and whole numbers are numbers") {
 }
 
 TEST_CASE("unknown keys and tables are named with their line and what is allowed") {
-  const std::string key = refusal("[solver]\ngain_overall = 1.0\ngain_curvatura_m = 0.02\n");
+  const std::string key = preset_refusal("[solver]\ngain_overall = 1.0\ngain_curvatura_m = 0.02\n");
   CHECK(contains(key, "p.toml:3 solver.gain_curvatura_m: unknown key; allowed: "));
   CHECK(contains(key, "gain_curvature_m"));
-  CHECK(contains(refusal("[force]\n[haptics]\nx = 1\n"), "p.toml:2 haptics: unknown table"));
-  CHECK(contains(refusal("stiffness = 3\n"), "p.toml:1 stiffness: unknown table or key"));
-  CHECK(contains(refusal("[about]\nauthor = \"me\"\n"), "p.toml:2 about.author: unknown key"));
-  CHECK(contains(refusal("solver = 3\n"), "p.toml:1 solver: is a whole number; write the table [solver]"));
-  CHECK(contains(refusal("[solver]\nmethod.name = \"paper\"\n"), "solver.method: is a table"));
+  CHECK(contains(preset_refusal("[force]\n[haptics]\nx = 1\n"), "p.toml:2 haptics: unknown table"));
+  CHECK(contains(preset_refusal("stiffness = 3\n"), "p.toml:1 stiffness: unknown table or key"));
+  CHECK(contains(preset_refusal("[about]\nauthor = \"me\"\n"), "p.toml:2 about.author: unknown key"));
+  CHECK(contains(preset_refusal("solver = 3\n"), "p.toml:1 solver: is a whole number; write the table [solver]"));
+  CHECK(contains(preset_refusal("[solver]\nmethod.name = \"paper\"\n"), "solver.method: is a table"));
 }
 
 TEST_CASE("wrong types are named with the allowed range") {
-  CHECK(refusal("[force]\nstiffness_n_per_m = \"stiff\"\n") ==
+  CHECK(preset_refusal("[force]\nstiffness_n_per_m = \"stiff\"\n") ==
         "p.toml:2 force.stiffness_n_per_m: is text; allowed: 0 to 100000 N/m");
-  CHECK(refusal("\n[solver]\nmax_iterations = 50.0\n") ==
+  CHECK(preset_refusal("\n[solver]\nmax_iterations = 50.0\n") ==
         "p.toml:3 solver.max_iterations: is a number with a fraction; allowed: a whole number from 1 to 10000");
-  CHECK(contains(refusal("[solver]\nmethod = 2\n"), "solver.method: is a whole number; allowed: paper, newton"));
-  CHECK(contains(refusal("[solver]\ntolerance_m = [1e-6]\n"), "is an array"));
-  CHECK(contains(refusal("[solver]\ntolerance_m = true\n"), "is true or false"));
-  CHECK(contains(refusal("[solver]\ntolerance_m = 2026-01-01\n"), "is a date or time"));
-  CHECK(contains(refusal("[about]\nname = 3\n"), "p.toml:2 about.name: is a whole number; allowed: text"));
-  CHECK(contains(refusal("[about.measured]\nx = [1]\n"), "about.measured.x: is an array"));
+  CHECK(contains(preset_refusal("[solver]\nmethod = 2\n"), "solver.method: is a whole number; allowed: paper, newton"));
+  CHECK(contains(preset_refusal("[solver]\ntolerance_m = [1e-6]\n"), "is an array"));
+  CHECK(contains(preset_refusal("[solver]\ntolerance_m = true\n"), "is true or false"));
+  CHECK(contains(preset_refusal("[solver]\ntolerance_m = 2026-01-01\n"), "is a date or time"));
+  CHECK(contains(preset_refusal("[about]\nname = 3\n"), "p.toml:2 about.name: is a whole number; allowed: text"));
+  CHECK(contains(preset_refusal("[about.measured]\nx = [1]\n"), "about.measured.x: is an array"));
 }
 
 TEST_CASE("out-of-range values are named with the allowed range") {
-  CHECK(refusal("[solver]\ngain_overall = -0.5\n") ==
+  CHECK(preset_refusal("[solver]\ngain_overall = -0.5\n") ==
         "p.toml:2 solver.gain_overall: -0.5 is out of range; allowed: 0 to 10");
-  CHECK(contains(refusal("[solver]\ntolerance_m = -1e-6\n"), "allowed: 1e-12 to 0.001 m"));
-  CHECK(contains(refusal("[solver]\ntolerance_m = nan\n"), "solver.tolerance_m: nan is out of range"));
-  CHECK(contains(refusal("[force]\nlimit_n = inf\n"), "force.limit_n: inf is out of range"));
-  CHECK(contains(refusal("[solver]\nmax_iterations = 0\n"), "0 is out of range"));
-  CHECK(contains(refusal("[solver]\nmax_iterations = 9223372036854775807\n"), "is out of range"));
-  CHECK(contains(refusal("[solver]\nmethod = \"magic\"\n"), "\"magic\" is out of range; allowed: paper,"));
+  CHECK(contains(preset_refusal("[solver]\ntolerance_m = -1e-6\n"), "allowed: 1e-12 to 0.001 m"));
+  CHECK(contains(preset_refusal("[solver]\ntolerance_m = nan\n"), "solver.tolerance_m: nan is out of range"));
+  CHECK(contains(preset_refusal("[force]\nlimit_n = inf\n"), "force.limit_n: inf is out of range"));
+  CHECK(contains(preset_refusal("[solver]\nmax_iterations = 0\n"), "0 is out of range"));
+  CHECK(contains(preset_refusal("[solver]\nmax_iterations = 9223372036854775807\n"), "is out of range"));
+  CHECK(contains(preset_refusal("[solver]\nmethod = \"magic\"\n"), "\"magic\" is out of range; allowed: paper,"));
 }
 
 TEST_CASE("broken TOML is named with its line") {
-  CHECK(contains(refusal("[solver]\ngain_overall = \n"), "p.toml:2"));
-  CHECK(contains(refusal("[solver]\ngain_overall = 1\ngain_overall = 2\n"), "p.toml:3"));
-  CHECK(contains(refusal(std::string_view("\x7f\x45LF\x01\x00\xff\xfe", 8)), "p.toml:1"));
-  CHECK(contains(refusal("a = " + std::string(100000, '[')), "p.toml:1"));
+  CHECK(contains(preset_refusal("[solver]\ngain_overall = \n"), "p.toml:2"));
+  CHECK(contains(preset_refusal("[solver]\ngain_overall = 1\ngain_overall = 2\n"), "p.toml:3"));
+  CHECK(contains(preset_refusal(std::string_view("\x7f\x45LF\x01\x00\xff\xfe", 8)), "p.toml:1"));
+  CHECK(contains(preset_refusal("a = " + std::string(100000, '[')), "p.toml:1"));
 }
 
 TEST_CASE("a preset is saved whole or not at all") {
@@ -180,7 +180,10 @@ TEST_CASE("missing, empty and huge preset files are refused by name") {
   const TempFolder folder;
   CHECK(contains(read_preset(folder.file("none.toml")).error().message(), "none.toml: can't be opened: No such file"));
   CHECK(contains(read_preset(folder.write("empty.toml", "")).error().message(), "empty.toml: the file is empty"));
-  CHECK(contains(read_preset("/dev/zero").error().message(), "larger than 1 MiB"));
+  CHECK(contains(read_preset("/dev/zero").error().message(), "/dev/zero:1: holds a zero byte"));
+  std::string comments;
+  while (comments.size() <= 1 << 20) comments += "# a comment of a preset that goes on and on\n";
+  CHECK(contains(read_preset(folder.write("huge.toml", comments)).error().message(), "larger than 1 MiB"));
   CHECK_FALSE(read_preset(folder.path()));
 }
 

@@ -1,4 +1,4 @@
-// What must hold for every contact mesh, whatever came in. For tests.
+// Invariants of every contact mesh, whatever its input. For tests.
 #pragma once
 
 #include "core/base/tolerances.h"
@@ -79,7 +79,7 @@ inline void check_sound(const ContactMesh& m) {
   CHECK(wrong_positions == 0);
 }
 
-/// The corners at each vertex must be one fan: as many as a walk over links reaches.
+/// The corners at each vertex must form one fan: a walk over links reaches all of them.
 inline void check_one_fan_per_vertex(const ContactMesh& m) {
   std::vector<std::uint32_t> corners(m.vertex_count(), 0), walked(m.vertex_count(), 0);
   for (std::uint32_t t = 0; t < m.triangle_count(); ++t) {

@@ -1,4 +1,4 @@
-// Numbering, placing, scale, hash, memory and refusals of the builder.
+// The builder: numbering, placement, scale, hash, memory and errors.
 #include "core/mesh/contact_mesh.h"
 
 #include "core/io/mesh_io.h"

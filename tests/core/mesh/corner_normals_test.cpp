@@ -1,4 +1,4 @@
-// Normals and creases as the contact mesh shows them.
+// Corner normals and creases of the contact mesh.
 #include "core/mesh/corner_normals.h"
 #include "core/lab/objects/generate.h"
 #include "core/mesh/contact_mesh.h"

@@ -1,4 +1,4 @@
-// Closed meshes that look inwards: found by their signed volume, turned over on request.
+// Closed meshes with inward faces: detected by their signed volume, turned over on request.
 #include "core/io/mesh_io.h"
 #include "core/lab/objects/generate.h"
 #include "tests/core/scenes.h"
@@ -56,7 +56,7 @@ bool says(const ContactMesh& mesh, std::string_view what) {
 }
 
 /// Every corner normal on its face's side, and every link leads back.
-void check_sound(const ContactMesh& mesh) {
+void check_turned(const ContactMesh& mesh) {
   int against = 0, astray = 0;
   for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t) {
     const auto p = mesh.positions(t);
@@ -100,7 +100,7 @@ TEST_CASE("turned over, it is the ball that looks outwards: the same touch") {
   const ContactMesh sound = built(source), turned = built(flipped(source), true);
   CHECK(turned.turned_over());
   CHECK(says(turned, "turned over"));
-  check_sound(turned);
+  check_turned(turned);
   int differ = 0;
   for (std::uint32_t t = 0; t < sound.triangle_count(); ++t)
     for (std::uint32_t k = 0; k < 3; ++k)
@@ -124,7 +124,7 @@ TEST_CASE("the file's normals are turned where they look inwards, too, and kept 
   for (const PolygonMesh& source : {inwards, outwards}) {
     const ContactMesh turned = built(source, true, NormalSource::file);
     CHECK(turned.turned_over());
-    check_sound(turned);
+    check_turned(turned);
     for (std::uint32_t k = 0; k < 3; ++k) CHECK(glm::length(turned.normal(0, k) - unit(turned.position(0, k))) < 1e-12);
   }
 }
@@ -136,7 +136,7 @@ TEST_CASE("a cavity looks inwards as it should, and a hollow body that is inside
   const ContactMesh wrong = built(flipped(hollow));
   CHECK(wrong.inside_out_triangles() == wrong.usable_triangle_count());
   const ContactMesh turned = built(flipped(hollow), true);
-  check_sound(turned);
+  check_turned(turned);
   CHECK(touch(built(flipped(hollow), true)).penetration_m < 0.6e-3);
 }
 
@@ -146,7 +146,7 @@ TEST_CASE("of two bodies the one that is inside out is turned, and open sheets h
   const ContactMesh mesh = built(two);
   CHECK(mesh.inside_out_triangles() == mesh.usable_triangle_count() / 2);
   CHECK(says(mesh, "1 part of "));
-  check_sound(built(two, true));
+  check_turned(built(two, true));
   PolygonMesh open = flipped(ball());
   open.face_offsets.pop_back();
   open.corner_position.resize(open.face_offsets.back());

@@ -1,4 +1,4 @@
-// What tests measure on a polygon mesh with a normal at every corner.
+// Measures of a polygon mesh with corner normals, for tests.
 #pragma once
 
 #include "core/base/vec.h"
@@ -30,7 +30,7 @@ void for_each_triangle(const PolygonMesh& mesh, Visit visit) {
 
 struct Topology {
   std::size_t edges = 0, open_edges = 0;
-  bool edges_used_once = true;  ///< no edge is walked twice in the same direction
+  bool edges_used_once = true;  ///< no edge is used twice in the same direction
 };
 
 inline Topology topology_of(const PolygonMesh& mesh) {
@@ -110,7 +110,7 @@ inline std::size_t crease_count(const PolygonMesh& mesh) {
 
 using Coordinates = std::tuple<double, double, double>;
 
-/// All vertices with these signs put on their coordinates, in an order that only depends on the values.
+/// All vertices with coordinates multiplied by these signs, sorted by value.
 inline std::vector<Coordinates> sorted_positions(const PolygonMesh& mesh, const Vec3& signs) {
   std::vector<Coordinates> list;
   for (const Vec3& p : mesh.positions) list.emplace_back(signs.x * p.x + 0.0, signs.y * p.y + 0.0, signs.z * p.z + 0.0);

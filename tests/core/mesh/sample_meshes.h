@@ -28,7 +28,7 @@ inline PolygonMesh cube(double s = 1.0) {
   return mesh(p, {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}});
 }
 
-/// Every corner gets a vertex of its own, as STL has it.
+/// Every corner gets its own vertex, as in STL.
 inline PolygonMesh unwelded(const PolygonMesh& m) {
   PolygonMesh r = m;
   r.positions.clear();
@@ -83,7 +83,7 @@ inline PolygonMesh moebius(int n) {
   return mesh(std::move(p), faces);
 }
 
-/// Triangles over few vertices at random: every kind of defect, over and over.
+/// Random triangles over few vertices, with every kind of defect.
 inline PolygonMesh soup(std::uint32_t seed, int vertices, int faces) {
   std::mt19937 random(seed);
   PolygonMesh m;

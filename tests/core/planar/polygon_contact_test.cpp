@@ -91,6 +91,14 @@ TEST_CASE("2D conditions: force and tactile sources are chosen apart") {
   REQUIRE(glm::length(facet.force_n - smooth.force_n) > 1e-3);
   CHECK(glm::length(with(ForceSource::facet, TactileSource::held).force_n - facet.force_n) < 1e-12);
   CHECK(with(ForceSource::facet, TactileSource::held).cld_m == 0.0);
+  // C1 and C3: nothing is rendered from the smooth contact, so it is not solved, and the row is the force's.
+  for (const TactileSource tactile : {TactileSource::held, TactileSource::facet}) {
+    const TickOutput out = with(ForceSource::facet, tactile);
+    CHECK(out.normal == facet.normal);
+    CHECK(out.contact == facet.contact);
+    CHECK(out.iterations == 0);
+  }
+  CHECK(with(ForceSource::facet, TactileSource::smooth).normal == smooth.normal);
   CHECK(glm::length(with(ForceSource::force_shading, TactileSource::facet).force_n - shaded.force_n) < 1e-12);
   CHECK(with(ForceSource::force_shading, TactileSource::facet).cld_m == facet.cld_m);
   CHECK(with(ForceSource::facet, TactileSource::smooth).cld_m == smooth.cld_m);

@@ -96,6 +96,16 @@ TEST_CASE("files: .csv and .obj with lines alone are 2D, and what is written rea
   REQUIRE(closed);
   CHECK(closed->closed);
   CHECK(closed->vertices == round.vertices);
+  for (const double unit : {1.0, 1e-3}) {
+    const auto obj = folder.path() / "round.obj";
+    REQUIRE(write_polygon(round, obj, unit));
+    CHECK(is_planar_file(obj));
+    const auto read = read_polygon(obj, unit);
+    REQUIRE(read);
+    CHECK(read->closed);
+    REQUIRE(read->vertices.size() == 7);
+    for (std::size_t i = 0; i < 7; ++i) CHECK(glm::length(read->vertices[i] - round.vertices[i]) < 1e-16);
+  }
   folder.write("mesh.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nl 1 2\nf 1 2 3\n");
   folder.write("line.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nl 1 2 3\n");
   CHECK_FALSE(is_planar_file(folder.path() / "mesh.obj"));
@@ -111,6 +121,8 @@ TEST_CASE("the paper's arc: facets touch it at their midpoints, or stand on it w
           doctest::Approx(kPaperArcRadius).epsilon(1e-14));
   for (const Vec2& v : make_paper_arc(5, ArcPlacement::inscribed, 1).vertices)
     CHECK(glm::length(v) == doctest::Approx(kPaperArcRadius).epsilon(1e-14));
+  CHECK(kPaperArcRadius == 0.100);
+  CHECK(kPaperArcRad * kPaperArcRadius == doctest::Approx(0.0902));  // the paper: approximately 90 mm of travel
   // The paper: 16.3 segments are 3.38 degrees, 15.6 are 3.54.
   CHECK(kPaperArcRad / 15.3 * 180.0 / 3.14159265358979 == doctest::Approx(3.38).epsilon(2e-3));
   CHECK(facet_turn_rad(16, ArcPlacement::tangent) == doctest::Approx(kPaperArcRad / 15));

@@ -1,5 +1,4 @@
-// The index over a planar curve against scans of all its patches and segments, and contacts that one patch holds two
-// of.
+// The index over a planar curve against brute force over all its patches and segments, and patches with two contacts.
 #include "core/planar/search.h"
 #include "core/lab/objects/arc.h"
 #include "core/planar/polygon_contact.h"
@@ -17,7 +16,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-PlanarCurve curve_of(std::vector<Vec2> vertices, bool closed = false) {
+PlanarCurve searched_curve(std::vector<Vec2> vertices, bool closed = false) {
   auto curve = PlanarCurve::build({"test", std::move(vertices), closed});
   REQUIRE_MESSAGE(curve.has_value(), (curve ? "" : curve.error().message()));
   return std::move(*curve);
@@ -35,7 +34,7 @@ PlanarCurve random_outline(Random& random) {
     if (i > 0 && i + 1 < count && random.in(0.0, 1.0) < 0.2) v.push_back(v.back());
   }
   if (random.in(0.0, 1.0) < 0.5) std::reverse(v.begin(), v.end());
-  return curve_of(v, closed);
+  return searched_curve(v, closed);
 }
 
 /// Every patch is looked at, in order.
@@ -62,7 +61,7 @@ std::uint32_t scan_nearest_segment(const PlanarCurve& curve, const Vec2& at, dou
 
 /// A notch of 100 degrees whose bottom is one patch. A finger of 20 mm whose centre is 22 mm up, over the middle,
 /// touches it on both sides.
-PlanarCurve notch() { return curve_of({{-0.0230, 0.0193}, {0.0, 0.0}, {0.0230, 0.0193}}); }
+PlanarCurve notch() { return searched_curve({{-0.0230, 0.0193}, {0.0, 0.0}, {0.0230, 0.0193}}); }
 
 }  // namespace
 
@@ -134,7 +133,7 @@ TEST_CASE("the polygon's nearest segment and its obstacles are those of a scan, 
 }
 
 TEST_CASE("between two equally near patches the lowest holds the contact") {
-  const PlanarCurve square = curve_of(
+  const PlanarCurve square = searched_curve(
       {{-1.0, -1.0}, {0.0, -1.0}, {1.0, -1.0}, {1.0, 0.0}, {1.0, 1.0}, {0.0, 1.0}, {-1.0, 1.0}, {-1.0, 0.0}}, true);
   const PlanarContext x{square, SolverSettings{}, Vec2(0.0), 0.0, nullptr, 0};
   PlanarContact best;
@@ -191,7 +190,7 @@ TEST_CASE("in a notch of one patch the finger rests on the deeper side, and chan
 }
 
 TEST_CASE("a finger that passes hundreds of patches in a tick goes on from its contact: it is not lost") {
-  const PlanarCurve circle = curve_of(make_regular_polygon(100000, 0.05, ArcPlacement::tangent).vertices, true);
+  const PlanarCurve circle = searched_curve(make_regular_polygon(100000, 0.05, ArcPlacement::tangent).vertices, true);
   const Preset preset = sphere_preset(0.020, Method::robust);
   TickState state;
   int events = 0, lines = 0;
@@ -211,7 +210,7 @@ TEST_CASE("a finger that passes hundreds of patches in a tick goes on from its c
 
 TEST_CASE("round a tight convex bend the normal may turn far in a tick without an event") {
   // A rounded corner of 90 degrees in one patch of 1 mm.
-  const PlanarCurve curve = curve_of({{-0.05, 0.0}, {-0.001, 0.0}, {0.0, 0.0}, {0.0, -0.001}, {0.0, -0.05}});
+  const PlanarCurve curve = searched_curve({{-0.05, 0.0}, {-0.001, 0.0}, {0.0, 0.0}, {0.0, -0.001}, {0.0, -0.05}});
   const Preset preset = sphere_preset(0.020, Method::robust);
   TickState state;
   double turned = 0.0;

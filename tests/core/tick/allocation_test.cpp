@@ -1,5 +1,5 @@
-// A tick allocates nothing: it runs in the servo thread. This file replaces the global operators new
-// and delete of the whole test program by counting ones.
+// A tick does not allocate, since it runs in the servo thread. This file replaces the global operators new and delete
+// of the test program by counting ones.
 #include "tests/core/scenes.h"
 
 #include <doctest/doctest.h>
@@ -73,8 +73,9 @@ TEST_CASE("10,000 ticks allocate nothing, whatever the method, finger and mesh, 
       for (const FingerShape shape : {FingerShape::sphere, FingerShape::capsule}) {
         Preset preset = sphere_preset(0.012, method);
         preset.finger.shape = shape;
-        preset.force.source = ForceSource::force_shading;
+        preset.force.source = method == Method::newton ? ForceSource::smooth : ForceSource::force_shading;
         preset.display.source = TactileSource::smooth;
+        preset.force.contacts = ForceContacts::all;
         Stepper stepper(scene);
         TickState state;
         Random random(80);

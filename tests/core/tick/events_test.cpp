@@ -1,4 +1,5 @@
 // Events, and what is rendered while a tick has no converged contact.
+#include "core/base/tolerances.h"
 #include "tests/core/scenes.h"
 
 #include <doctest/doctest.h>
@@ -10,7 +11,7 @@ using namespace tangent::test;
 
 namespace {
 
-ScenePtr icosphere() {
+ScenePtr event_sphere() {
   static const ScenePtr scene = scene_of(make_icosphere(0.040, 3));
   return scene;
 }
@@ -47,7 +48,7 @@ ScenePtr slot() {
 TEST_CASE("the first tick is first, the following ones have no event") {
   for (const Method method : kSmoothMethods) {
     Preset preset = sphere_preset(0.020, method);
-    Stepper stepper(icosphere());
+    Stepper stepper(event_sphere());
     TickState state;
     for (int i = 0; i < 200; ++i) {
       const TickOutput out = stepper.step(preset, at_position(1e-3 * i, pressed({1.0, 0.002 * i, 0.001 * i})), state);
@@ -64,7 +65,7 @@ TEST_CASE("after a leap that tracking can't follow, the contact is seeded anew a
     preset.solver.max_iterations = 6;
     int marked = 0, right = 0, leaps = 0;
     Random random(60);
-    Stepper stepper(icosphere());
+    Stepper stepper(event_sphere());
     TickState state;
     Vec3 direction(1, 0, 0);
     stepper.step(preset, at_position(0.0, pressed(direction)), state);
@@ -87,7 +88,7 @@ TEST_CASE("after a leap that tracking can't follow, the contact is seeded anew a
 TEST_CASE("robust marks every turn of the normal by over ten degrees in a tick") {
   Random random(61);
   const Preset preset = sphere_preset(0.012, Method::robust);
-  for (const ScenePtr& scene : {torus(), icosphere()}) {
+  for (const ScenePtr& scene : {torus(), event_sphere()}) {
     Stepper stepper(scene);
     TickState state;
     TickOutput last = stepper.step(preset, at_position(0.0, Vec3(0.06, 0.0, 0.0)), state);
@@ -112,6 +113,7 @@ TEST_CASE("a deeper place elsewhere takes over once, by the hysteresis, marked s
     for (const double hysteresis : {20e-6, 500e-6}) {
       Preset preset = sphere_preset(0.0305, method);
       preset.solver.switch_hysteresis_m = hysteresis;
+      preset.force.contacts = ForceContacts::deepest;
       Stepper stepper(slot());
       TickState state;
       int switches = 0, other = 0;
@@ -142,7 +144,7 @@ TEST_CASE(
     Preset good = sphere_preset(0.020, method);
     good.display.travel_m = good.display.finger_arc_m;
     const Preset bad = unconvergeable(good);
-    Stepper stepper(icosphere());
+    Stepper stepper(event_sphere());
     TickState state;
     const Vec3 n0 = unit(Vec3(1.0, 0.3, -0.5));
     const TickOutput last = stepper.step(good, at_position(1.0, pressed(n0)), state);
@@ -169,7 +171,7 @@ TEST_CASE(
 TEST_CASE("hold and ramp follow the preset") {
   Preset good = sphere_preset(0.020, Method::robust);
   good.safety = {2e-3, 0.0};
-  Stepper stepper(icosphere());
+  Stepper stepper(event_sphere());
   TickState state;
   stepper.step(good, at_position(0.0, pressed({1, 0.2, 0.1})), state);
   const Preset bad = unconvergeable(good);
@@ -180,7 +182,7 @@ TEST_CASE("hold and ramp follow the preset") {
 TEST_CASE("without any converged contact so far force and display are zero") {
   for (const Method method : kSmoothMethods) {
     const Preset bad = unconvergeable(sphere_preset(0.020, method));
-    Stepper stepper(icosphere());
+    Stepper stepper(event_sphere());
     TickState state;
     for (int i = 0; i < 5; ++i) {
       const TickOutput out = stepper.step(bad, at_position(1e-3 * i, pressed({1.0, 0.3 + 0.01 * i, -0.5})), state);
@@ -213,7 +215,7 @@ TEST_CASE("a free finger has a plane and a display position, but no force") {
   for (const Method method : kSmoothMethods) {
     const Preset preset = sphere_preset(0.020, method);
     const TickOutput out =
-        solve_once(icosphere(), preset, {0.061 * unit(Vec3(0.3, 0.1, 1.0)), Quat(1.0, 0.0, 0.0, 0.0)});
+        solve_once(event_sphere(), preset, {0.061 * unit(Vec3(0.3, 0.1, 1.0)), Quat(1.0, 0.0, 0.0, 0.0)});
     CHECK(out.status == TickStatus::free);
     CHECK(out.penetration_m == doctest::Approx(-0.001).epsilon(2e-3));
     CHECK(glm::length(out.force_n) == 0.0);
@@ -224,7 +226,7 @@ TEST_CASE("a free finger has a plane and a display position, but no force") {
 TEST_CASE("damping acts along the normal with the finger's speed, and not on the first tick") {
   Preset preset = sphere_preset(0.020, Method::robust);
   preset.force.damping_n_s_per_m = 5.0;
-  Stepper stepper(icosphere());
+  Stepper stepper(event_sphere());
   TickState state;
   const TickOutput first = stepper.step(preset, at_position(0.0, {0.059, 0.0, 0.0}), state);
   CHECK(glm::length(first.force_n) == doctest::Approx(800.0 * first.penetration_m).epsilon(1e-12));
@@ -239,4 +241,103 @@ TEST_CASE("damping acts along the normal with the finger's speed, and not on the
         doctest::Approx(std::max(0.0, 800.0 * last.penetration_m - 0.5)).epsilon(1e-4));
   for (int i = 81; i <= 90; ++i) move(i, 0.0595 + 5e-4 * (i - 80));
   CHECK(glm::length(last.force_n) == 0.0);  // never pulls
+}
+
+namespace {
+
+/// Two walls that meet in a sharp crease along y, as the bottom of a valley: 45 degrees each.
+ScenePtr valley() {
+  ContactMeshOptions creased;
+  creased.crease_rad = 0.5;
+  static const ScenePtr scene =
+      scene_of(height_field(0.040, 16, [](double x, double) { return std::abs(x); }), creased);
+  return scene;
+}
+
+/// A point that goes from 0.5 mm under the right wall to where both walls are, past their crease, and stays there.
+TickInput past_the_crease(int i) {
+  return at_position(1e-3 * i,
+                     {0.002 - 1e-4 * std::min(i, 20), 0.0, 0.002 - std::sqrt(0.5) * 1e-3 - 1e-4 * std::min(i, 20)});
+}
+
+}  // namespace
+
+TEST_CASE("where the surface offers no contact the row says facing, and how far the best place is from being one") {
+  const Preset preset = sphere_preset(0.0, Method::robust);
+  const Vec3 under(0.0, 0.0, -0.001);  // both walls' feet lie past the crease
+  const TickOutput out = solve_once(valley(), preset, under);
+  CHECK(out.status == TickStatus::facing);
+  CHECK(!is_converged(out.status));
+  CHECK(glm::length(out.contact) < 1e-9);  // the nearest place: the crease
+  CHECK(std::abs(out.penetration_m - 0.001) < 1e-9);
+  CHECK(glm::dot(out.normal, Vec3(0, 0, 1)) > 1.0 - 1e-9);       // the plane faces the finger from behind
+  CHECK(std::abs(out.error_m - 0.001 * std::sqrt(0.5)) < 1e-9);  // seen along the wall's own normal, by 45 degrees
+  CHECK(out.force_n == Vec3(0.0));                               // nothing was touched before
+  auto trace = std::make_unique<IterationTrace>();
+  solve_once(valley(), preset, {under, Quat(1.0, 0.0, 0.0, 0.0)}, trace.get());
+  REQUIRE(trace->size > 0);
+  CHECK(trace->records[trace->size - 1].stop == StopReason::facing);
+  CHECK(trace->records[trace->size - 1].error_m == out.error_m);
+}
+
+TEST_CASE("a facing tick renders the last contact's plane, and fades as an unconverged one does") {
+  const Preset preset = sphere_preset(0.0, Method::robust);
+  Stepper stepper(valley());
+  TickState state;
+  int facing = 0, last_contact = 0;
+  Vec3 before(0.0);
+  for (int i = 0; i < 60; ++i) {
+    const TickOutput out = stepper.step(preset, past_the_crease(i), state);
+    if (is_converged(out.status)) {
+      last_contact = i;
+      before = out.force_n;
+      CHECK(facing == 0);
+      continue;
+    }
+    CHECK(out.status == TickStatus::facing);
+    ++facing;
+    const Vec3 last = valley()->mesh().origin() + state.last_converged.point;
+    const double depth = glm::dot(last - past_the_crease(i).finger.position, state.last_converged.normal);
+    const double share = unconverged_share(preset.safety, 1e-3 * (i - last_contact));
+    CHECK(glm::distance(out.decided_force_n,
+                        share * preset.force.stiffness_n_per_m * depth * state.last_converged.normal) < 1e-9);
+    CHECK(glm::distance(out.force_n, before) <= 1e-3 * kForceFade + 2.0 * 800.0 * 1.5e-4);
+    before = out.force_n;
+    if (i > last_contact + 35) CHECK(out.force_n == Vec3(0.0));  // 0.4 N at 20 N/s, begun after 5 ms
+  }
+  CHECK(facing > 20);
+  CHECK(state.last_converged_s == 1e-3 * last_contact);
+}
+
+TEST_CASE("names and lists of statuses and events agree") {
+  for (std::size_t i = 0; i < kTickStatuses.size(); ++i) CHECK(static_cast<std::size_t>(kTickStatuses[i]) == i);
+  for (std::size_t i = 0; i < kTickEvents.size(); ++i) CHECK(static_cast<std::size_t>(kTickEvents[i]) == i);
+  CHECK(to_string(TickStatus::facing) == std::string("facing"));
+}
+
+TEST_CASE("a small finger round a cube's edge goes on without an event, however fast it turns") {
+  const ScenePtr cube = scene_of(*generate_mesh("cube"));
+  const double half = 0.5 * cube->mesh().bounds().size().z;
+  const Preset preset = sphere_preset(0.001, Method::robust);
+  for (const double speed : {2e-5, 1e-4, 3e-4}) {  // metres a tick
+    CAPTURE(speed);
+    Stepper stepper(cube);
+    TickState state;
+    int marked = 0, turned_fast = 0;
+    Vec3 last(0.0);
+    const int ticks = static_cast<int>(0.004 / speed);
+    for (int i = 0; i < ticks; ++i) {
+      const double s = -0.002 + speed * i;  // up one side, round the edge 0.5 mm away, over the next side
+      const double arc = 0.0005 * 1.5707963267948966, turn = std::clamp(s + 0.5 * arc, 0.0, arc) / 0.0005;
+      const Vec3 out_of(std::cos(turn), 0.0, std::sin(turn));
+      const double along = s + 0.5 * arc - std::clamp(s + 0.5 * arc, 0.0, arc);
+      const Vec3 at = Vec3(half, 0.003, half) + 0.0005 * out_of + along * Vec3(-out_of.z, 0.0, out_of.x);
+      const TickOutput out = stepper.step(preset, at_position(1e-3 * i, at), state);
+      marked += i > 0 && out.event != TickEvent::none;
+      turned_fast += i > 0 && angle_deg(out.normal, last) > 10.0;
+      last = out.normal;
+    }
+    CHECK(marked == 0);
+    if (speed > 0.9e-4) CHECK(turned_fast > 1);
+  }
 }

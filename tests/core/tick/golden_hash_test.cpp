@@ -1,4 +1,4 @@
-// The same input gives the same bits: in debug and release, traced and untraced, warm and cold.
+// The same input gives bitwise identical results: in debug and release, traced and untraced, warm and cold.
 #include "tests/core/scenes.h"
 
 #include <doctest/doctest.h>
@@ -16,7 +16,9 @@ namespace {
 // the failing test, in debug and in release, and say in the commit what changed them.
 constexpr std::uint64_t kGoldenPaper = 0xc0c73db566b80070ull;
 constexpr std::uint64_t kGoldenNewton = 0x56dbd8b35593abe2ull;
-constexpr std::uint64_t kGoldenRobust = 0x451064f40a046b3bull;
+constexpr std::uint64_t kGoldenRobust = 0xd00b6ffd80e7dfcfull;
+constexpr std::uint64_t kGoldenEveryPlace =
+    0x5a02d8a8df19d9c4ull;  // robust with force.contacts = all; the others with deepest
 
 constexpr int kScenes = 3;
 
@@ -79,9 +81,10 @@ Preset golden_preset(Method method) {
   return preset;
 }
 
-std::uint64_t path_hash(Method method, int ticks) {
+std::uint64_t path_hash(Method method, int ticks, ForceContacts contacts = ForceContacts::deepest) {
   BitHash hash;
-  const Preset preset = golden_preset(method);
+  Preset preset = golden_preset(method);
+  preset.force.contacts = contacts;
   for (const ScenePtr& scene : scenes()) {
     Stepper stepper(scene);
     TickState state;
@@ -113,6 +116,10 @@ TEST_CASE("golden hash of 120,000 ticks of newton: the same bits in debug and re
 }
 TEST_CASE("golden hash of a million ticks of robust: the same bits in debug and release") {
   CHECK(hex(path_hash(Method::robust, 1'020'000)) == hex(kGoldenRobust));
+}
+
+TEST_CASE("golden hash of 120,000 ticks of robust with force from all places: the same bits in debug and release") {
+  CHECK(hex(path_hash(Method::robust, 120'000, ForceContacts::all)) == hex(kGoldenEveryPlace));
 }
 
 TEST_CASE("traced and untraced ticks give the same bits") {

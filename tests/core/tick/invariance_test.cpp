@@ -1,4 +1,4 @@
-// The answer does not depend on the unit, on where the mesh lies, how it is turned, or how its triangles are numbered.
+// The result does not depend on unit, position and orientation of the mesh, nor on the numbering of its triangles.
 #include "tests/core/scenes.h"
 
 #include <doctest/doctest.h>
@@ -115,7 +115,7 @@ Difference compare(const std::vector<TickOutput>& a, const std::vector<TickOutpu
 }  // namespace
 
 TEST_CASE("a mesh 1024 times smaller or a million times larger gives the same bits, whatever the method") {
-  // By powers of two nothing rounds differently: any difference is a constant that ought to be relative.
+  // Scaling by powers of two does not change rounding: any difference reveals an absolute constant.
   for (const Subject& s : subjects())
     for (const Method method : kSmoothMethods) {
       const Preset preset = base_preset(method);
@@ -137,7 +137,7 @@ TEST_CASE("a mesh 1024 times smaller or a million times larger gives the same bi
 }
 
 TEST_CASE("the same mesh in millimetres, metres and kilometres gives the same barycentrics, iterations and status") {
-  // Not to the bit: a thousand is no power of two. An error within rounding of the tolerance may take one more plane.
+  // Not bitwise: 1000 is not a power of two. An error within rounding of the tolerance may take one more plane.
   for (const Subject& s : subjects())
     for (const Method method : kSmoothMethods) {
       Preset preset = base_preset(method);

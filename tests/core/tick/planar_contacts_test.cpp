@@ -1,4 +1,4 @@
-// Ticks on 2D scenes: contacts known by hand, tracking against brute force, corners, ends, other places.
+// Ticks on 2D scenes: contacts computed by hand, tracking against brute force, corners, ends, nonadjacent contacts.
 #include "core/lab/objects/arc.h"
 #include "core/tick/step.h"
 #include "tests/core/scenes.h"
@@ -250,4 +250,57 @@ TEST_CASE("a pose that is not finite leaves a 2D tick unconverged and its output
       arc, preset, at_position(1e-3, {std::numeric_limits<double>::quiet_NaN(), 0.125, 0.0}), state, nullptr);
   CHECK(out.status == TickStatus::unconverged);
   CHECK(all_finite(out));
+}
+
+TEST_CASE("past the rim and behind an open outline nothing pushes that was not entered, whichever way it is found") {
+  // Touched from above; the finger goes round the right rim, half a millimetre deep in it, and on below the outline.
+  const PlanarCurve sheet = curve_of({{-0.1, 0.0}, {-0.05, 0.0}, {0.0, 0.0}, {0.05, 0.0}});
+  const Preset preset = sphere_preset(0.020, Method::robust);
+  TickState state;
+  int on_the_rim = 0, behind = 0, pushed_up = 0;
+  double most = 0.0;
+  Vec3 last(0.0);
+  for (int i = 0; i < 3000; ++i) {
+    const double a = 0.5 * kPi - 2e-3 * i, way = std::max(0.0, -a - 0.5 * kPi) * 0.0195;
+    const double turn = std::max(a, -0.5 * kPi);
+    const Vec3 at(0.05 + 0.0195 * std::cos(turn) - way, 0.0195 * std::sin(turn), 0.0);
+    const TickOutput out = step_planar(sheet, preset, at_position(1e-3 * i, at), state, nullptr);
+    on_the_rim += out.status == TickStatus::vertex;
+    if (turn < -0.5 * kPi + 1e-12) {
+      ++behind;
+      pushed_up += out.decided_force_n.y > 0.0;  // by the side that faces up, from 39 mm below
+    }
+    if (i > 0) most = std::max(most, glm::distance(out.force_n, last));
+    last = out.force_n;
+  }
+  CHECK(on_the_rim > 1000);
+  CHECK(behind > 1000);
+  CHECK(pushed_up == 0);
+  CHECK(most < 0.02 + 2.0 * 800.0 * 4e-5);
+  // Touched from above again, it pushes as ever.
+  for (int i = 0; i < 20; ++i) {
+    const TickOutput out =
+        step_planar(sheet, preset, at_position(3.0 + 1e-3 * i, {-0.02, 0.0195, 0.0}), state, nullptr);
+    if (i == 19) CHECK(glm::distance(out.decided_force_n, Vec3(0.0, 0.4, 0.0)) < 1e-9);
+  }
+}
+
+TEST_CASE("a small finger round a sharp corner of an outline goes on without an event, however fast it turns") {
+  const PlanarCurve roof = curve_of({{-0.1, 0.0}, {0.0, 0.1}, {0.0, 0.1}, {0.1, 0.0}});
+  for (const double speed : {2e-5, 1e-4, 3e-4}) {  // metres a tick
+    TickState state;
+    int marked = 0;
+    const int ticks = static_cast<int>(0.004 / speed);
+    for (int i = 0; i < ticks; ++i) {
+      const double s = -0.002 + speed * i;  // along the left side, half round the corner 0.5 mm away, the right side
+      const double arc = 0.0005 * 0.5 * kPi, turn = std::clamp(s, -0.5 * arc, 0.5 * arc) / 0.0005;
+      const Vec3 out_of(std::sin(turn), std::cos(turn), 0.0);
+      const double along = s - std::clamp(s, -0.5 * arc, 0.5 * arc);
+      const Vec3 at = Vec3(0.0, 0.1, 0.0) + 0.0005 * out_of + along * Vec3(out_of.y, -out_of.x, 0.0);
+      const TickOutput out =
+          step_planar(roof, sphere_preset(0.001, Method::robust), at_position(1e-3 * i, at), state, nullptr);
+      marked += i > 0 && out.event != TickEvent::none;
+    }
+    CHECK(marked == 0);
+  }
 }

@@ -1,4 +1,4 @@
-// What a stepper keeps between ticks changes no bits; what it holds of edges and vertices is what they are.
+// The stepper's caches don't change results, and cached edges and vertices equal computed ones.
 #include "core/contact/patch_cache.h"
 #include "tests/core/scenes.h"
 
@@ -13,7 +13,7 @@ using namespace tangent::test;
 
 namespace {
 
-std::vector<ScenePtr> scenes() {
+std::vector<ScenePtr> cached_scenes() {
   std::vector<ScenePtr> all{scene_of(make_icosphere(0.040, 2)),
                             scene_of(*generate_mesh("cube", {.rounding_m = 1.5e-3}))};
   for (const char* name : {"cube", "octagon", "cylinder", "cone"}) all.push_back(scene_of(*generate_mesh(name)));
@@ -44,26 +44,26 @@ std::array<double, 14> numbers_of(const TickOutput& o) {
           o.normal.z, o.force_n.x, o.force_n.y, o.force_n.z, o.cld_m,     o.error_m,  o.penetration_m};
 }
 
-bool same(const TickOutput& a, const TickOutput& b) {
+bool same_output(const TickOutput& a, const TickOutput& b) {
   const auto x = numbers_of(a), y = numbers_of(b);
   return std::memcmp(x.data(), y.data(), sizeof x) == 0 && a.status == b.status && a.event == b.event &&
          a.triangle == b.triangle && a.iterations == b.iterations && a.triangle_changes == b.triangle_changes;
 }
 
-bool same(const TrackedPlane& a, const TrackedPlane& b) {
+bool same_output(const TrackedPlane& a, const TrackedPlane& b) {
   return a.feature == b.feature && a.side == b.side && a.triangle == b.triangle && a.u == b.u && a.v == b.v &&
          a.point == b.point && a.normal == b.normal && a.turn == b.turn;
 }
 
-bool same(const TickState& a, const TickState& b) {
-  return same(a.plane, b.plane) && a.last_converged.point == b.last_converged.point &&
+bool same_output(const TickState& a, const TickState& b) {
+  return same_output(a.plane, b.plane) && a.last_converged.point == b.last_converged.point &&
          a.last_converged.normal == b.last_converged.normal && a.has_converged == b.has_converged &&
          a.last_converged_s == b.last_converged_s && a.last_position == b.last_position && a.last_t_s == b.last_t_s &&
          a.clearance.free_m == b.clearance.free_m && a.clearance.centre == b.clearance.centre;
 }
 
 /// Every number of a fan, and its flags.
-bool same(const EdgeFan& a, const EdgeFan& b) {
+bool same_output(const EdgeFan& a, const EdgeFan& b) {
   const auto vectors = [](const EdgeFan& f) {
     return std::array{f.point, f.point_f,     f.tangent,    f.tangent_f,     f.e1,
                       f.e2,    f.near_normal, f.far_normal, f.near_normal_f, f.far_normal_f};
@@ -92,7 +92,7 @@ PolygonMesh side_by_side(const PolygonMesh& a, const PolygonMesh& b, const Vec3&
 
 TEST_CASE("a tick has the same output and state, bit by bit, with a warm cache, a cold one, and traced") {
   const auto trace = std::make_unique<IterationTrace>();
-  for (const ScenePtr& scene : scenes()) {
+  for (const ScenePtr& scene : cached_scenes()) {
     for (const FingerShape shape : {FingerShape::sphere, FingerShape::point}) {
       Preset preset;
       preset.finger.shape = shape;
@@ -108,9 +108,9 @@ TEST_CASE("a tick has the same output and state, bit by bit, with a warm cache, 
         const TickOutput out = stepper.step(preset, input, state);
         trace->clear();
         Stepper cold(scene), traced(scene);
-        different += !same(out, cold.step(preset, input, cold_state)) ||
-                     !same(out, traced.step(preset, input, traced_state, trace.get()));
-        different_state += !same(state, cold_state) || !same(state, traced_state);
+        different += !same_output(out, cold.step(preset, input, cold_state)) ||
+                     !same_output(out, traced.step(preset, input, traced_state, trace.get()));
+        different_state += !same_output(state, cold_state) || !same_output(state, traced_state);
         one_plane += out.event == TickEvent::none && out.iterations == 1;
       }
       CAPTURE(scene->mesh().name());
@@ -139,7 +139,7 @@ TEST_CASE("a fan is the same whatever edge its place in the cache was of before"
     const double f = random.in(0.0, 1.0);
     const auto fresh = std::make_unique<PatchCache>(mesh);
     const EdgeFan& expected = fresh->fan(t, side, f, NormalForm::bernstein);
-    different += !same(used->fan(t, side, f, NormalForm::bernstein), expected);
+    different += !same_output(used->fan(t, side, f, NormalForm::bernstein), expected);
     uniform += expected.uniform;
   }
   CHECK(different == 0);

@@ -1,4 +1,4 @@
-// What the trace of a tick says is what the tick did.
+// The trace of a tick matches what the tick computed.
 #include "tests/core/scenes.h"
 
 #include <doctest/doctest.h>

@@ -13,42 +13,42 @@ using namespace tangent;
 
 namespace {
 
-constexpr double kDt = 1e-3;
+constexpr double kDisplayDt = 1e-3;
 
-SimulatedDisplayOptions ideal() {
+SimulatedDisplayOptions ideal_display() {
   SimulatedDisplayOptions o;
   o.mechanism.step_m = o.mechanism.backlash_m = 0.0;
   return o;
 }
 
-void make_ready(SimulatedContactDisplay& display) {
+void make_display_ready(SimulatedContactDisplay& display) {
   REQUIRE(display.open());
-  display.exchange({.request = DeviceRequest::home}, kDt);
-  for (int i = 0; i < 300; ++i) display.exchange({}, kDt);
-  REQUIRE(display.exchange({}, kDt).state == DeviceState::ready);
+  display.exchange({.request = DeviceRequest::home}, kDisplayDt);
+  for (int i = 0; i < 300; ++i) display.exchange({}, kDisplayDt);
+  REQUIRE(display.exchange({}, kDisplayDt).state == DeviceState::ready);
 }
 
 }  // namespace
 
 TEST_CASE("outside ready the roller holds still, and homing takes it to the middle") {
   SimulatedContactDisplay display;
-  make_ready(display);
-  for (int i = 0; i < 500; ++i) display.exchange({.target_m = 5e-3}, kDt);
+  make_display_ready(display);
+  for (int i = 0; i < 500; ++i) display.exchange({.target_m = 5e-3}, kDisplayDt);
   display.inject(DeviceFault::actuator);
-  const double held = display.exchange({.target_m = -5e-3}, kDt).position_m;
-  for (int i = 0; i < 100; ++i) CHECK(display.exchange({.target_m = -5e-3}, kDt).position_m == held);
-  display.exchange({.request = DeviceRequest::clear_fault}, kDt);
-  display.exchange({.request = DeviceRequest::home}, kDt);
+  const double held = display.exchange({.target_m = -5e-3}, kDisplayDt).position_m;
+  for (int i = 0; i < 100; ++i) CHECK(display.exchange({.target_m = -5e-3}, kDisplayDt).position_m == held);
+  display.exchange({.request = DeviceRequest::clear_fault}, kDisplayDt);
+  display.exchange({.request = DeviceRequest::home}, kDisplayDt);
   DisplaySample sample;
-  for (int i = 0; i < 249; ++i) sample = display.exchange({.target_m = -5e-3}, kDt);
+  for (int i = 0; i < 249; ++i) sample = display.exchange({.target_m = -5e-3}, kDisplayDt);
   CHECK(sample.state == DeviceState::homing);
   CHECK(std::abs(sample.position_m) < 5e-6);
 }
 
 TEST_CASE("a target that is not finite faults the display") {
   SimulatedContactDisplay display;
-  make_ready(display);
-  const DisplaySample sample = display.exchange({.target_m = std::numeric_limits<double>::infinity()}, kDt);
+  make_display_ready(display);
+  const DisplaySample sample = display.exchange({.target_m = std::numeric_limits<double>::infinity()}, kDisplayDt);
   CHECK(sample.state == DeviceState::faulted);
   CHECK(sample.fault == DeviceFault::bad_command);
   CHECK(sample.position_m == 0.0);
@@ -57,10 +57,10 @@ TEST_CASE("a target that is not finite faults the display") {
 TEST_CASE("the same targets give the same bits") {
   const auto run = [] {
     SimulatedContactDisplay display;
-    make_ready(display);
+    make_display_ready(display);
     std::vector<double> x;
     for (int i = 0; i < 3000; ++i)
-      x.push_back(display.exchange({.target_m = 8e-3 * std::sin(0.01 * i)}, kDt).position_m);
+      x.push_back(display.exchange({.target_m = 8e-3 * std::sin(0.01 * i)}, kDisplayDt).position_m);
     return x;
   };
   const auto a = run(), b = run();
@@ -69,8 +69,8 @@ TEST_CASE("the same targets give the same bits") {
 
 TEST_CASE("the controller runs at 1 kHz whatever the rate of the exchanges") {
   const auto after = [](double dt, int exchanges) {
-    SimulatedContactDisplay display(ideal());
-    make_ready(display);
+    SimulatedContactDisplay display(ideal_display());
+    make_display_ready(display);
     double x = 0.0;
     for (int i = 0; i < exchanges; ++i) x = display.exchange({.target_m = 4e-3}, dt).position_m;
     return x;
@@ -84,8 +84,8 @@ TEST_CASE("the controller runs at 1 kHz whatever the rate of the exchanges") {
 
 TEST_CASE("injected faults of the display: named, and over after their time") {
   SimulatedContactDisplay display;
-  make_ready(display);
-  const auto sample = [&display](double target = 5e-3) { return display.exchange({.target_m = target}, kDt); };
+  make_display_ready(display);
+  const auto sample = [&display](double target = 5e-3) { return display.exchange({.target_m = target}, kDisplayDt); };
   const auto run = [&](int ticks) {
     for (int i = 0; i < ticks; ++i) sample();
   };
@@ -96,7 +96,7 @@ TEST_CASE("injected faults of the display: named, and over after their time") {
   for (int i = 1; i <= 10; ++i) {
     s = sample();
     CHECK(s.position_m == before);
-    CHECK(s.age_s == doctest::Approx(i * kDt));
+    CHECK(s.age_s == doctest::Approx(i * kDisplayDt));
   }
   CHECK(sample().age_s == 0.0);
   run(500);
@@ -104,7 +104,7 @@ TEST_CASE("injected faults of the display: named, and over after their time") {
   display.inject({InjectedFault::stuck_encoder, 100});
   const double stuck = sample(-5e-3).position_m;
   for (int i = 1; i < 100; ++i) CHECK(sample(-5e-3).position_m == stuck);
-  CHECK(std::abs(display.mechanism().encoder_m() - stuck) > 5e-3);  // the PID, believing it, has run away
+  CHECK(std::abs(display.mechanism().encoder_m() - stuck) > 5e-3);  // the PID, misled by it, has run away
   run(1000);
 
   display.inject({InjectedFault::noise, 50});
@@ -119,6 +119,6 @@ TEST_CASE("injected faults of the display: named, and over after their time") {
   display.inject({InjectedFault::drop_out, 5});
   CHECK(sample().fault == DeviceFault::disconnected);
   for (int i = 1; i < 5; ++i)
-    CHECK(display.exchange({.request = DeviceRequest::clear_fault}, kDt).state == DeviceState::faulted);
-  CHECK(display.exchange({.request = DeviceRequest::clear_fault}, kDt).state == DeviceState::open);
+    CHECK(display.exchange({.request = DeviceRequest::clear_fault}, kDisplayDt).state == DeviceState::faulted);
+  CHECK(display.exchange({.request = DeviceRequest::clear_fault}, kDisplayDt).state == DeviceState::open);
 }

@@ -12,19 +12,19 @@ using namespace tangent;
 
 namespace {
 
-constexpr double kDt = 1e-3;
+constexpr double kForceDt = 1e-3;
 
-SimulatedForceOptions ideal() {
+SimulatedForceOptions ideal_force() {
   SimulatedForceOptions o;
   o.tremor_m = o.position_step_m = o.friction_n = 0.0;
   return o;
 }
 
-void make_ready(SimulatedForceDevice& device) {
+void make_force_ready(SimulatedForceDevice& device) {
   REQUIRE(device.open());
-  device.exchange({.request = DeviceRequest::home}, kDt);
-  for (int i = 0; i < 200; ++i) device.exchange({}, kDt);
-  REQUIRE(device.exchange({}, kDt).state == DeviceState::ready);
+  device.exchange({.request = DeviceRequest::home}, kForceDt);
+  for (int i = 0; i < 200; ++i) device.exchange({}, kForceDt);
+  REQUIRE(device.exchange({}, kForceDt).state == DeviceState::ready);
 }
 
 /// Presses on a spring along z that pushes back below z = 0, with the command one tick old.
@@ -33,7 +33,7 @@ std::vector<ForceSample> press(SimulatedForceDevice& device, double target_z, do
   Vec3 force(0.0);
   for (int i = 0; i < ticks; ++i) {
     device.lead({.position_m = Vec3(0, 0, target_z)});
-    samples.push_back(device.exchange({.force_n = force}, kDt));
+    samples.push_back(device.exchange({.force_n = force}, kForceDt));
     force = Vec3(0, 0, stiffness * std::max(0.0, -samples.back().position_m.z));
   }
   return samples;
@@ -43,30 +43,30 @@ std::vector<ForceSample> press(SimulatedForceDevice& device, double target_z, do
 
 TEST_CASE("the force device homes before it is ready, and renders no force before") {
   SimulatedForceDevice device;
-  CHECK(device.exchange({.force_n = Vec3(1, 0, 0)}, kDt).state == DeviceState::absent);
+  CHECK(device.exchange({.force_n = Vec3(1, 0, 0)}, kForceDt).state == DeviceState::absent);
   REQUIRE(device.open());
   CHECK_FALSE(device.open());
-  ForceSample sample = device.exchange({.force_n = Vec3(1, 0, 0)}, kDt);
+  ForceSample sample = device.exchange({.force_n = Vec3(1, 0, 0)}, kForceDt);
   CHECK(sample.state == DeviceState::firmware);
   CHECK(sample.force_n == Vec3(0.0));
-  sample = device.exchange({.force_n = Vec3(1, 0, 0), .request = DeviceRequest::home}, kDt);
+  sample = device.exchange({.force_n = Vec3(1, 0, 0), .request = DeviceRequest::home}, kForceDt);
   CHECK(sample.state == DeviceState::homing);
   int ticks = 0;
   while (sample.state == DeviceState::homing) {
     CHECK(sample.force_n == Vec3(0.0));
-    sample = device.exchange({.force_n = Vec3(1, 0, 0)}, kDt);
+    sample = device.exchange({.force_n = Vec3(1, 0, 0)}, kForceDt);
     REQUIRE(++ticks <= 101);
   }
   CHECK(ticks >= 100);
   CHECK(sample.state == DeviceState::ready);
   CHECK(sample.force_n == Vec3(1, 0, 0));
   device.close();
-  CHECK(device.exchange({.force_n = Vec3(1, 0, 0)}, kDt).force_n == Vec3(0.0));
+  CHECK(device.exchange({.force_n = Vec3(1, 0, 0)}, kForceDt).force_n == Vec3(0.0));
 }
 
 TEST_CASE("the pressing hand comes to rest where its spring balances the contact's") {
-  SimulatedForceDevice device(ideal());
-  make_ready(device);
+  SimulatedForceDevice device(ideal_force());
+  make_force_ready(device);
   device.place({.position_m = Vec3(0, 0, 5e-3)});
   const auto samples = press(device, -2.25e-3, 800.0, 2000);
   CHECK(samples.back().position_m.z == doctest::Approx(-2.25e-3 * 400.0 / 1200.0).epsilon(1e-6));
@@ -76,7 +76,7 @@ TEST_CASE("the pressing hand comes to rest where its spring balances the contact
 TEST_CASE("the free mass follows the closed form of a damped oscillator, to first order in the step") {
   // m x'' = -k x - b x' from x0 at rest: x = x0 e^{-a t} (cos w t + a / w sin w t).
   const auto worst_error = [](int substeps) {
-    SimulatedForceOptions o = ideal();
+    SimulatedForceOptions o = ideal_force();
     o.substeps = substeps;
     SimulatedForceDevice device(o);
     const double m = o.device_mass_kg + o.hand_mass_kg, a = o.hand_damping_n_s_per_m / (2.0 * m);
@@ -85,8 +85,8 @@ TEST_CASE("the free mass follows the closed form of a damped oscillator, to firs
     device.lead({});
     double worst = 0.0;
     for (int i = 1; i <= 300; ++i) {
-      device.exchange({}, kDt);
-      const double t = i * kDt;
+      device.exchange({}, kForceDt);
+      const double t = i * kForceDt;
       const double exact = 1e-3 * std::exp(-a * t) * (std::cos(w * t) + a / w * std::sin(w * t));
       worst = std::max(worst, std::abs(device.exact_position_m().x - exact));
     }
@@ -103,7 +103,7 @@ TEST_CASE("positions are read in steps of 0.03 mm") {
   device.place({.position_m = Vec3(0.01234, -0.02345, 0.00456)});
   for (int i = 0; i < 50; ++i) {
     device.lead({.position_m = Vec3(0.01234, -0.02345, 0.00456), .velocity_m_per_s = Vec3(0.1, 0, 0)});
-    const ForceSample sample = device.exchange({}, kDt);
+    const ForceSample sample = device.exchange({}, kForceDt);
     for (int axis = 0; axis < 3; ++axis) {
       const double steps = sample.position_m[axis] / 0.03e-3;
       CHECK(std::abs(steps - std::round(steps)) < 1e-9);
@@ -117,7 +117,7 @@ TEST_CASE("the same seed and commands give the same bits, another seed another t
     SimulatedForceOptions o;
     o.seed = seed;
     SimulatedForceDevice device(o);
-    make_ready(device);
+    make_force_ready(device);
     return press(device, -2e-3, 800.0, 5000);
   };
   const auto first = run(7), again = run(7), other = run(8);
@@ -142,40 +142,41 @@ TEST_CASE("the tremor has the asked-for size") {
   double sum = 0.0;
   constexpr int kTicks = 200'000;
   for (int i = 0; i < kTicks; ++i) {
-    device.exchange({}, kDt);
+    device.exchange({}, kForceDt);
     sum += glm::dot(device.exact_position_m(), device.exact_position_m()) / 3.0;
   }
   CHECK(std::sqrt(sum / kTicks) == doctest::Approx(50e-6).epsilon(0.1));
 }
 
 TEST_CASE("the motors saturate at their peak") {
-  SimulatedForceDevice device(ideal());
-  make_ready(device);
-  const ForceSample sample = device.exchange({.force_n = Vec3(0, 300, 400)}, kDt);
+  SimulatedForceDevice device(ideal_force());
+  make_force_ready(device);
+  const ForceSample sample = device.exchange({.force_n = Vec3(0, 300, 400)}, kForceDt);
   CHECK(glm::length(sample.force_n) == doctest::Approx(8.5));
   CHECK(sample.force_n.y == doctest::Approx(8.5 * 0.6));
 }
 
 TEST_CASE("a faulted force device renders nothing until it is cleared and homed") {
   for (const DeviceFault fault : {DeviceFault::disconnected, DeviceFault::sensor, DeviceFault::actuator}) {
-    SimulatedForceDevice device(ideal());
-    make_ready(device);
+    SimulatedForceDevice device(ideal_force());
+    make_force_ready(device);
     device.inject(fault);
-    ForceSample sample = device.exchange({.force_n = Vec3(0, 0, 1)}, kDt);
+    ForceSample sample = device.exchange({.force_n = Vec3(0, 0, 1)}, kForceDt);
     CHECK(sample.state == DeviceState::faulted);
     CHECK(sample.fault == fault);
     CHECK(sample.force_n == Vec3(0.0));
-    sample = device.exchange({.force_n = Vec3(0, 0, 1), .request = DeviceRequest::home}, kDt);
+    sample = device.exchange({.force_n = Vec3(0, 0, 1), .request = DeviceRequest::home}, kForceDt);
     CHECK(sample.state == DeviceState::faulted);
-    CHECK(device.exchange({.request = DeviceRequest::clear_fault}, kDt).state == DeviceState::open);
-    CHECK(device.exchange({.request = DeviceRequest::home}, kDt).state == DeviceState::homing);
+    CHECK(device.exchange({.request = DeviceRequest::clear_fault}, kForceDt).state == DeviceState::open);
+    CHECK(device.exchange({.request = DeviceRequest::home}, kForceDt).state == DeviceState::homing);
   }
 }
 
 TEST_CASE("a command that is not finite faults the force device and moves nothing") {
-  SimulatedForceDevice device(ideal());
-  make_ready(device);
-  const ForceSample sample = device.exchange({.force_n = Vec3(0, std::numeric_limits<double>::quiet_NaN(), 0)}, kDt);
+  SimulatedForceDevice device(ideal_force());
+  make_force_ready(device);
+  const ForceSample sample =
+      device.exchange({.force_n = Vec3(0, std::numeric_limits<double>::quiet_NaN(), 0)}, kForceDt);
   CHECK(sample.fault == DeviceFault::bad_command);
   CHECK(sample.position_m == Vec3(0.0));
   CHECK(sample.force_n == Vec3(0.0));
@@ -183,23 +184,23 @@ TEST_CASE("a command that is not finite faults the force device and moves nothin
 
 TEST_CASE("a disconnected device repeats the last position it gave") {
   SimulatedForceDevice device;
-  make_ready(device);
+  make_force_ready(device);
   device.place({.position_m = Vec3(0.03, 0, 0)});
   device.lead({.position_m = Vec3(0.03, 0, 0), .velocity_m_per_s = Vec3(0.1, 0, 0)});
-  const Vec3 last = device.exchange({}, kDt).position_m;
+  const Vec3 last = device.exchange({}, kForceDt).position_m;
   device.inject(DeviceFault::disconnected);
-  for (int i = 0; i < 10; ++i) CHECK(device.exchange({}, kDt).position_m == last);
+  for (int i = 0; i < 10; ++i) CHECK(device.exchange({}, kForceDt).position_m == last);
 }
 
 TEST_CASE("dry friction holds a mass until the pull exceeds it, and brakes a free one evenly") {
-  SimulatedForceOptions o = ideal();
+  SimulatedForceOptions o = ideal_force();
   o.friction_n = 0.04;
   o.hand_damping_n_s_per_m = 0.0;
   SimulatedForceDevice device(o);
-  make_ready(device);
+  make_force_ready(device);
   const auto displaced_by = [&device](double force) {
     device.place({});
-    for (int i = 0; i < 50; ++i) device.exchange({.force_n = Vec3(force, 0, 0)}, kDt);
+    for (int i = 0; i < 50; ++i) device.exchange({.force_n = Vec3(force, 0, 0)}, kForceDt);
     return device.exact_position_m().x;
   };
   CHECK(displaced_by(0.039) == 0.0);
@@ -209,18 +210,18 @@ TEST_CASE("dry friction holds a mass until the pull exceeds it, and brakes a fre
   SimulatedForceDevice coasting(o);
   coasting.place({.velocity_m_per_s = Vec3(0.1, 0, 0)});
   coasting.lead({});
-  for (int i = 0; i < 100; ++i) coasting.exchange({}, kDt);
+  for (int i = 0; i < 100; ++i) coasting.exchange({}, kForceDt);
   CHECK(coasting.velocity_m_per_s().x == doctest::Approx(0.1 - 0.1 * 0.04 / 0.175).epsilon(1e-9));
-  for (int i = 0; i < 1000; ++i) coasting.exchange({}, kDt);
+  for (int i = 0; i < 1000; ++i) coasting.exchange({}, kForceDt);
   CHECK(coasting.velocity_m_per_s() == Vec3(0.0));
 }
 
 TEST_CASE("injected faults of the force device: named, and over after their time") {
   SimulatedForceDevice device;
-  make_ready(device);
+  make_force_ready(device);
   const auto sample = [&device] {
     device.lead({.position_m = device.exact_position_m(), .velocity_m_per_s = Vec3(0.1, 0, 0)});
-    return device.exchange({}, kDt);
+    return device.exchange({}, kForceDt);
   };
   for (int i = 0; i < 300; ++i) sample();
   for (const InjectedFault kind : {InjectedFault::delay_burst, InjectedFault::stuck_encoder}) {
@@ -229,7 +230,7 @@ TEST_CASE("injected faults of the force device: named, and over after their time
     for (int i = 1; i <= 10; ++i) {
       const ForceSample s = sample();
       CHECK(s.position_m == before);
-      CHECK(s.age_s == doctest::Approx(kind == InjectedFault::delay_burst ? i * kDt : 0.0));
+      CHECK(s.age_s == doctest::Approx(kind == InjectedFault::delay_burst ? i * kForceDt : 0.0));
     }
     const ForceSample after = sample();
     CHECK(after.age_s == 0.0);
@@ -244,9 +245,9 @@ TEST_CASE("injected faults of the force device: named, and over after their time
 
   device.inject({InjectedFault::drop_out, 3});
   CHECK(sample().fault == DeviceFault::disconnected);
-  CHECK(device.exchange({.request = DeviceRequest::clear_fault}, kDt).state == DeviceState::faulted);
-  CHECK(device.exchange({.request = DeviceRequest::clear_fault}, kDt).state == DeviceState::faulted);
-  CHECK(device.exchange({.request = DeviceRequest::clear_fault}, kDt).state == DeviceState::open);
+  CHECK(device.exchange({.request = DeviceRequest::clear_fault}, kForceDt).state == DeviceState::faulted);
+  CHECK(device.exchange({.request = DeviceRequest::clear_fault}, kForceDt).state == DeviceState::faulted);
+  CHECK(device.exchange({.request = DeviceRequest::clear_fault}, kForceDt).state == DeviceState::open);
 }
 
 TEST_CASE("faults are known by name") {
@@ -259,4 +260,22 @@ TEST_CASE("faults are known by name") {
   const auto wrong = injected_fault("gremlins");
   REQUIRE_FALSE(wrong);
   CHECK(wrong.error().remedy.find("stuck-encoder") != std::string::npos);
+}
+
+TEST_CASE("a device that measures velocity says it, but not while its encoders stand still or it is not heard") {
+  SimulatedForceDevice plain, tacho({.measures_velocity = true});
+  const auto lead = [](SimulatedForceDevice& device, int i) {
+    device.lead({.position_m = Vec3(1e-4 * i, 0.0, 0.0), .velocity_m_per_s = Vec3(0.1, 0.0, 0.0)});
+    return device.exchange({}, 1e-3);
+  };
+  ForceSample sample;
+  for (int i = 0; i < 500; ++i) {
+    CHECK_FALSE(lead(plain, i).velocity_m_per_s.has_value());
+    sample = lead(tacho, i);
+  }
+  REQUIRE(sample.velocity_m_per_s.has_value());
+  CHECK(*sample.velocity_m_per_s == tacho.velocity_m_per_s());
+  CHECK(sample.velocity_m_per_s->x == doctest::Approx(0.1).epsilon(0.05));
+  tacho.inject({InjectedFault::stuck_encoder, 3});
+  CHECK_FALSE(lead(tacho, 501).velocity_m_per_s.has_value());
 }

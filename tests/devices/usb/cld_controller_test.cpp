@@ -24,7 +24,8 @@ struct Bench {
   DisplaySample sample;
   std::vector<std::int32_t> sent;  ///< nm, all targets
 
-  // Watchdog and silence are for the tests that are about them: no other shall hang on the machine's load.
+  // Watchdog and silence time-outs only in the tests about them, so that the others do not depend on the machine's
+  // load.
   struct Setting {
     NodeBy by = NodeBy::shim;
     bool watchdog = false;
@@ -123,7 +124,7 @@ TEST_CASE("gains and limits reach the controller when they change, and one that 
   CHECK(gains().i_per_s3 == 12000.0);
   CHECK(gains().d_per_s == doctest::Approx(70.25));
   CHECK(gains().target_weight == doctest::Approx(0.75).epsilon(1e-4));
-  // Beyond the limit the firmware stays at it, whoever asks.
+  // The firmware clamps targets beyond the limit.
   CHECK(eventually([&] { return std::abs(b.exchange(9e-3).position_m - 4e-3) < 5e-6; }));
   b.device.unplug();
   REQUIRE(b.reach(DeviceState::absent));
@@ -214,7 +215,7 @@ TEST_CASE(
       return b.report().lost == kTimes * c.lost && b.report().frames + b.report().crc_errors >= b.model.telemetry_sent;
     }));
     const LinkReport r = b.report();
-    // Bytes of a rejected frame are looked through again, and may look like a frame once more.
+    // Bytes of a rejected frame are searched again, and may look like a frame once more.
     CHECK(r.crc_errors >= kTimes * c.crc_errors);
     CHECK((r.crc_errors > 0) == (c.crc_errors > 0));
     CHECK(r.lost == kTimes * c.lost);

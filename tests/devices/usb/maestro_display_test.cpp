@@ -1,4 +1,4 @@
-// The Maestro driver against an emulated one behind the real libusb.
+// The Maestro driver against an emulated Maestro behind the real libusb.
 #include "devices/maestro/maestro_display.h"
 
 #include "tests/devices/usb/emulation/maestro_model.h"
@@ -15,22 +15,22 @@ using namespace tangent::emulation;
 
 namespace {
 
-constexpr double kDt = 1e-3;
+constexpr double kTick_s = 1e-3;
 
-struct Bench {
+struct MaestroBench {
   Testbed testbed;
   MaestroModel model;
   PluggedDevice device{testbed, model, 7};
   MaestroDisplay display;
   DisplaySample sample;
 
-  Bench() : display({.channel = 0, .speed = 120, .acceleration = 9, .settle_s = 0.05}) {
+  MaestroBench() : display({.channel = 0, .speed = 120, .acceleration = 9, .settle_s = 0.05}) {
     device.plug_in();
     REQUIRE(display.open());
   }
-  ~Bench() { display.close(); }
+  ~MaestroBench() { display.close(); }
   const DisplaySample& exchange(double target = 0.0, DeviceRequest request = DeviceRequest::none) {
-    return sample = display.exchange({.target_m = target, .request = request}, kDt);
+    return sample = display.exchange({.target_m = target, .request = request}, kTick_s);
   }
   bool reach(DeviceState state) {
     return eventually([&] { return exchange().state == state; });
@@ -50,7 +50,7 @@ struct Bench {
 
 TEST_CASE(
     "the Maestro gets speed and acceleration, goes to the middle, and follows its target in quarter microseconds") {
-  Bench b;
+  MaestroBench b;
   b.make_ready();
   CHECK(b.seen([&] { return b.model.speeds[0]; }) == 120);
   CHECK(b.seen([&] { return b.model.accelerations[0]; }) == 9);
@@ -70,7 +70,7 @@ TEST_CASE(
 }
 
 TEST_CASE("10,000 ticks: the Maestro's targets come in order, and the last one arrives") {
-  Bench b;
+  MaestroBench b;
   b.make_ready();
   timespec due{};
   clock_gettime(CLOCK_MONOTONIC, &due);
@@ -93,7 +93,7 @@ TEST_CASE("10,000 ticks: the Maestro's targets come in order, and the last one a
 }
 
 TEST_CASE("a Maestro that is unplugged is absent, one that refuses every request is faulted, and both come back") {
-  Bench b;
+  MaestroBench b;
   b.make_ready();
   b.device.unplug();
   REQUIRE(b.reach(DeviceState::absent));

@@ -1,5 +1,5 @@
-// A whole session with a CLD controller on a cable: servo thread, link thread, gate. Faults on the cable take the force
-// away.
+// A whole session with a CLD controller on USB: servo thread, link thread, gate. Faults of the link switch the force
+// off.
 #include "workbench/session/session.h"
 
 #include "core/lab/objects/generate.h"
@@ -23,14 +23,14 @@ std::shared_ptr<const ContactScene> sphere() {
   return *scene;
 }
 
-struct Bench {
+struct SessionBench {
   Testbed testbed;
   CldModel model;
   PluggedDevice device{testbed, model, 4};
   std::unique_ptr<Session> session;
   std::vector<ServoRecord> records;
 
-  Bench() {
+  SessionBench() {
     model.watchdog_on = false;  // the gate is what is tested here
     device.plug_in();
     device.run();
@@ -42,7 +42,7 @@ struct Bench {
     session->attach_recorder();
     session->start();
   }
-  ~Bench() { session->shut_down(); }
+  ~SessionBench() { session->shut_down(); }
 
   void take() {
     session->poll();
@@ -52,7 +52,7 @@ struct Bench {
   bool armed_and_ready() {
     return eventually([&] {
       take();
-      // The machine under the tests is no real-time one: a late tick is a person's business, and the test is one.
+      // The test machine is not real-time, so late ticks occur: the test re-arms, as a person would.
       if (session->status().servo.gate_state == GateState::faulted) session->arm();
       return !records.empty() && records.back().device.display_state == DeviceState::ready &&
              records.back().device.gate_state == GateState::armed &&
@@ -84,7 +84,7 @@ struct Bench {
 }  // namespace
 
 TEST_CASE("a session with a CLD on USB keeps the clock's time, homes it and drives it") {
-  Bench b;
+  SessionBench b;
   REQUIRE(b.armed_and_ready());
   CHECK(b.session->options().servo.time_by_deadlines);
   CHECK(b.device.board.with_model([&] { return b.model.state(); }) == CldDeviceState::ready);
@@ -99,16 +99,16 @@ TEST_CASE(
     "re-arms") {
   struct Case {
     const char* name;
-    std::function<void(Bench&)> cause;
+    std::function<void(SessionBench&)> cause;
   };
   const Case cases[]{
-      {"unplugged", [](Bench& b) { b.device.unplug(); }},
-      {"silent", [](Bench& b) { b.device.board.with_model([&] { b.model.telemetry_on = false; }); }},
-      {"encoder stuck", [](Bench& b) { b.device.board.with_model([&] { b.model.encoder_stuck = true; }); }},
+      {"unplugged", [](SessionBench& b) { b.device.unplug(); }},
+      {"silent", [](SessionBench& b) { b.device.board.with_model([&] { b.model.telemetry_on = false; }); }},
+      {"encoder stuck", [](SessionBench& b) { b.device.board.with_model([&] { b.model.encoder_stuck = true; }); }},
   };
   for (const Case& c : cases) {
     CAPTURE(std::string(c.name));
-    Bench b;
+    SessionBench b;
     REQUIRE(b.armed_and_ready());
     const std::size_t from = b.records.size();
     c.cause(b);
@@ -119,7 +119,7 @@ TEST_CASE(
 }
 
 TEST_CASE("unplugged and plugged in again under a session, nothing moves until a person re-arms - then all goes on") {
-  Bench b;
+  SessionBench b;
   REQUIRE(b.armed_and_ready());
   b.device.unplug();
   REQUIRE(eventually([&] {

@@ -1,4 +1,4 @@
-// Waiting for things to happen in other threads, by count and content; a limit on time only ends a test that hangs.
+// Waiting for events in other threads, by count and content; the time limit only ends a test that hangs.
 #pragma once
 
 #include <doctest/doctest.h>

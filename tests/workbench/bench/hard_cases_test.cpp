@@ -13,7 +13,7 @@ using namespace tangent::bench;
 
 namespace {
 
-// More in the benchmark itself: `workbench bench --suite hard`. TANGENT_HARD_TICKS asks for another number here.
+// The benchmark runs more ticks: `workbench bench --suite hard`. TANGENT_HARD_TICKS sets their number here.
 int tick_count() {
   if (const char* wanted = std::getenv("TANGENT_HARD_TICKS")) return std::max(1, std::atoi(wanted));
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || !defined(__OPTIMIZE__)

@@ -1,10 +1,12 @@
 #include "workbench/bench/measure.h"
+#include "workbench/bench/report_json.h"
 
 #include "core/shading/render.h"
 
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <span>
 
 using namespace tangent;
 using namespace tangent::bench;
@@ -51,6 +53,9 @@ TEST_CASE("a scene's report has every method, its errors below the tolerance, an
   }
   REQUIRE_FALSE(scene.peers.empty());
   for (const PeerReport& peer : scene.peers) CHECK(peer.largest_disagreement_m < 1e-12);
+  CHECK(std::any_of(scene.peers.begin(), scene.peers.end(),
+                    [](const PeerReport& p) { return p.name == kEmbreeBounded; }));
+  CHECK(mean_per_bounded_query(scene, *scene.of(Method::robust)) > 0.0);
 }
 
 TEST_CASE("stopped, a scene has no report") {
@@ -105,5 +110,23 @@ TEST_CASE("the scale suite reports what loading and seeding cost and how much is
     REQUIRE(scene.reseeding);
     CHECK(scene.reseeding->unconverged() == 0);
     CHECK(scene.reseeding->count(TickEvent::reseed) >= 20);  // short leaps are followed
+  }
+}
+
+TEST_CASE("the cases for means are three balls under three fingers that touch them at every tick") {
+  const std::vector<BenchCase> cases = mean_cases();
+  REQUIRE(cases.size() == 9);
+  for (const BenchCase& c : std::span(cases).first(3)) {
+    CAPTURE(c.name);
+    const auto scene = build_scene(c);
+    REQUIRE(scene);
+    CHECK((*scene)->mesh().triangle_count() == 1280);
+    const auto poses = c.poses(**scene, c.preset.finger, 50);
+    REQUIRE(poses);
+    Preset preset = c.preset;
+    preset.solver.method = Method::robust;
+    Stepper stepper(*scene);
+    TickState state;
+    for (const TickInput& input : *poses) CHECK(stepper.step(preset, input, state).penetration_m > 0.9e-3);
   }
 }

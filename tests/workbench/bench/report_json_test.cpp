@@ -31,6 +31,9 @@ SceneReport scene_report() {
   scene.evaluation.alone_ns = 50.0;
   scene.methods = {method_report(Method::paper, 400.0), method_report(Method::robust, 100.0)};
   scene.peers.push_back({"embree closest point", 0.0, {}, 0.0});
+  scene.peers.push_back({kEmbreeBounded, 0.0, {}, 0.0});
+  scene.peers.back().ns.mean = 50.0;
+  for (MethodReport& m : scene.methods) m.run.ns.mean = 2.0 * m.typical_ns;
   return scene;
 }
 
@@ -58,11 +61,13 @@ TEST_CASE("the report has its keys, units converted") {
     CHECK(scene.contains(key));
   CHECK(scene["memory_bytes_per_triangle"] == 200.0);
   const auto& robust = scene["methods"][1];
-  for (const char* key : {"method", "ticks", "unconverged", "events", "tick_ns", "seeding_tick_ns",
-                          "iterations_without_event", "ticks_per_evaluation", "ticks_per_paper_tick",
-                          "error_from_own_converged", "error_from_robust_converged", "closed_path_work", "allocations"})
+  for (const char* key :
+       {"method", "ticks", "unconverged", "events", "tick_ns", "seeding_tick_ns", "iterations_without_event",
+        "ticks_per_evaluation", "ticks_per_paper_tick", "mean_per_bounded_query", "error_from_own_converged",
+        "error_from_robust_converged", "closed_path_work", "allocations"})
     CHECK(robust.contains(key));
   CHECK(robust["typical_tick_ns"] == 100.0);
+  CHECK(robust["mean_per_bounded_query"].get<double>() == doctest::Approx(4.0));
   for (const char* key : {"p50", "p99", "p99_9", "worst"}) CHECK(robust["tick_ns"].contains(key));
   for (const char* key : {"first", "reseed", "switch", "branch"}) CHECK(robust["events"].contains(key));
   CHECK(robust["error_from_robust_converged"]["contact_um"]["p99"].get<double>() == doctest::Approx(2.0));

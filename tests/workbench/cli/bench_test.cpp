@@ -35,6 +35,20 @@ TEST_CASE("bench prints a table and writes JSON and a plot") {
   CHECK(folder.entry_count() == 2);
 }
 
+TEST_CASE("the strokes of the paper's participants take two to three planes a tick with the gains stated") {
+  const TempFolder folder;
+  const ProcessResult result = run_workbench({"bench", "--suite", "strokes", "--only", "cube_strokes", "--ticks",
+                                              "5000", "--repeats", "1", "--json", folder.file("b.json")});
+  REQUIRE(result.exit_code == 0);
+  CHECK(contains(result.out, "G_k 19 mm"));
+  CHECK(contains(result.out, "strokes suite: paper takes "));
+  CHECK(contains(result.out, " over 1 objects"));
+  const auto json = nlohmann::json::parse(read_text(folder.file("b.json")));
+  REQUIRE(json["scenes"].size() == 1);
+  CHECK(json["scenes"][0]["methods"][0]["method"] == "paper");
+  CHECK(json["scenes"][0]["methods"][0]["gain_curvature_m"] == 0.019);
+}
+
 TEST_CASE("bench runs real meshes from folders and says what is wrong with them") {
   const TempFolder folder;
   std::filesystem::create_directory(folder.path() / "meshes");

@@ -1,4 +1,4 @@
-// workbench figures, run as a process: the data are the figures' own claims.
+// workbench figures, run as a process: checks the claims of the figures on their data.
 #include "workbench/cli/figures.h"
 #include "tests/support/process.h"
 #include "workbench/cli/figure_table.h"
@@ -38,8 +38,9 @@ TEST_CASE("figures writes every figure as SVG with its CSV, and the curvature ta
   const ProcessResult result = run_workbench({"figures", "--out", out});
   CAPTURE(result.err);
   REQUIRE(result.exit_code == 0);
-  for (const char* name : {"fig04-contact-location", "fig06-iterations", "fig15-patches", "fig17-local-centre",
-                           "conditions-at-threshold", "conditions-five-segments", "curvature-deviation"}) {
+  for (const char* name :
+       {"fig04-contact-location", "fig06-iterations", "fig15-patches", "fig17-local-centre", "conditions-at-threshold",
+        "conditions-five-segments", "curvature-deviation", "inner-corner"}) {
     CAPTURE(name);
     CHECK(contains(read_text(out + "/" + name + ".svg"), "</svg>"));
     CHECK(rows_of(out + "/" + name + ".csv").size() > 3);

@@ -1,7 +1,10 @@
 // workbench make, run as a process.
+#include "core/io/polygon_io.h"
 #include "tests/support/process.h"
 
 #include <doctest/doctest.h>
+
+#include <cmath>
 
 using namespace tangent::testing;
 
@@ -32,6 +35,44 @@ TEST_CASE("options shape the object") {
   CHECK(made({"cube"}).size() < made({"cube", "--rounding-mm", "1.5"}).size());
   CHECK(made({"cone", "--facing", "left"}) != made({"cone", "--facing", "right"}));
   CHECK(made({"cube", "--unit", "mm"}) != made({"cube", "--unit", "m"}));
+}
+
+TEST_CASE("the arc of the paper is 0.902 rad of a circle of 100 mm radius, in either format and placement") {
+  const TempFolder folder;
+  const auto arc = [&](const std::string& name, std::vector<std::string> options) {
+    options.insert(options.begin(), {"make", "arc", "--out", folder.file(name)});
+    const ProcessResult made = run_workbench(options);
+    REQUIRE(made.exit_code == 0);
+    CHECK(contains(made.out, "0.902 rad of a circle of 100 mm radius"));
+    CHECK(tangent::is_planar_file(folder.file(name)));
+    const auto polygon = tangent::read_polygon(folder.file(name), 1e-3);
+    REQUIRE(polygon);
+    return polygon->vertices;
+  };
+  const auto turn = [](const std::vector<tangent::Vec2>& v, std::size_t from, std::size_t to) {
+    return std::atan2(v[from].x, v[from].y) - std::atan2(v[to].x, v[to].y);
+  };
+  const auto tangent_arc = arc("a.csv", {});
+  REQUIRE(tangent_arc.size() == 8);  // five facets and one more at either end
+  for (std::size_t i = 0; i + 1 < 8; ++i)
+    CHECK(glm::length(0.5 * (tangent_arc[i] + tangent_arc[i + 1])) == doctest::Approx(0.1).epsilon(1e-12));
+  // From the middle of the first facet to that of the last.
+  CHECK(-turn(tangent_arc, 1, 5) == doctest::Approx(0.902).epsilon(1e-12));
+  const auto inscribed = arc("b.obj", {"--segments", "9", "--placement", "inscribed"});
+  REQUIRE(inscribed.size() == 12);
+  for (const tangent::Vec2& v : inscribed) CHECK(glm::length(v) == doctest::Approx(0.1).epsilon(1e-12));
+  CHECK(-turn(inscribed, 1, 10) == doctest::Approx(0.902).epsilon(1e-12));
+  const auto in_metres = arc("c.obj", {"--unit", "m"});
+  CHECK(in_metres[0].x == doctest::Approx(1e-3 * tangent_arc[0].x).epsilon(1e-12));  // read as millimetres
+  for (const std::vector<std::string>& wrong : {std::vector<std::string>{"arc", "--segments", "1"},
+                                                {"arc", "--segments", "10001"},
+                                                {"arc", "--rounding-mm", "1"},
+                                                {"cube", "--placement", "tangent"}}) {
+    std::vector<std::string> arguments{"make", "--out", folder.file("wrong.csv")};
+    arguments.insert(arguments.end(), wrong.begin(), wrong.end());
+    CHECK(run_workbench(arguments).exit_code == 2);
+  }
+  CHECK(folder.entry_count() == 3);
 }
 
 TEST_CASE("an object that does not exist is wrong usage and nothing is written") {

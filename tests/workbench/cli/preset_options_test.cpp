@@ -1,4 +1,4 @@
-// Every value of a preset can be set on the command line, by what its row of the schema says and nothing else.
+// Every value of a preset can be set on the command line, with only its row of the schema.
 #include "workbench/cli/preset_options.h"
 
 #include "core/base/text.h"
@@ -6,6 +6,7 @@
 #include "workbench/session/unit_labels.h"
 
 #include <doctest/doctest.h>
+#include <CLI/CLI.hpp>
 
 #include <optional>
 

@@ -1,4 +1,4 @@
-// The program's manners: exit codes, help, and arguments that make no sense.
+// The program's conventions: exit codes, help, and invalid arguments.
 #include "core/preset/schema.h"
 #include "tests/support/process.h"
 
@@ -93,4 +93,65 @@ TEST_CASE("an output that would overwrite an input or another output is refused"
                                folder.file("../") + folder.path().filename().string() + "/m.obj"}),
                 "--out: names the same file as MESH");
   CHECK(read_text(mesh) == "v 0 0 0\n");
+}
+
+namespace {
+
+/// The program alone in a folder, as someone would copy it.
+std::string copied_program(const TempFolder& folder) {
+  const std::string program = folder.file("workbench");
+  std::filesystem::copy_file(TANGENT_PROGRAM, program);
+  return program;
+}
+
+}  // namespace
+
+TEST_CASE("the program loads no graphics: those belong to the window's own") {
+  const Process ldd({TANGENT_PROGRAM}, "/usr/bin/ldd");
+  const ProcessResult loaded = ldd.wait();
+  REQUIRE(loaded.exit_code == 0);
+  CHECK(contains(loaded.out, "libembree3"));
+  for (const char* library : {"libglfw", "libX11", "libGL", "libEGL", "libepoxy", "libfreetype", "libimgui"}) {
+    CAPTURE(library);
+    CHECK_FALSE(contains(loaded.out, library));
+  }
+}
+
+TEST_CASE("gui and shot become the program beside this one, with the same arguments and its exit code") {
+  const TempFolder folder;
+  const std::string program = copied_program(folder);
+  const std::string window = folder.write("workbench-window", "#!/bin/sh\necho window \"$@\"\nexit 7\n");
+  std::filesystem::permissions(window, std::filesystem::perms::owner_all);
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"gui", "a mesh.obj", "--servo-hz", "500"}, {"shot", "--view", "list"}, {}}) {
+    std::string expected = "window";
+    for (const std::string& argument : arguments) expected += " " + argument;
+    const ProcessResult result = Process(arguments, program).wait();
+    CHECK(result.exit_code == 7);
+    CHECK(result.out == expected + "\n");
+  }
+  CHECK(Process({"--version"}, program).wait().exit_code == 0);
+  // Through a link from elsewhere it still finds what lies beside the file itself.
+  const TempFolder elsewhere;
+  std::filesystem::create_symlink(program, elsewhere.file("workbench"));
+  CHECK(Process({"gui"}, elsewhere.file("workbench")).wait().exit_code == 7);
+}
+
+TEST_CASE("without the window's program gui and shot say what is missing, and the rest works") {
+  const TempFolder folder;
+  const std::string program = copied_program(folder);
+  for (const char* command : {"gui", "shot"}) {
+    const ProcessResult result = Process({command}, program).wait();
+    CHECK(result.exit_code == 1);
+    CHECK(contains(result.err, "workbench " + std::string(command) + ": "));
+    CHECK(contains(result.err, "/workbench-window: can't be started: No such file or directory; "));
+    CHECK(contains(result.err, "belongs beside this one"));
+  }
+  const ProcessResult alone = Process({}, program).wait();
+  CHECK(alone.exit_code == 0);
+  CHECK(contains(alone.out, "The built-in scene"));
+  CHECK(Process({"make", "cube", "--out", folder.file("cube.obj")}, program).wait().exit_code == 0);
+  const ProcessResult help = Process({"--help"}, program).wait();
+  CHECK(contains(help.out, "gui"));
+  CHECK(contains(help.out, "shot"));
 }

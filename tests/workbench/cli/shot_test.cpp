@@ -2,6 +2,7 @@
 #ifdef TANGENT_HAS_GUI
 #include "tests/support/process.h"
 #include "workbench/gui/platform/offscreen.h"
+#include "workbench/gui/platform/window_shots.h"
 
 #include <doctest/doctest.h>
 
@@ -86,6 +87,28 @@ TEST_CASE("the window is drawn without a display, plots filled, the same every t
   const std::string picture = read_text(folder.file("a.png"));
   CHECK(picture.size() > 30000);
   CHECK(picture == read_text(folder.file("b.png")));
+}
+
+TEST_CASE("the window on two triangles, whose contact never leans as the picture wants it, takes less than 250 MB") {
+  if (no_gl()) return;
+  const TempFolder folder;
+  const std::string plate = folder.write("plate.obj", "v 0 0 0\nv 40 0 0\nv 40 40 0\nv 0 40 0\nf 1 2 3\nf 1 3 4\n");
+  const ProcessResult done = run_workbench({"shot", plate, "--view", "overview", "--out", folder.file("a.png")});
+  CHECK(done.exit_code == 0);
+  MESSAGE("peak " << done.peak_kb / 1000 << " MB");
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+  CHECK(done.peak_kb < 250000);
+#endif
+}
+
+TEST_CASE("a contact that was never in view is not waited for, one that has left it is, for so long") {
+  for (const bool seen : {false, true})
+    for (const bool in_view : {false, true}) CHECK(explores_on(11950, seen, in_view));
+  CHECK_FALSE(explores_on(12000, false, false));
+  CHECK_FALSE(explores_on(12000, true, true));
+  CHECK(explores_on(12000, true, false));
+  CHECK(explores_on(23950, true, false));
+  CHECK_FALSE(explores_on(24000, true, false));
 }
 
 TEST_CASE("shot says what is wrong with a mesh or a target, and leaves nothing behind") {

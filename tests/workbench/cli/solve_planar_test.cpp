@@ -50,6 +50,8 @@ TEST_CASE("solve takes a CSV polygon as it takes a mesh, with every method, and 
     CHECK(contains(out.out, "101 ticks on arc.csv (open polygon, 5 vertices)"));
     const auto summary = nlohmann::json::parse(read_text(scene.folder.file("s.json")));
     CHECK(summary.at("scene").at("dimensions") == 2);
+    CHECK(summary.at("mesh").is_null());
+    CHECK(summary.at("scene").at("memory_bytes") > 0);
     CHECK(summary.at("statuses").at("free") == 0);
     CHECK(summary.at("statuses").at("unconverged") == 0);
     const auto row = fields_of(read_text(scene.ticks), 51);  // above the middle vertex

@@ -1,4 +1,4 @@
-// workbench solve, run as a process: its files, its options, and what becomes of bad ones.
+// workbench solve, run as a process: its files, its options, and errors for bad ones.
 #include "core/io/ticks_file.h"
 #include "tests/support/process.h"
 
@@ -30,12 +30,12 @@ Rows read_csv(const std::string& path) {
 }
 
 /// A folder with a sphere of 40 mm and a finger of 20 mm that slides over it, 1 mm deep.
-struct Scene {
+struct SolveScene {
   TempFolder folder;
   std::string mesh = folder.file("sphere.obj");
   std::string poses;
 
-  explicit Scene(int count = 200) {
+  explicit SolveScene(int count = 200) {
     REQUIRE(run_workbench({"make", "icosphere", "--out", mesh}).exit_code == 0);
     std::ostringstream text;
     text.precision(17);
@@ -71,7 +71,7 @@ std::size_t column(const std::string& name) {
 }  // namespace
 
 TEST_CASE("every pose becomes a line, in order, converged, with the promised columns") {
-  const Scene scene;
+  const SolveScene scene;
   const ProcessResult result = scene.solve();
   CAPTURE(result.err);
   REQUIRE(result.exit_code == 0);
@@ -96,7 +96,7 @@ TEST_CASE("every pose becomes a line, in order, converged, with the promised col
 }
 
 TEST_CASE("the summary agrees with the ticks") {
-  const Scene scene;
+  const SolveScene scene;
   REQUIRE(scene.solve({"--summary", scene.folder.file("summary.json")}).exit_code == 0);
   const nlohmann::json summary = scene.summary();
   const Rows rows = scene.ticks();
@@ -119,8 +119,28 @@ TEST_CASE("the summary agrees with the ticks") {
   CHECK(summary["mesh"]["triangles"] == 320);
 }
 
+TEST_CASE("a run by facets holds less than one by a smooth method, and C1 reports the facets' contact") {
+  const SolveScene scene(50);
+  const auto run = [&](std::vector<std::string> options) {
+    options.insert(options.end(), {"--summary", scene.folder.file("summary.json")});
+    REQUIRE(scene.solve(options).exit_code == 0);
+    return scene.ticks();
+  };
+  run({"--method", "robust"});
+  const double smooth = scene.summary()["scene"]["memory_bytes"].get<double>();
+  const Rows facet = run({"--method", "facet"});
+  CHECK(scene.summary()["scene"]["memory_bytes"].get<double>() < smooth);
+  const Rows c1 = run({"--method", "robust", "--condition", "C1"});
+  CHECK(scene.summary()["scene"]["memory_bytes"].get<double>() < smooth);
+  for (std::size_t i = 1; i < c1.size(); ++i) {
+    for (const char* name :
+         {"triangle", "normal_x", "normal_y", "normal_z", "penetration_m", "force_x_n", "iterations"})
+      CHECK(c1[i][column(name)] == facet[i][column(name)]);
+  }
+}
+
 TEST_CASE("the trace has the planes that the ticks counted") {
-  const Scene scene(20);
+  const SolveScene scene(20);
   REQUIRE(scene.solve({"--iterations", scene.folder.file("iterations.csv")}).exit_code == 0);
   const Rows trace = read_csv(scene.folder.file("iterations.csv"));
   const Rows ticks = scene.ticks();
@@ -134,7 +154,7 @@ TEST_CASE("the trace has the planes that the ticks counted") {
   }
   CHECK(last_stop == "converged");
   // The same ticks, traced or not.
-  const Scene untraced(20);
+  const SolveScene untraced(20);
   REQUIRE(untraced.solve().exit_code == 0);
   Rows plain = untraced.ticks();
   REQUIRE(plain.size() == ticks.size());
@@ -145,7 +165,7 @@ TEST_CASE("the trace has the planes that the ticks counted") {
 }
 
 TEST_CASE("options override the preset file, which overrides the built-in values") {
-  const Scene scene(20);
+  const SolveScene scene(20);
   const std::string preset = scene.folder.write("p.toml",
                                                 "[solver]\nmethod = \"newton\"\ntolerance_m = 5e-7\n[finger]\nshape = "
                                                 "\"point\"\n[force]\nstiffness_n_per_m = 100\n");
@@ -168,14 +188,14 @@ TEST_CASE("options override the preset file, which overrides the built-in values
 }
 
 TEST_CASE("a radius of zero is a point finger") {
-  const Scene scene(20);
+  const SolveScene scene(20);
   REQUIRE(scene.solve({"--finger-radius-mm", "0", "--summary", scene.folder.file("summary.json")}).exit_code == 0);
   CHECK(scene.summary()["preset"]["values"]["finger"]["shape"] == "point");
   CHECK(scene.ticks()[1][column("status")] == "free");
 }
 
 TEST_CASE("bad files are named, leave with 1 and leave nothing behind") {
-  const Scene scene(5);
+  const SolveScene scene(5);
   const auto check_failed = [&](const ProcessResult& result, const std::string& message) {
     CHECK(result.exit_code == 1);
     CAPTURE(result.err);
@@ -205,6 +225,9 @@ TEST_CASE("bad files are named, leave with 1 and leave nothing behind") {
     check_failed(with_poses("t_s,x_m,y_m,z_m\n0,0,0\n"), "bad.csv:2: only 3 columns");
     check_failed(with_poses(""), "bad.csv: the file is empty");
     check_failed(with_poses("t_s,x_m,y_m,z_m\n"), "bad.csv: no poses");
+    check_failed(with_poses("t_s,x_m,y_m,z_m\n0,0,0,0\n1e-7,0,0,0\n"), "bad.csv:3: t_s increases by only 1e-07");
+    check_failed(run_workbench({"solve", scene.mesh, "--poses", "/dev/zero", "--out", scene.folder.file("ticks.csv")}),
+                 "/dev/zero:1: holds a zero byte");
   }
   SUBCASE("meshes") {
     check_failed(run_workbench({"solve", scene.folder.file("none.obj"), "--poses", scene.poses, "--out",
@@ -216,8 +239,19 @@ TEST_CASE("bad files are named, leave with 1 and leave nothing behind") {
   }
 }
 
+TEST_CASE("a finger a thousand times larger than the mesh is solved for and remarked on") {
+  const SolveScene scene(50);
+  const ProcessResult result =
+      scene.solve({"--fit-mm", "1", "--finger-radius-mm", "1000", "--summary", scene.folder.file("summary.json")});
+  CHECK(result.exit_code == 0);
+  CHECK(contains(result.out, "note: the finger reaches 1000 mm, 1000 times the mesh's longest side of 1 mm"));
+  REQUIRE(scene.summary()["mesh"]["notes"].size() == 1);
+  CHECK(contains(scene.summary()["mesh"]["notes"][0].get<std::string>(), "check --unit or --fit-mm"));
+  CHECK(scene.summary()["ticks"] == 50);
+}
+
 TEST_CASE("an output that can't be written is named before any work and nothing is left") {
-  const Scene scene(5);
+  const SolveScene scene(5);
   const std::size_t before = scene.folder.entry_count();
   const auto run = [&](const std::string& out, const std::vector<std::string>& more) {
     std::vector<std::string> arguments{"solve", scene.mesh, "--poses", scene.poses, "--out", out};

@@ -77,9 +77,10 @@ std::shared_ptr<const ContactScene> scene_of_object(const std::string& object) {
 RunScore score(const std::shared_ptr<const ContactScene>& scene, Preset preset, Method method) {
   preset.solver.method = method;
   Stepper stepper(scene);
-  const ExplorationPoses explored = exploration_poses(*scene, preset.finger);
-  CHECK(explored.whole);
-  return score_run(stepper, preset, explored.poses);
+  const auto explored = exploration_poses(*scene, preset.finger, ExplorationKind::around, ExplorationPace::varied);
+  REQUIRE(explored);
+  CHECK(explored->whole());
+  return score_run(stepper, preset, explored->poses);
 }
 
 /// What a shipped preset says it measured is what comes out.
@@ -207,23 +208,95 @@ TEST_CASE("Ctrl-C keeps the best gains so far and leaves with 1") {
   CHECK(folder.entry_count() == 2);
 }
 
-TEST_CASE("exploration poses are the same every time, 1 ms and 0.1 mm apart, and press") {
+TEST_CASE("exploration poses are the same every time, 1 ms apart, and press, at the speed and depth of their pace") {
   const auto scene = scene_of_object("cube");
   const Finger finger;
-  const ExplorationPoses a = exploration_poses(*scene, finger), b = exploration_poses(*scene, finger);
-  REQUIRE(a.poses.size() == b.poses.size());
-  CHECK(a.whole);
-  CHECK(a.press_m == kExplorationPress);
-  double length = 0.0;
-  for (std::size_t i = 0; i < a.poses.size(); ++i) {
-    CHECK(a.poses[i].finger.position == b.poses[i].finger.position);
-    if (i == 0) continue;
-    length += glm::length(a.poses[i].finger.position - a.poses[i - 1].finger.position);
-    CHECK(a.poses[i].t_s - a.poses[i - 1].t_s == doctest::Approx(1e-3));
+  for (const ExplorationKind kind : {ExplorationKind::around, ExplorationKind::strokes}) {
+    for (const ExplorationPace pace : {ExplorationPace::steady, ExplorationPace::varied}) {
+      const auto a = exploration_poses(*scene, finger, kind, pace), b = exploration_poses(*scene, finger, kind, pace);
+      REQUIRE(a);
+      REQUIRE(a->poses.size() == b->poses.size());
+      CHECK(a->whole());
+      CHECK(a->press_m == kExplorationPress);
+      double slowest = 1.0, fastest = 0.0;
+      constexpr std::size_t kStretch = 20;  // ticks: corners of the path are rounded within less
+      for (std::size_t i = kStretch; i < a->poses.size(); ++i) {
+        CHECK(a->poses[i].finger.position == b->poses[i].finger.position);
+        CHECK(a->poses[i].t_s - a->poses[i - 1].t_s == doctest::Approx(1e-3));
+        double length = 0.0;
+        for (std::size_t j = i - kStretch + 1; j <= i; ++j)
+          length += glm::length(a->poses[j].finger.position - a->poses[j - 1].finger.position);
+        slowest = std::min(slowest, length / (1e-3 * kStretch));
+        fastest = std::max(fastest, length / (1e-3 * kStretch));
+      }
+      MESSAGE(std::string(kExplorationNames[static_cast<std::size_t>(kind)])
+              << ": " << slowest << " to " << fastest << " m/s");
+      const bool varied = pace == ExplorationPace::varied;
+      CHECK(slowest == doctest::Approx(varied ? 0.05 : 0.1).epsilon(0.2));
+      CHECK(fastest == doctest::Approx(varied ? 0.15 : 0.1).epsilon(0.2));
+    }
   }
-  const double speed = length / a.poses.back().t_s;
-  CHECK(speed > 0.09);
-  CHECK(speed < 0.11);
+}
+
+TEST_CASE("the varied pace goes over all depths from 0.4 to 1.6 mm, at every speed") {
+  const auto scene = scene_of_object("sphere");
+  const Finger finger;
+  const auto explored = exploration_poses(*scene, finger, ExplorationKind::strokes, ExplorationPace::varied);
+  REQUIRE(explored);
+  std::map<std::pair<int, int>, int> met;  // deep or shallow, fast or slow
+  double deepest = 0.0, shallowest = 1.0;
+  for (std::size_t i = 1; i < explored->poses.size(); ++i) {
+    const Vec3 at = explored->poses[i].finger.position, from = explored->poses[i - 1].finger.position;
+    const double depth = finger.radius_m - scene->nearest().nearest(at - scene->mesh().origin(), 1.0).distance_m;
+    deepest = std::max(deepest, depth);
+    shallowest = std::min(shallowest, depth);
+    ++met[{depth > 1e-3, glm::length(at - from) > 1e-4}];
+  }
+  CHECK(deepest == doctest::Approx(1.6e-3).epsilon(0.03));
+  CHECK(shallowest == doctest::Approx(0.4e-3).epsilon(0.05));
+  for (const int deep : {0, 1})
+    for (const int fast : {0, 1}) CHECK(met[{deep, fast}] > static_cast<int>(explored->poses.size()) / 10);
+}
+
+TEST_CASE("a varied depth tells the gain of the distance from the overall one, a constant depth hardly does") {
+  const auto scene = scene_of_object("cube");
+  const auto mean = [&](ExplorationPace pace, const Gains& gains) {
+    Preset preset;
+    preset.solver = with_gains(preset.solver, gains);
+    preset.solver.method = Method::paper;
+    Stepper stepper(scene);
+    const auto explored = exploration_poses(*scene, preset.finger, ExplorationKind::strokes, pace);
+    REQUIRE(explored);
+    return score_run(stepper, preset, explored->poses).mean_iterations();
+  };
+  // Eq. 1 divides G_o by 1 + G_d d: at d = 1 mm these two are the same.
+  const Gains without{1.0, 0.019, 0.0}, with{1.1, 0.019, 100.0};
+  const double constant = std::abs(mean(ExplorationPace::steady, without) - mean(ExplorationPace::steady, with)),
+               varied = std::abs(mean(ExplorationPace::varied, without) - mean(ExplorationPace::varied, with));
+  MESSAGE("the same factor at 1 mm by G_o alone or with G_d: " << constant << " planes apart at constant depth, "
+                                                               << varied << " at varied");
+  CHECK(varied > 2.0 * constant);
+}
+
+TEST_CASE("tune explores in strokes where asked, and says so in the preset") {
+  const TuneFolder t;
+  const ProcessResult result = t.tune({"--path", "strokes"});
+  CAPTURE(result.err);
+  REQUIRE(result.exit_code == 0);
+  const PresetFile file = read(t.preset);
+  const Claims claims(file.about);
+  CHECK(contains(claims.texts.at("command"), " --path strokes"));
+  CHECK(contains(claims.texts.at("poses"), "strokes, 0.05 to 0.15 m/s, 0.4 to 1.6 mm deep"));
+  CHECK(claims.numbers.at("unconverged_ticks") == 0.0);
+  const TempFolder folder;
+  const std::string torus = folder.file("torus.obj");
+  REQUIRE(run_workbench({"make", "torus", "--out", torus}).exit_code == 0);
+  const ProcessResult hole =
+      run_workbench({"tune", torus, "--path", "strokes", "--finger-radius-mm", "2", "--out", folder.file("p.toml")});
+  CHECK(hole.exit_code == 1);
+  CHECK(contains(hole.err, "explore it around instead of in strokes"));
+  CHECK(folder.entry_count() == 1);
+  CHECK(t.tune({"--path", "zigzag"}).exit_code == 2);
 }
 
 TEST_CASE("presets of the paper's objects measure what they say") {

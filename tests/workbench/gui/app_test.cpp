@@ -1,4 +1,4 @@
-// The window driven like a user would, without a window. Model state is what counts.
+// The window's frames without a window, driven like a user would. Checks the model's state.
 #include "tests/workbench/gui/running_app.h"
 
 #include "tests/support/temp_folder.h"

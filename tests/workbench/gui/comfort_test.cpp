@@ -1,4 +1,4 @@
-// What makes the window pleasant: everything explains itself, everything has a name, nothing is forgotten.
+// Usability: every control has a tooltip and a name, and settings are remembered.
 #include "tests/workbench/gui/headless_app.h"
 
 #include "tests/support/temp_folder.h"
@@ -24,7 +24,7 @@ const ImGuiWindow* shown_tooltip() {
 }
 bool a_tooltip_shows() { return shown_tooltip() != nullptr; }
 
-/// Everything interactive that the frame showed, and does not explain itself when the pointer rests on it.
+/// Interactive items of the frame without a tooltip when the pointer rests on them.
 std::set<std::string> without_tooltip(HeadlessApp& ui) {
   std::map<std::string, ImVec2> places;
   for (const auto& [path, rect] : ui.app().items().all()) {
@@ -51,7 +51,7 @@ TEST_CASE("everything in the window explains itself when the pointer rests on it
   ui.model().map().on = true;
   ui.model().presets().set_value(*find_preset_key("solver", "method"), static_cast<double>(Method::paper));
   ui.frames(2);
-  // The view itself is where one works; a tooltip would be in the way. Plots and the table show their values instead.
+  // The view is the work area, where a tooltip would be in the way. Plots and the table show their values instead.
   std::set<std::string> silent = without_tooltip(ui);
   std::erase_if(silent, [](const std::string& path) {
     return path == "view" || path.starts_with("plots/") || path.starts_with("toast/") ||

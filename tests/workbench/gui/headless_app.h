@@ -1,5 +1,5 @@
-// An App without window, GL or renderer, and a hand on its mouse and keys. Press, move and release last a frame each,
-// written before NewFrame: ImGui 1.86 has no event queue.
+// An App without window, GL or renderer, with simulated mouse and keys. Press, move and release take a frame each and
+// are written before NewFrame: ImGui 1.86 has no event queue.
 #pragma once
 
 #include "workbench/gui/app.h"

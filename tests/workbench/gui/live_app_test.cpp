@@ -1,4 +1,4 @@
-// The window with a servo thread and workers of its own, as it really runs. Nothing here depends on how fast.
+// The window with its servo and worker threads, as in real use. Nothing here depends on their speed.
 #include "tests/workbench/gui/headless_app.h"
 
 #include "tests/support/meshes.h"

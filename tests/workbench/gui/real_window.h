@@ -1,6 +1,5 @@
-// The program's real window on a display of its own (Xvfb), driven with xdotool. Scripts wait for what the window's
-// title says (mesh, preset, whether it is changed, the time in view) instead of sleeping for as long as a quick machine
-// needs.
+// The program's real window on a virtual display (Xvfb), driven with xdotool. Scripts wait for the window's title
+// (mesh, preset, whether it is changed, the time in view) instead of sleeping for a fixed time.
 #pragma once
 
 #include <filesystem>
@@ -9,25 +8,25 @@
 
 namespace tangent::test {
 
-/// Xvfb and xdotool are there.
+/// Whether Xvfb and xdotool are installed.
 bool can_drive_windows();
 
 /// An empty folder of that name among the temporary ones.
 std::filesystem::path fresh_folder(const char* name);
 
-/// A script for the window. Where to click is asked of the same layout built without a window: see HeadlessApp.
+/// A script for the window. Positions to click come from the same layout built without a window: see HeadlessApp.
 class WindowScript {
  public:
   WindowScript& line(const std::string& shell);
-  WindowScript& keys(const std::string& names);  ///< as xdotool names them, with blanks between
+  WindowScript& keys(const std::string& names);  ///< xdotool's names, separated by blanks
   WindowScript& type(const std::string& text);
   WindowScript& click(float x, float y);
   WindowScript& drag(float x, float y, float dx, float dy);
-  WindowScript& wheel(float x, float y, int notches);  ///< up for more than 0
-  /// Until the title matches this grep pattern; the script ends with 5 when that takes too long. Every wait has to
-  /// change something: what matches already is passed at once.
+  WindowScript& wheel(float x, float y, int notches);  ///< positive: up
+  /// Waits until the title matches this grep pattern; the script exits with 5 when that takes too long. Use a pattern
+  /// that does not match yet, or it does not wait.
   WindowScript& until_title(const std::string& pattern);
-  WindowScript& until_there(const std::string& pattern);  ///< a file, by a shell pattern; ends with 6
+  WindowScript& until_there(const std::string& pattern);  ///< waits for a file, by a shell pattern; exits with 6
   const std::string& text() const { return text_; }
 
  private:
@@ -39,11 +38,11 @@ struct WindowRun {
   std::string arguments;             ///< after `workbench gui`
   std::string shown = "^icosphere";  ///< the title when it is ready
   int width = 1000, height = 700;
-  bool quit = true;     ///< with Ctrl-Q at the end; else the script ends it
+  bool quit = true;     ///< true: with Ctrl-Q at the end; false: the script ends the window
   int exit_status = 0;  ///< expected
 };
 
-/// Runs it to its end and checks the exit status; what the program and the script said is logged with a failure.
+/// Runs the script and checks the exit status; logs the output of program and script on failure.
 void drive(const WindowRun& run, const WindowScript& script);
 
 }  // namespace tangent::test

@@ -1,20 +1,14 @@
-// An app with ticks to look at, and what its tests ask of it.
+// An app with recorded ticks, and helpers for its tests.
 #pragma once
 
 #include "tests/workbench/gui/headless_app.h"
+#include "tests/workbench/gui/real_window.h"
 
 #include <cstdint>
 #include <filesystem>
 #include <string>
 
 namespace tangent::test {
-
-inline std::filesystem::path fresh_folder(const char* name) {
-  const auto folder = std::filesystem::temp_directory_path() / name;
-  std::filesystem::remove_all(folder);
-  std::filesystem::create_directories(folder);
-  return folder;
-}
 
 /// 1.5 s of simulated exploration on a sphere.
 struct RunningApp : HeadlessApp {

@@ -1,4 +1,4 @@
-// The real window, from its opening to its close: what only a window, its events and its files can show.
+// The real window from opening to closing: tests that need a window, its events and its files.
 #include "tests/workbench/gui/headless_app.h"
 #include "tests/workbench/gui/real_window.h"
 

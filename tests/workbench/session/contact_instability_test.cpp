@@ -1,7 +1,8 @@
-// Where a stiff surface begins to shake in the simulated hand, against theory, and what the safety gate does then.
+// Stability limit of a stiff surface with the simulated hand, against theory, and the safety gate's reaction beyond it.
 //
-// One axis, in contact: m x'' = -k x - b x' + F, with F = -K x as it was when the tick began, held over the tick. The
-// hold is half a tick of delay, so that roughly K T / 2 > b shakes; the recurrence below says exactly from where.
+// One axis, in contact: m x'' = -k x - b x' + F, with F = -K x sampled at the start of the tick and held (zero-order
+// hold). The hold delays by half a tick, so that roughly K T / 2 > b is unstable; the recurrence below gives the exact
+// limit.
 #include "tests/workbench/session/session_fixture.h"
 
 #include "devices/simulated/simulated_force_device.h"
@@ -17,7 +18,7 @@ namespace {
 
 constexpr double kDt = 1e-3;
 
-/// Grows (true) or dies out.
+/// Whether the oscillation grows; otherwise it decays.
 bool theory_shakes(const SimulatedForceOptions& o, double stiffness) {
   const double m = o.device_mass_kg + o.hand_mass_kg;
   double x = 1e-3, v = 0.0, early = 0.0, late = 0.0;

@@ -9,7 +9,7 @@ using namespace tangent::test;
 
 namespace {
 
-constexpr double kDt = 1e-3, kPad = 0.020;
+constexpr double kTick_s = 1e-3, kPad = 0.020;
 
 const ExplorationPath& path() {
   static const ExplorationPath p = ExplorationPath::build(*sphere_scene(), kPad);
@@ -27,7 +27,7 @@ TEST_CASE("the hand begins off the surface, at rest, and approaches to the full 
   HandTarget target;
   double last = 1.0;
   for (int i = 0; i < 600; ++i) {
-    target = hand.advance(path(), kPad, kDt);
+    target = hand.advance(path(), kPad, kTick_s);
     CHECK(glm::length(target.position_m) <= last + 1e-12);
     last = glm::length(target.position_m);
   }
@@ -39,15 +39,15 @@ TEST_CASE("the hand goes along the path at its speed") {
   HandLead hand;
   hand.command({.settings = {.speed_m_per_s = 0.1}});
   hand.begin(path(), kPad);
-  for (int i = 0; i < 600; ++i) hand.advance(path(), kPad, kDt);
+  for (int i = 0; i < 600; ++i) hand.advance(path(), kPad, kTick_s);
   double way = 0.0;
-  Vec3 expected = hand.advance(path(), kPad, kDt).position_m;
+  Vec3 expected = hand.advance(path(), kPad, kTick_s).position_m;
   for (int i = 0; i < 1000; ++i) {
-    const HandTarget target = hand.advance(path(), kPad, kDt);
-    way += glm::length(target.velocity_m_per_s) * kDt;
+    const HandTarget target = hand.advance(path(), kPad, kTick_s);
+    way += glm::length(target.velocity_m_per_s) * kTick_s;
     // Each target begins where the one before led to.
     if (i > 0) CHECK(glm::length(target.position_m - expected) < 1e-15);
-    expected = target.position_m + target.velocity_m_per_s * kDt;
+    expected = target.position_m + target.velocity_m_per_s * kTick_s;
   }
   CHECK(way == doctest::Approx(0.1).epsilon(0.06));  // the press shortens the way a little
 }
@@ -59,14 +59,14 @@ TEST_CASE("a point far away is reached at a hand's speed, not at once") {
   hand.command({.settings = {.mode = HandMode::point}, .point_m = point});
   HandTarget target;
   for (int i = 0; i < 1000; ++i) {
-    target = hand.advance(path(), kPad, kDt);
+    target = hand.advance(path(), kPad, kTick_s);
     CHECK(glm::length(target.velocity_m_per_s) <= 1.0 + 1e-9);
   }
   CHECK(glm::length(target.position_m - point) < 1e-12);
   // And back to exploring, from there.
   hand.command({.settings = {.mode = HandMode::explore}});
-  for (int i = 0; i < 1000; ++i) CHECK(glm::length(hand.advance(path(), kPad, kDt).velocity_m_per_s) <= 1.0 + 1e-9);
-  CHECK(glm::length(hand.advance(path(), kPad, kDt).position_m) < 0.070);
+  for (int i = 0; i < 1000; ++i) CHECK(glm::length(hand.advance(path(), kPad, kTick_s).velocity_m_per_s) <= 1.0 + 1e-9);
+  CHECK(glm::length(hand.advance(path(), kPad, kTick_s).position_m) < 0.070);
 }
 
 TEST_CASE("a hand told to rush goes at its limit") {
@@ -74,7 +74,7 @@ TEST_CASE("a hand told to rush goes at its limit") {
   hand.command({.settings = {.speed_m_per_s = 1e9}});
   hand.begin(path(), kPad);
   for (int i = 0; i < 2000; ++i) {
-    const HandTarget target = hand.advance(path(), kPad, kDt);
+    const HandTarget target = hand.advance(path(), kPad, kTick_s);
     CHECK(glm::length(target.velocity_m_per_s) <= 1.0 + 1e-9);
   }
 }

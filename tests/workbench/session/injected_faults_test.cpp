@@ -1,4 +1,4 @@
-// Faults injected by name into the simulated devices, through the whole servo: how soon the force is gone.
+// Faults injected by name into the simulated devices, through the whole servo: time until the force is zero.
 #include "tests/workbench/session/session_fixture.h"
 
 #include <doctest/doctest.h>

@@ -1,5 +1,5 @@
-// The servo's promise: nothing in a tick allocates. Every allocation of this program, its libraries included, is
-// counted per thread, at malloc itself. Sanitizers bring their own malloc: with them the test only says so.
+// A servo tick does not allocate. Counts every allocation of this program and its libraries per thread, at malloc
+// itself. Sanitizers replace malloc: with them the test is skipped.
 #include "tests/workbench/session/session_fixture.h"
 
 #include <doctest/doctest.h>

@@ -63,7 +63,7 @@ TEST_CASE("unchanged gains give zero different bits, for every method, on a mesh
       if (scene->planar() != nullptr) preset.finger.radius_m = 0.008;
       auto session = session_on(scene, preset);
       session->advance(7000);
-      // Without a preset each tick is solved under its own; the same preset as a wish may take contacts over.
+      // Without a preset each tick is solved under its recorded one; with the same preset, contacts may be taken over.
       for (const std::optional<Preset>& wish : {std::optional<Preset>(), std::optional(preset)}) {
         const ResolvedHistory again = resolve(session->recorded_run(), wish);
         CHECK(again.complete);

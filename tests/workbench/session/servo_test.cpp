@@ -12,7 +12,7 @@ using namespace tangent::test;
 
 namespace {
 
-/// A servo on a made-up clock that stops itself from within after some ticks.
+/// A servo on a fake clock that stops itself after some ticks.
 struct ClockedServo {
   TickBench bench{simulated(), sphere_scene()};
   MadeUpClock clock;

@@ -282,3 +282,17 @@ TEST_CASE("a recorder gets every record while attached, and none before or after
   }
   CHECK_FALSE(p.bench.channels.recorder.pop(record));
 }
+
+TEST_CASE("a velocity that the device measures reaches the tick and damps, and without one it is that of the positions") {
+  PressedBench pressed;
+  Preset preset;
+  preset.force.damping_n_s_per_m = 5.0;
+  pressed.bench.channels.presets.put({7, preset});
+  CHECK_FALSE(pressed.bench.run(50).tick.input.velocity.has_value());
+  CHECK(pressed.bench.run().tick.output.force_n.z == doctest::Approx(0.8));
+  pressed.device->velocity = Vec3(0.0, 0.0, -0.02);
+  const ServoRecord record = pressed.bench.run(50);
+  REQUIRE(record.tick.input.velocity.has_value());
+  CHECK(*record.tick.input.velocity == Vec3(0.0, 0.0, -0.02));
+  CHECK(record.tick.output.decided_force_n.z == doctest::Approx(0.9));
+}

@@ -1,9 +1,10 @@
-// Scenes, device doubles and a made-up clock for the session's tests.
+// Scenes, device test doubles and a fake clock for the session's tests.
 #pragma once
 
 #include "core/lab/objects/generate.h"
 #include "core/tick/step.h"
 #include "devices/device_set.h"
+#include "tests/core/scenes.h"
 #include "workbench/session/servo_clock.h"
 #include "workbench/session/servo_tick.h"
 
@@ -16,14 +17,6 @@
 
 namespace tangent::test {
 
-inline std::shared_ptr<const ContactScene> scene_of(const PolygonMesh& source) {
-  auto mesh = ContactMesh::build(source);
-  REQUIRE(mesh);
-  auto scene = ContactScene::build(std::move(*mesh));
-  REQUIRE(scene);
-  return *scene;
-}
-
 inline std::shared_ptr<const ContactScene> sphere_scene() {
   static const auto scene = scene_of(make_icosphere(0.040, 3));
   return scene;
@@ -34,11 +27,12 @@ inline std::shared_ptr<const ContactScene> torus_scene() {
   return scene;
 }
 
-/// Says what it is told to say, and remembers what it was commanded.
+/// Returns prescribed samples and records its commands.
 struct PuppetForceDevice final : ForceDevice {
   ForceCapabilities caps{.name = "puppet", .peak_force_n = 8.5};
   DeviceState state = DeviceState::ready;
   Vec3 position{0.0};
+  std::optional<Vec3> velocity;  // as it says it measures
   std::vector<ForceCommand> commands;
   std::function<void(PuppetForceDevice&)> before;
 
@@ -51,13 +45,14 @@ struct PuppetForceDevice final : ForceDevice {
     if (before) before(*this);
     ForceSample sample;
     sample.position_m = position;
+    sample.velocity_m_per_s = velocity;
     sample.state = state;
     sample.fault = state == DeviceState::faulted ? DeviceFault::sensor : DeviceFault::none;
     return sample;
   }
 };
 
-/// Time moves when someone sleeps or when a test says so.
+/// Time advances when a thread sleeps or a test sets it.
 struct MadeUpClock final : ServoClock {
   std::int64_t time_ns = 1'000'000'000;
   std::function<std::int64_t()> oversleep_ns = [] { return std::int64_t{0}; };
@@ -67,7 +62,7 @@ struct MadeUpClock final : ServoClock {
   }
 };
 
-/// A ServoTick with its surroundings, driven by hand.
+/// A ServoTick with its channels and devices, run tick by tick.
 struct TickBench {
   DeviceSet devices;
   ServoChannels channels{4096};

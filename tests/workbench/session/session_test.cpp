@@ -30,7 +30,7 @@ SessionOptions by_hand() {
   return o;
 }
 
-bool same_bits(const TickOutput& a, const TickOutput& b) {
+bool same_output(const TickOutput& a, const TickOutput& b) {
   const auto same = [](const auto& x, const auto& y) { return std::memcmp(&x, &y, sizeof x) == 0; };
   return a.status == b.status && a.event == b.event && a.triangle == b.triangle && same(a.u, b.u) && same(a.v, b.v) &&
          same(a.contact, b.contact) && same(a.normal, b.normal) && same(a.penetration_m, b.penetration_m) &&
@@ -70,7 +70,7 @@ TEST_CASE("driven by hand, the same calls give the same history") {
   REQUIRE(b->history().size() == 3000);
   for (std::size_t i = 0; i < 3000; ++i) {
     const ServoRecord &x = a->history()[i], &y = b->history()[i];
-    REQUIRE(same_bits(x.tick.output, y.tick.output));
+    REQUIRE(same_output(x.tick.output, y.tick.output));
     CHECK(x.tick.input.finger.position == y.tick.input.finger.position);
     CHECK(x.tick.solve_ns == y.tick.solve_ns);
     CHECK(x.tick_ns == 0.0);
@@ -93,7 +93,7 @@ TEST_CASE("every recorded tick, stepped again with its preset and scene, gives t
     const ServoRecord& record = session->history()[i];
     const auto output = session->re_step(record, *trace);
     REQUIRE(output);
-    REQUIRE(same_bits(*output, record.tick.output));
+    REQUIRE(same_output(*output, record.tick.output));
     with_iterations += trace->size > 1;
     if (output->iterations > 0) CHECK(trace->size > 0);
   }
@@ -128,7 +128,7 @@ TEST_CASE("a tick whose scene is gone from the history says so") {
   CHECK(session->scene(1) != nullptr);
   const auto gone = session->re_step(old, *trace);
   REQUIRE_FALSE(gone);
-  CHECK(gone.error().where.find("9") != std::string::npos);
+  CHECK(gone.error().where.find('9') != std::string::npos);
 }
 
 TEST_CASE("presets get ids, the same preset keeps its own, and a bad one changes nothing") {
@@ -218,7 +218,7 @@ TEST_CASE("a running session takes presets, scenes and targets from its owner wh
     }
     const auto again = session->re_step(r, *trace);
     REQUIRE(again);
-    REQUIRE(same_bits(*again, r.tick.output));
+    REQUIRE(same_output(*again, r.tick.output));
   }
   MESSAGE("ticks " << status.servo.ticks << ", late " << status.servo.late_ticks << ", tick mean "
                    << status.servo.tick_mean_ns * 1e-3 << " us, p50 " << status.servo.tick_p50_ns * 1e-3 << ", p99 "

@@ -20,10 +20,10 @@ TEST_CASE("labels of a unit go from the largest to the smallest, each once, and 
     bool shown = false;
     for (const UnitLabel& label : labels) {
       CHECK(label.si == si);
-      CHECK(label.si_value < before);
-      before = label.si_value;
+      CHECK(label.in_si < before);
+      before = label.in_si;
       CHECK(names.insert(label.plain).second);
-      CHECK(unit_of_size(si, label.si_value).plain == label.plain);
+      CHECK(unit_of_size(si, label.in_si).plain == label.plain);
       for (const char c : label.plain) CHECK(static_cast<unsigned char>(c) < 0x80);
       shown = shown || label.shown_to > 0.0;
     }
@@ -40,15 +40,15 @@ TEST_CASE("lengths are shown in mm, small ones in um, times in ms, and what is n
   CHECK(shown_unit("rad", 1.0).name == "deg");
   CHECK(shown_unit("1", 1.0).name.empty());
   CHECK(shown_unit("1/s3", 1.0).name == "1/s3");
-  CHECK(shown_unit("1/s3", 1.0).si_value == 1.0);
+  CHECK(shown_unit("1/s3", 1.0).in_si == 1.0);
   CHECK(unit_of_size("1/m", 1.0).plain == "1/m");
 }
 
 TEST_CASE("a typed unit is one of its quantity") {
   REQUIRE(find_unit("m", "um") != nullptr);
   CHECK(find_unit("m", "um") == find_unit("m", "\u00b5m"));
-  CHECK(find_unit("m", "um")->si_value == 1e-6);
-  CHECK(find_unit("N/m", "N/mm")->si_value == 1e3);
+  CHECK(find_unit("m", "um")->in_si == 1e-6);
+  CHECK(find_unit("N/m", "N/mm")->in_si == 1e3);
   CHECK(find_unit("m", "ms") == nullptr);
   CHECK(find_unit("m", "") == nullptr);
   CHECK(find_unit("1", "") == nullptr);

@@ -1,4 +1,4 @@
-// Replaces operator new and delete of the program that links it, to count.
+// Replaces operator new and delete in the program that links it, to count allocations.
 #include "workbench/bench/allocation_count.h"
 
 #include <cstdlib>

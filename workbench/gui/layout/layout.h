@@ -1,5 +1,4 @@
-// Where the window's parts are: a fixed arrangement with three splitters.
-// Pure arithmetic in ImGui's coordinates.
+// The window's layout: a fixed arrangement with three splitters. Pure arithmetic in ImGui's coordinates.
 #pragma once
 
 namespace tangent {
@@ -10,11 +9,11 @@ struct Rect {
   float bottom() const { return y + h; }
 };
 
-/// What the user drags, in points (times the scale: pixels).
+/// Sizes set by dragging the splitters, in points (times the scale: pixels).
 struct LayoutSizes {
   float left = 312.0f;  ///< parameter column
-  float right = 0.0f;   ///< iterations, mesh, devices; 0: not dragged yet, a share of the window
-  float plots = 0.0f;   ///< height of the plots; 0: the same
+  float right = 0.0f;   ///< iterations, mesh, devices; 0: not dragged yet, a fraction of the window
+  float plots = 0.0f;   ///< height of the plots; 0: likewise
   bool show_left = true, show_right = true, show_plots = true;
 };
 
@@ -23,11 +22,11 @@ struct Layout {
   Rect left_splitter, right_splitter, plot_splitter;
 };
 
-/// Keeps the 3D view at least 280 x 160 points by taking from the others.
+/// Keeps the 3D view at least 280 x 160 points by shrinking the other parts.
 Layout compute_layout(const LayoutSizes& sizes, float width, float height, float scale);
 
-/// Lets a splitter be dragged by (dx, dy) pixels: new sizes, clamped to the ranges that make sense. `shown`: the width
-/// of the column, or the height of the plots, as it is.
+/// Sizes after dragging a splitter by (dx, dy) pixels, clamped to useful ranges. `shown`: the current width of the
+/// column, or height of the plots.
 LayoutSizes drag_left(LayoutSizes sizes, float dx, float scale);
 LayoutSizes drag_right(LayoutSizes sizes, float dx, float shown, float scale);
 LayoutSizes drag_plots(LayoutSizes sizes, float dy, float shown, float scale);

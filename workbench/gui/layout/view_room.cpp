@@ -6,7 +6,7 @@ namespace tangent {
 
 namespace {
 
-constexpr double kSmallest = 0.05;  // heights of the view: something is left, however small the window
+constexpr double kSmallest = 0.05;  // heights of the view: minimum size of a room in small windows
 
 ViewRoom room_between(const Vec2& size, double left, double right, double top, double bottom) {
   const double unit = std::max(size.y, 1.0);

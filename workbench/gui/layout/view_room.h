@@ -1,4 +1,4 @@
-// Where in a view an object is to be looked at, so that nothing drawn over the picture lies on it.
+// The parts of a view that are not covered by cards and bars drawn over it.
 #pragma once
 
 #include "workbench/gui/render/camera.h"
@@ -7,9 +7,8 @@
 
 namespace tangent {
 
-/// The view is `size` points large. Something is drawn along the top and the right edge, as thick as that, and in a
-/// card of this size in the lower left corner. In the order to prefer them in: about the view's middle; beside the
-/// card; above it.
+/// `size`: of the view, points. `top`, `right`: thickness of the bars along these edges; `card`: size of the card in
+/// the lower left corner. Returned in order of preference: around the view's middle; beside the card; above it.
 std::array<ViewRoom, 3> rooms_beside(const Vec2& size, double top, double right, const Vec2& card);
 
 }  // namespace tangent

@@ -10,12 +10,12 @@ namespace tangent {
 namespace {
 
 constexpr std::size_t kSolvePlaces = 60'000, kShapePlaces = 250'000, kTouchPlaces = 60'000;  // at most, on small meshes
-constexpr double kPatience_s = 0.3;             // a changed preset has to stay so long
+constexpr double kPatience_s = 0.3;             // a changed preset must be stable for this long
 constexpr double kCopyEvery_s = 0.25;           // while values come in
-constexpr std::size_t kStatisticsOf = 400'000;  // values that percentiles are taken from
+constexpr std::size_t kStatisticsOf = 400'000;  // number of values used for percentiles
 constexpr std::size_t kWorstShown = 8, kWorstTried = 4'000;
 constexpr double kWorstApart = 0.05;  // of the mesh's diagonal
-constexpr double kMostDecades = 6.0;  // of a logarithmic range that is found by itself
+constexpr double kMostDecades = 6.0;  // of an automatic logarithmic range
 
 std::size_t places_budget(MapGroup group) {
   switch (group) {
@@ -86,7 +86,7 @@ MapView::Inputs MapView::inputs_for(MapGroup wanted, const std::shared_ptr<const
                                     const Preset& preset) const {
   Inputs in{scene.get(), preset.solver, preset.finger, options};
   in.options.level = map_level_within(places_budget(wanted), scene->mesh().usable_triangle_count());
-  if (wanted == MapGroup::touch) {  // of all solver settings the form of the normals alone counts
+  if (wanted == MapGroup::touch) {  // of all solver settings only the form of the normals matters
     in.solver = {};
     in.solver.normal_form = preset.solver.normal_form;
   }
@@ -157,7 +157,7 @@ void MapView::take_values(double now_s, bool at_once) {
     }
   }
   refresh_range();
-  // Sorting millions takes longer than a frame may: once, at the end.
+  // Sorting millions of values takes longer than a frame: only once, at the end.
   if (values_.size() <= kStatisticsOf || done == job.places())
     refresh_worst();
   else
@@ -226,7 +226,7 @@ void MapView::refresh_histogram() {
   for (std::size_t i = 0; i < values_.size(); i += stride) {
     if (!is_map_value(values_[i])) continue;
     const double share = map_share(*shown, static_cast<double>(values_[i]));
-    if (std::isnan(share)) continue;  // no share of a range that is one value
+    if (std::isnan(share)) continue;  // the range is a single value
     const auto bin =
         static_cast<std::size_t>(std::clamp(share * MapStatistics::kBins, 0.0, MapStatistics::kBins - 1.0));
     ++s.bins[bin];
@@ -241,7 +241,7 @@ void MapView::refresh_worst() {
     const float x = values_[a], y = values_[b];
     return x != y ? (info.low_is_worse ? x < y : x > y) : a < b;
   };
-  // What is no worse than the mean is no place to go to.
+  // Places no worse than the mean are not listed.
   const auto mean = static_cast<float>(statistics_.mean);
   std::vector<std::uint32_t> order;
   for (std::uint32_t i = 0; i < values_.size(); ++i) {
@@ -279,7 +279,7 @@ std::optional<MapPaint> MapView::paint() const {
   out.logarithmic = logarithmic_;
   const MapQuantityInfo& info = info_of(quantity);
   out.colours = info.about_zero ? ColourMap::balance : colours;
-  // What is worse is brighter; about zero the warm side is the worse one.
+  // Worse values are brighter; in diverging maps the warm side is worse.
   out.reversed = info.low_is_worse;
   return out;
 }

@@ -12,9 +12,9 @@ namespace tangent {
 
 namespace {
 
-constexpr double kLeastResidual = 1e-12;  ///< m: below rounding on any body one can hold
+constexpr double kLeastResidual = 1e-12;  ///< m: below rounding error on any hand-sized body
 
-/// The third corner of a triangle over the flat edge from -> to, to its left; lengths of from-third and to-third.
+/// The third corner of a triangle to the left of the flat edge from -> to, from the lengths of its other two edges.
 Vec2 third_corner(const Vec2& from, const Vec2& to, double from_third, double to_third) {
   const Vec2 edge = to - from;
   const double length = glm::length(edge);
@@ -41,7 +41,7 @@ ResidualMap::ResidualMap(std::shared_ptr<const ContactScene> scene, std::uint32_
   for (std::uint32_t edge = 0; edge < 3; ++edge) {
     const EdgeLink link = mesh.across(triangle, edge);
     if (link.triangle == kNone || link.triangle == triangle) continue;
-    // The neighbour's edge may run either way (patched-up meshes): its corners are matched by vertex.
+    // The neighbour's edge may run either way (inconsistent orientation): corners are matched by vertex.
     const std::uint32_t a = link.edge, b = (link.edge + 1) % 3, c = (link.edge + 2) % 3;
     const bool reversed = mesh.vertex(link.triangle, a) == mesh.vertex(triangle, (edge + 1) % 3);
     const Vec2& from = base.corners[(edge + 1) % 3];
@@ -125,7 +125,7 @@ void ResidualMap::sample(const FlatView& view, int columns, int rows) {
   }
 }
 
-// Marching triangles: each cell of the grid is two, and a level cuts a triangle in at most one segment.
+// Marching triangles: each grid cell is two triangles, and a level cuts a triangle in at most one segment.
 std::vector<ContourSegment> ResidualMap::contours() const {
   std::vector<ContourSegment> out;
   if (columns_ < 2 || rows_ < 2) return out;

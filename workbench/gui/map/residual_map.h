@@ -1,9 +1,9 @@
-// The base triangle of a tick laid flat, its neighbours unfolded about the edges (as the paper's walk crosses them),
-// and over it the residual |c - h N - S| that the iteration brings to zero: where the tangent plane at (u, v) would
-// leave the finger's contact. Pure geometry; the panel draws it.
+// A tick's base triangle in the plane, with its neighbours unfolded about the edges (as the paper's walk crosses them),
+// and over it the residual |c - h N - S| that the iteration drives to zero, for a tangent plane at (u, v). Pure
+// geometry; the panel draws it.
 //
 // Flat coordinates: metres, corner 0 at the origin, corner 1 on +x, corner 2 above. Outside the four triangles the
-// nearest of them goes on as its polynomial does, so that contours don't end in the air; `inside` tells.
+// nearest one's polynomial is extrapolated, so that contours continue; `inside` tells them apart.
 #pragma once
 
 #include "core/tick/step.h"
@@ -20,7 +20,7 @@ struct FlatTriangle {
   std::array<Vec2, 3> corners;  ///< flat
 };
 
-/// The range of flat coordinates that is looked at.
+/// The visible range of flat coordinates.
 struct FlatView {
   Vec2 min{0.0}, max{1.0};
   Vec2 size() const { return max - min; }
@@ -38,7 +38,7 @@ class ResidualMap {
               const TickInput& input);
 
   std::span<const FlatTriangle> triangles() const { return triangles_; }  ///< [0]: the base
-  /// Flat place of a plane; none: it touches another triangle.
+  /// Flat position of a plane's contact; empty when it lies on none of the four triangles.
   std::optional<Vec2> place(std::uint32_t triangle, double u, double v) const;
   /// Residual at a flat point, m.
   double residual(const Vec2& at) const;
@@ -46,20 +46,20 @@ class ResidualMap {
 
   /// The base triangle, whole.
   FlatView whole_view() const;
-  /// The planes that can be placed, with room around; the whole triangle if there is none.
+  /// The range of all planes that have a flat position, with a margin; the whole triangle if there is none.
   FlatView path_view(std::span<const IterationRecord> path) const;
 
-  /// Samples the view on columns x rows nodes, row by row from min.
+  /// Samples the residual on a grid of columns x rows nodes, row by row from min.
   void sample(const FlatView& view, int columns, int rows);
   const std::vector<float>& log_residuals() const { return log_; }  ///< log10 of the nodes, m
-  std::vector<ContourSegment> contours() const;                     ///< of the samples, at every half decade
+  std::vector<ContourSegment> contours() const;                     ///< contours of the samples, at every half decade
   const FlatView& sampled_view() const { return view_; }
   int columns() const { return columns_; }
   int rows() const { return rows_; }
 
  private:
   struct Located {
-    std::size_t index = 0;  ///< of triangles_
+    std::size_t index = 0;  ///< into triangles_
     double u = 0.0, v = 0.0;
     double outside = 0.0;  ///< most negative weight, negated; 0: inside
   };

@@ -33,7 +33,7 @@ void AppModel::update(double now_s) {
   take_ticks();
   window_.update(now_s, kept_look());
   const auto& scene = scene_.current();
-  // A 2D scene has no mesh to lay a map on.
+  // A 2D scene has no mesh for a map.
   map_.update(scene != nullptr && scene->planar() != nullptr ? nullptr : scene, presets_.current(), now_s,
               presets_.slots().gesture_open(), options_.deterministic);
 }

@@ -1,9 +1,9 @@
-// What the window shows and what its user can do, without a line of drawing, in parts. Panels read the parts and call
-// them; tests drive them through panels and look here first.
+// The window's state and the user's actions, without drawing, in parts. Panels read the parts and call them. All of it
+// lives in the GUI's thread.
 //
-// What flows between the parts, and nothing else does:
+// The only data flow between the parts:
 //
-//   scene  --(a mesh was opened or built anew)-->  window, view, devices     scene_loaded()
+//   scene  --(a mesh was opened or built again)-->  window, view, devices     scene_loaded()
 //   presets  --(values changed)-->  devices --(id of what was sent)--> presets, time     preset_changed()
 //   devices  --(the session ends)-->  time     time().forget()
 //   devices  --(records, status)-->  time, once a frame     take_ticks()
@@ -30,7 +30,7 @@ class AppModel {
   explicit AppModel(const AppOptions& options);
   ~AppModel();
 
-  /// Once a frame: takes in what the servo and the workers have done.
+  /// Call once per frame: takes in results of the servo and the workers.
   void update(double now_s);
   /// Deterministic mode only.
   void advance(std::uint64_t ticks);
@@ -62,7 +62,7 @@ class AppModel {
   void take_ticks();
   KeptLook kept_look() const { return {view_.camera.y_up, map_.colours}; }
 
-  // Each part knows those above it at most.
+  // A part only uses parts declared above it.
   const AppOptions options_;
   MessageLog messages_;
   WindowModel window_;

@@ -1,4 +1,4 @@
-// What the window starts with.
+// Start options of the window.
 #pragma once
 
 #include "core/mesh/contact_mesh.h"
@@ -19,16 +19,16 @@ struct AppOptions {
   std::filesystem::path preset_folder;  ///< listed in the presets panel; empty: where `preset` is, or the shipped ones
   std::string device = "simulated";
   MaestroWish maestro;                ///< for the device "maestro"
-  std::filesystem::path packets;      ///< USB packets are written here; empty: nowhere
+  std::filesystem::path packets;      ///< file to which USB packets are logged; empty: none
   double servo_hz = 1000.0;           ///< kSlowestServoHz to kFastestServoHz
-  std::filesystem::path settings;     ///< layout and look between runs are kept there; empty: not kept
-  std::filesystem::path screenshots;  ///< folder of F12's pictures; empty: the current one
-  double history_s = 600.0;           ///< ticks kept, within kLargestHistoryBytes
+  std::filesystem::path settings;     ///< file for layout and look between runs; empty: not kept
+  std::filesystem::path screenshots;  ///< folder for F12's screenshots; empty: the current one
+  double history_s = 600.0;           ///< length of the history, within kLargestHistoryBytes
   std::filesystem::path record;       ///< recording to write; empty: none
   Theme theme = Theme::dark;
   std::uint64_t seed = 1;  ///< of the simulated devices
-  /// No servo thread: `advance` steps the session, on the caller's thread, with a time of its own, so that
-  /// the same calls give the same picture. For pictures and tests.
+  /// No servo thread: `advance` steps the session in the caller's thread, in simulated time, so that the same calls
+  /// give the same image. For screenshots and tests.
   bool deterministic = false;
 };
 

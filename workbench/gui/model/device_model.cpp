@@ -58,7 +58,7 @@ void DeviceModel::make_session() {
 
 void DeviceModel::restart_session() {
   if (scene_.current() == nullptr) return;
-  // The old session's devices are let go before the new one asks for them.
+  // Releases the old session's devices before the new one opens them.
   session_.reset();
   status_ = {};
   session_ended_();

@@ -1,5 +1,5 @@
-// Errors of the last ticks by iteration, each from stepping the tick again: a fan of curves behind that of the tick in
-// view. Moving on by a few ticks steps only those.
+// Error curves (error by iteration) of the last ticks, from stepping each tick again: drawn behind the curve of the
+// tick in view. Advancing by a few ticks steps only those.
 #pragma once
 
 #include "workbench/session/session.h"
@@ -20,15 +20,15 @@ class ErrorFan {
   struct Curve {
     std::uint64_t tick = 0;
     std::vector<float> error_m;      ///< by iteration, [0] the kept plane
-    std::vector<std::uint8_t> seed;  ///< of each: curves break where it changes
+    std::vector<std::uint8_t> seed;  ///< of each iteration: curves break where it changes
   };
 
-  /// The kTicks ticks up to `tick`, those that are kept.
+  /// Computes the curves of up to kTicks ticks ending at `tick`.
   void show(Session& session, std::uint64_t tick);
   void clear() { curves_.clear(); }
-  /// By tick; the last is `tick` itself.
+  /// In order; the last is that of `tick` itself.
   const std::deque<Curve>& curves() const { return curves_; }
-  std::size_t longest() const;  ///< iterations of the curve with the most
+  std::size_t longest() const;  ///< iterations of the longest curve
 
  private:
   void add(Session& session, const ServoRecord& record);
@@ -36,9 +36,8 @@ class ErrorFan {
   std::unique_ptr<IterationTrace> trace_ = std::make_unique<IterationTrace>();
 };
 
-/// Iterations that the error plot has room for. Where time stands still they are those of the tick in view: one that
-/// takes two must not be squeezed by one before it that took fifty. While it runs the axis has to stand still, and
-/// holds all of the fan.
+/// Length of the error plot's iteration axis. Paused: that of the tick in view, so that a tick with two iterations is
+/// not compressed by an earlier one with fifty. Running: the longest of all curves, so that the axis does not jump.
 std::size_t iterations_shown(std::size_t of_tick, std::size_t longest_of_fan, bool paused);
 
 }  // namespace tangent

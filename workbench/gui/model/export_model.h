@@ -1,5 +1,5 @@
-// What goes out of the window into files: recorded ticks, a plot or the whole window as a picture. A message says
-// where. Files that are there are never written over.
+// Export to files: recorded ticks as CSV, a plot or the whole window as PNG. A message names the file. Existing files
+// are never overwritten.
 #pragma once
 
 #include "workbench/gui/layout/layout.h"
@@ -29,12 +29,12 @@ class ExportModel {
   const std::filesystem::path& folder() const { return folder_; }
   void set_folder(std::filesystem::path folder) { folder_ = std::move(folder); }
 
-  /// CSV, ticks from ... to - 1; on a worker unless deterministic.
+  /// Writes ticks from ... to - 1 as CSV; in a worker thread unless deterministic.
   void write_ticks(std::uint64_t from, std::uint64_t to);
   bool writing() const { return writing_.valid(); }
-  void take_finished();  ///< says what has been written since
+  void take_finished();  ///< reports finished files
 
-  // Of the next frame, by the platform, which has the pixels and takes the request once.
+  // Screenshot of the next frame. The platform, which has the pixels, takes the request once.
   void ask_for_picture(const std::string& what, const Rect& of);
   std::optional<PictureRequest> take_picture_request() { return std::exchange(picture_request_, std::nullopt); }
   void ask_for_screenshot() { screenshot_wanted_ = true; }
@@ -46,7 +46,7 @@ class ExportModel {
   const bool deterministic_;
   const std::filesystem::path screenshots_;
   std::filesystem::path folder_ = ".";
-  std::future<Result<std::string>> writing_;  ///< what was written
+  std::future<Result<std::string>> writing_;  ///< name of the file written
   std::optional<PictureRequest> picture_request_;
   bool screenshot_wanted_ = false;
 };

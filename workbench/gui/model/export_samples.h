@@ -1,4 +1,4 @@
-// Recorded ticks as a CSV file: the raw samples, every tick of a range, numbers that read back as the same double.
+// Writes recorded ticks as CSV: raw samples of every tick in a range; numbers read back as the same double.
 #pragma once
 
 #include "core/base/result.h"
@@ -9,7 +9,8 @@
 
 namespace tangent {
 
-/// Ticks from ... to - 1. Lost ticks have no line. Written whole or not at all. Returns how many lines there are.
+/// Ticks from ... to - 1; lost ticks have no line. Writes atomically. Returns the number of lines. Fails when the file
+/// can't be written.
 Result<std::size_t> export_samples(const HistorySnapshot& records, std::uint64_t from, std::uint64_t to,
                                    const std::filesystem::path& path);
 

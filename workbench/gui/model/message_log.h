@@ -1,4 +1,4 @@
-// What the program has to say: shown for a while in the window, kept in the log. Never modal.
+// Messages to the user: shown in the window for a while, kept in the log. Never modal.
 #pragma once
 
 #include <algorithm>
@@ -13,19 +13,19 @@ enum class Severity : std::uint8_t { note, warning, error };
 struct Message {
   Severity severity = Severity::note;
   std::string text;
-  double at_s = 0.0;        ///< when it came last
-  std::uint32_t times = 1;  ///< the same text over and over is one message
+  double at_s = 0.0;        ///< time of the last occurrence
+  std::uint32_t times = 1;  ///< a repeated text is one message
   bool dismissed = false;
-  bool toast = true;  ///< false: in the log alone, because too many came at once
+  bool toast = true;  ///< false: only in the log, because there were too many at once
 };
 
 class MessageLog {
  public:
   static constexpr std::size_t kKept = 500;
-  static constexpr double kToastBurst = 4.0;    ///< toasts that may come at once ...
-  static constexpr double kToastEvery_s = 2.0;  ///< ... and then one in so long
+  static constexpr double kToastBurst = 4.0;    ///< toasts that may be shown at once,
+  static constexpr double kToastEvery_s = 2.0;  ///< then one per this time
   static constexpr double kHeldBackShown_s = 5.0;
-  static constexpr double kSameWithin_s = 10.0;  ///< the same text within this is counted, not repeated
+  static constexpr double kSameWithin_s = 10.0;  ///< a repeated text within this time is counted, not shown again
 
   void add(Severity severity, std::string text, double now_s) {
     if (!messages_.empty() && messages_.back().text == text && now_s - messages_.back().at_s < kSameWithin_s) {
@@ -38,14 +38,14 @@ class MessageLog {
     messages_.back().toast = take_toast(now_s);
     if (messages_.size() > kKept) messages_.pop_front();
   }
-  /// The clock of what is said from now on.
+  /// Time stamp of the messages that follow.
   void set_now(double now_s) { now_s_ = now_s; }
   double now_s() const { return now_s_; }
   void say(Severity severity, std::string text) { add(severity, std::move(text), now_s_); }
   /// Oldest first.
   const std::deque<Message>& all() const { return messages_; }
   void clear() { messages_.clear(); }
-  /// Messages of the last seconds that are in the log alone.
+  /// Number of recent messages that are only in the log.
   std::size_t held_back(double now_s) const {
     std::size_t n = 0;
     for (const Message& m : messages_) n += !m.toast && now_s - m.at_s < kHeldBackShown_s ? 1u : 0u;
@@ -59,7 +59,7 @@ class MessageLog {
   }
 
  private:
-  /// A bucket of toasts, filled again one at a time.
+  /// Token bucket: true if a toast may be shown now.
   bool take_toast(double now_s) {
     toasts_left_ = std::min(kToastBurst, toasts_left_ + std::max(0.0, now_s - toasts_at_s_) / kToastEvery_s);
     toasts_at_s_ = now_s;

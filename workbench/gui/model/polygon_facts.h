@@ -1,4 +1,4 @@
-// What there is to say of a 2D scene's polygon.
+// Facts about a 2D scene's polygon.
 #pragma once
 
 #include "core/planar/polygon.h"
@@ -8,10 +8,10 @@
 namespace tangent {
 
 struct PolygonFacts {
-  std::size_t vertices = 0;  ///< places; one that is given twice counts once
-  std::size_t corners = 0;   ///< vertices given twice: they stay sharp
-  std::size_t segments = 0;  ///< of some length
-  double length_m = 0.0;     ///< of all of them
+  std::size_t vertices = 0;  ///< distinct vertices; a vertex given twice counts once
+  std::size_t corners = 0;   ///< vertices given twice, which stay sharp
+  std::size_t segments = 0;  ///< of nonzero length
+  double length_m = 0.0;     ///< total length
   Vec2 size_m{0.0};
 };
 PolygonFacts facts_of(const PlanarPolygon& polygon);

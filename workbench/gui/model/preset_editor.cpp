@@ -18,7 +18,7 @@ std::string_view trim(std::string_view text) {
   return text;
 }
 
-/// Below this a logarithmic slider that starts at 0 has its left end.
+/// Smallest nonzero value of a logarithmic slider; a range from 0 starts here.
 double log_low(const PresetKey& key) { return key.slider_min > 0.0 ? key.slider_min : key.slider_max * 1e-6; }
 
 }  // namespace
@@ -80,12 +80,12 @@ std::vector<std::filesystem::path> list_presets(const std::filesystem::path& fol
 DisplayUnit display_unit(const PresetKey& key) {
   const double typical = key.logarithmic ? key.default_value() : std::max(key.slider_max, -key.slider_min);
   const UnitLabel shown = shown_unit(key.unit, typical);
-  return {shown.name, shown.si_value};
+  return {shown.name, shown.in_si};
 }
 
 std::string display_text(const PresetKey& key, double value) {
   char text[48];
-  // The quotient of two rounded doubles: a hair off whole would show as 19.999999.
+  // Six digits hide the rounding of the quotient, which could show as 19.999999...
   std::snprintf(text, sizeof text, "%.6g", value / display_unit(key).scale);
   return text;
 }
@@ -117,7 +117,7 @@ Result<double> parse_typed(const PresetKey& key, std::string_view text) {
   const std::string_view unit = trim(rest.substr(static_cast<std::size_t>(end - rest.data())));
   const DisplayUnit shown = display_unit(key);
   if (unit.empty() || unit == shown.name) return number * shown.scale;
-  if (const UnitLabel* typed = find_unit(key.unit, unit)) return number * typed->si_value;
+  if (const UnitLabel* typed = find_unit(key.unit, unit)) return number * typed->in_si;
   return refuse();
 }
 
@@ -141,7 +141,7 @@ double slider_value(const PresetKey& key, double share) {
     value = key.slider_min + share * (key.slider_max - key.slider_min);
   }
   if (key.kind != KeyKind::number) return std::round(value);
-  // Three digits: a dragged value that can be read and typed again.
+  // Three digits, so that a dragged value is easy to read and to type again.
   if (value == 0.0) return 0.0;
   char text[32];
   std::snprintf(text, sizeof text, "%.3g", value);

@@ -11,7 +11,7 @@ namespace tangent {
 
 namespace {
 
-constexpr std::size_t kMostNotes = 4096;  // a dragged slider sends one preset a frame
+constexpr std::size_t kMostNotes = 4096;  // a dragged slider sends one preset per frame
 
 std::string today() {
   const std::time_t now = std::time(nullptr);
@@ -32,7 +32,7 @@ std::string change_text(const PresetKey& key, double from, double to) {
   return key.full_name() + " " + display_with_unit(key, from) + " \u2192 " + display_with_unit(key, to);
 }
 
-/// A preset brings its neighbours with it.
+/// The folder listed in the panel: the preset's own if one was given.
 std::filesystem::path folder_for(const AppOptions& options) {
   if (!options.preset_folder.empty()) return options.preset_folder;
   if (options.preset.has_parent_path()) return options.preset.parent_path();

@@ -1,5 +1,5 @@
-// The values in use: two presets side by side, every step that led to them, and the files they come from. Every change
-// goes to the servo as a whole preset.
+// The presets in use: two slots, undo history, and the files they come from. Every change is sent to the servo as a
+// whole preset.
 #pragma once
 
 #include "core/io/rendering_condition.h"
@@ -19,7 +19,7 @@ namespace tangent {
 
 class PresetModel {
  public:
-  /// `changed` is called whenever current() is to go to the servo, with what was done: "solver.gain_overall 1 → 0.75".
+  /// `changed` is called when current() is to be sent to the servo, with the change: "solver.gain_overall 1 → 0.75".
   PresetModel(const AppOptions& options, MessageLog& messages, std::function<void(const std::string& what)> changed);
 
   const Preset& current() const { return slots_.active().current(); }
@@ -29,7 +29,7 @@ class PresetModel {
   void set_value(const PresetKey& key, double value);
   void slide_value(const PresetKey& key, double value);  ///< one step of undo until end_gesture()
   void end_gesture() { slots_.end_gesture(); }
-  void type_value(const PresetKey& key, const std::string& text);  ///< a message when it is no number
+  void type_value(const PresetKey& key, const std::string& text);  ///< logs a message if it can't be parsed
   void reset_value(const PresetKey& key) { set_value(key, key.default_value()); }
   void revert_value(const PresetKey& key) { set_value(key, key.get(editor().loaded().preset)); }
   void revert_all();
@@ -40,7 +40,7 @@ class PresetModel {
   void copy_ab() { slots_.copy_to_other(); }
 
   void load(const std::filesystem::path& path);
-  /// Writes over one that is there; a message says where, or why not. What it was tuned on goes into the file.
+  /// Overwrites an existing file; a message says where, or why not. The file also names the mesh and device tuned on.
   bool save(const std::string& name, const ContactMesh* mesh, const std::string& device);
   bool has(const std::string& name) const;  ///< a file of this name is in the folder
   const std::filesystem::path& folder() const { return folder_; }
@@ -48,8 +48,8 @@ class PresetModel {
   void refresh_files();
 
   void note_sent(std::uint32_t preset_id, const std::string& what);
-  std::uint64_t sent() const { return sent_; }  ///< how many so far
-  /// What was done to get the preset of this id; empty: nothing is known.
+  std::uint64_t sent() const { return sent_; }  ///< number of presets sent
+  /// The change that led to the preset of this id; empty: unknown.
   const std::string& note(std::uint32_t preset_id) const;
 
  private:

@@ -16,7 +16,7 @@ std::vector<PresetChange> differences(const Preset& first, const Preset& second)
 }
 
 void PresetSlots::push(Step step) {
-  steps_.resize(at_ + 1);  // what was undone is gone once something else is done
+  steps_.resize(at_ + 1);  // a new change discards the steps that were undone
   steps_.push_back(std::move(step));
   if (steps_.size() > kMostSteps) steps_.erase(steps_.begin());
   at_ = steps_.size() - 1;

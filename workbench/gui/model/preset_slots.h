@@ -1,5 +1,5 @@
-// Two presets side by side, A and B, one of which is edited and rendered, and every step that led here: undo and redo
-// of any change, loading and switching included. No ImGui.
+// Two presets, A and B, one of which is edited and rendered, with undo and redo of every change, including loading and
+// switching. No ImGui.
 #pragma once
 
 #include "workbench/gui/model/preset_editor.h"
@@ -23,16 +23,16 @@ class PresetSlots {
   const PresetEditor& active() const { return slot(active_slot()); }
   const PresetEditor& slot(std::size_t i) const { return now().slots[i]; }
 
-  /// Runs `change` on the active slot and records a step named `what` if it says that something changed. Steps of the
-  /// same non-empty `gesture` become one until end_gesture().
+  /// Runs `change` on the active slot and records an undo step named `what` if it returns true (changed). Consecutive
+  /// steps of the same non-empty `gesture` are merged until end_gesture().
   bool apply(std::string what, const std::function<bool(PresetEditor&)>& change, std::string_view gesture = {});
   void end_gesture() { gesture_open_ = false; }
   bool gesture_open() const { return gesture_open_; }
 
-  bool toggle();         ///< the other slot becomes the active one; true if the preset is another one now
-  void copy_to_other();  ///< what is active, into the other slot
+  bool toggle();         ///< switches to the other slot; true if the active preset differs
+  void copy_to_other();  ///< copies the active slot into the other
 
-  /// The active slot's values were written to a file: undoing earlier changes must not bring the old file back.
+  /// Saves the active slot; undoing earlier changes keeps the new file as its origin.
   Status save_as(const std::filesystem::path& folder, const std::string& name, PresetAbout about);
 
   bool can_undo() const { return at_ > 0; }

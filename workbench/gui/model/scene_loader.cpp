@@ -5,6 +5,7 @@
 #include "core/lab/objects/generate.h"
 #include "core/lab/objects/generate_hard.h"
 #include "core/planar/ribbon.h"
+#include "workbench/session/two_threads.h"
 
 #include <algorithm>
 #include <chrono>
@@ -25,7 +26,7 @@ Result<PolygonMesh> read_or_generate(const SceneRequest& request) {
   return read_mesh(request.mesh, request.metres_per_unit);
 }
 
-/// A polygon as a 2D scene. What stands for its mesh is the ribbon that the scene made of it.
+/// Loads a polygon as a 2D scene. Its mesh is the ribbon that the scene builds from it.
 Result<LoadedScene> load_planar(const SceneRequest& request) {
   auto polygon = read_polygon(request.mesh, request.metres_per_unit);
   if (!polygon) return tl::unexpected(polygon.error());
@@ -64,7 +65,7 @@ Result<LoadedScene> load_scene(const SceneRequest& request) {
   }
   auto mesh = ContactMesh::build(*out.polygons, request.options);
   if (!mesh) return tl::unexpected(mesh.error());
-  auto scene = ContactScene::build(std::move(*mesh));
+  auto scene = ContactScene::build(std::move(*mesh), {}, run_on_two_threads);
   if (!scene) return tl::unexpected(scene.error());
   out.scene = std::move(*scene);
   out.prepared = Session::prepare(out.scene, request.finger);
@@ -81,7 +82,7 @@ std::optional<Result<LoadedScene>> SceneLoader::poll() {
   std::optional<Result<LoadedScene>> out;
   if (ready(loading_)) {
     out = loading_.get();
-    // Something else was asked for meanwhile: this one is late.
+    // A newer request is waiting: this result is outdated.
     if (waiting_) out.reset();
   }
   if (!loading_.valid() && waiting_) {

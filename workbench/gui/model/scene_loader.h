@@ -1,5 +1,5 @@
-// Opens a mesh on a worker: reads or generates it, builds the contact scene, prepares it for the servo, and then,
-// while it is already in use, audits it. The window asks once a frame what has come.
+// Opens a mesh in a worker thread: reads or generates it, builds the contact scene, prepares it for the servo, and then
+// audits it while it is already in use. The window polls once per frame.
 #pragma once
 
 #include "core/lab/audit/mesh_audit.h"
@@ -21,10 +21,10 @@ struct SceneRequest {
   double metres_per_unit = 1e-3;
   ContactMeshOptions options;
   Finger finger;
-  std::shared_ptr<const PolygonMesh> polygons;  ///< already read: the same mesh is built with other options
+  std::shared_ptr<const PolygonMesh> polygons;  ///< set when already read: only rebuilds with other options
 };
 
-/// What there is to say about a mesh's health.
+/// Audit and perception report of a mesh.
 struct MeshReport {
   MeshAudit audit;
   MeshFindings findings;
@@ -36,25 +36,25 @@ struct LoadedScene {
   std::shared_ptr<const ContactScene> scene;
   PreparedScenePtr prepared;
   double seconds = 0.0;
-  bool rebuilt = false;  ///< from polygons that were already there
+  bool rebuilt = false;  ///< from polygons already in memory
 };
 
 MeshReport report_on(const PolygonMesh& polygons, const ContactMesh& mesh);
 
-/// In the calling thread. A name without a dot or slash that is a generator's means the generated object.
+/// Loads in the calling thread. A generator's name without dot or slash means the generated object.
 Result<LoadedScene> load_scene(const SceneRequest& request);
 
 class SceneLoader {
  public:
-  /// Replaces what is asked for and has not begun; what has begun is finished and thrown away.
+  /// Replaces a request that has not started; one in progress is finished and its result discarded.
   void request(SceneRequest request);
-  /// Starts what waits. Once for each finished load, its result.
+  /// Starts a waiting request. Returns the result of each finished load once.
   std::optional<Result<LoadedScene>> poll();
   bool busy() const { return loading_.valid() || waiting_.has_value(); }
   const std::string& name() const { return name_; }
 
   void request_audit(std::shared_ptr<const PolygonMesh> polygons, std::shared_ptr<const ContactScene> scene);
-  /// The audit of the latest request, once it is done.
+  /// The audit of the latest request, once, when it is done.
   std::optional<MeshReport> poll_audit();
   bool auditing() const { return audit_.valid() || audit_waiting_.scene != nullptr; }
 

@@ -98,7 +98,7 @@ void SceneModel::set_crease_angle(double rad) {
   load(polygons_);
 }
 
-/// A file does not say what its unit is: one in metres, taken for millimetres, is a grain under the finger.
+/// Mesh files do not state their unit: one in metres read as millimetres would be 1000 times too small.
 void SceneModel::warn_of_size() {
   const Vec3 size = scene_->mesh().bounds().size();
   const double longest = std::max({size.x, size.y, size.z}), finger = 2.0 * presets_.current().finger.reach_m();

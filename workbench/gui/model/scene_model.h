@@ -1,5 +1,5 @@
-// The mesh (or polygon) that is explored: which one, how its file is read, how healthy it is. Opened on a worker,
-// unless the window is deterministic.
+// The mesh or polygon being explored: its source, import options and audit. Opened in a worker thread, unless the
+// window is deterministic.
 #pragma once
 
 #include "workbench/gui/model/app_options.h"
@@ -14,23 +14,23 @@
 
 namespace tangent {
 
-/// The current scene is another one now.
+/// Event: the current scene was replaced.
 struct SceneChange {
   PreparedScenePtr prepared;  ///< for the servo
-  bool opened = false;        ///< false: the same mesh, built with another option
+  bool opened = false;        ///< false: the same mesh, rebuilt with another option
 };
 
 class SceneModel {
  public:
-  /// `changed` is called whenever current() is another scene.
+  /// `changed` is called when current() was replaced.
   SceneModel(const AppOptions& options, const PresetModel& presets, MessageLog& messages,
              std::function<void(SceneChange)> changed);
 
   void open_first(const std::string& mesh);  ///< empty, or when it can't be opened: the built-in scene
   void open(const std::string& mesh);        ///< a file or a generated object
-  void update();                             ///< takes in what the workers have done
+  void update();                             ///< takes in the workers' results
 
-  /// Null until the first one is there.
+  /// Null until the first one is loaded.
   const std::shared_ptr<const ContactScene>& current() const { return scene_; }
   const PolygonMesh* polygons() const { return polygons_.get(); }
   const std::string& path() const { return path_; }
@@ -38,19 +38,19 @@ class SceneModel {
   const std::string& loading_name() const { return loader_.name(); }
   double load_seconds() const { return load_seconds_; }
 
-  // Null until they are there.
+  // Null until the audit is done.
   const MeshAudit* audit() const { return report_ ? &report_->audit : nullptr; }
   const PerceptionAudit* perception() const { return report_ ? &report_->perception : nullptr; }
   const MeshFindings* findings() const { return report_ ? &report_->findings : nullptr; }
   bool auditing() const { return loader_.auditing(); }
 
-  // How the file is read; a change reads or builds the mesh anew.
+  // Import options; a change reads or builds the mesh again.
   double metres_per_unit() const { return metres_per_unit_; }
   void set_unit(double metres_per_unit);
   std::optional<double> fit_m() const { return mesh_options_.fit_m; }
-  void set_fit(std::optional<double> fit_m);  ///< longest side; none: as in the file
+  void set_fit(std::optional<double> fit_m);  ///< longest side, m; empty: as in the file
   double crease_angle_rad() const { return mesh_options_.crease_rad; }
-  void set_crease_angle(double rad);  ///< the view stays
+  void set_crease_angle(double rad);  ///< keeps the view
 
  private:
   void load(std::shared_ptr<const PolygonMesh> polygons);

@@ -11,7 +11,7 @@ float event_of(const ServoRecord& r) {
   if (r.device.gate_fault != GateFault::none || r.device.force_fault != DeviceFault::none ||
       r.device.display_fault != DeviceFault::none)
     return rank(EventRank::fault);
-  if (r.tick.output.status == TickStatus::unconverged) return rank(EventRank::unconverged);
+  if (!is_converged(r.tick.output.status)) return rank(EventRank::unconverged);
   switch (r.tick.output.event) {
     case TickEvent::reseed:
       return rank(EventRank::reseeded);
@@ -27,7 +27,7 @@ float event_of(const ServoRecord& r) {
 
 std::array<float, kChannelCount> channel_row(const ServoRecord& r) {
   const Vec3& f = r.device.force_command_n;
-  // In simulated time nothing is measured: a gap rather than a zero.
+  // Not measured in simulated time: a gap, not a zero.
   const float tick_time = r.tick_ns > 0.0 ? static_cast<float>(r.tick_ns * 1e-9) : std::nanf("");
   return {static_cast<float>(f.x),
           static_cast<float>(f.y),

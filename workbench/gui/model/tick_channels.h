@@ -1,4 +1,4 @@
-// What a tick contributes to the plots.
+// The plots' channels and their values for a tick.
 #pragma once
 
 #include "workbench/session/session.h"
@@ -20,15 +20,15 @@ enum class Channel : std::uint8_t {
   error,
   iterations,
   tick_time,
-  event,  ///< EventRank as a number; gaps where nothing happened
+  event,  ///< EventRank as a number; a gap where there was no event
   count_
 };
 inline constexpr std::size_t kChannelCount = static_cast<std::size_t>(Channel::count_);
 
-/// What a tick is marked with in the plots; a column of pixels shows the highest of its ticks.
+/// Event marks of the plots; a column of pixels shows the highest rank of its ticks.
 enum class EventRank : std::uint8_t { moved = 1, reseeded, unconverged, fault };
 
-/// By channel.
+/// One value per channel, SI.
 std::array<float, kChannelCount> channel_row(const ServoRecord& record);
 
 }  // namespace tangent

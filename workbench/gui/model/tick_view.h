@@ -1,5 +1,5 @@
-// The tick in view: its record, and its iterations from stepping it again with tracing. A copy, so that it stays
-// when the history moves on.
+// The tick in view: its record, and its iterations from stepping it again with a trace. A copy, so that it stays valid
+// when the history advances.
 #pragma once
 
 #include "workbench/session/session.h"
@@ -17,7 +17,7 @@ class TickView {
   /// [0] is the kept plane. Empty when the tick could not be stepped again.
   std::span<const IterationRecord> iterations() const { return trace_->view(); }
   std::size_t iterations_lost() const { return trace_->lost; }
-  /// Empty: it could be stepped again, or there is no tick.
+  /// Why the tick could not be stepped again; empty when it could, or when there is no tick.
   const std::string& problem() const { return problem_; }
 
   std::optional<std::size_t> selected() const { return selected_; }
@@ -33,7 +33,7 @@ class TickView {
     problem_.clear();
   }
 
-  /// Steps it again unless it is the one already shown.
+  /// Steps the record's tick again, unless it is the one already shown.
   void show(Session& session, const ServoRecord& record) {
     if (record_ && record_->tick.tick == record.tick.tick && record_->tick.input.t_s == record.tick.input.t_s) return;
     record_ = record;

@@ -9,10 +9,10 @@ namespace tangent {
 
 namespace {
 
-/// What is in view is answered first, up to so many ticks, where the past is kMuchLonger than that.
+/// The part in view, up to this many ticks, is solved first where the past is kMuchLonger than that.
 constexpr std::size_t kViewTicks = 60 * 1024;
 constexpr std::size_t kMuchLonger = 4;
-/// A run over the whole past that has taken this long gives way to a newer wish.
+/// A run over the whole past older than this is cancelled for a newer request.
 constexpr std::chrono::milliseconds kPatience{50};
 
 std::shared_ptr<const ChannelStore> make_channels(const RecordedRun& run, const ResolvedHistory& numbers) {
@@ -34,13 +34,13 @@ std::shared_ptr<const ChannelStore> make_channels(const RecordedRun& run, const 
 
 }  // namespace
 
-/// One run of the past under one preset, shared by the threads that work on it.
+/// One run over the past under one preset, shared by the worker threads.
 struct TimeMachine::Job {
   Job(RecordedRun part, std::optional<Preset> under, bool timed)
       : run(std::move(part)), preset(under), resolver(run, under, timed), chunks(resolver.chunk_count()) {}
 
   const RecordedRun run;
-  const std::optional<Preset> preset;  ///< none: verifies
+  const std::optional<Preset> preset;  ///< empty: verification
   HistoryResolver resolver;
   const std::size_t chunks;
   bool whole = false;
@@ -87,7 +87,7 @@ void TimeMachine::request(const Preset& preset, double from_tick, double to_tick
   from_ = from_tick;
   to_ = to_tick;
   want_view_ = want_whole_ = true;
-  // A run over what is in view is nearly done; the rest, and the check, can wait.
+  // A run over the part in view is short, so it is finished; only runs over the whole past are cancelled.
   if (job_ && job_->whole && std::chrono::steady_clock::now() - job_->began > kPatience) {
     if (!job_->preset) want_verified_ = true;
     job_->cancelled = true;
@@ -134,7 +134,7 @@ std::shared_ptr<TimeMachine::Job> TimeMachine::make_job(std::optional<Preset> pr
   return job;
 }
 
-/// The next job, if none is under way. Under the lock.
+/// Starts the next job if none is in progress. Call under the lock.
 void TimeMachine::schedule() {
   while (!job_ && run_) {
     const std::size_t size = run_->records.size();
@@ -180,7 +180,7 @@ void TimeMachine::work(std::stop_token stop) {
   }
 }
 
-/// Whoever finishes the last chunk sums up.
+/// The thread that finishes the last chunk publishes the result.
 void TimeMachine::work_on(Job& job) {
   for (;;) {
     const std::size_t chunk = job.next.fetch_add(1);
@@ -193,7 +193,7 @@ void TimeMachine::work_on(Job& job) {
   }
 }
 
-/// Outside the lock with threads, so that the window never waits for it; without threads the lock is held anyway.
+/// With threads, runs outside the lock, so that the window never waits for it; without threads the lock is held.
 void TimeMachine::publish(Job& job) {
   auto ghost = std::make_shared<Ghost>();
   ghost->numbers = job.resolver.finish();

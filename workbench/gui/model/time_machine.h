@@ -1,5 +1,5 @@
-// Solves the recorded past again in the background, on all cores, while a value is dragged: the ghost that is drawn
-// beside the recording. The latest wish counts; one that is under way and stale is given up.
+// Solves the recorded past again under another preset, in the background on all cores, while a value is dragged. The
+// result is the ghost, drawn beside the recording. Only the latest request counts; an outdated one is cancelled.
 #pragma once
 
 #include "workbench/gui/plots/channel_store.h"
@@ -15,41 +15,41 @@
 
 namespace tangent {
 
-/// Channels of a ghost, SI; the recorded ones of the same names are its counterparts.
+/// Channels of a ghost, SI; each corresponds to the recorded channel of the same name.
 enum class GhostChannel : std::uint8_t { force_x, force_y, force_z, force_magnitude, cld, error, iterations, count_ };
 inline constexpr std::size_t kGhostChannelCount = static_cast<std::size_t>(GhostChannel::count_);
 
-/// The past under another preset. Numbers and channels cover first_tick ... end_tick - 1 of the channels.
+/// The past solved under another preset. Numbers and channels cover the same ticks: first_tick to end_tick - 1.
 struct Ghost {
   Preset preset;
   ResolvedHistory numbers;  ///< .ticks is empty: the channels hold them
   std::shared_ptr<const ChannelStore> channels;
-  bool whole = false;  ///< of the whole past; else of what is in view, the rest to come
+  bool whole = false;  ///< true: the whole past; false: only the part in view so far
 };
 
 class TimeMachine {
  public:
-  /// `threads` 0: everything is solved at once within request(), and takes no time that could be measured.
+  /// `threads` 0: solves within request(), without measuring time (deterministic mode).
   explicit TimeMachine(unsigned threads);
   ~TimeMachine();
   TimeMachine(const TimeMachine&) = delete;
   TimeMachine& operator=(const TimeMachine&) = delete;
 
-  /// Takes the past to work on, and verifies it: each tick under the preset it was recorded with.
+  /// Sets the recording to work on, and verifies it by solving each tick under its recorded preset.
   void open(RecordedRun run);
-  /// Lets go of past and ghost.
+  /// Releases recording and ghost.
   void close();
   bool is_open() const { return run_ != nullptr; }
   const RecordedRun* run() const { return run_.get(); }
 
-  /// Solves the past under `preset`, what lies in from_tick ... to_tick first. Replaces what was asked for before.
+  /// Solves the past under `preset`, from_tick to to_tick first. Replaces an earlier request.
   void request(const Preset& preset, double from_tick, double to_tick);
   void forget_request();  ///< no ghost
   bool busy() const;
 
-  /// Newest ghost that answers a request, whole or of what is in view; null: none yet.
+  /// Newest ghost, whole or of the part in view; null: none yet.
   std::shared_ptr<const Ghost> ghost() const;
-  /// The past under its own presets; null: not done yet. different_ticks is 0 unless something is wrong.
+  /// The verification; null: not done yet. different_ticks is 0 unless something is wrong.
   std::shared_ptr<const Ghost> verified() const;
 
  private:
@@ -60,11 +60,11 @@ class TimeMachine {
   void work_on(Job& job);
   void publish(Job& job);
 
-  std::shared_ptr<const RecordedRun> run_;  ///< written by the owner alone, under the lock
+  std::shared_ptr<const RecordedRun> run_;  ///< written by the owner only, under the lock
 
-  mutable std::mutex guard_;  ///< of everything below
+  mutable std::mutex guard_;  ///< guards everything below
   std::condition_variable_any wake_;
-  std::shared_ptr<Job> job_;  ///< under way
+  std::shared_ptr<Job> job_;  ///< in progress
   std::optional<Preset> wanted_;
   double from_ = 0.0, to_ = 0.0;
   bool want_view_ = false, want_whole_ = false, want_verified_ = false;

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t kMostParameterMarks = 2000;
 
-/// As many ticks as the session keeps.
+/// Number of ticks that the session's history keeps.
 std::size_t plotted_ticks(double history_s, double servo_hz) {
   return static_cast<std::size_t>(
       std::min(history_s * servo_hz, static_cast<double>(kLargestHistoryBytes / sizeof(ServoRecord))));
@@ -70,7 +70,7 @@ void TimeModel::take_records() {
   if (devices_.session() == nullptr) return;
   devices_.session()->poll();
   if (const History* records = history()) {
-    // A history whose newest tick lies before ours is another run.
+    // A history whose newest tick is before ours belongs to a new run.
     const std::uint64_t newest = records->newest().tick.tick, end = store_.end_tick();
     const std::uint64_t next = newest < end && newest + 1 != end ? records->oldest().tick.tick : end;
     for (std::size_t i = records->lower_bound(next); i < records->size(); ++i) {
@@ -172,7 +172,7 @@ void TimeModel::step_iteration(int by) {
   }
   const std::uint64_t before = cursor_.value_or(0);
   step_tick(by);
-  if (cursor_.value_or(0) == before) return;  // there is no further tick
+  if (cursor_.value_or(0) == before) return;  // no further tick
   if (!tick_.iterations().empty()) tick_.select(by > 0 ? 0 : tick_.iterations().size() - 1);
 }
 

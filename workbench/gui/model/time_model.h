@@ -1,4 +1,4 @@
-// The window's time: records coming in, the tick in view, bookmarks, and the past solved again. Pausing freezes the
+// Time in the window: incoming records, the tick in view, bookmarks, and the past solved again. Pausing freezes the
 // view, never the servo or the recording.
 #pragma once
 
@@ -26,25 +26,25 @@ namespace tangent {
 /// The preset changed at this tick.
 struct ParameterMark {
   std::uint64_t tick = 0;
-  std::string text;  ///< "Curvature gain G_k 20 -> 13 mm", or how many keys
+  std::string text;  ///< "Curvature gain G_k 20 -> 13 mm", or the number of keys
 };
 
 class TimeModel {
  public:
   TimeModel(const AppOptions& options, DeviceModel& devices, const PresetModel& presets, MessageLog& messages);
 
-  // What the other parts bring about.
-  void take_records();  ///< since the last time
-  void show_tick();     ///< the newest, or the chosen one while paused
-  void forget();        ///< another run begins: live, with nothing recorded
-  void preset_sent();   ///< presets.current(): the ghost is to be of it
+  // Called by the other parts.
+  void take_records();  ///< takes in new records
+  void show_tick();     ///< shows the newest, or the chosen one while paused
+  void forget();        ///< a new run begins: live, with an empty history
+  void preset_sent();   ///< presets.current() was sent: the ghost follows it
 
   bool paused() const { return paused_; }
   void set_paused(bool paused);
   void go_live();
-  void step_tick(std::int64_t by);       ///< pauses; forwards beyond the newest stays on it
-  void select_tick(std::uint64_t tick);  ///< pauses on the nearest tick there is
-  void step_iteration(int by);           ///< through the iterations; past the ends, on to the next tick
+  void step_tick(std::int64_t by);       ///< pauses; stops at the newest
+  void select_tick(std::uint64_t tick);  ///< pauses on the nearest recorded tick
+  void step_iteration(int by);           ///< through the iterations; past the ends to the next tick
   const TickView& tick() const { return tick_; }
   TickView& tick() { return tick_; }
   const ErrorFan& error_fan() const { return error_fan_; }  ///< of the ticks up to the one in view
@@ -52,7 +52,7 @@ class TimeModel {
   Bookmarks& bookmarks() { return bookmarks_; }
   const Bookmarks& bookmarks() const { return bookmarks_; }
   void add_bookmark();          ///< on the tick in view
-  void go_to_bookmark(int by);  ///< the next (1) or the one before (-1); says so when there is none
+  void go_to_bookmark(int by);  ///< the next (1) or previous (-1); a message when there is none
   std::span<const ParameterMark> parameter_marks() const { return parameter_marks_; }
 
   const ChannelStore& store() const { return store_; }
@@ -61,13 +61,13 @@ class TimeModel {
   std::uint64_t first_tick() const { return store_.first_tick(); }
   std::uint64_t end_tick() const { return store_.end_tick(); }
   double tick_period_s() const;
-  std::size_t history_bytes() const, most_history_bytes() const;  ///< of the records; the plots have store()
+  std::size_t history_bytes() const, most_history_bytes() const;  ///< of the records, without the plots' store()
 
-  // The past solved again: while paused, whenever the values are not those it was paused with.
+  // The past solved again: while paused, whenever the preset differs from the one at the pause.
   TimeMachine& time_machine() { return time_machine_; }
   const TimeMachine& time_machine() const { return time_machine_; }
   std::shared_ptr<const Ghost> ghost() const { return time_machine_.ghost(); }
-  void solve_past_again();  ///< with the present values, whatever they were. Pauses
+  void solve_past_again();  ///< under the current preset, even if unchanged. Pauses
 
  private:
   const History* history() const;  ///< null: nothing is recorded
@@ -87,7 +87,7 @@ class TimeModel {
   std::vector<ParameterMark> parameter_marks_;
   std::optional<std::uint32_t> last_preset_id_;  ///< of the newest record
   TimeMachine time_machine_;
-  Preset paused_with_;  ///< values when the view was paused
+  Preset paused_with_;  ///< preset when the view was paused
 };
 
 }  // namespace tangent

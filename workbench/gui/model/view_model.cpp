@@ -41,7 +41,7 @@ void ViewModel::look_at_worst() {
   look_at_place(place.point_world, place.normal, place.triangle);
 }
 
-// Who looks at the whole scene goes on doing so; who has gone near to something stays there.
+// If the whole scene was framed it is framed again; if the user has zoomed in, target and distance stay.
 void ViewModel::look_from_standard(StandardView from) {
   const bool whole = camera.target == camera.scene_centre && camera.distance_m == framed_distance_m;
   camera = standard_view(from, camera);

@@ -1,4 +1,4 @@
-// How the scene is looked at: the camera, what is drawn, what is picked, isolated or shown as a finding.
+// The view of the scene: camera, layers drawn, picked and isolated triangles, audit findings shown.
 #pragma once
 
 #include "workbench/gui/map/map_view.h"
@@ -15,7 +15,7 @@
 
 namespace tangent {
 
-/// What of the mesh is being looked at.
+/// The part of the mesh being inspected.
 struct Inspection {
   std::optional<FindingKind> kind;  ///< the finding shown
   std::size_t index = 0;
@@ -26,32 +26,32 @@ class ViewModel {
  public:
   ViewModel(const SceneModel& scene, const MapView& map, MessageLog& messages);
 
-  // What panels read and set.
+  // Read and set by panels.
   SceneToggles toggles;
   Camera camera;
-  double framed_distance_m = 0.0;   ///< of the camera when the whole scene was framed last
-  std::uint64_t framings = 0;       ///< so far: a view of its own (2D) follows them
-  std::array<ViewRoom, 3> rooms{};  ///< that the cards and bars drawn over the picture leave for what is looked at
+  double framed_distance_m = 0.0;   ///< camera distance when the whole scene was last framed
+  std::uint64_t framings = 0;       ///< number of framings; the 2D view follows it
+  std::array<ViewRoom, 3> rooms{};  ///< parts of the view not covered by cards and bars
   std::uint32_t picked_triangle = kNone;
   std::uint32_t hovered_triangle = kNone;
-  bool device_monitor = false;  ///< in place of the 3D view
+  bool device_monitor = false;  ///< shown in place of the 3D view
   RenderQuality quality = RenderQuality::automatic;
   bool net_of_picked = false;
   std::optional<SlicePlane> slice;
   std::shared_ptr<const Isolation> isolation;  ///< null: all triangles are drawn
 
-  void look_at_new_scene();  ///< the whole of it, nothing picked
-  void frame_scene();        ///< camera on the whole mesh, beside what is drawn over the picture
-  /// Turns the camera to a place on the surface, seen a little from the side, and picks the triangle.
+  void look_at_new_scene();  ///< frames the whole scene, picks nothing
+  void frame_scene();        ///< frames the whole mesh, beside cards and bars
+  /// Turns the camera to a place on the surface, viewed obliquely, and picks the triangle.
   void look_at_place(const Vec3& point_world, const Vec3& normal, std::uint32_t triangle);
-  void look_at_worst();  ///< of the map; again: the next worst
+  void look_at_worst();  ///< to the map's worst place; repeated: to the next worst
   void look_from_standard(StandardView view);
   void set_y_up(bool y_up);
   void copy_camera();  ///< to the clipboard, as text
   void paste_camera();
 
   const Inspection& inspection() const { return inspection_; }
-  void show_finding(FindingKind kind, std::size_t index);  ///< goes there and marks its triangles
+  void show_finding(FindingKind kind, std::size_t index);  ///< turns to it and marks its triangles
   void isolate_marked();  ///< the marked triangles, or the picked one, and their neighbours
   void isolate_part();    ///< the connected part that holds one of them
   void show_all();        ///< no isolation, no marks
@@ -64,7 +64,7 @@ class ViewModel {
   const MapView& map_;
   MessageLog& messages_;
   Inspection inspection_;
-  std::uint64_t isolations_ = 0;  ///< so far: each has its number
+  std::uint64_t isolations_ = 0;  ///< number of isolations so far; identifies each
   std::size_t worst_shown_ = 0;
 };
 

@@ -61,7 +61,7 @@ void WindowModel::keep_settings(const KeptLook& look) {
   if (settings_file_.empty() || settings_are_unread_ || settings_ == written_settings_) return;
   if (auto written = write_window_settings(settings_, settings_file_); !written)
     messages_.say(Severity::warning, written.error().message());
-  written_settings_ = settings_;  // said once, not every two seconds
+  written_settings_ = settings_;  // so that a failure is reported once, not every two seconds
 }
 
 void WindowModel::set_ui_scale(float scale) { ui_scale_ = std::clamp(scale, 0.6f, 3.0f); }

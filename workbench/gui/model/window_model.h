@@ -1,4 +1,4 @@
-// The window itself: its layout and look, what of it is kept between runs, and the wish to close it.
+// The window itself: layout and look, the settings kept between runs, and requests to close it.
 #pragma once
 
 #include "workbench/gui/layout/layout.h"
@@ -17,7 +17,7 @@ namespace tangent {
 
 struct PresetKey;
 
-/// What of other parts is kept between runs.
+/// Settings of other parts that are kept between runs.
 struct KeptLook {
   bool y_up = false;
   ColourMap colours = ColourMap::tide;
@@ -27,9 +27,9 @@ class WindowModel {
  public:
   WindowModel(const AppOptions& options, MessageLog& messages);
 
-  /// As the last run left the window; none: settings are not kept.
+  /// Settings of the last run; empty: settings are not kept.
   std::optional<KeptLook> read_settings();
-  /// Once a frame; writes what has changed, every now and then.
+  /// Call once per frame; writes changed settings to disk from time to time.
   void update(double now_s, const KeptLook& look);
   void keep_settings(const KeptLook& look);
   void opened(const std::string& mesh) { settings_.opened(mesh); }
@@ -42,10 +42,10 @@ class WindowModel {
   float ui_scale() const { return ui_scale_; }  ///< the user's own factor on top of the monitor's
   void set_ui_scale(float scale);
   std::map<std::string, bool>& open_sections() { return settings_.sections; }
-  /// Unfolds a section and scrolls its column to it; the column is shown.
+  /// Shows the column, opens the section and scrolls to it.
   void show_section(const std::string& title, bool in_left_column);
   std::string& section_wanted() { return section_wanted_; }
-  void reset_layout();  ///< sizes and sections as they were at first
+  void reset_layout();  ///< sizes and sections back to their defaults
 
   std::vector<std::string>& favourites() { return favourites_; }  ///< full names of preset keys, in order
   const std::vector<std::string>& favourites() const { return favourites_; }

@@ -1,4 +1,4 @@
-// Bookmarks: those a person set, with notes, and those that triggers set; and the triggers.
+// Bookmarks of the user, with notes, those set by triggers, and the triggers' settings.
 #include "workbench/gui/panels/panels.h"
 #include "workbench/gui/widgets/widgets.h"
 
@@ -34,13 +34,14 @@ struct TriggerRow {
   const char* doc;
 };
 constexpr std::array kTriggers{
-    TriggerRow{BookmarkKind::unconverged, "Unconverged", "A tick that did not converge"},
+    TriggerRow{BookmarkKind::unconverged, "Unconverged",
+               "A tick that did not converge, or where the surface offers no contact (facing)"},
     TriggerRow{BookmarkKind::reseeded, "Reseeded", "Tracking gave up and was seeded from the nearest triangles"},
     TriggerRow{BookmarkKind::iterations, "Iterations over", "More tangent planes than this in one tick"},
     TriggerRow{BookmarkKind::force, "Force over", "More force than this sent to the device"},
     TriggerRow{BookmarkKind::device_fault, "Device fault", "A fault of a device or of the safety gate"}};
 
-/// Whoever drags or types the number of a trigger.
+/// Value field for a trigger's threshold.
 void threshold(const UiContext& ui, MessageLog& messages, const char* path, double& value, double most,
                const char* unit, bool whole) {
   const auto result =
@@ -96,7 +97,7 @@ void draw_row(const UiContext& ui, TimeModel& time, const Bookmark& mark, std::s
     time.select_tick(std::max(mark.tick, time.first_tick()));
   const float text_width = ImGui::CalcTextSize(text.c_str()).x;
   ImGui::PopFont();
-  // The note lies over the rest of the row.
+  // The note's field covers the rest of the row.
   ui.items.note(printed("bookmarks/row/%zu", i), at, {at.x + text_width, at.y + height});
   const std::string span = mark.ticks > 1
                                ? printed("ticks %llu to %llu, %u of them", static_cast<unsigned long long>(mark.tick),
@@ -154,7 +155,7 @@ void draw_bookmarks_panel(const UiContext& ui, AppModel& model, BookmarksPanel& 
   }
   const float row = ImGui::GetTextLineHeight() + ImGui::GetStyle().ItemSpacing.y;
   ImGui::BeginChild("bookmarks", {0.0f, row * static_cast<float>(std::min<std::size_t>(6, count)) + ui.px(12)}, true);
-  // A row may remove itself: the list is looked at anew for each.
+  // A row may remove itself, so the list is read again for each.
   for (std::size_t i = 0; i < model.time().bookmarks().all().size(); ++i)
     draw_row(ui, model.time(), model.time().bookmarks().all()[i], i);
   ImGui::EndChild();

@@ -1,5 +1,5 @@
-// The command palette (Ctrl+P) and the sheet of shortcuts (F1). Neither holds anything up: the servo, the plots and the
-// view go on behind them.
+// The command palette (Ctrl+P) and the shortcut sheet (F1). Neither is modal: servo, plots and view continue behind
+// them.
 #include "workbench/gui/panels/commands.h"
 #include "workbench/gui/widgets/widgets.h"
 
@@ -32,7 +32,7 @@ void end_floating() {
   ImGui::PopStyleVar(3);
 }
 
-/// Keys as a cap at the right end of a row.
+/// Draws a shortcut as a key cap at the right end of a row.
 void draw_keys(const UiContext& ui, const std::string& keys, float right, float y) {
   if (keys.empty()) return;
   ImFont* font = ui.fonts.small_number;
@@ -108,7 +108,7 @@ void draw_shortcut_sheet(const UiContext& ui, AppModel& model, MenuBar& menu, co
   }
   for (const KeyNote& note : further_keys()) lines.emplace_back(note.keys, note.what);
   const float row = ui.px(20);
-  // As many columns as have room, as few as fit the height.
+  // As few columns as the height allows, as many as the width has room for.
   const auto most_rows = static_cast<std::size_t>(std::max(4.0f, (over.h - ui.px(60)) / row));
   const std::size_t columns = std::clamp<std::size_t>((lines.size() + most_rows - 1) / most_rows, 1, 3);
   const std::size_t rows = (lines.size() + columns - 1) / columns;

@@ -158,7 +158,7 @@ int match_score(std::string_view name, std::string_view typed) {
     std::size_t found = at;
     while (found < name.size() && lower(name[found]) != lower(wanted)) ++found;
     if (found == name.size()) return -1;
-    // A letter that begins a word is worth looking for further on, if the next one doesn't simply follow.
+    // Prefer a later word start for this letter, unless it directly follows the previous match.
     if (found != at || at == 0) {
       for (std::size_t i = found; i < name.size(); ++i) {
         const bool begins = i == 0 || name[i - 1] == ' ';

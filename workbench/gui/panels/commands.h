@@ -1,4 +1,4 @@
-// Everything the window can be told to do, by name: what the command palette searches and the shortcut sheet lists.
+// All commands of the window by name, for the command palette and the shortcut sheet.
 #pragma once
 
 #include "workbench/gui/panels/panels.h"
@@ -16,14 +16,14 @@ struct Command {
   std::function<void()> run;
 };
 
-/// As things are now: presets, recent files and maps included. `model` and `menu` must outlive the list.
+/// The commands available now, including presets, recent files and maps. `model` and `menu` must outlive the list.
 std::vector<Command> window_commands(AppModel& model, MenuBar& menu);
 
-/// Whether all letters of `typed` occur in `name` in order (any case, blanks ignored), and how well: smaller is better;
-/// negative: no. Starts of words count most.
+/// Fuzzy match: all letters of `typed` must occur in `name` in order (ignoring case and blanks). Negative: no match;
+/// smaller is better. Word starts count most.
 int match_score(std::string_view name, std::string_view typed);
 
-/// What keys do that are no command: mouse and stepping. Pairs of keys and what they do.
+/// Keys and mouse actions that are not commands, with their description.
 struct KeyNote {
   const char* keys;
   const char* what;

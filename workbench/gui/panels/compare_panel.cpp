@@ -1,4 +1,4 @@
-// A and B, undo and redo, and two presets side by side: the keys in which they differ.
+// Preset slots A and B, undo and redo, and a table of the keys in which two presets differ.
 #include "workbench/gui/panels/panels.h"
 #include "workbench/gui/widgets/widgets.h"
 
@@ -8,7 +8,7 @@ namespace tangent {
 
 namespace {
 
-/// What can be compared: A, B, the loaded file, the program's own values, then the folder's files.
+/// Presets that can be compared: A, B, the loaded file, the default values, then the folder's files.
 constexpr std::size_t kOwn = 4;
 
 std::vector<std::string> names_to_compare(const PresetModel& presets) {
@@ -17,7 +17,7 @@ std::vector<std::string> names_to_compare(const PresetModel& presets) {
   return names;
 }
 
-/// The preset of a choice; files are read when they are chosen.
+/// The preset of a choice; files are read when chosen.
 Preset chosen_preset(AppModel& model, ComparePanel::Side& side) {
   const PresetSlots& slots = model.presets().slots();
   if (side.choice < 2) return slots.slot(static_cast<std::size_t>(side.choice)).current();

@@ -1,4 +1,4 @@
-// The picked triangle's control net as numbers.
+// The control net of the picked triangle as a table of numbers.
 #include "core/surface/mesh_patch.h"
 
 #include "workbench/gui/panels/panels.h"

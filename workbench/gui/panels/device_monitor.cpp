@@ -1,5 +1,5 @@
 // The device monitor, in place of the 3D view: states, rates, histograms, limits and clamps, the fault log, raw values,
-// and the buttons of whoever stands beside the device.
+// and buttons for the operator.
 #include "workbench/gui/panels/monitor_histogram.h"
 #include "workbench/gui/panels/panels.h"
 #include "workbench/gui/widgets/widgets.h"
@@ -14,13 +14,13 @@ namespace {
 
 std::string count_text(std::uint64_t n) { return printed("%llu", static_cast<unsigned long long>(n)); }
 
-ImU32 state_ink(const UiContext& ui, DeviceState state) {
+ImU32 monitor_ink(const UiContext& ui, DeviceState state) {
   if (state == DeviceState::ready) return ui.colours.good;
   if (state == DeviceState::faulted) return ui.colours.bad;
   return state == DeviceState::absent ? ui.colours.text_faint : ui.colours.warning;
 }
 
-std::string state_text(DeviceState state, DeviceFault fault) {
+std::string monitor_text(DeviceState state, DeviceFault fault) {
   return std::string(to_string(state)) + (fault == DeviceFault::none ? "" : std::string(": ") + to_string(fault));
 }
 
@@ -29,7 +29,7 @@ void heading(const UiContext& ui, const char* title) {
   ImGui::PushFont(ui.fonts.strong);
   ImGui::TextUnformatted(title);
   ImGui::PopFont();
-  // Within its column: ImGui's own line would reach into the next one.
+  // Drawn within the column: ImGui's separator would reach into the next one.
   const ImVec2 at = ImGui::GetCursorScreenPos();
   ImGui::GetWindowDrawList()->AddLine(at, {at.x + ImGui::GetContentRegionAvail().x, at.y}, ui.colours.border);
   ImGui::Dummy({1, ui.px(1)});
@@ -46,10 +46,10 @@ void draw_states(const UiContext& ui, DeviceModel& devices) {
   Session& session = *devices.session();
   const ForceCapabilities* force = session.force_capabilities();
   const DisplayCapabilities* display = session.display_capabilities();
-  fact(ui, force != nullptr ? force->name.c_str() : "Force device", state_text(s.force_state, s.force_fault), "",
-       state_ink(ui, s.force_state));
-  fact(ui, display != nullptr ? display->name.c_str() : "Contact display", state_text(s.display_state, s.display_fault),
-       "", state_ink(ui, s.display_state));
+  fact(ui, force != nullptr ? force->name.c_str() : "Force device", monitor_text(s.force_state, s.force_fault), "",
+       monitor_ink(ui, s.force_state));
+  fact(ui, display != nullptr ? display->name.c_str() : "Contact display",
+       monitor_text(s.display_state, s.display_fault), "", monitor_ink(ui, s.display_state));
   const bool faulted = s.servo.gate_state == GateState::faulted;
   fact(ui, "Safety gate",
        std::string(to_string(s.servo.gate_state)) + (faulted ? std::string(": ") + to_string(s.servo.gate_fault) : ""),
@@ -141,7 +141,7 @@ void draw_injection(const UiContext& ui, DeviceModel& devices) {
     bool first = true;
     for (const std::string_view name : injected_fault_names()) {
       const std::string text(name);
-      // Side by side while they fit.
+      // On one line as long as they fit.
       if (!first) ImGui::SameLine();
       const float needed = ImGui::CalcTextSize(text.c_str()).x + 2.0f * ImGui::GetStyle().FramePadding.x;
       if (!first && ImGui::GetCursorScreenPos().x + needed > end) ImGui::NewLine();
@@ -237,7 +237,7 @@ void draw_service_column(const UiContext& ui, AppModel& model) {
   draw_log(ui, model.devices());
 }
 
-/// As many columns as there is width for, each as wide as labels and their values can be read together.
+/// As many columns as fit, each narrow enough to read labels and values together.
 void draw_columns(const UiContext& ui, AppModel& model) {
   LinkReport link;
   const bool cable = model.devices().session()->display_report(link);
@@ -251,7 +251,7 @@ void draw_columns(const UiContext& ui, AppModel& model) {
     draw_state_column(ui, model.devices());
     if (columns < 3) draw_values(ui, model.devices(), cable, link);
     ImGui::TableNextColumn();
-    // In a column of their own the histograms take what the values below them leave.
+    // In their own column the histograms take the height left by the values below.
     draw_rates(ui, model.devices(), cable, link, columns == 3 ? high - ui.px(cable ? 420 : 190) : 0.0f);
     if (columns == 3) {
       draw_values(ui, model.devices(), cable, link);

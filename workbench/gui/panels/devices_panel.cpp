@@ -1,4 +1,4 @@
-// The devices: what they are, how they are, what the safety gate does, and the simulated hand.
+// The devices, their state, the safety gate, and the simulated hand.
 #include "workbench/gui/panels/panels.h"
 #include "workbench/gui/widgets/widgets.h"
 
@@ -27,7 +27,7 @@ std::string state_text(DeviceState state, DeviceFault fault) {
   return std::string(to_string(state)) + (fault == DeviceFault::none ? "" : std::string(": ") + to_string(fault));
 }
 
-/// The devices at the tick in view: as they are now, or as they were.
+/// State of the devices at the tick in view, live or past.
 DeviceTelemetry seen(const AppModel& model) {
   const ServoRecord* record = model.time().tick().record();
   if (model.time().paused() && record != nullptr) return record->device;
@@ -84,7 +84,7 @@ void draw_gate(const UiContext& ui, AppModel& model) {
   }
 }
 
-/// One tick's own numbers, where time stands still.
+/// Numbers of the tick in view, while paused.
 void draw_tick(const UiContext& ui, const TimeModel& time) {
   const ServoRecord& r = *time.tick().record();
   const auto length = [](const Vec3& v) { return glm::length(v); };

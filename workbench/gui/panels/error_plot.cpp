@@ -1,5 +1,5 @@
-// Error against iteration for the tick in view, on a log axis, coloured by order as in the 3D view; the ticks before it
-// as a fan behind.
+// Error against iteration for the tick in view, on a log axis, coloured by order as in the 3D view, with the curves of
+// the previous ticks behind it.
 #include "workbench/gui/panels/panels.h"
 #include "workbench/gui/plots/curve_drawing.h"
 #include "workbench/gui/plots/tick_locator.h"
@@ -17,7 +17,7 @@ constexpr double kFloor_um = 1e-7;  ///< errors of 0 are drawn here: about the r
 double shown_um(double error_m) { return std::max(error_m * 1e6, kFloor_um); }
 double shown_um(const IterationRecord& r) { return shown_um(r.error_m); }
 
-/// Where everything is: pixels of an iteration and of an error.
+/// Maps iteration and error to pixels.
 struct ErrorScale {
   ImVec2 min, max;                ///< the area of the curve
   double low = 1.0, high = 10.0;  ///< um, whole decades
@@ -34,7 +34,7 @@ struct ErrorScale {
   ImVec2 point(std::size_t i, const IterationRecord& r) const { return {x(static_cast<double>(i)), y(shown_um(r))}; }
 };
 
-/// Holds every error of the first `shown` iterations, and the tolerance.
+/// A scale that contains all errors of the first `shown` iterations, and the tolerance.
 ErrorScale make_scale(const UiContext& ui, std::span<const IterationRecord> iterations, const ErrorFan& fan,
                       std::size_t shown, double tolerance_um, ImVec2 min, ImVec2 max) {
   double low = tolerance_um, high = tolerance_um * 10.0;
@@ -97,8 +97,8 @@ std::optional<std::size_t> under_mouse(const UiContext& ui, const ErrorScale& sc
   return nearest;
 }
 
-/// Older ticks are fainter; what goes on beyond the axis is cut off there, and said. A new seed starts somewhere else:
-/// no line from the last one to it.
+/// Older ticks are fainter. Curves longer than the axis are cut off and marked. No line across a new seed, which starts
+/// elsewhere.
 void draw_fan(const UiContext& ui, const ErrorScale& scale, const ErrorFan& fan, std::size_t shown) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   draw.PushClipRect(scale.min, scale.max, true);
@@ -129,7 +129,7 @@ void draw_dots(const UiContext& ui, const ErrorScale& scale, std::span<const Ite
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const float radius = std::clamp(0.38f * (scale.x(1.0) - scale.x(0.0)), ui.px(1.3f), ui.px(3.2f));
   for (std::size_t i = 1; i < iterations.size(); ++i) {
-    // A new seed starts somewhere else: no line from the last one to it.
+    // No line across a new seed, which starts elsewhere.
     if (iterations[i].seed != iterations[i - 1].seed) continue;
     draw.AddLine(scale.point(i - 1, iterations[i - 1]), scale.point(i, iterations[i]),
                  packed(with_alpha(ui.palette.error, 0.55f)), ui.px(1.3f));

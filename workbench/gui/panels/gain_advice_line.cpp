@@ -1,4 +1,4 @@
-// The line under the solver's gains that says what they should be here, and why.
+// The line under the solver's gains with the recommended values at this contact, and the reason.
 #include "core/lab/gains/gain_advice.h"
 
 #include "workbench/gui/panels/panels.h"

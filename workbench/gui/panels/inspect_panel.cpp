@@ -1,4 +1,4 @@
-// Mesh inspection: the defects one by one, with the way to each; isolate, slice plane, crease angle.
+// Mesh inspection: list of defects with navigation to each; isolation, slice plane, crease angle.
 #include "workbench/gui/panels/panels.h"
 #include "workbench/gui/widgets/widgets.h"
 
@@ -72,7 +72,7 @@ void draw_findings(const UiContext& ui, AppModel& model, InspectPanel& state) {
     tooltip(ui, "A click lists them, the largest first");
     const float r = ui.px(3.5f);
     const ImVec2 c{at.x + ui.px(5), at.y + 0.5f * height};
-    // The kind that is being looked at is open by itself.
+    // The kind being inspected is open by default.
     const bool open = state.open_kinds[k] != (model.view().inspection().kind == kind);
     if (open)
       draw.AddTriangleFilled({c.x - r, c.y - 0.6f * r}, {c.x + r, c.y - 0.6f * r}, {c.x, c.y + 0.7f * r},
@@ -115,7 +115,7 @@ void draw_isolation(const UiContext& ui, ViewModel& view) {
 
 constexpr std::array<std::string_view, 5> kSlices{"no slice", "across x", "across y", "across z", "across the view"};
 
-/// Read from the plane, whoever set it: index into kSlices.
+/// Index into kSlices, derived from the plane, so that it is right whoever set it.
 int chosen_slice(const std::optional<SlicePlane>& slice) {
   if (!slice) return 0;
   for (int axis = 0; axis < 3; ++axis) {

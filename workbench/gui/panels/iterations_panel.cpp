@@ -1,4 +1,4 @@
-// The iterations of the tick in view, one tangent plane a row, linked to the 3D view both ways.
+// Table of the iterations of the tick in view, one tangent plane per row; selection is linked with the 3D view.
 #include "workbench/gui/panels/panels.h"
 #include "workbench/gui/widgets/widgets.h"
 
@@ -93,7 +93,7 @@ void draw_row(const UiContext& ui, TimeModel& time, std::size_t i, std::size_t c
     time.set_paused(true);
     time.tick().select(selected ? std::nullopt : std::optional(i));
   }
-  // The row reaches past what is scrolled into view; its first cell is always there.
+  // The row may extend beyond the visible columns, so its first cell is noted.
   ui.items.note(printed("iterations/row/%zu", i), at, {at.x + ui.px(16), at.y + ImGui::GetTextLineHeight()});
   const float side = ui.px(7), y = at.y + 0.5f * ImGui::GetTextLineHeight();
   ImGui::GetWindowDrawList()->AddRectFilled({at.x, y - 0.5f * side}, {at.x + side, y + 0.5f * side},
@@ -127,7 +127,7 @@ void draw_iterations_panel(const UiContext& ui, AppModel& model, IterationsPanel
   const TickOutput& out = record->tick.output;
   const bool planar = model.scene().current() != nullptr && model.scene().current()->planar() != nullptr;
   ImGui::PushFont(ui.fonts.small);
-  const bool bad = out.status == TickStatus::unconverged;
+  const bool bad = !is_converged(out.status);
   ImGui::PushStyleColor(ImGuiCol_Text, bad ? ui.colours.warning : ui.colours.text);
   const std::string event = out.event == TickEvent::none ? "" : std::string(", ") + to_string(out.event);
   ImGui::Text("%s%s", to_string(out.status), event.c_str());
@@ -142,7 +142,7 @@ void draw_iterations_panel(const UiContext& ui, AppModel& model, IterationsPanel
   ImGui::PushFont(ui.fonts.small_number);
   ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, ImVec2(ui.px(4), ui.px(1.5f)));
   const float row = ImGui::GetTextLineHeight() + ui.px(3);
-  // The same height whatever the tick, so that nothing below moves; more rows in a higher column.
+  // The height does not depend on the tick, so that nothing below moves; a higher column shows more rows.
   const float rows = std::clamp(std::floor(0.14f * ImGui::GetWindowHeight() / row), 5.0f, 10.0f);
   const float height = (rows + 1.0f) * row + ui.px(4) + ImGui::GetStyle().ScrollbarSize;
   constexpr ImGuiTableFlags flags = ImGuiTableFlags_ScrollX | ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg |
@@ -154,7 +154,7 @@ void draw_iterations_panel(const UiContext& ui, AppModel& model, IterationsPanel
     }
     ImGui::TableSetupScrollFreeze(1, 1);
     draw_header(ui, planar);
-    // Selected elsewhere (keys, 3D view, plots): its row comes into view.
+    // Selected elsewhere (keys, 3D view, plots): scroll to its row.
     if (model.time().tick().selected() != state.shown_selection) {
       state.shown_selection = model.time().tick().selected();
       if (state.shown_selection)

@@ -1,4 +1,4 @@
-// Everything the program has said, newest first.
+// The message log, newest first.
 #include "workbench/gui/panels/panels.h"
 #include "workbench/gui/widgets/widgets.h"
 
@@ -59,7 +59,7 @@ void draw_log_panel(const UiContext& ui, MessageLog& messages, LogPanel& state) 
   if (copy) ImGui::SetClipboardText(copied.c_str());
 }
 
-/// Recent messages over the upper left of the 3D view, newest first; a click puts one away.
+/// Recent messages over the upper left of the 3D view, newest first; a click dismisses one.
 void draw_toasts(const UiContext& ui, AppModel& model, const Rect& over) {
   const auto& all = model.messages().all();
   float y = over.y + ui.px(40);

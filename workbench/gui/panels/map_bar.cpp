@@ -1,5 +1,5 @@
-// The colour bar of the map, upright in the 3D view, with the histogram beside it. Dragging its upper half moves the
-// upper end of the range, its lower half the lower end; a double click finds the range by itself.
+// The map's vertical colour bar in the 3D view, with the histogram beside it. Dragging its upper half moves the upper
+// end of the range, its lower half the lower end; a double click sets the range automatically.
 #include "workbench/gui/panels/panels.h"
 #include "workbench/gui/render/quantity_text.h"
 #include "workbench/gui/widgets/widgets.h"
@@ -14,7 +14,7 @@ namespace {
 constexpr float kBarWidth = 14.0f, kHistogramWidth = 44.0f, kPad = 8.0f;
 constexpr float kBeyond = 14.0f;  ///< for the mark of a limit that is not on the bar
 
-/// The value whose place on the bar is to get a number, in shown units: the ends, and round ones between.
+/// Values to label on the bar, in shown units: the ends, and round values between.
 std::vector<double> bar_labels(const MapPaint& paint, double unit, double most) {
   const double low = paint.low / unit, high = paint.high / unit;
   std::vector<double> round;
@@ -32,7 +32,7 @@ std::vector<double> bar_labels(const MapPaint& paint, double unit, double most) 
       round.push_back(std::abs(value) < 1e-9 * step ? 0.0 : value);
   }
   std::vector<double> out{low, high};
-  // A round value too near an end would be written over it.
+  // A round value too close to an end would overlap its label.
   for (const double value : round) {
     const double share = map_share(paint, value * unit);
     if (share > 0.7 / most && share < 1.0 - 0.7 / most) out.push_back(value);
@@ -48,7 +48,7 @@ void drag_range(const UiContext& ui, MapView& map, const MapPaint& paint, const 
   if (!ImGui::IsItemActive() || io.MouseDelta.y == 0.0f || !ImGui::IsMouseDragging(ImGuiMouseButton_Left, ui.px(2)))
     return;
   const bool upper = io.MouseClickedPos[0].y < bar.y + 0.5f * bar.h;
-  // What was under the pointer stays under it: the end moves the other way.
+  // The value under the pointer follows it, so the end moves the other way.
   const double by = static_cast<double>(io.MouseDelta.y / bar.h);
   const double at = upper ? 1.0 / std::max(0.1, 1.0 - by) : 1.0 - 1.0 / std::max(0.1, 1.0 + by);
   if (info_of(map.quantity).about_zero) {
@@ -61,8 +61,7 @@ void drag_range(const UiContext& ui, MapView& map, const MapPaint& paint, const 
     map.set_range(map_value_at(paint, at), map.high());
 }
 
-/// A line across histogram and bar with its number; where it is not on the bar, an arrow past the end that it lies
-/// beyond.
+/// A labelled line across histogram and bar; if the limit is outside the range, an arrow beyond that end.
 void draw_limit(const UiContext& ui, const Rect& bar, double share, double shown) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   ImFont* number = ui.fonts.small_number;
@@ -70,7 +69,7 @@ void draw_limit(const UiContext& ui, const Rect& bar, double share, double shown
   if (share >= 0.0 && share <= 1.0) {
     draw.AddLine({bar.x - ui.px(kHistogramWidth - 4.0f), y}, {bar.right() + ui.px(4), y}, ui.colours.warning,
                  ui.px(1.5f));
-    if (y < bar.y + number->FontSize || y > bar.bottom() - number->FontSize) y = 0.0f;  // an end's number stands there
+    if (y < bar.y + number->FontSize || y > bar.bottom() - number->FontSize) y = 0.0f;  // would overlap an end's label
   } else {
     const float r = ui.px(4), x = bar.x + 0.5f * bar.w, out = share < 0.0 ? 1.0f : -1.0f;
     y += out * ui.px(kBeyond);
@@ -103,7 +102,7 @@ void draw_bins(const UiContext& ui, const MapStatistics& s, const Rect& bar) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   for (std::size_t i = 0; i < MapStatistics::kBins && s.fullest > 0; ++i) {
     if (s.bins[i] == 0) continue;
-    // A bin with anything in it is at least a pixel long: the few bad places are what one looks for.
+    // A non-empty bin is at least one pixel long: the few bad places are what matters.
     const float length =
         std::max(1.0f, ui.px(kHistogramWidth - 6.0f) * static_cast<float>(s.bins[i]) / static_cast<float>(s.fullest));
     const float y1 = bar.bottom() - bar.h * static_cast<float>(i + 1) / MapStatistics::kBins,
@@ -113,7 +112,7 @@ void draw_bins(const UiContext& ui, const MapStatistics& s, const Rect& bar) {
   }
 }
 
-/// `unit_si`: 1 of the unit shown; `limit_share`: where the limit's own number stands.
+/// `unit_si`: the shown unit in SI; `limit_share`: position of the limit's label.
 void draw_numbers(const UiContext& ui, const MapPaint& paint, double unit_si, const Rect& bar,
                   std::optional<double> limit_share) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
@@ -124,7 +123,7 @@ void draw_numbers(const UiContext& ui, const MapPaint& paint, double unit_si, co
     const bool in_the_way = limit_share &&
                             std::abs(y - (bar.bottom() - bar.h * static_cast<float>(*limit_share))) < line &&
                             y > bar.y + 1.0f && y < bar.bottom() - 1.0f;
-    if (in_the_way) continue;  // of the limit's own number
+    if (in_the_way) continue;  // would overlap the limit's label
     draw.AddLine({bar.right() + 1, y}, {bar.right() + ui.px(4), y}, ui.colours.text_dim);
     draw.AddText(number, line, {bar.right() + ui.px(7), y - 0.5f * line}, ui.colours.text,
                  printed("%.4g", value).c_str());
@@ -148,7 +147,7 @@ float draw_map_bar(const UiContext& ui, AppModel& model, const Rect& view, float
       std::max(title_width, ui.px(kHistogramWidth + kBarWidth + 10.0f) + label_width) + 2.0f * ui.px(kPad);
   const float height = std::clamp(view.bottom() - top - ui.px(60), ui.px(90), ui.px(300));
   if (view.w < width + ui.px(60) || top + height + ui.px(50) > view.bottom()) return 0.0f;
-  // A limit beyond an end of the bar is marked past that end.
+  // A limit outside the range is marked beyond that end.
   const std::optional<double> limit = map.limit();
   const double limit_share = limit ? map_share(*paint, *limit) : 0.5;
   const float above = limit_share > 1.0 ? ui.px(kBeyond) : 0.0f, below = limit_share < 0.0 ? ui.px(kBeyond) : 0.0f;
@@ -161,8 +160,8 @@ float draw_map_bar(const UiContext& ui, AppModel& model, const Rect& view, float
 
   draw_colours(ui, *paint, bar);
   draw_bins(ui, map.statistics(), bar);
-  draw_numbers(ui, *paint, unit.si_value, bar, limit ? std::optional(limit_share) : std::nullopt);
-  if (limit) draw_limit(ui, bar, limit_share, *limit / unit.si_value);
+  draw_numbers(ui, *paint, unit.in_si, bar, limit ? std::optional(limit_share) : std::nullopt);
+  if (limit) draw_limit(ui, bar, limit_share, *limit / unit.in_si);
   ImGui::SetCursorScreenPos({card.x, card.y});
   ImGui::InvisibleButton("##map_bar", {card.w, card.h});
   ui.items.note_last("view/map_bar");
@@ -174,14 +173,14 @@ float draw_map_bar(const UiContext& ui, AppModel& model, const Rect& view, float
   return view.right() - card.x;
 }
 
-/// Value under the pointer, beside it.
+/// Tooltip with the value under the pointer.
 void draw_map_hover(const UiContext& ui, MapView& map, std::uint32_t triangle, double u, double v) {
   const auto value = map.value_at(triangle, u, v);
   const auto paint = map.paint();
   if (!paint) return;
   const UnitLabel unit = unit_of(map.quantity);
   const std::string text =
-      value ? printed("%.4g", *value / unit.si_value) + (unit.name.empty() ? "" : " " + std::string(unit.name))
+      value ? printed("%.4g", *value / unit.in_si) + (unit.name.empty() ? "" : " " + std::string(unit.name))
             : "no value";
   const std::string where = printed("triangle %u", triangle);
   ImDrawList& draw = *ImGui::GetForegroundDrawList();

@@ -1,5 +1,5 @@
-// The map over the mesh: which quantity, how it is coloured, how far it is computed, and where it is worst. The colour
-// bar stands in the 3D view (map_bar.cpp).
+// Settings of the map over the mesh: quantity, colours, progress, worst places. The colour bar is in the 3D view
+// (map_bar.cpp).
 #include "workbench/gui/panels/panels.h"
 #include "workbench/gui/widgets/widgets.h"
 
@@ -10,7 +10,7 @@ namespace tangent {
 
 namespace {
 
-double shown(const MapView& map, double value) { return value / unit_of(map.quantity).si_value; }
+double shown(const MapView& map, double value) { return value / unit_of(map.quantity).in_si; }
 
 std::string unit_suffix(const MapView& map) {
   const std::string_view unit = unit_of(map.quantity).name;
@@ -62,7 +62,7 @@ std::optional<double> parsed(const std::string& text) {
 }
 
 void draw_range(const UiContext& ui, MapView& map) {
-  const double unit = unit_of(map.quantity).si_value;
+  const double unit = unit_of(map.quantity).in_si;
   const float width = ImGui::GetContentRegionAvail().x;
   const float box = std::floor((width - ui.px(118)) * 0.5f);
   const auto typed_low = number_box(ui, "map/low", box, printed("%.4g", shown(map, map.low())));

@@ -13,7 +13,7 @@ void draw_path_bar(const UiContext& ui, SceneModel& scene, PathBar& bar, const R
 
 namespace {
 
-/// A button that drops a menu below itself. Returns whether the menu is open; then call ImGui::EndPopup.
+/// A button with a drop-down menu. Returns whether the menu is open; then call ImGui::EndPopup.
 bool drop_button(const UiContext& ui, std::string_view path, const std::string& text, const char* tip,
                  float width = 0.0f) {
   const std::string id = std::string(path);
@@ -182,7 +182,7 @@ void draw_device_menu(const UiContext& ui, DeviceModel& devices, float width) {
   ImGui::EndPopup();
 }
 
-/// The one button that must be found at once: red and on the right.
+/// The stop button, which must be found at once: red, on the right.
 void draw_stop(const UiContext& ui, DeviceModel& devices, const Rect& rect) {
   const bool stopped = devices.stopped();
   const char* text = stopped ? "Arm" : "Stop force";

@@ -1,4 +1,4 @@
-// The mesh: what it is and what a contact solver will meet on it.
+// The mesh: facts and health report.
 #include "core/lab/objects/generate.h"
 #include "workbench/gui/model/polygon_facts.h"
 #include "workbench/gui/panels/panels.h"
@@ -16,7 +16,7 @@ namespace {
 
 std::string count(std::uint64_t n) { return printed("%llu", static_cast<unsigned long long>(n)); }
 
-/// A line of the health report: nothing is said in colour but what a person should look at.
+/// A line of the health report; coloured only if it needs attention.
 void problem(const UiContext& ui, const char* label, std::uint64_t n, ImU32 ink, const char* doc) {
   fact(ui, label, count(n), "", n > 0 ? std::optional(ink) : std::nullopt);
   tooltip(ui, doc);
@@ -77,7 +77,7 @@ void draw_picked(const UiContext& ui, AppModel& model) {
   if (text_button(ui, "mesh/unpick", "Unpick", "Picks nothing")) model.view().picked_triangle = kNone;
 }
 
-/// What the file doesn't say, and how large the mesh shall be.
+/// Unit and size: not stated in the file, so chosen by the user.
 void draw_size_choices(const UiContext& ui, SceneModel& scene) {
   const float column = ui.px(140), width = ui.px(110);
   const auto label = [&](const char* text) {
@@ -109,7 +109,7 @@ void draw_size_choices(const UiContext& ui, SceneModel& scene) {
     scene.set_fit(number * 1e-3);
 }
 
-/// Not the ribbon that it is drawn with.
+/// Facts of the polygon, not of the ribbon mesh that displays it.
 void draw_polygon(const UiContext& ui, const PlanarPolygon& polygon) {
   const PolygonFacts facts = facts_of(polygon);
   fact(ui, "Outline", polygon.closed ? "closed" : "open");

@@ -9,10 +9,10 @@ namespace tangent {
 
 namespace {
 
-constexpr double kFloor_ns = 1000.0;  // durations below a microsecond are drawn as one
+constexpr double kFloor_ns = 1000.0;  // durations below 1 us are drawn as 1 us
 
 int column_of(std::uint64_t value, std::uint64_t least) {
-  // The rounding keeps whole decades where they belong.
+  // The tolerance keeps exact powers of ten in their own column.
   return static_cast<int>(
       std::floor(std::log10(static_cast<double>(std::max(value, least))) * DecadeColumns::kPerDecade + 1e-9));
 }
@@ -35,7 +35,7 @@ DecadeColumns decade_columns(const LogHistogram& histogram, std::uint64_t least)
     const std::uint64_t count = histogram.count_in(bin);
     if (count == 0) continue;
     const int c =
-        std::clamp(column_of(LogHistogram::top_of(bin), least), first, last);  // counts may have come in between
+        std::clamp(column_of(LogHistogram::top_of(bin), least), first, last);  // another thread may have added counts
     std::uint64_t& column = columns.counts[static_cast<std::size_t>(c - first)];
     column += count;
     columns.most = std::max(columns.most, column);
@@ -59,7 +59,7 @@ void draw_duration_histogram(const UiContext& ui, const char* title, const LogHi
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   draw.AddRectFilled(at, {at.x + width, bottom}, ui.colours.plot);
   ImGui::Dummy({width, height});
-  // Whole decades, at least three, around what there is.
+  // Whole decades around the data, at least three.
   const int per = DecadeColumns::kPerDecade;
   const int offset = static_cast<int>(std::lround(std::log10(to_ms)));  // value 10^k is 10^(k + offset) ms
   int low =
@@ -79,7 +79,7 @@ void draw_duration_histogram(const UiContext& ui, const char* title, const LogHi
     const float left = std::clamp(x - 0.5f * w, at.x, at.x + width - w);
     draw.AddText(font, font->FontSize, {left, bottom + ui.px(2)}, ui.colours.text_dim, label.c_str());
   }
-  // One of ten thousand must show: heights go with the logarithm of the count.
+  // Logarithmic heights, so that one in ten thousand is visible.
   const double full = std::log10(static_cast<double>(columns.most) + 1.0);
   for (std::size_t i = 0; i < columns.counts.size(); ++i) {
     if (columns.counts[i] == 0) continue;

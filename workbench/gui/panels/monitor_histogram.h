@@ -1,4 +1,4 @@
-// Counts of a duration over a logarithmic axis.
+// Histogram of durations on a logarithmic axis.
 #pragma once
 
 #include "devices/base/log_histogram.h"
@@ -8,14 +8,14 @@
 
 namespace tangent {
 
-/// Counts in 8 columns a decade of the value.
+/// Counts in 8 columns per decade.
 struct DecadeColumns {
   static constexpr int kPerDecade = 8;
-  int first = 0;                      ///< column of 10^(first / kPerDecade)
+  int first = 0;                      ///< the first column starts at 10^(first / kPerDecade)
   std::vector<std::uint64_t> counts;  ///< empty: nothing was counted
   std::uint64_t most = 0;
 };
-/// `least`: smaller values count as this one.
+/// `least`: smaller values are counted as this one.
 DecadeColumns decade_columns(const LogHistogram& histogram, std::uint64_t least = 1);
 
 /// Title with median and 99th percentile, bars, axis in milliseconds. `ns_per_count`: of the histogram's values.

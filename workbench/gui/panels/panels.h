@@ -1,5 +1,5 @@
-// The parts of the window. Each draws itself into the current ImGui window or a given rectangle, reads the model and
-// calls it; what a panel has to remember between frames is a struct of its own. One panel, one file.
+// The window's panels. Each function draws a panel into the current ImGui window or a given rectangle, reads the model
+// and calls it; a panel's state between frames is a struct of its own. One panel per file.
 #pragma once
 
 #include "workbench/gui/model/app_model.h"
@@ -20,13 +20,13 @@ namespace tangent {
 // Left column.
 void draw_parameter_panels(const UiContext& ui, AppModel& model);
 
-/// What the gains should be at the contact in view, and why. Nothing unless they are used.
+/// Recommended gains at the contact in view, with the reason. Draws nothing if the method does not use gains.
 void draw_gain_advice(const UiContext& ui, AppModel& model);
 
 struct ComparePanel {
   struct Side {
     int choice = 0;
-    std::filesystem::path read;  ///< the file that `preset` is from
+    std::filesystem::path read;  ///< the file from which `preset` was read
     Preset preset;
   };
   bool open = true;
@@ -36,19 +36,19 @@ void draw_compare_panel(const UiContext& ui, AppModel& model, ComparePanel& stat
 
 struct PresetsPanel {
   bool open = true;
-  std::string name;       ///< typed, to save under
-  std::string asked_for;  ///< a file of this name is there: pressed once more it is written over
-  std::string written;    ///< saved here before: no question is asked again
+  std::string name;       ///< typed name to save under
+  std::string asked_for;  ///< this file exists: pressing again overwrites it
+  std::string written;    ///< saved before in this run: no confirmation
 };
 void draw_presets_panel(const UiContext& ui, AppModel& model, PresetsPanel& state);
 
 // Right column.
 struct PathMapPanel {
-  bool close_up = true;  ///< as near as the path needs; else the whole base triangle
+  bool close_up = true;  ///< zoomed to the path; otherwise the whole base triangle
 };
 struct IterationsPanel {
   bool open = true;
-  std::optional<std::size_t> shown_selection;  ///< the table was last scrolled to this one
+  std::optional<std::size_t> shown_selection;  ///< row to which the table was last scrolled
   PathMapPanel map;
 };
 void draw_iterations_panel(const UiContext& ui, AppModel& model, IterationsPanel& state);
@@ -59,10 +59,9 @@ struct MapPanel {
   bool open = true;
 };
 void draw_map_panel(const UiContext& ui, AppModel& model, MapPanel& state);
-/// The colour bar, inside the 3D view's window, below `top`. Returns the width it takes at the right; 0: it isn't
-/// there.
+/// The colour bar, inside the 3D view's window, below `top`. Returns its width at the right edge; 0: not shown.
 float draw_map_bar(const UiContext& ui, AppModel& model, const Rect& view, float top);
-/// The value at a place under the pointer.
+/// Tooltip with the value under the pointer.
 void draw_map_hover(const UiContext& ui, MapView& map, std::uint32_t triangle, double u, double v);
 
 struct InspectPanel {
@@ -70,7 +69,7 @@ struct InspectPanel {
   std::array<bool, kFindingKindCount> open_kinds{};
 };
 void draw_inspect_panel(const UiContext& ui, AppModel& model, InspectPanel& state);
-/// What the row "slice" shows for a plane.
+/// Choice of the row "slice" for this plane.
 std::string_view slice_choice(const std::optional<SlicePlane>& slice);
 /// Precondition: the triangle is usable.
 void draw_control_net_table(const UiContext& ui, const AppModel& model, std::uint32_t triangle);
@@ -103,13 +102,13 @@ struct LogPanel {
   std::string filter;
 };
 void draw_log_panel(const UiContext& ui, MessageLog& messages, LogPanel& state);
-/// In place of the 3D view while it is asked for.
+/// Drawn in place of the 3D view while the monitor is open.
 void draw_device_monitor(const UiContext& ui, AppModel& model, const Rect& rect);
 
 // Middle.
 struct ViewPanel {
   double build_ms_outside = 0.0;   ///< processor time spent in the renderer this frame
-  std::optional<Vec3> drag_plane;  ///< where the hand was last led to
+  std::optional<Vec3> drag_plane;  ///< last target given to the hand
   float top = 0.0f;                ///< height of the toggles along the upper edge, points; of the last frame
   PlanarView planar;               ///< of 2D scenes
 };
@@ -123,17 +122,17 @@ struct PlotsPanel {
   PlotLink link;
   PlotsMode mode = PlotsMode::time;
   bool values = false;  ///< the table of numbers beside the curves
-  int x = 0, y = 2;     ///< curves by number: X-Y; spectrum and histogram show x
+  int x = 0, y = 2;     ///< curve numbers for X-Y; spectrum and histogram show x
   SampleCells cells;
   Spectrum spectrum;
-  int spectrum_of = -1;  ///< curve, range and moment of `spectrum`
+  int spectrum_of = -1;  ///< curve, range and time of `spectrum`
   std::uint64_t spectrum_from = 0, spectrum_to = 0;
   double spectrum_at_s = -1.0;
   std::array<ImU32, 4> event_inks{};     ///< by EventRank - 1
   std::vector<TickMark> changes, flags;  ///< of this frame
 };
 PlotsPanel make_plots_panel();
-/// A curve of the plots, whichever plot it is in.
+/// A curve of the plots, by its number over all plots.
 struct CurveRef {
   const PlotSpec* plot = nullptr;
   const PlotSeries* series = nullptr;
@@ -141,7 +140,7 @@ struct CurveRef {
   std::string with_unit() const;  ///< "Force x, N"
 };
 std::vector<CurveRef> curves_of(const PlotsPanel& state);
-/// Ticks in view: from and one past the last, cut to what is kept.
+/// Range [from, to) of the ticks in view that are in the history.
 std::pair<std::uint64_t, std::uint64_t> ticks_in_view(const TimeModel& time);
 void draw_plots_toolbar(const UiContext& ui, AppModel& model, PlotsPanel& state, const Rect& rect, const Rect& whole);
 void draw_values_table(const UiContext& ui, TimeModel& time, PlotsPanel& state, const Rect& rect);
@@ -176,10 +175,10 @@ void draw_menu_bar(const UiContext& ui, AppModel& model, MenuBar& state, const R
 /// Files and folders whose path begins with `typed`, folders with a slash at their end; at most `most`. Only
 /// mesh files and folders are offered.
 std::vector<std::string> complete_mesh_path(const std::string& typed, std::size_t most);
-/// What all of them begin with.
+/// The longest common prefix.
 std::string common_start(const std::vector<std::string>& texts);
 
-/// Keys that work everywhere but in a text box. Listed in the sheet of shortcuts (commands.h).
+/// Keys that work everywhere but in text boxes. Listed in the shortcut sheet (commands.h).
 void handle_shortcuts(AppModel& model, MenuBar& menu);
 
 }  // namespace tangent

@@ -1,4 +1,4 @@
-// Favourites, then the tables of the preset schema: one row for each key.
+// Favourites, then the tables of the preset schema, one row per key.
 #include "core/io/rendering_condition.h"
 #include "workbench/gui/panels/panels.h"
 #include "workbench/gui/widgets/widgets.h"
@@ -11,7 +11,7 @@ bool holds(const KeyCondition& condition, const Preset& preset) {
   return condition.holds == nullptr || condition.holds(preset);
 }
 
-/// Whether a key means anything under the present choices; the others stay away.
+/// Whether a key applies under the current choices; others are hidden.
 bool has_meaning(const PresetKey& key, const Preset& preset) {
   return !key.condition.otherwise.empty() || holds(key.condition, preset);
 }
@@ -27,7 +27,7 @@ std::string method_names(Methods methods) {
   return text;
 }
 
-/// Why a value changes nothing at present; empty: it counts.
+/// Why a value currently has no effect; empty: it has.
 std::string idle_because(const PresetKey& key, const AppModel& model) {
   const Preset& preset = model.presets().current();
   if (key.needs_controller) {
@@ -52,8 +52,7 @@ std::string explain(const PresetKey& key, std::string_view idle) {
   return text;
 }
 
-/// The name: a star in front of a favourite, a dot before a value that is no longer the loaded one; a click makes it
-/// one.
+/// The key's name, with a star for a favourite and a dot for a changed value; a click toggles the favourite.
 void draw_label(const UiContext& ui, AppModel& model, const PresetKey& key, const std::string& path, float width,
                 std::string_view idle) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
@@ -76,7 +75,7 @@ void draw_label(const UiContext& ui, AppModel& model, const PresetKey& key, cons
   draw.PopClipRect();
 }
 
-/// `prefix`: of the item's path, for a key that is drawn twice.
+/// `prefix`: of the item's path, for a key drawn twice.
 void draw_row(const UiContext& ui, AppModel& model, const PresetKey& key, const char* prefix = "") {
   const Preset& preset = model.presets().current();
   const double value = key.get(preset);
@@ -119,7 +118,7 @@ void draw_favourites(const UiContext& ui, AppModel& model) {
   ImGui::Dummy({1, ui.px(2)});
 }
 
-/// The paper's conditions by name: both sources at once.
+/// The paper's conditions by name; sets both sources.
 void draw_condition_row(const UiContext& ui, PresetModel& presets) {
   const RenderingCondition* present = condition_of(presets.current());
   std::array<std::string_view, kConditionNames.size() + 1> names{"none of the six"};

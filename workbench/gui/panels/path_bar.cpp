@@ -1,4 +1,4 @@
-// Typing the path of a mesh: Tab completes, Enter opens, Esc puts it away.
+// Input line for a mesh path: Tab completes, Enter opens, Esc closes.
 #include "workbench/gui/panels/panels.h"
 #include "workbench/gui/widgets/widgets.h"
 

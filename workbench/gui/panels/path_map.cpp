@@ -1,6 +1,6 @@
-// The way of a tick's iterations over (u, v): the base triangle laid flat, its neighbours unfolded, the residual
-// |c - h N - S| as colour and contours, and the planes as dots in the colours they have everywhere. A path that runs
-// down to a hole converges; one that circles a hole cycles; one that goes where there is none runs away.
+// Path of a tick's iterations over (u, v): the base triangle in the plane, its neighbours unfolded, the residual
+// |c - h N - S| as colour and contours, and the planes as dots in their usual colours. A path into a minimum converges,
+// one around a minimum cycles, and one to where there is none diverges.
 #include "workbench/gui/map/residual_map.h"
 #include "workbench/gui/panels/panels.h"
 #include "workbench/gui/widgets/widgets.h"
@@ -13,10 +13,10 @@ namespace tangent {
 
 namespace {
 
-/// Flat coordinates onto the screen, the same scale both ways, up is up.
+/// Maps flat coordinates to the screen: uniform scale, y up.
 struct Placement {
   ImVec2 min, max;
-  FlatView view;  ///< of the shape of the rectangle
+  FlatView view;  ///< with the rectangle's aspect ratio
 
   ImVec2 at(const Vec2& p) const {
     const Vec2 share = (p - view.min) / view.size();
@@ -33,7 +33,7 @@ Placement fitted(const FlatView& wanted, ImVec2 min, ImVec2 max) {
   return {min, max, {middle - half, middle + half}};
 }
 
-/// The triangle of the selected plane, else the one where the tick ended.
+/// The triangle of the selected plane, or else of the tick's contact.
 std::uint32_t base_triangle(const TimeModel& time) {
   const auto iterations = time.tick().iterations();
   if (iterations.empty()) return kNone;
@@ -76,7 +76,7 @@ std::string residual_text(double metres) {
   return printed("%g nm", metres * 1e9);
 }
 
-/// One place of a contour, to be labelled: the lowest of those that are clear of the planes' dots.
+/// The labelled point of a contour: the lowest one clear of the planes' dots.
 struct ContourLabel {
   int level = 0;
   ImVec2 at{0, 0};
@@ -89,7 +89,7 @@ float merit_of(const UiContext& ui, ImVec2 place, std::span<const ImVec2> planes
   return nearest + 1e-3f * place.y;  // the lowest where all are clear
 }
 
-/// Whole decades are stronger, and one place of each says which it is.
+/// Whole decades are drawn stronger and labelled once.
 void draw_contours(const UiContext& ui, const ResidualMap& map, const Placement& on, std::span<const ImVec2> planes) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const ImU32 strong = packed(with_alpha(ui.palette.text, 0.38f)), weak = packed(with_alpha(ui.palette.text, 0.16f));
@@ -112,7 +112,7 @@ void draw_contours(const UiContext& ui, const ResidualMap& map, const Placement&
     else if (merit > known->merit)
       *known = {s.level, m, merit};
   }
-  // The outer ones have more room: where two would lie over each other the inner one stays away.
+  // Outer contours have more room: where two labels overlap the inner one is dropped.
   std::sort(labels.begin(), labels.end(),
             [](const ContourLabel& a, const ContourLabel& b) { return a.level > b.level; });
   for (std::size_t i = 0; i < labels.size(); ++i) {
@@ -154,7 +154,7 @@ void draw_edges(const UiContext& ui, const SceneModel& scene, const ResidualMap&
   }
 }
 
-/// Returns how many planes lie elsewhere; `pointed`: the plane under the mouse.
+/// Returns the number of planes outside the map; `pointed`: the plane under the mouse.
 std::size_t draw_path(const UiContext& ui, const TimeModel& time, const ResidualMap& map, const Placement& on,
                       bool mouse_here, std::optional<std::size_t>& pointed) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();

@@ -1,5 +1,5 @@
-// Smoothness as a person feels it: the mesh's angles against the threshold of a rendering condition, in one sentence, a
-// table of all conditions and the worst edges. The heat map is the map "Facet angle".
+// Perceived smoothness: the mesh's angles against the threshold of a rendering condition, as one sentence, a table of
+// all conditions and the worst edges. The heat map is the map "Facet angle".
 #include "core/io/rendering_condition.h"
 #include "workbench/gui/panels/panels.h"
 #include "workbench/gui/widgets/widgets.h"
@@ -36,7 +36,7 @@ void draw_choice(const UiContext& ui, MapView& map, PerceptionPanel& state, int 
   if (shown) map.set_quantity(MapQuantity::facet_angle);
 }
 
-/// Threshold, share felt as a bar, and in figures.
+/// Threshold, and the share of edges felt, as a bar and as a number.
 void draw_table(const UiContext& ui, const PerceptionAudit& audit, std::size_t chosen) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   ImFont* number = ui.fonts.small_number;

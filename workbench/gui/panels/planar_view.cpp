@@ -33,7 +33,7 @@ constexpr std::array kToggles{
     PlanarToggle{"Force", &PlanarView::force, "The rendered force, 6 mm a newton"},
     PlanarToggle{"Display", &PlanarView::display, "The fingerpad from the side, with the roller where it is"}};
 
-/// From the scene to pixels and back; y up.
+/// Maps the scene to pixels and back; y up.
 class Paper {
  public:
   Paper(const PlanarView& view, const Rect& rect)
@@ -54,7 +54,7 @@ class Paper {
   ImVec2 middle_;
 };
 
-/// The whole polygon with a finger beside it, where nothing else is drawn.
+/// Frames the whole polygon and a finger, clear of cards and bars.
 void frame_all(const UiContext& ui, const AppModel& model, PlanarView& view, const Rect& rect) {
   const Box& box = model.scene().current()->mesh().bounds();
   const Vec3 origin = model.scene().current()->mesh().origin(), size = box.size();
@@ -90,7 +90,7 @@ void interact(DeviceModel& devices, PlanarView& view, const Rect& rect) {
   view.centre = held + (view.centre - held) / factor;
 }
 
-/// Places along a patch of the rendered curve, close enough to look round.
+/// Points along a patch of the rendered curve, dense enough to look smooth.
 std::vector<ImVec2> curve_points(const PlanarCurve& curve, std::uint32_t patch, LocalCentre kind, const Paper& paper) {
   const CurvePatch& p = curve.patch(patch);
   const float reach = paper.length(glm::length(p.last - p.first));
@@ -109,10 +109,10 @@ void draw_curve(const UiContext& ui, const PlanarView& view, const PlanarCurve& 
     const CurvePatch& p = curve.patch(i);
     const std::vector<ImVec2> points = curve_points(curve, i, kind, paper);
     if (view.patches && detail && !p.straight) {
-      // Triangles from the vertex: the region need not be convex.
+      // A triangle fan from the vertex: the region may be concave.
       const ImU32 fill = colour(i % 2 ? c.control_net : c.smooth_surface, 0.28f);
       const ImVec2 vertex = paper.at(curve.origin() + p.vertex);
-      // Softened edges of neighbours would show as lines.
+      // Without anti-aliasing, which would show seams between neighbours.
       const ImDrawListFlags flags = draw.Flags;
       draw.Flags &= ~ImDrawListFlags_AntiAliasedFill;
       for (std::size_t k = 0; k + 1 < points.size(); ++k)
@@ -159,7 +159,7 @@ void draw_tangents(const UiContext& ui, const TimeModel& time, const Paper& pape
     draw.AddLine({middle.x - half.x, middle.y - half.y}, {middle.x + half.x, middle.y + half.y}, colour(ink),
                  ui.px(selected ? 3.0f : 1.6f));
     draw.AddCircleFilled(middle, ui.px(selected ? 4.5f : 3.0f), colour(ink), 16);
-    // Where the finger would have it.
+    // To the finger's contact point on this line.
     draw.AddLine(middle, paper.at(r.contact), colour(ink, 0.6f), ui.px(1.0f));
     draw.AddCircle(paper.at(r.contact), ui.px(selected ? 5.5f : 4.0f), colour(ink), 16, ui.px(1.3f));
   }
@@ -173,14 +173,14 @@ void draw_finger(const UiContext& ui, const Finger& finger, const TickRecord& ti
   if (radius > 1.0f) {
     draw.AddCircleFilled(centre, radius, colour(c.finger, 0.16f), 96);
     draw.AddCircle(centre, radius, colour(c.finger, 0.9f), 96, ui.px(1.6f));
-    // The fingerpad's middle: the contact location counts from here.
+    // The fingerpad's middle: zero of the contact location.
     const Vec3 x = tick.input.finger.orientation * Vec3(1.0, 0.0, 0.0);
     const double turn = std::atan2(x.y, x.x);
     const ImVec2 pad{centre.x + radius * static_cast<float>(std::sin(turn)),
                      centre.y + radius * static_cast<float>(std::cos(turn))};
     draw.AddLine({centre.x + 0.9f * (pad.x - centre.x), centre.y + 0.9f * (pad.y - centre.y)}, pad, colour(c.finger),
                  ui.px(2.0f));
-    // The contact on the finger, and the way from the pad's middle.
+    // The contact on the finger, and the arc from the pad's middle.
     const Vec3& n = tick.output.normal;
     const float a0 = std::atan2(pad.y - centre.y, pad.x - centre.x);
     const float a1 = std::atan2(static_cast<float>(n.y), static_cast<float>(-n.x));

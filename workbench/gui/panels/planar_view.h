@@ -1,5 +1,5 @@
-// The view of a 2D scene: polygon, smooth curve and patches, local centres, the tangent lines of the tick's iterations,
-// the finger with its contact, the force. It takes the 3D view's place.
+// The view of a 2D scene, in place of the 3D view: polygon, smooth curve and patches, local centres, the tangent lines
+// of the tick's iterations, the finger with its contact, the force.
 #pragma once
 
 #include "workbench/gui/model/app_model.h"
@@ -10,10 +10,10 @@ namespace tangent {
 struct PlanarView {
   bool patches = true, polygon = true, curve = true, centres = false, tangents = true, finger = true, force = true,
        display = true;
-  Vec2 centre{0.0};       ///< in the middle of the view, world, m
+  Vec2 centre{0.0};       ///< middle of the view, world, m
   double px_per_m = 0.0;  ///< 0: to be framed
   const ContactScene* framed = nullptr;
-  std::uint64_t framings = 0;  ///< of the model (F) that this view has followed
+  std::uint64_t framings = 0;  ///< framings of the model (F) followed so far
 };
 
 /// Inside the 3D view's window. Precondition: the model's scene is planar.

@@ -1,5 +1,5 @@
-// X-Y, spectrum and histogram of the ticks in view. Counts are exact however many ticks that are; many are counted over
-// several frames.
+// X-Y plot, spectrum and histogram of the ticks in view. Counts are exact; large ranges are counted over several
+// frames.
 #include "workbench/gui/panels/panels.h"
 #include "workbench/gui/plots/axes_drawing.h"
 #include "workbench/gui/plots/tick_locator.h"
@@ -12,9 +12,9 @@ namespace tangent {
 
 namespace {
 
-constexpr std::uint64_t kMostJoined = 8000;  ///< ticks: fewer are drawn one by one, joined
+constexpr std::uint64_t kMostJoined = 8000;  ///< ticks: up to this many are drawn as a polyline
 constexpr double kSpectrumEvery_s = 0.2;
-/// A hand moves and trembles below this; what is above comes from the loop.
+/// Motion and tremor of the hand are below this frequency; above it is the loop.
 constexpr double kHandUpTo_hz = 20.0;
 
 PlainAxis axis_over(const MinMax& range, double scale, std::string label) {
@@ -33,7 +33,7 @@ void say_empty(const UiContext& ui, const PlotArea& area, const char* text) {
           ui.colours.text_faint, text);
 }
 
-/// Which curve is shown.
+/// Choice of the curve.
 void draw_choice(const UiContext& ui, const char* path, const char* label, const std::vector<CurveRef>& curves,
                  int& chosen, float width) {
   std::vector<std::string> names;
@@ -75,7 +75,7 @@ void draw_histogram(const UiContext& ui, TimeModel& time, PlotsPanel& state, con
     const double x = low + cell * static_cast<double>(i);
     ImVec2 a = plot.at(x, static_cast<double>(cells.counts()[i])), b = plot.at(x + cell, 0.0);
     b.x = std::max(b.x - ui.px(1), a.x + ui.px(1));
-    a.y = std::min(a.y, b.y - ui.px(1));  // a single sample among a million can still be seen
+    a.y = std::min(a.y, b.y - ui.px(1));  // a single sample among a million stays visible
     draw.AddRectFilled(a, b, packed(ui.palette.*curve.series->colour));
   }
   draw.PopClipRect();

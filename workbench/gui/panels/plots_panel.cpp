@@ -1,5 +1,4 @@
-// The live plots, all on one time axis: side by side in columns where the panel is wide and low, stacked where it is
-// high enough.
+// The live plots on a shared time axis: in columns where the panel is wide and low, stacked where it is high enough.
 #include "workbench/gui/panels/panels.h"
 #include "workbench/gui/widgets/widgets.h"
 
@@ -14,7 +13,7 @@ namespace {
 constexpr std::size_t at(Channel c) { return static_cast<std::size_t>(c); }
 constexpr std::size_t at(GhostChannel c) { return static_cast<std::size_t>(c); }
 
-/// Which plots share a column, and how many columns there are.
+/// Column and weight of each plot.
 struct Cell {
   std::size_t plot;
   int column;
@@ -32,7 +31,7 @@ struct Arrangement {
   int columns;
 };
 Arrangement arrange(float width, float height) {
-  // A stacked plot wants some 90 points to have more than one labelled line.
+  // A stacked plot needs about 90 points for more than one labelled line.
   if (height > 520.0f) return {&kOneColumn, 1};
   if (height > 280.0f && width < 1500.0f) return {&kTwoColumns, 2};
   return {&kThreeColumns, 3};
@@ -40,7 +39,7 @@ Arrangement arrange(float width, float height) {
 
 }  // namespace
 
-/// Of this frame.
+/// Marks of this frame.
 static void collect_marks(const UiContext& ui, const TimeModel& time, PlotsPanel& state) {
   state.event_inks = {ui.colours.text_faint, bookmark_ink(ui, BookmarkKind::reseeded),
                       bookmark_ink(ui, BookmarkKind::unconverged), bookmark_ink(ui, BookmarkKind::device_fault)};
@@ -128,14 +127,14 @@ static void draw_time_plots(const UiContext& ui, AppModel& model, PlotsPanel& st
   const float gap = ui.px(4);
   const float column_width = (rect.w - gap) / static_cast<float>(arrangement.columns);
   std::array<float, 3> y{rect.y + ui.px(2), rect.y + ui.px(2), rect.y + ui.px(2)};
-  const float labels = ui.px(13);  // the lowest plot of a column carries the time labels
+  const float labels = ui.px(13);  // the lowest plot of a column has the time labels
   const float height = rect.h - ui.px(4) - labels;
   for (std::size_t i = 0; i < arrangement.cells->size(); ++i) {
     const Cell& cell = (*arrangement.cells)[i];
     const bool last = i + 1 == arrangement.cells->size() || (*arrangement.cells)[i + 1].column != cell.column;
     auto& top = y[static_cast<std::size_t>(cell.column)];
     const float h = std::floor(cell.weight * height) + (last ? labels : 0.0f);
-    // A draw list each: its 16-bit indices are then the plot's own.
+    // One draw list per plot, because of its 16-bit indices.
     ImGui::SetCursorScreenPos({rect.x + static_cast<float>(cell.column) * column_width, top});
     ImGui::BeginChild(state.plots[cell.plot].spec().id.c_str(), {column_width, h}, false,
                       ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NoNav);

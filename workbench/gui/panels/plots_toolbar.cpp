@@ -1,5 +1,5 @@
-// Above the plots: what they show, whether time is followed, held or inspected, the cursors A and B, what the ghost is,
-// and the ways out: CSV and PNG.
+// Toolbar above the plots: plot type, follow / hold / inspect, cursors A and B, legend of the ghost, export to CSV and
+// PNG.
 #include "workbench/gui/panels/panels.h"
 #include "workbench/gui/widgets/widgets.h"
 
@@ -30,7 +30,7 @@ void draw_modes(const UiContext& ui, PlotsPanel& state) {
   ImGui::SameLine(0, ui.px(14));
 }
 
-/// Follow: the newest tick stays at the right. Hold: the axis stands, the tick in view goes on. Inspect: time stands.
+/// Follow: the newest tick stays at the right edge. Hold: the axis is fixed, ticks go on. Inspect: paused.
 void draw_following(const UiContext& ui, TimeModel& time) {
   bool follow = !time.paused() && time.axis().following(), inspect = time.paused(), hold = !follow && !inspect;
   if (toggle_button(ui, "plots/follow", "Follow", follow, "The newest tick stays at the right edge (End)"))

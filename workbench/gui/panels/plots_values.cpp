@@ -1,5 +1,5 @@
-// Numbers to the curves: the true samples at the time cursor, at A and at B, their difference, and what the samples in
-// view amount to.
+// Table of the curves' values: samples at the time cursor, at A and at B, their difference, and statistics of the
+// samples in view.
 #include "workbench/gui/panels/panels.h"
 #include "workbench/gui/widgets/widgets.h"
 
@@ -12,7 +12,7 @@ namespace {
 
 struct Column {
   const char* title;
-  bool wanted;  ///< what there is nothing to say of takes no room
+  bool wanted;  ///< columns without values are hidden
 };
 constexpr std::size_t kColumns = 9;
 
@@ -28,7 +28,7 @@ std::array<Column, kColumns> columns_for(const PlotLink& link) {
            {.title = "RMS", .wanted = true}}};
 }
 
-/// By column.
+/// Values by column.
 std::array<double, kColumns> values_of(const TimeModel& time, const PlotLink& link, const CurveRef& curve,
                                        std::uint64_t from, std::uint64_t to) {
   const ChannelStore& store = time.store();

@@ -1,4 +1,4 @@
-// Presets: the files beside the program, save as, and what was changed since the present one was loaded.
+// Presets: the files in the preset folder, save as, and the changes since loading.
 #include "workbench/gui/panels/panels.h"
 #include "workbench/gui/widgets/widgets.h"
 
@@ -51,7 +51,7 @@ void draw_changes(const UiContext& ui, PresetModel& presets) {
   if (text_button(ui, "presets/revert_all", "Revert all", "Every key back to the loaded value")) presets.revert_all();
 }
 
-/// A file that was there before asks to be pressed for twice: the presets that ship hold what was measured with them.
+/// Overwriting an existing file takes a second press: shipped presets contain measurements.
 void save(AppModel& model, PresetsPanel& state) {
   if (state.name != state.written && state.name != state.asked_for && model.presets().has(state.name)) {
     state.asked_for = state.name;

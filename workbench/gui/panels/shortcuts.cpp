@@ -1,4 +1,4 @@
-// Keys. ImGui 1.86 knows letters and signs by the platform's own codes; GLFW's are their ASCII codes, capital.
+// Keyboard shortcuts. ImGui 1.86 uses the platform's key codes; GLFW's for letters are upper-case ASCII.
 #include "workbench/gui/panels/panels.h"
 #include "workbench/gui/widgets/widgets.h"
 
@@ -10,7 +10,7 @@ constexpr int kF1 = 290, kF12 = 301;  // GLFW's codes
 
 bool letter(char c, bool repeat = false) { return ImGui::IsKeyPressed(c, repeat); }
 
-/// Keys that no text field has a use for: they work while one is typed in, too.
+/// Keys that no text field uses; they also work while typing.
 void handle_window_keys(AppModel& model, MenuBar& menu) {
   const bool ctrl = ImGui::GetIO().KeyCtrl;
   if (ctrl && letter('Q')) model.window().ask_to_close();

@@ -1,4 +1,4 @@
-// One line: servo rate, late ticks, drops, tick time, and what the window itself costs.
+// Status line: servo rate, late ticks, drops, tick time, and the window's frame time.
 #include "workbench/gui/panels/panels.h"
 #include "workbench/gui/widgets/widgets.h"
 
@@ -9,7 +9,7 @@ namespace tangent {
 
 namespace {
 
-/// Values side by side, each in a room of its own, so that the line stands still.
+/// Values in fixed-width fields, so that the line does not shift.
 class Values {
  public:
   Values(const UiContext& ui, const Rect& rect)
@@ -19,7 +19,7 @@ class Values {
         y_number_(std::round(rect.y + 0.5f * (rect.h - ui.fonts.small_number->FontSize))),
         x_(rect.x + ui.px(10)) {}
 
-  /// `characters`: room for so many.
+  /// `characters`: width of the field.
   void put(const char* name, const char* label, const std::string& value, float characters, ImU32 ink,
            const char* doc) {
     ImDrawList& draw = *ImGui::GetWindowDrawList();
@@ -35,7 +35,7 @@ class Values {
     tooltip(ui_, doc);
   }
 
-  /// At the right end, if there is room left.
+  /// Right-aligned, if there is room.
   void put_right(const std::string& value) {
     const ImFont* number = ui_.fonts.small_number;
     const float w = number->CalcTextSizeA(number->FontSize, 1e9f, 0.0f, value.c_str()).x;
@@ -66,7 +66,7 @@ void draw_status_line(const UiContext& ui, AppModel& model, const Rect& rect, do
   ImGui::PopStyleVar(2);
   Values values(ui, rect);
   const auto integer = [](std::uint64_t n) { return printed("%llu", static_cast<unsigned long long>(n)); };
-  // In simulated time nothing is measured.
+  // Not measured in simulated time.
   const auto time = [](double ns, int width) {
     return ns > 0.0 ? printed("%*.1f \u00b5s", width, ns * 1e-3) : printed("%*s", width, "-");
   };
@@ -95,7 +95,7 @@ void draw_status_line(const UiContext& ui, AppModel& model, const Rect& rect, do
               static_cast<double>(model.time().history_bytes() + model.time().store().memory_bytes()) * mib,
               static_cast<double>(model.time().most_history_bytes() + model.time().store().memory_bytes()) * mib),
       15, plain, "What the history takes of what it may");
-  // Pictures are the same every time: no wall-clock numbers in them.
+  // Screenshots are reproducible: no wall-clock numbers.
   const std::string right = model.deterministic() ? std::string()
                                                   : printed("frame %.2f ms   %.0f/s", build_ms,
                                                             static_cast<double>(ImGui::GetIO().Framerate));

@@ -1,4 +1,4 @@
-// The past under other values: what changing a gain would have done to the ticks that were recorded.
+// Result of solving the recorded ticks under the current preset.
 #include "workbench/gui/panels/panels.h"
 #include "workbench/gui/widgets/widgets.h"
 
@@ -36,7 +36,7 @@ std::vector<ComparedRow> compared_rows(const Ghost& ghost, const Ghost* verified
       {"worst \u00b5m", um(was.worst_error_m), um(is.worst_error_m), sign_of(was.worst_error_m, is.worst_error_m)},
       {"Unconverged", count_text(was.unconverged), count_text(is.unconverged),
        sign_of(static_cast<double>(was.unconverged), static_cast<double>(is.unconverged))}};
-  // Both solved in the background, so that like is compared with like; absent where time is not measured.
+  // Both are times of background solves, so they are comparable; absent where time is not measured.
   const double before_ns = verified != nullptr ? verified->numbers.ns_per_tick : 0.0;
   if (before_ns > 0.0 && ghost.numbers.ns_per_tick > 0.0)
     rows.push_back({"Time a tick, ns", printed("%.0f", before_ns), printed("%.0f", ghost.numbers.ns_per_tick),

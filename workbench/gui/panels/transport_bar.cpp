@@ -1,4 +1,4 @@
-// Time: pause, step by tick and by iteration, back to live, and the kept history as a strip to scrub in.
+// Transport: pause, step by tick or iteration, back to live, and the history as a strip for scrubbing.
 #include "workbench/gui/panels/panels.h"
 #include "workbench/gui/widgets/widgets.h"
 
@@ -9,7 +9,7 @@ namespace tangent {
 
 namespace {
 
-/// The whole kept history; the range the plots show; unconverged or slow ticks stand out by their iterations.
+/// Draws the whole history and the plots' range; bars show iterations, so that unconverged or slow ticks stand out.
 void draw_strip(const UiContext& ui, TimeModel& time, float width) {
   const float height = ImGui::GetFrameHeight();
   const ImVec2 at = ImGui::GetCursorScreenPos();
@@ -21,7 +21,7 @@ void draw_strip(const UiContext& ui, TimeModel& time, float width) {
   draw.AddRectFilled(at, {at.x + width, at.y + height}, ui.colours.field, ui.px(3));
   const double first = static_cast<double>(time.first_tick()), end = static_cast<double>(time.end_tick());
   if (!(end > first)) return;
-  // Until the history is full it grows from the left at a fixed scale, so that the strip doesn't shrink under the
+  // Until the history is full the strip grows from the left at a fixed scale, so that it doesn't shrink under the
   // pointer; afterwards it scrolls.
   const double span =
       std::max(end - first, std::min(static_cast<double>(time.store().capacity()), 30.0 / time.tick_period_s()));
@@ -37,7 +37,7 @@ void draw_strip(const UiContext& ui, TimeModel& time, float width) {
       time.store().min_max(static_cast<std::size_t>(Channel::iterations), time.first_tick(), time.end_tick());
   const float top = std::max(8.0f, most.empty() ? 8.0f : most.max);
   for (const ColumnBar& bar : bars) {
-    // Logarithmic: one tick of 90 iterations must not flatten the ones and twos.
+    // Logarithmic, so that one tick of 90 iterations does not flatten the others.
     const float share = std::min(1.0f, std::log1p(bar.range.max) / std::log1p(top));
     draw.AddRectFilled({at.x + bar.x, at.y + height - ui.px(2) - share * (height - ui.px(4))},
                        {at.x + bar.x + 1.0f, at.y + height - ui.px(2)},

@@ -1,6 +1,6 @@
-// The 3D view: the renderer's picture, what is written on it, and the mouse. Left or middle drag orbits, right drag
-// (or Shift) pans, the wheel zooms about the pointer, a click picks a triangle. With "hand follows mouse" a left
-// drag on the surface leads the simulated hand.
+// The 3D view: the renderer's image, overlay and mouse input. Left or middle drag orbits, right drag (or Shift) pans,
+// the wheel zooms about the pointer, a click picks a triangle. With "hand follows mouse" a left drag on the surface
+// moves the simulated hand.
 #include "workbench/gui/layout/view_room.h"
 #include "workbench/gui/panels/panels.h"
 #include "workbench/gui/render/scene_overlay.h"
@@ -32,7 +32,7 @@ constexpr std::array kLayers{
     LayerToggle{"Force", &SceneToggles::force, "The rendered force"},
     LayerToggle{"Display", &SceneToggles::cld_inset, "The fingerpad from the side, with the roller where it is"}};
 
-/// Returns where they end below.
+/// Returns the toggles' lower edge.
 float draw_layer_toggles(const UiContext& ui, ViewModel& view, const Rect& rect) {
   ImGui::PushFont(ui.fonts.small);
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(ui.px(3), ui.px(3)));
@@ -76,7 +76,7 @@ SceneFrame scene_frame(const AppModel& model) {
     frame.selected_iteration = model.time().tick().selected();
     frame.cld_commanded_m = record->device.cld_command_m;
     frame.cld_measured_m = record->device.cld_measured_m;
-    // The tick may have run under another preset than the one being edited.
+    // The tick may have run under a preset other than the one being edited.
     const Preset* then =
         model.devices().session() != nullptr ? model.devices().session()->preset(record->tick.preset_id) : nullptr;
     if (then != nullptr) frame.finger = then->finger;
@@ -105,10 +105,10 @@ void lead_hand(AppModel& model, ViewPanel& state, const Vec2& pixel, int w, int 
                   hit.v * mesh.normal(hit.triangle, 2);
     if (glm::dot(normal, normal) < 1e-12) return;
     normal = unit(normal);
-    // Seen from inside, the finger stays on the side the normals point to.
+    // Also when seen from inside, the finger stays on the side of the normals.
     state.drag_plane = finger_centre(model, point, normal);
   } else if (state.drag_plane) {
-    // Off the mesh: on in the plane that faces the eye, so that the finger can be pulled away and brought back.
+    // Off the mesh the hand continues in the plane that faces the eye, so that it can leave and return.
     const Vec3 facing = model.view().camera.forward();
     const double along = glm::dot(ray.direction, facing);
     if (along < 1e-6) return;
@@ -139,7 +139,7 @@ void orbit_pan_zoom(const UiContext& ui, Camera& camera, const Rect& rect, bool 
   }
 }
 
-/// The plane whose touching point is under the pointer: the later of two that are equally near.
+/// The plane whose contact point is under the pointer; the later of two that are equally near.
 std::optional<std::size_t> plane_under(const UiContext& ui, const AppModel& model, const Vec2& pixel, int w, int h) {
   std::optional<std::size_t> found;
   if (!model.view().toggles.planes) return found;
@@ -170,7 +170,7 @@ void interact(const UiContext& ui, AppModel& model, ViewPanel& state, const Rect
   if (leading && ImGui::IsItemActive() && ImGui::IsMouseDown(ImGuiMouseButton_Left)) {
     lead_hand(model, state, pixel, w, h);
   } else if (ImGui::IsItemDeactivated() && ImGui::IsMouseReleased(ImGuiMouseButton_Left) && !dragged && !leading) {
-    // Where time stands still, a plane's point selects its row; anywhere else a click picks the triangle.
+    // While paused, clicking a plane's point selects its row; any other click picks the triangle.
     if (const auto plane = model.time().paused() ? plane_under(ui, model, pixel, w, h) : std::nullopt) {
       model.time().tick().select(model.time().tick().selected() == plane ? std::nullopt : plane);
     } else {
@@ -178,7 +178,7 @@ void interact(const UiContext& ui, AppModel& model, ViewPanel& state, const Rect
       view.picked_triangle = hit.triangle == view.picked_triangle ? kNone : hit.triangle;
     }
   }
-  // What lies under the pointer is asked for only where it is shown.
+  // Picks under the pointer only if the result is shown.
   const bool resting = ImGui::IsItemHovered() && !ImGui::IsAnyMouseDown();
   if (!resting || !model.map().on) return;
   if (const auto hit = pick(model, pixel, w, h)) {
@@ -222,7 +222,7 @@ void draw_view_panel(const UiContext& ui, AppModel& model, ViewPanel& state, Sce
   const ImU32 top = packed(ui.palette.background_top), bottom = packed(ui.palette.background_bottom);
   draw.AddRectFilledMultiColor({rect.x, rect.y}, {rect.right(), rect.bottom()}, top, top, bottom, bottom);
 
-  // The toggles come first and the picture's button lets them have the mouse.
+  // The toggles are submitted first, and the view's button lets them take the mouse.
   ImGui::SetCursorScreenPos({rect.x, rect.y});
   ImGui::InvisibleButton(
       "##scene", {rect.w, rect.h},

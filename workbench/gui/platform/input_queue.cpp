@@ -48,7 +48,7 @@ bool InputQueue::fits(const Event& event, const Shown& shown, const ImGuiIO& io)
   switch (event.kind) {
     case Kind::key: {
       const auto key = static_cast<std::size_t>(event.code);
-      if (io.KeysDown[key] == event.down) return true;  // says nothing new
+      if (io.KeysDown[key] == event.down) return true;  // no change
       if (shown.keys[key]) return false;
       if (event.modifier()) return !shown.press && shown.buttons.none() && !shown.wheel;
       return !event.down || (!shown.press && !shown.text && shown.buttons.none());

@@ -54,7 +54,7 @@ OffscreenContext::~OffscreenContext() {
   if (context_ == nullptr) return;
   eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
   eglDestroyContext(display_, context_);
-  // The display is the process's; ending it would pull it from under another context.
+  // Not eglTerminate: the EGL display is shared by all contexts of the process.
 }
 
 struct OffscreenScreen::Impl {
@@ -99,6 +99,14 @@ void OffscreenScreen::frame(const std::function<void()>& build) {
   glClearColor(0.0f, 0.0f, 0.0f, 1.0f);
   glClear(GL_COLOR_BUFFER_BIT);
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+  // Nothing is swapped here, and until it has to, a software driver keeps every frame's buffers: 4 MB each.
+  glFinish();
+}
+
+void OffscreenScreen::unseen_frame(const std::function<void()>& build) {
+  ImGui::SetCurrentContext(impl_->imgui);
+  ImGui_ImplOpenGL3_NewFrame();
+  build();
 }
 
 Image OffscreenScreen::picture() const {

@@ -1,5 +1,5 @@
-// The window's frames without a window: a GL context with no surface (EGL surfaceless), an ImGui context
-// and a framebuffer object as the screen. For `workbench shot`, tests and machines without a display.
+// Draws the window's frames off screen: a surfaceless GL context (EGL), an ImGui context and a framebuffer object. For
+// `workbench shot`, tests and machines without a display.
 #pragma once
 
 #include "core/base/result.h"
@@ -10,7 +10,7 @@
 
 namespace tangent {
 
-/// A current GL 3.3 core context without a display, one a thread. Fails when EGL or the driver can't.
+/// A current GL 3.3 core context without a display, one per thread. Fails when EGL or the driver does not support it.
 class OffscreenContext {
  public:
   static Result<OffscreenContext> open();
@@ -24,7 +24,7 @@ class OffscreenContext {
   void* context_ = nullptr;
 };
 
-/// Context, ImGui and screen together. An App lives between open() and the destructor.
+/// Context, ImGui and framebuffer together. An App must be created after open() and destroyed before this.
 class OffscreenScreen {
  public:
   static Result<std::unique_ptr<OffscreenScreen>> open(int width_px, int height_px);
@@ -32,11 +32,14 @@ class OffscreenScreen {
   OffscreenScreen(const OffscreenScreen&) = delete;
   OffscreenScreen& operator=(const OffscreenScreen&) = delete;
 
-  /// After the font atlas was built anew.
+  /// Call after the font atlas was rebuilt.
   void upload_fonts();
   /// One frame. `build` runs where the window's does: after the back end's NewFrame; it writes injected
-  /// input, calls ImGui::NewFrame and ImGui::Render. What it drew is then on the screen.
+  /// input, calls ImGui::NewFrame and ImGui::Render. What it drew is then on the screen, and what the driver kept for
+  /// it is given back.
   void frame(const std::function<void()>& build);
+  /// A frame that nobody looks at: panels and plots follow, nothing is drawn.
+  void unseen_frame(const std::function<void()>& build);
   Image picture() const;
 
  private:

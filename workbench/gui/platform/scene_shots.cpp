@@ -16,11 +16,11 @@
 namespace tangent {
 namespace {
 
-/// A view: what lies there, what is shown, from where.
+/// A view: object, visible layers, camera.
 struct SceneView {
   const char* name;
   const char* shows;
-  const char* object;  ///< the generated object without a mesh argument
+  const char* object;  ///< generated object used without a mesh argument
   double rounding_m;
   Staging staging;
   SceneToggles toggles;
@@ -59,7 +59,7 @@ SceneView control_net_view() {
 SceneView planes_view() {
   SceneView view{"planes", "tangent planes of one tick's iterations, in order", "icosphere", 0.0, {}, {}};
   view.staging.preset.solver.method = Method::paper;
-  view.staging.preset.solver.gain_curvature_m = 0.0;  // the printed gain overshoots on convex ground: several planes
+  view.staging.preset.solver.gain_curvature_m = 0.0;  // overshoots where convex: several planes
   view.staging.last_jump_m = 12e-3;
   view.toggles.finger = view.toggles.cld_inset = view.toggles.force = view.toggles.penetration = false;
   view.toggles.control_net = false;
@@ -115,7 +115,7 @@ Result<std::shared_ptr<const ContactScene>> open_scene(const SceneView& view, co
   return ContactScene::build(std::move(*mesh));
 }
 
-/// The finger, its travel and depth made for a body of 80 mm, in proportion to this one.
+/// Scales finger, travel and depth, given for a body of 80 mm, to this scene.
 Staging fitted(Staging staging, const ContactScene& scene) {
   const double factor = glm::length(scene.mesh().bounds().size()) / 0.12;
   if (factor > 0.5 && factor < 2.0) return staging;
@@ -126,7 +126,7 @@ Staging fitted(Staging staging, const ContactScene& scene) {
   return staging;
 }
 
-/// What has to be in the picture: the vertices and the finger's box.
+/// Points that must be in the image: the vertices and the finger's box.
 std::vector<Vec3> drawn_points(const StagedScene& staged, bool finger) {
   const ContactMesh& mesh = staged.scene->mesh();
   std::vector<Vec3> points;
@@ -168,7 +168,7 @@ Camera aimed_camera(const SceneView& view, const StagedScene& staged, double asp
   return camera;
 }
 
-/// A picture that is twice as high has the same look, only finer.
+/// An image of twice the height looks the same at twice the resolution.
 double scale_of(const ShotRequest& request) { return request.scale.value_or(std::max(1.0, request.height_px / 720.0)); }
 
 void draw_view(OffscreenScreen& screen, SceneRenderer& renderer, const SceneFrame& frame, const Camera& camera,

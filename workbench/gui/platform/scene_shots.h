@@ -1,4 +1,4 @@
-// The 3D view alone: objects, control net, planes, surfaces.
+// Screenshots of the 3D view only: objects, control net, planes, surfaces.
 #pragma once
 
 #include "workbench/gui/platform/shots.h"

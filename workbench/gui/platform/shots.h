@@ -1,5 +1,5 @@
-// Pictures by name, no display needed: the window as a user sees it, and the 3D view alone. Deterministic:
-// simulated time, fixed seeds, the best rendering quality.
+// Named screenshots without a display: the whole window, or the 3D view only. Deterministic: simulated time, fixed
+// seeds, the best rendering quality.
 #pragma once
 
 #include "core/base/result.h"
@@ -24,18 +24,17 @@ std::string shot_view_names();
 
 struct ShotRequest {
   std::string view;
-  std::string mesh;  ///< file or generated object; empty: the view's own
+  std::string mesh;  ///< file or generated object; empty: the view's default
   double metres_per_unit = 1e-3;
   ContactMeshOptions mesh_options;
-  std::filesystem::path preset;  ///< of the window views; empty: the program's own values
+  std::filesystem::path preset;  ///< for window views; empty: default values
   int width_px = 1280, height_px = 720;
-  std::optional<double>
-      scale;          ///< of fonts, lines and spacing; none: 1 for the window, of the scene what fits its height
-  bool y_up = false;  ///< the mesh stands on y, as many scans do
-  std::optional<Theme> theme;  ///< none: the view's own
+  std::optional<double> scale;  ///< of fonts, lines and spacing; empty: 1 for the window, by its height for the scene
+  bool y_up = false;            ///< the mesh's up axis is y, as in many scans
+  std::optional<Theme> theme;   ///< empty: the view's default
 };
 
-/// Fails on an unknown view (naming them), a mesh or preset that can't be used, or without off-screen GL.
+/// Fails on an unknown view (the error lists them), an unusable mesh or preset, or without off-screen GL.
 Result<Image> take_shot(const ShotRequest& request);
 
 }  // namespace tangent

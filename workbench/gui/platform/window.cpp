@@ -22,10 +22,10 @@
 namespace tangent {
 namespace {
 
-constexpr double kFrameInterval = 1.0 / 60.0;  // s, where the driver does not wait for the screen
+constexpr double kFrameInterval = 1.0 / 60.0;  // s, where the driver does not wait for vertical sync
 constexpr double kIdleInterval = 0.25;         // s between frames when nothing moves
 constexpr double kShaderCheckInterval = 0.5;   // s
-constexpr int kSettlingFrames = 4;             // ImGui needs some frames after an event until all has settled
+constexpr int kSettlingFrames = 4;             // frames that ImGui needs to settle after an event
 
 std::string glfw_reason() {
   const char* text = nullptr;
@@ -33,7 +33,7 @@ std::string glfw_reason() {
   return text != nullptr ? text : "no reason given";
 }
 
-/// GLFW for as long as one lives.
+/// RAII: initialises and terminates GLFW.
 class GlfwLibrary {
  public:
   GlfwLibrary() : ready_(glfwInit() == GLFW_TRUE) {}
@@ -53,7 +53,7 @@ struct WindowCloser {
 };
 using WindowHandle = std::unique_ptr<GLFWwindow, WindowCloser>;
 
-/// ImGui with both back ends, for as long as one lives.
+/// RAII: ImGui context with both back ends.
 class ImGuiOnWindow {
  public:
   explicit ImGuiOnWindow(GLFWwindow* window) {
@@ -92,7 +92,7 @@ FrameInput frame_input(GLFWwindow* window, double dt_s, std::vector<std::string>
   glfwGetWindowSize(window, &width, &height);
   glfwGetFramebufferSize(window, &width_px, &height_px);
   glfwGetWindowContentScale(window, &scale_x, &scale_y);
-  // Where coordinates are not pixels already, the system does that share of the scaling.
+  // Where window coordinates are not pixels, the system already does that part of the scaling.
   const float system_scale = width > 0 ? static_cast<float>(width_px) / static_cast<float>(width) : 1.0f;
   FrameInput input;
   input.width = static_cast<float>(width);
@@ -179,7 +179,7 @@ class FrameLoop {
     });
     glfwSetWindowFocusCallback(window_,
                                [](GLFWwindow*, int focused) { ImGui::GetIO().AddFocusEvent(focused == GLFW_TRUE); });
-    if (glfwGetWindowAttrib(window_, GLFW_HOVERED) == GLFW_TRUE) {  // where it is before it first moves
+    if (glfwGetWindowAttrib(window_, GLFW_HOVERED) == GLFW_TRUE) {  // its position before it first moves
       double x = 0.0, y = 0.0;
       glfwGetCursorPos(window_, &x, &y);
       events_.position(static_cast<float>(x), static_cast<float>(y));
@@ -194,7 +194,7 @@ class FrameLoop {
     glfwPollEvents();
     for (double wait = due - glfwGetTime(); wait > 0.0; wait = due - glfwGetTime()) {
       glfwWaitEventsTimeout(wait);
-      // At rest an event is answered at once; in motion it waits for the frame that is due anyway.
+      // When idle an event is handled at once; when animating it waits for the next frame.
       if (!lively && due - glfwGetTime() > 0.1 * kIdleInterval) {
         settling_ = kSettlingFrames;
         return;

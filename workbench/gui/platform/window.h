@@ -8,11 +8,11 @@
 
 namespace tangent {
 
-/// Whether a window could be opened here; the reason when not ("X11: The DISPLAY environment ...").
+/// Whether a window can be opened here; otherwise the reason ("X11: The DISPLAY environment ...").
 Status display_available();
 
-/// Opens the window and returns when it is closed. `should_stop` is asked once a frame (Ctrl-C); it may be
-/// empty. Fails when there is no display, no OpenGL 3.3, or the shaders can't be used.
+/// Opens the window and returns when it is closed. `should_stop` is polled once per frame (Ctrl-C); it may be empty.
+/// Fails when there is no display, no OpenGL 3.3, or the shaders don't compile.
 Status run_window(const AppOptions& options, const std::function<bool()>& should_stop = {});
 
 }  // namespace tangent

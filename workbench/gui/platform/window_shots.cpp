@@ -19,9 +19,9 @@ namespace tangent {
 namespace {
 
 constexpr std::uint64_t kTicks = 12'000;      // of simulated exploration before the picture ...
-constexpr std::uint64_t kMostTicks = 24'000;  // ... and on until the contact is well in view
+constexpr std::uint64_t kMostTicks = 24'000;  // ... and on until the contact is well in view, where it ever was
 constexpr std::uint64_t kTicksPerFrame = 50;
-constexpr int kSettlingFrames = 4;     // ImGui lays out over some frames
+constexpr int kLayoutFrames = 4;       // ImGui lays out over some frames
 constexpr double kFrame = 1.0 / 60.0;  // s
 
 struct WindowView {
@@ -30,13 +30,13 @@ struct WindowView {
   Theme theme;
   void (*arrange)(AppModel& model);  ///< before the ticks
   void (*look)(AppModel& model);     ///< after them
-  int key = 0;                       ///< pressed at the end: GLFW's code
+  int key = 0;                       ///< GLFW key pressed at the end; 0: none
   bool ctrl = false;                 ///< with it
   PlotsMode plots = PlotsMode::time;
   bool values = false;
 };
 
-/// The finger rests on top of the body, leaning to one side.
+/// Whether the contact is on the upper side of the body, off the middle.
 bool contact_in_view(const AppModel& model) {
   const ServoRecord* record = model.time().tick().record();
   if (record == nullptr) return false;
@@ -45,7 +45,7 @@ bool contact_in_view(const AppModel& model) {
   return upwards > 0.75 && upwards < 0.95;
 }
 
-/// Camera to the side of the contact, whole mesh in view.
+/// Camera at the side of the contact, whole mesh in view.
 void look_from_contact_side(AppModel& model) {
   const ServoRecord* record = model.time().tick().record();
   if (record == nullptr || model.scene().current() == nullptr) return;
@@ -63,7 +63,7 @@ void look_from_contact_side(AppModel& model) {
   camera.frame(box, 1.0, model.view().rooms);
 }
 
-/// The tick with the most iterations among the last few thousand: there is something to see in it.
+/// Pauses at the tick with the most iterations among the last few thousand.
 void look_at_busiest_tick(AppModel& model) {
   const std::uint64_t end = model.time().end_tick();
   const std::uint64_t begin = std::max(model.time().first_tick(), end > 5000 ? end - 5000 : 0);
@@ -87,14 +87,14 @@ void look_at_busiest_tick(AppModel& model) {
 
 void show_surface(AppModel& model) { model.view().toggles.smooth_surface = true; }
 
-/// The paper's iteration with a gain too small for this ground: it swings before it settles.
+/// The paper's method with a gain too small for this curvature: it oscillates before it converges.
 void solve_with_paper(AppModel& model) {
   const auto set = [&](std::string_view key, double value) {
     model.presets().set_value(*find_preset_key("solver", key), value);
   };
   set("method", static_cast<double>(Method::paper));
   set("gain_curvature_m", 4e-3);
-  // What would lie over the planes, or hide how deep the finger is.
+  // Hides layers that would cover the planes or the finger's depth.
   SceneToggles& on = model.view().toggles;
   on.finger = on.force = on.cld_inset = false;
 }
@@ -104,7 +104,7 @@ void enlarge_plots(AppModel& model) {
   model.window().sizes().show_right = false;
 }
 
-/// The right column has room for this section alone.
+/// Folds all sections of the right column but this one.
 void fold_but(AppModel& model, const char* section) {
   for (const char* other : {"Iterations", "Time machine", "Bookmarks", "Map", "Smoothness as felt", "Inspect", "Mesh",
                             "Devices", "Messages"}) {
@@ -112,7 +112,7 @@ void fold_but(AppModel& model, const char* section) {
   }
 }
 
-/// The whole body, in the colours of a map.
+/// The whole body, coloured by a map.
 template <MapQuantity quantity>
 void show_map(AppModel& model) {
   MapView& map = model.map();
@@ -131,7 +131,7 @@ void show_paper_map(AppModel& model) {
   show_map<quantity>(model);
 }
 
-/// Under the paper's method with a gain that it swings with where the body curves away from itself.
+/// The paper's method with a gain that oscillates where the body is convex.
 void show_failures(AppModel& model) {
   model.presets().set_value(*find_preset_key("solver", "gain_curvature_m"), 2.5e-3);
   show_paper_map<MapQuantity::failures>(model);
@@ -142,7 +142,7 @@ void tune_paper(AppModel& model) {
   model.window().sizes().plots = 240.0f;
 }
 
-/// Paused, and the gain brought down: what was recorded, and what it would have been.
+/// Pauses and lowers the gain: the recorded past, and the ghost under the new gain.
 void drag_gain_of_the_past(AppModel& model) {
   fold_but(model, "Time machine");
   look_from_contact_side(model);
@@ -174,7 +174,7 @@ void look_at_first_finding(AppModel& model) {
   }
 }
 
-/// A under the paper's method with a small gain, B as loaded: what differs, and the advice.
+/// Slot A: the paper's method with a small gain; B: as loaded. Shows the differences and the gain advice.
 void tune_and_compare(AppModel& model) {
   for (const char* folded : {"Finger", "Force", "Display", "Safety", "Presets"})
     model.window().open_sections()[folded] = false;
@@ -185,7 +185,7 @@ void tune_and_compare(AppModel& model) {
   model.window().sizes().show_plots = false;
 }
 
-/// Half of the body, seen from the cut.
+/// A slice through the body, seen from the cut.
 void slice_open(AppModel& model) {
   model.view().toggles.vertex_normals = false;
   look_from_contact_side(model);
@@ -221,7 +221,7 @@ void open_outline(AppModel& model) {
   model.window().sizes().plots = 210.0f;
 }
 
-/// Paused where the tangent lines can be told apart.
+/// Pauses at a tick whose tangent lines are distinguishable.
 void look_at_busiest_planar_tick(AppModel& model) {
   const std::uint64_t end = model.time().end_tick();
   std::uint64_t busiest = end > 0 ? end - 1 : 0;
@@ -298,16 +298,19 @@ constexpr WindowView kViews[] = {
 class FrameFeeder {
  public:
   FrameFeeder(OffscreenScreen& screen, App& app, const ShotRequest& request) : screen_(screen), app_(app) {
-    // The picture's pixels are ImGui's coordinates; the scale makes everything in it larger.
+    // ImGui's coordinates are the image's pixels; the scale enlarges everything in it.
     input_.width = static_cast<float>(request.width_px);
     input_.height = static_cast<float>(request.height_px);
     input_.content_scale = static_cast<float>(request.scale.value_or(1.0));
     input_.dt_s = kFrame;
   }
   void frame() {
-    input_.now_s += kFrame;
-    if (app_.prepare(input_)) screen_.upload_fonts();
+    begin();
     screen_.frame([&] { app_.frame(input_); });
+  }
+  void unseen_frame() {
+    begin();
+    screen_.unseen_frame([&] { app_.frame(input_); });
   }
   void press(int key, bool ctrl) {
     ImGuiIO& io = ImGui::GetIO();
@@ -319,6 +322,11 @@ class FrameFeeder {
   }
 
  private:
+  void begin() {
+    input_.now_s += kFrame;
+    if (app_.prepare(input_)) screen_.upload_fonts();
+  }
+
   OffscreenScreen& screen_;
   App& app_;
   FrameInput input_;
@@ -335,8 +343,8 @@ AppOptions app_options(const ShotRequest& request, const WindowView& view) {
   return options;
 }
 
-/// The window itself goes on with what stands in for a mesh or a preset that it can't read; a picture of that is not
-/// the one that was asked for.
+/// Fails if the mesh or preset could not be read. (The window then continues with a default, but a screenshot of that
+/// is not what was asked for.)
 Status check_start(const AppModel& model) {
   for (const Message& message : model.messages().all()) {
     if (message.severity == Severity::error) return fail(message.text);
@@ -355,6 +363,10 @@ const std::vector<ShotView>& window_shot_views() {
   return kNamed;
 }
 
+bool explores_on(std::uint64_t done, bool seen, bool in_view) {
+  return done < kTicks || (seen && !in_view && done < kMostTicks);
+}
+
 Result<Image> take_window_shot(const ShotRequest& request) {
   const WindowView& view =
       *std::find_if(std::begin(kViews), std::end(kViews), [&](const WindowView& v) { return v.name == request.view; });
@@ -370,17 +382,19 @@ Result<Image> take_window_shot(const ShotRequest& request) {
   feeder.frame();
   view.arrange(app.model());
   app.show_plots(view.plots, view.values);
-  for (std::uint64_t done = 0; done < kTicks || (done < kMostTicks && !contact_in_view(app.model()));
-       done += kTicksPerFrame) {
+  bool seen = false, in_view = false;
+  for (std::uint64_t done = 0; explores_on(done, seen, in_view); done += kTicksPerFrame) {
     app.advance(kTicksPerFrame);
-    feeder.frame();  // without a renderer: only the plots and panels follow
+    feeder.unseen_frame();  // without a renderer: only the plots and panels follow
+    in_view = contact_in_view(app.model());
+    seen = seen || in_view;
   }
   view.look(app.model());
   app.set_renderer(&renderer);
   feeder.frame();
   renderer.wait_for_tessellation();
   if (view.key != 0) feeder.press(view.key, view.ctrl);
-  for (int i = 0; i < kSettlingFrames; ++i) feeder.frame();
+  for (int i = 0; i < kLayoutFrames; ++i) feeder.frame();
   return (*screen)->picture();
 }
 

@@ -1,4 +1,4 @@
-// Grid, labels and title of a plot that is not against time: X-Y, spectrum, histogram.
+// Grid, labels and title of the plots without a time axis: X-Y, spectrum, histogram.
 #pragma once
 
 #include "workbench/gui/plots/plot_area.h"
@@ -9,7 +9,7 @@
 namespace tangent {
 
 struct PlainAxis {
-  double low = 0.0, high = 1.0;  ///< displayed units; log: both > 0
+  double low = 0.0, high = 1.0;  ///< in displayed units; log: both > 0
   bool log = false;
   std::string label;  ///< with its unit
   /// 0 at the lower end, 1 at the upper.
@@ -26,7 +26,7 @@ struct PlainPlot {
   }
 };
 
-/// Room for labels left and below, a heading above.
+/// Leaves room for labels left and below, and a heading above.
 PlotArea plain_area(const UiContext& ui, ImVec2 pos, ImVec2 size);
 void draw_axes(const UiContext& ui, const PlainPlot& plot);
 

@@ -10,14 +10,14 @@ namespace tangent {
 
 namespace {
 
-/// Stores are made on any thread.
+/// Thread-safe: stores are created in any thread.
 std::uint64_t next_generation() {
   static std::atomic<std::uint64_t> last{0};
   return ++last;
 }
 
-// Four floats at a time. The choices are written so that a NaN fails them and leaves the range as it was, and so that
-// each is one instruction.
+// Four floats at a time (SIMD). The comparisons are written so that NaN leaves the range unchanged and each compiles to
+// one instruction.
 using Four = float __attribute__((vector_size(16)));
 
 Four load(const void* from) {
@@ -29,7 +29,7 @@ Four all(float value) { return Four{value, value, value, value}; }
 Four lower(Four x, Four than) { return x < than ? x : than; }
 Four higher(Four x, Four than) { return x > than ? x : than; }
 
-/// Folds `items`, as many of them to a load as fit, lane by lane, and returns how many that were.
+/// Folds `items` lane by lane, as many per load as fit; returns how many were folded.
 template <class Item>
 std::size_t fold_lanes(const Item* items, std::size_t count, Four& low, Four& high) {
   constexpr std::size_t kAtOnce = sizeof(Four) / sizeof(Item);
@@ -94,7 +94,7 @@ void ChannelStore::push(std::uint64_t tick, std::span<const float> values) {
   if (end_ - first_ > capacity_) first_ = end_ - capacity_;
 }
 
-// A block is made when its last tick comes, and read no sooner.
+// A block is computed when its last tick is stored, and not read before.
 void ChannelStore::put(std::uint64_t tick, std::span<const float> values) {
   const std::size_t at = slot(tick);
   for (std::size_t channel = 0; channel < channels_; ++channel) {
@@ -103,13 +103,13 @@ void ChannelStore::put(std::uint64_t tick, std::span<const float> values) {
   end_ = tick + 1;
   for (std::size_t level = 1; level <= kLevels; ++level) {
     const std::uint64_t length = std::uint64_t{1} << shift_of(level);
-    // One that began before the first tick is never read, nor is any above it.
+    // A block that begins before the first tick is never read, nor any larger one.
     if (end_ % length != 0 || end_ - length < first_) return;
     for (std::size_t channel = 0; channel < channels_; ++channel) complete(level, channel, end_ - length);
   }
 }
 
-/// From the level below.
+/// Computes a block from the level below.
 void ChannelStore::complete(std::size_t level, std::size_t channel, std::uint64_t start) {
   const std::uint64_t half = std::uint64_t{1} << (shift_of(level) - 1);
   MinMax range;
@@ -144,7 +144,7 @@ void ChannelStore::assign(std::uint64_t first, std::span<const float> rows) {
   for (std::size_t channel = 0; channel < channels_; ++channel) assign_channel(channel, first, rows);
 }
 
-// Level by level, the whole blocks.
+// Level by level, complete blocks only.
 void ChannelStore::assign_channel(std::size_t channel, std::uint64_t first, std::span<const float> rows) {
   const std::uint64_t end = first + rows.size() / channels_;
   const float* value = rows.data() + channel;
@@ -162,9 +162,9 @@ float ChannelStore::value(std::size_t channel, std::uint64_t tick) const {
   return samples_[channel * capacity_ + slot(tick)];
 }
 
-// Calls visit(level, slot, count) for runs of blocks that lie side by side and together are from <= tick < to, cut to
-// what is kept: up the levels to the largest that fit, and down again. A block that starts and ends within what is kept
-// has had none of its ticks written over. Level 0 are the samples.
+// Calls visit(level, slot, count) for runs of adjacent blocks that together cover from <= tick < to, clipped to the
+// kept ticks: up the levels to the largest blocks that fit, and down again. None of the ticks of a block inside the
+// kept range has been overwritten. Level 0 holds the samples.
 template <class Visit>
 void ChannelStore::visit_blocks(std::uint64_t from, std::uint64_t to, Visit visit) const {
   std::uint64_t tick = std::max(from, first_);
@@ -175,7 +175,7 @@ void ChannelStore::visit_blocks(std::uint64_t from, std::uint64_t to, Visit visi
     const auto fits = [&](std::size_t of) { return tick % length(of) == 0 && tick + length(of) <= end; };
     while (level < kLevels && fits(level + 1)) ++level;
     while (tick + length(level) > end) --level;
-    // Up to the end, to where a larger block begins, and to the end of the ring.
+    // Up to the end, the start of a larger block, or the end of the ring, whichever comes first.
     const std::size_t shift = shift_of(level);
     const std::uint64_t block = tick >> shift, ring = capacity_ >> shift;
     std::uint64_t count = std::min((end - tick) >> shift, ring - (block & (ring - 1)));
@@ -190,7 +190,7 @@ void ChannelStore::visit_blocks(std::uint64_t from, std::uint64_t to, Visit visi
 
 MinMax ChannelStore::min_max(std::size_t channel, std::uint64_t from, std::uint64_t to) const {
   MinMax range;
-  // The few ticks of a column under a close look are read as they are: finding blocks for them would take longer.
+  // Short ranges (zoomed in) are read sample by sample: finding blocks would take longer.
   constexpr std::uint64_t few = 16;
   if (from >= first_ && to <= end_ && to - from <= few && slot(from) + (to - from) <= capacity_) {
     fold(samples_.get() + place(0, channel, from), static_cast<std::size_t>(to - from), range);
@@ -205,7 +205,7 @@ MinMax ChannelStore::min_max(std::size_t channel, std::uint64_t from, std::uint6
   return range;
 }
 
-// Side by side on one level, the reads of a row are one stream; and all its ranges have as many.
+// The reads of a row are adjacent on one level, and every range has the same number of blocks.
 void ChannelStore::min_max_row(std::size_t channel, std::uint64_t from, std::uint64_t ticks,
                                std::span<MinMax> out) const {
   std::size_t level = 0;

@@ -1,9 +1,9 @@
-// The recent past as channels of one float per tick, with exact minima and maxima over any range of ticks.
+// Recent ticks as channels of one float per tick, with exact minima and maxima over any range of ticks.
 //
-// A ring over tick numbers with a pyramid of block minima and maxima (blocks of 8, 16, 32 ... ticks), so
-// that a column of pixels costs about a dozen reads however many ticks lie under it, and a spike of one
-// sample shows at every zoom. Sums and sums of squares ride along from blocks of 64 on, for means and RMS of any
-// range. Ticks that never came are gaps: NaN.
+// A ring indexed by tick with a pyramid of block minima and maxima (blocks of 8, 16, 32 ... ticks), so that a column of
+// pixels takes about a dozen reads for any number of ticks, and a spike of one sample is visible at every zoom. Blocks
+// of 64 ticks and more also store sums and sums of squares, for the mean and RMS of any range. Missing ticks are gaps:
+// NaN. Not thread-safe.
 #pragma once
 
 #include <cmath>
@@ -16,7 +16,7 @@
 
 namespace tangent {
 
-/// Of the samples that are there; none: empty().
+/// Over the samples present; empty() if there are none.
 struct MinMax {
   float min = std::numeric_limits<float>::infinity();
   float max = -std::numeric_limits<float>::infinity();
@@ -32,7 +32,7 @@ struct MinMax {
   }
 };
 
-/// Of the samples that are there. RMS is about zero.
+/// Over the samples present. RMS is about zero, not about the mean.
 struct SampleSums {
   double sum = 0.0, squares = 0.0;
   std::uint64_t count = 0;
@@ -57,41 +57,40 @@ class ChannelStore {
   /// Ticks of the largest block.
   static constexpr double kLargestBlock = 262'144.0;
 
-  /// `capacity` ticks are kept, rounded up to a power of two, the largest block's at least. Precondition:
-  /// channels > 0.
+  /// Keeps `capacity` ticks, rounded up to a power of two, at least one largest block. Precondition: channels > 0.
   ChannelStore(std::size_t channels, std::size_t capacity);
 
   std::size_t channels() const { return channels_; }
   std::size_t capacity() const { return capacity_; }
   std::size_t memory_bytes() const;
 
-  /// Appends tick `tick`. Ticks left out since the last one become gaps. A tick that isn't after the last
-  /// one (another recording) starts the store anew. Precondition: values.size() == channels().
+  /// Appends tick `tick`. Ticks skipped since the last one become gaps. A tick number that does not increase (a new
+  /// run) clears the store first. Precondition: values.size() == channels().
   void push(std::uint64_t tick, std::span<const float> values);
   void clear();
-  /// Replaces everything by `rows` (a row of channels() values a tick, NaN for gaps) from tick `first` on, many times
-  /// faster than pushing them. More than capacity(): the newest are kept.
+  /// Replaces the contents by `rows` (channels() values per tick, NaN for gaps) from tick `first` on; much faster than
+  /// push. Keeps the newest capacity() ticks.
   void assign(std::uint64_t first, std::span<const float> rows);
 
   bool empty() const { return first_ == end_; }
-  /// Of what is kept; no two stores ever have the same. While it stays, ticks that were there are what they were: only
-  /// newer ones come and the oldest go.
+  /// Identifies the contents, uniquely over all stores. While it is unchanged, ticks already present don't change:
+  /// newer ones are appended and the oldest dropped.
   std::uint64_t generation() const { return generation_; }
   std::uint64_t first_tick() const { return first_; }  ///< oldest kept
   std::uint64_t end_tick() const { return end_; }      ///< one past the newest
 
-  /// NaN for a gap and outside what is kept.
+  /// NaN for a gap and outside the kept ticks.
   float value(std::size_t channel, std::uint64_t tick) const;
-  /// Over from <= tick < to, cut to what is kept.
+  /// Over from <= tick < to, clipped to the kept ticks.
   MinMax min_max(std::size_t channel, std::uint64_t from, std::uint64_t to) const;
-  /// The same for out.size() ranges of `ticks` ticks each, one after the other from `from` on: many at once, best where
-  /// `ticks` and `from` are whole blocks, 8 to 15 of them.
+  /// The same for out.size() consecutive ranges of `ticks` ticks each, starting at `from`. Fastest where `ticks` and
+  /// `from` are multiples of a block, 8 to 15 blocks per range.
   void min_max_row(std::size_t channel, std::uint64_t from, std::uint64_t ticks, std::span<MinMax> out) const;
   SampleSums sums(std::size_t channel, std::uint64_t from, std::uint64_t to) const;
 
  private:
-  // Level 0 are the samples; above it a block is two of the level below, but for the smallest. With larger steps the
-  // columns whose ticks lie just short of the next level would read several times as many blocks as the others.
+  // Level 0 holds the samples; above the smallest block size each block covers two of the level below. With larger
+  // ratios columns just short of the next level would read several times as many blocks as the others.
   static constexpr std::size_t kLevels = 16, kSmallestShift = 3;
   static constexpr std::size_t shift_of(std::size_t level) { return level == 0 ? 0 : kSmallestShift + level - 1; }
   static constexpr std::size_t kFirstSumLevel = 4;
@@ -114,7 +113,7 @@ class ChannelStore {
 
   std::size_t channels_ = 0, capacity_ = 0;
   std::uint64_t first_ = 0, end_ = 0, generation_ = 0;
-  std::unique_ptr<float[]> samples_;           ///< [channel][slot]; memory is touched as it fills
+  std::unique_ptr<float[]> samples_;           ///< [channel][slot]; pages are touched as it fills
   std::vector<std::vector<MinMax>> levels_;    ///< [level - 1][channel][block]
   std::vector<std::vector<SampleSums>> sums_;  ///< [level - kFirstSumLevel][channel][block]
   std::vector<float> gap_;

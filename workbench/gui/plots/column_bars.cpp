@@ -9,8 +9,7 @@ namespace {
 
 std::uint64_t to_tick(double t) { return t <= 0.0 ? 0 : static_cast<std::uint64_t>(t); }
 
-/// Ticks of a column where a pixel holds `per_pixel`: 8 to 15 times a power of two, so that rounding down costs at most
-/// a ninth of it.
+/// Ticks per column for `per_pixel` ticks per pixel, rounded down to 8 to 15 times a power of two, by at most a ninth.
 double whole_blocks(double per_pixel) {
   constexpr double least = 8.0;
   if (per_pixel < least) return per_pixel;

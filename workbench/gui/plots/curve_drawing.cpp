@@ -13,7 +13,7 @@ void draw_rects(ImDrawList& draw, const std::vector<BarRect>& rects, float width
   for (std::size_t from = 0; from < rects.size(); from += chunk) {
     const std::size_t count = std::min(chunk, rects.size() - from);
     draw.PrimReserve(static_cast<int>(6 * count), static_cast<int>(4 * count));
-    // As PrimRect does, without a call for each of tens of thousands.
+    // PrimRect inlined: there are tens of thousands.
     const ImVec2 uv = ImGui::GetFontTexUvWhitePixel();
     ImDrawVert* vertex = draw._VtxWritePtr;
     ImDrawIdx* index = draw._IdxWritePtr;

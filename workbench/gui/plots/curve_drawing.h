@@ -1,4 +1,4 @@
-// Curves onto an ImDrawList: bars a column, lines between samples. Positions in screen coordinates.
+// Draws curves into an ImDrawList: bars per column, lines between samples. Screen coordinates.
 #pragma once
 
 #include "workbench/gui/plots/column_bars.h"
@@ -16,13 +16,13 @@ struct CurveArea {
 };
 
 void draw_dashed_horizontal(ImDrawList& draw, float x0, float x1, float y, float dash, ImU32 colour, float thickness);
-/// One rectangle a bar, from y_top to y_bottom, in pieces that fit 16-bit indices.
+/// One rectangle per bar, from y_top to y_bottom, in batches that fit 16-bit indices.
 struct BarRect {
   float x, top, bottom;
 };
 void draw_rects(ImDrawList& draw, const std::vector<BarRect>& rects, float width, ImU32 colour);
 
-/// A bar reaches as far as the last one's nearest end, so that the curve has no holes.
+/// Extends each bar to the previous one's nearest end, so that the curve has no holes.
 template <class ToY>
 void draw_bars(ImDrawList& draw, const CurveArea& area, const std::vector<ColumnBar>& bars, ToY to_y, ImU32 colour,
                float least_height) {
@@ -56,7 +56,7 @@ void draw_samples(ImDrawList& draw, const CurveArea& area, const std::vector<Sam
     line.clear();
   };
   line.clear();
-  // AddPolyline takes up to 4 vertices a point; indices have 16 bits.
+  // AddPolyline uses up to 4 vertices per point; indices have 16 bits.
   constexpr std::size_t most = 8000;
   for (const SamplePoint& point : points) {
     if (point.after_gap) flush();

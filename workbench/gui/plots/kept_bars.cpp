@@ -8,7 +8,7 @@ const std::vector<ColumnBar>& KeptBars::update(const ChannelStore& store, std::s
                                                float width_px) {
   const PixelColumns columns = pixel_columns(store, axis, width_px);
   const Source source{store.generation(), channel, columns.per_column};
-  // Kept is what is still in view, has all its ticks, and had them when it was read.
+  // Keeps columns that are still in view, whose ticks are still stored, and were complete when read.
   std::int64_t from = columns.first, to = columns.first;
   if (source == source_) {
     from = std::max(columns.first, first_);

@@ -1,5 +1,5 @@
-// The bars of one curve, kept from frame to frame, so that a frame costs what is new in it: a scrolling hour of history
-// adds a column of pixels now and then, and no more is computed than that.
+// Caches the bars of one curve between frames, so that a frame only computes the new columns: when an hour of history
+// scrolls, that is a column of pixels now and then.
 #pragma once
 
 #include "workbench/gui/plots/column_bars.h"
@@ -8,7 +8,7 @@ namespace tangent {
 
 class KeptBars {
  public:
-  /// The same as column_bars() would give. Valid until the next call.
+  /// Same result as column_bars(). Valid until the next call.
   const std::vector<ColumnBar>& update(const ChannelStore& store, std::size_t channel, const TimeAxis& axis,
                                        float width_px);
   /// Columns that the last update read from the store.
@@ -23,7 +23,7 @@ class KeptBars {
   };
   Source source_;
   std::int64_t first_ = 0;      ///< column of ranges_[0]
-  std::vector<MinMax> ranges_;  ///< a column after the other, empty ones too
+  std::vector<MinMax> ranges_;  ///< consecutive columns, empty ones included
   std::vector<MinMax> next_;
   std::uint64_t end_tick_ = 0;  ///< of the store when they were read
   std::vector<ColumnBar> bars_;

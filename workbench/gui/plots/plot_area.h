@@ -1,4 +1,4 @@
-// Where a plot's parts are. Screen coordinates.
+// Rectangles of a plot's parts. Screen coordinates.
 #pragma once
 
 #include <imgui.h>
@@ -6,10 +6,10 @@
 namespace tangent {
 
 struct PlotArea {
-  ImVec2 pos, size;     ///< everything
-  ImVec2 min, max;      ///< where curves are
-  float gutter = 0.0f;  ///< left of it, value labels
-  float header = 0.0f;  ///< above it
+  ImVec2 pos, size;     ///< the whole plot
+  ImVec2 min, max;      ///< the curves' rectangle
+  float gutter = 0.0f;  ///< width of the value labels left of it
+  float header = 0.0f;  ///< height of the header above it
   float width() const { return max.x - min.x; }
   float height() const { return max.y - min.y; }
 };

@@ -1,4 +1,4 @@
-// The mouse in a plot.
+// Mouse input of a plot.
 #include "workbench/gui/plots/plot_view.h"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ void PlotView::interact(const UiContext& ui, TimeAxis& axis, PlotLink& link, con
     link.hover_next = under;
     if (io.MouseWheel != 0.0f) {
       axis.zoom(std::pow(0.8, static_cast<double>(io.MouseWheel)), under);
-      // The wheel is spent: the panel below must not scroll as well.
+      // Consumes the wheel, so that the panel below does not scroll as well.
       ImGui::GetIO().MouseWheel = 0.0f;
     }
     if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
@@ -50,7 +50,7 @@ void PlotView::interact(const UiContext& ui, TimeAxis& axis, PlotLink& link, con
   if (box_from_ && !ImGui::IsMouseDown(ImGuiMouseButton_Right)) interact_box(ui, axis, area, under);
 }
 
-/// The box was let go of. One that is high is meant for the values as well.
+/// End of a right-drag box. A high box also selects values.
 void PlotView::interact_box(const UiContext& ui, TimeAxis& axis, const PlotArea& area, double under) {
   const float y = std::clamp(ImGui::GetIO().MousePos.y, area.min.y, area.max.y);
   const double from = *box_from_;

@@ -8,7 +8,7 @@ namespace tangent {
 
 namespace {
 
-/// Events of a column of pixels show as its worst one, so that none is lost however far away one looks.
+/// A pixel column shows its worst event, so that none is lost at any zoom.
 void draw_events(const UiContext& ui, const PlotMarks& marks, const ChannelStore& store, const TimeAxis& axis,
                  const PlotArea& area, KeptBars& events) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
@@ -34,7 +34,7 @@ const std::string* draw_marks(const UiContext& ui, const PlotMarks& marks, const
     return std::round(static_cast<float>(
         axis.x_at(static_cast<double>(tick), static_cast<double>(area.min.x), static_cast<double>(area.width()))));
   };
-  float last_x = -1e9f;  // a dragged slider makes dozens of marks in a row: one a few pixels
+  float last_x = -1e9f;  // a dragged slider makes many marks: at most one every few pixels
   for (const TickMark& mark : marks.changes) {
     if (static_cast<double>(mark.tick) < axis.from() || static_cast<double>(mark.tick) > axis.to()) continue;
     const float x = x_of(mark.tick);

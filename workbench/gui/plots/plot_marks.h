@@ -1,5 +1,5 @@
-// What happened, marked in every plot: events along the lower edge, changed parameters as dashed lines, bookmarks as
-// flags on the upper edge.
+// Marks in every plot: events along the lower edge, parameter changes as dashed lines, bookmarks as flags on the upper
+// edge.
 #pragma once
 
 #include "workbench/gui/plots/kept_bars.h"
@@ -17,19 +17,19 @@ namespace tangent {
 
 struct TickMark {
   std::uint64_t tick = 0, last_tick = 0;
-  std::string text;  ///< shown when pointed at
+  std::string text;  ///< shown on hover
   ImU32 ink = 0;
 };
 
 struct PlotMarks {
-  std::optional<std::size_t> event_channel;  ///< values 1, 2, ... are ranks; gaps where nothing happened
+  std::optional<std::size_t> event_channel;  ///< values 1, 2, ... are ranks; gaps: no event
   std::span<const ImU32> event_inks;         ///< by rank - 1
-  std::span<const TickMark> changes;         ///< of parameters
+  std::span<const TickMark> changes;         ///< parameter changes
   std::span<const TickMark> flags;           ///< bookmarks
 };
 
-/// Inside the curves' clip rectangle. `events`: this plot's own. Returns the text of the mark that is pointed at; null:
-/// none.
+/// Draws inside the curves' clip rectangle. `events`: this plot's own. Returns the text of the mark under the pointer;
+/// null: none.
 const std::string* draw_marks(const UiContext& ui, const PlotMarks& marks, const ChannelStore& store,
                               const TimeAxis& axis, const PlotArea& area, KeptBars& events);
 

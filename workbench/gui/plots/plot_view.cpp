@@ -10,7 +10,7 @@ namespace tangent {
 
 namespace {
 
-/// The time of a cursor, on a card under the axis.
+/// Label with a cursor's time, below the axis.
 struct CursorLabel {
   float left = 0.0f, right = 0.0f;
   char text[48] = "";
@@ -83,7 +83,7 @@ void PlotView::fit(const ChannelStore& store, const TimeAxis& axis, const PlotLi
   }
   nothing_in_view_ = visible.empty();
   if (visible.empty()) return;
-  // A line at the edge of the axis would say nothing; steps stay whole, and would lie half outside.
+  // Room around the reference line and around steps at the axis's ends.
   if (std::isfinite(reference)) visible.include(static_cast<float>(1.2 * reference));
   if (spec_.counts) visible.max += 0.25f;
   visible.min = static_cast<float>(static_cast<double>(visible.min) * spec_.scale);
@@ -112,7 +112,7 @@ void PlotView::draw_grid(const UiContext& ui, const TimeAxis& axis, const PlotLi
       draw.AddLine({area.min.x, y}, {area.max.x, y}, tick.major ? ui.colours.grid : ui.colours.grid_minor);
     }
     if (!tick.major || (spec_.counts && tick.value != std::floor(tick.value))) continue;
-    // Labels at the very ends move inwards rather than into the neighbours.
+    // Labels at the ends move inwards, so that they don't overlap the neighbouring plots.
     const float label_y = std::clamp(y - half, area.min.y - 0.35f * half, area.max.y - 1.75f * half);
     text_at(draw, font, {area.min.x - ui.px(5) - text_width(font, tick.label.c_str()), label_y}, ui.colours.text_dim,
             tick.label.c_str());
@@ -120,7 +120,7 @@ void PlotView::draw_grid(const UiContext& ui, const TimeAxis& axis, const PlotLi
   const double left = static_cast<double>(area.min.x), width = static_cast<double>(area.width());
   const int columns = std::max(1, static_cast<int>(area.width() / (5.5f * font->FontSize)));
   const double period = link.tick_period_s;
-  // A label that a cursor's card would cut in two is left out.
+  // Labels partly covered by a cursor's label are left out.
   const auto covered = [&](float from, float to) {
     const auto by = [&](double cursor) {
       if (!in_view(axis, cursor)) return false;
@@ -160,7 +160,7 @@ void PlotView::draw_curve(const UiContext& ui, const ChannelStore& store, std::s
   };
   if (spec_.log)
     return draw_with([&](float value) { return y_of(values_.share(static_cast<double>(value) * spec_.scale, true)); });
-  // A division for each of tens of thousands of bars would show in the time of a frame.
+  // Multiplication instead of division: there are tens of thousands of bars per frame.
   const double gain = spec_.scale / (values_.high() - values_.low()),
                offset = values_.low() / (values_.high() - values_.low());
   draw_with([&](float value) { return y_of(static_cast<double>(value) * gain - offset); });
@@ -169,7 +169,7 @@ void PlotView::draw_curve(const UiContext& ui, const ChannelStore& store, std::s
 void PlotView::draw_series(const UiContext& ui, const ChannelStore& store, const TimeAxis& axis, const PlotLink& link,
                            const PlotArea& area) {
   curves_.resize(spec_.series.size());
-  // Ghosts first: where nothing changed they are hidden by what was recorded.
+  // Ghosts first, so that the recorded curve hides them where they are equal.
   for (std::size_t i = 0; i < curves_.size(); ++i) {
     const PlotSeries& series = spec_.series[i];
     if (!series.visible || link.ghost == nullptr || !series.ghost) continue;
@@ -247,7 +247,7 @@ void PlotView::draw_header(const UiContext& ui, const ChannelStore& store, const
     const float name_width = only_one ? 0.0f : text_width(ui.fonts.small, series.name.c_str());
     const float box = ui.px(9);
     float width = box + ui.px(4) + name_width + ui.px(3);
-    // The value's room is kept while it is blank, so that nothing moves when it comes.
+    // Reserves the value's width while it is blank, so that nothing moves.
     const float value_width = 9.0f * digit;
     const bool with_value = x + width + value_width <= right;
     if (with_value) width += value_width;

@@ -1,6 +1,6 @@
-// One plot of some channels against the shared time axis. Wheel zooms time about the pointer, dragging pans,
-// right-dragging boxes a range of time, of values too when the box is high, double-click shows all. Over the value
-// labels the wheel zooms the values alone, dragging moves them and a double-click fits them again; over the time labels
+// A plot of some channels against the shared time axis. The wheel zooms time about the pointer, dragging pans,
+// right-dragging selects a time range (and a value range if the box is high), a double-click shows all. Over the value
+// labels the wheel zooms the values only, dragging moves them and a double-click fits them again; over the time labels
 // wheel and drag do the same to time. A click reports the tick under the pointer; with Ctrl it sets cursor A, with
 // Shift cursor B.
 #pragma once
@@ -20,7 +20,7 @@
 
 namespace tangent {
 
-/// A box at least so high, points, is meant for the values as well as for time.
+/// A box of at least this height (points) selects values as well as time.
 inline constexpr float kHighBox = 14.0f;
 
 struct PlotSeries {
@@ -29,7 +29,7 @@ struct PlotSeries {
   Rgba Palette::*colour = nullptr;
   bool steps = false;  ///< holds its value until the next tick (counts)
   bool visible = true;
-  std::optional<std::size_t> ghost = std::nullopt;  ///< channel of PlotLink::ghost drawn beside it
+  std::optional<std::size_t> ghost = std::nullopt;  ///< channel of PlotLink::ghost drawn with it
 };
 
 struct PlotSpec {
@@ -38,20 +38,20 @@ struct PlotSpec {
   std::string unit;
   double scale = 1.0;  ///< displayed = channel value * scale
   bool log = false;
-  bool counts = false;  ///< only whole numbers are labelled
+  bool counts = false;  ///< labels only integers
   bool with_zero = true;
   double floor = 1e-6;                         ///< of a log axis, displayed unit
   const char* format = "%8.3f";                ///< of the value under the cursor
-  std::string nothing = "no samples in view";  ///< said where there are none
+  std::string nothing = "no samples in view";  ///< text shown when there are no samples
   std::vector<PlotSeries> series;
 };
 
-/// What the plots share besides their time axis.
+/// State shared by the plots besides their time axis.
 struct PlotLink {
   double tick_period_s = 1e-3;
-  std::optional<std::uint64_t> cursor;   ///< the tick in view when time stands still
-  std::optional<double> hover;           ///< under the pointer, from the last frame
-  std::optional<double> hover_next;      ///< found while drawing this frame
+  std::optional<std::uint64_t> cursor;   ///< the tick in view while paused
+  std::optional<double> hover;           ///< tick under the pointer in the last frame
+  std::optional<double> hover_next;      ///< set while drawing this frame
   std::optional<std::uint64_t> clicked;  ///< the user clicked this tick
   std::optional<std::uint64_t> a, b;     ///< measuring cursors
   const ChannelStore* ghost = nullptr;   ///< the same ticks solved again
@@ -66,8 +66,8 @@ class PlotView {
   PlotSpec& spec() { return spec_; }
   const ValueAxis& values() const { return values_; }
 
-  /// Into the rectangle at `pos`; `time_labels`: also the labels of the time axis, below; `reference`: a dashed
-  /// horizontal line, channel units.
+  /// Draws into the rectangle at `pos`. `time_labels`: with the labels of the time axis below; `reference`: value of a
+  /// dashed horizontal line, channel units.
   void draw(const UiContext& ui, const ChannelStore& store, TimeAxis& axis, PlotLink& link, ImVec2 pos, ImVec2 size,
             bool time_labels, double reference = std::numeric_limits<double>::quiet_NaN());
 
@@ -89,8 +89,8 @@ class PlotView {
 
   PlotSpec spec_;
   ValueAxis values_;
-  std::optional<double> box_from_;  ///< right-drag began at this tick ...
-  float box_y_ = 0.0f;              ///< ... and at this height, screen
+  std::optional<double> box_from_;  ///< tick where the right-drag began,
+  float box_y_ = 0.0f;              ///< and its y on screen
   bool dragged_ = false;
   bool nothing_in_view_ = true;
   struct CurveBars {

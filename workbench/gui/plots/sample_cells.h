@@ -1,5 +1,5 @@
-// Samples counted into cells: a histogram of one channel, or how often two were where at once. Exact, whatever the
-// range: many samples are counted over several frames, so that none of them takes long.
+// Histograms over one channel or two (joint). Every sample of the range is counted, spread over several frames where
+// there are many.
 #pragma once
 
 #include "workbench/gui/plots/channel_store.h"
@@ -12,7 +12,7 @@ namespace tangent {
 
 struct CellQuery {
   std::size_t x = 0;               ///< channel
-  std::optional<std::size_t> y;    ///< none: a histogram
+  std::optional<std::size_t> y;    ///< empty: a histogram of x only
   std::uint64_t from = 0, to = 0;  ///< ticks
   std::size_t columns = 64, rows = 1;
   bool operator==(const CellQuery&) const = default;
@@ -22,11 +22,11 @@ class SampleCells {
  public:
   static constexpr std::uint64_t kSamplesAFrame = 100'000;
 
-  /// Once a frame. Goes on with what is under way, then begins anew if the query is another one. Ranges come from the
-  /// store's exact minima and maxima when it begins.
+  /// Call once per frame. Continues counting; once done, starts again if the query changed. Value ranges are the
+  /// store's exact minima and maxima at the start.
   void update(const ChannelStore& store, const CellQuery& query);
 
-  /// Of the last query that is done; empty: none yet.
+  /// Counts of the last finished query; empty: none yet.
   const std::vector<std::uint32_t>& counts() const { return done_.counts; }  ///< row by row
   const CellQuery& query() const { return done_.query; }
   MinMax x_range() const { return done_.x; }

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kLongest = 4096, kShortest = 64, kMostSegments = 32;
 
-/// One segment without its mean, windowed. False when there is a gap in it.
+/// One segment with the mean removed, windowed. False when it has a gap.
 bool take_segment(const ChannelStore& store, std::size_t channel, std::uint64_t begin, const std::vector<float>& window,
                   std::vector<float>& out) {
   double sum = 0.0;

@@ -8,7 +8,7 @@ namespace tangent {
 
 namespace {
 
-/// Steps are powers of ten times 1, 2 or 5: the decimals that show a multiple of one without rounding.
+/// Decimals needed to show multiples of a step (1, 2 or 5 times a power of ten) exactly.
 int decimals_of(double step) { return std::max(0, static_cast<int>(std::ceil(-std::log10(step) - 1e-9))); }
 
 std::string decimal_label(double value, double step) {
@@ -37,7 +37,7 @@ std::string decade_label(int exponent) {
 double nice_step(double range, int most) {
   const double least = range / std::max(1, most);
   const double decade = std::pow(10.0, std::floor(std::log10(least)));
-  // A hair of slack: 0.2 / 2 must give 0.1 although the division may round upwards.
+  // A small tolerance: 0.2 / 2 must give 0.1 although the division may round up.
   for (const double mantissa : {1.0, 2.0, 5.0}) {
     if (mantissa * decade >= least * (1.0 - 1e-9)) return mantissa * decade;
   }
@@ -51,7 +51,7 @@ std::vector<AxisTick> linear_ticks(double low, double high, int most_labels) {
   const double mantissa = step / std::pow(10.0, std::floor(std::log10(step) + 1e-9));
   const int parts = std::lround(mantissa) == 2 ? 4 : 5;
   const double minor = step / parts;
-  // Counted in whole minor steps, so that a tick is on its value however far from zero the range lies.
+  // Counted in whole minor steps, so that ticks are exact however far the range is from zero.
   const double slack = 1e-6;
   const auto first = static_cast<long long>(std::ceil(low / minor - slack));
   const auto last = static_cast<long long>(std::floor(high / minor + slack));

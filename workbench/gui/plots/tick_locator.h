@@ -1,4 +1,4 @@
-// Where an axis gets its ticks and what is written at them.
+// Positions and labels of an axis's ticks.
 #pragma once
 
 #include <string>
@@ -12,12 +12,12 @@ struct AxisTick {
   std::string label;  ///< empty for minor ticks
 };
 
-/// Step 1, 2 or 5 times a power of ten, the smallest that gives at most `most` steps over the range.
+/// The smallest step of 1, 2 or 5 times a power of ten with at most `most` steps over the range.
 /// Precondition: range > 0, most >= 1.
 double nice_step(double range, int most);
 
-/// Multiples of nice_step inside [low, high], with four or five minor ticks a step. Labels have just the
-/// decimals the step needs; -0 is written 0.
+/// Multiples of nice_step inside [low, high], with four or five minor ticks per step. Labels have as many decimals as
+/// the step needs; -0 is written 0.
 std::vector<AxisTick> linear_ticks(double low, double high, int most_labels);
 
 /// Powers of ten inside [low, high] (both > 0), labelled "1", "0.01", "1e-6", at most about `most_labels` of

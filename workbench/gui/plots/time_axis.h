@@ -18,11 +18,11 @@ class TimeAxis {
   double tick_at(double x, double left, double width) const { return from() + (x - left) / width * span_; }
   double x_at(double tick, double left, double width) const { return left + (tick - from()) / span_ * width; }
 
-  /// Sticks to the newest tick again, at the present zoom.
+  /// Follows the newest tick again, at the current zoom.
   void follow() { following_ = true; }
   void hold() { following_ = false; }
 
-  /// Called once a frame with what there is: moves a following axis, and keeps the span within `longest`.
+  /// Call once per frame with the available ticks: moves a following axis and limits the span to `longest`.
   void update(std::uint64_t first, std::uint64_t end, double longest) {
     longest_ = std::max(longest, kLeastSpan);
     span_ = std::clamp(span_, kLeastSpan, longest_);
@@ -31,14 +31,13 @@ class TimeAxis {
     if (following_) to_ = end_;
   }
 
-  /// Multiplies the span; the tick under the pointer stays under it. A following axis keeps its right end
-  /// instead, because that is what it is following.
+  /// Multiplies the span and keeps the tick `about` in place; a following axis keeps its right end instead.
   void zoom(double factor, double about) {
     const double span = std::clamp(span_ * factor, kLeastSpan, longest_);
     if (!following_) to_ = about + (to_ - about) * (span / span_);
     span_ = span;
   }
-  /// Moves by hand, and so stops following.
+  /// Pans and stops following.
   void pan(double ticks) {
     following_ = false;
     to_ = std::clamp(to_ + ticks, first_ + 0.1 * span_, end_ + 0.9 * span_);

@@ -8,7 +8,7 @@
 namespace tangent {
 
 namespace {
-/// Shrink when the curve would do with less than this share of the axis.
+/// Shrinks when the curve needs less than this share of the axis.
 constexpr double kShrinkBelow = 0.45;
 /// A log axis shows at most this many decades below its top.
 constexpr double kMostDecades = 9.0;

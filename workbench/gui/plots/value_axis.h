@@ -1,5 +1,5 @@
-// The vertical axis of a plot: fits itself to what is visible, at once when something would be cut off and
-// only reluctantly when there is room to spare, so that the picture doesn't jump about.
+// The vertical axis of a plot. It fits itself to the visible values: it grows at once when values would be cut off, and
+// shrinks only when there is much room to spare, so that it does not jump.
 #pragma once
 
 #include "workbench/gui/plots/channel_store.h"
@@ -12,13 +12,13 @@ class ValueAxis {
   double high() const { return high_; }
   bool automatic() const { return automatic_; }
 
-  /// `visible` in displayed units. Linear: zero is kept in view when `with_zero`. `floor`: log axes end
-  /// there; 0 and below are drawn at the lower edge.
+  /// `visible` in displayed units. Linear: includes zero when `with_zero`. `floor`: lower limit of a log axis; values
+  /// at or below 0 are drawn at the lower edge.
   void fit_linear(const MinMax& visible, bool with_zero);
   void fit_log(const MinMax& visible, double floor);
-  /// By hand, about a value; automatic fitting stops.
+  /// Zooms by hand about a value; stops automatic fitting.
   void zoom(double factor, double about, bool log);
-  /// By hand: down by a share of the axis (negative: up), and a range.
+  /// By hand: pans down by a share of the axis (negative: up), or sets a range. Stops automatic fitting.
   void pan(double share, bool log);
   void show(double low, double high);
   void set_automatic() { automatic_ = fresh_ = true; }
@@ -31,7 +31,7 @@ class ValueAxis {
   void take(double low, double high, double used_span, double span);
   double low_ = 0.0, high_ = 1.0;
   bool automatic_ = true;
-  bool fresh_ = true;  ///< nothing fitted yet: take the first range as it is
+  bool fresh_ = true;  ///< not fitted yet: takes the first range as it is
 };
 
 }  // namespace tangent

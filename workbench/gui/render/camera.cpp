@@ -70,7 +70,7 @@ void Camera::frame(const Box& world_box, double margin, const ViewRoom& room) {
   shift = room.shift;
   scene_centre = target = world_box.centre();
   scene_radius_m = std::max(0.5 * glm::length(world_box.size()), 1e-12);
-  // A corner at (x, y) across and z nearer than the target is inside the opening from distance z + max(|x|, |y|)/tan.
+  // A corner offset by (x, y), and nearer than the target by z, is in view from distance z + max(|x|, |y|) / tan on.
   const Vec3 half = 0.5 * world_box.size();
   const double widen = margin / std::tan(0.5 * fov_rad);
   double needed = 0.0;
@@ -94,9 +94,9 @@ void Camera::frame(const Box& world_box, double margin, std::span<const ViewRoom
   *this = best;
 }
 
-// A point at (x, y) across and z further than the target is within a slope a of the middle where |x - tx| <= a (z + d):
-// of all points, tx >= max(x - a z) - a d and tx <= min(x + a z) + a d. The least d at the opening's slope gives the
-// distance; at that distance the least slope that all points are within gives the middle.
+// A point offset by (x, y), and further than the target by z, is within slope a of the middle tx if
+// |x - tx| <= a (z + d). For all points: max(x - a z) - a d <= tx <= min(x + a z) + a d. The smallest d at the field of
+// view's slope is the distance; at that distance the smallest slope that contains all points gives the middle.
 void Camera::fit(std::span<const Vec3> world_points, double margin, double aspect) {
   Box box;
   for (const Vec3& p : world_points) box.include(p);
@@ -139,8 +139,8 @@ glm::dmat4 Camera::view_from(const Vec3& origin) const {
   return glm::lookAt(at - distance_m * forward(), at, up());
 }
 
-// The depth range follows the distance, so that a close look at a contact keeps depth precision; it always
-// reaches behind the whole scene.
+// The depth range follows the distance, which keeps depth precision in close views of a contact; it always reaches
+// behind the whole scene.
 double Camera::near_m() const {
   const double to_scene = glm::length(eye() - scene_centre) - 2.0 * scene_radius_m;
   return std::max(to_scene, 0.02 * distance_m);
@@ -157,7 +157,7 @@ glm::dmat4 Camera::projection(int width_px, int height_px) const {
 }
 
 Vec3 Camera::project(const Vec3& world, int width_px, int height_px) const {
-  // Relative to the target: digits are kept far from the world's origin.
+  // Relative to the target, for precision far from the world's origin.
   const glm::dvec4 clip = projection(width_px, height_px) * view_from(target) * glm::dvec4(world - target, 1.0);
   if (!(clip.w > 0.0)) return {0.0, 0.0, -1.0};
   const Vec3 ndc = Vec3(clip) / clip.w;

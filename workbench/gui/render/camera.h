@@ -1,5 +1,5 @@
-// Orbit camera. World frame in metres, double precision. Pixels count from the top left corner
-// of the view, so they match ImGui's mouse position minus the view's corner.
+// Orbit camera. World frame, metres, double precision. Pixels count from the top left corner of the view: ImGui's mouse
+// position minus the view's corner.
 #pragma once
 
 #include "core/base/vec.h"
@@ -15,22 +15,22 @@ struct Ray {
   Vec3 direction{0.0, 0.0, -1.0};  ///< unit
 };
 
-/// The part of a view that an object is to be seen in, in heights of the view.
+/// The part of a view in which to show an object, in units of the view's height.
 struct ViewRoom {
   double width = 1.3, height = 1.0;
-  Vec2 shift{0.0};  ///< its middle from the view's: right and up positive
+  Vec2 shift{0.0};  ///< its middle relative to the view's; right and up positive
 };
 
 struct Camera {
-  Vec3 target{0.0};             ///< looked at and orbited about, world, m
+  Vec3 target{0.0};             ///< centre of view and orbit, world, m
   double distance_m = 0.3;      ///< eye to target
   double yaw_rad = -0.6;        ///< about the up axis; 0: eye on the -y side of the target (+z with y_up)
   double pitch_rad = 0.45;      ///< eye above the horizon; within +-89 deg
-  double fov_rad = 0.6;         ///< vertical opening
-  double scene_radius_m = 0.1;  ///< from frame(): sets zoom limits and the depth range
+  double fov_rad = 0.6;         ///< vertical field of view
+  double scene_radius_m = 0.1;  ///< set by frame(); determines zoom limits and depth range
   Vec3 scene_centre{0.0};       ///< from frame()
   bool y_up = false;            ///< +y is up on screen (many scanned meshes); else +z
-  Vec2 shift{0.0};  ///< where the target appears, from the view's middle, in its heights: a lens moved sideways
+  Vec2 shift{0.0};  ///< image position of the target relative to the view's middle, in view heights (lens shift)
 
   bool operator==(const Camera&) const = default;
 
@@ -39,32 +39,32 @@ struct Camera {
   Vec3 right() const;
   Vec3 up() const;
 
-  /// Turns about the target so that the eye is in this direction from it (pitch limited); zero: no effect.
+  /// Orbits so that the eye is in this direction from the target (pitch limited); zero: no effect.
   void look_from(const Vec3& direction);
   void orbit(double yaw_by_rad, double pitch_by_rad);
-  /// Moves the target so that what lies at its depth follows the pointer. dy > 0: pointer went down.
+  /// Moves the target so that points at its depth follow the pointer. dy > 0: pointer moved down.
   void pan(double dx_px, double dy_px, int height_px);
   /// Multiplies the distance (0.9: nearer), within 1e-6 .. 50 scene radii.
   void zoom(double factor);
-  /// The same, keeping what lies under the pixel at the target's depth where it is.
+  /// Zooms and keeps the point under the pixel, at the target's depth, in place.
   void zoom_at(double factor, const Vec2& pixel, int width_px, int height_px);
-  /// Looks at the whole box, keeping the direction: its corners fit that part of the view, with `margin` to spare (1:
-  /// one touches). No effect for an empty box.
+  /// Frames the whole box without turning: its corners fit into `room`, with `margin` to spare (1: a tight fit). No
+  /// effect for an empty box.
   void frame(const Box& world_box, double margin = 1.1, const ViewRoom& room = {});
-  /// The same in the room that shows it largest, the first of equals. Precondition: there is one.
+  /// The same, in the room that shows it largest; the first of equals. Precondition: rooms is not empty.
   void frame(const Box& world_box, double margin, std::span<const ViewRoom> rooms);
-  /// The same as near as these points allow, and with as much room on one side of them as on the other; what the camera
-  /// turns about is then not their centre. Nothing changes without points.
+  /// Frames these points as large as possible, centred in the image; the orbit's centre is then not their centre. No
+  /// effect without points.
   void fit(std::span<const Vec3> world_points, double margin, double aspect);
 
-  /// World relative to `origin` -> eye space (eye looks along -z). Subtracting the origin in double before
-  /// anything becomes float keeps pixels steady a kilometre away from it.
+  /// World relative to `origin` -> eye space (the eye looks along -z). Subtracting the origin in double, before
+  /// conversion to float, keeps pixels steady a kilometre away from it.
   glm::dmat4 view_from(const Vec3& origin) const;
   glm::dmat4 projection(int width_px, int height_px) const;
   double near_m() const;
   double far_m() const;
 
-  /// Pixel of a world point; z is depth in 0..1, outside it (or negative) when behind the eye or clipped.
+  /// Pixel of a world point; z is depth in 0..1, outside that range when behind the eye or clipped.
   Vec3 project(const Vec3& world, int width_px, int height_px) const;
   Ray ray_through(const Vec2& pixel, int width_px, int height_px) const;
   /// Metres covered by one pixel at the depth of a world point.

@@ -1,4 +1,4 @@
-// A camera as one line of text, for the clipboard: what one person sees, another can paste.
+// A camera as one line of text, for copying a view through the clipboard.
 #pragma once
 
 #include "workbench/gui/render/camera.h"
@@ -12,12 +12,12 @@ namespace tangent {
 
 /// "camera target_m 0 0 0 distance_m 0.3 yaw_deg -34.4 pitch_deg 25.8 up z": every digit.
 std::string camera_text(const Camera& camera);
-/// The camera `now` with what the text says; none when it is no camera.
+/// The camera `now` with the values of the text; empty when the text is not a camera.
 std::optional<Camera> parse_camera(std::string_view text, Camera now);
 
-/// Straight at an axis, or from the corner all of them start from.
+/// Along an axis, or from the corner (the initial view).
 enum class StandardView : std::uint8_t { front, back, left, right, top, bottom, corner };
-/// What menu, commands and keys call them.
+/// Names for menu, commands and keys.
 struct NamedView {
   StandardView view;
   const char* name;

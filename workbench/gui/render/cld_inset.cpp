@@ -1,5 +1,5 @@
-// The contact location display from the side, to scale: a 10 mm roller on a rail under the fingerpad, +x
-// distal (to the right). Filled: where it is measured to be; the mark above: where it is told to be.
+// The contact location display from the side, to scale: a 10 mm roller on a rail under the fingerpad, +x distal (to the
+// right). Filled: measured position; mark above: commanded position.
 #include "workbench/gui/render/overlay_canvas.h"
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace {
 
 constexpr float kRollerRadius = 5e-3f;  // m
 constexpr float kHalfView = 19e-3f;     // m, of the rail shown
-constexpr float kFingerHeight = 0.62f;  // of life size: the inset is about the roller
+constexpr float kFingerHeight = 0.62f;  // of true scale: the inset is about the roller
 constexpr float kEmPerMetre = 235.0f;
 
 // Outline of a fingertip over the rail: straight back, rounded tip, a pad that bulges down a little.
@@ -54,7 +54,7 @@ void draw_cld_inset(const OverlayCanvas& c, ImVec2 corner, double travel_m, cons
   const float px_per_m = kEmPerMetre * c.em;
   const float middle = min.x + 0.5f * width;
   const float rail = min.y + pad + kFingerHeight * 15e-3f * px_per_m + 2.0f * kRollerRadius * px_per_m;
-  const float top = rail - 2.0f * kRollerRadius * px_per_m;  // where the roller touches the pad
+  const float top = rail - 2.0f * kRollerRadius * px_per_m;  // the roller's contact with the pad
   const auto x_of = [&](double metres) { return middle + static_cast<float>(metres) * px_per_m; };
   const double half = 0.5 * travel_m;
   const auto shown = [&](double metres) { return std::clamp(metres, -0.95 * kHalfView, 0.95 * kHalfView); };
@@ -72,7 +72,7 @@ void draw_cld_inset(const OverlayCanvas& c, ImVec2 corner, double travel_m, cons
     const ImVec2 centre{x_of(shown(*measured_m)), rail - radius};
     c.list.AddCircleFilled(centre, radius, c.ink(c.colours.cld_measured, 0.85f), 40);
     c.list.AddCircle(centre, radius, c.ink(c.colours.text, 0.65f), 40, 1.2f);
-    // A spoke turns as the roller rolls along the pad.
+    // A spoke shows the roller's rotation.
     const float angle = static_cast<float>(*measured_m) / kRollerRadius;
     const ImVec2 spoke{0.72f * radius * std::sin(angle), -0.72f * radius * std::cos(angle)};
     c.list.AddLine(centre, {centre.x + spoke.x, centre.y + spoke.y}, c.ink(c.colours.text, 0.6f), 1.2f);

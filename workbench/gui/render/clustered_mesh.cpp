@@ -12,7 +12,7 @@ struct Cluster {
   double weight = 0.0;
 };
 
-/// Clusters of the vertices in a grid of `cells` cells across the longest side, and who belongs where.
+/// Clusters the vertices in a grid of `cells` cells along the longest side; returns each vertex's cluster.
 std::vector<std::uint32_t> cluster_of_vertices(const ContactMesh& mesh, double cells, std::vector<Cluster>& clusters) {
   const Box& box = mesh.bounds();
   const Vec3 size = box.size();
@@ -21,7 +21,7 @@ std::vector<std::uint32_t> cluster_of_vertices(const ContactMesh& mesh, double c
   std::unordered_map<std::uint64_t, std::uint32_t> known;
   for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
     const Vec3 place = (mesh.vertex_position(v) - box.min) / cell;
-    // Vertices that no usable triangle has may lie anywhere.
+    // Vertices of no usable triangle may lie anywhere.
     const auto index = [&](double x) { return static_cast<std::uint64_t>(std::clamp(x, 0.0, cells)) & 0xFFFFFu; };
     const std::uint64_t key = index(place.x) | (index(place.y) << 20) | (index(place.z) << 40);
     const auto [at, fresh] = known.try_emplace(key, static_cast<std::uint32_t>(clusters.size()));
@@ -45,7 +45,7 @@ void for_each_kept(const ContactMesh& mesh, const std::vector<std::uint32_t>& cl
 }  // namespace
 
 SurfaceMesh clustered_mesh(const ContactMesh& mesh, double scale_m, std::size_t target) {
-  // A surface in n cells a side meets about n^2 of them: the count goes with the square of n.
+  // With n cells per side a surface crosses about n^2 of them.
   double cells = std::sqrt(static_cast<double>(target) / 6.0);
   std::vector<Cluster> clusters;
   std::vector<std::uint32_t> cluster;

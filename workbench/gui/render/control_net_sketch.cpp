@@ -61,7 +61,7 @@ void draw_patch(Sketch& sketch, const PnPatch& patch, const Vec3& origin, Rgba c
   }
 }
 
-/// Lines and points shrink with the patch on screen, so that a small one is not buried under its net.
+/// Lines and points shrink with the patch on screen, so that the net does not hide a small patch.
 void draw_net(Sketch& sketch, const SketchContext& c, const PnPatch& patch, const Vec3& origin, Rgba colour,
               double strength) {
   const double size_px =
@@ -72,7 +72,7 @@ void draw_net(Sketch& sketch, const SketchContext& c, const PnPatch& patch, cons
                 shrink * width);
   };
   const float a = static_cast<float>(strength);
-  // A dark casing under the border: pale lines stay legible on lit facets.
+  // A dark outline under the border keeps pale lines legible on lit facets.
   for (const NetLine& l : kBorder) {
     sketch.line(origin + patch.control_point(l.a), origin + patch.control_point(l.b), {0.07f, 0.08f, 0.09f, 0.55f * a},
                 shrink * 4.0);

@@ -1,5 +1,5 @@
-// Owners of OpenGL names: created on demand, deleted with the object. The context that made them must be
-// current when they die.
+// RAII owners of OpenGL names: created on demand, deleted with the object. The creating context must be current when
+// they are destroyed.
 #pragma once
 
 #include <epoxy/gl.h>

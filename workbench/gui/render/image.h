@@ -1,4 +1,4 @@
-// A picture in memory, and as a PNG file (stb).
+// An image in memory, and writing it as a PNG file (stb).
 #pragma once
 
 #include "core/base/result.h"
@@ -24,7 +24,7 @@ struct Image {
 /// Colour of a framebuffer object (0: the window). Needs a current GL context.
 Image read_pixels(unsigned framebuffer, int width, int height);
 
-/// Written whole or not at all (core/io/atomic_file.h). Alpha is written as opaque.
+/// Writes atomically (core/io/atomic_file.h), alpha as opaque. Fails when the file can't be written.
 Status write_png(const Image& image, const std::filesystem::path& path);
 
 }  // namespace tangent

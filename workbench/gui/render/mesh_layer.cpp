@@ -8,9 +8,9 @@ namespace tangent {
 namespace {
 
 constexpr std::size_t kTriangleBudget = 300'000;            // of the smooth surface at rest
-constexpr std::size_t kMovingTriangles = 40'000;            // more than these: the stand-in while moving
+constexpr std::size_t kMovingTriangles = 40'000;            // above this: the stand-in while moving
 constexpr std::size_t kUploadSlice = std::size_t{8} << 20;  // bytes a frame
-constexpr float kTowardEye = 8e-4f;                         // strokes, of their distance to the eye
+constexpr float kTowardEye = 8e-4f;  // depth offset of strokes, as a fraction of the distance to the eye
 
 std::vector<Stroke> feature_strokes(const std::vector<FeatureEdge>& edges, const Palette& colours) {
   std::vector<Stroke> strokes;
@@ -38,7 +38,7 @@ std::vector<Stroke> corner_normal_strokes(const ContactMesh& mesh, double scale_
     return std::array{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
   };
   std::vector<Stroke> strokes;
-  std::vector<Vec3> drawn(mesh.vertex_count(), Vec3(0.0));  // last normal drawn there: most corners agree
+  std::vector<Vec3> drawn(mesh.vertex_count(), Vec3(0.0));  // last normal drawn there: most corners share it
   for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t) {
     if (!mesh.usable(t)) continue;
     for (std::uint32_t c = 0; c < 3; ++c) {
@@ -66,7 +66,7 @@ void MeshLayer::set_scene(std::shared_ptr<const ContactScene> scene, NormalForm 
   scene_ = std::move(scene);
   form_ = form;
   ++version_;
-  if (!same_mesh) {  // another form of the same mesh keeps the old picture until the new one is there
+  if (!same_mesh) {  // another form of the same mesh: keep the old image until the new one is ready
     facets_.clear();
     stand_in_.clear();
     features_.clear();
@@ -92,7 +92,7 @@ void MeshLayer::take_arrays(const SceneFrame& frame) {
     ++version_;
   }
   if (std::optional<SurfaceMesh> fine = worker_.take_smooth()) smooth_.begin_upload(std::move(*fine));
-  // A still picture wants all of it now; a window takes a slice a frame.
+  // Still images upload everything at once, the window a slice per frame.
   const std::size_t bytes = frame.quality == RenderQuality::still ? ~std::size_t{0} : kUploadSlice;
   if (facets_.pending() && facets_.continue_upload(bytes)) ++version_;
   if (stand_in_.pending() && stand_in_.continue_upload(bytes)) ++version_;
@@ -132,7 +132,7 @@ std::vector<MeshLayer::Pass> MeshLayer::passes(const SceneToggles& on) const {
   if (on.shaded || (on.wireframe && !on.smooth_surface)) out.push_back({PassKind::facets, facets_.triangles()});
   if (!on.smooth_surface) return out;
   const SurfaceBuffer& buffer = smooth_.ready() ? smooth_ : stand_in_;
-  // Depth first where it is translucent, so that only the nearest sheet is blended over the facets.
+  // Translucent surfaces: a depth pass first, so that only the nearest layer is blended over the facets.
   if (on.shaded) out.push_back({PassKind::surface_depth, buffer.triangles()});
   out.push_back({PassKind::surface, buffer.triangles()});
   return out;
@@ -156,7 +156,7 @@ void MeshLayer::draw(const ScenePrograms& programs, const SceneFrame& frame, con
   if (frame.slice) glEnable(GL_CLIP_DISTANCE0);
   const ViewMatrices view(camera, scene_->mesh().origin(), scale_m_, width_px, height_px);
   const SceneToggles& on = frame.toggles;
-  const bool coarse = moving || facets_.pending();  // dense facets take some frames to arrive
+  const bool coarse = moving || facets_.pending();  // dense facets take several frames to upload
   if (coarse && (on.shaded || on.smooth_surface) && too_dense_to_move(on)) {
     draw_stand_in(programs, frame, view);
   } else {
@@ -260,7 +260,7 @@ void MeshLayer::use_surface_program(const ScenePrograms& programs, const SceneFr
   apply_paint(programs.surface, frame);
 }
 
-// One opaque pass for whatever is on: the colour says what it stands for.
+// One opaque pass; the colour tells whether it stands for facets or surface.
 void MeshLayer::draw_stand_in(const ScenePrograms& programs, const SceneFrame& frame, const ViewMatrices& view) const {
   const Palette& colours = palette(frame.theme);
   const bool surface = frame.toggles.smooth_surface;

@@ -1,5 +1,5 @@
-// The part of the 3D view that changes only with the camera: background, facets, smooth surface, corner
-// normals, crease and boundary edges.
+// The part of the 3D view that only changes with the camera: background, facets, smooth surface, corner normals, crease
+// and boundary edges.
 #pragma once
 
 #include "workbench/gui/render/paint_buffers.h"
@@ -14,9 +14,9 @@
 
 namespace tangent {
 
-/// How far the drawing of one picture has come. A dense mesh is drawn over several frames, so that none takes long.
+/// Progress of drawing one image. A dense mesh is drawn over several frames, so that none takes long.
 struct DrawProgress {
-  std::size_t next = 0;  ///< triangle of all passes to go on with
+  std::size_t next = 0;  ///< next triangle, counted over all passes
   bool done = false;
 };
 
@@ -24,17 +24,17 @@ class MeshLayer {
  public:
   void create();
   void set_scene(std::shared_ptr<const ContactScene> scene, NormalForm form);
-  /// Uploads what the worker has finished, a slice a call.
+  /// Uploads finished arrays of the worker, a slice per call.
   void take_arrays(const SceneFrame& frame);
 
-  /// Draws into the bound framebuffer, from where `progress` is on, about `budget` triangles. `moving`: a coarse
-  /// stand-in for facets and surface if they are dense, at once.
+  /// Draws about `budget` triangles into the bound framebuffer, continuing at `progress`. `moving`: draws a coarse
+  /// stand-in at once where facets and surface are dense.
   void draw(const ScenePrograms& programs, const SceneFrame& frame, const Camera& camera, int width_px, int height_px,
             bool moving, std::size_t budget, DrawProgress& progress);
-  /// Triangles of a whole picture.
+  /// Number of triangles in a complete image.
   std::size_t drawn_triangles(const SceneToggles& on) const;
 
-  std::uint64_t version() const { return version_; }  ///< counts changes of what would be drawn
+  std::uint64_t version() const { return version_; }  ///< counts changes of the image
   bool complete() const { return !scene_ || (smooth_.ready() && stand_in_.ready() && !facets_.pending()); }
   float progress() const { return scene_ ? worker_.progress() : 1.0f; }
   std::size_t smooth_triangles() const { return smooth_.triangles(); }

@@ -1,4 +1,4 @@
-// Drawing helpers of the overlay: text that reads on any ground, and the sizes that follow the font.
+// Drawing helpers of the overlay: text legible on any background, and sizes relative to the font.
 #pragma once
 
 #include "workbench/gui/theme/palette.h"
@@ -15,9 +15,9 @@ struct OverlayCanvas {
   ImDrawList& list;
   ImVec2 top_left, size;  ///< of the picture
   const Palette& colours;
-  ImFont* text_font;  ///< each at the size it was made for: scaled, its letters blur
+  ImFont* text_font;  ///< fonts at their native size: scaled text blurs
   ImFont* number_font;
-  float em;  ///< what lengths are measured in: the height of the window's text
+  float em;  ///< unit of lengths: the height of the window's text, points
 
   ImU32 ink(Rgba c, float alpha = 1.0f) const { return packed(with_alpha(c, alpha * c.a)); }
 

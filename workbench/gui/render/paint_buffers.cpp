@@ -22,7 +22,7 @@ void IndexedBuffer::bind(unsigned unit) const {
   glActiveTexture(GL_TEXTURE0);
 }
 
-// Something is bound to every unit: software rasterisers may fetch in branches that are not taken.
+// Binds a buffer to every unit: software rasterisers may fetch in branches not taken.
 void PaintBuffers::create() {
   const std::uint32_t nothing = 0;
   values_.upload(&nothing, sizeof nothing, GL_R32F);
@@ -68,7 +68,7 @@ void PaintBuffers::take(const std::optional<MapPaint>& map, const std::shared_pt
 void PaintBuffers::apply(const ShaderProgram& program, bool map, Rgba pending, Rgba none) const {
   const auto rgb = [](Rgba c) { return glm::vec3(c.r, c.g, c.b); };
   const bool on = map && map_.has_value();
-  // Samplers of different kinds must never share a unit, used or not.
+  // Samplers of different types must not share a unit, even if unused.
   program.set("map_values", static_cast<int>(kValuesUnit));
   program.set("map_colours", static_cast<int>(kColoursUnit));
   program.set("kept", static_cast<int>(kKeptUnit));

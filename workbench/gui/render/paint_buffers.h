@@ -24,12 +24,12 @@ class IndexedBuffer {
 class PaintBuffers {
  public:
   void create();
-  /// Uploads what is not there yet.
+  /// Uploads what has changed.
   void take(const std::optional<MapPaint>& map, const std::shared_ptr<const Isolation>& isolation,
             const ContactMesh& mesh);
-  /// Sets map, isolation and slice of the program in use; to be called whenever a program of facets or surface is used.
-  /// `slice`: in the program's own coordinates, kept where dot(slice, (p, 1)) >= 0. `map`: whether to show it, if there
-  /// is one.
+  /// Sets map, isolation and slice of the program in use; call it whenever a program of facets or surface is used.
+  /// `slice`: in the program's coordinates; keeps points with dot(slice, (p, 1)) >= 0. `map`: whether to show the map,
+  /// if there is one.
   void apply(const ShaderProgram& program, bool map, Rgba pending, Rgba none) const;
 
  private:
@@ -42,7 +42,7 @@ class PaintBuffers {
   GlTexture colours_;
 };
 
-/// Texture unit of the sources that stand-ins bind for themselves.
+/// Texture unit of the sources, which stand-ins bind themselves.
 inline constexpr unsigned kSourcesUnit = 4;
 
 }  // namespace tangent

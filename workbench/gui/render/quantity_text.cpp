@@ -12,11 +12,11 @@ std::string length_text(double metres) {
   const auto units = labels_of("m");
   const double size = std::abs(metres);
   const auto fits =
-      std::find_if(units.begin(), units.end() - 1, [&](const UnitLabel& u) { return size >= 0.9995 * u.si_value; });
-  const double value = size == 0.0 ? 0.0 : metres / fits->si_value;
+      std::find_if(units.begin(), units.end() - 1, [&](const UnitLabel& u) { return size >= 0.9995 * u.in_si; });
+  const double value = size == 0.0 ? 0.0 : metres / fits->in_si;
   const std::string unit(size == 0.0 ? shown_unit("m", 1.0).name : fits->name);
   char text[48];
-  // Beyond what the units reach: not a row of digits, and no "0.00" that isn't zero.
+  // Beyond the units' range: scientific notation instead of long digits or a "0.00" that is not zero.
   if (std::abs(value) >= 1e5 || (value != 0.0 && std::abs(value) < 9.5e-3)) {
     std::snprintf(text, sizeof text, "%.3g %s", value, unit.c_str());
   } else if (std::abs(value - std::round(value)) <= 1e-9 * std::abs(value)) {

@@ -1,4 +1,4 @@
-// An off-screen picture: RGBA8 colour and 24-bit depth, multisampled or not, resized on demand.
+// An off-screen framebuffer: RGBA8 colour and 24-bit depth, optionally multisampled, resized on demand.
 #pragma once
 
 #include "core/base/result.h"
@@ -8,7 +8,7 @@ namespace tangent {
 
 class RenderTarget {
  public:
-  /// samples 0: a texture one can sample; else a multisampled renderbuffer to resolve from.
+  /// samples 0: a texture; otherwise a multisampled renderbuffer. Fails when the driver refuses the size.
   Status resize(int width_px, int height_px, int samples);
   void bind() const;  ///< for drawing, viewport included
   /// Copies (and resolves) colour and depth of `source`, of the same size.

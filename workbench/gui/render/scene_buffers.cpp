@@ -149,7 +149,7 @@ struct SolidVertex {
   std::array<float, 3> normal;
 };
 
-constexpr int kAround = 48, kRings = 24;  // rings: pole to pole, even, so that a capsule splits at the equator
+constexpr int kAround = 48, kRings = 24;  // rings from pole to pole; even, so that a capsule splits at the equator
 
 // Point of a unit body of revolution about x.
 SolidVertex around_x(double x, double radius, double angle, double half, double normal_x, double normal_r) {

@@ -1,4 +1,4 @@
-// The GPU side of the vertex arrays: upload and draw calls. No colours, no cameras.
+// GPU buffers of the vertex arrays: upload and draw calls only.
 #pragma once
 
 #include "workbench/gui/render/gl_objects.h"
@@ -9,7 +9,7 @@
 
 namespace tangent {
 
-/// Unindexed facets, three vertices each. Uploaded a slice per call, as the surface is.
+/// Unindexed facets, three vertices each. Uploaded in slices, as the surface.
 class FacetBuffer {
  public:
   void begin_upload(std::vector<FacetVertex> vertices);
@@ -28,7 +28,7 @@ class FacetBuffer {
   GLsizei count_ = 0;
 };
 
-/// Indexed surface. A large one is uploaded a slice per call so that no frame waits for all of it.
+/// Indexed surface. Uploaded in slices, so that no frame waits for a large one.
 class SurfaceBuffer {
  public:
   void begin_upload(SurfaceMesh mesh);

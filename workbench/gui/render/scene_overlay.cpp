@@ -21,7 +21,7 @@ static_assert(kInsetWidth == kAxesWidth, "the two cards stand on each other");
 void draw_labels(const OverlayCanvas& c, double pixels_per_point, std::span<const SceneLabel> labels) {
   for (const SceneLabel& label : labels) {
     const ImVec2 size = c.text_size(c.number_font, label.text);
-    // Clear of the point by half an em, and by as much of its own box as lies that way.
+    // Offset from the point by half an em plus the label's own extent in that direction.
     const Vec2 half(0.5 * size.x, 0.5 * size.y);
     const double clear = 0.55 * c.em;
     const Vec2 centre = label.pixel / pixels_per_point + label.away * clear + label.away * half;
@@ -68,7 +68,7 @@ void draw_bar(const OverlayCanvas& c, ImVec2 at, float length, Rgba colour, cons
   c.haloed(c.number_font, {at.x + length + 0.6f * c.em, at.y - 0.5f * c.number_font->FontSize}, c.colours.text, text);
 }
 
-// Length and force to scale at the depth of the camera's target.
+// Scale bars of length and force at the depth of the camera's target.
 void draw_scales(const OverlayCanvas& c, ImVec2 at, double metres_per_point, const SceneRenderer& renderer,
                  const SceneFrame& frame) {
   const double limit_m = 4.9 * c.em * metres_per_point;
@@ -142,7 +142,7 @@ void draw_scene_overlay(ImDrawList& draw_list, const ImVec2& top_left, double pi
   const float em = canvas.em;
   ImVec2 lower_left{top_left.x + kLeft * em, top_left.y + size.y - kBottom * em};
   const OverlayCards cards = overlay_cards(frame.toggles, em, size.y - top);
-  // The inset stands below: the card on top of it grows and shrinks with the tick.
+  // The inset is at the bottom, because the card above it changes height with the tick.
   if (cards.inset && (frame.cld_commanded_m || frame.cld_measured_m)) {
     draw_cld_inset(canvas, {lower_left.x + kInsetWidth * em, lower_left.y}, frame.display_travel_m,
                    frame.cld_commanded_m ? &*frame.cld_commanded_m : nullptr,
@@ -154,7 +154,7 @@ void draw_scene_overlay(ImDrawList& draw_list, const ImVec2& top_left, double pi
   }
   const bool bar = cards.scales && frame.toggles.colour_bar && frame.toggles.planes && frame.trace.size() > 1;
   const bool axes = cards.scales && frame.toggles.axes;
-  if (axes || bar) {  // behind them, so that they read on any facet
+  if (axes || bar) {  // a card behind them, for legibility
     const ImVec2 card = scales_card(axes, bar);
     canvas.card({lower_left.x, lower_left.y - card.y * em}, {lower_left.x + card.x * em, lower_left.y});
   }

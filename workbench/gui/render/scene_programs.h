@@ -1,4 +1,4 @@
-// The programs of the 3D view and what all of them take: matrices and the up direction of the light.
+// The shader programs of the 3D view and their common uniforms: matrices and the light's up direction.
 #pragma once
 
 #include "workbench/gui/render/camera.h"
@@ -25,8 +25,8 @@ struct ScenePrograms {
   std::array<Named, 6> all();
 };
 
-/// For positions in units of `scale_m` relative to `origin` (world). Dividing both matrices by the scale
-/// changes no pixel and keeps float numbers near one for a scene of any size.
+/// Matrices for positions in units of `scale_m` relative to `origin` (world). Scaling does not change the image but
+/// keeps floats near one for a scene of any size.
 struct ViewMatrices {
   ViewMatrices(const Camera& camera, const Vec3& origin, double scale_m, int width_px, int height_px);
   /// Sets model_view, projection and up_eye of the program in use.

@@ -1,7 +1,6 @@
-// Two layers. The mesh layer is drawn only when the camera, the toggles or the arrays change, multisampled
-// once the camera rests; the sketch layer (finger, force, net, iterations) goes over a copy of it every
-// time. Under software GL this is what makes a live view cheap: while the finger moves and the camera
-// rests, no mesh triangle is drawn.
+// Two layers. The mesh layer is redrawn only when camera, toggles or arrays change, multisampled once the camera rests;
+// the sketch layer (finger, force, net, iterations) is drawn over a copy of it every frame. This makes a live view
+// cheap under software GL: while the finger moves and the camera rests, no mesh triangle is drawn.
 #include "workbench/gui/render/scene_renderer.h"
 
 #include "workbench/gui/render/mesh_layer.h"
@@ -16,15 +15,15 @@
 namespace tangent {
 namespace {
 
-constexpr int kFramesToRest = 3;  // the camera rests after so many calls without a change
+constexpr int kFramesToRest = 3;  // the camera counts as resting after this many calls without change
 constexpr int kSamples = 4;
-// Triangles drawn in one frame at rest; more are spread over several, behind the stand-in. A software GL draws a few
-// million a second.
+// Triangles drawn per frame at rest; more are spread over several frames while the stand-in is shown. A software GL
+// draws a few million per second.
 constexpr std::size_t kSoftwareSlice = 150'000, kHardwareSlice = 8'000'000;
-constexpr std::size_t kHardwareMoving = 2'000'000;       // a GPU draws so many in every frame of a turn
-constexpr std::uint32_t kSoftwareMultisampled = 30'000;  // triangles; more, and a software GL takes too long a frame
+constexpr std::size_t kHardwareMoving = 2'000'000;       // a GPU draws this many per frame while orbiting
+constexpr std::uint32_t kSoftwareMultisampled = 30'000;  // triangles; with more a software GL is too slow per frame
 
-/// All that the mesh layer's picture depends on.
+/// Everything that determines the mesh layer's image.
 struct MeshLayerKey {
   Camera camera;
   SceneToggles toggles;
@@ -42,7 +41,7 @@ bool same_look(const std::optional<MapPaint>& a, const std::optional<MapPaint>& 
   return a.has_value() == b.has_value() && (!a || a->same_look(*b));
 }
 
-/// What the caller had bound; put back when we are done.
+/// RAII: saves and restores the caller's GL bindings.
 class SavedGlState {
  public:
   SavedGlState() {
@@ -114,9 +113,9 @@ void SceneRenderer::set_scene(std::shared_ptr<const ContactScene> scene, NormalF
 }
 
 void SceneRenderer::Impl::build_sketch(const SceneFrame& frame, const Camera& camera, int width_px, int height_px) {
-  if (frame.quality == RenderQuality::still) force_metres_per_newton = 0.0;  // the same picture whatever came before
+  if (frame.quality == RenderQuality::still) force_metres_per_newton = 0.0;  // independent of earlier frames
   force_metres_per_newton = choose_force_scale(frame, camera, force_metres_per_newton);
-  // In units of the distance: what is looked at has float coordinates near one.
+  // In units of the distance, so that float coordinates near the target are about one.
   sketch.begin(camera.target, camera.distance_m);
   const SketchContext context{*mesh.scene(), mesh.form(), frame, camera, width_px, height_px, force_metres_per_newton};
   draw_marked_triangles(sketch, context);
@@ -128,7 +127,7 @@ void SceneRenderer::Impl::build_sketch(const SceneFrame& frame, const Camera& ca
   if (frame.toggles.finger) draw_finger(sketch, context);
 }
 
-/// Draws what is due of the mesh; the target whose picture is to be shown now, null when it can't be had.
+/// Draws the next part of the mesh; returns the target to show now, null when it could not be created.
 const RenderTarget* SceneRenderer::Impl::draw_mesh(const SceneFrame& frame, const Camera& camera, int width_px,
                                                    int height_px) {
   calls_at_rest = camera == last_camera ? calls_at_rest + 1 : 0;
@@ -150,7 +149,7 @@ const RenderTarget* SceneRenderer::Impl::draw_mesh(const SceneFrame& frame, cons
                          frame.isolation ? frame.isolation->version + 1 : 0};
   const int samples = !resting ? 0 : wants_multisampling(frame) ? kSamples : 0;
   const auto sized = [&](RenderTarget& target, int wanted) {
-    // A driver that can't multisample this size still gives a picture.
+    // Falls back to no multisampling if the driver can't at this size.
     return target.resize(width_px, height_px, wanted) || target.resize(width_px, height_px, 0);
   };
   RenderTarget& target = resting ? resting_target : moving_target;

@@ -1,7 +1,6 @@
 // Draws the 3D view into its own texture: mesh, smooth surface, control net, finger, force, iterations.
-// Plain data in, pixels out; knows nothing of panels, devices or the servo. Needs a current GL 3.3 core
-// context on the calling thread. ImGui is not needed here;
-// text and insets on top of the picture are drawn by render/scene_overlay.h.
+// Plain data in, pixels out; independent of panels, devices and servo. Needs a current GL 3.3 core context in the
+// calling thread, but not ImGui: text and insets on top of the image are drawn by render/scene_overlay.h.
 //
 // Use, once a frame, before the ImGui draw data is rendered:
 //   renderer.render(frame, camera, width_px, height_px);
@@ -25,11 +24,11 @@ namespace tangent {
 
 struct SceneToggles {
   bool shaded = true;     ///< flat facets of the mesh
-  bool wireframe = true;  ///< facet edges; on the smooth surface alone: its patch borders
+  bool wireframe = true;  ///< facet edges; if only the smooth surface is shown, its patch borders
   bool creases = true;    ///< crease and boundary edges
   bool vertex_normals = false;
   bool smooth_surface = false;          ///< the PN surface; translucent over the facets when both are on
-  bool control_net = true;              ///< of the tracked (or picked) triangle: ten points and their net
+  bool control_net = true;              ///< of the tracked (or picked) triangle: ten control points and their net
   bool control_normals = false;         ///< its six control normals
   bool control_net_neighbours = false;  ///< also of the three triangles across its edges
   bool control_point_labels = false;    ///< b300 ... b111 (and n200 ... with control_normals)
@@ -39,18 +38,18 @@ struct SceneToggles {
   bool contact = true;
   bool tracked_plane = false;  ///< the plane after the tick
   bool planes = true;          ///< the tangent planes of the tick's iterations, joined by a line
-  bool trail = false;          ///< where the contact has been (SceneFrame::trail)
+  bool trail = false;          ///< past contacts (SceneFrame::trail)
   bool cld_inset = true;       ///< overlay: fingerpad from the side and the roller
   bool colour_bar = true;      ///< overlay: iteration order
   bool axes = true;            ///< overlay: orientation triad and scale bar
   bool operator==(const SceneToggles&) const = default;
 };
 
-/// `still` draws the best picture at once (shots, tests); `automatic` draws a cheaper one while the camera
-/// moves (no multisampling, coarser smooth surface) and refines when it rests.
+/// `still` draws the best quality at once (shots, tests); `automatic` draws a cheaper image while the camera moves (no
+/// multisampling, coarser smooth surface) and refines it when the camera rests.
 enum class RenderQuality : std::uint8_t { automatic, still };
 
-/// What to draw. World frame, metres. Spans only have to live for the call.
+/// Contents of a frame. World frame, metres. Spans must be valid during the call only.
 struct SceneFrame {
   SceneToggles toggles;
   Theme theme = Theme::dark;
@@ -58,9 +57,9 @@ struct SceneFrame {
   double pixel_scale = 1.0;  ///< widths of lines and points; 2 on a HiDPI screen
   Finger finger;
   std::optional<TickRecord> tick;          ///< the tick in view; none: mesh only
-  std::span<const IterationRecord> trace;  ///< that tick stepped again with tracing, [0]: kept plane
+  std::span<const IterationRecord> trace;  ///< iterations of that tick, stepped again with a trace; [0]: kept plane
   std::optional<std::size_t> selected_iteration;
-  std::uint32_t picked_triangle = kNone;  ///< clicked: outlined; its net is shown if nothing is tracked
+  std::uint32_t picked_triangle = kNone;  ///< outlined; its control net is shown if no triangle is tracked
   std::uint32_t hovered_triangle = kNone;
   std::span<const std::uint32_t> marked_triangles;  ///< outlined
   bool net_of_picked = false;                       ///< control net of the picked instead of the tracked triangle
@@ -73,12 +72,12 @@ struct SceneFrame {
   std::shared_ptr<const Isolation> isolation;  ///< null: all triangles
 };
 
-/// Text the overlay puts beside a 3D point, in pixels of the view (top left is 0, 0).
+/// A label that the overlay draws beside a 3D point, in pixels of the view (top left is 0, 0).
 struct SceneLabel {
   Vec2 pixel{0.0};
   std::string text;
   Rgba colour;
-  Vec2 away{0.0, -1.0};  ///< unit, on screen: the side of the point with room
+  Vec2 away{0.0, -1.0};  ///< unit, on screen: towards the free side of the point
 };
 
 class SceneRenderer {
@@ -88,14 +87,14 @@ class SceneRenderer {
   SceneRenderer(const SceneRenderer&) = delete;
   SceneRenderer& operator=(const SceneRenderer&) = delete;
 
-  /// Loads the shaders. Fails with file:line and the compiler's words.
+  /// Loads the shaders. Fails with file:line and the compiler's message.
   Status init();
 
-  /// The mesh to draw; uploads facets at once and starts tessellating the smooth surface on a worker.
-  /// nullptr: empty view. Cheap when scene and form are those already set.
+  /// Sets the mesh to draw; a worker thread tessellates the smooth surface. nullptr: empty view. Cheap when scene and
+  /// form are unchanged.
   void set_scene(std::shared_ptr<const ContactScene> scene, NormalForm form);
 
-  /// Draws; false when there is nothing to show (a size below 1 pixel, or one the driver refuses).
+  /// Draws into the texture; false when the size is below 1 pixel or refused by the driver.
   /// Precondition: init() succeeded.
   bool render(const SceneFrame& frame, const Camera& camera, int width_px, int height_px);
 
@@ -107,14 +106,14 @@ class SceneRenderer {
   /// Share of the smooth surface that is tessellated, 0..1.
   float tessellation_progress() const;
   std::size_t tessellation_triangles() const;  ///< of the finished surface, 0 before
-  /// Blocks until the smooth surface is there: for shots and tests, never for the window.
+  /// Blocks until the smooth surface is tessellated: for shots and tests, never in the window.
   void wait_for_tessellation();
-  /// True while a finer picture is still to come (camera just rested, surface arriving): keep drawing.
+  /// True while a finer image is still being prepared (camera just rested, surface arriving): keep drawing.
   bool refining() const;
 
   double force_metres_per_newton() const;  ///< length scale of the force arrow in the last render
 
-  /// Loads shader files that changed on disk. Call now and then. On an error the last good ones stay.
+  /// Reloads shader files that changed on disk. Call it regularly. On an error the last working ones stay in use.
   void reload_changed_shaders();
   const std::string& shader_error() const;  ///< empty: none
 
@@ -123,7 +122,7 @@ class SceneRenderer {
   std::unique_ptr<Impl> impl_;
 };
 
-/// First facet under a pixel that is neither cut away nor left out.
+/// First facet under a pixel that is not hidden by slice or isolation.
 NearestTriangles::RayHit pick_triangle(const ContactScene& scene, const Camera& camera, const Vec2& pixel, int width_px,
                                        int height_px, const std::optional<SlicePlane>& slice = {},
                                        const Isolation* isolation = nullptr);

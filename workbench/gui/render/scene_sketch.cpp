@@ -31,7 +31,7 @@ double choose_force_scale(const SceneFrame& frame, const Camera& camera, double 
   if (!(force > 0.0) || !std::isfinite(force)) return last > 0.0 ? last : gizmo;
   const double drawn = last * force;
   if (drawn >= 0.4 * gizmo && drawn <= 2.2 * gizmo) return last;
-  // One newton is gizmo / step metres, step the 1-2-5 number next above 0.6 of the force.
+  // One newton is gizmo / step metres long; step is the next 1-2-5 number above 0.6 of the force.
   const double decade = std::pow(10.0, std::floor(std::log10(0.6 * force)));
   for (const double step : {1.0, 2.0, 5.0, 10.0}) {
     if (step * decade >= 0.6 * force) return gizmo / (step * decade);
@@ -103,7 +103,7 @@ void draw_force(Sketch& sketch, const SketchContext& c, std::vector<SceneLabel>&
   char text[32];
   std::snprintf(text, sizeof text, "%.2f N", force);
   if (!in_view(p)) return;
-  // On past the arrowhead; beside it where the arrow comes towards the eye.
+  // Beyond the arrowhead; beside it where the arrow points towards the eye.
   const Vec2 along = Vec2(p) - Vec2(c.camera.project(output.contact, c.width_px, c.height_px));
   const double length = glm::length(along);
   labels.push_back({Vec2(p), text, colour, length > 8.0 * c.frame.pixel_scale ? along / length : Vec2(1.0, 0.0)});
@@ -117,10 +117,10 @@ void draw_iterations(Sketch& sketch, const SketchContext& c, std::vector<SceneLa
   for (const IterationRecord& it : trace) {
     if (it.feature != Feature::none) spread.include(it.point);
   }
-  // About as wide as the points are apart, so that planes overlap without burying each other.
+  // About as wide as the points are apart, so that planes overlap without hiding each other.
   const double radius = std::clamp(0.8 * glm::length(spread.size()), 0.12 * gizmo, 0.75 * gizmo);
   const auto selected = c.frame.selected_iteration;
-  // All planes on top of each other cover 45 %, however many they are.
+  // All planes together have an opacity of 45 %, whatever their number.
   const float fill = 1.0f - std::pow(0.55f, 1.0f / static_cast<float>(trace.size()));
   for (std::size_t i = 0; i < trace.size(); ++i) {
     const IterationRecord& it = trace[i];
@@ -142,7 +142,7 @@ void draw_iterations(Sketch& sketch, const SketchContext& c, std::vector<SceneLa
     sketch.line(trace[i].point, trace[i + 1].point, mix(iteration_colour(i, trace.size()), {1, 1, 1, 1}, 0.35f), 2.2);
   }
   Vec2 last_label(-1e9);
-  const std::size_t every = 1 + trace.size() / 16;  // a run of a hundred is named here and there
+  const std::size_t every = 1 + trace.size() / 16;  // of many iterations only some are labelled
   for (std::size_t i = 0; i < trace.size(); ++i) {
     if (trace[i].feature == Feature::none) continue;
     const Rgba colour = iteration_colour(i, trace.size());

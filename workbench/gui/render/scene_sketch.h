@@ -1,4 +1,4 @@
-// What a SceneFrame looks like: finger, contact, force, control nets and iterations, put into a Sketch.
+// Converts a SceneFrame into a Sketch: finger, contact, force, control nets and iterations.
 #pragma once
 
 #include "workbench/gui/render/scene_renderer.h"
@@ -17,11 +17,11 @@ struct SketchContext {
   double force_metres_per_newton;
 };
 
-/// Typical length of gizmos, m: the finger's size, kept within the scene's and within the view's.
+/// Typical length of gizmos, m: the finger's size, limited by those of scene and view.
 double gizmo_length_m(const SceneFrame& frame, const Camera& camera);
 
-/// Length of the arrow of one newton: a 1-2-5 step, such that the present force is between a half and one and
-/// a quarter gizmo length; `last` is kept while it still fits (no jumping), 0: none.
+/// Arrow length of one newton, m: a 1-2-5 step such that the current force is drawn 0.5 to 1.25 gizmo lengths long.
+/// `last` (0: none) is kept while it still fits, so that the scale does not jump.
 double choose_force_scale(const SceneFrame& frame, const Camera& camera, double last);
 
 void draw_finger(Sketch& sketch, const SketchContext& c);

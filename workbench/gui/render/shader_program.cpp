@@ -5,8 +5,9 @@
 
 #include <algorithm>
 #include <fstream>
-#include <regex>
+#include <optional>
 #include <sstream>
+#include <string_view>
 #include <system_error>
 
 namespace tangent {
@@ -20,6 +21,41 @@ using Files = std::vector<fs::path>;
 // Mesa 22.3 leaves it out of half of its messages.
 constexpr std::size_t kLinesAFile = 100'000;
 
+/// A line, read from the front.
+class LineReader {
+ public:
+  explicit LineReader(std::string_view line) : rest_(line) {}
+  std::string_view rest() const { return rest_; }
+  bool take(std::string_view text) {
+    if (!rest_.starts_with(text)) return false;
+    rest_.remove_prefix(text.size());
+    return true;
+  }
+  std::string_view take_while(std::string_view characters) { return take_first(rest_.find_first_not_of(characters)); }
+  std::string_view take_until(char end) { return take_first(rest_.find(end)); }
+  std::string_view blanks() { return take_while(" \t\r\f\v"); }
+  std::string_view digits() { return take_while("0123456789"); }
+
+ private:
+  std::string_view take_first(std::size_t count) {
+    const std::string_view taken = rest_.substr(0, count);
+    rest_.remove_prefix(taken.size());
+    return taken;
+  }
+  std::string_view rest_;
+};
+
+/// "x.glsl" of a line `#include "x.glsl"`.
+std::optional<std::string> included_file(std::string_view line) {
+  LineReader reader(line);
+  reader.blanks();
+  if (!reader.take("#include") || reader.blanks().empty() || !reader.take("\"")) return std::nullopt;
+  const std::string_view name = reader.take_until('"');
+  if (name.empty() || !reader.take("\"")) return std::nullopt;
+  reader.blanks();
+  return reader.rest().empty() ? std::optional<std::string>(name) : std::nullopt;
+}
+
 // Appends `path` with its includes.
 Status append_source(const fs::path& path, Files& files, std::string& text) {
   std::ifstream in(path);
@@ -27,32 +63,49 @@ Status append_source(const fs::path& path, Files& files, std::string& text) {
   const std::size_t number = files.size();
   files.push_back(path);
   std::string line;
-  static const std::regex kInclude(R"re(^\s*#include\s+"([^"]+)"\s*$)re");
   for (std::size_t n = 1; std::getline(in, line); ++n) {
-    std::smatch match;
-    if (!std::regex_match(line, match, kInclude)) {
+    const std::optional<std::string> included = included_file(line);
+    if (!included) {
       text += line + '\n';
       continue;
     }
     if (files.size() > 16) return fail("includes nest too deep", path.string() + ":" + std::to_string(n));
     text += "#line " + std::to_string(files.size() * kLinesAFile + 1) + '\n';
-    if (Status s = append_source(path.parent_path() / match[1].str(), files, text); !s) return s;
+    if (Status s = append_source(path.parent_path() / *included, files, text); !s) return s;
     text += "#line " + std::to_string(number * kLinesAFile + n + 1) + '\n';
   }
   return {};
 }
 
-// Drivers write "0:12(5): error: ..." (Mesa) or "0(12) : error ..." (NVIDIA): source string, then line.
+struct CompilerMessage {
+  std::size_t line = 0;
+  std::string text;
+};
+
+// Drivers write "0:12(5): error: ..." (Mesa), "0(12) : error ..." (NVIDIA) or "ERROR: 0:12: ...": source string, line,
+// perhaps the column, what is wrong.
+std::optional<CompilerMessage> parse_message(std::string_view line) {
+  LineReader reader(line);
+  if (reader.take("ERROR:")) reader.blanks();
+  if (reader.digits().empty() || !(reader.take(":") || reader.take("("))) return std::nullopt;
+  const std::string_view number = reader.digits();
+  if (number.empty() || number.size() > 9) return std::nullopt;
+  reader.take(")");
+  if (reader.take("(") && (reader.digits().empty() || !reader.take(")"))) return std::nullopt;
+  reader.blanks();
+  if (!reader.take(":")) return std::nullopt;
+  reader.blanks();
+  return CompilerMessage{std::stoul(std::string(number)), std::string(reader.rest())};
+}
+
 Error compile_error(const std::string& log, const Files& files) {
-  static const std::regex kPlace(R"(^(?:ERROR:\s*)?\d+[:(](\d{1,9})\)?(?:\(\d+\))?\s*:\s*(.*))");
   std::istringstream lines(log);
   std::string line;
   while (std::getline(lines, line)) {
-    std::smatch match;
-    if (!std::regex_match(line, match, kPlace)) continue;
-    const std::size_t place = std::stoul(match[1].str());
-    const std::size_t file = std::min(place / kLinesAFile, files.size() - 1);
-    return {match[2].str(), files[file].string() + ":" + std::to_string(place % kLinesAFile), "mend the shader"};
+    const std::optional<CompilerMessage> message = parse_message(line);
+    if (!message) continue;
+    const std::size_t file = std::min(message->line / kLinesAFile, files.size() - 1);
+    return {message->text, files[file].string() + ":" + std::to_string(message->line % kLinesAFile), "mend the shader"};
   }
   return {log.empty() ? "does not compile" : log.substr(0, log.find('\n')), files.front().string(), "mend the shader"};
 }
@@ -154,7 +207,7 @@ Status ShaderProgram::reload_if_changed() {
   for (Source& source : sources_) {
     const auto now = written(source.path);
     changed = changed || now != source.written;
-    source.written = now;  // a text that fails is not tried again until it changes again
+    source.written = now;  // text that fails to compile is not tried again until it changes
   }
   if (!changed) return {};
   Result<ShaderProgram> fresh = load(directory_, name_);

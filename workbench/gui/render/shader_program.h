@@ -1,6 +1,6 @@
-// GLSL programs from files: NAME.vert.glsl and NAME.frag.glsl, `#include "x.glsl"` resolved in the same
-// directory. Errors name file and line. A program reloads itself when one of its files changes on disk;
-// if the new text doesn't compile, the last good program stays in use.
+// GLSL programs from files NAME.vert.glsl and NAME.frag.glsl; `#include "x.glsl"` is resolved in the same folder.
+// Errors name file and line. A program can reload when one of its files changes on disk; if the new text does not
+// compile, the last working program stays in use.
 #pragma once
 
 #include "core/base/result.h"
@@ -13,8 +13,8 @@
 
 namespace tangent {
 
-/// Where the shaders are: the source tree this was built from if it is still there, else `shaders` beside
-/// the executable or one level up. Fails naming the places tried.
+/// Folder of the shaders: in the source tree of the build if it still exists, else `shaders` beside the executable or
+/// one level up. Fails, naming the places tried.
 Result<std::filesystem::path> find_shader_directory();
 
 class ShaderProgram {
@@ -26,12 +26,12 @@ class ShaderProgram {
 
   static Result<ShaderProgram> load(const std::filesystem::path& directory, const std::string& name);
 
-  /// Loads again if a file changed since the last try; the error, if any, of that try.
+  /// Reloads if a file changed since the last attempt. Fails with the compiler's message.
   Status reload_if_changed();
 
   unsigned id() const { return id_; }
   void use() const;
-  // Uniforms of the program in use; unknown names are ignored, as GL does.
+  // Uniforms of the program in use; unknown names are ignored, as in GL.
   void set(const char* name, int value) const;
   void set(const char* name, float value) const;
   void set(const char* name, const glm::vec2& value) const;

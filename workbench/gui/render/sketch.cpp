@@ -9,7 +9,8 @@ namespace {
 
 constexpr int kCircleSegments = 48;
 
-// Any two unit vectors that make a right-handed frame with `n`: cross with the axis n leans on least.
+// Two unit vectors that form a right-handed frame with `n`, from the cross product with the axis of n's smallest
+// component.
 std::array<Vec3, 2> tangents(const Vec3& n) {
   const Vec3 a = glm::abs(n);
   const Vec3 axis = a.x <= a.y && a.x <= a.z ? Vec3(1, 0, 0) : a.y <= a.z ? Vec3(0, 1, 0) : Vec3(0, 0, 1);

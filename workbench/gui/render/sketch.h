@@ -1,6 +1,6 @@
-// Everything of the 3D view that is not the mesh: strokes, points, translucent fills, lit solids and
-// labels, collected on the CPU each frame. Positions are relative to an origin (the camera's target) and in
-// units of a scale, so that float keeps its digits next to what is looked at.
+// Everything in the 3D view except the mesh: strokes, points, translucent fills, lit solids and labels, collected on
+// the CPU each frame. Positions are relative to an origin (the camera's target) and in units of a scale, so that float
+// precision suffices near the target.
 #pragma once
 
 #include "core/base/vec.h"
@@ -28,13 +28,13 @@ struct FillVertex {
 
 enum class SolidShape : std::uint8_t { ball, cylinder, cone };
 
-/// A body along its own x axis: semi_axes * unit shape, halves pulled apart by half_length.
+/// A solid along its x axis: semi_axes * unit shape, with its halves moved apart by half_length each.
 struct Solid {
   SolidShape shape = SolidShape::ball;
   glm::mat4 place{1.0f};  ///< body frame -> sketch frame, rigid
   glm::vec3 semi_axes{1.0f};
   float half_length = 0.0f;
-  Rgba colour;  ///< alpha: opacity where it faces the eye
+  Rgba colour;  ///< alpha: opacity where the surface faces the eye
   float rim_opacity = 1.0f;
 };
 
@@ -43,7 +43,7 @@ class Sketch {
   void begin(const Vec3& origin_world, double scale_m);
 
   void line(const Vec3& a, const Vec3& b, Rgba colour, double width_px);
-  /// A filled dot with a thin dark rim, so that it reads on any ground.
+  /// A filled dot with a thin dark rim, visible on any background.
   void point(const Vec3& p, Rgba colour, double diameter_px);
   void ring(const Vec3& centre, const Vec3& normal, double radius_m, Rgba colour, double width_px);
   void disc(const Vec3& centre, const Vec3& normal, double radius_m, Rgba colour);

@@ -3,8 +3,8 @@
 namespace tangent {
 namespace {
 
-constexpr float kTowardEye = 8e-4f;      // of the distance to the eye: strokes clear what they lie on
-constexpr float kBehindOpacity = 0.25f;  // of strokes that a surface hides
+constexpr float kTowardEye = 8e-4f;      // depth offset, as a fraction of the distance to the eye
+constexpr float kBehindOpacity = 0.25f;  // of hidden strokes
 
 }  // namespace
 

@@ -13,7 +13,7 @@ constexpr double kTick = 1e-3;  // s
 constexpr double kSpeed = 0.1;  // m/s
 constexpr int kApproachTicks = 40;
 
-/// Any unit vector across `n`, leaning to world x where it can.
+/// A unit vector perpendicular to `n`, close to world x where possible.
 Vec3 across(const Vec3& n) {
   const Vec3 axis = std::abs(n.x) < 0.9 ? Vec3(1, 0, 0) : Vec3(0, 1, 0);
   return unit(axis - glm::dot(axis, n) * n);
@@ -23,7 +23,7 @@ struct Place {
   Vec3 point, normal;  // of the smooth surface, local
 };
 
-/// Where a ray from `outside` to the mesh's centre meets it; through a hole, what lies nearest to `outside`.
+/// Hit of a ray from `outside` to the mesh's centre; if it misses, the point nearest to `outside`.
 Place place_under(const ContactScene& scene, const Vec3& outside) {
   const ContactMesh& mesh = scene.mesh();
   const auto hit = scene.nearest().cast(outside, unit(mesh.bounds().centre() - outside));
@@ -60,7 +60,7 @@ StagedScene stage_finger(std::shared_ptr<const ContactScene> scene, const Stagin
     record.tick = static_cast<std::uint64_t>(i);
     record.kept = state;
     record.input.t_s = i * kTick;
-    // Starts as far above the surface as it ends below.
+    // Starts as high above the surface as it ends below it.
     record.input.finger.position = start + staging.press_m * (1.0 - 2.0 * pressed) * normal + travelled * along;
     out.trace->clear();
     record.output = stepper.step(staging.preset, record.input, state, out.trace.get());

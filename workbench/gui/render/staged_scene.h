@@ -1,5 +1,5 @@
-// A finger pressed on a mesh, for pictures and tests: deterministic ticks, the last of them traced.
-// Pure computation; no GL.
+// A finger pressed on a mesh, for screenshots and tests: deterministic ticks, the last one traced. Pure computation; no
+// GL.
 #pragma once
 
 #include "workbench/gui/render/scene_renderer.h"
@@ -11,9 +11,9 @@ namespace tangent {
 
 struct Staging {
   Preset preset;
-  Vec3 approach{0.25, -0.45, 1.0};  ///< from the mesh's centre towards where the finger comes from; any length
-  double press_m = 1e-3;            ///< how deep, below the nearest facet at the start
-  double slide_m = 6e-3;            ///< along the surface while pressed, at 0.1 m/s
+  Vec3 approach{0.25, -0.45, 1.0};  ///< direction from the mesh's centre to the finger; any length
+  double press_m = 1e-3;            ///< depth below the nearest facet at the start
+  double slide_m = 6e-3;            ///< distance along the surface while pressed, at 0.1 m/s
   double last_jump_m = 0.0;         ///< extra travel within the last tick, so that it takes several iterations
 };
 
@@ -24,7 +24,7 @@ struct StagedScene {
   std::unique_ptr<IterationTrace> trace;  ///< of the last tick
   std::vector<Vec3> trail;                ///< contacts, oldest first
 
-  /// Everything of it in a frame with these toggles; spans point into *this.
+  /// The scene as a frame with these toggles; spans point into *this.
   SceneFrame frame(const SceneToggles& toggles, Theme theme) const;
 };
 

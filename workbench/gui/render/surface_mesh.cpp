@@ -45,7 +45,7 @@ std::vector<FacetVertex> facet_vertices(const ContactMesh& mesh, double scale_m)
   for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t) {
     if (!mesh.usable(t)) continue;
     const auto p = mesh.positions(t);
-    // Scaled before the product: squares of micrometre edges stay far from underflow in either type.
+    // Scaled before the product, so that tiny edges don't underflow when squared.
     const Vec3 normal = glm::cross((p[1] - p[0]) / scale_m, (p[2] - p[0]) / scale_m);
     const double length = glm::length(normal);
     const std::uint32_t packed = packed_normal(length > 0.0 ? normal / length : mesh.normal(t, 0));
@@ -59,7 +59,7 @@ SurfaceMesh corner_normal_mesh(const ContactMesh& mesh, double scale_m) {
     std::uint32_t index, next;
     Vec3 normal;
   };
-  std::vector<std::uint32_t> first(mesh.vertex_count(), kNone);  // chains of a vertex's distinct normals
+  std::vector<std::uint32_t> first(mesh.vertex_count(), kNone);  // linked lists of each vertex's distinct normals
   std::vector<Known> known;
   SurfaceMesh out;
   out.indices.reserve(std::size_t{3} * mesh.usable_triangle_count());

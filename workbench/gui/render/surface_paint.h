@@ -1,4 +1,4 @@
-// What can be laid on the mesh: a map's values as colours, a cut, and a choice of triangles. Plain data.
+// What can be shown on the mesh: a map's values as colours, a slice plane, an isolated set of triangles. Plain data.
 #pragma once
 
 #include "workbench/gui/theme/colour_map.h"
@@ -12,10 +12,10 @@
 
 namespace tangent {
 
-/// Values of a map over the surface (core/lab/measure/surface_map.h), one for each part of each usable triangle.
+/// Values of a map over the surface (core/lab/measure/surface_map.h), one per part of each usable triangle.
 struct MapPaint {
-  std::span<const float> values;  ///< has to live as long as `version` is shown
-  std::uint64_t version = 0;      ///< another one: the values are others
+  std::span<const float> values;  ///< must stay valid while `version` is shown
+  std::uint64_t version = 0;      ///< changes with the values
   unsigned level = 1;
   double low = 0.0, high = 1.0;  ///< values of the first and the last colour; low < high
   bool logarithmic = false;      ///< then both above 0
@@ -28,12 +28,12 @@ struct MapPaint {
   }
 };
 
-/// Where the value is on the colour bar, not clamped.
+/// Position of a value on the colour bar, 0 to 1 in range, not clamped.
 double map_share(const MapPaint& paint, double value);
 double map_value_at(const MapPaint& paint, double share);
 Rgba map_colour(const MapPaint& paint, double value);
 
-/// What lies on the side that `normal` points to is cut away. World.
+/// Hides the side to which `normal` points. World frame.
 struct SlicePlane {
   Vec3 normal{1.0, 0.0, 0.0};  ///< unit
   double offset_m = 0.0;       ///< points on it: dot(normal, p) = offset
@@ -41,9 +41,9 @@ struct SlicePlane {
   bool cuts(const Vec3& p) const { return glm::dot(normal, p) > offset_m; }
 };
 
-/// Triangles that alone are drawn.
+/// Restricts drawing to some triangles.
 struct Isolation {
-  std::vector<std::uint8_t> kept;  ///< by triangle number: 1 stays
+  std::vector<std::uint8_t> kept;  ///< by triangle number: 1 is drawn
   std::uint64_t version = 0;
 };
 

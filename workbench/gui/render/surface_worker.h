@@ -1,5 +1,5 @@
-// Prepares a scene's vertex arrays on a thread of its own, first what can be drawn at once (facets, a
-// stand-in for motion, feature edges), then the smooth surface. The drawing thread polls and never waits.
+// Prepares a scene's vertex arrays in its own thread: first what can be drawn at once (facets, a stand-in for motion,
+// feature edges), then the smooth surface. The drawing thread polls and never waits.
 #pragma once
 
 #include "core/tick/step.h"
@@ -13,7 +13,7 @@
 
 namespace tangent {
 
-/// The stand-in has at most about so many triangles.
+/// Approximate upper limit of the stand-in's triangles.
 inline constexpr std::size_t kStandInTriangles = 24'000;
 
 struct CoarseArrays {
@@ -26,11 +26,11 @@ class SurfaceWorker {
  public:
   ~SurfaceWorker();
 
-  /// Drops whatever is under way and starts on this scene.
+  /// Cancels a job in progress and starts on this scene.
   void start(std::shared_ptr<const ContactScene> scene, NormalForm form, double scale_m, std::size_t triangle_budget);
   void stop();
 
-  /// What was finished since the last call; each comes once.
+  /// Results finished since the last call; each is returned once.
   std::optional<CoarseArrays> take_coarse();
   std::optional<SurfaceMesh> take_smooth();
 
@@ -41,7 +41,7 @@ class SurfaceWorker {
   void work(std::stop_token stop, std::shared_ptr<const ContactScene> scene, NormalForm form, double scale_m,
             std::size_t triangle_budget);
 
-  std::mutex guard_;  // of the two results
+  std::mutex guard_;  // guards the two results
   std::optional<CoarseArrays> coarse_;
   std::optional<SurfaceMesh> smooth_;
   std::atomic<float> progress_{0.0f};

@@ -19,7 +19,7 @@ struct LinearRgb {
 double to_linear(double c) { return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4); }
 double to_srgb(double c) { return c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1.0 / 2.4) - 0.055; }
 
-// The matrices of Ottosson's definition.
+// The matrices from Ottosson's definition of Oklab.
 LinearRgb from_oklab(const Oklab& c) {
   const auto cube = [](double x) { return x * x * x; };
   const double l = cube(c.L + 0.3963377774 * c.a + 0.2158037573 * c.b);
@@ -39,7 +39,7 @@ Oklab of_hue(double lightness, double chroma, double hue_rad) {
   return {lightness, chroma * std::cos(hue_rad), chroma * std::sin(hue_rad)};
 }
 
-/// The wanted chroma, or as much of it as a screen can show.
+/// The requested chroma, reduced to the sRGB gamut.
 Oklab shown(double lightness, double chroma, double hue_rad) {
   double low = 0.0, high = chroma;
   if (in_gamut(from_oklab(of_hue(lightness, chroma, hue_rad)))) return of_hue(lightness, chroma, hue_rad);
@@ -58,14 +58,14 @@ Rgba displayed(const Oklab& c) {
 
 double distance(const Oklab& a, const Oklab& b) { return std::hypot(a.L - b.L, a.a - b.a, a.b - b.b); }
 
-/// The path of a map, t in 0..1, in whatever pace.
+/// The path of a map, t in 0..1, not yet uniform in distance.
 Oklab on_path(ColourMap map, double t) {
   const auto mix_of = [t](double from, double to) { return from + (to - from) * t; };
   switch (map) {
     case ColourMap::tide:
       return shown(mix_of(0.27, 0.93), 0.145 + 0.03 * t, mix_of(300.0, 103.0) * kDegree);
     case ColourMap::dusk: {
-      // Straight through grey, from blue to the yellow opposite.
+      // A straight line through grey, from blue to the opposite yellow.
       const Oklab from = shown(0.26, 0.11, 265.0 * kDegree), to = shown(0.93, 0.15, 100.0 * kDegree);
       return {mix_of(from.L, to.L), mix_of(from.a, to.a), mix_of(from.b, to.b)};
     }
@@ -78,7 +78,7 @@ Oklab on_path(ColourMap map, double t) {
   }
 }
 
-/// Equal steps along the path: of t's samples, those at equal parts of the length gone.
+/// Resamples the path at equal arc lengths.
 std::array<Rgba, kColourMapSize> walk(ColourMap map) {
   constexpr std::size_t kFine = 65536;
   std::vector<Oklab> path;
@@ -121,7 +121,7 @@ const std::array<Rgba, kColourMapSize>& colour_table(ColourMap map) {
 
 Rgba colour_at(ColourMap map, float t) {
   const auto& table = colour_table(map);
-  // A NaN compares false with everything and lands on the first.
+  // NaN compares false and gives the first colour.
   const float at = (t > 0.0f ? std::min(t, 1.0f) : 0.0f) * static_cast<float>(kColourMapSize - 1);
   const std::size_t i = std::min(static_cast<std::size_t>(at), kColourMapSize - 2);
   return mix(table[i], table[i + 1], at - static_cast<float>(i));

@@ -1,6 +1,6 @@
-// Colour maps for values: computed here, in Oklab, from a handful of numbers (hue, lightness and chroma at the ends).
-// Each is a path of strictly rising lightness, so that it orders values for every eye and in grey, walked in equal
-// steps of Oklab distance, so that equal differences of the value look equal.
+// Colour maps, computed in Oklab from hue, lightness and chroma at the ends. Lightness rises strictly, so that values
+// are ordered for colour-blind readers and in grey, and steps are equal in Oklab distance, so that equal differences of
+// the value look equal (perceptually uniform).
 //
 // Oklab: B. Ottosson, "A perceptual color space for image processing", 2020.
 #pragma once
@@ -15,18 +15,18 @@
 namespace tangent {
 
 enum class ColourMap : std::uint8_t {
-  tide,  ///< violet, teal, yellow: most steps that can be told apart
-  dusk,  ///< blue, grey, yellow: two hues, which red-green blind eyes see as others do
+  tide,  ///< violet, teal, yellow: most distinguishable steps
+  dusk,  ///< blue, grey, yellow: looks the same with red-green colour blindness
   grey,
-  balance,  ///< blue, near white, orange: values about a middle; lightness rises to the middle and falls again
+  balance,  ///< blue, near white, orange: diverging, for values about a middle
   count_
 };
 inline constexpr std::size_t kColourMapCount = static_cast<std::size_t>(ColourMap::count_);
-std::span<const std::string_view> colour_map_names();  ///< of those that rise all the way, in order
+std::span<const std::string_view> colour_map_names();  ///< the sequential maps, in order
 
 inline constexpr std::size_t kColourMapSize = 256;
 const std::array<Rgba, kColourMapSize>& colour_table(ColourMap map);
-/// t in 0..1, clamped; NaN: the first.
+/// t in 0..1, clamped; NaN: the first colour.
 Rgba colour_at(ColourMap map, float t);
 
 struct Oklab {

@@ -1,6 +1,6 @@
-// Every colour that stands for a quantity, once: the 3D view, plots, tables and insets all ask here, so that
-// a force is the same orange everywhere. Hues are Okabe & Ito's (safe for the common colour-blindnesses),
-// lightened or darkened per theme to keep contrast; quantities that never share a plot may share a hue.
+// The colour of every quantity, defined once: 3D view, plots, tables and insets all use it, so that a force is the same
+// orange everywhere. Hues are Okabe & Ito's (colour-blind safe), lightened or darkened per theme to keep contrast;
+// quantities that never share a plot may share a hue.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@ namespace tangent {
 
 enum class Theme : std::uint8_t { dark, light };
 
-/// sRGB, straight alpha, 0..1: what ImGui and the shaders both take.
+/// sRGB, straight alpha, 0..1, as ImGui and the shaders take it.
 struct Rgba {
   float r = 0.0f, g = 0.0f, b = 0.0f, a = 1.0f;
   bool operator==(const Rgba&) const = default;
@@ -24,7 +24,7 @@ constexpr Rgba with_alpha(Rgba colour, float alpha) { return {colour.r, colour.g
 constexpr Rgba mix(Rgba a, Rgba b, float t) {
   return {a.r + (b.r - a.r) * t, a.g + (b.g - a.g) * t, a.b + (b.b - a.b) * t, a.a + (b.a - a.a) * t};
 }
-/// Bytes R, G, B, A from the lowest up: ImGui's ImU32 (IM_COL32) and GL_UNSIGNED_BYTE x 4.
+/// Bytes R, G, B, A from the lowest: ImGui's ImU32 (IM_COL32) and GL_UNSIGNED_BYTE x 4.
 constexpr std::uint32_t packed(Rgba c) {
   const auto byte = [](float x) {
     return static_cast<std::uint32_t>((x < 0.0f ? 0.0f : x > 1.0f ? 1.0f : x) * 255.0f + 0.5f);
@@ -77,8 +77,8 @@ constexpr Palette kLightPalette{
 
 constexpr const Palette& palette(Theme theme) { return theme == Theme::dark ? kDarkPalette : kLightPalette; }
 
-/// Colour of iteration `i` of `count` (the kept plane is 0): the colour map tide, its darkest tenth left out so that
-/// the first plane shows on a dark background.
+/// Colour of iteration `i` of `count` (the kept plane is 0): the colour map tide without its darkest tenth, so that the
+/// first plane is visible on a dark background.
 Rgba iteration_colour(std::size_t i, std::size_t count);
 
 }  // namespace tangent

@@ -160,7 +160,7 @@ void apply_theme(Theme theme, float scale) {
 ThemeFonts load_fonts(float scale, std::vector<std::string>& missing) {
   ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
   atlas.Clear();
-  // FreeType reads Inter's CFF outlines and hints small sizes; the light hinter keeps the letters' shapes.
+  // FreeType reads Inter's CFF outlines and hints small sizes; light hinting keeps the letters' shapes.
   atlas.FontBuilderIO = ImGuiFreeType::GetBuilderForFreeType();
   atlas.FontBuilderFlags = ImGuiFreeTypeBuilderFlags_LightHinting;
   ThemeFonts fonts;

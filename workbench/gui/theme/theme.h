@@ -11,7 +11,7 @@
 
 namespace tangent {
 
-/// Colours of the interface that stand for no quantity. Packed as ImGui does.
+/// Colours of the interface, other than those of quantities. Packed as ImU32.
 struct ThemeColours {
   ImU32 window;        ///< between the panels
   ImU32 panel;         ///< behind widgets
@@ -22,11 +22,11 @@ struct ThemeColours {
   ImU32 border;
   ImU32 text, text_dim, text_faint;
   ImU32 accent, accent_soft;  ///< soft: translucent, fills behind text
-  ImU32 accent_fill;          ///< the same over a panel, opaque: buttons that are on
+  ImU32 accent_fill;          ///< opaque equivalent on a panel: buttons that are on
   ImU32 good, warning, bad;
 };
 
-/// Fonts of the present atlas. All non-null once `load_fonts` ran.
+/// Fonts of the current atlas. All non-null after `load_fonts`.
 struct ThemeFonts {
   ImFont* text = nullptr;          ///< Inter
   ImFont* strong = nullptr;        ///< Inter SemiBold: section titles
@@ -37,11 +37,11 @@ struct ThemeFonts {
 
 const ThemeColours& theme_colours(Theme theme);
 
-/// Style and colours of the present ImGui context, lengths times `scale`.
+/// Sets style and colours of the current ImGui context, lengths times `scale`.
 void apply_theme(Theme theme, float scale);
 
-/// Replaces the atlas of the present context by our fonts at `scale`. A font file that isn't there is
-/// replaced by ImGui's own font; `missing` then gets one line naming the package.
+/// Replaces the atlas of the current context by our fonts at `scale`. A missing font file is replaced by ImGui's
+/// default font, and `missing` gets a line naming the package.
 ThemeFonts load_fonts(float scale, std::vector<std::string>& missing);
 
 inline ImU32 colour(const Rgba& c) { return packed(c); }

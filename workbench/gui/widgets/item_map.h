@@ -1,5 +1,5 @@
-// Where each widget of the frame was drawn, by label path ("solver/gain_overall", "transport/pause"), so
-// that tests can click and type without knowing the layout. Filled while a frame is built.
+// Rectangles of the frame's widgets by label path ("solver/gain_overall", "transport/pause"), so that tests can click
+// and type without knowing the layout. Filled while a frame is built.
 #pragma once
 
 #include <imgui.h>
@@ -19,7 +19,7 @@ struct ItemRect {
 class ItemMap {
  public:
   void begin_frame() { items_.clear(); }
-  /// The last item ImGui submitted, under this path.
+  /// Notes ImGui's last submitted item under this path.
   void note_last(std::string_view path);
   void note(std::string_view path, ImVec2 min, ImVec2 max);
   /// Null when there was no such widget in the last frame.

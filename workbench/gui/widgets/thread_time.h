@@ -1,4 +1,4 @@
-// Processor time of the calling thread: what something costs, not how long it waited for its turn.
+// Processor time of the calling thread: excludes time spent waiting.
 #pragma once
 
 #include <ctime>

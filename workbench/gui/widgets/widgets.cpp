@@ -15,7 +15,7 @@ namespace tangent {
 
 namespace {
 
-/// A ribbon with a notch; with a chevron beside it where it leads somewhere: `d` -1 back, 1 on.
+/// Bookmark icon: a notched ribbon, with a chevron for previous (`d` -1) or next (1).
 void draw_ribbon(ImDrawList& draw, ImVec2 c, float r, float d, float line, ImU32 ink) {
   const float x = c.x - d * 0.45f * r, w = 0.42f * r, h = 0.8f * r;
   const ImVec2 ribbon[5] = {
@@ -112,7 +112,7 @@ bool section(const UiContext& ui, const char* title, bool open_at_first) {
   }
   tooltip(ui, open ? "Folds this section" : "Unfolds this section");
   const bool hovered = ImGui::IsItemHovered();
-  // From edge to edge of the column, past the padding that ImGui would clip at.
+  // Over the column's full width, beyond the padding at which ImGui clips.
   const float left = ImGui::GetWindowPos().x, right = at.x + width + ui.px(4);
   draw.PushClipRect({left, draw.GetClipRectMin().y}, {right, draw.GetClipRectMax().y}, false);
   draw.AddRectFilled({left, at.y}, {right, at.y + height}, ui.colours.panel_header);
@@ -153,7 +153,7 @@ std::optional<std::string> number_box(const UiContext& ui, std::string_view path
   if (ImGui::IsItemActive() && state.id == id) {
     state.text = edited;
   } else if (ImGui::IsItemDeactivated() && state.id == id) {
-    // On Enter this frame's text is the newest; when another widget took the focus, the last one seen is.
+    // On Enter this frame's text counts; when another widget took the focus, the last text seen.
     if (edited != text) state.text = edited;
     const bool escaped = ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false);
     if (!escaped && state.text != state.shown) result = state.text;
@@ -164,14 +164,14 @@ std::optional<std::string> number_box(const UiContext& ui, std::string_view path
 
 namespace {
 
-/// The field that is being typed in.
+/// The field being typed in.
 std::optional<std::string> type_in_field(const UiContext& ui, std::string_view path, const ValueField& field) {
   Typing& state = ui.typing;
   const bool focus = std::exchange(state.focus_field, false);
   const bool was_active = state.id != 0;
   std::optional<std::string> typed = number_box(ui, path, field.width, field.text, focus);
   if (was_active && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Tab), false)) {
-    // ImGui would go round its text boxes, of which this is the only one: the next field becomes one instead.
+    // Tab in ImGui cycles through text boxes, of which this is the only one; we move to the next field instead.
     if (!typed && state.text != state.shown) typed = state.text;
     ImGui::ClearActiveID();
     state.id = 0;
@@ -183,7 +183,7 @@ std::optional<std::string> type_in_field(const UiContext& ui, std::string_view p
   return typed;
 }
 
-/// The last item as a filled field.
+/// Draws the last item as a filled field.
 void draw_field(const UiContext& ui, const ValueField& field, ImVec2 at, double share) {
   const float height = ImGui::GetFrameHeight();
   const bool lit = ImGui::IsItemHovered() || ImGui::IsItemActive();
@@ -233,12 +233,12 @@ ValueFieldResult value_field(const UiContext& ui, std::string_view path, const V
   }
   double share = field.share;
   if (ImGui::IsItemActive() && ImGui::IsMouseDragging(ImGuiMouseButton_Left, ui.px(3))) {
-    // Relative, so that the value doesn't leap to where it was grabbed.
+    // Relative, so that the value doesn't jump to the pointer when grabbed.
     const double fine = ImGui::GetIO().KeyShift ? 0.1 : 1.0;
     share = std::clamp(state.slide_from + fine * static_cast<double>((mouse - state.slide_x) / field.width), 0.0, 1.0);
     if (share != field.share) out.slid = share;
   } else if (ImGui::IsItemDeactivated() && ImGui::IsItemHovered() && std::abs(mouse - state.slide_x) <= ui.px(3)) {
-    // The box comes in this very frame: what is typed from the next one on belongs to it.
+    // The box appears in this frame and receives input from the next one on.
     state.field = path;
     ImGui::SetCursorScreenPos(at);
     number_box(ui, path, field.width, field.text, true);
@@ -331,8 +331,7 @@ void fact(const UiContext& ui, const char* label, const std::string& value, cons
 
 namespace {
 
-/// Beside what it explains: at the pointer it would cover the value that is about to be changed. Tall items are pointed
-/// into.
+/// Beside its item, because at the pointer it would cover the value about to be changed; at the pointer for tall items.
 void place_tooltip(const UiContext& ui) {
   const ImVec2 min = ImGui::GetItemRectMin(), max = ImGui::GetItemRectMax();
   if (max.y - min.y > ui.px(60)) return;
@@ -356,7 +355,7 @@ void tooltip(const UiContext& ui, std::string_view text) {
     ui.resting = {};
     return;
   }
-  // Items without a name of their own (rows of facts) are told by their place.
+  // Items without an id (rows of facts) are identified by position.
   const ImVec2 at = ImGui::GetItemRectMin();
   const ImGuiID id = ImGui::GetItemID() != 0 ? ImGui::GetItemID() : ImHashData(&at, sizeof at);
   Resting& resting = ui.resting;

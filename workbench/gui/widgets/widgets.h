@@ -1,5 +1,5 @@
-// The few widgets of our own: value fields that slide and take typed values on Enter or when they lose the focus,
-// section headings, rows of facts, drawn icons. Each notes itself in the item map.
+// Custom widgets: value fields that slide and accept typed values on Enter or when they lose the focus, section
+// headings, rows of facts, drawn icons. Each notes itself in the item map.
 #pragma once
 
 #include "workbench/gui/widgets/ui_context.h"
@@ -11,11 +11,11 @@
 
 namespace tangent {
 
-/// A section's title bar; click folds it, which is kept between runs. Returns whether the contents are to be drawn.
+/// A section's title bar; a click folds it, which is kept between runs. Returns whether to draw the contents.
 bool section(const UiContext& ui, const char* title, bool open_at_first);
 
-/// A box that shows `text` (a formatted number). Returns what was typed, once, on Enter, Tab or a click
-/// elsewhere; nothing on Escape or when it wasn't changed. `focus`: starts typing now.
+/// A box that shows `text` (a formatted number). Returns the typed text once, on Enter, Tab or a click elsewhere; empty
+/// on Escape or when unchanged. `focus`: starts typing now.
 std::optional<std::string> number_box(const UiContext& ui, std::string_view path, float width, const std::string& text,
                                       bool focus = false);
 
@@ -23,7 +23,7 @@ std::optional<std::string> number_box(const UiContext& ui, std::string_view path
 /// times finer), a click types.
 struct ValueField {
   float width = 100.0f;
-  double share = 0.0;  ///< 0..1 of the range, filled
+  double share = 0.0;  ///< filled share of the range, 0..1
   std::string text;    ///< the value
   std::string_view unit;
 };
@@ -52,16 +52,16 @@ bool icon_button(const UiContext& ui, std::string_view path, Icon icon, const ch
                  bool enabled = true);
 /// Five points about `centre`, filled.
 void draw_star(ImDrawList& draw, ImVec2 centre, float radius, ImU32 ink);
-/// A text button that stays pressed.
+/// A text button that toggles `on`.
 bool toggle_button(const UiContext& ui, std::string_view path, const char* text, bool& on, const char* tooltip);
 bool text_button(const UiContext& ui, std::string_view path, const char* text, const char* tooltip);
-/// The input field submitted next under this label takes what is typed from this frame on. (SetKeyboardFocusHere would
-/// take two frames more, and what is typed meanwhile would be lost.)
+/// Gives the next input field with this label the keyboard from this frame on. (SetKeyboardFocusHere takes two frames
+/// more, and text typed meanwhile would be lost.)
 void edit_next(const char* label);
-/// A field takes what is typed, at this moment. (io.WantTextInput still says so a frame after Enter.)
+/// Whether a field is being edited right now. (io.WantTextInput stays set for a frame after Enter.)
 bool text_is_edited();
-/// A combo box. Each choice is noted as path/choice while it is open. Returns whether another one was chosen; with
-/// `again` also when it was the present one.
+/// A combo box. While it is open each choice is noted as path/choice. Returns whether another one was chosen; with
+/// `again` also when the current one was.
 bool choice_row(const UiContext& ui, std::string_view path, float width, std::span<const std::string_view> choices,
                 int& chosen, bool again = false);
 
@@ -69,7 +69,7 @@ bool choice_row(const UiContext& ui, std::string_view path, float width, std::sp
 void fact(const UiContext& ui, const char* label, const std::string& value, const char* unit = "",
           std::optional<ImU32> ink = std::nullopt);
 
-/// Shown when the last item is hovered for a moment and no button of the mouse is down; wrapped at a readable width.
+/// Shown when the last item is hovered for a moment with no mouse button down; wrapped at a readable width.
 void tooltip(const UiContext& ui, std::string_view text);
 
 /// printf into a string.

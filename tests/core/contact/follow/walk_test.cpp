@@ -1,4 +1,4 @@
-// Steps along creases go on past the ends of their edges.
+// Steps along creases continue past the ends of their edges.
 #include "core/contact/follow/walk.h"
 #include "tests/core/scenes.h"
 

@@ -1,4 +1,4 @@
-// How far the finger has gone from where a search's margins count, and what is left of them there.
+// The finger's distance from the pose of the last search, and the remaining margins there.
 #include "core/contact/prove/clearance_check.h"
 
 #include <doctest/doctest.h>
@@ -10,7 +10,7 @@ TEST_CASE(
   Clearance fresh;
   fresh.margin_m = 1e-3;
   fresh.height_m = 0.02;
-  fresh.watched[0] = {7, 5e-4f};
+  fresh.watched[0] = {7, 0, 5e-4f};
   fresh.watched_count = 1;
   const Quat straight(1.0, 0.0, 0.0, 0.0), turned = glm::angleAxis(1e-3, Vec3(0.0, 0.0, 1.0));
   Finger sphere, ellipsoid;

@@ -1,4 +1,4 @@
-// The search over the hierarchy passes by no triangle that holds a contact.
+// The search over the hierarchy never skips a triangle that holds a contact.
 #include "core/contact/prove/contact_hierarchy.h"
 #include "core/contact/follow/step_rule.h"
 #include "tests/core/scenes.h"
@@ -181,6 +181,7 @@ TEST_CASE("for fingers that are not round the tilt keeps their contacts in the s
     finger.half_length_m = 0.012;
     finger.semi_axes_m = {0.018, 0.010, 0.007};
     int missed = 0;
+    std::size_t by_tilt = 0, by_support = 0;
     for (int i = 0; i < rounds(5000); ++i) {
       const std::uint32_t t = random.below(mesh.triangle_count());
       const Vec2 uv = random.barycentric();
@@ -194,10 +195,23 @@ TEST_CASE("for fingers that are not round the tilt keeps their contacts in the s
       query.nearest_m = finger.reach_m() - depth + finger.unroundness_m();
       query.inside_m = -1.0;
       query.tilt_rad = finger.tilt_rad();
-      missed += !visited(torus->hierarchy(), query).contains(t);
+      const auto tilted = visited(torus->hierarchy(), query);
+      // The same by support points, here and while the finger moves.
+      query.finger = &finger;
+      query.pose = &pose;
+      const auto supported = visited(torus->hierarchy(), query);
+      query.margin_m = 0.003;
+      query.nearest_m += query.margin_m;
+      pose.position += query.margin_m * random.in(0.0, 1.0) * random.direction();
+      query.centre = pose.position;
+      const auto moved = visited(torus->hierarchy(), query);
+      missed += !tilted.contains(t) + !supported.contains(t) + !moved.contains(t);
+      by_tilt += tilted.size();
+      by_support += supported.size();
     }
     CAPTURE(static_cast<int>(shape));
     CHECK(missed == 0);
+    CHECK(by_support < by_tilt);
   }
 }
 

@@ -1,4 +1,4 @@
-// A patch that holds a contact is never excluded, nor does one come up while the centre moves less than the margin.
+// A patch that holds a contact is never excluded, and no contact appears while the centre moves less than the margin.
 #include "core/contact/prove/face_proof.h"
 #include "core/surface/mesh_patch.h"
 #include "tests/core/scenes.h"
@@ -37,12 +37,12 @@ std::vector<PnPatch> mesh_patches() {
 
 double patch_size(const PnPatch& p) { return std::max(glm::length(p.offsets[b030]), glm::length(p.offsets[b003])); }
 
-struct Findings {
+struct Proofs {
   int wrong = 0, tried = 0;
 };
 
 /// Builds contacts on the patch from the answer and asks whether they are ruled out.
-void contacts_on(const PnPatch& patch, Random& random, int count, Findings& f) {
+void contacts_on(const PnPatch& patch, Random& random, int count, Proofs& f) {
   for (int i = 0; i < count; ++i) {
     const Vec2 uv = i == 0 ? Vec2(0.0, 0.0) : i == 1 ? Vec2(1.0, 0.0) : random.barycentric();
     const SurfaceSample s = evaluate(patch, uv.x, uv.y);
@@ -60,7 +60,7 @@ void contacts_on(const PnPatch& patch, Random& random, int count, Findings& f) {
 
 TEST_CASE("no patch is excluded for a centre over or under one of its own points") {
   Random random(120);
-  Findings f;
+  Proofs f;
   for (int i = 0; i < rounds(5000); ++i) contacts_on(random_patch(random), random, 20, f);
   for (const PnPatch& patch : mesh_patches()) contacts_on(patch, random, 20, f);
   CHECK(f.tried > rounds(5000) * 20);

@@ -1,4 +1,4 @@
-// What the builder skips, keeps apart and names.
+// Defects that the builder skips, separates and reports.
 #include "core/mesh/contact_mesh.h"
 
 #include "tests/core/mesh/contact_mesh_checks.h"

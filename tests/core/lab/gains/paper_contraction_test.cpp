@@ -1,4 +1,4 @@
-// The long-run shrinkage of the paper's iteration, against the planes it really computes and against closed forms.
+// The asymptotic convergence rate of the paper's iteration, against the iteration itself and against closed forms.
 #include "core/lab/gains/paper_contraction.h"
 
 #include "core/lab/gains/gain_advice.h"

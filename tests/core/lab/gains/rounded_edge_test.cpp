@@ -1,11 +1,11 @@
-// Why the paper's iteration needs more than 2 to 3 planes on rounded edges unless it crosses them squarely.
+// Why the paper's iteration needs more than 2 to 3 planes on rounded edges unless it crosses them at right angles.
 //
 // Across an edge of radius r the ideal factor of a step is 1/(1 + h/r), along it 1. One factor g leaves |1 - g (1 +
-// h/r)| of the travel across and 1 - g of that along. Where one shrinks faster than the other the travel turns towards
-// the other, k = |dN/ds| along it follows, and with it the gain, until both shrink alike: g = 2/(2 + h/r). From there
-// every plane leaves h/r / (2 + h/r) of the error, whatever the gains: 0.864 for r = 1.5 mm and h = 19 mm. (Where G_k
-// is too small for the edge, it does not converge at all.) Gains with G_o well above 1 never settle there; long and
-// short steps take turns and leave 0.67, but on flat ground G_o - 1.
+// h/r)| of the travel across and 1 - g of that along. The travel turns towards the component that shrinks more slowly;
+// k = |dN/ds| along the travel follows, and with it the gain, until both shrink alike: g = 2/(2 + h/r). From then on
+// every plane leaves (h/r)/(2 + h/r) of the error, whatever the gains: 0.864 for r = 1.5 mm and h = 19 mm. (If G_k is
+// too small for the edge, it does not converge at all.) Gains with G_o well above 1 don't settle there: long and short
+// steps alternate and leave 0.67 per plane, at the price of G_o - 1 on flat faces.
 #include "core/lab/gains/gain_tuning.h"
 #include "core/lab/gains/ground.h"
 
@@ -18,7 +18,7 @@ using namespace tangent::test;
 
 namespace {
 
-constexpr double kHalf = 0.040 / std::numbers::sqrt2, kRounding = 1.5e-3, kRadius = 0.020, kDepth = 1e-3;
+constexpr double kHalf = 0.040 / std::numbers::sqrt2, kRounding = 1.5e-3, kEdgeRadius = 0.020, kEdgeDepth = 1e-3;
 
 ScenePtr rounded_cube() {
   GenerateOptions options;
@@ -31,15 +31,17 @@ ScenePtr rounded_cube() {
 /// Around the cube's x axis at the distance of a pressed finger, to and fro along x at the same time; `angle_rad`:
 /// between the way and the square crossing of an edge. 0.1 m/s.
 std::vector<TickInput> stroke(double angle_rad, int count) {
-  const double flat = 2.0 * (kHalf - kRounding), round = (kRounding + kRadius - kDepth) * std::numbers::pi / 2.0;
+  const double flat = 2.0 * (kHalf - kRounding),
+               round = (kRounding + kEdgeRadius - kEdgeDepth) * std::numbers::pi / 2.0;
   std::vector<TickInput> poses;
   for (int i = 0; i < count; ++i) {
     double around = std::fmod(1e-4 * i * std::cos(angle_rad), 4.0 * (flat + round));
     const int side = static_cast<int>(around / (flat + round));
     around -= side * (flat + round);
-    Vec2 at(kHalf + kRadius - kDepth, around - 0.5 * flat);
+    Vec2 at(kHalf + kEdgeRadius - kEdgeDepth, around - 0.5 * flat);
     if (around > flat) {
-      const double turn = (around - flat) / round * std::numbers::pi / 2.0, reach = kRounding + kRadius - kDepth;
+      const double turn = (around - flat) / round * std::numbers::pi / 2.0,
+                   reach = kRounding + kEdgeRadius - kEdgeDepth;
       at = Vec2(0.5 * flat + reach * std::cos(turn), 0.5 * flat + reach * std::sin(turn));
     }
     for (int k = 0; k < side; ++k) at = Vec2(-at.y, at.x);
@@ -50,8 +52,8 @@ std::vector<TickInput> stroke(double angle_rad, int count) {
 }
 
 RunScore run(const ScenePtr& scene, Method method, double angle_deg, double tolerance_m = 1e-6) {
-  Preset preset = sphere_preset(kRadius, method);
-  preset.solver.gain_curvature_m = kRadius - kDepth;  // h: the ideal factor across the edge
+  Preset preset = sphere_preset(kEdgeRadius, method);
+  preset.solver.gain_curvature_m = kEdgeRadius - kEdgeDepth;  // h: the ideal factor across the edge
   preset.solver.tolerance_m = tolerance_m;
   Stepper stepper(scene);
   return score_run(stepper, preset, stroke(angle_deg * kDegree, 10000));
@@ -81,12 +83,12 @@ TEST_CASE("strokes squarely over rounded edges cost the paper's iteration one pl
 
 TEST_CASE("in an oblique crossing every plane leaves the part of the error that theory says, whatever the gains") {
   const ScenePtr scene = rounded_cube();
-  const double height = kRadius - kDepth, theory = height / kRounding / (2.0 + height / kRounding);
+  const double height = kEdgeRadius - kEdgeDepth, theory = height / kRounding / (2.0 + height / kRounding);
   const std::vector<TickInput> poses = stroke(45.0 * kDegree, 1100);
   for (const Gains& gains :
        {Gains{1.0, 0.019, 0.0}, Gains{0.85, 0.010, 0.0}, Gains{0.9, 0.015, 50.0}, Gains{1.46, 0.0782, 0.0}}) {
     CAPTURE(gains.curvature_m);
-    Preset preset = sphere_preset(kRadius, Method::paper);
+    Preset preset = sphere_preset(kEdgeRadius, Method::paper);
     preset.solver = with_gains(preset.solver, gains);
     Stepper stepper(scene);
     TickState state;
@@ -115,9 +117,9 @@ TEST_CASE("in an oblique crossing every plane leaves the part of the error that 
 }
 
 TEST_CASE("ground is told by the tightest curvature under the finger") {
-  Preset preset = sphere_preset(kRadius, Method::robust);
+  Preset preset = sphere_preset(kEdgeRadius, Method::robust);
   const ScenePtr cube = rounded_cube();
-  const double off = kRadius - kDepth;
+  const double off = kEdgeRadius - kEdgeDepth;
   const auto ground = [&preset](const ScenePtr& scene, const Vec3& at) {
     const TickOutput out = solve_once(scene, preset, at);
     REQUIRE(out.status != TickStatus::unconverged);

@@ -1,4 +1,4 @@
-// Whether the tracked contact is the deepest one: a search from nothing at the same pose must not find a deeper place.
+// The tracked contact is the deepest one: a search without kept state at the same pose must not find a deeper place.
 #include "core/base/tolerances.h"
 #include "tests/core/scenes.h"
 
@@ -26,30 +26,38 @@ std::vector<TickInput> poses_of(const std::filesystem::path& path) {
 }
 
 /// Poses of a sphere finger of that radius over the mesh, with and without creases.
-void check_deepest(const std::filesystem::path& mesh, const std::vector<TickInput>& poses, double radius) {
+void check_deepest(const std::filesystem::path& mesh, const std::vector<TickInput>& poses, double radius,
+                   ForceContacts contacts) {
   for (const double crease_deg : {45.0, 180.0}) {
     const ScenePtr scene = file_scene(mesh, crease_deg);
-    const Preset preset = sphere_preset(radius, Method::robust);
+    Preset preset = sphere_preset(radius, Method::robust);
+    preset.force.contacts = contacts;
+    // With force from all places the one that is shown may be shallower by a tremor.
+    const double hystereses = contacts == ForceContacts::all ? kTremor : 1.0;
     Stepper tracking(scene), searching(scene);
     TickState state;
-    int shallower = 0, late = 0, unconverged = 0;
+    int shallower = 0, late = 0, unconverged = 0, facing = 0;
     for (const TickInput& input : poses) {
       const TickOutput tracked = tracking.step(preset, input, state);
       unconverged += tracked.status == TickStatus::unconverged;
+      facing += tracked.status == TickStatus::facing;
       TickState fresh;
       const TickOutput cold = searching.step(preset, input, fresh);
       // The hysteresis may hold a place that is shallower by that much, and a rival's height is guessed to
       // kHeightGuess.
-      const double behind =
-          cold.penetration_m - tracked.penetration_m - preset.solver.switch_hysteresis_m - preset.solver.tolerance_m;
+      const double behind = cold.penetration_m - tracked.penetration_m -
+                            hystereses * preset.solver.switch_hysteresis_m - preset.solver.tolerance_m;
       late += behind > 0.0;
       shallower += behind > 2.0 * kHeightGuess * radius;
     }
     MESSAGE(mesh.stem().string() << ", " << radius << " m, creases " << crease_deg << ": " << unconverged << " of "
-                                 << poses.size() << " ticks unconverged, " << late << " behind a deeper place, "
-                                 << shallower << " by more than heights are guessed to");
+                                 << poses.size() << " ticks unconverged, " << facing << " facing, " << late
+                                 << " behind a deeper place, " << shallower << " by more than heights are guessed to");
     CHECK(unconverged == 0);
-    CHECK(shallower == 0);
+    CHECK(facing * 1000 <= static_cast<int>(poses.size()));
+    // Of all places the shown one may be a tick late where the deepest got lost and another is gone on with.
+    const int late_at_most = contacts == ForceContacts::all ? static_cast<int>(poses.size()) / 10000 : 0;
+    CHECK(shallower <= late_at_most);
   }
 }
 
@@ -61,7 +69,8 @@ TEST_CASE("on spot the tracked contact is the deepest place, as a search from no
   for (const auto& [finger, radius] : kFingers) {
     std::vector<TickInput> poses = poses_of(TANGENT_TEST_ASSETS "/poses/spot" + std::string(finger));
     REQUIRE(poses.size() == 600);
-    check_deepest(testing::spot_file(), poses, radius);
+    for (const ForceContacts contacts : {ForceContacts::deepest, ForceContacts::all})
+      check_deepest(testing::spot_file(), poses, radius, contacts);
   }
 }
 
@@ -73,7 +82,94 @@ TEST_CASE("on real meshes the tracked contact is the deepest place, as a search 
       std::vector<TickInput> poses = poses_of(testing::shared_file("poses/" + name + finger));
       REQUIRE(poses.size() == 20000);
       poses.resize(static_cast<std::size_t>(rounds(20000)));
-      check_deepest(testing::shared_file("meshes/" + name + ".obj"), poses, radius);
+      for (const ForceContacts contacts : {ForceContacts::deepest, ForceContacts::all})
+        check_deepest(testing::shared_file("meshes/" + name + ".obj"), poses, radius, contacts);
     }
   }
+}
+
+namespace {
+
+/// A ball of about 36 mm with waves of random direction, length and height, sometimes with noise on every vertex.
+PolygonMesh random_blob(Random& random) {
+  struct Wave {
+    Vec3 along;
+    double height, phase;
+  };
+  std::vector<Wave> waves(1 + random.below(5));
+  for (Wave& w : waves) w = {random.in(1.0, 6.0) * random.direction(), random.in(0.0, 0.06), random.in(0.0, 6.28)};
+  const double noise = random.below(2) ? random.in(0.0, 0.01) : 0.0;
+  PolygonMesh mesh = make_icosphere(1.0, 2 + static_cast<int>(random.below(3)));
+  for (Vec3& p : mesh.positions) {
+    double r = 1.0 + noise * random.in(-1.0, 1.0);
+    for (const Wave& w : waves) r += w.height * std::sin(glm::dot(w.along, p) + w.phase);
+    p *= 0.036 * r;
+  }
+  return mesh;
+}
+
+/// Round the body on changing great circles, about a millimetre deep: as deep as the last tick says, so it never leaps.
+class RoundABody {
+ public:
+  explicit RoundABody(Random& random) : random_(random), direction_(random.direction()), axis_(random.direction()) {}
+
+  TickInput next(int i, double penetration_m, double radius_m) {
+    if (i % 200 == 0) axis_ = random_.direction();
+    direction_ = unit(direction_ + 0.003 * glm::cross(axis_, direction_));
+    if (i == 0) distance_ = 0.036 + radius_m;
+    distance_ += std::clamp(0.2 * (penetration_m - 1e-3), -1e-4, 1e-4);
+    return at_position(1e-3 * i, distance_ * direction_);
+  }
+
+ private:
+  Random& random_;
+  Vec3 direction_, axis_;
+  double distance_ = 0.0;
+};
+
+}  // namespace
+
+TEST_CASE(
+    "on 100,000 poses of bodies made at random the tracked contact is the deepest, as a search from nothing has it") {
+  constexpr int kBodies = 100;
+  const int poses = rounds(1000);
+  Random random{97};
+  int shallower = 0, unconverged = 0, facing = 0, touching = 0;
+  double worst = 0.0;
+  for (int body = 0; body < kBodies; ++body) {
+    ContactMeshOptions options;
+    options.crease_rad = (body % 2 ? 180.0 : 45.0) * kDegree;
+    const ScenePtr scene = scene_of(random_blob(random), options);
+    Preset preset = sphere_preset(body % 3 ? 0.020 : 0.005, Method::robust);
+    preset.force.contacts = body % 4 < 2 ? ForceContacts::deepest : ForceContacts::all;
+    const double hystereses = preset.force.contacts == ForceContacts::all ? kTremor : 1.0;
+    const double held = hystereses * preset.solver.switch_hysteresis_m + preset.solver.tolerance_m +
+                        2.0 * kHeightGuess * preset.finger.radius_m;
+    Stepper tracking(scene), searching(scene);
+    TickState state;
+    RoundABody path(random);
+    double depth = 0.0;
+    for (int i = 0; i < poses; ++i) {
+      const TickInput input = path.next(i, depth, preset.finger.radius_m);
+      const TickOutput tracked = tracking.step(preset, input, state);
+      depth = tracked.penetration_m;
+      TickState fresh;
+      const TickOutput cold = searching.step(preset, input, fresh);
+      unconverged += tracked.status == TickStatus::unconverged || cold.status == TickStatus::unconverged;
+      facing += tracked.status == TickStatus::facing;
+      touching += tracked.penetration_m > 0.0;
+      const double behind = cold.penetration_m - tracked.penetration_m - held;
+      shallower += behind > 0.0;
+      worst = std::max(worst, behind);
+    }
+  }
+  const int all = kBodies * poses;
+  MESSAGE(all << " poses, " << touching << " touching, " << facing << " facing, " << shallower
+              << " behind a deeper place by up to " << worst << " m more than is held");
+  CHECK(unconverged == 0);
+  CHECK(facing * 1000 <= kBodies * poses);
+  CHECK(touching > kBodies * poses / 2);
+  // Near a fold a deeper place can come up a tick or two before the search that the motion so far called for.
+  CHECK(shallower <= std::max(1, all / 10000));
+  CHECK(worst < 2e-4);
 }

@@ -78,7 +78,7 @@ TEST_CASE("anything not finite in a tick is counted") {
     if (field == 1) o.force_n.x = std::numeric_limits<double>::infinity();
     if (field == 2) o.cld_m = nan;
     if (field == 3) o.normal.z = nan;
-    CHECK_FALSE(all_finite(o));
+    CHECK_FALSE(tangent::all_finite(o));
     CHECK(run_statistics(std::vector{pose(0)}, std::vector{o}, {}).not_finite == 1);
   }
 }

@@ -1,4 +1,4 @@
-// Emulated firmware of a CLD controller: the protocol on top of the same mechanism as the simulated display's.
+// Emulated firmware of a CLD controller: the protocol over the same mechanism model as the simulated display's.
 #pragma once
 
 #include "devices/cld/cld_messages.h"
@@ -9,20 +9,20 @@
 
 namespace tangent::emulation {
 
-/// What becomes of telemetry on its way, for one packet each.
+/// Faults of the telemetry stream, for one packet each.
 enum class WireFault { none, split, merged, garbage, doubled, out_of_order, crc_error, empty };
 
 class CldModel final : public UsbModel {
  public:
   std::uint16_t watchdog_ms = 50;
-  bool watchdog_on = true;            ///< off: a machine that stalls under the tests does not trip it
-  bool has_firmware = true;           ///< false: says nothing
-  std::uint16_t telemetry_hz = 1000;  ///< 0: an info that no host may accept
+  bool watchdog_on = true;            ///< off: stalls of the test machine do not trip it
+  bool has_firmware = true;           ///< false: never answers
+  std::uint16_t telemetry_hz = 1000;  ///< 0: an info that the host must reject
   bool encoder_stuck = false;
   bool telemetry_on = true;
   int homing_ticks = 100;
   WireFault next_wire = WireFault::none;
-  /// Targets by their place in the order of arrival, and how often each sequence number came.
+  /// Targets in order of arrival, and how often each sequence number arrived.
   std::vector<std::int32_t> targets;
   std::map<std::uint32_t, int> heard;  ///< frames by running sequence number
   std::uint64_t watchdog_fired = 0, telemetry_sent = 0;
@@ -33,7 +33,7 @@ class CldModel final : public UsbModel {
   void tick() override;
   void reset() override;
 
-  /// As after its power was off.
+  /// As after a power cycle.
   void forget_settings() {
     mechanism_ = CldMechanism();
     lowest_nm_ = -10'000'000;

@@ -1,4 +1,4 @@
-// Emulated Pololu Maestro: takes vendor requests, remembers what each channel was told.
+// Emulated Pololu Maestro: takes vendor requests and records each channel's target.
 #pragma once
 
 #include "tests/devices/usb/emulation/usb_model.h"

@@ -1,6 +1,5 @@
 // The tests of the USB devices need umockdev's library, and the shim, in front of everything. The program starts itself
 // again with them.
-#define DOCTEST_CONFIG_IMPLEMENT
 #include <doctest/doctest.h>
 
 #include <cstdlib>

@@ -1,5 +1,5 @@
-// A faked machine with USB devices on it: umockdev gives sysfs and hot-plug events to Debian's libusb, the shim gives
-// the device nodes, and a thread gives the devices their milliseconds.
+// An emulated USB bus: umockdev provides sysfs and hot-plug events to Debian's libusb, the shim provides the device
+// nodes, and a thread drives the devices at 1 kHz.
 #pragma once
 
 #include "tests/devices/usb/emulation/umockdev_node.h"
@@ -27,7 +27,7 @@ class Testbed {
   UMockdevTestbed* testbed_;
 };
 
-/// Who answers for the device node.
+/// What emulates the device node.
 enum class NodeBy { shim, umockdev };
 
 /// One device on the testbed's bus.
@@ -39,7 +39,7 @@ class PluggedDevice {
   PluggedDevice& operator=(const PluggedDevice&) = delete;
 
   void plug_in(int open_error = 0);
-  void unplug();  ///< in the middle of whatever goes on
+  void unplug();  ///< at any time, also during transfers
   /// The device's clock: a thread at 1 kHz. Without it, tick by hand.
   void run();
   void halt();

@@ -1,5 +1,5 @@
-// The same board behind umockdev's own device node: its ioctl handler, which copies between processes and takes about
-// 0.4 ms a call. For runs where speed does not matter and nothing of ours may stand between libusb and the node.
+// The same board behind umockdev's own device node: its ioctl handler copies between processes and takes about 0.4 ms
+// per call. For tests where speed does not matter and no code of this project may be between libusb and the node.
 #pragma once
 
 #include "tests/devices/usb/emulation/usbfs_board.h"

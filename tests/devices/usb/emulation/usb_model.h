@@ -1,5 +1,5 @@
-// An emulated USB device as its firmware sees it: packets and control requests in, packets out, a millisecond tick.
-// Knows nothing of how it is attached; the usbfs board and, through it, both ways of faking usbfs use the same model.
+// An emulated USB device from the firmware's side: packets and control requests in, packets out, a 1 ms tick.
+// Independent of how it is attached: both emulations of usbfs use the same model through the usbfs board.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ struct ControlSetup {
   std::uint16_t value = 0, index = 0, length = 0;
 };
 
-/// What the bus does with a packet instead of delivering it.
+/// Bus fault of a packet that is not delivered.
 enum class BusFault { none, stall, time_out, error };
 
 class UsbModel {

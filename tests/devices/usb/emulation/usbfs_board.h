@@ -1,5 +1,5 @@
-// A USB device node as usbfs shows it, for one model: URBs submitted, completed and reaped, interfaces claimed, the
-// device unplugged in the middle of it. Linux's ioctls, with pointers of this process.
+// Emulates the usbfs device node of one model: URBs are submitted, completed and reaped, interfaces claimed, the device
+// unplugged at any time. Linux's ioctls, with pointers of this process.
 #pragma once
 
 #include "tests/devices/usb/emulation/usb_model.h"
@@ -34,7 +34,7 @@ class UsbfsBoard {
     return f();
   }
 
-  int claim_error = 0;  ///< errno that claiming meets
+  int claim_error = 0;  ///< errno that claiming returns; 0: none
   /// Called, under the lock, when there is something to reap, and when there no longer is.
   std::function<void(bool ready)> on_ready;
 
@@ -49,7 +49,7 @@ class UsbfsBoard {
 
   std::mutex mutex_;
   UsbModel& model_;
-  /// As in Linux, the host's memory is written when it reaps, in its own thread, and of what it never reaps not at all.
+  /// As in Linux, the host's memory is written when it reaps, in its own thread; for URBs never reaped, not at all.
   struct Done {
     usbdevfs_urb* urb = nullptr;
     int status = 0, actual = 0;

@@ -1,4 +1,4 @@
-// What a tick contributes to the plots.
+// The plots' channels of a tick.
 #include "workbench/gui/model/tick_channels.h"
 
 #include <doctest/doctest.h>

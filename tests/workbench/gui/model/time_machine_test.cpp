@@ -125,7 +125,7 @@ TEST_CASE("of a long past what is in view is answered first, then the whole") {
 
 namespace {
 
-/// How long it takes from a wish to its ghost, over `wishes` of them. `change` makes the i-th wish.
+/// Time from a request to its ghost, over `wishes` requests. `change` makes the i-th one.
 template <class Change>
 void measure_ghosts(const std::string& name, const std::shared_ptr<const ContactScene>& scene, Preset preset,
                     int wishes, Change change) {

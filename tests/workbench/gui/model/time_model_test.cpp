@@ -1,4 +1,4 @@
-// Time in the window: bookmarks, triggers, marks, the past solved again. Model state is what counts.
+// Time in the window: bookmarks, triggers, marks, the past solved again. Checks the model's state.
 #include "tests/workbench/gui/headless_app.h"
 
 #include <cmath>

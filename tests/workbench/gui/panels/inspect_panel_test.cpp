@@ -1,4 +1,4 @@
-// Looking into the mesh: maps, findings, creases, slices, control nets.
+// Mesh inspection: maps, findings, creases, slices, control nets.
 #include "tests/workbench/gui/running_app.h"
 
 #include "workbench/gui/panels/panels.h"

@@ -1,4 +1,4 @@
-// Value fields, undo, favourites, A and B: what typing and dragging do to the preset.
+// Value fields, undo, favourites, A and B: effects of typing and dragging on the preset.
 #include "tests/workbench/gui/running_app.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// 2D scenes in the window, the condition by name, and the panel on smoothness as felt.
+// 2D scenes in the window, conditions by name, and the panel "Smoothness as felt".
 #include "core/io/rendering_condition.h"
 #include "tests/support/temp_folder.h"
 #include "tests/workbench/gui/headless_app.h"

@@ -1,4 +1,4 @@
-// The plots as a user drives them: modes, cursors, values, ways out.
+// The plots driven by a user: modes, cursors, values, export.
 #include "tests/workbench/gui/headless_app.h"
 
 #include "tests/support/temp_folder.h"

@@ -1,4 +1,4 @@
-// The transport bar, the iteration table and the plots, driven by hand: what they do to the time in view.
+// The transport bar, the iteration table and the plots, driven by a user: effects on the tick in view.
 #include "tests/workbench/gui/running_app.h"
 
 #include <cmath>

@@ -10,7 +10,7 @@ using namespace tangent;
 
 namespace {
 
-/// Column by column and tick by tick, without pyramid and without memory.
+/// Reference: column by column and tick by tick, without pyramid and cache.
 std::vector<ColumnBar> brute_force(const ChannelStore& store, std::size_t channel, const TimeAxis& axis, float width) {
   const PixelColumns columns = pixel_columns(store, axis, width);
   std::vector<ColumnBar> out;

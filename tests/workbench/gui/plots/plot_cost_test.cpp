@@ -1,5 +1,5 @@
-// What plots cost: processor time of frames with many channels and an hour of history. Not a test: run with --no-skip
-// to measure. Nothing passes or fails by time.
+// Processor time of frames with many channels and an hour of history. A measurement, not a test: run it with --no-skip.
+// Nothing passes or fails by time.
 #include "tests/workbench/gui/headless_app.h"
 
 #include "workbench/gui/plots/plot_view.h"

@@ -1,4 +1,4 @@
-// What a plot really draws: the vertices that reach ImGui's draw list.
+// The vertices that a plot adds to ImGui's draw list.
 #include "tests/workbench/gui/headless_app.h"
 
 #include "workbench/gui/plots/plot_view.h"
@@ -15,7 +15,7 @@ using tangent::test::HeadlessApp;
 
 namespace {
 
-constexpr std::uint64_t kHour = 3'600'000;
+constexpr std::uint64_t kOneHour = 3'600'000;
 constexpr float kUsual = 0.25f, kSpike = 50.0f;
 
 /// One plot of one channel in a window of its own, a frame a call.
@@ -90,10 +90,10 @@ class OnePlot {
   std::vector<float> bars_up_to(float value) const {
     std::vector<float> out;
     const auto y = static_cast<float>(y_of(value));
-    for (std::size_t i = 0; i < curve_.size(); ++i) {
-      if (curve_[i].pos.y <= y + 0.01f && curve_[i].pos.y >= area().min.y - 1.0f &&
-          (out.empty() || curve_[i].pos.x > out.back() + 1.5f || curve_[i].pos.x < out.back()))
-        out.push_back(curve_[i].pos.x);
+    for (const auto& corner : curve_) {
+      if (corner.pos.y <= y + 0.01f && corner.pos.y >= area().min.y - 1.0f &&
+          (out.empty() || corner.pos.x > out.back() + 1.5f || corner.pos.x < out.back()))
+        out.push_back(corner.pos.x);
     }
     return out;
   }
@@ -145,19 +145,19 @@ TEST_CASE(
   };
   // First and last sample, both sides of the pyramid's blocks, within one, and where the ring of 4,194,304 begins anew.
   constexpr std::array cases{Case{0, 0},
-                             Case{0, kHour - 1},
+                             Case{0, kOneHour - 1},
                              Case{0, 7},
                              Case{0, 8},
                              Case{0, 262'143},
                              Case{0, 262'144},
                              Case{0, 2'222'222},
                              Case{1'000'003, 0},
-                             Case{1'000'003, kHour - 1},
+                             Case{1'000'003, kOneHour - 1},
                              Case{1'000'003, 3'194'300},
                              Case{1'000'003, 3'194'301},
                              Case{1'000'003, 1'618'033}};
-  std::vector<float> rows(kHour, kUsual);
-  ChannelStore store(1, kHour);
+  std::vector<float> rows(kOneHour, kUsual);
+  ChannelStore store(1, kOneHour);
   OnePlot narrow({291.0f, 120.0f}), wide({1291.0f, 200.0f});
   for (const Case& c : cases) {
     rows[c.spike] = kSpike;
@@ -168,7 +168,7 @@ TEST_CASE(
     for (OnePlot* plot : {&narrow, &wide}) {
       TimeAxis& axis = plot->axis();
       axis.update(store.first_tick(), store.end_tick(), static_cast<double>(store.capacity()));
-      for (double span = static_cast<double>(kHour); span > 10.0; span *= 0.57) {
+      for (double span = static_cast<double>(kOneHour); span > 10.0; span *= 0.57) {
         CAPTURE(span);
         axis.show(static_cast<double>(spike) - 0.37 * span, static_cast<double>(spike) + 0.63 * span);
         for (int scrolled = 0; scrolled < 3; ++scrolled) {

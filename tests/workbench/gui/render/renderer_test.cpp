@@ -23,9 +23,9 @@ using namespace tangent::testing;
 
 namespace {
 
-constexpr int kWidth = 480, kHeight = 360;
+constexpr int kImageWidth = 480, kImageHeight = 360;
 
-/// A test ends here, saying so, where no off-screen GL exists.
+/// Skips the test, with a message, where there is no off-screen GL.
 #define REQUIRE_GL(context)                            \
   const auto context = OffscreenContext::open();       \
   if (!context) {                                      \
@@ -62,7 +62,7 @@ Image picture_of(SceneRenderer& renderer, const StagedScene& staged, const Scene
   box.include(staged.tick.input.finger.position);
   camera.frame(box);
   const SceneFrame frame = staged.frame(toggles, Theme::dark);
-  REQUIRE(renderer.render(frame, camera, kWidth, kHeight));
+  REQUIRE(renderer.render(frame, camera, kImageWidth, kImageHeight));
   CHECK(glGetError() == GL_NO_ERROR);
   if (used != nullptr) *used = camera;
   return texture_image(renderer);
@@ -112,7 +112,7 @@ TEST_CASE("the picture holds mesh, finger and force where the camera projects th
   CHECK(distinct_colours(without) > 200);
 
   const auto pixel = [&](const Image& image, const Vec3& world) {
-    const Vec3 p = camera.project(world, kWidth, kHeight);
+    const Vec3 p = camera.project(world, kImageWidth, kImageHeight);
     return image.at(static_cast<int>(p.x), static_cast<int>(p.y));
   };
   // Beside the arrow the finger's skin tints what is behind it: more red than blue, which the view has not.
@@ -127,7 +127,7 @@ TEST_CASE("the picture holds mesh, finger and force where the camera projects th
   // The mesh's centre: a lit grey, not the background.
   const std::uint8_t* mesh = pixel(without, Vec3(0.0));
   CHECK(mesh[0] > 70);
-  CHECK(mesh[0] != without.at(3, kHeight / 2)[0]);
+  CHECK(mesh[0] != without.at(3, kImageHeight / 2)[0]);
 }
 
 TEST_CASE("a micrometre and a kilometre body, near and far from the origin, make the same picture") {
@@ -207,11 +207,11 @@ TEST_CASE("a moving camera gets a picture at once and a better one when it rests
   camera.frame(world_bounds(*staged.scene));
   for (int i = 0; i < 3; ++i) {
     camera.orbit(0.01, 0.0);
-    REQUIRE(renderer.render(frame, camera, kWidth, kHeight));
+    REQUIRE(renderer.render(frame, camera, kImageWidth, kImageHeight));
     CHECK(renderer.refining());
   }
   const Image moving = texture_image(renderer);
-  for (int i = 0; i < 5; ++i) REQUIRE(renderer.render(frame, camera, kWidth, kHeight));
+  for (int i = 0; i < 5; ++i) REQUIRE(renderer.render(frame, camera, kImageWidth, kImageHeight));
   CHECK_FALSE(renderer.refining());
   const Image resting = texture_image(renderer);
   CHECK(differing_share(moving, resting, 60) < 0.05);  // the same view

@@ -1,10 +1,10 @@
 // workbench shot: any view as a PNG, with no display.
-#ifdef TANGENT_HAS_GUI
 #include "workbench/cli/command.h"
 #include "workbench/cli/mesh_options.h"
 #include "workbench/cli/messages.h"
-#include "workbench/cli/number_option.h"
+#include "workbench/cli/option.h"
 #include "workbench/cli/text_format.h"
+#include "workbench/cli/window/window_commands.h"
 #include "workbench/gui/platform/shots.h"
 
 #include <algorithm>
@@ -74,17 +74,15 @@ int run_shot(const ShotOptions& options) {
 }  // namespace
 
 void add_shot_command(CLI::App& app, CommandResult& result) {
-  CLI::App* command =
-      app.add_subcommand("shot", "Write a view of the window or of the 3D scene as PNG; needs no display");
+  CLI::App* command = add_command(app, "shot", kShotCommandText);
   auto options = std::make_shared<ShotOptions>();
   ShotRequest* request = &options->request;
   add_mesh_options(*command, options->mesh, false);
-  command->add_option("--view", request->view, "Name of the view; list: names them all; all: every one")
-      ->required()
-      ->type_name("NAME");
-  command->add_option("--out", options->file, "File to write; with --view all: a directory")->type_name("F.png");
-  command->add_option("--preset", request->preset, "Preset of the window's views (default: the program's own values)")
-      ->type_name("F.toml");
+  add_text_option(*command, "--view", request->view, "Name of the view; list: names them all; all: every one", "NAME",
+                  Needed::yes);
+  add_text_option(*command, "--out", options->file, "File to write; with --view all: a directory", "F.png");
+  add_text_option(*command, "--preset", request->preset,
+                  "Preset of the window's views (default: the program's own values)", "F.toml");
   add_number_option(*command, "--width", {.min = 64, .max = 8192, .unit = "pixels", .whole = true},
                     "Width (default 1280)", [request](double n) { request->width_px = static_cast<int>(n); });
   add_number_option(*command, "--height", {.min = 64, .max = 8192, .unit = "pixels", .whole = true},
@@ -96,8 +94,7 @@ void add_shot_command(CLI::App& app, CommandResult& result) {
                     [request](int theme) { request->theme = static_cast<Theme>(theme); });
   add_choice_option(*command, "--up", kUpAxes, "Axis of the mesh that is up in the picture (default z)",
                     [request](int axis) { request->y_up = axis == 1; });
-  command->callback([options, &result] { result.exit_code = run_shot(*options); });
+  on_run(*command, [options, &result] { result.exit_code = run_shot(*options); });
 }
 
 }  // namespace tangent
-#endif

@@ -1,4 +1,4 @@
-// workbench devices and workbench monitor on a faked machine.
+// workbench devices and workbench monitor with emulated USB devices.
 #include "workbench/cli/command.h"
 
 #include "tests/devices/usb/emulation/cld_model.h"
@@ -28,7 +28,8 @@ std::string output_of(std::vector<const char*> arguments, int exit_code = 0) {
   const int before = ::dup(STDOUT_FILENO), out = ::open(file.c_str(), O_WRONLY | O_CREAT, 0600);
   ::dup2(out, STDOUT_FILENO);
   arguments.insert(arguments.begin(), "workbench");
-  const int code = run_program(static_cast<int>(arguments.size()), arguments.data());
+  const int code =
+      run_program(static_cast<int>(arguments.size()), arguments.data(), headless_commands(), run_without_command);
   std::fflush(stdout);
   ::dup2(before, STDOUT_FILENO);
   ::close(before);

@@ -1,13 +1,13 @@
 // workbench gui: the window; and what the program does without a subcommand: the window on the built-in
 // scene, or, where there is no display, pictures of it.
-#ifdef TANGENT_HAS_GUI
 #include "workbench/cli/command.h"
 #include "workbench/cli/device_options.h"
 #include "workbench/cli/interrupt.h"
 #include "workbench/cli/mesh_options.h"
 #include "workbench/cli/messages.h"
-#include "workbench/cli/number_option.h"
+#include "workbench/cli/option.h"
 #include "workbench/cli/text_format.h"
+#include "workbench/cli/window/window_commands.h"
 #include "workbench/gui/platform/shots.h"
 #include "workbench/gui/platform/window.h"
 #include "workbench/session/servo_options.h"
@@ -35,7 +35,7 @@ int run_gui(const AppOptions& options) {
   return kFailed;
 }
 
-/// The built-in scene as pictures, for a machine without a display.
+/// Draws the built-in scene to PNG files, for a machine without a display.
 int draw_builtin_pictures(const std::string& reason) {
   constexpr std::array<const char*, 4> kPictures{"overview", "iterations", "control-net", "planes"};
   std::error_code failed;
@@ -71,19 +71,19 @@ int run_gui_or_pictures() {
 }
 
 void add_gui_command(CLI::App& app, CommandResult& result) {
-  CLI::App* command = app.add_subcommand("gui", "Open the window");
+  CLI::App* command = add_command(app, "gui", kGuiCommandText);
   auto options = std::make_shared<GuiOptions>();
   add_mesh_options(*command, options->mesh, false);
-  command->add_option("--preset", options->app.preset, "Preset to start with (default: the shipped one)")
-      ->type_name("F.toml");
+  add_text_option(*command, "--preset", options->app.preset, "Preset to start with (default: the shipped one)",
+                  "F.toml");
   add_device_options(*command, options->devices);
   add_number_option(*command, "--servo-hz", {.min = kSlowestServoHz, .max = kFastestServoHz, .unit = "Hz"},
                     "Rate of the servo (default 1000)", [options](double hz) { options->app.servo_hz = hz; });
   add_number_option(*command, "--history-minutes", {.min = 0.1, .max = 120.0, .unit = "min"},
                     "Minutes of ticks to look back at, within 1 GiB: 30 at 1 kHz (default 10)",
                     [options](double minutes) { options->app.history_s = 60.0 * minutes; });
-  command->add_option("--record", options->app.record, "Record the session into this file")->type_name("F.sqlite");
-  command->callback([options, &result] {
+  add_text_option(*command, "--record", options->app.record, "Record the session into this file", "F.sqlite");
+  on_run(*command, [options, &result] {
     options->app.settings = window_settings_path();
     options->app.mesh = options->mesh.file.string();
     options->app.metres_per_unit = options->mesh.metres_per_unit;
@@ -96,4 +96,3 @@ void add_gui_command(CLI::App& app, CommandResult& result) {
 }
 
 }  // namespace tangent
-#endif

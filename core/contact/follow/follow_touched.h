@@ -1,0 +1,15 @@
+// Where are the other places that the finger touches now?
+#pragma once
+
+#include "core/contact/follow/iterate.h"
+#include "core/contact/touched.h"
+
+namespace tangent {
+
+/// The `kept` places, followed to the present pose by the `robust` rule, into `now`. Left out are those that the finger
+/// has left by over kLeftTouch, that have merged with the `tracked` one (null: there is none) or with each other, or
+/// got lost; false where there were such. `evaluations` grows by the planes that it took.
+bool follow_touched(ContactContext& context, const TouchedPlaces& kept, const TrackedPlane* tracked,
+                    TouchedContacts& now, int& evaluations);
+
+}  // namespace tangent

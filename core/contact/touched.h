@@ -1,0 +1,65 @@
+// The places that the finger touches besides the tracked one: where the force comes from all of them, they are followed
+// like it (preset key force.contacts).
+#pragma once
+
+#include "core/contact/tracked_plane.h"
+#include "core/finger/plane_contact.h"
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+namespace tangent {
+
+/// With the tracked one four: three walls of a corner and one to spare. Of more the deepest count.
+inline constexpr std::size_t kMostTouched = 3;
+
+/// What one tick hands to the next of them.
+struct TouchedPlaces {
+  std::uint32_t count = 0;
+  std::array<SurfacePlace, kMostTouched> places;
+};
+
+struct TouchedContact {
+  TrackedPlane plane;
+  PlaneContact contact;
+};
+
+/// Those of one tick, in no order.
+struct TouchedContacts {
+  std::size_t count = 0;
+  std::array<TouchedContact, kMostTouched> contacts;
+
+  bool full() const { return count == kMostTouched; }
+  std::span<const TouchedContact> all() const { return {contacts.data(), count}; }
+  const TouchedContact& shallowest() const {
+    const TouchedContact* least = &contacts[0];
+    for (const TouchedContact& c : all())
+      if (c.contact.penetration_m < least->contact.penetration_m) least = &c;
+    return *least;
+  }
+  /// In place of the shallowest where there is no room, or not at all. `same_m`: nearer than that it is a known place.
+  void add(const TouchedContact& contact, double same_m) {
+    for (const TouchedContact& c : all()) {
+      const Vec3 apart = c.plane.point - contact.plane.point;
+      if (glm::dot(apart, apart) <= same_m * same_m) return;
+    }
+    if (!full()) {
+      contacts[count++] = contact;
+      return;
+    }
+    auto& least = contacts[static_cast<std::size_t>(&shallowest() - contacts.data())];
+    if (contact.contact.penetration_m > least.contact.penetration_m) least = contact;
+  }
+  TouchedPlaces places() const {
+    TouchedPlaces kept;
+    for (const TouchedContact& c : all()) kept.places[kept.count++] = c.plane;
+    return kept;
+  }
+};
+
+/// A contact on the outside pushes together with others. One that the finger's centre is behind of is the way out by
+/// itself: of two sides of a wall, or of a sharp edge seen from inside, the finger need not leave both.
+inline bool pushes_with_others(const PlaneContact& contact) { return contact.height_m >= 0.0; }
+
+}  // namespace tangent

@@ -1,0 +1,125 @@
+// A scene holds what its ticks read and no more, and what is built late or beside changes no bit.
+#include "core/tick/scene.h"
+
+#include "core/io/rendering_condition.h"
+#include "core/lab/objects/arc.h"
+#include "tests/core/scenes.h"
+
+#include <cstring>
+#include <thread>
+
+using namespace tangent;
+using namespace tangent::test;
+
+namespace {
+
+ContactMesh built_torus() {
+  auto mesh = ContactMesh::build(make_torus(0.040, 0.015, 32, 16));
+  REQUIRE(mesh);
+  return std::move(*mesh);
+}
+
+ScenePtr torus_scene(const SceneParts& parts, const RunBoth& run_both = run_in_turn) {
+  auto scene = ContactScene::build(built_torus(), parts, run_both);
+  REQUIRE(scene);
+  return *scene;
+}
+
+/// Outputs on a way over the torus, into its hole and back, with leaps.
+std::vector<TickOutput> outputs(const ScenePtr& scene, const Preset& preset) {
+  Stepper stepper(scene);
+  TickState state;
+  std::vector<TickOutput> all;
+  for (int i = 0; i < 400; ++i) {
+    const double a = 0.004 * i + (i % 100 == 99 ? 2.0 : 0.0);
+    all.push_back(stepper.step(preset, at_position(1e-3 * i, {0.04 * std::cos(a), 0.04 * std::sin(a), 0.0335}), state));
+  }
+  return all;
+}
+
+bool same_bits(const std::vector<TickOutput>& a, const std::vector<TickOutput>& b) {
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    if (a[i].triangle != b[i].triangle || a[i].u != b[i].u || a[i].v != b[i].v || a[i].contact != b[i].contact ||
+        a[i].normal != b[i].normal || a[i].force_n != b[i].force_n || a[i].cld_m != b[i].cld_m ||
+        a[i].iterations != b[i].iterations || a[i].event != b[i].event || a[i].status != b[i].status)
+      return false;
+  }
+  return a.size() == b.size();
+}
+
+}  // namespace
+
+TEST_CASE("facet, force shading, two-pass and the conditions C1 to C3 and P2 never read the hierarchy") {
+  const auto check = [](const Preset& preset, bool reads) {
+    CHECK(parts_for(preset).hierarchy == reads);
+    const ScenePtr scene = torus_scene(parts_for(preset)), whole = torus_scene({});
+    CHECK(scene->has_hierarchy() == reads);
+    CHECK(whole->has_hierarchy());
+    CHECK((scene->memory_bytes() < whole->memory_bytes()) == !reads);
+    CHECK(same_bits(outputs(scene, preset), outputs(whole, preset)));
+    CHECK(scene->has_hierarchy() == reads);
+  };
+  for (const Method method :
+       {Method::paper, Method::newton, Method::robust, Method::facet, Method::force_shading, Method::two_pass}) {
+    CAPTURE(to_string(method));
+    check(sphere_preset(0.020, method), is_smooth(method));
+    for (const RenderingCondition& condition : kRenderingConditions) {
+      CAPTURE(std::string(condition.name));
+      Preset preset = sphere_preset(0.020, method);
+      set_condition(preset, condition);
+      check(preset, condition.name == "C4" || condition.name == "P1");
+    }
+  }
+}
+
+TEST_CASE("a smooth tick on a scene without its hierarchy builds it, with the same bits") {
+  const Preset preset = sphere_preset(0.020, Method::robust);
+  const ScenePtr late = torus_scene({.hierarchy = false});
+  CHECK_FALSE(late->has_hierarchy());
+  CHECK(same_bits(outputs(late, preset), outputs(torus_scene({}), preset)));
+  CHECK(late->has_hierarchy());
+}
+
+TEST_CASE("structures are the same bits built in turn, the other way round or at once") {
+  const Preset preset = sphere_preset(0.020, Method::robust);
+  const auto expected = outputs(torus_scene({}), preset);
+  const auto swapped = [](const std::function<void()>& a, const std::function<void()>& b) { b(), a(); };
+  const auto at_once = [](const std::function<void()>& a, const std::function<void()>& b) {
+    std::thread other(b);
+    a();
+    other.join();
+  };
+  CHECK(same_bits(outputs(torus_scene({}, swapped), preset), expected));
+  CHECK(same_bits(outputs(torus_scene({}, at_once), preset), expected));
+}
+
+TEST_CASE("a 2D scene for ticks alone has no mesh, less than half of the memory, and the same bits") {
+  const auto scene = [](const SceneParts& parts) {
+    auto curve = PlanarCurve::build(make_regular_polygon(2000, 0.05));
+    REQUIRE(curve);
+    auto built = ContactScene::build(std::move(*curve), parts);
+    REQUIRE(built);
+    return *built;
+  };
+  const auto lean = scene(parts_for(Preset{})), whole = scene({});
+  CHECK_FALSE(lean->has_mesh());
+  CHECK_FALSE(lean->has_hierarchy());
+  CHECK(whole->has_mesh());
+  CHECK_FALSE(whole->has_hierarchy());  // no tick and no view reads it
+  CHECK(2 * lean->memory_bytes() < whole->memory_bytes());
+  for (const Method method : {Method::paper, Method::robust, Method::facet, Method::two_pass}) {
+    CAPTURE(to_string(method));
+    const auto walk = [&](const ScenePtr& on) {
+      Stepper stepper(on);
+      TickState state;
+      std::vector<TickOutput> all;
+      for (int i = 0; i < 300; ++i) {
+        const double a = 0.002 * i;
+        const Vec3 at(0.069 * std::sin(a), 0.069 * std::cos(a), 0.0);
+        all.push_back(stepper.step(sphere_preset(0.020, method), at_position(1e-3 * i, at), state));
+      }
+      return all;
+    };
+    CHECK(same_bits(walk(lean), walk(whole)));
+  }
+}

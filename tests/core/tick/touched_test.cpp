@@ -1,0 +1,187 @@
+// Force from every place that the finger touches.
+#include "core/base/tolerances.h"
+#include "core/lab/measure/closed_work.h"
+#include "tests/core/scenes.h"
+
+#include <doctest/doctest.h>
+
+using namespace tangent;
+using namespace tangent::test;
+
+namespace {
+
+/// Two walls, or three, that meet at right angles: wall k faces along axis k, in the plane where that is zero, and runs
+/// from zero to 40 mm along the other two; where there are two, from -20 to 20 mm along z.
+ScenePtr walls(int count) {
+  constexpr int kCells = 8;
+  PolygonMesh mesh;
+  mesh.name = "walls";
+  for (int k = 0; k < count; ++k) {
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    const auto at = [&](int i, int j) { return first + static_cast<std::uint32_t>(j * (kCells + 1) + i); };
+    for (int j = 0; j <= kCells; ++j)
+      for (int i = 0; i <= kCells; ++i) {
+        Vec3 p(0.0);
+        p[(k + 1) % 3] = 0.040 * i / kCells;
+        p[(k + 2) % 3] = 0.040 * j / kCells;
+        if (count == 2) p.z -= 0.020;
+        mesh.positions.push_back(p);
+      }
+    for (int j = 0; j < kCells; ++j)
+      for (int i = 0; i < kCells; ++i) {
+        mesh.add_face({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+        mesh.add_face({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+      }
+  }
+  return scene_of(mesh);
+}
+
+Preset all_of(double radius_m) {
+  Preset preset = sphere_preset(radius_m, Method::robust);
+  preset.force.contacts = ForceContacts::all;
+  return preset;
+}
+
+bool same(const TickOutput& a, const TickOutput& b) {
+  BitHash x, y;
+  x.add(a), y.add(b);
+  return x.value() == y.value();
+}
+
+/// Over and round a mesh, in and out of contact.
+TickInput round(int i) {
+  const double s = 2e-3 * i;
+  return at_position(
+      1e-3 * i, (0.0435 + 0.002 * std::sin(0.31 * s)) * unit(Vec3(std::cos(s), std::sin(s), 0.6 * std::sin(0.37 * s))));
+}
+
+}  // namespace
+
+TEST_CASE("in a corner of two walls or three the force leads out of all of them, wherever the finger goes there") {
+  for (const int count : {2, 3}) {
+    CAPTURE(count);
+    Random random{21};
+    Stepper stepper(walls(count));
+    TickState state;
+    const Preset preset = all_of(0.005);
+    Vec3 finger(0.0043, 0.0041, 0.0047);
+    int several = 0, wrong = 0, flips = 0;
+    for (int i = 0; i < 3000; ++i) {
+      finger = glm::clamp(finger + 2e-5 * random.direction(), Vec3(0.0032), Vec3(0.0052));
+      const TickOutput out = stepper.step(preset, at_position(1e-3 * i, finger), state);
+      Vec3 depth = glm::max(Vec3(0.005) - finger, Vec3(0.0));
+      if (count == 2) depth.z = 0.0;
+      several += (depth.x > 0.0) + (depth.y > 0.0) + (depth.z > 0.0) > 1;
+      wrong += i > 0 && glm::distance(out.decided_force_n, 800.0 * depth) > 1e-5;
+      flips += i > 0 && out.event != TickEvent::none;
+    }
+    CHECK(several > 1000);
+    CHECK(wrong == 0);
+    CHECK(flips < 30);  // of the display: by more than a tremor
+  }
+}
+
+TEST_CASE(
+    "force.contacts = all does in a tremor what the deepest place can't: no change that the motion doesn't explain") {
+  for (const ForceContacts contacts : {ForceContacts::deepest, ForceContacts::all}) {
+    CAPTURE(static_cast<int>(contacts));
+    Random random{22};
+    Stepper stepper(walls(2));
+    TickState state;
+    Preset preset = all_of(0.005);
+    preset.force.contacts = contacts;
+    int leaps = 0, flips = 0;
+    TickOutput last;
+    Vec3 before(0.0);
+    for (int i = 0; i < 3000; ++i) {
+      const Vec3 finger = Vec3(0.004, 0.004, 0.0) + 5e-5 * random.in_cube(1.0);
+      const TickOutput out = stepper.step(preset, at_position(1e-3 * i, finger), state);
+      if (i > 1) {
+        leaps +=
+            glm::distance(out.decided_force_n, last.decided_force_n) > 800.0 * glm::distance(finger, before) + 1e-5;
+        flips += out.event != TickEvent::none;
+      }
+      last = out;
+      before = finger;
+    }
+    if (contacts == ForceContacts::all) {
+      CHECK(leaps == 0);
+      CHECK(flips == 0);
+    } else {
+      CHECK(leaps > 100);
+      CHECK(flips > 100);
+    }
+  }
+}
+
+TEST_CASE("round the corner and back the force of all places does no work, that of the deepest does where it flips") {
+  const FingerPose middle{Vec3(0.0041, 0.0042, 0.0), Quat(1, 0, 0, 0)};
+  const auto loop = circle_of_poses(middle, Vec3(0, 0, 1), 5e-4, 4096);
+  const auto work = [&](ForceContacts contacts, ForceBlend blend) {
+    Preset preset = all_of(0.005);
+    preset.force.contacts = contacts;
+    preset.force.blend = blend;
+    Stepper stepper(walls(2));
+    return work_around(stepper, preset, loop).relative();
+  };
+  const double all = work(ForceContacts::all, ForceBlend::events);
+  const double deepest = work(ForceContacts::deepest, ForceBlend::off);
+  const double faded = work(ForceContacts::deepest, ForceBlend::events);
+  MESSAGE("work of the peak energy, once round: all places " << all << ", deepest " << deepest << ", faded " << faded);
+  CHECK(all < 1e-6);
+  CHECK(deepest > 1e-3);
+}
+
+TEST_CASE("where one place is touched, all of them are that one, bit for bit") {
+  for (const ScenePtr& scene : {scene_of(make_icosphere(0.040, 3)), scene_of(*generate_mesh("sphere"))}) {
+    Stepper one(scene), every(scene);
+    TickState a, b;
+    Preset deepest = all_of(0.005);
+    deepest.force.contacts = ForceContacts::deepest;
+    int differ = 0, touching = 0;
+    for (int i = 0; i < 4000; ++i) {
+      const TickOutput x = one.step(deepest, round(i), a), y = every.step(all_of(0.005), round(i), b);
+      touching += x.status != TickStatus::free;
+      differ += x.force_n != y.force_n || x.contact != y.contact || y.way_out_m != Vec3(0.0);
+    }
+    CHECK(differ == 0);
+    CHECK(touching > 500);
+  }
+}
+
+TEST_CASE("of a wall's two sides, and of a sharp edge seen from inside, one pushes") {
+  const ScenePtr cube = scene_of(*generate_mesh("cube"));
+  const Preset preset = all_of(0.0);
+  Stepper stepper(cube);
+  TickState state;
+  const double half = 0.5 * cube->mesh().bounds().size().x;
+  Random random{23};
+  for (int i = 0; i < 500; ++i) {
+    const Vec3 finger = Vec3(half - 0.001, half - 0.001, 0.0) + 3e-5 * random.in_cube(1.0);
+    const TickOutput out = stepper.step(preset, at_position(1e-3 * i, finger), state);
+    CHECK(out.way_out_m == Vec3(0.0));
+    CHECK(glm::length(out.decided_force_n) < 800.0 * 1.04e-3);
+  }
+}
+
+TEST_CASE("with all places, too, a cold stepper and a copied state give the same bits") {
+  const ScenePtr scene = scene_of(
+      height_field(0.020, 40, [](double x, double y) { return 0.0015 * std::sin(900.0 * x) * std::sin(700.0 * y); }));
+  const Preset preset = all_of(0.010);
+  Stepper stepper(scene);
+  TickState state;
+  int differ = 0, several = 0;
+  for (int i = 0; i < rounds(4000); ++i) {
+    const double s = 3e-3 * i;
+    const TickInput input =
+        at_position(1e-3 * i, {0.010 * std::sin(s), 0.010 * std::sin(0.83 * s), 0.0105 + 5e-4 * std::sin(3.1 * s)});
+    TickState copy = state;
+    const TickOutput out = stepper.step(preset, input, state);
+    Stepper cold(scene);
+    const TickOutput again = cold.step(preset, input, copy);
+    differ += !same(out, again) || out.way_out_m != again.way_out_m || copy.touched.count != state.touched.count;
+    several += state.touched.count > 0;
+  }
+  CHECK(differ == 0);
+  CHECK(several > rounds(4000) / 10);
+}

@@ -1,0 +1,35 @@
+#include "workbench/cli/hand_over.h"
+
+#include "workbench/cli/command.h"
+#include "workbench/cli/messages.h"
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+
+#include <unistd.h>
+
+namespace tangent {
+namespace {
+
+/// Beside the file that this program was started from, links followed.
+std::filesystem::path window_program() {
+  std::error_code unknown;
+  return std::filesystem::read_symlink("/proc/self/exe", unknown).replace_filename("workbench-window");
+}
+
+}  // namespace
+
+std::optional<int> hand_over_to_window(int argc, char** argv) {
+  const std::string command = argc > 1 ? argv[1] : "";
+  if (!command.empty() && command != "gui" && command != "shot") return std::nullopt;
+  const std::filesystem::path program = window_program();
+  ::execv(program.c_str(), argv);
+  const int error = errno;
+  if (command.empty() && error == ENOENT) return std::nullopt;
+  print_message(command, program.string() + ": can't be started: " + std::strerror(error) +
+                             "; the window and its pictures are a program of their own, which belongs beside this one");
+  return kFailed;
+}
+
+}  // namespace tangent

@@ -1,0 +1,89 @@
+#include "workbench/cli/option.h"
+
+#include "core/base/text.h"
+#include "core/preset/schema.h"
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tangent {
+
+CLI::App* add_command(CLI::App& app, const std::string& name, const std::string& doc, const std::string& footer) {
+  CLI::App* command = app.add_subcommand(name, doc);
+  if (!footer.empty()) command->footer(footer);  // otherwise the program's
+  return command;
+}
+
+void on_run(CLI::App& command, std::function<void()> run) { command.callback(std::move(run)); }
+
+void add_text_option(CLI::App& app, const std::string& name, std::string& value, const std::string& doc,
+                     const std::string& shown_as, Needed needed) {
+  app.add_option(name, value, doc)->required(needed == Needed::yes)->type_name(shown_as);
+}
+
+void add_text_option(CLI::App& app, const std::string& name, std::filesystem::path& value, const std::string& doc,
+                     const std::string& shown_as, Needed needed) {
+  app.add_option(name, value, doc)->required(needed == Needed::yes)->type_name(shown_as);
+}
+
+void add_repeated_option(CLI::App& app, const std::string& name, const std::string& doc, const std::string& shown_as,
+                         const std::function<void(const std::vector<std::string>&)>& set) {
+  app.add_option_function<std::vector<std::string>>(name, set, doc)->type_name(shown_as)->allow_extra_args(false);
+}
+
+void add_flag(CLI::App& app, const std::string& name, bool& value, const std::string& doc) {
+  app.add_flag(name, value, doc);
+}
+
+void add_number_option(CLI::App& app, const std::string& name, NumberRange range, const std::string& doc,
+                       std::function<void(double)> set) {
+  const std::string allowed =
+      (range.whole ? "a whole number from " : "") + range_text(range.min, range.max, range.unit);
+  const auto parse = [=, set = std::move(set)](const std::string& text) {
+    const std::optional<double> value = parse_finite_double(text);
+    if (!value) refuse_option(name, "'" + text + "' is not a finite number; allowed: " + allowed);
+    if (range.whole && std::floor(*value) != *value) {
+      refuse_option(name, text + " is not a whole number; allowed: " + allowed);
+    }
+    if (!(*value >= range.min && *value <= range.max)) {
+      refuse_option(name, text + " is out of range; allowed: " + allowed);
+    }
+    set(*value);
+  };
+  app.add_option_function<std::string>(name, parse, doc)->type_name(range.whole ? "N" : "X");
+}
+
+void add_choice_option(CLI::App& app, const std::string& name, std::span<const std::string_view> choices,
+                       const std::string& doc, std::function<void(int)> set) {
+  const auto parse = [=, set = std::move(set)](const std::string& text) {
+    const auto found = std::find(choices.begin(), choices.end(), text);
+    if (found == choices.end()) {
+      refuse_option(name, "'" + text + "' is unknown; allowed: " + choices_text(choices));
+    }
+    set(static_cast<int>(found - choices.begin()));
+  };
+  std::string words;
+  for (const std::string_view choice : choices) words.append(words.empty() ? "" : "|").append(choice);
+  app.add_option_function<std::string>(name, parse, doc)->type_name(words);
+}
+
+void require_together(CLI::App& app, const std::string& name, const std::string& other) {
+  app.get_option(name)->needs(app.get_option(other));
+  app.get_option(other)->needs(app.get_option(name));
+}
+
+void refuse_option(const std::string& name, const std::string& why) { throw CLI::ValidationError(name, why); }
+
+std::vector<GivenOption> given_options(const CLI::App& command) {
+  std::vector<GivenOption> given;
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& value : option->results()) {
+      given.push_back({option->get_positional() ? std::string() : option->get_name(), value});
+    }
+  }
+  return given;
+}
+
+}  // namespace tangent

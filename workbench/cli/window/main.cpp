@@ -1,0 +1,10 @@
+// workbench-window: what `workbench` hands over to for the window and for pictures, so that everything else loads no
+// graphics.
+#include "workbench/cli/window/window_commands.h"
+
+#include <array>
+
+int main(int argc, char** argv) {
+  constexpr std::array<tangent::AddCommand, 2> kCommands{tangent::add_gui_command, tangent::add_shot_command};
+  return tangent::run_program(argc, argv, kCommands, tangent::run_gui_or_pictures);
+}
