@@ -283,7 +283,8 @@ TEST_CASE("a recorder gets every record while attached, and none before or after
   CHECK_FALSE(p.bench.channels.recorder.pop(record));
 }
 
-TEST_CASE("a velocity that the device measures reaches the tick and damps, and without one it is that of the positions") {
+TEST_CASE(
+    "a velocity that the device measures reaches the tick and damps, and without one it is that of the positions") {
   PressedBench pressed;
   Preset preset;
   preset.force.damping_n_s_per_m = 5.0;

@@ -33,7 +33,8 @@ TEST_CASE("a god-object does not come through a closed cube, whichever way the f
   CHECK(inside == 0);
 }
 
-TEST_CASE("in the inner corner the force of all places is the god-object's, tick by tick, and the deepest place's is not") {
+TEST_CASE(
+    "in the inner corner the force of all places is the god-object's, tick by tick, and the deepest place's is not") {
   const RecordedScene recorded = recorded_scene("inner_corner");
   for (const double radius : {0.005, 0.020}) {
     CAPTURE(radius);
