@@ -50,23 +50,23 @@ struct Look {
 
 class RivalSearch {
  public:
-  RivalSearch(ContactContext& context, const SearchStructures& search, const IterationResult& tracked, double bound_m,
-              double margin_m, float ahead, const TouchedContacts* touched)
+  RivalSearch(ContactContext& context, const SearchStructures& search, const IterationResult& tracked,
+              const RivalQuestion& question, float ahead)
       : search_(search),
         tracked_(tracked),
-        touched_(touched),
-        bound_m_(bound_m),
-        margin_m_(margin_m),
+        touched_(question.touched),
+        bound_m_(question.bound_m),
+        margin_m_(question.margin_m),
         ahead_(ahead),
         slope_m_(ticks_ahead_m(contact_rank(context.finger, tracked.contact), context.moved_m)),
-        deepest_(bound_m),
+        deepest_(question.bound_m),
         settings_(robust(context.settings)),
         steady_(is_round(context.finger) && settings_.normal_form == NormalForm::bernstein),
         context_{context.cache, settings_, context.finger, context.pose, context.origin,
                  context.trace, 0,         context.moved_m} {
     remember(tracked.plane, tracked.contact);
-    if (touched)
-      for (const TouchedContact& c : touched->all()) remember(c.plane, c.contact);
+    if (touched_)
+      for (const TouchedContact& c : touched_->all()) remember(c.plane, c.contact);
   }
 
   /// Every triangle that could hold a rival.
@@ -305,11 +305,10 @@ double look_ahead_m(const ContactContext& context, double rank, double ahead) {
 }
 
 RivalResult find_rival(ContactContext& context, const SearchStructures& search, const IterationResult& tracked,
-                       double bound_m, double margin_m, const Clearance& known, double gone,
-                       const TouchedContacts* touched) {
-  RivalSearch rivals(context, search, tracked, bound_m, margin_m, known.ahead, touched);
+                       const RivalQuestion& question, const Clearance& known, double gone) {
+  RivalSearch rivals(context, search, tracked, question, known.ahead);
   RivalResult result;
-  if (gone > known.margin_m || bound_m > known.height_m - gone) {
+  if (gone > known.margin_m || question.bound_m > known.height_m - gone) {
     result.clearance.centre = context.pose.position;
     result.clearance.orientation = context.pose.orientation;
     rivals.everywhere(result);

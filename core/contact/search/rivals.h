@@ -24,13 +24,18 @@ struct RivalResult {
   Clearance clearance;      ///< until when nothing needs to be looked at again
 };
 
-/// `bound_m`: rank that a rival must be below to take over. `margin_m`: how far one would like to go without
-/// searching again. `known`: the last search; the finger is `gone` from there. Beyond its margin all is searched,
-/// within it only the watched triangles whose time has come. Uses the `robust` rule whatever the method. `touched`:
-/// places that are followed besides the tracked one, and all others below the bound are asked for; null: only the
-/// deepest is.
+/// What a search is asked.
+struct RivalQuestion {
+  double bound_m = 0.0;   ///< rank that a rival must be below to take over
+  double margin_m = 0.0;  ///< how far one would like to go without searching again
+  /// Places that are followed besides the tracked one: all others below the bound are asked for, too. Null: only the
+  /// deepest is.
+  const TouchedContacts* touched = nullptr;
+};
+
+/// `known`: the last search; the finger is `gone` from there, m. Beyond its margin all is searched, within it only the
+/// watched triangles whose time has come. Uses the `robust` rule whatever the method.
 RivalResult find_rival(ContactContext& context, const SearchStructures& search, const IterationResult& tracked,
-                       double bound_m, double margin_m, const Clearance& known, double gone,
-                       const TouchedContacts* touched = nullptr);
+                       const RivalQuestion& question, const Clearance& known, double gone);
 
 }  // namespace tangent
