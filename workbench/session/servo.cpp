@@ -33,12 +33,17 @@ void Servo::start() {
   stopping_.store(false);
   statistics_.restart_rate();
   thread_ = std::thread([this]() noexcept { loop(); });
+  if (!options_.watch_exchanges) return;
+  watching_.store(true, std::memory_order_relaxed);
+  watching_thread_ = std::thread([this]() noexcept { watch(); });
 }
 
 void Servo::stop() {
   if (!running()) return;
   stopping_.store(true, std::memory_order_relaxed);
   thread_.join();
+  watching_.store(false, std::memory_order_relaxed);  // after the last exchange
+  if (watching_thread_.joinable()) watching_thread_.join();
 }
 
 void Servo::run_one() noexcept { tick_.run(pacer_.begin(pacer_.deadline_ns())); }
@@ -53,6 +58,20 @@ void Servo::ask_for_realtime() noexcept {
   fifo_.store(pthread_setschedparam(pthread_self(), SCHED_FIFO, &priority) == 0);
   // ONFAULT: pages are locked once touched; untouched ones are not loaded.
   locked_.store(may_lock_all() && mlockall(MCL_CURRENT | MCL_FUTURE | MCL_ONFAULT) == 0);
+}
+
+// Above the servo's priority: the servo may spin in the exchange that hangs. By the real clock, as the tick is.
+void Servo::watch() noexcept {
+  pthread_setname_np(pthread_self(), "servo watch");
+  sched_param priority{};
+  priority.sched_priority = options_.fifo_priority + 1;
+  if (options_.realtime) pthread_setschedparam(pthread_self(), SCHED_FIFO, &priority);
+  MonotonicClock clock;
+  while (watching_.load(std::memory_order_relaxed)) {
+    const std::int64_t now_ns = clock.now_ns();
+    tick_.exchange_watch().look(now_ns);
+    clock.sleep_until(now_ns + ExchangeWatch::kLook_ns);
+  }
 }
 
 void Servo::loop() noexcept {

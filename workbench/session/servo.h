@@ -1,4 +1,5 @@
-// The servo thread: runs ticks at a fixed rate, by absolute deadlines. All calls come from the owner's thread.
+// The servo thread: runs ticks at a fixed rate, by absolute deadlines. With real devices a second thread watches that
+// their exchanges return. All calls come from the owner's thread.
 #pragma once
 
 #include "workbench/session/deadline_pacer.h"
@@ -31,6 +32,7 @@ class Servo {
 
  private:
   void loop() noexcept;
+  void watch() noexcept;
   void ask_for_realtime() noexcept;
 
   ServoTick& tick_;
@@ -38,8 +40,8 @@ class Servo {
   ServoOptions options_;
   ServoClock& clock_;
   DeadlinePacer pacer_;
-  std::thread thread_;
-  std::atomic<bool> stopping_{false};
+  std::thread thread_, watching_thread_;
+  std::atomic<bool> stopping_{false}, watching_{false};
   std::atomic<bool> fifo_{false}, locked_{false};
 };
 
