@@ -7,7 +7,7 @@ namespace tangent {
 void add_device_options(CLI::App& command, DeviceChoice& choice) {
   add_text_option(command, "--device", choice.device,
                   "Devices to use: simulated, ideal, cld, maestro or none (default simulated)", "NAME");
-  add_text_option(command, "--packets", choice.packets, "Write every USB packet into this file, as evidence", "F.txt");
+  add_text_option(command, "--packets", choice.packets, "Log every USB packet to this file, for bug reports", "F.txt");
   add_number_option(command, "--maestro-channel", {.min = 0, .max = 23, .whole = true},
                     "Channel the servo is on (default: as kept, or 0)",
                     [&choice](double v) { choice.maestro.channel = static_cast<unsigned>(v); });
