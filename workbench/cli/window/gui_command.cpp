@@ -88,7 +88,7 @@ void add_gui_command(CLI::App& app, CommandResult& result) {
     options->app.mesh = options->mesh.file.string();
     options->app.metres_per_unit = options->mesh.metres_per_unit;
     options->app.mesh_options = options->mesh.build;
-    options->app.device = options->devices.device;
+    options->app.devices = options->devices.names;
     options->app.maestro = options->devices.maestro;
     options->app.packets = options->devices.packets;
     result.exit_code = run_gui(options->app);

@@ -233,7 +233,7 @@ void draw_values(const UiContext& ui, const DeviceModel& devices, bool cable, co
 
 void draw_service_column(const UiContext& ui, AppModel& model) {
   draw_injection(ui, model.devices());
-  if (model.devices().name() == "maestro") draw_calibration(ui, model);
+  if (model.devices().names().display == "maestro") draw_calibration(ui, model);
   draw_log(ui, model.devices());
 }
 

@@ -172,14 +172,18 @@ void draw_preset_menu(const UiContext& ui, PresetModel& presets, float width) {
   ImGui::EndPopup();
 }
 
-void draw_device_menu(const UiContext& ui, DeviceModel& devices, float width) {
-  if (!drop_button(ui, "menu/device", devices.name(), "The devices that are driven", width)) return;
-  for (const char* name : {"simulated", "none"}) {
-    if (menu_item(ui, std::string("menu/device/") + name, name,
-                  "Starts a new session with these devices; the history is cleared", nullptr, devices.name() == name))
-      devices.choose(name);
+/// A menu of the devices of one kind; the one that was clicked, empty where none was.
+std::string draw_device_menu(const UiContext& ui, const std::string& path, const char* tip,
+                             const std::vector<std::string>& names, const std::string& now) {
+  std::string chosen;
+  if (!drop_button(ui, path, now, tip, ui.px(100))) return chosen;
+  for (const std::string& name : names) {
+    if (menu_item(ui, path + "/" + name, name.c_str(), "Starts a new session with this device; the history is cleared",
+                  nullptr, now == name))
+      chosen = name;
   }
   ImGui::EndPopup();
+  return chosen;
 }
 
 /// The stop button, which must be found at once: red, on the right.
@@ -216,7 +220,7 @@ void draw_menu_bar(const UiContext& ui, AppModel& model, MenuBar& state, const R
   ImGui::SameLine(0, ui.px(3));
   draw_view_menu(ui, model);
   ImGui::SameLine(0, ui.px(14));
-  const float room = std::clamp((rect.w - ui.px(700)) * 0.35f, ui.px(80), ui.px(240));
+  const float room = std::clamp((rect.w - ui.px(850)) * 0.35f, ui.px(80), ui.px(240));
   const auto label = [&](const char* text) {
     ImGui::AlignTextToFramePadding();
     ImGui::TextDisabled("%s", text);
@@ -228,8 +232,15 @@ void draw_menu_bar(const UiContext& ui, AppModel& model, MenuBar& state, const R
   label("Preset");
   draw_preset_menu(ui, model.presets(), room);
   ImGui::SameLine(0, ui.px(12));
-  label("Device");
-  draw_device_menu(ui, model.devices(), ui.px(110));
+  label("Force");
+  DeviceNames names = model.devices().names();
+  const std::string force = draw_device_menu(ui, "menu/force", "The force device", force_device_names(), names.force);
+  ImGui::SameLine(0, ui.px(12));
+  label("Display");
+  const std::string display =
+      draw_device_menu(ui, "menu/display", "The contact location display", contact_display_names(), names.display);
+  if (!force.empty()) model.devices().choose({force, names.display});
+  if (!display.empty()) model.devices().choose({names.force, display});
   ImGui::SameLine(0, ui.px(12));
   bool follows = model.devices().hand_follows_mouse();
   if (toggle_button(

@@ -62,7 +62,7 @@ void save(AppModel& model, PresetsPanel& state) {
   }
   state.asked_for.clear();
   const ContactScene* scene = model.scene().current().get();
-  if (model.presets().save(state.name, scene != nullptr ? &scene->mesh() : nullptr, model.devices().name()))
+  if (model.presets().save(state.name, scene != nullptr ? &scene->mesh() : nullptr, to_string(model.devices().names())))
     state.written = state.name;
 }
 
