@@ -45,7 +45,8 @@ int parse_and_run(CLI::App& app, CommandResult& result, int argc, const char* co
 std::span<const AddCommand> headless_commands() { return kCommands; }
 
 int run_program(int argc, const char* const* argv, std::span<const AddCommand> commands, int (*without_command)()) {
-  CLI::App app("Tangent Workbench: haptic shading of contact location and force, seen and tuned", "workbench");
+  CLI::App app("Tangent Workbench: visual debugger and tuning tool for haptic shading of contact location and force",
+               "workbench");
   app.set_version_flag("--version", "workbench " TANGENT_VERSION);
   app.require_subcommand(0, 1);
   app.footer("Exit codes: 0 done, 1 the work failed, 2 wrong usage.");

@@ -80,7 +80,7 @@ void add_gui_command(CLI::App& app, CommandResult& result) {
   add_number_option(*command, "--servo-hz", {.min = kSlowestServoHz, .max = kFastestServoHz, .unit = "Hz"},
                     "Rate of the servo (default 1000)", [options](double hz) { options->app.servo_hz = hz; });
   add_number_option(*command, "--history-minutes", {.min = 0.1, .max = 120.0, .unit = "min"},
-                    "Minutes of ticks to look back at, within 1 GiB: 30 at 1 kHz (default 10)",
+                    "Minutes of ticks to keep, within 1 GiB: 30 at 1 kHz (default 10)",
                     [options](double minutes) { options->app.history_s = 60.0 * minutes; });
   add_text_option(*command, "--record", options->app.record, "Record the session into this file", "F.sqlite");
   on_run(*command, [options, &result] {
@@ -88,7 +88,7 @@ void add_gui_command(CLI::App& app, CommandResult& result) {
     options->app.mesh = options->mesh.file.string();
     options->app.metres_per_unit = options->mesh.metres_per_unit;
     options->app.mesh_options = options->mesh.build;
-    options->app.device = options->devices.device;
+    options->app.devices = options->devices.names;
     options->app.maestro = options->devices.maestro;
     options->app.packets = options->devices.packets;
     result.exit_code = run_gui(options->app);

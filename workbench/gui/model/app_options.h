@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/mesh/contact_mesh.h"
+#include "devices/device_set.h"
 #include "workbench/gui/theme/palette.h"
 #include "workbench/session/maestro_setups.h"
 
@@ -17,8 +18,8 @@ struct AppOptions {
   ContactMeshOptions mesh_options;
   std::filesystem::path preset;         ///< empty: the shipped default
   std::filesystem::path preset_folder;  ///< listed in the presets panel; empty: where `preset` is, or the shipped ones
-  std::string device = "simulated";
-  MaestroWish maestro;                ///< for the device "maestro"
+  DeviceNames devices;
+  MaestroWish maestro;                ///< for the display "maestro"
   std::filesystem::path packets;      ///< file to which USB packets are logged; empty: none
   double servo_hz = 1000.0;           ///< kSlowestServoHz to kFastestServoHz
   std::filesystem::path settings;     ///< file for layout and look between runs; empty: not kept

@@ -11,7 +11,7 @@ namespace {
 SessionOptions session_options(const AppOptions& from) {
   SessionOptions options;
   options.servo.rate_hz = from.servo_hz;
-  options.devices = from.device;
+  options.devices = from.devices;
   options.packets = from.packets;
   options.seed = from.seed;
   options.history_s = from.history_s;
@@ -40,7 +40,7 @@ void DeviceModel::take_scene(PreparedScenePtr prepared) {
 }
 
 void DeviceModel::make_session() {
-  if (options_.devices == "maestro") {
+  if (options_.devices.display == "maestro") {
     const auto setup = chosen_maestro_setup(maestro_wish_, maestro_file_);
     if (!setup) return messages_.say(Severity::error, setup.error().message());
     options_.maestro = setup->calibration;
@@ -65,9 +65,9 @@ void DeviceModel::restart_session() {
   make_session();
 }
 
-void DeviceModel::choose(const std::string& name) {
-  if (name == options_.devices && session_ != nullptr) return;
-  options_.devices = name;
+void DeviceModel::choose(const DeviceNames& names) {
+  if (names == options_.devices && session_ != nullptr) return;
+  options_.devices = names;
   restart_session();
 }
 
@@ -99,7 +99,7 @@ void DeviceModel::calibrate_maestro(const MaestroCalibration& calibration, unsig
   options_.maestro_channel = channel;
   maestro_wish_ = wish_for(setup);
   keep_calibration(setup);
-  if (options_.devices == "maestro") restart_session();
+  if (options_.devices.display == "maestro") restart_session();
 }
 
 void DeviceModel::keep_calibration(const MaestroSetup& setup) {
