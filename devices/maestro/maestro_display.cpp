@@ -108,6 +108,7 @@ void MaestroDisplay::update_state(const DisplayCommand& command, double dt_s) no
   if (connection % 2 == 0) return;
   if (machine_.state() == DeviceState::open && answered_.load(std::memory_order_acquire) == connection)
     machine_.enter(DeviceState::firmware);
+  if (was_stopped_.exchange(false, kRelaxed)) machine_.fail(DeviceFault::watchdog);
   if (failures_.load(kRelaxed) >= kFailuresToLoss) machine_.fail(DeviceFault::disconnected);
   if (machine_.state() == DeviceState::homing) {
     homing_for_s_ += dt_s;
@@ -138,6 +139,7 @@ DisplaySample MaestroDisplay::exchange(const DisplayCommand& command, double dt_
 }
 
 bool MaestroDisplay::emergency_stop() noexcept {
+  was_stopped_.store(true, kRelaxed);
   stop_now_.store(true, kRelaxed);
   link_.wake();
   return true;

@@ -39,7 +39,7 @@ class MaestroDisplay final : public ContactDisplay, private UsbLinkHandler {
   /// The sample's position is the one last commanded, rounded to the Maestro's step.
   DisplaySample exchange(const DisplayCommand& command, double dt_s) noexcept override;
   bool report(LinkReport& out) const override;
-  /// The link's thread switches the servo off.
+  /// The link's thread switches the servo off; faulted from then on.
   bool emergency_stop() noexcept override;
 
  private:
@@ -55,6 +55,7 @@ class MaestroDisplay final : public ContactDisplay, private UsbLinkHandler {
   UsbLink link_;
   Mailbox<std::uint16_t> targets_;            ///< quarter us, 0: off; servo to link
   std::atomic<bool> stop_now_{false};         ///< any thread to link
+  std::atomic<bool> was_stopped_{false};      ///< any thread to servo
   std::atomic<std::uint32_t> connection_{0};  ///< odd while connected
   std::atomic<std::uint32_t> answered_{0};    ///< connection in which a setting was acknowledged
   std::atomic<std::uint32_t> failures_{0};    ///< consecutive failed control transfers

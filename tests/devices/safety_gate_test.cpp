@@ -454,3 +454,56 @@ TEST_CASE("heat is as hot as it is set, and arming does not cool it") {
   for (int i = 0; i < 20; ++i) force = gate.pass(ready_input(Vec3(0, 0, 8.5)), kTick_s).force_n.z;
   CHECK(force == doctest::Approx(1.4).epsilon(0.01));
 }
+
+namespace {
+
+/// A finger that swings in and out of a wall at 2 Hz, seen through telemetry with gaps, under the whole gate. `leap_m`:
+/// added after 1.5 s.
+GateFault seen_through(double servo_hz, double telemetry_hz, double gap_s, double speed_m_per_s, double leap_m) {
+  GateLimits l = limits();
+  l.period_s = 1.0 / servo_hz;
+  l.sample_s = 1.0 / telemetry_hz;
+  SafetyGate gate(l);
+  gate.arm();
+  const double w = 2.0 * 3.14159265358979 * 2.0;
+  GateFault fault = GateFault::none;
+  for (int tick = 1; tick <= 3.0 * servo_hz && fault == GateFault::none; ++tick) {
+    const double t = tick / servo_hz;
+    double at = std::floor(t * telemetry_hz + 1e-6) / telemetry_hz;
+    const double into = std::fmod(at, 0.1);
+    if (gap_s > 0.0 && into > 0.1 - gap_s) at -= into - std::floor((0.1 - gap_s) * telemetry_hz) / telemetry_hz;
+    const double depth = speed_m_per_s / w * std::sin(w * at) + (at >= 1.5 ? leap_m : 0.0);
+    GateInput input = ready_input(Vec3(0, 0, 600.0 * std::max(0.0, depth)));
+    input.display = DeviceState::absent;
+    input.position_m = Vec3(0, 0, -depth);
+    input.position_age_s = std::max(0.0, t - at);
+    input.stiffness_n_per_m = 600.0;
+    input.elastic_n = 600.0 * std::max(0.0, depth);
+    gate.before_sending(l.period_s);
+    fault = gate.pass(input, l.period_s).fault;
+  }
+  return fault;
+}
+
+}  // namespace
+
+TEST_CASE("a wall is touched through telemetry of every rate with gaps up to the allowed age, and only leaps stop it") {
+  int cases = 0;
+  for (const double servo : {100.0, 300.0, 1000.0, 3000.0, 10'000.0}) {
+    for (const double telemetry : {300.0, 1000.0, 4000.0}) {
+      for (const double gap : {0.0, 3e-3, 6e-3}) {
+        for (const double speed : {0.01, 0.05, 0.15}) {
+          CAPTURE(servo);
+          CAPTURE(telemetry);
+          CAPTURE(gap);
+          CAPTURE(speed);
+          CHECK(seen_through(servo, telemetry, gap, speed, 0.0) == GateFault::none);
+          const double apart = std::max({1.0 / servo, 1.0 / telemetry, gap}) + 1.0 / telemetry + 1e-3;
+          CHECK(seen_through(servo, telemetry, gap, speed, -20.0 * apart) == GateFault::position_jumped);
+          ++cases;
+        }
+      }
+    }
+  }
+  CHECK(cases == 135);
+}

@@ -25,7 +25,7 @@ struct MonitorOptions {
   double seconds = 0.0;  ///< 0: until q or Ctrl-C
   double servo_hz = 1000.0;
   std::string inject;
-  bool inject_display = false, stay_stopped = false;
+  bool inject_display = false, stay_stopped = false, without_timeout = false;
 };
 
 /// Reads single keys while it exists, if standard input is a terminal.
@@ -130,6 +130,13 @@ Status run_monitor(const MonitorOptions& options) {
   wanted.arm_on_start = !options.stay_stopped;
   auto session = Session::create(*scene, Preset{}, wanted);
   if (!session) return tl::unexpected(session.error());
+  if (options.without_timeout) (*session)->accept_no_timeout();
+  if ((*session)->needs_yes()) {
+    for (const std::string& name : (*session)->without_timeout())
+      print_message("monitor", name +
+                                   " goes on with its last command when this program dies (its firmware has no "
+                                   "time-out), so nothing is armed; --without-timeout arms nevertheless");
+  }
   (*session)->start();
   watch(**session, options, fault);
   (*session)->shut_down();
@@ -152,6 +159,8 @@ void add_monitor_command(CLI::App& app, CommandResult& result) {
                   "FAULT");
   add_flag(*command, "--inject-display", options->inject_display,
            "Give it to the contact display instead of the force device");
+  add_flag(*command, "--without-timeout", options->without_timeout,
+           "Arm even a device that goes on with its last command when this program dies");
   add_flag(*command, "--stay-stopped", options->stay_stopped, "No force until a is pressed");
   on_run(*command, [options, &result] {
     const Status status = run_monitor(*options);

@@ -49,6 +49,9 @@ std::string gate_text(const ServoStatus& servo) {
     if (servo.gate_counts[i] > 0)
       text += format("  %-22s %10llu ticks\n", to_string(static_cast<GateAction>(i)), number(servo.gate_counts[i]));
   }
+  if (servo.hung != ExchangeWith::none)
+    text += format("  %s did not return from an exchange; %s\n", to_string(servo.hung),
+                   servo.hung_was_stopped ? "it was told to stop" : "it has no way to be stopped");
   return text;
 }
 

@@ -30,7 +30,7 @@ struct Stimulated {
   TickBench bench;
 
   static DeviceSet with(SimulatedForceDevice* force) {
-    auto set = make_devices("simulated");
+    auto set = make_devices(DeviceNames{});
     REQUIRE(set);
     set->force.reset(force);
     return std::move(*set);

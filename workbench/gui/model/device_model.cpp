@@ -2,6 +2,7 @@
 
 #include "workbench/session/maestro_setups.h"
 
+#include <cstdio>
 #include <utility>
 
 namespace tangent {
@@ -52,6 +53,13 @@ void DeviceModel::make_session() {
     return;
   }
   session_ = std::move(*session);
+  capped_n_per_m_ = 0.0;
+  last_hung_ = ExchangeWith::none;
+  say_what_differs();
+  for (const std::string& name : session_->without_timeout())
+    messages_.say(Severity::warning, name +
+                                         " goes on with its last command when this program dies: its firmware has no "
+                                         "time-out. Nothing is armed until you say yes in the device monitor");
   session_->start();
   status_ = session_->status();
 }
@@ -74,9 +82,25 @@ void DeviceModel::choose(const DeviceNames& names) {
 std::optional<std::uint32_t> DeviceModel::send_preset() {
   if (session_ == nullptr) return std::nullopt;
   auto sent = session_->set_preset(presets_.current());
-  if (sent) return *sent;
+  if (sent) {
+    say_what_differs();
+    return *sent;
+  }
   messages_.say(Severity::error, sent.error().message());
   return std::nullopt;
+}
+
+// Once for every stiffness that is asked for.
+void DeviceModel::say_what_differs() {
+  const double asked = presets_.current().force.stiffness_n_per_m;
+  const double used = session_->preset().force.stiffness_n_per_m;
+  if (used < asked && asked != capped_n_per_m_) {
+    char text[160];
+    std::snprintf(text, sizeof text, "the stiffness of %.0f N/m is more than %s renders stably: it uses %.0f N/m",
+                  asked, session_->force_capabilities()->name.c_str(), used);
+    messages_.say(Severity::warning, text);
+  }
+  capped_n_per_m_ = used < asked ? asked : 0.0;
 }
 
 void DeviceModel::take_status() {
@@ -86,6 +110,12 @@ void DeviceModel::take_status() {
   if (gate_fault != last_gate_fault_ && gate_fault != GateFault::none)
     messages_.say(Severity::error, std::string("force stopped: ") + to_string(gate_fault) + "; press Arm to go on");
   last_gate_fault_ = gate_fault;
+  const ExchangeWith hung = status_.servo.hung;
+  if (hung != last_hung_ && hung != ExchangeWith::none)
+    messages_.say(Severity::error, std::string(to_string(hung)) + " does not return from an exchange; " +
+                                       (status_.servo.hung_was_stopped ? "it was told to stop"
+                                                                       : "it has no way to be stopped: switch it off"));
+  last_hung_ = hung;
   if (status_.force_fault != last_fault_ && status_.force_fault != DeviceFault::none)
     messages_.say(Severity::error, std::string("force device: ") + to_string(status_.force_fault));
   last_fault_ = status_.force_fault;

@@ -48,6 +48,7 @@ class DeviceModel {
  private:
   void make_session();
   void restart_session();
+  void say_what_differs();
   void keep_calibration(const MaestroSetup& setup);
 
   const SceneModel& scene_;
@@ -61,6 +62,8 @@ class DeviceModel {
   SessionStatus status_;
   DeviceFault last_fault_ = DeviceFault::none;
   GateFault last_gate_fault_ = GateFault::none;
+  ExchangeWith last_hung_ = ExchangeWith::none;
+  double capped_n_per_m_ = 0.0;  ///< stiffness asked for when it was last said that the device takes less
   bool hand_follows_mouse_ = false;
 };
 

@@ -41,6 +41,12 @@ void dim_text(const UiContext& ui, const std::string& text) {
   ImGui::PopStyleColor();
 }
 
+void warning_text(const UiContext& ui, const std::string& text) {
+  ImGui::PushStyleColor(ImGuiCol_Text, ui.colours.warning);
+  ImGui::TextWrapped("%s", text.c_str());
+  ImGui::PopStyleColor();
+}
+
 void draw_states(const UiContext& ui, DeviceModel& devices) {
   const SessionStatus& s = devices.status();
   Session& session = *devices.session();
@@ -58,6 +64,11 @@ void draw_states(const UiContext& ui, DeviceModel& devices) {
        : s.servo.gate_state == GateState::armed ? ui.colours.good
                                                 : ui.colours.warning);
   ImGui::Dummy({1, ui.px(2)});
+  for (const std::string& name : session.without_timeout())
+    warning_text(ui, name + " goes on with its last command when this program dies: its firmware has no time-out.");
+  if (session.needs_yes() && text_button(ui, "monitor/accept_no_timeout", "Use it nevertheless",
+                                         "Without this yes nothing is armed. Keep a hand on its power switch"))
+    session.accept_no_timeout();
   if (text_button(ui, "monitor/arm", "Re-arm", "Clears faults, homes what is not homed, and ramps the force in"))
     session.arm();
   ImGui::SameLine();
@@ -71,6 +82,8 @@ void draw_limits(const UiContext& ui, const DeviceModel& devices) {
   const ServoStatus& servo = devices.status().servo;
   heading(ui, "Limits");
   fact(ui, "Peak / continuous force", printed("%.1f / %.1f", limits.peak_force_n, limits.continuous_force_n), "N");
+  if (const auto* can = devices.session()->force_capabilities(); can != nullptr && can->largest_stiffness_n_per_m > 0.0)
+    fact(ui, "Largest stiffness", printed("%.0f", can->largest_stiffness_n_per_m), "N/m");
   fact(ui, "Change of force", printed("%.0f", limits.slew_n_per_s), "N/s");
   const Vec3 size = 2e3 * limits.workspace_half_size_m;
   fact(ui, "Workspace", printed("%.0f x %.0f x %.0f", size.x, size.y, size.z), "mm");
@@ -102,6 +115,10 @@ void draw_raw(const UiContext& ui, const DeviceModel& devices) {
   const Vec3 p = r.tick.input.finger.position * 1e3, f = r.device.force_command_n;
   fact(ui, "Position", printed("%.3f %.3f %.3f", p.x, p.y, p.z), "mm");
   fact(ui, "Force sent", printed("%.3f %.3f %.3f", f.x, f.y, f.z), "N");
+  fact(ui, "Energy, made by the loop", printed("%.3f", r.device.energy_j * 1e3), "mJ");
+  tooltip(ui,
+          "Observed by the safety gate: force sent times motion measured. Below zero the hand has stored it in the "
+          "surface; at 5 mJ in half a second the gate stops");
   fact(ui, "Roller, measured / sent",
        printed("%.4f / %.4f", r.device.cld_measured_m * 1e3, r.device.cld_command_m * 1e3), "mm");
   fact(ui, "Age of position / roller", printed("%.2f / %.2f", r.device.force_age_s * 1e3, r.device.display_age_s * 1e3),
