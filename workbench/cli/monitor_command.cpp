@@ -130,7 +130,7 @@ Status run_monitor(const MonitorOptions& options) {
   wanted.arm_on_start = !options.stay_stopped;
   auto session = Session::create(*scene, Preset{}, wanted);
   if (!session) return tl::unexpected(session.error());
-  (*session)->start();
+  if (const Status ok = (*session)->start(); !ok) return ok;
   watch(**session, options, fault);
   (*session)->shut_down();
   std::fputs(monitor_report(**session).c_str(), stdout);

@@ -52,7 +52,7 @@ void DeviceModel::make_session() {
     return;
   }
   session_ = std::move(*session);
-  session_->start();
+  if (const Status ok = session_->start(); !ok) messages_.say(Severity::error, ok.error().message());
   status_ = session_->status();
 }
 
