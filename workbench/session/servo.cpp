@@ -37,22 +37,31 @@ Status Servo::start() {
   statistics_.restart_rate();
   if (scheduler_ == nullptr) {
     thread_ = std::thread([this]() noexcept { loop(); });
-    return {};
+  } else {
+    call_pacer_.start();
+    const Status started =
+        scheduler_->start_calling({[](void* servo) noexcept { static_cast<Servo*>(servo)->run_called(); }, this});
+    if (!started) return started;
+    called_ = true;
   }
-  call_pacer_.start();
-  const Status started =
-      scheduler_->start_calling({[](void* servo) noexcept { static_cast<Servo*>(servo)->run_called(); }, this});
-  called_ = started.has_value();
-  return started;
+  if (!options_.watch_exchanges) return {};
+  watching_.store(true, std::memory_order_relaxed);
+  watching_thread_ = std::thread([this]() noexcept { watch(); });
+  return {};
 }
 
 void Servo::stop() {
   if (!running()) return;
   stopping_.store(true, std::memory_order_relaxed);
-  if (thread_.joinable()) return thread_.join();
-  scheduler_->stop_calling();
-  called_ = false;
-  tick_.release(1.0 / options_.rate_hz);
+  if (called_) {
+    scheduler_->stop_calling();
+    called_ = false;
+    tick_.release(1.0 / options_.rate_hz);
+  } else {
+    thread_.join();
+  }
+  watching_.store(false, std::memory_order_relaxed);  // after the last exchange
+  if (watching_thread_.joinable()) watching_thread_.join();
 }
 
 void Servo::run_one() noexcept { tick_.run(pacer_.begin(pacer_.deadline_ns())); }
@@ -75,6 +84,20 @@ void Servo::run_called() noexcept {
   const std::int64_t now_ns = clock_.now_ns();
   statistics_.note_start(now_ns);
   tick_.run(call_pacer_.begin(now_ns));
+}
+
+// Above the servo's priority: the servo may spin in the exchange that hangs. By the real clock, as the tick is.
+void Servo::watch() noexcept {
+  pthread_setname_np(pthread_self(), "servo watch");
+  sched_param priority{};
+  priority.sched_priority = options_.fifo_priority + 1;
+  if (options_.realtime) pthread_setschedparam(pthread_self(), SCHED_FIFO, &priority);
+  MonotonicClock clock;
+  while (watching_.load(std::memory_order_relaxed)) {
+    const std::int64_t now_ns = clock.now_ns();
+    tick_.exchange_watch().look(now_ns);
+    clock.sleep_until(now_ns + ExchangeWatch::kLook_ns);
+  }
 }
 
 void Servo::loop() noexcept {

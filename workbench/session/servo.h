@@ -1,5 +1,6 @@
 // Runs the ticks: in the servo thread, at a fixed rate, by absolute deadlines; or, with a force device that keeps the
-// time, when it calls, in its thread. All calls come from the owner's thread.
+// time, when it calls, in its thread. With real devices a second thread watches that their exchanges return. All calls
+// come from the owner's thread.
 #pragma once
 
 #include "devices/force_device.h"
@@ -37,6 +38,7 @@ class Servo {
  private:
   void loop() noexcept;
   void run_called() noexcept;
+  void watch() noexcept;
   void ask_for_realtime() noexcept;
 
   ServoTick& tick_;
@@ -47,8 +49,8 @@ class Servo {
   CallPacer call_pacer_;
   ForceDevice* scheduler_;
   bool called_ = false;  ///< by the device
-  std::thread thread_;
-  std::atomic<bool> stopping_{false};
+  std::thread thread_, watching_thread_;
+  std::atomic<bool> stopping_{false}, watching_{false};
   std::atomic<bool> fifo_{false}, locked_{false};
 };
 

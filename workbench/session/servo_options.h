@@ -3,6 +3,7 @@
 
 #include "core/base/result.h"
 #include "devices/safety_gate.h"
+#include "workbench/session/exchange_watch.h"
 
 #include <array>
 #include <cstdint>
@@ -20,6 +21,7 @@ struct ServoOptions {
   /// Tick time for solver and devices. true: the deadlines (real devices); false: tick / rate (simulated devices, so
   /// that N ticks give identical results however late they ran).
   bool time_by_deadlines = false;
+  bool watch_exchanges = false;     ///< of real devices: a thread that notices one that doesn't return
   std::size_t ring_records = 8192;  ///< of each ring
 };
 
@@ -49,6 +51,8 @@ struct ServoStatus {
   std::array<std::uint64_t, kGateActionCount> gate_counts{};
   std::uint64_t gate_faults = 0;
   RealtimeGrant realtime;
+  ExchangeWith hung = ExchangeWith::none;  ///< device whose exchange did not return in time
+  bool hung_was_stopped = false;           ///< it had a way to be told to stop
 };
 
 }  // namespace tangent

@@ -21,13 +21,14 @@ struct DeviceTelemetry {
   GateFault gate_fault = GateFault::none;
   GateActions gate_actions = 0;  ///< bit per GateAction
   std::uint8_t hand_led = 0;     ///< 1: a simulated hand leads the finger; hand_target_m is set
-  Vec3 force_command_n{0.0};     ///< tick.output.force_n after the safety gate
+  Vec3 force_command_n{0.0};     ///< tick.output.force_n after the gate; sent in the next tick if that isn't late
   Vec3 force_rendered_n{0.0};    ///< applied by the device while this tick's position was measured
   Vec3 hand_target_m{0.0};       ///< target of the simulated hand
   double cld_command_m = 0.0;    ///< tick.output.cld_m after the safety gate
   double cld_measured_m = 0.0;   ///< roller position, measured at the start of this tick
   double force_age_s = 0.0;      ///< age of this tick's position
   double display_age_s = 0.0;    ///< age of cld_measured_m
+  double energy_j = 0.0;         ///< observed: > 0 made by the loop, < 0 stored by the hand (EnergyWatch::net_j)
 };
 
 struct ServoRecord {

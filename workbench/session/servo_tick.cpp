@@ -1,28 +1,29 @@
 #include "workbench/session/servo_tick.h"
 
 #include <algorithm>
+#include <string>
 
 namespace tangent {
 
-GateLimits gate_limits(const DeviceSet& devices) {
-  GateLimits limits;
-  if (devices.force) {
-    const ForceCapabilities& can = devices.force->capabilities();
-    limits.peak_force_n = can.peak_force_n;
-    limits.continuous_force_n = can.continuous_force_n;
-    limits.workspace_half_size_m = can.workspace_half_size_m;
-  }
-  if (devices.display) limits.display_travel_m = devices.display->capabilities().travel_m;
-  return limits;
+namespace {
+
+/// The key of a real device's motors; empty: of none.
+std::string motors_of(const DeviceSet& devices) {
+  if (!devices.force || devices.force->capabilities().simulated) return {};
+  return devices.force->capabilities().name + " " + devices.force->capabilities().serial;
 }
 
+}  // namespace
+
 ServoTick::ServoTick(DeviceSet& devices, ServoChannels& channels, ServoStatistics& statistics,
-                     std::unique_ptr<PreparedScene> scene, const PresetLetter& preset, NanosecondClock clock)
+                     std::unique_ptr<PreparedScene> scene, const PresetLetter& preset, NanosecondClock clock,
+                     double rate_hz)
     : devices_(devices),
       channels_(channels),
       statistics_(statistics),
       clock_(clock),
-      gate_(gate_limits(devices)),
+      gate_(gate_limits(devices, rate_hz)),
+      exchange_watch_(devices),
       scene_(scene.release()),
       preset_(preset) {
   const HandTarget start = hand_.begin(scene_->path, pad_distance_m(preset_.preset.finger));
@@ -30,10 +31,17 @@ ServoTick::ServoTick(DeviceSet& devices, ServoChannels& channels, ServoStatistic
   force_sample_.orientation = start.orientation;
   if (devices_.force && devices_.force->hand()) devices_.force->hand()->place(start);
   place_workspace();
+  gated_preset_ = preset_.id;
+  const std::string motors = motors_of(devices_);
+  if (!motors.empty()) gate_.heat().set_store(motor_heat().recall(motors, gate_.limits().continuous_force_n, now()));
   if (devices_.display) devices_.display->set_controller(preset_.preset.controller);
 }
 
-ServoTick::~ServoTick() { delete scene_; }
+ServoTick::~ServoTick() {
+  const std::string motors = motors_of(devices_);
+  if (!motors.empty()) motor_heat().keep(motors, gate_.heat().store_n2s(), now());
+  delete scene_;
+}
 
 void ServoTick::take_letters() noexcept {
   if (channels_.presets.take(preset_) && devices_.display) devices_.display->set_controller(preset_.preset.controller);
@@ -96,6 +104,18 @@ void ServoTick::bring_up() noexcept {
   rehoming_wanted_ = false;
 }
 
+void ServoTick::exchange_devices(double dt_s) noexcept {
+  if (devices_.force) {
+    exchange_watch_.begin(ExchangeWith::force_device, now());
+    force_sample_ = devices_.force->exchange(force_command_, dt_s);
+  }
+  if (devices_.display) {
+    exchange_watch_.begin(ExchangeWith::display, now());
+    display_sample_ = devices_.display->exchange(display_command_, dt_s);
+  }
+  if (exchange_watch_.end()) gate_.stop_by(GateFault::exchange_hung);
+}
+
 void ServoTick::exchange(double dt_s, ServoRecord& record) noexcept {
   SimulatedHand* hand = devices_.force ? devices_.force->hand() : nullptr;
   if (hand != nullptr || !devices_.force) {
@@ -111,8 +131,8 @@ void ServoTick::exchange(double dt_s, ServoRecord& record) noexcept {
     }
   }
   force_command_.tick = display_command_.tick = tick_;
-  if (devices_.force) force_sample_ = devices_.force->exchange(force_command_, dt_s);
-  if (devices_.display) display_sample_ = devices_.display->exchange(display_command_, dt_s);
+  force_command_.force_n = gate_.before_sending(dt_s);
+  exchange_devices(dt_s);
   record.device.force_state = force_sample_.state;
   record.device.force_fault = force_sample_.fault;
   record.device.display_state = display_sample_.state;
@@ -123,10 +143,37 @@ void ServoTick::exchange(double dt_s, ServoRecord& record) noexcept {
   record.device.display_age_s = display_sample_.age_s;
 }
 
+// What the surface puts out on purpose: a stiffer preset in contact stores more than the hand put in, and force
+// shading, whose force leans by up to the angle between two facets, does work along the surface.
+double ServoTick::declared_work(const TickOutput& output) noexcept {
+  constexpr double kLargestLean = 0.5;  // tangent; 27 degrees, two facets of a coarse mesh
+  const Preset& preset = preset_.preset;
+  double declared_j = 0.0;
+  if (preset_.id != gated_preset_) {
+    const double force_n = std::min(glm::length(output.decided_force_n), gate_.limits().peak_force_n);
+    declared_j = 0.5 * force_n * force_n / preset.force.stiffness_n_per_m;
+    gated_preset_ = preset_.id;
+  }
+  const Method method = preset.solver.method;
+  const bool shading_method = method == Method::force_shading || method == Method::two_pass;
+  const bool shades = preset.force.source == ForceSource::force_shading ||
+                      (preset.force.source == ForceSource::method && shading_method);
+  const Vec3 moved = force_sample_.position_m - gated_position_m_;
+  gated_position_m_ = force_sample_.position_m;
+  const double force_n = glm::length(output.force_n);
+  if (!shades || !(force_n > 0.0)) return declared_j;
+  const Vec3 along = moved - glm::dot(moved, output.force_n) / (force_n * force_n) * output.force_n;
+  return declared_j + kLargestLean * force_n * glm::length(along);
+}
+
 void ServoTick::gate(double dt_s, ServoRecord& record) noexcept {
+  const TickOutput& made = record.tick.output;
+  const double stiffness = preset_.preset.force.stiffness_n_per_m;
+  const double depth_m = std::max(made.penetration_m, glm::length(made.way_out_m));
+  const bool pushes = made.force_n != Vec3(0.0);
   const GateOutput out =
-      gate_.pass({.force_n = record.tick.output.force_n,
-                  .display_m = record.tick.output.cld_m,
+      gate_.pass({.force_n = made.force_n,
+                  .display_m = made.cld_m,
                   .force_device = force_sample_.state,
                   .display = display_sample_.state,
                   .position_m = force_sample_.position_m,
@@ -136,15 +183,19 @@ void ServoTick::gate(double dt_s, ServoRecord& record) noexcept {
                   .display_travel_m = display_sample_.travel_m,
                   .display_lowest_m = preset_.preset.controller.lowest_m,
                   .display_highest_m = preset_.preset.controller.highest_m,
-                  .display_measures = devices_.display && devices_.display->capabilities().measures_position},
+                  .display_measures = devices_.display && devices_.display->capabilities().measures_position,
+                  .display_fastest_m_per_s = preset_.preset.controller.fastest_m_per_s,
+                  .stiffness_n_per_m = stiffness,
+                  .elastic_n = pushes ? stiffness * std::max(0.0, depth_m) : 0.0,
+                  .declared_j = declared_work(made)},
                  dt_s);
-  force_command_.force_n = out.force_n;
   display_command_.target_m = out.display_m;
   record.device.gate_state = out.state;
   record.device.gate_fault = out.fault;
   record.device.gate_actions = out.actions;
   record.device.force_command_n = out.force_n;
   record.device.cld_command_m = out.display_m;
+  record.device.energy_j = gate_.energy().net_j();
 }
 
 void ServoTick::run(const TickTiming& timing) noexcept {
@@ -181,8 +232,7 @@ void ServoTick::release(double dt_s) noexcept {
   gate_.stop();
   force_command_ = {.tick = tick_, .request = DeviceRequest::stop};
   display_command_ = {.tick = tick_, .target_m = display_command_.target_m, .request = DeviceRequest::stop};
-  if (devices_.force) force_sample_ = devices_.force->exchange(force_command_, dt_s);
-  if (devices_.display) display_sample_ = devices_.display->exchange(display_command_, dt_s);
+  exchange_devices(dt_s);
   homing_wanted_ = true;
 }
 

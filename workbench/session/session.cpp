@@ -2,7 +2,7 @@
 
 #include "core/io/rendering_condition.h"
 #include "core/preset/schema.h"
-#include "devices/device_set.h"
+#include "devices/device_safety.h"
 #include "devices/usb/packet_recorder.h"
 #include "workbench/session/servo.h"
 #include "workbench/session/tick_again.h"
@@ -35,6 +35,11 @@ Status check_options(const SessionOptions& options) {
   return {};
 }
 
+Preset preset_allowed(Preset preset, const DeviceSet& devices) {
+  preset.force.stiffness_n_per_m = stiffness_allowed(devices, preset.force.stiffness_n_per_m);
+  return preset;
+}
+
 }  // namespace
 
 void PreparedSceneDeleter::operator()(PreparedScene* scene) const { delete scene; }
@@ -54,7 +59,7 @@ struct Session::Impl {
     presets.push_back(preset);
     scenes.emplace(0, scene);
     tick = std::make_unique<ServoTick>(devices, channels, statistics, std::move(prepared), PresetLetter{0, preset},
-                                       options.threaded ? &monotonic_ns : nullptr);
+                                       options.threaded ? &monotonic_ns : nullptr, options.servo.rate_hz);
     ForceDevice* force = devices.force.get();
     ForceDevice* scheduler = force != nullptr && force->calls_us() ? force : nullptr;
     servo = std::make_unique<Servo>(*tick, statistics, options.servo, clock, scheduler);
@@ -69,6 +74,7 @@ struct Session::Impl {
   std::unique_ptr<ServoTick> tick;
   std::unique_ptr<Servo> servo;
   bool started = false;
+  bool accepted_no_timeout = false;  ///< a person was told and said yes
 
   std::deque<Preset> presets;  ///< by id; a deque keeps references valid
   std::shared_ptr<const ContactScene> scene;
@@ -109,19 +115,15 @@ Result<std::unique_ptr<Session>> Session::create(std::shared_ptr<const ContactSc
   wanted.maestro.channel = static_cast<std::uint8_t>(options.maestro_channel);
   auto devices = make_devices(options.devices, wanted);
   if (!devices) return tl::unexpected(devices.error());
-  if (!all_simulated(*devices)) options.servo.time_by_deadlines = true;
+  if (!all_simulated(*devices)) options.servo.time_by_deadlines = options.servo.watch_exchanges = true;
   if (devices->force && devices->force->calls_us()) options.servo.rate_hz = devices->force->capabilities().rate_hz;
   if (const Status ok = check_devices(preset, devices->force != nullptr, devices->display != nullptr); !ok)
     return tl::unexpected(ok.error());
-  if (devices->force) {
-    if (const Status ok = devices->force->open(); !ok) return tl::unexpected(ok.error());
-  }
-  if (devices->display) {
-    if (const Status ok = devices->display->open(); !ok) return tl::unexpected(ok.error());
-  }
+  if (const Status ok = open_devices(*devices); !ok) return tl::unexpected(ok.error());
+  const Preset allowed = preset_allowed(preset, *devices);
   auto prepared = std::make_unique<PreparedScene>(std::move(scene), preset.finger);
   auto impl =
-      std::make_unique<Impl>(std::move(options), std::move(packets), std::move(*devices), std::move(prepared), preset);
+      std::make_unique<Impl>(std::move(options), std::move(packets), std::move(*devices), std::move(prepared), allowed);
   impl->send_hand();
   return std::unique_ptr<Session>(new Session(std::move(impl)));
 }
@@ -183,7 +185,8 @@ RecordedRun Session::recorded_run() const {
 
 // --- Presets -------------------------------------------------------------------------------------------
 
-Result<std::uint32_t> Session::set_preset(const Preset& preset) {
+Result<std::uint32_t> Session::set_preset(const Preset& wanted) {
+  const Preset preset = preset_allowed(wanted, impl_->devices);
   if (preset == impl_->presets.back()) return preset_id();
   if (const Status ok = check_preset(preset); !ok) return tl::unexpected(ok.error());
   const Status renders = check_devices(preset, impl_->devices.force != nullptr, impl_->devices.display != nullptr);
@@ -244,7 +247,12 @@ void Session::set_hand_target(const Vec3& position_world_m) {
   impl_->send_hand();
 }
 
-void Session::arm() { impl_->channels.force.put(ForceSwitch::arm); }
+void Session::arm() {
+  if (!needs_yes()) impl_->channels.force.put(ForceSwitch::arm);
+}
+std::vector<std::string> Session::without_timeout() const { return devices_without_timeout(impl_->devices); }
+bool Session::needs_yes() const { return !impl_->accepted_no_timeout && !without_timeout().empty(); }
+void Session::accept_no_timeout() { impl_->accepted_no_timeout = true; }
 void Session::stop() { impl_->channels.force.put(ForceSwitch::stop); }
 void Session::home() { impl_->channels.force.put(ForceSwitch::home); }
 void Session::inject(const FaultInjection& fault, bool display) { impl_->channels.faults.put({fault, display}); }
@@ -279,6 +287,8 @@ SessionStatus Session::status() const {
   s.servo.gui_drops = impl_->channels.gui.drops();
   s.servo.recorder_drops = impl_->channels.recorder.drops();
   s.servo.realtime = impl_->servo->granted();
+  s.servo.hung = impl_->tick->exchange_watch().hung();
+  s.servo.hung_was_stopped = impl_->tick->exchange_watch().was_stopped();
   s.preset_sent = preset_id();
   s.scene_sent = impl_->scene_id;
   if (!impl_->history.empty()) {
@@ -310,7 +320,7 @@ const DisplayCapabilities* Session::display_capabilities() const {
 
 const SessionOptions& Session::options() const { return impl_->options; }
 const SafetyLog& Session::safety_log() const { return impl_->log; }
-GateLimits Session::gate_limits() const { return tangent::gate_limits(impl_->devices); }
+GateLimits Session::gate_limits() const { return tangent::gate_limits(impl_->devices, impl_->options.servo.rate_hz); }
 bool Session::display_report(LinkReport& out) const {
   return impl_->devices.display && impl_->devices.display->report(out);
 }

@@ -91,7 +91,8 @@ class Session {
   RecordedRun recorded_run() const;  ///< a snapshot; any thread may read it
 
   // Presets are sent whole and applied at the start of a tick; the latest wins.
-  /// Returns the id used in records (the current id if nothing changed). Fails when a value is out of range.
+  /// Returns the id used in records (the current id if nothing changed). Fails when a value is out of range. A
+  /// stiffness above the force device's largest is reduced to that: see preset().
   Result<std::uint32_t> set_preset(const Preset& preset);
   const Preset& preset() const;                  ///< the latest sent
   const Preset* preset(std::uint32_t id) const;  ///< any ever sent; null for an unknown id
@@ -113,9 +114,14 @@ class Session {
   void set_hand(const HandSettings& settings);
   const HandSettings& hand() const;
   void set_hand_target(const Vec3& position_world_m);  ///< also selects HandMode::point. Ignored when not finite
-  void arm();                                          ///< also clears faults and homes where needed
+  void arm();                                          ///< also clears faults and homes where needed; see needs_yes
   void stop();                                         ///< no force until armed
   void home();                                         ///< stops, and homes the devices again
+  /// Real devices that go on with their last command when the program dies, by name. While there are any, arm does
+  /// nothing until a person who was told of it has said yes.
+  std::vector<std::string> without_timeout() const;
+  bool needs_yes() const;
+  void accept_no_timeout();
   /// Injects a fault into the simulated display or force device. Ignored by real devices.
   void inject(const FaultInjection& fault, bool display);
 
