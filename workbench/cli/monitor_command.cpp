@@ -137,7 +137,7 @@ Status run_monitor(const MonitorOptions& options) {
                                    " goes on with its last command when this program dies (its firmware has no "
                                    "time-out), so nothing is armed; --without-timeout arms nevertheless");
   }
-  (*session)->start();
+  if (const Status ok = (*session)->start(); !ok) return ok;
   watch(**session, options, fault);
   (*session)->shut_down();
   std::fputs(monitor_report(**session).c_str(), stdout);

@@ -19,29 +19,47 @@ bool may_lock_all() noexcept {
 
 }  // namespace
 
-Servo::Servo(ServoTick& tick, ServoStatistics& statistics, const ServoOptions& options, ServoClock& clock)
+Servo::Servo(ServoTick& tick, ServoStatistics& statistics, const ServoOptions& options, ServoClock& clock,
+             ForceDevice* scheduler)
     : tick_(tick),
       statistics_(statistics),
       options_(options),
       clock_(clock),
-      pacer_(options.rate_hz, options.time_by_deadlines) {
+      pacer_(options.rate_hz, options.time_by_deadlines),
+      call_pacer_(options.rate_hz),
+      scheduler_(scheduler) {
   pacer_.start(0);
 }
 
-void Servo::start() {
-  if (running()) return;
+Status Servo::start() {
+  if (running()) return {};
   stopping_.store(false);
   statistics_.restart_rate();
-  thread_ = std::thread([this]() noexcept { loop(); });
-  if (!options_.watch_exchanges) return;
+  if (scheduler_ == nullptr) {
+    thread_ = std::thread([this]() noexcept { loop(); });
+  } else {
+    call_pacer_.start();
+    const Status started =
+        scheduler_->start_calling({[](void* servo) noexcept { static_cast<Servo*>(servo)->run_called(); }, this});
+    if (!started) return started;
+    called_ = true;
+  }
+  if (!options_.watch_exchanges) return {};
   watching_.store(true, std::memory_order_relaxed);
   watching_thread_ = std::thread([this]() noexcept { watch(); });
+  return {};
 }
 
 void Servo::stop() {
   if (!running()) return;
   stopping_.store(true, std::memory_order_relaxed);
-  thread_.join();
+  if (called_) {
+    scheduler_->stop_calling();
+    called_ = false;
+    tick_.release(1.0 / options_.rate_hz);
+  } else {
+    thread_.join();
+  }
   watching_.store(false, std::memory_order_relaxed);  // after the last exchange
   if (watching_thread_.joinable()) watching_thread_.join();
 }
@@ -58,6 +76,14 @@ void Servo::ask_for_realtime() noexcept {
   fifo_.store(pthread_setschedparam(pthread_self(), SCHED_FIFO, &priority) == 0);
   // ONFAULT: pages are locked once touched; untouched ones are not loaded.
   locked_.store(may_lock_all() && mlockall(MCL_CURRENT | MCL_FUTURE | MCL_ONFAULT) == 0);
+}
+
+// The device's driver has chosen its thread's priority.
+void Servo::run_called() noexcept {
+  if (stopping_.load(std::memory_order_relaxed)) return;
+  const std::int64_t now_ns = clock_.now_ns();
+  statistics_.note_start(now_ns);
+  tick_.run(call_pacer_.begin(now_ns));
 }
 
 // Above the servo's priority: the servo may spin in the exchange that hangs. By the real clock, as the tick is.

@@ -60,7 +60,9 @@ struct Session::Impl {
     scenes.emplace(0, scene);
     tick = std::make_unique<ServoTick>(devices, channels, statistics, std::move(prepared), PresetLetter{0, preset},
                                        options.threaded ? &monotonic_ns : nullptr, options.servo.rate_hz);
-    servo = std::make_unique<Servo>(*tick, statistics, options.servo, clock);
+    ForceDevice* force = devices.force.get();
+    ForceDevice* scheduler = force != nullptr && force->calls_us() ? force : nullptr;
+    servo = std::make_unique<Servo>(*tick, statistics, options.servo, clock, scheduler);
   }
 
   SessionOptions options;
@@ -114,6 +116,7 @@ Result<std::unique_ptr<Session>> Session::create(std::shared_ptr<const ContactSc
   auto devices = make_devices(options.devices, wanted);
   if (!devices) return tl::unexpected(devices.error());
   if (!all_simulated(*devices)) options.servo.time_by_deadlines = options.servo.watch_exchanges = true;
+  if (devices->force && devices->force->calls_us()) options.servo.rate_hz = devices->force->capabilities().rate_hz;
   if (const Status ok = check_devices(preset, devices->force != nullptr, devices->display != nullptr); !ok)
     return tl::unexpected(ok.error());
   if (const Status ok = open_devices(*devices); !ok) return tl::unexpected(ok.error());
@@ -127,11 +130,14 @@ Result<std::unique_ptr<Session>> Session::create(std::shared_ptr<const ContactSc
 
 // --- Running -------------------------------------------------------------------------------------------
 
-void Session::start() {
-  if (impl_->started) return;
+Status Session::start() {
+  if (impl_->started) return {};
   impl_->started = true;
   if (impl_->options.arm_on_start) arm();
-  if (impl_->options.threaded) impl_->servo->start();
+  if (!impl_->options.threaded) return {};
+  const Status ok = impl_->servo->start();
+  impl_->started = ok.has_value();
+  return ok;
 }
 
 void Session::shut_down() {

@@ -60,7 +60,7 @@ void DeviceModel::make_session() {
     messages_.say(Severity::warning, name +
                                          " goes on with its last command when this program dies: its firmware has no "
                                          "time-out. Nothing is armed until you say yes in the device monitor");
-  session_->start();
+  if (const Status ok = session_->start(); !ok) messages_.say(Severity::error, ok.error().message());
   status_ = session_->status();
 }
 

@@ -19,8 +19,8 @@ struct Cell {
   int column;
   float weight;  ///< of the column's height
 };
-constexpr std::array kThreeColumns{Cell{0, 0, 0.6f}, Cell{5, 0, 0.4f}, Cell{1, 1, 0.5f},
-                                   Cell{2, 1, 0.5f}, Cell{3, 2, 0.5f}, Cell{4, 2, 0.5f}};
+constexpr std::array kThreeColumns{Cell{5, 0, 0.35f}, Cell{0, 0, 0.65f}, Cell{1, 1, 0.5f},
+                                   Cell{2, 1, 0.5f},  Cell{3, 2, 0.5f},  Cell{4, 2, 0.5f}};
 constexpr std::array kTwoColumns{Cell{0, 0, 0.4f},  Cell{1, 0, 0.3f},  Cell{5, 0, 0.3f},
                                  Cell{2, 1, 0.34f}, Cell{3, 1, 0.33f}, Cell{4, 1, 0.33f}};
 constexpr std::array kOneColumn{Cell{0, 0, 0.25f}, Cell{1, 0, 0.15f}, Cell{2, 0, 0.15f},
