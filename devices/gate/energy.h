@@ -94,8 +94,8 @@ class EnergyWatch {
   double credit_j() const noexcept { return credit_j_; }
   double made_j() const noexcept { return made_j_; }        ///< in the window, beyond the credit
   double allowed_j() const noexcept { return allowed_j_; }  ///< in the window
-  /// Observed energy: made by the loop > 0, stored by the hand < 0.
-  double net_j() const noexcept { return made_j_ - credit_j_; }
+  /// Observed energy: made by the loop > 0, stored in the surface by the hand < 0.
+  double net_j() const noexcept { return made_j_ - (credit_j_ < ceiling_j_ ? credit_j_ : ceiling_j_); }
   void forget() noexcept { *this = {}; }
 
  private:

@@ -93,7 +93,8 @@ void draw_limits(const UiContext& ui, const DeviceModel& devices) {
   fact(ui, "Display targets",
        printed("%.1f to %.1f", std::max(controller.lowest_m, -end) * 1e3, std::min(controller.highest_m, end) * 1e3),
        "mm");
-  fact(ui, "Oldest sample / longest tick", printed("%.0f / %.0f", limits.stale_s * 1e3, limits.late_s * 1e3), "ms");
+  fact(ui, "Oldest sample / longest tick", printed("%.0f / %.0f", limits.stale_s * 1e3, longest_tick_s(limits) * 1e3),
+       "ms");
   const auto timeout = [](double s) { return s > 0.0 ? printed("%.0f ms", s * 1e3) : std::string("none"); };
   if (const auto* can = devices.session()->force_capabilities())
     fact(ui, "Time-out, force device", timeout(can->firmware_timeout_s));
