@@ -22,6 +22,7 @@ struct DisplayCapabilities {
   double bandwidth_hz = 0.0;
   double rate_hz = 0.0;
   bool measures_position = true;    ///< false: open loop; samples repeat the last command
+  double homing_s = 10.0;           ///< homing takes no longer; 0: it is homed by hand
   double firmware_timeout_s = 0.0;  ///< firmware watchdog: stops the drive when no command comes; 0: none
   bool has_controller = false;      ///< takes gains, speed and current: see set_controller
 };

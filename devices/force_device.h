@@ -30,6 +30,7 @@ struct ForceCapabilities {
   double largest_stiffness_n_per_m = 0.0;
   Vec3 workspace_half_size_m{0.0};  ///< box around the origin
   double rate_hz = 0.0;             ///< exchanges per second it is designed for
+  double homing_s = 10.0;           ///< homing takes no longer; 0: it is homed by hand
   double firmware_timeout_s = 0.0;  ///< firmware watchdog: stops the force when no command comes; 0: none
 };
 

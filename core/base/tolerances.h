@@ -198,6 +198,11 @@ inline constexpr double kBasinCosine = 0.9;
 /// Premium 0.4 s. Larger: a switch of contacts is felt as a knock; smaller: the surface seems to give way after one.
 inline constexpr double kForceFade = 20.0;
 
+/// Seconds in which the rate at which a change of preset or scene is faded in doubles, and so on, linearly: out of a
+/// stiff surface a finger is let at kForceFade over stiffness, 6 mm/s, and one that slides quickly over tight curves
+/// would never get the force decided for it. Larger: both take longer; smaller: a deep finger is let out faster.
+inline constexpr double kChangeFade = 1.0;
+
 /// Travels of the display a second, 1/s, likewise: 0.26 m/s for 16 mm, about what its spindle can do. Larger: a leap of
 /// the contact is felt as a click; smaller: the display lags behind a finger that turns quickly.
 inline constexpr double kDisplayFade = 16.0;

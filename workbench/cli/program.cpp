@@ -1,6 +1,7 @@
 // The program: its subcommands, and the handling of invalid arguments.
 #include "workbench/cli/command.h"
 #include "workbench/cli/messages.h"
+#include "workbench/session/crash_stop.h"
 
 #include <CLI/CLI.hpp>
 
@@ -45,6 +46,7 @@ int parse_and_run(CLI::App& app, CommandResult& result, int argc, const char* co
 std::span<const AddCommand> headless_commands() { return kCommands; }
 
 int run_program(int argc, const char* const* argv, std::span<const AddCommand> commands, int (*without_command)()) {
+  install_crash_stop();
   CLI::App app("Tangent Workbench: haptic shading of contact location and force, seen and tuned", "workbench");
   app.set_version_flag("--version", "workbench " TANGENT_VERSION);
   app.require_subcommand(0, 1);

@@ -1,5 +1,7 @@
 #include "workbench/session/servo.h"
 
+#include "workbench/session/crash_stop.h"
+
 #include <pthread.h>
 #include <sched.h>
 #include <sys/mman.h>
@@ -15,6 +17,14 @@ namespace {
 bool may_lock_all() noexcept {
   rlimit limit{};
   return geteuid() == 0 || (getrlimit(RLIMIT_MEMLOCK, &limit) == 0 && limit.rlim_cur == RLIM_INFINITY);
+}
+
+/// So that no tick is the first to use a page of its stack. Far more than a tick takes.
+void touch_stack() noexcept {
+  constexpr std::size_t kBytes = 128 * 1024, kPage = 4096;
+  volatile unsigned char room[kBytes];
+  for (std::size_t i = 0; i < kBytes; i += kPage) room[i] = 0;
+  static_cast<void>(room[0]);
 }
 
 }  // namespace
@@ -53,18 +63,27 @@ void Servo::ask_for_realtime() noexcept {
   fifo_.store(pthread_setschedparam(pthread_self(), SCHED_FIFO, &priority) == 0);
   // ONFAULT: pages are locked once touched; untouched ones are not loaded.
   locked_.store(may_lock_all() && mlockall(MCL_CURRENT | MCL_FUTURE | MCL_ONFAULT) == 0);
+  touch_stack();
+  if (options_.cpu < 0) return;
+  cpu_set_t only;
+  CPU_ZERO(&only);
+  CPU_SET(static_cast<std::size_t>(options_.cpu), &only);
+  on_cpu_.store(pthread_setaffinity_np(pthread_self(), sizeof only, &only) == 0);
 }
 
 void Servo::loop() noexcept {
   ask_for_realtime();
+  const RunningServo running([](void* servo) noexcept { static_cast<Servo*>(servo)->release(); }, this);
   pacer_.start(clock_.now_ns());
-  while (!stopping_.load(std::memory_order_relaxed)) {
+  const auto ends = [this] { return stopping_.load(std::memory_order_relaxed) || servos_are_to_end(); };
+  while (!ends()) {
     clock_.sleep_until(pacer_.deadline_ns());
+    if (ends()) break;
     const std::int64_t now_ns = clock_.now_ns();
     statistics_.note_start(now_ns);
     tick_.run(pacer_.begin(now_ns));
   }
-  tick_.release(1.0 / options_.rate_hz);
+  release();
 }
 
 }  // namespace tangent

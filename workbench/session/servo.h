@@ -24,13 +24,14 @@ class Servo {
   /// Stops after the current tick, sends the devices zero force, and joins the thread.
   void stop();
   bool running() const { return thread_.joinable(); }
-  RealtimeGrant granted() const { return {fifo_.load(), locked_.load()}; }  ///< any thread
+  RealtimeGrant granted() const { return {fifo_.load(), locked_.load(), on_cpu_.load()}; }  ///< any thread
 
   /// Runs the next tick now, in the caller's thread, as if it began at its deadline. Precondition: not running.
   void run_one() noexcept;
 
  private:
   void loop() noexcept;
+  void release() noexcept { tick_.release(1.0 / options_.rate_hz); }
   void ask_for_realtime() noexcept;
 
   ServoTick& tick_;
@@ -40,7 +41,7 @@ class Servo {
   DeadlinePacer pacer_;
   std::thread thread_;
   std::atomic<bool> stopping_{false};
-  std::atomic<bool> fifo_{false}, locked_{false};
+  std::atomic<bool> fifo_{false}, locked_{false}, on_cpu_{false};
 };
 
 }  // namespace tangent

@@ -17,6 +17,7 @@ struct ServoOptions {
   double rate_hz = 1000.0;  ///< kSlowestServoHz to kFastestServoHz
   bool realtime = true;     ///< request SCHED_FIFO and locked memory; runs without if refused
   int fifo_priority = 40;
+  int cpu = -1;  ///< core for the servo's thread alone; -1: any
   /// Tick time for solver and devices. true: the deadlines (real devices); false: tick / rate (simulated devices, so
   /// that N ticks give identical results however late they ran).
   bool time_by_deadlines = false;
@@ -27,6 +28,7 @@ struct ServoOptions {
 struct RealtimeGrant {
   bool fifo = false;
   bool memory_locked = false;
+  bool on_cpu = false;  ///< on the core that was asked for
 };
 
 /// Counters of the servo. Each is consistent by itself; together they are not a snapshot of one instant.

@@ -1,6 +1,7 @@
 #include "workbench/session/servo_tick.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace tangent {
 
@@ -16,6 +17,12 @@ GateLimits gate_limits(const DeviceSet& devices) {
   return limits;
 }
 
+/// Wishes to home of devices that are not there never matter.
+static Arming arming_for(const DeviceSet& devices) {
+  const double force = devices.force ? devices.force->capabilities().homing_s : 0.0;
+  return {force, devices.display ? devices.display->capabilities().homing_s : 0.0};
+}
+
 ServoTick::ServoTick(DeviceSet& devices, ServoChannels& channels, ServoStatistics& statistics,
                      std::unique_ptr<PreparedScene> scene, const PresetLetter& preset, NanosecondClock clock)
     : devices_(devices),
@@ -24,7 +31,8 @@ ServoTick::ServoTick(DeviceSet& devices, ServoChannels& channels, ServoStatistic
       clock_(clock),
       gate_(gate_limits(devices)),
       scene_(scene.release()),
-      preset_(preset) {
+      preset_(preset),
+      arming_(arming_for(devices)) {
   const HandTarget start = hand_.begin(scene_->path, pad_distance_m(preset_.preset.finger));
   force_sample_.position_m = start.position_m;
   force_sample_.orientation = start.orientation;
@@ -36,7 +44,10 @@ ServoTick::ServoTick(DeviceSet& devices, ServoChannels& channels, ServoStatistic
 ServoTick::~ServoTick() { delete scene_; }
 
 void ServoTick::take_letters() noexcept {
-  if (channels_.presets.take(preset_) && devices_.display) devices_.display->set_controller(preset_.preset.controller);
+  if (channels_.presets.take(preset_)) {
+    begin_change(state_.rendered);
+    if (devices_.display) devices_.display->set_controller(preset_.preset.controller);
+  }
   HandCommand hand;
   if (channels_.hand.take(hand)) hand_.command(hand);
   FaultLetter fault;
@@ -44,56 +55,69 @@ void ServoTick::take_letters() noexcept {
     if (fault.display && devices_.display) devices_.display->inject(fault.injection);
     if (!fault.display && devices_.force) devices_.force->inject(fault.injection);
   }
+  take_force_switch();
+}
+
+// A stop is never lost, and drops a wish that came with it: which of them was first can't be told.
+void ServoTick::take_force_switch() noexcept {
   ForceSwitch wanted{};
-  if (!channels_.force.take(wanted)) return;
-  arming_wanted_ = wanted == ForceSwitch::arm;
-  if (wanted != ForceSwitch::stop) homing_wanted_ = clearing_wanted_ = true;
-  rehoming_wanted_ = wanted == ForceSwitch::home;
-  if (!arming_wanted_) gate_.stop();
+  const bool stop = channels_.stop.exchange(false, std::memory_order_acq_rel);
+  const bool any = channels_.force.take(wanted);
+  if (!stop && !any) return;
+  if (stop) wanted = ForceSwitch::stop;
+  arming_.ask(wanted);
+  if (wanted != ForceSwitch::arm) gate_.stop();
 }
 
 void ServoTick::take_scene() noexcept {
   PreparedScene* scene = channels_.scenes.take(scene_);
   if (scene == nullptr) return;
   scene_ = scene;
-  state_ = TickState{};
-  gate_.restart_ramp();
-  // The surface under the finger was replaced: a simulated hand starts again, off the surface.
   const HandTarget start = hand_.begin(scene_->path, pad_distance_m(preset_.preset.finger));
-  if (devices_.force && devices_.force->hand()) devices_.force->hand()->place(start);
+  SimulatedHand* hand = devices_.force ? devices_.force->hand() : nullptr;
+  if (hand != nullptr || !devices_.force) {
+    // The surface under the finger was replaced: a finger that is led starts again, off the surface.
+    state_ = TickState{};
+    gate_.restart_ramp();
+    if (hand != nullptr) hand->place(start);
+  } else {
+    forget_scene(state_);
+  }
   place_workspace();
 }
 
 // A simulated device's workspace is centred on the scene, a real one's on the world's origin.
 void ServoTick::place_workspace() noexcept {
-  if (devices_.force && devices_.force->hand()) gate_.place_workspace(scene_->scene->mesh().origin());
+  if (!devices_.force || !devices_.force->hand()) return;
+  workspace_centre_m_ = scene_->scene->mesh().origin();
+  gate_.place_workspace(workspace_centre_m_);
 }
 
-// A missing device counts as ready. Requests travel with the next command.
-void ServoTick::bring_up() noexcept {
-  const auto request = [this](DeviceState state) {
-    if (state == DeviceState::firmware) return DeviceRequest::home;
-    if (state == DeviceState::ready && rehoming_wanted_) return DeviceRequest::home;
-    if (state == DeviceState::faulted && clearing_wanted_) return DeviceRequest::clear_fault;
-    return DeviceRequest::none;
-  };
-  force_command_.request = display_command_.request = DeviceRequest::none;
-  if (!homing_wanted_) {
-    // A display plugged in while the gate is live homes automatically. After a fault a person decides.
-    const bool well = gate_.state() == GateState::ramping || gate_.state() == GateState::armed;
-    if (well) display_command_.request = request(display_sample_.state);
-    return;
+bool ServoTick::outside_workspace() const noexcept {
+  bool outside = false;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double half = gate_.limits().workspace_half_size_m[axis];
+    outside = outside || (half > 0.0 && std::abs(force_sample_.position_m[axis] - workspace_centre_m_[axis]) > half);
   }
-  const auto done = [](DeviceState state) { return state == DeviceState::ready || state == DeviceState::absent; };
-  if (done(force_sample_.state) && done(display_sample_.state) && tick_ > 0 && !rehoming_wanted_) {
-    homing_wanted_ = clearing_wanted_ = false;
-    if (arming_wanted_) gate_.arm();
-    arming_wanted_ = false;
-    return;
-  }
-  force_command_.request = request(force_sample_.state);
-  display_command_.request = request(display_sample_.state);
-  rehoming_wanted_ = false;
+  return outside;
+}
+
+// Requests travel with the next command.
+void ServoTick::bring_up(double dt_s, ServoRecord& record) noexcept {
+  const ArmingView seen{.known = tick_ > 0,
+                        .force = force_sample_.state,
+                        .display = display_sample_.state,
+                        .live = gate_.state() == GateState::ramping || gate_.state() == GateState::armed,
+                        .gate_faulted = gate_.state() == GateState::faulted,
+                        .outside = outside_workspace(),
+                        .force_wanted_n = force_wanted_n_};
+  const ArmingOrders orders = arming_.update(seen, dt_s);
+  force_command_.request = orders.force;
+  display_command_.request = orders.display;
+  if (orders.arm) gate_.arm();
+  if (arming_.waits_for_finger()) hand_.lift();
+  record.device.arming = arming_.stage();
+  record.device.in_the_way = arming_.obstacle();
 }
 
 void ServoTick::exchange(double dt_s, ServoRecord& record) noexcept {
@@ -151,9 +175,9 @@ void ServoTick::run(const TickTiming& timing) noexcept {
   const std::int64_t began = now();
   take_letters();
   take_scene();
-  bring_up();
-
   ServoRecord record;
+  bring_up(timing.dt_s, record);
+
   record.scene_id = scene_->id;
   record.missed_deadlines = timing.missed_deadlines;
   record.period_ns = timing.period_ns;
@@ -168,6 +192,7 @@ void ServoTick::run(const TickTiming& timing) noexcept {
   const std::int64_t step_began = now();
   tick.output = scene_->stepper.step(preset_.preset, tick.input, state_);
   tick.solve_ns = static_cast<double>(now() - step_began);
+  force_wanted_n_ = force_wanted_n(tick.output);
   gate(timing.dt_s, record);
 
   record.tick_ns = static_cast<double>(now() - began);
@@ -183,7 +208,7 @@ void ServoTick::release(double dt_s) noexcept {
   display_command_ = {.tick = tick_, .target_m = display_command_.target_m, .request = DeviceRequest::stop};
   if (devices_.force) force_sample_ = devices_.force->exchange(force_command_, dt_s);
   if (devices_.display) display_sample_ = devices_.display->exchange(display_command_, dt_s);
-  homing_wanted_ = true;
+  arming_ = arming_for(devices_);
 }
 
 }  // namespace tangent

@@ -6,6 +6,7 @@
 
 #include "devices/device_set.h"
 #include "devices/safety_gate.h"
+#include "workbench/session/arming.h"
 #include "workbench/session/deadline_pacer.h"
 #include "workbench/session/hand_lead.h"
 #include "workbench/session/servo_channels.h"
@@ -38,9 +39,11 @@ class ServoTick {
 
  private:
   void take_letters() noexcept;
+  void take_force_switch() noexcept;
   void take_scene() noexcept;
   void place_workspace() noexcept;
-  void bring_up() noexcept;
+  void bring_up(double dt_s, ServoRecord& record) noexcept;
+  bool outside_workspace() const noexcept;
   void exchange(double dt_s, ServoRecord& record) noexcept;
   void gate(double dt_s, ServoRecord& record) noexcept;
   std::int64_t now() const noexcept { return clock_ != nullptr ? clock_() : 0; }
@@ -59,10 +62,9 @@ class ServoTick {
   DisplaySample display_sample_;
   ForceCommand force_command_;
   DisplayCommand display_command_;
-  bool homing_wanted_ = true;     ///< home devices that are not ready, until each was ready once
-  bool clearing_wanted_ = false;  ///< also clear faults
-  bool rehoming_wanted_ = false;  ///< also home devices that are ready
-  bool arming_wanted_ = false;    ///< arm as soon as all devices are ready
+  Arming arming_;
+  Vec3 workspace_centre_m_{0.0};
+  double force_wanted_n_ = 0.0;  ///< of the last tick
 };
 
 }  // namespace tangent

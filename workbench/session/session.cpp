@@ -4,6 +4,7 @@
 #include "core/preset/schema.h"
 #include "devices/device_set.h"
 #include "devices/usb/packet_recorder.h"
+#include "workbench/session/cpu_wakeup.h"
 #include "workbench/session/servo.h"
 #include "workbench/session/tick_again.h"
 
@@ -33,6 +34,24 @@ Status check_options(const SessionOptions& options) {
   if (!(options.history_s >= 0.0))
     return fail("the history can't be that long", "history_s", "give seconds, 0 or more");
   return {};
+}
+
+/// What the operating system granted, and how to get the rest.
+void describe_realtime(const SessionOptions& options, bool wakes_at_once, SessionStatus& s) {
+  const RealtimeGrant& got = s.servo.realtime;
+  if (!options.threaded || !options.servo.realtime) {
+    s.realtime_note = options.threaded ? "ordinary scheduling" : "no servo thread";
+    return;
+  }
+  s.realtime_note = got.fifo ? "SCHED_FIFO " + std::to_string(options.servo.fifo_priority) : "SCHED_FIFO refused";
+  s.realtime_note += got.memory_locked ? ", memory locked" : ", memory not locked";
+  if (options.servo.cpu >= 0)
+    s.realtime_note += (got.on_cpu ? ", on core " : ", refused core ") + std::to_string(options.servo.cpu);
+  if (wakes_at_once) s.realtime_note += ", cores kept awake";
+  if (!(got.fifo && got.memory_locked))
+    s.realtime_remedy =
+        "devices/60-tangent-workbench-limits.conf lets a group have them: copy it to /etc/security/limits.d, join the "
+        "group, log in again";
 }
 
 }  // namespace
@@ -79,9 +98,20 @@ struct Session::Impl {
   Vec3 hand_point{0.0};
   TickAgain again;
 
+  CpuWakeup wakeup;
+
+  void keep_awake();
   void send_hand() { channels.hand.put({hand, hand_point}); }
   void forget_scenes();
 };
+
+/// While a real device may push. Not for simulated ones: it costs power.
+void Session::Impl::keep_awake() {
+  ServoStatus now;
+  statistics.fill(now);
+  const bool live = now.gate_state == GateState::ramping || now.gate_state == GateState::armed;
+  wakeup.hold(started && live && options.servo.realtime && !all_simulated(devices));
+}
 
 // A scene is kept while a record in the history uses it or one still in the ring may.
 void Session::Impl::forget_scenes() {
@@ -128,7 +158,9 @@ Result<std::unique_ptr<Session>> Session::create(std::shared_ptr<const ContactSc
 void Session::start() {
   if (impl_->started) return;
   impl_->started = true;
-  if (impl_->options.arm_on_start) arm();
+  const ArmOnStart wanted = impl_->options.arm_on_start;
+  const bool arms = wanted == ArmOnStart::always || (wanted == ArmOnStart::simulated && all_simulated(impl_->devices));
+  if (arms) arm();
   if (impl_->options.threaded) impl_->servo->start();
 }
 
@@ -166,6 +198,7 @@ std::size_t Session::poll() {
   }
   impl_->channels.scenes.collect();
   impl_->forget_scenes();
+  impl_->keep_awake();
   return count;
 }
 
@@ -239,7 +272,7 @@ void Session::set_hand_target(const Vec3& position_world_m) {
 }
 
 void Session::arm() { impl_->channels.force.put(ForceSwitch::arm); }
-void Session::stop() { impl_->channels.force.put(ForceSwitch::stop); }
+void Session::stop() { impl_->channels.stop.store(true, std::memory_order_release); }
 void Session::home() { impl_->channels.force.put(ForceSwitch::home); }
 void Session::inject(const FaultInjection& fault, bool display) { impl_->channels.faults.put({fault, display}); }
 
@@ -281,16 +314,12 @@ SessionStatus Session::status() const {
     s.force_fault = device.force_fault;
     s.display_state = device.display_state;
     s.display_fault = device.display_fault;
+    s.arming = device.arming;
+    s.in_the_way = device.in_the_way;
+    s.force_wanted_n = force_wanted_n(impl_->history.newest().tick.output);
   }
-  const RealtimeGrant& got = s.servo.realtime;
-  if (!impl_->options.threaded)
-    s.realtime_note = "no servo thread";
-  else if (!impl_->options.servo.realtime)
-    s.realtime_note = "ordinary scheduling";
-  else
-    s.realtime_note = std::string(got.fifo ? "SCHED_FIFO " + std::to_string(impl_->options.servo.fifo_priority)
-                                           : "SCHED_FIFO refused") +
-                      (got.memory_locked ? ", memory locked" : ", memory not locked");
+  s.real_devices = !all_simulated(impl_->devices);
+  describe_realtime(impl_->options, impl_->wakeup.held(), s);
   return s;
 }
 

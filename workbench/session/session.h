@@ -33,6 +33,9 @@ class ExplorationPath;
 /// Upper limit of the history's memory, whatever its length and rate.
 inline constexpr std::size_t kLargestHistoryBytes = std::size_t{1} << 30;
 
+/// Whether `start` arms. Simulated devices push nobody; before a real one pushes, a person says so.
+enum class ArmOnStart : std::uint8_t { never, simulated, always };
+
 struct SessionOptions {
   ServoOptions servo;
   std::string devices = "simulated";  ///< see devices/device_set.h
@@ -42,7 +45,7 @@ struct SessionOptions {
   std::uint64_t seed = 1;         ///< of the simulated devices
   double history_s = 600.0;       ///< length of the history, within kLargestHistoryBytes
   bool threaded = true;
-  bool arm_on_start = true;
+  ArmOnStart arm_on_start = ArmOnStart::simulated;
   HandSettings hand;
 };
 
@@ -59,7 +62,12 @@ struct SessionStatus {
   DeviceFault force_fault = DeviceFault::none, display_fault = DeviceFault::none;
   std::uint32_t preset_sent = 0;  ///< newest preset sent; servo.preset_id is the one in use
   std::uint32_t scene_sent = 0;
-  std::string realtime_note;  ///< "SCHED_FIFO 40, memory locked", or what was refused
+  ArmingStage arming = ArmingStage::idle;
+  ArmingObstacle in_the_way = ArmingObstacle::none;
+  double force_wanted_n = 0.0;  ///< what the newest tick would push with
+  std::string realtime_note;    ///< "SCHED_FIFO 40, memory locked", or what was refused
+  std::string realtime_remedy;  ///< what to do about what was refused; empty: nothing was
+  bool real_devices = false;    ///< one at least is not simulated
 };
 
 /// Everything needed to step the history again, in any thread: records, presets by id, scenes by id.
@@ -80,7 +88,7 @@ class Session {
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
-  void start();      ///< starts the servo thread (threaded), homes, and arms if arm_on_start
+  void start();      ///< starts the servo thread (threaded), homes, and arms if arm_on_start says so
   void shut_down();  ///< stops force and thread; keeps the history. Also called by the destructor
   bool running() const;
   /// Not threaded: runs n ticks and polls them into the history. Threaded: does nothing.
@@ -114,8 +122,9 @@ class Session {
   void set_hand(const HandSettings& settings);
   const HandSettings& hand() const;
   void set_hand_target(const Vec3& position_world_m);  ///< also selects HandMode::point. Ignored when not finite
-  void arm();                                          ///< also clears faults and homes where needed
-  void stop();                                         ///< no force until armed
+  void arm();                                          ///< one attempt (arming.h): also clears faults and homes
+  void stop();                                         ///< no force until armed, and nothing pending: no later call
+                                                       ///< replaces it
   void home();                                         ///< stops, and homes the devices again
   /// Injects a fault into the simulated display or force device. Ignored by real devices.
   void inject(const FaultInjection& fault, bool display);

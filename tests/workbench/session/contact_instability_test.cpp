@@ -63,9 +63,12 @@ Run press(SimulatedForceOptions o, double stiffness, double aim_m = 1e-3, int ti
   const double top = 0.040 + preset.finger.radius_m;
   HandCommand hand;
   hand.settings.mode = HandMode::point;
-  hand.point_m = Vec3(0, 0, top - aim_m);
+  hand.point_m = Vec3(0, 0, top + 2e-3);  // armed off the surface
   bench.channels.hand.put(hand);
   bench.arm();
+  REQUIRE(bench.run(500).device.gate_state == GateState::armed);
+  hand.point_m = Vec3(0, 0, top - aim_m);
+  bench.channels.hand.put(hand);
   Run run;
   double low = 1e9, high = -1e9;
   for (int i = 0; i < ticks; ++i) {

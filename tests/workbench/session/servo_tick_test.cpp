@@ -16,20 +16,26 @@ using namespace tangent::test;
 
 namespace {
 
-/// A puppet that holds the finger 1 mm deep in the sphere: a force of 0.8 N with the default preset.
+const Vec3 kLifted(0.0, 0.0, 0.0605), kPressed(0.0, 0.0, 0.059);
+
+/// A puppet that holds the finger 1 mm deep in the sphere: a force of 0.8 N with the default preset. To be armed the
+/// finger is lifted.
 struct PressedBench {
   PuppetForceDevice* device = new PuppetForceDevice;
   TickBench bench;
 
-  PressedBench() : bench(with(device), sphere_scene()) { device->position = Vec3(0.0, 0.0, 0.059); }
+  PressedBench() : bench(with(device), sphere_scene()) { device->position = kPressed; }
   static DeviceSet with(PuppetForceDevice* puppet) {
     DeviceSet set;
     set.force.reset(puppet);
     return set;
   }
   void run_until_armed() {
+    device->position = kLifted;
     bench.arm();
-    const ServoRecord record = bench.run(400);
+    bench.run(400);
+    device->position = kPressed;
+    const ServoRecord record = bench.run(100);
     REQUIRE(record.device.gate_state == GateState::armed);
     REQUIRE(glm::length(device->commands.back().force_n) > 0.5);
   }
@@ -110,8 +116,8 @@ TEST_CASE("the same seed gives the same records, bit by bit") {
 
 TEST_CASE("a preset is applied whole at the next tick, and the record says which one ran") {
   PressedBench p;
-  p.bench.arm();
-  CHECK(p.bench.run(400).tick.preset_id == 0);
+  p.run_until_armed();
+  CHECK(p.bench.run().tick.preset_id == 0);
   const double before = glm::length(p.bench.run().tick.output.decided_force_n);
   Preset stiff;
   stiff.force.stiffness_n_per_m *= 2.0;

@@ -11,10 +11,12 @@ namespace {
 SessionOptions session_options(const AppOptions& from) {
   SessionOptions options;
   options.servo.rate_hz = from.servo_hz;
+  options.servo.cpu = from.servo_cpu;
   options.devices = from.device;
   options.packets = from.packets;
   options.seed = from.seed;
   options.history_s = from.history_s;
+  options.arm_on_start = from.arm_on_start;
   options.threaded = !from.deterministic;
   return options;
 }
@@ -53,6 +55,7 @@ void DeviceModel::make_session() {
   }
   session_ = std::move(*session);
   session_->start();
+  options_.arm_on_start = ArmOnStart::never;  // a choice of devices or a calibration arms nothing
   status_ = session_->status();
 }
 
@@ -84,7 +87,7 @@ void DeviceModel::take_status() {
   status_ = session_->status();
   const GateFault gate_fault = status_.servo.gate_fault;
   if (gate_fault != last_gate_fault_ && gate_fault != GateFault::none)
-    messages_.say(Severity::error, std::string("force stopped: ") + to_string(gate_fault) + "; press Arm to go on");
+    messages_.say(Severity::error, std::string("force stopped: ") + to_string(gate_fault) + "; Arm lets it in again");
   last_gate_fault_ = gate_fault;
   if (status_.force_fault != last_fault_ && status_.force_fault != DeviceFault::none)
     messages_.say(Severity::error, std::string("force device: ") + to_string(status_.force_fault));
@@ -131,12 +134,22 @@ bool DeviceModel::stopped() const {
   return status_.servo.gate_state == GateState::disarmed || status_.servo.gate_state == GateState::faulted;
 }
 
-void DeviceModel::toggle_stop() {
-  if (session_ == nullptr) return;
-  if (stopped())
-    session_->arm();
-  else
-    session_->stop();
+void DeviceModel::stop() {
+  if (session_ != nullptr) session_->stop();
+}
+
+void DeviceModel::arm() {
+  if (session_ != nullptr) session_->arm();
+}
+
+std::string DeviceModel::arming_text() const {
+  if (session_ == nullptr || !stopped()) return {};
+  if (session_->force_capabilities() == nullptr && session_->display_capabilities() == nullptr) return {};
+  const ServoStatus& servo = status_.servo;
+  const bool faulted = servo.gate_state == GateState::faulted && status_.arming != ArmingStage::arming;
+  if (faulted) return std::string("No force: ") + to_string(servo.gate_fault);
+  const std::string text = tangent::arming_text(status_.arming, status_.in_the_way, status_.force_wanted_n);
+  return text.empty() ? "No force" : text;
 }
 
 }  // namespace tangent

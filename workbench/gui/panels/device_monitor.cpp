@@ -58,10 +58,10 @@ void draw_states(const UiContext& ui, DeviceModel& devices) {
        : s.servo.gate_state == GateState::armed ? ui.colours.good
                                                 : ui.colours.warning);
   ImGui::Dummy({1, ui.px(2)});
-  if (text_button(ui, "monitor/arm", "Re-arm", "Clears faults, homes what has to be homed, and lets the force grow in"))
+  if (text_button(ui, "monitor/arm", "Re-arm",
+                  "One attempt: clears faults, homes what has to be homed, waits until the finger is off the surface, "
+                  "and lets the force grow in"))
     session.arm();
-  ImGui::SameLine();
-  if (text_button(ui, "monitor/stop", "Stop", "No force until armed (Escape)")) session.stop();
   ImGui::SameLine();
   if (text_button(ui, "monitor/home", "Home", "No force, and both devices find their zero again")) session.home();
 }
