@@ -5,42 +5,118 @@
 #include "devices/simulated/simulated_force_device.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace tangent {
 
-const std::vector<std::string>& device_set_names() {
-  static const std::vector<std::string> names{"simulated", "ideal", "cld", "maestro", "none"};
+namespace {
+
+template <class Device>
+struct DeviceKind {
+  const char* name;
+  std::unique_ptr<Device> (*make)(const DeviceOptions& options);
+};
+
+std::unique_ptr<ForceDevice> simulated_force(const DeviceOptions& options) {
+  return std::make_unique<SimulatedForceDevice>(SimulatedForceOptions{.seed = options.seed});
+}
+
+std::unique_ptr<ForceDevice> ideal_force(const DeviceOptions& options) {
+  SimulatedForceOptions ideal{.seed = options.seed};
+  ideal.position_step_m = ideal.tremor_m = ideal.friction_n = 0.0;
+  return std::make_unique<SimulatedForceDevice>(ideal);
+}
+
+std::unique_ptr<ContactDisplay> simulated_display(const DeviceOptions& options) {
+  SimulatedDisplayOptions wanted;
+  wanted.seed = options.seed;
+  return std::make_unique<SimulatedContactDisplay>(wanted);
+}
+
+std::unique_ptr<ContactDisplay> ideal_display(const DeviceOptions& options) {
+  SimulatedDisplayOptions ideal;
+  ideal.seed = options.seed;
+  ideal.mechanism.step_m = ideal.mechanism.backlash_m = 0.0;
+  return std::make_unique<SimulatedContactDisplay>(ideal);
+}
+
+std::unique_ptr<ContactDisplay> cld(const DeviceOptions& options) {
+  CldControllerOptions wanted;
+  wanted.tap = options.tap;
+  return std::make_unique<CldController>(wanted);
+}
+
+std::unique_ptr<ContactDisplay> maestro(const DeviceOptions& options) {
+  MaestroOptions wanted = options.maestro;
+  wanted.tap = options.tap;
+  return std::make_unique<MaestroDisplay>(wanted);
+}
+
+// A new device is one row here.
+constexpr DeviceKind<ForceDevice> kForceDevices[] = {
+    {"simulated", simulated_force},
+    {"ideal", ideal_force},
+    {"none", [](const DeviceOptions&) { return std::unique_ptr<ForceDevice>(); }},
+};
+constexpr DeviceKind<ContactDisplay> kContactDisplays[] = {
+    {"simulated", simulated_display},
+    {"ideal", ideal_display},
+    {"cld", cld},
+    {"maestro", maestro},
+    {"none", [](const DeviceOptions&) { return std::unique_ptr<ContactDisplay>(); }},
+};
+
+template <class Kinds>
+std::vector<std::string> names_of(const Kinds& kinds) {
+  std::vector<std::string> names;
+  for (const auto& kind : kinds) names.push_back(kind.name);
   return names;
 }
 
-Result<DeviceSet> make_devices(std::string_view name, const DeviceOptions& options) {
-  const auto& names = device_set_names();
-  if (std::find(names.begin(), names.end(), name) == names.end()) {
-    return fail("unknown device \"" + std::string(name) + "\"", "--device",
-                "choose simulated, ideal, cld, maestro or none");
-  }
-  DeviceSet set;
-  if (name == "none") return set;
-  SimulatedForceOptions force;
-  SimulatedDisplayOptions display;
-  force.seed = display.seed = options.seed;
-  if (name == "ideal") {
-    force.position_step_m = force.tremor_m = force.friction_n = 0.0;
-    display.mechanism.step_m = display.mechanism.backlash_m = 0.0;
-  }
-  set.force = std::make_unique<SimulatedForceDevice>(force);
-  if (name == "cld") {
-    CldControllerOptions cld;
-    cld.tap = options.tap;
-    set.display = std::make_unique<CldController>(cld);
-  } else if (name == "maestro") {
-    MaestroOptions maestro = options.maestro;
-    maestro.tap = options.tap;
-    set.display = std::make_unique<MaestroDisplay>(maestro);
-  } else {
-    set.display = std::make_unique<SimulatedContactDisplay>(display);
-  }
-  return set;
+template <class Kinds>
+auto find_kind(const Kinds& kinds, std::string_view name) {
+  return std::find_if(std::begin(kinds), std::end(kinds), [&](const auto& kind) { return kind.name == name; });
+}
+
+tl::unexpected<Error> unknown(const char* what, std::string_view name, const char* option,
+                              const std::vector<std::string>& names) {
+  std::string choices = names.front();
+  for (std::size_t i = 1; i < names.size(); ++i) choices += (i + 1 < names.size() ? ", " : " or ") + names[i];
+  return fail("unknown " + std::string(what) + " \"" + std::string(name) + "\"", option, "choose " + choices);
+}
+
+}  // namespace
+
+const std::vector<std::string>& force_device_names() {
+  static const std::vector<std::string> names = names_of(kForceDevices);
+  return names;
+}
+
+const std::vector<std::string>& contact_display_names() {
+  static const std::vector<std::string> names = names_of(kContactDisplays);
+  return names;
+}
+
+Result<DeviceNames> devices_by_one_name(std::string_view name) {
+  if (find_kind(kContactDisplays, name) == std::end(kContactDisplays))
+    return unknown("device", name, "--device", contact_display_names());
+  DeviceNames names;
+  names.display = name;
+  if (find_kind(kForceDevices, name) != std::end(kForceDevices)) names.force = name;
+  return names;
+}
+
+std::string to_string(const DeviceNames& names) {
+  return names.force == names.display ? names.force : names.force + " and " + names.display;
+}
+
+Result<DeviceSet> make_devices(const DeviceNames& names, const DeviceOptions& options) {
+  const auto* force = find_kind(kForceDevices, names.force);
+  if (force == std::end(kForceDevices)) return unknown("force device", names.force, "--force", force_device_names());
+  const auto* display = find_kind(kContactDisplays, names.display);
+  if (display == std::end(kContactDisplays))
+    return unknown("contact display", names.display, "--display", contact_display_names());
+  return DeviceSet{force->make(options), display->make(options)};
 }
 
 bool all_simulated(const DeviceSet& devices) {

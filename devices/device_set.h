@@ -1,4 +1,4 @@
-// The devices of a session, chosen by name. Either may be missing.
+// The devices of a session, force and display, each chosen by name. Either may be missing.
 #pragma once
 
 #include "devices/contact_display.h"
@@ -24,14 +24,27 @@ struct DeviceOptions {
   UsbTap* tap = nullptr;  ///< sees every USB packet; must outlive the devices
 };
 
-/// "simulated": force device and contact display with the data of real ones (PHANToM Premium 1.5, the paper's CLD).
-/// "ideal": the same without encoder steps, tremor, friction and backlash.
-/// "cld": a CLD controller on USB and the simulated force device. "maestro": a servo on a Pololu Maestro, likewise.
-/// "none": neither.
-const std::vector<std::string>& device_set_names();
+/// Which force device and which contact display; any two go together.
+struct DeviceNames {
+  std::string force = "simulated";
+  std::string display = "simulated";
+  friend bool operator==(const DeviceNames&, const DeviceNames&) = default;
+};
 
-/// Makes the devices of that set, not yet opened. Fails on an unknown name; the error lists the choices.
-Result<DeviceSet> make_devices(std::string_view name, const DeviceOptions& options = {});
+/// "simulated": with the data of a real one (PHANToM Premium 1.5). "ideal": the same without encoder steps, tremor and
+/// friction. "none": no force device.
+const std::vector<std::string>& force_device_names();
+/// "simulated": with the data of the paper's CLD. "ideal": the same without steps and backlash. "cld": a CLD controller
+/// on USB. "maestro": a servo on a Pololu Maestro. "none": no display.
+const std::vector<std::string>& contact_display_names();
+/// One word for both (--device): the display's name, with the force device of that name or, where there is none of that
+/// name, the simulated one.
+Result<DeviceNames> devices_by_one_name(std::string_view name);
+/// "simulated" where both have the name, "simulated and cld" otherwise.
+std::string to_string(const DeviceNames& names);
+
+/// Makes the devices, not yet opened. Fails on an unknown name; the error lists the choices.
+Result<DeviceSet> make_devices(const DeviceNames& names, const DeviceOptions& options = {});
 
 /// Whether every device of the set is simulated. Simulated devices advance with the servo's ticks, real ones with the
 /// clock.

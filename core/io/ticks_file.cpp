@@ -73,7 +73,7 @@ std::string_view not_finite(const TickRow& row) {
 Status append_tick_row(std::string& text, const TickRow& row) {
   if (const std::string_view column = not_finite(row); !column.empty()) {
     return fail(std::string(column) + " is not finite", "tick " + std::to_string(row.tick),
-                "report this with mesh, poses and preset: it is a slip of the solver");
+                "this is a bug in the solver: please report it with mesh, poses and preset");
   }
   const TickOutput& o = row.output;
   append_field(text, static_cast<std::int64_t>(row.tick));

@@ -4,22 +4,45 @@
 
 using namespace tangent;
 
-TEST_CASE("every named device set can be made, and says what it can do") {
-  for (const std::string& name : device_set_names()) {
-    const auto set = make_devices(name);
-    REQUIRE(set);
-    CHECK((set->force == nullptr) == (name == "none"));
-    CHECK((set->display == nullptr) == (name == "none"));
-    if (!set->force) continue;
-    CHECK(set->force->capabilities().peak_force_n == 8.5);
-    CHECK(set->force->hand() != nullptr);
-    CHECK(set->display->capabilities().travel_m == doctest::Approx(0.02));
-    CHECK(set->force->capabilities().position_resolution_m == (name == "ideal" ? 0.0 : 0.03e-3));
+TEST_CASE("any force device goes with any contact display, and each says what it can do") {
+  for (const std::string& force : force_device_names()) {
+    for (const std::string& display : contact_display_names()) {
+      CAPTURE(force);
+      CAPTURE(display);
+      const auto set = make_devices({force, display});
+      REQUIRE(set);
+      CHECK((set->force == nullptr) == (force == "none"));
+      CHECK((set->display == nullptr) == (display == "none"));
+      if (set->force) {
+        CHECK(set->force->capabilities().peak_force_n == 8.5);
+        CHECK(set->force->hand() != nullptr);
+        CHECK(set->force->capabilities().position_resolution_m == (force == "ideal" ? 0.0 : 0.03e-3));
+      }
+      if (set->display) CHECK(set->display->capabilities().travel_m == doctest::Approx(0.02));
+    }
   }
 }
 
-TEST_CASE("an unknown device set is refused with the choices") {
-  const auto set = make_devices("phantom");
-  REQUIRE_FALSE(set);
-  for (const std::string& name : device_set_names()) CHECK(set.error().remedy.find(name) != std::string::npos);
+TEST_CASE("one name stands for both devices") {
+  CHECK(*devices_by_one_name("simulated") == DeviceNames{"simulated", "simulated"});
+  CHECK(*devices_by_one_name("ideal") == DeviceNames{"ideal", "ideal"});
+  CHECK(*devices_by_one_name("cld") == DeviceNames{"simulated", "cld"});
+  CHECK(*devices_by_one_name("maestro") == DeviceNames{"simulated", "maestro"});
+  CHECK(*devices_by_one_name("none") == DeviceNames{"none", "none"});
+  CHECK(to_string(DeviceNames{"ideal", "ideal"}) == "ideal");
+  CHECK(to_string(DeviceNames{"ideal", "cld"}) == "ideal and cld");
+}
+
+TEST_CASE("an unknown device is refused with the choices and the option it came from") {
+  const auto one = devices_by_one_name("phantom");
+  REQUIRE_FALSE(one);
+  CHECK(one.error().remedy == "choose simulated, ideal, cld, maestro or none");
+  const auto force = make_devices({"cld", "simulated"});
+  REQUIRE_FALSE(force);
+  CHECK(force.error().where == "--force");
+  CHECK(force.error().remedy == "choose simulated, ideal or none");
+  const auto display = make_devices({"simulated", "phantom"});
+  REQUIRE_FALSE(display);
+  CHECK(display.error().where == "--display");
+  CHECK(display.error().remedy == "choose simulated, ideal, cld, maestro or none");
 }

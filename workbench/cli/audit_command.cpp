@@ -60,7 +60,7 @@ void add_audit_command(CLI::App& app, CommandResult& result) {
   CLI::App* command = add_command(app, "audit", "Mesh health: counts, boundaries, defects, angles, smoothness");
   auto options = std::make_shared<AuditOptions>();
   add_mesh_options(*command, options->mesh);
-  add_text_option(*command, "--json", options->json, "The same for programs", "F.json");
+  add_text_option(*command, "--json", options->json, "The same report as JSON", "F.json");
   add_text_option(*command, "--heat-map", options->heat_map,
                   "Per triangle, the largest angle to a neighbour and its ratio to the threshold", "F.csv");
   add_choice_option(*command, "--condition", kConditionNames,

@@ -121,7 +121,7 @@ std::string audit_text(const MeshAudit& a, const PerceptionAudit& perception, in
   text += row("normals used", mesh.normals_used() == NormalSource::file ? "from the file" : "computed");
   text += row("content hash", hash_text(mesh.content_hash()));
   const std::string defects = defects_text(mesh);
-  text += defects.empty() ? "found nothing that can't be used\n"
+  text += defects.empty() ? "no defects found\n"
                           : "found and dealt with (numbers of the first, counted from 0)\n" + defects;
   text += smoothness_text(perception, condition);
   for (const std::string& note : mesh.notes()) text += "note: " + note + "\n";

@@ -161,7 +161,7 @@ void add_bench_command(CLI::App& app, CommandResult& result) {
   add_number_option(*command, "--ticks", {.min = 1, .max = 10'000'000, .whole = true},
                     "Ticks of each scene (default 10000)", [o](double n) { o->measure.ticks = static_cast<int>(n); });
   add_number_option(*command, "--repeats", {.min = 1, .max = 100, .whole = true},
-                    "Passes; a tick's time is its least (default 3)",
+                    "Passes; a tick's time is the least of them (default 3)",
                     [o](double n) { o->measure.repeats = static_cast<int>(n); });
   add_number_option(*command, "--max-triangles", {.min = 1280, .max = 6e6, .whole = true},
                     "Largest mesh of the scale suite (default all)",
@@ -170,7 +170,7 @@ void add_bench_command(CLI::App& app, CommandResult& result) {
   add_text_option(*command, "--json", options->json, "Everything measured", "F.json");
   add_text_option(*command, "--plot", options->plot, "Time against error as the tolerance sweeps from 1e-3 to 1e-9 mm",
                   "F.svg");
-  add_text_option(*command, "--meshes", options->meshes, "Real meshes besides: NAME.obj, fitted to 80 mm", "DIR");
+  add_text_option(*command, "--meshes", options->meshes, "Folder of more meshes: NAME.obj, fitted to 80 mm", "DIR");
   add_text_option(*command, "--poses", options->poses, "Poses on them: NAME-rXXX.csv, finger radius XXX mm", "DIR");
   require_together(*command, "--meshes", "--poses");
   on_run(*command, [options, &result] {

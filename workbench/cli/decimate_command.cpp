@@ -194,8 +194,9 @@ Status run_decimate(const DecimateOptions& options, bool& complete) {
 }  // namespace
 
 void add_decimate_command(CLI::App& app, CommandResult& result) {
-  CLI::App* command =
-      add_command(app, "decimate", "As few triangles as a finger can't tell from many, under a rendering condition");
+  CLI::App* command = add_command(
+      app, "decimate",
+      "Reduce a mesh to as few triangles as a finger can't tell from the original, under a rendering condition");
   auto options = std::make_shared<DecimateOptions>();
   add_mesh_options(*command, options->mesh);
   add_text_option(*command, "--out", options->out, "The coarse mesh, with normals, in the unit of MESH", "F.obj",

@@ -4,10 +4,25 @@
 
 namespace tangent {
 
+namespace {
+
+std::vector<std::string_view> views(const std::vector<std::string>& names) { return {names.begin(), names.end()}; }
+
+}  // namespace
+
 void add_device_options(CLI::App& command, DeviceChoice& choice) {
-  add_text_option(command, "--device", choice.device,
-                  "Devices to use: simulated, ideal, cld, maestro or none (default simulated)", "NAME");
-  add_text_option(command, "--packets", choice.packets, "Write every USB packet into this file, as evidence", "F.txt");
+  static const std::vector<std::string_view> forces = views(force_device_names());
+  static const std::vector<std::string_view> displays = views(contact_display_names());
+  const auto at = [](int i) { return static_cast<std::size_t>(i); };
+  // Options take effect in this order: --force and --display say more than --device, wherever they stand.
+  add_choice_option(command, "--device", displays,
+                    "Short for both: that display, with the force device of the same name, or else the simulated one",
+                    [&choice, at](int i) { choice.names = *devices_by_one_name(displays[at(i)]); });
+  add_choice_option(command, "--force", forces, "Force device (default simulated)",
+                    [&choice, at](int i) { choice.names.force = forces[at(i)]; });
+  add_choice_option(command, "--display", displays, "Contact location display (default simulated)",
+                    [&choice, at](int i) { choice.names.display = displays[at(i)]; });
+  add_text_option(command, "--packets", choice.packets, "Log every USB packet to this file, for bug reports", "F.txt");
   add_number_option(command, "--servo-cpu", {.min = 0, .max = 1023, .whole = true},
                     "Processor core for the servo's thread alone (default: any)",
                     [&choice](double v) { choice.servo_cpu = static_cast<int>(v); });

@@ -94,7 +94,7 @@ std::string attached_text(const UsbDeviceInfo& d, const char* kind, bool cld, nl
 
 Status run_devices(const std::filesystem::path& json_file) {
   std::string text = "Simulated\n\n";
-  const auto simulated = make_devices("simulated");
+  const auto simulated = make_devices(DeviceNames{});
   const DisplayCapabilities& display = simulated->display->capabilities();
   text += force_text(simulated->force->capabilities()) + "\n" +
           display_text(display.name, display.travel_m, display.resolution_m, display.bandwidth_hz, display.rate_hz,

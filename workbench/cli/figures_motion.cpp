@@ -78,21 +78,19 @@ plot F using 'finger_travel_mm':'smooth_curve_mm' with lines ls 8 title 'smooth 
   return figure;
 }
 
-Figure conditions_figure(bool at_threshold) {
-  Figure figure{
-      .name = at_threshold ? "conditions-at-threshold" : "conditions-five-segments",
-      .title = at_threshold
-                   ? "force direction and contact location of the six conditions, each at its threshold's segment count"
-                   : "the same at five segments, where every condition can be told apart",
-      .width_px = 1180,
-      .height_px = 560};
+/// The segments of a condition's arc: as many as its threshold, or five.
+int segments_of(const RenderingCondition& condition, bool at_threshold) {
+  return at_threshold ? threshold_segments(condition.name) : 5;
+}
+
+/// Two columns a condition, force direction and contact location, along the same travel.
+FigureTable conditions_table(bool at_threshold) {
   FigureTable table{{"travel_mm", "circle_deg", "circle_mm"}, {}};
   std::vector<std::vector<Sample>> runs;
   for (const RenderingCondition& condition : kRenderingConditions) {
-    const int segments = at_threshold ? threshold_segments(condition.name) : 5;
     Preset preset = figure_preset();
     set_condition(preset, condition);
-    runs.push_back(slide(curve_of(make_paper_arc(segments)), preset));
+    runs.push_back(slide(curve_of(make_paper_arc(segments_of(condition, at_threshold))), preset));
     const std::string name(condition.name);
     table.columns.push_back(name + "_force_deg");
     table.columns.push_back(name + "_contact_mm");
@@ -106,19 +104,23 @@ Figure conditions_figure(bool at_threshold) {
     }
     table.rows.push_back(std::move(row));
   }
-  figure.data.push_back({"", std::move(table)});
+  return table;
+}
+
+/// gnuplot's arrays C, the names of the conditions, and T, the titles of their pictures.
+std::string condition_arrays(bool at_threshold) {
   std::string names, titles;
   for (const RenderingCondition& condition : kRenderingConditions) {
-    const int segments = at_threshold ? threshold_segments(condition.name) : 5;
     const std::string name(condition.name), comma(names.empty() ? "" : ", ");
     names += comma + "'" + name + "'";
-    titles += comma + format("'%s, %d segments'", name.c_str(), segments);
+    titles += comma + format("'%s, %d segments'", name.c_str(), segments_of(condition, at_threshold));
   }
   const std::string count = "[" + std::to_string(kRenderingConditions.size()) + "]";
-  figure.script =
-      "F = DIR.'/" + figure.name + ".csv'\narray C" + count + " = [" + names + "]\narray T" + count + " = [" + titles;
-  figure.script += R"(]
-set multiplot
+  return "array C" + count + " = [" + names + "]\narray T" + count + " = [" + titles + "]\n";
+}
+
+// Six pictures side by side: force direction above, contact location below, the circle's own in grey.
+constexpr const char* kConditionsScript = R"(set multiplot
 set key off
 set xrange [-50:50]
 set xtics -40,20,40
@@ -149,6 +151,17 @@ do for [i=1:6] {
 }
 unset multiplot
 )";
+
+Figure conditions_figure(bool at_threshold) {
+  Figure figure{
+      .name = at_threshold ? "conditions-at-threshold" : "conditions-five-segments",
+      .title = at_threshold
+                   ? "force direction and contact location of the six conditions, each at its threshold's segment count"
+                   : "the same at five segments, where every condition can be told apart",
+      .width_px = 1180,
+      .height_px = 560};
+  figure.data.push_back({"", conditions_table(at_threshold)});
+  figure.script = "F = DIR.'/" + figure.name + ".csv'\n" + condition_arrays(at_threshold) + kConditionsScript;
   return figure;
 }
 

@@ -119,8 +119,8 @@ Status run_monitor(const MonitorOptions& options) {
   SessionOptions wanted;
   wanted.servo.rate_hz = options.servo_hz;
   wanted.servo.cpu = options.devices.servo_cpu;
-  wanted.devices = options.devices.device;
-  if (options.devices.device == "maestro") {
+  wanted.devices = options.devices.names;
+  if (wanted.devices.display == "maestro") {
     const auto setup = chosen_maestro_setup(options.devices.maestro, maestro_setups_path());
     if (!setup) return tl::unexpected(setup.error());
     wanted.maestro = setup->calibration;

@@ -47,7 +47,8 @@ std::span<const AddCommand> headless_commands() { return kCommands; }
 
 int run_program(int argc, const char* const* argv, std::span<const AddCommand> commands, int (*without_command)()) {
   install_crash_stop();
-  CLI::App app("Tangent Workbench: haptic shading of contact location and force, seen and tuned", "workbench");
+  CLI::App app("Tangent Workbench: visual debugger and tuning tool for haptic shading of contact location and force",
+               "workbench");
   app.set_version_flag("--version", "workbench " TANGENT_VERSION);
   app.require_subcommand(0, 1);
   app.footer("Exit codes: 0 done, 1 the work failed, 2 wrong usage.");

@@ -11,9 +11,7 @@
 
 #include "core/base/result.h"
 #include "core/tick/step.h"
-#include "devices/contact_display.h"
-#include "devices/force_device.h"
-#include "devices/maestro/maestro_codec.h"
+#include "devices/device_set.h"
 #include "workbench/session/hand_settings.h"
 #include "workbench/session/history.h"
 #include "workbench/session/safety_log.h"
@@ -38,8 +36,8 @@ enum class ArmOnStart : std::uint8_t { never, simulated, always };
 
 struct SessionOptions {
   ServoOptions servo;
-  std::string devices = "simulated";  ///< see devices/device_set.h
-  MaestroCalibration maestro;         ///< for "maestro"
+  DeviceNames devices;
+  MaestroCalibration maestro;  ///< for "maestro"
   unsigned maestro_channel = 0;
   std::filesystem::path packets;  ///< file to which every USB packet is logged; empty: none
   std::uint64_t seed = 1;         ///< of the simulated devices

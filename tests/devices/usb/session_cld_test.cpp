@@ -35,7 +35,7 @@ struct SessionBench {
     device.plug_in();
     device.run();
     SessionOptions options;
-    options.devices = "cld";
+    options.devices = {"simulated", "cld"};
     options.arm_on_start = arm;
     auto made = Session::create(sphere(), Preset{}, options);
     REQUIRE(made);

@@ -54,9 +54,21 @@ TEST_CASE("monitor refuses unknown faults and devices, naming the choices") {
   CHECK(fault.exit_code == 1);
   CHECK(has(fault.err, "stuck-encoder"));
   const ProcessResult device = run_workbench({"monitor", "--seconds", "1", "--device", "phantom"});
-  CHECK(device.exit_code == 1);
+  CHECK(device.exit_code == 2);
   CHECK(has(device.err, "maestro"));
+  const ProcessResult force = run_workbench({"monitor", "--seconds", "1", "--force", "cld"});
+  CHECK(force.exit_code == 2);
+  CHECK(has(force.err, "ideal"));
   CHECK(run_workbench({"monitor", "--seconds", "x"}).exit_code == 2);
+}
+
+TEST_CASE("force device and display are chosen apart, whatever --device says") {
+  const ProcessResult r =
+      run_workbench({"monitor", "--seconds", "1", "--display", "none", "--force", "ideal", "--device", "simulated"});
+  CHECK(r.exit_code == 0);
+  CHECK(has(r.out, "force device ready"));
+  CHECK(has(r.out, "display absent"));
+  CHECK_FALSE(has(r.out, "display ready"));
 }
 
 TEST_CASE("devices lists the simulated ones everywhere") {

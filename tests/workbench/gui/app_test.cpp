@@ -119,7 +119,7 @@ TEST_CASE("frames build at any size and scale, with and without history, for eve
     CAPTURE(w);
     CAPTURE(scale);
     AppOptions none = HeadlessApp::deterministic_options();
-    none.device = "none";
+    none.devices = {"none", "none"};
     {
       HeadlessApp empty(none, w, h, scale);
       empty.frames(3);
@@ -140,13 +140,17 @@ TEST_CASE("frames build at any size and scale, with and without history, for eve
 TEST_CASE("another device starts another session, with a history of its own") {
   RunningApp ui;
   ui.run(300);
-  ui.click("menu/device");
-  ui.click("menu/device/none");
-  CHECK(ui.model().devices().name() == "none");
+  ui.click("menu/force");
+  ui.click("menu/force/none");
+  CHECK(ui.model().devices().names() == DeviceNames{"none", "simulated"});
   REQUIRE(ui.model().devices().session() != nullptr);
   CHECK(ui.model().devices().session()->force_capabilities() == nullptr);
-  ui.click("menu/device");
-  ui.click("menu/device/simulated");
+  CHECK(ui.model().devices().session()->display_capabilities() != nullptr);
+  ui.click("menu/display");
+  ui.click("menu/display/ideal");
+  CHECK(ui.model().devices().names() == DeviceNames{"none", "ideal"});
+  ui.click("menu/force");
+  ui.click("menu/force/simulated");
   ui.run(100);
   CHECK(ui.model().time().end_tick() == 100);
   CHECK(ui.model().devices().status().force_state != DeviceState::absent);
@@ -156,7 +160,7 @@ TEST_CASE("another device starts another session, with a history of its own") {
 
 TEST_CASE("an unknown device is said to be one, and the window still comes up") {
   AppOptions options = HeadlessApp::deterministic_options();
-  options.device = "toaster";
+  options.devices.force = "toaster";
   HeadlessApp ui(options);
   ui.frames(3);
   CHECK(ui.model().devices().session() == nullptr);

@@ -167,11 +167,11 @@ TEST_CASE("what the menus have is among the commands, the device monitor and the
     CHECK(ui.model().view().device_monitor == on);
   }
   ui.chord('P');
-  ui.type("device ideal");
+  ui.type("force device ideal");
   ui.frames(2);
   ui.key(HeadlessApp::kEnter);
   ui.frames(2);
-  CHECK(ui.model().devices().name() == "ideal");
+  CHECK(ui.model().devices().names() == DeviceNames{"ideal", "simulated"});
   MenuBar menu;
   const auto commands = window_commands(ui.model(), menu);
   for (const char* name :

@@ -84,9 +84,8 @@ TEST_CASE("arming has a place of its own, which says what is in the way, and is 
 
 TEST_CASE("a hand that is held in the surface is not armed: the window says why, and gives the wish up after 5 s") {
   ArmedApp ui;
-  ui.model().devices().session()->set_hand_target(Vec3(0.0, 0.0, 0.05));
-  ui.run(500);
   ui.click("menu/stop");
+  ui.model().devices().session()->set_hand_target(Vec3(0.0, 0.0, 0.05));
   ui.run(500);
   ui.click("arming/arm");
   ui.run(1000);
@@ -118,9 +117,9 @@ TEST_CASE("nothing else arms: presets, A and B, undo, meshes, devices, clicks, a
     ui.click(path);
     CHECK(still_stopped());
   }
-  ui.model().devices().choose("ideal");
+  ui.model().devices().choose({"ideal", "ideal"});
   CHECK(still_stopped());
-  ui.model().devices().choose("simulated");
+  ui.model().devices().choose({"simulated", "simulated"});
   CHECK(still_stopped());
   MenuBar menu;
   for (const Command& command : window_commands(ui.model(), menu)) {

@@ -94,7 +94,7 @@ struct TickBench {
 };
 
 inline DeviceSet simulated(std::uint64_t seed = 1) {
-  auto set = make_devices("simulated", DeviceOptions{.seed = seed});
+  auto set = make_devices({}, DeviceOptions{.seed = seed});
   REQUIRE(set);
   return std::move(*set);
 }

@@ -45,7 +45,7 @@ TEST_CASE("a session refuses what it can't run") {
   slow.servo.rate_hz = 99.0;
   fast.servo.rate_hz = 10'001.0;
   no_number.servo.rate_hz = std::numeric_limits<double>::quiet_NaN();
-  odd.devices = "teapot";
+  odd.devices.display = "teapot";
   for (const SessionOptions& options : {slow, fast, odd, no_number})
     CHECK_FALSE(Session::create(sphere_scene(), Preset{}, options));
   Preset bad;
@@ -168,7 +168,7 @@ TEST_CASE("stop takes the force away, arm brings it back") {
 
 TEST_CASE("a session without devices still tracks the hand") {
   SessionOptions options = by_hand();
-  options.devices = "none";
+  options.devices = {"none", "none"};
   auto session = started(options);
   session->advance(1500);
   CHECK(session->force_capabilities() == nullptr);

@@ -10,14 +10,12 @@
 #include "workbench/cli/window/window_commands.h"
 #include "workbench/gui/platform/shots.h"
 #include "workbench/gui/platform/window.h"
+#include "workbench/session/own_folder.h"
 #include "workbench/session/servo_options.h"
 #include "workbench/session/window_settings.h"
 
 #include <array>
-#include <cerrno>
 #include <cstdio>
-#include <cstdlib>
-#include <cstring>
 #include <memory>
 #include <system_error>
 
@@ -39,21 +37,10 @@ int run_gui(const AppOptions& options) {
   return kFailed;
 }
 
-/// A new folder that nobody else can write to or have made before, in the one for temporary files.
-Result<std::filesystem::path> folder_of_its_own() {
-  std::error_code failed;
-  std::filesystem::path root = std::filesystem::temp_directory_path(failed);
-  std::string name = ((failed ? std::filesystem::path("/tmp") : root) / "tangent-workbench-XXXXXX").string();
-  if (::mkdtemp(name.data()) == nullptr)
-    return fail(std::string("no folder can be made: ") + std::strerror(errno), name,
-                "set TMPDIR to a folder with room");
-  return std::filesystem::path(name);
-}
-
 /// Draws the built-in scene to PNG files, for a machine without a display.
 int draw_builtin_pictures(const std::string& reason) {
   constexpr std::array<const char*, 4> kPictures{"overview", "iterations", "control-net", "planes"};
-  const Result<std::filesystem::path> directory = folder_of_its_own();
+  const Result<std::filesystem::path> directory = make_own_folder();
   if (!directory) {
     print_message("", reason + "; and " + directory.error().message());
     return kFailed;
@@ -98,7 +85,7 @@ void add_gui_command(CLI::App& app, CommandResult& result) {
   add_number_option(*command, "--servo-hz", {.min = kSlowestServoHz, .max = kFastestServoHz, .unit = "Hz"},
                     "Rate of the servo (default 1000)", [options](double hz) { options->app.servo_hz = hz; });
   add_number_option(*command, "--history-minutes", {.min = 0.1, .max = 120.0, .unit = "min"},
-                    "Minutes of ticks to look back at, within 1 GiB: 30 at 1 kHz (default 10)",
+                    "Minutes of ticks to keep, within 1 GiB: 30 at 1 kHz (default 10)",
                     [options](double minutes) { options->app.history_s = 60.0 * minutes; });
   add_text_option(*command, "--record", options->app.record, "Record the session into this file", "F.sqlite");
   on_run(*command, [options, &result] {
@@ -106,7 +93,7 @@ void add_gui_command(CLI::App& app, CommandResult& result) {
     options->app.mesh = options->mesh.file.string();
     options->app.metres_per_unit = options->mesh.metres_per_unit;
     options->app.mesh_options = options->mesh.build;
-    options->app.device = options->devices.device;
+    options->app.devices = options->devices.names;
     options->app.maestro = options->devices.maestro;
     options->app.packets = options->devices.packets;
     options->app.servo_cpu = options->devices.servo_cpu;

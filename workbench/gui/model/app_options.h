@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/mesh/contact_mesh.h"
+#include "devices/device_set.h"
 #include "workbench/gui/theme/palette.h"
 #include "workbench/session/maestro_setups.h"
 #include "workbench/session/session.h"
@@ -18,9 +19,9 @@ struct AppOptions {
   ContactMeshOptions mesh_options;
   std::filesystem::path preset;         ///< empty: the shipped default
   std::filesystem::path preset_folder;  ///< listed in the presets panel; empty: where `preset` is, or the shipped ones
-  std::string device = "simulated";
+  DeviceNames devices;
   ArmOnStart arm_on_start = ArmOnStart::simulated;  ///< of the first session; later ones begin without force
-  MaestroWish maestro;                              ///< for the device "maestro"
+  MaestroWish maestro;                              ///< for the display "maestro"
   std::filesystem::path packets;                    ///< file to which USB packets are logged; empty: none
   double servo_hz = 1000.0;                         ///< kSlowestServoHz to kFastestServoHz
   int servo_cpu = -1;                               ///< core for the servo's thread; -1: any

@@ -12,7 +12,7 @@ SessionOptions session_options(const AppOptions& from) {
   SessionOptions options;
   options.servo.rate_hz = from.servo_hz;
   options.servo.cpu = from.servo_cpu;
-  options.devices = from.device;
+  options.devices = from.devices;
   options.packets = from.packets;
   options.seed = from.seed;
   options.history_s = from.history_s;
@@ -42,7 +42,7 @@ void DeviceModel::take_scene(PreparedScenePtr prepared) {
 }
 
 void DeviceModel::make_session() {
-  if (options_.devices == "maestro") {
+  if (options_.devices.display == "maestro") {
     const auto setup = chosen_maestro_setup(maestro_wish_, maestro_file_);
     if (!setup) return messages_.say(Severity::error, setup.error().message());
     options_.maestro = setup->calibration;
@@ -68,9 +68,9 @@ void DeviceModel::restart_session() {
   make_session();
 }
 
-void DeviceModel::choose(const std::string& name) {
-  if (name == options_.devices && session_ != nullptr) return;
-  options_.devices = name;
+void DeviceModel::choose(const DeviceNames& names) {
+  if (names == options_.devices && session_ != nullptr) return;
+  options_.devices = names;
   restart_session();
 }
 
@@ -102,7 +102,7 @@ void DeviceModel::calibrate_maestro(const MaestroCalibration& calibration, unsig
   options_.maestro_channel = channel;
   maestro_wish_ = wish_for(setup);
   keep_calibration(setup);
-  if (options_.devices == "maestro") restart_session();
+  if (options_.devices.display == "maestro") restart_session();
 }
 
 void DeviceModel::keep_calibration(const MaestroSetup& setup) {
@@ -146,8 +146,8 @@ std::string DeviceModel::arming_text() const {
   if (session_ == nullptr || !stopped()) return {};
   if (session_->force_capabilities() == nullptr && session_->display_capabilities() == nullptr) return {};
   const ServoStatus& servo = status_.servo;
-  const bool faulted = servo.gate_state == GateState::faulted && status_.arming != ArmingStage::arming;
-  if (faulted) return std::string("No force: ") + to_string(servo.gate_fault);
+  const bool asked = status_.arming == ArmingStage::arming || status_.arming == ArmingStage::given_up;
+  if (servo.gate_state == GateState::faulted && !asked) return std::string("No force: ") + to_string(servo.gate_fault);
   const std::string text = tangent::arming_text(status_.arming, status_.in_the_way, status_.force_wanted_n);
   return text.empty() ? "No force" : text;
 }

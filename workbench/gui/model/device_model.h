@@ -26,8 +26,8 @@ class DeviceModel {
   Session* session() { return session_.get(); }
   const Session* session() const { return session_.get(); }
   const SessionStatus& status() const { return status_; }  ///< as of the last frame
-  const std::string& name() const { return options_.devices; }
-  void choose(const std::string& name);  ///< a new session
+  const DeviceNames& names() const { return options_.devices; }
+  void choose(const DeviceNames& names);  ///< a new session
 
   // Called by the other parts.
   void take_scene(PreparedScenePtr prepared);  ///< sends scene.current(); creates the first session

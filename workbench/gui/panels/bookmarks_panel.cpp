@@ -36,7 +36,7 @@ struct TriggerRow {
 constexpr std::array kTriggers{
     TriggerRow{BookmarkKind::unconverged, "Unconverged",
                "A tick that did not converge, or where the surface offers no contact (facing)"},
-    TriggerRow{BookmarkKind::reseeded, "Reseeded", "Tracking gave up and was seeded from the nearest triangles"},
+    TriggerRow{BookmarkKind::reseeded, "Reseeded", "Tracking was lost and started again from the nearest triangles"},
     TriggerRow{BookmarkKind::iterations, "Iterations over", "More tangent planes than this in one tick"},
     TriggerRow{BookmarkKind::force, "Force over", "More force than this sent to the device"},
     TriggerRow{BookmarkKind::device_fault, "Device fault", "A fault of a device or of the safety gate"}};
@@ -141,7 +141,7 @@ void draw_bookmarks_panel(const UiContext& ui, AppModel& model, BookmarksPanel& 
     model.time().add_bookmark();
   }
   ImGui::SameLine();
-  toggle_button(ui, "bookmarks/triggers", "Triggers", state.triggers_open, "What sets bookmarks by itself");
+  toggle_button(ui, "bookmarks/triggers", "Triggers", state.triggers_open, "What sets bookmarks automatically");
   ImGui::SameLine();
   if (text_button(ui, "bookmarks/clear", "Clear triggered", "Removes those that triggers set"))
     model.time().bookmarks().clear_automatic();
@@ -149,7 +149,7 @@ void draw_bookmarks_panel(const UiContext& ui, AppModel& model, BookmarksPanel& 
   const std::size_t count = model.time().bookmarks().all().size();
   if (count == 0) {
     ImGui::PushFont(ui.fonts.small);
-    ImGui::TextDisabled("None. K sets one, [ and ] go from one to the next");
+    ImGui::TextDisabled("No bookmarks. K sets one, [ and ] go to the previous and next");
     ImGui::PopFont();
     return;
   }

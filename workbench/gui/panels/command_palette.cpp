@@ -69,7 +69,7 @@ void draw_command_palette(const UiContext& ui, AppModel& model, MenuBar& menu, c
   const bool enter =
       ImGui::InputTextWithHint("##command", "what to do", &state.text, ImGuiInputTextFlags_EnterReturnsTrue);
   ui.items.note_last("palette/text");
-  tooltip(ui, "Some letters of a command; up and down choose, Enter does it, Esc puts this away");
+  tooltip(ui, "Type part of a command; up and down choose, Enter runs it, Esc closes");
   const bool left = ImGui::IsItemDeactivated() && !enter;
   if (state.text != before) state.chosen = 0;
   int run = enter && last >= 0 ? state.chosen : -1;
@@ -115,7 +115,7 @@ void draw_shortcut_sheet(const UiContext& ui, AppModel& model, MenuBar& menu, co
   float column = ui.px(390);
   for (const auto& line : lines)
     column = std::max(column, ui.px(152 + 16) + ImGui::CalcTextSize(line.second.c_str()).x);
-  constexpr const char* kNote = "F1 or a click puts this away; Ctrl+P finds every command by name";
+  constexpr const char* kNote = "F1 or a click closes this; Ctrl+P finds every command by name";
   const float heading = ui.px(90) + ui.fonts.small->CalcTextSizeA(ui.fonts.small->FontSize, 1e9f, 0.0f, kNote).x;
   const float width = std::min(std::max(column * static_cast<float>(columns), heading) + ui.px(24), over.w - ui.px(16));
   const float height = std::min(row * static_cast<float>(rows) + ui.px(46), over.h - ui.px(8));

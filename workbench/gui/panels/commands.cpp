@@ -87,8 +87,14 @@ void add_time_commands(std::vector<Command>& out, AppModel& model) {
                  }});
   out.push_back({"Force: stop", "Esc", [&model] { model.devices().stop(); }});
   out.push_back({"Force: arm", "", [&model] { model.devices().arm(); }});
-  for (const std::string& name : device_set_names())
-    out.push_back({"Device: " + name, "", [&model, name] { model.devices().choose(name); }});
+  for (const std::string& name : force_device_names())
+    out.push_back({"Force device: " + name, "", [&model, name] {
+                     model.devices().choose({name, model.devices().names().display});
+                   }});
+  for (const std::string& name : contact_display_names())
+    out.push_back({"Contact display: " + name, "", [&model, name] {
+                     model.devices().choose({model.devices().names().force, name});
+                   }});
   out.push_back({"Hand: follows the mouse, or explores by itself", "M",
                  [&model] { model.devices().set_hand_follows_mouse(!model.devices().hand_follows_mouse()); }});
 }

@@ -59,11 +59,11 @@ void draw_states(const UiContext& ui, DeviceModel& devices) {
                                                 : ui.colours.warning);
   ImGui::Dummy({1, ui.px(2)});
   if (text_button(ui, "monitor/arm", "Re-arm",
-                  "One attempt: clears faults, homes what has to be homed, waits until the finger is off the surface, "
-                  "and lets the force grow in"))
+                  "One attempt: clears faults, homes what is not homed, waits until the finger is off the surface, and "
+                  "ramps the force in"))
     session.arm();
   ImGui::SameLine();
-  if (text_button(ui, "monitor/home", "Home", "No force, and both devices find their zero again")) session.home();
+  if (text_button(ui, "monitor/home", "Home", "Stops the force and homes both devices")) session.home();
 }
 
 void draw_limits(const UiContext& ui, const DeviceModel& devices) {
@@ -233,7 +233,7 @@ void draw_values(const UiContext& ui, const DeviceModel& devices, bool cable, co
 
 void draw_service_column(const UiContext& ui, AppModel& model) {
   draw_injection(ui, model.devices());
-  if (model.devices().name() == "maestro") draw_calibration(ui, model);
+  if (model.devices().names().display == "maestro") draw_calibration(ui, model);
   draw_log(ui, model.devices());
 }
 

@@ -149,7 +149,7 @@ void draw_hand(const UiContext& ui, AppModel& model) {
   row("Hand speed", "devices/hand_speed", hand.speed_m_per_s, 0.5, 1e-3, "mm/s",
       "Along the exploration path; 0: rests");
   row("Hand depth", "devices/hand_press", hand.press_m, 10e-3, 1e-3, "mm",
-      "How far inside the surface the hand aims. The finger is held back by the rendered force, so it goes less deep");
+      "How far inside the surface the hand aims. The rendered force holds the finger back, so it goes less deep");
   if (!(hand == before)) model.devices().session()->set_hand(hand);
 }
 

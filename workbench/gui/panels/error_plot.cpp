@@ -118,7 +118,7 @@ void draw_fan(const UiContext& ui, const ErrorScale& scale, const ErrorFan& fan,
   draw.PopClipRect();
   if (fan.longest() <= shown) return;
   const ImFont* font = ui.fonts.small;
-  const std::string note = printed("faint ones go on to %zu", fan.longest() - 1);
+  const std::string note = printed("faint: up to %zu", fan.longest() - 1);
   const float w = font->CalcTextSizeA(font->FontSize, 1e9f, 0.0f, note.c_str()).x;
   draw.AddText(font, font->FontSize, {scale.max.x - w - ui.px(4), scale.min.y + ui.px(2)}, ui.colours.text_dim,
                note.c_str());

@@ -27,7 +27,7 @@ std::string reason(const GainAdvice& a) {
   if (a.k2_per_m < -1e-3 * std::abs(a.k1_per_m))
     text += " On concave ground they are above 1, which Eq. 1 can't give with G_o = 1.";
   else if (a.ideal2 > 1.5 * a.ideal1)
-    text += " One gain has to serve both, which costs planes on oblique ways.";
+    text += " One gain has to serve both, which costs iterations when moving obliquely.";
   return text;
 }
 

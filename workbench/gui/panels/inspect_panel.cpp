@@ -101,12 +101,12 @@ void draw_findings(const UiContext& ui, AppModel& model, InspectPanel& state) {
 void draw_isolation(const UiContext& ui, ViewModel& view) {
   const bool something = !view.inspection().marked.empty() || view.picked_triangle != kNone;
   if (text_button(ui, "inspect/isolate", "Isolate",
-                  something ? "Draws the marked or picked triangles and their neighbours alone"
+                  something ? "Draws only the marked or picked triangles and their neighbours"
                             : "Mark a finding or pick a triangle first"))
     view.isolate_marked();
   ImGui::SameLine(0, ui.px(3));
   if (text_button(ui, "inspect/isolate_part", "Isolate part",
-                  something ? "Draws the connected part that holds the marked or picked triangle alone"
+                  something ? "Draws only the connected part with the marked or picked triangle"
                             : "Mark a finding or pick a triangle first"))
     view.isolate_part();
   ImGui::SameLine(0, ui.px(3));
@@ -165,10 +165,8 @@ void draw_crease(const UiContext& ui, SceneModel& scene) {
   const auto result =
       value_field(ui, "inspect/crease", {width - ui.px(118 + 3), degrees / 180.0, printed("%.4g", degrees), "deg"});
   const bool from_file = scene.current()->mesh().normals_used() == NormalSource::file;
-  tooltip(ui,
-          from_file
-              ? "The normals are the file's: it alone says where creases are"
-              : "Edges whose facets meet at a larger angle are creases; the mesh is built anew while this is dragged");
+  tooltip(ui, from_file ? "The normals are the file's: it alone says where creases are"
+                        : "Edges whose facets meet at a larger angle are creases; the mesh is rebuilt while you drag");
   if (from_file) return;
   if (result.slid) scene.set_crease_angle(std::round(*result.slid * 360.0) * 0.5 * kDegree);
   if (result.typed) scene.set_crease_angle(std::atof(result.typed->c_str()) * kDegree);

@@ -86,7 +86,7 @@ void draw_toasts(const UiContext& ui, AppModel& model, const Rect& over) {
     const ImVec2 at = ImGui::GetWindowPos();
     if (ImGui::InvisibleButton("##dismiss", {width, height})) model.messages().dismiss(i);
     ui.items.note_last(printed("toast/%d", shown));
-    tooltip(ui, "A click puts it away; it stays under Messages");
+    tooltip(ui, "Click to dismiss; it stays under Messages");
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     draw.AddRectFilled(at, {at.x + ui.px(4), at.y + height}, ink_of(ui, m.severity), ui.px(2));
     draw.AddText(ui.fonts.text, ui.fonts.text->FontSize, {at.x + ui.px(14), at.y + ui.px(6)}, ui.colours.text,

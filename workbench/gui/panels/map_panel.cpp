@@ -26,7 +26,9 @@ void draw_choice(const UiContext& ui, MapView& map) {
     if (map.on) map.set_quantity(static_cast<MapQuantity>(chosen - 1));
   }
   const std::string_view doc = info_of(map.quantity).doc;
-  tooltip(ui, map.on ? doc : "Colours the surface by what a solver, a finger and the gains meet at every place of it");
+  tooltip(ui, map.on ? doc
+                     : "Colours the surface by a quantity measured at every place: how the solver, the finger and the "
+                       "gains do there");
 }
 
 void draw_progress(const UiContext& ui, MapView& map) {
@@ -46,11 +48,11 @@ void draw_progress(const UiContext& ui, MapView& map) {
                map.stale() ? ui.colours.warning : ui.colours.text_dim, text.c_str());
   ImGui::Dummy({width, height});
   ui.items.note_last("map/progress");
-  tooltip(ui, "Computed in the background, scattered over the surface, so that what is there is a fair sample of all");
+  tooltip(ui, "Computed in the background in random order, so that a part of it is already a fair sample");
   ImGui::SameLine(0, ui.px(6));
   if (map.running()) {
-    if (text_button(ui, "map/cancel", "Cancel", "Stops; what is computed stays")) map.cancel();
-  } else if (text_button(ui, "map/again", "Again", "Computes it anew with the present preset")) {
+    if (text_button(ui, "map/cancel", "Cancel", "Stops and keeps what is computed")) map.cancel();
+  } else if (text_button(ui, "map/again", "Again", "Computes it again with the current preset")) {
     map.compute_again();
   }
 }
@@ -66,15 +68,15 @@ void draw_range(const UiContext& ui, MapView& map) {
   const float width = ImGui::GetContentRegionAvail().x;
   const float box = std::floor((width - ui.px(118)) * 0.5f);
   const auto typed_low = number_box(ui, "map/low", box, printed("%.4g", shown(map, map.low())));
-  tooltip(ui, "Value of the first colour; also dragged at the lower half of the colour bar");
+  tooltip(ui, "Value of the first colour; or drag the lower half of the colour bar");
   ImGui::SameLine(0, ui.px(4));
   const auto typed_high = number_box(ui, "map/high", box, printed("%.4g", shown(map, map.high())));
-  tooltip(ui, "Value of the last colour; also dragged at the upper half of the colour bar");
+  tooltip(ui, "Value of the last colour; or drag the upper half of the colour bar");
   if (const auto v = typed_low ? parsed(*typed_low) : std::nullopt) map.set_range(*v * unit, map.high());
   if (const auto v = typed_high ? parsed(*typed_high) : std::nullopt) map.set_range(map.low(), *v * unit);
   ImGui::SameLine(0, ui.px(4));
   bool automatic = map.automatic_range();
-  if (toggle_button(ui, "map/auto", "Auto", automatic, "The range of nearly all values: 0.5 to 99.5 % of them")) {
+  if (toggle_button(ui, "map/auto", "Auto", automatic, "The range of all but 1 % of the values (0.5 to 99.5 %)")) {
     if (automatic)
       map.set_automatic_range();
     else
@@ -103,7 +105,7 @@ void draw_look(const UiContext& ui, MapView& map) {
     ImGui::SameLine(0, ui.px(4));
   }
   toggle_button(ui, "map/follow", "Follow preset", map.follow_changes,
-                "Computes anew when the preset or the mesh changes");
+                "Computes again when the preset or the mesh changes");
 }
 
 void draw_moves(const UiContext& ui, MapView& map) {
@@ -119,7 +121,7 @@ void draw_moves(const UiContext& ui, MapView& map) {
     return typed ? parsed(*typed) : std::nullopt;
   };
   if (const auto v = row("map/directions", "Directions", map.options.directions, "",
-                         "Moves around that are tried from every place, 1 to 32; one straight in is added"))
+                         "Directions of motion tried from every place, 1 to 32, besides one straight in"))
     map.options.directions = static_cast<unsigned>(std::clamp(*v, 1.0, 32.0));
   if (const auto v = row("map/move", "Move a tick", map.options.move_m * 1e3, "mm",
                          "How far the finger moves: 0.1 mm is 0.1 m/s at 1 kHz"))

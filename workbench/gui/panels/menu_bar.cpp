@@ -59,7 +59,7 @@ void draw_file_menu(const UiContext& ui, AppModel& model, MenuBar& state) {
     model.scene().open(model.scene().path());
   ImGui::Separator();
   if (menu_item(ui, "menu/file/screenshot", "Screenshot",
-                "Writes the window as a PNG into the folder the program was started in", "F12"))
+                "Saves a picture of the window (PNG) in the folder the program was started in", "F12"))
     model.exports().ask_for_screenshot();
   if (menu_item(ui, "menu/file/commands", "Commands...", "Every command by name", "Ctrl+P"))
     state.palette.open = state.palette.focus = true;
@@ -78,7 +78,7 @@ void draw_camera_items(const UiContext& ui, ViewModel& view) {
     for (const NamedView& v : kStandardViews) {
       std::string title = v.name;
       title[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(title[0])));
-      if (menu_item(ui, "menu/view/from/" + title, title.c_str(), "Turns the camera there; what it looks at stays",
+      if (menu_item(ui, "menu/view/from/" + title, title.c_str(), "Turns the camera there around the same point",
                     v.key))
         view.look_from_standard(v.view);
     }
@@ -89,7 +89,7 @@ void draw_camera_items(const UiContext& ui, ViewModel& view) {
                 view.camera.y_up))
     view.set_y_up(!view.camera.y_up);
   if (menu_item(ui, "menu/view/copy_camera", "Copy camera",
-                "The view as one line of text, for another window or another day", "Ctrl+Shift+C"))
+                "Copies the view as one line of text, to paste it into another window later", "Ctrl+Shift+C"))
     view.copy_camera();
   if (menu_item(ui, "menu/view/paste_camera", "Paste camera", "The view that was copied", "Ctrl+Shift+V"))
     view.paste_camera();
@@ -108,7 +108,7 @@ void draw_view_menu(const UiContext& ui, AppModel& model) {
   if (menu_item(ui, "menu/view/monitor", "Device monitor",
                 "Rates, histograms, limits and faults, in place of the 3D view", nullptr, model.view().device_monitor))
     model.view().device_monitor = !model.view().device_monitor;
-  if (menu_item(ui, "menu/view/reset", "Default layout", "Columns, plots and sections as they were at first"))
+  if (menu_item(ui, "menu/view/reset", "Default layout", "Columns, plots and sections as on first start"))
     model.window().reset_layout();
   ImGui::Separator();
   draw_camera_items(ui, model.view());
@@ -161,7 +161,7 @@ void draw_preset_menu(const UiContext& ui, PresetModel& presets, float width) {
   if (!drop_button(ui, "menu/preset", name, "The preset; * when it was changed since loading", width)) return;
   for (const auto& file : presets.files()) {
     const std::string stem = file.stem().string();
-    if (menu_item(ui, "menu/preset/" + stem, stem.c_str(), "Loads this preset; undo brings the present one back",
+    if (menu_item(ui, "menu/preset/" + stem, stem.c_str(), "Loads this preset; undo brings the current one back",
                   nullptr, file == presets.editor().path()))
       presets.load(file);
   }
@@ -172,14 +172,18 @@ void draw_preset_menu(const UiContext& ui, PresetModel& presets, float width) {
   ImGui::EndPopup();
 }
 
-void draw_device_menu(const UiContext& ui, DeviceModel& devices, float width) {
-  if (!drop_button(ui, "menu/device", devices.name(), "The devices that are driven", width)) return;
-  for (const char* name : {"simulated", "none"}) {
-    if (menu_item(ui, std::string("menu/device/") + name, name,
-                  "A new session with these devices; the history starts anew", nullptr, devices.name() == name))
-      devices.choose(name);
+/// A menu of the devices of one kind; the one that was clicked, empty where none was.
+std::string draw_device_menu(const UiContext& ui, const std::string& path, const char* tip,
+                             const std::vector<std::string>& names, const std::string& now) {
+  std::string chosen;
+  if (!drop_button(ui, path, now, tip, ui.px(100))) return chosen;
+  for (const std::string& name : names) {
+    if (menu_item(ui, path + "/" + name, name.c_str(), "Starts a new session with this device; the history is cleared",
+                  nullptr, now == name))
+      chosen = name;
   }
   ImGui::EndPopup();
+  return chosen;
 }
 
 /// The stop button, which must be found at once: red, on the right. It only stops, and is always there; arming has its
@@ -216,7 +220,7 @@ void draw_menu_bar(const UiContext& ui, AppModel& model, MenuBar& state, const R
   ImGui::SameLine(0, ui.px(3));
   draw_view_menu(ui, model);
   ImGui::SameLine(0, ui.px(14));
-  const float room = std::clamp((rect.w - ui.px(700)) * 0.35f, ui.px(80), ui.px(240));
+  const float room = std::clamp((rect.w - ui.px(850)) * 0.35f, ui.px(80), ui.px(240));
   const auto label = [&](const char* text) {
     ImGui::AlignTextToFramePadding();
     ImGui::TextDisabled("%s", text);
@@ -228,8 +232,15 @@ void draw_menu_bar(const UiContext& ui, AppModel& model, MenuBar& state, const R
   label("Preset");
   draw_preset_menu(ui, model.presets(), room);
   ImGui::SameLine(0, ui.px(12));
-  label("Device");
-  draw_device_menu(ui, model.devices(), ui.px(110));
+  label("Force");
+  DeviceNames names = model.devices().names();
+  const std::string force = draw_device_menu(ui, "menu/force", "The force device", force_device_names(), names.force);
+  ImGui::SameLine(0, ui.px(12));
+  label("Display");
+  const std::string display =
+      draw_device_menu(ui, "menu/display", "The contact location display", contact_display_names(), names.display);
+  if (!force.empty()) model.devices().choose({force, names.display});
+  if (!display.empty()) model.devices().choose({names.force, display});
   ImGui::SameLine(0, ui.px(12));
   bool follows = model.devices().hand_follows_mouse();
   if (toggle_button(

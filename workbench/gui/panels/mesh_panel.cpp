@@ -43,7 +43,7 @@ void draw_audit(const UiContext& ui, const MeshAudit& a) {
   problem(ui, "Non-manifold edges", a.non_manifold_edges, bad, "Shared by three triangles or more");
   problem(ui, "Non-manifold vertices", a.non_manifold_vertices, bad, "Their triangles form more than one fan");
   problem(ui, "Inconsistent edges", a.inconsistent_edges, bad,
-          "Both triangles turn the same way along them: one of them is inside out");
+          "Two neighbours that run along the edge in the same direction: one of them is inside out");
   problem(ui, "Slivers", a.sliver_triangles, warning, "Very thin triangles");
   problem(ui, "Flipped normals", a.flipped_normals, bad, "Corner normals that point against their facet");
   problem(ui, "Wild normals", a.wild_normals, warning, "Corner normals over 60 deg from their facet's");
@@ -95,7 +95,7 @@ void draw_size_choices(const UiContext& ui, SceneModel& scene) {
     label("Unit of the file");
     if (choice_row(ui, "mesh/unit", width, kFileUnitNames, chosen))
       scene.set_unit(kFileUnits[static_cast<std::size_t>(chosen)].metres);
-    tooltip(ui, "What one unit of its coordinates is; the file is read anew (--unit)");
+    tooltip(ui, "Length of one unit of the file's coordinates; the file is read again (--unit)");
   }
   label("Longest side, mm");
   const auto typed = number_box(ui, "mesh/fit_mm", width,
@@ -114,7 +114,7 @@ void draw_polygon(const UiContext& ui, const PlanarPolygon& polygon) {
   const PolygonFacts facts = facts_of(polygon);
   fact(ui, "Outline", polygon.closed ? "closed" : "open");
   tooltip(ui, polygon.closed ? "The finger touches it from outside"
-                             : "The finger touches it from its left, as one goes along");
+                             : "The finger touches it from the left when going from first to last vertex");
   fact(ui, "Segments", count(facts.segments));
   ui.items.note_last("mesh/segments");
   tooltip(ui, "Between vertices that differ");
@@ -143,7 +143,7 @@ void draw_mesh_panel(const UiContext& ui, AppModel& model, FoldedPanel& state) {
   }
   fact(ui, "Triangles", count(mesh.usable_triangle_count()));
   ui.items.note_last("mesh/triangles");
-  tooltip(ui, "Those in use; what was skipped is listed below");
+  tooltip(ui, "Vertices in use; skipped ones are listed below");
   fact(ui, "Vertices", count(mesh.vertex_count()));
   const Vec3 size = mesh.bounds().size() * 1e3;
   fact(ui, "Size", printed("%.4g \u00d7 %.4g \u00d7 %.4g", size.x, size.y, size.z), "mm");

@@ -18,8 +18,8 @@ void draw_modes(const UiContext& ui, PlotsPanel& state) {
   constexpr Mode kModes[] = {
       {PlotsMode::time, "Time", "Every curve against time"},
       {PlotsMode::xy, "X-Y", "One curve against another, for the ticks in view"},
-      {PlotsMode::spectrum, "Spectrum", "What frequencies a curve holds: is the loop buzzing?"},
-      {PlotsMode::histogram, "Histogram", "How often a curve had which value, for the ticks in view"}};
+      {PlotsMode::spectrum, "Spectrum", "Spectrum of a curve: is the loop buzzing?"},
+      {PlotsMode::histogram, "Histogram", "Histogram of a curve's values, for the ticks in view"}};
   for (const Mode& m : kModes) {
     bool on = state.mode == m.mode;
     if (toggle_button(ui, std::string("plots/mode/") + m.name, m.name, on, m.doc)) state.mode = m.mode;
@@ -37,13 +37,12 @@ void draw_following(const UiContext& ui, TimeModel& time) {
     time.go_live();
   ImGui::SameLine(0, ui.px(3));
   if (toggle_button(ui, "plots/hold", "Hold", hold,
-                    "The axes stand still, the rest of the window goes on; panning does the same")) {
+                    "Freezes the axes while the rest of the window goes on; panning does the same")) {
     time.set_paused(false);
     time.axis().hold();
   }
   ImGui::SameLine(0, ui.px(3));
-  if (toggle_button(ui, "plots/inspect", "Inspect", inspect,
-                    "Time stands still on one tick everywhere in the window (Space)"))
+  if (toggle_button(ui, "plots/inspect", "Inspect", inspect, "Holds the whole window on one tick (Space)"))
     time.set_paused(true);
   ImGui::SameLine(0, ui.px(14));
 }
@@ -60,8 +59,8 @@ void draw_cursors(const UiContext& ui, TimeModel& time, PlotLink& link) {
     }
     ImGui::SameLine(0, ui.px(3));
   };
-  place("plots/cursor_a", "A", link.a, "Cursor A on the tick in view; Ctrl-click in a plot sets it too. Again: none");
-  place("plots/cursor_b", "B", link.b, "Cursor B on the tick in view; Shift-click in a plot sets it too. Again: none");
+  place("plots/cursor_a", "A", link.a, "Sets cursor A on the tick in view, or removes it; also Ctrl-click in a plot");
+  place("plots/cursor_b", "B", link.b, "Sets cursor B on the tick in view, or removes it; also Shift-click in a plot");
   if (!link.a || !link.b) return;
   const double dt = (static_cast<double>(*link.b) - static_cast<double>(*link.a)) * link.tick_period_s;
   ImGui::PushFont(ui.fonts.small_number);

@@ -62,7 +62,7 @@ void save(AppModel& model, PresetsPanel& state) {
   }
   state.asked_for.clear();
   const ContactScene* scene = model.scene().current().get();
-  if (model.presets().save(state.name, scene != nullptr ? &scene->mesh() : nullptr, model.devices().name()))
+  if (model.presets().save(state.name, scene != nullptr ? &scene->mesh() : nullptr, to_string(model.devices().names())))
     state.written = state.name;
 }
 
@@ -78,11 +78,11 @@ void draw_presets_panel(const UiContext& ui, AppModel& model, PresetsPanel& stat
   const bool enter =
       ImGui::InputTextWithHint("##preset_name", "name", &state.name, ImGuiInputTextFlags_EnterReturnsTrue);
   ui.items.note_last("presets/name");
-  tooltip(ui, "Name of the file to save the present values in, without .toml");
+  tooltip(ui, "Name of the file to save the current values in, without .toml");
   ImGui::SameLine();
   const bool pressed = text_button(ui, "presets/save", text,
-                                   replaces ? "Writes over the preset of this name, and what was measured with it"
-                                            : "Writes the present values into the preset folder under this name");
+                                   replaces ? "Overwrites the preset of this name and its measurements"
+                                            : "Saves the current values in the preset folder under this name");
   if (enter || pressed) save(model, state);
   ImGui::Dummy({1, ui.px(1)});
   draw_changes(ui, model.presets());

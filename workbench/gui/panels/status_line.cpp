@@ -83,9 +83,9 @@ void draw_status_line(const UiContext& ui, AppModel& model, const Rect& rect, do
   const double late_share =
       servo.ticks > 0 ? static_cast<double>(servo.late_ticks) / static_cast<double>(servo.ticks) : 0.0;
   values.put("late", "Late", printed("%s (%.2f %%)", integer(servo.late_ticks).c_str(), 100.0 * late_share), 16,
-             late_share > 0.01 ? warn : plain, "Ticks before which a deadline was missed");
+             late_share > 0.01 ? warn : plain, "Ticks that started after missing at least one deadline");
   values.put("drops", "Dropped records", integer(servo.gui_drops), 7, servo.gui_drops > 0 ? warn : plain,
-             "Records that did not fit into the ring to the window");
+             "Ticks the window did not receive because its ring was full");
   values.put("p99", "Tick p99", time(servo.tick_p99_ns, 6), 10, plain, "99 of 100 ticks took no longer");
   values.put("worst", "worst", time(servo.tick_worst_ns, 7), 11, plain, "The longest tick so far");
   const double kept_s =
@@ -97,7 +97,7 @@ void draw_status_line(const UiContext& ui, AppModel& model, const Rect& rect, do
       printed("%3.0f of %.0f MiB",
               static_cast<double>(model.time().history_bytes() + model.time().store().memory_bytes()) * mib,
               static_cast<double>(model.time().most_history_bytes() + model.time().store().memory_bytes()) * mib),
-      15, plain, "What the history takes of what it may");
+      15, plain, "Memory of the history, and its limit");
   // Screenshots are reproducible: no wall-clock numbers.
   const std::string right = model.deterministic() ? std::string()
                                                   : printed("frame %.2f ms   %.0f/s", build_ms,

@@ -127,7 +127,7 @@ void draw_state(const UiContext& ui, const TimeModel& time) {
     fact(ui, "Replay", "same bits in every tick", "", ui.colours.good);
   else
     fact(ui, "Replay", count_text(verified->numbers.different_ticks) + " ticks differ", "", ui.colours.bad);
-  tooltip(ui, "Every tick stepped again under the values it was recorded with");
+  tooltip(ui, "Every tick solved again with the values it was recorded with");
 }
 
 }  // namespace
@@ -156,12 +156,13 @@ void draw_time_machine_panel(const UiContext& ui, TimeModel& time, FoldedPanel& 
   }
   ImGui::PushFont(ui.fonts.small);
   ImGui::PushStyleColor(ImGuiCol_Text, ui.colours.warning);
-  ImGui::TextUnformatted(ghost->whole ? "Same motion assumed" : "Same motion assumed; the rest is being solved ...");
+  ImGui::TextUnformatted(ghost->whole ? "Same motion assumed" : "Same motion assumed; still solving the rest ...");
   ImGui::PopStyleColor();
   ImGui::PopFont();
   ui.items.note_last("time_machine/same_motion");
   tooltip(ui,
-          "The hand moved under the recorded values; with others it would have moved otherwise. This compares the "
+          "The hand moved as it did under the recorded values; with others it would have moved differently. This "
+          "compares the "
           "solver on the same poses");
   draw_comparison(ui, *ghost, time.time_machine().verified().get());
   draw_changes(ui, time, *ghost);

@@ -60,7 +60,7 @@ TEST_CASE("the device monitor draws at every size, with and without devices") {
   for (const float width : {900.0f, 2560.0f}) {
     for (const char* device : {"simulated", "none"}) {
       AppOptions options = HeadlessApp::deterministic_options();
-      options.device = device;
+      options.devices = {device, device};
       HeadlessApp ui(options, width, 0.5625f * width);
       run(ui, 100);
       const int before = ImGui::GetDrawData()->TotalVtxCount;
