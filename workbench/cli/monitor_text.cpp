@@ -86,7 +86,7 @@ std::string monitor_line(const Session& session) {
   if (s.servo.gate_fault != GateFault::none) text += std::string(": ") + to_string(s.servo.gate_fault);
   const bool live = s.servo.gate_state == GateState::ramping || s.servo.gate_state == GateState::armed;
   const std::string why = arming_text(s.arming, s.in_the_way, s.force_wanted_n);
-  if (!live) text += " | no force" + (why.empty() ? std::string(": a arms") : ": " + why);
+  if (!live) text += " | " + (why.empty() ? std::string("No force: a arms") : why);
   text += format(" | %.1f Hz", s.servo.rate_hz);
   if (session.history().empty()) return text;
   const ServoRecord& r = session.history().newest();

@@ -40,6 +40,12 @@ struct App::Ui {
 
 namespace {
 
+/// The view without the cards at its left edge, where there is room enough beside them.
+Rect beside_cards(const Rect& view, float cards) {
+  if (view.w < 2.0f * cards) return view;
+  return {view.x + cards, view.y, view.w - cards, view.h};
+}
+
 constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus |
                                     ImGuiWindowFlags_NoNav;
@@ -174,7 +180,7 @@ void App::frame(const FrameInput& input) {
   model_->map().set_felt_angle(felt_angle_rad(model_->presets(), ui_->perception));
   draw_view_panel(ui, *model_, ui_->view, ui_->renderer, layout.view);
   draw_device_monitor(ui, *model_, layout.view);
-  draw_arming_bar(ui, model_->devices(), layout.view);
+  draw_arming_bar(ui, model_->devices(), beside_cards(layout.view, ui.px(210)));
   draw_unsaved_offer(ui, model_->unsaved(), layout.view);
   ui_->draw_column("##left", layout.left, ui, *model_, true);
   ui_->draw_column("##right", layout.right, ui, *model_, false);

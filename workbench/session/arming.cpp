@@ -55,7 +55,7 @@ std::string arming_text(ArmingStage stage, ArmingObstacle obstacle, double force
   std::string text = stage == ArmingStage::arming     ? "Arming: waits, "
                      : stage == ArmingStage::homing   ? "Homing, without force: "
                      : stage == ArmingStage::given_up ? "Not armed: "
-                                                      : "In the way: ";
+                                                      : "No force: ";
   text += to_string(obstacle);
   if (obstacle == ArmingObstacle::finger_at_depth) {
     char force[64];

@@ -8,6 +8,7 @@
 
 #include <atomic>
 #include <ctime>
+#include <utility>
 
 namespace tangent {
 
@@ -17,28 +18,9 @@ std::atomic<bool> to_end{false};
 std::atomic<int> running{0};
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free, "used by handlers");
 
-/// Of the thread, where it is a servo's.
-thread_local void (*release_here)(void*) noexcept = nullptr;
-thread_local void* servo_here = nullptr;
+thread_local RunningServo* servo_here = nullptr;
 
 constexpr std::size_t kStackBytes = 64 * 1024;
-thread_local unsigned char* alternate_stack = nullptr;
-
-/// So that a handler runs where the thread's own stack has overflown.
-void use_alternate_stack() noexcept {
-  if (alternate_stack != nullptr) return;
-  alternate_stack = static_cast<unsigned char*>(std::malloc(kStackBytes));
-  if (alternate_stack == nullptr) return;
-  const stack_t stack{.ss_sp = alternate_stack, .ss_flags = 0, .ss_size = kStackBytes};
-  sigaltstack(&stack, nullptr);
-}
-
-void drop_alternate_stack() noexcept {
-  const stack_t none{.ss_sp = nullptr, .ss_flags = SS_DISABLE, .ss_size = 0};
-  sigaltstack(&none, nullptr);
-  std::free(alternate_stack);
-  alternate_stack = nullptr;
-}
 
 void wait_a_little() noexcept {
   const timespec half_a_tick{0, 500'000};
@@ -63,31 +45,38 @@ void allow_servos() noexcept { to_end.store(false, std::memory_order_release); }
 
 bool end_servos() noexcept {
   ask_servos_to_end();
-  if (release_here != nullptr) {
-    const auto release = release_here;
-    release_here = nullptr;  // a crash in there is not caught again
-    release(servo_here);
-    running.fetch_sub(1);
+  if (RunningServo* mine = std::exchange(servo_here, nullptr); mine != nullptr) {  // a crash in there is its own
+    mine->release_(mine->servo_);
+    mine->ended();
   }
   for (int half_ms = 0; half_ms < 2 * kMostWait_ms && running.load() > 0; ++half_ms) wait_a_little();
   return running.load() == 0;
 }
 
-RunningServo::RunningServo(void (*release)(void*) noexcept, void* servo) noexcept {
-  use_alternate_stack();
-  release_here = release;
-  servo_here = servo;
+RunningServo::RunningServo(void (*release)(void*) noexcept, void* servo) noexcept : release_(release), servo_(servo) {
   running.fetch_add(1);
 }
 
-RunningServo::~RunningServo() {
-  if (release_here != nullptr) running.fetch_sub(1);
-  release_here = nullptr;
-  drop_alternate_stack();
+void RunningServo::ended() noexcept {
+  if (running_.exchange(false)) running.fetch_sub(1);
+}
+
+RunningServo::Here::Here(RunningServo& servo) noexcept { servo_here = &servo; }
+RunningServo::Here::~Here() { servo_here = nullptr; }
+
+AlternateStack::AlternateStack() noexcept : bytes_(static_cast<unsigned char*>(std::malloc(kStackBytes))) {
+  const stack_t stack{.ss_sp = bytes_, .ss_flags = 0, .ss_size = kStackBytes};
+  if (bytes_ != nullptr) sigaltstack(&stack, nullptr);
+}
+
+AlternateStack::~AlternateStack() {
+  const stack_t none{.ss_sp = nullptr, .ss_flags = SS_DISABLE, .ss_size = 0};
+  sigaltstack(&none, nullptr);
+  std::free(bytes_);
 }
 
 void install_crash_stop() {
-  use_alternate_stack();
+  static const AlternateStack stack;  // of the main thread
   struct sigaction action {};
   action.sa_handler = end_in_order;
   // NODEFER: raised again in the handler, it ends the process at once.

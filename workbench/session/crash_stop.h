@@ -7,6 +7,8 @@
 // process.
 #pragma once
 
+#include <atomic>
+
 namespace tangent {
 
 inline constexpr int kMostWait_ms = 100;  ///< for servos to send zero force, before the process ends anyway
@@ -20,14 +22,43 @@ bool end_servos() noexcept;
 /// Servos that start from now on run.
 void allow_servos() noexcept;
 
-/// Held by a servo's thread, for as long as it may send force. `release(servo)` sends zero force; it is called, from a
-/// signal handler, where this very thread crashes.
+/// A servo that may send force, from start to end.
 class RunningServo {
  public:
+  /// `release(servo)` sends zero force.
   RunningServo(void (*release)(void*) noexcept, void* servo) noexcept;
-  ~RunningServo();
+  ~RunningServo() { ended(); }
   RunningServo(const RunningServo&) = delete;
   RunningServo& operator=(const RunningServo&) = delete;
+  /// It has sent zero force and sends no other any more.
+  void ended() noexcept;
+
+  /// On the thread that runs it: where that very thread crashes, the signal handler calls `release`.
+  class Here {
+   public:
+    explicit Here(RunningServo& servo) noexcept;
+    ~Here();
+    Here(const Here&) = delete;
+    Here& operator=(const Here&) = delete;
+  };
+
+ private:
+  friend bool end_servos() noexcept;
+  void (*release_)(void*) noexcept;
+  void* servo_;
+  std::atomic<bool> running_{true};
+};
+
+/// So that a handler can run on this thread where its own stack has overflown; while it exists.
+class AlternateStack {
+ public:
+  AlternateStack() noexcept;
+  ~AlternateStack();
+  AlternateStack(const AlternateStack&) = delete;
+  AlternateStack& operator=(const AlternateStack&) = delete;
+
+ private:
+  unsigned char* bytes_;
 };
 
 /// For the program's main thread, once: every signal that ends the process by default first calls end_servos and

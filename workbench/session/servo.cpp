@@ -73,7 +73,9 @@ void Servo::ask_for_realtime() noexcept {
 
 void Servo::loop() noexcept {
   ask_for_realtime();
-  const RunningServo running([](void* servo) noexcept { static_cast<Servo*>(servo)->release(); }, this);
+  const AlternateStack stack;
+  RunningServo running(&Servo::release_one, this);
+  const RunningServo::Here here(running);
   pacer_.start(clock_.now_ns());
   const auto ends = [this] { return stopping_.load(std::memory_order_relaxed) || servos_are_to_end(); };
   while (!ends()) {

@@ -31,6 +31,7 @@ class Servo {
 
  private:
   void loop() noexcept;
+  static void release_one(void* servo) noexcept { static_cast<Servo*>(servo)->release(); }
   void release() noexcept { tick_.release(1.0 / options_.rate_hz); }
   void ask_for_realtime() noexcept;
 

@@ -30,7 +30,7 @@ TEST_CASE("monitor arms simulated devices, and none that are to stay stopped - i
   const ProcessResult stopped = run_workbench({"monitor", "--seconds", "1", "--stay-stopped"});
   CHECK(stopped.exit_code == 0);
   CHECK_FALSE(has(stopped.out, "safety gate: armed"));
-  CHECK(has(stopped.out, "| no force: "));
+  CHECK(has(stopped.out, "| No force: "));
   CHECK(has(stopped.out, "SCHED_FIFO"));
   const bool granted = has(stopped.out, "SCHED_FIFO 40, memory locked");
   CHECK(granted != has(stopped.out, "60-tangent-workbench-limits.conf"));
