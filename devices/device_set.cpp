@@ -1,6 +1,7 @@
 #include "devices/device_set.h"
 
 #include "devices/cld/cld_controller.h"
+#include "devices/simulated/scheduled_force_device.h"
 #include "devices/simulated/simulated_contact_display.h"
 #include "devices/simulated/simulated_force_device.h"
 
@@ -25,6 +26,10 @@ std::unique_ptr<ForceDevice> ideal_force(const DeviceOptions& options) {
   SimulatedForceOptions ideal{.seed = options.seed};
   ideal.position_step_m = ideal.tremor_m = ideal.friction_n = 0.0;
   return std::make_unique<SimulatedForceDevice>(ideal);
+}
+
+std::unique_ptr<ForceDevice> scheduled_force(const DeviceOptions& options) {
+  return std::make_unique<ScheduledForceDevice>(SimulatedForceOptions{.seed = options.seed});
 }
 
 std::unique_ptr<ContactDisplay> simulated_display(const DeviceOptions& options) {
@@ -56,6 +61,7 @@ std::unique_ptr<ContactDisplay> maestro(const DeviceOptions& options) {
 constexpr DeviceKind<ForceDevice> kForceDevices[] = {
     {"simulated", simulated_force},
     {"ideal", ideal_force},
+    {"scheduled", scheduled_force},
     {"none", [](const DeviceOptions&) { return std::unique_ptr<ForceDevice>(); }},
 };
 constexpr DeviceKind<ContactDisplay> kContactDisplays[] = {

@@ -2,6 +2,10 @@
 //
 // Once it is open, `exchange` is the only call: once per tick, command in, sample out. The command is that of the
 // previous tick, so a force is applied one tick after the position it responds to.
+//
+// Who keeps the time: with most devices the caller, who calls `exchange` by a clock. The drivers of some makers have a
+// scheduler of their own instead and call us (`calls_us`): they are given the tick (`start_calling`), which then calls
+// `exchange` from within.
 #pragma once
 
 #include "core/base/result.h"
@@ -50,6 +54,12 @@ struct ForceSample {
   DeviceFault fault = DeviceFault::none;
 };
 
+/// A tick for a driver to call, from a thread of its own.
+struct DeviceTick {
+  void (*run)(void* context) noexcept = nullptr;
+  void* context = nullptr;
+};
+
 class ForceDevice {
  public:
   virtual ~ForceDevice() = default;
@@ -64,6 +74,17 @@ class ForceDevice {
   /// Called by the servo thread once per tick. `dt_s`: seconds since the last exchange, > 0. Does not allocate, lock,
   /// throw or log. Failures show in the sample's state and fault.
   virtual ForceSample exchange(const ForceCommand& command, double dt_s) noexcept = 0;
+
+  /// Whether the driver keeps the time: see above. Constant.
+  virtual bool calls_us() const { return false; }
+  /// Calls `tick` at capabilities().rate_hz, never two at once, until stop_calling has returned. After open; exchange
+  /// is then called by the tick alone. Fails when the driver's scheduler can't be started.
+  virtual Status start_calling(const DeviceTick& tick) {
+    static_cast<void>(tick);
+    return fail("this device keeps no time of its own", capabilities().name, "call exchange by a clock");
+  }
+  /// Returns after the last call. Not from within a tick.
+  virtual void stop_calling() {}
 
   /// Any thread. False, and `out` unchanged, when the device has no USB link to report on.
   virtual bool report(LinkReport& out) const {

@@ -133,7 +133,7 @@ Status run_monitor(const MonitorOptions& options) {
                                              : ArmOnStart::simulated;
   auto session = Session::create(*scene, Preset{}, wanted);
   if (!session) return tl::unexpected(session.error());
-  (*session)->start();
+  if (const Status ok = (*session)->start(); !ok) return ok;
   watch(**session, options, fault);
   (*session)->shut_down();
   std::fputs(monitor_report(**session).c_str(), stdout);

@@ -29,26 +29,43 @@ void touch_stack() noexcept {
 
 }  // namespace
 
-Servo::Servo(ServoTick& tick, ServoStatistics& statistics, const ServoOptions& options, ServoClock& clock)
+Servo::Servo(ServoTick& tick, ServoStatistics& statistics, const ServoOptions& options, ServoClock& clock,
+             ForceDevice* scheduler)
     : tick_(tick),
       statistics_(statistics),
       options_(options),
       clock_(clock),
-      pacer_(options.rate_hz, options.time_by_deadlines) {
+      pacer_(options.rate_hz, options.time_by_deadlines),
+      call_pacer_(options.rate_hz),
+      scheduler_(scheduler) {
   pacer_.start(0);
 }
 
-void Servo::start() {
-  if (running()) return;
+Status Servo::start() {
+  if (running()) return {};
   stopping_.store(false);
   statistics_.restart_rate();
-  thread_ = std::thread([this]() noexcept { loop(); });
+  if (scheduler_ == nullptr) {
+    thread_ = std::thread([this]() noexcept { loop(); });
+    return {};
+  }
+  call_pacer_.start();
+  running_.emplace(&Servo::release_one, this);
+  const Status started =
+      scheduler_->start_calling({[](void* servo) noexcept { static_cast<Servo*>(servo)->run_called(); }, this});
+  called_ = started.has_value();
+  if (!called_) running_.reset();
+  return started;
 }
 
 void Servo::stop() {
   if (!running()) return;
   stopping_.store(true, std::memory_order_relaxed);
-  thread_.join();
+  if (thread_.joinable()) return thread_.join();
+  scheduler_->stop_calling();
+  called_ = false;
+  release();
+  running_.reset();
 }
 
 void Servo::run_one() noexcept { tick_.run(pacer_.begin(pacer_.deadline_ns())); }
@@ -69,6 +86,19 @@ void Servo::ask_for_realtime() noexcept {
   CPU_ZERO(&only);
   CPU_SET(static_cast<std::size_t>(options_.cpu), &only);
   on_cpu_.store(pthread_setaffinity_np(pthread_self(), sizeof only, &only) == 0);
+}
+
+// The device's driver has chosen its thread's priority.
+void Servo::run_called() noexcept {
+  if (stopping_.load(std::memory_order_relaxed)) return;
+  const RunningServo::Here here(*running_);
+  if (servos_are_to_end()) {
+    release();  // again with every call, until nobody calls any more
+    return running_->ended();
+  }
+  const std::int64_t now_ns = clock_.now_ns();
+  statistics_.note_start(now_ns);
+  tick_.run(call_pacer_.begin(now_ns));
 }
 
 void Servo::loop() noexcept {

@@ -1,29 +1,36 @@
-// The servo thread: runs ticks at a fixed rate, by absolute deadlines. All calls come from the owner's thread.
+// Runs the ticks: in the servo thread, at a fixed rate, by absolute deadlines; or, with a force device that keeps the
+// time, when it calls, in its thread. All calls come from the owner's thread.
 #pragma once
 
+#include "devices/force_device.h"
+#include "workbench/session/call_pacer.h"
+#include "workbench/session/crash_stop.h"
 #include "workbench/session/deadline_pacer.h"
 #include "workbench/session/servo_clock.h"
 #include "workbench/session/servo_options.h"
 #include "workbench/session/servo_tick.h"
 
 #include <atomic>
+#include <optional>
 #include <thread>
 
 namespace tangent {
 
 class Servo {
  public:
-  /// `tick`, `statistics` and `clock` must outlive it. Precondition: rate within kSlowestServoHz, kFastestServoHz.
-  Servo(ServoTick& tick, ServoStatistics& statistics, const ServoOptions& options, ServoClock& clock);
+  /// `tick`, `statistics`, `clock` and `scheduler` must outlive it. `scheduler`: a force device that calls us; null:
+  /// the servo keeps the time. Precondition: rate within kSlowestServoHz, kFastestServoHz.
+  Servo(ServoTick& tick, ServoStatistics& statistics, const ServoOptions& options, ServoClock& clock,
+        ForceDevice* scheduler = nullptr);
   ~Servo() { stop(); }
   Servo(const Servo&) = delete;
   Servo& operator=(const Servo&) = delete;
 
-  /// Starts the thread; does nothing when it runs already.
-  void start();
+  /// Starts the thread, or the device's calls; does nothing when it runs already. Fails when the device can't start.
+  Status start();
   /// Stops after the current tick, sends the devices zero force, and joins the thread.
   void stop();
-  bool running() const { return thread_.joinable(); }
+  bool running() const { return thread_.joinable() || called_; }
   RealtimeGrant granted() const { return {fifo_.load(), locked_.load(), on_cpu_.load()}; }  ///< any thread
 
   /// Runs the next tick now, in the caller's thread, as if it began at its deadline. Precondition: not running.
@@ -31,6 +38,7 @@ class Servo {
 
  private:
   void loop() noexcept;
+  void run_called() noexcept;
   static void release_one(void* servo) noexcept { static_cast<Servo*>(servo)->release(); }
   void release() noexcept { tick_.release(1.0 / options_.rate_hz); }
   void ask_for_realtime() noexcept;
@@ -40,6 +48,10 @@ class Servo {
   ServoOptions options_;
   ServoClock& clock_;
   DeadlinePacer pacer_;
+  CallPacer call_pacer_;
+  ForceDevice* scheduler_;
+  bool called_ = false;                  ///< by the device
+  std::optional<RunningServo> running_;  ///< while it is
   std::thread thread_;
   std::atomic<bool> stopping_{false};
   std::atomic<bool> fifo_{false}, locked_{false}, on_cpu_{false};

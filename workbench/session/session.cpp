@@ -74,7 +74,9 @@ struct Session::Impl {
     scenes.emplace(0, scene);
     tick = std::make_unique<ServoTick>(devices, channels, statistics, std::move(prepared), PresetLetter{0, preset},
                                        options.threaded ? &monotonic_ns : nullptr);
-    servo = std::make_unique<Servo>(*tick, statistics, options.servo, clock);
+    ForceDevice* force = devices.force.get();
+    ForceDevice* scheduler = force != nullptr && force->calls_us() ? force : nullptr;
+    servo = std::make_unique<Servo>(*tick, statistics, options.servo, clock, scheduler);
   }
 
   SessionOptions options;
@@ -138,6 +140,7 @@ Result<std::unique_ptr<Session>> Session::create(std::shared_ptr<const ContactSc
   auto devices = make_devices(options.devices, wanted);
   if (!devices) return tl::unexpected(devices.error());
   if (!all_simulated(*devices)) options.servo.time_by_deadlines = true;
+  if (devices->force && devices->force->calls_us()) options.servo.rate_hz = devices->force->capabilities().rate_hz;
   if (const Status ok = check_devices(preset, devices->force != nullptr, devices->display != nullptr); !ok)
     return tl::unexpected(ok.error());
   if (devices->force) {
@@ -155,13 +158,16 @@ Result<std::unique_ptr<Session>> Session::create(std::shared_ptr<const ContactSc
 
 // --- Running -------------------------------------------------------------------------------------------
 
-void Session::start() {
-  if (impl_->started) return;
+Status Session::start() {
+  if (impl_->started) return {};
   impl_->started = true;
   const ArmOnStart wanted = impl_->options.arm_on_start;
   const bool arms = wanted == ArmOnStart::always || (wanted == ArmOnStart::simulated && all_simulated(impl_->devices));
   if (arms) arm();
-  if (impl_->options.threaded) impl_->servo->start();
+  if (!impl_->options.threaded) return {};
+  const Status ok = impl_->servo->start();
+  impl_->started = ok.has_value();
+  return ok;
 }
 
 void Session::shut_down() {

@@ -86,7 +86,9 @@ class Session {
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
-  void start();      ///< starts the servo thread (threaded), homes, and arms if arm_on_start says so
+  /// Starts the ticks (threaded), homes, and arms if arm_on_start says so. Fails when a device that keeps the time
+  /// can't start.
+  Status start();
   void shut_down();  ///< stops force and thread; keeps the history. Also called by the destructor
   bool running() const;
   /// Not threaded: runs n ticks and polls them into the history. Threaded: does nothing.

@@ -48,11 +48,27 @@ struct WitnessedDevice final : ForceDevice {
   Witness& witness;
   ForceCapabilities caps{.name = "witnessed", .peak_force_n = 8.5};
   int ticks = 0;
+  std::thread caller;  ///< of a driver that keeps the time itself
+  std::atomic<bool> calling{false};
 
   explicit WitnessedDevice(Witness& w) : witness(w) {}
   const ForceCapabilities& capabilities() const override { return caps; }
   Status open() override { return {}; }
   void close() override {}
+  Status start_calling(const DeviceTick& tick) override {
+    calling = true;
+    caller = std::thread([this, tick] {
+      while (calling) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        tick.run(tick.context);
+      }
+    });
+    return {};
+  }
+  void stop_calling() override {
+    calling = false;
+    caller.join();
+  }
   ForceSample exchange(const ForceCommand& command, double) noexcept override {
     const double n = glm::length(command.force_n);
     witness.last_n = n;
@@ -83,21 +99,23 @@ int overflow(int depth) {
 }
 
 /// In the child: a servo that pushes with 0.8 N, until `end`.
-[[noreturn]] void push_until(Witness& witness, const std::function<void()>& end) {
+[[noreturn]] void push_until(Witness& witness, const std::function<void()>& end, bool called) {
   for (int signal = 1; signal < NSIG; ++signal) std::signal(signal, SIG_DFL);  // doctest has its own
   std::set_terminate([] { std::abort(); });
   const rlimit no_core{0, 0};
   setrlimit(RLIMIT_CORE, &no_core);
   install_crash_stop();
   DeviceSet set;
-  set.force = std::make_unique<WitnessedDevice>(witness);
+  auto device = std::make_unique<WitnessedDevice>(witness);
+  WitnessedDevice* scheduler = called ? device.get() : nullptr;
+  set.force = std::move(device);
   TickBench bench(std::move(set), sphere_scene());
   ServoOptions options;
   options.realtime = false;
   MonotonicClock clock;
-  Servo servo(*bench.tick, bench.statistics, options, clock);
+  Servo servo(*bench.tick, bench.statistics, options, clock, scheduler);
   bench.arm();
-  servo.start();
+  if (!servo.start()) _exit(78);
   for (int i = 0; i < 20'000 && witness.last_n < 0.5; ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
     // A machine that is not real-time has late ticks: armed again, with the finger lifted.
@@ -111,12 +129,12 @@ int overflow(int depth) {
 }
 
 /// What became of it; the child is tried again where the machine was too slow for the gate.
-int outcome(Witness& witness, const std::function<void()>& end, int kill_with = 0) {
+int outcome(Witness& witness, const std::function<void()>& end, int kill_with = 0, bool called = false) {
   for (int attempt = 0; attempt < 20; ++attempt) {
     new (&witness) Witness;
     std::cout.flush();  // or the child's exit writes it again
     const pid_t child = fork();
-    if (child == 0) push_until(witness, end);
+    if (child == 0) push_until(witness, end, called);
     while (kill_with != 0 && witness.ended_ns == 0 && waitpid(child, nullptr, WNOHANG) == 0)
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     if (kill_with != 0) kill(child, kill_with);
@@ -174,6 +192,14 @@ TEST_CASE("however the process ends, the last command is zero force") {
     }
     MESSAGE(std::string(way.name) << ": zero force after "
                                   << static_cast<double>(witness.last_ns - witness.ended_ns) * 1e-6 << " ms");
+  }
+  for (const bool in_its_thread : {false, true}) {
+    CAPTURE(in_its_thread);
+    const auto end = [&] { in_its_thread ? void(witness.crash_in_exchange = true) : std::abort(); };
+    outcome(witness, end, 0, true);
+    CHECK(witness.most_n > 0.5);
+    CHECK(witness.last_n == 0.0);
+    CHECK(witness.last_was_stop);
   }
   for (const int signal : {SIGTERM, SIGINT, SIGHUP}) {
     const int status = outcome(

@@ -235,3 +235,22 @@ TEST_CASE("a session can be shut down twice, started again, and dropped while ru
   CHECK(session->running());
   session.reset();
 }
+
+TEST_CASE("a session whose force device keeps the time runs by its calls") {
+  SessionOptions options = by_hand();
+  options.threaded = true;
+  options.devices.force = "scheduled";
+  options.servo.rate_hz = 250.0;  // not the device's
+  auto session = started(options);
+  CHECK(session->status().servo.nominal_hz == 1000.0);
+  while (session->status().servo.ticks < 600) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    session->poll();
+  }
+  session->shut_down();
+  const std::uint64_t ticks = session->status().servo.ticks;
+  CHECK(session->history().newest().tick.tick + 1 == ticks);
+  CHECK(session->history().newest().device.force_state == DeviceState::ready);
+  std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  CHECK(session->status().servo.ticks == ticks);
+}

@@ -54,7 +54,7 @@ void DeviceModel::make_session() {
     return;
   }
   session_ = std::move(*session);
-  session_->start();
+  if (const Status ok = session_->start(); !ok) messages_.say(Severity::error, ok.error().message());
   options_.arm_on_start = ArmOnStart::never;  // a choice of devices or a calibration arms nothing
   status_ = session_->status();
 }
