@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <system_error>
 
 namespace tangent {
 namespace {
@@ -63,6 +64,10 @@ int run_program(int argc, const char* const* argv, std::span<const AddCommand> c
     return code;
   } catch (const std::bad_alloc&) {
     print_message(chosen_command(app), "not enough memory");
+  } catch (const std::system_error& error) {
+    // What starting a thread says where there is no room for its stack.
+    const bool room = error.code() == std::errc::resource_unavailable_try_again;
+    print_message(chosen_command(app), room ? "not enough memory for another thread" : error.what());
   } catch (const std::exception& error) {
     print_message(chosen_command(app), error.what());
   }

@@ -58,8 +58,8 @@ std::string arming_text(ArmingStage stage, ArmingObstacle obstacle, double force
                                                       : "No force: ";
   text += to_string(obstacle);
   if (obstacle == ArmingObstacle::finger_at_depth) {
-    char force[64];
-    std::snprintf(force, sizeof force, " (%.2f N, arms below %.1f)", force_wanted_n, kMostArmingForce_n);
+    char force[32];
+    std::snprintf(force, sizeof force, " (%.2f N)", force_wanted_n);
     text += force;
   }
   if (obstacle != ArmingObstacle::none) text += std::string(". ") + remedy(obstacle);

@@ -190,7 +190,7 @@ TEST_CASE("what is in the way is told in this order: fault, homing, workspace, d
   b.run(0.01);
   CHECK(b.arming.obstacle() == ArmingObstacle::finger_at_depth);
   CHECK(arming_text(ArmingStage::given_up, b.arming.obstacle(), 3.0) ==
-        "Not armed: the finger is in the surface (3.00 N, arms below 0.2). Move the finger off the surface");
+        "Not armed: the finger is in the surface (3.00 N). Move the finger off the surface");
   b.seen.force_wanted_n = 0.19;
   b.run(0.01);
   CHECK(b.arming.obstacle() == ArmingObstacle::none);

@@ -8,10 +8,10 @@
 namespace tangent {
 
 void draw_arming_bar(const UiContext& ui, DeviceModel& devices, const Rect& over) {
-  constexpr std::array<StripButton, 1> kArm{
-      {{"arming/arm", "Arm",
-        "One attempt: clears faults, homes what is not homed, waits up to 5 s until the finger is off the surface, and "
-        "lets the force in over a quarter of a second"}}};
+  constexpr std::array<StripButton, 1> kArm{{{"arming/arm", "Arm",
+                                              "One attempt: clears faults, homes what is not homed, waits up to 5 s "
+                                              "until the force would be below 0.2 N, and "
+                                              "lets the force in over a quarter of a second"}}};
   const std::string text = devices.arming_text();
   if (!text.empty() && draw_strip(ui, "##arming", over, StripPlace::lower_edge, text, kArm)) devices.arm();
 }
