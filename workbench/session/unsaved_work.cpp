@@ -19,10 +19,10 @@ namespace tangent {
 
 namespace {
 
-constexpr std::size_t kMaxBytes = std::size_t{16} << 20;
-constexpr std::array<MigrationStep, 1> kSteps{only_number};
-constexpr FileFormats kFormats{"unsaved work", kSteps};
-constexpr const char* kRemedy = "delete the file";
+constexpr std::size_t kMostUnsavedBytes = std::size_t{16} << 20;
+constexpr std::array<MigrationStep, 1> kUnsavedSteps{only_number};
+constexpr FileFormats kUnsavedFormats{"unsaved work", kUnsavedSteps};
+constexpr const char* kUnsavedRemedy = "delete the file";
 
 /// As text: TOML's numbers need not read back as the same double.
 toml::table values_of(const Preset& preset) {
@@ -90,15 +90,15 @@ std::string format_unsaved(const UnsavedWork& work) {
       {"at", static_cast<std::int64_t>(work.at)}, {"steps", std::move(steps)}, {"bookmarks", std::move(bookmarks)}};
   std::ostringstream text;
   text << "# What is in no other file, for the case that the program crashes. Removed when its window is closed.\n"
-       << kFormats.line() << root << "\n";
+       << kUnsavedFormats.line() << root << "\n";
   return text.str();
 }
 
 Result<UnsavedWork> parse_unsaved(std::string_view text, std::string_view name) {
-  auto root = parse_toml(text, name, kRemedy);
+  auto root = parse_toml(text, name, kUnsavedRemedy);
   if (!root) return tl::unexpected(root.error());
-  if (const Status status = migrate(*root, kFormats, name); !status) return tl::unexpected(status.error());
-  const auto broken = [&] { return fail("is not what this program wrote", std::string(name), kRemedy); };
+  if (const Status status = migrate(*root, kUnsavedFormats, name); !status) return tl::unexpected(status.error());
+  const auto broken = [&] { return fail("is not what this program wrote", std::string(name), kUnsavedRemedy); };
   UnsavedWork work;
   if (const toml::array* steps = (*root)["steps"].as_array()) {
     for (const toml::node& node : *steps) {
@@ -166,7 +166,7 @@ std::optional<LeftWork> find_left_work(const std::filesystem::path& folder) {
   std::sort(files.begin(), files.end(), [&](const auto& a, const auto& b) { return age(a) > age(b); });
   for (const std::filesystem::path& file : files) {
     if (!FileLock(file, 0.0).held()) continue;  // its window is open
-    const auto text = read_input_file(file, kMaxBytes);
+    const auto text = read_input_file(file, kMostUnsavedBytes);
     const auto work = text ? parse_unsaved(*text, file.string()) : tl::unexpected(text.error());
     if (work && !work->empty()) return LeftWork{*work, file};
     put_aside(file);

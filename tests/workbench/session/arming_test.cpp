@@ -12,7 +12,7 @@ using namespace tangent::test;
 
 namespace {
 
-constexpr double kTick_s = 1e-3;
+constexpr double kArmingTick_s = 1e-3;
 
 /// A device that does as it is asked, after a while; told to, it never gets through homing.
 struct MadeUpDevice {
@@ -48,10 +48,10 @@ struct ArmingBench {
 
   explicit ArmingBench(double homing_s = 10.0) : arming(homing_s, homing_s) { seen.known = true; }
   void run(double seconds) {
-    for (int i = 0; i < static_cast<int>(seconds / kTick_s + 0.5); ++i) {
+    for (int i = 0; i < static_cast<int>(seconds / kArmingTick_s + 0.5); ++i) {
       seen.force = force.state;
       seen.display = display.state;
-      const ArmingOrders orders = arming.update(seen, kTick_s);
+      const ArmingOrders orders = arming.update(seen, kArmingTick_s);
       force.take(orders.force);
       display.take(orders.display);
       if (!orders.arm) continue;

@@ -29,7 +29,7 @@ struct HeldDevice final : ForceDevice {
   }
 };
 
-struct Outcome {
+struct Felt {
   double fastest_out = 0.0;    ///< m/s, away from the centre
   double fastest = 0.0;        ///< m/s, anywhere
   double most_change_n = 0.0;  ///< of the force sent, in 5 ms
@@ -73,8 +73,8 @@ struct Hold {
     bench.run(600);
     REQUIRE(bench.run().device.gate_state == GateState::armed);
   }
-  Outcome watch(int ticks) {
-    Outcome out;
+  Felt watch(int ticks) {
+    Felt out;
     std::vector<double> sent;
     ServoRecord r;
     for (int i = 0; i < ticks; ++i) {
@@ -104,7 +104,7 @@ Preset with_stiffness(double n_per_m) {
   return preset;
 }
 
-void check_quiet(const char* what, const Outcome& out) {
+void check_quiet(const char* what, const Felt& out) {
   MESSAGE(std::string(what) << ": leaves at " << out.fastest_out << " m/s, at most " << out.fastest << " m/s, "
                             << out.most_change_n << " N in 5 ms, " << out.end_n << " N at the end");
   CHECK(out.fastest < kFastestLeaving);
@@ -134,10 +134,10 @@ TEST_CASE(
 TEST_CASE("presets that follow each other quickly, as by the key of A and B, add up to no kick") {
   Hold hold(with_stiffness(100.0));
   hold.press(2.7e-3);
-  Outcome worst;
+  Felt worst;
   for (int i = 0; i < 40; ++i) {
     hold.change(with_stiffness(i % 2 == 0 ? 3500.0 : 100.0));
-    const Outcome out = hold.watch(10 + 7 * i);
+    const Felt out = hold.watch(10 + 7 * i);
     worst.fastest = std::max(worst.fastest, out.fastest);
     worst.fastest_out = std::max(worst.fastest_out, out.fastest_out);
   }
@@ -146,8 +146,8 @@ TEST_CASE("presets that follow each other quickly, as by the key of A and B, add
 }
 
 TEST_CASE("every method and condition changes into every other without a kick") {
-  Outcome worst;
-  const auto note = [&](const Outcome& out) {
+  Felt worst;
+  const auto note = [&](const Felt& out) {
     worst.fastest = std::max(worst.fastest, out.fastest);
     worst.most_change_n = std::max(worst.most_change_n, out.most_change_n);
   };
