@@ -109,21 +109,18 @@ inline double ContactHierarchy::reach2(const Node& node, const ContactQuery& q) 
       (q.steady_only || is_steady(q, node.least_curvature, node.greatest_curvature) ? 0.0 : q.margin_m);
   const double d2 = glm::dot(d, d);
   if (d2 <= radius * radius) return box2;
-  const double distance = std::sqrt(d2);
-  const double along = d.x * node.axis[0] + d.y * node.axis[1] + d.z * node.axis[2];
-  // Compare the angle of d from +-axis with half + spread + tilt, by cosines.
-  const double sin_spread = radius / distance, cos_spread = std::sqrt(1.0 - sin_spread * sin_spread);
+  // Compare the angle of d from +-axis with half + spread + tilt, by cosines times the distance.
+  const double to_sight = std::sqrt(d2 - radius * radius);  // of a line from c that grazes the ball
   const double cos_half = node.cos_half, sin_half = std::sqrt(std::max(0.0, 1.0 - cos_half * cos_half));
-  double cos_all = cos_half * cos_spread - sin_half * sin_spread;
-  double sin_all = sin_half * cos_spread + cos_half * sin_spread;
-  if (sin_all < 0.0) return box2;  // over half a turn: every direction
+  const double along = d.x * node.axis[0] + d.y * node.axis[1] + d.z * node.axis[2];
+  double limit = cos_half * to_sight - sin_half * radius;
+  const double sideways = sin_half * to_sight + cos_half * radius;
+  if (sideways < 0.0) return box2;  // over half a turn: every direction
   if (q.tilt_rad > 0.0) {
     const double c = std::cos(q.tilt_rad), s = std::sin(q.tilt_rad);
-    const double sin_sum = sin_all * c + cos_all * s;
-    cos_all = cos_all * c - sin_all * s;
-    if (sin_sum < 0.0) return box2;
+    if (sideways * c + limit * s < 0.0) return box2;
+    limit = limit * c - sideways * s;
   }
-  const double limit = cos_all * distance;
   const bool outside = along >= limit && box2 <= q.nearest_m * q.nearest_m;
   const bool inside = q.inside_m >= 0.0 && -along >= limit && box2 <= q.inside_m * q.inside_m;
   return outside || inside ? box2 : -1.0;

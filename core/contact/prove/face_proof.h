@@ -24,8 +24,8 @@ struct PatchExclusion {
 
 /// `centre` in the patch's coordinates. Faces only: edges and vertices have fans of normals of their own. Where the
 /// whole patch can't be excluded, it is bisected: parts are excluded one by one until what is left is a contact, to
-/// 1/2^kBisections of the patch, or until the left parts would be unstable (det M or trace M below zero). With a
-/// margin of `enough_m` heights are not asked for.
+/// 1/2^kBisections of the patch, or until the left parts would be unstable (det M or trace M below zero). Once
+/// the margin is `enough_m`, neither heights nor a wider margin are asked for.
 PatchExclusion exclude_contact(const PnPatch& patch, const Vec3& centre, double enough_m = 0.0);
 
 /// A first look at a face from its corners alone, without its patch: by how much the triangle of the corners' misses

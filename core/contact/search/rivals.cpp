@@ -6,6 +6,7 @@
 #include "core/contact/prove/basin.h"
 #include "core/contact/prove/clearance_check.h"
 #include "core/contact/prove/triangle_proof.h"
+#include "core/contact/search/height_change.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,22 +18,9 @@ namespace {
 
 constexpr double kForever = std::numeric_limits<double>::infinity();
 
-Vec3 interpolated_normal(const ContactMesh& mesh, std::uint32_t t, double u, double v) {
-  const auto n = mesh.normals(t);
-  return unit((1.0 - u - v) * n[0] + u * n[1] + v * n[2]);
-}
-
-/// How far the centre may go before a rival that ranks `gap` behind can overtake: heights change along their normals,
-/// and in second order by the square of the way over the height, near a fold by more.
-/// `is_still`: the bound is a fixed height, and not the tracked contact's.
-double overtaking_margin(const KnownContact& tracked, const Vec3& rival_normal, double rival_height, double gap,
-                         bool is_still) {
-  const Vec3 apart = is_still ? rival_normal : tracked.normal - rival_normal;
-  const double rate = std::sqrt(glm::dot(apart, apart)) + 1e-3;
-  const double bend = 2.0 / std::max(1e-12, std::min(std::abs(tracked.height_m), std::abs(rival_height)));
-  // Smaller root of rate m + bend m^2 = gap.
-  return kOvertakingRoom * 2.0 * gap / (rate + std::sqrt(rate * rate + 4.0 * bend * gap));
-}
+/// Whether a contact is well enough known without solving for it. Beside a fold a stable and an unstable one are so
+/// near to each other that it may be either.
+bool trusts_guess(const Stability& stability) { return stability.det > kGuessMinDet && stability.trace > 0.0; }
 
 /// Some ticks at the finger's present speed, within shares of the tracked contact's rank.
 double ticks_ahead_m(double rank, double moved_m) {
@@ -65,6 +53,7 @@ class RivalSearch {
         context_{context.cache, settings_, context.finger, context.pose, context.origin,
                  context.trace, 0,         context.moved_m} {
     remember(tracked.plane, tracked.contact);
+    change_ = change_of(tracked.plane, tracked.sample, tracked.contact.height_m);
     if (touched_)
       for (const TouchedContact& c : touched_->all()) remember(c.plane, c.contact);
   }
@@ -161,9 +150,13 @@ class RivalSearch {
     return std::any_of(all.begin(), all.end(), [&](const TouchedContact& c) { return near(c.plane.point); });
   }
 
+  HeightChange change_of(const TrackedPlane& plane, const SurfaceSample& sample, double height_m) const {
+    const bool face = plane.feature == Feature::face && is_round(context_.finger);
+    return face ? height_change_on_face(sample, height_m) : height_change_along(plane.normal, height_m);
+  }
+
   /// `up_to_m`: rank below which contacts count.
   Look look_at(std::uint32_t t, double enough_m, double up_to_m, RivalResult& result) {
-    const ContactMesh& mesh = context_.cache.mesh();
     for (std::size_t i = 0; i < known_count_; ++i)
       if (same_basin(context_.cache, settings_.normal_form, t, known_[i], std::min(enough_m, slope_m_)))
         return own_slope(enough_m);
@@ -173,10 +166,13 @@ class RivalSearch {
     if (proof.height_m != 0.0 && is_tracked(proof)) return own_slope(enough_m);
     const double guess = proof.height_m >= 0.0 ? proof.height_m : context_.finger.reach_m() - proof.height_m;
     const double behind = guess - bound_m_;
-    if (proof.height_m != 0.0 && behind > kHeightGuess * guess)  // a rival, but not a deeper one yet
-      return {overtaking_margin(known_[0], interpolated_normal(mesh, t, proof.u, proof.v), proof.height_m, behind,
-                                touched_ != nullptr),
-              true, true};
+    if (proof.height_m != 0.0 && behind > kHeightGuess * guess) {  // a rival, but not a deeper one yet
+      SurfaceSample there;
+      context_.cache.sample(t, settings_.normal_form, proof.u, std::min(proof.v, 1.0 - proof.u), there);
+      if (trusts_guess(normal_bend(there).at_height(proof.height_m)))
+        return {overtaking_margin(change_, height_change_on_face(there, proof.height_m), behind, touched_ != nullptr),
+                true, true};
+    }
     return solve(t, proof, enough_m, result);
   }
 
@@ -276,7 +272,7 @@ class RivalSearch {
       result.best = r;
       result.deeper = true;
     }
-    return {overtaking_margin(known_[0], r.plane.normal, r.contact.height_m, std::max(0.0, rank - bound_m_),
+    return {overtaking_margin(change_, change_of(r.plane, r.sample, r.contact.height_m), std::max(0.0, rank - bound_m_),
                               touched_ != nullptr),
             true, false};
   }
@@ -291,6 +287,7 @@ class RivalSearch {
   SolverSettings settings_;
   bool steady_;  ///< contacts are followed over steady ground
   ContactContext context_;
+  HeightChange change_;  ///< of the tracked contact
   FeatureMemory features_;
   std::array<KnownContact, kKnownContacts> known_;
   std::size_t known_count_ = 0;
