@@ -125,7 +125,7 @@ bool could_be_stable(const Part& part, const Vec2& edge_u, const Vec2& edge_v) {
 }
 
 /// Excludes what can be of the parts of `whole`.
-void bisect_parts(const Part& whole, const Vec2& edge_u, const Vec2& edge_v, PatchExclusion& result) {
+void bisect_parts(const Part& whole, const Vec2& edge_u, const Vec2& edge_v, double off_m, PatchExclusion& result) {
   std::array<Part, kBisections + 2> stack;
   std::size_t size = 0;
   stack[size++] = whole;
@@ -134,7 +134,7 @@ void bisect_parts(const Part& whole, const Vec2& edge_u, const Vec2& edge_v, Pat
   result.possible = false;
   for (int tests = 0; size > 0; ++tests) {
     const Part part = stack[--size];
-    const double here = part.margin();
+    const double here = part.margin() - off_m;
     if (here > 0.0) {
       margin = std::min(margin, here);
       continue;
@@ -198,6 +198,10 @@ double estimated_height(const PnPatch& patch, const Vec3& c, double u, double v,
 }  // namespace
 
 PatchExclusion exclude_contact(const PnPatch& patch, const Vec3& centre, double enough_m) {
+  return exclude_contact(patch, centre, enough_m, {{patch.offsets[b030], patch.offsets[b003]}, 0.0});
+}
+
+PatchExclusion exclude_contact(const PnPatch& patch, const Vec3& centre, double enough_m, const StandIn& stands_for) {
   // Mixed terms weighted 1 (NormalForm::vlachos) are half control normals of the Bernstein form.
   const double mixed = 0.5 * patch.mixed_weight;
   const Vec3 sum = patch.normals[n200] + patch.normals[n020] + patch.normals[n002];
@@ -231,16 +235,15 @@ PatchExclusion exclude_contact(const PnPatch& patch, const Vec3& centre, double 
   whole.corner = {Vec2(0.0, 0.0), Vec2(1.0, 0.0), Vec2(0.0, 1.0)};
   multiply_miss(d, n, whole.f, std::make_index_sequence<60>());
   PatchExclusion result;
-  result.margin_m = whole.margin();
+  result.margin_m = std::max(0.0, whole.margin() - stands_for.off_m);
   if (result.margin_m > 0.0) result.possible = false;
   if (result.margin_m > 0.0 && result.margin_m >= enough_m) return result;
   Quintic height{};
   multiply_height(d, n, height, std::make_index_sequence<60>());
   result.least_height_m = std::max(0.0, *std::min_element(height.begin(), height.end()));
   if (!result.possible) return result;
-  const Vec3& e1 = patch.offsets[b030];
-  const Vec3& e2 = patch.offsets[b003];
-  bisect_parts(whole, {glm::dot(e1, t), glm::dot(e1, s)}, {glm::dot(e2, t), glm::dot(e2, s)}, result);
+  const Vec3 &e1 = stands_for.sides[0], &e2 = stands_for.sides[1];
+  bisect_parts(whole, {glm::dot(e1, t), glm::dot(e1, s)}, {glm::dot(e2, t), glm::dot(e2, s)}, stands_for.off_m, result);
   if (result.margin_m > 0.0) result.possible = false;
   if (!result.possible) return result;
   result.height_m = estimated_height(patch, c, result.u, result.v, result.point);
