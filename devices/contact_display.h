@@ -21,7 +21,9 @@ struct DisplayCapabilities {
   double resolution_m = 0.0;
   double bandwidth_hz = 0.0;
   double rate_hz = 0.0;
+  double fastest_m_per_s = 0.0;     ///< of the target
   bool measures_position = true;    ///< false: open loop; samples repeat the last command
+  double homing_s = 10.0;           ///< homing takes no longer; 0: it is homed by hand
   double firmware_timeout_s = 0.0;  ///< firmware watchdog: stops the drive when no command comes; 0: none
   bool has_controller = false;      ///< takes gains, speed and current: see set_controller
 };
@@ -58,6 +60,10 @@ class ContactDisplay {
   /// Sets gains and limits of the position loop from the next exchange on. Servo thread. A display without a controller
   /// ignores it.
   virtual void set_controller(const ControllerSettings& settings) noexcept { static_cast<void>(settings); }
+
+  /// Any thread, also while an exchange does not return: stops the drive by a way of its own. False when the device has
+  /// none. Does not wait.
+  virtual bool emergency_stop() noexcept { return false; }
 
   /// Any thread. False, and `out` unchanged, when the device has no USB link to report on.
   virtual bool report(LinkReport& out) const {

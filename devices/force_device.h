@@ -1,7 +1,8 @@
 // A force device: measures the finger's position and applies a force to it.
 //
 // Once it is open, `exchange` is the only call: once per tick, command in, sample out. The command is that of the
-// previous tick, so a force is applied one tick after the position it responds to.
+// previous tick, so a force is applied one tick after the position it responds to. open_devices (device_safety.h) opens
+// it and refuses capabilities that make no sense.
 //
 // Who keeps the time: with most devices the caller, who calls `exchange` by a clock. The drivers of some makers have a
 // scheduler of their own instead and call us (`calls_us`): they are given the tick (`start_calling`), which then calls
@@ -24,7 +25,8 @@ class SimulatedHand;
 
 /// Capabilities of a force device. Zero: not known or not present.
 struct ForceCapabilities {
-  std::string name;  ///< for people: "simulated PHANToM-like"
+  std::string name;         ///< for people: "simulated PHANToM-like"
+  std::string serial = {};  ///< empty: not known
   bool simulated = false;
   bool senses_orientation = false;
   double peak_force_n = 0.0;        ///< must never be exceeded
@@ -34,6 +36,7 @@ struct ForceCapabilities {
   double largest_stiffness_n_per_m = 0.0;
   Vec3 workspace_half_size_m{0.0};  ///< box around the origin
   double rate_hz = 0.0;             ///< exchanges per second it is designed for
+  double homing_s = 10.0;           ///< homing takes no longer; 0: it is homed by hand
   double firmware_timeout_s = 0.0;  ///< firmware watchdog: stops the force when no command comes; 0: none
 };
 
@@ -73,6 +76,10 @@ class ForceDevice {
   /// Called by the servo thread once per tick. `dt_s`: seconds since the last exchange, > 0. Does not allocate, lock,
   /// throw or log. Failures show in the sample's state and fault.
   virtual ForceSample exchange(const ForceCommand& command, double dt_s) noexcept = 0;
+
+  /// Any thread, also while an exchange does not return: stops the force by a way of its own, as another transfer or a
+  /// closed handle. False when the device has none. Does not wait.
+  virtual bool emergency_stop() noexcept { return false; }
 
   /// Whether the driver keeps the time: see above. Constant.
   virtual bool calls_us() const { return false; }

@@ -2,120 +2,67 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 namespace tangent {
 
-const char* to_string(GateState state) {
-  switch (state) {
-    case GateState::disarmed:
-      return "disarmed";
-    case GateState::ramping:
-      return "ramping";
-    case GateState::armed:
-      return "armed";
-    case GateState::faulted:
-      return "faulted";
-  }
-  return "?";
-}
-
-const char* to_string(GateFault fault) {
-  switch (fault) {
-    case GateFault::none:
-      return "none";
-    case GateFault::force_not_finite:
-      return "force not finite";
-    case GateFault::display_not_finite:
-      return "display target not finite";
-    case GateFault::force_device:
-      return "force device not ready";
-    case GateFault::contact_display:
-      return "contact display not ready";
-    case GateFault::position_not_finite:
-      return "position not finite";
-    case GateFault::position_jumped:
-      return "position jumped";
-    case GateFault::position_frozen:
-      return "position frozen";
-    case GateFault::display_jumped:
-      return "display jumped";
-    case GateFault::display_frozen:
-      return "display frozen";
-    case GateFault::stale_sample:
-      return "stale sample";
-    case GateFault::late_tick:
-      return "late tick";
-    case GateFault::shaking:
-      return "shaking";
-  }
-  return "?";
-}
-
-const char* to_string(GateAction action) {
-  switch (action) {
-    case GateAction::force_clamped:
-      return "force clamped";
-    case GateAction::slew_limited:
-      return "slew limited";
-    case GateAction::ramped_in:
-      return "ramped in";
-    case GateAction::display_clamped:
-      return "display clamped";
-    case GateAction::refused_not_finite:
-      return "refused, not finite";
-    case GateAction::withheld:
-      return "withheld";
-    case GateAction::workspace_faded:
-      return "outside workspace";
-    case GateAction::heat_clamped:
-      return "clamped by heat";
-    case GateAction::shake_reduced:
-      return "shaking, reduced";
-    case GateAction::ramped_out:
-      return "ramped out";
-    case GateAction::count_:
-      break;
-  }
-  return "?";
-}
-
 namespace {
 
-/// Scales `v` down to length `longest`; true when it was longer. Clamps the components first, so that squaring them
-/// can't overflow.
-bool shorten(Vec3& v, double longest) {
+constexpr double kJustBelow = 1.0 - 4.0 * std::numeric_limits<double>::epsilon();
+
+/// Scales `v` down to length `share * longest` when it is longer than `longest`, and says so. Clamps the components
+/// first, so that squaring them can't overflow. A length is a sum and a root, each rounded: with kJustBelow it is never
+/// above.
+bool shorten(Vec3& v, double longest, double share = 1.0) {
   const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
   const bool huge = largest > longest;
+  if (longest <= 0.0) {
+    v = Vec3(0.0);
+    return huge;
+  }
   if (huge) v *= longest / largest;
   const double length = std::sqrt(glm::dot(v, v));
-  if (length > longest) {
-    v *= longest / length;
-    return true;
-  }
-  // A vector with one nonzero component is exactly at the limit now; any other was too long as well.
-  return huge;
+  if (length <= longest && !huge) return false;
+  // A huge vector with one nonzero component is at the limit now; any other was too long as well.
+  if (length > longest || share < 1.0) v *= share * (longest / std::max(length, longest));
+  return true;
 }
+
+double length_of(const Vec3& v) { return std::sqrt(glm::dot(v, v)); }
 
 }  // namespace
 
+SafetyGate::SafetyGate(const GateLimits& limits) : limits_(check_limits(limits) ? limits : GateLimits{}) {}
+
 void SafetyGate::forget_motion() noexcept {
-  position_known_ = roller_known_ = false;
+  finger_.forget();
+  roller_.forget();
   frozen_.forget();
   display_frozen_.forget();
-  shake_.forget();
+  sent_.forget();
+  energy_.forget();
+  wall_ = {};
+  declared_j_ = 0.0;
 }
 
 void SafetyGate::arm() noexcept {
+  if (!live()) last_force_n_ = Vec3(0.0);
   state_ = GateState::ramping;
   fault_ = GateFault::none;
   since_armed_s_ = 0.0;
-  force_was_ready_ = display_was_ready_ = falling_ = false;
+  force_was_ready_ = display_was_ready_ = falling_ = half_to_send_ = false;
+  lateness_.forget();
   forget_motion();  // but not the thermal store: re-arming does not cool the motors
 }
 
 void SafetyGate::stop() noexcept {
   if (state_ != GateState::faulted) state_ = GateState::disarmed;
-  falling_ = false;
+  falling_ = half_to_send_ = false;
+}
+
+void SafetyGate::stop_by(GateFault fault) noexcept {
+  if (live()) latch(fault);
 }
 
 void SafetyGate::restart_ramp() noexcept {
@@ -141,6 +88,24 @@ void SafetyGate::latch_falling(GateFault fault) noexcept {
 void SafetyGate::note(GateAction action, GateOutput& out) noexcept {
   out.actions = static_cast<GateActions>(out.actions | (1u << static_cast<unsigned>(action)));
   ++counts_[static_cast<std::size_t>(action)];
+}
+
+// --- Before sending ------------------------------------------------------------------------------------
+
+// Zero at once after a stall, without the step at half force that pass takes: the device held the old force all along.
+Vec3 SafetyGate::before_sending(double dt_s) noexcept {
+  const bool late = !(dt_s <= longest_tick_s(limits_));
+  const bool often = !late && lateness_.add(dt_s, limits_.period_s);
+  if (late || often) stop_by(late ? GateFault::late_tick : GateFault::late_ticks);
+  // A tick that is late but no fault: the force goes out only if its sample is not too old by now.
+  const bool fresh = sample_age_s_ + dt_s <= limits_.stale_s + 1.5 * limits_.period_s;
+  const bool may = (live() && fresh) || (half_to_send_ && !late);
+  half_to_send_ = false;
+  if (!may && last_force_n_ != Vec3(0.0)) {
+    ++counts_[static_cast<std::size_t>(GateAction::withheld)];
+    last_force_n_ = Vec3(0.0);
+  }
+  return last_force_n_;
 }
 
 // --- Watching ------------------------------------------------------------------------------------------
@@ -171,43 +136,52 @@ void SafetyGate::watch_devices(const GateInput& input) noexcept {
 }
 
 void SafetyGate::watch_freshness(const GateInput& input, double dt_s) noexcept {
-  if (dt_s > limits_.late_s) latch_falling(GateFault::late_tick);
-  const bool force_stale = input.force_device == DeviceState::ready && !(input.position_age_s <= limits_.stale_s);
-  const bool display_stale = input.display == DeviceState::ready && !(input.display_age_s <= limits_.stale_s);
-  if (force_stale || display_stale) latch_falling(GateFault::stale_sample);
+  if (!(dt_s <= longest_tick_s(limits_))) latch_falling(GateFault::late_tick);
+  const auto stale = [this](DeviceState state, double age_s) {
+    return state == DeviceState::ready && !(age_s >= 0.0 && age_s <= limits_.stale_s);
+  };
+  if (stale(input.force_device, input.position_age_s) || stale(input.display, input.display_age_s))
+    latch_falling(GateFault::stale_sample);
 }
 
 void SafetyGate::watch_roller(const GateInput& input, double dt_s) noexcept {
   if (input.display != DeviceState::ready || !input.display_measures) {
-    roller_known_ = false;
+    roller_.forget();
     display_frozen_.forget();
     return;
   }
-  const double moved = input.display_measured_m - last_roller_m_;
-  if (roller_known_ && !(std::abs(moved) <= limits_.fastest_display_m_per_s * dt_s)) latch(GateFault::display_jumped);
-  if (display_frozen_.add(input.display_measured_m, last_display_m_)) latch(GateFault::display_frozen);
-  last_roller_m_ = input.display_measured_m;
-  roller_known_ = true;
+  const MotionStep step = roller_.add(Vec3(input.display_measured_m, 0.0, 0.0), input.display_age_s, dt_s,
+                                      {limits_.fastest_display_m_per_s, limits_.display_sample_s});
+  if (step.leapt) latch(GateFault::display_jumped);
+  if (step.counted && display_frozen_.add(input.display_measured_m, last_display_m_)) latch(GateFault::display_frozen);
 }
 
 void SafetyGate::watch_position(const GateInput& input, double dt_s) noexcept {
   if (input.force_device != DeviceState::ready) {
-    position_known_ = false;
-    frozen_.forget();
-    shake_.forget();
+    forget_motion();
     return;
   }
-  if (position_known_) {
-    const Vec3 moved = input.position_m - last_position_m_;
-    if (glm::dot(moved, moved) > limits_.fastest_m_per_s * limits_.fastest_m_per_s * dt_s * dt_s) {
-      latch(GateFault::position_jumped);
-    }
-    shake_.add(last_force_n_, moved, dt_s);
-    if (shake_.stop()) latch(GateFault::shaking);
-    if (frozen_.add(input.position_m)) latch(GateFault::position_frozen);
+  const MotionStep step =
+      finger_.add(input.position_m, input.position_age_s, dt_s, {limits_.fastest_m_per_s, limits_.sample_s});
+  if (step.leapt) return latch(GateFault::position_jumped);
+  if (step.counted && frozen_.add(input.position_m)) latch(GateFault::position_frozen);
+  watch_energy(input, step, dt_s);
+}
+
+void SafetyGate::watch_energy(const GateInput& input, const MotionStep& step, double dt_s) noexcept {
+  sent_.add(last_force_n_, dt_s);
+  EnergyWatch::Step work;
+  work.dt_s = dt_s;
+  work.hold_s = limits_.period_s + 2.0 * input.position_age_s;
+  work.resolution_m = limits_.resolution_m;
+  work.declared_j = std::exchange(declared_j_, 0.0);
+  work.wall = wall_;
+  if (step.fresh && step.moved_m != Vec3(0.0)) {
+    work.moved_m = step.moved_m;
+    work.force_n = sent_.mean(step.from_s, step.to_s);
+    work.hold_s += std::max(0.0, step.to_s - step.from_s - limits_.period_s);
   }
-  last_position_m_ = input.position_m;
-  position_known_ = true;
+  if (energy_.add(work)) latch(GateFault::shaking);
 }
 
 // --- Limiting ------------------------------------------------------------------------------------------
@@ -225,44 +199,62 @@ double SafetyGate::workspace_share(const Vec3& position_m) const noexcept {
 double SafetyGate::ramp_share(double dt_s) noexcept {
   if (state_ != GateState::ramping) return 1.0;
   const double share = limits_.ramp_s > 0.0 ? std::min(1.0, since_armed_s_ / limits_.ramp_s) : 1.0;
-  since_armed_s_ += dt_s;
+  since_armed_s_ += std::min(dt_s, limits_.period_s);
   if (share >= 1.0) state_ = GateState::armed;
   return share;
 }
 
+// What the gate itself gives back, as its ramp or the edge of the workspace, is declared: the hand did not pay for it.
+void SafetyGate::note_wall(const GateInput& input, double share, double limit_n) noexcept {
+  RenderedWall now{input.stiffness_n_per_m, std::max(length_of(input.force_n), input.elastic_n), limit_n, share};
+  if (!(std::isfinite(now.stiffness_n_per_m) && now.stiffness_n_per_m > 0.0)) now.stiffness_n_per_m = 0.0;
+  if (!std::isfinite(now.asked_n)) now.asked_n = limits_.peak_force_n;
+  RenderedWall before = now;
+  before.share = wall_.share;
+  before.limit_n = wall_.limit_n;
+  declared_j_ += std::max(0.0, stored_energy(now) - stored_energy(before));
+  if (input.declared_j > 0.0) declared_j_ += std::min(input.declared_j, stored_energy(now) + EnergyWatch::kMargin_j);
+  wall_ = now;
+}
+
 Vec3 SafetyGate::limit_force(const GateInput& input, double dt_s, GateOutput& out) noexcept {
   Vec3 force = input.force_n;
-  if (shorten(force, limits_.peak_force_n)) note(GateAction::force_clamped, out);
+  if (shorten(force, limits_.peak_force_n, kJustBelow)) note(GateAction::force_clamped, out);
   const auto reduce = [&](double share, GateAction action) {
     if (share >= 1.0) return;
     if (force != Vec3(0.0)) note(action, out);
     force *= share;
   };
-  reduce(workspace_share(input.position_m), GateAction::workspace_faded);
-  reduce(ramp_share(dt_s), GateAction::ramped_in);
-  reduce(shake_.share(), GateAction::shake_reduced);
-  if (shorten(force, budget_.allowed(limits_.peak_force_n, limits_.continuous_force_n))) {
-    note(GateAction::heat_clamped, out);
-  }
+  const double in_workspace = workspace_share(input.position_m), ramped = ramp_share(dt_s);
+  reduce(in_workspace, GateAction::workspace_faded);
+  reduce(ramped, GateAction::ramped_in);
+  const double allowed_n = heat_.allowed(limits_.peak_force_n, limits_.continuous_force_n);
+  note_wall(input, in_workspace * ramped, allowed_n);
+  if (shorten(force, allowed_n)) note(GateAction::heat_clamped, out);
   Vec3 change = force - last_force_n_;
-  if (shorten(change, limits_.slew_n_per_s * dt_s)) {
+  if (shorten(change, limits_.slew_n_per_s * std::min(dt_s, limits_.period_s))) {
     force = last_force_n_ + change;
     note(GateAction::slew_limited, out);
   }
+  shorten(force, limits_.peak_force_n, kJustBelow);  // the sum was rounded
   return force;
 }
 
 // A stopped or faulted display holds its last target.
-void SafetyGate::pass_display(const GateInput& input, GateOutput& out) noexcept {
-  if (live()) {
-    double end = 0.5 * limits_.display_travel_m;
-    if (input.display_travel_m > 0.0) end = std::min(end, 0.5 * input.display_travel_m);
-    const double target = std::clamp(input.display_m, std::clamp(input.display_lowest_m, -end, end),
-                                     std::clamp(input.display_highest_m, -end, end));
-    if (target != input.display_m && input.display != DeviceState::absent) note(GateAction::display_clamped, out);
-    last_display_m_ = target;
-  }
+void SafetyGate::pass_display(const GateInput& input, double dt_s, GateOutput& out) noexcept {
   out.display_m = last_display_m_;
+  if (!live()) return;
+  double end = 0.5 * limits_.display_travel_m;
+  if (input.display_travel_m > 0.0) end = std::min(end, 0.5 * input.display_travel_m);
+  const double target = std::clamp(input.display_m, std::clamp(input.display_lowest_m, -end, end),
+                                   std::clamp(input.display_highest_m, -end, end));
+  if (target != input.display_m && input.display != DeviceState::absent) note(GateAction::display_clamped, out);
+  double fastest = limits_.fastest_target_m_per_s;
+  if (input.display_fastest_m_per_s > 0.0) fastest = std::min(fastest, input.display_fastest_m_per_s);
+  const double most = fastest * std::min(dt_s, limits_.period_s);
+  out.display_m = std::clamp(target, last_display_m_ - most, last_display_m_ + most);
+  if (out.display_m != target && input.display != DeviceState::absent) note(GateAction::display_slowed, out);
+  last_display_m_ = out.display_m;
 }
 
 GateOutput SafetyGate::pass(const GateInput& input, double dt_s) noexcept {
@@ -274,6 +266,7 @@ GateOutput SafetyGate::pass(const GateInput& input, double dt_s) noexcept {
   if (live()) watch_position(input, dt_s);
 
   const bool device_ready = input.force_device == DeviceState::ready;
+  half_to_send_ = false;
   if (live() && device_ready) {
     out.force_n = limit_force(input, dt_s, out);
   } else if (falling_ && device_ready) {
@@ -281,12 +274,14 @@ GateOutput SafetyGate::pass(const GateInput& input, double dt_s) noexcept {
     out.force_n = 0.5 * last_force_n_;
     if (out.force_n != Vec3(0.0)) note(GateAction::ramped_out, out);
     falling_ = false;
+    half_to_send_ = true;
   } else if (force_finite && input.force_n != Vec3(0.0) && input.force_device != DeviceState::absent) {
     note(GateAction::withheld, out);
   }
   last_force_n_ = out.force_n;
-  budget_.spend(std::sqrt(glm::dot(out.force_n, out.force_n)), limits_.peak_force_n, limits_.continuous_force_n, dt_s);
-  pass_display(input, out);
+  sample_age_s_ = input.position_age_s;
+  heat_.spend(length_of(out.force_n), limits_.peak_force_n, limits_.continuous_force_n, dt_s);
+  pass_display(input, dt_s, out);
   out.state = state_;
   out.fault = fault_;
   return out;

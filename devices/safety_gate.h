@@ -1,14 +1,16 @@
 // The safety gate: the only path from a tick's output to the devices, simulated ones included.
 //
-// What it checks and limits, in this order:
+// A tick calls it twice. `before_sending`, before the exchange with the devices, decides whether the force of the last
+// tick may still be sent: after a stop, a fault or a stall it is zero. `pass`, after the tick was computed, checks and
+// limits the new force, in this order:
 //   finite check          force, display target and measured position; not finite: stop
 //   devices               left ready while armed: stop
-//   freshness             late tick or stale sample: force to zero within two ticks, then stop
+//   freshness             late ticks or a stale sample: force to zero within two ticks, then stop
 //   plausible positions   faster than any hand, or frozen while moving: stop
+//   energy                more put out than the hand put in: stop (gate/energy.h)
 //   workspace             the force fades out over the margin beyond the device's box
 //   force                 peak clamp; continuous clamp by the motors' heat; slew limit; ramp-in after arming
-//   shaking               net work of an unstable loop on the hand: force reduced, then stop
-//   display               target clamped to the travel
+//   display               target clamped to the travel and to its fastest motion
 // A stop latches a fault until a person re-arms. Time is the devices' time (dt_s): a simulated device waits for a late
 // tick, a real one does not. SI units, world frame. Plain state and arithmetic: no clock, no allocation, no lock; one
 // thread (the servo's) at a time.
@@ -16,71 +18,17 @@
 
 #include "core/base/vec.h"
 #include "devices/device_state.h"
-#include "devices/gate_watches.h"
+#include "devices/gate/energy.h"
+#include "devices/gate/freshness.h"
+#include "devices/gate/gate_words.h"
+#include "devices/gate/heat.h"
+#include "devices/gate/limits.h"
+#include "devices/gate/motion.h"
 
 #include <array>
 #include <cstdint>
 
 namespace tangent {
-
-enum class GateState : std::uint8_t {
-  disarmed,  ///< no force
-  ramping,   ///< armed, force being ramped in
-  armed,
-  faulted,  ///< no force until re-armed
-};
-
-enum class GateFault : std::uint8_t {
-  none,
-  force_not_finite,
-  display_not_finite,
-  force_device,     ///< left ready while armed
-  contact_display,  ///< left ready while armed
-  position_not_finite,
-  position_jumped,  ///< moved faster than any hand
-  position_frozen,  ///< was moving, then read the same for 20 ticks
-  display_jumped,   ///< the roller moved faster than any drive
-  display_frozen,   ///< far from its target, and read the same for 50 ticks
-  stale_sample,     ///< no new measurement in time
-  late_tick,
-  shaking,  ///< the loop did work on the hand
-};
-
-/// What the gate changed in a tick's output.
-enum class GateAction : std::uint8_t {
-  force_clamped,       ///< above the device's peak force
-  slew_limited,        ///< changed faster than allowed
-  ramped_in,           ///< reduced by the ramp after arming
-  display_clamped,     ///< beyond the display's travel
-  refused_not_finite,  ///< not finite: zero force, display held
-  withheld,            ///< a force was asked for while disarmed, faulted or not yet ready
-  workspace_faded,     ///< reduced outside the device's workspace
-  heat_clamped,        ///< above the thermal limit
-  shake_reduced,       ///< reduced because the loop shakes
-  ramped_out,          ///< being reduced to zero after a late tick or a stale sample
-  count_
-};
-inline constexpr std::size_t kGateActionCount = static_cast<std::size_t>(GateAction::count_);
-using GateActions = std::uint16_t;  ///< bit per GateAction
-static_assert(kGateActionCount <= 16);
-
-const char* to_string(GateState state);
-const char* to_string(GateFault fault);
-const char* to_string(GateAction action);
-
-struct GateLimits {
-  double peak_force_n = 0.0;        ///< of the device; 0: no force at all
-  double slew_n_per_s = 2000.0;     ///< fastest change of the force; does not delay the drop to zero of a stop or fault
-  double ramp_s = 0.25;             ///< from arming to full force
-  double display_travel_m = 0.0;    ///< end to end
-  double continuous_force_n = 0.0;  ///< of the device; 0: not known, no limit
-  Vec3 workspace_half_size_m{0.0};  ///< box around the workspace's centre; 0: no limit along that axis
-  double workspace_margin_m = 5e-3;      ///< beyond the box, over which the force fades out
-  double fastest_m_per_s = 10.0;         ///< of the finger; a fast hand moves at 2 to 3
-  double fastest_display_m_per_s = 1.0;  ///< of the roller; a drive reaches 0.2
-  double stale_s = 10e-3;                ///< oldest sample that may produce a force
-  double late_s = 20e-3;                 ///< longest tick
-};
 
 struct GateInput {
   Vec3 force_n{0.0};
@@ -94,6 +42,10 @@ struct GateInput {
   double display_travel_m = 0.0;  ///< as reported by the display, 0: not known; the smaller one limits
   double display_lowest_m = -1.0, display_highest_m = 1.0;  ///< requested range of targets, within the travel
   bool display_measures = false;                            ///< display_measured_m comes from a sensor
+  double display_fastest_m_per_s = 0.0;  ///< requested limit of the target's speed; 0: the gate's own
+  double stiffness_n_per_m = 0.0;        ///< of the surface that made the force; 0: none, it stores no energy
+  double elastic_n = 0.0;                ///< stiffness times depth, without any limit
+  double declared_j = 0.0;               ///< put out on purpose by this force, see gate/energy.h
 };
 
 struct GateOutput {
@@ -107,17 +59,23 @@ struct GateOutput {
 
 class SafetyGate {
  public:
-  explicit SafetyGate(const GateLimits& limits) : limits_(limits) {}
+  /// With limits that check_limits refuses it passes no force.
+  explicit SafetyGate(const GateLimits& limits);
 
   /// Starts the ramp; also re-arms after a fault. Takes effect as soon as the force device is ready.
   void arm() noexcept;
-  /// Disarms: no force from the next pass on.
+  /// Disarms: no force from now on, that of the last pass included.
   void stop() noexcept;
+  /// Stops by a fault that is seen elsewhere. Nothing when it is not armed.
+  void stop_by(GateFault fault) noexcept;
   /// Restarts the ramp if armed, and does not compare the next position with the last (the scene was replaced).
   void restart_ramp() noexcept;
   /// Centre of the device's workspace, world frame.
   void place_workspace(const Vec3& centre_m) noexcept { workspace_centre_m_ = centre_m; }
 
+  /// At the start of every tick, `dt_s` after the last: the force to send in this tick's exchange. It is that of the
+  /// last pass, unless the gate was stopped or this tick is late.
+  Vec3 before_sending(double dt_s) noexcept;
   /// Checks and limits one tick's output. Precondition: dt_s > 0. Failures show in the output's fault.
   GateOutput pass(const GateInput& input, double dt_s) noexcept;
 
@@ -126,8 +84,9 @@ class SafetyGate {
   GateFault fault() const { return fault_; }
   /// Ticks in which each action was taken, by GateAction.
   const std::array<std::uint64_t, kGateActionCount>& counts() const { return counts_; }
-  std::uint64_t faults() const { return faults_; }         ///< number of stops by a fault
-  double shake_work_j() const { return shake_.work_j(); }  ///< see ShakeWatch
+  std::uint64_t faults() const { return faults_; }  ///< number of stops by a fault
+  const EnergyWatch& energy() const { return energy_; }
+  ForceBudget& heat() { return heat_; }
 
  private:
   bool live() const noexcept { return state_ == GateState::ramping || state_ == GateState::armed; }
@@ -138,11 +97,13 @@ class SafetyGate {
   void watch_devices(const GateInput& input) noexcept;
   void watch_freshness(const GateInput& input, double dt_s) noexcept;
   void watch_position(const GateInput& input, double dt_s) noexcept;
+  void watch_energy(const GateInput& input, const MotionStep& step, double dt_s) noexcept;
   void watch_roller(const GateInput& input, double dt_s) noexcept;
   Vec3 limit_force(const GateInput& input, double dt_s, GateOutput& out) noexcept;
+  void note_wall(const GateInput& input, double share, double limit_n) noexcept;
   double workspace_share(const Vec3& position_m) const noexcept;
   double ramp_share(double dt_s) noexcept;
-  void pass_display(const GateInput& input, GateOutput& out) noexcept;
+  void pass_display(const GateInput& input, double dt_s, GateOutput& out) noexcept;
   void note(GateAction action, GateOutput& out) noexcept;
 
   GateLimits limits_;
@@ -150,17 +111,21 @@ class SafetyGate {
   GateFault fault_ = GateFault::none;
   bool force_was_ready_ = false, display_was_ready_ = false;  ///< since armed
   bool falling_ = false;                                      ///< one more pass at reduced force, then zero
+  bool half_to_send_ = false;                                 ///< that pass was made, and its force not yet sent
   double since_armed_s_ = 0.0;
+  double sample_age_s_ = 0.0;  ///< of the sample that the last force was computed from
   Vec3 last_force_n_{0.0};
   double last_display_m_ = 0.0;
   Vec3 workspace_centre_m_{0.0};
-  Vec3 last_position_m_{0.0};
-  double last_roller_m_ = 0.0;
-  bool position_known_ = false, roller_known_ = false;
-  ForceBudget budget_;
-  ShakeWatch shake_;
+  LatenessWatch lateness_;
+  MotionWatch finger_, roller_;
   FrozenPositionWatch frozen_;
   FrozenDisplayWatch display_frozen_;
+  ForceHistory sent_;
+  EnergyWatch energy_;
+  RenderedWall wall_;        ///< of the last force
+  double declared_j_ = 0.0;  ///< since the last pass
+  ForceBudget heat_;
   std::array<std::uint64_t, kGateActionCount> counts_{};
   std::uint64_t faults_ = 0;
 };

@@ -32,6 +32,7 @@ struct Clearance {
   double height_m = 0.0;  ///< ... of a rank below this less the distance gone
   std::uint32_t watched_count = 0;
   float ahead = 1.0f;  ///< how far the next search of everything looks ahead, as a ratio: further where that is cheap
+  std::uint32_t any_turn = 1;  ///< 0: holds at `orientation` alone; a finger that is not round and does not turn
   std::array<WatchedTriangle, kWatched> watched;  ///< the first watched_count, in no order
 
   std::span<WatchedTriangle> on_watch() { return {watched.data(), watched_count}; }

@@ -3,7 +3,7 @@
 
 #include "core/contact/patch_cache.h"
 #include "core/contact/trace.h"
-#include "core/finger/finger.h"
+#include "core/finger/finger_core.h"
 #include "core/preset/preset.h"
 
 namespace tangent {
@@ -15,8 +15,9 @@ struct ContactContext {
   const FingerPose& pose;  ///< local mesh coordinates
   Vec3 origin;             ///< of the local coordinates, for the trace
   IterationTrace* trace = nullptr;
-  std::uint8_t seed = 0;  ///< 0 while following the kept plane; the number of the seed otherwise
-  double moved_m = 0.0;   ///< the finger's way since the last tick
+  std::uint8_t seed = 0;             ///< 0 while following the kept plane; the number of the seed otherwise
+  double moved_m = 0.0;              ///< the finger's way since the last tick
+  const FingerCore* core = nullptr;  ///< for proofs, of a finger that is not round; set by searches
 
   /// A length given in switch hystereses (base/tolerances.h), m.
   double hystereses_m(double count) const { return count * settings.switch_hysteresis_m; }

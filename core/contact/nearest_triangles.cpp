@@ -164,12 +164,19 @@ static constexpr const char* kEmbreeConfig = "threads=1";
 static constexpr const char* kEmbreeConfig = nullptr;
 #endif
 
+/// Without a device its error is that of the thread.
+static tl::unexpected<Error> not_started() {
+  if (rtcGetDeviceError(nullptr) == RTC_ERROR_UNSUPPORTED_CPU)
+    return fail("Embree could not be started", "nearest-triangle query", "the processor needs SSE2");
+  return fail("not enough memory to start Embree", "nearest-triangle query", "free some memory or decimate the mesh");
+}
+
 Result<NearestTriangles> NearestTriangles::build(const ContactMesh& mesh) {
   auto impl = std::make_unique<Impl>();
   impl->mesh = &mesh;
   impl->extent = std::max(largest_coordinate(mesh.bounds().min), largest_coordinate(mesh.bounds().max));
   impl->device = rtcNewDevice(kEmbreeConfig);
-  if (!impl->device) return fail("Embree could not be started", "nearest-triangle query", "the processor needs SSE2");
+  if (!impl->device) return not_started();
   rtcSetDeviceMemoryMonitorFunction(impl->device, on_memory, &impl->bytes);
   impl->scene = rtcNewScene(impl->device);
   RTCGeometry geometry = rtcNewGeometry(impl->device, RTC_GEOMETRY_TYPE_USER);

@@ -9,11 +9,6 @@
 namespace tangent {
 namespace {
 
-/// The capsule's axis segment is rounded to a spindle whose middle is wider by this fraction of its half
-/// length: a straight side has no single support point, and without one there is no derivative. 1 % is
-/// 0.1 mm on a 10 mm half length. Smaller: closer to a true capsule, harder to converge along its side.
-constexpr double kSpindle = 0.01;
-
 /// Most devices measure no turn.
 bool unturned(const Quat& q) { return q.x == 0.0 && q.y == 0.0 && q.z == 0.0; }
 
@@ -37,23 +32,6 @@ Vec3 ellipsoid_support_point(const Finger& finger, const FingerPose& pose, const
   const Vec3 n = to_finger_frame(pose, normal);
   const Vec3 a2n = finger.semi_axes_m * finger.semi_axes_m * n;
   return pose.position - pose.orientation * (a2n / std::sqrt(glm::dot(n, a2n)));
-}
-
-/// Of the ellipsoid -A A n / |A n| as n moves by `chord` at most: the rate is no more than a^2 / |A n|.
-double ellipsoid_spread(const Finger& finger, const FingerPose& pose, const Vec3& axis, double chord) {
-  const double longest = finger.reach_m();
-  const Vec3 an = finger.semi_axes_m * to_finger_frame(pose, axis);
-  const double least = std::max(std::sqrt(glm::dot(an, an)) - longest * chord, longest - finger.unroundness_m());
-  return longest * longest / least * chord;
-}
-
-/// Of the spindle L (along axis + s^2 n) / root, root = sqrt(along^2 + s^2): the first part grows with `along`.
-double capsule_spread(const Finger& finger, const FingerPose& pose, const Vec3& axis, double chord) {
-  const double along = std::abs(glm::dot(pose.orientation * Vec3(1.0, 0.0, 0.0), axis)), s2 = kSpindle * kSpindle;
-  const auto root = [&](double x) { return std::sqrt(x * x + s2); };
-  const double low = along - chord, high = along + chord, least = root(std::max(0.0, low)), most = root(high);
-  const double slides = high / most - low / root(low), turns = s2 * (chord / least + 1.0 / least - 1.0 / most);
-  return finger.radius_m * chord + finger.half_length_m * (slides + turns);
 }
 
 Support capsule_support(const Finger& finger, const FingerPose& pose, const Vec3& normal) {
@@ -118,23 +96,6 @@ double Finger::tilt_rad() const {
   return std::min(1.2 * tilt + 0.05, 3.1);
 }
 
-double Finger::turning_m(double turn_rad) const {
-  if (turn_rad == 0.0) return 0.0;
-  double widest = 0.0;  // radius of curvature
-  switch (shape) {
-    case FingerShape::point:
-    case FingerShape::sphere:
-      return 0.0;
-    case FingerShape::ellipsoid:
-      widest = reach_m() * reach_m() / (reach_m() - unroundness_m());
-      break;
-    case FingerShape::capsule:
-      widest = radius_m + half_length_m / kSpindle;
-      break;
-  }
-  return reach_m() * turn_rad + std::min(2.0 * reach_m(), widest * turn_rad);
-}
-
 Support support_with_derivative(const Finger& finger, const FingerPose& pose, const Vec3& normal) {
   switch (finger.shape) {
     case FingerShape::point:
@@ -152,16 +113,6 @@ Support support_with_derivative(const Finger& finger, const FingerPose& pose, co
 Vec3 support_point(const Finger& finger, const FingerPose& pose, const Vec3& normal) {
   if (finger.shape == FingerShape::ellipsoid) return ellipsoid_support_point(finger, pose, normal);
   return support_with_derivative(finger, pose, normal).point;
-}
-
-double support_spread_m(const Finger& finger, const FingerPose& pose, const Vec3& axis, double chord) {
-  // The way over the sphere of normals is longer than the chord, by 11 % at a right angle.
-  const double way = 1.12 * chord;
-  double spread = 0.0;
-  if (finger.shape == FingerShape::sphere) spread = finger.radius_m * chord;
-  if (finger.shape == FingerShape::ellipsoid) spread = ellipsoid_spread(finger, pose, axis, way);
-  if (finger.shape == FingerShape::capsule) spread = capsule_spread(finger, pose, axis, way);
-  return std::min(spread, 2.0 * finger.reach_m());
 }
 
 /// Arc on a sphere, or +-limit_m where it is longer: an angle is larger than its sine, and larger than a right angle

@@ -11,6 +11,11 @@
 
 namespace tangent {
 
+/// The capsule's axis segment is rounded to a spindle whose middle is wider by this fraction of its half length: a
+/// straight side has no single support point, and without one there is no derivative. 1 % is 0.1 mm on a 10 mm half
+/// length. Smaller: closer to a true capsule, harder to converge along its side.
+inline constexpr double kSpindle = 0.01;
+
 enum class FingerShape : std::uint8_t { point, sphere, ellipsoid, capsule };
 
 struct Finger {
@@ -27,10 +32,6 @@ struct Finger {
   /// Largest angle between the normal at a surface point and the direction from the centre to it, rad, with
   /// room for contacts somewhat off the surface; 0 for point and sphere.
   double tilt_rad() const;
-  /// No support point of a fixed normal moves further from the centre's view than this while the finger turns by
-  /// `turn_rad`, m: it turns along, and slides over the shape by its radius of curvature at most. 0 for point and
-  /// sphere.
-  double turning_m(double turn_rad) const;
 };
 
 struct FingerPose {
@@ -45,9 +46,6 @@ struct Support {
 };
 
 Vec3 support_point(const Finger& finger, const FingerPose& pose, const Vec3& normal);
-/// No support point of a normal that is off the unit vector `axis` by at most `chord` (up to a right angle, as the
-/// distance of the two) is further from that of `axis` than this, m.
-double support_spread_m(const Finger& finger, const FingerPose& pose, const Vec3& axis, double chord);
 Support support_with_derivative(const Finger& finger, const FingerPose& pose, const Vec3& normal);
 
 /// The section of the finger that contacts are located in: its x and z axes, unit vectors in the world.

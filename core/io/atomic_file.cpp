@@ -3,7 +3,11 @@
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
+
+#include <array>
+#include <atomic>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <utility>
 
@@ -30,6 +34,29 @@ int open_beside(const std::filesystem::path& place, mode_t mode, std::filesystem
     if (fd >= 0 || errno != EEXIST) return fd;
   }
   return -1;
+}
+
+// --- For a process that ends by a signal ----------------------------------------------------------------
+
+std::array<std::atomic<char*>, 64> temporaries{};
+
+/// Its copy of the name, to be given back to `forget`; null where there is no room.
+char* remember(const std::filesystem::path& temporary) {
+  char* name = ::strdup(temporary.c_str());
+  for (std::atomic<char*>& place : temporaries) {
+    char* free_place = nullptr;
+    if (name != nullptr && place.compare_exchange_strong(free_place, name)) return name;
+  }
+  std::free(name);
+  return nullptr;
+}
+
+void forget(char* name) {
+  for (std::atomic<char*>& place : temporaries) {
+    char* mine = name;
+    if (name != nullptr && place.compare_exchange_strong(mine, nullptr)) break;
+  }
+  std::free(name);
 }
 
 /// Makes a rename durable; ignored where directories can't be synced.
@@ -69,6 +96,7 @@ Result<AtomicFile> AtomicFile::create(const std::filesystem::path& target) {
     file.temporary_.clear();
     return failure;
   }
+  file.known_as_ = remember(file.temporary_);
   if (exists) (void)::fchmod(file.fd_, mode);  // restores the old file's mode, which the umask may have reduced
   return file;
 }
@@ -77,6 +105,7 @@ AtomicFile::AtomicFile(AtomicFile&& other) noexcept
     : target_(std::move(other.target_)),
       place_(std::move(other.place_)),
       temporary_(std::move(other.temporary_)),
+      known_as_(std::exchange(other.known_as_, nullptr)),
       buffer_(std::move(other.buffer_)),
       fd_(std::exchange(other.fd_, -1)),
       status_(std::move(other.status_)) {
@@ -86,6 +115,7 @@ AtomicFile::AtomicFile(AtomicFile&& other) noexcept
 AtomicFile::~AtomicFile() {
   if (fd_ >= 0) ::close(fd_);
   if (!temporary_.empty()) ::unlink(temporary_.c_str());
+  forget(known_as_);
 }
 
 Status AtomicFile::write(std::string_view bytes) {
@@ -123,12 +153,19 @@ Status AtomicFile::commit(bool durable) {
     return status_;
   }
   temporary_.clear();
+  forget(std::exchange(known_as_, nullptr));
   if (durable) sync_directory(place_.parent_path());
   return status_;
 }
 
 void AtomicFile::record_failure(const char* doing) {
   if (status_) status_ = system_failure(doing, target_);
+}
+
+void remove_temporary_files() noexcept {
+  for (std::atomic<char*>& place : temporaries) {
+    if (const char* name = place.exchange(nullptr); name != nullptr) ::unlink(name);  // not freed: in a signal handler
+  }
 }
 
 Status write_file_atomic(const std::filesystem::path& target, std::string_view content) {

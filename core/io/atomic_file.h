@@ -38,10 +38,15 @@ class AtomicFile {
   std::filesystem::path target_;     ///< as the user named it, for messages
   std::filesystem::path place_;      ///< with links resolved
   std::filesystem::path temporary_;  ///< empty: written directly, or committed
+  char* known_as_ = nullptr;         ///< the same, for remove_temporary_files
   std::string buffer_;
   int fd_ = -1;
   Status status_;
 };
+
+/// Removes the temporary files of all files that are being written, for a process that is about to end by a signal.
+/// Any thread, and in a signal handler. Of more than 64 at a time the others stay.
+void remove_temporary_files() noexcept;
 
 /// Writes the whole file at once, durably.
 Status write_file_atomic(const std::filesystem::path& target, std::string_view content);

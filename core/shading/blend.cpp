@@ -59,6 +59,11 @@ double display_target(const Rendered& decided, bool switched, double dt_s, Rende
 
 }  // namespace
 
+void begin_change(RenderedState& state) {
+  state.change_s = 0.0;
+  state.changes = state.force_fades = state.display_fades = 1;
+}
+
 double most_force_change_n(const Preset& preset, const FingerWay& way) {
   return kForceFade * way.dt_s + 2.0 * preset.force.stiffness_n_per_m * std::sqrt(glm::dot(way.moved, way.moved));
 }
@@ -71,6 +76,23 @@ double most_display_change_m(const Preset& preset, const FingerWay& way) {
 
 namespace {
 
+bool is_changing(const RenderedState& last, std::uint8_t fades) { return last.changes && fades; }
+
+/// After a change of preset or scene. The old plane is as stiff as the stiffer of the two presets, so that a finger
+/// that leaves it is free of it as soon as it was.
+void blend_change(const FingerWay& way, const Vec3& decided, const RenderedState& last, RenderedState& state,
+                  Vec3& force) {
+  state.stiffness_n_per_m = std::max(state.stiffness_n_per_m, last.stiffness_n_per_m);
+  const Vec3 old = left_of_last(last.force_n, way.moved, state.stiffness_n_per_m), change = decided - old;
+  const double length = std::sqrt(glm::dot(change, change)),
+               most = kForceFade * (1.0 + state.change_s / kChangeFade) * way.dt_s;
+  if (length <= most) {
+    state.force_fades = 0;
+    return;
+  }
+  force = old + most / length * change;
+}
+
 void blend_force(const Preset& preset, const FingerWay& way, const Vec3& decided, const RenderedState& last,
                  RenderedState& state, Vec3& force) {
   const double stiffness = preset.force.stiffness_n_per_m;
@@ -82,7 +104,11 @@ void blend_force(const Preset& preset, const FingerWay& way, const Vec3& decided
   }
   const Vec3 old = left_of_last(last.force_n, way.moved, stiffness);
   force = old + share_within(last.force_n, old, decided, most) * (decided - old);
-  const double length = std::sqrt(glm::dot(force, force));  // the limit may have been lowered, and counts at once
+}
+
+/// The limit may have been lowered, and counts at once.
+void limit_force(const Preset& preset, Vec3& force) {
+  const double length = std::sqrt(glm::dot(force, force));
   if (length > preset.force.limit_n) force *= preset.force.limit_n / length;
 }
 
@@ -103,13 +129,21 @@ Rendered blend(const Preset& preset, const FingerWay& way, const Rendered& decid
   state.force_rule = force_rule(preset);
   state.display_rule = display_rule(preset);
   Rendered out = decided;
+  state.stiffness_n_per_m = preset.force.stiffness_n_per_m;
+  state.change_s = last.change_s + way.dt_s;
   if (last.has && !decided.ramps_out) {
     const bool on = preset.force.blend == ForceBlend::events;
-    if (limits(state.force_rule, last.force_rule, on, state.force_fades))
+    const bool force_changes = is_changing(last, last.force_fades),
+               display_changes = is_changing(last, last.display_fades);
+    if (force_changes)
+      blend_change(way, decided.force_n, last, state, out.force_n);
+    else if (limits(state.force_rule, last.force_rule, on, state.force_fades))
       blend_force(preset, way, decided.force_n, last, state, out.force_n);
-    if (limits(state.display_rule, last.display_rule, on, state.display_fades))
+    if (limits(state.display_rule, last.display_rule, on || display_changes, state.display_fades))
       blend_display(preset, way, decided, switched, last, state, out.cld_m);
   }
+  if (out.force_n != decided.force_n) limit_force(preset, out.force_n);
+  state.changes = last.has && last.changes && (state.force_fades || state.display_fades);
   state.force_n = out.force_n;
   state.cld_m = out.cld_m;
   state.has = 1;

@@ -21,8 +21,17 @@ struct RenderedState {
   Vec3 velocity{0.0};            ///< of the finger, filtered for damping, world, m/s
   double display_waits_s = 0.0;  ///< after a switch of contacts the display stays this much longer
   std::uint8_t has = 0;          ///< the above is set
+  std::uint8_t changes = 0;      ///< begin_change's stricter fade is not over
   std::uint8_t force_fades = 0, display_fades = 0;  ///< a change of preset is still being faded in
+  double change_s = 0.0;                            ///< since begin_change
+  double stiffness_n_per_m = 0.0;                   ///< of the stiffest preset that is still in the force
 };
+
+/// The next tick runs under another preset, or on another scene: by whoever changes it, between two ticks. Until the
+/// decided force is reached, the finger's motion then explains only what moving off the old plane does, and all else
+/// goes at the fade's rate (kChangeFade), with force.blend off, too. Otherwise a finger that a stiffer preset pushes
+/// out would itself explain more force: from 100 to 3,500 N/m, 2.7 mm deep, it left at 0.15 to 0.34 m/s.
+void begin_change(RenderedState& state);
 
 /// Of the finger since the last tick.
 struct FingerWay {
@@ -37,8 +46,9 @@ double most_display_change_m(const Preset& preset, const FingerWay& way);
 
 /// What a tick is to render, from what it decided to and what the last one rendered; updates `state`. Where the
 /// preset's force has edges of its own (facet, force shading, two-pass) only a change of preset fades, likewise its
-/// display. The display holds where the contact is off the pad, and for kDisplayWait after the contact `switched` to
-/// another place. An unconverged tick that ramps to zero is not held up, and the preset's force limit holds at once.
+/// display, and what begin_change said. The display holds where the contact is off the pad, and for kDisplayWait after
+/// the contact `switched` to another place. An unconverged tick that ramps to zero is not held up, and the preset's
+/// force limit holds at once.
 Rendered blend(const Preset& preset, const FingerWay& way, const Rendered& decided, bool switched,
                RenderedState& state);
 

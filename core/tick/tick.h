@@ -56,6 +56,17 @@ struct TickState {
   RenderedState rendered;
 };
 
+/// The next tick runs on another scene, with the finger where it is: what the last one rendered is faded out of.
+inline void forget_scene(TickState& state) {
+  TickState fresh;
+  fresh.rendered = state.rendered;
+  fresh.last_position = state.last_position;
+  fresh.last_t_s = state.last_t_s;
+  fresh.has_previous = state.has_previous;
+  begin_change(fresh.rendered);
+  state = fresh;
+}
+
 struct TickInput {
   double t_s = 0.0;
   FingerPose finger;

@@ -135,6 +135,12 @@ void CldController::on_turn(UsbLink&, std::int64_t now_ns) noexcept {
     }
     if (now_ns - opened_ns_ > to_ns(options_.info_timeout_s)) unfit_connection_.store(connection, kRelaxed);
   }
+  if (link_.can_send() && stop_now_.exchange(false, kRelaxed)) {
+    Outgoing old;
+    while (commands_.pop(old)) {}
+    put_frame(bare_frame(CldType::stop, next_sequence_++), now_ns);
+    return flush();
+  }
   if (new_settings_.take(settings_)) settings_unsent_ = true;
   if (settings_unsent_ && info_connection_.load(kRelaxed) == connection && link_.can_send()) put_settings(now_ns);
   Outgoing out;
@@ -297,6 +303,12 @@ DisplaySample CldController::exchange(const DisplayCommand& command, double) noe
 }
 
 // --- Any thread ----------------------------------------------------------------------------------------
+
+bool CldController::emergency_stop() noexcept {
+  stop_now_.store(true, kRelaxed);
+  link_.wake();
+  return true;
+}
 
 bool CldController::report(LinkReport& out) const {
   const UsbCounters& usb = link_.counters();

@@ -42,6 +42,8 @@ class CldController final : public ContactDisplay, private UsbLinkHandler {
   void close() override;
   DisplaySample exchange(const DisplayCommand& command, double dt_s) noexcept override;
   bool report(LinkReport& out) const override;
+  /// The link's thread sends a stop before anything else that is queued.
+  bool emergency_stop() noexcept override;
 
   /// Servo thread. Sends the settings if they changed; settings other than the defaults are also sent to every device
   /// that connects later.
@@ -82,6 +84,7 @@ class CldController final : public ContactDisplay, private UsbLinkHandler {
   Ring<Outgoing> commands_{256};
   Ring<Heard> telemetry_{1024};
   Mailbox<ControllerSettings> new_settings_;  ///< servo to link
+  std::atomic<bool> stop_now_{false};         ///< any thread to link
 
   // Written by the link's thread, read by any thread.
   std::atomic<std::uint32_t> connection_{0};  ///< odd while connected, incremented on every change

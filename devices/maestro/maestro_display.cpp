@@ -84,6 +84,10 @@ void MaestroDisplay::on_control_done(UsbLink&, bool good, std::int64_t now_ns) n
 // Sends the newest target as soon as a transfer is free; older ones are skipped.
 void MaestroDisplay::on_turn(UsbLink& link, std::int64_t now_ns) noexcept {
   if (targets_.take(wanted_)) unsent_ = true;
+  if (stop_now_.exchange(false, kRelaxed)) {
+    wanted_ = 0;
+    unsent_ = true;
+  }
   if (!unsent_ || in_flight_ >= kMostInFlight) return;
   if (!link.send_control(maestro_target(options_.channel, wanted_))) return;
   sent_ns_ = now_ns;
@@ -104,6 +108,7 @@ void MaestroDisplay::update_state(const DisplayCommand& command, double dt_s) no
   if (connection % 2 == 0) return;
   if (machine_.state() == DeviceState::open && answered_.load(std::memory_order_acquire) == connection)
     machine_.enter(DeviceState::firmware);
+  if (was_stopped_.exchange(false, kRelaxed)) machine_.fail(DeviceFault::watchdog);
   if (failures_.load(kRelaxed) >= kFailuresToLoss) machine_.fail(DeviceFault::disconnected);
   if (machine_.state() == DeviceState::homing) {
     homing_for_s_ += dt_s;
@@ -131,6 +136,13 @@ DisplaySample MaestroDisplay::exchange(const DisplayCommand& command, double dt_
     link_.wake();
   }
   return {.position_m = position_m_, .state = machine_.state(), .fault = machine_.fault()};
+}
+
+bool MaestroDisplay::emergency_stop() noexcept {
+  was_stopped_.store(true, kRelaxed);
+  stop_now_.store(true, kRelaxed);
+  link_.wake();
+  return true;
 }
 
 bool MaestroDisplay::report(LinkReport& out) const {

@@ -39,6 +39,8 @@ class MaestroDisplay final : public ContactDisplay, private UsbLinkHandler {
   /// The sample's position is the one last commanded, rounded to the Maestro's step.
   DisplaySample exchange(const DisplayCommand& command, double dt_s) noexcept override;
   bool report(LinkReport& out) const override;
+  /// The link's thread switches the servo off; faulted from then on.
+  bool emergency_stop() noexcept override;
 
  private:
   void on_open(UsbLink& link) noexcept override;
@@ -52,6 +54,8 @@ class MaestroDisplay final : public ContactDisplay, private UsbLinkHandler {
   DisplayCapabilities capabilities_;
   UsbLink link_;
   Mailbox<std::uint16_t> targets_;            ///< quarter us, 0: off; servo to link
+  std::atomic<bool> stop_now_{false};         ///< any thread to link
+  std::atomic<bool> was_stopped_{false};      ///< any thread to servo
   std::atomic<std::uint32_t> connection_{0};  ///< odd while connected
   std::atomic<std::uint32_t> answered_{0};    ///< connection in which a setting was acknowledged
   std::atomic<std::uint32_t> failures_{0};    ///< consecutive failed control transfers

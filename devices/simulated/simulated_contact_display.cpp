@@ -1,5 +1,6 @@
 #include "devices/simulated/simulated_contact_display.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace tangent {
@@ -35,12 +36,13 @@ void SimulatedContactDisplay::set_controller(const ControllerSettings& s) noexce
 
 DisplaySample SimulatedContactDisplay::measure(double dt_s) noexcept {
   age_s_ += dt_s;
+  const double held_s = std::max(0.0, since_control_s_);  // the controller reads its encoder when it runs
   const bool lost = life_.injected() == InjectedFault::drop_out || life_.injected() == InjectedFault::delay_burst;
   if (!lost && life_.injected() != InjectedFault::stuck_encoder) shown_m_ = mechanism_.encoder_m();
   if (life_.injected() == InjectedFault::noise) {
     shown_m_ += kRollerNoise_m * (2.0 * static_cast<double>(random_() >> 11) * 0x1p-53 - 1.0);
   }
-  if (!lost) age_s_ = 0.0;
+  if (!lost) age_s_ = held_s;
   return {.position_m = shown_m_, .age_s = age_s_, .state = life_.state(), .fault = life_.fault()};
 }
 
@@ -49,8 +51,8 @@ DisplaySample SimulatedContactDisplay::exchange(const DisplayCommand& command, d
   const bool moves = life_.ready() || life_.state() == DeviceState::homing;
   const double target = life_.ready() ? command.target_m : 0.0;
   since_control_s_ += dt_s;
-  // Half a period of tolerance, so that rounding over many small steps loses no period.
-  while (since_control_s_ > 0.5 * CldMechanism::kPeriod_s) {
+  // A little early, so that a step of a period that was rounded down is one.
+  while (since_control_s_ > (1.0 - 1e-6) * CldMechanism::kPeriod_s) {
     since_control_s_ -= CldMechanism::kPeriod_s;
     if (!moves)
       mechanism_.hold();

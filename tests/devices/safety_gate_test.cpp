@@ -14,7 +14,13 @@ constexpr double kTick_s = 1e-3;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-GateLimits limits() { return {.peak_force_n = 8.5, .slew_n_per_s = 2000.0, .ramp_s = 0.0, .display_travel_m = 0.02}; }
+GateLimits limits() {
+  return {.peak_force_n = 8.5,
+          .slew_n_per_s = 2000.0,
+          .ramp_s = 0.0,
+          .display_travel_m = 0.02,
+          .fastest_target_m_per_s = 1e3};
+}
 
 GateInput ready_input(const Vec3& force, double display = 0.0) {
   return {.force_n = force, .display_m = display, .force_device = DeviceState::ready, .display = DeviceState::ready};
@@ -297,4 +303,207 @@ TEST_CASE("a roller that stands still far from its target stops the force, if th
     for (int i = 0; i < 60; ++i) out = gate.pass(input, kTick_s);
     CHECK(out.fault == (measures ? GateFault::display_frozen : GateFault::none));
   }
+}
+
+TEST_CASE("a stall, a late tick or a stop never sends the old force once more") {
+  const auto pressed = [] {
+    SafetyGate gate = armed_gate();
+    gate.pass(ready_input(Vec3(0, 0, 2)), kTick_s);
+    REQUIRE(gate.before_sending(kTick_s) == Vec3(0, 0, 2));
+    gate.pass(ready_input(Vec3(0, 0, 2)), kTick_s);
+    return gate;
+  };
+  SafetyGate stalled = pressed();
+  CHECK(stalled.before_sending(30e-3) == Vec3(0.0));
+  CHECK(stalled.fault() == GateFault::late_tick);
+  SafetyGate stopped = pressed();
+  stopped.stop();
+  CHECK(stopped.before_sending(kTick_s) == Vec3(0.0));
+  SafetyGate elsewhere = pressed();
+  elsewhere.stop_by(GateFault::exchange_hung);
+  CHECK(elsewhere.before_sending(kTick_s) == Vec3(0.0));
+  CHECK(elsewhere.fault() == GateFault::exchange_hung);
+
+  SafetyGate held_up = pressed();  // no fault, but its sample is too old by now
+  CHECK(held_up.before_sending(12e-3) == Vec3(0.0));
+  CHECK(held_up.state() == GateState::armed);
+  CHECK(held_up.pass(ready_input(Vec3(0, 0, 8)), 12e-3).force_n.z == doctest::Approx(2.0));
+  SafetyGate missed = pressed();
+  CHECK(missed.before_sending(2e-3) == Vec3(0, 0, 2));
+
+  // A stale sample: half, then nothing, and a stop in between takes the half, too.
+  for (const bool stop : {false, true}) {
+    SafetyGate gate = pressed();
+    GateInput input = ready_input(Vec3(0, 0, 2));
+    input.position_age_s = 10.5e-3;
+    gate.pass(input, kTick_s);
+    if (stop) gate.stop();
+    CHECK(gate.before_sending(kTick_s).z == (stop ? 0.0 : 1.0));
+    gate.pass(ready_input(Vec3(0, 0, 2)), kTick_s);
+    CHECK(gate.before_sending(kTick_s) == Vec3(0.0));
+  }
+  // Nor does arming after a stop.
+  SafetyGate again = pressed();
+  again.stop();
+  again.arm();
+  CHECK(again.before_sending(kTick_s) == Vec3(0.0));
+}
+
+TEST_CASE("many ticks a little late are a fault like a single long one") {
+  for (const double rate : {500.0, 1000.0, 10'000.0}) {
+    GateLimits l = limits();
+    l.period_s = 1.0 / rate;
+    SafetyGate gate = armed_gate(l);
+    int ticks = 0;
+    while (gate.state() == GateState::armed && ticks < 2000) {
+      const double dt = (++ticks % 5 == 0 ? 2.0 : 1.0) / rate;
+      gate.before_sending(dt);
+      gate.pass(ready_input(Vec3(0, 0, 2)), dt);
+    }
+    CHECK(gate.fault() == GateFault::late_ticks);
+    CHECK(ticks <= 0.11 * rate);
+  }
+}
+
+TEST_CASE("the force changes by no more than a period allows, however long the tick was and at every rate") {
+  for (const double rate : {100.0, 1000.0, 10'000.0}) {
+    GateLimits l = limits();
+    l.period_s = 1.0 / rate;
+    SafetyGate gate = armed_gate(l);
+    const double dt = 2.0 / rate;
+    const double first = gate.pass(ready_input(Vec3(0, 0, 8.5)), dt).force_n.z;
+    CHECK(first <= std::min(8.5, 2000.0 / rate) * (1.0 + 1e-12));
+    CHECK(first > 0.99 * std::min(8.5, 2000.0 / rate));
+  }
+  SafetyGate gate = armed_gate();  // 12 ms let 12.5 N through on a device of 8.5 N
+  CHECK(gate.pass(ready_input(Vec3(0, 0, 8.5)), 12e-3).force_n.z <= 2.0);
+}
+
+TEST_CASE("the length of what passes is never above the peak, to the last bit") {
+  GateLimits wide = limits();
+  wide.slew_n_per_s = 1e9;
+  std::uint64_t seed = 1;
+  const auto random = [&seed] {
+    seed = seed * 6364136223846793005u + 1442695040888963407u;
+    return static_cast<double>(seed >> 11) * 0x1p-52 - 1.0;
+  };
+  int above = 0;
+  for (int i = 0; i < 20'000; ++i) {
+    wide.peak_force_n = 5.0 + 4.0 * random();
+    SafetyGate gate = armed_gate(wide);
+    const double scale = std::exp2(40.0 * random());
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 f = gate.pass(ready_input(100.0 * scale * Vec3(random(), random(), random())), kTick_s).force_n;
+      above += std::sqrt(f.x * f.x + f.y * f.y + f.z * f.z) > wide.peak_force_n;
+    }
+  }
+  CHECK(above == 0);
+}
+
+TEST_CASE("a sample that claims to come from the future is stale") {
+  for (const bool display : {false, true}) {
+    SafetyGate gate = armed_gate();
+    GateInput input = ready_input(Vec3(0, 0, 1));
+    (display ? input.display_age_s : input.position_age_s) = -1e-6;
+    CHECK(gate.pass(input, kTick_s).fault == GateFault::stale_sample);
+  }
+}
+
+TEST_CASE("the display's target moves no faster than its limit, at every rate and after every leap") {
+  for (const double rate : {100.0, 1000.0, 10'000.0}) {
+    for (const double asked : {0.0, 0.1}) {
+      GateLimits l = limits();
+      l.period_s = 1.0 / rate;
+      l.fastest_target_m_per_s = 0.25;
+      SafetyGate gate = armed_gate(l);
+      const double most = (asked > 0.0 ? asked : 0.25) / rate * (1.0 + 1e-9);
+      double last = 0.0;
+      for (int i = 0; i < 400; ++i) {
+        GateInput input = ready_input(Vec3(0.0), i % 100 < 50 ? 5.55e-3 : -9e-3);
+        input.display_fastest_m_per_s = asked;
+        const GateOutput out = gate.pass(input, (i % 7 == 0 ? 2.0 : 1.0) / rate);
+        REQUIRE(std::abs(out.display_m - last) <= most);
+        last = out.display_m;
+      }
+      CHECK(count(gate, GateAction::display_slowed) > 0);
+    }
+  }
+}
+
+TEST_CASE("a roller that is measured at 1 kHz under a servo of 10 kHz does not jump") {
+  GateLimits l = limits();
+  l.period_s = 1e-4;
+  SafetyGate gate = armed_gate(l);
+  for (int i = 0; i < 5000; ++i) {
+    GateInput input = ready_input(Vec3(0, 0, 0.1));
+    input.display_measures = true;
+    input.display_age_s = (i % 10) * 1e-4;
+    input.display_measured_m = 8e-3 * std::sin(40.0 * (i * 1e-4 - input.display_age_s));  // up to 0.32 m/s
+    input.display_m = input.display_measured_m;
+    REQUIRE(gate.pass(input, 1e-4).fault == GateFault::none);
+  }
+}
+
+TEST_CASE("heat is as hot as it is set, and arming does not cool it") {
+  GateLimits l = limits();
+  l.continuous_force_n = 1.4;
+  SafetyGate gate(l);
+  gate.heat().set_store(1e9);
+  gate.arm();
+  double force = 0.0;
+  for (int i = 0; i < 20; ++i) force = gate.pass(ready_input(Vec3(0, 0, 8.5)), kTick_s).force_n.z;
+  CHECK(force == doctest::Approx(1.4).epsilon(0.01));
+}
+
+namespace {
+
+/// A finger that swings in and out of a wall at 2 Hz, seen through telemetry with gaps, under the whole gate. `leap_m`:
+/// added after 1.5 s.
+GateFault seen_through(double servo_hz, double telemetry_hz, double gap_s, double speed_m_per_s, double leap_m) {
+  GateLimits l = limits();
+  l.period_s = 1.0 / servo_hz;
+  l.sample_s = 1.0 / telemetry_hz;
+  SafetyGate gate(l);
+  gate.arm();
+  const double w = 2.0 * 3.14159265358979 * 2.0;
+  GateFault fault = GateFault::none;
+  for (int tick = 1; tick <= 3.0 * servo_hz && fault == GateFault::none; ++tick) {
+    const double t = tick / servo_hz;
+    double at = std::floor(t * telemetry_hz + 1e-6) / telemetry_hz;
+    const double into = std::fmod(at, 0.1);
+    if (gap_s > 0.0 && into > 0.1 - gap_s) at -= into - std::floor((0.1 - gap_s) * telemetry_hz) / telemetry_hz;
+    const double depth = speed_m_per_s / w * std::sin(w * at) + (at >= 1.5 ? leap_m : 0.0);
+    GateInput input = ready_input(Vec3(0, 0, 600.0 * std::max(0.0, depth)));
+    input.display = DeviceState::absent;
+    input.position_m = Vec3(0, 0, -depth);
+    input.position_age_s = std::max(0.0, t - at);
+    input.stiffness_n_per_m = 600.0;
+    input.elastic_n = 600.0 * std::max(0.0, depth);
+    gate.before_sending(l.period_s);
+    fault = gate.pass(input, l.period_s).fault;
+  }
+  return fault;
+}
+
+}  // namespace
+
+TEST_CASE("a wall is touched through telemetry of every rate with gaps up to the allowed age, and only leaps stop it") {
+  int cases = 0;
+  for (const double servo : {100.0, 300.0, 1000.0, 3000.0, 10'000.0}) {
+    for (const double telemetry : {300.0, 1000.0, 4000.0}) {
+      for (const double gap : {0.0, 3e-3, 6e-3}) {
+        for (const double speed : {0.01, 0.05, 0.15}) {
+          CAPTURE(servo);
+          CAPTURE(telemetry);
+          CAPTURE(gap);
+          CAPTURE(speed);
+          CHECK(seen_through(servo, telemetry, gap, speed, 0.0) == GateFault::none);
+          const double apart = std::max({1.0 / servo, 1.0 / telemetry, gap}) + 1.0 / telemetry + 1e-3;
+          CHECK(seen_through(servo, telemetry, gap, speed, -20.0 * apart) == GateFault::position_jumped);
+          ++cases;
+        }
+      }
+    }
+  }
+  CHECK(cases == 135);
 }

@@ -52,7 +52,7 @@ class Process {
     ::_exit(127);
   }
 
-  void interrupt() const { ::kill(id_, SIGINT); }
+  void interrupt(int signal = SIGINT) const { ::kill(id_, signal); }
 
   ProcessResult wait() const {
     int status = 0;

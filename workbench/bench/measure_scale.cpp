@@ -3,9 +3,8 @@
 #include "core/lab/objects/generate.h"
 #include "workbench/bench/case_paths.h"
 #include "workbench/bench/measure.h"
+#include "workbench/session/own_folder.h"
 #include "workbench/session/two_threads.h"
-
-#include <unistd.h>
 
 #include <cstring>
 
@@ -38,26 +37,18 @@ Status write_ply(const PolygonMesh& mesh, const std::filesystem::path& path) {
   return file->commit();
 }
 
-/// A file that is deleted with this object.
-struct TemporaryFile {
-  std::filesystem::path path =
-      std::filesystem::temp_directory_path() / ("workbench-bench-" + std::to_string(::getpid()) + ".ply");
-  ~TemporaryFile() {
-    std::error_code ignored;
-    std::filesystem::remove(path, ignored);
-  }
-};
-
 Result<ScenePtr> load_icosphere(int subdivisions, LoadReport& load) {
-  const TemporaryFile file;
+  const Result<OwnFolder> folder = OwnFolder::make();
+  if (!folder) return tl::unexpected(folder.error());
+  const std::filesystem::path file = folder->path() / "ball.ply";
   std::int64_t start = TickClock::now();
   {
     const PolygonMesh generated = make_icosphere(kBallRadius, subdivisions);
     load.generate_s = seconds_since(start);
-    if (Status status = write_ply(generated, file.path); !status) return tl::unexpected(status.error());
+    if (Status status = write_ply(generated, file); !status) return tl::unexpected(status.error());
   }
   start = TickClock::now();
-  Result<PolygonMesh> source = read_mesh(file.path, 1.0);
+  Result<PolygonMesh> source = read_mesh(file, 1.0);
   if (!source) return tl::unexpected(source.error());
   load.read_s = seconds_since(start);
   start = TickClock::now();

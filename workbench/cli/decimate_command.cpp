@@ -71,9 +71,9 @@ Result<std::shared_ptr<const ContactScene>> scene_of(const PolygonMesh& mesh) {
 }
 
 /// Decimates and measures; repeats with a smaller distance until the result is within the allowed deviation.
+/// Precondition: an InterruptGuard.
 Status decimate_within(const ContactScene& original, DecimateReport& report,
                        std::shared_ptr<const ContactScene>& coarse) {
-  const InterruptGuard interrupt;
   for (int round = 0; round < kMostRounds; ++round) {
     report.result = decimate(original, report.limits, [] { return !InterruptGuard::requested(); });
     auto scene = scene_of(report.result.mesh);
@@ -171,6 +171,7 @@ Status run_decimate(const DecimateOptions& options, bool& complete) {
   report.limits.angle_deg = angle_limit_deg(report.threshold);
   report.limits.deviation_m = report.deviation_limit_m;
   std::shared_ptr<const ContactScene> coarse;
+  const InterruptGuard interrupt;  // until the last file is in place
   if (Status status = decimate_within(**original, report, coarse); !status) return status;
   report.angles_before = audit_perception(mesh, facet_angles(mesh));
   report.angles_after = audit_perception(coarse->mesh(), facet_angles(coarse->mesh()));

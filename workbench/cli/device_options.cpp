@@ -23,6 +23,9 @@ void add_device_options(CLI::App& command, DeviceChoice& choice) {
   add_choice_option(command, "--display", displays, "Contact location display (default simulated)",
                     [&choice, at](int i) { choice.names.display = displays[at(i)]; });
   add_text_option(command, "--packets", choice.packets, "Log every USB packet to this file, for bug reports", "F.txt");
+  add_number_option(command, "--servo-cpu", {.min = 0, .max = 1023, .whole = true},
+                    "Processor core for the servo's thread alone (default: any)",
+                    [&choice](double v) { choice.servo_cpu = static_cast<int>(v); });
   add_number_option(command, "--maestro-channel", {.min = 0, .max = 23, .whole = true},
                     "Channel the servo is on (default: as kept, or 0)",
                     [&choice](double v) { choice.maestro.channel = static_cast<unsigned>(v); });

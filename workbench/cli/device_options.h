@@ -13,14 +13,19 @@ class App;
 
 namespace tangent {
 
+/// Of --arm, the same for both.
+inline constexpr const char* kArmText =
+    "Arm at the start, with real devices, too (default: simulated ones only), once the finger is off the surface";
+
 struct DeviceChoice {
   DeviceNames names;
   MaestroWish maestro;
   std::filesystem::path packets;
+  int servo_cpu = -1;
 };
 
-/// --force, --display, --device for both, --packets, --maestro-channel, --maestro-low-us, --maestro-high-us,
-/// --maestro-low-mm, --maestro-high-mm. `choice` must outlive the parsing.
+/// --force, --display, --device for both, --packets, --servo-cpu, --maestro-channel, --maestro-low-us,
+/// --maestro-high-us, --maestro-low-mm, --maestro-high-mm. `choice` must outlive the parsing.
 void add_device_options(CLI::App& command, DeviceChoice& choice);
 
 }  // namespace tangent

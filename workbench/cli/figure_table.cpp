@@ -4,11 +4,16 @@
 #include "core/io/atomic_file.h"
 #include "workbench/cli/text_format.h"
 
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/mman.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <array>
+#include <cerrno>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
-#include <memory>
+#include <cstring>
 
 namespace tangent {
 namespace {
@@ -31,24 +36,58 @@ set style line 8 lc rgb '#222222' lw 1.2
 set style line 9 lc rgb '#999999' lw 1 dt (6,4)
 )";
 
-std::string replaced(std::string text, const std::string& what, const std::string& by) {
-  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + by.size()))
-    text.replace(at, what.size(), by);
+/// A file without a name, which a child process reads as its standard input.
+Result<int> unnamed_file(const std::string& text) {
+  const int file = ::memfd_create("figure", MFD_CLOEXEC);
+  if (file < 0) return fail("no room for its script", "gnuplot", "free some memory");
+  for (std::size_t done = 0; done < text.size();) {
+    const ssize_t now = ::write(file, text.data() + done, text.size() - done);
+    if (now <= 0) return fail("no room for its script", "gnuplot", "free some memory");
+    done += static_cast<std::size_t>(now);
+  }
+  ::lseek(file, 0, SEEK_SET);
+  return file;
+}
+
+std::string read_all(int file) {
+  std::string text;
+  char part[4096];
+  for (ssize_t got = 0; (got = ::read(file, part, sizeof part)) != 0;) {
+    if (got < 0 && errno != EINTR) break;
+    if (got > 0) text.append(part, static_cast<std::size_t>(got));
+  }
   return text;
 }
 
-/// A gnuplot string in single quotes.
-std::string quoted(const std::string& text) { return "'" + replaced(text, "'", "''") + "'"; }
-
-Status run_gnuplot(const std::string& script, const std::string& name) {
-  if (std::system("command -v gnuplot >/dev/null 2>&1") != 0)
-    return fail("gnuplot is not installed", "figures", "install Debian's package gnuplot-nox");
-  std::FILE* pipe = ::popen("gnuplot 1>&2", "w");
-  if (pipe == nullptr) return fail("gnuplot can't be started", name);
-  const bool written = std::fwrite(script.data(), 1, script.size(), pipe) == script.size();
-  if (const int code = ::pclose(pipe); !written || code != 0)
+/// What gnuplot draws, with `folder` as its working folder. No shell is asked, and no name that a person typed reaches
+/// its script: a newline in one would begin a command, and gnuplot has `system`.
+Result<std::string> run_gnuplot(const std::string& script, const std::filesystem::path& folder,
+                                const std::string& name) {
+  const Result<int> input = unnamed_file(script);
+  if (!input) return tl::unexpected(input.error());
+  std::array<int, 2> output{};
+  if (::pipe2(output.data(), O_CLOEXEC) != 0) return fail("gnuplot can't be started", name);
+  posix_spawn_file_actions_t actions;
+  ::posix_spawn_file_actions_init(&actions);
+  ::posix_spawn_file_actions_adddup2(&actions, *input, STDIN_FILENO);
+  ::posix_spawn_file_actions_adddup2(&actions, output[1], STDOUT_FILENO);
+  ::posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
+  std::string program = "gnuplot";
+  std::array<char*, 2> arguments{program.data(), nullptr};
+  pid_t child = 0;
+  const int failed = ::posix_spawnp(&child, program.c_str(), &actions, nullptr, arguments.data(), environ);
+  ::posix_spawn_file_actions_destroy(&actions);
+  ::close(*input);
+  ::close(output[1]);
+  const std::string drawn = failed == 0 ? read_all(output[0]) : std::string();
+  ::close(output[0]);
+  if (failed == ENOENT) return fail("gnuplot is not installed", "figures", "install Debian's package gnuplot-nox");
+  if (failed != 0) return fail(std::string("gnuplot can't be started: ") + std::strerror(failed), name);
+  int status = 0;
+  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {}
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
     return fail("gnuplot could not draw it", name, "see its message above");
-  return {};
+  return drawn;
 }
 
 }  // namespace
@@ -72,18 +111,14 @@ Status write_figure(const Figure& figure, const std::filesystem::path& folder) {
     const auto path = folder / (figure.name + data.suffix + ".csv");
     if (Status status = write_file_atomic(path, data.table.csv()); !status) return status;
   }
-  // Drawn to a temporary file, then renamed.
-  const std::filesystem::path target = folder / (figure.name + ".svg"), part = folder / (figure.name + ".svg.part");
-  std::string script =
+  const std::filesystem::path target = folder / (figure.name + ".svg");
+  const std::string script =
       format("set terminal svg size %d,%d dynamic enhanced font 'Inter, Helvetica, Arial,13' background rgb 'white'\n",
-             figure.width_px, figure.height_px);
-  script += "set output " + quoted(part.string()) + "\n" + kCommon + "DIR = " + quoted(folder.string()) + "\n" +
-            figure.script + "unset output\n";
-  if (Status status = run_gnuplot(script, target.string()); !status) return status;
-  std::error_code error;
-  std::filesystem::rename(part, target, error);
-  if (error) return fail("can't be written: " + error.message(), target.string());
-  return {};
+             figure.width_px, figure.height_px) +
+      kCommon + "DIR = '.'\n" + figure.script;
+  const Result<std::string> drawn = run_gnuplot(script, folder, target.string());
+  if (!drawn) return tl::unexpected(drawn.error());
+  return write_file_atomic(target, *drawn);
 }
 
 }  // namespace tangent

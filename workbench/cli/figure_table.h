@@ -28,7 +28,7 @@ struct Figure {
   std::string title;  ///< what it shows, for the list that is printed
   int width_px = 760, height_px = 480;
   std::vector<FigureData> data = {};
-  /// gnuplot commands after the common ones; `$DIR/` stands for the folder.
+  /// gnuplot commands after the common ones; DIR is the folder. No name that a person typed belongs in here.
   std::string script = {};
 };
 

@@ -1,32 +1,45 @@
 #include "workbench/cli/interrupt.h"
 
-#include <csignal>
+#include "core/io/atomic_file.h"
+#include "workbench/session/crash_stop.h"
 
 namespace tangent {
 namespace {
 
+constexpr std::array<int, 3> kSignals{SIGINT, SIGTERM, SIGHUP};
+
 volatile std::sig_atomic_t interrupted = 0;
 
-void raise_flag(int) { interrupted = 1; }
-
-void install(void (*handler)(int), int flags) {
-  struct sigaction action {};
-  action.sa_handler = handler;
-  action.sa_flags = flags;
-  sigemptyset(&action.sa_mask);
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
+void on_signal(int signal) {
+  if (interrupted == 0) {
+    interrupted = 1;
+    ask_servos_to_end();  // now, not when somebody looks at the flag: the drawing thread may hang
+    return;
+  }
+  end_servos();
+  remove_temporary_files();
+  std::signal(signal, SIG_DFL);
+  std::raise(signal);
 }
 
 }  // namespace
 
 InterruptGuard::InterruptGuard() {
   interrupted = 0;
-  // SA_RESETHAND: the second signal gets the default handler and ends the program.
-  install(raise_flag, static_cast<int>(SA_RESETHAND) | SA_RESTART);
+  allow_servos();
+  struct sigaction action {};
+  action.sa_handler = on_signal;
+  action.sa_flags = SA_RESTART;
+  sigemptyset(&action.sa_mask);
+  for (std::size_t i = 0; i < kSignals.size(); ++i) {
+    sigaction(kSignals[i], nullptr, &before_[i]);
+    if (before_[i].sa_handler != SIG_IGN) sigaction(kSignals[i], &action, nullptr);
+  }
 }
 
-InterruptGuard::~InterruptGuard() { install(SIG_DFL, 0); }
+InterruptGuard::~InterruptGuard() {
+  for (std::size_t i = 0; i < kSignals.size(); ++i) sigaction(kSignals[i], &before_[i], nullptr);
+}
 
 bool InterruptGuard::requested() { return interrupted != 0; }
 

@@ -25,7 +25,7 @@ struct MonitorOptions {
   double seconds = 0.0;  ///< 0: until q or Ctrl-C
   double servo_hz = 1000.0;
   std::string inject;
-  bool inject_display = false, stay_stopped = false;
+  bool inject_display = false, stay_stopped = false, arm = false, without_timeout = false;
 };
 
 /// Reads single keys while it exists, if standard input is a terminal.
@@ -118,6 +118,7 @@ Status run_monitor(const MonitorOptions& options) {
   if (!scene) return tl::unexpected(scene.error());
   SessionOptions wanted;
   wanted.servo.rate_hz = options.servo_hz;
+  wanted.servo.cpu = options.devices.servo_cpu;
   wanted.devices = options.devices.names;
   if (wanted.devices.display == "maestro") {
     const auto setup = chosen_maestro_setup(options.devices.maestro, maestro_setups_path());
@@ -127,9 +128,18 @@ Status run_monitor(const MonitorOptions& options) {
   }
   wanted.packets = options.devices.packets;
   wanted.history_s = 1.0;
-  wanted.arm_on_start = !options.stay_stopped;
+  wanted.arm_on_start = options.stay_stopped ? ArmOnStart::never
+                        : options.arm        ? ArmOnStart::always
+                                             : ArmOnStart::simulated;
   auto session = Session::create(*scene, Preset{}, wanted);
   if (!session) return tl::unexpected(session.error());
+  if (options.without_timeout) (*session)->accept_no_timeout();
+  if ((*session)->needs_yes()) {
+    for (const std::string& name : (*session)->without_timeout())
+      print_message("monitor", name +
+                                   " goes on with its last command when this program dies (its firmware has no "
+                                   "time-out), so nothing is armed; --without-timeout arms nevertheless");
+  }
   if (const Status ok = (*session)->start(); !ok) return ok;
   watch(**session, options, fault);
   (*session)->shut_down();
@@ -152,6 +162,9 @@ void add_monitor_command(CLI::App& app, CommandResult& result) {
                   "FAULT");
   add_flag(*command, "--inject-display", options->inject_display,
            "Give it to the contact display instead of the force device");
+  add_flag(*command, "--arm", options->arm, kArmText);
+  add_flag(*command, "--without-timeout", options->without_timeout,
+           "Arm even a device that goes on with its last command when this program dies");
   add_flag(*command, "--stay-stopped", options->stay_stopped, "No force until a is pressed");
   on_run(*command, [options, &result] {
     const Status status = run_monitor(*options);

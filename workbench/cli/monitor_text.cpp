@@ -49,6 +49,9 @@ std::string gate_text(const ServoStatus& servo) {
     if (servo.gate_counts[i] > 0)
       text += format("  %-22s %10llu ticks\n", to_string(static_cast<GateAction>(i)), number(servo.gate_counts[i]));
   }
+  if (servo.hung != ExchangeWith::none)
+    text += format("  %s did not return from an exchange; %s\n", to_string(servo.hung),
+                   servo.hung_was_stopped ? "it was told to stop" : "it has no way to be stopped");
   return text;
 }
 
@@ -84,6 +87,9 @@ std::string monitor_line(const Session& session) {
                      device_text("display", s.display_state, s.display_fault) + " | gate " +
                      to_string(s.servo.gate_state);
   if (s.servo.gate_fault != GateFault::none) text += std::string(": ") + to_string(s.servo.gate_fault);
+  const bool live = s.servo.gate_state == GateState::ramping || s.servo.gate_state == GateState::armed;
+  const std::string why = arming_text(s.arming, s.in_the_way, s.force_wanted_n);
+  if (!live) text += " | " + (why.empty() ? std::string("No force: a arms") : why);
   text += format(" | %.1f Hz", s.servo.rate_hz);
   if (session.history().empty()) return text;
   const ServoRecord& r = session.history().newest();
@@ -98,8 +104,12 @@ std::string monitor_report(const Session& session) {
   std::string text =
       format("Servo: %llu ticks, %.1f Hz, %llu late ticks, %llu missed deadlines; %s\n", number(s.servo.ticks),
              s.servo.rate_hz, number(s.servo.late_ticks), number(s.servo.missed_deadlines), s.realtime_note.c_str());
+  if (!s.realtime_remedy.empty())
+    text +=
+        (s.real_devices ? "  Warning: a real device without real-time scheduling. " : "  ") + s.realtime_remedy + "\n";
   text += histogram_text("Tick to tick", session.period_ns(), 1e-6, "ms");
   text += histogram_text("Late by", session.lateness_ns(), 1e-6, "ms");
+  text += histogram_text("From sample to command", session.latency_ns(), 1e-6, "ms");
   text += gate_text(s.servo);
   LinkReport link;
   if (session.display_report(link)) text += link_text(link);

@@ -1,12 +1,14 @@
 // The program: its subcommands, and the handling of invalid arguments.
 #include "workbench/cli/command.h"
 #include "workbench/cli/messages.h"
+#include "workbench/session/crash_stop.h"
 
 #include <CLI/CLI.hpp>
 
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <system_error>
 
 namespace tangent {
 namespace {
@@ -45,6 +47,7 @@ int parse_and_run(CLI::App& app, CommandResult& result, int argc, const char* co
 std::span<const AddCommand> headless_commands() { return kCommands; }
 
 int run_program(int argc, const char* const* argv, std::span<const AddCommand> commands, int (*without_command)()) {
+  install_crash_stop();
   CLI::App app("Tangent Workbench: visual debugger and tuning tool for haptic shading of contact location and force",
                "workbench");
   app.set_version_flag("--version", "workbench " TANGENT_VERSION);
@@ -61,6 +64,10 @@ int run_program(int argc, const char* const* argv, std::span<const AddCommand> c
     return code;
   } catch (const std::bad_alloc&) {
     print_message(chosen_command(app), "not enough memory");
+  } catch (const std::system_error& error) {
+    // What starting a thread says where there is no room for its stack.
+    const bool room = error.code() == std::errc::resource_unavailable_try_again;
+    print_message(chosen_command(app), room ? "not enough memory for another thread" : error.what());
   } catch (const std::exception& error) {
     print_message(chosen_command(app), error.what());
   }

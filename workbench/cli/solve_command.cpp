@@ -56,9 +56,8 @@ Result<SolveOutputs> create_outputs(const SolveOptions& options) {
   return outputs;
 }
 
-/// Steps the poses in turn until they end or Ctrl-C.
+/// Steps the poses in turn until they end or Ctrl-C. Precondition: an InterruptGuard.
 Status step_all(Stepper& stepper, const std::vector<TickInput>& poses, SolveOutputs& outputs, SolveReport& report) {
-  const InterruptGuard interrupt;
   Progress progress("ticks", poses.size());
   // Too large for the stack.
   const auto trace = outputs.iterations ? std::make_unique<IterationTrace>() : nullptr;
@@ -122,6 +121,7 @@ Status solve(const SolveOptions& options, bool& interrupted) {
   report.poses = poses->size();
   const Stopwatch solving;
   Stepper stepper(*scene);
+  const InterruptGuard interrupt;  // until the last file is in place
   Result<SolveOutputs> outputs = create_outputs(options);
   if (!outputs) return tl::unexpected(outputs.error());
   if (Status status = step_all(stepper, *poses, *outputs, report); !status) return status;

@@ -40,6 +40,12 @@ struct App::Ui {
 
 namespace {
 
+/// The view without the cards at its left edge, where there is room enough beside them.
+Rect beside_cards(const Rect& view, float cards) {
+  if (view.w < 2.0f * cards) return view;
+  return {view.x + cards, view.y, view.w - cards, view.h};
+}
+
 constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus |
                                     ImGuiWindowFlags_NoNav;
@@ -135,7 +141,18 @@ void App::Ui::draw_column(const char* name, const Rect& rect, const UiContext& u
   ImGui::End();
 }
 
+/// Escape stops the force before anything else is looked at, whatever is open, typed or held. ImGui knows of a key that
+/// went down only after its NewFrame.
+void App::stop_on_escape() {
+  const ImGuiIO& io = ImGui::GetIO();
+  const int escape = io.KeyMap[ImGuiKey_Escape];
+  if (escape >= 0 && io.KeysDown[escape] && io.KeysDownDuration[escape] < 0.0f) stop();
+}
+
+void App::stop() { model_->devices().stop(); }
+
 void App::frame(const FrameInput& input) {
+  stop_on_escape();
   const double begin = thread_cpu_ms();
   for (const std::string& file : input.dropped_files) {
     if (std::filesystem::path(file).extension() == ".toml")
@@ -163,6 +180,8 @@ void App::frame(const FrameInput& input) {
   model_->map().set_felt_angle(felt_angle_rad(model_->presets(), ui_->perception));
   draw_view_panel(ui, *model_, ui_->view, ui_->renderer, layout.view);
   draw_device_monitor(ui, *model_, layout.view);
+  draw_arming_bar(ui, model_->devices(), beside_cards(layout.view, ui.px(210)));
+  draw_unsaved_offer(ui, model_->unsaved(), layout.view);
   ui_->draw_column("##left", layout.left, ui, *model_, true);
   ui_->draw_column("##right", layout.right, ui, *model_, false);
   draw_plots_panel(ui, *model_, ui_->plots, layout.plots);

@@ -56,6 +56,9 @@ class App {
   /// ImGui::NewFrame, the whole window, ImGui::Render.
   void frame(const FrameInput& input);
 
+  /// No force, at once; what Escape does, which a platform may call before it shows the key in a frame.
+  void stop();
+
   void show_plots(PlotsMode mode, bool values);  ///< as by their buttons
 
   /// Deterministic mode: runs `ticks` servo ticks now. Otherwise does nothing.
@@ -75,6 +78,7 @@ class App {
 
  private:
   struct Ui;
+  void stop_on_escape();
   std::unique_ptr<AppModel> model_;
   std::unique_ptr<Ui> ui_;
   double last_build_ms_ = 0.0;

@@ -14,6 +14,9 @@ class HandLead {
 
   /// Starts a path off the surface; the following calls of advance approach the surface.
   HandTarget begin(const ExplorationPath& path, double pad_m) noexcept;
+  /// Begins the approach anew, from off the surface, as a person does who is asked to move off it. Called tick by tick
+  /// it stays there. A hand that is led to a point stays where it is led.
+  void lift() noexcept { approach_s_ = 0.0; }
   /// Target of the next tick. Precondition: `path` is the one given to begin.
   HandTarget advance(const ExplorationPath& path, double pad_m, double dt_s) noexcept;
 

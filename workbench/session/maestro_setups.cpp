@@ -5,6 +5,7 @@
 #include "core/io/toml_file.h"
 #include "core/preset/schema.h"
 #include "devices/maestro/maestro_display.h"
+#include "workbench/session/file_lock.h"
 #include "workbench/session/window_settings.h"
 
 #include <algorithm>
@@ -117,11 +118,12 @@ Result<std::optional<MaestroSetup>> read_maestro_setup(const std::filesystem::pa
 
 Status keep_maestro_setup(const std::filesystem::path& path, const std::string& serial, const MaestroSetup& setup) {
   if (serial == kFormatKey) return fail("no serial number", serial, "give the Maestro another one");
+  std::error_code failed;
+  std::filesystem::create_directories(path.parent_path(), failed);
+  const FileLock lock(path);  // another program may calibrate another Maestro
   auto setups = read_setups(path);
   if (!setups) return tl::unexpected(setups.error());
   (*setups)[serial] = setup;
-  std::error_code failed;
-  std::filesystem::create_directories(path.parent_path(), failed);
   return write_file_atomic(path, format_setups(*setups));
 }
 

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <utility>
 
 namespace tangent {
 
@@ -13,7 +14,10 @@ class PreparedScene {
  public:
   /// Takes milliseconds to seconds. Any thread but the servo's.
   PreparedScene(std::shared_ptr<const ContactScene> from, const Finger& finger)
-      : scene(std::move(from)), stepper(scene), path(ExplorationPath::build(*scene, pad_distance_m(finger))) {}
+      : PreparedScene(from, ExplorationPath::build(*from, pad_distance_m(finger))) {}
+  /// With a path that was built for it before.
+  PreparedScene(std::shared_ptr<const ContactScene> from, ExplorationPath over)
+      : scene(std::move(from)), stepper(scene), path(std::move(over)) {}
 
   std::shared_ptr<const ContactScene> scene;
   Stepper stepper;

@@ -148,6 +148,11 @@ class HistoryResolver::Replay {
       as_recorded_ = true;
       rendered_ = tick.kept.rendered;
     }
+    const bool changed = follows && wish_ == nullptr && tick.preset_id != before_->tick.preset_id;
+    if (changed) {  // as the servo did
+      begin_change(rendered_);
+      begin_change(state_.rendered);
+    }
     before_ = &record;
     taken_over = false;
     if (!stepper_ || preset(record) == nullptr) {

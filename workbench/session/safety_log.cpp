@@ -7,6 +7,16 @@ void SafetyLog::add(SafetyEntry::Kind kind, const ServoRecord& record, std::stri
   entries_.push_back({kind, record.tick.tick, record.tick.input.t_s, std::move(text)});
 }
 
+/// That arming waits, and why, and that it was given up.
+void SafetyLog::watch_arming(const ServoRecord& record) {
+  const DeviceTelemetry& now = record.device;
+  if (now.arming == last_.arming && now.in_the_way == last_.in_the_way) return;
+  if (now.arming == ArmingStage::arming && now.in_the_way != ArmingObstacle::none)
+    add(SafetyEntry::Kind::state, record, std::string("arming waits: ") + to_string(now.in_the_way));
+  if (now.arming == ArmingStage::given_up && last_.arming != ArmingStage::given_up)
+    add(SafetyEntry::Kind::fault, record, std::string("arming given up: ") + to_string(now.in_the_way));
+}
+
 void SafetyLog::watch(const ServoRecord& record) {
   using Kind = SafetyEntry::Kind;
   const DeviceTelemetry& now = record.device;
@@ -25,6 +35,7 @@ void SafetyLog::watch(const ServoRecord& record) {
     else
       add(Kind::state, record, std::string("safety gate: ") + to_string(now.gate_state));
   }
+  watch_arming(record);
   for (std::size_t i = 0; i < kGateActionCount; ++i) {
     const auto action = static_cast<GateAction>(i);
     if (((now.gate_actions >> i) & 1u) == 0) continue;

@@ -28,6 +28,7 @@ class SafetyLog {
   const std::deque<SafetyEntry>& entries() const { return entries_; }
 
  private:
+  void watch_arming(const ServoRecord& record);
   void add(SafetyEntry::Kind kind, const ServoRecord& record, std::string text);
 
   std::deque<SafetyEntry> entries_;

@@ -1,5 +1,7 @@
 #include "workbench/session/servo.h"
 
+#include "workbench/session/crash_stop.h"
+
 #include <pthread.h>
 #include <sched.h>
 #include <sys/mman.h>
@@ -15,6 +17,14 @@ namespace {
 bool may_lock_all() noexcept {
   rlimit limit{};
   return geteuid() == 0 || (getrlimit(RLIMIT_MEMLOCK, &limit) == 0 && limit.rlim_cur == RLIM_INFINITY);
+}
+
+/// So that no tick is the first to use a page of its stack. Far more than a tick takes.
+void touch_stack() noexcept {
+  constexpr std::size_t kBytes = 128 * 1024, kPage = 4096;
+  volatile unsigned char room[kBytes];
+  for (std::size_t i = 0; i < kBytes; i += kPage) room[i] = 0;
+  static_cast<void>(room[0]);
 }
 
 }  // namespace
@@ -37,22 +47,38 @@ Status Servo::start() {
   statistics_.restart_rate();
   if (scheduler_ == nullptr) {
     thread_ = std::thread([this]() noexcept { loop(); });
-    return {};
+  } else if (const Status called = start_called(); !called) {
+    return called;
   }
+  if (!options_.watch_exchanges) return {};
+  watching_.store(true, std::memory_order_relaxed);
+  watching_thread_ = std::thread([this]() noexcept { watch(); });
+  return {};
+}
+
+Status Servo::start_called() {
   call_pacer_.start();
+  running_.emplace(&Servo::release_one, this);
   const Status started =
       scheduler_->start_calling({[](void* servo) noexcept { static_cast<Servo*>(servo)->run_called(); }, this});
   called_ = started.has_value();
+  if (!called_) running_.reset();
   return started;
 }
 
 void Servo::stop() {
   if (!running()) return;
   stopping_.store(true, std::memory_order_relaxed);
-  if (thread_.joinable()) return thread_.join();
-  scheduler_->stop_calling();
-  called_ = false;
-  tick_.release(1.0 / options_.rate_hz);
+  if (called_) {
+    scheduler_->stop_calling();
+    called_ = false;
+    release();
+    running_.reset();
+  } else {
+    thread_.join();
+  }
+  watching_.store(false, std::memory_order_relaxed);  // after the last exchange
+  if (watching_thread_.joinable()) watching_thread_.join();
 }
 
 void Servo::run_one() noexcept { tick_.run(pacer_.begin(pacer_.deadline_ns())); }
@@ -67,26 +93,57 @@ void Servo::ask_for_realtime() noexcept {
   fifo_.store(pthread_setschedparam(pthread_self(), SCHED_FIFO, &priority) == 0);
   // ONFAULT: pages are locked once touched; untouched ones are not loaded.
   locked_.store(may_lock_all() && mlockall(MCL_CURRENT | MCL_FUTURE | MCL_ONFAULT) == 0);
+  touch_stack();
+  if (options_.cpu < 0) return;
+  cpu_set_t only;
+  CPU_ZERO(&only);
+  CPU_SET(static_cast<std::size_t>(options_.cpu), &only);
+  on_cpu_.store(pthread_setaffinity_np(pthread_self(), sizeof only, &only) == 0);
 }
+
+bool Servo::ends() const noexcept { return stopping_.load(std::memory_order_relaxed) || servos_are_to_end(); }
 
 // The device's driver has chosen its thread's priority.
 void Servo::run_called() noexcept {
   if (stopping_.load(std::memory_order_relaxed)) return;
+  const RunningServo::Here here(*running_);
+  if (servos_are_to_end()) {
+    release();  // again with every call, until nobody calls any more
+    return running_->ended();
+  }
   const std::int64_t now_ns = clock_.now_ns();
   statistics_.note_start(now_ns);
   tick_.run(call_pacer_.begin(now_ns));
 }
 
+// Above the servo's priority: the servo may spin in the exchange that hangs. By the real clock, as the tick is.
+void Servo::watch() noexcept {
+  pthread_setname_np(pthread_self(), "servo watch");
+  sched_param priority{};
+  priority.sched_priority = options_.fifo_priority + 1;
+  if (options_.realtime) pthread_setschedparam(pthread_self(), SCHED_FIFO, &priority);
+  MonotonicClock clock;
+  while (watching_.load(std::memory_order_relaxed)) {
+    const std::int64_t now_ns = clock.now_ns();
+    tick_.exchange_watch().look(now_ns);
+    clock.sleep_until(now_ns + ExchangeWatch::kLook_ns);
+  }
+}
+
 void Servo::loop() noexcept {
   ask_for_realtime();
+  const AlternateStack stack;
+  RunningServo running(&Servo::release_one, this);
+  const RunningServo::Here here(running);
   pacer_.start(clock_.now_ns());
-  while (!stopping_.load(std::memory_order_relaxed)) {
+  while (!ends()) {
     clock_.sleep_until(pacer_.deadline_ns());
+    if (ends()) break;
     const std::int64_t now_ns = clock_.now_ns();
     statistics_.note_start(now_ns);
     tick_.run(pacer_.begin(now_ns));
   }
-  tick_.release(1.0 / options_.rate_hz);
+  release();
 }
 
 }  // namespace tangent

@@ -1,15 +1,18 @@
 // Runs the ticks: in the servo thread, at a fixed rate, by absolute deadlines; or, with a force device that keeps the
-// time, when it calls, in its thread. All calls come from the owner's thread.
+// time, when it calls, in its thread. With real devices a second thread watches that their exchanges return. All calls
+// come from the owner's thread.
 #pragma once
 
 #include "devices/force_device.h"
 #include "workbench/session/call_pacer.h"
+#include "workbench/session/crash_stop.h"
 #include "workbench/session/deadline_pacer.h"
 #include "workbench/session/servo_clock.h"
 #include "workbench/session/servo_options.h"
 #include "workbench/session/servo_tick.h"
 
 #include <atomic>
+#include <optional>
 #include <thread>
 
 namespace tangent {
@@ -29,7 +32,7 @@ class Servo {
   /// Stops after the current tick, sends the devices zero force, and joins the thread.
   void stop();
   bool running() const { return thread_.joinable() || called_; }
-  RealtimeGrant granted() const { return {fifo_.load(), locked_.load()}; }  ///< any thread
+  RealtimeGrant granted() const { return {fifo_.load(), locked_.load(), on_cpu_.load()}; }  ///< any thread
 
   /// Runs the next tick now, in the caller's thread, as if it began at its deadline. Precondition: not running.
   void run_one() noexcept;
@@ -37,6 +40,11 @@ class Servo {
  private:
   void loop() noexcept;
   void run_called() noexcept;
+  Status start_called();
+  bool ends() const noexcept;
+  void watch() noexcept;
+  static void release_one(void* servo) noexcept { static_cast<Servo*>(servo)->release(); }
+  void release() noexcept { tick_.release(1.0 / options_.rate_hz); }
   void ask_for_realtime() noexcept;
 
   ServoTick& tick_;
@@ -46,10 +54,11 @@ class Servo {
   DeadlinePacer pacer_;
   CallPacer call_pacer_;
   ForceDevice* scheduler_;
-  bool called_ = false;  ///< by the device
-  std::thread thread_;
-  std::atomic<bool> stopping_{false};
-  std::atomic<bool> fifo_{false}, locked_{false};
+  bool called_ = false;                  ///< by the device
+  std::optional<RunningServo> running_;  ///< while it is
+  std::thread thread_, watching_thread_;
+  std::atomic<bool> stopping_{false}, watching_{false};
+  std::atomic<bool> fifo_{false}, locked_{false}, on_cpu_{false};
 };
 
 }  // namespace tangent

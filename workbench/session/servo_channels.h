@@ -5,6 +5,7 @@
 #include "devices/base/mailbox.h"
 #include "devices/base/ring.h"
 #include "devices/fault_injection.h"
+#include "workbench/session/arming.h"
 #include "workbench/session/hand_settings.h"
 #include "workbench/session/prepared_scene.h"
 #include "workbench/session/servo_record.h"
@@ -21,9 +22,6 @@ struct PresetLetter {
   Preset preset;
 };
 static_assert(std::is_trivially_copyable_v<PresetLetter>, "presets cross threads as bytes");
-
-/// home: no force until armed, and the devices home again.
-enum class ForceSwitch : std::uint8_t { stop, arm, home };
 
 /// A fault to inject into a simulated device.
 struct FaultLetter {
@@ -69,6 +67,7 @@ struct ServoChannels {
   Mailbox<PresetLetter> presets;
   Mailbox<HandCommand> hand;
   Mailbox<ForceSwitch> force;
+  std::atomic<bool> stop{false};  ///< like ForceSwitch::stop, but no later wish replaces it before it is seen
   Mailbox<FaultLetter> faults;
   SceneExchange scenes;
   Ring<ServoRecord> gui;

@@ -3,6 +3,7 @@
 
 #include "core/base/result.h"
 #include "devices/safety_gate.h"
+#include "workbench/session/exchange_watch.h"
 
 #include <array>
 #include <cstdint>
@@ -17,9 +18,11 @@ struct ServoOptions {
   double rate_hz = 1000.0;  ///< kSlowestServoHz to kFastestServoHz
   bool realtime = true;     ///< request SCHED_FIFO and locked memory; runs without if refused
   int fifo_priority = 40;
+  int cpu = -1;  ///< core for the servo's thread alone; -1: any
   /// Tick time for solver and devices. true: the deadlines (real devices); false: tick / rate (simulated devices, so
   /// that N ticks give identical results however late they ran).
   bool time_by_deadlines = false;
+  bool watch_exchanges = false;     ///< of real devices: a thread that notices one that doesn't return
   std::size_t ring_records = 8192;  ///< of each ring
 };
 
@@ -27,6 +30,7 @@ struct ServoOptions {
 struct RealtimeGrant {
   bool fifo = false;
   bool memory_locked = false;
+  bool on_cpu = false;  ///< on the core that was asked for
 };
 
 /// Counters of the servo. Each is consistent by itself; together they are not a snapshot of one instant.
@@ -49,6 +53,8 @@ struct ServoStatus {
   std::array<std::uint64_t, kGateActionCount> gate_counts{};
   std::uint64_t gate_faults = 0;
   RealtimeGrant realtime;
+  ExchangeWith hung = ExchangeWith::none;  ///< device whose exchange did not return in time
+  bool hung_was_stopped = false;           ///< it had a way to be told to stop
 };
 
 }  // namespace tangent

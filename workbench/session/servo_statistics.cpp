@@ -33,6 +33,7 @@ void ServoStatistics::add(const ServoRecord& record, const SafetyGate& gate) noe
   tick_ns_.add(static_cast<std::uint64_t>(record.tick_ns));
   lateness_ns_.add(static_cast<std::uint64_t>(record.lateness_ns));
   if (record.period_ns > 0.0) period_ns_.add(static_cast<std::uint64_t>(record.period_ns));
+  if (record.latency_ns > 0.0) latency_ns_.add(static_cast<std::uint64_t>(record.latency_ns));
   preset_id_.store(record.tick.preset_id, kRelaxed);
   scene_id_.store(record.scene_id, kRelaxed);
   gate_state_.store(gate.state(), kRelaxed);

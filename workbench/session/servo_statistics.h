@@ -20,9 +20,10 @@ class ServoStatistics {
   /// Servo thread, or while it is not running.
   void restart_rate() noexcept { window_start_ns_ = 0; }
 
-  /// Any thread may read these two.
+  /// Any thread may read these three.
   const LogHistogram& lateness_ns() const { return lateness_ns_; }
   const LogHistogram& period_ns() const { return period_ns_; }
+  const LogHistogram& latency_ns() const { return latency_ns_; }
 
   /// Any thread. Fills the fields that are counted here.
   void fill(ServoStatus& status) const noexcept;
@@ -42,7 +43,7 @@ class ServoStatistics {
   std::atomic<GateState> gate_state_{GateState::disarmed};
   std::atomic<GateFault> gate_fault_{GateFault::none};
   std::array<std::atomic<std::uint64_t>, kGateActionCount> gate_counts_{};
-  LogHistogram tick_ns_, lateness_ns_, period_ns_;
+  LogHistogram tick_ns_, lateness_ns_, period_ns_, latency_ns_;
   std::int64_t window_start_ns_ = 0;  // servo thread only
   std::uint64_t window_ticks_ = 0;
 };

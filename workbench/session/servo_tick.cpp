@@ -1,42 +1,62 @@
 #include "workbench/session/servo_tick.h"
 
 #include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
 
 namespace tangent {
 
-GateLimits gate_limits(const DeviceSet& devices) {
-  GateLimits limits;
-  if (devices.force) {
-    const ForceCapabilities& can = devices.force->capabilities();
-    limits.peak_force_n = can.peak_force_n;
-    limits.continuous_force_n = can.continuous_force_n;
-    limits.workspace_half_size_m = can.workspace_half_size_m;
-  }
-  if (devices.display) limits.display_travel_m = devices.display->capabilities().travel_m;
-  return limits;
+namespace {
+
+/// The key of a real device's motors; empty: of none.
+std::string motors_of(const DeviceSet& devices) {
+  if (!devices.force || devices.force->capabilities().simulated) return {};
+  return devices.force->capabilities().name + " " + devices.force->capabilities().serial;
 }
 
+/// Wishes to home of devices that are not there never matter.
+Arming arming_for(const DeviceSet& devices) {
+  const double force = devices.force ? devices.force->capabilities().homing_s : 0.0;
+  return {force, devices.display ? devices.display->capabilities().homing_s : 0.0};
+}
+
+}  // namespace
+
 ServoTick::ServoTick(DeviceSet& devices, ServoChannels& channels, ServoStatistics& statistics,
-                     std::unique_ptr<PreparedScene> scene, const PresetLetter& preset, NanosecondClock clock)
+                     std::unique_ptr<PreparedScene> scene, const PresetLetter& preset, NanosecondClock clock,
+                     double rate_hz)
     : devices_(devices),
       channels_(channels),
       statistics_(statistics),
       clock_(clock),
-      gate_(gate_limits(devices)),
+      gate_(gate_limits(devices, rate_hz)),
+      exchange_watch_(devices),
       scene_(scene.release()),
-      preset_(preset) {
+      preset_(preset),
+      arming_(arming_for(devices)) {
   const HandTarget start = hand_.begin(scene_->path, pad_distance_m(preset_.preset.finger));
   force_sample_.position_m = start.position_m;
   force_sample_.orientation = start.orientation;
   if (devices_.force && devices_.force->hand()) devices_.force->hand()->place(start);
   place_workspace();
+  const std::string motors = motors_of(devices_);
+  if (!motors.empty()) gate_.heat().set_store(motor_heat().recall(motors, gate_.limits().continuous_force_n, now()));
   if (devices_.display) devices_.display->set_controller(preset_.preset.controller);
 }
 
-ServoTick::~ServoTick() { delete scene_; }
+ServoTick::~ServoTick() {
+  const std::string motors = motors_of(devices_);
+  if (!motors.empty()) motor_heat().keep(motors, gate_.heat().store_n2s(), now());
+  delete scene_;
+}
 
 void ServoTick::take_letters() noexcept {
-  if (channels_.presets.take(preset_) && devices_.display) devices_.display->set_controller(preset_.preset.controller);
+  if (channels_.presets.take(preset_)) {
+    begin_change(state_.rendered);
+    changed_ = true;
+    if (devices_.display) devices_.display->set_controller(preset_.preset.controller);
+  }
   HandCommand hand;
   if (channels_.hand.take(hand)) hand_.command(hand);
   FaultLetter fault;
@@ -44,56 +64,82 @@ void ServoTick::take_letters() noexcept {
     if (fault.display && devices_.display) devices_.display->inject(fault.injection);
     if (!fault.display && devices_.force) devices_.force->inject(fault.injection);
   }
+  take_force_switch();
+}
+
+// A stop is never lost, and drops a wish that came with it: which of them was first can't be told.
+void ServoTick::take_force_switch() noexcept {
   ForceSwitch wanted{};
-  if (!channels_.force.take(wanted)) return;
-  arming_wanted_ = wanted == ForceSwitch::arm;
-  if (wanted != ForceSwitch::stop) homing_wanted_ = clearing_wanted_ = true;
-  rehoming_wanted_ = wanted == ForceSwitch::home;
-  if (!arming_wanted_) gate_.stop();
+  const bool stop = channels_.stop.exchange(false, std::memory_order_acq_rel);
+  const bool any = channels_.force.take(wanted);
+  if (!stop && !any) return;
+  if (stop) wanted = ForceSwitch::stop;
+  arming_.ask(wanted);
+  if (wanted != ForceSwitch::arm) gate_.stop();
 }
 
 void ServoTick::take_scene() noexcept {
   PreparedScene* scene = channels_.scenes.take(scene_);
   if (scene == nullptr) return;
   scene_ = scene;
-  state_ = TickState{};
-  gate_.restart_ramp();
-  // The surface under the finger was replaced: a simulated hand starts again, off the surface.
+  changed_ = true;
   const HandTarget start = hand_.begin(scene_->path, pad_distance_m(preset_.preset.finger));
-  if (devices_.force && devices_.force->hand()) devices_.force->hand()->place(start);
+  SimulatedHand* hand = devices_.force ? devices_.force->hand() : nullptr;
+  if (hand != nullptr || !devices_.force) {
+    // The surface under the finger was replaced: a finger that is led starts again, off the surface.
+    state_ = TickState{};
+    gate_.restart_ramp();
+    if (hand != nullptr) hand->place(start);
+  } else {
+    forget_scene(state_);
+  }
   place_workspace();
 }
 
 // A simulated device's workspace is centred on the scene, a real one's on the world's origin.
 void ServoTick::place_workspace() noexcept {
-  if (devices_.force && devices_.force->hand()) gate_.place_workspace(scene_->scene->mesh().origin());
+  if (!devices_.force || !devices_.force->hand()) return;
+  workspace_centre_m_ = scene_->scene->mesh().origin();
+  gate_.place_workspace(workspace_centre_m_);
 }
 
-// A missing device counts as ready. Requests travel with the next command.
-void ServoTick::bring_up() noexcept {
-  const auto request = [this](DeviceState state) {
-    if (state == DeviceState::firmware) return DeviceRequest::home;
-    if (state == DeviceState::ready && rehoming_wanted_) return DeviceRequest::home;
-    if (state == DeviceState::faulted && clearing_wanted_) return DeviceRequest::clear_fault;
-    return DeviceRequest::none;
-  };
-  force_command_.request = display_command_.request = DeviceRequest::none;
-  if (!homing_wanted_) {
-    // A display plugged in while the gate is live homes automatically. After a fault a person decides.
-    const bool well = gate_.state() == GateState::ramping || gate_.state() == GateState::armed;
-    if (well) display_command_.request = request(display_sample_.state);
-    return;
+bool ServoTick::outside_workspace() const noexcept {
+  bool outside = false;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double half = gate_.limits().workspace_half_size_m[axis];
+    outside = outside || (half > 0.0 && std::abs(force_sample_.position_m[axis] - workspace_centre_m_[axis]) > half);
   }
-  const auto done = [](DeviceState state) { return state == DeviceState::ready || state == DeviceState::absent; };
-  if (done(force_sample_.state) && done(display_sample_.state) && tick_ > 0 && !rehoming_wanted_) {
-    homing_wanted_ = clearing_wanted_ = false;
-    if (arming_wanted_) gate_.arm();
-    arming_wanted_ = false;
-    return;
+  return outside;
+}
+
+// Requests travel with the next command.
+void ServoTick::bring_up(double dt_s, ServoRecord& record) noexcept {
+  const ArmingView seen{.known = tick_ > 0,
+                        .force = force_sample_.state,
+                        .display = display_sample_.state,
+                        .live = gate_.state() == GateState::ramping || gate_.state() == GateState::armed,
+                        .gate_faulted = gate_.state() == GateState::faulted,
+                        .outside = outside_workspace(),
+                        .force_wanted_n = force_wanted_n_};
+  const ArmingOrders orders = arming_.update(seen, dt_s);
+  force_command_.request = orders.force;
+  display_command_.request = orders.display;
+  if (orders.arm) gate_.arm();
+  if (arming_.waits_for_finger()) hand_.lift();
+  record.device.arming = arming_.stage();
+  record.device.in_the_way = arming_.obstacle();
+}
+
+void ServoTick::exchange_devices(double dt_s) noexcept {
+  if (devices_.force) {
+    exchange_watch_.begin(ExchangeWith::force_device, now());
+    force_sample_ = devices_.force->exchange(force_command_, dt_s);
   }
-  force_command_.request = request(force_sample_.state);
-  display_command_.request = request(display_sample_.state);
-  rehoming_wanted_ = false;
+  if (devices_.display) {
+    exchange_watch_.begin(ExchangeWith::display, now());
+    display_sample_ = devices_.display->exchange(display_command_, dt_s);
+  }
+  if (exchange_watch_.end()) gate_.stop_by(GateFault::exchange_hung);
 }
 
 void ServoTick::exchange(double dt_s, ServoRecord& record) noexcept {
@@ -111,8 +157,11 @@ void ServoTick::exchange(double dt_s, ServoRecord& record) noexcept {
     }
   }
   force_command_.tick = display_command_.tick = tick_;
-  if (devices_.force) force_sample_ = devices_.force->exchange(force_command_, dt_s);
-  if (devices_.display) display_sample_ = devices_.display->exchange(display_command_, dt_s);
+  force_command_.force_n = gate_.before_sending(dt_s);
+  const std::int64_t sent_ns = now();
+  if (sampled_ns_ != 0) record.latency_ns = static_cast<double>(sent_ns - sampled_ns_) + 1e9 * force_sample_.age_s;
+  exchange_devices(dt_s);
+  sampled_ns_ = devices_.force ? now() : 0;
   record.device.force_state = force_sample_.state;
   record.device.force_fault = force_sample_.fault;
   record.device.display_state = display_sample_.state;
@@ -123,10 +172,38 @@ void ServoTick::exchange(double dt_s, ServoRecord& record) noexcept {
   record.device.display_age_s = display_sample_.age_s;
 }
 
+// What the surface puts out on purpose: a stiffer preset in contact, or a mesh that comes around the finger, stores
+// more than the hand put in, and force shading, whose force leans by up to the angle between two facets, does work
+// along the surface.
+double ServoTick::declared_work(const TickOutput& output, double elastic_n) noexcept {
+  constexpr double kLargestLean = 0.5;  // tangent; 27 degrees, two facets of a coarse mesh
+  const Preset& preset = preset_.preset;
+  double declared_j = 0.0;
+  if (std::exchange(changed_, false)) {
+    const double most_n = std::min(preset.force.limit_n, gate_.limits().peak_force_n);
+    declared_j = stored_energy({preset.force.stiffness_n_per_m, elastic_n, most_n});
+  }
+  const Method method = preset.solver.method;
+  const bool shading_method = method == Method::force_shading || method == Method::two_pass;
+  const bool shades = preset.force.source == ForceSource::force_shading ||
+                      (preset.force.source == ForceSource::method && shading_method);
+  const Vec3 moved = force_sample_.position_m - gated_position_m_;
+  gated_position_m_ = force_sample_.position_m;
+  const double force_n = glm::length(output.force_n);
+  if (!shades || !(force_n > 0.0)) return declared_j;
+  const Vec3 along = moved - glm::dot(moved, output.force_n) / (force_n * force_n) * output.force_n;
+  return declared_j + kLargestLean * force_n * glm::length(along);
+}
+
 void ServoTick::gate(double dt_s, ServoRecord& record) noexcept {
+  const TickOutput& made = record.tick.output;
+  const double stiffness = preset_.preset.force.stiffness_n_per_m;
+  const double depth_m = std::max(made.penetration_m, glm::length(made.way_out_m));
+  const double elastic_n = stiffness * std::max(0.0, depth_m);
+  const bool pushes = made.force_n != Vec3(0.0);
   const GateOutput out =
-      gate_.pass({.force_n = record.tick.output.force_n,
-                  .display_m = record.tick.output.cld_m,
+      gate_.pass({.force_n = made.force_n,
+                  .display_m = made.cld_m,
                   .force_device = force_sample_.state,
                   .display = display_sample_.state,
                   .position_m = force_sample_.position_m,
@@ -136,24 +213,28 @@ void ServoTick::gate(double dt_s, ServoRecord& record) noexcept {
                   .display_travel_m = display_sample_.travel_m,
                   .display_lowest_m = preset_.preset.controller.lowest_m,
                   .display_highest_m = preset_.preset.controller.highest_m,
-                  .display_measures = devices_.display && devices_.display->capabilities().measures_position},
+                  .display_measures = devices_.display && devices_.display->capabilities().measures_position,
+                  .display_fastest_m_per_s = preset_.preset.controller.fastest_m_per_s,
+                  .stiffness_n_per_m = stiffness,
+                  .elastic_n = pushes ? elastic_n : 0.0,
+                  .declared_j = declared_work(made, elastic_n)},
                  dt_s);
-  force_command_.force_n = out.force_n;
   display_command_.target_m = out.display_m;
   record.device.gate_state = out.state;
   record.device.gate_fault = out.fault;
   record.device.gate_actions = out.actions;
   record.device.force_command_n = out.force_n;
   record.device.cld_command_m = out.display_m;
+  record.device.energy_j = gate_.energy().net_j();
 }
 
 void ServoTick::run(const TickTiming& timing) noexcept {
   const std::int64_t began = now();
   take_letters();
   take_scene();
-  bring_up();
-
   ServoRecord record;
+  bring_up(timing.dt_s, record);
+
   record.scene_id = scene_->id;
   record.missed_deadlines = timing.missed_deadlines;
   record.period_ns = timing.period_ns;
@@ -168,6 +249,7 @@ void ServoTick::run(const TickTiming& timing) noexcept {
   const std::int64_t step_began = now();
   tick.output = scene_->stepper.step(preset_.preset, tick.input, state_);
   tick.solve_ns = static_cast<double>(now() - step_began);
+  force_wanted_n_ = force_wanted_n(tick.output);
   gate(timing.dt_s, record);
 
   record.tick_ns = static_cast<double>(now() - began);
@@ -181,9 +263,8 @@ void ServoTick::release(double dt_s) noexcept {
   gate_.stop();
   force_command_ = {.tick = tick_, .request = DeviceRequest::stop};
   display_command_ = {.tick = tick_, .target_m = display_command_.target_m, .request = DeviceRequest::stop};
-  if (devices_.force) force_sample_ = devices_.force->exchange(force_command_, dt_s);
-  if (devices_.display) display_sample_ = devices_.display->exchange(display_command_, dt_s);
-  homing_wanted_ = true;
+  exchange_devices(dt_s);
+  arming_ = arming_for(devices_);
 }
 
 }  // namespace tangent

@@ -1,12 +1,14 @@
-// One tick of the servo: take a new preset, exchange with the devices, step, safety gate, device command, record. It
-// has no thread or clock of its own, so that servo, screenshots and tests run the same code.
+// One tick of the servo: take a new preset, ask the safety gate what may be sent, exchange with the devices, step,
+// safety gate, record. It has no thread or clock of its own, so that servo, screenshots and tests run the same code.
 //
 // run() does not allocate, lock, throw, log or touch a file.
 #pragma once
 
-#include "devices/device_set.h"
+#include "devices/device_safety.h"
 #include "devices/safety_gate.h"
+#include "workbench/session/arming.h"
 #include "workbench/session/deadline_pacer.h"
+#include "workbench/session/exchange_watch.h"
 #include "workbench/session/hand_lead.h"
 #include "workbench/session/servo_channels.h"
 #include "workbench/session/servo_statistics.h"
@@ -19,14 +21,13 @@ namespace tangent {
 /// A monotonic clock in nanoseconds; null: times are not measured and read 0.
 using NanosecondClock = std::int64_t (*)() noexcept;
 
-/// Limits of the safety gate for these devices.
-GateLimits gate_limits(const DeviceSet& devices);
-
 class ServoTick {
  public:
-  /// `devices`, `channels` and `statistics` must outlive it.
+  /// `devices`, `channels` and `statistics` must outlive it. `rate_hz`: of the ticks. A real device's motors are as hot
+  /// as an earlier one left them (motor_heat).
   ServoTick(DeviceSet& devices, ServoChannels& channels, ServoStatistics& statistics,
-            std::unique_ptr<PreparedScene> scene, const PresetLetter& preset, NanosecondClock clock);
+            std::unique_ptr<PreparedScene> scene, const PresetLetter& preset, NanosecondClock clock,
+            double rate_hz = 1000.0);
   ~ServoTick();
   ServoTick(const ServoTick&) = delete;
   ServoTick& operator=(const ServoTick&) = delete;
@@ -35,14 +36,20 @@ class ServoTick {
   void run(const TickTiming& timing) noexcept;
   /// After the last tick: disarms and sends the devices zero force. Same thread as run.
   void release(double dt_s) noexcept;
+  /// Finds exchanges that don't return; for a thread that is not the servo's.
+  ExchangeWatch& exchange_watch() { return exchange_watch_; }
 
  private:
   void take_letters() noexcept;
+  void take_force_switch() noexcept;
   void take_scene() noexcept;
   void place_workspace() noexcept;
-  void bring_up() noexcept;
+  void bring_up(double dt_s, ServoRecord& record) noexcept;
+  bool outside_workspace() const noexcept;
   void exchange(double dt_s, ServoRecord& record) noexcept;
+  void exchange_devices(double dt_s) noexcept;
   void gate(double dt_s, ServoRecord& record) noexcept;
+  double declared_work(const TickOutput& output, double elastic_n) noexcept;
   std::int64_t now() const noexcept { return clock_ != nullptr ? clock_() : 0; }
 
   DeviceSet& devices_;
@@ -50,19 +57,22 @@ class ServoTick {
   ServoStatistics& statistics_;
   NanosecondClock clock_;
   SafetyGate gate_;
+  ExchangeWatch exchange_watch_;
   PreparedScene* scene_;  ///< owned; given back through the channels when replaced
   PresetLetter preset_;
   HandLead hand_;
   TickState state_;
   std::uint64_t tick_ = 0;
+  bool changed_ = false;  ///< another preset or scene since the last tick
+  Vec3 gated_position_m_{0.0};
+  std::int64_t sampled_ns_ = 0;  ///< when force_sample_ came; 0: not yet, or no clock
   ForceSample force_sample_;
   DisplaySample display_sample_;
   ForceCommand force_command_;
   DisplayCommand display_command_;
-  bool homing_wanted_ = true;     ///< home devices that are not ready, until each was ready once
-  bool clearing_wanted_ = false;  ///< also clear faults
-  bool rehoming_wanted_ = false;  ///< also home devices that are ready
-  bool arming_wanted_ = false;    ///< arm as soon as all devices are ready
+  Arming arming_;
+  Vec3 workspace_centre_m_{0.0};
+  double force_wanted_n_ = 0.0;  ///< of the last tick
 };
 
 }  // namespace tangent

@@ -2,8 +2,9 @@
 
 #include "core/io/rendering_condition.h"
 #include "core/preset/schema.h"
-#include "devices/device_set.h"
+#include "devices/device_safety.h"
 #include "devices/usb/packet_recorder.h"
+#include "workbench/session/cpu_wakeup.h"
 #include "workbench/session/servo.h"
 #include "workbench/session/tick_again.h"
 
@@ -35,6 +36,33 @@ Status check_options(const SessionOptions& options) {
   return {};
 }
 
+Preset preset_allowed(Preset preset, const DeviceSet& devices) {
+  preset.force.stiffness_n_per_m = stiffness_allowed(devices, preset.force.stiffness_n_per_m);
+  return preset;
+}
+
+/// What the operating system granted, and how to get the rest.
+void describe_realtime(const SessionOptions& options, bool device_keeps_time, bool wakes_at_once, SessionStatus& s) {
+  const RealtimeGrant& got = s.servo.realtime;
+  if (!options.threaded || !options.servo.realtime) {
+    s.realtime_note = options.threaded ? "ordinary scheduling" : "no servo thread";
+    return;
+  }
+  if (device_keeps_time) {
+    s.realtime_note = "in the thread of the force device's driver";
+    return;
+  }
+  s.realtime_note = got.fifo ? "SCHED_FIFO " + std::to_string(options.servo.fifo_priority) : "SCHED_FIFO refused";
+  s.realtime_note += got.memory_locked ? ", memory locked" : ", memory not locked";
+  if (options.servo.cpu >= 0)
+    s.realtime_note += (got.on_cpu ? ", on core " : ", refused core ") + std::to_string(options.servo.cpu);
+  if (wakes_at_once) s.realtime_note += ", cores kept awake";
+  if (!(got.fifo && got.memory_locked))
+    s.realtime_remedy =
+        "devices/60-tangent-workbench-limits.conf lets a group have them: copy it to /etc/security/limits.d, join the "
+        "group, log in again";
+}
+
 }  // namespace
 
 void PreparedSceneDeleter::operator()(PreparedScene* scene) const { delete scene; }
@@ -54,10 +82,8 @@ struct Session::Impl {
     presets.push_back(preset);
     scenes.emplace(0, scene);
     tick = std::make_unique<ServoTick>(devices, channels, statistics, std::move(prepared), PresetLetter{0, preset},
-                                       options.threaded ? &monotonic_ns : nullptr);
-    ForceDevice* force = devices.force.get();
-    ForceDevice* scheduler = force != nullptr && force->calls_us() ? force : nullptr;
-    servo = std::make_unique<Servo>(*tick, statistics, options.servo, clock, scheduler);
+                                       options.threaded ? &monotonic_ns : nullptr, options.servo.rate_hz);
+    servo = std::make_unique<Servo>(*tick, statistics, options.servo, clock, scheduler());
   }
 
   SessionOptions options;
@@ -69,6 +95,7 @@ struct Session::Impl {
   std::unique_ptr<ServoTick> tick;
   std::unique_ptr<Servo> servo;
   bool started = false;
+  bool accepted_no_timeout = false;  ///< a person was told and said yes
 
   std::deque<Preset> presets;  ///< by id; a deque keeps references valid
   std::shared_ptr<const ContactScene> scene;
@@ -81,9 +108,22 @@ struct Session::Impl {
   Vec3 hand_point{0.0};
   TickAgain again;
 
+  CpuWakeup wakeup;
+
+  /// A force device that calls us; null: the servo keeps the time.
+  ForceDevice* scheduler() const { return devices.force && devices.force->calls_us() ? devices.force.get() : nullptr; }
+  void keep_awake();
   void send_hand() { channels.hand.put({hand, hand_point}); }
   void forget_scenes();
 };
+
+/// While a real device may push. Not for simulated ones: it costs power.
+void Session::Impl::keep_awake() {
+  ServoStatus now;
+  statistics.fill(now);
+  const bool live = now.gate_state == GateState::ramping || now.gate_state == GateState::armed;
+  wakeup.hold(started && live && options.servo.realtime && !all_simulated(devices));
+}
 
 // A scene is kept while a record in the history uses it or one still in the ring may.
 void Session::Impl::forget_scenes() {
@@ -109,19 +149,15 @@ Result<std::unique_ptr<Session>> Session::create(std::shared_ptr<const ContactSc
   wanted.maestro.channel = static_cast<std::uint8_t>(options.maestro_channel);
   auto devices = make_devices(options.devices, wanted);
   if (!devices) return tl::unexpected(devices.error());
-  if (!all_simulated(*devices)) options.servo.time_by_deadlines = true;
+  if (!all_simulated(*devices)) options.servo.time_by_deadlines = options.servo.watch_exchanges = true;
   if (devices->force && devices->force->calls_us()) options.servo.rate_hz = devices->force->capabilities().rate_hz;
   if (const Status ok = check_devices(preset, devices->force != nullptr, devices->display != nullptr); !ok)
     return tl::unexpected(ok.error());
-  if (devices->force) {
-    if (const Status ok = devices->force->open(); !ok) return tl::unexpected(ok.error());
-  }
-  if (devices->display) {
-    if (const Status ok = devices->display->open(); !ok) return tl::unexpected(ok.error());
-  }
+  if (const Status ok = open_devices(*devices); !ok) return tl::unexpected(ok.error());
+  const Preset allowed = preset_allowed(preset, *devices);
   auto prepared = std::make_unique<PreparedScene>(std::move(scene), preset.finger);
   auto impl =
-      std::make_unique<Impl>(std::move(options), std::move(packets), std::move(*devices), std::move(prepared), preset);
+      std::make_unique<Impl>(std::move(options), std::move(packets), std::move(*devices), std::move(prepared), allowed);
   impl->send_hand();
   return std::unique_ptr<Session>(new Session(std::move(impl)));
 }
@@ -131,7 +167,9 @@ Result<std::unique_ptr<Session>> Session::create(std::shared_ptr<const ContactSc
 Status Session::start() {
   if (impl_->started) return {};
   impl_->started = true;
-  if (impl_->options.arm_on_start) arm();
+  const ArmOnStart wanted = impl_->options.arm_on_start;
+  const bool arms = wanted == ArmOnStart::always || (wanted == ArmOnStart::simulated && all_simulated(impl_->devices));
+  if (arms) arm();
   if (!impl_->options.threaded) return {};
   const Status ok = impl_->servo->start();
   impl_->started = ok.has_value();
@@ -172,6 +210,7 @@ std::size_t Session::poll() {
   }
   impl_->channels.scenes.collect();
   impl_->forget_scenes();
+  impl_->keep_awake();
   return count;
 }
 
@@ -183,7 +222,8 @@ RecordedRun Session::recorded_run() const {
 
 // --- Presets -------------------------------------------------------------------------------------------
 
-Result<std::uint32_t> Session::set_preset(const Preset& preset) {
+Result<std::uint32_t> Session::set_preset(const Preset& wanted) {
+  const Preset preset = preset_allowed(wanted, impl_->devices);
   if (preset == impl_->presets.back()) return preset_id();
   if (const Status ok = check_preset(preset); !ok) return tl::unexpected(ok.error());
   const Status renders = check_devices(preset, impl_->devices.force != nullptr, impl_->devices.display != nullptr);
@@ -244,8 +284,13 @@ void Session::set_hand_target(const Vec3& position_world_m) {
   impl_->send_hand();
 }
 
-void Session::arm() { impl_->channels.force.put(ForceSwitch::arm); }
-void Session::stop() { impl_->channels.force.put(ForceSwitch::stop); }
+void Session::arm() {
+  if (!needs_yes()) impl_->channels.force.put(ForceSwitch::arm);
+}
+std::vector<std::string> Session::without_timeout() const { return devices_without_timeout(impl_->devices); }
+bool Session::needs_yes() const { return !impl_->accepted_no_timeout && !without_timeout().empty(); }
+void Session::accept_no_timeout() { impl_->accepted_no_timeout = true; }
+void Session::stop() { impl_->channels.stop.store(true, std::memory_order_release); }
 void Session::home() { impl_->channels.force.put(ForceSwitch::home); }
 void Session::inject(const FaultInjection& fault, bool display) { impl_->channels.faults.put({fault, display}); }
 
@@ -279,6 +324,8 @@ SessionStatus Session::status() const {
   s.servo.gui_drops = impl_->channels.gui.drops();
   s.servo.recorder_drops = impl_->channels.recorder.drops();
   s.servo.realtime = impl_->servo->granted();
+  s.servo.hung = impl_->tick->exchange_watch().hung();
+  s.servo.hung_was_stopped = impl_->tick->exchange_watch().was_stopped();
   s.preset_sent = preset_id();
   s.scene_sent = impl_->scene_id;
   if (!impl_->history.empty()) {
@@ -287,16 +334,12 @@ SessionStatus Session::status() const {
     s.force_fault = device.force_fault;
     s.display_state = device.display_state;
     s.display_fault = device.display_fault;
+    s.arming = device.arming;
+    s.in_the_way = device.in_the_way;
+    s.force_wanted_n = force_wanted_n(impl_->history.newest().tick.output);
   }
-  const RealtimeGrant& got = s.servo.realtime;
-  if (!impl_->options.threaded)
-    s.realtime_note = "no servo thread";
-  else if (!impl_->options.servo.realtime)
-    s.realtime_note = "ordinary scheduling";
-  else
-    s.realtime_note = std::string(got.fifo ? "SCHED_FIFO " + std::to_string(impl_->options.servo.fifo_priority)
-                                           : "SCHED_FIFO refused") +
-                      (got.memory_locked ? ", memory locked" : ", memory not locked");
+  s.real_devices = !all_simulated(impl_->devices);
+  describe_realtime(impl_->options, impl_->scheduler() != nullptr, impl_->wakeup.held(), s);
   return s;
 }
 
@@ -310,12 +353,13 @@ const DisplayCapabilities* Session::display_capabilities() const {
 
 const SessionOptions& Session::options() const { return impl_->options; }
 const SafetyLog& Session::safety_log() const { return impl_->log; }
-GateLimits Session::gate_limits() const { return tangent::gate_limits(impl_->devices); }
+GateLimits Session::gate_limits() const { return tangent::gate_limits(impl_->devices, impl_->options.servo.rate_hz); }
 bool Session::display_report(LinkReport& out) const {
   return impl_->devices.display && impl_->devices.display->report(out);
 }
 const LogHistogram& Session::lateness_ns() const { return impl_->statistics.lateness_ns(); }
 const LogHistogram& Session::period_ns() const { return impl_->statistics.period_ns(); }
+const LogHistogram& Session::latency_ns() const { return impl_->statistics.latency_ns(); }
 
 // --- Recorder ------------------------------------------------------------------------------------------
 

@@ -31,6 +31,9 @@ class ExplorationPath;
 /// Upper limit of the history's memory, whatever its length and rate.
 inline constexpr std::size_t kLargestHistoryBytes = std::size_t{1} << 30;
 
+/// Whether `start` arms. Simulated devices push nobody; before a real one pushes, a person says so.
+enum class ArmOnStart : std::uint8_t { never, simulated, always };
+
 struct SessionOptions {
   ServoOptions servo;
   DeviceNames devices;
@@ -40,7 +43,7 @@ struct SessionOptions {
   std::uint64_t seed = 1;         ///< of the simulated devices
   double history_s = 600.0;       ///< length of the history, within kLargestHistoryBytes
   bool threaded = true;
-  bool arm_on_start = true;
+  ArmOnStart arm_on_start = ArmOnStart::simulated;
   HandSettings hand;
 };
 
@@ -57,7 +60,12 @@ struct SessionStatus {
   DeviceFault force_fault = DeviceFault::none, display_fault = DeviceFault::none;
   std::uint32_t preset_sent = 0;  ///< newest preset sent; servo.preset_id is the one in use
   std::uint32_t scene_sent = 0;
-  std::string realtime_note;  ///< "SCHED_FIFO 40, memory locked", or what was refused
+  ArmingStage arming = ArmingStage::idle;
+  ArmingObstacle in_the_way = ArmingObstacle::none;
+  double force_wanted_n = 0.0;  ///< what the newest tick would push with
+  std::string realtime_note;    ///< "SCHED_FIFO 40, memory locked", or what was refused
+  std::string realtime_remedy;  ///< what to do about what was refused; empty: nothing was
+  bool real_devices = false;    ///< one at least is not simulated
 };
 
 /// Everything needed to step the history again, in any thread: records, presets by id, scenes by id.
@@ -78,7 +86,8 @@ class Session {
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
-  /// Starts the ticks (threaded), homes, and arms if arm_on_start. Fails when a device that keeps the time can't start.
+  /// Starts the ticks (threaded), homes, and arms if arm_on_start says so. Fails when a device that keeps the time
+  /// can't start.
   Status start();
   void shut_down();  ///< stops force and thread; keeps the history. Also called by the destructor
   bool running() const;
@@ -91,7 +100,8 @@ class Session {
   RecordedRun recorded_run() const;  ///< a snapshot; any thread may read it
 
   // Presets are sent whole and applied at the start of a tick; the latest wins.
-  /// Returns the id used in records (the current id if nothing changed). Fails when a value is out of range.
+  /// Returns the id used in records (the current id if nothing changed). Fails when a value is out of range. A
+  /// stiffness above the force device's largest is reduced to that: see preset().
   Result<std::uint32_t> set_preset(const Preset& preset);
   const Preset& preset() const;                  ///< the latest sent
   const Preset* preset(std::uint32_t id) const;  ///< any ever sent; null for an unknown id
@@ -113,9 +123,16 @@ class Session {
   void set_hand(const HandSettings& settings);
   const HandSettings& hand() const;
   void set_hand_target(const Vec3& position_world_m);  ///< also selects HandMode::point. Ignored when not finite
-  void arm();                                          ///< also clears faults and homes where needed
-  void stop();                                         ///< no force until armed
+  void arm();                                          ///< one attempt (arming.h): also clears faults and homes; see
+                                                       ///< needs_yes
+  void stop();                                         ///< no force until armed, and nothing pending: no later call
+                                                       ///< replaces it
   void home();                                         ///< stops, and homes the devices again
+  /// Real devices that go on with their last command when the program dies, by name. While there are any, arm does
+  /// nothing until a person who was told of it has said yes.
+  std::vector<std::string> without_timeout() const;
+  bool needs_yes() const;
+  void accept_no_timeout();
   /// Injects a fault into the simulated display or force device. Ignored by real devices.
   void inject(const FaultInjection& fault, bool display);
 
@@ -136,6 +153,8 @@ class Session {
   bool display_report(LinkReport& out) const;
   const LogHistogram& lateness_ns() const;  ///< delay of ticks after their deadlines
   const LogHistogram& period_ns() const;    ///< from tick to tick
+  /// From when a position of the finger was measured to when the force for it goes out to the device.
+  const LogHistogram& latency_ns() const;
 
   /// The recorder's ring: filled from attach to detach. One thread, which may be another, pops.
   void attach_recorder();

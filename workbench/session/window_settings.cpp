@@ -3,6 +3,7 @@
 #include "core/io/atomic_file.h"
 #include "core/io/file_format.h"
 #include "core/io/toml_file.h"
+#include "workbench/session/file_lock.h"
 
 #include <algorithm>
 #include <array>
@@ -111,6 +112,84 @@ std::string format_window_settings(const WindowSettings& s) {
   text << "# The window's layout and look, kept between runs. Delete the file for the program's own.\n"
        << kFormats.line() << root << "\n";
   return text.str();
+}
+
+namespace {
+
+template <class T>
+T merged_value(const T& before, const T& ours, const T& theirs) {
+  return ours == before ? theirs : ours;
+}
+
+/// Theirs, without what we took out and with what we put in.
+std::vector<std::string> merged_list(const std::vector<std::string>& before, const std::vector<std::string>& ours,
+                                     std::vector<std::string> theirs) {
+  const auto has = [](const std::vector<std::string>& list, const std::string& text) {
+    return std::find(list.begin(), list.end(), text) != list.end();
+  };
+  std::erase_if(theirs, [&](const std::string& text) { return has(before, text) && !has(ours, text); });
+  for (const std::string& text : ours) {
+    if (!has(before, text) && !has(theirs, text)) theirs.push_back(text);
+  }
+  return theirs;
+}
+
+/// Latest first: where we opened any, ours come before theirs.
+std::vector<std::string> merged_recent(const WindowSettings& before, const WindowSettings& ours,
+                                       const WindowSettings& theirs) {
+  if (ours.recent_meshes == before.recent_meshes) return theirs.recent_meshes;
+  WindowSettings all = theirs;
+  for (auto mesh = ours.recent_meshes.rbegin(); mesh != ours.recent_meshes.rend(); ++mesh) all.opened(*mesh);
+  return all.recent_meshes;
+}
+
+}  // namespace
+
+WindowSettings merged(const WindowSettings& before, const WindowSettings& ours, const WindowSettings& theirs) {
+  WindowSettings out = theirs;
+  const auto take_ours = [&](auto field) { out.*field = merged_value(before.*field, ours.*field, theirs.*field); };
+  take_ours(&WindowSettings::left);
+  take_ours(&WindowSettings::right);
+  take_ours(&WindowSettings::plots);
+  take_ours(&WindowSettings::show_left);
+  take_ours(&WindowSettings::show_right);
+  take_ours(&WindowSettings::show_plots);
+  take_ours(&WindowSettings::light_theme);
+  take_ours(&WindowSettings::text_size);
+  take_ours(&WindowSettings::y_up);
+  take_ours(&WindowSettings::colour_map);
+  for (const auto& [title, open] : ours.sections) {
+    const auto was = before.sections.find(title);
+    if (was == before.sections.end() || was->second != open) out.sections[title] = open;
+  }
+  std::erase_if(out.sections, [&](const auto& entry) {
+    return before.sections.contains(entry.first) && !ours.sections.contains(entry.first);
+  });
+  out.favourites = merged_list(before.favourites, ours.favourites, theirs.favourites);
+  out.recent_meshes = merged_recent(before, ours, theirs);
+  return out;
+}
+
+Status keep_window_settings(const WindowSettings& before, const WindowSettings& ours,
+                            const std::filesystem::path& path) {
+  std::error_code failed;
+  std::filesystem::create_directories(path.parent_path(), failed);
+  const FileLock lock(path);
+  if (!lock.held())
+    return fail("another window holds its lock, or none can be made", path.string(), "close the other window");
+  const auto theirs = read_window_settings(path);
+  return write_window_settings(theirs ? merged(before, ours, *theirs) : ours, path);
+}
+
+std::filesystem::path put_aside(const std::filesystem::path& path) {
+  for (int i = 1; i < 10; ++i) {
+    const std::filesystem::path aside = path.string() + ".bad" + (i > 1 ? std::to_string(i) : "");
+    std::error_code failed;
+    if (std::filesystem::exists(aside, failed) || failed) continue;
+    std::filesystem::rename(path, aside, failed);
+    return failed ? std::filesystem::path() : aside;
+  }
+  return {};
 }
 
 Status write_window_settings(const WindowSettings& settings, const std::filesystem::path& path) {

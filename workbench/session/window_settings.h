@@ -41,4 +41,16 @@ std::string format_window_settings(const WindowSettings& settings);
 /// Writes atomically; makes the folder. Fails when it can't be written.
 Status write_window_settings(const WindowSettings& settings, const std::filesystem::path& path);
 
+/// What two windows changed since both read `before`: `ours` where we changed a value, else `theirs`. Lists and
+/// sections entry by entry.
+WindowSettings merged(const WindowSettings& before, const WindowSettings& ours, const WindowSettings& theirs);
+/// Writes what we changed since `before` over what is in the file now, under a lock (file_lock.h), so that two windows
+/// keep each other's changes. A file that can't be read counts as `before`.
+Status keep_window_settings(const WindowSettings& before, const WindowSettings& ours,
+                            const std::filesystem::path& path);
+
+/// Puts a file that can't be read out of the way: FILE.bad, or FILE.bad2 to .bad9 where there are some already. Empty:
+/// it can't be moved.
+std::filesystem::path put_aside(const std::filesystem::path& path);
+
 }  // namespace tangent

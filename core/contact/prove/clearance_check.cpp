@@ -6,7 +6,7 @@ namespace tangent {
 
 double turned_m(const Finger& finger, const Quat& from, const Quat& to) {
   if (from == to) return 0.0;
-  return finger.turning_m(2.0 * std::acos(std::min(1.0, std::abs(glm::dot(from, to)))));
+  return finger.reach_m() * 2.0 * std::acos(std::min(1.0, std::abs(glm::dot(from, to))));
 }
 
 // Shortened by far more than floats are rounded by: at a margin itself a contact may be there.
@@ -16,7 +16,7 @@ void set_free(Clearance& known) {
   known.free_m = (1.0 - 1e-6) * least;
 }
 
-// By the triangle inequality, which turning_m obeys too: it is concave in the angle.
+// By the triangle inequality, which angles of turning obey, too.
 void recentre(Clearance& known, const FingerPose& pose, double gone) {
   known.centre = pose.position;
   known.orientation = pose.orientation;

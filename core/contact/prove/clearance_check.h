@@ -6,19 +6,22 @@
 #include "core/finger/plane_contact.h"
 
 #include <cmath>
+#include <limits>
 
 namespace tangent {
 
-/// How far the support points of a finger that is not round can have moved while it turned from one orientation to the
-/// other, m.
+/// The way of the finger's furthest point while a finger that is not round turned from one orientation to the other, m.
 double turned_m(const Finger& finger, const Quat& from, const Quat& to);
 
 /// How far the finger at `pose` (local) is from where the margins of `known` count from, m: its centre's displacement,
-/// and for fingers that are not round the most that support points can have moved by its turning.
+/// and for fingers that are not round what its turning adds, or infinity where they hold at one orientation only. No
+/// depth changes by more.
 inline double gone_m(const Clearance& known, const Finger& finger, const FingerPose& pose) {
   const Vec3 d = pose.position - known.centre;
   const double centre_m = std::sqrt(glm::dot(d, d));
-  return is_round(finger) ? centre_m : centre_m + turned_m(finger, known.orientation, pose.orientation);
+  if (is_round(finger)) return centre_m;
+  if (!known.any_turn && known.orientation != pose.orientation) return std::numeric_limits<double>::infinity();
+  return centre_m + turned_m(finger, known.orientation, pose.orientation);
 }
 
 /// Whether a finger that is `gone` from known.centre leaves room for a place of a rank below `bound_m`.

@@ -231,21 +231,32 @@ ContactHierarchy ContactHierarchy::build(const ContactMesh& mesh) {
   return tree;
 }
 
+/// lambda of contacts on the outside within the query's bounds, and of those seen from inside (finger_core.h).
+static double most_lambda_m(const FingerCore& core, double nearest_m) {
+  return core.ball_m() - core.reach_m() + std::max(nearest_m - core.lever_m(), core.lever_m());
+}
+
+bool is_steady_for_core(const ContactQuery& q, double least, const NormalCone& normals) {
+  if (!q.steady_ground) return false;
+  // Offset by the finger's radius less the depth, which is least at the query's bound.
+  const FingerCore& core = *q.core;
+  const double less = core.reach_m() + core.lever_m() - q.nearest_m;
+  if ((core.flattest_m() - less) * least > kSteadyRoom - 1.0) return true;
+  return (core.flattest_near(normals, q.margin_m) - less) * least > kSteadyRoom - 1.0;
+}
+
+NormalCone ContactHierarchy::normals_of(const Node& node) {
+  return {unit(Vec3(node.axis[0], node.axis[1], node.axis[2])), node.cos_half};
+}
+
 bool ContactHierarchy::touchable(const Node& node, const ContactQuery& q) {
-  if (node.cos_half <= 0.0f) return true;
   const Vec3 low(node.min[0], node.min[1], node.min[2]), high(node.max[0], node.max[1], node.max[2]);
-  const Vec3 axis = unit(Vec3(node.axis[0], node.axis[1], node.axis[2]));
-  const double cos_half = node.cos_half, chord = std::sqrt(2.0 - 2.0 * cos_half);
-  const Vec3 support = support_point(*q.finger, *q.pose, axis);
-  const Vec3 d = support - 0.5 * (low + high);
-  const double radius = 0.5 * glm::distance(low, high) + support_spread_m(*q.finger, *q.pose, axis, chord) + q.margin_m;
-  const double d2 = glm::dot(d, d);
-  if (d2 <= radius * radius) return true;
-  // The angle of d from +-axis is at most half + spread.
-  const double distance = std::sqrt(d2), sin_spread = radius / distance;
-  const double cos_spread = std::sqrt(1.0 - sin_spread * sin_spread), sin_half = std::sqrt(1.0 - cos_half * cos_half);
-  if (sin_half * cos_spread + cos_half * sin_spread < 0.0) return true;
-  return std::abs(glm::dot(d, axis)) >= (cos_half * cos_spread - sin_half * sin_spread) * distance;
+  const NormalCone normals = normals_of(node);
+  const SurfaceBounds part{0.5 * (low + high), 0.5 * (high - low), normals};
+  const double most = most_lambda_m(*q.core, q.nearest_m);
+  if (can_touch(*q.core, part, most, 0.0)) return true;
+  if (q.margin_m == 0.0 || q.steady_only || is_steady_for_core(q, node.least_curvature, normals)) return false;
+  return can_touch(*q.core, part, most, q.margin_m);
 }
 
 void limit_query(ContactQuery& query, const Finger& finger, double rank) {

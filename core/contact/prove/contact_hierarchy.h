@@ -15,7 +15,7 @@
 #pragma once
 
 #include "core/base/tolerances.h"
-#include "core/finger/finger.h"
+#include "core/finger/finger_core.h"
 #include "core/mesh/contact_mesh.h"
 
 #include <algorithm>
@@ -38,9 +38,8 @@ struct ContactQuery {
   bool steady_ground = false;
   bool steady_only = false;  ///< ask of such ground only, and only of what reaches into this box
   Box region;
-  /// A finger that is not round, and its pose: rules out more than tilt_rad does, by support points. Null: none.
-  const Finger* finger = nullptr;
-  const FingerPose* pose = nullptr;
+  /// Of a finger that is not round, at its pose: rules out more than tilt_rad does. Null: none.
+  const FingerCore* core = nullptr;
   double here_m = 0.0;  ///< set for the visitor: the margin that its triangle is asked for, margin_m or 0
 };
 
@@ -49,6 +48,9 @@ inline bool is_steady(const ContactQuery& query, double least, double greatest) 
   return query.steady_ground && query.nearest_m * least > kSteadyRoom - 1.0 &&
          query.inside_m * greatest < 1.0 - kSteadyRoom;
 }
+/// The same for a finger that is not round, of ground with these normals. Contacts deeper than its sharpest radius
+/// don't count (core_proof.h: can_ask_steady).
+bool is_steady_for_core(const ContactQuery& query, double least, const NormalCone& normals);
 
 /// Bounds of a query that shall only see contacts of a rank below `rank` (contact_rank.h).
 void limit_query(ContactQuery& query, const Finger& finger, double rank);
@@ -81,8 +83,12 @@ class ContactHierarchy {
 
   /// Squared distance of the box, or -1 where the node can't hold a contact.
   static double reach2(const Node& node, const ContactQuery& query);
-  /// Whether a finger that is not round can touch the node: a contact has p(N) = S + h N, p(N) the support point, and
-  /// over the node's normals that strays from the one of their axis by no more than support_spread_m.
+  static NormalCone normals_of(const Node& node);
+  static bool stays(const Node& node, const ContactQuery& query) {
+    return query.core ? is_steady_for_core(query, node.least_curvature, normals_of(node))
+                      : is_steady(query, node.least_curvature, node.greatest_curvature);
+  }
+  /// Whether a finger that is not round can touch the node.
   static bool touchable(const Node& node, const ContactQuery& query);
 
   std::vector<Node> nodes_;
@@ -100,7 +106,7 @@ inline double ContactHierarchy::reach2(const Node& node, const ContactQuery& q) 
   const double farthest = std::max(q.nearest_m, q.inside_m);
   if (box2 > farthest * farthest) return -1.0;
   if (node.cos_half <= -1.0f) return box2;
-  if (q.finger) return touchable(node, q) ? box2 : -1.0;
+  if (q.core) return touchable(node, q) ? box2 : -1.0;
 
   // Seen from c the node's points lie within `spread` of the direction to its middle; c may move by the margin.
   const Vec3 d = q.centre - 0.5 * (low + high);
@@ -109,21 +115,18 @@ inline double ContactHierarchy::reach2(const Node& node, const ContactQuery& q) 
       (q.steady_only || is_steady(q, node.least_curvature, node.greatest_curvature) ? 0.0 : q.margin_m);
   const double d2 = glm::dot(d, d);
   if (d2 <= radius * radius) return box2;
-  const double distance = std::sqrt(d2);
-  const double along = d.x * node.axis[0] + d.y * node.axis[1] + d.z * node.axis[2];
-  // Compare the angle of d from +-axis with half + spread + tilt, by cosines.
-  const double sin_spread = radius / distance, cos_spread = std::sqrt(1.0 - sin_spread * sin_spread);
+  // Compare the angle of d from +-axis with half + spread + tilt, by cosines times the distance.
+  const double to_sight = std::sqrt(d2 - radius * radius);  // of a line from c that grazes the ball
   const double cos_half = node.cos_half, sin_half = std::sqrt(std::max(0.0, 1.0 - cos_half * cos_half));
-  double cos_all = cos_half * cos_spread - sin_half * sin_spread;
-  double sin_all = sin_half * cos_spread + cos_half * sin_spread;
-  if (sin_all < 0.0) return box2;  // over half a turn: every direction
+  const double along = d.x * node.axis[0] + d.y * node.axis[1] + d.z * node.axis[2];
+  double limit = cos_half * to_sight - sin_half * radius;
+  const double sideways = sin_half * to_sight + cos_half * radius;
+  if (sideways < 0.0) return box2;  // over half a turn: every direction
   if (q.tilt_rad > 0.0) {
     const double c = std::cos(q.tilt_rad), s = std::sin(q.tilt_rad);
-    const double sin_sum = sin_all * c + cos_all * s;
-    cos_all = cos_all * c - sin_all * s;
-    if (sin_sum < 0.0) return box2;
+    if (sideways * c + limit * s < 0.0) return box2;
+    limit = limit * c - sideways * s;
   }
-  const double limit = cos_all * distance;
   const bool outside = along >= limit && box2 <= q.nearest_m * q.nearest_m;
   const bool inside = q.inside_m >= 0.0 && -along >= limit && box2 <= q.inside_m * q.inside_m;
   return outside || inside ? box2 : -1.0;
@@ -145,9 +148,9 @@ void ContactHierarchy::visit(ContactQuery query, Visit visit) const {
     const Node& node = nodes_[entry.node];
     if (node.link & kLeaf) {
       const std::uint32_t first = node.link & ~kLeaf;
-      const bool stays = is_steady(query, node.least_curvature, node.greatest_curvature);
-      if (query.steady_only && !stays) continue;
-      query.here_m = stays ? 0.0 : query.margin_m;
+      const bool steady = stays(node, query);
+      if (query.steady_only && !steady) continue;
+      query.here_m = steady ? 0.0 : query.margin_m;
       for (std::uint32_t i = 0; i < node.count; ++i)
         if (!visit(order_[first + i], query)) return;
       continue;

@@ -53,25 +53,26 @@ struct Part {
   std::array<Vec2, 3> corner;
   int depth = 0;
 
-  /// Distance of 0 from the values of f, as far as the three lines along the images of the sides and the one across the
-  /// direction to their middle can tell. 0 where they don't exclude it.
-  double margin() const {
+  /// Distance of 0 from the values of f, as far as the line across the direction to their middle and the three along
+  /// the images of the sides can tell; where the first says `enough_m`, the others are not asked. 0 where they don't
+  /// exclude it.
+  double margin(double enough_m) const {
     const Vec2 f0 = at_corner(0), f1 = at_corner(1), f2 = at_corner(2);
-    const double sides = std::max({beside(f1 - f0), beside(f2 - f1), beside(f0 - f2)});
-    return std::max(sides, beside(perpendicular(f0 + f1 + f2)));
+    const double middle = beside(perpendicular(f0 + f1 + f2));
+    if (middle > 0.0 && middle >= enough_m) return middle;
+    return std::max({middle, beside(f1 - f0), beside(f2 - f1), beside(f0 - f2)});
   }
 
-  /// Distance of 0 from the coefficients across direction `side`, 0 if they lie on both sides of it.
+  /// Distance of 0 from the coefficients across direction `side`, 0 if they lie on both sides of it: mostly the corners
+  /// tell that.
   double beside(const Vec2& side) const {
-    const double length2 = glm::dot(side, side);
-    if (!(length2 > 0.0)) return 0.0;
-    double low = 1e300, high = -1e300;
-    for (const Vec2& x : f) {
-      const double across = side.y * x.x - side.x * x.y;
-      low = std::min(low, across);
-      high = std::max(high, across);
-    }
-    return std::max({0.0, low, -high}) / std::sqrt(length2);
+    const auto across = [&](const Vec2& x) { return side.y * x.x - side.x * x.y; };
+    const double a = across(at_corner(0)), b = across(at_corner(1)), c = across(at_corner(2));
+    const double turned = a > 0.0 ? 1.0 : -1.0;
+    if (!(std::min({turned * a, turned * b, turned * c}) > 0.0)) return 0.0;
+    double least = 1e300;
+    for (const Vec2& x : f) least = std::min(least, turned * across(x));
+    return least > 0.0 ? least / std::sqrt(glm::dot(side, side)) : 0.0;
   }
 
   /// (u, v) where the linear interpolation of f vanishes, within the part.
@@ -92,26 +93,28 @@ struct Part {
   }
 };
 
-/// Halves of f at the middle of the edge from corner 0 to corner 1, by de Casteljau along each row of that direction.
-void bisect(const QuinticMap& f, QuinticMap& first, QuinticMap& second) {
+/// Halves of a part at the middle of the edge from corner 0 to corner 1, by de Casteljau along each row of that
+/// direction. In both the part's corner 2 comes before the middle or after it, so that the next bisection halves
+/// another edge.
+void bisect(const Part& part, Part& first, Part& second) {
+#pragma GCC unroll 6
   for (int k = 0; k <= 5; ++k) {
     const int degree = 5 - k;
-    Vec2 row[6];
-    for (int j = 0; j <= degree; ++j) row[j] = f[quintic_index(degree - j, j)];
+    std::array<Vec2, 6> row;
+#pragma GCC unroll 6
+    for (int j = 0; j <= degree; ++j) row[j] = part.f[quintic_index(degree - j, j)];
+#pragma GCC unroll 6
     for (int level = 0; level <= degree; ++level) {
-      first[quintic_index(degree - level, level)] = row[0];
-      second[quintic_index(level, degree - level)] = row[degree - level];
+      first.f[quintic_index(level, k)] = row[0];
+      second.f[quintic_index(degree - level, k)] = row[degree - level];
+#pragma GCC unroll 6
       for (int j = 0; j < degree - level; ++j) row[j] = 0.5 * (row[j] + row[j + 1]);
     }
   }
-}
-
-/// Corner 0 becomes the last, so that the next bisection halves another edge.
-void turn(const Part& part, Part& turned) {
-  for (int i = 0; i <= 5; ++i)
-    for (int j = 0; i + j <= 5; ++j) turned.f[quintic_index(j, 5 - i - j)] = part.f[quintic_index(i, j)];
-  turned.corner = {part.corner[1], part.corner[2], part.corner[0]};
-  turned.depth = part.depth;
+  const Vec2 middle = 0.5 * (part.corner[0] + part.corner[1]);
+  first.corner = {middle, part.corner[2], part.corner[0]};
+  second.corner = {part.corner[1], part.corner[2], middle};
+  first.depth = second.depth = part.depth + 1;
 }
 
 /// Whether a contact in this part could be stable: det M and trace M of the linear interpolation of f, where
@@ -124,8 +127,9 @@ bool could_be_stable(const Part& part, const Vec2& edge_u, const Vec2& edge_v) {
   return cross(xa, xb) * area >= 0.0 && (cross(xa, b) + cross(a, xb)) * area >= 0.0;
 }
 
-/// Excludes what can be of the parts of `whole`.
-void bisect_parts(const Part& whole, const Vec2& edge_u, const Vec2& edge_v, PatchExclusion& result) {
+/// Excludes what can be of the parts of `whole`, where a margin of `enough_m` need not be the widest.
+void bisect_parts(const Part& whole, const Vec2& edge_u, const Vec2& edge_v, double enough_m, double off_m,
+                  PatchExclusion& result) {
   std::array<Part, kBisections + 2> stack;
   std::size_t size = 0;
   stack[size++] = whole;
@@ -134,20 +138,14 @@ void bisect_parts(const Part& whole, const Vec2& edge_u, const Vec2& edge_v, Pat
   result.possible = false;
   for (int tests = 0; size > 0; ++tests) {
     const Part part = stack[--size];
-    const double here = part.margin();
+    const double here = part.margin(enough_m + off_m) - off_m;
     if (here > 0.0) {
       margin = std::min(margin, here);
       continue;
     }
     if (part.depth < kBisections && tests < kBisectionTests) {
-      Part first, second;
-      bisect(part.f, first.f, second.f);
-      const Vec2 middle = 0.5 * (part.corner[0] + part.corner[1]);
-      first.corner = {part.corner[0], middle, part.corner[2]};
-      second.corner = {middle, part.corner[1], part.corner[2]};
-      first.depth = second.depth = part.depth + 1;
-      turn(first, stack[size++]);
-      turn(second, stack[size++]);
+      bisect(part, stack[size], stack[size + 1]);
+      size += 2;
       continue;
     }
     margin = 0.0;
@@ -198,6 +196,10 @@ double estimated_height(const PnPatch& patch, const Vec3& c, double u, double v,
 }  // namespace
 
 PatchExclusion exclude_contact(const PnPatch& patch, const Vec3& centre, double enough_m) {
+  return exclude_contact(patch, centre, enough_m, {{patch.offsets[b030], patch.offsets[b003]}, 0.0});
+}
+
+PatchExclusion exclude_contact(const PnPatch& patch, const Vec3& centre, double enough_m, const StandIn& stands_for) {
   // Mixed terms weighted 1 (NormalForm::vlachos) are half control normals of the Bernstein form.
   const double mixed = 0.5 * patch.mixed_weight;
   const Vec3 sum = patch.normals[n200] + patch.normals[n020] + patch.normals[n002];
@@ -231,16 +233,18 @@ PatchExclusion exclude_contact(const PnPatch& patch, const Vec3& centre, double 
   whole.corner = {Vec2(0.0, 0.0), Vec2(1.0, 0.0), Vec2(0.0, 1.0)};
   multiply_miss(d, n, whole.f, std::make_index_sequence<60>());
   PatchExclusion result;
-  result.margin_m = whole.margin();
+  result.margin_m = std::max(0.0, whole.margin(enough_m + stands_for.off_m) - stands_for.off_m);
   if (result.margin_m > 0.0) result.possible = false;
   if (result.margin_m > 0.0 && result.margin_m >= enough_m) return result;
   Quintic height{};
   multiply_height(d, n, height, std::make_index_sequence<60>());
-  result.least_height_m = std::max(0.0, *std::min_element(height.begin(), height.end()));
+  double least = height[0];
+  for (const double x : height) least = std::min(least, x);  // std::min_element goes by pointers and branches
+  result.least_height_m = std::max(0.0, least);
   if (!result.possible) return result;
-  const Vec3& e1 = patch.offsets[b030];
-  const Vec3& e2 = patch.offsets[b003];
-  bisect_parts(whole, {glm::dot(e1, t), glm::dot(e1, s)}, {glm::dot(e2, t), glm::dot(e2, s)}, result);
+  const Vec3 &e1 = stands_for.sides[0], &e2 = stands_for.sides[1];
+  bisect_parts(whole, {glm::dot(e1, t), glm::dot(e1, s)}, {glm::dot(e2, t), glm::dot(e2, s)}, enough_m,
+               stands_for.off_m, result);
   if (result.margin_m > 0.0) result.possible = false;
   if (!result.possible) return result;
   result.height_m = estimated_height(patch, c, result.u, result.v, result.point);

@@ -11,6 +11,8 @@
 #include "core/mesh/contact_mesh.h"
 #include "core/surface/pn_patch.h"
 
+#include <array>
+
 namespace tangent {
 
 struct PatchExclusion {
@@ -24,9 +26,17 @@ struct PatchExclusion {
 
 /// `centre` in the patch's coordinates. Faces only: edges and vertices have fans of normals of their own. Where the
 /// whole patch can't be excluded, it is bisected: parts are excluded one by one until what is left is a contact, to
-/// 1/2^kBisections of the patch, or until the left parts would be unstable (det M or trace M below zero). With a
-/// margin of `enough_m` heights are not asked for.
+/// 1/2^kBisections of the patch, or until the left parts would be unstable (det M or trace M below zero). Once
+/// the margin is `enough_m`, neither heights nor a wider margin are asked for.
 PatchExclusion exclude_contact(const PnPatch& patch, const Vec3& centre, double enough_m = 0.0);
+
+/// The same for a patch that stands for another: contacts are stable or not on a triangle with these sides, and
+/// `centre` is wrong by up to `off_m` for each normal; margins are what is left beside that.
+struct StandIn {
+  std::array<Vec3, 2> sides;
+  double off_m = 0.0;
+};
+PatchExclusion exclude_contact(const PnPatch& patch, const Vec3& centre, double enough_m, const StandIn& stands_for);
 
 /// A first look at a face from its corners alone, without its patch: by how much the triangle of the corners' misses
 /// (c - P) x N stays clear of zero, after as much room for the patch's bending as that triangle is wide. 0: look

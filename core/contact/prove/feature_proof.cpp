@@ -101,6 +101,15 @@ double curve_distance(const std::array<Vec3, 4>& b, const Vec3& c, double enough
              : std::min(first, curve_distance({middle, bcd, cd, b[3]}, c, enough, halvings - 1));
 }
 
+/// Lower bound of the distance from c to an edge's curve by its corners: its control points are those of the chord less
+/// a part of a third of it along normals.
+double edge_distance(const ContactMesh& mesh, std::uint32_t t, std::uint32_t edge, const Vec3& c) {
+  const Vec3 &p = mesh.position(t, edge), chord = mesh.position(t, (edge + 1) % 3) - p, d = c - p;
+  const double length2 = glm::dot(chord, chord);
+  const double along = length2 > 0.0 ? std::clamp(glm::dot(d, chord) / length2, 0.0, 1.0) : 0.0;
+  return glm::distance(d, along * chord) - std::sqrt(length2) / 3.0;
+}
+
 /// How far c lies over the triangle rather than over the edge's fan, at both ends.
 double over_face(const EdgeEnds& e, const Vec3& centre) {
   const auto at = [&](const Vec3& point, const Vec3& tangent, const Vec3& normal) {
@@ -152,22 +161,24 @@ static std::uint64_t vertex_key(const ContactMesh& mesh, std::uint32_t t, std::u
 double exclude_feature_contacts(PatchCache& cache, std::uint32_t t, NormalForm form, const Vec3& centre, double bound_m,
                                 double enough_m, FeatureMemory* memory) {
   const ContactMesh& mesh = cache.mesh();
-  std::array<EdgeEnds, 3> ends;
-  {
-    const PnPatch& patch = cache.patch(t, form);
-    for (std::uint32_t k = 0; k < 3; ++k) ends[k] = edge_ends(mesh, patch, t, k);
-  }
   double margin = std::numeric_limits<double>::max();
   for (std::uint32_t k = 0; k < 3; ++k) {
     if (mesh.edge_kind(t, k) == EdgeKind::smooth || (memory && memory->knows(edge_key(mesh, t, k)))) continue;
-    double safe = std::max(beyond_ends(ends[k], centre), over_face(ends[k], centre));
+    const double far_off = 0.5 * (edge_distance(mesh, t, k, centre) - bound_m);
+    if (far_off > 0.0 && far_off >= enough_m) {
+      margin = std::min(margin, far_off);
+      if (memory) memory->add(edge_key(mesh, t, k));
+      continue;
+    }
+    const EdgeEnds ends = edge_ends(mesh, cache.patch(t, form), t, k);
+    double safe = std::max(beyond_ends(ends, centre), over_face(ends, centre));
     const EdgeLink other = mesh.across(t, k);
     if (safe < enough_m && other.triangle != kNone)
       safe = std::max(
           safe, over_face(edge_ends(mesh, cache.patch(other.triangle, form), other.triangle, other.edge), centre));
     if (safe < enough_m)
-      safe = std::max(
-          safe, 0.5 * (curve_distance(ends[k].curve, centre, bound_m + 2.0 * enough_m, kCurveHalvings) - bound_m));
+      safe = std::max(safe,
+                      0.5 * (curve_distance(ends.curve, centre, bound_m + 2.0 * enough_m, kCurveHalvings) - bound_m));
     margin = std::min(margin, std::max(0.0, safe));
     if (memory && safe > 0.0) memory->add(edge_key(mesh, t, k));
   }

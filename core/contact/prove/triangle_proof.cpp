@@ -1,27 +1,13 @@
 #include "core/contact/prove/triangle_proof.h"
 
 #include "core/contact/nearest_triangles.h"
+#include "core/contact/prove/core_proof.h"
 #include "core/finger/plane_contact.h"
 
 #include <algorithm>
 
 namespace tangent {
 namespace {
-
-/// corner_exclusion for other than round fingers: seen from the support point p(A) of the triangle's mean normal A, the
-/// contact p(N) + depth N of a normal N of the patch misses the line along N by no more than p moves between A and N.
-double exclude_unround(ContactContext& context, std::uint32_t t) {
-  constexpr double kRoom = 1.5;  // from the corner normals to any normal of the patch
-  const ContactMesh& mesh = context.cache.mesh();
-  const auto n = mesh.normals(t);
-  const Vec3 sum = n[0] + n[1] + n[2];
-  if (glm::dot(sum, sum) < 4.0) return 0.0;
-  const Vec3 support = support_point(context.finger, context.pose, unit(sum));
-  double moves = 0.0;
-  for (const Vec3& normal : n)
-    moves = std::max(moves, glm::distance(support, support_point(context.finger, context.pose, normal)));
-  return std::max(0.0, corner_exclusion(mesh, t, support) - kRoom * moves);
-}
 
 /// Nothing proved; a solve had best start at the triangle's closest point.
 PatchExclusion unknown(const ContactContext& context, std::uint32_t t) {
@@ -32,10 +18,33 @@ PatchExclusion unknown(const ContactContext& context, std::uint32_t t) {
   return nothing;
 }
 
+/// A first look at a face with one normal all over, such as a sliver of a flat cap: a contact lies straight under the
+/// centre, so it is excluded by how far that is beside the triangle, less what creases and boundaries may bulge. 0:
+/// look closer.
+double even_exclusion(const ContactMesh& mesh, std::uint32_t t, const Vec3& centre) {
+  const Vec3& n = mesh.normal(t, 0);
+  if (mesh.normal(t, 1) != n || mesh.normal(t, 2) != n) return 0.0;
+  constexpr double kBulge =
+      0.5;  // of an edge: its control points are within a third of it, the middle one half of that more
+  double bulge = 0.0, beside = 0.0;
+  for (std::uint32_t k = 0; k < 3; ++k) {
+    const Vec3 &p = mesh.position(t, k), along = mesh.position(t, (k + 1) % 3) - p;
+    if (mesh.edge_kind(t, k) != EdgeKind::smooth) bulge = std::max(bulge, kBulge * std::sqrt(glm::dot(along, along)));
+    const Vec3 out = glm::cross(along, n);
+    const double length2 = glm::dot(out, out);
+    const double lean = glm::dot(along, n);
+    if (!(length2 > 0.0) || lean * lean > 1e-20 * length2) return 0.0;  // not the triangle's own normal
+    const double side = glm::dot(mesh.position(t, (k + 2) % 3) - p, out) > 0.0 ? -1.0 : 1.0;
+    beside = std::max(beside, side * glm::dot(centre - p, out) / std::sqrt(length2));
+  }
+  return std::max(0.0, beside - bulge);
+}
+
 PatchExclusion exclude_face(ContactContext& context, std::uint32_t t, double bound_m, double enough_m) {
   const Vec3& centre = context.pose.position;
   PatchExclusion proof;
-  const double at_once = corner_exclusion(context.cache.mesh(), t, centre);
+  const double at_once =
+      std::max(corner_exclusion(context.cache.mesh(), t, centre), even_exclusion(context.cache.mesh(), t, centre));
   if (at_once > 0.0 && at_once >= enough_m) {
     proof.margin_m = at_once;
     proof.possible = false;
@@ -52,13 +61,7 @@ PatchExclusion exclude_face(ContactContext& context, std::uint32_t t, double bou
 PatchExclusion exclude_triangle(ContactContext& context, std::uint32_t t, double bound_m, double enough_m,
                                 FeatureMemory* memory) {
   const ContactMesh& mesh = context.cache.mesh();
-  if (!is_round(context.finger)) {
-    if (!mesh.interior(t)) return unknown(context, t);
-    PatchExclusion proof;
-    proof.margin_m = exclude_unround(context, t);
-    proof.possible = false;
-    return proof.margin_m > 0.0 ? proof : unknown(context, t);
-  }
+  if (!is_round(context.finger)) return exclude_by_core(context, *context.core, t, bound_m, enough_m);
   PatchExclusion proof = exclude_face(context, t, bound_m, enough_m);
   if (mesh.interior(t)) return proof;
   const double features = exclude_feature_contacts(context.cache, t, context.settings.normal_form,

@@ -9,7 +9,7 @@ namespace tangent {
 
 /// Proof that triangle t holds no contact of a rank under `bound_m`, its crease and boundary edges included; the margin
 /// is how far the centre may go until it could. One under `enough_m` is worth some effort to widen. `memory`: features
-/// that need not be looked at again, or null.
+/// that need not be looked at again, or null. Precondition: context.core of a finger that is not round.
 PatchExclusion exclude_triangle(ContactContext& context, std::uint32_t t, double bound_m, double enough_m = 0.0,
                                 FeatureMemory* memory = nullptr);
 

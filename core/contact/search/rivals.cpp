@@ -5,34 +5,26 @@
 #include "core/contact/nearest_triangles.h"
 #include "core/contact/prove/basin.h"
 #include "core/contact/prove/clearance_check.h"
+#include "core/contact/prove/core_proof.h"
 #include "core/contact/prove/triangle_proof.h"
+#include "core/contact/search/height_change.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <span>
 
 namespace tangent {
 namespace {
 
+/// Ratio to the distance: so far off a plane triangles are still parts of it. Rounding leaves 1e-16.
+constexpr double kSamePlane = 1e-12;
 constexpr double kForever = std::numeric_limits<double>::infinity();
 
-Vec3 interpolated_normal(const ContactMesh& mesh, std::uint32_t t, double u, double v) {
-  const auto n = mesh.normals(t);
-  return unit((1.0 - u - v) * n[0] + u * n[1] + v * n[2]);
-}
-
-/// How far the centre may go before a rival that ranks `gap` behind can overtake: heights change along their normals,
-/// and in second order by the square of the way over the height, near a fold by more.
-/// `is_still`: the bound is a fixed height, and not the tracked contact's.
-double overtaking_margin(const KnownContact& tracked, const Vec3& rival_normal, double rival_height, double gap,
-                         bool is_still) {
-  const Vec3 apart = is_still ? rival_normal : tracked.normal - rival_normal;
-  const double rate = std::sqrt(glm::dot(apart, apart)) + 1e-3;
-  const double bend = 2.0 / std::max(1e-12, std::min(std::abs(tracked.height_m), std::abs(rival_height)));
-  // Smaller root of rate m + bend m^2 = gap.
-  return kOvertakingRoom * 2.0 * gap / (rate + std::sqrt(rate * rate + 4.0 * bend * gap));
-}
+/// Whether a contact is well enough known without solving for it. Beside a fold a stable and an unstable one are so
+/// near to each other that it may be either.
+bool trusts_guess(const Stability& stability) { return stability.det > kGuessMinDet && stability.trace > 0.0; }
 
 /// Some ticks at the finger's present speed, within shares of the tracked contact's rank.
 double ticks_ahead_m(double rank, double moved_m) {
@@ -51,20 +43,28 @@ struct Look {
 class RivalSearch {
  public:
   RivalSearch(ContactContext& context, const SearchStructures& search, const IterationResult& tracked,
-              const RivalQuestion& question, float ahead)
+              const RivalQuestion& question, float ahead, bool any_turn)
       : search_(search),
         tracked_(tracked),
         touched_(question.touched),
         bound_m_(question.bound_m),
         margin_m_(question.margin_m),
         ahead_(ahead),
+        any_turn_(any_turn),
         slope_m_(ticks_ahead_m(contact_rank(context.finger, tracked.contact), context.moved_m)),
         deepest_(question.bound_m),
         settings_(robust(context.settings)),
-        steady_(is_round(context.finger) && settings_.normal_form == NormalForm::bernstein),
+        tracked_rank_m_(contact_rank(context.finger, tracked.contact)),
+        steady_(settings_.normal_form == NormalForm::bernstein),
         context_{context.cache, settings_, context.finger, context.pose, context.origin,
                  context.trace, 0,         context.moved_m} {
+    if (!is_round(context.finger)) {
+      context_.core = &core_.emplace(context.finger, context.pose, any_turn_);
+      steady_ = steady_ && can_ask_steady(*core_, tracked_rank_m_);
+    }
     remember(tracked.plane, tracked.contact);
+    change_ = change_of(tracked.plane, tracked.sample, tracked.contact.height_m);
+    tracked_is_even_ = tracked.plane.feature == Feature::face && is_even(tracked.plane.triangle);
     if (touched_)
       for (const TouchedContact& c : touched_->all()) remember(c.plane, c.contact);
   }
@@ -73,16 +73,15 @@ class RivalSearch {
   void everywhere(RivalResult& result) {
     Clearance& clearance = result.clearance;
     clearance.margin_m = margin_m_;
-    int looks = 0;
+    clearance.any_turn = any_turn_;
     search_.hierarchy.visit(query(margin_m_), [&](std::uint32_t t, ContactQuery& q) {
-      ++looks;
       const Look look = q.here_m < q.margin_m ? look_at_steady(t, q.margin_m, result) : look_at(t, q.margin_m, result);
       const double margin = look.watch ? watch(clearance, t, look) : look.margin_m;
       if (margin < clearance.margin_m) narrow(clearance, margin, q);
       return solves_ < kMaxSolves;
     });
     clearance.height_m = bound_m_ + 2.0 * clearance.margin_m;
-    clearance.ahead = adapted(clearance, looks);
+    clearance.ahead = adapted(clearance);
     if (solves_ >= kMaxSolves) clearance.margin_m = 0.0;
     set_free(clearance);
   }
@@ -112,10 +111,10 @@ class RivalSearch {
 
  private:
   /// Further ahead where that was cheap and got as far as was asked for, less far where it was dear.
-  float adapted(const Clearance& clearance, int looks) const {
-    if (looks > kDearLooks) return std::max(kLeastAhead, 0.5f * ahead_);
+  float adapted(const Clearance& clearance) const {
+    if (dear_looks_ > kDearLooks) return std::max(kLeastAhead, 0.5f * ahead_);
     const bool got_there = clearance.watched_count == 0 && clearance.margin_m >= margin_m_;
-    return looks <= kCheapLooks && got_there ? std::min(kMostAhead, 2.0f * ahead_) : ahead_;
+    return dear_looks_ <= kCheapLooks && got_there ? std::min(kMostAhead, 2.0f * ahead_) : ahead_;
   }
 
   static SolverSettings robust(SolverSettings settings) {
@@ -148,8 +147,18 @@ class RivalSearch {
 
   void remember(const TrackedPlane& plane, const PlaneContact& contact) {
     if (known_count_ == known_.size()) return;
-    known_[known_count_++] = known_contact(context_.cache.mesh(), plane, contact.height_m);
+    known_[known_count_++] = known_contact(context_.cache.mesh(), plane, fold_height_m(plane.normal, contact));
   }
+
+  /// The height at which ground under a contact folds first: of a finger that is not round, by its flattest side there.
+  double fold_height_m(const Vec3& normal, const PlaneContact& contact) const {
+    if (!core_ || contact.height_m < 0.0) return contact.height_m;
+    const double radius = core_->ball_m() + core_->largest_radius(core_->support(normal).length);
+    return std::max(contact.height_m, radius - contact.penetration_m);
+  }
+
+  /// How far a finger with a core may go before a rival that ranks `gap` behind can overtake: no depth changes faster.
+  double overtaking_core_m(double gap) const { return touched_ ? gap : 0.5 * gap; }
 
   /// The tracked contact, or one that is followed beside it.
   bool is_followed(const Vec3& point) const {
@@ -161,9 +170,40 @@ class RivalSearch {
     return std::any_of(all.begin(), all.end(), [&](const TouchedContact& c) { return near(c.plane.point); });
   }
 
+  HeightChange change_of(const TrackedPlane& plane, const SurfaceSample& sample, double height_m) const {
+    const bool face = plane.feature == Feature::face && is_round(context_.finger);
+    return face ? height_change_on_face(sample, height_m) : height_change_along(plane.normal, height_m);
+  }
+
+  /// Whether a triangle has one normal all over.
+  bool is_even(std::uint32_t t) const {
+    const ContactMesh& mesh = context_.cache.mesh();
+    const Vec3& n = mesh.normal(t, 0);
+    return mesh.normal(t, 1) == n && mesh.normal(t, 2) == n;
+  }
+
+  /// Whether the face of a triangle holds no other contact than the tracked one, for good: both are parts of one plane
+  /// with one normal, as the slivers of a flat cap are, and that has one place under the finger.
+  bool continues_tracked_plane(std::uint32_t t) const {
+    const ContactMesh& mesh = context_.cache.mesh();
+    const std::uint32_t tracked = tracked_.plane.triangle;
+    if (!tracked_is_even_ || !is_even(t) || mesh.normal(t, 0) != mesh.normal(tracked, 0)) return false;
+    const Vec3 &n = mesh.normal(t, 0), &p = mesh.position(tracked, 0);
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      const Vec3 d = mesh.position(t, k) - p;
+      if (std::abs(glm::dot(d, n)) > kSamePlane * std::sqrt(glm::dot(d, d))) return false;
+    }
+    return true;
+  }
+
   /// `up_to_m`: rank below which contacts count.
   Look look_at(std::uint32_t t, double enough_m, double up_to_m, RivalResult& result) {
-    const ContactMesh& mesh = context_.cache.mesh();
+    if (!core_ && continues_tracked_plane(t)) {
+      const double features = exclude_feature_contacts(context_.cache, t, settings_.normal_form, context_.pose.position,
+                                                       up_to_m, enough_m, &features_);
+      if (features > 0.0) return {features, false, true};
+    }
+    ++dear_looks_;
     for (std::size_t i = 0; i < known_count_; ++i)
       if (same_basin(context_.cache, settings_.normal_form, t, known_[i], std::min(enough_m, slope_m_)))
         return own_slope(enough_m);
@@ -173,10 +213,14 @@ class RivalSearch {
     if (proof.height_m != 0.0 && is_tracked(proof)) return own_slope(enough_m);
     const double guess = proof.height_m >= 0.0 ? proof.height_m : context_.finger.reach_m() - proof.height_m;
     const double behind = guess - bound_m_;
-    if (proof.height_m != 0.0 && behind > kHeightGuess * guess)  // a rival, but not a deeper one yet
-      return {overtaking_margin(known_[0], interpolated_normal(mesh, t, proof.u, proof.v), proof.height_m, behind,
-                                touched_ != nullptr),
-              true, true};
+    if (proof.height_m != 0.0 && behind > kHeightGuess * guess) {  // a rival, but not a deeper one yet
+      if (core_) return {overtaking_core_m(behind), true, true};
+      SurfaceSample there;
+      context_.cache.sample(t, settings_.normal_form, proof.u, std::min(proof.v, 1.0 - proof.u), there);
+      if (trusts_guess(normal_bend(there).at_height(proof.height_m)))
+        return {overtaking_margin(change_, height_change_on_face(there, proof.height_m), behind, touched_ != nullptr),
+                true, true};
+    }
     return solve(t, proof, enough_m, result);
   }
 
@@ -187,7 +231,8 @@ class RivalSearch {
   void look_beside(std::span<const std::uint32_t> triangles, RivalResult& result) {
     Clearance& clearance = result.clearance;
     ContactQuery beside = query(clearance.margin_m);
-    const Vec3 most(context_.moved_m / (kSteadyRoom - kSteadyLean));  // the fastest that it moves there
+    // The fastest that it moves there; along a long finger it may go any way.
+    const Vec3 most(core_ ? 1e30 : context_.moved_m / (kSteadyRoom - kSteadyLean));
     for (const std::uint32_t t : triangles) {
       if (!meets_steady_ground(t, beside)) continue;
       const PnPatch& patch = context_.cache.patch(t, settings_.normal_form);
@@ -207,6 +252,7 @@ class RivalSearch {
   }
 
   bool meets_steady_ground(std::uint32_t t, const ContactQuery& q) {
+    if (core_) return true;
     for (std::uint32_t k = 0; k < 3; ++k) {
       const std::uint32_t other = context_.cache.mesh().across(t, k).triangle;
       if (other == kNone) continue;
@@ -222,10 +268,7 @@ class RivalSearch {
     q.margin_m = margin;
     q.tilt_rad = context_.finger.tilt_rad();
     q.steady_ground = steady_;
-    if (!is_round(context_.finger)) {
-      q.finger = &context_.finger;
-      q.pose = &context_.pose;
-    }
+    q.core = context_.core;
     limit_query(q, context_.finger, bound_m_ + 2.0 * margin);
     return q;
   }
@@ -245,9 +288,8 @@ class RivalSearch {
   /// Seen from the next triangle, the tracked contact on or near their common side.
   bool is_tracked(const PatchExclusion& proof) const {
     const Vec3 apart = proof.point - tracked_.plane.point;
-    const double near = kSamePlace * known_[0].size_m;
-    return glm::dot(apart, apart) < near * near &&
-           std::abs(proof.height_m - tracked_.contact.height_m) < kHeightGuess * std::abs(tracked_.contact.height_m);
+    const double near = kSamePlace * known_[0].size_m, height = core_ ? tracked_rank_m_ : tracked_.contact.height_m;
+    return glm::dot(apart, apart) < near * near && std::abs(proof.height_m - height) < kHeightGuess * std::abs(height);
   }
 
   Look solve(std::uint32_t t, const PatchExclusion& proof, double enough_m, RivalResult& result) {
@@ -276,8 +318,9 @@ class RivalSearch {
       result.best = r;
       result.deeper = true;
     }
-    return {overtaking_margin(known_[0], r.plane.normal, r.contact.height_m, std::max(0.0, rank - bound_m_),
-                              touched_ != nullptr),
+    const double behind = std::max(0.0, rank - bound_m_);
+    if (core_) return {overtaking_core_m(behind), true, false};
+    return {overtaking_margin(change_, change_of(r.plane, r.sample, r.contact.height_m), behind, touched_ != nullptr),
             true, false};
   }
 
@@ -286,15 +329,21 @@ class RivalSearch {
   const TouchedContacts* touched_;
   double bound_m_, margin_m_;
   float ahead_;
+  bool any_turn_;   ///< proofs shall hold while the finger turns, too
   double slope_m_;  ///< how far ahead ground that is not steady is taken for a known contact's slope
   double deepest_;
   SolverSettings settings_;
-  bool steady_;  ///< contacts are followed over steady ground
+  double tracked_rank_m_;
+  bool tracked_is_even_ = false;
+  bool steady_;                     ///< contacts are followed over steady ground
+  std::optional<FingerCore> core_;  ///< of a finger that is not round
   ContactContext context_;
+  HeightChange change_;  ///< of the tracked contact
   FeatureMemory features_;
   std::array<KnownContact, kKnownContacts> known_;
   std::size_t known_count_ = 0;
   int solves_ = 0;
+  int dear_looks_ = 0;  ///< those that took more than a glance
 };
 
 }  // namespace
@@ -306,9 +355,12 @@ double look_ahead_m(const ContactContext& context, double rank, double ahead) {
 
 RivalResult find_rival(ContactContext& context, const SearchStructures& search, const IterationResult& tracked,
                        const RivalQuestion& question, const Clearance& known, double gone) {
-  RivalSearch rivals(context, search, tracked, question, known.ahead);
+  const bool everything = gone > known.margin_m || question.bound_m > known.height_m - gone;
+  // A finger that has not turned since the last search of everything, as most devices measure none, is taken not to.
+  const bool any_turn = known.orientation != context.pose.orientation || (!everything && known.any_turn != 0);
+  RivalSearch rivals(context, search, tracked, question, known.ahead, any_turn);
   RivalResult result;
-  if (gone > known.margin_m || question.bound_m > known.height_m - gone) {
+  if (everything) {
     result.clearance.centre = context.pose.position;
     result.clearance.orientation = context.pose.orientation;
     rivals.everywhere(result);

@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace tangent {
 namespace {
@@ -68,10 +69,8 @@ void seed_by_hierarchy(ContactContext& context, const SearchStructures& search, 
   query.centre = context.pose.position;
   query.nearest_m = query.inside_m = std::numeric_limits<double>::max();
   query.tilt_rad = context.finger.tilt_rad();
-  if (!is_round(context.finger)) {
-    query.finger = &context.finger;
-    query.pose = &context.pose;
-  }
+  std::optional<FingerCore> core;
+  if (!is_round(context.finger)) query.core = context.core = &core.emplace(context.finger, context.pose);
   if (most < std::numeric_limits<double>::max()) limit_query(query, context.finger, most);
   int solves = 0;
   FeatureMemory features;
@@ -86,6 +85,7 @@ void seed_by_hierarchy(ContactContext& context, const SearchStructures& search, 
     if (selection.group == 0) limit_query(q, context.finger, std::min(most, selection.value));
     return solves < kMaxSolves;
   });
+  context.core = nullptr;
 }
 
 /// Whether a contact lies so much further off than the raw mesh that a nearer one must have been missed. Asks only for

@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 #include <string>
+#include <utility>
 
 using namespace tangent;
 using tangent::testing::read_text;
@@ -119,4 +120,22 @@ TEST_CASE("a write-protected target is refused") {
   std::filesystem::permissions(target, std::filesystem::perms::owner_read);
   CHECK_FALSE(write_file_atomic(target, "new"));
   CHECK(read_text(target) == "old");
+}
+
+TEST_CASE("a process that is about to end by a signal removes what it has half written, and nothing else") {
+  const TempFolder folder;
+  REQUIRE(write_file_atomic(folder.path() / "done", "done"));
+  {
+    Result<AtomicFile> first = AtomicFile::create(folder.path() / "a"),
+                       second = AtomicFile::create(folder.path() / "b");
+    REQUIRE(first);
+    REQUIRE(second);
+    const AtomicFile moved = std::move(*second);
+    CHECK(folder.entry_count() == 3);
+    remove_temporary_files();
+    CHECK(folder.entry_count() == 1);
+    remove_temporary_files();
+  }
+  CHECK(read_text(folder.path() / "done") == "done");
+  CHECK(folder.entry_count() == 1);
 }

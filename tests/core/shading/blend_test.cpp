@@ -5,6 +5,8 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
 
 using namespace tangent;
@@ -175,4 +177,56 @@ TEST_CASE("damping's velocity is bounded however near two stamps are") {
   }
   CHECK(glm::length(last) > 0.5);
   CHECK(glm::length(last) < 1.2);
+}
+
+TEST_CASE("after a change of preset a finger that is pushed out explains no more force, however stiff the surface is") {
+  // A free mass in the fade of 100 to 3500 N/m: nothing holds it but the law itself.
+  for (const ForceBlend on : {ForceBlend::events, ForceBlend::off}) {
+    Preset preset;
+    preset.force.stiffness_n_per_m = 3500.0;
+    preset.force.limit_n = 8.5;
+    preset.force.blend = on;
+    RenderedState state;
+    Preset soft = preset;
+    soft.force.stiffness_n_per_m = 100.0;
+    blend(soft, {}, {{0.0, 0.0, 0.27}, 0.0, false}, false, state);
+    begin_change(state);
+    double depth = 2.7e-3, speed = 0.0, fastest = 0.0, force = 0.27;
+    int ticks = 0;
+    for (; ticks < 5000 && depth > 0.0; ++ticks) {
+      const double moved = speed * kTick;
+      depth -= moved;
+      const Rendered decided{{0.0, 0.0, std::clamp(3500.0 * depth, 0.0, 8.5)}, 0.0, false};
+      force = blend(preset, {Vec3(0.0, 0.0, moved), kTick}, decided, false, state).force_n.z;
+      speed += kTick / 0.175 * (force - 0.27 - 12.0 * speed);  // a hand that pushes with what it pushed, and damps
+      fastest = std::max(fastest, speed);
+    }
+    CHECK(fastest < 0.05);
+    CHECK(state.changes == 0);
+  }
+}
+
+TEST_CASE("a change of preset ends, also behind a finger that slides quickly over a tight curve") {
+  Preset preset;
+  RenderedState state;
+  blend(preset, {}, {{0.0, 0.0, 4.0}, 0.0, false}, false, state);
+  begin_change(state);
+  int ticks = 0;
+  for (; ticks < 20'000 && state.changes; ++ticks) {
+    const double turn = 20.0 * kTick * ticks;  // 0.1 m/s around 5 mm
+    const Vec3 normal(std::sin(turn), 0.0, std::cos(turn)), along(std::cos(turn), 0.0, -std::sin(turn));
+    blend(preset, {1e-4 * along, kTick}, {4.0 * normal, 0.001, false}, false, state);
+  }
+  CHECK(ticks < 5000);
+}
+
+TEST_CASE("without a change nothing is faded that was not before") {
+  Preset off;
+  off.force.blend = ForceBlend::off;
+  RenderedState state;
+  blend(off, {}, {{0.0, 0.0, 1.0}, 0.0, false}, false, state);
+  CHECK(blend(off, {Vec3(0.0), kTick}, {{3.0, 0.0, 0.0}, 0.002, false}, false, state).force_n == Vec3(3.0, 0.0, 0.0));
+  begin_change(state);
+  const Rendered first = blend(off, {Vec3(0.0), kTick}, {{0.0, 0.0, 3.0}, 0.002, false}, false, state);
+  CHECK(glm::distance(first.force_n, Vec3(3.0, 0.0, 0.0)) == doctest::Approx(kForceFade * kTick).epsilon(1e-3));
 }

@@ -273,6 +273,15 @@ TEST_CASE(
   CHECK(b.report().connects == 6);
 }
 
+TEST_CASE("an emergency stop reaches the controller without an exchange, before what is queued") {
+  Bench b;
+  b.make_ready();
+  b.exchange(3e-3);
+  CHECK(b.cld.emergency_stop());
+  CHECK(eventually([&] { return b.device.board.with_model([&] { return b.model.state(); }) == CldDeviceState::idle; }));
+  CHECK(b.reach(DeviceState::firmware));
+}
+
 TEST_CASE("without targets the firmware's watchdog stops the drive, and the host says so") {
   Bench b({.watchdog = true});
   b.make_ready();

@@ -1,11 +1,13 @@
 // The Maestro driver against an emulated Maestro behind the real libusb.
 #include "devices/maestro/maestro_display.h"
 
+#include "core/lab/objects/generate.h"
 #include "tests/devices/usb/emulation/maestro_model.h"
 #include "tests/devices/usb/emulation/testbed.h"
 #include "tests/devices/usb/usb_checks.h"
 #include "tests/support/temp_folder.h"
 #include "workbench/session/maestro_setups.h"
+#include "workbench/session/session.h"
 
 #include <algorithm>
 #include <ctime>
@@ -90,6 +92,47 @@ TEST_CASE("10,000 ticks: the Maestro's targets come in order, and the last one a
     CHECK(std::is_sorted(b.model.history.begin(), b.model.history.end()));
     return 0;
   });
+}
+
+TEST_CASE("an emergency stop switches the Maestro's servo off without an exchange, and it stays off") {
+  MaestroBench b;
+  b.make_ready();
+  b.exchange(5e-3);
+  REQUIRE(eventually([&] { return b.seen([&] { return b.model.targets[0]; }) == 7000; }));
+  CHECK(b.display.emergency_stop());
+  CHECK(eventually([&] { return b.seen([&] { return b.model.targets[0]; }) == 0; }));
+  CHECK(b.exchange(5e-3).state == DeviceState::faulted);
+  for (int i = 0; i < 50; ++i) b.exchange(5e-3);
+  CHECK(b.seen([&] { return b.model.targets[0]; }) == 0);
+}
+
+TEST_CASE("a session with a Maestro, whose firmware has no time-out, arms nothing before a person has said yes") {
+  Testbed testbed;
+  MaestroModel model;
+  PluggedDevice device{testbed, model, 7};
+  device.plug_in();
+  SessionOptions options;
+  options.threaded = false;
+  options.devices.display = "maestro";
+  auto scene = ContactScene::build(std::move(*ContactMesh::build(make_icosphere(0.040, 3))));
+  REQUIRE(scene);
+  auto session = Session::create(*scene, Preset{}, options);
+  REQUIRE(session);
+  CHECK((*session)->without_timeout() == std::vector<std::string>{"Pololu Maestro"});
+  CHECK((*session)->needs_yes());
+  const auto armed = [&] {
+    (*session)->advance(20);
+    const GateState state = (*session)->status().servo.gate_state;
+    return state == GateState::armed || state == GateState::ramping;
+  };
+  (*session)->start();
+  (*session)->arm();
+  for (int i = 0; i < 50; ++i) CHECK_FALSE(armed());
+  (*session)->accept_no_timeout();
+  CHECK_FALSE((*session)->needs_yes());
+  CHECK_FALSE(armed());
+  (*session)->arm();
+  CHECK(eventually(armed));
 }
 
 TEST_CASE("a Maestro that is unplugged is absent, one that refuses every request is faulted, and both come back") {

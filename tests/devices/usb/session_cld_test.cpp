@@ -30,12 +30,13 @@ struct SessionBench {
   std::unique_ptr<Session> session;
   std::vector<ServoRecord> records;
 
-  SessionBench() {
+  explicit SessionBench(ArmOnStart arm = ArmOnStart::always) {
     model.watchdog_on = false;  // the gate is what is tested here
     device.plug_in();
     device.run();
     SessionOptions options;
     options.devices = {"simulated", "cld"};
+    options.arm_on_start = arm;
     auto made = Session::create(sphere(), Preset{}, options);
     REQUIRE(made);
     session = std::move(*made);
@@ -139,6 +140,25 @@ TEST_CASE("unplugged and plugged in again under a session, nothing moves until a
   for (std::size_t i = from; i < b.records.size(); ++i) {
     CHECK(b.records[i].device.display_state == DeviceState::firmware);
     CHECK(b.records[i].device.force_command_n == Vec3(0.0));
+  }
+  b.session->arm();
+  CHECK(b.armed_and_ready());
+}
+
+TEST_CASE("with a real device there is no force until a person arms, also where the other device is simulated") {
+  SessionBench b(SessionOptions{}.arm_on_start);
+  REQUIRE(eventually([&] {
+    b.take();
+    return !b.records.empty() && b.records.back().device.display_state == DeviceState::ready;
+  }));
+  const std::size_t enough = b.records.size() + 1500;
+  REQUIRE(eventually([&] {
+    b.take();
+    return b.records.size() >= enough;
+  }));
+  for (const ServoRecord& record : b.records) {
+    CHECK(record.device.gate_state == GateState::disarmed);
+    CHECK(record.device.force_command_n == Vec3(0.0));
   }
   b.session->arm();
   CHECK(b.armed_and_ready());

@@ -103,3 +103,25 @@ TEST_CASE("figures says where it can't write") {
   CHECK(result.exit_code == 1);
   CHECK(contains(result.err, "is no folder that can be made"));
 }
+
+TEST_CASE("a folder's name is data: no newline, quote or control character in it makes gnuplot do anything") {
+  const TempFolder folder;
+  const std::string marker = folder.file("ran");
+  const std::string odd[]{"a\nsystem 'touch " + marker + "'\n", "it's", "back`touch " + marker + "`tick",
+                          "say \"x\"; $(id)", "tab\there\x01\x1b[31m"};
+  for (const std::string& name : odd) {
+    CAPTURE(name);
+    // A slash in a name would be a folder: `marker` is given relative to the folder that gnuplot works in.
+    std::string one = name;
+    for (std::size_t at = one.find(marker); at != std::string::npos; at = one.find(marker))
+      one.replace(at, marker.size(), "ran");
+    const std::filesystem::path out = folder.path() / one;
+    const ProcessResult result = run_workbench({"figures", "--out", out.string()});
+    CAPTURE(result.err);
+    CHECK(result.exit_code == 0);
+    CHECK(contains(read_text(out / "inner-corner.svg"), "</svg>"));
+    CHECK_FALSE(std::filesystem::exists(marker));
+    CHECK_FALSE(std::filesystem::exists(out / "ran"));
+    CHECK_FALSE(std::filesystem::exists("ran"));
+  }
+}

@@ -2,6 +2,9 @@
 
 #include <doctest/doctest.h>
 
+#include <chrono>
+#include <thread>
+
 using namespace tangent::testing;
 
 namespace {
@@ -18,6 +21,32 @@ TEST_CASE("monitor shows the simulated devices, a fault injected by name, and th
   CHECK(has(r.out, "force device: disconnected"));
   CHECK(has(r.out, "safety gate: force device not ready"));
   CHECK(has(r.out, "Tick to tick:"));
+}
+
+TEST_CASE("monitor arms simulated devices, and none that are to stay stopped - it says so, and what it got") {
+  const ProcessResult armed = run_workbench({"monitor", "--seconds", "2"});
+  CHECK(armed.exit_code == 0);
+  CHECK(has(armed.out, "safety gate: armed"));
+  const ProcessResult stopped = run_workbench({"monitor", "--seconds", "1", "--stay-stopped"});
+  CHECK(stopped.exit_code == 0);
+  CHECK_FALSE(has(stopped.out, "safety gate: armed"));
+  CHECK(has(stopped.out, "| No force: "));
+  CHECK(has(stopped.out, "SCHED_FIFO"));
+  const bool granted = has(stopped.out, "SCHED_FIFO 40, memory locked");
+  CHECK(granted != has(stopped.out, "60-tangent-workbench-limits.conf"));
+}
+
+TEST_CASE("a signal ends the monitor in order, with its report") {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    CAPTURE(signal);
+    const Process process({"monitor"});
+    std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+    process.interrupt(signal);
+    const ProcessResult r = process.wait();
+    CHECK(r.exit_code == 0);
+    CHECK(has(r.out, "Tick to tick:"));
+    CHECK(has(r.out, "\nLog\n"));
+  }
 }
 
 TEST_CASE("monitor refuses unknown faults and devices, naming the choices") {

@@ -5,9 +5,12 @@
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <csignal>
 #include <cstdlib>
+#include <filesystem>
 #include <map>
 #include <sstream>
 #include <thread>
@@ -276,7 +279,9 @@ TEST_CASE("an output that can't be written is named before any work and nothing 
   CHECK(scene.folder.entry_count() == before);
 }
 
-TEST_CASE("Ctrl-C keeps the ticks that are done and says so") {
+namespace {
+
+void interrupt_a_run(int signal) {
   // The paper's iteration without gains runs to its limit on a finger far bigger than the torus' bore: slow on purpose.
   const TempFolder folder;
   const std::string mesh = folder.file("torus.obj"), ticks = folder.file("ticks.csv");
@@ -302,7 +307,7 @@ TEST_CASE("Ctrl-C keeps the ticks that are done and says so") {
     return false;
   };
   for (int i = 0; i < 3000 && !at_work(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  process.interrupt();
+  process.interrupt(signal);
   const ProcessResult result = process.wait();
   CAPTURE(result.err);
   CHECK(result.exit_code == 1);
@@ -316,4 +321,37 @@ TEST_CASE("Ctrl-C keeps the ticks that are done and says so") {
   CHECK(summary["interrupted"] == true);
   CHECK(summary["ticks"] == rows.size() - 1);
   CHECK(folder.entry_count() == 4);  // mesh, poses, ticks, summary
+}
+
+}  // namespace
+
+TEST_CASE("Ctrl-C, a closed terminal and a polite kill keep the ticks that are done, and say so") {
+  for (const int signal : {SIGINT, SIGHUP, SIGTERM}) {
+    CAPTURE(signal);
+    interrupt_a_run(signal);
+  }
+}
+
+TEST_CASE("signals that ask for an end at once leave no temporary file, either") {
+  const TempFolder folder;
+  const std::string mesh = folder.file("torus.obj");
+  REQUIRE(run_workbench({"make", "torus", "--out", mesh}).exit_code == 0);
+  std::string text = "t_s,x_m,y_m,z_m\n";
+  for (int i = 0; i < 300000; ++i) text += std::to_string(i) + "e-3,0.0" + std::to_string(1 + i % 7) + ",0.01,0.02\n";
+  const std::string poses = folder.write("poses.csv", text);
+  const auto half_written = [&] {
+    const std::filesystem::directory_iterator files(folder.path());
+    return std::any_of(begin(files), end(files),
+                       [](const auto& entry) { return contains(entry.path().filename().string(), ".tmp-"); });
+  };
+  for (const std::vector<int>& signals : {std::vector<int>{SIGQUIT}, {SIGABRT}, {SIGPIPE}, {SIGINT, SIGINT}}) {
+    CAPTURE(signals.front());
+    const Process process({"solve", mesh, "--poses", poses, "--out", folder.file("ticks.csv"), "--method", "paper",
+                           "--gain-curvature-m", "0", "--max-iterations", "1000", "--tolerance-um", "1e-6"});
+    for (int i = 0; i < 3000 && !half_written(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    REQUIRE(half_written());
+    for (const int signal : signals) process.interrupt(signal);
+    process.wait();
+    CHECK_FALSE(half_written());
+  }
 }

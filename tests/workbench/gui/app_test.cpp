@@ -95,8 +95,8 @@ TEST_CASE("the stop button takes the force away until it is armed again") {
   ui.run(20);
   CHECK(ui.model().devices().stopped());
   CHECK(glm::length(ui.model().time().tick().record()->device.force_command_n) == 0.0);
-  ui.click("menu/stop");
-  ui.run(500);
+  ui.click("arming/arm");
+  ui.run(1000);
   CHECK_FALSE(ui.model().devices().stopped());
 }
 
@@ -154,6 +154,8 @@ TEST_CASE("another device starts another session, with a history of its own") {
   ui.run(100);
   CHECK(ui.model().time().end_tick() == 100);
   CHECK(ui.model().devices().status().force_state != DeviceState::absent);
+  ui.run(1500);
+  CHECK(ui.model().devices().stopped());  // a choice of devices arms nothing
 }
 
 TEST_CASE("an unknown device is said to be one, and the window still comes up") {

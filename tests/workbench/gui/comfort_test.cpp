@@ -3,6 +3,7 @@
 
 #include "tests/support/temp_folder.h"
 #include "workbench/gui/panels/commands.h"
+#include "workbench/session/window_settings.h"
 
 #include <imgui_internal.h>
 
@@ -128,7 +129,7 @@ TEST_CASE("a command is found by letters of it, the one whose words begin with t
   CHECK(match_score("View: frame the mesh", "") == 0);
 }
 
-TEST_CASE("Ctrl+P, some letters and Enter do a command - Esc puts the palette away and stops nothing") {
+TEST_CASE("Ctrl+P, some letters and Enter do a command - Esc stops the force and puts the palette away") {
   HeadlessApp ui;
   ui.app().advance(2000);
   ui.frames(2);
@@ -149,7 +150,8 @@ TEST_CASE("Ctrl+P, some letters and Enter do a command - Esc puts the palette aw
   ui.key(HeadlessApp::kEscape);
   ui.frame();
   CHECK(ui.app().items().find("palette/text") == nullptr);
-  CHECK_FALSE(ui.model().devices().stopped());
+  ui.app().advance(2);
+  CHECK(ui.model().devices().stopped());
 }
 
 TEST_CASE("what the menus have is among the commands, the device monitor and the devices too") {
@@ -269,7 +271,8 @@ TEST_CASE("F1 shows all keys on a sheet, and every command can be run") {
   ui.key(HeadlessApp::kEscape);
   ui.frame();
   CHECK(ui.app().items().find("shortcuts") == nullptr);
-  CHECK_FALSE(ui.model().devices().stopped());
+  ui.app().advance(2);
+  CHECK(ui.model().devices().stopped());
   const testing::TempFolder folder;
   ui.model().exports().set_folder(folder.path());
   MenuBar menu;
@@ -315,19 +318,22 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "a settings file that is broken or of a newer program is said and not written over - the window starts all the "
-    "same") {
+    "a settings file that is broken or of a newer program is kept as .bad and named - the window starts all the same, "
+    "and its own settings are kept") {
   const testing::TempFolder folder;
   AppOptions options = HeadlessApp::deterministic_options();
+  std::string bad = folder.file("window.toml.bad");
   for (const std::string text : {"[layout\n", "format = 2\n[layout]\nleft = 400.0\n"}) {
     options.settings = folder.write("window.toml", text);
     HeadlessApp ui(options);
     CHECK(ui.model().messages().all().front().severity == Severity::warning);
     CHECK(ui.model().window().sizes().left == LayoutSizes{}.left);
     ui.model().window().set_ui_scale(1.5f);
+    CHECK(testing::contains(ui.model().messages().all().front().text, bad));
     ui.model().window().keep_settings({});
-    std::ifstream file(options.settings);
-    CHECK(std::string(std::istreambuf_iterator<char>(file), {}) == text);
+    CHECK(testing::read_text(bad) == text);
+    CHECK(read_window_settings(options.settings)->text_size == doctest::Approx(1.5));
+    bad = folder.file("window.toml.bad2");
   }
 }
 

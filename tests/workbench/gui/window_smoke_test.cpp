@@ -3,6 +3,7 @@
 #include "tests/workbench/gui/real_window.h"
 
 #include "core/io/preset_file.h"
+#include "workbench/session/unsaved_work.h"
 #include "workbench/session/window_settings.h"
 
 #include <algorithm>
@@ -222,6 +223,29 @@ TEST_CASE("the real window ends on a signal as on Ctrl-Q, and keeps its settings
   const auto kept = read_window_settings(settings_in(folder));
   REQUIRE(kept.has_value());
   CHECK(kept->recent_meshes == std::vector<std::string>{"icosphere"});
+}
+
+TEST_CASE("the real window ends in order when its terminal is closed") {
+  REQUIRE_DISPLAY();
+  const auto folder = fresh_folder("tangent_window_smoke_hangup");
+  drive({.folder = folder, .arguments = "icosphere", .quit = false},
+        WindowScript{}.keys("space").until_title("paused at").line("kill -HUP $program"));
+  CHECK(read_window_settings(settings_in(folder))->recent_meshes == std::vector<std::string>{"icosphere"});
+  CHECK_FALSE(find_left_work(settings_in(folder).parent_path() / "unsaved").has_value());
+}
+
+TEST_CASE("when the X server of the real window dies the program ends, and keeps its settings and unsaved work") {
+  REQUIRE_DISPLAY();
+  const auto folder = fresh_folder("tangent_window_smoke_server");
+  WindowScript script;
+  script.keys("ctrl+p").type("window light").keys("Return").keys("k").keys("space").until_title("paused at");
+  drive({.folder = folder, .arguments = "icosphere", .quit = false, .exit_status = 1}, script.line("kill -KILL $xvfb"));
+  const auto kept = read_window_settings(settings_in(folder));
+  REQUIRE(kept.has_value());
+  CHECK(kept->light_theme);
+  const auto left = find_left_work(settings_in(folder).parent_path() / "unsaved");
+  REQUIRE(left.has_value());
+  CHECK(left->work.bookmarks.size() == 1);
 }
 
 TEST_CASE("the real window shows a polygon of the plane, and the device monitor in place of the view") {

@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include <initializer_list>
+
 using namespace tangent;
 
 TEST_CASE("ticks that a device calls have the time between the calls") {

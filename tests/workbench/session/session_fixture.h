@@ -3,7 +3,7 @@
 
 #include "core/lab/objects/generate.h"
 #include "core/tick/step.h"
-#include "devices/device_set.h"
+#include "devices/device_safety.h"
 #include "tests/core/scenes.h"
 #include "workbench/session/servo_clock.h"
 #include "workbench/session/servo_tick.h"
@@ -65,16 +65,21 @@ struct MadeUpClock final : ServoClock {
 /// A ServoTick with its channels and devices, run tick by tick.
 struct TickBench {
   DeviceSet devices;
-  ServoChannels channels{4096};
+  ServoChannels channels;
   ServoStatistics statistics;
-  DeadlinePacer pacer{1000.0, false};
+  DeadlinePacer pacer;
   std::unique_ptr<ServoTick> tick;
 
-  TickBench(DeviceSet set, std::shared_ptr<const ContactScene> scene, const Preset& preset = {})
+  TickBench(DeviceSet set, std::shared_ptr<const ContactScene> scene, const Preset& preset = {},
+            double rate_hz = 1000.0)
+      : TickBench(std::move(set), std::make_unique<PreparedScene>(std::move(scene), preset.finger), preset, rate_hz) {}
+  TickBench(DeviceSet set, std::unique_ptr<PreparedScene> prepared, const Preset& preset, double rate_hz,
+            std::size_t ring_records = 4096)
       : devices(std::move(set)),
-        tick(std::make_unique<ServoTick>(devices, channels, statistics,
-                                         std::make_unique<PreparedScene>(std::move(scene), preset.finger),
-                                         PresetLetter{0, preset}, nullptr)) {
+        channels(ring_records),
+        pacer(rate_hz, false),
+        tick(std::make_unique<ServoTick>(devices, channels, statistics, std::move(prepared), PresetLetter{0, preset},
+                                         nullptr, rate_hz)) {
     pacer.start(0);
   }
 

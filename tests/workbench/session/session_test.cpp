@@ -53,6 +53,27 @@ TEST_CASE("a session refuses what it can't run") {
   CHECK_FALSE(Session::create(sphere_scene(), bad, by_hand()));
 }
 
+TEST_CASE("a stiffness above the device's largest is not rendered, nor recorded as if it were") {
+  Preset stiff;
+  stiff.force.stiffness_n_per_m = 9000.0;
+  auto made = Session::create(sphere_scene(), stiff, by_hand());
+  REQUIRE(made);
+  Session& session = **made;
+  const double largest = session.force_capabilities()->largest_stiffness_n_per_m;
+  CHECK(largest == 3500.0);
+  CHECK(session.preset().force.stiffness_n_per_m == largest);
+  stiff.force.stiffness_n_per_m = 2000.0;
+  REQUIRE(session.set_preset(stiff));
+  CHECK(session.preset().force.stiffness_n_per_m == 2000.0);
+  stiff.force.stiffness_n_per_m = 4000.0;
+  const auto id = session.set_preset(stiff);
+  REQUIRE(id);
+  CHECK(session.preset(*id)->force.stiffness_n_per_m == largest);
+  stiff.force.stiffness_n_per_m = 5000.0;
+  CHECK(session.set_preset(stiff) == *id);  // nothing changed
+  CHECK_FALSE(session.needs_yes());         // simulated
+}
+
 TEST_CASE("driven by hand, the same calls give the same history") {
   const auto run = [] {
     auto session = started(by_hand());

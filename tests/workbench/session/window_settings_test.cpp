@@ -1,6 +1,7 @@
 #include "workbench/session/window_settings.h"
 
 #include "tests/support/temp_folder.h"
+#include "workbench/session/file_lock.h"
 
 #include <doctest/doctest.h>
 
@@ -79,4 +80,51 @@ TEST_CASE("the path follows XDG_CONFIG_HOME when it is absolute, else the home f
     ::setenv("XDG_CONFIG_HOME", kept.c_str(), 1);
   else
     ::unsetenv("XDG_CONFIG_HOME");
+}
+
+TEST_CASE("two windows keep each other's changes") {
+  const TempFolder folder;
+  const auto path = folder.path() / "window.toml";
+  WindowSettings before;
+  before.sections = {{"Map", true}, {"Mesh", true}};
+  before.favourites = {"solver.gain_overall", "force.limit_n"};
+  before.opened("torus");
+  REQUIRE(write_window_settings(before, path));
+  WindowSettings first = before, second = before;
+  first.left = 400.0;
+  first.sections["Map"] = false;
+  first.favourites = {"force.limit_n"};
+  first.opened("cube");
+  second.light_theme = true;
+  second.sections["Mesh"] = false;
+  second.sections["Inspect"] = false;
+  second.favourites.push_back("finger.radius_m");
+  second.opened("cone");
+  REQUIRE(keep_window_settings(before, first, path));
+  REQUIRE(keep_window_settings(before, second, path));
+  const auto both = read_window_settings(path);
+  REQUIRE(both.has_value());
+  CHECK(both->left == 400.0);
+  CHECK(both->light_theme);
+  CHECK(both->sections == std::map<std::string, bool>{{"Map", false}, {"Mesh", false}, {"Inspect", false}});
+  CHECK(both->favourites == std::vector<std::string>{"force.limit_n", "finger.radius_m"});
+  CHECK(both->recent_meshes == std::vector<std::string>{"cone", "torus", "cube"});
+}
+
+TEST_CASE("while another window holds the lock nothing is written - a file that can't be read is put aside, each one") {
+  const TempFolder folder;
+  const auto path = folder.path() / "window.toml";
+  {
+    const FileLock other(path);
+    REQUIRE(other.held());
+    CHECK_FALSE(FileLock(path, 0.02).held());
+  }
+  CHECK(FileLock(path, 0.02).held());
+  for (const char* name : {"window.toml.bad", "window.toml.bad2"}) {
+    folder.write("window.toml", name);
+    CHECK(put_aside(path) == folder.path() / name);
+    CHECK(read_text(folder.path() / name) == name);
+    CHECK_FALSE(std::filesystem::exists(path));
+  }
+  CHECK(put_aside(path).empty());
 }

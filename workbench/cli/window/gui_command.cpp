@@ -10,6 +10,7 @@
 #include "workbench/cli/window/window_commands.h"
 #include "workbench/gui/platform/shots.h"
 #include "workbench/gui/platform/window.h"
+#include "workbench/session/own_folder.h"
 #include "workbench/session/servo_options.h"
 #include "workbench/session/window_settings.h"
 
@@ -25,6 +26,7 @@ struct GuiOptions {
   MeshOptions mesh;
   AppOptions app;
   DeviceChoice devices;
+  bool arm = false;
 };
 
 int run_gui(const AppOptions& options) {
@@ -38,14 +40,16 @@ int run_gui(const AppOptions& options) {
 /// Draws the built-in scene to PNG files, for a machine without a display.
 int draw_builtin_pictures(const std::string& reason) {
   constexpr std::array<const char*, 4> kPictures{"overview", "iterations", "control-net", "planes"};
-  std::error_code failed;
-  const std::filesystem::path directory = std::filesystem::temp_directory_path(failed) / "tangent-workbench";
-  std::filesystem::create_directories(directory, failed);
+  const Result<std::filesystem::path> directory = make_own_folder();
+  if (!directory) {
+    print_message("", reason + "; and " + directory.error().message());
+    return kFailed;
+  }
   std::string names;
   for (const char* view : kPictures) {
     ShotRequest request;
     request.view = view;
-    const std::filesystem::path file = directory / (std::string(view) + ".png");
+    const std::filesystem::path file = *directory / (std::string(view) + ".png");
     const Result<Image> picture = take_shot(request);
     const Status written = picture ? write_png(*picture, file) : Status(tl::unexpected(picture.error()));
     if (!written) {
@@ -54,10 +58,10 @@ int draw_builtin_pictures(const std::string& reason) {
     }
     names += (names.empty() ? "" : ", ") + file.filename().string();
   }
-  std::fputs(
-      format("%s; pictures of the built-in scene instead: %s in %s\n", reason.c_str(), names.c_str(), directory.c_str())
-          .c_str(),
-      stdout);
+  std::fputs(format("%s; pictures of the built-in scene instead: %s in %s\n", reason.c_str(), names.c_str(),
+                    directory->c_str())
+                 .c_str(),
+             stdout);
   return kDone;
 }
 
@@ -77,6 +81,7 @@ void add_gui_command(CLI::App& app, CommandResult& result) {
   add_text_option(*command, "--preset", options->app.preset, "Preset to start with (default: the shipped one)",
                   "F.toml");
   add_device_options(*command, options->devices);
+  add_flag(*command, "--arm", options->arm, kArmText);
   add_number_option(*command, "--servo-hz", {.min = kSlowestServoHz, .max = kFastestServoHz, .unit = "Hz"},
                     "Rate of the servo (default 1000)", [options](double hz) { options->app.servo_hz = hz; });
   add_number_option(*command, "--history-minutes", {.min = 0.1, .max = 120.0, .unit = "min"},
@@ -91,6 +96,11 @@ void add_gui_command(CLI::App& app, CommandResult& result) {
     options->app.devices = options->devices.names;
     options->app.maestro = options->devices.maestro;
     options->app.packets = options->devices.packets;
+    options->app.servo_cpu = options->devices.servo_cpu;
+    options->app.arm_on_start = options->arm ? ArmOnStart::always : ArmOnStart::simulated;
+    if (!options->app.record.empty())
+      print_message("gui",
+                    "recording to a file is not there yet: nothing is written to " + options->app.record.string());
     result.exit_code = run_gui(options->app);
   });
 }

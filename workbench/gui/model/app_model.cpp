@@ -12,6 +12,7 @@ AppModel::AppModel(const AppOptions& options)
       view_(scene_, map_, messages_),
       devices_(options_, scene_, presets_, messages_, [this] { time_.forget(); }),
       time_(options_, devices_, presets_, messages_),
+      unsaved_(options_, presets_, time_, messages_),
       exports_(options_, devices_, messages_) {
   if (const auto look = window_.read_settings()) {
     view_.camera.y_up = look->y_up;
@@ -27,11 +28,17 @@ AppModel::AppModel(const AppOptions& options)
 
 AppModel::~AppModel() { window_.keep_settings(kept_look()); }
 
+void AppModel::keep() {
+  window_.keep_settings(kept_look());
+  unsaved_.keep();
+}
+
 void AppModel::update(double now_s) {
   messages_.set_now(now_s);
   scene_.update();
   take_ticks();
   window_.update(now_s, kept_look());
+  unsaved_.update(now_s);
   const auto& scene = scene_.current();
   // A 2D scene has no mesh for a map.
   map_.update(scene != nullptr && scene->planar() != nullptr ? nullptr : scene, presets_.current(), now_s,

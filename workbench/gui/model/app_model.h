@@ -18,6 +18,7 @@
 #include "workbench/gui/model/preset_model.h"
 #include "workbench/gui/model/scene_model.h"
 #include "workbench/gui/model/time_model.h"
+#include "workbench/gui/model/unsaved_model.h"
 #include "workbench/gui/model/view_model.h"
 #include "workbench/gui/model/window_model.h"
 
@@ -30,6 +31,8 @@ class AppModel {
   explicit AppModel(const AppOptions& options);
   ~AppModel();
 
+  /// Writes what is to outlive the window: its settings and the unsaved work. From time to time it is done anyway.
+  void keep();
   /// Call once per frame: takes in results of the servo and the workers.
   void update(double now_s);
   /// Deterministic mode only.
@@ -53,6 +56,7 @@ class AppModel {
   const DeviceModel& devices() const { return devices_; }
   TimeModel& time() { return time_; }
   const TimeModel& time() const { return time_; }
+  UnsavedModel& unsaved() { return unsaved_; }
   ExportModel& exports() { return exports_; }
   const ExportModel& exports() const { return exports_; }
 
@@ -72,6 +76,7 @@ class AppModel {
   ViewModel view_;
   DeviceModel devices_;
   TimeModel time_;
+  UnsavedModel unsaved_;
   ExportModel exports_;
 };
 

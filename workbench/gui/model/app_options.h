@@ -5,6 +5,7 @@
 #include "devices/device_set.h"
 #include "workbench/gui/theme/palette.h"
 #include "workbench/session/maestro_setups.h"
+#include "workbench/session/session.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -19,13 +20,15 @@ struct AppOptions {
   std::filesystem::path preset;         ///< empty: the shipped default
   std::filesystem::path preset_folder;  ///< listed in the presets panel; empty: where `preset` is, or the shipped ones
   DeviceNames devices;
-  MaestroWish maestro;                ///< for the display "maestro"
-  std::filesystem::path packets;      ///< file to which USB packets are logged; empty: none
-  double servo_hz = 1000.0;           ///< kSlowestServoHz to kFastestServoHz
-  std::filesystem::path settings;     ///< file for layout and look between runs; empty: not kept
-  std::filesystem::path screenshots;  ///< folder for F12's screenshots; empty: the current one
-  double history_s = 600.0;           ///< length of the history, within kLargestHistoryBytes
-  std::filesystem::path record;       ///< recording to write; empty: none
+  ArmOnStart arm_on_start = ArmOnStart::simulated;  ///< of the first session; later ones begin without force
+  MaestroWish maestro;                              ///< for the display "maestro"
+  std::filesystem::path packets;                    ///< file to which USB packets are logged; empty: none
+  double servo_hz = 1000.0;                         ///< kSlowestServoHz to kFastestServoHz
+  int servo_cpu = -1;                               ///< core for the servo's thread; -1: any
+  std::filesystem::path settings;                   ///< file for layout and look between runs; empty: not kept
+  std::filesystem::path screenshots;                ///< folder for F12's screenshots; empty: the current one
+  double history_s = 600.0;                         ///< length of the history, within kLargestHistoryBytes
+  std::filesystem::path record;                     ///< recording to write; empty: none
   Theme theme = Theme::dark;
   std::uint64_t seed = 1;  ///< of the simulated devices
   /// No servo thread: `advance` steps the session in the caller's thread, in simulated time, so that the same calls

@@ -2,6 +2,7 @@
 
 #include "workbench/session/maestro_setups.h"
 
+#include <cstdio>
 #include <utility>
 
 namespace tangent {
@@ -11,10 +12,12 @@ namespace {
 SessionOptions session_options(const AppOptions& from) {
   SessionOptions options;
   options.servo.rate_hz = from.servo_hz;
+  options.servo.cpu = from.servo_cpu;
   options.devices = from.devices;
   options.packets = from.packets;
   options.seed = from.seed;
   options.history_s = from.history_s;
+  options.arm_on_start = from.arm_on_start;
   options.threaded = !from.deterministic;
   return options;
 }
@@ -52,7 +55,15 @@ void DeviceModel::make_session() {
     return;
   }
   session_ = std::move(*session);
+  capped_n_per_m_ = 0.0;
+  last_hung_ = ExchangeWith::none;
+  say_what_differs();
+  for (const std::string& name : session_->without_timeout())
+    messages_.say(Severity::warning, name +
+                                         " goes on with its last command when this program dies: its firmware has no "
+                                         "time-out. Nothing is armed until you say yes in the device monitor");
   if (const Status ok = session_->start(); !ok) messages_.say(Severity::error, ok.error().message());
+  options_.arm_on_start = ArmOnStart::never;  // a choice of devices or a calibration arms nothing
   status_ = session_->status();
 }
 
@@ -74,9 +85,25 @@ void DeviceModel::choose(const DeviceNames& names) {
 std::optional<std::uint32_t> DeviceModel::send_preset() {
   if (session_ == nullptr) return std::nullopt;
   auto sent = session_->set_preset(presets_.current());
-  if (sent) return *sent;
+  if (sent) {
+    say_what_differs();
+    return *sent;
+  }
   messages_.say(Severity::error, sent.error().message());
   return std::nullopt;
+}
+
+// Once for every stiffness that is asked for.
+void DeviceModel::say_what_differs() {
+  const double asked = presets_.current().force.stiffness_n_per_m;
+  const double used = session_->preset().force.stiffness_n_per_m;
+  if (used < asked && asked != capped_n_per_m_) {
+    char text[160];
+    std::snprintf(text, sizeof text, "the stiffness of %.0f N/m is more than %s renders stably: it uses %.0f N/m",
+                  asked, session_->force_capabilities()->name.c_str(), used);
+    messages_.say(Severity::warning, text);
+  }
+  capped_n_per_m_ = used < asked ? asked : 0.0;
 }
 
 void DeviceModel::take_status() {
@@ -84,8 +111,14 @@ void DeviceModel::take_status() {
   status_ = session_->status();
   const GateFault gate_fault = status_.servo.gate_fault;
   if (gate_fault != last_gate_fault_ && gate_fault != GateFault::none)
-    messages_.say(Severity::error, std::string("force stopped: ") + to_string(gate_fault) + "; press Arm to go on");
+    messages_.say(Severity::error, std::string("force stopped: ") + to_string(gate_fault) + "; Arm lets it in again");
   last_gate_fault_ = gate_fault;
+  const ExchangeWith hung = status_.servo.hung;
+  if (hung != last_hung_ && hung != ExchangeWith::none)
+    messages_.say(Severity::error, std::string(to_string(hung)) + " does not return from an exchange; " +
+                                       (status_.servo.hung_was_stopped ? "it was told to stop"
+                                                                       : "it has no way to be stopped: switch it off"));
+  last_hung_ = hung;
   if (status_.force_fault != last_fault_ && status_.force_fault != DeviceFault::none)
     messages_.say(Severity::error, std::string("force device: ") + to_string(status_.force_fault));
   last_fault_ = status_.force_fault;
@@ -131,12 +164,28 @@ bool DeviceModel::stopped() const {
   return status_.servo.gate_state == GateState::disarmed || status_.servo.gate_state == GateState::faulted;
 }
 
-void DeviceModel::toggle_stop() {
+void DeviceModel::stop() {
+  if (session_ != nullptr) session_->stop();
+}
+
+void DeviceModel::arm() {
   if (session_ == nullptr) return;
-  if (stopped())
-    session_->arm();
-  else
-    session_->stop();
+  if (session_->needs_yes())
+    return messages_.say(Severity::warning,
+                         "nothing is armed: say yes to the device without a time-out in the device "
+                         "monitor first (View > Device monitor)");
+  session_->arm();
+}
+
+std::string DeviceModel::arming_text() const {
+  if (session_ == nullptr || !stopped()) return {};
+  if (session_->force_capabilities() == nullptr && session_->display_capabilities() == nullptr) return {};
+  if (session_->needs_yes()) return "No force: a device without a time-out waits for your yes in the device monitor";
+  const ServoStatus& servo = status_.servo;
+  const bool asked = status_.arming == ArmingStage::arming || status_.arming == ArmingStage::given_up;
+  if (servo.gate_state == GateState::faulted && !asked) return std::string("No force: ") + to_string(servo.gate_fault);
+  const std::string text = tangent::arming_text(status_.arming, status_.in_the_way, status_.force_wanted_n);
+  return text.empty() ? "No force" : text;
 }
 
 }  // namespace tangent

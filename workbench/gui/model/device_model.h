@@ -43,11 +43,15 @@ class DeviceModel {
   void set_hand_follows_mouse(bool on);
   void lead_hand(const Vec3& finger_centre_world_m);
   bool stopped() const;  ///< the gate passes no force until armed
-  void toggle_stop();
+  void stop();           ///< nothing else: also while there is no force, where it cancels what is pending
+  void arm();            ///< one attempt
+  /// What the devices do without force, and what is in the way of it; empty while the gate passes force.
+  std::string arming_text() const;
 
  private:
   void make_session();
   void restart_session();
+  void say_what_differs();
   void keep_calibration(const MaestroSetup& setup);
 
   const SceneModel& scene_;
@@ -61,6 +65,8 @@ class DeviceModel {
   SessionStatus status_;
   DeviceFault last_fault_ = DeviceFault::none;
   GateFault last_gate_fault_ = GateFault::none;
+  ExchangeWith last_hung_ = ExchangeWith::none;
+  double capped_n_per_m_ = 0.0;  ///< stiffness asked for when it was last said that the device takes less
   bool hand_follows_mouse_ = false;
 };
 

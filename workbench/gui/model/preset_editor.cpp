@@ -67,6 +67,17 @@ Status PresetEditor::save_as(const std::filesystem::path& folder, const std::str
   return {};
 }
 
+PresetEditor PresetEditor::restored(const UnsavedPreset& from) {
+  PresetEditor editor;
+  // As long as the file still holds those values, what it says about itself holds, too.
+  if (auto file = read_preset(from.path); file && file->preset == from.loaded) editor.loaded_ = std::move(*file);
+  editor.loaded_.preset = from.loaded;
+  editor.current_ = from.current;
+  editor.name_ = from.name;
+  editor.path_ = from.path;
+  return editor;
+}
+
 std::vector<std::filesystem::path> list_presets(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> out;
   std::error_code failed;

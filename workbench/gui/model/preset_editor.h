@@ -3,6 +3,7 @@
 
 #include "core/io/preset_file.h"
 #include "core/preset/schema.h"
+#include "workbench/session/unsaved_work.h"
 
 #include <filesystem>
 #include <string>
@@ -37,6 +38,9 @@ class PresetEditor {
   /// Writes the current values to `folder`/`name`.toml, which becomes the loaded file. `about`: its [about] table; its
   /// name is set to `name`. Fails on an empty name, a name with a slash, or when the file can't be written.
   Status save_as(const std::filesystem::path& folder, const std::string& name, PresetAbout about);
+  /// What is needed to go on with it in another run. The file's [about] is read again when it is loaded.
+  UnsavedPreset unsaved() const { return {name_, path_, loaded_.preset, current_}; }
+  static PresetEditor restored(const UnsavedPreset& from);
   /// Keeps the values but takes over origin and loaded values from `other`.
   void adopt_file(const PresetEditor& other) {
     loaded_ = other.loaded_;

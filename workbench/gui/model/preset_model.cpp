@@ -111,6 +111,11 @@ void PresetModel::load(const std::filesystem::path& path) {
   messages_.say(Severity::note, "preset " + editor().name() + " loaded");
 }
 
+void PresetModel::take_up(const UnsavedWork& work) {
+  slots_.restore(work);
+  changed_("take up the work of an earlier run");
+}
+
 void PresetModel::undo() {
   if (!slots_.can_undo()) return messages_.say(Severity::note, "nothing to undo");
   const std::string what = "undo " + slots_.undo_name();

@@ -39,6 +39,8 @@ class PresetModel {
   void toggle_ab();
   void copy_ab() { slots_.copy_to_other(); }
 
+  void take_up(const UnsavedWork& work);  ///< of an earlier run, with its undo; replaces what is there
+
   void load(const std::filesystem::path& path);
   /// Overwrites an existing file; a message says where, or why not. The file also names the mesh and device tuned on.
   bool save(const std::string& name, const ContactMesh* mesh, const std::string& device);

@@ -71,6 +71,24 @@ Status PresetSlots::save_as(const std::filesystem::path& folder, const std::stri
   return {};
 }
 
+void PresetSlots::put_into(UnsavedWork& work) const {
+  work.at = at_;
+  work.steps.clear();
+  for (const Step& step : steps_)
+    work.steps.push_back({step.what, step.active, {step.slots[0].unsaved(), step.slots[1].unsaved()}});
+}
+
+void PresetSlots::restore(const UnsavedWork& work) {
+  if (work.steps.empty()) return;
+  steps_.clear();
+  for (const UnsavedStep& step : work.steps) {
+    const auto slot = [&](std::size_t i) { return PresetEditor::restored(step.slots[i]); };
+    steps_.push_back({{slot(0), slot(1)}, step.active, step.what, {}});
+  }
+  at_ = work.at;
+  gesture_open_ = false;
+}
+
 bool PresetSlots::undo() {
   if (!can_undo()) return false;
   --at_;

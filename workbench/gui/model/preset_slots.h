@@ -42,6 +42,10 @@ class PresetSlots {
   bool undo();
   bool redo();
 
+  /// All steps, for a run after a crash.
+  void put_into(UnsavedWork& work) const;
+  void restore(const UnsavedWork& work);  ///< does nothing where it has no steps
+
  private:
   struct Step {
     std::array<PresetEditor, 2> slots;

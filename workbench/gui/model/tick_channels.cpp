@@ -38,6 +38,7 @@ std::array<float, kChannelCount> channel_row(const ServoRecord& r) {
           static_cast<float>(r.tick.output.error_m),
           static_cast<float>(r.tick.output.iterations),
           tick_time,
+          static_cast<float>(r.device.energy_j),
           event_of(r)};
 }
 

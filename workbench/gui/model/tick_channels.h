@@ -20,7 +20,8 @@ enum class Channel : std::uint8_t {
   error,
   iterations,
   tick_time,
-  event,  ///< EventRank as a number; a gap where there was no event
+  energy,  ///< observed by the safety gate: made by the loop > 0, stored by the hand < 0
+  event,   ///< EventRank as a number; a gap where there was no event
   count_
 };
 inline constexpr std::size_t kChannelCount = static_cast<std::size_t>(Channel::count_);

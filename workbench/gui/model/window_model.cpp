@@ -19,8 +19,11 @@ std::optional<KeptLook> WindowModel::read_settings() {
   if (auto read = read_window_settings(settings_file_))
     settings_ = std::move(*read);
   else {
-    settings_are_unread_ = true;
-    messages_.say(Severity::warning, read.error().message() + " (it is left as it is; no layout is saved)");
+    const std::filesystem::path aside = put_aside(settings_file_);
+    settings_are_unread_ = aside.empty();
+    messages_.say(Severity::warning,
+                  read.error().message() + (aside.empty() ? " (it is left as it is; no layout is saved)"
+                                                          : " (it is kept as " + aside.string() + ")"));
   }
   written_settings_ = settings_;
   if (settings_file_.empty()) return std::nullopt;
@@ -59,7 +62,7 @@ void WindowModel::keep_settings(const KeptLook& look) {
   settings_.favourites = favourites_;
   settings_.colour_map = colour_map_names()[static_cast<std::size_t>(look.colours)];
   if (settings_file_.empty() || settings_are_unread_ || settings_ == written_settings_) return;
-  if (auto written = write_window_settings(settings_, settings_file_); !written)
+  if (auto written = keep_window_settings(written_settings_, settings_, settings_file_); !written)
     messages_.say(Severity::warning, written.error().message());
   written_settings_ = settings_;  // so that a failure is reported once, not every two seconds
 }

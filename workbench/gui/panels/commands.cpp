@@ -85,7 +85,8 @@ void add_time_commands(std::vector<Command>& out, AppModel& model) {
                    const auto [from, to] = ticks_in_view(model.time());
                    model.exports().write_ticks(from, to);
                  }});
-  out.push_back({"Force: stop, or arm", "", [&model] { model.devices().toggle_stop(); }});
+  out.push_back({"Force: stop", "Esc", [&model] { model.devices().stop(); }});
+  out.push_back({"Force: arm", "", [&model] { model.devices().arm(); }});
   for (const std::string& name : force_device_names())
     out.push_back({"Force device: " + name, "", [&model, name] {
                      model.devices().choose({name, model.devices().names().display});
@@ -147,11 +148,14 @@ std::vector<Command> window_commands(AppModel& model, MenuBar& menu) {
 }
 
 const std::vector<KeyNote>& further_keys() {
-  static const std::vector<KeyNote> kNotes{
-      {"Left, Right", "Step by one tick (with Shift ten)"}, {", and .", "Step by one iteration, on into the next tick"},
-      {"Esc", "Stop the force; put away what is open"},     {"Left drag", "Orbit; slides a value (Shift: finer)"},
-      {"Right drag, Shift drag", "Pan the view"},           {"Wheel", "Zoom about the pointer: view, plots, time"},
-      {"Click", "Pick a triangle; type a value"},           {"Tab", "Take the typed value and go on to the next"}};
+  static const std::vector<KeyNote> kNotes{{"Left, Right", "Step by one tick (with Shift ten)"},
+                                           {", and .", "Step by one iteration, on into the next tick"},
+                                           {"Esc", "Stop the force, always; then put away what is open"},
+                                           {"Left drag", "Orbit; slides a value (Shift: finer)"},
+                                           {"Right drag, Shift drag", "Pan the view"},
+                                           {"Wheel", "Zoom about the pointer: view, plots, time"},
+                                           {"Click", "Pick a triangle; type a value"},
+                                           {"Tab", "Take the typed value and go on to the next"}};
   return kNotes;
 }
 

@@ -41,6 +41,12 @@ void dim_text(const UiContext& ui, const std::string& text) {
   ImGui::PopStyleColor();
 }
 
+void warning_text(const UiContext& ui, const std::string& text) {
+  ImGui::PushStyleColor(ImGuiCol_Text, ui.colours.warning);
+  ImGui::TextWrapped("%s", text.c_str());
+  ImGui::PopStyleColor();
+}
+
 void draw_states(const UiContext& ui, DeviceModel& devices) {
   const SessionStatus& s = devices.status();
   Session& session = *devices.session();
@@ -58,10 +64,15 @@ void draw_states(const UiContext& ui, DeviceModel& devices) {
        : s.servo.gate_state == GateState::armed ? ui.colours.good
                                                 : ui.colours.warning);
   ImGui::Dummy({1, ui.px(2)});
-  if (text_button(ui, "monitor/arm", "Re-arm", "Clears faults, homes what is not homed, and ramps the force in"))
+  for (const std::string& name : session.without_timeout())
+    warning_text(ui, name + " goes on with its last command when this program dies: its firmware has no time-out.");
+  if (session.needs_yes() && text_button(ui, "monitor/accept_no_timeout", "Use it nevertheless",
+                                         "Without this yes nothing is armed. Keep a hand on its power switch"))
+    session.accept_no_timeout();
+  if (text_button(ui, "monitor/arm", "Re-arm",
+                  "One attempt: clears faults, homes what is not homed, waits until the finger is off the surface, "
+                  "and ramps the force in"))
     session.arm();
-  ImGui::SameLine();
-  if (text_button(ui, "monitor/stop", "Stop", "No force until armed (Escape)")) session.stop();
   ImGui::SameLine();
   if (text_button(ui, "monitor/home", "Home", "Stops the force and homes both devices")) session.home();
 }
@@ -71,6 +82,8 @@ void draw_limits(const UiContext& ui, const DeviceModel& devices) {
   const ServoStatus& servo = devices.status().servo;
   heading(ui, "Limits");
   fact(ui, "Peak / continuous force", printed("%.1f / %.1f", limits.peak_force_n, limits.continuous_force_n), "N");
+  if (const auto* can = devices.session()->force_capabilities(); can != nullptr && can->largest_stiffness_n_per_m > 0.0)
+    fact(ui, "Largest stiffness", printed("%.0f", can->largest_stiffness_n_per_m), "N/m");
   fact(ui, "Change of force", printed("%.0f", limits.slew_n_per_s), "N/s");
   const Vec3 size = 2e3 * limits.workspace_half_size_m;
   fact(ui, "Workspace", printed("%.0f x %.0f x %.0f", size.x, size.y, size.z), "mm");
@@ -80,7 +93,8 @@ void draw_limits(const UiContext& ui, const DeviceModel& devices) {
   fact(ui, "Display targets",
        printed("%.1f to %.1f", std::max(controller.lowest_m, -end) * 1e3, std::min(controller.highest_m, end) * 1e3),
        "mm");
-  fact(ui, "Oldest sample / longest tick", printed("%.0f / %.0f", limits.stale_s * 1e3, limits.late_s * 1e3), "ms");
+  fact(ui, "Oldest sample / longest tick", printed("%.0f / %.0f", limits.stale_s * 1e3, longest_tick_s(limits) * 1e3),
+       "ms");
   const auto timeout = [](double s) { return s > 0.0 ? printed("%.0f ms", s * 1e3) : std::string("none"); };
   if (const auto* can = devices.session()->force_capabilities())
     fact(ui, "Time-out, force device", timeout(can->firmware_timeout_s));
@@ -102,6 +116,10 @@ void draw_raw(const UiContext& ui, const DeviceModel& devices) {
   const Vec3 p = r.tick.input.finger.position * 1e3, f = r.device.force_command_n;
   fact(ui, "Position", printed("%.3f %.3f %.3f", p.x, p.y, p.z), "mm");
   fact(ui, "Force sent", printed("%.3f %.3f %.3f", f.x, f.y, f.z), "N");
+  fact(ui, "Energy, made by the loop", printed("%.3f", r.device.energy_j * 1e3), "mJ");
+  tooltip(ui,
+          "Observed by the safety gate: force sent times motion measured. Below zero the hand has stored it in the "
+          "surface; at 5 mJ in half a second the gate stops");
   fact(ui, "Roller, measured / sent",
        printed("%.4f / %.4f", r.device.cld_measured_m * 1e3, r.device.cld_command_m * 1e3), "mm");
   fact(ui, "Age of position / roller", printed("%.2f / %.2f", r.device.force_age_s * 1e3, r.device.display_age_s * 1e3),
@@ -217,9 +235,10 @@ void draw_rates(const UiContext& ui, const DeviceModel& devices, bool cable, con
   ImGui::Dummy({1, ui.px(4)});
   const bool round_trip = cable && link.round_trip_us != nullptr, arrival = cable && link.arrival_us != nullptr;
   const float around = ui.px(42);  // each one's title and axis
-  const float height = std::clamp(room / static_cast<float>(2 + round_trip + arrival) - around, ui.px(64), ui.px(240));
+  const float height = std::clamp(room / static_cast<float>(3 + round_trip + arrival) - around, ui.px(64), ui.px(240));
   draw_duration_histogram(ui, "Tick to tick", session.period_ns(), 1.0, colour(ui.palette.tick_time), height);
   draw_duration_histogram(ui, "Late by", session.lateness_ns(), 1.0, colour(ui.palette.force_x), height);
+  draw_duration_histogram(ui, "Sample to command", session.latency_ns(), 1.0, colour(ui.palette.force_z), height);
   if (round_trip)
     draw_duration_histogram(ui, "Round trip", *link.round_trip_us, 1e3, colour(ui.palette.cld_commanded), height);
   if (arrival)

@@ -186,22 +186,22 @@ std::string draw_device_menu(const UiContext& ui, const std::string& path, const
   return chosen;
 }
 
-/// The stop button, which must be found at once: red, on the right.
+/// The stop button, which must be found at once: red, on the right. It only stops, and is always there; arming has its
+/// own place (arming_bar.cpp).
 void draw_stop(const UiContext& ui, DeviceModel& devices, const Rect& rect) {
   const bool stopped = devices.stopped();
-  const char* text = stopped ? "Arm" : "Stop force";
   const float width = ImGui::CalcTextSize("Stop force").x + ui.px(22);
   ImGui::SameLine();
   ImGui::SetCursorScreenPos({rect.right() - width - ui.px(10), ImGui::GetCursorScreenPos().y});
-  const ImVec4 fill = ImGui::ColorConvertU32ToFloat4(stopped ? ui.colours.accent_soft : ui.colours.bad);
-  ImGui::PushStyleColor(ImGuiCol_Button, stopped ? fill : ImVec4(fill.x, fill.y, fill.z, 0.75f));
+  const ImVec4 fill = ImGui::ColorConvertU32ToFloat4(ui.colours.bad);
+  ImGui::PushStyleColor(ImGuiCol_Button, ImVec4(fill.x, fill.y, fill.z, stopped ? 0.3f : 0.75f));
   ImGui::PushStyleColor(ImGuiCol_ButtonHovered, fill);
   ImGui::PushStyleColor(ImGuiCol_Text, stopped ? ui.colours.text : IM_COL32_WHITE);
-  if (ImGui::Button((std::string(text) + "##stop").c_str(), {width, 0.0f})) devices.toggle_stop();
+  ImGui::Button("Stop force##stop", {width, 0.0f});
+  if (ImGui::IsItemActivated()) devices.stop();  // when it is pressed, not when it is let go
   ImGui::PopStyleColor(3);
   ui.items.note_last("menu/stop");
-  tooltip(ui, stopped ? "Clears faults and ramps the force in over a quarter of a second"
-                      : "No force until armed again (Esc)");
+  tooltip(ui, "No force until armed again, and nothing pending: homing stops, too (Esc)");
 }
 
 }  // namespace

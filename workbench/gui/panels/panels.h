@@ -102,6 +102,10 @@ struct LogPanel {
   std::string filter;
 };
 void draw_log_panel(const UiContext& ui, MessageLog& messages, LogPanel& state);
+/// At the lower edge of the 3D view or the monitor while there is no force: what is in the way, and the button to arm.
+void draw_arming_bar(const UiContext& ui, DeviceModel& devices, const Rect& over);
+/// At its upper edge: what an earlier run left unsaved, to take up or to discard.
+void draw_unsaved_offer(const UiContext& ui, UnsavedModel& unsaved, const Rect& over);
 /// Drawn in place of the 3D view while the monitor is open.
 void draw_device_monitor(const UiContext& ui, AppModel& model, const Rect& rect);
 

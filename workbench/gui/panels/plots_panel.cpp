@@ -19,15 +19,15 @@ struct Cell {
   int column;
   float weight;  ///< of the column's height
 };
-constexpr std::array kThreeColumns{Cell{0, 0, 1.0f}, Cell{1, 1, 0.5f}, Cell{2, 1, 0.5f}, Cell{3, 2, 0.5f},
-                                   Cell{4, 2, 0.5f}};
-constexpr std::array kTwoColumns{Cell{0, 0, 0.5f}, Cell{1, 0, 0.5f}, Cell{2, 1, 0.34f}, Cell{3, 1, 0.33f},
-                                 Cell{4, 1, 0.33f}};
-constexpr std::array kOneColumn{Cell{0, 0, 0.28f}, Cell{1, 0, 0.18f}, Cell{2, 0, 0.18f}, Cell{3, 0, 0.18f},
-                                Cell{4, 0, 0.18f}};
+constexpr std::array kThreeColumns{Cell{0, 0, 1.0f},  Cell{1, 1, 0.5f},  Cell{2, 1, 0.5f},
+                                   Cell{3, 2, 0.43f}, Cell{5, 2, 0.28f}, Cell{4, 2, 0.29f}};
+constexpr std::array kTwoColumns{Cell{0, 0, 0.4f},  Cell{1, 0, 0.3f},  Cell{5, 0, 0.3f},
+                                 Cell{2, 1, 0.34f}, Cell{3, 1, 0.33f}, Cell{4, 1, 0.33f}};
+constexpr std::array kOneColumn{Cell{0, 0, 0.25f}, Cell{1, 0, 0.15f}, Cell{2, 0, 0.15f},
+                                Cell{3, 0, 0.15f}, Cell{4, 0, 0.15f}, Cell{5, 0, 0.15f}};
 
 struct Arrangement {
-  const std::array<Cell, 5>* cells;
+  const std::array<Cell, 6>* cells;
   int columns;
 };
 Arrangement arrange(float width, float height) {
@@ -118,6 +118,12 @@ PlotsPanel make_plots_panel() {
                                     .format = "%-7.1f",
                                     .nothing = "simulated time: no clock",
                                     .series = {{"tick time", at(Channel::tick_time), &Palette::tick_time}}});
+  panel.plots.emplace_back(PlotSpec{.id = "energy",
+                                    .title = "Energy",
+                                    .unit = "mJ",
+                                    .scale = 1e3,
+                                    .format = "%7.3f",
+                                    .series = {{"observed", at(Channel::energy), &Palette::energy}}});
   return panel;
 }
 

@@ -64,12 +64,8 @@ void handle_shortcuts(AppModel& model, MenuBar& menu) {
   if (letter(']', true)) model.time().go_to_bookmark(1);
   if (letter('F')) model.view().frame_scene();
   if (letter('M')) model.devices().set_hand_follows_mouse(!model.devices().hand_follows_mouse());
-  if (named(ImGuiKey_Escape) && !menu.path.open && !menu.palette.open) {
-    if (menu.sheet)
-      menu.sheet = false;
-    else if (!model.devices().stopped())
-      model.devices().toggle_stop();
-  }
+  // It has stopped the force already (App::frame).
+  if (named(ImGuiKey_Escape) && !menu.path.open && !menu.palette.open) menu.sheet = false;
 }
 
 }  // namespace tangent

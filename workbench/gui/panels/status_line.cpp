@@ -19,13 +19,13 @@ class Values {
         y_number_(std::round(rect.y + 0.5f * (rect.h - ui.fonts.small_number->FontSize))),
         x_(rect.x + ui.px(10)) {}
 
-  /// `characters`: width of the field.
+  /// `characters`: width of the field. Without a value the label has its ink.
   void put(const char* name, const char* label, const std::string& value, float characters, ImU32 ink,
            const char* doc) {
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     const ImFont *text = ui_.fonts.small, *number = ui_.fonts.small_number;
     const float from = x_, digit = number->CalcTextSizeA(number->FontSize, 1e9f, 0.0f, "0").x;
-    draw.AddText(text, text->FontSize, {x_, y_text_}, ui_.colours.text_dim, label);
+    draw.AddText(text, text->FontSize, {x_, y_text_}, value.empty() ? ink : ui_.colours.text_dim, label);
     x_ += text->CalcTextSizeA(text->FontSize, 1e9f, 0.0f, label).x + ui_.px(5);
     draw.AddText(number, number->FontSize, {x_, y_number_}, ink, value.c_str());
     x_ += characters * digit + ui_.px(16);
@@ -77,6 +77,9 @@ void draw_status_line(const UiContext& ui, AppModel& model, const Rect& rect, do
              : servo.running     ? "   ... Hz"
                                  : "   off",
              11, plain, "Ticks a second, measured");
+  const SessionStatus& session = model.devices().status();
+  if (session.real_devices && servo.running && !servo.realtime.fifo)
+    values.put("realtime", "No real-time scheduling", "", 0, warn, session.realtime_remedy.c_str());
   const double late_share =
       servo.ticks > 0 ? static_cast<double>(servo.late_ticks) / static_cast<double>(servo.ticks) : 0.0;
   values.put("late", "Late", printed("%s (%.2f %%)", integer(servo.late_ticks).c_str(), 100.0 * late_share), 16,

@@ -14,6 +14,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <memory>
 #include <string>
 #include <utility>
@@ -69,6 +70,24 @@ class ImGuiOnWindow {
   }
   ImGuiOnWindow(const ImGuiOnWindow&) = delete;
   ImGuiOnWindow& operator=(const ImGuiOnWindow&) = delete;
+};
+
+/// Xlib calls exit() when its server is gone: what is to outlive the window is written then, too. The force is gone by
+/// then (session/crash_stop.h).
+class KeptAtExit {
+ public:
+  explicit KeptAtExit(App& app) {
+    app_ = &app;
+    [[maybe_unused]] static const int once = std::atexit([] {
+      if (app_ != nullptr) app_->model().keep();
+    });
+  }
+  ~KeptAtExit() { app_ = nullptr; }
+  KeptAtExit(const KeptAtExit&) = delete;
+  KeptAtExit& operator=(const KeptAtExit&) = delete;
+
+ private:
+  static inline App* app_ = nullptr;
 };
 
 WindowHandle open_window() {
@@ -163,6 +182,9 @@ class FrameLoop {
 
   void listen() {
     glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int, int action, int) {
+      // Now, not when a frame gets to see it.
+      if (key == GLFW_KEY_ESCAPE && action == GLFW_PRESS)
+        static_cast<FrameLoop*>(glfwGetWindowUserPointer(w))->app_.stop();
       if (action != GLFW_REPEAT) events(w).key(key, action == GLFW_PRESS);  // ImGui repeats by itself
     });
     glfwSetCharCallback(window_, [](GLFWwindow* w, unsigned int code_point) { events(w).character(code_point); });
@@ -246,6 +268,7 @@ Status run_window(const AppOptions& options, const std::function<bool()>& should
   if (Status ready = renderer.init(); !ready) return ready;
   App app(options);
   app.set_renderer(&renderer);
+  const KeptAtExit kept(app);
   FrameLoop(window.get(), app, renderer).run(should_stop);
   return {};
 }

@@ -7,6 +7,7 @@
 #include "workbench/gui/panels/panels.h"
 #include "workbench/gui/platform/offscreen.h"
 #include "workbench/gui/render/scene_renderer.h"
+#include "workbench/session/own_folder.h"
 
 #include <imgui.h>
 
@@ -212,9 +213,10 @@ void open_outline(AppModel& model) {
                         {-0.018, 0.040},
                         {-0.050, 0.034}})
     outline.vertices.push_back(v);
-  std::error_code failed;
-  const auto path = std::filesystem::temp_directory_path(failed) / "tangent-outline.csv";
-  if (write_polygon(outline, path)) model.scene().open(path.string());
+  if (const auto folder = OwnFolder::make()) {
+    const auto path = folder->path() / "tangent-outline.csv";
+    if (write_polygon(outline, path)) model.scene().open(path.string());
+  }
   model.presets().set_value(*find_preset_key("finger", "radius_m"), 0.008);
   model.presets().set_value(*find_preset_key("solver", "method"), static_cast<double>(Method::paper));
   model.window().sizes().show_left = false;

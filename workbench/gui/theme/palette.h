@@ -35,7 +35,7 @@ constexpr std::uint32_t packed(Rgba c) {
 struct Palette {
   Rgba force_x, force_y, force_z, force_magnitude;  ///< magnitude is also the force arrow
   Rgba cld_commanded, cld_measured;
-  Rgba error, iterations, tick_time;
+  Rgba error, iterations, tick_time, energy;
   Rgba contact, normal, finger, penetration, control_net, crease, boundary, selection;
   Rgba mesh, mesh_wire, smooth_surface;  ///< facets, their edges, the PN surface
   Rgba accent;                           ///< the one colour of the interface itself
@@ -49,6 +49,7 @@ constexpr Palette kDarkPalette{
     .force_magnitude = rgb_hex(0xF2AE2E),
     .cld_commanded = rgb_hex(0x56B4E9), .cld_measured = rgb_hex(0xD98BB8),
     .error = rgb_hex(0xF0E442), .iterations = rgb_hex(0x7FCFA9), .tick_time = rgb_hex(0xA9B4C2),
+    .energy = rgb_hex(0xC99BE8),
     .contact = rgb_hex(0xF0E442), .normal = rgb_hex(0x56B4E9), .finger = rgb_hex(0xF3C6A8),
     .penetration = rgb_hex(0xE8592A), .control_net = rgb_hex(0xDE8CBB), .crease = rgb_hex(0x3FA0EA),
     .boundary = rgb_hex(0xE8703A), .selection = rgb_hex(0xF2AE2E),
@@ -65,6 +66,7 @@ constexpr Palette kLightPalette{
     .force_magnitude = rgb_hex(0xC77F00),
     .cld_commanded = rgb_hex(0x1F86C4), .cld_measured = rgb_hex(0xB4558F),
     .error = rgb_hex(0x9A8B00), .iterations = rgb_hex(0x3E8A6A), .tick_time = rgb_hex(0x5A6675),
+    .energy = rgb_hex(0x7D4BA6),
     .contact = rgb_hex(0xE3C400), .normal = rgb_hex(0x1F86C4), .finger = rgb_hex(0xCF9675),
     .penetration = rgb_hex(0xD0450A), .control_net = rgb_hex(0xB4478A), .crease = rgb_hex(0x0B63B0),
     .boundary = rgb_hex(0xC24F00), .selection = rgb_hex(0xC77F00),

@@ -18,9 +18,17 @@ TEST_CASE(
 
   CHECK(gone_m(fresh, sphere, {Vec3(3e-4, 0.0, 0.0), turned}) == doctest::Approx(3e-4).epsilon(1e-12));
   CHECK(gone_m(fresh, sphere, {Vec3(0.0), straight}) == 0.0);
-  CHECK(gone_m(fresh, ellipsoid, {Vec3(0.0), turned}) > 1e-3 * 0.020);
+  CHECK(gone_m(fresh, ellipsoid, {Vec3(0.0), turned}) == doctest::Approx(1e-3 * 0.020).epsilon(1e-6));
   CHECK(gone_m(fresh, ellipsoid, {Vec3(0.0), straight}) == 0.0);
   CHECK(gone_m(fresh, ellipsoid, {Vec3(0.0), glm::angleAxis(1.0, Vec3(0.0, 1.0, 0.0))}) > 1e-3);
+
+  // Margins that hold at one orientation are gone when the finger turns; a sphere's aren't.
+  Clearance fixed = fresh;
+  fixed.any_turn = 0;
+  set_free(fixed);
+  CHECK(gone_m(fixed, ellipsoid, {Vec3(3e-4, 0.0, 0.0), straight}) == doctest::Approx(3e-4).epsilon(1e-12));
+  CHECK(deeper_possible(fixed, gone_m(fixed, ellipsoid, {Vec3(0.0), turned}), -1.0));
+  CHECK(!deeper_possible(fixed, gone_m(fixed, sphere, {Vec3(0.0), turned}), -1.0));
 
   // Seen from 0.3 mm off, each margin is shorter by that; the ball reaches to the first one.
   Clearance c = fresh;

@@ -197,13 +197,18 @@ TEST_CASE("for fingers that are not round the tilt keeps their contacts in the s
       query.tilt_rad = finger.tilt_rad();
       const auto tilted = visited(torus->hierarchy(), query);
       // The same by support points, here and while the finger moves.
-      query.finger = &finger;
-      query.pose = &pose;
+      const FingerCore core(finger, pose);
+      query.core = &core;
       const auto supported = visited(torus->hierarchy(), query);
+      // From a place that the finger is away from by the margin at most, part of it by turning.
       query.margin_m = 0.003;
       query.nearest_m += query.margin_m;
-      pose.position += query.margin_m * random.in(0.0, 1.0) * random.direction();
+      const double way = query.margin_m * random.in(0.0, 1.0), turn = way * random.in(0.0, 1.0);
+      pose.position += (way - turn) * random.direction();
+      pose.orientation = glm::angleAxis(turn / core.reach_m(), random.direction()) * pose.orientation;
+      const FingerCore before(finger, pose);
       query.centre = pose.position;
+      query.core = &before;
       const auto moved = visited(torus->hierarchy(), query);
       missed += !tilted.contains(t) + !supported.contains(t) + !moved.contains(t);
       by_tilt += tilted.size();

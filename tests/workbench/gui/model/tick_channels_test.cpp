@@ -23,6 +23,7 @@ TEST_CASE("a tick's numbers go to the channels of their names, in SI") {
   record.tick.output.error_m = 4e-7;
   record.tick.output.iterations = 5;
   record.tick_ns = 2500.0;
+  record.device.energy_j = -3e-3;
   CHECK(value(record, Channel::force_x) == 1.0f);
   CHECK(value(record, Channel::force_y) == -2.0f);
   CHECK(value(record, Channel::force_z) == 2.0f);
@@ -32,6 +33,7 @@ TEST_CASE("a tick's numbers go to the channels of their names, in SI") {
   CHECK(value(record, Channel::error) == 4e-7f);
   CHECK(value(record, Channel::iterations) == 5.0f);
   CHECK(value(record, Channel::tick_time) == 2.5e-6f);
+  CHECK(value(record, Channel::energy) == -3e-3f);
 }
 
 TEST_CASE("what was not measured and what did not happen is a gap") {

@@ -31,14 +31,14 @@ TEST_CASE("the columns of a histogram hold every count, at its decade") {
   CHECK(decade_columns(LogHistogram{}).counts.empty());
 }
 
-TEST_CASE("the device monitor stops, homes and re-arms, and injects faults that the gate catches") {
+TEST_CASE("beside the device monitor one stops, homes and re-arms, and injects faults that the gate catches") {
   HeadlessApp ui(HeadlessApp::deterministic_options(), 1920.0f, 1080.0f);
   run(ui, 1500);
   REQUIRE(ui.model().devices().status().servo.gate_state == GateState::armed);
   ui.click("menu/view");
   ui.click("menu/view/monitor");
   REQUIRE(ui.model().view().device_monitor);
-  ui.click("monitor/stop");
+  ui.click("menu/stop");
   run(ui, 10);
   CHECK(ui.model().devices().status().servo.gate_state == GateState::disarmed);
   ui.click("monitor/home");

@@ -1,0 +1,214 @@
+#include "core/finger/finger_core.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <span>
+
+namespace tangent {
+namespace {
+
+constexpr double kWideCone = 0.7;     // cosine: of wider cones nothing is proved along single directions ...
+constexpr double kWidestCone = 0.05;  // ... or at all
+
+/// What a cone of normals does to the support of its axis.
+struct Spread {
+  CoreSupport support;
+  double tangent = 0.0, sine = 0.0;  ///< of the half angle
+  double step_m = 0.0;               ///< |A tau| at most
+  double bend = 0.0;                 ///< of the core, FingerCore::bend
+  double least_length_m = 0.0;
+  Vec3 away{0.0};         ///< from the part's middle to the support
+  double lambda_m = 0.0;  ///< |p(N) - S| at most
+};
+
+Spread spread_over(const FingerCore& core, const SurfaceBounds& part) {
+  Spread s;
+  const double cosine = part.normals.cos_half;
+  s.support = core.support(part.normals.axis);
+  s.sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
+  s.tangent = s.sine / cosine;
+  s.step_m = core.widest_step(s.support, s.tangent);
+  s.bend = core.bend(s.support, s.step_m);
+  s.least_length_m = s.support.length - s.step_m;
+  s.away = s.support.point - part.middle;
+  const double moves = core.largest_radius(s.support.length) * s.tangent + core.longest_m() * s.bend;
+  s.lambda_m = std::sqrt(glm::dot(s.away, s.away)) + std::sqrt(glm::dot(part.half, part.half)) +
+               std::min(2.0 * core.longest_m(), moves);
+  return s;
+}
+
+double extent(const Vec3& half, const Vec3& t) { return glm::dot(half, glm::abs(t)); }
+
+/// How far p(N).t can be from that of the cone's axis.
+double spread_along(const FingerCore& core, const Spread& s, const Vec3& t) {
+  const double half_width = core.half_width(t);
+  const Vec3 slope = core.derivative(s.support, t);
+  const double near = std::sqrt(glm::dot(slope, slope)) * s.tangent + half_width * s.bend;
+  return std::min(near, half_width + std::abs(glm::dot(s.support.point - core.centre(), t)));
+}
+
+/// By how much p(N) - S misses the direction of N along t, a unit vector across the cone's axis, for every N and S.
+double miss_along(const FingerCore& core, const SurfaceBounds& part, const Spread& s, const Vec3& t) {
+  return std::abs(glm::dot(s.away, t)) - extent(part.half, t) - spread_along(core, s, t) - s.sine * s.lambda_m;
+}
+
+/// By how much p(N) - S misses the directions of the cone whatever its parts are: seen from the middle p(N) is within a
+/// ball about that of the axis. Of wide cones that says more than a miss along one direction, of narrow ones less.
+double miss_of_cone(const FingerCore& core, const SurfaceBounds& part, const Spread& s) {
+  const double cosine = part.normals.cos_half, chord = std::sqrt(2.0 - 2.0 * cosine);
+  const double way = 1.12 * chord;  // over the sphere of normals, up to a right angle
+  const double radius = core.largest_radius(s.support.length - core.longest_m() * chord);
+  const double spread = std::min(2.0 * core.longest_m(), radius * way);
+  const double distance = std::sqrt(glm::dot(s.away, s.away));
+  const double along = std::abs(glm::dot(s.away, part.normals.axis));
+  const double across = std::sqrt(std::max(0.0, distance * distance - along * along));
+  if (across * cosine <= along * s.sine) return 0.0;  // within the cone
+  return across * cosine - along * s.sine - spread - std::sqrt(glm::dot(part.half, part.half));
+}
+
+/// Directions in which a miss is looked for: to where the axis' support misses the middle, and across the core's
+/// longest axis, where long cores spread least.
+struct Directions {
+  std::array<Vec3, 2> t;
+  int count = 0;
+};
+Directions directions(const FingerCore& core, const SurfaceBounds& part, const Spread& s) {
+  Directions d;
+  const auto add = [&](const Vec3& v, double least2) {
+    const double length2 = glm::dot(v, v);
+    if (length2 > least2) d.t[static_cast<std::size_t>(d.count++)] = v / std::sqrt(length2);
+  };
+  const Vec3& axis = part.normals.axis;
+  add(s.away - glm::dot(s.away, axis) * axis, 0.0);
+  add(glm::cross(core.long_axis(), axis), 0.01);
+  return d;
+}
+
+}  // namespace
+
+FingerCore::FingerCore(const Finger& finger, const FingerPose& pose, bool turns)
+    : centre_(pose.position), axes_m_(0.0), rotation_(glm::mat3_cast(pose.orientation)), turns_(turns) {
+  if (finger.shape == FingerShape::ellipsoid) {
+    axes_m_ = finger.semi_axes_m;
+  } else if (finger.shape == FingerShape::capsule) {
+    axes_m_ = finger.half_length_m * Vec3(std::sqrt(1.0 + kSpindle * kSpindle), kSpindle, kSpindle);
+    ball_m_ = finger.radius_m;
+  } else {
+    ball_m_ = finger.reach_m();
+  }
+  reach_m_ = finger.reach_m();
+  lever_m_ = finger.unroundness_m();
+  std::array<double, 3> sorted{axes_m_.x, axes_m_.y, axes_m_.z};
+  std::sort(sorted.begin(), sorted.end());
+  longest_m_ = sorted[2];
+  shortest_m_ = sorted[0];
+  const int longest = axes_m_.x >= longest_m_ ? 0 : axes_m_.y >= longest_m_ ? 1 : 2;
+  long_axis_ = rotation_[longest];
+  const Vec3 squares = axes_m_ * axes_m_;
+  squares_m2_ = squares.x + squares.y + squares.z;
+  pair2_m4_ = sorted[1] * sorted[1] * sorted[2] * sorted[2];
+  flattest_core_m_ = sorted[0] > 0.0 ? sorted[2] * sorted[2] / sorted[0] : std::numeric_limits<double>::max();
+  sharpest_m_ = sorted[2] > 0.0 ? sorted[0] * sorted[0] / sorted[2] : 0.0;
+  if (longest_m_ == 0.0) flattest_core_m_ = 0.0;
+}
+
+CoreSupport FingerCore::support(const Vec3& normal) const {
+  const Vec3 y = axes_m_ * (normal * rotation_);
+  CoreSupport s;
+  s.length = std::sqrt(glm::dot(y, y));
+  s.direction = s.length > 0.0 ? y / s.length : Vec3(0.0);
+  s.point = centre_ - rotation_ * (axes_m_ * s.direction);
+  return s;
+}
+
+Vec3 FingerCore::derivative(const CoreSupport& s, const Vec3& t) const {
+  if (!(s.length > 0.0)) return Vec3(0.0);
+  const Vec3 at = axes_m_ * (t * rotation_);
+  return rotation_ * (axes_m_ * (glm::dot(s.direction, at) * s.direction - at)) / s.length;
+}
+
+// |A tau|^2 + |A n|^2 + ... over an orthonormal frame is the sum of the squared axes.
+double FingerCore::widest_step(const CoreSupport& s, double tangent) const {
+  return std::min(longest_m_, std::sqrt(std::max(0.0, squares_m2_ - s.length * s.length))) * tangent;
+}
+
+double FingerCore::bend(const CoreSupport& s, double step_m) const {
+  constexpr double kHalfSecond = 0.57735026918962584;  // 1/sqrt(3)
+  if (step_m == 0.0) return 0.0;
+  const double least = s.length - step_m;
+  if (!(least > 0.0)) return std::numeric_limits<double>::infinity();
+  return kHalfSecond * (step_m * step_m) / (least * least);
+}
+
+double FingerCore::half_width(const Vec3& t) const {
+  const Vec3 at = axes_m_ * (t * rotation_);
+  return std::sqrt(glm::dot(at, at));
+}
+
+double FingerCore::flattest_near(const NormalCone& normals, double way_m) const {
+  if (normals.cos_half < kWideCone) return flattest_m();
+  const double chord = std::sqrt(2.0 - 2.0 * normals.cos_half);
+  return ball_m_ + largest_radius(half_width(normals.axis) - longest_m_ * (chord + turn_within(way_m)));
+}
+
+double FingerCore::largest_radius(double least_length_m) const {
+  if (!(least_length_m > 0.0)) return flattest_core_m_;
+  const double per = 1.0 / least_length_m;
+  return std::min({flattest_core_m_, longest_m_ * longest_m_ * per, pair2_m4_ * per * per * per});
+}
+
+// While the finger turns by w, p(N) goes across N by (H - R) (w x N) + (w.N) (N x q), H the core's support function, R
+// its radii of curvature and q what p - c has across N, which is no more than the lever. Along N it may go, too: that
+// changes lambda, and no direction.
+double FingerCore::slide_rate(double least_length_m, double way_m) const {
+  if (!turns_ || !(lever_m_ > 0.0)) return 1.0;
+  const double radius = largest_radius(least_length_m - longest_m_ * turn_within(way_m));
+  return std::max(1.0, (lever_m_ + std::max(longest_m_ - sharpest_m_, radius - shortest_m_)) / reach_m_);
+}
+
+// p(N) can't leave the core, whose width changes by no more than the way; lambda by no more, either.
+double FingerCore::slide_m(double half_width_m, double least_length_m, double way_m) const {
+  return std::min(slide_rate(least_length_m, way_m) * way_m, 2.0 * (way_m + half_width_m));
+}
+
+double FingerCore::way_within(double half_width_m, double least_length_m, double room_m) const {
+  if (!(room_m > 0.0)) return 0.0;
+  const double along = room_m / slide_rate(least_length_m, room_m);  // slides are no shorter than the way
+  return std::max(along, 0.5 * room_m - half_width_m);
+}
+
+bool can_touch(const FingerCore& core, const SurfaceBounds& part, double most_m, double way_m) {
+  const double cosine = part.normals.cos_half;
+  if (cosine < kWidestCone) return true;
+  const Spread s = spread_over(core, part);
+  const double missed = miss_of_cone(core, part, s);
+  if (missed > 0.0 && missed > core.slide_m(core.longest_m(), s.least_length_m, way_m)) return false;
+  if (cosine < kWideCone) return true;
+  const double along = glm::dot(s.away, part.normals.axis);
+  // p(N) lies no lower over the axis' plane than p of the axis.
+  if (along - extent(part.half, part.normals.axis) - s.lambda_m * (1.0 - cosine) > most_m) return false;
+  const Directions d = directions(core, part, s);
+  for (const Vec3& t : std::span(d.t).first(static_cast<std::size_t>(d.count))) {
+    const double miss = miss_along(core, part, s, t);
+    if (miss > 0.0 && miss > (way_m > 0.0 ? core.slide_m(core.half_width(t), s.least_length_m, way_m) : 0.0))
+      return false;
+  }
+  return true;
+}
+
+double touch_margin(const FingerCore& core, const SurfaceBounds& part) {
+  if (part.normals.cos_half < kWidestCone) return 0.0;
+  const Spread s = spread_over(core, part);
+  double margin = core.way_within(core.longest_m(), s.least_length_m, miss_of_cone(core, part, s));
+  if (part.normals.cos_half < kWideCone) return margin;
+  const Directions d = directions(core, part, s);
+  for (const Vec3& t : std::span(d.t).first(static_cast<std::size_t>(d.count))) {
+    const double miss = miss_along(core, part, s, t);
+    if (miss > 0.0) margin = std::max(margin, core.way_within(core.half_width(t), s.least_length_m, miss));
+  }
+  return margin;
+}
+
+}  // namespace tangent

@@ -1,0 +1,95 @@
+// The finger as a ball rolled over an ellipsoid, its core: what proofs need to know of fingers that are not round.
+//
+// The core of a point or sphere is its centre, that of an ellipsoid the ellipsoid, that of a capsule its spindle. A
+// plane of normal N is touched by the ball about p(N), the core's point furthest along -N. So a contact is where p(N) -
+// S runs along N, as for a sphere with its centre at p(N); p depends on N as A does on the unit sphere: with A the
+// core's axes, p(N) = c - A g, g the unit vector of y = A N.
+//
+// Bounds: along a step tau across N, p(N + tau) - p(N) = D tau + r with D = -A (I - g g^T) A / |y| and
+// |r.t| <= |A t| |A tau|^2 / (sqrt(3) |y|^2), |y| at its least, since the second derivative of g is 2/sqrt(3) |v|^2 /
+// |y|^2 at most. The largest radius of curvature is the largest eigenvalue of -D: no more than a^2 / |y|, nor (a b)^2 /
+// |y|^3, a and b the longest axes.
+#pragma once
+
+#include "core/finger/finger.h"
+
+namespace tangent {
+
+/// Of a normal: the core's point furthest along -N, and what its neighbourhood follows from.
+struct CoreSupport {
+  Vec3 point;           ///< p(N), in the frame of the pose
+  Vec3 direction;       ///< g, unit, finger frame
+  double length = 0.0;  ///< |A N|, m: the core's support function
+};
+
+/// Normals within an angle of a unit axis.
+struct NormalCone {
+  Vec3 axis{0.0, 0.0, 1.0};
+  double cos_half = -1.0;  ///< -1: every direction
+};
+
+class FingerCore {
+ public:
+  /// `turns`: whether it may turn on its way; otherwise it goes straight.
+  FingerCore(const Finger& finger, const FingerPose& pose, bool turns = true);
+
+  double ball_m() const { return ball_m_; }
+  /// How fast the depth of any plane changes while the finger turns, m per rad at most: the unroundness.
+  double lever_m() const { return lever_m_; }
+  double reach_m() const { return reach_m_; }
+  /// Radii of curvature of the whole finger, over all its places and directions.
+  double flattest_m() const { return ball_m_ + largest_radius(0.0); }
+  double sharpest_m() const { return ball_m_ + sharpest_m_; }
+  /// The largest at normals within a cone, while the finger goes `way_m`.
+  double flattest_near(const NormalCone& normals, double way_m) const;
+
+  CoreSupport support(const Vec3& normal) const;
+  /// D t at a support.
+  Vec3 derivative(const CoreSupport& support, const Vec3& t) const;
+  /// |A tau| at most for steps across the support's normal of length `tangent`.
+  double widest_step(const CoreSupport& support, double tangent) const;
+  /// |r.t| / |A t| at most for such steps with |A tau| up to `step_m`; infinite where nothing is known.
+  double bend(const CoreSupport& support, double step_m) const;
+  /// Half the core's width along a unit direction, m.
+  double half_width(const Vec3& t) const;
+  /// The core's largest radius of curvature at normals whose |A N| is at least this, m.
+  double largest_radius(double least_length_m) const;
+  double longest_m() const { return longest_m_; }
+  const Vec3& centre() const { return centre_; }
+  /// Unit, along the core's longest axis.
+  const Vec3& long_axis() const { return long_axis_; }
+
+  /// How far p(N) can move along a direction across N while the finger goes `way_m`: its centre's way and the reach
+  /// times its turning, as gone_m counts. `half_width_m`: of the core in that direction; `least_length_m`: |A N| at
+  /// least, now.
+  double slide_m(double half_width_m, double least_length_m, double way_m) const;
+  /// How far the finger may go until slide_m reaches `room_m`, at least.
+  double way_within(double half_width_m, double least_length_m, double room_m) const;
+
+ private:
+  double slide_rate(double least_length_m, double way_m) const;
+  double turn_within(double way_m) const { return turns_ ? way_m / reach_m_ : 0.0; }
+
+  Vec3 centre_, axes_m_, long_axis_;
+  Mat3 rotation_;
+  bool turns_ = true;
+  double ball_m_ = 0.0, lever_m_ = 0.0, reach_m_ = 0.0;
+  double longest_m_ = 0.0, shortest_m_ = 0.0, sharpest_m_ = 0.0;
+  double flattest_core_m_ = 0.0;
+  double squares_m2_ = 0.0;  ///< sum of the squared axes
+  double pair2_m4_ = 0.0;    ///< square of the product of the two longest
+};
+
+/// A part of the surface by bounds: its points in a box, its normals in a cone.
+struct SurfaceBounds {
+  Vec3 middle{0.0}, half{0.0};  ///< of the box, m
+  NormalCone normals;
+};
+
+/// Which contacts a finger may have on such a part: p(N) - S = lambda N with lambda up to `most_m`, which is the ball's
+/// radius less the depth.
+bool can_touch(const FingerCore& core, const SurfaceBounds& part, double most_m, double way_m);
+/// How far the finger may go until it could touch such a part at all; 0: no proof.
+double touch_margin(const FingerCore& core, const SurfaceBounds& part);
+
+}  // namespace tangent

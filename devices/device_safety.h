@@ -1,0 +1,26 @@
+// What devices say about themselves, used: nonsense is refused, limits become the gate's, and what a person has to know
+// before arming is named.
+#pragma once
+
+#include "devices/device_set.h"
+#include "devices/gate/limits.h"
+
+#include <string>
+#include <vector>
+
+namespace tangent {
+
+/// Opens them. Fails, with none left open, when one can't be opened or its capabilities make no sense (gate/limits.h).
+Status open_devices(DeviceSet& devices);
+
+/// Limits of the safety gate for these devices under a servo of this rate.
+GateLimits gate_limits(const DeviceSet& devices, double rate_hz);
+
+/// Names of the real devices that go on with their last command when the program dies: their firmware has no time-out.
+std::vector<std::string> devices_without_timeout(const DeviceSet& devices);
+
+/// The stiffness that the force device may render, N/m: what is asked for, or the device's largest if that is known and
+/// smaller.
+double stiffness_allowed(const DeviceSet& devices, double stiffness_n_per_m);
+
+}  // namespace tangent

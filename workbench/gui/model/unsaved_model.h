@@ -1,0 +1,38 @@
+// Work that is in no file: kept while the window is open, for the case that it crashes, and offered again after it did.
+#pragma once
+
+#include "workbench/gui/model/app_options.h"
+#include "workbench/gui/model/message_log.h"
+#include "workbench/gui/model/preset_model.h"
+#include "workbench/gui/model/time_model.h"
+#include "workbench/session/unsaved_work.h"
+
+#include <optional>
+#include <string>
+
+namespace tangent {
+
+class UnsavedModel {
+ public:
+  /// Kept in the folder `unsaved` beside the settings; without settings nothing is.
+  UnsavedModel(const AppOptions& options, PresetModel& presets, TimeModel& time, MessageLog& messages);
+
+  void update(double now_s);  ///< once per frame; keeps the work every two seconds
+  void keep();
+
+  /// What an earlier run left, as a sentence; empty: nothing.
+  std::string offer() const;
+  void take_up();  ///< presets, undo and bookmarks; arms nothing
+  void discard();
+
+ private:
+  PresetModel& presets_;
+  TimeModel& time_;
+  MessageLog& messages_;
+  std::filesystem::path folder_;
+  std::optional<LeftWork> left_;
+  UnsavedKeeper keeper_;
+  double looked_at_s_ = 0.0;
+};
+
+}  // namespace tangent

@@ -1,0 +1,19 @@
+// While there is no force: why, and the control that arms. Far from the stop button, so that neither is hit for the
+// other.
+#include "workbench/gui/panels/panels.h"
+#include "workbench/gui/panels/strip.h"
+
+#include <array>
+
+namespace tangent {
+
+void draw_arming_bar(const UiContext& ui, DeviceModel& devices, const Rect& over) {
+  constexpr std::array<StripButton, 1> kArm{{{"arming/arm", "Arm",
+                                              "One attempt: clears faults, homes what is not homed, waits up to 5 s "
+                                              "until the force would be below 0.2 N, and "
+                                              "lets the force in over a quarter of a second"}}};
+  const std::string text = devices.arming_text();
+  if (!text.empty() && draw_strip(ui, "##arming", over, StripPlace::lower_edge, text, kArm)) devices.arm();
+}
+
+}  // namespace tangent

@@ -1,0 +1,20 @@
+// What an earlier run left that ended without being closed: to take up, or to discard.
+#include "workbench/gui/panels/panels.h"
+#include "workbench/gui/panels/strip.h"
+
+#include <array>
+
+namespace tangent {
+
+void draw_unsaved_offer(const UiContext& ui, UnsavedModel& unsaved, const Rect& over) {
+  constexpr std::array<StripButton, 2> kAnswers{
+      {{"unsaved/take_up", "Take up", "Both presets with their undo, and the bookmarks. It arms nothing"},
+       {"unsaved/discard", "Discard", "It is deleted"}}};
+  const std::string text = unsaved.offer();
+  if (text.empty()) return;
+  const auto answer = draw_strip(ui, "##unsaved", over, StripPlace::upper_edge, text, kAnswers);
+  if (answer == 0u) unsaved.take_up();
+  if (answer == 1u) unsaved.discard();
+}
+
+}  // namespace tangent

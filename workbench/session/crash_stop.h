@@ -1,0 +1,68 @@
+// Zero force before the process ends out of order: by a signal, a crash in any thread, an allocation that fails, or an
+// exit() inside a library (Xlib calls it when its server is gone).
+//
+// A flag asks every servo thread to send zero force and end, and each says when it has. Who waits for that uses atomics
+// and sleeps, and so may be a signal handler. Nothing in this process helps against SIGKILL (the kernel's own, when
+// memory is out): there the device's firmware stops by its time-out. workbench/README.md says why there is no second
+// process.
+#pragma once
+
+#include <atomic>
+
+namespace tangent {
+
+inline constexpr int kMostWait_ms = 100;  ///< for servos to send zero force, before the process ends anyway
+
+/// Any thread, and in a signal handler.
+void ask_servos_to_end() noexcept;
+bool servos_are_to_end() noexcept;
+/// Asks, and waits until they have, at most kMostWait_ms. On a servo's own thread it sends zero force itself. False:
+/// some have not. Any thread, and in a signal handler.
+bool end_servos() noexcept;
+/// Servos that start from now on run.
+void allow_servos() noexcept;
+
+/// A servo that may send force, from start to end.
+class RunningServo {
+ public:
+  /// `release(servo)` sends zero force.
+  RunningServo(void (*release)(void*) noexcept, void* servo) noexcept;
+  ~RunningServo() { ended(); }
+  RunningServo(const RunningServo&) = delete;
+  RunningServo& operator=(const RunningServo&) = delete;
+  /// It has sent zero force and sends no other any more.
+  void ended() noexcept;
+
+  /// On the thread that runs it: where that very thread crashes, the signal handler calls `release`.
+  class Here {
+   public:
+    explicit Here(RunningServo& servo) noexcept;
+    ~Here();
+    Here(const Here&) = delete;
+    Here& operator=(const Here&) = delete;
+  };
+
+ private:
+  friend bool end_servos() noexcept;
+  void (*release_)(void*) noexcept;
+  void* servo_;
+  std::atomic<bool> running_{true};
+};
+
+/// So that a handler can run on this thread where its own stack has overflown; while it exists.
+class AlternateStack {
+ public:
+  AlternateStack() noexcept;
+  ~AlternateStack();
+  AlternateStack(const AlternateStack&) = delete;
+  AlternateStack& operator=(const AlternateStack&) = delete;
+
+ private:
+  unsigned char* bytes_;
+};
+
+/// For the program's main thread, once: every signal that ends the process by default first calls end_servos and
+/// removes files that are half written, as does exit(). Signals that are handled or ignored already stay so.
+void install_crash_stop();
+
+}  // namespace tangent

@@ -1,0 +1,86 @@
+// What a person would miss after a crash: preset edits that are in no file, their undo, and bookmarks with notes. Kept
+// in a file of its own while the window is open, removed when it is closed, and offered again where one was left.
+//
+//   FOLDER/PID.toml        the work, written anew when it changed
+//   FOLDER/PID.toml.lock   locked as long as that process lives
+#pragma once
+
+#include "core/base/result.h"
+#include "core/preset/preset.h"
+#include "workbench/session/file_lock.h"
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tangent {
+
+struct UnsavedPreset {
+  std::string name;
+  std::filesystem::path path;  ///< empty: never saved
+  Preset loaded, current;
+  bool operator==(const UnsavedPreset&) const = default;
+};
+
+struct UnsavedStep {
+  std::string what;
+  std::size_t active = 0;
+  std::array<UnsavedPreset, 2> slots;
+  bool operator==(const UnsavedStep&) const = default;
+};
+
+struct UnsavedBookmark {
+  std::uint64_t tick = 0;
+  double t_s = 0.0;
+  std::string note;
+  bool operator==(const UnsavedBookmark&) const = default;
+};
+
+struct UnsavedWork {
+  std::vector<UnsavedStep> steps;  ///< oldest first; the first is the start
+  std::size_t at = 0;              ///< the step in use
+  std::vector<UnsavedBookmark> bookmarks;
+
+  /// Nothing to lose: no step after the start, no bookmark.
+  bool empty() const { return steps.size() < 2 && bookmarks.empty(); }
+  bool operator==(const UnsavedWork&) const = default;
+};
+
+/// Of each preset only the values that are not the program's own.
+std::string format_unsaved(const UnsavedWork& work);
+/// Fails on anything that format_unsaved does not write. Values out of their range are clamped to it.
+Result<UnsavedWork> parse_unsaved(std::string_view text, std::string_view name);
+
+/// Keeps this process's work in `folder`; none where it is empty.
+class UnsavedKeeper {
+ public:
+  explicit UnsavedKeeper(std::filesystem::path folder);
+  /// Closed in order: there is nothing to offer.
+  ~UnsavedKeeper();
+  UnsavedKeeper(const UnsavedKeeper&) = delete;
+  UnsavedKeeper& operator=(const UnsavedKeeper&) = delete;
+
+  /// Writes it if it changed; removes the file where there is nothing to lose.
+  Status keep(const UnsavedWork& work);
+
+ private:
+  std::filesystem::path file_;  ///< empty: nothing is kept
+  std::optional<FileLock> lock_;
+  std::string written_;
+};
+
+/// Work of a process that is gone.
+struct LeftWork {
+  UnsavedWork work;
+  std::filesystem::path file;
+};
+/// The newest in `folder` of those whose process is gone; files that can't be read are put aside. Empty: none.
+std::optional<LeftWork> find_left_work(const std::filesystem::path& folder);
+/// Taken up or not wanted: removed.
+void forget_left_work(const LeftWork& left);
+
+}  // namespace tangent
