@@ -200,11 +200,18 @@ TEST_CASE("while an ellipsoid or a capsule turns over bodies made at random the 
       Vec3 axis = random.direction();
       const double turn = body % 5 == 0 ? 0.0 : 0.004;  // rad a tick
       double depth = 0.0;
-      for (int i = 0; i < poses; ++i) {
+      const auto next_input = [&](int i) {
         TickInput input = path.next(i, depth, preset.finger.reach_m());
         if (i % 200 == 0) axis = random.direction();
         orientation = glm::normalize(glm::angleAxis(turn, axis) * orientation);
         input.finger.orientation = orientation;
+        return input;
+      };
+      int first = 0;  // up to there the finger comes near
+      for (; first < 400 && !(depth > 0.0); ++first)
+        depth = tracking.step(preset, next_input(first), state).penetration_m;
+      for (int i = first; i < first + poses; ++i) {
+        const TickInput input = next_input(i);
         const TickOutput tracked = tracking.step(preset, input, state);
         depth = tracked.penetration_m;
         unconverged += tracked.status == TickStatus::unconverged;
