@@ -95,6 +95,10 @@ void SafetyGate::note(GateAction action, GateOutput& out) noexcept {
 // Zero at once after a stall, without the step at half force that pass takes: the device held the old force all along.
 Vec3 SafetyGate::before_sending(double dt_s) noexcept {
   const bool late = !(dt_s <= longest_tick_s(limits_));
+  if (late && std::isfinite(dt_s)) {  // the device held the old force all along
+    spend_heat(dt_s);
+    heat_is_spent_ = true;
+  }
   const bool often = !late && lateness_.add(dt_s, limits_.period_s);
   if (late || often) stop_by(late ? GateFault::late_tick : GateFault::late_ticks);
   // A tick that is late but no fault: the force goes out only if its sample is not too old by now.
@@ -106,6 +110,10 @@ Vec3 SafetyGate::before_sending(double dt_s) noexcept {
     last_force_n_ = Vec3(0.0);
   }
   return last_force_n_;
+}
+
+void SafetyGate::spend_heat(double dt_s) noexcept {
+  heat_.spend(length_of(last_force_n_), limits_.peak_force_n, limits_.continuous_force_n, dt_s);
 }
 
 // --- Watching ------------------------------------------------------------------------------------------
@@ -280,7 +288,7 @@ GateOutput SafetyGate::pass(const GateInput& input, double dt_s) noexcept {
   }
   last_force_n_ = out.force_n;
   sample_age_s_ = input.position_age_s;
-  heat_.spend(length_of(out.force_n), limits_.peak_force_n, limits_.continuous_force_n, dt_s);
+  if (!std::exchange(heat_is_spent_, false)) spend_heat(dt_s);
   pass_display(input, dt_s, out);
   out.state = state_;
   out.fault = fault_;

@@ -93,6 +93,7 @@ class SafetyGate {
   void latch(GateFault fault) noexcept;
   void latch_falling(GateFault fault) noexcept;
   void forget_motion() noexcept;
+  void spend_heat(double dt_s) noexcept;
   bool check_finite(const GateInput& input, GateOutput& out) noexcept;
   void watch_devices(const GateInput& input) noexcept;
   void watch_freshness(const GateInput& input, double dt_s) noexcept;
@@ -126,6 +127,7 @@ class SafetyGate {
   RenderedWall wall_;        ///< of the last force
   double declared_j_ = 0.0;  ///< since the last pass
   ForceBudget heat_;
+  bool heat_is_spent_ = false;  ///< of this tick, by before_sending
   std::array<std::uint64_t, kGateActionCount> counts_{};
   std::uint64_t faults_ = 0;
 };

@@ -54,9 +54,9 @@ char* remember(const std::filesystem::path& temporary) {
 void forget(char* name) {
   for (std::atomic<char*>& place : temporaries) {
     char* mine = name;
-    if (name != nullptr && place.compare_exchange_strong(mine, nullptr)) break;
+    if (name != nullptr && place.compare_exchange_strong(mine, nullptr)) return std::free(name);
   }
-  std::free(name);
+  // remove_temporary_files has it just now, and the process ends.
 }
 
 /// Makes a rename durable; ignored where directories can't be synced.

@@ -82,6 +82,7 @@ Status check_capabilities(const ForceCapabilities& can) {
                                                 {"workspace, y", can.workspace_half_size_m.y},
                                                 {"workspace, z", can.workspace_half_size_m.z},
                                                 {"rate", can.rate_hz},
+                                                {"homing time", can.homing_s},
                                                 {"firmware time-out", can.firmware_timeout_s}});
   return values ? check_forces(can.name, can.peak_force_n, can.continuous_force_n) : values;
 }
@@ -92,6 +93,7 @@ Status check_capabilities(const DisplayCapabilities& can) {
                                  {"bandwidth", can.bandwidth_hz},
                                  {"rate", can.rate_hz},
                                  {"fastest target", can.fastest_m_per_s},
+                                 {"homing time", can.homing_s},
                                  {"firmware time-out", can.firmware_timeout_s}});
 }
 

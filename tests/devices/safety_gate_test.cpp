@@ -507,3 +507,17 @@ TEST_CASE("a wall is touched through telemetry of every rate with gaps up to the
   }
   CHECK(cases == 135);
 }
+
+TEST_CASE("a stall in which the device holds its force heats the motors") {
+  SafetyGate gate({.peak_force_n = 8.5, .slew_n_per_s = 1e6, .ramp_s = 0.0, .continuous_force_n = 1.4});
+  gate.arm();
+  GateInput in{.force_n = Vec3(0, 0, 8.5), .force_device = DeviceState::ready};
+  for (int i = 0; i < 200; ++i) {
+    gate.before_sending(1e-3);
+    REQUIRE(gate.pass(in, 1e-3).fault == GateFault::none);
+  }
+  const double before = gate.heat().store_n2s();
+  CHECK(gate.before_sending(1.0) == Vec3(0.0));
+  CHECK(gate.pass(in, 1.0).fault == GateFault::late_tick);
+  CHECK(gate.heat().store_n2s() == doctest::Approx(before + 8.5 * 8.5 - 1.4 * 1.4).epsilon(0.02));
+}

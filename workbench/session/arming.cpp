@@ -1,6 +1,7 @@
 #include "workbench/session/arming.h"
 
 #include <cstdio>
+#include <utility>
 
 namespace tangent {
 
@@ -101,6 +102,7 @@ DeviceRequest HomingWish::next(DeviceState state, bool by_itself, double dt_s) n
       return DeviceRequest::none;
     case DeviceState::firmware:
     case DeviceState::homing:
+      if (std::exchange(away_, false)) spent_s_ = 0.0;  // the time until it came is not the time that it homes
       again_ = false;
       return home_or_stop(state, wanted_ || by_itself, dt_s);
     case DeviceState::faulted:
@@ -112,6 +114,7 @@ DeviceRequest HomingWish::next(DeviceState state, bool by_itself, double dt_s) n
       return DeviceRequest::none;
     case DeviceState::open:
     case DeviceState::absent:
+      away_ = true;
       spent_s_ += dt_s;  // it may yet come
       if (spent_s_ >= (limit_s_ > 0.0 ? limit_s_ : kArmingWish_s)) forget();
       return DeviceRequest::none;

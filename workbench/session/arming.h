@@ -76,7 +76,8 @@ class HomingWish {
   DeviceRequest home_or_stop(DeviceState state, bool may, double dt_s) noexcept;
 
   double limit_s_;
-  double spent_s_ = 0.0;  ///< since the wish began, or since the device was last ready
+  double spent_s_ = 0.0;  ///< since the wish began, or since the device was last ready or came
+  bool away_ = false;     ///< not there, or not known yet
   bool wanted_ = false;
   bool clear_ = false;  ///< also clears a fault, once
   bool again_ = false;  ///< also homes a device that is ready, once

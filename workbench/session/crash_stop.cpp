@@ -14,7 +14,7 @@ namespace tangent {
 
 namespace {
 
-std::atomic<bool> to_end{false};
+std::atomic<bool> to_end{false}, links_of_their_own{false};
 std::atomic<int> running{0};
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free, "used by handlers");
 
@@ -41,6 +41,7 @@ void end_in_order(int signal) {
 
 void ask_servos_to_end() noexcept { to_end.store(true, std::memory_order_release); }
 bool servos_are_to_end() noexcept { return to_end.load(std::memory_order_acquire); }
+void wait_for_links() noexcept { links_of_their_own.store(true); }
 void allow_servos() noexcept { to_end.store(false, std::memory_order_release); }
 
 bool end_servos() noexcept {
@@ -50,6 +51,10 @@ bool end_servos() noexcept {
     mine->ended();
   }
   for (int half_ms = 0; half_ms < 2 * kMostWait_ms && running.load() > 0; ++half_ms) wait_a_little();
+  if (links_of_their_own.load()) {
+    const timespec link{0, kLinkWait_ms * 1'000'000L};
+    nanosleep(&link, nullptr);
+  }
   return running.load() == 0;
 }
 
@@ -82,11 +87,15 @@ void install_crash_stop() {
   // NODEFER: raised again in the handler, it ends the process at once.
   action.sa_flags = SA_ONSTACK | SA_NODEFER;
   sigemptyset(&action.sa_mask);
-  for (const int signal : {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT, SIGSYS, SIGTRAP, SIGHUP, SIGINT, SIGTERM, SIGQUIT,
-                           SIGPIPE, SIGALRM, SIGUSR1, SIGUSR2, SIGXCPU, SIGXFSZ, SIGVTALRM, SIGPROF}) {
+  const auto end_by = [&action](int signal) {
     struct sigaction before {};
     if (sigaction(signal, nullptr, &before) == 0 && before.sa_handler == SIG_DFL) sigaction(signal, &action, nullptr);
-  }
+  };
+  for (const int signal :
+       {SIGSEGV, SIGBUS,  SIGILL,  SIGFPE,  SIGABRT, SIGSYS,  SIGTRAP,   SIGHUP,  SIGINT, SIGTERM, SIGQUIT,
+        SIGPIPE, SIGALRM, SIGUSR1, SIGUSR2, SIGXCPU, SIGXFSZ, SIGVTALRM, SIGPROF, SIGPWR, SIGIO,   SIGSTKFLT})
+    end_by(signal);
+  for (int signal = SIGRTMIN; signal <= SIGRTMAX; ++signal) end_by(signal);
   std::atexit([] {
     end_servos();
     remove_temporary_files();

@@ -11,6 +11,7 @@
 
 namespace tangent {
 
+inline constexpr int kLinkWait_ms = 20;   ///< a command is on the cable within a few ms
 inline constexpr int kMostWait_ms = 100;  ///< for servos to send zero force, before the process ends anyway
 
 /// Any thread, and in a signal handler.
@@ -19,6 +20,9 @@ bool servos_are_to_end() noexcept;
 /// Asks, and waits until they have, at most kMostWait_ms. On a servo's own thread it sends zero force itself. False:
 /// some have not. Any thread, and in a signal handler.
 bool end_servos() noexcept;
+/// From now on end_servos waits kLinkWait_ms more, once the servos have ended: the drivers of devices on a cable send
+/// the last command from a thread of their own.
+void wait_for_links() noexcept;
 /// Servos that start from now on run.
 void allow_servos() noexcept;
 

@@ -36,8 +36,9 @@ class ExchangeWatch {
 
  private:
   DeviceSet& devices_;
-  std::atomic<std::int64_t> began_ns_{0};
-  std::atomic<ExchangeWith> with_{ExchangeWith::none}, hung_{ExchangeWith::none};
+  static constexpr int kDeviceBits = 2;
+  std::atomic<std::int64_t> began_{0};  ///< ns << kDeviceBits | device: read at once, or the wrong one would be stopped
+  std::atomic<ExchangeWith> hung_{ExchangeWith::none};
   std::atomic<bool> found_{false}, stopped_{false};
 };
 

@@ -51,6 +51,7 @@ Status Servo::start() {
     return called;
   }
   if (!options_.watch_exchanges) return {};
+  wait_for_links();
   watching_.store(true, std::memory_order_relaxed);
   watching_thread_ = std::thread([this]() noexcept { watch(); });
   return {};

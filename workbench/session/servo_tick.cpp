@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -120,7 +121,8 @@ void ServoTick::bring_up(double dt_s, ServoRecord& record) noexcept {
                         .live = gate_.state() == GateState::ramping || gate_.state() == GateState::armed,
                         .gate_faulted = gate_.state() == GateState::faulted,
                         .outside = outside_workspace(),
-                        .force_wanted_n = force_wanted_n_};
+                        // Of a new scene or preset nothing is known yet.
+                        .force_wanted_n = changed_ ? std::numeric_limits<double>::infinity() : force_wanted_n_};
   const ArmingOrders orders = arming_.update(seen, dt_s);
   force_command_.request = orders.force;
   display_command_.request = orders.display;

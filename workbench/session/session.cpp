@@ -41,6 +41,13 @@ Preset preset_allowed(Preset preset, const DeviceSet& devices) {
   return preset;
 }
 
+/// A device that calls us does so at its own rate.
+Status check_rate(double rate_hz, const DeviceSet& devices) {
+  if (rate_hz >= kSlowestServoHz && rate_hz <= kFastestServoHz) return {};
+  return fail("a tick is not called at " + std::to_string(rate_hz) + " Hz", devices.force->capabilities().name,
+              "use a device that calls at 100 Hz to 10 kHz");
+}
+
 /// What the operating system granted, and how to get the rest.
 void describe_realtime(const SessionOptions& options, bool device_keeps_time, bool wakes_at_once, SessionStatus& s) {
   const RealtimeGrant& got = s.servo.realtime;
@@ -154,6 +161,7 @@ Result<std::unique_ptr<Session>> Session::create(std::shared_ptr<const ContactSc
   if (const Status ok = check_devices(preset, devices->force != nullptr, devices->display != nullptr); !ok)
     return tl::unexpected(ok.error());
   if (const Status ok = open_devices(*devices); !ok) return tl::unexpected(ok.error());
+  if (const Status ok = check_rate(options.servo.rate_hz, *devices); !ok) return tl::unexpected(ok.error());
   const Preset allowed = preset_allowed(preset, *devices);
   auto prepared = std::make_unique<PreparedScene>(std::move(scene), preset.finger);
   auto impl =

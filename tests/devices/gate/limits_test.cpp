@@ -96,3 +96,14 @@ TEST_CASE("the longest tick is twenty periods, never more than 20 ms, and one mi
   CHECK(longest(100.0) == doctest::Approx(20e-3));
   CHECK(longest(100.0) >= 2.0 / 100.0);
 }
+
+TEST_CASE("a homing time that is no length of time is refused") {
+  for (const double bad : {-1.0, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
+    ForceCapabilities force{.name = "arm"};
+    force.homing_s = bad;
+    CHECK_FALSE(check_capabilities(force));
+    DisplayCapabilities display;
+    display.homing_s = bad;
+    CHECK_FALSE(check_capabilities(display));
+  }
+}

@@ -193,3 +193,17 @@ TEST_CASE("Escape while disarmed cancels what is pending: homing stops, and a wi
   CHECK(gate_of(ui) == GateState::disarmed);
   CHECK(ui.model().devices().status().arming == ArmingStage::idle);
 }
+
+TEST_CASE("the wish to arm at the start is gone with the first attempt, even one that fails") {
+  AppOptions options = HeadlessApp::deterministic_options();
+  options.arm_on_start = ArmOnStart::always;
+  options.devices.display = "toaster";
+  HeadlessApp ui(options);
+  ui.frames(3);
+  REQUIRE(ui.model().devices().session() == nullptr);
+  ui.model().devices().choose({"simulated", "simulated"});
+  REQUIRE(ui.model().devices().session() != nullptr);
+  ui.model().advance(2000);
+  ui.frames(2);
+  CHECK(ui.model().devices().status().servo.gate_state == GateState::disarmed);
+}

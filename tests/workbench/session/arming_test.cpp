@@ -319,3 +319,14 @@ TEST_CASE("a simulated hand that explores lifts the finger to be armed, and goes
   CHECK(r.device.gate_state == GateState::armed);
   CHECK(r.tick.output.penetration_m > 0.5e-3);
 }
+
+TEST_CASE("a display that is plugged in long after arming homes by itself, however long that took") {
+  for (const double away_s : {1.0, 9.0, 11.0, 60.0}) {
+    CAPTURE(away_s);
+    HomingWish wish(10.0);
+    for (double t = 0.0; t < away_s; t += 1e-3)
+      CHECK(wish.next(DeviceState::absent, true, 1e-3) == DeviceRequest::none);
+    wish.next(DeviceState::open, true, 1e-3);
+    CHECK(wish.next(DeviceState::firmware, true, 1e-3) == DeviceRequest::home);
+  }
+}

@@ -43,13 +43,17 @@ void DeviceModel::take_scene(PreparedScenePtr prepared) {
 }
 
 void DeviceModel::make_session() {
+  // The wish to arm is for the first attempt, whatever comes of it: a later choice of devices arms nothing.
+  const ArmOnStart arm_on_start = std::exchange(options_.arm_on_start, ArmOnStart::never);
   if (options_.devices.display == "maestro") {
     const auto setup = chosen_maestro_setup(maestro_wish_, maestro_file_);
     if (!setup) return messages_.say(Severity::error, setup.error().message());
     options_.maestro = setup->calibration;
     options_.maestro_channel = setup->channel;
   }
-  auto session = Session::create(scene_.current(), presets_.current(), options_);
+  SessionOptions wanted = options_;
+  wanted.arm_on_start = arm_on_start;
+  auto session = Session::create(scene_.current(), presets_.current(), wanted);
   if (!session) {
     messages_.say(Severity::error, session.error().message());
     return;
@@ -63,7 +67,6 @@ void DeviceModel::make_session() {
                                          " goes on with its last command when this program dies: its firmware has no "
                                          "time-out. Nothing is armed until you say yes in the device monitor");
   if (const Status ok = session_->start(); !ok) messages_.say(Severity::error, ok.error().message());
-  options_.arm_on_start = ArmOnStart::never;  // a choice of devices or a calibration arms nothing
   status_ = session_->status();
 }
 
@@ -165,6 +168,7 @@ bool DeviceModel::stopped() const {
 }
 
 void DeviceModel::stop() {
+  options_.arm_on_start = ArmOnStart::never;  // of a session that is still to come
   if (session_ != nullptr) session_->stop();
 }
 
