@@ -1,4 +1,5 @@
-// A lock between processes on a file that both read, change and write: FILE.lock beside it, which stays.
+// A lock between processes on a file that both read, change and write: FILE.lock beside it. Only who
+// holds it may remove FILE.lock.
 #pragma once
 
 #include <filesystem>

@@ -127,11 +127,13 @@ UnsavedKeeper::UnsavedKeeper(std::filesystem::path folder) {
   std::error_code failed;
   std::filesystem::create_directories(folder, failed);
   // A second window of this process, as tests have, takes another name.
-  for (int i = 0; i < 10; ++i) {
+  // So does one whose process id a crashed run had: that run's file is still to be offered.
+  for (int i = 0; i < 100; ++i) {
     file_ = folder / (std::to_string(::getpid()) + (i > 0 ? "-" + std::to_string(i) : "") + ".toml");
     lock_.emplace(file_, 0.0);
-    if (lock_->held()) return;
+    if (lock_->held() && !std::filesystem::exists(file_, failed)) return;
   }
+  lock_.reset();
   file_.clear();
 }
 
@@ -145,39 +147,69 @@ UnsavedKeeper::~UnsavedKeeper() {
 Status UnsavedKeeper::keep(const UnsavedWork& work) {
   if (file_.empty()) return {};
   std::string text = work.empty() ? std::string() : format_unsaved(work);
+  std::error_code ignored;
+  if (is_there_ && !std::filesystem::exists(file_, ignored)) written_.clear();
   if (text == written_) return {};
   written_ = std::move(text);  // so that a failure is reported once
-  if (!written_.empty()) return write_file_atomic(file_, written_);
-  std::error_code ignored;
+  if (!written_.empty()) {
+    const Status written = write_file_atomic(file_, written_);
+    is_there_ = written.has_value();
+    return written;
+  }
+  is_there_ = false;
   std::filesystem::remove(file_, ignored);
   return {};
 }
 
-std::optional<LeftWork> find_left_work(const std::filesystem::path& folder) {
-  std::vector<std::filesystem::path> files;
+namespace {
+
+/// While it is held, so that nobody else takes it meanwhile (file_lock.h).
+void remove_lock_of(const std::filesystem::path& file) {
+  std::error_code ignored;
+  std::filesystem::remove(file.string() + ".lock", ignored);
+}
+
+void remove_stray_lock(const std::filesystem::path& lock_file) {
+  const std::filesystem::path file = lock_file.parent_path() / lock_file.stem();
+  const FileLock lock(file, 0.0);
+  std::error_code unknown;
+  if (lock.held() && !std::filesystem::exists(file, unknown) && !unknown) remove_lock_of(file);
+}
+
+}  // namespace
+
+std::optional<LeftWork> find_left_work(const std::filesystem::path& folder, std::vector<UnreadWork>* unread) {
+  std::vector<std::filesystem::path> files, locks;
   std::error_code failed;
   for (std::filesystem::directory_iterator it(folder, failed), end; !failed && it != end; it.increment(failed)) {
     if (it->path().extension() == ".toml") files.push_back(it->path());
+    if (it->path().extension() == ".lock" && it->path().stem().extension() == ".toml") locks.push_back(it->path());
   }
+  for (const std::filesystem::path& lock : locks) remove_stray_lock(lock);
   const auto age = [](const std::filesystem::path& file) {
     std::error_code unknown;
     return std::filesystem::last_write_time(file, unknown);
   };
   std::sort(files.begin(), files.end(), [&](const auto& a, const auto& b) { return age(a) > age(b); });
   for (const std::filesystem::path& file : files) {
-    if (!FileLock(file, 0.0).held()) continue;  // its window is open
+    const FileLock lock(file, 0.0);
+    if (!lock.held()) continue;  // its window is open
     const auto text = read_input_file(file, kMostUnsavedBytes);
     const auto work = text ? parse_unsaved(*text, file.string()) : tl::unexpected(text.error());
     if (work && !work->empty()) return LeftWork{*work, file};
-    put_aside(file);
+    const std::filesystem::path aside = put_aside(file);
+    if (!aside.empty()) remove_lock_of(file);
+    if (unread != nullptr) unread->push_back({file, aside});
   }
   return std::nullopt;
 }
 
 void forget_left_work(const LeftWork& left) {
+  const FileLock lock(left.file, 0.0);
+  if (!lock.held()) return;  // a window has it for its own work
   std::error_code ignored;
   std::filesystem::remove(left.file, ignored);
-  std::filesystem::remove(left.file.string() + ".lock", ignored);
+  remove_lock_of(left.file);
 }
 
 }  // namespace tangent

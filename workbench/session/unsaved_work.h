@@ -71,6 +71,7 @@ class UnsavedKeeper {
   std::filesystem::path file_;  ///< empty: nothing is kept
   std::optional<FileLock> lock_;
   std::string written_;
+  bool is_there_ = false;  ///< written_ is in the file
 };
 
 /// Work of a process that is gone.
@@ -78,9 +79,14 @@ struct LeftWork {
   UnsavedWork work;
   std::filesystem::path file;
 };
-/// The newest in `folder` of those whose process is gone; files that can't be read are put aside. Empty: none.
-std::optional<LeftWork> find_left_work(const std::filesystem::path& folder);
-/// Taken up or not wanted: removed.
+/// A file that can't be read, and where it was put; empty: it can't be moved.
+struct UnreadWork {
+  std::filesystem::path file, aside;
+};
+/// The newest in `folder` of those whose process is gone; files that can't be read are put aside, and added to
+/// `unread`. Removes locks that belong to no file. Empty: none.
+std::optional<LeftWork> find_left_work(const std::filesystem::path& folder, std::vector<UnreadWork>* unread = nullptr);
+/// Taken up or not wanted: removed, unless a window has that file for its own work.
 void forget_left_work(const LeftWork& left);
 
 }  // namespace tangent

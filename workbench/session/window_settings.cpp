@@ -93,6 +93,15 @@ Result<WindowSettings> read_window_settings(const std::filesystem::path& path) {
   return out;
 }
 
+namespace {
+
+bool is_newer(const std::filesystem::path& path) {
+  const auto root = read_settings_file(path, kMaxBytes, "");
+  return root && (*root)[kFormatKey].value_or(std::int64_t{0}) > kFormats.newest();
+}
+
+}  // namespace
+
 std::string format_window_settings(const WindowSettings& s) {
   toml::table sections;
   for (const auto& [title, open] : s.sections) sections.insert(title, open);
@@ -170,15 +179,24 @@ WindowSettings merged(const WindowSettings& before, const WindowSettings& ours, 
   return out;
 }
 
-Status keep_window_settings(const WindowSettings& before, const WindowSettings& ours,
-                            const std::filesystem::path& path) {
+Result<KeptSettings> keep_window_settings(const WindowSettings& before, const WindowSettings& ours,
+                                          const std::filesystem::path& path, double wait_s) {
   std::error_code failed;
   std::filesystem::create_directories(path.parent_path(), failed);
-  const FileLock lock(path);
+  const FileLock lock(path, wait_s);
   if (!lock.held())
     return fail("another window holds its lock, or none can be made", path.string(), "close the other window");
   const auto theirs = read_window_settings(path);
-  return write_window_settings(theirs ? merged(before, ours, *theirs) : ours, path);
+  KeptSettings kept;
+  if (!theirs) {
+    if (is_newer(path)) return tl::unexpected(theirs.error());
+    kept.aside = put_aside(path);
+    if (kept.aside.empty()) return tl::unexpected(theirs.error());
+    kept.warning = theirs.error().message() + " (it is kept as " + kept.aside.string() + ")";
+  }
+  if (const Status written = write_window_settings(theirs ? merged(before, ours, *theirs) : ours, path); !written)
+    return tl::unexpected(written.error());
+  return kept;
 }
 
 std::filesystem::path put_aside(const std::filesystem::path& path) {

@@ -44,10 +44,15 @@ Status write_window_settings(const WindowSettings& settings, const std::filesyst
 /// What two windows changed since both read `before`: `ours` where we changed a value, else `theirs`. Lists and
 /// sections entry by entry.
 WindowSettings merged(const WindowSettings& before, const WindowSettings& ours, const WindowSettings& theirs);
+struct KeptSettings {
+  std::filesystem::path aside;  ///< where a file that could not be read was put; empty: it could be read
+  std::string warning;          ///< why, and where; empty with it
+};
 /// Writes what we changed since `before` over what is in the file now, under a lock (file_lock.h), so that two windows
-/// keep each other's changes. A file that can't be read counts as `before`.
-Status keep_window_settings(const WindowSettings& before, const WindowSettings& ours,
-                            const std::filesystem::path& path);
+/// keep each other's changes. A file that can't be read is put aside; one of a newer format is left as it is. Fails
+/// then, and where the lock is not free within `wait_s` or the file can't be written.
+Result<KeptSettings> keep_window_settings(const WindowSettings& before, const WindowSettings& ours,
+                                          const std::filesystem::path& path, double wait_s = 1.0);
 
 /// Puts a file that can't be read out of the way: FILE.bad, or FILE.bad2 to .bad9 where there are some already. Empty:
 /// it can't be moved.

@@ -95,3 +95,45 @@ TEST_CASE("where there is nothing to lose nothing is kept") {
   UnsavedKeeper nowhere({});
   CHECK(nowhere.keep(some_work()));
 }
+
+TEST_CASE("a window with the process id of a crashed run keeps its work in another file") {
+  const TempFolder folder;
+  const auto crashed = folder.write(std::to_string(::getpid()) + ".toml", format_unsaved(some_work()));
+  UnsavedWork other = some_work();
+  other.bookmarks[0].note = "mine";
+  {
+    UnsavedKeeper keeper(folder.path());
+    REQUIRE(keeper.keep(other));
+    const auto left = find_left_work(folder.path());
+    REQUIRE(left.has_value());
+    CHECK(left->work == some_work());
+    CHECK(left->file == crashed);
+  }
+  CHECK(std::filesystem::exists(crashed));  // never taken up, never discarded
+}
+
+TEST_CASE("work that a window keeps is not removed as left - where its file goes it is written again") {
+  const TempFolder folder;
+  UnsavedKeeper keeper(folder.path());
+  REQUIRE(keeper.keep(some_work()));
+  const auto own = folder.path() / (std::to_string(::getpid()) + ".toml");
+  forget_left_work({some_work(), own});
+  CHECK(std::filesystem::exists(own));
+  std::filesystem::remove(own);
+  REQUIRE(keeper.keep(some_work()));
+  CHECK(std::filesystem::exists(own));
+}
+
+TEST_CASE("unsaved work that can't be read is named, and locks of no file are removed unless they are held") {
+  const TempFolder folder;
+  const UnsavedKeeper open(folder.path());
+  const auto bad = folder.write("77.toml", "at = = 1\n");
+  folder.write("77.toml.lock", "");
+  folder.write("78.toml.lock", "");
+  std::vector<UnreadWork> unread;
+  CHECK_FALSE(find_left_work(folder.path(), &unread).has_value());
+  REQUIRE(unread.size() == 1);
+  CHECK(unread[0].file == bad);
+  CHECK(unread[0].aside == bad + ".bad");
+  CHECK(folder.entry_count() == 2);  // it, and the lock that is held
+}

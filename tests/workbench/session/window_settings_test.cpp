@@ -128,3 +128,18 @@ TEST_CASE("while another window holds the lock nothing is written - a file that 
   }
   CHECK(put_aside(path).empty());
 }
+
+TEST_CASE("settings that go bad while a window runs are put aside and named - those of a newer format are left") {
+  const TempFolder folder;
+  WindowSettings ours;
+  ours.left = 400.0;
+  const auto path = folder.write("window.toml", "[layout\n");
+  const auto kept = keep_window_settings({}, ours, path);
+  REQUIRE(kept.has_value());
+  CHECK(contains(kept->warning, "window.toml.bad"));
+  CHECK(read_text(kept->aside) == "[layout\n");
+  CHECK(*read_window_settings(path) == ours);
+  folder.write("window.toml", "format = 2\n");
+  CHECK_FALSE(keep_window_settings({}, ours, path).has_value());
+  CHECK(read_text(path) == "format = 2\n");
+}

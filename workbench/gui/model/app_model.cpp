@@ -4,6 +4,12 @@
 
 namespace tangent {
 
+namespace {
+
+constexpr double kLastWait_s = 1.0;  ///< for another window's lock, where there is no next time
+
+}  // namespace
+
 AppModel::AppModel(const AppOptions& options)
     : options_(options),
       window_(options_, messages_),
@@ -26,10 +32,10 @@ AppModel::AppModel(const AppOptions& options)
   scene_.open_first(options_.mesh);
 }
 
-AppModel::~AppModel() { window_.keep_settings(kept_look()); }
+AppModel::~AppModel() { window_.keep_settings(kept_look(), kLastWait_s); }
 
 void AppModel::keep() {
-  window_.keep_settings(kept_look());
+  window_.keep_settings(kept_look(), kLastWait_s);
   unsaved_.keep();
 }
 

@@ -17,12 +17,13 @@ std::filesystem::path folder_beside(const std::filesystem::path& settings) {
 }  // namespace
 
 UnsavedModel::UnsavedModel(const AppOptions& options, PresetModel& presets, TimeModel& time, MessageLog& messages)
-    : presets_(presets),
-      time_(time),
-      messages_(messages),
-      folder_(folder_beside(options.settings)),
-      left_(find_left_work(folder_)),
-      keeper_(folder_) {}
+    : presets_(presets), time_(time), messages_(messages), folder_(folder_beside(options.settings)), keeper_(folder_) {
+  std::vector<UnreadWork> unread;
+  left_ = find_left_work(folder_, &unread);
+  for (const UnreadWork& work : unread)
+    messages_.say(Severity::warning, work.file.string() + ": unsaved work of an earlier run that can't be read" +
+                                         (work.aside.empty() ? "" : " (it is kept as " + work.aside.string() + ")"));
+}
 
 void UnsavedModel::update(double now_s) {
   if (now_s - looked_at_s_ < kEvery_s) return;

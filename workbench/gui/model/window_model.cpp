@@ -48,7 +48,7 @@ void WindowModel::update(double now_s, const KeptLook& look) {
   if (now_s_ - settings_looked_at_s_ > kSettingsEvery_s) keep_settings(look);
 }
 
-void WindowModel::keep_settings(const KeptLook& look) {
+void WindowModel::keep_settings(const KeptLook& look, double wait_s) {
   settings_looked_at_s_ = now_s_;
   settings_.left = static_cast<double>(sizes_.left);
   settings_.right = static_cast<double>(sizes_.right);
@@ -62,9 +62,12 @@ void WindowModel::keep_settings(const KeptLook& look) {
   settings_.favourites = favourites_;
   settings_.colour_map = colour_map_names()[static_cast<std::size_t>(look.colours)];
   if (settings_file_.empty() || settings_are_unread_ || settings_ == written_settings_) return;
-  if (auto written = keep_window_settings(written_settings_, settings_, settings_file_); !written)
-    messages_.say(Severity::warning, written.error().message());
-  written_settings_ = settings_;  // so that a failure is reported once, not every two seconds
+  const auto kept = keep_window_settings(written_settings_, settings_, settings_file_, wait_s);
+  const std::string warning = kept ? kept->warning : kept.error().message();
+  // Tried again every two seconds, said once.
+  if (!warning.empty() && warning != last_warning_) messages_.say(Severity::warning, warning);
+  last_warning_ = kept ? std::string() : warning;
+  if (kept) written_settings_ = settings_;
 }
 
 void WindowModel::set_ui_scale(float scale) { ui_scale_ = std::clamp(scale, 0.6f, 3.0f); }

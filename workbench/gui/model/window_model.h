@@ -31,7 +31,8 @@ class WindowModel {
   std::optional<KeptLook> read_settings();
   /// Call once per frame; writes changed settings to disk from time to time.
   void update(double now_s, const KeptLook& look);
-  void keep_settings(const KeptLook& look);
+  /// Waits up to `wait_s` for another window that writes them, else leaves them to the next time.
+  void keep_settings(const KeptLook& look, double wait_s = 0.0);
   void opened(const std::string& mesh) { settings_.opened(mesh); }
   const WindowSettings& settings() const { return settings_; }  ///< as of the last frame
 
@@ -62,6 +63,7 @@ class WindowModel {
   Theme theme_;
   float ui_scale_ = 1.0f;
   WindowSettings settings_, written_settings_;
+  std::string last_warning_;          ///< why they were not written the last time; empty: they were
   bool settings_are_unread_ = false;  ///< broken, or of a newer program: not written over
   double now_s_ = 0.0, settings_looked_at_s_ = 0.0;
   std::vector<std::string> favourites_;

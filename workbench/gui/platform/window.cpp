@@ -5,6 +5,7 @@
 #include "workbench/gui/platform/save_picture.h"
 #include "workbench/gui/render/image.h"
 #include "workbench/gui/render/scene_renderer.h"
+#include "workbench/session/crash_stop.h"
 
 #include <epoxy/gl.h>
 
@@ -72,13 +73,14 @@ class ImGuiOnWindow {
   ImGuiOnWindow& operator=(const ImGuiOnWindow&) = delete;
 };
 
-/// Xlib calls exit() when its server is gone: what is to outlive the window is written then, too. The force is gone by
-/// then (session/crash_stop.h).
+/// Xlib calls exit() when its server is gone: what is to outlive the window is written then, too. This runs before
+/// what crash_stop.h does at exit, as the last one registered runs first: so it ends the force itself before it writes.
 class KeptAtExit {
  public:
   explicit KeptAtExit(App& app) {
     app_ = &app;
     [[maybe_unused]] static const int once = std::atexit([] {
+      end_servos();
       if (app_ != nullptr) app_->model().keep();
     });
   }

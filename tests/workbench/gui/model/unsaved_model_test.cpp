@@ -76,3 +76,24 @@ TEST_CASE("work that is discarded is offered no more, and an orderly end leaves 
   RunningApp ui(kept_in(folder));
   CHECK(ui.model().unsaved().offer().empty());
 }
+
+TEST_CASE("settings that can't be written are tried again, the reason is said once, and unread work is named") {
+  const testing::TempFolder folder;
+  std::filesystem::create_directories(folder.path() / "unsaved");
+  folder.write("unsaved/77.toml", "at = = 1\n");
+  HeadlessApp ui(kept_in(folder));
+  const auto said = [&](const char* text) {
+    std::size_t n = 0;
+    for (const Message& m : ui.model().messages().all()) n += testing::contains(m.text, text) ? m.times : 0;
+    return n;
+  };
+  CHECK(said("77.toml.bad") == 1);
+  folder.write("window.toml", "format = 2\n");
+  ui.model().window().set_ui_scale(1.5f);
+  for (int i = 0; i < 3; ++i) ui.model().window().keep_settings({});
+  CHECK(testing::read_text(folder.path() / "window.toml") == "format = 2\n");
+  CHECK(said("this file has format 2") == 1);
+  std::filesystem::remove(folder.path() / "window.toml");
+  ui.model().window().keep_settings({});
+  CHECK(read_window_settings(folder.path() / "window.toml")->text_size == doctest::Approx(1.5));
+}
