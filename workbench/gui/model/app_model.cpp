@@ -32,7 +32,10 @@ AppModel::AppModel(const AppOptions& options)
   scene_.open_first(options_.mesh);
 }
 
-AppModel::~AppModel() { window_.keep_settings(kept_look(), kLastWait_s); }
+AppModel::~AppModel() {
+  devices_.end_session();  // no force while a file is waited for
+  window_.keep_settings(kept_look(), kLastWait_s);
+}
 
 void AppModel::keep() {
   window_.keep_settings(kept_look(), kLastWait_s);

@@ -29,6 +29,8 @@ class DeviceModel {
   const DeviceNames& names() const { return options_.devices; }
   void choose(const DeviceNames& names);  ///< a new session
 
+  void end_session() { session_.reset(); }  ///< stops the force and releases the devices
+
   // Called by the other parts.
   void take_scene(PreparedScenePtr prepared);  ///< sends scene.current(); creates the first session
   std::optional<std::uint32_t> send_preset();  ///< sends presets.current(); its id, or empty when it was refused
