@@ -1,9 +1,8 @@
 #include "devices/simulated/scheduled_force_device.h"
 
 #include <cmath>
+#include <ctime>
 #include <system_error>
-
-#include <time.h>
 
 namespace tangent {
 
