@@ -7,7 +7,7 @@
 #include <array>
 #include <atomic>
 #include <cerrno>
-#include <cstdlib>
+#include <climits>
 #include <cstring>
 #include <utility>
 
@@ -38,25 +38,34 @@ int open_beside(const std::filesystem::path& place, mode_t mode, std::filesystem
 
 // --- For a process that ends by a signal ----------------------------------------------------------------
 
-std::array<std::atomic<char*>, 64> temporaries{};
+/// The name of one temporary file, in memory that nobody frees: a signal handler may be reading it. `removed` stays:
+/// the process ends.
+struct KeptName {
+  enum class State { empty, filling, held, removed };
+  std::atomic<State> state{State::empty};
+  std::array<char, PATH_MAX> name{};
+};
 
-/// Its copy of the name, to be given back to `forget`; null where there is no room.
-char* remember(const std::filesystem::path& temporary) {
-  char* name = ::strdup(temporary.c_str());
-  for (std::atomic<char*>& place : temporaries) {
-    char* free_place = nullptr;
-    if (name != nullptr && place.compare_exchange_strong(free_place, name)) return name;
+std::array<KeptName, 64> temporaries;
+
+/// Which of `temporaries` holds the name, to be given back to `forget`; -1 where there is no room.
+int remember(const std::filesystem::path& temporary) {
+  const std::string& name = temporary.native();
+  for (std::size_t i = 0; i < temporaries.size() && name.size() < PATH_MAX; ++i) {
+    KeptName& kept = temporaries[i];
+    KeptName::State empty = KeptName::State::empty;
+    if (!kept.state.compare_exchange_strong(empty, KeptName::State::filling)) continue;
+    std::memcpy(kept.name.data(), name.c_str(), name.size() + 1);
+    kept.state = KeptName::State::held;
+    return static_cast<int>(i);
   }
-  std::free(name);
-  return nullptr;
+  return -1;
 }
 
-void forget(char* name) {
-  for (std::atomic<char*>& place : temporaries) {
-    char* mine = name;
-    if (name != nullptr && place.compare_exchange_strong(mine, nullptr)) return std::free(name);
-  }
-  // remove_temporary_files has it just now, and the process ends.
+void forget(int which) {
+  KeptName::State held = KeptName::State::held;
+  if (which >= 0)
+    temporaries[static_cast<std::size_t>(which)].state.compare_exchange_strong(held, KeptName::State::empty);
 }
 
 /// Makes a rename durable; ignored where directories can't be synced.
@@ -105,7 +114,7 @@ AtomicFile::AtomicFile(AtomicFile&& other) noexcept
     : target_(std::move(other.target_)),
       place_(std::move(other.place_)),
       temporary_(std::move(other.temporary_)),
-      known_as_(std::exchange(other.known_as_, nullptr)),
+      known_as_(std::exchange(other.known_as_, -1)),
       buffer_(std::move(other.buffer_)),
       fd_(std::exchange(other.fd_, -1)),
       status_(std::move(other.status_)) {
@@ -153,7 +162,7 @@ Status AtomicFile::commit(bool durable) {
     return status_;
   }
   temporary_.clear();
-  forget(std::exchange(known_as_, nullptr));
+  forget(std::exchange(known_as_, -1));
   if (durable) sync_directory(place_.parent_path());
   return status_;
 }
@@ -163,8 +172,9 @@ void AtomicFile::record_failure(const char* doing) {
 }
 
 void remove_temporary_files() noexcept {
-  for (std::atomic<char*>& place : temporaries) {
-    if (const char* name = place.exchange(nullptr); name != nullptr) ::unlink(name);  // not freed: in a signal handler
+  for (KeptName& kept : temporaries) {
+    KeptName::State held = KeptName::State::held;
+    if (kept.state.compare_exchange_strong(held, KeptName::State::removed)) ::unlink(kept.name.data());
   }
 }
 

@@ -38,7 +38,7 @@ class AtomicFile {
   std::filesystem::path target_;     ///< as the user named it, for messages
   std::filesystem::path place_;      ///< with links resolved
   std::filesystem::path temporary_;  ///< empty: written directly, or committed
-  char* known_as_ = nullptr;         ///< the same, for remove_temporary_files
+  int known_as_ = -1;                ///< where remove_temporary_files finds its name
   std::string buffer_;
   int fd_ = -1;
   Status status_;
