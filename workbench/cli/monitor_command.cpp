@@ -24,7 +24,7 @@ struct MonitorOptions {
   DeviceChoice devices;
   double seconds = 0.0;  ///< 0: until q or Ctrl-C
   double servo_hz = 1000.0;
-  std::string inject;
+  InjectedFault inject = InjectedFault::none;
   bool inject_display = false, stay_stopped = false, arm = false, without_timeout = false;
 };
 
@@ -108,12 +108,7 @@ void watch(Session& session, const MonitorOptions& options, const FaultInjection
 }
 
 Status run_monitor(const MonitorOptions& options) {
-  FaultInjection fault;
-  if (!options.inject.empty()) {
-    const auto kind = injected_fault(options.inject);
-    if (!kind) return tl::unexpected(kind.error());
-    fault.kind = *kind;
-  }
+  const FaultInjection fault{.kind = options.inject};
   auto scene = builtin_scene();
   if (!scene) return tl::unexpected(scene.error());
   SessionOptions wanted;
@@ -144,7 +139,7 @@ Status run_monitor(const MonitorOptions& options) {
   watch(**session, options, fault);
   (*session)->shut_down();
   std::fputs(monitor_report(**session).c_str(), stdout);
-  return {};
+  return (*session)->packet_log();
 }
 
 }  // namespace
@@ -157,15 +152,16 @@ void add_monitor_command(CLI::App& app, CommandResult& result) {
                     "How long (default: until q or Ctrl-C)", [options](double v) { options->seconds = v; });
   add_number_option(*command, "--servo-hz", {.min = kSlowestServoHz, .max = kFastestServoHz, .unit = "Hz"},
                     "Rate of the servo (default 1000)", [options](double v) { options->servo_hz = v; });
-  add_text_option(*command, "--inject", options->inject,
-                  "Fault to give the simulated device once armed: drop-out, stuck-encoder, delay-burst or noise",
-                  "FAULT");
+  add_choice_option(
+      *command, "--inject", injected_fault_names(), "Fault to give the simulated device once armed",
+      [options](int i) { options->inject = *injected_fault(injected_fault_names()[static_cast<std::size_t>(i)]); });
   add_flag(*command, "--inject-display", options->inject_display,
            "Give it to the contact display instead of the force device");
   add_flag(*command, "--arm", options->arm, kArmText);
   add_flag(*command, "--without-timeout", options->without_timeout,
            "Arm even a device that goes on with its last command when this program dies");
   add_flag(*command, "--stay-stopped", options->stay_stopped, "No force until a is pressed");
+  refuse_together(*command, "--arm", "--stay-stopped");
   on_run(*command, [options, &result] {
     const Status status = run_monitor(*options);
     if (!status) print_message("monitor", status.error().message());

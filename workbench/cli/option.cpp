@@ -74,6 +74,10 @@ void require_together(CLI::App& app, const std::string& name, const std::string&
   app.get_option(other)->needs(app.get_option(name));
 }
 
+void refuse_together(CLI::App& app, const std::string& name, const std::string& other) {
+  app.get_option(name)->excludes(app.get_option(other));
+}
+
 void refuse_option(const std::string& name, const std::string& why) { throw CLI::ValidationError(name, why); }
 
 std::vector<GivenOption> given_options(const CLI::App& command) {

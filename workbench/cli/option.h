@@ -54,6 +54,9 @@ void add_choice_option(CLI::App& app, const std::string& name, std::span<const s
 /// Both or neither.
 void require_together(CLI::App& app, const std::string& name, const std::string& other);
 
+/// One of them at most.
+void refuse_together(CLI::App& app, const std::string& name, const std::string& other);
+
 /// Ends the parsing; `why` goes on after the option's name.
 [[noreturn]] void refuse_option(const std::string& name, const std::string& why);
 

@@ -296,6 +296,8 @@ void Session::arm() {
   if (!needs_yes()) impl_->channels.force.put(ForceSwitch::arm);
 }
 std::vector<std::string> Session::without_timeout() const { return devices_without_timeout(impl_->devices); }
+Status Session::packet_log() const { return impl_->packets ? impl_->packets->complete() : Status{}; }
+
 bool Session::needs_yes() const { return !impl_->accepted_no_timeout && !without_timeout().empty(); }
 void Session::accept_no_timeout() { impl_->accepted_no_timeout = true; }
 void Session::stop() { impl_->channels.stop.store(true, std::memory_order_release); }

@@ -132,6 +132,8 @@ class Session {
   /// nothing until a person who was told of it has said yes.
   std::vector<std::string> without_timeout() const;
   bool needs_yes() const;
+  /// Fails when the log of USB packets lacks some; done where none is written.
+  Status packet_log() const;
   void accept_no_timeout();
   /// Injects a fault into the simulated display or force device. Ignored by real devices.
   void inject(const FaultInjection& fault, bool display);

@@ -2,6 +2,7 @@
 
 #include "core/io/atomic_file.h"
 #include "core/io/file_format.h"
+#include "core/io/file_name.h"
 #include "core/io/toml_file.h"
 #include "workbench/session/file_lock.h"
 
@@ -29,13 +30,13 @@ void take(const toml::table& from, const char* key, std::vector<std::string>& to
   if (list == nullptr) return;
   to.clear();
   for (const toml::node& node : *list) {
-    if (const auto text = node.value<std::string>(); text && to.size() < most) to.push_back(*text);
+    if (const auto text = node.value<std::string>(); text && to.size() < most) to.push_back(file_named(*text).string());
   }
 }
 
 toml::array as_array(const std::vector<std::string>& texts) {
   toml::array out;
-  for (const std::string& text : texts) out.push_back(text);
+  for (const std::string& text : texts) out.push_back(file_name_text(text));  // meshes may be among them
   return out;
 }
 
@@ -213,7 +214,7 @@ std::filesystem::path put_aside(const std::filesystem::path& path) {
 Status write_window_settings(const WindowSettings& settings, const std::filesystem::path& path) {
   std::error_code failed;
   std::filesystem::create_directories(path.parent_path(), failed);
-  return write_file_atomic(path, format_window_settings(settings));
+  return write_file_atomic(path, format_window_settings(settings), false);  // by the window: no wait for the disk
 }
 
 }  // namespace tangent

@@ -51,7 +51,7 @@ TEST_CASE("a signal ends the monitor in order, with its report") {
 
 TEST_CASE("monitor refuses unknown faults and devices, naming the choices") {
   const ProcessResult fault = run_workbench({"monitor", "--seconds", "1", "--inject", "gremlins"});
-  CHECK(fault.exit_code == 1);
+  CHECK(fault.exit_code == 2);
   CHECK(has(fault.err, "stuck-encoder"));
   const ProcessResult device = run_workbench({"monitor", "--seconds", "1", "--device", "phantom"});
   CHECK(device.exit_code == 2);
@@ -60,6 +60,16 @@ TEST_CASE("monitor refuses unknown faults and devices, naming the choices") {
   CHECK(force.exit_code == 2);
   CHECK(has(force.err, "ideal"));
   CHECK(run_workbench({"monitor", "--seconds", "x"}).exit_code == 2);
+  const ProcessResult both = run_workbench({"monitor", "--seconds", "1", "--arm", "--stay-stopped"});
+  CHECK(both.exit_code == 2);
+  CHECK(has(both.err, "--stay-stopped"));
+}
+
+TEST_CASE("a log of packets that can't be written ends the monitor before anything moves") {
+  const ProcessResult r = run_workbench({"monitor", "--seconds", "1", "--packets", "/dev/full"});
+  CHECK(r.exit_code == 1);
+  CHECK(has(r.err, "/dev/full"));
+  CHECK_FALSE(has(r.out, "armed"));
 }
 
 TEST_CASE("force device and display are chosen apart, whatever --device says") {

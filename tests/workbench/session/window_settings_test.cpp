@@ -21,6 +21,7 @@ TEST_CASE("settings read back as they were written, with odd names") {
   s.sections = {{"Iterations", false}, {"A \"quoted\" title", true}};
   s.favourites = {"solver.gain_overall"};
   s.opened("/tmp/a b/\u00fc.obj");
+  s.opened("/tmp/m\xE9sh, not UTF-8.obj");
   s.opened("torus");
   const auto path = folder.path() / "new" / "folder" / "window.toml";
   REQUIRE(write_window_settings(s, path));

@@ -125,6 +125,9 @@ void DeviceModel::take_status() {
   if (status_.force_fault != last_fault_ && status_.force_fault != DeviceFault::none)
     messages_.say(Severity::error, std::string("force device: ") + to_string(status_.force_fault));
   last_fault_ = status_.force_fault;
+  const Status log = session_->packet_log();
+  if (!log && packet_log_complete_) messages_.say(Severity::error, "log of USB packets: " + log.error().message());
+  packet_log_complete_ = log.has_value();
 }
 
 void DeviceModel::calibrate_maestro(const MaestroCalibration& calibration, unsigned channel) {

@@ -66,6 +66,7 @@ class DeviceModel {
   std::unique_ptr<Session> session_;
   SessionStatus status_;
   DeviceFault last_fault_ = DeviceFault::none;
+  bool packet_log_complete_ = true;  ///< so that a failure is said once
   GateFault last_gate_fault_ = GateFault::none;
   ExchangeWith last_hung_ = ExchangeWith::none;
   double capped_n_per_m_ = 0.0;  ///< stiffness asked for when it was last said that the device takes less
