@@ -1,5 +1,8 @@
 // Target of the simulated hand, tick by tick: along the path or to a point, limited to a hand's speed. World frame, SI.
 // Servo thread; does not allocate.
+//
+// A hand that is led to a point starts where it is, and its target never goes further ahead of the finger than the
+// command's longest lead: where the surface is in the way, the finger rests on it, pressed as hard as that pulls.
 #pragma once
 
 #include "devices/simulated_hand.h"
@@ -10,22 +13,27 @@ namespace tangent {
 
 class HandLead {
  public:
-  void command(const HandCommand& command) noexcept { command_ = command; }
+  void command(const HandCommand& command) noexcept {
+    led_ = led_ || command.settings.mode == HandMode::point;
+    command_ = command;
+  }
 
   /// Starts a path off the surface; the following calls of advance approach the surface.
   HandTarget begin(const ExplorationPath& path, double pad_m) noexcept;
   /// Begins the approach anew, from off the surface, as a person does who is asked to move off it. Called tick by tick
   /// it stays there. A hand that is led to a point stays where it is led.
   void lift() noexcept { approach_s_ = 0.0; }
-  /// Target of the next tick. Precondition: `path` is the one given to begin.
-  HandTarget advance(const ExplorationPath& path, double pad_m, double dt_s) noexcept;
+  /// Target of the next tick, with the finger at `finger_m`. Precondition: `path` is the one given to begin.
+  HandTarget advance(const ExplorationPath& path, double pad_m, const Vec3& finger_m, double dt_s) noexcept;
 
  private:
+  Vec3 led_move(const Vec3& to_m, const Vec3& finger_m, double dt_s) noexcept;
   PathPose wanted(const ExplorationPath& path, double pad_m) const noexcept;
 
   HandCommand command_;
   double way_m_ = 0.0;       ///< arc length along the path
   double approach_s_ = 0.0;  ///< since begin
+  bool led_ = false;         ///< by a point, or on the way back from one to the path
   PathPose goal_;
 };
 

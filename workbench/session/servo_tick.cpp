@@ -147,7 +147,8 @@ void ServoTick::exchange_devices(double dt_s) noexcept {
 void ServoTick::exchange(double dt_s, ServoRecord& record) noexcept {
   SimulatedHand* hand = devices_.force ? devices_.force->hand() : nullptr;
   if (hand != nullptr || !devices_.force) {
-    const HandTarget target = hand_.advance(scene_->path, pad_distance_m(preset_.preset.finger), dt_s);
+    const HandTarget target =
+        hand_.advance(scene_->path, pad_distance_m(preset_.preset.finger), force_sample_.position_m, dt_s);
     record.device.hand_target_m = target.position_m + target.velocity_m_per_s * dt_s;
     record.device.hand_led = 1;
     if (hand != nullptr) {

@@ -120,7 +120,7 @@ struct Session::Impl {
   /// A force device that calls us; null: the servo keeps the time.
   ForceDevice* scheduler() const { return devices.force && devices.force->calls_us() ? devices.force.get() : nullptr; }
   void keep_awake();
-  void send_hand() { channels.hand.put({hand, hand_point}); }
+  void send_hand() { channels.hand.put({hand, hand_point, kMouseSpeed, kMouseLead_m}); }
   void forget_scenes();
 };
 
