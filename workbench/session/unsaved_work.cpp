@@ -139,7 +139,7 @@ UnsavedKeeper::UnsavedKeeper(std::filesystem::path folder) {
 }
 
 UnsavedKeeper::~UnsavedKeeper() {
-  if (file_.empty()) return;
+  if (file_.empty() || (left_ && is_there_)) return;
   std::error_code ignored;
   std::filesystem::remove(file_, ignored);
   std::filesystem::remove(file_.string() + ".lock", ignored);

@@ -48,18 +48,33 @@ void WindowSettings::opened(const std::string& mesh) {
   if (recent_meshes.size() > kMostRecent) recent_meshes.resize(kMostRecent);
 }
 
-std::filesystem::path window_settings_path() {
-  const char* config = std::getenv("XDG_CONFIG_HOME");
+namespace {
+
+/// Of this program, below the folder that the variable names; empty when there is no home directory.
+std::filesystem::path xdg_folder(const char* variable, const char* below_home) {
+  const char* named = std::getenv(variable);
   const char* home = std::getenv("HOME");
   std::filesystem::path folder;
   // The XDG specification says to ignore relative paths.
-  if (config != nullptr && config[0] == '/')
-    folder = config;
+  if (named != nullptr && named[0] == '/')
+    folder = named;
   else if (home != nullptr && home[0] == '/')
-    folder = std::filesystem::path(home) / ".config";
+    folder = std::filesystem::path(home) / below_home;
   else
     return {};
-  return folder / "tangent-workbench" / "window.toml";
+  return folder / "tangent-workbench";
+}
+
+}  // namespace
+
+std::filesystem::path window_settings_path() {
+  const std::filesystem::path folder = xdg_folder("XDG_CONFIG_HOME", ".config");
+  return folder.empty() ? folder : folder / "window.toml";
+}
+
+std::filesystem::path user_presets_path() {
+  const std::filesystem::path folder = xdg_folder("XDG_DATA_HOME", ".local/share");
+  return folder.empty() ? folder : folder / "presets";
 }
 
 Result<WindowSettings> read_window_settings(const std::filesystem::path& path) {

@@ -77,6 +77,8 @@ TEST_CASE("the path follows XDG_CONFIG_HOME when it is absolute, else the home f
   CHECK(window_settings_path() == "/tmp/config/tangent-workbench/window.toml");
   ::setenv("XDG_CONFIG_HOME", "relative", 1);
   CHECK(window_settings_path().string().find("relative") == std::string::npos);
+  CHECK(user_presets_path().filename() == "presets");
+  CHECK(user_presets_path().string().find("config") == std::string::npos);
   if (old != nullptr)
     ::setenv("XDG_CONFIG_HOME", kept.c_str(), 1);
   else

@@ -99,14 +99,19 @@ void add_time_commands(std::vector<Command>& out, AppModel& model) {
                  [&model] { model.devices().set_hand_follows_mouse(!model.devices().hand_follows_mouse()); }});
 }
 
-void add_preset_commands(std::vector<Command>& out, AppModel& model) {
+void add_preset_commands(std::vector<Command>& out, AppModel& model, MenuBar& menu) {
   out.push_back({"Preset: undo", "Ctrl+Z", [&model] { model.presets().undo(); }});
   out.push_back({"Preset: redo", "Ctrl+Y", [&model] { model.presets().redo(); }});
   out.push_back({"Preset: switch between A and B", "B", [&model] { model.presets().toggle_ab(); }});
   out.push_back({"Preset: copy to the other of A and B", "", [&model] { model.presets().copy_ab(); }});
   out.push_back({"Preset: revert all changes", "", [&model] { model.presets().revert_all(); }});
   for (const auto& file : model.presets().files())
-    out.push_back({"Preset: load " + file.stem().string(), "", [&model, file] { model.presets().load(file); }});
+    out.push_back({"Preset: load " + file.label, "", [&model, path = file.path] { model.open(path.string()); }});
+  out.push_back({"Preset: load built-in", "", [&model] { model.presets().load_built_in(); }});
+  out.push_back({"Preset: open a file", "", [&model, &menu] {
+                   menu.path.open = menu.path.focus = true;
+                   menu.path.text = model.presets().folder().string() + "/";
+                 }});
 }
 
 void add_mesh_commands(std::vector<Command>& out, AppModel& model, MenuBar& menu) {
@@ -139,7 +144,7 @@ void add_mesh_commands(std::vector<Command>& out, AppModel& model, MenuBar& menu
 std::vector<Command> window_commands(AppModel& model, MenuBar& menu) {
   std::vector<Command> out;
   add_time_commands(out, model);
-  add_preset_commands(out, model);
+  add_preset_commands(out, model, menu);
   add_view_commands(out, model);
   add_mesh_commands(out, model, menu);
   add_panel_commands(out, model);

@@ -37,6 +37,8 @@ void draw_compare_panel(const UiContext& ui, AppModel& model, ComparePanel& stat
 struct PresetsPanel {
   bool open = true;
   std::string name;       ///< typed name to save under
+  std::string note;       ///< typed note to save with it
+  std::string note_of;    ///< path of the preset that the note was taken from
   std::string asked_for;  ///< this file exists: pressing again overwrites it
   std::string written;    ///< saved before in this run: no confirmation
 };
