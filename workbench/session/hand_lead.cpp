@@ -29,7 +29,7 @@ HandTarget HandLead::begin(const ExplorationPath& path, double pad_m) noexcept {
   return {goal_.position_m, Vec3(0.0), goal_.orientation};
 }
 
-HandTarget HandLead::advance(const ExplorationPath& path, double pad_m, double dt_s) noexcept {
+HandTarget HandLead::advance(const ExplorationPath& path, double pad_m, double dt_s, double scale) noexcept {
   if (command_.settings.mode == HandMode::explore) {
     const double speed = std::clamp(command_.settings.speed_m_per_s, 0.0, kFastestHand);
     way_m_ = std::fmod(way_m_ + speed * dt_s, path.length_m());
@@ -37,7 +37,7 @@ HandTarget HandLead::advance(const ExplorationPath& path, double pad_m, double d
   }
   const PathPose next = wanted(path, pad_m);
   Vec3 move = next.position_m - goal_.position_m;
-  const double far = std::sqrt(glm::dot(move, move)), farthest = kHandSpeedLimit * dt_s;
+  const double far = std::sqrt(glm::dot(move, move)), farthest = kHandSpeedLimit * scale * dt_s;
   if (far > farthest) move *= farthest / far;
 
   // The position at the start of this tick; the device extrapolates it with the velocity until the tick's end.

@@ -1,5 +1,5 @@
-// Target of the simulated hand, tick by tick: along the path or to a point, limited to a hand's speed. World frame, SI.
-// Servo thread; does not allocate.
+// Target of the simulated hand, tick by tick: along the path or to a point, limited to a hand's speed. The scene's
+// frame, SI. Servo thread; does not allocate.
 #pragma once
 
 #include "devices/simulated_hand.h"
@@ -17,8 +17,11 @@ class HandLead {
   /// Begins the approach anew, from off the surface, as a person does who is asked to move off it. Called tick by tick
   /// it stays there. A hand that is led to a point stays where it is led.
   void lift() noexcept { approach_s_ = 0.0; }
-  /// Target of the next tick. Precondition: `path` is the one given to begin.
-  HandTarget advance(const ExplorationPath& path, double pad_m, double dt_s) noexcept;
+  /// From there on, at the hand's speed: the finger is elsewhere in the scene (it was placed anew).
+  void go_on_from(const Vec3& position_m) noexcept { goal_.position_m = position_m; }
+  /// Target of the next tick. `scale`: of the scene on the device, where the hand's own speed is limited. Precondition:
+  /// `path` is the one given to begin.
+  HandTarget advance(const ExplorationPath& path, double pad_m, double dt_s, double scale = 1.0) noexcept;
 
  private:
   PathPose wanted(const ExplorationPath& path, double pad_m) const noexcept;
