@@ -46,6 +46,11 @@ struct ForceCapabilities {
   double firmware_timeout_s = 0.0;         ///< firmware watchdog: stops the force when no command comes; 0: none
 };
 
+/// "x, y, z": the axes that it can push along.
+std::string pushed_axes(const ForceCapabilities& can);
+/// "at 0.0 0.0 300.0 mm, turned by 0.0 0.0 90.0 deg": in the world.
+std::string frame_text(const DeviceFrame& frame);
+
 struct ForceCommand {
   std::uint64_t tick = 0;
   Vec3 force_n{0.0};  ///< the device's frame; ignored unless ready

@@ -17,6 +17,24 @@ Status check_placement(const Placement& placement) {
   return {};
 }
 
+Quat rotation_from_degrees(const Vec3& angles_deg) {
+  const Vec3 half = glm::radians(angles_deg) * 0.5;
+  const auto about = [&half](int axis) {
+    Vec3 part(0.0);
+    part[axis] = std::sin(half[axis]);
+    return Quat(std::cos(half[axis]), part.x, part.y, part.z);
+  };
+  return about(2) * about(1) * about(0);
+}
+
+Vec3 degrees_of(const Quat& rotation) {
+  const Mat3 m = glm::mat3_cast(rotation);  // m[column][row]; R = Rz Ry Rx
+  const double sine = std::clamp(-m[0][2], -1.0, 1.0);
+  constexpr double kFlat = 1.0 - 1e-12;  // there x and z turn about one axis
+  if (std::abs(sine) > kFlat) return glm::degrees(Vec3(std::atan2(-m[2][1], m[1][1]), std::asin(sine), 0.0));
+  return glm::degrees(Vec3(std::atan2(m[1][2], m[2][2]), std::asin(sine), std::atan2(m[0][1], m[0][0])));
+}
+
 Placement composed(const Placement& placement, const DeviceFrame& frame) {
   if (frame == DeviceFrame{}) return placement;
   return {placement.scale, placement.rotation * frame.rotation, placement.to_scene(frame.origin_m)};

@@ -30,7 +30,8 @@ struct DeviceFrame {
 /// `v` turned by `q`; exactly `v` by the identity.
 inline Vec3 turned(const Quat& q, const Vec3& v) { return q == Quat(1.0, 0.0, 0.0, 0.0) ? v : q * v; }
 
-/// From a frame (the world, or a device's own) to the scene. With the default every value keeps its bits.
+/// Where the device is in the scene, how large its metre is there and how its axes lie: from a frame (the world, or a
+/// device's own) to the scene. With the default every value keeps its bits.
 struct Placement {
   static constexpr double kSmallestScale = 1e-3, kLargestScale = 1e3;
 
@@ -57,6 +58,11 @@ struct Placement {
 
   friend bool operator==(const Placement&, const Placement&) = default;
 };
+
+/// A rotation as three angles, degrees: about x, then y, then z of the frame that it leads to. Of a rotation that turns
+/// y by 90 degrees z is 0.
+Quat rotation_from_degrees(const Vec3& angles_deg);
+Vec3 degrees_of(const Quat& rotation);
 
 /// Fails on a scale outside kSmallestScale to kLargestScale, a rotation that is not unit within 1e-9, or an offset that
 /// is not finite.

@@ -147,6 +147,24 @@ TEST_CASE("the clutch keeps the finger where it is in the scene") {
   }
 }
 
+TEST_CASE("a rotation and its angles about x, y and z are each other's") {
+  Draw draw;
+  const auto same = [](const Quat& a, const Quat& b) { return 1.0 - std::abs(glm::dot(a, b)) < 1e-12; };
+  for (int i = 0; i < 1000; ++i) {
+    const Quat q = draw.rotation();
+    CHECK(same(rotation_from_degrees(degrees_of(q)), q));
+    const Vec3 angles = Vec3(170.0, 85.0, 170.0) * draw.vector();
+    CHECK(glm::length(degrees_of(rotation_from_degrees(angles)) - angles) < 1e-9);
+  }
+  for (const double y : {90.0, -90.0}) {
+    const Quat q = rotation_from_degrees({20.0, y, 30.0});
+    CHECK(same(rotation_from_degrees(degrees_of(q)), q));
+  }
+  CHECK(rotation_from_degrees(Vec3(0.0)) == Quat(1.0, 0.0, 0.0, 0.0));
+  // About x first: y goes to z, which the turn about y then takes to x.
+  CHECK(glm::length(rotation_from_degrees({90.0, 90.0, 0.0}) * Vec3(0, 1, 0) - Vec3(1, 0, 0)) < 1e-15);
+}
+
 TEST_CASE("a placement that can't be is refused") {
   CHECK(check_placement(Placement{}));
   for (const double scale : {0.0, -1.0, 1e-4, 1e4, kNotANumber})

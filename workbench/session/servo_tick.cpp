@@ -296,4 +296,12 @@ void ServoTick::release(double dt_s) noexcept {
   arming_ = arming_for(devices_);
 }
 
+// Nothing homes by itself afterwards: the person may be far away.
+void ServoTick::suspend(double dt_s) noexcept {
+  release(dt_s);
+  ForceSwitch wish{};
+  channels_.force.take(wish);
+  arming_.ask(ForceSwitch::stop);
+}
+
 }  // namespace tangent

@@ -38,6 +38,8 @@ class ServoTick {
   void run(const TickTiming& timing) noexcept;
   /// After the last tick: disarms and sends the devices zero force. Same thread as run.
   void release(double dt_s) noexcept;
+  /// Before the process is suspended: as release, and forgets every wish. It may run on afterwards, disarmed.
+  void suspend(double dt_s) noexcept;
   /// Finds exchanges that don't return; for a thread that is not the servo's.
   ExchangeWatch& exchange_watch() { return exchange_watch_; }
 

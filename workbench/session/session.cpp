@@ -124,7 +124,13 @@ struct Session::Impl {
   double wanted_scale = 1.0;  ///< of the last placement sent
   TickAgain again;
 
+  bool left_behind = false;  ///< a thread of the servo is in an exchange that does not return
+
   CpuWakeup wakeup;
+
+  static Result<std::unique_ptr<Session>> create(std::shared_ptr<const ContactScene> scene, const Preset& preset,
+                                                 SessionOptions options, DeviceSet devices,
+                                                 std::unique_ptr<PacketRecorder> packets);
 
   /// A force device that calls us; null: the servo keeps the time.
   ForceDevice* scheduler() const { return devices.force && devices.force->calls_us() ? devices.force.get() : nullptr; }
@@ -156,12 +162,18 @@ void Session::Impl::forget_scenes() {
 }
 
 Session::Session(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
-Session::~Session() { shut_down(); }
+
+// What a thread still uses is kept for as long as the process runs.
+Session::~Session() {
+  static_cast<void>(shut_down());
+  if (!impl_->left_behind) return;
+  static auto* const kept = new std::vector<std::unique_ptr<Impl>>;
+  kept->push_back(std::move(impl_));
+}
 
 Result<std::unique_ptr<Session>> Session::create(std::shared_ptr<const ContactScene> scene, const Preset& preset,
                                                  SessionOptions options) {
   if (const Status ok = check_options(options); !ok) return tl::unexpected(ok.error());
-  if (const Status ok = check_preset(preset); !ok) return tl::unexpected(ok.error());
   std::unique_ptr<PacketRecorder> packets;
   if (!options.packets.empty()) {
     auto recorder = PacketRecorder::create(options.packets);
@@ -173,16 +185,29 @@ Result<std::unique_ptr<Session>> Session::create(std::shared_ptr<const ContactSc
   wanted.maestro.channel = static_cast<std::uint8_t>(options.maestro_channel);
   auto devices = make_devices(options.devices, wanted);
   if (!devices) return tl::unexpected(devices.error());
-  if (!all_simulated(*devices)) options.servo.time_by_deadlines = options.servo.watch_exchanges = true;
-  if (devices->force && devices->force->calls_us()) options.servo.rate_hz = devices->force->capabilities().rate_hz;
-  if (const Status ok = check_devices(preset, devices->force != nullptr, devices->display != nullptr); !ok)
+  return Impl::create(std::move(scene), preset, std::move(options), std::move(*devices), std::move(packets));
+}
+
+Result<std::unique_ptr<Session>> Session::create(std::shared_ptr<const ContactScene> scene, const Preset& preset,
+                                                 SessionOptions options, DeviceSet devices) {
+  return Impl::create(std::move(scene), preset, std::move(options), std::move(devices), nullptr);
+}
+
+Result<std::unique_ptr<Session>> Session::Impl::create(std::shared_ptr<const ContactScene> scene, const Preset& preset,
+                                                       SessionOptions options, DeviceSet devices,
+                                                       std::unique_ptr<PacketRecorder> packets) {
+  if (const Status ok = check_options(options); !ok) return tl::unexpected(ok.error());
+  if (const Status ok = check_preset(preset); !ok) return tl::unexpected(ok.error());
+  if (!all_simulated(devices)) options.servo.time_by_deadlines = options.servo.watch_exchanges = true;
+  if (devices.force && devices.force->calls_us()) options.servo.rate_hz = devices.force->capabilities().rate_hz;
+  if (const Status ok = check_devices(preset, devices.force != nullptr, devices.display != nullptr); !ok)
     return tl::unexpected(ok.error());
-  if (const Status ok = open_devices(*devices); !ok) return tl::unexpected(ok.error());
-  if (const Status ok = check_rate(options.servo.rate_hz, *devices); !ok) return tl::unexpected(ok.error());
-  const PlacementLetter placement = first_placement(options.place, *devices, *scene, preset.finger);
+  if (const Status ok = open_devices(devices); !ok) return tl::unexpected(ok.error());
+  if (const Status ok = check_rate(options.servo.rate_hz, devices); !ok) return tl::unexpected(ok.error());
+  const PlacementLetter placement = first_placement(options.place, devices, *scene, preset.finger);
   if (const Status ok = check_placement(placement.placement); !ok) return tl::unexpected(ok.error());
   auto prepared = std::make_unique<PreparedScene>(std::move(scene), preset.finger);
-  auto impl = std::make_unique<Impl>(std::move(options), std::move(packets), std::move(*devices), std::move(prepared),
+  auto impl = std::make_unique<Impl>(std::move(options), std::move(packets), std::move(devices), std::move(prepared),
                                      preset, placement);
   impl->send_hand();
   return std::unique_ptr<Session>(new Session(std::move(impl)));
@@ -192,6 +217,8 @@ Result<std::unique_ptr<Session>> Session::create(std::shared_ptr<const ContactSc
 
 Status Session::start() {
   if (impl_->started) return {};
+  if (impl_->left_behind)
+    return fail("a device has not returned from an exchange", "devices", "start the program again");
   impl_->started = true;
   const ArmOnStart wanted = impl_->options.arm_on_start;
   const bool arms = wanted == ArmOnStart::always || (wanted == ArmOnStart::simulated && all_simulated(impl_->devices));
@@ -202,14 +229,20 @@ Status Session::start() {
   return ok;
 }
 
-void Session::shut_down() {
-  if (!impl_->started) return;
+Status Session::shut_down() {
+  if (!impl_->started) return {};
   impl_->started = false;
   if (impl_->options.threaded)
-    impl_->servo->stop();
+    impl_->left_behind = !impl_->servo->stop();
   else
     impl_->tick->release(1.0 / impl_->options.servo.rate_hz);
   poll();
+  if (!impl_->left_behind) return {};
+  const ExchangeWatch& watch = impl_->tick->exchange_watch();
+  return fail(std::string("the ") + to_string(watch.hung()) +
+                  " does not return from an exchange; its thread is left behind" +
+                  (watch.was_stopped() ? ", and it was told to stop by another way" : ""),
+              "devices", "switch the device off before you let go of it, and start the program again");
 }
 
 bool Session::running() const { return impl_->started; }

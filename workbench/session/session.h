@@ -96,6 +96,9 @@ class Session {
   /// can't be written.
   static Result<std::unique_ptr<Session>> create(std::shared_ptr<const ContactScene> scene, const Preset& preset,
                                                  SessionOptions options = {});
+  /// As above, with these devices, not yet opened, in place of options.devices: a driver of one's own.
+  static Result<std::unique_ptr<Session>> create(std::shared_ptr<const ContactScene> scene, const Preset& preset,
+                                                 SessionOptions options, DeviceSet devices);
   ~Session();
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
@@ -103,7 +106,9 @@ class Session {
   /// Starts the ticks (threaded), homes, and arms if arm_on_start says so. Fails when a device that keeps the time
   /// can't start.
   Status start();
-  void shut_down();  ///< stops force and thread; keeps the history. Also called by the destructor
+  /// Stops force and thread; keeps the history. Also called by the destructor. Fails when a device does not return from
+  /// an exchange (Servo::stop); its thread, and all that it uses, are then left as they are until the process ends.
+  Status shut_down();
   bool running() const;
   /// Not threaded: runs n ticks and polls them into the history. Threaded: does nothing.
   void advance(std::uint64_t ticks);

@@ -96,6 +96,7 @@ void add_gui_command(CLI::App& app, CommandResult& result) {
     options->app.devices = options->devices.names;
     options->app.maestro = options->devices.maestro;
     options->app.packets = options->devices.packets;
+    options->app.place = options->devices.place;
     options->app.servo_cpu = options->devices.servo_cpu;
     options->app.arm_on_start = options->arm ? ArmOnStart::always : ArmOnStart::simulated;
     if (!options->app.record.empty())

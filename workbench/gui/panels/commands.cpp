@@ -87,6 +87,12 @@ void add_time_commands(std::vector<Command>& out, AppModel& model) {
                  }});
   out.push_back({"Force: stop", "Esc", [&model] { model.devices().stop(); }});
   out.push_back({"Force: arm", "", [&model] { model.devices().arm(); }});
+  out.push_back(
+      {"Placement: fit the scene to the device's workspace", "", [&model] { model.devices().fit_to_workspace(); }});
+  out.push_back({"Placement: clutch, hold or let go", "", [&model] {
+                   bool& latched = model.devices().clutch().latched;
+                   latched = !latched;
+                 }});
   for (const std::string& name : force_device_names())
     out.push_back({"Force device: " + name, "", [&model, name] {
                      model.devices().choose({name, model.devices().names().display});
@@ -153,6 +159,7 @@ const std::vector<KeyNote>& further_keys() {
                                            {"Esc", "Stop the force, always; then put away what is open"},
                                            {"Left drag", "Orbit; slides a value (Shift: finer)"},
                                            {"Right drag, Shift drag", "Pan the view"},
+                                           {"C, held", "Clutch: the device moves, the finger stays in the scene"},
                                            {"Wheel", "Zoom about the pointer: view, plots, time"},
                                            {"Click", "Pick a triangle; type a value"},
                                            {"Tab", "Take the typed value and go on to the next"}};

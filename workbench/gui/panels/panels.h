@@ -43,6 +43,8 @@ struct PresetsPanel {
 void draw_presets_panel(const UiContext& ui, AppModel& model, PresetsPanel& state);
 
 // Right column.
+/// Where the scene is on the force device: part of the devices panel.
+void draw_placement(const UiContext& ui, AppModel& model);
 struct PathMapPanel {
   bool close_up = true;  ///< zoomed to the path; otherwise the whole base triangle
 };
