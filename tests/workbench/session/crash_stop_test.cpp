@@ -235,8 +235,11 @@ int suspend_once(Witness& witness, bool called) {
     if (waitpid(child, &status, WNOHANG) == child) return -1;
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
+  const std::int64_t asked_ns = monotonic_ns();
   kill(child, SIGTSTP);
   while (waitpid(child, &status, WUNTRACED) < 0 && errno == EINTR) {}
+  MESSAGE("suspended after " << static_cast<double>(monotonic_ns() - asked_ns) * 1e-6 << " ms, zero force after "
+                             << static_cast<double>(witness.last_ns - asked_ns) * 1e-6 << " ms");
   if (!WIFSTOPPED(status)) return -1;
   CHECK(WSTOPSIG(status) == SIGTSTP);
   CHECK(witness.most_n > 0.5);
