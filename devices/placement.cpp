@@ -31,8 +31,10 @@ Vec3 degrees_of(const Quat& rotation) {
   const Mat3 m = glm::mat3_cast(rotation);  // m[column][row]; R = Rz Ry Rx
   const double sine = std::clamp(-m[0][2], -1.0, 1.0);
   constexpr double kFlat = 1.0 - 1e-12;  // there x and z turn about one axis
-  if (std::abs(sine) > kFlat) return glm::degrees(Vec3(std::atan2(-m[2][1], m[1][1]), std::asin(sine), 0.0));
-  return glm::degrees(Vec3(std::atan2(m[1][2], m[2][2]), std::asin(sine), std::atan2(m[0][1], m[0][0])));
+  const Vec3 angles = std::abs(sine) > kFlat
+                          ? Vec3(std::atan2(-m[2][1], m[1][1]), std::asin(sine), 0.0)
+                          : Vec3(std::atan2(m[1][2], m[2][2]), std::asin(sine), std::atan2(m[0][1], m[0][0]));
+  return glm::degrees(angles) + 0.0;  // no -0
 }
 
 Placement composed(const Placement& placement, const DeviceFrame& frame) {

@@ -104,6 +104,12 @@ bool Servo::stop() {
   return true;
 }
 
+void Servo::leave_behind() noexcept {
+  watching_.store(false, std::memory_order_relaxed);
+  if (watching_thread_.joinable()) watching_thread_.detach();
+  if (thread_.joinable()) thread_.detach();
+}
+
 void Servo::run_one() noexcept { tick_.run(pacer_.begin(pacer_.deadline_ns())); }
 
 // Without these the servo runs with more jitter; the user is shown what was granted.

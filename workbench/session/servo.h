@@ -34,6 +34,8 @@ class Servo {
   /// it; should it return, the thread sends zero force and ends. Until then neither this nor anything that it was given
   /// may be destroyed (the destructor waits).
   bool stop();
+  /// After stop has returned false, where nothing of this is ever destroyed: its threads end by themselves.
+  void leave_behind() noexcept;
   bool running() const { return thread_.joinable() || called_; }
   RealtimeGrant granted() const { return {fifo_.load(), locked_.load(), on_cpu_.load()}; }  ///< any thread
 

@@ -125,6 +125,7 @@ struct Session::Impl {
   TickAgain again;
 
   bool left_behind = false;  ///< a thread of the servo is in an exchange that does not return
+  std::unique_ptr<Impl> left_before;
 
   CpuWakeup wakeup;
 
@@ -167,8 +168,10 @@ Session::Session(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 Session::~Session() {
   static_cast<void>(shut_down());
   if (!impl_->left_behind) return;
-  static auto* const kept = new std::vector<std::unique_ptr<Impl>>;
-  kept->push_back(std::move(impl_));
+  impl_->servo->leave_behind();
+  static Impl* kept = nullptr;  // a chain that nothing destroys
+  impl_->left_before.reset(kept);
+  kept = impl_.release();
 }
 
 Result<std::unique_ptr<Session>> Session::create(std::shared_ptr<const ContactScene> scene, const Preset& preset,

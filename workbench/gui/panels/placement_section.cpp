@@ -43,7 +43,7 @@ bool vector_row(const UiContext& ui, AppModel& model, const char* title, const c
   return changed;
 }
 
-void draw_values(const UiContext& ui, const Placement& p) {
+void draw_placed(const UiContext& ui, const Placement& p) {
   const Vec3 at = p.offset_m * 1e3, turn = degrees_of(p.rotation);
   fact(ui, "Scale", printed("%.4g", p.scale));
   tooltip(ui, kScaleText);
@@ -79,7 +79,7 @@ void draw_placement(const UiContext& ui, AppModel& model) {
   const Placement& placement = devices.status().placement;
   const std::string locked = devices.placement_locked();
   if (!locked.empty()) {
-    draw_values(ui, placement);
+    draw_placed(ui, placement);
     ImGui::PushFont(ui.fonts.small);
     ImGui::PushStyleColor(ImGuiCol_Text, ui.colours.text_dim);
     ImGui::TextWrapped("%s", locked.c_str());

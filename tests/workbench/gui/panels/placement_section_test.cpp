@@ -9,7 +9,7 @@ using namespace tangent::test;
 
 namespace {
 
-void run(HeadlessApp& ui, int ticks) {
+void draw_after(HeadlessApp& ui, int ticks) {
   ui.app().advance(static_cast<std::uint64_t>(ticks));
   ui.frames(2);
 }
@@ -31,43 +31,43 @@ const Placement& placed(HeadlessApp& ui) { return ui.model().devices().status().
 
 TEST_CASE("the scene can be placed on the device while no force is sent, and while it is the panel says why not") {
   HeadlessApp ui(HeadlessApp::deterministic_options(), 1600.0f, 1600.0f);
-  run(ui, 1500);
+  draw_after(ui, 1500);
   REQUIRE(ui.model().devices().status().servo.gate_state == GateState::armed);
   show_panel(ui);
   CHECK(ui.app().items().find("placement/fit") == nullptr);
   CHECK(ui.model().devices().placement_locked().find("stop first") != std::string::npos);
   ui.model().devices().fit_to_workspace();
-  run(ui, 5);
+  draw_after(ui, 5);
   CHECK(placed(ui).scale == 1.0);
 
   ui.click("menu/stop");
-  run(ui, 10);
+  draw_after(ui, 10);
   CHECK(ui.model().devices().placement_locked().empty());
   show_panel(ui);
   ui.click("placement/fit");
-  run(ui, 5);
+  draw_after(ui, 5);
   CHECK(placed(ui).scale != 1.0);
   ui.click("placement/scale");
   ui.type("0.5");
   ui.key(257);  // Enter
-  run(ui, 5);
+  draw_after(ui, 5);
   CHECK(placed(ui).scale == 0.5);
   ui.click("placement/rotate_z");
   ui.type("90");
   ui.key(257);
-  run(ui, 5);
+  draw_after(ui, 5);
   CHECK(degrees_of(placed(ui).rotation).z == doctest::Approx(90.0));
   CHECK(placed(ui).scale == 0.5);
 }
 
 TEST_CASE("the clutch is held by its button, by C, and by its command until it is given again") {
   HeadlessApp ui(HeadlessApp::deterministic_options(), 1600.0f, 1600.0f);
-  run(ui, 300);
+  draw_after(ui, 300);
   ui.click("menu/stop");
-  run(ui, 200);
+  draw_after(ui, 200);
   const auto clutched = [&ui] {
-    run(ui, 3);
-    run(ui, 3);
+    draw_after(ui, 3);
+    draw_after(ui, 3);
     return ui.model().devices().status().clutched;
   };
   CHECK_FALSE(clutched());
@@ -84,7 +84,7 @@ TEST_CASE("the clutch is held by its button, by C, and by its command until it i
   ui.model().devices().clutch().latched = true;
   CHECK(clutched());
   ui.model().devices().arm();
-  run(ui, 100);
+  draw_after(ui, 100);
   CHECK(ui.model().devices().status().in_the_way == ArmingObstacle::clutched);
   ui.model().devices().clutch().latched = false;
   CHECK_FALSE(clutched());
