@@ -75,7 +75,10 @@ void DeviceModel::make_session() {
 
 void DeviceModel::end_session() {
   if (session_ == nullptr) return;
-  if (const Status ended = session_->shut_down(); !ended) messages_.say(Severity::error, ended.error().message());
+  if (const Status ended = session_->shut_down(); !ended) {
+    messages_.say(Severity::error, ended.error().message());
+    std::fprintf(stderr, "workbench gui: %s\n", ended.error().message().c_str());  // the window may be closing
+  }
   session_.reset();
 }
 
