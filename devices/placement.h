@@ -11,8 +11,8 @@
 // device's peak, the 0.2 N of arming and what a hand feels. So a spring of k N/m in the scene is one of k * scale at
 // the device, damping likewise, and these are what a device's largest ones cap. Power F . v in the scene is `scale`
 // times that at the device: one positive factor for all of it, so what is passive in one frame is in the other. (Forces
-// divided by the scale as well would keep the power, and make the spring k * scale^2: a scene ten times as large would
-// feel a hundred times as hard.)
+// times the scale as well would keep the power, and make the spring k * scale^2: at a scale of 10 a surface would feel
+// a hundred times as hard.)
 #pragma once
 
 #include "core/base/result.h"
