@@ -1,5 +1,6 @@
 #include "core/io/preset_file.h"
 
+#include "core/base/float_state.h"
 #include "core/base/text.h"
 #include "core/io/atomic_file.h"
 #include "core/io/file_format.h"
@@ -260,6 +261,7 @@ std::string value_literal(const PresetKey& row, double value) {
 }  // namespace
 
 Result<PresetFile> parse_preset(std::string_view text, std::string_view name) {
+  const FloatState as_tested;
   auto root = parse_toml(text, name, "correct the TOML there");
   if (!root) return tl::unexpected(root.error());
   if (const Status status = migrate(*root, kFormats, name); !status) return tl::unexpected(status.error());

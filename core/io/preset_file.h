@@ -35,6 +35,7 @@ struct PresetAbout {
 struct PresetFile {
   PresetAbout about;
   Preset preset;
+  operator const Preset&() const { return preset; }  ///< a file of a preset will do wherever a preset is wanted
   bool operator==(const PresetFile&) const = default;
 };
 

@@ -1,6 +1,7 @@
 // Builds the contact mesh in stages: check, weld, triangulate, place, connect, shade, turn, hash.
 #include "core/mesh/contact_mesh.h"
 
+#include "core/base/float_state.h"
 #include "core/base/tolerances.h"
 #include "core/mesh/content_hash.h"
 #include "core/mesh/corner_normals.h"
@@ -286,6 +287,7 @@ tl::unexpected<Error> ContactMeshBuilder::nothing_usable() const {
 }
 
 Result<ContactMesh> ContactMesh::build(const PolygonMesh& source, const ContactMeshOptions& options) {
+  const FloatState as_tested;
   return ContactMeshBuilder(source, options).build();
 }
 

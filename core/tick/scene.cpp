@@ -1,5 +1,6 @@
 #include "core/tick/scene.h"
 
+#include "core/base/float_state.h"
 #include "core/planar/ribbon.h"
 #include "core/tick/sources.h"
 
@@ -9,6 +10,7 @@ SceneParts parts_for(const Preset& preset) { return {.hierarchy = wants_smooth(p
 
 Result<std::shared_ptr<const ContactScene>> ContactScene::build(ContactMesh mesh, const SceneParts& parts,
                                                                 const RunBoth& run_both) {
+  const FloatState as_tested;
   std::shared_ptr<ContactScene> scene(new ContactScene);
   scene->mesh_.emplace(std::move(mesh));
   std::optional<Result<NearestTriangles>> nearest;
@@ -24,6 +26,7 @@ Result<std::shared_ptr<const ContactScene>> ContactScene::build(ContactMesh mesh
 }
 
 Result<std::shared_ptr<const ContactScene>> ContactScene::build(PlanarCurve curve, const SceneParts& parts) {
+  const FloatState as_tested;
   constexpr double kRibbonShare = 0.1;  // half its width, in sizes of the polygon
   std::shared_ptr<ContactScene> scene(new ContactScene);
   if (parts.ribbon) {

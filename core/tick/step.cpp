@@ -1,5 +1,6 @@
 #include "core/tick/step.h"
 
+#include "core/base/float_state.h"
 #include "core/tick/mesh_contacts.h"
 #include "core/tick/planar_contacts.h"
 #include "core/tick/rendering.h"
@@ -50,6 +51,7 @@ Stepper::~Stepper() = default;
 
 TickOutput Stepper::step(const Preset& preset, const TickInput& input, TickState& state, IterationTrace* trace) {
   if (scene_->planar()) return step_planar(*scene_->planar(), preset, input, state, trace);
+  const FloatState as_tested;
   const bool usable = is_usable(input.finger);
   const FingerPose last = last_pose(state);
   const FingerPose& pose = usable ? input.finger : last;
@@ -67,6 +69,7 @@ TickOutput Stepper::step(const Preset& preset, const TickInput& input, TickState
 
 TickOutput step_planar(const PlanarCurve& curve, const Preset& preset, const TickInput& input, TickState& state,
                        IterationTrace* trace) {
+  const FloatState as_tested;
   const bool usable = is_usable(input.finger);
   const Finger finger = section_finger(preset.finger);
   const FingerPose pose = section_pose(usable ? input.finger : last_pose(state));
