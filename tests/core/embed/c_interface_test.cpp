@@ -231,10 +231,10 @@ TEST_CASE("null handles and pointers are an error value in every call") {
   CHECK(tangent_load_scene(TANGENT_C_VERSION, "x.obj", nullptr, nullptr) == TANGENT_NULL);
   CHECK(tangent_read_preset(TANGENT_C_VERSION, "x.toml", nullptr) == TANGENT_NULL);
   CHECK(tangent_make_preset(TANGENT_C_VERSION, nullptr) == TANGENT_NULL);
-  CHECK(tangent_make_stepper(nullptr, &made.stepper) == TANGENT_NULL);
+  tangent_stepper* none = nullptr;
+  CHECK(tangent_make_stepper(nullptr, &none) == TANGENT_NULL);
   CHECK(tangent_make_stepper(made.scene, nullptr) == TANGENT_NULL);
   CHECK(tangent_step(nullptr, made.preset, &in, &out) == TANGENT_NULL);
-  REQUIRE(tangent_make_stepper(made.scene, &made.stepper) == TANGENT_OK);
   CHECK(tangent_step(made.stepper, nullptr, &in, &out) == TANGENT_NULL);
   CHECK(tangent_step(made.stepper, made.preset, nullptr, &out) == TANGENT_NULL);
   CHECK(tangent_step(made.stepper, made.preset, &in, nullptr) == TANGENT_NULL);
