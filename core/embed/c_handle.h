@@ -90,6 +90,7 @@ tangent_status check_size(Handle& handle, const Struct& given, const char* name)
 
 }  // namespace tangent::c
 
+// NOLINTBEGIN(readability-identifier-naming): of tangent_c.h
 struct tangent_scene {
   tangent::c::ErrorText error;
   std::shared_ptr<const tangent::ContactScene> scene;  ///< null: it could not be made
@@ -109,3 +110,4 @@ struct tangent_stepper {
   tangent::TickState state;
   uint64_t tick = 0;
 };
+// NOLINTEND(readability-identifier-naming)
