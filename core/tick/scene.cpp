@@ -5,22 +5,52 @@
 
 namespace tangent {
 
-SceneParts parts_for(const Preset& preset) { return {.hierarchy = wants_smooth(preset), .ribbon = false}; }
+SceneParts parts_for(const Preset& preset) {
+  return {.hierarchy = wants_smooth(preset), .ribbon = false, .far_parts = false};
+}
 
 Result<std::shared_ptr<const ContactScene>> ContactScene::build(ContactMesh mesh, const SceneParts& parts,
                                                                 const RunBoth& run_both) {
   std::shared_ptr<ContactScene> scene(new ContactScene);
   scene->mesh_.emplace(std::move(mesh));
+  if (Status status = scene->build_structures(parts, run_both); !status) return tl::unexpected(status.error());
+  return scene;
+}
+
+Status ContactScene::build_structures(const SceneParts& parts, const RunBoth& run_both) {
+  if (mesh_->usable_triangle_count() > parts.whole_up_to) {
+    clusters_ = std::make_unique<const TriangleClusters>(TriangleClusters::build(*mesh_, run_both));
+    nearest_ = std::make_unique<NearestTriangles>(NearestTriangles::late(*mesh_, *clusters_));
+    if (parts.hierarchy) hierarchy();
+    if (parts.far_parts) build_far_parts(run_both);
+    return {};
+  }
   std::optional<Result<NearestTriangles>> nearest;
-  const auto build_nearest = [&] { nearest.emplace(NearestTriangles::build(*scene->mesh_)); };
+  const auto build_nearest = [&] { nearest.emplace(NearestTriangles::build(*mesh_)); };
   if (parts.hierarchy) {
-    run_both(build_nearest, [&] { scene->hierarchy(); });
+    run_both(build_nearest, [&] { hierarchy(); });
   } else {
     build_nearest();
   }
   if (!*nearest) return tl::unexpected(nearest->error());
-  scene->nearest_ = std::make_unique<NearestTriangles>(std::move(**nearest));
-  return scene;
+  nearest_ = std::make_unique<NearestTriangles>(std::move(**nearest));
+  return {};
+}
+
+void ContactScene::build_far_parts(const RunBoth& run_both) const {
+  if (!clusters_) return;
+  const LateHierarchy* hierarchy = hierarchy_.if_built();
+  run_halves(run_both, clusters_->count(), [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      nearest_->build_part(i);
+      if (hierarchy) hierarchy->build_part(i);
+    }
+  });
+}
+
+std::size_t ContactScene::unbuilt_parts() const {
+  const LateHierarchy* hierarchy = hierarchy_.if_built();
+  return hierarchy ? hierarchy->part_count() - hierarchy->built_count() : 0;
 }
 
 Result<std::shared_ptr<const ContactScene>> ContactScene::build(PlanarCurve curve, const SceneParts& parts) {
@@ -41,9 +71,10 @@ Result<std::shared_ptr<const ContactScene>> ContactScene::build(PlanarCurve curv
 }
 
 std::size_t ContactScene::memory_bytes() const {
-  const ContactHierarchy* hierarchy = hierarchy_.if_built();
+  const LateHierarchy* hierarchy = hierarchy_.if_built();
   return (mesh_ ? mesh_->memory_bytes() : 0) + (nearest_ ? nearest_->memory_bytes() : 0) +
-         (hierarchy ? hierarchy->memory_bytes() : 0) + (planar_ ? planar_->memory_bytes() : 0);
+         (hierarchy ? hierarchy->memory_bytes() : 0) + (clusters_ ? clusters_->memory_bytes() : 0) +
+         (planar_ ? planar_->memory_bytes() : 0);
 }
 
 }  // namespace tangent

@@ -42,7 +42,7 @@ void add_mesh_options(CLI::App& app, MeshOptions& options, bool mesh_required) {
 Result<LoadedMesh> load_mesh(const MeshOptions& options) {
   Result<PolygonMesh> source = read_mesh(options.file, options.metres_per_unit);
   if (!source) return tl::unexpected(source.error());
-  Result<ContactMesh> mesh = ContactMesh::build(*source, options.build);
+  Result<ContactMesh> mesh = ContactMesh::build(*source, options.build, run_on_two_threads);
   if (!mesh) {
     Error error = mesh.error();
     if (error.where.empty()) error.where = options.file.string();

@@ -79,13 +79,23 @@ class ContactHierarchyBuilder {
     gather_triangles();
     if (entries_.empty()) return;
     gather_corners();
+    build_tree();
+  }
+
+  void build(std::span<const std::uint32_t> triangles) {
+    for (const std::uint32_t t : triangles) gather(t);
+    gather_corners_here();
+    build_tree();
+  }
+
+ private:
+  void build_tree() {
     tree_.nodes_.reserve(2 * (entries_.size() / kLeafTriangles + 1));
     tree_.order_.reserve(entries_.size());
     build_node(0, entries_.size());
     tree_.nodes_.shrink_to_fit();
   }
 
- private:
   struct Bounds {
     Box box;
     Cone cone;
@@ -99,12 +109,13 @@ class ContactHierarchyBuilder {
 
   void gather_triangles() {
     entries_.reserve(mesh_.usable_triangle_count());
-    for (std::uint32_t t = 0; t < mesh_.triangle_count(); ++t) {
-      if (!mesh_.usable(t)) continue;
-      const Vec3 middle = (mesh_.position(t, 0) + mesh_.position(t, 1) + mesh_.position(t, 2)) / 3.0;
-      entries_.push_back(
-          {{static_cast<float>(middle.x), static_cast<float>(middle.y), static_cast<float>(middle.z)}, t});
-    }
+    for (std::uint32_t t = 0; t < mesh_.triangle_count(); ++t)
+      if (mesh_.usable(t)) gather(t);
+  }
+
+  void gather(std::uint32_t t) {
+    const Vec3 middle = (mesh_.position(t, 0) + mesh_.position(t, 1) + mesh_.position(t, 2)) / 3.0;
+    entries_.push_back({{static_cast<float>(middle.x), static_cast<float>(middle.y), static_cast<float>(middle.z)}, t});
   }
 
   /// The normals around every vertex where many triangles meet and a contact can rest, once for all of them.
@@ -120,6 +131,21 @@ class ContactHierarchyBuilder {
     each_corner([&](std::uint32_t t, std::uint32_t k, std::uint32_t v) {
       if (met[v] == kMany) add_corner(t, k, corners_[v]);
     });
+  }
+
+  /// The same for a few triangles of many: theirs alone are met, and all around a vertex are walked to.
+  void gather_corners_here() {
+    constexpr std::uint32_t kMany = 16;
+    std::unordered_map<std::uint32_t, std::uint32_t> met;
+    for (const Entry& entry : entries_)
+      for (std::uint32_t k = 0; k < 3; ++k) {
+        if (!mesh_.feature_corner(entry.triangle, k)) continue;
+        const std::uint32_t v = mesh_.vertex(entry.triangle, k);
+        if (++met[v] != kMany) continue;
+        NormalSet& normals = corners_[v];
+        around_vertex(mesh_, entry.triangle, k,
+                      [&](std::uint32_t other, std::uint32_t corner) { add_corner(other, corner, normals); });
+      }
   }
 
   void add_corner(std::uint32_t t, std::uint32_t k, NormalSet& normals) const {
@@ -228,6 +254,12 @@ class ContactHierarchyBuilder {
 ContactHierarchy ContactHierarchy::build(const ContactMesh& mesh) {
   ContactHierarchy tree;
   ContactHierarchyBuilder(mesh, tree).build();
+  return tree;
+}
+
+ContactHierarchy ContactHierarchy::build(const ContactMesh& mesh, std::span<const std::uint32_t> triangles) {
+  ContactHierarchy tree;
+  if (!triangles.empty()) ContactHierarchyBuilder(mesh, tree).build(triangles);
   return tree;
 }
 

@@ -22,6 +22,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace tangent {
@@ -58,11 +59,20 @@ void limit_query(ContactQuery& query, const Finger& finger, double rank);
 class ContactHierarchy {
  public:
   static ContactHierarchy build(const ContactMesh& mesh);
+  /// Over some usable triangles alone.
+  static ContactHierarchy build(const ContactMesh& mesh, std::span<const std::uint32_t> triangles);
 
   /// Calls visit(triangle, query) for every triangle that can't be ruled out, roughly by distance. The visitor
   /// may shrink the query's bounds as it finds contacts, and returns false to end the search.
   template <class Visit>
-  void visit(ContactQuery query, Visit visit) const;
+  void visit(ContactQuery query, Visit visit) const {
+    visit_on(query, visit);
+  }
+  /// The same as a part of a larger search, which sees how the query's bounds shrink. False: the visitor ended it.
+  template <class Visit>
+  bool visit_on(ContactQuery& query, Visit& visit) const;
+  /// Whether it is certain that none of the triangles can hold such a contact.
+  bool rules_out(const ContactQuery& query) const { return nodes_.empty() || reach2(nodes_[0], query) < 0.0; }
 
   std::size_t memory_bytes() const { return nodes_.size() * sizeof(Node) + order_.size() * sizeof(std::uint32_t); }
 
@@ -133,7 +143,7 @@ inline double ContactHierarchy::reach2(const Node& node, const ContactQuery& q) 
 }
 
 template <class Visit>
-void ContactHierarchy::visit(ContactQuery query, Visit visit) const {
+bool ContactHierarchy::visit_on(ContactQuery& query, Visit& visit) const {
   struct Entry {
     std::uint32_t node;
     double reach2;
@@ -152,7 +162,7 @@ void ContactHierarchy::visit(ContactQuery query, Visit visit) const {
       if (query.steady_only && !steady) continue;
       query.here_m = steady ? 0.0 : query.margin_m;
       for (std::uint32_t i = 0; i < node.count; ++i)
-        if (!visit(order_[first + i], query)) return;
+        if (!visit(order_[first + i], query)) return false;
       continue;
     }
     const std::uint32_t a = entry.node + 1, b = node.link;
@@ -163,6 +173,7 @@ void ContactHierarchy::visit(ContactQuery query, Visit visit) const {
     if (far.reach2 >= 0.0) stack[size++] = far;
     if (near.reach2 >= 0.0) stack[size++] = near;
   }
+  return true;
 }
 
 }  // namespace tangent

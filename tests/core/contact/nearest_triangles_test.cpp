@@ -63,7 +63,52 @@ int different_queries(const ScenePtr& scene, int queries, std::uint64_t seed) {
   return wrong;
 }
 
+/// The same mesh with boxes that are built when they are asked for, in place of Embree.
+ScenePtr in_parts(const ScenePtr& scene) {
+  auto built = ContactScene::build(ContactMesh(scene->mesh()), {.far_parts = false, .whole_up_to = 0});
+  REQUIRE(built.has_value());
+  return *built;
+}
+
+/// Rays that hit another triangle, or elsewhere, by the two structures.
+int different_rays(const ScenePtr& a, const ScenePtr& b, int rays, std::uint64_t seed) {
+  Random random(seed);
+  const double size = glm::length(a->mesh().bounds().size());
+  int wrong = 0;
+  for (int i = 0; i < rays; ++i) {
+    const Vec3 from = random.in_cube(size);
+    const Vec3 towards = i % 4 == 0 ? Vec3(0.0, 0.0, i % 8 == 0 ? 1.0 : -1.0) : random.direction();
+    const auto p = a->nearest().cast(from, towards), q = b->nearest().cast(from, towards);
+    wrong += p.triangle != q.triangle || p.distance_m != q.distance_m || p.u != q.u || p.v != q.v;
+  }
+  return wrong;
+}
+
 }  // namespace
+
+TEST_CASE("boxes built on the way find the same nearest triangles as looking at every one, bit for bit") {
+  int soups = 0;
+  for (std::uint32_t seed = 0; seed < 30; ++seed) {
+    auto built = ContactMesh::build(sample::soup(seed, 4 + static_cast<int>(seed % 20), 3 + static_cast<int>(seed)));
+    if (!built) continue;
+    auto scene = ContactScene::build(std::move(*built), {.far_parts = false, .whole_up_to = 0});
+    REQUIRE(scene.has_value());
+    ++soups;
+    CHECK(different_queries(*scene, rounds(100), seed) == 0);
+  }
+  CHECK(soups > 15);
+  CHECK(different_queries(in_parts(scene_of(make_icosphere(0.040, 3))), rounds(200), 1) == 0);
+  CHECK(different_queries(in_parts(scene_of(*generate_mesh("cube", {.rounding_m = 1.5e-3}))), rounds(200), 3) == 0);
+  CHECK(different_queries(in_parts(spot_scene(180.0)), rounds(200), 4) == 0);
+  CHECK(different(scene_of(make_icosphere(0.040, 2))->mesh(), in_parts(scene_of(make_icosphere(0.040, 2)))->nearest(),
+                  Vec3(0.0), kInf) == 0);
+}
+
+TEST_CASE("boxes built on the way are hit by rays where Embree is") {
+  for (const ScenePtr& scene :
+       {scene_of(make_torus(0.040, 0.015, 48, 24)), spot_scene(180.0), scene_of(sample::cube())})
+    CHECK(different_rays(scene, in_parts(scene), rounds(2000), 7) == 0);
+}
 
 TEST_CASE("the nearest triangles are those of looking at every triangle, bit for bit, on random soups") {
   int soups = 0;
