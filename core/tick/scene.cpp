@@ -3,6 +3,9 @@
 #include "core/planar/ribbon.h"
 #include "core/tick/sources.h"
 
+#include <algorithm>
+#include <limits>
+
 namespace tangent {
 
 SceneParts parts_for(const Preset& preset) {
@@ -46,6 +49,18 @@ void ContactScene::build_far_parts(const RunBoth& run_both) const {
       if (hierarchy) hierarchy->build_part(i);
     }
   });
+}
+
+void ContactScene::build_near(const Vec3& position, double reach_m) const {
+  const LateHierarchy* hierarchy = hierarchy_.if_built();
+  if (!clusters_ || !hierarchy || !is_finite(position)) return;
+  // A search for a start asks as far as a bit beyond the nearest triangle, one for places that push as far as the
+  // finger reaches.
+  constexpr double kFurther = 1.2;
+  constexpr double kAhead_m = 2.5e-3;  // as far as searches look ahead at the default hysteresis (kWatchReach), twice
+  const Vec3 centre = position - mesh_->origin();
+  const NearestHit hit = nearest_->nearest(centre, std::numeric_limits<double>::infinity());
+  hierarchy->build_near(centre, kFurther * std::max(hit.distance_m, reach_m) + kAhead_m);
 }
 
 std::size_t ContactScene::unbuilt_parts() const {

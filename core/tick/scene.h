@@ -46,7 +46,10 @@ class ContactScene {
   bool has_hierarchy() const { return hierarchy_.if_built() != nullptr; }
   /// Of a large mesh, the parts of the hierarchy that are not built yet; ticks build those that they come to.
   std::size_t unbuilt_parts() const;
-  /// Builds them, beside ticks if need be. Any thread.
+  /// Builds those that most ticks come to with a finger of this reach there, for who measures ticks by themselves: a
+  /// search for a start, or one far ahead, may come to more. World frame.
+  void build_near(const Vec3& position, double reach_m) const;
+  /// Builds them all, beside ticks if need be. Any thread.
   void build_far_parts(const RunBoth& run_both) const;
   bool has_mesh() const { return mesh_.has_value(); }  ///< false: a 2D scene without its ribbon
   SearchStructures search() const { return {*nearest_, hierarchy()}; }

@@ -26,6 +26,8 @@ class LateHierarchy {
   std::size_t part_count() const { return clusters_ ? clusters_->count() : 1; }
   std::size_t built_count() const;
   void build_part(std::size_t part) const;
+  /// Those within a distance from a point, local.
+  void build_near(const Vec3& centre, double radius_m) const;
   std::size_t memory_bytes() const;  ///< of what is built
 
  private:

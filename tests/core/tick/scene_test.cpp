@@ -125,6 +125,33 @@ TEST_CASE("what is built before, while or after a tick asks for it gives the sam
   CHECK(same_bits(others, expected));
 }
 
+TEST_CASE("where the parts near the finger are built, ticks seldom build any") {
+  const auto ticks_that_build = [](double radius, bool ahead) {
+    const Preset preset = sphere_preset(radius, Method::robust);
+    const ScenePtr scene = torus_scene({.far_parts = false, .whole_up_to = 0});
+    scene->search();
+    Stepper stepper(scene);
+    TickState state;
+    int built = 0;
+    for (int i = 0; i < 200; ++i) {
+      const double a = 0.002 * i;
+      const Vec3 at(0.04 * std::cos(a), 0.04 * std::sin(a), 0.0145 + radius);
+      if (ahead) scene->build_near(at, preset.finger.reach_m());
+      const std::size_t before = scene->unbuilt_parts();
+      stepper.step(preset, at_position(1e-3 * i, at), state);
+      built += scene->unbuilt_parts() != before;
+    }
+    CHECK(scene->unbuilt_parts() > 0);
+    return built;
+  };
+  for (const double radius : {0.0, 0.005, 0.020}) {
+    CAPTURE(radius);
+    const int alone = ticks_that_build(radius, false), ahead = ticks_that_build(radius, true);
+    CHECK(ahead < alone);
+    CHECK(ahead <= 3);
+  }
+}
+
 TEST_CASE("contacts of a mesh built in parts are those of one built as a whole") {
   for (const Method method : {Method::robust, Method::facet}) {
     const Preset preset = sphere_preset(0.020, method);
