@@ -13,7 +13,8 @@ namespace tangent {
 
 /// A triangle that holds no deeper contact, but could before others do.
 struct WatchedTriangle {
-  std::uint32_t triangle : 31 = 0;
+  std::uint32_t triangle : 29 = 0;
+  std::uint32_t part : 2 = 0;         ///< 1 to 3: one of its sides by itself; 0: what else it is asked for
   std::uint32_t holds_rival : 1 = 0;  ///< a contact, or what may have become one, that was not deep enough
   float margin_m = 0.0f;  ///< how far from Clearance::centre the finger may go before it must be looked at again
   bool operator==(const WatchedTriangle&) const = default;
@@ -30,9 +31,9 @@ struct Clearance {
   double margin_m =
       -1.0;               ///< up to here no triangle outside the tracked basin and the watched ones holds a contact ...
   double height_m = 0.0;  ///< ... of a rank below this less the distance gone
-  std::uint32_t watched_count = 0;
+  std::uint32_t watched_count : 16 = 0;
+  std::uint32_t any_turn : 16 = 1;  ///< 0: holds at `orientation` alone; a finger that is not round and does not turn
   float ahead = 1.0f;  ///< how far the next search of everything looks ahead, as a ratio: further where that is cheap
-  std::uint32_t any_turn = 1;  ///< 0: holds at `orientation` alone; a finger that is not round and does not turn
   std::array<WatchedTriangle, kWatched> watched;  ///< the first watched_count, in no order
 
   std::span<WatchedTriangle> on_watch() { return {watched.data(), watched_count}; }

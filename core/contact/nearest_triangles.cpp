@@ -61,9 +61,19 @@ struct Collector {
   }
 };
 
+/// A flat region of slivers is one primitive, its first triangle's: boxes around slivers overlap all over.
+bool stands_for_region(const ContactMesh& mesh, std::uint32_t t) {
+  const std::uint32_t region = mesh.flat_regions().of(t);
+  return region != kNone && mesh.flat_regions().triangles(region).front() == t;
+}
+
 bool on_point_query(RTCPointQueryFunctionArguments* args) {
   auto& collector = *static_cast<Collector*>(args->userPtr);
-  if (!collector.offer(args->primID)) return false;
+  std::uint32_t t = args->primID;
+  const ContactMesh& mesh = *collector.mesh;
+  if (stands_for_region(mesh, t))
+    t = mesh.flat_regions().foot(mesh, mesh.flat_regions().of(t), collector.query).triangle;
+  if (!collector.offer(t)) return false;
   args->query->radius = culling_radius(collector.radius, collector.coordinate_scale);
   return true;
 }
@@ -71,13 +81,21 @@ bool on_point_query(RTCPointQueryFunctionArguments* args) {
 void on_bounds(const RTCBoundsFunctionArguments* args) {
   const auto& mesh = *static_cast<const ContactMesh*>(args->geometryUserPtr);
   RTCBounds& b = *args->bounds_o;
-  if (!mesh.usable(args->primID)) {  // an empty box: Embree leaves the primitive out
+  // An empty box: Embree leaves the primitive out.
+  if (!mesh.usable(args->primID) ||
+      (mesh.flat_regions().of(args->primID) != kNone && !stands_for_region(mesh, args->primID))) {
     b.lower_x = b.lower_y = b.lower_z = std::numeric_limits<float>::infinity();
     b.upper_x = b.upper_y = b.upper_z = -std::numeric_limits<float>::infinity();
     return;
   }
   Box box;
-  for (std::uint32_t k = 0; k < 3; ++k) box.include(mesh.position(args->primID, k));
+  const std::uint32_t t = args->primID, region = mesh.flat_regions().of(t);
+  if (region == kNone) {
+    for (const Vec3& p : mesh.positions(t)) box.include(p);
+  } else {
+    for (const std::uint32_t other : mesh.flat_regions().triangles(region))
+      for (const Vec3& p : mesh.positions(other)) box.include(p);
+  }
   b.lower_x = round_down(box.min.x);
   b.lower_y = round_down(box.min.y);
   b.lower_z = round_down(box.min.z);
@@ -110,16 +128,28 @@ struct RayContext {
   NearestTriangles::RayHit best;
 };
 
+/// The triangle of a primitive that a ray can cross: of a region, where it goes through its plane.
+std::uint32_t crossed_triangle(const ContactMesh& mesh, std::uint32_t t, const Vec3& origin, const Vec3& direction) {
+  if (!stands_for_region(mesh, t)) return t;
+  const FlatRegions& flat = mesh.flat_regions();
+  const std::uint32_t region = flat.of(t);
+  const double speed = glm::dot(direction, flat.normal(region));
+  if (speed == 0.0) return t;
+  const double way = glm::dot(flat.origin(region) - origin, flat.normal(region)) / speed;
+  return flat.foot(mesh, region, origin + way * direction).triangle;
+}
+
 void on_intersect(const RTCIntersectFunctionNArguments* args) {
   if (args->valid[0] != -1) return;
   const auto& mesh = *static_cast<const ContactMesh*>(args->geometryUserPtr);
   auto& ray = *reinterpret_cast<RayContext*>(args->context);
   double u = 0.0, v = 0.0;
-  const double distance = intersect(mesh, args->primID, ray.origin, ray.direction, u, v);
-  const bool better = !ray.best || distance < ray.best.distance_m ||
-                      (distance == ray.best.distance_m && args->primID < ray.best.triangle);
+  const std::uint32_t t = crossed_triangle(mesh, args->primID, ray.origin, ray.direction);
+  const double distance = intersect(mesh, t, ray.origin, ray.direction, u, v);
+  const bool better =
+      !ray.best || distance < ray.best.distance_m || (distance == ray.best.distance_m && t < ray.best.triangle);
   if (!std::isfinite(distance) || !better) return;
-  ray.best = {args->primID, distance, u, v};
+  ray.best = {t, distance, u, v};
   auto* hit = reinterpret_cast<RTCRayHit*>(args->rayhit);
   hit->ray.tfar = round_up(distance * (1.0 + 4.0 * FLT_EPSILON));
   hit->hit.primID = args->primID;

@@ -33,6 +33,7 @@ class NearestTriangles {
   NearestHit nearest(const Vec3& query, double radius_m) const;
 
   /// The up to out.size() nearest triangles within `radius_m`, by distance, then number. Returns how many.
+  /// Of a flat region of slivers one stands for all (mesh/flat_regions.h).
   std::size_t nearest_several(const Vec3& query, double radius_m, std::span<NearestHit> out) const;
 
   struct RayHit {

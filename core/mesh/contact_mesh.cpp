@@ -264,6 +264,8 @@ void ContactMeshBuilder::turn_inside_out() {
 
 void ContactMeshBuilder::finish() {
   mesh_.crease_bits_ = feature_bits(surface(), CornerNormalsView{mesh_.normals_, mesh_.normal_index_});
+  mesh_.flat_regions_ = FlatRegions::build(mesh_);
+  mesh_.crowded_ = crowded_vertices(mesh_);
   mesh_.name_ = source_.name;
   ContentHash hash;
   hash.add(std::span<const Vec3>(&mesh_.origin_, 1));
@@ -311,10 +313,19 @@ const char* to_string(MeshDefect defect) {
   return "unknown defect";
 }
 
+const CrowdedVertex* ContactMesh::crowded_vertex(std::uint32_t vertex) const {
+  if (crowded_.empty()) return nullptr;
+  const auto found = std::lower_bound(crowded_.begin(), crowded_.end(), vertex,
+                                      [](const CrowdedVertex& c, std::uint32_t v) { return c.vertex < v; });
+  return found != crowded_.end() && found->vertex == vertex ? &*found : nullptr;
+}
+
 std::size_t ContactMesh::memory_bytes() const {
   const auto held = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
-  return sizeof(*this) + held(positions_) + held(normals_) + held(vertices_) + held(normal_index_) + held(links_) +
-         held(crease_bits_);
+  std::size_t crowded = held(crowded_);
+  for (const CrowdedVertex& c : crowded_) crowded += held(c.ring) + held(c.angles) + held(c.runs);
+  return crowded + sizeof(*this) + held(positions_) + held(normals_) + held(vertices_) + held(normal_index_) +
+         held(links_) + held(crease_bits_) + flat_regions_.memory_bytes();
 }
 
 }  // namespace tangent

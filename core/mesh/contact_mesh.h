@@ -14,6 +14,8 @@
 #include "core/base/result.h"
 #include "core/base/units.h"
 #include "core/base/vec.h"
+#include "core/mesh/crowded_vertex.h"
+#include "core/mesh/flat_regions.h"
 #include "core/mesh/polygon_mesh.h"
 
 #include <array>
@@ -117,6 +119,11 @@ class ContactMesh {
   /// True when a crease or boundary edge ends at this corner (also through a neighbour's edge).
   bool feature_corner(std::uint32_t t, std::uint32_t corner) const { return (crease_bits_[t] >> (3 + corner)) & 1u; }
 
+  /// Its flat parts of many slivers.
+  const FlatRegions& flat_regions() const { return flat_regions_; }
+  /// Null for all but those that crowded_vertices found.
+  const CrowdedVertex* crowded_vertex(std::uint32_t vertex) const;
+
   const MeshDefectList& defects(MeshDefect kind) const { return defects_[static_cast<std::size_t>(kind)]; }
   /// Triangles of closed parts that look inwards, as the file has them, and whether they were turned over.
   std::uint64_t inside_out_triangles() const { return inside_out_; }
@@ -152,6 +159,8 @@ class ContactMesh {
   std::vector<std::array<std::uint32_t, 3>> normal_index_;
   std::vector<std::array<std::uint32_t, 3>> links_;  ///< triangle << 2 | edge, or kNone
   std::vector<std::uint8_t> crease_bits_;  ///< bit k: edge k is a crease; bit 3+k: corner k touches a feature edge
+  FlatRegions flat_regions_;
+  std::vector<CrowdedVertex> crowded_;
   std::array<MeshDefectList, kMeshDefectCount> defects_;
   std::vector<std::string> notes_;
 };

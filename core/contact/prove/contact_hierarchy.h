@@ -26,6 +26,21 @@
 
 namespace tangent {
 
+/// What of a triangle a search is asked to look at. All but those of flat regions of slivers and beside them are asked
+/// for as a whole (mesh/flat_regions.h).
+enum class SearchPart : std::uint8_t {
+  whole,  ///< its face, its crease and boundary edges and their ends
+  side0,  ///< edge 0 and its ends, and so on
+  side1,
+  side2,
+  face,    ///< its face alone
+  region,  ///< the faces of all triangles of its region
+};
+inline bool is_side(SearchPart part) { return part >= SearchPart::side0 && part <= SearchPart::side2; }
+inline std::uint32_t side_of(SearchPart part) {
+  return static_cast<std::uint32_t>(part) - static_cast<std::uint32_t>(SearchPart::side0);
+}
+
 /// Which contacts are asked for. Heights and margins in metres, centre in local mesh coordinates.
 struct ContactQuery {
   Vec3 centre{0.0};
@@ -41,6 +56,7 @@ struct ContactQuery {
   /// Of a finger that is not round, at its pose: rules out more than tilt_rad does. Null: none.
   const FingerCore* core = nullptr;
   double here_m = 0.0;  ///< set for the visitor: the margin that its triangle is asked for, margin_m or 0
+  SearchPart part = SearchPart::whole;  ///< set for the visitor: what of its triangle is asked for
 };
 
 /// Whether ground that bends between these curvatures, 1/m, is steady: does not fold at the heights of the query.
@@ -92,7 +108,8 @@ class ContactHierarchy {
   static bool touchable(const Node& node, const ContactQuery& query);
 
   std::vector<Node> nodes_;
-  std::vector<std::uint32_t> order_;  ///< triangles, leaf by leaf
+  static constexpr std::uint32_t kPartShift = 29, kTriangleBits = (1u << kPartShift) - 1;
+  std::vector<std::uint32_t> order_;  ///< part << kPartShift | triangle, leaf by leaf
 };
 
 inline double ContactHierarchy::reach2(const Node& node, const ContactQuery& q) {
@@ -151,8 +168,10 @@ void ContactHierarchy::visit(ContactQuery query, Visit visit) const {
       const bool steady = stays(node, query);
       if (query.steady_only && !steady) continue;
       query.here_m = steady ? 0.0 : query.margin_m;
-      for (std::uint32_t i = 0; i < node.count; ++i)
-        if (!visit(order_[first + i], query)) return;
+      for (std::uint32_t i = 0; i < node.count; ++i) {
+        query.part = static_cast<SearchPart>(order_[first + i] >> kPartShift);
+        if (!visit(order_[first + i] & kTriangleBits, query)) return;
+      }
       continue;
     }
     const std::uint32_t a = entry.node + 1, b = node.link;

@@ -131,6 +131,8 @@ double corner_exclusion_by_core(const ContactMesh& mesh, const FingerCore& core,
   return core.way_within(core.longest_m(), least_length, room);
 }
 
+}  // namespace
+
 PatchExclusion exclude_face_by_core(ContactContext& context, const FingerCore& core, std::uint32_t t, double bound_m,
                                     double enough_m) {
   PatchExclusion proof;
@@ -164,8 +166,6 @@ PatchExclusion exclude_face_by_core(ContactContext& context, const FingerCore& c
   if (proof.possible) rank_place(context, core, patch, linear.off_m, proof);
   return proof;
 }
-
-}  // namespace
 
 PatchExclusion exclude_by_core(ContactContext& context, const FingerCore& core, std::uint32_t t, double bound_m,
                                double enough_m) {

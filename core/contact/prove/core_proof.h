@@ -17,6 +17,10 @@ namespace tangent {
 PatchExclusion exclude_by_core(ContactContext& context, const FingerCore& core, std::uint32_t t, double bound_m,
                                double enough_m);
 
+/// The same for the face alone.
+PatchExclusion exclude_face_by_core(ContactContext& context, const FingerCore& core, std::uint32_t t, double bound_m,
+                                    double enough_m);
+
 /// Whether ground that is steady for this finger may be asked only for what it holds now: contacts deeper than the
 /// finger's sharpest radius may fold anywhere, but one that comes up that deep was never entered (decide.h).
 bool can_ask_steady(const FingerCore& core, double rank_m);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/contact/context.h"
+#include "core/contact/prove/contact_hierarchy.h"
 #include "core/contact/prove/face_proof.h"
 #include "core/contact/prove/feature_proof.h"
 
@@ -12,5 +13,19 @@ namespace tangent {
 /// that need not be looked at again, or null. Precondition: context.core of a finger that is not round.
 PatchExclusion exclude_triangle(ContactContext& context, std::uint32_t t, double bound_m, double enough_m = 0.0,
                                 FeatureMemory* memory = nullptr);
+
+/// What of a triangle a search looks at.
+struct PartOfTriangle {
+  std::uint32_t triangle;
+  SearchPart part = SearchPart::whole;
+};
+
+/// exclude_triangle for a part. Of a region, `part` moves on to the triangle under the finger, and the margin is how
+/// far the finger may go until it comes over the region, or until its place there ranks below `bound_m`.
+PatchExclusion exclude_part(ContactContext& context, PartOfTriangle& part, double bound_m, double enough_m = 0.0,
+                            FeatureMemory* memory = nullptr);
+
+/// Where a solve for a contact on that part starts.
+SurfacePlace start_on(const ContactContext& context, const PartOfTriangle& part, const PatchExclusion& proof);
 
 }  // namespace tangent

@@ -75,8 +75,10 @@ class RivalSearch {
     clearance.margin_m = margin_m_;
     clearance.any_turn = any_turn_;
     search_.hierarchy.visit(query(margin_m_), [&](std::uint32_t t, ContactQuery& q) {
-      const Look look = q.here_m < q.margin_m ? look_at_steady(t, q.margin_m, result) : look_at(t, q.margin_m, result);
-      const double margin = look.watch ? watch(clearance, t, look) : look.margin_m;
+      const PartOfTriangle part{t, q.part};
+      const Look look =
+          q.here_m < q.margin_m ? look_at_steady(part, q.margin_m, result) : look_at(part, q.margin_m, result);
+      const double margin = look.watch ? watch(clearance, part, look) : look.margin_m;
       if (margin < clearance.margin_m) narrow(clearance, margin, q);
       return solves_ < kMaxSolves;
     });
@@ -97,14 +99,14 @@ class RivalSearch {
         clearance.watched[kept++] = watched;
         continue;
       }
-      const Look look = look_at(watched.triangle, clearance.margin_m, result);
+      const PartOfTriangle part = part_of(watched);
+      const Look look = look_at(part, clearance.margin_m, result);
       if (look.holds_rival ? !watched.holds_rival : watched.holds_rival || look.margin_m < context_.moved_m)
         passed[passed_count++] = watched.triangle;
       if (!look.watch) clearance.margin_m = std::min(clearance.margin_m, look.margin_m);
-      if (look.watch && look.margin_m < clearance.margin_m)
-        clearance.watched[kept++] = watched_triangle(watched.triangle, look);
+      if (look.watch && look.margin_m < clearance.margin_m) clearance.watched[kept++] = watched_triangle(part, look);
     }
-    clearance.watched_count = kept;
+    clearance.watched_count = kept & 0xFFFFu;
     if (steady_ && passed_count > 0) look_beside(std::span(passed).first(passed_count), result);
     set_free(clearance);
   }
@@ -122,13 +124,20 @@ class RivalSearch {
     return settings;
   }
 
-  static WatchedTriangle watched_triangle(std::uint32_t t, const Look& look) {
-    return {t & 0x7FFFFFFFu, look.holds_rival, static_cast<float>(look.margin_m)};
+  static WatchedTriangle watched_triangle(const PartOfTriangle& part, const Look& look) {
+    const std::uint32_t side = is_side(part.part) ? 1 + side_of(part.part) : 0;
+    return {part.triangle & 0x1FFFFFFFu, side & 3u, look.holds_rival, static_cast<float>(look.margin_m)};
+  }
+  PartOfTriangle part_of(const WatchedTriangle& watched) const {
+    if (watched.part > 0) return {watched.triangle, static_cast<SearchPart>(std::uint32_t{watched.part})};
+    const FlatRegions& flat = context_.cache.mesh().flat_regions();
+    if (!flat.in_parts(watched.triangle)) return {watched.triangle};
+    return {watched.triangle, flat.of(watched.triangle) == kNone ? SearchPart::face : SearchPart::region};
   }
 
   /// Puts a triangle on the list if it is among the soonest. Returns the margin of the one that is not. A heap while it
   /// grows, the latest on top.
-  static double watch(Clearance& clearance, std::uint32_t t, const Look& look) {
+  static double watch(Clearance& clearance, const PartOfTriangle& part, const Look& look) {
     const double margin = look.margin_m;
     if (margin >= clearance.margin_m) return margin;
     const auto sooner = [](const WatchedTriangle& a, const WatchedTriangle& b) { return a.margin_m < b.margin_m; };
@@ -140,7 +149,7 @@ class RivalSearch {
       std::pop_heap(first, clearance.watched.end(), sooner);
       --clearance.watched_count;
     }
-    first[clearance.watched_count++] = watched_triangle(t, look);
+    first[clearance.watched_count++] = watched_triangle(part, look);
     std::push_heap(first, first + clearance.watched_count, sooner);
     return dropped;
   }
@@ -196,18 +205,42 @@ class RivalSearch {
     return true;
   }
 
+  /// Whether a known contact is the one that a part of a region, or a side, may have.
+  bool holds_known(const PartOfTriangle& part) const {
+    const ContactMesh& mesh = context_.cache.mesh();
+    const auto holds = [&](const KnownContact& known) {
+      if (part.part == SearchPart::region)
+        return known.feature == Feature::face &&
+               mesh.flat_regions().of(known.triangle) == mesh.flat_regions().of(part.triangle);
+      if (!is_side(part.part)) return false;
+      const std::uint32_t k = side_of(part.part);
+      if (known.feature == Feature::edge) {
+        const EdgeLink other = mesh.across(part.triangle, k);
+        return (known.triangle == part.triangle && known.side == k) ||
+               (known.triangle == other.triangle && known.side == other.edge);
+      }
+      if (known.feature != Feature::vertex) return false;
+      const std::uint32_t vertex = mesh.vertex(known.triangle, known.side);
+      return mesh.vertex(part.triangle, k) == vertex || mesh.vertex(part.triangle, (k + 1) % 3) == vertex;
+    };
+    return std::any_of(known_.begin(), known_.begin() + static_cast<std::ptrdiff_t>(known_count_), holds);
+  }
+
   /// `up_to_m`: rank below which contacts count.
-  Look look_at(std::uint32_t t, double enough_m, double up_to_m, RivalResult& result) {
-    if (!core_ && continues_tracked_plane(t)) {
-      const double features = exclude_feature_contacts(context_.cache, t, settings_.normal_form, context_.pose.position,
-                                                       up_to_m, enough_m, &features_);
+  Look look_at(PartOfTriangle part, double enough_m, double up_to_m, RivalResult& result) {
+    const std::uint32_t t = part.triangle;
+    if (part.part != SearchPart::whole && holds_known(part))
+      return part.part == SearchPart::region ? Look{} : own_slope(enough_m);
+    if (!core_ && part.part == SearchPart::whole && continues_tracked_plane(t)) {
+      const double features = exclude_feature_contacts(context_.cache, {t}, settings_.normal_form,
+                                                       context_.pose.position, up_to_m, enough_m, &features_);
       if (features > 0.0) return {features, false, true};
     }
     ++dear_looks_;
-    for (std::size_t i = 0; i < known_count_; ++i)
+    for (std::size_t i = 0; i < known_count_ && !is_side(part.part) && part.part != SearchPart::region; ++i)
       if (same_basin(context_.cache, settings_.normal_form, t, known_[i], std::min(enough_m, slope_m_)))
         return own_slope(enough_m);
-    const PatchExclusion proof = exclude_triangle(context_, t, up_to_m, enough_m, &features_);
+    const PatchExclusion proof = exclude_part(context_, part, up_to_m, enough_m, &features_);
     if (!proof.possible && proof.margin_m > 0.0) return {proof.margin_m, false, true};
     if (!proof.possible) return {kUnresolvedMargin * slope_m_, true, true};
     if (proof.height_m != 0.0 && is_tracked(proof)) return own_slope(enough_m);
@@ -221,7 +254,7 @@ class RivalSearch {
         return {overtaking_margin(change_, height_change_on_face(there, proof.height_m), behind, touched_ != nullptr),
                 true, true};
     }
-    return solve(t, proof, enough_m, result);
+    return solve(part, proof, enough_m, result);
   }
 
   /// Ground that leads to a known contact. Steady ground does so for good, other ground as far as a look-ahead goes.
@@ -244,7 +277,7 @@ class RivalSearch {
     if (beside.region.empty()) return;
     beside.steady_only = true;
     search_.hierarchy.visit(beside, [&](std::uint32_t other, ContactQuery& q) {
-      const Look look = look_at_steady(other, q.margin_m, result);
+      const Look look = look_at_steady({other, q.part}, q.margin_m, result);
       if (look.margin_m < clearance.margin_m) narrow(clearance, look.margin_m, q);
       return solves_ < kMaxSolves;
     });
@@ -279,11 +312,13 @@ class RivalSearch {
   }
 
   /// There a triangle without a contact, deeper or not yet, stays without until one comes in over the border.
-  Look look_at_steady(std::uint32_t t, double margin, RivalResult& result) {
-    const Look look = look_at(t, 0.0, bound_m_ + 2.0 * margin, result);
+  Look look_at_steady(const PartOfTriangle& part, double margin, RivalResult& result) {
+    const Look look = look_at(part, 0.0, bound_m_ + 2.0 * margin, result);
     return look.holds_rival ? Look{look.margin_m, true, false} : Look{};
   }
-  Look look_at(std::uint32_t t, double enough_m, RivalResult& result) { return look_at(t, enough_m, bound_m_, result); }
+  Look look_at(const PartOfTriangle& part, double enough_m, RivalResult& result) {
+    return look_at(part, enough_m, bound_m_, result);
+  }
 
   /// Seen from the next triangle, the tracked contact on or near their common side.
   bool is_tracked(const PatchExclusion& proof) const {
@@ -292,11 +327,11 @@ class RivalSearch {
     return glm::dot(apart, apart) < near * near && std::abs(proof.height_m - height) < kHeightGuess * std::abs(height);
   }
 
-  Look solve(std::uint32_t t, const PatchExclusion& proof, double enough_m, RivalResult& result) {
+  Look solve(const PartOfTriangle& part, const PatchExclusion& proof, double enough_m, RivalResult& result) {
     context_.seed = static_cast<std::uint8_t>(std::min(++solves_, 255));
-    const SurfacePlace start = place_on_face(t, proof.u, std::min(proof.v, 1.0 - proof.u));
+    const SurfacePlace start = start_on(context_, part, proof);
     IterationResult r;
-    const int share = context_.cache.mesh().interior(t) ? 1 : 2;
+    const int share = context_.cache.mesh().interior(part.triangle) ? 1 : 2;
     iterate(context_, start, share * kRivalBudget, r);
     result.evaluations += r.evaluations;
     // Whatever it is called: on a boundary, say, it is left_boundary.

@@ -1,5 +1,6 @@
 // The nearest-triangle structure against brute force over all triangles.
 #include "core/contact/nearest_triangles.h"
+#include "tests/core/capped_cylinder.h"
 #include "tests/core/mesh/sample_meshes.h"
 #include "tests/core/scenes.h"
 
@@ -83,6 +84,30 @@ TEST_CASE("the nearest triangles are those of looking at every triangle, bit for
   CHECK(different_queries(scene_of(make_torus(0.040, 0.015, 48, 24)), rounds(400), 2) == 0);
   CHECK(different_queries(scene_of(*generate_mesh("cube", {.rounding_m = 1.5e-3})), rounds(400), 3) == 0);
   CHECK(different_queries(spot_scene(180.0), rounds(400), 4) == 0);
+}
+
+TEST_CASE("the nearest triangle of a body with flat caps of many slivers is as near as by looking at every triangle") {
+  const ScenePtr scene = scene_of(capped_cylinder(300));
+  const ContactMesh& mesh = scene->mesh();
+  REQUIRE(mesh.flat_regions().count() == 2);
+  Random random(11);
+  int wrong = 0, wrong_rays = 0, hits = 0;
+  for (int i = 0; i < 400; ++i) {
+    const Vec3 q = random.in_cube(0.06);
+    const NearestHit found = scene->nearest().nearest(q, kInf), best = brute_force(mesh, q, kInf)[0];
+    wrong += std::abs(found.distance_m - best.distance_m) > 1e-15;
+    wrong += std::abs(closest_on_triangle(mesh, found.triangle, q).distance_m - found.distance_m) > 0.0;
+    // Straight down, a ray meets the cap that is under it.
+    const auto ray = scene->nearest().cast(q, Vec3(0.0, 0.0, -1.0));
+    const bool over = std::hypot(q.x, q.y)<0.0399, beside = std::hypot(q.x, q.y)> 0.0401;
+    if (beside) wrong_rays += bool(ray);
+    if (!over || std::abs(q.z) < 0.02) continue;
+    ++hits;
+    wrong_rays += q.z < -0.02 ? bool(ray) : !ray || std::abs(ray.distance_m - (q.z - 0.02)) > 1e-12;
+  }
+  CHECK(wrong == 0);
+  CHECK(wrong_rays == 0);
+  CHECK(hits > 20);
 }
 
 TEST_CASE("the nearest triangles of the fandisk are those of looking at every triangle, bit for bit") {

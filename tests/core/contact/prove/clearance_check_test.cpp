@@ -10,7 +10,7 @@ TEST_CASE(
   Clearance fresh;
   fresh.margin_m = 1e-3;
   fresh.height_m = 0.02;
-  fresh.watched[0] = {7, 0, 5e-4f};
+  fresh.watched[0] = {.triangle = 7, .margin_m = 5e-4f};
   fresh.watched_count = 1;
   const Quat straight(1.0, 0.0, 0.0, 0.0), turned = glm::angleAxis(1e-3, Vec3(0.0, 0.0, 1.0));
   Finger sphere, ellipsoid;
