@@ -14,8 +14,9 @@ bool is_usable(const FingerPose& pose) {
   return std::isfinite(glm::dot(pose.position, pose.position) + glm::dot(pose.orientation, pose.orientation));
 }
 
-void keep_pose(const Vec3& position, double t_s, TickState& state) {
-  state.last_position = position;
+void keep_pose(const FingerPose& pose, double t_s, TickState& state) {
+  state.last_position = pose.position;
+  state.last_orientation = pose.orientation;
   state.last_t_s = t_s;
   state.has_previous = 1;
 }
@@ -28,7 +29,7 @@ void run_tick(const TickContext& tick, TickOutput& out, FindContacts find_contac
   find_contacts(planes);
   const FingerWay way = finger_way(tick.pose.position, tick.t_s, tick.state);
   render_planes(tick.preset, planes, section, way, tick.velocity, tick.state.rendered, out);
-  keep_pose(tick.pose.position, tick.t_s, tick.state);
+  keep_pose(tick.pose, tick.t_s, tick.state);
 }
 
 /// A tick whose pose can't be used: what was rendered last is rendered on, where the finger was last.

@@ -59,7 +59,8 @@ bool same_output(const TickState& a, const TickState& b) {
   return same_output(a.plane, b.plane) && a.last_converged.point == b.last_converged.point &&
          a.last_converged.normal == b.last_converged.normal && a.has_converged == b.has_converged &&
          a.last_converged_s == b.last_converged_s && a.last_position == b.last_position &&
-         a.last_t_s == b.last_t_s && a.clearance.free_m == b.clearance.free_m && a.clearance.centre == b.clearance.centre;
+         a.last_orientation == b.last_orientation && a.last_t_s == b.last_t_s &&
+         a.clearance.free_m == b.clearance.free_m && a.clearance.centre == b.clearance.centre;
 }
 
 /// Every number of a fan, and its flags.
