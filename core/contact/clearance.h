@@ -23,13 +23,18 @@ struct WatchedTriangle {
 /// Within it nothing is asked, however long the finger moves there. All distances are the finger's from `centre` and
 /// `orientation` (prove/clearance_check.h: gone_m).
 struct Clearance {
-  static constexpr std::size_t kWatched = 64;
+  static constexpr std::size_t kWatched = 60;
   Vec3 centre{0.0};  ///< local
   Quat orientation{1.0, 0.0, 0.0, 0.0};
   double free_m = -1.0;  ///< radius of the ball: up to here nothing needs to be looked at; negative: not known
   double margin_m =
       -1.0;               ///< up to here no triangle outside the tracked basin and the watched ones holds a contact ...
-  double height_m = 0.0;  ///< ... of a rank below this less the distance gone
+  double height_m = 0.0;  ///< ... of a rank below this
+  /// The look-ahead, a ball that lies further on in the direction in which the finger moves: outside it nothing is
+  /// known of triangles that are not watched. For a finger that is not round it is the one about `centre`.
+  Vec3 ahead_centre{0.0};
+  double ahead_m = -1.0;
+  double ahead_height_m = 0.0;  ///< what ranks behind this at ahead_centre was not looked at
   std::uint32_t watched_count = 0;
   float ahead = 1.0f;  ///< how far the next search of everything looks ahead, as a ratio: further where that is cheap
   std::uint32_t any_turn = 1;  ///< 0: holds at `orientation` alone; a finger that is not round and does not turn
@@ -41,7 +46,7 @@ struct Clearance {
   /// No other place counts as deeper, however far the finger goes: the contact is only followed.
   static Clearance unlimited() {
     Clearance c;
-    c.free_m = c.margin_m = c.height_m = std::numeric_limits<double>::infinity();
+    c.free_m = c.margin_m = c.height_m = c.ahead_m = c.ahead_height_m = std::numeric_limits<double>::infinity();
     return c;
   }
 };

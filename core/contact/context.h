@@ -17,6 +17,7 @@ struct ContactContext {
   IterationTrace* trace = nullptr;
   std::uint8_t seed = 0;             ///< 0 while following the kept plane; the number of the seed otherwise
   double moved_m = 0.0;              ///< the finger's way since the last tick
+  Vec3 moved{0.0};                   ///< that way
   const FingerCore* core = nullptr;  ///< for proofs, of a finger that is not round; set by searches
 
   /// A length given in switch hystereses (base/tolerances.h), m.

@@ -27,9 +27,9 @@ inline void find_smooth(const ContactScene& scene, StepCache& cache, const TickC
                         const SolverSettings& settings, TickPlanes& planes, Vec3& way_out) {
   RenderPlane& plane = planes.smooth;
   const bool all = wants_touched(tick.preset);
-  ContactContext context{
-      cache.patches, settings,   tick.finger, tick.local,
-      tick.origin,   tick.trace, 0,           glm::length(finger_way(tick.pose.position, tick.t_s, tick.state).moved)};
+  const Vec3 moved = finger_way(tick.pose.position, tick.t_s, tick.state).moved;
+  ContactContext context{cache.patches, settings, tick.finger,        tick.local, tick.origin,
+                         tick.trace,    0,        glm::length(moved), moved};
   const bool sample_is_kept = cache.holds(tick.state.plane, settings.normal_form);
   find_smooth_contact(context, scene.search(), sample_is_kept, tick.state, cache.smooth,
                       all ? &cache.touched : nullptr);

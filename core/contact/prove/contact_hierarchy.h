@@ -31,7 +31,8 @@ struct ContactQuery {
   Vec3 centre{0.0};
   double nearest_m = 0.0;  ///< contacts on the outside (h >= 0) with h up to this
   double inside_m = 0.0;   ///< contacts seen from inside (h < 0) with |h| up to this; negative: none
-  double margin_m = 0.0;   ///< also all that could come up while the centre moves by this much
+  double margin_m = 0.0;   ///< also all that could come up while the centre is within this of `centre + ahead`
+  Vec3 ahead{0.0};         ///< at most margin_m long
   double tilt_rad = 0.0;   ///< how far c - S may lean from N: 0 for point and sphere, more for other fingers
   /// Whether margin_m is left out where the ground does not fold. What comes in over its border then comes from a
   /// triangle that was asked for with the margin. Round fingers and Bernstein normals only.
@@ -109,10 +110,12 @@ inline double ContactHierarchy::reach2(const Node& node, const ContactQuery& q) 
   if (q.core) return touchable(node, q) ? box2 : -1.0;
 
   // Seen from c the node's points lie within `spread` of the direction to its middle; c may move by the margin.
-  const Vec3 d = q.centre - 0.5 * (low + high);
-  const double radius =
-      0.5 * std::sqrt(glm::dot(high - low, high - low)) +
-      (q.steady_only || is_steady(q, node.least_curvature, node.greatest_curvature) ? 0.0 : q.margin_m);
+  Vec3 d = q.centre - 0.5 * (low + high);
+  double radius = 0.5 * std::sqrt(glm::dot(high - low, high - low));
+  if (!q.steady_only && !is_steady(q, node.least_curvature, node.greatest_curvature)) {
+    d += q.ahead;
+    radius += q.margin_m;
+  }
   const double d2 = glm::dot(d, d);
   if (d2 <= radius * radius) return box2;
   // Compare the angle of d from +-axis with half + spread + tilt, by cosines times the distance.

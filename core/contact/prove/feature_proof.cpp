@@ -158,13 +158,13 @@ static std::uint64_t vertex_key(const ContactMesh& mesh, std::uint32_t t, std::u
   return std::uint64_t{mesh.vertex(t, k)} << 2 | 3u;
 }
 
-double exclude_feature_contacts(PatchCache& cache, std::uint32_t t, NormalForm form, const Vec3& centre, double bound_m,
-                                double enough_m, FeatureMemory* memory) {
+double exclude_feature_contacts(PatchCache& cache, std::uint32_t t, NormalForm form, const Vec3& centre,
+                                const RankBound& bound, double enough_m, FeatureMemory* memory) {
   const ContactMesh& mesh = cache.mesh();
   double margin = std::numeric_limits<double>::max();
   for (std::uint32_t k = 0; k < 3; ++k) {
     if (mesh.edge_kind(t, k) == EdgeKind::smooth || (memory && memory->knows(edge_key(mesh, t, k)))) continue;
-    const double far_off = 0.5 * (edge_distance(mesh, t, k, centre) - bound_m);
+    const double far_off = bound.way_to(edge_distance(mesh, t, k, centre));
     if (far_off > 0.0 && far_off >= enough_m) {
       margin = std::min(margin, far_off);
       if (memory) memory->add(edge_key(mesh, t, k));
@@ -177,15 +177,14 @@ double exclude_feature_contacts(PatchCache& cache, std::uint32_t t, NormalForm f
       safe = std::max(
           safe, over_face(edge_ends(mesh, cache.patch(other.triangle, form), other.triangle, other.edge), centre));
     if (safe < enough_m)
-      safe = std::max(safe,
-                      0.5 * (curve_distance(ends.curve, centre, bound_m + 2.0 * enough_m, kCurveHalvings) - bound_m));
+      safe = std::max(safe, bound.way_to(curve_distance(ends.curve, centre, bound.after(enough_m), kCurveHalvings)));
     margin = std::min(margin, std::max(0.0, safe));
     if (memory && safe > 0.0) memory->add(edge_key(mesh, t, k));
   }
   for (std::uint32_t k = 0; k < 3; ++k) {
     if (!mesh.feature_corner(t, k) || (memory && memory->knows(vertex_key(mesh, t, k)))) continue;
     const Vec3 d = centre - mesh.position(t, k);
-    double safe = 0.5 * (std::sqrt(glm::dot(d, d)) - bound_m);
+    double safe = bound.way_to(std::sqrt(glm::dot(d, d)));
     int faces = 0;
     if (safe < enough_m || !(safe > 0.0)) safe = std::max(safe, vertex_pull(mesh, t, k, centre, faces));
     margin = std::min(margin, std::max(0.0, safe));

@@ -2,6 +2,7 @@
 // centre.
 #pragma once
 
+#include "core/contact/contact_rank.h"
 #include "core/contact/patch_cache.h"
 
 #include <array>
@@ -38,11 +39,11 @@ class FeatureMemory {
 };
 
 /// How far the centre may go until a contact on the crease or boundary edges of triangle t or on their ends can come
-/// up that is nearer than `bound_m`; the largest double where there are none, 0 where one may be there now. Judged from
+/// up that is nearer than `bound`; the largest double where there are none, 0 where one may be there now. Judged from
 /// the ends of each edge: seen along the edge the centre passes its end once, seen across it leaves the face for the
 /// fan once. A margin under `enough_m` is worth some effort to widen. What `memory` knows is left out, what is excluded
 /// added to it.
-double exclude_feature_contacts(PatchCache& cache, std::uint32_t t, NormalForm form, const Vec3& centre, double bound_m,
-                                double enough_m = 0.0, FeatureMemory* memory = nullptr);
+double exclude_feature_contacts(PatchCache& cache, std::uint32_t t, NormalForm form, const Vec3& centre,
+                                const RankBound& bound, double enough_m = 0.0, FeatureMemory* memory = nullptr);
 
 }  // namespace tangent

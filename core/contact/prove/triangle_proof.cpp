@@ -40,7 +40,7 @@ double even_exclusion(const ContactMesh& mesh, std::uint32_t t, const Vec3& cent
   return std::max(0.0, beside - bulge);
 }
 
-PatchExclusion exclude_face(ContactContext& context, std::uint32_t t, double bound_m, double enough_m) {
+PatchExclusion exclude_face(ContactContext& context, std::uint32_t t, const RankBound& bound, double enough_m) {
   const Vec3& centre = context.pose.position;
   PatchExclusion proof;
   const double at_once =
@@ -51,21 +51,38 @@ PatchExclusion exclude_face(ContactContext& context, std::uint32_t t, double bou
     return proof;
   }
   proof = exclude_contact(context.cache.patch(t, context.settings.normal_form), centre, enough_m);
-  proof.margin_m = std::max({at_once, proof.margin_m, 0.5 * (proof.least_height_m - bound_m)});
+  proof.margin_m = std::max({at_once, proof.margin_m, bound.way_to(proof.least_height_m)});
   if (proof.margin_m > 0.0) proof.possible = false;
   return proof;
 }
 
+/// By the corners of a face.
+double exclude_corners(const ContactMesh& mesh, std::uint32_t t, const Vec3& centre) {
+  return std::max(corner_exclusion(mesh, t, centre), even_exclusion(mesh, t, centre));
+}
+
 }  // namespace
 
-PatchExclusion exclude_triangle(ContactContext& context, std::uint32_t t, double bound_m, double enough_m,
+bool excludes_at_a_glance(ContactContext& context, std::uint32_t t, const RankBound& bound, double enough_m,
+                          FeatureMemory* memory) {
+  const ContactMesh& mesh = context.cache.mesh();
+  const Vec3& centre = context.pose.position;
+  const NormalForm form = context.settings.normal_form;
+  if (exclude_corners(mesh, t, centre) < enough_m &&
+      !excludes_at_a_glance(context.cache.patch(t, form), centre, bound, enough_m))
+    return false;
+  return mesh.interior(t) ||
+         exclude_feature_contacts(context.cache, t, form, centre, bound, enough_m, memory) >= enough_m;
+}
+
+PatchExclusion exclude_triangle(ContactContext& context, std::uint32_t t, const RankBound& bound, double enough_m,
                                 FeatureMemory* memory) {
   const ContactMesh& mesh = context.cache.mesh();
-  if (!is_round(context.finger)) return exclude_by_core(context, *context.core, t, bound_m, enough_m);
-  PatchExclusion proof = exclude_face(context, t, bound_m, enough_m);
+  if (!is_round(context.finger)) return exclude_by_core(context, *context.core, t, bound, enough_m);
+  PatchExclusion proof = exclude_face(context, t, bound, enough_m);
   if (mesh.interior(t)) return proof;
   const double features = exclude_feature_contacts(context.cache, t, context.settings.normal_form,
-                                                   context.pose.position, bound_m, enough_m, memory);
+                                                   context.pose.position, bound, enough_m, memory);
   if (features <= 0.0) return unknown(context, t);
   proof.margin_m = std::min(proof.margin_m, features);
   return proof;

@@ -76,7 +76,7 @@ void seed_by_hierarchy(ContactContext& context, const SearchStructures& search, 
   FeatureMemory features;
   search.hierarchy.visit(query, [&](std::uint32_t t, ContactQuery& q) {
     const PatchExclusion proof =
-        exclude_triangle(context, t, selection.group == 0 ? selection.value : most, 0.0, &features);
+        exclude_triangle(context, t, {selection.group == 0 ? selection.value : most}, 0.0, &features);
     if (proof.margin_m > 0.0) return true;
     context.seed = static_cast<std::uint8_t>(std::min(++solves, 255));
     IterationResult r;
