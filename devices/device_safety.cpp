@@ -6,13 +6,9 @@ namespace tangent {
 
 namespace {
 
-Status open_force(ForceDevice* device) {
-  if (device == nullptr) return {};
-  const Status makes_sense = check_capabilities(device->capabilities());
-  return makes_sense ? device->open() : makes_sense;
-}
-
-Status open_display(ContactDisplay* device) {
+/// Of either kind; null: none, which is no failure.
+template <class Device>
+Status open_checked(Device* device) {
   if (device == nullptr) return {};
   const Status makes_sense = check_capabilities(device->capabilities());
   return makes_sense ? device->open() : makes_sense;
@@ -28,8 +24,8 @@ double sample_time(double rate_hz, double longest_s) {
 }  // namespace
 
 Status open_devices(DeviceSet& devices) {
-  if (const Status ok = open_force(devices.force.get()); !ok) return ok;
-  const Status ok = open_display(devices.display.get());
+  if (const Status ok = open_checked(devices.force.get()); !ok) return ok;
+  const Status ok = open_checked(devices.display.get());
   if (!ok && devices.force) devices.force->close();
   return ok;
 }
@@ -41,6 +37,7 @@ GateLimits gate_limits(const DeviceSet& devices, double rate_hz) {
     const ForceCapabilities& can = devices.force->capabilities();
     limits.peak_force_n = can.peak_force_n;
     limits.continuous_force_n = can.continuous_force_n;
+    limits.pushes_along = can.pushes_along;
     limits.workspace_half_size_m = can.workspace_half_size_m;
     limits.resolution_m = can.position_resolution_m;
     limits.sample_s = sample_time(can.rate_hz, limits.stale_s);
@@ -66,9 +63,15 @@ std::vector<std::string> devices_without_timeout(const DeviceSet& devices) {
   return names;
 }
 
-double stiffness_allowed(const DeviceSet& devices, double stiffness_n_per_m) {
-  const double largest = devices.force ? devices.force->capabilities().largest_stiffness_n_per_m : 0.0;
-  return largest > 0.0 ? std::min(stiffness_n_per_m, largest) : stiffness_n_per_m;
+Preset preset_allowed(Preset preset, const DeviceSet& devices, double scale) {
+  if (!devices.force) return preset;
+  const auto cap = [scale](double& value, double largest) {
+    if (largest > 0.0) value = std::min(value, largest / scale);
+  };
+  const ForceCapabilities& can = devices.force->capabilities();
+  cap(preset.force.stiffness_n_per_m, can.largest_stiffness_n_per_m);
+  cap(preset.force.damping_n_s_per_m, can.largest_damping_n_s_per_m);
+  return preset;
 }
 
 }  // namespace tangent

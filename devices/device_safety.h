@@ -2,6 +2,7 @@
 // before arming is named.
 #pragma once
 
+#include "core/preset/preset.h"
 #include "devices/device_set.h"
 #include "devices/gate/limits.h"
 
@@ -19,8 +20,8 @@ GateLimits gate_limits(const DeviceSet& devices, double rate_hz);
 /// Names of the real devices that go on with their last command when the program dies: their firmware has no time-out.
 std::vector<std::string> devices_without_timeout(const DeviceSet& devices);
 
-/// The stiffness that the force device may render, N/m: what is asked for, or the device's largest if that is known and
-/// smaller.
-double stiffness_allowed(const DeviceSet& devices, double stiffness_n_per_m);
+/// What the force device may render of this preset. Its stiffness and damping, as they are felt at the device (`scale`
+/// times, Placement::felt), are no more than the device's largest, where those are known.
+Preset preset_allowed(Preset preset, const DeviceSet& devices, double scale = 1.0);
 
 }  // namespace tangent

@@ -14,7 +14,9 @@
 #include "devices/device_state.h"
 #include "devices/fault_injection.h"
 #include "devices/link_report.h"
+#include "devices/placement.h"
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -28,32 +30,43 @@ struct ForceCapabilities {
   std::string name;         ///< for people: "simulated PHANToM-like"
   std::string serial = {};  ///< empty: not known
   bool simulated = false;
-  bool senses_orientation = false;
-  double peak_force_n = 0.0;        ///< must never be exceeded
+  std::array<bool, 3> pushes_along{true, true, true};  ///< axes of its own frame; along the others no force is sent
+  int rotations_sensed = 0;   ///< of the finger: 3, or 0 where its orientation is the default one; 1 or 2: in part
+  int buttons = 0;            ///< on its handle, 32 at most
+  double peak_force_n = 0.0;  ///< must never be exceeded
   double continuous_force_n = 0.0;  ///< can be held indefinitely
   double position_resolution_m = 0.0;
   double apparent_mass_kg = 0.0;
-  double largest_stiffness_n_per_m = 0.0;
-  Vec3 workspace_half_size_m{0.0};  ///< box around the origin
-  double rate_hz = 0.0;             ///< exchanges per second it is designed for
-  double homing_s = 10.0;           ///< homing takes no longer; 0: it is homed by hand
-  double firmware_timeout_s = 0.0;  ///< firmware watchdog: stops the force when no command comes; 0: none
+  double largest_stiffness_n_per_m = 0.0;  ///< that it renders stably
+  double largest_damping_n_s_per_m = 0.0;  ///< that it renders stably
+  Vec3 workspace_half_size_m{0.0};         ///< box around its origin
+  DeviceFrame frame = {};                  ///< its own axes and origin in the world
+  double rate_hz = 0.0;                    ///< exchanges per second it is designed for
+  double homing_s = 10.0;                  ///< homing takes no longer; 0: it is homed by hand
+  double firmware_timeout_s = 0.0;         ///< firmware watchdog: stops the force when no command comes; 0: none
 };
+
+/// "x, y, z": the axes that it can push along.
+std::string pushed_axes(const ForceCapabilities& can);
+/// "at 0.0 0.0 300.0 mm, turned by 0.0 0.0 90.0 deg": in the world.
+std::string frame_text(const DeviceFrame& frame);
 
 struct ForceCommand {
   std::uint64_t tick = 0;
-  Vec3 force_n{0.0};  ///< world; ignored unless ready
+  Vec3 force_n{0.0};  ///< the device's frame; ignored unless ready
   DeviceRequest request = DeviceRequest::none;
 };
 
+/// In the device's frame.
 struct ForceSample {
-  Vec3 position_m{0.0};                                 ///< finger centre, world, as the encoders read it
-  Quat orientation{1.0, 0.0, 0.0, 0.0};                 ///< unit; finger frame -> world
-  std::optional<Vec3> velocity_m_per_s = std::nullopt;  ///< of the finger, world, where the device measures it itself
+  Vec3 position_m{0.0};                                 ///< finger centre, as the encoders read it
+  Quat orientation{1.0, 0.0, 0.0, 0.0};                 ///< unit; finger frame -> device frame
+  std::optional<Vec3> velocity_m_per_s = std::nullopt;  ///< of the finger, where the device measures it itself
   double age_s = 0.0;                                   ///< of position and orientation: since they were measured
   Vec3 force_n{0.0};                                    ///< rendered during the exchange; zero outside ready
   DeviceState state = DeviceState::absent;
   DeviceFault fault = DeviceFault::none;
+  std::uint32_t buttons = 0;  ///< pressed: bit per button, the first is 1
 };
 
 /// A tick for a driver to call, from a thread of its own.

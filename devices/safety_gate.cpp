@@ -198,7 +198,7 @@ double SafetyGate::workspace_share(const Vec3& position_m) const noexcept {
   double beyond = 0.0;
   for (int axis = 0; axis < 3; ++axis) {
     const double half = limits_.workspace_half_size_m[axis];
-    if (half > 0.0) beyond = std::max(beyond, std::abs(position_m[axis] - workspace_centre_m_[axis]) - half);
+    if (half > 0.0) beyond = std::max(beyond, std::abs(position_m[axis]) - half);
   }
   if (beyond <= 0.0) return 1.0;
   return limits_.workspace_margin_m > 0.0 ? std::max(0.0, 1.0 - beyond / limits_.workspace_margin_m) : 0.0;
@@ -227,6 +227,8 @@ void SafetyGate::note_wall(const GateInput& input, double share, double limit_n)
 
 Vec3 SafetyGate::limit_force(const GateInput& input, double dt_s, GateOutput& out) noexcept {
   Vec3 force = input.force_n;
+  for (int axis = 0; axis < 3; ++axis)
+    if (!limits_.pushes_along[static_cast<std::size_t>(axis)]) force[axis] = 0.0;
   if (shorten(force, limits_.peak_force_n, kJustBelow)) note(GateAction::force_clamped, out);
   const auto reduce = [&](double share, GateAction action) {
     if (share >= 1.0) return;

@@ -12,8 +12,8 @@
 //   force                 peak clamp; continuous clamp by the motors' heat; slew limit; ramp-in after arming
 //   display               target clamped to the travel and to its fastest motion
 // A stop latches a fault until a person re-arms. Time is the devices' time (dt_s): a simulated device waits for a late
-// tick, a real one does not. SI units, world frame. Plain state and arithmetic: no clock, no allocation, no lock; one
-// thread (the servo's) at a time.
+// tick, a real one does not. SI units. Plain state and arithmetic: no clock, no allocation, no lock; one
+// thread (the servo's) at a time. All vectors are in the device's frame.
 #pragma once
 
 #include "core/base/vec.h"
@@ -35,7 +35,7 @@ struct GateInput {
   double display_m = 0.0;
   DeviceState force_device = DeviceState::absent;
   DeviceState display = DeviceState::absent;  ///< absent: none, which is no fault
-  Vec3 position_m{0.0};                       ///< of the finger, as measured, world
+  Vec3 position_m{0.0};                       ///< of the finger, as measured
   double position_age_s = 0.0;                ///< since it was measured
   double display_measured_m = 0.0;            ///< of the roller
   double display_age_s = 0.0;
@@ -43,9 +43,9 @@ struct GateInput {
   double display_lowest_m = -1.0, display_highest_m = 1.0;  ///< requested range of targets, within the travel
   bool display_measures = false;                            ///< display_measured_m comes from a sensor
   double display_fastest_m_per_s = 0.0;  ///< requested limit of the target's speed; 0: the gate's own
-  double stiffness_n_per_m = 0.0;        ///< of the surface that made the force; 0: none, it stores no energy
-  double elastic_n = 0.0;                ///< stiffness times depth, without any limit
-  double declared_j = 0.0;               ///< put out on purpose by this force, see gate/energy.h
+  double stiffness_n_per_m = 0.0;  ///< of the surface that made the force, at the device; 0: none, it stores no energy
+  double elastic_n = 0.0;          ///< stiffness times depth, without any limit
+  double declared_j = 0.0;         ///< put out on purpose by this force, see gate/energy.h
 };
 
 struct GateOutput {
@@ -70,8 +70,6 @@ class SafetyGate {
   void stop_by(GateFault fault) noexcept;
   /// Restarts the ramp if armed, and does not compare the next position with the last (the scene was replaced).
   void restart_ramp() noexcept;
-  /// Centre of the device's workspace, world frame.
-  void place_workspace(const Vec3& centre_m) noexcept { workspace_centre_m_ = centre_m; }
 
   /// At the start of every tick, `dt_s` after the last: the force to send in this tick's exchange. It is that of the
   /// last pass, unless the gate was stopped or this tick is late.
@@ -81,6 +79,8 @@ class SafetyGate {
 
   const GateLimits& limits() const { return limits_; }
   GateState state() const { return state_; }
+  /// Whether a force may go out in the next exchange.
+  bool may_send() const { return live() || falling_ || half_to_send_; }
   GateFault fault() const { return fault_; }
   /// Ticks in which each action was taken, by GateAction.
   const std::array<std::uint64_t, kGateActionCount>& counts() const { return counts_; }
@@ -117,7 +117,6 @@ class SafetyGate {
   double sample_age_s_ = 0.0;  ///< of the sample that the last force was computed from
   Vec3 last_force_n_{0.0};
   double last_display_m_ = 0.0;
-  Vec3 workspace_centre_m_{0.0};
   LatenessWatch lateness_;
   MotionWatch finger_, roller_;
   FrozenPositionWatch frozen_;

@@ -5,11 +5,11 @@
 
 namespace tangent {
 
-/// Target of the hand's spring. World frame, SI.
+/// Target of the hand's spring. The device's frame, SI.
 struct HandTarget {
   Vec3 position_m{0.0};
   Vec3 velocity_m_per_s{0.0};
-  Quat orientation{1.0, 0.0, 0.0, 0.0};  ///< unit; finger frame -> world
+  Quat orientation{1.0, 0.0, 0.0, 0.0};  ///< unit; finger frame -> device frame
 };
 
 class SimulatedHand {

@@ -13,7 +13,8 @@ namespace tangent {
 
 /// A triangle that holds no deeper contact, but could before others do.
 struct WatchedTriangle {
-  std::uint32_t triangle : 31 = 0;
+  std::uint32_t triangle : 29 = 0;
+  std::uint32_t part : 2 = 0;         ///< 1 to 3: one of its sides by itself; 0: what else it is asked for
   std::uint32_t holds_rival : 1 = 0;  ///< a contact, or what may have become one, that was not deep enough
   float margin_m = 0.0f;  ///< how far from Clearance::centre the finger may go before it must be looked at again
   bool operator==(const WatchedTriangle&) const = default;
@@ -23,16 +24,21 @@ struct WatchedTriangle {
 /// Within it nothing is asked, however long the finger moves there. All distances are the finger's from `centre` and
 /// `orientation` (prove/clearance_check.h: gone_m).
 struct Clearance {
-  static constexpr std::size_t kWatched = 64;
+  static constexpr std::size_t kWatched = 57;
   Vec3 centre{0.0};  ///< local
   Quat orientation{1.0, 0.0, 0.0, 0.0};
   double free_m = -1.0;  ///< radius of the ball: up to here nothing needs to be looked at; negative: not known
   double margin_m =
       -1.0;               ///< up to here no triangle outside the tracked basin and the watched ones holds a contact ...
-  double height_m = 0.0;  ///< ... of a rank below this less the distance gone
-  std::uint32_t watched_count = 0;
+  double height_m = 0.0;  ///< ... of a rank below this
+  /// The look-ahead, a ball that lies further on in the direction in which the finger moves: outside it nothing is
+  /// known of triangles that are not watched. For a finger that is not round it is the one about `centre`.
+  Vec3 ahead_centre{0.0};
+  double ahead_m = -1.0;
+  double ahead_height_m = 0.0;  ///< what ranks behind this at ahead_centre was not looked at
+  std::uint32_t watched_count : 16 = 0;
+  std::uint32_t any_turn : 16 = 1;  ///< 0: holds at `orientation` alone; a finger that is not round and does not turn
   float ahead = 1.0f;  ///< how far the next search of everything looks ahead, as a ratio: further where that is cheap
-  std::uint32_t any_turn = 1;  ///< 0: holds at `orientation` alone; a finger that is not round and does not turn
   std::array<WatchedTriangle, kWatched> watched;  ///< the first watched_count, in no order
 
   std::span<WatchedTriangle> on_watch() { return {watched.data(), watched_count}; }
@@ -41,7 +47,7 @@ struct Clearance {
   /// No other place counts as deeper, however far the finger goes: the contact is only followed.
   static Clearance unlimited() {
     Clearance c;
-    c.free_m = c.margin_m = c.height_m = std::numeric_limits<double>::infinity();
+    c.free_m = c.margin_m = c.height_m = c.ahead_m = c.ahead_height_m = std::numeric_limits<double>::infinity();
     return c;
   }
 };

@@ -13,4 +13,14 @@ inline double contact_rank(const Finger& finger, const PlaneContact& contact) {
   return (is_round(finger) ? round_radius_m(finger) : finger.reach_m()) - contact.penetration_m;
 }
 
+/// Up to which rank contacts count, and how fast the gap to one behind it closes at most while the finger moves.
+struct RankBound {
+  double rank_m = 0.0;
+  double closing = 2.0;  ///< 1: the bound stays where it is; 2: it may rise by as much as the finger moves
+  /// How far the finger may go before a contact of rank `rank` now is one that counts.
+  double way_to(double rank) const { return (rank - rank_m) / closing; }
+  /// What counts after that way.
+  double after(double way_m) const { return rank_m + closing * way_m; }
+};
+
 }  // namespace tangent

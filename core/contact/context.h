@@ -16,7 +16,8 @@ struct ContactContext {
   Vec3 origin;             ///< of the local coordinates, for the trace
   IterationTrace* trace = nullptr;
   std::uint8_t seed = 0;             ///< 0 while following the kept plane; the number of the seed otherwise
-  double moved_m = 0.0;              ///< the finger's way since the last tick
+  double moved_m = 0.0;              ///< the way of the finger's furthest point since the last tick
+  Vec3 moved{0.0};                   ///< the way of its centre
   const FingerCore* core = nullptr;  ///< for proofs, of a finger that is not round; set by searches
 
   /// A length given in switch hystereses (base/tolerances.h), m.

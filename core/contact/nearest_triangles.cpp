@@ -1,5 +1,6 @@
 #include "core/contact/nearest_triangles.h"
 
+#include "core/base/built_once.h"
 #include "core/base/triangle.h"
 
 #include <embree3/rtcore.h>
@@ -61,9 +62,19 @@ struct Collector {
   }
 };
 
+/// A flat region of slivers is one primitive, its first triangle's: boxes around slivers overlap all over.
+bool stands_for_region(const ContactMesh& mesh, std::uint32_t t) {
+  const std::uint32_t region = mesh.flat_regions().of(t);
+  return region != kNone && mesh.flat_regions().triangles(region).front() == t;
+}
+
 bool on_point_query(RTCPointQueryFunctionArguments* args) {
   auto& collector = *static_cast<Collector*>(args->userPtr);
-  if (!collector.offer(args->primID)) return false;
+  std::uint32_t t = args->primID;
+  const ContactMesh& mesh = *collector.mesh;
+  if (stands_for_region(mesh, t))
+    t = mesh.flat_regions().foot(mesh, mesh.flat_regions().of(t), collector.query).triangle;
+  if (!collector.offer(t)) return false;
   args->query->radius = culling_radius(collector.radius, collector.coordinate_scale);
   return true;
 }
@@ -71,13 +82,21 @@ bool on_point_query(RTCPointQueryFunctionArguments* args) {
 void on_bounds(const RTCBoundsFunctionArguments* args) {
   const auto& mesh = *static_cast<const ContactMesh*>(args->geometryUserPtr);
   RTCBounds& b = *args->bounds_o;
-  if (!mesh.usable(args->primID)) {  // an empty box: Embree leaves the primitive out
+  // An empty box: Embree leaves the primitive out.
+  if (!mesh.usable(args->primID) ||
+      (mesh.flat_regions().of(args->primID) != kNone && !stands_for_region(mesh, args->primID))) {
     b.lower_x = b.lower_y = b.lower_z = std::numeric_limits<float>::infinity();
     b.upper_x = b.upper_y = b.upper_z = -std::numeric_limits<float>::infinity();
     return;
   }
   Box box;
-  for (std::uint32_t k = 0; k < 3; ++k) box.include(mesh.position(args->primID, k));
+  const std::uint32_t t = args->primID, region = mesh.flat_regions().of(t);
+  if (region == kNone) {
+    for (const Vec3& p : mesh.positions(t)) box.include(p);
+  } else {
+    for (const std::uint32_t other : mesh.flat_regions().triangles(region))
+      for (const Vec3& p : mesh.positions(other)) box.include(p);
+  }
   b.lower_x = round_down(box.min.x);
   b.lower_y = round_down(box.min.y);
   b.lower_z = round_down(box.min.z);
@@ -110,20 +129,48 @@ struct RayContext {
   NearestTriangles::RayHit best;
 };
 
+/// The triangle of a primitive that a ray can cross: of a region, where it goes through its plane.
+std::uint32_t crossed_triangle(const ContactMesh& mesh, std::uint32_t t, const Vec3& origin, const Vec3& direction) {
+  if (!stands_for_region(mesh, t)) return t;
+  const FlatRegions& flat = mesh.flat_regions();
+  const std::uint32_t region = flat.of(t);
+  const double speed = glm::dot(direction, flat.normal(region));
+  if (speed == 0.0) return t;
+  const double way = glm::dot(flat.origin(region) - origin, flat.normal(region)) / speed;
+  return flat.foot(mesh, region, origin + way * direction).triangle;
+}
+
 void on_intersect(const RTCIntersectFunctionNArguments* args) {
   if (args->valid[0] != -1) return;
   const auto& mesh = *static_cast<const ContactMesh*>(args->geometryUserPtr);
   auto& ray = *reinterpret_cast<RayContext*>(args->context);
   double u = 0.0, v = 0.0;
-  const double distance = intersect(mesh, args->primID, ray.origin, ray.direction, u, v);
-  const bool better = !ray.best || distance < ray.best.distance_m ||
-                      (distance == ray.best.distance_m && args->primID < ray.best.triangle);
+  const std::uint32_t t = crossed_triangle(mesh, args->primID, ray.origin, ray.direction);
+  const double distance = intersect(mesh, t, ray.origin, ray.direction, u, v);
+  const bool better =
+      !ray.best || distance < ray.best.distance_m || (distance == ray.best.distance_m && t < ray.best.triangle);
   if (!std::isfinite(distance) || !better) return;
-  ray.best = {args->primID, distance, u, v};
+  ray.best = {t, distance, u, v};
   auto* hit = reinterpret_cast<RTCRayHit*>(args->rayhit);
   hit->ray.tfar = round_up(distance * (1.0 + 4.0 * FLT_EPSILON));
   hit->hit.primID = args->primID;
   hit->hit.geomID = args->geomID;
+}
+
+/// Square of the distance along a ray at which it enters a box, 0 from inside, -1: it passes by.
+double entry2(const Vec3& low, const Vec3& high, const Vec3& origin, const Vec3& direction) {
+  constexpr double kRoom = 1e-12;  // ratio: more than the rounding of a quotient
+  double first = 0.0, last = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < 3; ++k) {
+    if (direction[k] == 0.0) {
+      if (origin[k] < low[k] || origin[k] > high[k]) return -1.0;
+      continue;
+    }
+    const double a = (low[k] - origin[k]) / direction[k], b = (high[k] - origin[k]) / direction[k];
+    first = std::max(first, std::min(a, b) * (1.0 - kRoom));
+    last = std::min(last, std::max(a, b) * (1.0 + kRoom));
+  }
+  return first <= last ? first * first : -1.0;
 }
 
 bool on_memory(void* counter, ssize_t bytes, bool /*post*/) {
@@ -141,16 +188,86 @@ NearestHit closest_on_triangle(const ContactMesh& mesh, std::uint32_t t, const V
 
 struct NearestTriangles::Impl {
   const ContactMesh* mesh = nullptr;
+  const TriangleClusters* clusters = nullptr;   ///< null: by Embree
+  std::unique_ptr<BuiltOnce<BoxTree>[]> parts;  ///< boxes about each cluster's triangles
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
-  double extent = 0.0;  ///< largest local coordinate of the mesh
+  double extent;  ///< largest local coordinate of the mesh
   std::atomic<std::int64_t> bytes{0};
 
+  Impl(const ContactMesh& of, const TriangleClusters* by)
+      : mesh(&of),
+        clusters(by),
+        extent(std::max(largest_coordinate(of.bounds().min), largest_coordinate(of.bounds().max))) {
+    if (by) parts = std::make_unique<BuiltOnce<BoxTree>[]>(by->count());
+  }
   ~Impl() {
     if (scene) rtcReleaseScene(scene);
     if (device) rtcReleaseDevice(device);
   }
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
+
+  const BoxTree& part(std::size_t cluster) const {
+    return parts[cluster].get([&] {
+      constexpr std::size_t kLeafTriangles = 4;
+      std::vector<FloatBox> boxes;
+      for (const std::uint32_t t : clusters->triangles(cluster)) {
+        Box box;
+        for (std::uint32_t k = 0; k < 3; ++k) box.include(mesh->position(t, k));
+        boxes.push_back(FloatBox::about(box));
+      }
+      return BoxTree::build(boxes, kLeafTriangles);
+    });
+  }
+
+  /// Calls visit(triangle) for those in boxes within reach (box_tree.h).
+  template <class Reach, class Farthest, class Visit>
+  void visit(const Reach& reach2, const Farthest& farthest2, const Visit& visit) const {
+    clusters->tree().visit(reach2, farthest2, [&](std::uint32_t cluster) {
+      const std::span<const std::uint32_t> triangles = clusters->triangles(cluster);
+      return part(cluster).visit(reach2, farthest2, [&](std::uint32_t i) {
+        visit(triangles[i]);
+        return true;
+      });
+    });
+  }
+
+  void collect(Collector& collector) const;
+  RayHit cast(const Vec3& origin, const Vec3& direction) const;
 };
+
+void NearestTriangles::Impl::collect(Collector& collector) const {
+  if (clusters) {
+    constexpr double kRoom = 1e-9;  // ratio: a distance may be rounded up, that of its box down
+    return visit([&](const Vec3& low, const Vec3& high) { return distance2_to_box(low, high, collector.query); },
+                 [&] { return collector.radius * collector.radius * (1.0 + kRoom); },
+                 [&](std::uint32_t t) { collector.offer(t); });
+  }
+  RTCPointQuery q{};
+  q.x = static_cast<float>(collector.query.x);
+  q.y = static_cast<float>(collector.query.y);
+  q.z = static_cast<float>(collector.query.z);
+  q.radius = culling_radius(collector.radius, collector.coordinate_scale);
+  RTCPointQueryContext context;
+  rtcInitPointQueryContext(&context);
+  rtcPointQuery(scene, &q, &context, on_point_query, &collector);
+}
+
+NearestTriangles::RayHit NearestTriangles::Impl::cast(const Vec3& origin, const Vec3& direction) const {
+  RayHit best;
+  best.distance_m = std::numeric_limits<double>::infinity();
+  visit(
+      [&](const Vec3& low, const Vec3& high) { return entry2(low, high, origin, direction); },
+      [&] { return best.distance_m * best.distance_m; },
+      [&](std::uint32_t t) {
+        double u = 0.0, v = 0.0;
+        const double distance = intersect(*mesh, t, origin, direction, u, v);
+        if (distance < best.distance_m || (distance == best.distance_m && t < best.triangle && std::isfinite(distance)))
+          best = {t, distance, u, v};
+      });
+  return best ? best : RayHit{};
+}
 
 NearestTriangles::NearestTriangles(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 NearestTriangles::NearestTriangles(NearestTriangles&&) noexcept = default;
@@ -172,9 +289,7 @@ static tl::unexpected<Error> not_started() {
 }
 
 Result<NearestTriangles> NearestTriangles::build(const ContactMesh& mesh) {
-  auto impl = std::make_unique<Impl>();
-  impl->mesh = &mesh;
-  impl->extent = std::max(largest_coordinate(mesh.bounds().min), largest_coordinate(mesh.bounds().max));
+  auto impl = std::make_unique<Impl>(mesh, nullptr);
   impl->device = rtcNewDevice(kEmbreeConfig);
   if (!impl->device) return not_started();
   rtcSetDeviceMemoryMonitorFunction(impl->device, on_memory, &impl->bytes);
@@ -196,6 +311,10 @@ Result<NearestTriangles> NearestTriangles::build(const ContactMesh& mesh) {
   return NearestTriangles(std::move(impl));
 }
 
+NearestTriangles NearestTriangles::late(const ContactMesh& mesh, const TriangleClusters& clusters) {
+  return NearestTriangles(std::make_unique<Impl>(mesh, &clusters));
+}
+
 NearestHit NearestTriangles::nearest(const Vec3& query, double radius_m) const {
   NearestHit hit;
   nearest_several(query, radius_m, {&hit, 1});
@@ -212,15 +331,7 @@ std::size_t NearestTriangles::nearest_several(const Vec3& query, double radius_m
   Collector collector{impl_->mesh, from, radius_m, std::max(largest_coordinate(from), impl_->extent), out};
   if (scale > limit) collector.radius = std::numeric_limits<double>::infinity();
 
-  RTCPointQuery q{};
-  q.x = static_cast<float>(from.x);
-  q.y = static_cast<float>(from.y);
-  q.z = static_cast<float>(from.z);
-  q.radius = culling_radius(collector.radius, collector.coordinate_scale);
-  RTCPointQueryContext context;
-  rtcInitPointQueryContext(&context);
-  rtcPointQuery(impl_->scene, &q, &context, on_point_query, &collector);
-
+  impl_->collect(collector);
   if (scale > limit) {
     std::size_t kept = 0;
     for (std::size_t i = 0; i < collector.size; ++i) {
@@ -233,6 +344,7 @@ std::size_t NearestTriangles::nearest_several(const Vec3& query, double radius_m
 }
 
 NearestTriangles::RayHit NearestTriangles::cast(const Vec3& origin, const Vec3& direction) const {
+  if (impl_->clusters) return impl_->cast(origin, direction);
   RayContext ray{};
   rtcInitIntersectContext(&ray.context);
   ray.origin = origin;
@@ -252,7 +364,17 @@ NearestTriangles::RayHit NearestTriangles::cast(const Vec3& origin, const Vec3& 
   return ray.best;
 }
 
+std::size_t NearestTriangles::part_count() const { return impl_->clusters ? impl_->clusters->count() : 0; }
+
+void NearestTriangles::build_part(std::size_t part) const { impl_->part(part); }
+
 std::size_t NearestTriangles::memory_bytes() const {
+  if (impl_->clusters) {
+    std::size_t bytes = part_count() * sizeof(impl_->parts[0]);
+    for (std::size_t i = 0; i < part_count(); ++i)
+      if (const BoxTree* built = impl_->parts[i].if_built()) bytes += sizeof(*built) + built->memory_bytes();
+    return bytes;
+  }
   return static_cast<std::size_t>(std::max<std::int64_t>(0, impl_->bytes.load()));
 }
 

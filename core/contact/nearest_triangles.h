@@ -1,9 +1,11 @@
 // Nearest-triangle and ray queries on a contact mesh: Embree's BVH for the culling, in float and rounded
 // outwards; distances exact in double in its callback. Ties go to the lowest triangle number.
-// Queries are const, allocate nothing and may run from any number of threads.
+// Or boxes about the triangles, cluster by cluster, each built when a query first comes to it: the same answers bit for
+// bit, sooner on a large mesh that is just being opened, slower later.
+// Queries are const, allocate nothing but those boxes, and may run from any number of threads.
 #pragma once
 
-#include "core/mesh/contact_mesh.h"
+#include "core/contact/triangle_clusters.h"
 
 #include <cstddef>
 #include <memory>
@@ -25,6 +27,8 @@ NearestHit closest_on_triangle(const ContactMesh& mesh, std::uint32_t t, const V
 class NearestTriangles {
  public:
   static Result<NearestTriangles> build(const ContactMesh& mesh);  ///< `mesh` must outlive it
+  /// Without Embree. Both must outlive it.
+  static NearestTriangles late(const ContactMesh& mesh, const TriangleClusters& clusters);
   NearestTriangles(NearestTriangles&&) noexcept;
   NearestTriangles& operator=(NearestTriangles&&) noexcept;
   ~NearestTriangles();
@@ -33,6 +37,7 @@ class NearestTriangles {
   NearestHit nearest(const Vec3& query, double radius_m) const;
 
   /// The up to out.size() nearest triangles within `radius_m`, by distance, then number. Returns how many.
+  /// Of a flat region of slivers one stands for all (mesh/flat_regions.h).
   std::size_t nearest_several(const Vec3& query, double radius_m, std::span<NearestHit> out) const;
 
   struct RayHit {
@@ -43,7 +48,9 @@ class NearestTriangles {
   /// First flat triangle along a ray (both sides count); direction: unit.
   RayHit cast(const Vec3& origin, const Vec3& direction) const;
 
-  std::size_t memory_bytes() const;  ///< as Embree reports it to its memory monitor
+  std::size_t part_count() const;  ///< what is built late, 0: nothing
+  void build_part(std::size_t part) const;
+  std::size_t memory_bytes() const;  ///< of what is built; Embree's as it reports it to its memory monitor
 
  private:
   struct Impl;

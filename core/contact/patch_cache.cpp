@@ -41,7 +41,7 @@ void PatchCache::fill(VertexSurroundings& vertex, std::uint32_t t, std::uint32_t
   vertex.face_count = 0;
   std::size_t rays = 0;
   compute_around(
-      t, corner, form,
+      t, corner, form, [](const Vec3&) { return Vec3(0.0); },
       [&](std::uint32_t at, std::uint32_t k, const SurfaceSample& sample) {
         if (vertex.face_count == VertexSurroundings::kCapacity) vertex.complete = false;
         if (vertex.complete) vertex.faces[vertex.face_count++] = {at, k, rays, sample};

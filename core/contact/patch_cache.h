@@ -104,10 +104,14 @@ class PatchCache {
   /// Visits the faces around the vertex at `corner` of triangle `t`, on_face(triangle, corner, sample), and after each
   /// those creases and boundaries that are its, on_ray(triangle, side, f, fan): every one once. For few enough faces
   /// that is all from what was kept of the last time.
-  template <class OnFace, class OnRay>
-  void around(std::uint32_t t, std::uint32_t corner, NormalForm form, OnFace on_face, OnRay on_ray) {
+  /// Of a crowded vertex only those that matter to a vector from it, `direction(normal)` (around_vertex_towards).
+  template <class Direction, class OnFace, class OnRay>
+  void around(std::uint32_t t, std::uint32_t corner, NormalForm form, Direction direction, OnFace on_face,
+              OnRay on_ray) {
+    if (mesh_->crowded_vertex(mesh_->vertex(t, corner)))
+      return compute_around(t, corner, form, direction, on_face, on_ray);
     if (vertex_.triangle != t || vertex_.corner != corner || vertex_.form != form) fill(vertex_, t, corner, form);
-    if (!vertex_.complete) return compute_around(t, corner, form, on_face, on_ray);
+    if (!vertex_.complete) return compute_around(t, corner, form, direction, on_face, on_ray);
     std::size_t r = 0;
     for (std::size_t i = 0; i < vertex_.face_count; ++i) {
       const VertexSurroundings::Face& face = vertex_.faces[i];
@@ -130,8 +134,9 @@ class PatchCache {
   void fill_bend(CachedPatch& slot, std::uint32_t t) const;
   void fill(CachedFan& slot, std::uint32_t t, std::uint32_t side, NormalForm form);
   void fill(VertexSurroundings& vertex, std::uint32_t t, std::uint32_t corner, NormalForm form);
-  template <class OnFace, class OnRay>
-  void compute_around(std::uint32_t t, std::uint32_t corner, NormalForm form, OnFace on_face, OnRay on_ray);
+  template <class Direction, class OnFace, class OnRay>
+  void compute_around(std::uint32_t t, std::uint32_t corner, NormalForm form, Direction direction, OnFace on_face,
+                      OnRay on_ray);
 
   const ContactMesh* mesh_;
   std::vector<PatchKey> held_;
@@ -140,9 +145,10 @@ class PatchCache {
   VertexSurroundings vertex_;
 };
 
-template <class OnFace, class OnRay>
-void PatchCache::compute_around(std::uint32_t t, std::uint32_t corner, NormalForm form, OnFace on_face, OnRay on_ray) {
-  around_vertex(*mesh_, t, corner, [&](std::uint32_t at, std::uint32_t k) {
+template <class Direction, class OnFace, class OnRay>
+void PatchCache::compute_around(std::uint32_t t, std::uint32_t corner, NormalForm form, Direction direction,
+                                OnFace on_face, OnRay on_ray) {
+  around_vertex_towards(*mesh_, t, corner, direction, [&](std::uint32_t at, std::uint32_t k) {
     SurfaceSample there;
     sample(at, form, k == 1 ? 1.0 : 0.0, k == 2 ? 1.0 : 0.0, there);
     on_face(at, k, there);

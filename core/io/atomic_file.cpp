@@ -178,11 +178,11 @@ void remove_temporary_files() noexcept {
   }
 }
 
-Status write_file_atomic(const std::filesystem::path& target, std::string_view content) {
+Status write_file_atomic(const std::filesystem::path& target, std::string_view content, bool durable) {
   Result<AtomicFile> file = AtomicFile::create(target);
   if (!file) return tl::unexpected<Error>(file.error());
   if (const Status written = file->write(content); !written) return written;
-  return file->commit(true);
+  return file->commit(durable);
 }
 
 }  // namespace tangent

@@ -48,7 +48,7 @@ class AtomicFile {
 /// Any thread, and in a signal handler. Of more than 64 at a time the others stay.
 void remove_temporary_files() noexcept;
 
-/// Writes the whole file at once, durably.
-Status write_file_atomic(const std::filesystem::path& target, std::string_view content);
+/// Writes the whole file at once. `durable`: it also survives a power cut, which may cost a wait for the disk.
+Status write_file_atomic(const std::filesystem::path& target, std::string_view content, bool durable = true);
 
 }  // namespace tangent

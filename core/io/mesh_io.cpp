@@ -1,5 +1,6 @@
 #include "core/io/mesh_io.h"
 
+#include "core/base/float_state.h"
 #include "core/io/readers.h"
 
 #include <algorithm>
@@ -25,6 +26,7 @@ Reader reader_for(const std::filesystem::path& path) {
 }  // namespace
 
 Result<PolygonMesh> read_mesh(const std::filesystem::path& path, double metres_per_unit) {
+  const FloatState as_tested;
   const Reader reader = reader_for(path);
   if (reader == nullptr) {
     return fail("unknown mesh format " + (path.has_extension() ? path.extension().string() : "(no extension)"),

@@ -1,5 +1,6 @@
 #include "core/io/pose_file.h"
 
+#include "core/base/float_state.h"
 #include "core/base/text.h"
 #include "core/io/csv_table.h"
 #include "core/io/input_file.h"
@@ -50,6 +51,7 @@ Status check_stamp(double last_s, double t_s, const CsvTable& table) {
 }  // namespace
 
 Result<std::vector<TickInput>> parse_poses(std::string_view text, std::string_view name) {
+  const FloatState as_tested;
   Result<CsvTable> table = CsvTable::open(text, name, kNeeded, kQuaternion);
   if (!table) return tl::unexpected(table.error());
   std::vector<TickInput> poses;

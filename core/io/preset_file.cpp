@@ -1,5 +1,6 @@
 #include "core/io/preset_file.h"
 
+#include "core/base/float_state.h"
 #include "core/base/text.h"
 #include "core/io/atomic_file.h"
 #include "core/io/file_format.h"
@@ -10,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <sstream>
 
 namespace tangent {
@@ -28,6 +30,14 @@ constexpr std::array<AboutText, 7> kAboutTexts{{
     {"mesh_hash", &PresetAbout::mesh_hash},
     {"device", &PresetAbout::device},
     {"note", &PresetAbout::note},
+}};
+struct AboutNumber {
+  std::string_view key;
+  double PresetAbout::*field;
+};
+constexpr std::array<AboutNumber, 2> kAboutNumbers{{
+    {"metres_per_unit", &PresetAbout::metres_per_unit},
+    {"longest_side_m", &PresetAbout::longest_side_m},
 }};
 constexpr std::string_view kAbout = "about";
 constexpr std::string_view kMeasured = "measured";
@@ -164,9 +174,18 @@ class PresetReader {
       file_.about.*known.field = node.as_string()->get();
       return {};
     }
+    for (const AboutNumber& known : kAboutNumbers) {
+      if (key != known.key) continue;
+      const std::optional<double> value = node.is_number() ? node.value<double>() : std::nullopt;
+      if (!value || !(*value > 0.0 && *value < 1e12))
+        return fail("is no length", where(key.source(), full), "allowed: a number above 0");
+      file_.about.*known.field = *value;
+      return {};
+    }
     std::vector<std::string_view> names;
-    names.reserve(std::size(kAboutTexts) + 1);
+    names.reserve(std::size(kAboutTexts) + std::size(kAboutNumbers) + 1);
     for (const AboutText& known : kAboutTexts) names.push_back(known.key);
+    for (const AboutNumber& known : kAboutNumbers) names.push_back(known.key);
     names.push_back("the table measured");
     return fail("unknown key", where(key.source(), full), "allowed: " + choices_text(names));
   }
@@ -236,6 +255,9 @@ void format_about(const PresetAbout& about, std::string& text) {
     const std::string& value = about.*known.field;
     if (!value.empty()) text.append(known.key).append(" = ").append(quoted(value)).append("\n");
   }
+  for (const AboutNumber& known : kAboutNumbers) {
+    if (about.*known.field > 0.0) text.append(known.key).append(" = ").append(float_text(about.*known.field)) += '\n';
+  }
   if (about.measured.empty()) return;
   text += "\n[about.measured]\n";
   for (const auto& [key, value] : about.measured) {
@@ -260,6 +282,7 @@ std::string value_literal(const PresetKey& row, double value) {
 }  // namespace
 
 Result<PresetFile> parse_preset(std::string_view text, std::string_view name) {
+  const FloatState as_tested;
   auto root = parse_toml(text, name, "correct the TOML there");
   if (!root) return tl::unexpected(root.error());
   if (const Status status = migrate(*root, kFormats, name); !status) return tl::unexpected(status.error());

@@ -26,6 +26,8 @@ struct PresetAbout {
   std::string mesh_hash;  ///< ContactMesh::content_hash(), 16 hex digits
   std::string device;
   std::string note;
+  double metres_per_unit = 0.0;  ///< of the mesh's file; 0: not said
+  double longest_side_m = 0.0;   ///< of the mesh; 0: not said
   /// [about.measured], in the order of the file: free keys, numbers or text, for instance mean_iterations,
   /// max_error_um and the command that measured them.
   std::vector<std::pair<std::string, std::variant<double, std::string>>> measured;
@@ -35,6 +37,7 @@ struct PresetAbout {
 struct PresetFile {
   PresetAbout about;
   Preset preset;
+  operator const Preset&() const { return preset; }  ///< a file of a preset will do wherever a preset is wanted
   bool operator==(const PresetFile&) const = default;
 };
 

@@ -222,6 +222,7 @@ class PlyBody {
                   "export the mesh again");
     }
     mesh_.face_offsets.reserve(element.count + 1);
+    mesh_.corner_position.reserve(std::min<std::size_t>(3 * element.count, source_.bytes_left()));
     for (std::uint64_t i = 0; i < element.count; ++i) {
       bool good = source_.begin();
       for (const PlyProperty& property : element.properties) {

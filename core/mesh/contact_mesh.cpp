@@ -1,6 +1,7 @@
-// Builds the contact mesh in stages: check, weld, triangulate, place, connect, shade, turn, hash.
+// Builds the contact mesh in stages: check, weld, triangulate, place, connect, shade, turn.
 #include "core/mesh/contact_mesh.h"
 
+#include "core/base/float_state.h"
 #include "core/base/tolerances.h"
 #include "core/mesh/content_hash.h"
 #include "core/mesh/corner_normals.h"
@@ -19,19 +20,23 @@ namespace tangent {
 
 class ContactMeshBuilder {
  public:
-  ContactMeshBuilder(const PolygonMesh& source, const ContactMeshOptions& options)
-      : source_(source), options_(options) {}
+  ContactMeshBuilder(const PolygonMesh& source, const ContactMeshOptions& options, const RunBoth& run_both)
+      : source_(source), options_(options), run_both_(run_both) {}
 
   Result<ContactMesh> build() {
     if (Status ok = check_options(); !ok) return tl::unexpected(ok.error());
-    if (Status ok = check_indices(); !ok) return tl::unexpected(ok.error());
-    weld_positions();
+    Status indices;
+    run_both_([&] { indices = check_indices(); }, [&] { weld_positions(); });
+    if (!indices) return tl::unexpected(indices.error());
     triangulate();
     if (mesh_.usable_count_ > 0) place();
     if (mesh_.usable_count_ == 0) return nothing_usable();
     connect();
-    if (Status ok = shade(); !ok) return tl::unexpected(ok.error());
-    turn_inside_out();
+    InsideOut inside_out;
+    FacesAndCreases faces;
+    run_both_([&] { faces = faces_and_creases(); }, [&] { inside_out = find_inside_out(surface()); });
+    if (Status ok = shade(faces); !ok) return tl::unexpected(ok.error());
+    turn_inside_out(inside_out);
     finish();
     return std::move(mesh_);
   }
@@ -41,11 +46,21 @@ class ContactMeshBuilder {
   Status check_indices();
   void weld_positions();
   void triangulate();
+  void drop_degenerate();
   void place();
   void connect();
-  Status shade();
+  struct FacesAndCreases {
+    std::vector<Vec3> normals;
+    std::vector<std::uint8_t> sharp;  ///< empty: not known, all normals may come from the file
+  };
+  FacesAndCreases faces_and_creases() const;
+  bool wants_file_normals() const {
+    return options_.normals == NormalSource::file ||
+           (options_.normals == NormalSource::automatic && every_corner_has_normal(source_));
+  }
+  Status shade(const FacesAndCreases& faces);
   void take_file_normals(const SurfaceView& surface, std::span<const Vec3> faces);
-  void turn_inside_out();
+  void turn_inside_out(const InsideOut& inside_out);
   void finish();
   tl::unexpected<Error> nothing_usable() const;
 
@@ -58,6 +73,7 @@ class ContactMeshBuilder {
 
   const PolygonMesh& source_;
   const ContactMeshOptions& options_;
+  const RunBoth& run_both_;
   ContactMesh mesh_;
   std::uint32_t triangle_count_ = 0;
   std::vector<std::uint32_t> welded_;  ///< per source vertex, its welded vertex or kNone
@@ -128,17 +144,39 @@ void ContactMeshBuilder::triangulate() {
     const auto face = source_.face(f);
     for (std::size_t k = 2; k < face.size(); ++k, ++t) {
       const std::array<std::uint32_t, 3> v{welded_[face[0]], welded_[face[k - 1]], welded_[face[k]]};
-      if (v[0] == kNone || v[1] == kNone || v[2] == kNone) continue;
-      const auto [a, b, c] = corners(v);
-      if (is_degenerate(a, b, c)) {
-        defects(MeshDefect::degenerate_triangle).add(t);
-        continue;
-      }
-      mesh_.vertices_[t] = v;
-      ++mesh_.usable_count_;
+      if (v[0] != kNone && v[1] != kNone && v[2] != kNone) mesh_.vertices_[t] = v;
     }
   }
   welded_ = {};
+  drop_degenerate();
+}
+
+/// Of the triangles that are left, and counts the rest.
+void ContactMeshBuilder::drop_degenerate() {
+  std::array<MeshDefectList, 2> found;
+  std::array<std::uint32_t, 2> usable{};
+  run_halves(run_both_, triangle_count_, [&](std::size_t first, std::size_t last) {
+    const std::size_t half = first == 0 ? 0 : 1;
+    for (std::size_t t = first; t < last; ++t) {
+      auto& v = mesh_.vertices_[t];
+      if (v[0] == kNone) continue;
+      const auto [a, b, c] = corners(v);
+      if (is_degenerate(a, b, c)) {
+        v = {kNone, kNone, kNone};
+        found[half].add(t);
+      } else {
+        ++usable[half];
+      }
+    }
+  });
+  mesh_.usable_count_ = usable[0] + usable[1];
+  MeshDefectList& all = defects(MeshDefect::degenerate_triangle);
+  for (const MeshDefectList& part : found) {
+    all.count += part.count;
+    all.first.insert(all.first.end(), part.first.begin(), part.first.end());
+  }
+  std::sort(all.first.begin(), all.first.end());
+  if (all.first.size() > MeshDefectList::kNamed) all.first.resize(MeshDefectList::kNamed);
 }
 
 /// Drops vertices that no usable triangle has, and moves (and fits) the rest to the centre of their box.
@@ -165,23 +203,15 @@ void ContactMeshBuilder::place() {
     p = (p - centre) * mesh_.scale_ + 0.0;  // + 0.0: no -0.0, so that equal meshes hash equal
     mesh_.bounds_.include(p);
   }
-  auto& degenerate = defects(MeshDefect::degenerate_triangle);
-  for (std::uint32_t t = 0; t < triangle_count_; ++t) {
-    auto& v = mesh_.vertices_[t];
+  for (auto& v : mesh_.vertices_) {
     if (v[0] == kNone) continue;
     for (std::uint32_t& i : v) i = renumbered[i];
-    // A triangle finer than the rounding of coordinates about the centre can collapse in the move.
-    const auto [a, b, c] = corners(v);
-    if (!is_degenerate(a, b, c)) continue;
-    v = {kNone, kNone, kNone};
-    degenerate.add(t);
-    --mesh_.usable_count_;
   }
-  std::sort(degenerate.first.begin(), degenerate.first.end());
+  drop_degenerate();  // a triangle finer than the rounding of coordinates about the centre can collapse in the move
 }
 
 void ContactMeshBuilder::connect() {
-  Topology topology = build_topology(mesh_.vertices_, mesh_.vertex_count());
+  Topology topology = build_topology(mesh_.vertices_, mesh_.vertex_count(), run_both_);
   mesh_.links_ = std::move(topology.links);
   mesh_.positions_.reserve(mesh_.positions_.size() + topology.copy_of.size());
   for (const std::uint32_t original : topology.copy_of) mesh_.positions_.push_back(mesh_.positions_[original]);
@@ -191,20 +221,23 @@ void ContactMeshBuilder::connect() {
   mesh_.usable_count_ -= static_cast<std::uint32_t>(topology.duplicates.size());
 }
 
-Status ContactMeshBuilder::shade() {
+ContactMeshBuilder::FacesAndCreases ContactMeshBuilder::faces_and_creases() const {
+  FacesAndCreases faces{face_normals(surface()), {}};
+  if (!wants_file_normals()) faces.sharp = sharp_edges(surface(), faces.normals, options_.crease_rad);
+  return faces;
+}
+
+Status ContactMeshBuilder::shade(const FacesAndCreases& faces) {
   const bool some_in_file =
       !source_.normals.empty() && std::any_of(source_.corner_normal.begin(), source_.corner_normal.end(),
                                               [](std::uint32_t n) { return n != kNone; });
   if (options_.normals == NormalSource::file && !some_in_file)
     return fail("normals from the file were asked for, but it has none", source_.name,
                 "use --normals computed, or auto");
-  const std::vector<Vec3> faces = face_normals(surface());
-  const bool from_file = options_.normals == NormalSource::file ||
-                         (options_.normals == NormalSource::automatic && every_corner_has_normal(source_));
-  if (from_file) {
-    take_file_normals(surface(), faces);
+  if (wants_file_normals()) {
+    take_file_normals(surface(), faces.normals);
   } else {
-    CornerNormals computed = computed_normals(surface(), faces, sharp_edges(surface(), faces, options_.crease_rad));
+    CornerNormals computed = computed_normals(surface(), faces.normals, faces.sharp, run_both_);
     mesh_.normals_ = std::move(computed.normals);
     mesh_.normal_index_ = std::move(computed.index);
   }
@@ -235,8 +268,7 @@ void ContactMeshBuilder::take_file_normals(const SurfaceView& surface, std::span
 }
 
 /// Says which closed parts look inwards, and turns them over where that is asked for.
-void ContactMeshBuilder::turn_inside_out() {
-  const InsideOut inside_out = find_inside_out(surface());
+void ContactMeshBuilder::turn_inside_out(const InsideOut& inside_out) {
   if (!inside_out.any()) {
     if (options_.turn_over) mesh_.notes_.push_back("nothing is inside out: nothing was turned over");
     return;
@@ -264,14 +296,9 @@ void ContactMeshBuilder::turn_inside_out() {
 
 void ContactMeshBuilder::finish() {
   mesh_.crease_bits_ = feature_bits(surface(), CornerNormalsView{mesh_.normals_, mesh_.normal_index_});
+  mesh_.flat_regions_ = FlatRegions::build(mesh_);
+  mesh_.crowded_ = crowded_vertices(mesh_);
   mesh_.name_ = source_.name;
-  ContentHash hash;
-  hash.add(std::span<const Vec3>(&mesh_.origin_, 1));
-  hash.add(std::span<const Vec3>(mesh_.positions_));
-  hash.add(std::span<const Vec3>(mesh_.normals_));
-  hash.add(std::span<const Index3>(mesh_.vertices_));
-  hash.add(std::span<const Index3>(mesh_.normal_index_));
-  mesh_.content_hash_ = hash.value();
 }
 
 tl::unexpected<Error> ContactMeshBuilder::nothing_usable() const {
@@ -285,8 +312,20 @@ tl::unexpected<Error> ContactMeshBuilder::nothing_usable() const {
   return fail(what, source_.name, "check that the file holds the surface and was exported whole");
 }
 
-Result<ContactMesh> ContactMesh::build(const PolygonMesh& source, const ContactMeshOptions& options) {
-  return ContactMeshBuilder(source, options).build();
+Result<ContactMesh> ContactMesh::build(const PolygonMesh& source, const ContactMeshOptions& options,
+                                       const RunBoth& run_both) {
+  const FloatState as_tested;
+  return ContactMeshBuilder(source, options, run_both).build();
+}
+
+std::uint64_t ContactMesh::content_hash() const {
+  ContentHash hash;
+  hash.add(std::span<const Vec3>(&origin_, 1));
+  hash.add(std::span<const Vec3>(positions_));
+  hash.add(std::span<const Vec3>(normals_));
+  hash.add(std::span<const Index3>(vertices_));
+  hash.add(std::span<const Index3>(normal_index_));
+  return hash.value();
 }
 
 const char* to_string(MeshDefect defect) {
@@ -311,10 +350,19 @@ const char* to_string(MeshDefect defect) {
   return "unknown defect";
 }
 
+const CrowdedVertex* ContactMesh::crowded_vertex(std::uint32_t vertex) const {
+  if (crowded_.empty()) return nullptr;
+  const auto found = std::lower_bound(crowded_.begin(), crowded_.end(), vertex,
+                                      [](const CrowdedVertex& c, std::uint32_t v) { return c.vertex < v; });
+  return found != crowded_.end() && found->vertex == vertex ? &*found : nullptr;
+}
+
 std::size_t ContactMesh::memory_bytes() const {
   const auto held = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
-  return sizeof(*this) + held(positions_) + held(normals_) + held(vertices_) + held(normal_index_) + held(links_) +
-         held(crease_bits_);
+  std::size_t crowded = held(crowded_);
+  for (const CrowdedVertex& c : crowded_) crowded += held(c.ring) + held(c.angles) + held(c.runs);
+  return crowded + sizeof(*this) + held(positions_) + held(normals_) + held(vertices_) + held(normal_index_) +
+         held(links_) + held(crease_bits_) + flat_regions_.memory_bytes();
 }
 
 }  // namespace tangent

@@ -12,8 +12,11 @@
 #pragma once
 
 #include "core/base/result.h"
+#include "core/base/run_both.h"
 #include "core/base/units.h"
 #include "core/base/vec.h"
+#include "core/mesh/crowded_vertex.h"
+#include "core/mesh/flat_regions.h"
 #include "core/mesh/polygon_mesh.h"
 
 #include <array>
@@ -78,14 +81,17 @@ class ContactMesh {
  public:
   /// Fails when the mesh has no usable triangle or more than 2^29 triangles, when an index points nowhere, when
   /// an option is out of range, and when `file` normals are asked for and there are none.
-  static Result<ContactMesh> build(const PolygonMesh& source, const ContactMeshOptions& options = {});
+  /// The same bits however `run_both` does its work.
+  static Result<ContactMesh> build(const PolygonMesh& source, const ContactMeshOptions& options = {},
+                                   const RunBoth& run_both = run_in_turn);
 
   const std::string& name() const { return name_; }
   /// World position of the local origin, metres. world = origin() + local.
   const Vec3& origin() const { return origin_; }
   /// Bounding box of the usable triangles, local coordinates.
   const Box& bounds() const { return bounds_; }
-  std::uint64_t content_hash() const { return content_hash_; }  ///< of positions, normals, triangles (FNV-1a 64)
+  /// Of positions, normals, triangles (FNV-1a 64). Computed at every call: 50 ns a triangle.
+  std::uint64_t content_hash() const;
 
   std::uint32_t triangle_count() const { return static_cast<std::uint32_t>(vertices_.size()); }
   std::uint32_t usable_triangle_count() const { return usable_count_; }
@@ -117,6 +123,11 @@ class ContactMesh {
   /// True when a crease or boundary edge ends at this corner (also through a neighbour's edge).
   bool feature_corner(std::uint32_t t, std::uint32_t corner) const { return (crease_bits_[t] >> (3 + corner)) & 1u; }
 
+  /// Its flat parts of many slivers.
+  const FlatRegions& flat_regions() const { return flat_regions_; }
+  /// Null for all but those that crowded_vertices found.
+  const CrowdedVertex* crowded_vertex(std::uint32_t vertex) const;
+
   const MeshDefectList& defects(MeshDefect kind) const { return defects_[static_cast<std::size_t>(kind)]; }
   /// Triangles of closed parts that look inwards, as the file has them, and whether they were turned over.
   std::uint64_t inside_out_triangles() const { return inside_out_; }
@@ -141,7 +152,6 @@ class ContactMesh {
   Vec3 origin_{0.0};
   Box bounds_;
   double scale_ = 1.0;
-  std::uint64_t content_hash_ = 0;
   std::uint32_t usable_count_ = 0;
   std::uint64_t inside_out_ = 0;
   bool turned_over_ = false;
@@ -152,6 +162,8 @@ class ContactMesh {
   std::vector<std::array<std::uint32_t, 3>> normal_index_;
   std::vector<std::array<std::uint32_t, 3>> links_;  ///< triangle << 2 | edge, or kNone
   std::vector<std::uint8_t> crease_bits_;  ///< bit k: edge k is a crease; bit 3+k: corner k touches a feature edge
+  FlatRegions flat_regions_;
+  std::vector<CrowdedVertex> crowded_;
   std::array<MeshDefectList, kMeshDefectCount> defects_;
   std::vector<std::string> notes_;
 };

@@ -36,16 +36,28 @@ struct WeightedNormal {
 /// Vertices where no sharp edge ends have one normal: summed triangle by triangle, in file order. A walk about
 /// every vertex instead misses the caches at each step when triangles come in random order.
 void normals_at_plain_vertices(const SurfaceView& s, std::span<const Vec3> faces, std::span<const std::uint8_t> sharp,
-                               CornerNormals& out) {
+                               const RunBoth& run_both, CornerNormals& out) {
   std::vector<WeightedNormal> sums(s.positions.size());
   std::vector<bool> cut(s.positions.size(), false);
-  for (std::uint32_t t = 0; t < s.triangles.size(); ++t) {
-    if (!s.used(t)) continue;
-    const Index3& v = s.triangles[t];
-    const Vec3 angle = angles(s, t);
-    for (std::uint32_t k = 0; k < 3; ++k) {
-      sums[v[k]].add(angle[static_cast<int>(k)], faces[t]);
-      if (sharp[t] & bit(k)) cut[v[k]] = cut[v[next3(k)]] = true;
+  // The angles of many triangles at once, their sums in order.
+  constexpr std::size_t kBlock = std::size_t{1} << 18;
+  std::vector<Vec3> block(std::min(kBlock, s.triangles.size()));
+  for (std::size_t begin = 0; begin < s.triangles.size(); begin += kBlock) {
+    const std::size_t count = std::min(kBlock, s.triangles.size() - begin);
+    run_halves(run_both, count, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) {
+        const auto t = static_cast<std::uint32_t>(begin + i);
+        if (s.used(t)) block[i] = angles(s, t);
+      }
+    });
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto t = static_cast<std::uint32_t>(begin + i);
+      if (!s.used(t)) continue;
+      const Index3& v = s.triangles[t];
+      for (std::uint32_t k = 0; k < 3; ++k) {
+        sums[v[k]].add(block[i][static_cast<int>(k)], faces[t]);
+        if (sharp[t] & bit(k)) cut[v[k]] = cut[v[next3(k)]] = true;
+      }
     }
   }
   std::vector<std::uint32_t> slot(s.positions.size(), kNone);
@@ -54,10 +66,12 @@ void normals_at_plain_vertices(const SurfaceView& s, std::span<const Vec3> faces
     slot[v] = static_cast<std::uint32_t>(out.normals.size());
     out.normals.push_back(unit(sums[v].sum));
   }
-  for (std::uint32_t t = 0; t < s.triangles.size(); ++t) {
-    if (!s.used(t)) continue;
-    for (std::uint32_t k = 0; k < 3; ++k) out.index[t][k] = slot[s.triangles[t][k]];
-  }
+  run_halves(run_both, s.triangles.size(), [&](std::size_t first, std::size_t last) {
+    for (auto t = static_cast<std::uint32_t>(first); t < last; ++t) {
+      if (!s.used(t)) continue;
+      for (std::uint32_t k = 0; k < 3; ++k) out.index[t][k] = slot[s.triangles[t][k]];
+    }
+  });
 }
 
 /// The corners of one smooth fan, counter-clockwise, without crossing a sharp edge.
@@ -113,11 +127,12 @@ std::vector<std::uint8_t> sharp_edges(const SurfaceView& s, std::span<const Vec3
   return sharp;
 }
 
-CornerNormals computed_normals(const SurfaceView& s, std::span<const Vec3> faces, std::span<const std::uint8_t> sharp) {
+CornerNormals computed_normals(const SurfaceView& s, std::span<const Vec3> faces, std::span<const std::uint8_t> sharp,
+                               const RunBoth& run_both) {
   CornerNormals out;
   out.normals.reserve(s.positions.size());
   out.index.assign(s.triangles.size(), {kNone, kNone, kNone});
-  normals_at_plain_vertices(s, faces, sharp, out);
+  normals_at_plain_vertices(s, faces, sharp, run_both, out);
   std::vector<Corner> fan;
   for (std::uint32_t t = 0; t < s.triangles.size(); ++t) {
     if (!s.used(t)) continue;

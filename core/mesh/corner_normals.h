@@ -6,6 +6,7 @@
 // inside the surface.
 #pragma once
 
+#include "core/base/run_both.h"
 #include "core/base/vec.h"
 #include "core/mesh/fan_walk.h"
 
@@ -45,7 +46,7 @@ std::vector<std::uint8_t> sharp_edges(const SurfaceView& surface, std::span<cons
 
 /// Computed normals; where they cancel (a thin fin) each corner gets its face normal. Always unit.
 CornerNormals computed_normals(const SurfaceView& surface, std::span<const Vec3> faces,
-                               std::span<const std::uint8_t> sharp);
+                               std::span<const std::uint8_t> sharp, const RunBoth& run_both = run_in_turn);
 
 /// Per triangle, bit k: corner normals differ across edge k at either end (by more than kSameNormal): a crease.
 /// Bit 3 + k: a crease or boundary edge ends at corner k's vertex.

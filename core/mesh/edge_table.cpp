@@ -2,7 +2,8 @@
 
 namespace tangent {
 
-EdgeTable::EdgeTable(std::span<const Index3> triangles, std::uint32_t vertex_count) : begin_(vertex_count + 1, 0) {
+EdgeTable::EdgeTable(std::span<const Index3> triangles, std::uint32_t vertex_count, const RunBoth& run_both)
+    : begin_(vertex_count + 1, 0) {
   // Counting sort by the lower vertex; begin_ first counts, then points at the next free place, which in the end is
   // the beginning of the next vertex: shifting by one place gives the beginnings.
   std::size_t total = 0;
@@ -28,7 +29,9 @@ EdgeTable::EdgeTable(std::span<const Index3> triangles, std::uint32_t vertex_cou
   }
   for (std::size_t i = vertex_count; i > 0; --i) begin_[i] = begin_[i - 1];
   begin_[0] = 0;
-  for (std::size_t i = 0; i < vertex_count; ++i) std::sort(uses_.data() + begin_[i], uses_.data() + begin_[i + 1]);
+  run_halves(run_both, vertex_count, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) std::sort(uses_.data() + begin_[i], uses_.data() + begin_[i + 1]);
+  });
 }
 
 }  // namespace tangent

@@ -3,6 +3,7 @@
 // a million triangles makes it slow.
 #pragma once
 
+#include "core/base/run_both.h"
 #include "core/mesh/fan_walk.h"
 
 #include <algorithm>
@@ -35,12 +36,19 @@ class EdgeTable {
  public:
   /// Triangles whose first vertex is kNone are left out.
   /// Precondition: at most kMaxTriangles; the vertices of a triangle differ and are below vertex_count.
-  EdgeTable(std::span<const Index3> triangles, std::uint32_t vertex_count);
+  EdgeTable(std::span<const Index3> triangles, std::uint32_t vertex_count, const RunBoth& run_both = run_in_turn);
+
+  std::size_t vertex_count() const { return begin_.size() - 1; }
 
   /// Calls visit(low_vertex, uses) for every edge, by ascending vertices; uses: forward ones first, each by triangle.
   template <class Visit>
   void for_each_edge(Visit visit) const {
-    for (std::uint32_t low = 0; low + 1 < begin_.size(); ++low) {
+    for_each_edge(0, vertex_count(), visit);
+  }
+  /// Of those whose lower vertex is in [first_low, last_low).
+  template <class Visit>
+  void for_each_edge(std::size_t first_low, std::size_t last_low, Visit visit) const {
+    for (auto low = static_cast<std::uint32_t>(first_low); low < last_low; ++low) {
       const EdgeUse* use = uses_.data() + begin_[low];
       const EdgeUse* const end = uses_.data() + begin_[low + 1];
       while (use != end) {

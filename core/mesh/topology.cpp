@@ -3,6 +3,7 @@
 #include "core/mesh/edge_table.h"
 
 #include <algorithm>
+#include <array>
 #include <unordered_set>
 
 namespace tangent {
@@ -40,15 +41,24 @@ void unlink(std::vector<Index3>& links, std::uint32_t triangle) {
 }
 
 /// Links the edges with one forward and one backward use; returns the claims on all others, by triangle.
-std::vector<Claim> link_uncontested(const EdgeTable& edges, Topology& out, std::uint32_t& contested) {
-  std::vector<Claim> claims;
-  edges.for_each_edge([&](std::uint32_t, std::span<const EdgeUse> uses) {
-    if (uses.size() == 1) return;
-    if (uses.size() == 2 && !uses[0].backward() && uses[1].backward())
-      return link(out.links, uses[0].packed(), uses[1].packed());
-    for (const EdgeUse& use : uses) claims.push_back({use.packed(), 2 * contested + use.backward()});
-    ++contested;
+std::vector<Claim> link_uncontested(const EdgeTable& edges, Topology& out, std::uint32_t& contested,
+                                    const RunBoth& run_both) {
+  std::array<std::vector<Claim>, 2> found;
+  std::array<std::uint32_t, 2> edges_of{};
+  run_halves(run_both, edges.vertex_count(), [&](std::size_t first, std::size_t last) {
+    const std::size_t half = first == 0 ? 0 : 1;
+    edges.for_each_edge(first, last, [&](std::uint32_t, std::span<const EdgeUse> uses) {
+      if (uses.size() == 1) return;
+      if (uses.size() == 2 && !uses[0].backward() && uses[1].backward())
+        return link(out.links, uses[0].packed(), uses[1].packed());
+      for (const EdgeUse& use : uses) found[half].push_back({use.packed(), 2 * edges_of[half] + use.backward()});
+      ++edges_of[half];
+    });
   });
+  contested = edges_of[0] + edges_of[1];
+  for (Claim& claim : found[1]) claim.direction += 2 * edges_of[0];
+  std::vector<Claim> claims = std::move(found[0]);
+  claims.insert(claims.end(), found[1].begin(), found[1].end());
   std::sort(claims.begin(), claims.end(), [](const Claim& a, const Claim& b) { return a.packed < b.packed; });
   return claims;
 }
@@ -113,14 +123,14 @@ void split_fans(std::vector<Index3>& triangles, std::uint32_t vertex_count, Topo
 
 }  // namespace
 
-Topology build_topology(std::vector<Index3>& triangles, std::uint32_t vertex_count) {
+Topology build_topology(std::vector<Index3>& triangles, std::uint32_t vertex_count, const RunBoth& run_both) {
   Topology out;
   out.links.assign(triangles.size(), {kNone, kNone, kNone});
   std::uint32_t contested = 0;
   std::vector<Claim> claims;
   {
-    const EdgeTable edges(triangles, vertex_count);
-    claims = link_uncontested(edges, out, contested);
+    const EdgeTable edges(triangles, vertex_count, run_both);
+    claims = link_uncontested(edges, out, contested, run_both);
   }
   settle(triangles, claims, contested, out);
   split_fans(triangles, vertex_count, out);

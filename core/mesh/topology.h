@@ -15,6 +15,7 @@
 // half_edges.h.
 #pragma once
 
+#include "core/base/run_both.h"
 #include "core/mesh/fan_walk.h"
 
 #include <cstdint>
@@ -32,6 +33,7 @@ struct Topology {
 /// Works on `triangles` in place: duplicates become {kNone, kNone, kNone}, split vertices get new numbers from
 /// vertex_count up. Triangles whose first vertex is kNone are left out.
 /// Precondition: at most kMaxTriangles; the vertices of a triangle differ and are below vertex_count.
-Topology build_topology(std::vector<Index3>& triangles, std::uint32_t vertex_count);
+Topology build_topology(std::vector<Index3>& triangles, std::uint32_t vertex_count,
+                        const RunBoth& run_both = run_in_turn);
 
 }  // namespace tangent

@@ -30,4 +30,24 @@ void around_vertex(const ContactMesh& mesh, std::uint32_t t, std::uint32_t corne
   }
 }
 
+/// The same, but where many faces of a flat region follow each other it visits only those that matter to a vector from
+/// the vertex, `direction(normal)` by the region's normal: where it points to, the next ones, and both ends of the run.
+template <class Direction, class Visit>
+void around_vertex_towards(const ContactMesh& mesh, std::uint32_t t, std::uint32_t corner, Direction direction,
+                           Visit visit) {
+  const CrowdedVertex* crowded = mesh.crowded_vertex(mesh.vertex(t, corner));
+  if (!crowded) return around_vertex(mesh, t, corner, visit);
+  for (const CrowdedVertex::Run& run : crowded->runs) {
+    if (run.region == kNone) {
+      visit(crowded->ring[run.first].triangle, crowded->ring[run.first].corner);
+      continue;
+    }
+    std::uint32_t before = kNone;
+    for (const std::uint32_t i : crowded->towards(run, direction(run.normal))) {
+      if (i != before) visit(crowded->ring[i].triangle, crowded->ring[i].corner);
+      before = i;
+    }
+  }
+}
+
 }  // namespace tangent

@@ -1,5 +1,7 @@
 #include "core/planar/curve.h"
 
+#include "core/base/float_state.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -71,6 +73,7 @@ PatchIndex index_of(std::span<const CurvePatch> patches, double size) {
 }  // namespace
 
 Result<PlanarCurve> PlanarCurve::build(PlanarPolygon polygon) {
+  const FloatState as_tested;
   if (Status status = check_polygon(polygon); !status) return tl::unexpected(status.error());
   PlanarCurve curve;
   Vec2 low = polygon.vertices.front(), high = low;

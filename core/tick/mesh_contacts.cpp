@@ -1,5 +1,6 @@
 #include "core/tick/mesh_contacts.h"
 
+#include "core/contact/prove/clearance_check.h"
 #include "core/shading/way_out.h"
 #include "core/tick/raw_contacts.h"
 #include "core/tick/rendering.h"
@@ -21,15 +22,23 @@ Vec3 way_out_of(const TickContext& tick, const IterationResult& tracked, const T
   return shortest_way_out(std::span(planes).first(count));
 }
 
+/// How far the furthest point of the finger has come since the last tick: no depth changes by more. Of a finger that is
+/// not round its turning counts, too.
+double finger_way_m(const TickContext& tick) {
+  const double way = glm::length(finger_way(tick.pose.position, tick.t_s, tick.state).moved);
+  if (is_round(tick.finger) || !tick.state.has_previous) return way;
+  return way + turned_m(tick.finger, tick.state.last_orientation, tick.pose.orientation);
+}
+
 /// The smooth contact by `settings`; updates what the next tick keeps of it. `way_out`: of all places that are touched,
 /// where the preset asks for them and there are several; else zero.
 inline void find_smooth(const ContactScene& scene, StepCache& cache, const TickContext& tick,
                         const SolverSettings& settings, TickPlanes& planes, Vec3& way_out) {
   RenderPlane& plane = planes.smooth;
   const bool all = wants_touched(tick.preset);
-  ContactContext context{
-      cache.patches, settings,   tick.finger, tick.local,
-      tick.origin,   tick.trace, 0,           glm::length(finger_way(tick.pose.position, tick.t_s, tick.state).moved)};
+  const Vec3 moved = finger_way(tick.pose.position, tick.t_s, tick.state).moved;
+  ContactContext context{cache.patches, settings, tick.finger,        tick.local, tick.origin,
+                         tick.trace,    0,        finger_way_m(tick), moved};
   const bool sample_is_kept = cache.holds(tick.state.plane, settings.normal_form);
   find_smooth_contact(context, scene.search(), sample_is_kept, tick.state, cache.smooth,
                       all ? &cache.touched : nullptr);

@@ -1,29 +1,77 @@
 #include "core/tick/scene.h"
 
+#include "core/base/float_state.h"
 #include "core/planar/ribbon.h"
 #include "core/tick/sources.h"
 
+#include <algorithm>
+#include <limits>
+
 namespace tangent {
 
-SceneParts parts_for(const Preset& preset) { return {.hierarchy = wants_smooth(preset), .ribbon = false}; }
+SceneParts parts_for(const Preset& preset) {
+  return {.hierarchy = wants_smooth(preset), .ribbon = false, .far_parts = false};
+}
 
 Result<std::shared_ptr<const ContactScene>> ContactScene::build(ContactMesh mesh, const SceneParts& parts,
                                                                 const RunBoth& run_both) {
+  const FloatState as_tested;
   std::shared_ptr<ContactScene> scene(new ContactScene);
   scene->mesh_.emplace(std::move(mesh));
+  if (Status status = scene->build_structures(parts, run_both); !status) return tl::unexpected(status.error());
+  return scene;
+}
+
+Status ContactScene::build_structures(const SceneParts& parts, const RunBoth& run_both) {
+  if (mesh_->usable_triangle_count() > parts.whole_up_to && mesh_->flat_regions().empty()) {
+    clusters_ = std::make_unique<const TriangleClusters>(TriangleClusters::build(*mesh_, run_both));
+    nearest_ = std::make_unique<NearestTriangles>(NearestTriangles::late(*mesh_, *clusters_));
+    if (parts.hierarchy) hierarchy();
+    if (parts.far_parts) build_far_parts(run_both);
+    return {};
+  }
   std::optional<Result<NearestTriangles>> nearest;
-  const auto build_nearest = [&] { nearest.emplace(NearestTriangles::build(*scene->mesh_)); };
+  const auto build_nearest = [&] { nearest.emplace(NearestTriangles::build(*mesh_)); };
   if (parts.hierarchy) {
-    run_both(build_nearest, [&] { scene->hierarchy(); });
+    run_both(build_nearest, [&] { hierarchy(); });
   } else {
     build_nearest();
   }
   if (!*nearest) return tl::unexpected(nearest->error());
-  scene->nearest_ = std::make_unique<NearestTriangles>(std::move(**nearest));
-  return scene;
+  nearest_ = std::make_unique<NearestTriangles>(std::move(**nearest));
+  return {};
+}
+
+void ContactScene::build_far_parts(const RunBoth& run_both) const {
+  if (!clusters_) return;
+  const LateHierarchy* hierarchy = hierarchy_.if_built();
+  run_halves(run_both, clusters_->count(), [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      nearest_->build_part(i);
+      if (hierarchy) hierarchy->build_part(i);
+    }
+  });
+}
+
+void ContactScene::build_near(const Vec3& position, double reach_m) const {
+  const LateHierarchy* hierarchy = hierarchy_.if_built();
+  if (!clusters_ || !hierarchy || !is_finite(position)) return;
+  // A search for a start asks as far as a bit beyond the nearest triangle, one for places that push as far as the
+  // finger reaches.
+  constexpr double kFurther = 1.2;
+  constexpr double kAhead_m = 2.5e-3;  // as far as searches look ahead at the default hysteresis (kWatchReach), twice
+  const Vec3 centre = position - mesh_->origin();
+  const NearestHit hit = nearest_->nearest(centre, std::numeric_limits<double>::infinity());
+  hierarchy->build_near(centre, kFurther * std::max(hit.distance_m, reach_m) + kAhead_m);
+}
+
+std::size_t ContactScene::unbuilt_parts() const {
+  const LateHierarchy* hierarchy = hierarchy_.if_built();
+  return hierarchy ? hierarchy->part_count() - hierarchy->built_count() : 0;
 }
 
 Result<std::shared_ptr<const ContactScene>> ContactScene::build(PlanarCurve curve, const SceneParts& parts) {
+  const FloatState as_tested;
   constexpr double kRibbonShare = 0.1;  // half its width, in sizes of the polygon
   std::shared_ptr<ContactScene> scene(new ContactScene);
   if (parts.ribbon) {
@@ -41,9 +89,10 @@ Result<std::shared_ptr<const ContactScene>> ContactScene::build(PlanarCurve curv
 }
 
 std::size_t ContactScene::memory_bytes() const {
-  const ContactHierarchy* hierarchy = hierarchy_.if_built();
+  const LateHierarchy* hierarchy = hierarchy_.if_built();
   return (mesh_ ? mesh_->memory_bytes() : 0) + (nearest_ ? nearest_->memory_bytes() : 0) +
-         (hierarchy ? hierarchy->memory_bytes() : 0) + (planar_ ? planar_->memory_bytes() : 0);
+         (hierarchy ? hierarchy->memory_bytes() : 0) + (clusters_ ? clusters_->memory_bytes() : 0) +
+         (planar_ ? planar_->memory_bytes() : 0);
 }
 
 }  // namespace tangent

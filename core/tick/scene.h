@@ -2,12 +2,12 @@
 #pragma once
 
 #include "core/base/built_once.h"
+#include "core/base/run_both.h"
 #include "core/contact/search/search_structures.h"
 #include "core/mesh/contact_mesh.h"
 #include "core/planar/curve.h"
 #include "core/preset/preset.h"
 
-#include <functional>
 #include <memory>
 #include <optional>
 
@@ -18,13 +18,14 @@ namespace tangent {
 struct SceneParts {
   bool hierarchy = true;  ///< 3D: read by smooth contacts alone; without, the first of them builds it
   bool ribbon = true;     ///< 2D: the mesh along the polygon, for views and paths over it; ticks never read it
+  /// Of a large mesh the parts of both search structures that no tick has come to: left to those that will.
+  bool far_parts = true;
+  /// 3D: triangles of the largest mesh whose structures are built as a whole: with Embree, and one hierarchy. Those of
+  /// larger ones are built in parts, but for those with flat regions (mesh/flat_regions.h), which are asked for as one.
+  std::uint32_t whole_up_to = 1u << 19;
 };
 /// What ticks under this preset read.
 SceneParts parts_for(const Preset& preset);
-
-/// Does both, in any order or at once; returns when both are done.
-using RunBoth = std::function<void(const std::function<void()>&, const std::function<void()>&)>;
-inline void run_in_turn(const std::function<void()>& a, const std::function<void()>& b) { a(), b(); }
 
 /// Mesh and query structures. Immutable to those who use it; share it freely.
 class ContactScene {
@@ -39,19 +40,29 @@ class ContactScene {
   const ContactMesh& mesh() const { return *mesh_; }
   const NearestTriangles& nearest() const { return *nearest_; }
   /// Built now where it isn't yet, by any thread.
-  const ContactHierarchy& hierarchy() const {
-    return hierarchy_.get([this] { return ContactHierarchy::build(*mesh_); });
+  const LateHierarchy& hierarchy() const {
+    return hierarchy_.get([this] { return LateHierarchy(*mesh_, clusters_.get()); });
   }
   bool has_hierarchy() const { return hierarchy_.if_built() != nullptr; }
+  /// Of a large mesh, the parts of the hierarchy that are not built yet; ticks build those that they come to.
+  std::size_t unbuilt_parts() const;
+  /// Builds those that most ticks come to with a finger of this reach there, for who measures ticks by themselves: a
+  /// search for a start, or one far ahead, may come to more. World frame.
+  void build_near(const Vec3& position, double reach_m) const;
+  /// Builds them all, beside ticks if need be. Any thread.
+  void build_far_parts(const RunBoth& run_both) const;
   bool has_mesh() const { return mesh_.has_value(); }  ///< false: a 2D scene without its ribbon
   SearchStructures search() const { return {*nearest_, hierarchy()}; }
   std::size_t memory_bytes() const;  ///< of what is built
 
  private:
   ContactScene() = default;
+  Status build_structures(const SceneParts& parts, const RunBoth& run_both);
+
   std::optional<ContactMesh> mesh_;
+  std::unique_ptr<const TriangleClusters> clusters_;  ///< of a large mesh
   std::unique_ptr<NearestTriangles> nearest_;
-  BuiltOnce<ContactHierarchy> hierarchy_;
+  BuiltOnce<LateHierarchy> hierarchy_;
   std::unique_ptr<const PlanarCurve> planar_;
 };
 

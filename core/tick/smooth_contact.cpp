@@ -14,9 +14,9 @@ void watch_others(ContactContext& context, const SearchStructures& search, TickS
   const double rank = contact_rank(context.finger, decided.contact.contact);
   const double bound = takeover_bound_m(context.settings, rank);
   const double gone = gone_m(state.clearance, context.finger, context.pose);
-  if (!deeper_possible(state.clearance, gone, bound)) return;
+  if (!deeper_possible(state.clearance, context.pose, gone, bound)) return;
   const double ahead = look_ahead_m(context, rank, state.clearance.ahead);
-  const RivalResult rival = find_rival(context, search, decided.contact, {bound, ahead}, state.clearance, gone);
+  const RivalResult rival = find_rival(context, search, decided.contact, {bound, ahead, false}, state.clearance, gone);
   const double depth = state.unentered ? 0.0 : decided.contact.contact.penetration_m;
   const bool taken_over = decide_rival(context, rival, depth, state.plane, decided);
   state.clearance = taken_over ? Clearance{} : rival.clearance;
@@ -44,10 +44,12 @@ bool look_for_touched(ContactContext& context, const SearchStructures& search, d
                       DecidedContact& decided, TouchedContacts& touched) {
   const double bound = std::max(takeover_m, touching_bound_m(context, touched));
   const double gone = gone_m(state.clearance, context.finger, context.pose);
-  if (!deeper_possible(state.clearance, gone, bound)) return false;
+  if (!deeper_possible(state.clearance, context.pose, gone, bound)) return false;
   const double rank = contact_rank(context.finger, decided.contact.contact);
   const double ahead = look_ahead_m(context, rank, state.clearance.ahead);
-  RivalResult rival = find_rival(context, search, decided.contact, {bound, ahead, &touched}, state.clearance, gone);
+  const bool stays = bound > takeover_m && !touched.full();
+  RivalResult rival =
+      find_rival(context, search, decided.contact, {bound, ahead, stays, &touched}, state.clearance, gone);
   state.clearance = rival.clearance;
   // Where the contact was lost and a shallower one is gone on with, what the lost one was counts, too.
   const double depth =

@@ -1,5 +1,6 @@
 #include "core/tick/step.h"
 
+#include "core/base/float_state.h"
 #include "core/tick/mesh_contacts.h"
 #include "core/tick/planar_contacts.h"
 #include "core/tick/rendering.h"
@@ -14,8 +15,9 @@ bool is_usable(const FingerPose& pose) {
   return std::isfinite(glm::dot(pose.position, pose.position) + glm::dot(pose.orientation, pose.orientation));
 }
 
-void keep_pose(const Vec3& position, double t_s, TickState& state) {
-  state.last_position = position;
+void keep_pose(const FingerPose& pose, double t_s, TickState& state) {
+  state.last_position = pose.position;
+  state.last_orientation = pose.orientation;
   state.last_t_s = t_s;
   state.has_previous = 1;
 }
@@ -28,7 +30,7 @@ void run_tick(const TickContext& tick, TickOutput& out, FindContacts find_contac
   find_contacts(planes);
   const FingerWay way = finger_way(tick.pose.position, tick.t_s, tick.state);
   render_planes(tick.preset, planes, section, way, tick.velocity, tick.state.rendered, out);
-  keep_pose(tick.pose.position, tick.t_s, tick.state);
+  keep_pose(tick.pose, tick.t_s, tick.state);
 }
 
 /// A tick whose pose can't be used: what was rendered last is rendered on, where the finger was last.
@@ -50,6 +52,7 @@ Stepper::~Stepper() = default;
 
 TickOutput Stepper::step(const Preset& preset, const TickInput& input, TickState& state, IterationTrace* trace) {
   if (scene_->planar()) return step_planar(*scene_->planar(), preset, input, state, trace);
+  const FloatState as_tested;
   const bool usable = is_usable(input.finger);
   const FingerPose last = last_pose(state);
   const FingerPose& pose = usable ? input.finger : last;
@@ -67,6 +70,7 @@ TickOutput Stepper::step(const Preset& preset, const TickInput& input, TickState
 
 TickOutput step_planar(const PlanarCurve& curve, const Preset& preset, const TickInput& input, TickState& state,
                        IterationTrace* trace) {
+  const FloatState as_tested;
   const bool usable = is_usable(input.finger);
   const Finger finger = section_finger(preset.finger);
   const FingerPose pose = section_pose(usable ? input.finger : last_pose(state));

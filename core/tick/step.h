@@ -25,6 +25,7 @@ class Stepper {
   ~Stepper();
 
   const ContactScene& scene() const { return *scene_; }
+  const std::shared_ptr<const ContactScene>& shared_scene() const { return scene_; }
   /// Precondition: preset within its ranges. A pose that is not finite gives `unconverged`.
   TickOutput step(const Preset& preset, const TickInput& input, TickState& state, IterationTrace* trace = nullptr);
 

@@ -45,14 +45,15 @@ struct TickState {
   ConvergedPlane last_converged;  ///< of the last converged tick, if has_converged
   double last_converged_s = 0.0;  ///< its time
   Vec3 last_position{0.0};        ///< finger position of the previous tick, world, m
+  Quat last_orientation{1.0, 0.0, 0.0, 0.0};
   double last_t_s = 0.0;
-  std::uint8_t has_previous = 0;   ///< last_position and last_t_s are set
+  std::uint8_t has_previous = 0;   ///< last_position, last_orientation and last_t_s are set
   std::uint8_t has_converged = 0;  ///< there was a converged tick
+  std::uint8_t has_proxy = 0;      ///< proxy is set
+  std::uint8_t unentered = 0;      ///< the tracked place was found from behind: it does not push until it is left
   Clearance clearance;
-  Vec3 proxy{0.0};  ///< of the two-pass method, local, m
-  std::uint8_t has_proxy = 0;
-  std::uint8_t unentered = 0;  ///< the tracked place was found from behind: it does not push until it is left
-  TouchedPlaces touched;       ///< beside `plane`, where the force comes from all of them
+  Vec3 proxy{0.0};        ///< of the two-pass method, local, m
+  TouchedPlaces touched;  ///< beside `plane`, where the force comes from all of them
   RenderedState rendered;
 };
 
@@ -61,6 +62,7 @@ inline void forget_scene(TickState& state) {
   TickState fresh;
   fresh.rendered = state.rendered;
   fresh.last_position = state.last_position;
+  fresh.last_orientation = state.last_orientation;
   fresh.last_t_s = state.last_t_s;
   fresh.has_previous = state.has_previous;
   begin_change(fresh.rendered);

@@ -41,6 +41,16 @@ Status check_forces(const std::string& where, double peak_n, double continuous_n
               where, kRemedy);
 }
 
+Status check_counts(const ForceCapabilities& can) {
+  if (can.rotations_sensed < 0 || can.rotations_sensed > 3)
+    return fail("rotations sensed: " + shown(can.rotations_sensed) + " is not 0 to 3", can.name, kRemedy);
+  if (can.buttons < 0 || can.buttons > 32)
+    return fail("buttons: " + shown(can.buttons) + " is not 0 to 32", can.name, kRemedy);
+  const Placement in_world{.rotation = can.frame.rotation, .offset_m = can.frame.origin_m};
+  if (check_placement(in_world)) return {};
+  return fail("its frame is not a unit quaternion and a finite origin", can.name, kRemedy);
+}
+
 }  // namespace
 
 double longest_tick_s(const GateLimits& limits) noexcept {
@@ -78,13 +88,16 @@ Status check_capabilities(const ForceCapabilities& can) {
                                                 {"position resolution", can.position_resolution_m},
                                                 {"apparent mass", can.apparent_mass_kg},
                                                 {"largest stiffness", can.largest_stiffness_n_per_m},
+                                                {"largest damping", can.largest_damping_n_s_per_m},
                                                 {"workspace, x", can.workspace_half_size_m.x},
                                                 {"workspace, y", can.workspace_half_size_m.y},
                                                 {"workspace, z", can.workspace_half_size_m.z},
                                                 {"rate", can.rate_hz},
                                                 {"homing time", can.homing_s},
                                                 {"firmware time-out", can.firmware_timeout_s}});
-  return values ? check_forces(can.name, can.peak_force_n, can.continuous_force_n) : values;
+  if (!values) return values;
+  if (const Status counts = check_counts(can); !counts) return counts;
+  return check_forces(can.name, can.peak_force_n, can.continuous_force_n);
 }
 
 Status check_capabilities(const DisplayCapabilities& can) {

@@ -4,6 +4,8 @@
 #include "core/base/result.h"
 #include "core/base/vec.h"
 
+#include <array>
+
 namespace tangent {
 
 struct ForceCapabilities;
@@ -15,13 +17,14 @@ struct GateLimits {
   double ramp_s = 0.25;             ///< from arming to full force
   double display_travel_m = 0.0;    ///< end to end
   double continuous_force_n = 0.0;  ///< of the device; 0: not known, no limit
-  Vec3 workspace_half_size_m{0.0};  ///< box around the workspace's centre; 0: no limit along that axis
-  double workspace_margin_m = 5e-3;      ///< beyond the box, over which the force fades out
-  double fastest_m_per_s = 10.0;         ///< of the finger; a fast hand moves at 2 to 3
-  double fastest_display_m_per_s = 1.0;  ///< of the roller; a drive reaches 0.2
-  double stale_s = 10e-3;                ///< oldest sample that may produce a force
-  double late_s = 20e-3;                 ///< longest tick, see longest_tick_s
-  double late_periods = 20.0;            ///< the same in periods of the servo
+  std::array<bool, 3> pushes_along{true, true, true};  ///< axes along which the device can push
+  Vec3 workspace_half_size_m{0.0};                     ///< box around the device's origin; 0: no limit along that axis
+  double workspace_margin_m = 5e-3;                    ///< beyond the box, over which the force fades out
+  double fastest_m_per_s = 10.0;                       ///< of the finger; a fast hand moves at 2 to 3
+  double fastest_display_m_per_s = 1.0;                ///< of the roller; a drive reaches 0.2
+  double stale_s = 10e-3;                              ///< oldest sample that may produce a force
+  double late_s = 20e-3;                               ///< longest tick, see longest_tick_s
+  double late_periods = 20.0;                          ///< the same in periods of the servo
   double period_s = 1e-3;          ///< of the servo: force and target change by no more than this allows in a tick
   double sample_s = 1e-3;          ///< between two samples of the force device
   double display_sample_s = 1e-3;  ///< and of the display

@@ -16,12 +16,13 @@ ForceCapabilities describe(const SimulatedForceOptions& options) {
   ForceCapabilities c;
   c.name = "simulated force device";
   c.simulated = true;
-  c.senses_orientation = true;
+  c.rotations_sensed = 3;
   c.peak_force_n = 8.5;
   c.continuous_force_n = 1.4;
   c.position_resolution_m = options.position_step_m;
   c.apparent_mass_kg = options.device_mass_kg;
   c.largest_stiffness_n_per_m = 3500.0;
+  c.largest_damping_n_s_per_m = 30.0;  // measured, tests/workbench/session/contact_instability_test.cpp
   c.workspace_half_size_m = Vec3(0.1905, 0.1335, 0.0955);
   c.rate_hz = 1000.0;
   return c;

@@ -1,5 +1,5 @@
 // Simulated force device: a mass held by a spring-damper hand and pushed by the commanded force. Default values are
-// those of the PHANToM Premium 1.5 unless stated otherwise. SI units, world frame.
+// those of the PHANToM Premium 1.5 unless stated otherwise. SI units, its own frame.
 //
 // Pure computation: no clock, no thread. The same seed, targets, commands and time steps give identical results.
 //

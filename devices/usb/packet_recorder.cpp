@@ -4,17 +4,30 @@
 #include <cerrno>
 #include <chrono>
 #include <cstring>
+#include <string>
+#include <utility>
 
 namespace tangent {
 
+namespace {
+
+constexpr const char* kRemedy = "name a file that can be written, where there is room";
+
+}  // namespace
+
 Result<std::unique_ptr<PacketRecorder>> PacketRecorder::create(const std::filesystem::path& file) {
   std::FILE* opened = std::fopen(file.c_str(), "w");
-  if (opened == nullptr) return fail(std::strerror(errno), file.string(), "name a file that can be written");
-  return std::unique_ptr<PacketRecorder>(new PacketRecorder(opened));
+  if (opened == nullptr) return fail(std::strerror(errno), file.string(), kRemedy);
+  if (std::fputs("# t_s direction status bytes hex\n", opened) < 0 || std::fflush(opened) != 0) {
+    const int code = errno;
+    std::fclose(opened);
+    return fail(std::strerror(code), file.string(), kRemedy);
+  }
+  return std::unique_ptr<PacketRecorder>(new PacketRecorder(opened, file));
 }
 
-PacketRecorder::PacketRecorder(std::FILE* file) : file_(file), started_ns_(usb_now_ns()) {
-  std::fputs("# t_s direction status bytes hex\n", file_);
+PacketRecorder::PacketRecorder(std::FILE* file, std::filesystem::path path)
+    : file_(file), path_(std::move(path)), started_ns_(usb_now_ns()) {
   thread_ = std::thread([this] {
     while (!stopping_.load()) {
       write_all();
@@ -49,7 +62,15 @@ void PacketRecorder::write_all() {
     for (std::size_t i = 0; i < p.length; ++i) std::fprintf(file_, "%02x", p.bytes[i]);
     std::fputc('\n', file_);
   }
-  std::fflush(file_);
+  if (std::fflush(file_) != 0 && failed_ == 0) failed_ = errno;
+}
+
+Status PacketRecorder::complete() const {
+  if (const int code = failed_) return fail(std::strerror(code), path_.string(), kRemedy);
+  if (const std::uint64_t lost = drops(); lost > 0)
+    return fail(std::to_string(lost) + " packets are not in it, the disk was too slow", path_.string(),
+                "name a file on another disk");
+  return {};
 }
 
 }  // namespace tangent

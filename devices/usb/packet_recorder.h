@@ -17,7 +17,7 @@ namespace tangent {
 
 class PacketRecorder final : public UsbTap {
  public:
-  /// Fails when the file can't be written.
+  /// Fails when the file can't be written, its first line included.
   static Result<std::unique_ptr<PacketRecorder>> create(const std::filesystem::path& file);
   /// Writes the rest of the ring. Precondition: the link has stopped.
   ~PacketRecorder() override;
@@ -29,6 +29,8 @@ class PacketRecorder final : public UsbTap {
               int status) noexcept override;
   /// Packets lost because the ring was full. Any thread.
   std::uint64_t drops() const noexcept { return ring_.drops(); }
+  /// Fails when something that should be in the file is not: the disk is full, or packets were lost. Any thread.
+  Status complete() const;
 
  private:
   struct Packet {
@@ -38,10 +40,12 @@ class PacketRecorder final : public UsbTap {
     std::uint8_t length = 0;
     std::array<std::uint8_t, kUsbPacketBytes> bytes{};
   };
-  explicit PacketRecorder(std::FILE* file);
+  PacketRecorder(std::FILE* file, std::filesystem::path path);
   void write_all();
 
   std::FILE* file_;
+  const std::filesystem::path path_;
+  std::atomic<int> failed_{0};  ///< errno of the first write that failed
   std::int64_t started_ns_;
   Ring<Packet> ring_{8192};
   std::atomic<bool> stopping_{false};

@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <limits>
 #include <memory>
 
@@ -92,11 +93,37 @@ TEST_CASE("real devices without a time-out of their firmware are named, simulate
   CHECK(devices_without_timeout(set.devices).empty());
 }
 
-TEST_CASE("a device's largest stiffness caps what is asked for, where it is known") {
+TEST_CASE("a device's largest stiffness and damping cap what is asked for, as felt there, where they are known") {
+  const auto allowed = [](const DeviceSet& devices, double stiffness, double damping, double scale = 1.0) {
+    Preset preset;
+    preset.force.stiffness_n_per_m = stiffness;
+    preset.force.damping_n_s_per_m = damping;
+    preset = preset_allowed(preset, devices, scale);
+    return Vec2(preset.force.stiffness_n_per_m, preset.force.damping_n_s_per_m);
+  };
   SayingSet set;
-  CHECK(stiffness_allowed(set.devices, 9000.0) == 9000.0);
+  CHECK(allowed(set.devices, 9000.0, 50.0) == Vec2(9000.0, 50.0));
   set.force->caps.largest_stiffness_n_per_m = 3500.0;
-  CHECK(stiffness_allowed(set.devices, 9000.0) == 3500.0);
-  CHECK(stiffness_allowed(set.devices, 800.0) == 800.0);
-  CHECK(stiffness_allowed(DeviceSet{}, 9000.0) == 9000.0);
+  CHECK(allowed(set.devices, 9000.0, 50.0) == Vec2(3500.0, 50.0));
+  set.force->caps.largest_damping_n_s_per_m = 8.0;
+  CHECK(allowed(set.devices, 9000.0, 50.0) == Vec2(3500.0, 8.0));
+  CHECK(allowed(set.devices, 800.0, 4.0) == Vec2(800.0, 4.0));
+  // A scene twice as large on the device as in itself feels twice as stiff per metre of the hand.
+  CHECK(allowed(set.devices, 9000.0, 50.0, 2.0) == Vec2(1750.0, 4.0));
+  CHECK(allowed(set.devices, 9000.0, 12.0, 0.5) == Vec2(7000.0, 12.0));
+  CHECK(allowed(DeviceSet{}, 9000.0, 50.0) == Vec2(9000.0, 50.0));
+}
+
+TEST_CASE("counts and a frame that can't be are refused") {
+  const auto opens = [](auto change) {
+    SayingSet set;
+    change(set.force->caps);
+    return open_devices(set.devices).has_value();
+  };
+  CHECK(opens([](ForceCapabilities& can) { can.rotations_sensed = 3; }));
+  CHECK_FALSE(opens([](ForceCapabilities& can) { can.rotations_sensed = 4; }));
+  CHECK_FALSE(opens([](ForceCapabilities& can) { can.buttons = 33; }));
+  CHECK_FALSE(opens([](ForceCapabilities& can) { can.largest_damping_n_s_per_m = -1.0; }));
+  CHECK_FALSE(opens([](ForceCapabilities& can) { can.frame.rotation = Quat(2.0, 0.0, 0.0, 0.0); }));
+  CHECK_FALSE(opens([](ForceCapabilities& can) { can.frame.origin_m.z = std::nan(""); }));
 }

@@ -198,26 +198,34 @@ TEST_CASE("the display's target is clamped to its travel, and holds while stoppe
   CHECK(gate.pass(ready_input(Vec3(0.0), 0.004), kTick_s).display_m == -0.01);
 }
 
-TEST_CASE("beyond the workspace the force fades out over the margin, wherever the workspace was placed") {
+TEST_CASE("beyond the workspace the force fades out over the margin") {
   GateLimits l = limits();
   l.slew_n_per_s = 1e9;
   l.workspace_half_size_m = Vec3(0.1, 0.0, 0.05);  // no limit along y
-  for (const Vec3 centre : {Vec3(0.0), Vec3(3, -2, 1)}) {
-    const auto force_at = [&](const Vec3& offset, bool faded) {
-      SafetyGate gate = armed_gate(l);
-      gate.place_workspace(centre);
-      gate.restart_ramp();
-      GateInput input = ready_input(Vec3(0, 0, 2));
-      input.position_m = centre + offset;
-      const GateOutput out = gate.pass(input, kTick_s);
-      CHECK(out.did(GateAction::workspace_faded) == faded);
-      return out.force_n.z;
-    };
-    CHECK(force_at(Vec3(0.0999, 7.0, -0.0499), false) == 2.0);
-    CHECK(force_at(Vec3(0.1025, 0, 0), true) == doctest::Approx(1.0));
-    CHECK(force_at(Vec3(0.1025, 0, -0.054), true) == doctest::Approx(0.4));
-    CHECK(force_at(Vec3(0, 0, 0.0551), true) == 0.0);
-  }
+  const auto force_at = [&](const Vec3& position, bool faded) {
+    SafetyGate gate = armed_gate(l);
+    gate.restart_ramp();  // the finger was elsewhere
+    GateInput input = ready_input(Vec3(0, 0, 2));
+    input.position_m = position;
+    const GateOutput out = gate.pass(input, kTick_s);
+    CHECK(out.did(GateAction::workspace_faded) == faded);
+    return out.force_n.z;
+  };
+  CHECK(force_at(Vec3(0.0999, 7.0, -0.0499), false) == 2.0);
+  CHECK(force_at(Vec3(0.1025, 0, 0), true) == doctest::Approx(1.0));
+  CHECK(force_at(Vec3(0.1025, 0, -0.054), true) == doctest::Approx(0.4));
+  CHECK(force_at(Vec3(0, 0, 0.0551), true) == 0.0);
+}
+
+TEST_CASE("along an axis that the device can't push along nothing is sent, and it counts for no limit") {
+  GateLimits l = limits();
+  l.slew_n_per_s = 1e9;
+  l.peak_force_n = 5.0;
+  l.pushes_along = {true, false, true};
+  SafetyGate gate = armed_gate(l);
+  const GateOutput out = gate.pass(ready_input(Vec3(3.0, 1000.0, 4.0 * (1.0 - 1e-9))), kTick_s);
+  CHECK(out.force_n == Vec3(3.0, 0.0, 4.0 * (1.0 - 1e-9)));
+  CHECK_FALSE(out.did(GateAction::force_clamped));
 }
 
 TEST_CASE("held at peak force, the gate comes down to the continuous force by itself") {

@@ -52,7 +52,7 @@ Result<ScenePtr> load_icosphere(int subdivisions, LoadReport& load) {
   if (!source) return tl::unexpected(source.error());
   load.read_s = seconds_since(start);
   start = TickClock::now();
-  Result<ContactMesh> mesh = ContactMesh::build(*source);
+  Result<ContactMesh> mesh = ContactMesh::build(*source, {}, run_on_two_threads);
   if (!mesh) return tl::unexpected(mesh.error());
   load.mesh_s = seconds_since(start);
   start = TickClock::now();

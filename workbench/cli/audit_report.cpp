@@ -1,5 +1,6 @@
 #include "workbench/cli/audit_report.h"
 
+#include "core/io/file_name.h"
 #include "workbench/cli/mesh_text.h"
 #include "workbench/cli/text_format.h"
 
@@ -132,7 +133,7 @@ Json audit_json(const MeshAudit& a, const PerceptionAudit& perception, int condi
   return {
       {"program_version", TANGENT_VERSION},
       {"mesh",
-       {{"name", mesh.name()},
+       {{"name", file_name_text(mesh.name())},
         {"hash", hash_text(mesh.content_hash())},
         {"normals_used", mesh.normals_used() == NormalSource::file ? "file" : "computed"},
         {"fit_scale", mesh.scale_applied()}}},

@@ -1,5 +1,6 @@
 // workbench decimate: reduces a mesh to the fewest triangles that a finger can't tell from the original.
 #include "core/io/atomic_file.h"
+#include "core/io/file_name.h"
 #include "core/io/mesh_io.h"
 #include "core/io/rendering_condition.h"
 #include "core/lab/gains/gain_tuning.h"
@@ -130,7 +131,7 @@ nlohmann::ordered_json to_json(const SurfaceDeviation& d) {
 
 nlohmann::ordered_json report_json(const DecimateReport& r) {
   return {{"program_version", TANGENT_VERSION},
-          {"mesh", r.mesh},
+          {"mesh", file_name_text(r.mesh)},
           {"condition", r.threshold.condition},
           {"pilot", !r.threshold.interval_deg.has_value()},
           {"angle_limit_deg", angle_limit_deg(r.threshold)},

@@ -8,6 +8,23 @@ namespace {
 
 std::vector<std::string_view> views(const std::vector<std::string>& names) { return {names.begin(), names.end()}; }
 
+void add_place_options(CLI::App& command, PlaceOptions& place) {
+  add_flag(command, "--place-fit", place.fit, "Fit the scene, and a finger around it, to the force device's workspace");
+  add_number_option(command, "--place-scale", {.min = Placement::kSmallestScale, .max = Placement::kLargestScale},
+                    "Metres of the scene for a metre of the force device (default 1)",
+                    [&place](double v) { place.scale = v; });
+  add_vector_option(
+      command, "--place-offset-mm", {.min = -1e6, .max = 1e6, .unit = "mm"},
+      "Where the device's origin is in the scene (default: simulated in the mesh's centre, real at 0 0 0)",
+      [&place](const auto& v) { place.offset_m = 1e-3 * Vec3(v[0], v[1], v[2]); });
+  add_vector_option(command, "--place-rotate-deg", {.min = -360, .max = 360, .unit = "deg"},
+                    "How the device's axes are turned in the scene: about x, then y, then z (default 0 0 0)",
+                    [&place](const auto& v) {
+                      place.rotation = rotation_from_degrees({v[0], v[1], v[2]});
+                    });
+  for (const char* other : {"--place-scale", "--place-offset-mm"}) exclude_each_other(command, "--place-fit", other);
+}
+
 }  // namespace
 
 void add_device_options(CLI::App& command, DeviceChoice& choice) {
@@ -41,6 +58,7 @@ void add_device_options(CLI::App& command, DeviceChoice& choice) {
   add_number_option(command, "--maestro-high-mm", {.min = 0, .max = 50, .unit = "mm"},
                     "The upper place (default: as kept, or 10)",
                     [&choice](double v) { choice.maestro.high_m = v * 1e-3; });
+  add_place_options(command, choice.place);
 }
 
 }  // namespace tangent

@@ -3,6 +3,7 @@
 
 #include "devices/device_set.h"
 #include "workbench/session/maestro_setups.h"
+#include "workbench/session/session.h"
 
 #include <filesystem>
 #include <memory>
@@ -22,10 +23,12 @@ struct DeviceChoice {
   MaestroWish maestro;
   std::filesystem::path packets;
   int servo_cpu = -1;
+  PlaceOptions place;
 };
 
 /// --force, --display, --device for both, --packets, --servo-cpu, --maestro-channel, --maestro-low-us,
-/// --maestro-high-us, --maestro-low-mm, --maestro-high-mm. `choice` must outlive the parsing.
+/// --maestro-high-us, --maestro-low-mm, --maestro-high-mm, --place-fit, --place-scale, --place-offset-mm,
+/// --place-rotate-deg. `choice` must outlive the parsing.
 void add_device_options(CLI::App& command, DeviceChoice& choice);
 
 }  // namespace tangent

@@ -1,7 +1,7 @@
 #include "workbench/cli/mesh_options.h"
 
 #include "core/io/mesh_io.h"
-#include "core/io/polygon_io.h"
+#include "core/io/scene_file.h"
 #include "workbench/cli/option.h"
 #include "workbench/session/file_units.h"
 #include "workbench/session/two_threads.h"
@@ -42,7 +42,7 @@ void add_mesh_options(CLI::App& app, MeshOptions& options, bool mesh_required) {
 Result<LoadedMesh> load_mesh(const MeshOptions& options) {
   Result<PolygonMesh> source = read_mesh(options.file, options.metres_per_unit);
   if (!source) return tl::unexpected(source.error());
-  Result<ContactMesh> mesh = ContactMesh::build(*source, options.build);
+  Result<ContactMesh> mesh = ContactMesh::build(*source, options.build, run_on_two_threads);
   if (!mesh) {
     Error error = mesh.error();
     if (error.where.empty()) error.where = options.file.string();
@@ -52,17 +52,7 @@ Result<LoadedMesh> load_mesh(const MeshOptions& options) {
 }
 
 Result<std::shared_ptr<const ContactScene>> load_contact_scene(const MeshOptions& options, const SceneParts& parts) {
-  if (!is_planar_file(options.file)) {
-    Result<LoadedMesh> loaded = load_mesh(options);
-    if (!loaded) return tl::unexpected(loaded.error());
-    return ContactScene::build(std::move(loaded->mesh), parts, run_on_two_threads);
-  }
-  Result<PlanarPolygon> polygon = read_polygon(options.file, options.metres_per_unit);
-  if (!polygon) return tl::unexpected(polygon.error());
-  if (options.build.fit_m) fit_polygon(*polygon, *options.build.fit_m);
-  Result<PlanarCurve> curve = PlanarCurve::build(std::move(*polygon));
-  if (!curve) return tl::unexpected(curve.error());
-  return ContactScene::build(std::move(*curve), parts);
+  return load_scene(options.file, {options.metres_per_unit, options.build, parts}, run_on_two_threads);
 }
 
 }  // namespace tangent

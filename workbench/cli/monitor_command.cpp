@@ -7,6 +7,7 @@
 #include "workbench/cli/monitor_text.h"
 #include "workbench/cli/option.h"
 #include "workbench/session/maestro_setups.h"
+#include "workbench/session/raw_terminal.h"
 
 #include <chrono>
 #include <cstdio>
@@ -14,7 +15,6 @@
 #include <thread>
 
 #include <poll.h>
-#include <termios.h>
 #include <unistd.h>
 
 namespace tangent {
@@ -24,36 +24,28 @@ struct MonitorOptions {
   DeviceChoice devices;
   double seconds = 0.0;  ///< 0: until q or Ctrl-C
   double servo_hz = 1000.0;
-  std::string inject;
+  InjectedFault inject = InjectedFault::none;
   bool inject_display = false, stay_stopped = false, arm = false, without_timeout = false;
 };
 
 /// Reads single keys while it exists, if standard input is a terminal.
 class Keys {
  public:
-  Keys() {
-    if (::isatty(STDIN_FILENO) == 0 || ::tcgetattr(STDIN_FILENO, &before_) != 0) return;
-    termios raw = before_;
-    raw.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);
-    active_ = ::tcsetattr(STDIN_FILENO, TCSANOW, &raw) == 0;
-  }
-  ~Keys() {
-    if (active_) ::tcsetattr(STDIN_FILENO, TCSANOW, &before_);
-  }
-  Keys(const Keys&) = delete;
-  Keys& operator=(const Keys&) = delete;
-  bool active() const { return active_; }
+  bool active() const { return terminal_.active(); }
   /// 0: none.
   char next() const {
     pollfd input{STDIN_FILENO, POLLIN, 0};
     char key = 0;
-    return active_ && ::poll(&input, 1, 0) > 0 && ::read(STDIN_FILENO, &key, 1) == 1 ? key : '\0';
+    return active() && ::poll(&input, 1, 0) > 0 && ::read(STDIN_FILENO, &key, 1) == 1 ? key : '\0';
   }
 
  private:
-  termios before_{};
-  bool active_ = false;
+  RawTerminal terminal_;
 };
+
+void say_if_refused(const Status& status) {
+  if (!status) std::printf("\n%s\n", status.error().message().c_str());
+}
 
 /// False: quit.
 bool handle(char key, Session& session) {
@@ -69,6 +61,12 @@ bool handle(char key, Session& session) {
     case 'h':
       session.home();
       break;
+    case 'f':
+      say_if_refused(session.fit_to_workspace());
+      break;
+    case 'c':
+      say_if_refused(session.hold_clutch(!session.status().clutched));
+      break;
     case 'r':
       std::printf("\n%s", monitor_report(session).c_str());
       break;
@@ -83,7 +81,8 @@ void watch(Session& session, const MonitorOptions& options, const FaultInjection
   const InterruptGuard guard;
   const Keys keys;
   const bool live = ::isatty(STDOUT_FILENO) != 0;
-  if (keys.active()) std::puts("a arm   s stop   h home   r report   q quit");
+  if (keys.active())
+    std::puts("a arm   s stop   h home   f fit the scene to the device   c clutch, on and off   r report   q quit");
   const auto began = Clock::now();
   auto next_line = began;
   bool injected = fault.kind == InjectedFault::none;
@@ -108,12 +107,7 @@ void watch(Session& session, const MonitorOptions& options, const FaultInjection
 }
 
 Status run_monitor(const MonitorOptions& options) {
-  FaultInjection fault;
-  if (!options.inject.empty()) {
-    const auto kind = injected_fault(options.inject);
-    if (!kind) return tl::unexpected(kind.error());
-    fault.kind = *kind;
-  }
+  const FaultInjection fault{.kind = options.inject};
   auto scene = builtin_scene();
   if (!scene) return tl::unexpected(scene.error());
   SessionOptions wanted;
@@ -127,6 +121,7 @@ Status run_monitor(const MonitorOptions& options) {
     wanted.maestro_channel = setup->channel;
   }
   wanted.packets = options.devices.packets;
+  wanted.place = options.devices.place;
   wanted.history_s = 1.0;
   wanted.arm_on_start = options.stay_stopped ? ArmOnStart::never
                         : options.arm        ? ArmOnStart::always
@@ -142,9 +137,9 @@ Status run_monitor(const MonitorOptions& options) {
   }
   if (const Status ok = (*session)->start(); !ok) return ok;
   watch(**session, options, fault);
-  (*session)->shut_down();
+  const Status ended = (*session)->shut_down();
   std::fputs(monitor_report(**session).c_str(), stdout);
-  return {};
+  return ended ? (*session)->packet_log() : ended;
 }
 
 }  // namespace
@@ -157,15 +152,16 @@ void add_monitor_command(CLI::App& app, CommandResult& result) {
                     "How long (default: until q or Ctrl-C)", [options](double v) { options->seconds = v; });
   add_number_option(*command, "--servo-hz", {.min = kSlowestServoHz, .max = kFastestServoHz, .unit = "Hz"},
                     "Rate of the servo (default 1000)", [options](double v) { options->servo_hz = v; });
-  add_text_option(*command, "--inject", options->inject,
-                  "Fault to give the simulated device once armed: drop-out, stuck-encoder, delay-burst or noise",
-                  "FAULT");
+  add_choice_option(
+      *command, "--inject", injected_fault_names(), "Fault to give the simulated device once armed",
+      [options](int i) { options->inject = *injected_fault(injected_fault_names()[static_cast<std::size_t>(i)]); });
   add_flag(*command, "--inject-display", options->inject_display,
            "Give it to the contact display instead of the force device");
   add_flag(*command, "--arm", options->arm, kArmText);
   add_flag(*command, "--without-timeout", options->without_timeout,
            "Arm even a device that goes on with its last command when this program dies");
   add_flag(*command, "--stay-stopped", options->stay_stopped, "No force until a is pressed");
+  exclude_each_other(*command, "--arm", "--stay-stopped");
   on_run(*command, [options, &result] {
     const Status status = run_monitor(*options);
     if (!status) print_message("monitor", status.error().message());

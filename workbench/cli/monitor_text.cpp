@@ -55,6 +55,13 @@ std::string gate_text(const ServoStatus& servo) {
   return text;
 }
 
+std::string placement_text(const SessionStatus& s) {
+  const Placement& p = s.placement;
+  const Vec3 at = p.offset_m * 1e3, turn = degrees_of(p.rotation);
+  return format("Scene on the device: scale %.4g, the device at %.2f %.2f %.2f mm, turned by %.1f %.1f %.1f deg%s\n",
+                p.scale, at.x, at.y, at.z, turn.x, turn.y, turn.z, s.clutched ? "; the clutch is held" : "");
+}
+
 std::string link_text(const LinkReport& link) {
   std::string text = format("Link: %s%s%s\n", link.connected ? "connected" : "not connected",
                             link.identity.empty() ? "" : ", ", link.identity.c_str());
@@ -89,6 +96,8 @@ std::string monitor_line(const Session& session) {
   if (s.servo.gate_fault != GateFault::none) text += std::string(": ") + to_string(s.servo.gate_fault);
   const bool live = s.servo.gate_state == GateState::ramping || s.servo.gate_state == GateState::armed;
   const std::string why = arming_text(s.arming, s.in_the_way, s.force_wanted_n);
+  if (s.clutched) text += " | clutch held";
+  if (s.placement_refused) text += " | not placed: force was sent";
   if (!live) text += " | " + (why.empty() ? std::string("No force: a arms") : why);
   text += format(" | %.1f Hz", s.servo.rate_hz);
   if (session.history().empty()) return text;
@@ -111,6 +120,7 @@ std::string monitor_report(const Session& session) {
   text += histogram_text("Late by", session.lateness_ns(), 1e-6, "ms");
   text += histogram_text("From sample to command", session.latency_ns(), 1e-6, "ms");
   text += gate_text(s.servo);
+  if (session.force_capabilities() != nullptr) text += placement_text(s);
   LinkReport link;
   if (session.display_report(link)) text += link_text(link);
   text += "Log\n";

@@ -37,21 +37,37 @@ void add_flag(CLI::App& app, const std::string& name, bool& value, const std::st
   app.add_flag(name, value, doc);
 }
 
-void add_number_option(CLI::App& app, const std::string& name, NumberRange range, const std::string& doc,
-                       std::function<void(double)> set) {
+namespace {
+
+double checked_number(const std::string& name, const std::string& text, const NumberRange& range) {
   const std::string allowed =
       (range.whole ? "a whole number from " : "") + range_text(range.min, range.max, range.unit);
-  const auto parse = [=, set = std::move(set)](const std::string& text) {
-    const std::optional<double> value = parse_finite_double(text);
-    if (!value) refuse_option(name, "'" + text + "' is not a finite number; allowed: " + allowed);
-    if (range.whole && std::floor(*value) != *value) {
-      refuse_option(name, text + " is not a whole number; allowed: " + allowed);
-    }
-    if (!(*value >= range.min && *value <= range.max)) {
-      refuse_option(name, text + " is out of range; allowed: " + allowed);
-    }
-    set(*value);
+  const std::optional<double> value = parse_finite_double(text);
+  if (!value) refuse_option(name, "'" + text + "' is not a finite number; allowed: " + allowed);
+  if (range.whole && std::floor(*value) != *value) {
+    refuse_option(name, text + " is not a whole number; allowed: " + allowed);
+  }
+  if (!(*value >= range.min && *value <= range.max)) {
+    refuse_option(name, text + " is out of range; allowed: " + allowed);
+  }
+  return *value;
+}
+
+}  // namespace
+
+void add_vector_option(CLI::App& app, const std::string& name, NumberRange range, const std::string& doc,
+                       std::function<void(const std::array<double, 3>&)> set) {
+  const auto parse = [=, set = std::move(set)](const std::vector<std::string>& texts) {
+    std::array<double, 3> values{};
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = checked_number(name, texts.at(i), range);
+    set(values);
   };
+  app.add_option_function<std::vector<std::string>>(name, parse, doc)->expected(3)->type_name("X Y Z");
+}
+
+void add_number_option(CLI::App& app, const std::string& name, NumberRange range, const std::string& doc,
+                       std::function<void(double)> set) {
+  const auto parse = [=, set = std::move(set)](const std::string& text) { set(checked_number(name, text, range)); };
   app.add_option_function<std::string>(name, parse, doc)->type_name(range.whole ? "N" : "X");
 }
 
@@ -72,6 +88,10 @@ void add_choice_option(CLI::App& app, const std::string& name, std::span<const s
 void require_together(CLI::App& app, const std::string& name, const std::string& other) {
   app.get_option(name)->needs(app.get_option(other));
   app.get_option(other)->needs(app.get_option(name));
+}
+
+void exclude_each_other(CLI::App& app, const std::string& name, const std::string& other) {
+  app.get_option(name)->excludes(app.get_option(other));
 }
 
 void refuse_option(const std::string& name, const std::string& why) { throw CLI::ValidationError(name, why); }

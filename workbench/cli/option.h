@@ -3,6 +3,7 @@
 // and what it allows.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <functional>
 #include <span>
@@ -47,12 +48,19 @@ struct NumberRange {
 void add_number_option(CLI::App& app, const std::string& name, NumberRange range, const std::string& doc,
                        std::function<void(double)> set);
 
+/// Three numbers, as "--place-offset-mm 1 2 3", each in the range.
+void add_vector_option(CLI::App& app, const std::string& name, NumberRange range, const std::string& doc,
+                       std::function<void(const std::array<double, 3>&)> set);
+
 /// `set` gets the index into `choices`, which must outlive the parser.
 void add_choice_option(CLI::App& app, const std::string& name, std::span<const std::string_view> choices,
                        const std::string& doc, std::function<void(int)> set);
 
 /// Both or neither.
 void require_together(CLI::App& app, const std::string& name, const std::string& other);
+
+/// One of them at most.
+void exclude_each_other(CLI::App& app, const std::string& name, const std::string& other);
 
 /// Ends the parsing; `why` goes on after the option's name.
 [[noreturn]] void refuse_option(const std::string& name, const std::string& why);

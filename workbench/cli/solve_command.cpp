@@ -56,11 +56,32 @@ Result<SolveOutputs> create_outputs(const SolveOptions& options) {
   return outputs;
 }
 
+/// Has what the next tick will search built before its time is taken.
+class BuildAhead {
+ public:
+  BuildAhead(const ContactScene& scene, const Preset& preset)
+      : scene_(scene), reach_m_(preset.finger.reach_m()), waits_(scene.unbuilt_parts() > 0) {}
+  void before(const TickInput& input) {
+    constexpr double kShare = 0.1;  // of the finger's reach: as far as build_near reaches further
+    if (!waits_ || glm::length(input.finger.position - last_) < kShare * reach_m_) return;
+    last_ = input.finger.position;
+    scene_.build_near(last_, reach_m_);
+  }
+
+ private:
+  const ContactScene& scene_;
+  double reach_m_;
+  bool waits_;
+  Vec3 last_{1e300};
+};
+
 /// Steps the poses in turn until they end or Ctrl-C. Precondition: an InterruptGuard.
-Status step_all(Stepper& stepper, const std::vector<TickInput>& poses, SolveOutputs& outputs, SolveReport& report) {
+Status step_all(const ContactScene& scene, Stepper& stepper, const std::vector<TickInput>& poses, SolveOutputs& outputs,
+                SolveReport& report) {
   Progress progress("ticks", poses.size());
   // Too large for the stack.
   const auto trace = outputs.iterations ? std::make_unique<IterationTrace>() : nullptr;
+  BuildAhead ahead(scene, report.preset.preset);
   TickState state;
   TickRow row;
   report.statistics.reserve(poses.size());
@@ -70,6 +91,7 @@ Status step_all(Stepper& stepper, const std::vector<TickInput>& poses, SolveOutp
       break;
     }
     if (trace) trace->clear();
+    ahead.before(input);
     const Stopwatch watch;
     row.output = stepper.step(report.preset.preset, input, state, trace.get());
     row.solve_ns = watch.nanoseconds();
@@ -124,7 +146,7 @@ Status solve(const SolveOptions& options, bool& interrupted) {
   const InterruptGuard interrupt;  // until the last file is in place
   Result<SolveOutputs> outputs = create_outputs(options);
   if (!outputs) return tl::unexpected(outputs.error());
-  if (Status status = step_all(stepper, *poses, *outputs, report); !status) return status;
+  if (Status status = step_all(**scene, stepper, *poses, *outputs, report); !status) return status;
   interrupted = report.interrupted;
   report.solve_seconds = solving.seconds();
   report.scene_bytes = (*scene)->memory_bytes();

@@ -1,5 +1,6 @@
 #include "workbench/cli/solve_report.h"
 
+#include "core/io/file_name.h"
 #include "core/lab/audit/finger_size.h"
 #include "core/preset/schema.h"
 #include "workbench/cli/mesh_text.h"
@@ -95,12 +96,9 @@ std::string scene_name(const SolveReport& report) {
 
 Json mesh_json(const SolveReport& report) {
   const ContactMesh& mesh = *report.mesh;
-  return {{"name", mesh.name()},
-          {"hash", hash_text(mesh.content_hash())},
-          {"triangles", mesh.triangle_count()},
-          {"usable_triangles", mesh.usable_triangle_count()},
-          {"defects", defects_json(mesh)},
-          {"notes", report.notes()}};
+  return {{"name", file_name_text(mesh.name())}, {"hash", hash_text(mesh.content_hash())},
+          {"triangles", mesh.triangle_count()},  {"usable_triangles", mesh.usable_triangle_count()},
+          {"defects", defects_json(mesh)},       {"notes", report.notes()}};
 }
 
 }  // namespace
@@ -152,7 +150,7 @@ Json solve_json(const SolveReport& report) {
       {"scene", scene},
       {"mesh", report.mesh != nullptr ? mesh_json(report) : Json()},
       {"poses", {{"name", report.poses_name}, {"count", report.poses}}},
-      {"preset", {{"name", report.preset_name}, {"values", to_json(report.preset.preset)}}},
+      {"preset", {{"name", file_name_text(report.preset_name)}, {"values", to_json(report.preset.preset)}}},
       {"interrupted", report.interrupted},
       {"ticks", s.ticks()},
       {"statuses", counts_json(s, kTickStatuses)},

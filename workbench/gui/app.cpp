@@ -154,12 +154,7 @@ void App::stop() { model_->devices().stop(); }
 void App::frame(const FrameInput& input) {
   stop_on_escape();
   const double begin = thread_cpu_ms();
-  for (const std::string& file : input.dropped_files) {
-    if (std::filesystem::path(file).extension() == ".toml")
-      model_->presets().load(file);
-    else
-      model_->scene().open(file);
-  }
+  for (const std::string& file : input.dropped_files) model_->open(file);
   model_->update(input.now_s);
   const Theme theme = ui_->theme.value_or(model_->window().theme());
   const float scale = ui_->font_scale.value_or(1.0f);

@@ -19,5 +19,5 @@ target_include_directories(tangent_gui SYSTEM PUBLIC ${IMGUI_INCLUDE} PRIVATE ${
 target_link_libraries(tangent_gui
   PUBLIC tangent_session ${IMGUI_LIBRARY} glfw Freetype::Freetype ${STB_LIBRARY} PkgConfig::epoxy ${CMAKE_DL_LIBS}
   PRIVATE PkgConfig::kissfft)
-target_compile_definitions(tangent_gui PRIVATE TANGENT_SHADER_DIR="${CMAKE_SOURCE_DIR}/shaders"
-  TANGENT_PRESET_DIR="${CMAKE_SOURCE_DIR}/presets")
+target_compile_definitions(tangent_gui PRIVATE TANGENT_SHADER_DIR="${PROJECT_SOURCE_DIR}/shaders"
+  TANGENT_PRESET_DIR="${PROJECT_SOURCE_DIR}/presets")

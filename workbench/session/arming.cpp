@@ -27,6 +27,8 @@ const char* to_string(ArmingObstacle obstacle) {
       return "there is a fault";
     case ArmingObstacle::not_homed:
       return "a device is not homed";
+    case ArmingObstacle::clutched:
+      return "the clutch is held";
     case ArmingObstacle::outside:
       return "the finger is outside the device's workspace";
     case ArmingObstacle::finger_at_depth:
@@ -43,6 +45,8 @@ const char* remedy(ArmingObstacle obstacle) {
       return "See to its cause; arming clears it once";
     case ArmingObstacle::not_homed:
       return "Arming homes it; one that is homed by hand has to be";
+    case ArmingObstacle::clutched:
+      return "Let go of it";
     case ArmingObstacle::outside:
       return "Bring the finger back";
     case ArmingObstacle::finger_at_depth:
@@ -155,6 +159,7 @@ ArmingObstacle Arming::obstacle_of(const ArmingView& seen) const noexcept {
   if (seen.gate_faulted && !arming_) return ArmingObstacle::fault;
   if (!seen.known || waits(seen.force) || waits(seen.display)) return ArmingObstacle::not_homed;
   if (seen.force == DeviceState::absent) return ArmingObstacle::none;
+  if (seen.clutched) return ArmingObstacle::clutched;
   if (seen.outside) return ArmingObstacle::outside;
   return seen.force_wanted_n < kMostArmingForce_n ? ArmingObstacle::none : ArmingObstacle::finger_at_depth;
 }

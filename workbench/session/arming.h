@@ -34,6 +34,7 @@ enum class ArmingObstacle : std::uint8_t {
   none,
   fault,            ///< of a device, or latched by the safety gate; `arm` clears it
   not_homed,        ///< a device is not ready
+  clutched,         ///< a person holds the clutch
   outside,          ///< the finger is outside the device's workspace, where there is no force
   finger_at_depth,  ///< the force would be above kMostArmingForce_n
 };
@@ -50,6 +51,7 @@ struct ArmingView {
   DeviceState force = DeviceState::absent, display = DeviceState::absent;
   bool live = false;            ///< the gate lets force through
   bool gate_faulted = false;    ///< it latched a fault
+  bool clutched = false;        ///< the clutch is held
   bool outside = false;         ///< the finger is outside the device's workspace
   double force_wanted_n = 0.0;  ///< what the last tick would push with
 };

@@ -1,7 +1,9 @@
 #include "workbench/session/crash_stop.h"
 
 #include "core/io/atomic_file.h"
+#include "workbench/session/raw_terminal.h"
 
+#include <cerrno>
 #include <csignal>
 #include <cstddef>
 #include <cstdlib>
@@ -14,8 +16,8 @@ namespace tangent {
 
 namespace {
 
-std::atomic<bool> to_end{false}, links_of_their_own{false};
-std::atomic<int> running{0};
+std::atomic<bool> to_end{false}, to_wait{false}, links_of_their_own{false};
+std::atomic<int> running{0}, waiting{0};
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free, "used by handlers");
 
 thread_local RunningServo* servo_here = nullptr;
@@ -27,9 +29,16 @@ void wait_a_little() noexcept {
   nanosleep(&half_a_tick, nullptr);
 }
 
+void wait_for_cable() noexcept {
+  if (!links_of_their_own.load()) return;
+  const timespec link{0, kLinkWait_ms * 1'000'000L};
+  nanosleep(&link, nullptr);
+}
+
 void end_in_order(int signal) {
   end_servos();
   remove_temporary_files();
+  give_terminal_back();
   // To the default action, which ends the process with the signal's own status and core.
   struct sigaction plain {};
   plain.sa_handler = SIG_DFL;
@@ -37,7 +46,31 @@ void end_in_order(int signal) {
   raise(signal);
 }
 
+// By the default action after all, so that the shell sees a job that was stopped as asked.
+void suspend_in_order(int signal) {
+  const int before = errno;
+  to_wait.store(true, std::memory_order_release);
+  for (int half_ms = 0; half_ms < 2 * kMostWait_ms && waiting.load() < running.load(); ++half_ms) wait_a_little();
+  wait_for_cable();
+  give_terminal_back();
+  struct sigaction plain {
+  }, mine{};
+  plain.sa_handler = SIG_DFL;
+  sigaction(signal, &plain, &mine);
+  sigset_t only;
+  sigemptyset(&only);
+  sigaddset(&only, signal);
+  pthread_sigmask(SIG_UNBLOCK, &only, nullptr);
+  raise(signal);  // suspended here, until SIGCONT
+  sigaction(signal, &mine, nullptr);
+  take_terminal_again();
+  to_wait.store(false, std::memory_order_release);
+  errno = before;
+}
+
 }  // namespace
+
+bool servos_are_to_wait() noexcept { return to_wait.load(std::memory_order_acquire); }
 
 void ask_servos_to_end() noexcept { to_end.store(true, std::memory_order_release); }
 bool servos_are_to_end() noexcept { return to_end.load(std::memory_order_acquire); }
@@ -51,10 +84,7 @@ bool end_servos() noexcept {
     mine->ended();
   }
   for (int half_ms = 0; half_ms < 2 * kMostWait_ms && running.load() > 0; ++half_ms) wait_a_little();
-  if (links_of_their_own.load()) {
-    const timespec link{0, kLinkWait_ms * 1'000'000L};
-    nanosleep(&link, nullptr);
-  }
+  wait_for_cable();
   return running.load() == 0;
 }
 
@@ -63,7 +93,16 @@ RunningServo::RunningServo(void (*release)(void*) noexcept, void* servo) noexcep
 }
 
 void RunningServo::ended() noexcept {
+  goes_on();
   if (running_.exchange(false)) running.fetch_sub(1);
+}
+
+void RunningServo::waits() noexcept {
+  if (!waiting_.exchange(true)) waiting.fetch_add(1);
+}
+
+void RunningServo::goes_on() noexcept {
+  if (waiting_.exchange(false)) waiting.fetch_sub(1);
 }
 
 RunningServo::Here::Here(RunningServo& servo) noexcept { servo_here = &servo; }
@@ -87,19 +126,30 @@ void install_crash_stop() {
   // NODEFER: raised again in the handler, it ends the process at once.
   action.sa_flags = SA_ONSTACK | SA_NODEFER;
   sigemptyset(&action.sa_mask);
-  const auto end_by = [&action](int signal) {
+  const auto handle = [&action](int signal) {
     struct sigaction before {};
     if (sigaction(signal, nullptr, &before) == 0 && before.sa_handler == SIG_DFL) sigaction(signal, &action, nullptr);
   };
   for (const int signal :
        {SIGSEGV, SIGBUS,  SIGILL,  SIGFPE,  SIGABRT, SIGSYS,  SIGTRAP,   SIGHUP,  SIGINT, SIGTERM, SIGQUIT,
         SIGPIPE, SIGALRM, SIGUSR1, SIGUSR2, SIGXCPU, SIGXFSZ, SIGVTALRM, SIGPROF, SIGPWR, SIGIO,   SIGSTKFLT})
-    end_by(signal);
-  for (int signal = SIGRTMIN; signal <= SIGRTMAX; ++signal) end_by(signal);
+    handle(signal);
+  for (int signal = SIGRTMIN; signal <= SIGRTMAX; ++signal) handle(signal);
+  action.sa_handler = suspend_in_order;
+  action.sa_flags = SA_ONSTACK | SA_RESTART;
+  for (const int signal : {SIGTSTP, SIGTTIN, SIGTTOU}) handle(signal);
   std::atexit([] {
     end_servos();
     remove_temporary_files();
+    give_terminal_back();
   });
+}
+
+void leave_suspending_to_others() noexcept {
+  sigset_t suspending;
+  sigemptyset(&suspending);
+  for (const int signal : {SIGTSTP, SIGTTIN, SIGTTOU}) sigaddset(&suspending, signal);
+  pthread_sigmask(SIG_BLOCK, &suspending, nullptr);
 }
 
 }  // namespace tangent

@@ -23,6 +23,11 @@ bool ExchangeWatch::end() noexcept {
   return found_.exchange(false, std::memory_order_acq_rel);
 }
 
+std::int64_t ExchangeWatch::lasts_ns(std::int64_t now_ns) const noexcept {
+  const std::int64_t began = began_.load(std::memory_order_acquire);
+  return began == 0 ? 0 : now_ns - (began >> kDeviceBits);
+}
+
 bool ExchangeWatch::look(std::int64_t now_ns) noexcept {
   const std::int64_t began = began_.load(std::memory_order_acquire);
   if (began == 0 || now_ns - (began >> kDeviceBits) <= kLongest_ns || found_.load(std::memory_order_relaxed))

@@ -28,6 +28,8 @@ class ExchangeWatch {
   /// Watching thread. True: found an exchange that hangs, and told its device to stop.
   bool look(std::int64_t now_ns) noexcept;
 
+  /// Any thread: how long the exchange has lasted that goes on now; 0: none does.
+  std::int64_t lasts_ns(std::int64_t now_ns) const noexcept;
   /// Any thread: the device whose exchange hangs now, or hung last.
   ExchangeWith hung() const noexcept { return hung_.load(std::memory_order_acquire); }
   bool hangs_now() const noexcept { return found_.load(std::memory_order_acquire); }

@@ -22,10 +22,17 @@ struct HandSettings {
   bool operator==(const HandSettings&) const = default;
 };
 
+/// A hand that the mouse leads: as a person goes to a place that was pointed at, and pulling with at most 1.2 N (by a
+/// hand of 400 N/m) where the surface is in the way.
+inline constexpr double kMouseSpeed = 0.2;  // m/s
+inline constexpr double kMouseLead_m = 3e-3;
+
 /// The hand's settings and target as sent to the servo.
 struct HandCommand {
   HandSettings settings;
-  Vec3 point_m{0.0};  ///< HandMode::point, world
+  Vec3 point_m{0.0};                 ///< HandMode::point, world
+  double point_speed_m_per_s = 1.0;  ///< on the way to it
+  double longest_lead_m = 1.0;       ///< how far ahead of the finger the hand's target may be
 };
 
 }  // namespace tangent

@@ -121,6 +121,8 @@ Status keep_maestro_setup(const std::filesystem::path& path, const std::string& 
   std::error_code failed;
   std::filesystem::create_directories(path.parent_path(), failed);
   const FileLock lock(path);  // another program may calibrate another Maestro
+  if (!lock.held())
+    return fail("another program holds its lock, or none can be made", path.string(), "close the other program");
   auto setups = read_setups(path);
   if (!setups) return tl::unexpected(setups.error());
   (*setups)[serial] = setup;

@@ -9,6 +9,8 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <utility>
+
 namespace tangent {
 
 namespace {
@@ -44,6 +46,7 @@ Servo::Servo(ServoTick& tick, ServoStatistics& statistics, const ServoOptions& o
 Status Servo::start() {
   if (running()) return {};
   stopping_.store(false);
+  ended_.store(false);
   statistics_.restart_rate();
   if (scheduler_ == nullptr) {
     thread_ = std::thread([this]() noexcept { loop(); });
@@ -67,9 +70,27 @@ Status Servo::start_called() {
   return started;
 }
 
-void Servo::stop() {
-  if (!running()) return;
-  stopping_.store(true, std::memory_order_relaxed);
+/// Whether the servo's exchange is beyond waiting for. A servo that is late for another reason is waited for.
+bool Servo::in_exchange_for_good() noexcept {
+  MonotonicClock clock;
+  constexpr std::int64_t kLook_ns = 1'000'000;
+  // Sequentially consistent, like the stores: a call that begins now sees that it is to stop.
+  while (called_ ? in_call_.load() : !ended_.load()) {
+    const std::int64_t now_ns = clock.now_ns();
+    if (static_cast<double>(tick_.exchange_watch().lasts_ns(now_ns)) > 1e9 * options_.longest_stop_s) return true;
+    clock.sleep_until(now_ns + kLook_ns);
+  }
+  return false;
+}
+
+Servo::~Servo() {
+  while (!stop()) {}
+}
+
+bool Servo::stop() {
+  if (!running()) return true;
+  stopping_.store(true);
+  if (in_exchange_for_good()) return false;
   if (called_) {
     scheduler_->stop_calling();
     called_ = false;
@@ -80,6 +101,13 @@ void Servo::stop() {
   }
   watching_.store(false, std::memory_order_relaxed);  // after the last exchange
   if (watching_thread_.joinable()) watching_thread_.join();
+  return true;
+}
+
+void Servo::leave_behind() noexcept {
+  watching_.store(false, std::memory_order_relaxed);
+  if (watching_thread_.joinable()) watching_thread_.detach();
+  if (thread_.joinable()) thread_.detach();
 }
 
 void Servo::run_one() noexcept { tick_.run(pacer_.begin(pacer_.deadline_ns())); }
@@ -106,12 +134,25 @@ bool Servo::ends() const noexcept { return stopping_.load(std::memory_order_rela
 
 // The device's driver has chosen its thread's priority.
 void Servo::run_called() noexcept {
-  if (stopping_.load(std::memory_order_relaxed)) return;
+  struct InCall {
+    std::atomic<bool>& flag;
+    explicit InCall(std::atomic<bool>& in) : flag(in) { flag.store(true); }
+    ~InCall() { flag.store(false); }
+  } const in_call(in_call_);
+  if (stopping_.load()) return;
+  thread_local bool new_here = true;
+  if (std::exchange(new_here, false)) leave_suspending_to_others();
   const RunningServo::Here here(*running_);
   if (servos_are_to_end()) {
     release();  // again with every call, until nobody calls any more
     return running_->ended();
   }
+  if (servos_are_to_wait()) {
+    tick_.suspend(1.0 / options_.rate_hz);  // again with every call
+    call_pacer_.start();
+    return running_->waits();
+  }
+  running_->goes_on();
   const std::int64_t now_ns = clock_.now_ns();
   statistics_.note_start(now_ns);
   tick_.run(call_pacer_.begin(now_ns));
@@ -131,8 +172,19 @@ void Servo::watch() noexcept {
   }
 }
 
+/// Until the process goes on after it was suspended; the deadlines start anew.
+void Servo::wait_suspended(RunningServo& running) noexcept {
+  constexpr std::int64_t kLook_ns = 5'000'000;
+  tick_.suspend(1.0 / options_.rate_hz);
+  running.waits();
+  while (servos_are_to_wait() && !ends()) clock_.sleep_until(clock_.now_ns() + kLook_ns);
+  running.goes_on();
+  pacer_.start(clock_.now_ns());
+}
+
 void Servo::loop() noexcept {
   ask_for_realtime();
+  leave_suspending_to_others();
   const AlternateStack stack;
   RunningServo running(&Servo::release_one, this);
   const RunningServo::Here here(running);
@@ -140,11 +192,17 @@ void Servo::loop() noexcept {
   while (!ends()) {
     clock_.sleep_until(pacer_.deadline_ns());
     if (ends()) break;
+    if (servos_are_to_wait()) {
+      wait_suspended(running);
+      continue;
+    }
     const std::int64_t now_ns = clock_.now_ns();
     statistics_.note_start(now_ns);
     tick_.run(pacer_.begin(now_ns));
   }
   release();
+  running.ended();
+  ended_.store(true);
 }
 
 }  // namespace tangent

@@ -23,14 +23,19 @@ class Servo {
   /// the servo keeps the time. Precondition: rate within kSlowestServoHz, kFastestServoHz.
   Servo(ServoTick& tick, ServoStatistics& statistics, const ServoOptions& options, ServoClock& clock,
         ForceDevice* scheduler = nullptr);
-  ~Servo() { stop(); }
+  ~Servo();
   Servo(const Servo&) = delete;
   Servo& operator=(const Servo&) = delete;
 
   /// Starts the thread, or the device's calls; does nothing when it runs already. Fails when the device can't start.
   Status start();
-  /// Stops after the current tick, sends the devices zero force, and joins the thread.
-  void stop();
+  /// Stops after the current tick, sends the devices zero force, and joins the thread. False: an exchange has not
+  /// returned for options.longest_stop_s, although its device was told to stop by its own way. The thread is left in
+  /// it; should it return, the thread sends zero force and ends. Until then neither this nor anything that it was given
+  /// may be destroyed (the destructor waits).
+  bool stop();
+  /// After stop has returned false, where nothing of this is ever destroyed: its threads end by themselves.
+  void leave_behind() noexcept;
   bool running() const { return thread_.joinable() || called_; }
   RealtimeGrant granted() const { return {fifo_.load(), locked_.load(), on_cpu_.load()}; }  ///< any thread
 
@@ -40,6 +45,8 @@ class Servo {
  private:
   void loop() noexcept;
   void run_called() noexcept;
+  void wait_suspended(RunningServo& running) noexcept;
+  bool in_exchange_for_good() noexcept;
   Status start_called();
   bool ends() const noexcept;
   void watch() noexcept;
@@ -58,6 +65,8 @@ class Servo {
   std::optional<RunningServo> running_;  ///< while it is
   std::thread thread_, watching_thread_;
   std::atomic<bool> stopping_{false}, watching_{false};
+  std::atomic<bool> ended_{false};    ///< the thread's last exchange was made
+  std::atomic<bool> in_call_{false};  ///< of a device that calls us
   std::atomic<bool> fifo_{false}, locked_{false}, on_cpu_{false};
 };
 

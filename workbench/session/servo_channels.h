@@ -7,6 +7,7 @@
 #include "devices/fault_injection.h"
 #include "workbench/session/arming.h"
 #include "workbench/session/hand_settings.h"
+#include "workbench/session/placed_device.h"
 #include "workbench/session/prepared_scene.h"
 #include "workbench/session/servo_record.h"
 
@@ -68,6 +69,9 @@ struct ServoChannels {
   Mailbox<HandCommand> hand;
   Mailbox<ForceSwitch> force;
   std::atomic<bool> stop{false};  ///< like ForceSwitch::stop, but no later wish replaces it before it is seen
+  Mailbox<PlacementLetter> placement;
+  Mailbox<PlacementReport> placed;  ///< back from the servo
+  std::atomic<bool> clutch{false};  ///< a person holds it
   Mailbox<FaultLetter> faults;
   SceneExchange scenes;
   Ring<ServoRecord> gui;

@@ -23,6 +23,7 @@ struct ServoOptions {
   /// that N ticks give identical results however late they ran).
   bool time_by_deadlines = false;
   bool watch_exchanges = false;     ///< of real devices: a thread that notices one that doesn't return
+  double longest_stop_s = 1.0;      ///< what a person may wait for a device that does not return (Servo::stop)
   std::size_t ring_records = 8192;  ///< of each ring
 };
 

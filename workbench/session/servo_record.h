@@ -14,7 +14,7 @@
 
 namespace tangent {
 
-/// Devices and safety gate as seen by one tick. World frame, SI.
+/// Devices and safety gate as seen by one tick. The scene's frame, SI (devices/placement.h).
 struct DeviceTelemetry {
   DeviceState force_state = DeviceState::absent;
   DeviceFault force_fault = DeviceFault::none;
@@ -33,6 +33,7 @@ struct DeviceTelemetry {
   double cld_measured_m = 0.0;  ///< roller position, measured at the start of this tick
   double force_age_s = 0.0;     ///< age of this tick's position
   double display_age_s = 0.0;   ///< age of cld_measured_m
+  std::uint32_t buttons = 0;    ///< of the force device, pressed: bit per button
   double energy_j = 0.0;        ///< observed: > 0 made by the loop, < 0 stored by the hand (EnergyWatch::net_j)
 };
 

@@ -26,7 +26,7 @@ Arming arming_for(const DeviceSet& devices) {
 
 ServoTick::ServoTick(DeviceSet& devices, ServoChannels& channels, ServoStatistics& statistics,
                      std::unique_ptr<PreparedScene> scene, const PresetLetter& preset, NanosecondClock clock,
-                     double rate_hz)
+                     double rate_hz, const PlacementLetter& placement)
     : devices_(devices),
       channels_(channels),
       statistics_(statistics),
@@ -35,12 +35,12 @@ ServoTick::ServoTick(DeviceSet& devices, ServoChannels& channels, ServoStatistic
       exchange_watch_(devices),
       scene_(scene.release()),
       preset_(preset),
+      placed_(devices.force.get(), placement, scene_->scene->mesh().origin()),
       arming_(arming_for(devices)) {
-  const HandTarget start = hand_.begin(scene_->path, pad_distance_m(preset_.preset.finger));
+  const HandTarget start = placed_.to_device(hand_.begin(scene_->path, pad_distance_m(preset_.preset.finger)));
   force_sample_.position_m = start.position_m;
   force_sample_.orientation = start.orientation;
   if (devices_.force && devices_.force->hand()) devices_.force->hand()->place(start);
-  place_workspace();
   const std::string motors = motors_of(devices_);
   if (!motors.empty()) gate_.heat().set_store(motor_heat().recall(motors, gate_.limits().continuous_force_n, now()));
   if (devices_.display) devices_.display->set_controller(preset_.preset.controller);
@@ -52,7 +52,11 @@ ServoTick::~ServoTick() {
   delete scene_;
 }
 
+// A placement is taken before the preset that was sent before it: stiffness is capped for the larger of two scales
+// (Session::place).
 void ServoTick::take_letters() noexcept {
+  take_force_switch();
+  take_placement();
   if (channels_.presets.take(preset_)) {
     begin_change(state_.rendered);
     changed_ = true;
@@ -65,7 +69,27 @@ void ServoTick::take_letters() noexcept {
     if (fault.display && devices_.display) devices_.display->inject(fault.injection);
     if (!fault.display && devices_.force) devices_.force->inject(fault.injection);
   }
-  take_force_switch();
+}
+
+void ServoTick::take_placement() noexcept {
+  constexpr std::uint32_t kClutchButton = 1;
+  clutch_held_ = channels_.clutch.load(std::memory_order_acquire) || (force_sample_.buttons & kClutchButton) != 0;
+  PlacementLetter wanted;
+  if (!channels_.placement.take(wanted)) return;
+  if (placed_.take(wanted, gate_.may_send(), scene_->scene->mesh().origin())) finger_leapt();
+}
+
+void ServoTick::follow_clutch() noexcept {
+  if (placed_.follow_clutch(clutch_held_, gate_.may_send(), force_sample_)) finger_leapt();
+  PlacementReport news;
+  if (placed_.report(news)) channels_.placed.put(news);
+}
+
+// The finger is elsewhere in the scene, without having moved there. No force is sent; a simulated hand carries it back.
+void ServoTick::finger_leapt() noexcept {
+  changed_ = true;
+  forget_scene(state_);
+  hand_.go_on_from(placed_.finger_m(force_sample_));
 }
 
 // A stop is never lost, and drops a wish that came with it: which of them was first can't be told.
@@ -85,30 +109,23 @@ void ServoTick::take_scene() noexcept {
   scene_ = scene;
   changed_ = true;
   const HandTarget start = hand_.begin(scene_->path, pad_distance_m(preset_.preset.finger));
+  placed_.scene_changed(scene_->scene->mesh().origin());
   SimulatedHand* hand = devices_.force ? devices_.force->hand() : nullptr;
   if (hand != nullptr || !devices_.force) {
     // The surface under the finger was replaced: a finger that is led starts again, off the surface.
     state_ = TickState{};
     gate_.restart_ramp();
-    if (hand != nullptr) hand->place(start);
+    if (hand != nullptr) hand->place(placed_.to_device(start));
   } else {
     forget_scene(state_);
   }
-  place_workspace();
-}
-
-// A simulated device's workspace is centred on the scene, a real one's on the world's origin.
-void ServoTick::place_workspace() noexcept {
-  if (!devices_.force || !devices_.force->hand()) return;
-  workspace_centre_m_ = scene_->scene->mesh().origin();
-  gate_.place_workspace(workspace_centre_m_);
 }
 
 bool ServoTick::outside_workspace() const noexcept {
   bool outside = false;
   for (int axis = 0; axis < 3; ++axis) {
     const double half = gate_.limits().workspace_half_size_m[axis];
-    outside = outside || (half > 0.0 && std::abs(force_sample_.position_m[axis] - workspace_centre_m_[axis]) > half);
+    outside = outside || (half > 0.0 && std::abs(force_sample_.position_m[axis]) > half);
   }
   return outside;
 }
@@ -120,6 +137,7 @@ void ServoTick::bring_up(double dt_s, ServoRecord& record) noexcept {
                         .display = display_sample_.state,
                         .live = gate_.state() == GateState::ramping || gate_.state() == GateState::armed,
                         .gate_faulted = gate_.state() == GateState::faulted,
+                        .clutched = clutch_held_ && devices_.force,
                         .outside = outside_workspace(),
                         // Of a new scene or preset nothing is known yet.
                         .force_wanted_n = changed_ ? std::numeric_limits<double>::infinity() : force_wanted_n_};
@@ -144,31 +162,38 @@ void ServoTick::exchange_devices(double dt_s) noexcept {
   if (exchange_watch_.end()) gate_.stop_by(GateFault::exchange_hung);
 }
 
-void ServoTick::exchange(double dt_s, ServoRecord& record) noexcept {
+void ServoTick::lead_hand(double dt_s, ServoRecord& record) noexcept {
   SimulatedHand* hand = devices_.force ? devices_.force->hand() : nullptr;
-  if (hand != nullptr || !devices_.force) {
-    const HandTarget target = hand_.advance(scene_->path, pad_distance_m(preset_.preset.finger), dt_s);
-    record.device.hand_target_m = target.position_m + target.velocity_m_per_s * dt_s;
-    record.device.hand_led = 1;
-    if (hand != nullptr) {
-      hand->lead(target);
-    } else {
-      // Without a force device the finger follows the hand's target exactly.
-      force_sample_.position_m = record.device.hand_target_m;
-      force_sample_.orientation = target.orientation;
-    }
+  if (hand == nullptr && devices_.force) return;
+  const double pad_m = pad_distance_m(preset_.preset.finger);
+  const HandTarget target =
+      hand_.advance(scene_->path, pad_m, placed_.finger_m(force_sample_), dt_s, placed_.map().scale);
+  record.device.hand_target_m = target.position_m + target.velocity_m_per_s * dt_s;
+  record.device.hand_led = 1;
+  if (hand != nullptr) {
+    hand->lead(placed_.to_device(target));
+  } else {
+    // Without a force device the finger follows the hand's target exactly.
+    force_sample_.position_m = record.device.hand_target_m;
+    force_sample_.orientation = target.orientation;
   }
+}
+
+void ServoTick::exchange(double dt_s, ServoRecord& record) noexcept {
+  lead_hand(dt_s, record);
   force_command_.tick = display_command_.tick = tick_;
   force_command_.force_n = gate_.before_sending(dt_s);
   const std::int64_t sent_ns = now();
   if (sampled_ns_ != 0) record.latency_ns = static_cast<double>(sent_ns - sampled_ns_) + 1e9 * force_sample_.age_s;
   exchange_devices(dt_s);
   sampled_ns_ = devices_.force ? now() : 0;
+  follow_clutch();
   record.device.force_state = force_sample_.state;
   record.device.force_fault = force_sample_.fault;
   record.device.display_state = display_sample_.state;
   record.device.display_fault = display_sample_.fault;
-  record.device.force_rendered_n = force_sample_.force_n;
+  record.device.force_rendered_n = placed_.map().force_to_scene(force_sample_.force_n);
+  record.device.buttons = force_sample_.buttons;
   record.device.cld_measured_m = display_sample_.position_m;
   record.device.force_age_s = force_sample_.age_s;
   record.device.display_age_s = display_sample_.age_s;
@@ -176,14 +201,14 @@ void ServoTick::exchange(double dt_s, ServoRecord& record) noexcept {
 
 // What the surface puts out on purpose: a stiffer preset in contact, or a mesh that comes around the finger, stores
 // more than the hand put in, and force shading, whose force leans by up to the angle between two facets, does work
-// along the surface.
-double ServoTick::declared_work(const TickOutput& output, double elastic_n) noexcept {
+// along the surface. At the device.
+double ServoTick::declared_work(const Vec3& force, double elastic_n) noexcept {
   constexpr double kLargestLean = 0.5;  // tangent; 27 degrees, two facets of a coarse mesh
   const Preset& preset = preset_.preset;
   double declared_j = 0.0;
   if (std::exchange(changed_, false)) {
     const double most_n = std::min(preset.force.limit_n, gate_.limits().peak_force_n);
-    declared_j = stored_energy({preset.force.stiffness_n_per_m, elastic_n, most_n});
+    declared_j = stored_energy({placed_.map().felt(preset.force.stiffness_n_per_m), elastic_n, most_n});
   }
   const Method method = preset.solver.method;
   const bool shading_method = method == Method::force_shading || method == Method::two_pass;
@@ -191,9 +216,9 @@ double ServoTick::declared_work(const TickOutput& output, double elastic_n) noex
                       (preset.force.source == ForceSource::method && shading_method);
   const Vec3 moved = force_sample_.position_m - gated_position_m_;
   gated_position_m_ = force_sample_.position_m;
-  const double force_n = glm::length(output.force_n);
+  const double force_n = glm::length(force);
   if (!shades || !(force_n > 0.0)) return declared_j;
-  const Vec3 along = moved - glm::dot(moved, output.force_n) / (force_n * force_n) * output.force_n;
+  const Vec3 along = moved - glm::dot(moved, force) / (force_n * force_n) * force;
   return declared_j + kLargestLean * force_n * glm::length(along);
 }
 
@@ -203,8 +228,9 @@ void ServoTick::gate(double dt_s, ServoRecord& record) noexcept {
   const double depth_m = std::max(made.penetration_m, glm::length(made.way_out_m));
   const double elastic_n = stiffness * std::max(0.0, depth_m);
   const bool pushes = made.force_n != Vec3(0.0);
+  const Vec3 force = placed_.map().force_to_device(made.force_n);
   const GateOutput out =
-      gate_.pass({.force_n = made.force_n,
+      gate_.pass({.force_n = force,
                   .display_m = made.cld_m,
                   .force_device = force_sample_.state,
                   .display = display_sample_.state,
@@ -217,15 +243,15 @@ void ServoTick::gate(double dt_s, ServoRecord& record) noexcept {
                   .display_highest_m = preset_.preset.controller.highest_m,
                   .display_measures = devices_.display && devices_.display->capabilities().measures_position,
                   .display_fastest_m_per_s = preset_.preset.controller.fastest_m_per_s,
-                  .stiffness_n_per_m = stiffness,
+                  .stiffness_n_per_m = placed_.map().felt(stiffness),
                   .elastic_n = pushes ? elastic_n : 0.0,
-                  .declared_j = declared_work(made, elastic_n)},
+                  .declared_j = declared_work(force, elastic_n)},
                  dt_s);
   display_command_.target_m = out.display_m;
   record.device.gate_state = out.state;
   record.device.gate_fault = out.fault;
   record.device.gate_actions = out.actions;
-  record.device.force_command_n = out.force_n;
+  record.device.force_command_n = placed_.map().force_to_scene(out.force_n);
   record.device.cld_command_m = out.display_m;
   record.device.energy_j = gate_.energy().net_j();
 }
@@ -247,7 +273,9 @@ void ServoTick::run(const TickTiming& timing) noexcept {
   tick.tick = tick_;
   tick.preset_id = preset_.id;
   tick.kept = state_;
-  tick.input = {timing.t_s, {force_sample_.position_m, force_sample_.orientation}, force_sample_.velocity_m_per_s};
+  tick.input = {timing.t_s,
+                {placed_.finger_m(force_sample_), placed_.orientation(force_sample_)},
+                placed_.velocity_m_per_s(force_sample_)};
   const std::int64_t step_began = now();
   tick.output = scene_->stepper.step(preset_.preset, tick.input, state_);
   tick.solve_ns = static_cast<double>(now() - step_began);
@@ -267,6 +295,14 @@ void ServoTick::release(double dt_s) noexcept {
   display_command_ = {.tick = tick_, .target_m = display_command_.target_m, .request = DeviceRequest::stop};
   exchange_devices(dt_s);
   arming_ = arming_for(devices_);
+}
+
+// Nothing homes by itself afterwards: the person may be far away.
+void ServoTick::suspend(double dt_s) noexcept {
+  release(dt_s);
+  ForceSwitch wish{};
+  channels_.force.take(wish);
+  arming_.ask(ForceSwitch::stop);
 }
 
 }  // namespace tangent

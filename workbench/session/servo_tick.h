@@ -1,5 +1,6 @@
 // One tick of the servo: take a new preset, ask the safety gate what may be sent, exchange with the devices, step,
 // safety gate, record. It has no thread or clock of its own, so that servo, screenshots and tests run the same code.
+// Devices, hand and gate are in the device's frame, the step and the record in the scene's (devices/placement.h).
 //
 // run() does not allocate, lock, throw, log or touch a file.
 #pragma once
@@ -10,6 +11,7 @@
 #include "workbench/session/deadline_pacer.h"
 #include "workbench/session/exchange_watch.h"
 #include "workbench/session/hand_lead.h"
+#include "workbench/session/placed_device.h"
 #include "workbench/session/servo_channels.h"
 #include "workbench/session/servo_statistics.h"
 
@@ -27,7 +29,7 @@ class ServoTick {
   /// as an earlier one left them (motor_heat).
   ServoTick(DeviceSet& devices, ServoChannels& channels, ServoStatistics& statistics,
             std::unique_ptr<PreparedScene> scene, const PresetLetter& preset, NanosecondClock clock,
-            double rate_hz = 1000.0);
+            double rate_hz = 1000.0, const PlacementLetter& placement = {});
   ~ServoTick();
   ServoTick(const ServoTick&) = delete;
   ServoTick& operator=(const ServoTick&) = delete;
@@ -36,6 +38,8 @@ class ServoTick {
   void run(const TickTiming& timing) noexcept;
   /// After the last tick: disarms and sends the devices zero force. Same thread as run.
   void release(double dt_s) noexcept;
+  /// Before the process is suspended: as release, and forgets every wish. It may run on afterwards, disarmed.
+  void suspend(double dt_s) noexcept;
   /// Finds exchanges that don't return; for a thread that is not the servo's.
   ExchangeWatch& exchange_watch() { return exchange_watch_; }
 
@@ -43,13 +47,16 @@ class ServoTick {
   void take_letters() noexcept;
   void take_force_switch() noexcept;
   void take_scene() noexcept;
-  void place_workspace() noexcept;
+  void take_placement() noexcept;
+  void follow_clutch() noexcept;
+  void finger_leapt() noexcept;
+  void lead_hand(double dt_s, ServoRecord& record) noexcept;
   void bring_up(double dt_s, ServoRecord& record) noexcept;
   bool outside_workspace() const noexcept;
   void exchange(double dt_s, ServoRecord& record) noexcept;
   void exchange_devices(double dt_s) noexcept;
   void gate(double dt_s, ServoRecord& record) noexcept;
-  double declared_work(const TickOutput& output, double elastic_n) noexcept;
+  double declared_work(const Vec3& force, double elastic_n) noexcept;
   std::int64_t now() const noexcept { return clock_ != nullptr ? clock_() : 0; }
 
   DeviceSet& devices_;
@@ -60,6 +67,8 @@ class ServoTick {
   ExchangeWatch exchange_watch_;
   PreparedScene* scene_;  ///< owned; given back through the channels when replaced
   PresetLetter preset_;
+  PlacedDevice placed_;
+  bool clutch_held_ = false;  ///< of this tick
   HandLead hand_;
   TickState state_;
   std::uint64_t tick_ = 0;
@@ -71,7 +80,6 @@ class ServoTick {
   ForceCommand force_command_;
   DisplayCommand display_command_;
   Arming arming_;
-  Vec3 workspace_centre_m_{0.0};
   double force_wanted_n_ = 0.0;  ///< of the last tick
 };
 

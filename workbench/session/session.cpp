@@ -36,9 +36,10 @@ Status check_options(const SessionOptions& options) {
   return {};
 }
 
-Preset preset_allowed(Preset preset, const DeviceSet& devices) {
-  preset.force.stiffness_n_per_m = stiffness_allowed(devices, preset.force.stiffness_n_per_m);
-  return preset;
+PlacementLetter first_placement(const PlaceOptions& place, const DeviceSet& devices, const ContactScene& scene,
+                                const Finger& finger) {
+  if (place.fit && devices.force) return {0, fitted_placement(*devices.force, scene, finger, place.rotation), false};
+  return {0, {place.scale, place.rotation, place.offset_m.value_or(Vec3(0.0))}, !place.offset_m};
 }
 
 /// A device that calls us does so at its own rate.
@@ -77,7 +78,7 @@ void PreparedSceneDeleter::operator()(PreparedScene* scene) const { delete scene
 /// Members in order of dependency.
 struct Session::Impl {
   Impl(SessionOptions o, std::unique_ptr<PacketRecorder> r, DeviceSet d, std::unique_ptr<PreparedScene> prepared,
-       const Preset& preset)
+       const Preset& preset, const PlacementLetter& placement)
       : options(std::move(o)),
         packets(std::move(r)),
         devices(std::move(d)),
@@ -85,11 +86,15 @@ struct Session::Impl {
         scene(prepared->scene),
         path(prepared->path),
         history(history_capacity(options)),
-        hand(options.hand) {
-    presets.push_back(preset);
+        hand(options.hand),
+        asked(preset) {
+    placed.placement = placement.placement;
+    wanted_scale = placement.placement.scale;
+    presets.push_back(preset_allowed(preset, devices, wanted_scale));
     scenes.emplace(0, scene);
-    tick = std::make_unique<ServoTick>(devices, channels, statistics, std::move(prepared), PresetLetter{0, preset},
-                                       options.threaded ? &monotonic_ns : nullptr, options.servo.rate_hz);
+    tick =
+        std::make_unique<ServoTick>(devices, channels, statistics, std::move(prepared), PresetLetter{0, presets.back()},
+                                    options.threaded ? &monotonic_ns : nullptr, options.servo.rate_hz, placement);
     servo = std::make_unique<Servo>(*tick, statistics, options.servo, clock, scheduler());
   }
 
@@ -113,23 +118,42 @@ struct Session::Impl {
   SafetyLog log;
   HandSettings hand;
   Vec3 hand_point{0.0};
+  Preset asked;            ///< as set_preset was given it, before the device's caps
+  PlacementReport placed;  ///< the newest from the servo
+  std::uint32_t placement_id = 0;
+  double wanted_scale = 1.0;  ///< of the last placement sent
   TickAgain again;
 
+  bool left_behind = false;  ///< a thread of the servo is in an exchange that does not return
+  std::unique_ptr<Impl> left_before;
+
   CpuWakeup wakeup;
+
+  static Result<std::unique_ptr<Session>> create(std::shared_ptr<const ContactScene> scene, const Preset& preset,
+                                                 SessionOptions options, DeviceSet devices,
+                                                 std::unique_ptr<PacketRecorder> packets);
 
   /// A force device that calls us; null: the servo keeps the time.
   ForceDevice* scheduler() const { return devices.force && devices.force->calls_us() ? devices.force.get() : nullptr; }
   void keep_awake();
-  void send_hand() { channels.hand.put({hand, hand_point}); }
+  /// The caps hold under the placement in use and under the one on its way.
+  Preset allowed(const Preset& preset) const {
+    return preset_allowed(preset, devices, std::max(placed.placement.scale, wanted_scale));
+  }
+  bool force_is_sent() const;
+  void send_hand() { channels.hand.put({hand, hand_point, kMouseSpeed, kMouseLead_m}); }
   void forget_scenes();
 };
 
 /// While a real device may push. Not for simulated ones: it costs power.
 void Session::Impl::keep_awake() {
+  wakeup.hold(started && force_is_sent() && options.servo.realtime && !all_simulated(devices));
+}
+
+bool Session::Impl::force_is_sent() const {
   ServoStatus now;
   statistics.fill(now);
-  const bool live = now.gate_state == GateState::ramping || now.gate_state == GateState::armed;
-  wakeup.hold(started && live && options.servo.realtime && !all_simulated(devices));
+  return now.gate_state == GateState::ramping || now.gate_state == GateState::armed;
 }
 
 // A scene is kept while a record in the history uses it or one still in the ring may.
@@ -139,12 +163,20 @@ void Session::Impl::forget_scenes() {
 }
 
 Session::Session(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
-Session::~Session() { shut_down(); }
+
+// What a thread still uses is kept for as long as the process runs.
+Session::~Session() {
+  static_cast<void>(shut_down());
+  if (!impl_->left_behind) return;
+  impl_->servo->leave_behind();
+  static Impl* kept = nullptr;  // a chain that nothing destroys
+  impl_->left_before.reset(kept);
+  kept = impl_.release();
+}
 
 Result<std::unique_ptr<Session>> Session::create(std::shared_ptr<const ContactScene> scene, const Preset& preset,
                                                  SessionOptions options) {
   if (const Status ok = check_options(options); !ok) return tl::unexpected(ok.error());
-  if (const Status ok = check_preset(preset); !ok) return tl::unexpected(ok.error());
   std::unique_ptr<PacketRecorder> packets;
   if (!options.packets.empty()) {
     auto recorder = PacketRecorder::create(options.packets);
@@ -156,16 +188,30 @@ Result<std::unique_ptr<Session>> Session::create(std::shared_ptr<const ContactSc
   wanted.maestro.channel = static_cast<std::uint8_t>(options.maestro_channel);
   auto devices = make_devices(options.devices, wanted);
   if (!devices) return tl::unexpected(devices.error());
-  if (!all_simulated(*devices)) options.servo.time_by_deadlines = options.servo.watch_exchanges = true;
-  if (devices->force && devices->force->calls_us()) options.servo.rate_hz = devices->force->capabilities().rate_hz;
-  if (const Status ok = check_devices(preset, devices->force != nullptr, devices->display != nullptr); !ok)
+  return Impl::create(std::move(scene), preset, std::move(options), std::move(*devices), std::move(packets));
+}
+
+Result<std::unique_ptr<Session>> Session::create(std::shared_ptr<const ContactScene> scene, const Preset& preset,
+                                                 SessionOptions options, DeviceSet devices) {
+  return Impl::create(std::move(scene), preset, std::move(options), std::move(devices), nullptr);
+}
+
+Result<std::unique_ptr<Session>> Session::Impl::create(std::shared_ptr<const ContactScene> scene, const Preset& preset,
+                                                       SessionOptions options, DeviceSet devices,
+                                                       std::unique_ptr<PacketRecorder> packets) {
+  if (const Status ok = check_options(options); !ok) return tl::unexpected(ok.error());
+  if (const Status ok = check_preset(preset); !ok) return tl::unexpected(ok.error());
+  if (!all_simulated(devices)) options.servo.time_by_deadlines = options.servo.watch_exchanges = true;
+  if (devices.force && devices.force->calls_us()) options.servo.rate_hz = devices.force->capabilities().rate_hz;
+  if (const Status ok = check_devices(preset, devices.force != nullptr, devices.display != nullptr); !ok)
     return tl::unexpected(ok.error());
-  if (const Status ok = open_devices(*devices); !ok) return tl::unexpected(ok.error());
-  if (const Status ok = check_rate(options.servo.rate_hz, *devices); !ok) return tl::unexpected(ok.error());
-  const Preset allowed = preset_allowed(preset, *devices);
+  if (const Status ok = open_devices(devices); !ok) return tl::unexpected(ok.error());
+  if (const Status ok = check_rate(options.servo.rate_hz, devices); !ok) return tl::unexpected(ok.error());
+  const PlacementLetter placement = first_placement(options.place, devices, *scene, preset.finger);
+  if (const Status ok = check_placement(placement.placement); !ok) return tl::unexpected(ok.error());
   auto prepared = std::make_unique<PreparedScene>(std::move(scene), preset.finger);
-  auto impl =
-      std::make_unique<Impl>(std::move(options), std::move(packets), std::move(*devices), std::move(prepared), allowed);
+  auto impl = std::make_unique<Impl>(std::move(options), std::move(packets), std::move(devices), std::move(prepared),
+                                     preset, placement);
   impl->send_hand();
   return std::unique_ptr<Session>(new Session(std::move(impl)));
 }
@@ -174,6 +220,8 @@ Result<std::unique_ptr<Session>> Session::create(std::shared_ptr<const ContactSc
 
 Status Session::start() {
   if (impl_->started) return {};
+  if (impl_->left_behind)
+    return fail("a device has not returned from an exchange", "devices", "start the program again");
   impl_->started = true;
   const ArmOnStart wanted = impl_->options.arm_on_start;
   const bool arms = wanted == ArmOnStart::always || (wanted == ArmOnStart::simulated && all_simulated(impl_->devices));
@@ -184,14 +232,20 @@ Status Session::start() {
   return ok;
 }
 
-void Session::shut_down() {
-  if (!impl_->started) return;
+Status Session::shut_down() {
+  if (!impl_->started) return {};
   impl_->started = false;
   if (impl_->options.threaded)
-    impl_->servo->stop();
+    impl_->left_behind = !impl_->servo->stop();
   else
     impl_->tick->release(1.0 / impl_->options.servo.rate_hz);
   poll();
+  if (!impl_->left_behind) return {};
+  const ExchangeWatch& watch = impl_->tick->exchange_watch();
+  return fail(std::string("the ") + to_string(watch.hung()) +
+                  " does not return from an exchange; its thread is left behind" +
+                  (watch.was_stopped() ? ", and it was told to stop by another way" : ""),
+              "devices", "switch the device off before you let go of it, and start the program again");
 }
 
 bool Session::running() const { return impl_->started; }
@@ -218,6 +272,10 @@ std::size_t Session::poll() {
   }
   impl_->channels.scenes.collect();
   impl_->forget_scenes();
+  if (impl_->channels.placed.take(impl_->placed) && impl_->placed.id == impl_->placement_id) {
+    impl_->wanted_scale = impl_->placed.placement.scale;
+    static_cast<void>(set_preset(Preset(impl_->asked)));  // it was valid
+  }
   impl_->keep_awake();
   return count;
 }
@@ -231,11 +289,12 @@ RecordedRun Session::recorded_run() const {
 // --- Presets -------------------------------------------------------------------------------------------
 
 Result<std::uint32_t> Session::set_preset(const Preset& wanted) {
-  const Preset preset = preset_allowed(wanted, impl_->devices);
-  if (preset == impl_->presets.back()) return preset_id();
-  if (const Status ok = check_preset(preset); !ok) return tl::unexpected(ok.error());
-  const Status renders = check_devices(preset, impl_->devices.force != nullptr, impl_->devices.display != nullptr);
+  if (const Status ok = check_preset(wanted); !ok) return tl::unexpected(ok.error());
+  const Status renders = check_devices(wanted, impl_->devices.force != nullptr, impl_->devices.display != nullptr);
   if (!renders) return tl::unexpected(renders.error());
+  impl_->asked = wanted;
+  const Preset preset = impl_->allowed(wanted);
+  if (preset == impl_->presets.back()) return preset_id();
   impl_->presets.push_back(preset);
   impl_->channels.presets.put({preset_id(), preset});
   return preset_id();
@@ -296,10 +355,45 @@ void Session::arm() {
   if (!needs_yes()) impl_->channels.force.put(ForceSwitch::arm);
 }
 std::vector<std::string> Session::without_timeout() const { return devices_without_timeout(impl_->devices); }
+Status Session::packet_log() const { return impl_->packets ? impl_->packets->complete() : Status{}; }
+
 bool Session::needs_yes() const { return !impl_->accepted_no_timeout && !without_timeout().empty(); }
 void Session::accept_no_timeout() { impl_->accepted_no_timeout = true; }
 void Session::stop() { impl_->channels.stop.store(true, std::memory_order_release); }
 void Session::home() { impl_->channels.force.put(ForceSwitch::home); }
+
+Status Session::may_place() const {
+  if (!impl_->devices.force)
+    return fail("there is no force device to place the scene on", "placement", "choose one, for example simulated");
+  if (!impl_->force_is_sent()) return {};
+  return fail("the scene stays where it is while force is sent", "placement",
+              "stop first (Escape, or s in the monitor), place it, then arm");
+}
+
+Status Session::place(const Placement& placement) {
+  if (const Status may = may_place(); !may) return may;
+  if (const Status ok = check_placement(placement); !ok) return ok;
+  // Should the servo refuse it, because it has armed by now, the preset is for the larger scale of both until that is
+  // known (poll).
+  impl_->wanted_scale = placement.scale;
+  const auto sent = set_preset(Preset(impl_->asked));
+  if (!sent) return tl::unexpected(sent.error());
+  impl_->channels.placement.put({++impl_->placement_id, placement, false});
+  return {};
+}
+
+Status Session::fit_to_workspace() {
+  if (const Status may = may_place(); !may) return may;
+  return place(
+      fitted_placement(*impl_->devices.force, *impl_->scene, preset().finger, impl_->placed.placement.rotation));
+}
+
+Status Session::hold_clutch(bool held) {
+  const Status may = held ? may_place() : Status{};
+  impl_->channels.clutch.store(held && may.has_value(), std::memory_order_release);
+  return may;
+}
+
 void Session::inject(const FaultInjection& fault, bool display) { impl_->channels.faults.put({fault, display}); }
 
 // --- Again ---------------------------------------------------------------------------------------------
@@ -346,6 +440,9 @@ SessionStatus Session::status() const {
     s.in_the_way = device.in_the_way;
     s.force_wanted_n = force_wanted_n(impl_->history.newest().tick.output);
   }
+  s.placement = impl_->placed.placement;
+  s.placement_refused = impl_->placed.refused;
+  s.clutched = impl_->placed.clutched;
   s.real_devices = !all_simulated(impl_->devices);
   describe_realtime(impl_->options, impl_->scheduler() != nullptr, impl_->wakeup.held(), s);
   return s;

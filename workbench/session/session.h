@@ -21,6 +21,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,15 @@ inline constexpr std::size_t kLargestHistoryBytes = std::size_t{1} << 30;
 /// Whether `start` arms. Simulated devices push nobody; before a real one pushes, a person says so.
 enum class ArmOnStart : std::uint8_t { never, simulated, always };
 
+/// Where the scene is on the force device at the start (devices/placement.h).
+struct PlaceOptions {
+  bool fit = false;  ///< scale and offset that fit the scene to the device's workspace; those below are not used
+  double scale = 1.0;
+  Quat rotation{1.0, 0.0, 0.0, 0.0};  ///< unit
+  /// None: the device's origin is at the mesh's centre with a simulated device, at the world's origin with a real one.
+  std::optional<Vec3> offset_m;
+};
+
 struct SessionOptions {
   ServoOptions servo;
   DeviceNames devices;
@@ -45,6 +55,7 @@ struct SessionOptions {
   bool threaded = true;
   ArmOnStart arm_on_start = ArmOnStart::simulated;
   HandSettings hand;
+  PlaceOptions place;
 };
 
 /// A scene with what the servo needs for it (patch caches, exploration path). Can be built in any thread.
@@ -62,10 +73,13 @@ struct SessionStatus {
   std::uint32_t scene_sent = 0;
   ArmingStage arming = ArmingStage::idle;
   ArmingObstacle in_the_way = ArmingObstacle::none;
-  double force_wanted_n = 0.0;  ///< what the newest tick would push with
-  std::string realtime_note;    ///< "SCHED_FIFO 40, memory locked", or what was refused
-  std::string realtime_remedy;  ///< what to do about what was refused; empty: nothing was
-  bool real_devices = false;    ///< one at least is not simulated
+  double force_wanted_n = 0.0;     ///< what the newest tick would push with
+  std::string realtime_note;       ///< "SCHED_FIFO 40, memory locked", or what was refused
+  std::string realtime_remedy;     ///< what to do about what was refused; empty: nothing was
+  bool real_devices = false;       ///< one at least is not simulated
+  Placement placement;             ///< in use
+  bool placement_refused = false;  ///< the last change of it came while force was sent
+  bool clutched = false;           ///< the clutch is held, and the device ready
 };
 
 /// Everything needed to step the history again, in any thread: records, presets by id, scenes by id.
@@ -82,6 +96,9 @@ class Session {
   /// can't be written.
   static Result<std::unique_ptr<Session>> create(std::shared_ptr<const ContactScene> scene, const Preset& preset,
                                                  SessionOptions options = {});
+  /// As above, with these devices, not yet opened, in place of options.devices: a driver of one's own.
+  static Result<std::unique_ptr<Session>> create(std::shared_ptr<const ContactScene> scene, const Preset& preset,
+                                                 SessionOptions options, DeviceSet devices);
   ~Session();
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
@@ -89,7 +106,9 @@ class Session {
   /// Starts the ticks (threaded), homes, and arms if arm_on_start says so. Fails when a device that keeps the time
   /// can't start.
   Status start();
-  void shut_down();  ///< stops force and thread; keeps the history. Also called by the destructor
+  /// Stops force and thread; keeps the history. Also called by the destructor. Fails when a device does not return from
+  /// an exchange (Servo::stop); its thread, and all that it uses, are then left as they are until the process ends.
+  Status shut_down();
   bool running() const;
   /// Not threaded: runs n ticks and polls them into the history. Threaded: does nothing.
   void advance(std::uint64_t ticks);
@@ -132,7 +151,21 @@ class Session {
   /// nothing until a person who was told of it has said yes.
   std::vector<std::string> without_timeout() const;
   bool needs_yes() const;
+  /// Fails when the log of USB packets lacks some; done where none is written.
+  Status packet_log() const;
   void accept_no_timeout();
+
+  // Placement of the scene on the force device; it changes only while no force is sent.
+  /// Why it can't change now, and what to do about it. Success: it can.
+  Status may_place() const;
+  /// Fails as may_place does, or when `placement` can't be. A scale under which the preset is stiffer than the device
+  /// renders stably reduces the preset: see preset(). What the servo made of it is in the status.
+  Status place(const Placement& placement);
+  /// The scene's box, and a finger around it, in the device's workspace (devices/placement.h), turned as it is.
+  Status fit_to_workspace();
+  /// While held, and no force is sent, the device moves and the finger stays where it is in the scene. Nothing arms
+  /// meanwhile. Letting go never fails. The device's first button does the same.
+  Status hold_clutch(bool held);
   /// Injects a fault into the simulated display or force device. Ignored by real devices.
   void inject(const FaultInjection& fault, bool display);
 

@@ -3,6 +3,7 @@
 #include "core/base/text.h"
 #include "core/io/atomic_file.h"
 #include "core/io/file_format.h"
+#include "core/io/file_name.h"
 #include "core/io/input_file.h"
 #include "core/io/toml_file.h"
 #include "core/preset/schema.h"
@@ -51,16 +52,16 @@ bool read_values(const toml::table* values, Preset& preset) {
 }
 
 toml::table table_of(const UnsavedPreset& slot) {
-  return toml::table{{"name", slot.name},
-                     {"path", slot.path.string()},
+  return toml::table{{"name", file_name_text(slot.name)},
+                     {"path", file_name_text(slot.path)},
                      {"loaded", values_of(slot.loaded)},
                      {"current", values_of(slot.current)}};
 }
 
 bool read_slot(const toml::table* table, UnsavedPreset& slot) {
   if (table == nullptr) return false;
-  slot.name = (*table)["name"].value_or(std::string());
-  slot.path = (*table)["path"].value_or(std::string());
+  slot.name = file_named((*table)["name"].value_or(std::string())).string();
+  slot.path = file_named((*table)["path"].value_or(std::string()));
   return read_values((*table)["loaded"].as_table(), slot.loaded) &&
          read_values((*table)["current"].as_table(), slot.current);
 }
@@ -68,7 +69,7 @@ bool read_slot(const toml::table* table, UnsavedPreset& slot) {
 bool read_step(const toml::node& node, UnsavedStep& step) {
   const toml::table* table = node.as_table();
   if (table == nullptr) return false;
-  step.what = (*table)["what"].value_or(std::string());
+  step.what = file_named((*table)["what"].value_or(std::string())).string();  // may name a file
   step.active = (*table)["active"].value_or(std::int64_t{0}) == 1 ? 1 : 0;
   return read_slot((*table)["a"].as_table(), step.slots[0]) && read_slot((*table)["b"].as_table(), step.slots[1]);
 }
@@ -78,7 +79,7 @@ bool read_step(const toml::node& node, UnsavedStep& step) {
 std::string format_unsaved(const UnsavedWork& work) {
   toml::array steps, bookmarks;
   for (const UnsavedStep& step : work.steps) {
-    steps.push_back(toml::table{{"what", step.what},
+    steps.push_back(toml::table{{"what", file_name_text(step.what)},
                                 {"active", static_cast<std::int64_t>(step.active)},
                                 {"a", table_of(step.slots[0])},
                                 {"b", table_of(step.slots[1])}});
@@ -138,7 +139,7 @@ UnsavedKeeper::UnsavedKeeper(std::filesystem::path folder) {
 }
 
 UnsavedKeeper::~UnsavedKeeper() {
-  if (file_.empty()) return;
+  if (file_.empty() || (left_ && is_there_)) return;
   std::error_code ignored;
   std::filesystem::remove(file_, ignored);
   std::filesystem::remove(file_.string() + ".lock", ignored);
@@ -152,7 +153,7 @@ Status UnsavedKeeper::keep(const UnsavedWork& work) {
   if (text == written_) return {};
   written_ = std::move(text);  // so that a failure is reported once
   if (!written_.empty()) {
-    const Status written = write_file_atomic(file_, written_);
+    const Status written = write_file_atomic(file_, written_, false);  // by the window: no wait for the disk
     is_there_ = written.has_value();
     return written;
   }

@@ -1,5 +1,6 @@
 // What a person would miss after a crash: preset edits that are in no file, their undo, and bookmarks with notes. Kept
-// in a file of its own while the window is open, removed when it is closed, and offered again where one was left.
+// in a file of its own while the window is open, removed when it is closed with nothing to lose, and offered again
+// where one was left.
 //
 //   FOLDER/PID.toml        the work, written anew when it changed
 //   FOLDER/PID.toml.lock   locked as long as that process lives
@@ -59,19 +60,22 @@ Result<UnsavedWork> parse_unsaved(std::string_view text, std::string_view name);
 class UnsavedKeeper {
  public:
   explicit UnsavedKeeper(std::filesystem::path folder);
-  /// Closed in order: there is nothing to offer.
+  /// Closed in order: there is nothing to offer, unless it was left.
   ~UnsavedKeeper();
   UnsavedKeeper(const UnsavedKeeper&) = delete;
   UnsavedKeeper& operator=(const UnsavedKeeper&) = delete;
 
   /// Writes it if it changed; removes the file where there is nothing to lose.
   Status keep(const UnsavedWork& work);
+  /// What was kept last is offered by the next run though this one is closed in order.
+  void leave() { left_ = true; }
 
  private:
   std::filesystem::path file_;  ///< empty: nothing is kept
   std::optional<FileLock> lock_;
   std::string written_;
   bool is_there_ = false;  ///< written_ is in the file
+  bool left_ = false;
 };
 
 /// Work of a process that is gone.

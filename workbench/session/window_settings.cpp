@@ -2,6 +2,7 @@
 
 #include "core/io/atomic_file.h"
 #include "core/io/file_format.h"
+#include "core/io/file_name.h"
 #include "core/io/toml_file.h"
 #include "workbench/session/file_lock.h"
 
@@ -29,13 +30,13 @@ void take(const toml::table& from, const char* key, std::vector<std::string>& to
   if (list == nullptr) return;
   to.clear();
   for (const toml::node& node : *list) {
-    if (const auto text = node.value<std::string>(); text && to.size() < most) to.push_back(*text);
+    if (const auto text = node.value<std::string>(); text && to.size() < most) to.push_back(file_named(*text).string());
   }
 }
 
 toml::array as_array(const std::vector<std::string>& texts) {
   toml::array out;
-  for (const std::string& text : texts) out.push_back(text);
+  for (const std::string& text : texts) out.push_back(file_name_text(text));  // meshes may be among them
   return out;
 }
 
@@ -47,18 +48,33 @@ void WindowSettings::opened(const std::string& mesh) {
   if (recent_meshes.size() > kMostRecent) recent_meshes.resize(kMostRecent);
 }
 
-std::filesystem::path window_settings_path() {
-  const char* config = std::getenv("XDG_CONFIG_HOME");
+namespace {
+
+/// Of this program, below the folder that the variable names; empty when there is no home directory.
+std::filesystem::path xdg_folder(const char* variable, const char* below_home) {
+  const char* named = std::getenv(variable);
   const char* home = std::getenv("HOME");
   std::filesystem::path folder;
   // The XDG specification says to ignore relative paths.
-  if (config != nullptr && config[0] == '/')
-    folder = config;
+  if (named != nullptr && named[0] == '/')
+    folder = named;
   else if (home != nullptr && home[0] == '/')
-    folder = std::filesystem::path(home) / ".config";
+    folder = std::filesystem::path(home) / below_home;
   else
     return {};
-  return folder / "tangent-workbench" / "window.toml";
+  return folder / "tangent-workbench";
+}
+
+}  // namespace
+
+std::filesystem::path window_settings_path() {
+  const std::filesystem::path folder = xdg_folder("XDG_CONFIG_HOME", ".config");
+  return folder.empty() ? folder : folder / "window.toml";
+}
+
+std::filesystem::path user_presets_path() {
+  const std::filesystem::path folder = xdg_folder("XDG_DATA_HOME", ".local/share");
+  return folder.empty() ? folder : folder / "presets";
 }
 
 Result<WindowSettings> read_window_settings(const std::filesystem::path& path) {
@@ -213,7 +229,7 @@ std::filesystem::path put_aside(const std::filesystem::path& path) {
 Status write_window_settings(const WindowSettings& settings, const std::filesystem::path& path) {
   std::error_code failed;
   std::filesystem::create_directories(path.parent_path(), failed);
-  return write_file_atomic(path, format_window_settings(settings));
+  return write_file_atomic(path, format_window_settings(settings), false);  // by the window: no wait for the disk
 }
 
 }  // namespace tangent

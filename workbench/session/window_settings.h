@@ -29,6 +29,9 @@ struct WindowSettings {
   void opened(const std::string& mesh);
 };
 
+/// $XDG_DATA_HOME (else ~/.local/share)/tangent-workbench/presets: a person's own; empty when there is no home
+/// directory.
+std::filesystem::path user_presets_path();
 /// $XDG_CONFIG_HOME (else ~/.config)/tangent-workbench/window.toml; empty when there is no home directory.
 std::filesystem::path window_settings_path();
 

@@ -112,8 +112,10 @@ class ExitSearch {
 /// The edge or face around a vertex that draws the contact most; none: it rests.
 std::optional<SurfacePlace> exit_from(ContactContext& context, const SurfacePlace& vertex) {
   ExitSearch search(context);
+  const Vec3& point = context.cache.mesh().position(vertex.triangle, vertex.side);
   context.cache.around(
       vertex.triangle, vertex.side, context.settings.normal_form,
+      [&](const Vec3& normal) { return contact_on_plane(context.finger, context.pose, point, normal).travel; },
       [&](std::uint32_t t, std::uint32_t corner, const SurfaceSample& sample) { search.face(t, corner, sample); },
       [&](std::uint32_t t, std::uint32_t side, double f, const EdgeFan& fan) { search.ray(t, side, f, fan); });
   return search.best();

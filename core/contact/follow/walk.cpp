@@ -39,6 +39,25 @@ std::uint32_t first_exit(const Weights& w, const Weights& dw, std::uint32_t ente
   return exit;
 }
 
+/// Crossings after which a walk over a region of slivers goes to its end at once.
+constexpr int kJump = 16;
+
+/// The end of a step from (u, v) over the region of t: the place there, or where none is, the region's nearest.
+SurfacePlace end_on_region(const ContactMesh& mesh, std::uint32_t t, const Vec2& uv, const Vec2& step) {
+  const Vec3& p = mesh.position(t, 0);
+  const Vec2 to = uv + step;
+  const Vec3 target = p + to.x * (mesh.position(t, 1) - p) + to.y * (mesh.position(t, 2) - p);
+  const RegionFoot foot = mesh.flat_regions().foot(mesh, mesh.flat_regions().of(t), target);
+  const double weights[3] = {1.0 - foot.u - foot.v, foot.u, foot.v};
+  for (std::uint32_t edge = 0; edge < 3 && foot.beside_m > 0.0; ++edge) {
+    const EdgeKind kind = mesh.edge_kind(foot.triangle, edge);
+    if (weights[opposite_corner(edge)] > 1e-12 || kind == EdgeKind::smooth) continue;
+    if (kind == EdgeKind::crease && concave_crease(mesh, foot.triangle, edge)) continue;
+    return place_on_edge(foot.triangle, edge, std::clamp(edge_fraction(edge, foot.u, foot.v), 0.0, 1.0));
+  }
+  return place_on_face(foot.triangle, foot.u, std::min(foot.v, 1.0 - foot.u));
+}
+
 }  // namespace
 
 bool to_barycentric(const ContactMesh& mesh, std::uint32_t t, const Vec3& vector, double& du, double& dv) {
@@ -90,11 +109,13 @@ std::optional<SurfacePlace> walk_past_end(const ContactMesh& mesh, std::uint32_t
     const double f = std::min(1.0, beyond_m / length);
     next = place_on_edge(at, k, starts_here ? f : 1.0 - f);
   };
-  around_vertex(mesh, t, corner, [&](std::uint32_t at, std::uint32_t k) {
-    if (mesh.edge_kind(at, k) != EdgeKind::smooth) offer(at, k, true);
-    const std::uint32_t ending = (k + 2) % 3;  // inner edges start here in another triangle
-    if (mesh.edge_kind(at, ending) == EdgeKind::boundary) offer(at, ending, false);
-  });
+  around_vertex_towards(
+      mesh, t, corner, [&](const Vec3&) { return heading; },
+      [&](std::uint32_t at, std::uint32_t k) {
+        if (mesh.edge_kind(at, k) != EdgeKind::smooth) offer(at, k, true);
+        const std::uint32_t ending = (k + 2) % 3;  // inner edges start here in another triangle
+        if (mesh.edge_kind(at, ending) == EdgeKind::boundary) offer(at, ending, false);
+      });
   return edges == 1 ? next : std::nullopt;
 }
 
@@ -104,6 +125,10 @@ WalkResult walk_face(const ContactMesh& mesh, std::uint32_t t, double u, double 
   result.place.feature = Feature::face;
   std::uint32_t entered = 3;
   for (int crossing = 0; crossing <= most_crossings; ++crossing) {
+    if (crossing == kJump && mesh.flat_regions().of(t) != kNone) {
+      result.place = end_on_region(mesh, t, {u, v}, {du, dv});
+      return result;
+    }
     const Weights w{{1.0 - u - v, u, v}}, dw{{-du - dv, du, dv}};
     double share = 1.0;
     const std::uint32_t exit = first_exit(w, dw, entered, share);

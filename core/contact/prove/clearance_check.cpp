@@ -18,10 +18,14 @@ void set_free(Clearance& known) {
 
 // By the triangle inequality, which angles of turning obey, too.
 void recentre(Clearance& known, const FingerPose& pose, double gone) {
+  if (known.ahead_centre == known.centre) {
+    known.ahead_centre = pose.position;
+    known.ahead_m -= gone;
+    known.ahead_height_m -= gone;
+  }
   known.centre = pose.position;
   known.orientation = pose.orientation;
   known.margin_m -= gone;
-  known.height_m -= gone;
   for (WatchedTriangle& watched : known.on_watch()) watched.margin_m -= static_cast<float>(gone);
   set_free(known);
 }

@@ -24,9 +24,24 @@ inline double gone_m(const Clearance& known, const Finger& finger, const FingerP
   return centre_m + turned_m(finger, known.orientation, pose.orientation);
 }
 
-/// Whether a finger that is `gone` from known.centre leaves room for a place of a rank below `bound_m`.
-inline bool deeper_possible(const Clearance& known, double gone, double bound_m) {
-  return gone > known.free_m || bound_m > known.height_m - gone;
+/// The same from the middle of the look-ahead.
+inline double gone_ahead_m(const Clearance& known, const FingerPose& pose, double gone) {
+  if (known.ahead_centre == known.centre) return gone;
+  const Vec3 d = pose.position - known.ahead_centre;
+  return std::sqrt(glm::dot(d, d));
+}
+
+/// Whether a search of everything is called for: a finger at `pose`, `gone` from known.centre, may have come to what
+/// was not looked at of places of a rank below `bound_m`.
+inline bool is_beyond(const Clearance& known, const FingerPose& pose, double gone, double bound_m) {
+  const double ahead = gone_ahead_m(known, pose, gone);
+  return gone > known.margin_m || ahead > known.ahead_m || bound_m > known.ahead_height_m - ahead ||
+         bound_m > known.height_m;
+}
+
+/// Whether there may be a place of a rank below `bound_m` that is not known.
+inline bool deeper_possible(const Clearance& known, const FingerPose& pose, double gone, double bound_m) {
+  return gone > known.free_m || is_beyond(known, pose, gone, bound_m);
 }
 
 /// The least of the margins, as the radius up to which nothing is asked.

@@ -79,13 +79,23 @@ class ContactHierarchyBuilder {
     gather_triangles();
     if (entries_.empty()) return;
     gather_corners();
+    build_tree();
+  }
+
+  void build(std::span<const std::uint32_t> triangles) {
+    for (const std::uint32_t t : triangles) gather(middle_of(t), t, SearchPart::whole);
+    gather_corners_here();
+    build_tree();
+  }
+
+ private:
+  void build_tree() {
     tree_.nodes_.reserve(2 * (entries_.size() / kLeafTriangles + 1));
     tree_.order_.reserve(entries_.size());
     build_node(0, entries_.size());
     tree_.nodes_.shrink_to_fit();
   }
 
- private:
   struct Bounds {
     Box box;
     Cone cone;
@@ -94,17 +104,50 @@ class ContactHierarchyBuilder {
 
   struct Entry {
     std::array<float, 3> middle;
-    std::uint32_t triangle;
+    std::uint32_t entry;  ///< as in ContactHierarchy::order_
   };
 
   void gather_triangles() {
     entries_.reserve(mesh_.usable_triangle_count());
     for (std::uint32_t t = 0; t < mesh_.triangle_count(); ++t) {
       if (!mesh_.usable(t)) continue;
-      const Vec3 middle = (mesh_.position(t, 0) + mesh_.position(t, 1) + mesh_.position(t, 2)) / 3.0;
-      entries_.push_back(
-          {{static_cast<float>(middle.x), static_cast<float>(middle.y), static_cast<float>(middle.z)}, t});
+      const FlatRegions& flat = mesh_.flat_regions();
+      if (flat.in_parts(t)) gather_parts(t);
+      if (flat.of(t) != kNone) continue;
+      gather(middle_of(t), t, flat.in_parts(t) ? SearchPart::face : SearchPart::whole);
     }
+    for (std::uint32_t r = 0; r < mesh_.flat_regions().count(); ++r) {
+      const std::uint32_t t = mesh_.flat_regions().triangles(r).front();
+      gather(region_box(t).centre(), t, SearchPart::region);
+    }
+  }
+
+  Vec3 middle_of(std::uint32_t t) const {
+    return (mesh_.position(t, 0) + mesh_.position(t, 1) + mesh_.position(t, 2)) / 3.0;
+  }
+
+  void gather(const Vec3& middle, std::uint32_t t, SearchPart part) {
+    entries_.push_back({{static_cast<float>(middle.x), static_cast<float>(middle.y), static_cast<float>(middle.z)},
+                        static_cast<std::uint32_t>(part) << ContactHierarchy::kPartShift | t});
+  }
+
+  /// The crease and boundary edges of a triangle by themselves, once where both sides are asked for in parts. Every
+  /// vertex that a contact can rest on is an end of one of them, or a corner of a triangle that is asked for as a
+  /// whole.
+  void gather_parts(std::uint32_t t) {
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      if (mesh_.edge_kind(t, k) == EdgeKind::smooth) continue;
+      const std::uint32_t other = mesh_.across(t, k).triangle;
+      if (other != kNone && other < t && mesh_.flat_regions().in_parts(other)) continue;
+      gather(0.5 * (mesh_.position(t, k) + mesh_.position(t, (k + 1) % 3)), t, static_cast<SearchPart>(1 + k));
+    }
+  }
+
+  Box region_box(std::uint32_t t) const {
+    Box box;
+    for (const std::uint32_t other : mesh_.flat_regions().triangles(mesh_.flat_regions().of(t)))
+      for (const Vec3& p : mesh_.positions(other)) box.include(p);
+    return box;
   }
 
   /// The normals around every vertex where many triangles meet and a contact can rest, once for all of them.
@@ -112,14 +155,29 @@ class ContactHierarchyBuilder {
     constexpr std::uint8_t kMany = 16;
     std::vector<std::uint8_t> met(mesh_.vertex_count());
     const auto each_corner = [&](auto visit) {
-      for (const Entry& entry : entries_)
+      for (std::uint32_t t = 0; t < mesh_.triangle_count(); ++t)
         for (std::uint32_t k = 0; k < 3; ++k)
-          if (mesh_.feature_corner(entry.triangle, k)) visit(entry.triangle, k, mesh_.vertex(entry.triangle, k));
+          if (mesh_.usable(t) && mesh_.feature_corner(t, k)) visit(t, k, mesh_.vertex(t, k));
     };
     each_corner([&](std::uint32_t, std::uint32_t, std::uint32_t v) { met[v] += met[v] < kMany; });
     each_corner([&](std::uint32_t t, std::uint32_t k, std::uint32_t v) {
       if (met[v] == kMany) add_corner(t, k, corners_[v]);
     });
+  }
+
+  /// The same for a few triangles of many, each a whole: theirs alone are met, and all around a vertex are walked to.
+  void gather_corners_here() {
+    constexpr std::uint32_t kMany = 16;
+    std::unordered_map<std::uint32_t, std::uint32_t> met;
+    for (const Entry& entry : entries_)
+      for (std::uint32_t k = 0; k < 3; ++k) {
+        if (!mesh_.feature_corner(entry.entry, k)) continue;
+        const std::uint32_t v = mesh_.vertex(entry.entry, k);
+        if (++met[v] != kMany) continue;
+        NormalSet& normals = corners_[v];
+        around_vertex(mesh_, entry.entry, k,
+                      [&](std::uint32_t other, std::uint32_t corner) { add_corner(other, corner, normals); });
+      }
   }
 
   void add_corner(std::uint32_t t, std::uint32_t k, NormalSet& normals) const {
@@ -143,7 +201,7 @@ class ContactHierarchyBuilder {
     const std::size_t middle = first + (last - first) / 2;
     const auto at = [&](std::size_t i) { return entries_.begin() + static_cast<std::ptrdiff_t>(i); };
     std::nth_element(at(first), at(middle), at(last), [&](const Entry& a, const Entry& b) {
-      return a.middle[axis] != b.middle[axis] ? a.middle[axis] < b.middle[axis] : a.triangle < b.triangle;
+      return a.middle[axis] != b.middle[axis] ? a.middle[axis] < b.middle[axis] : a.entry < b.entry;
     });
     return middle;
   }
@@ -153,10 +211,10 @@ class ContactHierarchyBuilder {
     tree_.nodes_.emplace_back();
     Bounds bounds;
     if (last - first <= kLeafTriangles) {
-      bounds = triangle_bounds(entries_[first].triangle);
-      for (std::size_t i = first + 1; i < last; ++i) join(bounds, triangle_bounds(entries_[i].triangle));
+      bounds = bounds_of(entries_[first].entry);
+      for (std::size_t i = first + 1; i < last; ++i) join(bounds, bounds_of(entries_[i].entry));
       tree_.nodes_[index].link = ContactHierarchy::kLeaf | static_cast<std::uint32_t>(first);
-      for (std::size_t i = first; i < last; ++i) tree_.order_.push_back(entries_[i].triangle);
+      for (std::size_t i = first; i < last; ++i) tree_.order_.push_back(entries_[i].entry);
       tree_.nodes_[index].count = static_cast<std::uint32_t>(last - first);
     } else {
       const std::size_t middle = split(first, last);
@@ -188,7 +246,40 @@ class ContactHierarchyBuilder {
     node.cos_half = bounds.cone.cos_half <= -1.0 ? -1.0f : below(std::max(-0.9999999, bounds.cone.cos_half - 1e-6));
   }
 
-  Bounds triangle_bounds(std::uint32_t t) const {
+  Bounds bounds_of(std::uint32_t entry) const {
+    const std::uint32_t t = entry & ContactHierarchy::kTriangleBits;
+    const auto part = static_cast<SearchPart>(entry >> ContactHierarchy::kPartShift);
+    if (part == SearchPart::region) return region_bounds(t);
+    return is_side(part) ? side_bounds(t, side_of(part)) : triangle_bounds(t, part == SearchPart::face);
+  }
+
+  Bounds region_bounds(std::uint32_t t) const {
+    Bounds bounds;
+    bounds.box = region_box(t);
+    const double room = FlatRegions::kFlat * glm::length(bounds.box.size());
+    bounds.box.include(bounds.box.min - Vec3(room));
+    bounds.box.include(bounds.box.max + Vec3(room));
+    bounds.cone = {mesh_.flat_regions().normal(mesh_.flat_regions().of(t)), 1.0};
+    return bounds;
+  }
+
+  /// Of an edge and its ends.
+  Bounds side_bounds(std::uint32_t t, std::uint32_t k) const {
+    static constexpr ControlPoint kNear[3][2] = {{b210, b120}, {b021, b012}, {b102, b201}};
+    const PnPatch patch = make_patch(mesh_, t);
+    Bounds bounds;
+    for (const std::uint32_t corner : {k, (k + 1) % 3}) bounds.box.include(mesh_.position(t, corner));
+    for (const ControlPoint b : kNear[k]) bounds.box.include(patch.control_point(b));
+    NormalSet normals;
+    for (const Vec3& n : patch.normals) normals.add(n);
+    add_edge_normals(t, k, normals);
+    add_corner_normals(t, k, normals);
+    add_corner_normals(t, (k + 1) % 3, normals);
+    bounds.cone = normals.cone();
+    return bounds;
+  }
+
+  Bounds triangle_bounds(std::uint32_t t, bool face_alone) const {
     const PnPatch patch = make_patch(mesh_, t);
     Bounds bounds;
     for (std::size_t i = 0; i < 10; ++i) bounds.box.include(patch.control_point(i));
@@ -196,26 +287,30 @@ class ContactHierarchyBuilder {
     for (const Vec3& n : patch.normals) normals.add(n);
     if (mesh_.interior(t)) {
       bounds.curvature = curvature_bounds(patch);
-    } else {
-      add_feature_normals(t, normals);
+    } else if (!face_alone) {
+      for (std::uint32_t k = 0; k < 3; ++k) {
+        add_edge_normals(t, k, normals);
+        add_corner_normals(t, k, normals);
+      }
     }
     bounds.cone = normals.cone();
     return bounds;
   }
 
-  void add_feature_normals(std::uint32_t t, NormalSet& normals) const {
-    for (std::uint32_t k = 0; k < 3; ++k) {
-      if (mesh_.edge_kind(t, k) == EdgeKind::boundary) normals.add_everything();
-      if (mesh_.edge_kind(t, k) == EdgeKind::crease)
-        for (const Vec3& n : make_patch(mesh_, mesh_.across(t, k).triangle).normals) normals.add(n);
-      if (!mesh_.feature_corner(t, k)) continue;
-      const auto many = corners_.find(mesh_.vertex(t, k));
-      if (many != corners_.end()) {
-        normals.add(many->second);
-      } else {
-        around_vertex(mesh_, t, k,
-                      [&](std::uint32_t other, std::uint32_t corner) { add_corner(other, corner, normals); });
-      }
+  void add_edge_normals(std::uint32_t t, std::uint32_t k, NormalSet& normals) const {
+    if (mesh_.edge_kind(t, k) == EdgeKind::boundary) normals.add_everything();
+    if (mesh_.edge_kind(t, k) == EdgeKind::crease)
+      for (const Vec3& n : make_patch(mesh_, mesh_.across(t, k).triangle).normals) normals.add(n);
+  }
+
+  void add_corner_normals(std::uint32_t t, std::uint32_t k, NormalSet& normals) const {
+    if (!mesh_.feature_corner(t, k)) return;
+    const auto many = corners_.find(mesh_.vertex(t, k));
+    if (many != corners_.end()) {
+      normals.add(many->second);
+    } else {
+      around_vertex(mesh_, t, k,
+                    [&](std::uint32_t other, std::uint32_t corner) { add_corner(other, corner, normals); });
     }
   }
 
@@ -228,6 +323,12 @@ class ContactHierarchyBuilder {
 ContactHierarchy ContactHierarchy::build(const ContactMesh& mesh) {
   ContactHierarchy tree;
   ContactHierarchyBuilder(mesh, tree).build();
+  return tree;
+}
+
+ContactHierarchy ContactHierarchy::build(const ContactMesh& mesh, std::span<const std::uint32_t> triangles) {
+  ContactHierarchy tree;
+  if (!triangles.empty()) ContactHierarchyBuilder(mesh, tree).build(triangles);
   return tree;
 }
 

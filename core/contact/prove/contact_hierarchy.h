@@ -22,16 +22,33 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace tangent {
+
+/// What of a triangle a search is asked to look at. All but those of flat regions of slivers and beside them are asked
+/// for as a whole (mesh/flat_regions.h).
+enum class SearchPart : std::uint8_t {
+  whole,  ///< its face, its crease and boundary edges and their ends
+  side0,  ///< edge 0 and its ends, and so on
+  side1,
+  side2,
+  face,    ///< its face alone
+  region,  ///< the faces of all triangles of its region
+};
+inline bool is_side(SearchPart part) { return part >= SearchPart::side0 && part <= SearchPart::side2; }
+inline std::uint32_t side_of(SearchPart part) {
+  return static_cast<std::uint32_t>(part) - static_cast<std::uint32_t>(SearchPart::side0);
+}
 
 /// Which contacts are asked for. Heights and margins in metres, centre in local mesh coordinates.
 struct ContactQuery {
   Vec3 centre{0.0};
   double nearest_m = 0.0;  ///< contacts on the outside (h >= 0) with h up to this
   double inside_m = 0.0;   ///< contacts seen from inside (h < 0) with |h| up to this; negative: none
-  double margin_m = 0.0;   ///< also all that could come up while the centre moves by this much
+  double margin_m = 0.0;   ///< also all that could come up while the centre is within this of `centre + ahead`
+  Vec3 ahead{0.0};         ///< at most margin_m long
   double tilt_rad = 0.0;   ///< how far c - S may lean from N: 0 for point and sphere, more for other fingers
   /// Whether margin_m is left out where the ground does not fold. What comes in over its border then comes from a
   /// triangle that was asked for with the margin. Round fingers and Bernstein normals only.
@@ -41,6 +58,7 @@ struct ContactQuery {
   /// Of a finger that is not round, at its pose: rules out more than tilt_rad does. Null: none.
   const FingerCore* core = nullptr;
   double here_m = 0.0;  ///< set for the visitor: the margin that its triangle is asked for, margin_m or 0
+  SearchPart part = SearchPart::whole;  ///< set for the visitor: what of its triangle is asked for
 };
 
 /// Whether ground that bends between these curvatures, 1/m, is steady: does not fold at the heights of the query.
@@ -58,11 +76,20 @@ void limit_query(ContactQuery& query, const Finger& finger, double rank);
 class ContactHierarchy {
  public:
   static ContactHierarchy build(const ContactMesh& mesh);
+  /// Over some usable triangles alone. Precondition: the mesh has no flat regions, which are asked for as one.
+  static ContactHierarchy build(const ContactMesh& mesh, std::span<const std::uint32_t> triangles);
 
   /// Calls visit(triangle, query) for every triangle that can't be ruled out, roughly by distance. The visitor
   /// may shrink the query's bounds as it finds contacts, and returns false to end the search.
   template <class Visit>
-  void visit(ContactQuery query, Visit visit) const;
+  void visit(ContactQuery query, Visit visit) const {
+    visit_on(query, visit);
+  }
+  /// The same as a part of a larger search, which sees how the query's bounds shrink. False: the visitor ended it.
+  template <class Visit>
+  bool visit_on(ContactQuery& query, Visit& visit) const;
+  /// Whether it is certain that none of the triangles can hold such a contact.
+  bool rules_out(const ContactQuery& query) const { return nodes_.empty() || reach2(nodes_[0], query) < 0.0; }
 
   std::size_t memory_bytes() const { return nodes_.size() * sizeof(Node) + order_.size() * sizeof(std::uint32_t); }
 
@@ -92,7 +119,8 @@ class ContactHierarchy {
   static bool touchable(const Node& node, const ContactQuery& query);
 
   std::vector<Node> nodes_;
-  std::vector<std::uint32_t> order_;  ///< triangles, leaf by leaf
+  static constexpr std::uint32_t kPartShift = 29, kTriangleBits = (1u << kPartShift) - 1;
+  std::vector<std::uint32_t> order_;  ///< part << kPartShift | triangle, leaf by leaf
 };
 
 inline double ContactHierarchy::reach2(const Node& node, const ContactQuery& q) {
@@ -109,10 +137,12 @@ inline double ContactHierarchy::reach2(const Node& node, const ContactQuery& q) 
   if (q.core) return touchable(node, q) ? box2 : -1.0;
 
   // Seen from c the node's points lie within `spread` of the direction to its middle; c may move by the margin.
-  const Vec3 d = q.centre - 0.5 * (low + high);
-  const double radius =
-      0.5 * std::sqrt(glm::dot(high - low, high - low)) +
-      (q.steady_only || is_steady(q, node.least_curvature, node.greatest_curvature) ? 0.0 : q.margin_m);
+  Vec3 d = q.centre - 0.5 * (low + high);
+  double radius = 0.5 * std::sqrt(glm::dot(high - low, high - low));
+  if (!q.steady_only && !is_steady(q, node.least_curvature, node.greatest_curvature)) {
+    d += q.ahead;
+    radius += q.margin_m;
+  }
   const double d2 = glm::dot(d, d);
   if (d2 <= radius * radius) return box2;
   // Compare the angle of d from +-axis with half + spread + tilt, by cosines times the distance.
@@ -133,7 +163,7 @@ inline double ContactHierarchy::reach2(const Node& node, const ContactQuery& q) 
 }
 
 template <class Visit>
-void ContactHierarchy::visit(ContactQuery query, Visit visit) const {
+bool ContactHierarchy::visit_on(ContactQuery& query, Visit& visit) const {
   struct Entry {
     std::uint32_t node;
     double reach2;
@@ -151,8 +181,10 @@ void ContactHierarchy::visit(ContactQuery query, Visit visit) const {
       const bool steady = stays(node, query);
       if (query.steady_only && !steady) continue;
       query.here_m = steady ? 0.0 : query.margin_m;
-      for (std::uint32_t i = 0; i < node.count; ++i)
-        if (!visit(order_[first + i], query)) return;
+      for (std::uint32_t i = 0; i < node.count; ++i) {
+        query.part = static_cast<SearchPart>(order_[first + i] >> kPartShift);
+        if (!visit(order_[first + i] & kTriangleBits, query)) return false;
+      }
       continue;
     }
     const std::uint32_t a = entry.node + 1, b = node.link;
@@ -163,6 +195,7 @@ void ContactHierarchy::visit(ContactQuery query, Visit visit) const {
     if (far.reach2 >= 0.0) stack[size++] = far;
     if (near.reach2 >= 0.0) stack[size++] = near;
   }
+  return true;
 }
 
 }  // namespace tangent

@@ -131,8 +131,10 @@ double corner_exclusion_by_core(const ContactMesh& mesh, const FingerCore& core,
   return core.way_within(core.longest_m(), least_length, room);
 }
 
-PatchExclusion exclude_face_by_core(ContactContext& context, const FingerCore& core, std::uint32_t t, double bound_m,
-                                    double enough_m) {
+}  // namespace
+
+PatchExclusion exclude_face_by_core(ContactContext& context, const FingerCore& core, std::uint32_t t,
+                                    const RankBound& bound, double enough_m) {
   PatchExclusion proof;
   proof.possible = false;
   // A first look tells whether there is a contact now, but not well enough for how long there will be none.
@@ -156,7 +158,7 @@ PatchExclusion exclude_face_by_core(ContactContext& context, const FingerCore& c
   proof = exclude_contact(patch_less_core(patch, normals, core, linear.support), linear.support.point, 2.0 * enough_m,
                           stands_for);
   const double least_rank = proof.least_height_m - linear.off_m;
-  const double shallow = least_rank > core.lever_m() ? 0.5 * (least_rank - bound_m) : 0.0;
+  const double shallow = least_rank > core.lever_m() ? bound.way_to(least_rank) : 0.0;
   const double by_slide =
       proof.margin_m > 0.0 ? core.way_within(core.longest_m(), linear.least_length_m, proof.margin_m) : 0.0;
   proof.margin_m = std::max({at_once, shallow, by_slide});
@@ -165,13 +167,11 @@ PatchExclusion exclude_face_by_core(ContactContext& context, const FingerCore& c
   return proof;
 }
 
-}  // namespace
-
-PatchExclusion exclude_by_core(ContactContext& context, const FingerCore& core, std::uint32_t t, double bound_m,
+PatchExclusion exclude_by_core(ContactContext& context, const FingerCore& core, std::uint32_t t, const RankBound& bound,
                                double enough_m) {
   const ContactMesh& mesh = context.cache.mesh();
   if (!mesh.interior(t)) return no_proof(context, core, t);
-  return exclude_face_by_core(context, core, t, bound_m, enough_m);
+  return exclude_face_by_core(context, core, t, bound, enough_m);
 }
 
 bool can_ask_steady(const FingerCore& core, double rank_m) {

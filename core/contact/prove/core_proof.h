@@ -6,6 +6,7 @@
 // serves all, less |e|.
 #pragma once
 
+#include "core/contact/contact_rank.h"
 #include "core/contact/context.h"
 #include "core/contact/prove/face_proof.h"
 #include "core/finger/finger_core.h"
@@ -14,8 +15,12 @@ namespace tangent {
 
 /// exclude_triangle for them. Margins count as gone_m does. Of a possible contact height_m is the rank
 /// (contact_rank.h); 0 where it is not known.
-PatchExclusion exclude_by_core(ContactContext& context, const FingerCore& core, std::uint32_t t, double bound_m,
+PatchExclusion exclude_by_core(ContactContext& context, const FingerCore& core, std::uint32_t t, const RankBound& bound,
                                double enough_m);
+
+/// The same for the face alone.
+PatchExclusion exclude_face_by_core(ContactContext& context, const FingerCore& core, std::uint32_t t,
+                                    const RankBound& bound, double enough_m);
 
 /// Whether ground that is steady for this finger may be asked only for what it holds now: contacts deeper than the
 /// finger's sharpest radius may fold anywhere, but one that comes up that deep was never entered (decide.h).

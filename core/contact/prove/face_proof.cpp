@@ -127,9 +127,66 @@ bool could_be_stable(const Part& part, const Vec2& edge_u, const Vec2& edge_v) {
   return cross(xa, xb) * area >= 0.0 && (cross(xa, b) + cross(a, xb)) * area >= 0.0;
 }
 
+/// What folds are judged by, besides f: the flat triangle's sides, and how fast the normal turns along u and v.
+struct Ground {
+  bool gentle = false;
+  Vec2 edge_u, edge_v;
+  double turn_u = 0.0, turn_v = 0.0;
+
+  Vec2 flat(const Vec2& uv) const { return uv.x * edge_u + uv.y * edge_v; }
+  double turn(const Vec2& uv) const { return std::abs(uv.x) * turn_u + std::abs(uv.y) * turn_v; }
+};
+
+/// Derivative of f along the side of a part from corner 0 to another: a fifth of it lies within `off` of `middle`.
+struct SideDerivative {
+  Vec2 middle;
+  double off = 0.0;
+};
+
+template <int Corner>
+SideDerivative side_derivative(const Part& part) {
+  SideDerivative side{0.2 * (part.at_corner(Corner) - part.at_corner(0))};
+  double most2 = 0.0;
+#pragma GCC unroll 5
+  for (int i = 0; i <= 4; ++i) {
+#pragma GCC unroll 5
+    for (int j = 0; j <= 4 - i; ++j) {
+      const Vec2& end = part.f[Corner == 1 ? quintic_index(i, j + 1) : quintic_index(i, j)];
+      const Vec2 d = end - part.f[quintic_index(i + 1, j)] - side.middle;
+      most2 = std::max(most2, glm::dot(d, d));
+    }
+  }
+  side.off = std::sqrt(most2);
+  return side;
+}
+
+/// How far c may move until a contact in this part could be stable: while det M or trace M is negative all over it. 0
+/// where neither is now. Signs as in could_be_stable; moving c by m changes the derivatives of f by m times those of n.
+[[gnu::noinline]] double folded_margin(const Part& part, const Ground& ground) {
+  const SideDerivative a = side_derivative<1>(part), b = side_derivative<2>(part);
+  const Vec2 to_1 = part.corner[1] - part.corner[0], to_2 = part.corner[2] - part.corner[0];
+  const Vec2 flat_a = ground.flat(to_1), flat_b = ground.flat(to_2);
+  const double turn_a = 0.2 * ground.turn(to_1), turn_b = 0.2 * ground.turn(to_2);
+  const double side = cross(flat_a, flat_b) > 0.0 ? 1.0 : -1.0;
+  const auto length = [](const Vec2& x) { return std::sqrt(glm::dot(x, x)); };
+  const double long_a = length(a.middle) + a.off, long_b = length(b.middle) + b.off;
+
+  const double det = -side * cross(a.middle, b.middle);
+  const double det_room = det - (long_a * long_b - (long_a - a.off) * (long_b - b.off));
+  double margin = 0.0;
+  if (det_room > 1e-9 * det) {
+    const double rate = long_a * turn_b + long_b * turn_a;
+    margin = 2.0 * det_room / (rate + std::sqrt(rate * rate + 4.0 * turn_a * turn_b * det_room));
+  }
+  const double trace = side * (cross(a.middle, flat_b) + cross(flat_a, b.middle));
+  const double trace_room = trace - (a.off * length(flat_b) + b.off * length(flat_a));
+  if (trace_room > 1e-9 * trace)
+    margin = std::max(margin, trace_room / (turn_a * length(flat_b) + turn_b * length(flat_a)));
+  return std::min(margin, 1e300);
+}
+
 /// Excludes what can be of the parts of `whole`, where a margin of `enough_m` need not be the widest.
-void bisect_parts(const Part& whole, const Vec2& edge_u, const Vec2& edge_v, double enough_m, double off_m,
-                  PatchExclusion& result) {
+void bisect_parts(const Part& whole, const Ground& ground, double enough_m, double off_m, PatchExclusion& result) {
   std::array<Part, kBisections + 2> stack;
   std::size_t size = 0;
   stack[size++] = whole;
@@ -143,13 +200,20 @@ void bisect_parts(const Part& whole, const Vec2& edge_u, const Vec2& edge_v, dou
       margin = std::min(margin, here);
       continue;
     }
+    const bool stable = could_be_stable(part, ground.edge_u, ground.edge_v);
+    const bool asked = ground.gentle && enough_m > 0.0 && !(off_m > 0.0);
+    const double folded = asked && !stable ? folded_margin(part, ground) : 0.0;
+    if (folded > 0.0) {
+      margin = std::min(margin, folded);
+      continue;
+    }
     if (part.depth < kBisections && tests < kBisectionTests) {
       bisect(part, stack[size], stack[size + 1]);
       size += 2;
       continue;
     }
     margin = 0.0;
-    if (!could_be_stable(part, edge_u, edge_v)) continue;
+    if (!stable) continue;
     const Vec2 uv = part.linear_zero();
     const Vec2 middle = (part.at_corner(0) + part.at_corner(1) + part.at_corner(2)) / 3.0;
     const double off = glm::dot(middle, middle);
@@ -180,6 +244,66 @@ void multiply_height(const std::array<Vec3, 10>& d, const std::array<Vec3, 6>& n
    ...);
 }
 
+/// c - S and N by their control points, in a frame (t, s, axis) about the middle of the normals.
+struct Factors {
+  Vec3 centre, t, s, axis;  ///< c relative to corner 0; the directions
+  std::array<Vec3, 10> d;
+  std::array<Vec3, 6> n;
+
+  /// False where the corner normals have no middle.
+  bool set(const PnPatch& patch, const Vec3& c) {
+    // Mixed terms weighted 1 (NormalForm::vlachos) are half control normals of the Bernstein form.
+    const double mixed = 0.5 * patch.mixed_weight;
+    const Vec3 sum = patch.normals[n200] + patch.normals[n020] + patch.normals[n002];
+    const double length = std::sqrt(glm::dot(sum, sum));
+    if (length < 0.1) return false;
+    axis = sum / length;
+    centre = c - patch.origin;
+    const Vec3 away = centre - (patch.offsets[b030] + patch.offsets[b003]) / 3.0;
+    t = away - glm::dot(away, axis) * axis;
+    const double sideways = std::sqrt(glm::dot(t, t));
+    if (sideways > 1e-6 * std::sqrt(glm::dot(away, away))) {
+      t /= sideways;
+    } else {
+      t = unit(glm::cross(axis, std::abs(axis.x) < 0.6 ? Vec3(1, 0, 0) : Vec3(0, 1, 0)));
+    }
+    s = glm::cross(axis, t);
+    for (std::size_t b = 0; b < 6; ++b) {
+      const Vec3 normal = (b < n110 ? 1.0 : mixed) * patch.normals[b];
+      n[b] = {glm::dot(normal, t), glm::dot(normal, s), glm::dot(normal, axis)};
+    }
+    for (std::size_t a = 0; a < 10; ++a) {
+      const Vec3 to_centre = centre - patch.offsets[a];
+      d[a] = {glm::dot(to_centre, t), glm::dot(to_centre, s), glm::dot(to_centre, axis)};
+    }
+    return true;
+  }
+
+  Ground ground(const std::array<Vec3, 2>& sides) const {
+    const auto in_frame = [&](const Vec3& x) { return Vec2(glm::dot(x, t), glm::dot(x, s)); };
+    const auto turn = [&](ControlNormal a0, ControlNormal a1, ControlNormal b0, ControlNormal b1, ControlNormal c0,
+                          ControlNormal c1) {
+      const Vec3 a = n[a1] - n[a0], b = n[b1] - n[b0], c = n[c1] - n[c0];
+      return 2.0 * std::sqrt(std::max({glm::dot(a, a), glm::dot(b, b), glm::dot(c, c)}));
+    };
+    // All that folds are judged by rests on the flat triangle: only where the patch is near it.
+    constexpr double kGentle = 0.9;
+    const Vec3 flat = glm::cross(sides[0], sides[1]);
+    bool gentle = glm::dot(flat, axis) > kGentle * std::sqrt(glm::dot(flat, flat));
+    for (const Vec3& x : n) gentle = gentle && x.z > kGentle;
+    return {gentle, in_frame(sides[0]), in_frame(sides[1]), turn(n200, n110, n110, n020, n101, n011),
+            turn(n200, n101, n101, n002, n110, n011)};
+  }
+
+  double least_height_m() const {
+    Quintic height{};
+    multiply_height(d, n, height, std::make_index_sequence<60>());
+    double least = height[0];
+    for (const double x : height) least = std::min(least, x);  // std::min_element goes by pointers and branches
+    return std::max(0.0, least);
+  }
+};
+
 /// S at (u, v) and (c - S).N, without the derivatives that a plane for stepping needs. `c` and S relative to corner 0.
 double estimated_height(const PnPatch& patch, const Vec3& c, double u, double v, Vec3& point) {
   const double w = 1.0 - u - v;
@@ -200,56 +324,33 @@ PatchExclusion exclude_contact(const PnPatch& patch, const Vec3& centre, double 
 }
 
 PatchExclusion exclude_contact(const PnPatch& patch, const Vec3& centre, double enough_m, const StandIn& stands_for) {
-  // Mixed terms weighted 1 (NormalForm::vlachos) are half control normals of the Bernstein form.
-  const double mixed = 0.5 * patch.mixed_weight;
-  const Vec3 sum = patch.normals[n200] + patch.normals[n020] + patch.normals[n002];
-  const double length = std::sqrt(glm::dot(sum, sum));
-  if (length < 0.1) return {};
-  const Vec3 axis = sum / length;
-  const Vec3 c = centre - patch.origin;
-  const Vec3 away = c - (patch.offsets[b030] + patch.offsets[b003]) / 3.0;
-  Vec3 t = away - glm::dot(away, axis) * axis;
-  const double sideways = std::sqrt(glm::dot(t, t));
-  if (sideways > 1e-6 * std::sqrt(glm::dot(away, away))) {
-    t /= sideways;
-  } else {
-    t = unit(glm::cross(axis, std::abs(axis.x) < 0.6 ? Vec3(1, 0, 0) : Vec3(0, 1, 0)));
-  }
-  const Vec3 s = glm::cross(axis, t);
-
-  // Both factors in the frame (t, s, axis).
-  std::array<Vec3, 6> n;
-  for (std::size_t b = 0; b < 6; ++b) {
-    const Vec3 normal = (b < n110 ? 1.0 : mixed) * patch.normals[b];
-    n[b] = {glm::dot(normal, t), glm::dot(normal, s), glm::dot(normal, axis)};
-  }
-  std::array<Vec3, 10> d;
-  for (std::size_t a = 0; a < 10; ++a) {
-    const Vec3 to_centre = c - patch.offsets[a];
-    d[a] = {glm::dot(to_centre, t), glm::dot(to_centre, s), glm::dot(to_centre, axis)};
-  }
+  Factors factors;
+  if (!factors.set(patch, centre)) return {};
   Part whole;
   whole.f.fill(Vec2(0.0));
   whole.corner = {Vec2(0.0, 0.0), Vec2(1.0, 0.0), Vec2(0.0, 1.0)};
-  multiply_miss(d, n, whole.f, std::make_index_sequence<60>());
+  multiply_miss(factors.d, factors.n, whole.f, std::make_index_sequence<60>());
   PatchExclusion result;
   result.margin_m = std::max(0.0, whole.margin(enough_m + stands_for.off_m) - stands_for.off_m);
   if (result.margin_m > 0.0) result.possible = false;
   if (result.margin_m > 0.0 && result.margin_m >= enough_m) return result;
-  Quintic height{};
-  multiply_height(d, n, height, std::make_index_sequence<60>());
-  double least = height[0];
-  for (const double x : height) least = std::min(least, x);  // std::min_element goes by pointers and branches
-  result.least_height_m = std::max(0.0, least);
+  result.least_height_m = factors.least_height_m();
   if (!result.possible) return result;
-  const Vec3 &e1 = stands_for.sides[0], &e2 = stands_for.sides[1];
-  bisect_parts(whole, {glm::dot(e1, t), glm::dot(e1, s)}, {glm::dot(e2, t), glm::dot(e2, s)}, enough_m,
-               stands_for.off_m, result);
+  bisect_parts(whole, factors.ground(stands_for.sides), enough_m, stands_for.off_m, result);
   if (result.margin_m > 0.0) result.possible = false;
   if (!result.possible) return result;
-  result.height_m = estimated_height(patch, c, result.u, result.v, result.point);
+  result.height_m = estimated_height(patch, factors.centre, result.u, result.v, result.point);
   result.point += patch.origin;
   return result;
+}
+
+bool excludes_at_a_glance(const PnPatch& patch, const Vec3& centre, const RankBound& bound, double enough_m) {
+  Factors factors;
+  if (!factors.set(patch, centre)) return false;
+  Part whole;
+  whole.f.fill(Vec2(0.0));
+  multiply_miss(factors.d, factors.n, whole.f, std::make_index_sequence<60>());
+  return whole.margin(enough_m) >= enough_m || bound.way_to(factors.least_height_m()) >= enough_m;
 }
 
 double corner_exclusion(const ContactMesh& mesh, std::uint32_t t, const Vec3& centre) {
@@ -262,7 +363,8 @@ double corner_exclusion(const ContactMesh& mesh, std::uint32_t t, const Vec3& ce
   const Vec3 mean = (a + b + c) / 3.0;
   const auto square = [](const Vec3& v) { return glm::dot(v, v); };
   const double wide2 = std::max({square(a - mean), square(b - mean), square(c - mean)});
-  return std::max(0.0, std::sqrt(square(mean)) - 2.0 * std::sqrt(wide2));
+  const double least = std::min({glm::dot(a, mean), glm::dot(b, mean), glm::dot(c, mean)});
+  return least > 0.0 ? std::max(0.0, least / std::sqrt(square(mean)) - std::sqrt(wide2)) : 0.0;
 }
 
 }  // namespace tangent

@@ -8,6 +8,7 @@
 // and the directions that separate best are those across the images of its sides.
 #pragma once
 
+#include "core/contact/contact_rank.h"
 #include "core/mesh/contact_mesh.h"
 #include "core/surface/pn_patch.h"
 
@@ -27,8 +28,13 @@ struct PatchExclusion {
 /// `centre` in the patch's coordinates. Faces only: edges and vertices have fans of normals of their own. Where the
 /// whole patch can't be excluded, it is bisected: parts are excluded one by one until what is left is a contact, to
 /// 1/2^kBisections of the patch, or until the left parts would be unstable (det M or trace M below zero). Once
-/// the margin is `enough_m`, neither heights nor a wider margin are asked for.
+/// the margin is `enough_m`, neither heights nor a wider margin are asked for. Where a margin is asked for at all,
+/// parts whose contacts stay unstable for some way are excluded by that way.
 PatchExclusion exclude_contact(const PnPatch& patch, const Vec3& centre, double enough_m = 0.0);
+
+/// Whether no centre nearer than `enough_m` has a contact of a rank under `bound` on the face, as far as a glance
+/// tells: without bisection.
+bool excludes_at_a_glance(const PnPatch& patch, const Vec3& centre, const RankBound& bound, double enough_m);
 
 /// The same for a patch that stands for another: contacts are stable or not on a triangle with these sides, and
 /// `centre` is wrong by up to `off_m` for each normal; margins are what is left beside that.

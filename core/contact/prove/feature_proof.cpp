@@ -110,6 +110,46 @@ double edge_distance(const ContactMesh& mesh, std::uint32_t t, std::uint32_t edg
   return glm::distance(d, along * chord) - std::sqrt(length2) / 3.0;
 }
 
+/// How the curve of an edge starts from an end of it, corner k or the next, as its patches have it.
+Vec3 start_of_curve(const ContactMesh& mesh, std::uint32_t t, std::uint32_t k, bool from_first) {
+  const std::uint32_t j = (k + 1) % 3, from = from_first ? k : j, to = from_first ? j : k;
+  const Vec3 chord = mesh.position(t, to) - mesh.position(t, from);
+  const EdgeLink other = mesh.across(t, k);
+  if (other.triangle == kNone) return edge_control_offset(chord, mesh.normal(t, from));
+  const std::uint32_t there = from_first ? (other.edge + 1) % 3 : other.edge;
+  return crease_control_offset(chord, mesh.normal(t, from), mesh.normal(other.triangle, there));
+}
+
+/// A first look at an edge, without its patches: how far c lies beyond an end of it, seen along its chord, less what
+/// the curve and the normals lean there. Not over 0: look closer.
+double beyond_chord(const ContactMesh& mesh, std::uint32_t t, std::uint32_t k, const Vec3& c) {
+  const Vec3 &p = mesh.position(t, k), &q = mesh.position(t, (k + 1) % 3);
+  const double length = glm::distance(p, q);
+  const Vec3 along = (q - p) / length;
+  double lean = 0.0;
+  const auto add_normals = [&](std::uint32_t at, std::uint32_t edge) {
+    const Vec3 &a = mesh.normal(at, edge), &b = mesh.normal(at, (edge + 1) % 3);
+    // The middle control normal is their sum, mirrored and made unit.
+    lean =
+        std::max({lean, std::abs(glm::dot(a, along)), std::abs(glm::dot(b, along)), glm::dot(a, b) > 0.5 ? 0.0 : 1.0});
+  };
+  add_normals(t, k);
+  const EdgeLink other = mesh.across(t, k);
+  if (other.triangle != kNone) add_normals(other.triangle, other.edge);
+  const Vec3 from_p = start_of_curve(mesh, t, k, true), from_q = start_of_curve(mesh, t, k, false);
+  const double turn =
+      6.0 / length * std::max(glm::distance(from_p, (q - p) / 3.0), glm::distance(from_q, (p - q) / 3.0));
+  if (turn > 0.1 || lean > 0.1) return 0.0;
+  const double leans = 1.5 * lean + 1.2 * turn;
+  double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
+  for (const Vec3& s : {p, p + from_p, q + from_q, q}) {
+    low = std::min(low, glm::dot(c - s, along));
+    high = std::max(high, glm::dot(c - s, along));
+  }
+  const double farthest = glm::distance(c, p) + 2.0 * length;
+  return (std::max(low, -high) - leans * farthest) / (1.0 + leans);
+}
+
 /// How far c lies over the triangle rather than over the edge's fan, at both ends.
 double over_face(const EdgeEnds& e, const Vec3& centre) {
   const auto at = [&](const Vec3& point, const Vec3& tangent, const Vec3& normal) {
@@ -134,18 +174,20 @@ static double vertex_pull(const ContactMesh& mesh, std::uint32_t t, std::uint32_
     const double length2 = glm::dot(offset, offset);
     if (length2 > 0.0) strongest = std::max(strongest, glm::dot(d, offset) / std::sqrt(length2));
   };
-  around_vertex(mesh, t, corner, [&](std::uint32_t at, std::uint32_t k) {
-    ++faces;
-    const Vec3 starting = mesh.position(at, (k + 1) % 3) - mesh.position(at, k);
-    if (mesh.edge_kind(at, k) == EdgeKind::crease) {
-      const EdgeLink other = mesh.across(at, k);
-      pull(crease_control_offset(starting, mesh.normal(at, k), mesh.normal(other.triangle, (other.edge + 1) % 3)));
-    } else {
-      pull(edge_control_offset(starting, mesh.normal(at, k)));
-    }
-    if (mesh.edge_kind(at, (k + 2) % 3) == EdgeKind::boundary)
-      pull(edge_control_offset(mesh.position(at, (k + 2) % 3) - mesh.position(at, k), mesh.normal(at, k)));
-  });
+  around_vertex_towards(
+      mesh, t, corner, [&](const Vec3&) { return d; },
+      [&](std::uint32_t at, std::uint32_t k) {
+        ++faces;
+        const Vec3 starting = mesh.position(at, (k + 1) % 3) - mesh.position(at, k);
+        if (mesh.edge_kind(at, k) == EdgeKind::crease) {
+          const EdgeLink other = mesh.across(at, k);
+          pull(crease_control_offset(starting, mesh.normal(at, k), mesh.normal(other.triangle, (other.edge + 1) % 3)));
+        } else {
+          pull(edge_control_offset(starting, mesh.normal(at, k)));
+        }
+        if (mesh.edge_kind(at, (k + 2) % 3) == EdgeKind::boundary)
+          pull(edge_control_offset(mesh.position(at, (k + 2) % 3) - mesh.position(at, k), mesh.normal(at, k)));
+      });
   return strongest;
 }
 
@@ -158,13 +200,17 @@ static std::uint64_t vertex_key(const ContactMesh& mesh, std::uint32_t t, std::u
   return std::uint64_t{mesh.vertex(t, k)} << 2 | 3u;
 }
 
-double exclude_feature_contacts(PatchCache& cache, std::uint32_t t, NormalForm form, const Vec3& centre, double bound_m,
-                                double enough_m, FeatureMemory* memory) {
+double exclude_feature_contacts(PatchCache& cache, const TriangleFeatures& features, NormalForm form,
+                                const Vec3& centre, const RankBound& bound, double enough_m, FeatureMemory* memory) {
   const ContactMesh& mesh = cache.mesh();
+  const std::uint32_t t = features.triangle;
   double margin = std::numeric_limits<double>::max();
   for (std::uint32_t k = 0; k < 3; ++k) {
-    if (mesh.edge_kind(t, k) == EdgeKind::smooth || (memory && memory->knows(edge_key(mesh, t, k)))) continue;
-    const double far_off = 0.5 * (edge_distance(mesh, t, k, centre) - bound_m);
+    if (!features.has_side(k) || mesh.edge_kind(t, k) == EdgeKind::smooth ||
+        (memory && memory->knows(edge_key(mesh, t, k))))
+      continue;
+    double far_off = bound.way_to(edge_distance(mesh, t, k, centre));
+    if (features.side != TriangleFeatures::kAll) far_off = std::max(far_off, beyond_chord(mesh, t, k, centre));
     if (far_off > 0.0 && far_off >= enough_m) {
       margin = std::min(margin, far_off);
       if (memory) memory->add(edge_key(mesh, t, k));
@@ -177,16 +223,20 @@ double exclude_feature_contacts(PatchCache& cache, std::uint32_t t, NormalForm f
       safe = std::max(
           safe, over_face(edge_ends(mesh, cache.patch(other.triangle, form), other.triangle, other.edge), centre));
     if (safe < enough_m)
-      safe = std::max(safe,
-                      0.5 * (curve_distance(ends.curve, centre, bound_m + 2.0 * enough_m, kCurveHalvings) - bound_m));
+      safe = std::max(safe, bound.way_to(curve_distance(ends.curve, centre, bound.after(enough_m), kCurveHalvings)));
     margin = std::min(margin, std::max(0.0, safe));
     if (memory && safe > 0.0) memory->add(edge_key(mesh, t, k));
   }
   for (std::uint32_t k = 0; k < 3; ++k) {
-    if (!mesh.feature_corner(t, k) || (memory && memory->knows(vertex_key(mesh, t, k)))) continue;
+    if (!features.has_corner(k) || !mesh.feature_corner(t, k) || (memory && memory->knows(vertex_key(mesh, t, k))))
+      continue;
     const Vec3 d = centre - mesh.position(t, k);
-    double safe = 0.5 * (std::sqrt(glm::dot(d, d)) - bound_m);
+    double safe = bound.way_to(std::sqrt(glm::dot(d, d)));
     int faces = 0;
+    if (features.side != TriangleFeatures::kAll) {  // of this edge alone, as a first look
+      const Vec3 start = start_of_curve(mesh, t, features.side, k == features.side);
+      safe = std::max(safe, glm::dot(d, start) / std::sqrt(glm::dot(start, start)));
+    }
     if (safe < enough_m || !(safe > 0.0)) safe = std::max(safe, vertex_pull(mesh, t, k, centre, faces));
     margin = std::min(margin, std::max(0.0, safe));
     if (!memory) continue;

@@ -2,6 +2,7 @@
 // centre.
 #pragma once
 
+#include "core/contact/contact_rank.h"
 #include "core/contact/patch_cache.h"
 
 #include <array>
@@ -37,12 +38,22 @@ class FeatureMemory {
   std::array<std::uint64_t, kSlots> seen_;
 };
 
-/// How far the centre may go until a contact on the crease or boundary edges of triangle t or on their ends can come
-/// up that is nearer than `bound_m`; the largest double where there are none, 0 where one may be there now. Judged from
+/// The creases and boundaries of a triangle and their ends, or one of them.
+struct TriangleFeatures {
+  std::uint32_t triangle;
+  std::uint32_t side = kAll;
+  static constexpr std::uint32_t kAll = 3;
+  bool has_side(std::uint32_t k) const { return side == kAll || side == k; }
+  bool has_corner(std::uint32_t k) const { return side == kAll || side == k || (side + 1) % 3 == k; }
+};
+
+/// How far the centre may go until a contact on the crease or boundary edges of a triangle or on their ends can come
+/// up that is nearer than `bound`; the largest double where there are none, 0 where one may be there now. Judged from
 /// the ends of each edge: seen along the edge the centre passes its end once, seen across it leaves the face for the
 /// fan once. A margin under `enough_m` is worth some effort to widen. What `memory` knows is left out, what is excluded
 /// added to it.
-double exclude_feature_contacts(PatchCache& cache, std::uint32_t t, NormalForm form, const Vec3& centre, double bound_m,
-                                double enough_m = 0.0, FeatureMemory* memory = nullptr);
+double exclude_feature_contacts(PatchCache& cache, const TriangleFeatures& features, NormalForm form,
+                                const Vec3& centre, const RankBound& bound, double enough_m = 0.0,
+                                FeatureMemory* memory = nullptr);
 
 }  // namespace tangent

@@ -1,5 +1,6 @@
 #include "core/contact/prove/triangle_proof.h"
 
+#include "core/contact/contact_rank.h"
 #include "core/contact/nearest_triangles.h"
 #include "core/contact/prove/core_proof.h"
 #include "core/finger/plane_contact.h"
@@ -40,7 +41,7 @@ double even_exclusion(const ContactMesh& mesh, std::uint32_t t, const Vec3& cent
   return std::max(0.0, beside - bulge);
 }
 
-PatchExclusion exclude_face(ContactContext& context, std::uint32_t t, double bound_m, double enough_m) {
+PatchExclusion exclude_face(ContactContext& context, std::uint32_t t, const RankBound& bound, double enough_m) {
   const Vec3& centre = context.pose.position;
   PatchExclusion proof;
   const double at_once =
@@ -51,21 +52,92 @@ PatchExclusion exclude_face(ContactContext& context, std::uint32_t t, double bou
     return proof;
   }
   proof = exclude_contact(context.cache.patch(t, context.settings.normal_form), centre, enough_m);
-  proof.margin_m = std::max({at_once, proof.margin_m, 0.5 * (proof.least_height_m - bound_m)});
+  proof.margin_m = std::max({at_once, proof.margin_m, bound.way_to(proof.least_height_m)});
   if (proof.margin_m > 0.0) proof.possible = false;
   return proof;
 }
 
+/// The one place of a finger on a region is where its support for the region's normal lies over it.
+PatchExclusion exclude_region(ContactContext& context, std::uint32_t& t, const RankBound& bound) {
+  const ContactMesh& mesh = context.cache.mesh();
+  const FlatRegions& flat = mesh.flat_regions();
+  const std::uint32_t region = flat.of(t);
+  const Vec3 &normal = flat.normal(region), &origin = flat.origin(region);
+  const bool round = is_round(context.finger);
+  const CoreSupport support = round ? CoreSupport{context.pose.position, {}, 0.0} : context.core->support(normal);
+  const RegionFoot foot = flat.foot(mesh, region, support.point);
+  t = foot.triangle;
+  PatchExclusion proof;
+  proof.u = foot.u;
+  proof.v = foot.v;
+  const double room = 4.0 * FlatRegions::kFlat * glm::distance(support.point, origin);
+  const double beside = foot.beside_m - room;
+  const double behind =
+      bound.way_to(contact_rank(context.finger, contact_on_plane(context.finger, context.pose, origin, normal)) - room);
+  const double outside =
+      round || !(beside > 0.0) ? beside : context.core->way_within(context.core->longest_m(), support.length, beside);
+  proof.margin_m = std::max({0.0, outside, behind});
+  if (proof.margin_m > 0.0) proof.possible = false;
+  return proof;
+}
+
+/// Of fingers that are not round nothing is proved of edges.
+PatchExclusion exclude_side(ContactContext& context, const PartOfTriangle& part, const RankBound& bound,
+                            double enough_m, FeatureMemory* memory) {
+  PatchExclusion proof;
+  if (!is_round(context.finger)) return proof;
+  proof.margin_m =
+      exclude_feature_contacts(context.cache, {part.triangle, side_of(part.part)}, context.settings.normal_form,
+                               context.pose.position, bound, enough_m, memory);
+  if (proof.margin_m > 0.0) proof.possible = false;
+  return proof;
+}
+
+/// By the corners of a face.
+double exclude_corners(const ContactMesh& mesh, std::uint32_t t, const Vec3& centre) {
+  return std::max(corner_exclusion(mesh, t, centre), even_exclusion(mesh, t, centre));
+}
+
 }  // namespace
 
-PatchExclusion exclude_triangle(ContactContext& context, std::uint32_t t, double bound_m, double enough_m,
+PatchExclusion exclude_part(ContactContext& context, PartOfTriangle& part, const RankBound& bound, double enough_m,
+                            FeatureMemory* memory) {
+  if (part.part == SearchPart::whole) return exclude_triangle(context, part.triangle, bound, enough_m, memory);
+  if (part.part == SearchPart::region) return exclude_region(context, part.triangle, bound);
+  if (is_side(part.part)) return exclude_side(context, part, bound, enough_m, memory);
+  return is_round(context.finger) ? exclude_face(context, part.triangle, bound, enough_m)
+                                  : exclude_face_by_core(context, *context.core, part.triangle, bound, enough_m);
+}
+
+SurfacePlace start_on(const ContactContext& context, const PartOfTriangle& part, const PatchExclusion& proof) {
+  if (!is_side(part.part)) return place_on_face(part.triangle, proof.u, std::min(proof.v, 1.0 - proof.u));
+  const ContactMesh& mesh = context.cache.mesh();
+  const std::uint32_t k = side_of(part.part);
+  const Vec3 &p = mesh.position(part.triangle, k), chord = mesh.position(part.triangle, (k + 1) % 3) - p;
+  const double along = glm::dot(context.pose.position - p, chord) / glm::dot(chord, chord);
+  return place_on_edge(part.triangle, k, std::clamp(along, 0.0, 1.0));
+}
+
+bool excludes_at_a_glance(ContactContext& context, std::uint32_t t, const RankBound& bound, double enough_m,
+                          FeatureMemory* memory) {
+  const ContactMesh& mesh = context.cache.mesh();
+  const Vec3& centre = context.pose.position;
+  const NormalForm form = context.settings.normal_form;
+  if (exclude_corners(mesh, t, centre) < enough_m &&
+      !excludes_at_a_glance(context.cache.patch(t, form), centre, bound, enough_m))
+    return false;
+  return mesh.interior(t) ||
+         exclude_feature_contacts(context.cache, {t}, form, centre, bound, enough_m, memory) >= enough_m;
+}
+
+PatchExclusion exclude_triangle(ContactContext& context, std::uint32_t t, const RankBound& bound, double enough_m,
                                 FeatureMemory* memory) {
   const ContactMesh& mesh = context.cache.mesh();
-  if (!is_round(context.finger)) return exclude_by_core(context, *context.core, t, bound_m, enough_m);
-  PatchExclusion proof = exclude_face(context, t, bound_m, enough_m);
+  if (!is_round(context.finger)) return exclude_by_core(context, *context.core, t, bound, enough_m);
+  PatchExclusion proof = exclude_face(context, t, bound, enough_m);
   if (mesh.interior(t)) return proof;
-  const double features = exclude_feature_contacts(context.cache, t, context.settings.normal_form,
-                                                   context.pose.position, bound_m, enough_m, memory);
+  const double features = exclude_feature_contacts(context.cache, {t}, context.settings.normal_form,
+                                                   context.pose.position, bound, enough_m, memory);
   if (features <= 0.0) return unknown(context, t);
   proof.margin_m = std::min(proof.margin_m, features);
   return proof;

@@ -27,10 +27,10 @@ constexpr double kForever = std::numeric_limits<double>::infinity();
 bool trusts_guess(const Stability& stability) { return stability.det > kGuessMinDet && stability.trace > 0.0; }
 
 /// Some ticks at the finger's present speed, within shares of the tracked contact's rank.
-double ticks_ahead_m(double rank, double moved_m) {
+double ticks_ahead_m(double rank, double moved_m, double ticks) {
   // Where not even one tick ahead can be seen, as after a leap, looking ahead would be for nothing.
   const double most = kLargestWatch * std::abs(rank);
-  return (moved_m < most ? std::min(kWatchTicks * moved_m, most) : 0.0) + kSmallestWatch * std::abs(rank);
+  return (moved_m < most ? std::min(ticks * moved_m, most) : 0.0) + kSmallestWatch * std::abs(rank);
 }
 
 /// What one triangle means for the tracked contact.
@@ -43,21 +43,22 @@ struct Look {
 class RivalSearch {
  public:
   RivalSearch(ContactContext& context, const SearchStructures& search, const IterationResult& tracked,
-              const RivalQuestion& question, float ahead, bool any_turn)
+              const RivalQuestion& question, double closing, float ahead, bool any_turn)
       : search_(search),
         tracked_(tracked),
         touched_(question.touched),
         bound_m_(question.bound_m),
+        closing_(closing),
         margin_m_(question.margin_m),
         ahead_(ahead),
         any_turn_(any_turn),
-        slope_m_(ticks_ahead_m(contact_rank(context.finger, tracked.contact), context.moved_m)),
+        slope_m_(ticks_ahead_m(contact_rank(context.finger, tracked.contact), context.moved_m, kWatchTicks)),
         deepest_(question.bound_m),
         settings_(robust(context.settings)),
         tracked_rank_m_(contact_rank(context.finger, tracked.contact)),
         steady_(settings_.normal_form == NormalForm::bernstein),
-        context_{context.cache, settings_, context.finger, context.pose, context.origin,
-                 context.trace, 0,         context.moved_m} {
+        context_{context.cache, settings_, context.finger,  context.pose, context.origin,
+                 context.trace, 0,         context.moved_m, context.moved} {
     if (!is_round(context.finger)) {
       context_.core = &core_.emplace(context.finger, context.pose, any_turn_);
       steady_ = steady_ && can_ask_steady(*core_, tracked_rank_m_);
@@ -74,13 +75,26 @@ class RivalSearch {
     Clearance& clearance = result.clearance;
     clearance.margin_m = margin_m_;
     clearance.any_turn = any_turn_;
-    search_.hierarchy.visit(query(margin_m_), [&](std::uint32_t t, ContactQuery& q) {
-      const Look look = q.here_m < q.margin_m ? look_at_steady(t, q.margin_m, result) : look_at(t, q.margin_m, result);
-      const double margin = look.watch ? watch(clearance, t, look) : look.margin_m;
-      if (margin < clearance.margin_m) narrow(clearance, margin, q);
+    const Vec3 ahead = lead();
+    ContactQuery all = query(margin_m_);
+    set_ahead(all, ahead, 1.0);
+    search_.hierarchy.visit(all, [&](std::uint32_t t, ContactQuery& q) {
+      const PartOfTriangle part{t, q.part};
+      const double way = clearance.margin_m;
+      const Look look = q.here_m < q.margin_m ? look_at_steady(part, way, result) : look_at(part, way, result);
+      const double margin = look.watch ? watch(clearance, part, look) : look.margin_m;
+      if (margin < way) {
+        clearance.margin_m = margin;
+        limit_query(q, context_.finger, bound_m_ + closing_ * margin);
+        set_ahead(q, ahead, margin / margin_m_);
+      }
       return solves_ < kMaxSolves;
     });
-    clearance.height_m = bound_m_ + 2.0 * clearance.margin_m;
+    const double off = std::sqrt(glm::dot(ahead, ahead)), share = clearance.margin_m / margin_m_;
+    clearance.ahead_centre = context_.pose.position + share * ahead;
+    clearance.ahead_m = share * (margin_m_ - off) * (1.0 - 1e-6);
+    clearance.ahead_height_m = bound_m_ + share * ((closing_ - 1.0) * off + closing_ * (margin_m_ - off));
+    clearance.height_m = closing_ > 1.0 ? kForever : bound_m_;
     clearance.ahead = adapted(clearance);
     if (solves_ >= kMaxSolves) clearance.margin_m = 0.0;
     set_free(clearance);
@@ -97,14 +111,14 @@ class RivalSearch {
         clearance.watched[kept++] = watched;
         continue;
       }
-      const Look look = look_at(watched.triangle, clearance.margin_m, result);
+      const PartOfTriangle part = part_of(watched);
+      const Look look = look_at(part, clearance.margin_m, result);
       if (look.holds_rival ? !watched.holds_rival : watched.holds_rival || look.margin_m < context_.moved_m)
         passed[passed_count++] = watched.triangle;
       if (!look.watch) clearance.margin_m = std::min(clearance.margin_m, look.margin_m);
-      if (look.watch && look.margin_m < clearance.margin_m)
-        clearance.watched[kept++] = watched_triangle(watched.triangle, look);
+      if (look.watch && look.margin_m < clearance.margin_m) clearance.watched[kept++] = watched_triangle(part, look);
     }
-    clearance.watched_count = kept;
+    clearance.watched_count = kept & 0xFFFFu;
     if (steady_ && passed_count > 0) look_beside(std::span(passed).first(passed_count), result);
     set_free(clearance);
   }
@@ -122,13 +136,20 @@ class RivalSearch {
     return settings;
   }
 
-  static WatchedTriangle watched_triangle(std::uint32_t t, const Look& look) {
-    return {t & 0x7FFFFFFFu, look.holds_rival, static_cast<float>(look.margin_m)};
+  static WatchedTriangle watched_triangle(const PartOfTriangle& part, const Look& look) {
+    const std::uint32_t side = is_side(part.part) ? 1 + side_of(part.part) : 0;
+    return {part.triangle & 0x1FFFFFFFu, side & 3u, look.holds_rival, static_cast<float>(look.margin_m)};
+  }
+  PartOfTriangle part_of(const WatchedTriangle& watched) const {
+    if (watched.part > 0) return {watched.triangle, static_cast<SearchPart>(std::uint32_t{watched.part})};
+    const FlatRegions& flat = context_.cache.mesh().flat_regions();
+    if (!flat.in_parts(watched.triangle)) return {watched.triangle};
+    return {watched.triangle, flat.of(watched.triangle) == kNone ? SearchPart::face : SearchPart::region};
   }
 
   /// Puts a triangle on the list if it is among the soonest. Returns the margin of the one that is not. A heap while it
   /// grows, the latest on top.
-  static double watch(Clearance& clearance, std::uint32_t t, const Look& look) {
+  static double watch(Clearance& clearance, const PartOfTriangle& part, const Look& look) {
     const double margin = look.margin_m;
     if (margin >= clearance.margin_m) return margin;
     const auto sooner = [](const WatchedTriangle& a, const WatchedTriangle& b) { return a.margin_m < b.margin_m; };
@@ -140,7 +161,7 @@ class RivalSearch {
       std::pop_heap(first, clearance.watched.end(), sooner);
       --clearance.watched_count;
     }
-    first[clearance.watched_count++] = watched_triangle(t, look);
+    first[clearance.watched_count++] = watched_triangle(part, look);
     std::push_heap(first, first + clearance.watched_count, sooner);
     return dropped;
   }
@@ -196,18 +217,43 @@ class RivalSearch {
     return true;
   }
 
-  /// `up_to_m`: rank below which contacts count.
-  Look look_at(std::uint32_t t, double enough_m, double up_to_m, RivalResult& result) {
-    if (!core_ && continues_tracked_plane(t)) {
-      const double features = exclude_feature_contacts(context_.cache, t, settings_.normal_form, context_.pose.position,
-                                                       up_to_m, enough_m, &features_);
+  /// Whether a known contact is the one that a part of a region, or a side, may have.
+  bool holds_known(const PartOfTriangle& part) const {
+    const ContactMesh& mesh = context_.cache.mesh();
+    const auto holds = [&](const KnownContact& known) {
+      if (part.part == SearchPart::region)
+        return known.feature == Feature::face &&
+               mesh.flat_regions().of(known.triangle) == mesh.flat_regions().of(part.triangle);
+      if (!is_side(part.part)) return false;
+      const std::uint32_t k = side_of(part.part);
+      if (known.feature == Feature::edge) {
+        const EdgeLink other = mesh.across(part.triangle, k);
+        return (known.triangle == part.triangle && known.side == k) ||
+               (known.triangle == other.triangle && known.side == other.edge);
+      }
+      if (known.feature != Feature::vertex) return false;
+      const std::uint32_t vertex = mesh.vertex(known.triangle, known.side);
+      return mesh.vertex(part.triangle, k) == vertex || mesh.vertex(part.triangle, (k + 1) % 3) == vertex;
+    };
+    return std::any_of(known_.begin(), known_.begin() + static_cast<std::ptrdiff_t>(known_count_), holds);
+  }
+
+  /// `up_to`: rank below which contacts count.
+  Look look_at(PartOfTriangle part, double enough_m, const RankBound& up_to, RivalResult& result) {
+    const std::uint32_t t = part.triangle;
+    if (part.part != SearchPart::whole && holds_known(part))
+      return part.part == SearchPart::region ? Look{} : own_slope(enough_m);
+    if (!core_ && part.part == SearchPart::whole && continues_tracked_plane(t)) {
+      const double features = exclude_feature_contacts(context_.cache, {t}, settings_.normal_form,
+                                                       context_.pose.position, up_to, enough_m, &features_);
       if (features > 0.0) return {features, false, true};
     }
     ++dear_looks_;
-    for (std::size_t i = 0; i < known_count_; ++i)
+    for (std::size_t i = 0; i < known_count_ && !is_side(part.part) && part.part != SearchPart::region; ++i)
       if (same_basin(context_.cache, settings_.normal_form, t, known_[i], std::min(enough_m, slope_m_)))
         return own_slope(enough_m);
-    const PatchExclusion proof = exclude_triangle(context_, t, up_to_m, enough_m, &features_);
+    if (enough_m > 0.0 && ahead_m_ > 0.0 && part.part == SearchPart::whole && excludes_ahead(t)) return {};
+    const PatchExclusion proof = exclude_part(context_, part, up_to, enough_m, &features_);
     if (!proof.possible && proof.margin_m > 0.0) return {proof.margin_m, false, true};
     if (!proof.possible) return {kUnresolvedMargin * slope_m_, true, true};
     if (proof.height_m != 0.0 && is_tracked(proof)) return own_slope(enough_m);
@@ -221,7 +267,12 @@ class RivalSearch {
         return {overtaking_margin(change_, height_change_on_face(there, proof.height_m), behind, touched_ != nullptr),
                 true, true};
     }
-    return solve(t, proof, enough_m, result);
+    return solve(part, proof, enough_m, result);
+  }
+
+  bool excludes_ahead(std::uint32_t t) {
+    ContactContext there{context_.cache, settings_, context_.finger, ahead_pose_, context_.origin};
+    return excludes_at_a_glance(there, t, {ahead_bound_m_, closing_}, ahead_m_, &features_ahead_);
   }
 
   /// Ground that leads to a known contact. Steady ground does so for good, other ground as far as a look-ahead goes.
@@ -244,7 +295,7 @@ class RivalSearch {
     if (beside.region.empty()) return;
     beside.steady_only = true;
     search_.hierarchy.visit(beside, [&](std::uint32_t other, ContactQuery& q) {
-      const Look look = look_at_steady(other, q.margin_m, result);
+      const Look look = look_at_steady({other, q.part}, q.margin_m, result);
       if (look.margin_m < clearance.margin_m) narrow(clearance, look.margin_m, q);
       return solves_ < kMaxSolves;
     });
@@ -269,21 +320,40 @@ class RivalSearch {
     q.tilt_rad = context_.finger.tilt_rad();
     q.steady_ground = steady_;
     q.core = context_.core;
-    limit_query(q, context_.finger, bound_m_ + 2.0 * margin);
+    limit_query(q, context_.finger, bound_m_ + closing_ * margin);
     return q;
   }
 
   void narrow(Clearance& clearance, double margin, ContactQuery& q) const {
     clearance.margin_m = q.margin_m = margin;
-    limit_query(q, context_.finger, bound_m_ + 2.0 * margin);
+    limit_query(q, context_.finger, bound_m_ + closing_ * margin);
+  }
+
+  /// From here to the middle of the look-ahead: a finger mostly goes on as it has come.
+  Vec3 lead() const {
+    const double moved = context_.moved_m;
+    if (core_ || !(moved > 0.0) || moved >= kLargestWatch * std::abs(tracked_rank_m_)) return Vec3(0.0);
+    return std::min(kLead * margin_m_ / moved, kLeadTicks) * context_.moved;
+  }
+
+  /// What is left of the look-ahead where the finger can't go further than this share of margin_m_ anyway: the ball
+  /// shrinks about the finger, so that it stays within what it was.
+  void set_ahead(ContactQuery& q, const Vec3& ahead, double share) {
+    q.ahead = share * ahead;
+    q.margin_m = share * (margin_m_ - std::sqrt(glm::dot(ahead, ahead)));
+    ahead_pose_.position = context_.pose.position + q.ahead;
+    ahead_m_ = ahead == Vec3(0.0) ? 0.0 : q.margin_m;
+    ahead_bound_m_ = bound_m_ + (closing_ - 1.0) * std::sqrt(glm::dot(q.ahead, q.ahead));
   }
 
   /// There a triangle without a contact, deeper or not yet, stays without until one comes in over the border.
-  Look look_at_steady(std::uint32_t t, double margin, RivalResult& result) {
-    const Look look = look_at(t, 0.0, bound_m_ + 2.0 * margin, result);
+  Look look_at_steady(const PartOfTriangle& part, double margin, RivalResult& result) {
+    const Look look = look_at(part, 0.0, {bound_m_ + closing_ * margin, closing_}, result);
     return look.holds_rival ? Look{look.margin_m, true, false} : Look{};
   }
-  Look look_at(std::uint32_t t, double enough_m, RivalResult& result) { return look_at(t, enough_m, bound_m_, result); }
+  Look look_at(const PartOfTriangle& part, double enough_m, RivalResult& result) {
+    return look_at(part, enough_m, {bound_m_, closing_}, result);
+  }
 
   /// Seen from the next triangle, the tracked contact on or near their common side.
   bool is_tracked(const PatchExclusion& proof) const {
@@ -292,11 +362,11 @@ class RivalSearch {
     return glm::dot(apart, apart) < near * near && std::abs(proof.height_m - height) < kHeightGuess * std::abs(height);
   }
 
-  Look solve(std::uint32_t t, const PatchExclusion& proof, double enough_m, RivalResult& result) {
+  Look solve(const PartOfTriangle& part, const PatchExclusion& proof, double enough_m, RivalResult& result) {
     context_.seed = static_cast<std::uint8_t>(std::min(++solves_, 255));
-    const SurfacePlace start = place_on_face(t, proof.u, std::min(proof.v, 1.0 - proof.u));
+    const SurfacePlace start = start_on(context_, part, proof);
     IterationResult r;
-    const int share = context_.cache.mesh().interior(t) ? 1 : 2;
+    const int share = context_.cache.mesh().interior(part.triangle) ? 1 : 2;
     iterate(context_, start, share * kRivalBudget, r);
     result.evaluations += r.evaluations;
     // Whatever it is called: on a boundary, say, it is left_boundary.
@@ -327,7 +397,7 @@ class RivalSearch {
   const SearchStructures search_;
   const IterationResult& tracked_;
   const TouchedContacts* touched_;
-  double bound_m_, margin_m_;
+  double bound_m_, closing_, margin_m_;
   float ahead_;
   bool any_turn_;   ///< proofs shall hold while the finger turns, too
   double slope_m_;  ///< how far ahead ground that is not steady is taken for a known contact's slope
@@ -338,8 +408,10 @@ class RivalSearch {
   bool steady_;                     ///< contacts are followed over steady ground
   std::optional<FingerCore> core_;  ///< of a finger that is not round
   ContactContext context_;
-  HeightChange change_;  ///< of the tracked contact
-  FeatureMemory features_;
+  HeightChange change_;    ///< of the tracked contact
+  FingerPose ahead_pose_;  ///< the middle of the look-ahead, its radius (0: it is about the finger), what counts there
+  double ahead_m_ = 0.0, ahead_bound_m_ = 0.0;
+  FeatureMemory features_, features_ahead_;
   std::array<KnownContact, kKnownContacts> known_;
   std::size_t known_count_ = 0;
   int solves_ = 0;
@@ -350,15 +422,18 @@ class RivalSearch {
 
 double look_ahead_m(const ContactContext& context, double rank, double ahead) {
   const double wanted = context.hystereses_m(kWatchReach) * ahead;
-  return std::max(ticks_ahead_m(rank, context.moved_m), 2.0 * context.moved_m < wanted ? wanted : 0.0);
+  const double ticks = std::min(kWatchTicks, kDearTicks + ahead * (kWatchTicks - kDearTicks));
+  return std::max(ticks_ahead_m(rank, context.moved_m, ticks), 2.0 * context.moved_m < wanted ? wanted : 0.0);
 }
 
 RivalResult find_rival(ContactContext& context, const SearchStructures& search, const IterationResult& tracked,
                        const RivalQuestion& question, const Clearance& known, double gone) {
-  const bool everything = gone > known.margin_m || question.bound_m > known.height_m - gone;
+  const bool everything = is_beyond(known, context.pose, gone, question.bound_m);
   // A finger that has not turned since the last search of everything, as most devices measure none, is taken not to.
   const bool any_turn = known.orientation != context.pose.orientation || (!everything && known.any_turn != 0);
-  RivalSearch rivals(context, search, tracked, question, known.ahead, any_turn);
+  // Proofs about the watched triangles have to hold as far as that of all others.
+  const bool stays = everything ? question.bound_stays : known.height_m < kForever;
+  RivalSearch rivals(context, search, tracked, question, stays ? 1.0 : 2.0, known.ahead, any_turn);
   RivalResult result;
   if (everything) {
     result.clearance.centre = context.pose.position;

@@ -26,8 +26,9 @@ struct RivalResult {
 
 /// What a search is asked.
 struct RivalQuestion {
-  double bound_m = 0.0;   ///< rank that a rival must be below to take over
-  double margin_m = 0.0;  ///< how far one would like to go without searching again
+  double bound_m = 0.0;      ///< rank that a rival must be below to take over
+  double margin_m = 0.0;     ///< how far one would like to go without searching again
+  bool bound_stays = false;  ///< it is not expected to rise while the finger moves on
   /// Places that are followed besides the tracked one: all others below the bound are asked for, too. Null: only the
   /// deepest is.
   const TouchedContacts* touched = nullptr;

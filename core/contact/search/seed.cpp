@@ -75,12 +75,13 @@ void seed_by_hierarchy(ContactContext& context, const SearchStructures& search, 
   int solves = 0;
   FeatureMemory features;
   search.hierarchy.visit(query, [&](std::uint32_t t, ContactQuery& q) {
+    PartOfTriangle part{t, q.part};
     const PatchExclusion proof =
-        exclude_triangle(context, t, selection.group == 0 ? selection.value : most, 0.0, &features);
+        exclude_part(context, part, {selection.group == 0 ? selection.value : most}, 0.0, &features);
     if (proof.margin_m > 0.0) return true;
     context.seed = static_cast<std::uint8_t>(std::min(++solves, 255));
     IterationResult r;
-    iterate(context, face_at(t, proof.u, proof.v), seed_budget(context.finger), r);
+    iterate(context, start_on(context, part, proof), seed_budget(context.finger), r);
     selection.offer(context, r);
     if (selection.group == 0) limit_query(q, context.finger, std::min(most, selection.value));
     return solves < kMaxSolves;

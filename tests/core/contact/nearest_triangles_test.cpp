@@ -1,5 +1,6 @@
 // The nearest-triangle structure against brute force over all triangles.
 #include "core/contact/nearest_triangles.h"
+#include "tests/core/capped_cylinder.h"
 #include "tests/core/mesh/sample_meshes.h"
 #include "tests/core/scenes.h"
 
@@ -63,7 +64,52 @@ int different_queries(const ScenePtr& scene, int queries, std::uint64_t seed) {
   return wrong;
 }
 
+/// The same mesh with boxes that are built when they are asked for, in place of Embree.
+ScenePtr in_parts(const ScenePtr& scene) {
+  auto built = ContactScene::build(ContactMesh(scene->mesh()), {.far_parts = false, .whole_up_to = 0});
+  REQUIRE(built.has_value());
+  return *built;
+}
+
+/// Rays that hit another triangle, or elsewhere, by the two structures.
+int different_rays(const ScenePtr& a, const ScenePtr& b, int rays, std::uint64_t seed) {
+  Random random(seed);
+  const double size = glm::length(a->mesh().bounds().size());
+  int wrong = 0;
+  for (int i = 0; i < rays; ++i) {
+    const Vec3 from = random.in_cube(size);
+    const Vec3 towards = i % 4 == 0 ? Vec3(0.0, 0.0, i % 8 == 0 ? 1.0 : -1.0) : random.direction();
+    const auto p = a->nearest().cast(from, towards), q = b->nearest().cast(from, towards);
+    wrong += p.triangle != q.triangle || p.distance_m != q.distance_m || p.u != q.u || p.v != q.v;
+  }
+  return wrong;
+}
+
 }  // namespace
+
+TEST_CASE("boxes built on the way find the same nearest triangles as looking at every one, bit for bit") {
+  int soups = 0;
+  for (std::uint32_t seed = 0; seed < 30; ++seed) {
+    auto built = ContactMesh::build(sample::soup(seed, 4 + static_cast<int>(seed % 20), 3 + static_cast<int>(seed)));
+    if (!built) continue;
+    auto scene = ContactScene::build(std::move(*built), {.far_parts = false, .whole_up_to = 0});
+    REQUIRE(scene.has_value());
+    ++soups;
+    CHECK(different_queries(*scene, rounds(100), seed) == 0);
+  }
+  CHECK(soups > 15);
+  CHECK(different_queries(in_parts(scene_of(make_icosphere(0.040, 3))), rounds(200), 1) == 0);
+  CHECK(different_queries(in_parts(scene_of(*generate_mesh("cube", {.rounding_m = 1.5e-3}))), rounds(200), 3) == 0);
+  CHECK(different_queries(in_parts(spot_scene(180.0)), rounds(200), 4) == 0);
+  CHECK(different(scene_of(make_icosphere(0.040, 2))->mesh(), in_parts(scene_of(make_icosphere(0.040, 2)))->nearest(),
+                  Vec3(0.0), kInf) == 0);
+}
+
+TEST_CASE("boxes built on the way are hit by rays where Embree is") {
+  for (const ScenePtr& scene :
+       {scene_of(make_torus(0.040, 0.015, 48, 24)), spot_scene(180.0), scene_of(sample::cube())})
+    CHECK(different_rays(scene, in_parts(scene), rounds(2000), 7) == 0);
+}
 
 TEST_CASE("the nearest triangles are those of looking at every triangle, bit for bit, on random soups") {
   int soups = 0;
@@ -83,6 +129,30 @@ TEST_CASE("the nearest triangles are those of looking at every triangle, bit for
   CHECK(different_queries(scene_of(make_torus(0.040, 0.015, 48, 24)), rounds(400), 2) == 0);
   CHECK(different_queries(scene_of(*generate_mesh("cube", {.rounding_m = 1.5e-3})), rounds(400), 3) == 0);
   CHECK(different_queries(spot_scene(180.0), rounds(400), 4) == 0);
+}
+
+TEST_CASE("the nearest triangle of a body with flat caps of many slivers is as near as by looking at every triangle") {
+  const ScenePtr scene = scene_of(capped_cylinder(300));
+  const ContactMesh& mesh = scene->mesh();
+  REQUIRE(mesh.flat_regions().count() == 2);
+  Random random(11);
+  int wrong = 0, wrong_rays = 0, hits = 0;
+  for (int i = 0; i < 400; ++i) {
+    const Vec3 q = random.in_cube(0.06);
+    const NearestHit found = scene->nearest().nearest(q, kInf), best = brute_force(mesh, q, kInf)[0];
+    wrong += std::abs(found.distance_m - best.distance_m) > 1e-15;
+    wrong += std::abs(closest_on_triangle(mesh, found.triangle, q).distance_m - found.distance_m) > 0.0;
+    // Straight down, a ray meets the cap that is under it.
+    const auto ray = scene->nearest().cast(q, Vec3(0.0, 0.0, -1.0));
+    const bool over = std::hypot(q.x, q.y)<0.0399, beside = std::hypot(q.x, q.y)> 0.0401;
+    if (beside) wrong_rays += bool(ray);
+    if (!over || std::abs(q.z) < 0.02) continue;
+    ++hits;
+    wrong_rays += q.z < -0.02 ? bool(ray) : !ray || std::abs(ray.distance_m - (q.z - 0.02)) > 1e-12;
+  }
+  CHECK(wrong == 0);
+  CHECK(wrong_rays == 0);
+  CHECK(hits > 20);
 }
 
 TEST_CASE("the nearest triangles of the fandisk are those of looking at every triangle, bit for bit") {

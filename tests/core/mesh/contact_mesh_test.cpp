@@ -9,7 +9,9 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <thread>
 
 using namespace tangent;
 using namespace tangent::sample;
@@ -204,4 +206,33 @@ TEST_CASE("the bunny and the fandisk build without loss") {
   if (!shared_files_there({"meshes/stanford-bunny.obj", "meshes/fandisk.obj"})) return;
   for (const char* file : {"meshes/stanford-bunny.obj", "meshes/fandisk.obj"})
     check_built_without_loss(shared_file(file));
+}
+
+TEST_CASE("a mesh is the same bits whoever does its halves") {
+  const auto swapped = [](const std::function<void()>& a, const std::function<void()>& b) { b(), a(); };
+  const auto at_once = [](const std::function<void()>& a, const std::function<void()>& b) {
+    std::thread other(b);
+    a();
+    other.join();
+  };
+  const auto check = [&](const PolygonMesh& source, const ContactMeshOptions& options) {
+    const auto in_turn = ContactMesh::build(source, options);
+    for (const RunBoth& run_both : {RunBoth(swapped), RunBoth(at_once)}) {
+      const auto other = ContactMesh::build(source, options, run_both);
+      REQUIRE(other.has_value() == in_turn.has_value());
+      if (!in_turn) continue;
+      CHECK(other->content_hash() == in_turn->content_hash());
+      CHECK(std::ranges::equal(other->links(), in_turn->links()));
+      CHECK(other->notes() == in_turn->notes());
+      for (std::size_t i = 0; i < kMeshDefectCount; ++i) {
+        const auto &a = in_turn->defects(static_cast<MeshDefect>(i)), &b = other->defects(static_cast<MeshDefect>(i));
+        CHECK(a.count == b.count);
+        CHECK(a.first == b.first);
+      }
+    }
+  };
+  for (std::uint32_t seed = 0; seed < 60; ++seed)  // with fins, duplicates and slivers
+    check(sample::soup(seed, 4 + static_cast<int>(seed % 9), 60), computed());
+  check(make_icosphere(0.040, 3), computed());
+  check(make_icosphere(0.040, 3), {});
 }

@@ -93,6 +93,78 @@ TEST_CASE("structures are the same bits built in turn, the other way round or at
   CHECK(same_bits(outputs(torus_scene({}, at_once), preset), expected));
 }
 
+TEST_CASE("what is built before, while or after a tick asks for it gives the same bits") {
+  const Preset preset = sphere_preset(0.020, Method::robust);
+  const auto late = [] { return torus_scene({.far_parts = false, .whole_up_to = 0}); };
+  const auto at_once = [](const std::function<void()>& a, const std::function<void()>& b) {
+    std::thread other(b);
+    a();
+    other.join();
+  };
+  const ScenePtr before = torus_scene({.whole_up_to = 0}, at_once);
+  CHECK(before->unbuilt_parts() == 0);
+  const auto expected = outputs(before, preset);
+
+  const ScenePtr on_the_way = late();
+  const std::size_t parts = on_the_way->unbuilt_parts();
+  CHECK(parts > 100);
+  CHECK(same_bits(outputs(on_the_way, preset), expected));
+  CHECK(on_the_way->unbuilt_parts() > 0);  // the torus's other side
+  CHECK(on_the_way->unbuilt_parts() < parts);
+  CHECK(on_the_way->memory_bytes() < before->memory_bytes());
+
+  const ScenePtr beside = late();
+  std::thread builder([&] { beside->build_far_parts(run_in_turn); });
+  std::vector<TickOutput> others;
+  std::thread another([&] { others = outputs(beside, preset); });
+  const auto meanwhile = outputs(beside, preset);
+  builder.join();
+  another.join();
+  CHECK(beside->unbuilt_parts() == 0);
+  CHECK(same_bits(meanwhile, expected));
+  CHECK(same_bits(others, expected));
+}
+
+TEST_CASE("where the parts near the finger are built, ticks seldom build any") {
+  const auto ticks_that_build = [](double radius, bool ahead) {
+    const Preset preset = sphere_preset(radius, Method::robust);
+    const ScenePtr scene = torus_scene({.far_parts = false, .whole_up_to = 0});
+    scene->search();
+    Stepper stepper(scene);
+    TickState state;
+    int built = 0;
+    for (int i = 0; i < 200; ++i) {
+      const double a = 0.002 * i;
+      const Vec3 at(0.04 * std::cos(a), 0.04 * std::sin(a), 0.0145 + radius);
+      if (ahead) scene->build_near(at, preset.finger.reach_m());
+      const std::size_t before = scene->unbuilt_parts();
+      stepper.step(preset, at_position(1e-3 * i, at), state);
+      built += scene->unbuilt_parts() != before;
+    }
+    CHECK(scene->unbuilt_parts() > 0);
+    return built;
+  };
+  for (const double radius : {0.0, 0.005, 0.020}) {
+    CAPTURE(radius);
+    const int alone = ticks_that_build(radius, false), ahead = ticks_that_build(radius, true);
+    CHECK(ahead < alone);
+    CHECK(ahead <= 3);
+  }
+}
+
+TEST_CASE("contacts of a mesh built in parts are those of one built as a whole") {
+  for (const Method method : {Method::robust, Method::facet}) {
+    const Preset preset = sphere_preset(0.020, method);
+    const auto whole = outputs(torus_scene({}), preset), parts = outputs(torus_scene({.whole_up_to = 0}), preset);
+    REQUIRE(whole.size() == parts.size());
+    for (std::size_t i = 0; i < whole.size(); ++i) {
+      CHECK(whole[i].status == parts[i].status);
+      CHECK(glm::length(whole[i].contact - parts[i].contact) < 1e-9);
+      CHECK(glm::length(whole[i].force_n - parts[i].force_n) < 1e-9);
+    }
+  }
+}
+
 TEST_CASE("a 2D scene for ticks alone has no mesh, less than half of the memory, and the same bits") {
   const auto scene = [](const SceneParts& parts) {
     auto curve = PlanarCurve::build(make_regular_polygon(2000, 0.05));

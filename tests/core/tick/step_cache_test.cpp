@@ -58,7 +58,8 @@ bool same_output(const TrackedPlane& a, const TrackedPlane& b) {
 bool same_output(const TickState& a, const TickState& b) {
   return same_output(a.plane, b.plane) && a.last_converged.point == b.last_converged.point &&
          a.last_converged.normal == b.last_converged.normal && a.has_converged == b.has_converged &&
-         a.last_converged_s == b.last_converged_s && a.last_position == b.last_position && a.last_t_s == b.last_t_s &&
+         a.last_converged_s == b.last_converged_s && a.last_position == b.last_position &&
+         a.last_orientation == b.last_orientation && a.last_t_s == b.last_t_s &&
          a.clearance.free_m == b.clearance.free_m && a.clearance.centre == b.clearance.centre;
 }
 
@@ -164,7 +165,7 @@ TEST_CASE(
         for (int time = 0; time < 2; ++time) {
           std::size_t seen = 0, rays = 0, off = 0;
           cache->around(
-              t, k, NormalForm::bernstein,
+              t, k, NormalForm::bernstein, [](const Vec3&) { return Vec3(0.0); },
               [&](std::uint32_t at, std::uint32_t c, const SurfaceSample& s) {
                 ++seen;
                 off += glm::distance(s.point, mesh.position(t, k)) > 1e-15 || mesh.vertex(at, c) != mesh.vertex(t, k);

@@ -6,6 +6,11 @@
 #include "tests/devices/usb/usb_checks.h"
 #include "tests/support/temp_folder.h"
 
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <csignal>
 #include <sstream>
 
 using namespace tangent;
@@ -64,4 +69,25 @@ TEST_CASE("every packet of a link is written down and reads back as the frames i
 
 TEST_CASE("a file that can't be written is refused") {
   CHECK_FALSE(PacketRecorder::create("/no/such/folder/packets.txt"));
+  CHECK_FALSE(PacketRecorder::create("/dev/full"));
+}
+
+TEST_CASE("a log that lacks packets says so") {
+  const testing::TempFolder folder;
+  const std::string pipe = folder.file("pipe");
+  REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+  const int reader = ::open(pipe.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  REQUIRE(reader >= 0);
+  auto* const before = std::signal(SIGPIPE, SIG_IGN);
+  {
+    auto recorder = PacketRecorder::create(pipe);
+    REQUIRE(recorder);
+    CHECK((*recorder)->complete());
+    ::close(reader);
+    const std::array<std::uint8_t, 3> bytes{1, 2, 3};
+    (*recorder)->packet(UsbTap::Direction::in, 0, bytes, 0);
+    REQUIRE(eventually([&] { return !(*recorder)->complete(); }));
+    CHECK((*recorder)->complete().error().where == pipe);
+  }
+  std::signal(SIGPIPE, before);
 }

@@ -43,7 +43,7 @@ struct SessionBench {
     session->attach_recorder();
     session->start();
   }
-  ~SessionBench() { session->shut_down(); }
+  ~SessionBench() { static_cast<void>(session->shut_down()); }
 
   void take() {
     session->poll();

@@ -131,3 +131,18 @@ TEST_CASE("a closed mesh that is inside out is said by audit and solve, and turn
   CHECK(penetration({}) == doctest::Approx(0.009));
   CHECK(penetration({"--turn-over"}) == doctest::Approx(0.001));
 }
+
+TEST_CASE("a mesh and a preset whose names are not UTF-8 are audited and solved, and the JSON stays JSON") {
+  const TempFolder folder;
+  const std::string mesh = folder.file("m\xE9sh.obj"), preset = folder.file("pr\xE9set.toml");
+  REQUIRE(run_workbench({"make", "cube", "--out", mesh}).exit_code == 0);
+  folder.write("pr\xE9set.toml", "[force]\nstiffness_n_per_m = 700\n");
+  CHECK(run_workbench({"audit", mesh, "--json", folder.file("audit.json")}).exit_code == 0);
+  const auto audit = nlohmann::json::parse(read_text(folder.file("audit.json")));
+  CHECK(audit["mesh"]["name"] == "file:m%E9sh.obj");
+  folder.write("poses.csv", "t_s,x_m,y_m,z_m\n0,0,0,0.05\n");
+  const ProcessResult solved = run_workbench({"solve", mesh, "--preset", preset, "--poses", folder.file("poses.csv"),
+                                              "--out", folder.file("t.csv"), "--summary", folder.file("s.json")});
+  CHECK(solved.exit_code == 0);
+  CHECK(nlohmann::json::parse(read_text(folder.file("s.json")))["mesh"]["name"] == "file:m%E9sh.obj");
+}

@@ -49,9 +49,38 @@ TEST_CASE("a signal ends the monitor in order, with its report") {
   }
 }
 
+TEST_CASE("monitor places the scene as asked, and refuses what can't be") {
+  const std::vector<std::string> short_run{"monitor", "--seconds", "0.5"};
+  const auto with = [&short_run](const std::vector<std::string>& more) {
+    std::vector<std::string> all = short_run;
+    all.insert(all.end(), more.begin(), more.end());
+    return run_workbench(all);
+  };
+  const ProcessResult placed =
+      with({"--place-scale", "0.5", "--place-offset-mm", "1", "-2.5", "3", "--place-rotate-deg", "0", "-90", "45"});
+  CHECK(placed.exit_code == 0);
+  CHECK(has(placed.out, "Scene on the device: scale 0.5, the device at 1.00 -2.50 3.00 mm, turned by"));
+  const ProcessResult fitted = with({"--place-fit"});
+  CHECK(fitted.exit_code == 0);
+  CHECK_FALSE(has(fitted.out, "scale 1,"));
+  const std::vector<std::vector<std::string>> wrong{{"--place-scale", "0"},
+                                                    {"--place-scale", "nan"},
+                                                    {"--place-scale", "1e4"},
+                                                    {"--place-offset-mm", "1", "inf", "0"},
+                                                    {"--place-offset-mm", "1", "2"},
+                                                    {"--place-rotate-deg", "1", "x", "0"},
+                                                    {"--place-fit", "--place-scale", "2"}};
+  for (const auto& options : wrong) {
+    CAPTURE(options.back());
+    const ProcessResult r = with(options);
+    CHECK(r.exit_code == 2);
+    CHECK(has(r.err, "--place-"));
+  }
+}
+
 TEST_CASE("monitor refuses unknown faults and devices, naming the choices") {
   const ProcessResult fault = run_workbench({"monitor", "--seconds", "1", "--inject", "gremlins"});
-  CHECK(fault.exit_code == 1);
+  CHECK(fault.exit_code == 2);
   CHECK(has(fault.err, "stuck-encoder"));
   const ProcessResult device = run_workbench({"monitor", "--seconds", "1", "--device", "phantom"});
   CHECK(device.exit_code == 2);
@@ -60,6 +89,16 @@ TEST_CASE("monitor refuses unknown faults and devices, naming the choices") {
   CHECK(force.exit_code == 2);
   CHECK(has(force.err, "ideal"));
   CHECK(run_workbench({"monitor", "--seconds", "x"}).exit_code == 2);
+  const ProcessResult both = run_workbench({"monitor", "--seconds", "1", "--arm", "--stay-stopped"});
+  CHECK(both.exit_code == 2);
+  CHECK(has(both.err, "--stay-stopped"));
+}
+
+TEST_CASE("a log of packets that can't be written ends the monitor before anything moves") {
+  const ProcessResult r = run_workbench({"monitor", "--seconds", "1", "--packets", "/dev/full"});
+  CHECK(r.exit_code == 1);
+  CHECK(has(r.err, "/dev/full"));
+  CHECK_FALSE(has(r.out, "armed"));
 }
 
 TEST_CASE("force device and display are chosen apart, whatever --device says") {

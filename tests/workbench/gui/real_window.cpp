@@ -103,8 +103,9 @@ WindowScript& WindowScript::until_there(const std::string& pattern) { return lin
 void drive(const WindowRun& run, const WindowScript& script) {
   const auto file = run.folder / "drive.sh";
   std::ofstream(file)
-      << "cd " << run.folder.string() << "\nexport XDG_CONFIG_HOME=" << run.folder.string()
-      << "/config\npatience=" << kPatience << "\nscreen=" << run.width << "x" << run.height << "x24\n"
+      << "cd " << run.folder.string() << "\nexport XDG_DATA_HOME=" << run.folder.string()
+      << " XDG_CONFIG_HOME=" << run.folder.string() << "/config\npatience=" << kPatience << "\nscreen=" << run.width
+      << "x" << run.height << "x24\n"
       << "trap 'kill $program $xvfb 2>/dev/null; wait $xvfb 2>/dev/null' EXIT\n"
       << kFunctions
       // The GL driver leaks from a module that is unloaded by the time leaks are looked for; ours are found elsewhere.

@@ -58,7 +58,8 @@ void write_tetrahedron(const std::filesystem::path& file) {
 TEST_CASE("the real window opens a mesh, takes a typed gain, pauses, steps, saves a preset and closes") {
   REQUIRE_DISPLAY();
   const auto folder = fresh_folder("tangent_window_smoke");
-  const auto preset = folder / "start.toml", saved = folder / "typed.toml", mesh = folder / "tetra.obj";
+  const auto preset = folder / "start.toml", saved = folder / "tangent-workbench/presets/typed.toml",
+             mesh = folder / "tetra.obj";
   std::ofstream(preset) << "[solver]\ngain_overall = 0.9\n";
   write_tetrahedron(mesh);
   AppOptions options = HeadlessApp::deterministic_options();

@@ -51,14 +51,19 @@ struct Run {
   double energy_j = 0.0;  ///< most that the loop made
 };
 
+struct Wall {
+  double stiffness_n_per_m = 0.0, damping_n_s_per_m = 0.0;
+};
+
 /// The hand presses on a sphere, straight down, with the solver in the loop.
-Run press(SimulatedForceOptions o, double stiffness, double aim_m = 1e-3, int ticks = 3000) {
+Run press(SimulatedForceOptions o, Wall wall, double aim_m = 1e-3, int ticks = 3000) {
   o.tremor_m = 10e-6;
   DeviceSet set;
   set.force = std::make_unique<SimulatedForceDevice>(o);
   REQUIRE(set.force->open());
   Preset preset;
-  preset.force.stiffness_n_per_m = stiffness;
+  preset.force.stiffness_n_per_m = wall.stiffness_n_per_m;
+  preset.force.damping_n_s_per_m = wall.damping_n_s_per_m;
   TickBench bench(std::move(set), sphere_scene(), preset);
   const double top = 0.040 + preset.finger.radius_m;
   HandCommand hand;
@@ -96,7 +101,7 @@ TEST_CASE("contact is stable below the stiffness theory gives for the hand and s
     o.friction_n = o.position_step_m = 0.0;
     const double limit = theory_limit(o);
     // Long enough for the landing to have died away.
-    const Run below = press(o, 0.8 * limit, 1e-3, 6000), above = press(o, 1.3 * limit, 1e-3, 6000);
+    const Run below = press(o, {0.8 * limit}, 1e-3, 6000), above = press(o, {1.3 * limit}, 1e-3, 6000);
     MESSAGE("hand damping " << damping << " N s/m: shakes from " << limit << " N/m; at 0.8 of it by "
                             << below.amplitude_m * 1e6 << " um, at 1.3 of it by " << above.amplitude_m * 1e6 << " um");
     CHECK(below.amplitude_m < 25e-6);  // tremor of 10 um RMS
@@ -111,13 +116,31 @@ TEST_CASE("a hand that presses hard on a shaking contact is spared: the gate sto
     o.hand_damping_n_s_per_m = damping;
     o.friction_n = o.position_step_m = 0.0;
     const double limit = theory_limit(o);
-    CHECK(press(o, 0.8 * limit, 10e-3).fault == GateFault::none);
+    CHECK(press(o, {0.8 * limit}, 10e-3).fault == GateFault::none);
     for (const double beyond : {1.3, 2.0}) {
-      const Run run = press(o, beyond * limit, 10e-3);
+      const Run run = press(o, {beyond * limit}, 10e-3);
       MESSAGE("hand damping " << damping << " N s/m, " << beyond << " of the limit: " << run.amplitude_m * 1e6
                               << " um in the end, at most " << run.energy_j * 1e3 << " mJ made");
       CHECK(run.fault == GateFault::shaking);
       CHECK(run.amplitude_m < 0.5e-3);
     }
   }
+}
+
+TEST_CASE("the simulated device renders the damping that it names without trembling, and not three times that") {
+  SimulatedForceOptions o;
+  o.hand_damping_n_s_per_m = 4.0;  // a hand that damps little itself
+  o.friction_n = 0.0;
+  const double largest = SimulatedForceDevice(o).capabilities().largest_damping_n_s_per_m;
+  REQUIRE(largest > 0.0);
+  const double step = o.position_step_m;
+  for (const double share : {0.1, 0.5, 1.0}) {
+    const Run soft = press(o, {100.0, share * largest}, 10e-3), hard = press(o, {2000.0, share * largest}, 10e-3);
+    MESSAGE((share * largest) << " N s/m: " << soft.amplitude_m * 1e6 << " um on 100 N/m, " << hard.amplitude_m * 1e6
+                              << " um on 2,000 N/m");
+    CHECK(std::max(soft.amplitude_m, hard.amplitude_m) <= 1.01 * step);
+  }
+  const Run beyond = press(o, {2000.0, 3.4 * largest}, 10e-3);
+  MESSAGE((3.4 * largest) << " N s/m: " << beyond.amplitude_m * 1e6 << " um");
+  CHECK(beyond.amplitude_m > 3.0 * step);
 }

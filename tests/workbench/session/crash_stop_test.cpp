@@ -3,10 +3,13 @@
 #include "workbench/session/crash_stop.h"
 
 #include "tests/workbench/session/session_fixture.h"
+#include "workbench/session/raw_terminal.h"
 #include "workbench/session/servo.h"
 
 #include <doctest/doctest.h>
 
+#include <pty.h>
+#include <sys/ioctl.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -41,6 +44,7 @@ struct Witness {
   std::atomic<bool> last_was_stop{false};
   std::atomic<std::int64_t> last_ns{0}, ended_ns{0};
   std::atomic<bool> crash_in_exchange{false};
+  std::atomic<int> exchanges{0};
 };
 
 /// On the surface while it is armed, then 1 mm deep.
@@ -74,6 +78,7 @@ struct WitnessedDevice final : ForceDevice {
     witness.last_n = n;
     witness.last_was_stop = command.request == DeviceRequest::stop;
     witness.last_ns = monotonic_ns();
+    ++witness.exchanges;
     if (n > witness.most_n) witness.most_n = n;
     if (witness.crash_in_exchange.exchange(false)) *static_cast<volatile int*>(nullptr) = 1;
     ForceSample sample;
@@ -211,6 +216,114 @@ TEST_CASE("however the process ends, the last command is zero force") {
     CHECK(witness.last_was_stop);
   }
   munmap(&witness, sizeof witness);
+}
+
+namespace {
+
+/// In the parent, once it pushes: suspended as by Ctrl-Z, looked at, and let go on. -1: the machine was too slow.
+int suspend_once(Witness& witness, bool called) {
+  new (&witness) Witness;
+  std::cout.flush();
+  const pid_t child = fork();
+  if (child == 0) {
+    setpgid(0, 0);  // a group of its own, as a shell gives it: an orphaned one is not suspended
+    push_until(
+        witness, [] {}, called);
+  }
+  int status = 0;
+  while (witness.ended_ns == 0) {
+    if (waitpid(child, &status, WNOHANG) == child) return -1;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  const std::int64_t asked_ns = monotonic_ns();
+  kill(child, SIGTSTP);
+  while (waitpid(child, &status, WUNTRACED) < 0 && errno == EINTR) {}
+  MESSAGE("suspended after " << static_cast<double>(monotonic_ns() - asked_ns) * 1e-6 << " ms, zero force after "
+                             << static_cast<double>(witness.last_ns - asked_ns) * 1e-6 << " ms");
+  if (!WIFSTOPPED(status)) return -1;
+  CHECK(WSTOPSIG(status) == SIGTSTP);
+  CHECK(witness.most_n > 0.5);
+  CHECK(witness.last_n == 0.0);
+  CHECK(witness.last_was_stop);
+  const int then = witness.exchanges;
+  std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  CHECK(witness.exchanges == then);
+  witness.most_n = 0.0;
+  kill(child, SIGCONT);
+  while (witness.exchanges < then + 300) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  CHECK(witness.most_n == 0.0);  // the finger is 1 mm deep
+  kill(child, SIGTERM);
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {}
+  CHECK(WIFSIGNALED(status));
+  CHECK(WTERMSIG(status) == SIGTERM);
+  return 0;
+}
+
+/// A shell's part: a job on a terminal of its own, in the foreground. The number of the first thing that was wrong.
+int run_on_terminal(int slave) {
+  const auto raw = [slave] {
+    termios now{};
+    tcgetattr(slave, &now);
+    return (now.c_lflag & (ICANON | ECHO)) == 0;
+  };
+  const auto waits_for = [](const std::function<bool()>& what) {
+    for (int ms = 0; ms < 20'000 && !what(); ++ms) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    return what();
+  };
+  setsid();
+  if (ioctl(slave, TIOCSCTTY, 0) != 0) return 1;
+  dup2(slave, STDIN_FILENO);
+  std::signal(SIGTTOU, SIG_IGN);
+  const pid_t job = fork();
+  if (job == 0) {
+    setpgid(0, 0);
+    for (int signal = 1; signal < NSIG; ++signal) std::signal(signal, SIG_DFL);
+    while (tcgetpgrp(STDIN_FILENO) != getpgrp()) std::this_thread::yield();
+    const rlimit no_core{0, 0};
+    setrlimit(RLIMIT_CORE, &no_core);
+    install_crash_stop();
+    const RawTerminal terminal;
+    for (;;) pause();
+  }
+  setpgid(job, job);
+  if (tcsetpgrp(slave, job) != 0) return 2;
+  if (raw() || !waits_for(raw)) return 3;
+  int status = 0;
+  kill(job, SIGTSTP);
+  if (waitpid(job, &status, WUNTRACED) != job || !WIFSTOPPED(status)) return 4;
+  if (raw()) return 5;
+  kill(job, SIGCONT);
+  if (!waits_for(raw)) return 6;
+  kill(job, SIGQUIT);
+  if (waitpid(job, &status, 0) != job || !WIFSIGNALED(status)) return 7;
+  return raw() ? 8 : 0;
+}
+
+}  // namespace
+
+TEST_CASE("suspended, the last command is zero force, and it goes on disarmed") {
+  Witness& witness = shared_witness();
+  for (const bool called : {false, true}) {
+    CAPTURE(called);
+    int done = -1;
+    for (int attempt = 0; attempt < 20 && done < 0; ++attempt) done = suspend_once(witness, called);
+    CHECK(done == 0);
+  }
+  munmap(&witness, sizeof witness);
+}
+
+TEST_CASE("a terminal that gives single keys is itself again while the program is suspended, and after SIGQUIT") {
+  int master = -1, slave = -1;
+  REQUIRE(openpty(&master, &slave, nullptr, nullptr, nullptr) == 0);
+  std::cout.flush();
+  const pid_t shell = fork();
+  if (shell == 0) _exit(run_on_terminal(slave));
+  int status = 0;
+  while (waitpid(shell, &status, 0) < 0 && errno == EINTR) {}
+  CHECK(WIFEXITED(status));
+  CHECK(WEXITSTATUS(status) == 0);
+  close(slave);
+  close(master);
 }
 
 #endif

@@ -29,6 +29,7 @@ struct WaryForceDevice final : ForceDevice {
   DeviceState state = DeviceState::ready;
   Vec3 position{0.0, 0.0, 0.059};
   double age_s = 0.0;
+  std::uint32_t buttons = 0;
   bool must_be_zero = false;  ///< in the next exchange
   Vec3 last{0.0};
   std::string wrong;
@@ -49,6 +50,7 @@ struct WaryForceDevice final : ForceDevice {
     sample.position_m = position;
     sample.age_s = age_s;
     sample.state = state;
+    sample.buttons = buttons;
     return sample;
   }
 };
@@ -56,7 +58,8 @@ struct WaryForceDevice final : ForceDevice {
 struct ServoUnderTest {
   WaryForceDevice* device = new WaryForceDevice;
   TickBench bench;
-  std::uint32_t presets = 0;
+  std::uint32_t presets = 0, placements = 0;
+  Placement placed;
   bool may_arm = false, was_live = false;  ///< may: a person has pressed Arm since the last stop or fault
 
   static DeviceSet with(WaryForceDevice* wary) {
@@ -84,13 +87,22 @@ struct ServoUnderTest {
     const bool live = r.device.gate_state == GateState::ramping || r.device.gate_state == GateState::armed;
     if (live && !may_arm) return "it armed by itself";
     if (was_live && !live) may_arm = false;  // until then the wish to arm waits for the device
+    PlacementReport now;
+    if (bench.channels.placed.take(now)) {
+      const bool moved = !(now.placement == placed);
+      placed = now.placement;
+      // One that is not armed yet may arm in this very tick; it sends nothing before the next.
+      if (moved && (device->last != Vec3(0.0) || (was_live && live) || now.refused))
+        return "placed while force was sent";
+      if (now.clutched && live) return "armed while the clutch was held";
+    }
     was_live = live;
     if (!std::isfinite(r.device.energy_j)) return "the energy is not finite";
     return device->wrong;
   }
 
   std::string apply(std::uint32_t bits) {
-    const unsigned kind = bits % 14, a = bits / 14 % 256;
+    const unsigned kind = bits % 17, a = bits / 17 % 256;
     const double share = a / 255.0;
     double dt = 1e-3;
     if (kind == 1) {
@@ -124,20 +136,30 @@ struct ServoUnderTest {
       bench.channels.presets.put({++presets, preset});
     } else if (kind == 12) {
       bench.channels.scenes.offer(prepared(a % 2 == 1));
+    } else if (kind == 14) {
+      const Quat turned = glm::angleAxis(6.0 * share, Vec3(0.6, 0.0, 0.8));
+      bench.channels.placement.put(
+          {++placements, {std::exp(4.0 * share - 2.0), turned, Vec3(0, 0, 0.02 * share)}, a % 2 == 0});
+    } else if (kind == 15) {
+      bench.channels.clutch = a % 2 == 0;
+    } else if (kind == 16) {
+      device->buttons = a % 4;
     }
     std::string wrong = tick(dt);
-    for (unsigned i = 0; i < bits / 3584 % 64 && wrong.empty(); ++i) wrong = tick(1e-3);
+    for (unsigned i = 0; i < bits / 4352 % 64 && wrong.empty(); ++i) wrong = tick(1e-3);
     return wrong;
   }
 };
 
 }  // namespace
 
-TEST_CASE("whatever comes, in any order, the servo sends no more than the peak, nothing after a stop, and never arms") {
+TEST_CASE(
+    "whatever comes, in any order, the servo sends no more than the peak, nothing after a stop, never arms, and leaves "
+    "a placement be") {
   std::uint64_t events = 0;
   const auto property = [&events](const std::vector<std::uint32_t>& sequence) {
     ServoUnderTest servo;
-    std::string wrong = servo.apply(1 + 63 * 3584);
+    std::string wrong = servo.apply(1 + 63 * 4352);
     for (std::size_t i = 0; i < sequence.size() && wrong.empty(); ++i) wrong = servo.apply(sequence[i]);
     events += sequence.size();
     servo.bench.channels.scenes.collect();

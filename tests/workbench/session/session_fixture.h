@@ -33,6 +33,7 @@ struct PuppetForceDevice final : ForceDevice {
   DeviceState state = DeviceState::ready;
   Vec3 position{0.0};
   std::optional<Vec3> velocity;  // as it says it measures
+  std::uint32_t buttons = 0;
   std::vector<ForceCommand> commands;
   std::function<void(PuppetForceDevice&)> before;
 
@@ -46,6 +47,7 @@ struct PuppetForceDevice final : ForceDevice {
     ForceSample sample;
     sample.position_m = position;
     sample.velocity_m_per_s = velocity;
+    sample.buttons = buttons;
     sample.state = state;
     sample.fault = state == DeviceState::faulted ? DeviceFault::sensor : DeviceFault::none;
     return sample;

@@ -22,6 +22,8 @@ UnsavedWork some_work() {
   preset.current.solver.method = Method::paper;
   work.steps.push_back({"solver.gain_curvature_m \u2192 0.3", 0, {preset, work.steps[0].slots[1]}});
   work.steps.push_back({"switch to B", 1, work.steps[1].slots});
+  work.steps[2].slots[1].name = "not UTF-8: \xE9";
+  work.steps[2].slots[1].path = "/tmp/\xE9.toml";
   work.at = 1;
   work.bookmarks = {{12345, 12.345, "here it \"jumps\"\nand stays"}, {20000, 20.0, ""}};
   return work;

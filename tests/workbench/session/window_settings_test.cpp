@@ -21,6 +21,7 @@ TEST_CASE("settings read back as they were written, with odd names") {
   s.sections = {{"Iterations", false}, {"A \"quoted\" title", true}};
   s.favourites = {"solver.gain_overall"};
   s.opened("/tmp/a b/\u00fc.obj");
+  s.opened("/tmp/m\xE9sh, not UTF-8.obj");
   s.opened("torus");
   const auto path = folder.path() / "new" / "folder" / "window.toml";
   REQUIRE(write_window_settings(s, path));
@@ -76,6 +77,8 @@ TEST_CASE("the path follows XDG_CONFIG_HOME when it is absolute, else the home f
   CHECK(window_settings_path() == "/tmp/config/tangent-workbench/window.toml");
   ::setenv("XDG_CONFIG_HOME", "relative", 1);
   CHECK(window_settings_path().string().find("relative") == std::string::npos);
+  CHECK(user_presets_path().filename() == "presets");
+  CHECK(user_presets_path().string().find("config") == std::string::npos);
   if (old != nullptr)
     ::setenv("XDG_CONFIG_HOME", kept.c_str(), 1);
   else

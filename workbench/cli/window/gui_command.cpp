@@ -71,6 +71,7 @@ int run_gui_or_pictures() {
   if (const Status display = display_available(); !display) return draw_builtin_pictures(display.error().what);
   AppOptions options;
   options.settings = window_settings_path();
+  options.preset_folder = user_presets_path();
   return run_gui(options);
 }
 
@@ -90,12 +91,14 @@ void add_gui_command(CLI::App& app, CommandResult& result) {
   add_text_option(*command, "--record", options->app.record, "Record the session into this file", "F.sqlite");
   on_run(*command, [options, &result] {
     options->app.settings = window_settings_path();
+    options->app.preset_folder = user_presets_path();
     options->app.mesh = options->mesh.file.string();
     options->app.metres_per_unit = options->mesh.metres_per_unit;
     options->app.mesh_options = options->mesh.build;
     options->app.devices = options->devices.names;
     options->app.maestro = options->devices.maestro;
     options->app.packets = options->devices.packets;
+    options->app.place = options->devices.place;
     options->app.servo_cpu = options->devices.servo_cpu;
     options->app.arm_on_start = options->arm ? ArmOnStart::always : ArmOnStart::simulated;
     if (!options->app.record.empty())

@@ -37,6 +37,18 @@ AppModel::~AppModel() {
   window_.keep_settings(kept_look(), kLastWait_s);
 }
 
+const ContactMesh* AppModel::mesh() const {
+  const ContactScene* scene = scene_.current().get();
+  return scene != nullptr && scene->planar() == nullptr ? &scene->mesh() : nullptr;
+}
+
+void AppModel::open(const std::string& file) {
+  if (std::filesystem::path(file).extension() == ".toml")
+    presets_.load(file, mesh());
+  else
+    scene_.open(file);
+}
+
 void AppModel::keep() {
   window_.keep_settings(kept_look(), kLastWait_s);
   unsaved_.keep();

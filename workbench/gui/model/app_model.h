@@ -46,6 +46,9 @@ class AppModel {
   const WindowModel& window() const { return window_; }
   PresetModel& presets() { return presets_; }
   const PresetModel& presets() const { return presets_; }
+  /// A preset (.toml), a mesh, a polygon, or the name of a generated object. Failures are messages.
+  void open(const std::string& file);
+  const ContactMesh* mesh() const;  ///< null: none yet, or a 2D scene
   SceneModel& scene() { return scene_; }
   const SceneModel& scene() const { return scene_; }
   MapView& map() { return map_; }  ///< over the mesh

@@ -18,9 +18,10 @@ struct AppOptions {
   double metres_per_unit = 1e-3;  ///< of the mesh file (--unit)
   ContactMeshOptions mesh_options;
   std::filesystem::path preset;         ///< empty: the shipped default
-  std::filesystem::path preset_folder;  ///< listed in the presets panel; empty: where `preset` is, or the shipped ones
+  std::filesystem::path preset_folder;  ///< where presets are saved; empty: where `preset` is, or the shipped ones
   DeviceNames devices;
   ArmOnStart arm_on_start = ArmOnStart::simulated;  ///< of the first session; later ones begin without force
+  PlaceOptions place;                               ///< of the scene on the force device
   MaestroWish maestro;                              ///< for the display "maestro"
   std::filesystem::path packets;                    ///< file to which USB packets are logged; empty: none
   double servo_hz = 1000.0;                         ///< kSlowestServoHz to kFastestServoHz

@@ -19,6 +19,7 @@ SessionOptions session_options(const AppOptions& from) {
   options.history_s = from.history_s;
   options.arm_on_start = from.arm_on_start;
   options.threaded = !from.deterministic;
+  options.place = from.place;
   return options;
 }
 
@@ -59,7 +60,9 @@ void DeviceModel::make_session() {
     return;
   }
   session_ = std::move(*session);
-  capped_n_per_m_ = 0.0;
+  capped_ = {};
+  clutch_ = {};
+  clutch_held_ = placement_refused_ = false;
   last_hung_ = ExchangeWith::none;
   say_what_differs();
   for (const std::string& name : session_->without_timeout())
@@ -70,10 +73,18 @@ void DeviceModel::make_session() {
   status_ = session_->status();
 }
 
+void DeviceModel::end_session() {
+  if (session_ == nullptr) return;
+  if (const Status ended = session_->shut_down(); !ended) {
+    messages_.say(Severity::error, ended.error().message());
+    std::fprintf(stderr, "workbench gui: %s\n", ended.error().message().c_str());  // the window may be closing
+  }
+  session_.reset();
+}
+
 void DeviceModel::restart_session() {
   if (scene_.current() == nullptr) return;
-  // Releases the old session's devices before the new one opens them.
-  session_.reset();
+  end_session();  // releases its devices before the new one opens them
   status_ = {};
   session_ended_();
   make_session();
@@ -96,22 +107,58 @@ std::optional<std::uint32_t> DeviceModel::send_preset() {
   return std::nullopt;
 }
 
-// Once for every stiffness that is asked for.
+// Once for every value that is asked for.
 void DeviceModel::say_what_differs() {
-  const double asked = presets_.current().force.stiffness_n_per_m;
-  const double used = session_->preset().force.stiffness_n_per_m;
-  if (used < asked && asked != capped_n_per_m_) {
-    char text[160];
-    std::snprintf(text, sizeof text, "the stiffness of %.0f N/m is more than %s renders stably: it uses %.0f N/m",
-                  asked, session_->force_capabilities()->name.c_str(), used);
-    messages_.say(Severity::warning, text);
-  }
-  capped_n_per_m_ = used < asked ? asked : 0.0;
+  const auto say = [this](const char* what, const char* unit, double asked, double used, double& said) {
+    if (used < asked && asked != said) {
+      char text[200];
+      std::snprintf(text, sizeof text, "the %s of %.4g %s is more than %s renders stably: it uses %.4g %s", what, asked,
+                    unit, session_->force_capabilities()->name.c_str(), used, unit);
+      messages_.say(Severity::warning, text);
+    }
+    said = used < asked ? asked : 0.0;
+  };
+  const ForceSettings &asked = presets_.current().force, &used = session_->preset().force;
+  say("stiffness", "N/m", asked.stiffness_n_per_m, used.stiffness_n_per_m, capped_.stiffness_n_per_m);
+  say("damping", "N s/m", asked.damping_n_s_per_m, used.damping_n_s_per_m, capped_.damping_n_s_per_m);
+}
+
+void DeviceModel::say_if_refused(const Status& status) {
+  if (!status) messages_.say(Severity::warning, status.error().message());
+}
+
+std::string DeviceModel::placement_locked() const {
+  if (session_ == nullptr) return "no session";
+  const Status may = session_->may_place();
+  return may ? std::string() : may.error().message();
+}
+
+void DeviceModel::place(const Placement& placement) {
+  if (session_ != nullptr) say_if_refused(session_->place(placement));
+}
+
+void DeviceModel::fit_to_workspace() {
+  if (session_ != nullptr) say_if_refused(session_->fit_to_workspace());
+}
+
+void DeviceModel::take_clutch() {
+  const bool held = clutch_.key || clutch_.button || clutch_.latched;
+  clutch_.key = clutch_.button = false;
+  if (held == clutch_held_) return;
+  const Status told = session_->hold_clutch(held);
+  say_if_refused(told);
+  clutch_held_ = held;  // refused: once for every press
+  if (!told) clutch_.latched = false;
 }
 
 void DeviceModel::take_status() {
   if (session_ == nullptr) return;
+  take_clutch();
   status_ = session_->status();
+  say_what_differs();  // another placement caps anew
+  if (status_.placement_refused && !placement_refused_)
+    messages_.say(Severity::warning, "the scene was not placed: force was sent by then. Stop first (Escape)");
+  placement_refused_ = status_.placement_refused;
   const GateFault gate_fault = status_.servo.gate_fault;
   if (gate_fault != last_gate_fault_ && gate_fault != GateFault::none)
     messages_.say(Severity::error, std::string("force stopped: ") + to_string(gate_fault) + "; Arm lets it in again");
@@ -125,6 +172,9 @@ void DeviceModel::take_status() {
   if (status_.force_fault != last_fault_ && status_.force_fault != DeviceFault::none)
     messages_.say(Severity::error, std::string("force device: ") + to_string(status_.force_fault));
   last_fault_ = status_.force_fault;
+  const Status log = session_->packet_log();
+  if (!log && packet_log_complete_) messages_.say(Severity::error, "log of USB packets: " + log.error().message());
+  packet_log_complete_ = log.has_value();
 }
 
 void DeviceModel::calibrate_maestro(const MaestroCalibration& calibration, unsigned channel) {

@@ -29,7 +29,7 @@ class DeviceModel {
   const DeviceNames& names() const { return options_.devices; }
   void choose(const DeviceNames& names);  ///< a new session
 
-  void end_session() { session_.reset(); }  ///< stops the force and releases the devices
+  void end_session();  ///< stops the force and releases the devices
 
   // Called by the other parts.
   void take_scene(PreparedScenePtr prepared);  ///< sends scene.current(); creates the first session
@@ -40,6 +40,16 @@ class DeviceModel {
   unsigned maestro_channel() const { return options_.maestro_channel; }
   /// If valid, stored for the attached Maestro; a session with a Maestro restarts with it. Otherwise a message.
   void calibrate_maestro(const MaestroCalibration& calibration, unsigned channel);
+
+  /// What keeps the scene where it is on the force device, and what to do about it; empty: it may be placed.
+  std::string placement_locked() const;
+  void place(const Placement& placement);
+  void fit_to_workspace();
+  /// The clutch is held while one of these says so; `key` and `button` have to in every frame.
+  struct Clutch {
+    bool key = false, button = false, latched = false;
+  };
+  Clutch& clutch() { return clutch_; }
 
   bool hand_follows_mouse() const { return hand_follows_mouse_; }  ///< dragging on the surface moves the hand
   void set_hand_follows_mouse(bool on);
@@ -54,6 +64,8 @@ class DeviceModel {
   void make_session();
   void restart_session();
   void say_what_differs();
+  void take_clutch();
+  void say_if_refused(const Status& status);
   void keep_calibration(const MaestroSetup& setup);
 
   const SceneModel& scene_;
@@ -66,9 +78,13 @@ class DeviceModel {
   std::unique_ptr<Session> session_;
   SessionStatus status_;
   DeviceFault last_fault_ = DeviceFault::none;
+  bool packet_log_complete_ = true;  ///< so that a failure is said once
   GateFault last_gate_fault_ = GateFault::none;
   ExchangeWith last_hung_ = ExchangeWith::none;
-  double capped_n_per_m_ = 0.0;  ///< stiffness asked for when it was last said that the device takes less
+  ForceSettings capped_;  ///< as asked for when it was last said that the device takes less
+  Clutch clutch_;
+  bool clutch_held_ = false;        ///< as the session was told
+  bool placement_refused_ = false;  ///< as was said
   bool hand_follows_mouse_ = false;
 };
 

@@ -33,6 +33,8 @@ class PresetEditor {
   bool revert(const PresetKey& key) { return set(key, key.get(loaded_.preset)); }
   void revert_all() { current_ = loaded_.preset; }
 
+  /// The program's own values, from no file.
+  static PresetEditor built_in() { return {}; }
   /// On failure nothing changes.
   Status load(const std::filesystem::path& path);
   /// Writes the current values to `folder`/`name`.toml, which becomes the loaded file. `about`: its [about] table; its

@@ -1,10 +1,7 @@
 #include "workbench/gui/model/preset_model.h"
 
-#include "core/mesh/contact_mesh.h"
-
 #include <algorithm>
-#include <cstdio>
-#include <ctime>
+#include <system_error>
 #include <utility>
 
 namespace tangent {
@@ -13,37 +10,35 @@ namespace {
 
 constexpr std::size_t kMostNotes = 4096;  // a dragged slider sends one preset per frame
 
-std::string today() {
-  const std::time_t now = std::time(nullptr);
-  std::tm local{};
-  localtime_r(&now, &local);
-  char text[16];
-  std::strftime(text, sizeof text, "%Y-%m-%d", &local);
-  return text;
-}
-
-std::string hex16(std::uint64_t value) {
-  char text[20];
-  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(value));
-  return text;
-}
-
 std::string change_text(const PresetKey& key, double from, double to) {
   return key.full_name() + " " + display_with_unit(key, from) + " \u2192 " + display_with_unit(key, to);
 }
 
-/// The folder listed in the panel: the preset's own if one was given.
+/// Where presets are saved: the user's own folder; without one, where the given preset is, or the shipped ones.
 std::filesystem::path folder_for(const AppOptions& options) {
   if (!options.preset_folder.empty()) return options.preset_folder;
   if (options.preset.has_parent_path()) return options.preset.parent_path();
   return options.preset.empty() ? std::filesystem::path(TANGENT_PRESET_DIR) : ".";
 }
 
+std::filesystem::path folder_beside(const AppOptions& options) {
+  if (options.preset.empty()) return {};
+  return options.preset.has_parent_path() ? options.preset.parent_path() : std::filesystem::path(".");
+}
+
+bool same_folder(const std::filesystem::path& a, const std::filesystem::path& b) {
+  std::error_code ignored;
+  return a == b || std::filesystem::equivalent(a, b, ignored);
+}
+
 }  // namespace
 
 PresetModel::PresetModel(const AppOptions& options, MessageLog& messages,
                          std::function<void(const std::string& what)> changed)
-    : messages_(messages), changed_(std::move(changed)), folder_(folder_for(options)) {}
+    : messages_(messages),
+      changed_(std::move(changed)),
+      folder_(folder_for(options)),
+      beside_(folder_beside(options)) {}
 
 void PresetModel::set_value(const PresetKey& key, double value) {
   const double before = key.get(current());
@@ -96,19 +91,32 @@ void PresetModel::revert_all() {
   if (slots_.apply(what, revert)) changed_(what);
 }
 
-void PresetModel::load(const std::filesystem::path& path) {
+void PresetModel::load(const std::filesystem::path& path, const ContactMesh* mesh) {
   PresetEditor loaded = editor();
   if (auto read = loaded.load(path); !read) {
     messages_.say(Severity::error, read.error().message());
     return;
   }
+  replace_by(loaded);
+  const std::string other = mesh != nullptr ? other_mesh_text(editor().loaded().about, *mesh) : std::string();
+  if (other.empty())
+    messages_.say(Severity::note, "preset " + editor().name() + " loaded");
+  else
+    messages_.say(Severity::warning, "preset " + editor().name() + " loaded; " + other);
+}
+
+void PresetModel::load_built_in() {
+  replace_by(PresetEditor::built_in());
+  messages_.say(Severity::note, "the program's own values loaded");
+}
+
+void PresetModel::replace_by(const PresetEditor& loaded) {
   const std::string what = "load " + loaded.name();
   slots_.apply(what, [&](PresetEditor& editor) {
     editor = loaded;
     return true;
   });
   changed_(what);
-  messages_.say(Severity::note, "preset " + editor().name() + " loaded");
 }
 
 void PresetModel::take_up(const UnsavedWork& work) {
@@ -144,16 +152,8 @@ const std::string& PresetModel::note(std::uint32_t preset_id) const {
   return found == notes_.end() ? kNothing : found->second;
 }
 
-bool PresetModel::save(const std::string& name, const ContactMesh* mesh, const std::string& device) {
-  PresetAbout about = editor().loaded().about;
-  about.date = today();
-  about.measured.clear();  // they were measured with other values
-  if (mesh != nullptr) {
-    about.mesh_name = mesh->name();
-    about.mesh_hash = hex16(mesh->content_hash());
-  }
-  about.device = device;
-  if (auto saved = slots_.save_as(folder_, name, std::move(about)); !saved) {
+bool PresetModel::save(const std::string& name, const PresetOrigin& origin) {
+  if (auto saved = slots_.save_as(folder_, name, about_of(origin)); !saved) {
     messages_.say(Severity::error, saved.error().message());
     return false;
   }
@@ -167,7 +167,22 @@ bool PresetModel::has(const std::string& name) const {
   return !name.empty() && std::filesystem::exists(folder_ / (name + ".toml"), ignored);
 }
 
-void PresetModel::refresh_files() { files_ = list_presets(folder_); }
+void PresetModel::refresh_files() {
+  const std::filesystem::path shipped = TANGENT_PRESET_DIR;
+  files_.clear();
+  const auto add = [&](const std::filesystem::path& folder) {
+    for (std::filesystem::path& file : list_presets(folder)) {
+      std::string label = file.stem().string();
+      const auto same = [&](const PresetEntry& entry) { return entry.label == label; };
+      if (std::any_of(files_.begin(), files_.end(), same))
+        label += folder == shipped ? " (shipped)" : " (" + folder.string() + ")";
+      files_.push_back({std::move(file), std::move(label), same_folder(folder, shipped)});
+    }
+  };
+  add(folder_);
+  if (!beside_.empty() && !same_folder(beside_, folder_)) add(beside_);
+  if (!same_folder(folder_, shipped) && !same_folder(beside_, shipped)) add(shipped);
+}
 
 void PresetModel::note_sent(std::uint32_t preset_id, const std::string& what) {
   ++sent_;

@@ -3,9 +3,9 @@
 #pragma once
 
 #include "core/io/rendering_condition.h"
-#include "core/mesh/contact_mesh.h"
 #include "workbench/gui/model/app_options.h"
 #include "workbench/gui/model/message_log.h"
+#include "workbench/gui/model/preset_origin.h"
 #include "workbench/gui/model/preset_slots.h"
 
 #include <cstdint>
@@ -16,6 +16,13 @@
 #include <vector>
 
 namespace tangent {
+
+/// A file that can be loaded.
+struct PresetEntry {
+  std::filesystem::path path;
+  std::string label;  ///< its name; "default (shipped)" where a person's own has the same
+  bool shipped = false;
+};
 
 class PresetModel {
  public:
@@ -41,12 +48,15 @@ class PresetModel {
 
   void take_up(const UnsavedWork& work);  ///< of an earlier run, with its undo; replaces what is there
 
-  void load(const std::filesystem::path& path);
-  /// Overwrites an existing file; a message says where, or why not. The file also names the mesh and device tuned on.
-  bool save(const std::string& name, const ContactMesh* mesh, const std::string& device);
+  /// `mesh`: a message says so when the preset was saved on another; null: there is none.
+  void load(const std::filesystem::path& path, const ContactMesh* mesh = nullptr);
+  void load_built_in();
+  /// Overwrites an existing file in the folder; a message says where, or why not.
+  bool save(const std::string& name, const PresetOrigin& origin);
   bool has(const std::string& name) const;  ///< a file of this name is in the folder
   const std::filesystem::path& folder() const { return folder_; }
-  const std::vector<std::filesystem::path>& files() const { return files_; }
+  /// Of the folder, of that of the preset the program was started with, and those that ship.
+  const std::vector<PresetEntry>& files() const { return files_; }
   void refresh_files();
 
   void note_sent(std::uint32_t preset_id, const std::string& what);
@@ -55,12 +65,15 @@ class PresetModel {
   const std::string& note(std::uint32_t preset_id) const;
 
  private:
+  void replace_by(const PresetEditor& loaded);
+
   MessageLog& messages_;
   std::function<void(const std::string& what)> changed_;
   PresetSlots slots_;
   std::map<std::uint32_t, std::string> notes_;
   std::filesystem::path folder_;
-  std::vector<std::filesystem::path> files_;
+  std::filesystem::path beside_;  ///< folder of the preset the program was started with; empty: none
+  std::vector<PresetEntry> files_;
   std::uint64_t sent_ = 0;
 };
 

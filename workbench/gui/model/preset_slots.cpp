@@ -64,9 +64,8 @@ Status PresetSlots::save_as(const std::filesystem::path& folder, const std::stri
   const std::filesystem::path old_path = active().path();
   const std::string old_name = active().name();
   for (Step& step : steps_) {
-    for (PresetEditor& editor : step.slots) {
-      if (editor.path() == old_path && editor.name() == old_name) editor.adopt_file(saved);
-    }
+    PresetEditor& editor = step.slots[active_slot()];
+    if (editor.path() == old_path && editor.name() == old_name) editor.adopt_file(saved);
   }
   return {};
 }

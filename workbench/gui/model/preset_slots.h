@@ -32,7 +32,7 @@ class PresetSlots {
   bool toggle();         ///< switches to the other slot; true if the active preset differs
   void copy_to_other();  ///< copies the active slot into the other
 
-  /// Saves the active slot; undoing earlier changes keeps the new file as its origin.
+  /// Saves the active slot; undoing its earlier changes keeps the new file as its origin. The other slot keeps its own.
   Status save_as(const std::filesystem::path& folder, const std::string& name, PresetAbout about);
 
   bool can_undo() const { return at_ > 0; }

@@ -63,7 +63,7 @@ Result<LoadedScene> load_scene(const SceneRequest& request) {
     if (!read) return tl::unexpected(read.error());
     out.polygons = std::make_shared<const PolygonMesh>(std::move(*read));
   }
-  auto mesh = ContactMesh::build(*out.polygons, request.options);
+  auto mesh = ContactMesh::build(*out.polygons, request.options, run_on_two_threads);
   if (!mesh) return tl::unexpected(mesh.error());
   auto scene = ContactScene::build(std::move(*mesh), {}, run_on_two_threads);
   if (!scene) return tl::unexpected(scene.error());

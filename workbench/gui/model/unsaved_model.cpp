@@ -1,5 +1,7 @@
 #include "workbench/gui/model/unsaved_model.h"
 
+#include <algorithm>
+
 namespace tangent {
 
 namespace {
@@ -25,6 +27,20 @@ UnsavedModel::UnsavedModel(const AppOptions& options, PresetModel& presets, Time
                                          (work.aside.empty() ? "" : " (it is kept as " + work.aside.string() + ")"));
 }
 
+UnsavedModel::~UnsavedModel() {
+  if (!would_be_lost()) return;
+  keep();
+  keeper_.leave();
+}
+
+bool UnsavedModel::would_be_lost() const {
+  const PresetSlots& slots = presets_.slots();
+  const auto marks = time_.bookmarks().all();
+  return slots.slot(0).changed() || slots.slot(1).changed() ||
+         std::any_of(marks.begin(), marks.end(),
+                     [](const Bookmark& mark) { return mark.kind == BookmarkKind::user && !mark.note.empty(); });
+}
+
 void UnsavedModel::update(double now_s) {
   if (now_s - looked_at_s_ < kEvery_s) return;
   looked_at_s_ = now_s;
@@ -42,7 +58,7 @@ void UnsavedModel::keep() {
 
 std::string UnsavedModel::offer() const {
   if (!left_) return {};
-  std::string text = "An earlier run ended without being closed. It had ";
+  std::string text = "An earlier run ended with work that is in no file: ";
   const std::size_t changes = left_->work.steps.empty() ? 0 : left_->work.steps.size() - 1;
   if (changes > 0) text += counted(changes, "change of presets", "changes of presets");
   if (changes > 0 && !left_->work.bookmarks.empty()) text += " and ";

@@ -16,6 +16,10 @@ class UnsavedModel {
  public:
   /// Kept in the folder `unsaved` beside the settings; without settings nothing is.
   UnsavedModel(const AppOptions& options, PresetModel& presets, TimeModel& time, MessageLog& messages);
+  /// A window that is closed with changes that are in no file, or with notes on bookmarks, leaves them to the next one.
+  ~UnsavedModel();
+  UnsavedModel(const UnsavedModel&) = delete;
+  UnsavedModel& operator=(const UnsavedModel&) = delete;
 
   void update(double now_s);  ///< once per frame; keeps the work every two seconds
   void keep();
@@ -26,6 +30,8 @@ class UnsavedModel {
   void discard();
 
  private:
+  bool would_be_lost() const;
+
   PresetModel& presets_;
   TimeModel& time_;
   MessageLog& messages_;

@@ -87,6 +87,12 @@ void add_time_commands(std::vector<Command>& out, AppModel& model) {
                  }});
   out.push_back({"Force: stop", "Esc", [&model] { model.devices().stop(); }});
   out.push_back({"Force: arm", "", [&model] { model.devices().arm(); }});
+  out.push_back(
+      {"Placement: fit the scene to the device's workspace", "", [&model] { model.devices().fit_to_workspace(); }});
+  out.push_back({"Placement: clutch, hold or let go", "", [&model] {
+                   bool& latched = model.devices().clutch().latched;
+                   latched = !latched;
+                 }});
   for (const std::string& name : force_device_names())
     out.push_back({"Force device: " + name, "", [&model, name] {
                      model.devices().choose({name, model.devices().names().display});
@@ -99,14 +105,19 @@ void add_time_commands(std::vector<Command>& out, AppModel& model) {
                  [&model] { model.devices().set_hand_follows_mouse(!model.devices().hand_follows_mouse()); }});
 }
 
-void add_preset_commands(std::vector<Command>& out, AppModel& model) {
+void add_preset_commands(std::vector<Command>& out, AppModel& model, MenuBar& menu) {
   out.push_back({"Preset: undo", "Ctrl+Z", [&model] { model.presets().undo(); }});
   out.push_back({"Preset: redo", "Ctrl+Y", [&model] { model.presets().redo(); }});
   out.push_back({"Preset: switch between A and B", "B", [&model] { model.presets().toggle_ab(); }});
   out.push_back({"Preset: copy to the other of A and B", "", [&model] { model.presets().copy_ab(); }});
   out.push_back({"Preset: revert all changes", "", [&model] { model.presets().revert_all(); }});
   for (const auto& file : model.presets().files())
-    out.push_back({"Preset: load " + file.stem().string(), "", [&model, file] { model.presets().load(file); }});
+    out.push_back({"Preset: load " + file.label, "", [&model, path = file.path] { model.open(path.string()); }});
+  out.push_back({"Preset: load built-in", "", [&model] { model.presets().load_built_in(); }});
+  out.push_back({"Preset: open a file", "", [&model, &menu] {
+                   menu.path.open = menu.path.focus = true;
+                   menu.path.text = model.presets().folder().string() + "/";
+                 }});
 }
 
 void add_mesh_commands(std::vector<Command>& out, AppModel& model, MenuBar& menu) {
@@ -139,7 +150,7 @@ void add_mesh_commands(std::vector<Command>& out, AppModel& model, MenuBar& menu
 std::vector<Command> window_commands(AppModel& model, MenuBar& menu) {
   std::vector<Command> out;
   add_time_commands(out, model);
-  add_preset_commands(out, model);
+  add_preset_commands(out, model, menu);
   add_view_commands(out, model);
   add_mesh_commands(out, model, menu);
   add_panel_commands(out, model);
@@ -153,6 +164,7 @@ const std::vector<KeyNote>& further_keys() {
                                            {"Esc", "Stop the force, always; then put away what is open"},
                                            {"Left drag", "Orbit; slides a value (Shift: finer)"},
                                            {"Right drag, Shift drag", "Pan the view"},
+                                           {"C, held", "Clutch: the device moves, the finger stays in the scene"},
                                            {"Wheel", "Zoom about the pointer: view, plots, time"},
                                            {"Click", "Pick a triangle; type a value"},
                                            {"Tab", "Take the typed value and go on to the next"}};

@@ -13,7 +13,7 @@ constexpr std::size_t kOwn = 4;
 
 std::vector<std::string> names_to_compare(const PresetModel& presets) {
   std::vector<std::string> names{"A", "B", "as loaded", "program's own"};
-  for (const auto& file : presets.files()) names.push_back(file.stem().string());
+  for (const auto& file : presets.files()) names.push_back(file.label);
   return names;
 }
 
@@ -29,9 +29,9 @@ Preset chosen_preset(AppModel& model, ComparePanel::Side& side) {
     side.choice = 2;
     return model.presets().editor().loaded().preset;
   }
-  if (side.read != files[file]) {
-    side.read = files[file];
-    const auto read = read_preset(files[file]);
+  if (side.read != files[file].path) {
+    side.read = files[file].path;
+    const auto read = read_preset(side.read);
     if (!read) model.messages().say(Severity::error, read.error().message());
     side.preset = read ? read->preset : Preset{};
   }

@@ -82,8 +82,13 @@ void draw_limits(const UiContext& ui, const DeviceModel& devices) {
   const ServoStatus& servo = devices.status().servo;
   heading(ui, "Limits");
   fact(ui, "Peak / continuous force", printed("%.1f / %.1f", limits.peak_force_n, limits.continuous_force_n), "N");
-  if (const auto* can = devices.session()->force_capabilities(); can != nullptr && can->largest_stiffness_n_per_m > 0.0)
-    fact(ui, "Largest stiffness", printed("%.0f", can->largest_stiffness_n_per_m), "N/m");
+  if (const auto* can = devices.session()->force_capabilities(); can != nullptr) {
+    fact(ui, "Pushes along / rotations sensed", pushed_axes(*can) + printed(" / %d", can->rotations_sensed));
+    const auto known = [](double value) { return value > 0.0 ? printed("%.0f", value) : std::string("-"); };
+    fact(ui, "Largest stiffness", known(can->largest_stiffness_n_per_m), "N/m");
+    fact(ui, "Largest damping", known(can->largest_damping_n_s_per_m), "N s/m");
+    if (!(can->frame == DeviceFrame{})) dim_text(ui, "Its frame in the world: " + frame_text(can->frame));
+  }
   fact(ui, "Change of force", printed("%.0f", limits.slew_n_per_s), "N/s");
   const Vec3 size = 2e3 * limits.workspace_half_size_m;
   fact(ui, "Workspace", printed("%.0f x %.0f x %.0f", size.x, size.y, size.z), "mm");
@@ -122,6 +127,11 @@ void draw_raw(const UiContext& ui, const DeviceModel& devices) {
           "surface; at 5 mJ in half a second the gate stops");
   fact(ui, "Roller, measured / sent",
        printed("%.4f / %.4f", r.device.cld_measured_m * 1e3, r.device.cld_command_m * 1e3), "mm");
+  if (const auto* can = devices.session()->force_capabilities(); can != nullptr && can->buttons > 0) {
+    std::string pressed;
+    for (int i = 0; i < can->buttons; ++i) pressed += ((r.device.buttons >> i) & 1u) != 0 ? '1' : '0';
+    fact(ui, "Buttons, the first is the clutch", pressed);
+  }
   fact(ui, "Age of position / roller", printed("%.2f / %.2f", r.device.force_age_s * 1e3, r.device.display_age_s * 1e3),
        "ms");
 }

@@ -48,9 +48,12 @@ void draw_force_device(const UiContext& ui, const AppModel& model) {
   fact(ui, can != nullptr ? can->name.c_str() : "Force device", state_text(status.force_state, status.force_fault), "",
        state_ink(ui, status.force_state));
   if (can == nullptr) return;
-  tooltip(ui, printed("Peak %.1f N, continuous %.1f N, resolution %.0f \u00b5m, apparent mass %.0f g%s",
-                      can->peak_force_n, can->continuous_force_n, can->position_resolution_m * 1e6,
-                      can->apparent_mass_kg * 1e3, can->simulated ? ", simulated" : ""));
+  tooltip(ui,
+          printed("Peak %.1f N, continuous %.1f N along %s; stable up to %.0f N/m and %.0f N s/m; resolution %.0f "
+                  "\u00b5m; apparent mass %.0f g; rotations sensed %d, buttons %d%s",
+                  can->peak_force_n, can->continuous_force_n, pushed_axes(*can).c_str(), can->largest_stiffness_n_per_m,
+                  can->largest_damping_n_s_per_m, can->position_resolution_m * 1e6, can->apparent_mass_kg * 1e3,
+                  can->rotations_sensed, can->buttons, can->simulated ? "; simulated" : ""));
 }
 
 void draw_display(const UiContext& ui, const AppModel& model) {
@@ -173,6 +176,7 @@ void draw_devices_panel(const UiContext& ui, AppModel& model, FoldedPanel& state
   else
     draw_servo(ui, model.devices());
   draw_hand(ui, model);
+  draw_placement(ui, model);
   toggle_button(ui, "devices/monitor", "Monitor", model.view().device_monitor,
                 "Rates, histograms, limits and faults, in place of the 3D view");
   ImGui::Dummy({1, ui.px(3)});

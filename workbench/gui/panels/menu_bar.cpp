@@ -9,7 +9,7 @@
 
 namespace tangent {
 
-void draw_path_bar(const UiContext& ui, SceneModel& scene, PathBar& bar, const Rect& under);
+void draw_path_bar(const UiContext& ui, AppModel& model, PathBar& bar, const Rect& under);
 
 namespace {
 
@@ -46,6 +46,10 @@ void draw_file_menu(const UiContext& ui, AppModel& model, MenuBar& state) {
   if (!drop_button(ui, "menu/file", "File", "Meshes, screenshots, quit")) return;
   if (menu_item(ui, "menu/file/open", "Open mesh...", "Type a path: OBJ, PLY, STL or OFF; Tab completes it", "Ctrl+O"))
     state.path.open = state.path.focus = true;
+  if (menu_item(ui, "menu/file/open_preset", "Open preset...", "Type the path of a .toml; Tab completes it")) {
+    state.path.open = state.path.focus = true;
+    state.path.text = model.presets().folder().string() + "/";
+  }
   if (ImGui::BeginMenu("Recent")) {
     const std::vector<std::string> recent = model.window().settings().recent_meshes;  // opening one changes the order
     for (std::size_t i = 0; i < recent.size(); ++i) {
@@ -156,16 +160,19 @@ void draw_scene_menu(const UiContext& ui, SceneModel& scene, MenuBar& state, flo
   ImGui::EndPopup();
 }
 
-void draw_preset_menu(const UiContext& ui, PresetModel& presets, float width) {
+void draw_preset_menu(const UiContext& ui, PresetModel& presets, const ContactMesh* mesh, float width) {
   const std::string name = presets.editor().name() + (presets.editor().changed() ? " *" : "");
   if (!drop_button(ui, "menu/preset", name, "The preset; * when it was changed since loading", width)) return;
-  for (const auto& file : presets.files()) {
-    const std::string stem = file.stem().string();
-    if (menu_item(ui, "menu/preset/" + stem, stem.c_str(), "Loads this preset; undo brings the current one back",
-                  nullptr, file == presets.editor().path()))
-      presets.load(file);
+  const std::filesystem::path chosen = presets.editor().path();
+  if (menu_item(ui, "menu/preset/built_in", "built-in", "The program's own values, from no file", nullptr,
+                chosen.empty() && presets.editor().name() == "built-in"))
+    presets.load_built_in();
+  const std::vector<PresetEntry> files = presets.files();
+  for (const PresetEntry& file : files) {
+    if (menu_item(ui, "menu/preset/" + file.label, file.label.c_str(),
+                  "Loads this preset; undo brings the current one back", nullptr, file.path == chosen))
+      presets.load(file.path, mesh);
   }
-  if (presets.files().empty()) ImGui::TextDisabled("No presets");
   ImGui::Separator();
   if (menu_item(ui, "menu/preset/revert", "Revert all changes", "Every key back to the loaded value"))
     presets.revert_all();
@@ -230,7 +237,7 @@ void draw_menu_bar(const UiContext& ui, AppModel& model, MenuBar& state, const R
   draw_scene_menu(ui, model.scene(), state, room);
   ImGui::SameLine(0, ui.px(12));
   label("Preset");
-  draw_preset_menu(ui, model.presets(), room);
+  draw_preset_menu(ui, model.presets(), model.mesh(), room);
   ImGui::SameLine(0, ui.px(12));
   label("Force");
   DeviceNames names = model.devices().names();
@@ -249,7 +256,7 @@ void draw_menu_bar(const UiContext& ui, AppModel& model, MenuBar& state, const R
     model.devices().set_hand_follows_mouse(follows);
   draw_stop(ui, model.devices(), rect);
   ImGui::End();
-  if (state.path.open) draw_path_bar(ui, model.scene(), state.path, rect);
+  if (state.path.open) draw_path_bar(ui, model, state.path, rect);
 }
 
 }  // namespace tangent

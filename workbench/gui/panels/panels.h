@@ -37,12 +37,16 @@ void draw_compare_panel(const UiContext& ui, AppModel& model, ComparePanel& stat
 struct PresetsPanel {
   bool open = true;
   std::string name;       ///< typed name to save under
+  std::string note;       ///< typed note to save with it
+  std::string note_of;    ///< path of the preset that the note was taken from
   std::string asked_for;  ///< this file exists: pressing again overwrites it
   std::string written;    ///< saved before in this run: no confirmation
 };
 void draw_presets_panel(const UiContext& ui, AppModel& model, PresetsPanel& state);
 
 // Right column.
+/// Where the scene is on the force device: part of the devices panel.
+void draw_placement(const UiContext& ui, AppModel& model);
 struct PathMapPanel {
   bool close_up = true;  ///< zoomed to the path; otherwise the whole base triangle
 };

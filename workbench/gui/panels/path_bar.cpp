@@ -1,4 +1,4 @@
-// Input line for a mesh path: Tab completes, Enter opens, Esc closes.
+// Input line for the path of a mesh or a preset: Tab completes, Enter opens, Esc closes.
 #include "workbench/gui/panels/panels.h"
 #include "workbench/gui/widgets/widgets.h"
 
@@ -14,11 +14,11 @@ namespace tangent {
 
 namespace {
 
-bool is_mesh_file(const std::filesystem::path& path) {
+bool is_known_file(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  constexpr std::array<const char*, 5> known{".obj", ".ply", ".stl", ".off", ".csv"};
+  constexpr std::array<const char*, 6> known{".obj", ".ply", ".stl", ".off", ".csv", ".toml"};
   return std::find(known.begin(), known.end(), extension) != known.end();
 }
 
@@ -55,7 +55,7 @@ std::vector<std::string> complete_mesh_path(const std::string& typed, std::size_
     std::error_code ignored;
     if (it->is_directory(ignored))
       out.push_back(folder + name + "/");
-    else if (is_mesh_file(it->path()))
+    else if (is_known_file(it->path()))
       out.push_back(folder + name);
   }
   std::sort(out.begin(), out.end());
@@ -73,7 +73,7 @@ std::string common_start(const std::vector<std::string>& texts) {
   return common;
 }
 
-void draw_path_bar(const UiContext& ui, SceneModel& scene, PathBar& bar, const Rect& under) {
+void draw_path_bar(const UiContext& ui, AppModel& model, PathBar& bar, const Rect& under) {
   const float width = std::min(ui.px(560), under.w - ui.px(20));
   ImGui::SetNextWindowPos({under.x + 0.5f * (under.w - width), under.bottom() + ui.px(4)});
   ImGui::SetNextWindowSize({width, 0.0f});
@@ -85,7 +85,8 @@ void draw_path_bar(const UiContext& ui, SceneModel& scene, PathBar& bar, const R
                                      ImGuiWindowFlags_NoNav;
   if (bar.focus) ImGui::SetNextWindowFocus();
   ImGui::Begin("##path_bar", nullptr, flags);
-  ImGui::TextDisabled("Open a mesh (obj, ply, stl, off, or csv of a polygon). Tab completes, Enter opens");
+  ImGui::TextDisabled(
+      "Open a mesh (obj, ply, stl, off, csv of a polygon) or a preset (toml). Tab completes, Enter opens");
   ImGui::SetNextItemWidth(-1.0f);
   if (bar.focus) edit_next("##path");
   bar.focus = false;
@@ -108,12 +109,12 @@ void draw_path_bar(const UiContext& ui, SceneModel& scene, PathBar& bar, const R
     bar.text = match;
     bar.focus = match.back() == '/';
     if (match.back() != '/') {
-      scene.open(match);
+      model.open(match);
       bar.open = false;
     }
   }
   if (enter && !bar.text.empty()) {
-    scene.open(expand_home(bar.text));
+    model.open(expand_home(bar.text));
     bar.open = false;
   }
   const bool elsewhere = left && !picked && !ImGui::IsWindowHovered(ImGuiHoveredFlags_ChildWindows);

@@ -14,7 +14,7 @@ namespace tangent {
 namespace {
 
 /// Maps flat coordinates to the screen: uniform scale, y up.
-struct Placement {
+struct MapFraming {
   ImVec2 min, max;
   FlatView view;  ///< with the rectangle's aspect ratio
 
@@ -25,7 +25,7 @@ struct Placement {
   }
 };
 
-Placement fitted(const FlatView& wanted, ImVec2 min, ImVec2 max) {
+MapFraming fitted(const FlatView& wanted, ImVec2 min, ImVec2 max) {
   const double aspect = static_cast<double>((max.x - min.x) / (max.y - min.y));
   const Vec2 size = wanted.size(), middle = 0.5 * (wanted.min + wanted.max);
   const double height = std::max(size.y, size.x / aspect);
@@ -45,7 +45,7 @@ ImU32 field_ink(const UiContext& ui, float share) {
   return packed(mix(low, ground, std::clamp(share, 0.0f, 1.0f)));
 }
 
-void draw_field(const UiContext& ui, const ResidualMap& map, const Placement& on, float low, float high) {
+void draw_field(const UiContext& ui, const ResidualMap& map, const MapFraming& on, float low, float high) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const int columns = map.columns(), rows = map.rows();
   const auto node = [&](int c, int r) { return static_cast<std::size_t>(r * columns + c); };
@@ -90,7 +90,7 @@ float merit_of(const UiContext& ui, ImVec2 place, std::span<const ImVec2> planes
 }
 
 /// Whole decades are drawn stronger and labelled once.
-void draw_contours(const UiContext& ui, const ResidualMap& map, const Placement& on, std::span<const ImVec2> planes) {
+void draw_contours(const UiContext& ui, const ResidualMap& map, const MapFraming& on, std::span<const ImVec2> planes) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const ImU32 strong = packed(with_alpha(ui.palette.text, 0.38f)), weak = packed(with_alpha(ui.palette.text, 0.16f));
   std::vector<ContourLabel> labels;
@@ -131,7 +131,7 @@ void draw_contours(const UiContext& ui, const ResidualMap& map, const Placement&
   }
 }
 
-void draw_edges(const UiContext& ui, const SceneModel& scene, const ResidualMap& map, const Placement& on) {
+void draw_edges(const UiContext& ui, const SceneModel& scene, const ResidualMap& map, const MapFraming& on) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const ContactMesh& mesh = scene.current()->mesh();
   for (std::size_t i = map.triangles().size(); i-- > 0;) {
@@ -155,7 +155,7 @@ void draw_edges(const UiContext& ui, const SceneModel& scene, const ResidualMap&
 }
 
 /// Returns the number of planes outside the map; `pointed`: the plane under the mouse.
-std::size_t draw_path(const UiContext& ui, const TimeModel& time, const ResidualMap& map, const Placement& on,
+std::size_t draw_path(const UiContext& ui, const TimeModel& time, const ResidualMap& map, const MapFraming& on,
                       bool mouse_here, std::optional<std::size_t>& pointed) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const auto iterations = time.tick().iterations();
@@ -189,7 +189,7 @@ std::size_t draw_path(const UiContext& ui, const TimeModel& time, const Residual
   return elsewhere;
 }
 
-void draw_heading(const UiContext& ui, const ResidualMap& map, const Placement& on, std::size_t elsewhere) {
+void draw_heading(const UiContext& ui, const ResidualMap& map, const MapFraming& on, std::size_t elsewhere) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const double across = on.view.size().x;
   const std::string width = across >= 1e-3 ? printed("%.3g mm", across * 1e3) : printed("%.3g \u00b5m", across * 1e6);
@@ -247,7 +247,7 @@ void draw_path_map(const UiContext& ui, AppModel& model, PathMapPanel& state) {
   const Preset& preset = then != nullptr ? *then : model.presets().current();
   ResidualMap map(model.scene().current(), triangle_index, preset.finger, preset.solver.normal_form,
                   record->tick.input);
-  const Placement on =
+  const MapFraming on =
       fitted(state.close_up ? map.path_view(model.time().tick().iterations()) : map.whole_view(), at, end);
   map.sample(on.view, 61, 39);
   const auto [low, high] = std::minmax_element(map.log_residuals().begin(), map.log_residuals().end());

@@ -8,23 +8,33 @@ namespace tangent {
 
 namespace {
 
-void draw_files(const UiContext& ui, PresetModel& presets) {
-  if (presets.files().empty()) {
-    ImGui::TextDisabled("No presets in %s", presets.folder().filename().c_str());
-    return;
-  }
-  for (const auto& file : presets.files()) {
-    const std::string name = file.stem().string();
-    const bool current = file.stem() == presets.editor().path().stem() && !presets.editor().path().empty();
-    if (ImGui::Selectable(name.c_str(), current)) presets.load(file);
-    ui.items.note_last("presets/file/" + name);
-    tooltip(ui, "Load " + file.string());
+PresetOrigin origin_of(const AppModel& model, const std::string& note) {
+  const Session* session = model.devices().session();
+  return {.mesh = model.mesh(),
+          .metres_per_unit = model.scene().metres_per_unit(),
+          .devices = to_string(model.devices().names()),
+          .history = session != nullptr ? &session->history() : nullptr,
+          .preset_id = session != nullptr ? session->preset_id() : 0,
+          .note = note};
+}
+
+void draw_files(const UiContext& ui, AppModel& model) {
+  PresetModel& presets = model.presets();
+  const std::filesystem::path chosen = presets.editor().path();
+  if (ImGui::Selectable("built-in", chosen.empty() && presets.editor().name() == "built-in")) presets.load_built_in();
+  ui.items.note_last("presets/built_in");
+  tooltip(ui, "The program's own values, from no file");
+  const std::vector<PresetEntry> files = presets.files();  // loading one may change the list
+  for (const PresetEntry& file : files) {
+    if (ImGui::Selectable(file.label.c_str(), file.path == chosen)) presets.load(file.path, model.mesh());
+    ui.items.note_last("presets/file/" + file.label);
+    tooltip(ui, "Load " + file.path.string());
   }
 }
 
 void draw_changes(const UiContext& ui, PresetModel& presets) {
   const auto changes = presets.editor().changes();
-  const std::string from = presets.editor().name();
+  const std::string from = presets.editor().name() + " (" + slot_name(presets.slots().active_slot()) + ")";
   if (changes.empty()) {
     ImGui::TextDisabled("Nothing changed since %s", from.c_str());
     return;
@@ -61,16 +71,15 @@ void save(AppModel& model, PresetsPanel& state) {
     return;
   }
   state.asked_for.clear();
-  const ContactScene* scene = model.scene().current().get();
-  if (model.presets().save(state.name, scene != nullptr ? &scene->mesh() : nullptr, to_string(model.devices().names())))
-    state.written = state.name;
+  if (model.presets().save(state.name, origin_of(model, state.note))) state.written = state.name;
 }
 
-}  // namespace
-
-void draw_presets_panel(const UiContext& ui, AppModel& model, PresetsPanel& state) {
-  if (!section(ui, "Presets", state.open)) return;
-  draw_files(ui, model.presets());
+void draw_save(const UiContext& ui, AppModel& model, PresetsPanel& state) {
+  const std::string& from = model.presets().editor().path().native();
+  if (state.note_of != from) {
+    state.note_of = from;
+    state.note = model.presets().editor().loaded().about.note;
+  }
   const bool replaces = !state.asked_for.empty() && state.asked_for == state.name;
   const char* const text = replaces ? "Replace" : "Save as";
   const float button = ImGui::CalcTextSize(text).x + 2.0f * ImGui::GetStyle().FramePadding.x;
@@ -80,12 +89,25 @@ void draw_presets_panel(const UiContext& ui, AppModel& model, PresetsPanel& stat
   ui.items.note_last("presets/name");
   tooltip(ui, "Name of the file to save the current values in, without .toml");
   ImGui::SameLine();
-  const bool pressed = text_button(ui, "presets/save", text,
-                                   replaces ? "Overwrites the preset of this name and its measurements"
-                                            : "Saves the current values in the preset folder under this name");
+  const std::string tip = replaces ? "Overwrites the preset of this name and its measurements"
+                                   : "Saves the current values in " + model.presets().folder().string();
+  const bool pressed = text_button(ui, "presets/save", text, tip.c_str());
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x);
+  ImGui::InputTextWithHint("##preset_note", "note", &state.note);
+  ui.items.note_last("presets/note");
+  tooltip(ui, "What to remember about these values; saved with them");
   if (enter || pressed) save(model, state);
+}
+
+}  // namespace
+
+void draw_presets_panel(const UiContext& ui, AppModel& model, PresetsPanel& state) {
+  if (!section(ui, "Presets", state.open)) return;
+  draw_save(ui, model, state);
   ImGui::Dummy({1, ui.px(1)});
   draw_changes(ui, model.presets());
+  ImGui::Dummy({1, ui.px(3)});
+  draw_files(ui, model);
   ImGui::Dummy({1, ui.px(3)});
 }
 

@@ -47,6 +47,7 @@ void handle_shortcuts(AppModel& model, MenuBar& menu) {
   for (const NamedView& v : kStandardViews) {
     if (letter(v.key[0])) model.view().look_from_standard(v.view);
   }
+  model.devices().clutch().key = ImGui::IsKeyDown('C') && !io.KeyShift;
   if (letter('U')) model.view().set_y_up(!model.view().camera.y_up);
   if (letter('W')) model.view().look_at_worst();
   if (letter('I')) io.KeyShift ? model.view().show_all() : model.view().isolate_marked();

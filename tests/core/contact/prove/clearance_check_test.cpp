@@ -3,14 +3,18 @@
 
 #include <doctest/doctest.h>
 
+#include <limits>
+
 using namespace tangent;
 
 TEST_CASE(
     "margins count from one place: going and coming back costs nothing, turning does where the finger is not round") {
   Clearance fresh;
   fresh.margin_m = 1e-3;
-  fresh.height_m = 0.02;
-  fresh.watched[0] = {7, 0, 5e-4f};
+  fresh.height_m = std::numeric_limits<double>::infinity();
+  fresh.ahead_m = 1e-3;
+  fresh.ahead_height_m = 0.02;
+  fresh.watched[0] = {.triangle = 7, .margin_m = 5e-4f};
   fresh.watched_count = 1;
   const Quat straight(1.0, 0.0, 0.0, 0.0), turned = glm::angleAxis(1e-3, Vec3(0.0, 0.0, 1.0));
   Finger sphere, ellipsoid;
@@ -27,28 +31,62 @@ TEST_CASE(
   fixed.any_turn = 0;
   set_free(fixed);
   CHECK(gone_m(fixed, ellipsoid, {Vec3(3e-4, 0.0, 0.0), straight}) == doctest::Approx(3e-4).epsilon(1e-12));
-  CHECK(deeper_possible(fixed, gone_m(fixed, ellipsoid, {Vec3(0.0), turned}), -1.0));
-  CHECK(!deeper_possible(fixed, gone_m(fixed, sphere, {Vec3(0.0), turned}), -1.0));
+  CHECK(deeper_possible(fixed, {Vec3(0.0), turned}, gone_m(fixed, ellipsoid, {Vec3(0.0), turned}), -1.0));
+  CHECK(!deeper_possible(fixed, {Vec3(0.0), turned}, gone_m(fixed, sphere, {Vec3(0.0), turned}), -1.0));
 
   // Seen from 0.3 mm off, each margin is shorter by that; the ball reaches to the first one.
   Clearance c = fresh;
   recentre(c, {Vec3(3e-4, 0.0, 0.0), turned}, 3e-4);
   CHECK(c.centre == Vec3(3e-4, 0.0, 0.0));
   CHECK(c.margin_m == doctest::Approx(7e-4).epsilon(1e-12));
-  CHECK(c.height_m == doctest::Approx(0.0197).epsilon(1e-12));
+  CHECK(c.ahead_centre == c.centre);
+  CHECK(c.ahead_m == doctest::Approx(7e-4).epsilon(1e-12));
+  CHECK(c.ahead_height_m == doctest::Approx(0.0197).epsilon(1e-12));
   CHECK(c.watched[0].margin_m == doctest::Approx(2e-4).epsilon(1e-5));
   CHECK(c.free_m == doctest::Approx(2e-4).epsilon(1e-5));
   CHECK(c.free_m < 2e-4);
-  CHECK(!deeper_possible(c, 0.0, 0.0196));
-  CHECK(deeper_possible(c, 0.0, 0.0198));
-  CHECK(!deeper_possible(c, 1e-4, 0.0195));
-  CHECK(deeper_possible(c, 1e-4, 0.01965));  // ranks behind 0.0197 may have come nearer by the way gone
-  CHECK(deeper_possible(c, 2.1e-4, 0.0));    // the watched triangle is due
+  const FingerPose here{c.centre, straight};
+  CHECK(!deeper_possible(c, here, 0.0, 0.0196));
+  CHECK(deeper_possible(c, here, 0.0, 0.0198));
+  CHECK(!deeper_possible(c, here, 1e-4, 0.0195));
+  CHECK(deeper_possible(c, here, 1e-4, 0.01965));  // ranks behind 0.0197 may have come nearer by the way gone
+  CHECK(deeper_possible(c, here, 2.1e-4, 0.0));    // the watched triangle is due
 }
 
-TEST_CASE("nothing is known before the first search") { CHECK(deeper_possible(Clearance{}, 0.0, -1.0)); }
+TEST_CASE("a look-ahead lies ahead of the finger, and stays there when the watched triangles are looked at again") {
+  Clearance known;
+  known.margin_m = 2e-3;
+  known.height_m = 0.02;  // of a bound that was not expected to rise
+  known.ahead_centre = Vec3(8e-4, 0.0, 0.0);
+  known.ahead_m = 1e-3;
+  known.ahead_height_m = 0.0215;
+  set_free(known);
+  const auto possible = [&](const Vec3& at, double bound) {
+    const FingerPose pose{at, Quat(1.0, 0.0, 0.0, 0.0)};
+    return deeper_possible(known, pose, gone_m(known, Finger{}, pose), bound);
+  };
+  const auto check = [&] {
+    CHECK(!possible(Vec3(0.0), 0.02));
+    CHECK(!possible(Vec3(1.7e-3, 0.0, 0.0), 0.02));
+    CHECK(possible(Vec3(1.9e-3, 0.0, 0.0), 0.0));  // beyond the ball
+    CHECK(possible(Vec3(-3e-4, 0.0, 0.0), 0.0));   // behind it
+    CHECK(possible(Vec3(0.0), 0.0201));            // the bound has risen
+    CHECK(!possible(Vec3(8e-4, 0.0, 0.0), 0.0199));
+  };
+  check();
+  known.height_m = std::numeric_limits<double>::infinity();
+  CHECK(!possible(Vec3(0.0), 0.0206));
+  CHECK(possible(Vec3(0.0), 0.0208));  // ranks behind 0.0215 in the middle may have come nearer by the way from there
+  known.height_m = 0.02;
+  recentre(known, {Vec3(1e-4, 0.0, 0.0), Quat(1.0, 0.0, 0.0, 0.0)}, 1e-4);
+  CHECK(known.ahead_centre == Vec3(8e-4, 0.0, 0.0));
+  check();
+}
+
+TEST_CASE("nothing is known before the first search") { CHECK(deeper_possible(Clearance{}, FingerPose{}, 0.0, -1.0)); }
 
 TEST_CASE("unlimited clearance stays so") {
   Clearance c = Clearance::unlimited();
-  CHECK(!deeper_possible(c, gone_m(c, Finger{}, {Vec3(1.0, 2.0, 3.0), Quat(1.0, 0.0, 0.0, 0.0)}), 1e9));
+  const FingerPose far{Vec3(1.0, 2.0, 3.0), Quat(1.0, 0.0, 0.0, 0.0)};
+  CHECK(!deeper_possible(c, far, gone_m(c, Finger{}, far), 1e9));
 }

@@ -47,7 +47,7 @@ std::vector<FaceContact> face_contacts(const ContactMesh& mesh, const Vec3& cent
   return contacts;
 }
 
-std::set<std::uint32_t> visited(const ContactHierarchy& tree, const ContactQuery& query) {
+std::set<std::uint32_t> visited(const LateHierarchy& tree, const ContactQuery& query) {
   std::set<std::uint32_t> seen;
   tree.visit(query, [&](std::uint32_t t, ContactQuery&) {
     seen.insert(t);

@@ -1,5 +1,7 @@
 // A patch that holds a contact is never excluded, and no contact appears while the centre moves less than the margin.
 #include "core/contact/prove/face_proof.h"
+
+#include "core/contact/follow/step_rule.h"
 #include "core/surface/mesh_patch.h"
 #include "tests/core/scenes.h"
 
@@ -86,6 +88,53 @@ TEST_CASE("where a patch is excluded no contact comes up while the centre moves 
     wrong += e.margin_m > gone * (1.0 + 1e-9);
   }
   CHECK(excluded > rounds(200000) / 20);
+  CHECK(wrong == 0);
+}
+
+TEST_CASE("where a margin is asked for unstable contacts don't count, and no stable one comes up within it") {
+  Random random(125);
+  int folded = 0, wrong = 0;
+  const auto patches = mesh_patches();
+  for (int i = 0; i < rounds(100000); ++i) {
+    const PnPatch patch =
+        i % 2 ? random_patch(random) : patches[random.below(static_cast<std::uint32_t>(patches.size()))];
+    const Vec2 uv = random.barycentric();
+    const SurfaceSample s = evaluate(patch, uv.x, uv.y);
+    const double size = patch_size(patch), h = size * random.in(-40.0, 40.0);
+    const Vec3 with_contact = s.point + h * s.normal;
+    const double gone = size * std::pow(10.0, random.in(-4.0, 0.7));
+    const PatchExclusion e = exclude_contact(patch, with_contact + gone * random.direction(), 10.0 * size);
+    const Stability stability = normal_bend(s).at_height(h);
+    // Judged on the flat triangle: where the surface is turned over against it, stable and unstable change places.
+    const Vec3 flat = glm::cross(patch.offsets[b030], patch.offsets[b003]);
+    const bool upright = glm::dot(glm::cross(s.point_u, s.point_v), s.normal) * glm::dot(flat, s.normal) > 0.0;
+    const bool stable = upright && stability.det > 1e-6 && stability.trace > 1e-6;
+    folded += !stable && e.margin_m > gone;
+    wrong += stable && e.margin_m > gone * (1.0 + 1e-9);
+  }
+  CHECK(folded > rounds(100000) / 200);
+  CHECK(wrong == 0);
+}
+
+TEST_CASE("a glance excludes no contact that comes up within what was asked for") {
+  Random random(126);
+  int excluded = 0, wrong = 0;
+  const auto patches = mesh_patches();
+  for (int i = 0; i < rounds(100000); ++i) {
+    const PnPatch patch =
+        i % 2 ? random_patch(random) : patches[random.below(static_cast<std::uint32_t>(patches.size()))];
+    const Vec2 uv = random.barycentric();
+    const SurfaceSample s = evaluate(patch, uv.x, uv.y);
+    const double size = patch_size(patch), h = size * random.in(0.0, 5.0);
+    const double gone = size * std::pow(10.0, random.in(-3.0, 0.7)), enough = gone * random.in(0.1, 3.0);
+    const RankBound bound{size * random.in(0.0, 5.0), random.below(2) ? 1.0 : 2.0};
+    const Vec3 centre = s.point + h * s.normal + gone * random.direction();
+    if (!excludes_at_a_glance(patch, centre, bound, enough)) continue;
+    ++excluded;
+    // What counts has risen by (closing - 1) of the way at most.
+    wrong += enough > gone * (1.0 + 1e-9) && h < bound.rank_m + (bound.closing - 1.0) * gone - 1e-9 * size;
+  }
+  CHECK(excluded > rounds(100000) / 20);
   CHECK(wrong == 0);
 }
 

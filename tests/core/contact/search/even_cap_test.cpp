@@ -1,44 +1,20 @@
 // A flat cap of many corners is a fan of slivers that all meet at one vertex: on all of them the contact is the one
 // place straight under the finger.
+#include "tests/core/capped_cylinder.h"
 #include "tests/core/scenes.h"
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 
 using namespace tangent;
 using namespace tangent::test;
 
-namespace {
-
-/// A cylinder of 40 mm with caps of n corners at +-20 mm along z.
-PolygonMesh capped(int n) {
-  PolygonMesh mesh;
-  for (const double z : {-0.020, 0.020})
-    for (int i = 0; i < n; ++i) {
-      const double turn = 6.283185307179586 * i / n;
-      mesh.positions.push_back({0.040 * std::cos(turn), 0.040 * std::sin(turn), z});
-    }
-  const auto corner = [&](int i) { mesh.corner_position.push_back(static_cast<std::uint32_t>(i)); };
-  const auto close = [&] { mesh.face_offsets.push_back(static_cast<std::uint32_t>(mesh.corner_position.size())); };
-  for (int i = 0; i < n; ++i) corner(n + i);
-  close();
-  for (int i = n; i-- > 0;) corner(i);
-  close();
-  for (int i = 0; i < n; ++i) {
-    const int j = (i + 1) % n;
-    corner(i), corner(j), corner(n + j), corner(n + i);
-    close();
-  }
-  return mesh;
-}
-
-}  // namespace
-
 TEST_CASE("a finger that slides over a flat cap of many slivers asks no oftener for more of them, and is right") {
   for (const int corners : {64, 400, 2000}) {
     CAPTURE(corners);
-    const ScenePtr scene = scene_of(capped(corners));
+    const ScenePtr scene = scene_of(capped_cylinder(corners));
     const Preset preset = sphere_preset(0.020, Method::robust);
     Stepper tracking(scene), searching(scene);
     TickState state;
@@ -63,7 +39,7 @@ TEST_CASE("a finger that slides over a flat cap of many slivers asks no oftener 
 }
 
 TEST_CASE("over the rim of a cap of many corners the contact is the one that a search from nothing finds") {
-  const ScenePtr scene = scene_of(capped(400));
+  const ScenePtr scene = scene_of(capped_cylinder(400));
   Preset preset = sphere_preset(0.020, Method::robust);
   preset.force.contacts = ForceContacts::deepest;
   Stepper tracking(scene), searching(scene);
@@ -82,4 +58,32 @@ TEST_CASE("over the rim of a cap of many corners the contact is the one that a s
   }
   CHECK(on_edge > 100);
   CHECK(behind == 0);
+}
+
+TEST_CASE("over a cap of slivers and past its hub nothing is lost, and a search asks for few of many slivers") {
+  for (const int corners : {400, 6400}) {
+    CAPTURE(corners);
+    const ScenePtr scene = scene_of(capped_cylinder(corners));
+    const Preset preset = sphere_preset(0.020, Method::robust);
+    Stepper tracking(scene);
+    TickState state;
+    int events = 0;
+    for (int i = 0; i < 400; ++i) {  // the hub is at (40, 0) mm
+      const TickOutput tracked = tracking.step(preset, at_position(1e-3 * i, {0.030 + 5e-5 * i, 1e-5, 0.039}), state);
+      events += i > 0 && tracked.event != TickEvent::none;
+    }
+    CHECK(events == 0);
+    int most = 0;
+    for (const double x : {-0.02, 0.0, 0.02, 0.035, 0.039}) {
+      int asked = 0;
+      ContactQuery query;
+      query.centre = {x, 0.002, 0.039};
+      query.margin_m = 4e-4;
+      limit_query(query, preset.finger, 0.0195);
+      scene->hierarchy().visit(query, [&](std::uint32_t, ContactQuery&) { return ++asked, true; });
+      most = std::max(most, asked);
+    }
+    CAPTURE(most);
+    CHECK(most <= 200);
+  }
 }

@@ -137,7 +137,7 @@ TEST_CASE("on a ball, which nowhere folds, a search looks ever further ahead") {
     stepper.step(preset, at_position(1e-3 * i, 0.059 * Vec3(std::cos(turn), std::sin(turn), 0.1)), state);
     asked += state.clearance.centre != centre;
     centre = state.clearance.centre;
-    CHECK(state.clearance.watched_count == 0);
+    CHECK(std::uint32_t{state.clearance.watched_count} == 0);
   }
   CHECK(asked < 80);
 }

@@ -232,7 +232,7 @@ TEST_CASE("while an ellipsoid or a capsule turns over bodies made at random the 
     CHECK(unconverged == 0);
     CHECK(facing * 1000 <= all);
     CHECK(touching > all / 2);
-    // A place that comes up while the finger turns can count as not entered (decide.h), which knows of its way alone.
-    CHECK(shallower <= std::max(1, all / 500));
+    // Near a fold one can come up before the search that the motion so far called for.
+    CHECK(shallower <= std::max(1, all / 800));
   }
 }

@@ -37,6 +37,7 @@ void crash_in(const testing::TempFolder& folder) {
     }
   }
   REQUIRE(std::filesystem::exists(left));
+  std::filesystem::remove_all(folder.path() / "unsaved");  // what was left when the window was closed
   std::filesystem::create_directories(folder.path() / "unsaved");
   std::filesystem::rename(left, folder.path() / "unsaved" / "1.toml");
 }
@@ -96,4 +97,24 @@ TEST_CASE("settings that can't be written are tried again, the reason is said on
   std::filesystem::remove(folder.path() / "window.toml");
   ui.model().window().keep_settings({});
   CHECK(read_window_settings(folder.path() / "window.toml")->text_size == doctest::Approx(1.5));
+}
+
+TEST_CASE("a window that is closed with changes in no file leaves them to the next one, and nothing else") {
+  const testing::TempFolder folder;
+  {
+    RunningApp ui(kept_in(folder));
+    ui.run(100);
+    ui.model().presets().set_value(stiffness(), 1000.0);
+  }
+  {
+    RunningApp ui(kept_in(folder));
+    ui.run(100);
+    CHECK(ui.model().unsaved().offer().find("1 change of presets") != std::string::npos);
+    ui.click("unsaved/take_up");
+    CHECK(ui.model().presets().current().force.stiffness_n_per_m == 1000.0);
+    ui.model().presets().revert_all();
+  }
+  RunningApp ui(kept_in(folder));
+  ui.run(100);
+  CHECK(ui.model().unsaved().offer().empty());
 }

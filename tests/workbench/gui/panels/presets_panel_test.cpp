@@ -1,4 +1,5 @@
 // Preset files, read and written in the panel.
+#include "core/lab/audit/finger_size.h"
 #include "tests/workbench/gui/running_app.h"
 
 #include <filesystem>
@@ -76,4 +77,98 @@ TEST_CASE("a preset that was there before is written over only when asked for tw
   ui.frame();
   ui.click("presets/save");
   CHECK(read_preset(folder / "mine.toml")->preset.solver.gain_overall == 0.6);
+}
+
+TEST_CASE("a saved preset says where its values come from") {
+  const auto folder = fresh_folder("tangent_app_origin");
+  AppOptions options = HeadlessApp::deterministic_options();
+  options.preset_folder = folder;
+  RunningApp ui(options, 1280.0f, 2000.0f);
+  ui.model().presets().set_value(*find_preset_key("solver", "gain_overall"), 0.4);
+  ui.run(2000);
+  ui.click("presets/note");
+  ui.type("for the rim");
+  ui.click("presets/name");
+  ui.type("mine");
+  ui.click("presets/save");
+  const auto saved = read_preset(folder / "mine.toml");
+  REQUIRE(saved);
+  const PresetAbout& about = saved->about;
+  CHECK(about.note == "for the rim");
+  CHECK(about.program_version == TANGENT_VERSION);
+  CHECK(about.mesh_name == ui.model().mesh()->name());
+  CHECK(about.metres_per_unit == ui.model().scene().metres_per_unit());
+  CHECK(about.longest_side_m == longest_side_m(*ui.model().mesh()));
+  REQUIRE(about.measured.size() == 6);
+  CHECK(about.measured[1].first == "ticks");
+  CHECK(std::get<double>(about.measured[1].second) > 500.0);
+  CHECK(about.measured[2].first == "mean_iterations");
+  CHECK(std::get<double>(about.measured[2].second) >= 1.0);
+  CHECK(read_preset(folder / "mine.toml")->about == about);
+}
+
+TEST_CASE("a preset that was saved on another mesh or size says so when it is loaded") {
+  const auto folder = fresh_folder("tangent_app_other_mesh");
+  AppOptions options = HeadlessApp::deterministic_options();
+  options.preset_folder = folder;
+  RunningApp ui(options);
+  ui.run(50);
+  PresetFile file;
+  file.about.mesh_name = "bracket.obj";
+  file.about.mesh_hash = "0123456789abcdef";
+  REQUIRE(write_preset(file, folder / "other.toml"));
+  file.about.longest_side_m = 1.5;
+  REQUIRE(write_preset(file, folder / "larger.toml"));
+  ui.model().open((folder / "other.toml").string());
+  CHECK(said(ui.model(), Severity::warning, "saved on bracket.obj"));
+  CHECK_FALSE(said(ui.model(), Severity::warning, "1500 mm"));
+  ui.model().open((folder / "larger.toml").string());
+  CHECK(said(ui.model(), Severity::warning, "bracket.obj of 1500 mm"));
+}
+
+TEST_CASE("the program's own values can be chosen again, and undone") {
+  AppOptions options = HeadlessApp::deterministic_options();
+  options.preset_folder = fresh_folder("tangent_app_built_in");
+  RunningApp ui(options, 1280.0f, 2000.0f);
+  ui.model().presets().load(std::filesystem::path(TANGENT_SOURCE_DIR "/presets") / "default.toml");
+  ui.model().presets().set_value(*find_preset_key("solver", "gain_overall"), 0.4);
+  ui.frame();
+  ui.click("presets/built_in");
+  CHECK(ui.model().presets().current() == Preset{});
+  CHECK(ui.model().presets().editor().name() == "built-in");
+  CHECK(ui.model().presets().editor().path().empty());
+  ui.model().presets().undo();
+  CHECK(ui.model().presets().current().solver.gain_overall == 0.4);
+}
+
+TEST_CASE("presets that ship are listed beside a person's own, which keep their names") {
+  const auto folder = fresh_folder("tangent_app_own");
+  REQUIRE(write_preset({}, folder / "default.toml"));
+  AppOptions options = HeadlessApp::deterministic_options();
+  options.preset_folder = folder;
+  RunningApp ui(options, 1280.0f, 2000.0f);
+  ui.frame();
+  CHECK(ui.app().items().find("presets/file/default") != nullptr);
+  REQUIRE(ui.app().items().find("presets/file/default (shipped)") != nullptr);
+  ui.click("presets/file/default (shipped)");
+  CHECK(ui.model().presets().editor().path().parent_path() == std::filesystem::path(TANGENT_SOURCE_DIR "/presets"));
+}
+
+TEST_CASE("saving B leaves A its name and what it was loaded from") {
+  const auto folder = fresh_folder("tangent_app_save_b");
+  AppOptions options = HeadlessApp::deterministic_options();
+  options.preset_folder = folder;
+  RunningApp ui(options);
+  PresetModel& presets = ui.model().presets();
+  const PresetKey& gain = *find_preset_key("solver", "gain_overall");
+  presets.load(std::filesystem::path(TANGENT_SOURCE_DIR "/presets") / "default.toml");
+  presets.copy_ab();
+  presets.toggle_ab();
+  presets.set_value(gain, 0.4);
+  REQUIRE(presets.save("mine", {}));
+  CHECK(presets.slots().slot(1).name() == "mine");
+  CHECK(presets.slots().slot(0).name() == "default");
+  CHECK_FALSE(presets.slots().slot(0).changed());
+  presets.toggle_ab();
+  CHECK(presets.editor().changes().empty());
 }

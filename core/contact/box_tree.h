@@ -1,0 +1,96 @@
+// A tree of boxes in float over things that have one each: which of them are within reach of a query, the nearest first
+// as far as boxes tell.
+//
+// Immutable, no allocation in a query, any number of threads.
+#pragma once
+
+#include "core/base/vec.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace tangent {
+
+struct FloatBox {
+  std::array<float, 3> min, max;
+
+  static FloatBox about(const Box& box);  ///< rounded outwards
+  void include(const FloatBox& other);
+  Vec3 low() const { return {min[0], min[1], min[2]}; }
+  Vec3 high() const { return {max[0], max[1], max[2]}; }
+};
+
+/// Square of the distance from a point to a box, 0 inside.
+inline double distance2_to_box(const Vec3& low, const Vec3& high, const Vec3& point) {
+  const Vec3 gap = glm::max(glm::max(low - point, point - high), Vec3(0.0));
+  return glm::dot(gap, gap);
+}
+
+class BoxTree {
+ public:
+  static constexpr std::size_t kLargestLeaf = 8;
+
+  /// The same tree for the same boxes, wherever it is built. Preconditions: a box, fewer than 2^28, 1 <= leaf_size <=
+  /// kLargestLeaf.
+  static BoxTree build(std::span<const FloatBox> boxes, std::size_t leaf_size);
+
+  /// Calls visit(number of a box) for those within reach, until it returns false; returns whether it never did.
+  /// reach2(low, high): the square of the distance to a box, negative where nothing in it is wanted. farthest2(): the
+  /// square of the distance up to which things are wanted still; it may shrink on the way.
+  template <class Reach, class Farthest, class Visit>
+  bool visit(const Reach& reach2, const Farthest& farthest2, Visit&& visit) const;
+
+  std::size_t memory_bytes() const { return nodes_.capacity() * sizeof(Node) + order_.capacity() * sizeof(order_[0]); }
+
+ private:
+  friend class BoxTreeBuilder;
+  static constexpr std::size_t kMaxDepth = 64;
+  static constexpr std::uint32_t kLeaf = 0x80000000u, kFirstBits = 28;
+
+  /// Preorder: the first child follows its parent.
+  struct Node {
+    FloatBox box;
+    std::uint32_t link;  ///< second child, or kLeaf | (count - 1) << kFirstBits | first entry in order_
+  };
+
+  std::vector<Node> nodes_;
+  std::vector<std::uint32_t> order_;  ///< numbers of boxes, leaf by leaf
+};
+
+template <class Reach, class Farthest, class Visit>
+bool BoxTree::visit(const Reach& reach2, const Farthest& farthest2, Visit&& visit) const {
+  struct Entry {
+    std::uint32_t node;
+    double reach2;
+  };
+  const auto entry_of = [&](std::uint32_t node) {
+    return Entry{node, reach2(nodes_[node].box.low(), nodes_[node].box.high())};
+  };
+  std::array<Entry, kMaxDepth> stack;
+  std::size_t size = 0;
+  if (const Entry root = entry_of(0); root.reach2 >= 0.0) stack[size++] = root;
+  while (size > 0) {
+    const Entry entry = stack[--size];
+    if (entry.reach2 > farthest2()) continue;
+    const Node& node = nodes_[entry.node];
+    if (node.link & kLeaf) {
+      const std::uint32_t first = node.link & ((1u << kFirstBits) - 1);
+      const std::uint32_t count = ((node.link & ~kLeaf) >> kFirstBits) + 1;
+      for (std::uint32_t i = first; i < first + count; ++i)
+        if (!visit(order_[i])) return false;
+      continue;
+    }
+    const Entry a = entry_of(entry.node + 1), b = entry_of(node.link);
+    const bool a_first = a.reach2 <= b.reach2;
+    const Entry &near = a_first ? a : b, &far = a_first ? b : a;
+    if (far.reach2 >= 0.0) stack[size++] = far;
+    if (near.reach2 >= 0.0) stack[size++] = near;
+  }
+  return true;
+}
+
+}  // namespace tangent

@@ -1,0 +1,43 @@
+#include "core/contact/prove/late_hierarchy.h"
+
+namespace tangent {
+
+LateHierarchy::LateHierarchy(const ContactMesh& mesh, const TriangleClusters* clusters)
+    : mesh_(&mesh), clusters_(clusters) {
+  if (clusters_) {
+    parts_ = std::make_unique<BuiltOnce<ContactHierarchy>[]>(clusters_->count());
+  } else {
+    whole_.emplace(ContactHierarchy::build(mesh));
+  }
+}
+
+void LateHierarchy::build_part(std::size_t number) const {
+  if (clusters_) part(number);
+}
+
+void LateHierarchy::build_near(const Vec3& centre, double radius_m) const {
+  if (!clusters_) return;
+  clusters_->tree().visit([&](const Vec3& low, const Vec3& high) { return distance2_to_box(low, high, centre); },
+                          [&] { return radius_m * radius_m; },
+                          [&](std::uint32_t cluster) {
+                            part(cluster);
+                            return true;
+                          });
+}
+
+std::size_t LateHierarchy::built_count() const {
+  if (!clusters_) return 1;
+  std::size_t built = 0;
+  for (std::size_t i = 0; i < part_count(); ++i) built += parts_[i].if_built() != nullptr;
+  return built;
+}
+
+std::size_t LateHierarchy::memory_bytes() const {
+  if (!clusters_) return whole_->memory_bytes();
+  std::size_t bytes = part_count() * sizeof(parts_[0]);
+  for (std::size_t i = 0; i < part_count(); ++i)
+    if (const ContactHierarchy* built = parts_[i].if_built()) bytes += sizeof(*built) + built->memory_bytes();
+  return bytes;
+}
+
+}  // namespace tangent
