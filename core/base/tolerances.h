@@ -139,7 +139,7 @@ inline constexpr double kSmallestWatch = 2e-3, kLargestWatch = 0.1;
 /// smaller: frequent ones on smooth ground.
 inline constexpr double kWatchReach = 60.0;
 inline constexpr float kLeastAhead = 0.0625f, kMostAhead = 8.0f;
-inline constexpr int kCheapLooks = 12, kDearLooks = 96;
+inline constexpr int kCheapLooks = 12, kDearLooks = 48;
 
 /// Part of the look-ahead that remains where a triangle could neither be ruled out nor be solved: half a tick. A
 /// contact comes up there at once where the offset surface unfolds. Larger: it takes over late; smaller: nothing, the

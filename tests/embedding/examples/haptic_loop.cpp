@@ -18,8 +18,7 @@ tangent::Status press(const char* mesh) {
 
   tangent::ForceDevice& device = *devices->force;
   tangent::SafetyGate gate(tangent::gate_limits(*devices, 1.0 / kTick));
-  tangent::Preset preset;
-  preset.force.stiffness_n_per_m = tangent::stiffness_allowed(*devices, preset.force.stiffness_n_per_m);
+  const tangent::Preset preset = tangent::preset_allowed({}, *devices);
   const double top = (*scene)->mesh().origin().z + (*scene)->mesh().bounds().max.z + preset.finger.radius_m;
   device.hand()->place({.position_m = {0.0, 0.0, top + 5e-3}});
   tangent::Stepper stepper(*scene);
