@@ -2,7 +2,8 @@
 #
 # Copies each header FROM (in the project) to OUT/tangent/TO, and all headers of the project that these include,
 # directly or not, to OUT/tangent/ under their own paths. Includes of the project's headers become <tangent/...>:
-# "core/..." would find an embedder's own folder of that name first. Files that stay the same are not touched; others are removed.
+# "core/..." would find an embedder's own folder of that name first. Files that stay the same are not touched; others
+# are removed.
 cmake_policy(VERSION 3.25)
 file(GLOB_RECURSE stale RELATIVE ${OUT} ${OUT}/tangent/*.h)
 set(queue)

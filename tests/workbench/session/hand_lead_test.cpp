@@ -89,7 +89,8 @@ TEST_CASE("a point far away is reached from where the finger is, at a hand's spe
 TEST_CASE("a finger that something holds back is pulled no harder than by five millimetres of the hand's spring") {
   HandLead hand;
   const Vec3 finger = hand.begin(path(), kPad).position_m;
-  hand.command({.settings = {.mode = HandMode::point}, .point_m = -finger, .point_speed_m_per_s = 0.2, .longest_lead_m = 5e-3});
+  hand.command(
+      {.settings = {.mode = HandMode::point}, .point_m = -finger, .point_speed_m_per_s = 0.2, .longest_lead_m = 5e-3});
   HandTarget target;
   for (int i = 0; i < 1000; ++i) {
     target = hand.advance(path(), kPad, finger, kTick_s);
