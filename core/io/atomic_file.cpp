@@ -22,20 +22,6 @@ tl::unexpected<Error> system_failure(const char* doing, const std::filesystem::p
   return fail(std::string("cannot ") + doing + ": " + std::strerror(code), target.string(), kRemedy);
 }
 
-/// Opens a new file beside `place`. Its name contains the process id and an attempt number, so that leftovers of a
-/// crashed run, or a second writer, only cost another attempt.
-int open_beside(const std::filesystem::path& place, mode_t mode, std::filesystem::path& temporary) {
-  for (int attempt = 0; attempt < 1000; ++attempt) {
-    std::string name(1, '.');
-    name.append(place.filename().string(), 0, 200);
-    name.append(".tmp-").append(std::to_string(::getpid())).append(1, '-').append(std::to_string(attempt));
-    temporary = place.parent_path() / name;
-    const int fd = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
-    if (fd >= 0 || errno != EEXIST) return fd;
-  }
-  return -1;
-}
-
 // --- For a process that ends by a signal ----------------------------------------------------------------
 
 /// The name of one temporary file, in memory that nobody frees: a signal handler may be reading it. `removed` stays:
@@ -66,6 +52,26 @@ void forget(int which) {
   KeptName::State held = KeptName::State::held;
   if (which >= 0)
     temporaries[static_cast<std::size_t>(which)].state.compare_exchange_strong(held, KeptName::State::empty);
+}
+
+// ---------------------------------------------------------------------------------------------------------
+
+/// Opens a new file beside `place`. Its name contains the process id and an attempt number, so that leftovers of a
+/// crashed run, or a second writer, only cost another attempt. It is remembered before it is there: a signal may come
+/// in between.
+int open_beside(const std::filesystem::path& place, mode_t mode, std::filesystem::path& temporary, int& known_as) {
+  for (int attempt = 0; attempt < 1000; ++attempt) {
+    std::string name(1, '.');
+    name.append(place.filename().string(), 0, 200);
+    name.append(".tmp-").append(std::to_string(::getpid())).append(1, '-').append(std::to_string(attempt));
+    temporary = place.parent_path() / name;
+    known_as = remember(temporary);
+    const int fd = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
+    if (fd >= 0) return fd;
+    forget(std::exchange(known_as, -1));
+    if (errno != EEXIST) return fd;
+  }
+  return -1;
 }
 
 /// Makes a rename durable; ignored where directories can't be synced.
@@ -99,13 +105,12 @@ Result<AtomicFile> AtomicFile::create(const std::filesystem::path& target) {
     if (!followed.empty()) file.place_ = followed;
   }
   const mode_t mode = exists ? info.st_mode & 07777 : 0666;
-  file.fd_ = open_beside(file.place_, mode, file.temporary_);
+  file.fd_ = open_beside(file.place_, mode, file.temporary_, file.known_as_);
   if (file.fd_ < 0) {
     const auto failure = system_failure("create a temporary file beside it", target);
     file.temporary_.clear();
     return failure;
   }
-  file.known_as_ = remember(file.temporary_);
   if (exists) (void)::fchmod(file.fd_, mode);  // restores the old file's mode, which the umask may have reduced
   return file;
 }

@@ -64,7 +64,8 @@ TEST_CASE("after a crash preset edits with their undo and bookmarks with notes a
   CHECK(marks[0].note == "earlier run: look here");
 }
 
-TEST_CASE("work that is discarded is offered no more, and an orderly end leaves nothing to offer") {
+TEST_CASE(
+    "work that is discarded is offered no more, and an orderly end with nothing changed leaves nothing to offer") {
   const testing::TempFolder folder;
   crash_in(folder);
   {
@@ -73,6 +74,7 @@ TEST_CASE("work that is discarded is offered no more, and an orderly end leaves 
     CHECK(ui.model().unsaved().offer().empty());
     ui.model().presets().set_value(stiffness(), 500.0);
     ui.model().keep();
+    ui.model().presets().revert_all();
   }
   RunningApp ui(kept_in(folder));
   CHECK(ui.model().unsaved().offer().empty());
