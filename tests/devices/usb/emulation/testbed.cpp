@@ -55,12 +55,13 @@ void PluggedDevice::plug_in(int open_error) {
                              "\nE: BUSNUM=001\n" + number("E: DEVNUM=%03d\n", address_) + "A: busnum=1\n" +
                              number("A: devnum=%d\n", address_) + "A: idVendor=" + id(8) + "\nA: idProduct=" + id(10) +
                              "\nA: bConfigurationValue=1\nA: speed=12\nH: descriptors=" + hex(d) + "\n";
+  // Before the node is there: who opens one that nobody answers for is aborted by umockdev.
+  if (by_ == NodeBy::umockdev) mock_node_ = std::make_unique<UmockdevNode>(testbed_.mock(), node_, board);
   GError* error = nullptr;
   if (!umockdev_testbed_add_from_string(testbed_.mock(), device.c_str(), &error)) {
     std::fprintf(stderr, "testbed: %s\n", error->message);
     std::abort();
   }
-  if (by_ == NodeBy::umockdev) mock_node_ = std::make_unique<UmockdevNode>(testbed_.mock(), node_, board);
   umockdev_testbed_uevent(testbed_.mock(), syspath_.c_str(), "add");
   plugged_ = true;
 }
@@ -69,8 +70,8 @@ void PluggedDevice::unplug() {
   board.unplug();
   if (by_ == NodeBy::shim) detach_board(node_);
   umockdev_testbed_uevent(testbed_.mock(), syspath_.c_str(), "remove");
-  mock_node_.reset();
   umockdev_testbed_remove_device(testbed_.mock(), syspath_.c_str());
+  mock_node_.reset();
   plugged_ = false;
 }
 

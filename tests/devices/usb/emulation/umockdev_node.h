@@ -13,7 +13,7 @@ namespace tangent::emulation {
 
 class UmockdevNode {
  public:
-  /// The node must be in the testbed.
+  /// Before the node is in the testbed, so that nobody finds one without an answer.
   UmockdevNode(UMockdevTestbed* testbed, const std::string& path, UsbfsBoard& board);
   ~UmockdevNode();
   UmockdevNode(const UmockdevNode&) = delete;
