@@ -6,6 +6,7 @@
 #include "workbench/cli/messages.h"
 #include "workbench/cli/monitor_text.h"
 #include "workbench/cli/option.h"
+#include "workbench/cli/text_format.h"
 #include "workbench/session/maestro_setups.h"
 #include "workbench/session/raw_terminal.h"
 
@@ -106,6 +107,14 @@ void watch(Session& session, const MonitorOptions& options, const FaultInjection
   if (live) std::puts("");
 }
 
+/// The device renders less than the preset asks for.
+void say_what_is_capped(const Session& session) {
+  const double asked = Preset{}.force.stiffness_n_per_m, used = session.preset().force.stiffness_n_per_m;
+  if (!(used < asked) || session.force_capabilities() == nullptr) return;
+  print_message("monitor", format("the stiffness of %.4g N/m is more than %s renders stably: it uses %.4g N/m", asked,
+                                  session.force_capabilities()->name.c_str(), used));
+}
+
 Status run_monitor(const MonitorOptions& options) {
   const FaultInjection fault{.kind = options.inject};
   auto scene = builtin_scene();
@@ -135,6 +144,7 @@ Status run_monitor(const MonitorOptions& options) {
                                    " goes on with its last command when this program dies (its firmware has no "
                                    "time-out), so nothing is armed; --without-timeout arms nevertheless");
   }
+  say_what_is_capped(**session);
   if (const Status ok = (*session)->start(); !ok) return ok;
   watch(**session, options, fault);
   const Status ended = (*session)->shut_down();

@@ -101,6 +101,14 @@ TEST_CASE("a log of packets that can't be written ends the monitor before anythi
   CHECK_FALSE(has(r.out, "armed"));
 }
 
+TEST_CASE("the monitor says what of the preset the device does not render") {
+  const ProcessResult r = run_workbench({"monitor", "--seconds", "1", "--place-scale", "10"});
+  CHECK(r.exit_code == 0);
+  CHECK(has(r.err, "the stiffness of 800 N/m is more than"));
+  CHECK(has(r.err, "it uses 350 N/m"));
+  CHECK_FALSE(has(run_workbench({"monitor", "--seconds", "1"}).err, "stiffness"));
+}
+
 TEST_CASE("force device and display are chosen apart, whatever --device says") {
   const ProcessResult r =
       run_workbench({"monitor", "--seconds", "1", "--display", "none", "--force", "ideal", "--device", "simulated"});
