@@ -52,6 +52,8 @@ Stepper::~Stepper() = default;
 
 TickOutput Stepper::step(const Preset& preset, const TickInput& input, TickState& state, IterationTrace* trace) {
   if (scene_->planar()) return step_planar(*scene_->planar(), preset, input, state, trace);
+  const StepperUse use(cache_->in_use);
+  if (!use.mine()) return {.status = TickStatus::busy};
   const FloatState as_tested;
   const bool usable = is_usable(input.finger);
   const FingerPose last = last_pose(state);
