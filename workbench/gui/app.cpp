@@ -2,6 +2,7 @@
 
 #include "workbench/gui/model/app_model.h"
 #include "workbench/gui/panels/panels.h"
+#include "workbench/gui/panels/save_panel.h"
 #include "workbench/gui/widgets/thread_time.h"
 #include "workbench/gui/widgets/widgets.h"
 
@@ -190,6 +191,7 @@ void App::frame(const FrameInput& input) {
   draw_shortcut_sheet(ui, *model_, ui_->menu,
                       {0.0f, layout.menu.bottom(), input.width, layout.transport.y - layout.menu.bottom()});
   draw_command_palette(ui, *model_, ui_->menu, middle);
+  draw_save_panel(ui, *model_, ui_->plots, middle);
   if (!ImGui::IsAnyItemActive()) model_->presets().end_gesture();
   ImGui::Render();
   last_build_ms_ = thread_cpu_ms() - begin - ui_->view.build_ms_outside;

@@ -60,6 +60,19 @@ TEST_CASE("shot writes a picture of the size asked for, the same every time") {
   CHECK(picture == read_text(folder.file("b.png")));
 }
 
+TEST_CASE("shot leaves out the ground where asked to, of the scene alone, and its picture says where it comes from") {
+  CHECK(run_workbench({"shot", "--view", "overview", "--transparent", "--out", "a.png"}).exit_code == 2);
+  if (no_gl()) return;
+  const TempFolder folder;
+  const ProcessResult done = run_workbench({"shot", "torus", "--view", "cone", "--transparent", "--out",
+                                            folder.file("a.png"), "--width", "160", "--height", "120"});
+  CHECK(done.exit_code == 0);
+  const std::string picture = read_text(folder.file("a.png"));
+  CHECK(picture[25] == 6);  // colour and alpha
+  for (const char* words : {"torus, ", "workbench shot torus --view cone --width 160", "Tangent Workbench "})
+    CHECK(contains(picture, words));
+}
+
 TEST_CASE("text and lines of a picture of the scene grow with its height, unless a scale is given") {
   if (no_gl()) return;
   const TempFolder folder;

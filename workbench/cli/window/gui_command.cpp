@@ -50,8 +50,9 @@ int draw_builtin_pictures(const std::string& reason) {
     ShotRequest request;
     request.view = view;
     const std::filesystem::path file = *directory / (std::string(view) + ".png");
-    const Result<Image> picture = take_shot(request);
-    const Status written = picture ? write_png(*picture, file) : Status(tl::unexpected(picture.error()));
+    const Result<Shot> shot = take_shot(request);
+    const Status written =
+        shot ? write_png(shot->image, file, {.origin = shot->origin}) : Status(tl::unexpected(shot.error()));
     if (!written) {
       print_message("", reason + "; and " + written.error().message());
       return kFailed;

@@ -31,11 +31,12 @@ void list_views() {
 }
 
 Status write_shot(const ShotRequest& request, const std::filesystem::path& file) {
-  const Result<Image> picture = take_shot(request);
-  if (!picture) return tl::unexpected(picture.error());
-  if (Status written = write_png(*picture, file); !written) return written;
-  std::fputs(format("%s: %s, %d x %d\n", file.c_str(), request.view.c_str(), picture->width, picture->height).c_str(),
-             stdout);
+  const Result<Shot> shot = take_shot(request);
+  if (!shot) return tl::unexpected(shot.error());
+  const PngOptions options{request.transparent, shot->origin};
+  if (Status written = write_png(shot->image, file, options); !written) return written;
+  const std::string size = format("%d x %d", shot->image.width, shot->image.height);
+  std::fputs(format("%s: %s, %s\n", file.c_str(), request.view.c_str(), size.c_str()).c_str(), stdout);
   return {};
 }
 
@@ -53,6 +54,10 @@ int run_shot(const ShotOptions& options) {
   if (!all && std::none_of(views.begin(), views.end(), [&](const ShotView& v) { return v.name == request.view; })) {
     print_message("shot",
                   "there is no view \"" + request.view + "\"; choose one of: " + shot_view_names() + " (or list, all)");
+    return kUsage;
+  }
+  if (request.transparent && (all || !is_scene_view(request.view))) {
+    print_message("shot", "the window has no transparent ground; choose a view of the scene (--view list)");
     return kUsage;
   }
   if (options.file.empty()) {
@@ -94,6 +99,7 @@ void add_shot_command(CLI::App& app, CommandResult& result) {
                     [request](int theme) { request->theme = static_cast<Theme>(theme); });
   add_choice_option(*command, "--up", kUpAxes, "Axis of the mesh that is up in the picture (default z)",
                     [request](int axis) { request->y_up = axis == 1; });
+  add_flag(*command, "--transparent", request->transparent, "Nothing behind the scene; for views of the scene");
   on_run(*command, [options, &result] { result.exit_code = run_shot(*options); });
 }
 

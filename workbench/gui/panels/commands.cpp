@@ -3,6 +3,7 @@
 #include "core/lab/objects/generate.h"
 #include "core/lab/objects/generate_hard.h"
 #include "devices/device_set.h"
+#include "workbench/gui/panels/save_panel.h"
 
 #include <algorithm>
 #include <cctype>
@@ -85,6 +86,10 @@ void add_time_commands(std::vector<Command>& out, AppModel& model) {
                    const auto [from, to] = ticks_in_view(model.time());
                    model.exports().write_ticks(from, to);
                  }});
+  out.push_back({"Plots: save as SVG or PDF...", "", [&model] { ask_to_save(model, SaveWhat::plots); }});
+  out.push_back({"View: save a picture of the scene...", "", [&model] { ask_to_save(model, SaveWhat::scene); }});
+  out.push_back({"Map: save as CSV...", "", [&model] { ask_to_save(model, SaveWhat::map); }});
+  out.push_back({"Iterations: save the planes as CSV...", "", [&model] { ask_to_save(model, SaveWhat::planes); }});
   out.push_back({"Force: stop", "Esc", [&model] { model.devices().stop(); }});
   out.push_back({"Force: arm", "", [&model] { model.devices().arm(); }});
   out.push_back(

@@ -1,6 +1,7 @@
 // Toolbar above the plots: plot type, follow / hold / inspect, cursors A and B, legend of the ghost, export to CSV and
 // PNG.
 #include "workbench/gui/panels/panels.h"
+#include "workbench/gui/panels/save_panel.h"
 #include "workbench/gui/widgets/widgets.h"
 
 #include <cmath>
@@ -100,7 +101,7 @@ void draw_plots_toolbar(const UiContext& ui, AppModel& model, PlotsPanel& state,
   draw_modes(ui, state);
   draw_following(ui, model.time());
   draw_cursors(ui, model.time(), state.link);
-  const float out_width = ImGui::CalcTextSize("CSV").x + ImGui::CalcTextSize("PNG").x + ui.px(24 + 3 + 10);
+  const float out_width = ImGui::CalcTextSize("CSVPNGSVG").x + ui.px(36 + 6 + 10);
   const float out_x = rect.right() - out_width;
   draw_ghost_note(ui, model.time(), out_x);
   if (ImGui::GetCursorScreenPos().x < out_x) {
@@ -117,6 +118,9 @@ void draw_plots_toolbar(const UiContext& ui, AppModel& model, PlotsPanel& state,
     ImGui::SameLine(0, ui.px(3));
     if (text_button(ui, "plots/png", "PNG", "The plots as they are, as a PNG file"))
       model.exports().ask_for_picture("plots", whole);
+    ImGui::SameLine(0, ui.px(3));
+    if (text_button(ui, "plots/figure", "SVG", "The plots in view as a figure for a paper: SVG or PDF"))
+      ask_to_save(model, SaveWhat::plots);
   }
   ImGui::PopStyleVar();
   ImGui::PopFont();

@@ -3,6 +3,7 @@
 // moves the simulated hand.
 #include "workbench/gui/layout/view_room.h"
 #include "workbench/gui/panels/panels.h"
+#include "workbench/gui/panels/scene_picture.h"
 #include "workbench/gui/render/scene_overlay.h"
 #include "workbench/gui/widgets/thread_time.h"
 #include "workbench/gui/widgets/widgets.h"
@@ -193,8 +194,11 @@ void draw_picture(const UiContext& ui, AppModel& model, ViewPanel& state, SceneR
   renderer.set_scene(model.scene().current(), model.presets().current().solver.normal_form);
   SceneFrame frame = scene_frame(model);
   frame.pixel_scale = static_cast<double>(ui.scale * per_point.y);
-  renderer.render(frame, model.view().camera, static_cast<int>(std::lround(rect.w * per_point.x)),
-                  static_cast<int>(std::lround(rect.h * per_point.y)));
+  const int width_px = static_cast<int>(std::lround(rect.w * per_point.x)),
+            height_px = static_cast<int>(std::lround(rect.h * per_point.y));
+  if (const auto wanted = model.exports().take_scene_picture())
+    save_scene_picture(model, renderer, frame, *wanted, width_px, height_px);
+  renderer.render(frame, model.view().camera, width_px, height_px);
   state.build_ms_outside = thread_cpu_ms() - begin;
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   if (renderer.texture() == 0) return;

@@ -1,6 +1,7 @@
 #include "workbench/gui/platform/window.h"
 
 #include "workbench/gui/model/app_model.h"
+#include "workbench/gui/model/file_origin_of.h"
 #include "workbench/gui/platform/input_queue.h"
 #include "workbench/gui/platform/save_picture.h"
 #include "workbench/gui/render/image.h"
@@ -141,7 +142,7 @@ void draw_frame(GLFWwindow* window, App& app, const FrameInput& input, InputQueu
   glClear(GL_COLOR_BUFFER_BIT);
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
   if (const auto file = app.take_screenshot_request()) {
-    const Status written = write_png(read_pixels(0, width_px, height_px), *file);
+    const Status written = write_png(read_pixels(0, width_px, height_px), *file, {.origin = file_origin(app.model())});
     if (written)
       app.model().messages().say(Severity::note, "screenshot written to " + file->string());
     else

@@ -4,6 +4,7 @@
 #include "core/preset/schema.h"
 #include "workbench/gui/app.h"
 #include "workbench/gui/model/app_model.h"
+#include "workbench/gui/model/file_origin_of.h"
 #include "workbench/gui/panels/panels.h"
 #include "workbench/gui/platform/offscreen.h"
 #include "workbench/gui/render/scene_renderer.h"
@@ -369,7 +370,7 @@ bool explores_on(std::uint64_t done, bool seen, bool in_view) {
   return done < kTicks || (seen && !in_view && done < kMostTicks);
 }
 
-Result<Image> take_window_shot(const ShotRequest& request) {
+Result<Shot> take_window_shot(const ShotRequest& request) {
   const WindowView& view =
       *std::find_if(std::begin(kViews), std::end(kViews), [&](const WindowView& v) { return v.name == request.view; });
   Result<std::unique_ptr<OffscreenScreen>> screen = OffscreenScreen::open(request.width_px, request.height_px);
@@ -397,7 +398,9 @@ Result<Image> take_window_shot(const ShotRequest& request) {
   renderer.wait_for_tessellation();
   if (view.key != 0) feeder.press(view.key, view.ctrl);
   for (int i = 0; i < kLayoutFrames; ++i) feeder.frame();
-  return (*screen)->picture();
+  FileOrigin origin = file_origin(app.model());
+  origin.command = shot_command(request, request.scale.value_or(1.0), request.theme.value_or(view.theme));
+  return Shot{(*screen)->picture(), std::move(origin)};
 }
 
 }  // namespace tangent

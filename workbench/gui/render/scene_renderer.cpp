@@ -34,6 +34,7 @@ struct MeshLayerKey {
   std::uint64_t arrays = 0, shaders = 0;
   std::optional<SlicePlane> slice;
   std::uint64_t isolation = 0;  // 0: none
+  std::optional<Rgba> ground;
   bool operator==(const MeshLayerKey&) const = default;
 };
 
@@ -146,7 +147,8 @@ const RenderTarget* SceneRenderer::Impl::draw_mesh(const SceneFrame& frame, cons
                          mesh.version(),
                          programs.version,
                          frame.slice,
-                         frame.isolation ? frame.isolation->version + 1 : 0};
+                         frame.isolation ? frame.isolation->version + 1 : 0,
+                         frame.ground};
   const int samples = !resting ? 0 : wants_multisampling(frame) ? kSamples : 0;
   const auto sized = [&](RenderTarget& target, int wanted) {
     // Falls back to no multisampling if the driver can't at this size.

@@ -53,6 +53,7 @@ enum class RenderQuality : std::uint8_t { automatic, still };
 struct SceneFrame {
   SceneToggles toggles;
   Theme theme = Theme::dark;
+  std::optional<Rgba> ground = std::nullopt;  ///< behind everything, plain; none: the theme's
   RenderQuality quality = RenderQuality::automatic;
   double pixel_scale = 1.0;  ///< widths of lines and points; 2 on a HiDPI screen
   Finger finger;
