@@ -12,7 +12,7 @@ namespace {
 
 /// What the threads share: the next finger that nobody has taken, and for each thread what its work threw.
 struct Fingers {
-  explicit Fingers(std::size_t threads) : thrown(threads) {}
+  explicit Fingers(std::size_t threads) { thrown.resize(threads); }
   std::atomic<std::size_t> next{0};
   std::vector<std::exception_ptr> thrown;
 };
