@@ -15,8 +15,9 @@
 
 namespace tangent {
 
-/// Channels of a ghost, SI; each corresponds to the recorded channel of the same name.
-enum class GhostChannel : std::uint8_t { force_x, force_y, force_z, force_magnitude, cld, error, iterations, count_ };
+/// Channels of a ghost, SI; each corresponds to the recorded channel of the same name. Of the force only what is
+/// computed: the gate is not run again.
+enum class GhostChannel : std::uint8_t { force_x, force_y, force_z, force_computed, cld, error, iterations, count_ };
 inline constexpr std::size_t kGhostChannelCount = static_cast<std::size_t>(GhostChannel::count_);
 
 /// The past solved under another preset. Numbers and channels cover the same ticks: first_tick to end_tick - 1.

@@ -120,12 +120,13 @@ void draw_raw(const UiContext& ui, const DeviceModel& devices) {
   const ServoRecord& r = history.newest();
   const Vec3 p = r.tick.input.finger.position * 1e3, f = r.device.force_command_n;
   fact(ui, "Position", printed("%.3f %.3f %.3f", p.x, p.y, p.z), "mm");
-  fact(ui, "Force sent", printed("%.3f %.3f %.3f", f.x, f.y, f.z), "N");
+  fact(ui, "Force felt", printed("%.3f %.3f %.3f", f.x, f.y, f.z), "N", colour(ui.palette.force_magnitude));
+  tooltip(ui, "What the safety gate lets through to the device");
   fact(ui, "Energy, made by the loop", printed("%.3f", r.device.energy_j * 1e3), "mJ");
   tooltip(ui,
           "Observed by the safety gate: force sent times motion measured. Below zero the hand has stored it in the "
           "surface; at 5 mJ in half a second the gate stops");
-  fact(ui, "Roller, measured / sent",
+  fact(ui, "Roller, measured / commanded",
        printed("%.4f / %.4f", r.device.cld_measured_m * 1e3, r.device.cld_command_m * 1e3), "mm");
   if (const auto* can = devices.session()->force_capabilities(); can != nullptr && can->buttons > 0) {
     std::string pressed;

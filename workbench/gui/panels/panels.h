@@ -130,7 +130,7 @@ struct PlotsPanel {
   PlotLink link;
   PlotsMode mode = PlotsMode::time;
   bool values = false;  ///< the table of numbers beside the curves
-  int x = 0, y = 2;     ///< curve numbers for X-Y; spectrum and histogram show x
+  int x = 2, y = 4;     ///< curve numbers for X-Y; spectrum and histogram show x
   SampleCells cells;
   Spectrum spectrum;
   int spectrum_of = -1;  ///< curve, range and time of `spectrum`

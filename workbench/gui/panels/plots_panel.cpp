@@ -82,11 +82,16 @@ PlotsPanel make_plots_panel() {
                .title = "Force",
                .unit = "N",
                .format = "%7.3f",
-               .series = {{"x", at(Channel::force_x), &Palette::force_x, false, true, at(GhostChannel::force_x)},
-                          {"y", at(Channel::force_y), &Palette::force_y, false, true, at(GhostChannel::force_y)},
-                          {"z", at(Channel::force_z), &Palette::force_z, false, true, at(GhostChannel::force_z)},
-                          {"total", at(Channel::force_magnitude), &Palette::force_magnitude, false, true,
-                           at(GhostChannel::force_magnitude)}}});
+               .series = {{"computed", at(Channel::force_computed), &Palette::force_computed, false, true,
+                           at(GhostChannel::force_computed), "By the solver, before the safety gate"},
+                          {"felt", at(Channel::force_felt), &Palette::force_magnitude, false, true, std::nullopt,
+                           "What the safety gate lets through to the device"},
+                          {"x", at(Channel::force_x), &Palette::force_x, false, true, at(GhostChannel::force_x),
+                           "Of the computed force"},
+                          {"y", at(Channel::force_y), &Palette::force_y, false, true, at(GhostChannel::force_y),
+                           "Of the computed force"},
+                          {"z", at(Channel::force_z), &Palette::force_z, false, true, at(GhostChannel::force_z),
+                           "Of the computed force"}}});
   panel.plots.emplace_back(PlotSpec{
       .id = "cld",
       .title = "Display",

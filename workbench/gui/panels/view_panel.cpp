@@ -29,7 +29,8 @@ constexpr std::array kLayers{
     LayerToggle{"Normals", &SceneToggles::vertex_normals, "Vertex normals"},
     LayerToggle{"Planes", &SceneToggles::planes, "Tangent planes of the tick's iterations, coloured by order"},
     LayerToggle{"Finger", &SceneToggles::finger, "The finger"},
-    LayerToggle{"Force", &SceneToggles::force, "The rendered force"},
+    LayerToggle{"Force", &SceneToggles::force,
+                "The computed force, and the felt one: what the safety gate lets through to the device"},
     LayerToggle{"Display", &SceneToggles::cld_inset, "The fingerpad from the side, with the roller where it is"}};
 
 /// Returns the toggles' lower edge.
@@ -74,6 +75,7 @@ SceneFrame scene_frame(const AppModel& model) {
     frame.tick = record->tick;
     frame.trace = model.time().tick().iterations();
     frame.selected_iteration = model.time().tick().selected();
+    frame.felt_force_n = record->device.force_command_n;
     frame.cld_commanded_m = record->device.cld_command_m;
     frame.cld_measured_m = record->device.cld_measured_m;
     // The tick may have run under a preset other than the one being edited.

@@ -257,7 +257,8 @@ void PlotView::draw_header(const UiContext& ui, const ChannelStore& store, const
     if (ImGui::InvisibleButton("toggle", {width, area.header})) series.visible = !series.visible;
     ui.items.note_last("plots/" + spec_.id + "/" + series.name);
     if (ImGui::IsItemHovered())
-      ImGui::SetTooltip("%s %s (click to hide or show)", spec_.title.c_str(), series.name.c_str());
+      ImGui::SetTooltip("%s %s%s%s (click to hide or show)", spec_.title.c_str(), series.name.c_str(),
+                        series.doc[0] != '\0' ? ": " : "", series.doc);
     ImGui::PopID();
     const ImU32 ink = packed(ui.palette.*series.colour);
     const float middle = y + 0.5f * ui.fonts.small->FontSize;

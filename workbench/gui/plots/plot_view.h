@@ -30,6 +30,7 @@ struct PlotSeries {
   bool steps = false;  ///< holds its value until the next tick (counts)
   bool visible = true;
   std::optional<std::size_t> ghost = std::nullopt;  ///< channel of PlotLink::ghost drawn with it
+  const char* doc = "";                             ///< shown on hover
 };
 
 struct PlotSpec {

@@ -34,7 +34,7 @@ struct SceneToggles {
   bool control_point_labels = false;    ///< b300 ... b111 (and n200 ... with control_normals)
   bool finger = true;
   bool penetration = true;  ///< the finger's lowest point to the contact
-  bool force = true;        ///< arrow; its scale is in force_metres_per_newton()
+  bool force = true;        ///< arrows, computed and felt; their scale is in force_metres_per_newton()
   bool contact = true;
   bool tracked_plane = false;  ///< the plane after the tick
   bool planes = true;          ///< the tangent planes of the tick's iterations, joined by a line
@@ -64,6 +64,7 @@ struct SceneFrame {
   std::span<const std::uint32_t> marked_triangles;  ///< outlined
   bool net_of_picked = false;                       ///< control net of the picked instead of the tracked triangle
   double display_travel_m = 0.016;                  ///< preset.display.travel_m, for the inset
+  std::optional<Vec3> felt_force_n;  ///< what the safety gate let through in that tick; none: there is no gate
   std::optional<double> cld_commanded_m;
   std::optional<double> cld_measured_m;
   std::span<const Vec3> trail;  ///< past contacts, oldest first

@@ -33,7 +33,9 @@ constexpr std::uint32_t packed(Rgba c) {
 }
 
 struct Palette {
-  Rgba force_x, force_y, force_z, force_magnitude;  ///< magnitude is also the force arrow
+  Rgba force_x, force_y, force_z;
+  Rgba force_computed;   ///< by the solver, before the safety gate: arrow, curve and number
+  Rgba force_magnitude;  ///< felt: what the safety gate lets through
   Rgba cld_commanded, cld_measured;
   Rgba error, iterations, tick_time, energy;
   Rgba contact, normal, finger, penetration, control_net, crease, boundary, selection;
@@ -46,7 +48,7 @@ struct Palette {
 // clang-format off
 constexpr Palette kDarkPalette{
     .force_x = rgb_hex(0xE8703A), .force_y = rgb_hex(0x2DB88F), .force_z = rgb_hex(0x4A9FE0),
-    .force_magnitude = rgb_hex(0xF2AE2E),
+    .force_computed = rgb_hex(0xCBBB98), .force_magnitude = rgb_hex(0xF2AE2E),
     .cld_commanded = rgb_hex(0x56B4E9), .cld_measured = rgb_hex(0xD98BB8),
     .error = rgb_hex(0xF0E442), .iterations = rgb_hex(0x7FCFA9), .tick_time = rgb_hex(0xA9B4C2),
     .energy = rgb_hex(0xC99BE8),
@@ -63,7 +65,7 @@ constexpr Palette kDarkPalette{
 // clang-format off
 constexpr Palette kLightPalette{
     .force_x = rgb_hex(0xC24F00), .force_y = rgb_hex(0x007F5C), .force_z = rgb_hex(0x0067A3),
-    .force_magnitude = rgb_hex(0xC77F00),
+    .force_computed = rgb_hex(0x7D6B42), .force_magnitude = rgb_hex(0xC77F00),
     .cld_commanded = rgb_hex(0x1F86C4), .cld_measured = rgb_hex(0xB4558F),
     .error = rgb_hex(0x9A8B00), .iterations = rgb_hex(0x3E8A6A), .tick_time = rgb_hex(0x5A6675),
     .energy = rgb_hex(0x7D4BA6),
