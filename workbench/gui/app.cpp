@@ -181,7 +181,7 @@ void App::frame(const FrameInput& input) {
   ui_->draw_column("##right", layout.right, ui, *model_, false);
   draw_plots_panel(ui, *model_, ui_->plots, layout.plots);
   draw_transport_bar(ui, model_->time(), layout.transport);
-  draw_status_line(ui, *model_, layout.status, last_build_ms_);
+  draw_status_line(ui, *model_, layout.status, input.last_frame_ms);
   ui_->draw_splitters(ui, model_->window(), layout);
   draw_toasts(ui, *model_, layout.view);
   draw_menu_bar(ui, *model_, ui_->menu, layout.menu);

@@ -35,6 +35,7 @@ struct FrameInput {
   float content_scale = 1.0f;              ///< of the monitor: 2 on a HiDPI screen whose coordinates are pixels
   double dt_s = 1.0 / 60.0;                ///< since the last frame
   double now_s = 0.0;                      ///< any monotonic clock
+  double last_frame_ms = 0.0;              ///< wall time of the last frame, drawing and showing it included; 0: unknown
   std::vector<std::string> dropped_files;  ///< since the last frame
 };
 

@@ -231,6 +231,12 @@ void DeviceModel::arm() {
   session_->arm();
 }
 
+bool DeviceModel::faulted() const {
+  return session_ != nullptr &&
+         (status_.servo.gate_state == GateState::faulted || status_.force_state == DeviceState::faulted ||
+          status_.display_state == DeviceState::faulted);
+}
+
 std::string DeviceModel::arming_text() const {
   if (session_ == nullptr || !stopped()) return {};
   if (session_->force_capabilities() == nullptr && session_->display_capabilities() == nullptr) return {};

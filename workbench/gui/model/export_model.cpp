@@ -42,7 +42,7 @@ void ExportModel::write_ticks(std::uint64_t from, std::uint64_t to) {
   auto work = [records = session->history().snapshot(), from, to, path]() -> Result<std::string> {
     const auto lines = export_samples(records, from, to, path);
     if (!lines) return tl::unexpected(lines.error());
-    return std::to_string(*lines) + " ticks written to " + std::filesystem::absolute(path).string();
+    return std::to_string(*lines) + " ticks written to " + std::filesystem::absolute(path).lexically_normal().string();
   };
   writing_ = std::async(deterministic_ ? std::launch::deferred : std::launch::async, std::move(work));
   if (deterministic_) writing_.wait();

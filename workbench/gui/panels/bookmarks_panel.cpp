@@ -119,8 +119,10 @@ void draw_row(const UiContext& ui, TimeModel& time, const Bookmark& mark, std::s
     if (mark.note.empty() && !ImGui::IsItemActive())
       draw.AddText({ImGui::GetItemRectMin().x + ui.px(3), at.y}, ui.colours.text_faint, "note");
   } else {
-    const std::string times = mark.ticks > 1 ? printed(" \u00d7%u", mark.ticks) : std::string();
-    ImGui::Text("%s%s, %s", to_string(mark.kind), times.c_str(), mark.note.c_str());
+    if (mark.ticks > 1)
+      ImGui::Text("%s in %u ticks, first %s", to_string(mark.kind), mark.ticks, mark.note.c_str());
+    else
+      ImGui::Text("%s: %s", to_string(mark.kind), mark.note.c_str());
   }
   ImGui::SameLine();
   ImGui::SetCursorPosX(ImGui::GetWindowContentRegionMax().x - remove + ui.px(4));
@@ -153,6 +155,9 @@ void draw_bookmarks_panel(const UiContext& ui, AppModel& model, BookmarksPanel& 
     ImGui::PopFont();
     return;
   }
+  ImGui::PushFont(ui.fonts.small);
+  ImGui::TextDisabled("      time, s     what happened");
+  ImGui::PopFont();
   const float row = ImGui::GetTextLineHeight() + ImGui::GetStyle().ItemSpacing.y;
   ImGui::BeginChild("bookmarks", {0.0f, row * static_cast<float>(std::min<std::size_t>(6, count)) + ui.px(12)}, true);
   // A row may remove itself, so the list is read again for each.

@@ -69,10 +69,14 @@ void draw_states(const UiContext& ui, DeviceModel& devices) {
   if (session.needs_yes() && text_button(ui, "monitor/accept_no_timeout", "Use it nevertheless",
                                          "Without this yes nothing is armed. Keep a hand on its power switch"))
     session.accept_no_timeout();
-  if (text_button(ui, "monitor/arm", "Re-arm",
+  const bool fault = devices.faulted();
+  if (fault) ImGui::PushStyleColor(ImGuiCol_Button, ui.colours.bad);
+  if (fault) ImGui::PushStyleColor(ImGuiCol_Text, IM_COL32_WHITE);
+  if (text_button(ui, "monitor/arm", fault ? "Clear fault and arm" : "Arm",
                   "One attempt: clears faults, homes what is not homed, waits until the finger is off the surface, "
                   "and ramps the force in"))
     session.arm();
+  if (fault) ImGui::PopStyleColor(2);
   ImGui::SameLine();
   if (text_button(ui, "monitor/home", "Home", "Stops the force and homes both devices")) session.home();
 }

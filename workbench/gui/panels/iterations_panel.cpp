@@ -1,4 +1,5 @@
 // Table of the iterations of the tick in view, one tangent plane per row; selection is linked with the 3D view.
+#include "workbench/gui/panels/attempts_text.h"
 #include "workbench/gui/panels/panels.h"
 #include "workbench/gui/widgets/widgets.h"
 
@@ -89,6 +90,9 @@ void draw_row(const UiContext& ui, TimeModel& time, std::size_t i, std::size_t c
   ImGui::TableNextColumn();
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const bool selected = time.tick().selected() == i;
+  if (i > 0 && time.tick().iterations()[i - 1].seed != r.seed)  // another attempt begins
+    ImGui::GetWindowDrawList()->AddLine({at.x, at.y - ui.px(1)}, {at.x + ui.px(2000), at.y - ui.px(1)},
+                                        ui.colours.accent, ui.px(1));
   if (ImGui::Selectable(printed("##iteration%zu", i).c_str(), selected, ImGuiSelectableFlags_SpanAllColumns)) {
     time.set_paused(true);
     time.tick().select(selected ? std::nullopt : std::optional(i));
@@ -114,6 +118,13 @@ void draw_row(const UiContext& ui, TimeModel& time, std::size_t i, std::size_t c
   }
 }
 
+/// Of the preset that the tick ran under.
+int limit_then(const AppModel& model, const ServoRecord& record) {
+  const Session* session = model.devices().session();
+  const Preset* then = session != nullptr ? session->preset(record.tick.preset_id) : nullptr;
+  return (then != nullptr ? *then : model.presets().current()).solver.max_iterations;
+}
+
 }  // namespace
 
 void draw_iterations_panel(const UiContext& ui, AppModel& model, IterationsPanel& state) {
@@ -136,6 +147,13 @@ void draw_iterations_panel(const UiContext& ui, AppModel& model, IterationsPanel
   ImGui::TextDisabled("%d new %s%s, %d %s change%s", out.iterations, planar ? "line" : "plane",
                       out.iterations == 1 ? "" : "s", out.triangle_changes, planar ? "vertex" : "triangle",
                       out.triangle_changes == 1 ? "" : "s");
+  const std::string attempts =
+      attempts_text(iterations, model.time().tick().iterations_lost(), out.iterations, limit_then(model, *record));
+  ImGui::TextDisabled("%s", attempts.c_str());
+  ui.items.note_last("iterations/attempts");
+  tooltip(ui,
+          "New planes of every attempt: tracking from the kept plane, then, where it was lost, from each seed. The "
+          "limit holds for one attempt. Searched: planes of places that were looked at and are not in the table");
   ImGui::PopFont();
   if (!model.time().tick().problem().empty()) ImGui::TextWrapped("%s", model.time().tick().problem().c_str());
 

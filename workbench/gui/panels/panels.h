@@ -130,6 +130,7 @@ struct PlotsPanel {
   PlotLink link;
   PlotsMode mode = PlotsMode::time;
   bool values = false;  ///< the table of numbers beside the curves
+  bool legend = false;  ///< what the marks mean
   int x = 2, y = 4;     ///< curve numbers for X-Y; spectrum and histogram show x
   SampleCells cells;
   Spectrum spectrum;
@@ -151,12 +152,14 @@ std::vector<CurveRef> curves_of(const PlotsPanel& state);
 /// Range [from, to) of the ticks in view that are in the history.
 std::pair<std::uint64_t, std::uint64_t> ticks_in_view(const TimeModel& time);
 void draw_plots_toolbar(const UiContext& ui, AppModel& model, PlotsPanel& state, const Rect& rect, const Rect& whole);
+/// A card over the plots: what the marks and lines in them mean.
+void draw_plots_legend(const UiContext& ui, const PlotsPanel& state, const Rect& over);
 void draw_values_table(const UiContext& ui, TimeModel& time, PlotsPanel& state, const Rect& rect);
 /// X-Y, spectrum or histogram.
 void draw_other_plot(const UiContext& ui, AppModel& model, PlotsPanel& state, const Rect& rect);
 void draw_plots_panel(const UiContext& ui, AppModel& model, PlotsPanel& state, const Rect& rect);
 void draw_transport_bar(const UiContext& ui, TimeModel& time, const Rect& rect);
-void draw_status_line(const UiContext& ui, AppModel& model, const Rect& rect, double build_ms);
+void draw_status_line(const UiContext& ui, AppModel& model, const Rect& rect, double frame_ms);
 
 // Above.
 struct PathBar {

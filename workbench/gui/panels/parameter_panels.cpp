@@ -121,7 +121,7 @@ void draw_favourites(const UiContext& ui, AppModel& model) {
 /// The paper's conditions by name; sets both sources.
 void draw_condition_row(const UiContext& ui, PresetModel& presets) {
   const RenderingCondition* present = condition_of(presets.current());
-  std::array<std::string_view, kConditionNames.size() + 1> names{"none of the six"};
+  std::array<std::string_view, kConditionNames.size() + 1> names{"own combination"};
   std::copy(kConditionNames.begin(), kConditionNames.end(), names.begin() + 1);
   const float width = ImGui::GetContentRegionAvail().x, label_width = std::max(ui.px(128), 0.42f * width);
   const ImVec2 at = ImGui::GetCursorScreenPos();
@@ -134,7 +134,7 @@ void draw_condition_row(const UiContext& ui, PresetModel& presets) {
     presets.set_condition(kRenderingConditions[static_cast<std::size_t>(chosen - 1)]);
   tooltip(ui, "The paper's rendering conditions: sources of force and display together. " +
                   (present != nullptr ? std::string(present->words)
-                                      : std::string("The present sources make none of them")));
+                                      : std::string("The sources chosen here are a combination of your own")));
 }
 
 void draw_table(const UiContext& ui, AppModel& model, const PresetTable& table) {

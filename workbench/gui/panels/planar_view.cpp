@@ -60,7 +60,8 @@ class Paper {
 void frame_all(const UiContext& ui, const AppModel& model, PlanarView& view, const Rect& rect) {
   const Box& box = model.scene().current()->mesh().bounds();
   const Vec3 origin = model.scene().current()->mesh().origin(), size = box.size();
-  const double reach = 1.5 * model.presets().current().finger.reach_m();
+  // The whole finger on every side.
+  const double reach = 4.2 * model.presets().current().finger.reach_m();
   const double em = ui.fonts.text->FontSize, height = rect.h;
   const Vec2 card{(kInsetLeft + kInsetWidth + 1.0) * em,
                   ui.px(kScaleHeight) + (view.display ? (kInsetBottom + kInsetHeight) * em : 0.0)};
@@ -69,7 +70,7 @@ void frame_all(const UiContext& ui, const AppModel& model, PlanarView& view, con
     const double px_per_m = 0.94 * height * std::min(room.width / (size.x + reach), room.height / (size.y + reach));
     if (px_per_m <= view.px_per_m) continue;
     view.px_per_m = px_per_m;
-    view.centre = Vec2(origin.x, origin.y) + Vec2(0.0, 0.4 * reach) - room.shift * height / px_per_m;
+    view.centre = Vec2(origin.x, origin.y) - room.shift * height / px_per_m;
   }
   view.framed = model.scene().current().get();
   view.framings = model.view().framings;
@@ -220,7 +221,7 @@ void draw_force(const UiContext& ui, const ServoRecord& record, const Paper& pap
   ImFont* font = ui.fonts.small_number;
   float y = tip.y - (tip.y < from.y ? ui.px(arrows.same ? 16 : 30) : ui.px(-4));
   const auto row = [&](double newton, const char* name, ImU32 ink) {
-    draw.AddText(font, font->FontSize, {tip.x + ui.px(8), y}, ink, printed("%.2f N%s", newton, name).c_str());
+    draw.AddText(font, font->FontSize, {tip.x + ui.px(14), y}, ink, printed("%.2f N%s", newton, name).c_str());
     y += ui.px(14);
   };
   if (!arrows.same) row(arrows.computed_n, " computed", computed_ink);
@@ -275,6 +276,12 @@ void draw_planar_view(const UiContext& ui, AppModel& model, PlanarView& view, co
                            : nullptr;
   if (record != nullptr && view.finger)
     draw_finger(ui, (then != nullptr ? *then : model.presets().current()).finger, record->tick, paper, draw);
+  if (record != nullptr) {
+    const Vec3 reach((then != nullptr ? *then : model.presets().current()).finger.reach_m());
+    const Vec3& at = record->tick.input.finger.position;
+    ui.items.note("planar/finger", paper.at(at + Vec3(-reach.x, reach.y, 0.0)),
+                  paper.at(at + Vec3(reach.x, -reach.y, 0.0)));
+  }
   draw_curve(ui, view, curve, kind, paper, draw);
   if (view.centres)
     draw_centres(ui, curve, kind, record != nullptr ? record->tick.output.triangle : kNone, paper, draw);

@@ -105,10 +105,11 @@ void draw_spectrum(const UiContext& ui, AppModel& model, PlotsPanel& state, cons
     plot.y.label +=
         printed(": largest %.3g %s at %.4g Hz", static_cast<double>(s.amplitude[s.peak]) * scale, unit, s.peak_hz());
     if (const std::size_t buzz = s.peak_above(kHandUpTo_hz); buzz > 0 && buzz != s.peak)
-      plot.y.label += printed(", faster than a hand %.3g %s at %.4g Hz", static_cast<double>(s.amplitude[buzz]) * scale,
-                              unit, s.bin_hz * static_cast<double>(buzz));
+      plot.y.label +=
+          printed("; above %.0f Hz, where no hand moves: %.3g %s at %.4g Hz", kHandUpTo_hz,
+                  static_cast<double>(s.amplitude[buzz]) * scale, unit, s.bin_hz * static_cast<double>(buzz));
     plot.y.label +=
-        printed("   (%zu segment%s of %zu ticks, Hann)", s.segments, s.segments == 1 ? "" : "s", s.segment_ticks);
+        printed("   (mean of %zu segment%s of %zu ticks)", s.segments, s.segments == 1 ? "" : "s", s.segment_ticks);
   }
   draw_axes(ui, plot);
   if (s.empty() || s.peak == 0) {

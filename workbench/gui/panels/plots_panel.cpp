@@ -194,6 +194,7 @@ void draw_plots_panel(const UiContext& ui, AppModel& model, PlotsPanel& state, c
     draw_time_plots(ui, model, state, rest);
   else
     draw_other_plot(ui, model, state, rest);
+  if (state.legend) draw_plots_legend(ui, state, rest);
   ImGui::End();
   if (link.clicked && !model.time().store().empty()) model.time().select_tick(*link.clicked);
 }

@@ -27,6 +27,8 @@ void draw_modes(const UiContext& ui, PlotsPanel& state) {
   }
   toggle_button(ui, "plots/values", "Values", state.values,
                 "Minimum, maximum, mean and RMS of what is in view, values at A and B");
+  ImGui::SameLine(0, ui.px(3));
+  toggle_button(ui, "plots/legend", "Legend", state.legend, "What the bands, flags and marks in the plots mean");
   ImGui::SameLine(0, ui.px(14));
 }
 

@@ -40,8 +40,9 @@ class Values {
     const ImFont* number = ui_.fonts.small_number;
     const float w = number->CalcTextSizeA(number->FontSize, 1e9f, 0.0f, value.c_str()).x;
     if (x_ + w >= rect_.right() - ui_.px(10)) return;
-    ImGui::GetWindowDrawList()->AddText(number, number->FontSize, {rect_.right() - w - ui_.px(10), y_number_},
-                                        ui_.colours.text_dim, value.c_str());
+    const ImVec2 at{rect_.right() - w - ui_.px(10), y_number_};
+    ImGui::GetWindowDrawList()->AddText(number, number->FontSize, at, ui_.colours.text_dim, value.c_str());
+    ui_.items.note("status/frame", at, {at.x + w, at.y + number->FontSize});
   }
 
  private:
@@ -52,7 +53,7 @@ class Values {
 
 }  // namespace
 
-void draw_status_line(const UiContext& ui, AppModel& model, const Rect& rect, double build_ms) {
+void draw_status_line(const UiContext& ui, AppModel& model, const Rect& rect, double frame_ms) {
   ImGui::SetNextWindowPos({rect.x, rect.y});
   ImGui::SetNextWindowSize({rect.w, rect.h});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(ui.px(10), 0));
@@ -98,11 +99,8 @@ void draw_status_line(const UiContext& ui, AppModel& model, const Rect& rect, do
               static_cast<double>(model.time().history_bytes() + model.time().store().memory_bytes()) * mib,
               static_cast<double>(model.time().most_history_bytes() + model.time().store().memory_bytes()) * mib),
       15, plain, "Memory of the history, and its limit");
-  // Screenshots are reproducible: no wall-clock numbers.
-  const std::string right = model.deterministic() ? std::string()
-                                                  : printed("frame %.2f ms   %.0f/s", build_ms,
-                                                            static_cast<double>(ImGui::GetIO().Framerate));
-  values.put_right(right);
+  // Not known in screenshots, which are reproducible.
+  if (frame_ms > 0.0) values.put_right(printed("frame %.0f ms, drawing included", frame_ms));
   ImGui::End();
 }
 

@@ -88,6 +88,7 @@ void draw_changes(const UiContext& ui, TimeModel& time, const Ghost& ghost) {
   ImGui::PopFont();
   if (numbers.changes.empty()) return;
   ImGui::PushFont(ui.fonts.small_number);
+  ImGui::TextDisabled(" %9s %5s  %9s  %s", "tick", "ticks", "moved by", "status");
   const float row = ImGui::GetTextLineHeight() + ui.px(3);
   const float height = row * static_cast<float>(std::min<std::size_t>(5, numbers.changes.size())) + ui.px(6);
   ImGui::BeginChild("changes", {0.0f, height}, true);

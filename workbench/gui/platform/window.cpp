@@ -143,7 +143,8 @@ void draw_frame(GLFWwindow* window, App& app, const FrameInput& input, InputQueu
   if (const auto file = app.take_screenshot_request()) {
     const Status written = write_png(read_pixels(0, width_px, height_px), *file);
     if (written)
-      app.model().messages().say(Severity::note, "screenshot written to " + file->string());
+      app.model().messages().say(
+          Severity::note, "screenshot written to " + std::filesystem::absolute(*file).lexically_normal().string());
     else
       app.model().messages().say(Severity::error, written.error().message());
   }
@@ -171,7 +172,10 @@ class FrameLoop {
       wait_for_work(last);
       const double now = glfwGetTime();
       check_shaders(now);
-      draw_frame(window_, app_, frame_input(window_, now - last, std::exchange(dropped_, {})), events_);
+      FrameInput input = frame_input(window_, now - last, std::exchange(dropped_, {}));
+      input.last_frame_ms = last_frame_ms_;
+      draw_frame(window_, app_, input, events_);
+      last_frame_ms_ = 1e3 * (glfwGetTime() - now);
       if (std::string title = app_.title(); title != title_) glfwSetWindowTitle(window_, (title_ = title).c_str());
       last = now;
     }
@@ -242,6 +246,7 @@ class FrameLoop {
   InputQueue events_;
   std::string title_, shader_error_;
   double next_shader_check_ = 0.0;
+  double last_frame_ms_ = 0.0;
   int settling_ = kSettlingFrames;
 };
 

@@ -368,7 +368,8 @@ void tooltip(const UiContext& ui, std::string_view text) {
     resting.typed_over = false;
   else if (any_key_down())
     resting.typed_over = true;
-  if (resting.seconds < 0.35f || resting.typed_over) return;
+  // While something is typed nothing may cover it.
+  if (resting.seconds < 0.35f || resting.typed_over || text_is_edited()) return;
   place_tooltip(ui);
   ImGui::BeginTooltip();
   ImGui::PushTextWrapPos(ui.px(320));
