@@ -58,12 +58,18 @@ void AppModel::update(double now_s) {
   messages_.set_now(now_s);
   scene_.update();
   take_ticks();
+  view_.see_contact(tick_in_view(), time_.paused());
   window_.update(now_s, kept_look());
   unsaved_.update(now_s);
   const auto& scene = scene_.current();
   // A 2D scene has no mesh for a map.
   map_.update(scene != nullptr && scene->planar() != nullptr ? nullptr : scene, presets_.current(), now_s,
               presets_.slots().gesture_open(), options_.deterministic);
+}
+
+const TickRecord* AppModel::tick_in_view() const {
+  const ServoRecord* record = time_.tick().record();
+  return record != nullptr ? &record->tick : nullptr;
 }
 
 void AppModel::advance(std::uint64_t ticks) {

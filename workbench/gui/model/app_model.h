@@ -59,6 +59,7 @@ class AppModel {
   const DeviceModel& devices() const { return devices_; }
   TimeModel& time() { return time_; }
   const TimeModel& time() const { return time_; }
+  const TickRecord* tick_in_view() const;  ///< null: none yet
   UnsavedModel& unsaved() { return unsaved_; }
   ExportModel& exports() { return exports_; }
   const ExportModel& exports() const { return exports_; }

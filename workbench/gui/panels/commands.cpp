@@ -13,6 +13,9 @@ namespace {
 
 void add_view_commands(std::vector<Command>& out, AppModel& model) {
   out.push_back({"View: frame the mesh", "F", [&model] { model.view().frame_scene(); }});
+  out.push_back({"View: look at the contact", "G", [&model] { model.view().look_at_contact(model.tick_in_view()); }});
+  out.push_back({"View: follow the contact with the camera, or stop following", "Shift+G",
+                 [&model] { model.view().follow_contact = !model.view().follow_contact; }});
   for (const NamedView& v : kStandardViews) {
     out.push_back({std::string("View: from the ") + v.name, v.key,
                    [&model, view = v.view] { model.view().look_from_standard(view); }});

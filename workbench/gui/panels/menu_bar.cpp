@@ -75,9 +75,15 @@ void draw_file_menu(const UiContext& ui, AppModel& model, MenuBar& state) {
   ImGui::EndPopup();
 }
 
-void draw_camera_items(const UiContext& ui, ViewModel& view) {
+void draw_camera_items(const UiContext& ui, ViewModel& view, const TickRecord* tick) {
   if (menu_item(ui, "menu/view/frame", "Frame the mesh", "All of it in view, from the present direction", "F"))
     view.frame_scene();
+  if (menu_item(ui, "menu/view/contact", "Look at the contact", "Turns the camera to the contact of the tick in view",
+                "G"))
+    view.look_at_contact(tick);
+  if (menu_item(ui, "menu/view/follow", "Follow the contact", "The camera goes with the contact, live and in the past",
+                "Shift+G", view.follow_contact))
+    view.follow_contact = !view.follow_contact;
   if (ImGui::BeginMenu("Look from")) {
     for (const NamedView& v : kStandardViews) {
       std::string title = v.name;
@@ -115,7 +121,7 @@ void draw_view_menu(const UiContext& ui, AppModel& model) {
   if (menu_item(ui, "menu/view/reset", "Default layout", "Columns, plots and sections as on first start"))
     model.window().reset_layout();
   ImGui::Separator();
-  draw_camera_items(ui, model.view());
+  draw_camera_items(ui, model.view(), model.tick_in_view());
   ImGui::Separator();
   SceneToggles& show = model.view().toggles;
   if (menu_item(ui, "menu/view/creases", "Creases and boundaries", "Sharp edges and rims, as strong lines", nullptr,

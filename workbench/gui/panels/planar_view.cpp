@@ -266,6 +266,8 @@ void draw_planar_view(const UiContext& ui, AppModel& model, PlanarView& view, co
   if (view.framed != model.scene().current().get() || view.framings != model.view().framings)
     frame_all(ui, model, view, rect);
   interact(model.devices(), view, rect);
+  if (const TickRecord* tick = model.tick_in_view(); tick != nullptr && model.view().follow_contact)
+    view.centre = Vec2(tick->output.contact.x, tick->output.contact.y);
   const Paper paper(view, rect);
   const LocalCentre kind = model.presets().current().solver.local_centre;
   ImDrawList& draw = *ImGui::GetWindowDrawList();

@@ -31,6 +31,13 @@ void handle_ctrl_keys(AppModel& model) {
   if (letter('Y', true)) model.presets().redo();
 }
 
+void look_or_follow(AppModel& model, bool follow) {
+  if (follow)
+    model.view().follow_contact = !model.view().follow_contact;
+  else
+    model.view().look_at_contact(model.tick_in_view());
+}
+
 }  // namespace
 
 void handle_shortcuts(AppModel& model, MenuBar& menu) {
@@ -50,6 +57,7 @@ void handle_shortcuts(AppModel& model, MenuBar& menu) {
   model.devices().clutch().key = ImGui::IsKeyDown('C') && !io.KeyShift;
   if (letter('U')) model.view().set_y_up(!model.view().camera.y_up);
   if (letter('W')) model.view().look_at_worst();
+  if (letter('G')) look_or_follow(model, io.KeyShift);
   if (letter('I')) io.KeyShift ? model.view().show_all() : model.view().isolate_marked();
   const int by = io.KeyShift ? 10 : 1;
   if (named(ImGuiKey_Space)) model.time().set_paused(!model.time().paused());

@@ -49,6 +49,12 @@ float draw_layer_toggles(const UiContext& ui, ViewModel& view, const Rect& rect)
     toggle_button(ui, std::string("view/") + layer.name, layer.name, view.toggles.*layer.on, layer.doc);
     x += w + ui.px(3);
   }
+  if (x + ImGui::CalcTextSize("Follow").x + ui.px(20) > rect.right() - ui.px(8)) {
+    x = rect.x;
+    y += ImGui::GetFrameHeight() + ui.px(3);
+  }
+  ImGui::SetCursorScreenPos({x + ui.px(8), y});
+  toggle_button(ui, "view/follow", "Follow", view.follow_contact, "The camera goes with the contact (Shift+G)");
   const float below = y + ImGui::GetFrameHeight();
   ImGui::PopStyleVar(2);
   ImGui::PopFont();
@@ -234,6 +240,7 @@ void draw_view_panel(const UiContext& ui, AppModel& model, ViewPanel& state, Sce
   if (model.scene().current() != nullptr && model.scene().current()->planar() != nullptr) {
     draw_planar_view(ui, model, state.planar, rect);
   } else {
+    model.view().size = {rect.w, rect.h};
     interact(ui, model, state, rect);
     if (renderer != nullptr) draw_picture(ui, model, state, *renderer, rect);
     const float below_toggles = draw_layer_toggles(ui, model.view(), rect);
