@@ -112,10 +112,10 @@ void App::Ui::draw_column(const char* name, const Rect& rect, const UiContext& u
   ImGui::SetNextWindowPos({rect.x, rect.y});
   ImGui::SetNextWindowSize({rect.w, rect.h});
   // Always reserves room for the scroll bar, so that nothing jumps when a section is folded.
-  constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
-                                     ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove |
-                                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus |
-                                     ImGuiWindowFlags_NoNav | ImGuiWindowFlags_AlwaysVerticalScrollbar;
+  constexpr ImGuiWindowFlags flags =
+      ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove |
+      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNav |
+      ImGuiWindowFlags_AlwaysVerticalScrollbar | ImGuiWindowFlags_NoBackground;
   bool& scrolls = left ? left_scrolls : right_scrolls;
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(ui.px(8), ui.px(4)));
   if (!scrolls) ImGui::PushStyleColor(ImGuiCol_ScrollbarGrab, IM_COL32_BLACK_TRANS);
@@ -201,6 +201,12 @@ void App::show_plots(PlotsMode mode, bool values) {
 }
 
 void App::advance(std::uint64_t ticks) { model_->advance(ticks); }
+
+ImVec4 App::ground() const {
+  return ImGui::ColorConvertU32ToFloat4(theme_colours(ui_->theme.value_or(model_->window().theme())).panel);
+}
+
+std::uint64_t App::picture_version() const { return ui_->renderer != nullptr ? ui_->renderer->picture_version() : 0; }
 
 bool App::wants_close() const { return model_->window().wants_close(); }
 

@@ -15,6 +15,8 @@
 
 #include "workbench/gui/model/app_options.h"
 
+#include <imgui.h>
+
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -64,6 +66,11 @@ class App {
 
   /// Deterministic mode: runs `ticks` servo ticks now. Otherwise does nothing.
   void advance(std::uint64_t ticks);
+
+  /// What the platform clears the window to: columns and plots draw no ground of their own.
+  ImVec4 ground() const;
+  /// Of the 3D view's texture in the draw data: while it stays the same the texture does.
+  std::uint64_t picture_version() const;
 
   bool wants_close() const;   ///< file > quit was chosen
   bool wants_frames() const;  ///< something is animated: draw again without waiting for input

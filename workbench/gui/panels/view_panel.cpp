@@ -3,6 +3,7 @@
 // moves the simulated hand.
 #include "workbench/gui/layout/view_room.h"
 #include "workbench/gui/panels/panels.h"
+#include "workbench/gui/render/opaque_image.h"
 #include "workbench/gui/render/scene_overlay.h"
 #include "workbench/gui/widgets/thread_time.h"
 #include "workbench/gui/widgets/widgets.h"
@@ -206,8 +207,7 @@ void draw_picture(const UiContext& ui, AppModel& model, ViewPanel& state, SceneR
   state.build_ms_outside = thread_cpu_ms() - begin;
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   if (renderer.texture() == 0) return;
-  draw.AddImage(reinterpret_cast<ImTextureID>(static_cast<std::intptr_t>(renderer.texture())), {rect.x, rect.y},
-                {rect.right(), rect.bottom()}, {0, 1}, {1, 0});
+  add_opaque_image(draw, renderer.texture(), {rect.x, rect.y}, {rect.right(), rect.bottom()});
   draw_scene_overlay(draw, {rect.x, rect.y}, static_cast<double>(per_point.x), state.top, renderer, frame,
                      model.view().camera, ui.fonts);
 }
@@ -223,12 +223,16 @@ void draw_view_panel(const UiContext& ui, AppModel& model, ViewPanel& state, Sce
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0, 0));
   constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus |
-                                     ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NoNav;
+                                     ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NoNav |
+                                     ImGuiWindowFlags_NoBackground;
   ImGui::Begin("##view", nullptr, flags);
   ImGui::PopStyleVar();
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  const ImU32 top = packed(ui.palette.background_top), bottom = packed(ui.palette.background_bottom);
-  draw.AddRectFilledMultiColor({rect.x, rect.y}, {rect.right(), rect.bottom()}, top, top, bottom, bottom);
+  const bool planar = model.scene().current() != nullptr && model.scene().current()->planar() != nullptr;
+  if (planar || renderer == nullptr || renderer->texture() == 0) {  // the picture has its own ground
+    const ImU32 top = packed(ui.palette.background_top), bottom = packed(ui.palette.background_bottom);
+    draw.AddRectFilledMultiColor({rect.x, rect.y}, {rect.right(), rect.bottom()}, top, top, bottom, bottom);
+  }
 
   // The toggles are submitted first, and the view's button lets them take the mouse.
   ImGui::SetCursorScreenPos({rect.x, rect.y});
@@ -237,7 +241,7 @@ void draw_view_panel(const UiContext& ui, AppModel& model, ViewPanel& state, Sce
       ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight | ImGuiButtonFlags_MouseButtonMiddle);
   ImGui::SetItemAllowOverlap();
   ui.items.note_last("view");
-  if (model.scene().current() != nullptr && model.scene().current()->planar() != nullptr) {
+  if (planar) {
     draw_planar_view(ui, model, state.planar, rect);
   } else {
     model.view().size = {rect.w, rect.h};

@@ -3,6 +3,7 @@
 #include "workbench/gui/model/app_model.h"
 #include "workbench/gui/platform/input_queue.h"
 #include "workbench/gui/platform/save_picture.h"
+#include "workbench/gui/platform/ui_drawing.h"
 #include "workbench/gui/render/image.h"
 #include "workbench/gui/render/scene_renderer.h"
 #include "workbench/session/crash_stop.h"
@@ -125,10 +126,12 @@ FrameInput frame_input(GLFWwindow* window, double dt_s, std::vector<std::string>
   return input;
 }
 
-void draw_frame(GLFWwindow* window, App& app, const FrameInput& input, InputQueue& events) {
+void draw_frame(GLFWwindow* window, App& app, const FrameInput& input, InputQueue& events, UiDrawing& drawing) {
   if (app.prepare(input)) {
     ImGui_ImplOpenGL3_DestroyFontsTexture();
     ImGui_ImplOpenGL3_CreateFontsTexture();
+    use_nearest_pixels(font_texture());
+    drawing.forget();
   }
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
@@ -136,11 +139,13 @@ void draw_frame(GLFWwindow* window, App& app, const FrameInput& input, InputQueu
   app.frame(input);
   int width_px = 0, height_px = 0;
   glfwGetFramebufferSize(window, &width_px, &height_px);
+  const auto file = app.take_screenshot_request();
+  const auto request = app.model().exports().take_picture_request();
+  // What is in the window already is not drawn again.
+  if (!drawing.changed(*ImGui::GetDrawData(), app.picture_version()) && !file && !request) return;
   glViewport(0, 0, width_px, height_px);
-  glClearColor(0.0f, 0.0f, 0.0f, 1.0f);
-  glClear(GL_COLOR_BUFFER_BIT);
-  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
-  if (const auto file = app.take_screenshot_request()) {
+  UiDrawing::draw(*ImGui::GetDrawData(), app.ground());
+  if (file) {
     const Status written = write_png(read_pixels(0, width_px, height_px), *file);
     if (written)
       app.model().messages().say(
@@ -148,7 +153,7 @@ void draw_frame(GLFWwindow* window, App& app, const FrameInput& input, InputQueu
     else
       app.model().messages().say(Severity::error, written.error().message());
   }
-  if (const auto request = app.model().exports().take_picture_request()) {
+  if (request) {
     save_picture(app.model(), *request, read_pixels(0, width_px, height_px),
                  static_cast<double>(ImGui::GetIO().DisplayFramebufferScale.x));
   }
@@ -174,7 +179,7 @@ class FrameLoop {
       check_shaders(now);
       FrameInput input = frame_input(window_, now - last, std::exchange(dropped_, {}));
       input.last_frame_ms = last_frame_ms_;
-      draw_frame(window_, app_, input, events_);
+      draw_frame(window_, app_, input, events_, drawing_);
       last_frame_ms_ = 1e3 * (glfwGetTime() - now);
       if (std::string title = app_.title(); title != title_) glfwSetWindowTitle(window_, (title_ = title).c_str());
       last = now;
@@ -187,6 +192,10 @@ class FrameLoop {
   }
 
   void listen() {
+    const auto drawn_is_lost = [](GLFWwindow* w) {
+      static_cast<FrameLoop*>(glfwGetWindowUserPointer(w))->drawing_.forget();
+    };
+    glfwSetWindowRefreshCallback(window_, drawn_is_lost);
     glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int, int action, int) {
       // Now, not when a frame gets to see it.
       if (key == GLFW_KEY_ESCAPE && action == GLFW_PRESS)
@@ -245,6 +254,7 @@ class FrameLoop {
   std::vector<std::string> dropped_;
   InputQueue events_;
   std::string title_, shader_error_;
+  UiDrawing drawing_;
   double next_shader_check_ = 0.0;
   double last_frame_ms_ = 0.0;
   int settling_ = kSettlingFrames;

@@ -308,7 +308,7 @@ class FrameFeeder {
   }
   void frame() {
     begin();
-    screen_.frame([&] { app_.frame(input_); });
+    screen_.frame([&] { app_.frame(input_); }, app_.ground());
   }
   void unseen_frame() {
     begin();

@@ -100,6 +100,8 @@ class SceneRenderer {
   bool render(const SceneFrame& frame, const Camera& camera, int width_px, int height_px);
 
   unsigned texture() const;  ///< GL_TEXTURE_2D, RGBA8, sRGB values; 0 before the first render
+  /// Grows with every new picture in the texture: while it stays the same the texture does.
+  std::uint64_t picture_version() const;
   int width_px() const;
   int height_px() const;
   std::span<const SceneLabel> labels() const;  ///< of the last render

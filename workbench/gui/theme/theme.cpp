@@ -67,6 +67,7 @@ void set_lengths(ImGuiStyle& style) {
   style.ScrollbarRounding = 6;
   style.GrabRounding = 3;
   style.TabRounding = 3;
+  style.AntiAliasedLinesUseTex = false;  // the atlas is read by nearest pixel, which its lines are not made for
 }
 
 void set_colours(ImGuiStyle& style, Theme theme) {
