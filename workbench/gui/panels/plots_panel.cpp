@@ -193,6 +193,8 @@ void draw_plots_panel(const UiContext& ui, AppModel& model, PlotsPanel& state, c
   }
   if (state.mode == PlotsMode::time)
     draw_time_plots(ui, model, state, rest);
+  else if (state.mode == PlotsMode::derived)
+    draw_derived_plot(ui, model, state, rest);
   else
     draw_other_plot(ui, model, state, rest);
   if (state.legend) draw_plots_legend(ui, state, rest);

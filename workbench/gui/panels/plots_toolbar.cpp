@@ -19,7 +19,8 @@ void draw_modes(const UiContext& ui, PlotsPanel& state) {
       {PlotsMode::time, "Time", "Every curve against time"},
       {PlotsMode::xy, "X-Y", "One curve against another, for the ticks in view"},
       {PlotsMode::spectrum, "Spectrum", "Spectrum of a curve: is the loop buzzing?"},
-      {PlotsMode::histogram, "Histogram", "Histogram of a curve's values, for the ticks in view"}};
+      {PlotsMode::histogram, "Histogram", "Histogram of a curve's values, for the ticks in view"},
+      {PlotsMode::derived, "Derived", "Difference, derivative, low-pass filter or magnitude of curves, against time"}};
   for (const Mode& m : kModes) {
     bool on = state.mode == m.mode;
     if (toggle_button(ui, std::string("plots/mode/") + m.name, m.name, on, m.doc)) state.mode = m.mode;
