@@ -327,6 +327,8 @@ std::uint32_t Session::set_scene(std::shared_ptr<const ContactScene> scene) {
 
 const std::shared_ptr<const ContactScene>& Session::scene() const { return impl_->scene; }
 
+const std::map<std::uint32_t, std::shared_ptr<const ContactScene>>& Session::scenes() const { return impl_->scenes; }
+
 std::shared_ptr<const ContactScene> Session::scene(std::uint32_t id) const {
   const auto found = impl_->scenes.find(id);
   return found == impl_->scenes.end() ? nullptr : found->second;

@@ -42,11 +42,6 @@ TimeModel::TimeModel(const AppOptions& options, DeviceModel& devices, const Pres
       store_(kChannelCount, plotted_ticks(options.history_s, options.servo_hz)),
       time_machine_(options.deterministic ? 0u : std::max(1u, std::thread::hardware_concurrency())) {}
 
-const History* TimeModel::history() const {
-  const Session* session = devices_.session();
-  return session == nullptr || session->history().empty() ? nullptr : &session->history();
-}
-
 double TimeModel::tick_period_s() const {
   const Session* session = devices_.session();
   return session != nullptr ? 1.0 / session->options().servo.rate_hz : 1e-3;
@@ -63,25 +58,34 @@ std::size_t TimeModel::most_history_bytes() const {
 }
 
 void TimeModel::update_axis() {
-  axis_.update(store_.first_tick(), store_.end_tick(), static_cast<double>(store_.capacity()));
+  axis_.update(store().first_tick(), store().end_tick(), static_cast<double>(store().capacity()));
 }
 
 void TimeModel::take_records() {
   if (devices_.session() == nullptr) return;
   devices_.session()->poll();
-  if (const History* records = history()) {
+  past_.follow(*devices_.session());
+  take_in();
+  update_axis();
+}
+
+/// Plots, marks and triggers take in what the past has since the last call, and drop what it has no longer.
+void TimeModel::take_in() {
+  const HistorySnapshot& all = past_.main().records;
+  if (!all.empty()) {
     // A history whose newest tick is before ours belongs to a new run.
-    const std::uint64_t newest = records->newest().tick.tick, end = store_.end_tick();
-    const std::uint64_t next = newest < end && newest + 1 != end ? records->oldest().tick.tick : end;
-    for (std::size_t i = records->lower_bound(next); i < records->size(); ++i) {
-      const ServoRecord& record = (*records)[i];
+    const std::uint64_t newest = all.newest().tick.tick, oldest = all.oldest().tick.tick, end = store_.end_tick();
+    const std::uint64_t next = newest < end && newest + 1 != end ? oldest : end;
+    for (std::size_t i = all.lower_bound(next); i < all.size(); ++i) {
+      const ServoRecord& record = all[i];
       store_.push(record.tick.tick, channel_row(record));
       bookmarks_.watch(record);
       mark_parameters(record);
     }
-    bookmarks_.forget_before(records->oldest().tick.tick);
+    store_.drop_before(oldest);
+    bookmarks_.forget_before(oldest);
   }
-  update_axis();
+  past_.keep(bookmarks_, selection_);
 }
 
 void TimeModel::mark_parameters(const ServoRecord& record) {
@@ -98,12 +102,125 @@ void TimeModel::mark_parameters(const ServoRecord& record) {
 }
 
 void TimeModel::show_tick() {
-  const History* records = history();
-  if (records == nullptr) return;
-  const ServoRecord* record = !paused_ || !cursor_ ? &records->newest() : records->find(*cursor_);
-  if (record == nullptr) return;
-  tick_.show(*devices_.session(), *record);
-  error_fan_.show(*devices_.session(), record->tick.tick);
+  if (records().empty()) return;
+  const Session& session = *devices_.session();
+  if (placed_) {
+    const ServoRecord record = placed_->record(cursor_.value_or(0), session.preset_id(), session.status().scene_sent);
+    tick_.show(record, [this](const ServoRecord&, IterationTrace& trace) -> Result<TickOutput> {
+      return placed_->solve(placed_->preset(), trace);
+    });
+  } else {
+    const ServoRecord* record = !paused_ || !cursor_ ? &records().newest() : records().find(*cursor_);
+    if (record == nullptr) return;
+    tick_.show(*record, [&](const ServoRecord& of, IterationTrace& trace) {
+      return past_.re_step(session, of, nullptr, trace);
+    });
+    error_fan_.show(session, past_, record->tick.tick);
+  }
+  show_beside();
+}
+
+const Preset* TimeModel::preset_of_tick() const {
+  if (placed_) return &placed_->preset();
+  const ServoRecord* record = tick_.record();
+  return record != nullptr && devices_.session() != nullptr ? devices_.session()->preset(record->tick.preset_id)
+                                                            : nullptr;
+}
+
+void TimeModel::show_beside() {
+  const ServoRecord* record = tick_.record();
+  if (record == nullptr) return beside_.clear();
+  const std::uint64_t tick = record->tick.tick;
+  const auto from_recorded = [&](const Preset& preset, IterationTrace& trace) -> std::optional<TickOutput> {
+    if (placed_) return placed_->solve(preset, trace);
+    const auto output = past_.re_step(*devices_.session(), *record, &preset, trace);
+    return output ? std::optional(*output) : std::nullopt;
+  };
+  const PresetSlots& slots = presets_.slots();
+  const std::shared_ptr<const Ghost> ghost = time_machine_.ghost();
+  if (placed_) {
+    if (presets_.current() == placed_->preset()) return beside_.clear();
+    beside_.show(tick, presets_.current(), false, from_recorded);
+  } else if (paused_ && ghost != nullptr && ghost->whole) {
+    // As in the ghost, which carried its own contact along.
+    beside_.show(tick, ghost->preset, true, [&](const Preset& preset, IterationTrace& trace) {
+      const RecordedRun& run = *time_machine_.run();
+      const std::size_t index = run.records.lower_bound(tick);
+      return index < run.records.size() ? trace_resolved_tick(run, preset, index, trace) : std::nullopt;
+    });
+  } else if (paused_ && ghost != nullptr) {
+    beside_.show(tick, ghost->preset, false, from_recorded);
+  } else if (other_slot_beside) {
+    beside_.show(tick, slots.slot(1 - slots.active_slot()).current(), false, from_recorded);
+  } else {
+    beside_.clear();
+  }
+}
+
+bool TimeModel::solve_at(const std::shared_ptr<const ContactScene>& scene, std::uint32_t triangle, double u, double v,
+                         const MoveOptions& options) {
+  auto placed = PlacedTick::at(scene, presets_.current(), triangle, u, v, options);
+  if (!placed) {
+    messages_.say(Severity::note, "the finger can't rest on triangle " + std::to_string(triangle) +
+                                      " there: the ground is tighter than the finger, or the triangle is skipped");
+    return false;
+  }
+  set_paused(true);
+  tick_.clear();
+  beside_.clear();
+  error_fan_.clear();
+  placed_ = std::move(placed);
+  show_tick();
+  return true;
+}
+
+void TimeModel::choose_move(std::size_t move) {
+  if (!placed_) return;
+  placed_->choose(move);
+  tick_.clear();
+  beside_.clear();
+  show_tick();
+}
+
+void TimeModel::leave_place() {
+  if (!placed_) return;
+  placed_.reset();
+  tick_.clear();
+  beside_.clear();
+  error_fan_.clear();
+}
+
+std::size_t TimeModel::frozen_bytes() const {
+  return devices_.session() != nullptr ? past_.extra_bytes(*devices_.session()) : 0;
+}
+
+std::uint64_t TimeModel::newest_recorded() const {
+  const Session* session = devices_.session();
+  return session != nullptr && !session->history().empty() ? session->history().newest().tick.tick : 0;
+}
+
+void TimeModel::set_selection(const std::optional<TickRange>& range) {
+  if (range == selection_) return;
+  selection_ = range;
+  past_.keep(bookmarks_, selection_);
+  if (time_machine_.ghost() != nullptr) request_comparison();
+}
+
+std::optional<TickRange> TimeModel::chosen_range() const {
+  if (selection_ && past_.shown().covers(selection_->from) && past_.shown().covers(selection_->to)) return selection_;
+  if (records().empty()) return std::nullopt;
+  return TickRange{records().oldest().tick.tick, records().newest().tick.tick};
+}
+
+std::optional<RecordedRun> TimeModel::run_over(const TickRange& range) const {
+  const PastPart* part = &past_.shown();
+  if (!part->covers(range.from) || !part->covers(range.to)) part = past_.part_with(range);
+  if (part == nullptr) return std::nullopt;
+  RecordedRun run = devices_.session()->recorded_run();
+  const std::uint64_t from = range.from > RecordedPast::kLeadIn ? range.from - RecordedPast::kLeadIn : 0;
+  run.records = part->records.slice(part->records.lower_bound(from), part->records.lower_bound(range.to + 1));
+  run.scenes = part->scenes;
+  return run;
 }
 
 void TimeModel::forget() {
@@ -111,7 +228,12 @@ void TimeModel::forget() {
   bookmarks_.clear_automatic();
   parameter_marks_.clear();
   last_preset_id_.reset();
+  past_.forget();
+  selection_.reset();
+  kept_store_.reset();
+  placed_.reset();
   tick_.clear();
+  beside_.clear();
   error_fan_.clear();
   go_live();
 }
@@ -124,39 +246,72 @@ void TimeModel::set_paused(bool paused) {
   }
   paused_ = true;
   axis_.hold();
+  past_.freeze();
+  bookmarks_.hold = true;
   if (const ServoRecord* record = tick_.record()) cursor_ = record->tick.tick;
   paused_with_ = presets_.current();
-  if (history() != nullptr) time_machine_.open(devices_.session()->recorded_run());
+  open_time_machine();
+}
+
+/// On the part in view, frozen.
+void TimeModel::open_time_machine() {
+  compared_by_hand_.reset();
+  if (records().empty()) return time_machine_.close();
+  RecordedRun run = devices_.session()->recorded_run();
+  run.records = records();
+  run.scenes = past_.shown().scenes;
+  time_machine_.open(std::move(run));
+}
+
+/// Another part of the past has come into view.
+void TimeModel::show_part() {
+  kept_store_.reset();
+  if (past_.shows_kept()) {
+    kept_store_ = std::make_unique<ChannelStore>(kChannelCount, records().size());
+    for (std::size_t i = 0; i < records().size(); ++i)
+      kept_store_->push(records()[i].tick.tick, channel_row(records()[i]));
+  }
+  error_fan_.clear();
+  update_axis();
+  axis_.show_all();
+  open_time_machine();
+  if (!(presets_.current() == paused_with_)) preset_sent();
 }
 
 void TimeModel::go_live() {
   paused_ = false;
   cursor_.reset();
+  leave_place();
   time_machine_.close();
+  past_.thaw();
+  bookmarks_.hold = false;
+  kept_store_.reset();
+  if (devices_.session() != nullptr) past_.follow(*devices_.session());
+  take_in();
   axis_.follow();
   update_axis();
   show_tick();
 }
 
 void TimeModel::select_tick(std::uint64_t tick) {
-  const History* records = history();
-  if (records == nullptr) return;
+  if (records().empty()) return;
   set_paused(true);
-  const std::size_t at = std::min(records->lower_bound(tick), records->size() - 1);
-  cursor_ = (*records)[at].tick.tick;
+  leave_place();
+  if (const PastPart* was = &past_.shown(); past_.show(tick) && &past_.shown() != was) show_part();
+  const std::size_t at = std::min(records().lower_bound(tick), records().size() - 1);
+  cursor_ = records()[at].tick.tick;
   axis_.reveal(static_cast<double>(*cursor_));
   show_tick();
 }
 
 void TimeModel::step_tick(std::int64_t by) {
-  const History* records = history();
-  if (records == nullptr) return;
+  if (records().empty()) return;
   set_paused(true);
   const std::size_t now =
-      std::min(records->lower_bound(cursor_.value_or(records->newest().tick.tick)), records->size() - 1);
-  const auto last = static_cast<std::int64_t>(records->size()) - 1;
+      std::min(records().lower_bound(cursor_.value_or(records().newest().tick.tick)), records().size() - 1);
+  const auto last = static_cast<std::int64_t>(records().size()) - 1;
   const std::int64_t to = std::clamp(static_cast<std::int64_t>(now) + by, std::int64_t{0}, last);
-  select_tick((*records)[static_cast<std::size_t>(to)].tick.tick);
+  select_tick(records()[static_cast<std::size_t>(to)].tick.tick);
 }
 
 void TimeModel::step_iteration(int by) {
@@ -187,24 +342,48 @@ void TimeModel::go_to_bookmark(int by) {
   if (record == nullptr) return;
   const std::uint64_t now = record->tick.tick;
   const Bookmark* to = by > 0 ? bookmarks_.after(now) : bookmarks_.before(now);
-  // A person's bookmark outlives its tick.
-  if (to == nullptr || to->tick < first_tick())
+  // A bookmark of an earlier run has no tick.
+  while (to != nullptr && !past_.reaches(to->tick))
+    to = by > 0 ? bookmarks_.after(to->tick) : bookmarks_.before(to->tick);
+  if (to == nullptr)
     messages_.say(Severity::note, by > 0 ? "no later bookmark" : "no earlier bookmark");
   else
     select_tick(to->tick);
 }
 
 void TimeModel::preset_sent() {
+  if (placed_) show_tick();
   if (!paused_ || !time_machine_.is_open()) return;
-  if (presets_.current() == paused_with_)
+  compared_by_hand_.reset();
+  if (presets_.current() == paused_with_) {
     time_machine_.forget_request();
-  else
-    time_machine_.request(presets_.current(), axis_.from(), axis_.to());
+    return;
+  }
+  time_machine_.request(presets_.current(), axis_.from(), axis_.to());
+  request_comparison();
 }
 
 void TimeModel::solve_past_again() {
   set_paused(true);
+  compared_by_hand_.reset();
   time_machine_.request(presets_.current(), axis_.from(), axis_.to());
+  request_comparison();
+}
+
+void TimeModel::compare(const NamedPreset& before, const NamedPreset& after) {
+  set_paused(true);
+  compared_by_hand_ = {before, after};
+  time_machine_.request(after.preset, axis_.from(), axis_.to());
+  request_comparison();
+}
+
+void TimeModel::request_comparison() {
+  const auto range = chosen_range();
+  if (!range || !time_machine_.is_open()) return;
+  name_before_ = compared_by_hand_ ? compared_by_hand_->first.name : "at the pause";
+  name_after_ = compared_by_hand_ ? compared_by_hand_->second.name : "now";
+  time_machine_.compare(compared_by_hand_ ? compared_by_hand_->first.preset : paused_with_,
+                        compared_by_hand_ ? compared_by_hand_->second.preset : presets_.current(), *range);
 }
 
 }  // namespace tangent

@@ -85,7 +85,7 @@ void draw_triggers(const UiContext& ui, AppModel& model) {
 void draw_row(const UiContext& ui, TimeModel& time, const Bookmark& mark, std::size_t i) {
   const ServoRecord* seen = time.tick().record();
   const bool here = seen != nullptr && seen->tick.tick >= mark.tick && seen->tick.tick <= mark.last_tick;
-  const bool gone = mark.last_tick < time.first_tick();
+  const bool gone = !time.past().reaches(mark.tick) && !time.past().reaches(mark.last_tick);
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const float height = ImGui::GetTextLineHeight();
   ImGui::PushStyleColor(ImGuiCol_Text, gone ? ui.colours.text_faint : ui.colours.text);
@@ -94,7 +94,7 @@ void draw_row(const UiContext& ui, TimeModel& time, const Bookmark& mark, std::s
   if (ImGui::Selectable((text + "##bookmark" + std::to_string(mark.id)).c_str(), here,
                         ImGuiSelectableFlags_AllowItemOverlap) &&
       !gone)
-    time.select_tick(std::max(mark.tick, time.first_tick()));
+    time.select_tick(time.past().reaches(mark.tick) ? mark.tick : mark.last_tick);
   const float text_width = ImGui::CalcTextSize(text.c_str()).x;
   ImGui::PopFont();
   // The note's field covers the rest of the row.
@@ -103,7 +103,9 @@ void draw_row(const UiContext& ui, TimeModel& time, const Bookmark& mark, std::s
                                ? printed("ticks %llu to %llu, %u of them", static_cast<unsigned long long>(mark.tick),
                                          static_cast<unsigned long long>(mark.last_tick), mark.ticks)
                                : printed("tick %llu", static_cast<unsigned long long>(mark.tick));
-  tooltip(ui, gone ? span + ", no longer kept" : span);
+  tooltip(ui, gone                                        ? span + ", no longer kept"
+              : time.past().main().covers(mark.last_tick) ? span
+                                                          : span + ", kept with the half second before it");
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   draw.AddRectFilled({at.x, at.y + ui.px(2)}, {at.x + ui.px(6), at.y + height - ui.px(1)}, bookmark_ink(ui, mark.kind),
                      ui.px(1.5f));

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "workbench/gui/model/app_model.h"
+#include "workbench/gui/panels/iteration_columns.h"
 #include "workbench/gui/panels/planar_view.h"
 #include "workbench/gui/plots/plot_view.h"
 #include "workbench/gui/plots/sample_cells.h"
@@ -52,11 +53,20 @@ struct PathMapPanel {
 };
 struct IterationsPanel {
   bool open = true;
+  std::optional<float> rows;  ///< height of the table; none: follows from the window's
+  ShownColumns columns = all_columns();
+  static ShownColumns all_columns() {
+    ShownColumns columns;
+    columns.fill(true);
+    return columns;
+  }
   std::optional<std::size_t> shown_selection;  ///< row to which the table was last scrolled
   PathMapPanel map;
 };
 void draw_iterations_panel(const UiContext& ui, AppModel& model, IterationsPanel& state);
 void draw_error_plot(const UiContext& ui, AppModel& model);
+/// Colour of what the other preset does in the tick in view, the same in table, error plot, path and 3D view.
+ImU32 beside_ink(const UiContext& ui);
 void draw_path_map(const UiContext& ui, AppModel& model, PathMapPanel& state);
 
 struct MapPanel {

@@ -190,6 +190,9 @@ void draw_plots_panel(const UiContext& ui, AppModel& model, PlotsPanel& state, c
   else
     draw_other_plot(ui, model, state, rest);
   ImGui::End();
+  model.time().set_selection(link.a && link.b
+                                 ? std::optional(TickRange{std::min(*link.a, *link.b), std::max(*link.a, *link.b)})
+                                 : std::nullopt);
   if (link.clicked && !model.time().store().empty()) model.time().select_tick(*link.clicked);
 }
 

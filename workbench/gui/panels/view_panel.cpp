@@ -73,12 +73,12 @@ SceneFrame scene_frame(const AppModel& model) {
   if (const ServoRecord* record = model.time().tick().record()) {
     frame.tick = record->tick;
     frame.trace = model.time().tick().iterations();
+    frame.beside_trace = model.time().beside().iterations();
     frame.selected_iteration = model.time().tick().selected();
     frame.cld_commanded_m = record->device.cld_command_m;
     frame.cld_measured_m = record->device.cld_measured_m;
     // The tick may have run under a preset other than the one being edited.
-    const Preset* then =
-        model.devices().session() != nullptr ? model.devices().session()->preset(record->tick.preset_id) : nullptr;
+    const Preset* then = model.time().preset_of_tick();
     if (then != nullptr) frame.finger = then->finger;
   }
   return frame;

@@ -120,6 +120,7 @@ void SceneRenderer::Impl::build_sketch(const SceneFrame& frame, const Camera& ca
   const SketchContext context{*mesh.scene(), mesh.form(), frame, camera, width_px, height_px, force_metres_per_newton};
   draw_marked_triangles(sketch, context);
   draw_control_nets(sketch, context, labels);
+  draw_beside_iterations(sketch, context);
   draw_iterations(sketch, context, labels);
   draw_trail(sketch, context);
   draw_force(sketch, context, labels);

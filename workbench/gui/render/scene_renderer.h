@@ -56,7 +56,8 @@ struct SceneFrame {
   RenderQuality quality = RenderQuality::automatic;
   double pixel_scale = 1.0;  ///< widths of lines and points; 2 on a HiDPI screen
   Finger finger;
-  std::optional<TickRecord> tick;          ///< the tick in view; none: mesh only
+  std::optional<TickRecord> tick;                 ///< the tick in view; none: mesh only
+  std::span<const IterationRecord> beside_trace;  ///< of the same tick under another preset; empty: none
   std::span<const IterationRecord> trace;  ///< iterations of that tick, stepped again with a trace; [0]: kept plane
   std::optional<std::size_t> selected_iteration;
   std::uint32_t picked_triangle = kNone;  ///< outlined; its control net is shown if no triangle is tracked

@@ -155,6 +155,24 @@ void draw_iterations(Sketch& sketch, const SketchContext& c, std::vector<SceneLa
   }
 }
 
+/// Path and last plane only: two sets of planes in one place hide each other.
+void draw_beside_iterations(Sketch& sketch, const SketchContext& c) {
+  const auto trace = c.frame.beside_trace;
+  if (!c.frame.toggles.planes || trace.empty()) return;
+  const Rgba colour = palette(c.frame.theme).control_net;
+  for (std::size_t i = 0; i + 1 < trace.size(); ++i) {
+    if (trace[i].feature == Feature::none || trace[i + 1].seed != trace[i].seed) continue;
+    sketch.line(trace[i].point, trace[i + 1].point, kInk, 4.0);
+    sketch.line(trace[i].point, trace[i + 1].point, colour, 1.8);
+  }
+  for (const IterationRecord& it : trace) {
+    if (it.feature != Feature::none) sketch.point(it.point, colour, 6.0);
+  }
+  const IterationRecord& last = trace.back();
+  if (last.feature != Feature::none)
+    sketch.ring(last.point, last.normal, 0.3 * gizmo_length_m(c.frame, c.camera), colour, 2.0);
+}
+
 void draw_marked_triangles(Sketch& sketch, const SketchContext& c) {
   const ContactMesh& mesh = c.scene.mesh();
   const Palette& colours = palette(c.frame.theme);

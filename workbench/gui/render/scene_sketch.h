@@ -28,6 +28,7 @@ void draw_finger(Sketch& sketch, const SketchContext& c);
 void draw_contact(Sketch& sketch, const SketchContext& c, std::vector<SceneLabel>& labels);
 void draw_force(Sketch& sketch, const SketchContext& c, std::vector<SceneLabel>& labels);
 void draw_iterations(Sketch& sketch, const SketchContext& c, std::vector<SceneLabel>& labels);
+void draw_beside_iterations(Sketch& sketch, const SketchContext& c);
 void draw_control_nets(Sketch& sketch, const SketchContext& c, std::vector<SceneLabel>& labels);
 void draw_marked_triangles(Sketch& sketch, const SketchContext& c);
 void draw_trail(Sketch& sketch, const SketchContext& c);
