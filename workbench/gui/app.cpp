@@ -25,7 +25,7 @@ struct App::Ui {
   ComparePanel compare;
   IterationsPanel iterations;
   MapPanel map;
-  FoldedPanel mesh, devices, time_machine;
+  FoldedPanel mesh, devices, time_machine, sweep{false};
   LogPanel log;
   BookmarksPanel bookmarks;
   InspectPanel inspect;
@@ -130,6 +130,7 @@ void App::Ui::draw_column(const char* name, const Rect& rect, const UiContext& u
   } else {
     draw_iterations_panel(ui, model, iterations);
     draw_time_machine_panel(ui, model.time(), time_machine);
+    draw_sweep_panel(ui, model, sweep);
     draw_bookmarks_panel(ui, model, bookmarks);
     draw_map_panel(ui, model, map);
     draw_perception_panel(ui, model, perception);

@@ -25,6 +25,7 @@ class PlacedTick {
   std::size_t worst() const { return worst_move(moves_); }
 
   const Preset& preset() const { return preset_; }  ///< under which the moves were solved
+  const std::shared_ptr<const ContactScene>& scene() const { return stepper_.shared_scene(); }
   std::uint32_t triangle() const { return triangle_; }
   double u() const { return u_; }
   double v() const { return v_; }

@@ -127,6 +127,14 @@ const Preset* TimeModel::preset_of_tick() const {
                                                             : nullptr;
 }
 
+std::shared_ptr<const ContactScene> TimeModel::scene_of_tick() const {
+  if (placed_) return placed_->scene();
+  const ServoRecord* record = tick_.record();
+  if (record == nullptr) return nullptr;
+  const auto found = past_.shown().scenes.find(record->scene_id);
+  return found != past_.shown().scenes.end() ? found->second : nullptr;
+}
+
 void TimeModel::show_beside() {
   const ServoRecord* record = tick_.record();
   if (record == nullptr) return beside_.clear();
@@ -183,6 +191,11 @@ void TimeModel::choose_move(std::size_t move) {
 }
 
 void TimeModel::leave_place() {
+  forget_place();
+  show_tick();
+}
+
+void TimeModel::forget_place() {
   if (!placed_) return;
   placed_.reset();
   tick_.clear();
@@ -212,15 +225,15 @@ std::optional<TickRange> TimeModel::chosen_range() const {
   return TickRange{records().oldest().tick.tick, records().newest().tick.tick};
 }
 
-std::optional<RecordedRun> TimeModel::run_over(const TickRange& range) const {
+std::optional<RunPart> TimeModel::run_over(const TickRange& range) const {
   const PastPart* part = &past_.shown();
   if (!part->covers(range.from) || !part->covers(range.to)) part = past_.part_with(range);
   if (part == nullptr) return std::nullopt;
   RecordedRun run = devices_.session()->recorded_run();
-  const std::uint64_t from = range.from > RecordedPast::kLeadIn ? range.from - RecordedPast::kLeadIn : 0;
-  run.records = part->records.slice(part->records.lower_bound(from), part->records.lower_bound(range.to + 1));
+  run.records = part->records;
   run.scenes = part->scenes;
-  return run;
+  const std::size_t begin = run.records.lower_bound(range.from), end = run.records.lower_bound(range.to + 1);
+  return begin < end ? std::optional(part_of(run, begin, end)) : std::nullopt;
 }
 
 void TimeModel::forget() {
@@ -281,7 +294,7 @@ void TimeModel::show_part() {
 void TimeModel::go_live() {
   paused_ = false;
   cursor_.reset();
-  leave_place();
+  forget_place();
   time_machine_.close();
   past_.thaw();
   bookmarks_.hold = false;
@@ -296,7 +309,7 @@ void TimeModel::go_live() {
 void TimeModel::select_tick(std::uint64_t tick) {
   if (records().empty()) return;
   set_paused(true);
-  leave_place();
+  forget_place();
   if (const PastPart* was = &past_.shown(); past_.show(tick) && &past_.shown() != was) show_part();
   const std::size_t at = std::min(records().lower_bound(tick), records().size() - 1);
   cursor_ = records()[at].tick.tick;
@@ -325,6 +338,7 @@ void TimeModel::step_iteration(int by) {
     tick_.select(static_cast<std::size_t>(to));
     return;
   }
+  if (placed_) return;  // it has no tick before or after it
   const std::uint64_t before = cursor_.value_or(0);
   step_tick(by);
   if (cursor_.value_or(0) == before) return;  // no further tick
@@ -334,6 +348,7 @@ void TimeModel::step_iteration(int by) {
 void TimeModel::add_bookmark() {
   const ServoRecord* record = tick_.record();
   if (record == nullptr) return;
+  if (placed_) return messages_.say(Severity::note, "a tick at a place has no time to bookmark");
   bookmarks_.add(record->tick.tick, record->tick.input.t_s);
 }
 

@@ -55,8 +55,9 @@ class TimeModel {
   const ErrorFan& error_fan() const { return error_fan_; }  ///< of the ticks up to the one in view
   /// The tick in view under another preset: that of the ghost; without one, of the other slot if that is wanted.
   const BesideTick& beside() const { return beside_; }
-  bool other_slot_beside = false;        ///< also while live
-  const Preset* preset_of_tick() const;  ///< under which the tick in view ran; null: none
+  bool other_slot_beside = false;                             ///< also while live
+  const Preset* preset_of_tick() const;                       ///< under which the tick in view ran; null: none
+  std::shared_ptr<const ContactScene> scene_of_tick() const;  ///< on which it ran; null: none
 
   // A tick at a place, without waiting for the finger (placed_tick.h). It is in view until another tick is chosen.
   /// False where the finger can't rest there; a message says so.
@@ -64,7 +65,7 @@ class TimeModel {
                 const MoveOptions& options);
   const PlacedTick* placed() const { return placed_ ? &*placed_ : nullptr; }  ///< null: a recorded tick is in view
   void choose_move(std::size_t move);
-  void leave_place();
+  void leave_place();  ///< back to the recorded tick
 
   Bookmarks& bookmarks() { return bookmarks_; }
   const Bookmarks& bookmarks() const { return bookmarks_; }
@@ -81,8 +82,8 @@ class TimeModel {
   const std::optional<TickRange>& selection() const { return selection_; }
   /// The selection if it is in the part in view, or all ticks of that; empty: nothing is recorded.
   std::optional<TickRange> chosen_range() const;
-  /// What can be solved of it: the records from a lead-in before it on. Empty: its ticks are gone.
-  std::optional<RecordedRun> run_over(const TickRange& range) const;
+  /// Its records, to be solved again. Empty: they are gone.
+  std::optional<RunPart> run_over(const TickRange& range) const;
 
   const ChannelStore& store() const { return kept_store_ ? *kept_store_ : store_; }
   TimeAxis& axis() { return axis_; }
@@ -110,6 +111,7 @@ class TimeModel {
   const HistorySnapshot& records() const { return past_.shown().records; }
   void open_time_machine();
   void show_part();
+  void forget_place();
   void take_in();
   void show_beside();
   void request_comparison();

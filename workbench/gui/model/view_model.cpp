@@ -34,11 +34,14 @@ void ViewModel::look_at_place(const Vec3& point_world, const Vec3& normal, std::
   picked_triangle = triangle;
 }
 
-void ViewModel::look_at_worst() {
-  if (map_.worst().empty())
-    return messages_.say(Severity::note, map_.on ? "no place is worse than the others" : "choose a map first");
+const MapPlace* ViewModel::look_at_worst() {
+  if (map_.worst().empty()) {
+    messages_.say(Severity::note, map_.on ? "no place is worse than the others" : "choose a map first");
+    return nullptr;
+  }
   const MapPlace& place = map_.worst()[worst_shown_++ % map_.worst().size()];
   look_at_place(place.point_world, place.normal, place.triangle);
+  return &place;
 }
 
 // If the whole scene was framed it is framed again; if the user has zoomed in, target and distance stay.

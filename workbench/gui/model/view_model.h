@@ -44,7 +44,8 @@ class ViewModel {
   void frame_scene();        ///< frames the whole mesh, beside cards and bars
   /// Turns the camera to a place on the surface, viewed obliquely, and picks the triangle.
   void look_at_place(const Vec3& point_world, const Vec3& normal, std::uint32_t triangle);
-  void look_at_worst();  ///< to the map's worst place; repeated: to the next worst
+  /// To the map's worst place; repeated: to the next worst. Null, with a message: there is none.
+  const MapPlace* look_at_worst();
   void look_from_standard(StandardView view);
   void set_y_up(bool y_up);
   void copy_camera();  ///< to the clipboard, as text

@@ -145,6 +145,12 @@ void draw_bookmarks_panel(const UiContext& ui, AppModel& model, BookmarksPanel& 
   ImGui::SameLine();
   toggle_button(ui, "bookmarks/triggers", "Triggers", state.triggers_open, "What sets bookmarks automatically");
   ImGui::SameLine();
+  if (text_button(ui, "bookmarks/solve", "Solve here",
+                  "At the contact of the bookmark in view: a tick in the direction that needs most planes (H)")) {
+    model.view().picked_triangle = kNone;
+    model.solve_here();
+  }
+  ImGui::SameLine();
   if (text_button(ui, "bookmarks/clear", "Clear triggered", "Removes those that triggers set"))
     model.time().bookmarks().clear_automatic();
   if (state.triggers_open) draw_triggers(ui, model);

@@ -48,8 +48,8 @@ void add_panel_commands(std::vector<Command>& out, AppModel& model) {
   };
   for (const PresetTable& table : preset_tables()) add(table.title.data(), true);
   for (const char* title : {"Compare", "Presets"}) add(title, true);
-  for (const char* title : {"Iterations", "Time machine", "Bookmarks", "Map", "Smoothness as felt", "Inspect", "Mesh",
-                            "Devices", "Messages"})
+  for (const char* title : {"Iterations", "Time machine", "Sweep", "Bookmarks", "Map", "Smoothness as felt", "Inspect",
+                            "Mesh", "Devices", "Messages"})
     add(title, false);
 }
 
@@ -139,7 +139,8 @@ void add_mesh_commands(std::vector<Command>& out, AppModel& model, MenuBar& menu
                      model.map().set_quantity(quantity);
                    }});
   }
-  out.push_back({"Map: go to the worst place", "W", [&model] { model.view().look_at_worst(); }});
+  out.push_back({"Map: solve at the worst place", "W", [&model] { model.solve_at_worst(); }});
+  out.push_back({"Solve here: the picked triangle or the contact", "H", [&model] { model.solve_here(); }});
   out.push_back({"Inspect: isolate", "I", [&model] { model.view().isolate_marked(); }});
   out.push_back({"Inspect: isolate part", "", [&model] { model.view().isolate_part(); }});
   out.push_back({"Inspect: show all", "Shift+I", [&model] { model.view().show_all(); }});

@@ -136,11 +136,24 @@ void draw_beside_summary(const UiContext& ui, const TimeModel& time, bool planar
                   : "The same tick under the other preset, from the recorded contact of the tick before");
 }
 
-void draw_column_choice(const UiContext& ui, IterationsPanel& state) {
+void draw_solve_here(const UiContext& ui, AppModel& model) {
+  const PlacedTick* placed = model.time().placed();
+  const bool picked = model.view().picked_triangle != kNone;
+  const std::string label = picked ? printed("Solve at triangle %u", model.view().picked_triangle) : "Solve here";
+  if (text_button(ui, "iterations/solve_here", label.c_str(),
+                  "A tick at the picked triangle's middle, or at the contact in view, in the direction that needs most "
+                  "planes, without waiting for the finger (H). W: at the map's worst place"))
+    model.solve_here();
+  if (placed == nullptr) return;
+  ImGui::SameLine(0, ui.px(4));
+  if (text_button(ui, "iterations/leave_place", "Back", "Back to the recorded tick")) model.time().leave_place();
+}
+
+void draw_column_choice(const UiContext& ui, IterationsPanel& state, bool beside_a_button) {
   const std::string label = "Columns";
-  ImGui::SameLine(ImGui::GetContentRegionMax().x - ImGui::CalcTextSize(label.c_str()).x - ui.px(10));
-  if (ImGui::SmallButton((label + "##iterations").c_str())) ImGui::OpenPopup("iteration_columns");
-  ui.items.note_last("iterations/columns");
+  if (beside_a_button) ImGui::SameLine(0, ui.px(4));
+  if (text_button(ui, "iterations/columns", label.c_str(), "Which columns the table has"))
+    ImGui::OpenPopup("iteration_columns");
   if (!ImGui::BeginPopup("iteration_columns")) return;
   for (std::size_t c = 1; c < kIterationColumnCount; ++c) {
     const IterationColumnInfo& info = info_of(static_cast<IterationColumn>(c));
@@ -243,8 +256,9 @@ void draw_iterations_panel(const UiContext& ui, AppModel& model, IterationsPanel
   ImGui::PushFont(ui.fonts.small);
   draw_moves(ui, time);
   draw_summary(ui, record->tick.output, time.tick().iterations(), planar, "iterations/summary");
-  draw_column_choice(ui, state);
   draw_beside_summary(ui, time, planar);
+  if (!planar) draw_solve_here(ui, model);
+  draw_column_choice(ui, state, !planar);
   ImGui::PopFont();
   if (!time.tick().problem().empty()) ImGui::TextWrapped("%s", time.tick().problem().c_str());
   draw_table(ui, time, state, planar);

@@ -101,6 +101,9 @@ struct FoldedPanel {
 };
 void draw_time_machine_panel(const UiContext& ui, TimeModel& time, FoldedPanel& state);
 
+/// One or two keys over many values on the chosen ticks: mean, p99 and failures of each, a click tries it.
+void draw_sweep_panel(const UiContext& ui, AppModel& model, FoldedPanel& state);
+
 struct BookmarksPanel {
   bool open = true;
   bool triggers_open = false;

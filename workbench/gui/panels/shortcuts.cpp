@@ -49,7 +49,8 @@ void handle_shortcuts(AppModel& model, MenuBar& menu) {
   }
   model.devices().clutch().key = ImGui::IsKeyDown('C') && !io.KeyShift;
   if (letter('U')) model.view().set_y_up(!model.view().camera.y_up);
-  if (letter('W')) model.view().look_at_worst();
+  if (letter('W')) model.solve_at_worst();
+  if (letter('H')) model.solve_here();
   if (letter('I')) io.KeyShift ? model.view().show_all() : model.view().isolate_marked();
   const int by = io.KeyShift ? 10 : 1;
   if (named(ImGuiKey_Space)) model.time().set_paused(!model.time().paused());

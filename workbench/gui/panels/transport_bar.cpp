@@ -179,7 +179,7 @@ void draw_transport_bar(const UiContext& ui, TimeModel& time, const Rect& rect) 
   draw_bookmark_buttons(ui, time, any);
   ImGui::SameLine(0, ui.px(14));
   ImGui::AlignTextToFramePadding();
-  draw_captions(ui, time.tick().record());
+  draw_captions(ui, time.placed() != nullptr ? nullptr : time.tick().record());
   draw_strip(ui, time, ImGui::GetContentRegionAvail().x);
   ImGui::End();
 }

@@ -107,8 +107,8 @@ void enlarge_plots(AppModel& model) {
 
 /// Folds all sections of the right column but this one.
 void fold_but(AppModel& model, const char* section) {
-  for (const char* other : {"Iterations", "Time machine", "Bookmarks", "Map", "Smoothness as felt", "Inspect", "Mesh",
-                            "Devices", "Messages"}) {
+  for (const char* other : {"Iterations", "Time machine", "Sweep", "Bookmarks", "Map", "Smoothness as felt", "Inspect",
+                            "Mesh", "Devices", "Messages"}) {
     model.window().open_sections()[other] = std::string_view(other) == section;
   }
 }
@@ -154,6 +154,56 @@ void drag_gain_of_the_past(AppModel& model) {
   model.time().bookmarks().set_note(model.time().bookmarks().all().front().id, "over the inner side");
   model.time().axis().show(static_cast<double>(end) - 4000.0, static_cast<double>(end));
   model.presets().set_value(*find_preset_key("solver", "gain_curvature_m"), 9e-3);
+}
+
+/// The busiest tick, and the same tick under a larger gain beside it.
+void compare_busiest_tick(AppModel& model) {
+  look_at_busiest_tick(model);
+  model.presets().set_value(*find_preset_key("solver", "gain_curvature_m"), 12e-3);
+}
+
+/// The map's worst place, solved there, and under a larger gain beside it.
+void solve_at_worst(AppModel& model) {
+  model.solve_at_worst();
+  model.presets().set_value(*find_preset_key("solver", "gain_curvature_m"), 12e-3);
+  const PlacedTick* placed = model.time().placed();
+  if (placed == nullptr) return;
+  Box points;
+  for (const IterationRecord& it : model.time().tick().iterations()) points.include(it.point);
+  model.view().camera.target = points.centre();
+  model.view().camera.distance_m =
+      std::max(12.0 * glm::length(points.size()), 0.02 * model.view().camera.scene_radius_m);
+  model.window().open_sections()["Iterations"] = true;
+}
+
+void map_with_paper(AppModel& model) {
+  solve_with_paper(model);
+  model.map().set_quantity(MapQuantity::iterations_worst);
+  model.map().on = true;
+}
+
+/// A sweep of G_k over the last seconds, and a value tried by hand.
+void sweep_gain(AppModel& model) {
+  fold_but(model, "Sweep");
+  look_from_contact_side(model);
+  model.time().set_paused(true);
+  model.tuning().set_range(0, 0.0, 30e-3);
+  model.tuning().set_count(0, 21);
+  model.tuning().start_sweep();
+  model.presets().set_value(*find_preset_key("solver", "gain_curvature_m"), 13.6e-3);
+}
+
+/// A field of G_k and G_o.
+void sweep_two_gains(AppModel& model) {
+  fold_but(model, "Sweep");
+  look_from_contact_side(model);
+  model.time().set_paused(true);
+  model.tuning().set_key(1, find_preset_key("solver", "gain_overall"));
+  model.tuning().set_range(0, 0.0, 30e-3);
+  model.tuning().set_range(1, 0.6, 1.6);
+  model.tuning().set_count(0, 13);
+  model.tuning().set_count(1, 9);
+  model.tuning().start_sweep();
 }
 
 /// A body with a hole, cut open, with the defects listed and the first one shown.
@@ -279,6 +329,12 @@ constexpr WindowView kViews[] = {
      show_paper_map<MapQuantity::gain_margin>, look_from_contact_side},
     {"time-machine", "the past solved again with a smaller gain, drawn beside what was recorded", Theme::dark,
      tune_paper, drag_gain_of_the_past},
+    {"tick-by-tick", "one tick under two gains: planes, path, error curve and table side by side", Theme::dark,
+     solve_with_paper, compare_busiest_tick},
+    {"solve-here", "a tick at the map's worst place, in its worst direction, under two gains", Theme::light,
+     map_with_paper, solve_at_worst},
+    {"sweep", "a sweep of the curvature gain over the recorded ticks", Theme::dark, tune_paper, sweep_gain},
+    {"sweep-two", "a sweep of two gains", Theme::light, tune_paper, sweep_two_gains},
     {"inspect", "mesh inspection: a defect found, marked and listed", Theme::dark, inspect, look_at_first_finding},
     {"slice", "the body cut open", Theme::dark, inspect, slice_open},
     {"parameters", "favourites, gain advice, and two presets side by side", Theme::dark, tune_and_compare,
