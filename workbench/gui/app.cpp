@@ -208,7 +208,8 @@ bool App::wants_close() const { return model_->window().wants_close(); }
 bool App::wants_frames() const {
   const bool refining = ui_->renderer != nullptr && ui_->renderer->refining();
   return !model_->time().paused() || model_->scene().loading() || model_->scene().auditing() ||
-         model_->map().running() || model_->time().time_machine().busy() || refining;
+         model_->map().running() || model_->time().time_machine().busy() || model_->tuning().sweep().running() ||
+         model_->tuning().search().running() || refining;
 }
 
 std::optional<std::filesystem::path> App::take_screenshot_request() {

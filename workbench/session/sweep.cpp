@@ -80,12 +80,12 @@ void SweepJob::work() {
     if (cancelled_.load()) return;
     const std::scoped_lock lock(guard_);
     finished_.push_back(std::move(point));
-    done_.fetch_add(1);
   }
 }
 
 std::vector<SweepPoint> SweepJob::take() {
   const std::scoped_lock lock(guard_);
+  done_.fetch_add(finished_.size());  // here, so that who waits for the end has them all
   return std::exchange(finished_, {});
 }
 

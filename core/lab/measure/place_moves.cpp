@@ -66,7 +66,7 @@ std::vector<PlaceMove> solve_moves(Stepper& stepper, const Preset& preset, std::
     TickState state = resting->kept;
     PlaceMove move{move_direction(resting->place, options, i), moved(mesh, *resting, options, i), resting->kept, {}};
     move.output = stepper.step(preset, move.input, state);
-    moves.push_back(std::move(move));
+    moves.push_back(move);
   }
   return moves;
 }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -22,11 +21,10 @@ std::shared_ptr<const ChannelStore> make_channels(const RecordedRun& run, const 
   std::vector<float> rows(kGhostChannelCount * (end - first), std::numeric_limits<float>::quiet_NaN());
   for (const ResolvedTick& tick : numbers.ticks) {
     if (!tick.solved) continue;
-    float* row = rows.data() + kGhostChannelCount * (tick.tick - first);
-    const float x = tick.force_n[0], y = tick.force_n[1], z = tick.force_n[2];
-    const float values[kGhostChannelCount] = {
-        x, y, z, std::sqrt(x * x + y * y + z * z), tick.cld_m, tick.error_m, static_cast<float>(tick.iterations)};
-    std::copy(std::begin(values), std::end(values), row);
+    const GhostRow row =
+        ghost_row(tick.force_n[0], tick.force_n[1], tick.force_n[2], tick.cld_m, tick.error_m, tick.iterations);
+    std::copy(row.begin(), row.end(),
+              rows.begin() + static_cast<std::ptrdiff_t>(kGhostChannelCount * (tick.tick - first)));
   }
   auto store = std::make_shared<ChannelStore>(kGhostChannelCount, end - first);
   store->assign(first, rows);

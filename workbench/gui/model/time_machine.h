@@ -3,6 +3,7 @@
 // that is done, two presets are compared over a range of ticks: both are solved, in turns (compare_presets.h).
 #pragma once
 
+#include "workbench/gui/model/ghost_channels.h"
 #include "workbench/gui/model/recorded_past.h"
 #include "workbench/gui/plots/channel_store.h"
 #include "workbench/session/compare_presets.h"
@@ -16,10 +17,6 @@
 #include <vector>
 
 namespace tangent {
-
-/// Channels of a ghost, SI; each corresponds to the recorded channel of the same name.
-enum class GhostChannel : std::uint8_t { force_x, force_y, force_z, force_magnitude, cld, error, iterations, count_ };
-inline constexpr std::size_t kGhostChannelCount = static_cast<std::size_t>(GhostChannel::count_);
 
 /// The past solved under another preset. Numbers and channels cover the same ticks: first_tick to end_tick - 1.
 struct Ghost {

@@ -7,6 +7,7 @@
 #include "workbench/gui/model/beside_tick.h"
 #include "workbench/gui/model/device_model.h"
 #include "workbench/gui/model/error_fan.h"
+#include "workbench/gui/model/live_beside.h"
 #include "workbench/gui/model/message_log.h"
 #include "workbench/gui/model/placed_tick.h"
 #include "workbench/gui/model/preset_model.h"
@@ -55,7 +56,9 @@ class TimeModel {
   const ErrorFan& error_fan() const { return error_fan_; }  ///< of the ticks up to the one in view
   /// The tick in view under another preset: that of the ghost; without one, of the other slot if that is wanted.
   const BesideTick& beside() const { return beside_; }
-  bool other_slot_beside = false;                             ///< also while live
+  bool other_slot_beside = false;  ///< also while live
+  /// Pale curves of the plots: the ghost, or while live those of the other slot if that is wanted. Null: none.
+  std::shared_ptr<const ChannelStore> ghost_channels() const;
   const Preset* preset_of_tick() const;                       ///< under which the tick in view ran; null: none
   std::shared_ptr<const ContactScene> scene_of_tick() const;  ///< on which it ran; null: none
 
@@ -80,7 +83,8 @@ class TimeModel {
   /// Cursors A and B, in any order: the ticks that comparison, sweep and advice work on. Empty: all of them.
   void set_selection(const std::optional<TickRange>& range);
   const std::optional<TickRange>& selection() const { return selection_; }
-  /// The selection if it is in the part in view, or all ticks of that; empty: nothing is recorded.
+  bool selection_kept() const { return selection_ && past_.part_with(*selection_) != nullptr; }
+  /// The selection, or without one all ticks of the part in view; empty: nothing is recorded.
   std::optional<TickRange> chosen_range() const;
   /// Its records, to be solved again. Empty: they are gone.
   std::optional<RunPart> run_over(const TickRange& range) const;
@@ -125,6 +129,7 @@ class TimeModel {
   std::optional<std::uint64_t> cursor_;  ///< the tick in view while paused
   TickView tick_;
   BesideTick beside_;
+  LiveBeside live_beside_;
   std::optional<PlacedTick> placed_;
   ErrorFan error_fan_;
   RecordedPast past_;

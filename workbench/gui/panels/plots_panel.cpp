@@ -171,8 +171,8 @@ void draw_plots_panel(const UiContext& ui, AppModel& model, PlotsPanel& state, c
   if (model.time().paused() && model.time().tick().record() != nullptr)
     link.cursor = model.time().tick().record()->tick.tick;
 
-  const std::shared_ptr<const Ghost> ghost = model.time().ghost();
-  link.ghost = ghost != nullptr ? ghost->channels.get() : nullptr;
+  const std::shared_ptr<const ChannelStore> ghost = model.time().ghost_channels();
+  link.ghost = ghost.get();
   collect_marks(ui, model.time(), state);
 
   const float bar = ui.px(24);

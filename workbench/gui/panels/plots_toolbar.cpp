@@ -71,13 +71,29 @@ void draw_cursors(const UiContext& ui, TimeModel& time, PlotLink& link) {
   ImGui::SameLine(0, ui.px(14));
 }
 
+/// What the pale curves are, and how they compare: one preset against one, never the recording's mixture.
+std::string ghost_text(const TimeModel& time) {
+  const std::shared_ptr<const ChannelStore> ghost = time.ghost_channels();
+  if (ghost == nullptr) return {};
+  if (!time.paused()) {
+    const auto [from, to] = ticks_in_view(time);
+    const auto mean = [from = from, to = to](const ChannelStore& store, std::size_t channel) {
+      return store.sums(channel, from, to).mean();
+    };
+    return printed("Beside, same motion assumed: the other slot, %.2f planes a tick in view; rendered %.2f",
+                   mean(*ghost, static_cast<std::size_t>(GhostChannel::iterations)),
+                   mean(time.store(), static_cast<std::size_t>(Channel::iterations)));
+  }
+  const auto both = time.time_machine().compared();
+  if (!both) return "Ghost, same motion assumed";
+  return printed("Ghost, same motion assumed: iterations %.2f \u2192 %.2f, contact changed in %llu ticks",
+                 both->before_numbers.mean_iterations, both->after_numbers.mean_iterations,
+                 static_cast<unsigned long long>(both->changed_ticks));
+}
+
 void draw_ghost_note(const UiContext& ui, const TimeModel& time, float right) {
-  const auto ghost = time.ghost();
-  if (!ghost) return;
-  const std::string text =
-      printed("Ghost, same motion assumed: iterations %.2f \u2192 %.2f, contact changed in %llu ticks",
-              ghost->numbers.recorded.mean_iterations, ghost->numbers.resolved.mean_iterations,
-              static_cast<unsigned long long>(ghost->numbers.changed_ticks));
+  const std::string text = ghost_text(time);
+  if (text.empty()) return;
   const char* shorter = "Ghost: same motion assumed";
   ImGui::SetCursorPosX(ImGui::GetCursorPosX() + ui.px(11));
   const float room = right - ImGui::GetCursorScreenPos().x - ui.px(10);

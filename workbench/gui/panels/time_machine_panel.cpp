@@ -45,7 +45,7 @@ std::string range_text(const PresetsCompared& both, const TimeModel& time) {
   const double period = time.tick_period_s();
   return printed("%s ticks, %.3f to %.3f s%s", count_text(both.before_numbers.ticks).c_str(),
                  static_cast<double>(both.from_tick) * period, static_cast<double>(both.end_tick - 1) * period,
-                 time.selection() ? " (A to B)" : "");
+                 time.selection() && time.selection()->from == both.from_tick ? " (A to B)" : "");
 }
 
 void draw_comparison(const UiContext& ui, const TimeModel& time, const PresetsCompared& both) {
@@ -138,11 +138,20 @@ void draw_state(const UiContext& ui, const TimeModel& time) {
   tooltip(ui, "Every tick solved again with the values it was recorded with");
 }
 
+/// The selected ticks are kept, but in no view: a way to them.
+void draw_way_to_selection(const UiContext& ui, TimeModel& time) {
+  if (!time.selection_kept() || time.past().shown().covers(time.selection()->from)) return;
+  if (text_button(ui, "time_machine/selection", "Go to A to B",
+                  "The history has dropped these ticks; they are kept while the cursors are set"))
+    time.select_tick(time.selection()->from);
+}
+
 }  // namespace
 
 void draw_time_machine_panel(const UiContext& ui, TimeModel& time, FoldedPanel& state) {
   const bool open = section(ui, "Time machine", state.open);
   if (!open) return;
+  draw_way_to_selection(ui, time);
   if (!time.time_machine().is_open()) {
     ImGui::PushFont(ui.fonts.small);
     ImGui::PushStyleColor(ImGuiCol_Text, ui.colours.text_dim);

@@ -120,8 +120,8 @@ void SceneRenderer::Impl::build_sketch(const SceneFrame& frame, const Camera& ca
   const SketchContext context{*mesh.scene(), mesh.form(), frame, camera, width_px, height_px, force_metres_per_newton};
   draw_marked_triangles(sketch, context);
   draw_control_nets(sketch, context, labels);
-  draw_beside_iterations(sketch, context);
   draw_iterations(sketch, context, labels);
+  draw_beside_iterations(sketch, context);  // on top, with smaller dots
   draw_trail(sketch, context);
   draw_force(sketch, context, labels);
   draw_contact(sketch, context, labels);

@@ -166,7 +166,7 @@ void draw_beside_iterations(Sketch& sketch, const SketchContext& c) {
     sketch.line(trace[i].point, trace[i + 1].point, colour, 1.8);
   }
   for (const IterationRecord& it : trace) {
-    if (it.feature != Feature::none) sketch.point(it.point, colour, 6.0);
+    if (it.feature != Feature::none) sketch.point(it.point, colour, 5.0);
   }
   const IterationRecord& last = trace.back();
   if (last.feature != Feature::none)

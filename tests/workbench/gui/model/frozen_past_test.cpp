@@ -128,6 +128,12 @@ TEST_CASE("the ticks from cursor A to B are kept") {
   CHECK(part.run.records[part.first].tick.tick == 1000);
   CHECK(part.first == RecordedPast::kLeadIn);
   CHECK_FALSE(ui.time().run_over({1000, 1401}));
+  CHECK(ui.time().chosen_range() == TickRange{1000, 1400});
+  ui.click("time_machine/selection");
+  CHECK(ui.tick() == 1000);
+  ui.check_reachable();
+  ui.time().go_live();
+  ui.frame();
   ui.click("plots/cursor_a");
   CHECK_FALSE(ui.time().run_over({1000, 1400}));
 }
