@@ -66,6 +66,11 @@ class App {
 
   bool wants_close() const;   ///< file > quit was chosen
   bool wants_frames() const;  ///< something is animated: draw again without waiting for input
+  /// As the script of the options, from the next frame on.
+  void run_script(const std::filesystem::path& file);
+  bool script_running() const;
+  /// Why the script of the options ended before its end; empty: it did not. The window then wants to close.
+  const std::string& script_failure() const { return script_failure_; }
   std::string title() const;  ///< for the window: mesh, preset, time in view while paused
   /// The file to which the platform should write this frame as a PNG; given once per request.
   std::optional<std::filesystem::path> take_screenshot_request();
@@ -79,9 +84,11 @@ class App {
  private:
   struct Ui;
   void stop_on_escape();
+  void step_script();
   std::unique_ptr<AppModel> model_;
   std::unique_ptr<Ui> ui_;
   double last_build_ms_ = 0.0;
+  std::string script_failure_;
 };
 
 }  // namespace tangent

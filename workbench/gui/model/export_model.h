@@ -36,6 +36,8 @@ class ExportModel {
 
   // Screenshot of the next frame. The platform, which has the pixels, takes the request once.
   void ask_for_picture(const std::string& what, const Rect& of);
+  void ask_for_picture(PictureRequest request) { picture_request_ = std::move(request); }
+  bool picture_wanted() const { return picture_request_.has_value(); }
   std::optional<PictureRequest> take_picture_request() { return std::exchange(picture_request_, std::nullopt); }
   void ask_for_screenshot() { screenshot_wanted_ = true; }
   std::optional<std::filesystem::path> take_screenshot_request();

@@ -98,7 +98,7 @@ void draw_row(const UiContext& ui, TimeModel& time, const Bookmark& mark, std::s
   const float text_width = ImGui::CalcTextSize(text.c_str()).x;
   ImGui::PopFont();
   // The note's field covers the rest of the row.
-  ui.items.note(printed("bookmarks/row/%zu", i), at, {at.x + text_width, at.y + height});
+  ui.items.note_last(printed("bookmarks/row/%zu", i), at, {at.x + text_width, at.y + height});
   const std::string span = mark.ticks > 1
                                ? printed("ticks %llu to %llu, %u of them", static_cast<unsigned long long>(mark.tick),
                                          static_cast<unsigned long long>(mark.last_tick), mark.ticks)

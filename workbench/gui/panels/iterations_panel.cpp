@@ -94,7 +94,7 @@ void draw_row(const UiContext& ui, TimeModel& time, std::size_t i, std::size_t c
     time.tick().select(selected ? std::nullopt : std::optional(i));
   }
   // The row may extend beyond the visible columns, so its first cell is noted.
-  ui.items.note(printed("iterations/row/%zu", i), at, {at.x + ui.px(16), at.y + ImGui::GetTextLineHeight()});
+  ui.items.note_last(printed("iterations/row/%zu", i), at, {at.x + ui.px(16), at.y + ImGui::GetTextLineHeight()});
   const float side = ui.px(7), y = at.y + 0.5f * ImGui::GetTextLineHeight();
   ImGui::GetWindowDrawList()->AddRectFilled({at.x, y - 0.5f * side}, {at.x + side, y + 0.5f * side},
                                             packed(iteration_colour(i, count)), ui.px(1.5f));

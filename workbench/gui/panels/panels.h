@@ -42,9 +42,15 @@ struct PresetsPanel {
   std::string asked_for;  ///< this file exists: pressing again overwrites it
   std::string written;    ///< saved before in this run: no confirmation
 };
+/// Of the values in use, for the file that they are saved in.
+PresetOrigin origin_of(const AppModel& model, const std::string& note);
 void draw_presets_panel(const UiContext& ui, AppModel& model, PresetsPanel& state);
 
 // Right column.
+/// The tabs over it. Returns their height; 0: the column is hidden.
+float draw_task_tabs(const UiContext& ui, WindowModel& window, const Rect& column);
+/// Beside the pointer: the numbers of a triangle of the mesh.
+void draw_triangle_card(const UiContext& ui, const AppModel& model, std::uint32_t triangle);
 /// Where the scene is on the force device: part of the devices panel.
 void draw_placement(const UiContext& ui, AppModel& model);
 struct PathMapPanel {
@@ -169,14 +175,40 @@ struct CommandPalette {
   bool open = false;
   bool focus = false;
   std::string text;
+  std::string problem;  ///< why the last line was not run; empty: it was
   int chosen = 0;
+  std::vector<std::string> history;        ///< lines that were run, oldest first
+  std::optional<std::size_t> recalled;     ///< which of them is in the box
+  std::optional<std::string> replacement;  ///< text to put into the box
+};
+/// What commands leave to the frames that follow (wish.h).
+struct Wish {
+  std::string widget;  ///< path of one to press or to give `value`; empty: none
+  std::optional<std::string> value;
+  double until_s = 0.0;         ///< a script waits until then,
+  std::uint64_t ticks = 0;      ///< for so many ticks more,
+  bool time_passes = false;     ///< errors meanwhile are the devices', and not the line's
+  bool work = false;            ///< for what runs in the background
+  std::string script;           ///< file to run; empty: none
+  std::string lines, lines_of;  ///< or these lines, and what to call them
+};
+/// Five steps for the first minute; drawn over the window beside what they are about.
+struct FirstSteps {
+  static constexpr int kCount = 5;
+  std::optional<int> step;  ///< empty: not shown
 };
 struct MenuBar {
+  FirstSteps first;
   PathBar path;
   CommandPalette palette;
   bool sheet = false;  ///< the sheet of shortcuts
+  Wish wish;
+  // Of the last frame, for commands that look at the window.
+  const ItemMap* items = nullptr;
+  std::string title;
 };
 void draw_command_palette(const UiContext& ui, AppModel& model, MenuBar& menu, const Rect& over);
+void draw_first_steps(const UiContext& ui, AppModel& model, MenuBar& menu, const Rect& over);
 void draw_shortcut_sheet(const UiContext& ui, AppModel& model, MenuBar& menu, const Rect& over);
 void draw_menu_bar(const UiContext& ui, AppModel& model, MenuBar& state, const Rect& rect);
 
@@ -187,6 +219,7 @@ std::vector<std::string> complete_mesh_path(const std::string& typed, std::size_
 std::string common_start(const std::vector<std::string>& texts);
 
 /// Keys that work everywhere but in text boxes. Listed in the shortcut sheet (commands.h).
-void handle_shortcuts(AppModel& model, MenuBar& menu);
+/// `arrows`: Left and Right are free, and not a field's.
+void handle_shortcuts(AppModel& model, MenuBar& menu, bool arrows = true);
 
 }  // namespace tangent

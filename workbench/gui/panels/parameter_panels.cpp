@@ -75,6 +75,14 @@ void draw_label(const UiContext& ui, AppModel& model, const PresetKey& key, cons
   draw.PopClipRect();
 }
 
+/// A hundredth of the slider, or what changes a whole number by one.
+double arrow_step(const PresetKey& key, double value) {
+  constexpr double kShare = 0.01;
+  if (key.kind != KeyKind::integer) return kShare;
+  const double one = slider_share(key, value + 1.0) - slider_share(key, value);
+  return std::max(kShare, one);
+}
+
 /// `prefix`: of the item's path, for a key drawn twice.
 void draw_row(const UiContext& ui, AppModel& model, const PresetKey& key, const char* prefix = "") {
   const Preset& preset = model.presets().current();
@@ -94,8 +102,8 @@ void draw_row(const UiContext& ui, AppModel& model, const PresetKey& key, const 
     if (choice_row(ui, path, field_width, key.choices, chosen)) model.presets().set_value(key, chosen);
   } else {
     const DisplayUnit unit = display_unit(key);
-    const auto result =
-        value_field(ui, path, {field_width, slider_share(key, value), display_text(key, value), unit.name});
+    const auto result = value_field(
+        ui, path, {field_width, slider_share(key, value), display_text(key, value), unit.name, arrow_step(key, value)});
     if (result.slid) model.presets().slide_value(key, slider_value(key, *result.slid));
     if (result.typed) model.presets().type_value(key, *result.typed);
   }

@@ -33,7 +33,7 @@ void handle_ctrl_keys(AppModel& model) {
 
 }  // namespace
 
-void handle_shortcuts(AppModel& model, MenuBar& menu) {
+void handle_shortcuts(AppModel& model, MenuBar& menu, bool arrows) {
   const ImGuiIO& io = ImGui::GetIO();
   handle_window_keys(model, menu);
   if (text_is_edited()) return;
@@ -53,8 +53,8 @@ void handle_shortcuts(AppModel& model, MenuBar& menu) {
   if (letter('I')) io.KeyShift ? model.view().show_all() : model.view().isolate_marked();
   const int by = io.KeyShift ? 10 : 1;
   if (named(ImGuiKey_Space)) model.time().set_paused(!model.time().paused());
-  if (named(ImGuiKey_LeftArrow, true)) model.time().step_tick(-by);
-  if (named(ImGuiKey_RightArrow, true)) model.time().step_tick(by);
+  if (arrows && named(ImGuiKey_LeftArrow, true)) model.time().step_tick(-by);
+  if (arrows && named(ImGuiKey_RightArrow, true)) model.time().step_tick(by);
   if (letter(',', true)) model.time().step_iteration(-1);
   if (letter('.', true)) model.time().step_iteration(1);
   if (named(ImGuiKey_Home)) model.time().select_tick(model.time().first_tick());

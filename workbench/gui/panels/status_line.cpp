@@ -19,14 +19,16 @@ class Values {
         y_number_(std::round(rect.y + 0.5f * (rect.h - ui.fonts.small_number->FontSize))),
         x_(rect.x + ui.px(10)) {}
 
-  /// `characters`: width of the field. Without a value the label has its ink.
+  /// `characters`: width of the field. Without a value the label has its ink. Left out where there is no room.
   void put(const char* name, const char* label, const std::string& value, float characters, ImU32 ink,
            const char* doc) {
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     const ImFont *text = ui_.fonts.small, *number = ui_.fonts.small_number;
     const float from = x_, digit = number->CalcTextSizeA(number->FontSize, 1e9f, 0.0f, "0").x;
+    const float words = text->CalcTextSizeA(text->FontSize, 1e9f, 0.0f, label).x;
+    if (from + words + characters * digit > rect_.right() - ui_.px(5)) return;
     draw.AddText(text, text->FontSize, {x_, y_text_}, value.empty() ? ink : ui_.colours.text_dim, label);
-    x_ += text->CalcTextSizeA(text->FontSize, 1e9f, 0.0f, label).x + ui_.px(5);
+    x_ += words + ui_.px(5);
     draw.AddText(number, number->FontSize, {x_, y_number_}, ink, value.c_str());
     x_ += characters * digit + ui_.px(16);
     ImGui::SetCursorScreenPos({from, rect_.y});

@@ -180,10 +180,12 @@ void interact(const UiContext& ui, AppModel& model, ViewPanel& state, const Rect
   }
   // Picks under the pointer only if the result is shown.
   const bool resting = ImGui::IsItemHovered() && !ImGui::IsAnyMouseDown();
-  if (!resting || !model.map().on) return;
+  if (!resting || !(model.map().on || view.picked_triangle != kNone)) return;
   if (const auto hit = pick(model, pixel, w, h)) {
+    if (hit.triangle == view.picked_triangle) draw_triangle_card(ui, model, hit.triangle);
+    if (!model.map().on) return;
     view.hovered_triangle = hit.triangle;
-    draw_map_hover(ui, model.map(), hit.triangle, hit.u, hit.v);
+    if (hit.triangle != view.picked_triangle) draw_map_hover(ui, model.map(), hit.triangle, hit.u, hit.v);
   }
 }
 

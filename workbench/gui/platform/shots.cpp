@@ -23,12 +23,19 @@ std::string shot_view_names() {
   return names;
 }
 
+namespace {
+
+bool has(const std::vector<ShotView>& views, const std::string& name) {
+  return std::any_of(views.begin(), views.end(), [&](const ShotView& v) { return v.name == name; });
+}
+
+}  // namespace
+
+bool is_scene_view(const std::string& name) { return has(scene_shot_views(), name); }
+
 Result<Image> take_shot(const ShotRequest& request) {
-  const auto has = [&](const std::vector<ShotView>& views) {
-    return std::any_of(views.begin(), views.end(), [&](const ShotView& v) { return v.name == request.view; });
-  };
-  if (has(window_shot_views())) return take_window_shot(request);
-  if (has(scene_shot_views())) return take_scene_shot(request);
+  if (request.view.empty() || has(window_shot_views(), request.view)) return take_window_shot(request);
+  if (is_scene_view(request.view)) return take_scene_shot(request);
   return fail("there is no view \"" + request.view + "\"", "--view", "choose one of: " + shot_view_names());
 }
 

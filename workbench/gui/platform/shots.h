@@ -19,12 +19,14 @@ struct ShotView {
   std::string shows;  ///< one line
 };
 const std::vector<ShotView>& shot_views();
+bool is_scene_view(const std::string& name);  ///< of the 3D view alone, without the window
 /// Names for messages: "overview light iterations ...".
 std::string shot_view_names();
 
 struct ShotRequest {
-  std::string view;
-  std::string mesh;  ///< file or generated object; empty: the view's default
+  std::string view;              ///< empty with a script: the window as it starts
+  std::filesystem::path script;  ///< commands to run in the window before the picture; empty: none
+  std::string mesh;              ///< file or generated object; empty: the view's default
   double metres_per_unit = 1e-3;
   ContactMeshOptions mesh_options;
   std::filesystem::path preset;  ///< for window views; empty: default values

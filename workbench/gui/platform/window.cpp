@@ -272,6 +272,7 @@ Status run_window(const AppOptions& options, const std::function<bool()>& should
   app.set_renderer(&renderer);
   const KeptAtExit kept(app);
   FrameLoop(window.get(), app, renderer).run(should_stop);
+  if (!app.script_failure().empty()) return fail(app.script_failure());
   return {};
 }
 

@@ -6,6 +6,7 @@
 #include "workbench/gui/model/app_model.h"
 #include "workbench/gui/panels/panels.h"
 #include "workbench/gui/platform/offscreen.h"
+#include "workbench/gui/platform/save_picture.h"
 #include "workbench/gui/render/scene_renderer.h"
 #include "workbench/session/own_folder.h"
 
@@ -105,12 +106,11 @@ void enlarge_plots(AppModel& model) {
   model.window().sizes().show_right = false;
 }
 
-/// Folds all sections of the right column but this one.
+/// Shows the tab with this section of the right column, and folds the others.
 void fold_but(AppModel& model, const char* section) {
-  for (const char* other : {"Iterations", "Time machine", "Bookmarks", "Map", "Smoothness as felt", "Inspect", "Mesh",
-                            "Devices", "Messages"}) {
-    model.window().open_sections()[other] = std::string_view(other) == section;
-  }
+  for (const TaskSection& other : kTaskSections)
+    model.window().open_sections()[std::string(other.title)] = other.title == section;
+  model.window().set_task(task_with(section, model.window().task()));
 }
 
 /// The whole body, coloured by a map.
@@ -369,9 +369,45 @@ bool explores_on(std::uint64_t done, bool seen, bool in_view) {
   return done < kTicks || (seen && !in_view && done < kMostTicks);
 }
 
+/// Without the note on the file, which would be in the next picture.
+void save_unannounced(AppModel& model, const PictureRequest& request, const Image& whole) {
+  save_picture(model, request, whole, 1.0);
+  MessageLog& messages = model.messages();
+  if (!messages.all().empty() && messages.all().back().severity == Severity::note)
+    messages.dismiss(messages.all().size() - 1);
+}
+
+/// Frames until the script is done, with the pictures that it asks for.
+Status run_script(OffscreenScreen& screen, App& app, FrameFeeder& feeder) {
+  while (app.script_running()) {
+    feeder.frame();
+    if (const auto file = app.take_screenshot_request())
+      if (Status written = write_png(screen.picture(), *file); !written) return written;
+    if (const auto picture = app.model().exports().take_picture_request())
+      save_unannounced(app.model(), *picture, screen.picture());
+  }
+  if (!app.script_failure().empty()) return fail(app.script_failure());
+  return {};
+}
+
+/// Lets the simulated finger explore until the contact is well in view.
+void explore(App& app, FrameFeeder& feeder) {
+  bool seen = false, in_view = false;
+  for (std::uint64_t done = 0; explores_on(done, seen, in_view); done += kTicksPerFrame) {
+    app.advance(kTicksPerFrame);
+    feeder.unseen_frame();  // without a renderer: only the plots and panels follow
+    in_view = contact_in_view(app.model());
+    seen = seen || in_view;
+  }
+}
+
+/// The window as it starts, for a script that does the rest.
+constexpr WindowView kPlain{"", "", Theme::dark, nullptr, nullptr};
+
 Result<Image> take_window_shot(const ShotRequest& request) {
-  const WindowView& view =
-      *std::find_if(std::begin(kViews), std::end(kViews), [&](const WindowView& v) { return v.name == request.view; });
+  const auto named =
+      std::find_if(std::begin(kViews), std::end(kViews), [&](const WindowView& v) { return v.name == request.view; });
+  const WindowView& view = request.view.empty() ? kPlain : *named;
   Result<std::unique_ptr<OffscreenScreen>> screen = OffscreenScreen::open(request.width_px, request.height_px);
   if (!screen) return tl::unexpected(screen.error());
   SceneRenderer renderer;
@@ -382,20 +418,18 @@ Result<Image> take_window_shot(const ShotRequest& request) {
   app.model().view().camera.y_up = request.y_up;
   FrameFeeder feeder(**screen, app, request);
   feeder.frame();
-  view.arrange(app.model());
+  if (view.arrange != nullptr) view.arrange(app.model());
   app.show_plots(view.plots, view.values);
-  bool seen = false, in_view = false;
-  for (std::uint64_t done = 0; explores_on(done, seen, in_view); done += kTicksPerFrame) {
-    app.advance(kTicksPerFrame);
-    feeder.unseen_frame();  // without a renderer: only the plots and panels follow
-    in_view = contact_in_view(app.model());
-    seen = seen || in_view;
-  }
-  view.look(app.model());
+  if (view.look != nullptr) explore(app, feeder);
+  if (view.look != nullptr) view.look(app.model());
   app.set_renderer(&renderer);
   feeder.frame();
   renderer.wait_for_tessellation();
   if (view.key != 0) feeder.press(view.key, view.ctrl);
+  if (!request.script.empty()) {
+    app.run_script(request.script);
+    if (const Status done = run_script(**screen, app, feeder); !done) return tl::unexpected(done.error());
+  }
   for (int i = 0; i < kLayoutFrames; ++i) feeder.frame();
   return (*screen)->picture();
 }
