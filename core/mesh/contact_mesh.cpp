@@ -131,7 +131,7 @@ Status ContactMeshBuilder::check_indices() {
 }
 
 void ContactMeshBuilder::weld_positions() {
-  Weld weld = weld_exact(source_.positions, kLargestCoordinate);
+  Weld weld = weld_exact(source_.positions, kLargestCoordinate, run_both_);
   welded_ = std::move(weld.id);
   for (std::size_t v = 0; v < welded_.size(); ++v)
     if (welded_[v] == kNone) defects(MeshDefect::non_finite_vertex).add(v);

@@ -73,6 +73,9 @@ struct TickInput {
   double t_s = 0.0;
   FingerPose finger;
   std::optional<Vec3> velocity = std::nullopt;  ///< of the finger, world, m/s, by the device; none: from its positions
+  /// What a search would read is not built yet and this tick does not wait for it: nothing is searched, force and
+  /// display come from the last converged tick and fade (`unconverged`).
+  bool unready = false;
 };
 
 /// One row of ticks.csv. World frame, SI.

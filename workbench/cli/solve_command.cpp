@@ -11,12 +11,14 @@
 #include "workbench/cli/progress.h"
 #include "workbench/cli/solve_report.h"
 #include "workbench/cli/stopwatch.h"
+#include "workbench/session/two_threads.h"
 
 #include <nlohmann/json.hpp>
 
 #include <cstdio>
 #include <memory>
 #include <optional>
+#include <utility>
 
 namespace tangent {
 namespace {
@@ -62,16 +64,18 @@ class BuildAhead {
   BuildAhead(const ContactScene& scene, const Preset& preset)
       : scene_(scene), reach_m_(preset.finger.reach_m()), waits_(scene.unbuilt_parts() > 0) {}
   void before(const TickInput& input) {
-    constexpr double kShare = 0.1;  // of the finger's reach: as far as build_near reaches further
+    constexpr double kShare = 0.1;             // of the finger's reach
+    constexpr double kSearchedAhead_m = 8e-3;  // by searches, once they found it cheap (kMostAhead)
     if (!waits_ || glm::length(input.finger.position - last_) < kShare * reach_m_) return;
     last_ = input.finger.position;
-    scene_.build_near(last_, reach_m_);
+    scene_.build_near(last_, reach_m_, run_on_two_threads, std::exchange(ahead_m_, kSearchedAhead_m));
   }
 
  private:
   const ContactScene& scene_;
   double reach_m_;
   bool waits_;
+  double ahead_m_ = 0.0;
   Vec3 last_{1e300};
 };
 
