@@ -18,5 +18,5 @@ TEST_CASE("where the steps of a staircase offer no contact a tick in motion trie
   }
   MESSAGE(facing << " ticks without a contact, of " << most << " evaluations at most");
   CHECK(facing > 300);
-  CHECK(most <= 450);  // 1,081 when all nearest triangles were tried, each twice
+  CHECK(most <= 450);  // 897 when all nearest triangles were tried, each twice
 }
