@@ -3,6 +3,7 @@
 #include "core/io/pose_file.h"
 #include "core/io/ticks_file.h"
 #include "workbench/cli/command.h"
+#include "workbench/cli/explain_lines.h"
 #include "workbench/cli/interrupt.h"
 #include "workbench/cli/mesh_options.h"
 #include "workbench/cli/messages.h"
@@ -25,12 +26,15 @@ struct SolveOptions {
   MeshOptions mesh;
   PresetOptions preset;
   std::filesystem::path poses, ticks, summary, iterations;
+  bool explain = false, many_given = false;
+  ExplainOptions explained;
 };
 
 /// The output files of a run, being written.
 struct SolveOutputs {
   TicksFile ticks;
   std::optional<IterationsFile> iterations;
+  std::optional<ExplainLines> explanations;
 };
 
 /// Checks before the work starts that the files can be written.
@@ -48,7 +52,7 @@ Status probe_outputs(const SolveOptions& options) {
 Result<SolveOutputs> create_outputs(const SolveOptions& options) {
   Result<TicksFile> ticks = TicksFile::create(options.ticks);
   if (!ticks) return tl::unexpected(ticks.error());
-  SolveOutputs outputs{std::move(*ticks), std::nullopt};
+  SolveOutputs outputs{std::move(*ticks), std::nullopt, std::nullopt};
   if (options.iterations.empty()) return outputs;
   Result<IterationsFile> iterations = IterationsFile::create(options.iterations);
   if (!iterations) return tl::unexpected(iterations.error());
@@ -92,6 +96,7 @@ Status step_all(const ContactScene& scene, Stepper& stepper, const std::vector<T
     }
     if (trace) trace->clear();
     ahead.before(input);
+    const TickState before = state;
     const Stopwatch watch;
     row.output = stepper.step(report.preset.preset, input, state, trace.get());
     row.solve_ns = watch.nanoseconds();
@@ -101,6 +106,7 @@ Status step_all(const ContactScene& scene, Stepper& stepper, const std::vector<T
       if (Status status = outputs.iterations->append(row.tick, *trace); !status) return status;
     }
     report.statistics.add(report.preset.preset, input, row.output, row.solve_ns);
+    if (outputs.explanations) outputs.explanations->after(row.tick, input, before, row.output);
     progress.update(++row.tick);
   }
   return {};
@@ -146,10 +152,12 @@ Status solve(const SolveOptions& options, bool& interrupted) {
   const InterruptGuard interrupt;  // until the last file is in place
   Result<SolveOutputs> outputs = create_outputs(options);
   if (!outputs) return tl::unexpected(outputs.error());
+  if (options.explain) outputs->explanations.emplace(*scene, report.preset.preset, options.explained);
   if (Status status = step_all(**scene, stepper, *poses, *outputs, report); !status) return status;
   interrupted = report.interrupted;
   report.solve_seconds = solving.seconds();
   report.scene_bytes = (*scene)->memory_bytes();
+  if (outputs->explanations) report.causes = outputs->explanations->counts();
   if (Status status = commit(*outputs, options, report); !status) return status;
   std::fputs(solve_text(report).c_str(), stdout);
   if (interrupted) {
@@ -189,9 +197,17 @@ void add_solve_command(CLI::App& app, CommandResult& result) {
                   Needed::yes);
   add_text_option(*command, "--summary", options->summary, "Counts and percentiles of the run", "F.json");
   add_text_option(*command, "--iterations", options->iterations, "Every tangent plane of every tick", "F.csv");
+  add_flag(*command, "--explain", options->explain,
+           "Say for every tick that did not converge, had an event or took many planes why, and what cures it");
+  add_number_option(*command, "--many-planes", {.min = 0, .max = 10000, .whole = true},
+                    "With --explain: ticks of more planes are explained, too; default 8", [options](double planes) {
+                      options->many_given = true;
+                      options->explained.many_planes = static_cast<int>(planes);
+                    });
   add_preset_options(*command, options->preset);
   on_run(*command, [options, &result] {
     refuse_shared_paths(*options);
+    if (options->many_given && !options->explain) refuse_option("--many-planes", "is an option of --explain");
     bool interrupted = false;
     const Status status = solve(*options, interrupted);
     if (!status) print_message("solve", status.error().message());
