@@ -1,5 +1,7 @@
 #include "devices/safety_gate.h"
 
+#include "core/base/float_state.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -94,6 +96,7 @@ void SafetyGate::note(GateAction action, GateOutput& out) noexcept {
 
 // Zero at once after a stall, without the step at half force that pass takes: the device held the old force all along.
 Vec3 SafetyGate::before_sending(double dt_s) noexcept {
+  const FloatState as_tested;
   const bool late = !(dt_s <= longest_tick_s(limits_));
   if (late && std::isfinite(dt_s)) {  // the device held the old force all along
     spend_heat(dt_s);
@@ -268,6 +271,7 @@ void SafetyGate::pass_display(const GateInput& input, double dt_s, GateOutput& o
 }
 
 GateOutput SafetyGate::pass(const GateInput& input, double dt_s) noexcept {
+  const FloatState as_tested;
   GateOutput out;
   const bool force_finite = check_finite(input, out);
   if (live()) watch_devices(input);

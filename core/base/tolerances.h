@@ -135,8 +135,9 @@ inline constexpr double kSmallestWatch = 2e-3, kLargestWatch = 0.1;
 
 /// Switch hystereses (base/tolerances.h above) that a search looks ahead at least, 1.2 mm, times Clearance::ahead:
 /// doubled, up to kMostAhead, by a search that looks at kCheapLooks triangles at most and finds nothing to watch,
-/// halved, down to kLeastAhead, by one that looks at more than kDearLooks. Larger: dear searches on rough ground;
-/// smaller: frequent ones on smooth ground.
+/// halved, down to kLeastAhead, by one that looks at more than kDearLooks. Such a search halves what is left of its own
+/// look-ahead, too, after every kDearLooks, down to kDearTicks. Larger: dear searches on rough ground; smaller:
+/// frequent ones on smooth ground.
 inline constexpr double kWatchReach = 60.0;
 inline constexpr float kLeastAhead = 0.0625f, kMostAhead = 8.0f;
 inline constexpr int kCheapLooks = 12, kDearLooks = 48;

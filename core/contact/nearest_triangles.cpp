@@ -208,8 +208,9 @@ struct NearestTriangles::Impl {
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
 
-  const BoxTree& part(std::size_t cluster) const {
-    return parts[cluster].get([&] {
+  /// Null: where this thread makes nothing (MakesNothing) and it is not built.
+  const BoxTree* part(std::size_t cluster) const {
+    return parts[cluster].find([&] {
       constexpr std::size_t kLeafTriangles = 4;
       std::vector<FloatBox> boxes;
       for (const std::uint32_t t : clusters->triangles(cluster)) {
@@ -226,7 +227,12 @@ struct NearestTriangles::Impl {
   void visit(const Reach& reach2, const Farthest& farthest2, const Visit& visit) const {
     clusters->tree().visit(reach2, farthest2, [&](std::uint32_t cluster) {
       const std::span<const std::uint32_t> triangles = clusters->triangles(cluster);
-      return part(cluster).visit(reach2, farthest2, [&](std::uint32_t i) {
+      const BoxTree* boxes = part(cluster);
+      if (!boxes) {  // any triangle will do: what comes of it is thrown away
+        visit(triangles.front());
+        return false;
+      }
+      return boxes->visit(reach2, farthest2, [&](std::uint32_t i) {
         visit(triangles[i]);
         return true;
       });
@@ -367,6 +373,7 @@ NearestTriangles::RayHit NearestTriangles::cast(const Vec3& origin, const Vec3& 
 std::size_t NearestTriangles::part_count() const { return impl_->clusters ? impl_->clusters->count() : 0; }
 
 void NearestTriangles::build_part(std::size_t part) const { impl_->part(part); }
+bool NearestTriangles::has_part(std::size_t part) const { return impl_->parts[part].if_built() != nullptr; }
 
 std::size_t NearestTriangles::memory_bytes() const {
   if (impl_->clusters) {

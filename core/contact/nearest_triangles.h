@@ -50,6 +50,7 @@ class NearestTriangles {
 
   std::size_t part_count() const;  ///< what is built late, 0: nothing
   void build_part(std::size_t part) const;
+  bool has_part(std::size_t part) const;
   std::size_t memory_bytes() const;  ///< of what is built; Embree's as it reports it to its memory monitor
 
  private:

@@ -68,7 +68,8 @@ class TriangleClustersBuilder {
 
   void build() {
     sort_into_cells();
-    std::vector<FloatBox> boxes(out_.count());
+    std::vector<FloatBox>& boxes = out_.boxes_;
+    boxes.resize(out_.count());
     run_halves(run_both_, boxes.size(), [&](std::size_t first, std::size_t last) {
       for (std::size_t c = first; c < last; ++c) boxes[c] = box_of_patches(mesh_, out_.triangles(c));
     });
@@ -145,7 +146,8 @@ TriangleClusters TriangleClusters::build(const ContactMesh& mesh, const RunBoth&
 }
 
 std::size_t TriangleClusters::memory_bytes() const {
-  return (order_.capacity() + first_.capacity()) * sizeof(std::uint32_t) + tree_.memory_bytes();
+  return (order_.capacity() + first_.capacity()) * sizeof(std::uint32_t) + boxes_.capacity() * sizeof(FloatBox) +
+         tree_.memory_bytes();
 }
 
 }  // namespace tangent

@@ -28,6 +28,10 @@ class TriangleClusters {
   std::span<const std::uint32_t> triangles(std::size_t cluster) const {
     return {order_.data() + first_[cluster], first_[cluster + 1] - first_[cluster]};
   }
+  /// Square of the distance from a point, local, to the box about a cluster's patches.
+  double distance2(std::size_t cluster, const Vec3& point) const {
+    return distance2_to_box(boxes_[cluster].low(), boxes_[cluster].high(), point);
+  }
   const BoxTree& tree() const { return tree_; }  ///< of boxes about each cluster's patches, with all control points
   std::size_t memory_bytes() const;
 
@@ -36,6 +40,7 @@ class TriangleClusters {
 
   std::vector<std::uint32_t> order_;  ///< triangles, cluster by cluster
   std::vector<std::uint32_t> first_;  ///< per cluster, in order_; one more at the end
+  std::vector<FloatBox> boxes_;
   BoxTree tree_;
 };
 

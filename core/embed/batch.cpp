@@ -3,24 +3,27 @@
 #include <algorithm>
 #include <atomic>
 #include <exception>
-#include <mutex>
+#include <system_error>
 #include <thread>
 #include <vector>
 
 namespace tangent {
 namespace {
 
-/// What the threads share.
+/// What the threads share: the next finger that nobody has taken, and for each thread what its work threw.
 struct Fingers {
+  explicit Fingers(std::size_t threads) { thrown.resize(threads); }
   std::atomic<std::size_t> next{0};
-  std::mutex lock;  // of `thrown`
-  std::exception_ptr thrown;
-
-  void keep(std::exception_ptr exception) {
-    const std::lock_guard guard(lock);
-    if (!thrown) thrown = std::move(exception);
-  }
+  std::vector<std::exception_ptr> thrown;
 };
+
+/// 0: one per core. No more than fingers, nor so many that they eat up the memory for nothing.
+std::size_t thread_count(unsigned threads, std::size_t fingers) {
+  constexpr std::size_t kMostPerCore = 8;
+  const std::size_t cores = std::max(1u, std::thread::hardware_concurrency());
+  const std::size_t wanted = threads == 0 ? cores : std::min<std::size_t>(threads, kMostPerCore * cores);
+  return std::clamp<std::size_t>(wanted, 1, std::max<std::size_t>(1, fingers));
+}
 
 /// So many fingers are taken at once: few enough that no thread is left alone with the last of them, and so many that
 /// taking them costs nothing.
@@ -28,17 +31,23 @@ std::size_t share_of(std::size_t fingers, std::size_t threads) {
   return std::clamp<std::size_t>(fingers / (16 * threads), 1, 64);
 }
 
-void run_worker(const std::shared_ptr<const ContactScene>& scene, std::size_t count, std::size_t share,
-                const FingerWork& work, Fingers& fingers) {
+struct Batch {
+  const std::shared_ptr<const ContactScene>& scene;
+  std::size_t count, share;
+  const FingerWork& work;
+};
+
+void run_worker(const Batch& batch, Fingers& fingers, std::exception_ptr& thrown) {
   try {
-    Stepper stepper(scene);
+    Stepper stepper(batch.scene);
     for (;;) {
-      const std::size_t first = fingers.next.fetch_add(share, std::memory_order_relaxed);
-      if (first >= count) return;
-      for (std::size_t i = first; i < std::min(count, first + share); ++i) work(stepper, i);
+      const std::size_t first = fingers.next.fetch_add(batch.share, std::memory_order_relaxed);
+      if (first >= batch.count) return;
+      for (std::size_t i = first; i < std::min(batch.count, first + batch.share); ++i) batch.work(stepper, i);
     }
   } catch (...) {
-    fingers.keep(std::current_exception());
+    thrown = std::current_exception();
+    fingers.next.store(batch.count, std::memory_order_relaxed);  // the others end, too
   }
 }
 
@@ -46,22 +55,21 @@ void run_worker(const std::shared_ptr<const ContactScene>& scene, std::size_t co
 
 void for_each_finger(const std::shared_ptr<const ContactScene>& scene, std::size_t fingers, unsigned threads,
                      const FingerWork& work) {
-  const std::size_t cores = std::max(1u, std::thread::hardware_concurrency());
-  const std::size_t most =
-      std::clamp<std::size_t>(threads == 0 ? cores : threads, 1, std::max<std::size_t>(1, fingers));
-  const std::size_t share = share_of(fingers, most);
-  Fingers shared;
+  const std::size_t most = thread_count(threads, fingers);
+  const Batch batch{scene, fingers, share_of(fingers, most), work};
+  Fingers shared(most);
   {
     std::vector<std::jthread> others;
     others.reserve(most - 1);
     try {
       for (std::size_t i = 1; i < most; ++i)
-        others.emplace_back([&] { run_worker(scene, fingers, share, work, shared); });
+        others.emplace_back([&, i] { run_worker(batch, shared, shared.thrown[i]); });
     } catch (const std::system_error&) {  // no more threads to be had: those that are there do it
     }
-    run_worker(scene, fingers, share, work, shared);
+    run_worker(batch, shared, shared.thrown[0]);
   }
-  if (shared.thrown) std::rethrow_exception(shared.thrown);
+  for (const std::exception_ptr& thrown : shared.thrown)
+    if (thrown) std::rethrow_exception(thrown);
 }
 
 void solve_fingers(const std::shared_ptr<const ContactScene>& scene, const Preset& preset,

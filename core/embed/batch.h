@@ -14,8 +14,10 @@ namespace tangent {
 /// Solves one finger's path with a stepper of the calling thread, from a state of the finger's own.
 using FingerWork = std::function<void(Stepper& stepper, std::size_t finger)>;
 
-/// Calls `work` once for every finger, on at most `threads` threads (0: one per core), and returns when all are done.
-/// Which thread takes which finger, and when, is not said. What `work` throws is thrown here, after the rest was done.
+/// Calls `work` once for every finger, on at most `threads` threads (0: one per core; never more than eight per core),
+/// and returns when all are done.
+/// Which thread takes which finger, and when, is not said. What `work` throws is thrown here, when all threads
+/// have ended; then fingers may have been left.
 void for_each_finger(const std::shared_ptr<const ContactScene>& scene, std::size_t fingers, unsigned threads,
                      const FingerWork& work);
 

@@ -106,6 +106,7 @@ struct tangent_preset {
 struct tangent_stepper {
   tangent::c::ErrorText error;
   std::atomic<bool> in_use{false};
+  std::atomic<bool> cancelled{false};
   std::unique_ptr<tangent::Stepper> stepper;  ///< null: it could not be made
   tangent::TickState state;
   uint64_t tick = 0;

@@ -42,14 +42,15 @@ const char* tangent_status_text(tangent_status status) {
       return "a handle or pointer is null; check that the call that makes the handle returned TANGENT_OK";
     case TANGENT_BAD_SIZE:
       return "a struct's size is not the library's; set size to sizeof the struct, and compile with the tangent_c.h "
-             "that "
-             "came with the library";
+             "that came with the library";
     case TANGENT_BAD_VERSION:
       return "program and library are of different versions; compile with the tangent_c.h that came with the library";
     case TANGENT_BAD_POSE:
       return "a pose can't be used; times, positions, orientations and velocities have to be finite, orientations unit";
     case TANGENT_BUSY:
       return "another thread is using this stepper; make one stepper per thread, the scene is shared";
+    case TANGENT_CANCELLED:
+      return "tangent_cancel ended it; call again to go on from there, or tangent_reset to begin anew";
     case TANGENT_NO_MEMORY:
       return "there is not enough memory; use a smaller mesh or batch";
   }

@@ -2,8 +2,10 @@
 #include "core/embed/batch.h"
 #include "core/embed/c_handle.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
-#include <string>
+#include <cstdio>
 
 namespace tangent::c {
 namespace {
@@ -74,10 +76,23 @@ void write_output(const TickOutput& from, uint64_t tick, double t_s, tangent_out
   to.decided_cld_m = from.decided_cld_m;
 }
 
+/// Without allocating: a servo meets this in the middle of its work.
+template <class Handle>
+tangent_status refuse_pose(Handle& handle, std::size_t pose, const char* fault) {
+  std::array<char, 160> text{};
+  const int length = std::snprintf(text.data(), text.size(),
+                                   "pose %zu: %s; leave the pose out, or repeat the last good one", pose, fault);
+  handle.error.set({text.data(), static_cast<std::size_t>(std::max(0, length))});
+  return TANGENT_BAD_POSE;
+}
+
 /// Sizes and poses of a batch, and whether the scene takes the preset's finger, before anything is computed.
 template <class Handle>
 tangent_status check_batch(Handle& handle, const ContactScene& scene, const Preset& preset, const tangent_input* inputs,
                            const tangent_output* outputs, std::size_t count) {
+  if (count > SIZE_MAX / sizeof(tangent_output))
+    return fail_with(handle, {"the number of poses is negative, or more than any memory holds", "count",
+                              "give the length of both arrays"});
   const FingerShape shape = preset.finger.shape;
   if (scene.planar() && shape != FingerShape::point && shape != FingerShape::sphere)
     return fail_with(handle, {"a 2D scene takes point and sphere fingers only", "finger.shape",
@@ -86,10 +101,15 @@ tangent_status check_batch(Handle& handle, const ContactScene& scene, const Pres
   if (const tangent_status size = check_size(handle, inputs[0], "tangent_input"); size != TANGENT_OK) return size;
   if (const tangent_status size = check_size(handle, outputs[0], "tangent_output"); size != TANGENT_OK) return size;
   for (std::size_t i = 0; i < count; ++i)
-    if (const char* fault = fault_of(inputs[i]))
-      return fail_with(handle, {fault, "pose " + std::to_string(i), "leave the pose out, or repeat the last good one"},
-                       TANGENT_BAD_POSE);
+    if (const char* fault = fault_of(inputs[i])) return refuse_pose(handle, i, fault);
   return TANGENT_OK;
+}
+
+/// Whether somebody has called tangent_cancel: then it is over, and nobody has until they call again.
+tangent_status end_of(tangent_stepper& handle) {
+  if (!handle.cancelled.exchange(false, std::memory_order_relaxed)) return TANGENT_OK;
+  return fail_with(handle, {"cancelled", "tangent_cancel", "outputs from there on were not written"},
+                   TANGENT_CANCELLED);
 }
 
 bool usable(const tangent_preset* preset) { return preset != nullptr && preset->usable; }
@@ -125,12 +145,16 @@ tangent_status tangent_step_many(tangent_stepper* stepper, const tangent_preset*
     const tangent_status checked =
         c::check_batch(*stepper, stepper->stepper->scene(), preset->preset, inputs, outputs, count);
     if (checked != TANGENT_OK) return checked;
-    for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t i = 0; i < count && !stepper->cancelled.load(std::memory_order_relaxed); ++i) {
       const TickOutput out = stepper->stepper->step(preset->preset, c::input_of(inputs[i]), stepper->state);
       c::write_output(out, stepper->tick++, inputs[i].t_s, outputs[i]);
     }
-    return TANGENT_OK;
+    return c::end_of(*stepper);
   });
+}
+
+void tangent_cancel(tangent_stepper* stepper) {
+  if (stepper != nullptr) stepper->cancelled.store(true, std::memory_order_relaxed);
 }
 
 tangent_status tangent_reset(tangent_stepper* stepper) {
@@ -164,12 +188,12 @@ tangent_status tangent_solve_fingers(tangent_stepper* stepper, const tangent_pre
     if (checked != TANGENT_OK) return checked;
     for_each_finger(stepper->stepper->shared_scene(), fingers, threads, [&](Stepper& mine, std::size_t finger) {
       TickState state;
-      for (std::size_t tick = 0; tick < ticks; ++tick) {
+      for (std::size_t tick = 0; tick < ticks && !stepper->cancelled.load(std::memory_order_relaxed); ++tick) {
         const std::size_t i = finger * ticks + tick;
         const TickOutput out = mine.step(preset->preset, c::input_of(inputs[i]), state);
         c::write_output(out, tick, inputs[i].t_s, outputs[i]);
       }
     });
-    return TANGENT_OK;
+    return c::end_of(*stepper);
   });
 }

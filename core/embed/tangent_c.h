@@ -13,8 +13,9 @@
  *
  * Errors: every call that can fail returns a tangent_status. What happened, where, and what to do about it is told by
  * the handle's error text (tangent_..._error), until the next call with that handle. A call that makes a handle makes
- * it on failure, too, to hold the text; it is freed like any other. Only where there is no handle (a null one, no
- * memory) is there no more to be told than tangent_status_text. No call throws, aborts or exits.
+ * it on failure, too, to hold the text; it is freed like any other, once, and not used after that. Only where there is
+ * no handle (a null one, no memory) is there no more to be told than tangent_status_text. No call throws, aborts or
+ * exits.
  *
  * Structs begin with their size, which the caller sets (TANGENT_..._INIT does): a struct of another version is refused.
  * In an array the first element's size counts for all. Unless said otherwise, pointers may not be null.
@@ -47,7 +48,8 @@ typedef enum tangent_status {
   TANGENT_BAD_VERSION = 4, /**< program and library are of different versions */
   TANGENT_BAD_POSE = 5,    /**< a time, position, orientation or velocity can't be used */
   TANGENT_BUSY = 6,        /**< another thread is using this stepper */
-  TANGENT_NO_MEMORY = 7
+  TANGENT_NO_MEMORY = 7,
+  TANGENT_CANCELLED = 8 /**< tangent_cancel was called */
 } tangent_status;
 
 /** What a status means and what to do, without knowing more; never null. */
@@ -158,13 +160,17 @@ typedef struct tangent_output {
   { sizeof(tangent_output), 0, 0, 0.0, -1, 0, 0.0, 0.0, {0}, {0}, 0.0, {0}, 0.0, 0.0, 0, 0, {0}, 0.0 }
 
 tangent_status tangent_make_stepper(const tangent_scene* scene, tangent_stepper** stepper);
-/** One tick. Allocates nothing. On an error neither the state nor `output` changes. */
+/** One tick. Allocates nothing, nor where a pose can't be used. On an error neither the state nor `output` changes. */
 tangent_status tangent_step(tangent_stepper* stepper, const tangent_preset* preset, const tangent_input* input,
                             tangent_output* output);
 /** `count` ticks in turn, the same bits as one by one. An unusable pose is an error before the first is computed.
  * outputs[0].size counts for all outputs, and is written to all. */
 tangent_status tangent_step_many(tangent_stepper* stepper, const tangent_preset* preset, const tangent_input* inputs,
                                  tangent_output* outputs, size_t count);
+/** From any thread, or a signal's handler: what this stepper computes ends after the ticks that are under way, and says
+ * TANGENT_CANCELLED; where it computes nothing its next call does. Outputs up to there are whole, others as they were.
+ */
+void tangent_cancel(tangent_stepper* stepper);
 /** Forgets the contact, and counts ticks from 0 again. */
 tangent_status tangent_reset(tangent_stepper* stepper);
 const char* tangent_stepper_error(const tangent_stepper* stepper);

@@ -37,7 +37,7 @@ Result<SceneFile> read_scene(const std::filesystem::path& path, const SceneOptio
   }
   Result<PolygonMesh> source = read_mesh(path, options.metres_per_unit);
   if (!source) return at_file(source.error(), path);
-  Result<ContactMesh> mesh = ContactMesh::build(*source, options.mesh);
+  Result<ContactMesh> mesh = ContactMesh::build(*source, options.mesh, run_both);
   if (!mesh) return at_file(mesh.error(), path);
   Scene scene = ContactScene::build(std::move(*mesh), options.parts, run_both);
   if (!scene) return at_file(scene.error(), path);

@@ -137,11 +137,11 @@ Status TicksFile::append(const TickRow& row) {
   return file_.write(line_);
 }
 
-Result<IterationsFile> IterationsFile::create(const std::filesystem::path& path) {
+Result<IterationsFile> IterationsFile::create(const std::filesystem::path& path, std::string_view comment) {
   Result<AtomicFile> file = AtomicFile::create(path);
   if (!file) return tl::unexpected(file.error());
   IterationsFile iterations(std::move(*file));
-  if (Status status = iterations.file_.write(std::string(kIterationsHeader) + "\n"); !status) {
+  if (Status status = iterations.file_.write(std::string(comment) + std::string(kIterationsHeader) + "\n"); !status) {
     return tl::unexpected(status.error());
   }
   return iterations;

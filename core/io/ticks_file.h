@@ -53,7 +53,8 @@ class TicksFile {
 /// Writes the trace of traced ticks; the file appears under its name with commit().
 class IterationsFile {
  public:
-  static Result<IterationsFile> create(const std::filesystem::path& path);
+  /// `comment`: whole lines before the header.
+  static Result<IterationsFile> create(const std::filesystem::path& path, std::string_view comment = {});
   Status append(std::uint64_t tick, const IterationTrace& trace);
   Status commit() { return file_.commit(); }
 

@@ -32,9 +32,8 @@ class ContactMeshBuilder {
     if (mesh_.usable_count_ > 0) place();
     if (mesh_.usable_count_ == 0) return nothing_usable();
     connect();
-    InsideOut inside_out;
-    FacesAndCreases faces;
-    run_both_([&] { faces = faces_and_creases(); }, [&] { inside_out = find_inside_out(surface()); });
+    const InsideOut inside_out = find_inside_out(surface(), run_both_);
+    const FacesAndCreases faces = faces_and_creases();
     if (Status ok = shade(faces); !ok) return tl::unexpected(ok.error());
     turn_inside_out(inside_out);
     finish();
@@ -47,10 +46,14 @@ class ContactMeshBuilder {
   void weld_positions();
   void triangulate();
   void drop_degenerate();
+  bool all_used();
+  void drop_unused_vertices();
+  template <class Move>
+  Box box_about(const Move& move);
   void place();
   void connect();
   struct FacesAndCreases {
-    std::vector<Vec3> normals;
+    Unfilled<Vec3> normals;
     std::vector<std::uint8_t> sharp;  ///< empty: not known, all normals may come from the file
   };
   FacesAndCreases faces_and_creases() const;
@@ -123,11 +126,12 @@ Status ContactMeshBuilder::check_indices() {
     return fail("the mesh has " + std::to_string(triangles) + " triangles", source_.name,
                 "reduce it to at most " + std::to_string(kMaxTriangles));
   triangle_count_ = static_cast<std::uint32_t>(triangles);
+  mesh_.vertices_.assign(triangle_count_, {kNone, kNone, kNone});
   return {};
 }
 
 void ContactMeshBuilder::weld_positions() {
-  Weld weld = weld_exact(source_.positions, kLargestCoordinate);
+  Weld weld = weld_exact(source_.positions, kLargestCoordinate, run_both_);
   welded_ = std::move(weld.id);
   for (std::size_t v = 0; v < welded_.size(); ++v)
     if (welded_[v] == kNone) defects(MeshDefect::non_finite_vertex).add(v);
@@ -138,15 +142,17 @@ void ContactMeshBuilder::weld_positions() {
 /// Fills vertices_ with welded vertices, still at their world positions: differences of those are as exact as
 /// the file, so this is where degenerate triangles are told.
 void ContactMeshBuilder::triangulate() {
-  mesh_.vertices_.assign(triangle_count_, {kNone, kNone, kNone});
-  std::uint32_t t = 0;
-  for (std::size_t f = 0; f < source_.face_count(); ++f) {
-    const auto face = source_.face(f);
-    for (std::size_t k = 2; k < face.size(); ++k, ++t) {
-      const std::array<std::uint32_t, 3> v{welded_[face[0]], welded_[face[k - 1]], welded_[face[k]]};
-      if (v[0] != kNone && v[1] != kNone && v[2] != kNone) mesh_.vertices_[t] = v;
+  run_halves(run_both_, source_.face_count(), [&](std::size_t first, std::size_t last) {
+    std::size_t t = 0;
+    for (std::size_t f = 0; f < first; ++f) t += std::max<std::size_t>(source_.face(f).size(), 2) - 2;
+    for (std::size_t f = first; f < last; ++f) {
+      const auto face = source_.face(f);
+      for (std::size_t k = 2; k < face.size(); ++k, ++t) {
+        const std::array<std::uint32_t, 3> v{welded_[face[0]], welded_[face[k - 1]], welded_[face[k]]};
+        if (v[0] != kNone && v[1] != kNone && v[2] != kNone) mesh_.vertices_[t] = v;
+      }
     }
-  }
+  });
   welded_ = {};
   drop_degenerate();
 }
@@ -179,10 +185,14 @@ void ContactMeshBuilder::drop_degenerate() {
   if (all.first.size() > MeshDefectList::kNamed) all.first.resize(MeshDefectList::kNamed);
 }
 
-/// Drops vertices that no usable triangle has, and moves (and fits) the rest to the centre of their box.
-void ContactMeshBuilder::place() {
+/// Whether every welded vertex is known to be of a usable triangle.
+bool ContactMeshBuilder::all_used() {
+  return mesh_.usable_count_ == triangle_count_ && defects(MeshDefect::unreferenced_vertex).count == 0 &&
+         defects(MeshDefect::face_under_three_corners).count == 0;
+}
+
+void ContactMeshBuilder::drop_unused_vertices() {
   std::vector<std::uint32_t> renumbered(mesh_.positions_.size(), kNone);
-  Box box;
   for (const auto& v : mesh_.vertices_) {
     if (v[0] == kNone) continue;
     for (const std::uint32_t i : v) renumbered[i] = 0;
@@ -190,23 +200,43 @@ void ContactMeshBuilder::place() {
   std::uint32_t count = 0;
   for (std::size_t i = 0; i < renumbered.size(); ++i) {
     if (renumbered[i] == kNone) continue;
-    box.include(mesh_.positions_[i]);
     mesh_.positions_[count] = mesh_.positions_[i];
     renumbered[i] = count++;
   }
   mesh_.positions_.resize(count);
-
-  const Vec3 size = box.size(), centre = box.centre();
-  mesh_.scale_ = options_.fit_m ? *options_.fit_m / std::max({size.x, size.y, size.z}) : 1.0;
-  mesh_.origin_ = options_.fit_m ? Vec3(0.0) : centre;
-  for (Vec3& p : mesh_.positions_) {
-    p = (p - centre) * mesh_.scale_ + 0.0;  // + 0.0: no -0.0, so that equal meshes hash equal
-    mesh_.bounds_.include(p);
-  }
   for (auto& v : mesh_.vertices_) {
     if (v[0] == kNone) continue;
     for (std::uint32_t& i : v) i = renumbered[i];
   }
+}
+
+/// Of all vertices, each moved before.
+template <class Move>
+Box ContactMeshBuilder::box_about(const Move& move) {
+  std::array<Box, 2> boxes;
+  run_halves(run_both_, mesh_.positions_.size(), [&](std::size_t first, std::size_t last) {
+    Box& box = boxes[first == 0 ? 0 : 1];
+    for (std::size_t i = first; i < last; ++i) {
+      move(mesh_.positions_[i]);
+      box.include(mesh_.positions_[i]);
+    }
+  });
+  if (boxes[1].empty()) return boxes[0];
+  boxes[0].include(boxes[1].min);
+  boxes[0].include(boxes[1].max);
+  return boxes[0];
+}
+
+/// Drops vertices that no usable triangle has, and moves (and fits) the rest to the centre of their box.
+void ContactMeshBuilder::place() {
+  if (!all_used()) drop_unused_vertices();
+  const Box box = box_about([](Vec3&) {});
+  const Vec3 size = box.size(), centre = box.centre();
+  mesh_.scale_ = options_.fit_m ? *options_.fit_m / std::max({size.x, size.y, size.z}) : 1.0;
+  mesh_.origin_ = options_.fit_m ? Vec3(0.0) : centre;
+  mesh_.bounds_ = box_about([&](Vec3& p) {
+    p = (p - centre) * mesh_.scale_ + 0.0;  // + 0.0: no -0.0, so that equal meshes hash equal
+  });
   drop_degenerate();  // a triangle finer than the rounding of coordinates about the centre can collapse in the move
 }
 
@@ -222,8 +252,8 @@ void ContactMeshBuilder::connect() {
 }
 
 ContactMeshBuilder::FacesAndCreases ContactMeshBuilder::faces_and_creases() const {
-  FacesAndCreases faces{face_normals(surface()), {}};
-  if (!wants_file_normals()) faces.sharp = sharp_edges(surface(), faces.normals, options_.crease_rad);
+  FacesAndCreases faces{face_normals(surface(), run_both_), {}};
+  if (!wants_file_normals()) faces.sharp = sharp_edges(surface(), faces.normals, options_.crease_rad, run_both_);
   return faces;
 }
 
@@ -247,7 +277,7 @@ Status ContactMeshBuilder::shade(const FacesAndCreases& faces) {
 
 void ContactMeshBuilder::take_file_normals(const SurfaceView& surface, std::span<const Vec3> faces) {
   FileNormals file = file_normals(source_, surface, [&] {
-    return computed_normals(surface, faces, sharp_edges(surface, faces, options_.crease_rad));
+    return computed_normals(surface, faces, sharp_edges(surface, faces, options_.crease_rad, run_both_), run_both_);
   });
   defects(MeshDefect::bad_normal) = file.bad;
   mesh_.normals_ = std::move(file.corners.normals);
@@ -295,8 +325,8 @@ void ContactMeshBuilder::turn_inside_out(const InsideOut& inside_out) {
 }
 
 void ContactMeshBuilder::finish() {
-  mesh_.crease_bits_ = feature_bits(surface(), CornerNormalsView{mesh_.normals_, mesh_.normal_index_});
-  mesh_.flat_regions_ = FlatRegions::build(mesh_);
+  mesh_.crease_bits_ = feature_bits(surface(), CornerNormalsView{mesh_.normals_, mesh_.normal_index_}, run_both_);
+  mesh_.flat_regions_ = FlatRegions::build(mesh_, run_both_);
   mesh_.crowded_ = crowded_vertices(mesh_);
   mesh_.name_ = source_.name;
 }

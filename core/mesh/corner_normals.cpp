@@ -33,46 +33,93 @@ struct WeightedNormal {
   bool cancelled() const { return !(glm::dot(sum, sum) > kCancelledNormal * kCancelledNormal * weights * weights); }
 };
 
-/// Vertices where no sharp edge ends have one normal: summed triangle by triangle, in file order. A walk about
-/// every vertex instead misses the caches at each step when triangles come in random order.
-void normals_at_plain_vertices(const SurfaceView& s, std::span<const Vec3> faces, std::span<const std::uint8_t> sharp,
-                               const RunBoth& run_both, CornerNormals& out) {
-  std::vector<WeightedNormal> sums(s.positions.size());
-  std::vector<bool> cut(s.positions.size(), false);
-  // The angles of many triangles at once, their sums in order.
-  constexpr std::size_t kBlock = std::size_t{1} << 18;
-  std::vector<Vec3> block(std::min(kBlock, s.triangles.size()));
-  for (std::size_t begin = 0; begin < s.triangles.size(); begin += kBlock) {
-    const std::size_t count = std::min(kBlock, s.triangles.size() - begin);
-    run_halves(run_both, count, [&](std::size_t first, std::size_t last) {
-      for (std::size_t i = first; i < last; ++i) {
-        const auto t = static_cast<std::uint32_t>(begin + i);
-        if (s.used(t)) block[i] = angles(s, t);
+/// Normals of vertices where no sharp edge ends, all of which are one fan.
+class PlainVertices {
+ public:
+  PlainVertices(const SurfaceView& s, std::span<const Vec3> faces, std::span<const std::uint8_t> sharp,
+                const RunBoth& run_both)
+      : s_(s),
+        faces_(faces),
+        sharp_(sharp),
+        run_both_(run_both),
+        sums_(s.positions.size()),
+        cut_(s.positions.size(), 0) {}
+
+  /// Fills what it can of `out` and returns whether that was all.
+  bool fill(CornerNormals& out) {
+    add_up();
+    run_halves(run_both_, sums_.size(), [&](std::size_t first, std::size_t last) {
+      for (std::size_t v = first; v < last; ++v) {
+        cut_[v] = cut_[v] || sums_[v].cancelled();
+        if (!cut_[v]) sums_[v].sum = unit(sums_[v].sum);
       }
     });
-    for (std::size_t i = 0; i < count; ++i) {
-      const auto t = static_cast<std::uint32_t>(begin + i);
-      if (!s.used(t)) continue;
-      const Index3& v = s.triangles[t];
-      for (std::uint32_t k = 0; k < 3; ++k) {
-        sums[v[k]].add(block[i][static_cast<int>(k)], faces[t]);
-        if (sharp[t] & bit(k)) cut[v[k]] = cut[v[next3(k)]] = true;
+    run_both_([&] { number(out.normals); }, [&] { out.index.assign(s_.triangles.size(), {kNone, kNone, kNone}); });
+    std::array<bool, 2> complete{true, true};
+    run_halves(run_both_, s_.triangles.size(), [&](std::size_t first, std::size_t last) {
+      bool all = true;
+      for (auto t = static_cast<std::uint32_t>(first); t < last; ++t) {
+        if (!s_.used(t)) continue;
+        for (std::uint32_t k = 0; k < 3; ++k) {
+          out.index[t][k] = slot_[s_.triangles[t][k]];
+          all = all && out.index[t][k] != kNone;
+        }
       }
+      if (!all) complete[first == 0 ? 0 : 1] = false;
+    });
+    return complete[0] && complete[1];
+  }
+
+ private:
+  /// Triangle by triangle, in file order: a walk about every vertex instead misses the caches at each step when
+  /// triangles come in random order. The angles of many triangles at once, by halves of them, then the sums by halves
+  /// of the vertices, each in order.
+  void add_up() {
+    constexpr std::size_t kBlock = std::size_t{1} << 18;
+    Unfilled<Vec3> block(std::min(kBlock, s_.triangles.size()));
+    for (std::size_t begin = 0; begin < s_.triangles.size(); begin += kBlock) {
+      const std::size_t count = std::min(kBlock, s_.triangles.size() - begin);
+      run_halves(run_both_, count, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+          const auto t = static_cast<std::uint32_t>(begin + i);
+          if (s_.used(t)) block[i] = angles(s_, t);
+        }
+      });
+      run_halves(run_both_, sums_.size(), [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = 0; i < count; ++i) add(static_cast<std::uint32_t>(begin + i), block[i], first, last);
+      });
     }
   }
-  std::vector<std::uint32_t> slot(s.positions.size(), kNone);
-  for (std::size_t v = 0; v < slot.size(); ++v) {
-    if (cut[v] || sums[v].cancelled()) continue;
-    slot[v] = static_cast<std::uint32_t>(out.normals.size());
-    out.normals.push_back(unit(sums[v].sum));
-  }
-  run_halves(run_both, s.triangles.size(), [&](std::size_t first, std::size_t last) {
-    for (auto t = static_cast<std::uint32_t>(first); t < last; ++t) {
-      if (!s.used(t)) continue;
-      for (std::uint32_t k = 0; k < 3; ++k) out.index[t][k] = slot[s.triangles[t][k]];
+
+  /// A triangle, to those of its vertices that are in [first, last).
+  void add(std::uint32_t t, const Vec3& angle, std::size_t first, std::size_t last) {
+    if (!s_.used(t)) return;
+    const Index3& v = s_.triangles[t];
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      if (v[k] < first || v[k] >= last) continue;
+      sums_[v[k]].add(angle[static_cast<int>(k)], faces_[t]);
+      if (sharp_[t] & (bit(k) | bit(previous3(k)))) cut_[v[k]] = 1;
     }
-  });
-}
+  }
+
+  void number(std::vector<Vec3>& normals) {
+    slot_.assign(sums_.size(), kNone);
+    normals.reserve(sums_.size());
+    for (std::size_t v = 0; v < slot_.size(); ++v) {
+      if (cut_[v]) continue;
+      slot_[v] = static_cast<std::uint32_t>(normals.size());
+      normals.push_back(sums_[v].sum);
+    }
+  }
+
+  const SurfaceView& s_;
+  std::span<const Vec3> faces_;
+  std::span<const std::uint8_t> sharp_;
+  const RunBoth& run_both_;
+  std::vector<WeightedNormal> sums_;
+  std::vector<std::uint8_t> cut_;  ///< a sharp edge ends there, or the sum cancels
+  std::vector<std::uint32_t> slot_;
+};
 
 /// The corners of one smooth fan, counter-clockwise, without crossing a sharp edge.
 void collect_fan(const SurfaceView& s, std::span<const std::uint8_t> sharp, Corner start, std::vector<Corner>& fan) {
@@ -96,43 +143,47 @@ void collect_fan(const SurfaceView& s, std::span<const std::uint8_t> sharp, Corn
 
 }  // namespace
 
-std::vector<Vec3> face_normals(const SurfaceView& s) {
-  std::vector<Vec3> faces(s.triangles.size(), Vec3(0.0));
-  for (std::uint32_t t = 0; t < faces.size(); ++t) {
-    if (!s.used(t)) continue;
-    faces[t] = face_normal(s.position({t, 0}), s.position({t, 1}), s.position({t, 2}));
-  }
+Unfilled<Vec3> face_normals(const SurfaceView& s, const RunBoth& run_both) {
+  Unfilled<Vec3> faces(s.triangles.size());
+  run_halves(run_both, faces.size(), [&](std::size_t first, std::size_t last) {
+    for (auto t = static_cast<std::uint32_t>(first); t < last; ++t)
+      faces[t] = s.used(t) ? face_normal(s.position({t, 0}), s.position({t, 1}), s.position({t, 2})) : Vec3(0.0);
+  });
   return faces;
 }
 
-std::vector<std::uint8_t> sharp_edges(const SurfaceView& s, std::span<const Vec3> faces, double crease_rad) {
+std::vector<std::uint8_t> sharp_edges(const SurfaceView& s, std::span<const Vec3> faces, double crease_rad,
+                                      const RunBoth& run_both) {
   std::vector<std::uint8_t> sharp(s.triangles.size(), 0);
   // angle > limit <=> sin(angle - limit) > 0, since the difference lies within (-pi, pi): no arc functions, and exact
   // for small and large limits alike. At pi nothing exceeds the limit.
   const double limit = crease_rad + kCreaseSlack;
   if (limit >= std::numbers::pi) return sharp;
   const double cos_limit = std::cos(limit), sin_limit = std::sin(limit);
-  for (std::uint32_t t = 0; t < sharp.size(); ++t) {
-    if (!s.used(t)) continue;
-    for (std::uint32_t k = 0; k < 3; ++k) {
-      const std::uint32_t across = s.links[t][k];
-      if (across == kNone || across >> 2 < t) continue;
-      const Vec3 x = glm::cross(faces[t], faces[across >> 2]);
-      const double cos_angle = glm::dot(faces[t], faces[across >> 2]), sin_angle = std::sqrt(glm::dot(x, x));
-      if (sin_angle * cos_limit - cos_angle * sin_limit <= 0.0) continue;
-      set_bit(sharp[t], k);
-      set_bit(sharp[across >> 2], across & 3u);
+  const auto is_sharp = [&](const Vec3& a, const Vec3& b) {
+    const Vec3 x = glm::cross(a, b);
+    const double cos_angle = glm::dot(a, b), sin_angle = std::sqrt(glm::dot(x, x));
+    return sin_angle * cos_limit - cos_angle * sin_limit > 0.0;
+  };
+  run_halves(run_both, sharp.size(), [&](std::size_t first, std::size_t last) {
+    for (auto t = static_cast<std::uint32_t>(first); t < last; ++t) {
+      if (!s.used(t)) continue;
+      for (std::uint32_t k = 0; k < 3; ++k) {
+        const std::uint32_t across = s.links[t][k], other = across >> 2;
+        const bool here = other >= first && other < last;  // else the other half sees to its own side
+        if (across == kNone || (here && other < t) || !is_sharp(faces[t], faces[other])) continue;
+        set_bit(sharp[t], k);
+        if (here) set_bit(sharp[other], across & 3u);
+      }
     }
-  }
+  });
   return sharp;
 }
 
 CornerNormals computed_normals(const SurfaceView& s, std::span<const Vec3> faces, std::span<const std::uint8_t> sharp,
                                const RunBoth& run_both) {
   CornerNormals out;
-  out.normals.reserve(s.positions.size());
-  out.index.assign(s.triangles.size(), {kNone, kNone, kNone});
-  normals_at_plain_vertices(s, faces, sharp, run_both, out);
+  if (PlainVertices(s, faces, sharp, run_both).fill(out)) return out;
   std::vector<Corner> fan;
   for (std::uint32_t t = 0; t < s.triangles.size(); ++t) {
     if (!s.used(t)) continue;
@@ -152,33 +203,41 @@ CornerNormals computed_normals(const SurfaceView& s, std::span<const Vec3> faces
   return out;
 }
 
-std::vector<std::uint8_t> feature_bits(const SurfaceView& s, const CornerNormalsView& normals) {
+std::vector<std::uint8_t> feature_bits(const SurfaceView& s, const CornerNormalsView& normals,
+                                       const RunBoth& run_both) {
   std::vector<std::uint8_t> bits(s.triangles.size(), 0);
-  std::vector<bool> feature(s.positions.size(), false);
+  std::array<std::vector<bool>, 2> feature;  // by vertex, as met in either half
+  for (std::vector<bool>& half : feature) half.assign(s.positions.size(), false);
   const auto differ = [&](std::uint32_t a, std::uint32_t b) {
     if (a == b) return false;
     const Vec3 d = normals.normals[a] - normals.normals[b];
     return glm::dot(d, d) > kSameNormal * kSameNormal;
   };
-  for (std::uint32_t t = 0; t < bits.size(); ++t) {
-    if (!s.used(t)) continue;
-    for (std::uint32_t k = 0; k < 3; ++k) {
-      const std::uint32_t across = s.links[t][k], k1 = next3(k);
-      if (across != kNone) {  // the neighbour runs the edge the other way: its corners are swapped
-        const Index3 &mine = normals.index[t], &other = normals.index[across >> 2];
-        const std::uint32_t f = across & 3u;
-        if (!differ(mine[k], other[next3(f)]) && !differ(mine[k1], other[f])) continue;
-        set_bit(bits[t], k);
+  // The neighbour runs the edge the other way: its corners are swapped.
+  const auto is_crease = [&](std::uint32_t t, std::uint32_t k, std::uint32_t across) {
+    const Index3 &mine = normals.index[t], &other = normals.index[across >> 2];
+    const std::uint32_t f = across & 3u;
+    return differ(mine[k], other[next3(f)]) || differ(mine[next3(k)], other[f]);
+  };
+  run_halves(run_both, bits.size(), [&](std::size_t first, std::size_t last) {
+    std::vector<bool>& met = feature[first == 0 ? 0 : 1];
+    for (auto t = static_cast<std::uint32_t>(first); t < last; ++t) {
+      if (!s.used(t)) continue;
+      for (std::uint32_t k = 0; k < 3; ++k) {
+        const std::uint32_t across = s.links[t][k];
+        if (across != kNone && !is_crease(t, k, across)) continue;
+        if (across != kNone) set_bit(bits[t], k);
+        met[s.triangles[t][k]] = met[s.triangles[t][next3(k)]] = true;
       }
-      feature[s.triangles[t][k]] = true;
-      feature[s.triangles[t][k1]] = true;
     }
-  }
-  for (std::uint32_t t = 0; t < bits.size(); ++t) {
-    if (!s.used(t)) continue;
-    for (std::uint32_t k = 0; k < 3; ++k)
-      if (feature[s.triangles[t][k]]) set_bit(bits[t], 3 + k);
-  }
+  });
+  run_halves(run_both, bits.size(), [&](std::size_t first, std::size_t last) {
+    for (auto t = static_cast<std::uint32_t>(first); t < last; ++t) {
+      if (!s.used(t)) continue;
+      for (std::uint32_t k = 0; k < 3; ++k)
+        if (feature[0][s.triangles[t][k]] || feature[1][s.triangles[t][k]]) set_bit(bits[t], 3 + k);
+    }
+  });
   return bits;
 }
 

@@ -7,6 +7,7 @@
 #pragma once
 
 #include "core/base/run_both.h"
+#include "core/base/unfilled.h"
 #include "core/base/vec.h"
 #include "core/mesh/fan_walk.h"
 
@@ -38,11 +39,12 @@ struct CornerNormalsView {
 };
 
 /// Unit face normals; zero for triangles that are not used.
-std::vector<Vec3> face_normals(const SurfaceView& surface);
+Unfilled<Vec3> face_normals(const SurfaceView& surface, const RunBoth& run_both = run_in_turn);
 
 /// Per triangle, bit k: the dihedral angle at edge k exceeds crease_rad (by more than kCreaseSlack).
 /// Angles from 0 (flat) to pi (folded back).
-std::vector<std::uint8_t> sharp_edges(const SurfaceView& surface, std::span<const Vec3> faces, double crease_rad);
+std::vector<std::uint8_t> sharp_edges(const SurfaceView& surface, std::span<const Vec3> faces, double crease_rad,
+                                      const RunBoth& run_both = run_in_turn);
 
 /// Computed normals; where they cancel (a thin fin) each corner gets its face normal. Always unit.
 CornerNormals computed_normals(const SurfaceView& surface, std::span<const Vec3> faces,
@@ -50,6 +52,7 @@ CornerNormals computed_normals(const SurfaceView& surface, std::span<const Vec3>
 
 /// Per triangle, bit k: corner normals differ across edge k at either end (by more than kSameNormal): a crease.
 /// Bit 3 + k: a crease or boundary edge ends at corner k's vertex.
-std::vector<std::uint8_t> feature_bits(const SurfaceView& surface, const CornerNormalsView& normals);
+std::vector<std::uint8_t> feature_bits(const SurfaceView& surface, const CornerNormalsView& normals,
+                                       const RunBoth& run_both = run_in_turn);
 
 }  // namespace tangent

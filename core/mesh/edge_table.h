@@ -4,6 +4,7 @@
 #pragma once
 
 #include "core/base/run_both.h"
+#include "core/base/unfilled.h"
 #include "core/mesh/fan_walk.h"
 
 #include <algorithm>
@@ -29,7 +30,7 @@ class EdgeUse {
   friend auto operator<=>(const EdgeUse&, const EdgeUse&) = default;
 
  private:
-  std::uint64_t bits_ = 0;
+  std::uint64_t bits_;
 };
 
 class EdgeTable {
@@ -62,7 +63,7 @@ class EdgeTable {
 
  private:
   std::vector<std::uint32_t> begin_;  ///< per lower vertex, its first use
-  std::vector<EdgeUse> uses_;
+  Unfilled<EdgeUse> uses_;
 };
 
 }  // namespace tangent

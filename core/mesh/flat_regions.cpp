@@ -54,12 +54,19 @@ Side longest_side(const std::vector<Vec2>& hull, const Vec2& from) {
 
 class FlatRegionsBuilder {
  public:
-  FlatRegionsBuilder(const ContactMesh& mesh, FlatRegions& flat) : mesh_(mesh), flat_(flat) {}
+  FlatRegionsBuilder(const ContactMesh& mesh, const RunBoth& run_both, FlatRegions& flat)
+      : mesh_(mesh), run_both_(run_both), flat_(flat) {}
 
   void build() {
     visited_.assign(mesh_.triangle_count(), 0);
-    for (std::uint32_t t = 0; t < mesh_.triangle_count(); ++t)
-      if (!visited_[t] && is_sliver(t)) gather(t);
+    std::array<std::vector<std::uint32_t>, 2> slivers;
+    run_halves(run_both_, visited_.size(), [&](std::size_t first, std::size_t last) {
+      for (auto t = static_cast<std::uint32_t>(first); t < last; ++t)
+        if (is_sliver(t)) slivers[first == 0 ? 0 : 1].push_back(t);
+    });
+    for (const auto& half : slivers)
+      for (const std::uint32_t t : half)
+        if (!visited_[t]) gather(t);
     for (FlatRegions::Region& r : flat_.regions_) plant(r);
     mark_neighbours();
   }
@@ -210,15 +217,16 @@ class FlatRegionsBuilder {
   }
 
   const ContactMesh& mesh_;
+  const RunBoth& run_both_;
   FlatRegions& flat_;
   std::vector<std::uint8_t> visited_;
   const FlatRegions::Region* region_ = nullptr;
   std::vector<Sliver> slivers_;
 };
 
-FlatRegions FlatRegions::build(const ContactMesh& mesh) {
+FlatRegions FlatRegions::build(const ContactMesh& mesh, const RunBoth& run_both) {
   FlatRegions flat;
-  FlatRegionsBuilder(mesh, flat).build();
+  FlatRegionsBuilder(mesh, run_both, flat).build();
   return flat;
 }
 

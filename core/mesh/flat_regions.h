@@ -7,6 +7,7 @@
 // sides, so that the polygon is hardly wider than the fan.
 #pragma once
 
+#include "core/base/run_both.h"
 #include "core/base/vec.h"
 #include "core/mesh/polygon_mesh.h"
 
@@ -34,7 +35,7 @@ class FlatRegions {
   /// Ratio: normals are one and points in a plane within this. Rounding to nine digits leaves more on steep slivers.
   static constexpr double kFlat = 1e-8;
 
-  static FlatRegions build(const ContactMesh& mesh);
+  static FlatRegions build(const ContactMesh& mesh, const RunBoth& run_both = run_in_turn);
 
   bool empty() const { return marks_.empty(); }
   std::size_t count() const { return regions_.size(); }

@@ -1,6 +1,9 @@
 #include "core/mesh/inside_out.h"
 
+#include "core/mesh/union_find.h"
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace tangent {
@@ -20,35 +23,68 @@ struct Part {
   bool encloses() const { return closed && std::abs(volume6) > 6.0 * kNoVolume * std::pow(0.5 * area2, 1.5); }
 };
 
-/// Part of each triangle, kNone for those that are not used; the parts in the order of their first triangles.
-std::vector<std::uint32_t> number_parts(const SurfaceView& surface, std::vector<Part>& parts) {
-  const auto count = static_cast<std::uint32_t>(surface.triangles.size());
-  std::vector<std::uint32_t> part_of(count, kNone), open;
-  for (std::uint32_t first = 0; first < count; ++first) {
-    if (!surface.used(first) || part_of[first] != kNone) continue;
-    const auto number = static_cast<std::uint32_t>(parts.size());
-    Part& part = parts.emplace_back();
-    part_of[first] = number;
-    open.push_back(first);
-    while (!open.empty()) {
-      const std::uint32_t t = open.back();
-      open.pop_back();
-      ++part.triangles;
-      const Vec3 &a = surface.position({t, 0}), &b = surface.position({t, 1}), &c = surface.position({t, 2});
-      const Vec3 area = glm::cross(b - a, c - a);
-      part.volume6 += glm::dot(a, area);
-      part.area2 += std::sqrt(glm::dot(area, area));
-      for (const Vec3& p : {a, b, c}) part.box.include(p);
+/// The first triangle of each triangle's part. Both halves of the triangles first join what hangs together within them.
+UnionFind join_parts(const SurfaceView& surface, const RunBoth& run_both) {
+  UnionFind parts(static_cast<std::uint32_t>(surface.triangles.size()));
+  std::array<std::vector<std::array<std::uint32_t, 2>>, 2> between;
+  run_halves(run_both, surface.triangles.size(), [&](std::size_t first, std::size_t last) {
+    for (auto t = static_cast<std::uint32_t>(first); t < last; ++t) {
+      if (!surface.used(t)) continue;
       for (const std::uint32_t link : surface.links[t]) {
-        if (link == kNone) {
-          part.closed = false;
-        } else if (part_of[link >> 2] == kNone) {
-          part_of[link >> 2] = number;
-          open.push_back(link >> 2);
+        const std::uint32_t other = link >> 2;
+        if (link == kNone || other > t) continue;
+        if (other >= first) {
+          parts.join(t, other);
+        } else {
+          between[first == 0 ? 0 : 1].push_back({t, other});
         }
       }
     }
+  });
+  for (const auto& half : between)
+    for (const auto& [a, b] : half) parts.join(a, b);
+  return parts;
+}
+
+void add(Part& part, const Part& other) {
+  part.volume6 += other.volume6;
+  part.area2 += other.area2;
+  part.triangles += other.triangles;
+  part.closed = part.closed && other.closed;
+  if (other.triangles == 0) return;
+  part.box.include(other.box.min);
+  part.box.include(other.box.max);
+}
+
+void add(Part& part, const SurfaceView& surface, std::uint32_t t) {
+  ++part.triangles;
+  const Vec3 &a = surface.position({t, 0}), &b = surface.position({t, 1}), &c = surface.position({t, 2});
+  const Vec3 area = glm::cross(b - a, c - a);
+  part.volume6 += glm::dot(a, area);
+  part.area2 += std::sqrt(glm::dot(area, area));
+  for (const Vec3* p : {&a, &b, &c}) part.box.include(*p);
+  for (const std::uint32_t link : surface.links[t]) part.closed = part.closed && link != kNone;
+}
+
+/// Part of each triangle, kNone for those that are not used; the parts in the order of their first triangles.
+std::vector<std::uint32_t> number_parts(const SurfaceView& surface, std::vector<Part>& parts,
+                                        const RunBoth& run_both = run_in_turn) {
+  UnionFind joined = join_parts(surface, run_both);
+  std::vector<std::uint32_t> part_of(surface.triangles.size(), kNone);
+  std::uint32_t count = 0;
+  for (std::uint32_t t = 0; t < part_of.size(); ++t) {
+    if (!surface.used(t)) continue;
+    const std::uint32_t first = joined.root(t);
+    part_of[t] = first == t ? count++ : part_of[first];
   }
+  std::array<std::vector<Part>, 2> sums{std::vector<Part>(count), std::vector<Part>(count)};
+  run_halves(run_both, part_of.size(), [&](std::size_t first, std::size_t last) {
+    std::vector<Part>& of_half = sums[first == 0 ? 0 : 1];
+    for (auto t = static_cast<std::uint32_t>(first); t < last; ++t)
+      if (part_of[t] != kNone) add(of_half[part_of[t]], surface, t);
+  });
+  parts = std::move(sums[0]);
+  for (std::size_t i = 0; i < count; ++i) add(parts[i], sums[1][i]);
   return part_of;
 }
 
@@ -76,10 +112,10 @@ void judge(std::vector<Part>& parts) {
 
 }  // namespace
 
-InsideOut find_inside_out(const SurfaceView& surface) {
+InsideOut find_inside_out(const SurfaceView& surface, const RunBoth& run_both) {
   InsideOut out;
   std::vector<Part> parts;
-  const std::vector<std::uint32_t> part_of = number_parts(surface, parts);
+  const std::vector<std::uint32_t> part_of = number_parts(surface, parts, run_both);
   judge(parts);
   for (const Part& part : parts) {
     if (!part.inside_out) continue;

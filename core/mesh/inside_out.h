@@ -20,7 +20,7 @@ struct InsideOut {
 /// A part is what hangs together over links; it is closed where none of its edges is a boundary. Its signed volume
 /// tells which way it looks. One that looks inwards within the box of a closed part that looks outwards bounds a cavity
 /// of that and is as it should be; within the box of one that is inside out it is turned with that.
-InsideOut find_inside_out(const SurfaceView& surface);
+InsideOut find_inside_out(const SurfaceView& surface, const RunBoth& run_both = run_in_turn);
 
 /// Turns the triangles that `turned` names: their second and third corners change places, and links follow.
 /// Precondition: with a triangle, `turned` names all that hang together with it.

@@ -92,32 +92,46 @@ void settle(std::vector<Index3>& triangles, std::span<const Claim> claims, std::
     if (holder[i] != kNone && holder[i + 1] != kNone) link(out.links, holder[i], holder[i + 1]);
 }
 
-/// One vertex per fan: the first fan met keeps the number, the others get new ones.
-void split_fans(std::vector<Index3>& triangles, std::uint32_t vertex_count, Topology& out) {
-  std::vector<bool> owned(vertex_count, false);
-  CornerSet seen(triangles.size());
-  for (std::uint32_t t = 0; t < triangles.size(); ++t) {
-    if (triangles[t][0] == kNone) continue;
-    for (std::uint32_t k = 0; k < 3; ++k) {
-      const Corner start{t, k};
-      if (seen.has(start)) continue;
-      const std::uint32_t old = triangles[t][k];
-      std::uint32_t vertex = old;
-      if (owned[old]) {
-        vertex = vertex_count + static_cast<std::uint32_t>(out.copy_of.size());
-        out.copy_of.push_back(old);
+template <class Take>
+void around_fan(std::span<const Index3> links, Corner start, const Take& take) {
+  take(start);
+  Corner c = turn_left(links, start);
+  for (; !c.none() && c != start; c = turn_left(links, c)) take(c);
+  if (!c.none()) return;  // came round
+  for (c = turn_right(links, start); !c.none(); c = turn_right(links, c)) take(c);
+}
+
+/// A corner of every fan but the first of its vertex, in the order of corners.
+std::vector<Corner> further_fans(std::span<const Index3> triangles, std::span<const Index3> links,
+                                 std::uint32_t vertex_count, const RunBoth& run_both) {
+  std::array<std::vector<Corner>, 2> found;
+  run_halves(run_both, vertex_count, [&](std::size_t first, std::size_t last) {
+    std::vector<bool> met(last - first, false);
+    CornerSet seen(triangles.size());
+    for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+      if (triangles[t][0] == kNone) continue;
+      for (std::uint32_t k = 0; k < 3; ++k) {
+        const std::uint32_t vertex = triangles[t][k];
+        if (vertex < first || vertex >= last || seen.has({t, k})) continue;
+        if (met[vertex - first]) found[first == 0 ? 0 : 1].push_back({t, k});
+        met[vertex - first] = true;
+        around_fan(links, {t, k}, [&](Corner c) { seen.insert(c); });
       }
-      owned[old] = true;
-      const auto take = [&](Corner c) {
-        seen.insert(c);
-        triangles[c.triangle][c.corner] = vertex;
-      };
-      take(start);
-      Corner c = turn_left(out.links, start);
-      for (; !c.none() && c != start; c = turn_left(out.links, c)) take(c);
-      if (!c.none()) continue;  // came round
-      for (c = turn_right(out.links, start); !c.none(); c = turn_right(out.links, c)) take(c);
     }
+  });
+  std::vector<Corner> fans(found[0].size() + found[1].size());
+  std::ranges::merge(found[0], found[1], fans.begin(), [](Corner a, Corner b) {
+    return a.triangle != b.triangle ? a.triangle < b.triangle : a.corner < b.corner;
+  });
+  return fans;
+}
+
+/// One vertex per fan: the first fan met keeps the number, the others get new ones.
+void split_fans(std::vector<Index3>& triangles, std::uint32_t vertex_count, Topology& out, const RunBoth& run_both) {
+  for (const Corner& fan : further_fans(triangles, out.links, vertex_count, run_both)) {
+    const std::uint32_t vertex = vertex_count + static_cast<std::uint32_t>(out.copy_of.size());
+    out.copy_of.push_back(triangles[fan.triangle][fan.corner]);
+    around_fan(out.links, fan, [&](Corner c) { triangles[c.triangle][c.corner] = vertex; });
   }
 }
 
@@ -133,7 +147,7 @@ Topology build_topology(std::vector<Index3>& triangles, std::uint32_t vertex_cou
     claims = link_uncontested(edges, out, contested, run_both);
   }
   settle(triangles, claims, contested, out);
-  split_fans(triangles, vertex_count, out);
+  split_fans(triangles, vertex_count, out, run_both);
   return out;
 }
 

@@ -1,6 +1,7 @@
 #include "core/mesh/weld.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 
 namespace tangent {
@@ -20,33 +21,48 @@ bool within(const Vec3& p, double largest) {  // false for NaN
   return std::abs(p.x) <= largest && std::abs(p.y) <= largest && std::abs(p.z) <= largest;
 }
 
-}  // namespace
+/// Vectors are welded in two parts, told by a bit of their hash: equal ones are in the same.
+constexpr std::uint64_t hash_part(std::uint64_t hash) { return hash >> 43; }
 
-Weld weld_exact(std::span<const Vec3> vectors, double largest) {
-  Weld weld;
-  weld.id.assign(vectors.size(), kNone);
+/// Sets `same[i]`, of the vectors of one part, to the first one that is equal; kNone where it is left out.
+void find_first(std::span<const Vec3> vectors, double largest, std::uint64_t part, std::span<std::uint32_t> same) {
+  std::size_t count = 0;
+  for (const Vec3& v : vectors) count += hash_part(hash(v)) == part;
   // Open addressing, at most half full. Slots are looked up at random in a table larger than the caches, so a block
   // of them is fetched ahead: 15.7M corners of an icosphere took 0.51 s without and 0.31 s with it.
-  const std::size_t mask = std::bit_ceil(std::max<std::size_t>(16, 2 * vectors.size())) - 1;
+  const std::size_t mask = std::bit_ceil(std::max<std::size_t>(16, 2 * count)) - 1;
   std::vector<std::uint32_t> table(mask + 1, kNone);
   constexpr std::size_t kBlock = 64;
-  std::uint64_t slots[kBlock];
+  std::array<std::uint64_t, kBlock> hashes;
   for (std::size_t begin = 0; begin < vectors.size(); begin += kBlock) {
     const std::size_t end = std::min(begin + kBlock, vectors.size());
     for (std::size_t i = begin; i < end; ++i) {
-      slots[i - begin] = hash(vectors[i]) & mask;
-      __builtin_prefetch(&table[slots[i - begin]], 1);
+      hashes[i - begin] = hash(vectors[i]);
+      if (hash_part(hashes[i - begin]) == part) __builtin_prefetch(&table[hashes[i - begin] & mask], 1);
     }
     for (std::size_t i = begin; i < end; ++i) {
+      if (hash_part(hashes[i - begin]) != part) continue;
+      same[i] = kNone;
       if (!within(vectors[i], largest)) continue;
-      std::size_t slot = slots[i - begin];
-      while (table[slot] != kNone && vectors[weld.first[table[slot]]] != vectors[i]) slot = (slot + 1) & mask;
-      if (table[slot] == kNone) {
-        table[slot] = weld.count();
-        weld.first.push_back(static_cast<std::uint32_t>(i));
-      }
-      weld.id[i] = table[slot];
+      std::size_t slot = hashes[i - begin] & mask;
+      while (table[slot] != kNone && vectors[table[slot]] != vectors[i]) slot = (slot + 1) & mask;
+      if (table[slot] == kNone) table[slot] = static_cast<std::uint32_t>(i);
+      same[i] = table[slot];
     }
+  }
+}
+
+}  // namespace
+
+Weld weld_exact(std::span<const Vec3> vectors, double largest, const RunBoth& run_both) {
+  Weld weld;
+  weld.id.resize(vectors.size());
+  run_both([&] { find_first(vectors, largest, 0, weld.id); }, [&] { find_first(vectors, largest, 1, weld.id); });
+  for (std::uint32_t i = 0; i < weld.id.size(); ++i) {
+    const std::uint32_t first = weld.id[i];
+    if (first == kNone) continue;
+    weld.id[i] = first == i ? weld.count() : weld.id[first];
+    if (first == i) weld.first.push_back(i);
   }
   return weld;
 }

@@ -2,6 +2,7 @@
 // tolerance: whether two points are "near" depends on the scale of the mesh, whether they are equal does not.
 #pragma once
 
+#include "core/base/run_both.h"
 #include "core/base/vec.h"
 #include "core/mesh/polygon_mesh.h"
 
@@ -18,7 +19,7 @@ struct Weld {
 };
 
 /// Groups equal vectors (-0.0 equals 0.0). Vectors that are not finite, or have a component beyond
-/// `largest`, are left out. Linear time. Precondition: fewer than 2^31 vectors.
-Weld weld_exact(std::span<const Vec3> vectors, double largest);
+/// `largest`, are left out. Linear time. Precondition: fewer than 2^31 vectors. The same bits however `run_both` works.
+Weld weld_exact(std::span<const Vec3> vectors, double largest, const RunBoth& run_both = run_in_turn);
 
 }  // namespace tangent

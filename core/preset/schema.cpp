@@ -124,7 +124,8 @@ constexpr std::array kKeys{
     .read_by = kEveryMethod, .option = "tolerance-um", .option_per_si = 1e6}),
   value<kSolver, &S::max_iterations>({.table = "solver", .key = "max_iterations", .kind = KeyKind::integer,
     .label = "Iteration limit", .unit = "1",
-    .doc = "New tangent planes a tick may compute before its tracking is given up.",
+    .doc = "New tangent planes that one attempt may compute before it is given up. A tick whose tracking fails makes "
+           "further attempts, from other seeds: its planes are the sum over all of them.",
     .min = 1.0, .max = 10000.0, .slider_min = 1.0, .slider_max = 200.0, .logarithmic = true,
     .read_by = kEveryMethod, .option = "max-iterations"}),
   choice<kSolver, &S::normal_form>({.table = "solver", .key = "normal_form", .label = "Normal form",

@@ -42,32 +42,64 @@ Status ContactScene::build_structures(const SceneParts& parts, const RunBoth& ru
   return {};
 }
 
+bool ContactScene::has_part(std::size_t part) const {
+  const LateHierarchy* hierarchy = hierarchy_.if_built();
+  return nearest_->has_part(part) && (!hierarchy || hierarchy->has_part(part));
+}
+
+void ContactScene::build_part(std::size_t part) const {
+  nearest_->build_part(part);
+  if (const LateHierarchy* hierarchy = hierarchy_.if_built()) hierarchy->build_part(part);
+}
+
 void ContactScene::build_far_parts(const RunBoth& run_both) const {
   if (!clusters_) return;
-  const LateHierarchy* hierarchy = hierarchy_.if_built();
   run_halves(run_both, clusters_->count(), [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) {
-      nearest_->build_part(i);
-      if (hierarchy) hierarchy->build_part(i);
-    }
+    for (std::size_t i = first; i < last; ++i) build_part(i);
   });
 }
 
-void ContactScene::build_near(const Vec3& position, double reach_m) const {
-  const LateHierarchy* hierarchy = hierarchy_.if_built();
-  if (!clusters_ || !hierarchy || !is_finite(position)) return;
+void ContactScene::build_near(const Vec3& position, double reach_m, const RunBoth& run_both, double ahead_m) const {
+  if (!clusters_ || !is_finite(position)) return;
   // A search for a start asks as far as a bit beyond the nearest triangle, one for places that push as far as the
   // finger reaches.
   constexpr double kFurther = 1.2;
   constexpr double kAhead_m = 2.5e-3;  // as far as searches look ahead at the default hysteresis (kWatchReach), twice
   const Vec3 centre = position - mesh_->origin();
   const NearestHit hit = nearest_->nearest(centre, std::numeric_limits<double>::infinity());
-  hierarchy->build_near(centre, kFurther * std::max(hit.distance_m, reach_m) + kAhead_m);
+  const double radius = kFurther * (std::max(hit.distance_m, reach_m) + ahead_m) + kAhead_m;
+  std::vector<std::size_t> near;
+  for (std::size_t i = 0; i < clusters_->count(); ++i)
+    if (!has_part(i) && clusters_->distance2(i, centre) <= radius * radius) near.push_back(i);
+  run_halves(run_both, near.size(), [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) build_part(near[i]);
+  });
+}
+
+bool ContactScene::build_next_part(const Vec3& position) const {
+  if (!clusters_) return false;
+  const Vec3 centre = position - mesh_->origin();
+  std::size_t nearest = clusters_->count();
+  double least2 = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < clusters_->count(); ++i) {
+    if (has_part(i)) continue;
+    const double distance2 = clusters_->distance2(i, centre);
+    if (nearest < clusters_->count() && !(distance2 < least2)) continue;
+    least2 = distance2;
+    nearest = i;
+  }
+  if (nearest == clusters_->count()) return false;
+  build_part(nearest);
+  return true;
 }
 
 std::size_t ContactScene::unbuilt_parts() const {
+  if (!clusters_) return 0;
   const LateHierarchy* hierarchy = hierarchy_.if_built();
-  return hierarchy ? hierarchy->part_count() - hierarchy->built_count() : 0;
+  std::size_t unbuilt = 0;
+  for (std::size_t i = 0; i < clusters_->count(); ++i)
+    unbuilt += (nearest_->has_part(i) ? 0u : 1u) + (hierarchy && !hierarchy->has_part(i) ? 1u : 0u);
+  return unbuilt;
 }
 
 Result<std::shared_ptr<const ContactScene>> ContactScene::build(PlanarCurve curve, const SceneParts& parts) {

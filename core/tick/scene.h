@@ -44,12 +44,16 @@ class ContactScene {
     return hierarchy_.get([this] { return LateHierarchy(*mesh_, clusters_.get()); });
   }
   bool has_hierarchy() const { return hierarchy_.if_built() != nullptr; }
-  /// Of a large mesh, the parts of the hierarchy that are not built yet; ticks build those that they come to.
+  /// Of a large mesh, those of both structures that are not built yet. Ticks build what they come to, but where their
+  /// thread makes nothing (MakesNothing): there they come to nothing.
   std::size_t unbuilt_parts() const;
-  /// Builds those that most ticks come to with a finger of this reach there, for who measures ticks by themselves: a
-  /// search for a start, or one far ahead, may come to more. World frame.
-  void build_near(const Vec3& position, double reach_m) const;
-  /// Builds them all, beside ticks if need be. Any thread.
+  /// Builds those that most ticks come to with a finger of this reach there, and up to `ahead_m` further: a search for
+  /// a start, or one far ahead, may come to more. World frame. Here and below: any thread, beside ticks if need be.
+  void build_near(const Vec3& position, double reach_m, const RunBoth& run_both = run_in_turn,
+                  double ahead_m = 0.0) const;
+  /// Builds the nearest one; false: there was none left. World frame.
+  bool build_next_part(const Vec3& position) const;
+  /// Builds them all.
   void build_far_parts(const RunBoth& run_both) const;
   bool has_mesh() const { return mesh_.has_value(); }  ///< false: a 2D scene without its ribbon
   SearchStructures search() const { return {*nearest_, hierarchy()}; }
@@ -58,6 +62,8 @@ class ContactScene {
  private:
   ContactScene() = default;
   Status build_structures(const SceneParts& parts, const RunBoth& run_both);
+  bool has_part(std::size_t part) const;
+  void build_part(std::size_t part) const;
 
   std::optional<ContactMesh> mesh_;
   std::unique_ptr<const TriangleClusters> clusters_;  ///< of a large mesh

@@ -52,6 +52,8 @@ Stepper::~Stepper() = default;
 
 TickOutput Stepper::step(const Preset& preset, const TickInput& input, TickState& state, IterationTrace* trace) {
   if (scene_->planar()) return step_planar(*scene_->planar(), preset, input, state, trace);
+  const StepperUse use(cache_->in_use);
+  if (!use.mine()) return {.status = TickStatus::busy};
   const FloatState as_tested;
   const bool usable = is_usable(input.finger);
   const FingerPose last = last_pose(state);
@@ -60,7 +62,9 @@ TickOutput Stepper::step(const Preset& preset, const TickInput& input, TickState
   const FingerPose local{pose.position - origin, pose.orientation};
   const TickContext tick{preset, preset.finger, input.t_s, pose, local, origin, state, trace, input.velocity};
   TickOutput out;
-  if (usable) {
+  if (usable && input.unready) {
+    run_tick(tick, out, [&](TickPlanes& planes) { planes = TickPlanes::all(last_converged_plane(tick)); });
+  } else if (usable) {
     run_tick(tick, out, [&](TickPlanes& planes) { find_mesh_contacts(*scene_, *cache_, tick, planes, out); });
   } else {
     run_without_pose(tick, out);

@@ -16,7 +16,9 @@ namespace tangent {
 /// state, so a fresh one gives the same bits, later.
 class StepCache;
 
-/// Owns a StepCache for one scene (none for a 2D one). Not thread-safe; use one per thread.
+/// Owns a StepCache for one scene (none for a 2D one). Not thread-safe; use one per thread. In a library that is built
+/// with assertions (CMAKE_BUILD_TYPE=Debug) a second thread in the same stepper is told so: it gets `busy`, no force,
+/// and its state as it was. Others don't look, and compute nonsense.
 class Stepper {
  public:
   explicit Stepper(std::shared_ptr<const ContactScene> scene);
@@ -26,7 +28,8 @@ class Stepper {
 
   const ContactScene& scene() const { return *scene_; }
   const std::shared_ptr<const ContactScene>& shared_scene() const { return scene_; }
-  /// Precondition: preset within its ranges. A pose that is not finite gives `unconverged`.
+  /// Preconditions: preset within its ranges; `state` fresh, or of ticks on this scene (forget_scene is called between
+  /// two). A pose that is not finite gives `unconverged`.
   TickOutput step(const Preset& preset, const TickInput& input, TickState& state, IterationTrace* trace = nullptr);
 
  private:

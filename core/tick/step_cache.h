@@ -4,7 +4,35 @@
 
 #include "core/contact/decide/decide.h"
 
+#include <atomic>
+
 namespace tangent {
+
+/// The one thread that may be in a stepper now. Where the library is built without assertions nothing is looked at, and
+/// every thread counts as that one.
+class StepperUse {
+ public:
+#if defined(NDEBUG)
+  struct Flag {};
+  explicit StepperUse(Flag&) {}
+  static constexpr bool mine() { return true; }
+#else
+  using Flag = std::atomic<bool>;
+  explicit StepperUse(Flag& in_use) : in_use_(in_use), mine_(!in_use.exchange(true, std::memory_order_acquire)) {}
+  ~StepperUse() {
+    if (mine_) in_use_.store(false, std::memory_order_release);
+  }
+  bool mine() const { return mine_; }
+
+ private:
+  Flag& in_use_;
+  bool mine_;
+
+ public:
+#endif
+  StepperUse(const StepperUse&) = delete;
+  StepperUse& operator=(const StepperUse&) = delete;
+};
 
 class StepCache {
  public:
@@ -24,6 +52,7 @@ class StepCache {
   DecidedContact smooth;    ///< of the last tick
   TouchedContacts touched;  ///< beside it; room for one tick, nothing is read of the last
   NormalForm form = NormalForm::bernstein;
+  [[no_unique_address]] StepperUse::Flag in_use{};
 };
 
 }  // namespace tangent

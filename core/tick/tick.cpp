@@ -14,6 +14,8 @@ const char* to_string(TickStatus status) {
       return "vertex";
     case TickStatus::facing:
       return "facing";
+    case TickStatus::busy:
+      return "busy";
     case TickStatus::unconverged:
       break;
   }

@@ -21,14 +21,16 @@ enum class TickStatus : std::uint8_t {
   vertex,
   unconverged,
   facing,  ///< the surface offers no contact here: the nearest place, its plane turned to face the finger
+  busy,    ///< no tick was computed: another thread is in this stepper (step.h)
 };
+/// Those that a tick can have.
 inline constexpr std::array kTickStatuses{TickStatus::free,   TickStatus::face,        TickStatus::edge,
                                           TickStatus::vertex, TickStatus::unconverged, TickStatus::facing};
 const char* to_string(TickStatus status);
 /// Whether the tick found a contact with the surface, or that there is none in reach. Otherwise force and display come
 /// from the last tick that did, and fade.
 inline bool is_converged(TickStatus status) {
-  return status != TickStatus::facing && status != TickStatus::unconverged;
+  return status != TickStatus::facing && status != TickStatus::unconverged && status != TickStatus::busy;
 }
 /// Of a converged contact: `free` where the finger does not reach the surface.
 TickStatus status_of(Feature feature, double penetration_m);
@@ -73,6 +75,9 @@ struct TickInput {
   double t_s = 0.0;
   FingerPose finger;
   std::optional<Vec3> velocity = std::nullopt;  ///< of the finger, world, m/s, by the device; none: from its positions
+  /// What a search would read is not built yet and this tick does not wait for it: nothing is searched, force and
+  /// display come from the last converged tick and fade (`unconverged`).
+  bool unready = false;
 };
 
 /// One row of ticks.csv. World frame, SI.

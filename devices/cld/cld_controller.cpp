@@ -1,5 +1,7 @@
 #include "devices/cld/cld_controller.h"
 
+#include "core/base/float_state.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -282,6 +284,7 @@ void CldController::set_controller(const ControllerSettings& settings) noexcept 
 }
 
 DisplaySample CldController::exchange(const DisplayCommand& command, double) noexcept {
+  const FloatState as_tested;
   if (!opened_) return {};
   hear();
   const std::int64_t now = usb_now_ns();

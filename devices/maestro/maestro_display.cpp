@@ -1,5 +1,7 @@
 #include "devices/maestro/maestro_display.h"
 
+#include "core/base/float_state.h"
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -123,6 +125,7 @@ void MaestroDisplay::update_state(const DisplayCommand& command, double dt_s) no
 }
 
 DisplaySample MaestroDisplay::exchange(const DisplayCommand& command, double dt_s) noexcept {
+  const FloatState as_tested;
   if (!opened_) return {};
   update_state(command, dt_s);
   if (machine_.ready() || machine_.state() == DeviceState::homing) {

@@ -1,5 +1,7 @@
 #include "devices/simulated/simulated_contact_display.h"
 
+#include "core/base/float_state.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -47,6 +49,7 @@ DisplaySample SimulatedContactDisplay::measure(double dt_s) noexcept {
 }
 
 DisplaySample SimulatedContactDisplay::exchange(const DisplayCommand& command, double dt_s) noexcept {
+  const FloatState as_tested;
   life_.update(command.request, std::isfinite(command.target_m), dt_s);
   const bool moves = life_.ready() || life_.state() == DeviceState::homing;
   const double target = life_.ready() ? command.target_m : 0.0;

@@ -1,5 +1,7 @@
 #include "devices/simulated/simulated_force_device.h"
 
+#include "core/base/float_state.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -101,6 +103,7 @@ ForceSample SimulatedForceDevice::measure(const Vec3& force, double dt_s) noexce
 }
 
 ForceSample SimulatedForceDevice::exchange(const ForceCommand& command, double dt_s) noexcept {
+  const FloatState as_tested;
   life_.update(command.request, is_finite(command.force_n), dt_s);
   Vec3 force(0.0);
   if (life_.ready()) {

@@ -17,8 +17,10 @@ constexpr double kTurns = 7.0;           // of the spiral from pole to pole
 
 }  // namespace
 
+PolygonMesh builtin_mesh() { return make_icosphere(kSphereRadius, kSubdivisions); }
+
 Result<std::shared_ptr<const ContactScene>> builtin_scene() {
-  Result<ContactMesh> mesh = ContactMesh::build(make_icosphere(kSphereRadius, kSubdivisions));
+  Result<ContactMesh> mesh = ContactMesh::build(builtin_mesh());
   if (!mesh) return tl::unexpected(mesh.error());
   return ContactScene::build(std::move(*mesh));
 }

@@ -1,12 +1,16 @@
 // The built-in scene, which needs no file: a sphere of 320 triangles and a finger that slides over it.
 #pragma once
 
+#include "core/mesh/polygon_mesh.h"
 #include "core/tick/step.h"
 
 #include <memory>
 #include <vector>
 
 namespace tangent {
+
+/// The mesh of that scene.
+PolygonMesh builtin_mesh();
 
 /// Icosphere of radius 40 mm, 320 triangles.
 Result<std::shared_ptr<const ContactScene>> builtin_scene();

@@ -3,7 +3,7 @@
 
 #include "core/lab/measure/curvature_deviation.h"
 #include "core/planar/curve.h"
-#include "workbench/cli/figure_table.h"
+#include "workbench/session/figure_table.h"
 
 #include <utility>
 

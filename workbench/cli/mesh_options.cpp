@@ -13,6 +13,8 @@ namespace {
 
 constexpr std::array<std::string_view, 3> kNormals{"auto", "file", "computed"};  // order of NormalSource
 
+void add_reading_options(CLI::App& app, MeshOptions& options);
+
 }  // namespace
 
 void add_unit_option(CLI::App& app, double& metres_per_unit, const std::string& doc) {
@@ -20,12 +22,9 @@ void add_unit_option(CLI::App& app, double& metres_per_unit, const std::string& 
                     [&](int unit) { metres_per_unit = kFileUnits[static_cast<std::size_t>(unit)].metres; });
 }
 
-void add_mesh_options(CLI::App& app, MeshOptions& options, bool mesh_required) {
-  add_text_option(
-      app, "MESH", options.file,
-      "Mesh file: .obj, .ply, .stl or .off; for solve and gui also a polygon: .csv (x_m,y_m) or .obj with a "
-      "line element",
-      "", mesh_required ? Needed::yes : Needed::no);
+namespace {
+
+void add_reading_options(CLI::App& app, MeshOptions& options) {
   add_unit_option(app, options.metres_per_unit, "Unit of the file's coordinates (default mm)");
   add_number_option(app, "--fit-mm", {.min = 1e-3, .max = 1e9, .unit = "mm"},
                     "Bounding-box centre to the origin, longest side to this (default: as in the file)",
@@ -37,6 +36,23 @@ void add_mesh_options(CLI::App& app, MeshOptions& options, bool mesh_required) {
                     "Edges whose dihedral angle exceeds this are creases; 180: none (default 45)",
                     [&](double value) { options.build.crease_rad = value * kDegree; });
   add_flag(app, "--turn-over", options.build.turn_over, "Turn closed parts over that are inside out");
+}
+
+}  // namespace
+
+void add_mesh_options(CLI::App& app, MeshOptions& options, bool mesh_required) {
+  add_text_option(
+      app, "MESH", options.file,
+      "Mesh file: .obj, .ply, .stl or .off; for solve and gui also a polygon: .csv (x_m,y_m) or .obj with a "
+      "line element",
+      "", mesh_required ? Needed::yes : Needed::no);
+  add_reading_options(app, options);
+}
+
+void add_replaced_mesh_options(CLI::App& app, MeshOptions& options) {
+  add_text_option(app, "--mesh", options.file, "Another mesh, or the recorded one where it was recorded without it",
+                  "MESH");
+  add_reading_options(app, options);
 }
 
 Result<LoadedMesh> load_mesh(const MeshOptions& options) {

@@ -23,6 +23,9 @@ struct MeshOptions {
 /// parser.
 void add_mesh_options(CLI::App& app, MeshOptions& options, bool mesh_required = true);
 
+/// The same with the mesh as an option, `--mesh F`, in place of a recorded one.
+void add_replaced_mesh_options(CLI::App& app, MeshOptions& options);
+
 /// Option `--unit mm|cm|m|in` alone.
 void add_unit_option(CLI::App& app, double& metres_per_unit, const std::string& doc);
 

@@ -1,22 +1,27 @@
 // workbench solve: steps every pose of a file, one tick each, and writes ticks.csv.
 #include "core/io/atomic_file.h"
 #include "core/io/pose_file.h"
+#include "core/io/scene_file.h"
 #include "core/io/ticks_file.h"
 #include "workbench/cli/command.h"
+#include "workbench/cli/explain_lines.h"
 #include "workbench/cli/interrupt.h"
 #include "workbench/cli/mesh_options.h"
 #include "workbench/cli/messages.h"
 #include "workbench/cli/option.h"
 #include "workbench/cli/preset_options.h"
 #include "workbench/cli/progress.h"
+#include "workbench/cli/solve_recording.h"
 #include "workbench/cli/solve_report.h"
 #include "workbench/cli/stopwatch.h"
+#include "workbench/session/two_threads.h"
 
 #include <nlohmann/json.hpp>
 
 #include <cstdio>
 #include <memory>
 #include <optional>
+#include <utility>
 
 namespace tangent {
 namespace {
@@ -24,13 +29,17 @@ namespace {
 struct SolveOptions {
   MeshOptions mesh;
   PresetOptions preset;
-  std::filesystem::path poses, ticks, summary, iterations;
+  std::filesystem::path poses, ticks, summary, iterations, record;
+  bool explain = false, many_given = false;
+  ExplainOptions explained;
 };
 
 /// The output files of a run, being written.
 struct SolveOutputs {
   TicksFile ticks;
   std::optional<IterationsFile> iterations;
+  std::optional<RecordingFile> recording;
+  std::optional<ExplainLines> explanations;
 };
 
 /// Checks before the work starts that the files can be written.
@@ -48,7 +57,7 @@ Status probe_outputs(const SolveOptions& options) {
 Result<SolveOutputs> create_outputs(const SolveOptions& options) {
   Result<TicksFile> ticks = TicksFile::create(options.ticks);
   if (!ticks) return tl::unexpected(ticks.error());
-  SolveOutputs outputs{std::move(*ticks), std::nullopt};
+  SolveOutputs outputs{std::move(*ticks), std::nullopt, std::nullopt, std::nullopt};
   if (options.iterations.empty()) return outputs;
   Result<IterationsFile> iterations = IterationsFile::create(options.iterations);
   if (!iterations) return tl::unexpected(iterations.error());
@@ -62,16 +71,18 @@ class BuildAhead {
   BuildAhead(const ContactScene& scene, const Preset& preset)
       : scene_(scene), reach_m_(preset.finger.reach_m()), waits_(scene.unbuilt_parts() > 0) {}
   void before(const TickInput& input) {
-    constexpr double kShare = 0.1;  // of the finger's reach: as far as build_near reaches further
+    constexpr double kShare = 0.1;             // of the finger's reach
+    constexpr double kSearchedAhead_m = 8e-3;  // by searches, once they found it cheap (kMostAhead)
     if (!waits_ || glm::length(input.finger.position - last_) < kShare * reach_m_) return;
     last_ = input.finger.position;
-    scene_.build_near(last_, reach_m_);
+    scene_.build_near(last_, reach_m_, run_on_two_threads, std::exchange(ahead_m_, kSearchedAhead_m));
   }
 
  private:
   const ContactScene& scene_;
   double reach_m_;
   bool waits_;
+  double ahead_m_ = 0.0;
   Vec3 last_{1e300};
 };
 
@@ -84,6 +95,7 @@ Status step_all(const ContactScene& scene, Stepper& stepper, const std::vector<T
   BuildAhead ahead(scene, report.preset.preset);
   TickState state;
   TickRow row;
+  TickRecording recording(outputs.recording);
   report.statistics.reserve(poses.size());
   for (const TickInput& input : poses) {
     if (InterruptGuard::requested()) {
@@ -92,24 +104,31 @@ Status step_all(const ContactScene& scene, Stepper& stepper, const std::vector<T
     }
     if (trace) trace->clear();
     ahead.before(input);
+    recording.keep(state);
+    const TickState before = state;
     const Stopwatch watch;
     row.output = stepper.step(report.preset.preset, input, state, trace.get());
     row.solve_ns = watch.nanoseconds();
     row.t_s = input.t_s;
     if (Status status = outputs.ticks.append(row); !status) return status;
+    if (Status status = recording.append(row, input); !status) return status;
     if (trace) {
       if (Status status = outputs.iterations->append(row.tick, *trace); !status) return status;
     }
     report.statistics.add(report.preset.preset, input, row.output, row.solve_ns);
+    if (outputs.explanations) outputs.explanations->after(row.tick, input, before, row.output);
     progress.update(++row.tick);
   }
-  return {};
+  return recording.flush();
 }
 
 Status commit(SolveOutputs& outputs, const SolveOptions& options, const SolveReport& report) {
   if (Status status = outputs.ticks.commit(); !status) return status;
   if (outputs.iterations) {
     if (Status status = outputs.iterations->commit(); !status) return status;
+  }
+  if (outputs.recording) {
+    if (Status status = outputs.recording->close(); !status) return status;
   }
   if (options.summary.empty()) return {};
   return write_file_atomic(options.summary, solve_json(report).dump(2) + "\n");
@@ -130,8 +149,12 @@ Status solve(const SolveOptions& options, bool& interrupted) {
   if (Status status = probe_outputs(options); !status) return status;
   const Result<std::vector<TickInput>> poses = read_poses(options.poses);
   if (!poses) return tl::unexpected(poses.error());
-  const Result<std::shared_ptr<const ContactScene>> scene = load_contact_scene(options.mesh, parts_for(preset->preset));
-  if (!scene) return tl::unexpected(scene.error());
+  Result<SceneFile> file =
+      read_scene(options.mesh.file, {options.mesh.metres_per_unit, options.mesh.build, parts_for(preset->preset)},
+                 run_on_two_threads);
+  if (!file) return tl::unexpected(file.error());
+  if (options.record.empty()) file->source.reset();  // as large as the mesh
+  const auto* const scene = &file->scene;
   if (Status status = check_shape(**scene, preset->preset); !status) return status;
   report.load_seconds = loading.seconds();
 
@@ -146,10 +169,18 @@ Status solve(const SolveOptions& options, bool& interrupted) {
   const InterruptGuard interrupt;  // until the last file is in place
   Result<SolveOutputs> outputs = create_outputs(options);
   if (!outputs) return tl::unexpected(outputs.error());
+  if (!options.record.empty()) {
+    Result<RecordingFile> recording =
+        create_recording(options.record, *file, {options.mesh, options.poses, report.preset.preset});
+    if (!recording) return tl::unexpected(recording.error());
+    outputs->recording.emplace(std::move(*recording));
+  }
+  if (options.explain) outputs->explanations.emplace(*scene, report.preset.preset, options.explained);
   if (Status status = step_all(**scene, stepper, *poses, *outputs, report); !status) return status;
   interrupted = report.interrupted;
   report.solve_seconds = solving.seconds();
   report.scene_bytes = (*scene)->memory_bytes();
+  if (outputs->explanations) report.causes = outputs->explanations->counts();
   if (Status status = commit(*outputs, options, report); !status) return status;
   std::fputs(solve_text(report).c_str(), stdout);
   if (interrupted) {
@@ -163,7 +194,8 @@ Status solve(const SolveOptions& options, bool& interrupted) {
 void refuse_shared_paths(const SolveOptions& options) {
   const std::pair<const char*, const std::filesystem::path*> files[]{
       {"MESH", &options.mesh.file}, {"--poses", &options.poses},     {"--preset", &options.preset.file},
-      {"--out", &options.ticks},    {"--summary", &options.summary}, {"--iterations", &options.iterations}};
+      {"--out", &options.ticks},    {"--summary", &options.summary}, {"--iterations", &options.iterations},
+      {"--record", &options.record}};
   constexpr std::size_t kInputs = 3;
   for (std::size_t i = kInputs; i < std::size(files); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
@@ -189,9 +221,19 @@ void add_solve_command(CLI::App& app, CommandResult& result) {
                   Needed::yes);
   add_text_option(*command, "--summary", options->summary, "Counts and percentiles of the run", "F.json");
   add_text_option(*command, "--iterations", options->iterations, "Every tangent plane of every tick", "F.csv");
+  add_text_option(*command, "--record", options->record,
+                  "A recording, to be replayed; a file that is there is not written over", "F.sqlite");
+  add_flag(*command, "--explain", options->explain,
+           "Say for every tick that did not converge, had an event or took many planes why, and what cures it");
+  add_number_option(*command, "--many-planes", {.min = 0, .max = 10000, .whole = true},
+                    "With --explain: ticks of more planes are explained, too; default 8", [options](double planes) {
+                      options->many_given = true;
+                      options->explained.many_planes = static_cast<int>(planes);
+                    });
   add_preset_options(*command, options->preset);
   on_run(*command, [options, &result] {
     refuse_shared_paths(*options);
+    if (options->many_given && !options->explain) refuse_option("--many-planes", "is an option of --explain");
     bool interrupted = false;
     const Status status = solve(*options, interrupted);
     if (!status) print_message("solve", status.error().message());

@@ -101,6 +101,16 @@ Json mesh_json(const SolveReport& report) {
           {"defects", defects_json(mesh)},       {"notes", report.notes()}};
 }
 
+std::string causes_text(const SolveReport& report) {
+  if (!report.causes) return {};
+  std::string text;
+  for (const TickCause cause : kTickCauses) {
+    const std::uint64_t count = (*report.causes)[static_cast<std::size_t>(cause)];
+    if (count > 0) text += (text.empty() ? "" : ", ") + std::string(to_string(cause)) + " " + std::to_string(count);
+  }
+  return "  explained   " + (text.empty() ? "nothing to explain" : text) + "\n";
+}
+
 }  // namespace
 
 std::vector<std::string> SolveReport::notes() const {
@@ -120,6 +130,7 @@ std::string solve_text(const SolveReport& report) {
                             to_string(preset.solver.method), report.interrupted ? ", interrupted" : "");
   text += "  status      " + counts_text(s, kTickStatuses) + "\n";
   text += "  events      " + counts_text(s, kTickEvents) + "\n";
+  text += causes_text(report);
   text += "  iterations  " + iterations_text(s.iterations()) + "\n";
   text += "    no event  " + iterations_text(s.event_free_iterations()) + "\n";
   text += format("  error       max %.4g um of converged ticks (tolerance %g um)\n", s.max_error_m() * 1e6,
@@ -145,7 +156,7 @@ Json solve_json(const SolveReport& report) {
     scene["closed"] = report.planar->closed();
     scene["notes"] = report.notes();
   }
-  return {
+  Json out = {
       {"program_version", TANGENT_VERSION},
       {"scene", scene},
       {"mesh", report.mesh != nullptr ? mesh_json(report) : Json()},
@@ -165,6 +176,10 @@ Json solve_json(const SolveReport& report) {
       {"solve_ns", to_json(s.solve_ns())},
       {"seconds", {{"load", report.load_seconds}, {"solve", report.solve_seconds}}},
   };
+  if (report.causes)
+    for (const TickCause cause : kTickCauses)
+      out["explained"][to_string(cause)] = (*report.causes)[static_cast<std::size_t>(cause)];
+  return out;
 }
 
 }  // namespace tangent

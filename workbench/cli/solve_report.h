@@ -2,12 +2,15 @@
 #pragma once
 
 #include "core/io/preset_file.h"
+#include "core/lab/explain/tick_cause.h"
 #include "core/mesh/contact_mesh.h"
 #include "core/planar/curve.h"
 #include "workbench/cli/solve_statistics.h"
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +28,7 @@ struct SolveReport {
   double load_seconds = 0.0;    ///< poses, mesh, query structure
   double solve_seconds = 0.0;   ///< ticks and their output
   SolveStatistics statistics;
+  std::optional<std::array<std::uint64_t, kTickCauses.size()>> causes;  ///< with --explain: how often each was told
 
   std::vector<std::string> notes() const;  ///< on the mesh, and on the finger where it does not fit the mesh
 };

@@ -1,6 +1,7 @@
 // workbench tune: measures gains for the paper's iteration on a mesh and writes a preset.
 #include "core/io/atomic_file.h"
 #include "core/io/pose_file.h"
+#include "core/lab/audit/finger_size.h"
 #include "core/lab/gains/gain_tuning.h"
 #include "core/lab/measure/distribution.h"
 #include "workbench/cli/command.h"
@@ -129,6 +130,9 @@ Status run_tune(const TuneOptions& options, bool& interrupted) {
   const Result<std::vector<TickInput>> poses = find_poses(options, **scene, report);
   if (!poses) return tl::unexpected(poses.error());
 
+  // Before the seconds that it takes, and again in the report.
+  if (const std::string note = finger_size_note(longest_side_m(*report.mesh), preset.finger); !note.empty())
+    print_message("tune", note);
   report.tuning = tune(*scene, preset, *poses);
   interrupted = report.tuning.stopped;
   if (report.tuning.best.empty()) {

@@ -2,6 +2,9 @@
 
 #include "workbench/gui/model/app_model.h"
 #include "workbench/gui/panels/panels.h"
+#include "workbench/gui/panels/save_panel.h"
+#include "workbench/gui/panels/script_runner.h"
+#include "workbench/gui/widgets/keyboard_focus.h"
 #include "workbench/gui/widgets/thread_time.h"
 #include "workbench/gui/widgets/widgets.h"
 
@@ -15,17 +18,20 @@ namespace tangent {
 struct App::Ui {
   SceneRenderer* renderer = nullptr;
   ItemMap items;
+  KeyboardFocus keyboard;
   Typing typing;
   Resting resting;
   ThemeFonts fonts;
   std::optional<float> font_scale;  ///< for which the atlas was built
   std::optional<Theme> theme;       ///< for which the style was set
   MenuBar menu;
+  ScriptRunner script;
+  bool script_by_hand = false;  ///< it was given in the window, not with the options
   PresetsPanel presets;
   ComparePanel compare;
   IterationsPanel iterations;
   MapPanel map;
-  FoldedPanel mesh, devices, time_machine;
+  FoldedPanel mesh, devices, time_machine, sweep{false};
   LogPanel log;
   BookmarksPanel bookmarks;
   InspectPanel inspect;
@@ -54,6 +60,14 @@ constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoDecoration | ImGuiWindowF
 
 App::App(AppOptions options) : model_(std::make_unique<AppModel>(options)), ui_(std::make_unique<Ui>()) {
   ImGui::GetIO().IniFilename = nullptr;
+  if (!options.script.empty())
+    run_script(options.script);
+  else if (model_->window().first_start())
+    ui_->menu.first.step = 0;
+}
+
+void App::run_script(const std::filesystem::path& file) {
+  if (const Status loaded = ui_->script.load(file); !loaded) script_failure_ = loaded.error().message();
 }
 
 App::~App() = default;
@@ -112,10 +126,10 @@ void App::Ui::draw_column(const char* name, const Rect& rect, const UiContext& u
   ImGui::SetNextWindowPos({rect.x, rect.y});
   ImGui::SetNextWindowSize({rect.w, rect.h});
   // Always reserves room for the scroll bar, so that nothing jumps when a section is folded.
-  constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
-                                     ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove |
-                                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus |
-                                     ImGuiWindowFlags_NoNav | ImGuiWindowFlags_AlwaysVerticalScrollbar;
+  constexpr ImGuiWindowFlags flags =
+      ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove |
+      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNav |
+      ImGuiWindowFlags_AlwaysVerticalScrollbar | ImGuiWindowFlags_NoBackground;
   bool& scrolls = left ? left_scrolls : right_scrolls;
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(ui.px(8), ui.px(4)));
   if (!scrolls) ImGui::PushStyleColor(ImGuiCol_ScrollbarGrab, IM_COL32_BLACK_TRANS);
@@ -128,15 +142,17 @@ void App::Ui::draw_column(const char* name, const Rect& rect, const UiContext& u
     draw_compare_panel(ui, model, compare);
     draw_presets_panel(ui, model, presets);
   } else {
-    draw_iterations_panel(ui, model, iterations);
-    draw_time_machine_panel(ui, model.time(), time_machine);
-    draw_bookmarks_panel(ui, model, bookmarks);
-    draw_map_panel(ui, model, map);
-    draw_perception_panel(ui, model, perception);
-    draw_inspect_panel(ui, model, inspect);
-    draw_mesh_panel(ui, model, mesh);
-    draw_devices_panel(ui, model, devices);
-    draw_log_panel(ui, model.messages(), log);
+    const auto shown = [tab = model.window().task()](const char* title) { return shows(tab, title); };
+    if (shown("Iterations")) draw_iterations_panel(ui, model, iterations);
+    if (shown("Time machine")) draw_time_machine_panel(ui, model.time(), time_machine);
+    if (shown("Sweep")) draw_sweep_panel(ui, model, sweep);
+    if (shown("Bookmarks")) draw_bookmarks_panel(ui, model, bookmarks);
+    if (shown("Map")) draw_map_panel(ui, model, map);
+    if (shown("Smoothness as felt")) draw_perception_panel(ui, model, perception);
+    if (shown("Inspect")) draw_inspect_panel(ui, model, inspect);
+    if (shown("Mesh")) draw_mesh_panel(ui, model, mesh);
+    if (shown("Devices")) draw_devices_panel(ui, model, devices);
+    if (shown("Messages")) draw_log_panel(ui, model.messages(), log);
   }
   ImGui::End();
 }
@@ -151,15 +167,39 @@ void App::stop_on_escape() {
 
 void App::stop() { model_->devices().stop(); }
 
+/// A script of the options that fails ends the window, for whoever waits for it; one that a person runs in the window
+/// says so there.
+void App::step_script() {
+  MenuBar& menu = ui_->menu;
+  menu.items = &ui_->items;
+  menu.title = title();
+  const auto say = [&](const std::string& what) { model_->messages().say(Severity::error, what); };
+  if (!(menu.wish.script.empty() && menu.wish.lines.empty()) && !ui_->script.running()) {
+    const std::string lines = std::exchange(menu.wish.lines, {}), file = std::exchange(menu.wish.script, {});
+    const Status loaded = lines.empty() ? ui_->script.load(file) : ui_->script.load_lines(menu.wish.lines_of, lines);
+    if (!loaded) say(loaded.error().message());
+    ui_->script_by_hand = true;
+  }
+  const Status done = ui_->script.step(*model_, menu, ui_->items);
+  if (!done && ui_->script_by_hand) say(done.error().message());
+  if (!done && !ui_->script_by_hand) script_failure_ = done.error().message();
+  if (!ui_->script.running())
+    if (const std::string refused = ui_->items.take_refusal(); !refused.empty()) say(refused);
+  if (!menu.wish.widget.empty())
+    ui_->items.want(std::exchange(menu.wish.widget, {}), std::exchange(menu.wish.value, std::nullopt));
+}
+
 void App::frame(const FrameInput& input) {
   stop_on_escape();
   const double begin = thread_cpu_ms();
   for (const std::string& file : input.dropped_files) model_->open(file);
   model_->update(input.now_s);
+  step_script();
   const Theme theme = ui_->theme.value_or(model_->window().theme());
   const float scale = ui_->font_scale.value_or(1.0f);
-  ui_->items.begin_frame();
   ImGui::NewFrame();
+  ui_->keyboard.update(ui_->items, theme_colours(theme).accent);
+  ui_->items.begin_frame();
   const UiContext ui{ui_->items,
                      ui_->typing,
                      ui_->resting,
@@ -170,26 +210,31 @@ void App::frame(const FrameInput& input) {
                      scale,
                      input.now_s,
                      &model_->window().section_wanted()};
+  model_->window().set_room(input.width / scale, input.height / scale);
   const Layout layout = compute_layout(model_->window().sizes(), input.width, input.height, scale);
-  handle_shortcuts(*model_, ui_->menu);
+  handle_shortcuts(*model_, ui_->menu, !ui_->items.arrows_taken());
   model_->map().set_felt_angle(felt_angle_rad(model_->presets(), ui_->perception));
   draw_view_panel(ui, *model_, ui_->view, ui_->renderer, layout.view);
   draw_device_monitor(ui, *model_, layout.view);
   draw_arming_bar(ui, model_->devices(), beside_cards(layout.view, ui.px(210)));
   draw_unsaved_offer(ui, model_->unsaved(), layout.view);
   ui_->draw_column("##left", layout.left, ui, *model_, true);
-  ui_->draw_column("##right", layout.right, ui, *model_, false);
+  const float tabs = draw_task_tabs(ui, model_->window(), layout.right);
+  ui_->draw_column("##right", {layout.right.x, layout.right.y + tabs, layout.right.w, layout.right.h - tabs}, ui,
+                   *model_, false);
   draw_plots_panel(ui, *model_, ui_->plots, layout.plots);
   draw_transport_bar(ui, model_->time(), layout.transport);
-  draw_status_line(ui, *model_, layout.status, last_build_ms_);
+  draw_status_line(ui, *model_, layout.status, input.last_frame_ms);
   ui_->draw_splitters(ui, model_->window(), layout);
   draw_toasts(ui, *model_, layout.view);
   draw_menu_bar(ui, *model_, ui_->menu, layout.menu);
   const Rect middle{layout.left.right(), layout.menu.bottom(), input.width - layout.left.right() - layout.right.w,
                     layout.transport.y - layout.menu.bottom()};
+  draw_first_steps(ui, *model_, ui_->menu, layout.view);
   draw_shortcut_sheet(ui, *model_, ui_->menu,
                       {0.0f, layout.menu.bottom(), input.width, layout.transport.y - layout.menu.bottom()});
   draw_command_palette(ui, *model_, ui_->menu, middle);
+  draw_save_panel(ui, *model_, ui_->plots, middle);
   if (!ImGui::IsAnyItemActive()) model_->presets().end_gesture();
   ImGui::Render();
   last_build_ms_ = thread_cpu_ms() - begin - ui_->view.build_ms_outside;
@@ -202,12 +247,21 @@ void App::show_plots(PlotsMode mode, bool values) {
 
 void App::advance(std::uint64_t ticks) { model_->advance(ticks); }
 
-bool App::wants_close() const { return model_->window().wants_close(); }
+ImVec4 App::ground() const {
+  return ImGui::ColorConvertU32ToFloat4(theme_colours(ui_->theme.value_or(model_->window().theme())).panel);
+}
+
+std::uint64_t App::picture_version() const { return ui_->renderer != nullptr ? ui_->renderer->picture_version() : 0; }
+
+bool App::wants_close() const { return model_->window().wants_close() || !script_failure_.empty(); }
+
+bool App::script_running() const { return ui_->script.running(); }
 
 bool App::wants_frames() const {
   const bool refining = ui_->renderer != nullptr && ui_->renderer->refining();
   return !model_->time().paused() || model_->scene().loading() || model_->scene().auditing() ||
-         model_->map().running() || model_->time().time_machine().busy() || refining;
+         model_->map().running() || model_->time().time_machine().busy() || model_->tuning().sweep().running() ||
+         model_->tuning().search().running() || refining || ui_->script.running();
 }
 
 std::optional<std::filesystem::path> App::take_screenshot_request() {

@@ -15,6 +15,8 @@
 
 #include "workbench/gui/model/app_options.h"
 
+#include <imgui.h>
+
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -35,6 +37,7 @@ struct FrameInput {
   float content_scale = 1.0f;              ///< of the monitor: 2 on a HiDPI screen whose coordinates are pixels
   double dt_s = 1.0 / 60.0;                ///< since the last frame
   double now_s = 0.0;                      ///< any monotonic clock
+  double last_frame_ms = 0.0;              ///< wall time of the last frame, drawing and showing it included; 0: unknown
   std::vector<std::string> dropped_files;  ///< since the last frame
 };
 
@@ -64,8 +67,18 @@ class App {
   /// Deterministic mode: runs `ticks` servo ticks now. Otherwise does nothing.
   void advance(std::uint64_t ticks);
 
+  /// What the platform clears the window to: columns and plots draw no ground of their own.
+  ImVec4 ground() const;
+  /// Of the 3D view's texture in the draw data: while it stays the same the texture does.
+  std::uint64_t picture_version() const;
+
   bool wants_close() const;   ///< file > quit was chosen
   bool wants_frames() const;  ///< something is animated: draw again without waiting for input
+  /// As the script of the options, from the next frame on.
+  void run_script(const std::filesystem::path& file);
+  bool script_running() const;
+  /// Why the script of the options ended before its end; empty: it did not. The window then wants to close.
+  const std::string& script_failure() const { return script_failure_; }
   std::string title() const;  ///< for the window: mesh, preset, time in view while paused
   /// The file to which the platform should write this frame as a PNG; given once per request.
   std::optional<std::filesystem::path> take_screenshot_request();
@@ -79,9 +92,11 @@ class App {
  private:
   struct Ui;
   void stop_on_escape();
+  void step_script();
   std::unique_ptr<AppModel> model_;
   std::unique_ptr<Ui> ui_;
   double last_build_ms_ = 0.0;
+  std::string script_failure_;
 };
 
 }  // namespace tangent

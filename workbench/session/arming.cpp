@@ -31,6 +31,8 @@ const char* to_string(ArmingObstacle obstacle) {
       return "the clutch is held";
     case ArmingObstacle::outside:
       return "the finger is outside the device's workspace";
+    case ArmingObstacle::unready:
+      return "the surface around the finger is still being prepared";
     case ArmingObstacle::finger_at_depth:
       return "the finger is in the surface";
   }
@@ -49,6 +51,8 @@ const char* remedy(ArmingObstacle obstacle) {
       return "Let go of it";
     case ArmingObstacle::outside:
       return "Bring the finger back";
+    case ArmingObstacle::unready:
+      return "It will be ready in a moment";
     case ArmingObstacle::finger_at_depth:
       return "Move the finger off the surface";
   }
@@ -161,6 +165,7 @@ ArmingObstacle Arming::obstacle_of(const ArmingView& seen) const noexcept {
   if (seen.force == DeviceState::absent) return ArmingObstacle::none;
   if (seen.clutched) return ArmingObstacle::clutched;
   if (seen.outside) return ArmingObstacle::outside;
+  if (seen.unready) return ArmingObstacle::unready;
   return seen.force_wanted_n < kMostArmingForce_n ? ArmingObstacle::none : ArmingObstacle::finger_at_depth;
 }
 

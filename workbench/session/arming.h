@@ -36,6 +36,7 @@ enum class ArmingObstacle : std::uint8_t {
   not_homed,        ///< a device is not ready
   clutched,         ///< a person holds the clutch
   outside,          ///< the finger is outside the device's workspace, where there is no force
+  unready,          ///< what the tick would search there is still being built (parts_builder.h)
   finger_at_depth,  ///< the force would be above kMostArmingForce_n
 };
 
@@ -53,6 +54,7 @@ struct ArmingView {
   bool gate_faulted = false;    ///< it latched a fault
   bool clutched = false;        ///< the clutch is held
   bool outside = false;         ///< the finger is outside the device's workspace
+  bool unready = false;         ///< the last tick could not search
   double force_wanted_n = 0.0;  ///< what the last tick would push with
 };
 

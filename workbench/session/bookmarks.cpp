@@ -74,6 +74,7 @@ void Bookmarks::fire(BookmarkKind kind, const ServoRecord& record, std::string n
     ++found->ticks;
     return;
   }
+  if (automatic_ == kMostAutomatic && hold) return;
   if (automatic_ == kMostAutomatic) {
     const auto oldest =
         std::find_if(all_.begin(), all_.end(), [](const Bookmark& b) { return b.kind != BookmarkKind::user; });

@@ -36,6 +36,8 @@ class Bookmarks {
   static constexpr std::uint64_t kSameWithin = 200;  ///< ticks: firing again within these extends the bookmark
 
   BookmarkTriggers triggers;
+  /// While set no automatic bookmark is removed for a newer one: the newer one is not set.
+  bool hold = false;
 
   /// Checks the triggers on one record. Call with every record, in order. A tick number that does not increase means a
   /// new run: automatic bookmarks are then removed.

@@ -21,15 +21,36 @@ std::size_t first_not_before(const Records& records, std::uint64_t tick) {
   return low;
 }
 
+template <class Records>
+const ServoRecord* record_of(const Records& records, std::uint64_t tick) {
+  if (records.empty() || tick < records.oldest().tick.tick) return nullptr;
+  // Without dropped records the index follows from the tick.
+  const std::uint64_t guess = tick - records.oldest().tick.tick;
+  if (guess < records.size() && records[guess].tick.tick == tick) return &records[guess];
+  const std::size_t i = first_not_before(records, tick);
+  return i < records.size() && records[i].tick.tick == tick ? &records[i] : nullptr;
+}
+
 }  // namespace
 
 std::size_t HistorySnapshot::lower_bound(std::uint64_t tick) const { return first_not_before(*this, tick); }
 
+const ServoRecord* HistorySnapshot::find(std::uint64_t tick) const { return record_of(*this, tick); }
+
 HistorySnapshot HistorySnapshot::slice(std::size_t begin, std::size_t end) const {
-  HistorySnapshot out = *this;
-  out.head_ = head_ + begin;
+  HistorySnapshot out;
+  out.block_ = block_;
+  if (begin == end) return out;
+  const std::size_t first = (head_ + begin) / block_, last = (head_ + end - 1) / block_;
+  out.blocks_.assign(blocks_.begin() + static_cast<std::ptrdiff_t>(first),
+                     blocks_.begin() + static_cast<std::ptrdiff_t>(last) + 1);
+  out.head_ = head_ + begin - first * block_;
   out.size_ = end - begin;
   return out;
+}
+
+void HistorySnapshot::collect_blocks(std::map<const ServoRecord*, std::size_t>& blocks) const {
+  for (const auto& block : blocks_) blocks[block.get()] = block_ * sizeof(ServoRecord);
 }
 
 History::History(std::size_t capacity)
@@ -57,14 +78,7 @@ void History::clear() {
 
 std::size_t History::lower_bound(std::uint64_t tick) const { return first_not_before(*this, tick); }
 
-const ServoRecord* History::find(std::uint64_t tick) const {
-  if (empty() || tick < oldest().tick.tick) return nullptr;
-  // Without dropped records the index follows from the tick.
-  const std::uint64_t guess = tick - oldest().tick.tick;
-  if (guess < size() && (*this)[guess].tick.tick == tick) return &(*this)[guess];
-  const std::size_t i = lower_bound(tick);
-  return i < size() && (*this)[i].tick.tick == tick ? &(*this)[i] : nullptr;
-}
+const ServoRecord* History::find(std::uint64_t tick) const { return record_of(*this, tick); }
 
 HistorySnapshot History::snapshot() const {
   HistorySnapshot out;

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <map>
 #include <memory>
 #include <vector>
 
@@ -28,8 +29,12 @@ class HistorySnapshot {
   const ServoRecord& newest() const { return (*this)[size_ - 1]; }
   /// Index of the first record with that tick or a later one; size() if there is none.
   std::size_t lower_bound(std::uint64_t tick) const;
-  /// Records begin ... end - 1. Precondition: begin <= end <= size().
+  /// The record of that tick; null when it is not in the snapshot.
+  const ServoRecord* find(std::uint64_t tick) const;
+  /// Records begin ... end - 1, holding only the blocks that contain them. Precondition: begin <= end <= size().
   HistorySnapshot slice(std::size_t begin, std::size_t end) const;
+  /// Adds its blocks' addresses and sizes to `blocks`, to count what several snapshots hold together.
+  void collect_blocks(std::map<const ServoRecord*, std::size_t>& blocks) const;
 
  private:
   friend class History;

@@ -72,7 +72,8 @@ class HistoryResolver {
   static constexpr std::size_t kChunk = 2048, kLeadIn = 32;  ///< ticks
 
   /// `preset`: used for every tick; none: each tick under its recorded preset. `timed`: measures processor time.
-  HistoryResolver(const RecordedRun& run, std::optional<Preset> preset, bool timed);
+  /// Records before index `first` are not counted.
+  HistoryResolver(const RecordedRun& run, std::optional<Preset> preset, bool timed, std::size_t first = 0);
   ~HistoryResolver();
 
   std::size_t chunk_count() const;
@@ -85,11 +86,11 @@ class HistoryResolver {
 
  private:
   struct ChunkSummary;
-  class Replay;
 
   const RecordedRun& run_;
   std::optional<Preset> preset_;
   bool timed_;
+  std::size_t first_;
   std::vector<ResolvedTick> ticks_;
   std::vector<ChunkSummary> summaries_;  ///< one per chunk, written by the thread that solves it
 };

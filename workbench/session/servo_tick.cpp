@@ -1,5 +1,7 @@
 #include "workbench/session/servo_tick.h"
 
+#include "core/base/built_once.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -139,6 +141,7 @@ void ServoTick::bring_up(double dt_s, ServoRecord& record) noexcept {
                         .gate_faulted = gate_.state() == GateState::faulted,
                         .clutched = clutch_held_ && devices_.force,
                         .outside = outside_workspace(),
+                        .unready = unready_,
                         // Of a new scene or preset nothing is known yet.
                         .force_wanted_n = changed_ ? std::numeric_limits<double>::infinity() : force_wanted_n_};
   const ArmingOrders orders = arming_.update(seen, dt_s);
@@ -256,6 +259,21 @@ void ServoTick::gate(double dt_s, ServoRecord& record) noexcept {
   record.device.energy_j = gate_.energy().net_j();
 }
 
+// What a tick comes to that is not built is not built here: the search is given up and the tick made without one. The
+// first that can search again knows no more of the surface than what was rendered, which it fades out of.
+void ServoTick::step(TickRecord& tick) noexcept {
+  const TickState before = state_;
+  if (unready_) forget_scene(state_);
+  tick.kept = state_;
+  const MakesNothing here;
+  tick.output = scene_->stepper.step(preset_.preset, tick.input, state_);
+  unready_ = here.missed();
+  if (!unready_) return;
+  tick.input.unready = true;
+  tick.kept = state_ = before;
+  tick.output = scene_->stepper.step(preset_.preset, tick.input, state_);
+}
+
 void ServoTick::run(const TickTiming& timing) noexcept {
   const std::int64_t began = now();
   take_letters();
@@ -272,12 +290,11 @@ void ServoTick::run(const TickTiming& timing) noexcept {
   TickRecord& tick = record.tick;
   tick.tick = tick_;
   tick.preset_id = preset_.id;
-  tick.kept = state_;
   tick.input = {timing.t_s,
                 {placed_.finger_m(force_sample_), placed_.orientation(force_sample_)},
                 placed_.velocity_m_per_s(force_sample_)};
   const std::int64_t step_began = now();
-  tick.output = scene_->stepper.step(preset_.preset, tick.input, state_);
+  step(tick);
   tick.solve_ns = static_cast<double>(now() - step_began);
   force_wanted_n_ = force_wanted_n(tick.output);
   gate(timing.dt_s, record);

@@ -51,6 +51,7 @@ class ServoTick {
   void follow_clutch() noexcept;
   void finger_leapt() noexcept;
   void lead_hand(double dt_s, ServoRecord& record) noexcept;
+  void step(TickRecord& tick) noexcept;
   void bring_up(double dt_s, ServoRecord& record) noexcept;
   bool outside_workspace() const noexcept;
   void exchange(double dt_s, ServoRecord& record) noexcept;
@@ -72,6 +73,7 @@ class ServoTick {
   HandLead hand_;
   TickState state_;
   std::uint64_t tick_ = 0;
+  bool unready_ = false;  ///< the last tick could not search what it had to
   bool changed_ = false;  ///< another preset or scene since the last tick
   Vec3 gated_position_m_{0.0};
   std::int64_t sampled_ns_ = 0;  ///< when force_sample_ came; 0: not yet, or no clock

@@ -5,6 +5,7 @@
 #include "devices/device_safety.h"
 #include "devices/usb/packet_recorder.h"
 #include "workbench/session/cpu_wakeup.h"
+#include "workbench/session/parts_builder.h"
 #include "workbench/session/servo.h"
 #include "workbench/session/tick_again.h"
 
@@ -128,6 +129,7 @@ struct Session::Impl {
   std::unique_ptr<Impl> left_before;
 
   CpuWakeup wakeup;
+  std::unique_ptr<PartsBuilder> parts;  ///< null: all is built
 
   static Result<std::unique_ptr<Session>> create(std::shared_ptr<const ContactScene> scene, const Preset& preset,
                                                  SessionOptions options, DeviceSet devices,
@@ -143,6 +145,8 @@ struct Session::Impl {
   bool force_is_sent() const;
   void send_hand() { channels.hand.put({hand, hand_point, kMouseSpeed, kMouseLead_m}); }
   void forget_scenes();
+  void build_rest();
+  void watch_parts();
 };
 
 /// While a real device may push. Not for simulated ones: it costs power.
@@ -162,11 +166,31 @@ void Session::Impl::forget_scenes() {
   while (!scenes.empty() && scenes.begin()->first < oldest) scenes.erase(scenes.begin());
 }
 
+// Without a servo thread nothing is built beside it.
+void Session::Impl::build_rest() {
+  parts.reset();
+  if (scene->unbuilt_parts() == 0) return;
+  const Vec3 start = path.at(0.0, pad_distance_m(presets.back().finger), 0.0).position_m;
+  build_in_reach(*scene, start, presets.back().finger);
+  if (options.threaded) {
+    parts = std::make_unique<PartsBuilder>(scene, start);
+  } else {
+    scene->build_far_parts(run_in_turn);
+  }
+}
+
+void Session::Impl::watch_parts() {
+  if (parts == nullptr) return;
+  if (!history.empty()) parts->finger_is_at(history.newest().tick.input.finger.position);
+  if (parts->done()) parts.reset();
+}
+
 Session::Session(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 
 // What a thread still uses is kept for as long as the process runs.
 Session::~Session() {
   static_cast<void>(shut_down());
+  impl_->parts.reset();
   if (!impl_->left_behind) return;
   impl_->servo->leave_behind();
   static Impl* kept = nullptr;  // a chain that nothing destroys
@@ -212,6 +236,7 @@ Result<std::unique_ptr<Session>> Session::Impl::create(std::shared_ptr<const Con
   auto prepared = std::make_unique<PreparedScene>(std::move(scene), preset.finger);
   auto impl = std::make_unique<Impl>(std::move(options), std::move(packets), std::move(devices), std::move(prepared),
                                      preset, placement);
+  impl->build_rest();
   impl->send_hand();
   return std::unique_ptr<Session>(new Session(std::move(impl)));
 }
@@ -272,6 +297,7 @@ std::size_t Session::poll() {
   }
   impl_->channels.scenes.collect();
   impl_->forget_scenes();
+  impl_->watch_parts();
   if (impl_->channels.placed.take(impl_->placed) && impl_->placed.id == impl_->placement_id) {
     impl_->wanted_scale = impl_->placed.placement.scale;
     static_cast<void>(set_preset(Preset(impl_->asked)));  // it was valid
@@ -317,6 +343,7 @@ std::uint32_t Session::set_scene(PreparedScenePtr scene) {
   impl_->scene = scene->scene;
   impl_->path = scene->path;
   impl_->scenes.emplace(scene->id, scene->scene);
+  impl_->build_rest();
   impl_->channels.scenes.offer(std::unique_ptr<PreparedScene>(scene.release()));
   return impl_->scene_id;
 }
@@ -326,6 +353,8 @@ std::uint32_t Session::set_scene(std::shared_ptr<const ContactScene> scene) {
 }
 
 const std::shared_ptr<const ContactScene>& Session::scene() const { return impl_->scene; }
+
+const std::map<std::uint32_t, std::shared_ptr<const ContactScene>>& Session::scenes() const { return impl_->scenes; }
 
 std::shared_ptr<const ContactScene> Session::scene(std::uint32_t id) const {
   const auto found = impl_->scenes.find(id);

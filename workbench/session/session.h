@@ -136,6 +136,8 @@ class Session {
   const std::shared_ptr<const ContactScene>& scene() const;            ///< the latest sent
   /// Scene of a record; null once no record of the history uses it.
   std::shared_ptr<const ContactScene> scene(std::uint32_t id) const;
+  /// All that records of the history ran on, by id.
+  const std::map<std::uint32_t, std::shared_ptr<const ContactScene>>& scenes() const;
   const ExplorationPath& path() const;  ///< of the latest scene
 
   // Hand and force. Each takes effect at the servo's next tick; until then the latest call of a kind wins.

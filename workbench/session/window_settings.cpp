@@ -87,14 +87,18 @@ Result<WindowSettings> read_window_settings(const std::filesystem::path& path) {
     take(*layout, "left", 100.0, 2000.0, out.left);
     take(*layout, "right", 0.0, 2000.0, out.right);
     take(*layout, "plots", 0.0, 4000.0, out.plots);
+    take(*layout, "width", 0.0, 20000.0, out.width);
+    take(*layout, "height", 0.0, 20000.0, out.height);
     take(*layout, "show_left", out.show_left);
     take(*layout, "show_right", out.show_right);
     take(*layout, "show_plots", out.show_plots);
+    if (const auto task = (*layout)["task"].value<std::string>()) out.task = *task;
   }
   if (const toml::table* look = root["look"].as_table()) {
     take(*look, "light_theme", out.light_theme);
     take(*look, "text_size", 0.6, 3.0, out.text_size);
     take(*look, "y_up", out.y_up);
+    if (const auto vision = (*look)["vision"].value<std::string>()) out.vision = *vision;
     if (const auto name = (*look)["colour_map"].value<std::string>()) out.colour_map = *name;
   }
   if (const toml::table* sections = root["sections"].as_table()) {
@@ -125,12 +129,17 @@ std::string format_window_settings(const WindowSettings& s) {
       {"layout", toml::table{{"left", s.left},
                              {"right", s.right},
                              {"plots", s.plots},
+                             {"width", s.width},
+                             {"height", s.height},
                              {"show_left", s.show_left},
                              {"show_right", s.show_right},
-                             {"show_plots", s.show_plots}}},
-      {"look",
-       toml::table{
-           {"light_theme", s.light_theme}, {"text_size", s.text_size}, {"y_up", s.y_up}, {"colour_map", s.colour_map}}},
+                             {"show_plots", s.show_plots},
+                             {"task", s.task}}},
+      {"look", toml::table{{"light_theme", s.light_theme},
+                           {"vision", s.vision},
+                           {"text_size", s.text_size},
+                           {"y_up", s.y_up},
+                           {"colour_map", s.colour_map}}},
       {"sections", sections},
       {"lists", toml::table{{"favourites", as_array(s.favourites)}, {"recent_meshes", as_array(s.recent_meshes)}}}};
   std::ostringstream text;
@@ -181,6 +190,10 @@ WindowSettings merged(const WindowSettings& before, const WindowSettings& ours, 
   take_ours(&WindowSettings::show_plots);
   take_ours(&WindowSettings::light_theme);
   take_ours(&WindowSettings::text_size);
+  take_ours(&WindowSettings::vision);
+  take_ours(&WindowSettings::width);
+  take_ours(&WindowSettings::height);
+  take_ours(&WindowSettings::task);
   take_ours(&WindowSettings::y_up);
   take_ours(&WindowSettings::colour_map);
   for (const auto& [title, open] : ours.sections) {

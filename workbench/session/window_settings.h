@@ -15,9 +15,13 @@ struct WindowSettings {
   static constexpr std::size_t kMostRecent = 12;
 
   double left = 312.0, right = 0.0, plots = 0.0;  ///< points; right and plots 0: a fraction of the window
+  double width = 0.0,
+         height = 0.0;  ///< of the window in which they were set, points: they are shares of it; 0: unknown
   bool show_left = true, show_right = true, show_plots = true;
+  std::string task = "look";  ///< tab of the right column
   bool light_theme = false;
-  double text_size = 1.0;  ///< factor on top of the monitor's
+  std::string vision = "common";  ///< which eye the colours are for
+  double text_size = 1.0;         ///< factor on top of the monitor's
   bool y_up = false;
   std::string colour_map = "tide";
   std::map<std::string, bool> sections;    ///< by title: true if open

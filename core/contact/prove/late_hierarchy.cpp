@@ -15,16 +15,6 @@ void LateHierarchy::build_part(std::size_t number) const {
   if (clusters_) part(number);
 }
 
-void LateHierarchy::build_near(const Vec3& centre, double radius_m) const {
-  if (!clusters_) return;
-  clusters_->tree().visit([&](const Vec3& low, const Vec3& high) { return distance2_to_box(low, high, centre); },
-                          [&] { return radius_m * radius_m; },
-                          [&](std::uint32_t cluster) {
-                            part(cluster);
-                            return true;
-                          });
-}
-
 std::size_t LateHierarchy::built_count() const {
   if (!clusters_) return 1;
   std::size_t built = 0;

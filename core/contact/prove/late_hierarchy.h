@@ -2,7 +2,8 @@
 // cluster, each built when a search first comes to it, or before, beside the search. Which clusters a search goes into
 // depends on the mesh alone, so contacts are the same bits whatever is built already.
 //
-// Any number of threads may search and build. A search allocates only where it builds.
+// Any number of threads may search and build. A search allocates only where it builds; one in a thread that makes
+// nothing (MakesNothing) ends at the first part that is missing.
 #pragma once
 
 #include "core/base/built_once.h"
@@ -26,13 +27,13 @@ class LateHierarchy {
   std::size_t part_count() const { return clusters_ ? clusters_->count() : 1; }
   std::size_t built_count() const;
   void build_part(std::size_t part) const;
-  /// Those within a distance from a point, local.
-  void build_near(const Vec3& centre, double radius_m) const;
+  bool has_part(std::size_t part) const { return !clusters_ || parts_[part].if_built(); }
   std::size_t memory_bytes() const;  ///< of what is built
 
  private:
-  const ContactHierarchy& part(std::size_t number) const {
-    return parts_[number].get([&] { return ContactHierarchy::build(*mesh_, clusters_->triangles(number)); });
+  /// Null: where this thread makes nothing (MakesNothing) and it is not built.
+  const ContactHierarchy* part(std::size_t number) const {
+    return parts_[number].find([&] { return ContactHierarchy::build(*mesh_, clusters_->triangles(number)); });
   }
   /// As of a node of the hierarchy whose normals are not known.
   static double reach2(const Vec3& low, const Vec3& high, const ContactQuery& query);
@@ -63,8 +64,8 @@ void LateHierarchy::visit(ContactQuery query, Visit visit) const {
                             return farthest * farthest;
                           },
                           [&](std::uint32_t cluster) {
-                            const ContactHierarchy& here = part(cluster);
-                            return here.rules_out(query) || here.visit_on(query, visit);
+                            const ContactHierarchy* here = part(cluster);
+                            return here && (here->rules_out(query) || here->visit_on(query, visit));
                           });
 }
 

@@ -53,6 +53,7 @@ class RivalSearch {
         ahead_(ahead),
         any_turn_(any_turn),
         slope_m_(ticks_ahead_m(contact_rank(context.finger, tracked.contact), context.moved_m, kWatchTicks)),
+        least_m_(ticks_ahead_m(contact_rank(context.finger, tracked.contact), context.moved_m, kDearTicks)),
         deepest_(question.bound_m),
         settings_(robust(context.settings)),
         tracked_rank_m_(contact_rank(context.finger, tracked.contact)),
@@ -76,18 +77,19 @@ class RivalSearch {
     clearance.margin_m = margin_m_;
     clearance.any_turn = any_turn_;
     const Vec3 ahead = lead();
+    int patience = kDearLooks;
     ContactQuery all = query(margin_m_);
     set_ahead(all, ahead, 1.0);
     search_.hierarchy.visit(all, [&](std::uint32_t t, ContactQuery& q) {
       const PartOfTriangle part{t, q.part};
+      if (dear_looks_ >= patience && clearance.margin_m > least_m_) {  // rather again soon than all this way now
+        patience += kDearLooks;
+        narrow_ahead(clearance, std::max(least_m_, 0.5 * clearance.margin_m), q, ahead);
+      }
       const double way = clearance.margin_m;
       const Look look = q.here_m < q.margin_m ? look_at_steady(part, way, result) : look_at(part, way, result);
       const double margin = look.watch ? watch(clearance, part, look) : look.margin_m;
-      if (margin < way) {
-        clearance.margin_m = margin;
-        limit_query(q, context_.finger, bound_m_ + closing_ * margin);
-        set_ahead(q, ahead, margin / margin_m_);
-      }
+      if (margin < way) narrow_ahead(clearance, margin, q, ahead);
       return solves_ < kMaxSolves;
     });
     const double off = std::sqrt(glm::dot(ahead, ahead)), share = clearance.margin_m / margin_m_;
@@ -329,6 +331,12 @@ class RivalSearch {
     limit_query(q, context_.finger, bound_m_ + closing_ * margin);
   }
 
+  void narrow_ahead(Clearance& clearance, double margin, ContactQuery& q, const Vec3& ahead) {
+    clearance.margin_m = margin;
+    limit_query(q, context_.finger, bound_m_ + closing_ * margin);
+    set_ahead(q, ahead, margin / margin_m_);
+  }
+
   /// From here to the middle of the look-ahead: a finger mostly goes on as it has come.
   Vec3 lead() const {
     const double moved = context_.moved_m;
@@ -401,6 +409,7 @@ class RivalSearch {
   float ahead_;
   bool any_turn_;   ///< proofs shall hold while the finger turns, too
   double slope_m_;  ///< how far ahead ground that is not steady is taken for a known contact's slope
+  double least_m_;  ///< how far ahead a search looks however dear that is
   double deepest_;
   SolverSettings settings_;
   double tracked_rank_m_;

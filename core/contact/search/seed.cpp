@@ -42,6 +42,32 @@ struct Selection {
   }
 };
 
+/// Parts of triangles that may hold a contact, but from which none was found. All others a search of everything has
+/// excluded or solved for, unless it broke off.
+class FailedStarts {
+ public:
+  bool full() const { return count_ == parts_.size(); }
+  void add(std::uint32_t triangle, SearchPart part) {
+    if (!full()) parts_[count_++] = {triangle, part};
+  }
+  bool has(std::uint32_t triangle, SearchPart part) const {
+    return any([&](const PartOfTriangle& p) { return p.triangle == triangle && p.part == part; });
+  }
+  void break_off() { whole_ = false; }
+  bool may_hold(std::uint32_t triangle) const {
+    return full() || !whole_ || any([&](const PartOfTriangle& p) { return p.triangle == triangle; });
+  }
+
+ private:
+  template <class Test>
+  bool any(Test test) const {
+    return std::any_of(parts_.begin(), parts_.begin() + static_cast<std::ptrdiff_t>(count_), test);
+  }
+  std::array<PartOfTriangle, 64> parts_;
+  std::size_t count_ = 0;
+  bool whole_ = true;
+};
+
 /// What is known of the distance to the nearest triangle before asking.
 double known_radius(const ContactContext& context, const TrackedPlane& kept) {
   if (kept.feature == Feature::none) return std::numeric_limits<double>::infinity();
@@ -63,8 +89,9 @@ double likely_rank(ContactContext& context, const SearchStructures& search, doub
   return glm::dot(centre - hit.point, normal) >= 0.0 ? further : context.finger.reach_m() + further;
 }
 
-/// Contacts of a rank below `most`.
-void seed_by_hierarchy(ContactContext& context, const SearchStructures& search, double most, Selection& selection) {
+/// Contacts of a rank below `most`. What failed before is not tried again: it would start from the same place.
+void seed_by_hierarchy(ContactContext& context, const SearchStructures& search, double most, FailedStarts& failed,
+                       Selection& selection) {
   ContactQuery query;
   query.centre = context.pose.position;
   query.nearest_m = query.inside_m = std::numeric_limits<double>::max();
@@ -75,6 +102,7 @@ void seed_by_hierarchy(ContactContext& context, const SearchStructures& search, 
   int solves = 0;
   FeatureMemory features;
   search.hierarchy.visit(query, [&](std::uint32_t t, ContactQuery& q) {
+    if (failed.has(t, q.part)) return true;
     PartOfTriangle part{t, q.part};
     const PatchExclusion proof =
         exclude_part(context, part, {selection.group == 0 ? selection.value : most}, 0.0, &features);
@@ -82,10 +110,14 @@ void seed_by_hierarchy(ContactContext& context, const SearchStructures& search, 
     context.seed = static_cast<std::uint8_t>(std::min(++solves, 255));
     IterationResult r;
     iterate(context, start_on(context, part, proof), seed_budget(context.finger), r);
-    selection.offer(context, r);
+    if (!selection.offer(context, r)) {
+      failed.add(t, q.part);
+      if (part.triangle != t) failed.add(part.triangle, q.part);
+    }
     if (selection.group == 0) limit_query(q, context.finger, std::min(most, selection.value));
     return solves < kMaxSolves;
   });
+  if (solves >= kMaxSolves) failed.break_off();
   context.core = nullptr;
 }
 
@@ -98,15 +130,19 @@ bool implausible(ContactContext& context, const SearchStructures& search, const 
   return nearer > 0.0 && search.nearest.nearest(context.pose.position, nearer);
 }
 
+/// `failed`: of the search of everything before it; null: there was none, and the closest point is all that is tried.
+/// `in_motion`: where that search found a contact, only what it left open is tried, once and briefly.
 void seed_by_distance(ContactContext& context, const SearchStructures& search, std::size_t seeds, double radius,
-                      int budget, bool twice, Selection& selection) {
+                      int budget, const FailedStarts* failed, bool in_motion, Selection& selection) {
   std::array<NearestHit, kSeeds> hits;
   const std::size_t count = search.nearest.nearest_several(context.pose.position, radius, std::span(hits).first(seeds));
   for (std::size_t i = 0; i < count; ++i) {
+    const bool known = in_motion && selection.group == 0;
+    if (known && !failed->may_hold(hits[i].triangle)) continue;
     context.seed = static_cast<std::uint8_t>(i + 1);
     IterationResult r;
-    iterate(context, face_at(hits[i].triangle, hits[i].u, hits[i].v), budget, r);
-    if (selection.offer(context, r) || !twice) continue;
+    iterate(context, face_at(hits[i].triangle, hits[i].u, hits[i].v), known ? budget / 2 : budget, r);
+    if (selection.offer(context, r) || !failed || known) continue;
     // A folded patch can hide its contact from its closest point; its middle is a second chance.
     iterate(context, face_at(hits[i].triangle, 1.0 / 3.0, 1.0 / 3.0), budget, r);
     selection.offer(context, r);
@@ -158,16 +194,19 @@ void face_the_finger(ContactContext& context, const SearchStructures& search, Se
 SeedResult seed_contact(ContactContext& context, const SearchStructures& search, const TrackedPlane& kept) {
   Selection selection;
   if (context.settings.method != Method::robust) {
-    seed_by_distance(context, search, 1, known_radius(context, kept), context.settings.max_iterations, false,
+    seed_by_distance(context, search, 1, known_radius(context, kept), context.settings.max_iterations, nullptr, false,
                      selection);
   } else {
     const double most = likely_rank(context, search, known_radius(context, kept));
-    seed_by_hierarchy(context, search, most, selection);
+    FailedStarts failed;
+    // A first tick, or one after a leap, may take its time.
+    const bool in_motion = kept.feature != Feature::none && context.moved_m <= context.hystereses_m(kLeapOfFinger);
+    seed_by_hierarchy(context, search, most, failed, selection);
     if (!(selection.group == 0 && selection.value < most) && most < std::numeric_limits<double>::max())
-      seed_by_hierarchy(context, search, std::numeric_limits<double>::max(), selection);
+      seed_by_hierarchy(context, search, std::numeric_limits<double>::max(), failed, selection);
     if (selection.group != 0 || implausible(context, search, selection.result.best, selection.value))
       seed_by_distance(context, search, kSeeds, std::numeric_limits<double>::infinity(), seed_budget(context.finger),
-                       true, selection);
+                       &failed, in_motion, selection);
     if (selection.group == 2 ||
         (selection.group == 0 && implausible(context, search, selection.result.best, selection.value)))
       face_the_finger(context, search, selection);

@@ -1,15 +1,14 @@
 #include "core/lab/measure/surface_map.h"
 
 #include "core/base/units.h"
-#include "core/contact/follow/step_rule.h"
 #include "core/lab/gains/paper_contraction.h"
 #include "core/lab/measure/converged_answer.h"
 #include "core/lab/measure/perception.h"
+#include "core/lab/measure/place_moves.h"
 #include "core/surface/mesh_patch.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace tangent {
 namespace {
@@ -49,19 +48,6 @@ constexpr std::array<MapQuantityInfo, kMapQuantityCount> kInfo{{
 float& at(MapValues& values, MapQuantity q) { return values[static_cast<std::size_t>(q)]; }
 
 SurfaceSample sample_of(const PnPatch& patch, double u, double v) { return evaluate(patch, u, v); }
-
-/// Whether the finger can rest there, that is, the contact is stable.
-bool stable_contact(const Finger& finger, const FingerPose& pose, const SurfaceSample& s) {
-  const Stability m =
-      face_stability(s, contact_jacobian(finger, pose, s, contact_on_plane(finger, pose, s.point, s.normal)));
-  return m.det > 0.0 && m.trace > 0.0;
-}
-
-Vec3 tangent_of(const SurfaceSample& s) {
-  const Vec3 along = s.point_u - glm::dot(s.point_u, s.normal) * s.normal;
-  const double length = std::sqrt(glm::dot(along, along));
-  return length > 0.0 ? along / length : Vec3(0.0);
-}
 
 }  // namespace
 
@@ -137,26 +123,15 @@ void SurfaceMapper::compute(MapGroup group, std::uint32_t t, unsigned part, MapV
 void SurfaceMapper::compute_solve(std::uint32_t t, double u, double v, MapValues& values) {
   at(values, MapQuantity::iterations_worst) = at(values, MapQuantity::iterations_mean) = kMapNoValue;
   at(values, MapQuantity::failures) = at(values, MapQuantity::error) = kMapNoValue;
-  const SurfaceSample s = sample_of(patch_, u, v);
-  const FingerPose local = pose_touching(preset_.finger, s, options_.press_m);
-  if (!is_finite(local.position) || !stable_contact(preset_.finger, local, s)) return;
-
-  TickState resting;
-  resting.plane = {Feature::face, 0, t, u, v, s.point, s.normal};
-  resting.last_converged = {resting.plane.point, resting.plane.normal};
-  resting.has_converged = 1;
-  resting.clearance = Clearance::unlimited();
-  const Vec3 across = tangent_of(s), along = glm::cross(s.normal, across);
+  const auto resting = rest_at(patch_, t, u, v, preset_.finger, options_.press_m);
+  if (!resting) return;
+  const MoveOptions how{options_.directions, options_.press_m, options_.move_m};
   int most = 0, total = 0, failed = 0;
   double worst_error = -1.0;
   const unsigned moves = options_.directions + 1;
   for (unsigned d = 0; d < moves; ++d) {
-    const double angle = 2.0 * std::numbers::pi * d / options_.directions;
-    const Vec3 way = d < options_.directions ? std::cos(angle) * across + std::sin(angle) * along : -s.normal;
-    TickInput input;
-    input.finger = local;
-    input.finger.position += scene_->mesh().origin() + options_.move_m * way;
-    TickState state = resting;
+    const TickInput input = moved(scene_->mesh(), *resting, how, d);
+    TickState state = resting->kept;
     const TickOutput out = stepper_.step(preset_, input, state);
     most = std::max(most, static_cast<int>(out.iterations));
     total += out.iterations;

@@ -2,9 +2,9 @@
 
 import ctypes
 import math
-import os
 
 from . import _fields
+from ._arguments import handle_of, number, text
 from ._library import VERSION, Error, Handle, library
 
 
@@ -30,7 +30,8 @@ class Scene:
 
     def write(self, path, metres_per_unit=1e-3):
         """Writes the mesh as OBJ, positions in units of `metres_per_unit` m. Whole or not at all."""
-        self._handle.check(library.tangent_write_mesh(self._handle.pointer, os.fsencode(path), metres_per_unit))
+        self._handle.check(library.tangent_write_mesh(self._handle.pointer, text("path", path),
+                                                     number("metres_per_unit", metres_per_unit)))
 
     def __repr__(self):
         return f"<tangent.Scene of {self.info['triangles']} triangles>"
@@ -45,18 +46,21 @@ def load_scene(path, metres_per_unit=1e-3, fit_m=None, normals="auto", crease_de
     are turned over. Raises Error, which names file and line.
     """
     sources = ("auto", "file", "computed")
-    if normals not in sources:
+    if not isinstance(normals, str) or normals not in sources:
         raise Error(f"normals: {normals!r} is not known; choose auto, file or computed")
-    options = _sized(_fields.SceneOptions, normals=sources.index(normals), metres_per_unit=metres_per_unit,
-                     fit_m=fit_m or 0.0, crease_rad=math.radians(crease_deg), turn_over=bool(turn_over))
-    return Scene(Handle("scene", library.tangent_load_scene, VERSION, os.fsencode(path), ctypes.byref(options)))
+    options = _sized(_fields.SceneOptions, normals=sources.index(normals),
+                     metres_per_unit=number("metres_per_unit", metres_per_unit),
+                     fit_m=0.0 if fit_m is None else number("fit_m", fit_m),
+                     crease_rad=math.radians(number("crease_deg", crease_deg)), turn_over=bool(turn_over))
+    return Scene(Handle("scene", library.tangent_load_scene, VERSION, text("path", path), ctypes.byref(options)))
 
 
 def audit(scene):
     """Properties and defects of a 3D scene's mesh: dict of counts, area_m2, max_normal_to_face_deg, and (least, median,
     largest) of edge_length_m, dihedral_deg and aspect. Not for one scene from two threads at a time."""
     found = _sized(_fields.MeshAudit)
-    scene._handle.check(library.tangent_audit(scene._handle.pointer, ctypes.byref(found)))
+    handle = handle_of(scene, "scene")
+    handle.check(library.tangent_audit(handle.pointer, ctypes.byref(found)))
     return _fields.as_dict(found)
 
 
@@ -67,8 +71,10 @@ def decimate(scene, angle_deg=14.8, deviation_m=0.0, aspect=12.0):
     force and display are smooth. deviation_m: largest distance, at samples, of the new smooth surface from the old; 0: a
     thousandth of the mesh's longest side. aspect: of a new triangle, longest side over smallest height.
     """
-    options = _sized(_fields.DecimateOptions, angle_deg=angle_deg, deviation_m=deviation_m, aspect=aspect)
-    return Scene(Handle("scene", library.tangent_decimate, scene._handle.pointer, ctypes.byref(options)))
+    options = _sized(_fields.DecimateOptions, angle_deg=number("angle_deg", angle_deg),
+                     deviation_m=number("deviation_m", deviation_m), aspect=number("aspect", aspect))
+    pointer = handle_of(scene, "scene").pointer
+    return Scene(Handle("scene", library.tangent_decimate, pointer, ctypes.byref(options)))
 
 
 def _names(function, *arguments):
@@ -97,11 +103,11 @@ class Preset:
     @staticmethod
     def choices(key):
         """The words that a key chooses from; empty for one that is a number."""
-        return _names(library.tangent_preset_choice, key.encode())
+        return _names(library.tangent_preset_choice, text("key", key))
 
     def __getitem__(self, key):
         value = ctypes.c_double()
-        self._handle.check(library.tangent_get_value(self._handle.pointer, key.encode(), ctypes.byref(value)))
+        self._handle.check(library.tangent_get_value(self._handle.pointer, text("key", key), ctypes.byref(value)))
         words = self.choices(key)
         return words[int(value.value)] if words else value.value
 
@@ -110,8 +116,9 @@ class Preset:
             words = self.choices(key)
             if words and value not in words:
                 raise Error(f"{key}: {value!r} is not one of its words; choose {', '.join(words)}")
-            value = words.index(value) if words else float(value)
-        self._handle.check(library.tangent_set_value(self._handle.pointer, key.encode(), value))
+            value = words.index(value) if words else value
+        status = library.tangent_set_value(self._handle.pointer, text("key", key), number(key, value))
+        self._handle.check(status)
 
     def __iter__(self):
         return iter(self.keys())
@@ -121,7 +128,7 @@ class Preset:
 
     def write(self, path):
         """Writes every key with its unit and range; values read back as the same float. Whole or not at all."""
-        self._handle.check(library.tangent_write_preset(self._handle.pointer, os.fsencode(path)))
+        self._handle.check(library.tangent_write_preset(self._handle.pointer, text("path", path)))
 
 
 def make_preset():
@@ -131,4 +138,4 @@ def make_preset():
 
 def read_preset(path):
     """Reads a preset (TOML). Raises Error, which names file, line, key and range."""
-    return Preset(Handle("preset", library.tangent_read_preset, VERSION, os.fsencode(path)))
+    return Preset(Handle("preset", library.tangent_read_preset, VERSION, text("path", path)))

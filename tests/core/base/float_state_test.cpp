@@ -3,6 +3,7 @@
 #include "core/io/pose_file.h"
 #include "core/io/scene_file.h"
 #include "core/tick/step.h"
+#include "tests/support/processor_state.h"
 
 #include <doctest/doctest.h>
 
@@ -12,30 +13,15 @@
 #include <vector>
 
 using namespace tangent;
+using namespace tangent::testing;
 
 #if defined(__x86_64__)
 namespace {
 
-constexpr unsigned kFlushed = 0x9fc0;  // as -ffast-math sets it: denormal numbers are zero, read and written
-constexpr unsigned kUpwards = 0x5f80;
-constexpr unsigned kTrapping = 0x1d80;  // invalid and division by zero raise a signal
-
-/// The processor's state, put back at the end.
-class Csr {
- public:
-  explicit Csr(unsigned state) : before_(_mm_getcsr()) { _mm_setcsr(state); }
-  ~Csr() { _mm_setcsr(before_); }
-  Csr(const Csr&) = delete;
-  Csr& operator=(const Csr&) = delete;
-
- private:
-  unsigned before_;
-};
-
 /// Everything from the file to the forces, in this state of the processor.
 std::vector<TickOutput> ticks_under(unsigned state) {
   const std::string assets = TANGENT_TEST_ASSETS;
-  const Csr csr(state);
+  const ProcessorState csr(state);
   SceneOptions options;
   options.mesh.fit_m = 0.08;
   const auto scene = load_scene(assets + "/meshes/spot.obj", options);
@@ -46,7 +32,7 @@ std::vector<TickOutput> ticks_under(unsigned state) {
   TickState tick;
   std::vector<TickOutput> out;
   for (std::size_t i = 0; i < poses->size(); i += 4) out.push_back(stepper.step(Preset{}, (*poses)[i], tick));
-  CHECK((_mm_getcsr() & ~0x3fu) == (state & ~0x3fu));
+  CHECK((_mm_getcsr() & ~kHappened) == state);
   return out;
 }
 
@@ -70,7 +56,7 @@ void check_same_bits(const std::vector<TickOutput>& a, const std::vector<TickOut
 }  // namespace
 
 TEST_CASE("a library computes the same however the program's processor state is, and leaves it") {
-  const std::vector<TickOutput> tested = ticks_under(0x1f80);
+  const std::vector<TickOutput> tested = ticks_under(kAsTested);
   check_same_bits(tested, ticks_under(kFlushed));
   check_same_bits(tested, ticks_under(kUpwards));
   check_same_bits(tested, ticks_under(kTrapping));
@@ -79,7 +65,7 @@ TEST_CASE("a library computes the same however the program's processor state is,
 TEST_CASE("rounding upwards would show: a third is another number") {
   volatile double one = 1.0, three = 3.0;
   const double nearest = one / three;
-  const Csr csr(kUpwards);
+  const ProcessorState csr(kUpwards);
   CHECK(one / three != nearest);
   const FloatState as_tested;
   CHECK(one / three == nearest);

@@ -35,7 +35,13 @@ TEST_CASE("what one finger's work throws is thrown to the caller, after the thre
   const auto work = [](Stepper&, std::size_t finger) {
     if (finger == 3) throw std::runtime_error("third");
   };
-  CHECK_THROWS_WITH(for_each_finger(scene, 100, 4, work), "third");
+  for (const unsigned threads : {1u, 4u}) CHECK_THROWS_WITH(for_each_finger(scene, 100, threads, work), "third");
+}
+
+TEST_CASE("where every finger's work throws, one of them is thrown, and millions of threads are not made") {
+  const auto scene = torus();
+  const auto work = [](Stepper&, std::size_t) { throw std::runtime_error("each"); };
+  CHECK_THROWS_WITH(for_each_finger(scene, 1'000'000, 4'000'000'000u, work), "each");
 }
 
 TEST_CASE("ticks of many fingers are those of one stepper for each") {

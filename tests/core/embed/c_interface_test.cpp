@@ -255,6 +255,67 @@ TEST_CASE("null handles and pointers are an error value in every call") {
   tangent_free_scene(nullptr), tangent_free_preset(nullptr), tangent_free_stepper(nullptr);
 }
 
+TEST_CASE("a folder, or nothing, in place of a file is an error that names it") {
+  const TempFolder folder;
+  const std::string path = folder.path().string();
+  Handles made, empty;
+  CHECK(tangent_load_scene(TANGENT_C_VERSION, (path + "/.").c_str(), nullptr, &made.scene) == TANGENT_FAILED);
+  CHECK(says(tangent_scene_error(made.scene), path.c_str()));
+  CHECK(tangent_read_preset(TANGENT_C_VERSION, path.c_str(), &made.preset) == TANGENT_FAILED);
+  CHECK(says(tangent_preset_error(made.preset), path.c_str()));
+  CHECK(tangent_load_scene(TANGENT_C_VERSION, "", nullptr, &empty.scene) == TANGENT_FAILED);
+  CHECK(tangent_read_preset(TANGENT_C_VERSION, nullptr, &empty.preset) == TANGENT_NULL);
+  CHECK(says(tangent_preset_error(empty.preset), "path is null"));
+  CHECK(tangent_write_preset(made.preset, "x.toml") == TANGENT_NULL);
+  Handles good;
+  make_sphere(folder, good);
+  CHECK(tangent_write_preset(good.preset, path.c_str()) == TANGENT_FAILED);
+  CHECK(says(tangent_preset_error(good.preset), path.c_str()));
+  CHECK(tangent_write_mesh(good.scene, path.c_str(), 1e-3) == TANGENT_FAILED);
+  CHECK(tangent_write_mesh(good.scene, "/nowhere/x.obj", 1e-3) == TANGENT_FAILED);
+}
+
+TEST_CASE("counts that no array has are refused before anything is read") {
+  const TempFolder folder;
+  Handles made;
+  make_sphere(folder, made);
+  const tangent_input in = pose_at(0.0, 0.0, 0.059);
+  tangent_output out = TANGENT_OUTPUT_INIT;
+  const auto minus = [](int n) { return static_cast<std::size_t>(-n); };
+  for (const std::size_t count : {minus(1), minus(1000), SIZE_MAX / 2, SIZE_MAX / 100}) {
+    CHECK(tangent_step_many(made.stepper, made.preset, &in, &out, count) == TANGENT_FAILED);
+    CHECK(says(tangent_stepper_error(made.stepper), "negative"));
+    CHECK(tangent_solve_fingers(made.stepper, made.preset, &in, &out, count, 1, 1) == TANGENT_FAILED);
+    CHECK(tangent_solve_fingers(made.stepper, made.preset, &in, &out, 1, count, 1) == TANGENT_FAILED);
+    CHECK(tangent_solve_fingers(made.stepper, made.preset, &in, &out, count, count, 1) == TANGENT_FAILED);
+    CHECK(out.tick == 0);
+  }
+  CHECK(tangent_solve_fingers(made.stepper, made.preset, nullptr, nullptr, 0, 7, 1) == TANGENT_OK);
+  CHECK(tangent_solve_fingers(made.stepper, made.preset, nullptr, nullptr, 7, 0, 1) == TANGENT_OK);
+  CHECK(tangent_solve_fingers(made.stepper, made.preset, &in, &out, 1, 1, UINT32_MAX) == TANGENT_OK);
+}
+
+TEST_CASE("two scenes and two presets do not know of each other") {
+  const TempFolder folder;
+  Handles sphere, cube;
+  make_sphere(folder, sphere);
+  const std::string path = (folder.path() / "cube.obj").string();
+  REQUIRE(write_obj(*generate_mesh("cube"), path, 1e-3));
+  REQUIRE(tangent_load_scene(TANGENT_C_VERSION, path.c_str(), nullptr, &cube.scene) == TANGENT_OK);
+  REQUIRE(tangent_make_stepper(cube.scene, &cube.stepper) == TANGENT_OK);
+  const std::vector<tangent_input> path_in = path_over_sphere(40);
+  std::vector<tangent_output> alone = room_for(40), mixed = room_for(40);
+  REQUIRE(tangent_step_many(sphere.stepper, sphere.preset, path_in.data(), alone.data(), 40) == TANGENT_OK);
+  REQUIRE(tangent_reset(sphere.stepper) == TANGENT_OK);
+  tangent_free_scene(sphere.scene), sphere.scene = nullptr;  // its stepper lives on
+  tangent_output other = TANGENT_OUTPUT_INIT;
+  for (std::size_t i = 0; i < 40; ++i) {
+    REQUIRE(tangent_step(sphere.stepper, sphere.preset, &path_in[i], &mixed[i]) == TANGENT_OK);
+    REQUIRE(tangent_step(cube.stepper, sphere.preset, &path_in[i], &other) == TANGENT_OK);
+  }
+  check_same(alone, mixed);
+}
+
 TEST_CASE("a second thread in a stepper is told so, and disturbs nothing") {
   const TempFolder folder;
   Handles made;

@@ -236,3 +236,21 @@ TEST_CASE("a mesh is the same bits whoever does its halves") {
   check(make_icosphere(0.040, 3), computed());
   check(make_icosphere(0.040, 3), {});
 }
+
+TEST_CASE("links and creases of messy meshes are those that a walk from triangle to triangle found") {
+  std::uint64_t all = 0xCBF29CE484222325u;
+  const auto add = [&all](std::uint64_t word) { all = (all ^ word) * 0x100000001B3u; };
+  for (std::uint32_t seed = 0; seed < 200; ++seed) {
+    const auto mesh = ContactMesh::build(sample::soup(seed, 4 + static_cast<int>(seed % 9), 60), computed());
+    if (!mesh) continue;
+    add(mesh->vertex_count());
+    for (std::uint32_t t = 0; t < mesh->triangle_count(); ++t)
+      for (std::uint32_t k = 0; k < 3; ++k) {
+        add(mesh->vertex(t, k));
+        add(mesh->links()[t][k]);
+        if (mesh->usable(t))
+          add(static_cast<std::uint64_t>(mesh->edge_kind(t, k)) + (mesh->feature_corner(t, k) ? 8 : 0));
+      }
+  }
+  CHECK(all == 15529795257180874914u);
+}

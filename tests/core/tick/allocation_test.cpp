@@ -1,11 +1,14 @@
 // A tick does not allocate, since it runs in the servo thread. This file replaces the global operators new and delete
 // of the test program by counting ones.
+#include "core/embed/c_handle.h"
 #include "tests/core/scenes.h"
 
 #include <doctest/doctest.h>
 
 #include <cstdlib>
+#include <limits>
 #include <new>
+#include <string>
 
 namespace {
 thread_local long allocations = 0;
@@ -93,4 +96,24 @@ TEST_CASE("10,000 ticks allocate nothing, whatever the method, finger and mesh, 
         const bool tracks = method != Method::facet && method != Method::force_shading;
         if (tracks) CHECK(events > ticks / 200);
       }
+}
+
+TEST_CASE("neither a tick in C nor a pose that it refuses allocates") {
+  tangent_preset preset;
+  preset.usable = true;
+  tangent_stepper stepper;
+  stepper.stepper = std::make_unique<Stepper>(scene_of(*generate_mesh("octagon")));
+  tangent_input in = TANGENT_INPUT_INIT;
+  tangent_output out = TANGENT_OUTPUT_INIT;
+  const long before = allocations;
+  int refused = 0;
+  for (int i = 0; i < 1000; ++i) {
+    in.t_s = 1e-3 * i;
+    in.position_m[2] = i % 3 == 0 ? std::numeric_limits<double>::quiet_NaN() : 0.07 - 2e-5 * i;
+    refused += tangent_step(&stepper, &preset, &in, &out) == TANGENT_BAD_POSE;
+  }
+  const long spent = allocations - before;
+  CHECK(spent == 0);
+  CHECK(refused == 334);
+  CHECK(std::string(stepper.error.get()).find("pose 0: position_m") == 0);
 }

@@ -152,6 +152,84 @@ TEST_CASE("where the parts near the finger are built, ticks seldom build any") {
   }
 }
 
+TEST_CASE(
+    "a tick in a thread that makes nothing builds nothing and says so, and once all is built gives the same bits") {
+  for (const Method method : {Method::robust, Method::paper, Method::facet, Method::two_pass}) {
+    CAPTURE(to_string(method));
+    const Preset preset = sphere_preset(0.020, method);
+    const ScenePtr late = torus_scene({.far_parts = false, .whole_up_to = 0});
+    const std::size_t parts = late->unbuilt_parts();
+    const auto expected = outputs(torus_scene({.whole_up_to = 0}), preset);
+    {
+      const MakesNothing here;
+      outputs(late, preset);
+      CHECK(here.missed());
+    }
+    CHECK(late->unbuilt_parts() == parts);
+    late->build_far_parts(run_in_turn);
+    const MakesNothing here;
+    CHECK(same_bits(outputs(late, preset), expected));
+    CHECK_FALSE(here.missed());
+  }
+}
+
+TEST_CASE("parts are built from the finger outwards, one at a time") {
+  const Preset preset = sphere_preset(0.005, Method::robust);
+  const ScenePtr scene = torus_scene({.far_parts = false, .whole_up_to = 0});
+  const Vec3 at(0.04, 0.0, 0.0195);
+  const auto is_ready = [&] {
+    Stepper stepper(scene);
+    TickState state;
+    const MakesNothing here;
+    stepper.step(preset, at_position(0.0, at), state);
+    return !here.missed();
+  };
+  const std::size_t parts = scene->unbuilt_parts();
+  std::size_t ready_after = 0, built = 0;
+  for (; scene->build_next_part(at); ++built) {
+    CHECK(scene->unbuilt_parts() == parts - 2 * (built + 1));  // of both structures
+    if (ready_after == 0 && is_ready()) ready_after = built + 1;
+  }
+  CHECK(2 * built == parts);
+  MESSAGE("ready after " << ready_after << " of " << built);
+  CHECK(ready_after > 0);
+  CHECK(5 * ready_after < built);
+  CHECK(is_ready());
+  // The same at once.
+  const ScenePtr near = torus_scene({.far_parts = false, .whole_up_to = 0});
+  near->build_near(at, preset.finger.reach_m());
+  CHECK(near->unbuilt_parts() > parts / 2);
+}
+
+TEST_CASE("a tick that may not search renders the last contact, which fades, and needs none of the scene") {
+  const Preset preset = sphere_preset(0.020, Method::robust);
+  const ScenePtr scene = torus_scene({});
+  Stepper stepper(scene);
+  TickState state;
+  const Vec3 at(0.04, 0.0, 0.034);
+  TickOutput last;
+  for (int i = 0; i < 100; ++i) last = stepper.step(preset, at_position(1e-3 * i, at), state);
+  REQUIRE(glm::length(last.force_n) > 0.5);
+  const double pushed_n = glm::length(last.force_n);
+  int fading = 0;
+  for (int i = 100; i < 400; ++i) {
+    TickInput input = at_position(1e-3 * i, at);
+    input.unready = true;
+    const TickState kept = state;
+    const TickOutput out = stepper.step(preset, input, state);
+    TickState again = kept;
+    CHECK(same_bits({Stepper(scene).step(preset, input, again)}, {out}));
+    CHECK(out.status == TickStatus::unconverged);
+    CHECK(out.iterations == 0);
+    CHECK(glm::length(out.force_n) <= glm::length(last.force_n) + 1e-12);
+    fading += glm::length(out.force_n) > 0.0;
+    last = out;
+  }
+  MESSAGE(pushed_n << " N fade in " << fading << " ticks");
+  CHECK(fading > 5);
+  CHECK(last.force_n == Vec3(0.0));
+}
+
 TEST_CASE("contacts of a mesh built in parts are those of one built as a whole") {
   for (const Method method : {Method::robust, Method::facet}) {
     const Preset preset = sphere_preset(0.020, method);

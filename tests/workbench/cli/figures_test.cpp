@@ -1,7 +1,7 @@
 // workbench figures, run as a process: checks the claims of the figures on their data.
 #include "workbench/cli/figures.h"
 #include "tests/support/process.h"
-#include "workbench/cli/figure_table.h"
+#include "workbench/session/figure_table.h"
 
 #include <doctest/doctest.h>
 

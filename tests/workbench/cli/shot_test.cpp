@@ -60,6 +60,19 @@ TEST_CASE("shot writes a picture of the size asked for, the same every time") {
   CHECK(picture == read_text(folder.file("b.png")));
 }
 
+TEST_CASE("shot leaves out the ground where asked to, of the scene alone, and its picture says where it comes from") {
+  CHECK(run_workbench({"shot", "--view", "overview", "--transparent", "--out", "a.png"}).exit_code == 2);
+  if (no_gl()) return;
+  const TempFolder folder;
+  const ProcessResult done = run_workbench({"shot", "torus", "--view", "cone", "--transparent", "--out",
+                                            folder.file("a.png"), "--width", "160", "--height", "120"});
+  CHECK(done.exit_code == 0);
+  const std::string picture = read_text(folder.file("a.png"));
+  CHECK(picture[25] == 6);  // colour and alpha
+  for (const char* words : {"torus, ", "workbench shot torus --view cone --width 160", "Tangent Workbench "})
+    CHECK(contains(picture, words));
+}
+
 TEST_CASE("text and lines of a picture of the scene grow with its height, unless a scale is given") {
   if (no_gl()) return;
   const TempFolder folder;
@@ -109,6 +122,38 @@ TEST_CASE("a contact that was never in view is not waited for, one that has left
   CHECK(explores_on(12000, true, false));
   CHECK(explores_on(23950, true, false));
   CHECK_FALSE(explores_on(24000, true, false));
+}
+
+TEST_CASE("a script makes pictures without a display, and a line of it that fails is named by its number") {
+  if (no_gl()) return;
+  const TempFolder folder;
+  const std::string script = folder.write("steps.txt", "# a picture for a page\nmethod paper\nrun 200\npicture " +
+                                                           folder.file("mine.png") + "\ntheme light\n");
+  const ProcessResult done = run_workbench(
+      {"shot", "icosphere", "--script", script, "--out", folder.file("end.png"), "--width", "800", "--height", "600"});
+  CHECK(done.exit_code == 0);
+  CHECK(done.err == "");
+  for (const char* name : {"mine.png", "end.png"}) {
+    const std::string picture = read_text(folder.file(name));
+    REQUIRE(picture.size() > 20000);
+    CHECK(big_endian(picture, 16) == 800);
+  }
+  CHECK(read_text(folder.file("mine.png")) != read_text(folder.file("end.png")));
+  const std::string wrong = folder.write("wrong.txt", "method paper\nmethod papper\n");
+  const ProcessResult failed = run_workbench({"shot", "--script", wrong, "--out", folder.file("no.png")});
+  CHECK(failed.exit_code == 1);
+  CHECK(contains(failed.err, "wrong.txt:2"));
+  CHECK(contains(failed.err, "choose one of: paper, newton"));
+  CHECK_FALSE(std::filesystem::exists(folder.file("no.png")));
+  CHECK(run_workbench({"shot", "--script", folder.file("none.txt")}).exit_code == 1);
+  CHECK(run_workbench({"shot", "--out", folder.file("no.png")}).exit_code == 2);
+  CHECK(run_workbench({"shot", "--view", "cone", "--script", script}).exit_code == 2);
+}
+
+TEST_CASE("gui lists the window's commands without a display") {
+  const ProcessResult list = run_workbench({"gui", "--commands"});
+  CHECK(list.exit_code == 0);
+  CHECK(list.out == read_text(std::string(TANGENT_SOURCE_DIR) + "/workbench/COMMANDS.md"));
 }
 
 TEST_CASE("shot says what is wrong with a mesh or a target, and leaves nothing behind") {

@@ -355,3 +355,26 @@ TEST_CASE("signals that ask for an end at once leave no temporary file, either")
     CHECK_FALSE(half_written());
   }
 }
+
+TEST_CASE("solve --explain says for each tick that wants it why, and counts the causes") {
+  const SolveScene scene(40);
+  const ProcessResult plain = scene.solve({"--explain", "--summary", scene.folder.file("summary.json")});
+  CHECK(plain.exit_code == 0);
+  CHECK(plain.out.find("tick 0 at 0 s, face, event first") != std::string::npos);
+  CHECK(plain.out.find("explained   first-contact 1\n") != std::string::npos);
+  const Rows as_without = scene.ticks();
+  const ProcessResult slow = scene.solve({"--explain", "--method", "paper", "--gain-overall", "0.1", "--many-planes",
+                                          "5", "--summary", scene.folder.file("summary.json")});
+  CHECK(slow.exit_code == 0);
+  CHECK(slow.out.find("gain-too-small. The gain is too small for the curvature") != std::string::npos);
+  CHECK(slow.out.find("Cured by solver.gain_") != std::string::npos);
+  CHECK(scene.summary()["explained"]["gain-too-small"].get<int>() > 30);
+  CHECK(scene.solve({"--summary", scene.folder.file("summary.json")}).out.find("  explained ") == std::string::npos);
+  CHECK(!scene.summary().contains("explained"));
+  Rows without = scene.ticks();
+  REQUIRE(without.size() == as_without.size());
+  for (std::size_t i = 0; i < without.size(); ++i) CHECK(without[i][3] == as_without[i][3]);
+  const ProcessResult alone = scene.solve({"--many-planes", "5"});
+  CHECK(alone.exit_code == 2);
+  CHECK(alone.err.find("is an option of --explain") != std::string::npos);
+}

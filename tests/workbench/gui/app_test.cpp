@@ -158,6 +158,17 @@ TEST_CASE("another device starts another session, with a history of its own") {
   CHECK(ui.model().devices().stopped());  // a choice of devices arms nothing
 }
 
+TEST_CASE("a preset that the devices present can't render is refused, and the window goes on with the one before") {
+  RunningApp ui;
+  ui.model().devices().choose({"none", "simulated"});
+  ui.run(50);
+  ui.model().presets().set_condition(kRenderingConditions[0]);  // its force needs a force device
+  ui.model().presets().set_value(*find_preset_key("force", "stiffness_n_per_m"), 3000.0);
+  ui.app().advance(50);
+  ui.frames(2);
+  CHECK(ui.model().time().end_tick() == 100);
+}
+
 TEST_CASE("an unknown device is said to be one, and the window still comes up") {
   AppOptions options = HeadlessApp::deterministic_options();
   options.devices.force = "toaster";

@@ -37,6 +37,7 @@ class HeadlessApp {
     input_.height = height;
     input_.content_scale = scale;
     app_ = std::make_unique<App>(std::move(options));
+    app_->model().window().set_task(Task::all);  // every section is there to be clicked
     frames(2);
   }
   ~HeadlessApp() {

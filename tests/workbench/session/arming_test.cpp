@@ -187,6 +187,10 @@ TEST_CASE("what is in the way is told in this order: fault, homing, workspace, d
   b.run(0.01);
   CHECK(b.arming.obstacle() == ArmingObstacle::outside);
   b.seen.outside = false;
+  b.seen.unready = true;
+  b.run(0.01);
+  CHECK(b.arming.obstacle() == ArmingObstacle::unready);
+  b.seen.unready = false;
   b.run(0.01);
   CHECK(b.arming.obstacle() == ArmingObstacle::finger_at_depth);
   CHECK(arming_text(ArmingStage::given_up, b.arming.obstacle(), 3.0) ==

@@ -2,6 +2,7 @@
 // writes what it is sent into memory that both share.
 #include "workbench/session/crash_stop.h"
 
+#include "tests/workbench/session/calling_driver.h"
 #include "tests/workbench/session/session_fixture.h"
 #include "workbench/session/raw_terminal.h"
 #include "workbench/session/servo.h"
@@ -52,27 +53,14 @@ struct WitnessedDevice final : ForceDevice {
   Witness& witness;
   ForceCapabilities caps{.name = "witnessed", .peak_force_n = 8.5};
   int ticks = 0;
-  std::thread caller;  ///< of a driver that keeps the time itself
-  std::atomic<bool> calling{false};
+  CallingDriver driver;  ///< where it keeps the time itself
 
   explicit WitnessedDevice(Witness& w) : witness(w) {}
   const ForceCapabilities& capabilities() const override { return caps; }
   Status open() override { return {}; }
   void close() override {}
-  Status start_calling(const DeviceTick& tick) override {
-    calling = true;
-    caller = std::thread([this, tick] {
-      while (calling) {
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
-        tick.run(tick.context);
-      }
-    });
-    return {};
-  }
-  void stop_calling() override {
-    calling = false;
-    caller.join();
-  }
+  Status start_calling(const DeviceTick& tick) override { return driver.start(tick); }
+  void stop_calling() override { driver.stop(); }
   ForceSample exchange(const ForceCommand& command, double) noexcept override {
     const double n = glm::length(command.force_n);
     witness.last_n = n;

@@ -1,5 +1,6 @@
 #include "workbench/session/exchange_watch.h"
 
+#include "tests/workbench/session/calling_driver.h"
 #include "tests/workbench/session/session_fixture.h"
 #include "workbench/session/servo.h"
 #include "workbench/session/session.h"
@@ -7,7 +8,6 @@
 #include <doctest/doctest.h>
 
 #include <atomic>
-#include <chrono>
 #include <string>
 #include <thread>
 
@@ -133,8 +133,7 @@ TEST_CASE("a device that never returns holds nothing up, is told to stop, and fi
 TEST_CASE("a device that calls us and hangs in a tick holds nothing up either") {
   struct Calling final : ForceDevice {
     HangingForceDevice inner;
-    std::thread caller;
-    std::atomic<bool> calling{false};
+    CallingDriver driver;
     Calling() {
       inner.freed_by_stop = false;
       inner.caps.rate_hz = 1000.0;
@@ -147,20 +146,8 @@ TEST_CASE("a device that calls us and hangs in a tick holds nothing up either") 
       return inner.exchange(command, dt_s);
     }
     bool calls_us() const override { return true; }
-    Status start_calling(const DeviceTick& tick) override {
-      calling = true;
-      caller = std::thread([this, tick] {
-        while (calling) {
-          std::this_thread::sleep_for(std::chrono::milliseconds(1));
-          tick.run(tick.context);
-        }
-      });
-      return {};
-    }
-    void stop_calling() override {
-      calling = false;
-      caller.join();
-    }
+    Status start_calling(const DeviceTick& tick) override { return driver.start(tick); }
+    void stop_calling() override { driver.stop(); }
   };
   auto* device = new Calling;
   SessionOptions options;

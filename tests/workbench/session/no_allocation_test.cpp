@@ -92,6 +92,13 @@ TEST_CASE("no tick allocates: homing, contact, other methods, a new preset, a ne
   bench.channels.hand.put({.settings = {.mode = HandMode::point}, .point_m = Vec3(0.2, 0.1, 0.0)});
   bench.channels.force.put(ForceSwitch::stop);
   run(500);
+  const ScenePtr late = late_ball();
+  auto prepared = std::make_unique<PreparedScene>(late, Finger{});
+  const std::size_t unbuilt = late->unbuilt_parts();  // its hierarchy
+  bench.channels.hand.put({});
+  bench.channels.scenes.offer(std::move(prepared));
+  run(500);
+  CHECK(late->unbuilt_parts() == unbuilt);
   CHECK(bench.channels.gui.drops() > 0);
   CHECK(in_ticks == 0);
 }

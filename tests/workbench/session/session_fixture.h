@@ -27,6 +27,15 @@ inline std::shared_ptr<const ContactScene> torus_scene() {
   return scene;
 }
 
+/// A ball of 40 mm, of which nothing is built that can be built late.
+inline std::shared_ptr<const ContactScene> late_ball() {
+  auto mesh = ContactMesh::build(make_icosphere(0.040, 3));
+  REQUIRE(mesh);
+  auto scene = ContactScene::build(std::move(*mesh), {.far_parts = false, .whole_up_to = 0});
+  REQUIRE(scene);
+  return *scene;
+}
+
 /// Returns prescribed samples and records its commands.
 struct PuppetForceDevice final : ForceDevice {
   ForceCapabilities caps{.name = "puppet", .peak_force_n = 8.5};

@@ -8,6 +8,8 @@
 #include "workbench/cli/option.h"
 #include "workbench/cli/text_format.h"
 #include "workbench/cli/window/window_commands.h"
+#include "workbench/gui/model/app_model.h"
+#include "workbench/gui/panels/commands.h"
 #include "workbench/gui/platform/shots.h"
 #include "workbench/gui/platform/window.h"
 #include "workbench/session/own_folder.h"
@@ -27,6 +29,7 @@ struct GuiOptions {
   AppOptions app;
   DeviceChoice devices;
   bool arm = false;
+  bool list_commands = false;
 };
 
 int run_gui(const AppOptions& options) {
@@ -35,6 +38,16 @@ int run_gui(const AppOptions& options) {
   if (done) return kDone;
   print_message("gui", done.error().message());
   return kFailed;
+}
+
+/// The page of the window's commands, without a window.
+int print_commands() {
+  AppOptions options;
+  options.deterministic = true;
+  AppModel model(options);
+  MenuBar menu;
+  std::fputs(commands_page(window_commands(model, menu)).c_str(), stdout);
+  return kDone;
 }
 
 /// Draws the built-in scene to PNG files, for a machine without a display.
@@ -50,8 +63,9 @@ int draw_builtin_pictures(const std::string& reason) {
     ShotRequest request;
     request.view = view;
     const std::filesystem::path file = *directory / (std::string(view) + ".png");
-    const Result<Image> picture = take_shot(request);
-    const Status written = picture ? write_png(*picture, file) : Status(tl::unexpected(picture.error()));
+    const Result<Shot> shot = take_shot(request);
+    const Status written =
+        shot ? write_png(shot->image, file, {.origin = shot->origin}) : Status(tl::unexpected(shot.error()));
     if (!written) {
       print_message("", reason + "; and " + written.error().message());
       return kFailed;
@@ -89,7 +103,14 @@ void add_gui_command(CLI::App& app, CommandResult& result) {
                     "Minutes of ticks to keep, within 1 GiB: 30 at 1 kHz (default 10)",
                     [options](double minutes) { options->app.history_s = 60.0 * minutes; });
   add_text_option(*command, "--record", options->app.record, "Record the session into this file", "F.sqlite");
+  add_text_option(*command, "--script", options->app.script,
+                  "Commands to run in the window, one a line (--commands lists them); a line that fails ends it", "F");
+  add_flag(*command, "--commands", options->list_commands, "Lists the window's commands, and opens no window");
   on_run(*command, [options, &result] {
+    if (options->list_commands) {
+      result.exit_code = print_commands();
+      return;
+    }
     options->app.settings = window_settings_path();
     options->app.preset_folder = user_presets_path();
     options->app.mesh = options->mesh.file.string();

@@ -31,15 +31,22 @@ void list_views() {
 }
 
 Status write_shot(const ShotRequest& request, const std::filesystem::path& file) {
-  const Result<Image> picture = take_shot(request);
-  if (!picture) return tl::unexpected(picture.error());
-  if (Status written = write_png(*picture, file); !written) return written;
-  std::fputs(format("%s: %s, %d x %d\n", file.c_str(), request.view.c_str(), picture->width, picture->height).c_str(),
-             stdout);
+  const Result<Shot> shot = take_shot(request);
+  if (!shot) return tl::unexpected(shot.error());
+  if (file.empty()) return {};  // the script's own pictures are all
+  const PngOptions options{request.transparent, shot->origin};
+  if (Status written = write_png(shot->image, file, options); !written) return written;
+  const std::string size = format("%d x %d", shot->image.width, shot->image.height);
+  const char* const what = request.view.empty() ? "window" : request.view.c_str();
+  std::fputs(format("%s: %s, %s\n", file.c_str(), what, size.c_str()).c_str(), stdout);
   return {};
 }
 
 int run_shot(const ShotOptions& options) {
+  if (options.request.view.empty() && options.request.script.empty()) {
+    print_message("shot", "say with --view what to draw, or with --script what to do (see workbench shot --help)");
+    return kUsage;
+  }
   if (options.request.view == "list") {
     list_views();
     return kDone;
@@ -49,15 +56,29 @@ int run_shot(const ShotOptions& options) {
   request.metres_per_unit = options.mesh.metres_per_unit;
   request.mesh_options = options.mesh.build;
   const auto& views = shot_views();
-  const bool all = request.view == "all";
-  if (!all && std::none_of(views.begin(), views.end(), [&](const ShotView& v) { return v.name == request.view; })) {
+  const bool all = request.view == "all", plain = request.view.empty();
+  if (!request.script.empty() && (all || is_scene_view(request.view))) {
+    print_message("shot", "--script needs a view of the window, not \"" + request.view + "\"; leave --view out");
+    return kUsage;
+  }
+  if (!all && !plain &&
+      std::none_of(views.begin(), views.end(), [&](const ShotView& v) { return v.name == request.view; })) {
     print_message("shot",
                   "there is no view \"" + request.view + "\"; choose one of: " + shot_view_names() + " (or list, all)");
     return kUsage;
   }
-  if (options.file.empty()) {
+  if (request.transparent && (all || !is_scene_view(request.view))) {
+    print_message("shot", "the window has no transparent ground; choose a view of the scene (--view list)");
+    return kUsage;
+  }
+  if (options.file.empty() && request.script.empty()) {
     print_message("shot", "say with --out where the picture goes (see workbench shot --help)");
     return kUsage;
+  }
+  if (plain || !request.script.empty()) {
+    const Status done = write_shot(request, options.file);
+    if (!done) print_message("shot", done.error().message());
+    return done ? kDone : kFailed;
   }
   for (const ShotView& view : views) {
     if (!all && view.name != request.view) continue;
@@ -78,8 +99,9 @@ void add_shot_command(CLI::App& app, CommandResult& result) {
   auto options = std::make_shared<ShotOptions>();
   ShotRequest* request = &options->request;
   add_mesh_options(*command, options->mesh, false);
-  add_text_option(*command, "--view", request->view, "Name of the view; list: names them all; all: every one", "NAME",
-                  Needed::yes);
+  add_text_option(*command, "--view", request->view, "Name of the view; list: names them all; all: every one", "NAME");
+  add_text_option(*command, "--script", request->script,
+                  "Commands to run in the window first, one a line (gui --commands lists them)", "F");
   add_text_option(*command, "--out", options->file, "File to write; with --view all: a directory", "F.png");
   add_text_option(*command, "--preset", request->preset,
                   "Preset of the window's views (default: the program's own values)", "F.toml");
@@ -94,6 +116,7 @@ void add_shot_command(CLI::App& app, CommandResult& result) {
                     [request](int theme) { request->theme = static_cast<Theme>(theme); });
   add_choice_option(*command, "--up", kUpAxes, "Axis of the mesh that is up in the picture (default z)",
                     [request](int axis) { request->y_up = axis == 1; });
+  add_flag(*command, "--transparent", request->transparent, "Nothing behind the scene; for views of the scene");
   on_run(*command, [options, &result] { result.exit_code = run_shot(*options); });
 }
 

@@ -15,6 +15,7 @@ struct LayoutSizes {
   float right = 0.0f;   ///< iterations, mesh, devices; 0: not dragged yet, a fraction of the window
   float plots = 0.0f;   ///< height of the plots; 0: likewise
   bool show_left = true, show_right = true, show_plots = true;
+  bool prefer_right = false;  ///< the column that stays where there is room for one
 };
 
 struct Layout {
@@ -22,9 +23,12 @@ struct Layout {
   Rect left_splitter, right_splitter, plot_splitter;
 };
 
-/// Keeps the 3D view at least 280 x 160 points by shrinking the other parts.
+/// Keeps the 3D view at least 280 x 160 points by shrinking the other parts. A part that would be too small for its
+/// text is left out: first one column, then the other, and the plots. One column alone may leave the view 200 points.
 Layout compute_layout(const LayoutSizes& sizes, float width, float height, float scale);
 
+/// The same within the ranges that dragging keeps to; what was not dragged stays so.
+LayoutSizes within_limits(LayoutSizes sizes);
 /// Sizes after dragging a splitter by (dx, dy) pixels, clamped to useful ranges. `shown`: the current width of the
 /// column, or height of the plots.
 LayoutSizes drag_left(LayoutSizes sizes, float dx, float scale);

@@ -259,6 +259,7 @@ void MapView::refresh_worst() {
     place.value = static_cast<double>(values_[order[i]]);
     const PnPatch patch = make_patch(mesh, place.triangle, group().inputs.solver.normal_form);
     const Vec2 uv = map_part_centroid(level, place.part);
+    place.u = uv.x, place.v = uv.y;
     place.point_world = mesh.origin() + evaluate_point(patch, uv.x, uv.y);
     place.normal = evaluate_normal(patch, uv.x, uv.y);
     const bool near_another = std::any_of(worst_.begin(), worst_.end(), [&](const MapPlace& other) {

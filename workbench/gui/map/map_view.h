@@ -19,6 +19,7 @@ inline UnitLabel unit_of(MapQuantity quantity) { return shown_unit(info_of(quant
 struct MapPlace {
   std::uint32_t triangle = kNone;
   unsigned part = 0;
+  double u = 0.0, v = 0.0;  ///< of the part's centroid
   double value = 0.0;
   Vec3 point_world{0.0};
   Vec3 normal{0.0, 0.0, 1.0};

@@ -18,6 +18,7 @@ AppModel::AppModel(const AppOptions& options)
       view_(scene_, map_, messages_),
       devices_(options_, scene_, presets_, messages_, [this] { time_.forget(); }),
       time_(options_, devices_, presets_, messages_),
+      tuning_(options_, presets_, time_, messages_),
       unsaved_(options_, presets_, time_, messages_),
       exports_(options_, devices_, messages_) {
   if (const auto look = window_.read_settings()) {
@@ -49,6 +50,27 @@ void AppModel::open(const std::string& file) {
     scene_.open(file);
 }
 
+void AppModel::solve_here(std::uint32_t triangle, double u, double v) {
+  const MapOptions& how = map_.options;
+  if (time_.solve_at(scene_.current(), triangle, u, v, {how.directions, how.press_m, how.move_m}))
+    view_.toggles.planes = true;
+}
+
+void AppModel::solve_here() {
+  const ContactMesh* mesh = this->mesh();
+  if (mesh == nullptr) return;
+  if (view_.picked_triangle < mesh->triangle_count()) return solve_here(view_.picked_triangle, 1.0 / 3.0, 1.0 / 3.0);
+  const ServoRecord* record = time_.tick().record();
+  if (record == nullptr || time_.scene_of_tick() != scene_.current() || record->tick.output.triangle == kNone)
+    return messages_.say(Severity::note, "click a triangle to solve there");
+  const TickOutput& out = record->tick.output;
+  solve_here(out.triangle, out.u, out.v);
+}
+
+void AppModel::solve_at_worst() {
+  if (const MapPlace* place = view_.look_at_worst()) solve_here(place->triangle, place->u, place->v);
+}
+
 void AppModel::keep() {
   window_.keep_settings(kept_look(), kLastWait_s);
   unsaved_.keep();
@@ -58,12 +80,18 @@ void AppModel::update(double now_s) {
   messages_.set_now(now_s);
   scene_.update();
   take_ticks();
+  view_.see_contact(tick_in_view(), time_.paused());
   window_.update(now_s, kept_look());
   unsaved_.update(now_s);
   const auto& scene = scene_.current();
   // A 2D scene has no mesh for a map.
   map_.update(scene != nullptr && scene->planar() != nullptr ? nullptr : scene, presets_.current(), now_s,
               presets_.slots().gesture_open(), options_.deterministic);
+}
+
+const TickRecord* AppModel::tick_in_view() const {
+  const ServoRecord* record = time_.tick().record();
+  return record != nullptr ? &record->tick : nullptr;
 }
 
 void AppModel::advance(std::uint64_t ticks) {
@@ -78,6 +106,7 @@ void AppModel::take_ticks() {
   time_.take_records();
   devices_.take_status();
   time_.show_tick();
+  tuning_.update();
 }
 
 void AppModel::scene_loaded(SceneChange change) {

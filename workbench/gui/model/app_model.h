@@ -18,6 +18,7 @@
 #include "workbench/gui/model/preset_model.h"
 #include "workbench/gui/model/scene_model.h"
 #include "workbench/gui/model/time_model.h"
+#include "workbench/gui/model/tuning_model.h"
 #include "workbench/gui/model/unsaved_model.h"
 #include "workbench/gui/model/view_model.h"
 #include "workbench/gui/model/window_model.h"
@@ -48,6 +49,11 @@ class AppModel {
   const PresetModel& presets() const { return presets_; }
   /// A preset (.toml), a mesh, a polygon, or the name of a generated object. Failures are messages.
   void open(const std::string& file);
+  /// A tick at a place of the mesh in view, in the direction that needs most planes (TimeModel::solve_at), with the
+  /// map's moves. At once, whatever the finger does.
+  void solve_here(std::uint32_t triangle, double u, double v);
+  void solve_here();      ///< at the picked triangle's middle; if none is picked, at the contact of the tick in view
+  void solve_at_worst();  ///< goes to the map's worst place, repeated to the next, and solves there
   const ContactMesh* mesh() const;  ///< null: none yet, or a 2D scene
   SceneModel& scene() { return scene_; }
   const SceneModel& scene() const { return scene_; }
@@ -59,6 +65,8 @@ class AppModel {
   const DeviceModel& devices() const { return devices_; }
   TimeModel& time() { return time_; }
   const TimeModel& time() const { return time_; }
+  const TickRecord* tick_in_view() const;  ///< null: none yet
+  TuningModel& tuning() { return tuning_; }
   UnsavedModel& unsaved() { return unsaved_; }
   ExportModel& exports() { return exports_; }
   const ExportModel& exports() const { return exports_; }
@@ -79,6 +87,7 @@ class AppModel {
   ViewModel view_;
   DeviceModel devices_;
   TimeModel time_;
+  TuningModel tuning_;
   UnsavedModel unsaved_;
   ExportModel exports_;
 };

@@ -29,6 +29,7 @@ struct AppOptions {
   std::filesystem::path settings;                   ///< file for layout and look between runs; empty: not kept
   std::filesystem::path screenshots;                ///< folder for F12's screenshots; empty: the current one
   double history_s = 600.0;                         ///< length of the history, within kLargestHistoryBytes
+  std::filesystem::path script;                     ///< commands to run; empty: none
   std::filesystem::path record;                     ///< recording to write; empty: none
   Theme theme = Theme::dark;
   std::uint64_t seed = 1;  ///< of the simulated devices

@@ -109,6 +109,8 @@ std::optional<std::uint32_t> DeviceModel::send_preset() {
 
 // Once for every value that is asked for.
 void DeviceModel::say_what_differs() {
+  // Without one the session may also have refused what was asked for, and goes on with what it had.
+  if (session_->force_capabilities() == nullptr) return;
   const auto say = [this](const char* what, const char* unit, double asked, double used, double& said) {
     if (used < asked && asked != said) {
       char text[200];
@@ -229,6 +231,12 @@ void DeviceModel::arm() {
                          "nothing is armed: say yes to the device without a time-out in the device "
                          "monitor first (View > Device monitor)");
   session_->arm();
+}
+
+bool DeviceModel::faulted() const {
+  return session_ != nullptr &&
+         (status_.servo.gate_state == GateState::faulted || status_.force_state == DeviceState::faulted ||
+          status_.display_state == DeviceState::faulted);
 }
 
 std::string DeviceModel::arming_text() const {

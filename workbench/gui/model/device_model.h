@@ -55,6 +55,7 @@ class DeviceModel {
   void set_hand_follows_mouse(bool on);
   void lead_hand(const Vec3& finger_centre_world_m);
   bool stopped() const;  ///< the gate passes no force until armed
+  bool faulted() const;  ///< the gate or a device stopped the force by itself
   void stop();           ///< nothing else: also while there is no force, where it cancels what is pending
   void arm();            ///< one attempt
   /// What the devices do without force, and what is in the way of it; empty while the gate passes force.

@@ -2,7 +2,7 @@
 // tick in view. Advancing by a few ticks steps only those.
 #pragma once
 
-#include "workbench/session/session.h"
+#include "workbench/gui/model/recorded_past.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -23,15 +23,15 @@ class ErrorFan {
     std::vector<std::uint8_t> seed;  ///< of each iteration: curves break where it changes
   };
 
-  /// Computes the curves of up to kTicks ticks ending at `tick`.
-  void show(Session& session, std::uint64_t tick);
+  /// Computes the curves of up to kTicks ticks of past.shown() ending at `tick`.
+  void show(const Session& session, RecordedPast& past, std::uint64_t tick);
   void clear() { curves_.clear(); }
   /// In order; the last is that of `tick` itself.
   const std::deque<Curve>& curves() const { return curves_; }
   std::size_t longest() const;  ///< iterations of the longest curve
 
  private:
-  void add(Session& session, const ServoRecord& record);
+  void add(const Session& session, RecordedPast& past, const ServoRecord& record);
   std::deque<Curve> curves_;
   std::unique_ptr<IterationTrace> trace_ = std::make_unique<IterationTrace>();
 };

@@ -1,23 +1,14 @@
 #include "workbench/gui/model/export_model.h"
 
 #include "workbench/gui/model/export_samples.h"
+#include "workbench/gui/model/local_time.h"
 
 #include <chrono>
-#include <ctime>
 #include <system_error>
 
 namespace tangent {
 
 namespace {
-
-std::string time_stamp() {
-  const std::time_t now = std::time(nullptr);
-  std::tm local{};
-  localtime_r(&now, &local);
-  char text[32];
-  std::strftime(text, sizeof text, "%Y%m%d-%H%M%S", &local);
-  return text;
-}
 
 std::filesystem::path free_path(const std::filesystem::path& folder, const std::string& stem, const char* extension) {
   for (int i = 1;; ++i) {
@@ -42,7 +33,7 @@ void ExportModel::write_ticks(std::uint64_t from, std::uint64_t to) {
   auto work = [records = session->history().snapshot(), from, to, path]() -> Result<std::string> {
     const auto lines = export_samples(records, from, to, path);
     if (!lines) return tl::unexpected(lines.error());
-    return std::to_string(*lines) + " ticks written to " + std::filesystem::absolute(path).string();
+    return std::to_string(*lines) + " ticks written to " + std::filesystem::absolute(path).lexically_normal().string();
   };
   writing_ = std::async(deterministic_ ? std::launch::deferred : std::launch::async, std::move(work));
   if (deterministic_) writing_.wait();
@@ -64,7 +55,7 @@ void ExportModel::ask_for_picture(const std::string& what, const Rect& of) {
 
 std::optional<std::filesystem::path> ExportModel::take_screenshot_request() {
   if (!std::exchange(screenshot_wanted_, false)) return std::nullopt;
-  return free_path(screenshots_, "tangent-workbench-" + time_stamp(), ".png");
+  return free_path(screenshots_, "tangent-workbench-" + local_time("%Y%m%d-%H%M%S"), ".png");
 }
 
 }  // namespace tangent

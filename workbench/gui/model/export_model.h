@@ -6,6 +6,7 @@
 #include "workbench/gui/model/app_options.h"
 #include "workbench/gui/model/device_model.h"
 #include "workbench/gui/model/message_log.h"
+#include "workbench/gui/model/save_dialog.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -22,6 +23,13 @@ struct PictureRequest {
   Rect of;  ///< ImGui's coordinates
 };
 
+/// The scene alone as a PNG file, of any width.
+struct ScenePicture {
+  std::filesystem::path path;
+  int width_px = 2400;
+  bool transparent = true;
+};
+
 class ExportModel {
  public:
   ExportModel(const AppOptions& options, const DeviceModel& devices, MessageLog& messages);
@@ -34,9 +42,16 @@ class ExportModel {
   bool writing() const { return writing_.valid(); }
   void take_finished();  ///< reports finished files
 
+  SaveDialog& dialog() { return dialog_; }
+
   // Screenshot of the next frame. The platform, which has the pixels, takes the request once.
   void ask_for_picture(const std::string& what, const Rect& of);
+  void ask_for_picture(PictureRequest request) { picture_request_ = std::move(request); }
+  bool picture_wanted() const { return picture_request_.has_value(); }
   std::optional<PictureRequest> take_picture_request() { return std::exchange(picture_request_, std::nullopt); }
+  /// The panel that has the renderer takes it once.
+  void ask_for_scene(ScenePicture wanted) { scene_picture_ = std::move(wanted); }
+  std::optional<ScenePicture> take_scene_picture() { return std::exchange(scene_picture_, std::nullopt); }
   void ask_for_screenshot() { screenshot_wanted_ = true; }
   std::optional<std::filesystem::path> take_screenshot_request();
 
@@ -49,6 +64,8 @@ class ExportModel {
   std::future<Result<std::string>> writing_;  ///< name of the file written
   std::optional<PictureRequest> picture_request_;
   bool screenshot_wanted_ = false;
+  std::optional<ScenePicture> scene_picture_;
+  SaveDialog dialog_;
 };
 
 }  // namespace tangent

@@ -60,6 +60,15 @@ void PresetModel::set_condition(const RenderingCondition& condition) {
   if (slots_.apply(what, set)) changed_(what);
 }
 
+void PresetModel::set_values(const std::string& what, std::span<const std::pair<const PresetKey*, double>> values) {
+  const auto set = [&](PresetEditor& editor) {
+    bool any = false;
+    for (const auto& [key, value] : values) any = editor.set(*key, value) || any;
+    return any;
+  };
+  if (slots_.apply(what, set)) changed_(what);
+}
+
 void PresetModel::slide_value(const PresetKey& key, double value) {
   const std::string name = key.full_name();
   const std::string what = name + " slid to " + display_with_unit(key, std::clamp(value, key.min, key.max));

@@ -12,7 +12,9 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace tangent {
@@ -34,6 +36,8 @@ class PresetModel {
   const PresetSlots& slots() const { return slots_; }
 
   void set_value(const PresetKey& key, double value);
+  /// Several values as one step of undo.
+  void set_values(const std::string& what, std::span<const std::pair<const PresetKey*, double>> values);
   void slide_value(const PresetKey& key, double value);  ///< one step of undo until end_gesture()
   void end_gesture() { slots_.end_gesture(); }
   void type_value(const PresetKey& key, const std::string& text);  ///< logs a message if it can't be parsed

@@ -1,26 +1,17 @@
 #include "workbench/gui/model/preset_origin.h"
 
 #include "core/lab/audit/finger_size.h"
+#include "workbench/gui/model/local_time.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <ctime>
 
 namespace tangent {
 
 namespace {
 
 constexpr std::size_t kMostTicks = 60'000;  // a minute at 1 kHz
-
-std::string today() {
-  const std::time_t now = std::time(nullptr);
-  std::tm local{};
-  localtime_r(&now, &local);
-  char text[16];
-  std::strftime(text, sizeof text, "%Y-%m-%d", &local);
-  return text;
-}
 
 std::string hex16(std::uint64_t value) {
   char text[20];
@@ -69,7 +60,7 @@ std::string mm(double m) {
 
 PresetAbout about_of(const PresetOrigin& origin) {
   PresetAbout about;
-  about.date = today();
+  about.date = local_time("%Y-%m-%d");
   about.program_version = TANGENT_VERSION;
   about.device = origin.devices;
   about.note = origin.note;

@@ -5,6 +5,8 @@
 #include "core/lab/objects/generate.h"
 #include "core/lab/objects/generate_hard.h"
 #include "core/planar/ribbon.h"
+#include "workbench/session/parts_builder.h"
+#include "workbench/session/prepared_scene.h"
 #include "workbench/session/two_threads.h"
 
 #include <algorithm>
@@ -65,10 +67,13 @@ Result<LoadedScene> load_scene(const SceneRequest& request) {
   }
   auto mesh = ContactMesh::build(*out.polygons, request.options, run_on_two_threads);
   if (!mesh) return tl::unexpected(mesh.error());
-  auto scene = ContactScene::build(std::move(*mesh), {}, run_on_two_threads);
+  // What is far from the finger the session builds beside its servo.
+  auto scene = ContactScene::build(std::move(*mesh), {.far_parts = false}, run_on_two_threads);
   if (!scene) return tl::unexpected(scene.error());
   out.scene = std::move(*scene);
   out.prepared = Session::prepare(out.scene, request.finger);
+  build_in_reach(*out.scene, out.prepared->path.at(0.0, pad_distance_m(request.finger), 0.0).position_m,
+                 request.finger);
   out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return out;
 }

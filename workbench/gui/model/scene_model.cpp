@@ -65,6 +65,7 @@ void SceneModel::take(LoadedScene loaded) {
   report_.reset();
   if (!loaded.rebuilt) {
     path_ = opening_path_;
+    warn_of_left_out();
     warn_of_size();
   }
   for (const std::string& note : scene_->mesh().notes()) messages_.say(Severity::note, note);
@@ -96,6 +97,20 @@ void SceneModel::set_crease_angle(double rad) {
   mesh_options_.crease_rad = rad;
   opening_path_ = path_;
   load(polygons_);
+}
+
+/// Before every other message: a mesh of which much is missing is not the one that was meant.
+void SceneModel::warn_of_left_out() {
+  if (scene_->planar() != nullptr) return;
+  const ContactMesh& mesh = scene_->mesh();
+  const std::uint32_t all = mesh.triangle_count(), used = mesh.usable_triangle_count();
+  if (used == all) return;
+  char text[200];
+  std::snprintf(text, sizeof text,
+                "%u of %u triangles are left out: no area, no finite corner, or there already. The surface has holes "
+                "there; the panel Inspect lists them",
+                all - used, all);
+  messages_.say(10 * (all - used) > all ? Severity::warning : Severity::note, text);
 }
 
 /// Mesh files do not state their unit: one in metres read as millimetres would be 1000 times too small.

@@ -55,6 +55,7 @@ class SceneModel {
  private:
   void load(std::shared_ptr<const PolygonMesh> polygons);
   void take(LoadedScene loaded);
+  void warn_of_left_out();
   void warn_of_size();
 
   const PresetModel& presets_;

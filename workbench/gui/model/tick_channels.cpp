@@ -26,13 +26,14 @@ float event_of(const ServoRecord& r) {
 }  // namespace
 
 std::array<float, kChannelCount> channel_row(const ServoRecord& r) {
-  const Vec3& f = r.device.force_command_n;
+  const Vec3& f = r.tick.output.force_n;
   // Not measured in simulated time: a gap, not a zero.
   const float tick_time = r.tick_ns > 0.0 ? static_cast<float>(r.tick_ns * 1e-9) : std::nanf("");
   return {static_cast<float>(f.x),
           static_cast<float>(f.y),
           static_cast<float>(f.z),
           static_cast<float>(glm::length(f)),
+          static_cast<float>(glm::length(r.device.force_command_n)),
           static_cast<float>(r.device.cld_command_m),
           static_cast<float>(r.device.cld_measured_m),
           static_cast<float>(r.tick.output.error_m),

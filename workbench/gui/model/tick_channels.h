@@ -11,10 +11,11 @@ namespace tangent {
 
 /// Channels of the plots, SI.
 enum class Channel : std::uint8_t {
-  force_x,
+  force_x,  ///< of the computed force
   force_y,
   force_z,
-  force_magnitude,
+  force_computed,  ///< its size
+  force_felt,      ///< size of what the safety gate let through to the device
   cld_commanded,
   cld_measured,
   error,

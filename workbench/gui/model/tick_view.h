@@ -34,14 +34,15 @@ class TickView {
   }
 
   /// Steps the record's tick again, unless it is the one already shown.
-  void show(Session& session, const ServoRecord& record) {
+  /// `solve`: (record, trace) to Result<TickOutput>.
+  template <class Solve>
+  void show(const ServoRecord& record, const Solve& solve) {
     if (record_ && record_->tick.tick == record.tick.tick && record_->tick.input.t_s == record.tick.input.t_s) return;
     record_ = record;
     trace_->clear();
     selected_.reset();
     problem_.clear();
-    const auto output = session.re_step(record, *trace_);
-    if (!output) {
+    if (const auto output = solve(record, *trace_); !output) {
       trace_->clear();
       problem_ = output.error().message();
     }

@@ -1,9 +1,12 @@
 // Solves the recorded past again under another preset, in the background on all cores, while a value is dragged. The
-// result is the ghost, drawn beside the recording. Only the latest request counts; an outdated one is cancelled.
+// result is the ghost, drawn beside the recording. Only the latest request counts; an outdated one is cancelled. When
+// that is done, two presets are compared over a range of ticks: both are solved, in turns (compare_presets.h).
 #pragma once
 
+#include "workbench/gui/model/ghost_channels.h"
+#include "workbench/gui/model/recorded_past.h"
 #include "workbench/gui/plots/channel_store.h"
-#include "workbench/session/resolve_history.h"
+#include "workbench/session/compare_presets.h"
 
 #include <atomic>
 #include <condition_variable>
@@ -14,10 +17,6 @@
 #include <vector>
 
 namespace tangent {
-
-/// Channels of a ghost, SI; each corresponds to the recorded channel of the same name.
-enum class GhostChannel : std::uint8_t { force_x, force_y, force_z, force_magnitude, cld, error, iterations, count_ };
-inline constexpr std::size_t kGhostChannelCount = static_cast<std::size_t>(GhostChannel::count_);
 
 /// The past solved under another preset. Numbers and channels cover the same ticks: first_tick to end_tick - 1.
 struct Ghost {
@@ -45,15 +44,26 @@ class TimeMachine {
   /// Solves the past under `preset`, from_tick to to_tick first. Replaces an earlier request.
   void request(const Preset& preset, double from_tick, double to_tick);
   void forget_request();  ///< no ghost
+  /// Compares two presets over a range, after the ghost is done. Replaces an earlier comparison.
+  void compare(const Preset& before, const Preset& after, const TickRange& range);
   bool busy() const;
 
   /// Newest ghost, whole or of the part in view; null: none yet.
   std::shared_ptr<const Ghost> ghost() const;
   /// The verification; null: not done yet. different_ticks is 0 unless something is wrong.
   std::shared_ptr<const Ghost> verified() const;
+  /// The newest comparison; null: none asked for, or not done yet.
+  std::shared_ptr<const PresetsCompared> compared() const;
 
  private:
   struct Job;
+  struct Pair {
+    Preset before, after;
+    TickRange range;
+  };
+  std::shared_ptr<Job> make_pair_job() const;
+  std::shared_ptr<Job> next_job();
+  void cancel_job();
   std::shared_ptr<Job> make_job(std::optional<Preset> preset, std::size_t begin, std::size_t end) const;
   void schedule();
   void work(std::stop_token stop);
@@ -66,10 +76,12 @@ class TimeMachine {
   std::condition_variable_any wake_;
   std::shared_ptr<Job> job_;  ///< in progress
   std::optional<Preset> wanted_;
+  std::optional<Pair> pair_;
   double from_ = 0.0, to_ = 0.0;
-  bool want_view_ = false, want_whole_ = false, want_verified_ = false;
+  bool want_view_ = false, want_whole_ = false, want_verified_ = false, want_pair_ = false;
   std::uint64_t generation_ = 0;
   std::shared_ptr<const Ghost> ghost_, verified_;
+  std::shared_ptr<const PresetsCompared> compared_;
   std::vector<std::jthread> threads_;
 };
 

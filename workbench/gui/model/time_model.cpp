@@ -42,11 +42,6 @@ TimeModel::TimeModel(const AppOptions& options, DeviceModel& devices, const Pres
       store_(kChannelCount, plotted_ticks(options.history_s, options.servo_hz)),
       time_machine_(options.deterministic ? 0u : std::max(1u, std::thread::hardware_concurrency())) {}
 
-const History* TimeModel::history() const {
-  const Session* session = devices_.session();
-  return session == nullptr || session->history().empty() ? nullptr : &session->history();
-}
-
 double TimeModel::tick_period_s() const {
   const Session* session = devices_.session();
   return session != nullptr ? 1.0 / session->options().servo.rate_hz : 1e-3;
@@ -63,25 +58,39 @@ std::size_t TimeModel::most_history_bytes() const {
 }
 
 void TimeModel::update_axis() {
-  axis_.update(store_.first_tick(), store_.end_tick(), static_cast<double>(store_.capacity()));
+  axis_.update(store().first_tick(), store().end_tick(), static_cast<double>(store().capacity()));
 }
 
 void TimeModel::take_records() {
   if (devices_.session() == nullptr) return;
   devices_.session()->poll();
-  if (const History* records = history()) {
+  past_.follow(*devices_.session());
+  take_in();
+  const PresetSlots& slots = presets_.slots();
+  if (!other_slot_beside)
+    live_beside_.clear();
+  else if (!paused_)
+    live_beside_.take(past_.main(), slots.slot(1 - slots.active_slot()).current(), store_.capacity());
+  update_axis();
+}
+
+/// Plots, marks and triggers take in what the past has since the last call, and drop what it has no longer.
+void TimeModel::take_in() {
+  const HistorySnapshot& all = past_.main().records;
+  if (!all.empty()) {
     // A history whose newest tick is before ours belongs to a new run.
-    const std::uint64_t newest = records->newest().tick.tick, end = store_.end_tick();
-    const std::uint64_t next = newest < end && newest + 1 != end ? records->oldest().tick.tick : end;
-    for (std::size_t i = records->lower_bound(next); i < records->size(); ++i) {
-      const ServoRecord& record = (*records)[i];
+    const std::uint64_t newest = all.newest().tick.tick, oldest = all.oldest().tick.tick, end = store_.end_tick();
+    const std::uint64_t next = newest < end && newest + 1 != end ? oldest : end;
+    for (std::size_t i = all.lower_bound(next); i < all.size(); ++i) {
+      const ServoRecord& record = all[i];
       store_.push(record.tick.tick, channel_row(record));
       bookmarks_.watch(record);
       mark_parameters(record);
     }
-    bookmarks_.forget_before(records->oldest().tick.tick);
+    store_.drop_before(oldest);
+    bookmarks_.forget_before(oldest);
   }
-  update_axis();
+  past_.keep(bookmarks_, selection_);
 }
 
 void TimeModel::mark_parameters(const ServoRecord& record) {
@@ -98,12 +107,38 @@ void TimeModel::mark_parameters(const ServoRecord& record) {
 }
 
 void TimeModel::show_tick() {
-  const History* records = history();
-  if (records == nullptr) return;
-  const ServoRecord* record = !paused_ || !cursor_ ? &records->newest() : records->find(*cursor_);
-  if (record == nullptr) return;
-  tick_.show(*devices_.session(), *record);
-  error_fan_.show(*devices_.session(), record->tick.tick);
+  if (records().empty()) return;
+  const Session& session = *devices_.session();
+  if (placed_) {
+    const ServoRecord record = placed_->record(cursor_.value_or(0), session.preset_id(), session.status().scene_sent);
+    tick_.show(record, [this](const ServoRecord&, IterationTrace& trace) -> Result<TickOutput> {
+      return placed_->solve(placed_->preset(), trace);
+    });
+  } else {
+    const ServoRecord* record = !paused_ || !cursor_ ? &records().newest() : records().find(*cursor_);
+    if (record == nullptr) return;
+    tick_.show(*record, [&](const ServoRecord& of, IterationTrace& trace) {
+      return past_.re_step(session, of, nullptr, trace);
+    });
+    error_fan_.show(session, past_, record->tick.tick);
+  }
+  show_beside();
+}
+
+std::size_t TimeModel::frozen_bytes() const {
+  return devices_.session() != nullptr ? past_.extra_bytes(*devices_.session()) : 0;
+}
+
+std::uint64_t TimeModel::newest_recorded() const {
+  const Session* session = devices_.session();
+  return session != nullptr && !session->history().empty() ? session->history().newest().tick.tick : 0;
+}
+
+void TimeModel::set_selection(const std::optional<TickRange>& range) {
+  if (range == selection_) return;
+  selection_ = range;
+  past_.keep(bookmarks_, selection_);
+  if (time_machine_.ghost() != nullptr) request_comparison();
 }
 
 void TimeModel::forget() {
@@ -111,7 +146,13 @@ void TimeModel::forget() {
   bookmarks_.clear_automatic();
   parameter_marks_.clear();
   last_preset_id_.reset();
+  past_.forget();
+  live_beside_.clear();
+  selection_.reset();
+  kept_store_.reset();
+  placed_.reset();
   tick_.clear();
+  beside_.clear();
   error_fan_.clear();
   go_live();
 }
@@ -124,39 +165,72 @@ void TimeModel::set_paused(bool paused) {
   }
   paused_ = true;
   axis_.hold();
+  past_.freeze();
+  bookmarks_.hold = true;
   if (const ServoRecord* record = tick_.record()) cursor_ = record->tick.tick;
   paused_with_ = presets_.current();
-  if (history() != nullptr) time_machine_.open(devices_.session()->recorded_run());
+  open_time_machine();
+}
+
+/// On the part in view, frozen.
+void TimeModel::open_time_machine() {
+  compared_by_hand_.reset();
+  if (records().empty()) return time_machine_.close();
+  RecordedRun run = devices_.session()->recorded_run();
+  run.records = records();
+  run.scenes = past_.shown().scenes;
+  time_machine_.open(std::move(run));
+}
+
+/// Another part of the past has come into view.
+void TimeModel::show_part() {
+  kept_store_.reset();
+  if (past_.shows_kept()) {
+    kept_store_ = std::make_unique<ChannelStore>(kChannelCount, records().size());
+    for (std::size_t i = 0; i < records().size(); ++i)
+      kept_store_->push(records()[i].tick.tick, channel_row(records()[i]));
+  }
+  error_fan_.clear();
+  update_axis();
+  axis_.show_all();
+  open_time_machine();
+  if (!(presets_.current() == paused_with_)) preset_sent();
 }
 
 void TimeModel::go_live() {
   paused_ = false;
   cursor_.reset();
+  forget_place();
   time_machine_.close();
+  past_.thaw();
+  bookmarks_.hold = false;
+  kept_store_.reset();
+  if (devices_.session() != nullptr) past_.follow(*devices_.session());
+  take_in();
   axis_.follow();
   update_axis();
   show_tick();
 }
 
 void TimeModel::select_tick(std::uint64_t tick) {
-  const History* records = history();
-  if (records == nullptr) return;
+  if (records().empty()) return;
   set_paused(true);
-  const std::size_t at = std::min(records->lower_bound(tick), records->size() - 1);
-  cursor_ = (*records)[at].tick.tick;
+  forget_place();
+  if (const PastPart* was = &past_.shown(); past_.show(tick) && &past_.shown() != was) show_part();
+  const std::size_t at = std::min(records().lower_bound(tick), records().size() - 1);
+  cursor_ = records()[at].tick.tick;
   axis_.reveal(static_cast<double>(*cursor_));
   show_tick();
 }
 
 void TimeModel::step_tick(std::int64_t by) {
-  const History* records = history();
-  if (records == nullptr) return;
+  if (records().empty()) return;
   set_paused(true);
   const std::size_t now =
-      std::min(records->lower_bound(cursor_.value_or(records->newest().tick.tick)), records->size() - 1);
-  const auto last = static_cast<std::int64_t>(records->size()) - 1;
+      std::min(records().lower_bound(cursor_.value_or(records().newest().tick.tick)), records().size() - 1);
+  const auto last = static_cast<std::int64_t>(records().size()) - 1;
   const std::int64_t to = std::clamp(static_cast<std::int64_t>(now) + by, std::int64_t{0}, last);
-  select_tick((*records)[static_cast<std::size_t>(to)].tick.tick);
+  select_tick(records()[static_cast<std::size_t>(to)].tick.tick);
 }
 
 void TimeModel::step_iteration(int by) {
@@ -170,6 +244,7 @@ void TimeModel::step_iteration(int by) {
     tick_.select(static_cast<std::size_t>(to));
     return;
   }
+  if (placed_) return;  // it has no tick before or after it
   const std::uint64_t before = cursor_.value_or(0);
   step_tick(by);
   if (cursor_.value_or(0) == before) return;  // no further tick
@@ -179,6 +254,7 @@ void TimeModel::step_iteration(int by) {
 void TimeModel::add_bookmark() {
   const ServoRecord* record = tick_.record();
   if (record == nullptr) return;
+  if (placed_) return messages_.say(Severity::note, "a tick at a place has no time to bookmark");
   bookmarks_.add(record->tick.tick, record->tick.input.t_s);
 }
 
@@ -187,24 +263,13 @@ void TimeModel::go_to_bookmark(int by) {
   if (record == nullptr) return;
   const std::uint64_t now = record->tick.tick;
   const Bookmark* to = by > 0 ? bookmarks_.after(now) : bookmarks_.before(now);
-  // A person's bookmark outlives its tick.
-  if (to == nullptr || to->tick < first_tick())
+  // A bookmark of an earlier run has no tick.
+  while (to != nullptr && !past_.reaches(to->tick))
+    to = by > 0 ? bookmarks_.after(to->tick) : bookmarks_.before(to->tick);
+  if (to == nullptr)
     messages_.say(Severity::note, by > 0 ? "no later bookmark" : "no earlier bookmark");
   else
     select_tick(to->tick);
-}
-
-void TimeModel::preset_sent() {
-  if (!paused_ || !time_machine_.is_open()) return;
-  if (presets_.current() == paused_with_)
-    time_machine_.forget_request();
-  else
-    time_machine_.request(presets_.current(), axis_.from(), axis_.to());
-}
-
-void TimeModel::solve_past_again() {
-  set_paused(true);
-  time_machine_.request(presets_.current(), axis_.from(), axis_.to());
 }
 
 }  // namespace tangent

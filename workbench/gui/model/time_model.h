@@ -1,12 +1,17 @@
 // Time in the window: incoming records, the tick in view, bookmarks, and the past solved again. Pausing freezes the
-// view, never the servo or the recording.
+// view, never the servo or the recording: what is in view stays there and can be solved, however long one looks at it.
+// Whatever store() holds is recorded and can be solved.
 #pragma once
 
 #include "workbench/gui/model/app_options.h"
+#include "workbench/gui/model/beside_tick.h"
 #include "workbench/gui/model/device_model.h"
 #include "workbench/gui/model/error_fan.h"
+#include "workbench/gui/model/live_beside.h"
 #include "workbench/gui/model/message_log.h"
+#include "workbench/gui/model/placed_tick.h"
 #include "workbench/gui/model/preset_model.h"
+#include "workbench/gui/model/recorded_past.h"
 #include "workbench/gui/model/tick_channels.h"
 #include "workbench/gui/model/tick_view.h"
 #include "workbench/gui/model/time_machine.h"
@@ -19,6 +24,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace tangent {
@@ -48,6 +54,21 @@ class TimeModel {
   const TickView& tick() const { return tick_; }
   TickView& tick() { return tick_; }
   const ErrorFan& error_fan() const { return error_fan_; }  ///< of the ticks up to the one in view
+  /// The tick in view under another preset: that of the ghost; without one, of the other slot if that is wanted.
+  const BesideTick& beside() const { return beside_; }
+  bool other_slot_beside = false;  ///< also while live
+  /// Pale curves of the plots: the ghost, or while live those of the other slot if that is wanted. Null: none.
+  std::shared_ptr<const ChannelStore> ghost_channels() const;
+  const Preset* preset_of_tick() const;                       ///< under which the tick in view ran; null: none
+  std::shared_ptr<const ContactScene> scene_of_tick() const;  ///< on which it ran; null: none
+
+  // A tick at a place, without waiting for the finger (placed_tick.h). It is in view until another tick is chosen.
+  /// False where the finger can't rest there; a message says so.
+  bool solve_at(const std::shared_ptr<const ContactScene>& scene, std::uint32_t triangle, double u, double v,
+                const MoveOptions& options);
+  const PlacedTick* placed() const { return placed_ ? &*placed_ : nullptr; }  ///< null: a recorded tick is in view
+  void choose_move(std::size_t move);
+  void leave_place();  ///< back to the recorded tick
 
   Bookmarks& bookmarks() { return bookmarks_; }
   const Bookmarks& bookmarks() const { return bookmarks_; }
@@ -55,11 +76,24 @@ class TimeModel {
   void go_to_bookmark(int by);  ///< the next (1) or previous (-1); a message when there is none
   std::span<const ParameterMark> parameter_marks() const { return parameter_marks_; }
 
-  const ChannelStore& store() const { return store_; }
+  /// The recorded ticks that can be shown. While paused they stay, and newer ones are added while there is room.
+  const RecordedPast& past() const { return past_; }
+  std::size_t frozen_bytes() const;  ///< of records held beyond the history
+  std::uint64_t newest_recorded() const;
+  /// Cursors A and B, in any order: the ticks that comparison, sweep and advice work on. Empty: all of them.
+  void set_selection(const std::optional<TickRange>& range);
+  const std::optional<TickRange>& selection() const { return selection_; }
+  bool selection_kept() const { return selection_ && past_.part_with(*selection_) != nullptr; }
+  /// The selection, or without one all ticks of the part in view; empty: nothing is recorded.
+  std::optional<TickRange> chosen_range() const;
+  /// Its records, to be solved again. Empty: they are gone.
+  std::optional<RunPart> run_over(const TickRange& range) const;
+
+  const ChannelStore& store() const { return kept_store_ ? *kept_store_ : store_; }
   TimeAxis& axis() { return axis_; }
   const TimeAxis& axis() const { return axis_; }
-  std::uint64_t first_tick() const { return store_.first_tick(); }
-  std::uint64_t end_tick() const { return store_.end_tick(); }
+  std::uint64_t first_tick() const { return store().first_tick(); }
+  std::uint64_t end_tick() const { return store().end_tick(); }
   double tick_period_s() const;
   std::size_t history_bytes() const, most_history_bytes() const;  ///< of the records, without the plots' store()
 
@@ -68,9 +102,23 @@ class TimeModel {
   const TimeMachine& time_machine() const { return time_machine_; }
   std::shared_ptr<const Ghost> ghost() const { return time_machine_.ghost(); }
   void solve_past_again();  ///< under the current preset, even if unchanged. Pauses
+  /// Two presets over chosen_range(), the second one as the ghost. Pauses.
+  struct NamedPreset {
+    std::string name;
+    Preset preset;
+  };
+  void compare(const NamedPreset& before, const NamedPreset& after);
+  const std::string& name_before() const { return name_before_; }  ///< of time_machine().compared()
+  const std::string& name_after() const { return name_after_; }
 
  private:
-  const History* history() const;  ///< null: nothing is recorded
+  const HistorySnapshot& records() const { return past_.shown().records; }
+  void open_time_machine();
+  void show_part();
+  void forget_place();
+  void take_in();
+  void show_beside();
+  void request_comparison();
   void mark_parameters(const ServoRecord& record);
   void update_axis();
 
@@ -80,14 +128,22 @@ class TimeModel {
   bool paused_ = false;
   std::optional<std::uint64_t> cursor_;  ///< the tick in view while paused
   TickView tick_;
+  BesideTick beside_;
+  LiveBeside live_beside_;
+  std::optional<PlacedTick> placed_;
   ErrorFan error_fan_;
+  RecordedPast past_;
+  std::optional<TickRange> selection_;
   ChannelStore store_;
+  std::unique_ptr<ChannelStore> kept_store_;  ///< of a kept part in view; null: none is
   TimeAxis axis_;
   Bookmarks bookmarks_;
   std::vector<ParameterMark> parameter_marks_;
   std::optional<std::uint32_t> last_preset_id_;  ///< of the newest record
   TimeMachine time_machine_;
   Preset paused_with_;  ///< preset when the view was paused
+  std::optional<std::pair<NamedPreset, NamedPreset>> compared_by_hand_;
+  std::string name_before_, name_after_;
 };
 
 }  // namespace tangent

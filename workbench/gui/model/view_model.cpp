@@ -7,6 +7,13 @@
 
 namespace tangent {
 
+namespace {
+
+constexpr double kEdgeOn = 0.05;  ///< cosine between a surface's normal and the way to the eye: not seen below
+constexpr std::uint64_t kPausedWithin = 200;  ///< ticks
+
+}  // namespace
+
 ViewModel::ViewModel(const SceneModel& scene, const MapView& map, MessageLog& messages)
     : scene_(scene), map_(map), messages_(messages) {}
 
@@ -34,11 +41,42 @@ void ViewModel::look_at_place(const Vec3& point_world, const Vec3& normal, std::
   picked_triangle = triangle;
 }
 
-void ViewModel::look_at_worst() {
-  if (map_.worst().empty())
-    return messages_.say(Severity::note, map_.on ? "no place is worse than the others" : "choose a map first");
+void ViewModel::look_at_contact(const TickRecord* tick) {
+  if (tick == nullptr || tick->output.triangle == kNone)
+    return messages_.say(Severity::note, "this tick has no contact to look at");
+  look_at_place(tick->output.contact, tick->output.normal, picked_triangle);
+}
+
+bool ViewModel::in_view(const TickOutput& output) const {
+  if (size.x < 1.0 || size.y < 1.0) return true;
+  const Vec3 p = camera.project(output.contact, static_cast<int>(size.x), static_cast<int>(size.y));
+  const bool inside =
+      p.z >= 0.0 && p.x > 0.03 * size.x && p.x < 0.97 * size.x && p.y > 0.03 * size.y && p.y < 0.97 * size.y;
+  return inside && glm::dot(output.normal, unit(camera.eye() - output.contact)) > kEdgeOn;
+}
+
+void ViewModel::see_contact(const TickRecord* tick, bool paused) {
+  if (tick == nullptr) return seen_tick_.reset();
+  const std::uint64_t before = seen_tick_.value_or(tick->tick);
+  const std::uint64_t by = tick->tick > before ? tick->tick - before : before - tick->tick;
+  // Stepping is not jumping, nor are the ticks that pass until a pause is seen.
+  const bool jumped = paused && by > (seen_paused_ ? 1u : kPausedWithin);
+  seen_tick_ = tick->tick;
+  seen_paused_ = paused;
+  const TickOutput& output = tick->output;
+  if (output.triangle == kNone || !(follow_contact || (jumped && !in_view(output)))) return;
+  camera.target = output.contact;
+  camera.turn_to_show(output.normal, kEdgeOn + 0.25);
+}
+
+const MapPlace* ViewModel::look_at_worst() {
+  if (map_.worst().empty()) {
+    messages_.say(Severity::note, map_.on ? "no place is worse than the others" : "choose a map first");
+    return nullptr;
+  }
   const MapPlace& place = map_.worst()[worst_shown_++ % map_.worst().size()];
   look_at_place(place.point_world, place.normal, place.triangle);
+  return &place;
 }
 
 // If the whole scene was framed it is framed again; if the user has zoomed in, target and distance stay.

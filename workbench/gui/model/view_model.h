@@ -31,6 +31,8 @@ class ViewModel {
   Camera camera;
   double framed_distance_m = 0.0;   ///< camera distance when the whole scene was last framed
   std::uint64_t framings = 0;       ///< number of framings; the 2D view follows it
+  bool follow_contact = false;      ///< the camera goes with the contact
+  Vec2 size{0.0};                   ///< of the 3D view, points
   std::array<ViewRoom, 3> rooms{};  ///< parts of the view not covered by cards and bars
   std::uint32_t picked_triangle = kNone;
   std::uint32_t hovered_triangle = kNone;
@@ -44,7 +46,13 @@ class ViewModel {
   void frame_scene();        ///< frames the whole mesh, beside cards and bars
   /// Turns the camera to a place on the surface, viewed obliquely, and picks the triangle.
   void look_at_place(const Vec3& point_world, const Vec3& normal, std::uint32_t triangle);
-  void look_at_worst();  ///< to the map's worst place; repeated: to the next worst
+  /// Turns the camera to the contact of a tick, viewed obliquely. No effect without one.
+  void look_at_contact(const TickRecord* tick);
+  /// Once a frame, with the tick in view: while follow_contact the camera goes with the contact; else a jump in time
+  /// brings the contact into view where it is outside or on the far side.
+  void see_contact(const TickRecord* tick, bool paused);
+  /// To the map's worst place; repeated: to the next worst. Null, with a message: there is none.
+  const MapPlace* look_at_worst();
   void look_from_standard(StandardView view);
   void set_y_up(bool y_up);
   void copy_camera();  ///< to the clipboard, as text
@@ -58,6 +66,7 @@ class ViewModel {
 
  private:
   std::vector<std::uint32_t> marked_or_picked() const;
+  bool in_view(const TickOutput& output) const;
   void isolate(const std::vector<std::uint32_t>& triangles);
 
   const SceneModel& scene_;
@@ -66,6 +75,8 @@ class ViewModel {
   Inspection inspection_;
   std::uint64_t isolations_ = 0;  ///< number of isolations so far; identifies each
   std::size_t worst_shown_ = 0;
+  std::optional<std::uint64_t> seen_tick_;  ///< by see_contact
+  bool seen_paused_ = false;
 };
 
 }  // namespace tangent

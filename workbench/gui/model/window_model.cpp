@@ -27,13 +27,19 @@ std::optional<KeptLook> WindowModel::read_settings() {
   }
   written_settings_ = settings_;
   if (settings_file_.empty()) return std::nullopt;
+  first_start_ = !std::filesystem::exists(settings_file_);
+  sizes_are_read_ = !first_start_;
   sizes_.left = static_cast<float>(settings_.left);
   sizes_.right = static_cast<float>(settings_.right);
   sizes_.plots = static_cast<float>(settings_.plots);
   sizes_.show_left = settings_.show_left;
   sizes_.show_right = settings_.show_right;
   sizes_.show_plots = settings_.show_plots;
-  theme_ = settings_.light_theme ? Theme::light : Theme::dark;
+  const auto task = std::find(kTaskNames.begin(), kTaskNames.end(), settings_.task);
+  if (task != kTaskNames.end()) task_ = static_cast<Task>(task - kTaskNames.begin());
+  const auto vision = std::find(kVisionNames.begin(), kVisionNames.end(), settings_.vision);
+  theme_ = theme_of(!settings_.light_theme,
+                    vision != kVisionNames.end() ? static_cast<Vision>(vision - kVisionNames.begin()) : Vision::common);
   ui_scale_ = static_cast<float>(settings_.text_size);
   favourites_ = settings_.favourites;
   KeptLook look{settings_.y_up};
@@ -56,7 +62,9 @@ void WindowModel::keep_settings(const KeptLook& look, double wait_s) {
   settings_.show_left = sizes_.show_left;
   settings_.show_right = sizes_.show_right;
   settings_.show_plots = sizes_.show_plots;
-  settings_.light_theme = theme_ == Theme::light;
+  settings_.task = kTaskNames[static_cast<std::size_t>(task_)];
+  settings_.light_theme = !is_dark(theme_);
+  settings_.vision = kVisionNames[static_cast<std::size_t>(vision_of(theme_))];
   settings_.text_size = static_cast<double>(ui_scale_);
   settings_.y_up = look.y_up;
   settings_.favourites = favourites_;
@@ -74,12 +82,30 @@ void WindowModel::set_ui_scale(float scale) { ui_scale_ = std::clamp(scale, 0.6f
 
 void WindowModel::show_section(const std::string& title, bool in_left_column) {
   (in_left_column ? sizes_.show_left : sizes_.show_right) = true;
+  sizes_.prefer_right = !in_left_column;
+  if (!in_left_column) task_ = task_with(title, task_);
   section_wanted_ = title;
 }
 
 void WindowModel::reset_layout() {
   sizes_ = {};
+  task_ = Task::look;
   settings_.sections.clear();
+}
+
+void WindowModel::set_room(float width, float height) {
+  const auto share = [](float& size, float at_first, double then, float now) {
+    if (then > 0.0 && size != at_first) size *= now / static_cast<float>(then);
+  };
+  if (sizes_are_read_) {
+    share(sizes_.left, LayoutSizes{}.left, settings_.width, width);
+    share(sizes_.right, LayoutSizes{}.right, settings_.width, width);
+    share(sizes_.plots, LayoutSizes{}.plots, settings_.height, height);
+    sizes_ = within_limits(sizes_);
+  }
+  sizes_are_read_ = false;
+  settings_.width = static_cast<double>(width);
+  settings_.height = static_cast<double>(height);
 }
 
 bool WindowModel::is_favourite(const PresetKey& key) const {

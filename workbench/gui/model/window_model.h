@@ -2,6 +2,7 @@
 #pragma once
 
 #include "workbench/gui/layout/layout.h"
+#include "workbench/gui/layout/tasks.h"
 #include "workbench/gui/model/app_options.h"
 #include "workbench/gui/model/message_log.h"
 #include "workbench/gui/theme/colour_map.h"
@@ -36,14 +37,23 @@ class WindowModel {
   void opened(const std::string& mesh) { settings_.opened(mesh); }
   const WindowSettings& settings() const { return settings_; }  ///< as of the last frame
 
+  /// Size of the window in points, once per frame. Sizes from the last run were shares of the window then, and are of
+  /// this one.
+  void set_room(float width, float height);
+  bool first_start() const { return first_start_; }  ///< there were no settings
+
   LayoutSizes& sizes() { return sizes_; }
   const LayoutSizes& sizes() const { return sizes_; }
   Theme theme() const { return theme_; }
   void set_theme(Theme theme) { theme_ = theme; }
+  void set_dark(bool dark) { theme_ = theme_of(dark, vision_of(theme_)); }
+  void set_vision(Vision vision) { theme_ = theme_of(is_dark(theme_), vision); }
   float ui_scale() const { return ui_scale_; }  ///< the user's own factor on top of the monitor's
   void set_ui_scale(float scale);
   std::map<std::string, bool>& open_sections() { return settings_.sections; }
-  /// Shows the column, opens the section and scrolls to it.
+  Task task() const { return task_; }  ///< tab of the right column
+  void set_task(Task task) { task_ = task; }
+  /// Shows the column and the tab, opens the section and scrolls to it.
   void show_section(const std::string& title, bool in_left_column);
   std::string& section_wanted() { return section_wanted_; }
   void reset_layout();  ///< sizes and sections back to their defaults
@@ -60,8 +70,10 @@ class WindowModel {
   const std::filesystem::path settings_file_;  ///< empty: nothing is kept
   MessageLog& messages_;
   LayoutSizes sizes_;
+  bool first_start_ = false, sizes_are_read_ = false;
   Theme theme_;
   float ui_scale_ = 1.0f;
+  Task task_ = Task::look;
   WindowSettings settings_, written_settings_;
   std::string last_warning_;          ///< why they were not written the last time; empty: they were
   bool settings_are_unread_ = false;  ///< broken, or of a newer program: not written over

@@ -1,5 +1,5 @@
-// While there is no force: why, and the control that arms. Far from the stop button, so that neither is hit for the
-// other.
+// While there is no force: why, and the control that arms. Red where a fault ended the force, with the fault in words.
+// Far from the stop button, so that neither is hit for the other.
 #include "workbench/gui/panels/panels.h"
 #include "workbench/gui/panels/strip.h"
 
@@ -8,12 +8,13 @@
 namespace tangent {
 
 void draw_arming_bar(const UiContext& ui, DeviceModel& devices, const Rect& over) {
-  constexpr std::array<StripButton, 1> kArm{{{"arming/arm", "Arm",
-                                              "One attempt: clears faults, homes what is not homed, waits up to 5 s "
-                                              "until the force would be below 0.2 N, and "
-                                              "lets the force in over a quarter of a second"}}};
+  const std::array<StripButton, 1> arm{{{"arming/arm", devices.faulted() ? "Clear fault and arm" : "Arm",
+                                         "One attempt: clears faults, homes what is not homed, waits up to 5 s "
+                                         "until the force would be below 0.2 N, and "
+                                         "lets the force in over a quarter of a second",
+                                         devices.faulted()}}};
   const std::string text = devices.arming_text();
-  if (!text.empty() && draw_strip(ui, "##arming", over, StripPlace::lower_edge, text, kArm)) devices.arm();
+  if (!text.empty() && draw_strip(ui, "##arming", over, StripPlace::lower_edge, text, arm)) devices.arm();
 }
 
 }  // namespace tangent

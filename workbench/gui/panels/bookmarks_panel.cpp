@@ -85,7 +85,7 @@ void draw_triggers(const UiContext& ui, AppModel& model) {
 void draw_row(const UiContext& ui, TimeModel& time, const Bookmark& mark, std::size_t i) {
   const ServoRecord* seen = time.tick().record();
   const bool here = seen != nullptr && seen->tick.tick >= mark.tick && seen->tick.tick <= mark.last_tick;
-  const bool gone = mark.last_tick < time.first_tick();
+  const bool gone = !time.past().reaches(mark.tick) && !time.past().reaches(mark.last_tick);
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const float height = ImGui::GetTextLineHeight();
   ImGui::PushStyleColor(ImGuiCol_Text, gone ? ui.colours.text_faint : ui.colours.text);
@@ -94,16 +94,18 @@ void draw_row(const UiContext& ui, TimeModel& time, const Bookmark& mark, std::s
   if (ImGui::Selectable((text + "##bookmark" + std::to_string(mark.id)).c_str(), here,
                         ImGuiSelectableFlags_AllowItemOverlap) &&
       !gone)
-    time.select_tick(std::max(mark.tick, time.first_tick()));
+    time.select_tick(time.past().reaches(mark.tick) ? mark.tick : mark.last_tick);
   const float text_width = ImGui::CalcTextSize(text.c_str()).x;
   ImGui::PopFont();
   // The note's field covers the rest of the row.
-  ui.items.note(printed("bookmarks/row/%zu", i), at, {at.x + text_width, at.y + height});
+  ui.items.note_last(printed("bookmarks/row/%zu", i), at, {at.x + text_width, at.y + height});
   const std::string span = mark.ticks > 1
                                ? printed("ticks %llu to %llu, %u of them", static_cast<unsigned long long>(mark.tick),
                                          static_cast<unsigned long long>(mark.last_tick), mark.ticks)
                                : printed("tick %llu", static_cast<unsigned long long>(mark.tick));
-  tooltip(ui, gone ? span + ", no longer kept" : span);
+  tooltip(ui, gone                                        ? span + ", no longer kept"
+              : time.past().main().covers(mark.last_tick) ? span
+                                                          : span + ", kept with the half second before it");
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   draw.AddRectFilled({at.x, at.y + ui.px(2)}, {at.x + ui.px(6), at.y + height - ui.px(1)}, bookmark_ink(ui, mark.kind),
                      ui.px(1.5f));
@@ -119,8 +121,10 @@ void draw_row(const UiContext& ui, TimeModel& time, const Bookmark& mark, std::s
     if (mark.note.empty() && !ImGui::IsItemActive())
       draw.AddText({ImGui::GetItemRectMin().x + ui.px(3), at.y}, ui.colours.text_faint, "note");
   } else {
-    const std::string times = mark.ticks > 1 ? printed(" \u00d7%u", mark.ticks) : std::string();
-    ImGui::Text("%s%s, %s", to_string(mark.kind), times.c_str(), mark.note.c_str());
+    if (mark.ticks > 1)
+      ImGui::Text("%s in %u ticks, first %s", to_string(mark.kind), mark.ticks, mark.note.c_str());
+    else
+      ImGui::Text("%s: %s", to_string(mark.kind), mark.note.c_str());
   }
   ImGui::SameLine();
   ImGui::SetCursorPosX(ImGui::GetWindowContentRegionMax().x - remove + ui.px(4));
@@ -143,6 +147,12 @@ void draw_bookmarks_panel(const UiContext& ui, AppModel& model, BookmarksPanel& 
   ImGui::SameLine();
   toggle_button(ui, "bookmarks/triggers", "Triggers", state.triggers_open, "What sets bookmarks automatically");
   ImGui::SameLine();
+  if (text_button(ui, "bookmarks/solve", "Solve here",
+                  "At the contact of the bookmark in view: a tick in the direction that needs most planes (H)")) {
+    model.view().picked_triangle = kNone;
+    model.solve_here();
+  }
+  ImGui::SameLine();
   if (text_button(ui, "bookmarks/clear", "Clear triggered", "Removes those that triggers set"))
     model.time().bookmarks().clear_automatic();
   if (state.triggers_open) draw_triggers(ui, model);
@@ -153,6 +163,9 @@ void draw_bookmarks_panel(const UiContext& ui, AppModel& model, BookmarksPanel& 
     ImGui::PopFont();
     return;
   }
+  ImGui::PushFont(ui.fonts.small);
+  ImGui::TextDisabled("      time, s     what happened");
+  ImGui::PopFont();
   const float row = ImGui::GetTextLineHeight() + ImGui::GetStyle().ItemSpacing.y;
   ImGui::BeginChild("bookmarks", {0.0f, row * static_cast<float>(std::min<std::size_t>(6, count)) + ui.px(12)}, true);
   // A row may remove itself, so the list is read again for each.

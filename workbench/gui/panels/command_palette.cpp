@@ -1,5 +1,6 @@
 // The command palette (Ctrl+P) and the shortcut sheet (F1). Neither is modal: servo, plots and view continue behind
 // them.
+#include "workbench/gui/panels/command_match.h"
 #include "workbench/gui/panels/commands.h"
 #include "workbench/gui/widgets/widgets.h"
 
@@ -43,68 +44,155 @@ void draw_keys(const UiContext& ui, const std::string& keys, float right, float 
   draw.AddText(font, font->FontSize, {right - w - ui.px(5), y + ui.px(1)}, ui.colours.text_dim, keys.c_str());
 }
 
+/// Up and Down: through the rows, or, where nothing is typed, through what was run before.
+void take_arrows(CommandPalette& state, int last) {
+  const bool up = ImGui::IsKeyPressed(kUp), down = ImGui::IsKeyPressed(kDown);
+  if (!up && !down) return;
+  const std::size_t lines = state.history.size();
+  if (lines > 0 && (state.recalled || (up && state.text.empty()))) {
+    std::size_t at = state.recalled.value_or(lines);
+    if (up && at > 0) --at;
+    if (down) ++at;
+    state.recalled = at < lines ? std::optional(at) : std::nullopt;
+    state.replacement = at < lines ? state.history[at] : std::string();
+    return;
+  }
+  state.chosen = std::clamp(state.chosen + (down ? 1 : -1), 0, std::max(last, 0));
+}
+
+/// Puts the replacement into the box while it is typed in, with the caret at its end.
+int edit_line(ImGuiInputTextCallbackData* data) {
+  auto& state = *static_cast<CommandPalette*>(data->UserData);
+  if (!state.replacement) return 0;
+  data->DeleteChars(0, data->BufTextLen);
+  data->InsertChars(0, state.replacement->c_str());
+  data->SelectionStart = data->SelectionEnd = data->CursorPos = data->BufTextLen;
+  state.replacement.reset();
+  return 0;
+}
+
+/// The line for typing. Returns whether Enter was pressed.
+bool draw_line(const UiContext& ui, CommandPalette& state) {
+  ImGui::SetNextItemWidth(-1.0f);
+  if (state.focus) edit_next("##command");
+  state.focus = false;
+  const std::string before = state.text;
+  const bool enter = ImGui::InputTextWithHint("##command", "what to do", &state.text,
+                                              ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_CallbackAlways,
+                                              edit_line, &state);
+  ui.items.note_last("palette/text");
+  tooltip(ui,
+          "Type what to do, with its value: \"curvature gain 12\". Up and down choose, or bring back what was run "
+          "before; Enter runs it, Esc closes");
+  if (state.text != before) {
+    state.chosen = 0;
+    state.problem.clear();
+    if (state.recalled && state.text != state.history[*state.recalled]) state.recalled.reset();
+  }
+  return enter;
+}
+
+/// One row; true: it was clicked.
+bool draw_row(const UiContext& ui, CommandPalette& state, const PaletteRow& row, int i, float height) {
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float w = ImGui::GetContentRegionAvail().x;
+  bool run = ImGui::InvisibleButton(printed("##command%d", i).c_str(), {w, height});
+  ui.items.note_last(printed("palette/%d", i));
+  if (ImGui::IsItemHovered() && (ImGui::GetIO().MouseDelta.x != 0.0f || ImGui::GetIO().MouseDelta.y != 0.0f))
+    state.chosen = i;
+  run = run || (ImGui::IsItemActive() && ImGui::IsMouseReleased(ImGuiMouseButton_Left));
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  if (i == state.chosen)
+    draw.AddRectFilled({at.x - ui.px(4), at.y}, {at.x + w + ui.px(4), at.y + height}, ui.colours.accent_fill, ui.px(3));
+  draw.AddText({at.x + ui.px(4), at.y + ui.px(2)}, ui.colours.text, row.title.c_str());
+  draw_keys(ui, row.keys, at.x + w - ui.px(2), at.y + ui.px(2));
+  ImFont* small = ui.fonts.small;
+  const float title = ImGui::CalcTextSize(row.title.c_str()).x + ui.px(20),
+              value = small->CalcTextSizeA(small->FontSize, 1e9f, 0.0f, row.value.c_str()).x;
+  if (row.keys.empty() && title + value < w)
+    draw.AddText(small, small->FontSize, {at.x + w - value - ui.px(4), at.y + ui.px(3)}, ui.colours.text_dim,
+                 row.value.c_str());
+  return run;
+}
+
+void put_away(CommandPalette& state) {
+  CommandPalette closed;
+  closed.history = std::move(state.history);
+  state = std::move(closed);
+}
+
+/// Runs a line, and closes the palette; where that fails it stays and says why. A line that needs a value yet is put
+/// into the box.
+void run_row(CommandPalette& state, const std::vector<Command>& commands, const PaletteRow& row) {
+  state.recalled.reset();
+  if (!row.complete) {
+    state.replacement = row.line + " ";
+    state.focus = true;
+    return;
+  }
+  const CommandPalette open = state;
+  state.open = false;  // a command may open it again
+  const Status done = run_line(commands, row.line);
+  if (!done) {
+    state = open;
+    state.problem = done.error().message();
+    state.focus = true;
+    state.replacement = state.text;
+    return;
+  }
+  const bool again = state.open;
+  put_away(state);
+  std::erase(state.history, row.line);
+  state.history.push_back(row.line);
+  state.open = state.focus = again;
+}
+
 }  // namespace
 
 void draw_command_palette(const UiContext& ui, AppModel& model, MenuBar& menu, const Rect& over) {
   CommandPalette& state = menu.palette;
   if (!state.open) return;
-  std::vector<Command> commands = window_commands(model, menu);
-  std::vector<std::pair<int, std::size_t>> found;
-  for (std::size_t i = 0; i < commands.size(); ++i) {
-    if (const int score = match_score(commands[i].name, state.text); score >= 0) found.emplace_back(score, i);
-  }
-  std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  const int last = static_cast<int>(std::min(found.size(), kRows)) - 1;
-  if (ImGui::IsKeyPressed(kDown)) ++state.chosen;
-  if (ImGui::IsKeyPressed(kUp)) --state.chosen;
+  const std::vector<Command> commands = window_commands(model, menu);
+  const std::vector<PaletteRow> rows = matching_rows(palette_rows(commands), state.text);
+  const int last = static_cast<int>(std::min(rows.size(), kRows)) - 1;
+  take_arrows(state, last);
   state.chosen = std::clamp(state.chosen, 0, std::max(last, 0));
 
-  const float row = ui.px(23), width = std::min(ui.px(520), over.w - ui.px(20));
-  const float height = ui.px(52) + row * static_cast<float>(std::max(last + 1, 1));
+  const float row = ui.px(23), width = std::min(ui.px(560), over.w - ui.px(20)), inner = width - ui.px(24);
+  const float problem =
+      state.problem.empty() ? 0.0f : ImGui::CalcTextSize(state.problem.c_str(), nullptr, false, inner).y + ui.px(8);
+  const float height = ui.px(52) + problem + row * static_cast<float>(std::max(last + 1, 1));
   begin_floating(ui, "##command_palette", {over.x + 0.5f * (over.w - width), over.y + ui.px(8)}, {width, height});
-  ImGui::SetNextItemWidth(-1.0f);
-  if (state.focus) edit_next("##command");
-  state.focus = false;
-  const std::string before = state.text;
-  const bool enter =
-      ImGui::InputTextWithHint("##command", "what to do", &state.text, ImGuiInputTextFlags_EnterReturnsTrue);
-  ui.items.note_last("palette/text");
-  tooltip(ui, "Type part of a command; up and down choose, Enter runs it, Esc closes");
+  const bool enter = draw_line(ui, state);
   const bool left = ImGui::IsItemDeactivated() && !enter;
-  if (state.text != before) state.chosen = 0;
-  int run = enter && last >= 0 ? state.chosen : -1;
-  ImDrawList& draw = *ImGui::GetWindowDrawList();
-  if (last < 0) ImGui::TextDisabled("No command has these letters");
-  for (int i = 0; i <= last; ++i) {
-    const Command& command = commands[found[static_cast<std::size_t>(i)].second];
-    const ImVec2 at = ImGui::GetCursorScreenPos();
-    const float w = ImGui::GetContentRegionAvail().x;
-    if (ImGui::InvisibleButton(printed("##command%d", i).c_str(), {w, row - ui.px(4)})) run = i;
-    ui.items.note_last(printed("palette/%d", i));
-    if (ImGui::IsItemHovered() && (ImGui::GetIO().MouseDelta.x != 0.0f || ImGui::GetIO().MouseDelta.y != 0.0f))
-      state.chosen = i;
-    if (ImGui::IsItemActive()) run = run < 0 && ImGui::IsMouseReleased(ImGuiMouseButton_Left) ? i : run;
-    if (i == state.chosen)
-      draw.AddRectFilled({at.x - ui.px(4), at.y}, {at.x + w + ui.px(4), at.y + row - ui.px(4)}, ui.colours.accent_fill,
-                         ui.px(3));
-    draw.AddText({at.x + ui.px(4), at.y + ui.px(2)}, ui.colours.text, command.name.c_str());
-    draw_keys(ui, command.keys, at.x + w - ui.px(2), at.y + ui.px(2));
+  if (!state.problem.empty()) {
+    ImGui::PushStyleColor(ImGuiCol_Text, ui.colours.bad);
+    ImGui::PushTextWrapPos(0.0f);
+    ImGui::TextUnformatted(state.problem.c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::PopStyleColor();
+    ui.items.note_last("palette/problem");
   }
+  if (last < 0) ImGui::TextDisabled("No command has these words");
+  int run = enter && last >= 0 ? state.chosen : -1;
+  for (int i = 0; i <= last; ++i)
+    if (draw_row(ui, state, rows[static_cast<std::size_t>(i)], i, row - ui.px(4)) && run < 0) run = i;
   const bool inside = ImGui::IsWindowHovered(ImGuiHoveredFlags_AllowWhenBlockedByActiveItem);
   end_floating();
-  if (run >= 0) {
-    state = {};
-    commands[found[static_cast<std::size_t>(run)].second].run();
-  } else if ((left && !inside) || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false)) {
-    state = {};
-  }
+  const bool escape = ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false);
+  if (run >= 0)
+    run_row(state, commands, rows[static_cast<std::size_t>(run)]);
+  else if (enter && !state.text.empty())
+    run_row(state, commands, {.line = state.text});
+  else if (enter || (left && !inside) || escape)
+    put_away(state);
 }
 
 void draw_shortcut_sheet(const UiContext& ui, AppModel& model, MenuBar& menu, const Rect& over) {
   if (!menu.sheet) return;
   std::vector<std::pair<std::string, std::string>> lines;
   for (const Command& command : window_commands(model, menu)) {
-    if (!command.keys.empty()) lines.emplace_back(command.keys, command.name);
+    if (!command.keys.empty()) lines.emplace_back(command.keys, command.title);
   }
   for (const KeyNote& note : further_keys()) lines.emplace_back(note.keys, note.what);
   const float row = ui.px(20);
@@ -116,7 +204,7 @@ void draw_shortcut_sheet(const UiContext& ui, AppModel& model, MenuBar& menu, co
   for (const auto& line : lines)
     column = std::max(column, ui.px(152 + 16) + ImGui::CalcTextSize(line.second.c_str()).x);
   constexpr const char* kNote = "F1 or a click closes this; Ctrl+P finds every command by name";
-  const float heading = ui.px(90) + ui.fonts.small->CalcTextSizeA(ui.fonts.small->FontSize, 1e9f, 0.0f, kNote).x;
+  const float heading = ui.px(190) + ui.fonts.small->CalcTextSizeA(ui.fonts.small->FontSize, 1e9f, 0.0f, kNote).x;
   const float width = std::min(std::max(column * static_cast<float>(columns), heading) + ui.px(24), over.w - ui.px(16));
   const float height = std::min(row * static_cast<float>(rows) + ui.px(46), over.h - ui.px(8));
   begin_floating(ui, "##shortcuts", {over.x + 0.5f * (over.w - width), over.y + ui.px(6)}, {width, height});
@@ -132,6 +220,13 @@ void draw_shortcut_sheet(const UiContext& ui, AppModel& model, MenuBar& menu, co
     draw_keys(ui, lines[i].first, x + ui.px(142), y);
     draw.AddText({x + ui.px(152), y - ui.px(1)}, ui.colours.text, lines[i].second.c_str());
   }
+  ImGui::SetCursorScreenPos(
+      {at.x + ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize("First steps").x - ui.px(14), at.y - ui.px(3)});
+  if (text_button(ui, "shortcuts/first", "First steps", "Five steps for the first minute")) {
+    menu.first.step = 0;
+    menu.sheet = false;
+  }
+  ImGui::SetCursorScreenPos({at.x, at.y + ui.px(24)});
   if (ImGui::InvisibleButton("##put_away", {std::max(1.0f, ImGui::GetContentRegionAvail().x),
                                             std::max(1.0f, ImGui::GetContentRegionAvail().y)}))
     menu.sheet = false;

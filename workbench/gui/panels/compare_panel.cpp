@@ -115,9 +115,21 @@ void draw_compare_panel(const UiContext& ui, AppModel& model, ComparePanel& stat
   draw_side(ui, "compare/left", state.left, names, value_width - ui.px(3));
   ImGui::SameLine(0, ui.px(3));
   draw_side(ui, "compare/right", state.right, names, value_width);
-  const auto changes = differences(chosen_preset(model, state.left), chosen_preset(model, state.right));
+  const Preset left = chosen_preset(model, state.left), right = chosen_preset(model, state.right);
+  const auto changes = differences(left, right);
   if (changes.empty()) ImGui::TextDisabled("No key differs");
   draw_differences(ui, model.presets(), changes, value_width);
+  const auto name_of = [&](const ComparePanel::Side& side) { return names[static_cast<std::size_t>(side.choice)]; };
+  if (text_button(
+          ui, "compare/solve", "Solve both",
+          "Pauses, and solves the ticks from cursor A to B, or all of them, under the left preset and under the "
+          "right one. Result: Time machine; the right one is the pale curve and the planes beside") &&
+      model.time().tick().record() != nullptr)
+    model.time().compare({name_of(state.left), left}, {name_of(state.right), right});
+  ImGui::SameLine(0, ui.px(6));
+  toggle_button(ui, "compare/beside", "Other slot beside", model.time().other_slot_beside,
+                "Solves the tick in view under the slot that is not rendered as well, also live: its planes, path, "
+                "error curve and table stand beside");
   ImGui::Dummy({1, ui.px(3)});
 }
 

@@ -69,10 +69,14 @@ void draw_states(const UiContext& ui, DeviceModel& devices) {
   if (session.needs_yes() && text_button(ui, "monitor/accept_no_timeout", "Use it nevertheless",
                                          "Without this yes nothing is armed. Keep a hand on its power switch"))
     session.accept_no_timeout();
-  if (text_button(ui, "monitor/arm", "Re-arm",
+  const bool fault = devices.faulted();
+  if (fault) ImGui::PushStyleColor(ImGuiCol_Button, ui.colours.bad);
+  if (fault) ImGui::PushStyleColor(ImGuiCol_Text, IM_COL32_WHITE);
+  if (text_button(ui, "monitor/arm", fault ? "Clear fault and arm" : "Arm",
                   "One attempt: clears faults, homes what is not homed, waits until the finger is off the surface, "
                   "and ramps the force in"))
     session.arm();
+  if (fault) ImGui::PopStyleColor(2);
   ImGui::SameLine();
   if (text_button(ui, "monitor/home", "Home", "Stops the force and homes both devices")) session.home();
 }
@@ -120,12 +124,13 @@ void draw_raw(const UiContext& ui, const DeviceModel& devices) {
   const ServoRecord& r = history.newest();
   const Vec3 p = r.tick.input.finger.position * 1e3, f = r.device.force_command_n;
   fact(ui, "Position", printed("%.3f %.3f %.3f", p.x, p.y, p.z), "mm");
-  fact(ui, "Force sent", printed("%.3f %.3f %.3f", f.x, f.y, f.z), "N");
+  fact(ui, "Force felt", printed("%.3f %.3f %.3f", f.x, f.y, f.z), "N", colour(ui.palette.force_magnitude));
+  tooltip(ui, "What the safety gate lets through to the device");
   fact(ui, "Energy, made by the loop", printed("%.3f", r.device.energy_j * 1e3), "mJ");
   tooltip(ui,
           "Observed by the safety gate: force sent times motion measured. Below zero the hand has stored it in the "
           "surface; at 5 mJ in half a second the gate stops");
-  fact(ui, "Roller, measured / sent",
+  fact(ui, "Roller, measured / commanded",
        printed("%.4f / %.4f", r.device.cld_measured_m * 1e3, r.device.cld_command_m * 1e3), "mm");
   if (const auto* can = devices.session()->force_capabilities(); can != nullptr && can->buttons > 0) {
     std::string pressed;

@@ -91,12 +91,13 @@ void draw_gate(const UiContext& ui, AppModel& model) {
 void draw_tick(const UiContext& ui, const TimeModel& time) {
   const ServoRecord& r = *time.tick().record();
   const auto length = [](const Vec3& v) { return glm::length(v); };
-  fact(ui, "Force sent", printed("%.3f", length(r.device.force_command_n)), "N");
-  tooltip(ui, "By the safety gate to the device, in this tick");
-  fact(ui, "Force asked for", printed("%.3f", length(r.tick.output.force_n)), "N");
-  fact(ui, "Force rendered", printed("%.3f", length(r.device.force_rendered_n)), "N");
-  tooltip(ui, "By the device while this tick's position was measured");
-  fact(ui, "Display sent / measured",
+  fact(ui, "Force computed", printed("%.3f", length(r.tick.output.force_n)), "N", packed(ui.palette.force_computed));
+  tooltip(ui, "By the solver, before the safety gate");
+  fact(ui, "Force felt", printed("%.3f", length(r.device.force_command_n)), "N", packed(ui.palette.force_magnitude));
+  tooltip(ui, "What the safety gate lets through to the device in this tick");
+  fact(ui, "Force at the sample", printed("%.3f", length(r.device.force_rendered_n)), "N");
+  tooltip(ui, "Applied by the device while this tick's position was measured: sent a tick or more before");
+  fact(ui, "Display commanded / measured",
        printed("%.3f / %.3f", r.device.cld_command_m * 1e3, r.device.cld_measured_m * 1e3), "mm");
   fact(ui, "Missed deadlines before", printed("%u", r.missed_deadlines));
   if (r.tick_ns <= 0.0) return;  // simulated time

@@ -35,18 +35,19 @@ struct ErrorScale {
 };
 
 /// A scale that contains all errors of the first `shown` iterations, and the tolerance.
-ErrorScale make_scale(const UiContext& ui, std::span<const IterationRecord> iterations, const ErrorFan& fan,
-                      std::size_t shown, double tolerance_um, ImVec2 min, ImVec2 max) {
+ErrorScale make_scale(const UiContext& ui, const TimeModel& time, std::size_t shown, double tolerance_um, ImVec2 min,
+                      ImVec2 max) {
   double low = tolerance_um, high = tolerance_um * 10.0;
   const auto include = [&](double um) {
     low = std::min(low, um);
     high = std::max(high, um);
   };
-  for (const ErrorFan::Curve& curve : fan.curves()) {
+  for (const ErrorFan::Curve& curve : time.error_fan().curves()) {
     for (std::size_t i = 0; i < std::min(shown, curve.error_m.size()); ++i)
       include(shown_um(static_cast<double>(curve.error_m[i])));
   }
-  for (const IterationRecord& r : iterations) include(shown_um(r));
+  for (const IterationRecord& r : time.tick().iterations()) include(shown_um(r));
+  for (const IterationRecord& r : time.beside().iterations()) include(shown_um(r));
   return {min,
           max,
           std::pow(10.0, std::floor(std::log10(low) + 1e-9)),
@@ -124,6 +125,19 @@ void draw_fan(const UiContext& ui, const ErrorScale& scale, const ErrorFan& fan,
                note.c_str());
 }
 
+/// The other preset's curve: hollow dots.
+void draw_beside(const UiContext& ui, const ErrorScale& scale, std::span<const IterationRecord> iterations) {
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const ImU32 ink = beside_ink(ui);
+  for (std::size_t i = 1; i < iterations.size(); ++i) {
+    if (iterations[i].seed != iterations[i - 1].seed) continue;
+    draw.AddLine(scale.point(i - 1, iterations[i - 1]), scale.point(i, iterations[i]), ink, ui.px(1.3f));
+  }
+  const float radius = std::clamp(0.38f * (scale.x(1.0) - scale.x(0.0)), ui.px(1.6f), ui.px(4.0f));
+  for (std::size_t i = 0; i < iterations.size(); ++i)
+    draw.AddCircle(scale.point(i, iterations[i]), radius, ink, 16, ui.px(1.4f));
+}
+
 void draw_dots(const UiContext& ui, const ErrorScale& scale, std::span<const IterationRecord> iterations,
                std::optional<std::size_t> selected, std::optional<std::size_t> hovered) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
@@ -160,12 +174,14 @@ void draw_error_plot(const UiContext& ui, AppModel& model) {
   draw.AddText(font, font->FontSize, {min.x + ui.px(34), at.y + ui.px(2)}, ui.colours.text_dim,
                "\u00b5m, by iteration; faint: the 60 ticks before");
   const double tolerance_um = model.presets().current().solver.tolerance_m * 1e6;
-  const std::size_t shown =
-      iterations_shown(iterations.size(), model.time().error_fan().longest(), model.time().paused());
-  const ErrorScale scale = make_scale(ui, iterations, model.time().error_fan(), shown, tolerance_um, min, max);
+  const auto beside = model.time().beside().iterations();
+  const std::size_t shown = iterations_shown(std::max(iterations.size(), beside.size()),
+                                             model.time().error_fan().longest(), model.time().paused());
+  const ErrorScale scale = make_scale(ui, model.time(), shown, tolerance_um, min, max);
   draw_grid(ui, scale, tolerance_um);
   draw_fan(ui, scale, model.time().error_fan(), shown);
   const auto hovered = mouse_here ? under_mouse(ui, scale, iterations) : std::nullopt;
+  draw_beside(ui, scale, beside);
   draw_dots(ui, scale, iterations, model.time().tick().selected(), hovered);
   if (!hovered) return;
   ImGui::SetTooltip("iteration %zu: %s \u00b5m", *hovered, short_number(iterations[*hovered].error_m * 1e6).c_str());

@@ -1,35 +1,42 @@
-// Table of the iterations of the tick in view, one tangent plane per row; selection is linked with the 3D view.
+// Table of the iterations of the tick in view, one tangent plane per row; selection is linked with the 3D view. Where
+// the tick is also solved under another preset, that one's cells stand beside, marked where they differ.
+#include "workbench/gui/panels/attempts_text.h"
+#include "workbench/gui/panels/iteration_columns.h"
 #include "workbench/gui/panels/panels.h"
 #include "workbench/gui/widgets/widgets.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace tangent {
 
+ImU32 beside_ink(const UiContext& ui) { return packed(ui.palette.control_net); }
+
 namespace {
 
-struct Column {
-  const char* title;
-  const char* unit;
-  float characters;
-  const char* doc;
+using Planes = std::span<const IterationRecord>;
+
+/// A column of the table as drawn.
+struct DrawnColumn {
+  IterationColumn column;
+  bool beside = false;  ///< of the other preset
 };
-constexpr std::array kColumns{
-    Column{"#", "", 4.5f, "Order of the tangent planes; 0 is the plane kept from the last tick"},
-    Column{"error", "\u00b5m", 9, "Distance between the surface point and the finger's contact on the plane there"},
-    Column{"step", "\u00b5m", 8, "Length of the step on the base triangle that followed"},
-    Column{"gain", "", 6, "Gain of Eq. 1 for that step; 0 where none was taken"},
-    Column{"triangle", "", 8,
-           "Triangle the plane touches, in file order; in a 2D scene the vertex whose patch the line touches"},
-    Column{"u", "", 6, "Weight of the triangle's second corner"},
-    Column{"v", "", 6, "Weight of the triangle's third corner"},
-    Column{"w", "", 6, "Weight of the triangle's first corner"},
-    Column{"curvature", "1/m", 9, "|dN/ds| along the step (Eq. 2)"},
-    Column{"d", "mm", 7, "Distance d of Eq. 1"},
-    Column{"seed", "", 4, "0: tracking from the kept plane; n: the n-th seed of a re-seeding"},
-    Column{"stop", "", 15, "Why the iteration ended here"}};
+
+bool has_beside(IterationColumn column) {
+  return column == IterationColumn::error || column == IterationColumn::ratio || column == IterationColumn::gain ||
+         column == IterationColumn::triangle || column == IterationColumn::stop;
+}
+
+std::vector<DrawnColumn> drawn_columns(const ShownColumns& shown, bool beside) {
+  std::vector<DrawnColumn> out;
+  for (std::size_t c = 0; c < kIterationColumnCount; ++c) {
+    const auto column = static_cast<IterationColumn>(c);
+    if (c > 0 && !shown[c]) continue;
+    out.push_back({column, false});
+    if (beside && has_beside(column)) out.push_back({column, true});
+  }
+  return out;
+}
 
 void right_aligned(const char* text) {
   const float room = ImGui::GetContentRegionAvail().x, w = ImGui::CalcTextSize(text).x;
@@ -37,80 +44,223 @@ void right_aligned(const char* text) {
   ImGui::TextUnformatted(text);
 }
 
-std::string cell(const IterationRecord& r, std::size_t column) {
-  switch (column) {
-    case 1:
-      return r.error_m < 1e-3 ? printed("%.4f", r.error_m * 1e6) : printed("%.3e", r.error_m * 1e6);
-    case 2:
-      return printed("%.2f", r.step_m * 1e6);
-    case 3:
-      return printed("%.3f", r.gain);
-    case 4:
-      return r.triangle == kNone ? std::string("-") : printed("%u", r.triangle);
-    case 5:
-      return printed("%.4f", r.u);
-    case 6:
-      return printed("%.4f", r.v);
-    case 7:
-      return printed("%.4f", 1.0 - r.u - r.v);
-    case 8:
-      return printed("%.2f", r.curvature_per_m);
-    case 9:
-      return printed("%.4f", r.distance_m * 1e3);
-    case 10:
-      return printed("%d", static_cast<int>(r.seed));
-    case 11:
-      return r.stop == StopReason::going_on ? std::string() : std::string(to_string(r.stop));
-    default:
-      return {};
-  }
-}
-
-void draw_header(const UiContext& ui, bool planar) {
+void draw_header(const UiContext& ui, std::span<const DrawnColumn> columns, bool planar) {
   ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
   ImGui::PushFont(ui.fonts.small);
-  for (std::size_t c = 0; c < kColumns.size(); ++c) {
+  for (const DrawnColumn& drawn : columns) {
     if (!ImGui::TableNextColumn()) continue;
-    std::string title =
-        kColumns[c].unit[0] != '\0' ? printed("%s %s", kColumns[c].title, kColumns[c].unit) : kColumns[c].title;
-    if (planar && title == "triangle") title = "vertex";
-    if (c == 11)
+    const IterationColumnInfo& info = info_of(drawn.column);
+    std::string title = info.unit[0] != '\0' ? printed("%s %s", info.title, info.unit) : info.title;
+    if (planar && drawn.column == IterationColumn::triangle) title = "vertex";
+    if (drawn.beside) ImGui::PushStyleColor(ImGuiCol_Text, beside_ink(ui));
+    if (drawn.column == IterationColumn::stop)
       ImGui::TextUnformatted(title.c_str());
     else
       right_aligned(title.c_str());
-    tooltip(ui, kColumns[c].doc);
+    if (drawn.beside) ImGui::PopStyleColor();
+    tooltip(ui, drawn.beside ? std::string(info.doc) + ". Under the other preset" : info.doc);
   }
   ImGui::PopFont();
 }
 
-void draw_row(const UiContext& ui, TimeModel& time, std::size_t i, std::size_t count) {
-  const IterationRecord& r = time.tick().iterations()[i];
+ImU32 ink_of(const UiContext& ui, const DrawnColumn& drawn, Planes of, Planes other, std::size_t i) {
+  if (drawn.beside)
+    return iteration_cell(of, i, drawn.column) == iteration_cell(other, i, drawn.column) ? ui.colours.text_faint
+                                                                                         : beside_ink(ui);
+  if (drawn.column == IterationColumn::stop)
+    return i < of.size() && of[i].stop == StopReason::converged ? ui.colours.good : ui.colours.warning;
+  if (drawn.column == IterationColumn::ratio && error_ratio(of, i) >= 1.0) return ui.colours.warning;
+  return ui.colours.text;
+}
+
+void draw_row(const UiContext& ui, TimeModel& time, std::span<const DrawnColumn> columns, std::size_t i) {
+  const Planes recorded = time.tick().iterations(), beside = time.beside().iterations();
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const bool selected = time.tick().selected() == i;
-  if (ImGui::Selectable(printed("##iteration%zu", i).c_str(), selected, ImGuiSelectableFlags_SpanAllColumns)) {
+  if (i > 0 && i < recorded.size() && recorded[i - 1].seed != recorded[i].seed)  // another attempt begins
+    ImGui::GetWindowDrawList()->AddLine({at.x, at.y - ui.px(1)}, {at.x + ui.px(2000), at.y - ui.px(1)},
+                                        ui.colours.accent, ui.px(1));
+  if (ImGui::Selectable(printed("##iteration%zu", i).c_str(), selected, ImGuiSelectableFlags_SpanAllColumns) &&
+      i < recorded.size()) {
     time.set_paused(true);
     time.tick().select(selected ? std::nullopt : std::optional(i));
   }
   // The row may extend beyond the visible columns, so its first cell is noted.
-  ui.items.note(printed("iterations/row/%zu", i), at, {at.x + ui.px(16), at.y + ImGui::GetTextLineHeight()});
+  ui.items.note_last(printed("iterations/row/%zu", i), at, {at.x + ui.px(16), at.y + ImGui::GetTextLineHeight()});
   const float side = ui.px(7), y = at.y + 0.5f * ImGui::GetTextLineHeight();
-  ImGui::GetWindowDrawList()->AddRectFilled({at.x, y - 0.5f * side}, {at.x + side, y + 0.5f * side},
-                                            packed(iteration_colour(i, count)), ui.px(1.5f));
+  if (i < recorded.size())
+    ImGui::GetWindowDrawList()->AddRectFilled({at.x, y - 0.5f * side}, {at.x + side, y + 0.5f * side},
+                                              packed(iteration_colour(i, recorded.size())), ui.px(1.5f));
   ImGui::SameLine(0.0f, 0.0f);
   right_aligned(printed("%zu", i).c_str());
-  for (std::size_t c = 1; c < kColumns.size(); ++c) {
+  for (const DrawnColumn& drawn : columns.subspan(1)) {
     if (!ImGui::TableNextColumn()) continue;
-    const std::string text = cell(r, c);
-    if (c == 11) {
-      const bool good = r.stop == StopReason::converged;
-      ImGui::PushStyleColor(ImGuiCol_Text, good ? ui.colours.good : ui.colours.warning);
+    const Planes of = drawn.beside ? beside : recorded, other = drawn.beside ? recorded : beside;
+    const std::string text = iteration_cell(of, i, drawn.column);
+    ImGui::PushStyleColor(ImGuiCol_Text, ink_of(ui, drawn, of, other, i));
+    if (drawn.column == IterationColumn::stop)
       ImGui::TextUnformatted(text.c_str());
-      ImGui::PopStyleColor();
-    } else {
+    else
       right_aligned(text.c_str());
+    ImGui::PopStyleColor();
+  }
+}
+
+std::string planes_text(const TickOutput& out, bool planar) {
+  return printed("%d new %s%s, %d %s change%s", out.iterations, planar ? "line" : "plane",
+                 out.iterations == 1 ? "" : "s", out.triangle_changes, planar ? "vertex" : "triangle",
+                 out.triangle_changes == 1 ? "" : "s");
+}
+
+/// Status, why the last plane was the last, and counts; one line a preset.
+void draw_summary(const UiContext& ui, const TickOutput& out, Planes planes, bool planar, const char* path) {
+  const bool bad = !is_converged(out.status);
+  ImGui::PushStyleColor(ImGuiCol_Text, bad ? ui.colours.warning : ui.colours.text);
+  const std::string event = out.event == TickEvent::none ? "" : std::string(", ") + to_string(out.event);
+  ImGui::Text("%s%s", to_string(out.status), event.c_str());
+  ImGui::PopStyleColor();
+  ui.items.note_last(path);
+  ImGui::SameLine();
+  ImGui::TextDisabled("stop: %s; %s", last_stop(planes).c_str(), planes_text(out, planar).c_str());
+}
+
+/// Of the preset that the tick ran under.
+int limit_then(const AppModel& model, const ServoRecord& record) {
+  const Session* session = model.devices().session();
+  const Preset* then = session != nullptr ? session->preset(record.tick.preset_id) : nullptr;
+  return (then != nullptr ? *then : model.presets().current()).solver.max_iterations;
+}
+
+void draw_attempts(const UiContext& ui, const AppModel& model, const ServoRecord& record) {
+  const TickView& tick = model.time().tick();
+  ImGui::TextDisabled("%s", attempts_text(tick.iterations(), tick.iterations_lost(), record.tick.output.iterations,
+                                          limit_then(model, record))
+                                .c_str());
+  ui.items.note_last("iterations/attempts");
+  tooltip(ui,
+          "New planes of every attempt: tracking from the kept plane, then, where it was lost, from each seed. The "
+          "limit holds for one attempt. Searched: planes of places that were looked at and are not in the table");
+}
+
+void draw_beside_summary(const UiContext& ui, const TimeModel& time, bool planar) {
+  if (!time.beside().shown()) return;
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float side = ui.px(7), y = at.y + 0.5f * ImGui::GetTextLineHeight();
+  draw.AddRectFilled({at.x, y - 0.5f * side}, {at.x + side, y + 0.5f * side}, beside_ink(ui), ui.px(1.5f));
+  ImGui::SetCursorPosX(ImGui::GetCursorPosX() + ui.px(12));
+  draw_summary(ui, time.beside().output(), time.beside().iterations(), planar, "iterations/beside");
+  tooltip(ui, time.beside().carried()
+                  ? "The same tick under the other preset, which carried its own contact up to here, as in the pale "
+                    "curves of the plots"
+                  : "The same tick under the other preset, from the recorded contact of the tick before");
+}
+
+void draw_solve_here(const UiContext& ui, AppModel& model) {
+  const PlacedTick* placed = model.time().placed();
+  const bool picked = model.view().picked_triangle != kNone;
+  const std::string label = picked ? printed("Solve at triangle %u", model.view().picked_triangle) : "Solve here";
+  if (text_button(ui, "iterations/solve_here", label.c_str(),
+                  "A tick at the picked triangle's middle, or at the contact in view, in the direction that needs most "
+                  "planes, without waiting for the finger (H). W: at the map's worst place"))
+    model.solve_here();
+  if (placed == nullptr) return;
+  ImGui::SameLine(0, ui.px(4));
+  if (text_button(ui, "iterations/leave_place", "Back", "Back to the recorded tick")) model.time().leave_place();
+}
+
+void draw_column_choice(const UiContext& ui, IterationsPanel& state, bool beside_a_button) {
+  const std::string label = "Columns";
+  if (beside_a_button) ImGui::SameLine(0, ui.px(4));
+  if (text_button(ui, "iterations/columns", label.c_str(), "Which columns the table has"))
+    ImGui::OpenPopup("iteration_columns");
+  if (!ImGui::BeginPopup("iteration_columns")) return;
+  for (std::size_t c = 1; c < kIterationColumnCount; ++c) {
+    const IterationColumnInfo& info = info_of(static_cast<IterationColumn>(c));
+    ImGui::Checkbox(info.title, &state.columns[c]);
+    ui.items.note_last(std::string("iterations/column/") + info.title);
+  }
+  ImGui::EndPopup();
+}
+
+/// The bar under the table, which makes it higher or lower; a double click: as high as the column is.
+void draw_height_bar(const UiContext& ui, IterationsPanel& state, float row, float rows) {
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float width = std::max(1.0f, ImGui::GetContentRegionAvail().x), height = ui.px(7);
+  ImGui::InvisibleButton("##iterations_height", {width, height});
+  ui.items.note_last("iterations/height");
+  tooltip(ui, "Drag: more rows. Double-click: as many as at first");
+  const bool lit = ImGui::IsItemHovered() || ImGui::IsItemActive();
+  if (lit) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeNS);
+  const float middle = at.x + 0.5f * width;
+  ImGui::GetWindowDrawList()->AddRectFilled({middle - ui.px(14), at.y + ui.px(2)},
+                                            {middle + ui.px(14), at.y + ui.px(4)},
+                                            lit ? ui.colours.accent : ui.colours.text_faint, ui.px(1));
+  if (ImGui::IsItemActive() && ImGui::GetIO().MouseDelta.y != 0.0f)
+    state.rows = std::clamp(state.rows.value_or(rows) + ImGui::GetIO().MouseDelta.y / row, 2.0f, 200.0f);
+  if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) state.rows.reset();
+}
+
+void draw_table(const UiContext& ui, TimeModel& time, IterationsPanel& state, bool planar) {
+  ImGui::PushFont(ui.fonts.small_number);
+  ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, ImVec2(ui.px(4), ui.px(1.5f)));
+  const float row = ImGui::GetTextLineHeight() + ui.px(3);
+  // The height does not depend on the tick, so that nothing below moves; a higher column shows more rows.
+  const float at_first = std::clamp(std::floor(0.14f * ImGui::GetWindowHeight() / row), 5.0f, 10.0f);
+  const float rows = state.rows.value_or(at_first);
+  const float height = (rows + 1.0f) * row + ui.px(4) + ImGui::GetStyle().ScrollbarSize;
+  const auto columns = drawn_columns(state.columns, time.beside().shown());
+  constexpr ImGuiTableFlags flags = ImGuiTableFlags_ScrollX | ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg |
+                                    ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_BordersOuterH;
+  std::string id = "iterations";
+  for (const DrawnColumn& drawn : columns) id += static_cast<char>('a' + static_cast<int>(drawn.column));
+  if (ImGui::BeginTable(id.c_str(), static_cast<int>(columns.size()), flags, {0.0f, height})) {
+    const float character = ImGui::CalcTextSize("0").x;
+    for (const DrawnColumn& drawn : columns)
+      ImGui::TableSetupColumn(info_of(drawn.column).title, ImGuiTableColumnFlags_WidthFixed,
+                              info_of(drawn.column).characters * character);
+    ImGui::TableSetupScrollFreeze(1, 1);
+    draw_header(ui, columns, planar);
+    // Selected elsewhere (keys, 3D view, plots): scroll to its row.
+    if (time.tick().selected() != state.shown_selection) {
+      state.shown_selection = time.tick().selected();
+      if (state.shown_selection)
+        ImGui::SetScrollY(std::max(0.0f, (static_cast<float>(*state.shown_selection) - 2.0f) * row));
     }
+    ImGuiListClipper clipper;
+    clipper.Begin(static_cast<int>(std::max(time.tick().iterations().size(), time.beside().iterations().size())));
+    while (clipper.Step()) {
+      for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i)
+        draw_row(ui, time, columns, static_cast<std::size_t>(i));
+    }
+    ImGui::EndTable();
+  }
+  ui.items.note_last("iterations/table");
+  ImGui::PopStyleVar();
+  ImGui::PopFont();
+  draw_height_bar(ui, state, row, rows);
+}
+
+/// The directions of a tick at a place, the chosen one lit, each with its planes.
+void draw_moves(const UiContext& ui, TimeModel& time) {
+  const PlacedTick* placed = time.placed();
+  if (placed == nullptr) return;
+  ImGui::Text("At triangle %u, u %.3f, v %.3f: planes by direction", placed->triangle(), placed->u(), placed->v());
+  ui.items.note_last("iterations/place");
+  tooltip(ui,
+          "The finger rests there and moves by one tick's travel: no motion was recorded. The last direction is "
+          "straight in. A step in time goes back to the recorded ticks");
+  for (std::size_t i = 0; i < placed->moves().size(); ++i) {
+    const PlaceMove& move = placed->moves()[i];
+    bool on = placed->chosen() == i;
+    if (i > 0) ImGui::SameLine(0, ui.px(3));
+    const std::string text = printed("%d%s", move.output.iterations, move.failed() ? "!" : "");
+    if (toggle_button(ui, printed("iterations/move/%zu", i), (text + printed("##move%zu", i)).c_str(), on,
+                      move.failed() ? "This direction; its tick failed" : "This direction") &&
+        on)
+      time.choose_move(i);
   }
 }
 
@@ -118,59 +268,23 @@ void draw_row(const UiContext& ui, TimeModel& time, std::size_t i, std::size_t c
 
 void draw_iterations_panel(const UiContext& ui, AppModel& model, IterationsPanel& state) {
   if (!section(ui, "Iterations", state.open)) return;
-  const auto iterations = model.time().tick().iterations();
-  const ServoRecord* record = model.time().tick().record();
+  TimeModel& time = model.time();
+  const ServoRecord* record = time.tick().record();
   if (record == nullptr) {
     ImGui::TextDisabled("No tick yet");
     return;
   }
-  const TickOutput& out = record->tick.output;
   const bool planar = model.scene().current() != nullptr && model.scene().current()->planar() != nullptr;
   ImGui::PushFont(ui.fonts.small);
-  const bool bad = !is_converged(out.status);
-  ImGui::PushStyleColor(ImGuiCol_Text, bad ? ui.colours.warning : ui.colours.text);
-  const std::string event = out.event == TickEvent::none ? "" : std::string(", ") + to_string(out.event);
-  ImGui::Text("%s%s", to_string(out.status), event.c_str());
-  ImGui::PopStyleColor();
-  ImGui::SameLine();
-  ImGui::TextDisabled("%d new %s%s, %d %s change%s", out.iterations, planar ? "line" : "plane",
-                      out.iterations == 1 ? "" : "s", out.triangle_changes, planar ? "vertex" : "triangle",
-                      out.triangle_changes == 1 ? "" : "s");
+  draw_moves(ui, time);
+  draw_summary(ui, record->tick.output, time.tick().iterations(), planar, "iterations/summary");
+  draw_attempts(ui, model, *record);
+  draw_beside_summary(ui, time, planar);
+  if (!planar) draw_solve_here(ui, model);
+  draw_column_choice(ui, state, !planar);
   ImGui::PopFont();
-  if (!model.time().tick().problem().empty()) ImGui::TextWrapped("%s", model.time().tick().problem().c_str());
-
-  ImGui::PushFont(ui.fonts.small_number);
-  ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, ImVec2(ui.px(4), ui.px(1.5f)));
-  const float row = ImGui::GetTextLineHeight() + ui.px(3);
-  // The height does not depend on the tick, so that nothing below moves; a higher column shows more rows.
-  const float rows = std::clamp(std::floor(0.14f * ImGui::GetWindowHeight() / row), 5.0f, 10.0f);
-  const float height = (rows + 1.0f) * row + ui.px(4) + ImGui::GetStyle().ScrollbarSize;
-  constexpr ImGuiTableFlags flags = ImGuiTableFlags_ScrollX | ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg |
-                                    ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_BordersOuterH;
-  if (ImGui::BeginTable("iterations", static_cast<int>(kColumns.size()), flags, {0.0f, height})) {
-    const float character = ImGui::CalcTextSize("0").x;
-    for (const Column& column : kColumns) {
-      ImGui::TableSetupColumn(column.title, ImGuiTableColumnFlags_WidthFixed, column.characters * character);
-    }
-    ImGui::TableSetupScrollFreeze(1, 1);
-    draw_header(ui, planar);
-    // Selected elsewhere (keys, 3D view, plots): scroll to its row.
-    if (model.time().tick().selected() != state.shown_selection) {
-      state.shown_selection = model.time().tick().selected();
-      if (state.shown_selection)
-        ImGui::SetScrollY(std::max(0.0f, (static_cast<float>(*state.shown_selection) - 2.0f) * row));
-    }
-    ImGuiListClipper clipper;
-    clipper.Begin(static_cast<int>(iterations.size()));
-    while (clipper.Step()) {
-      for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i)
-        draw_row(ui, model.time(), static_cast<std::size_t>(i), iterations.size());
-    }
-    ImGui::EndTable();
-  }
-  ui.items.note_last("iterations/table");
-  ImGui::PopStyleVar();
-  ImGui::PopFont();
+  if (!time.tick().problem().empty()) ImGui::TextWrapped("%s", time.tick().problem().c_str());
+  draw_table(ui, time, state, planar);
   draw_error_plot(ui, model);
   if (!planar) draw_path_map(ui, model, state.map);
 }

@@ -36,6 +36,7 @@ void draw_log_panel(const UiContext& ui, MessageLog& messages, LogPanel& state) 
   ImGui::SetNextItemWidth(-1.0f);
   ImGui::InputTextWithHint("##log_filter", "only those with these letters", &state.filter);
   ui.items.note_last("log/filter");
+  if (auto given = ui.items.take_value("log/filter")) state.filter = *given;
   tooltip(ui, "Shows only messages that contain this");
   std::string copied;
   std::size_t shown = 0;

@@ -162,16 +162,19 @@ void draw_worst(const UiContext& ui, AppModel& model) {
   const MapView& map = model.map();
   if (map.worst().empty()) return;
   ImGui::TextDisabled("Worst places");
-  tooltip(ui, "A click goes there");
+  tooltip(ui, "A click goes there and solves a tick there. W: from one to the next");
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const float width = ImGui::GetContentRegionAvail().x, height = ui.px(18);
   for (std::size_t i = 0; i < map.worst().size(); ++i) {
     const MapPlace& place = map.worst()[i];
     const ImVec2 at = ImGui::GetCursorScreenPos();
-    if (ImGui::InvisibleButton(printed("##worst%zu", i).c_str(), {width, height}))
+    if (ImGui::InvisibleButton(printed("##worst%zu", i).c_str(), {width, height})) {
       model.view().look_at_place(place.point_world, place.normal, place.triangle);
+      model.solve_here(place.triangle, place.u, place.v);
+    }
     ui.items.note_last(printed("map/worst/%zu", i));
-    tooltip(ui, "Turns the view there and picks the triangle");
+    tooltip(ui,
+            "Turns the view there, picks the triangle and solves a tick there, in the worst of the map's directions");
     const bool picked = model.view().picked_triangle == place.triangle;
     if (ImGui::IsItemHovered() || picked)
       draw.AddRectFilled(at, {at.x + width, at.y + height}, picked ? ui.colours.accent_fill : ui.colours.accent_soft,

@@ -1,11 +1,13 @@
 // The top bar: file and view menus, scene, preset, the simulated hand, and the stop button.
 #include "core/lab/objects/generate.h"
+#include "workbench/gui/panels/examples.h"
 #include "workbench/gui/panels/panels.h"
 #include "workbench/gui/widgets/widgets.h"
 
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <iterator>
 
 namespace tangent {
 
@@ -42,6 +44,18 @@ bool menu_item(const UiContext& ui, std::string_view path, const char* text, con
   return chosen;
 }
 
+void draw_examples(const UiContext& ui, MenuBar& state) {
+  if (ImGui::BeginMenu("Examples")) {
+    for (const Example& example : examples()) {
+      if (!menu_item(ui, std::string("menu/file/examples/") + example.name, example.name, example.tip)) continue;
+      state.wish.lines = example.lines;
+      state.wish.lines_of = example.name;
+    }
+    ImGui::EndMenu();
+  }
+  ui.items.note_last("menu/file/examples");
+}
+
 void draw_file_menu(const UiContext& ui, AppModel& model, MenuBar& state) {
   if (!drop_button(ui, "menu/file", "File", "Meshes, screenshots, quit")) return;
   if (menu_item(ui, "menu/file/open", "Open mesh...", "Type a path: OBJ, PLY, STL or OFF; Tab completes it", "Ctrl+O"))
@@ -61,6 +75,7 @@ void draw_file_menu(const UiContext& ui, AppModel& model, MenuBar& state) {
   ui.items.note_last("menu/file/recent");
   if (menu_item(ui, "menu/file/reload", "Load the mesh again", "Reads the file anew") && !model.scene().path().empty())
     model.scene().open(model.scene().path());
+  draw_examples(ui, state);
   ImGui::Separator();
   if (menu_item(ui, "menu/file/screenshot", "Screenshot",
                 "Saves a picture of the window (PNG) in the folder the program was started in", "F12"))
@@ -75,9 +90,15 @@ void draw_file_menu(const UiContext& ui, AppModel& model, MenuBar& state) {
   ImGui::EndPopup();
 }
 
-void draw_camera_items(const UiContext& ui, ViewModel& view) {
+void draw_camera_items(const UiContext& ui, ViewModel& view, const TickRecord* tick) {
   if (menu_item(ui, "menu/view/frame", "Frame the mesh", "All of it in view, from the present direction", "F"))
     view.frame_scene();
+  if (menu_item(ui, "menu/view/contact", "Look at the contact", "Turns the camera to the contact of the tick in view",
+                "G"))
+    view.look_at_contact(tick);
+  if (menu_item(ui, "menu/view/follow", "Follow the contact", "The camera goes with the contact, live and in the past",
+                "Shift+G", view.follow_contact))
+    view.follow_contact = !view.follow_contact;
   if (ImGui::BeginMenu("Look from")) {
     for (const NamedView& v : kStandardViews) {
       std::string title = v.name;
@@ -99,6 +120,27 @@ void draw_camera_items(const UiContext& ui, ViewModel& view) {
     view.paste_camera();
 }
 
+/// Red-blind, green-blind, blue-blind.
+void draw_vision_items(const UiContext& ui, WindowModel& window) {
+  struct Item {
+    const char *name, *tip;
+  };
+  constexpr Item kItems[]{{"Common vision", "For eyes with all three kinds of cones"},
+                          {"Protan vision", "For eyes without cones for long waves (red-blind)"},
+                          {"Deutan vision", "For eyes without cones for middle waves (green-blind)"},
+                          {"Tritan vision", "For eyes without cones for short waves (blue-blind)"}};
+  if (ImGui::BeginMenu("Colours for")) {
+    for (std::size_t i = 0; i < std::size(kItems); ++i) {
+      const auto vision = static_cast<Vision>(i);
+      if (menu_item(ui, std::string("menu/view/vision/") + kVisionNames[i], kItems[i].name, kItems[i].tip, nullptr,
+                    vision_of(window.theme()) == vision))
+        window.set_vision(vision);
+    }
+    ImGui::EndMenu();
+  }
+  ui.items.note_last("menu/view/vision");
+}
+
 void draw_view_menu(const UiContext& ui, AppModel& model) {
   if (!drop_button(ui, "menu/view", "View", "Layout, camera, what is drawn, colours, text size")) return;
   LayoutSizes& sizes = model.window().sizes();
@@ -106,7 +148,7 @@ void draw_view_menu(const UiContext& ui, AppModel& model) {
     sizes.show_left = !sizes.show_left;
   if (menu_item(ui, "menu/view/right", "Iterations, maps, mesh, devices", "The right column", nullptr,
                 sizes.show_right))
-    sizes.show_right = !sizes.show_right;
+    sizes.prefer_right = sizes.show_right = !sizes.show_right;
   if (menu_item(ui, "menu/view/plots", "Plots", "Curves over time, below", nullptr, sizes.show_plots))
     sizes.show_plots = !sizes.show_plots;
   if (menu_item(ui, "menu/view/monitor", "Device monitor",
@@ -115,7 +157,7 @@ void draw_view_menu(const UiContext& ui, AppModel& model) {
   if (menu_item(ui, "menu/view/reset", "Default layout", "Columns, plots and sections as on first start"))
     model.window().reset_layout();
   ImGui::Separator();
-  draw_camera_items(ui, model.view());
+  draw_camera_items(ui, model.view(), model.tick_in_view());
   ImGui::Separator();
   SceneToggles& show = model.view().toggles;
   if (menu_item(ui, "menu/view/creases", "Creases and boundaries", "Sharp edges and rims, as strong lines", nullptr,
@@ -130,11 +172,12 @@ void draw_view_menu(const UiContext& ui, AppModel& model) {
   if (menu_item(ui, "menu/view/axes", "Axes and scale", "Orientation and scale bars in the corner", nullptr, show.axes))
     show.axes = !show.axes;
   ImGui::Separator();
-  const bool dark = model.window().theme() == Theme::dark;
+  const bool dark = is_dark(model.window().theme());
   if (menu_item(ui, "menu/view/dark", "Dark", "Light text on dark ground", nullptr, dark))
-    model.window().set_theme(Theme::dark);
+    model.window().set_dark(true);
   if (menu_item(ui, "menu/view/light", "Light", "Dark text on light ground", nullptr, !dark))
-    model.window().set_theme(Theme::light);
+    model.window().set_dark(false);
+  draw_vision_items(ui, model.window());
   if (menu_item(ui, "menu/view/larger", "Larger text", "Everything a tenth larger", "Ctrl++"))
     model.window().set_ui_scale(model.window().ui_scale() * 1.1f);
   if (menu_item(ui, "menu/view/smaller", "Smaller text", "Everything a tenth smaller", "Ctrl+-"))
@@ -193,6 +236,33 @@ std::string draw_device_menu(const UiContext& ui, const std::string& path, const
   return chosen;
 }
 
+void draw_device_menus(const UiContext& ui, DeviceModel& devices, bool labels) {
+  const auto label = [&](const char* text) {
+    if (!labels) return;
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextDisabled("%s", text);
+    ImGui::SameLine(0, ui.px(5));
+  };
+  label("Force");
+  const DeviceNames names = devices.names();
+  const std::string force = draw_device_menu(ui, "menu/force", "The force device", force_device_names(), names.force);
+  ImGui::SameLine(0, ui.px(12));
+  label("Display");
+  const std::string display =
+      draw_device_menu(ui, "menu/display", "The contact location display", contact_display_names(), names.display);
+  if (!force.empty()) devices.choose({force, names.display});
+  if (!display.empty()) devices.choose({names.force, display});
+  ImGui::SameLine(0, ui.px(12));
+}
+
+void draw_hand(const UiContext& ui, DeviceModel& devices) {
+  bool follows = devices.hand_follows_mouse();
+  if (toggle_button(
+          ui, "menu/hand", "Hand follows mouse", follows,
+          "Drag on the surface in the 3D view to lead the simulated hand (M). Off: it explores the mesh by itself"))
+    devices.set_hand_follows_mouse(follows);
+}
+
 /// The stop button, which must be found at once: red, on the right. It only stops, and is always there; arming has its
 /// own place (arming_bar.cpp).
 void draw_stop(const UiContext& ui, DeviceModel& devices, const Rect& rect) {
@@ -200,9 +270,10 @@ void draw_stop(const UiContext& ui, DeviceModel& devices, const Rect& rect) {
   const float width = ImGui::CalcTextSize("Stop force").x + ui.px(22);
   ImGui::SameLine();
   ImGui::SetCursorScreenPos({rect.right() - width - ui.px(10), ImGui::GetCursorScreenPos().y});
-  const ImVec4 fill = ImGui::ColorConvertU32ToFloat4(ui.colours.bad);
-  ImGui::PushStyleColor(ImGuiCol_Button, ImVec4(fill.x, fill.y, fill.z, stopped ? 0.3f : 0.75f));
-  ImGui::PushStyleColor(ImGuiCol_ButtonHovered, fill);
+  ImVec4 fill = ImGui::ColorConvertU32ToFloat4(ui.colours.stop);
+  if (stopped) fill.w = 0.3f;
+  ImGui::PushStyleColor(ImGuiCol_Button, fill);
+  ImGui::PushStyleColor(ImGuiCol_ButtonHovered, ui.colours.stop_hovered);
   ImGui::PushStyleColor(ImGuiCol_Text, stopped ? ui.colours.text : IM_COL32_WHITE);
   ImGui::Button("Stop force##stop", {width, 0.0f});
   if (ImGui::IsItemActivated()) devices.stop();  // when it is pressed, not when it is let go
@@ -227,8 +298,11 @@ void draw_menu_bar(const UiContext& ui, AppModel& model, MenuBar& state, const R
   ImGui::SameLine(0, ui.px(3));
   draw_view_menu(ui, model);
   ImGui::SameLine(0, ui.px(14));
+  // Words go before they would overlap: labels, then what the commands have as well.
   const float room = std::clamp((rect.w - ui.px(850)) * 0.35f, ui.px(80), ui.px(240));
+  const bool labels = rect.w > ui.px(860), hand = rect.w > ui.px(720), devices = rect.w > ui.px(570);
   const auto label = [&](const char* text) {
+    if (!labels) return;
     ImGui::AlignTextToFramePadding();
     ImGui::TextDisabled("%s", text);
     ImGui::SameLine(0, ui.px(5));
@@ -239,21 +313,8 @@ void draw_menu_bar(const UiContext& ui, AppModel& model, MenuBar& state, const R
   label("Preset");
   draw_preset_menu(ui, model.presets(), model.mesh(), room);
   ImGui::SameLine(0, ui.px(12));
-  label("Force");
-  DeviceNames names = model.devices().names();
-  const std::string force = draw_device_menu(ui, "menu/force", "The force device", force_device_names(), names.force);
-  ImGui::SameLine(0, ui.px(12));
-  label("Display");
-  const std::string display =
-      draw_device_menu(ui, "menu/display", "The contact location display", contact_display_names(), names.display);
-  if (!force.empty()) model.devices().choose({force, names.display});
-  if (!display.empty()) model.devices().choose({names.force, display});
-  ImGui::SameLine(0, ui.px(12));
-  bool follows = model.devices().hand_follows_mouse();
-  if (toggle_button(
-          ui, "menu/hand", "Hand follows mouse", follows,
-          "Drag on the surface in the 3D view to lead the simulated hand (M). Off: it explores the mesh by itself"))
-    model.devices().set_hand_follows_mouse(follows);
+  if (devices) draw_device_menus(ui, model.devices(), labels);
+  if (hand) draw_hand(ui, model.devices());
   draw_stop(ui, model.devices(), rect);
   ImGui::End();
   if (state.path.open) draw_path_bar(ui, model, state.path, rect);

@@ -79,6 +79,11 @@ void draw_duration_histogram(const UiContext& ui, const char* title, const LogHi
     const float left = std::clamp(x - 0.5f * w, at.x, at.x + width - w);
     draw.AddText(font, font->FontSize, {left, bottom + ui.px(2)}, ui.colours.text_dim, label.c_str());
   }
+  constexpr const char* kAxes = "ticks (log) over ms (log)";
+  const ImFont* words = ui.fonts.small;
+  draw.AddText(words, words->FontSize,
+               {at.x + width - words->CalcTextSizeA(words->FontSize, 1e9f, 0.0f, kAxes).x - ui.px(3), at.y + ui.px(1)},
+               ui.colours.text_dim, kAxes);
   // Logarithmic heights, so that one in ten thousand is visible.
   const double full = std::log10(static_cast<double>(columns.most) + 1.0);
   for (std::size_t i = 0; i < columns.counts.size(); ++i) {

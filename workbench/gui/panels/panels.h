@@ -3,7 +3,9 @@
 #pragma once
 
 #include "workbench/gui/model/app_model.h"
+#include "workbench/gui/panels/iteration_columns.h"
 #include "workbench/gui/panels/planar_view.h"
+#include "workbench/gui/plots/derived_curve.h"
 #include "workbench/gui/plots/plot_view.h"
 #include "workbench/gui/plots/sample_cells.h"
 #include "workbench/gui/plots/spectrum.h"
@@ -42,9 +44,15 @@ struct PresetsPanel {
   std::string asked_for;  ///< this file exists: pressing again overwrites it
   std::string written;    ///< saved before in this run: no confirmation
 };
+/// Of the values in use, for the file that they are saved in.
+PresetOrigin origin_of(const AppModel& model, const std::string& note);
 void draw_presets_panel(const UiContext& ui, AppModel& model, PresetsPanel& state);
 
 // Right column.
+/// The tabs over it. Returns their height; 0: the column is hidden.
+float draw_task_tabs(const UiContext& ui, WindowModel& window, const Rect& column);
+/// Beside the pointer: the numbers of a triangle of the mesh.
+void draw_triangle_card(const UiContext& ui, const AppModel& model, std::uint32_t triangle);
 /// Where the scene is on the force device: part of the devices panel.
 void draw_placement(const UiContext& ui, AppModel& model);
 struct PathMapPanel {
@@ -52,11 +60,20 @@ struct PathMapPanel {
 };
 struct IterationsPanel {
   bool open = true;
+  std::optional<float> rows;  ///< height of the table; none: follows from the window's
+  ShownColumns columns = all_columns();
+  static ShownColumns all_columns() {
+    ShownColumns columns;
+    columns.fill(true);
+    return columns;
+  }
   std::optional<std::size_t> shown_selection;  ///< row to which the table was last scrolled
   PathMapPanel map;
 };
 void draw_iterations_panel(const UiContext& ui, AppModel& model, IterationsPanel& state);
 void draw_error_plot(const UiContext& ui, AppModel& model);
+/// Colour of what the other preset does in the tick in view, the same in table, error plot, path and 3D view.
+ImU32 beside_ink(const UiContext& ui);
 void draw_path_map(const UiContext& ui, AppModel& model, PathMapPanel& state);
 
 struct MapPanel {
@@ -91,6 +108,9 @@ struct FoldedPanel {
 };
 void draw_time_machine_panel(const UiContext& ui, TimeModel& time, FoldedPanel& state);
 
+/// One or two keys over many values on the chosen ticks: mean, p99 and failures of each, a click tries it.
+void draw_sweep_panel(const UiContext& ui, AppModel& model, FoldedPanel& state);
+
 struct BookmarksPanel {
   bool open = true;
   bool triggers_open = false;
@@ -124,16 +144,26 @@ void draw_view_panel(const UiContext& ui, AppModel& model, ViewPanel& state, Sce
 void draw_toasts(const UiContext& ui, AppModel& model, const Rect& over);
 
 // Below.
-enum class PlotsMode : std::uint8_t { time, xy, spectrum, histogram };
+enum class PlotsMode : std::uint8_t { time, xy, spectrum, histogram, derived };
+struct DerivedPlot {
+  int how = 2;  ///< Derivation
+  int a = 1, b = 0, c = 0, cutoff = 2;
+  DerivedCurve curve;
+  std::optional<PlotView> view;
+  std::string title;  ///< of `view`
+};
 struct PlotsPanel {
   std::vector<PlotView> plots;
   PlotLink link;
   PlotsMode mode = PlotsMode::time;
   bool values = false;  ///< the table of numbers beside the curves
-  int x = 0, y = 2;     ///< curve numbers for X-Y; spectrum and histogram show x
-  SampleCells cells;
-  Spectrum spectrum;
-  int spectrum_of = -1;  ///< curve, range and time of `spectrum`
+  bool legend = false;  ///< what the marks mean
+  int x = 2, y = 4;     ///< curve numbers for X-Y; spectrum and histogram show x
+  SampleCells cells, ghost_cells;
+  DerivedPlot derived;
+  Spectrum spectrum, ghost_spectrum;
+  std::uint64_t spectrum_ghost = 0;  ///< generation of the ghost in `ghost_spectrum`; 0: none
+  int spectrum_of = -1;              ///< curve, range and time of `spectrum`
   std::uint64_t spectrum_from = 0, spectrum_to = 0;
   double spectrum_at_s = -1.0;
   std::array<ImU32, 4> event_inks{};     ///< by EventRank - 1
@@ -151,12 +181,16 @@ std::vector<CurveRef> curves_of(const PlotsPanel& state);
 /// Range [from, to) of the ticks in view that are in the history.
 std::pair<std::uint64_t, std::uint64_t> ticks_in_view(const TimeModel& time);
 void draw_plots_toolbar(const UiContext& ui, AppModel& model, PlotsPanel& state, const Rect& rect, const Rect& whole);
+/// A card over the plots: what the marks and lines in them mean.
+void draw_plots_legend(const UiContext& ui, const PlotsPanel& state, const Rect& over);
 void draw_values_table(const UiContext& ui, TimeModel& time, PlotsPanel& state, const Rect& rect);
+/// A curve computed from others, over time.
+void draw_derived_plot(const UiContext& ui, AppModel& model, PlotsPanel& state, const Rect& rect);
 /// X-Y, spectrum or histogram.
 void draw_other_plot(const UiContext& ui, AppModel& model, PlotsPanel& state, const Rect& rect);
 void draw_plots_panel(const UiContext& ui, AppModel& model, PlotsPanel& state, const Rect& rect);
 void draw_transport_bar(const UiContext& ui, TimeModel& time, const Rect& rect);
-void draw_status_line(const UiContext& ui, AppModel& model, const Rect& rect, double build_ms);
+void draw_status_line(const UiContext& ui, AppModel& model, const Rect& rect, double frame_ms);
 
 // Above.
 struct PathBar {
@@ -169,14 +203,40 @@ struct CommandPalette {
   bool open = false;
   bool focus = false;
   std::string text;
+  std::string problem;  ///< why the last line was not run; empty: it was
   int chosen = 0;
+  std::vector<std::string> history;        ///< lines that were run, oldest first
+  std::optional<std::size_t> recalled;     ///< which of them is in the box
+  std::optional<std::string> replacement;  ///< text to put into the box
+};
+/// What commands leave to the frames that follow (wish.h).
+struct Wish {
+  std::string widget;  ///< path of one to press or to give `value`; empty: none
+  std::optional<std::string> value;
+  double until_s = 0.0;         ///< a script waits until then,
+  std::uint64_t ticks = 0;      ///< for so many ticks more,
+  bool time_passes = false;     ///< errors meanwhile are the devices', and not the line's
+  bool work = false;            ///< for what runs in the background
+  std::string script;           ///< file to run; empty: none
+  std::string lines, lines_of;  ///< or these lines, and what to call them
+};
+/// Five steps for the first minute; drawn over the window beside what they are about.
+struct FirstSteps {
+  static constexpr int kCount = 5;
+  std::optional<int> step;  ///< empty: not shown
 };
 struct MenuBar {
+  FirstSteps first;
   PathBar path;
   CommandPalette palette;
   bool sheet = false;  ///< the sheet of shortcuts
+  Wish wish;
+  // Of the last frame, for commands that look at the window.
+  const ItemMap* items = nullptr;
+  std::string title;
 };
 void draw_command_palette(const UiContext& ui, AppModel& model, MenuBar& menu, const Rect& over);
+void draw_first_steps(const UiContext& ui, AppModel& model, MenuBar& menu, const Rect& over);
 void draw_shortcut_sheet(const UiContext& ui, AppModel& model, MenuBar& menu, const Rect& over);
 void draw_menu_bar(const UiContext& ui, AppModel& model, MenuBar& state, const Rect& rect);
 
@@ -187,6 +247,7 @@ std::vector<std::string> complete_mesh_path(const std::string& typed, std::size_
 std::string common_start(const std::vector<std::string>& texts);
 
 /// Keys that work everywhere but in text boxes. Listed in the shortcut sheet (commands.h).
-void handle_shortcuts(AppModel& model, MenuBar& menu);
+/// `arrows`: Left and Right are free, and not a field's.
+void handle_shortcuts(AppModel& model, MenuBar& menu, bool arrows = true);
 
 }  // namespace tangent

@@ -75,6 +75,14 @@ void draw_label(const UiContext& ui, AppModel& model, const PresetKey& key, cons
   draw.PopClipRect();
 }
 
+/// A hundredth of the slider, or what changes a whole number by one.
+double arrow_step(const PresetKey& key, double value) {
+  constexpr double kShare = 0.01;
+  if (key.kind != KeyKind::integer) return kShare;
+  const double one = slider_share(key, value + 1.0) - slider_share(key, value);
+  return std::max(kShare, one);
+}
+
 /// `prefix`: of the item's path, for a key drawn twice.
 void draw_row(const UiContext& ui, AppModel& model, const PresetKey& key, const char* prefix = "") {
   const Preset& preset = model.presets().current();
@@ -94,8 +102,8 @@ void draw_row(const UiContext& ui, AppModel& model, const PresetKey& key, const 
     if (choice_row(ui, path, field_width, key.choices, chosen)) model.presets().set_value(key, chosen);
   } else {
     const DisplayUnit unit = display_unit(key);
-    const auto result =
-        value_field(ui, path, {field_width, slider_share(key, value), display_text(key, value), unit.name});
+    const auto result = value_field(
+        ui, path, {field_width, slider_share(key, value), display_text(key, value), unit.name, arrow_step(key, value)});
     if (result.slid) model.presets().slide_value(key, slider_value(key, *result.slid));
     if (result.typed) model.presets().type_value(key, *result.typed);
   }
@@ -121,7 +129,7 @@ void draw_favourites(const UiContext& ui, AppModel& model) {
 /// The paper's conditions by name; sets both sources.
 void draw_condition_row(const UiContext& ui, PresetModel& presets) {
   const RenderingCondition* present = condition_of(presets.current());
-  std::array<std::string_view, kConditionNames.size() + 1> names{"none of the six"};
+  std::array<std::string_view, kConditionNames.size() + 1> names{"own combination"};
   std::copy(kConditionNames.begin(), kConditionNames.end(), names.begin() + 1);
   const float width = ImGui::GetContentRegionAvail().x, label_width = std::max(ui.px(128), 0.42f * width);
   const ImVec2 at = ImGui::GetCursorScreenPos();
@@ -134,7 +142,7 @@ void draw_condition_row(const UiContext& ui, PresetModel& presets) {
     presets.set_condition(kRenderingConditions[static_cast<std::size_t>(chosen - 1)]);
   tooltip(ui, "The paper's rendering conditions: sources of force and display together. " +
                   (present != nullptr ? std::string(present->words)
-                                      : std::string("The present sources make none of them")));
+                                      : std::string("The sources chosen here are a combination of your own")));
 }
 
 void draw_table(const UiContext& ui, AppModel& model, const PresetTable& table) {

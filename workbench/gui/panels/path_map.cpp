@@ -154,6 +154,24 @@ void draw_edges(const UiContext& ui, const SceneModel& scene, const ResidualMap&
   }
 }
 
+/// The planes of the other preset: hollow dots.
+void draw_beside_path(const UiContext& ui, std::span<const IterationRecord> iterations, const ResidualMap& map,
+                      const MapFraming& on) {
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const ImU32 ink = beside_ink(ui);
+  std::optional<ImVec2> last;
+  for (std::size_t i = 0; i < iterations.size(); ++i) {
+    const auto flat = map.place(iterations[i].triangle, iterations[i].u, iterations[i].v);
+    const std::optional<ImVec2> here = flat ? std::optional(on.at(*flat)) : std::nullopt;
+    if (here && last && iterations[i].seed == iterations[i - 1].seed) {
+      draw.AddLine(*last, *here, packed(with_alpha(ui.palette.panel, 0.8f)), ui.px(3.5f));
+      draw.AddLine(*last, *here, ink, ui.px(1.6f));
+    }
+    if (here) draw.AddCircle(*here, ui.px(5.2f), ink, 18, ui.px(1.6f));
+    last = here;
+  }
+}
+
 /// Returns the number of planes outside the map; `pointed`: the plane under the mouse.
 std::size_t draw_path(const UiContext& ui, const TimeModel& time, const ResidualMap& map, const MapFraming& on,
                       bool mouse_here, std::optional<std::size_t>& pointed) {
@@ -243,7 +261,7 @@ void draw_path_map(const UiContext& ui, AppModel& model, PathMapPanel& state) {
                  "no planes on this mesh");
     return;
   }
-  const Preset* then = model.devices().session()->preset(record->tick.preset_id);
+  const Preset* then = model.time().preset_of_tick();
   const Preset& preset = then != nullptr ? *then : model.presets().current();
   ResidualMap map(model.scene().current(), triangle_index, preset.finger, preset.solver.normal_form,
                   record->tick.input);
@@ -260,6 +278,7 @@ void draw_path_map(const UiContext& ui, AppModel& model, PathMapPanel& state) {
   draw_contours(ui, map, on, planes);
   draw_edges(ui, model.scene(), map, on);
   std::optional<std::size_t> pointed;
+  draw_beside_path(ui, model.time().beside().iterations(), map, on);
   const std::size_t elsewhere = draw_path(ui, model.time(), map, on, mouse_here, pointed);
   draw.PopClipRect();
   draw_heading(ui, map, on, elsewhere);

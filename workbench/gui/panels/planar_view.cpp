@@ -1,6 +1,7 @@
 #include "workbench/gui/panels/planar_view.h"
 
 #include "workbench/gui/layout/view_room.h"
+#include "workbench/gui/render/force_arrows.h"
 #include "workbench/gui/render/overlay_canvas.h"
 #include "workbench/gui/widgets/widgets.h"
 
@@ -30,7 +31,8 @@ constexpr std::array kToggles{
                  "Local centres with the angles of their patches: the tracked patch's, and small ones of all"},
     PlanarToggle{"Tangents", &PlanarView::tangents, "Tangent lines of the tick's iterations, coloured by order"},
     PlanarToggle{"Finger", &PlanarView::finger, "The finger, with its contact"},
-    PlanarToggle{"Force", &PlanarView::force, "The rendered force, 6 mm a newton"},
+    PlanarToggle{"Force", &PlanarView::force,
+                 "The computed force, and the felt one behind the safety gate, 6 mm a newton"},
     PlanarToggle{"Display", &PlanarView::display, "The fingerpad from the side, with the roller where it is"}};
 
 /// Maps the scene to pixels and back; y up.
@@ -58,7 +60,8 @@ class Paper {
 void frame_all(const UiContext& ui, const AppModel& model, PlanarView& view, const Rect& rect) {
   const Box& box = model.scene().current()->mesh().bounds();
   const Vec3 origin = model.scene().current()->mesh().origin(), size = box.size();
-  const double reach = 1.5 * model.presets().current().finger.reach_m();
+  // The whole finger on every side.
+  const double reach = 4.2 * model.presets().current().finger.reach_m();
   const double em = ui.fonts.text->FontSize, height = rect.h;
   const Vec2 card{(kInsetLeft + kInsetWidth + 1.0) * em,
                   ui.px(kScaleHeight) + (view.display ? (kInsetBottom + kInsetHeight) * em : 0.0)};
@@ -67,7 +70,7 @@ void frame_all(const UiContext& ui, const AppModel& model, PlanarView& view, con
     const double px_per_m = 0.94 * height * std::min(room.width / (size.x + reach), room.height / (size.y + reach));
     if (px_per_m <= view.px_per_m) continue;
     view.px_per_m = px_per_m;
-    view.centre = Vec2(origin.x, origin.y) + Vec2(0.0, 0.4 * reach) - room.shift * height / px_per_m;
+    view.centre = Vec2(origin.x, origin.y) - room.shift * height / px_per_m;
   }
   view.framed = model.scene().current().get();
   view.framings = model.view().framings;
@@ -194,17 +197,35 @@ void draw_finger(const UiContext& ui, const Finger& finger, const TickRecord& ti
   }
 }
 
-void draw_force(const UiContext& ui, const TickOutput& out, const Paper& paper, ImDrawList& draw) {
-  const double size = glm::length(out.force_n);
-  if (!(size > 1e-9)) return;
-  const ImVec2 from = paper.at(out.contact), to = paper.at(out.contact + kForceScale * out.force_n);
+void draw_force_arrow(const UiContext& ui, ImVec2 from, ImVec2 to, float width, ImU32 ink, ImDrawList& draw) {
   const float dx = to.x - from.x, dy = to.y - from.y, length = std::max(1e-3f, std::sqrt(dx * dx + dy * dy)),
-              head = std::min(ui.px(10), length);
+              head = std::min(ui.px(4.0f * width), length);
   const ImVec2 d{dx / length, dy / length}, neck{to.x - head * d.x, to.y - head * d.y};
-  const ImU32 ink = colour(ui.palette.force_magnitude);
-  draw.AddLine(from, neck, ink, ui.px(2.6f));
+  draw.AddLine(from, neck, ink, ui.px(width));
   draw.AddTriangleFilled(to, {neck.x - 0.42f * head * d.y, neck.y + 0.42f * head * d.x},
                          {neck.x + 0.42f * head * d.y, neck.y - 0.42f * head * d.x}, ink);
+}
+
+/// Computed and felt, each with its number; one arrow where they agree.
+void draw_force(const UiContext& ui, const ServoRecord& record, const Paper& paper, ImDrawList& draw) {
+  const TickOutput& out = record.tick.output;
+  const Vec3& felt = record.device.force_command_n;
+  const ForceArrows arrows = force_arrows(out.force_n, felt);
+  if (!(std::max(arrows.computed_n, arrows.felt_n) > 1e-9)) return;
+  const ImVec2 from = paper.at(out.contact), felt_tip = paper.at(out.contact + kForceScale * felt),
+               computed_tip = paper.at(out.contact + kForceScale * out.force_n);
+  const ImU32 felt_ink = colour(ui.palette.force_magnitude), computed_ink = colour(ui.palette.force_computed);
+  if (arrows.felt_n > 1e-9) draw_force_arrow(ui, from, felt_tip, 2.6f, felt_ink, draw);
+  if (!arrows.same && arrows.computed_n > 1e-9) draw_force_arrow(ui, from, computed_tip, 1.6f, computed_ink, draw);
+  const ImVec2 tip = arrows.computed_n > arrows.felt_n ? computed_tip : felt_tip;
+  ImFont* font = ui.fonts.small_number;
+  float y = tip.y - (tip.y < from.y ? ui.px(arrows.same ? 16 : 30) : ui.px(-4));
+  const auto row = [&](double newton, const char* name, ImU32 ink) {
+    draw.AddText(font, font->FontSize, {tip.x + ui.px(14), y}, ink, printed("%.2f N%s", newton, name).c_str());
+    y += ui.px(14);
+  };
+  if (!arrows.same) row(arrows.computed_n, " computed", computed_ink);
+  row(arrows.felt_n, arrows.same ? "" : " felt", felt_ink);
 }
 
 /// A length that is 1, 2 or 5 times a power of ten and about a tenth of the view.
@@ -245,6 +266,8 @@ void draw_planar_view(const UiContext& ui, AppModel& model, PlanarView& view, co
   if (view.framed != model.scene().current().get() || view.framings != model.view().framings)
     frame_all(ui, model, view, rect);
   interact(model.devices(), view, rect);
+  if (const TickRecord* tick = model.tick_in_view(); tick != nullptr && model.view().follow_contact)
+    view.centre = Vec2(tick->output.contact.x, tick->output.contact.y);
   const Paper paper(view, rect);
   const LocalCentre kind = model.presets().current().solver.local_centre;
   ImDrawList& draw = *ImGui::GetWindowDrawList();
@@ -255,13 +278,19 @@ void draw_planar_view(const UiContext& ui, AppModel& model, PlanarView& view, co
                            : nullptr;
   if (record != nullptr && view.finger)
     draw_finger(ui, (then != nullptr ? *then : model.presets().current()).finger, record->tick, paper, draw);
+  if (record != nullptr) {
+    const Vec3 reach((then != nullptr ? *then : model.presets().current()).finger.reach_m());
+    const Vec3& at = record->tick.input.finger.position;
+    ui.items.note("planar/finger", paper.at(at + Vec3(-reach.x, reach.y, 0.0)),
+                  paper.at(at + Vec3(reach.x, -reach.y, 0.0)));
+  }
   draw_curve(ui, view, curve, kind, paper, draw);
   if (view.centres)
     draw_centres(ui, curve, kind, record != nullptr ? record->tick.output.triangle : kNone, paper, draw);
   if (view.tangents) draw_tangents(ui, model.time(), paper, rect, draw);
   if (record != nullptr) {
     draw.AddCircleFilled(paper.at(record->tick.output.contact), ui.px(3.6f), colour(ui.palette.contact), 16);
-    if (view.force) draw_force(ui, record->tick.output, paper, draw);
+    if (view.force) draw_force(ui, *record, paper, draw);
   }
   draw_scale(ui, view, rect, draw);
   const Box& box = model.scene().current()->mesh().bounds();

@@ -46,17 +46,37 @@ void draw_choice(const UiContext& ui, const char* path, const char* label, const
   ImGui::SameLine(0, ui.px(12));
 }
 
+/// The ghost's counts as a line over the recorded bars.
+void draw_ghost_outline(const UiContext& ui, const SampleCells& ghost, const PlainPlot& plot, const CurveRef& curve) {
+  const double low = static_cast<double>(ghost.x_range().min) * curve.plot->scale,
+               high = static_cast<double>(ghost.x_range().max) * curve.plot->scale;
+  const double cell = (high - low) / static_cast<double>(ghost.query().columns);
+  std::vector<ImVec2> line{plot.at(low, 0.0)};
+  for (std::size_t i = 0; i < ghost.query().columns; ++i) {
+    const double x = low + cell * static_cast<double>(i), count = static_cast<double>(ghost.counts()[i]);
+    line.push_back(plot.at(x, count));
+    line.push_back(plot.at(x + cell, count));
+  }
+  line.push_back(plot.at(high, 0.0));
+  ImGui::GetWindowDrawList()->AddPolyline(line.data(), static_cast<int>(line.size()), ghost_ink(ui, *curve.series), 0,
+                                          ui.px(1.3f));
+}
+
 void draw_histogram(const UiContext& ui, TimeModel& time, PlotsPanel& state, const CurveRef& curve,
                     const PlotArea& area) {
   const auto [from, to] = ticks_in_view(time);
   state.cells.update(time.store(), {curve.series->channel, std::nullopt, from, to, 96, 1});
   const SampleCells& cells = state.cells;
   const bool mine = cells.query().x == curve.series->channel && !cells.query().y && !cells.counts().empty();
-  PlainPlot plot{area,
-                 axis_over(mine ? cells.x_range() : MinMax{}, curve.plot->scale, curve.with_unit()),
-                 {0.0, 1.0, false, "Ticks"}};
+  const bool with_ghost = state.link.ghost != nullptr && curve.series->ghost;
+  if (with_ghost) state.ghost_cells.update(*state.link.ghost, {*curve.series->ghost, std::nullopt, from, to, 96, 1});
+  const SampleCells& ghost = state.ghost_cells;
+  const bool ghost_mine = with_ghost && ghost.query().x == *curve.series->ghost && !ghost.counts().empty();
+  MinMax x_range = mine ? cells.x_range() : MinMax{};
+  if (ghost_mine) x_range.include(ghost.x_range());
+  PlainPlot plot{area, axis_over(x_range, curve.plot->scale, curve.with_unit()), {0.0, 1.0, false, "Ticks"}};
   if (mine && cells.most() > 0) {
-    plot.y.high = static_cast<double>(cells.most());
+    plot.y.high = static_cast<double>(std::max(cells.most(), ghost_mine ? ghost.most() : 0u));
     widen_to_nice(plot.y.low, plot.y.high, 4);
     plot.y.label = printed("Ticks, of %llu", static_cast<unsigned long long>(cells.total()));
   }
@@ -78,16 +98,24 @@ void draw_histogram(const UiContext& ui, TimeModel& time, PlotsPanel& state, con
     a.y = std::min(a.y, b.y - ui.px(1));  // a single sample among a million stays visible
     draw.AddRectFilled(a, b, packed(ui.palette.*curve.series->colour));
   }
+  if (ghost_mine && ghost.total() > 0) draw_ghost_outline(ui, ghost, plot, curve);
   draw.PopClipRect();
 }
 
 void draw_spectrum(const UiContext& ui, AppModel& model, PlotsPanel& state, const CurveRef& curve,
                    const PlotArea& area) {
   const auto [from, to] = ticks_in_view(model.time());
-  const bool other = state.spectrum_of != state.x || state.spectrum_from != from || state.spectrum_to != to;
+  const bool with_ghost = state.link.ghost != nullptr && curve.series->ghost;
+  const std::uint64_t ghost = with_ghost ? state.link.ghost->generation() : 0;
+  const bool other = state.spectrum_of != state.x || state.spectrum_from != from || state.spectrum_to != to ||
+                     state.spectrum_ghost != ghost;
   if (other && (state.spectrum_of != state.x || std::abs(model.now_s() - state.spectrum_at_s) >= kSpectrumEvery_s)) {
     state.spectrum =
         amplitude_spectrum(model.time().store(), curve.series->channel, from, to, 1.0 / model.time().tick_period_s());
+    state.ghost_spectrum = with_ghost ? amplitude_spectrum(*state.link.ghost, *curve.series->ghost, from, to,
+                                                           1.0 / model.time().tick_period_s())
+                                      : Spectrum{};
+    state.spectrum_ghost = ghost;
     state.spectrum_of = state.x;
     state.spectrum_from = from;
     state.spectrum_to = to;
@@ -105,10 +133,11 @@ void draw_spectrum(const UiContext& ui, AppModel& model, PlotsPanel& state, cons
     plot.y.label +=
         printed(": largest %.3g %s at %.4g Hz", static_cast<double>(s.amplitude[s.peak]) * scale, unit, s.peak_hz());
     if (const std::size_t buzz = s.peak_above(kHandUpTo_hz); buzz > 0 && buzz != s.peak)
-      plot.y.label += printed(", faster than a hand %.3g %s at %.4g Hz", static_cast<double>(s.amplitude[buzz]) * scale,
-                              unit, s.bin_hz * static_cast<double>(buzz));
+      plot.y.label +=
+          printed("; above %.0f Hz, where no hand moves: %.3g %s at %.4g Hz", kHandUpTo_hz,
+                  static_cast<double>(s.amplitude[buzz]) * scale, unit, s.bin_hz * static_cast<double>(buzz));
     plot.y.label +=
-        printed("   (%zu segment%s of %zu ticks, Hann)", s.segments, s.segments == 1 ? "" : "s", s.segment_ticks);
+        printed("   (mean of %zu segment%s of %zu ticks)", s.segments, s.segments == 1 ? "" : "s", s.segment_ticks);
   }
   draw_axes(ui, plot);
   if (s.empty() || s.peak == 0) {
@@ -117,13 +146,22 @@ void draw_spectrum(const UiContext& ui, AppModel& model, PlotsPanel& state, cons
   }
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   draw.PushClipRect(area.min, area.max, true);
-  std::vector<ImVec2> line;
-  for (std::size_t i = 1; i < s.amplitude.size(); ++i) {
-    const double value = std::max(static_cast<double>(s.amplitude[i]) * curve.plot->scale, plot.y.low * 0.1);
-    line.push_back(plot.at(s.bin_hz * static_cast<double>(i), value));
-  }
+  const auto line_of = [&](const Spectrum& of) {
+    std::vector<ImVec2> points;
+    for (std::size_t i = 1; i < of.amplitude.size(); ++i) {
+      const double value = std::max(static_cast<double>(of.amplitude[i]) * curve.plot->scale, plot.y.low * 0.1);
+      points.push_back(plot.at(of.bin_hz * static_cast<double>(i), value));
+    }
+    return points;
+  };
+  const std::vector<ImVec2> line = line_of(s);
   draw.AddPolyline(line.data(), static_cast<int>(line.size()), packed(ui.palette.*curve.series->colour), 0,
                    ui.px(1.3f));
+  if (with_ghost) {
+    const std::vector<ImVec2> other_line = line_of(state.ghost_spectrum);
+    draw.AddPolyline(other_line.data(), static_cast<int>(other_line.size()), ghost_ink(ui, *curve.series), 0,
+                     ui.px(1.0f));
+  }
   for (const std::size_t peak : {s.peak, s.peak_above(kHandUpTo_hz)}) {
     if (peak > 0) draw.AddCircle(line[peak - 1], ui.px(5), ui.colours.text, 20, ui.px(1.2f));
   }

@@ -82,11 +82,16 @@ PlotsPanel make_plots_panel() {
                .title = "Force",
                .unit = "N",
                .format = "%7.3f",
-               .series = {{"x", at(Channel::force_x), &Palette::force_x, false, true, at(GhostChannel::force_x)},
-                          {"y", at(Channel::force_y), &Palette::force_y, false, true, at(GhostChannel::force_y)},
-                          {"z", at(Channel::force_z), &Palette::force_z, false, true, at(GhostChannel::force_z)},
-                          {"total", at(Channel::force_magnitude), &Palette::force_magnitude, false, true,
-                           at(GhostChannel::force_magnitude)}}});
+               .series = {{"computed", at(Channel::force_computed), &Palette::force_computed, false, true,
+                           at(GhostChannel::force_computed), "By the solver, before the safety gate"},
+                          {"felt", at(Channel::force_felt), &Palette::force_magnitude, false, true, std::nullopt,
+                           "What the safety gate lets through to the device"},
+                          {"x", at(Channel::force_x), &Palette::force_x, false, true, at(GhostChannel::force_x),
+                           "Of the computed force"},
+                          {"y", at(Channel::force_y), &Palette::force_y, false, true, at(GhostChannel::force_y),
+                           "Of the computed force"},
+                          {"z", at(Channel::force_z), &Palette::force_z, false, true, at(GhostChannel::force_z),
+                           "Of the computed force"}}});
   panel.plots.emplace_back(PlotSpec{
       .id = "cld",
       .title = "Display",
@@ -159,7 +164,8 @@ void draw_plots_panel(const UiContext& ui, AppModel& model, PlotsPanel& state, c
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0, 0));
   constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus |
-                                     ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoScrollWithMouse;
+                                     ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoScrollWithMouse |
+                                     ImGuiWindowFlags_NoBackground;
   ImGui::Begin("##plots", nullptr, flags);
   ImGui::PopStyleVar();
   PlotLink& link = state.link;
@@ -171,8 +177,8 @@ void draw_plots_panel(const UiContext& ui, AppModel& model, PlotsPanel& state, c
   if (model.time().paused() && model.time().tick().record() != nullptr)
     link.cursor = model.time().tick().record()->tick.tick;
 
-  const std::shared_ptr<const Ghost> ghost = model.time().ghost();
-  link.ghost = ghost != nullptr ? ghost->channels.get() : nullptr;
+  const std::shared_ptr<const ChannelStore> ghost = model.time().ghost_channels();
+  link.ghost = ghost.get();
   collect_marks(ui, model.time(), state);
 
   const float bar = ui.px(24);
@@ -187,9 +193,15 @@ void draw_plots_panel(const UiContext& ui, AppModel& model, PlotsPanel& state, c
   }
   if (state.mode == PlotsMode::time)
     draw_time_plots(ui, model, state, rest);
+  else if (state.mode == PlotsMode::derived)
+    draw_derived_plot(ui, model, state, rest);
   else
     draw_other_plot(ui, model, state, rest);
+  if (state.legend) draw_plots_legend(ui, state, rest);
   ImGui::End();
+  model.time().set_selection(link.a && link.b
+                                 ? std::optional(TickRange{std::min(*link.a, *link.b), std::max(*link.a, *link.b)})
+                                 : std::nullopt);
   if (link.clicked && !model.time().store().empty()) model.time().select_tick(*link.clicked);
 }
 

@@ -1,6 +1,7 @@
 // Toolbar above the plots: plot type, follow / hold / inspect, cursors A and B, legend of the ghost, export to CSV and
 // PNG.
 #include "workbench/gui/panels/panels.h"
+#include "workbench/gui/panels/save_panel.h"
 #include "workbench/gui/widgets/widgets.h"
 
 #include <cmath>
@@ -19,7 +20,8 @@ void draw_modes(const UiContext& ui, PlotsPanel& state) {
       {PlotsMode::time, "Time", "Every curve against time"},
       {PlotsMode::xy, "X-Y", "One curve against another, for the ticks in view"},
       {PlotsMode::spectrum, "Spectrum", "Spectrum of a curve: is the loop buzzing?"},
-      {PlotsMode::histogram, "Histogram", "Histogram of a curve's values, for the ticks in view"}};
+      {PlotsMode::histogram, "Histogram", "Histogram of a curve's values, for the ticks in view"},
+      {PlotsMode::derived, "Derived", "Difference, derivative, low-pass filter or magnitude of curves, against time"}};
   for (const Mode& m : kModes) {
     bool on = state.mode == m.mode;
     if (toggle_button(ui, std::string("plots/mode/") + m.name, m.name, on, m.doc)) state.mode = m.mode;
@@ -27,6 +29,8 @@ void draw_modes(const UiContext& ui, PlotsPanel& state) {
   }
   toggle_button(ui, "plots/values", "Values", state.values,
                 "Minimum, maximum, mean and RMS of what is in view, values at A and B");
+  ImGui::SameLine(0, ui.px(3));
+  toggle_button(ui, "plots/legend", "Legend", state.legend, "What the bands, flags and marks in the plots mean");
   ImGui::SameLine(0, ui.px(14));
 }
 
@@ -71,13 +75,29 @@ void draw_cursors(const UiContext& ui, TimeModel& time, PlotLink& link) {
   ImGui::SameLine(0, ui.px(14));
 }
 
+/// What the pale curves are, and how they compare: one preset against one, never the recording's mixture.
+std::string ghost_text(const TimeModel& time) {
+  const std::shared_ptr<const ChannelStore> ghost = time.ghost_channels();
+  if (ghost == nullptr) return {};
+  if (!time.paused()) {
+    const auto [from, to] = ticks_in_view(time);
+    const auto mean = [from = from, to = to](const ChannelStore& store, std::size_t channel) {
+      return store.sums(channel, from, to).mean();
+    };
+    return printed("Beside, same motion assumed: the other slot, %.2f planes a tick in view; rendered %.2f",
+                   mean(*ghost, static_cast<std::size_t>(GhostChannel::iterations)),
+                   mean(time.store(), static_cast<std::size_t>(Channel::iterations)));
+  }
+  const auto both = time.time_machine().compared();
+  if (!both) return "Ghost, same motion assumed";
+  return printed("Ghost, same motion assumed: iterations %.2f \u2192 %.2f, contact changed in %llu ticks",
+                 both->before_numbers.mean_iterations, both->after_numbers.mean_iterations,
+                 static_cast<unsigned long long>(both->changed_ticks));
+}
+
 void draw_ghost_note(const UiContext& ui, const TimeModel& time, float right) {
-  const auto ghost = time.ghost();
-  if (!ghost) return;
-  const std::string text =
-      printed("Ghost, same motion assumed: iterations %.2f \u2192 %.2f, contact changed in %llu ticks",
-              ghost->numbers.recorded.mean_iterations, ghost->numbers.resolved.mean_iterations,
-              static_cast<unsigned long long>(ghost->numbers.changed_ticks));
+  const std::string text = ghost_text(time);
+  if (text.empty()) return;
   const char* shorter = "Ghost: same motion assumed";
   ImGui::SetCursorPosX(ImGui::GetCursorPosX() + ui.px(11));
   const float room = right - ImGui::GetCursorScreenPos().x - ui.px(10);
@@ -100,7 +120,7 @@ void draw_plots_toolbar(const UiContext& ui, AppModel& model, PlotsPanel& state,
   draw_modes(ui, state);
   draw_following(ui, model.time());
   draw_cursors(ui, model.time(), state.link);
-  const float out_width = ImGui::CalcTextSize("CSV").x + ImGui::CalcTextSize("PNG").x + ui.px(24 + 3 + 10);
+  const float out_width = ImGui::CalcTextSize("CSVPNGSVG").x + ui.px(36 + 6 + 10);
   const float out_x = rect.right() - out_width;
   draw_ghost_note(ui, model.time(), out_x);
   if (ImGui::GetCursorScreenPos().x < out_x) {
@@ -117,6 +137,9 @@ void draw_plots_toolbar(const UiContext& ui, AppModel& model, PlotsPanel& state,
     ImGui::SameLine(0, ui.px(3));
     if (text_button(ui, "plots/png", "PNG", "The plots as they are, as a PNG file"))
       model.exports().ask_for_picture("plots", whole);
+    ImGui::SameLine(0, ui.px(3));
+    if (text_button(ui, "plots/figure", "SVG", "The plots in view as a figure for a paper: SVG or PDF"))
+      ask_to_save(model, SaveWhat::plots);
   }
   ImGui::PopStyleVar();
   ImGui::PopFont();

@@ -6,8 +6,6 @@
 
 namespace tangent {
 
-namespace {
-
 PresetOrigin origin_of(const AppModel& model, const std::string& note) {
   const Session* session = model.devices().session();
   return {.mesh = model.mesh(),
@@ -17,6 +15,8 @@ PresetOrigin origin_of(const AppModel& model, const std::string& note) {
           .preset_id = session != nullptr ? session->preset_id() : 0,
           .note = note};
 }
+
+namespace {
 
 void draw_files(const UiContext& ui, AppModel& model) {
   PresetModel& presets = model.presets();
@@ -87,6 +87,7 @@ void draw_save(const UiContext& ui, AppModel& model, PresetsPanel& state) {
   const bool enter =
       ImGui::InputTextWithHint("##preset_name", "name", &state.name, ImGuiInputTextFlags_EnterReturnsTrue);
   ui.items.note_last("presets/name");
+  if (auto given = ui.items.take_value("presets/name")) state.name = *given;
   tooltip(ui, "Name of the file to save the current values in, without .toml");
   ImGui::SameLine();
   const std::string tip = replaces ? "Overwrites the preset of this name and its measurements"
@@ -95,6 +96,7 @@ void draw_save(const UiContext& ui, AppModel& model, PresetsPanel& state) {
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x);
   ImGui::InputTextWithHint("##preset_note", "note", &state.note);
   ui.items.note_last("presets/note");
+  if (auto given = ui.items.take_value("presets/note")) state.note = *given;
   tooltip(ui, "What to remember about these values; saved with them");
   if (enter || pressed) save(model, state);
 }

@@ -31,9 +31,16 @@ void handle_ctrl_keys(AppModel& model) {
   if (letter('Y', true)) model.presets().redo();
 }
 
+void look_or_follow(AppModel& model, bool follow) {
+  if (follow)
+    model.view().follow_contact = !model.view().follow_contact;
+  else
+    model.view().look_at_contact(model.tick_in_view());
+}
+
 }  // namespace
 
-void handle_shortcuts(AppModel& model, MenuBar& menu) {
+void handle_shortcuts(AppModel& model, MenuBar& menu, bool arrows) {
   const ImGuiIO& io = ImGui::GetIO();
   handle_window_keys(model, menu);
   if (text_is_edited()) return;
@@ -49,12 +56,14 @@ void handle_shortcuts(AppModel& model, MenuBar& menu) {
   }
   model.devices().clutch().key = ImGui::IsKeyDown('C') && !io.KeyShift;
   if (letter('U')) model.view().set_y_up(!model.view().camera.y_up);
-  if (letter('W')) model.view().look_at_worst();
+  if (letter('W')) model.solve_at_worst();
+  if (letter('H')) model.solve_here();
+  if (letter('G')) look_or_follow(model, io.KeyShift);
   if (letter('I')) io.KeyShift ? model.view().show_all() : model.view().isolate_marked();
   const int by = io.KeyShift ? 10 : 1;
   if (named(ImGuiKey_Space)) model.time().set_paused(!model.time().paused());
-  if (named(ImGuiKey_LeftArrow, true)) model.time().step_tick(-by);
-  if (named(ImGuiKey_RightArrow, true)) model.time().step_tick(by);
+  if (arrows && named(ImGuiKey_LeftArrow, true)) model.time().step_tick(-by);
+  if (arrows && named(ImGuiKey_RightArrow, true)) model.time().step_tick(by);
   if (letter(',', true)) model.time().step_iteration(-1);
   if (letter('.', true)) model.time().step_iteration(1);
   if (named(ImGuiKey_Home)) model.time().select_tick(model.time().first_tick());

@@ -19,14 +19,16 @@ class Values {
         y_number_(std::round(rect.y + 0.5f * (rect.h - ui.fonts.small_number->FontSize))),
         x_(rect.x + ui.px(10)) {}
 
-  /// `characters`: width of the field. Without a value the label has its ink.
+  /// `characters`: width of the field. Without a value the label has its ink. Left out where there is no room.
   void put(const char* name, const char* label, const std::string& value, float characters, ImU32 ink,
            const char* doc) {
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     const ImFont *text = ui_.fonts.small, *number = ui_.fonts.small_number;
     const float from = x_, digit = number->CalcTextSizeA(number->FontSize, 1e9f, 0.0f, "0").x;
+    const float words = text->CalcTextSizeA(text->FontSize, 1e9f, 0.0f, label).x;
+    if (from + words + characters * digit > rect_.right() - ui_.px(5)) return;
     draw.AddText(text, text->FontSize, {x_, y_text_}, value.empty() ? ink : ui_.colours.text_dim, label);
-    x_ += text->CalcTextSizeA(text->FontSize, 1e9f, 0.0f, label).x + ui_.px(5);
+    x_ += words + ui_.px(5);
     draw.AddText(number, number->FontSize, {x_, y_number_}, ink, value.c_str());
     x_ += characters * digit + ui_.px(16);
     ImGui::SetCursorScreenPos({from, rect_.y});
@@ -40,8 +42,9 @@ class Values {
     const ImFont* number = ui_.fonts.small_number;
     const float w = number->CalcTextSizeA(number->FontSize, 1e9f, 0.0f, value.c_str()).x;
     if (x_ + w >= rect_.right() - ui_.px(10)) return;
-    ImGui::GetWindowDrawList()->AddText(number, number->FontSize, {rect_.right() - w - ui_.px(10), y_number_},
-                                        ui_.colours.text_dim, value.c_str());
+    const ImVec2 at{rect_.right() - w - ui_.px(10), y_number_};
+    ImGui::GetWindowDrawList()->AddText(number, number->FontSize, at, ui_.colours.text_dim, value.c_str());
+    ui_.items.note("status/frame", at, {at.x + w, at.y + number->FontSize});
   }
 
  private:
@@ -52,7 +55,7 @@ class Values {
 
 }  // namespace
 
-void draw_status_line(const UiContext& ui, AppModel& model, const Rect& rect, double build_ms) {
+void draw_status_line(const UiContext& ui, AppModel& model, const Rect& rect, double frame_ms) {
   ImGui::SetNextWindowPos({rect.x, rect.y});
   ImGui::SetNextWindowSize({rect.w, rect.h});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(ui.px(10), 0));
@@ -98,11 +101,8 @@ void draw_status_line(const UiContext& ui, AppModel& model, const Rect& rect, do
               static_cast<double>(model.time().history_bytes() + model.time().store().memory_bytes()) * mib,
               static_cast<double>(model.time().most_history_bytes() + model.time().store().memory_bytes()) * mib),
       15, plain, "Memory of the history, and its limit");
-  // Screenshots are reproducible: no wall-clock numbers.
-  const std::string right = model.deterministic() ? std::string()
-                                                  : printed("frame %.2f ms   %.0f/s", build_ms,
-                                                            static_cast<double>(ImGui::GetIO().Framerate));
-  values.put_right(right);
+  // Not known in screenshots, which are reproducible.
+  if (frame_ms > 0.0) values.put_right(printed("frame %.0f ms, drawing included", frame_ms));
   ImGui::End();
 }
 

@@ -48,9 +48,15 @@ std::optional<std::size_t> draw_strip(const UiContext& ui, const char* name, con
     x += gap;
     ImGui::SetCursorPos({x, pad_y + 0.5f * (inner - frame)});
     const std::string label = std::string(buttons[i].text) + "##" + buttons[i].path;
-    if (i == 0) ImGui::PushStyleColor(ImGuiCol_Button, ui.colours.accent_soft);
+    const bool fault = buttons[i].fault;
+    if (fault) {
+      ImGui::PushStyleColor(ImGuiCol_Button, ui.colours.bad);
+      ImGui::PushStyleColor(ImGuiCol_Text, IM_COL32_WHITE);
+    } else if (i == 0) {
+      ImGui::PushStyleColor(ImGuiCol_Button, ui.colours.accent_soft);
+    }
     if (ImGui::Button(label.c_str(), {button_width(ui, buttons[i]), 0.0f})) pressed = i;
-    if (i == 0) ImGui::PopStyleColor();
+    if (fault || i == 0) ImGui::PopStyleColor(fault ? 2 : 1);
     ui.items.note_last(buttons[i].path);
     tooltip(ui, buttons[i].tip);
     x += button_width(ui, buttons[i]);

@@ -14,6 +14,7 @@ struct StripButton {
   const char* path;  ///< in the item map
   const char* text;
   const char* tip;
+  bool fault = false;  ///< red: something went wrong, and this is about it
 };
 
 enum class StripPlace { upper_edge, lower_edge };

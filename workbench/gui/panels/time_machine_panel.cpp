@@ -12,18 +12,17 @@ std::string count_text(std::uint64_t n) { return printed("%llu", static_cast<uns
 
 struct ComparedRow {
   const char* label;
-  std::string recorded, again;
-  int better = 0;  ///< the ghost is better (1) or worse (-1)
+  std::string before, after;
+  int better = 0;  ///< the second is better (1) or worse (-1)
 };
 
-int sign_of(double recorded, double again) {
-  if (again == recorded) return 0;
-  return again < recorded ? 1 : -1;
+int sign_of(double before, double after) {
+  if (after == before) return 0;
+  return after < before ? 1 : -1;
 }
 
-std::vector<ComparedRow> compared_rows(const Ghost& ghost, const Ghost* verified) {
-  const RunNumbers& was = ghost.numbers.recorded;
-  const RunNumbers& is = ghost.numbers.resolved;
+std::vector<ComparedRow> compared_rows(const PresetsCompared& both) {
+  const RunNumbers &was = both.before_numbers, &is = both.after_numbers;
   const auto um = [](double m) { return printed("%.3g", m * 1e6); };
   std::vector<ComparedRow> rows{
       {"Iterations, mean", printed("%.3f", was.mean_iterations), printed("%.3f", is.mean_iterations),
@@ -36,15 +35,20 @@ std::vector<ComparedRow> compared_rows(const Ghost& ghost, const Ghost* verified
       {"worst \u00b5m", um(was.worst_error_m), um(is.worst_error_m), sign_of(was.worst_error_m, is.worst_error_m)},
       {"Unconverged", count_text(was.unconverged), count_text(is.unconverged),
        sign_of(static_cast<double>(was.unconverged), static_cast<double>(is.unconverged))}};
-  // Both are times of background solves, so they are comparable; absent where time is not measured.
-  const double before_ns = verified != nullptr ? verified->numbers.ns_per_tick : 0.0;
-  if (before_ns > 0.0 && ghost.numbers.ns_per_tick > 0.0)
-    rows.push_back({"Time a tick, ns", printed("%.0f", before_ns), printed("%.0f", ghost.numbers.ns_per_tick),
-                    sign_of(before_ns, ghost.numbers.ns_per_tick)});
+  if (both.before_ns > 0.0 && both.after_ns > 0.0)
+    rows.push_back({"Time a tick, ns", printed("%.0f", both.before_ns), printed("%.0f", both.after_ns),
+                    sign_of(both.before_ns, both.after_ns)});
   return rows;
 }
 
-void draw_comparison(const UiContext& ui, const Ghost& ghost, const Ghost* verified) {
+std::string range_text(const PresetsCompared& both, const TimeModel& time) {
+  const double period = time.tick_period_s();
+  return printed("%s ticks, %.3f to %.3f s%s", count_text(both.before_numbers.ticks).c_str(),
+                 static_cast<double>(both.from_tick) * period, static_cast<double>(both.end_tick - 1) * period,
+                 time.selection() && time.selection()->from == both.from_tick ? " (A to B)" : "");
+}
+
+void draw_comparison(const UiContext& ui, const TimeModel& time, const PresetsCompared& both) {
   const float width = ImGui::GetContentRegionAvail().x;
   const float second = width, first = width - ui.px(82);
   ImDrawList& draw = *ImGui::GetWindowDrawList();
@@ -55,39 +59,39 @@ void draw_comparison(const UiContext& ui, const Ghost& ghost, const Ghost* verif
       draw.AddText(values, values->FontSize, {at.x + x - w, at.y}, colour, text.c_str());
     };
     draw.AddText(ui.fonts.small, ui.fonts.small->FontSize, at, ui.colours.text_dim, label);
-    right(a, first, ui.colours.text);
+    right(a, first, values == ui.fonts.small ? ink : ui.colours.text);
     right(b, second, ink);
     ImGui::Dummy({width, ui.fonts.small->FontSize + ui.px(2)});
   };
-  line("", "recorded", "solved again", ui.colours.text_dim, ui.fonts.small);
-  for (const ComparedRow& row : compared_rows(ghost, verified)) {
-    const ImU32 ink = row.recorded == row.again ? ui.colours.text
-                      : row.better > 0          ? ui.colours.good
-                      : row.better < 0          ? ui.colours.warning
-                                                : ui.colours.text;
-    line(row.label, row.recorded, row.again, ink, ui.fonts.small_number);
+  ImGui::PushFont(ui.fonts.small);
+  ImGui::TextUnformatted(range_text(both, time).c_str());
+  ImGui::PopFont();
+  ui.items.note_last("time_machine/range");
+  tooltip(ui,
+          "Both presets are solved on these ticks, in turns of 64, in the background: counts and processor time can be "
+          "compared. The recording itself, which may span other presets, is in neither column. Cursors A and B choose "
+          "the ticks");
+  line("", time.name_before(), time.name_after(), ui.colours.text_dim, ui.fonts.small);
+  for (const ComparedRow& row : compared_rows(both)) {
+    const ImU32 ink = row.before == row.after ? ui.colours.text
+                      : row.better > 0        ? ui.colours.good
+                      : row.better < 0        ? ui.colours.warning
+                                              : ui.colours.text;
+    line(row.label, row.before, row.after, ink, ui.fonts.small_number);
   }
 }
 
-void draw_changes(const UiContext& ui, TimeModel& time, const Ghost& ghost) {
-  const ResolvedHistory& numbers = ghost.numbers;
+void draw_changes(const UiContext& ui, TimeModel& time, const PresetsCompared& numbers) {
   ImGui::PushFont(ui.fonts.small);
   ImGui::Text("Contact changed in %s of %s ticks", count_text(numbers.changed_ticks).c_str(),
-              count_text(numbers.resolved.ticks).c_str());
+              count_text(numbers.after_numbers.ticks).c_str());
   tooltip(ui,
           "Touching, free or unconverged where it was not, or moved by more than ten tolerances. A click goes to where "
           "it moved most");
-  ImGui::TextDisabled("%s ticks differ in any bit", count_text(numbers.different_ticks).c_str());
-  if (numbers.taken_over > 0) {
-    ImGui::TextDisabled("Contacts as recorded: %s",
-                        numbers.taken_over == numbers.resolved.ticks ? "all" : count_text(numbers.taken_over).c_str());
-    tooltip(ui,
-            "The method reads none of the values that changed: the same contacts, in the same time. Force and display "
-            "are computed again");
-  }
   ImGui::PopFont();
   if (numbers.changes.empty()) return;
   ImGui::PushFont(ui.fonts.small_number);
+  ImGui::TextDisabled(" %9s %5s  %9s  %s", "tick", "ticks", "moved by", "status");
   const float row = ImGui::GetTextLineHeight() + ui.px(3);
   const float height = row * static_cast<float>(std::min<std::size_t>(5, numbers.changes.size())) + ui.px(6);
   ImGui::BeginChild("changes", {0.0f, height}, true);
@@ -120,7 +124,12 @@ void draw_state(const UiContext& ui, const TimeModel& time) {
   const TimeMachine& machine = time.time_machine();
   const auto verified = machine.verified();
   const std::size_t ticks = machine.run()->records.size();
-  fact(ui, "The past", printed("%.1f", static_cast<double>(ticks) * time.tick_period_s()), "s");
+  fact(ui, time.past().shows_kept() ? "Kept around a mark" : "Frozen past",
+       printed("%.1f", static_cast<double>(ticks) * time.tick_period_s()), "s");
+  tooltip(ui, "Stays as it is, and solvable, until the view goes back to live");
+  fact(ui, "Memory beyond the history", printed("%.1f", static_cast<double>(time.frozen_bytes()) / (1024.0 * 1024.0)),
+       "MiB");
+  ui.items.note_last("time_machine/memory");
   if (!verified)
     fact(ui, "Replay", "checking ...");
   else if (verified->numbers.different_ticks == 0)
@@ -130,11 +139,20 @@ void draw_state(const UiContext& ui, const TimeModel& time) {
   tooltip(ui, "Every tick solved again with the values it was recorded with");
 }
 
+/// The selected ticks are kept, but in no view: a way to them.
+void draw_way_to_selection(const UiContext& ui, TimeModel& time) {
+  if (!time.selection_kept() || time.past().shown().covers(time.selection()->from)) return;
+  if (text_button(ui, "time_machine/selection", "Go to A to B",
+                  "The history has dropped these ticks; they are kept while the cursors are set"))
+    time.select_tick(time.selection()->from);
+}
+
 }  // namespace
 
 void draw_time_machine_panel(const UiContext& ui, TimeModel& time, FoldedPanel& state) {
   const bool open = section(ui, "Time machine", state.open);
   if (!open) return;
+  draw_way_to_selection(ui, time);
   if (!time.time_machine().is_open()) {
     ImGui::PushFont(ui.fonts.small);
     ImGui::PushStyleColor(ImGuiCol_Text, ui.colours.text_dim);
@@ -164,8 +182,12 @@ void draw_time_machine_panel(const UiContext& ui, TimeModel& time, FoldedPanel& 
           "The hand moved as it did under the recorded values; with others it would have moved differently. This "
           "compares the "
           "solver on the same poses");
-  draw_comparison(ui, *ghost, time.time_machine().verified().get());
-  draw_changes(ui, time, *ghost);
+  if (const auto both = time.time_machine().compared()) {
+    draw_comparison(ui, time, *both);
+    draw_changes(ui, time, *both);
+  } else {
+    ImGui::TextDisabled("Solving both presets, in turns ...");
+  }
   ImGui::Dummy({1, ui.px(3)});
 }
 

@@ -9,6 +9,28 @@ namespace tangent {
 
 namespace {
 
+std::string memory_text(std::size_t bytes) {
+  return printed("%.1f MiB", static_cast<double>(bytes) / (1024.0 * 1024.0));
+}
+
+/// While paused: an outline, and in words how far the servo has gone on where the past no longer grows.
+void draw_freeze(const UiContext& ui, const TimeModel& time, ImVec2 min, ImVec2 max) {
+  if (!time.paused()) return;
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  draw.AddRect(min, max, ui.colours.accent, ui.px(3), 0, ui.px(1));
+  const double ahead_s =
+      (static_cast<double>(time.newest_recorded()) - static_cast<double>(time.end_tick() - 1)) * time.tick_period_s();
+  const std::string kept = time.past().shows_kept() ? "kept around a mark" : "frozen";
+  if (!(ahead_s > 0.5) && !time.past().shows_kept()) return;
+  const std::string text = printed("%s; live is %.0f s ahead", kept.c_str(), ahead_s);
+  const ImVec2 size = ui.fonts.small->CalcTextSizeA(ui.fonts.small->FontSize, 1e9f, 0.0f, text.c_str());
+  const ImVec2 at{max.x - size.x - ui.px(8), min.y + 0.5f * (max.y - min.y - size.y)};
+  draw.AddRectFilled({at.x - ui.px(4), min.y + ui.px(2)}, {max.x - ui.px(2), max.y - ui.px(2)},
+                     packed(with_alpha(ui.palette.panel, 0.85f)), ui.px(2));
+  draw.AddText(ui.fonts.small, ui.fonts.small->FontSize, at, ui.colours.text, text.c_str());
+  ui.items.note("transport/frozen", at, {at.x + size.x, at.y + size.y});
+}
+
 /// Draws the whole history and the plots' range; bars show iterations, so that unconverged or slow ticks stand out.
 void draw_strip(const UiContext& ui, TimeModel& time, float width) {
   const float height = ImGui::GetFrameHeight();
@@ -16,7 +38,12 @@ void draw_strip(const UiContext& ui, TimeModel& time, float width) {
   if (width < ui.px(40)) return;
   ImGui::InvisibleButton("##strip", {width, height});
   ui.items.note_last("transport/strip");
-  tooltip(ui, "The kept history. Drag to scrub; the lit part is what the plots show");
+  tooltip(ui, time.paused()
+                  ? "Frozen: every tick here stays and can be solved again while the view is paused. Beyond the "
+                    "history it takes " +
+                        memory_text(time.frozen_bytes()) + ". Drag to scrub"
+                  : std::string("The recorded ticks, all of which can be solved again. Drag to scrub; the lit "
+                                "part is what the plots show"));
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   draw.AddRectFilled(at, {at.x + width, at.y + height}, ui.colours.field, ui.px(3));
   const double first = static_cast<double>(time.first_tick()), end = static_cast<double>(time.end_tick());
@@ -58,6 +85,7 @@ void draw_strip(const UiContext& ui, TimeModel& time, float width) {
     draw.AddRectFilled({x - ui.px(1), at.y}, {x + ui.px(1), at.y + height},
                        time.paused() ? ui.colours.accent : ui.colours.text_dim);
   }
+  draw_freeze(ui, time, at, {at.x + width, at.y + height});
   if (ImGui::IsItemActive()) {
     const double tick = first + static_cast<double>((ImGui::GetIO().MousePos.x - at.x) / width) * span;
     time.select_tick(static_cast<std::uint64_t>(std::clamp(tick, first, end - 1.0)));
@@ -151,7 +179,7 @@ void draw_transport_bar(const UiContext& ui, TimeModel& time, const Rect& rect) 
   draw_bookmark_buttons(ui, time, any);
   ImGui::SameLine(0, ui.px(14));
   ImGui::AlignTextToFramePadding();
-  draw_captions(ui, time.tick().record());
+  draw_captions(ui, time.placed() != nullptr ? nullptr : time.tick().record());
   draw_strip(ui, time, ImGui::GetContentRegionAvail().x);
   ImGui::End();
 }

@@ -3,6 +3,8 @@
 // moves the simulated hand.
 #include "workbench/gui/layout/view_room.h"
 #include "workbench/gui/panels/panels.h"
+#include "workbench/gui/render/opaque_image.h"
+#include "workbench/gui/panels/scene_picture.h"
 #include "workbench/gui/render/scene_overlay.h"
 #include "workbench/gui/widgets/thread_time.h"
 #include "workbench/gui/widgets/widgets.h"
@@ -29,7 +31,8 @@ constexpr std::array kLayers{
     LayerToggle{"Normals", &SceneToggles::vertex_normals, "Vertex normals"},
     LayerToggle{"Planes", &SceneToggles::planes, "Tangent planes of the tick's iterations, coloured by order"},
     LayerToggle{"Finger", &SceneToggles::finger, "The finger"},
-    LayerToggle{"Force", &SceneToggles::force, "The rendered force"},
+    LayerToggle{"Force", &SceneToggles::force,
+                "The computed force, and the felt one: what the safety gate lets through to the device"},
     LayerToggle{"Display", &SceneToggles::cld_inset, "The fingerpad from the side, with the roller where it is"}};
 
 /// Returns the toggles' lower edge.
@@ -48,6 +51,12 @@ float draw_layer_toggles(const UiContext& ui, ViewModel& view, const Rect& rect)
     toggle_button(ui, std::string("view/") + layer.name, layer.name, view.toggles.*layer.on, layer.doc);
     x += w + ui.px(3);
   }
+  if (x + ImGui::CalcTextSize("Follow").x + ui.px(20) > rect.right() - ui.px(8)) {
+    x = rect.x;
+    y += ImGui::GetFrameHeight() + ui.px(3);
+  }
+  ImGui::SetCursorScreenPos({x + ui.px(8), y});
+  toggle_button(ui, "view/follow", "Follow", view.follow_contact, "The camera goes with the contact (Shift+G)");
   const float below = y + ImGui::GetFrameHeight();
   ImGui::PopStyleVar(2);
   ImGui::PopFont();
@@ -73,12 +82,13 @@ SceneFrame scene_frame(const AppModel& model) {
   if (const ServoRecord* record = model.time().tick().record()) {
     frame.tick = record->tick;
     frame.trace = model.time().tick().iterations();
+    frame.beside_trace = model.time().beside().iterations();
     frame.selected_iteration = model.time().tick().selected();
+    frame.felt_force_n = record->device.force_command_n;
     frame.cld_commanded_m = record->device.cld_command_m;
     frame.cld_measured_m = record->device.cld_measured_m;
     // The tick may have run under a preset other than the one being edited.
-    const Preset* then =
-        model.devices().session() != nullptr ? model.devices().session()->preset(record->tick.preset_id) : nullptr;
+    const Preset* then = model.time().preset_of_tick();
     if (then != nullptr) frame.finger = then->finger;
   }
   return frame;
@@ -180,10 +190,12 @@ void interact(const UiContext& ui, AppModel& model, ViewPanel& state, const Rect
   }
   // Picks under the pointer only if the result is shown.
   const bool resting = ImGui::IsItemHovered() && !ImGui::IsAnyMouseDown();
-  if (!resting || !model.map().on) return;
+  if (!resting || !(model.map().on || view.picked_triangle != kNone)) return;
   if (const auto hit = pick(model, pixel, w, h)) {
+    if (hit.triangle == view.picked_triangle) draw_triangle_card(ui, model, hit.triangle);
+    if (!model.map().on) return;
     view.hovered_triangle = hit.triangle;
-    draw_map_hover(ui, model.map(), hit.triangle, hit.u, hit.v);
+    if (hit.triangle != view.picked_triangle) draw_map_hover(ui, model.map(), hit.triangle, hit.u, hit.v);
   }
 }
 
@@ -193,13 +205,15 @@ void draw_picture(const UiContext& ui, AppModel& model, ViewPanel& state, SceneR
   renderer.set_scene(model.scene().current(), model.presets().current().solver.normal_form);
   SceneFrame frame = scene_frame(model);
   frame.pixel_scale = static_cast<double>(ui.scale * per_point.y);
-  renderer.render(frame, model.view().camera, static_cast<int>(std::lround(rect.w * per_point.x)),
-                  static_cast<int>(std::lround(rect.h * per_point.y)));
+  const int width_px = static_cast<int>(std::lround(rect.w * per_point.x)),
+            height_px = static_cast<int>(std::lround(rect.h * per_point.y));
+  if (const auto wanted = model.exports().take_scene_picture())
+    save_scene_picture(model, renderer, frame, *wanted, width_px, height_px);
+  renderer.render(frame, model.view().camera, width_px, height_px);
   state.build_ms_outside = thread_cpu_ms() - begin;
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   if (renderer.texture() == 0) return;
-  draw.AddImage(reinterpret_cast<ImTextureID>(static_cast<std::intptr_t>(renderer.texture())), {rect.x, rect.y},
-                {rect.right(), rect.bottom()}, {0, 1}, {1, 0});
+  add_opaque_image(draw, renderer.texture(), {rect.x, rect.y}, {rect.right(), rect.bottom()});
   draw_scene_overlay(draw, {rect.x, rect.y}, static_cast<double>(per_point.x), state.top, renderer, frame,
                      model.view().camera, ui.fonts);
 }
@@ -215,12 +229,16 @@ void draw_view_panel(const UiContext& ui, AppModel& model, ViewPanel& state, Sce
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0, 0));
   constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus |
-                                     ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NoNav;
+                                     ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NoNav |
+                                     ImGuiWindowFlags_NoBackground;
   ImGui::Begin("##view", nullptr, flags);
   ImGui::PopStyleVar();
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  const ImU32 top = packed(ui.palette.background_top), bottom = packed(ui.palette.background_bottom);
-  draw.AddRectFilledMultiColor({rect.x, rect.y}, {rect.right(), rect.bottom()}, top, top, bottom, bottom);
+  const bool planar = model.scene().current() != nullptr && model.scene().current()->planar() != nullptr;
+  if (planar || renderer == nullptr || renderer->texture() == 0) {  // the picture has its own ground
+    const ImU32 top = packed(ui.palette.background_top), bottom = packed(ui.palette.background_bottom);
+    draw.AddRectFilledMultiColor({rect.x, rect.y}, {rect.right(), rect.bottom()}, top, top, bottom, bottom);
+  }
 
   // The toggles are submitted first, and the view's button lets them take the mouse.
   ImGui::SetCursorScreenPos({rect.x, rect.y});
@@ -229,9 +247,10 @@ void draw_view_panel(const UiContext& ui, AppModel& model, ViewPanel& state, Sce
       ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight | ImGuiButtonFlags_MouseButtonMiddle);
   ImGui::SetItemAllowOverlap();
   ui.items.note_last("view");
-  if (model.scene().current() != nullptr && model.scene().current()->planar() != nullptr) {
+  if (planar) {
     draw_planar_view(ui, model, state.planar, rect);
   } else {
+    model.view().size = {rect.w, rect.h};
     interact(ui, model, state, rect);
     if (renderer != nullptr) draw_picture(ui, model, state, *renderer, rect);
     const float below_toggles = draw_layer_toggles(ui, model.view(), rect);

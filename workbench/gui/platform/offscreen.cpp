@@ -1,5 +1,6 @@
 #include "workbench/gui/platform/offscreen.h"
 
+#include "workbench/gui/platform/ui_drawing.h"
 #include "workbench/gui/render/render_target.h"
 
 #include <backends/imgui_impl_opengl3.h>
@@ -75,7 +76,10 @@ Result<std::unique_ptr<OffscreenScreen>> OffscreenScreen::open(int width_px, int
   ImGuiIO& io = ImGui::GetIO();
   io.IniFilename = nullptr;
   io.DisplaySize = {static_cast<float>(width_px), static_cast<float>(height_px)};
-  if (!ImGui_ImplOpenGL3_Init("#version 330 core")) return no_gl("the drawing back end does not start");
+  ImGui::GetStyle().AntiAliasedLinesUseTex = false;  // the atlas is read by nearest pixel (ui_drawing.h)
+  // Now, not in the first frame: that would put back how the atlas is read.
+  if (!ImGui_ImplOpenGL3_Init("#version 330 core") || !ImGui_ImplOpenGL3_CreateDeviceObjects())
+    return no_gl("the drawing back end does not start");
   return std::unique_ptr<OffscreenScreen>(new OffscreenScreen(std::move(impl)));
 }
 
@@ -88,17 +92,16 @@ OffscreenScreen::~OffscreenScreen() {
 void OffscreenScreen::upload_fonts() {
   ImGui_ImplOpenGL3_DestroyFontsTexture();
   ImGui_ImplOpenGL3_CreateFontsTexture();
+  use_nearest_pixels(font_texture());
 }
 
-void OffscreenScreen::frame(const std::function<void()>& build) {
+void OffscreenScreen::frame(const std::function<void()>& build, const ImVec4& ground) {
   ImGui::SetCurrentContext(impl_->imgui);
   impl_->screen.bind();
   ImGui_ImplOpenGL3_NewFrame();
   build();
   impl_->screen.bind();
-  glClearColor(0.0f, 0.0f, 0.0f, 1.0f);
-  glClear(GL_COLOR_BUFFER_BIT);
-  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+  UiDrawing::draw(*ImGui::GetDrawData(), ground);
   // Nothing is swapped here, and until it has to, a software driver keeps every frame's buffers: 4 MB each.
   glFinish();
 }

@@ -5,6 +5,8 @@
 #include "core/base/result.h"
 #include "workbench/gui/render/image.h"
 
+#include <imgui.h>
+
 #include <functional>
 #include <memory>
 
@@ -37,7 +39,8 @@ class OffscreenScreen {
   /// One frame. `build` runs where the window's does: after the back end's NewFrame; it writes injected
   /// input, calls ImGui::NewFrame and ImGui::Render. What it drew is then on the screen, and what the driver kept for
   /// it is given back.
-  void frame(const std::function<void()>& build);
+  /// What `build` leaves open is `ground`.
+  void frame(const std::function<void()>& build, const ImVec4& ground = {0.0f, 0.0f, 0.0f, 1.0f});
   /// A frame that nobody looks at: panels and plots follow, nothing is drawn.
   void unseen_frame(const std::function<void()>& build);
   Image picture() const;

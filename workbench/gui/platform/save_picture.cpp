@@ -1,5 +1,7 @@
 #include "workbench/gui/platform/save_picture.h"
 
+#include "workbench/gui/model/file_origin_of.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -22,7 +24,7 @@ Image cut_out(const Image& whole, const Rect& part, double pixels_per_point) {
 void save_picture(AppModel& model, const PictureRequest& request, const Image& whole, double pixels_per_point) {
   const Image picture = cut_out(whole, request.of, pixels_per_point);
   if (picture.rgba.empty()) return;
-  if (Status written = write_png(picture, request.path); !written)
+  if (Status written = write_png(picture, request.path, {.origin = file_origin(model)}); !written)
     model.messages().say(Severity::error, written.error().message());
   else
     model.messages().say(Severity::note, "picture written to " + std::filesystem::absolute(request.path).string());

@@ -201,7 +201,7 @@ const std::vector<ShotView>& scene_shot_views() {
   return kViews;
 }
 
-Result<Image> take_scene_shot(const ShotRequest& request) {
+Result<Shot> take_scene_shot(const ShotRequest& request) {
   const auto view =
       std::find_if(all_views().begin(), all_views().end(), [&](const SceneView& v) { return v.name == request.view; });
   Result<std::shared_ptr<const ContactScene>> scene = open_scene(*view, request);
@@ -219,10 +219,20 @@ Result<Image> take_scene_shot(const ShotRequest& request) {
   renderer.wait_for_tessellation();
   SceneFrame frame = staged.frame(view->toggles, request.theme.value_or(Theme::light));
   frame.pixel_scale = scale_of(request);
-  draw_view(**screen, renderer, frame,
-            aimed_camera(*view, staged, static_cast<double>(request.width_px) / request.height_px, request.y_up),
-            request);
-  return (*screen)->picture();
+  const Camera camera =
+      aimed_camera(*view, staged, static_cast<double>(request.width_px) / request.height_px, request.y_up);
+  const auto picture = [&](std::optional<Rgba> ground) {
+    frame.ground = ground;
+    draw_view(**screen, renderer, frame, camera, request);
+    return (*screen)->picture();
+  };
+  const ContactMesh& mesh = (*scene)->mesh();
+  Shot shot{{},
+            {mesh_fact(mesh.name(), mesh.triangle_count(), mesh.content_hash()), "of the view",
+             unit_fact(request.metres_per_unit), shot_command(request, scale_of(request), frame.theme)}};
+  shot.image = request.transparent ? with_alpha_of(picture(rgb_hex(0x000000)), picture(rgb_hex(0xFFFFFF)))
+                                   : picture(std::nullopt);
+  return shot;
 }
 
 }  // namespace tangent

@@ -7,6 +7,6 @@ namespace tangent {
 
 const std::vector<ShotView>& scene_shot_views();
 /// Precondition: the view is one of scene_shot_views().
-Result<Image> take_scene_shot(const ShotRequest& request);
+Result<Shot> take_scene_shot(const ShotRequest& request);
 
 }  // namespace tangent

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace tangent {
@@ -23,8 +24,9 @@ const std::vector<ShotView>& shot_views();
 std::string shot_view_names();
 
 struct ShotRequest {
-  std::string view;
-  std::string mesh;  ///< file or generated object; empty: the view's default
+  std::string view;              ///< empty with a script: the window as it starts
+  std::filesystem::path script;  ///< commands to run in the window before the picture; empty: none
+  std::string mesh;              ///< file or generated object; empty: the view's default
   double metres_per_unit = 1e-3;
   ContactMeshOptions mesh_options;
   std::filesystem::path preset;  ///< for window views; empty: default values
@@ -32,9 +34,20 @@ struct ShotRequest {
   std::optional<double> scale;  ///< of fonts, lines and spacing; empty: 1 for the window, by its height for the scene
   bool y_up = false;            ///< the mesh's up axis is y, as in many scans
   std::optional<Theme> theme;   ///< empty: the view's default
+  bool transparent = false;     ///< nothing behind the scene; views of the scene only
 };
 
+struct Shot {
+  Image image;
+  FileOrigin origin;  ///< its command gives the same picture again
+};
+
+/// Whether this view is one of the scene, not of the window.
+bool is_scene_view(std::string_view view);
+/// The command that takes this shot, all defaults said, without the file that it goes to.
+std::string shot_command(const ShotRequest& request, double scale, Theme theme);
+
 /// Fails on an unknown view (the error lists them), an unusable mesh or preset, or without off-screen GL.
-Result<Image> take_shot(const ShotRequest& request);
+Result<Shot> take_shot(const ShotRequest& request);
 
 }  // namespace tangent

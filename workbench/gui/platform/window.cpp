@@ -1,8 +1,10 @@
 #include "workbench/gui/platform/window.h"
 
 #include "workbench/gui/model/app_model.h"
+#include "workbench/gui/model/file_origin_of.h"
 #include "workbench/gui/platform/input_queue.h"
 #include "workbench/gui/platform/save_picture.h"
+#include "workbench/gui/platform/ui_drawing.h"
 #include "workbench/gui/render/image.h"
 #include "workbench/gui/render/scene_renderer.h"
 #include "workbench/session/crash_stop.h"
@@ -63,6 +65,7 @@ class ImGuiOnWindow {
     ImGui::GetIO().IniFilename = nullptr;
     ImGui_ImplGlfw_InitForOpenGL(window, false);  // events come through our queue
     ImGui_ImplOpenGL3_Init("#version 330 core");
+    ImGui_ImplOpenGL3_CreateDeviceObjects();  // not in the first frame: that would put back how the atlas is read
   }
   ~ImGuiOnWindow() {
     ImGui_ImplOpenGL3_Shutdown();
@@ -125,10 +128,12 @@ FrameInput frame_input(GLFWwindow* window, double dt_s, std::vector<std::string>
   return input;
 }
 
-void draw_frame(GLFWwindow* window, App& app, const FrameInput& input, InputQueue& events) {
+void draw_frame(GLFWwindow* window, App& app, const FrameInput& input, InputQueue& events, UiDrawing& drawing) {
   if (app.prepare(input)) {
     ImGui_ImplOpenGL3_DestroyFontsTexture();
     ImGui_ImplOpenGL3_CreateFontsTexture();
+    use_nearest_pixels(font_texture());
+    drawing.forget();
   }
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
@@ -136,18 +141,21 @@ void draw_frame(GLFWwindow* window, App& app, const FrameInput& input, InputQueu
   app.frame(input);
   int width_px = 0, height_px = 0;
   glfwGetFramebufferSize(window, &width_px, &height_px);
+  const auto file = app.take_screenshot_request();
+  const auto request = app.model().exports().take_picture_request();
+  // What is in the window already is not drawn again.
+  if (!drawing.changed(*ImGui::GetDrawData(), app.picture_version()) && !file && !request) return;
   glViewport(0, 0, width_px, height_px);
-  glClearColor(0.0f, 0.0f, 0.0f, 1.0f);
-  glClear(GL_COLOR_BUFFER_BIT);
-  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
-  if (const auto file = app.take_screenshot_request()) {
-    const Status written = write_png(read_pixels(0, width_px, height_px), *file);
+  UiDrawing::draw(*ImGui::GetDrawData(), app.ground());
+  if (file) {
+    const Status written = write_png(read_pixels(0, width_px, height_px), *file, {.origin = file_origin(app.model())});
     if (written)
-      app.model().messages().say(Severity::note, "screenshot written to " + file->string());
+      app.model().messages().say(
+          Severity::note, "screenshot written to " + std::filesystem::absolute(*file).lexically_normal().string());
     else
       app.model().messages().say(Severity::error, written.error().message());
   }
-  if (const auto request = app.model().exports().take_picture_request()) {
+  if (request) {
     save_picture(app.model(), *request, read_pixels(0, width_px, height_px),
                  static_cast<double>(ImGui::GetIO().DisplayFramebufferScale.x));
   }
@@ -171,7 +179,10 @@ class FrameLoop {
       wait_for_work(last);
       const double now = glfwGetTime();
       check_shaders(now);
-      draw_frame(window_, app_, frame_input(window_, now - last, std::exchange(dropped_, {})), events_);
+      FrameInput input = frame_input(window_, now - last, std::exchange(dropped_, {}));
+      input.last_frame_ms = last_frame_ms_;
+      draw_frame(window_, app_, input, events_, drawing_);
+      last_frame_ms_ = 1e3 * (glfwGetTime() - now);
       if (std::string title = app_.title(); title != title_) glfwSetWindowTitle(window_, (title_ = title).c_str());
       last = now;
     }
@@ -183,6 +194,10 @@ class FrameLoop {
   }
 
   void listen() {
+    const auto drawn_is_lost = [](GLFWwindow* w) {
+      static_cast<FrameLoop*>(glfwGetWindowUserPointer(w))->drawing_.forget();
+    };
+    glfwSetWindowRefreshCallback(window_, drawn_is_lost);
     glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int, int action, int) {
       // Now, not when a frame gets to see it.
       if (key == GLFW_KEY_ESCAPE && action == GLFW_PRESS)
@@ -241,7 +256,9 @@ class FrameLoop {
   std::vector<std::string> dropped_;
   InputQueue events_;
   std::string title_, shader_error_;
+  UiDrawing drawing_;
   double next_shader_check_ = 0.0;
+  double last_frame_ms_ = 0.0;
   int settling_ = kSettlingFrames;
 };
 
@@ -272,6 +289,7 @@ Status run_window(const AppOptions& options, const std::function<bool()>& should
   app.set_renderer(&renderer);
   const KeptAtExit kept(app);
   FrameLoop(window.get(), app, renderer).run(should_stop);
+  if (!app.script_failure().empty()) return fail(app.script_failure());
   return {};
 }
 

@@ -4,8 +4,10 @@
 #include "core/preset/schema.h"
 #include "workbench/gui/app.h"
 #include "workbench/gui/model/app_model.h"
+#include "workbench/gui/model/file_origin_of.h"
 #include "workbench/gui/panels/panels.h"
 #include "workbench/gui/platform/offscreen.h"
+#include "workbench/gui/platform/save_picture.h"
 #include "workbench/gui/render/scene_renderer.h"
 #include "workbench/session/own_folder.h"
 
@@ -105,12 +107,11 @@ void enlarge_plots(AppModel& model) {
   model.window().sizes().show_right = false;
 }
 
-/// Folds all sections of the right column but this one.
+/// Shows the tab with this section of the right column, and folds the others.
 void fold_but(AppModel& model, const char* section) {
-  for (const char* other : {"Iterations", "Time machine", "Bookmarks", "Map", "Smoothness as felt", "Inspect", "Mesh",
-                            "Devices", "Messages"}) {
-    model.window().open_sections()[other] = std::string_view(other) == section;
-  }
+  for (const TaskSection& other : kTaskSections)
+    model.window().open_sections()[std::string(other.title)] = other.title == section;
+  model.window().set_task(task_with(section, model.window().task()));
 }
 
 /// The whole body, coloured by a map.
@@ -154,6 +155,56 @@ void drag_gain_of_the_past(AppModel& model) {
   model.time().bookmarks().set_note(model.time().bookmarks().all().front().id, "over the inner side");
   model.time().axis().show(static_cast<double>(end) - 4000.0, static_cast<double>(end));
   model.presets().set_value(*find_preset_key("solver", "gain_curvature_m"), 9e-3);
+}
+
+/// The busiest tick, and the same tick under a larger gain beside it.
+void compare_busiest_tick(AppModel& model) {
+  look_at_busiest_tick(model);
+  model.presets().set_value(*find_preset_key("solver", "gain_curvature_m"), 12e-3);
+}
+
+/// The map's worst place, solved there, and under a larger gain beside it.
+void solve_at_worst(AppModel& model) {
+  model.solve_at_worst();
+  model.presets().set_value(*find_preset_key("solver", "gain_curvature_m"), 12e-3);
+  const PlacedTick* placed = model.time().placed();
+  if (placed == nullptr) return;
+  Box points;
+  for (const IterationRecord& it : model.time().tick().iterations()) points.include(it.point);
+  model.view().camera.target = points.centre();
+  model.view().camera.distance_m =
+      std::max(12.0 * glm::length(points.size()), 0.02 * model.view().camera.scene_radius_m);
+  model.window().open_sections()["Iterations"] = true;
+}
+
+void map_with_paper(AppModel& model) {
+  solve_with_paper(model);
+  model.map().set_quantity(MapQuantity::iterations_worst);
+  model.map().on = true;
+}
+
+/// A sweep of G_k over the last seconds, and a value tried by hand.
+void sweep_gain(AppModel& model) {
+  fold_but(model, "Sweep");
+  look_from_contact_side(model);
+  model.time().set_paused(true);
+  model.tuning().set_range(0, 0.0, 30e-3);
+  model.tuning().set_count(0, 21);
+  model.tuning().start_sweep();
+  model.presets().set_value(*find_preset_key("solver", "gain_curvature_m"), 13.6e-3);
+}
+
+/// A field of G_k and G_o.
+void sweep_two_gains(AppModel& model) {
+  fold_but(model, "Sweep");
+  look_from_contact_side(model);
+  model.time().set_paused(true);
+  model.tuning().set_key(1, find_preset_key("solver", "gain_overall"));
+  model.tuning().set_range(0, 0.0, 30e-3);
+  model.tuning().set_range(1, 0.6, 1.6);
+  model.tuning().set_count(0, 13);
+  model.tuning().set_count(1, 9);
+  model.tuning().start_sweep();
 }
 
 /// A body with a hole, cut open, with the defects listed and the first one shown.
@@ -279,6 +330,12 @@ constexpr WindowView kViews[] = {
      show_paper_map<MapQuantity::gain_margin>, look_from_contact_side},
     {"time-machine", "the past solved again with a smaller gain, drawn beside what was recorded", Theme::dark,
      tune_paper, drag_gain_of_the_past},
+    {"tick-by-tick", "one tick under two gains: planes, path, error curve and table side by side", Theme::dark,
+     solve_with_paper, compare_busiest_tick},
+    {"solve-here", "a tick at the map's worst place, in its worst direction, under two gains", Theme::light,
+     map_with_paper, solve_at_worst},
+    {"sweep", "a sweep of the curvature gain over the recorded ticks", Theme::dark, tune_paper, sweep_gain},
+    {"sweep-two", "a sweep of two gains", Theme::light, tune_paper, sweep_two_gains},
     {"inspect", "mesh inspection: a defect found, marked and listed", Theme::dark, inspect, look_at_first_finding},
     {"slice", "the body cut open", Theme::dark, inspect, slice_open},
     {"parameters", "favourites, gain advice, and two presets side by side", Theme::dark, tune_and_compare,
@@ -308,7 +365,7 @@ class FrameFeeder {
   }
   void frame() {
     begin();
-    screen_.frame([&] { app_.frame(input_); });
+    screen_.frame([&] { app_.frame(input_); }, app_.ground());
   }
   void unseen_frame() {
     begin();
@@ -369,9 +426,46 @@ bool explores_on(std::uint64_t done, bool seen, bool in_view) {
   return done < kTicks || (seen && !in_view && done < kMostTicks);
 }
 
-Result<Image> take_window_shot(const ShotRequest& request) {
-  const WindowView& view =
-      *std::find_if(std::begin(kViews), std::end(kViews), [&](const WindowView& v) { return v.name == request.view; });
+/// Without the note on the file, which would be in the next picture.
+void save_unannounced(AppModel& model, const PictureRequest& request, const Image& whole) {
+  save_picture(model, request, whole, 1.0);
+  MessageLog& messages = model.messages();
+  if (!messages.all().empty() && messages.all().back().severity == Severity::note)
+    messages.dismiss(messages.all().size() - 1);
+}
+
+/// Frames until the script is done, with the pictures that it asks for.
+Status run_script(OffscreenScreen& screen, App& app, FrameFeeder& feeder) {
+  while (app.script_running()) {
+    feeder.frame();
+    if (const auto file = app.take_screenshot_request())
+      if (Status written = write_png(screen.picture(), *file, {.origin = file_origin(app.model())}); !written)
+        return written;
+    if (const auto picture = app.model().exports().take_picture_request())
+      save_unannounced(app.model(), *picture, screen.picture());
+  }
+  if (!app.script_failure().empty()) return fail(app.script_failure());
+  return {};
+}
+
+/// Lets the simulated finger explore until the contact is well in view.
+void explore(App& app, FrameFeeder& feeder) {
+  bool seen = false, in_view = false;
+  for (std::uint64_t done = 0; explores_on(done, seen, in_view); done += kTicksPerFrame) {
+    app.advance(kTicksPerFrame);
+    feeder.unseen_frame();  // without a renderer: only the plots and panels follow
+    in_view = contact_in_view(app.model());
+    seen = seen || in_view;
+  }
+}
+
+/// The window as it starts, for a script that does the rest.
+constexpr WindowView kPlain{"", "", Theme::dark, nullptr, nullptr};
+
+Result<Shot> take_window_shot(const ShotRequest& request) {
+  const auto named =
+      std::find_if(std::begin(kViews), std::end(kViews), [&](const WindowView& v) { return v.name == request.view; });
+  const WindowView& view = request.view.empty() ? kPlain : *named;
   Result<std::unique_ptr<OffscreenScreen>> screen = OffscreenScreen::open(request.width_px, request.height_px);
   if (!screen) return tl::unexpected(screen.error());
   SceneRenderer renderer;
@@ -382,22 +476,22 @@ Result<Image> take_window_shot(const ShotRequest& request) {
   app.model().view().camera.y_up = request.y_up;
   FrameFeeder feeder(**screen, app, request);
   feeder.frame();
-  view.arrange(app.model());
+  if (view.arrange != nullptr) view.arrange(app.model());
   app.show_plots(view.plots, view.values);
-  bool seen = false, in_view = false;
-  for (std::uint64_t done = 0; explores_on(done, seen, in_view); done += kTicksPerFrame) {
-    app.advance(kTicksPerFrame);
-    feeder.unseen_frame();  // without a renderer: only the plots and panels follow
-    in_view = contact_in_view(app.model());
-    seen = seen || in_view;
-  }
-  view.look(app.model());
+  if (view.look != nullptr) explore(app, feeder);
+  if (view.look != nullptr) view.look(app.model());
   app.set_renderer(&renderer);
   feeder.frame();
   renderer.wait_for_tessellation();
   if (view.key != 0) feeder.press(view.key, view.ctrl);
+  if (!request.script.empty()) {
+    app.run_script(request.script);
+    if (const Status done = run_script(**screen, app, feeder); !done) return tl::unexpected(done.error());
+  }
   for (int i = 0; i < kLayoutFrames; ++i) feeder.frame();
-  return (*screen)->picture();
+  FileOrigin origin = file_origin(app.model());
+  origin.command = shot_command(request, request.scale.value_or(1.0), request.theme.value_or(view.theme));
+  return Shot{(*screen)->picture(), std::move(origin)};
 }
 
 }  // namespace tangent

@@ -9,7 +9,7 @@ namespace tangent {
 
 const std::vector<ShotView>& window_shot_views();
 /// Precondition: the view is one of window_shot_views().
-Result<Image> take_window_shot(const ShotRequest& request);
+Result<Shot> take_window_shot(const ShotRequest& request);
 
 /// Whether the exploration before a picture goes on after `done` ticks: for 12 s, and for 12 s more where the contact
 /// has been in view (`seen`) but isn't now. Where it never was, as on a plate, it will not be.

@@ -94,6 +94,8 @@ void ChannelStore::push(std::uint64_t tick, std::span<const float> values) {
   if (end_ - first_ > capacity_) first_ = end_ - capacity_;
 }
 
+void ChannelStore::drop_before(std::uint64_t tick) { first_ = std::clamp(tick, first_, end_); }
+
 // A block is computed when its last tick is stored, and not read before.
 void ChannelStore::put(std::uint64_t tick, std::span<const float> values) {
   const std::size_t at = slot(tick);

@@ -68,6 +68,8 @@ class ChannelStore {
   /// run) clears the store first. Precondition: values.size() == channels().
   void push(std::uint64_t tick, std::span<const float> values);
   void clear();
+  /// Forgets the ticks before `tick`. What is left keeps its generation().
+  void drop_before(std::uint64_t tick);
   /// Replaces the contents by `rows` (channels() values per tick, NaN for gaps) from tick `first` on; much faster than
   /// push. Keeps the newest capacity() ticks.
   void assign(std::uint64_t first, std::span<const float> rows);

@@ -10,6 +10,8 @@ struct PlotArea {
   ImVec2 min, max;      ///< the curves' rectangle
   float gutter = 0.0f;  ///< width of the value labels left of it
   float header = 0.0f;  ///< height of the header above it
+  float strip = 0.0f;   ///< height of the events' strip below it
+  float bottom() const { return max.y + strip; }
   float width() const { return max.x - min.x; }
   float height() const { return max.y - min.y; }
 };

@@ -83,8 +83,8 @@ void PlotView::interact_values(const UiContext& ui, const PlotArea& area) {
 }
 
 void PlotView::interact_time_labels(const UiContext& ui, TimeAxis& axis, const PlotArea& area) {
-  ImGui::SetCursorScreenPos({area.min.x, area.max.y + ui.px(1)});
-  ImGui::InvisibleButton("time", {area.width(), std::max(1.0f, area.pos.y + area.size.y - area.max.y - ui.px(2))});
+  ImGui::SetCursorScreenPos({area.min.x, area.bottom() + ui.px(1)});
+  ImGui::InvisibleButton("time", {area.width(), std::max(1.0f, area.pos.y + area.size.y - area.bottom() - ui.px(2))});
   ui.items.note_last("plots/" + spec_.id + "/time");
   const ImGuiIO& io = ImGui::GetIO();
   if (ImGui::IsItemActive() && io.MouseDelta.x != 0.0f)

@@ -15,8 +15,8 @@ void draw_events(const UiContext& ui, const PlotMarks& marks, const ChannelStore
   for (const ColumnBar& bar : events.update(store, *marks.event_channel, axis, area.width())) {
     const auto rank = static_cast<std::size_t>(bar.range.max);
     if (rank < 1 || rank > marks.event_inks.size()) continue;
-    const float x = std::floor(area.min.x + bar.x), high = ui.px(2.0f + 1.5f * static_cast<float>(rank));
-    draw.AddRectFilled({x, area.max.y - high}, {x + std::max(1.0f, ui.px(1.5f)), area.max.y},
+    const float x = std::floor(area.min.x + bar.x), high = area.strip * (0.4f + 0.15f * static_cast<float>(rank));
+    draw.AddRectFilled({x, area.bottom() - high}, {x + std::max(1.0f, ui.px(1.5f)), area.bottom()},
                        marks.event_inks[rank - 1]);
   }
 }

@@ -1,5 +1,5 @@
-// Marks in every plot: events along the lower edge, parameter changes as dashed lines, bookmarks as flags on the upper
-// edge.
+// Marks in every plot: events in a strip below the curves, parameter changes as dashed lines, bookmarks as flags on the
+// upper edge.
 #pragma once
 
 #include "workbench/gui/plots/kept_bars.h"
@@ -15,6 +15,9 @@
 
 namespace tangent {
 
+/// Height of the events' strip, points.
+inline constexpr float kEventStrip = 7.0f;
+
 struct TickMark {
   std::uint64_t tick = 0, last_tick = 0;
   std::string text;  ///< shown on hover
@@ -28,8 +31,8 @@ struct PlotMarks {
   std::span<const TickMark> flags;           ///< bookmarks
 };
 
-/// Draws inside the curves' clip rectangle. `events`: this plot's own. Returns the text of the mark under the pointer;
-/// null: none.
+/// Draws over the curves and, events, in the strip below them. `events`: this plot's own. Returns the text of the mark
+/// under the pointer; null: none.
 const std::string* draw_marks(const UiContext& ui, const PlotMarks& marks, const ChannelStore& store,
                               const TimeAxis& axis, const PlotArea& area, KeptBars& events);
 

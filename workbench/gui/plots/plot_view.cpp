@@ -31,6 +31,10 @@ bool in_view(const TimeAxis& axis, double tick) { return tick >= axis.from() && 
 
 }  // namespace
 
+ImU32 ghost_ink(const UiContext& ui, const PlotSeries& series) {
+  return packed(mix(ui.palette.*series.colour, ui.palette.text, 0.75f));
+}
+
 void PlotView::draw(const UiContext& ui, const ChannelStore& store, TimeAxis& axis, PlotLink& link, ImVec2 pos,
                     ImVec2 size, bool time_labels, double reference) {
   PlotArea area;
@@ -39,8 +43,11 @@ void PlotView::draw(const UiContext& ui, const ChannelStore& store, TimeAxis& ax
   area.gutter = ui.px(46);
   area.header = ui.px(18);
   area.min = {pos.x + area.gutter, pos.y + area.header};
-  area.max = {pos.x + size.x - ui.px(8), pos.y + size.y - (time_labels ? ui.px(18) : ui.px(5))};
-  if (area.width() < ui.px(24) || area.height() < ui.px(16)) return;
+  // Events have their own strip: over the curves they would cover what is near zero, such as a cured failure's ghost.
+  const float room = size.y - area.header - (time_labels ? ui.px(18) : ui.px(5));
+  area.strip = link.marks.event_channel ? std::min(ui.px(kEventStrip), 0.2f * room) : 0.0f;
+  area.max = {pos.x + size.x - ui.px(8), pos.y + size.y - (time_labels ? ui.px(18) : ui.px(5)) - area.strip};
+  if (area.width() < ui.px(24) || area.height() < ui.px(12)) return;
 
   ImGui::PushID(spec_.id.c_str());
   interact(ui, axis, link, area);
@@ -64,6 +71,8 @@ void PlotView::draw(const UiContext& ui, const ChannelStore& store, TimeAxis& ax
             ui.colours.text_faint, text);
   }
   draw_series(ui, store, axis, link, area);
+  draw.PopClipRect();
+  draw.PushClipRect(area.min, {area.max.x, area.bottom()}, true);
   const std::string* pointed = draw_marks(ui, link.marks, store, axis, area, events_);
   draw.PopClipRect();
   draw_cursors(ui, axis, link, area, time_labels);
@@ -97,7 +106,7 @@ void PlotView::fit(const ChannelStore& store, const TimeAxis& axis, const PlotLi
 void PlotView::draw_grid(const UiContext& ui, const TimeAxis& axis, const PlotLink& link, const PlotArea& area,
                          bool time_labels) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  draw.AddRectFilled(area.min, area.max, ui.colours.plot);
+  draw.AddRectFilled(area.min, {area.max.x, area.bottom()}, ui.colours.plot);
   ImFont* font = ui.fonts.small_number;
   const float half = 0.5f * font->FontSize;
   const int rows = std::max(1, static_cast<int>(area.height() / (2.2f * font->FontSize)));
@@ -136,51 +145,97 @@ void PlotView::draw_grid(const UiContext& ui, const TimeAxis& axis, const PlotLi
     if (!time_labels || !tick.major || tick.value < 0.0) continue;
     const float w = text_width(font, tick.label.c_str());
     if (x + 0.5f * w > area.max.x - ui.px(14) || covered(x - 0.5f * w, x + 0.5f * w)) continue;
-    text_at(draw, font, {x - 0.5f * w, area.max.y + ui.px(2)}, ui.colours.text_dim, tick.label.c_str());
+    text_at(draw, font, {x - 0.5f * w, area.bottom() + ui.px(2)}, ui.colours.text_dim, tick.label.c_str());
   }
   if (time_labels) {
     const float unit = area.max.x - text_width(font, "s");
-    if (!covered(unit, area.max.x)) text_at(draw, font, {unit, area.max.y + ui.px(2)}, ui.colours.text_dim, "s");
+    if (!covered(unit, area.max.x)) text_at(draw, font, {unit, area.bottom() + ui.px(2)}, ui.colours.text_dim, "s");
   }
 }
 
+PlotView::ToPixel PlotView::to_pixel(const PlotArea& area) const {
+  // Multiplication instead of division: there are tens of thousands of bars per frame.
+  const double span = values_.high() - values_.low();
+  return {&values_, area.max.y, area.height(), spec_.scale, spec_.scale / span, values_.low() / span, spec_.log};
+}
+
+float PlotView::ToPixel::operator()(float value) const {
+  const double v = static_cast<double>(value);
+  const double share = log ? values->share(v * scale, true) : v * gain - offset;
+  return lowest - static_cast<float>(std::clamp(share, -1.0, 2.0)) * height;
+}
+
+void PlotView::draw_ghost(const UiContext& ui, Curve recorded, Curve ghost, const TimeAxis& axis, const PlotArea& area,
+                          const PlotSeries& series) {
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const CurveArea where{area.min, area.max};
+  const ToPixel to_y = to_pixel(area);
+  const auto same = [&](float a, float b) { return std::abs(to_y(a) - to_y(b)) < ui.px(0.9f); };
+  if (axis.span() / static_cast<double>(area.width()) >= kTicksPerColumnForBars) {
+    const auto& below = recorded.kept.update(recorded.store, recorded.channel, axis, area.width());
+    const auto& above = ghost.kept.update(ghost.store, ghost.channel, axis, area.width());
+    bars_.clear();
+    for (std::size_t i = 0, k = 0; i < above.size(); ++i) {
+      while (k < below.size() && below[k].x < above[i].x - 0.25f) ++k;
+      const bool paired = k < below.size() && below[k].x < above[i].x + 0.25f;
+      if (!paired || !same(below[k].range.min, above[i].range.min) || !same(below[k].range.max, above[i].range.max))
+        bars_.push_back(above[i]);
+    }
+    return draw_bars(draw, where, bars_, to_y, ghost_ink(ui, series), ui.px(1.0f));
+  }
+  sample_points(ghost.store, ghost.channel, axis, area.width(), points_);
+  sample_points(recorded.store, recorded.channel, axis, area.width(), below_);
+  std::vector<bool> differs(points_.size(), true);
+  for (std::size_t i = 0, k = 0; i < points_.size(); ++i) {
+    while (k < below_.size() && below_[k].x < points_[i].x - 0.01f) ++k;
+    differs[i] = k >= below_.size() || below_[k].x > points_[i].x + 0.01f || !same(below_[k].value, points_[i].value);
+  }
+  std::vector<SamplePoint> shown;
+  bool gap = true;
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    // With a neighbour on each side, so that the lines to them are drawn.
+    const bool near = differs[i] || (i > 0 && differs[i - 1]) || (i + 1 < points_.size() && differs[i + 1]);
+    if (near) shown.push_back({points_[i].x, points_[i].value, gap || points_[i].after_gap});
+    gap = !near;
+  }
+  const bool dots = static_cast<double>(area.width()) / axis.span() > static_cast<double>(ui.px(7));
+  draw_samples(draw, where, shown, line_, to_y, ghost_ink(ui, series), ui.px(1.0f), series.steps,
+               dots ? ui.px(2.2f) : 0.0f);
+}
+
 void PlotView::draw_curve(const UiContext& ui, const ChannelStore& store, std::size_t channel, KeptBars& kept,
-                          const TimeAxis& axis, const PlotArea& area, ImU32 ink, bool steps) {
+                          const TimeAxis& axis, const PlotArea& area, ImU32 ink, bool steps, float thickness) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const CurveArea where{area.min, area.max};
   const bool bars = axis.span() / static_cast<double>(area.width()) >= kTicksPerColumnForBars;
   const auto draw_with = [&](auto to_y) {
-    if (bars) return draw_bars(draw, where, kept.update(store, channel, axis, area.width()), to_y, ink, ui.px(1.5f));
+    if (bars)
+      return draw_bars(draw, where, kept.update(store, channel, axis, area.width()), to_y, ink, ui.px(thickness));
     sample_points(store, channel, axis, area.width(), points_);
     const bool dots = static_cast<double>(area.width()) / axis.span() > static_cast<double>(ui.px(7));
-    draw_samples(draw, where, points_, line_, to_y, ink, ui.px(1.5f), steps, dots ? ui.px(2.2f) : 0.0f);
+    draw_samples(draw, where, points_, line_, to_y, ink, ui.px(thickness), steps, dots ? ui.px(2.2f) : 0.0f);
   };
-  const auto y_of = [&](double share) {
-    return area.max.y - static_cast<float>(std::clamp(share, -1.0, 2.0)) * area.height();
-  };
-  if (spec_.log)
-    return draw_with([&](float value) { return y_of(values_.share(static_cast<double>(value) * spec_.scale, true)); });
-  // Multiplication instead of division: there are tens of thousands of bars per frame.
-  const double gain = spec_.scale / (values_.high() - values_.low()),
-               offset = values_.low() / (values_.high() - values_.low());
-  draw_with([&](float value) { return y_of(static_cast<double>(value) * gain - offset); });
+  draw_with(to_pixel(area));
 }
 
 void PlotView::draw_series(const UiContext& ui, const ChannelStore& store, const TimeAxis& axis, const PlotLink& link,
                            const PlotArea& area) {
   curves_.resize(spec_.series.size());
-  // Ghosts first, so that the recorded curve hides them where they are equal.
+  for (std::size_t i = 0; i < curves_.size(); ++i) {
+    const PlotSeries& series = spec_.series[i];
+    if (!series.visible) continue;
+    // Beside its ghost the recorded curve steps back.
+    const Rgba ink = ui.palette.*series.colour;
+    const bool with_ghost = link.ghost != nullptr && series.ghost;
+    draw_curve(ui, store, series.channel, curves_[i].recorded, axis, area,
+               packed(with_alpha(ink, with_ghost ? 0.55f : 1.0f)), series.steps, 1.5f);
+  }
+  // Ghosts over all of them, where they differ.
   for (std::size_t i = 0; i < curves_.size(); ++i) {
     const PlotSeries& series = spec_.series[i];
     if (!series.visible || link.ghost == nullptr || !series.ghost) continue;
-    draw_curve(ui, *link.ghost, *series.ghost, curves_[i].ghost, axis, area,
-               packed(mix(ui.palette.*series.colour, ui.palette.text, 0.65f)), series.steps);
-  }
-  for (std::size_t i = 0; i < curves_.size(); ++i) {
-    const PlotSeries& series = spec_.series[i];
-    if (series.visible)
-      draw_curve(ui, store, series.channel, curves_[i].recorded, axis, area, packed(ui.palette.*series.colour),
-                 series.steps);
+    draw_ghost(ui, {store, series.channel, curves_[i].recorded}, {*link.ghost, *series.ghost, curves_[i].ghost}, axis,
+               area, series);
   }
 }
 
@@ -194,9 +249,9 @@ void PlotView::draw_cursors(const UiContext& ui, const TimeAxis& axis, const Plo
     draw.AddLine({x, area.min.y}, {x, area.max.y}, ink, ui.px(1));
     if (!label || !time_labels) return;
     const CursorLabel card = cursor_label(ui, axis, link, area, tick);
-    draw.AddRectFilled({card.left, area.max.y + ui.px(1)}, {card.right, area.max.y + ui.px(17)},
+    draw.AddRectFilled({card.left, area.bottom() + ui.px(1)}, {card.right, area.bottom() + ui.px(17)},
                        ui.colours.panel_header, ui.px(2));
-    text_at(draw, ui.fonts.small_number, {card.left + ui.px(4), area.max.y + ui.px(2)}, ui.colours.text, card.text);
+    text_at(draw, ui.fonts.small_number, {card.left + ui.px(4), area.bottom() + ui.px(2)}, ui.colours.text, card.text);
   };
   if (box_from_) {
     const float x0 = static_cast<float>(axis.x_at(*box_from_, left, width));
@@ -257,7 +312,8 @@ void PlotView::draw_header(const UiContext& ui, const ChannelStore& store, const
     if (ImGui::InvisibleButton("toggle", {width, area.header})) series.visible = !series.visible;
     ui.items.note_last("plots/" + spec_.id + "/" + series.name);
     if (ImGui::IsItemHovered())
-      ImGui::SetTooltip("%s %s (click to hide or show)", spec_.title.c_str(), series.name.c_str());
+      ImGui::SetTooltip("%s %s%s%s (click to hide or show)", spec_.title.c_str(), series.name.c_str(),
+                        series.doc[0] != '\0' ? ": " : "", series.doc);
     ImGui::PopID();
     const ImU32 ink = packed(ui.palette.*series.colour);
     const float middle = y + 0.5f * ui.fonts.small->FontSize;

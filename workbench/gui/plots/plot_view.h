@@ -30,6 +30,7 @@ struct PlotSeries {
   bool steps = false;  ///< holds its value until the next tick (counts)
   bool visible = true;
   std::optional<std::size_t> ghost = std::nullopt;  ///< channel of PlotLink::ghost drawn with it
+  const char* doc = "";                             ///< shown on hover
 };
 
 struct PlotSpec {
@@ -58,6 +59,9 @@ struct PlotLink {
   PlotMarks marks;
 };
 
+/// Colour of a curve's ghost: its own, nearer to that of text.
+ImU32 ghost_ink(const UiContext& ui, const PlotSeries& series);
+
 class PlotView {
  public:
   explicit PlotView(PlotSpec spec) : spec_(std::move(spec)) {}
@@ -79,7 +83,24 @@ class PlotView {
   void draw_series(const UiContext& ui, const ChannelStore& store, const TimeAxis& axis, const PlotLink& link,
                    const PlotArea& area);
   void draw_curve(const UiContext& ui, const ChannelStore& store, std::size_t channel, KeptBars& kept,
-                  const TimeAxis& axis, const PlotArea& area, ImU32 ink, bool steps);
+                  const TimeAxis& axis, const PlotArea& area, ImU32 ink, bool steps, float thickness);
+  struct Curve {
+    const ChannelStore& store;
+    std::size_t channel;
+    KeptBars& kept;
+  };
+  /// Only where it is a pixel or more away from the recorded curve.
+  void draw_ghost(const UiContext& ui, Curve recorded, Curve ghost, const TimeAxis& axis, const PlotArea& area,
+                  const PlotSeries& series);
+  /// Maps a channel's value to y on screen.
+  struct ToPixel {
+    const ValueAxis* values;
+    float lowest, height;
+    double scale, gain, offset;
+    bool log;
+    float operator()(float value) const;
+  };
+  ToPixel to_pixel(const PlotArea& area) const;
   void draw_cursors(const UiContext& ui, const TimeAxis& axis, const PlotLink& link, const PlotArea& area,
                     bool time_labels);
   void interact(const UiContext& ui, TimeAxis& axis, PlotLink& link, const PlotArea& area);
@@ -98,7 +119,8 @@ class PlotView {
   };
   std::vector<CurveBars> curves_;  ///< by series
   KeptBars events_;
-  std::vector<SamplePoint> points_;
+  std::vector<SamplePoint> points_, below_;
+  std::vector<ColumnBar> bars_;
   std::vector<ImVec2> line_;
 };
 

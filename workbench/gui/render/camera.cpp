@@ -41,6 +41,17 @@ void Camera::look_from(const Vec3& direction) {
   pitch_rad = std::clamp(std::asin(std::clamp(z_up.z, -1.0, 1.0)), -kMaxPitch, kMaxPitch);
 }
 
+void Camera::turn_to_show(const Vec3& normal, double least_cosine) {
+  if (!(glm::dot(normal, normal) > 0.0)) return;
+  const Vec3 n = unit(normal), eye = -forward();
+  const double cosine = glm::dot(n, eye);
+  if (cosine >= least_cosine) return;
+  Vec3 across = eye - cosine * n;  // of the eye's direction, square to the normal
+  if (glm::dot(across, across) < 1e-12) across = std::abs(glm::dot(n, right())) < 0.9 ? right() : up();
+  across = unit(across - glm::dot(across, n) * n);
+  look_from(least_cosine * n + std::sqrt(1.0 - least_cosine * least_cosine) * across);
+}
+
 void Camera::orbit(double yaw_by_rad, double pitch_by_rad) {
   yaw_rad = std::remainder(yaw_rad + yaw_by_rad, 2.0 * std::numbers::pi);
   pitch_rad = std::clamp(pitch_rad + pitch_by_rad, -kMaxPitch, kMaxPitch);

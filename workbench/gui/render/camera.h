@@ -41,6 +41,9 @@ struct Camera {
 
   /// Orbits so that the eye is in this direction from the target (pitch limited); zero: no effect.
   void look_from(const Vec3& direction);
+  /// Turns about the target, by as little as it takes, until a surface there with this normal is seen at least at this
+  /// cosine between its normal and the direction to the eye.
+  void turn_to_show(const Vec3& normal, double least_cosine);
   void orbit(double yaw_by_rad, double pitch_by_rad);
   /// Moves the target so that points at its depth follow the pointer. dy > 0: pointer moved down.
   void pan(double dx_px, double dy_px, int height_px);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/base/result.h"
+#include "workbench/session/file_origin.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -24,7 +25,18 @@ struct Image {
 /// Colour of a framebuffer object (0: the window). Needs a current GL context.
 Image read_pixels(unsigned framebuffer, int width, int height);
 
-/// Writes atomically (core/io/atomic_file.h), alpha as opaque. Fails when the file can't be written.
-Status write_png(const Image& image, const std::filesystem::path& path);
+/// Colour of a texture of this size. Needs a current GL context.
+Image read_texture(unsigned texture, int width, int height);
+
+/// The picture whose pixels were drawn over black and over white: colour and alpha of each, straight. Precondition: the
+/// same size.
+Image with_alpha_of(const Image& over_black, const Image& over_white);
+
+struct PngOptions {
+  bool alpha = false;  ///< else opaque
+  FileOrigin origin;
+};
+/// Writes atomically (core/io/atomic_file.h). Fails when the file can't be written.
+Status write_png(const Image& image, const std::filesystem::path& path, const PngOptions& options = {});
 
 }  // namespace tangent

@@ -114,15 +114,16 @@ void MeshLayer::refresh_strokes(const SceneFrame& frame) {
   }
 }
 
-void MeshLayer::clear_background(const ScenePrograms& programs, const Palette& colours) const {
+void MeshLayer::clear_background(const ScenePrograms& programs, const SceneFrame& frame) const {
+  const Palette& colours = palette(frame.theme);
   glDisable(GL_DEPTH_TEST);
   glDisable(GL_BLEND);
   glDisable(GL_CULL_FACE);
   glDepthMask(GL_TRUE);
   glClear(GL_DEPTH_BUFFER_BIT);
   programs.background.use();
-  programs.background.set("top", rgb(colours.background_top));
-  programs.background.set("bottom", rgb(colours.background_bottom));
+  programs.background.set("top", rgb(frame.ground.value_or(colours.background_top)));
+  programs.background.set("bottom", rgb(frame.ground.value_or(colours.background_bottom)));
   glBindVertexArray(no_attributes_.id());
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }
@@ -146,7 +147,7 @@ std::size_t MeshLayer::drawn_triangles(const SceneToggles& on) const {
 
 void MeshLayer::draw(const ScenePrograms& programs, const SceneFrame& frame, const Camera& camera, int width_px,
                      int height_px, bool moving, std::size_t budget, DrawProgress& progress) {
-  if (progress.next == 0) clear_background(programs, palette(frame.theme));
+  if (progress.next == 0) clear_background(programs, frame);
   progress.done = true;
   if (!scene_) return;
   glEnable(GL_DEPTH_TEST);

@@ -51,7 +51,7 @@ class MeshLayer {
   };
   std::vector<Pass> passes(const SceneToggles& on) const;
   void refresh_strokes(const SceneFrame& frame);
-  void clear_background(const ScenePrograms& programs, const Palette& colours) const;
+  void clear_background(const ScenePrograms& programs, const SceneFrame& frame) const;
   void draw_pass(const ScenePrograms& programs, const SceneFrame& frame, const ViewMatrices& view, PassKind kind,
                  std::size_t first, std::size_t count) const;
   void use_facet_program(const ScenePrograms& programs, const SceneFrame& frame, const ViewMatrices& view) const;

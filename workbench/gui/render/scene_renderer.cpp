@@ -34,6 +34,7 @@ struct MeshLayerKey {
   std::uint64_t arrays = 0, shaders = 0;
   std::optional<SlicePlane> slice;
   std::uint64_t isolation = 0;  // 0: none
+  std::optional<Rgba> ground;
   bool operator==(const MeshLayerKey&) const = default;
 };
 
@@ -73,13 +74,25 @@ struct SceneRenderer::Impl {
   ScenePrograms programs;
   MeshLayer mesh;
   SketchLayer sketch_layer;
-  Sketch sketch;
+  Sketch sketch, drawn_sketch;
   std::vector<SceneLabel> labels;
-  RenderTarget resting_target, moving_target, picture;
+  RenderTarget resting_target, moving_target, resolved, picture;
 
   MeshLayerKey drawn;
   std::optional<MapPaint> drawn_map;
   DrawProgress progress;
+  std::uint64_t mesh_pictures = 0;  ///< grows with every change of the mesh layer
+  std::uint64_t resolved_of = 0;    ///< the one that is in `resolved`; 0: none
+  struct PictureKey {
+    std::uint64_t mesh_pictures = 0, shaders = 0;
+    const RenderTarget* target = nullptr;
+    int width_px = 0, height_px = 0;
+    double pixel_scale = 0.0;
+    bool scene = false;
+    bool operator==(const PictureKey&) const = default;
+  };
+  PictureKey drawn_picture;
+  std::uint64_t pictures = 0;
   Camera last_camera;
   int calls_at_rest = 0;
   bool resting = true;
@@ -91,6 +104,7 @@ struct SceneRenderer::Impl {
            mesh.scene()->mesh().usable_triangle_count() <= kSoftwareMultisampled;
   }
   void build_sketch(const SceneFrame& frame, const Camera& camera, int width_px, int height_px);
+  const RenderTarget& without_samples(const RenderTarget& target);
   const RenderTarget* draw_mesh(const SceneFrame& frame, const Camera& camera, int width_px, int height_px);
 };
 
@@ -121,6 +135,7 @@ void SceneRenderer::Impl::build_sketch(const SceneFrame& frame, const Camera& ca
   draw_marked_triangles(sketch, context);
   draw_control_nets(sketch, context, labels);
   draw_iterations(sketch, context, labels);
+  draw_beside_iterations(sketch, context);  // on top, with smaller dots
   draw_trail(sketch, context);
   draw_force(sketch, context, labels);
   draw_contact(sketch, context, labels);
@@ -146,7 +161,8 @@ const RenderTarget* SceneRenderer::Impl::draw_mesh(const SceneFrame& frame, cons
                          mesh.version(),
                          programs.version,
                          frame.slice,
-                         frame.isolation ? frame.isolation->version + 1 : 0};
+                         frame.isolation ? frame.isolation->version + 1 : 0,
+                         frame.ground};
   const int samples = !resting ? 0 : wants_multisampling(frame) ? kSamples : 0;
   const auto sized = [&](RenderTarget& target, int wanted) {
     // Falls back to no multisampling if the driver can't at this size.
@@ -158,6 +174,7 @@ const RenderTarget* SceneRenderer::Impl::draw_mesh(const SceneFrame& frame, cons
     drawn = key;
     drawn_map = frame.map;
     progress = {};
+    ++mesh_pictures;
     if (in_slices) {
       DrawProgress at_once;
       moving_target.bind();
@@ -165,11 +182,20 @@ const RenderTarget* SceneRenderer::Impl::draw_mesh(const SceneFrame& frame, cons
     }
   }
   if (!progress.done) {
+    ++mesh_pictures;
     target.bind();
     const bool coarse = !resting && (software_gl || mesh.drawn_triangles(frame.toggles) > kHardwareMoving);
     mesh.draw(programs, frame, camera, width_px, height_px, coarse, resting ? slice : ~std::size_t{0}, progress);
   }
   return progress.done ? &target : &moving_target;
+}
+
+/// Multisampled pictures are resolved once, not for every finger drawn over them.
+const RenderTarget& SceneRenderer::Impl::without_samples(const RenderTarget& target) {
+  if (target.samples() == 0 || !resolved.resize(target.width_px(), target.height_px(), 0)) return target;
+  if (resolved_of != mesh_pictures) resolved.copy_from(target);
+  resolved_of = mesh_pictures;
+  return resolved;
 }
 
 bool SceneRenderer::render(const SceneFrame& frame, const Camera& camera, int width_px, int height_px) {
@@ -181,9 +207,17 @@ bool SceneRenderer::render(const SceneFrame& frame, const Camera& camera, int wi
 
   const RenderTarget* target = m.draw_mesh(frame, camera, width_px, height_px);
   if (target == nullptr || !m.picture.resize(width_px, height_px, 0)) return false;
-  m.picture.copy_from(*target);
-  if (m.mesh.scene()) {
-    m.build_sketch(frame, camera, width_px, height_px);
+  const bool scene = m.mesh.scene() != nullptr;
+  if (scene) m.build_sketch(frame, camera, width_px, height_px);
+  // The camera is in the key of the mesh layer: a change of it is a new one.
+  const Impl::PictureKey key{m.mesh_pictures, m.programs.version, target, width_px,
+                             height_px,       frame.pixel_scale,  scene};
+  if (key == m.drawn_picture && m.sketch == m.drawn_sketch) return true;
+  m.drawn_picture = key;
+  m.drawn_sketch = m.sketch;
+  ++m.pictures;
+  m.picture.copy_from(m.without_samples(*target));
+  if (scene) {
     m.picture.bind();
     m.sketch_layer.draw(m.programs, m.sketch, camera, width_px, height_px, static_cast<float>(frame.pixel_scale));
   }
@@ -191,6 +225,7 @@ bool SceneRenderer::render(const SceneFrame& frame, const Camera& camera, int wi
 }
 
 unsigned SceneRenderer::texture() const { return impl_->picture.texture(); }
+std::uint64_t SceneRenderer::picture_version() const { return impl_->pictures; }
 int SceneRenderer::width_px() const { return impl_->picture.width_px(); }
 int SceneRenderer::height_px() const { return impl_->picture.height_px(); }
 std::span<const SceneLabel> SceneRenderer::labels() const { return impl_->labels; }

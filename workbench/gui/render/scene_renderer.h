@@ -34,7 +34,7 @@ struct SceneToggles {
   bool control_point_labels = false;    ///< b300 ... b111 (and n200 ... with control_normals)
   bool finger = true;
   bool penetration = true;  ///< the finger's lowest point to the contact
-  bool force = true;        ///< arrow; its scale is in force_metres_per_newton()
+  bool force = true;        ///< arrows, computed and felt; their scale is in force_metres_per_newton()
   bool contact = true;
   bool tracked_plane = false;  ///< the plane after the tick
   bool planes = true;          ///< the tangent planes of the tick's iterations, joined by a line
@@ -53,10 +53,12 @@ enum class RenderQuality : std::uint8_t { automatic, still };
 struct SceneFrame {
   SceneToggles toggles;
   Theme theme = Theme::dark;
+  std::optional<Rgba> ground = std::nullopt;  ///< behind everything, plain; none: the theme's
   RenderQuality quality = RenderQuality::automatic;
   double pixel_scale = 1.0;  ///< widths of lines and points; 2 on a HiDPI screen
   Finger finger;
-  std::optional<TickRecord> tick;          ///< the tick in view; none: mesh only
+  std::optional<TickRecord> tick;                 ///< the tick in view; none: mesh only
+  std::span<const IterationRecord> beside_trace;  ///< of the same tick under another preset; empty: none
   std::span<const IterationRecord> trace;  ///< iterations of that tick, stepped again with a trace; [0]: kept plane
   std::optional<std::size_t> selected_iteration;
   std::uint32_t picked_triangle = kNone;  ///< outlined; its control net is shown if no triangle is tracked
@@ -64,6 +66,7 @@ struct SceneFrame {
   std::span<const std::uint32_t> marked_triangles;  ///< outlined
   bool net_of_picked = false;                       ///< control net of the picked instead of the tracked triangle
   double display_travel_m = 0.016;                  ///< preset.display.travel_m, for the inset
+  std::optional<Vec3> felt_force_n;  ///< what the safety gate let through in that tick; none: there is no gate
   std::optional<double> cld_commanded_m;
   std::optional<double> cld_measured_m;
   std::span<const Vec3> trail;  ///< past contacts, oldest first
@@ -99,6 +102,8 @@ class SceneRenderer {
   bool render(const SceneFrame& frame, const Camera& camera, int width_px, int height_px);
 
   unsigned texture() const;  ///< GL_TEXTURE_2D, RGBA8, sRGB values; 0 before the first render
+  /// Grows with every new picture in the texture: while it stays the same the texture does.
+  std::uint64_t picture_version() const;
   int width_px() const;
   int height_px() const;
   std::span<const SceneLabel> labels() const;  ///< of the last render

@@ -1,5 +1,6 @@
 #include "workbench/gui/render/scene_sketch.h"
 
+#include "workbench/gui/render/force_arrows.h"
 #include "workbench/gui/render/quantity_text.h"
 
 #include <algorithm>
@@ -17,6 +18,12 @@ bool touching(const TickOutput& output) {
 
 bool in_view(const Vec3& p) { return p.z >= 0.0 && p.z <= 1.0; }
 
+std::string newton_text(double newton) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2f N", newton);
+  return text;
+}
+
 }  // namespace
 
 double gizmo_length_m(const SceneFrame& frame, const Camera& camera) {
@@ -27,7 +34,8 @@ double gizmo_length_m(const SceneFrame& frame, const Camera& camera) {
 
 double choose_force_scale(const SceneFrame& frame, const Camera& camera, double last) {
   const double gizmo = gizmo_length_m(frame, camera);
-  const double force = frame.tick ? glm::length(frame.tick->output.force_n) : 0.0;
+  const double computed = frame.tick ? glm::length(frame.tick->output.force_n) : 0.0;
+  const double force = std::max(computed, frame.tick && frame.felt_force_n ? glm::length(*frame.felt_force_n) : 0.0);
   if (!(force > 0.0) || !std::isfinite(force)) return last > 0.0 ? last : gizmo;
   const double drawn = last * force;
   if (drawn >= 0.4 * gizmo && drawn <= 2.2 * gizmo) return last;
@@ -94,19 +102,27 @@ void draw_contact(Sketch& sketch, const SketchContext& c, std::vector<SceneLabel
 void draw_force(Sketch& sketch, const SketchContext& c, std::vector<SceneLabel>& labels) {
   if (!c.frame.toggles.force || !c.frame.tick) return;
   const TickOutput& output = c.frame.tick->output;
-  const double force = glm::length(output.force_n);
-  if (!(force > 0.0) || !std::isfinite(force)) return;
-  const Rgba colour = palette(c.frame.theme).force_magnitude;
-  const Vec3 tip = output.contact + c.force_metres_per_newton * output.force_n;
-  sketch.arrow(output.contact, tip, 0.036 * gizmo_length_m(c.frame, c.camera), colour);
-  const Vec3 p = c.camera.project(tip, c.width_px, c.height_px);
-  char text[32];
-  std::snprintf(text, sizeof text, "%.2f N", force);
+  const ForceArrows arrows = force_arrows(output.force_n, c.frame.felt_force_n);
+  if (arrows.computed_n <= 0.0 && arrows.felt_n <= 0.0) return;
+  const Palette& colours = palette(c.frame.theme);
+  const double shaft = 0.036 * gizmo_length_m(c.frame, c.camera), per_newton = c.force_metres_per_newton;
+  const Vec3 from = output.contact;
+  const Vec3 felt_tip = from + per_newton * c.frame.felt_force_n.value_or(output.force_n);
+  const Vec3 computed_tip = from + per_newton * output.force_n;
+  // Felt as a full arrow; computed thinner, so that it is seen as the longer one's rest, or beside it.
+  if (arrows.felt_n > 0.0) sketch.arrow(from, felt_tip, shaft, colours.force_magnitude);
+  if (!arrows.same && arrows.computed_n > 0.0) sketch.arrow(from, computed_tip, 0.55 * shaft, colours.force_computed);
+  const Vec3 end = arrows.computed_n > arrows.felt_n ? computed_tip : felt_tip;
+  const Vec3 p = c.camera.project(end, c.width_px, c.height_px);
   if (!in_view(p)) return;
   // Beyond the arrowhead; beside it where the arrow points towards the eye.
-  const Vec2 along = Vec2(p) - Vec2(c.camera.project(output.contact, c.width_px, c.height_px));
-  const double length = glm::length(along);
-  labels.push_back({Vec2(p), text, colour, length > 8.0 * c.frame.pixel_scale ? along / length : Vec2(1.0, 0.0)});
+  const Vec2 along = Vec2(p) - Vec2(c.camera.project(from, c.width_px, c.height_px));
+  const double length = glm::length(along), row = 14.0 * c.frame.pixel_scale;
+  const Vec2 away = length > 8.0 * c.frame.pixel_scale ? along / length : Vec2(1.0, 0.0);
+  if (arrows.same) return labels.push_back({Vec2(p), newton_text(arrows.felt_n), colours.force_magnitude, away});
+  const Vec2 up(0.0, away.y < 0.0 ? -row : 0.0), down(0.0, away.y < 0.0 ? 0.0 : row);
+  labels.push_back({Vec2(p) + up, newton_text(arrows.computed_n) + " computed", colours.force_computed, away});
+  labels.push_back({Vec2(p) + down, newton_text(arrows.felt_n) + " felt", colours.force_magnitude, away});
 }
 
 void draw_iterations(Sketch& sketch, const SketchContext& c, std::vector<SceneLabel>& labels) {
@@ -153,6 +169,24 @@ void draw_iterations(Sketch& sketch, const SketchContext& c, std::vector<SceneLa
     last_label = Vec2(p);
     labels.push_back({last_label, std::to_string(i), mix(colour, palette(c.frame.theme).text, 0.4f), {0.0, -1.0}});
   }
+}
+
+/// Path and last plane only: two sets of planes in one place hide each other.
+void draw_beside_iterations(Sketch& sketch, const SketchContext& c) {
+  const auto trace = c.frame.beside_trace;
+  if (!c.frame.toggles.planes || trace.empty()) return;
+  const Rgba colour = palette(c.frame.theme).control_net;
+  for (std::size_t i = 0; i + 1 < trace.size(); ++i) {
+    if (trace[i].feature == Feature::none || trace[i + 1].seed != trace[i].seed) continue;
+    sketch.line(trace[i].point, trace[i + 1].point, kInk, 4.0);
+    sketch.line(trace[i].point, trace[i + 1].point, colour, 1.8);
+  }
+  for (const IterationRecord& it : trace) {
+    if (it.feature != Feature::none) sketch.point(it.point, colour, 5.0);
+  }
+  const IterationRecord& last = trace.back();
+  if (last.feature != Feature::none)
+    sketch.ring(last.point, last.normal, 0.3 * gizmo_length_m(c.frame, c.camera), colour, 2.0);
 }
 
 void draw_marked_triangles(Sketch& sketch, const SketchContext& c) {

@@ -26,8 +26,10 @@ double choose_force_scale(const SceneFrame& frame, const Camera& camera, double 
 
 void draw_finger(Sketch& sketch, const SketchContext& c);
 void draw_contact(Sketch& sketch, const SketchContext& c, std::vector<SceneLabel>& labels);
+/// An arrow for the computed force, and one for the felt force where that is another; each with its number and name.
 void draw_force(Sketch& sketch, const SketchContext& c, std::vector<SceneLabel>& labels);
 void draw_iterations(Sketch& sketch, const SketchContext& c, std::vector<SceneLabel>& labels);
+void draw_beside_iterations(Sketch& sketch, const SketchContext& c);
 void draw_control_nets(Sketch& sketch, const SketchContext& c, std::vector<SceneLabel>& labels);
 void draw_marked_triangles(Sketch& sketch, const SketchContext& c);
 void draw_trail(Sketch& sketch, const SketchContext& c);

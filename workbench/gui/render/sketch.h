@@ -19,11 +19,13 @@ struct Stroke {
   std::array<float, 3> a, b;
   std::uint32_t colour;
   float width_px;
+  bool operator==(const Stroke&) const = default;
 };
 
 struct FillVertex {
   std::array<float, 3> position;
   std::uint32_t colour;
+  bool operator==(const FillVertex&) const = default;
 };
 
 enum class SolidShape : std::uint8_t { ball, cylinder, cone };
@@ -36,10 +38,12 @@ struct Solid {
   float half_length = 0.0f;
   Rgba colour;  ///< alpha: opacity where the surface faces the eye
   float rim_opacity = 1.0f;
+  bool operator==(const Solid&) const = default;
 };
 
 class Sketch {
  public:
+  bool operator==(const Sketch&) const = default;
   void begin(const Vec3& origin_world, double scale_m);
 
   void line(const Vec3& a, const Vec3& b, Rgba colour, double width_px);

@@ -16,7 +16,7 @@ ImU32 hex(std::uint32_t rrggbb, float alpha = 1.0f) { return packed(rgb_hex(rrgg
 ThemeColours make_colours(Theme theme) {
   const Palette& p = palette(theme);
   ThemeColours c{};
-  const bool dark = theme == Theme::dark;
+  const bool dark = is_dark(theme);
   c.window = dark ? hex(0x121417) : hex(0xDDE1E6);
   c.panel = packed(p.panel);
   c.panel_header = dark ? hex(0x23272D) : hex(0xE6E9ED);
@@ -27,13 +27,15 @@ ThemeColours make_colours(Theme theme) {
   c.border = dark ? hex(0x32373E) : hex(0xC3C9D0);
   c.text = packed(p.text);
   c.text_dim = packed(p.text_dim);
-  c.text_faint = dark ? hex(0x6F7883) : hex(0x838C96);
+  c.text_faint = dark ? hex(0x8A939E) : hex(0x5B646D);
   c.accent = packed(p.accent);
   c.accent_soft = packed(with_alpha(p.accent, dark ? 0.26f : 0.20f));
   c.accent_fill = packed(mix(p.panel, p.accent, dark ? 0.36f : 0.26f));
   c.good = packed(p.good);
   c.warning = packed(p.warning);
   c.bad = packed(p.bad);
+  c.stop = hex(0xC23B00);
+  c.stop_hovered = hex(0xAA3300);
   return c;
 }
 
@@ -67,15 +69,16 @@ void set_lengths(ImGuiStyle& style) {
   style.ScrollbarRounding = 6;
   style.GrabRounding = 3;
   style.TabRounding = 3;
+  style.AntiAliasedLinesUseTex = false;  // the atlas is read by nearest pixel, which its lines are not made for
 }
 
 void set_colours(ImGuiStyle& style, Theme theme) {
   const ThemeColours& c = theme_colours(theme);
-  const float step = theme == Theme::dark ? 0.05f : -0.05f;
+  const float step = is_dark(theme) ? 0.05f : -0.05f;
   ImVec4 accent_half = unpack(c.accent);
   accent_half.w = 0.45f;
   ImVec4* to = style.Colors;
-  if (theme == Theme::dark)
+  if (is_dark(theme))
     ImGui::StyleColorsDark(&style);
   else
     ImGui::StyleColorsLight(&style);
@@ -83,7 +86,7 @@ void set_colours(ImGuiStyle& style, Theme theme) {
   to[ImGuiCol_TextDisabled] = unpack(c.text_dim);
   to[ImGuiCol_WindowBg] = unpack(c.panel);
   to[ImGuiCol_ChildBg] = {0, 0, 0, 0};
-  to[ImGuiCol_PopupBg] = lighter(c.panel, theme == Theme::dark ? 0.03f : 0.02f);
+  to[ImGuiCol_PopupBg] = lighter(c.panel, is_dark(theme) ? 0.03f : 0.02f);
   to[ImGuiCol_Border] = unpack(c.border);
   to[ImGuiCol_FrameBg] = unpack(c.field);
   to[ImGuiCol_FrameBgHovered] = lighter(c.field, step);
@@ -145,8 +148,12 @@ ImFont* add_font(const FontChoice& choice, float pixels, std::vector<std::string
 }  // namespace
 
 const ThemeColours& theme_colours(Theme theme) {
-  static const std::array<ThemeColours, 2> both{make_colours(Theme::dark), make_colours(Theme::light)};
-  return both[static_cast<std::size_t>(theme)];
+  static const std::array<ThemeColours, kThemeCount> all = [] {
+    std::array<ThemeColours, kThemeCount> out{};
+    for (std::size_t i = 0; i < kThemeCount; ++i) out[i] = make_colours(static_cast<Theme>(i));
+    return out;
+  }();
+  return all[static_cast<std::size_t>(theme)];
 }
 
 void apply_theme(Theme theme, float scale) {

@@ -159,6 +159,7 @@ std::optional<std::string> number_box(const UiContext& ui, std::string_view path
     if (!escaped && state.text != state.shown) result = state.text;
     state.id = 0;
   }
+  if (auto given = ui.items.take_value(path)) result = std::move(given);
   return result;
 }
 
@@ -198,14 +199,27 @@ void draw_field(const UiContext& ui, const ValueField& field, ImVec2 at, double 
     draw.AddRectFilled(at, end, ui.colours.accent_soft, round);
     draw.PopClipRect();
   }
-  const float unit_room = ui.px(34);
-  const auto centred = [&](const ImFont* font) { return std::round(at.y + 0.5f * (height - font->FontSize)); };
-  const std::string unit(field.unit);
-  draw.AddText(ui.fonts.small, ui.fonts.small->FontSize, {end.x - unit_room + ui.px(3), centred(ui.fonts.small)},
-               ui.colours.text_dim, unit.c_str());
   ImFont* number = ui.fonts.number;
   const float w = number->CalcTextSizeA(number->FontSize, 1e9f, 0.0f, field.text.c_str()).x;
+  // The unit goes before it would push the number out.
+  const bool narrow = w > field.width - ui.px(34 + 3);
+  const float unit_room = narrow ? ui.px(3) : ui.px(34);
+  const auto centred = [&](const ImFont* font) { return std::round(at.y + 0.5f * (height - font->FontSize)); };
+  const std::string unit(narrow ? std::string_view() : field.unit);
+  draw.AddText(ui.fonts.small, ui.fonts.small->FontSize, {end.x - unit_room + ui.px(3), centred(ui.fonts.small)},
+               ui.colours.text_dim, unit.c_str());
   draw.AddText(number, number->FontSize, {end.x - unit_room - w, centred(number)}, ui.colours.text, field.text.c_str());
+}
+
+}  // namespace
+
+namespace {
+
+/// Left and Right on the widget with the focus: -1, 1; 0: neither.
+int arrows_on(const UiContext& ui, std::string_view path) {
+  if (!ui.items.has_focus(path) || ImGui::GetIO().KeyCtrl) return 0;
+  const auto down = [](ImGuiKey key) { return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key), true) ? 1 : 0; };
+  return down(ImGuiKey_RightArrow) - down(ImGuiKey_LeftArrow);
 }
 
 }  // namespace
@@ -226,6 +240,9 @@ ValueFieldResult value_field(const UiContext& ui, std::string_view path, const V
   const float height = ImGui::GetFrameHeight();
   ImGui::InvisibleButton((id_of(path) + "/slide").c_str(), {std::max(4.0f, field.width), height});
   ui.items.note_last(path);
+  ui.items.note_arrows(path);
+  out.typed = ui.items.take_value(path);
+  const bool by_key = ImGui::IsItemActivated() && GImGui->ActiveIdSource == ImGuiInputSource_Nav;
   const float mouse = ImGui::GetIO().MousePos.x;
   if (ImGui::IsItemActivated()) {
     state.slide_from = field.share;
@@ -237,7 +254,10 @@ ValueFieldResult value_field(const UiContext& ui, std::string_view path, const V
     const double fine = ImGui::GetIO().KeyShift ? 0.1 : 1.0;
     share = std::clamp(state.slide_from + fine * static_cast<double>((mouse - state.slide_x) / field.width), 0.0, 1.0);
     if (share != field.share) out.slid = share;
-  } else if (ImGui::IsItemDeactivated() && ImGui::IsItemHovered() && std::abs(mouse - state.slide_x) <= ui.px(3)) {
+  } else if (const int by = arrows_on(ui, path); by != 0) {
+    out.slid = std::clamp(field.share + by * field.step * (ImGui::GetIO().KeyShift ? 0.1 : 1.0), 0.0, 1.0);
+  } else if (by_key ||
+             (ImGui::IsItemDeactivated() && ImGui::IsItemHovered() && std::abs(mouse - state.slide_x) <= ui.px(3))) {
     // The box appears in this frame and receives input from the next one on.
     state.field = path;
     ImGui::SetCursorScreenPos(at);
@@ -298,6 +318,7 @@ bool choice_row(const UiContext& ui, std::string_view path, float width, std::sp
   ImGui::SetNextItemWidth(width);
   const bool open = ImGui::BeginCombo(id_of(path).c_str(), current.c_str());
   ui.items.note_last(path);
+  ui.items.note_arrows(path);
   if (open) {
     for (int i = 0; i < static_cast<int>(choices.size()); ++i) {
       const std::string name(choices[static_cast<std::size_t>(i)]);
@@ -309,6 +330,18 @@ bool choice_row(const UiContext& ui, std::string_view path, float width, std::sp
     }
     ImGui::EndCombo();
   }
+  int wanted = chosen;
+  if (const auto given = ui.items.take_value(path)) {
+    const auto found = std::find(choices.begin(), choices.end(), *given);
+    if (found != choices.end())
+      wanted = static_cast<int>(found - choices.begin());
+    else
+      ui.items.refuse("\"" + *given + "\" is not among the choices of " + std::string(path));
+  } else if (!open) {
+    wanted = std::clamp(chosen + arrows_on(ui, path), 0, static_cast<int>(choices.size()) - 1);
+  }
+  changed = changed || wanted != chosen;
+  chosen = wanted;
   return changed;
 }
 
@@ -368,7 +401,8 @@ void tooltip(const UiContext& ui, std::string_view text) {
     resting.typed_over = false;
   else if (any_key_down())
     resting.typed_over = true;
-  if (resting.seconds < 0.35f || resting.typed_over) return;
+  // While something is typed nothing may cover it.
+  if (resting.seconds < 0.35f || resting.typed_over || text_is_edited()) return;
   place_tooltip(ui);
   ImGui::BeginTooltip();
   ImGui::PushTextWrapPos(ui.px(320));

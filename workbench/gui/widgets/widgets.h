@@ -20,12 +20,13 @@ std::optional<std::string> number_box(const UiContext& ui, std::string_view path
                                       bool focus = false);
 
 /// Slider and number box in one, as in Blender: a filled field with value and unit; dragging slides (with Shift ten
-/// times finer), a click types.
+/// times finer), a click types. With the keyboard's focus: Left and Right slide, Enter types.
 struct ValueField {
   float width = 100.0f;
   double share = 0.0;  ///< filled share of the range, 0..1
   std::string text;    ///< the value
   std::string_view unit;
+  double step = 0.01;  ///< share that an arrow key moves it by, with Shift a tenth
 };
 struct ValueFieldResult {
   std::optional<double> slid;        ///< new share
@@ -61,7 +62,7 @@ void edit_next(const char* label);
 /// Whether a field is being edited right now. (io.WantTextInput stays set for a frame after Enter.)
 bool text_is_edited();
 /// A combo box. While it is open each choice is noted as path/choice. Returns whether another one was chosen; with
-/// `again` also when the current one was.
+/// `again` also when the current one was. With the keyboard's focus: Left and Right choose.
 bool choice_row(const UiContext& ui, std::string_view path, float width, std::span<const std::string_view> choices,
                 int& chosen, bool again = false);
 

@@ -39,6 +39,26 @@ std::vector<PnPatch> mesh_patches() {
 
 double patch_size(const PnPatch& p) { return std::max(glm::length(p.offsets[b030]), glm::length(p.offsets[b003])); }
 
+/// A place on a patch, made at random or of a mesh, each as often.
+struct PlaceOnPatch {
+  const PnPatch& patch;
+  SurfaceSample sample;
+  double size;
+};
+
+/// work(random, place), `count` times.
+template <class Work>
+void at_random_places(unsigned seed, int count, Work work) {
+  Random random(seed);
+  const auto patches = mesh_patches();
+  for (int i = 0; i < count; ++i) {
+    const PnPatch patch =
+        i % 2 ? random_patch(random) : patches[random.below(static_cast<std::uint32_t>(patches.size()))];
+    const Vec2 uv = random.barycentric();
+    work(random, PlaceOnPatch{patch, evaluate(patch, uv.x, uv.y), patch_size(patch)});
+  }
+}
+
 struct Proofs {
   int wrong = 0, tried = 0;
 };
@@ -71,36 +91,26 @@ TEST_CASE("no patch is excluded for a centre over or under one of its own points
 
 TEST_CASE("where a patch is excluded no contact comes up while the centre moves less than the margin") {
   // The other way round: from a centre with a contact, any centre that excludes the patch is at least its margin away.
-  Random random(121);
   int excluded = 0, wrong = 0;
-  const auto patches = mesh_patches();
-  for (int i = 0; i < rounds(200000); ++i) {
-    const PnPatch patch =
-        i % 2 ? random_patch(random) : patches[random.below(static_cast<std::uint32_t>(patches.size()))];
-    const Vec2 uv = random.barycentric();
-    const SurfaceSample s = evaluate(patch, uv.x, uv.y);
-    const double size = patch_size(patch), h = size * random.in(-3.0, 3.0);
+  at_random_places(121, rounds(200000), [&](Random& random, const PlaceOnPatch& at) {
+    const auto& [patch, s, size] = at;
+    const double h = size * random.in(-3.0, 3.0);
     const Vec3 with_contact = s.point + h * s.normal;
     const double gone = size * std::pow(10.0, random.in(-3.0, 0.7));
     const Vec3 centre = with_contact + gone * random.direction();
     const PatchExclusion e = exclude_contact(patch, centre);
     excluded += e.margin_m > 0.0;
     wrong += e.margin_m > gone * (1.0 + 1e-9);
-  }
+  });
   CHECK(excluded > rounds(200000) / 20);
   CHECK(wrong == 0);
 }
 
 TEST_CASE("where a margin is asked for unstable contacts don't count, and no stable one comes up within it") {
-  Random random(125);
   int folded = 0, wrong = 0;
-  const auto patches = mesh_patches();
-  for (int i = 0; i < rounds(100000); ++i) {
-    const PnPatch patch =
-        i % 2 ? random_patch(random) : patches[random.below(static_cast<std::uint32_t>(patches.size()))];
-    const Vec2 uv = random.barycentric();
-    const SurfaceSample s = evaluate(patch, uv.x, uv.y);
-    const double size = patch_size(patch), h = size * random.in(-40.0, 40.0);
+  at_random_places(125, rounds(100000), [&](Random& random, const PlaceOnPatch& at) {
+    const auto& [patch, s, size] = at;
+    const double h = size * random.in(-40.0, 40.0);
     const Vec3 with_contact = s.point + h * s.normal;
     const double gone = size * std::pow(10.0, random.in(-4.0, 0.7));
     const PatchExclusion e = exclude_contact(patch, with_contact + gone * random.direction(), 10.0 * size);
@@ -111,29 +121,24 @@ TEST_CASE("where a margin is asked for unstable contacts don't count, and no sta
     const bool stable = upright && stability.det > 1e-6 && stability.trace > 1e-6;
     folded += !stable && e.margin_m > gone;
     wrong += stable && e.margin_m > gone * (1.0 + 1e-9);
-  }
+  });
   CHECK(folded > rounds(100000) / 200);
   CHECK(wrong == 0);
 }
 
 TEST_CASE("a glance excludes no contact that comes up within what was asked for") {
-  Random random(126);
   int excluded = 0, wrong = 0;
-  const auto patches = mesh_patches();
-  for (int i = 0; i < rounds(100000); ++i) {
-    const PnPatch patch =
-        i % 2 ? random_patch(random) : patches[random.below(static_cast<std::uint32_t>(patches.size()))];
-    const Vec2 uv = random.barycentric();
-    const SurfaceSample s = evaluate(patch, uv.x, uv.y);
-    const double size = patch_size(patch), h = size * random.in(0.0, 5.0);
+  at_random_places(126, rounds(100000), [&](Random& random, const PlaceOnPatch& at) {
+    const auto& [patch, s, size] = at;
+    const double h = size * random.in(0.0, 5.0);
     const double gone = size * std::pow(10.0, random.in(-3.0, 0.7)), enough = gone * random.in(0.1, 3.0);
     const RankBound bound{size * random.in(0.0, 5.0), random.below(2) ? 1.0 : 2.0};
     const Vec3 centre = s.point + h * s.normal + gone * random.direction();
-    if (!excludes_at_a_glance(patch, centre, bound, enough)) continue;
+    if (!excludes_at_a_glance(patch, centre, bound, enough)) return;
     ++excluded;
     // What counts has risen by (closing - 1) of the way at most.
     wrong += enough > gone * (1.0 + 1e-9) && h < bound.rank_m + (bound.closing - 1.0) * gone - 1e-9 * size;
-  }
+  });
   CHECK(excluded > rounds(100000) / 20);
   CHECK(wrong == 0);
 }

@@ -17,7 +17,8 @@ float value(const ServoRecord& record, Channel channel) {
 
 TEST_CASE("a tick's numbers go to the channels of their names, in SI") {
   ServoRecord record;
-  record.device.force_command_n = {1.0, -2.0, 2.0};
+  record.tick.output.force_n = {1.0, -2.0, 2.0};
+  record.device.force_command_n = {0.0, -0.3, 0.4};
   record.device.cld_command_m = 0.003;
   record.device.cld_measured_m = 0.002;
   record.tick.output.error_m = 4e-7;
@@ -27,7 +28,8 @@ TEST_CASE("a tick's numbers go to the channels of their names, in SI") {
   CHECK(value(record, Channel::force_x) == 1.0f);
   CHECK(value(record, Channel::force_y) == -2.0f);
   CHECK(value(record, Channel::force_z) == 2.0f);
-  CHECK(value(record, Channel::force_magnitude) == 3.0f);
+  CHECK(value(record, Channel::force_computed) == 3.0f);
+  CHECK(value(record, Channel::force_felt) == 0.5f);
   CHECK(value(record, Channel::cld_commanded) == 0.003f);
   CHECK(value(record, Channel::cld_measured) == 0.002f);
   CHECK(value(record, Channel::error) == 4e-7f);

@@ -110,7 +110,7 @@ TEST_CASE("a gain changed on the paused past brings a ghost of all of it - back 
 }
 
 TEST_CASE("the list of changed contacts leads to their ticks") {
-  TimeApp ui;
+  TimeApp ui(2400.0f);
   ui.set("method", static_cast<double>(Method::paper));
   ui.set("gain_curvature_m", 0.02);
   ui.model().scene().open("torus");

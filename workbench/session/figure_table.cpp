@@ -1,8 +1,8 @@
-#include "workbench/cli/figure_table.h"
+#include "workbench/session/figure_table.h"
 
 #include "core/base/text.h"
 #include "core/io/atomic_file.h"
-#include "workbench/cli/text_format.h"
+#include "workbench/session/own_folder.h"
 
 #include <fcntl.h>
 #include <spawn.h>
@@ -106,19 +106,51 @@ std::string FigureTable::csv() const {
   return text;
 }
 
-Status write_figure(const Figure& figure, const std::filesystem::path& folder) {
+namespace {
+
+Status write_data(const Figure& figure, const std::filesystem::path& folder) {
   for (const FigureData& data : figure.data) {
     const auto path = folder / (figure.name + data.suffix + ".csv");
     if (Status status = write_file_atomic(path, data.table.csv()); !status) return status;
   }
+  return {};
+}
+
+std::string terminal(const Figure& figure, bool pdf) {
+  if (!pdf)
+    return "set terminal svg size " + std::to_string(figure.width_px) + "," + std::to_string(figure.height_px) +
+           " dynamic enhanced font 'Inter, Helvetica, Arial,13' background rgb 'white'\n";
+  constexpr double kPixelsPerInch = 96.0;
+  return "set terminal pdfcairo size " + std::to_string(figure.width_px / kPixelsPerInch) + "in," +
+         std::to_string(figure.height_px / kPixelsPerInch) + "in enhanced font 'Inter,10' linewidth 0.75\n";
+}
+
+Result<std::string> draw(const Figure& figure, const std::filesystem::path& folder, const std::string& name, bool pdf) {
+  return run_gnuplot(terminal(figure, pdf) + kCommon + "DIR = '.'\n" + figure.script, folder, name);
+}
+
+}  // namespace
+
+Status write_figure(const Figure& figure, const std::filesystem::path& folder) {
+  if (Status status = write_data(figure, folder); !status) return status;
   const std::filesystem::path target = folder / (figure.name + ".svg");
-  const std::string script =
-      format("set terminal svg size %d,%d dynamic enhanced font 'Inter, Helvetica, Arial,13' background rgb 'white'\n",
-             figure.width_px, figure.height_px) +
-      kCommon + "DIR = '.'\n" + figure.script;
-  const Result<std::string> drawn = run_gnuplot(script, folder, target.string());
+  const Result<std::string> drawn = draw(figure, folder, target.string(), false);
   if (!drawn) return tl::unexpected(drawn.error());
   return write_file_atomic(target, *drawn);
+}
+
+Status write_drawing(const Figure& figure, const FileOrigin& origin, const std::filesystem::path& file) {
+  const bool pdf = file.extension() == ".pdf";
+  if (!pdf && file.extension() != ".svg") return fail("is neither .svg nor .pdf", file.string(), "name one of them");
+  const Result<OwnFolder> folder = OwnFolder::make();
+  if (!folder) return tl::unexpected(folder.error());
+  if (Status status = write_data(figure, folder->path()); !status) return status;
+  const Result<std::string> drawn = draw(figure, folder->path(), file.string(), pdf);
+  if (!drawn) return tl::unexpected(drawn.error());
+  if (!pdf) return write_file_atomic(file, svg_with_origin(*drawn, origin));
+  const Result<std::string> whole = pdf_with_origin(*drawn, origin);
+  if (!whole) return tl::unexpected(whole.error());
+  return write_file_atomic(file, *whole);
 }
 
 }  // namespace tangent

@@ -1,7 +1,9 @@
-// A figure of `workbench figures`: its data as CSV and its drawing as SVG, by gnuplot.
+// A figure: its data as tables, and its drawing as SVG or PDF, by gnuplot. `workbench figures` and the window's plots
+// are made by this.
 #pragma once
 
 #include "core/base/result.h"
+#include "workbench/session/file_origin.h"
 
 #include <filesystem>
 #include <string>
@@ -34,5 +36,7 @@ struct Figure {
 
 /// Writes NAME.csv and further tables, then NAME.svg. Fails where gnuplot is missing or refuses.
 Status write_figure(const Figure& figure, const std::filesystem::path& folder);
+/// The drawing alone, with its origin, as what the file's name ends in: .svg or .pdf. Atomic; fails like the above.
+Status write_drawing(const Figure& figure, const FileOrigin& origin, const std::filesystem::path& file);
 
 }  // namespace tangent

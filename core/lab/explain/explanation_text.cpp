@@ -1,0 +1,68 @@
+#include "core/base/text.h"
+#include "core/lab/explain/explain_tick.h"
+
+#include <cmath>
+#include <cstdio>
+#include <string_view>
+
+namespace tangent {
+namespace {
+
+std::string short_text(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", value);
+  return text;
+}
+std::string unit_text(const PresetKey& key) {
+  return key.unit.empty() || key.unit == "1" ? "" : " " + std::string(key.unit);
+}
+
+/// Four digits, lengths in millimetres.
+std::string number_text(double value, std::string_view unit) {
+  if (unit == "m") return short_text(1e3 * value) + " mm";
+  std::string out = short_text(value);
+  return unit == "1" || unit.empty() ? out : out + " " + std::string(unit);
+}
+
+std::string decided_text(const DecidingNumber& d) {
+  return std::string(d.what) + " " + number_text(d.value, d.unit) + " against " + number_text(d.threshold, d.unit) +
+         " (" + d.against + "), by " + number_text(std::abs(d.margin()), d.unit);
+}
+
+std::string place_text(const TickExplanation& e) {
+  std::string text = " At triangle " + std::to_string(e.mesh.triangle);
+  if (e.cause == TickCause::crease || e.cause == TickCause::boundary) text += ", edge " + std::to_string(e.mesh.side);
+  if (e.cause == TickCause::wild_normal) text += ", corner " + std::to_string(e.mesh.side);
+  const Vec3& p = e.mesh.place;
+  char place[96];
+  std::snprintf(place, sizeof place, " (%.4g, %.4g, %.4g mm)", 1e3 * p.x, 1e3 * p.y, 1e3 * p.z);
+  text += place;
+  if (e.mesh.mended)
+    text += "; with it mended the tick is plain (" + std::to_string(e.mesh.proof.iterations) + " planes)";
+  return text + ".";
+}
+
+std::string cure_text(const TickCure& cure) {
+  if (cure.outcome == CureOutcome::not_sought) return {};
+  if (cure.outcome == CureOutcome::none_in_range)
+    return " No value of a parameter that has to do with it cures it within its range.";
+  const auto value = [&](double x) {
+    return cure.key->kind == KeyKind::number ? short_text(x) + unit_text(*cure.key) : cure.key->value_text(x);
+  };
+  std::string text = " Cured by " + cure.key->full_name() + " = " + value(cure.to) + " instead of " + value(cure.from);
+  if (cure.as_deep) text += ", as deep";
+  return text + " (solved again: " + to_string(cure.proof.status) + ", " + std::to_string(cure.proof.iterations) +
+         " planes).";
+}
+
+}  // namespace
+
+std::string explanation_text(const TickExplanation& e) {
+  std::string text = sentence_of(e.cause);
+  if (e.decided.what) text += ": " + decided_text(e.decided);
+  text += ".";
+  if (e.mesh.triangle != kNone) text += place_text(e);
+  return text + cure_text(e.cure);
+}
+
+}  // namespace tangent

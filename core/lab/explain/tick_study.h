@@ -1,0 +1,56 @@
+// A tick under study: solved again with a trace, what its iteration met, and what is found out about it.
+#pragma once
+
+#include "core/base/tolerances.h"
+#include "core/base/units.h"
+#include "core/lab/explain/tick_trials.h"
+
+#include <memory>
+#include <span>
+
+namespace tangent {
+
+/// Angle between two vectors, deg; exact near 0 and 180, where acos is not.
+inline double angle_between_deg(const Vec3& a, const Vec3& b) {
+  const Vec3 x = glm::cross(a, b);
+  return std::atan2(std::sqrt(glm::dot(x, x)), glm::dot(a, b)) / kDegree;
+}
+
+/// What the solver takes for a jump of the normal (kJumpCosine).
+inline constexpr double kJumpDeg = 10.0;
+
+class TickStudy {
+ public:
+  TickStudy(std::shared_ptr<const ContactScene> scene, const GivenTick& given);
+
+  const Preset& preset() const { return trials.preset; }
+  const TickState& before() const { return trials.before; }
+  const TickOutput& tick() const { return result.tick; }
+  const ContactMesh& mesh() const { return trials.mesh(); }  ///< precondition: a 3D scene
+
+  /// The run ended with a contact.
+  bool followed() const { return !run.empty() && run.back().stop == StopReason::converged; }
+  bool is_astray() const { return near.size() < run.size(); }
+  /// Of the finger where it is, with a plane, world frame.
+  PlaneContact contact_of(const Vec3& point, const Vec3& normal) const {
+    return contact_on_plane(preset().finger, trials.input.finger, point, normal);
+  }
+  void place_at(std::uint32_t triangle, std::uint32_t side, const Vec3& place) {
+    result.mesh.triangle = triangle;
+    result.mesh.side = side;
+    result.mesh.place = place;
+  }
+
+  TickTrials trials;
+  std::unique_ptr<IterationTrace> trace;
+  std::span<const IterationRecord> run;   ///< following the kept plane, or the first seed
+  std::span<const IterationRecord> near;  ///< of it, what came before it went astray
+  TickExplanation result;
+};
+
+/// The contact there, on a face, is stable.
+inline bool is_stable(const IterationRecord& r) {
+  return r.feature != Feature::face || (r.det_m > 0.0 && r.trace_m > 0.0);
+}
+
+}  // namespace tangent

@@ -1,0 +1,154 @@
+// What TimeModel solves again: the tick in view under another preset or at a place, and ranges of ticks.
+#include "workbench/gui/model/time_model.h"
+
+namespace tangent {
+
+const Preset* TimeModel::preset_of_tick() const {
+  if (placed_) return &placed_->preset();
+  const ServoRecord* record = tick_.record();
+  return record != nullptr && devices_.session() != nullptr ? devices_.session()->preset(record->tick.preset_id)
+                                                            : nullptr;
+}
+
+std::shared_ptr<const ContactScene> TimeModel::scene_of_tick() const {
+  if (placed_) return placed_->scene();
+  const ServoRecord* record = tick_.record();
+  if (record == nullptr) return nullptr;
+  const auto found = past_.shown().scenes.find(record->scene_id);
+  return found != past_.shown().scenes.end() ? found->second : nullptr;
+}
+
+void TimeModel::show_beside() {
+  const ServoRecord* record = tick_.record();
+  if (record == nullptr) return beside_.clear();
+  const std::uint64_t tick = record->tick.tick;
+  const auto from_recorded = [&](const Preset& preset, IterationTrace& trace) -> std::optional<TickOutput> {
+    if (placed_) return placed_->solve(preset, trace);
+    const auto output = past_.re_step(*devices_.session(), *record, &preset, trace);
+    return output ? std::optional(*output) : std::nullopt;
+  };
+  const PresetSlots& slots = presets_.slots();
+  const std::shared_ptr<const Ghost> ghost = time_machine_.ghost();
+  if (placed_) {
+    if (presets_.current() == placed_->preset()) return beside_.clear();
+    beside_.show(tick, presets_.current(), false, from_recorded);
+  } else if (paused_ && ghost != nullptr && ghost->whole) {
+    // As in the ghost, which carried its own contact along.
+    beside_.show(tick, ghost->preset, true, [&](const Preset& preset, IterationTrace& trace) {
+      const RecordedRun& run = *time_machine_.run();
+      const std::size_t index = run.records.lower_bound(tick);
+      return index < run.records.size() ? trace_resolved_tick(run, preset, index, trace) : std::nullopt;
+    });
+  } else if (paused_ && ghost != nullptr) {
+    beside_.show(tick, ghost->preset, false, from_recorded);
+  } else if (other_slot_beside && !paused_ && live_beside_.newest() == tick) {
+    beside_.show(tick, slots.slot(1 - slots.active_slot()).current(), true, [&](const Preset&, IterationTrace& trace) {
+      trace = live_beside_.trace();
+      return std::optional(live_beside_.output());
+    });
+  } else if (other_slot_beside) {
+    beside_.show(tick, slots.slot(1 - slots.active_slot()).current(), false, from_recorded);
+  } else {
+    beside_.clear();
+  }
+}
+
+std::shared_ptr<const ChannelStore> TimeModel::ghost_channels() const {
+  if (const auto ghost = time_machine_.ghost()) return ghost->channels;
+  return other_slot_beside && !paused_ ? live_beside_.channels() : nullptr;
+}
+
+bool TimeModel::solve_at(const std::shared_ptr<const ContactScene>& scene, std::uint32_t triangle, double u, double v,
+                         const MoveOptions& options) {
+  auto placed = PlacedTick::at(scene, presets_.current(), triangle, u, v, options);
+  if (!placed) {
+    messages_.say(Severity::note, "the finger can't rest on triangle " + std::to_string(triangle) +
+                                      " there: the ground is tighter than the finger, or the triangle is skipped");
+    return false;
+  }
+  set_paused(true);
+  tick_.clear();
+  beside_.clear();
+  error_fan_.clear();
+  placed_ = std::move(placed);
+  show_tick();
+  return true;
+}
+
+void TimeModel::choose_move(std::size_t move) {
+  if (!placed_) return;
+  placed_->choose(move);
+  tick_.clear();
+  beside_.clear();
+  show_tick();
+}
+
+void TimeModel::leave_place() {
+  forget_place();
+  show_tick();
+}
+
+void TimeModel::forget_place() {
+  if (!placed_) return;
+  placed_.reset();
+  tick_.clear();
+  beside_.clear();
+  error_fan_.clear();
+}
+
+std::optional<TickRange> TimeModel::chosen_range() const {
+  if (selection_kept()) return selection_;
+  if (records().empty()) return std::nullopt;
+  return TickRange{records().oldest().tick.tick, records().newest().tick.tick};
+}
+
+std::optional<RunPart> TimeModel::run_over(const TickRange& range) const {
+  const PastPart* part = &past_.shown();
+  if (!part->covers(range.from) || !part->covers(range.to)) part = past_.part_with(range);
+  if (part == nullptr) return std::nullopt;
+  RecordedRun run = devices_.session()->recorded_run();
+  run.records = part->records;
+  run.scenes = part->scenes;
+  const std::size_t begin = run.records.lower_bound(range.from), end = run.records.lower_bound(range.to + 1);
+  return begin < end ? std::optional(part_of(run, begin, end)) : std::nullopt;
+}
+
+void TimeModel::preset_sent() {
+  if (placed_) show_tick();
+  if (!paused_ || !time_machine_.is_open()) return;
+  compared_by_hand_.reset();
+  if (presets_.current() == paused_with_) {
+    time_machine_.forget_request();
+    return;
+  }
+  time_machine_.request(presets_.current(), axis_.from(), axis_.to());
+  request_comparison();
+}
+
+void TimeModel::solve_past_again() {
+  set_paused(true);
+  compared_by_hand_.reset();
+  time_machine_.request(presets_.current(), axis_.from(), axis_.to());
+  request_comparison();
+}
+
+void TimeModel::compare(const NamedPreset& before, const NamedPreset& after) {
+  set_paused(true);
+  compared_by_hand_ = {before, after};
+  time_machine_.request(after.preset, axis_.from(), axis_.to());
+  request_comparison();
+}
+
+void TimeModel::request_comparison() {
+  if (records().empty() || !time_machine_.is_open()) return;
+  const PastPart& part = past_.shown();
+  const bool selected = selection_ && part.covers(selection_->from) && part.covers(selection_->to);
+  const TickRange range =
+      selected ? *selection_ : TickRange{records().oldest().tick.tick, records().newest().tick.tick};
+  name_before_ = compared_by_hand_ ? compared_by_hand_->first.name : "at the pause";
+  name_after_ = compared_by_hand_ ? compared_by_hand_->second.name : "now";
+  time_machine_.compare(compared_by_hand_ ? compared_by_hand_->first.preset : paused_with_,
+                        compared_by_hand_ ? compared_by_hand_->second.preset : presets_.current(), range);
+}
+
+}  // namespace tangent

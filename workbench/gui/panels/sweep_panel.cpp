@@ -1,0 +1,105 @@
+// A sweep over one or two keys on the chosen ticks: what is swept, and the points so far (sweep_points.h).
+#include "workbench/gui/panels/panels.h"
+#include "workbench/gui/panels/sweep_points.h"
+#include "workbench/gui/widgets/widgets.h"
+
+#include <algorithm>
+#include <charconv>
+
+namespace tangent {
+
+namespace {
+
+using Axis = TuningModel::Axis;
+
+void choose_key(const UiContext& ui, TuningModel& tuning, std::size_t axis, float width) {
+  const auto keys = tuning.keys_to_sweep();
+  std::vector<std::string_view> names;
+  std::vector<const PresetKey*> of;
+  if (axis == 1) {
+    names.push_back("no second key");
+    of.push_back(nullptr);
+  }
+  for (const PresetKey* key : keys) {
+    if (key == tuning.axes()[1 - axis].key && axis == 1) continue;
+    names.push_back(key->label);
+    of.push_back(key);
+  }
+  const auto found = std::find(of.begin(), of.end(), tuning.axes()[axis].key);
+  if (found == of.end()) {
+    // The method reads other keys than before.
+    names.push_back(tuning.axes()[axis].key->label);
+    of.push_back(tuning.axes()[axis].key);
+  }
+  int chosen = static_cast<int>((found == of.end() ? of.end() - 1 : found) - of.begin());
+  if (choice_row(ui, printed("sweep/key/%zu", axis), width, names, chosen))
+    tuning.set_key(axis, of[static_cast<std::size_t>(chosen)]);
+}
+
+void draw_axis(const UiContext& ui, AppModel& model, std::size_t i) {
+  TuningModel& tuning = model.tuning();
+  const float width = ImGui::GetContentRegionAvail().x, box = ui.px(54), count = ui.px(32);
+  choose_key(ui, tuning, i, width - 2.0f * box - count - ui.px(14));
+  const Axis& axis = tuning.axes()[i];
+  if (axis.key == nullptr) return;
+  const auto end = [&](const char* name, double value) -> std::optional<double> {
+    ImGui::SameLine(0, ui.px(4));
+    const auto typed = number_box(ui, printed("sweep/%s/%zu", name, i), box, display_text(*axis.key, value));
+    tooltip(ui, printed("%s value, %s", std::string(name) == "from" ? "First" : "Last",
+                        std::string(display_unit(*axis.key).name).c_str()));
+    if (!typed) return std::nullopt;
+    const auto parsed = parse_typed(*axis.key, *typed);
+    if (!parsed) model.messages().say(Severity::error, parsed.error().message());
+    return parsed ? std::optional(*parsed) : std::nullopt;
+  };
+  if (const auto from = end("from", axis.from)) tuning.set_range(i, *from, axis.to);
+  if (const auto to = end("to", axis.to)) tuning.set_range(i, axis.from, *to);
+  ImGui::SameLine(0, ui.px(4));
+  if (const auto typed = number_box(ui, printed("sweep/count/%zu", i), count, printed("%zu", axis.count))) {
+    std::size_t n = axis.count;
+    std::from_chars(typed->data(), typed->data() + typed->size(), n);
+    tuning.set_count(i, n);
+  }
+  tooltip(ui, "Number of values, 2 to 100");
+}
+
+void draw_start(const UiContext& ui, AppModel& model) {
+  TuningModel& tuning = model.tuning();
+  if (tuning.sweep().running()) {
+    if (text_button(ui, "sweep/cancel", "Cancel", "Stops and keeps the points so far")) tuning.cancel_sweep();
+    ImGui::SameLine();
+    ImGui::TextDisabled("%zu of %zu", tuning.sweep().done(), tuning.sweep().planned());
+    return;
+  }
+  const char* label = model.time().selection_kept() ? "Sweep A to B" : "Sweep the recorded ticks";
+  if (text_button(ui, "sweep/start", label,
+                  "Solves these ticks again with every value, on the same motion, in the background. Cursors A and B "
+                  "choose the ticks"))
+    tuning.start_sweep();
+  if (tuning.points().empty()) return;
+  ImGui::SameLine(0, ui.px(4));
+  if (text_button(ui, "sweep/clear", "Clear", "Forgets the points")) tuning.clear_points();
+}
+
+}  // namespace
+
+void draw_sweep_panel(const UiContext& ui, AppModel& model, FoldedPanel& state) {
+  if (!section(ui, "Sweep", state.open)) return;
+  TuningModel& tuning = model.tuning();
+  ImGui::PushFont(ui.fonts.small);
+  draw_axis(ui, model, 0);
+  draw_axis(ui, model, 1);
+  draw_start(ui, model);
+  if (!tuning.points().empty()) {
+    const TickRange& range = tuning.points_range();
+    ImGui::TextDisabled("Ticks %llu to %llu%s", static_cast<unsigned long long>(range.from),
+                        static_cast<unsigned long long>(range.to),
+                        tuning.outdated() ? "; other values have changed since" : "");
+    ui.items.note_last("sweep/range");
+  }
+  ImGui::PopFont();
+  if (!tuning.points().empty()) draw_sweep_points(ui, model);
+  ImGui::Dummy({1, ui.px(3)});
+}
+
+}  // namespace tangent

@@ -1,0 +1,21 @@
+// Ticks of a recording for other programs: CSV with the columns of ticks.csv, or MCAP.
+#pragma once
+
+#include "workbench/recording/recording.h"
+
+#include <functional>
+
+namespace tangent {
+
+struct ExportOptions {
+  std::optional<double> from_s, to_s;  ///< none: from the first, to the last tick
+  std::vector<std::string> channels;   ///< columns (tick_columns.h); empty: those of ticks.csv, or all in an MCAP
+  std::function<bool()> cancelled = [] { return false; };
+};
+
+/// By the ending of `to`, .csv or .mcap. Returns the number of ticks. Fails on another ending and an unknown channel,
+/// with the names that there are; nothing is left behind then, nor when it is cancelled.
+Result<std::uint64_t> export_ticks(const std::filesystem::path& from, const std::filesystem::path& to,
+                                   const ExportOptions& options = {});
+
+}  // namespace tangent

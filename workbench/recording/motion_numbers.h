@@ -1,0 +1,68 @@
+// Numbers that say what a run of ticks was like: how well it was solved, and how smooth force and display were.
+#pragma once
+
+#include "core/tick/tick.h"
+
+#include <array>
+#include <cstdint>
+
+namespace tangent {
+
+/// What a run was like.
+struct MotionNumbers {
+  std::uint64_t ticks = 0, unconverged = 0;
+  double mean_error_m = 0.0, worst_error_m = 0.0;
+  double mean_iterations = 0.0, p99_iterations = 0.0, most_iterations = 0.0;
+  double p50_ns = 0.0, p99_ns = 0.0;  ///< of the solver's step, here and now
+  double mean_force_n = 0.0, most_force_n = 0.0;
+  double rms_force_jump_n = 0.0, worst_force_jump_n = 0.0;  ///< from tick to tick
+  double rms_display_jump_m = 0.0, worst_display_jump_m = 0.0;
+  double force_above_20hz_n = 0.0, display_above_20hz_m = 0.0;  ///< RMS of what a high-pass of 20 Hz leaves
+  std::array<std::uint64_t, kTickEvents.size()> events{};
+};
+
+/// Butterworth's high-pass of second order (bilinear transform), at rest before the first value.
+class HighPass {
+ public:
+  HighPass(double cutoff_hz, double rate_hz);
+  double operator()(double x);
+
+ private:
+  double gain_, a1_, a2_;
+  double x1_ = 0.0, x2_ = 0.0, y1_ = 0.0, y2_ = 0.0;
+  bool begun_ = false;
+};
+
+/// Quantiles of many positive values without keeping them: counts in steps of 1/32 of an octave.
+class Spread {
+ public:
+  void add(double value);
+  double quantile(double q) const;  ///< 0 without values
+
+ private:
+  std::array<std::uint64_t, 2048> counts_{};
+  std::uint64_t count_ = 0;
+};
+
+/// Counts one run, tick by tick.
+class MotionCounter {
+ public:
+  explicit MotionCounter(double rate_hz);
+  /// `ns`: of the solver's step. `follows`: the tick before was added just before.
+  void add(const TickOutput& output, double ns, bool follows);
+  MotionNumbers done() const;
+
+ private:
+  void add_roughness(const TickOutput& output, bool follows);
+
+  MotionNumbers n_;
+  double error_ = 0.0, iterations_ = 0.0, force_sum_ = 0.0, force_jumps_ = 0.0, display_jumps_ = 0.0;
+  double rough_force_ = 0.0, rough_display_ = 0.0, last_display_ = 0.0;
+  Vec3 last_force_{0.0};
+  std::array<std::uint64_t, 4096> by_iterations_{};
+  Spread times_;
+  std::array<HighPass, 3> force_;
+  HighPass display_;
+};
+
+}  // namespace tangent
