@@ -3,8 +3,8 @@
 // moves the simulated hand.
 #include "workbench/gui/layout/view_room.h"
 #include "workbench/gui/panels/panels.h"
-#include "workbench/gui/render/opaque_image.h"
 #include "workbench/gui/panels/scene_picture.h"
+#include "workbench/gui/render/opaque_image.h"
 #include "workbench/gui/render/scene_overlay.h"
 #include "workbench/gui/widgets/thread_time.h"
 #include "workbench/gui/widgets/widgets.h"
