@@ -151,6 +151,9 @@ constexpr std::array kWhole{
     WholeColumn{"missed_deadlines", timing, "deadlines skipped before this tick", 0, kMost32,
                 [](const Tick& t) { return std::int64_t{t.record.missed_deadlines}; },
                 [](Tick& t, std::int64_t v) { t.record.missed_deadlines = static_cast<std::uint32_t>(v); }},
+    WholeColumn{"unready", input, "1: what it would search was not built yet, so it did not search", 0, 1,
+                [](const Tick& t) { return std::int64_t{t.record.tick.input.unready}; },
+                [](Tick& t, std::int64_t v) { t.record.tick.input.unready = v != 0; }},
 };
 
 /// A state of a device: an enumeration of 8 bits.
