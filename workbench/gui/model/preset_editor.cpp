@@ -1,5 +1,6 @@
 #include "workbench/gui/model/preset_editor.h"
 
+#include "core/io/csv_table.h"
 #include "workbench/session/unit_labels.h"
 
 #include <algorithm>
@@ -121,8 +122,7 @@ Result<double> parse_typed(const PresetKey& key, std::string_view text) {
   double number = 0.0;
   const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), number);
   const auto refuse = [&] {
-    return fail("\"" + std::string(whole) + "\" is not a value of " + key.full_name(), {},
-                "type " + display_range(key));
+    return fail(show_text(whole) + " is not a value of " + key.full_name(), {}, "type " + display_range(key));
   };
   if (error != std::errc() || !std::isfinite(number)) return refuse();
   const std::string_view unit = trim(rest.substr(static_cast<std::size_t>(end - rest.data())));

@@ -1,4 +1,5 @@
 // From a typed line to the command that it names, and the page that lists them.
+#include "core/io/csv_table.h"
 #include "workbench/gui/panels/command_match.h"
 #include "workbench/gui/panels/commands.h"
 
@@ -45,13 +46,13 @@ Result<std::string> checked(const Command& command, const std::string& value) {
   const Argument& argument = command.argument;
   const std::string says = "write: " + usage(command);
   if (argument.kind == ArgumentKind::none && !value.empty())
-    return fail("\"" + command.name + "\" takes nothing, not \"" + value + "\"", {}, says);
+    return fail("\"" + command.name + "\" takes nothing, not " + show_text(value), {}, says);
   if (value.empty() && argument.kind != ArgumentKind::none && argument.kind != ArgumentKind::on_off)
     return fail("\"" + command.name + "\" needs a value", {}, says);
   if (argument.choices.empty() || value.empty()) return value;
   for (const std::string& choice : argument.choices)
     if (lower(choice) == lower(value)) return choice;
-  return fail("\"" + value + "\" is not a choice of \"" + command.name + "\"", {},
+  return fail(show_text(value) + " is not a choice of \"" + command.name + "\"", {},
               argument.choices.empty() ? says : "choose one of: " + joined(argument.choices, ", "));
 }
 
@@ -73,7 +74,7 @@ FoundCommand find_command(std::span<const Command> commands, std::string_view li
 Status run_line(std::span<const Command> commands, std::string_view line) {
   const FoundCommand found = find_command(commands, line);
   if (found.command == nullptr)
-    return fail("there is no command \"" + std::string(trimmed(line)) + "\"", {}, nearest(commands, line));
+    return fail("there is no command " + show_text(trimmed(line)), {}, nearest(commands, line));
   const Result<std::string> value = checked(*found.command, found.value);
   if (!value) return tl::unexpected(value.error());
   return found.command->act(*value);

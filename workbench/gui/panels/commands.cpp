@@ -1,6 +1,7 @@
 #include "workbench/gui/panels/commands.h"
 
 #include "core/base/text.h"
+#include "core/io/csv_table.h"
 #include "workbench/gui/widgets/widgets.h"
 
 #include <algorithm>
@@ -67,7 +68,7 @@ void CommandList::number(CommandNames names, const char* unit, double min, doubl
                  [act = std::move(act), range, min, max, unit = std::string(unit)](std::string value) -> Status {
                    if (!unit.empty() && value.ends_with(" " + unit)) value.resize(value.size() - unit.size() - 1);
                    const auto typed = parse_finite_double(value);
-                   if (!typed) return fail("\"" + value + "\" is not a number", {}, "allowed: " + range);
+                   if (!typed) return fail(show_text(value) + " is not a number", {}, "allowed: " + range);
                    if (*typed < min || *typed > max) return fail(value + " is out of range", {}, "allowed: " + range);
                    act(*typed);
                    return {};

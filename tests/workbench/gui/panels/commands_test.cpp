@@ -372,6 +372,9 @@ TEST_CASE("a line that can't be run says what is wrong and what is allowed") {
     return done.error().message();
   };
   CHECK(why("frobnicate").find("no command \"frobnicate\"") != std::string::npos);
+  CHECK(why("\x1b[2J\xff").find("no command \"?[2J?\"") != std::string::npos);  // nothing that a terminal obeys
+  CHECK(why("zoom \x1b[2J").find("\"?[2J\" is not a number") != std::string::npos);
+  CHECK(why("curvature gain \x1b[2J").find("\"?[2J\" is not a value") != std::string::npos);
   CHECK(why("undoo").find("did you mean \"undo\"") != std::string::npos);
   CHECK(why("method newtonian").find("choose one of: paper, newton, robust") != std::string::npos);
   CHECK(why("curvature gain").find("needs a value") != std::string::npos);
