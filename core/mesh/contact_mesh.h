@@ -37,6 +37,7 @@ struct ContactMeshOptions {
   /// Turns closed parts over that are inside out (inside_out.h). Of their triangles corner 1 is the file's third corner
   /// and corner 2 its second.
   bool turn_over = false;
+  bool operator==(const ContactMeshOptions&) const = default;
 };
 
 enum class EdgeKind : std::uint8_t {

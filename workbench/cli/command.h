@@ -13,8 +13,9 @@ namespace tangent {
 /// Exit codes of the program.
 enum ExitCode : int {
   kDone = 0,
-  kFailed = 1,  ///< the work failed; standard error says what, where and what to do
-  kUsage = 2,   ///< invalid arguments
+  kFailed = 1,    ///< the work failed; standard error says what, where and what to do
+  kUsage = 2,     ///< invalid arguments
+  kCantTell = 3,  ///< of check alone: a preset can't be checked
 };
 
 struct CommandResult {
@@ -33,6 +34,7 @@ void add_monitor_command(CLI::App& app, CommandResult& result);
 void add_record_command(CLI::App& app, CommandResult& result);
 void add_replay_command(CLI::App& app, CommandResult& result);
 void add_export_command(CLI::App& app, CommandResult& result);
+void add_check_command(CLI::App& app, CommandResult& result);
 
 /// What the subcommands of workbench-window do (window/), which `workbench` lists, too.
 inline constexpr const char* kGuiCommandText = "Open the window";

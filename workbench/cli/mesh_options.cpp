@@ -49,9 +49,8 @@ void add_mesh_options(CLI::App& app, MeshOptions& options, bool mesh_required) {
   add_reading_options(app, options);
 }
 
-void add_replaced_mesh_options(CLI::App& app, MeshOptions& options) {
-  add_text_option(app, "--mesh", options.file, "Another mesh, or the recorded one where it was recorded without it",
-                  "MESH");
+void add_replaced_mesh_options(CLI::App& app, MeshOptions& options, const std::string& doc) {
+  add_text_option(app, "--mesh", options.file, doc, "MESH");
   add_reading_options(app, options);
 }
 

@@ -24,7 +24,7 @@ struct MeshOptions {
 void add_mesh_options(CLI::App& app, MeshOptions& options, bool mesh_required = true);
 
 /// The same with the mesh as an option, `--mesh F`, in place of a recorded one.
-void add_replaced_mesh_options(CLI::App& app, MeshOptions& options);
+void add_replaced_mesh_options(CLI::App& app, MeshOptions& options, const std::string& doc);
 
 /// Option `--unit mm|cm|m|in` alone.
 void add_unit_option(CLI::App& app, double& metres_per_unit, const std::string& doc);

@@ -125,7 +125,8 @@ void add_replay_command(CLI::App& app, CommandResult& result) {
   add_text_option(*command, "RECORDING", options->recording, "A recording", "F.sqlite", Needed::yes);
   add_flag(*command, "--every-second", options->every_second, "Only a tick a second, for a quick look");
   add_text_option(*command, "--json", options->json, "The same report as JSON", "F.json");
-  add_replaced_mesh_options(*command, options->mesh);
+  add_replaced_mesh_options(*command, options->mesh,
+                            "Another mesh, or the recorded one where it was recorded without it");
   add_preset_options(*command, options->preset);
   on_run(*command, [options, &result] {
     const Result<int> code = run_replay(*options);

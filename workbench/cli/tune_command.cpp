@@ -5,7 +5,7 @@
 #include "core/lab/gains/gain_tuning.h"
 #include "core/lab/measure/distribution.h"
 #include "workbench/cli/command.h"
-#include "workbench/cli/exploration_poses.h"
+#include "workbench/cli/command_text.h"
 #include "workbench/cli/interrupt.h"
 #include "workbench/cli/mesh_options.h"
 #include "workbench/cli/messages.h"
@@ -15,6 +15,8 @@
 #include "workbench/cli/stopwatch.h"
 #include "workbench/cli/text_format.h"
 #include "workbench/cli/tune_report.h"
+#include "workbench/evidence/run_evidence.h"
+#include "workbench/session/exploration_poses.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -30,24 +32,6 @@ struct TuneOptions {
   ExplorationKind path = ExplorationKind::around;
   std::string command;  ///< as typed, with every option by its long name
 };
-
-/// A word of a command line, quoted where a shell needs it.
-std::string shell_word(const std::string& word) {
-  constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./:,@%";
-  if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
-  std::string quoted = "'";
-  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
-}
-
-std::string command_text(const CLI::App& command) {
-  std::string text = "workbench tune";
-  for (const GivenOption& option : given_options(command)) {
-    if (!option.name.empty()) text += " " + option.name;
-    text += " " + shell_word(option.value);
-  }
-  return text;
-}
 
 bool names_method(const PresetOverride& o) { return o.key == find_preset_key("solver", "method"); }
 
@@ -112,6 +96,29 @@ GainTuning tune(const std::shared_ptr<const ContactScene>& scene, const Preset& 
   });
 }
 
+/// What the preset was measured with, so that "workbench check" can measure it again. Where that can't be named (the
+/// mesh came through a pipe) a message says so, and the preset is written without.
+void name_evidence(const TuneOptions& options, TuneReport& report) {
+  const std::filesystem::path folder = options.out.parent_path();
+  PresetEvidence asked;
+  asked.command = options.command;
+  asked.mesh = {seen_from(folder, options.mesh.file), {}, options.mesh.metres_per_unit, options.mesh.build};
+  asked.motion.kind = options.path == ExplorationKind::around ? MotionKind::around : MotionKind::strokes;
+  if (!options.poses.empty()) {
+    asked.motion.kind = MotionKind::poses;
+    asked.motion.file = seen_from(folder, options.poses);
+  }
+  asked.values = report.preset.preset;
+  asked.values.controller = {};  // no tick reads it
+  auto evidence = measure_evidence(std::move(asked), {.folder = folder, .timed = true});
+  if (evidence) {
+    report.preset.about.measured = std::move(*evidence);
+  } else {
+    report.preset.about.measured.reset();
+    print_message("tune", "the preset names no evidence: " + evidence.error().message());
+  }
+}
+
 Status run_tune(const TuneOptions& options, bool& interrupted) {
   const InterruptGuard interrupt;
   TuneReport report;
@@ -146,6 +153,7 @@ Status run_tune(const TuneOptions& options, bool& interrupted) {
     if (method != own) report.others.push_back(run_method(*scene, preset, method, *poses));
   }
   report.preset.about.name = options.out.stem().string();
+  name_evidence(options, report);
   describe_measurement(report);
   if (const Status status = write_preset(report.preset, options.out); !status) return status;
   std::fputs((tune_text(report) + options.out.string() + " written\n").c_str(), stdout);
@@ -194,7 +202,7 @@ void add_tune_command(CLI::App& app, CommandResult& result) {
   add_preset_options(*command, options->preset);
   on_run(*command, [command, options, &result] {
     check_usage(*options);
-    options->command = command_text(*command);
+    options->command = command_text("tune", *command);
     bool interrupted = false;
     const Status status = run_tune(*options, interrupted);
     if (!status) print_message("tune", status.error().message());
