@@ -13,6 +13,7 @@
 #include "workbench/gui/map/map_view.h"
 #include "workbench/gui/model/app_options.h"
 #include "workbench/gui/model/device_model.h"
+#include "workbench/gui/model/evidence_model.h"
 #include "workbench/gui/model/export_model.h"
 #include "workbench/gui/model/message_log.h"
 #include "workbench/gui/model/preset_model.h"
@@ -67,6 +68,7 @@ class AppModel {
   const TimeModel& time() const { return time_; }
   const TickRecord* tick_in_view() const;  ///< null: none yet
   TuningModel& tuning() { return tuning_; }
+  EvidenceModel& evidence() { return evidence_; }
   UnsavedModel& unsaved() { return unsaved_; }
   ExportModel& exports() { return exports_; }
   const ExportModel& exports() const { return exports_; }
@@ -88,6 +90,7 @@ class AppModel {
   DeviceModel devices_;
   TimeModel time_;
   TuningModel tuning_;
+  EvidenceModel evidence_;
   UnsavedModel unsaved_;
   ExportModel exports_;
 };

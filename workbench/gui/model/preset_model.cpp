@@ -171,6 +171,12 @@ bool PresetModel::save(const std::string& name, const PresetOrigin& origin) {
   return true;
 }
 
+Status PresetModel::save_evidence(const std::filesystem::path& path, const PresetFile& file) {
+  if (Status written = write_preset(file, path); !written) return written;
+  slots_.set_about(path, file);
+  return {};
+}
+
 bool PresetModel::has(const std::string& name) const {
   std::error_code ignored;
   return !name.empty() && std::filesystem::exists(folder_ / (name + ".toml"), ignored);

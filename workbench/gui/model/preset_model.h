@@ -57,6 +57,8 @@ class PresetModel {
   void load_built_in();
   /// Overwrites an existing file in the folder; a message says where, or why not.
   bool save(const std::string& name, const PresetOrigin& origin);
+  /// Writes a saved preset again, with the evidence that was measured since.
+  Status save_evidence(const std::filesystem::path& path, const PresetFile& file);
   bool has(const std::string& name) const;  ///< a file of this name is in the folder
   const std::filesystem::path& folder() const { return folder_; }
   /// Of the folder, of that of the preset the program was started with, and those that ship.

@@ -49,6 +49,7 @@ class SceneModel {
   void set_unit(double metres_per_unit);
   std::optional<double> fit_m() const { return mesh_options_.fit_m; }
   void set_fit(std::optional<double> fit_m);  ///< longest side, m; empty: as in the file
+  const ContactMeshOptions& mesh_options() const { return mesh_options_; }
   double crease_angle_rad() const { return mesh_options_.crease_rad; }
   void set_crease_angle(double rad);  ///< keeps the view
 

@@ -72,7 +72,7 @@ Status save(AppModel& model, const std::string& name) {
   if (model.presets().has(name))
     return fail("a preset \"" + name + "\" is there already", model.presets().folder().string(),
                 "choose another name, or use \"replace preset\"");
-  model.presets().save(name, origin_of(model, model.presets().editor().loaded().about.note));
+  save_preset(model, name, model.presets().editor().loaded().about.note);
   return {};
 }
 
@@ -89,11 +89,19 @@ void add_files(CommandList& out, AppModel& model, MenuBar& menu) {
            [&model](const std::string& name) { return save(model, name); });
   out.text({"replace preset", "Preset: save over the file", "", "save overwrite write"}, "NAME",
            [&model](const std::string& name) -> Status {
-             model.presets().save(name, origin_of(model, model.presets().editor().loaded().about.note));
+             save_preset(model, name, model.presets().editor().loaded().about.note);
              return {};
            });
   out.text({"preset note", "Preset: note to save with it", "", "comment"}, "TEXT",
            [&model, &menu](const std::string& note) { return wish(model, menu, "presets/note", note), Status(); });
+  EvidenceModel& evidence = model.evidence();
+  out.plain({"check preset", "Preset: check the evidence", "", "measure again holds proof verify"},
+            [&evidence] { evidence.check(); });
+  out.plain({"cancel check", "Preset: stop checking the evidence", "", "evidence stop"},
+            [&evidence] { evidence.cancel(); });
+  out.on_off(
+      {"attach selection", "Preset: attach the selection when saving", "", "evidence poses measured"},
+      [&evidence] { return evidence.wanted(); }, [&evidence](bool wanted) { evidence.set_wanted(wanted); });
   out.plain({"open preset", "Preset: open a file", "", "load read toml path"}, [&presets, &menu] {
     menu.path.open = menu.path.focus = true;
     menu.path.text = presets.folder().string() + "/";

@@ -46,6 +46,8 @@ struct PresetsPanel {
 };
 /// Of the values in use, for the file that they are saved in.
 PresetOrigin origin_of(const AppModel& model, const std::string& note);
+/// Saves the values in use, and attaches the selection where that is wanted. False: not saved, a message says why.
+bool save_preset(AppModel& model, const std::string& name, const std::string& note);
 void draw_presets_panel(const UiContext& ui, AppModel& model, PresetsPanel& state);
 
 // Right column.
