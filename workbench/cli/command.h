@@ -33,6 +33,7 @@ void add_monitor_command(CLI::App& app, CommandResult& result);
 void add_record_command(CLI::App& app, CommandResult& result);
 void add_replay_command(CLI::App& app, CommandResult& result);
 void add_export_command(CLI::App& app, CommandResult& result);
+void add_sweep_command(CLI::App& app, CommandResult& result);
 
 /// What the subcommands of workbench-window do (window/), which `workbench` lists, too.
 inline constexpr const char* kGuiCommandText = "Open the window";

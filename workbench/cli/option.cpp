@@ -33,6 +33,11 @@ void add_repeated_option(CLI::App& app, const std::string& name, const std::stri
   app.add_option_function<std::vector<std::string>>(name, set, doc)->type_name(shown_as)->allow_extra_args(false);
 }
 
+void add_list_option(CLI::App& app, const std::string& name, std::vector<std::string>& values, const std::string& doc,
+                     const std::string& shown_as) {
+  app.add_option(name, values, doc)->type_name(shown_as);
+}
+
 void add_flag(CLI::App& app, const std::string& name, bool& value, const std::string& doc) {
   app.add_flag(name, value, doc);
 }

@@ -5,7 +5,7 @@
 #include "core/lab/gains/gain_tuning.h"
 #include "core/lab/measure/distribution.h"
 #include "workbench/cli/command.h"
-#include "workbench/cli/exploration_poses.h"
+#include "workbench/session/exploration_poses.h"
 #include "workbench/cli/interrupt.h"
 #include "workbench/cli/mesh_options.h"
 #include "workbench/cli/messages.h"

@@ -3,7 +3,7 @@
 #include "core/lab/gains/gain_tuning.h"
 #include "core/preset/schema.h"
 #include "tests/support/process.h"
-#include "workbench/cli/exploration_poses.h"
+#include "workbench/session/exploration_poses.h"
 #include "workbench/cli/mesh_options.h"
 #include "workbench/cli/mesh_text.h"
 
