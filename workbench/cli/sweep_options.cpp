@@ -50,22 +50,6 @@ void take_span(const std::string& value, const std::string& text, sweep::Range& 
   }
 }
 
-/// TABLE.KEY=A,B,C or TABLE.KEY=FROM..TO:COUNT[:log|linear].
-sweep::Range parse_range(const std::string& text) {
-  const std::size_t equals = text.find('=');
-  sweep::Range range;
-  range.key = find_preset_key(std::string_view(text).substr(0, equals));
-  if (equals == std::string::npos || range.key == nullptr)
-    refuse_range(text, "names no key of a preset; write TABLE.KEY=VALUES with the names that a preset file has");
-  const std::string value = text.substr(equals + 1);
-  if (value.find("..") != std::string::npos && range.key->kind != KeyKind::choice) {
-    take_span(value, text, range);
-  } else {
-    for (const std::string& one : parts_of(value, ",")) range.values.push_back(value_of(*range.key, one, text));
-  }
-  return range;
-}
-
 Result<std::vector<Method>> methods_of(const SweepPlanOptions& options, Method preset) {
   std::vector<Method> out;
   for (const std::string& text : options.methods) {
@@ -82,6 +66,21 @@ Result<std::vector<Method>> methods_of(const SweepPlanOptions& options, Method p
 
 }  // namespace
 
+sweep::Range parse_range_option(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  sweep::Range range;
+  range.key = find_preset_key(std::string_view(text).substr(0, equals));
+  if (equals == std::string::npos || range.key == nullptr)
+    refuse_range(text, "names no key of a preset; write TABLE.KEY=VALUES with the names that a preset file has");
+  const std::string value = text.substr(equals + 1);
+  if (value.find("..") != std::string::npos && range.key->kind != KeyKind::choice) {
+    take_span(value, text, range);
+  } else {
+    for (const std::string& one : parts_of(value, ",")) range.values.push_back(value_of(*range.key, one, text));
+  }
+  return range;
+}
+
 void add_sweep_plan_options(CLI::App& app, SweepPlanOptions& options) {
   add_list_option(app, "MESH", options.meshes, "Meshes: .obj, .ply, .stl or .off; 2D polygons: .csv", "");
   add_list_option(app, "--poses", options.poses,
@@ -91,7 +90,7 @@ void add_sweep_plan_options(CLI::App& app, SweepPlanOptions& options) {
                       "Values of a preset's key, SI: TABLE.KEY=A,B,C or TABLE.KEY=FROM..TO:COUNT[:log|linear]; again "
                       "for more keys. Sampled plans leave COUNT out",
                       "TABLE.KEY=VALUES", [&](const std::vector<std::string>& texts) {
-                        for (const std::string& text : texts) options.ranges.push_back(parse_range(text));
+                        for (const std::string& text : texts) options.ranges.push_back(parse_range_option(text));
                       });
   add_list_option(app, "--methods", options.methods, "Methods to try (default: the preset's)", "A,B");
   add_choice_option(app, "--sampling", sweep::kSamplingNames,

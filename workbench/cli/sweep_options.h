@@ -26,6 +26,9 @@ struct SweepPlanOptions {
 /// preset. `options` must outlive the parser.
 void add_sweep_plan_options(CLI::App& app, SweepPlanOptions& options);
 
+/// TABLE.KEY=A,B,C or TABLE.KEY=FROM..TO[:COUNT[:log|linear]]. Ends the parsing on anything else.
+sweep::Range parse_range_option(const std::string& text);
+
 /// Fails on what contradicts itself, and on a plan or preset that can't be read.
 Result<sweep::Plan> sweep_plan(const SweepPlanOptions& options);
 
