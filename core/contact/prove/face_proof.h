@@ -23,6 +23,9 @@ struct PatchExclusion {
   double u = 1.0 / 3.0, v = 1.0 / 3.0;
   Vec3 point{0.0};        ///< of the patch there
   double height_m = 0.0;  ///< 0: not known, nor is the point
+  /// (u, v) is a place to start from for a contact on the triangle's edges; one inside the face may be near these.
+  bool also_inside = false;
+  double inside_u = 0.0, inside_v = 0.0;
 };
 
 /// `centre` in the patch's coordinates. Faces only: edges and vertices have fans of normals of their own. Where the

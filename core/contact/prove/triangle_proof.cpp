@@ -138,7 +138,13 @@ PatchExclusion exclude_triangle(ContactContext& context, std::uint32_t t, const 
   if (mesh.interior(t)) return proof;
   const double features = exclude_feature_contacts(context.cache, {t}, context.settings.normal_form,
                                                    context.pose.position, bound, enough_m, memory);
-  if (features <= 0.0) return unknown(context, t);
+  if (features <= 0.0) {
+    PatchExclusion nothing = unknown(context, t);
+    nothing.also_inside = proof.possible && proof.height_m != 0.0;
+    nothing.inside_u = proof.u;
+    nothing.inside_v = proof.v;
+    return nothing;
+  }
   proof.margin_m = std::min(proof.margin_m, features);
   return proof;
 }

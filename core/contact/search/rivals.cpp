@@ -2,6 +2,7 @@
 
 #include "core/base/tolerances.h"
 #include "core/contact/contact_rank.h"
+#include "core/contact/follow/step_rule.h"
 #include "core/contact/nearest_triangles.h"
 #include "core/contact/prove/basin.h"
 #include "core/contact/prove/clearance_check.h"
@@ -382,6 +383,11 @@ class RivalSearch {
     if (ran_out && contact_rank(context_.finger, r.contact) < deepest_) {
       const TrackedPlane so_far = r.plane;
       iterate(context_, so_far, share * kDeeperRivalBudget, r);
+      result.evaluations += r.evaluations;
+    }
+    if (!r.converged() && proof.also_inside) {
+      iterate(context_, place_on_face(part.triangle, proof.inside_u, std::min(proof.inside_v, 1.0 - proof.inside_u)),
+              share * kRivalBudget, r);
       result.evaluations += r.evaluations;
     }
     // No contact there now, but one may come up: ask again before long.
