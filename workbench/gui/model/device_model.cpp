@@ -40,10 +40,10 @@ void DeviceModel::take_scene(PreparedScenePtr prepared) {
   if (session_ != nullptr)
     session_->set_scene(std::move(prepared));
   else
-    make_session();
+    make_session(std::move(prepared));
 }
 
-void DeviceModel::make_session() {
+void DeviceModel::make_session(PreparedScenePtr prepared) {
   // The wish to arm is for the first attempt, whatever comes of it: a later choice of devices arms nothing.
   const ArmOnStart arm_on_start = std::exchange(options_.arm_on_start, ArmOnStart::never);
   if (options_.devices.display == "maestro") {
@@ -54,7 +54,7 @@ void DeviceModel::make_session() {
   }
   SessionOptions wanted = options_;
   wanted.arm_on_start = arm_on_start;
-  auto session = Session::create(scene_.current(), presets_.current(), wanted);
+  auto session = Session::create(scene_.current(), presets_.current(), wanted, std::move(prepared));
   if (!session) {
     messages_.say(Severity::error, session.error().message());
     return;

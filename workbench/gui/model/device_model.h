@@ -62,7 +62,7 @@ class DeviceModel {
   std::string arming_text() const;
 
  private:
-  void make_session();
+  void make_session(PreparedScenePtr prepared = nullptr);
   void restart_session();
   void say_what_differs();
   void take_clutch();
