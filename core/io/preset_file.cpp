@@ -107,7 +107,7 @@ class PresetReader {
     condition_ = node.is_string() ? find_condition(node.as_string()->get()) : nullptr;
     condition_where_ = where(key.source(), kCondition);
     if (condition_ != nullptr) return {};
-    return fail(node.is_string() ? "\"" + node.as_string()->get() + "\" is no rendering condition"
+    return fail(node.is_string() ? "\"" + node.as_string()->get() + "\" is not a rendering condition"
                                  : "is " + std::string(type_name(node)),
                 condition_where_, "allowed: " + choices_text(kConditionNames));
   }
@@ -178,7 +178,7 @@ class PresetReader {
       if (key != known.key) continue;
       const std::optional<double> value = node.is_number() ? node.value<double>() : std::nullopt;
       if (!value || !(*value > 0.0 && *value < 1e12))
-        return fail("is no length", where(key.source(), full), "allowed: a number above 0");
+        return fail("is not a length", where(key.source(), full), "allowed: a number above 0");
       file_.about.*known.field = *value;
       return {};
     }

@@ -101,7 +101,7 @@ void App::Ui::draw_splitters(const UiContext& ui, WindowModel& window, const Lay
     ImGui::Begin(name, nullptr, kFixed);
     ImGui::InvisibleButton("##bar", {rect.w, rect.h});
     items.note_last(name + 2);
-    tooltip(ui, "Drag: more room for one side");
+    tooltip(ui, "Drag to resize");
     const bool lit = ImGui::IsItemHovered() || ImGui::IsItemActive();
     if (lit) ImGui::SetMouseCursor(vertical ? ImGuiMouseCursor_ResizeEW : ImGuiMouseCursor_ResizeNS);
     if (lit)

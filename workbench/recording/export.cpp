@@ -190,7 +190,7 @@ Result<std::unique_ptr<Exporter>> exporter_for(const std::filesystem::path& to, 
                                                double first_s) {
   const std::string ending = to.extension().string();
   if (ending != ".csv" && ending != ".mcap")
-    return fail("'" + ending + "' is no format that is exported", to.string(), "end the name in .csv or .mcap");
+    return fail("'" + ending + "' is not a format of an export", to.string(), "end the name in .csv or .mcap");
   Result<std::vector<ExportedColumn>> columns = chosen(options.channels, ending == ".csv");
   if (!columns) return tl::unexpected(columns.error());
   if (ending == ".csv") {

@@ -54,9 +54,9 @@ void Bookmarks::watch(const ServoRecord& record) {
     fire(BookmarkKind::unconverged, record, text_of(pattern, out.error_m * 1e6));
   }
   if (out.event == TickEvent::reseed && wants(BookmarkKind::reseeded))
-    fire(BookmarkKind::reseeded, record, text_of("%.0f planes", out.iterations));
+    fire(BookmarkKind::reseeded, record, text_of("%.0f iterations", out.iterations));
   if (out.iterations > triggers.iterations_over && wants(BookmarkKind::iterations))
-    fire(BookmarkKind::iterations, record, text_of("%.0f planes", out.iterations));
+    fire(BookmarkKind::iterations, record, text_of("%.0f in one tick", out.iterations));
   const double force = glm::length(record.device.force_command_n);
   if (force > triggers.force_over_n && wants(BookmarkKind::force))
     fire(BookmarkKind::force, record, text_of("%.2f N", force));

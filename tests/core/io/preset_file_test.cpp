@@ -84,11 +84,11 @@ TEST_CASE("the format is the first key, and a file without one is read as it alw
 TEST_CASE("a preset of a newer format is refused, and says what to do") {
   CHECK(preset_refusal("# note\nformat = 7\n[solver]\nnew_key = 1\n") ==
         "p.toml:2 format: this file has format 7, this program reads up to 1; use the program that wrote it or a newer "
-        "one, or write the preset file anew with this one");
+        "one, or write the preset file again with this one");
   for (const char* wrong : {"format = -1\n", "format = 1.0\n", "format = \"1\"\n", "[format]\nx = 1\n"}) {
     CAPTURE(wrong);
     CHECK(contains(preset_refusal(wrong),
-                   "p.toml:1 format: is no format of a preset file; allowed: a whole number from 0 to 1"));
+                   "p.toml:1 format: is not a format of a preset file; allowed: a whole number from 0 to 1"));
   }
 }
 

@@ -49,7 +49,7 @@ worst place
 expect widget map/worst/0
 press map/log
 panel Compare
-compare right program's own
+compare right built-in
 press plots/mode/Spectrum
 curve across Force y
 export ticks

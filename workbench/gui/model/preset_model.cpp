@@ -116,7 +116,7 @@ void PresetModel::load(const std::filesystem::path& path, const ContactMesh* mes
 
 void PresetModel::load_built_in() {
   replace_by(PresetEditor::built_in());
-  messages_.say(Severity::note, "the program's own values loaded");
+  messages_.say(Severity::note, "built-in values loaded");
 }
 
 void PresetModel::replace_by(const PresetEditor& loaded) {
@@ -130,7 +130,7 @@ void PresetModel::replace_by(const PresetEditor& loaded) {
 
 void PresetModel::take_up(const UnsavedWork& work) {
   slots_.restore(work);
-  changed_("take up the work of an earlier run");
+  changed_("restore the work of an earlier run");
 }
 
 void PresetModel::undo() {

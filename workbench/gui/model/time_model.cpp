@@ -254,7 +254,7 @@ void TimeModel::step_iteration(int by) {
 void TimeModel::add_bookmark() {
   const ServoRecord* record = tick_.record();
   if (record == nullptr) return;
-  if (placed_) return messages_.say(Severity::note, "a tick at a place has no time to bookmark");
+  if (placed_) return messages_.say(Severity::note, "a tick solved at a place has no time that could be bookmarked");
   bookmarks_.add(record->tick.tick, record->tick.input.t_s);
 }
 

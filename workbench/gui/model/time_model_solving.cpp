@@ -63,7 +63,7 @@ bool TimeModel::solve_at(const std::shared_ptr<const ContactScene>& scene, std::
   auto placed = PlacedTick::at(scene, presets_.current(), triangle, u, v, options);
   if (!placed) {
     messages_.say(Severity::note, "the finger can't rest on triangle " + std::to_string(triangle) +
-                                      " there: the ground is tighter than the finger, or the triangle is skipped");
+                                      ": the surface there is tighter than the finger, or the triangle is skipped");
     return false;
   }
   set_paused(true);

@@ -58,7 +58,7 @@ void UnsavedModel::keep() {
 
 std::string UnsavedModel::offer() const {
   if (!left_) return {};
-  std::string text = "An earlier run ended with work that is in no file: ";
+  std::string text = "An earlier run ended with unsaved work: ";
   const std::size_t changes = left_->work.steps.empty() ? 0 : left_->work.steps.size() - 1;
   if (changes > 0) text += counted(changes, "change of presets", "changes of presets");
   if (changes > 0 && !left_->work.bookmarks.empty()) text += " and ";

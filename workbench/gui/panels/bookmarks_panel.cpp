@@ -37,7 +37,7 @@ constexpr std::array kTriggers{
     TriggerRow{BookmarkKind::unconverged, "Unconverged",
                "A tick that did not converge, or where the surface offers no contact (facing)"},
     TriggerRow{BookmarkKind::reseeded, "Reseeded", "Tracking was lost and started again from the nearest triangles"},
-    TriggerRow{BookmarkKind::iterations, "Iterations over", "More tangent planes than this in one tick"},
+    TriggerRow{BookmarkKind::iterations, "Iterations over", "More iterations than this in one tick"},
     TriggerRow{BookmarkKind::force, "Force over", "More force than this sent to the device"},
     TriggerRow{BookmarkKind::device_fault, "Device fault", "A fault of a device or of the safety gate"}};
 
@@ -148,7 +148,7 @@ void draw_bookmarks_panel(const UiContext& ui, AppModel& model, BookmarksPanel& 
   toggle_button(ui, "bookmarks/triggers", "Triggers", state.triggers_open, "What sets bookmarks automatically");
   ImGui::SameLine();
   if (text_button(ui, "bookmarks/solve", "Solve here",
-                  "At the contact of the bookmark in view: a tick in the direction that needs most planes (H)")) {
+                  "At the contact of the bookmark in view: a tick in the direction that needs most iterations (H)")) {
     model.view().picked_triangle = kNone;
     model.solve_here();
   }

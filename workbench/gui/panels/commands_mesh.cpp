@@ -74,7 +74,7 @@ void add_map(CommandList& out, AppModel& model) {
       {"map range automatic", "Map: range of nearly all values"}, [&map] { return map.automatic_range(); },
       [&map](bool on) { on ? map.set_automatic_range() : map.set_range(map.low(), map.high()); });
   out.on_off(
-      {"map logarithmic", "Map: equal steps of colour are equal factors"}, [&map] { return map.logarithmic(); },
+      {"map logarithmic", "Map: logarithmic colours"}, [&map] { return map.logarithmic(); },
       [&map](bool on) { map.set_logarithmic(on); });
   const auto names = colour_map_names();
   out.choice(
@@ -83,7 +83,7 @@ void add_map(CommandList& out, AppModel& model) {
   out.flag({"map follows preset", "Map: computed again when the preset changes"}, map.follow_changes);
   out.number({"map directions", "Map: directions of motion tried"}, "", 1.0, 32.0,
              [&map](double n) { map.options.directions = static_cast<unsigned>(n); });
-  out.number({"map move", "Map: how far the finger moves in a tick"}, "mm", 1e-4, 10.0,
+  out.number({"map move", "Map: how far the finger moves per tick"}, "mm", 1e-4, 10.0,
              [&map](double mm) { map.options.move_m = mm * 1e-3; });
   out.number({"map press", "Map: how deep the finger rests"}, "mm", 0.0, 20.0,
              [&map](double mm) { map.options.press_m = mm * 1e-3; });

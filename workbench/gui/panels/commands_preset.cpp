@@ -60,7 +60,7 @@ void add_value_actions(CommandList& out, AppModel& model) {
     out.choice_of(std::move(command), "VALUE", names, [act = std::move(act)](std::size_t i) { act(preset_keys()[i]); });
   };
   PresetModel& presets = model.presets();
-  add({"reset", "Preset: the program's own", "", "default back"},
+  add({"reset", "Preset: built-in values", "", "default back"},
       [&presets](const PresetKey& key) { presets.reset_value(key); });
   add({"revert", "Preset: as loaded,", "", "undo back file"},
       [&presets](const PresetKey& key) { presets.revert_value(key); });
@@ -98,9 +98,9 @@ void add_files(CommandList& out, AppModel& model, MenuBar& menu) {
     menu.path.open = menu.path.focus = true;
     menu.path.text = presets.folder().string() + "/";
   });
-  out.plain({"take up unsaved", "Preset: take up what an earlier run left", "", "recover crash restore"},
+  out.plain({"take up unsaved", "Preset: restore what an earlier run left unsaved", "", "recover crash restore"},
             [&model] { model.unsaved().take_up(); });
-  out.plain({"discard unsaved", "Preset: discard what an earlier run left", "", "delete crash"},
+  out.plain({"discard unsaved", "Preset: discard what an earlier run left unsaved", "", "delete crash"},
             [&model] { model.unsaved().discard(); });
 }
 

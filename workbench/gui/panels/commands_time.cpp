@@ -63,7 +63,7 @@ void add_bookmarks(CommandList& out, TimeModel& time) {
 }
 
 void add_plots(CommandList& out, AppModel& model, MenuBar& menu) {
-  out.plain({"solve past", "Time: solve the past with the present values", "", "again ghost what if"},
+  out.plain({"solve past", "Time: solve the past with the current values", "", "again ghost what if"},
             [&model] { model.time().solve_past_again(); });
   out.plain({"export ticks", "Plots: ticks in view as CSV", "", "save write file samples table"}, [&model] {
     const auto [from, to] = ticks_in_view(model.time());

@@ -23,7 +23,7 @@ void enter(CommandList& out, AppModel& model, MenuBar& menu, CommandNames names,
 void add_comparing(CommandList& out, AppModel& model, MenuBar& menu) {
   press(out, model, menu, {"compare solve", "Compare: solve the ticks with both presets", "", "before after faster"},
         "compare/solve");
-  out.flag({"other beside", "Compare: the other of A and B beside the tick in view", "", "ghost live both"},
+  out.flag({"other beside", "Compare: show both A and B for the tick in view", "", "ghost live both"},
            model.time().other_slot_beside);
   press(out, model, menu, {"search gains", "Solver: search gains for the chosen ticks", "", "tune advice optimise"},
         "solver/advice/search");
@@ -49,7 +49,7 @@ void add_sweep(CommandList& out, AppModel& model, MenuBar& menu) {
   press(out, model, menu, {"sweep start", "Sweep: the chosen ticks, with every value", "", "run vary tune"},
         "sweep/start");
   out.plain({"sweep cancel", "Sweep: stop, keep the points so far", ""}, [&model] { model.tuning().cancel_sweep(); });
-  out.plain({"sweep clear", "Sweep: forget the points", "", "delete"}, [&model] { model.tuning().clear_points(); });
+  out.plain({"sweep clear", "Sweep: delete the points", "", "delete"}, [&model] { model.tuning().clear_points(); });
 }
 
 void add_derived(CommandList& out, AppModel& model, MenuBar& menu) {

@@ -66,8 +66,8 @@ void draw_states(const UiContext& ui, DeviceModel& devices) {
   ImGui::Dummy({1, ui.px(2)});
   for (const std::string& name : session.without_timeout())
     warning_text(ui, name + " goes on with its last command when this program dies: its firmware has no time-out.");
-  if (session.needs_yes() && text_button(ui, "monitor/accept_no_timeout", "Use it nevertheless",
-                                         "Without this yes nothing is armed. Keep a hand on its power switch"))
+  if (session.needs_yes() && text_button(ui, "monitor/accept_no_timeout", "Use it anyway",
+                                         "Nothing is armed until you confirm. Keep a hand on its power switch"))
     session.accept_no_timeout();
   const bool fault = devices.faulted();
   if (fault) ImGui::PushStyleColor(ImGuiCol_Button, ui.colours.bad);
@@ -87,7 +87,7 @@ void draw_limits(const UiContext& ui, const DeviceModel& devices) {
   heading(ui, "Limits");
   fact(ui, "Peak / continuous force", printed("%.1f / %.1f", limits.peak_force_n, limits.continuous_force_n), "N");
   if (const auto* can = devices.session()->force_capabilities(); can != nullptr) {
-    fact(ui, "Pushes along / rotations sensed", pushed_axes(*can) + printed(" / %d", can->rotations_sensed));
+    fact(ui, "Force axes / rotations sensed", pushed_axes(*can) + printed(" / %d", can->rotations_sensed));
     const auto known = [](double value) { return value > 0.0 ? printed("%.0f", value) : std::string("-"); };
     fact(ui, "Largest stiffness", known(can->largest_stiffness_n_per_m), "N/m");
     fact(ui, "Largest damping", known(can->largest_damping_n_s_per_m), "N s/m");
@@ -152,9 +152,9 @@ void draw_link(const UiContext& ui, const LinkReport& link) {
   fact(ui, "Stalls / time-outs / errors",
        count_text(link.stalls) + " / " + count_text(link.time_outs) + " / " + count_text(link.errors));
   fact(ui, "Short / empty packets", count_text(link.short_packets) + " / " + count_text(link.empty_packets));
-  fact(ui, "Refused sends", count_text(link.refused_sends));
-  fact(ui, "Connects", count_text(link.connects));
-  fact(ui, "Wrong checks / lost / doubled",
+  fact(ui, "Refused packets", count_text(link.refused_sends));
+  fact(ui, "Connections made", count_text(link.connects));
+  fact(ui, "Wrong checksums / lost / doubled",
        count_text(link.crc_errors) + " / " + count_text(link.lost) + " / " + count_text(link.doubled));
   fact(ui, "Lost by device / refused", count_text(link.lost_by_device) + " / " + count_text(link.refused));
   if (link.last_packet_bytes == 0) return;

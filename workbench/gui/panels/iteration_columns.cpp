@@ -23,7 +23,7 @@ constexpr std::array<IterationColumnInfo, kIterationColumnCount> kInfo{{
     {"w", "", 6, "Weight of the triangle's first corner"},
     {"curvature", "1/m", 9, "|dN/ds| along the step (Eq. 2)"},
     {"d", "mm", 7, "Distance d of Eq. 1"},
-    {"seed", "", 4, "0: tracking from the kept plane; n: the n-th seed of a re-seeding"},
+    {"seed", "", 4, "0: tracking from the kept plane; n: the n-th seed after tracking was lost"},
 }};
 
 std::string ratio_text(double ratio) {

@@ -58,7 +58,7 @@ void draw_header(const UiContext& ui, std::span<const DrawnColumn> columns, bool
     else
       right_aligned(title.c_str());
     if (drawn.beside) ImGui::PopStyleColor();
-    tooltip(ui, drawn.beside ? std::string(info.doc) + ". Under the other preset" : info.doc);
+    tooltip(ui, drawn.beside ? std::string(info.doc) + ". With the other preset" : info.doc);
   }
   ImGui::PopFont();
 }
@@ -174,7 +174,7 @@ void draw_solve_here(const UiContext& ui, AppModel& model) {
 void draw_column_choice(const UiContext& ui, IterationsPanel& state, bool beside_a_button) {
   const std::string label = "Columns";
   if (beside_a_button) ImGui::SameLine(0, ui.px(4));
-  if (text_button(ui, "iterations/columns", label.c_str(), "Which columns the table has"))
+  if (text_button(ui, "iterations/columns", label.c_str(), "Chooses the columns of the table"))
     ImGui::OpenPopup("iteration_columns");
   if (!ImGui::BeginPopup("iteration_columns")) return;
   for (std::size_t c = 1; c < kIterationColumnCount; ++c) {
@@ -191,7 +191,7 @@ void draw_height_bar(const UiContext& ui, IterationsPanel& state, float row, flo
   const float width = std::max(1.0f, ImGui::GetContentRegionAvail().x), height = ui.px(7);
   ImGui::InvisibleButton("##iterations_height", {width, height});
   ui.items.note_last("iterations/height");
-  tooltip(ui, "Drag: more rows. Double-click: as many as at first");
+  tooltip(ui, "Drag for more or fewer rows; double-click for the usual number");
   const bool lit = ImGui::IsItemHovered() || ImGui::IsItemActive();
   if (lit) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeNS);
   const float middle = at.x + 0.5f * width;
@@ -247,7 +247,7 @@ void draw_table(const UiContext& ui, TimeModel& time, IterationsPanel& state, bo
 void draw_moves(const UiContext& ui, TimeModel& time) {
   const PlacedTick* placed = time.placed();
   if (placed == nullptr) return;
-  ImGui::Text("At triangle %u, u %.3f, v %.3f: planes by direction", placed->triangle(), placed->u(), placed->v());
+  ImGui::Text("At triangle %u, u %.3f, v %.3f: iterations by direction", placed->triangle(), placed->u(), placed->v());
   ui.items.note_last("iterations/place");
   tooltip(ui,
           "The finger rests there and moves by one tick's travel: no motion was recorded. The last direction is "

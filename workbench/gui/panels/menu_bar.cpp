@@ -73,7 +73,7 @@ void draw_file_menu(const UiContext& ui, AppModel& model, MenuBar& state) {
     ImGui::EndMenu();
   }
   ui.items.note_last("menu/file/recent");
-  if (menu_item(ui, "menu/file/reload", "Load the mesh again", "Reads the file anew") && !model.scene().path().empty())
+  if (menu_item(ui, "menu/file/reload", "Load the mesh again", "Reads the file again") && !model.scene().path().empty())
     model.scene().open(model.scene().path());
   draw_examples(ui, state);
   ImGui::Separator();
@@ -91,7 +91,7 @@ void draw_file_menu(const UiContext& ui, AppModel& model, MenuBar& state) {
 }
 
 void draw_camera_items(const UiContext& ui, ViewModel& view, const TickRecord* tick) {
-  if (menu_item(ui, "menu/view/frame", "Frame the mesh", "All of it in view, from the present direction", "F"))
+  if (menu_item(ui, "menu/view/frame", "Frame the mesh", "Shows all of it, from the current direction", "F"))
     view.frame_scene();
   if (menu_item(ui, "menu/view/contact", "Look at the contact", "Turns the camera to the contact of the tick in view",
                 "G"))
@@ -182,7 +182,7 @@ void draw_view_menu(const UiContext& ui, AppModel& model) {
     model.window().set_ui_scale(model.window().ui_scale() * 1.1f);
   if (menu_item(ui, "menu/view/smaller", "Smaller text", "Everything a tenth smaller", "Ctrl+-"))
     model.window().set_ui_scale(model.window().ui_scale() / 1.1f);
-  if (menu_item(ui, "menu/view/normal", "Normal text", "The size that the monitor asks for", "Ctrl+0"))
+  if (menu_item(ui, "menu/view/normal", "Normal text", "The size that the screen asks for", "Ctrl+0"))
     model.window().set_ui_scale(1.0f);
   ImGui::EndPopup();
 }
@@ -207,7 +207,7 @@ void draw_preset_menu(const UiContext& ui, PresetModel& presets, const ContactMe
   const std::string name = presets.editor().name() + (presets.editor().changed() ? " *" : "");
   if (!drop_button(ui, "menu/preset", name, "The preset; * when it was changed since loading", width)) return;
   const std::filesystem::path chosen = presets.editor().path();
-  if (menu_item(ui, "menu/preset/built_in", "built-in", "The program's own values, from no file", nullptr,
+  if (menu_item(ui, "menu/preset/built_in", "built-in", "The values built into the program, from no file", nullptr,
                 chosen.empty() && presets.editor().name() == "built-in"))
     presets.load_built_in();
   const std::vector<PresetEntry> files = presets.files();

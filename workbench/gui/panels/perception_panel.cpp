@@ -25,7 +25,7 @@ void draw_choice(const UiContext& ui, MapView& map, PerceptionPanel& state, int 
     names[i] = texts[i];
   }
   if (choice_row(ui, "perception/condition", width - ui.px(96), names, chosen)) state.condition = chosen;
-  tooltip(ui, "Rendering condition of the verdict and the worst edges; until chosen, the preset's own, or C3");
+  tooltip(ui, "Rendering condition of the verdict and the worst edges; at first the preset's own, else C3");
   ImGui::SameLine(0, ui.px(4));
   bool shown = map.on && map.quantity == MapQuantity::facet_angle;
   if (!toggle_button(

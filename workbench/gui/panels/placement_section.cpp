@@ -12,7 +12,7 @@ namespace tangent {
 namespace {
 
 constexpr const char* kScaleText =
-    "Metres of the scene for a metre of the device. A spring of the scene feels this many times as stiff; forces stay "
+    "Metres of the scene per metre of the device. A spring of the scene feels this many times as stiff; forces stay "
     "as strong as they are";
 
 std::optional<double> typed_number(AppModel& model, const std::optional<std::string>& typed) {

@@ -24,7 +24,7 @@ struct PlanarToggle {
   const char* doc;
 };
 constexpr std::array kToggles{
-    PlanarToggle{"Patches", &PlanarView::patches, "One a vertex: between its control polygon and the curve"},
+    PlanarToggle{"Patches", &PlanarView::patches, "One per vertex: between its control polygon and the curve"},
     PlanarToggle{"Polygon", &PlanarView::polygon, "The polygon as it is"},
     PlanarToggle{"Curve", &PlanarView::curve, "The smooth curve that is rendered"},
     PlanarToggle{"Centres", &PlanarView::centres,
@@ -32,7 +32,7 @@ constexpr std::array kToggles{
     PlanarToggle{"Tangents", &PlanarView::tangents, "Tangent lines of the tick's iterations, coloured by order"},
     PlanarToggle{"Finger", &PlanarView::finger, "The finger, with its contact"},
     PlanarToggle{"Force", &PlanarView::force,
-                 "The computed force, and the felt one behind the safety gate, 6 mm a newton"},
+                 "The computed force, and the felt one behind the safety gate, 6 mm per newton"},
     PlanarToggle{"Display", &PlanarView::display, "The fingerpad from the side, with the roller where it is"}};
 
 /// Maps the scene to pixels and back; y up.

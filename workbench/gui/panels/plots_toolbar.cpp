@@ -84,7 +84,7 @@ std::string ghost_text(const TimeModel& time) {
     const auto mean = [from = from, to = to](const ChannelStore& store, std::size_t channel) {
       return store.sums(channel, from, to).mean();
     };
-    return printed("Beside, same motion assumed: the other slot, %.2f planes a tick in view; rendered %.2f",
+    return printed("Beside, same motion assumed: the other slot, %.2f iterations per tick in view; rendered %.2f",
                    mean(*ghost, static_cast<std::size_t>(GhostChannel::iterations)),
                    mean(time.store(), static_cast<std::size_t>(Channel::iterations)));
   }

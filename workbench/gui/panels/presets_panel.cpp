@@ -23,7 +23,7 @@ void draw_files(const UiContext& ui, AppModel& model) {
   const std::filesystem::path chosen = presets.editor().path();
   if (ImGui::Selectable("built-in", chosen.empty() && presets.editor().name() == "built-in")) presets.load_built_in();
   ui.items.note_last("presets/built_in");
-  tooltip(ui, "The program's own values, from no file");
+  tooltip(ui, "The values built into the program, from no file");
   const std::vector<PresetEntry> files = presets.files();  // loading one may change the list
   for (const PresetEntry& file : files) {
     if (ImGui::Selectable(file.label.c_str(), file.path == chosen)) presets.load(file.path, model.mesh());
@@ -67,7 +67,7 @@ void save(AppModel& model, PresetsPanel& state) {
     state.asked_for = state.name;
     model.messages().say(
         Severity::warning,
-        "a preset \"" + state.name + "\" is there already; press Replace to write over it, or type another name");
+        "a preset \"" + state.name + "\" is there already; press Replace to overwrite it, or type another name");
     return;
   }
   state.asked_for.clear();
@@ -97,7 +97,7 @@ void draw_save(const UiContext& ui, AppModel& model, PresetsPanel& state) {
   ImGui::InputTextWithHint("##preset_note", "note", &state.note);
   ui.items.note_last("presets/note");
   if (auto given = ui.items.take_value("presets/note")) state.note = *given;
-  tooltip(ui, "What to remember about these values; saved with them");
+  tooltip(ui, "A note about these values; saved with them");
   if (enter || pressed) save(model, state);
 }
 

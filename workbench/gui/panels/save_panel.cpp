@@ -58,7 +58,7 @@ void draw_picture_options(const UiContext& ui, SaveDialog& dialog) {
 /// Whether it is to be saved now.
 bool draw_contents(const UiContext& ui, SaveDialog& dialog, float height) {
   ImGui::TextUnformatted(kTitles[static_cast<std::size_t>(dialog.what())]);
-  if (text_button(ui, "save/up", "Up", "To the folder that this one is in")) dialog.up();
+  if (text_button(ui, "save/up", "Up", "To the parent folder")) dialog.up();
   ImGui::SameLine(0, ui.px(8));
   ImGui::AlignTextToFramePadding();
   ImGui::TextDisabled("%s", dialog.folder().c_str());
@@ -67,18 +67,18 @@ bool draw_contents(const UiContext& ui, SaveDialog& dialog, float height) {
   ImGui::SetNextItemWidth(-1.0f);
   const bool enter = ImGui::InputText("##save_name", &dialog.name, ImGuiInputTextFlags_EnterReturnsTrue);
   ui.items.note_last("save/name");
-  tooltip(ui, "A name, or a path from here, from / or from ~; a folder is gone to");
+  tooltip(ui, "A name, or a path relative to this folder or from / or ~. The path of a folder opens it");
   const bool replaces = dialog.asks_to_replace();
-  const std::string said = replaces ? "It is there already: Replace writes over it" : dialog.problem();
+  const std::string said = replaces ? "This file exists; Replace overwrites it" : dialog.problem();
   ImGui::PushStyleColor(ImGuiCol_Text, replaces ? ui.colours.warning : ui.colours.bad);
   ImGui::TextUnformatted(said.c_str());
   ImGui::PopStyleColor();
   draw_endings(ui, dialog);
   if (dialog.what() == SaveWhat::scene) draw_picture_options(ui, dialog);
   const bool pressed = text_button(ui, "save/accept", replaces ? "Replace" : "Save",
-                                   replaces ? "Writes over the file of this name" : "Writes the file");
+                                   replaces ? "Overwrites the file of this name" : "Saves the file");
   ImGui::SameLine(0, ui.px(8));
-  if (text_button(ui, "save/cancel", "Cancel", "Writes nothing (Esc)")) dialog.close();
+  if (text_button(ui, "save/cancel", "Cancel", "Closes without saving (Esc)")) dialog.close();
   return enter || pressed;
 }
 

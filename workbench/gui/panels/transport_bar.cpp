@@ -20,7 +20,7 @@ void draw_freeze(const UiContext& ui, const TimeModel& time, ImVec2 min, ImVec2 
   draw.AddRect(min, max, ui.colours.accent, ui.px(3), 0, ui.px(1));
   const double ahead_s =
       (static_cast<double>(time.newest_recorded()) - static_cast<double>(time.end_tick() - 1)) * time.tick_period_s();
-  const std::string kept = time.past().shows_kept() ? "kept around a mark" : "frozen";
+  const std::string kept = time.past().shows_kept() ? "kept around a bookmark" : "frozen";
   if (!(ahead_s > 0.5) && !time.past().shows_kept()) return;
   const std::string text = printed("%s; live is %.0f s ahead", kept.c_str(), ahead_s);
   const ImVec2 size = ui.fonts.small->CalcTextSizeA(ui.fonts.small->FontSize, 1e9f, 0.0f, text.c_str());

@@ -326,7 +326,7 @@ constexpr WindowView kViews[] = {
      show_facet_angles, look_from_contact_side},
     {"planar", "a 2D scene: polygon, smooth curve, patches, and the tangent lines of a tick", Theme::dark, open_outline,
      look_at_busiest_planar_tick},
-    {"map-gain-margin", "map: stability margin of the paper's iteration with the present gains", Theme::dark,
+    {"map-gain-margin", "map: stability margin of the paper's iteration with the current gains", Theme::dark,
      show_paper_map<MapQuantity::gain_margin>, look_from_contact_side},
     {"time-machine", "the past solved again with a smaller gain, drawn beside what was recorded", Theme::dark,
      tune_paper, drag_gain_of_the_past},

@@ -55,14 +55,14 @@ TEST_CASE("a mesh of which three of four triangles are left out says so first") 
 
 TEST_CASE("the planes of a tick are counted by attempt, beside the limit of one attempt") {
   std::vector<IterationRecord> records(51);
-  CHECK(attempts_text(std::span(records).first(2), 0, 1, 50) == "Tracking 1; limit 50 an attempt");
+  CHECK(attempts_text(std::span(records).first(2), 0, 1, 50) == "Tracking 1; limit 50 per attempt");
   for (int i = 0; i < 47; ++i) {
     records.emplace_back();
     records.back().seed = i < 30 ? 1 : 2;
   }
-  CHECK(attempts_text(records, 0, 97, 50) == "Tracking 50, seeds 30 + 17; limit 50 an attempt");
-  CHECK(attempts_text(records, 0, 100, 50) == "Tracking 50, seeds 30 + 17, searched 3; limit 50 an attempt");
-  CHECK(attempts_text({}, 0, 0, 50) == "Tracking 0; limit 50 an attempt");
+  CHECK(attempts_text(records, 0, 97, 50) == "Tracking 50, seeds 30 + 17; limit 50 per attempt");
+  CHECK(attempts_text(records, 0, 100, 50) == "Tracking 50, seeds 30 + 17, searched 3; limit 50 per attempt");
+  CHECK(attempts_text({}, 0, 0, 50) == "Tracking 0; limit 50 per attempt");
   HeadlessApp ui;
   ui.app().advance(50);
   ui.frames(2);
@@ -96,7 +96,7 @@ TEST_CASE("the legend of the plots names bands, events and lines, and goes away 
   ui.frames(2);
   CHECK(ui.app().items().find("plots/legend/Bookmarked: unconverged") != nullptr);
   CHECK(ui.app().items().find("plots/legend/Unconverged") != nullptr);
-  CHECK(ui.app().items().find("plots/legend/Thin: ghost, the past solved again") != nullptr);
+  CHECK(ui.app().items().find("plots/legend/Thin line: ghost, the past solved again") != nullptr);
   ui.click("plots/legend");
   ui.frames(2);
   CHECK(ui.app().items().find("plots/legend/Unconverged") == nullptr);
