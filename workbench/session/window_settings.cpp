@@ -93,6 +93,7 @@ Result<WindowSettings> read_window_settings(const std::filesystem::path& path) {
     take(*layout, "show_right", out.show_right);
     take(*layout, "show_plots", out.show_plots);
     if (const auto task = (*layout)["task"].value<std::string>()) out.task = *task;
+    take(*layout, "table_rows", 0.0, 200.0, out.table_rows);
   }
   if (const toml::table* look = root["look"].as_table()) {
     take(*look, "light_theme", out.light_theme);
@@ -109,6 +110,7 @@ Result<WindowSettings> read_window_settings(const std::filesystem::path& path) {
   if (const toml::table* lists = root["lists"].as_table()) {
     take(*lists, "favourites", out.favourites, 100);
     take(*lists, "recent_meshes", out.recent_meshes, WindowSettings::kMostRecent);
+    take(*lists, "table_columns_left_out", out.left_out, 100);
   }
   return out;
 }
@@ -125,23 +127,25 @@ bool is_newer(const std::filesystem::path& path) {
 std::string format_window_settings(const WindowSettings& s) {
   toml::table sections;
   for (const auto& [title, open] : s.sections) sections.insert(title, open);
-  const toml::table root{
-      {"layout", toml::table{{"left", s.left},
-                             {"right", s.right},
-                             {"plots", s.plots},
-                             {"width", s.width},
-                             {"height", s.height},
-                             {"show_left", s.show_left},
-                             {"show_right", s.show_right},
-                             {"show_plots", s.show_plots},
-                             {"task", s.task}}},
-      {"look", toml::table{{"light_theme", s.light_theme},
-                           {"vision", s.vision},
-                           {"text_size", s.text_size},
-                           {"y_up", s.y_up},
-                           {"colour_map", s.colour_map}}},
-      {"sections", sections},
-      {"lists", toml::table{{"favourites", as_array(s.favourites)}, {"recent_meshes", as_array(s.recent_meshes)}}}};
+  const toml::table root{{"layout", toml::table{{"left", s.left},
+                                                {"right", s.right},
+                                                {"plots", s.plots},
+                                                {"width", s.width},
+                                                {"height", s.height},
+                                                {"show_left", s.show_left},
+                                                {"show_right", s.show_right},
+                                                {"show_plots", s.show_plots},
+                                                {"task", s.task},
+                                                {"table_rows", s.table_rows}}},
+                         {"look", toml::table{{"light_theme", s.light_theme},
+                                              {"vision", s.vision},
+                                              {"text_size", s.text_size},
+                                              {"y_up", s.y_up},
+                                              {"colour_map", s.colour_map}}},
+                         {"sections", sections},
+                         {"lists", toml::table{{"favourites", as_array(s.favourites)},
+                                               {"recent_meshes", as_array(s.recent_meshes)},
+                                               {"table_columns_left_out", as_array(s.left_out)}}}};
   std::ostringstream text;
   text << "# The window's layout and look, kept between runs. Delete the file for the program's own.\n"
        << kFormats.line() << root << "\n";
@@ -194,6 +198,7 @@ WindowSettings merged(const WindowSettings& before, const WindowSettings& ours, 
   take_ours(&WindowSettings::width);
   take_ours(&WindowSettings::height);
   take_ours(&WindowSettings::task);
+  take_ours(&WindowSettings::table_rows);
   take_ours(&WindowSettings::y_up);
   take_ours(&WindowSettings::colour_map);
   for (const auto& [title, open] : ours.sections) {
@@ -205,6 +210,7 @@ WindowSettings merged(const WindowSettings& before, const WindowSettings& ours, 
   });
   out.favourites = merged_list(before.favourites, ours.favourites, theirs.favourites);
   out.recent_meshes = merged_recent(before, ours, theirs);
+  out.left_out = merged_list(before.left_out, ours.left_out, theirs.left_out);
   return out;
 }
 

@@ -19,6 +19,7 @@ struct WindowSettings {
          height = 0.0;  ///< of the window in which they were set, points: they are shares of it; 0: unknown
   bool show_left = true, show_right = true, show_plots = true;
   std::string task = "look";  ///< tab of the right column
+  double table_rows = 0.0;    ///< height of the table of iterations; 0: follows from the window's
   bool light_theme = false;
   std::string vision = "common";  ///< which eye the colours are for
   double text_size = 1.0;         ///< factor on top of the monitor's
@@ -27,6 +28,7 @@ struct WindowSettings {
   std::map<std::string, bool> sections;    ///< by title: true if open
   std::vector<std::string> favourites;     ///< full names of preset keys
   std::vector<std::string> recent_meshes;  ///< latest first, at most kMostRecent
+  std::vector<std::string> left_out;       ///< titles of that table's columns that are not shown
   bool operator==(const WindowSettings&) const = default;
 
   /// Moves this mesh to the front of recent_meshes, or adds it there.

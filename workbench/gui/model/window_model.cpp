@@ -91,6 +91,8 @@ void WindowModel::reset_layout() {
   sizes_ = {};
   task_ = Task::look;
   settings_.sections.clear();
+  settings_.table_rows = 0.0;
+  settings_.left_out.clear();
 }
 
 void WindowModel::set_room(float width, float height) {

@@ -51,6 +51,9 @@ class WindowModel {
   float ui_scale() const { return ui_scale_; }  ///< the user's own factor on top of the monitor's
   void set_ui_scale(float scale);
   std::map<std::string, bool>& open_sections() { return settings_.sections; }
+  /// Of the table of iterations: its height in rows, 0: follows from the window's; titles of the columns left out.
+  double& table_rows() { return settings_.table_rows; }
+  std::vector<std::string>& columns_left_out() { return settings_.left_out; }
   Task task() const { return task_; }  ///< tab of the right column
   void set_task(Task task) { task_ = task; }
   /// Shows the column and the tab, opens the section and scrolls to it.
