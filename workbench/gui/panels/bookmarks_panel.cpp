@@ -1,4 +1,5 @@
 // Bookmarks of the user, with notes, those set by triggers, and the triggers' settings.
+#include "core/io/csv_table.h"
 #include "workbench/gui/panels/panels.h"
 #include "workbench/gui/widgets/widgets.h"
 
@@ -18,7 +19,7 @@ ImU32 bookmark_ink(const UiContext& ui, BookmarkKind kind) {
     case BookmarkKind::iterations:
       return packed(ui.palette.iterations);
     case BookmarkKind::force:
-      return packed(ui.palette.force_magnitude);
+      return ui.colours.text;  // no hue is left that the others leave room for
     case BookmarkKind::unconverged:
       return ui.colours.warning;
     default:
@@ -52,7 +53,7 @@ void threshold(const UiContext& ui, MessageLog& messages, const char* path, doub
     char* end = nullptr;
     const double typed = std::strtod(result.typed->c_str(), &end);
     if (end == result.typed->c_str() || !std::isfinite(typed))
-      messages.say(Severity::error, "\"" + *result.typed + "\" is not a number");
+      messages.say(Severity::error, show_text(*result.typed) + " is not a number");
     else
       wanted = typed;
   }
@@ -121,10 +122,11 @@ void draw_row(const UiContext& ui, TimeModel& time, const Bookmark& mark, std::s
     if (mark.note.empty() && !ImGui::IsItemActive())
       draw.AddText({ImGui::GetItemRectMin().x + ui.px(3), at.y}, ui.colours.text_faint, "note");
   } else {
-    if (mark.ticks > 1)
-      ImGui::Text("%s in %u ticks, first %s", to_string(mark.kind), mark.ticks, mark.note.c_str());
-    else
-      ImGui::Text("%s: %s", to_string(mark.kind), mark.note.c_str());
+    const std::string what = mark.ticks > 1 ? printed("%s in %u ticks, first ", to_string(mark.kind), mark.ticks)
+                                            : printed("%s: ", to_string(mark.kind));
+    const std::string shown = fitted(ui.fonts.small, what + mark.note, ImGui::GetContentRegionAvail().x - remove);
+    ImGui::TextUnformatted(shown.c_str());
+    if (shown != what + mark.note) tooltip(ui, what + mark.note);
   }
   ImGui::SameLine();
   ImGui::SetCursorPosX(ImGui::GetWindowContentRegionMax().x - remove + ui.px(4));
@@ -134,6 +136,8 @@ void draw_row(const UiContext& ui, TimeModel& time, const Bookmark& mark, std::s
   ImGui::PopFont();
   ImGui::PopStyleColor();
 }
+
+float button_width(const char* text) { return ImGui::CalcTextSize(text).x + 2.0f * ImGui::GetStyle().FramePadding.x; }
 
 }  // namespace
 
@@ -146,20 +150,22 @@ void draw_bookmarks_panel(const UiContext& ui, AppModel& model, BookmarksPanel& 
   }
   ImGui::SameLine();
   toggle_button(ui, "bookmarks/triggers", "Triggers", state.triggers_open, "What sets bookmarks automatically");
-  ImGui::SameLine();
+  same_line_if_room(button_width("Solve here"));
   if (text_button(ui, "bookmarks/solve", "Solve here",
                   "At the contact of the bookmark in view: a tick in the direction that needs most iterations (H)")) {
     model.view().picked_triangle = kNone;
     model.solve_here();
   }
-  ImGui::SameLine();
+  same_line_if_room(button_width("Clear triggered"));
   if (text_button(ui, "bookmarks/clear", "Clear triggered", "Removes those that triggers set"))
     model.time().bookmarks().clear_automatic();
   if (state.triggers_open) draw_triggers(ui, model);
   const std::size_t count = model.time().bookmarks().all().size();
   if (count == 0) {
     ImGui::PushFont(ui.fonts.small);
-    ImGui::TextDisabled("No bookmarks. K sets one, [ and ] go to the previous and next");
+    ImGui::PushStyleColor(ImGuiCol_Text, ui.colours.text_dim);
+    ImGui::TextWrapped("No bookmarks. K sets one, [ and ] go to the previous and next");
+    ImGui::PopStyleColor();
     ImGui::PopFont();
     return;
   }

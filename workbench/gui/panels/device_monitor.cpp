@@ -1,5 +1,6 @@
 // The device monitor, in place of the 3D view: states, rates, histograms, limits and clamps, the fault log, raw values,
 // and buttons for the operator.
+#include "core/io/csv_table.h"
 #include "workbench/gui/panels/monitor_histogram.h"
 #include "workbench/gui/panels/panels.h"
 #include "workbench/gui/widgets/widgets.h"
@@ -71,7 +72,7 @@ void draw_states(const UiContext& ui, DeviceModel& devices) {
     session.accept_no_timeout();
   const bool fault = devices.faulted();
   if (fault) ImGui::PushStyleColor(ImGuiCol_Button, ui.colours.bad);
-  if (fault) ImGui::PushStyleColor(ImGuiCol_Text, IM_COL32_WHITE);
+  if (fault) ImGui::PushStyleColor(ImGuiCol_Text, ui.colours.on_bad);
   if (text_button(ui, "monitor/arm", fault ? "Clear fault and arm" : "Arm",
                   "One attempt: clears faults, homes what is not homed, waits until the finger is off the surface, "
                   "and ramps the force in"))
@@ -124,7 +125,8 @@ void draw_raw(const UiContext& ui, const DeviceModel& devices) {
   const ServoRecord& r = history.newest();
   const Vec3 p = r.tick.input.finger.position * 1e3, f = r.device.force_command_n;
   fact(ui, "Position", printed("%.3f %.3f %.3f", p.x, p.y, p.z), "mm");
-  fact(ui, "Force felt", printed("%.3f %.3f %.3f", f.x, f.y, f.z), "N", colour(ui.palette.force_magnitude));
+  fact(ui, "Force felt", printed("%.3f %.3f %.3f", f.x, f.y, f.z), "N",
+       colour(readable(ui.palette, ui.palette.force_magnitude)));
   tooltip(ui, "What the safety gate lets through to the device");
   fact(ui, "Energy, made by the loop", printed("%.3f", r.device.energy_j * 1e3), "mJ");
   tooltip(ui,
@@ -205,7 +207,7 @@ void draw_calibration(const UiContext& ui, AppModel& model) {
     if (typed && end != typed->c_str() && std::isfinite(number))
       value = number * scale;
     else if (typed)
-      model.messages().say(Severity::error, "\"" + *typed + "\" is not a number");
+      model.messages().say(Severity::error, show_text(*typed) + " is not a number");
   };
   row("Lower place, mm", "monitor/maestro/low_mm", c.low_m, 1e-3);
   row("Its pulse, \u00b5s", "monitor/maestro/low_us", c.low_us, 1.0);

@@ -58,7 +58,8 @@ void draw_table(const UiContext& ui, const PerceptionAudit& audit, std::size_t c
                  std::string(feel.threshold.condition).c_str());
     const std::string threshold =
         printed("%5.1f deg%s", feel.threshold.mean_deg, feel.threshold.interval_deg ? "" : " pilot");
-    draw.AddText(number, number->FontSize, {at.x + ui.px(26), y}, ui.colours.text_dim, threshold.c_str());
+    draw.AddText(number, number->FontSize, {at.x + ui.px(26), y}, i == chosen ? ui.colours.text : ui.colours.text_dim,
+                 threshold.c_str());
     const float share = static_cast<float>(feel.felt_share());
     draw.AddRectFilled({at.x + bar_from, at.y + ui.px(5)}, {at.x + bar_to, at.y + height - ui.px(5)}, ui.colours.field,
                        ui.px(2));
@@ -70,7 +71,7 @@ void draw_table(const UiContext& ui, const PerceptionAudit& audit, std::size_t c
     const std::string text = printed("%.2f %%", 100.0 * feel.felt_share());
     const float w = number->CalcTextSizeA(number->FontSize, 1e9f, 0.0f, text.c_str()).x;
     draw.AddText(number, number->FontSize, {at.x + width - w - ui.px(4), y},
-                 share > 0.0f ? ui.colours.text : ui.colours.text_dim, text.c_str());
+                 share > 0.0f || i == chosen ? ui.colours.text : ui.colours.text_dim, text.c_str());
   }
 }
 

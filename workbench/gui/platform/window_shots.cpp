@@ -147,10 +147,10 @@ void tune_paper(AppModel& model) {
 /// Pauses and lowers the gain: the recorded past, and the ghost under the new gain.
 void drag_gain_of_the_past(AppModel& model) {
   fold_but(model, "Time machine");
-  look_from_contact_side(model);
   model.time().set_paused(true);
   const std::uint64_t end = model.time().end_tick();
   model.time().select_tick(end > 2600 ? end - 2600 : 0);
+  look_from_contact_side(model);
   model.time().add_bookmark();
   model.time().bookmarks().set_note(model.time().bookmarks().all().front().id, "over the inner side");
   model.time().axis().show(static_cast<double>(end) - 4000.0, static_cast<double>(end));

@@ -2,8 +2,13 @@
 #include "tests/support/temp_folder.h"
 #include "tests/workbench/gui/headless_app.h"
 #include "workbench/gui/panels/attempts_text.h"
+#include "workbench/gui/panels/panels.h"
 #include "workbench/gui/theme/theme.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
 #include <string_view>
 #include <vector>
 
@@ -100,6 +105,28 @@ TEST_CASE("the legend of the plots names bands, events and lines, and goes away 
   ui.click("plots/legend");
   ui.frames(2);
   CHECK(ui.app().items().find("plots/legend/Unconverged") == nullptr);
+}
+
+TEST_CASE("every kind of bookmark has a colour of its own, in all themes") {
+  ItemMap items;
+  Typing typing;
+  Resting resting;
+  const ThemeFonts fonts;
+  std::map<std::string, bool> sections;
+  constexpr std::array kKinds{BookmarkKind::user,  BookmarkKind::reseeded,    BookmarkKind::iterations,
+                              BookmarkKind::force, BookmarkKind::unconverged, BookmarkKind::device_fault};
+  for (std::size_t t = 0; t < kThemeCount; ++t) {
+    const auto theme = static_cast<Theme>(t);
+    const UiContext ui{items, typing, resting, theme_colours(theme), palette(theme), fonts, sections};
+    for (const BookmarkKind a : kKinds)
+      for (const BookmarkKind b : kKinds) {
+        if (a >= b) continue;
+        const ImVec4 p = ImGui::ColorConvertU32ToFloat4(bookmark_ink(ui, a)),
+                     q = ImGui::ColorConvertU32ToFloat4(bookmark_ink(ui, b));
+        INFO("theme ", t, ": ", to_string(a), " and ", to_string(b));
+        CHECK(std::max({std::abs(p.x - q.x), std::abs(p.y - q.y), std::abs(p.z - q.z)}) > 0.1f);
+      }
+  }
 }
 
 TEST_CASE("no tooltip covers a value while it is typed") {
