@@ -67,12 +67,16 @@ void draw_values_table(const UiContext& ui, TimeModel& time, PlotsPanel& state, 
   ImFont* font = ui.fonts.small_number;
   ImFont* text = ui.fonts.small;
   const PlotLink& link = state.link;
-  const std::array<Column, kColumns> columns = columns_for(link);
+  std::array<Column, kColumns> columns = columns_for(link);
   std::array<std::size_t, kColumns> place{};
   std::size_t shown = 0;
-  for (std::size_t c = 0; c < kColumns; ++c) place[c] = columns[c].wanted ? shown++ : shown;
-  const float name_width = ui.px(150);
-  const float column = std::min(ui.px(76), (rect.w - ui.px(12) - name_width) / static_cast<float>(shown));
+  // As many of the columns as have room for their numbers.
+  const float name_width = ui.px(150), room = rect.w - ui.px(26) - name_width, least = text_width(font, "-1.23e-06 ");
+  for (std::size_t c = 0; c < kColumns; ++c) {
+    columns[c].wanted = columns[c].wanted && static_cast<float>(shown + 1) * least <= room;
+    place[c] = columns[c].wanted ? shown++ : shown;
+  }
+  const float column = std::min(ui.px(76), room / static_cast<float>(std::max<std::size_t>(1, shown)));
   ImVec2 at = ImGui::GetCursorScreenPos();
   const auto right = [&](ImFont* f, std::size_t c, ImU32 ink, const char* value) {
     if (!columns[c].wanted) return;

@@ -2,6 +2,7 @@
 
 #include "workbench/gui/plots/curve_drawing.h"
 #include "workbench/gui/plots/tick_locator.h"
+#include "workbench/gui/widgets/widgets.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -63,12 +64,12 @@ void PlotView::draw(const UiContext& ui, const ChannelStore& store, TimeAxis& ax
     draw_dashed_horizontal(draw, area.min.x, area.max.x, y, ui.px(5), ui.colours.text_faint, ui.px(1));
   }
   if (nothing_in_view_) {
-    const char* text = spec_.nothing.c_str();
     ImFont* font = ui.fonts.small;
+    const std::string text = fitted(font, spec_.nothing, area.width() - ui.px(4));
     text_at(draw, font,
-            {area.min.x + 0.5f * (area.width() - text_width(font, text)),
+            {area.min.x + 0.5f * (area.width() - text_width(font, text.c_str())),
              area.min.y + 0.5f * (area.height() - font->FontSize)},
-            ui.colours.text_faint, text);
+            ui.colours.text_faint, text.c_str());
   }
   draw_series(ui, store, axis, link, area);
   draw.PopClipRect();
@@ -109,20 +110,19 @@ void PlotView::draw_grid(const UiContext& ui, const TimeAxis& axis, const PlotLi
   draw.AddRectFilled(area.min, {area.max.x, area.bottom()}, ui.colours.plot);
   ImFont* font = ui.fonts.small_number;
   const float half = 0.5f * font->FontSize;
-  const int rows = std::max(1, static_cast<int>(area.height() / (2.2f * font->FontSize)));
-  const auto values =
-      spec_.log ? log_ticks(values_.low(), values_.high(), rows) : linear_ticks(values_.low(), values_.high(), rows);
-  for (AxisTick tick : values) {
-    if (spec_.counts && tick.major && tick.value == std::floor(tick.value))
-      tick.label.erase(std::min(tick.label.find('.'), tick.label.size()));
+  for (const AxisTick& tick : value_ticks({values_.low(), values_.high(), spec_.log, spec_.counts,
+                                           static_cast<double>(area.height() / font->FontSize)})) {
     const double share = values_.share(tick.value, spec_.log);
     const float y = std::round(area.max.y - static_cast<float>(share) * area.height());
     if (y > area.min.y && y < area.max.y) {
       draw.AddLine({area.min.x, y}, {area.max.x, y}, tick.major ? ui.colours.grid : ui.colours.grid_minor);
     }
-    if (!tick.major || (spec_.counts && tick.value != std::floor(tick.value))) continue;
-    // Labels at the ends move inwards, so that they don't overlap the neighbouring plots.
-    const float label_y = std::clamp(y - half, area.min.y - 0.35f * half, area.max.y - 1.75f * half);
+    if (!tick.major) continue;
+    // Labels at the ends move inwards, so that they don't overlap the neighbouring plots; those of a low plot stay at
+    // their ticks, because they would meet one another.
+    const bool low = area.height() < 2.2f * font->FontSize;
+    const float label_y =
+        std::clamp(y - half, area.min.y - (low ? 1.0f : 0.35f) * half, area.max.y - (low ? 1.0f : 1.75f) * half);
     text_at(draw, font, {area.min.x - ui.px(5) - text_width(font, tick.label.c_str()), label_y}, ui.colours.text_dim,
             tick.label.c_str());
   }
@@ -293,19 +293,22 @@ void PlotView::draw_header(const UiContext& ui, const ChannelStore& store, const
   else if (!store.empty())
     tick = store.end_tick() - 1;
 
-  const float digit = text_width(ui.fonts.small_number, "0");
+  const float box = ui.px(9), value_width = 9.0f * text_width(ui.fonts.small_number, "0");
+  const bool only_one = spec_.series.size() == 1;
+  const auto name_of = [&](const PlotSeries& series) {
+    return only_one ? 0.0f : text_width(ui.fonts.small, series.name.c_str());
+  };
+  // Reserves the values' width while they are blank, so that nothing moves; all have theirs, or none has.
+  float names = 0.0f;
+  for (const PlotSeries& series : spec_.series) names += box + ui.px(7 + 6) + name_of(series);
+  const auto count = static_cast<float>(spec_.series.size());
+  const bool with_values = x + names + count * value_width - ui.px(6) <= right;
   for (PlotSeries& series : spec_.series) {
     const float value = tick ? store.value(series.channel, *tick) : std::numeric_limits<float>::quiet_NaN();
     char text[32] = "";
     if (!std::isnan(value)) std::snprintf(text, sizeof text, spec_.format, static_cast<double>(value) * spec_.scale);
-    const bool only_one = spec_.series.size() == 1;
-    const float name_width = only_one ? 0.0f : text_width(ui.fonts.small, series.name.c_str());
-    const float box = ui.px(9);
-    float width = box + ui.px(4) + name_width + ui.px(3);
-    // Reserves the value's width while it is blank, so that nothing moves.
-    const float value_width = 9.0f * digit;
-    const bool with_value = x + width + value_width <= right;
-    if (with_value) width += value_width;
+    const float name_width = name_of(series);
+    const float width = box + ui.px(7) + name_width + (with_values ? value_width : 0.0f);
     if (x + width > right) break;
     ImGui::SetCursorScreenPos({x, area.pos.y});
     ImGui::PushID(series.name.c_str());
@@ -327,7 +330,7 @@ void PlotView::draw_header(const UiContext& ui, const ChannelStore& store, const
       text_at(draw, ui.fonts.small, {at, y}, series.visible ? ui.colours.text : ui.colours.text_faint,
               series.name.c_str());
     at += name_width + ui.px(3);
-    if (with_value && text[0] != '\0') text_at(draw, ui.fonts.small_number, {at, y}, ui.colours.text, text);
+    if (with_values && text[0] != '\0') text_at(draw, ui.fonts.small_number, {at, y}, ui.colours.text, text);
     x += width + ui.px(6);
   }
 }
