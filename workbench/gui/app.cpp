@@ -4,6 +4,7 @@
 #include "workbench/gui/panels/panels.h"
 #include "workbench/gui/panels/save_panel.h"
 #include "workbench/gui/panels/script_runner.h"
+#include "workbench/gui/panels/session_view.h"
 #include "workbench/gui/widgets/keyboard_focus.h"
 #include "workbench/gui/widgets/thread_time.h"
 #include "workbench/gui/widgets/widgets.h"
@@ -31,7 +32,7 @@ struct App::Ui {
   ComparePanel compare;
   IterationsPanel iterations;
   MapPanel map;
-  FoldedPanel mesh, devices, time_machine, sweep{false};
+  FoldedPanel mesh, devices, time_machine, recording, sweep{false};
   LogPanel log;
   BookmarksPanel bookmarks;
   InspectPanel inspect;
@@ -40,6 +41,10 @@ struct App::Ui {
   ViewPanel view;
   PlotsPanel plots = make_plots_panel();
 
+  std::optional<ViewValues> session_view;  ///< of a session that was opened
+  int camera_frames = 0;                   ///< it is given its camera so many times more
+
+  void take_view(AppModel& model);
   void draw_splitters(const UiContext& ui, WindowModel& window, const Layout& layout);
   void draw_column(const char* name, const Rect& rect, const UiContext& ui, AppModel& model, bool left);
 };
@@ -88,6 +93,18 @@ bool App::prepare(const FrameInput& input) {
   for (std::string& line : missing) model_->messages().say(Severity::warning, std::move(line));
   ui_->font_scale = scale;
   return true;
+}
+
+/// A jump in time moves the camera, and so does a scene that is framed: it is set again in the frames that follow.
+void App::Ui::take_view(AppModel& model) {
+  if (auto given = model.take_view()) {
+    session_view = std::move(*given);
+    show_view(model, plots, *session_view);
+    camera_frames = 3;
+  }
+  if (camera_frames == 0) return;
+  show_camera(model, *session_view);
+  if (--camera_frames == 0) session_view.reset();
 }
 
 void App::Ui::draw_splitters(const UiContext& ui, WindowModel& window, const Layout& layout) {
@@ -152,6 +169,7 @@ void App::Ui::draw_column(const char* name, const Rect& rect, const UiContext& u
     if (shown("Inspect")) draw_inspect_panel(ui, model, inspect);
     if (shown("Mesh")) draw_mesh_panel(ui, model, mesh);
     if (shown("Devices")) draw_devices_panel(ui, model, devices);
+    if (shown("Recording")) draw_recording_panel(ui, model, recording);
     if (shown("Messages")) draw_log_panel(ui, model.messages(), log);
   }
   ImGui::End();
@@ -180,6 +198,8 @@ void App::step_script() {
     if (!loaded) say(loaded.error().message());
     ui_->script_by_hand = true;
   }
+  if (const std::string file = std::exchange(menu.wish.session, {}); !file.empty())
+    save_file(*model_, ui_->plots, SaveWhat::session, file);
   const Status done = ui_->script.step(*model_, menu, ui_->items);
   if (!done && ui_->script_by_hand) say(done.error().message());
   if (!done && !ui_->script_by_hand) script_failure_ = done.error().message();
@@ -194,6 +214,7 @@ void App::frame(const FrameInput& input) {
   const double begin = thread_cpu_ms();
   for (const std::string& file : input.dropped_files) model_->open(file);
   model_->update(input.now_s);
+  ui_->take_view(*model_);
   step_script();
   const Theme theme = ui_->theme.value_or(model_->window().theme());
   const float scale = ui_->font_scale.value_or(1.0f);
@@ -223,7 +244,7 @@ void App::frame(const FrameInput& input) {
   ui_->draw_column("##right", {layout.right.x, layout.right.y + tabs, layout.right.w, layout.right.h - tabs}, ui,
                    *model_, false);
   draw_plots_panel(ui, *model_, ui_->plots, layout.plots);
-  draw_transport_bar(ui, model_->time(), layout.transport);
+  draw_transport_bar(ui, *model_, layout.transport);
   draw_status_line(ui, *model_, layout.status, input.last_frame_ms);
   ui_->draw_splitters(ui, model_->window(), layout);
   draw_toasts(ui, *model_, layout.view);
@@ -259,7 +280,8 @@ bool App::script_running() const { return ui_->script.running(); }
 
 bool App::wants_frames() const {
   const bool refining = ui_->renderer != nullptr && ui_->renderer->refining();
-  return !model_->time().paused() || model_->scene().loading() || model_->scene().auditing() ||
+  return !model_->time().paused() || model_->scene().loading() || model_->recordings().busy() ||
+         model_->record().recording() || model_->record().writing() || model_->scene().auditing() ||
          model_->map().running() || model_->time().time_machine().busy() || model_->tuning().sweep().running() ||
          model_->tuning().search().running() || refining || ui_->script.running();
 }

@@ -98,6 +98,12 @@ std::uint32_t Bookmarks::add(std::uint64_t tick, double t_s) {
   return insert({0, BookmarkKind::user, tick, tick, t_s, 1, {}});
 }
 
+void Bookmarks::add(BookmarkKind kind, std::uint64_t tick, double t_s, std::string note) {
+  if (automatic_ == kMostAutomatic) return;
+  insert({0, kind, tick, tick, t_s, 1, std::move(note)});
+  ++automatic_;
+}
+
 void Bookmarks::set_note(std::uint32_t id, std::string note) {
   for (Bookmark& b : all_) {
     if (b.id != id) continue;

@@ -77,12 +77,11 @@ std::filesystem::path user_presets_path() {
   return folder.empty() ? folder : folder / "presets";
 }
 
-Result<WindowSettings> read_window_settings(const std::filesystem::path& path) {
+namespace {
+
+Result<WindowSettings> settings_from(toml::table root, const std::string& name) {
   WindowSettings out;
-  auto read = read_settings_file(path, kMaxBytes, "delete the file; the window starts with its own layout");
-  if (!read) return tl::unexpected(read.error());
-  if (const Status status = migrate(*read, kFormats, path.string()); !status) return tl::unexpected(status.error());
-  const toml::table& root = *read;
+  if (const Status status = migrate(root, kFormats, name); !status) return tl::unexpected(status.error());
   if (const toml::table* layout = root["layout"].as_table()) {
     take(*layout, "left", 100.0, 2000.0, out.left);
     take(*layout, "right", 0.0, 2000.0, out.right);
@@ -99,7 +98,7 @@ Result<WindowSettings> read_window_settings(const std::filesystem::path& path) {
     take(*look, "text_size", 0.6, 3.0, out.text_size);
     take(*look, "y_up", out.y_up);
     if (const auto vision = (*look)["vision"].value<std::string>()) out.vision = *vision;
-    if (const auto name = (*look)["colour_map"].value<std::string>()) out.colour_map = *name;
+    if (const auto map = (*look)["colour_map"].value<std::string>()) out.colour_map = *map;
   }
   if (const toml::table* sections = root["sections"].as_table()) {
     for (const auto& [title, open] : *sections) {
@@ -113,7 +112,7 @@ Result<WindowSettings> read_window_settings(const std::filesystem::path& path) {
   return out;
 }
 
-namespace {
+constexpr const char* kSettingsRemedy = "delete the file; the window starts with its own layout";
 
 bool is_newer(const std::filesystem::path& path) {
   const auto root = read_settings_file(path, kMaxBytes, "");
@@ -121,6 +120,18 @@ bool is_newer(const std::filesystem::path& path) {
 }
 
 }  // namespace
+
+Result<WindowSettings> read_window_settings(const std::filesystem::path& path) {
+  auto read = read_settings_file(path, kMaxBytes, kSettingsRemedy);
+  if (!read) return tl::unexpected(read.error());
+  return settings_from(std::move(*read), path.string());
+}
+
+Result<WindowSettings> parse_window_settings(std::string_view text, std::string_view name) {
+  auto root = parse_toml(text, name, kSettingsRemedy);
+  if (!root) return tl::unexpected(root.error());
+  return settings_from(std::move(*root), std::string(name));
+}
 
 std::string format_window_settings(const WindowSettings& s) {
   toml::table sections;

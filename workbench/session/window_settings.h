@@ -43,6 +43,8 @@ std::filesystem::path window_settings_path();
 /// load. A missing file gives the defaults. Fails on a file that is not valid TOML or whose format
 /// (core/io/file_format.h) is newer than this program.
 Result<WindowSettings> read_window_settings(const std::filesystem::path& path);
+/// The same of a text; `name` is for messages.
+Result<WindowSettings> parse_window_settings(std::string_view text, std::string_view name);
 /// The settings as TOML text.
 std::string format_window_settings(const WindowSettings& settings);
 /// Writes atomically; makes the folder. Fails when it can't be written.

@@ -16,7 +16,7 @@ struct TaskSection {
   Task task;
 };
 /// In the order of the tab `all`. Every section is in one task.
-inline constexpr std::array<TaskSection, 10> kTaskSections{{{"Iterations", Task::look},
+inline constexpr std::array<TaskSection, 11> kTaskSections{{{"Iterations", Task::look},
                                                             {"Time machine", Task::tune},
                                                             {"Sweep", Task::tune},
                                                             {"Bookmarks", Task::record},
@@ -25,6 +25,7 @@ inline constexpr std::array<TaskSection, 10> kTaskSections{{{"Iterations", Task:
                                                             {"Inspect", Task::look},
                                                             {"Mesh", Task::look},
                                                             {"Devices", Task::devices},
+                                                            {"Recording", Task::record},
                                                             {"Messages", Task::record}}};
 
 constexpr bool shows(Task tab, std::string_view title) {

@@ -79,6 +79,7 @@ void DeviceModel::end_session() {
     messages_.say(Severity::error, ended.error().message());
     std::fprintf(stderr, "workbench gui: %s\n", ended.error().message().c_str());  // the window may be closing
   }
+  if (before_release_) before_release_();
   session_.reset();
 }
 

@@ -20,17 +20,16 @@ std::filesystem::path free_path(const std::filesystem::path& folder, const std::
 
 }  // namespace
 
-ExportModel::ExportModel(const AppOptions& options, const DeviceModel& devices, MessageLog& messages)
-    : devices_(devices), messages_(messages), deterministic_(options.deterministic), screenshots_(options.screenshots) {
+ExportModel::ExportModel(const AppOptions& options, MessageLog& messages)
+    : messages_(messages), deterministic_(options.deterministic), screenshots_(options.screenshots) {
   if (!screenshots_.empty()) folder_ = screenshots_;
 }
 
-void ExportModel::write_ticks(std::uint64_t from, std::uint64_t to) {
-  const Session* session = devices_.session();
-  if (session == nullptr || writing()) return;
+void ExportModel::write_ticks(const HistorySnapshot& records, std::uint64_t from, std::uint64_t to) {
+  if (records.empty() || writing()) return;
   const auto path =
       free_path(folder_, "ticks-" + std::to_string(from) + "-" + std::to_string(to > 0 ? to - 1 : 0), ".csv");
-  auto work = [records = session->history().snapshot(), from, to, path]() -> Result<std::string> {
+  auto work = [records, from, to, path]() -> Result<std::string> {
     const auto lines = export_samples(records, from, to, path);
     if (!lines) return tl::unexpected(lines.error());
     return std::to_string(*lines) + " ticks written to " + std::filesystem::absolute(path).lexically_normal().string();

@@ -4,9 +4,9 @@
 
 #include "workbench/gui/layout/layout.h"
 #include "workbench/gui/model/app_options.h"
-#include "workbench/gui/model/device_model.h"
 #include "workbench/gui/model/message_log.h"
 #include "workbench/gui/model/save_dialog.h"
+#include "workbench/session/history.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -32,13 +32,13 @@ struct ScenePicture {
 
 class ExportModel {
  public:
-  ExportModel(const AppOptions& options, const DeviceModel& devices, MessageLog& messages);
+  ExportModel(const AppOptions& options, MessageLog& messages);
 
   const std::filesystem::path& folder() const { return folder_; }
   void set_folder(std::filesystem::path folder) { folder_ = std::move(folder); }
 
   /// Writes ticks from ... to - 1 as CSV; in a worker thread unless deterministic.
-  void write_ticks(std::uint64_t from, std::uint64_t to);
+  void write_ticks(const HistorySnapshot& records, std::uint64_t from, std::uint64_t to);
   bool writing() const { return writing_.valid(); }
   void take_finished();  ///< reports finished files
 
@@ -56,7 +56,6 @@ class ExportModel {
   std::optional<std::filesystem::path> take_screenshot_request();
 
  private:
-  const DeviceModel& devices_;
   MessageLog& messages_;
   const bool deterministic_;
   const std::filesystem::path screenshots_;

@@ -119,6 +119,10 @@ void PresetModel::load_built_in() {
   messages_.say(Severity::note, "the program's own values loaded");
 }
 
+void PresetModel::take_recorded(const Preset& preset, const std::string& name) {
+  if (!(preset == current())) replace_by(PresetEditor::restored({name, {}, preset, preset}));
+}
+
 void PresetModel::replace_by(const PresetEditor& loaded) {
   const std::string what = "load " + loaded.name();
   slots_.apply(what, [&](PresetEditor& editor) {

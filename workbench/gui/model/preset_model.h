@@ -55,6 +55,8 @@ class PresetModel {
   /// `mesh`: a message says so when the preset was saved on another; null: there is none.
   void load(const std::filesystem::path& path, const ContactMesh* mesh = nullptr);
   void load_built_in();
+  /// One that a recording ran under; undo brings the present one back. Nothing where it is the one in use.
+  void take_recorded(const Preset& preset, const std::string& name);
   /// Overwrites an existing file in the folder; a message says where, or why not.
   bool save(const std::string& name, const PresetOrigin& origin);
   bool has(const std::string& name) const;  ///< a file of this name is in the folder

@@ -12,7 +12,7 @@
 namespace tangent {
 
 /// What is saved.
-enum class SaveWhat : std::uint8_t { plots, map, planes, scene };
+enum class SaveWhat : std::uint8_t { plots, map, planes, scene, session };
 
 class SaveDialog {
  public:

@@ -30,6 +30,9 @@ class WindowModel {
 
   /// Settings of the last run; empty: settings are not kept.
   std::optional<KeptLook> read_settings();
+  /// Layout and look as they are, and taken from a session; favourites are added.
+  WindowSettings settings_now(const KeptLook& look);
+  KeptLook take(const WindowSettings& settings);
   /// Call once per frame; writes changed settings to disk from time to time.
   void update(double now_s, const KeptLook& look);
   /// Waits up to `wait_s` for another window that writes them, else leaves them to the next time.
@@ -67,6 +70,9 @@ class WindowModel {
   bool wants_close() const { return wants_close_; }
 
  private:
+  KeptLook take_look();
+  void gather(const KeptLook& look);  ///< into settings_
+
   const std::filesystem::path settings_file_;  ///< empty: nothing is kept
   MessageLog& messages_;
   LayoutSizes sizes_;

@@ -61,7 +61,7 @@ void threshold(const UiContext& ui, MessageLog& messages, const char* path, doub
 }
 
 void draw_triggers(const UiContext& ui, AppModel& model) {
-  BookmarkTriggers& triggers = model.time().bookmarks().triggers;
+  BookmarkTriggers& triggers = model.time().live_bookmarks().triggers;
   for (const TriggerRow& row : kTriggers) {
     bool& on = triggers.on[static_cast<std::size_t>(row.kind)];
     const std::string path = std::string("bookmarks/trigger/") + to_string(row.kind);
@@ -85,7 +85,7 @@ void draw_triggers(const UiContext& ui, AppModel& model) {
 void draw_row(const UiContext& ui, TimeModel& time, const Bookmark& mark, std::size_t i) {
   const ServoRecord* seen = time.tick().record();
   const bool here = seen != nullptr && seen->tick.tick >= mark.tick && seen->tick.tick <= mark.last_tick;
-  const bool gone = !time.past().reaches(mark.tick) && !time.past().reaches(mark.last_tick);
+  const bool gone = !time.reaches(mark.tick) && !time.reaches(mark.last_tick);
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const float height = ImGui::GetTextLineHeight();
   ImGui::PushStyleColor(ImGuiCol_Text, gone ? ui.colours.text_faint : ui.colours.text);
@@ -94,7 +94,7 @@ void draw_row(const UiContext& ui, TimeModel& time, const Bookmark& mark, std::s
   if (ImGui::Selectable((text + "##bookmark" + std::to_string(mark.id)).c_str(), here,
                         ImGuiSelectableFlags_AllowItemOverlap) &&
       !gone)
-    time.select_tick(time.past().reaches(mark.tick) ? mark.tick : mark.last_tick);
+    time.select_tick(time.reaches(mark.tick) ? mark.tick : mark.last_tick);
   const float text_width = ImGui::CalcTextSize(text.c_str()).x;
   ImGui::PopFont();
   // The note's field covers the rest of the row.
@@ -103,9 +103,10 @@ void draw_row(const UiContext& ui, TimeModel& time, const Bookmark& mark, std::s
                                ? printed("ticks %llu to %llu, %u of them", static_cast<unsigned long long>(mark.tick),
                                          static_cast<unsigned long long>(mark.last_tick), mark.ticks)
                                : printed("tick %llu", static_cast<unsigned long long>(mark.tick));
-  tooltip(ui, gone                                        ? span + ", no longer kept"
-              : time.past().main().covers(mark.last_tick) ? span
-                                                          : span + ", kept with the half second before it");
+  tooltip(ui, gone ? span + ", no longer kept"
+              : time.recording() != nullptr || time.past().main().covers(mark.last_tick)
+                  ? span
+                  : span + ", kept with the half second before it");
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   draw.AddRectFilled({at.x, at.y + ui.px(2)}, {at.x + ui.px(6), at.y + height - ui.px(1)}, bookmark_ink(ui, mark.kind),
                      ui.px(1.5f));

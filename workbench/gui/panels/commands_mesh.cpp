@@ -17,7 +17,7 @@ void add_mesh_files(CommandList& out, AppModel& model, MenuBar& menu) {
   SceneModel& scene = model.scene();
   out.plain({"open mesh", "Mesh: open a file", "Ctrl+O", "load read path"},
             [&menu] { menu.path.open = menu.path.focus = true; });
-  out.text({"open", "Mesh or preset: open the file", "", "load read path"}, "FILE",
+  out.text({"open", "Mesh, preset or recording: open the file", "", "load read path sqlite"}, "FILE",
            [&model](const std::string& file) -> Status {
              model.open(file);
              return {};
@@ -28,7 +28,7 @@ void add_mesh_files(CommandList& out, AppModel& model, MenuBar& menu) {
   out.choice_of({"recent", "Mesh: open again", "", "load last"}, "FILE", model.window().settings().recent_meshes,
                 [&model](std::size_t i) {
                   const std::string mesh = model.window().settings().recent_meshes[i];
-                  model.scene().open(mesh);
+                  model.open(mesh);
                 });
   std::vector<std::string> objects = generator_names();
   objects.insert(objects.end(), hard_mesh_names().begin(), hard_mesh_names().end());

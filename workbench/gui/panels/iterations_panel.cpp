@@ -128,8 +128,7 @@ void draw_summary(const UiContext& ui, const TickOutput& out, Planes planes, boo
 
 /// Of the preset that the tick ran under.
 int limit_then(const AppModel& model, const ServoRecord& record) {
-  const Session* session = model.devices().session();
-  const Preset* then = session != nullptr ? session->preset(record.tick.preset_id) : nullptr;
+  const Preset* then = model.time().preset(record.tick.preset_id);
   return (then != nullptr ? *then : model.presets().current()).solver.max_iterations;
 }
 

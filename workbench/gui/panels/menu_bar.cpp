@@ -2,6 +2,7 @@
 #include "core/lab/objects/generate.h"
 #include "workbench/gui/panels/examples.h"
 #include "workbench/gui/panels/panels.h"
+#include "workbench/gui/panels/save_panel.h"
 #include "workbench/gui/widgets/widgets.h"
 
 #include <algorithm>
@@ -64,11 +65,15 @@ void draw_file_menu(const UiContext& ui, AppModel& model, MenuBar& state) {
     state.path.open = state.path.focus = true;
     state.path.text = model.presets().folder().string() + "/";
   }
+  if (menu_item(
+          ui, "menu/file/save_session", "Save session...",
+          "The recording that is open, or the history as one, with layout, camera, curves, cursors and bookmarks"))
+    ask_to_save(model, SaveWhat::session);
   if (ImGui::BeginMenu("Recent")) {
     const std::vector<std::string> recent = model.window().settings().recent_meshes;  // opening one changes the order
     for (std::size_t i = 0; i < recent.size(); ++i) {
       if (menu_item(ui, "menu/file/recent/" + std::to_string(i), recent[i].c_str(), "Opens it again"))
-        model.scene().open(recent[i]);
+        model.open(recent[i]);
     }
     ImGui::EndMenu();
   }

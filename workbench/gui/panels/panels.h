@@ -111,6 +111,9 @@ void draw_time_machine_panel(const UiContext& ui, TimeModel& time, FoldedPanel& 
 /// One or two keys over many values on the chosen ticks: mean, p99 and failures of each, a click tries it.
 void draw_sweep_panel(const UiContext& ui, AppModel& model, FoldedPanel& state);
 
+/// The recording that is open, and the one that is made.
+void draw_recording_panel(const UiContext& ui, AppModel& model, FoldedPanel& state);
+
 struct BookmarksPanel {
   bool open = true;
   bool triggers_open = false;
@@ -189,7 +192,7 @@ void draw_derived_plot(const UiContext& ui, AppModel& model, PlotsPanel& state, 
 /// X-Y, spectrum or histogram.
 void draw_other_plot(const UiContext& ui, AppModel& model, PlotsPanel& state, const Rect& rect);
 void draw_plots_panel(const UiContext& ui, AppModel& model, PlotsPanel& state, const Rect& rect);
-void draw_transport_bar(const UiContext& ui, TimeModel& time, const Rect& rect);
+void draw_transport_bar(const UiContext& ui, AppModel& model, const Rect& rect);
 void draw_status_line(const UiContext& ui, AppModel& model, const Rect& rect, double frame_ms);
 
 // Above.
@@ -218,6 +221,7 @@ struct Wish {
   bool time_passes = false;     ///< errors meanwhile are the devices', and not the line's
   bool work = false;            ///< for what runs in the background
   std::string script;           ///< file to run; empty: none
+  std::string session;          ///< file to save the session in; empty: none
   std::string lines, lines_of;  ///< or these lines, and what to call them
 };
 /// Five steps for the first minute; drawn over the window beside what they are about.

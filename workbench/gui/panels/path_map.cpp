@@ -252,7 +252,7 @@ void draw_path_map(const UiContext& ui, AppModel& model, PathMapPanel& state) {
   const ServoRecord* record = model.time().tick().record();
   const bool there = record != nullptr && model.scene().current() != nullptr &&
                      triangle_index < model.scene().current()->mesh().triangle_count() && width > ui.px(60) &&
-                     model.devices().session()->scene(record->scene_id) == model.scene().current() &&
+                     model.time().scene_of_tick() == model.scene().current() &&
                      model.scene().current()->mesh().usable(triangle_index) &&
                      is_finite(record->tick.input.finger.position);
   draw.AddRectFilled(at, end, ui.colours.plot);

@@ -273,9 +273,7 @@ void draw_planar_view(const UiContext& ui, AppModel& model, PlanarView& view, co
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   draw.PushClipRect({rect.x, rect.y}, {rect.right(), rect.bottom()}, true);
   const ServoRecord* record = model.time().tick().record();
-  const Preset* then = record != nullptr && model.devices().session() != nullptr
-                           ? model.devices().session()->preset(record->tick.preset_id)
-                           : nullptr;
+  const Preset* then = record != nullptr ? model.time().preset(record->tick.preset_id) : nullptr;
   if (record != nullptr && view.finger)
     draw_finger(ui, (then != nullptr ? *then : model.presets().current()).finger, record->tick, paper, draw);
   if (record != nullptr) {

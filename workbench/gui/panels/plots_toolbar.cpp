@@ -130,9 +130,9 @@ void draw_plots_toolbar(const UiContext& ui, AppModel& model, PlotsPanel& state,
       const auto [from, to] = ticks_in_view(model.time());
       const auto& [a, b] = std::pair(state.link.a, state.link.b);
       if (a && b)
-        model.exports().write_ticks(std::min(*a, *b), std::max(*a, *b) + 1);
+        model.exports().write_ticks(model.time().past().shown().records, std::min(*a, *b), std::max(*a, *b) + 1);
       else
-        model.exports().write_ticks(from, to);
+        model.exports().write_ticks(model.time().past().shown().records, from, to);
     }
     ImGui::SameLine(0, ui.px(3));
     if (text_button(ui, "plots/png", "PNG", "The plots as they are, as a PNG file"))

@@ -3,6 +3,7 @@
 #include "workbench/gui/model/export_tables.h"
 #include "workbench/gui/model/file_origin_of.h"
 #include "workbench/gui/panels/plot_figure.h"
+#include "workbench/gui/panels/session_view.h"
 #include "workbench/gui/widgets/widgets.h"
 
 #include <imgui_stdlib.h>
@@ -12,11 +13,12 @@
 namespace tangent {
 namespace {
 
-constexpr const char* kTitles[]{"Save plots", "Save map", "Save planes", "Save picture of the scene"};
+constexpr const char* kTitles[]{"Save plots", "Save map", "Save planes", "Save picture of the scene", "Save session"};
 
-Status write(const AppModel& model, const PlotsPanel& plots, SaveWhat what, const std::filesystem::path& file) {
+Status write(AppModel& model, const PlotsPanel& plots, SaveWhat what, const std::filesystem::path& file) {
   if (what == SaveWhat::map) return write_map_table(model, file);
   if (what == SaveWhat::planes) return write_planes_table(model, file);
+  if (what == SaveWhat::session) return save_session(model, plots, file);
   const Result<Figure> figure = plot_figure(plots, model.time());
   if (!figure) return tl::unexpected(figure.error());
   return write_drawing(*figure, file_origin(model), file);
@@ -95,11 +97,12 @@ void save_file(AppModel& model, const PlotsPanel& plots, SaveWhat what, const st
 }
 
 void ask_to_save(AppModel& model, SaveWhat what) {
-  constexpr const char* kNames[]{"plots", "map", "planes", "scene"};
+  constexpr const char* kNames[]{"plots", "map", "planes", "scene", "workbench"};
   const std::filesystem::path& folder = model.exports().folder();
   std::vector<std::string> endings{".csv"};
   if (what == SaveWhat::plots) endings = {".svg", ".pdf"};
   if (what == SaveWhat::scene) endings = {".png"};
+  if (what == SaveWhat::session) endings = {kSessionEnding};
   model.exports().dialog().ask(what, folder, kNames[static_cast<std::size_t>(what)], std::move(endings));
 }
 

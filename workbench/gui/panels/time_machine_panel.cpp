@@ -124,7 +124,10 @@ void draw_state(const UiContext& ui, const TimeModel& time) {
   const TimeMachine& machine = time.time_machine();
   const auto verified = machine.verified();
   const std::size_t ticks = machine.run()->records.size();
-  fact(ui, time.past().shows_kept() ? "Kept around a mark" : "Frozen past",
+  fact(ui,
+       time.recording() != nullptr ? "Loaded of the recording"
+       : time.past().shows_kept()  ? "Kept around a mark"
+                                   : "Frozen past",
        printed("%.1f", static_cast<double>(ticks) * time.tick_period_s()), "s");
   tooltip(ui, "Stays as it is, and solvable, until the view goes back to live");
   fact(ui, "Memory beyond the history", printed("%.1f", static_cast<double>(time.frozen_bytes()) / (1024.0 * 1024.0)),

@@ -17,6 +17,7 @@ struct Place {
 constexpr std::array kRight{Place{"iterations", "Iterations"},
                             Place{"time_machine", "Time machine"},
                             Place{"sweep", "Sweep"},
+                            Place{"recording", "Recording"},
                             Place{"bookmarks", "Bookmarks"},
                             Place{"map", "Map"},
                             Place{"perception", "Smoothness as felt"},

@@ -33,25 +33,25 @@ std::array<float, 2> DerivedCurve::next(const ChannelStore& source, std::uint64_
 
 const ChannelStore& DerivedCurve::update(const ChannelStore& source, const DerivedSpec& spec) {
   const bool again = store_ == nullptr || !(spec == spec_) || generation_ != source.generation() ||
-                     store_->end_tick() < source.first_tick();
+                     store_->end_tick() < source.first_kept();
   if (again) {
     spec_ = spec;
     generation_ = source.generation();
     store_ = std::make_unique<ChannelStore>(2, source.capacity());
     before_ = std::nan("");
     std::vector<float> rows;
-    rows.reserve(2 * static_cast<std::size_t>(source.end_tick() - source.first_tick()));
-    for (std::uint64_t tick = source.first_tick(); tick < source.end_tick(); ++tick) {
+    rows.reserve(2 * static_cast<std::size_t>(source.end_kept() - source.first_kept()));
+    for (std::uint64_t tick = source.first_kept(); tick < source.end_kept(); ++tick) {
       const auto row = next(source, tick);
       rows.insert(rows.end(), row.begin(), row.end());
     }
-    store_->assign(source.first_tick(), rows);
-    computed_ = source.end_tick() - source.first_tick();
+    store_->assign(source.first_kept(), rows);
+    computed_ = source.end_kept() - source.first_kept();
     return *store_;
   }
   const std::uint64_t from = store_->end_tick();
-  for (std::uint64_t tick = from; tick < source.end_tick(); ++tick) store_->push(tick, next(source, tick));
-  computed_ = source.end_tick() > from ? source.end_tick() - from : 0;
+  for (std::uint64_t tick = from; tick < source.end_kept(); ++tick) store_->push(tick, next(source, tick));
+  computed_ = source.end_kept() > from ? source.end_kept() - from : 0;
   return *store_;
 }
 

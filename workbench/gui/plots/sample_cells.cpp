@@ -26,13 +26,13 @@ void SampleCells::begin(const ChannelStore& store, const CellQuery& query) {
   under_way_.x = store.min_max(query.x, query.from, query.to);
   if (query.y) under_way_.y = store.min_max(*query.y, query.from, query.to);
   under_way_.counts.assign(query.columns * query.rows, 0);
-  next_ = std::max(query.from, store.first_tick());
+  next_ = std::max(query.from, store.first_kept());
   busy_ = any_ = true;
 }
 
 void SampleCells::go_on(const ChannelStore& store) {
   Count& c = under_way_;
-  const std::uint64_t end = std::min(c.query.to, store.end_tick()), stop = std::min(end, next_ + kSamplesAFrame);
+  const std::uint64_t end = std::min(c.query.to, store.end_kept()), stop = std::min(end, next_ + kSamplesAFrame);
   for (; next_ < stop; ++next_) {
     const float x = store.value(c.query.x, next_);
     if (std::isnan(x)) continue;

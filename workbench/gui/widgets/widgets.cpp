@@ -73,6 +73,9 @@ void draw_icon(ImDrawList& draw, Icon icon, ImVec2 c, float r, ImU32 ink) {
     case Icon::bookmark_on:
       draw_ribbon(draw, c, r, icon == Icon::bookmark ? 0.0f : icon == Icon::bookmark_on ? 1.0f : -1.0f, line, ink);
       break;
+    case Icon::record:
+      draw.AddCircleFilled(c, 0.62f * r, ink, 20);
+      break;
     case Icon::reset:
       draw.PathArcTo(c, 0.62f * r, -2.3f, 2.6f, 16);
       draw.PathStroke(ink, 0, line);
@@ -282,10 +285,11 @@ bool icon_button(const UiContext& ui, std::string_view path, Icon icon, const ch
         on ? ui.colours.accent_fill : ImGui::GetColorU32(hovered ? ImGuiCol_ButtonHovered : ImGuiCol_Button);
     if (!plain || hovered) draw.AddRectFilled(at, {at.x + width, at.y + side}, fill, ui.px(3));
   }
-  const ImU32 ink = !enabled  ? ui.colours.text_faint
-                    : on      ? ui.colours.accent
-                    : hovered ? ui.colours.text
-                              : ui.colours.text_dim;
+  const ImU32 ink = icon == Icon::record ? ui.colours.bad
+                    : !enabled           ? ui.colours.text_faint
+                    : on                 ? ui.colours.accent
+                    : hovered            ? ui.colours.text
+                                         : ui.colours.text_dim;
   draw_icon(draw, icon, {at.x + 0.5f * width, at.y + 0.5f * side}, plain ? ui.px(5.5f) : ui.px(6.5f), ink);
   tooltip(ui, tip);
   return pressed;

@@ -46,7 +46,8 @@ enum class Icon {
   reset,
   bookmark,
   bookmark_back,
-  bookmark_on
+  bookmark_on,
+  record  ///< a red disc
 };
 /// A square button with a drawn icon; `on` tints it with the accent.
 bool icon_button(const UiContext& ui, std::string_view path, Icon icon, const char* tooltip, bool on = false,

@@ -117,8 +117,8 @@ TEST_CASE("exported samples read back as the recorded doubles - a file is never 
   PlotsApp ui;
   ui.model().exports().set_folder(folder.path());
   ui.run(200);
-  ui.model().exports().write_ticks(50, 60);
-  ui.model().exports().write_ticks(50, 60);
+  ui.model().exports().write_ticks(ui.model().time().past().shown().records, 50, 60);
+  ui.model().exports().write_ticks(ui.model().time().past().shown().records, 50, 60);
   CHECK(folder.entry_count() == 2);
   std::ifstream file(folder.path() / "ticks-50-59.csv");
   std::string line;
@@ -143,7 +143,7 @@ TEST_CASE("exported samples read back as the recorded doubles - a file is never 
   CHECK(value("cld_measured_m") == record.device.cld_measured_m);
   CHECK(value("finger_x_m") == record.tick.input.finger.position.x);
   ui.model().exports().set_folder("/nowhere/at/all");
-  ui.model().exports().write_ticks(50, 60);
+  ui.model().exports().write_ticks(ui.model().time().past().shown().records, 50, 60);
   CHECK(ui.model().messages().all().back().severity == Severity::error);
 }
 
