@@ -10,6 +10,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cmath>
@@ -116,25 +117,59 @@ Status write_data(const Figure& figure, const std::filesystem::path& folder) {
   return {};
 }
 
-std::string terminal(const Figure& figure, bool pdf) {
-  if (!pdf)
+enum class Drawn { svg, svg_in_page, pdf };
+
+std::string terminal(const Figure& figure, Drawn as) {
+  if (as != Drawn::pdf)
     return "set terminal svg size " + std::to_string(figure.width_px) + "," + std::to_string(figure.height_px) +
-           " dynamic enhanced font 'Inter, Helvetica, Arial,13' background rgb 'white'\n";
+           " dynamic enhanced font 'Inter, Helvetica, Arial,13'" +
+           (as == Drawn::svg ? " background rgb 'white'\n" : "\n");
   constexpr double kPixelsPerInch = 96.0;
   return "set terminal pdfcairo size " + std::to_string(figure.width_px / kPixelsPerInch) + "in," +
          std::to_string(figure.height_px / kPixelsPerInch) + "in enhanced font 'Inter,10' linewidth 0.75\n";
 }
 
-Result<std::string> draw(const Figure& figure, const std::filesystem::path& folder, const std::string& name, bool pdf) {
-  return run_gnuplot(terminal(figure, pdf) + kCommon + "DIR = '.'\n" + figure.script, folder, name);
+Result<std::string> draw(const Figure& figure, const std::filesystem::path& folder, const std::string& name, Drawn as) {
+  return run_gnuplot(terminal(figure, as) + kCommon + "DIR = '.'\n" + figure.script, folder, name);
+}
+
+void replace_all(std::string& text, std::string_view from, const std::string& to) {
+  for (std::size_t at = 0; (at = text.find(from, at)) != text.npos; at += to.size()) text.replace(at, from.size(), to);
+}
+
+void erase_elements(std::string& text, const std::string& name) {
+  const std::string open = "<" + name + ">", close = "</" + name + ">";
+  for (std::size_t at = 0; (at = text.find(open, at)) != text.npos;)
+    text.erase(at, std::min(text.find(close, at) - at, text.size()) + close.size());
+}
+
+/// Gnuplot's file as an element: without its declaration and its names of curves, which a browser would show, and with
+/// identifiers of its own, since a page may hold many.
+std::string svg_element(std::string svg, const std::string& name) {
+  svg.erase(0, std::min(svg.find("<svg"), svg.size()));
+  for (const char* spoken : {"title", "desc"}) erase_elements(svg, spoken);
+  for (const std::string quote : {"'", "\""}) replace_all(svg, "id=" + quote, "id=" + quote + name + "-");
+  replace_all(svg, "xlink:href='#", "href='#" + name + "-");
+  replace_all(svg, "xlink:href=\"#", "href=\"#" + name + "-");
+  replace_all(svg, "url(#", "url(#" + name + "-");
+  return svg;
 }
 
 }  // namespace
 
+Result<std::string> figure_svg(const Figure& figure) {
+  const Result<OwnFolder> folder = OwnFolder::make();
+  if (!folder) return tl::unexpected(folder.error());
+  if (Status status = write_data(figure, folder->path()); !status) return tl::unexpected(status.error());
+  const Result<std::string> drawn = draw(figure, folder->path(), figure.name, Drawn::svg_in_page);
+  if (!drawn) return drawn;
+  return svg_element(*drawn, figure.name);
+}
+
 Status write_figure(const Figure& figure, const std::filesystem::path& folder) {
   if (Status status = write_data(figure, folder); !status) return status;
   const std::filesystem::path target = folder / (figure.name + ".svg");
-  const Result<std::string> drawn = draw(figure, folder, target.string(), false);
+  const Result<std::string> drawn = draw(figure, folder, target.string(), Drawn::svg);
   if (!drawn) return tl::unexpected(drawn.error());
   return write_file_atomic(target, *drawn);
 }
@@ -145,7 +180,7 @@ Status write_drawing(const Figure& figure, const FileOrigin& origin, const std::
   const Result<OwnFolder> folder = OwnFolder::make();
   if (!folder) return tl::unexpected(folder.error());
   if (Status status = write_data(figure, folder->path()); !status) return status;
-  const Result<std::string> drawn = draw(figure, folder->path(), file.string(), pdf);
+  const Result<std::string> drawn = draw(figure, folder->path(), file.string(), pdf ? Drawn::pdf : Drawn::svg);
   if (!drawn) return tl::unexpected(drawn.error());
   if (!pdf) return write_file_atomic(file, svg_with_origin(*drawn, origin));
   const Result<std::string> whole = pdf_with_origin(*drawn, origin);
