@@ -5,6 +5,7 @@
 #include "core/preset/preset.h"
 #include "workbench/recording/database.h"
 #include "workbench/recording/overview.h"
+#include "workbench/recording/recorded_values.h"
 #include "workbench/recording/scene_bytes.h"
 #include "workbench/recording/tick_reader.h"
 
@@ -54,12 +55,18 @@ class Recording {
 
   /// Builds it again. Fails where it was recorded without its bytes, or they are not what was recorded.
   Result<std::shared_ptr<const ContactScene>> scene(std::uint32_t id);
+  /// What it is built from: the mesh as its file had it. Fails likewise.
+  Result<SceneSource> source(std::uint32_t id);
   /// Whether this is the scene that was recorded: for one that comes from elsewhere.
   Status is_scene(const RecordedScene& recorded, const ContactScene& scene) const;
 
   Result<std::vector<KeptState>> states();
   Result<TickState> state(std::uint64_t tick, const ContactScene& scene);
   Result<std::vector<RecordedGap>> gaps();
+  /// In the order in which they happened, `most` at most.
+  Result<std::vector<RecordedEvent>> events(std::size_t most = 100'000);
+  /// What it says of its devices and its run.
+  Result<std::vector<RecordedValue>> values();
   /// From `first` to `last`, both included.
   Result<TickReader> ticks(std::uint64_t first, std::uint64_t last);
   /// The first tick at that time or later; one past the last where there is none.

@@ -16,13 +16,6 @@
 
 namespace tangent {
 
-struct RecordedEvent {
-  std::uint64_t tick = 0;
-  double t_s = 0.0;
-  std::string kind;  ///< "state", "fault", "action", "preset", "scene", "bookmark", "recorder"
-  std::string text;
-};
-
 /// What a batch is made of. Presets and scenes are added before ticks that name them.
 struct RecordedBatch {
   std::vector<ServoRecord> ticks;  ///< in order
