@@ -33,11 +33,14 @@ void add_monitor_command(CLI::App& app, CommandResult& result);
 void add_record_command(CLI::App& app, CommandResult& result);
 void add_replay_command(CLI::App& app, CommandResult& result);
 void add_export_command(CLI::App& app, CommandResult& result);
+void add_report_command(CLI::App& app, CommandResult& result);  ///< without pictures: report_command.h
 
 /// What the subcommands of workbench-window do (window/), which `workbench` lists, too.
 inline constexpr const char* kGuiCommandText = "Open the window";
 inline constexpr const char* kShotCommandText =
     "Write a view of the window or of the 3D scene as PNG; needs no display";
+
+inline constexpr const char* kReportCommandText = "Recordings as one page of HTML, for a paper or a colleague";
 
 using AddCommand = void (*)(CLI::App&, CommandResult&);
 

@@ -32,6 +32,10 @@ void add_text_option(CLI::App& app, const std::string& name, std::string& value,
 void add_text_option(CLI::App& app, const std::string& name, std::filesystem::path& value, const std::string& doc,
                      const std::string& shown_as, Needed needed = Needed::no);
 
+/// One path or several, known by their position.
+void add_paths_option(CLI::App& app, const std::string& name, std::vector<std::filesystem::path>& paths,
+                      const std::string& doc, const std::string& shown_as);
+
 /// One that may be given again and again, a value each time; `set` gets them all.
 void add_repeated_option(CLI::App& app, const std::string& name, const std::string& doc, const std::string& shown_as,
                          const std::function<void(const std::vector<std::string>&)>& set);
