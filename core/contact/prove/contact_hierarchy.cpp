@@ -355,9 +355,8 @@ bool ContactHierarchy::touchable(const Node& node, const ContactQuery& q) {
   const NormalCone normals = normals_of(node);
   const SurfaceBounds part{0.5 * (low + high), 0.5 * (high - low), normals};
   const double most = most_lambda_m(*q.core, q.nearest_m);
-  if (can_touch(*q.core, part, most, 0.0)) return true;
-  if (q.margin_m == 0.0 || q.steady_only || is_steady_for_core(q, node.least_curvature, normals)) return false;
-  return can_touch(*q.core, part, most, q.margin_m);
+  const bool here = q.margin_m == 0.0 || q.steady_only || is_steady_for_core(q, node.least_curvature, normals);
+  return can_touch(*q.core, part, most, here ? 0.0 : q.margin_m);
 }
 
 void limit_query(ContactQuery& query, const Finger& finger, double rank) {
