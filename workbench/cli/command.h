@@ -32,6 +32,7 @@ void add_devices_command(CLI::App& app, CommandResult& result);
 void add_monitor_command(CLI::App& app, CommandResult& result);
 void add_record_command(CLI::App& app, CommandResult& result);
 void add_replay_command(CLI::App& app, CommandResult& result);
+void add_compare_command(CLI::App& app, CommandResult& result);
 void add_explain_command(CLI::App& app, CommandResult& result);
 void add_export_command(CLI::App& app, CommandResult& result);
 
