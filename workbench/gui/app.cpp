@@ -31,7 +31,7 @@ struct App::Ui {
   ComparePanel compare;
   IterationsPanel iterations;
   MapPanel map;
-  FoldedPanel mesh, devices, time_machine, sweep{false};
+  FoldedPanel mesh, devices, time_machine, why, recordings{false}, sweep{false};
   LogPanel log;
   BookmarksPanel bookmarks;
   InspectPanel inspect;
@@ -144,9 +144,11 @@ void App::Ui::draw_column(const char* name, const Rect& rect, const UiContext& u
   } else {
     const auto shown = [tab = model.window().task()](const char* title) { return shows(tab, title); };
     if (shown("Iterations")) draw_iterations_panel(ui, model, iterations);
+    if (shown("Why this tick")) draw_why_panel(ui, model, why);
     if (shown("Time machine")) draw_time_machine_panel(ui, model.time(), time_machine);
     if (shown("Sweep")) draw_sweep_panel(ui, model, sweep);
     if (shown("Bookmarks")) draw_bookmarks_panel(ui, model, bookmarks);
+    if (shown("Compare recordings")) draw_recordings_panel(ui, model, recordings);
     if (shown("Map")) draw_map_panel(ui, model, map);
     if (shown("Smoothness as felt")) draw_perception_panel(ui, model, perception);
     if (shown("Inspect")) draw_inspect_panel(ui, model, inspect);

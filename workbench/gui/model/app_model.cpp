@@ -19,6 +19,8 @@ AppModel::AppModel(const AppOptions& options)
       devices_(options_, scene_, presets_, messages_, [this] { time_.forget(); }),
       time_(options_, devices_, presets_, messages_),
       tuning_(options_, presets_, time_, messages_),
+      why_(options_, time_, presets_, view_, scene_, messages_),
+      recordings_(options_, presets_, messages_),
       unsaved_(options_, presets_, time_, messages_),
       exports_(options_, devices_, messages_) {
   if (const auto look = window_.read_settings()) {
@@ -83,6 +85,7 @@ void AppModel::update(double now_s) {
   view_.see_contact(tick_in_view(), time_.paused());
   window_.update(now_s, kept_look());
   unsaved_.update(now_s);
+  recordings_.update();
   const auto& scene = scene_.current();
   // A 2D scene has no mesh for a map.
   map_.update(scene != nullptr && scene->planar() != nullptr ? nullptr : scene, presets_.current(), now_s,

@@ -16,11 +16,13 @@
 #include "workbench/gui/model/export_model.h"
 #include "workbench/gui/model/message_log.h"
 #include "workbench/gui/model/preset_model.h"
+#include "workbench/gui/model/recordings_model.h"
 #include "workbench/gui/model/scene_model.h"
 #include "workbench/gui/model/time_model.h"
 #include "workbench/gui/model/tuning_model.h"
 #include "workbench/gui/model/unsaved_model.h"
 #include "workbench/gui/model/view_model.h"
+#include "workbench/gui/model/why_model.h"
 #include "workbench/gui/model/window_model.h"
 
 #include <cstdint>
@@ -67,6 +69,8 @@ class AppModel {
   const TimeModel& time() const { return time_; }
   const TickRecord* tick_in_view() const;  ///< null: none yet
   TuningModel& tuning() { return tuning_; }
+  WhyModel& why() { return why_; }
+  RecordingsModel& recordings() { return recordings_; }
   UnsavedModel& unsaved() { return unsaved_; }
   ExportModel& exports() { return exports_; }
   const ExportModel& exports() const { return exports_; }
@@ -88,6 +92,8 @@ class AppModel {
   DeviceModel devices_;
   TimeModel time_;
   TuningModel tuning_;
+  WhyModel why_;
+  RecordingsModel recordings_;
   UnsavedModel unsaved_;
   ExportModel exports_;
 };

@@ -36,6 +36,51 @@ void add_comparing(CommandList& out, AppModel& model, MenuBar& menu) {
         "iterations/columns");
 }
 
+void add_why(CommandList& out, AppModel& model) {
+  out.plain({"why", "Why: pause, and say why this tick did what it did", "", "explain cause reason failed"}, [&model] {
+    model.time().set_paused(true);
+    model.window().show_section("Why this tick", false);
+  });
+  out.plain({"why try", "Why: try the cure on the recorded ticks", "", "ghost what if explain"},
+            [&model] { model.why().try_cure(); });
+  out.plain({"why set", "Why: set the cure", "", "apply take explain"}, [&model] { model.why().set_cure(); });
+  out.plain({"why go", "Why: go to the place of the cause", "", "defect triangle look explain"},
+            [&model] { model.why().go_to_place(); });
+}
+
+/// Of two recordings, in the section Compare recordings.
+void add_recordings(CommandList& out, AppModel& model) {
+  RecordingsModel& recordings = model.recordings();
+  const auto show = [&model] { model.window().show_section("Compare recordings", false); };
+  const auto file = [&](CommandNames names, std::filesystem::path& to) {
+    out.text(std::move(names), "FILE", [&to, show](const std::string& path) {
+      to = path;
+      show();
+      return Status();
+    });
+  };
+  file({"first recording", "Recordings: the first one to compare", "", "file sqlite open"}, recordings.first);
+  file({"second recording", "Recordings: the second one to compare", "", "file sqlite open"}, recordings.second);
+  out.plain({"no second recording", "Recordings: compare the first with its motion under the present values", ""},
+            [&recordings] { recordings.second.clear(); });
+  out.choice({"align recordings", "Recordings: aligned by", "", "time tick contact bookmark"},
+             {kAlignByNames.begin(), kAlignByNames.end()},
+             [&recordings](std::size_t i) { recordings.by = static_cast<AlignBy>(i); });
+  out.choice({"recordings curve", "Recordings: the curve that is drawn", "", "channel plot"},
+             {kComparedChannels.begin(), kComparedChannels.end()},
+             [&recordings](std::size_t i) { recordings.channel = i; });
+  out.plain({"compare recordings", "Recordings: compare", "", "difference align replay"}, [&recordings, show] {
+    show();
+    recordings.compare();
+  });
+  out.plain({"largest difference", "Recordings: go to the largest difference", "", "worst jump"},
+            [&recordings] { recordings.go_to_largest(); });
+  out.plain({"whole recordings", "Recordings: compare all ticks again", ""},
+            [&recordings] { recordings.show_whole(); });
+  out.plain({"stop comparing", "Recordings: stop, keep what is found", "", "cancel"},
+            [&recordings] { recordings.stop(); });
+}
+
 void add_sweep(CommandList& out, AppModel& model, MenuBar& menu) {
   for (const char* which : {"0", "1"}) {
     const bool first = which[0] == '0';
@@ -83,6 +128,8 @@ void add_saving(CommandList& out, AppModel& model) {
 
 void add_tuning_commands(CommandList& out, AppModel& model, MenuBar& menu) {
   add_comparing(out, model, menu);
+  add_why(out, model);
+  add_recordings(out, model);
   add_sweep(out, model, menu);
   add_derived(out, model, menu);
   add_saving(out, model);

@@ -106,7 +106,12 @@ double felt_angle_rad(const PresetModel& presets, const PerceptionPanel& state);
 struct FoldedPanel {
   bool open = true;
 };
+/// Cause and cure of the tick in view, while paused.
+void draw_why_panel(const UiContext& ui, AppModel& model, FoldedPanel& state);
 void draw_time_machine_panel(const UiContext& ui, TimeModel& time, FoldedPanel& state);
+
+/// Two recordings, or one under the present values: outcome, curves, differences.
+void draw_recordings_panel(const UiContext& ui, AppModel& model, FoldedPanel& state);
 
 /// One or two keys over many values on the chosen ticks: mean, p99 and failures of each, a click tries it.
 void draw_sweep_panel(const UiContext& ui, AppModel& model, FoldedPanel& state);

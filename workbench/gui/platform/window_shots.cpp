@@ -177,6 +177,13 @@ void solve_at_worst(AppModel& model) {
   model.window().open_sections()["Iterations"] = true;
 }
 
+/// The busiest tick, why it was, and the past with the cure beside it.
+void explain_busiest_tick(AppModel& model) {
+  fold_but(model, "Why this tick");
+  look_at_busiest_tick(model);
+  if (model.why().of_tick_in_view() != nullptr) model.why().try_cure();
+}
+
 void map_with_paper(AppModel& model) {
   solve_with_paper(model);
   model.map().set_quantity(MapQuantity::iterations_worst);
@@ -334,6 +341,8 @@ constexpr WindowView kViews[] = {
      solve_with_paper, compare_busiest_tick},
     {"solve-here", "a tick at the map's worst place, in its worst direction, under two gains", Theme::light,
      map_with_paper, solve_at_worst},
+    {"why", "why a tick took many planes, with the value that cures it tried on the recorded ticks", Theme::dark,
+     solve_with_paper, explain_busiest_tick},
     {"sweep", "a sweep of the curvature gain over the recorded ticks", Theme::dark, tune_paper, sweep_gain},
     {"sweep-two", "a sweep of two gains", Theme::light, tune_paper, sweep_two_gains},
     {"inspect", "mesh inspection: a defect found, marked and listed", Theme::dark, inspect, look_at_first_finding},
