@@ -261,7 +261,7 @@ bool App::wants_frames() const {
   const bool refining = ui_->renderer != nullptr && ui_->renderer->refining();
   return !model_->time().paused() || model_->scene().loading() || model_->scene().auditing() ||
          model_->map().running() || model_->time().time_machine().busy() || model_->tuning().sweep().running() ||
-         model_->tuning().search().running() || refining || ui_->script.running();
+         model_->tuning().search().running() || model_->exports().writing() || refining || ui_->script.running();
 }
 
 std::optional<std::filesystem::path> App::take_screenshot_request() {

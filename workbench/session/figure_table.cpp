@@ -5,6 +5,7 @@
 #include "workbench/session/own_folder.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <spawn.h>
 #include <sys/mman.h>
 #include <sys/wait.h>
@@ -13,6 +14,7 @@
 #include <array>
 #include <cerrno>
 #include <cmath>
+#include <csignal>
 #include <cstring>
 
 namespace tangent {
@@ -49,11 +51,17 @@ Result<int> unnamed_file(const std::string& text) {
   return file;
 }
 
-std::string read_all(int file) {
+constexpr int kLookEvery_ms = 50;  // whether to stop
+
+/// Up to its end, or until it is stopped.
+std::string read_all(int file, const std::stop_token& stop) {
   std::string text;
   char part[4096];
-  for (ssize_t got = 0; (got = ::read(file, part, sizeof part)) != 0;) {
-    if (got < 0 && errno != EINTR) break;
+  while (!stop.stop_requested()) {
+    pollfd waited{file, POLLIN, 0};
+    if (::poll(&waited, 1, kLookEvery_ms) == 0) continue;
+    const ssize_t got = ::read(file, part, sizeof part);
+    if (got == 0 || (got < 0 && errno != EINTR)) break;
     if (got > 0) text.append(part, static_cast<std::size_t>(got));
   }
   return text;
@@ -61,8 +69,8 @@ std::string read_all(int file) {
 
 /// What gnuplot draws, with `folder` as its working folder. No shell is asked, and no name that a person typed reaches
 /// its script: a newline in one would begin a command, and gnuplot has `system`.
-Result<std::string> run_gnuplot(const std::string& script, const std::filesystem::path& folder,
-                                const std::string& name) {
+Result<std::string> run_gnuplot(const std::string& script, const std::filesystem::path& folder, const std::string& name,
+                                const std::stop_token& stop) {
   const Result<int> input = unnamed_file(script);
   if (!input) return tl::unexpected(input.error());
   std::array<int, 2> output{};
@@ -79,12 +87,14 @@ Result<std::string> run_gnuplot(const std::string& script, const std::filesystem
   ::posix_spawn_file_actions_destroy(&actions);
   ::close(*input);
   ::close(output[1]);
-  const std::string drawn = failed == 0 ? read_all(output[0]) : std::string();
+  const std::string drawn = failed == 0 ? read_all(output[0], stop) : std::string();
   ::close(output[0]);
   if (failed == ENOENT) return fail("gnuplot is not installed", "figures", "install Debian's package gnuplot-nox");
   if (failed != 0) return fail(std::string("gnuplot can't be started: ") + std::strerror(failed), name);
+  if (stop.stop_requested()) ::kill(child, SIGKILL);
   int status = 0;
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {}
+  if (stop.stop_requested()) return fail("cancelled, nothing is written", name);
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
     return fail("gnuplot could not draw it", name, "see its message above");
   return drawn;
@@ -125,8 +135,9 @@ std::string terminal(const Figure& figure, bool pdf) {
          std::to_string(figure.height_px / kPixelsPerInch) + "in enhanced font 'Inter,10' linewidth 0.75\n";
 }
 
-Result<std::string> draw(const Figure& figure, const std::filesystem::path& folder, const std::string& name, bool pdf) {
-  return run_gnuplot(terminal(figure, pdf) + kCommon + "DIR = '.'\n" + figure.script, folder, name);
+Result<std::string> draw(const Figure& figure, const std::filesystem::path& folder, const std::string& name, bool pdf,
+                         const std::stop_token& stop) {
+  return run_gnuplot(terminal(figure, pdf) + kCommon + "DIR = '.'\n" + figure.script, folder, name, stop);
 }
 
 }  // namespace
@@ -134,18 +145,19 @@ Result<std::string> draw(const Figure& figure, const std::filesystem::path& fold
 Status write_figure(const Figure& figure, const std::filesystem::path& folder) {
   if (Status status = write_data(figure, folder); !status) return status;
   const std::filesystem::path target = folder / (figure.name + ".svg");
-  const Result<std::string> drawn = draw(figure, folder, target.string(), false);
+  const Result<std::string> drawn = draw(figure, folder, target.string(), false, {});
   if (!drawn) return tl::unexpected(drawn.error());
   return write_file_atomic(target, *drawn);
 }
 
-Status write_drawing(const Figure& figure, const FileOrigin& origin, const std::filesystem::path& file) {
+Status write_drawing(const Figure& figure, const FileOrigin& origin, const std::filesystem::path& file,
+                     const std::stop_token& stop) {
   const bool pdf = file.extension() == ".pdf";
   if (!pdf && file.extension() != ".svg") return fail("is neither .svg nor .pdf", file.string(), "name one of them");
   const Result<OwnFolder> folder = OwnFolder::make();
   if (!folder) return tl::unexpected(folder.error());
   if (Status status = write_data(figure, folder->path()); !status) return status;
-  const Result<std::string> drawn = draw(figure, folder->path(), file.string(), pdf);
+  const Result<std::string> drawn = draw(figure, folder->path(), file.string(), pdf, stop);
   if (!drawn) return tl::unexpected(drawn.error());
   if (!pdf) return write_file_atomic(file, svg_with_origin(*drawn, origin));
   const Result<std::string> whole = pdf_with_origin(*drawn, origin);

@@ -6,6 +6,7 @@
 #include "workbench/session/file_origin.h"
 
 #include <filesystem>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -36,7 +37,9 @@ struct Figure {
 
 /// Writes NAME.csv and further tables, then NAME.svg. Fails where gnuplot is missing or refuses.
 Status write_figure(const Figure& figure, const std::filesystem::path& folder);
-/// The drawing alone, with its origin, as what the file's name ends in: .svg or .pdf. Atomic; fails like the above.
-Status write_drawing(const Figure& figure, const FileOrigin& origin, const std::filesystem::path& file);
+/// The drawing alone, with its origin, as what the file's name ends in: .svg or .pdf. Atomic; fails like the above, and
+/// soon after `stop` is asked for: gnuplot is ended, and nothing is written.
+Status write_drawing(const Figure& figure, const FileOrigin& origin, const std::filesystem::path& file,
+                     const std::stop_token& stop = {});
 
 }  // namespace tangent

@@ -106,9 +106,15 @@ Result<WindowSettings> read_window_settings(const std::filesystem::path& path) {
       if (const auto value = open.value<bool>()) out.sections[std::string(title.str())] = *value;
     }
   }
+  if (const toml::table* plots = root["plots"].as_table()) {
+    for (const auto& [plot, channels] : *plots)
+      if (channels.is_array())
+        take(*plots, std::string(plot.str()).c_str(), out.plot_channels[std::string(plot.str())], 100);
+  }
   if (const toml::table* lists = root["lists"].as_table()) {
     take(*lists, "favourites", out.favourites, 100);
     take(*lists, "recent_meshes", out.recent_meshes, WindowSettings::kMostRecent);
+    take(*lists, "channels", out.channels, 100);
   }
   return out;
 }
@@ -125,23 +131,27 @@ bool is_newer(const std::filesystem::path& path) {
 std::string format_window_settings(const WindowSettings& s) {
   toml::table sections;
   for (const auto& [title, open] : s.sections) sections.insert(title, open);
-  const toml::table root{
-      {"layout", toml::table{{"left", s.left},
-                             {"right", s.right},
-                             {"plots", s.plots},
-                             {"width", s.width},
-                             {"height", s.height},
-                             {"show_left", s.show_left},
-                             {"show_right", s.show_right},
-                             {"show_plots", s.show_plots},
-                             {"task", s.task}}},
-      {"look", toml::table{{"light_theme", s.light_theme},
-                           {"vision", s.vision},
-                           {"text_size", s.text_size},
-                           {"y_up", s.y_up},
-                           {"colour_map", s.colour_map}}},
-      {"sections", sections},
-      {"lists", toml::table{{"favourites", as_array(s.favourites)}, {"recent_meshes", as_array(s.recent_meshes)}}}};
+  toml::table plots;
+  for (const auto& [plot, channels] : s.plot_channels) plots.insert(plot, as_array(channels));
+  const toml::table root{{"layout", toml::table{{"left", s.left},
+                                                {"right", s.right},
+                                                {"plots", s.plots},
+                                                {"width", s.width},
+                                                {"height", s.height},
+                                                {"show_left", s.show_left},
+                                                {"show_right", s.show_right},
+                                                {"show_plots", s.show_plots},
+                                                {"task", s.task}}},
+                         {"look", toml::table{{"light_theme", s.light_theme},
+                                              {"vision", s.vision},
+                                              {"text_size", s.text_size},
+                                              {"y_up", s.y_up},
+                                              {"colour_map", s.colour_map}}},
+                         {"sections", sections},
+                         {"plots", plots},
+                         {"lists", toml::table{{"favourites", as_array(s.favourites)},
+                                               {"recent_meshes", as_array(s.recent_meshes)},
+                                               {"channels", as_array(s.channels)}}}};
   std::ostringstream text;
   text << "# The window's layout and look, kept between runs. Delete the file for the program's own.\n"
        << kFormats.line() << root << "\n";
@@ -203,6 +213,8 @@ WindowSettings merged(const WindowSettings& before, const WindowSettings& ours, 
   std::erase_if(out.sections, [&](const auto& entry) {
     return before.sections.contains(entry.first) && !ours.sections.contains(entry.first);
   });
+  take_ours(&WindowSettings::plot_channels);
+  out.channels = merged_list(before.channels, ours.channels, theirs.channels);
   out.favourites = merged_list(before.favourites, ours.favourites, theirs.favourites);
   out.recent_meshes = merged_recent(before, ours, theirs);
   return out;

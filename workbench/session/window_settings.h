@@ -24,9 +24,11 @@ struct WindowSettings {
   double text_size = 1.0;         ///< factor on top of the monitor's
   bool y_up = false;
   std::string colour_map = "tide";
-  std::map<std::string, bool> sections;    ///< by title: true if open
-  std::vector<std::string> favourites;     ///< full names of preset keys
-  std::vector<std::string> recent_meshes;  ///< latest first, at most kMostRecent
+  std::map<std::string, bool> sections;                           ///< by title: true if open
+  std::vector<std::string> favourites;                            ///< full names of preset keys
+  std::vector<std::string> recent_meshes;                         ///< latest first, at most kMostRecent
+  std::map<std::string, std::vector<std::string>> plot_channels;  ///< of the plots that are not as at first, by plot
+  std::vector<std::string> channels;                              ///< derived ones, in a plot or not
   bool operator==(const WindowSettings&) const = default;
 
   /// Moves this mesh to the front of recent_meshes, or adds it there.

@@ -42,6 +42,7 @@ std::optional<KeptLook> WindowModel::read_settings() {
                     vision != kVisionNames.end() ? static_cast<Vision>(vision - kVisionNames.begin()) : Vision::common);
   ui_scale_ = static_cast<float>(settings_.text_size);
   favourites_ = settings_.favourites;
+  plots_.take(settings_.plot_channels, settings_.channels);
   KeptLook look{settings_.y_up};
   const auto names = colour_map_names();
   const auto found = std::find(names.begin(), names.end(), settings_.colour_map);
@@ -68,6 +69,8 @@ void WindowModel::keep_settings(const KeptLook& look, double wait_s) {
   settings_.text_size = static_cast<double>(ui_scale_);
   settings_.y_up = look.y_up;
   settings_.favourites = favourites_;
+  settings_.plot_channels = plots_.changed();
+  settings_.channels = plots_.made();
   settings_.colour_map = colour_map_names()[static_cast<std::size_t>(look.colours)];
   if (settings_file_.empty() || settings_are_unread_ || settings_ == written_settings_) return;
   const auto kept = keep_window_settings(written_settings_, settings_, settings_file_, wait_s);
@@ -91,6 +94,7 @@ void WindowModel::reset_layout() {
   sizes_ = {};
   task_ = Task::look;
   settings_.sections.clear();
+  plots_.reset();
 }
 
 void WindowModel::set_room(float width, float height) {

@@ -5,6 +5,7 @@
 #include "workbench/gui/layout/tasks.h"
 #include "workbench/gui/model/app_options.h"
 #include "workbench/gui/model/message_log.h"
+#include "workbench/gui/model/plot_lists.h"
 #include "workbench/gui/theme/colour_map.h"
 #include "workbench/session/window_settings.h"
 
@@ -56,7 +57,9 @@ class WindowModel {
   /// Shows the column and the tab, opens the section and scrolls to it.
   void show_section(const std::string& title, bool in_left_column);
   std::string& section_wanted() { return section_wanted_; }
-  void reset_layout();  ///< sizes and sections back to their defaults
+  void reset_layout();  ///< sizes, sections and the plots' channels back to their defaults
+  PlotLists& plots() { return plots_; }
+  const PlotLists& plots() const { return plots_; }
 
   std::vector<std::string>& favourites() { return favourites_; }  ///< full names of preset keys, in order
   const std::vector<std::string>& favourites() const { return favourites_; }
@@ -70,6 +73,7 @@ class WindowModel {
   const std::filesystem::path settings_file_;  ///< empty: nothing is kept
   MessageLog& messages_;
   LayoutSizes sizes_;
+  PlotLists plots_;
   bool first_start_ = false, sizes_are_read_ = false;
   Theme theme_;
   float ui_scale_ = 1.0f;

@@ -1,6 +1,7 @@
 // Commands of time, plots, force and devices.
 #include "devices/device_set.h"
 #include "devices/fault_injection.h"
+#include "workbench/gui/model/file_origin_of.h"
 #include "workbench/gui/panels/commands.h"
 #include "workbench/gui/panels/wish.h"
 #include "workbench/gui/widgets/widgets.h"
@@ -67,14 +68,15 @@ void add_plots(CommandList& out, AppModel& model, MenuBar& menu) {
             [&model] { model.time().solve_past_again(); });
   out.plain({"export ticks", "Plots: ticks in view as CSV", "", "save write file samples table"}, [&model] {
     const auto [from, to] = ticks_in_view(model.time());
-    model.exports().write_ticks(from, to);
+    model.exports().write_ticks(from, to, file_origin(model));
   });
+  out.plain({"cancel export", "Plots: stop writing the file", "", "save stop"}, [&model] { model.exports().cancel(); });
   out.plain({"export plots", "Plots: picture of the plots as PNG", "", "save write file image"},
             [&model, &menu] { wish(model, menu, "plots/png"); });
-  out.choice({"plots", "Plots:", "", "show kind mode"}, {"Time", "X-Y", "Spectrum", "Histogram", "Derived"},
+  out.choice({"plots", "Plots:", "", "show kind mode"}, {"Time", "X-Y", "Spectrum", "Histogram"},
              [&model, &menu](std::size_t i) {
                constexpr const char* kPaths[]{"plots/mode/Time", "plots/mode/X-Y", "plots/mode/Spectrum",
-                                              "plots/mode/Histogram", "plots/mode/Derived"};
+                                              "plots/mode/Histogram"};
                wish(model, menu, kPaths[i]);
              });
   out.plain({"plot values", "Plots: table of values, on or off", "", "numbers mean rms"},

@@ -1,8 +1,11 @@
-// Commands of comparing and tuning: two presets on the same ticks, ticks at a place, sweeps, derived curves; and of
-// saving all that as files.
+// Commands of comparing and tuning: two presets on the same ticks, ticks at a place, sweeps, the plots' channels; and
+// of saving all that as files.
 #include "workbench/gui/panels/commands.h"
 #include "workbench/gui/panels/save_panel.h"
 #include "workbench/gui/panels/wish.h"
+
+#include <functional>
+#include <string_view>
 
 namespace tangent {
 
@@ -52,16 +55,31 @@ void add_sweep(CommandList& out, AppModel& model, MenuBar& menu) {
   out.plain({"sweep clear", "Sweep: forget the points", "", "delete"}, [&model] { model.tuning().clear_points(); });
 }
 
-void add_derived(CommandList& out, AppModel& model, MenuBar& menu) {
-  enter(out, model, menu, {"derived curve", "Plots: derived curve", "", "difference derivative filter magnitude"},
-        "NAME", "plots/derived/how");
-  for (const char* operand : {"a", "b", "c"})
-    enter(out, model, menu,
-          {std::string("derived ") + operand, std::string("Plots: curve ") + operand + " of the derived one", "",
-           "channel"},
-          "NAME", std::string("plots/derived/") + operand);
-  enter(out, model, menu, {"derived cutoff", "Plots: the derived curve's low-pass, up to", "", "filter frequency"},
-        "NAME", "plots/derived/cutoff");
+/// "PLOT CHANNEL" in two.
+Status on_plot(const std::string& text, const std::function<Status(std::string_view, std::string_view)>& act) {
+  const std::size_t blank = text.find(' ');
+  if (blank == std::string::npos) return fail("a plot and a channel are needed", {}, "as in: plot add error force_x");
+  return act(std::string_view(text).substr(0, blank), std::string_view(text).substr(blank + 1));
+}
+
+void add_channels(CommandList& out, AppModel& model, MenuBar& menu) {
+  PlotLists& lists = model.window().plots();
+  constexpr const char* kWords = "curve derived difference derivative filter magnitude drag";
+  press(out, model, menu, {"channels", "Plots: list of channels, on or off", "", kWords}, "plots/channels");
+  out.text({"plot add", "Plots: show the channel in the plot too", "", kWords}, "PLOT CHANNEL",
+           [&lists](const std::string& text) {
+             return on_plot(text, [&](auto plot, auto channel) { return lists.add(plot, channel); });
+           });
+  out.text({"plot remove", "Plots: take the channel out of the plot", "", "hide delete curve"}, "PLOT CHANNEL",
+           [&lists](const std::string& text) {
+             return on_plot(text, [&](auto plot, auto channel) { return lists.remove(plot, channel); });
+           });
+  out.plain({"default plots", "Plots: the channels that they had at first", "", "reset curves"},
+            [&lists] { lists.reset(); });
+  out.text({"make channel", "Plots: a derived channel to choose from", "", kWords}, "CHANNEL",
+           [&lists](const std::string& text) { return lists.make(text); });
+  out.text({"forget channel", "Plots: delete the derived channel", "", "remove curve"}, "CHANNEL",
+           [&lists](const std::string& text) { return lists.forget(text); });
   press(out, model, menu, {"legend", "Plots: what bands and marks mean", "", "flags colours key"}, "plots/legend");
 }
 
@@ -84,7 +102,7 @@ void add_saving(CommandList& out, AppModel& model) {
 void add_tuning_commands(CommandList& out, AppModel& model, MenuBar& menu) {
   add_comparing(out, model, menu);
   add_sweep(out, model, menu);
-  add_derived(out, model, menu);
+  add_channels(out, model, menu);
   add_saving(out, model);
 }
 

@@ -8,18 +8,25 @@
 #include <imgui_stdlib.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace tangent {
 namespace {
 
 constexpr const char* kTitles[]{"Save plots", "Save map", "Save planes", "Save picture of the scene"};
 
-Status write(const AppModel& model, const PlotsPanel& plots, SaveWhat what, const std::filesystem::path& file) {
-  if (what == SaveWhat::map) return write_map_table(model, file);
-  if (what == SaveWhat::planes) return write_planes_table(model, file);
-  const Result<Figure> figure = plot_figure(plots, model.time());
+/// By gnuplot, which takes a second or more: in a thread of its own.
+Status draw_plots(AppModel& model, const PlotsPanel& plots, const std::filesystem::path& file) {
+  Result<Figure> figure = plot_figure(plots, model.time());
   if (!figure) return tl::unexpected(figure.error());
-  return write_drawing(*figure, file_origin(model), file);
+  model.exports().start(file.filename().string(),
+                        [figure = std::move(*figure), origin = file_origin(model),
+                         file](const std::stop_token& stop) -> Result<std::string> {
+                          if (Status drawn = write_drawing(figure, origin, file, stop); !drawn)
+                            return tl::unexpected(drawn.error());
+                          return "written to " + file.string();
+                        });
+  return {};
 }
 
 void draw_entries(const UiContext& ui, SaveDialog& dialog, float height) {
@@ -52,6 +59,8 @@ void draw_picture_options(const UiContext& ui, SaveDialog& dialog) {
   ImGui::TextDisabled("px wide");
   ImGui::SameLine(0, ui.px(8));
   toggle_button(ui, "save/transparent", "Transparent", dialog.transparent, "Nothing behind the scene");
+  ImGui::SameLine(0, ui.px(3));
+  toggle_button(ui, "save/overlay", "Labels", dialog.overlay, "With labels, scales, colour bar and display, as shown");
   ImGui::SameLine(0, ui.px(8));
 }
 
@@ -86,11 +95,14 @@ bool draw_contents(const UiContext& ui, SaveDialog& dialog, float height) {
 
 void save_file(AppModel& model, const PlotsPanel& plots, SaveWhat what, const std::filesystem::path& file) {
   if (what == SaveWhat::scene)  // by the panel that has the renderer, in the next frame
-    return model.exports().ask_for_scene(
-        {file, model.exports().dialog().width_px, model.exports().dialog().transparent});
-  if (const Status written = write(model, plots, what, file); !written)
+    return model.exports().ask_for_scene({file, model.exports().dialog().width_px, model.exports().dialog().transparent,
+                                          model.exports().dialog().overlay});
+  const Status written = what == SaveWhat::map      ? write_map_table(model, file)
+                         : what == SaveWhat::planes ? write_planes_table(model, file)
+                                                    : draw_plots(model, plots, file);
+  if (!written)
     model.messages().say(Severity::error, written.error().message());
-  else
+  else if (what != SaveWhat::plots)
     model.messages().say(Severity::note, "written to " + file.string());
 }
 

@@ -90,13 +90,13 @@ constexpr ByCommand kByCommand[]{
     {"plots/inspect", "pause"},
     {"plots/cursor_a", "cursor a"},
     {"plots/cursor_b", "cursor b"},
-    {"plots/derived/how", "derived curve"},
-    {"plots/derived/a", "derived a"},
-    {"plots/derived/b", "derived b"},
-    {"plots/derived/c", "derived c"},
-    {"plots/derived/cutoff", "derived cutoff"},
+    {"plots/channels", "channels"},
+    {"plots/make*", "make channel"},
+    {"plots/channel/*", "plot add"},
+    {"plots/value/*", "plot add"},
     {"plots/legend", "legend"},
     {"plots/figure", "save plots"},
+    {"plots/cancel_writing", "cancel export"},
     {"plots/csv", "export ticks"},
     {"plots/png", "export plots"},
     {"plots/curve_x", "curve across"},
@@ -272,7 +272,7 @@ std::set<std::string> all_widgets() {
     ui.click(menu);
     ui.frames(2);
   }
-  for (const char* mode : {"plots/mode/X-Y", "plots/mode/Spectrum", "plots/mode/Derived"}) {
+  for (const char* mode : {"plots/mode/X-Y", "plots/mode/Spectrum", "plots/channels", "plots/values"}) {
     ui.click(mode);
     ui.frames(2);
     collect(ui, paths);
