@@ -92,7 +92,8 @@ bool ScriptRunner::busy(AppModel& model, MenuBar& menu, const ItemMap& items) {
     return true;
   }
   const bool work =
-      menu.wish.work && (model.map().running() || model.scene().auditing() || model.time().time_machine().busy());
+      menu.wish.work && (model.map().running() || model.scene().auditing() || model.time().time_machine().busy() ||
+                         model.tuning().search().running() || model.tuning().sweep().running());
   if (work || model.now_s() < menu.wish.until_s || model.scene().loading() || model.exports().writing() ||
       model.exports().picture_wanted() || !menu.wish.widget.empty() || !items.wanted().empty() ||
       (model.devices().session() != nullptr && model.time().end_tick() < until_tick_)) {

@@ -10,6 +10,7 @@
 #include "workbench/gui/platform/save_picture.h"
 #include "workbench/gui/render/scene_renderer.h"
 #include "workbench/session/own_folder.h"
+#include "workbench/session/window_settings.h"
 
 #include <imgui.h>
 
@@ -399,6 +400,8 @@ AppOptions app_options(const ShotRequest& request, const WindowView& view) {
   options.preset = request.preset;
   options.theme = request.theme.value_or(view.theme);
   options.deterministic = true;
+  // What a script saves goes where the window puts it, not among the shipped ones.
+  if (!request.script.empty()) options.preset_folder = user_presets_path();
   return options;
 }
 
