@@ -42,8 +42,20 @@ class BoxTree {
   /// reach2(low, high): the square of the distance to a box, negative where nothing in it is wanted. farthest2(): the
   /// square of the distance up to which things are wanted still; it may shrink on the way.
   template <class Reach, class Farthest, class Visit>
-  bool visit(const Reach& reach2, const Farthest& farthest2, Visit&& visit) const;
+  bool visit(const Reach& reach2, const Farthest& farthest2, Visit&& visit) const {
+    return visit_nodes([&](std::uint32_t, const Vec3& low, const Vec3& high) { return reach2(low, high); }, farthest2,
+                       visit);
+  }
+  /// The same, reach2(number of a node, low, high).
+  template <class Reach, class Farthest, class Visit>
+  bool visit_nodes(const Reach& reach2, const Farthest& farthest2, Visit&& visit) const;
 
+  std::size_t node_count() const { return nodes_.size(); }
+  bool is_leaf(std::uint32_t node) const { return (nodes_[node].link & kLeaf) != 0; }
+  /// Numbers of the two nodes below one that is no leaf.
+  std::array<std::uint32_t, 2> below(std::uint32_t node) const { return {node + 1, nodes_[node].link}; }
+  /// First box of a leaf.
+  std::uint32_t box_of(std::uint32_t leaf) const { return order_[nodes_[leaf].link & ((1u << kFirstBits) - 1)]; }
   std::size_t memory_bytes() const { return nodes_.capacity() * sizeof(Node) + order_.capacity() * sizeof(order_[0]); }
 
  private:
@@ -62,13 +74,13 @@ class BoxTree {
 };
 
 template <class Reach, class Farthest, class Visit>
-bool BoxTree::visit(const Reach& reach2, const Farthest& farthest2, Visit&& visit) const {
+bool BoxTree::visit_nodes(const Reach& reach2, const Farthest& farthest2, Visit&& visit) const {
   struct Entry {
     std::uint32_t node;
     double reach2;
   };
   const auto entry_of = [&](std::uint32_t node) {
-    return Entry{node, reach2(nodes_[node].box.low(), nodes_[node].box.high())};
+    return Entry{node, reach2(node, nodes_[node].box.low(), nodes_[node].box.high())};
   };
   std::array<Entry, kMaxDepth> stack;
   std::size_t size = 0;

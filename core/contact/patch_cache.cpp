@@ -12,6 +12,20 @@ void PatchCache::fill(std::uint32_t slot, std::uint32_t t, NormalForm form) {
   held_[slot] = {t, form};
 }
 
+void PatchCache::ask_around(std::uint32_t t) {
+  asked_ = t == around_ ? asked_ + 1 : 1;
+  around_ = t;
+  for (std::uint32_t edge = 0; edge < 3; ++edge) {
+    const EdgeLink other = mesh_->across(t, edge);
+    if (other.triangle == kNone) continue;
+    if (asked_ == 1) {
+      mesh_->prefetch(other.triangle);
+    } else {
+      mesh_->prefetch(other.triangle, (other.edge + 2) % 3);
+    }
+  }
+}
+
 void PatchCache::fill_bend(CachedPatch& slot, std::uint32_t t) const {
   slot.bend = mesh_->interior(t) ? curvature_bounds(slot.patch) : CurvatureBounds{};
   slot.bend_known = true;

@@ -63,7 +63,10 @@ struct VertexSurroundings {
 class PatchCache {
  public:
   explicit PatchCache(const ContactMesh& mesh)
-      : mesh_(&mesh), held_(kPatches), patches_(std::make_unique_for_overwrite<CachedPatch[]>(kPatches)) {}
+      : mesh_(&mesh),
+        held_(kPatches),
+        patches_(std::make_unique_for_overwrite<CachedPatch[]>(kPatches)),
+        is_large_(mesh.triangle_count() > kLarge) {}
 
   const ContactMesh& mesh() const { return *mesh_; }
 
@@ -83,6 +86,11 @@ class PatchCache {
     CachedPatch& slot = patch_slot(t, form);
     if (!slot.bend_known) fill_bend(slot, t);
     return slot.bend;
+  }
+  /// Says that the contact is on triangle `t`, once at a tick's beginning and once at its end: on a large mesh the
+  /// triangles beside it, which it goes to next, come from the processor's slow memory, so they are asked for before.
+  void expect_around(std::uint32_t t) {
+    if (is_large_ && t != kNone && (t != around_ || asked_ < 2)) ask_around(t);
   }
   /// Fan at fraction f of edge `side` of triangle `t`, which runs from corner `side` to the next. Precondition: not a
   /// smooth edge. The reference is good until the next call.
@@ -130,6 +138,7 @@ class PatchCache {
     if (held_[slot] != PatchKey{t, form}) fill(slot, t, form);
     return patches_[slot];
   }
+  void ask_around(std::uint32_t t);
   void fill(std::uint32_t slot, std::uint32_t t, NormalForm form);
   void fill_bend(CachedPatch& slot, std::uint32_t t) const;
   void fill(CachedFan& slot, std::uint32_t t, std::uint32_t side, NormalForm form);
@@ -143,6 +152,10 @@ class PatchCache {
   std::unique_ptr<CachedPatch[]> patches_;  ///< as held_ says
   std::array<CachedFan, kSlots> fans_;
   VertexSurroundings vertex_;
+  static constexpr std::uint32_t kLarge = 1u << 16;  ///< triangles that no fast memory holds: some 5 MB
+  bool is_large_;
+  std::uint32_t around_ = kNone;
+  int asked_ = 0;  ///< of the triangles around that one: 1: their numbers, 2: the places of their far corners, too
 };
 
 template <class Direction, class OnFace, class OnRay>

@@ -103,6 +103,7 @@ FingerCore::FingerCore(const Finger& finger, const FingerPose& pose, bool turns)
   std::array<double, 3> sorted{axes_m_.x, axes_m_.y, axes_m_.z};
   std::sort(sorted.begin(), sorted.end());
   longest_m_ = sorted[2];
+  middle_m_ = sorted[1];
   shortest_m_ = sorted[0];
   const int longest = axes_m_.x >= longest_m_ ? 0 : axes_m_.y >= longest_m_ ? 1 : 2;
   long_axis_ = rotation_[longest];
@@ -160,12 +161,12 @@ double FingerCore::largest_radius(double least_length_m) const {
 }
 
 // While the finger turns by w, p(N) goes across N by (H - R) (w x N) + (w.N) (N x q), H the core's support function, R
-// its radii of curvature and q what p - c has across N, which is no more than the lever. Along N it may go, too: that
-// changes lambda, and no direction.
+// its radii of curvature and q what p - c has across N, which is no more than the lever: the first by w's part across
+// N, the second by that along it. Along N it may go, too: that changes lambda, and no direction.
 double FingerCore::slide_rate(double least_length_m, double way_m) const {
   if (!turns_ || !(lever_m_ > 0.0)) return 1.0;
   const double radius = largest_radius(least_length_m - longest_m_ * turn_within(way_m));
-  return std::max(1.0, (lever_m_ + std::max(longest_m_ - sharpest_m_, radius - shortest_m_)) / reach_m_);
+  return std::max(1.0, std::hypot(lever_m_, std::max(longest_m_ - sharpest_m_, radius - shortest_m_)) / reach_m_);
 }
 
 // p(N) can't leave the core, whose width changes by no more than the way; lambda by no more, either.

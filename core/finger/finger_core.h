@@ -44,6 +44,8 @@ class FingerCore {
   double flattest_near(const NormalCone& normals, double way_m) const;
 
   CoreSupport support(const Vec3& normal) const;
+  /// A t, in the finger's frame.
+  Vec3 scaled(const Vec3& t) const { return axes_m_ * (t * rotation_); }
   /// D t at a support.
   Vec3 derivative(const CoreSupport& support, const Vec3& t) const;
   /// |A tau| at most for steps across the support's normal of length `tangent`.
@@ -55,6 +57,7 @@ class FingerCore {
   /// The core's largest radius of curvature at normals whose |A N| is at least this, m.
   double largest_radius(double least_length_m) const;
   double longest_m() const { return longest_m_; }
+  double width_m() const { return middle_m_; }  ///< the second longest axis
   const Vec3& centre() const { return centre_; }
   /// Unit, along the core's longest axis.
   const Vec3& long_axis() const { return long_axis_; }
@@ -74,7 +77,7 @@ class FingerCore {
   Mat3 rotation_;
   bool turns_ = true;
   double ball_m_ = 0.0, lever_m_ = 0.0, reach_m_ = 0.0;
-  double longest_m_ = 0.0, shortest_m_ = 0.0, sharpest_m_ = 0.0;
+  double longest_m_ = 0.0, middle_m_ = 0.0, shortest_m_ = 0.0, sharpest_m_ = 0.0;
   double flattest_core_m_ = 0.0;
   double squares_m2_ = 0.0;  ///< sum of the squared axes
   double pair2_m4_ = 0.0;    ///< square of the product of the two longest

@@ -7,6 +7,7 @@
 #include "core/mesh/polygon_mesh.h"
 
 #include <filesystem>
+#include <string_view>
 
 namespace tangent {
 
@@ -20,7 +21,8 @@ Result<PolygonMesh> read_mesh(const std::filesystem::path& path, double metres_p
 
 /// Writes OBJ, positions divided by `metres_per_unit`, numbers so that a double reads back exactly (with a
 /// unit other than 1 where some double times the unit gives the position; generated meshes: always in mm).
-/// Atomic: a temporary file beside the target, then a rename.
-Status write_obj(const PolygonMesh& mesh, const std::filesystem::path& path, double metres_per_unit);
+/// `comment`: one line, the file's first. Atomic: a temporary file beside the target, then a rename.
+Status write_obj(const PolygonMesh& mesh, const std::filesystem::path& path, double metres_per_unit,
+                 std::string_view comment = {});
 
 }  // namespace tangent

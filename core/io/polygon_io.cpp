@@ -93,7 +93,7 @@ class PolylineReader {
       const auto index = static_cast<std::size_t>(*value > 0.0 ? *value - 1.0 : count + *value);
       if (first && !chain_.empty() && chain_.back() != index)
         return fail("a second polyline that does not go on where the first ends", at_line(name_, number),
-                    "give one polyline a file");
+                    "write each polyline to a file of its own");
       if (!first || chain_.empty()) chain_.push_back(index);
       first = false;
     }

@@ -1,18 +1,19 @@
 #include "core/io/preset_file.h"
 
 #include "core/base/float_state.h"
-#include "core/base/text.h"
 #include "core/io/atomic_file.h"
+#include "core/io/evidence_toml.h"
 #include "core/io/file_format.h"
 #include "core/io/input_file.h"
+#include "core/io/preset_values.h"
 #include "core/io/rendering_condition.h"
 #include "core/io/toml_file.h"
+#include "core/io/toml_text.h"
 #include "core/preset/schema.h"
 
 #include <algorithm>
 #include <array>
 #include <optional>
-#include <sstream>
 
 namespace tangent {
 namespace {
@@ -40,30 +41,21 @@ constexpr std::array<AboutNumber, 2> kAboutNumbers{{
     {"longest_side_m", &PresetAbout::longest_side_m},
 }};
 constexpr std::string_view kAbout = "about";
-constexpr std::string_view kMeasured = "measured";
+constexpr std::string_view kMeasured = "measured", kAlsoMeasured = "also_measured";
 constexpr std::string_view kCondition = "condition";
 
-constexpr std::array<MigrationStep, 1> kSteps{only_number};
-constexpr FileFormats kFormats{"preset", kSteps};
-
-std::string_view type_name(const toml::node& node) {
-  switch (node.type()) {
-    case toml::node_type::table:
-      return "a table";
-    case toml::node_type::array:
-      return "an array";
-    case toml::node_type::string:
-      return "text";
-    case toml::node_type::integer:
-      return "a whole number";
-    case toml::node_type::floating_point:
-      return "a number with a fraction";
-    case toml::node_type::boolean:
-      return "true or false";
-    default:
-      return "a date or time";
-  }
+/// Format 1 had free keys in [about.measured].
+void rename_measured(toml::table& root) {
+  toml::table* about = root[kAbout].as_table();
+  if (about == nullptr || !about->contains(kMeasured) || about->contains(kAlsoMeasured)) return;
+  const auto found = about->find(kMeasured);
+  const toml::key name(kAlsoMeasured, toml::source_region(found->first.source()));
+  about->insert_or_assign(name, std::move(found->second));
+  about->erase(kMeasured);
 }
+
+constexpr std::array<MigrationStep, 2> kSteps{only_number, rename_measured};
+constexpr FileFormats kFormats{"preset", kSteps};
 
 /// Reads one file; keeps its name for the messages.
 class PresetReader {
@@ -84,6 +76,8 @@ class PresetReader {
     return name_ + ":" + std::to_string(region.begin.line) + (key.empty() ? "" : " ") + std::string(key);
   }
 
+  std::string line(const toml::key& key) const { return where(key.source(), {}); }
+
   Status read_table(const toml::key& key, const toml::node& node) {
     std::vector<std::string_view> tables{kAbout};
     for (const PresetTable& known : preset_tables()) tables.push_back(known.name);
@@ -97,7 +91,8 @@ class PresetReader {
                   "write the table [" + std::string(key.str()) + "]");
     }
     for (const auto& [inner, value] : *table) {
-      const Status status = key == kAbout ? read_about(inner, value) : read_value(key.str(), inner, value);
+      const Status status = key == kAbout ? read_about(inner, value)
+                                          : read_preset_value(key.str(), inner, value, line(inner), file_.preset);
       if (!status) return status;
     }
     return {};
@@ -107,7 +102,7 @@ class PresetReader {
     condition_ = node.is_string() ? find_condition(node.as_string()->get()) : nullptr;
     condition_where_ = where(key.source(), kCondition);
     if (condition_ != nullptr) return {};
-    return fail(node.is_string() ? "\"" + node.as_string()->get() + "\" is no rendering condition"
+    return fail(node.is_string() ? "\"" + node.as_string()->get() + "\" is not a rendering condition"
                                  : "is " + std::string(type_name(node)),
                 condition_where_, "allowed: " + choices_text(kConditionNames));
   }
@@ -128,44 +123,10 @@ class PresetReader {
     return {};
   }
 
-  Status read_value(std::string_view table, const toml::key& key, const toml::node& node) {
-    const std::string full = std::string(table) + "." + std::string(key.str());
-    const PresetKey* row = find_preset_key(table, key.str());
-    if (row == nullptr) {
-      std::vector<std::string_view> known;
-      for (const PresetKey& k : preset_keys()) {
-        if (k.table == table) known.push_back(k.key);
-      }
-      return fail("unknown key", where(key.source(), full), "allowed: " + choices_text(known));
-    }
-    const auto wrong_type = [&] {
-      return fail("is " + std::string(type_name(node)), where(key.source(), full), "allowed: " + row->allowed());
-    };
-    double value = 0.0;
-    std::string shown;
-    if (row->kind == KeyKind::choice) {
-      if (!node.is_string()) return wrong_type();
-      value = row->choice_index(node.as_string()->get());
-      shown = "\"" + node.as_string()->get() + "\"";
-    } else if (node.is_integer()) {
-      value = static_cast<double>(node.as_integer()->get());
-      append_double(shown, value);
-    } else if (node.is_floating_point() && row->kind == KeyKind::number) {
-      value = node.as_floating_point()->get();
-      append_double(shown, value);
-    } else {
-      return wrong_type();
-    }
-    if (!row->allows(value)) {
-      return fail(shown + " is out of range", where(key.source(), full), "allowed: " + row->allowed());
-    }
-    row->set(file_.preset, value);
-    return {};
-  }
-
   Status read_about(const toml::key& key, const toml::node& node) {
     const std::string full = "about." + std::string(key.str());
     if (key == kMeasured) return read_measured(key, node);
+    if (key == kAlsoMeasured) return read_also_measured(key, node);
     for (const AboutText& known : kAboutTexts) {
       if (key != known.key) continue;
       if (!node.is_string()) {
@@ -178,24 +139,36 @@ class PresetReader {
       if (key != known.key) continue;
       const std::optional<double> value = node.is_number() ? node.value<double>() : std::nullopt;
       if (!value || !(*value > 0.0 && *value < 1e12))
-        return fail("is no length", where(key.source(), full), "allowed: a number above 0");
+        return fail("is not a length", where(key.source(), full), "allowed: a number above 0");
       file_.about.*known.field = *value;
       return {};
     }
     std::vector<std::string_view> names;
-    names.reserve(std::size(kAboutTexts) + std::size(kAboutNumbers) + 1);
+    names.reserve(std::size(kAboutTexts) + std::size(kAboutNumbers) + 2);
     for (const AboutText& known : kAboutTexts) names.push_back(known.key);
     for (const AboutNumber& known : kAboutNumbers) names.push_back(known.key);
-    names.push_back("the table measured");
+    names.push_back("the tables measured");
+    names.push_back("also_measured");
     return fail("unknown key", where(key.source(), full), "allowed: " + choices_text(names));
   }
 
   Status read_measured(const toml::key& key, const toml::node& node) {
     const toml::table* table = node.as_table();
-    if (table == nullptr) {
-      return fail("is " + std::string(type_name(node)), where(key.source(), "about.measured"),
-                  "write the table [about.measured]");
-    }
+    if (table == nullptr) return no_table(key, node);
+    Result<PresetEvidence> evidence = read_evidence(*table, name_);
+    if (!evidence) return tl::unexpected(evidence.error());
+    file_.about.measured = std::move(*evidence);
+    return {};
+  }
+
+  Status no_table(const toml::key& key, const toml::node& node) const {
+    const std::string full = "about." + std::string(key.str());
+    return fail("is " + std::string(type_name(node)), where(key.source(), full), "write the table [" + full + "]");
+  }
+
+  Status read_also_measured(const toml::key& key, const toml::node& node) {
+    const toml::table* table = node.as_table();
+    if (table == nullptr) return no_table(key, node);
     // The library sorts keys by name; we restore the order of the file.
     std::vector<std::pair<const toml::key*, const toml::node*>> entries;
     for (const auto& [inner, value] : *table) entries.emplace_back(&inner, &value);
@@ -205,14 +178,15 @@ class PresetReader {
       return x.line != y.line ? x.line < y.line : x.column < y.column;
     });
     for (const auto& [inner, value] : entries) {
-      auto& measured = file_.about.measured;
+      auto& measured = file_.about.also_measured;
       if (value->is_string()) {
         measured.emplace_back(inner->str(), value->as_string()->get());
       } else if (value->is_number()) {
         measured.emplace_back(inner->str(), *value->value<double>());
       } else {
         return fail("is " + std::string(type_name(*value)),
-                    where(inner->source(), "about.measured." + std::string(inner->str())), "allowed: a number or text");
+                    where(inner->source(), "about.also_measured." + std::string(inner->str())),
+                    "allowed: a number or text");
       }
     }
     return {};
@@ -224,31 +198,6 @@ class PresetReader {
   std::string condition_where_;
 };
 
-/// Text as a TOML basic string, by the library's own rules for escapes.
-std::string quoted(const std::string& text) {
-  std::ostringstream out;
-  // always a basic string, never a literal or multi-line one
-  out << toml::toml_formatter{toml::value<std::string>(text),
-                              toml::toml_formatter::default_flags & ~(toml::format_flags::allow_literal_strings |
-                                                                      toml::format_flags::allow_multi_line_strings)};
-  return out.str();
-}
-
-std::string quoted_key(const std::string& key) {
-  const bool bare = !key.empty() && std::all_of(key.begin(), key.end(), [](unsigned char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
-  });
-  return bare ? key : quoted(key);
-}
-
-/// A TOML float: always with a point or an exponent.
-std::string float_text(double value) {
-  std::string text;
-  append_double(text, value);
-  if (text.find_first_of(".en") == std::string::npos) text += ".0";
-  return text;
-}
-
 void format_about(const PresetAbout& about, std::string& text) {
   text += "[about]\n";
   for (const AboutText& known : kAboutTexts) {
@@ -258,24 +207,14 @@ void format_about(const PresetAbout& about, std::string& text) {
   for (const AboutNumber& known : kAboutNumbers) {
     if (about.*known.field > 0.0) text.append(known.key).append(" = ").append(float_text(about.*known.field)) += '\n';
   }
-  if (about.measured.empty()) return;
-  text += "\n[about.measured]\n";
-  for (const auto& [key, value] : about.measured) {
+  if (about.measured) text += evidence_text(*about.measured);
+  if (about.also_measured.empty()) return;
+  text += "\n[about.also_measured]\n";
+  for (const auto& [key, value] : about.also_measured) {
     text += quoted_key(key) + " = ";
     text += std::holds_alternative<double>(value) ? float_text(std::get<double>(value))
                                                   : quoted(std::get<std::string>(value));
     text += "\n";
-  }
-}
-
-std::string value_literal(const PresetKey& row, double value) {
-  switch (row.kind) {
-    case KeyKind::choice:
-      return "\"" + row.value_text(value) + "\"";
-    case KeyKind::integer:
-      return row.value_text(value);
-    default:
-      return float_text(value);
   }
 }
 

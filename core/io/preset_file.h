@@ -6,9 +6,11 @@
 #pragma once
 
 #include "core/base/result.h"
+#include "core/io/preset_evidence.h"
 #include "core/preset/preset.h"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -26,11 +28,12 @@ struct PresetAbout {
   std::string mesh_hash;  ///< ContactMesh::content_hash(), 16 hex digits
   std::string device;
   std::string note;
-  double metres_per_unit = 0.0;  ///< of the mesh's file; 0: not said
-  double longest_side_m = 0.0;   ///< of the mesh; 0: not said
-  /// [about.measured], in the order of the file: free keys, numbers or text, for instance mean_iterations,
-  /// max_error_um and the command that measured them.
-  std::vector<std::pair<std::string, std::variant<double, std::string>>> measured;
+  double metres_per_unit = 0.0;            ///< of the mesh's file; 0: not said
+  double longest_side_m = 0.0;             ///< of the mesh; 0: not said
+  std::optional<PresetEvidence> measured;  ///< [about.measured]: what can be measured again
+  /// [about.also_measured], in the order of the file: free keys, numbers or text, for people; nobody checks them. In
+  /// files up to format 1 all that was measured, as [about.measured].
+  std::vector<std::pair<std::string, std::variant<double, std::string>>> also_measured;
   bool operator==(const PresetAbout&) const = default;
 };
 

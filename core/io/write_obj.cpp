@@ -36,10 +36,12 @@ void append_vector(std::string& line, const char* keyword, const Vec3& v) {
 
 }  // namespace
 
-Status write_obj(const PolygonMesh& mesh, const std::filesystem::path& path, double metres_per_unit) {
+Status write_obj(const PolygonMesh& mesh, const std::filesystem::path& path, double metres_per_unit,
+                 std::string_view comment) {
   Result<AtomicFile> file = AtomicFile::create(path);
   if (!file) return tl::unexpected<Error>(file.error());
   std::string line;  // write errors are reported by commit
+  if (!comment.empty()) file->write("# " + std::string(comment) + "\n");
   for (const Vec3& p : mesh.positions) {
     append_vector(line, "v",
                   {in_unit(p.x, metres_per_unit), in_unit(p.y, metres_per_unit), in_unit(p.z, metres_per_unit)});

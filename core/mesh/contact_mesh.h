@@ -37,6 +37,7 @@ struct ContactMeshOptions {
   /// Turns closed parts over that are inside out (inside_out.h). Of their triangles corner 1 is the file's third corner
   /// and corner 2 its second.
   bool turn_over = false;
+  bool operator==(const ContactMeshOptions&) const = default;
 };
 
 enum class EdgeKind : std::uint8_t {
@@ -122,6 +123,19 @@ class ContactMesh {
   bool interior(std::uint32_t t) const { return (crease_bits_[t] & kFeatureCornerBits) == 0; }
   /// True when a crease or boundary edge ends at this corner (also through a neighbour's edge).
   bool feature_corner(std::uint32_t t, std::uint32_t corner) const { return (crease_bits_[t] >> (3 + corner)) & 1u; }
+
+  /// Asks the processor for what is kept of a triangle, so that it is on its way when it is read.
+  void prefetch(std::uint32_t t) const {
+    __builtin_prefetch(&vertices_[t]);
+    __builtin_prefetch(&normal_index_[t]);
+    __builtin_prefetch(&links_[t]);
+    __builtin_prefetch(&crease_bits_[t]);
+  }
+  /// The same of a corner's position and normal. Reads what prefetch asked for.
+  void prefetch(std::uint32_t t, std::uint32_t corner) const {
+    __builtin_prefetch(&positions_[vertices_[t][corner]]);
+    __builtin_prefetch(&normals_[normal_index_[t][corner]]);
+  }
 
   /// Its flat parts of many slivers.
   const FlatRegions& flat_regions() const { return flat_regions_; }

@@ -39,12 +39,14 @@ inline void find_smooth(const ContactScene& scene, StepCache& cache, const TickC
   const Vec3 moved = finger_way(tick.pose.position, tick.t_s, tick.state).moved;
   ContactContext context{cache.patches, settings, tick.finger,        tick.local, tick.origin,
                          tick.trace,    0,        finger_way_m(tick), moved};
+  cache.patches.expect_around(tick.state.plane.triangle);
   const bool sample_is_kept = cache.holds(tick.state.plane, settings.normal_form);
   find_smooth_contact(context, scene.search(), sample_is_kept, tick.state, cache.smooth,
                       all ? &cache.touched : nullptr);
   cache.form = settings.normal_form;
   const IterationResult& contact = cache.smooth.contact;
   tick.state.plane = contact.plane;
+  cache.patches.expect_around(contact.plane.triangle);
   if (cache.smooth.converged()) {
     const double depth = contact.contact.penetration_m;
     keep_converged_plane(tick, tick.state.unentered ? std::min(0.0, depth) : depth, plane);

@@ -133,12 +133,18 @@ Preset with_best_gain(const ScenePtr& scene, Preset preset, std::span<const Tick
 
 RunDifference difference_from_own(const ScenePtr& scene, const Preset& preset, std::span<const TickInput> poses,
                                   const Stop& stop, std::uint64_t& lost) {
-  const double tolerance = std::min(converged_tolerance_m(*scene, preset.finger), 0.1 * preset.solver.tolerance_m);
-  Stepper stepper(scene), exact(scene);
-  TickState state;
   RunComparison comparison;
   comparison.reserve(poses.size());
   lost = 0;
+  add_difference_from_own(scene, preset, poses, stop, comparison, lost);
+  return comparison.result();
+}
+
+void add_difference_from_own(const ScenePtr& scene, const Preset& preset, std::span<const TickInput> poses,
+                             const Stop& stop, RunComparison& comparison, std::uint64_t& lost) {
+  const double tolerance = std::min(converged_tolerance_m(*scene, preset.finger), 0.1 * preset.solver.tolerance_m);
+  Stepper stepper(scene), exact(scene);
+  TickState state;
   for (std::size_t i = 0; i < poses.size(); ++i) {
     if (i % kStopStride == 0 && stop()) break;
     const TickOutput output = stepper.step(preset, poses[i], state);
@@ -154,7 +160,6 @@ RunDifference difference_from_own(const ScenePtr& scene, const Preset& preset, s
       ++lost;
     }
   }
-  return comparison.result();
 }
 
 std::optional<SceneReport> measure_scene(const std::string& suite, const BenchCase& bench_case, const ScenePtr& scene,

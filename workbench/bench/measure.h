@@ -56,5 +56,8 @@ Preset with_best_gain(const ScenePtr& scene, Preset preset, std::span<const Tick
 /// ticks from which that led to another place.
 RunDifference difference_from_own(const ScenePtr& scene, const Preset& preset, std::span<const TickInput> poses,
                                   const Stop& stop, std::uint64_t& lost);
+/// The same, added to what was compared before.
+void add_difference_from_own(const ScenePtr& scene, const Preset& preset, std::span<const TickInput> poses,
+                             const Stop& stop, RunComparison& comparison, std::uint64_t& lost);
 
 }  // namespace tangent::bench

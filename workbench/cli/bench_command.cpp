@@ -122,7 +122,9 @@ Status write_results(const BenchOptions& options, const BenchReport& report) {
     if (Status status = write_file_atomic(options.json, report_json(report).dump(2) + "\n"); !status) return status;
   }
   if (options.plot.empty() || report.work_precision.empty()) return {};
-  return write_file_atomic(options.plot, work_precision_svg(report.work_precision));
+  const std::string command = "workbench bench --ticks " + std::to_string(options.measure.ticks) + " --repeats " +
+                              std::to_string(options.measure.repeats) + " --plot " + shell_word(options.plot.string());
+  return write_drawing(work_precision_figure(report.work_precision), {.command = command}, options.plot);
 }
 
 Status run_bench(BenchOptions options, bool& interrupted) {
@@ -176,6 +178,8 @@ void add_bench_command(CLI::App& app, CommandResult& result) {
   on_run(*command, [options, &result] {
     if (!options->json.empty() && options->json == options->plot)
       refuse_option("--plot", "names the same file as --json");
+    if (!options->plot.empty() && options->plot.extension() != ".svg" && options->plot.extension() != ".pdf")
+      refuse_option("--plot", "ends in neither .svg nor .pdf");
     bool interrupted = false;
     const Status status = run_bench(*options, interrupted);
     if (!status) print_message("bench", status.error().message());

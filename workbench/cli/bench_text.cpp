@@ -64,7 +64,7 @@ std::string strokes_text(const BenchReport& report) {
     ++objects;
   }
   if (objects == 0) return {};
-  return format("strokes suite: paper takes %.2f planes a tick on average over %d objects, %.2f at most\n",
+  return format("strokes suite: paper takes %.2f iterations per tick on average over %d objects, %.2f at most\n",
                 sum / objects, objects, most);
 }
 

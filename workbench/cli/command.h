@@ -13,8 +13,9 @@ namespace tangent {
 /// Exit codes of the program.
 enum ExitCode : int {
   kDone = 0,
-  kFailed = 1,  ///< the work failed; standard error says what, where and what to do
-  kUsage = 2,   ///< invalid arguments
+  kFailed = 1,    ///< the work failed; standard error says what, where and what to do
+  kUsage = 2,     ///< invalid arguments
+  kCantTell = 3,  ///< of check alone: a preset can't be checked
 };
 
 struct CommandResult {
@@ -32,12 +33,19 @@ void add_devices_command(CLI::App& app, CommandResult& result);
 void add_monitor_command(CLI::App& app, CommandResult& result);
 void add_record_command(CLI::App& app, CommandResult& result);
 void add_replay_command(CLI::App& app, CommandResult& result);
+void add_compare_command(CLI::App& app, CommandResult& result);
+void add_explain_command(CLI::App& app, CommandResult& result);
 void add_export_command(CLI::App& app, CommandResult& result);
+void add_check_command(CLI::App& app, CommandResult& result);
+void add_sweep_command(CLI::App& app, CommandResult& result);
+void add_report_command(CLI::App& app, CommandResult& result);  ///< without pictures: report_command.h
 
 /// What the subcommands of workbench-window do (window/), which `workbench` lists, too.
 inline constexpr const char* kGuiCommandText = "Open the window";
 inline constexpr const char* kShotCommandText =
     "Write a view of the window or of the 3D scene as PNG; needs no display";
+
+inline constexpr const char* kReportCommandText = "Recordings as one page of HTML, for a paper or a colleague";
 
 using AddCommand = void (*)(CLI::App&, CommandResult&);
 

@@ -7,12 +7,12 @@
 #include "core/lab/measure/decimate.h"
 #include "core/lab/measure/perception.h"
 #include "workbench/cli/command.h"
-#include "workbench/cli/exploration_poses.h"
 #include "workbench/cli/interrupt.h"
 #include "workbench/cli/mesh_options.h"
 #include "workbench/cli/messages.h"
 #include "workbench/cli/option.h"
 #include "workbench/cli/text_format.h"
+#include "workbench/session/exploration_poses.h"
 
 #include <nlohmann/json.hpp>
 

@@ -35,7 +35,6 @@ std::vector<std::string> names_in(const std::string& text) {
 Status run_export(ExportCommandOptions& options) {
   const InterruptGuard guard;
   options.wanted.cancelled = [] { return InterruptGuard::requested(); };
-  options.wanted.channels = names_in(options.channels);
   std::error_code error;
   if (std::filesystem::equivalent(options.recording, options.out, error))
     return fail("would be written over its own source", options.out.string(), "choose another name with --out");
@@ -61,6 +60,12 @@ void add_export_command(CLI::App& app, CommandResult& result) {
   add_text_option(*command, "--channels", options->channels,
                   "Columns, separated by commas (default: those of ticks.csv, all in an MCAP)", "a,b");
   on_run(*command, [options, &result] {
+    options->wanted.channels = names_in(options->channels);
+    if (const Status usage = check_export(options->out, options->wanted); !usage) {
+      print_message("export", usage.error().message());
+      result.exit_code = kUsage;
+      return;
+    }
     const Status status = run_export(*options);
     if (!status) print_message("export", status.error().message());
     result.exit_code = status ? kDone : kFailed;

@@ -29,7 +29,7 @@ Status write_figures(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error || !std::filesystem::is_directory(folder))
-    return fail("is no folder that can be made", folder.string(), "name another with --out");
+    return fail("this folder can't be made", folder.string(), "name another with --out");
   for (const Figure& figure :
        {contact_location_figure(), iterations_figure(), patches_figure(), local_centre_figure(),
         conditions_figure(true), conditions_figure(false), curvature_figure(), inner_corner_figure()}) {

@@ -22,11 +22,12 @@ std::filesystem::path window_program() {
 
 std::optional<int> hand_over_to_window(int argc, char** argv) {
   const std::string command = argc > 1 ? argv[1] : "";
-  if (!command.empty() && command != "gui" && command != "shot") return std::nullopt;
+  const bool needs_window = command == "gui" || command == "shot";
+  if (!command.empty() && !needs_window && command != "report") return std::nullopt;
   const std::filesystem::path program = window_program();
   ::execv(program.c_str(), argv);
   const int error = errno;
-  if (command.empty() && error == ENOENT) return std::nullopt;
+  if (!needs_window && error == ENOENT) return std::nullopt;
   print_message(command, program.string() + ": can't be started: " + std::strerror(error) +
                              "; the window and its pictures are a program of their own, which belongs beside this one");
   return kFailed;

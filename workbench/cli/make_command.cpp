@@ -9,6 +9,7 @@
 #include "workbench/cli/messages.h"
 #include "workbench/cli/option.h"
 #include "workbench/cli/text_format.h"
+#include "workbench/evidence/made_mesh.h"
 
 #include <array>
 #include <cstdio>
@@ -62,7 +63,9 @@ int run_make(const MakeOptions& options) {
   const Result<PolygonMesh> mesh = generate_mesh(options.object, options.generate);
   if (!mesh) return refuse(mesh.error().message());
   return written(
-      options, write_obj(*mesh, options.file, options.metres_per_unit),
+      options,
+      write_obj(*mesh, options.file, options.metres_per_unit,
+                "workbench " + made_text({options.object, options.generate})),
       format("%s, %zu vertices, %zu faces", options.object.c_str(), mesh->positions.size(), mesh->face_count()));
 }
 

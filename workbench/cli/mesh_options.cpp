@@ -13,16 +13,12 @@ namespace {
 
 constexpr std::array<std::string_view, 3> kNormals{"auto", "file", "computed"};  // order of NormalSource
 
-void add_reading_options(CLI::App& app, MeshOptions& options);
-
 }  // namespace
 
 void add_unit_option(CLI::App& app, double& metres_per_unit, const std::string& doc) {
   add_choice_option(app, "--unit", kFileUnitNames, doc,
                     [&](int unit) { metres_per_unit = kFileUnits[static_cast<std::size_t>(unit)].metres; });
 }
-
-namespace {
 
 void add_reading_options(CLI::App& app, MeshOptions& options) {
   add_unit_option(app, options.metres_per_unit, "Unit of the file's coordinates (default mm)");
@@ -38,8 +34,6 @@ void add_reading_options(CLI::App& app, MeshOptions& options) {
   add_flag(app, "--turn-over", options.build.turn_over, "Turn closed parts over that are inside out");
 }
 
-}  // namespace
-
 void add_mesh_options(CLI::App& app, MeshOptions& options, bool mesh_required) {
   add_text_option(
       app, "MESH", options.file,
@@ -49,9 +43,8 @@ void add_mesh_options(CLI::App& app, MeshOptions& options, bool mesh_required) {
   add_reading_options(app, options);
 }
 
-void add_replaced_mesh_options(CLI::App& app, MeshOptions& options) {
-  add_text_option(app, "--mesh", options.file, "Another mesh, or the recorded one where it was recorded without it",
-                  "MESH");
+void add_replaced_mesh_options(CLI::App& app, MeshOptions& options, const std::string& doc) {
+  add_text_option(app, "--mesh", options.file, doc, "MESH");
   add_reading_options(app, options);
 }
 

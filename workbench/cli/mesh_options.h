@@ -24,7 +24,12 @@ struct MeshOptions {
 void add_mesh_options(CLI::App& app, MeshOptions& options, bool mesh_required = true);
 
 /// The same with the mesh as an option, `--mesh F`, in place of a recorded one.
-void add_replaced_mesh_options(CLI::App& app, MeshOptions& options);
+void add_replaced_mesh_options(
+    CLI::App& app, MeshOptions& options,
+    const std::string& doc = "Another mesh, or the recorded one where it was recorded without it");
+
+/// How a mesh is read, without the mesh itself: --unit, --fit-mm, --normals, --crease-deg, --turn-over.
+void add_reading_options(CLI::App& app, MeshOptions& options);
 
 /// Option `--unit mm|cm|m|in` alone.
 void add_unit_option(CLI::App& app, double& metres_per_unit, const std::string& doc);

@@ -7,10 +7,12 @@
 #include "workbench/cli/monitor_text.h"
 #include "workbench/cli/option.h"
 #include "workbench/cli/text_format.h"
+#include "workbench/recording/session_recorder.h"
 #include "workbench/session/maestro_setups.h"
 #include "workbench/session/raw_terminal.h"
 
 #include <chrono>
+#include <csignal>
 #include <cstdio>
 #include <memory>
 #include <thread>
@@ -26,6 +28,7 @@ struct MonitorOptions {
   double seconds = 0.0;  ///< 0: until q or Ctrl-C
   double servo_hz = 1000.0;
   InjectedFault inject = InjectedFault::none;
+  std::filesystem::path record;  ///< empty: nothing is recorded
   bool inject_display = false, stay_stopped = false, arm = false, without_timeout = false;
 };
 
@@ -77,7 +80,18 @@ bool handle(char key, Session& session) {
   return true;
 }
 
-void watch(Session& session, const MonitorOptions& options, const FaultInjection& fault) {
+/// Says what stands in the way of writing, once each time.
+void look_after(SessionRecorder& recorder, std::string& told) {
+  recorder.poll();
+  const std::string now = recorder.status().trouble;
+  if (now == told) return;
+  told = now;
+  print_message("monitor", now.empty() ? "the recording goes on"
+                                       : "not recorded at present, and tried again every second: " + now);
+}
+
+/// `recorder`: null: none.
+void watch(Session& session, const MonitorOptions& options, const FaultInjection& fault, SessionRecorder* recorder) {
   using Clock = std::chrono::steady_clock;
   const InterruptGuard guard;
   const Keys keys;
@@ -86,9 +100,11 @@ void watch(Session& session, const MonitorOptions& options, const FaultInjection
     std::puts("a arm   s stop   h home   f fit the scene to the device   c clutch, on and off   r report   q quit");
   const auto began = Clock::now();
   auto next_line = began;
+  std::string told;
   bool injected = fault.kind == InjectedFault::none;
   for (bool going = true; going && !InterruptGuard::requested();) {
     session.poll();
+    if (recorder != nullptr) look_after(*recorder, told);
     const auto now = Clock::now();
     const double elapsed = std::chrono::duration<double>(now - began).count();
     if (!injected && session.status().servo.gate_state == GateState::armed) {
@@ -145,10 +161,24 @@ Status run_monitor(const MonitorOptions& options) {
                                    "time-out), so nothing is armed; --without-timeout arms nevertheless");
   }
   say_what_is_capped(**session);
+  Result<std::unique_ptr<SessionRecorder>> recorder;
+  if (!options.record.empty()) {
+    std::signal(SIGXFSZ, SIG_IGN);  // a limit on file sizes is an error of the write, like a full disk
+    recorder = SessionRecorder::start(
+        **session, options.record,
+        {{std::make_shared<const PolygonMesh>(builtin_mesh()), {}, nullptr}, "built-in sphere", true});
+    if (!recorder) return tl::unexpected(recorder.error());
+  }
   if (const Status ok = (*session)->start(); !ok) return ok;
-  watch(**session, options, fault);
+  watch(**session, options, fault, recorder->get());
   const Status ended = (*session)->shut_down();
+  const Status written = *recorder ? (*recorder)->finish() : Status{};
   std::fputs(monitor_report(**session).c_str(), stdout);
+  if (*recorder)
+    std::printf("Recorded: %llu ticks, %llu missing, in %s\n",
+                static_cast<unsigned long long>((*recorder)->status().written),
+                static_cast<unsigned long long>((*recorder)->status().missing), options.record.c_str());
+  if (!written) return written;
   return ended ? (*session)->packet_log() : ended;
 }
 
@@ -160,6 +190,8 @@ void add_monitor_command(CLI::App& app, CommandResult& result) {
   add_device_options(*command, options->devices);
   add_number_option(*command, "--seconds", {.min = 0, .max = 86400, .unit = "s"},
                     "How long (default: until q or Ctrl-C)", [options](double v) { options->seconds = v; });
+  add_text_option(*command, "--record", options->record,
+                  "Record every tick into this file; one that is there is not written over", "F.sqlite");
   add_number_option(*command, "--servo-hz", {.min = kSlowestServoHz, .max = kFastestServoHz, .unit = "Hz"},
                     "Rate of the servo (default 1000)", [options](double v) { options->servo_hz = v; });
   add_choice_option(

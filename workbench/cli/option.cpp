@@ -28,9 +28,19 @@ void add_text_option(CLI::App& app, const std::string& name, std::filesystem::pa
   app.add_option(name, value, doc)->required(needed == Needed::yes)->type_name(shown_as);
 }
 
+void add_paths_option(CLI::App& app, const std::string& name, std::vector<std::filesystem::path>& paths,
+                      const std::string& doc, const std::string& shown_as) {
+  app.add_option(name, paths, doc)->type_name(shown_as)->required();
+}
+
 void add_repeated_option(CLI::App& app, const std::string& name, const std::string& doc, const std::string& shown_as,
                          const std::function<void(const std::vector<std::string>&)>& set) {
   app.add_option_function<std::vector<std::string>>(name, set, doc)->type_name(shown_as)->allow_extra_args(false);
+}
+
+void add_list_option(CLI::App& app, const std::string& name, std::vector<std::string>& values, const std::string& doc,
+                     const std::string& shown_as) {
+  app.add_option(name, values, doc)->type_name(shown_as);
 }
 
 void add_flag(CLI::App& app, const std::string& name, bool& value, const std::string& doc) {

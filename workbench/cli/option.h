@@ -32,9 +32,17 @@ void add_text_option(CLI::App& app, const std::string& name, std::string& value,
 void add_text_option(CLI::App& app, const std::string& name, std::filesystem::path& value, const std::string& doc,
                      const std::string& shown_as, Needed needed = Needed::no);
 
+/// One path or several, known by their position.
+void add_paths_option(CLI::App& app, const std::string& name, std::vector<std::filesystem::path>& paths,
+                      const std::string& doc, const std::string& shown_as);
+
 /// One that may be given again and again, a value each time; `set` gets them all.
 void add_repeated_option(CLI::App& app, const std::string& name, const std::string& doc, const std::string& shown_as,
                          const std::function<void(const std::vector<std::string>&)>& set);
+
+/// One that takes several values in a row, and may be given again; "MESH" for those that are known by their position.
+void add_list_option(CLI::App& app, const std::string& name, std::vector<std::string>& values, const std::string& doc,
+                     const std::string& shown_as);
 
 void add_flag(CLI::App& app, const std::string& name, bool& value, const std::string& doc);
 

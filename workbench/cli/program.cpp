@@ -22,7 +22,8 @@ void add_window_commands(CLI::App& app, CommandResult&) {
 constexpr AddCommand kCommands[]{add_window_commands, add_solve_command,   add_audit_command,   add_make_command,
                                  add_bench_command,   add_tune_command,    add_figures_command, add_decimate_command,
                                  add_devices_command, add_monitor_command, add_record_command,  add_replay_command,
-                                 add_export_command};
+                                 add_compare_command, add_explain_command, add_export_command,  add_check_command,
+                                 add_sweep_command,   add_report_command};
 
 std::string chosen_command(const CLI::App& app) {
   const std::vector<CLI::App*> chosen = app.get_subcommands();

@@ -1,13 +1,12 @@
 // workbench replay: computes a recording again. As it was: the same bits, or the first that differ. Under another
 // preset, method or mesh: what that changes.
 #include "core/io/atomic_file.h"
-#include "core/preset/schema.h"
 #include "workbench/cli/command.h"
 #include "workbench/cli/interrupt.h"
 #include "workbench/cli/mesh_options.h"
 #include "workbench/cli/messages.h"
 #include "workbench/cli/option.h"
-#include "workbench/cli/preset_options.h"
+#include "workbench/cli/other_preset.h"
 #include "workbench/cli/progress.h"
 #include "workbench/cli/replay_report.h"
 #include "workbench/cli/stopwatch.h"
@@ -24,12 +23,10 @@ namespace tangent {
 namespace {
 
 struct ReplayCommandOptions {
-  std::filesystem::path recording, json;
+  std::filesystem::path recording, json, figures;
   MeshOptions mesh;
   PresetOptions preset;
   bool every_second = false;
-
-  bool compares() const { return !preset.file.empty() || preset.condition >= 0 || !preset.overrides.empty(); }
 };
 
 Status write_json(const std::filesystem::path& path, const nlohmann::ordered_json& json) {
@@ -69,20 +66,24 @@ Result<int> replay_as_it_was(const ReplayCommandOptions& options) {
 
 // --- Under something else ------------------------------------------------------------------------------
 
+/// Curves of the recording, and of its motion under the other values.
+Status draw_curves(const ReplayCommandOptions& options, const std::shared_ptr<const ContactScene>& mesh) {
+  auto other = other_preset(options.preset);
+  if (!other) return tl::unexpected(other.error());
+  CompareRecordingsOptions wanted;
+  wanted.cancelled = [] { return InterruptGuard::requested(); };
+  const Result<RecordingsCompared> compared =
+      compare_under(options.recording, {std::move(*other), nullptr, mesh}, wanted);
+  if (!compared) return tl::unexpected(compared.error());
+  return write_comparison_figures(*compared, options.recording, options.figures);
+}
+
 Result<int> replay_otherwise(const ReplayCommandOptions& options) {
   CompareOptions wanted;
   wanted.cancelled = [] { return InterruptGuard::requested(); };
-  if (!options.preset.file.empty() || options.preset.condition >= 0) {
-    Result<PresetFile> preset = load_preset(options.preset);
-    if (!preset) return tl::unexpected(preset.error());
-    wanted.preset = [use = preset->preset](const Preset&) { return use; };
-  } else {
-    wanted.preset = [&options](const Preset& recorded) {
-      Preset use = recorded;
-      for (const PresetOverride& o : options.preset.overrides) o.set(use, o.value);
-      return use;
-    };
-  }
+  auto other = other_preset(options.preset);
+  if (!other) return tl::unexpected(other.error());
+  wanted.preset = *other;
   if (!options.mesh.file.empty()) {
     auto scene = load_contact_scene(options.mesh, {});
     if (!scene) return tl::unexpected(scene.error());
@@ -92,6 +93,8 @@ Result<int> replay_otherwise(const ReplayCommandOptions& options) {
   if (!comparison) return tl::unexpected(comparison.error());
   print_comparison(*comparison);
   if (Status ok = write_json(options.json, comparison_json(*comparison)); !ok) return tl::unexpected(ok.error());
+  if (!options.figures.empty() && !comparison->cancelled)
+    if (Status ok = draw_curves(options, wanted.mesh); !ok) return tl::unexpected(ok.error());
   if (comparison->cancelled) print_message("replay", "interrupted: the table is of the ticks until then");
   return comparison->cancelled ? kFailed : kDone;
 }
@@ -111,7 +114,7 @@ Result<bool> is_other_mesh(const ReplayCommandOptions& options) {
 
 Result<int> run_replay(const ReplayCommandOptions& options) {
   const InterruptGuard guard;
-  if (options.compares()) return replay_otherwise(options);
+  if (has_values(options.preset)) return replay_otherwise(options);
   const Result<bool> other = is_other_mesh(options);
   if (!other) return tl::unexpected(other.error());
   return *other ? replay_otherwise(options) : replay_as_it_was(options);
@@ -124,6 +127,8 @@ void add_replay_command(CLI::App& app, CommandResult& result) {
   auto options = std::make_shared<ReplayCommandOptions>();
   add_text_option(*command, "RECORDING", options->recording, "A recording", "F.sqlite", Needed::yes);
   add_flag(*command, "--every-second", options->every_second, "Only a tick a second, for a quick look");
+  add_text_option(*command, "--figures", options->figures,
+                  "Under other values: curves of both and their difference, as SVG and CSV", "DIR");
   add_text_option(*command, "--json", options->json, "The same report as JSON", "F.json");
   add_replaced_mesh_options(*command, options->mesh);
   add_preset_options(*command, options->preset);

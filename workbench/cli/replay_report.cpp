@@ -43,6 +43,15 @@ constexpr Row kRows[]{
     {"force above 20 Hz, RMS, N", "force_above_20hz_n", 1, [](const MotionNumbers& n) { return n.force_above_20hz_n; }},
     {"display above 20 Hz, RMS, um", "display_above_20hz_m", 1e6,
      [](const MotionNumbers& n) { return n.display_above_20hz_m; }},
+    {"force above 50 Hz, RMS, N", "force_above_50hz_n", 1, [](const MotionNumbers& n) { return n.force_above_n[0]; }},
+    {"force above 100 Hz, RMS, N", "force_above_100hz_n", 1, [](const MotionNumbers& n) { return n.force_above_n[1]; }},
+    {"force above 200 Hz, RMS, N", "force_above_200hz_n", 1, [](const MotionNumbers& n) { return n.force_above_n[2]; }},
+    {"display above 50 Hz, RMS, um", "display_above_50hz_m", 1e6,
+     [](const MotionNumbers& n) { return n.display_above_m[0]; }},
+    {"display above 100 Hz, RMS, um", "display_above_100hz_m", 1e6,
+     [](const MotionNumbers& n) { return n.display_above_m[1]; }},
+    {"display above 200 Hz, RMS, um", "display_above_200hz_m", 1e6,
+     [](const MotionNumbers& n) { return n.display_above_m[2]; }},
 };
 
 Json numbers_json(const MotionNumbers& numbers) {

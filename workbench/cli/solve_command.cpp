@@ -14,11 +14,13 @@
 #include "workbench/cli/solve_recording.h"
 #include "workbench/cli/solve_report.h"
 #include "workbench/cli/stopwatch.h"
+#include "workbench/session/csv_metadata.h"
 #include "workbench/session/two_threads.h"
 
 #include <nlohmann/json.hpp>
 
 #include <cstdio>
+#include <fstream>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -134,6 +136,25 @@ Status commit(SolveOutputs& outputs, const SolveOptions& options, const SolveRep
   return write_file_atomic(options.summary, solve_json(report).dump(2) + "\n");
 }
 
+/// The command that this process runs, as one types it.
+std::string command_of_process() {
+  std::ifstream words("/proc/self/cmdline", std::ios::binary);
+  std::string word, text = "workbench";
+  std::getline(words, word, '\0');  // the program
+  while (std::getline(words, word, '\0')) text += " " + shell_word(word);
+  return text;
+}
+
+/// Beside the ticks: what they are, and where they come from.
+Status write_origin(const SolveOptions& options, const SolveReport& report) {
+  FileOrigin origin{.preset = report.preset_name, .command = command_of_process()};
+  if (report.mesh != nullptr) {
+    origin.mesh = mesh_fact(report.mesh->name(), report.mesh->triangle_count(), report.mesh->content_hash());
+    origin.unit = unit_fact(options.mesh.metres_per_unit);
+  }
+  return write_csv_metadata(options.ticks, kTicksHeader, origin);
+}
+
 /// In 2D only a point or a sphere (circle) is a valid finger.
 Status check_shape(const ContactScene& scene, const Preset& preset) {
   const FingerShape shape = preset.finger.shape;
@@ -182,6 +203,7 @@ Status solve(const SolveOptions& options, bool& interrupted) {
   report.scene_bytes = (*scene)->memory_bytes();
   if (outputs->explanations) report.causes = outputs->explanations->counts();
   if (Status status = commit(*outputs, options, report); !status) return status;
+  if (Status status = write_origin(options, report); !status) return status;
   std::fputs(solve_text(report).c_str(), stdout);
   if (interrupted) {
     print_message("solve", "interrupted after " + std::to_string(report.statistics.ticks()) + " of " +

@@ -5,7 +5,7 @@
 #include "core/lab/gains/gain_tuning.h"
 #include "core/lab/measure/distribution.h"
 #include "workbench/cli/command.h"
-#include "workbench/cli/exploration_poses.h"
+#include "workbench/cli/command_text.h"
 #include "workbench/cli/interrupt.h"
 #include "workbench/cli/mesh_options.h"
 #include "workbench/cli/messages.h"
@@ -14,7 +14,10 @@
 #include "workbench/cli/progress.h"
 #include "workbench/cli/stopwatch.h"
 #include "workbench/cli/text_format.h"
+#include "workbench/cli/tune_front.h"
 #include "workbench/cli/tune_report.h"
+#include "workbench/evidence/run_evidence.h"
+#include "workbench/session/exploration_poses.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -28,26 +31,9 @@ struct TuneOptions {
   PresetOptions preset;
   std::filesystem::path poses, out;
   ExplorationKind path = ExplorationKind::around;
+  TuneFrontOptions front;
   std::string command;  ///< as typed, with every option by its long name
 };
-
-/// A word of a command line, quoted where a shell needs it.
-std::string shell_word(const std::string& word) {
-  constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./:,@%";
-  if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
-  std::string quoted = "'";
-  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
-}
-
-std::string command_text(const CLI::App& command) {
-  std::string text = "workbench tune";
-  for (const GivenOption& option : given_options(command)) {
-    if (!option.name.empty()) text += " " + option.name;
-    text += " " + shell_word(option.value);
-  }
-  return text;
-}
 
 bool names_method(const PresetOverride& o) { return o.key == find_preset_key("solver", "method"); }
 
@@ -112,6 +98,64 @@ GainTuning tune(const std::shared_ptr<const ContactScene>& scene, const Preset& 
   });
 }
 
+/// What the preset was measured with, so that "workbench check" can measure it again. Where that can't be named (the
+/// mesh came through a pipe) a message says so, and the preset is written without.
+void name_evidence(const TuneOptions& options, TuneReport& report) {
+  const std::filesystem::path folder = options.out.parent_path();
+  PresetEvidence asked;
+  asked.command = options.command;
+  asked.mesh = {seen_from(folder, options.mesh.file), {}, options.mesh.metres_per_unit, options.mesh.build};
+  asked.motion.kind = options.path == ExplorationKind::around ? MotionKind::around : MotionKind::strokes;
+  if (!options.poses.empty()) {
+    asked.motion.kind = MotionKind::poses;
+    asked.motion.file = seen_from(folder, options.poses);
+  }
+  asked.values = report.preset.preset;
+  asked.values.controller = {};  // no tick reads it
+  auto evidence = measure_evidence(std::move(asked), {.folder = folder, .timed = true});
+  if (evidence) {
+    report.preset.about.measured = std::move(*evidence);
+  } else {
+    report.preset.about.measured.reset();
+    print_message("tune", "the preset names no evidence: " + evidence.error().message());
+  }
+}
+
+/// What was found, for a person; empty: interrupted before anything was tried.
+struct Found {
+  std::string text;
+  std::string note;   ///< of the preset; empty: as describe_measurement has it
+  std::string until;  ///< of an interrupted search: "the best of ..."; empty: it was not
+};
+
+Found find_gains(const std::shared_ptr<const ContactScene>& scene, std::span<const TickInput> poses,
+                 TuneReport& report) {
+  Preset& preset = report.preset.preset;
+  report.tuning = tune(scene, preset, poses);
+  if (report.tuning.best.empty()) return {};
+  preset.solver = with_gains(preset.solver, report.tuning.best.front().gains);
+  const Method own = preset.solver.method;
+  report.own = run_method(scene, preset, own, poses);
+  for (const Method method : {Method::paper, Method::newton, Method::robust})
+    if (method != own) report.others.push_back(run_method(scene, preset, method, poses));
+  Found out{tune_text(report), {}, {}};
+  if (report.tuning.stopped) out.until = std::to_string(report.tuning.tried) + " gains tried so far";
+  return out;
+}
+
+Result<Found> find_on_front(const TuneOptions& options, const std::shared_ptr<const ContactScene>& scene,
+                            std::span<const TickInput> poses, TuneReport& report) {
+  Preset& preset = report.preset.preset;
+  Result<TunedFront> tuned = tune_front(scene, preset, poses, gain_length(*scene, preset.finger), options.front);
+  if (!tuned) return tl::unexpected(tuned.error());
+  preset = tuned->preset;
+  report.own = run_method(scene, preset, preset.solver.method, poses);
+  Found out{tuned->text, "Of a front:", tuned->stopped ? "presets tried so far" : ""};
+  for (const sweep::Objective& objective : options.front.objectives) out.note += " " + std::string(objective.name());
+  for (const sweep::Constraint& constraint : options.front.constraints) out.note += ", " + constraint.text();
+  return out;
+}
+
 Status run_tune(const TuneOptions& options, bool& interrupted) {
   const InterruptGuard interrupt;
   TuneReport report;
@@ -119,7 +163,7 @@ Status run_tune(const TuneOptions& options, bool& interrupted) {
   Result<PresetFile> base = load_base(options.preset);
   if (!base) return tl::unexpected(base.error());
   report.preset = std::move(*base);
-  Preset& preset = report.preset.preset;
+  const Preset& preset = report.preset.preset;
   // Checks before the work starts that the file can be written.
   if (const Result<AtomicFile> probe = AtomicFile::create(options.out); !probe) return tl::unexpected(probe.error());
   Result<LoadedMesh> loaded = load_mesh(options.mesh);
@@ -133,26 +177,22 @@ Status run_tune(const TuneOptions& options, bool& interrupted) {
   // Before the seconds that it takes, and again in the report.
   if (const std::string note = finger_size_note(longest_side_m(*report.mesh), preset.finger); !note.empty())
     print_message("tune", note);
-  report.tuning = tune(*scene, preset, *poses);
-  interrupted = report.tuning.stopped;
-  if (report.tuning.best.empty()) {
+  const Result<Found> found = options.front.objectives.empty() ? find_gains(*scene, *poses, report)
+                                                               : find_on_front(options, *scene, *poses, report);
+  if (!found) return tl::unexpected(found.error());
+  interrupted = found->text.empty() || !found->until.empty();
+  if (found->text.empty()) {
     print_message("tune", "interrupted before any gains were tried; nothing is written");
     return {};
   }
-  preset.solver = with_gains(preset.solver, report.tuning.best.front().gains);
-  const Method own = preset.solver.method;
-  report.own = run_method(*scene, preset, own, *poses);
-  for (const Method method : {Method::paper, Method::newton, Method::robust}) {
-    if (method != own) report.others.push_back(run_method(*scene, preset, method, *poses));
-  }
   report.preset.about.name = options.out.stem().string();
+  name_evidence(options, report);
   describe_measurement(report);
+  if (!found->note.empty()) report.preset.about.note = found->note;
   if (const Status status = write_preset(report.preset, options.out); !status) return status;
-  std::fputs((tune_text(report) + options.out.string() + " written\n").c_str(), stdout);
-  if (interrupted) {
-    print_message("tune", "interrupted; " + options.out.string() + " holds the best of the " +
-                              std::to_string(report.tuning.tried) + " gains tried so far");
-  }
+  std::fputs((found->text + options.out.string() + " written\n").c_str(), stdout);
+  if (interrupted)
+    print_message("tune", "interrupted; " + options.out.string() + " holds the best of the " + found->until);
   return {};
 }
 
@@ -191,10 +231,12 @@ void add_tune_command(CLI::App& app, CommandResult& result) {
       "or left and right over its top, then forward and back, as the paper's participants (strokes)",
       [options = options.get()](int kind) { options->path = static_cast<ExplorationKind>(kind); });
   add_text_option(*command, "--out", options->out, "Preset to write", "preset.toml", Needed::yes);
+  add_tune_front_options(*command, options->front);
   add_preset_options(*command, options->preset);
   on_run(*command, [command, options, &result] {
     check_usage(*options);
-    options->command = command_text(*command);
+    check_tune_front(options->front);
+    options->command = command_text("tune", *command);
     bool interrupted = false;
     const Status status = run_tune(*options, interrupted);
     if (!status) print_message("tune", status.error().message());

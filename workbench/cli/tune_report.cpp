@@ -48,6 +48,22 @@ std::string ground_lines(const MethodRun& run) {
   return text;
 }
 
+double as_double(auto n) { return static_cast<double>(n); }
+
+/// Where there is no evidence to hold them.
+void add_own_numbers(const TuneReport& report, PresetAbout& about) {
+  const RunScore& own = report.own.score;
+  about.also_measured.insert(about.also_measured.end(), {{"command", report.command},
+                                                         {"ticks", as_double(own.ticks)},
+                                                         {"mean_iterations", rounded(own.mean_iterations(), 1e4)},
+                                                         {"p99_iterations", as_double(own.p99_iterations)},
+                                                         {"max_iterations", as_double(own.max_iterations)},
+                                                         {"unconverged_ticks", as_double(own.unconverged)},
+                                                         {"reseeded_ticks", as_double(own.reseeded)},
+                                                         {"max_error_um", rounded(own.max_error_m * 1e6, 1e9)},
+                                                         {"median_solve_ns", rounded(report.own.median_ns, 1.0)}});
+}
+
 }  // namespace
 
 void describe_measurement(TuneReport& report) {
@@ -59,36 +75,27 @@ void describe_measurement(TuneReport& report) {
   about.device = "none";
   about.note = report.tuning.stopped ? "Gains of the paper's iteration, the best of an interrupted tuning."
                                      : "Gains of the paper's iteration, tuned by measuring.";
-  const auto count = [](auto n) { return static_cast<double>(n); };
-  const RunScore& own = report.own.score;
-  about.measured = {{"command", report.command},
-                    {"poses", report.poses},
-                    {"ticks", count(own.ticks)},
-                    {"mean_iterations", rounded(own.mean_iterations(), 1e4)},
-                    {"p99_iterations", count(own.p99_iterations)},
-                    {"max_iterations", count(own.max_iterations)},
-                    {"unconverged_ticks", count(own.unconverged)},
-                    {"reseeded_ticks", count(own.reseeded)},
-                    {"max_error_um", rounded(own.max_error_m * 1e6, 1e9)},
-                    {"median_solve_ns", rounded(report.own.median_ns, 1.0)}};
+  about.also_measured = {{"poses", report.poses}};
+  if (!about.measured) add_own_numbers(report, about);
   for (const Ground ground : kGrounds) {
     if (report.own.grounds.share(ground) == 0.0) continue;
     const std::string name = to_string(ground);
-    about.measured.emplace_back(name + "_ground_share", rounded(report.own.grounds.share(ground), 1e4));
-    about.measured.emplace_back(name + "_ground_mean_iterations",
-                                rounded(report.own.grounds.mean_iterations(ground), 1e4));
+    about.also_measured.emplace_back(name + "_ground_share", rounded(report.own.grounds.share(ground), 1e4));
+    about.also_measured.emplace_back(name + "_ground_mean_iterations",
+                                     rounded(report.own.grounds.mean_iterations(ground), 1e4));
   }
   for (const MethodRun& run : report.others) {
     const std::string name = to_string(run.method);
-    about.measured.insert(about.measured.end(), {{name + "_mean_iterations", rounded(run.score.mean_iterations(), 1e4)},
-                                                 {name + "_p99_iterations", count(run.score.p99_iterations)},
-                                                 {name + "_unconverged_ticks", count(run.score.unconverged)},
-                                                 {name + "_median_solve_ns", rounded(run.median_ns, 1.0)}});
+    about.also_measured.insert(about.also_measured.end(),
+                               {{name + "_mean_iterations", rounded(run.score.mean_iterations(), 1e4)},
+                                {name + "_p99_iterations", as_double(run.score.p99_iterations)},
+                                {name + "_unconverged_ticks", as_double(run.score.unconverged)},
+                                {name + "_median_solve_ns", rounded(run.median_ns, 1.0)}});
   }
   if (report.tuning.untuned.score.ticks == 0) return;
-  about.measured.insert(about.measured.end(),
-                        {{"untuned_mean_iterations", rounded(report.tuning.untuned.score.mean_iterations(), 1e4)},
-                         {"untuned_unconverged_ticks", count(report.tuning.untuned.score.unconverged)}});
+  about.also_measured.insert(about.also_measured.end(),
+                             {{"untuned_mean_iterations", rounded(report.tuning.untuned.score.mean_iterations(), 1e4)},
+                              {"untuned_unconverged_ticks", as_double(report.tuning.untuned.score.unconverged)}});
 }
 
 std::string tune_text(const TuneReport& report) {

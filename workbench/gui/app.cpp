@@ -4,6 +4,7 @@
 #include "workbench/gui/panels/panels.h"
 #include "workbench/gui/panels/save_panel.h"
 #include "workbench/gui/panels/script_runner.h"
+#include "workbench/gui/panels/session_view.h"
 #include "workbench/gui/widgets/keyboard_focus.h"
 #include "workbench/gui/widgets/thread_time.h"
 #include "workbench/gui/widgets/widgets.h"
@@ -31,7 +32,7 @@ struct App::Ui {
   ComparePanel compare;
   IterationsPanel iterations;
   MapPanel map;
-  FoldedPanel mesh, devices, time_machine, sweep{false};
+  FoldedPanel mesh, devices, time_machine, why, recording, recording_pair{false}, sweep{false};
   LogPanel log;
   BookmarksPanel bookmarks;
   InspectPanel inspect;
@@ -40,6 +41,10 @@ struct App::Ui {
   ViewPanel view;
   PlotsPanel plots = make_plots_panel();
 
+  std::optional<ViewValues> session_view;  ///< of a session that was opened
+  int camera_frames = 0;                   ///< it is given its camera so many times more
+
+  void take_view(AppModel& model);
   void draw_splitters(const UiContext& ui, WindowModel& window, const Layout& layout);
   void draw_column(const char* name, const Rect& rect, const UiContext& ui, AppModel& model, bool left);
 };
@@ -90,6 +95,18 @@ bool App::prepare(const FrameInput& input) {
   return true;
 }
 
+/// A jump in time moves the camera, and so does a scene that is framed: it is set again in the frames that follow.
+void App::Ui::take_view(AppModel& model) {
+  if (auto given = model.take_view()) {
+    session_view = std::move(*given);
+    show_view(model, plots, *session_view);
+    camera_frames = 3;
+  }
+  if (camera_frames == 0) return;
+  show_camera(model, *session_view);
+  if (--camera_frames == 0) session_view.reset();
+}
+
 void App::Ui::draw_splitters(const UiContext& ui, WindowModel& window, const Layout& layout) {
   const auto splitter = [&](const char* name, const Rect& rect, bool vertical) {
     if (rect.w < 1.0f || rect.h < 1.0f) return ImVec2(0, 0);
@@ -101,7 +118,7 @@ void App::Ui::draw_splitters(const UiContext& ui, WindowModel& window, const Lay
     ImGui::Begin(name, nullptr, kFixed);
     ImGui::InvisibleButton("##bar", {rect.w, rect.h});
     items.note_last(name + 2);
-    tooltip(ui, "Drag: more room for one side");
+    tooltip(ui, "Drag to resize");
     const bool lit = ImGui::IsItemHovered() || ImGui::IsItemActive();
     if (lit) ImGui::SetMouseCursor(vertical ? ImGuiMouseCursor_ResizeEW : ImGuiMouseCursor_ResizeNS);
     if (lit)
@@ -144,14 +161,17 @@ void App::Ui::draw_column(const char* name, const Rect& rect, const UiContext& u
   } else {
     const auto shown = [tab = model.window().task()](const char* title) { return shows(tab, title); };
     if (shown("Iterations")) draw_iterations_panel(ui, model, iterations);
+    if (shown("Why this tick")) draw_why_panel(ui, model, why);
     if (shown("Time machine")) draw_time_machine_panel(ui, model.time(), time_machine);
     if (shown("Sweep")) draw_sweep_panel(ui, model, sweep);
     if (shown("Bookmarks")) draw_bookmarks_panel(ui, model, bookmarks);
+    if (shown("Compare recordings")) draw_recording_pair_panel(ui, model, recording_pair);
     if (shown("Map")) draw_map_panel(ui, model, map);
     if (shown("Smoothness as felt")) draw_perception_panel(ui, model, perception);
     if (shown("Inspect")) draw_inspect_panel(ui, model, inspect);
     if (shown("Mesh")) draw_mesh_panel(ui, model, mesh);
     if (shown("Devices")) draw_devices_panel(ui, model, devices);
+    if (shown("Recording")) draw_recording_panel(ui, model, recording);
     if (shown("Messages")) draw_log_panel(ui, model.messages(), log);
   }
   ImGui::End();
@@ -180,6 +200,8 @@ void App::step_script() {
     if (!loaded) say(loaded.error().message());
     ui_->script_by_hand = true;
   }
+  if (const std::string file = std::exchange(menu.wish.session, {}); !file.empty())
+    save_file(*model_, ui_->plots, SaveWhat::session, file);
   const Status done = ui_->script.step(*model_, menu, ui_->items);
   if (!done && ui_->script_by_hand) say(done.error().message());
   if (!done && !ui_->script_by_hand) script_failure_ = done.error().message();
@@ -194,6 +216,7 @@ void App::frame(const FrameInput& input) {
   const double begin = thread_cpu_ms();
   for (const std::string& file : input.dropped_files) model_->open(file);
   model_->update(input.now_s);
+  ui_->take_view(*model_);
   step_script();
   const Theme theme = ui_->theme.value_or(model_->window().theme());
   const float scale = ui_->font_scale.value_or(1.0f);
@@ -223,7 +246,7 @@ void App::frame(const FrameInput& input) {
   ui_->draw_column("##right", {layout.right.x, layout.right.y + tabs, layout.right.w, layout.right.h - tabs}, ui,
                    *model_, false);
   draw_plots_panel(ui, *model_, ui_->plots, layout.plots);
-  draw_transport_bar(ui, model_->time(), layout.transport);
+  draw_transport_bar(ui, *model_, layout.transport);
   draw_status_line(ui, *model_, layout.status, input.last_frame_ms);
   ui_->draw_splitters(ui, model_->window(), layout);
   draw_toasts(ui, *model_, layout.view);
@@ -259,9 +282,10 @@ bool App::script_running() const { return ui_->script.running(); }
 
 bool App::wants_frames() const {
   const bool refining = ui_->renderer != nullptr && ui_->renderer->refining();
-  return !model_->time().paused() || model_->scene().loading() || model_->scene().auditing() ||
+  return !model_->time().paused() || model_->scene().loading() || model_->recordings().busy() ||
+         model_->record().recording() || model_->record().writing() || model_->scene().auditing() ||
          model_->map().running() || model_->time().time_machine().busy() || model_->tuning().sweep().running() ||
-         model_->tuning().search().running() || refining || ui_->script.running();
+         model_->tuning().search().running() || model_->exports().writing() || refining || ui_->script.running();
 }
 
 std::optional<std::filesystem::path> App::take_screenshot_request() {

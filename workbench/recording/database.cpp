@@ -154,7 +154,7 @@ Result<Database> Database::open(const std::filesystem::path& path) {
   struct stat seen {};
   if (::stat(path.c_str(), &seen) != 0)
     return fail(std::string("can't be read: ") + std::strerror(errno), path.string(), "give the name of a recording");
-  if (!S_ISREG(seen.st_mode)) return fail("is no file", path.string(), "give the name of a recording");
+  if (!S_ISREG(seen.st_mode)) return fail("is not a file", path.string(), "give the name of a recording");
   if (seen.st_size == 0)
     return fail("is empty", path.string(), "give a recording; this one ended before its first part was written");
   Result<Database> database = open_with(path, SQLITE_OPEN_READONLY);

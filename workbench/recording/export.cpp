@@ -186,11 +186,18 @@ class McapExporter final : public Exporter {
   std::string text_, value_;
 };
 
+Status check_ending(const std::filesystem::path& to) {
+  const std::string ending = to.extension().string();
+  if (ending == ".csv" || ending == ".mcap") return {};
+  if (ending == ".mat")
+    return fail("MATLAB's own files are not written", to.string(), "end the name in .csv, which readtable reads");
+  return fail("'" + ending + "' is no format that is exported", to.string(), "end the name in .csv or .mcap");
+}
+
 Result<std::unique_ptr<Exporter>> exporter_for(const std::filesystem::path& to, const ExportOptions& options,
                                                double first_s) {
   const std::string ending = to.extension().string();
-  if (ending != ".csv" && ending != ".mcap")
-    return fail("'" + ending + "' is no format that is exported", to.string(), "end the name in .csv or .mcap");
+  if (Status ok = check_ending(to); !ok) return tl::unexpected(ok.error());
   Result<std::vector<ExportedColumn>> columns = chosen(options.channels, ending == ".csv");
   if (!columns) return tl::unexpected(columns.error());
   if (ending == ".csv") {
@@ -204,6 +211,12 @@ Result<std::unique_ptr<Exporter>> exporter_for(const std::filesystem::path& to, 
 }
 
 }  // namespace
+
+Status check_export(const std::filesystem::path& to, const ExportOptions& options) {
+  if (Status ok = check_ending(to); !ok) return ok;
+  const auto columns = chosen(options.channels, to.extension() == ".csv");
+  return columns ? Status() : tl::unexpected(columns.error());
+}
 
 Result<std::uint64_t> export_ticks(const std::filesystem::path& from, const std::filesystem::path& to,
                                    const ExportOptions& options) {

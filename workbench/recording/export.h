@@ -13,6 +13,9 @@ struct ExportOptions {
   std::function<bool()> cancelled = [] { return false; };
 };
 
+/// Whether there is such a format and all the channels, before a recording is opened.
+Status check_export(const std::filesystem::path& to, const ExportOptions& options);
+
 /// By the ending of `to`, .csv or .mcap. Returns the number of ticks. Fails on another ending and an unknown channel,
 /// with the names that there are; nothing is left behind then, nor when it is cancelled.
 Result<std::uint64_t> export_ticks(const std::filesystem::path& from, const std::filesystem::path& to,

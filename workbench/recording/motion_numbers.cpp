@@ -8,9 +8,9 @@ namespace tangent {
 namespace {
 
 constexpr double kRoughFrom_hz = 20.0;
+static_assert(kRoughBands_hz.size() == 3);
 
 double size_of(const Vec3& v) { return std::sqrt(glm::dot(v, v)); }
-HighPass rough(double rate_hz) { return {kRoughFrom_hz, rate_hz}; }
 
 }  // namespace
 
@@ -49,8 +49,22 @@ double Spread::quantile(double q) const {
   return 0.0;
 }
 
+MotionCounter::Roughness::Roughness(double from_hz, double rate_hz)
+    : filters{HighPass(from_hz, rate_hz), HighPass(from_hz, rate_hz), HighPass(from_hz, rate_hz),
+              HighPass(from_hz, rate_hz)} {}
+
+void MotionCounter::Roughness::add(const TickOutput& output) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const double y = filters[static_cast<std::size_t>(axis)](output.force_n[axis]);
+    force += y * y;
+  }
+  const double y = filters[3](output.cld_m);
+  display += y * y;
+}
+
 MotionCounter::MotionCounter(double rate_hz)
-    : force_{rough(rate_hz), rough(rate_hz), rough(rate_hz)}, display_(rough(rate_hz)) {}
+    : rough_{Roughness(kRoughFrom_hz, rate_hz), Roughness(kRoughBands_hz[0], rate_hz),
+             Roughness(kRoughBands_hz[1], rate_hz), Roughness(kRoughBands_hz[2], rate_hz)} {}
 
 void MotionCounter::add(const TickOutput& output, double ns, bool follows) {
   ++n_.ticks;
@@ -78,12 +92,7 @@ void MotionCounter::add_roughness(const TickOutput& output, bool follows) {
   }
   last_force_ = output.force_n;
   last_display_ = output.cld_m;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double y = force_[static_cast<std::size_t>(axis)](output.force_n[axis]);
-    rough_force_ += y * y;
-  }
-  const double y = display_(output.cld_m);
-  rough_display_ += y * y;
+  for (Roughness& rough : rough_) rough.add(output);
 }
 
 MotionNumbers MotionCounter::done() const {
@@ -104,8 +113,12 @@ MotionNumbers MotionCounter::done() const {
   n.mean_force_n = force_sum_ / count;
   n.rms_force_jump_n = std::sqrt(force_jumps_ / count);
   n.rms_display_jump_m = std::sqrt(display_jumps_ / count);
-  n.force_above_20hz_n = std::sqrt(rough_force_ / count);
-  n.display_above_20hz_m = std::sqrt(rough_display_ / count);
+  n.force_above_20hz_n = std::sqrt(rough_[0].force / count);
+  n.display_above_20hz_m = std::sqrt(rough_[0].display / count);
+  for (std::size_t i = 0; i < kRoughBands_hz.size(); ++i) {
+    n.force_above_n[i] = std::sqrt(rough_[1 + i].force / count);
+    n.display_above_m[i] = std::sqrt(rough_[1 + i].display / count);
+  }
   return n;
 }
 

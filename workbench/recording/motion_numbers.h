@@ -8,6 +8,9 @@
 
 namespace tangent {
 
+/// Where the spectrum of roughness is divided, beside 20 Hz: trembling, buzzing and what only ears would hear.
+inline constexpr std::array<double, 3> kRoughBands_hz{50.0, 100.0, 200.0};
+
 /// What a run was like.
 struct MotionNumbers {
   std::uint64_t ticks = 0, unconverged = 0;
@@ -18,6 +21,8 @@ struct MotionNumbers {
   double rms_force_jump_n = 0.0, worst_force_jump_n = 0.0;  ///< from tick to tick
   double rms_display_jump_m = 0.0, worst_display_jump_m = 0.0;
   double force_above_20hz_n = 0.0, display_above_20hz_m = 0.0;  ///< RMS of what a high-pass of 20 Hz leaves
+  /// The same of high-passes at kRoughBands_hz: of two in a row the difference of squares lies between them.
+  std::array<double, kRoughBands_hz.size()> force_above_n{}, display_above_m{};
   std::array<std::uint64_t, kTickEvents.size()> events{};
 };
 
@@ -57,12 +62,18 @@ class MotionCounter {
 
   MotionNumbers n_;
   double error_ = 0.0, iterations_ = 0.0, force_sum_ = 0.0, force_jumps_ = 0.0, display_jumps_ = 0.0;
-  double rough_force_ = 0.0, rough_display_ = 0.0, last_display_ = 0.0;
+  double last_display_ = 0.0;
   Vec3 last_force_{0.0};
   std::array<std::uint64_t, 4096> by_iterations_{};
   Spread times_;
-  std::array<HighPass, 3> force_;
-  HighPass display_;
+  /// Force x, y, z and display above one frequency, and their sums of squares.
+  struct Roughness {
+    explicit Roughness(double from_hz, double rate_hz);
+    void add(const TickOutput& output);
+    std::array<HighPass, 4> filters;
+    double force = 0.0, display = 0.0;
+  };
+  std::array<Roughness, 1 + kRoughBands_hz.size()> rough_;
 };
 
 }  // namespace tangent

@@ -50,8 +50,8 @@ Status Recording::check_format() {
 
 /// Only tables, with columns that hold values: no views, virtual tables or computed columns in their place.
 Status Recording::check_tables() {
-  for (const char* table :
-       {"meta", "presets", "scenes", "scene_bytes", "tick_rows", "device_rows", "states", "gaps", "overview"}) {
+  for (const char* table : {"meta", "presets", "scenes", "scene_bytes", "tick_rows", "device_rows", "states", "gaps",
+                            "overview", "events", "devices"}) {
     const Result<std::int64_t> count = database_.whole_of(
         std::string("SELECT count(*) FROM sqlite_schema WHERE type='table' AND rootpage>0 AND name='") + table + "'");
     if (!count) return tl::unexpected(count.error());
@@ -181,7 +181,7 @@ Status Recording::is_scene(const RecordedScene& recorded, const ContactScene& sc
               "give the mesh that was recorded, with the options it was read with");
 }
 
-Result<std::shared_ptr<const ContactScene>> Recording::scene(std::uint32_t id) {
+Result<SceneSource> Recording::scene_source(std::uint32_t id) {
   const auto found = std::find_if(scenes_.begin(), scenes_.end(), [id](const auto& s) { return s.id == id; });
   if (found == scenes_.end()) return damaged("has no scene " + std::to_string(id));
   if (!found->has_bytes)
@@ -189,10 +189,15 @@ Result<std::shared_ptr<const ContactScene>> Recording::scene(std::uint32_t id) {
                 "give the mesh " + found->name + " (hash " + found->hash + ") with --mesh");
   Result<std::vector<unsigned char>> bytes = bytes_of(*found);
   if (!bytes) return tl::unexpected(bytes.error());
-  Result<SceneSource> source = scene_source_from(*bytes, found->name);
+  return scene_source_from(*bytes, found->name);
+}
+
+Result<std::shared_ptr<const ContactScene>> Recording::scene(std::uint32_t id) {
+  const Result<SceneSource> source = scene_source(id);
   if (!source) return tl::unexpected(source.error());
   Result<std::shared_ptr<const ContactScene>> scene = build_scene(*source, {}, run_on_two_threads);
   if (!scene) return scene;
+  const auto found = std::find_if(scenes_.begin(), scenes_.end(), [id](const auto& s) { return s.id == id; });
   if (Status same = is_scene(*found, **scene); !same) return tl::unexpected(same.error());
   return scene;
 }
@@ -232,6 +237,43 @@ Result<std::vector<RecordedGap>> Recording::gaps() {
     if (!row) return tl::unexpected(row.error());
     if (!*row) return found;
     found.push_back({static_cast<std::uint64_t>(rows->whole(0)), static_cast<std::uint64_t>(rows->whole(1))});
+  }
+}
+
+Result<std::vector<RecordedEvent>> Recording::events() {
+  std::vector<RecordedEvent> found;
+  Result<Statement> rows = database_.prepare("SELECT tick, t_s, kind, text FROM events ORDER BY tick, id LIMIT " +
+                                             std::to_string(kMostEvents));
+  if (!rows) return tl::unexpected(rows.error());
+  for (;;) {
+    const Result<bool> row = rows->step();
+    if (!row) return tl::unexpected(row.error());
+    if (!*row) return found;
+    found.push_back({static_cast<std::uint64_t>(rows->whole(0)), rows->real(1), rows->text(2), rows->text(3)});
+  }
+}
+
+Result<std::optional<double>> Recording::value(const std::string& of, const std::string& name) {
+  Result<Statement> row =
+      database_.prepare("SELECT value FROM devices WHERE device=" + sql_text(of) + " AND name=" + sql_text(name));
+  if (!row) return tl::unexpected(row.error());
+  const Result<bool> any = row->step();
+  if (!any) return tl::unexpected(any.error());
+  if (!*any || !row->is_number(0)) return std::optional<double>{};
+  return std::optional(row->real(0));
+}
+
+Result<std::vector<RecordedValue>> Recording::values() {
+  std::vector<RecordedValue> found;
+  Result<Statement> rows = database_.prepare("SELECT device, name, value FROM devices LIMIT 10000");
+  if (!rows) return tl::unexpected(rows.error());
+  for (;;) {
+    const Result<bool> row = rows->step();
+    if (!row) return tl::unexpected(row.error());
+    if (!*row) return found;
+    RecordedValue value{rows->text(0), rows->text(1), rows->text(2)};
+    if (rows->is_number(2)) value.value = rows->real(2);
+    found.push_back(std::move(value));
   }
 }
 
@@ -306,8 +348,10 @@ Result<std::vector<OverviewRow>> Recording::overview(int level, std::uint64_t fi
     row.unconverged = static_cast<std::uint64_t>(rows->whole(3));
     row.events = static_cast<std::uint64_t>(rows->whole(4));
     for (std::size_t i = 0; i < kOverviewChannels; ++i) {
-      row.least[i] = rows->real(5 + 2 * static_cast<int>(i));
-      row.most[i] = rows->real(6 + 2 * static_cast<int>(i));
+      const int at = 5 + 2 * static_cast<int>(i);
+      constexpr double absent = std::numeric_limits<double>::quiet_NaN();
+      row.least[i] = rows->is_null(at) ? absent : rows->real(at);
+      row.most[i] = rows->is_null(at + 1) ? absent : rows->real(at + 1);
     }
     found.push_back(row);
   }

@@ -5,6 +5,8 @@
 #include "core/preset/preset.h"
 #include "workbench/recording/database.h"
 #include "workbench/recording/overview.h"
+#include "workbench/recording/recorded_event.h"
+#include "workbench/recording/recorded_values.h"
 #include "workbench/recording/scene_bytes.h"
 #include "workbench/recording/tick_reader.h"
 
@@ -44,6 +46,8 @@ struct RecordingInfo {
 
 class Recording {
  public:
+  static constexpr std::int64_t kMostEvents = 100'000;
+
   /// Fails on what is no recording, is newer than this program, or lacks what every recording has.
   static Result<Recording> open(const std::filesystem::path& path);
 
@@ -52,6 +56,8 @@ class Recording {
   const std::vector<RecordedScene>& scenes() const { return scenes_; }
   const std::filesystem::path& path() const { return database_.path(); }
 
+  /// What it was built from, and how. Fails where it was recorded without its bytes, or they are not what was recorded.
+  Result<SceneSource> scene_source(std::uint32_t id);
   /// Builds it again. Fails where it was recorded without its bytes, or they are not what was recorded.
   Result<std::shared_ptr<const ContactScene>> scene(std::uint32_t id);
   /// Whether this is the scene that was recorded: for one that comes from elsewhere.
@@ -60,6 +66,12 @@ class Recording {
   Result<std::vector<KeptState>> states();
   Result<TickState> state(std::uint64_t tick, const ContactScene& scene);
   Result<std::vector<RecordedGap>> gaps();
+  /// In the order of their ticks; at most the first kMostEvents.
+  Result<std::vector<RecordedEvent>> events();
+  /// What was true before the first tick: of "force", "display" or the "run". None: it is not there, or no number.
+  Result<std::optional<double>> value(const std::string& of, const std::string& name);
+  /// What it says of its devices and its run.
+  Result<std::vector<RecordedValue>> values();
   /// From `first` to `last`, both included.
   Result<TickReader> ticks(std::uint64_t first, std::uint64_t last);
   /// The first tick at that time or later; one past the last where there is none.

@@ -5,6 +5,7 @@
 #include "core/preset/preset.h"
 #include "workbench/recording/database.h"
 #include "workbench/recording/overview.h"
+#include "workbench/recording/recorded_event.h"
 #include "workbench/recording/recorded_values.h"
 #include "workbench/recording/scene_bytes.h"
 
@@ -15,13 +16,6 @@
 #include <vector>
 
 namespace tangent {
-
-struct RecordedEvent {
-  std::uint64_t tick = 0;
-  double t_s = 0.0;
-  std::string kind;  ///< "state", "fault", "action", "preset", "scene", "bookmark", "recorder"
-  std::string text;
-};
 
 /// What a batch is made of. Presets and scenes are added before ticks that name them.
 struct RecordedBatch {

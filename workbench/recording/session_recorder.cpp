@@ -19,7 +19,9 @@ const char* kind_of(SafetyEntry::Kind kind) {
   return "";
 }
 
-std::vector<RecordedValue> values_of(const Session& session) {
+}  // namespace
+
+std::vector<RecordedValue> session_values(const Session& session) {
   std::vector<RecordedValue> values;
   const auto add = [&values](const std::vector<RecordedValue>& more) {
     values.insert(values.end(), more.begin(), more.end());
@@ -38,7 +40,12 @@ std::vector<RecordedValue> values_of(const Session& session) {
   return values;
 }
 
-}  // namespace
+std::vector<RecordedEvent> safety_events(const SafetyLog& log, std::uint64_t from_tick) {
+  std::vector<RecordedEvent> events;
+  for (const SafetyEntry& entry : log.entries())
+    if (entry.tick >= from_tick) events.push_back({entry.tick, entry.t_s, kind_of(entry.kind), entry.text});
+  return events;
+}
 
 SessionRecorder::SessionRecorder(Session& session, RecordingFile file, bool threaded)
     : session_(session),
@@ -48,7 +55,7 @@ SessionRecorder::SessionRecorder(Session& session, RecordingFile file, bool thre
 
 Result<std::unique_ptr<SessionRecorder>> SessionRecorder::start(Session& session, const std::filesystem::path& path,
                                                                 SessionRecording options) {
-  Result<RecordingFile> file = RecordingFile::create(path, values_of(session));
+  Result<RecordingFile> file = RecordingFile::create(path, session_values(session));
   if (!file) return tl::unexpected(file.error());
   auto made = std::unique_ptr<SessionRecorder>(new SessionRecorder(session, std::move(*file), options.threaded));
   made->recorder_.add_scene(session.status().scene_sent, session.scene(), std::move(options.scene_name),
@@ -69,11 +76,9 @@ void SessionRecorder::poll() {
     recorder_.add_event({newest.tick, newest.input.t_s, "preset", "preset " + std::to_string(presets_known_)});
   }
   note_placement();
-  const std::uint64_t known = log_tick_;
-  for (const SafetyEntry& entry : session_.safety_log().entries()) {
-    if (entry.tick < known) continue;
-    recorder_.add_event({entry.tick, entry.t_s, kind_of(entry.kind), entry.text});
-    log_tick_ = entry.tick + 1;
+  for (RecordedEvent& event : safety_events(session_.safety_log(), log_tick_)) {
+    log_tick_ = event.tick + 1;
+    recorder_.add_event(std::move(event));
   }
   if (!threaded_) recorder_.pump();
 }

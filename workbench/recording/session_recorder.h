@@ -10,6 +10,11 @@
 
 namespace tangent {
 
+/// Of devices and run.
+std::vector<RecordedValue> session_values(const Session& session);
+/// Faults, changes of state and what the gate did.
+std::vector<RecordedEvent> safety_events(const SafetyLog& log, std::uint64_t from_tick = 0);
+
 struct SessionRecording {
   SceneSource source;  ///< of the scene in use; without mesh and polygon: name and hash alone are recorded
   std::string scene_name;

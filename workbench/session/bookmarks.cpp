@@ -54,9 +54,9 @@ void Bookmarks::watch(const ServoRecord& record) {
     fire(BookmarkKind::unconverged, record, text_of(pattern, out.error_m * 1e6));
   }
   if (out.event == TickEvent::reseed && wants(BookmarkKind::reseeded))
-    fire(BookmarkKind::reseeded, record, text_of("%.0f planes", out.iterations));
+    fire(BookmarkKind::reseeded, record, text_of("%.0f iterations", out.iterations));
   if (out.iterations > triggers.iterations_over && wants(BookmarkKind::iterations))
-    fire(BookmarkKind::iterations, record, text_of("%.0f planes", out.iterations));
+    fire(BookmarkKind::iterations, record, text_of("%.0f in one tick", out.iterations));
   const double force = glm::length(record.device.force_command_n);
   if (force > triggers.force_over_n && wants(BookmarkKind::force))
     fire(BookmarkKind::force, record, text_of("%.2f N", force));
@@ -96,6 +96,12 @@ std::uint32_t Bookmarks::add(std::uint64_t tick, double t_s) {
     if (b.kind == BookmarkKind::user && b.tick == tick) return b.id;
   }
   return insert({0, BookmarkKind::user, tick, tick, t_s, 1, {}});
+}
+
+void Bookmarks::add(BookmarkKind kind, std::uint64_t tick, double t_s, std::string note) {
+  if (automatic_ == kMostAutomatic) return;
+  insert({0, kind, tick, tick, t_s, 1, std::move(note)});
+  ++automatic_;
 }
 
 void Bookmarks::set_note(std::uint32_t id, std::string note) {

@@ -44,6 +44,8 @@ class Bookmarks {
   void watch(const ServoRecord& record);
   /// Adds a person's bookmark, unless the tick already has one. Returns its id either way.
   std::uint32_t add(std::uint64_t tick, double t_s);
+  /// Adds one that a trigger set elsewhere: in a recording. The newest of more than kMostAutomatic are left out.
+  void add(BookmarkKind kind, std::uint64_t tick, double t_s, std::string note);
   /// Unknown ids are ignored here and in remove.
   void set_note(std::uint32_t id, std::string note);
   void remove(std::uint32_t id);

@@ -1,5 +1,7 @@
 #include "workbench/session/exploration_path.h"
 
+#include "workbench/session/two_threads.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -141,6 +143,16 @@ Points evenly(const Points& raw, double& spacing) {
   return points;
 }
 
+/// Of every point, on two threads: on millions of triangles a query takes 0.1 ms.
+std::vector<NearestHit> nearest_of(const NearestTriangles& nearest, const Points& points) {
+  std::vector<NearestHit> hits(points.size());
+  run_halves(run_on_two_threads, points.size(), [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i)
+      hits[i] = nearest.nearest(points[i], std::numeric_limits<double>::infinity());
+  });
+  return hits;
+}
+
 /// Moves the points onto the offset surface at distance `pad` from the mesh. A step towards the nearest triangle that
 /// is shorter than its distance crosses no surface, and smoothing between steps keeps neighbours together. Where the
 /// surface separates neighbours (two legs, a fold), resampling inserts points between them, which shrink on their own.
@@ -148,8 +160,10 @@ Points shrink(const NearestTriangles& nearest, double pad, Points points, double
   for (int round = 0; round < kShrinkRounds; ++round) {
     const bool late = 2 * round >= kShrinkRounds;
     const double pull = late ? 1.0 : 0.5;
-    for (Vec3& p : points) {
-      const NearestHit hit = nearest.nearest(p, std::numeric_limits<double>::infinity());
+    const std::vector<NearestHit> hits = nearest_of(nearest, points);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const NearestHit& hit = hits[i];
+      Vec3& p = points[i];
       if (hit && hit.distance_m > 0.0) p += pull * (pad / hit.distance_m - 1.0) * (p - hit.point);
     }
     smooth(points, late ? 0.25 : 0.5);
@@ -205,8 +219,9 @@ ExplorationPath ExplorationPath::build(const ContactScene& scene, double pad_m) 
 
   const std::size_t n = centres.size();
   Points outward(n), heading(n), short_of(n);
+  const std::vector<NearestHit> hits = nearest_of(scene.nearest(), centres);
   for (std::size_t i = 0; i < n; ++i) {
-    const NearestHit hit = scene.nearest().nearest(centres[i], std::numeric_limits<double>::infinity());
+    const NearestHit& hit = hits[i];
     outward[i] = direction_or(hit ? centres[i] - hit.point : Vec3(0.0), i > 0 ? outward[i - 1] : Vec3(0, 0, 1));
     short_of[i] = Vec3(hit ? path.pad_m_ - hit.distance_m : 0.0, 0.0, 0.0);
     // Not the path's direction: it reverses at the ends of a Lissajous figure, faster than a finger can turn.

@@ -1,11 +1,13 @@
-// A figure: its data as tables, and its drawing as SVG or PDF, by gnuplot. `workbench figures` and the window's plots
-// are made by this.
+// A figure: its data as tables, and its drawing as SVG or PDF, by gnuplot. All figures are made by this: those of
+// `workbench figures`, `bench --plot` and `report`, and the window's plots. Gnuplot, because it has what they need
+// (logarithmic axes, error bars, several plots over one axis, keys, PDF) and one style serves them all.
 #pragma once
 
 #include "core/base/result.h"
 #include "workbench/session/file_origin.h"
 
 #include <filesystem>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -34,9 +36,14 @@ struct Figure {
   std::string script = {};
 };
 
+/// The drawing as an SVG element to stand in a page: without ground, its identifiers begin with the figure's name,
+/// which has to be a word. Colours are attributes, for the page's style to change (workbench/report/page_style.cpp).
+Result<std::string> figure_svg(const Figure& figure);
 /// Writes NAME.csv and further tables, then NAME.svg. Fails where gnuplot is missing or refuses.
 Status write_figure(const Figure& figure, const std::filesystem::path& folder);
-/// The drawing alone, with its origin, as what the file's name ends in: .svg or .pdf. Atomic; fails like the above.
-Status write_drawing(const Figure& figure, const FileOrigin& origin, const std::filesystem::path& file);
+/// The drawing alone, with its origin, as what the file's name ends in: .svg or .pdf. Atomic; fails like the above, and
+/// soon after `stop` is asked for: gnuplot is ended, and nothing is written.
+Status write_drawing(const Figure& figure, const FileOrigin& origin, const std::filesystem::path& file,
+                     const std::stop_token& stop = {});
 
 }  // namespace tangent

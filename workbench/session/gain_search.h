@@ -1,5 +1,5 @@
 // Tunes the gains of Eq. 1 on recorded poses (core/lab/gains/gain_tuning.h) in a background thread, and says whether
-// what it found is better than the present gains by the numbers that are shown.
+// what it found is better than the current gains by the numbers that are shown.
 #pragma once
 
 #include "core/lab/gains/gain_tuning.h"
@@ -13,9 +13,9 @@
 namespace tangent {
 
 struct GainSearchResult {
-  Preset base;  ///< with the present gains, method paper
+  Preset base;  ///< with the current gains, method paper
   std::uint64_t first_tick = 0, last_tick = 0;
-  RunScore now;    ///< of the present gains
+  RunScore now;    ///< of the current gains
   GainTrial best;  ///< the best found
 };
 /// Better as it is shown: fewer ticks without convergence, or as many and a smaller mean, in hundredths of a plane.

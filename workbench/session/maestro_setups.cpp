@@ -48,7 +48,7 @@ Result<MaestroSetup> read_setup(const std::filesystem::path& path, const std::st
   if (table.size() != kKeys.size())
     return fail("a key is missing", where(path, table, serial), "it needs " + choices_text(kKeys));
   if (!(channel >= 0.0 && channel <= kMostChannel) || channel != std::floor(channel))
-    return fail("is no channel", where(path, table, serial + ".channel"), "allowed: 0 to 23");
+    return fail("is not a channel", where(path, table, serial + ".channel"), "allowed: 0 to 23");
   if (const Status sound = check_calibration(setup.calibration); !sound)
     return fail(sound.error().what, where(path, table, serial), kRemedy);
   setup.channel = static_cast<unsigned>(channel);

@@ -133,7 +133,7 @@ struct Session::Impl {
 
   static Result<std::unique_ptr<Session>> create(std::shared_ptr<const ContactScene> scene, const Preset& preset,
                                                  SessionOptions options, DeviceSet devices,
-                                                 std::unique_ptr<PacketRecorder> packets);
+                                                 std::unique_ptr<PacketRecorder> packets, PreparedScenePtr before);
 
   /// A force device that calls us; null: the servo keeps the time.
   ForceDevice* scheduler() const { return devices.force && devices.force->calls_us() ? devices.force.get() : nullptr; }
@@ -199,7 +199,7 @@ Session::~Session() {
 }
 
 Result<std::unique_ptr<Session>> Session::create(std::shared_ptr<const ContactScene> scene, const Preset& preset,
-                                                 SessionOptions options) {
+                                                 SessionOptions options, PreparedScenePtr prepared) {
   if (const Status ok = check_options(options); !ok) return tl::unexpected(ok.error());
   std::unique_ptr<PacketRecorder> packets;
   if (!options.packets.empty()) {
@@ -212,17 +212,19 @@ Result<std::unique_ptr<Session>> Session::create(std::shared_ptr<const ContactSc
   wanted.maestro.channel = static_cast<std::uint8_t>(options.maestro_channel);
   auto devices = make_devices(options.devices, wanted);
   if (!devices) return tl::unexpected(devices.error());
-  return Impl::create(std::move(scene), preset, std::move(options), std::move(*devices), std::move(packets));
+  return Impl::create(std::move(scene), preset, std::move(options), std::move(*devices), std::move(packets),
+                      std::move(prepared));
 }
 
 Result<std::unique_ptr<Session>> Session::create(std::shared_ptr<const ContactScene> scene, const Preset& preset,
                                                  SessionOptions options, DeviceSet devices) {
-  return Impl::create(std::move(scene), preset, std::move(options), std::move(devices), nullptr);
+  return Impl::create(std::move(scene), preset, std::move(options), std::move(devices), nullptr, nullptr);
 }
 
 Result<std::unique_ptr<Session>> Session::Impl::create(std::shared_ptr<const ContactScene> scene, const Preset& preset,
                                                        SessionOptions options, DeviceSet devices,
-                                                       std::unique_ptr<PacketRecorder> packets) {
+                                                       std::unique_ptr<PacketRecorder> packets,
+                                                       PreparedScenePtr before) {
   if (const Status ok = check_options(options); !ok) return tl::unexpected(ok.error());
   if (const Status ok = check_preset(preset); !ok) return tl::unexpected(ok.error());
   if (!all_simulated(devices)) options.servo.time_by_deadlines = options.servo.watch_exchanges = true;
@@ -233,7 +235,8 @@ Result<std::unique_ptr<Session>> Session::Impl::create(std::shared_ptr<const Con
   if (const Status ok = check_rate(options.servo.rate_hz, devices); !ok) return tl::unexpected(ok.error());
   const PlacementLetter placement = first_placement(options.place, devices, *scene, preset.finger);
   if (const Status ok = check_placement(placement.placement); !ok) return tl::unexpected(ok.error());
-  auto prepared = std::make_unique<PreparedScene>(std::move(scene), preset.finger);
+  if (!before || before->scene != scene) before = prepare(std::move(scene), preset.finger);
+  std::unique_ptr<PreparedScene> prepared(before.release());
   auto impl = std::make_unique<Impl>(std::move(options), std::move(packets), std::move(devices), std::move(prepared),
                                      preset, placement);
   impl->build_rest();

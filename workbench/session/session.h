@@ -93,9 +93,9 @@ class Session {
  public:
   /// Opens the devices and prepares the scene (milliseconds to seconds). Fails on a preset or option out of range, an
   /// unknown device set, a condition the devices can't render, a device that can't be opened, or a packet file that
-  /// can't be written.
+  /// can't be written. `prepared`: what prepare() made of this scene before; null: it is made now.
   static Result<std::unique_ptr<Session>> create(std::shared_ptr<const ContactScene> scene, const Preset& preset,
-                                                 SessionOptions options = {});
+                                                 SessionOptions options = {}, PreparedScenePtr prepared = nullptr);
   /// As above, with these devices, not yet opened, in place of options.devices: a driver of one's own.
   static Result<std::unique_ptr<Session>> create(std::shared_ptr<const ContactScene> scene, const Preset& preset,
                                                  SessionOptions options, DeviceSet devices);

@@ -77,12 +77,11 @@ std::filesystem::path user_presets_path() {
   return folder.empty() ? folder : folder / "presets";
 }
 
-Result<WindowSettings> read_window_settings(const std::filesystem::path& path) {
+namespace {
+
+Result<WindowSettings> settings_from(toml::table root, const std::string& name) {
   WindowSettings out;
-  auto read = read_settings_file(path, kMaxBytes, "delete the file; the window starts with its own layout");
-  if (!read) return tl::unexpected(read.error());
-  if (const Status status = migrate(*read, kFormats, path.string()); !status) return tl::unexpected(status.error());
-  const toml::table& root = *read;
+  if (const Status status = migrate(root, kFormats, name); !status) return tl::unexpected(status.error());
   if (const toml::table* layout = root["layout"].as_table()) {
     take(*layout, "left", 100.0, 2000.0, out.left);
     take(*layout, "right", 0.0, 2000.0, out.right);
@@ -93,27 +92,35 @@ Result<WindowSettings> read_window_settings(const std::filesystem::path& path) {
     take(*layout, "show_right", out.show_right);
     take(*layout, "show_plots", out.show_plots);
     if (const auto task = (*layout)["task"].value<std::string>()) out.task = *task;
+    take(*layout, "table_rows", 0.0, 200.0, out.table_rows);
   }
   if (const toml::table* look = root["look"].as_table()) {
     take(*look, "light_theme", out.light_theme);
     take(*look, "text_size", 0.6, 3.0, out.text_size);
     take(*look, "y_up", out.y_up);
     if (const auto vision = (*look)["vision"].value<std::string>()) out.vision = *vision;
-    if (const auto name = (*look)["colour_map"].value<std::string>()) out.colour_map = *name;
+    if (const auto map = (*look)["colour_map"].value<std::string>()) out.colour_map = *map;
   }
   if (const toml::table* sections = root["sections"].as_table()) {
     for (const auto& [title, open] : *sections) {
       if (const auto value = open.value<bool>()) out.sections[std::string(title.str())] = *value;
     }
   }
+  if (const toml::table* plots = root["plots"].as_table()) {
+    for (const auto& [plot, channels] : *plots)
+      if (channels.is_array())
+        take(*plots, std::string(plot.str()).c_str(), out.plot_channels[std::string(plot.str())], 100);
+  }
   if (const toml::table* lists = root["lists"].as_table()) {
     take(*lists, "favourites", out.favourites, 100);
     take(*lists, "recent_meshes", out.recent_meshes, WindowSettings::kMostRecent);
+    take(*lists, "table_columns_left_out", out.left_out, 100);
+    take(*lists, "channels", out.channels, 100);
   }
   return out;
 }
 
-namespace {
+constexpr const char* kSettingsRemedy = "delete the file; the window starts with its own layout";
 
 bool is_newer(const std::filesystem::path& path) {
   const auto root = read_settings_file(path, kMaxBytes, "");
@@ -122,26 +129,44 @@ bool is_newer(const std::filesystem::path& path) {
 
 }  // namespace
 
+Result<WindowSettings> read_window_settings(const std::filesystem::path& path) {
+  auto read = read_settings_file(path, kMaxBytes, kSettingsRemedy);
+  if (!read) return tl::unexpected(read.error());
+  return settings_from(std::move(*read), path.string());
+}
+
+Result<WindowSettings> parse_window_settings(std::string_view text, std::string_view name) {
+  auto root = parse_toml(text, name, kSettingsRemedy);
+  if (!root) return tl::unexpected(root.error());
+  return settings_from(std::move(*root), std::string(name));
+}
+
 std::string format_window_settings(const WindowSettings& s) {
   toml::table sections;
   for (const auto& [title, open] : s.sections) sections.insert(title, open);
-  const toml::table root{
-      {"layout", toml::table{{"left", s.left},
-                             {"right", s.right},
-                             {"plots", s.plots},
-                             {"width", s.width},
-                             {"height", s.height},
-                             {"show_left", s.show_left},
-                             {"show_right", s.show_right},
-                             {"show_plots", s.show_plots},
-                             {"task", s.task}}},
-      {"look", toml::table{{"light_theme", s.light_theme},
-                           {"vision", s.vision},
-                           {"text_size", s.text_size},
-                           {"y_up", s.y_up},
-                           {"colour_map", s.colour_map}}},
-      {"sections", sections},
-      {"lists", toml::table{{"favourites", as_array(s.favourites)}, {"recent_meshes", as_array(s.recent_meshes)}}}};
+  toml::table plots;
+  for (const auto& [plot, channels] : s.plot_channels) plots.insert(plot, as_array(channels));
+  const toml::table root{{"layout", toml::table{{"left", s.left},
+                                                {"right", s.right},
+                                                {"plots", s.plots},
+                                                {"width", s.width},
+                                                {"height", s.height},
+                                                {"show_left", s.show_left},
+                                                {"show_right", s.show_right},
+                                                {"show_plots", s.show_plots},
+                                                {"task", s.task},
+                                                {"table_rows", s.table_rows}}},
+                         {"look", toml::table{{"light_theme", s.light_theme},
+                                              {"vision", s.vision},
+                                              {"text_size", s.text_size},
+                                              {"y_up", s.y_up},
+                                              {"colour_map", s.colour_map}}},
+                         {"sections", sections},
+                         {"plots", plots},
+                         {"lists", toml::table{{"favourites", as_array(s.favourites)},
+                                               {"recent_meshes", as_array(s.recent_meshes)},
+                                               {"table_columns_left_out", as_array(s.left_out)},
+                                               {"channels", as_array(s.channels)}}}};
   std::ostringstream text;
   text << "# The window's layout and look, kept between runs. Delete the file for the program's own.\n"
        << kFormats.line() << root << "\n";
@@ -194,6 +219,7 @@ WindowSettings merged(const WindowSettings& before, const WindowSettings& ours, 
   take_ours(&WindowSettings::width);
   take_ours(&WindowSettings::height);
   take_ours(&WindowSettings::task);
+  take_ours(&WindowSettings::table_rows);
   take_ours(&WindowSettings::y_up);
   take_ours(&WindowSettings::colour_map);
   for (const auto& [title, open] : ours.sections) {
@@ -203,8 +229,11 @@ WindowSettings merged(const WindowSettings& before, const WindowSettings& ours, 
   std::erase_if(out.sections, [&](const auto& entry) {
     return before.sections.contains(entry.first) && !ours.sections.contains(entry.first);
   });
+  take_ours(&WindowSettings::plot_channels);
+  out.channels = merged_list(before.channels, ours.channels, theirs.channels);
   out.favourites = merged_list(before.favourites, ours.favourites, theirs.favourites);
   out.recent_meshes = merged_recent(before, ours, theirs);
+  out.left_out = merged_list(before.left_out, ours.left_out, theirs.left_out);
   return out;
 }
 

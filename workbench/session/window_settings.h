@@ -19,14 +19,18 @@ struct WindowSettings {
          height = 0.0;  ///< of the window in which they were set, points: they are shares of it; 0: unknown
   bool show_left = true, show_right = true, show_plots = true;
   std::string task = "look";  ///< tab of the right column
+  double table_rows = 0.0;    ///< height of the table of iterations; 0: follows from the window's
   bool light_theme = false;
   std::string vision = "common";  ///< which eye the colours are for
   double text_size = 1.0;         ///< factor on top of the monitor's
   bool y_up = false;
   std::string colour_map = "tide";
-  std::map<std::string, bool> sections;    ///< by title: true if open
-  std::vector<std::string> favourites;     ///< full names of preset keys
-  std::vector<std::string> recent_meshes;  ///< latest first, at most kMostRecent
+  std::map<std::string, bool> sections;                           ///< by title: true if open
+  std::vector<std::string> favourites;                            ///< full names of preset keys
+  std::vector<std::string> recent_meshes;                         ///< latest first, at most kMostRecent
+  std::map<std::string, std::vector<std::string>> plot_channels;  ///< of the plots that are not as at first, by plot
+  std::vector<std::string> channels;                              ///< derived ones, in a plot or not
+  std::vector<std::string> left_out;                              ///< titles of that table's columns that are not shown
   bool operator==(const WindowSettings&) const = default;
 
   /// Moves this mesh to the front of recent_meshes, or adds it there.
@@ -43,6 +47,8 @@ std::filesystem::path window_settings_path();
 /// load. A missing file gives the defaults. Fails on a file that is not valid TOML or whose format
 /// (core/io/file_format.h) is newer than this program.
 Result<WindowSettings> read_window_settings(const std::filesystem::path& path);
+/// The same of a text; `name` is for messages.
+Result<WindowSettings> parse_window_settings(std::string_view text, std::string_view name);
 /// The settings as TOML text.
 std::string format_window_settings(const WindowSettings& settings);
 /// Writes atomically; makes the folder. Fails when it can't be written.

@@ -33,8 +33,11 @@ Followed follow(ContactContext& context, const TrackedPlane& kept, bool sample_i
   const int limit = context.settings.max_iterations;
   iterate_kept(context, kept, sample_is_kept, robust ? std::min(kTrackBudget, limit) : limit, result);
   if (!result.converged()) return Followed::lost;
-  const bool turned = has_turned_over(context, kept, result);
-  if (!turned) return has_leapt_in_depth(context, kept, result) ? Followed::branched : Followed::held;
+  if (!has_turned_over(context, kept, result)) {
+    // The motion may explain as much as that, but over a fold the contact has leapt all the same.
+    const bool over_fold = result.met_unstable && glm::dot(kept.normal, result.plane.normal) < kJumpCosine;
+    return over_fold || has_leapt_in_depth(context, kept, result) ? Followed::branched : Followed::held;
+  }
   if (result.met_unstable || !robust) return Followed::branched;
   if (context.trace) context.trace->amend_last(StopReason::leapt);
   return Followed::lost;

@@ -145,6 +145,8 @@ WalkResult walk_face(const ContactMesh& mesh, std::uint32_t t, double u, double 
       result.place = place_on_edge(t, exit, f);
       return result;
     }
+    const EdgeLink other = mesh.across(t, exit);
+    mesh.prefetch(other.triangle);
     // Unfold: keep what is left of the step along and across the edge, across now into the neighbour.
     const Vec3 left = (1.0 - share) * (du * (mesh.position(t, 1) - mesh.position(t, 0)) +
                                        dv * (mesh.position(t, 2) - mesh.position(t, 0)));
@@ -152,7 +154,6 @@ WalkResult walk_face(const ContactMesh& mesh, std::uint32_t t, double u, double 
     const Vec3 edge_unit = unit(edge_vector);
     const double along = glm::dot(left, edge_unit);
     const double across = std::max(0.0, -glm::dot(left, inward(mesh, t, exit, edge_unit)));
-    const EdgeLink other = mesh.across(t, exit);
     const Vec3 unfolded = along * edge_unit + across * inward(mesh, other.triangle, other.edge, edge_unit);
     t = other.triangle;
     entered = other.edge;

@@ -332,6 +332,38 @@ ContactHierarchy ContactHierarchy::build(const ContactMesh& mesh, std::span<cons
   return tree;
 }
 
+Vec3 ContactHierarchy::Outline::centre() const {
+  const Vec3 low(root_.min[0], root_.min[1], root_.min[2]), high(root_.max[0], root_.max[1], root_.max[2]);
+  return 0.5 * (low + high);
+}
+
+double ContactHierarchy::Outline::radius_m() const {
+  const Vec3 low(root_.min[0], root_.min[1], root_.min[2]), high(root_.max[0], root_.max[1], root_.max[2]);
+  return 0.5 * glm::length(high - low) + room_m_;
+}
+
+ContactHierarchy::Outline ContactHierarchy::Outline::about(const Outline& a, const Outline& b) {
+  // Ratio and cosine, far above what doubles and the cones' floats are rounded by.
+  constexpr double kRadiusRoom = 1e-6, kCosineRoom = 1e-6;
+  Outline both;
+  Node& node = both.root_;
+  for (std::size_t k = 0; k < 3; ++k) {
+    node.min[k] = std::min(a.root_.min[k], b.root_.min[k]);
+    node.max[k] = std::max(a.root_.max[k], b.root_.max[k]);
+  }
+  node.least_curvature = std::min(a.root_.least_curvature, b.root_.least_curvature);
+  node.greatest_curvature = std::max(a.root_.greatest_curvature, b.root_.greatest_curvature);
+  const auto cone_of = [](const Node& of) { return Cone{normals_of(of).axis, of.cos_half}; };
+  const Cone cone = merge(cone_of(a.root_), cone_of(b.root_));
+  for (int k = 0; k < 3; ++k) node.axis[static_cast<std::size_t>(k)] = static_cast<float>(cone.axis[k]);
+  node.cos_half = cone.cos_half - kCosineRoom <= -1.0 ? -1.0f : below(cone.cos_half - kCosineRoom);
+  const Vec3 centre = both.centre();
+  const double radius =
+      std::max(glm::distance(centre, a.centre()) + a.radius_m(), glm::distance(centre, b.centre()) + b.radius_m());
+  both.room_m_ = above((1.0 + kRadiusRoom) * radius - both.radius_m());
+  return both;
+}
+
 /// lambda of contacts on the outside within the query's bounds, and of those seen from inside (finger_core.h).
 static double most_lambda_m(const FingerCore& core, double nearest_m) {
   return core.ball_m() - core.reach_m() + std::max(nearest_m - core.lever_m(), core.lever_m());
@@ -355,9 +387,8 @@ bool ContactHierarchy::touchable(const Node& node, const ContactQuery& q) {
   const NormalCone normals = normals_of(node);
   const SurfaceBounds part{0.5 * (low + high), 0.5 * (high - low), normals};
   const double most = most_lambda_m(*q.core, q.nearest_m);
-  if (can_touch(*q.core, part, most, 0.0)) return true;
-  if (q.margin_m == 0.0 || q.steady_only || is_steady_for_core(q, node.least_curvature, normals)) return false;
-  return can_touch(*q.core, part, most, q.margin_m);
+  const bool here = q.margin_m == 0.0 || q.steady_only || is_steady_for_core(q, node.least_curvature, normals);
+  return can_touch(*q.core, part, most, here ? 0.0 : q.margin_m);
 }
 
 void limit_query(ContactQuery& query, const Finger& finger, double rank) {

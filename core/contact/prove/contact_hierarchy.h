@@ -91,6 +91,10 @@ class ContactHierarchy {
   /// Whether it is certain that none of the triangles can hold such a contact.
   bool rules_out(const ContactQuery& query) const { return nodes_.empty() || reach2(nodes_[0], query) < 0.0; }
 
+  class Outline;
+  /// Precondition: it is over a triangle at least.
+  Outline outline() const;
+
   std::size_t memory_bytes() const { return nodes_.size() * sizeof(Node) + order_.size() * sizeof(std::uint32_t); }
 
  private:
@@ -108,8 +112,9 @@ class ContactHierarchy {
     std::uint32_t count;                        ///< entries of a leaf
   };
 
-  /// Squared distance of the box, or -1 where the node can't hold a contact.
-  static double reach2(const Node& node, const ContactQuery& query);
+  /// Squared distance of the box, or -1 where the node can't hold a contact. `room_m`: by which the ball about its
+  /// points is larger than the one about the box.
+  static double reach2(const Node& node, const ContactQuery& query, double room_m = 0.0);
   static NormalCone normals_of(const Node& node);
   static bool stays(const Node& node, const ContactQuery& query) {
     return query.core ? is_steady_for_core(query, node.least_curvature, normals_of(node))
@@ -123,7 +128,30 @@ class ContactHierarchy {
   std::vector<std::uint32_t> order_;  ///< part << kPartShift | triangle, leaf by leaf
 };
 
-inline double ContactHierarchy::reach2(const Node& node, const ContactQuery& q) {
+/// What all triangles of a hierarchy, or of several, have in common, by itself: a search over many hierarchies reads
+/// these and goes into few.
+class ContactHierarchy::Outline {
+ public:
+  Outline() = default;
+  /// Of the triangles of both: rules out no query that one of them doesn't rule out, nor would with narrower bounds.
+  /// Not for fingers with a core.
+  static Outline about(const Outline& a, const Outline& b);
+  /// Whether it is certain that none of the triangles can hold such a contact.
+  bool rules_out(const ContactQuery& query) const { return reach2(root_, query, room_m_) < 0.0; }
+
+ private:
+  friend class ContactHierarchy;
+  explicit Outline(const Node& root) : root_(root) {}
+  Vec3 centre() const;
+  double radius_m() const;  ///< of the ball about the centre that holds the balls about all boxes in it
+
+  Node root_{};
+  float room_m_ = 0.0f;  ///< by which that ball is larger than the one about the box
+};
+
+inline ContactHierarchy::Outline ContactHierarchy::outline() const { return Outline(nodes_[0]); }
+
+inline double ContactHierarchy::reach2(const Node& node, const ContactQuery& q, double room_m) {
   const Vec3 low(node.min[0], node.min[1], node.min[2]), high(node.max[0], node.max[1], node.max[2]);
   if (q.steady_only) {
     const Vec3 beside = glm::max(low - q.region.max, q.region.min - high);
@@ -138,7 +166,7 @@ inline double ContactHierarchy::reach2(const Node& node, const ContactQuery& q) 
 
   // Seen from c the node's points lie within `spread` of the direction to its middle; c may move by the margin.
   Vec3 d = q.centre - 0.5 * (low + high);
-  double radius = 0.5 * std::sqrt(glm::dot(high - low, high - low));
+  double radius = 0.5 * std::sqrt(glm::dot(high - low, high - low)) + room_m;
   if (!q.steady_only && !is_steady(q, node.least_curvature, node.greatest_curvature)) {
     d += q.ahead;
     radius += q.margin_m;

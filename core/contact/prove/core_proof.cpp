@@ -3,6 +3,8 @@
 #include "core/base/tolerances.h"
 #include "core/contact/contact_rank.h"
 #include "core/contact/nearest_triangles.h"
+#include "core/contact/prove/core_feature_proof.h"
+#include "core/contact/prove/linear_core.h"
 #include "core/mesh/vertex_ring.h"
 
 #include <algorithm>
@@ -18,13 +20,11 @@ constexpr double kSharpShare = 0.8;  // of the sharpest radius: less deep the fi
 
 /// Of a patch's longer side: p is linear to within that, or nothing is gained by taking it for that.
 constexpr double kMostOff = 0.3;
+/// Off by less, a contact that seems possible is one, or so near to one that pieces tell no more.
+constexpr double kLittleOff = 0.05;
 
-/// Control normals as a Bernstein form has them, of either normal form.
-std::array<Vec3, 6> bernstein_normals(const PnPatch& patch) {
-  std::array<Vec3, 6> n = patch.normals;
-  for (std::size_t i = n110; i <= n101; ++i) n[i] *= 0.5 * patch.mixed_weight;
-  return n;
-}
+/// Bisections of a patch, and pieces looked at in all.
+constexpr int kPieceDepth = 6, kPieces = 40;
 
 /// The cone of the directions of some vectors about their sum.
 NormalCone cone_of(std::span<const Vec3> normals) {
@@ -44,37 +44,12 @@ SurfaceBounds bounds_of(std::span<const Vec3> points, const NormalCone& cone) {
   return {box.centre(), 0.5 * box.size(), cone};
 }
 
-/// p(n) about the axis of a patch's normals: D n, and how far that is off.
-struct LinearCore {
-  CoreSupport support;
-  double off_m = std::numeric_limits<double>::infinity();  ///< |e| at most
-  double least_length_m = 0.0;                             ///< |A N| at least
-};
-
-LinearCore linear_core(const FingerCore& core, const std::array<Vec3, 6>& normals, const Vec3& axis) {
-  LinearCore l;
-  l.support = core.support(axis);
-  double step = 0.0, slope2 = 0.0, least = 1.0;
-  for (const Vec3& n : normals) {
-    const double along = glm::dot(n, axis);
-    if (!(along > 0.3)) return l;
-    const Vec3 tau = n / along - axis;
-    const Vec3 moved = core.derivative(l.support, tau);
-    step = std::max(step, core.half_width(tau));
-    slope2 = std::max(slope2, glm::dot(moved, moved));
-    least = std::min(least, along);
-  }
-  l.off_m = core.longest_m() * core.bend(l.support, step) + (1.0 - least) * std::sqrt(slope2);
-  l.least_length_m = l.support.length - step;
-  return l;
-}
-
 /// The patch S - D n, raised so that its heights are ranks: by the reach less the ball along n.
-PnPatch patch_less_core(const PnPatch& patch, const std::array<Vec3, 6>& n, const FingerCore& core,
-                        const CoreSupport& support) {
+PnPatch patch_less_core(const PnPatch& patch, const FingerCore& core, const LinearCore& linear) {
   const double raise = core.reach_m() - core.ball_m();
+  const std::array<Vec3, 6>& n = patch.normals;
   std::array<Vec3, 6> d;
-  for (std::size_t i = 0; i < 6; ++i) d[i] = core.derivative(support, n[i]) + raise * n[i];
+  for (std::size_t i = 0; i < 6; ++i) d[i] = linear.scale * core.derivative(linear.support, n[i]) + raise * n[i];
   PnPatch less = patch;
   const auto lower = [&](ControlPoint b, const Vec3& by) { less.offsets[b] -= by; };
   lower(b300, d[n200]);
@@ -91,13 +66,95 @@ PnPatch patch_less_core(const PnPatch& patch, const std::array<Vec3, 6>& n, cons
 }
 
 /// Of a place that may hold a contact, known but for `off_m`: its point, and the least rank that the contact may have.
-void rank_place(const ContactContext& context, const FingerCore& core, const PnPatch& patch, double off_m,
-                PatchExclusion& proof) {
+/// Returns how far it is from being one.
+double rank_place(const ContactContext& context, const FingerCore& core, const PnPatch& patch, double off_m,
+                  PatchExclusion& proof) {
   proof.point = evaluate_point(patch, proof.u, proof.v);
   const PlaneContact c =
       contact_on_plane(context.finger, context.pose, proof.point, evaluate_normal(patch, proof.u, proof.v));
   const double wrong = off_m * off_m / std::max(1e-12, core.sharpest_m());
   proof.height_m = std::max(0.0, contact_rank(context.finger, c) - wrong);
+  return c.error_m;
+}
+
+/// What is known of a piece: `proof` of it, in its own (u, v); of a possible contact height_m is how far the finger's
+/// support is off there at most. `curved`: the core is not linear enough over it; `clear`: smaller pieces tell no more.
+struct PieceLook {
+  PatchExclusion proof;
+  bool curved = false, clear = false;
+};
+
+PieceLook look_at_piece(const PatchPiece& piece, const FingerCore& core, const RankBound& bound, double enough_m) {
+  const PnPatch& patch = piece.patch;
+  std::array<Vec3, 10> points;
+  for (std::size_t i = 0; i < points.size(); ++i) points[i] = patch.control_point(i);
+  const double at_once = touch_margin(core, bounds_of(points, cone_of(patch.normals)));
+  PieceLook look;
+  look.proof.margin_m = at_once;
+  look.proof.possible = !(at_once > 0.0);
+  if (at_once > 0.0 && at_once >= enough_m) return look;
+  const std::array<Vec3, 2> sides{patch.offsets[b030], patch.offsets[b003]};
+  const Vec3 sum = patch.normals[n200] + patch.normals[n020] + patch.normals[n002];
+  const double sum2 = glm::dot(sum, sum);
+  look.curved = !(sum2 > 0.01);
+  if (look.curved) return look;
+  const Vec3 axis = sum / std::sqrt(sum2);
+  const LinearCore linear = linear_core(core, patch.normals, axis);
+  const double size2 = std::max(glm::dot(sides[0], sides[0]), glm::dot(sides[1], sides[1]));
+  look.curved = !(linear.off_m * linear.off_m < kMostOff * kMostOff * size2);
+  look.clear = linear.off_m * linear.off_m < kLittleOff * kLittleOff * size2;
+  const LinearCore segment = look.curved ? segment_core(core, patch.normals, axis) : LinearCore{};
+  const LinearCore& known = look.curved ? segment : linear;
+  if (known.off_m == std::numeric_limits<double>::infinity()) return look;
+  StandIn stands_for{sides, known.slopes, known.bend, known.rest_m};
+  for (Vec3& slope : stands_for.spread) slope *= known.slope_share;
+  PatchExclusion proof = exclude_contact(patch_less_core(patch, core, known), known.point, 2.0 * enough_m, stands_for);
+  const double wrong = known.off_m + known.along_m;
+  const double least_rank = proof.least_height_m - wrong;
+  const double shallow = least_rank > core.lever_m() ? bound.way_to(least_rank) : 0.0;
+  const double missed = look.curved || !(proof.margin_m > 0.0)
+                            ? proof.margin_m
+                            : core.way_within(core.longest_m(), linear.least_length_m, proof.margin_m);
+  look.proof = proof;
+  look.proof.margin_m = std::max({at_once, shallow, missed});
+  look.proof.possible = !(look.proof.margin_m > 0.0) && (proof.possible || look.curved);
+  look.proof.height_m = wrong;
+  return look;
+}
+
+/// The patch by pieces, bisected where the core is not linear enough or nothing else is known. A possible contact is
+/// the one of least rank; where pieces remain of which nothing is known it has none, and lies in the likeliest of them.
+PatchExclusion exclude_pieces(const ContactContext& context, const PnPatch& patch, const FingerCore& core,
+                              const RankBound& bound, double enough_m) {
+  std::array<PatchPiece, kPieceDepth + 2> stack;
+  std::size_t size = 0;
+  stack[size++] = PatchPiece(patch);
+  PatchExclusion result;
+  result.margin_m = std::numeric_limits<double>::max();
+  result.possible = false;
+  double nearest = std::numeric_limits<double>::max();
+  for (int looks = 1; size > 0; ++looks) {
+    const PatchPiece piece = stack[--size];
+    const PieceLook look = look_at_piece(piece, core, bound, enough_m);
+    const bool unknown = look.proof.possible ? !look.clear : look.curved && look.proof.margin_m < enough_m;
+    if (unknown && piece.depth < kPieceDepth && looks < kPieces) {
+      bisect(piece, stack[size], stack[size + 1]);
+      size += 2;
+      continue;
+    }
+    result.margin_m = std::min(result.margin_m, look.proof.margin_m);
+    if (!look.proof.possible) continue;
+    PatchExclusion here;
+    const Vec2 uv = look.curved ? piece.at(1.0 / 3.0, 1.0 / 3.0) : piece.at(look.proof.u, look.proof.v);
+    here.u = uv.x;
+    here.v = uv.y;
+    const double error = rank_place(context, core, patch, look.proof.height_m, here);
+    if (look.curved) here.height_m = 0.0;
+    const bool likelier = look.curved ? error < nearest : here.height_m < result.height_m;
+    if (!result.possible || likelier) result = here;
+    if (look.curved) nearest = std::min(nearest, error);
+  }
+  return result;
 }
 
 /// A solve had best start where the core's support for the triangle's middle normal is nearest.
@@ -113,65 +170,22 @@ PatchExclusion no_proof(const ContactContext& context, const FingerCore& core, s
   return nothing;
 }
 
-/// corner_exclusion for these fingers: seen from p(A), A the triangle's mean normal, the contact of a normal of the
-/// patch misses the line along it by no more than p moves between the two.
-double corner_exclusion_by_core(const ContactMesh& mesh, const FingerCore& core, std::uint32_t t) {
-  constexpr double kRoom = 1.5;  // from the corner normals to any normal of the patch
-  const auto n = mesh.normals(t);
-  const Vec3 sum = n[0] + n[1] + n[2];
-  if (glm::dot(sum, sum) < 4.0) return 0.0;
-  const CoreSupport support = core.support(unit(sum));
-  double moves = 0.0, least_length = support.length;
-  for (const Vec3& normal : n) {
-    const CoreSupport there = core.support(normal);
-    moves = std::max(moves, glm::distance(support.point, there.point));
-    least_length = std::min(least_length, there.length);
-  }
-  const double room = corner_exclusion(mesh, t, support.point) - kRoom * moves;
-  return core.way_within(core.longest_m(), least_length, room);
-}
-
 }  // namespace
 
 PatchExclusion exclude_face_by_core(ContactContext& context, const FingerCore& core, std::uint32_t t,
                                     const RankBound& bound, double enough_m) {
-  PatchExclusion proof;
-  proof.possible = false;
-  // A first look tells whether there is a contact now, but not well enough for how long there will be none.
-  if (!(enough_m > 0.0)) proof.margin_m = corner_exclusion_by_core(context.cache.mesh(), core, t);
-  if (proof.margin_m > 0.0) return proof;
-  const PnPatch& patch = context.cache.patch(t, context.settings.normal_form);
-  const std::array<Vec3, 6> normals = bernstein_normals(patch);
-  const NormalCone cone = cone_of(normals);
-  std::array<Vec3, 10> points;
-  for (std::size_t i = 0; i < points.size(); ++i) points[i] = patch.control_point(i);
-  const double at_once = std::max(proof.margin_m, touch_margin(core, bounds_of(points, cone)));
-  proof.margin_m = at_once;
-  if (at_once > 0.0 && at_once >= enough_m) return proof;
-  const LinearCore linear = linear_core(core, normals, cone.axis);
-  const double size2 =
-      std::max(glm::dot(patch.offsets[b030], patch.offsets[b030]), glm::dot(patch.offsets[b003], patch.offsets[b003]));
-  if (!(linear.off_m * linear.off_m < kMostOff * kMostOff * size2))
-    return at_once > 0.0 ? proof : no_proof(context, core, t);
-
-  const StandIn stands_for{{patch.offsets[b030], patch.offsets[b003]}, linear.off_m};
-  proof = exclude_contact(patch_less_core(patch, normals, core, linear.support), linear.support.point, 2.0 * enough_m,
-                          stands_for);
-  const double least_rank = proof.least_height_m - linear.off_m;
-  const double shallow = least_rank > core.lever_m() ? bound.way_to(least_rank) : 0.0;
-  const double by_slide =
-      proof.margin_m > 0.0 ? core.way_within(core.longest_m(), linear.least_length_m, proof.margin_m) : 0.0;
-  proof.margin_m = std::max({at_once, shallow, by_slide});
-  if (proof.margin_m > 0.0) proof.possible = false;
-  if (proof.possible) rank_place(context, core, patch, linear.off_m, proof);
-  return proof;
+  return exclude_pieces(context, context.cache.patch(t, context.settings.normal_form), core, bound, enough_m);
 }
 
 PatchExclusion exclude_by_core(ContactContext& context, const FingerCore& core, std::uint32_t t, const RankBound& bound,
                                double enough_m) {
   const ContactMesh& mesh = context.cache.mesh();
-  if (!mesh.interior(t)) return no_proof(context, core, t);
-  return exclude_face_by_core(context, core, t, bound, enough_m);
+  if (mesh.interior(t)) return exclude_face_by_core(context, core, t, bound, enough_m);
+  const double features = exclude_features_by_core(context, core, {t}, bound);
+  if (!(features > 0.0)) return no_proof(context, core, t);
+  PatchExclusion proof = exclude_face_by_core(context, core, t, bound, enough_m);
+  proof.margin_m = std::min(proof.margin_m, features);
+  return proof;
 }
 
 bool can_ask_steady(const FingerCore& core, double rank_m) {

@@ -47,6 +47,30 @@ constexpr ProductTable kProduct;
 Vec2 perpendicular(const Vec2& a) { return {-a.y, a.x}; }
 double cross(const Vec2& a, const Vec2& b) { return a.x * b.y - a.y * b.x; }
 
+constexpr int kSlackTests = 6;  // parts of a face known roughly: smaller ones tell no more
+
+/// f as it is.
+struct NoSlack {
+  static constexpr bool kNone = true;
+  double beside(const Vec2&) const { return 0.0; }
+};
+
+/// f known but for a vector of these hulls (StandIn).
+struct Slack {
+  static constexpr bool kNone = false;
+  std::array<Vec2, 6> spread;
+  Vec2 bend;
+  double rest_m;
+  Vec2 longest{0.0};  ///< across it f is known best
+
+  /// By how much f may be wrong across a direction.
+  double beside(const Vec2& side) const {
+    double widest = 0.0;
+    for (const Vec2& x : spread) widest = std::max(widest, std::abs(cross(x, side)));
+    return rest_m + (widest + std::abs(cross(bend, side))) / std::sqrt(glm::dot(side, side));
+  }
+};
+
 /// f over a part of the patch whose corners lie at these (u, v).
 struct Part {
   QuinticMap f;
@@ -61,6 +85,19 @@ struct Part {
     const double middle = beside(perpendicular(f0 + f1 + f2));
     if (middle > 0.0 && middle >= enough_m) return middle;
     return std::max({middle, beside(f1 - f0), beside(f2 - f1), beside(f0 - f2)});
+  }
+
+  double margin(double enough_m, const NoSlack&) const { return margin(enough_m); }
+  /// The same of f known but for that.
+  double margin(double enough_m, const Slack& slack) const {
+    const Vec2 f0 = at_corner(0), f1 = at_corner(1), f2 = at_corner(2);
+    double most = 0.0;
+    for (const Vec2& side : {perpendicular(f0 + f1 + f2), slack.longest, f1 - f0, f2 - f1, f0 - f2}) {
+      const double clear = beside(side);
+      if (clear > most) most = std::max(most, clear - slack.beside(side));
+      if (most > 0.0 && most >= enough_m) return most;
+    }
+    return most;
   }
 
   /// Distance of 0 from the coefficients across direction `side`, 0 if they lie on both sides of it: mostly the corners
@@ -186,7 +223,9 @@ SideDerivative side_derivative(const Part& part) {
 }
 
 /// Excludes what can be of the parts of `whole`, where a margin of `enough_m` need not be the widest.
-void bisect_parts(const Part& whole, const Ground& ground, double enough_m, double off_m, PatchExclusion& result) {
+template <class Slack>
+void bisect_parts(const Part& whole, const Ground& ground, double enough_m, const Slack& slack,
+                  PatchExclusion& result) {
   std::array<Part, kBisections + 2> stack;
   std::size_t size = 0;
   stack[size++] = whole;
@@ -195,25 +234,25 @@ void bisect_parts(const Part& whole, const Ground& ground, double enough_m, doub
   result.possible = false;
   for (int tests = 0; size > 0; ++tests) {
     const Part part = stack[--size];
-    const double here = part.margin(enough_m + off_m) - off_m;
+    const double here = part.margin(enough_m, slack);
     if (here > 0.0) {
       margin = std::min(margin, here);
       continue;
     }
     const bool stable = could_be_stable(part, ground.edge_u, ground.edge_v);
-    const bool asked = ground.gentle && enough_m > 0.0 && !(off_m > 0.0);
+    const bool asked = Slack::kNone && ground.gentle && enough_m > 0.0;
     const double folded = asked && !stable ? folded_margin(part, ground) : 0.0;
     if (folded > 0.0) {
       margin = std::min(margin, folded);
       continue;
     }
-    if (part.depth < kBisections && tests < kBisectionTests) {
+    if (part.depth < kBisections && tests < (Slack::kNone ? kBisectionTests : kSlackTests)) {
       bisect(part, stack[size], stack[size + 1]);
       size += 2;
       continue;
     }
     margin = 0.0;
-    if (!stable) continue;
+    if (Slack::kNone && !stable) continue;  // of what is known roughly the corners of a part don't tell
     const Vec2 uv = part.linear_zero();
     const Vec2 middle = (part.at_corner(0) + part.at_corner(1) + part.at_corner(2)) / 3.0;
     const double off = glm::dot(middle, middle);
@@ -319,29 +358,45 @@ double estimated_height(const PnPatch& patch, const Vec3& c, double u, double v,
 
 }  // namespace
 
-PatchExclusion exclude_contact(const PnPatch& patch, const Vec3& centre, double enough_m) {
-  return exclude_contact(patch, centre, enough_m, {{patch.offsets[b030], patch.offsets[b003]}, 0.0});
-}
-
-PatchExclusion exclude_contact(const PnPatch& patch, const Vec3& centre, double enough_m, const StandIn& stands_for) {
-  Factors factors;
-  if (!factors.set(patch, centre)) return {};
+/// Of the patch by its factors; `patch` again for the place.
+template <class Slack>
+static PatchExclusion exclude(const PnPatch& patch, const Factors& factors, double enough_m, const Slack& slack,
+                              const std::array<Vec3, 2>& sides) {
   Part whole;
   whole.f.fill(Vec2(0.0));
   whole.corner = {Vec2(0.0, 0.0), Vec2(1.0, 0.0), Vec2(0.0, 1.0)};
   multiply_miss(factors.d, factors.n, whole.f, std::make_index_sequence<60>());
   PatchExclusion result;
-  result.margin_m = std::max(0.0, whole.margin(enough_m + stands_for.off_m) - stands_for.off_m);
+  result.margin_m = whole.margin(enough_m, slack);
   if (result.margin_m > 0.0) result.possible = false;
   if (result.margin_m > 0.0 && result.margin_m >= enough_m) return result;
   result.least_height_m = factors.least_height_m();
   if (!result.possible) return result;
-  bisect_parts(whole, factors.ground(stands_for.sides), enough_m, stands_for.off_m, result);
+  bisect_parts(whole, factors.ground(sides), enough_m, slack, result);
   if (result.margin_m > 0.0) result.possible = false;
   if (!result.possible) return result;
   result.height_m = estimated_height(patch, factors.centre, result.u, result.v, result.point);
   result.point += patch.origin;
   return result;
+}
+
+PatchExclusion exclude_contact(const PnPatch& patch, const Vec3& centre, double enough_m) {
+  Factors factors;
+  if (!factors.set(patch, centre)) return {};
+  return exclude(patch, factors, enough_m, NoSlack{}, {patch.offsets[b030], patch.offsets[b003]});
+}
+
+PatchExclusion exclude_contact(const PnPatch& patch, const Vec3& centre, double enough_m, const StandIn& stands_for) {
+  Factors factors;
+  if (!factors.set(patch, centre)) return {};
+  const auto in_frame = [&](const Vec3& x) { return Vec2(glm::dot(x, factors.t), glm::dot(x, factors.s)); };
+  Slack slack{{}, in_frame(stands_for.bend), stands_for.rest_m};
+  for (std::size_t i = 0; i < slack.spread.size(); ++i) {
+    slack.spread[i] = in_frame(stands_for.spread[i]);
+    if (glm::dot(slack.spread[i], slack.spread[i]) > glm::dot(slack.longest, slack.longest))
+      slack.longest = slack.spread[i];
+  }
+  return exclude(patch, factors, enough_m, slack, stands_for.sides);
 }
 
 bool excludes_at_a_glance(const PnPatch& patch, const Vec3& centre, const RankBound& bound, double enough_m) {

@@ -23,6 +23,9 @@ struct PatchExclusion {
   double u = 1.0 / 3.0, v = 1.0 / 3.0;
   Vec3 point{0.0};        ///< of the patch there
   double height_m = 0.0;  ///< 0: not known, nor is the point
+  /// (u, v) is a place to start from for a contact on the triangle's edges; one inside the face may be near these.
+  bool also_inside = false;
+  double inside_u = 0.0, inside_v = 0.0;
 };
 
 /// `centre` in the patch's coordinates. Faces only: edges and vertices have fans of normals of their own. Where the
@@ -37,10 +40,13 @@ PatchExclusion exclude_contact(const PnPatch& patch, const Vec3& centre, double 
 bool excludes_at_a_glance(const PnPatch& patch, const Vec3& centre, const RankBound& bound, double enough_m);
 
 /// The same for a patch that stands for another: contacts are stable or not on a triangle with these sides, and
-/// `centre` is wrong by up to `off_m` for each normal; margins are what is left beside that.
+/// `centre` is wrong for each normal, across the middle of the corners' normals by no more than a vector in the hull of
+/// +-`spread`, another in that of +-`bend`, and `rest_m`; margins are what is left beside that.
 struct StandIn {
   std::array<Vec3, 2> sides;
-  double off_m = 0.0;
+  std::array<Vec3, 6> spread;
+  Vec3 bend{0.0};
+  double rest_m = 0.0;
 };
 PatchExclusion exclude_contact(const PnPatch& patch, const Vec3& centre, double enough_m, const StandIn& stands_for);
 

@@ -10,8 +10,11 @@
 #include "core/contact/prove/contact_hierarchy.h"
 #include "core/contact/triangle_clusters.h"
 
+#include <atomic>
+#include <cstdint>
 #include <memory>
 #include <optional>
+#include <vector>
 
 namespace tangent {
 
@@ -31,10 +34,36 @@ class LateHierarchy {
   std::size_t memory_bytes() const;  ///< of what is built
 
  private:
+  /// The outline of a part, or of all parts below a node of the clusters' tree: most within reach are ruled out by it.
+  /// A line of the processor's cache.
+  struct alignas(64) OutlineSlot {
+    static constexpr std::uint32_t kEmpty = 0, kTaken = 1, kFilled = 2;
+    std::atomic<std::uint32_t> state{kEmpty};
+    ContactHierarchy::Outline outline;
+
+    bool filled() const { return state.load(std::memory_order_acquire) == kFilled; }
+    /// Once, by whichever thread comes first.
+    void fill(const ContactHierarchy::Outline& with) {
+      std::uint32_t empty = kEmpty;
+      if (!state.compare_exchange_strong(empty, kTaken, std::memory_order_relaxed)) return;
+      outline = with;
+      state.store(kFilled, std::memory_order_release);
+    }
+  };
+
   /// Null: where this thread makes nothing (MakesNothing) and it is not built.
   const ContactHierarchy* part(std::size_t number) const {
-    return parts_[number].find([&] { return ContactHierarchy::build(*mesh_, clusters_->triangles(number)); });
+    const ContactHierarchy* part =
+        parts_[number].find([&] { return ContactHierarchy::build(*mesh_, clusters_->triangles(number)); });
+    if (part && !slot_of(number).filled()) slot_of(number).fill(part->outline());
+    return part;
   }
+  OutlineSlot& slot_of(std::size_t part) const { return outlines_[leaf_of_[part]]; }
+  /// Whether all parts below a node are built and would be ruled out one by one. Saves time, changes nothing: a leaf is
+  /// asked when the search comes to it, by bounds that may have shrunk.
+  bool rules_out_all(std::uint32_t node, const ContactQuery& query) const;
+  template <class Visit>
+  bool visit_part(std::size_t number, ContactQuery& query, Visit& visit) const;
   /// As of a node of the hierarchy whose normals are not known.
   static double reach2(const Vec3& low, const Vec3& high, const ContactQuery& query);
 
@@ -42,6 +71,8 @@ class LateHierarchy {
   const TriangleClusters* clusters_;
   std::optional<ContactHierarchy> whole_;
   std::unique_ptr<BuiltOnce<ContactHierarchy>[]> parts_;
+  std::unique_ptr<OutlineSlot[]> outlines_;  ///< per node of the clusters' tree, as far as what is below it is built
+  std::vector<std::uint32_t> leaf_of_;       ///< per part
 };
 
 inline double LateHierarchy::reach2(const Vec3& low, const Vec3& high, const ContactQuery& query) {
@@ -53,20 +84,41 @@ inline double LateHierarchy::reach2(const Vec3& low, const Vec3& high, const Con
 }
 
 template <class Visit>
+bool LateHierarchy::visit_part(std::size_t number, ContactQuery& query, Visit& visit) const {
+  const OutlineSlot& slot = slot_of(number);
+  if (slot.filled() && slot.outline.rules_out(query)) return true;
+  const ContactHierarchy* here = part(number);
+  return here && (here->rules_out(query) || here->visit_on(query, visit));
+}
+
+inline bool LateHierarchy::rules_out_all(std::uint32_t node, const ContactQuery& query) const {
+  const BoxTree& tree = clusters_->tree();
+  if (query.core || tree.is_leaf(node)) return false;
+  OutlineSlot& slot = outlines_[node];
+  if (!slot.filled()) {
+    const auto [a, b] = tree.below(node);
+    if (!outlines_[a].filled() || !outlines_[b].filled()) return false;
+    slot.fill(ContactHierarchy::Outline::about(outlines_[a].outline, outlines_[b].outline));
+    if (!slot.filled()) return false;  // another thread is at it
+  }
+  return slot.outline.rules_out(query);
+}
+
+template <class Visit>
 void LateHierarchy::visit(ContactQuery query, Visit visit) const {
   if (!clusters_) {
     whole_->visit_on(query, visit);
     return;
   }
-  clusters_->tree().visit([&](const Vec3& low, const Vec3& high) { return reach2(low, high, query); },
-                          [&] {
-                            const double farthest = std::max(query.nearest_m, query.inside_m);
-                            return farthest * farthest;
-                          },
-                          [&](std::uint32_t cluster) {
-                            const ContactHierarchy* here = part(cluster);
-                            return here && (here->rules_out(query) || here->visit_on(query, visit));
-                          });
+  clusters_->tree().visit_nodes(
+      [&](std::uint32_t node, const Vec3& low, const Vec3& high) {
+        return rules_out_all(node, query) ? -1.0 : reach2(low, high, query);
+      },
+      [&] {
+        const double farthest = std::max(query.nearest_m, query.inside_m);
+        return farthest * farthest;
+      },
+      [&](std::uint32_t cluster) { return visit_part(cluster, query, visit); });
 }
 
 }  // namespace tangent

@@ -2,6 +2,7 @@
 
 #include "core/contact/contact_rank.h"
 #include "core/contact/nearest_triangles.h"
+#include "core/contact/prove/core_feature_proof.h"
 #include "core/contact/prove/core_proof.h"
 #include "core/finger/plane_contact.h"
 
@@ -81,14 +82,14 @@ PatchExclusion exclude_region(ContactContext& context, std::uint32_t& t, const R
   return proof;
 }
 
-/// Of fingers that are not round nothing is proved of edges.
 PatchExclusion exclude_side(ContactContext& context, const PartOfTriangle& part, const RankBound& bound,
                             double enough_m, FeatureMemory* memory) {
   PatchExclusion proof;
-  if (!is_round(context.finger)) return proof;
-  proof.margin_m =
-      exclude_feature_contacts(context.cache, {part.triangle, side_of(part.part)}, context.settings.normal_form,
-                               context.pose.position, bound, enough_m, memory);
+  const TriangleFeatures side{part.triangle, side_of(part.part)};
+  proof.margin_m = is_round(context.finger)
+                       ? exclude_feature_contacts(context.cache, side, context.settings.normal_form,
+                                                  context.pose.position, bound, enough_m, memory)
+                       : exclude_features_by_core(context, *context.core, side, bound);
   if (proof.margin_m > 0.0) proof.possible = false;
   return proof;
 }
@@ -138,7 +139,13 @@ PatchExclusion exclude_triangle(ContactContext& context, std::uint32_t t, const 
   if (mesh.interior(t)) return proof;
   const double features = exclude_feature_contacts(context.cache, {t}, context.settings.normal_form,
                                                    context.pose.position, bound, enough_m, memory);
-  if (features <= 0.0) return unknown(context, t);
+  if (features <= 0.0) {
+    PatchExclusion nothing = unknown(context, t);
+    nothing.also_inside = proof.possible && proof.height_m != 0.0;
+    nothing.inside_u = proof.u;
+    nothing.inside_v = proof.v;
+    return nothing;
+  }
   proof.margin_m = std::min(proof.margin_m, features);
   return proof;
 }

@@ -2,6 +2,7 @@
 
 #include "core/base/tolerances.h"
 #include "core/contact/contact_rank.h"
+#include "core/contact/follow/step_rule.h"
 #include "core/contact/nearest_triangles.h"
 #include "core/contact/prove/basin.h"
 #include "core/contact/prove/clearance_check.h"
@@ -170,14 +171,22 @@ class RivalSearch {
 
   void remember(const TrackedPlane& plane, const PlaneContact& contact) {
     if (known_count_ == known_.size()) return;
-    known_[known_count_++] = known_contact(context_.cache.mesh(), plane, fold_height_m(plane.normal, contact));
+    known_depths_[known_count_] = contact.penetration_m;
+    known_[known_count_++] = known_contact(context_.cache.mesh(), plane, contact.height_m);
   }
 
-  /// The height at which ground under a contact folds first: of a finger that is not round, by its flattest side there.
-  double fold_height_m(const Vec3& normal, const PlaneContact& contact) const {
-    if (!core_ || contact.height_m < 0.0) return contact.height_m;
-    const double radius = core_->ball_m() + core_->largest_radius(core_->support(normal).length);
-    return std::max(contact.height_m, radius - contact.penetration_m);
+  /// Whether a triangle leads to a known contact. Ground under a finger that is not round folds first at the height of
+  /// the flattest side that it turns to on the way there.
+  bool leads_to(std::size_t i, std::uint32_t t, double margin_m) {
+    KnownContact known = known_[i];
+    if (core_ && known.height_m >= 0.0) {
+      const CoreSupport support = core_->support(known.normal);
+      double least = support.length;
+      for (const Vec3& normal : context_.cache.mesh().normals(t))
+        least = std::min(least, glm::dot(core_->scaled(normal), support.direction));
+      known.height_m = std::max(known.height_m, core_->ball_m() + core_->largest_radius(least) - known_depths_[i]);
+    }
+    return same_basin(context_.cache, settings_.normal_form, t, known, margin_m);
   }
 
   /// How far a finger with a core may go before a rival that ranks `gap` behind can overtake: no depth changes faster.
@@ -252,8 +261,7 @@ class RivalSearch {
     }
     ++dear_looks_;
     for (std::size_t i = 0; i < known_count_ && !is_side(part.part) && part.part != SearchPart::region; ++i)
-      if (same_basin(context_.cache, settings_.normal_form, t, known_[i], std::min(enough_m, slope_m_)))
-        return own_slope(enough_m);
+      if (leads_to(i, t, std::min(enough_m, slope_m_))) return own_slope(enough_m);
     if (enough_m > 0.0 && ahead_m_ > 0.0 && part.part == SearchPart::whole && excludes_ahead(t)) return {};
     const PatchExclusion proof = exclude_part(context_, part, up_to, enough_m, &features_);
     if (!proof.possible && proof.margin_m > 0.0) return {proof.margin_m, false, true};
@@ -284,8 +292,8 @@ class RivalSearch {
   void look_beside(std::span<const std::uint32_t> triangles, RivalResult& result) {
     Clearance& clearance = result.clearance;
     ContactQuery beside = query(clearance.margin_m);
-    // The fastest that it moves there; along a long finger it may go any way.
-    const Vec3 most(core_ ? 1e30 : context_.moved_m / (kSteadyRoom - kSteadyLean));
+    const double moved = core_ ? core_->slide_m(core_->longest_m(), 0.0, context_.moved_m) : context_.moved_m;
+    const Vec3 most(moved / (kSteadyRoom - kSteadyLean));  // the fastest that it goes there
     for (const std::uint32_t t : triangles) {
       if (!meets_steady_ground(t, beside)) continue;
       const PnPatch& patch = context_.cache.patch(t, settings_.normal_form);
@@ -374,7 +382,9 @@ class RivalSearch {
     context_.seed = static_cast<std::uint8_t>(std::min(++solves_, 255));
     const SurfacePlace start = start_on(context_, part, proof);
     IterationResult r;
-    const int share = context_.cache.mesh().interior(part.triangle) ? 1 : 2;
+    // On the side of a long finger normals turn only so far at a time.
+    const bool interior = context_.cache.mesh().interior(part.triangle);
+    const int share = !interior ? 2 : core_ ? 4 : 1;
     iterate(context_, start, share * kRivalBudget, r);
     result.evaluations += r.evaluations;
     // Whatever it is called: on a boundary, say, it is left_boundary.
@@ -384,9 +394,18 @@ class RivalSearch {
       iterate(context_, so_far, share * kDeeperRivalBudget, r);
       result.evaluations += r.evaluations;
     }
+    if (!r.converged() && proof.also_inside) {
+      iterate(context_, place_on_face(part.triangle, proof.inside_u, std::min(proof.inside_v, 1.0 - proof.inside_u)),
+              share * kRivalBudget, r);
+      result.evaluations += r.evaluations;
+    }
     // No contact there now, but one may come up: ask again before long.
     if (!r.converged()) return {kUnresolvedMargin * slope_m_, true, true};
-    if (is_followed(r.plane.point)) return own_slope(enough_m);
+    if (is_followed(r.plane.point)) {
+      // Beside a fold a solve may run past a contact to the tracked one.
+      const bool ran_past = core_ && interior && proof.height_m == 0.0 && r.plane.triangle != part.triangle;
+      return ran_past ? Look{kUnresolvedMargin * slope_m_, true, true} : own_slope(enough_m);
+    }
     remember(r.plane, r.contact);
     const double rank = contact_rank(context_.finger, r.contact);
     if (touched_ && rank < bound_m_ && pushes_with_others(r.contact))
@@ -422,6 +441,7 @@ class RivalSearch {
   double ahead_m_ = 0.0, ahead_bound_m_ = 0.0;
   FeatureMemory features_, features_ahead_;
   std::array<KnownContact, kKnownContacts> known_;
+  std::array<double, kKnownContacts> known_depths_;
   std::size_t known_count_ = 0;
   int solves_ = 0;
   int dear_looks_ = 0;  ///< those that took more than a glance

@@ -13,13 +13,14 @@ bool is_usable(const FingerPose& pose) {
 }
 
 /// What the ground or the gains do, once neither the finger's motion, nor another place, nor a defect is the cause.
-TickCause cause_in_iteration(TickStudy& study, bool on_mesh) {
+TickCause cause_in_iteration(TickStudy& study) {
   if (find_limit(study)) return TickCause::limit_or_tolerance;
-  if (!on_mesh) return TickCause::not_told;
-  if (const auto feature = find_feature(study)) return *feature;
+  if (study.run.empty()) return TickCause::not_told;
+  if (const auto feature = study.planar() ? find_planar_feature(study) : find_feature(study)) return *feature;
   if (find_unstable(study)) return TickCause::unstable_ground;
   if (const auto gain = find_gain(study)) return *gain;
-  if (const auto feature = find_feature_to_end(study)) return *feature;
+  if (!study.planar())
+    if (const auto feature = find_feature_to_end(study)) return *feature;
   return find_other_facet(study) ? TickCause::other_facet : TickCause::not_told;
 }
 
@@ -29,22 +30,23 @@ TickCause cause_of(TickStudy& study) {
   const bool wanted = wants_explaining(study.tick(), study.trials.options);
   if (!is_usable(study.trials.input.finger)) return TickCause::bad_pose;
   if (!is_smooth(reported_method(study.preset()))) {
+    if (find_unready(study)) return TickCause::unready;
     if (find_turned_facet(study)) return TickCause::other_facet;
     return wanted ? TickCause::not_told : TickCause::nothing;
   }
   if (!wanted) return TickCause::nothing;
+  if (find_unready(study)) return TickCause::unready;
   if (find_first(study)) return TickCause::first_contact;
   if (find_leap(study)) return TickCause::finger_leapt;
-  const bool on_mesh = study.trials.scene().planar() == nullptr && !study.run.empty();
-  if (on_mesh) {
-    if (find_sliver(study)) return TickCause::sliver;
-    if (find_wild_normal(study)) return TickCause::wild_normal;
+  if (!study.run.empty()) {
+    if (!study.planar() && find_sliver(study)) return TickCause::sliver;
+    if (!study.planar() && find_wild_normal(study)) return TickCause::wild_normal;
     const bool doubtful = study.followed() && (!is_stable(study.run.back()) || study.is_astray());
     if (doubtful && find_unstable(study)) return TickCause::unstable_ground;
   }
   if (find_rival(study)) return TickCause::deeper_rival;
   if (find_rivals_nearby(study)) return TickCause::rivals_nearby;
-  return cause_in_iteration(study, on_mesh);
+  return cause_in_iteration(study);
 }
 
 }  // namespace

@@ -43,11 +43,12 @@ struct TickCure {
 
 /// Where on the mesh the cause lies.
 struct MeshPlace {
-  std::uint32_t triangle = kNone;  ///< kNone: nowhere
+  std::uint32_t triangle = kNone;  ///< kNone: nowhere; of a 2D scene the vertex
   std::uint32_t side = 0;          ///< crease, boundary: the edge; wild normal: the corner
   Vec3 place{0.0};                 ///< world, m
-  bool mended = false;             ///< a copy of the surroundings without the defect cured the tick
-  TickOutput proof;                ///< there; triangle numbers are the copy's
+  bool mended = false;             ///< a copy of the surroundings without the defect cured the tick; unready: built
+  TickOutput proof;                ///< there; triangle numbers are the copy's, but for unready
+  bool planar = false;             ///< of a 2D scene
 };
 
 struct TickExplanation {

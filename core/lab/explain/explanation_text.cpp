@@ -30,15 +30,17 @@ std::string decided_text(const DecidingNumber& d) {
 }
 
 std::string place_text(const TickExplanation& e) {
-  std::string text = " At triangle " + std::to_string(e.mesh.triangle);
-  if (e.cause == TickCause::crease || e.cause == TickCause::boundary) text += ", edge " + std::to_string(e.mesh.side);
+  std::string text = (e.mesh.planar ? " At vertex " : " At triangle ") + std::to_string(e.mesh.triangle);
+  const bool of_edge = e.cause == TickCause::crease || e.cause == TickCause::boundary;
+  if (of_edge && !e.mesh.planar) text += ", edge " + std::to_string(e.mesh.side);
   if (e.cause == TickCause::wild_normal) text += ", corner " + std::to_string(e.mesh.side);
   const Vec3& p = e.mesh.place;
   char place[96];
   std::snprintf(place, sizeof place, " (%.4g, %.4g, %.4g mm)", 1e3 * p.x, 1e3 * p.y, 1e3 * p.z);
   text += place;
   if (e.mesh.mended)
-    text += "; with it mended the tick is plain (" + std::to_string(e.mesh.proof.iterations) + " planes)";
+    text += std::string("; with it ") + (e.cause == TickCause::unready ? "built" : "mended") + " the tick is plain (" +
+            std::to_string(e.mesh.proof.iterations) + " planes)";
   return text + ".";
 }
 

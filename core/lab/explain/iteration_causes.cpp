@@ -72,6 +72,19 @@ TickCure smaller_finger(TickStudy& study, const Vec3& normal) {
   return cure;
 }
 
+/// The iteration on a polygon has no gains.
+TickCure robust_instead(TickStudy& study) {
+  TickCure cure;
+  cure.outcome = CureOutcome::none_in_range;
+  const PresetKey& key = *find_preset_key("solver.method");
+  Preset changed = study.preset();
+  changed.solver.method = Method::robust;
+  const TickOutput out = study.trials.solve(changed);
+  if (study.trials.plain(out, study.trials.is_first()))
+    cure = {CureOutcome::found, &key, key.get(study.preset()), key.get(changed), false, out};
+  return cure;
+}
+
 }  // namespace
 
 bool find_limit(TickStudy& study) {
@@ -117,7 +130,8 @@ bool find_unstable(TickStudy& study) {
   if (!at) return false;
   const double h = study.contact_of(at->point, at->normal).height_m;
   const double root = std::sqrt(std::max(0.0, 0.25 * at->trace_m * at->trace_m - at->det_m));
-  const double least = 0.5 * at->trace_m - root;  // 1 + h k of the most hollow direction
+  // 1 + h k of the most hollow direction; on a polygon there is one, and det M is that.
+  const double least = study.planar() ? at->det_m : 0.5 * at->trace_m - root;
   // Seen from inside (h < 0) a bulge is a hollow.
   study.result.decided = {"distance of the finger's centre from the contact", "radius of the hollow", "m", std::abs(h),
                           std::abs(h / (1.0 - least))};
@@ -136,6 +150,10 @@ std::optional<TickCause> find_gain(TickStudy& study) {
   const bool large = share > 1.0;
   study.result.decided = {"gain", "ideal gain in the direction of travel", "1", gain, gain / share};
   study.place_at(study.run.back().triangle, 0, study.run.back().point);
+  if (study.planar()) {
+    study.result.cure = robust_instead(study);
+    return large ? TickCause::gain_too_large : TickCause::gain_too_small;
+  }
   const SolverSettings& s = study.preset().solver;
   const double reach = std::max(1e-3, study.preset().finger.reach_m());
   const CureCandidate gains_to_change[]{

@@ -70,6 +70,23 @@ bool find_turned_facet(TickStudy& study) {
   return true;
 }
 
+bool find_unready(TickStudy& study) {
+  if (!study.trials.input.unready || study.planar()) return false;
+  const TickState& before = study.before();
+  if (before.has_converged)
+    study.result.decided = {"time since a contact was last found", "how long its force stays whole", "s",
+                            study.trials.input.t_s - before.last_converged_s, study.preset().safety.unconverged_hold_s};
+  TickInput ready = study.trials.input;
+  ready.unready = false;
+  TickState state = before;
+  const TickOutput out = study.trials.step(study.preset(), ready, state);
+  if (out.triangle == kNone || !is_converged(out.status)) return true;
+  study.place_at(out.triangle, 0, out.contact);
+  study.result.mesh.mended = study.trials.plain(out, true);
+  study.result.mesh.proof = out;
+  return true;
+}
+
 bool find_first(const TickStudy& study) {
   if (study.tick().event != TickEvent::first || !is_converged(study.tick().status)) return false;
   // Many planes are what starting from nothing takes, but for the one seed of the other methods.

@@ -11,6 +11,7 @@ constexpr std::array<Words, kTickCauses.size()> kWords{{
     {"nothing", "Nothing is wrong"},
     {"first-contact", "Nothing was tracked before, so the contact was looked for on the whole mesh"},
     {"bad-pose", "The finger's pose is not a finite number"},
+    {"unready", "Parts of the mesh that had to be searched were not built yet, so the last contact was rendered on"},
     {"gain-too-large", "The gain is too large for the curvature in the direction of travel: steps overshoot"},
     {"gain-too-small", "The gain is too small for the curvature in the direction of travel: steps fall short"},
     {"unstable-ground", "Unstable ground: the finger is larger than the hollow and touches on more than one side"},

@@ -10,6 +10,7 @@ enum class TickCause : std::uint8_t {
   nothing,             ///< a plain tick: nothing is wrong
   first_contact,       ///< nothing was tracked before
   bad_pose,            ///< the pose is not a number
+  unready,             ///< parts of a large mesh that a search had to look at were not built yet
   gain_too_large,      ///< of Eq. 1, for the curvature in the direction of travel
   gain_too_small,      ///< likewise
   unstable_ground,     ///< the finger is larger than the hollow
@@ -24,14 +25,13 @@ enum class TickCause : std::uint8_t {
   finger_leapt,        ///< the finger was put elsewhere
   not_told,            ///< none of the above could be shown
 };
-inline constexpr std::array kTickCauses{TickCause::nothing,        TickCause::first_contact,
-                                        TickCause::bad_pose,       TickCause::gain_too_large,
-                                        TickCause::gain_too_small, TickCause::unstable_ground,
-                                        TickCause::other_facet,    TickCause::crease,
-                                        TickCause::boundary,       TickCause::sliver,
-                                        TickCause::wild_normal,    TickCause::deeper_rival,
-                                        TickCause::rivals_nearby,  TickCause::limit_or_tolerance,
-                                        TickCause::finger_leapt,   TickCause::not_told};
+inline constexpr std::array kTickCauses{
+    TickCause::nothing,         TickCause::first_contact,  TickCause::bad_pose,
+    TickCause::unready,         TickCause::gain_too_large, TickCause::gain_too_small,
+    TickCause::unstable_ground, TickCause::other_facet,    TickCause::crease,
+    TickCause::boundary,        TickCause::sliver,         TickCause::wild_normal,
+    TickCause::deeper_rival,    TickCause::rivals_nearby,  TickCause::limit_or_tolerance,
+    TickCause::finger_leapt,    TickCause::not_told};
 const char* to_string(TickCause cause);    ///< "gain-too-large"
 const char* sentence_of(TickCause cause);  ///< "The gain is too large for ..."
 

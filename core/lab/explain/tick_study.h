@@ -4,6 +4,7 @@
 #include "core/base/tolerances.h"
 #include "core/base/units.h"
 #include "core/lab/explain/tick_trials.h"
+#include "core/tick/planar_contacts.h"
 
 #include <memory>
 #include <span>
@@ -31,14 +32,19 @@ class TickStudy {
   /// The run ended with a contact.
   bool followed() const { return !run.empty() && run.back().stop == StopReason::converged; }
   bool is_astray() const { return near.size() < run.size(); }
+  /// Null: a mesh.
+  const PlanarCurve* planar() const { return trials.scene().planar(); }
   /// Of the finger where it is, with a plane, world frame.
   PlaneContact contact_of(const Vec3& point, const Vec3& normal) const {
+    if (planar())
+      return contact_on_plane(section_finger(preset().finger), section_pose(trials.input.finger), point, normal);
     return contact_on_plane(preset().finger, trials.input.finger, point, normal);
   }
   void place_at(std::uint32_t triangle, std::uint32_t side, const Vec3& place) {
     result.mesh.triangle = triangle;
     result.mesh.side = side;
     result.mesh.place = place;
+    result.mesh.planar = planar() != nullptr;
   }
 
   TickTrials trials;

@@ -46,7 +46,7 @@ RunStatistics run_statistics(std::span<const TickInput> inputs, std::span<const 
   return s;
 }
 
-TickDifference difference(const TickOutput& a, const TickOutput& b) {
+OutputDifference difference(const TickOutput& a, const TickOutput& b) {
   return {length(a.contact - b.contact),
           std::atan2(length(glm::cross(a.normal, b.normal)), glm::dot(a.normal, b.normal)),
           length(a.force_n - b.force_n), std::abs(a.cld_m - b.cld_m)};
@@ -58,7 +58,7 @@ void RunComparison::reserve(std::size_t ticks) {
 
 void RunComparison::add(const TickOutput& a, const TickOutput& b) {
   if (!is_converged(a.status) || !is_converged(b.status)) return leave_out();
-  const TickDifference d = difference(a, b);
+  const OutputDifference d = difference(a, b);
   contact_m_.push_back(d.contact_m);
   normal_rad_.push_back(d.normal_rad);
   force_n_.push_back(d.force_n);

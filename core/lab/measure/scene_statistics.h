@@ -36,10 +36,10 @@ RunStatistics run_statistics(std::span<const TickInput> inputs, std::span<const 
                              std::span<const double> ns, double slow_m = 0.2e-3);
 
 /// Difference between two outputs for the same pose.
-struct TickDifference {
+struct OutputDifference {
   double contact_m = 0.0, normal_rad = 0.0, force_n = 0.0, display_m = 0.0;
 };
-TickDifference difference(const TickOutput& a, const TickOutput& b);
+OutputDifference difference(const TickOutput& a, const TickOutput& b);
 
 struct RunDifference {
   std::uint64_t compared = 0;  ///< ticks that converged in both runs

@@ -40,7 +40,7 @@ constexpr std::array<MapQuantityInfo, kMapQuantityCount> kInfo{{
      "What a finger "
      "feels of it depends on the rendering condition: see Smoothness as felt"},
     {"gain-margin", "Gain margin", "1", 1.0, true, false, true,
-     "1 minus the share of the error that a plane of the paper's iteration leaves with the present gains. 1: lands at "
+     "1 minus the share of the error that a plane of the paper's iteration leaves with the current gains. 1: lands at "
      "once; below 0: "
      "does not converge"},
 }};

@@ -57,10 +57,10 @@ TEST_CASE("steps before a file's format are not taken") {
 TEST_CASE("a newer format, and none that can be, say what, where and what to do") {
   CHECK(read("\nformat = 4\n").error().message() ==
         "s.toml:2 format: this file has format 4, this program reads up to 3; use the program that wrote it or a newer "
-        "one, or write the spring file anew with this one");
+        "one, or write the spring file again with this one");
   CHECK(contains(read("format = 9223372036854775807\n").error().message(), "this program reads up to 3"));
   for (const char* text : {"format = -1\n", "format = 1.5\n", "format = true\n", "format = []\n"})
-    CHECK(contains(read(text).error().message(), "s.toml:1 format: is no format of a spring file"));
+    CHECK(contains(read(text).error().message(), "s.toml:1 format: is not a format of a spring file"));
 }
 
 TEST_CASE("what is written has the newest format") {

@@ -72,7 +72,7 @@ TEST_CASE("every key is written under its table, and by itself reads back as set
 
 TEST_CASE("the format is the first key, and a file without one is read as it always was") {
   const std::string text = format_preset(PresetFile{});
-  const std::size_t key = text.find("\nformat = 1\n");
+  const std::size_t key = text.find("\nformat = 2\n");
   REQUIRE(key != std::string::npos);
   CHECK(text.find('=') == key + 8);
   CHECK(text.find('[') > key);
@@ -83,12 +83,12 @@ TEST_CASE("the format is the first key, and a file without one is read as it alw
 
 TEST_CASE("a preset of a newer format is refused, and says what to do") {
   CHECK(preset_refusal("# note\nformat = 7\n[solver]\nnew_key = 1\n") ==
-        "p.toml:2 format: this file has format 7, this program reads up to 1; use the program that wrote it or a newer "
-        "one, or write the preset file anew with this one");
+        "p.toml:2 format: this file has format 7, this program reads up to 2; use the program that wrote it or a newer "
+        "one, or write the preset file again with this one");
   for (const char* wrong : {"format = -1\n", "format = 1.0\n", "format = \"1\"\n", "[format]\nx = 1\n"}) {
     CAPTURE(wrong);
     CHECK(contains(preset_refusal(wrong),
-                   "p.toml:1 format: is no format of a preset file; allowed: a whole number from 0 to 1"));
+                   "p.toml:1 format: is not a format of a preset file; allowed: a whole number from 0 to 2"));
   }
 }
 
@@ -101,10 +101,11 @@ TEST_CASE("where a preset comes from reads back, whatever the text") {
                 .mesh_hash = "00ff00ff00ff00ff",
                 .device = "simulated",
                 .note = "two\nlines\tand a tab",
-                .measured = {{"p99_iterations", 2.0},
-                             {"mean_iterations", 1.0 / 3.0},
-                             {"a key with blanks", 1e-300},
-                             {"command", std::string("workbench solve x.obj")}}};
+                .measured = std::nullopt,
+                .also_measured = {{"p99_iterations", 2.0},
+                                  {"mean_iterations", 1.0 / 3.0},
+                                  {"a key with blanks", 1e-300},
+                                  {"command", std::string("workbench solve x.obj")}}};
   const Result<PresetFile> back = parse_preset(format_preset(file), "p.toml");
   REQUIRE(back);
   CHECK(*back == file);
@@ -140,7 +141,7 @@ TEST_CASE("wrong types are named with the allowed range") {
   CHECK(contains(preset_refusal("[solver]\ntolerance_m = true\n"), "is true or false"));
   CHECK(contains(preset_refusal("[solver]\ntolerance_m = 2026-01-01\n"), "is a date or time"));
   CHECK(contains(preset_refusal("[about]\nname = 3\n"), "p.toml:2 about.name: is a whole number; allowed: text"));
-  CHECK(contains(preset_refusal("[about.measured]\nx = [1]\n"), "about.measured.x: is an array"));
+  CHECK(contains(preset_refusal("[about.measured]\nx = [1]\n"), "p.toml:2 about.also_measured.x: is an array"));
 }
 
 TEST_CASE("out-of-range values are named with the allowed range") {
@@ -194,14 +195,81 @@ TEST_CASE("every preset that ships can be read") {
     const Result<PresetFile> file = read_preset(entry.path());
     if (!file) FAIL_CHECK(file.error().message());
     ++count;
-    // Without its format, as presets were before they had one, it is the same preset.
-    std::string text = tangent::testing::read_text(entry.path());
-    const std::size_t line = text.find("format = 1\n");
-    REQUIRE(line == text.find_first_not_of('\n', text.find('\n')));  // first below the comment
-    text.erase(line, std::string_view("format = 1\n").size());
-    const Result<PresetFile> older = parse_preset(text, "older.toml");
-    REQUIRE(older);
-    CHECK(*older == *file);
   }
   CHECK(count > 0);
+}
+
+namespace {
+
+PresetEvidence some_evidence() {
+  PresetEvidence e;
+  e.command = "workbench tune ball.obj --out \"p\".toml";
+  e.program_version = "0.1.0";
+  e.build = "g++ 12.2.0, id 00ff";
+  e.motion = {.kind = MotionKind::recording, .file = "a b/r.sqlite", .first_tick = 3, .last_tick = 9, .digest = "0f"};
+  e.mesh.source = "make octagon --rounding-mm 1.5";
+  e.mesh.hash = "00ff00ff00ff00ff";
+  e.mesh.metres_per_unit = 0.0254;
+  e.mesh.options = {.fit_m = 0.08, .normals = NormalSource::computed, .crease_rad = 0.1 + 0.2, .turn_over = true};
+  double n = 1.0 / 3.0;
+  for (const EvidenceNumber& number : evidence_numbers()) e.numbers.*number.field = n += 1.0;
+  e.values.solver.gain_overall = 0.1 + 0.2;
+  return e;
+}
+
+std::string without_line(std::string text, const std::string& start) {
+  const std::size_t at = text.find("\n" + start) + 1;
+  REQUIRE(at != 0);
+  return text.erase(at, text.find('\n', at) + 1 - at);
+}
+
+}  // namespace
+
+TEST_CASE("evidence of a preset reads back to the last bit, with every value it was measured with") {
+  std::mt19937_64 random(11);
+  for (int i = 0; i < 50; ++i) {
+    PresetFile file{{}, random_preset(random)};
+    file.about.measured = some_evidence();
+    file.about.also_measured = {{"newton_mean_iterations", 1.5}};
+    const Preset measured = random_preset(random);
+    for (const PresetKey& key : preset_keys())
+      if (in_evidence(key)) key.set(file.about.measured->values, key.get(measured));
+    const Result<PresetFile> back = parse_preset(format_preset(file), "p.toml");
+    REQUIRE_MESSAGE(back.has_value(), back.error().message());
+    CHECK(*back == file);
+  }
+}
+
+TEST_CASE("evidence with a key too many, one too few or a value that can't be is refused with its line") {
+  PresetFile file;
+  file.about.measured = some_evidence();
+  const std::string text = format_preset(file);
+  CHECK(contains(preset_refusal(without_line(text, "mean_planes")), "about.measured: the key mean_planes is missing"));
+  CHECK(contains(preset_refusal(without_line(text, "mesh_hash")), "the key mesh_hash is missing"));
+  const auto with = [&](const std::string& line) {
+    std::string changed = text;
+    const std::size_t at = changed.find("\nmesh_hash");
+    return preset_refusal(changed.insert(at + 1, line + "\n"));
+  };
+  CHECK(contains(with("mesh_colour = \"red\""), "about.measured.mesh_colour: unknown key; allowed: motion"));
+  CHECK(contains(with("motion_version = -1"), "about.measured.motion_version: is no number from 0"));
+  CHECK(contains(with("motion_version = nan"), "about.measured.motion_version: is no number from 0"));
+  CHECK(contains(with("motion_version = \"1\""), "about.measured.motion_version: is text; allowed: a number from 0"));
+  CHECK(contains(preset_refusal("format = 2\n[about.measured]\nmotion = \"dance\"\n"),
+                 "p.toml:3 about.measured.motion: \"dance\" is unknown; allowed: around, strokes, poses"));
+  CHECK(contains(preset_refusal("format = 2\n[about.measured.values]\nsolver.gain = 1\n"),
+                 "p.toml:3 about.measured.values solver.gain: unknown key"));
+  CHECK(contains(preset_refusal("format = 2\n[about.measured.values]\nsolver = 1\n"), "solver: unknown key"));
+  CHECK(contains(preset_refusal("format = 2\n[about]\nmeasured = 1\n"), "write the table [about.measured]"));
+}
+
+TEST_CASE("what presets of format 1 measured is kept, and is no evidence") {
+  const Result<PresetFile> old =
+      parse_preset("format = 1\n[about.measured]\nticks = 3.0\ncommand = \"tune\"\n", "old.toml");
+  REQUIRE(old);
+  CHECK_FALSE(old->about.measured.has_value());
+  REQUIRE(old->about.also_measured.size() == 2);
+  CHECK(old->about.also_measured[0].first == "ticks");
+  CHECK(std::get<std::string>(old->about.also_measured[1].second) == "tune");
+  CHECK(contains(preset_refusal("format = 1\n[about.also_measured]\nx = 1\n[about.measured]\ny = 1\n"), "unknown key"));
 }

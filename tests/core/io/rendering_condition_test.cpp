@@ -60,7 +60,7 @@ TEST_CASE("a preset file names its condition, and reads it back") {
 
 TEST_CASE("a condition that does not exist, or that the sources contradict, is refused with its line") {
   CHECK(contains(refusal("condition = \"C7\"\n"),
-                 "p.toml:1 condition: \"C7\" is no rendering condition; allowed: C1, C2, C3, C4, P1 or P2"));
+                 "p.toml:1 condition: \"C7\" is not a rendering condition; allowed: C1, C2, C3, C4, P1 or P2"));
   CHECK(contains(refusal("condition = 3\n"), "p.toml:1 condition: is a whole number"));
   CHECK(contains(refusal("condition = \"C1\"\n[display]\nsource = \"smooth\"\n"), "the sources say otherwise"));
   CHECK(parse_preset("condition = \"C1\"\n[display]\nsource = \"held\"\n", "p.toml"));

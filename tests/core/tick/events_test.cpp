@@ -341,3 +341,58 @@ TEST_CASE("a small finger round a cube's edge goes on without an event, however 
     if (speed > 0.9e-4) CHECK(turned_fast > 1);
   }
 }
+
+namespace {
+
+/// Turns of the normal by over ten degrees in a tick: how many are marked, how many are not, and how many of the marked
+/// ones are no leaps, since the same way in many small steps has no event.
+struct Turns {
+  int marked = 0, unmarked = 0, no_leaps = 0;
+};
+
+/// Straight ways at 0.15 m/s over waves whose hollows are about as narrow as the finger.
+Turns turns_over_waves(const ScenePtr& scene, int ways) {
+  const Preset preset = sphere_preset(0.005, Method::robust);
+  Stepper in_small_steps(scene);
+  Random random(5);
+  Turns turns;
+  for (int way = 0; way < ways; ++way) {
+    Stepper stepper(scene);
+    TickState state;
+    TickOutput last;
+    const double towards = random.in(0.0, 6.28);
+    Vec3 at(random.in(-0.005, 0.005), random.in(-0.005, 0.005), 0.0045);
+    for (int i = 0; i < 60; ++i) {
+      TickState before = state;
+      const Vec3 from = at;
+      at += 0.15e-3 * Vec3(std::cos(towards), std::sin(towards), 0.0);
+      const TickOutput out = stepper.step(preset, at_position(1e-3 * i, at), state);
+      const bool turned =
+          i > 0 && is_converged(out.status) && is_converged(last.status) && angle_deg(out.normal, last.normal) > 10.01;
+      last = out;
+      if (!turned) continue;
+      ++(out.event == TickEvent::none ? turns.unmarked : turns.marked);
+      int events = 0;
+      for (int k = 1; k <= 100; ++k) {
+        const TickInput input = at_position(1e-3 * (i - 1 + 0.01 * k), from + 0.01 * k * (at - from));
+        events += in_small_steps.step(preset, input, before).event != TickEvent::none;
+      }
+      turns.no_leaps += out.event != TickEvent::none && events == 0;
+    }
+  }
+  return turns;
+}
+
+}  // namespace
+
+TEST_CASE("a leap over a fold is marked, though the finger's motion may explain as much turning") {
+  const auto waves = [](double x, double y) {
+    const double k = 2.0 * 3.14159265 / 5e-3;
+    return 0.15e-3 * (std::sin(k * x) * std::sin(0.7 * k * y + 1.0) + 0.5 * std::sin(1.7 * k * (x + y)));
+  };
+  const Turns turns = turns_over_waves(scene_of(height_field(0.020, 24, waves)), rounds(150));
+  MESSAGE(turns.marked << " marked, " << turns.no_leaps << " of them no leaps, " << turns.unmarked << " unmarked");
+  CHECK(turns.marked > 10);
+  CHECK(turns.no_leaps == 0);
+  CHECK(turns.unmarked == 0);
+}

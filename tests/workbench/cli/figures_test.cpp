@@ -101,7 +101,7 @@ TEST_CASE("figures says where it can't write") {
   folder.write("file", "");
   const ProcessResult result = run_workbench({"figures", "--out", folder.file("file") + "/x"});
   CHECK(result.exit_code == 1);
-  CHECK(contains(result.err, "is no folder that can be made"));
+  CHECK(contains(result.err, "this folder can't be made"));
 }
 
 TEST_CASE("a folder's name is data: no newline, quote or control character in it makes gnuplot do anything") {

@@ -124,3 +124,17 @@ TEST_CASE("devices lists the simulated ones everywhere") {
   CHECK(has(r.out, "peak 8.5 N, continuous 1.4 N"));
   CHECK(has(r.out, "simulated contact display"));
 }
+
+TEST_CASE("monitor records what it shows, and the file computes again to the same bits") {
+  const TempFolder folder;
+  const std::string file = folder.file("m.sqlite");
+  const ProcessResult r = run_workbench({"monitor", "--seconds", "1", "--record", file});
+  CHECK(r.exit_code == 0);
+  CHECK(has(r.out, ", 0 missing, in "));
+  const ProcessResult again = run_workbench({"replay", file});
+  CHECK(again.exit_code == 0);
+  CHECK(has(again.out, "The same bits."));
+  const ProcessResult twice = run_workbench({"monitor", "--seconds", "1", "--record", file});
+  CHECK(twice.exit_code == 1);
+  CHECK(has(twice.err, "is there already"));
+}

@@ -131,6 +131,12 @@ TEST_CASE("commands on recordings refuse wrong usage with 2 and files that are n
   CHECK(run_workbench({"replay", folder.file("a.sqlite")}).exit_code == 1);
   CHECK(run_workbench({"replay", folder.write("b.sqlite", "no database at all")}).exit_code == 1);
   CHECK(run_workbench({"export", folder.file("b.sqlite"), "--out", folder.file("c.csv")}).exit_code == 1);
+  CHECK(run_workbench({"export", folder.file("b.sqlite"), "--out", folder.file("c.docx")}).exit_code == 2);
+  CHECK(contains(run_workbench({"export", folder.file("b.sqlite"), "--out", folder.file("c.mat")}).err, "readtable"));
+  const ProcessResult channel =
+      run_workbench({"export", folder.file("b.sqlite"), "--out", folder.file("c.csv"), "--channels", "colour"});
+  CHECK(channel.exit_code == 2);
+  CHECK(contains(channel.err, "contact_x_m"));
   CHECK(run_workbench({"record", "--out", folder.file("no/a.sqlite"), "--seconds", "1"}).exit_code == 1);
   CHECK(run_workbench({"record", folder.file("b.sqlite"), "--out", folder.file("d.sqlite")}).exit_code == 1);
   CHECK(folder.entry_count() == 1);

@@ -95,7 +95,7 @@ TEST_CASE("every pose becomes a line, in order, converged, with the promised col
     CHECK(number(rows[i][column("penetration_m")]) == doctest::Approx(1e-3).epsilon(0.1));
     CHECK(number(rows[i][column("force_x_n")]) > 0.0);
   }
-  CHECK(scene.folder.entry_count() == 3);  // mesh, poses, ticks: nothing else left behind
+  CHECK(scene.folder.entry_count() == 4);  // mesh, poses, ticks and what their columns are: nothing else left behind
 }
 
 TEST_CASE("the summary agrees with the ticks") {
@@ -320,7 +320,7 @@ void interrupt_a_run(int signal) {
   const auto summary = nlohmann::json::parse(read_text(folder.file("summary.json")));
   CHECK(summary["interrupted"] == true);
   CHECK(summary["ticks"] == rows.size() - 1);
-  CHECK(folder.entry_count() == 4);  // mesh, poses, ticks, summary
+  CHECK(folder.entry_count() == 5);  // mesh, poses, ticks with what their columns are, summary
 }
 
 }  // namespace

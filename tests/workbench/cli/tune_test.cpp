@@ -3,9 +3,9 @@
 #include "core/lab/gains/gain_tuning.h"
 #include "core/preset/schema.h"
 #include "tests/support/process.h"
-#include "workbench/cli/exploration_poses.h"
 #include "workbench/cli/mesh_options.h"
 #include "workbench/cli/mesh_text.h"
+#include "workbench/session/exploration_poses.h"
 
 #include <doctest/doctest.h>
 
@@ -39,12 +39,12 @@ struct TuneFolder {
   }
 };
 
-/// [about.measured] by key; text and numbers apart.
+/// [about.also_measured] by key; text and numbers apart.
 struct Claims {
   std::map<std::string, double> numbers;
   std::map<std::string, std::string> texts;
   explicit Claims(const PresetAbout& about) {
-    for (const auto& [key, value] : about.measured) {
+    for (const auto& [key, value] : about.also_measured) {
       if (const double* number = std::get_if<double>(&value))
         numbers[key] = *number;
       else
@@ -93,13 +93,17 @@ PresetFile check_claims(const std::string& name, const std::string& object) {
   const auto scene = scene_of_object(object);
   CHECK(file.about.mesh_hash == hash_text(scene->mesh().content_hash()));
   const Method own = file.preset.solver.method;
-  CHECK(claims.numbers.at("unconverged_ticks") == 0.0);
+  REQUIRE(file.about.measured.has_value());
+  const EvidenceNumbers& evidence = file.about.measured->numbers;  // of its own method: checked by check_test.cpp
+  CHECK(evidence.unconverged_ticks == 0.0);
+  CHECK(evidence.residual_worst_um * 1e-6 < file.preset.solver.tolerance_m);
   for (const Method method : {Method::paper, Method::newton, Method::robust}) {
-    const std::string prefix = method == own ? "" : to_string(method) + std::string("_");
+    if (method == own) continue;
+    const std::string prefix = to_string(method) + std::string("_");
     CAPTURE(prefix);
     const RunScore measured = score(scene, file.preset, method);
     MESSAGE(name << ", " << std::string(to_string(method)) << ": mean " << measured.mean_iterations());
-    CHECK(static_cast<double>(measured.ticks) == claims.numbers.at("ticks"));
+    CHECK(static_cast<double>(measured.ticks) == evidence.ticks);
     CHECK(std::abs(measured.mean_iterations() - claims.numbers.at(prefix + "mean_iterations")) < 0.01);
     CHECK(static_cast<double>(measured.unconverged) == claims.numbers.at(prefix + "unconverged_ticks"));
     CHECK(measured.max_error_m < file.preset.solver.tolerance_m);
@@ -127,13 +131,20 @@ TEST_CASE("a tuning writes a preset that says what it measured and with which co
   CHECK(file.about.mesh_hash.size() == 16);
   CHECK(file.about.device == "none");
   CHECK(file.about.date.size() == 10);
-  CHECK(claims.texts.at("command") == "workbench tune " + t.mesh + " --poses " + poses + " --out " + t.preset +
-                                          " --tolerance-um 0.5 --stiffness-n-per-m 300");
-  CHECK(claims.numbers.at("ticks") == 300.0);
-  CHECK(claims.numbers.at("unconverged_ticks") == 0.0);
-  CHECK(claims.numbers.at("max_error_um") < 0.5);
-  CHECK(claims.numbers.at("median_solve_ns") > 0.0);
-  CHECK(claims.numbers.at("mean_iterations") < claims.numbers.at("untuned_mean_iterations"));
+  REQUIRE(file.about.measured.has_value());
+  const PresetEvidence& evidence = *file.about.measured;
+  CHECK(evidence.command == "workbench tune " + t.mesh + " --poses " + poses + " --out " + t.preset +
+                                " --tolerance-um 0.5 --stiffness-n-per-m 300");
+  CHECK(evidence.mesh.source == "make icosphere");
+  CHECK(evidence.mesh.hash == file.about.mesh_hash);
+  CHECK(evidence.motion.kind == MotionKind::poses);
+  CHECK(evidence.motion.file == "poses.csv");
+  CHECK(evidence.numbers.ticks == 300.0);
+  CHECK(evidence.numbers.unconverged_ticks == 0.0);
+  CHECK(evidence.numbers.residual_worst_um < 0.5);
+  CHECK(evidence.numbers.median_solve_ns > 0.0);
+  CHECK(run_workbench({"check", t.preset}).exit_code == 0);
+  CHECK(evidence.numbers.mean_planes < claims.numbers.at("untuned_mean_iterations"));
   CHECK(claims.numbers.contains("robust_mean_iterations"));
   CHECK(claims.numbers.at("gentle_ground_share") == 1.0);
 }
@@ -285,9 +296,12 @@ TEST_CASE("tune explores in strokes where asked, and says so in the preset") {
   REQUIRE(result.exit_code == 0);
   const PresetFile file = read(t.preset);
   const Claims claims(file.about);
-  CHECK(contains(claims.texts.at("command"), " --path strokes"));
+  REQUIRE(file.about.measured.has_value());
+  CHECK(contains(file.about.measured->command, " --path strokes"));
+  CHECK(file.about.measured->motion.kind == MotionKind::strokes);
+  CHECK(run_workbench({"check", t.preset}).exit_code == 0);
   CHECK(contains(claims.texts.at("poses"), "strokes, 0.05 to 0.15 m/s, 0.4 to 1.6 mm deep"));
-  CHECK(claims.numbers.at("unconverged_ticks") == 0.0);
+  CHECK(file.about.measured->numbers.unconverged_ticks == 0.0);
   const TempFolder folder;
   const std::string torus = folder.file("torus.obj");
   REQUIRE(run_workbench({"make", "torus", "--out", torus}).exit_code == 0);

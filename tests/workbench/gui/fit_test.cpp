@@ -118,6 +118,30 @@ TEST_CASE("columns and plots that were dragged are shares of the window in the n
   CHECK(back.model().window().sizes().left == doctest::Approx(384.0f));
 }
 
+TEST_CASE("the table of iterations keeps its columns and its height - default layout forgets them") {
+  const testing::TempFolder folder;
+  AppOptions options = HeadlessApp::deterministic_options();
+  options.settings = folder.path() / "window.toml";
+  {
+    RunningApp ui(options, 1280.0f, 2000.0f);
+    ui.run(100);
+    ui.drag("iterations/height", {0.0f, 40.0f});
+    ui.click("iterations/columns");
+    ui.click("iterations/column/ratio");
+  }
+  const WindowSettings kept = *read_window_settings(options.settings);
+  CHECK(kept.left_out == std::vector<std::string>{"ratio"});
+  CHECK(kept.table_rows > 6.0);
+  RunningApp ui(options, 1280.0f, 2000.0f);
+  ui.run(100);
+  CHECK(ui.model().window().columns_left_out() == kept.left_out);
+  CHECK(ui.model().window().table_rows() == kept.table_rows);
+  ui.model().window().reset_layout();
+  ui.frame();
+  CHECK(ui.model().window().columns_left_out().empty());
+  CHECK(ui.model().window().table_rows() == 0.0);
+}
+
 TEST_CASE("the right column has a tab for every task, in no more than two screens at 1920 x 1080, and keeps it") {
   const testing::TempFolder folder;
   AppOptions options = HeadlessApp::deterministic_options();

@@ -83,3 +83,25 @@ TEST_CASE("measure: processor time of building a frame with the bunny and all pl
     }
   }
 }
+
+TEST_CASE("a preset that is opened is checked beside the running servo, and cancelling takes no time") {
+  const std::filesystem::path shipped = TANGENT_SOURCE_DIR "/presets";
+  AppOptions options;
+  options.mesh = "icosphere";
+  options.preset = shipped / "sphere.toml";
+  HeadlessApp ui(options);
+  EvidenceModel& evidence = ui.model().evidence();
+  REQUIRE(frames_until(ui, [&] { return evidence.result() != nullptr; }));
+  CHECK(evidence.label() == "holds");
+  ui.model().presets().load(shipped / "cube.toml");
+  ui.frame();
+  CHECK(evidence.running());
+  CHECK(evidence.label() == "checking");
+  evidence.cancel();
+  CHECK_FALSE(evidence.running());
+  ui.frame();
+  CHECK(evidence.label().empty());
+  ui.model().presets().load_built_in();
+  ui.frame();
+  CHECK_FALSE(evidence.running());
+}

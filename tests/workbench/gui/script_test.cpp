@@ -23,6 +23,13 @@ std::string run_script(HeadlessApp& ui, const testing::TempFolder& folder, const
 
 }  // namespace
 
+TEST_CASE("a message about what was given to a field shows only what a terminal prints") {
+  const testing::TempFolder folder;
+  RunningApp ui;
+  run_script(ui, folder, "enter devices/hand_speed \x1b[31m\xff fast\n");
+  CHECK(test::said(ui.model(), Severity::error, "\"?[31m? fast\" is not a number"));
+}
+
 TEST_CASE("a tuner's session as a script: a mesh, the paper's method, a gain, its map, what differs, undo") {
   const testing::TempFolder folder;
   RunningApp ui;
@@ -49,7 +56,7 @@ worst place
 expect widget map/worst/0
 press map/log
 panel Compare
-compare right program's own
+compare right built-in
 press plots/mode/Spectrum
 curve across Force y
 export ticks

@@ -43,10 +43,10 @@ struct Damaged {
 TEST_CASE("what is no recording is refused, saying what it is") {
   const testing::TempFolder folder;
   CHECK(says(failure_of(folder.file("nothing.sqlite")), "can't be read"));
-  CHECK(says(failure_of(folder.path()), "is no file"));
+  CHECK(says(failure_of(folder.path()), "is not a file"));
   CHECK(says(failure_of(folder.write("empty.sqlite", "")), "is empty"));
   CHECK(says(failure_of(folder.write("text.sqlite", std::string(5000, 'x'))), "not a database"));
-  CHECK(says(failure_of("/dev/zero"), "is no file"));
+  CHECK(says(failure_of("/dev/zero"), "is not a file"));
   const std::string other = folder.file("other.sqlite");
   change(other, "CREATE TABLE cells(a)");
   CHECK(says(failure_of(other), "no recording"));

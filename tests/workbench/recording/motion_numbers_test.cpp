@@ -50,3 +50,21 @@ TEST_CASE("jumps are counted between ticks that follow each other") {
   CHECK(numbers.most_force_n == 13.0);
   CHECK(numbers.mean_iterations == 1.5);
 }
+
+TEST_CASE("a buzz of 150 Hz is above 20, 50 and 100 Hz, and a way of 1 Hz is above none") {
+  MotionCounter counter(1000.0);
+  for (int i = 0; i < 10'000; ++i) {
+    TickOutput output;
+    const double t = 1e-3 * i, turn = 2.0 * std::numbers::pi * t;
+    output.force_n = {std::sin(turn), 0.1 * std::sin(150.0 * turn), 0.0};
+    output.cld_m = 1e-3 * std::sin(turn);
+    counter.add(output, 100.0, i > 0);
+  }
+  const MotionNumbers numbers = counter.done();
+  const double buzz = 0.1 / std::numbers::sqrt2;
+  CHECK(numbers.force_above_20hz_n == doctest::Approx(buzz).epsilon(0.02));
+  CHECK(numbers.force_above_n[0] == doctest::Approx(buzz).epsilon(0.03));
+  CHECK(numbers.force_above_n[1] == doctest::Approx(buzz).epsilon(0.15));
+  CHECK(numbers.force_above_n[2] < 0.6 * buzz);
+  CHECK(numbers.display_above_20hz_m < 5e-6);
+}

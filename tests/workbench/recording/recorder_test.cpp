@@ -5,6 +5,7 @@
 #include <atomic>
 #include <chrono>
 #include <csignal>
+#include <optional>
 #include <thread>
 
 #include <sys/resource.h>
@@ -13,6 +14,27 @@ using namespace tangent;
 using namespace tangent::test;
 
 namespace {
+
+/// While it exists, files take 64 KiB more than a recording's log has now: the write then fails as on a full disk.
+class FullDisk {
+ public:
+  explicit FullDisk(const std::string& recording) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+    REQUIRE(getrlimit(RLIMIT_FSIZE, &before_) == 0);
+    rlimit small = before_;
+    small.rlim_cur = static_cast<rlim_t>(std::filesystem::file_size(recording + "-wal")) + 65'536;
+    REQUIRE(setrlimit(RLIMIT_FSIZE, &small) == 0);
+  }
+  ~FullDisk() {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+  FullDisk(const FullDisk&) = delete;
+  FullDisk& operator=(const FullDisk&) = delete;
+
+ private:
+  void (*handler_)(int);
+  rlimit before_{};
+};
 
 std::unique_ptr<Session> threaded_session() {
   SessionOptions options;
@@ -139,18 +161,11 @@ TEST_CASE("where the disk is full, what was written stays readable, and the trou
   MadeUpRecorder made(path);
   made.pump(1000);
   REQUIRE(made.recorder->status().written == 1000);
-  // A limit on the size of files fails a write as a full disk does.
-  const auto before = std::signal(SIGXFSZ, SIG_IGN);
-  rlimit old{}, small{};
-  REQUIRE(getrlimit(RLIMIT_FSIZE, &old) == 0);
-  small = old;
-  small.rlim_cur = static_cast<rlim_t>(std::filesystem::file_size(path + "-wal")) + 65'536;
-  REQUIRE(setrlimit(RLIMIT_FSIZE, &small) == 0);
+  std::optional<FullDisk> full(std::in_place, path);
   made.pump(5000);
   const RecorderStatus stuck = made.recorder->status();
   const Status ended = made.recorder->stop();
-  REQUIRE(setrlimit(RLIMIT_FSIZE, &old) == 0);
-  std::signal(SIGXFSZ, before);
+  full.reset();
   CHECK(stuck.failures == 1);
   CHECK(says(stuck.trouble, path));
   CHECK(stuck.written == 1000);
@@ -169,15 +184,10 @@ TEST_CASE("a disk that has room again takes what was kept") {
   const std::string path = folder.file("a.sqlite");
   MadeUpRecorder made(path);
   made.pump(1000);
-  const auto before = std::signal(SIGXFSZ, SIG_IGN);
-  rlimit old{}, small{};
-  REQUIRE(getrlimit(RLIMIT_FSIZE, &old) == 0);
-  small = old;
-  small.rlim_cur = static_cast<rlim_t>(std::filesystem::file_size(path + "-wal")) + 65'536;
-  REQUIRE(setrlimit(RLIMIT_FSIZE, &small) == 0);
-  made.pump(5000);
-  REQUIRE(setrlimit(RLIMIT_FSIZE, &old) == 0);
-  std::signal(SIGXFSZ, before);
+  {
+    const FullDisk full(path);
+    made.pump(5000);
+  }
   CHECK(made.recorder->status().failures == 1);
   REQUIRE(made.recorder->stop());
   CHECK(made.recorder->status().written == 6000);

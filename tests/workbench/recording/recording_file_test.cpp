@@ -126,7 +126,7 @@ TEST_CASE("the pyramid has the least and the most of every stretch of ticks") {
     REQUIRE(rows->size() == (9000 + length - 1) / length);
     for (const OverviewRow& row : *rows) {
       std::uint64_t count = 0, events = 0;
-      double least = INFINITY, most = -INFINITY, deepest = -INFINITY;
+      double least = INFINITY, most = -INFINITY, deepest = -INFINITY, strongest = 0.0, rank = 0.0;
       for (std::uint64_t t = row.first_tick; t < std::min<std::uint64_t>(9000, row.first_tick + length); ++t) {
         const TickOutput& out = ticks[t].record.tick.output;
         ++count;
@@ -134,12 +134,16 @@ TEST_CASE("the pyramid has the least and the most of every stretch of ticks") {
         least = std::min(least, out.force_n.x);
         most = std::max(most, static_cast<double>(out.iterations));
         deepest = std::max(deepest, out.penetration_m);
+        strongest = std::max(strongest, glm::length(out.force_n));
+        rank = std::max(rank, static_cast<double>(event_rank(ticks[t].record)));
       }
       CHECK(row.ticks == count);
       CHECK(row.events == events);
-      CHECK(row.least[8] == least);    // force_x_n
-      CHECK(row.most[7] == deepest);   // penetration_m
-      CHECK(row.most.back() == most);  // iterations
+      CHECK(row.least[8] == least);   // force_x_n
+      CHECK(row.most[7] == deepest);  // penetration_m
+      CHECK(row.most[overview_channel("iterations")] == most);
+      CHECK(row.most[overview_channel("force_n")] == strongest);
+      CHECK(row.most[overview_channel("event_rank")] == rank);
     }
   }
   CHECK(overview_channels()[8] == "force_x_n");

@@ -53,6 +53,25 @@ TEST_CASE("a session refuses what it can't run") {
   CHECK_FALSE(Session::create(sphere_scene(), bad, by_hand()));
 }
 
+TEST_CASE("a session takes the way that its scene was prepared with, of another scene it makes its own") {
+  Finger wide = Preset{}.finger;
+  wide.radius_m *= 2.0;
+  const auto scene = torus_scene();
+  const double own = ExplorationPath::build(*scene, pad_distance_m(Preset{}.finger)).length_m();
+  const double prepared = ExplorationPath::build(*scene, pad_distance_m(wide)).length_m();
+  REQUIRE(own != prepared);
+  const auto length_over = [&](const std::shared_ptr<const ContactScene>& of) {
+    auto session = Session::create(scene, Preset{}, by_hand(), Session::prepare(of, wide));
+    REQUIRE(session);
+    return (*session)->path().length_m();
+  };
+  CHECK(length_over(scene) == prepared);
+  CHECK(length_over(sphere_scene()) == own);
+  auto session = Session::create(scene, Preset{}, by_hand());
+  REQUIRE(session);
+  CHECK((*session)->path().length_m() == own);
+}
+
 TEST_CASE("a stiffness above the device's largest is not rendered, nor recorded as if it were") {
   Preset stiff;
   stiff.force.stiffness_n_per_m = 9000.0;

@@ -20,6 +20,8 @@ TEST_CASE("settings read back as they were written, with odd names") {
   s.y_up = true;
   s.sections = {{"Iterations", false}, {"A \"quoted\" title", true}};
   s.favourites = {"solver.gain_overall"};
+  s.table_rows = 12.5;
+  s.left_out = {"ratio", "u"};
   s.opened("/tmp/a b/\u00fc.obj");
   s.opened("/tmp/m\xE9sh, not UTF-8.obj");
   s.opened("torus");

@@ -17,6 +17,7 @@
 #include "workbench/session/window_settings.h"
 
 #include <array>
+#include <csignal>
 #include <cstdio>
 #include <memory>
 #include <system_error>
@@ -102,7 +103,8 @@ void add_gui_command(CLI::App& app, CommandResult& result) {
   add_number_option(*command, "--history-minutes", {.min = 0.1, .max = 120.0, .unit = "min"},
                     "Minutes of ticks to keep, within 1 GiB: 30 at 1 kHz (default 10)",
                     [options](double minutes) { options->app.history_s = 60.0 * minutes; });
-  add_text_option(*command, "--record", options->app.record, "Record the session into this file", "F.sqlite");
+  add_text_option(*command, "--record", options->app.record,
+                  "Record every tick into this file; one that is there is not written over", "F.sqlite");
   add_text_option(*command, "--script", options->app.script,
                   "Commands to run in the window, one a line (--commands lists them); a line that fails ends it", "F");
   add_flag(*command, "--commands", options->list_commands, "Lists the window's commands, and opens no window");
@@ -122,9 +124,7 @@ void add_gui_command(CLI::App& app, CommandResult& result) {
     options->app.place = options->devices.place;
     options->app.servo_cpu = options->devices.servo_cpu;
     options->app.arm_on_start = options->arm ? ArmOnStart::always : ArmOnStart::simulated;
-    if (!options->app.record.empty())
-      print_message("gui",
-                    "recording to a file is not there yet: nothing is written to " + options->app.record.string());
+    std::signal(SIGXFSZ, SIG_IGN);  // a limit on file sizes is an error of the write, like a full disk
     result.exit_code = run_gui(options->app);
   });
 }

@@ -5,6 +5,7 @@
 #include <array>
 
 int main(int argc, char** argv) {
-  constexpr std::array<tangent::AddCommand, 2> kCommands{tangent::add_gui_command, tangent::add_shot_command};
+  constexpr std::array<tangent::AddCommand, 3> kCommands{tangent::add_gui_command, tangent::add_shot_command,
+                                                         tangent::add_report_command_with_pictures};
   return tangent::run_program(argc, argv, kCommands, tangent::run_gui_or_pictures);
 }

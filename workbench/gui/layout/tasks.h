@@ -16,15 +16,18 @@ struct TaskSection {
   Task task;
 };
 /// In the order of the tab `all`. Every section is in one task.
-inline constexpr std::array<TaskSection, 10> kTaskSections{{{"Iterations", Task::look},
+inline constexpr std::array<TaskSection, 13> kTaskSections{{{"Iterations", Task::look},
+                                                            {"Why this tick", Task::look},
                                                             {"Time machine", Task::tune},
                                                             {"Sweep", Task::tune},
                                                             {"Bookmarks", Task::record},
+                                                            {"Compare recordings", Task::record},
                                                             {"Map", Task::tune},
                                                             {"Smoothness as felt", Task::tune},
                                                             {"Inspect", Task::look},
                                                             {"Mesh", Task::look},
                                                             {"Devices", Task::devices},
+                                                            {"Recording", Task::record},
                                                             {"Messages", Task::record}}};
 
 constexpr bool shows(Task tab, std::string_view title) {

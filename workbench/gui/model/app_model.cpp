@@ -18,19 +18,26 @@ AppModel::AppModel(const AppOptions& options)
       view_(scene_, map_, messages_),
       devices_(options_, scene_, presets_, messages_, [this] { time_.forget(); }),
       time_(options_, devices_, presets_, messages_),
+      recordings_(options_, scene_, presets_, time_, messages_,
+                  [this](RecordingModel::Loaded loaded) { show_recording(std::move(loaded)); }),
+      record_(options_, devices_, scene_, time_, messages_),
       tuning_(options_, presets_, time_, messages_),
+      evidence_(options_, presets_, scene_, time_, messages_),
+      why_(options_, time_, presets_, view_, scene_, messages_),
+      recording_pair_(options_, presets_, messages_),
       unsaved_(options_, presets_, time_, messages_),
-      exports_(options_, devices_, messages_) {
+      exports_(options_, messages_) {
   if (const auto look = window_.read_settings()) {
     view_.camera.y_up = look->y_up;
     map_.colours = look->colours;
   }
   presets_.refresh_files();
   if (!options_.preset.empty()) presets_.load(options_.preset);
-  if (!options_.record.empty())
-    messages_.say(Severity::warning,
-                  "recording to a file is not there yet; " + options_.record.string() + " is not written");
-  scene_.open_first(options_.mesh);
+  const std::filesystem::path first = options_.mesh;
+  if (first.extension() == kSessionEnding || RecordingModel::is_recording(first))
+    open(options_.mesh);
+  else
+    scene_.open_first(options_.mesh);
 }
 
 AppModel::~AppModel() {
@@ -46,8 +53,14 @@ const ContactMesh* AppModel::mesh() const {
 void AppModel::open(const std::string& file) {
   if (std::filesystem::path(file).extension() == ".toml")
     presets_.load(file, mesh());
-  else
+  else if (std::filesystem::path(file).extension() == kSessionEnding)
+    open_session(file);
+  else if (RecordingModel::is_recording(file)) {
+    session_.reset();
+    recordings_.open(file);
+  } else {
     scene_.open(file);
+  }
 }
 
 void AppModel::solve_here(std::uint32_t triangle, double u, double v) {
@@ -79,10 +92,14 @@ void AppModel::keep() {
 void AppModel::update(double now_s) {
   messages_.set_now(now_s);
   scene_.update();
+  recordings_.update();
+  if (scene_.current() == nullptr && !scene_.loading() && !recordings_.opening()) scene_.open_first({});
   take_ticks();
   view_.see_contact(tick_in_view(), time_.paused());
   window_.update(now_s, kept_look());
   unsaved_.update(now_s);
+  evidence_.update();
+  recording_pair_.update();
   const auto& scene = scene_.current();
   // A 2D scene has no mesh for a map.
   map_.update(scene != nullptr && scene->planar() != nullptr ? nullptr : scene, presets_.current(), now_s,
@@ -102,8 +119,9 @@ void AppModel::advance(std::uint64_t ticks) {
 
 void AppModel::take_ticks() {
   exports_.take_finished();
-  if (devices_.session() == nullptr) return;
   time_.take_records();
+  record_.update();
+  if (devices_.session() == nullptr && time_.recording() == nullptr) return;
   devices_.take_status();
   time_.show_tick();
   tuning_.update();
@@ -111,10 +129,73 @@ void AppModel::take_ticks() {
 
 void AppModel::scene_loaded(SceneChange change) {
   if (change.opened) {
-    window_.opened(scene_.path());
+    if (!scene_.path().empty()) window_.opened(scene_.path());
     view_.look_at_new_scene();
   }
   devices_.take_scene(std::move(change.prepared));
+  record_.scene_changed();
+  time_.offer_scene(scene_.current());
+}
+
+void AppModel::show_recording(RecordingModel::Loaded loaded) {
+  const OpenedRecording& recording = *loaded.recording;
+  window_.opened(std::filesystem::absolute(recording.path()).lexically_normal().string());
+  if (loaded.scene)
+    scene_.show(std::move(*loaded.scene), recording.source() ? recording.source()->options : ContactMeshOptions{});
+  else if (scene_.current() == nullptr && !scene_.loading())
+    scene_.open_first({});
+  if (const Preset* first = recording.preset(recording.page().records.oldest().tick.preset_id))
+    presets_.take_recorded(*first, recording.path().stem().string());
+  const bool of_session = session_ && session_->recording == recording.path();
+  time_.show(std::move(loaded.recording));
+  if (of_session) show_session(*std::exchange(session_, std::nullopt));
+}
+
+void AppModel::open_session(const std::filesystem::path& file) {
+  Result<SavedSession> read = read_session(file);
+  if (!read) return messages_.say(Severity::error, read.error().message());
+  window_.opened(std::filesystem::absolute(file).lexically_normal().string());
+  session_ = std::move(*read);
+  recordings_.open(std::filesystem::path(session_->recording));  // a copy: it may be shown at once
+}
+
+void AppModel::show_session(const SavedSession& session) {
+  const OpenedRecording& recording = *time_.recording();
+  if (!session.recorded_utc.empty() && session.recorded_utc != recording.info().started_utc)
+    messages_.say(Severity::warning, recording.path().filename().string() +
+                                         " is not the recording that the session was saved with, but one of that name");
+  const KeptLook look = window_.take(session.window);
+  session_view_ = session.view;
+  map_.colours = look.colours;
+  view_.camera.y_up = look.y_up;
+  if (!session.work.steps.empty()) presets_.take_up(session.work);
+  time_.take_bookmarks(session.work.bookmarks);
+}
+
+Result<SavedSession> AppModel::session_to_save(const std::filesystem::path& file) {
+  SavedSession session;
+  if (const OpenedRecording* recording = time_.recording()) {
+    session.recording = recording->path();
+    session.recorded_utc = recording->info().started_utc;
+  } else {
+    if (devices_.session() == nullptr || devices_.session()->history().empty())
+      return fail("there is no tick to record", file.string(), "let the servo run first");
+    session.recording = std::filesystem::path(file).replace_extension(".sqlite");
+    std::error_code ignored;
+    if (std::filesystem::exists(session.recording, ignored))
+      return fail("is there already, and a recording is never written over", session.recording.string(),
+                  "choose another name for the session");
+    record_.write_history(session.recording);
+  }
+  session.window = window_.settings_now(kept_look());
+  presets_.slots().put_into(session.work);
+  if (!session.work.steps.empty()) {
+    session.work.steps = {session.work.steps[session.work.at]};
+    session.work.at = 0;
+  }
+  for (const Bookmark& mark : time_.bookmarks().all())
+    if (mark.kind == BookmarkKind::user) session.work.bookmarks.push_back({mark.tick, mark.t_s, mark.note});
+  return session;
 }
 
 void AppModel::preset_changed(const std::string& what) {

@@ -5,7 +5,8 @@
 //
 //   scene  --(a mesh was opened or built again)-->  window, view, devices     scene_loaded()
 //   presets  --(values changed)-->  devices --(id of what was sent)--> presets, time     preset_changed()
-//   devices  --(the session ends)-->  time     time().forget()
+//   devices  --(the session ends)-->  record, time     record().stop(), time().forget()
+//   recordings  --(a recording was read)-->  scene, presets, time     show_recording()
 //   devices  --(records, status)-->  time, once a frame     take_ticks()
 //   view, map  --(look that outlives the window)-->  window     kept_look()
 #pragma once
@@ -13,17 +14,27 @@
 #include "workbench/gui/map/map_view.h"
 #include "workbench/gui/model/app_options.h"
 #include "workbench/gui/model/device_model.h"
+#include "workbench/gui/model/evidence_model.h"
 #include "workbench/gui/model/export_model.h"
 #include "workbench/gui/model/message_log.h"
 #include "workbench/gui/model/preset_model.h"
+#include "workbench/gui/model/record_model.h"
+#include "workbench/gui/model/recording_model.h"
+#include "workbench/gui/model/recording_pair_model.h"
 #include "workbench/gui/model/scene_model.h"
 #include "workbench/gui/model/time_model.h"
 #include "workbench/gui/model/tuning_model.h"
 #include "workbench/gui/model/unsaved_model.h"
 #include "workbench/gui/model/view_model.h"
+#include "workbench/gui/model/why_model.h"
 #include "workbench/gui/model/window_model.h"
+#include "workbench/session/saved_session.h"
 
 #include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
 
 namespace tangent {
 
@@ -47,13 +58,18 @@ class AppModel {
   const WindowModel& window() const { return window_; }
   PresetModel& presets() { return presets_; }
   const PresetModel& presets() const { return presets_; }
-  /// A preset (.toml), a mesh, a polygon, or the name of a generated object. Failures are messages.
+  /// A preset (.toml), a recording (.sqlite), a session (.session), a mesh, a polygon, or the name of a generated
+  /// object. Failures are messages.
   void open(const std::string& file);
   /// A tick at a place of the mesh in view, in the direction that needs most planes (TimeModel::solve_at), with the
   /// map's moves. At once, whatever the finger does.
   void solve_here(std::uint32_t triangle, double u, double v);
-  void solve_here();      ///< at the picked triangle's middle; if none is picked, at the contact of the tick in view
-  void solve_at_worst();  ///< goes to the map's worst place, repeated to the next, and solves there
+  void solve_here();  ///< at the picked triangle's middle; if none is picked, at the contact of the tick in view
+  /// Of the window as it is, without its view. Where no recording is open, the history is recorded beside `file`.
+  Result<SavedSession> session_to_save(const std::filesystem::path& file);
+  /// The view of a session that was opened, once, when its recording is shown.
+  std::optional<std::map<std::string, std::string>> take_view() { return std::exchange(session_view_, std::nullopt); }
+  void solve_at_worst();            ///< goes to the map's worst place, repeated to the next, and solves there
   const ContactMesh* mesh() const;  ///< null: none yet, or a 2D scene
   SceneModel& scene() { return scene_; }
   const SceneModel& scene() const { return scene_; }
@@ -66,13 +82,23 @@ class AppModel {
   TimeModel& time() { return time_; }
   const TimeModel& time() const { return time_; }
   const TickRecord* tick_in_view() const;  ///< null: none yet
+  RecordingModel& recordings() { return recordings_; }
+  const RecordingModel& recordings() const { return recordings_; }
+  RecordModel& record() { return record_; }
+  const RecordModel& record() const { return record_; }
   TuningModel& tuning() { return tuning_; }
+  EvidenceModel& evidence() { return evidence_; }
+  WhyModel& why() { return why_; }
+  RecordingPairModel& recording_pair() { return recording_pair_; }
   UnsavedModel& unsaved() { return unsaved_; }
   ExportModel& exports() { return exports_; }
   const ExportModel& exports() const { return exports_; }
 
  private:
   void scene_loaded(SceneChange change);
+  void show_recording(RecordingModel::Loaded loaded);
+  void open_session(const std::filesystem::path& file);
+  void show_session(const SavedSession& session);
   void preset_changed(const std::string& what);
   void take_ticks();
   KeptLook kept_look() const { return {view_.camera.y_up, map_.colours}; }
@@ -87,9 +113,16 @@ class AppModel {
   ViewModel view_;
   DeviceModel devices_;
   TimeModel time_;
+  RecordingModel recordings_;
+  RecordModel record_;
   TuningModel tuning_;
+  EvidenceModel evidence_;
+  WhyModel why_;
+  RecordingPairModel recording_pair_;
   UnsavedModel unsaved_;
   ExportModel exports_;
+  std::optional<SavedSession> session_;  ///< opened, its recording being read
+  std::optional<std::map<std::string, std::string>> session_view_;
 };
 
 }  // namespace tangent

@@ -40,10 +40,10 @@ void DeviceModel::take_scene(PreparedScenePtr prepared) {
   if (session_ != nullptr)
     session_->set_scene(std::move(prepared));
   else
-    make_session();
+    make_session(std::move(prepared));
 }
 
-void DeviceModel::make_session() {
+void DeviceModel::make_session(PreparedScenePtr prepared) {
   // The wish to arm is for the first attempt, whatever comes of it: a later choice of devices arms nothing.
   const ArmOnStart arm_on_start = std::exchange(options_.arm_on_start, ArmOnStart::never);
   if (options_.devices.display == "maestro") {
@@ -54,7 +54,7 @@ void DeviceModel::make_session() {
   }
   SessionOptions wanted = options_;
   wanted.arm_on_start = arm_on_start;
-  auto session = Session::create(scene_.current(), presets_.current(), wanted);
+  auto session = Session::create(scene_.current(), presets_.current(), wanted, std::move(prepared));
   if (!session) {
     messages_.say(Severity::error, session.error().message());
     return;
@@ -68,7 +68,7 @@ void DeviceModel::make_session() {
   for (const std::string& name : session_->without_timeout())
     messages_.say(Severity::warning, name +
                                          " goes on with its last command when this program dies: its firmware has no "
-                                         "time-out. Nothing is armed until you say yes in the device monitor");
+                                         "time-out. Nothing is armed until you confirm it in the device monitor");
   if (const Status ok = session_->start(); !ok) messages_.say(Severity::error, ok.error().message());
   status_ = session_->status();
 }
@@ -79,6 +79,7 @@ void DeviceModel::end_session() {
     messages_.say(Severity::error, ended.error().message());
     std::fprintf(stderr, "workbench gui: %s\n", ended.error().message().c_str());  // the window may be closing
   }
+  if (before_release_) before_release_();
   session_.reset();
 }
 
@@ -159,7 +160,7 @@ void DeviceModel::take_status() {
   status_ = session_->status();
   say_what_differs();  // another placement caps anew
   if (status_.placement_refused && !placement_refused_)
-    messages_.say(Severity::warning, "the scene was not placed: force was sent by then. Stop first (Escape)");
+    messages_.say(Severity::warning, "the scene was not placed: force is being sent. Stop first (Escape)");
   placement_refused_ = status_.placement_refused;
   const GateFault gate_fault = status_.servo.gate_fault;
   if (gate_fault != last_gate_fault_ && gate_fault != GateFault::none)
@@ -194,8 +195,8 @@ void DeviceModel::keep_calibration(const MaestroSetup& setup) {
   if (maestro_file_.empty()) return;
   const std::string serial = attached_maestro();
   if (serial.empty())
-    return messages_.say(Severity::note,
-                         "no Maestro with a serial number is attached: the calibration holds until the window closes");
+    return messages_.say(
+        Severity::note, "no Maestro with a serial number is attached: the calibration is kept until the window closes");
   const Status kept = keep_maestro_setup(maestro_file_, serial, setup);
   if (kept)
     messages_.say(Severity::note, "calibration of the Maestro " + serial + " kept in " + maestro_file_.string());
@@ -242,7 +243,7 @@ bool DeviceModel::faulted() const {
 std::string DeviceModel::arming_text() const {
   if (session_ == nullptr || !stopped()) return {};
   if (session_->force_capabilities() == nullptr && session_->display_capabilities() == nullptr) return {};
-  if (session_->needs_yes()) return "No force: a device without a time-out waits for your yes in the device monitor";
+  if (session_->needs_yes()) return "No force: confirm the device without a time-out in the device monitor";
   const ServoStatus& servo = status_.servo;
   const bool asked = status_.arming == ArmingStage::arming || status_.arming == ArmingStage::given_up;
   if (servo.gate_state == GateState::faulted && !asked) return std::string("No force: ") + to_string(servo.gate_fault);

@@ -29,6 +29,8 @@ class DeviceModel {
   const DeviceNames& names() const { return options_.devices; }
   void choose(const DeviceNames& names);  ///< a new session
 
+  /// Called with the session stopped, before it goes with what it recorded.
+  void before_release(std::function<void()> what) { before_release_ = std::move(what); }
   void end_session();  ///< stops the force and releases the devices
 
   // Called by the other parts.
@@ -62,7 +64,7 @@ class DeviceModel {
   std::string arming_text() const;
 
  private:
-  void make_session();
+  void make_session(PreparedScenePtr prepared = nullptr);
   void restart_session();
   void say_what_differs();
   void take_clutch();
@@ -72,7 +74,7 @@ class DeviceModel {
   const SceneModel& scene_;
   const PresetModel& presets_;
   MessageLog& messages_;
-  std::function<void()> session_ended_;
+  std::function<void()> session_ended_, before_release_;
   SessionOptions options_;
   MaestroWish maestro_wish_;
   std::filesystem::path maestro_file_;  ///< empty: calibrations are not kept

@@ -4,13 +4,13 @@
 
 namespace tangent {
 
-void ErrorFan::show(const Session& session, RecordedPast& past, std::uint64_t tick) {
+void ErrorFan::show(const RecordedPast& past, std::uint64_t tick, const Solve& solve) {
   if (!curves_.empty() && curves_.back().tick == tick) return;
   const HistorySnapshot& history = past.shown().records;
   if (curves_.empty() || tick < curves_.back().tick || tick - curves_.back().tick >= kTicks) curves_.clear();
   const std::uint64_t from = curves_.empty() ? (tick >= kTicks ? tick - kTicks + 1 : 0) : curves_.back().tick + 1;
   for (std::size_t i = history.lower_bound(from); i < history.size() && history[i].tick.tick <= tick; ++i)
-    add(session, past, history[i]);
+    add(history[i], solve);
   while (curves_.size() > kTicks) curves_.pop_front();
 }
 
@@ -25,8 +25,8 @@ std::size_t iterations_shown(std::size_t of_tick, std::size_t longest_of_fan, bo
   return std::max({kLeast, of_tick, paused ? 0 : longest_of_fan});
 }
 
-void ErrorFan::add(const Session& session, RecordedPast& past, const ServoRecord& record) {
-  if (!past.re_step(session, record, nullptr, *trace_)) return;
+void ErrorFan::add(const ServoRecord& record, const Solve& solve) {
+  if (!solve(record, *trace_)) return;
   Curve curve{record.tick.tick, {}, {}};
   for (const IterationRecord& it : trace_->view()) {
     curve.error_m.push_back(static_cast<float>(it.error_m));

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -24,14 +25,16 @@ class ErrorFan {
   };
 
   /// Computes the curves of up to kTicks ticks of past.shown() ending at `tick`.
-  void show(const Session& session, RecordedPast& past, std::uint64_t tick);
+  /// `solve`: a record again, with its planes into the trace; empty where it can't be.
+  using Solve = std::function<Result<TickOutput>(const ServoRecord& record, IterationTrace& trace)>;
+  void show(const RecordedPast& past, std::uint64_t tick, const Solve& solve);
   void clear() { curves_.clear(); }
   /// In order; the last is that of `tick` itself.
   const std::deque<Curve>& curves() const { return curves_; }
   std::size_t longest() const;  ///< iterations of the longest curve
 
  private:
-  void add(const Session& session, RecordedPast& past, const ServoRecord& record);
+  void add(const ServoRecord& record, const Solve& solve);
   std::deque<Curve> curves_;
   std::unique_ptr<IterationTrace> trace_ = std::make_unique<IterationTrace>();
 };

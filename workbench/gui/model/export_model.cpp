@@ -2,9 +2,11 @@
 
 #include "workbench/gui/model/export_samples.h"
 #include "workbench/gui/model/local_time.h"
+#include "workbench/session/csv_metadata.h"
 
 #include <chrono>
 #include <system_error>
+#include <utility>
 
 namespace tangent {
 
@@ -20,24 +22,37 @@ std::filesystem::path free_path(const std::filesystem::path& folder, const std::
 
 }  // namespace
 
-ExportModel::ExportModel(const AppOptions& options, const DeviceModel& devices, MessageLog& messages)
-    : devices_(devices), messages_(messages), deterministic_(options.deterministic), screenshots_(options.screenshots) {
+ExportModel::ExportModel(const AppOptions& options, MessageLog& messages)
+    : messages_(messages), deterministic_(options.deterministic), screenshots_(options.screenshots) {
   if (!screenshots_.empty()) folder_ = screenshots_;
 }
 
-void ExportModel::write_ticks(std::uint64_t from, std::uint64_t to) {
-  const Session* session = devices_.session();
-  if (session == nullptr || writing()) return;
-  const auto path =
-      free_path(folder_, "ticks-" + std::to_string(from) + "-" + std::to_string(to > 0 ? to - 1 : 0), ".csv");
-  auto work = [records = session->history().snapshot(), from, to, path]() -> Result<std::string> {
-    const auto lines = export_samples(records, from, to, path);
-    if (!lines) return tl::unexpected(lines.error());
-    return std::to_string(*lines) + " ticks written to " + std::filesystem::absolute(path).lexically_normal().string();
-  };
-  writing_ = std::async(deterministic_ ? std::launch::deferred : std::launch::async, std::move(work));
+void ExportModel::start(std::string what, Work work) {
+  if (writing())
+    return messages_.say(Severity::warning, what + " is not written: wait for " + what_ + ", or cancel it");
+  what_ = std::move(what);
+  started_s_ = messages_.now_s();
+  stop_ = std::stop_source();
+  writing_ = std::async(deterministic_ ? std::launch::deferred : std::launch::async,
+                        [work = std::move(work), stop = stop_.get_token()] { return work(stop); });
   if (deterministic_) writing_.wait();
   take_finished();
+}
+
+void ExportModel::write_ticks(const HistorySnapshot& records, std::uint64_t from, std::uint64_t to,
+                              const FileOrigin& origin) {
+  if (records.empty()) return;
+  const auto path =
+      free_path(folder_, "ticks-" + std::to_string(from) + "-" + std::to_string(to > 0 ? to - 1 : 0), ".csv");
+  start(path.filename().string(),
+        [records, from, to, path, origin](const std::stop_token& stop) -> Result<std::string> {
+          const auto lines = export_samples(records, from, to, path, stop);
+          if (!lines) return tl::unexpected(lines.error());
+          if (Status beside = write_csv_metadata(path, samples_header(), origin); !beside)
+            return tl::unexpected(beside.error());
+          return std::to_string(*lines) + " ticks written to " +
+                 std::filesystem::absolute(path).lexically_normal().string();
+        });
 }
 
 void ExportModel::take_finished() {

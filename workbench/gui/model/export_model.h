@@ -4,14 +4,17 @@
 
 #include "workbench/gui/layout/layout.h"
 #include "workbench/gui/model/app_options.h"
-#include "workbench/gui/model/device_model.h"
 #include "workbench/gui/model/message_log.h"
 #include "workbench/gui/model/save_dialog.h"
+#include "workbench/session/file_origin.h"
+#include "workbench/session/history.h"
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <future>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <utility>
 
@@ -28,19 +31,32 @@ struct ScenePicture {
   std::filesystem::path path;
   int width_px = 2400;
   bool transparent = true;
+  bool overlay = false;  ///< with labels, scales and colour bar
 };
 
 class ExportModel {
  public:
-  ExportModel(const AppOptions& options, const DeviceModel& devices, MessageLog& messages);
+  ExportModel(const AppOptions& options, MessageLog& messages);
+  ~ExportModel() { cancel(); }
+  ExportModel(const ExportModel&) = delete;
+  ExportModel& operator=(const ExportModel&) = delete;
 
   const std::filesystem::path& folder() const { return folder_; }
   void set_folder(std::filesystem::path folder) { folder_ = std::move(folder); }
 
-  /// Writes ticks from ... to - 1 as CSV; in a worker thread unless deterministic.
-  void write_ticks(std::uint64_t from, std::uint64_t to);
+  /// Does the work in a thread of its own, at once if deterministic. What it says when it is done, or why it failed, is
+  /// a message. `what`: the file's name. One at a time: another is refused, and a message says so.
+  using Work = std::function<Result<std::string>(const std::stop_token& stop)>;
+  void start(std::string what, Work work);
   bool writing() const { return writing_.valid(); }
+  const std::string& what() const { return what_; }
+  double seconds() const { return messages_.now_s() - started_s_; }  ///< since it began
+  void cancel() { stop_.request_stop(); }
   void take_finished();  ///< reports finished files
+
+  /// Writes ticks from ... to - 1 as CSV, and beside it what its columns are and where it comes from
+  /// (session/csv_metadata.h).
+  void write_ticks(const HistorySnapshot& records, std::uint64_t from, std::uint64_t to, const FileOrigin& origin = {});
 
   SaveDialog& dialog() { return dialog_; }
 
@@ -56,12 +72,14 @@ class ExportModel {
   std::optional<std::filesystem::path> take_screenshot_request();
 
  private:
-  const DeviceModel& devices_;
   MessageLog& messages_;
   const bool deterministic_;
   const std::filesystem::path screenshots_;
   std::filesystem::path folder_ = ".";
-  std::future<Result<std::string>> writing_;  ///< name of the file written
+  std::string what_;
+  double started_s_ = 0.0;
+  std::stop_source stop_;
+  std::future<Result<std::string>> writing_;  ///< what is said of the file written
   std::optional<PictureRequest> picture_request_;
   bool screenshot_wanted_ = false;
   std::optional<ScenePicture> scene_picture_;

@@ -41,14 +41,17 @@ class Row {
 
 }  // namespace
 
+std::string_view samples_header() { return kHeader; }
+
 Result<std::size_t> export_samples(const HistorySnapshot& records, std::uint64_t from, std::uint64_t to,
-                                   const std::filesystem::path& path) {
+                                   const std::filesystem::path& path, const std::stop_token& stop) {
   auto file = AtomicFile::create(path);
   if (!file) return tl::unexpected(file.error());
   if (Status ok = file->write(kHeader); !ok) return tl::unexpected(ok.error());
   Row row;
   std::size_t count = 0;
   for (std::size_t i = records.lower_bound(from); i < records.size() && records[i].tick.tick < to; ++i, ++count) {
+    if (stop.stop_requested()) return fail("cancelled, nothing is written", path.string());
     const ServoRecord& r = records[i];
     const TickOutput& out = r.tick.output;
     row.clear();

@@ -6,12 +6,16 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <stop_token>
+#include <string_view>
 
 namespace tangent {
 
+/// The columns.
+std::string_view samples_header();
 /// Ticks from ... to - 1; lost ticks have no line. Writes atomically. Returns the number of lines. Fails when the file
-/// can't be written.
+/// can't be written, and soon after `stop` is asked for.
 Result<std::size_t> export_samples(const HistorySnapshot& records, std::uint64_t from, std::uint64_t to,
-                                   const std::filesystem::path& path);
+                                   const std::filesystem::path& path, const std::stop_token& stop = {});
 
 }  // namespace tangent

@@ -40,6 +40,8 @@ class PresetEditor {
   /// Writes the current values to `folder`/`name`.toml, which becomes the loaded file. `about`: its [about] table; its
   /// name is set to `name`. Fails on an empty name, a name with a slash, or when the file can't be written.
   Status save_as(const std::filesystem::path& folder, const std::string& name, PresetAbout about);
+  /// The file's [about] was written anew, its values were not.
+  void set_about(PresetAbout about) { loaded_.about = std::move(about); }
   /// What is needed to go on with it in another run. The file's [about] is read again when it is loaded.
   UnsavedPreset unsaved() const { return {name_, path_, loaded_.preset, current_}; }
   static PresetEditor restored(const UnsavedPreset& from);

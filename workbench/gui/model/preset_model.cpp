@@ -116,7 +116,11 @@ void PresetModel::load(const std::filesystem::path& path, const ContactMesh* mes
 
 void PresetModel::load_built_in() {
   replace_by(PresetEditor::built_in());
-  messages_.say(Severity::note, "the program's own values loaded");
+  messages_.say(Severity::note, "built-in values loaded");
+}
+
+void PresetModel::take_recorded(const Preset& preset, const std::string& name) {
+  if (!(preset == current())) replace_by(PresetEditor::restored({name, {}, preset, preset}));
 }
 
 void PresetModel::replace_by(const PresetEditor& loaded) {
@@ -130,7 +134,7 @@ void PresetModel::replace_by(const PresetEditor& loaded) {
 
 void PresetModel::take_up(const UnsavedWork& work) {
   slots_.restore(work);
-  changed_("take up the work of an earlier run");
+  changed_("restore the work of an earlier run");
 }
 
 void PresetModel::undo() {
@@ -161,6 +165,14 @@ const std::string& PresetModel::note(std::uint32_t preset_id) const {
   return found == notes_.end() ? kNothing : found->second;
 }
 
+std::string& PresetModel::note_to_save() {
+  if (const std::string& from = editor().path().native(); note_of_ != from) {
+    note_of_ = from;
+    note_to_save_ = editor().loaded().about.note;
+  }
+  return note_to_save_;
+}
+
 bool PresetModel::save(const std::string& name, const PresetOrigin& origin) {
   if (auto saved = slots_.save_as(folder_, name, about_of(origin)); !saved) {
     messages_.say(Severity::error, saved.error().message());
@@ -169,6 +181,12 @@ bool PresetModel::save(const std::string& name, const PresetOrigin& origin) {
   refresh_files();
   messages_.say(Severity::note, "preset saved as " + editor().path().string());
   return true;
+}
+
+Status PresetModel::save_evidence(const std::filesystem::path& path, const PresetFile& file) {
+  if (Status written = write_preset(file, path); !written) return written;
+  slots_.set_about(path, file);
+  return {};
 }
 
 bool PresetModel::has(const std::string& name) const {

@@ -55,13 +55,20 @@ class PresetModel {
   /// `mesh`: a message says so when the preset was saved on another; null: there is none.
   void load(const std::filesystem::path& path, const ContactMesh* mesh = nullptr);
   void load_built_in();
+  /// One that a recording ran under; undo brings the present one back. Nothing where it is the one in use.
+  void take_recorded(const Preset& preset, const std::string& name);
   /// Overwrites an existing file in the folder; a message says where, or why not.
   bool save(const std::string& name, const PresetOrigin& origin);
+  /// Writes a saved preset again, with the evidence that was measured since.
+  Status save_evidence(const std::filesystem::path& path, const PresetFile& file);
   bool has(const std::string& name) const;  ///< a file of this name is in the folder
   const std::filesystem::path& folder() const { return folder_; }
   /// Of the folder, of that of the preset the program was started with, and those that ship.
   const std::vector<PresetEntry>& files() const { return files_; }
   void refresh_files();
+
+  /// What is typed to save with the values: at first the note of the preset that is loaded.
+  std::string& note_to_save();
 
   void note_sent(std::uint32_t preset_id, const std::string& what);
   std::uint64_t sent() const { return sent_; }  ///< number of presets sent
@@ -75,6 +82,7 @@ class PresetModel {
   std::function<void(const std::string& what)> changed_;
   PresetSlots slots_;
   std::map<std::uint32_t, std::string> notes_;
+  std::string note_to_save_, note_of_;  ///< of the preset file of this path
   std::filesystem::path folder_;
   std::filesystem::path beside_;  ///< folder of the preset the program was started with; empty: none
   std::vector<PresetEntry> files_;

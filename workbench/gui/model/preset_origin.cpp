@@ -73,12 +73,12 @@ PresetAbout about_of(const PresetOrigin& origin) {
   if (origin.history == nullptr) return about;
   const Measured measured = measure(*origin.history, origin.preset_id);
   if (measured.ticks == 0.0) return about;
-  about.measured = {{"source", std::string("the newest ticks in the window")},
-                    {"ticks", measured.ticks},
-                    {"mean_iterations", rounded(measured.planes / measured.ticks)},
-                    {"most_iterations", measured.most_planes},
-                    {"unconverged", measured.unconverged},
-                    {"max_error_um", rounded(measured.largest_error_m * 1e6)}};
+  about.also_measured = {{"source", std::string("the newest ticks in the window")},
+                         {"ticks", measured.ticks},
+                         {"mean_iterations", rounded(measured.planes / measured.ticks)},
+                         {"most_iterations", measured.most_planes},
+                         {"unconverged", measured.unconverged},
+                         {"max_error_um", rounded(measured.largest_error_m * 1e6)}};
   return about;
 }
 

@@ -58,6 +58,13 @@ void PresetSlots::copy_to_other() {
   gesture_open_ = false;
 }
 
+void PresetSlots::set_about(const std::filesystem::path& path, const PresetFile& file) {
+  for (Step& step : steps_) {
+    for (PresetEditor& editor : step.slots)
+      if (editor.path() == path && editor.loaded().preset == file.preset) editor.set_about(file.about);
+  }
+}
+
 Status PresetSlots::save_as(const std::filesystem::path& folder, const std::string& name, PresetAbout about) {
   PresetEditor saved = active();
   if (auto written = saved.save_as(folder, name, std::move(about)); !written) return written;

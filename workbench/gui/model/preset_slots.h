@@ -35,6 +35,9 @@ class PresetSlots {
   /// Saves the active slot; undoing its earlier changes keeps the new file as its origin. The other slot keeps its own.
   Status save_as(const std::filesystem::path& folder, const std::string& name, PresetAbout about);
 
+  /// Wherever that file is loaded with those values, in all steps: it has this [about] now.
+  void set_about(const std::filesystem::path& path, const PresetFile& file);
+
   bool can_undo() const { return at_ > 0; }
   bool can_redo() const { return at_ + 1 < steps_.size(); }
   const std::string& undo_name() const { return steps_[at_].what; }      ///< precondition: can_undo()

@@ -48,6 +48,12 @@ void RecordedPast::thaw() {
   kept_in_view_.reset();
 }
 
+void RecordedPast::show_page(PastPart page) {
+  main_ = std::move(page);
+  kept_in_view_.reset();
+  frozen_ = true;
+}
+
 void RecordedPast::forget() {
   main_ = {};
   kept_.clear();
@@ -90,10 +96,8 @@ std::size_t RecordedPast::extra_bytes(const Session& session) const {
   return bytes;
 }
 
-Result<TickOutput> RecordedPast::re_step(const Session& session, const ServoRecord& record, const Preset* with,
-                                         IterationTrace& trace) {
+Result<TickOutput> RecordedPast::re_step(const ServoRecord& record, const Preset* with, IterationTrace& trace) {
   const std::string tick = "tick " + std::to_string(record.tick.tick);
-  if (with == nullptr) with = session.preset(record.tick.preset_id);
   if (with == nullptr) return fail("preset " + std::to_string(record.tick.preset_id) + " is not of this session", tick);
   const auto scene = shown().scenes.find(record.scene_id);
   if (scene == shown().scenes.end())

@@ -1,6 +1,6 @@
 // The recorded ticks that the window can show and solve again. Live, these are the session's history. Paused, they are
 // frozen: what the history drops from then on stays. The ticks around a person's bookmarks and those from cursor A to B
-// are kept as well, after the history has dropped them.
+// are kept as well, after the history has dropped them. Of a recording, they are the page that is loaded.
 //
 // Records are shared with the history in blocks, so keeping them costs memory only once the history has dropped them:
 // extra_bytes().
@@ -46,6 +46,8 @@ class RecordedPast {
   void keep(const Bookmarks& bookmarks, const std::optional<TickRange>& selection);
   void freeze() { frozen_ = true; }
   void thaw();
+  /// Shows a part of a recording in place of the history, frozen.
+  void show_page(PastPart page);
   void forget();  ///< a new session: nothing is recorded
 
   bool frozen() const { return frozen_; }
@@ -63,10 +65,9 @@ class RecordedPast {
   /// Memory held beyond the session's history.
   std::size_t extra_bytes(const Session& session) const;
 
-  /// Computes a tick of shown() again with every iteration; `with`: under this preset, null: under its own. Fails when
-  /// its preset or scene is gone.
-  Result<TickOutput> re_step(const Session& session, const ServoRecord& record, const Preset* with,
-                             IterationTrace& trace);
+  /// Computes a tick of shown() again with every iteration, under `with`. Fails when its scene is gone, or `with` is
+  /// null: its preset is.
+  Result<TickOutput> re_step(const ServoRecord& record, const Preset* with, IterationTrace& trace);
 
  private:
   struct Kept {

@@ -12,7 +12,7 @@
 namespace tangent {
 
 /// What is saved.
-enum class SaveWhat : std::uint8_t { plots, map, planes, scene };
+enum class SaveWhat : std::uint8_t { plots, map, planes, scene, session };
 
 class SaveDialog {
  public:
@@ -38,7 +38,8 @@ class SaveDialog {
 
   std::string name;         ///< typed: a name, or a path from the folder, the root or ~; a folder is gone to
   int width_px = 2400;      ///< of a picture of the scene
-  bool transparent = true;  ///< and whether nothing is behind it
+  bool transparent = true;  ///< and whether nothing is behind it,
+  bool overlay = false;     ///< and labels, scales and colour bar are over it
   const std::vector<std::string>& endings() const { return endings_; }
   std::size_t ending() const;  ///< the name's, by its number; of one without: the first
   void set_ending(std::size_t index);

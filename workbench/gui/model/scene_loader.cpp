@@ -50,6 +50,19 @@ MeshReport report_on(const PolygonMesh& polygons, const ContactMesh& mesh) {
   return {audit_mesh(polygons, mesh), find_defects(polygons, mesh), audit_perception(mesh, facet_angles(mesh))};
 }
 
+LoadedScene load_built(std::shared_ptr<const ContactScene> scene, std::shared_ptr<const PolygonMesh> polygons,
+                       const Finger& finger) {
+  LoadedScene out;
+  out.polygons = std::move(polygons);
+  if (const PlanarCurve* curve = scene->planar(); curve != nullptr && out.polygons == nullptr)
+    out.polygons = std::make_shared<const PolygonMesh>(ribbon(*curve, 0.1 * curve->size_m()));
+  out.prepared = Session::prepare(scene, finger);
+  if (scene->planar() == nullptr)
+    build_in_reach(*scene, out.prepared->path.at(0.0, pad_distance_m(finger), 0.0).position_m, finger);
+  out.scene = std::move(scene);
+  return out;
+}
+
 Result<LoadedScene> load_scene(const SceneRequest& request) {
   const auto begin = std::chrono::steady_clock::now();
   if (request.polygons == nullptr && is_planar_file(request.mesh)) {
@@ -58,6 +71,7 @@ Result<LoadedScene> load_scene(const SceneRequest& request) {
     return planar;
   }
   LoadedScene out;
+  out.options = request.options;
   out.rebuilt = request.polygons != nullptr;
   out.polygons = request.polygons;
   if (!out.rebuilt) {

@@ -35,12 +35,16 @@ struct LoadedScene {
   std::shared_ptr<const PolygonMesh> polygons;
   std::shared_ptr<const ContactScene> scene;
   PreparedScenePtr prepared;
+  ContactMeshOptions options;  ///< with which it was built, where it is a mesh
   double seconds = 0.0;
   bool rebuilt = false;  ///< from polygons already in memory
 };
 
 MeshReport report_on(const PolygonMesh& polygons, const ContactMesh& mesh);
 
+/// A scene that was built already, and what it was built from: no mesh where it is a polygon.
+LoadedScene load_built(std::shared_ptr<const ContactScene> scene, std::shared_ptr<const PolygonMesh> polygons,
+                       const Finger& finger);
 /// Loads in the calling thread. A generator's name without dot or slash means the generated object.
 Result<LoadedScene> load_scene(const SceneRequest& request);
 

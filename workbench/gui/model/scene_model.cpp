@@ -32,6 +32,18 @@ void SceneModel::open(const std::string& mesh) {
   load(nullptr);
 }
 
+SceneSource SceneModel::source() const {
+  if (scene_->planar() != nullptr) return source_of_planar(*scene_);
+  return {polygons_, built_with_, nullptr};
+}
+
+void SceneModel::show(LoadedScene loaded, const ContactMeshOptions& options) {
+  opening_path_.clear();
+  mesh_options_ = options;
+  loaded.options = options;
+  take(std::move(loaded));
+}
+
 /// `polygons`: already read.
 void SceneModel::load(std::shared_ptr<const PolygonMesh> polygons) {
   SceneRequest request{opening_path_, metres_per_unit_, mesh_options_, presets_.current().finger, std::move(polygons)};
@@ -62,6 +74,7 @@ void SceneModel::take(LoadedScene loaded) {
   scene_ = std::move(loaded.scene);
   polygons_ = std::move(loaded.polygons);
   load_seconds_ = loaded.seconds;
+  built_with_ = loaded.options;
   report_.reset();
   if (!loaded.rebuilt) {
     path_ = opening_path_;

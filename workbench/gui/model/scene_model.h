@@ -6,6 +6,7 @@
 #include "workbench/gui/model/message_log.h"
 #include "workbench/gui/model/preset_model.h"
 #include "workbench/gui/model/scene_loader.h"
+#include "workbench/recording/scene_bytes.h"
 
 #include <functional>
 #include <memory>
@@ -28,12 +29,16 @@ class SceneModel {
 
   void open_first(const std::string& mesh);  ///< empty, or when it can't be opened: the built-in scene
   void open(const std::string& mesh);        ///< a file or a generated object
-  void update();                             ///< takes in the workers' results
+  /// One that comes from a recording, with the options it was read with; it has no file to read again.
+  void show(LoadedScene loaded, const ContactMeshOptions& options);
+  void update();  ///< takes in the workers' results
 
   /// Null until the first one is loaded.
   const std::shared_ptr<const ContactScene>& current() const { return scene_; }
   const PolygonMesh* polygons() const { return polygons_.get(); }
   const std::string& path() const { return path_; }
+  /// What current() was built from. Precondition: there is one.
+  SceneSource source() const;
   bool loading() const { return loader_.busy(); }
   const std::string& loading_name() const { return loader_.name(); }
   double load_seconds() const { return load_seconds_; }
@@ -49,6 +54,7 @@ class SceneModel {
   void set_unit(double metres_per_unit);
   std::optional<double> fit_m() const { return mesh_options_.fit_m; }
   void set_fit(std::optional<double> fit_m);  ///< longest side, m; empty: as in the file
+  const ContactMeshOptions& mesh_options() const { return mesh_options_; }
   double crease_angle_rad() const { return mesh_options_.crease_rad; }
   void set_crease_angle(double rad);  ///< keeps the view
 
@@ -64,6 +70,7 @@ class SceneModel {
   const bool deterministic_;
   double metres_per_unit_;
   ContactMeshOptions mesh_options_;
+  ContactMeshOptions built_with_;  ///< of scene_
   SceneLoader loader_;
   std::string path_, opening_path_;
   std::shared_ptr<const ContactScene> scene_;

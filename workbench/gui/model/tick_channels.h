@@ -1,6 +1,7 @@
 // The plots' channels and their values for a tick.
 #pragma once
 
+#include "workbench/recording/overview.h"
 #include "workbench/session/session.h"
 
 #include <array>
@@ -27,10 +28,13 @@ enum class Channel : std::uint8_t {
 };
 inline constexpr std::size_t kChannelCount = static_cast<std::size_t>(Channel::count_);
 
-/// Event marks of the plots; a column of pixels shows the highest rank of its ticks.
+/// Event marks of the plots, by event_rank(); a column of pixels shows the highest rank of its ticks.
 enum class EventRank : std::uint8_t { moved = 1, reseeded, unconverged, fault };
 
 /// One value per channel, SI.
 std::array<float, kChannelCount> channel_row(const ServoRecord& record);
+
+/// Least and largest of each channel over the ticks of a recording's overview, as two after each other; NaN: none.
+std::array<float, 2 * kChannelCount> channel_ranges(const OverviewRow& row);
 
 }  // namespace tangent

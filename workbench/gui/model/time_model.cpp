@@ -15,24 +15,6 @@ std::size_t plotted_ticks(double history_s, double servo_hz) {
       std::min(history_s * servo_hz, static_cast<double>(kLargestHistoryBytes / sizeof(ServoRecord))));
 }
 
-std::string change_text(const Preset& before, const Preset& now) {
-  std::string text;
-  std::size_t more = 0;
-  for (const PresetKey& key : preset_keys()) {
-    const double was = key.get(before), is = key.get(now);
-    if (was == is) continue;
-    if (!text.empty()) {
-      ++more;
-      continue;
-    }
-    const std::string unit(display_unit(key).name);
-    text = std::string(key.label) + " " + display_text(key, was) + " \u2192 " + display_text(key, is) +
-           (unit.empty() ? "" : " " + unit);
-  }
-  if (more > 0) text += " and " + std::to_string(more) + " more";
-  return text;
-}
-
 }  // namespace
 
 TimeModel::TimeModel(const AppOptions& options, DeviceModel& devices, const PresetModel& presets, MessageLog& messages)
@@ -43,6 +25,7 @@ TimeModel::TimeModel(const AppOptions& options, DeviceModel& devices, const Pres
       time_machine_(options.deterministic ? 0u : std::max(1u, std::thread::hardware_concurrency())) {}
 
 double TimeModel::tick_period_s() const {
+  if (recording_) return recording_->tick_period_s();
   const Session* session = devices_.session();
   return session != nullptr ? 1.0 / session->options().servo.rate_hz : 1e-3;
 }
@@ -58,12 +41,16 @@ std::size_t TimeModel::most_history_bytes() const {
 }
 
 void TimeModel::update_axis() {
-  axis_.update(store().first_tick(), store().end_tick(), static_cast<double>(store().capacity()));
+  const ChannelStore& all = store();
+  axis_.update(all.first_tick(), all.end_tick(),
+               static_cast<double>(std::max<std::uint64_t>(all.capacity(), all.end_tick() - all.first_tick())));
 }
 
 void TimeModel::take_records() {
+  if (recording_) take_page();
   if (devices_.session() == nullptr) return;
   devices_.session()->poll();
+  if (recording_) return;
   past_.follow(*devices_.session());
   take_in();
   const PresetSlots& slots = presets_.slots();
@@ -108,19 +95,23 @@ void TimeModel::mark_parameters(const ServoRecord& record) {
 
 void TimeModel::show_tick() {
   if (records().empty()) return;
-  const Session& session = *devices_.session();
   if (placed_) {
-    const ServoRecord record = placed_->record(cursor_.value_or(0), session.preset_id(), session.status().scene_sent);
+    const Session* session = devices_.session();
+    const ServoRecord record =
+        session != nullptr ? placed_->record(cursor_.value_or(0), session->preset_id(), session->status().scene_sent)
+                           : placed_->record(cursor_.value_or(0), 0, 0);
     tick_.show(record, [this](const ServoRecord&, IterationTrace& trace) -> Result<TickOutput> {
       return placed_->solve(placed_->preset(), trace);
     });
   } else {
     const ServoRecord* record = !paused_ || !cursor_ ? &records().newest() : records().find(*cursor_);
     if (record == nullptr) return;
-    tick_.show(*record, [&](const ServoRecord& of, IterationTrace& trace) {
-      return past_.re_step(session, of, nullptr, trace);
-    });
-    error_fan_.show(session, past_, record->tick.tick);
+    const auto solve = [this](const ServoRecord& of, IterationTrace& trace) -> Result<TickOutput> {
+      if (const std::string why = recording_ ? recording_->unsolvable() : std::string(); !why.empty()) return fail(why);
+      return past_.re_step(of, preset(of.tick.preset_id), trace);
+    };
+    tick_.show(*record, solve);
+    error_fan_.show(past_, record->tick.tick, solve);
   }
   show_beside();
 }
@@ -137,11 +128,19 @@ std::uint64_t TimeModel::newest_recorded() const {
 void TimeModel::set_selection(const std::optional<TickRange>& range) {
   if (range == selection_) return;
   selection_ = range;
-  past_.keep(bookmarks_, selection_);
+  if (!recording_) past_.keep(bookmarks_, selection_);
   if (time_machine_.ghost() != nullptr) request_comparison();
 }
 
 void TimeModel::forget() {
+  if (recording_) {  // what is in view stays; the live past of the new run begins when it is closed
+    live_past_.forget();
+    store_.clear();
+    bookmarks_.clear_automatic();
+    parameter_marks_.clear();
+    last_preset_id_.reset();
+    return;
+  }
   store_.clear();
   bookmarks_.clear_automatic();
   parameter_marks_.clear();
@@ -160,6 +159,7 @@ void TimeModel::forget() {
 void TimeModel::set_paused(bool paused) {
   if (paused == paused_) return;
   if (!paused) {
+    if (recording_) return messages_.say(Severity::note, "a recording is open: End closes it and goes back to live");
     go_live();
     return;
   }
@@ -175,11 +175,8 @@ void TimeModel::set_paused(bool paused) {
 /// On the part in view, frozen.
 void TimeModel::open_time_machine() {
   compared_by_hand_.reset();
-  if (records().empty()) return time_machine_.close();
-  RecordedRun run = devices_.session()->recorded_run();
-  run.records = records();
-  run.scenes = past_.shown().scenes;
-  time_machine_.open(std::move(run));
+  if (records().empty() || (recording_ && !recording_->unsolvable().empty())) return time_machine_.close();
+  time_machine_.open(run_of(past_.shown()));
 }
 
 /// Another part of the past has come into view.
@@ -198,6 +195,15 @@ void TimeModel::show_part() {
 }
 
 void TimeModel::go_live() {
+  if (recording_) {
+    recording_.reset();
+    past_ = std::move(live_past_);
+    live_past_ = {};
+    selection_.reset();
+    tick_.clear();
+    beside_.clear();
+    error_fan_.clear();
+  }
   paused_ = false;
   cursor_.reset();
   forget_place();
@@ -213,9 +219,11 @@ void TimeModel::go_live() {
 }
 
 void TimeModel::select_tick(std::uint64_t tick) {
-  if (records().empty()) return;
+  if (records().empty() && !recording_) return;
   set_paused(true);
   forget_place();
+  if (recording_ && recording_->see_tick(tick)) show_page();
+  if (records().empty()) return messages_.say(Severity::note, "no tick was recorded there");
   if (const PastPart* was = &past_.shown(); past_.show(tick) && &past_.shown() != was) show_part();
   const std::size_t at = std::min(records().lower_bound(tick), records().size() - 1);
   cursor_ = records()[at].tick.tick;
@@ -224,11 +232,18 @@ void TimeModel::select_tick(std::uint64_t tick) {
 }
 
 void TimeModel::step_tick(std::int64_t by) {
+  if (recording_ && cursor_ && recording_->see_tick(*cursor_)) show_page();  // the plots may have gone elsewhere
   if (records().empty()) return;
   set_paused(true);
   const std::size_t now =
       std::min(records().lower_bound(cursor_.value_or(records().newest().tick.tick)), records().size() - 1);
   const auto last = static_cast<std::int64_t>(records().size()) - 1;
+  const std::int64_t wish = static_cast<std::int64_t>(now) + by;
+  if (recording_ && (wish < 0 || wish > last)) {  // beyond the page
+    const auto tick = static_cast<std::int64_t>(records()[now].tick.tick) + by;
+    return select_tick(std::clamp(static_cast<std::uint64_t>(std::max<std::int64_t>(0, tick)),
+                                  recording_->info().first_tick, recording_->info().last_tick));
+  }
   const std::int64_t to = std::clamp(static_cast<std::int64_t>(now) + by, std::int64_t{0}, last);
   select_tick(records()[static_cast<std::size_t>(to)].tick.tick);
 }
@@ -254,18 +269,17 @@ void TimeModel::step_iteration(int by) {
 void TimeModel::add_bookmark() {
   const ServoRecord* record = tick_.record();
   if (record == nullptr) return;
-  if (placed_) return messages_.say(Severity::note, "a tick at a place has no time to bookmark");
-  bookmarks_.add(record->tick.tick, record->tick.input.t_s);
+  if (placed_) return messages_.say(Severity::note, "a tick solved at a place has no time that could be bookmarked");
+  bookmarks().add(record->tick.tick, record->tick.input.t_s);
 }
 
 void TimeModel::go_to_bookmark(int by) {
   const ServoRecord* record = tick_.record();
   if (record == nullptr) return;
   const std::uint64_t now = record->tick.tick;
-  const Bookmark* to = by > 0 ? bookmarks_.after(now) : bookmarks_.before(now);
+  const Bookmark* to = by > 0 ? bookmarks().after(now) : bookmarks().before(now);
   // A bookmark of an earlier run has no tick.
-  while (to != nullptr && !past_.reaches(to->tick))
-    to = by > 0 ? bookmarks_.after(to->tick) : bookmarks_.before(to->tick);
+  while (to != nullptr && !reaches(to->tick)) to = by > 0 ? bookmarks().after(to->tick) : bookmarks().before(to->tick);
   if (to == nullptr)
     messages_.say(Severity::note, by > 0 ? "no later bookmark" : "no earlier bookmark");
   else

@@ -1,6 +1,9 @@
 // Time in the window: incoming records, the tick in view, bookmarks, and the past solved again. Pausing freezes the
 // view, never the servo or the recording: what is in view stays there and can be solved, however long one looks at it.
 // Whatever store() holds is recorded and can be solved.
+//
+// A recording that is opened takes the place of the live past until go_live(): paused, with plots, bookmarks and marks
+// of its own. The servo and its history go on beside it.
 #pragma once
 
 #include "workbench/gui/model/app_options.h"
@@ -9,6 +12,8 @@
 #include "workbench/gui/model/error_fan.h"
 #include "workbench/gui/model/live_beside.h"
 #include "workbench/gui/model/message_log.h"
+#include "workbench/gui/model/opened_recording.h"
+#include "workbench/gui/model/parameter_marks.h"
 #include "workbench/gui/model/placed_tick.h"
 #include "workbench/gui/model/preset_model.h"
 #include "workbench/gui/model/recorded_past.h"
@@ -18,6 +23,7 @@
 #include "workbench/gui/plots/channel_store.h"
 #include "workbench/gui/plots/time_axis.h"
 #include "workbench/session/bookmarks.h"
+#include "workbench/session/unsaved_work.h"
 
 #include <cstdint>
 #include <memory>
@@ -29,12 +35,6 @@
 
 namespace tangent {
 
-/// The preset changed at this tick.
-struct ParameterMark {
-  std::uint64_t tick = 0;
-  std::string text;  ///< "Curvature gain G_k 20 -> 13 mm", or the number of keys
-};
-
 class TimeModel {
  public:
   TimeModel(const AppOptions& options, DeviceModel& devices, const PresetModel& presets, MessageLog& messages);
@@ -45,9 +45,17 @@ class TimeModel {
   void forget();        ///< a new run begins: live, with an empty history
   void preset_sent();   ///< presets.current() was sent: the ghost follows it
 
+  /// Shows a recording, at its first tick.
+  void show(std::unique_ptr<OpenedRecording> recording);
+  const OpenedRecording* recording() const { return recording_.get(); }  ///< null: none is open
+  /// Those of a session that was saved in place of a person's.
+  void take_bookmarks(const std::vector<UnsavedBookmark>& marks);
+  /// A mesh that was opened: the one that the recording asks for, perhaps.
+  void offer_scene(const std::shared_ptr<const ContactScene>& scene);
+
   bool paused() const { return paused_; }
   void set_paused(bool paused);
-  void go_live();
+  void go_live();                        ///< closes the recording that is open
   void step_tick(std::int64_t by);       ///< pauses; stops at the newest
   void select_tick(std::uint64_t tick);  ///< pauses on the nearest recorded tick
   void step_iteration(int by);           ///< through the iterations; past the ends to the next tick
@@ -59,6 +67,7 @@ class TimeModel {
   bool other_slot_beside = false;  ///< also while live
   /// Pale curves of the plots: the ghost, or while live those of the other slot if that is wanted. Null: none.
   std::shared_ptr<const ChannelStore> ghost_channels() const;
+  const Preset* preset(std::uint32_t id) const;               ///< of a record in view; null: gone
   const Preset* preset_of_tick() const;                       ///< under which the tick in view ran; null: none
   std::shared_ptr<const ContactScene> scene_of_tick() const;  ///< on which it ran; null: none
 
@@ -70,15 +79,21 @@ class TimeModel {
   void choose_move(std::size_t move);
   void leave_place();  ///< back to the recorded tick
 
-  Bookmarks& bookmarks() { return bookmarks_; }
-  const Bookmarks& bookmarks() const { return bookmarks_; }
+  /// Of what is in view: of a recording its own.
+  Bookmarks& bookmarks() { return recording_ ? recording_->bookmarks() : bookmarks_; }
+  const Bookmarks& bookmarks() const { return recording_ ? recording_->bookmarks() : bookmarks_; }
+  Bookmarks& live_bookmarks() { return bookmarks_; }
+  const Bookmarks& live_bookmarks() const { return bookmarks_; }
   void add_bookmark();          ///< on the tick in view
   void go_to_bookmark(int by);  ///< the next (1) or previous (-1); a message when there is none
-  std::span<const ParameterMark> parameter_marks() const { return parameter_marks_; }
+  std::span<const ParameterMark> parameter_marks() const {
+    return recording_ ? recording_->parameter_marks() : std::span<const ParameterMark>(parameter_marks_);
+  }
 
   /// The recorded ticks that can be shown. While paused they stay, and newer ones are added while there is room.
   const RecordedPast& past() const { return past_; }
-  std::size_t frozen_bytes() const;  ///< of records held beyond the history
+  bool reaches(std::uint64_t tick) const;  ///< whether select_tick finds it
+  std::size_t frozen_bytes() const;        ///< of records held beyond the history
   std::uint64_t newest_recorded() const;
   /// Cursors A and B, in any order: the ticks that comparison, sweep and advice work on. Empty: all of them.
   void set_selection(const std::optional<TickRange>& range);
@@ -89,7 +104,7 @@ class TimeModel {
   /// Its records, to be solved again. Empty: they are gone.
   std::optional<RunPart> run_over(const TickRange& range) const;
 
-  const ChannelStore& store() const { return kept_store_ ? *kept_store_ : store_; }
+  const ChannelStore& store() const { return recording_ ? recording_->store() : kept_store_ ? *kept_store_ : store_; }
   TimeAxis& axis() { return axis_; }
   const TimeAxis& axis() const { return axis_; }
   std::uint64_t first_tick() const { return store().first_tick(); }
@@ -113,6 +128,9 @@ class TimeModel {
 
  private:
   const HistorySnapshot& records() const { return past_.shown().records; }
+  RecordedRun run_of(const PastPart& part) const;
+  void take_page();
+  void show_page();
   void open_time_machine();
   void show_part();
   void forget_place();
@@ -132,7 +150,8 @@ class TimeModel {
   LiveBeside live_beside_;
   std::optional<PlacedTick> placed_;
   ErrorFan error_fan_;
-  RecordedPast past_;
+  std::unique_ptr<OpenedRecording> recording_;
+  RecordedPast past_, live_past_;  ///< live_past_: while a recording is open
   std::optional<TickRange> selection_;
   ChannelStore store_;
   std::unique_ptr<ChannelStore> kept_store_;  ///< of a kept part in view; null: none is

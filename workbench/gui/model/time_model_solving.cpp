@@ -3,11 +3,23 @@
 
 namespace tangent {
 
+const Preset* TimeModel::preset(std::uint32_t id) const {
+  if (recording_) return recording_->preset(id);
+  return devices_.session() != nullptr ? devices_.session()->preset(id) : nullptr;
+}
+
 const Preset* TimeModel::preset_of_tick() const {
   if (placed_) return &placed_->preset();
   const ServoRecord* record = tick_.record();
-  return record != nullptr && devices_.session() != nullptr ? devices_.session()->preset(record->tick.preset_id)
-                                                            : nullptr;
+  return record != nullptr ? preset(record->tick.preset_id) : nullptr;
+}
+
+RecordedRun TimeModel::run_of(const PastPart& part) const {
+  if (recording_) return {part.records, recording_->presets(), part.scenes};
+  RecordedRun run = devices_.session()->recorded_run();
+  run.records = part.records;
+  run.scenes = part.scenes;
+  return run;
 }
 
 std::shared_ptr<const ContactScene> TimeModel::scene_of_tick() const {
@@ -24,7 +36,7 @@ void TimeModel::show_beside() {
   const std::uint64_t tick = record->tick.tick;
   const auto from_recorded = [&](const Preset& preset, IterationTrace& trace) -> std::optional<TickOutput> {
     if (placed_) return placed_->solve(preset, trace);
-    const auto output = past_.re_step(*devices_.session(), *record, &preset, trace);
+    const auto output = past_.re_step(*record, &preset, trace);
     return output ? std::optional(*output) : std::nullopt;
   };
   const PresetSlots& slots = presets_.slots();
@@ -63,7 +75,7 @@ bool TimeModel::solve_at(const std::shared_ptr<const ContactScene>& scene, std::
   auto placed = PlacedTick::at(scene, presets_.current(), triangle, u, v, options);
   if (!placed) {
     messages_.say(Severity::note, "the finger can't rest on triangle " + std::to_string(triangle) +
-                                      " there: the ground is tighter than the finger, or the triangle is skipped");
+                                      ": the surface there is tighter than the finger, or the triangle is skipped");
     return false;
   }
   set_paused(true);
@@ -105,10 +117,8 @@ std::optional<TickRange> TimeModel::chosen_range() const {
 std::optional<RunPart> TimeModel::run_over(const TickRange& range) const {
   const PastPart* part = &past_.shown();
   if (!part->covers(range.from) || !part->covers(range.to)) part = past_.part_with(range);
-  if (part == nullptr) return std::nullopt;
-  RecordedRun run = devices_.session()->recorded_run();
-  run.records = part->records;
-  run.scenes = part->scenes;
+  if (part == nullptr || (recording_ && !recording_->unsolvable().empty())) return std::nullopt;
+  const RecordedRun run = run_of(*part);
   const std::size_t begin = run.records.lower_bound(range.from), end = run.records.lower_bound(range.to + 1);
   return begin < end ? std::optional(part_of(run, begin, end)) : std::nullopt;
 }

@@ -35,7 +35,7 @@ UnsavedModel::~UnsavedModel() {
 
 bool UnsavedModel::would_be_lost() const {
   const PresetSlots& slots = presets_.slots();
-  const auto marks = time_.bookmarks().all();
+  const auto marks = time_.live_bookmarks().all();
   return slots.slot(0).changed() || slots.slot(1).changed() ||
          std::any_of(marks.begin(), marks.end(),
                      [](const Bookmark& mark) { return mark.kind == BookmarkKind::user && !mark.note.empty(); });
@@ -50,7 +50,7 @@ void UnsavedModel::update(double now_s) {
 void UnsavedModel::keep() {
   UnsavedWork work;
   presets_.slots().put_into(work);
-  for (const Bookmark& mark : time_.bookmarks().all()) {
+  for (const Bookmark& mark : time_.live_bookmarks().all()) {
     if (mark.kind == BookmarkKind::user) work.bookmarks.push_back({mark.tick, mark.t_s, mark.note});
   }
   if (const Status kept = keeper_.keep(work); !kept) messages_.say(Severity::warning, kept.error().message());
@@ -58,7 +58,7 @@ void UnsavedModel::keep() {
 
 std::string UnsavedModel::offer() const {
   if (!left_) return {};
-  std::string text = "An earlier run ended with work that is in no file: ";
+  std::string text = "An earlier run ended with unsaved work: ";
   const std::size_t changes = left_->work.steps.empty() ? 0 : left_->work.steps.size() - 1;
   if (changes > 0) text += counted(changes, "change of presets", "changes of presets");
   if (changes > 0 && !left_->work.bookmarks.empty()) text += " and ";
@@ -70,8 +70,8 @@ void UnsavedModel::take_up() {
   if (!left_) return;
   if (left_->work.steps.size() > 1) presets_.take_up(left_->work);
   for (const UnsavedBookmark& mark : left_->work.bookmarks) {
-    const std::uint32_t id = time_.bookmarks().add(mark.tick, mark.t_s);
-    time_.bookmarks().set_note(id, "earlier run: " + mark.note);
+    const std::uint32_t id = time_.live_bookmarks().add(mark.tick, mark.t_s);
+    time_.live_bookmarks().set_note(id, "earlier run: " + mark.note);
   }
   keep();
   discard();

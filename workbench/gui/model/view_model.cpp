@@ -101,7 +101,7 @@ void ViewModel::paste_camera() {
   if (const auto pasted = parse_camera(text != nullptr ? text : "", camera))
     camera = *pasted;
   else
-    messages_.say(Severity::error, "the clipboard holds no camera; copy one with Ctrl+Shift+C");
+    messages_.say(Severity::error, "there is no camera on the clipboard; copy one with Ctrl+Shift+C");
 }
 
 void ViewModel::show_finding(FindingKind kind, std::size_t index) {

@@ -29,6 +29,12 @@ std::optional<KeptLook> WindowModel::read_settings() {
   if (settings_file_.empty()) return std::nullopt;
   first_start_ = !std::filesystem::exists(settings_file_);
   sizes_are_read_ = !first_start_;
+  favourites_ = settings_.favourites;
+  return take_look();
+}
+
+/// From settings_.
+KeptLook WindowModel::take_look() {
   sizes_.left = static_cast<float>(settings_.left);
   sizes_.right = static_cast<float>(settings_.right);
   sizes_.plots = static_cast<float>(settings_.plots);
@@ -41,12 +47,27 @@ std::optional<KeptLook> WindowModel::read_settings() {
   theme_ = theme_of(!settings_.light_theme,
                     vision != kVisionNames.end() ? static_cast<Vision>(vision - kVisionNames.begin()) : Vision::common);
   ui_scale_ = static_cast<float>(settings_.text_size);
-  favourites_ = settings_.favourites;
+  plots_.take(settings_.plot_channels, settings_.channels);
   KeptLook look{settings_.y_up};
   const auto names = colour_map_names();
   const auto found = std::find(names.begin(), names.end(), settings_.colour_map);
   if (found != names.end()) look.colours = static_cast<ColourMap>(found - names.begin());
   return look;
+}
+
+KeptLook WindowModel::take(const WindowSettings& settings) {
+  const std::vector<std::string> recent = std::move(settings_.recent_meshes);
+  settings_ = settings;
+  settings_.recent_meshes = recent;
+  sizes_are_read_ = true;
+  for (const std::string& key : settings.favourites)
+    if (std::find(favourites_.begin(), favourites_.end(), key) == favourites_.end()) favourites_.push_back(key);
+  return take_look();
+}
+
+WindowSettings WindowModel::settings_now(const KeptLook& look) {
+  gather(look);
+  return settings_;
 }
 
 void WindowModel::update(double now_s, const KeptLook& look) {
@@ -56,6 +77,17 @@ void WindowModel::update(double now_s, const KeptLook& look) {
 
 void WindowModel::keep_settings(const KeptLook& look, double wait_s) {
   settings_looked_at_s_ = now_s_;
+  gather(look);
+  if (settings_file_.empty() || settings_are_unread_ || settings_ == written_settings_) return;
+  const auto kept = keep_window_settings(written_settings_, settings_, settings_file_, wait_s);
+  const std::string warning = kept ? kept->warning : kept.error().message();
+  // Tried again every two seconds, said once.
+  if (!warning.empty() && warning != last_warning_) messages_.say(Severity::warning, warning);
+  last_warning_ = kept ? std::string() : warning;
+  if (kept) written_settings_ = settings_;
+}
+
+void WindowModel::gather(const KeptLook& look) {
   settings_.left = static_cast<double>(sizes_.left);
   settings_.right = static_cast<double>(sizes_.right);
   settings_.plots = static_cast<double>(sizes_.plots);
@@ -68,14 +100,9 @@ void WindowModel::keep_settings(const KeptLook& look, double wait_s) {
   settings_.text_size = static_cast<double>(ui_scale_);
   settings_.y_up = look.y_up;
   settings_.favourites = favourites_;
+  settings_.plot_channels = plots_.changed();
+  settings_.channels = plots_.made();
   settings_.colour_map = colour_map_names()[static_cast<std::size_t>(look.colours)];
-  if (settings_file_.empty() || settings_are_unread_ || settings_ == written_settings_) return;
-  const auto kept = keep_window_settings(written_settings_, settings_, settings_file_, wait_s);
-  const std::string warning = kept ? kept->warning : kept.error().message();
-  // Tried again every two seconds, said once.
-  if (!warning.empty() && warning != last_warning_) messages_.say(Severity::warning, warning);
-  last_warning_ = kept ? std::string() : warning;
-  if (kept) written_settings_ = settings_;
 }
 
 void WindowModel::set_ui_scale(float scale) { ui_scale_ = std::clamp(scale, 0.6f, 3.0f); }
@@ -91,6 +118,9 @@ void WindowModel::reset_layout() {
   sizes_ = {};
   task_ = Task::look;
   settings_.sections.clear();
+  settings_.table_rows = 0.0;
+  settings_.left_out.clear();
+  plots_.reset();
 }
 
 void WindowModel::set_room(float width, float height) {

@@ -5,6 +5,7 @@
 #include "workbench/gui/layout/tasks.h"
 #include "workbench/gui/model/app_options.h"
 #include "workbench/gui/model/message_log.h"
+#include "workbench/gui/model/plot_lists.h"
 #include "workbench/gui/theme/colour_map.h"
 #include "workbench/session/window_settings.h"
 
@@ -30,6 +31,9 @@ class WindowModel {
 
   /// Settings of the last run; empty: settings are not kept.
   std::optional<KeptLook> read_settings();
+  /// Layout and look as they are, and taken from a session; favourites are added.
+  WindowSettings settings_now(const KeptLook& look);
+  KeptLook take(const WindowSettings& settings);
   /// Call once per frame; writes changed settings to disk from time to time.
   void update(double now_s, const KeptLook& look);
   /// Waits up to `wait_s` for another window that writes them, else leaves them to the next time.
@@ -51,12 +55,17 @@ class WindowModel {
   float ui_scale() const { return ui_scale_; }  ///< the user's own factor on top of the monitor's
   void set_ui_scale(float scale);
   std::map<std::string, bool>& open_sections() { return settings_.sections; }
+  /// Of the table of iterations: its height in rows, 0: follows from the window's; titles of the columns left out.
+  double& table_rows() { return settings_.table_rows; }
+  std::vector<std::string>& columns_left_out() { return settings_.left_out; }
   Task task() const { return task_; }  ///< tab of the right column
   void set_task(Task task) { task_ = task; }
   /// Shows the column and the tab, opens the section and scrolls to it.
   void show_section(const std::string& title, bool in_left_column);
   std::string& section_wanted() { return section_wanted_; }
-  void reset_layout();  ///< sizes and sections back to their defaults
+  void reset_layout();  ///< sizes, sections and the plots' channels back to their defaults
+  PlotLists& plots() { return plots_; }
+  const PlotLists& plots() const { return plots_; }
 
   std::vector<std::string>& favourites() { return favourites_; }  ///< full names of preset keys, in order
   const std::vector<std::string>& favourites() const { return favourites_; }
@@ -67,9 +76,13 @@ class WindowModel {
   bool wants_close() const { return wants_close_; }
 
  private:
+  KeptLook take_look();
+  void gather(const KeptLook& look);  ///< into settings_
+
   const std::filesystem::path settings_file_;  ///< empty: nothing is kept
   MessageLog& messages_;
   LayoutSizes sizes_;
+  PlotLists plots_;
   bool first_start_ = false, sizes_are_read_ = false;
   Theme theme_;
   float ui_scale_ = 1.0f;

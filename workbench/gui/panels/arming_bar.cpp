@@ -11,7 +11,7 @@ void draw_arming_bar(const UiContext& ui, DeviceModel& devices, const Rect& over
   const std::array<StripButton, 1> arm{{{"arming/arm", devices.faulted() ? "Clear fault and arm" : "Arm",
                                          "One attempt: clears faults, homes what is not homed, waits up to 5 s "
                                          "until the force would be below 0.2 N, and "
-                                         "lets the force in over a quarter of a second",
+                                         "ramps the force in over a quarter of a second",
                                          devices.faulted()}}};
   const std::string text = devices.arming_text();
   if (!text.empty() && draw_strip(ui, "##arming", over, StripPlace::lower_edge, text, arm)) devices.arm();

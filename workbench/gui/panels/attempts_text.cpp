@@ -27,7 +27,7 @@ std::string attempts_text(std::span<const IterationRecord> iterations, std::size
   }
   const int searched = planes - tracking - sum;
   if (searched > 0) text += (lost > 0 ? ", not shown " : ", searched ") + std::to_string(searched);
-  return text + "; limit " + std::to_string(limit) + " an attempt";
+  return text + "; limit " + std::to_string(limit) + " per attempt";
 }
 
 }  // namespace tangent

@@ -9,7 +9,7 @@
 
 namespace tangent {
 
-/// "Tracking 50, seeds 34 + 47, searched 3; limit 50 an attempt". `lost`: records that did not fit into the trace;
+/// "Tracking 50, seeds 34 + 47, searched 3; limit 50 per attempt". `lost`: records that did not fit into the trace;
 /// `planes`: new planes of the whole tick, those of places that were only looked at included.
 std::string attempts_text(std::span<const IterationRecord> iterations, std::size_t lost, int planes, int limit);
 

@@ -1,4 +1,5 @@
 // Bookmarks of the user, with notes, those set by triggers, and the triggers' settings.
+#include "core/io/csv_table.h"
 #include "workbench/gui/panels/panels.h"
 #include "workbench/gui/widgets/widgets.h"
 
@@ -18,7 +19,7 @@ ImU32 bookmark_ink(const UiContext& ui, BookmarkKind kind) {
     case BookmarkKind::iterations:
       return packed(ui.palette.iterations);
     case BookmarkKind::force:
-      return packed(ui.palette.force_magnitude);
+      return ui.colours.text;  // no hue is left that the others leave room for
     case BookmarkKind::unconverged:
       return ui.colours.warning;
     default:
@@ -37,7 +38,7 @@ constexpr std::array kTriggers{
     TriggerRow{BookmarkKind::unconverged, "Unconverged",
                "A tick that did not converge, or where the surface offers no contact (facing)"},
     TriggerRow{BookmarkKind::reseeded, "Reseeded", "Tracking was lost and started again from the nearest triangles"},
-    TriggerRow{BookmarkKind::iterations, "Iterations over", "More tangent planes than this in one tick"},
+    TriggerRow{BookmarkKind::iterations, "Iterations over", "More iterations than this in one tick"},
     TriggerRow{BookmarkKind::force, "Force over", "More force than this sent to the device"},
     TriggerRow{BookmarkKind::device_fault, "Device fault", "A fault of a device or of the safety gate"}};
 
@@ -52,7 +53,7 @@ void threshold(const UiContext& ui, MessageLog& messages, const char* path, doub
     char* end = nullptr;
     const double typed = std::strtod(result.typed->c_str(), &end);
     if (end == result.typed->c_str() || !std::isfinite(typed))
-      messages.say(Severity::error, "\"" + *result.typed + "\" is not a number");
+      messages.say(Severity::error, show_text(*result.typed) + " is not a number");
     else
       wanted = typed;
   }
@@ -61,7 +62,7 @@ void threshold(const UiContext& ui, MessageLog& messages, const char* path, doub
 }
 
 void draw_triggers(const UiContext& ui, AppModel& model) {
-  BookmarkTriggers& triggers = model.time().bookmarks().triggers;
+  BookmarkTriggers& triggers = model.time().live_bookmarks().triggers;
   for (const TriggerRow& row : kTriggers) {
     bool& on = triggers.on[static_cast<std::size_t>(row.kind)];
     const std::string path = std::string("bookmarks/trigger/") + to_string(row.kind);
@@ -85,7 +86,7 @@ void draw_triggers(const UiContext& ui, AppModel& model) {
 void draw_row(const UiContext& ui, TimeModel& time, const Bookmark& mark, std::size_t i) {
   const ServoRecord* seen = time.tick().record();
   const bool here = seen != nullptr && seen->tick.tick >= mark.tick && seen->tick.tick <= mark.last_tick;
-  const bool gone = !time.past().reaches(mark.tick) && !time.past().reaches(mark.last_tick);
+  const bool gone = !time.reaches(mark.tick) && !time.reaches(mark.last_tick);
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const float height = ImGui::GetTextLineHeight();
   ImGui::PushStyleColor(ImGuiCol_Text, gone ? ui.colours.text_faint : ui.colours.text);
@@ -94,7 +95,7 @@ void draw_row(const UiContext& ui, TimeModel& time, const Bookmark& mark, std::s
   if (ImGui::Selectable((text + "##bookmark" + std::to_string(mark.id)).c_str(), here,
                         ImGuiSelectableFlags_AllowItemOverlap) &&
       !gone)
-    time.select_tick(time.past().reaches(mark.tick) ? mark.tick : mark.last_tick);
+    time.select_tick(time.reaches(mark.tick) ? mark.tick : mark.last_tick);
   const float text_width = ImGui::CalcTextSize(text.c_str()).x;
   ImGui::PopFont();
   // The note's field covers the rest of the row.
@@ -103,9 +104,10 @@ void draw_row(const UiContext& ui, TimeModel& time, const Bookmark& mark, std::s
                                ? printed("ticks %llu to %llu, %u of them", static_cast<unsigned long long>(mark.tick),
                                          static_cast<unsigned long long>(mark.last_tick), mark.ticks)
                                : printed("tick %llu", static_cast<unsigned long long>(mark.tick));
-  tooltip(ui, gone                                        ? span + ", no longer kept"
-              : time.past().main().covers(mark.last_tick) ? span
-                                                          : span + ", kept with the half second before it");
+  tooltip(ui, gone ? span + ", no longer kept"
+              : time.recording() != nullptr || time.past().main().covers(mark.last_tick)
+                  ? span
+                  : span + ", kept with the half second before it");
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   draw.AddRectFilled({at.x, at.y + ui.px(2)}, {at.x + ui.px(6), at.y + height - ui.px(1)}, bookmark_ink(ui, mark.kind),
                      ui.px(1.5f));
@@ -121,10 +123,11 @@ void draw_row(const UiContext& ui, TimeModel& time, const Bookmark& mark, std::s
     if (mark.note.empty() && !ImGui::IsItemActive())
       draw.AddText({ImGui::GetItemRectMin().x + ui.px(3), at.y}, ui.colours.text_faint, "note");
   } else {
-    if (mark.ticks > 1)
-      ImGui::Text("%s in %u ticks, first %s", to_string(mark.kind), mark.ticks, mark.note.c_str());
-    else
-      ImGui::Text("%s: %s", to_string(mark.kind), mark.note.c_str());
+    const std::string what = mark.ticks > 1 ? printed("%s in %u ticks, first ", to_string(mark.kind), mark.ticks)
+                                            : printed("%s: ", to_string(mark.kind));
+    const std::string shown = fitted(ui.fonts.small, what + mark.note, ImGui::GetContentRegionAvail().x - remove);
+    ImGui::TextUnformatted(shown.c_str());
+    if (shown != what + mark.note) tooltip(ui, what + mark.note);
   }
   ImGui::SameLine();
   ImGui::SetCursorPosX(ImGui::GetWindowContentRegionMax().x - remove + ui.px(4));
@@ -134,6 +137,8 @@ void draw_row(const UiContext& ui, TimeModel& time, const Bookmark& mark, std::s
   ImGui::PopFont();
   ImGui::PopStyleColor();
 }
+
+float button_width(const char* text) { return ImGui::CalcTextSize(text).x + 2.0f * ImGui::GetStyle().FramePadding.x; }
 
 }  // namespace
 
@@ -146,20 +151,22 @@ void draw_bookmarks_panel(const UiContext& ui, AppModel& model, BookmarksPanel& 
   }
   ImGui::SameLine();
   toggle_button(ui, "bookmarks/triggers", "Triggers", state.triggers_open, "What sets bookmarks automatically");
-  ImGui::SameLine();
+  same_line_if_room(button_width("Solve here"));
   if (text_button(ui, "bookmarks/solve", "Solve here",
-                  "At the contact of the bookmark in view: a tick in the direction that needs most planes (H)")) {
+                  "At the contact of the bookmark in view: a tick in the direction that needs most iterations (H)")) {
     model.view().picked_triangle = kNone;
     model.solve_here();
   }
-  ImGui::SameLine();
+  same_line_if_room(button_width("Clear triggered"));
   if (text_button(ui, "bookmarks/clear", "Clear triggered", "Removes those that triggers set"))
     model.time().bookmarks().clear_automatic();
   if (state.triggers_open) draw_triggers(ui, model);
   const std::size_t count = model.time().bookmarks().all().size();
   if (count == 0) {
     ImGui::PushFont(ui.fonts.small);
-    ImGui::TextDisabled("No bookmarks. K sets one, [ and ] go to the previous and next");
+    ImGui::PushStyleColor(ImGuiCol_Text, ui.colours.text_dim);
+    ImGui::TextWrapped("No bookmarks. K sets one, [ and ] go to the previous and next");
+    ImGui::PopStyleColor();
     ImGui::PopFont();
     return;
   }

@@ -188,6 +188,27 @@ void draw_command_palette(const UiContext& ui, AppModel& model, MenuBar& menu, c
     put_away(state);
 }
 
+namespace {
+
+/// Title, how to close, and the button for the first steps.
+void draw_sheet_heading(const UiContext& ui, MenuBar& menu, const char* note) {
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float button = ImGui::CalcTextSize("First steps").x + ui.px(14), right = ImGui::GetContentRegionAvail().x;
+  draw.AddText(ui.fonts.strong, ui.fonts.strong->FontSize, at, ui.colours.text, "Shortcuts");
+  const std::string shown = fitted(ui.fonts.small, note, right - button - ui.px(100));
+  draw.AddText(ui.fonts.small, ui.fonts.small->FontSize, {at.x + ui.px(90), at.y + ui.px(1)}, ui.colours.text_dim,
+               shown.c_str());
+  ImGui::SetCursorScreenPos({at.x + right - button, at.y - ui.px(3)});
+  if (text_button(ui, "shortcuts/first", "First steps", "Five steps for the first minute")) {
+    menu.first.step = 0;
+    menu.sheet = false;
+  }
+  ImGui::SetCursorScreenPos({at.x, at.y + ui.px(28)});
+}
+
+}  // namespace
+
 void draw_shortcut_sheet(const UiContext& ui, AppModel& model, MenuBar& menu, const Rect& over) {
   if (!menu.sheet) return;
   std::vector<std::pair<std::string, std::string>> lines;
@@ -196,41 +217,35 @@ void draw_shortcut_sheet(const UiContext& ui, AppModel& model, MenuBar& menu, co
   }
   for (const KeyNote& note : further_keys()) lines.emplace_back(note.keys, note.what);
   const float row = ui.px(20);
-  // As few columns as the height allows, as many as the width has room for.
-  const auto most_rows = static_cast<std::size_t>(std::max(4.0f, (over.h - ui.px(60)) / row));
-  const std::size_t columns = std::clamp<std::size_t>((lines.size() + most_rows - 1) / most_rows, 1, 3);
-  const std::size_t rows = (lines.size() + columns - 1) / columns;
   float column = ui.px(390);
   for (const auto& line : lines)
     column = std::max(column, ui.px(152 + 16) + ImGui::CalcTextSize(line.second.c_str()).x);
+  // As few columns as the height allows, as many as the width has room for; the rest is scrolled to.
+  const auto most_rows = static_cast<std::size_t>(std::max(4.0f, (over.h - ui.px(60)) / row));
+  const auto room = static_cast<std::size_t>(std::max(1.0f, (over.w - ui.px(52)) / column));
+  const std::size_t columns = std::clamp<std::size_t>((lines.size() + most_rows - 1) / most_rows, 1, room);
+  const std::size_t rows = (lines.size() + columns - 1) / columns;
   constexpr const char* kNote = "F1 or a click closes this; Ctrl+P finds every command by name";
   const float heading = ui.px(190) + ui.fonts.small->CalcTextSizeA(ui.fonts.small->FontSize, 1e9f, 0.0f, kNote).x;
-  const float width = std::min(std::max(column * static_cast<float>(columns), heading) + ui.px(24), over.w - ui.px(16));
-  const float height = std::min(row * static_cast<float>(rows) + ui.px(46), over.h - ui.px(8));
+  const float width = std::min(std::max(column * static_cast<float>(columns), heading) + ui.px(36), over.w - ui.px(16));
+  const float height = std::min(row * static_cast<float>(rows) + ui.px(50), over.h - ui.px(8));
   begin_floating(ui, "##shortcuts", {over.x + 0.5f * (over.w - width), over.y + ui.px(6)}, {width, height});
-  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  draw_sheet_heading(ui, menu, kNote);
+  ImGui::BeginChild("rows", {0.0f, 0.0f}, false, ImGuiWindowFlags_NoNav);
   const ImVec2 at = ImGui::GetCursorScreenPos();
-  draw.AddText(ui.fonts.strong, ui.fonts.strong->FontSize, at, ui.colours.text, "Shortcuts");
-  draw.AddText(ui.fonts.small, ui.fonts.small->FontSize, {at.x + ui.px(90), at.y + ui.px(1)}, ui.colours.text_dim,
-               kNote);
-  const float step = (width - ui.px(24)) / static_cast<float>(columns);
+  const float step = (width - ui.px(36)) / static_cast<float>(columns);
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    const float x = at.x + step * static_cast<float>(i / rows),
-                y = at.y + ui.px(28) + row * static_cast<float>(i % rows);
+    const float x = at.x + step * static_cast<float>(i / rows), y = at.y + row * static_cast<float>(i % rows);
     draw_keys(ui, lines[i].first, x + ui.px(142), y);
-    draw.AddText({x + ui.px(152), y - ui.px(1)}, ui.colours.text, lines[i].second.c_str());
+    const std::string what = fitted(ui.fonts.text, lines[i].second, step - ui.px(154));
+    ImGui::GetWindowDrawList()->AddText({x + ui.px(152), y - ui.px(1)}, ui.colours.text, what.c_str());
   }
-  ImGui::SetCursorScreenPos(
-      {at.x + ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize("First steps").x - ui.px(14), at.y - ui.px(3)});
-  if (text_button(ui, "shortcuts/first", "First steps", "Five steps for the first minute")) {
-    menu.first.step = 0;
-    menu.sheet = false;
-  }
-  ImGui::SetCursorScreenPos({at.x, at.y + ui.px(24)});
-  if (ImGui::InvisibleButton("##put_away", {std::max(1.0f, ImGui::GetContentRegionAvail().x),
-                                            std::max(1.0f, ImGui::GetContentRegionAvail().y)}))
+  if (ImGui::InvisibleButton("##put_away",
+                             {std::max(1.0f, ImGui::GetContentRegionAvail().x),
+                              std::max(row * static_cast<float>(rows), ImGui::GetContentRegionAvail().y)}))
     menu.sheet = false;
   ui.items.note_last("shortcuts");
+  ImGui::EndChild();
   end_floating();
 }
 

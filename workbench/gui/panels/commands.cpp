@@ -96,7 +96,7 @@ const std::vector<KeyNote>& further_keys() {
       {"Tab, Shift+Tab", "The next field or button, the one before; Enter presses it"},
       {"Left, Right", "On a field: slide its value (Shift: finer)"},
       {"F6, Shift+F6", "The next part of the window, the one before"},
-      {"Esc", "Stop the force, always; then put away what is open"},
+      {"Esc", "Stop the force, always; then close what is open"},
       {"Left drag", "Orbit; slides a value (Shift: finer)"},
       {"Right drag, Shift drag", "Pan the view"},
       {"C, held", "Clutch: the device moves, the finger stays in the scene"},

@@ -17,7 +17,7 @@ void add_mesh_files(CommandList& out, AppModel& model, MenuBar& menu) {
   SceneModel& scene = model.scene();
   out.plain({"open mesh", "Mesh: open a file", "Ctrl+O", "load read path"},
             [&menu] { menu.path.open = menu.path.focus = true; });
-  out.text({"open", "Mesh or preset: open the file", "", "load read path"}, "FILE",
+  out.text({"open", "Mesh, preset or recording: open the file", "", "load read path sqlite"}, "FILE",
            [&model](const std::string& file) -> Status {
              model.open(file);
              return {};
@@ -28,7 +28,7 @@ void add_mesh_files(CommandList& out, AppModel& model, MenuBar& menu) {
   out.choice_of({"recent", "Mesh: open again", "", "load last"}, "FILE", model.window().settings().recent_meshes,
                 [&model](std::size_t i) {
                   const std::string mesh = model.window().settings().recent_meshes[i];
-                  model.scene().open(mesh);
+                  model.open(mesh);
                 });
   std::vector<std::string> objects = generator_names();
   objects.insert(objects.end(), hard_mesh_names().begin(), hard_mesh_names().end());
@@ -74,7 +74,7 @@ void add_map(CommandList& out, AppModel& model) {
       {"map range automatic", "Map: range of nearly all values"}, [&map] { return map.automatic_range(); },
       [&map](bool on) { on ? map.set_automatic_range() : map.set_range(map.low(), map.high()); });
   out.on_off(
-      {"map logarithmic", "Map: equal steps of colour are equal factors"}, [&map] { return map.logarithmic(); },
+      {"map logarithmic", "Map: logarithmic colours"}, [&map] { return map.logarithmic(); },
       [&map](bool on) { map.set_logarithmic(on); });
   const auto names = colour_map_names();
   out.choice(
@@ -83,7 +83,7 @@ void add_map(CommandList& out, AppModel& model) {
   out.flag({"map follows preset", "Map: computed again when the preset changes"}, map.follow_changes);
   out.number({"map directions", "Map: directions of motion tried"}, "", 1.0, 32.0,
              [&map](double n) { map.options.directions = static_cast<unsigned>(n); });
-  out.number({"map move", "Map: how far the finger moves in a tick"}, "mm", 1e-4, 10.0,
+  out.number({"map move", "Map: how far the finger moves per tick"}, "mm", 1e-4, 10.0,
              [&map](double mm) { map.options.move_m = mm * 1e-3; });
   out.number({"map press", "Map: how deep the finger rests"}, "mm", 0.0, 20.0,
              [&map](double mm) { map.options.press_m = mm * 1e-3; });

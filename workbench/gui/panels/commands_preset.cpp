@@ -60,7 +60,7 @@ void add_value_actions(CommandList& out, AppModel& model) {
     out.choice_of(std::move(command), "VALUE", names, [act = std::move(act)](std::size_t i) { act(preset_keys()[i]); });
   };
   PresetModel& presets = model.presets();
-  add({"reset", "Preset: the program's own", "", "default back"},
+  add({"reset", "Preset: built-in values", "", "default back"},
       [&presets](const PresetKey& key) { presets.reset_value(key); });
   add({"revert", "Preset: as loaded,", "", "undo back file"},
       [&presets](const PresetKey& key) { presets.revert_value(key); });
@@ -72,7 +72,7 @@ Status save(AppModel& model, const std::string& name) {
   if (model.presets().has(name))
     return fail("a preset \"" + name + "\" is there already", model.presets().folder().string(),
                 "choose another name, or use \"replace preset\"");
-  model.presets().save(name, origin_of(model, model.presets().editor().loaded().about.note));
+  save_preset(model, name, model.presets().note_to_save());
   return {};
 }
 
@@ -89,18 +89,26 @@ void add_files(CommandList& out, AppModel& model, MenuBar& menu) {
            [&model](const std::string& name) { return save(model, name); });
   out.text({"replace preset", "Preset: save over the file", "", "save overwrite write"}, "NAME",
            [&model](const std::string& name) -> Status {
-             model.presets().save(name, origin_of(model, model.presets().editor().loaded().about.note));
+             save_preset(model, name, model.presets().note_to_save());
              return {};
            });
   out.text({"preset note", "Preset: note to save with it", "", "comment"}, "TEXT",
-           [&model, &menu](const std::string& note) { return wish(model, menu, "presets/note", note), Status(); });
+           [&model](const std::string& note) { return model.presets().note_to_save() = note, Status(); });
+  EvidenceModel& evidence = model.evidence();
+  out.plain({"check preset", "Preset: check the evidence", "", "measure again holds proof verify"},
+            [&evidence] { evidence.check(); });
+  out.plain({"cancel check", "Preset: stop checking the evidence", "", "evidence stop"},
+            [&evidence] { evidence.cancel(); });
+  out.on_off(
+      {"attach selection", "Preset: attach the selection when saving", "", "evidence poses measured"},
+      [&evidence] { return evidence.wanted(); }, [&evidence](bool wanted) { evidence.set_wanted(wanted); });
   out.plain({"open preset", "Preset: open a file", "", "load read toml path"}, [&presets, &menu] {
     menu.path.open = menu.path.focus = true;
     menu.path.text = presets.folder().string() + "/";
   });
-  out.plain({"take up unsaved", "Preset: take up what an earlier run left", "", "recover crash restore"},
+  out.plain({"take up unsaved", "Preset: restore what an earlier run left unsaved", "", "recover crash restore"},
             [&model] { model.unsaved().take_up(); });
-  out.plain({"discard unsaved", "Preset: discard what an earlier run left", "", "delete crash"},
+  out.plain({"discard unsaved", "Preset: discard what an earlier run left unsaved", "", "delete crash"},
             [&model] { model.unsaved().discard(); });
 }
 

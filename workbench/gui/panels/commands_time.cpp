@@ -1,7 +1,9 @@
 // Commands of time, plots, force and devices.
 #include "devices/device_set.h"
 #include "devices/fault_injection.h"
+#include "workbench/gui/model/file_origin_of.h"
 #include "workbench/gui/panels/commands.h"
+#include "workbench/gui/panels/save_panel.h"
 #include "workbench/gui/panels/wish.h"
 #include "workbench/gui/widgets/widgets.h"
 
@@ -51,7 +53,7 @@ void add_bookmarks(CommandList& out, TimeModel& time) {
   out.plain({"next bookmark", "Time: next bookmark", "]", "forward"}, [&time] { time.go_to_bookmark(1); });
   out.plain({"clear triggered", "Bookmarks: clear those that triggers set", "", "remove delete automatic"},
             [&time] { time.bookmarks().clear_automatic(); });
-  BookmarkTriggers& triggers = time.bookmarks().triggers;
+  BookmarkTriggers& triggers = time.live_bookmarks().triggers;
   for (std::size_t k = 1; k < kBookmarkKindCount; ++k) {
     const std::string kind = to_string(static_cast<BookmarkKind>(k));
     out.flag({"trigger " + kind, "Bookmarks: set by " + kind, "", "trigger automatic"}, triggers.on[k]);
@@ -62,19 +64,55 @@ void add_bookmarks(CommandList& out, TimeModel& time) {
              [&triggers](double over) { triggers.force_over_n = over; });
 }
 
+void add_recordings(CommandList& out, AppModel& model, MenuBar& menu) {
+  RecordModel& record = model.record();
+  out.on_off(
+      {"record", "Recording: every tick from now on, into a new file", "R", "write sqlite red"},
+      [&record] { return record.recording(); }, [&record](bool on) { on ? record.start() : record.stop(); });
+  const auto into = [&out](CommandNames names, auto act) {
+    out.text(std::move(names), "FILE", [act](const std::string& file) -> Status {
+      act(std::filesystem::path(file));
+      return {};
+    });
+  };
+  into({"record to", "Recording: every tick from now on, into the file", "", "write sqlite"},
+       [&record](const std::filesystem::path& file) { record.start(file); });
+  out.plain({"record history", "Recording: all that is in the history", "", "write past whole sqlite"},
+            [&record] { record.write_history(); });
+  into({"record history to", "Recording: all that is in the history, into the file", "", "write past sqlite"},
+       [&record](const std::filesystem::path& file) { record.write_history(file); });
+  out.plain({"record selection", "Recording: from cursor A to B", "", "write part sqlite"},
+            [&record] { record.write_selection(); });
+  into({"record selection to", "Recording: from cursor A to B, into the file", "", "write part sqlite"},
+       [&record](const std::filesystem::path& file) { record.write_selection(file); });
+  out.text({"save session", "Session: save it in the file, with what is not recorded yet beside it", "",
+            "write layout camera bookmarks"},
+           "FILE", [&menu](const std::string& file) -> Status {
+             menu.wish.session = file;
+             return {};
+           });
+  out.plain({"save session as", "Session: save it in a file that one chooses", "", "write layout dialogue"},
+            [&model] { ask_to_save(model, SaveWhat::session); });
+  out.plain({"open recording", "Recording: open a file", "Ctrl+O", "load read replay sqlite"},
+            [&menu] { menu.path.open = menu.path.focus = true; });
+  out.plain({"close recording", "Recording: close it, back to live", "End", "leave replay"},
+            [&model] { model.time().go_live(); });
+}
+
 void add_plots(CommandList& out, AppModel& model, MenuBar& menu) {
-  out.plain({"solve past", "Time: solve the past with the present values", "", "again ghost what if"},
+  out.plain({"solve past", "Time: solve the past with the current values", "", "again ghost what if"},
             [&model] { model.time().solve_past_again(); });
   out.plain({"export ticks", "Plots: ticks in view as CSV", "", "save write file samples table"}, [&model] {
     const auto [from, to] = ticks_in_view(model.time());
-    model.exports().write_ticks(from, to);
+    model.exports().write_ticks(model.time().past().shown().records, from, to, file_origin(model));
   });
+  out.plain({"cancel export", "Plots: stop writing the file", "", "save stop"}, [&model] { model.exports().cancel(); });
   out.plain({"export plots", "Plots: picture of the plots as PNG", "", "save write file image"},
             [&model, &menu] { wish(model, menu, "plots/png"); });
-  out.choice({"plots", "Plots:", "", "show kind mode"}, {"Time", "X-Y", "Spectrum", "Histogram", "Derived"},
+  out.choice({"plots", "Plots:", "", "show kind mode"}, {"Time", "X-Y", "Spectrum", "Histogram"},
              [&model, &menu](std::size_t i) {
                constexpr const char* kPaths[]{"plots/mode/Time", "plots/mode/X-Y", "plots/mode/Spectrum",
-                                              "plots/mode/Histogram", "plots/mode/Derived"};
+                                              "plots/mode/Histogram"};
                wish(model, menu, kPaths[i]);
              });
   out.plain({"plot values", "Plots: table of values, on or off", "", "numbers mean rms"},
@@ -153,6 +191,7 @@ void add_placement(CommandList& out, AppModel& model, MenuBar& menu) {
 void add_time_commands(CommandList& out, AppModel& model, MenuBar& menu) {
   add_stepping(out, model.time());
   add_bookmarks(out, model.time());
+  add_recordings(out, model, menu);
   add_plots(out, model, menu);
   add_devices(out, model, menu);
   add_placement(out, model, menu);

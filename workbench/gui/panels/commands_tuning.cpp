@@ -1,8 +1,11 @@
-// Commands of comparing and tuning: two presets on the same ticks, ticks at a place, sweeps, derived curves; and of
-// saving all that as files.
+// Commands of comparing and tuning: two presets on the same ticks, ticks at a place, sweeps, the plots' channels; and
+// of saving all that as files.
 #include "workbench/gui/panels/commands.h"
 #include "workbench/gui/panels/save_panel.h"
 #include "workbench/gui/panels/wish.h"
+
+#include <functional>
+#include <string_view>
 
 namespace tangent {
 
@@ -23,7 +26,7 @@ void enter(CommandList& out, AppModel& model, MenuBar& menu, CommandNames names,
 void add_comparing(CommandList& out, AppModel& model, MenuBar& menu) {
   press(out, model, menu, {"compare solve", "Compare: solve the ticks with both presets", "", "before after faster"},
         "compare/solve");
-  out.flag({"other beside", "Compare: the other of A and B beside the tick in view", "", "ghost live both"},
+  out.flag({"other beside", "Compare: show both A and B for the tick in view", "", "ghost live both"},
            model.time().other_slot_beside);
   press(out, model, menu, {"search gains", "Solver: search gains for the chosen ticks", "", "tune advice optimise"},
         "solver/advice/search");
@@ -34,6 +37,51 @@ void add_comparing(CommandList& out, AppModel& model, MenuBar& menu) {
         "iterations/leave_place");
   press(out, model, menu, {"iteration columns", "Iterations: choose the table's columns", "", "show hide ratio stop"},
         "iterations/columns");
+}
+
+void add_why(CommandList& out, AppModel& model) {
+  out.plain({"why", "Why: pause, and say why this tick did what it did", "", "explain cause reason failed"}, [&model] {
+    model.time().set_paused(true);
+    model.window().show_section("Why this tick", false);
+  });
+  out.plain({"why try", "Why: try the cure on the recorded ticks", "", "ghost what if explain"},
+            [&model] { model.why().try_cure(); });
+  out.plain({"why set", "Why: set the cure", "", "apply take explain"}, [&model] { model.why().set_cure(); });
+  out.plain({"why go", "Why: go to the place of the cause", "", "defect triangle look explain"},
+            [&model] { model.why().go_to_place(); });
+}
+
+/// Of two recordings, in the section Compare recordings.
+void add_recordings(CommandList& out, AppModel& model) {
+  RecordingPairModel& recordings = model.recording_pair();
+  const auto show = [&model] { model.window().show_section("Compare recordings", false); };
+  const auto file = [&](CommandNames names, std::filesystem::path& to) {
+    out.text(std::move(names), "FILE", [&to, show](const std::string& path) {
+      to = path;
+      show();
+      return Status();
+    });
+  };
+  file({"first recording", "Recordings: the first one to compare", "", "file sqlite open"}, recordings.first);
+  file({"second recording", "Recordings: the second one to compare", "", "file sqlite open"}, recordings.second);
+  out.plain({"no second recording", "Recordings: compare the first with its motion under the present values", ""},
+            [&recordings] { recordings.second.clear(); });
+  out.choice({"align recordings", "Recordings: aligned by", "", "time tick contact bookmark"},
+             {kAlignByNames.begin(), kAlignByNames.end()},
+             [&recordings](std::size_t i) { recordings.by = static_cast<AlignBy>(i); });
+  out.choice({"recordings curve", "Recordings: the curve that is drawn", "", "channel plot"},
+             {kComparedChannels.begin(), kComparedChannels.end()},
+             [&recordings](std::size_t i) { recordings.channel = i; });
+  out.plain({"compare recordings", "Recordings: compare", "", "difference align replay"}, [&recordings, show] {
+    show();
+    recordings.compare();
+  });
+  out.plain({"largest difference", "Recordings: go to the largest difference", "", "worst jump"},
+            [&recordings] { recordings.go_to_largest(); });
+  out.plain({"whole recordings", "Recordings: compare all ticks again", ""},
+            [&recordings] { recordings.show_whole(); });
+  out.plain({"stop comparing", "Recordings: stop, keep what is found", "", "cancel"},
+            [&recordings] { recordings.stop(); });
 }
 
 void add_sweep(CommandList& out, AppModel& model, MenuBar& menu) {
@@ -49,19 +97,34 @@ void add_sweep(CommandList& out, AppModel& model, MenuBar& menu) {
   press(out, model, menu, {"sweep start", "Sweep: the chosen ticks, with every value", "", "run vary tune"},
         "sweep/start");
   out.plain({"sweep cancel", "Sweep: stop, keep the points so far", ""}, [&model] { model.tuning().cancel_sweep(); });
-  out.plain({"sweep clear", "Sweep: forget the points", "", "delete"}, [&model] { model.tuning().clear_points(); });
+  out.plain({"sweep clear", "Sweep: delete the points", "", "delete"}, [&model] { model.tuning().clear_points(); });
 }
 
-void add_derived(CommandList& out, AppModel& model, MenuBar& menu) {
-  enter(out, model, menu, {"derived curve", "Plots: derived curve", "", "difference derivative filter magnitude"},
-        "NAME", "plots/derived/how");
-  for (const char* operand : {"a", "b", "c"})
-    enter(out, model, menu,
-          {std::string("derived ") + operand, std::string("Plots: curve ") + operand + " of the derived one", "",
-           "channel"},
-          "NAME", std::string("plots/derived/") + operand);
-  enter(out, model, menu, {"derived cutoff", "Plots: the derived curve's low-pass, up to", "", "filter frequency"},
-        "NAME", "plots/derived/cutoff");
+/// "PLOT CHANNEL" in two.
+Status on_plot(const std::string& text, const std::function<Status(std::string_view, std::string_view)>& act) {
+  const std::size_t blank = text.find(' ');
+  if (blank == std::string::npos) return fail("a plot and a channel are needed", {}, "as in: plot add error force_x");
+  return act(std::string_view(text).substr(0, blank), std::string_view(text).substr(blank + 1));
+}
+
+void add_channels(CommandList& out, AppModel& model, MenuBar& menu) {
+  PlotLists& lists = model.window().plots();
+  constexpr const char* kWords = "curve derived difference derivative filter magnitude drag";
+  press(out, model, menu, {"channels", "Plots: list of channels, on or off", "", kWords}, "plots/channels");
+  out.text({"plot add", "Plots: show the channel in the plot too", "", kWords}, "PLOT CHANNEL",
+           [&lists](const std::string& text) {
+             return on_plot(text, [&](auto plot, auto channel) { return lists.add(plot, channel); });
+           });
+  out.text({"plot remove", "Plots: take the channel out of the plot", "", "hide delete curve"}, "PLOT CHANNEL",
+           [&lists](const std::string& text) {
+             return on_plot(text, [&](auto plot, auto channel) { return lists.remove(plot, channel); });
+           });
+  out.plain({"default plots", "Plots: the channels that they had at first", "", "reset curves"},
+            [&lists] { lists.reset(); });
+  out.text({"make channel", "Plots: a derived channel to choose from", "", kWords}, "CHANNEL",
+           [&lists](const std::string& text) { return lists.make(text); });
+  out.text({"forget channel", "Plots: delete the derived channel", "", "remove curve"}, "CHANNEL",
+           [&lists](const std::string& text) { return lists.forget(text); });
   press(out, model, menu, {"legend", "Plots: what bands and marks mean", "", "flags colours key"}, "plots/legend");
 }
 
@@ -83,8 +146,10 @@ void add_saving(CommandList& out, AppModel& model) {
 
 void add_tuning_commands(CommandList& out, AppModel& model, MenuBar& menu) {
   add_comparing(out, model, menu);
+  add_why(out, model);
+  add_recordings(out, model);
   add_sweep(out, model, menu);
-  add_derived(out, model, menu);
+  add_channels(out, model, menu);
   add_saving(out, model);
 }
 

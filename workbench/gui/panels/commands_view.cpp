@@ -1,5 +1,6 @@
 // Commands of the view: camera, layers, slice, inspection.
 #include "core/base/units.h"
+#include "core/io/csv_table.h"
 #include "workbench/gui/panels/commands.h"
 #include "workbench/gui/panels/wish.h"
 #include "workbench/gui/render/camera_text.h"
@@ -32,7 +33,7 @@ void add_camera(CommandList& out, AppModel& model) {
   out.plain({"paste camera", "View: paste the camera", "Ctrl+Shift+V", "clipboard"}, [&view] { view.paste_camera(); });
   out.text({"camera", "View: camera as it was copied"}, "TEXT", [&view](const std::string& text) -> Status {
     const auto camera = parse_camera("camera " + text, view.camera);
-    if (!camera) return fail("\"" + text + "\" is no camera", {}, "copy one with Ctrl+Shift+C and paste it here");
+    if (!camera) return fail(show_text(text) + " is not a camera", {}, "copy one with Ctrl+Shift+C and paste it here");
     view.camera = *camera;
     return {};
   });

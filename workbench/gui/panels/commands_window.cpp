@@ -1,5 +1,6 @@
 // Commands of the window itself, of scripts, and those that press or fill any widget by its path.
 #include "core/base/text.h"
+#include "core/io/csv_table.h"
 #include "core/io/rendering_condition.h"
 #include "core/preset/schema.h"
 #include "workbench/gui/panels/commands.h"
@@ -131,7 +132,7 @@ void add_expectations(CommandList& out, AppModel& model, MenuBar& menu) {
              const std::size_t blank = text.find(' ');
              const PresetKey* key = find_preset_key(text.substr(0, blank));
              if (key == nullptr || blank == std::string::npos)
-               return fail("\"" + text + "\" is no key of a preset with its value", {}, "as in: solver.gain_overall 1");
+               return fail(show_text(text) + " is not a preset key and a value", {}, "as in: solver.gain_overall 1");
              const double now = key->get(model.presets().current());
              const std::string is = display_with_unit(*key, now), wanted = text.substr(blank + 1);
              const auto value =
@@ -169,7 +170,7 @@ void add_widget_commands(CommandList& out, AppModel& model, MenuBar& menu) {
   };
   press({"path close up", "Iterations: the path, close up", "", "map zoom"}, "iterations/map_path");
   press({"path in triangle", "Iterations: the path in the whole triangle", "", "map"}, "iterations/map_triangle");
-  press({"show triggers", "Bookmarks: what sets them by itself", "", "trigger automatic"}, "bookmarks/triggers");
+  press({"show triggers", "Bookmarks: show the triggers", "", "trigger automatic"}, "bookmarks/triggers");
   press({"accept no timeout", "Devices: use it although it has no time-out", "", "maestro yes"},
         "monitor/accept_no_timeout");
   out.choice({"felt under", "Smoothness as felt: rendering condition", "", "perception threshold"},

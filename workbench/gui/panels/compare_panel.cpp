@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t kOwn = 4;
 
 std::vector<std::string> names_to_compare(const PresetModel& presets) {
-  std::vector<std::string> names{"A", "B", "as loaded", "program's own"};
+  std::vector<std::string> names{"A", "B", "as loaded", "built-in"};
   for (const auto& file : presets.files()) names.push_back(file.label);
   return names;
 }
@@ -50,16 +50,16 @@ void draw_slots(const UiContext& ui, PresetModel& presets) {
     ImGui::SameLine(0, ui.px(3));
   }
   const std::string copy = std::string("Copy to ") + slot_name(1 - slots.active_slot());
-  if (text_button(ui, "compare/copy", copy.c_str(), "The other one gets the present values")) presets.copy_ab();
+  if (text_button(ui, "compare/copy", copy.c_str(), "Copies the current values to the other one")) presets.copy_ab();
   ImGui::SameLine(0, ui.px(14));
   if (text_button(
           ui, "compare/undo", "Undo",
-          slots.can_undo() ? ("Takes back: " + slots.undo_name() + " (Ctrl+Z)").c_str() : "Nothing to undo (Ctrl+Z)"))
+          slots.can_undo() ? ("Undoes: " + slots.undo_name() + " (Ctrl+Z)").c_str() : "Nothing to undo (Ctrl+Z)"))
     presets.undo();
   ImGui::SameLine(0, ui.px(3));
   if (text_button(
           ui, "compare/redo", "Redo",
-          slots.can_redo() ? ("Does again: " + slots.redo_name() + " (Ctrl+Y)").c_str() : "Nothing to redo (Ctrl+Y)"))
+          slots.can_redo() ? ("Redoes: " + slots.redo_name() + " (Ctrl+Y)").c_str() : "Nothing to redo (Ctrl+Y)"))
     presets.redo();
 }
 
@@ -68,9 +68,7 @@ void draw_side(const UiContext& ui, const char* path, ComparePanel::Side& side, 
   std::vector<std::string_view> choices(names.begin(), names.end());
   side.choice = std::clamp(side.choice, 0, static_cast<int>(choices.size()) - 1);
   choice_row(ui, path, width, choices, side.choice);
-  tooltip(
-      ui,
-      "What to compare: the two presets in hand, the loaded file, the program's own values, or a file of the folder");
+  tooltip(ui, "What to compare: presets A and B, the loaded file, the built-in values, or a file of the folder");
 }
 
 void draw_differences(const UiContext& ui, PresetModel& presets, const std::vector<PresetChange>& changes,
@@ -123,13 +121,14 @@ void draw_compare_panel(const UiContext& ui, AppModel& model, ComparePanel& stat
   if (text_button(
           ui, "compare/solve", "Solve both",
           "Pauses, and solves the ticks from cursor A to B, or all of them, under the left preset and under the "
-          "right one. Result: Time machine; the right one is the pale curve and the planes beside") &&
+          "right one. The result is under Time machine; the right one is the pale curve and the planes beside") &&
       model.time().tick().record() != nullptr)
     model.time().compare({name_of(state.left), left}, {name_of(state.right), right});
   ImGui::SameLine(0, ui.px(6));
-  toggle_button(ui, "compare/beside", "Other slot beside", model.time().other_slot_beside,
-                "Solves the tick in view under the slot that is not rendered as well, also live: its planes, path, "
-                "error curve and table stand beside");
+  toggle_button(
+      ui, "compare/beside", "Both A and B", model.time().other_slot_beside,
+      "Solves the tick in view with the other preset as well, also live, and shows its planes, path, error curve "
+      "and table beside");
   ImGui::Dummy({1, ui.px(3)});
 }
 

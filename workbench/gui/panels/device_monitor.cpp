@@ -1,5 +1,6 @@
 // The device monitor, in place of the 3D view: states, rates, histograms, limits and clamps, the fault log, raw values,
 // and buttons for the operator.
+#include "core/io/csv_table.h"
 #include "workbench/gui/panels/monitor_histogram.h"
 #include "workbench/gui/panels/panels.h"
 #include "workbench/gui/widgets/widgets.h"
@@ -66,12 +67,12 @@ void draw_states(const UiContext& ui, DeviceModel& devices) {
   ImGui::Dummy({1, ui.px(2)});
   for (const std::string& name : session.without_timeout())
     warning_text(ui, name + " goes on with its last command when this program dies: its firmware has no time-out.");
-  if (session.needs_yes() && text_button(ui, "monitor/accept_no_timeout", "Use it nevertheless",
-                                         "Without this yes nothing is armed. Keep a hand on its power switch"))
+  if (session.needs_yes() && text_button(ui, "monitor/accept_no_timeout", "Use it anyway",
+                                         "Nothing is armed until you confirm. Keep a hand on its power switch"))
     session.accept_no_timeout();
   const bool fault = devices.faulted();
   if (fault) ImGui::PushStyleColor(ImGuiCol_Button, ui.colours.bad);
-  if (fault) ImGui::PushStyleColor(ImGuiCol_Text, IM_COL32_WHITE);
+  if (fault) ImGui::PushStyleColor(ImGuiCol_Text, ui.colours.on_bad);
   if (text_button(ui, "monitor/arm", fault ? "Clear fault and arm" : "Arm",
                   "One attempt: clears faults, homes what is not homed, waits until the finger is off the surface, "
                   "and ramps the force in"))
@@ -87,7 +88,7 @@ void draw_limits(const UiContext& ui, const DeviceModel& devices) {
   heading(ui, "Limits");
   fact(ui, "Peak / continuous force", printed("%.1f / %.1f", limits.peak_force_n, limits.continuous_force_n), "N");
   if (const auto* can = devices.session()->force_capabilities(); can != nullptr) {
-    fact(ui, "Pushes along / rotations sensed", pushed_axes(*can) + printed(" / %d", can->rotations_sensed));
+    fact(ui, "Force axes / rotations sensed", pushed_axes(*can) + printed(" / %d", can->rotations_sensed));
     const auto known = [](double value) { return value > 0.0 ? printed("%.0f", value) : std::string("-"); };
     fact(ui, "Largest stiffness", known(can->largest_stiffness_n_per_m), "N/m");
     fact(ui, "Largest damping", known(can->largest_damping_n_s_per_m), "N s/m");
@@ -124,7 +125,8 @@ void draw_raw(const UiContext& ui, const DeviceModel& devices) {
   const ServoRecord& r = history.newest();
   const Vec3 p = r.tick.input.finger.position * 1e3, f = r.device.force_command_n;
   fact(ui, "Position", printed("%.3f %.3f %.3f", p.x, p.y, p.z), "mm");
-  fact(ui, "Force felt", printed("%.3f %.3f %.3f", f.x, f.y, f.z), "N", colour(ui.palette.force_magnitude));
+  fact(ui, "Force felt", printed("%.3f %.3f %.3f", f.x, f.y, f.z), "N",
+       colour(readable(ui.palette, ui.palette.force_magnitude)));
   tooltip(ui, "What the safety gate lets through to the device");
   fact(ui, "Energy, made by the loop", printed("%.3f", r.device.energy_j * 1e3), "mJ");
   tooltip(ui,
@@ -152,9 +154,9 @@ void draw_link(const UiContext& ui, const LinkReport& link) {
   fact(ui, "Stalls / time-outs / errors",
        count_text(link.stalls) + " / " + count_text(link.time_outs) + " / " + count_text(link.errors));
   fact(ui, "Short / empty packets", count_text(link.short_packets) + " / " + count_text(link.empty_packets));
-  fact(ui, "Refused sends", count_text(link.refused_sends));
-  fact(ui, "Connects", count_text(link.connects));
-  fact(ui, "Wrong checks / lost / doubled",
+  fact(ui, "Refused packets", count_text(link.refused_sends));
+  fact(ui, "Connections made", count_text(link.connects));
+  fact(ui, "Wrong checksums / lost / doubled",
        count_text(link.crc_errors) + " / " + count_text(link.lost) + " / " + count_text(link.doubled));
   fact(ui, "Lost by device / refused", count_text(link.lost_by_device) + " / " + count_text(link.refused));
   if (link.last_packet_bytes == 0) return;
@@ -205,7 +207,7 @@ void draw_calibration(const UiContext& ui, AppModel& model) {
     if (typed && end != typed->c_str() && std::isfinite(number))
       value = number * scale;
     else if (typed)
-      model.messages().say(Severity::error, "\"" + *typed + "\" is not a number");
+      model.messages().say(Severity::error, show_text(*typed) + " is not a number");
   };
   row("Lower place, mm", "monitor/maestro/low_mm", c.low_m, 1e-3);
   row("Its pulse, \u00b5s", "monitor/maestro/low_us", c.low_us, 1.0);

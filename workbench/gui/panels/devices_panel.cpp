@@ -1,4 +1,5 @@
 // The devices, their state, the safety gate, and the simulated hand.
+#include "core/io/csv_table.h"
 #include "workbench/gui/panels/panels.h"
 #include "workbench/gui/widgets/widgets.h"
 
@@ -91,9 +92,11 @@ void draw_gate(const UiContext& ui, AppModel& model) {
 void draw_tick(const UiContext& ui, const TimeModel& time) {
   const ServoRecord& r = *time.tick().record();
   const auto length = [](const Vec3& v) { return glm::length(v); };
-  fact(ui, "Force computed", printed("%.3f", length(r.tick.output.force_n)), "N", packed(ui.palette.force_computed));
+  fact(ui, "Force computed", printed("%.3f", length(r.tick.output.force_n)), "N",
+       packed(readable(ui.palette, ui.palette.force_computed)));
   tooltip(ui, "By the solver, before the safety gate");
-  fact(ui, "Force felt", printed("%.3f", length(r.device.force_command_n)), "N", packed(ui.palette.force_magnitude));
+  fact(ui, "Force felt", printed("%.3f", length(r.device.force_command_n)), "N",
+       packed(readable(ui.palette, ui.palette.force_magnitude)));
   tooltip(ui, "What the safety gate lets through to the device in this tick");
   fact(ui, "Force at the sample", printed("%.3f", length(r.device.force_rendered_n)), "N");
   tooltip(ui, "Applied by the device while this tick's position was measured: sent a tick or more before");
@@ -147,7 +150,7 @@ void draw_hand(const UiContext& ui, AppModel& model) {
     if (end != result.typed->c_str() && std::isfinite(typed))
       value = std::clamp(typed * scale, 0.0, most);
     else
-      model.messages().say(Severity::error, "\"" + *result.typed + "\" is not a number");
+      model.messages().say(Severity::error, show_text(*result.typed) + " is not a number");
   };
   const HandSettings before = hand;
   row("Hand speed", "devices/hand_speed", hand.speed_m_per_s, 0.5, 1e-3, "mm/s",

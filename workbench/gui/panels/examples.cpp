@@ -29,15 +29,16 @@ constexpr std::array kExamples{
             "tab look\n"
             "say Red is where it fails. Drag Curvature gain G_k towards 20 mm: the past is solved again and drawn "
             "beside\n"},
-    Example{"A device fault", "The simulated force device drops out: what the gate does, and how to arm again",
-            "mesh torus\n"
-            "method robust\n"
-            "run 2000\n"
-            "inject into force device drop-out\n"
-            "run 500\n"
-            "device monitor on\n"
-            "tab devices\n"
-            "say The gate stopped the force. The monitor has the fault in its log; Re-arm is one attempt\n"}};
+    Example{
+        "A device fault", "The simulated force device drops out: what the gate does, and how to arm again",
+        "mesh torus\n"
+        "method robust\n"
+        "run 2000\n"
+        "inject into force device drop-out\n"
+        "run 500\n"
+        "device monitor on\n"
+        "tab devices\n"
+        "say The gate stopped the force. The monitor has the fault in its log; Clear fault and arm is one attempt\n"}};
 
 }  // namespace
 

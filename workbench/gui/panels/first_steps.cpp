@@ -66,7 +66,7 @@ void draw_buttons(const UiContext& ui, MenuBar& menu, const Step& step, int now)
   }
   if (last) return;
   ImGui::SameLine(0, ui.px(3));
-  if (text_button(ui, "first/skip", "Skip", "No more of this; F1 has it again")) menu.first.step.reset();
+  if (text_button(ui, "first/skip", "Skip", "Closes this; F1 opens it again")) menu.first.step.reset();
 }
 
 }  // namespace

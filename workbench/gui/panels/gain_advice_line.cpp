@@ -17,14 +17,14 @@ std::string factor_text(double factor) {
 
 std::string reason(const GainAdvice& a) {
   std::string text =
-      "The share of the error that a tangent plane leaves at this contact, in the worst direction. Along a principal "
+      "The share of the error that an iteration leaves at this contact, in the worst direction. Along a principal "
       "direction of curvature k a unit step leaves h k of the error, h being the height of the finger's centre. The "
       "ideal factor is 1/(1 + h k), and Eq. 1 gives it with G_o = 1, G_k = h, G_d = 0; h is about the finger's radius.";
   text +=
       printed("\n\nHere: h = %.1f mm, principal curvatures %.3g and %.3g 1/m, so the factors should be %s and %s.",
               a.height_m * 1e3, a.k1_per_m, a.k2_per_m, factor_text(a.ideal1).c_str(), factor_text(a.ideal2).c_str());
   if (a.k2_per_m < -1e-3 * std::abs(a.k1_per_m))
-    text += " On concave ground they are above 1, which takes a G_o above 1.";
+    text += " Where the surface is concave they are above 1, which needs a G_o above 1.";
   else if (a.ideal2 > 1.5 * a.ideal1)
     text += " One gain has to serve both, which costs iterations when moving obliquely.";
   return text;
@@ -60,30 +60,30 @@ bool advice_lines(const UiContext& ui, const char* path, const std::string& line
   return set;
 }
 
-std::string percent(double share) { return std::isfinite(share) ? printed("%.0f %%", 100.0 * share) : "all and more"; }
+std::string percent(double share) { return std::isfinite(share) ? printed("%.0f %%", 100.0 * share) : "all or more"; }
 
 void draw_here(const UiContext& ui, AppModel& model) {
   const auto advice = model.tuning().advice_here();
   if (!advice) {
     advice_lines(ui, "solver/advice", "No contact on a face in view to advise on", ui.colours.text_faint, "",
-                 "What a plane leaves of the error is known at a contact on a face");
+                 "What an iteration leaves of the error is known at a contact on a face");
     return;
   }
   const bool slow = !(advice->left_now < 1.0);
-  std::string line = "At this tick a plane leaves " + percent(advice->left_now);
+  std::string line = "At this tick an iteration leaves " + percent(advice->left_now) + " of the error";
   if (!advice->better()) {
     line += model.time().paused() ? "; no gains leave less" : "";
     advice_lines(ui, "solver/advice", line, slow ? ui.colours.warning : ui.colours.text_dim, "", reason(*advice));
     return;
   }
-  line += "; it would leave " + percent(advice->left_advised) + " with";
+  line += "; " + percent(advice->left_advised) + " with";
   if (advice_lines(ui, "solver/advice", line, slow ? ui.colours.warning : ui.colours.text, gains_text(advice->advised),
                    reason(*advice)))
     model.tuning().set_gains(advice->advised);
 }
 
 std::string score_text(const RunScore& score) {
-  return printed("%.2f planes a tick", score.mean_iterations()) +
+  return printed("%.2f iterations per tick", score.mean_iterations()) +
          (score.unconverged > 0 ? printed(", %llu failed", static_cast<unsigned long long>(score.unconverged)) : "");
 }
 
@@ -94,7 +94,7 @@ void draw_found(const UiContext& ui, AppModel& model, const GainSearchResult& fo
                                     static_cast<unsigned long long>(found.last_tick));
   const std::string doc = printed(
       "Gains tuned on the poses of these ticks, as the command tune does, from the overall, curvature and "
-      "distance gains together. p99 %d planes now, %d with those found",
+      "distance gains together. p99 %d iterations now, %d with those found",
       found.now.p99_iterations, found.best.score.p99_iterations);
   if (at_best || !shows_better(found.now, found.best.score)) {
     const RunScore& score = at_best ? found.best.score : found.now;

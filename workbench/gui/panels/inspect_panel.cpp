@@ -38,7 +38,7 @@ void draw_finding(const UiContext& ui, AppModel& model, FindingKind kind, std::s
   const bool shown = model.view().inspection().kind == kind && model.view().inspection().index == i;
   if (ImGui::InvisibleButton(("##" + path).c_str(), {width, height})) model.view().show_finding(kind, i);
   ui.items.note_last(path);
-  tooltip(ui, "A click goes there and marks its triangles; a second click on Isolate leaves them alone in the view");
+  tooltip(ui, "A click goes there and marks its triangles; Isolate then draws only them");
   if (shown || ImGui::IsItemHovered())
     draw.AddRectFilled(at, {at.x + width, at.y + height}, shown ? ui.colours.accent_fill : ui.colours.accent_soft,
                        ui.px(2));
@@ -137,8 +137,8 @@ void draw_slice(const UiContext& ui, AppModel& model) {
     if (slice) slice->offset_m = glm::dot(slice->normal, box.centre());
   }
   tooltip(ui,
-          "Cuts the picture open with a plane; what is nearer than it is not drawn and not picked. \"across the view\" "
-          "again: as one looks now");
+          "Cuts the picture open with a plane: what is in front of it is not drawn and can't be picked. Choose "
+          "\"across the view\" again for the current direction");
   if (!slice) return;
   // From one side of the box to the other along the normal.
   const double reach = 0.5 * glm::dot(glm::abs(slice->normal), box.size()),
@@ -150,9 +150,9 @@ void draw_slice(const UiContext& ui, AppModel& model) {
   if (result.slid) slice->offset_m = middle + (2.0 * *result.slid - 1.0) * reach;
   if (result.typed)
     slice->offset_m = std::clamp(std::atof(result.typed->c_str()) * 1e-3, middle - reach, middle + reach);
-  tooltip(ui, "Where the plane is along its normal");
+  tooltip(ui, "Position of the plane along its normal");
   ImGui::SameLine(0, ui.px(3));
-  if (text_button(ui, "inspect/slice_flip", "Flip", "The other side is cut away"))
+  if (text_button(ui, "inspect/slice_flip", "Flip", "Cuts the other side away"))
     *slice = {-slice->normal, -slice->offset_m};
 }
 

@@ -11,11 +11,11 @@ namespace {
 
 constexpr std::array<IterationColumnInfo, kIterationColumnCount> kInfo{{
     {"#", "", 4.5f, "Order of the tangent planes; 0 is the plane kept from the last tick"},
-    {"error", "\u00b5m", 9, "Distance between the surface point and the finger's contact on the plane there"},
-    {"ratio", "", 6, "Error over that of the plane before, as measured: below 1 it shrinks; empty at a new seed"},
-    {"step", "\u00b5m", 8, "Length of the step on the base triangle that followed"},
-    {"gain", "", 6, "Gain of Eq. 1 for that step; 0 where none was taken"},
-    {"triangle", "", 8,
+    {"error", "\u00b5m", 8, "Distance between the surface point and the finger's contact on the plane there"},
+    {"ratio", "", 5.5f, "Error over that of the plane before, as measured: below 1 it shrinks; empty at a new seed"},
+    {"step", "\u00b5m", 7, "Length of the step on the base triangle that followed"},
+    {"gain", "", 5.5f, "Gain of Eq. 1 for that step; 0 where none was taken"},
+    {"triangle", "", 7,
      "Triangle the plane touches, in file order; in a 2D scene the vertex whose patch the line touches"},
     {"stop", "", 15, "Why the iteration ended here"},
     {"u", "", 6, "Weight of the triangle's second corner"},
@@ -23,7 +23,7 @@ constexpr std::array<IterationColumnInfo, kIterationColumnCount> kInfo{{
     {"w", "", 6, "Weight of the triangle's first corner"},
     {"curvature", "1/m", 9, "|dN/ds| along the step (Eq. 2)"},
     {"d", "mm", 7, "Distance d of Eq. 1"},
-    {"seed", "", 4, "0: tracking from the kept plane; n: the n-th seed of a re-seeding"},
+    {"seed", "", 4, "0: tracking from the kept plane; n: the n-th seed after tracking was lost"},
 }};
 
 std::string ratio_text(double ratio) {
@@ -53,7 +53,7 @@ std::string iteration_cell(std::span<const IterationRecord> iterations, std::siz
     case IterationColumn::number:
       return printed("%zu", i);
     case IterationColumn::error:
-      return r.error_m < 1e-3 ? printed("%.4f", r.error_m * 1e6) : printed("%.3e", r.error_m * 1e6);
+      return r.error_m < 1e-3 ? printed("%.4f", r.error_m * 1e6) : printed("%.2e", r.error_m * 1e6);
     case IterationColumn::ratio:
       return ratio_text(error_ratio(iterations, i));
     case IterationColumn::step:

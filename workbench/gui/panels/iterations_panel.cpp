@@ -14,6 +14,9 @@ ImU32 beside_ink(const UiContext& ui) { return packed(ui.palette.control_net); }
 
 namespace {
 
+/// The same for words.
+ImU32 beside_words(const UiContext& ui) { return packed(readable(ui.palette, ui.palette.control_net)); }
+
 using Planes = std::span<const IterationRecord>;
 
 /// A column of the table as drawn.
@@ -52,13 +55,13 @@ void draw_header(const UiContext& ui, std::span<const DrawnColumn> columns, bool
     const IterationColumnInfo& info = info_of(drawn.column);
     std::string title = info.unit[0] != '\0' ? printed("%s %s", info.title, info.unit) : info.title;
     if (planar && drawn.column == IterationColumn::triangle) title = "vertex";
-    if (drawn.beside) ImGui::PushStyleColor(ImGuiCol_Text, beside_ink(ui));
+    if (drawn.beside) ImGui::PushStyleColor(ImGuiCol_Text, beside_words(ui));
     if (drawn.column == IterationColumn::stop)
       ImGui::TextUnformatted(title.c_str());
     else
       right_aligned(title.c_str());
     if (drawn.beside) ImGui::PopStyleColor();
-    tooltip(ui, drawn.beside ? std::string(info.doc) + ". Under the other preset" : info.doc);
+    tooltip(ui, drawn.beside ? std::string(info.doc) + ". With the other preset" : info.doc);
   }
   ImGui::PopFont();
 }
@@ -66,7 +69,7 @@ void draw_header(const UiContext& ui, std::span<const DrawnColumn> columns, bool
 ImU32 ink_of(const UiContext& ui, const DrawnColumn& drawn, Planes of, Planes other, std::size_t i) {
   if (drawn.beside)
     return iteration_cell(of, i, drawn.column) == iteration_cell(other, i, drawn.column) ? ui.colours.text_faint
-                                                                                         : beside_ink(ui);
+                                                                                         : beside_words(ui);
   if (drawn.column == IterationColumn::stop)
     return i < of.size() && of[i].stop == StopReason::converged ? ui.colours.good : ui.colours.warning;
   if (drawn.column == IterationColumn::ratio && error_ratio(of, i) >= 1.0) return ui.colours.warning;
@@ -99,7 +102,7 @@ void draw_row(const UiContext& ui, TimeModel& time, std::span<const DrawnColumn>
     if (!ImGui::TableNextColumn()) continue;
     const Planes of = drawn.beside ? beside : recorded, other = drawn.beside ? recorded : beside;
     const std::string text = iteration_cell(of, i, drawn.column);
-    ImGui::PushStyleColor(ImGuiCol_Text, ink_of(ui, drawn, of, other, i));
+    ImGui::PushStyleColor(ImGuiCol_Text, selected ? ui.colours.text : ink_of(ui, drawn, of, other, i));
     if (drawn.column == IterationColumn::stop)
       ImGui::TextUnformatted(text.c_str());
     else
@@ -108,10 +111,9 @@ void draw_row(const UiContext& ui, TimeModel& time, std::span<const DrawnColumn>
   }
 }
 
-std::string planes_text(const TickOutput& out, bool planar) {
-  return printed("%d new %s%s, %d %s change%s", out.iterations, planar ? "line" : "plane",
-                 out.iterations == 1 ? "" : "s", out.triangle_changes, planar ? "vertex" : "triangle",
-                 out.triangle_changes == 1 ? "" : "s");
+std::string counts_text(const TickOutput& out, bool planar) {
+  return printed("%d iteration%s, %d %s change%s", out.iterations, out.iterations == 1 ? "" : "s", out.triangle_changes,
+                 planar ? "vertex" : "triangle", out.triangle_changes == 1 ? "" : "s");
 }
 
 /// Status, why the last plane was the last, and counts; one line a preset.
@@ -122,14 +124,16 @@ void draw_summary(const UiContext& ui, const TickOutput& out, Planes planes, boo
   ImGui::Text("%s%s", to_string(out.status), event.c_str());
   ImGui::PopStyleColor();
   ui.items.note_last(path);
-  ImGui::SameLine();
-  ImGui::TextDisabled("stop: %s; %s", last_stop(planes).c_str(), planes_text(out, planar).c_str());
+  const std::string why = "stop: " + last_stop(planes) + "; " + counts_text(out, planar);
+  same_line_if_room(ImGui::CalcTextSize(why.c_str()).x);
+  ImGui::PushTextWrapPos(0.0f);
+  ImGui::TextDisabled("%s", why.c_str());
+  ImGui::PopTextWrapPos();
 }
 
 /// Of the preset that the tick ran under.
 int limit_then(const AppModel& model, const ServoRecord& record) {
-  const Session* session = model.devices().session();
-  const Preset* then = session != nullptr ? session->preset(record.tick.preset_id) : nullptr;
+  const Preset* then = model.time().preset(record.tick.preset_id);
   return (then != nullptr ? *then : model.presets().current()).solver.max_iterations;
 }
 
@@ -140,8 +144,8 @@ void draw_attempts(const UiContext& ui, const AppModel& model, const ServoRecord
                                 .c_str());
   ui.items.note_last("iterations/attempts");
   tooltip(ui,
-          "New planes of every attempt: tracking from the kept plane, then, where it was lost, from each seed. The "
-          "limit holds for one attempt. Searched: planes of places that were looked at and are not in the table");
+          "Iterations of every attempt: tracking from the kept plane, then, where it was lost, from each seed. The "
+          "limit holds for one attempt. Searched: those at places that were looked at and are not in the table");
 }
 
 void draw_beside_summary(const UiContext& ui, const TimeModel& time, bool planar) {
@@ -153,9 +157,9 @@ void draw_beside_summary(const UiContext& ui, const TimeModel& time, bool planar
   ImGui::SetCursorPosX(ImGui::GetCursorPosX() + ui.px(12));
   draw_summary(ui, time.beside().output(), time.beside().iterations(), planar, "iterations/beside");
   tooltip(ui, time.beside().carried()
-                  ? "The same tick under the other preset, which carried its own contact up to here, as in the pale "
+                  ? "The same tick with the other preset, which carried its own contact up to here, as in the pale "
                     "curves of the plots"
-                  : "The same tick under the other preset, from the recorded contact of the tick before");
+                  : "The same tick with the other preset, from the recorded contact of the tick before");
 }
 
 void draw_solve_here(const UiContext& ui, AppModel& model) {
@@ -164,7 +168,7 @@ void draw_solve_here(const UiContext& ui, AppModel& model) {
   const std::string label = picked ? printed("Solve at triangle %u", model.view().picked_triangle) : "Solve here";
   if (text_button(ui, "iterations/solve_here", label.c_str(),
                   "A tick at the picked triangle's middle, or at the contact in view, in the direction that needs most "
-                  "planes, without waiting for the finger (H). W: at the map's worst place"))
+                  "iterations, without waiting for the finger (H). W: at the map's worst place"))
     model.solve_here();
   if (placed == nullptr) return;
   ImGui::SameLine(0, ui.px(4));
@@ -174,7 +178,7 @@ void draw_solve_here(const UiContext& ui, AppModel& model) {
 void draw_column_choice(const UiContext& ui, IterationsPanel& state, bool beside_a_button) {
   const std::string label = "Columns";
   if (beside_a_button) ImGui::SameLine(0, ui.px(4));
-  if (text_button(ui, "iterations/columns", label.c_str(), "Which columns the table has"))
+  if (text_button(ui, "iterations/columns", label.c_str(), "Chooses the columns of the table"))
     ImGui::OpenPopup("iteration_columns");
   if (!ImGui::BeginPopup("iteration_columns")) return;
   for (std::size_t c = 1; c < kIterationColumnCount; ++c) {
@@ -191,7 +195,7 @@ void draw_height_bar(const UiContext& ui, IterationsPanel& state, float row, flo
   const float width = std::max(1.0f, ImGui::GetContentRegionAvail().x), height = ui.px(7);
   ImGui::InvisibleButton("##iterations_height", {width, height});
   ui.items.note_last("iterations/height");
-  tooltip(ui, "Drag: more rows. Double-click: as many as at first");
+  tooltip(ui, "Drag for more or fewer rows; double-click for the usual number");
   const bool lit = ImGui::IsItemHovered() || ImGui::IsItemActive();
   if (lit) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeNS);
   const float middle = at.x + 0.5f * width;
@@ -247,7 +251,7 @@ void draw_table(const UiContext& ui, TimeModel& time, IterationsPanel& state, bo
 void draw_moves(const UiContext& ui, TimeModel& time) {
   const PlacedTick* placed = time.placed();
   if (placed == nullptr) return;
-  ImGui::Text("At triangle %u, u %.3f, v %.3f: planes by direction", placed->triangle(), placed->u(), placed->v());
+  ImGui::Text("At triangle %u, u %.3f, v %.3f: iterations by direction", placed->triangle(), placed->u(), placed->v());
   ui.items.note_last("iterations/place");
   tooltip(ui,
           "The finger rests there and moves by one tick's travel: no motion was recorded. The last direction is "
@@ -264,10 +268,28 @@ void draw_moves(const UiContext& ui, TimeModel& time) {
   }
 }
 
+/// What is kept between runs.
+void take_kept(WindowModel& window, IterationsPanel& state) {
+  const auto& out = window.columns_left_out();
+  for (std::size_t c = 1; c < kIterationColumnCount; ++c)
+    state.columns[c] = std::find(out.begin(), out.end(), info_of(static_cast<IterationColumn>(c)).title) == out.end();
+  state.rows.reset();
+  if (window.table_rows() > 0.0) state.rows = static_cast<float>(window.table_rows());
+}
+
+void keep(WindowModel& window, const IterationsPanel& state) {
+  window.table_rows() = static_cast<double>(state.rows.value_or(0.0f));
+  std::vector<std::string> out;
+  for (std::size_t c = 1; c < kIterationColumnCount; ++c)
+    if (!state.columns[c]) out.emplace_back(info_of(static_cast<IterationColumn>(c)).title);
+  window.columns_left_out() = std::move(out);
+}
+
 }  // namespace
 
 void draw_iterations_panel(const UiContext& ui, AppModel& model, IterationsPanel& state) {
   if (!section(ui, "Iterations", state.open)) return;
+  take_kept(model.window(), state);
   TimeModel& time = model.time();
   const ServoRecord* record = time.tick().record();
   if (record == nullptr) {
@@ -285,6 +307,7 @@ void draw_iterations_panel(const UiContext& ui, AppModel& model, IterationsPanel
   ImGui::PopFont();
   if (!time.tick().problem().empty()) ImGui::TextWrapped("%s", time.tick().problem().c_str());
   draw_table(ui, time, state, planar);
+  keep(model.window(), state);
   draw_error_plot(ui, model);
   if (!planar) draw_path_map(ui, model, state.map);
 }

@@ -32,9 +32,9 @@ void draw_log_panel(const UiContext& ui, MessageLog& messages, LogPanel& state) 
   ImGui::SameLine(0, ui.px(10));
   const bool copy = text_button(ui, "log/copy", "Copy", "The messages shown, as text");
   ImGui::SameLine(0, ui.px(3));
-  if (text_button(ui, "log/clear", "Clear", "Forgets all messages")) messages.clear();
+  if (text_button(ui, "log/clear", "Clear", "Deletes all messages")) messages.clear();
   ImGui::SetNextItemWidth(-1.0f);
-  ImGui::InputTextWithHint("##log_filter", "only those with these letters", &state.filter);
+  ImGui::InputTextWithHint("##log_filter", "only those that contain", &state.filter);
   ui.items.note_last("log/filter");
   if (auto given = ui.items.take_value("log/filter")) state.filter = *given;
   tooltip(ui, "Shows only messages that contain this");

@@ -123,7 +123,7 @@ void draw_moves(const UiContext& ui, MapView& map) {
   if (const auto v = row("map/directions", "Directions", map.options.directions, "",
                          "Directions of motion tried from every place, 1 to 32, besides one straight in"))
     map.options.directions = static_cast<unsigned>(std::clamp(*v, 1.0, 32.0));
-  if (const auto v = row("map/move", "Move a tick", map.options.move_m * 1e3, "mm",
+  if (const auto v = row("map/move", "Move per tick", map.options.move_m * 1e3, "mm",
                          "How far the finger moves: 0.1 mm is 0.1 m/s at 1 kHz"))
     map.options.move_m = std::clamp(*v, 1e-4, 10.0) * 1e-3;
   if (const auto v =

@@ -2,6 +2,7 @@
 #include "core/lab/objects/generate.h"
 #include "workbench/gui/panels/examples.h"
 #include "workbench/gui/panels/panels.h"
+#include "workbench/gui/panels/save_panel.h"
 #include "workbench/gui/widgets/widgets.h"
 
 #include <algorithm>
@@ -64,16 +65,20 @@ void draw_file_menu(const UiContext& ui, AppModel& model, MenuBar& state) {
     state.path.open = state.path.focus = true;
     state.path.text = model.presets().folder().string() + "/";
   }
+  if (menu_item(
+          ui, "menu/file/save_session", "Save session...",
+          "The recording that is open, or the history as one, with layout, camera, curves, cursors and bookmarks"))
+    ask_to_save(model, SaveWhat::session);
   if (ImGui::BeginMenu("Recent")) {
     const std::vector<std::string> recent = model.window().settings().recent_meshes;  // opening one changes the order
     for (std::size_t i = 0; i < recent.size(); ++i) {
       if (menu_item(ui, "menu/file/recent/" + std::to_string(i), recent[i].c_str(), "Opens it again"))
-        model.scene().open(recent[i]);
+        model.open(recent[i]);
     }
     ImGui::EndMenu();
   }
   ui.items.note_last("menu/file/recent");
-  if (menu_item(ui, "menu/file/reload", "Load the mesh again", "Reads the file anew") && !model.scene().path().empty())
+  if (menu_item(ui, "menu/file/reload", "Load the mesh again", "Reads the file again") && !model.scene().path().empty())
     model.scene().open(model.scene().path());
   draw_examples(ui, state);
   ImGui::Separator();
@@ -91,7 +96,7 @@ void draw_file_menu(const UiContext& ui, AppModel& model, MenuBar& state) {
 }
 
 void draw_camera_items(const UiContext& ui, ViewModel& view, const TickRecord* tick) {
-  if (menu_item(ui, "menu/view/frame", "Frame the mesh", "All of it in view, from the present direction", "F"))
+  if (menu_item(ui, "menu/view/frame", "Frame the mesh", "Shows all of it, from the current direction", "F"))
     view.frame_scene();
   if (menu_item(ui, "menu/view/contact", "Look at the contact", "Turns the camera to the contact of the tick in view",
                 "G"))
@@ -182,7 +187,7 @@ void draw_view_menu(const UiContext& ui, AppModel& model) {
     model.window().set_ui_scale(model.window().ui_scale() * 1.1f);
   if (menu_item(ui, "menu/view/smaller", "Smaller text", "Everything a tenth smaller", "Ctrl+-"))
     model.window().set_ui_scale(model.window().ui_scale() / 1.1f);
-  if (menu_item(ui, "menu/view/normal", "Normal text", "The size that the monitor asks for", "Ctrl+0"))
+  if (menu_item(ui, "menu/view/normal", "Normal text", "The size that the screen asks for", "Ctrl+0"))
     model.window().set_ui_scale(1.0f);
   ImGui::EndPopup();
 }
@@ -207,7 +212,7 @@ void draw_preset_menu(const UiContext& ui, PresetModel& presets, const ContactMe
   const std::string name = presets.editor().name() + (presets.editor().changed() ? " *" : "");
   if (!drop_button(ui, "menu/preset", name, "The preset; * when it was changed since loading", width)) return;
   const std::filesystem::path chosen = presets.editor().path();
-  if (menu_item(ui, "menu/preset/built_in", "built-in", "The program's own values, from no file", nullptr,
+  if (menu_item(ui, "menu/preset/built_in", "built-in", "The values built into the program, from no file", nullptr,
                 chosen.empty() && presets.editor().name() == "built-in"))
     presets.load_built_in();
   const std::vector<PresetEntry> files = presets.files();

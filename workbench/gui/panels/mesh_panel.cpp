@@ -74,7 +74,7 @@ void draw_picked(const UiContext& ui, AppModel& model) {
     fact(ui, printed("Edge %u", e).c_str(), kKinds[static_cast<std::size_t>(mesh.edge_kind(t, e))] + to);
   }
   draw_control_net_table(ui, model, t);
-  if (text_button(ui, "mesh/unpick", "Unpick", "Picks nothing")) model.view().picked_triangle = kNone;
+  if (text_button(ui, "mesh/unpick", "Unpick", "No triangle is picked then")) model.view().picked_triangle = kNone;
 }
 
 /// Unit and size: not stated in the file, so chosen by the user.
@@ -117,11 +117,11 @@ void draw_polygon(const UiContext& ui, const PlanarPolygon& polygon) {
                              : "The finger touches it from the left when going from first to last vertex");
   fact(ui, "Segments", count(facts.segments));
   ui.items.note_last("mesh/segments");
-  tooltip(ui, "Between vertices that differ");
+  tooltip(ui, "Between vertices at different places");
   fact(ui, "Vertices", count(facts.vertices));
   fact(ui, "Sharp corners", count(facts.corners));
   tooltip(ui, "Vertices that the file gives twice in a row: the curve has no patch there");
-  fact(ui, polygon.closed ? "Way around" : "Length", printed("%.4g", facts.length_m * 1e3), "mm");
+  fact(ui, polygon.closed ? "Orientation" : "Length", printed("%.4g", facts.length_m * 1e3), "mm");
   fact(ui, "Size", printed("%.4g \u00d7 %.4g", facts.size_m.x * 1e3, facts.size_m.y * 1e3), "mm");
 }
 

@@ -79,7 +79,7 @@ void draw_duration_histogram(const UiContext& ui, const char* title, const LogHi
     const float left = std::clamp(x - 0.5f * w, at.x, at.x + width - w);
     draw.AddText(font, font->FontSize, {left, bottom + ui.px(2)}, ui.colours.text_dim, label.c_str());
   }
-  constexpr const char* kAxes = "ticks (log) over ms (log)";
+  constexpr const char* kAxes = "ticks (log) against ms (log)";
   const ImFont* words = ui.fonts.small;
   draw.AddText(words, words->FontSize,
                {at.x + width - words->CalcTextSizeA(words->FontSize, 1e9f, 0.0f, kAxes).x - ui.px(3), at.y + ui.px(1)},

@@ -5,10 +5,7 @@
 #include "workbench/gui/model/app_model.h"
 #include "workbench/gui/panels/iteration_columns.h"
 #include "workbench/gui/panels/planar_view.h"
-#include "workbench/gui/plots/derived_curve.h"
-#include "workbench/gui/plots/plot_view.h"
-#include "workbench/gui/plots/sample_cells.h"
-#include "workbench/gui/plots/spectrum.h"
+#include "workbench/gui/panels/plots_panel.h"
 #include "workbench/gui/widgets/ui_context.h"
 
 #include <array>
@@ -39,13 +36,13 @@ void draw_compare_panel(const UiContext& ui, AppModel& model, ComparePanel& stat
 struct PresetsPanel {
   bool open = true;
   std::string name;       ///< typed name to save under
-  std::string note;       ///< typed note to save with it
-  std::string note_of;    ///< path of the preset that the note was taken from
   std::string asked_for;  ///< this file exists: pressing again overwrites it
   std::string written;    ///< saved before in this run: no confirmation
 };
 /// Of the values in use, for the file that they are saved in.
 PresetOrigin origin_of(const AppModel& model, const std::string& note);
+/// Saves the values in use, and attaches the selection where that is wanted. False: not saved, a message says why.
+bool save_preset(AppModel& model, const std::string& name, const std::string& note);
 void draw_presets_panel(const UiContext& ui, AppModel& model, PresetsPanel& state);
 
 // Right column.
@@ -106,10 +103,18 @@ double felt_angle_rad(const PresetModel& presets, const PerceptionPanel& state);
 struct FoldedPanel {
   bool open = true;
 };
+/// Cause and cure of the tick in view, while paused.
+void draw_why_panel(const UiContext& ui, AppModel& model, FoldedPanel& state);
 void draw_time_machine_panel(const UiContext& ui, TimeModel& time, FoldedPanel& state);
+
+/// Two recordings, or one under the present values: outcome, curves, differences.
+void draw_recording_pair_panel(const UiContext& ui, AppModel& model, FoldedPanel& state);
 
 /// One or two keys over many values on the chosen ticks: mean, p99 and failures of each, a click tries it.
 void draw_sweep_panel(const UiContext& ui, AppModel& model, FoldedPanel& state);
+
+/// The recording that is open, and the one that is made.
+void draw_recording_panel(const UiContext& ui, AppModel& model, FoldedPanel& state);
 
 struct BookmarksPanel {
   bool open = true;
@@ -144,52 +149,7 @@ void draw_view_panel(const UiContext& ui, AppModel& model, ViewPanel& state, Sce
 void draw_toasts(const UiContext& ui, AppModel& model, const Rect& over);
 
 // Below.
-enum class PlotsMode : std::uint8_t { time, xy, spectrum, histogram, derived };
-struct DerivedPlot {
-  int how = 2;  ///< Derivation
-  int a = 1, b = 0, c = 0, cutoff = 2;
-  DerivedCurve curve;
-  std::optional<PlotView> view;
-  std::string title;  ///< of `view`
-};
-struct PlotsPanel {
-  std::vector<PlotView> plots;
-  PlotLink link;
-  PlotsMode mode = PlotsMode::time;
-  bool values = false;  ///< the table of numbers beside the curves
-  bool legend = false;  ///< what the marks mean
-  int x = 2, y = 4;     ///< curve numbers for X-Y; spectrum and histogram show x
-  SampleCells cells, ghost_cells;
-  DerivedPlot derived;
-  Spectrum spectrum, ghost_spectrum;
-  std::uint64_t spectrum_ghost = 0;  ///< generation of the ghost in `ghost_spectrum`; 0: none
-  int spectrum_of = -1;              ///< curve, range and time of `spectrum`
-  std::uint64_t spectrum_from = 0, spectrum_to = 0;
-  double spectrum_at_s = -1.0;
-  std::array<ImU32, 4> event_inks{};     ///< by EventRank - 1
-  std::vector<TickMark> changes, flags;  ///< of this frame
-};
-PlotsPanel make_plots_panel();
-/// A curve of the plots, by its number over all plots.
-struct CurveRef {
-  const PlotSpec* plot = nullptr;
-  const PlotSeries* series = nullptr;
-  std::string name() const;       ///< "Force x"
-  std::string with_unit() const;  ///< "Force x, N"
-};
-std::vector<CurveRef> curves_of(const PlotsPanel& state);
-/// Range [from, to) of the ticks in view that are in the history.
-std::pair<std::uint64_t, std::uint64_t> ticks_in_view(const TimeModel& time);
-void draw_plots_toolbar(const UiContext& ui, AppModel& model, PlotsPanel& state, const Rect& rect, const Rect& whole);
-/// A card over the plots: what the marks and lines in them mean.
-void draw_plots_legend(const UiContext& ui, const PlotsPanel& state, const Rect& over);
-void draw_values_table(const UiContext& ui, TimeModel& time, PlotsPanel& state, const Rect& rect);
-/// A curve computed from others, over time.
-void draw_derived_plot(const UiContext& ui, AppModel& model, PlotsPanel& state, const Rect& rect);
-/// X-Y, spectrum or histogram.
-void draw_other_plot(const UiContext& ui, AppModel& model, PlotsPanel& state, const Rect& rect);
-void draw_plots_panel(const UiContext& ui, AppModel& model, PlotsPanel& state, const Rect& rect);
-void draw_transport_bar(const UiContext& ui, TimeModel& time, const Rect& rect);
+void draw_transport_bar(const UiContext& ui, AppModel& model, const Rect& rect);
 void draw_status_line(const UiContext& ui, AppModel& model, const Rect& rect, double frame_ms);
 
 // Above.
@@ -218,6 +178,7 @@ struct Wish {
   bool time_passes = false;     ///< errors meanwhile are the devices', and not the line's
   bool work = false;            ///< for what runs in the background
   std::string script;           ///< file to run; empty: none
+  std::string session;          ///< file to save the session in; empty: none
   std::string lines, lines_of;  ///< or these lines, and what to call them
 };
 /// Five steps for the first minute; drawn over the window beside what they are about.

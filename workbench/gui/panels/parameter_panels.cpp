@@ -33,7 +33,7 @@ std::string idle_because(const PresetKey& key, const AppModel& model) {
   if (key.needs_controller) {
     const DisplayCapabilities* display =
         model.devices().session() != nullptr ? model.devices().session()->display_capabilities() : nullptr;
-    if (display == nullptr || !display->has_controller) return "The present display has no controller that takes it.";
+    if (display == nullptr || !display->has_controller) return "The chosen display has no controller for it.";
   }
   if (key.planar_only && (model.scene().current() == nullptr || model.scene().current()->planar() == nullptr))
     return "Used in 2D scenes only.";
@@ -111,7 +111,7 @@ void draw_row(const UiContext& ui, AppModel& model, const PresetKey& key, const 
 
   ImGui::SetCursorScreenPos({at.x + width - reset_width + ui.px(3), at.y});
   if (value != key.default_value()) {
-    const std::string what = "Back to " + display_with_unit(key, key.default_value()) + ", the program's own value";
+    const std::string what = "Back to " + display_with_unit(key, key.default_value()) + ", the built-in value";
     if (icon_button(ui, path + "/reset", Icon::reset, what.c_str())) model.presets().reset_value(key);
   } else {
     ImGui::Dummy({ui.px(10), ImGui::GetFrameHeight()});

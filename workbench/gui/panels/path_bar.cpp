@@ -18,7 +18,7 @@ bool is_known_file(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  constexpr std::array<const char*, 6> known{".obj", ".ply", ".stl", ".off", ".csv", ".toml"};
+  constexpr std::array<const char*, 8> known{".obj", ".ply", ".stl", ".off", ".csv", ".toml", ".sqlite", ".session"};
   return std::find(known.begin(), known.end(), extension) != known.end();
 }
 
@@ -86,7 +86,10 @@ void draw_path_bar(const UiContext& ui, AppModel& model, PathBar& bar, const Rec
   if (bar.focus) ImGui::SetNextWindowFocus();
   ImGui::Begin("##path_bar", nullptr, flags);
   ImGui::TextDisabled(
-      "Open a mesh (obj, ply, stl, off, csv of a polygon) or a preset (toml). Tab completes, Enter opens");
+      "Open a mesh (obj, ply, stl, off, csv of a polygon), a preset (toml) a recording (sqlite) or a session. Tab "
+      "completes, "
+      "Enter "
+      "opens");
   ImGui::SetNextItemWidth(-1.0f);
   if (bar.focus) edit_next("##path");
   bar.focus = false;

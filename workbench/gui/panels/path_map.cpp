@@ -228,9 +228,9 @@ void draw_title(const UiContext& ui, PathMapPanel& state) {
   ImGui::TextDisabled("|c \u2212 hN \u2212 S|");
   ImGui::SameLine(ImGui::GetContentRegionMax().x - ui.px(98));
   bool path = state.close_up, triangle = !state.close_up;
-  if (toggle_button(ui, "iterations/map_path", "Path", path, "As near as the path needs")) state.close_up = true;
+  if (toggle_button(ui, "iterations/map_path", "Path", path, "Zooms to the path")) state.close_up = true;
   ImGui::SameLine(0, ui.px(3));
-  if (toggle_button(ui, "iterations/map_triangle", "Triangle", triangle, "The whole base triangle"))
+  if (toggle_button(ui, "iterations/map_triangle", "Triangle", triangle, "Shows the whole base triangle"))
     state.close_up = false;
   ImGui::PopFont();
 }
@@ -252,7 +252,7 @@ void draw_path_map(const UiContext& ui, AppModel& model, PathMapPanel& state) {
   const ServoRecord* record = model.time().tick().record();
   const bool there = record != nullptr && model.scene().current() != nullptr &&
                      triangle_index < model.scene().current()->mesh().triangle_count() && width > ui.px(60) &&
-                     model.devices().session()->scene(record->scene_id) == model.scene().current() &&
+                     model.time().scene_of_tick() == model.scene().current() &&
                      model.scene().current()->mesh().usable(triangle_index) &&
                      is_finite(record->tick.input.finger.position);
   draw.AddRectFilled(at, end, ui.colours.plot);

@@ -25,7 +25,7 @@ void draw_choice(const UiContext& ui, MapView& map, PerceptionPanel& state, int 
     names[i] = texts[i];
   }
   if (choice_row(ui, "perception/condition", width - ui.px(96), names, chosen)) state.condition = chosen;
-  tooltip(ui, "Rendering condition of the verdict and the worst edges; until chosen, the preset's own, or C3");
+  tooltip(ui, "Rendering condition of the verdict and the worst edges; at first the preset's own, else C3");
   ImGui::SameLine(0, ui.px(4));
   bool shown = map.on && map.quantity == MapQuantity::facet_angle;
   if (!toggle_button(
@@ -58,7 +58,8 @@ void draw_table(const UiContext& ui, const PerceptionAudit& audit, std::size_t c
                  std::string(feel.threshold.condition).c_str());
     const std::string threshold =
         printed("%5.1f deg%s", feel.threshold.mean_deg, feel.threshold.interval_deg ? "" : " pilot");
-    draw.AddText(number, number->FontSize, {at.x + ui.px(26), y}, ui.colours.text_dim, threshold.c_str());
+    draw.AddText(number, number->FontSize, {at.x + ui.px(26), y}, i == chosen ? ui.colours.text : ui.colours.text_dim,
+                 threshold.c_str());
     const float share = static_cast<float>(feel.felt_share());
     draw.AddRectFilled({at.x + bar_from, at.y + ui.px(5)}, {at.x + bar_to, at.y + height - ui.px(5)}, ui.colours.field,
                        ui.px(2));
@@ -70,7 +71,7 @@ void draw_table(const UiContext& ui, const PerceptionAudit& audit, std::size_t c
     const std::string text = printed("%.2f %%", 100.0 * feel.felt_share());
     const float w = number->CalcTextSizeA(number->FontSize, 1e9f, 0.0f, text.c_str()).x;
     draw.AddText(number, number->FontSize, {at.x + width - w - ui.px(4), y},
-                 share > 0.0f ? ui.colours.text : ui.colours.text_dim, text.c_str());
+                 share > 0.0f || i == chosen ? ui.colours.text : ui.colours.text_dim, text.c_str());
   }
 }
 

@@ -1,5 +1,6 @@
 // Where the scene is on the force device: scale, offset and rotation, the fit to its workspace, and the clutch. While
 // force is sent it can only be looked at.
+#include "core/io/csv_table.h"
 #include "workbench/gui/panels/panels.h"
 #include "workbench/gui/widgets/widgets.h"
 
@@ -12,7 +13,7 @@ namespace tangent {
 namespace {
 
 constexpr const char* kScaleText =
-    "Metres of the scene for a metre of the device. A spring of the scene feels this many times as stiff; forces stay "
+    "Metres of the scene per metre of the device. A spring of the scene feels this many times as stiff; forces stay "
     "as strong as they are";
 
 std::optional<double> typed_number(AppModel& model, const std::optional<std::string>& typed) {
@@ -20,7 +21,7 @@ std::optional<double> typed_number(AppModel& model, const std::optional<std::str
   char* end = nullptr;
   const double number = std::strtod(typed->c_str(), &end);
   if (end != typed->c_str() && std::isfinite(number)) return number;
-  model.messages().say(Severity::error, "\"" + *typed + "\" is not a number");
+  model.messages().say(Severity::error, show_text(*typed) + " is not a number");
   return std::nullopt;
 }
 

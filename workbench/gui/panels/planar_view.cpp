@@ -24,7 +24,7 @@ struct PlanarToggle {
   const char* doc;
 };
 constexpr std::array kToggles{
-    PlanarToggle{"Patches", &PlanarView::patches, "One a vertex: between its control polygon and the curve"},
+    PlanarToggle{"Patches", &PlanarView::patches, "One per vertex: between its control polygon and the curve"},
     PlanarToggle{"Polygon", &PlanarView::polygon, "The polygon as it is"},
     PlanarToggle{"Curve", &PlanarView::curve, "The smooth curve that is rendered"},
     PlanarToggle{"Centres", &PlanarView::centres,
@@ -32,7 +32,7 @@ constexpr std::array kToggles{
     PlanarToggle{"Tangents", &PlanarView::tangents, "Tangent lines of the tick's iterations, coloured by order"},
     PlanarToggle{"Finger", &PlanarView::finger, "The finger, with its contact"},
     PlanarToggle{"Force", &PlanarView::force,
-                 "The computed force, and the felt one behind the safety gate, 6 mm a newton"},
+                 "The computed force, and the felt one behind the safety gate, 6 mm per newton"},
     PlanarToggle{"Display", &PlanarView::display, "The fingerpad from the side, with the roller where it is"}};
 
 /// Maps the scene to pixels and back; y up.
@@ -220,12 +220,13 @@ void draw_force(const UiContext& ui, const ServoRecord& record, const Paper& pap
   const ImVec2 tip = arrows.computed_n > arrows.felt_n ? computed_tip : felt_tip;
   ImFont* font = ui.fonts.small_number;
   float y = tip.y - (tip.y < from.y ? ui.px(arrows.same ? 16 : 30) : ui.px(-4));
-  const auto row = [&](double newton, const char* name, ImU32 ink) {
-    draw.AddText(font, font->FontSize, {tip.x + ui.px(14), y}, ink, printed("%.2f N%s", newton, name).c_str());
+  const auto row = [&](double newton, const char* name, const Rgba& of) {
+    draw.AddText(font, font->FontSize, {tip.x + ui.px(14), y}, colour(readable(ui.palette, of)),
+                 printed("%.2f N%s", newton, name).c_str());
     y += ui.px(14);
   };
-  if (!arrows.same) row(arrows.computed_n, " computed", computed_ink);
-  row(arrows.felt_n, arrows.same ? "" : " felt", felt_ink);
+  if (!arrows.same) row(arrows.computed_n, " computed", ui.palette.force_computed);
+  row(arrows.felt_n, arrows.same ? "" : " felt", ui.palette.force_magnitude);
 }
 
 /// A length that is 1, 2 or 5 times a power of ten and about a tenth of the view.
@@ -239,22 +240,30 @@ void draw_scale(const UiContext& ui, const PlanarView& view, const Rect& rect, I
   const float y = rect.bottom() - under - ui.px(16), x = rect.x + ui.px(16),
               w = static_cast<float>(length * view.px_per_m);
   const ImU32 ink = ui.colours.text_dim;
+  const float text_y = y - ui.px(8) - ui.fonts.small_number->FontSize;
+  if (text_y < rect.y + view.top) return;  // the toggles are there
   draw.AddLine({x, y}, {x + w, y}, ink, ui.px(1.6f));
   for (const float end : {x, x + w}) draw.AddLine({end, y - ui.px(4)}, {end, y + ui.px(4)}, ink, ui.px(1.6f));
   const std::string text = short_number(length * 1e3) + " mm";
   ImFont* font = ui.fonts.small_number;
-  draw.AddText(font, font->FontSize, {x, y - ui.px(8) - font->FontSize}, ink, text.c_str());
+  draw.AddText(font, font->FontSize, {x, text_y}, ink, text.c_str());
 }
 
 void draw_toggles(const UiContext& ui, PlanarView& view, const Rect& rect) {
   ImGui::PushFont(ui.fonts.small);
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(ui.px(6), ui.px(2)));
-  float x = rect.x + ui.px(8);
+  float x = rect.x + ui.px(8), y = rect.y + ui.px(7);
   for (const PlanarToggle& toggle : kToggles) {
-    ImGui::SetCursorScreenPos({x, rect.y + ui.px(7)});
+    const float w = ImGui::CalcTextSize(toggle.name).x + ui.px(12);
+    if (x + w > rect.right() - ui.px(8)) {
+      x = rect.x + ui.px(8);
+      y += ImGui::GetFrameHeight() + ui.px(3);
+    }
+    ImGui::SetCursorScreenPos({x, y});
     toggle_button(ui, std::string("planar/") + toggle.name, toggle.name, view.*toggle.on, toggle.doc);
-    x += ImGui::CalcTextSize(toggle.name).x + ui.px(15);
+    x += w + ui.px(3);
   }
+  view.top = y + ImGui::GetFrameHeight() - rect.y;
   ImGui::PopStyleVar();
   ImGui::PopFont();
 }
@@ -273,9 +282,7 @@ void draw_planar_view(const UiContext& ui, AppModel& model, PlanarView& view, co
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   draw.PushClipRect({rect.x, rect.y}, {rect.right(), rect.bottom()}, true);
   const ServoRecord* record = model.time().tick().record();
-  const Preset* then = record != nullptr && model.devices().session() != nullptr
-                           ? model.devices().session()->preset(record->tick.preset_id)
-                           : nullptr;
+  const Preset* then = record != nullptr ? model.time().preset(record->tick.preset_id) : nullptr;
   if (record != nullptr && view.finger)
     draw_finger(ui, (then != nullptr ? *then : model.presets().current()).finger, record->tick, paper, draw);
   if (record != nullptr) {

@@ -12,6 +12,7 @@ struct PlanarView {
        display = true;
   Vec2 centre{0.0};       ///< middle of the view, world, m
   double px_per_m = 0.0;  ///< 0: to be framed
+  float top = 0.0f;       ///< height of the toggles along the upper edge, points; of the last frame
   const ContactScene* framed = nullptr;
   std::uint64_t framings = 0;  ///< framings of the model (F) followed so far
 };

@@ -28,13 +28,15 @@ std::string colour_of(const PlotSeries& series) {
 
 /// "Force [N]", as papers write it.
 std::string axis_label(const std::string& name, const std::string& unit) {
+  if (name.empty()) return unit.empty() ? unit : "[" + unit + "]";
   return unit.empty() ? name : name + " [" + unit + "]";
 }
-std::string label_of(const CurveRef& curve) { return axis_label(curve.name(), curve.plot->unit); }
+std::string label_of(const PlotSeries& curve) { return axis_label(curve.full_name, curve.unit); }
 
-double shown_value(const PlotSpec& plot, float value) {
-  const double scaled = static_cast<double>(value) * plot.scale;
-  return plot.log && scaled < plot.floor ? plot.floor : scaled;
+double shown_value(const PlotSeries& curve, float value) { return static_cast<double>(value) * curve.scale; }
+double drawn_value(const PlotSpec& plot, const PlotSeries& curve, float value) {
+  const double shown = shown_value(curve, value);
+  return plot.log && shown < plot.floor ? plot.floor : shown;
 }
 
 /// A series in a table: the column of its values, from 1.
@@ -51,11 +53,12 @@ std::vector<Drawn> drawn_series(const PlotsPanel& state, const ChannelStore& sto
   std::vector<Drawn> all;
   for (const PlotView& plot : state.plots)
     for (const PlotSeries& series : plot.spec().series) {
-      if (!series.visible || store.min_max(series.channel, ticks.from, ticks.to).empty()) continue;
-      all.push_back({&plot.spec(), &series, &store, series.channel, all.size() + 2});
-      const ChannelStore* ghost = state.link.ghost;
-      if (ghost == nullptr || !series.ghost || ghost->min_max(*series.ghost, ticks.from, ticks.to).empty()) continue;
-      all.push_back({&plot.spec(), &series, ghost, *series.ghost, all.size() + 2, true});
+      const ChannelStore& own = series.store_in(store);
+      if (!series.visible || own.min_max(series.channel, ticks.from, ticks.to).empty()) continue;
+      all.push_back({&plot.spec(), &series, &own, series.channel, all.size() + 2});
+      const ChannelStore* ghost = series.ghost_in(state.link.ghost);
+      if (ghost == nullptr || ghost->min_max(series.ghost.value_or(0), ticks.from, ticks.to).empty()) continue;
+      all.push_back({&plot.spec(), &series, ghost, series.ghost.value_or(0), all.size() + 2, true});
     }
   return all;
 }
@@ -63,7 +66,7 @@ std::vector<Drawn> drawn_series(const PlotsPanel& state, const ChannelStore& sto
 FigureTable time_table(const std::vector<Drawn>& curves, const Ticks& ticks, double period_s) {
   FigureTable table{{"t_s"}, {}};
   for (const Drawn& curve : curves)
-    table.columns.push_back(curve.plot->id + "_" + curve.series->name + (curve.ghost ? "_again" : ""));
+    table.columns.push_back(curve.plot->id + "_" + std::to_string(curve.column) + (curve.ghost ? "_again" : ""));
   const std::uint64_t part = std::max<std::uint64_t>(1, 2 * ticks.count() / kMostRows);
   for (std::uint64_t tick = ticks.from; tick < ticks.to; tick += part)
     for (const bool largest : {false, true}) {
@@ -72,7 +75,8 @@ FigureTable time_table(const std::vector<Drawn>& curves, const Ticks& ticks, dou
       std::vector<double> row{(static_cast<double>(tick) + within) * period_s};
       for (const Drawn& curve : curves) {
         const MinMax range = curve.store->min_max(curve.channel, tick, std::min(ticks.to, tick + part));
-        row.push_back(range.empty() ? std::nan("") : shown_value(*curve.plot, largest ? range.max : range.min));
+        row.push_back(range.empty() ? std::nan("")
+                                    : drawn_value(*curve.plot, *curve.series, largest ? range.max : range.min));
       }
       table.rows.push_back(std::move(row));
     }
@@ -87,10 +91,12 @@ bool whole_steps(const std::vector<Drawn>& plot, const Ticks& ticks) {
 }
 
 std::string curve_command(const Drawn& curve, bool alone) {
-  const std::string name = curve.series->name + (curve.ghost ? ", solved again" : "");
+  const bool named = curve.plot->title.empty(), mixed = curve.plot->unit.empty();  // of several plots, or units
+  const std::string name = (mixed ? axis_label(curve.series->name, curve.series->unit) : curve.series->name) +
+                           (curve.ghost ? ", solved again" : "");
   return "F using 1:(column(" + std::to_string(curve.column) + ")) with " + (curve.series->steps ? "steps" : "lines") +
          " lc rgb " + colour_of(*curve.series) + (curve.ghost ? " lw 1.2 dt (6,3)" : " lw 1.4") +
-         (alone && !curve.ghost ? " notitle" : " title '" + name + "'");
+         (alone && !curve.ghost && !named ? " notitle" : " title '" + name + "'");
 }
 
 /// Dashed lines at the measuring cursors.
@@ -149,48 +155,49 @@ std::string axis_labels(const std::string& x, const std::string& y) {
   return "set xlabel '" + x + "'\nset ylabel '" + y + "'\n";
 }
 
-Figure xy_figure(const CurveRef& x, const CurveRef& y, const ChannelStore& store, const Ticks& ticks) {
+Figure xy_figure(const PlotSeries& x, const PlotSeries& y, const ChannelStore& common, const Ticks& ticks) {
   FigureTable table{{"x", "y"}, {}};
+  const ChannelStore &across = x.store_in(common), &up = y.store_in(common);
   for (std::uint64_t tick = ticks.from; tick < ticks.to; ++tick) {
-    const float a = store.value(x.series->channel, tick), b = store.value(y.series->channel, tick);
+    const float a = across.value(x.channel, tick), b = up.value(y.channel, tick);
     if (std::isnan(a) || std::isnan(b))
       table.part();
     else
-      table.rows.push_back({shown_value(*x.plot, a), shown_value(*y.plot, b)});
+      table.rows.push_back({shown_value(x, a), shown_value(y, b)});
   }
   const char* style = ticks.count() <= kMostLined ? "lines lw 1.2" : "dots";
-  return one_plot(axis_labels(label_of(x), label_of(y)) + "plot F using 1:2 with " + style + " lc rgb " +
-                      colour_of(*y.series) + " notitle\n",
+  return one_plot(axis_labels(label_of(x), label_of(y)) + "plot F using 1:2 with " + style + " lc rgb " + colour_of(y) +
+                      " notitle\n",
                   std::move(table));
 }
 
-Figure spectrum_figure(const CurveRef& curve, const ChannelStore& store, const Ticks& ticks, double period_s) {
-  const Spectrum s = amplitude_spectrum(store, curve.series->channel, ticks.from, ticks.to, 1.0 / period_s);
+Figure spectrum_figure(const PlotSeries& curve, const ChannelStore& store, const Ticks& ticks, double period_s) {
+  const Spectrum s = amplitude_spectrum(store, curve.channel, ticks.from, ticks.to, 1.0 / period_s);
   FigureTable table{{"hz", "amplitude"}, {}};
   for (std::size_t i = 1; i < s.amplitude.size(); ++i)
-    table.rows.push_back({s.bin_hz * static_cast<double>(i), static_cast<double>(s.amplitude[i]) * curve.plot->scale});
-  return one_plot(
-      "set logscale xy\nset format y '10^{%T}'\n" + axis_labels("Frequency [Hz]", "Amplitude of " + label_of(curve)) +
-          "plot F using 1:($2 > 0 ? $2 : 1/0) with lines lw 1.2 lc rgb " + colour_of(*curve.series) + " notitle\n",
-      std::move(table));
+    table.rows.push_back({s.bin_hz * static_cast<double>(i), static_cast<double>(s.amplitude[i]) * curve.scale});
+  return one_plot("set logscale xy\nset format y '10^{%T}'\n" +
+                      axis_labels("Frequency [Hz]", "Amplitude of " + label_of(curve)) +
+                      "plot F using 1:($2 > 0 ? $2 : 1/0) with lines lw 1.2 lc rgb " + colour_of(curve) + " notitle\n",
+                  std::move(table));
 }
 
-Figure histogram_figure(const CurveRef& curve, const ChannelStore& store, const Ticks& ticks) {
-  const MinMax range = store.min_max(curve.series->channel, ticks.from, ticks.to);
+Figure histogram_figure(const PlotSeries& curve, const ChannelStore& store, const Ticks& ticks) {
+  const MinMax range = store.min_max(curve.channel, ticks.from, ticks.to);
   const double low = static_cast<double>(range.min), width = std::max(1e-300, static_cast<double>(range.max) - low);
   std::array<double, kBins> counts{};
   for (std::uint64_t tick = ticks.from; tick < ticks.to; ++tick) {
-    const double value = static_cast<double>(store.value(curve.series->channel, tick));
+    const double value = static_cast<double>(store.value(curve.channel, tick));
     if (std::isnan(value)) continue;
     const double bin = std::clamp((value - low) / width * static_cast<double>(kBins), 0.0, kBins - 1.0);
     ++counts[static_cast<std::size_t>(bin)];
   }
   FigureTable table{{"middle", "ticks"}, {}};
-  const double step = width / static_cast<double>(kBins) * curve.plot->scale;
+  const double step = width / static_cast<double>(kBins) * curve.scale;
   for (std::size_t i = 0; i < kBins; ++i)
-    table.rows.push_back({low * curve.plot->scale + step * (static_cast<double>(i) + 0.5), counts[i]});
+    table.rows.push_back({low * curve.scale + step * (static_cast<double>(i) + 0.5), counts[i]});
   return one_plot(axis_labels(label_of(curve), "Ticks") + "set yrange [0:*]\nset style fill solid 1 noborder\n" +
-                      "plot F using 1:2 with boxes lc rgb " + colour_of(*curve.series) + " notitle\n",
+                      "plot F using 1:2 with boxes lc rgb " + colour_of(curve) + " notitle\n",
                   std::move(table));
 }
 
@@ -208,15 +215,12 @@ Result<Figure> plot_figure(const PlotsPanel& state, const TimeModel& time) {
     if (curves.empty()) return nothing();
     return time_figure(state, curves, ticks, time.tick_period_s());
   }
-  const std::vector<CurveRef> curves = curves_of(state);
-  const auto curve = [&](int number) -> const CurveRef& {
-    return curves[static_cast<std::size_t>(std::clamp(number, 0, static_cast<int>(curves.size()) - 1))];
-  };
-  const CurveRef& x = curve(state.x);
-  if (store.min_max(x.series->channel, from, to).empty()) return nothing();
-  if (state.mode == PlotsMode::xy) return xy_figure(x, curve(state.y), store, ticks);
-  if (state.mode == PlotsMode::histogram) return histogram_figure(x, store, ticks);
-  Figure spectrum = spectrum_figure(x, store, ticks, time.tick_period_s());
+  const PlotSeries &x = curve_of(state, state.x), &y = curve_of(state, state.y);
+  const ChannelStore& of_x = x.store_in(store);
+  if (of_x.min_max(x.channel, from, to).empty()) return nothing();
+  if (state.mode == PlotsMode::xy) return xy_figure(x, y, store, ticks);
+  if (state.mode == PlotsMode::histogram) return histogram_figure(x, of_x, ticks);
+  Figure spectrum = spectrum_figure(x, of_x, ticks, time.tick_period_s());
   if (spectrum.data.front().table.rows.empty())
     return fail("64 ticks without a gap are needed for a spectrum", "plots", "show a longer part of the time axis");
   return spectrum;

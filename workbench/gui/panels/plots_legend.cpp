@@ -18,20 +18,20 @@ struct LegendRow {
 
 std::vector<LegendRow> legend_rows(const UiContext& ui, const PlotsPanel& state) {
   std::vector<LegendRow> rows{
-      {Swatch::band, bookmark_ink(ui, BookmarkKind::user), "Bookmark of yours"},
+      {Swatch::band, bookmark_ink(ui, BookmarkKind::user), "Your bookmark"},
       {Swatch::band, bookmark_ink(ui, BookmarkKind::unconverged), "Bookmarked: unconverged"},
-      {Swatch::band, bookmark_ink(ui, BookmarkKind::reseeded), "Bookmarked: tracking lost, seeded again"},
-      {Swatch::band, bookmark_ink(ui, BookmarkKind::iterations), "Bookmarked: many planes"},
+      {Swatch::band, bookmark_ink(ui, BookmarkKind::reseeded), "Bookmarked: reseeded"},
+      {Swatch::band, bookmark_ink(ui, BookmarkKind::iterations), "Bookmarked: many iterations"},
       {Swatch::band, bookmark_ink(ui, BookmarkKind::force), "Bookmarked: large force"},
       {Swatch::band, bookmark_ink(ui, BookmarkKind::device_fault), "Bookmarked: fault of a device or the gate"}};
-  constexpr const char* kEvents[] = {"Contact moved to another place", "Tracking lost, seeded again", "Unconverged",
+  constexpr const char* kEvents[] = {"Contact moved to another place", "Reseeded: tracking was lost", "Unconverged",
                                      "Fault of a device or the gate"};
   for (std::size_t rank = 0; rank < state.event_inks.size(); ++rank)
     rows.push_back({Swatch::event, state.event_inks[rank], kEvents[rank]});
   rows.push_back({Swatch::change, ui.colours.accent, "A value of the preset changed"});
   rows.push_back({Swatch::line, ui.colours.text_faint, "Error: tolerance"});
   rows.push_back({Swatch::curve, packed(mix(ui.palette.iterations, ui.palette.text, 0.75f)),
-                  "Thin: ghost, the past solved again"});
+                  "Thin line: ghost, the past solved again"});
   return rows;
 }
 

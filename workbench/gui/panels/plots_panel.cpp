@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <sstream>
 
 namespace tangent {
 
 namespace {
 
 constexpr std::size_t at(Channel c) { return static_cast<std::size_t>(c); }
-constexpr std::size_t at(GhostChannel c) { return static_cast<std::size_t>(c); }
 
 /// Column and weight of each plot.
 struct Cell {
@@ -56,17 +56,6 @@ static void collect_marks(const UiContext& ui, const TimeModel& time, PlotsPanel
   state.link.marks = {at(Channel::event), state.event_inks, state.changes, state.flags};
 }
 
-std::string CurveRef::name() const { return plot->series.size() == 1 ? plot->title : plot->title + " " + series->name; }
-std::string CurveRef::with_unit() const { return plot->unit.empty() ? name() : name() + ", " + plot->unit; }
-
-std::vector<CurveRef> curves_of(const PlotsPanel& state) {
-  std::vector<CurveRef> out;
-  for (const PlotView& plot : state.plots) {
-    for (const PlotSeries& series : plot.spec().series) out.push_back({&plot.spec(), &series});
-  }
-  return out;
-}
-
 std::pair<std::uint64_t, std::uint64_t> ticks_in_view(const TimeModel& time) {
   const ChannelStore& store = time.store();
   const auto tick = [&](double t) {
@@ -75,61 +64,18 @@ std::pair<std::uint64_t, std::uint64_t> ticks_in_view(const TimeModel& time) {
   return {tick(time.axis().from()), tick(time.axis().to())};
 }
 
-PlotsPanel make_plots_panel() {
-  PlotsPanel panel;
-  panel.plots.emplace_back(
-      PlotSpec{.id = "force",
-               .title = "Force",
-               .unit = "N",
-               .format = "%7.3f",
-               .series = {{"computed", at(Channel::force_computed), &Palette::force_computed, false, true,
-                           at(GhostChannel::force_computed), "By the solver, before the safety gate"},
-                          {"felt", at(Channel::force_felt), &Palette::force_magnitude, false, true, std::nullopt,
-                           "What the safety gate lets through to the device"},
-                          {"x", at(Channel::force_x), &Palette::force_x, false, true, at(GhostChannel::force_x),
-                           "Of the computed force"},
-                          {"y", at(Channel::force_y), &Palette::force_y, false, true, at(GhostChannel::force_y),
-                           "Of the computed force"},
-                          {"z", at(Channel::force_z), &Palette::force_z, false, true, at(GhostChannel::force_z),
-                           "Of the computed force"}}});
-  panel.plots.emplace_back(PlotSpec{
-      .id = "cld",
-      .title = "Display",
-      .unit = "mm",
-      .scale = 1e3,
-      .format = "%7.3f",
-      .series = {{"commanded", at(Channel::cld_commanded), &Palette::cld_commanded, false, true, at(GhostChannel::cld)},
-                 {"measured", at(Channel::cld_measured), &Palette::cld_measured}}});
-  panel.plots.emplace_back(
-      PlotSpec{.id = "error",
-               .title = "Error",
-               .unit = "\u00b5m",
-               .scale = 1e6,
-               .log = true,
-               .floor = 1e-6,
-               .format = "%-8.3g",
-               .series = {{"error", at(Channel::error), &Palette::error, false, true, at(GhostChannel::error)}}});
-  panel.plots.emplace_back(PlotSpec{.id = "iterations",
-                                    .title = "Iterations",
-                                    .unit = "",
-                                    .counts = true,
-                                    .format = "%-4.0f",
-                                    .series = {{"iterations", at(Channel::iterations), &Palette::iterations, true, true,
-                                                at(GhostChannel::iterations)}}});
-  panel.plots.emplace_back(PlotSpec{.id = "tick_time",
-                                    .title = "Tick time",
-                                    .unit = "\u00b5s",
-                                    .scale = 1e6,
-                                    .format = "%-7.1f",
-                                    .nothing = "simulated time: no clock",
-                                    .series = {{"tick time", at(Channel::tick_time), &Palette::tick_time}}});
-  panel.plots.emplace_back(PlotSpec{.id = "energy",
-                                    .title = "Energy",
-                                    .unit = "mJ",
-                                    .scale = 1e3,
-                                    .format = "%7.3f",
-                                    .series = {{"observed", at(Channel::energy), &Palette::energy}}});
-  return panel;
+/// What the user did to the plots' channels in this frame. The first problem is a message.
+static void change_lists(AppModel& model, PlotLink& link) {
+  PlotLists& lists = model.window().plots();
+  Status done;
+  if (link.removed) done = lists.remove(link.removed->plot, link.removed->channels);
+  if (link.dropped) {
+    std::istringstream keys(link.dropped->channels);
+    for (std::string key; done && std::getline(keys, key);) done = lists.add(link.dropped->plot, key);
+  }
+  if (!done) model.messages().say(Severity::warning, done.error().message());
+  link.removed.reset();
+  link.dropped.reset();
 }
 
 static void draw_time_plots(const UiContext& ui, AppModel& model, PlotsPanel& state, const Rect& rect) {
@@ -149,9 +95,11 @@ static void draw_time_plots(const UiContext& ui, AppModel& model, PlotsPanel& st
     ImGui::SetCursorScreenPos({rect.x + static_cast<float>(cell.column) * column_width, top});
     ImGui::BeginChild(state.plots[cell.plot].spec().id.c_str(), {column_width, h}, false,
                       ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NoNav);
-    const double reference = cell.plot == 2 ? model.presets().current().solver.tolerance_m : std::nan("");
-    state.plots[cell.plot].draw(ui, model.time().store(), model.time().axis(), link, ImGui::GetWindowPos(),
-                                {column_width, h}, last, reference);
+    PlotView& plot = state.plots[cell.plot];
+    const bool of_error = !plot.spec().series.empty() && plot.spec().series.front().key == "error";
+    const double reference = of_error ? model.presets().current().solver.tolerance_m : std::nan("");
+    plot.draw(ui, model.time().store(), model.time().axis(), link, ImGui::GetWindowPos(), {column_width, h}, last,
+              reference);
     ImGui::EndChild();
     top += h;
   }
@@ -180,10 +128,18 @@ void draw_plots_panel(const UiContext& ui, AppModel& model, PlotsPanel& state, c
   const std::shared_ptr<const ChannelStore> ghost = model.time().ghost_channels();
   link.ghost = ghost.get();
   collect_marks(ui, model.time(), state);
+  follow_lists(state, model.window().plots());
+  update_derived(state, model.time());
 
   const float bar = ui.px(24);
   draw_plots_toolbar(ui, model, state, {rect.x, rect.y, rect.w, bar}, rect);
   Rect rest{rect.x, rect.y + bar, rect.w, rect.h - bar};
+  if (state.channels.open && rect.w > ui.px(500)) {
+    const float list = ui.px(230);
+    draw_channels_list(ui, model, state, {rest.x, rest.y, list, rest.h});
+    rest.x += list;
+    rest.w -= list;
+  }
   if (state.values && rect.w > ui.px(700)) {
     const int extra = (state.link.ghost != nullptr) + state.link.a.has_value() + state.link.b.has_value() +
                       (state.link.a && state.link.b);
@@ -193,12 +149,11 @@ void draw_plots_panel(const UiContext& ui, AppModel& model, PlotsPanel& state, c
   }
   if (state.mode == PlotsMode::time)
     draw_time_plots(ui, model, state, rest);
-  else if (state.mode == PlotsMode::derived)
-    draw_derived_plot(ui, model, state, rest);
   else
     draw_other_plot(ui, model, state, rest);
   if (state.legend) draw_plots_legend(ui, state, rest);
   ImGui::End();
+  change_lists(model, link);
   model.time().set_selection(link.a && link.b
                                  ? std::optional(TickRange{std::min(*link.a, *link.b), std::max(*link.a, *link.b)})
                                  : std::nullopt);

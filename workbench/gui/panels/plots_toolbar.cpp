@@ -1,5 +1,6 @@
 // Toolbar above the plots: plot type, follow / hold / inspect, cursors A and B, legend of the ghost, export to CSV and
 // PNG.
+#include "workbench/gui/model/file_origin_of.h"
 #include "workbench/gui/panels/panels.h"
 #include "workbench/gui/panels/save_panel.h"
 #include "workbench/gui/widgets/widgets.h"
@@ -20,13 +21,15 @@ void draw_modes(const UiContext& ui, PlotsPanel& state) {
       {PlotsMode::time, "Time", "Every curve against time"},
       {PlotsMode::xy, "X-Y", "One curve against another, for the ticks in view"},
       {PlotsMode::spectrum, "Spectrum", "Spectrum of a curve: is the loop buzzing?"},
-      {PlotsMode::histogram, "Histogram", "Histogram of a curve's values, for the ticks in view"},
-      {PlotsMode::derived, "Derived", "Difference, derivative, low-pass filter or magnitude of curves, against time"}};
+      {PlotsMode::histogram, "Histogram", "Histogram of a curve's values, for the ticks in view"}};
   for (const Mode& m : kModes) {
     bool on = state.mode == m.mode;
     if (toggle_button(ui, std::string("plots/mode/") + m.name, m.name, on, m.doc)) state.mode = m.mode;
     ImGui::SameLine(0, ui.px(3));
   }
+  toggle_button(ui, "plots/channels", "Channels", state.channels.open,
+                "Every channel, to drag onto a plot, and new ones: difference, derivative, filter, magnitude");
+  ImGui::SameLine(0, ui.px(3));
   toggle_button(ui, "plots/values", "Values", state.values,
                 "Minimum, maximum, mean and RMS of what is in view, values at A and B");
   ImGui::SameLine(0, ui.px(3));
@@ -84,7 +87,7 @@ std::string ghost_text(const TimeModel& time) {
     const auto mean = [from = from, to = to](const ChannelStore& store, std::size_t channel) {
       return store.sums(channel, from, to).mean();
     };
-    return printed("Beside, same motion assumed: the other slot, %.2f planes a tick in view; rendered %.2f",
+    return printed("Beside, same motion assumed: the other slot, %.2f iterations per tick in view; rendered %.2f",
                    mean(*ghost, static_cast<std::size_t>(GhostChannel::iterations)),
                    mean(time.store(), static_cast<std::size_t>(Channel::iterations)));
   }
@@ -111,6 +114,34 @@ void draw_ghost_note(const UiContext& ui, const TimeModel& time, float right) {
   ImGui::SameLine();
 }
 
+/// Instead of the buttons below while a file is written.
+void draw_writing(const UiContext& ui, ExportModel& exports) {
+  if (text_button(ui, "plots/cancel_writing", "Cancel", "Stops writing the file; nothing of it is left"))
+    exports.cancel();
+  ImGui::SameLine(0, ui.px(6));
+  ImGui::AlignTextToFramePadding();
+  ImGui::Text("%s, %.0f s", exports.what().c_str(), exports.seconds());
+}
+
+void draw_exports(const UiContext& ui, AppModel& model, PlotsPanel& state, const Rect& whole) {
+  if (text_button(ui, "plots/csv", "CSV",
+                  "Every recorded tick in view, all channels, as a CSV file; between A and B if both are set")) {
+    const auto [from, to] = ticks_in_view(model.time());
+    const auto& [a, b] = std::pair(state.link.a, state.link.b);
+    const HistorySnapshot& records = model.time().past().shown().records;
+    if (a && b)
+      model.exports().write_ticks(records, std::min(*a, *b), std::max(*a, *b) + 1, file_origin(model));
+    else
+      model.exports().write_ticks(records, from, to, file_origin(model));
+  }
+  ImGui::SameLine(0, ui.px(3));
+  if (text_button(ui, "plots/png", "PNG", "The plots as they are, as a PNG file"))
+    model.exports().ask_for_picture("plots", whole);
+  ImGui::SameLine(0, ui.px(3));
+  if (text_button(ui, "plots/figure", "SVG", "The plots in view as a figure for a paper: SVG or PDF"))
+    ask_to_save(model, SaveWhat::plots);
+}
+
 }  // namespace
 
 void draw_plots_toolbar(const UiContext& ui, AppModel& model, PlotsPanel& state, const Rect& rect, const Rect& whole) {
@@ -125,21 +156,11 @@ void draw_plots_toolbar(const UiContext& ui, AppModel& model, PlotsPanel& state,
   draw_ghost_note(ui, model.time(), out_x);
   if (ImGui::GetCursorScreenPos().x < out_x) {
     ImGui::SetCursorScreenPos({out_x, rect.y + 0.5f * (rect.h - ImGui::GetFrameHeight())});
-    if (text_button(ui, "plots/csv", "CSV",
-                    "Every recorded tick in view, all channels, as a CSV file; between A and B if both are set")) {
-      const auto [from, to] = ticks_in_view(model.time());
-      const auto& [a, b] = std::pair(state.link.a, state.link.b);
-      if (a && b)
-        model.exports().write_ticks(std::min(*a, *b), std::max(*a, *b) + 1);
-      else
-        model.exports().write_ticks(from, to);
+    if (model.exports().writing()) {
+      draw_writing(ui, model.exports());
+    } else {
+      draw_exports(ui, model, state, whole);
     }
-    ImGui::SameLine(0, ui.px(3));
-    if (text_button(ui, "plots/png", "PNG", "The plots as they are, as a PNG file"))
-      model.exports().ask_for_picture("plots", whole);
-    ImGui::SameLine(0, ui.px(3));
-    if (text_button(ui, "plots/figure", "SVG", "The plots in view as a figure for a paper: SVG or PDF"))
-      ask_to_save(model, SaveWhat::plots);
   }
   ImGui::PopStyleVar();
   ImGui::PopFont();

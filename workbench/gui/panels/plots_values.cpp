@@ -3,6 +3,7 @@
 #include "workbench/gui/panels/panels.h"
 #include "workbench/gui/widgets/widgets.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -29,10 +30,11 @@ std::array<Column, kColumns> columns_for(const PlotLink& link) {
 }
 
 /// Values by column.
-std::array<double, kColumns> values_of(const TimeModel& time, const PlotLink& link, const CurveRef& curve,
+std::array<double, kColumns> values_of(const TimeModel& time, const PlotLink& link, const PlotSeries& curve,
                                        std::uint64_t from, std::uint64_t to) {
-  const ChannelStore& store = time.store();
-  const std::size_t channel = curve.series->channel;
+  const ChannelStore& store = curve.store_in(time.store());
+  const ChannelStore* again = curve.ghost_in(link.ghost);
+  const std::size_t channel = curve.channel;
   const double nan = std::nan("");
   const auto at = [&](const std::optional<std::uint64_t>& tick) {
     return tick ? static_cast<double>(store.value(channel, *tick)) : nan;
@@ -41,9 +43,7 @@ std::array<double, kColumns> values_of(const TimeModel& time, const PlotLink& li
   const std::optional<std::uint64_t> now = record != nullptr ? std::optional(record->tick.tick) : std::nullopt;
   const MinMax range = store.min_max(channel, from, to);
   const SampleSums sums = store.sums(channel, from, to);
-  const double ghost = link.ghost != nullptr && curve.series->ghost && now
-                           ? static_cast<double>(link.ghost->value(*curve.series->ghost, *now))
-                           : nan;
+  const double ghost = again != nullptr && now ? static_cast<double>(again->value(curve.ghost.value_or(0), *now)) : nan;
   std::array<double, kColumns> out{at(now),
                                    ghost,
                                    at(link.a),
@@ -53,7 +53,17 @@ std::array<double, kColumns> values_of(const TimeModel& time, const PlotLink& li
                                    range.empty() ? nan : static_cast<double>(range.max),
                                    sums.mean(),
                                    sums.rms()};
-  for (double& v : out) v *= curve.plot->scale;
+  for (double& v : out) v *= curve.scale;
+  return out;
+}
+
+/// Those of the plots, each once.
+std::vector<const PlotSeries*> shown_curves(const PlotsPanel& state) {
+  std::vector<const PlotSeries*> out;
+  for (const PlotView& plot : state.plots)
+    for (const PlotSeries& series : plot.spec().series)
+      if (std::none_of(out.begin(), out.end(), [&](const PlotSeries* s) { return s->key == series.key; }))
+        out.push_back(&series);
   return out;
 }
 
@@ -67,12 +77,16 @@ void draw_values_table(const UiContext& ui, TimeModel& time, PlotsPanel& state, 
   ImFont* font = ui.fonts.small_number;
   ImFont* text = ui.fonts.small;
   const PlotLink& link = state.link;
-  const std::array<Column, kColumns> columns = columns_for(link);
+  std::array<Column, kColumns> columns = columns_for(link);
   std::array<std::size_t, kColumns> place{};
   std::size_t shown = 0;
-  for (std::size_t c = 0; c < kColumns; ++c) place[c] = columns[c].wanted ? shown++ : shown;
-  const float name_width = ui.px(150);
-  const float column = std::min(ui.px(76), (rect.w - ui.px(12) - name_width) / static_cast<float>(shown));
+  // As many of the columns as have room for their numbers.
+  const float name_width = ui.px(150), room = rect.w - ui.px(26) - name_width, least = text_width(font, "-1.23e-06 ");
+  for (std::size_t c = 0; c < kColumns; ++c) {
+    columns[c].wanted = columns[c].wanted && static_cast<float>(shown + 1) * least <= room;
+    place[c] = columns[c].wanted ? shown++ : shown;
+  }
+  const float column = std::min(ui.px(76), room / static_cast<float>(std::max<std::size_t>(1, shown)));
   ImVec2 at = ImGui::GetCursorScreenPos();
   const auto right = [&](ImFont* f, std::size_t c, ImU32 ink, const char* value) {
     if (!columns[c].wanted) return;
@@ -86,16 +100,25 @@ void draw_values_table(const UiContext& ui, TimeModel& time, PlotsPanel& state, 
   draw.AddText(text, text->FontSize, at, ui.colours.text_dim, heading.c_str());
   for (std::size_t c = 0; c < kColumns; ++c) right(text, c, ui.colours.text_dim, columns[c].title);
   at.y += text->FontSize + ui.px(5);
-  for (const CurveRef& curve : curves_of(state)) {
-    const ImU32 ink = packed(ui.palette.*curve.series->colour);
+  for (const PlotSeries* of_plot : shown_curves(state)) {
+    const PlotSeries& curve = *of_plot;
+    const ImU32 ink = packed(ui.palette.*curve.colour);
     draw.AddRectFilled({at.x, at.y + ui.px(2)}, {at.x + ui.px(8), at.y + ui.px(10)}, ink, ui.px(2));
-    draw.AddText(text, text->FontSize, {at.x + ui.px(13), at.y}, ui.colours.text, curve.with_unit().c_str());
+    draw.PushClipRect(at, {at.x + name_width, at.y + 2.0f * text->FontSize}, true);
+    draw.AddText(text, text->FontSize, {at.x + ui.px(13), at.y}, ui.colours.text, with_unit(curve).c_str());
+    draw.PopClipRect();
+    ImGui::SetCursorScreenPos(at);
+    ImGui::InvisibleButton(curve.key.c_str(), {name_width, text->FontSize + ui.px(3)});
+    drag_channels(curve.key, curve.full_name);
+    ui.items.note_last("plots/value/" + curve.key);
+    tooltip(ui, with_unit(curve) + ". Drag: onto a plot");
     const auto values = values_of(time, link, curve, from, to);
     for (std::size_t c = 0; c < values.size(); ++c)
       right(font, c, ui.colours.text, std::isnan(values[c]) ? "\u2013" : printed("%.3g", values[c]).c_str());
     at.y += text->FontSize + ui.px(4);
   }
-  ImGui::Dummy({1.0f, at.y - ImGui::GetCursorScreenPos().y});
+  ImGui::SetCursorScreenPos(at);
+  ImGui::Dummy({1.0f, 1.0f});
   ImGui::EndChild();
   ui.items.note_last("plots/values_table");
 }

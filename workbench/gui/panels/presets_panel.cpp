@@ -4,6 +4,8 @@
 
 #include <imgui_stdlib.h>
 
+#include <algorithm>
+
 namespace tangent {
 
 PresetOrigin origin_of(const AppModel& model, const std::string& note) {
@@ -16,19 +18,56 @@ PresetOrigin origin_of(const AppModel& model, const std::string& note) {
           .note = note};
 }
 
+bool save_preset(AppModel& model, const std::string& name, const std::string& note) {
+  if (!model.presets().save(name, origin_of(model, note))) return false;
+  if (model.evidence().wanted() && model.evidence().can_attach()) model.evidence().attach_selection();
+  return true;
+}
+
 namespace {
+
+/// Beside the name of the file that is loaded: whether it holds.
+void draw_outcome(const UiContext& ui, EvidenceModel& evidence) {
+  const std::string label = evidence.label();
+  if (label.empty()) return;
+  const PresetCheck* check = evidence.result();
+  const Rgba ink = check == nullptr                          ? ui.palette.text_dim
+                   : check->outcome == CheckOutcome::holds   ? ui.palette.good
+                   : check->outcome == CheckOutcome::changed ? ui.palette.bad
+                                                             : ui.palette.warning;
+  ImGui::SameLine(std::max(0.0f, ImGui::GetContentRegionMax().x - ImGui::CalcTextSize(label.c_str()).x));
+  ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(packed(ink)), "%s", label.c_str());
+}
+
+void draw_evidence(const UiContext& ui, AppModel& model) {
+  EvidenceModel& evidence = model.evidence();
+  if (evidence.running()) {
+    if (text_button(ui, "presets/cancel_check", "Cancel", "Stops measuring at once")) evidence.cancel();
+  } else if (text_button(ui, "presets/check", "Check",
+                         "Measures again what the loaded preset says was measured with it")) {
+    evidence.check();
+  }
+  ImGui::SameLine();
+  bool wanted = evidence.wanted();
+  if (toggle_button(ui, "presets/attach", "Attach selection", wanted,
+                    "Saving also keeps the selected ticks (cursors A and B) as evidence: their poses in a file beside "
+                    "the preset, and what the solver measures along them"))
+    evidence.set_wanted(wanted);
+}
 
 void draw_files(const UiContext& ui, AppModel& model) {
   PresetModel& presets = model.presets();
   const std::filesystem::path chosen = presets.editor().path();
   if (ImGui::Selectable("built-in", chosen.empty() && presets.editor().name() == "built-in")) presets.load_built_in();
   ui.items.note_last("presets/built_in");
-  tooltip(ui, "The program's own values, from no file");
+  tooltip(ui, "The values built into the program, from no file");
   const std::vector<PresetEntry> files = presets.files();  // loading one may change the list
   for (const PresetEntry& file : files) {
     if (ImGui::Selectable(file.label.c_str(), file.path == chosen)) presets.load(file.path, model.mesh());
     ui.items.note_last("presets/file/" + file.label);
-    tooltip(ui, "Load " + file.path.string());
+    const PresetCheck* check = file.path == chosen ? model.evidence().result() : nullptr;
+    tooltip(ui, "Load " + file.path.string() + (check != nullptr ? "\nIts evidence " + check_text(*check) : ""));
+    if (file.path == chosen) draw_outcome(ui, model.evidence());
   }
 }
 
@@ -67,19 +106,14 @@ void save(AppModel& model, PresetsPanel& state) {
     state.asked_for = state.name;
     model.messages().say(
         Severity::warning,
-        "a preset \"" + state.name + "\" is there already; press Replace to write over it, or type another name");
+        "a preset \"" + state.name + "\" is there already; press Replace to overwrite it, or type another name");
     return;
   }
   state.asked_for.clear();
-  if (model.presets().save(state.name, origin_of(model, state.note))) state.written = state.name;
+  if (save_preset(model, state.name, model.presets().note_to_save())) state.written = state.name;
 }
 
 void draw_save(const UiContext& ui, AppModel& model, PresetsPanel& state) {
-  const std::string& from = model.presets().editor().path().native();
-  if (state.note_of != from) {
-    state.note_of = from;
-    state.note = model.presets().editor().loaded().about.note;
-  }
   const bool replaces = !state.asked_for.empty() && state.asked_for == state.name;
   const char* const text = replaces ? "Replace" : "Save as";
   const float button = ImGui::CalcTextSize(text).x + 2.0f * ImGui::GetStyle().FramePadding.x;
@@ -94,10 +128,10 @@ void draw_save(const UiContext& ui, AppModel& model, PresetsPanel& state) {
                                    : "Saves the current values in " + model.presets().folder().string();
   const bool pressed = text_button(ui, "presets/save", text, tip.c_str());
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x);
-  ImGui::InputTextWithHint("##preset_note", "note", &state.note);
+  ImGui::InputTextWithHint("##preset_note", "note", &model.presets().note_to_save());
   ui.items.note_last("presets/note");
-  if (auto given = ui.items.take_value("presets/note")) state.note = *given;
-  tooltip(ui, "What to remember about these values; saved with them");
+  if (auto given = ui.items.take_value("presets/note")) model.presets().note_to_save() = *given;
+  tooltip(ui, "A note about these values; saved with them");
   if (enter || pressed) save(model, state);
 }
 
@@ -106,6 +140,7 @@ void draw_save(const UiContext& ui, AppModel& model, PresetsPanel& state) {
 void draw_presets_panel(const UiContext& ui, AppModel& model, PresetsPanel& state) {
   if (!section(ui, "Presets", state.open)) return;
   draw_save(ui, model, state);
+  draw_evidence(ui, model);
   ImGui::Dummy({1, ui.px(1)});
   draw_changes(ui, model.presets());
   ImGui::Dummy({1, ui.px(3)});

@@ -3,23 +3,31 @@
 #include "workbench/gui/model/export_tables.h"
 #include "workbench/gui/model/file_origin_of.h"
 #include "workbench/gui/panels/plot_figure.h"
+#include "workbench/gui/panels/session_view.h"
 #include "workbench/gui/widgets/widgets.h"
 
 #include <imgui_stdlib.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace tangent {
 namespace {
 
-constexpr const char* kTitles[]{"Save plots", "Save map", "Save planes", "Save picture of the scene"};
+constexpr const char* kTitles[]{"Save plots", "Save map", "Save planes", "Save picture of the scene", "Save session"};
 
-Status write(const AppModel& model, const PlotsPanel& plots, SaveWhat what, const std::filesystem::path& file) {
-  if (what == SaveWhat::map) return write_map_table(model, file);
-  if (what == SaveWhat::planes) return write_planes_table(model, file);
-  const Result<Figure> figure = plot_figure(plots, model.time());
+/// By gnuplot, which takes a second or more: in a thread of its own.
+Status draw_plots(AppModel& model, const PlotsPanel& plots, const std::filesystem::path& file) {
+  Result<Figure> figure = plot_figure(plots, model.time());
   if (!figure) return tl::unexpected(figure.error());
-  return write_drawing(*figure, file_origin(model), file);
+  model.exports().start(file.filename().string(),
+                        [figure = std::move(*figure), origin = file_origin(model),
+                         file](const std::stop_token& stop) -> Result<std::string> {
+                          if (Status drawn = write_drawing(figure, origin, file, stop); !drawn)
+                            return tl::unexpected(drawn.error());
+                          return "written to " + file.string();
+                        });
+  return {};
 }
 
 void draw_entries(const UiContext& ui, SaveDialog& dialog, float height) {
@@ -52,13 +60,15 @@ void draw_picture_options(const UiContext& ui, SaveDialog& dialog) {
   ImGui::TextDisabled("px wide");
   ImGui::SameLine(0, ui.px(8));
   toggle_button(ui, "save/transparent", "Transparent", dialog.transparent, "Nothing behind the scene");
+  ImGui::SameLine(0, ui.px(3));
+  toggle_button(ui, "save/overlay", "Labels", dialog.overlay, "With labels, scales, colour bar and display, as shown");
   ImGui::SameLine(0, ui.px(8));
 }
 
 /// Whether it is to be saved now.
 bool draw_contents(const UiContext& ui, SaveDialog& dialog, float height) {
   ImGui::TextUnformatted(kTitles[static_cast<std::size_t>(dialog.what())]);
-  if (text_button(ui, "save/up", "Up", "To the folder that this one is in")) dialog.up();
+  if (text_button(ui, "save/up", "Up", "To the parent folder")) dialog.up();
   ImGui::SameLine(0, ui.px(8));
   ImGui::AlignTextToFramePadding();
   ImGui::TextDisabled("%s", dialog.folder().c_str());
@@ -67,18 +77,18 @@ bool draw_contents(const UiContext& ui, SaveDialog& dialog, float height) {
   ImGui::SetNextItemWidth(-1.0f);
   const bool enter = ImGui::InputText("##save_name", &dialog.name, ImGuiInputTextFlags_EnterReturnsTrue);
   ui.items.note_last("save/name");
-  tooltip(ui, "A name, or a path from here, from / or from ~; a folder is gone to");
+  tooltip(ui, "A name, or a path relative to this folder or from / or ~. The path of a folder opens it");
   const bool replaces = dialog.asks_to_replace();
-  const std::string said = replaces ? "It is there already: Replace writes over it" : dialog.problem();
+  const std::string said = replaces ? "This file exists; Replace overwrites it" : dialog.problem();
   ImGui::PushStyleColor(ImGuiCol_Text, replaces ? ui.colours.warning : ui.colours.bad);
   ImGui::TextUnformatted(said.c_str());
   ImGui::PopStyleColor();
   draw_endings(ui, dialog);
   if (dialog.what() == SaveWhat::scene) draw_picture_options(ui, dialog);
   const bool pressed = text_button(ui, "save/accept", replaces ? "Replace" : "Save",
-                                   replaces ? "Writes over the file of this name" : "Writes the file");
+                                   replaces ? "Overwrites the file of this name" : "Saves the file");
   ImGui::SameLine(0, ui.px(8));
-  if (text_button(ui, "save/cancel", "Cancel", "Writes nothing (Esc)")) dialog.close();
+  if (text_button(ui, "save/cancel", "Cancel", "Closes without saving (Esc)")) dialog.close();
   return enter || pressed;
 }
 
@@ -86,20 +96,25 @@ bool draw_contents(const UiContext& ui, SaveDialog& dialog, float height) {
 
 void save_file(AppModel& model, const PlotsPanel& plots, SaveWhat what, const std::filesystem::path& file) {
   if (what == SaveWhat::scene)  // by the panel that has the renderer, in the next frame
-    return model.exports().ask_for_scene(
-        {file, model.exports().dialog().width_px, model.exports().dialog().transparent});
-  if (const Status written = write(model, plots, what, file); !written)
+    return model.exports().ask_for_scene({file, model.exports().dialog().width_px, model.exports().dialog().transparent,
+                                          model.exports().dialog().overlay});
+  const Status written = what == SaveWhat::map       ? write_map_table(model, file)
+                         : what == SaveWhat::planes  ? write_planes_table(model, file)
+                         : what == SaveWhat::session ? save_session(model, plots, file)
+                                                     : draw_plots(model, plots, file);
+  if (!written)
     model.messages().say(Severity::error, written.error().message());
-  else
+  else if (what != SaveWhat::plots)
     model.messages().say(Severity::note, "written to " + file.string());
 }
 
 void ask_to_save(AppModel& model, SaveWhat what) {
-  constexpr const char* kNames[]{"plots", "map", "planes", "scene"};
+  constexpr const char* kNames[]{"plots", "map", "planes", "scene", "workbench"};
   const std::filesystem::path& folder = model.exports().folder();
   std::vector<std::string> endings{".csv"};
   if (what == SaveWhat::plots) endings = {".svg", ".pdf"};
   if (what == SaveWhat::scene) endings = {".png"};
+  if (what == SaveWhat::session) endings = {kSessionEnding};
   model.exports().dialog().ask(what, folder, kNames[static_cast<std::size_t>(what)], std::move(endings));
 }
 

@@ -75,7 +75,7 @@ Status ScriptRunner::run_next(AppModel& model, MenuBar& menu) {
     if (!menu.wish.script.empty() || !menu.wish.lines.empty())
       return ended({"a script can't run another", {}, "copy its lines in here"});
     if (menu.wish.ticks > 0 && !model.deterministic()) {
-      until_tick_ = model.time().end_tick() + menu.wish.ticks;
+      until_tick_ = model.time().newest_recorded() + menu.wish.ticks;
       menu.wish.ticks = 0;
     }
     return {};
@@ -92,10 +92,12 @@ bool ScriptRunner::busy(AppModel& model, MenuBar& menu, const ItemMap& items) {
     return true;
   }
   const bool work =
-      menu.wish.work && (model.map().running() || model.scene().auditing() || model.time().time_machine().busy());
-  if (work || model.now_s() < menu.wish.until_s || model.scene().loading() || model.exports().writing() ||
-      model.exports().picture_wanted() || !menu.wish.widget.empty() || !items.wanted().empty() ||
-      (model.devices().session() != nullptr && model.time().end_tick() < until_tick_)) {
+      menu.wish.work && (model.map().running() || model.scene().auditing() || model.time().time_machine().busy() ||
+                         model.tuning().search().running() || model.tuning().sweep().running());
+  if (work || model.now_s() < menu.wish.until_s || model.scene().loading() || model.recordings().opening() ||
+      model.exports().writing() || model.exports().picture_wanted() || !menu.wish.widget.empty() ||
+      !items.wanted().empty() ||
+      (model.devices().session() != nullptr && model.time().newest_recorded() < until_tick_)) {
     settling_ = kSettlingFrames;
     return true;
   }

@@ -72,6 +72,7 @@ void handle_shortcuts(AppModel& model, MenuBar& menu, bool arrows) {
   if (letter('K')) model.time().add_bookmark();
   if (letter('[', true)) model.time().go_to_bookmark(-1);
   if (letter(']', true)) model.time().go_to_bookmark(1);
+  if (letter('R')) model.record().recording() ? model.record().stop() : model.record().start();
   if (letter('F')) model.view().frame_scene();
   if (letter('M')) model.devices().set_hand_follows_mouse(!model.devices().hand_follows_mouse());
   // It has stopped the force already (App::frame).

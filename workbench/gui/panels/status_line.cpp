@@ -79,7 +79,7 @@ void draw_status_line(const UiContext& ui, AppModel& model, const Rect& rect, do
              servo.rate_hz > 0.0 ? printed("%7.1f Hz", servo.rate_hz)
              : servo.running     ? "   ... Hz"
                                  : "   off",
-             11, plain, "Ticks a second, measured");
+             11, plain, "Ticks per second, measured");
   const SessionStatus& session = model.devices().status();
   if (session.real_devices && servo.running && !servo.realtime.fifo)
     values.put("realtime", "No real-time scheduling", "", 0, warn, session.realtime_remedy.c_str());
@@ -87,14 +87,14 @@ void draw_status_line(const UiContext& ui, AppModel& model, const Rect& rect, do
       servo.ticks > 0 ? static_cast<double>(servo.late_ticks) / static_cast<double>(servo.ticks) : 0.0;
   values.put("late", "Late", printed("%s (%.2f %%)", integer(servo.late_ticks).c_str(), 100.0 * late_share), 16,
              late_share > 0.01 ? warn : plain, "Ticks that started after missing at least one deadline");
-  values.put("drops", "Dropped records", integer(servo.gui_drops), 7, servo.gui_drops > 0 ? warn : plain,
-             "Ticks the window did not receive because its ring was full");
+  values.put("drops", "Lost ticks", integer(servo.gui_drops), 7, servo.gui_drops > 0 ? warn : plain,
+             "Ticks that the window did not receive because its buffer was full");
   values.put("p99", "Tick p99", time(servo.tick_p99_ns, 6), 10, plain, "99 of 100 ticks took no longer");
   values.put("worst", "worst", time(servo.tick_worst_ns, 7), 11, plain, "The longest tick so far");
   const double kept_s =
       static_cast<double>(model.time().end_tick() - model.time().first_tick()) * model.time().tick_period_s();
   const double mib = 1.0 / (1024.0 * 1024.0);
-  values.put("history", "History", printed("%5.1f s", kept_s), 8, plain, "How far back one can scrub");
+  values.put("history", "History", printed("%5.1f s", kept_s), 8, plain, "How far back you can scrub");
   values.put(
       "memory", "in",
       printed("%3.0f of %.0f MiB",

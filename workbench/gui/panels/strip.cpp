@@ -51,7 +51,7 @@ std::optional<std::size_t> draw_strip(const UiContext& ui, const char* name, con
     const bool fault = buttons[i].fault;
     if (fault) {
       ImGui::PushStyleColor(ImGuiCol_Button, ui.colours.bad);
-      ImGui::PushStyleColor(ImGuiCol_Text, IM_COL32_WHITE);
+      ImGui::PushStyleColor(ImGuiCol_Text, ui.colours.on_bad);
     } else if (i == 0) {
       ImGui::PushStyleColor(ImGuiCol_Button, ui.colours.accent_soft);
     }

@@ -78,7 +78,7 @@ void draw_start(const UiContext& ui, AppModel& model) {
     tuning.start_sweep();
   if (tuning.points().empty()) return;
   ImGui::SameLine(0, ui.px(4));
-  if (text_button(ui, "sweep/clear", "Clear", "Forgets the points")) tuning.clear_points();
+  if (text_button(ui, "sweep/clear", "Clear", "Deletes the points")) tuning.clear_points();
 }
 
 }  // namespace

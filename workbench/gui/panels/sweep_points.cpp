@@ -28,7 +28,7 @@ std::string point_text(const TuningModel& tuning, const TuningModel::Point& poin
     text += std::string(axis.key->label) + " " + display_with_unit(*axis.key, point.point.values[v++]) + "\n";
   }
   const RunNumbers& n = point.point.numbers;
-  return text + printed("mean %.3f planes, p99 %d, most %d\n%llu of %llu ticks failed", n.mean_iterations,
+  return text + printed("mean %.3f iterations, p99 %d, most %d\n%llu of %llu ticks failed", n.mean_iterations,
                         n.p99_iterations, n.most_iterations, static_cast<unsigned long long>(n.unconverged),
                         static_cast<unsigned long long>(n.ticks));
 }
@@ -188,7 +188,7 @@ void draw_legend(const UiContext& ui, const SweepArea& area) {
     x += ui.fonts.small->CalcTextSizeA(ui.fonts.small->FontSize, 1e9f, 0.0f, words).x + ui.px(20);
   };
   draw.AddCircleFilled({x, y}, ui.px(3.4f), packed(ui.palette.iterations), 16);
-  text("mean planes");
+  text("mean iterations");
   draw.AddCircle({x, y}, ui.px(3), ui.colours.text_dim, 14, ui.px(1.2f));
   text("p99");
   draw.AddRectFilled({x - ui.px(2.5f), y - ui.px(4)}, {x + ui.px(2.5f), y + ui.px(4)},

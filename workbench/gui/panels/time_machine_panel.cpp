@@ -36,7 +36,7 @@ std::vector<ComparedRow> compared_rows(const PresetsCompared& both) {
       {"Unconverged", count_text(was.unconverged), count_text(is.unconverged),
        sign_of(static_cast<double>(was.unconverged), static_cast<double>(is.unconverged))}};
   if (both.before_ns > 0.0 && both.after_ns > 0.0)
-    rows.push_back({"Time a tick, ns", printed("%.0f", both.before_ns), printed("%.0f", both.after_ns),
+    rows.push_back({"Time per tick, ns", printed("%.0f", both.before_ns), printed("%.0f", both.after_ns),
                     sign_of(both.before_ns, both.after_ns)});
   return rows;
 }
@@ -124,16 +124,19 @@ void draw_state(const UiContext& ui, const TimeModel& time) {
   const TimeMachine& machine = time.time_machine();
   const auto verified = machine.verified();
   const std::size_t ticks = machine.run()->records.size();
-  fact(ui, time.past().shows_kept() ? "Kept around a mark" : "Frozen past",
+  fact(ui,
+       time.recording() != nullptr ? "Loaded of the recording"
+       : time.past().shows_kept()  ? "Kept around bookmarks"
+                                   : "Frozen past",
        printed("%.1f", static_cast<double>(ticks) * time.tick_period_s()), "s");
-  tooltip(ui, "Stays as it is, and solvable, until the view goes back to live");
+  tooltip(ui, "Can still be solved again, until the view goes back to live");
   fact(ui, "Memory beyond the history", printed("%.1f", static_cast<double>(time.frozen_bytes()) / (1024.0 * 1024.0)),
        "MiB");
   ui.items.note_last("time_machine/memory");
   if (!verified)
     fact(ui, "Replay", "checking ...");
   else if (verified->numbers.different_ticks == 0)
-    fact(ui, "Replay", "same bits in every tick", "", ui.colours.good);
+    fact(ui, "Replay", "the same bits in every tick", "", ui.colours.good);
   else
     fact(ui, "Replay", count_text(verified->numbers.different_ticks) + " ticks differ", "", ui.colours.bad);
   tooltip(ui, "Every tick solved again with the values it was recorded with");
@@ -142,7 +145,7 @@ void draw_state(const UiContext& ui, const TimeModel& time) {
 /// The selected ticks are kept, but in no view: a way to them.
 void draw_way_to_selection(const UiContext& ui, TimeModel& time) {
   if (!time.selection_kept() || time.past().shown().covers(time.selection()->from)) return;
-  if (text_button(ui, "time_machine/selection", "Go to A to B",
+  if (text_button(ui, "time_machine/selection", "Show A to B",
                   "The history has dropped these ticks; they are kept while the cursors are set"))
     time.select_tick(time.selection()->from);
 }
@@ -166,8 +169,8 @@ void draw_time_machine_panel(const UiContext& ui, TimeModel& time, FoldedPanel& 
   draw_state(ui, time);
   const auto ghost = time.ghost();
   if (!ghost) {
-    if (text_button(ui, "time_machine/solve", "Solve the past with the present values",
-                    "Changing any value does this by itself"))
+    if (text_button(ui, "time_machine/solve", "Solve the past with the current values",
+                    "Changing any value does this automatically"))
       time.solve_past_again();
     ImGui::Dummy({1, ui.px(3)});
     return;

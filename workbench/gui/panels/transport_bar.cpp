@@ -13,22 +13,33 @@ std::string memory_text(std::size_t bytes) {
   return printed("%.1f MiB", static_cast<double>(bytes) / (1024.0 * 1024.0));
 }
 
-/// While paused: an outline, and in words how far the servo has gone on where the past no longer grows.
-void draw_freeze(const UiContext& ui, const TimeModel& time, ImVec2 min, ImVec2 max) {
-  if (!time.paused()) return;
+void draw_strip_text(const UiContext& ui, const std::string& text, ImVec2 min, ImVec2 max) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  draw.AddRect(min, max, ui.colours.accent, ui.px(3), 0, ui.px(1));
-  const double ahead_s =
-      (static_cast<double>(time.newest_recorded()) - static_cast<double>(time.end_tick() - 1)) * time.tick_period_s();
-  const std::string kept = time.past().shows_kept() ? "kept around a mark" : "frozen";
-  if (!(ahead_s > 0.5) && !time.past().shows_kept()) return;
-  const std::string text = printed("%s; live is %.0f s ahead", kept.c_str(), ahead_s);
   const ImVec2 size = ui.fonts.small->CalcTextSizeA(ui.fonts.small->FontSize, 1e9f, 0.0f, text.c_str());
   const ImVec2 at{max.x - size.x - ui.px(8), min.y + 0.5f * (max.y - min.y - size.y)};
   draw.AddRectFilled({at.x - ui.px(4), min.y + ui.px(2)}, {max.x - ui.px(2), max.y - ui.px(2)},
                      packed(with_alpha(ui.palette.panel, 0.85f)), ui.px(2));
   draw.AddText(ui.fonts.small, ui.fonts.small->FontSize, at, ui.colours.text, text.c_str());
   ui.items.note("transport/frozen", at, {at.x + size.x, at.y + size.y});
+}
+
+/// While paused: an outline, and in words how far the servo has gone on where the past no longer grows.
+void draw_freeze(const UiContext& ui, const TimeModel& time, ImVec2 min, ImVec2 max) {
+  if (!time.paused()) return;
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  draw.AddRect(min, max, ui.colours.accent, ui.px(3), 0, ui.px(1));
+  if (const OpenedRecording* recording = time.recording()) {
+    const std::string text = "recording " + recording->path().filename().string() +
+                             (recording->info().closed ? "" : ", cut short") +
+                             (recording->loading() ? ", loading" : "");
+    return draw_strip_text(ui, text, min, max);
+  }
+  const double ahead_s =
+      (static_cast<double>(time.newest_recorded()) - static_cast<double>(time.end_tick() - 1)) * time.tick_period_s();
+  const std::string kept = time.past().shows_kept() ? "kept around a bookmark" : "frozen";
+  if (!(ahead_s > 0.5) && !time.past().shows_kept()) return;
+  const std::string text = printed("%s; live is %.0f s ahead", kept.c_str(), ahead_s);
+  draw_strip_text(ui, text, min, max);
 }
 
 /// Draws the whole history and the plots' range; bars show iterations, so that unconverged or slow ticks stand out.
@@ -38,7 +49,9 @@ void draw_strip(const UiContext& ui, TimeModel& time, float width) {
   if (width < ui.px(40)) return;
   ImGui::InvisibleButton("##strip", {width, height});
   ui.items.note_last("transport/strip");
-  tooltip(ui, time.paused()
+  tooltip(ui, time.recording() != nullptr
+                  ? std::string("The whole recording; the lit part is what the plots show. Drag to scrub")
+              : time.paused()
                   ? "Frozen: every tick here stays and can be solved again while the view is paused. Beyond the "
                     "history it takes " +
                         memory_text(time.frozen_bytes()) + ". Drag to scrub"
@@ -102,7 +115,10 @@ void draw_tick_buttons(const UiContext& ui, TimeModel& time, bool any) {
     time.step_tick(-1);
   ImGui::SameLine(0, ui.px(3));
   if (icon_button(ui, "transport/pause", paused ? Icon::play : Icon::pause,
-                  paused ? "Back to live (Space)" : "Freeze the view (Space). The servo goes on", paused, any))
+                  time.recording() != nullptr ? "A recording is open: End closes it"
+                  : paused                    ? "Back to live (Space)"
+                                              : "Freeze the view (Space). The servo goes on",
+                  paused, any))
     time.set_paused(!paused);
   ImGui::SameLine(0, ui.px(3));
   if (icon_button(ui, "transport/step_forward", Icon::step_forward, "One tick on (Right; Shift: ten)", false, any))
@@ -143,6 +159,14 @@ void draw_bookmark_buttons(const UiContext& ui, TimeModel& time, bool any) {
     time.go_to_bookmark(1);
 }
 
+void draw_record_button(const UiContext& ui, RecordModel& record) {
+  if (icon_button(ui, "transport/record", Icon::record,
+                  record.recording() ? "Stops recording (R)"
+                                     : "Records every tick from now on, into a new file (R). More in the tab record",
+                  record.recording()))
+    record.recording() ? record.stop() : record.start();
+}
+
 void draw_captions(const UiContext& ui, const ServoRecord* record) {
   const auto caption = [&](const char* label, const std::string& value, float characters) {
     ImGui::TextDisabled("%s", label);
@@ -150,6 +174,7 @@ void draw_captions(const UiContext& ui, const ServoRecord* record) {
     const float x = ImGui::GetCursorPosX();
     ImGui::PushFont(ui.fonts.number);
     const float digit = ImGui::CalcTextSize("0").x;
+    characters = std::max(characters, static_cast<float>(value.size()));  // hours of a recording
     ImGui::SetCursorPosX(x + characters * digit - ImGui::CalcTextSize(value.c_str()).x);
     ImGui::TextUnformatted(value.c_str());
     ImGui::PopFont();
@@ -161,7 +186,8 @@ void draw_captions(const UiContext& ui, const ServoRecord* record) {
 
 }  // namespace
 
-void draw_transport_bar(const UiContext& ui, TimeModel& time, const Rect& rect) {
+void draw_transport_bar(const UiContext& ui, AppModel& model, const Rect& rect) {
+  TimeModel& time = model.time();
   ImGui::SetNextWindowPos({rect.x, rect.y});
   ImGui::SetNextWindowSize({rect.w, rect.h});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(ui.px(8), 0));
@@ -177,6 +203,8 @@ void draw_transport_bar(const UiContext& ui, TimeModel& time, const Rect& rect) 
   draw_iteration_buttons(ui, time, any);
   ImGui::SameLine(0, ui.px(14));
   draw_bookmark_buttons(ui, time, any);
+  ImGui::SameLine(0, ui.px(14));
+  draw_record_button(ui, model.record());
   ImGui::SameLine(0, ui.px(14));
   ImGui::AlignTextToFramePadding();
   draw_captions(ui, time.placed() != nullptr ? nullptr : time.tick().record());

@@ -8,8 +8,8 @@ namespace tangent {
 
 void draw_unsaved_offer(const UiContext& ui, UnsavedModel& unsaved, const Rect& over) {
   constexpr std::array<StripButton, 2> kAnswers{
-      {{"unsaved/take_up", "Take up", "Both presets with their undo, and the bookmarks. It arms nothing"},
-       {"unsaved/discard", "Discard", "It is deleted"}}};
+      {{"unsaved/take_up", "Restore", "Both presets with their undo steps, and the bookmarks. Nothing is armed by it"},
+       {"unsaved/discard", "Discard", "Deletes it"}}};
   const std::string text = unsaved.offer();
   if (text.empty()) return;
   const auto answer = draw_strip(ui, "##unsaved", over, StripPlace::upper_edge, text, kAnswers);

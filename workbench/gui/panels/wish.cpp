@@ -15,9 +15,12 @@ struct Place {
   const char* section;
 };
 constexpr std::array kRight{Place{"iterations", "Iterations"},
+                            Place{"why", "Why this tick"},
                             Place{"time_machine", "Time machine"},
                             Place{"sweep", "Sweep"},
+                            Place{"recording", "Recording"},
                             Place{"bookmarks", "Bookmarks"},
+                            Place{"recordings", "Compare recordings"},
                             Place{"map", "Map"},
                             Place{"perception", "Smoothness as felt"},
                             Place{"inspect", "Inspect"},

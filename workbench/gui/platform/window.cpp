@@ -2,6 +2,7 @@
 
 #include "workbench/gui/model/app_model.h"
 #include "workbench/gui/model/file_origin_of.h"
+#include "workbench/gui/platform/frame_times.h"
 #include "workbench/gui/platform/input_queue.h"
 #include "workbench/gui/platform/save_picture.h"
 #include "workbench/gui/platform/ui_drawing.h"
@@ -17,6 +18,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <cstdlib>
 #include <memory>
 #include <string>
@@ -128,7 +130,8 @@ FrameInput frame_input(GLFWwindow* window, double dt_s, std::vector<std::string>
   return input;
 }
 
-void draw_frame(GLFWwindow* window, App& app, const FrameInput& input, InputQueue& events, UiDrawing& drawing) {
+/// Whether it was another one than the last, and so drawn.
+bool draw_frame(GLFWwindow* window, App& app, const FrameInput& input, InputQueue& events, UiDrawing& drawing) {
   if (app.prepare(input)) {
     ImGui_ImplOpenGL3_DestroyFontsTexture();
     ImGui_ImplOpenGL3_CreateFontsTexture();
@@ -144,7 +147,7 @@ void draw_frame(GLFWwindow* window, App& app, const FrameInput& input, InputQueu
   const auto file = app.take_screenshot_request();
   const auto request = app.model().exports().take_picture_request();
   // What is in the window already is not drawn again.
-  if (!drawing.changed(*ImGui::GetDrawData(), app.picture_version()) && !file && !request) return;
+  if (!drawing.changed(*ImGui::GetDrawData(), app.picture_version()) && !file && !request) return false;
   glViewport(0, 0, width_px, height_px);
   UiDrawing::draw(*ImGui::GetDrawData(), app.ground());
   if (file) {
@@ -160,6 +163,7 @@ void draw_frame(GLFWwindow* window, App& app, const FrameInput& input, InputQueu
                  static_cast<double>(ImGui::GetIO().DisplayFramebufferScale.x));
   }
   glfwSwapBuffers(window);
+  return true;
 }
 
 class FrameLoop {
@@ -178,14 +182,19 @@ class FrameLoop {
     while (!glfwWindowShouldClose(window_) && !app_.wants_close() && !(should_stop && should_stop())) {
       wait_for_work(last);
       const double now = glfwGetTime();
+      times_.begin();
+      const bool events = events_.waiting();
       check_shaders(now);
       FrameInput input = frame_input(window_, now - last, std::exchange(dropped_, {}));
       input.last_frame_ms = last_frame_ms_;
-      draw_frame(window_, app_, input, events_, drawing_);
+      const bool drawn = draw_frame(window_, app_, input, events_, drawing_);
+      times_.end(events, drawn);
       last_frame_ms_ = 1e3 * (glfwGetTime() - now);
       if (std::string title = app_.title(); title != title_) glfwSetWindowTitle(window_, (title_ = title).c_str());
       last = now;
     }
+    if (const Status written = times_.write(); !written)
+      std::fprintf(stderr, "%s\n", written.error().message().c_str());
   }
 
  private:
@@ -257,6 +266,7 @@ class FrameLoop {
   InputQueue events_;
   std::string title_, shader_error_;
   UiDrawing drawing_;
+  FrameTimes times_;
   double next_shader_check_ = 0.0;
   double last_frame_ms_ = 0.0;
   int settling_ = kSettlingFrames;

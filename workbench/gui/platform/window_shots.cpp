@@ -10,6 +10,7 @@
 #include "workbench/gui/platform/save_picture.h"
 #include "workbench/gui/render/scene_renderer.h"
 #include "workbench/session/own_folder.h"
+#include "workbench/session/window_settings.h"
 
 #include <imgui.h>
 
@@ -147,10 +148,10 @@ void tune_paper(AppModel& model) {
 /// Pauses and lowers the gain: the recorded past, and the ghost under the new gain.
 void drag_gain_of_the_past(AppModel& model) {
   fold_but(model, "Time machine");
-  look_from_contact_side(model);
   model.time().set_paused(true);
   const std::uint64_t end = model.time().end_tick();
   model.time().select_tick(end > 2600 ? end - 2600 : 0);
+  look_from_contact_side(model);
   model.time().add_bookmark();
   model.time().bookmarks().set_note(model.time().bookmarks().all().front().id, "over the inner side");
   model.time().axis().show(static_cast<double>(end) - 4000.0, static_cast<double>(end));
@@ -175,6 +176,13 @@ void solve_at_worst(AppModel& model) {
   model.view().camera.distance_m =
       std::max(12.0 * glm::length(points.size()), 0.02 * model.view().camera.scene_radius_m);
   model.window().open_sections()["Iterations"] = true;
+}
+
+/// The busiest tick, why it was, and the past with the cure beside it.
+void explain_busiest_tick(AppModel& model) {
+  fold_but(model, "Why this tick");
+  look_at_busiest_tick(model);
+  if (model.why().of_tick_in_view() != nullptr) model.why().try_cure();
 }
 
 void map_with_paper(AppModel& model) {
@@ -326,7 +334,7 @@ constexpr WindowView kViews[] = {
      show_facet_angles, look_from_contact_side},
     {"planar", "a 2D scene: polygon, smooth curve, patches, and the tangent lines of a tick", Theme::dark, open_outline,
      look_at_busiest_planar_tick},
-    {"map-gain-margin", "map: stability margin of the paper's iteration with the present gains", Theme::dark,
+    {"map-gain-margin", "map: stability margin of the paper's iteration with the current gains", Theme::dark,
      show_paper_map<MapQuantity::gain_margin>, look_from_contact_side},
     {"time-machine", "the past solved again with a smaller gain, drawn beside what was recorded", Theme::dark,
      tune_paper, drag_gain_of_the_past},
@@ -334,6 +342,8 @@ constexpr WindowView kViews[] = {
      solve_with_paper, compare_busiest_tick},
     {"solve-here", "a tick at the map's worst place, in its worst direction, under two gains", Theme::light,
      map_with_paper, solve_at_worst},
+    {"why", "why a tick took many planes, with the value that cures it tried on the recorded ticks", Theme::dark,
+     solve_with_paper, explain_busiest_tick},
     {"sweep", "a sweep of the curvature gain over the recorded ticks", Theme::dark, tune_paper, sweep_gain},
     {"sweep-two", "a sweep of two gains", Theme::light, tune_paper, sweep_two_gains},
     {"inspect", "mesh inspection: a defect found, marked and listed", Theme::dark, inspect, look_at_first_finding},
@@ -399,6 +409,8 @@ AppOptions app_options(const ShotRequest& request, const WindowView& view) {
   options.preset = request.preset;
   options.theme = request.theme.value_or(view.theme);
   options.deterministic = true;
+  // What a script saves goes where the window puts it, not among the shipped ones.
+  if (!request.script.empty()) options.preset_folder = user_presets_path();
   return options;
 }
 

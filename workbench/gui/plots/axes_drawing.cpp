@@ -1,6 +1,7 @@
 #include "workbench/gui/plots/axes_drawing.h"
 
 #include "workbench/gui/plots/tick_locator.h"
+#include "workbench/gui/widgets/widgets.h"
 
 #include <algorithm>
 #include <cmath>
@@ -59,7 +60,8 @@ void draw_axes(const UiContext& ui, const PlainPlot& plot) {
             tick.label.c_str());
   }
   text_at(draw, ui.fonts.small, {unit_from, area.max.y + ui.px(3)}, ui.colours.text_dim, plot.x.label.c_str());
-  text_at(draw, ui.fonts.small, {area.min.x, area.pos.y + ui.px(3)}, ui.colours.text, plot.y.label.c_str());
+  const std::string title = fitted(ui.fonts.small, plot.y.label, area.width());
+  text_at(draw, ui.fonts.small, {area.min.x, area.pos.y + ui.px(3)}, ui.colours.text, title.c_str());
 }
 
 }  // namespace tangent

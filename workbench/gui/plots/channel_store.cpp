@@ -80,6 +80,12 @@ std::size_t ChannelStore::memory_bytes() const {
   return bytes;
 }
 
+void ChannelStore::set_coarse(Coarse coarse) {
+  assert(coarse.blocks == nullptr || (coarse.blocks->channels() == 2 * channels_ && coarse.ticks > 0));
+  coarse_ = std::move(coarse);
+  generation_ = next_generation();
+}
+
 void ChannelStore::clear() {
   first_ = end_ = 0;
   generation_ = next_generation();
@@ -87,8 +93,8 @@ void ChannelStore::clear() {
 
 void ChannelStore::push(std::uint64_t tick, std::span<const float> values) {
   assert(values.size() == channels_);
-  if (!empty() && (tick < end_ || tick - end_ >= capacity_)) clear();
-  if (empty()) first_ = end_ = tick;
+  if (first_ != end_ && (tick < end_ || tick - end_ >= capacity_)) clear();
+  if (first_ == end_) first_ = end_ = tick;
   while (end_ < tick) put(end_, gap_);
   put(tick, values);
   if (end_ - first_ > capacity_) first_ = end_ - capacity_;
@@ -191,6 +197,25 @@ void ChannelStore::visit_blocks(std::uint64_t from, std::uint64_t to, Visit visi
 }
 
 MinMax ChannelStore::min_max(std::size_t channel, std::uint64_t from, std::uint64_t to) const {
+  if (!reaches_beyond(from, to)) return kept_min_max(channel, from, to);
+  MinMax range = kept_min_max(channel, std::max(from, first_), std::max(first_, std::min(to, end_)));
+  const bool any = first_ < end_;
+  include_coarse(channel, from, any ? std::min(to, first_) : to, range);
+  if (any) include_coarse(channel, std::max(from, end_), to, range);
+  return range;
+}
+
+void ChannelStore::include_coarse(std::size_t channel, std::uint64_t from, std::uint64_t to, MinMax& range) const {
+  from = std::max(from, coarse_.first);
+  to = std::min(to, coarse_.end);
+  if (from >= to) return;
+  const std::uint64_t first = from / coarse_.ticks, end = (to - 1) / coarse_.ticks + 1;
+  const MinMax least = coarse_.blocks->min_max(2 * channel, first, end);
+  const MinMax most = coarse_.blocks->min_max(2 * channel + 1, first, end);
+  range.include(MinMax{least.min, most.max});
+}
+
+MinMax ChannelStore::kept_min_max(std::size_t channel, std::uint64_t from, std::uint64_t to) const {
   MinMax range;
   // Short ranges (zoomed in) are read sample by sample: finding blocks would take longer.
   constexpr std::uint64_t few = 16;
@@ -210,6 +235,10 @@ MinMax ChannelStore::min_max(std::size_t channel, std::uint64_t from, std::uint6
 // The reads of a row are adjacent on one level, and every range has the same number of blocks.
 void ChannelStore::min_max_row(std::size_t channel, std::uint64_t from, std::uint64_t ticks,
                                std::span<MinMax> out) const {
+  if (reaches_beyond(from, from + ticks * out.size())) {
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] = min_max(channel, from + i * ticks, from + (i + 1) * ticks);
+    return;
+  }
   std::size_t level = 0;
   const auto aligned = [&](std::size_t of) { return ((from | ticks) & ((std::uint64_t{1} << shift_of(of)) - 1)) == 0; };
   while (level < kLevels && aligned(level + 1)) ++level;
@@ -235,6 +264,7 @@ void ChannelStore::min_max_row(std::size_t channel, std::uint64_t from, std::uin
 
 SampleSums ChannelStore::sums(std::size_t channel, std::uint64_t from, std::uint64_t to) const {
   SampleSums total;
+  if (reaches_beyond(std::max(from, first_tick()), std::min(to, end_tick()))) return total;
   visit_blocks(from, to, [&](std::size_t level, std::size_t at, std::size_t count) {
     if (level < kFirstSumLevel) {
       const float* sample = samples_.get() + channel * capacity_ + (at << shift_of(level));

@@ -4,6 +4,9 @@
 // pixels takes about a dozen reads for any number of ticks, and a spike of one sample is visible at every zoom. Blocks
 // of 64 ticks and more also store sums and sums of squares, for the mean and RMS of any range. Missing ticks are gaps:
 // NaN. Not thread-safe.
+//
+// A recording of hours is a store that keeps the ticks around those in view, and knows all others coarsely: minima and
+// maxima of blocks of ticks (set_coarse).
 #pragma once
 
 #include <cmath>
@@ -74,20 +77,34 @@ class ChannelStore {
   /// push. Keeps the newest capacity() ticks.
   void assign(std::uint64_t first, std::span<const float> rows);
 
-  bool empty() const { return first_ == end_; }
+  /// Ticks known coarsely, `first` to `end` - 1, among them those kept. The channels 2c and 2c + 1 of `blocks` are the
+  /// least and the largest value of channel c, and its ticks are blocks: n holds the ticks n * ticks to (n + 1) *
+  /// ticks.
+  struct Coarse {
+    std::shared_ptr<const ChannelStore> blocks;
+    std::uint64_t ticks = 1, first = 0, end = 0;
+  };
+  /// For ranges that reach beyond the ticks kept; they are rounded out to whole blocks there. Values and sums are known
+  /// of kept ticks alone. Null blocks: none.
+  void set_coarse(Coarse coarse);
+
+  bool empty() const { return first_tick() == end_tick(); }
   /// Identifies the contents, uniquely over all stores. While it is unchanged, ticks already present don't change:
   /// newer ones are appended and the oldest dropped.
   std::uint64_t generation() const { return generation_; }
-  std::uint64_t first_tick() const { return first_; }  ///< oldest kept
-  std::uint64_t end_tick() const { return end_; }      ///< one past the newest
+  std::uint64_t first_tick() const { return coarse_.blocks ? coarse_.first : first_; }  ///< oldest known
+  std::uint64_t end_tick() const { return coarse_.blocks ? coarse_.end : end_; }        ///< one past the newest
+  std::uint64_t first_kept() const { return first_; }
+  std::uint64_t end_kept() const { return end_; }
 
   /// NaN for a gap and outside the kept ticks.
   float value(std::size_t channel, std::uint64_t tick) const;
-  /// Over from <= tick < to, clipped to the kept ticks.
+  /// Over from <= tick < to, clipped to the ticks known.
   MinMax min_max(std::size_t channel, std::uint64_t from, std::uint64_t to) const;
   /// The same for out.size() consecutive ranges of `ticks` ticks each, starting at `from`. Fastest where `ticks` and
   /// `from` are multiples of a block, 8 to 15 blocks per range.
   void min_max_row(std::size_t channel, std::uint64_t from, std::uint64_t ticks, std::span<MinMax> out) const;
+  /// Empty where the range reaches beyond the ticks kept, and coarse ones are known.
   SampleSums sums(std::size_t channel, std::uint64_t from, std::uint64_t to) const;
 
  private:
@@ -110,6 +127,11 @@ class ChannelStore {
   SampleSums& sum_block(std::size_t level, std::size_t channel, std::uint64_t tick) {
     return sums_[level - kFirstSumLevel][place(level, channel, tick)];
   }
+  bool reaches_beyond(std::uint64_t from, std::uint64_t to) const {
+    return coarse_.blocks != nullptr && (from < first_ || to > end_);
+  }
+  MinMax kept_min_max(std::size_t channel, std::uint64_t from, std::uint64_t to) const;
+  void include_coarse(std::size_t channel, std::uint64_t from, std::uint64_t to, MinMax& range) const;
   template <class Visit>
   void visit_blocks(std::uint64_t from, std::uint64_t to, Visit visit) const;
 
@@ -119,6 +141,7 @@ class ChannelStore {
   std::vector<std::vector<MinMax>> levels_;    ///< [level - 1][channel][block]
   std::vector<std::vector<SampleSums>> sums_;  ///< [level - kFirstSumLevel][channel][block]
   std::vector<float> gap_;
+  Coarse coarse_;
 };
 
 }  // namespace tangent

@@ -12,6 +12,12 @@ void PlotView::interact(const UiContext& ui, TimeAxis& axis, PlotLink& link, con
   ImGui::InvisibleButton("area", {area.width(), area.height()},
                          ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight);
   ui.items.note_last("plots/" + spec_.id);
+  if (ImGui::BeginDragDropTarget()) {
+    if (const ImGuiPayload* payload = ImGui::AcceptDragDropPayload(kChannelPayload))
+      link.dropped = PlotLink::OnPlot{
+          spec_.id, std::string(static_cast<const char*>(payload->Data), static_cast<std::size_t>(payload->DataSize))};
+    ImGui::EndDragDropTarget();
+  }
   const double under = axis.tick_at(static_cast<double>(io.MousePos.x), static_cast<double>(area.min.x),
                                     static_cast<double>(area.width()));
   if (ImGui::IsItemHovered()) {

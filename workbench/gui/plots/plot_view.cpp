@@ -2,6 +2,7 @@
 
 #include "workbench/gui/plots/curve_drawing.h"
 #include "workbench/gui/plots/tick_locator.h"
+#include "workbench/gui/widgets/widgets.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -27,12 +28,25 @@ CursorLabel cursor_label(const UiContext& ui, const TimeAxis& axis, const PlotLi
   return label;
 }
 
+MinMax scaled(MinMax range, double scale) {
+  if (range.empty()) return range;
+  return {static_cast<float>(static_cast<double>(range.min) * scale),
+          static_cast<float>(static_cast<double>(range.max) * scale)};
+}
+
 bool in_view(const TimeAxis& axis, double tick) { return tick >= axis.from() && tick <= axis.to(); }
 
 }  // namespace
 
 ImU32 ghost_ink(const UiContext& ui, const PlotSeries& series) {
   return packed(mix(ui.palette.*series.colour, ui.palette.text, 0.75f));
+}
+
+void drag_channels(const std::string& keys, const std::string& shown) {
+  if (!ImGui::BeginDragDropSource(ImGuiDragDropFlags_SourceAllowNullID)) return;
+  ImGui::SetDragDropPayload(kChannelPayload, keys.data(), keys.size());
+  ImGui::TextUnformatted(shown.c_str());
+  ImGui::EndDragDropSource();
 }
 
 void PlotView::draw(const UiContext& ui, const ChannelStore& store, TimeAxis& axis, PlotLink& link, ImVec2 pos,
@@ -63,12 +77,12 @@ void PlotView::draw(const UiContext& ui, const ChannelStore& store, TimeAxis& ax
     draw_dashed_horizontal(draw, area.min.x, area.max.x, y, ui.px(5), ui.colours.text_faint, ui.px(1));
   }
   if (nothing_in_view_) {
-    const char* text = spec_.nothing.c_str();
     ImFont* font = ui.fonts.small;
+    const std::string text = fitted(font, spec_.nothing, area.width() - ui.px(4));
     text_at(draw, font,
-            {area.min.x + 0.5f * (area.width() - text_width(font, text)),
+            {area.min.x + 0.5f * (area.width() - text_width(font, text.c_str())),
              area.min.y + 0.5f * (area.height() - font->FontSize)},
-            ui.colours.text_faint, text);
+            ui.colours.text_faint, text.c_str());
   }
   draw_series(ui, store, axis, link, area);
   draw.PopClipRect();
@@ -87,16 +101,16 @@ void PlotView::fit(const ChannelStore& store, const TimeAxis& axis, const PlotLi
   const auto to = static_cast<std::uint64_t>(std::max(0.0, std::ceil(axis.to())));
   for (const PlotSeries& series : spec_.series) {
     if (!series.visible) continue;
-    visible.include(store.min_max(series.channel, from, to));
-    if (link.ghost != nullptr && series.ghost) visible.include(link.ghost->min_max(*series.ghost, from, to));
+    visible.include(scaled(series.store_in(store).min_max(series.channel, from, to), series.scale));
+    if (const ChannelStore* ghost = series.ghost_in(link.ghost))
+      visible.include(scaled(ghost->min_max(series.ghost.value_or(0), from, to), series.scale));
   }
   nothing_in_view_ = visible.empty();
+  if (spec_.series.empty()) values_ = {};  // what was there before leaves no trace
   if (visible.empty()) return;
   // Room around the reference line and around steps at the axis's ends.
-  if (std::isfinite(reference)) visible.include(static_cast<float>(1.2 * reference));
+  if (std::isfinite(reference)) visible.include(static_cast<float>(1.2 * reference * spec_.scale));
   if (spec_.counts) visible.max += 0.25f;
-  visible.min = static_cast<float>(static_cast<double>(visible.min) * spec_.scale);
-  visible.max = static_cast<float>(static_cast<double>(visible.max) * spec_.scale);
   if (spec_.log)
     values_.fit_log(visible, spec_.floor);
   else
@@ -109,20 +123,19 @@ void PlotView::draw_grid(const UiContext& ui, const TimeAxis& axis, const PlotLi
   draw.AddRectFilled(area.min, {area.max.x, area.bottom()}, ui.colours.plot);
   ImFont* font = ui.fonts.small_number;
   const float half = 0.5f * font->FontSize;
-  const int rows = std::max(1, static_cast<int>(area.height() / (2.2f * font->FontSize)));
-  const auto values =
-      spec_.log ? log_ticks(values_.low(), values_.high(), rows) : linear_ticks(values_.low(), values_.high(), rows);
-  for (AxisTick tick : values) {
-    if (spec_.counts && tick.major && tick.value == std::floor(tick.value))
-      tick.label.erase(std::min(tick.label.find('.'), tick.label.size()));
+  for (const AxisTick& tick : value_ticks({values_.low(), values_.high(), spec_.log, spec_.counts,
+                                           static_cast<double>(area.height() / font->FontSize)})) {
     const double share = values_.share(tick.value, spec_.log);
     const float y = std::round(area.max.y - static_cast<float>(share) * area.height());
     if (y > area.min.y && y < area.max.y) {
       draw.AddLine({area.min.x, y}, {area.max.x, y}, tick.major ? ui.colours.grid : ui.colours.grid_minor);
     }
-    if (!tick.major || (spec_.counts && tick.value != std::floor(tick.value))) continue;
-    // Labels at the ends move inwards, so that they don't overlap the neighbouring plots.
-    const float label_y = std::clamp(y - half, area.min.y - 0.35f * half, area.max.y - 1.75f * half);
+    if (!tick.major) continue;
+    // Labels at the ends move inwards, so that they don't overlap the neighbouring plots; those of a low plot stay at
+    // their ticks, because they would meet one another.
+    const bool low = area.height() < 2.2f * font->FontSize;
+    const float label_y =
+        std::clamp(y - half, area.min.y - (low ? 1.0f : 0.35f) * half, area.max.y - (low ? 1.0f : 1.75f) * half);
     text_at(draw, font, {area.min.x - ui.px(5) - text_width(font, tick.label.c_str()), label_y}, ui.colours.text_dim,
             tick.label.c_str());
   }
@@ -153,10 +166,10 @@ void PlotView::draw_grid(const UiContext& ui, const TimeAxis& axis, const PlotLi
   }
 }
 
-PlotView::ToPixel PlotView::to_pixel(const PlotArea& area) const {
+PlotView::ToPixel PlotView::to_pixel(const PlotArea& area, double scale) const {
   // Multiplication instead of division: there are tens of thousands of bars per frame.
   const double span = values_.high() - values_.low();
-  return {&values_, area.max.y, area.height(), spec_.scale, spec_.scale / span, values_.low() / span, spec_.log};
+  return {&values_, area.max.y, area.height(), scale, scale / span, values_.low() / span, spec_.log};
 }
 
 float PlotView::ToPixel::operator()(float value) const {
@@ -169,7 +182,7 @@ void PlotView::draw_ghost(const UiContext& ui, Curve recorded, Curve ghost, cons
                           const PlotSeries& series) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const CurveArea where{area.min, area.max};
-  const ToPixel to_y = to_pixel(area);
+  const ToPixel to_y = to_pixel(area, series.scale);
   const auto same = [&](float a, float b) { return std::abs(to_y(a) - to_y(b)) < ui.px(0.9f); };
   if (axis.span() / static_cast<double>(area.width()) >= kTicksPerColumnForBars) {
     const auto& below = recorded.kept.update(recorded.store, recorded.channel, axis, area.width());
@@ -203,19 +216,21 @@ void PlotView::draw_ghost(const UiContext& ui, Curve recorded, Curve ghost, cons
                dots ? ui.px(2.2f) : 0.0f);
 }
 
-void PlotView::draw_curve(const UiContext& ui, const ChannelStore& store, std::size_t channel, KeptBars& kept,
-                          const TimeAxis& axis, const PlotArea& area, ImU32 ink, bool steps, float thickness) {
+void PlotView::draw_curve(const UiContext& ui, Curve curve, const TimeAxis& axis, const PlotArea& area,
+                          const PlotSeries& series, ImU32 ink) {
+  constexpr float thickness = 1.5f;
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const CurveArea where{area.min, area.max};
   const bool bars = axis.span() / static_cast<double>(area.width()) >= kTicksPerColumnForBars;
   const auto draw_with = [&](auto to_y) {
     if (bars)
-      return draw_bars(draw, where, kept.update(store, channel, axis, area.width()), to_y, ink, ui.px(thickness));
-    sample_points(store, channel, axis, area.width(), points_);
+      return draw_bars(draw, where, curve.kept.update(curve.store, curve.channel, axis, area.width()), to_y, ink,
+                       ui.px(thickness));
+    sample_points(curve.store, curve.channel, axis, area.width(), points_);
     const bool dots = static_cast<double>(area.width()) / axis.span() > static_cast<double>(ui.px(7));
-    draw_samples(draw, where, points_, line_, to_y, ink, ui.px(thickness), steps, dots ? ui.px(2.2f) : 0.0f);
+    draw_samples(draw, where, points_, line_, to_y, ink, ui.px(thickness), series.steps, dots ? ui.px(2.2f) : 0.0f);
   };
-  draw_with(to_pixel(area));
+  draw_with(to_pixel(area, series.scale));
 }
 
 void PlotView::draw_series(const UiContext& ui, const ChannelStore& store, const TimeAxis& axis, const PlotLink& link,
@@ -226,16 +241,17 @@ void PlotView::draw_series(const UiContext& ui, const ChannelStore& store, const
     if (!series.visible) continue;
     // Beside its ghost the recorded curve steps back.
     const Rgba ink = ui.palette.*series.colour;
-    const bool with_ghost = link.ghost != nullptr && series.ghost;
-    draw_curve(ui, store, series.channel, curves_[i].recorded, axis, area,
-               packed(with_alpha(ink, with_ghost ? 0.55f : 1.0f)), series.steps, 1.5f);
+    const bool with_ghost = series.ghost_in(link.ghost) != nullptr;
+    draw_curve(ui, {series.store_in(store), series.channel, curves_[i].recorded}, axis, area, series,
+               packed(with_alpha(ink, with_ghost ? 0.55f : 1.0f)));
   }
   // Ghosts over all of them, where they differ.
   for (std::size_t i = 0; i < curves_.size(); ++i) {
     const PlotSeries& series = spec_.series[i];
-    if (!series.visible || link.ghost == nullptr || !series.ghost) continue;
-    draw_ghost(ui, {store, series.channel, curves_[i].recorded}, {*link.ghost, *series.ghost, curves_[i].ghost}, axis,
-               area, series);
+    const ChannelStore* ghost = series.ghost_in(link.ghost);
+    if (!series.visible || ghost == nullptr) continue;
+    draw_ghost(ui, {series.store_in(store), series.channel, curves_[i].recorded},
+               {*ghost, series.ghost.value_or(0), curves_[i].ghost}, axis, area, series);
   }
 }
 
@@ -275,13 +291,27 @@ void PlotView::draw_cursors(const UiContext& ui, const TimeAxis& axis, const Plo
   if (link.hover) line_at(*link.hover, ui.colours.text_faint, true);
 }
 
-void PlotView::draw_header(const UiContext& ui, const ChannelStore& store, const PlotLink& link, const PlotArea& area) {
+void PlotView::touch_legend_entry(const UiContext& ui, PlotSeries& series, PlotLink& link, ImVec2 size) {
+  ImGui::PushID(series.name.c_str());
+  if (ImGui::InvisibleButton("toggle", size)) series.visible = !series.visible;
+  if (!series.key.empty()) drag_channels(series.key, series.full_name);
+  ui.items.note_last("plots/" + spec_.id + "/" + series.name);
+  if (ImGui::IsItemHovered()) {
+    ImGui::SetTooltip("%s%s%s%s\nClick: hide or show. Drag: onto another plot too. Right-click: remove",
+                      series.full_name.c_str(), series.unit.empty() ? "" : (", " + series.unit).c_str(),
+                      series.doc[0] != '\0' ? ". " : "", series.doc);
+    if (ImGui::IsMouseClicked(ImGuiMouseButton_Right)) link.removed = PlotLink::OnPlot{spec_.id, series.key};
+  }
+  ImGui::PopID();
+}
+
+void PlotView::draw_header(const UiContext& ui, const ChannelStore& store, PlotLink& link, const PlotArea& area) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const float y = area.pos.y + ui.px(2);
   const float right = area.max.x;
   float x = area.min.x;
   text_at(draw, ui.fonts.small, {x, y}, ui.colours.text, spec_.title.c_str());
-  x += text_width(ui.fonts.small, spec_.title.c_str()) + ui.px(5);
+  if (!spec_.title.empty()) x += text_width(ui.fonts.small, spec_.title.c_str()) + ui.px(5);
   text_at(draw, ui.fonts.small, {x, y}, ui.colours.text_dim, spec_.unit.c_str());
   x += text_width(ui.fonts.small, spec_.unit.c_str()) + ui.px(10);
 
@@ -293,28 +323,30 @@ void PlotView::draw_header(const UiContext& ui, const ChannelStore& store, const
   else if (!store.empty())
     tick = store.end_tick() - 1;
 
-  const float digit = text_width(ui.fonts.small_number, "0");
+  const bool only_one = spec_.series.size() == 1 && !spec_.title.empty();  // the title says it
+  const float box = ui.px(9), value_width = 9.0f * text_width(ui.fonts.small_number, "0");
+  const auto name_of = [&](const PlotSeries& series) {
+    if (only_one) return std::string();
+    return spec_.unit.empty() && !series.unit.empty() ? series.name + " " + series.unit : series.name;
+  };
+  const auto width_of = [&](const std::string& name) {
+    return box + ui.px(7) + text_width(ui.fonts.small, name.c_str());
+  };
+  // Where there is no room for all of them with their values, none has one.
+  float whole = x;
+  for (const PlotSeries& series : spec_.series) whole += width_of(name_of(series)) + value_width + ui.px(6);
+  const bool with_value = whole <= right;
   for (PlotSeries& series : spec_.series) {
-    const float value = tick ? store.value(series.channel, *tick) : std::numeric_limits<float>::quiet_NaN();
+    const float value =
+        tick ? series.store_in(store).value(series.channel, *tick) : std::numeric_limits<float>::quiet_NaN();
     char text[32] = "";
-    if (!std::isnan(value)) std::snprintf(text, sizeof text, spec_.format, static_cast<double>(value) * spec_.scale);
-    const bool only_one = spec_.series.size() == 1;
-    const float name_width = only_one ? 0.0f : text_width(ui.fonts.small, series.name.c_str());
-    const float box = ui.px(9);
-    float width = box + ui.px(4) + name_width + ui.px(3);
+    if (!std::isnan(value)) std::snprintf(text, sizeof text, series.format, static_cast<double>(value) * series.scale);
+    const std::string name = name_of(series);
     // Reserves the value's width while it is blank, so that nothing moves.
-    const float value_width = 9.0f * digit;
-    const bool with_value = x + width + value_width <= right;
-    if (with_value) width += value_width;
+    const float width = width_of(name) + (with_value ? value_width : 0.0f);
     if (x + width > right) break;
     ImGui::SetCursorScreenPos({x, area.pos.y});
-    ImGui::PushID(series.name.c_str());
-    if (ImGui::InvisibleButton("toggle", {width, area.header})) series.visible = !series.visible;
-    ui.items.note_last("plots/" + spec_.id + "/" + series.name);
-    if (ImGui::IsItemHovered())
-      ImGui::SetTooltip("%s %s%s%s (click to hide or show)", spec_.title.c_str(), series.name.c_str(),
-                        series.doc[0] != '\0' ? ": " : "", series.doc);
-    ImGui::PopID();
+    touch_legend_entry(ui, series, link, {width, area.header});
     const ImU32 ink = packed(ui.palette.*series.colour);
     const float middle = y + 0.5f * ui.fonts.small->FontSize;
     const ImVec2 box_min{x, middle - 0.5f * box + ui.px(1)}, box_max{x + box, middle + 0.5f * box + ui.px(1)};
@@ -323,10 +355,8 @@ void PlotView::draw_header(const UiContext& ui, const ChannelStore& store, const
     else
       draw.AddRect(box_min, box_max, ink, ui.px(2));
     float at = x + box + ui.px(4);
-    if (!only_one)
-      text_at(draw, ui.fonts.small, {at, y}, series.visible ? ui.colours.text : ui.colours.text_faint,
-              series.name.c_str());
-    at += name_width + ui.px(3);
+    text_at(draw, ui.fonts.small, {at, y}, series.visible ? ui.colours.text : ui.colours.text_faint, name.c_str());
+    at += text_width(ui.fonts.small, name.c_str()) + ui.px(3);
     if (with_value && text[0] != '\0') text_at(draw, ui.fonts.small_number, {at, y}, ui.colours.text, text);
     x += width + ui.px(6);
   }

@@ -31,18 +31,31 @@ struct PlotSeries {
   bool visible = true;
   std::optional<std::size_t> ghost = std::nullopt;  ///< channel of PlotLink::ghost drawn with it
   const char* doc = "";                             ///< shown on hover
+  std::string key = {};                             ///< the channel as text; what is dragged
+  std::string full_name = {};                       ///< "Force x"; `name` is what this plot calls it
+  std::string unit = {};
+  double scale = 1.0;            ///< displayed = channel value * scale
+  const char* format = "%8.3f";  ///< of the value under the cursor
+  /// Of a curve with stores of its own: channel 0 of this one, in place of the plot's; and of its ghost. Of this frame.
+  const ChannelStore *own = nullptr, *own_ghost = nullptr;
+
+  const ChannelStore& store_in(const ChannelStore& common) const { return own != nullptr ? *own : common; }
+  /// Null: it has no ghost.
+  const ChannelStore* ghost_in(const ChannelStore* common) const {
+    if (own != nullptr) return own_ghost;
+    return ghost ? common : nullptr;
+  }
 };
 
 struct PlotSpec {
   std::string id;  ///< item map: "plots/<id>"
   std::string title;
-  std::string unit;
-  double scale = 1.0;  ///< displayed = channel value * scale
+  std::string unit;    ///< of all its series; empty: they have several, or none
+  double scale = 1.0;  ///< of the reference line
   bool log = false;
   bool counts = false;  ///< labels only integers
   bool with_zero = true;
   double floor = 1e-6;                         ///< of a log axis, displayed unit
-  const char* format = "%8.3f";                ///< of the value under the cursor
   std::string nothing = "no samples in view";  ///< text shown when there are no samples
   std::vector<PlotSeries> series;
 };
@@ -57,7 +70,17 @@ struct PlotLink {
   std::optional<std::uint64_t> a, b;     ///< measuring cursors
   const ChannelStore* ghost = nullptr;   ///< the same ticks solved again
   PlotMarks marks;
+  struct OnPlot {
+    std::string plot;      ///< id
+    std::string channels;  ///< keys, one a line
+  };
+  std::optional<OnPlot> dropped, removed;  ///< what the user did in this frame
 };
+
+/// What is dragged onto a plot: keys of channels, one a line.
+inline constexpr const char* kChannelPayload = "channels";
+/// Makes ImGui's last item a source of it, which says `shown` while it is dragged.
+void drag_channels(const std::string& keys, const std::string& shown);
 
 /// Colour of a curve's ghost: its own, nearer to that of text.
 ImU32 ghost_ink(const UiContext& ui, const PlotSeries& series);
@@ -69,6 +92,8 @@ class PlotView {
   const PlotSpec& spec() const { return spec_; }
   PlotSpec& spec() { return spec_; }
   const ValueAxis& values() const { return values_; }
+  /// The value axis is fitted anew: other curves are in it.
+  void refit() { values_.set_automatic(); }
 
   /// Draws into the rectangle at `pos`. `time_labels`: with the labels of the time axis below; `reference`: value of a
   /// dashed horizontal line, channel units.
@@ -76,19 +101,21 @@ class PlotView {
             bool time_labels, double reference = std::numeric_limits<double>::quiet_NaN());
 
  private:
-  void draw_header(const UiContext& ui, const ChannelStore& store, const PlotLink& link, const PlotArea& area);
+  void draw_header(const UiContext& ui, const ChannelStore& store, PlotLink& link, const PlotArea& area);
+  /// Click: hide or show; right-click: remove; drag: onto another plot.
+  void touch_legend_entry(const UiContext& ui, PlotSeries& series, PlotLink& link, ImVec2 size);
   void fit(const ChannelStore& store, const TimeAxis& axis, const PlotLink& link, double reference);
   void draw_grid(const UiContext& ui, const TimeAxis& axis, const PlotLink& link, const PlotArea& area,
                  bool time_labels);
   void draw_series(const UiContext& ui, const ChannelStore& store, const TimeAxis& axis, const PlotLink& link,
                    const PlotArea& area);
-  void draw_curve(const UiContext& ui, const ChannelStore& store, std::size_t channel, KeptBars& kept,
-                  const TimeAxis& axis, const PlotArea& area, ImU32 ink, bool steps, float thickness);
   struct Curve {
     const ChannelStore& store;
     std::size_t channel;
     KeptBars& kept;
   };
+  void draw_curve(const UiContext& ui, Curve curve, const TimeAxis& axis, const PlotArea& area,
+                  const PlotSeries& series, ImU32 ink);
   /// Only where it is a pixel or more away from the recorded curve.
   void draw_ghost(const UiContext& ui, Curve recorded, Curve ghost, const TimeAxis& axis, const PlotArea& area,
                   const PlotSeries& series);
@@ -100,7 +127,7 @@ class PlotView {
     bool log;
     float operator()(float value) const;
   };
-  ToPixel to_pixel(const PlotArea& area) const;
+  ToPixel to_pixel(const PlotArea& area, double scale) const;
   void draw_cursors(const UiContext& ui, const TimeAxis& axis, const PlotLink& link, const PlotArea& area,
                     bool time_labels);
   void interact(const UiContext& ui, TimeAxis& axis, PlotLink& link, const PlotArea& area);

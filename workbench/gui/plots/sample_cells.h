@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace tangent {
@@ -15,6 +16,7 @@ struct CellQuery {
   std::optional<std::size_t> y;    ///< empty: a histogram of x only
   std::uint64_t from = 0, to = 0;  ///< ticks
   std::size_t columns = 64, rows = 1;
+  std::string of = {};  ///< which channels they are, where stores of one channel each are counted in turn
   bool operator==(const CellQuery&) const = default;
 };
 
@@ -24,7 +26,8 @@ class SampleCells {
 
   /// Call once per frame. Continues counting; once done, starts again if the query changed. Value ranges are the
   /// store's exact minima and maxima at the start.
-  void update(const ChannelStore& store, const CellQuery& query);
+  /// `y_store`: of channel y; null: the same.
+  void update(const ChannelStore& store, const CellQuery& query, const ChannelStore* y_store = nullptr);
 
   /// Counts of the last finished query; empty: none yet.
   const std::vector<std::uint32_t>& counts() const { return done_.counts; }  ///< row by row
@@ -43,8 +46,8 @@ class SampleCells {
     std::uint64_t total = 0;
     std::uint32_t most = 0;
   };
-  void begin(const ChannelStore& store, const CellQuery& query);
-  void go_on(const ChannelStore& store);
+  void begin(const ChannelStore& store, const ChannelStore& y_store, const CellQuery& query);
+  void go_on(const ChannelStore& store, const ChannelStore& y_store);
 
   Count done_, under_way_;
   std::uint64_t next_ = 0;

@@ -41,8 +41,8 @@ std::size_t Spectrum::peak_above(double hz) const {
 Spectrum amplitude_spectrum(const ChannelStore& store, std::size_t channel, std::uint64_t from, std::uint64_t to,
                             double rate_hz) {
   Spectrum out;
-  from = std::max(from, store.first_tick());
-  to = std::min(to, store.end_tick());
+  from = std::max(from, store.first_kept());
+  to = std::min(to, store.end_kept());
   if (to <= from || to - from < kShortest) return out;
   const std::size_t n = std::min(kLongest, std::bit_floor(static_cast<std::size_t>(to - from)));
   std::vector<float> window(n), segment(n);

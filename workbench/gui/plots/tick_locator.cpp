@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 namespace tangent {
 
@@ -86,6 +87,64 @@ std::vector<AxisTick> log_ticks(double low, double high, int most_labels) {
     }
   }
   return ticks;
+}
+
+namespace {
+
+std::vector<AxisTick> divided(const ValueTicks& axis, int most) {
+  std::vector<AxisTick> ticks =
+      axis.log ? log_ticks(axis.low, axis.high, most) : linear_ticks(axis.low, axis.high, most);
+  if (!axis.whole) return ticks;
+  for (AxisTick& tick : ticks) {
+    tick.major = tick.major && tick.value == std::floor(tick.value);
+    tick.label.erase(tick.major ? std::min(tick.label.find('.'), tick.label.size()) : 0);
+  }
+  return ticks;
+}
+
+void take_label(AxisTick& tick) {
+  tick.major = false;
+  tick.label.clear();
+}
+
+/// Places of the first and the last label; the same where there are fewer than two.
+std::pair<std::size_t, std::size_t> end_labels(const std::vector<AxisTick>& ticks) {
+  std::size_t first = ticks.size(), last = ticks.size();
+  for (std::size_t i = 0; i < ticks.size(); ++i) {
+    if (!ticks[i].major) continue;
+    if (first == ticks.size()) first = i;
+    last = i;
+  }
+  return {first, last};
+}
+
+}  // namespace
+
+std::vector<AxisTick> value_ticks(const ValueTicks& axis) {
+  constexpr double kLinesApart = 2.2;  // of neighbouring labels on a high axis
+  constexpr int kFinest = 10;
+  constexpr double kLeastApart = 0.85;  // lines: digits are lower than a line
+  const int most = std::max(1, static_cast<int>(axis.lines / kLinesApart));
+  const auto share = [&](double v) {
+    return axis.log ? std::log(v / axis.low) / std::log(axis.high / axis.low) : (v - axis.low) / (axis.high - axis.low);
+  };
+  for (int finer = most; finer <= std::max(most, kFinest); ++finer) {
+    std::vector<AxisTick> ticks = divided(axis, finer);
+    const auto [first, last] = end_labels(ticks);
+    if (first == last) continue;
+    const double apart = (share(ticks[last].value) - share(ticks[first].value)) * axis.lines;
+    const auto between = [&](const AxisTick& tick) { return tick.major; };
+    const auto steps = static_cast<double>(std::count_if(ticks.begin(), ticks.end(), between) - 1);
+    if (finer == most && apart >= kLeastApart * steps) return ticks;
+    if (apart < kLeastApart) continue;
+    for (std::size_t i = first + 1; i < last; ++i) take_label(ticks[i]);
+    return ticks;
+  }
+  std::vector<AxisTick> one = divided(axis, most);
+  const std::size_t first = end_labels(one).first;
+  for (std::size_t i = 0; i < one.size(); ++i)
+    if (i != first) take_label(one[i]);
+  return one;
 }
 
 void widen_to_nice(double& low, double& high, int most) {

@@ -24,6 +24,15 @@ std::vector<AxisTick> linear_ticks(double low, double high, int most_labels);
 /// them; minor ticks at 2..9 where every decade is labelled.
 std::vector<AxisTick> log_ticks(double low, double high, int most_labels);
 
+/// Either kind, for an axis that has room for `lines` lines of text. Where that gives fewer than two labels, the first
+/// and the last label of a finer division, if they are a line apart. `whole`: only whole numbers have labels.
+struct ValueTicks {
+  double low = 0.0, high = 1.0;
+  bool log = false, whole = false;
+  double lines = 4.0;
+};
+std::vector<AxisTick> value_ticks(const ValueTicks& axis);
+
 /// [low, high] widened to multiples of a nice step; never empty.
 void widen_to_nice(double& low, double& high, int most);
 

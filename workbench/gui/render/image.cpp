@@ -61,7 +61,7 @@ Image with_alpha_of(const Image& over_black, const Image& over_white) {
   return out;
 }
 
-Status write_png(const Image& image, const std::filesystem::path& path, const PngOptions& options) {
+Result<std::string> png_bytes(const Image& image, const PngOptions& options) {
   const std::size_t channels = options.alpha ? 4 : 3;
   std::vector<std::uint8_t> pixels;
   pixels.reserve(image.rgba.size() / 4 * channels);
@@ -74,9 +74,16 @@ Status write_png(const Image& image, const std::filesystem::path& path, const Pn
   const int components = static_cast<int>(channels);
   if (stbi_write_png_to_func(append, &bytes, image.width, image.height, components, pixels.data(),
                              components * image.width) == 0) {
-    return fail("can't encode the picture", path.string(), "try a smaller size");
+    return fail("can't encode the picture", "PNG", "try a smaller size");
   }
-  return write_file_atomic(path, png_with_origin(bytes, options.origin));
+  return png_with_origin(bytes, options.origin);
+}
+
+Status write_png(const Image& image, const std::filesystem::path& path, const PngOptions& options) {
+  Result<std::string> bytes = png_bytes(image, options);
+  if (bytes) return write_file_atomic(path, *bytes);
+  bytes.error().where = path.string();
+  return tl::unexpected(bytes.error());
 }
 
 }  // namespace tangent

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace tangent {
@@ -36,6 +37,8 @@ struct PngOptions {
   bool alpha = false;  ///< else opaque
   FileOrigin origin;
 };
+/// The bytes of a PNG file. Fails on a size that can't be encoded.
+Result<std::string> png_bytes(const Image& image, const PngOptions& options = {});
 /// Writes atomically (core/io/atomic_file.h). Fails when the file can't be written.
 Status write_png(const Image& image, const std::filesystem::path& path, const PngOptions& options = {});
 

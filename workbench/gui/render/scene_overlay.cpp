@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <vector>
 
 namespace tangent {
 namespace {
@@ -18,16 +19,36 @@ constexpr float kAxesWidth = 14.0f, kBarWidth = 9.0f;
 constexpr float kAxesHeight = 4.6f, kBarHeight = 3.6f, kBothHeight = 6.4f;
 static_assert(kInsetWidth == kAxesWidth, "the two cards stand on each other");
 
-void draw_labels(const OverlayCanvas& c, double pixels_per_point, std::span<const SceneLabel> labels) {
-  for (const SceneLabel& label : labels) {
-    const ImVec2 size = c.text_size(c.number_font, label.text);
-    // Offset from the point by half an em plus the label's own extent in that direction.
-    const Vec2 half(0.5 * size.x, 0.5 * size.y);
-    const double clear = 0.55 * c.em;
-    const Vec2 centre = label.pixel / pixels_per_point + label.away * clear + label.away * half;
-    const ImVec2 at{c.top_left.x + static_cast<float>(centre.x - half.x),
-                    c.top_left.y + static_cast<float>(centre.y - half.y)};
-    c.haloed(c.number_font, at, mix(label.colour, c.colours.text, 0.55f), label.text);
+struct Box2 {
+  ImVec2 min, max;
+  bool meets(const Box2& o) const { return min.x < o.max.x && o.min.x < max.x && min.y < o.max.y && o.min.y < max.y; }
+};
+
+/// Offset from the point by half an em plus the label's own extent in that direction.
+Box2 label_box(const OverlayCanvas& c, const Vec2& point, const Vec2& away, const ImVec2& size) {
+  const Vec2 half(0.5 * size.x, 0.5 * size.y);
+  const Vec2 centre = point + away * (0.55 * c.em) + away * half;
+  const ImVec2 at{c.top_left.x + static_cast<float>(centre.x - half.x),
+                  c.top_left.y + static_cast<float>(centre.y - half.y)};
+  return {at, {at.x + size.x, at.y + size.y}};
+}
+
+/// Each on the free side of its point, else on the first other side where it lies on no other label, and on nothing of
+/// `taken`; where there is none, it is left out. The last are the most wanted: force and depth.
+void draw_labels(const OverlayCanvas& c, double pixels_per_point, std::span<const SceneLabel> labels,
+                 std::vector<Box2> taken) {
+  constexpr std::array<double, 8> kTurns_deg{0.0, 45.0, -45.0, 90.0, -90.0, 135.0, -135.0, 180.0};
+  for (auto label = labels.rbegin(); label != labels.rend(); ++label) {
+    const ImVec2 size = c.text_size(c.number_font, label->text);
+    for (const double turn : kTurns_deg) {
+      const double cosine = std::cos(turn * kDegree), sine = std::sin(turn * kDegree);
+      const Vec2 away(cosine * label->away.x - sine * label->away.y, sine * label->away.x + cosine * label->away.y);
+      const Box2 box = label_box(c, label->pixel / pixels_per_point, away, size);
+      if (std::any_of(taken.begin(), taken.end(), [&](const Box2& other) { return other.meets(box); })) continue;
+      taken.push_back(box);
+      c.haloed(c.number_font, box.min, readable(c.colours, mix(label->colour, c.colours.text, 0.55f)), label->text);
+      break;
+    }
   }
 }
 
@@ -56,7 +77,7 @@ void draw_triad(const OverlayCanvas& c, ImVec2 centre, const Camera& camera) {
     const float across = std::hypot(x, y);
     const ImVec2 beyond = across > 0.05f ? ImVec2(clear * x / across, clear * y / across) : ImVec2(clear, -clear);
     c.haloed(c.number_font, {tip.x + beyond.x - 0.5f * size.x, tip.y + beyond.y - 0.5f * size.y},
-             with_alpha(axis.colour, fade), axis.name);
+             readable(c.colours, axis.colour), axis.name);
   }
 }
 
@@ -138,10 +159,14 @@ void draw_scene_overlay(ImDrawList& draw_list, const ImVec2& top_left, double pi
   const OverlayCanvas canvas{draw_list,           top_left, size, palette(frame.theme), fonts.small, fonts.small_number,
                              fonts.text->FontSize};
   draw_list.PushClipRect(top_left, {top_left.x + size.x, top_left.y + size.y}, true);
-  draw_labels(canvas, pixels_per_point, renderer.labels());
   const float em = canvas.em;
   ImVec2 lower_left{top_left.x + kLeft * em, top_left.y + size.y - kBottom * em};
   const OverlayCards cards = overlay_cards(frame.toggles, em, size.y - top);
+  const float cards_right = top_left.x + static_cast<float>(cards.size.x),
+              cards_top = top_left.y + size.y - static_cast<float>(cards.size.y);
+  draw_labels(canvas, pixels_per_point, renderer.labels(),
+              {{top_left, {top_left.x + size.x, top_left.y + top}},
+               {{top_left.x, cards_top}, {cards_right, top_left.y + size.y}}});
   // The inset is at the bottom, because the card above it changes height with the tick.
   if (cards.inset && (frame.cld_commanded_m || frame.cld_measured_m)) {
     draw_cld_inset(canvas, {lower_left.x + kInsetWidth * em, lower_left.y}, frame.display_travel_m,
@@ -152,8 +177,9 @@ void draw_scene_overlay(ImDrawList& draw_list, const ImVec2& top_left, double pi
     else
       lower_left.y -= (kInsetHeight + kGap) * em;
   }
-  const bool bar = cards.scales && frame.toggles.colour_bar && frame.toggles.planes && frame.trace.size() > 1;
-  const bool axes = cards.scales && frame.toggles.axes;
+  const bool room = lower_left.x + scales_card(frame.toggles.axes, true).x * em <= top_left.x + size.x;
+  const bool bar = room && cards.scales && frame.toggles.colour_bar && frame.toggles.planes && frame.trace.size() > 1;
+  const bool axes = room && cards.scales && frame.toggles.axes;
   if (axes || bar) {  // a card behind them, for legibility
     const ImVec2 card = scales_card(axes, bar);
     canvas.card({lower_left.x, lower_left.y - card.y * em}, {lower_left.x + card.x * em, lower_left.y});

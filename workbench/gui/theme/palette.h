@@ -145,4 +145,10 @@ constexpr const Palette& palette(Theme theme) { return kPalettes[static_cast<std
 /// first plane is visible on a dark background.
 Rgba iteration_colour(std::size_t i, std::size_t count);
 
+/// Contrast of two opaque colours after WCAG 2.1: 1 to 21.
+double contrast_ratio(const Rgba& a, const Rgba& b);
+/// The colour for words: as it is, or as much nearer to the colour of text as makes a contrast of 4.5 to 1 on panels
+/// and behind the scene.
+Rgba readable(const Palette& palette, const Rgba& colour);
+
 }  // namespace tangent

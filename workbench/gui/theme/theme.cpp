@@ -34,6 +34,7 @@ ThemeColours make_colours(Theme theme) {
   c.good = packed(p.good);
   c.warning = packed(p.warning);
   c.bad = packed(p.bad);
+  c.on_bad = dark ? packed(p.panel) : hex(0xFFFFFF);
   c.stop = hex(0xC23B00);
   c.stop_hovered = hex(0xAA3300);
   return c;

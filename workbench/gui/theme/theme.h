@@ -24,6 +24,7 @@ struct ThemeColours {
   ImU32 accent, accent_soft;  ///< soft: translucent, fills behind text
   ImU32 accent_fill;          ///< opaque equivalent on a panel: buttons that are on
   ImU32 good, warning, bad;
+  ImU32 on_bad;              ///< text on `bad`
   ImU32 stop, stop_hovered;  ///< behind white text
 };
 

@@ -1,5 +1,7 @@
 #include "workbench/gui/widgets/widgets.h"
 
+#include "core/io/csv_table.h"
+
 #include <imgui_internal.h>
 #include <imgui_stdlib.h>
 
@@ -72,6 +74,9 @@ void draw_icon(ImDrawList& draw, Icon icon, ImVec2 c, float r, ImU32 ink) {
     case Icon::bookmark_back:
     case Icon::bookmark_on:
       draw_ribbon(draw, c, r, icon == Icon::bookmark ? 0.0f : icon == Icon::bookmark_on ? 1.0f : -1.0f, line, ink);
+      break;
+    case Icon::record:
+      draw.AddCircleFilled(c, 0.62f * r, ink, 20);
       break;
     case Icon::reset:
       draw.PathArcTo(c, 0.62f * r, -2.3f, 2.6f, 16);
@@ -282,10 +287,11 @@ bool icon_button(const UiContext& ui, std::string_view path, Icon icon, const ch
         on ? ui.colours.accent_fill : ImGui::GetColorU32(hovered ? ImGuiCol_ButtonHovered : ImGuiCol_Button);
     if (!plain || hovered) draw.AddRectFilled(at, {at.x + width, at.y + side}, fill, ui.px(3));
   }
-  const ImU32 ink = !enabled  ? ui.colours.text_faint
-                    : on      ? ui.colours.accent
-                    : hovered ? ui.colours.text
-                              : ui.colours.text_dim;
+  const ImU32 ink = icon == Icon::record ? ui.colours.bad
+                    : !enabled           ? ui.colours.text_faint
+                    : on                 ? ui.colours.accent
+                    : hovered            ? ui.colours.text
+                                         : ui.colours.text_dim;
   draw_icon(draw, icon, {at.x + 0.5f * width, at.y + 0.5f * side}, plain ? ui.px(5.5f) : ui.px(6.5f), ink);
   tooltip(ui, tip);
   return pressed;
@@ -336,7 +342,7 @@ bool choice_row(const UiContext& ui, std::string_view path, float width, std::sp
     if (found != choices.end())
       wanted = static_cast<int>(found - choices.begin());
     else
-      ui.items.refuse("\"" + *given + "\" is not among the choices of " + std::string(path));
+      ui.items.refuse(show_text(*given) + " is not among the choices of " + std::string(path));
   } else if (!open) {
     wanted = std::clamp(chosen + arrows_on(ui, path), 0, static_cast<int>(choices.size()) - 1);
   }
@@ -353,13 +359,32 @@ void fact(const UiContext& ui, const char* label, const std::string& value, cons
   ImFont* text = ui.fonts.text;
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const float unit_width = unit[0] != '\0' ? ui.px(40) : 0.0f;
-  const float w = number->CalcTextSizeA(number->FontSize, 1e9f, 0.0f, value.c_str()).x;
-  draw.AddText(text, text->FontSize, at, ui.colours.text_dim, label);
+  const std::string shown_value = fitted(number, value, width - unit_width);
+  const float w = number->CalcTextSizeA(number->FontSize, 1e9f, 0.0f, shown_value.c_str()).x;
+  const std::string shown_label = fitted(text, label, width - unit_width - w - ui.px(6));
+  draw.AddText(text, text->FontSize, at, ui.colours.text_dim, shown_label.c_str());
   draw.AddText(number, number->FontSize, {at.x + width - unit_width - w, at.y + ui.px(1)},
-               ink.value_or(ui.colours.text), value.c_str());
+               ink.value_or(ui.colours.text), shown_value.c_str());
   if (unit_width > 0.0f)
     draw.AddText(text, text->FontSize, {at.x + width - unit_width + ui.px(4), at.y}, ui.colours.text_dim, unit);
   ImGui::Dummy({width, text->FontSize});
+  if (shown_label != label || shown_value != value) tooltip(ui, std::string(label) + ": " + value + " " + unit);
+}
+
+std::string fitted(const ImFont* font, std::string text, float room) {
+  const auto width = [&](const std::string& s) { return font->CalcTextSizeA(font->FontSize, 1e9f, 0.0f, s.c_str()).x; };
+  if (width(text) <= room) return text;
+  while (!text.empty() && width(text + "...") > room) {
+    while (!text.empty() && (text.back() & 0xC0) == 0x80) text.pop_back();  // UTF-8: whole characters
+    if (!text.empty()) text.pop_back();
+  }
+  while (!text.empty() && text.back() == ' ') text.pop_back();
+  return text.empty() ? text : text + "...";
+}
+
+void same_line_if_room(float width) {
+  ImGui::SameLine();
+  if (ImGui::GetContentRegionAvail().x < width) ImGui::NewLine();
 }
 
 namespace {

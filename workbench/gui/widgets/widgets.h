@@ -46,7 +46,8 @@ enum class Icon {
   reset,
   bookmark,
   bookmark_back,
-  bookmark_on
+  bookmark_on,
+  record  ///< a red disc
 };
 /// A square button with a drawn icon; `on` tints it with the accent.
 bool icon_button(const UiContext& ui, std::string_view path, Icon icon, const char* tooltip, bool on = false,
@@ -66,12 +67,18 @@ bool text_is_edited();
 bool choice_row(const UiContext& ui, std::string_view path, float width, std::span<const std::string_view> choices,
                 int& chosen, bool again = false);
 
-/// "label ........ value unit": label dim, value in the number font, right-aligned.
+/// "label ........ value unit": label dim, value in the number font, right-aligned. A label without room is cut short,
+/// and whole in a tooltip.
 void fact(const UiContext& ui, const char* label, const std::string& value, const char* unit = "",
           std::optional<ImU32> ink = std::nullopt);
 
 /// Shown when the last item is hovered for a moment with no mouse button down; wrapped at a readable width.
 void tooltip(const UiContext& ui, std::string_view text);
+
+/// The text, or as much of it as has room, with three dots.
+std::string fitted(const ImFont* font, std::string text, float room);
+/// The next item goes on in the line if it has this much room there, else below.
+void same_line_if_room(float width);
 
 /// printf into a string.
 std::string printed(const char* pattern, ...) __attribute__((format(printf, 1, 2)));

@@ -5,6 +5,8 @@
 #include <doctest/doctest.h>
 
 #include <set>
+#include <span>
+#include <vector>
 
 using namespace tangent;
 using namespace tangent::test;
@@ -70,4 +72,56 @@ TEST_CASE("a search builds the parts that it comes to, and a visitor that shrink
           return true;
         }) < all / 2);
   CHECK(built([](std::uint32_t, ContactQuery&) { return false; }) <= 2);
+}
+
+TEST_CASE("what is built of a mesh in parts changes neither which triangles a search visits nor their order") {
+  Random random(16);
+  for (const PolygonMesh& source : {make_icosphere(0.040, 5), make_torus(0.040, 0.015, 96, 48)}) {
+    const auto scene = scene_of(source);
+    const TriangleClusters clusters = TriangleClusters::build(scene->mesh());
+    const LateHierarchy all(scene->mesh(), &clusters);
+    for (std::size_t part = 0; part < all.part_count(); ++part) all.build_part(part);
+    int different = 0, shrunk = 0;
+    for (int i = 0; i < rounds(200); ++i) {
+      const ContactQuery query = random_query(random, scene->mesh());
+      const bool shrinks = random.in(0.0, 1.0) < 0.5;
+      const auto visited = [&](const LateHierarchy& hierarchy) {
+        std::vector<std::uint32_t> triangles;
+        hierarchy.visit(query, [&](std::uint32_t t, ContactQuery& q) {
+          triangles.push_back(t);
+          if (shrinks) q.margin_m *= 0.9, q.nearest_m *= 0.99;
+          return true;
+        });
+        return triangles;
+      };
+      const LateHierarchy fresh(scene->mesh(), &clusters);
+      const std::vector<std::uint32_t> first = visited(fresh);  // builds what it comes to
+      different += first != visited(all) || first != visited(fresh);
+      shrunk += shrinks && !first.empty();
+    }
+    CHECK(different == 0);
+    CHECK(shrunk > 20);
+  }
+}
+
+TEST_CASE("an outline about several parts rules out no search that one of them doesn't rule out") {
+  Random random(17);
+  const auto scene = scene_of(make_torus(0.040, 0.015, 96, 48));
+  const TriangleClusters clusters = TriangleClusters::build(scene->mesh());
+  std::vector<ContactHierarchy::Outline> parts;
+  for (std::size_t part = 0; part < clusters.count(); ++part)
+    parts.push_back(ContactHierarchy::build(scene->mesh(), clusters.triangles(part)).outline());
+  int wrong = 0, ruled_out = 0;
+  for (int i = 0; i < rounds(300); ++i) {
+    const auto query = random_query(random, scene->mesh());
+    const auto first = static_cast<std::size_t>(random.in(0.0, static_cast<double>(parts.size() - 4)));
+    const auto four = std::span(parts).subspan(first, 4);
+    const auto about = ContactHierarchy::Outline::about(ContactHierarchy::Outline::about(four[0], four[1]),
+                                                        ContactHierarchy::Outline::about(four[2], four[3]));
+    if (!about.rules_out(query)) continue;
+    ++ruled_out;
+    for (const auto& part : four) wrong += !part.rules_out(query);
+  }
+  CHECK(wrong == 0);
+  CHECK(ruled_out > 50);
 }

@@ -174,65 +174,108 @@ TEST_CASE(
   CHECK(worst < 2e-4);
 }
 
-TEST_CASE("while an ellipsoid or a capsule turns over bodies made at random the tracked contact is the deepest place") {
-  constexpr int kBodies = 40;
-  const int poses = rounds(1000);
-  for (const FingerShape shape : {FingerShape::ellipsoid, FingerShape::capsule}) {
-    CAPTURE(static_cast<int>(shape));
-    Random random{98};
-    int shallower = 0, unconverged = 0, facing = 0, touching = 0;
-    double worst = 0.0;
-    for (int body = 0; body < kBodies; ++body) {
-      ContactMeshOptions options;
-      options.crease_rad = (body % 2 ? 180.0 : 45.0) * kDegree;
-      const ScenePtr scene = scene_of(random_blob(random), options);
-      Preset preset = sphere_preset(0.008, Method::robust);
-      preset.finger.shape = shape;
-      preset.finger.semi_axes_m = {0.020, 0.010, 0.008};
-      preset.force.contacts = body % 4 < 2 ? ForceContacts::deepest : ForceContacts::all;
-      const double hystereses = preset.force.contacts == ForceContacts::all ? kTremor : 1.0;
-      const double held = hystereses * preset.solver.switch_hysteresis_m + preset.solver.tolerance_m +
-                          2.0 * kHeightGuess * preset.finger.reach_m();
-      Stepper tracking(scene), searching(scene);
-      TickState state;
-      RoundABody path(random);
-      Quat orientation = random.orientation();
-      Vec3 axis = random.direction();
-      const double turn = body % 5 == 0 ? 0.0 : 0.004;  // rad a tick
-      double depth = 0.0;
-      const auto next_input = [&](int i) {
-        TickInput input = path.next(i, depth, preset.finger.reach_m());
-        if (i % 200 == 0) axis = random.direction();
-        orientation = glm::normalize(glm::angleAxis(turn, axis) * orientation);
-        input.finger.orientation = orientation;
-        return input;
-      };
-      int first = 0;  // up to there the finger comes near
-      for (; first < 400 && !(depth > 0.0); ++first)
-        depth = tracking.step(preset, next_input(first), state).penetration_m;
-      for (int i = first; i < first + poses; ++i) {
-        const TickInput input = next_input(i);
-        const TickOutput tracked = tracking.step(preset, input, state);
-        depth = tracked.penetration_m;
-        unconverged += tracked.status == TickStatus::unconverged;
-        facing += tracked.status == TickStatus::facing;
-        touching += tracked.penetration_m > 0.0;
-        if (i % 4 > 0) continue;
-        TickState fresh;
-        const TickOutput cold = searching.step(preset, input, fresh);
-        const double behind = cold.penetration_m - tracked.penetration_m - held;
-        shallower += behind > 0.0;
-        worst = std::max(worst, behind);
-      }
+namespace {
+
+/// An ellipsoid or a capsule that turns while it goes round a body made at random.
+class TurningFinger {
+ public:
+  TurningFinger(Random& random, bool turns, double reach_m)
+      : random_(random),
+        path_(random),
+        orientation_(random.orientation()),
+        axis_(random.direction()),
+        turn_(turns ? 0.004 : 0.0),
+        reach_m_(reach_m) {}
+
+  TickInput next(int i, double penetration_m) {
+    TickInput input = path_.next(i, penetration_m, reach_m_);
+    if (i % 200 == 0) axis_ = random_.direction();
+    orientation_ = glm::normalize(glm::angleAxis(turn_, axis_) * orientation_);
+    input.finger.orientation = orientation_;
+    return input;
+  }
+
+ private:
+  Random& random_;
+  RoundABody path_;
+  Quat orientation_;
+  Vec3 axis_;
+  double turn_ = 0.0;  // rad a tick
+  double reach_m_ = 0.0;
+};
+
+struct TurnedOverBodies {
+  int ticks = 0, compared = 0, shallower = 0, unconverged = 0, facing = 0, touching = 0;
+  double worst_m = 0.0;  ///< behind a deeper place, beyond what is held
+};
+
+/// Compared with a search from nothing at every `every`-th tick.
+TurnedOverBodies turn_over_bodies(FingerShape shape, int bodies, int poses, int every) {
+  Random random{98};
+  TurnedOverBodies found;
+  for (int body = 0; body < bodies; ++body) {
+    ContactMeshOptions options;
+    options.crease_rad = (body % 2 ? 180.0 : 45.0) * kDegree;
+    const ScenePtr scene = scene_of(random_blob(random), options);
+    Preset preset = sphere_preset(0.008, Method::robust);
+    preset.finger.shape = shape;
+    preset.finger.semi_axes_m = {0.020, 0.010, 0.008};
+    preset.force.contacts = body % 4 < 2 ? ForceContacts::deepest : ForceContacts::all;
+    const double hystereses = preset.force.contacts == ForceContacts::all ? kTremor : 1.0;
+    const double held = hystereses * preset.solver.switch_hysteresis_m + preset.solver.tolerance_m +
+                        2.0 * kHeightGuess * preset.finger.reach_m();
+    Stepper tracking(scene), searching(scene);
+    TickState state;
+    TurningFinger finger(random, body % 5 != 0, preset.finger.reach_m());
+    double depth = 0.0;
+    int first = 0;  // up to there the finger comes near
+    for (; first < 400 && !(depth > 0.0); ++first)
+      depth = tracking.step(preset, finger.next(first, depth), state).penetration_m;
+    for (int i = first; i < first + poses; ++i) {
+      const TickInput input = finger.next(i, depth);
+      const TickOutput tracked = tracking.step(preset, input, state);
+      depth = tracked.penetration_m;
+      ++found.ticks;
+      found.unconverged += tracked.status == TickStatus::unconverged;
+      found.facing += tracked.status == TickStatus::facing;
+      found.touching += tracked.penetration_m > 0.0;
+      if (i % every > 0) continue;
+      TickState fresh;
+      const double behind = searching.step(preset, input, fresh).penetration_m - tracked.penetration_m - held;
+      ++found.compared;
+      found.shallower += behind > 0.0;
+      found.worst_m = std::max(found.worst_m, behind);
     }
-    const int all = kBodies * poses;
-    MESSAGE(all << " poses, " << touching << " touching, " << unconverged << " unconverged, " << facing << " facing, "
-                << shallower << " of " << all / 4 << " behind a deeper place by up to " << worst
-                << " m more than is held");
-    CHECK(unconverged == 0);
-    CHECK(facing * 1000 <= all);
-    CHECK(touching > all / 2);
-    // Near a fold one can come up before the search that the motion so far called for.
-    CHECK(shallower <= std::max(1, all / 800));
+  }
+  return found;
+}
+
+void check_turned(const TurnedOverBodies& found, int late_at_most) {
+  MESSAGE(found.ticks << " poses, " << found.touching << " touching, " << found.unconverged << " unconverged, "
+                      << found.facing << " facing, " << found.shallower << " of " << found.compared
+                      << " behind a deeper place by up to " << found.worst_m << " m more than is held");
+  CHECK(found.unconverged == 0);
+  CHECK(found.facing * 1000 <= found.ticks);
+  CHECK(found.touching > found.ticks / 2);
+  CHECK(found.shallower <= late_at_most);
+}
+
+constexpr FingerShape kTurningShapes[] = {FingerShape::ellipsoid, FingerShape::capsule};
+
+}  // namespace
+
+TEST_CASE("while an ellipsoid or a capsule turns over bodies made at random the tracked contact is the deepest place") {
+  for (const FingerShape shape : kTurningShapes) {
+    CAPTURE(static_cast<int>(shape));
+    // 2 and 37 when a solve that ran on to the tracked contact, or out of planes, was taken to say that there is no
+    // other.
+    check_turned(turn_over_bodies(shape, 40, rounds(1000), 4), 1);
+  }
+}
+
+TEST_CASE("measure: on 100,000 poses an ellipsoid or a capsule that turns is at the deepest place" * doctest::skip()) {
+  for (const FingerShape shape : kTurningShapes) {
+    CAPTURE(static_cast<int>(shape));
+    check_turned(turn_over_bodies(shape, 100, 1000, 1), 10);
   }
 }

@@ -88,7 +88,7 @@ TEST_CASE("differences are lengths and angles - unconverged ticks are left out")
   b.contact = Vec3(3e-3, 4e-3, 0);
   b.force_n = Vec3(0, 0, 0.25);
   b.cld_m = -2e-3;
-  const TickDifference d = difference(a, b);
+  const OutputDifference d = difference(a, b);
   CHECK(d.contact_m == doctest::Approx(5e-3));
   CHECK(d.normal_rad == doctest::Approx(20.0 * kDegree));
   CHECK(d.force_n == doctest::Approx(0.25));

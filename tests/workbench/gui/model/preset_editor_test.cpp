@@ -16,7 +16,7 @@ const PresetKey& key(const char* table, const char* name) {
   return *found;
 }
 
-std::filesystem::path fresh_folder(const char* name) {
+std::filesystem::path new_folder(const char* name) {
   const auto folder = std::filesystem::temp_directory_path() / name;
   std::filesystem::remove_all(folder);
   std::filesystem::create_directories(folder);
@@ -55,7 +55,7 @@ TEST_CASE("what changed since loading is listed, and can be taken back key by ke
 }
 
 TEST_CASE("a preset saved from the window is the one that is loaded again") {
-  const auto folder = fresh_folder("tangent_preset_editor_test");
+  const auto folder = new_folder("tangent_preset_editor_test");
   PresetEditor editor;
   editor.set(key("solver", "gain_curvature_m"), 0.0123);
   REQUIRE(editor.save_as(folder, "steep", {}).has_value());
@@ -69,7 +69,7 @@ TEST_CASE("a preset saved from the window is the one that is loaded again") {
 }
 
 TEST_CASE("a broken preset file changes nothing and says what is wrong where") {
-  const auto folder = fresh_folder("tangent_preset_editor_broken");
+  const auto folder = new_folder("tangent_preset_editor_broken");
   std::ofstream(folder / "broken.toml") << "[solver]\ngain_overall = 99\n";
   PresetEditor editor;
   editor.set(key("solver", "gain_overall"), 0.5);

@@ -88,6 +88,8 @@ TEST_CASE("W goes through the map's worst places, each with its planes") {
     CHECK(ui.time().placed()->triangle() == place.triangle);
     CHECK(static_cast<double>(ui.time().tick().record()->tick.output.iterations) == place.value);
   }
+  ui.model().window().show_section("Map", false);
+  ui.frames(3);
   ui.click("map/worst/0");
   CHECK(ui.time().placed()->triangle() == ui.model().map().worst()[0].triangle);
 }

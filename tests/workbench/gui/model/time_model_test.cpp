@@ -41,6 +41,8 @@ TEST_CASE("K sets a bookmark on the tick in view, [ and ] go from one to the nex
   ui.click("transport/bookmark_back");
   CHECK(ui.tick() == 300);
   const std::uint32_t id = ui.model().time().bookmarks().all()[0].id;
+  ui.model().window().show_section("Bookmarks", false);
+  ui.frames(3);
   ui.click("bookmarks/note/" + std::to_string(id));
   ui.type("first touch");
   ui.key(HeadlessApp::kEnter);

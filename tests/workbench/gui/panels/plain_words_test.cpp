@@ -2,8 +2,13 @@
 #include "tests/support/temp_folder.h"
 #include "tests/workbench/gui/headless_app.h"
 #include "workbench/gui/panels/attempts_text.h"
+#include "workbench/gui/panels/panels.h"
 #include "workbench/gui/theme/theme.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
 #include <string_view>
 #include <vector>
 
@@ -55,14 +60,14 @@ TEST_CASE("a mesh of which three of four triangles are left out says so first") 
 
 TEST_CASE("the planes of a tick are counted by attempt, beside the limit of one attempt") {
   std::vector<IterationRecord> records(51);
-  CHECK(attempts_text(std::span(records).first(2), 0, 1, 50) == "Tracking 1; limit 50 an attempt");
+  CHECK(attempts_text(std::span(records).first(2), 0, 1, 50) == "Tracking 1; limit 50 per attempt");
   for (int i = 0; i < 47; ++i) {
     records.emplace_back();
     records.back().seed = i < 30 ? 1 : 2;
   }
-  CHECK(attempts_text(records, 0, 97, 50) == "Tracking 50, seeds 30 + 17; limit 50 an attempt");
-  CHECK(attempts_text(records, 0, 100, 50) == "Tracking 50, seeds 30 + 17, searched 3; limit 50 an attempt");
-  CHECK(attempts_text({}, 0, 0, 50) == "Tracking 0; limit 50 an attempt");
+  CHECK(attempts_text(records, 0, 97, 50) == "Tracking 50, seeds 30 + 17; limit 50 per attempt");
+  CHECK(attempts_text(records, 0, 100, 50) == "Tracking 50, seeds 30 + 17, searched 3; limit 50 per attempt");
+  CHECK(attempts_text({}, 0, 0, 50) == "Tracking 0; limit 50 per attempt");
   HeadlessApp ui;
   ui.app().advance(50);
   ui.frames(2);
@@ -96,10 +101,32 @@ TEST_CASE("the legend of the plots names bands, events and lines, and goes away 
   ui.frames(2);
   CHECK(ui.app().items().find("plots/legend/Bookmarked: unconverged") != nullptr);
   CHECK(ui.app().items().find("plots/legend/Unconverged") != nullptr);
-  CHECK(ui.app().items().find("plots/legend/Thin: ghost, the past solved again") != nullptr);
+  CHECK(ui.app().items().find("plots/legend/Thin line: ghost, the past solved again") != nullptr);
   ui.click("plots/legend");
   ui.frames(2);
   CHECK(ui.app().items().find("plots/legend/Unconverged") == nullptr);
+}
+
+TEST_CASE("every kind of bookmark has a colour of its own, in all themes") {
+  ItemMap items;
+  Typing typing;
+  Resting resting;
+  const ThemeFonts fonts;
+  std::map<std::string, bool> sections;
+  constexpr std::array kKinds{BookmarkKind::user,  BookmarkKind::reseeded,    BookmarkKind::iterations,
+                              BookmarkKind::force, BookmarkKind::unconverged, BookmarkKind::device_fault};
+  for (std::size_t t = 0; t < kThemeCount; ++t) {
+    const auto theme = static_cast<Theme>(t);
+    const UiContext ui{items, typing, resting, theme_colours(theme), palette(theme), fonts, sections};
+    for (const BookmarkKind a : kKinds)
+      for (const BookmarkKind b : kKinds) {
+        if (a >= b) continue;
+        const ImVec4 p = ImGui::ColorConvertU32ToFloat4(bookmark_ink(ui, a)),
+                     q = ImGui::ColorConvertU32ToFloat4(bookmark_ink(ui, b));
+        INFO("theme ", t, ": ", to_string(a), " and ", to_string(b));
+        CHECK(std::max({std::abs(p.x - q.x), std::abs(p.y - q.y), std::abs(p.z - q.z)}) > 0.1f);
+      }
+  }
 }
 
 TEST_CASE("no tooltip covers a value while it is typed") {

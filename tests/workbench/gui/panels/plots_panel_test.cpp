@@ -95,7 +95,8 @@ TEST_CASE("Ctrl-click sets A and Shift-click B, without leaving the tick in view
   ui.click("plots/csv");
   REQUIRE(said(ui.model(), "ticks written to"));
   std::filesystem::path written;
-  for (const auto& entry : std::filesystem::directory_iterator(folder.path())) written = entry.path();
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
+    if (entry.path().extension() == ".csv") written = entry.path();
   std::ifstream file(written);
   std::string line;
   std::getline(file, line);
@@ -117,9 +118,9 @@ TEST_CASE("exported samples read back as the recorded doubles - a file is never 
   PlotsApp ui;
   ui.model().exports().set_folder(folder.path());
   ui.run(200);
-  ui.model().exports().write_ticks(50, 60);
-  ui.model().exports().write_ticks(50, 60);
-  CHECK(folder.entry_count() == 2);
+  ui.model().exports().write_ticks(ui.model().time().past().shown().records, 50, 60);
+  ui.model().exports().write_ticks(ui.model().time().past().shown().records, 50, 60);
+  CHECK(folder.entry_count() == 4);  // each with what its columns are
   std::ifstream file(folder.path() / "ticks-50-59.csv");
   std::string line;
   std::getline(file, line);
@@ -143,7 +144,7 @@ TEST_CASE("exported samples read back as the recorded doubles - a file is never 
   CHECK(value("cld_measured_m") == record.device.cld_measured_m);
   CHECK(value("finger_x_m") == record.tick.input.finger.position.x);
   ui.model().exports().set_folder("/nowhere/at/all");
-  ui.model().exports().write_ticks(50, 60);
+  ui.model().exports().write_ticks(ui.model().time().past().shown().records, 50, 60);
   CHECK(ui.model().messages().all().back().severity == Severity::error);
 }
 
@@ -188,4 +189,80 @@ TEST_CASE("a legend entry hides its curve from the axis and brings it back") {
   ui.click("plots/force/x");
   ui.move({5.0f, 5.0f});
   CHECK(vertices() == all);
+}
+
+TEST_CASE("channels are dragged from the list onto a plot, several at once, from a legend too, and removed again") {
+  PlotsApp ui;
+  ui.run(3000);
+  ui.click("plots/channels");
+  ui.frames(2);
+  const PlotLists& lists = ui.model().window().plots();
+  const auto onto = [&](const std::string& from, const std::string& plot) {
+    ui.move(ui.centre(from));
+    ui.press();
+    const ImVec2 a = ui.centre(from), b = ui.centre(plot);
+    ui.move({a.x + 10.0f, a.y + 3.0f});
+    ui.move(b);
+    ui.release();
+    ui.frames(2);
+  };
+  onto("plots/channel/energy", "plots/force");
+  CHECK(lists.of(0).back() == "energy");
+  CHECK(ui.app().items().find("plots/force/Energy") != nullptr);
+  ui.click("plots/channel/iterations");
+  ui.click("plots/channel/error");
+  onto("plots/channel/error", "plots/energy");
+  CHECK(lists.of(5) == PlotLists::Texts{"energy", "error", "iterations"});
+  ui.click("plots/channels");
+  onto("plots/cld/commanded", "plots/iterations");
+  CHECK(lists.of(3) == PlotLists::Texts{"iterations", "cld_commanded"});
+  ui.click("plots/iterations/Display commanded", 1);
+  CHECK(lists.of(3) == PlotLists::Texts{"iterations"});
+  ui.click("plots/values");
+  onto("plots/value/force_z", "plots/cld");
+  CHECK(lists.of(1).back() == "force_z");
+}
+
+TEST_CASE("a derived channel is made from the list, drawn in a plot, and known to X-Y, spectrum and histogram") {
+  PlotsApp ui;
+  ui.run(3000);
+  ui.click("plots/channels");
+  ui.click("plots/make/how");
+  ui.click("plots/make/how/Low-pass filter of a");
+  ui.click("plots/make");
+  const std::string key = ui.model().window().plots().made().at(0);
+  CHECK(key == "low_pass(force_felt, 5 Hz)");
+  REQUIRE(ui.model().window().plots().add("error", key));
+  REQUIRE(ui.model().window().plots().remove("error", "error"));
+  ui.frames(2);
+  CHECK(ui.app().items().find("plots/error/Force felt up to 5 Hz") != nullptr);
+  const tangent::testing::TempFolder folder;
+  const auto script = folder.path() / "steps.txt";
+  for (const char* mode : {"X-Y", "Spectrum", "Histogram"}) {
+    std::ofstream(script) << "plots " << mode << "\ncurve across Error\nwait 0.1\ncurve across Force felt up to 5 Hz\n";
+    ui.app().run_script(script);
+    ui.frames(60);
+    CHECK(ui.app().script_failure().empty());
+    CHECK_FALSE(ui.app().script_running());
+  }
+  ui.click("plots/mode/Time");
+  ui.click("plots/channel/" + key, 1);
+  CHECK(ui.model().window().plots().made().empty());
+  CHECK(ui.app().items().find("plots/error/Force felt up to 5 Hz") == nullptr);
+  CHECK(ui.app().items().find("plots/error") != nullptr);  // empty: it says what to do
+}
+
+TEST_CASE("the plots' channels are kept between runs") {
+  const tangent::testing::TempFolder folder;
+  AppOptions options = HeadlessApp::deterministic_options();
+  options.settings = folder.path() / "window.toml";
+  std::ofstream(options.settings) << "format = 1\n";
+  {
+    HeadlessApp ui(options);
+    REQUIRE(ui.model().window().plots().add("tick_time", "difference(force_x, force_z)"));
+    ui.frames(2);
+  }
+  HeadlessApp ui(options);
+  CHECK(ui.model().window().plots().of(4) == PlotLists::Texts{"tick_time", "difference(force_x, force_z)"});
+  CHECK(ui.app().items().find("plots/tick_time/Force x \u2212 Force z") != nullptr);
 }

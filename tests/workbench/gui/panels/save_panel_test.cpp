@@ -6,9 +6,14 @@
 #include "workbench/gui/model/export_tables.h"
 #include "workbench/gui/platform/offscreen.h"
 #include "workbench/gui/render/scene_renderer.h"
+#include "workbench/session/figure_table.h"
 
+#include <chrono>
 #include <fstream>
+#include <future>
 #include <sstream>
+#include <stop_token>
+#include <thread>
 
 using namespace tangent;
 using tangent::test::HeadlessApp;
@@ -143,7 +148,60 @@ TEST_CASE("the scene is saved at the width asked for, with alpha, and the window
   CHECK(png[25] == 6);  // colour and alpha
   CHECK(png.find("workbench gui icosphere") != std::string::npos);
   CHECK(renderer.width_px() == width_px);
+  // With labels and scales it is another picture of the same size, and the window's fonts stay as they are.
+  const ImFont* font = ImGui::GetIO().Fonts->Fonts[0];
+  ask_to_save(ui.model(), SaveWhat::scene);
+  ui.frame();
+  ui.click("save/overlay");
+  ui.model().exports().dialog().name = "labelled.png";
+  ui.frame();
+  ui.click("save/accept");
+  ui.frames(2);
+  const std::string labelled = ui.read("labelled.png");
+  REQUIRE(labelled.size() > png.size());
+  CHECK(labelled.substr(16, 8) == png.substr(16, 8));
+  CHECK(ImGui::GetIO().Fonts->Fonts[0] == font);
   ui.app().set_renderer(nullptr);
+}
+
+TEST_CASE("a figure is drawn while the window goes on, and what is cancelled leaves nothing") {
+  if (no_gnuplot()) return;
+  TempFolder folder;
+  Figure figure{.name = "slow", .title = "Slow"};
+  figure.script = "pause 20\nplot x\n";
+  std::stop_source stop;
+  auto drawn = std::async(std::launch::async,
+                          [&] { return write_drawing(figure, {}, folder.path() / "slow.svg", stop.get_token()); });
+  CHECK(drawn.wait_for(std::chrono::milliseconds(100)) == std::future_status::timeout);
+  stop.request_stop();
+  const Status done = drawn.get();
+  REQUIRE_FALSE(done);
+  CHECK(done.error().what.find("cancelled") != std::string::npos);
+  CHECK(folder.entry_count() == 0);
+}
+
+TEST_CASE("one file is written at a time, and the message at its end says where it is") {
+  AppOptions live;  // not deterministic: with threads
+  live.mesh = "icosphere";
+  MessageLog messages;
+  ExportModel exports(live, messages);
+  std::promise<void> go;
+  exports.start("one.svg", [&, ready = go.get_future().share()](const std::stop_token&) -> Result<std::string> {
+    ready.wait();
+    return "written to one.svg";
+  });
+  CHECK(exports.writing());
+  CHECK(exports.what() == "one.svg");
+  exports.start("two.svg", [](const std::stop_token&) -> Result<std::string> { return "never"; });
+  CHECK(messages.all().back().text.find("wait for one.svg") != std::string::npos);
+  exports.take_finished();
+  CHECK(exports.writing());
+  go.set_value();
+  for (int i = 0; i < 2000 && exports.writing(); ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    exports.take_finished();
+  }
+  CHECK(messages.all().back().text == "written to one.svg");
 }
 
 TEST_CASE("the map is a table of places and values, those that the window shows") {

@@ -29,6 +29,18 @@ TEST_CASE("linear ticks fall on 1, 2 or 5 times a power of ten, with just the de
   CHECK(labels(linear_ticks(-0.02, 0.021, 4)) == std::vector<std::string>{"-0.02", "0", "0.02"});
 }
 
+TEST_CASE("an axis that is two lines high has labels at two places, a lower one where they are a line apart") {
+  CHECK(labels(value_ticks({-0.3, 0.0, false, false, 1.3})) == std::vector<std::string>{"-0.2", "0"});
+  CHECK(labels(value_ticks({0.0, 1.25, false, true, 3.0})) == std::vector<std::string>{"0", "1"});
+  CHECK(labels(value_ticks({1e-7, 2.0, true, false, 3.0})).size() == 2);
+  CHECK(labels(value_ticks({0.0, 1.0, false, false, 0.5})).size() <= 1);
+  CHECK(labels(value_ticks({0.0, 1.0, false, false, 12.0})) == labels(linear_ticks(0.0, 1.0, 5)));
+  for (double low : {-17.3, 0.0, 1e-9, 123.456})
+    for (double range = 1e-6; range < 1e6; range *= 3.7)
+      for (double lines = 2.0; lines < 30.0; lines *= 1.4)
+        REQUIRE(labels(value_ticks({low, low + range, false, false, lines})).size() >= 2);
+}
+
 TEST_CASE("no more labels than asked for, whatever the range") {
   for (double low : {-1e6, -17.3, 0.0, 1e-9, 123456.789}) {
     for (double range = 1e-9; range < 1e9; range *= 3.7) {

@@ -2,7 +2,9 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <memory>
 #include <random>
 #include <vector>
 
@@ -187,4 +189,48 @@ TEST_CASE("a spike of one sample in an hour at 1 kHz is found in every range tha
     CHECK(store.min_max(0, from, spike).max == 0.25f);
     CHECK(store.min_max(0, spike + 1, spike + 1 + half).max == 0.25f);
   }
+}
+
+TEST_CASE("a store that keeps a part and knows the rest by blocks: exact inside, rounded out to blocks beyond") {
+  constexpr std::uint64_t kTicks = 40'000, kBlock = 256, kFrom = 13'000, kTo = 17'500;
+  ChannelStore whole(1, 1), part(1, 1);
+  auto blocks = std::make_shared<ChannelStore>(2, 1);
+  std::mt19937 random(3);
+  std::normal_distribution<float> value;
+  for (std::uint64_t tick = 0; tick < kTicks; ++tick) push(whole, tick, value(random));
+  for (std::uint64_t b = 0; b * kBlock < kTicks; ++b) {
+    const MinMax range = whole.min_max(0, b * kBlock, (b + 1) * kBlock);
+    blocks->push(b, std::vector<float>{range.min, range.max});
+  }
+  for (std::uint64_t tick = kFrom; tick < kTo; ++tick) push(part, tick, whole.value(0, tick));
+  const std::uint64_t before = part.generation();
+  part.set_coarse({blocks, kBlock, 0, kTicks});
+  CHECK(part.generation() != before);
+  CHECK(part.first_tick() == 0);
+  CHECK(part.end_tick() == kTicks);
+  CHECK(part.first_kept() == kFrom);
+  CHECK(part.end_kept() == kTo);
+  std::uniform_int_distribution<std::uint64_t> at(0, kTicks);
+  const auto down = [](std::uint64_t t) { return t / kBlock * kBlock; };
+  const auto up = [](std::uint64_t t) { return (t + kBlock - 1) / kBlock * kBlock; };
+  for (int i = 0; i < 400; ++i) {
+    std::uint64_t from = at(random), to = at(random);
+    if (from > to) std::swap(from, to);
+    if (from == to) continue;
+    MinMax wanted;
+    if (from < kFrom) wanted.include(whole.min_max(0, down(from), up(std::min(to, kFrom))));
+    if (to > kTo) wanted.include(whole.min_max(0, down(std::max(from, kTo)), up(to)));
+    wanted.include(whole.min_max(0, std::clamp(from, kFrom, kTo), std::clamp(to, kFrom, kTo)));
+    const MinMax found = part.min_max(0, from, to);
+    CHECK(found.min == wanted.min);
+    CHECK(found.max == wanted.max);
+    std::vector<MinMax> row(3);
+    part.min_max_row(0, down(from), kBlock, row);
+    for (std::uint64_t k = 0; k < row.size(); ++k)
+      CHECK(row[k].max >= whole.min_max(0, down(from) + k * kBlock, down(from) + (k + 1) * kBlock).max);
+    const bool inside = from >= kFrom && to <= kTo;
+    CHECK(part.sums(0, from, to).count == (inside ? to - from : 0));
+  }
+  CHECK(std::isnan(part.value(0, kFrom - 1)));
+  CHECK(part.value(0, kFrom) == whole.value(0, kFrom));
 }

@@ -170,6 +170,7 @@ TEST_CASE("text has a contrast of at least 4.5 to 1 on every ground that it is w
     }
     ImGui::DestroyContext();
     CHECK(contrast(unpacked(c.text), unpacked(c.accent_fill)) >= 4.5);
+    CHECK(contrast(unpacked(c.on_bad), unpacked(c.bad)) >= 4.5);
     for (const ImU32 stop : {c.stop, c.stop_hovered}) CHECK(contrast(rgb_hex(0xFFFFFF), unpacked(stop)) >= 4.5);
   }
 }
@@ -181,6 +182,19 @@ TEST_CASE("curves and what is drawn on the mesh have a contrast of at least 3 to
       for (const Named& one : group) {
         INFO("theme ", i, ": ", one.name);
         CHECK(contrast(one.colour, unpacked(theme_colours(theme).plot)) >= 3.0);
+      }
+  }
+}
+
+TEST_CASE("words in a quantity's colour can be read on panels and behind the scene, and text stays as it is") {
+  for (std::size_t i = 0; i < kThemeCount; ++i) {
+    const Palette& p = palette(static_cast<Theme>(i));
+    CHECK(readable(p, p.text) == p.text);
+    for (const auto& group : groups(p))
+      for (const Named& one : group) {
+        INFO("theme ", i, ": ", one.name);
+        for (const Rgba& ground : {p.panel, p.background_top, p.background_bottom})
+          CHECK(contrast(readable(p, one.colour), ground) >= 4.5);
       }
   }
 }

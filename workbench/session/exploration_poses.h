@@ -25,6 +25,10 @@ inline constexpr double kExplorationSpeedSwing = 0.5, kExplorationPressSwing = 0
 /// Way of one swing, m. Not multiples of each other, so that every depth is met at every speed.
 inline constexpr double kExplorationSpeedWave = 0.031, kExplorationPressWave = 0.019;
 
+/// One more whenever any of these motions is made otherwise than before, so that what was measured along the old one is
+/// not taken for a change of the solver.
+inline constexpr int kExplorationVersion = 1;
+
 struct ExplorationPoses {
   std::vector<TickInput> poses;
   double length_m = 0.0;  ///< of the closed path

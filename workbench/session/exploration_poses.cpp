@@ -1,4 +1,4 @@
-#include "workbench/cli/exploration_poses.h"
+#include "workbench/session/exploration_poses.h"
 
 #include "workbench/session/exploration_path.h"
 #include "workbench/session/stroke_path.h"

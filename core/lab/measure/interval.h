@@ -1,0 +1,33 @@
+// A mean with the interval that it lies in, and ratios of two times that were measured in turns.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+namespace tangent {
+
+/// The mean of independent values, and half of its confidence interval of 95 %.
+struct MeanInterval {
+  std::uint64_t count = 0;
+  double mean = 0.0;
+  double half = 0.0;  ///< infinite where there is one value alone
+  double low() const { return mean - half; }
+  double high() const { return mean + half; }
+};
+
+/// By Student's t. All zero where there are no values.
+MeanInterval mean_interval(std::span<const double> values);
+
+/// Student's t of 95 %, both sides, for so many degrees of freedom (from 1).
+double student_t95(std::uint64_t freedom);
+
+/// A ratio, and the ends of its confidence interval of 95 %.
+struct RatioInterval {
+  double ratio = 1.0, low = 1.0, high = 1.0;
+};
+
+/// Of pairs that were measured one right after the other: what slows both down leaves their ratio as it is. The
+/// geometric mean, its interval that of the mean of the logarithms. Precondition: as many of each, all positive.
+RatioInterval paired_ratio(std::span<const double> of, std::span<const double> to);
+
+}  // namespace tangent

@@ -1,0 +1,212 @@
+// Proofs for fingers that are not round: the core is as linear as they take it for, and no contact comes up within a
+// margin, on faces, creases and vertices, however the finger goes and turns.
+#include "core/contact/prove/core_proof.h"
+
+#include "core/contact/prove/clearance_check.h"
+#include "core/contact/prove/core_feature_proof.h"
+#include "core/contact/prove/linear_core.h"
+#include "tests/core/fingers.h"
+#include "tests/core/scenes.h"
+
+using namespace tangent;
+using namespace tangent::test;
+
+namespace {
+
+constexpr FingerShape kCoreShapes[] = {FingerShape::ellipsoid, FingerShape::capsule};
+
+PolygonMesh bent_triangle(Random& random, double spread) {
+  const Vec3 up = random.direction();
+  std::array<Vec3, 3> p, n;
+  for (std::size_t k = 0; k < 3; ++k) {
+    p[k] = random.in_cube(0.004);
+    p[k] -= glm::dot(p[k], up) * up;
+    n[k] = unit(up + spread * random.direction());
+  }
+  return one_triangle(p, n);
+}
+
+/// The pose at which the finger touches the plane through `point` with this normal there, so deep.
+FingerPose touching(const Finger& finger, const Vec3& point, const Vec3& normal, double depth_m, Random& random) {
+  FingerPose pose{Vec3(0.0), random.orientation()};
+  pose.position = point - depth_m * normal - support_point(finger, pose, normal);
+  return pose;
+}
+
+/// A pose from which the finger comes to that one, and how far that is.
+FingerPose before(const Finger& finger, const FingerPose& there, double way_m, Random& random, double& gone_m) {
+  const double turns = random.in(0.0, 1.0);
+  FingerPose pose = there;
+  pose.position -= (1.0 - turns) * way_m * random.direction();
+  pose.orientation =
+      glm::normalize(glm::angleAxis(turns * way_m / finger.reach_m(), random.direction()) * there.orientation);
+  gone_m = glm::distance(pose.position, there.position) + turned_m(finger, pose.orientation, there.orientation);
+  return pose;
+}
+
+/// What proofs read, for one pose.
+struct Prover {
+  PatchCache cache;
+  SolverSettings settings;
+  Finger finger;
+
+  template <class Prove>
+  double margin(const FingerPose& pose, Prove prove) {
+    ContactContext context{cache, settings, finger, pose, Vec3(0.0)};
+    const FingerCore core(finger, pose);
+    context.core = &core;
+    return prove(context, core);
+  }
+};
+
+/// Contacts up to a millimetre deep or as far off, seen from up to `farthest_m` away: `make` gives point and normal of
+/// one, `prove` the margin there. Returns the share of poses from which something was proved.
+template <class Make, class Prove>
+double share_proved(const ContactMesh& mesh, FingerShape shape, int count, double farthest_m, Random& random, Make make,
+                    Prove prove) {
+  Prover prover{PatchCache(mesh), SolverSettings{}, finger_of(shape)};
+  int proved = 0, wrong = 0;
+  for (int i = 0; i < count; ++i) {
+    const auto [point, normal] = make(prover.cache);
+    const FingerPose there = touching(prover.finger, point, normal, random.in(-1e-3, 1e-3), random);
+    double gone = 0.0;
+    const FingerPose here = before(prover.finger, there, random.in(0.0, farthest_m), random, gone);
+    const double margin = prover.margin(here, prove);
+    proved += margin > 0.0;
+    wrong += margin > gone * (1.0 + 1e-9) + 1e-12;
+  }
+  CHECK(wrong == 0);
+  return static_cast<double>(proved) / count;
+}
+
+/// Counts whatever its rank.
+constexpr RankBound kAnyRank{1e3, 2.0};
+/// All those contacts count, and none much further off.
+RankBound up_to_them(FingerShape shape) { return {finger_of(shape).reach_m() + 1.1e-3, 1.0}; }
+
+}  // namespace
+
+TEST_CASE("over a patch the core is linear in the normal but for what is said, and on its long axis where it is thin") {
+  Random random(71);
+  for (const FingerShape shape : kCoreShapes) {
+    CAPTURE(static_cast<int>(shape));
+    int over = 0, known = 0;
+    for (int i = 0; i < rounds(4000); ++i) {
+      const PnPatch patch =
+          PatchPiece(make_patch(*ContactMesh::build(bent_triangle(random, random.in(0.0, 0.5))), 0)).patch;
+      const FingerCore core(finger_of(shape), {random.in_cube(0.01), random.orientation()});
+      const Vec3 axis = unit(patch.normals[n200] + patch.normals[n020] + patch.normals[n002]);
+      for (const LinearCore& l : {linear_core(core, patch.normals, axis), segment_core(core, patch.normals, axis)}) {
+        if (!(l.off_m < 1e3)) continue;
+        ++known;
+        const Vec2 at = random.barycentric();
+        const double w = 1.0 - at.x - at.y;
+        const auto& c = patch.normals;
+        const Vec3 n = w * w * c[n200] + at.x * at.x * c[n020] + at.y * at.y * c[n002] +
+                       2.0 * (w * at.x * c[n110] + at.x * at.y * c[n011] + w * at.y * c[n101]);
+        const Vec3 e = core.support(unit(n)).point - l.point - l.scale * core.derivative(l.support, n);
+        const Vec3 direction = unit(glm::cross(axis, random.direction()));
+        double steepest = 0.0;
+        for (const Vec3& slope : l.slopes) steepest = std::max(steepest, std::abs(glm::dot(slope, direction)));
+        const double across = std::abs(glm::dot(e - (glm::dot(e, axis) / glm::dot(n, axis)) * n, direction));
+        over += across > l.slope_share * steepest + std::abs(glm::dot(l.bend, direction)) +
+                             l.rest_m / glm::dot(unit(n), axis) + 1e-12;
+        over += std::abs(glm::dot(e, axis)) > l.along_m + 1e-12;
+      }
+    }
+    CHECK(over == 0);
+    CHECK(known > rounds(2000));
+  }
+}
+
+TEST_CASE("a piece of a patch is the patch there, and bisected all over it") {
+  Random random(72);
+  const PnPatch patch = make_patch(*ContactMesh::build(bent_triangle(random, 0.5)), 0);
+  PatchPiece piece(patch);
+  for (int depth = 0; depth < 6; ++depth) {
+    const Vec2 at = random.barycentric();
+    const Vec2 whole = piece.at(at.x, at.y);
+    CHECK(glm::distance(evaluate_point(piece.patch, at.x, at.y), evaluate_point(patch, whole.x, whole.y)) < 1e-15);
+    CHECK(glm::distance(evaluate_normal(piece.patch, at.x, at.y), evaluate_normal(patch, whole.x, whole.y)) < 1e-12);
+    PatchPiece first, second;
+    bisect(piece, first, second);
+    CHECK(first.depth == depth + 1);
+    piece = random.below(2) ? first : second;
+  }
+}
+
+TEST_CASE("no contact of an ellipsoid or a capsule comes up on a face within the margin, gentle or strongly bent") {
+  Random random(73);
+  for (const FingerShape shape : kCoreShapes) {
+    CAPTURE(static_cast<int>(shape));
+    for (const double spread : {0.1, 0.4}) {
+      double proved = 0.0;
+      for (int i = 0; i < rounds(100); ++i) {
+        const ContactMesh mesh = *ContactMesh::build(bent_triangle(random, spread));
+        // Without a margin to reach it tells of the pose as it is alone.
+        const double enough = random.below(2) ? random.in(1e-6, 2e-3) : 0.0;
+        proved += share_proved(
+            mesh, shape, 20, enough > 0.0 ? 4e-3 : 0.0, random,
+            [&](PatchCache& cache) {
+              const Vec2 at = random.barycentric();
+              SurfaceSample s;
+              cache.sample(0, NormalForm::bernstein, at.x, at.y, s);
+              return std::pair(s.point, s.normal);
+            },
+            [&](ContactContext& context, const FingerCore& core) {
+              return exclude_face_by_core(context, core, 0, kAnyRank, enough).margin_m;
+            });
+      }
+      CHECK(proved > 0.1 * rounds(100));
+    }
+  }
+}
+
+TEST_CASE("no contact of an ellipsoid or a capsule comes up on a crease or a vertex within the margin") {
+  Random random(74);
+  ContactMeshOptions options;
+  options.crease_rad = 0.1;
+  PolygonMesh ball = make_icosphere(0.010, 1);
+  for (Vec3& p : ball.positions) p *= random.in(0.8, 1.2);
+  ball.normals.clear();
+  ball.corner_normal.clear();
+  const ContactMesh mesh = *ContactMesh::build(ball, options);
+  for (const FingerShape shape : kCoreShapes) {
+    CAPTURE(static_cast<int>(shape));
+    std::uint32_t t = 0;
+    const double on_edges = share_proved(
+        mesh, shape, rounds(4000), 8e-3, random,
+        [&](PatchCache& cache) {
+          for (;;) {
+            t = random.below(mesh.triangle_count());
+            const std::uint32_t k = random.below(3);
+            if (mesh.edge_kind(t, k) != EdgeKind::crease) continue;
+            const EdgeFan& fan = cache.fan(t, k, random.in(0.0, 1.0), NormalForm::bernstein);
+            if (!fan.convex()) continue;
+            const double turn = random.in(0.0, std::atan2(fan.far.y, fan.far.x));
+            SurfaceSample s;
+            edge_sample(fan, {std::cos(turn), std::sin(turn)}, s);
+            return std::pair(s.point, s.normal);
+          }
+        },
+        [&](ContactContext& context, const FingerCore& core) {
+          return exclude_features_by_core(context, core, {t}, up_to_them(shape));
+        });
+    CHECK(on_edges > 0.01);
+    const double on_vertices = share_proved(
+        mesh, shape, rounds(4000), 8e-3, random,
+        [&](PatchCache&) {
+          t = random.below(mesh.triangle_count());
+          const std::uint32_t k = random.below(3);
+          Vec3 normal(0.0);
+          around_vertex(mesh, t, k, [&](std::uint32_t at, std::uint32_t corner) {
+            normal += random.in(0.0, 1.0) * mesh.normal(at, corner);
+          });
+          return std::pair(mesh.position(t, k), unit(normal));
+        },
+        [&](ContactContext& context, const FingerCore& core) {
+          return exclude_features_by_core(context, core, {t}, up_to_them(shape));
+        });
+    CHECK(on_vertices > 0.01);
+  }
+}

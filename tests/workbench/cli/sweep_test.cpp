@@ -1,0 +1,156 @@
+#include "tests/support/meshes.h"
+#include "tests/support/process.h"
+#include "workbench/recording/database.h"
+
+#include <chrono>
+#include <thread>
+
+namespace tangent {
+namespace {
+
+using testing::contains;
+using testing::Process;
+using testing::ProcessResult;
+using testing::run_workbench;
+using testing::TempFolder;
+
+struct Sweep {
+  TempFolder folder;
+
+  Sweep() {
+    REQUIRE(run_workbench({"make", "cube", "--out", folder.file("cube.obj")}).exit_code == 0);
+    folder.write(
+        "plan.toml",
+        "[plan]\nmeshes = [\"cube.obj\"]\nposes = [\"around\"]\nmethods = [\"paper\", \"robust\"]\nticks = 400\n"
+        "[ranges]\n\"solver.gain_curvature_m\" = { from = 0.001, to = 0.1, count = 20 }\n");
+  }
+  ProcessResult run(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), "sweep");
+    return run_workbench(std::move(arguments));
+  }
+  std::string file(const char* name) const { return folder.file(name); }
+  /// All rows of table cells.
+  std::vector<std::string> rows(const char* name) const {
+    Result<Database> database = Database::open(file(name));
+    REQUIRE_MESSAGE(database, database.error().message());
+    Result<Statement> statement = database->prepare("SELECT * FROM cells ORDER BY cell");
+    REQUIRE(statement);
+    std::vector<std::string> out;
+    while (*statement->step()) {
+      std::string& row = out.emplace_back();
+      for (int c = 0; c < 32; ++c) row += statement->text(c) + "|";
+    }
+    return out;
+  }
+};
+
+TEST_CASE("sweep: shards that are killed and run again give what one process gives") {
+  const Sweep sweep;
+  REQUIRE(sweep.run({"--plan", sweep.file("plan.toml"), "--out", sweep.file("one.sqlite")}).exit_code == 0);
+  const auto rows = sweep.rows("one.sqlite");
+  CHECK(rows.size() == 40);
+
+  REQUIRE(sweep.run({"plan", sweep.file("plan.toml"), "--out", sweep.file("dir"), "--shards", "2"}).exit_code == 0);
+  for (const std::string shard : {"0", "1"}) {
+    for (int ms = 5; ms <= 80; ms *= 2) {  // killed somewhere: before the file, in it, or not at all
+      const Process process({"sweep", "run", sweep.file("dir"), "--shard", shard, "--threads", "1"});
+      std::this_thread::sleep_for(std::chrono::milliseconds(ms));
+      process.interrupt(SIGKILL);
+      static_cast<void>(process.wait());
+    }
+    CHECK(sweep.run({"run", sweep.file("dir"), "--shard", shard}).exit_code == 0);
+  }
+  REQUIRE(sweep.run({"merge", sweep.file("dir"), "--out", sweep.file("merged.sqlite")}).exit_code == 0);
+  CHECK(sweep.rows("merged.sqlite") == rows);
+}
+
+TEST_CASE("sweep: one that is killed goes on from what is done") {
+  const Sweep sweep;
+  const std::vector<std::string> command{"sweep", "--plan", sweep.file("plan.toml"), "--out",
+                                         sweep.file("killed.sqlite")};
+  for (int ms = 20; ms <= 80; ms *= 2) {
+    const Process process(command);
+    std::this_thread::sleep_for(std::chrono::milliseconds(ms));
+    process.interrupt(SIGKILL);
+    static_cast<void>(process.wait());
+  }
+  REQUIRE(run_workbench(command).exit_code == 0);
+  REQUIRE(sweep.run({"--plan", sweep.file("plan.toml"), "--out", sweep.file("one.sqlite")}).exit_code == 0);
+  CHECK(sweep.rows("killed.sqlite") == sweep.rows("one.sqlite"));
+}
+
+TEST_CASE("sweep: options say the same as a plan") {
+  const Sweep sweep;
+  REQUIRE(sweep.run({"--plan", sweep.file("plan.toml"), "--out", sweep.file("plan.sqlite")}).exit_code == 0);
+  REQUIRE(sweep
+              .run({sweep.file("cube.obj"), "--poses", "around", "--methods", "paper,robust", "--ticks", "400",
+                    "--range", "solver.gain_curvature_m=0.001..0.1:20", "--out", sweep.file("options.sqlite")})
+              .exit_code == 0);
+  CHECK(sweep.rows("options.sqlite") == sweep.rows("plan.sqlite"));
+}
+
+TEST_CASE("sweep: a mesh that can't be read is named, and the others are solved") {
+  const Sweep sweep;
+  const auto result = sweep.run({sweep.file("cube.obj"), sweep.file("none.obj"), "--poses", "around", "--ticks", "50",
+                                 "--out", sweep.file("a.sqlite")});
+  CHECK(result.exit_code == 1);
+  CHECK(contains(result.err, "none.obj"));
+  CHECK(contains(result.out, "2 of 2 cells"));
+  CHECK(sweep.rows("a.sqlite").size() == 2);
+}
+
+TEST_CASE("sweep: a dry run counts, and a million cells want a yes") {
+  const Sweep sweep;
+  const std::vector<std::string> many{sweep.file("cube.obj"),
+                                      "--poses",
+                                      "around",
+                                      "--range",
+                                      "solver.gain_overall=0..2:1000",
+                                      "--range",
+                                      "solver.gain_curvature_m=0..1:1000"};
+  auto dry = many;
+  dry.push_back("--dry-run");
+  const auto counted = sweep.run(dry);
+  CHECK(counted.exit_code == 0);
+  CHECK(contains(counted.out, "1000000 cells"));
+  auto unasked = many;
+  unasked.insert(unasked.end(), {"--out", sweep.file("a.sqlite")});
+  const auto refused = sweep.run(unasked);
+  CHECK(refused.exit_code == 1);
+  CHECK(contains(refused.err, "--yes"));
+  CHECK(!std::filesystem::exists(sweep.file("a.sqlite")));
+}
+
+TEST_CASE("sweep: wrong usage is told from work that failed") {
+  const Sweep sweep;
+  const std::string cube = sweep.file("cube.obj"), out = sweep.file("a.sqlite");
+  struct Wrong {
+    std::vector<std::string> arguments;
+    int code;
+    const char* said;
+  };
+  for (const Wrong& wrong : std::initializer_list<Wrong>{
+           {{"--poses", "around", "--out", out}, 2, "MESH"},
+           {{cube, "--poses", "around"}, 2, "--out"},
+           {{cube, "--poses", "around", "--out", out, "--range", "solver.gain=1"}, 2, "names no key"},
+           {{cube, "--poses", "around", "--out", out, "--range", "solver.gain_overall=1..2:x"}, 2, "count"},
+           {{cube, "--poses", "around", "--out", out, "--range", "solver.gain_overall=99"}, 2, "allowed: 0 to 10"},
+           {{cube, "--poses", "around", "--out", out, "--threads", "0"}, 2, "--threads"},
+           {{cube, "--out", out}, 1, "no motion"},
+           {{cube, "--poses", "around", "--out", out, "--methods", "newtn"}, 1, "is no method"},
+           {{cube, "--poses", "around", "--out", out, "--sampling", "sobol"}, 1, "samples"},
+           {{cube, "--plan", sweep.file("plan.toml"), "--out", out}, 1, "--plan"},
+           {{"--plan", sweep.file("none.toml"), "--out", out}, 1, "none.toml"},
+           {{"run", sweep.folder.path().string()}, 1, "plan.json"},
+           {{"merge", sweep.file("none"), "--out", out}, 1, "plan.json"},
+           {{"plan", sweep.file("plan.toml"), "--out", sweep.file("dir"), "--shards", "41"}, 1, "--shards"},
+       }) {
+    const auto result = sweep.run(wrong.arguments);
+    CHECK(result.exit_code == wrong.code);
+    CHECK_MESSAGE(contains(result.err, wrong.said), result.err);
+    CHECK(!std::filesystem::exists(out));
+  }
+}
+
+}  // namespace
+}  // namespace tangent

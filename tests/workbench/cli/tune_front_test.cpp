@@ -1,0 +1,96 @@
+#include "core/io/preset_file.h"
+#include "tests/support/process.h"
+#include "workbench/sweep/objective.h"
+
+#include <sstream>
+
+namespace tangent {
+namespace {
+
+using testing::contains;
+using testing::ProcessResult;
+using testing::read_text;
+using testing::run_workbench;
+using testing::TempFolder;
+
+struct FrontFolder {
+  TempFolder folder;
+  std::string mesh = folder.file("torus.obj"), preset = folder.file("p.toml"), poses;
+  FrontFolder() {
+    REQUIRE(run_workbench({"make", "torus", "--out", mesh}).exit_code == 0);
+    std::string text = "t_s,x_m,y_m,z_m\n";
+    for (int i = 0; i < 400; ++i)  // across the ring and back, 1 to 2 mm deep
+      text += std::to_string(1e-3 * i) + "," + std::to_string(0.02 + 1e-4 * (i % 200)) + ",0.001," +
+              std::to_string(0.033 + 5e-6 * (i % 200)) + "\n";
+    poses = folder.write("poses.csv", text);
+  }
+  ProcessResult tune(std::vector<std::string> options) const {
+    options.insert(options.begin(), {"tune", mesh, "--poses", poses, "--out", preset, "--evaluations", "60"});
+    return run_workbench(options);
+  }
+};
+
+TEST_CASE("tune by two objectives writes a front of which no point beats another, and a preset that holds") {
+  const FrontFolder t;
+  const std::string csv = t.folder.file("front.csv");
+  const ProcessResult tuned = t.tune({"--objective", "mean_iterations", "--objective", "error_p99_m", "--constraint",
+                                      "unconverged = 0", "--range", "solver.gain_curvature_m=0..0.08", "--range",
+                                      "solver.tolerance_m=1e-8..1e-4", "--front", csv});
+  CHECK(tuned.exit_code == 0);
+  CHECK(contains(tuned.out, "held-back poses"));
+  CHECK(read_preset(t.preset)->about.note == "Of a front: mean_iterations error_p99_m, unconverged = 0");
+  CHECK(run_workbench({"check", t.preset}).exit_code == 0);
+
+  std::istringstream lines(read_text(csv));
+  std::string line;
+  REQUIRE(std::getline(lines, line));
+  CHECK(line == "solver.gain_curvature_m,solver.tolerance_m,mean_iterations,error_p99_m");
+  double last_iterations = 0.0, last_error = 1e300;
+  int points = 0;
+  while (std::getline(lines, line)) {
+    double values[4];
+    REQUIRE(std::sscanf(line.c_str(), "%lf,%lf,%lf,%lf", values, values + 1, values + 2, values + 3) == 4);
+    CHECK(values[2] > last_iterations);
+    CHECK(values[3] < last_error);
+    last_iterations = values[2];
+    last_error = values[3];
+    ++points;
+  }
+  CHECK(points >= 3);
+}
+
+TEST_CASE("tune by one objective keeps the simpler gains where its own are not clearly better") {
+  const FrontFolder t;
+  const ProcessResult tuned = t.tune({"--objective", "unconverged"});  // none of them fails here
+  CHECK(tuned.exit_code == 0);
+  CHECK(contains(tuned.out, "not clearly better"));
+  const PresetFile file = *read_preset(t.preset);
+  CHECK(file.preset.solver.gain_overall == 1.0);
+  CHECK(file.preset.solver.gain_curvature_m == file.preset.finger.radius_m);
+}
+
+TEST_CASE("tune by objectives refuses what can't be asked and says what can't be kept") {
+  const FrontFolder t;
+  struct Wrong {
+    std::vector<std::string> options;
+    int code;
+    const char* said;
+  };
+  for (const Wrong& wrong : std::initializer_list<Wrong>{
+           {{"--objective", "speed"}, 2, "mean_iterations"},
+           {{"--constraint", "unconverged = 0"}, 2, "--objective: is missing"},
+           {{"--objective", "mean_iterations", "--constraint", "unconverged"}, 2, "NAME <= VALUE"},
+           {{"--objective", "mean_iterations", "--constraint", "ticks <= 1", "--constraint", "ticks <= 2"}, 2, "twice"},
+           {{"--objective", "mean_iterations", "--range", "solver.gain_overall=1,2"}, 2, "FROM..TO"},
+           {{"--objective", "mean_iterations", "--evaluations", "1"}, 2, "--evaluations"},
+           {{"--objective", "mean_iterations", "--constraint", "mean_iterations <= 0.5"}, 1, "mean_iterations <= 0.5"},
+       }) {
+    const ProcessResult result = t.tune(wrong.options);
+    CHECK(result.exit_code == wrong.code);
+    CHECK_MESSAGE(contains(result.err, wrong.said), result.err);
+    CHECK(!std::filesystem::exists(t.preset));
+  }
+}
+
+}  // namespace
+}  // namespace tangent

@@ -1,0 +1,120 @@
+// Two recordings compared in the window: the outcome, curves, the way to the largest difference.
+#include "tests/support/temp_folder.h"
+#include "tests/workbench/gui/running_app.h"
+#include "workbench/recording/session_recorder.h"
+
+#include "core/lab/objects/generate.h"
+
+#include <chrono>
+#include <thread>
+
+using namespace tangent;
+using tangent::test::RunningApp;
+using tangent::test::said;
+
+namespace {
+
+void record_ball(const std::filesystem::path& path, double stiffness_n_per_m) {
+  const SceneSource source{std::make_shared<const PolygonMesh>(make_icosphere(0.040, 3)), {}, nullptr};
+  auto scene = build_scene(source);
+  REQUIRE(scene);
+  SessionOptions options;
+  options.threaded = false;
+  options.history_s = 1.0;
+  Preset preset;
+  preset.force.stiffness_n_per_m = stiffness_n_per_m;
+  auto session = Session::create(*scene, preset, options);
+  REQUIRE(session);
+  auto recorder = SessionRecorder::start(**session, path, {source, "ball", false});
+  REQUIRE(recorder);
+  REQUIRE((*session)->start());
+  for (int i = 0; i < 2; ++i) {
+    (*session)->advance(1000);
+    (*recorder)->poll();
+  }
+  REQUIRE((*session)->shut_down());
+  REQUIRE((*recorder)->finish());
+}
+
+struct RecordingsApp : RunningApp {
+  explicit RecordingsApp(bool deterministic = true) : RunningApp(options(deterministic), 1600.0f, 4200.0f) {
+    model().window().open_sections()["Compare recordings"] = true;
+  }
+  static AppOptions options(bool deterministic) {
+    AppOptions options = deterministic_options();
+    options.deterministic = deterministic;
+    return options;
+  }
+  RecordingPairModel& recordings() { return model().recording_pair(); }
+};
+
+}  // namespace
+
+TEST_CASE("two recordings are compared in the window, and the largest difference is one click away") {
+  const testing::TempFolder folder;
+  const std::string a = folder.file("a.sqlite"), b = folder.file("b.sqlite");
+  record_ball(a, 400.0);
+  record_ball(b, 420.0);
+  RecordingsApp ui;
+  ui.recordings().compare();
+  CHECK(said(ui.model(), Severity::note, "name the first recording"));
+  ui.recordings().first = a;
+  ui.recordings().second = b;
+  ui.frame();
+  ui.click("recordings/compare");
+  REQUIRE(ui.recordings().result() != nullptr);
+  const RecordingsCompared whole = *ui.recordings().result();
+  CHECK(whole.full);
+  CHECK(whole.compared == 2000);
+  CHECK(whole.outcome == CompareOutcome::different);
+  CHECK(ui.app().items().find("recordings/plot") != nullptr);
+  double largest = 0.0;
+  for (const ComparedBin& bin : whole.bins) largest = std::max(largest, bin.at_most[0]);
+  ui.click("recordings/largest");
+  const RecordingsCompared near = *ui.recordings().result();
+  CHECK(near.compared < 600);
+  double there = 0.0;
+  for (const ComparedBin& bin : near.bins) there = std::max(there, bin.at_most[0]);
+  CHECK(there == largest);
+  ui.click("recordings/whole");
+  CHECK(ui.recordings().result()->compared == 2000);
+}
+
+TEST_CASE("without a second recording the first is compared with its motion under the present values") {
+  const testing::TempFolder folder;
+  const std::string a = folder.file("a.sqlite");
+  record_ball(a, Preset{}.force.stiffness_n_per_m);
+  RecordingsApp ui;
+  ui.recordings().first = a;
+  ui.recordings().compare();
+  CHECK(ui.recordings().result()->outcome == CompareOutcome::same);
+  ui.model().presets().set_value(*find_preset_key("force.stiffness_n_per_m"), 900.0);
+  ui.recordings().compare();
+  CHECK(ui.recordings().result()->outcome == CompareOutcome::different);
+}
+
+TEST_CASE("recordings are compared in the background, and what can't be is a message") {
+  const testing::TempFolder folder;
+  const std::string a = folder.file("a.sqlite");
+  record_ball(a, 400.0);
+  RecordingsApp ui(false);
+  ui.recordings().first = a;
+  ui.recordings().second = folder.file("none.sqlite");
+  ui.recordings().compare();
+  const auto wait = [&] {
+    for (int i = 0; i < 2000 && ui.recordings().running(); ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    ui.frame();
+  };
+  wait();
+  CHECK(said(ui.model(), Severity::error, "none.sqlite"));
+  CHECK(ui.recordings().result() == nullptr);
+  ui.recordings().second = a;
+  ui.recordings().by = AlignBy::bookmark;
+  ui.recordings().compare();
+  wait();
+  REQUIRE(ui.recordings().result() != nullptr);
+  CHECK(ui.recordings().result()->outcome == CompareOutcome::not_aligned);
+  ui.frame();
+  CHECK(ui.app().items().find("recordings/outcome") != nullptr);
+}

@@ -1,0 +1,144 @@
+#include "tests/workbench/sweep/sweep_fixture.h"
+
+namespace tangent::sweep {
+namespace {
+
+using testing::bytes_of;
+using testing::SmallSweep;
+
+const ShardName kShard{"0123456789abcdef", 1, 3, 4, 8};
+
+CellResult some_result(std::uint64_t cell) {
+  CellResult result{cell, cell == 5 ? "torus.obj:1: is \"broken\"\n" : "", {}};
+  if (result.failed.empty()) {
+    result.numbers.ticks = 1000 + cell;
+    result.numbers.error_p50_m = 1.0 / (3.0 + static_cast<double>(cell));
+    result.numbers.error_worst_m = 4.9e-324;
+  }
+  return result;
+}
+
+std::string write_shard(const std::string& path) {
+  auto writer = ShardWriter::open(path, kShard);
+  REQUIRE_MESSAGE(writer, writer.error().message());
+  for (std::uint64_t cell = 4; cell < 8; ++cell)
+    if (!writer->done()[cell - 4]) REQUIRE(writer->add(some_result(cell)));
+  return bytes_of(path);
+}
+
+/// What is read, in order; or what it says.
+Result<std::vector<CellResult>> read_shard(const std::string& path) {
+  auto reader = ShardReader::open(path, kShard);
+  if (!reader) return tl::unexpected(reader.error());
+  std::vector<CellResult> out;
+  CellResult result;
+  for (;;) {
+    const Result<bool> more = reader->next(result);
+    if (!more) return tl::unexpected(more.error());
+    if (!*more) return out;
+    out.push_back(result);
+  }
+}
+
+TEST_CASE("a shard reads back as it was written, to the bit") {
+  const SmallSweep sweep;
+  write_shard(sweep.file("s.jsonl"));
+  const auto read = read_shard(sweep.file("s.jsonl"));
+  REQUIRE_MESSAGE(read, read.error().message());
+  REQUIRE(read->size() == 4);
+  for (std::uint64_t i = 0; i < 4; ++i) CHECK((*read)[i] == some_result(i + 4));
+}
+
+TEST_CASE("a shard cut off after any byte is gone on with, and refused by name before that") {
+  const SmallSweep sweep;
+  const std::string whole = write_shard(sweep.file("whole.jsonl")), path = sweep.file("cut.jsonl");
+  for (std::size_t bytes = 0; bytes < whole.size(); ++bytes) {
+    sweep.write("cut.jsonl", whole.substr(0, bytes));
+    const auto read = read_shard(path);
+    const bool at_a_line = bytes > 0 && whole[bytes - 1] == '\n';
+    CHECK(read.has_value() == at_a_line);
+    if (!read) CHECK(read.error().message().find("cut.jsonl") != std::string::npos);
+    CHECK(write_shard(path) == whole);
+  }
+}
+
+TEST_CASE("a damaged line, another plan and a newer program are refused by name") {
+  const SmallSweep sweep;
+  const std::string whole = write_shard(sweep.file("whole.jsonl")), path = sweep.file("s.jsonl");
+  const auto said = [&](const ShardName& name) {
+    const auto writer = ShardWriter::open(path, name);
+    const auto reader = ShardReader::open(path, name);
+    CHECK(writer.has_value() == reader.has_value());
+    return writer ? std::string() : writer.error().message();
+  };
+  std::string damaged = whole;
+  damaged[whole.find('\n') + 40] ^= 1;
+  sweep.write("s.jsonl", damaged);
+  CHECK(ShardWriter::open(path, kShard).error().message().find("line 2") != std::string::npos);
+  CHECK(read_shard(path).error().message().find("line 2") != std::string::npos);
+
+  sweep.write("s.jsonl", whole);
+  ShardName other = kShard;
+  other.plan = "fedcba9876543210";
+  CHECK(said(other).find("another plan or shard") != std::string::npos);
+  other = kShard;
+  other.shard = 2;
+  CHECK(said(other).find("another plan or shard") != std::string::npos);
+  CHECK(bytes_of(path) == whole);  // refusing changes nothing
+  CHECK(!ShardReader::open(sweep.file("none.jsonl"), kShard));
+}
+
+TEST_CASE("shards share the cells out, each once") {
+  for (const std::uint64_t cells : {1, 7, 16, 1000}) {
+    for (std::uint64_t shards = 1; shards <= std::min<std::uint64_t>(cells, 9); ++shards) {
+      std::uint64_t next = 0;
+      for (std::uint64_t i = 0; i < shards; ++i) {
+        const ShardName name = shard_of("plan", cells, i, shards);
+        CHECK(name.first == next);
+        CHECK(name.end > name.first);
+        CHECK(name.end - name.first <= cells / shards + 1);
+        next = name.end;
+      }
+      CHECK(next == cells);
+    }
+  }
+}
+
+TEST_CASE("merging refuses shards that are missing, unfinished or foreign, and a plan that has changed") {
+  const SmallSweep sweep;
+  const std::string folder = sweep.file("dir");
+  REQUIRE(write_plan_folder(folder, sweep.plan(), 2, {}));
+  CHECK(!write_plan_folder(folder, sweep.plan(), 2, {}));  // it is not empty
+  CHECK(!write_plan_folder(sweep.file("many"), sweep.plan(), 17, {}));
+  const PlanFolder divided = *open_plan_folder(folder);
+  const auto merged = [&](const char* out) {
+    const auto outcome = merge_shards(divided, sweep.file(out), {});
+    return outcome ? std::string("merged") : outcome.error().message();
+  };
+  REQUIRE(run_shard(divided, 0, {}));
+  CHECK(merged("a.sqlite").find("shard-000001.jsonl") != std::string::npos);
+  CHECK(!std::filesystem::exists(sweep.file("a.sqlite")));
+
+  SweepOptions one;
+  bool enough = false;
+  one.stop = [&] { return enough; };
+  one.progress = [&](const SweepProgress&) { enough = true; };
+  REQUIRE(run_shard(divided, 1, one)->stopped);
+  CHECK(merged("a.sqlite").find("shard-000001.jsonl: is not finished") != std::string::npos);
+
+  std::filesystem::copy_file(divided.shard_file(0), divided.shard_file(1),
+                             std::filesystem::copy_options::overwrite_existing);
+  CHECK(merged("b.sqlite").find("shard-000001.jsonl: belongs to another") != std::string::npos);
+  std::filesystem::remove(divided.shard_file(1));
+  REQUIRE(run_shard(divided, 1, {}));
+  CHECK(merged("a.sqlite") == "merged");  // goes on with what was there
+  CHECK(!run_shard(divided, 2, {}));
+
+  std::ofstream(folder + "/inputs/0/cube.obj", std::ios::app) << "# another\n";
+  const auto changed = open_plan_folder(folder);
+  REQUIRE(!changed);
+  CHECK(changed.error().message().find("not those that were divided") != std::string::npos);
+}
+
+}  // namespace
+}  // namespace tangent::sweep

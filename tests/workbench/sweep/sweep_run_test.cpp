@@ -1,0 +1,166 @@
+#include "tests/workbench/sweep/sweep_fixture.h"
+
+#include <atomic>
+
+namespace tangent::sweep {
+namespace {
+
+using testing::SmallSweep;
+
+TEST_CASE("the numbers are the same with any number of threads, after a stop, and in any shards") {
+  const SmallSweep sweep;
+  const SweepOutcome outcome = sweep.solve("one.sqlite");
+  CHECK(outcome.cells == 16);
+  CHECK(outcome.solved == 16);
+  CHECK(outcome.failed == 0);
+  const auto rows = sweep.rows("one.sqlite");
+  REQUIRE(rows.size() == 16);
+
+  SweepOptions four;
+  four.threads = 4;
+  sweep.solve("four.sqlite", four);
+  CHECK(sweep.rows("four.sqlite") == rows);
+
+  std::atomic<bool> enough{false};
+  SweepOptions some;
+  some.threads = 2;
+  some.stop = [&] { return enough.load(); };
+  some.progress = [&](const SweepProgress& p) { enough.store(p.done >= 5); };
+  const SweepOutcome stopped = sweep.solve("some.sqlite", some);
+  CHECK(stopped.stopped);
+  CHECK(stopped.solved < 16);
+  const SweepOutcome rest = sweep.solve("some.sqlite");
+  CHECK(rest.before == stopped.solved);
+  CHECK(rest.before + rest.solved == 16);
+  CHECK(sweep.rows("some.sqlite") == rows);
+
+  for (const std::uint64_t shards : {1, 3, 16}) {
+    const std::string folder = "in" + std::to_string(shards), merged = folder + ".sqlite";
+    REQUIRE(write_plan_folder(sweep.file(folder), sweep.plan(), shards, {}));
+    const Result<PlanFolder> divided = open_plan_folder(sweep.file(folder));
+    REQUIRE_MESSAGE(divided, divided.error().message());
+    for (std::uint64_t shard = 0; shard < shards; ++shard) REQUIRE(run_shard(*divided, shard, {}));
+    REQUIRE(run_shard(*divided, 0, {}));  // once more: nothing to do
+    const Result<SweepOutcome> joined = merge_shards(*divided, sweep.file(merged), {});
+    REQUIRE_MESSAGE(joined, joined.error().message());
+    CHECK(sweep.rows(merged) == rows);
+    REQUIRE(merge_shards(*divided, sweep.file(merged), {}));  // and merged once more
+    CHECK(sweep.rows(merged) == rows);
+  }
+}
+
+TEST_CASE("a cell's numbers are those of solving its motion by itself") {
+  const SmallSweep sweep;
+  const Cells cells = sweep.cells();
+  Inputs inputs(cells.plan());
+  const Cell cell = cells.at(cells.per_group() + 1);  // torus, paper
+  const Result<Ground> ground = inputs.ground(cell.mesh, cell.poses, cell.finger);
+  REQUIRE(ground);
+  Stepper fresh(ground->scene), exact(ground->scene);
+  const auto numbers = measure_cell(fresh, exact, cells.preset(cell), *ground->motion);
+  REQUIRE(numbers);
+  CHECK(measure_cell(fresh, exact, cells.preset(cell), *ground->motion) == numbers);  // a used stepper changes nothing
+
+  Stepper stepper(ground->scene);
+  TickState state;
+  std::uint64_t unconverged = 0, planes = 0;
+  for (const TickInput& input : *ground->motion) {
+    const TickOutput output = stepper.step(cells.preset(cell), input, state);
+    unconverged += output.status == TickStatus::unconverged;
+    planes += static_cast<std::uint64_t>(output.iterations);
+  }
+  CHECK(numbers->ticks == 600);
+  CHECK(numbers->unconverged == unconverged);
+  CHECK(numbers->mean_iterations == doctest::Approx(static_cast<double>(planes) / 600.0));
+  CHECK(numbers->compared > 0);
+  CHECK(numbers->error_worst_m > 0.0);
+  CHECK(numbers->error_worst_m < 1e-5);
+  CHECK(!measure_cell(fresh, exact, cells.preset(cell), *ground->motion, [] { return true; }));
+}
+
+TEST_CASE("facets are as far from the exact contact as the surface bends, and not compared with themselves") {
+  const SmallSweep sweep;
+  const Cells cells = sweep.cells();
+  Inputs inputs(cells.plan());
+  const std::uint64_t of_torus = cells.per_group();
+  const auto ground = inputs.ground(1, 0, 0);
+  REQUIRE(ground);
+  Stepper stepper(ground->scene), exact(ground->scene);
+  Preset facet = cells.preset(cells.at(of_torus));
+  facet.solver.method = Method::facet;
+  const auto numbers = measure_cell(stepper, exact, facet, *ground->motion);
+  REQUIRE(numbers);
+  CHECK(numbers->compared > 0);
+  CHECK(numbers->error_p50_m > 1e-5);
+}
+
+TEST_CASE("a mesh that can't be read leaves its cells without numbers, and the others with theirs") {
+  const SmallSweep sweep;
+  const auto whole = (static_cast<void>(sweep.solve("whole.sqlite")), sweep.rows("whole.sqlite"));
+  sweep.write("cube.obj", "v 1 2\n");
+  const SweepOutcome outcome = sweep.solve("broken.sqlite");
+  CHECK(outcome.failed == 8);
+  CHECK(outcome.first_failure.find("cube.obj:1") != std::string::npos);
+  const auto rows = sweep.rows("broken.sqlite");
+  REQUIRE(rows.size() == 16);
+  CHECK(rows[0].find("cube.obj:1") != std::string::npos);
+  CHECK(std::vector(rows.begin() + 8, rows.end()) == std::vector(whole.begin() + 8, whole.end()));
+}
+
+TEST_CASE("results of another plan, of changed meshes and other files are not gone on with") {
+  const SmallSweep sweep;
+  static_cast<void>(sweep.solve("one.sqlite"));
+  const auto open = [&](const Plan& plan, const char* name) {
+    const Cells cells = *Cells::of(plan);
+    const auto file = ResultsFile::open(sweep.file(name), cells, plan_digest(plan));
+    return file ? std::string("opened") : file.error().message();
+  };
+  CHECK(open(sweep.plan(), "one.sqlite") == "opened");
+  Plan other = sweep.plan();
+  other.ticks = 100;
+  CHECK(open(other, "one.sqlite").find("another plan") != std::string::npos);
+  REQUIRE(write_obj(*generate_mesh("sphere"), sweep.file("cube.obj"), 1e-3));
+  CHECK(open(sweep.plan(), "one.sqlite").find("another plan") != std::string::npos);
+  sweep.write("empty.sqlite", "");  // as it is when a sweep is killed at its very beginning
+  CHECK(open(sweep.plan(), "empty.sqlite") == "opened");
+  sweep.write("text.sqlite", "these are no results");
+  CHECK(open(sweep.plan(), "text.sqlite").find("text.sqlite") != std::string::npos);
+  CHECK(open(sweep.plan(), "nowhere/new.sqlite").find("can't be created") != std::string::npos);
+}
+
+TEST_CASE("every cell is timed once, against the first of its group") {
+  const SmallSweep sweep("ticks = 40\n");
+  static_cast<void>(sweep.solve("one.sqlite"));
+  const Cells cells = sweep.cells();
+  auto file = ResultsFile::open(sweep.file("one.sqlite"), cells, plan_digest(cells.plan()));
+  REQUIRE(file);
+  const auto timed = time_sweep(cells, *file, 2, 30, {});
+  REQUIRE(timed);
+  CHECK(*timed == 16);
+  CHECK(*time_sweep(cells, *file, 2, 30, {}) == 0);
+  REQUIRE(file->finish());
+  Result<Database> database = Database::open(sweep.file("one.sqlite"));
+  REQUIRE(database);
+  CHECK(*database->whole_of("SELECT count(*) FROM timings WHERE against = cell / 8 * 8 AND ns > 0 AND low <= ratio") ==
+        16);
+}
+
+TEST_CASE("two solutions of a cell with other numbers are told apart") {
+  const SmallSweep sweep;
+  const Cells cells = sweep.cells();
+  auto file = ResultsFile::open(sweep.file("one.sqlite"), cells, "digest");
+  REQUIRE(file);
+  CellResult result;
+  result.numbers.ticks = 3;
+  REQUIRE(file->add(result));
+  CHECK(file->add(result));
+  result.numbers.error_p50_m = 1e-300;
+  const Status ok = file->add(result);
+  REQUIRE(!ok);
+  CHECK(ok.error().message().find("solved twice") != std::string::npos);
+  result.cell = 16;
+  CHECK(!file->add(result));
+}
+
+}  // namespace
+}  // namespace tangent::sweep

@@ -1,0 +1,230 @@
+// workbench sweep: many presets on many meshes and motions; in one process, or divided for a cluster.
+#include "workbench/cli/command.h"
+#include "workbench/cli/interrupt.h"
+#include "workbench/cli/messages.h"
+#include "workbench/cli/option.h"
+#include "workbench/cli/progress.h"
+#include "workbench/cli/sweep_options.h"
+#include "workbench/cli/text_format.h"
+#include "workbench/sweep/plan_digest.h"
+#include "workbench/sweep/sweep_estimate.h"
+#include "workbench/sweep/sweep_run.h"
+
+#include <CLI/CLI.hpp>
+
+#include <cstdio>
+#include <memory>
+#include <thread>
+
+namespace tangent {
+namespace {
+
+/// From this many cells on, they are solved with --yes only.
+constexpr std::uint64_t kManyCells = 1'000'000;
+constexpr std::size_t kTimedTicks = 2000;
+
+struct SweepCommandOptions {
+  SweepPlanOptions plan;
+  std::filesystem::path out;
+  double threads = 0.0;  ///< 0: as many as there are cores
+  double times = 0.0;    ///< rounds of timing
+  bool dry_run = false, yes = false;
+  std::filesystem::path folder;  ///< of plan, run and merge
+  double shards = 1.0, shard = 0.0;
+  double job_minutes = 30.0;  ///< that a job of a cluster takes, about
+};
+
+sweep::SweepOptions run_options(const SweepCommandOptions& options, Progress& progress) {
+  sweep::SweepOptions out;
+  out.threads = options.threads > 0.0 ? static_cast<unsigned>(options.threads)
+                                      : std::max(1u, std::thread::hardware_concurrency());
+  out.stop = [] { return InterruptGuard::requested(); };
+  out.progress = [&progress](const sweep::SweepProgress& p) { progress.update(p.done, p.planned); };
+  return out;
+}
+
+std::string outcome_text(const sweep::SweepOutcome& o, const std::string& where) {
+  const auto whole = [](std::uint64_t n) { return std::to_string(n); };
+  std::string text = whole(o.before + o.solved) + " of " + whole(o.cells) + " cells in " + where;
+  if (o.before > 0) text += " (" + whole(o.before) + " were there)";
+  if (o.solved > 0 && o.ticks > 0)
+    text += format("; %s solved in %.1f s, %.3g ticks/s", whole(o.solved).c_str(), o.seconds,
+                   static_cast<double>(o.ticks) / std::max(1e-9, o.seconds));
+  return text + "\n";
+}
+
+/// What is said at the end, and the exit code.
+int finish(const sweep::SweepOutcome& outcome, const std::string& where) {
+  std::fputs(outcome_text(outcome, where).c_str(), stdout);
+  if (outcome.stopped) print_message("sweep", "interrupted; the same command goes on from there");
+  if (outcome.failed > 0)
+    print_message("sweep", std::to_string(outcome.failed) +
+                               " cells have no numbers, the others have; the first: " + outcome.first_failure);
+  return outcome.stopped || outcome.failed > 0 ? kFailed : kDone;
+}
+
+Status refuse_many(const sweep::Cells& cells, const SweepCommandOptions& options) {
+  if (cells.size() < kManyCells || options.yes || options.dry_run) return {};
+  return fail(std::to_string(cells.size()) + " cells", "sweep", "look at them with --dry-run, or say --yes");
+}
+
+Result<int> print_estimate(const sweep::Cells& cells, unsigned threads) {
+  const Result<sweep::SweepEstimate> e = sweep::estimate(cells);
+  if (!e) return tl::unexpected(e.error());
+  std::fputs(
+      format("%llu cells: %zu meshes x %zu motions x %zu fingers x %llu presets\n"
+             "%.3g ticks in all, about %.0f s on %u threads (%.0f ns a tick, by %zu ticks of the first cell)\n"
+             "about %.0f MB of memory for the first mesh and motion, %.0f MB of results\n",
+             static_cast<unsigned long long>(cells.size()), cells.plan().meshes.size(), cells.plan().poses.size(),
+             cells.plan().fingers.size(), static_cast<unsigned long long>(cells.per_group()), e->ticks,
+             e->seconds / threads, threads, e->ns_a_tick, e->tried_ticks, e->memory_bytes / 1e6, e->result_bytes / 1e6)
+          .c_str(),
+      stdout);
+  return kDone;
+}
+
+Result<int> time_cells(const sweep::Cells& cells, sweep::ResultsFile& file, const SweepCommandOptions& options) {
+  Progress progress("cells timed", cells.size());
+  const auto timed = sweep::time_sweep(cells, file, static_cast<std::size_t>(options.times), kTimedTicks,
+                                       run_options(options, progress));
+  if (!timed) return tl::unexpected(timed.error());
+  std::fputs((std::to_string(*timed) + " cells timed, each against the first of its mesh, motion and finger\n").c_str(),
+             stdout);
+  return InterruptGuard::requested() ? kFailed : kDone;
+}
+
+Result<int> sweep_here(const SweepCommandOptions& options) {
+  const InterruptGuard guard;
+  const Result<sweep::Plan> plan = sweep_plan(options.plan);
+  if (!plan) return tl::unexpected(plan.error());
+  const Result<sweep::Cells> cells = sweep::Cells::of(*plan);
+  if (!cells) return tl::unexpected(cells.error());
+  if (Status ok = refuse_many(*cells, options); !ok) return tl::unexpected(ok.error());
+  Progress progress("cells", cells->size());
+  const sweep::SweepOptions run = run_options(options, progress);
+  if (options.dry_run) return print_estimate(*cells, run.threads);
+  Result<sweep::ResultsFile> file = sweep::ResultsFile::open(options.out, *cells, sweep::plan_digest(*plan));
+  if (!file) return tl::unexpected(file.error());
+  const Result<sweep::SweepOutcome> outcome = sweep::run_sweep(*cells, *file, run);
+  if (!outcome) return tl::unexpected(outcome.error());
+  int code = finish(*outcome, options.out.string());
+  if (options.times >= 2.0 && !outcome->stopped) {
+    const Result<int> timed = time_cells(*cells, *file, options);
+    if (!timed) return timed;
+    code = std::max(code, *timed);
+  }
+  if (Status ok = file->finish(); !ok) return tl::unexpected(ok.error());
+  return code;
+}
+
+Result<int> divide(const SweepCommandOptions& options) {
+  const Result<sweep::Plan> plan = sweep::read_plan(options.plan.plan);
+  if (!plan) return tl::unexpected(plan.error());
+  const Result<sweep::Cells> cells = sweep::Cells::of(*plan);
+  if (!cells) return tl::unexpected(cells.error());
+  const auto shards = static_cast<std::uint64_t>(options.shards);
+  const Result<sweep::SweepEstimate> estimate = sweep::estimate(*cells);
+  if (!estimate) return tl::unexpected(estimate.error());
+  const sweep::JobScripts scripts = sweep::bundled(estimate->seconds, shards, 60.0 * options.job_minutes);
+  if (Status ok = sweep::write_plan_folder(options.folder, *plan, shards, scripts); !ok)
+    return tl::unexpected(ok.error());
+  const std::string dir = options.folder.string();
+  std::fputs(format("%s: %llu cells in %llu shards, about %.0f s each; %llu shards a job in %s/slurm.sh\n", dir.c_str(),
+                    static_cast<unsigned long long>(cells->size()), static_cast<unsigned long long>(shards),
+                    estimate->seconds / static_cast<double>(shards),
+                    static_cast<unsigned long long>(scripts.shards_a_job), dir.c_str())
+                 .c_str(),
+             stdout);
+  return kDone;
+}
+
+Result<int> run_one_shard(const SweepCommandOptions& options) {
+  const InterruptGuard guard;
+  const Result<sweep::PlanFolder> folder = sweep::open_plan_folder(options.folder);
+  if (!folder) return tl::unexpected(folder.error());
+  const auto shard = static_cast<std::uint64_t>(options.shard);
+  Progress progress("cells", 0);
+  const Result<sweep::SweepOutcome> outcome = sweep::run_shard(*folder, shard, run_options(options, progress));
+  if (!outcome) return tl::unexpected(outcome.error());
+  return finish(*outcome, folder->shard_file(shard).string());
+}
+
+Result<int> merge(const SweepCommandOptions& options) {
+  const InterruptGuard guard;
+  const Result<sweep::PlanFolder> folder = sweep::open_plan_folder(options.folder);
+  if (!folder) return tl::unexpected(folder.error());
+  Progress progress("cells", folder->cells);
+  const auto outcome = sweep::merge_shards(*folder, options.out, run_options(options, progress));
+  if (!outcome) return tl::unexpected(outcome.error());
+  return finish(*outcome, options.out.string());
+}
+
+using Work = Result<int> (*)(const SweepCommandOptions&);
+
+void run_as(CLI::App& command, const std::shared_ptr<SweepCommandOptions>& options, CommandResult& result, Work work) {
+  on_run(command, [options, &result, work] {
+    const Result<int> code = work(*options);
+    if (!code) print_message("sweep", code.error().message());
+    result.exit_code = code ? *code : static_cast<int>(kFailed);
+  });
+}
+
+void add_threads_option(CLI::App& app, SweepCommandOptions& options) {
+  add_number_option(app, "--threads", {.min = 1, .max = 1024, .whole = true},
+                    "Threads (default: one a core). The numbers are the same with any",
+                    [&](double value) { options.threads = value; });
+}
+
+void add_divided_commands(CLI::App& sweep, const std::shared_ptr<SweepCommandOptions>& options, CommandResult& result) {
+  CLI::App* plan = add_command(sweep, "plan", "Divide a plan into shards, for many machines that share a folder");
+  add_text_option(*plan, "PLAN", options->plan.plan, "A plan file", "PLAN.toml", Needed::yes);
+  add_text_option(*plan, "--out", options->folder, "Folder to make", "DIR", Needed::yes);
+  add_number_option(*plan, "--shards", {.min = 1, .max = 1e6, .whole = true}, "Parts to divide it into",
+                    [o = options.get()](double value) { o->shards = value; });
+  add_number_option(*plan, "--job-minutes", {.min = 0.01, .max = 10000, .unit = "min"},
+                    "What a job of slurm.sh takes, about (default 30): so many shards are put into one",
+                    [o = options.get()](double value) { o->job_minutes = value; });
+  run_as(*plan, options, result, divide);
+
+  CLI::App* run = add_command(sweep, "run", "Solve one shard; again: goes on from what is there");
+  add_text_option(*run, "DIR", options->folder, "Folder of a divided plan", "DIR", Needed::yes);
+  add_number_option(*run, "--shard", {.min = 0, .max = 1e6, .whole = true}, "Which, from 0 (default 0)",
+                    [o = options.get()](double value) { o->shard = value; });
+  add_threads_option(*run, *options);
+  run_as(*run, options, result, run_one_shard);
+
+  CLI::App* join = add_command(sweep, "merge", "Put all shards together into one results file");
+  add_text_option(*join, "DIR", options->folder, "Folder of a divided plan", "DIR", Needed::yes);
+  add_text_option(*join, "--out", options->out, "Results to write", "F.sqlite", Needed::yes);
+  run_as(*join, options, result, merge);
+}
+
+}  // namespace
+
+void add_sweep_command(CLI::App& app, CommandResult& result) {
+  CLI::App* command = add_command(
+      app, "sweep", "Try many presets on many meshes and motions",
+      "Ctrl-C keeps the cells that are done; the same command goes on. The page is workbench/sweep/README.md.");
+  command->require_subcommand(0, 1);
+  auto options = std::make_shared<SweepCommandOptions>();
+  add_divided_commands(*command, options, result);
+  add_sweep_plan_options(*command, options->plan);
+  add_text_option(*command, "--out", options->out, "Results to write, or to go on with", "F.sqlite");
+  add_threads_option(*command, *options);
+  add_number_option(*command, "--times", {.min = 2, .max = 1000, .whole = true},
+                    "Afterwards time every cell against the first of its group, in so many rounds of A, B, B, A",
+                    [o = options.get()](double value) { o->times = value; });
+  add_flag(*command, "--dry-run", options->dry_run, "Say how many cells it is, how long and how large, and end");
+  add_flag(*command, "--yes", options->yes, "Solve a million cells and more");
+  on_run(*command, [command, options, &result] {
+    if (!command->get_subcommands().empty()) return;  // plan, run or merge has done it
+    if (options->plan.plan.empty() && options->plan.meshes.empty())
+      refuse_option("MESH", "is missing: name meshes, or a plan with --plan");
+    if (options->out.empty() && !options->dry_run) refuse_option("--out", "is missing: name a file for the results");
+    const Result<int> code = sweep_here(*options);
+    if (!code) print_message("sweep", code.error().message());
+    result.exit_code = code ? *code : static_cast<int>(kFailed);
+  });
+}
+
+}  // namespace tangent

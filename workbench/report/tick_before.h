@@ -1,0 +1,21 @@
+// One recorded tick with the state that it was given.
+#pragma once
+
+#include "workbench/recording/recording.h"
+
+#include <map>
+
+namespace tangent {
+
+using RecordedScenes = std::map<std::uint32_t, std::shared_ptr<const ContactScene>>;
+
+struct TickBefore {
+  std::shared_ptr<const ContactScene> scene;
+  Preset preset;
+  TickRecord tick;  ///< `kept`: the state before it
+};
+
+/// Solves from the last kept state on. Fails where the recording has none for it, or its ticks can't be read.
+Result<TickBefore> tick_before(Recording& recording, const RecordedScenes& scenes, std::uint64_t tick);
+
+}  // namespace tangent

@@ -1,0 +1,201 @@
+#include "workbench/sweep/front_search.h"
+
+#include "workbench/sweep/batch_problem.h"
+
+#include <algorithm>
+#include <atomic>
+#include <thread>
+
+#include <dlfcn.h>
+
+namespace tangent::sweep {
+namespace {
+
+/// A trial that misses a constraint comes after all that miss none.
+constexpr double kMissed = 1e6;
+
+/// Tries presets, several at once, and keeps all trials.
+class Trials {
+ public:
+  Trials(const FrontPlan& plan, const std::vector<FrontGround>& grounds,
+         const std::function<bool(std::size_t)>& keep_going)
+      : plan_(plan), grounds_(grounds), keep_going_(keep_going) {}
+
+  /// Of each point a share in [0, 1] a range.
+  void try_shares(const std::vector<std::vector<double>>& points) {
+    std::vector<std::pair<std::vector<double>, Preset>> wanted;
+    for (const std::vector<double>& shares : points) {
+      std::vector<double> values;
+      Preset preset = plan_.base;
+      for (std::size_t r = 0; r < shares.size(); ++r) {
+        values.push_back(plan_.ranges[r].at(std::clamp(shares[r], 0.0, 1.0)));
+        plan_.ranges[r].key->set(preset, values.back());
+      }
+      wanted.emplace_back(std::move(values), preset);
+    }
+    run(wanted);
+  }
+
+  void try_starts() {
+    std::vector<std::pair<std::vector<double>, Preset>> wanted;
+    for (const Preset& preset : plan_.starts) {
+      std::vector<double> values;
+      for (const Range& range : plan_.ranges) values.push_back(range.key->get(preset));
+      wanted.emplace_back(std::move(values), preset);
+    }
+    run(wanted);
+  }
+
+  std::size_t left() const {
+    return result_.stopped || result_.trials.size() >= plan_.evaluations ? 0
+                                                                         : plan_.evaluations - result_.trials.size();
+  }
+  FrontResult& result() { return result_; }
+  const FrontPlan& plan() const { return plan_; }
+
+ private:
+  void run(const std::vector<std::pair<std::vector<double>, Preset>>& wanted) {
+    if (result_.stopped || (keep_going_ && !keep_going_(result_.trials.size()))) {
+      result_.stopped = true;
+      return;
+    }
+    const std::size_t first = result_.trials.size();
+    result_.trials.resize(first + wanted.size());
+    std::atomic<std::size_t> next{0};
+    const auto work = [&] {
+      for (std::size_t i = next.fetch_add(1); i < wanted.size(); i = next.fetch_add(1)) {
+        Trial& trial = result_.trials[first + i];
+        trial = try_preset(plan_, grounds_, wanted[i].second, false);
+        trial.values = wanted[i].first;
+      }
+    };
+    std::vector<std::thread> threads;
+    for (unsigned t = 1; t < plan_.threads; ++t) threads.emplace_back(work);
+    work();
+    for (std::thread& thread : threads) thread.join();
+  }
+
+  const FrontPlan& plan_;
+  const std::vector<FrontGround>& grounds_;
+  const std::function<bool(std::size_t)>& keep_going_;
+  FrontResult result_;
+};
+
+/// Evenly over the ranges.
+std::vector<std::vector<double>> even_shares(const FrontPlan& plan, std::size_t count) {
+  Plan draws;
+  draws.sampling = Sampling::sobol;
+  draws.samples = count;
+  draws.seed = plan.seed;
+  draws.meshes = {"."};
+  draws.poses = {"."};
+  draws.methods = {plan.base.solver.method};
+  draws.fingers = {plan.base.finger};
+  for (std::size_t r = 0; r < plan.ranges.size(); ++r) {
+    Range share;
+    share.key = find_preset_key("solver.gain_overall");  // a plain number: its values here are the shares
+    share.to = 1.0;
+    draws.ranges.push_back(share);
+  }
+  const Result<Cells> cells = Cells::of(draws);
+  std::vector<std::vector<double>> out;
+  for (std::size_t i = 0; cells && i < count; ++i) out.push_back(cells->at(i).values);
+  return out;
+}
+
+/// A trial as the search sees it.
+std::vector<double> as_searched(const Trial& trial) {
+  std::vector<double> out = trial.objectives;
+  for (double& value : out) value += trial.missed > 0.0 ? kMissed * (1.0 + trial.missed) : 0.0;
+  return out;
+}
+
+/// Tries points that follow each other in `all`; after a stop those that were not tried come last.
+std::vector<double> try_points(Trials& trials, const std::vector<double>& all) {
+  const std::size_t n = trials.plan().ranges.size();
+  std::vector<std::vector<double>> points;
+  for (std::size_t i = 0; i < all.size(); i += n)
+    points.emplace_back(all.begin() + static_cast<std::ptrdiff_t>(i), all.begin() + static_cast<std::ptrdiff_t>(i + n));
+  const std::size_t first = trials.result().trials.size();
+  trials.try_shares(points);
+  std::vector<double> out;
+  for (std::size_t i = first; i < first + points.size(); ++i) {
+    const bool tried = i < trials.result().trials.size();
+    const auto values = tried ? as_searched(trials.result().trials[i])
+                              : std::vector<double>(trials.plan().objectives.size(), 2.0 * kMissed * kMissed);
+    out.insert(out.end(), values.begin(), values.end());
+  }
+  return out;
+}
+
+/// The module that was built with pagmo; null: there is none.
+SearchFront nsga2() {
+#ifdef TANGENT_NSGA2_MODULE
+  static void* const module = ::dlopen(TANGENT_NSGA2_MODULE, RTLD_NOW | RTLD_LOCAL);
+  return module != nullptr ? reinterpret_cast<SearchFront>(::dlsym(module, "tangent_nsga2")) : nullptr;
+#else
+  return nullptr;
+#endif
+}
+
+void evolve(Trials& trials) {
+  constexpr std::size_t kPopulation = 40;  // a multiple of 4, as NSGA-II has it
+  const SearchFront search = nsga2();
+  const std::size_t start = std::min(kPopulation, trials.left() / 4 * 4);
+  if (search == nullptr || start < 8) return;
+  BatchProblem problem;
+  problem.dimensions = trials.plan().ranges.size();
+  problem.objectives = trials.plan().objectives.size();
+  problem.seed = trials.plan().seed;
+  problem.start = even_shares(trials.plan(), start);
+  problem.evaluate = [&trials](const std::vector<double>& all) { return try_points(trials, all); };
+  problem.left = [&trials] { return trials.left(); };
+  search(problem);
+}
+
+}  // namespace
+
+bool has_front_search() { return nsga2() != nullptr; }
+
+Trial try_preset(const FrontPlan& plan, const std::vector<FrontGround>& grounds, const Preset& preset, bool held_back) {
+  Trial out;
+  for (const FrontGround& on : grounds) {
+    const std::span<const TickInput> all(*on.ground.motion);
+    const auto motion = held_back ? all.subspan(on.ticks) : all.first(on.ticks);
+    Stepper stepper(on.ground.scene), exact(on.ground.scene);
+    const CellNumbers numbers = *measure_cell(stepper, exact, preset, motion);
+    if (out.objectives.empty()) out.numbers = numbers;
+    out.objectives.resize(plan.objectives.size(), 0.0);
+    for (std::size_t i = 0; i < plan.objectives.size(); ++i)
+      out.objectives[i] = std::max(out.objectives[i], plan.objectives[i].of(numbers));
+    for (const Constraint& constraint : plan.constraints) out.missed += constraint.missed(numbers);
+  }
+  return out;
+}
+
+FrontResult search_front(const FrontPlan& plan, const std::vector<FrontGround>& grounds,
+                         const std::function<bool(std::size_t)>& keep_going) {
+  Trials trials(plan, grounds, keep_going);
+  if (!plan.starts.empty()) trials.try_starts();
+  evolve(trials);
+  if (trials.left() > 0) trials.try_shares(even_shares(plan, trials.left()));
+  return std::move(trials.result());
+}
+
+double hypervolume(std::span<const Trial> trials, const std::array<double, 2>& reference) {
+  std::vector<std::array<double, 2>> points;
+  for (const std::size_t i : front_of(trials)) {
+    const Trial& t = trials[i];
+    if (t.missed > 0.0 || t.objectives[0] >= reference[0] || t.objectives[1] >= reference[1]) continue;
+    points.push_back({t.objectives[0], t.objectives[1]});
+  }
+  double area = 0.0, top = reference[1];
+  for (const auto& [x, y] : points) {  // the first objective grows, the second falls
+    if (y >= top) continue;
+    area += (reference[0] - x) * (top - y);
+    top = y;
+  }
+  return area / (reference[0] * reference[1]);
+}
+
+}  // namespace tangent::sweep

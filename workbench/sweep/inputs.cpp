@@ -1,0 +1,73 @@
+#include "workbench/sweep/inputs.h"
+
+#include "core/io/pose_file.h"
+#include "core/io/scene_file.h"
+#include "workbench/recording/recording.h"
+#include "workbench/session/exploration_poses.h"
+#include "workbench/session/two_threads.h"
+
+namespace tangent::sweep {
+
+Result<std::vector<TickInput>> recorded_motion(const std::filesystem::path& path) {
+  Result<Recording> recording = Recording::open(path);
+  if (!recording) return tl::unexpected(recording.error());
+  const RecordingInfo& info = recording->info();
+  if (info.ticks == 0) return fail("holds no ticks", path.string(), "record some");
+  Result<TickReader> ticks = recording->ticks(info.first_tick, info.last_tick);
+  if (!ticks) return tl::unexpected(ticks.error());
+  std::vector<TickInput> out;
+  RecordedTick tick;
+  for (;;) {
+    const Result<bool> more = ticks->next(tick);
+    if (!more) return tl::unexpected(more.error());
+    if (!*more) return out;
+    out.push_back(tick.record.tick.input);
+    out.back().unready = false;  // here everything is built
+  }
+}
+
+Inputs::Inputs(const Plan& plan) : plan_(plan) {}
+
+Inputs::Scene Inputs::scene(std::size_t mesh) {
+  if (scene_ == nullptr || scene_of_ != mesh) {
+    motion_.reset();
+    scene_.reset();  // before the next is loaded: both may not fit
+    scene_ = std::make_unique<const Scene>(
+        load_scene(plan_.meshes[mesh], {plan_.metres_per_unit, plan_.reading, {}}, run_on_two_threads));
+    scene_of_ = mesh;
+  }
+  return *scene_;
+}
+
+Inputs::Motion Inputs::load_motion(const ContactScene& scene, std::size_t poses, std::size_t finger) const {
+  const std::string& name = plan_.poses[poses];
+  Result<std::vector<TickInput>> read;
+  if (is_made(name)) {
+    if (scene.planar()) return fail("is a 2D scene, over which no path is made", name, "name a pose file");
+    const auto kind = name == kMadePoses[0] ? ExplorationKind::around : ExplorationKind::strokes;
+    auto made = exploration_poses(scene, plan_.fingers[finger], kind, ExplorationPace::varied);
+    if (!made) return tl::unexpected(made.error());
+    read = std::move(made->poses);
+  } else {
+    const std::filesystem::path path(name);
+    read = path.extension() == ".sqlite" ? recorded_motion(path) : read_poses(path);
+  }
+  if (!read) return tl::unexpected(read.error());
+  if (plan_.ticks > 0 && read->size() > plan_.ticks) read->resize(plan_.ticks);
+  return std::make_shared<const std::vector<TickInput>>(std::move(*read));
+}
+
+Result<Ground> Inputs::ground(std::size_t mesh, std::size_t poses, std::size_t finger) {
+  const std::scoped_lock lock(guard_);
+  const Scene on = scene(mesh);
+  if (!on) return tl::unexpected(on.error());
+  const std::array<std::size_t, 3> wanted{mesh, poses, finger};
+  if (motion_ == nullptr || motion_of_ != wanted) {
+    motion_ = std::make_unique<const Motion>(load_motion(**on, poses, finger));
+    motion_of_ = wanted;
+  }
+  if (!*motion_) return tl::unexpected(motion_->error());
+  return Ground{*on, **motion_};
+}
+
+}  // namespace tangent::sweep

@@ -1,0 +1,45 @@
+// What the cells of a plan read: meshes and motions. Loaded when a cell first asks, kept while the next cells ask for
+// the same.
+#pragma once
+
+#include "workbench/sweep/plan.h"
+
+#include "core/tick/step.h"
+
+#include <memory>
+#include <mutex>
+#include <vector>
+
+namespace tangent::sweep {
+
+/// A mesh and a motion over it, ready for ticks.
+struct Ground {
+  std::shared_ptr<const ContactScene> scene;
+  std::shared_ptr<const std::vector<TickInput>> motion;
+};
+
+/// The motion of a recording: its ticks' inputs, those with a gap before them too.
+Result<std::vector<TickInput>> recorded_motion(const std::filesystem::path& recording);
+
+/// Safe from several threads: one that asks for what another is loading waits for it.
+class Inputs {
+ public:
+  explicit Inputs(const Plan& plan);
+  /// Fails with the reason why the mesh or the motion can't be had; asked again, with the same.
+  Result<Ground> ground(std::size_t mesh, std::size_t poses, std::size_t finger);
+
+ private:
+  using Scene = Result<std::shared_ptr<const ContactScene>>;
+  using Motion = Result<std::shared_ptr<const std::vector<TickInput>>>;
+  Scene scene(std::size_t mesh);
+  Motion load_motion(const ContactScene& scene, std::size_t poses, std::size_t finger) const;
+
+  const Plan plan_;
+  std::mutex guard_;
+  std::size_t scene_of_ = 0;
+  std::array<std::size_t, 3> motion_of_{};  ///< mesh, poses, finger
+  std::unique_ptr<const Scene> scene_;
+  std::unique_ptr<const Motion> motion_;
+};
+
+}  // namespace tangent::sweep

@@ -1,0 +1,85 @@
+#include "workbench/sweep/plan.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tangent::sweep {
+
+double Range::at(double share) const {
+  if (!values.empty()) {
+    const auto i = static_cast<std::size_t>(share * static_cast<double>(values.size()));
+    return values[std::min(i, values.size() - 1)];
+  }
+  double value = logarithmic ? from * std::pow(to / from, share) : from + share * (to - from);
+  if (share >= 1.0) value = to;
+  return key->kind == KeyKind::number ? value : std::round(value);
+}
+
+std::vector<double> Range::grid() const {
+  if (!values.empty()) return values;
+  std::vector<double> out;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double value = at(count > 1 ? static_cast<double>(i) / static_cast<double>(count - 1) : 0.0);
+    if (out.empty() || out.back() != value) out.push_back(value);
+  }
+  return out;
+}
+
+bool is_made(std::string_view poses) {
+  return std::find(kMadePoses.begin(), kMadePoses.end(), poses) != kMadePoses.end();
+}
+
+namespace {
+
+Status check_range(const Range& range, Sampling sampling) {
+  const std::string where = "range of " + range.key->full_name();
+  std::vector<double> ends = range.values;
+  if (ends.empty()) ends = {range.from, range.to};
+  for (const double value : ends) {
+    if (!range.key->allows(value))
+      return fail(range.key->value_text(value) + " is not allowed", where, "allowed: " + range.key->allowed());
+  }
+  if (!range.values.empty()) return {};
+  if (range.from >= range.to) return fail("is empty: from is not below to", where, "let it grow");
+  if (range.logarithmic && range.from <= 0.0)
+    return fail("a logarithmic range can't begin at 0 or below", where, "begin above 0, or use scale = \"linear\"");
+  if (sampling == Sampling::grid && range.count < 2)
+    return fail("needs a count of at least 2 in a grid", where, "write count = N, or list the values");
+  if (sampling != Sampling::grid && range.count > 0)
+    return fail("count belongs to a grid", where, "leave it out: samples says how many are taken");
+  return {};
+}
+
+}  // namespace
+
+Status check_plan(const Plan& plan) {
+  if (plan.meshes.empty()) return fail("no mesh is named", "meshes", "name one at least");
+  if (plan.poses.empty())
+    return fail("no motion is named", "poses", "name a pose file, a recording, around or strokes");
+  if (plan.methods.empty()) return fail("no method is named", "methods", "allowed: " + choices_text(kMethodNames));
+  if (plan.fingers.empty()) return fail("no finger is named", "fingers", "name one, or leave the table out");
+  if (plan.sampling == Sampling::grid && plan.samples > 0)
+    return fail("samples contradicts sampling = \"grid\"", "samples", "leave it out, or name another sampling");
+  if (plan.sampling != Sampling::grid && plan.samples == 0)
+    return fail(
+        "sampling = \"" + std::string(kSamplingNames[static_cast<std::size_t>(plan.sampling)]) + "\" needs samples",
+        "samples", "write samples = N");
+  if (plan.sampling != Sampling::grid && plan.ranges.empty())
+    return fail("there is nothing to sample", "ranges", "name a range, or use sampling = \"grid\"");
+  for (std::size_t i = 0; i < plan.ranges.size(); ++i) {
+    if (Status ok = check_range(plan.ranges[i], plan.sampling); !ok) return ok;
+    const std::string name = plan.ranges[i].key->full_name();
+    if (name == "solver.method")
+      return fail("is set by methods", "range of " + name, "list them there, and leave the range out");
+    const bool of_finger = plan.ranges[i].key->table == "finger";
+    if (of_finger && plan.fingers.size() > 1)
+      return fail("contradicts several fingers", "range of " + name, "list fingers, or sweep the key of one");
+    for (std::size_t k = 0; k < i; ++k) {
+      if (plan.ranges[k].key == plan.ranges[i].key)
+        return fail("is there twice", "range of " + name, "leave one of them out");
+    }
+  }
+  return {};
+}
+
+}  // namespace tangent::sweep

@@ -1,0 +1,12 @@
+// What a plan is, in 16 hex digits: its values and the bytes of every file that it reads. Results of two plans never
+// mix.
+#pragma once
+
+#include "workbench/sweep/plan.h"
+
+namespace tangent::sweep {
+
+/// A file that is missing counts as missing: cells that read it fail, the others don't.
+std::string plan_digest(const Plan& plan);
+
+}  // namespace tangent::sweep

@@ -1,0 +1,38 @@
+// A plan divided into shards, for many machines that share a folder:
+//   DIR/plan.toml     the plan with every value stated, its meshes and poses named in DIR/inputs
+//   DIR/plan.json     its digest, number of cells and of shards
+//   DIR/inputs/       copies of meshes and poses: what is swept can't change while shards are solved
+//   DIR/shards/       one file a shard (shard_file.h)
+//   DIR/slurm.sh, DIR/parallel.sh   scripts that run all shards, as a job array of Slurm or by GNU parallel
+#pragma once
+
+#include "workbench/sweep/cells.h"
+#include "workbench/sweep/shard_file.h"
+
+namespace tangent::sweep {
+
+struct PlanFolder {
+  std::filesystem::path folder;
+  Plan plan;
+  std::string digest;
+  std::uint64_t cells = 0, shards = 1;
+
+  std::filesystem::path shard_file(std::uint64_t shard) const;
+  ShardName shard(std::uint64_t shard) const { return shard_of(digest, cells, shard, shards); }
+};
+
+struct JobScripts {
+  std::string program = "workbench";  ///< as the jobs call it
+  std::uint64_t shards_a_job = 1;     ///< so that a job takes 10 to 60 minutes
+  double seconds_a_job = 0.0;         ///< expected
+};
+
+/// Writes the folder. Fails where there is something else in it, and on missing meshes and poses; nothing half-written
+/// stays: plan.json comes last.
+Status write_plan_folder(const std::filesystem::path& folder, const Plan& plan, std::uint64_t shards,
+                         const JobScripts& scripts);
+
+/// Fails where the folder holds no plan, or its plan or inputs are not those that were divided.
+Result<PlanFolder> open_plan_folder(const std::filesystem::path& folder);
+
+}  // namespace tangent::sweep

@@ -1,0 +1,64 @@
+// A shard: a run of neighbouring cells, in a file of its own that is only ever appended to. No lock, no database, so it
+// works on a network disk; a process that is killed leaves at most one torn line, which the next one removes.
+//
+// The first line says which plan and shard it is, every further one is a cell. Before each stand 16 hex digits: a
+// checksum of the line.
+#pragma once
+
+#include "workbench/sweep/run_cells.h"
+
+#include <filesystem>
+#include <vector>
+
+namespace tangent::sweep {
+
+struct ShardName {
+  std::string plan;  ///< plan_digest
+  std::uint64_t shard = 0, shards = 1;
+  std::uint64_t first = 0, end = 0;  ///< its cells
+  bool operator==(const ShardName&) const = default;
+};
+
+/// Cells of shard `shard` of `shards`: as many in each, to one.
+ShardName shard_of(const std::string& plan, std::uint64_t cells, std::uint64_t shard, std::uint64_t shards);
+
+/// Writes a shard's cells. Each is a single write of a whole line.
+class ShardWriter {
+ public:
+  /// Makes the file, or goes on with it: `done()` are the cells that it holds. A torn last line is cut off. Fails on a
+  /// file of another plan or shard, and on one that is damaged before its end, by name.
+  static Result<ShardWriter> open(const std::filesystem::path& path, const ShardName& name);
+  ShardWriter(ShardWriter&& other) noexcept;
+  ShardWriter& operator=(ShardWriter&&) = delete;
+  ~ShardWriter();
+
+  const std::vector<bool>& done() const { return done_; }  ///< by cell - first
+  Status add(const CellResult& result);
+  /// On the disk: a power cut takes nothing of it.
+  Status flush();
+
+ private:
+  ShardWriter() = default;
+  Status write(const std::string& line);
+  std::filesystem::path path_;
+  int file_ = -1;
+  std::vector<bool> done_;
+};
+
+/// Reads the cells of a shard, line by line; memory does not grow with it.
+class ShardReader {
+ public:
+  /// Fails on a file that is missing, of another plan or shard, naming it.
+  static Result<ShardReader> open(const std::filesystem::path& path, const ShardName& name);
+  ShardReader(ShardReader&&) noexcept;
+  ~ShardReader();
+  /// False: the end. Fails on a torn or damaged line, naming file and line.
+  Result<bool> next(CellResult& result);
+
+ private:
+  ShardReader();
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace tangent::sweep

@@ -1,0 +1,151 @@
+#include "workbench/sweep/sweep_run.h"
+
+#include <chrono>
+
+namespace tangent::sweep {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+/// What a crash can cost, beside the cells that are being solved.
+constexpr auto kKeepEvery = std::chrono::milliseconds(500);
+
+/// Counts what comes in, and says when it is time to put it on the disk.
+class Tally {
+ public:
+  Tally(std::uint64_t cells, std::uint64_t before, const SweepOptions& options) : options_(options) {
+    outcome_.cells = cells;
+    outcome_.before = before;
+  }
+
+  /// True: keep it now.
+  bool add(const CellResult& result) {
+    ++outcome_.solved;
+    outcome_.ticks += result.numbers.ticks;
+    if (!result.failed.empty()) {
+      ++outcome_.failed;
+      if (outcome_.first_failure.empty() || result.cell < first_failed_) {
+        outcome_.first_failure = result.failed;
+        first_failed_ = result.cell;
+      }
+    }
+    options_.progress({outcome_.before + outcome_.solved, outcome_.cells});
+    const auto now = Clock::now();
+    if (now - kept_ < kKeepEvery) return false;
+    kept_ = now;
+    return true;
+  }
+
+  SweepOutcome done() {
+    outcome_.seconds = std::chrono::duration<double>(Clock::now() - began_).count();
+    outcome_.stopped = outcome_.before + outcome_.solved < outcome_.cells;
+    return outcome_;
+  }
+
+ private:
+  const SweepOptions& options_;
+  SweepOutcome outcome_;
+  std::uint64_t first_failed_ = 0;
+  Clock::time_point began_ = Clock::now(), kept_ = began_;
+};
+
+std::uint64_t count(const std::vector<bool>& done) {
+  return static_cast<std::uint64_t>(std::count(done.begin(), done.end(), true));
+}
+
+}  // namespace
+
+Result<SweepOutcome> run_sweep(const Cells& cells, ResultsFile& file, const SweepOptions& options) {
+  const std::vector<bool> before = file.done();
+  Tally tally(cells.size(), count(before), options);
+  Inputs inputs(cells.plan());
+  const auto keep = [&](const CellResult& result) -> Status {
+    if (Status ok = file.add(result); !ok) return ok;
+    return tally.add(result) ? file.commit() : Status{};
+  };
+  if (Status ok = run_cells(cells, inputs, 0, cells.size(), before, keep, {options.threads, options.stop}); !ok)
+    return tl::unexpected(ok.error());
+  if (Status ok = file.commit(); !ok) return tl::unexpected(ok.error());
+  return tally.done();
+}
+
+Result<std::uint64_t> time_sweep(const Cells& cells, ResultsFile& file, std::size_t rounds, std::size_t ticks,
+                                 const SweepOptions& options) {
+  Inputs inputs(cells.plan());
+  std::uint64_t timed = 0;
+  for (std::uint64_t i = 0; i < cells.size() && !options.stop(); ++i) {
+    if (file.has_time(i)) continue;
+    const Cell cell = cells.at(i);
+    const Result<Ground> ground = inputs.ground(cell.mesh, cell.poses, cell.finger);
+    if (!ground) continue;  // its row says why
+    const std::uint64_t first = i / cells.per_group() * cells.per_group();
+    const auto motion = std::span(*ground->motion).first(std::min(ticks, ground->motion->size()));
+    const auto time =
+        time_paired(ground->scene, cells.preset(cell), cells.preset(cells.at(first)), motion, rounds, options.stop);
+    if (!time) break;
+    if (Status ok = file.add(i, first, *time); !ok) return tl::unexpected(ok.error());
+    if (Status ok = file.commit(); !ok) return tl::unexpected(ok.error());
+    ++timed;
+    options.progress({i + 1, cells.size()});
+  }
+  return timed;
+}
+
+Result<SweepOutcome> run_shard(const PlanFolder& folder, std::uint64_t shard, const SweepOptions& options) {
+  if (shard >= folder.shards)
+    return fail(std::to_string(shard) + " is no shard", "--shard",
+                "allowed: 0 to " + std::to_string(folder.shards - 1));
+  const Result<Cells> cells = Cells::of(folder.plan);
+  if (!cells) return tl::unexpected(cells.error());
+  const ShardName name = folder.shard(shard);
+  Result<ShardWriter> file = ShardWriter::open(folder.shard_file(shard), name);
+  if (!file) return tl::unexpected(file.error());
+  Tally tally(name.end - name.first, count(file->done()), options);
+  Inputs inputs(folder.plan);
+  const auto keep = [&](const CellResult& result) -> Status {
+    if (Status ok = file->add(result); !ok) return ok;
+    return tally.add(result) ? file->flush() : Status{};
+  };
+  if (Status ok = run_cells(*cells, inputs, name.first, name.end, file->done(), keep, {options.threads, options.stop});
+      !ok)
+    return tl::unexpected(ok.error());
+  if (Status ok = file->flush(); !ok) return tl::unexpected(ok.error());
+  return tally.done();
+}
+
+Result<SweepOutcome> merge_shards(const PlanFolder& folder, const std::filesystem::path& out,
+                                  const SweepOptions& options) {
+  const Result<Cells> cells = Cells::of(folder.plan);
+  if (!cells) return tl::unexpected(cells.error());
+  // All of them are looked at before anything is written.
+  for (std::uint64_t shard = 0; shard < folder.shards; ++shard) {
+    const Result<ShardReader> reader = ShardReader::open(folder.shard_file(shard), folder.shard(shard));
+    if (!reader) return tl::unexpected(reader.error());
+  }
+  Result<ResultsFile> file = ResultsFile::open(out, *cells, folder.digest);
+  if (!file) return tl::unexpected(file.error());
+  Tally tally(cells->size(), count(file->done()), options);
+  for (std::uint64_t shard = 0; shard < folder.shards && !options.stop(); ++shard) {
+    const ShardName name = folder.shard(shard);
+    Result<ShardReader> reader = ShardReader::open(folder.shard_file(shard), name);
+    if (!reader) return tl::unexpected(reader.error());
+    CellResult result;
+    for (;;) {
+      const Result<bool> more = reader->next(result);
+      if (!more) return tl::unexpected(more.error());
+      if (!*more) break;
+      const bool is_new = !file->done()[result.cell];
+      if (Status ok = file->add(result); !ok) return tl::unexpected(ok.error());
+      if (is_new && tally.add(result))
+        if (Status ok = file->commit(); !ok) return tl::unexpected(ok.error());
+    }
+    for (std::uint64_t cell = name.first; cell < name.end; ++cell) {
+      if (!file->done()[cell])
+        return fail("is not finished: it lacks cell " + std::to_string(cell), folder.shard_file(shard).string(),
+                    "run that shard again: it goes on from what is there");
+    }
+  }
+  if (Status ok = file->finish(); !ok) return tl::unexpected(ok.error());
+  return tally.done();
+}
+
+}  // namespace tangent::sweep

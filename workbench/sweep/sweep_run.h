@@ -1,0 +1,44 @@
+// A sweep from beginning to end: in one process into a results file, or shard by shard, merged later. Every one goes on
+// from what is there, and keeps what it has when it is stopped.
+#pragma once
+
+#include "workbench/sweep/plan_folder.h"
+#include "workbench/sweep/results_file.h"
+
+namespace tangent::sweep {
+
+struct SweepProgress {
+  std::uint64_t done = 0, planned = 0;  ///< cells; `done` counts those that were there before
+};
+
+struct SweepOptions {
+  unsigned threads = 1;
+  std::function<bool()> stop = [] { return false; };                  ///< asked by any thread
+  std::function<void(const SweepProgress&)> progress = [](auto&) {};  ///< called by one thread at a time
+};
+
+struct SweepOutcome {
+  std::uint64_t cells = 0, before = 0, solved = 0, failed = 0;  ///< before: found done; failed: of those solved now
+  std::uint64_t ticks = 0;                                      ///< of the cells solved now
+  double seconds = 0.0;
+  std::string first_failure;  ///< why, of the lowest cell that has no numbers
+  bool stopped = false;
+};
+
+/// Solves the cells that `file` lacks.
+Result<SweepOutcome> run_sweep(const Cells& cells, ResultsFile& file, const SweepOptions& options);
+
+/// Times each cell that has no time against the first of its group (mesh, motion, finger), on this thread alone, over
+/// the motion's first `ticks`. Call it when nothing else runs. Returns how many were timed.
+Result<std::uint64_t> time_sweep(const Cells& cells, ResultsFile& file, std::size_t rounds, std::size_t ticks,
+                                 const SweepOptions& options);
+
+/// Solves the cells that the shard's file lacks.
+Result<SweepOutcome> run_shard(const PlanFolder& folder, std::uint64_t shard, const SweepOptions& options);
+
+/// All shards into one results file, as one process would have written it. Memory does not grow with the shards. A
+/// shard that is missing, torn, foreign or not finished is refused by name.
+Result<SweepOutcome> merge_shards(const PlanFolder& folder, const std::filesystem::path& out,
+                                  const SweepOptions& options);
+
+}  // namespace tangent::sweep
