@@ -23,7 +23,8 @@ constexpr AddCommand kCommands[]{add_window_commands, add_solve_command,   add_a
                                  add_bench_command,   add_tune_command,    add_figures_command, add_decimate_command,
                                  add_devices_command, add_monitor_command, add_record_command,  add_replay_command,
                                  add_compare_command, add_explain_command, add_export_command,  add_check_command,
-                                 add_sweep_command,   add_report_command};
+                                 add_sweep_command,   add_report_command,  add_experiment_command,
+                                 add_analyse_command};
 
 std::string chosen_command(const CLI::App& app) {
   const std::vector<CLI::App*> chosen = app.get_subcommands();

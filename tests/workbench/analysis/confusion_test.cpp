@@ -1,6 +1,6 @@
 #include "workbench/analysis/confusion.h"
 
-#include "workbench/analysis/paper_results.h"
+#include "workbench/experiment/paper_results.h"
 
 #include "core/base/split_mix.h"
 
@@ -15,20 +15,20 @@ ConfusionMatrix paper_matrix() {
   ConfusionMatrix out(7);
   for (std::size_t i = 0; i < 7; ++i)
     for (std::size_t j = 0; j < 7; ++j)
-      out.add(i, j, static_cast<std::uint64_t>(std::lround(1000.0 * kPaperConfusionPercent[i][j])));
+      out.add(i, j, static_cast<std::uint64_t>(std::lround(1000.0 * experiment::kPaperConfusionPercent[i][j])));
   return out;
 }
 
 TEST_CASE("the paper's table: its mean diagonal, its extremes and the information in it") {
   const ConfusionMatrix table = paper_matrix();
   double diagonal = 0.0;
-  for (std::size_t i = 0; i < 7; ++i) diagonal += kPaperConfusionPercent[i][i] / 7.0;
-  CHECK(diagonal == doctest::Approx(kPaperAccuracyPercent).epsilon(0.001));
+  for (std::size_t i = 0; i < 7; ++i) diagonal += experiment::kPaperConfusionPercent[i][i] / 7.0;
+  CHECK(diagonal == doctest::Approx(experiment::kPaperAccuracyPercent).epsilon(0.001));
   CHECK(table.share(4, 0) == doctest::Approx(0.201).epsilon(0.01));  // the tetrahedron taken for a cone
   CHECK(information_bits(table) == doctest::Approx(1.82).epsilon(0.003));
   for (std::size_t i = 0; i < 7; ++i) {
     double row = 0.0;
-    for (const double percent : kPaperConfusionPercent[i]) row += percent;
+    for (const double percent : experiment::kPaperConfusionPercent[i]) row += percent;
     CHECK(std::abs(row - 100.0) < 0.4);  // as printed
   }
 }
@@ -89,7 +89,7 @@ TEST_CASE("information of a group of the paper's size: corrected on the mark, th
   int held = 0;
   constexpr int kGroups = 400;
   for (int g = 0; g < kGroups; ++g) {
-    const auto group = made_group(kPaperIdentificationParticipants, 16, random);
+    const auto group = made_group(experiment::kPaperIdentificationParticipants, 16, random);
     ConfusionMatrix all(7);
     for (const auto& one : group) all += one;
     plain += information_bits(all) / kGroups;

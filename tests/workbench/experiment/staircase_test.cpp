@@ -6,8 +6,10 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string_view>
+#include <vector>
 
 namespace tangent::experiment {
 namespace {
@@ -109,6 +111,36 @@ TEST_CASE("with small steps it stays where seven of ten answers are right") {
   }
   MESSAGE("right: ", right / staircase.trials(), " of ", staircase.trials());
   CHECK(sum / staircase.trials() == doctest::Approx(0.7071).epsilon(0.01));
+}
+
+TEST_CASE("measure: where the rule settles, by steps" * doctest::skip()) {
+  constexpr int kParticipants = 2000;
+  for (const double large : {2.0, 1.6, 1.4}) {
+    for (const double small : {1.1, 1.15, 1.2, 1.3}) {
+      StaircaseRule rule;
+      rule.start = 26.0;
+      rule.large_step = large;
+      rule.small_step = small;
+      std::vector<double> over;
+      double trials = 0.0;
+      for (std::uint64_t p = 0; p < kParticipants; ++p) {
+        SplitMix random(p, 7);
+        Psychometric participant{1.0, 0.35, 0.02};
+        participant.middle = 104.1 / participant.segments_at(balance_point(rule));
+        Staircase staircase(rule);
+        while (!staircase.done()) staircase.answer(random.unit() < participant.right(staircase.segments()));
+        trials += staircase.trials();
+        over.push_back(staircase.threshold() / 104.1);
+      }
+      double mean = 0.0, squares = 0.0;
+      for (const double value : over) mean += value / kParticipants;
+      for (const double value : over) squares += (value - mean) * (value - mean) / kParticipants;
+      std::sort(over.begin(), over.end());
+      MESSAGE("steps ", large, ", ", small, ": mean over the threshold ", mean, ", median ", over[kParticipants / 2],
+              ", deviation ", std::sqrt(squares), ", 99th percentile ", over[kParticipants * 99 / 100], ", trials ",
+              trials / kParticipants);
+    }
+  }
 }
 
 TEST_CASE("the psychometric function falls from right to guessing, and is undone") {

@@ -5,7 +5,7 @@
 #include <array>
 #include <string_view>
 
-namespace tangent::analysis {
+namespace tangent::experiment {
 
 /// Table 1 (5.2.6): twelve participants. Angles: the means are 51.68 / (n - 1) degrees, the ends of the intervals
 /// 51.68 / n: the paper's own two readings.
@@ -21,6 +21,8 @@ inline constexpr std::array<PaperThreshold, 4> kPaperThresholds{{
     {"C3", 257.3, 63.20, 0.2},
     {"C4", 15.6, 3.85, 3.5},
 }};
+/// Table 2: of the pilot study alone.
+inline constexpr double kPaperP1Degrees = 14.8, kPaperP2Degrees = 0.2;
 inline constexpr int kPaperDiscriminationParticipants = 12;
 inline constexpr double kPaperAnovaF = 47.76;  ///< 5.2.6
 inline constexpr double kPaperTrials = 42.0;   ///< of a condition, on average, 5.2.4
@@ -44,4 +46,4 @@ inline constexpr double kPaperForceOnlyPercent = 82.5, kPaperForceTactilePercent
 inline constexpr double kPaperExperiencedPercent = 87.5, kPaperInexperiencedPercent = 76.3;  ///< 5.3.6.4
 inline constexpr double kPaperSphereSeconds = 8.6, kPaperTriangleSeconds = 18.7;             ///< 5.3.6.5
 
-}  // namespace tangent::analysis
+}  // namespace tangent::experiment
