@@ -1,10 +1,10 @@
 #include "workbench/sweep/shard_file.h"
 
+#include "core/base/fnv.h"
+
 #include <nlohmann/json.hpp>
 
-#include <array>
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
 #include <fstream>
 
@@ -19,13 +19,7 @@ using nlohmann::ordered_json;
 constexpr int kShardFormat = 1;
 constexpr std::size_t kDigits = 16;
 
-std::string checksum(std::string_view text) {
-  std::uint64_t value = 0xcbf29ce484222325ull;  // FNV-1a
-  for (const char c : text) value = (value ^ static_cast<unsigned char>(c)) * 0x100000001b3ull;
-  std::array<char, kDigits + 1> out{};
-  std::snprintf(out.data(), out.size(), "%016llx", static_cast<unsigned long long>(value));
-  return out.data();
-}
+std::string checksum(std::string_view text) { return Fnv().add(text).text(); }
 
 std::string line_of(const ordered_json& json) {
   const std::string text = json.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
