@@ -221,7 +221,7 @@ void App::frame(const FrameInput& input) {
   const Theme theme = ui_->theme.value_or(model_->window().theme());
   const float scale = ui_->font_scale.value_or(1.0f);
   ImGui::NewFrame();
-  ui_->keyboard.update(ui_->items, theme_colours(theme).accent);
+  if (!refuse_by_enter(model_->guard())) ui_->keyboard.update(ui_->items, theme_colours(theme).accent);
   ui_->items.begin_frame();
   const UiContext ui{ui_->items,
                      ui_->typing,
@@ -240,6 +240,7 @@ void App::frame(const FrameInput& input) {
   draw_view_panel(ui, *model_, ui_->view, ui_->renderer, layout.view);
   draw_device_monitor(ui, *model_, layout.view);
   draw_arming_bar(ui, model_->devices(), beside_cards(layout.view, ui.px(210)));
+  draw_guard_question(ui, *model_, beside_cards(layout.view, ui.px(210)));
   draw_unsaved_offer(ui, model_->unsaved(), layout.view);
   ui_->draw_column("##left", layout.left, ui, *model_, true);
   const float tabs = draw_task_tabs(ui, model_->window(), layout.right);
@@ -284,8 +285,9 @@ bool App::wants_frames() const {
   const bool refining = ui_->renderer != nullptr && ui_->renderer->refining();
   return !model_->time().paused() || model_->scene().loading() || model_->recordings().busy() ||
          model_->record().recording() || model_->record().writing() || model_->scene().auditing() ||
-         model_->map().running() || model_->time().time_machine().busy() || model_->tuning().sweep().running() ||
-         model_->tuning().search().running() || model_->exports().writing() || refining || ui_->script.running();
+         model_->map().running() || model_->guard().finding() || model_->time().time_machine().busy() ||
+         model_->tuning().sweep().running() || model_->tuning().search().running() || model_->exports().writing() ||
+         refining || ui_->script.running();
 }
 
 std::optional<std::filesystem::path> App::take_screenshot_request() {

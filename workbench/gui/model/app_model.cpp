@@ -17,6 +17,9 @@ AppModel::AppModel(const AppOptions& options)
       scene_(options_, presets_, messages_, [this](SceneChange change) { scene_loaded(std::move(change)); }),
       view_(scene_, map_, messages_),
       devices_(options_, scene_, presets_, messages_, [this] { time_.forget(); }),
+      guard_(
+          options_, scene_, presets_, devices_, messages_, [this](const std::string& what) { preset_changed(what); },
+          [this] { time_.preset_sent(); }),
       time_(options_, devices_, presets_, messages_),
       recordings_(options_, scene_, presets_, time_, messages_,
                   [this](RecordingModel::Loaded loaded) { show_recording(std::move(loaded)); }),
@@ -123,6 +126,7 @@ void AppModel::take_ticks() {
   record_.update();
   if (devices_.session() == nullptr && time_.recording() == nullptr) return;
   devices_.take_status();
+  guard_.update();
   time_.show_tick();
   tuning_.update();
 }
@@ -199,6 +203,11 @@ Result<SavedSession> AppModel::session_to_save(const std::filesystem::path& file
 }
 
 void AppModel::preset_changed(const std::string& what) {
+  if (guard_.lets_through(what)) return send_preset(what);
+  time_.preset_sent();  // the recorded past may be solved with it meanwhile
+}
+
+void AppModel::send_preset(const std::string& what) {
   const auto id = devices_.send_preset();
   if (!id) return;
   presets_.note_sent(*id, what);

@@ -4,7 +4,9 @@
 // The only data flow between the parts:
 //
 //   scene  --(a mesh was opened or built again)-->  window, view, devices     scene_loaded()
-//   presets  --(values changed)-->  devices --(id of what was sent)--> presets, time     preset_changed()
+//   presets  --(values changed)-->  guard, which may hold them     preset_changed()
+//   guard  -->  devices --(id of what was sent)--> presets, time     send_preset()
+//   devices  --(a change was undone)-->  guard  -->  presets     guard().update()
 //   devices  --(the session ends)-->  record, time     record().stop(), time().forget()
 //   recordings  --(a recording was read)-->  scene, presets, time     show_recording()
 //   devices  --(records, status)-->  time, once a frame     take_ticks()
@@ -16,6 +18,7 @@
 #include "workbench/gui/model/device_model.h"
 #include "workbench/gui/model/evidence_model.h"
 #include "workbench/gui/model/export_model.h"
+#include "workbench/gui/model/guard_model.h"
 #include "workbench/gui/model/message_log.h"
 #include "workbench/gui/model/preset_model.h"
 #include "workbench/gui/model/record_model.h"
@@ -79,6 +82,8 @@ class AppModel {
   const ViewModel& view() const { return view_; }
   DeviceModel& devices() { return devices_; }
   const DeviceModel& devices() const { return devices_; }
+  GuardModel& guard() { return guard_; }
+  const GuardModel& guard() const { return guard_; }
   TimeModel& time() { return time_; }
   const TimeModel& time() const { return time_; }
   const TickRecord* tick_in_view() const;  ///< null: none yet
@@ -100,6 +105,7 @@ class AppModel {
   void open_session(const std::filesystem::path& file);
   void show_session(const SavedSession& session);
   void preset_changed(const std::string& what);
+  void send_preset(const std::string& what);
   void take_ticks();
   KeptLook kept_look() const { return {view_.camera.y_up, map_.colours}; }
 
@@ -112,6 +118,7 @@ class AppModel {
   MapView map_;
   ViewModel view_;
   DeviceModel devices_;
+  GuardModel guard_;
   TimeModel time_;
   RecordingModel recordings_;
   RecordModel record_;

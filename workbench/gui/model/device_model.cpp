@@ -121,7 +121,7 @@ void DeviceModel::say_what_differs() {
     }
     said = used < asked ? asked : 0.0;
   };
-  const ForceSettings &asked = presets_.current().force, &used = session_->preset().force;
+  const ForceSettings &asked = session_->asked_preset().force, &used = session_->preset().force;
   say("stiffness", "N/m", asked.stiffness_n_per_m, used.stiffness_n_per_m, capped_.stiffness_n_per_m);
   say("damping", "N s/m", asked.damping_n_s_per_m, used.damping_n_s_per_m, capped_.damping_n_s_per_m);
 }

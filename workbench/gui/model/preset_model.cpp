@@ -137,6 +137,15 @@ void PresetModel::take_up(const UnsavedWork& work) {
   changed_("restore the work of an earlier run");
 }
 
+void PresetModel::take_back(const Preset& in_use, const std::string& what) {
+  slots_.end_gesture();
+  slots_.apply(what, [&](PresetEditor& editor) {
+    bool any = false;
+    for (const PresetKey& key : preset_keys()) any = editor.set(key, key.get(in_use)) || any;
+    return any;
+  });
+}
+
 void PresetModel::undo() {
   if (!slots_.can_undo()) return messages_.say(Severity::note, "nothing to undo");
   const std::string what = "undo " + slots_.undo_name();

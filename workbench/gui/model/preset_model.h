@@ -45,6 +45,8 @@ class PresetModel {
   void revert_value(const PresetKey& key) { set_value(key, key.get(editor().loaded().preset)); }
   void revert_all();
   void set_condition(const RenderingCondition& condition);  ///< both sources, one step of undo
+  /// Back to values that the devices have: nothing is sent. A step of undo by this name.
+  void take_back(const Preset& in_use, const std::string& what);
   void undo();
   void redo();
   void toggle_ab();

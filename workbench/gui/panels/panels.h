@@ -52,6 +52,7 @@ float draw_task_tabs(const UiContext& ui, WindowModel& window, const Rect& colum
 void draw_triangle_card(const UiContext& ui, const AppModel& model, std::uint32_t triangle);
 /// Where the scene is on the force device: part of the devices panel.
 void draw_placement(const UiContext& ui, AppModel& model);
+void draw_guard(const UiContext& ui, GuardModel& guard);  ///< in the section Devices
 struct PathMapPanel {
   bool close_up = true;  ///< zoomed to the path; otherwise the whole base triangle
 };
@@ -134,6 +135,10 @@ void draw_log_panel(const UiContext& ui, MessageLog& messages, LogPanel& state);
 /// At the lower edge of the 3D view or the monitor while there is no force: what is in the way, and the button to arm.
 void draw_arming_bar(const UiContext& ui, DeviceModel& devices, const Rect& over);
 /// At its upper edge: what an earlier run left unsaved, to take up or to discard.
+/// Whether a change may go to the armed device: where the guard asks.
+void draw_guard_question(const UiContext& ui, AppModel& model, const Rect& over);
+/// Enter answers the guard's question with no; false: there is none, or no Enter.
+bool refuse_by_enter(GuardModel& guard);
 void draw_unsaved_offer(const UiContext& ui, UnsavedModel& unsaved, const Rect& over);
 /// Drawn in place of the 3D view while the monitor is open.
 void draw_device_monitor(const UiContext& ui, AppModel& model, const Rect& rect);

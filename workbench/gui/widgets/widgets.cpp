@@ -189,6 +189,31 @@ std::optional<std::string> type_in_field(const UiContext& ui, std::string_view p
   return typed;
 }
 
+}  // namespace
+
+void draw_bands(const UiContext& ui, ImVec2 at, float width, std::span<const ShareBand> bands) {
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const float low = at.y + ImGui::GetFrameHeight(), line = ui.px(2), tooth = ui.px(4), gap = ui.px(4);
+  for (const ShareBand& band : bands) {
+    const float x0 = at.x + band.from * width, x1 = at.x + band.to * width;
+    switch (band.safety) {
+      case Safety::stable:
+        draw.AddRectFilled({x0, low - line}, {x1, low}, ui.colours.good);
+        break;
+      case Safety::shakes:
+        for (float x = x0; x < x1; x += gap)
+          draw.AddTriangleFilled({x, low}, {x + 0.5f * gap, low - tooth}, {std::min(x + gap, x1), low}, ui.colours.bad);
+        break;
+      case Safety::unknown:
+        for (float x = x0; x + 0.5f * gap <= x1; x += gap)
+          draw.AddRectFilled({x, low - line}, {x + 0.5f * gap, low}, ui.colours.text_dim);
+        break;
+    }
+  }
+}
+
+namespace {
+
 /// Draws the last item as a filled field.
 void draw_field(const UiContext& ui, const ValueField& field, ImVec2 at, double share) {
   const float height = ImGui::GetFrameHeight();
@@ -204,6 +229,7 @@ void draw_field(const UiContext& ui, const ValueField& field, ImVec2 at, double 
     draw.AddRectFilled(at, end, ui.colours.accent_soft, round);
     draw.PopClipRect();
   }
+  draw_bands(ui, at, field.width, field.bands);
   ImFont* number = ui.fonts.number;
   const float w = number->CalcTextSizeA(number->FontSize, 1e9f, 0.0f, field.text.c_str()).x;
   // The unit goes before it would push the number out.
