@@ -25,7 +25,7 @@ Result<PolygonMesh> read_or_generate(const SceneRequest& request) {
   for (const auto* names : {&generator_names(), &hard_mesh_names()}) {
     if (std::find(names->begin(), names->end(), request.mesh) != names->end()) return generate_mesh(request.mesh);
   }
-  return read_mesh(request.mesh, request.metres_per_unit);
+  return read_mesh(request.mesh, request.metres_per_unit, run_on_two_threads);
 }
 
 /// Loads a polygon as a 2D scene. Its mesh is the ribbon that the scene builds from it.
