@@ -11,8 +11,6 @@
 namespace tangent {
 namespace {
 
-constexpr std::size_t kLeafTriangles = 2;
-
 /// Directions within `half` of a unit axis; cos_half -1 is every direction.
 struct Cone {
   Vec3 axis{0.0, 0.0, 1.0};
@@ -90,10 +88,9 @@ class ContactHierarchyBuilder {
 
  private:
   void build_tree() {
-    tree_.nodes_.reserve(2 * (entries_.size() / kLeafTriangles + 1));
+    tree_.nodes_.reserve(2 * entries_.size());
     tree_.order_.reserve(entries_.size());
     build_node(0, entries_.size());
-    tree_.nodes_.shrink_to_fit();
   }
 
   struct Bounds {
@@ -210,12 +207,11 @@ class ContactHierarchyBuilder {
     const auto index = static_cast<std::uint32_t>(tree_.nodes_.size());
     tree_.nodes_.emplace_back();
     Bounds bounds;
-    if (last - first <= kLeafTriangles) {
+    if (last - first == 1) {
       bounds = bounds_of(entries_[first].entry);
-      for (std::size_t i = first + 1; i < last; ++i) join(bounds, bounds_of(entries_[i].entry));
       tree_.nodes_[index].link = ContactHierarchy::kLeaf | static_cast<std::uint32_t>(first);
-      for (std::size_t i = first; i < last; ++i) tree_.order_.push_back(entries_[i].entry);
-      tree_.nodes_[index].count = static_cast<std::uint32_t>(last - first);
+      tree_.order_.push_back(entries_[first].entry);
+      tree_.nodes_[index].count = 1;
     } else {
       const std::size_t middle = split(first, last);
       bounds = build_node(first, middle);
