@@ -246,12 +246,14 @@ void add_solve_command(CLI::App& app, CommandResult& result) {
   add_text_option(*command, "--record", options->record,
                   "A recording, to be replayed; a file that is there is not written over", "F.sqlite");
   add_flag(*command, "--explain", options->explain,
-           "Say for every tick that did not converge, had an event or took many planes why, and what cures it");
-  add_number_option(*command, "--many-planes", {.min = 0, .max = 10000, .whole = true},
-                    "With --explain: ticks of more planes are explained, too; default 8", [options](double planes) {
-                      options->many_given = true;
-                      options->explained.many_planes = static_cast<int>(planes);
-                    });
+           "Say for every tick that did not converge, had an event or took many iterations why, and what cures it");
+  add_number_option(
+      *command, "--many-planes", {.min = 0, .max = 10000, .whole = true},
+      "With --explain: ticks of more iterations, each a tangent plane computed, are explained, too; default 8",
+      [options](double planes) {
+        options->many_given = true;
+        options->explained.many_planes = static_cast<int>(planes);
+      });
   add_preset_options(*command, options->preset);
   on_run(*command, [options, &result] {
     refuse_shared_paths(*options);
