@@ -64,12 +64,9 @@ const QuantityDifference* RecordingsCompared::worst() const {
 
 Result<RecordingsCompared> compare_fully(const std::filesystem::path& a, const std::filesystem::path& b,
                                          const CompareRecordingsOptions& options) {
-  Result<Recording> first = Recording::open(a), second = Recording::open(b);
-  if (!first) return tl::unexpected(first.error());
-  if (!second) return tl::unexpected(second.error());
-  Result<Alignment> found = align(*first, *second, options.by, options.note);
-  if (!found) return tl::unexpected(found.error());
-  const Alignment alignment = narrowed(*found, options);
+  Result<OpenedPair> pair = open_pair(a, b, options);
+  if (!pair) return tl::unexpected(pair.error());
+  const Alignment& alignment = pair->alignment;
   if (!alignment.aligned()) return not_aligned(alignment);
   Part early{alignment, PairCounter(alignment, options)}, late{alignment, PairCounter(alignment, options)};
   early.range.last = alignment.first + (alignment.ticks() - 1) / 2;

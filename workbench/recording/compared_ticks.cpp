@@ -1,7 +1,7 @@
 #include "workbench/recording/compared_ticks.h"
 
 #include "core/preset/schema.h"
-#include "workbench/recording/replay.h"
+#include "workbench/recording/computable_recording.h"
 #include "workbench/recording/tick_values.h"
 
 #include <algorithm>
@@ -36,8 +36,7 @@ class RecordedTicks final : public ComparedTicks {
 
 class SolvedTicks final : public ComparedTicks {
  public:
-  using Scenes = std::map<std::uint32_t, std::shared_ptr<const ContactScene>>;
-  SolvedTicks(Recording recording, Scenes scenes, std::map<std::uint32_t, Preset> presets, TickReader reader,
+  SolvedTicks(Recording recording, RecordedScenes scenes, std::map<std::uint32_t, Preset> presets, TickReader reader,
               std::uint64_t first, std::function<bool()> cancelled)
       : recording_(std::move(recording)),
         scenes_(std::move(scenes)),
@@ -78,7 +77,7 @@ class SolvedTicks final : public ComparedTicks {
   }
 
   Recording recording_;
-  Scenes scenes_;
+  RecordedScenes scenes_;
   std::map<std::uint32_t, Preset> presets_;
   TickReader reader_;
   std::uint64_t first_;
@@ -105,7 +104,7 @@ Result<std::unique_ptr<ComparedTicks>> solved_ticks(const std::filesystem::path&
                                                     const TickSpan& span, std::function<bool()> cancelled) {
   Result<Recording> recording = Recording::open(path);
   if (!recording) return tl::unexpected(recording.error());
-  Result<SolvedTicks::Scenes> scenes = scenes_of(*recording, how.mesh ? how.mesh : how.scene);
+  Result<RecordedScenes> scenes = scenes_of(*recording, how.mesh ? how.mesh : how.scene);
   if (!scenes) return tl::unexpected(scenes.error());
   if (how.mesh)
     for (auto& [id, scene] : *scenes) scene = how.mesh;
@@ -163,6 +162,16 @@ RecordingsCompared not_aligned(const Alignment& alignment) {
   out.alignment = alignment;
   out.why = alignment.why_not;
   return out;
+}
+
+Result<OpenedPair> open_pair(const std::filesystem::path& a, const std::filesystem::path& b,
+                             const CompareRecordingsOptions& options) {
+  Result<Recording> first = Recording::open(a), second = Recording::open(b);
+  if (!first) return tl::unexpected(first.error());
+  if (!second) return tl::unexpected(second.error());
+  Result<Alignment> found = align(*first, *second, options.by, options.note);
+  if (!found) return tl::unexpected(found.error());
+  return OpenedPair{std::move(*first), std::move(*second), narrowed(std::move(*found), options)};
 }
 
 PairCounter::PairCounter(const Alignment& alignment, const CompareRecordingsOptions& options)

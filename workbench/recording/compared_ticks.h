@@ -72,4 +72,12 @@ std::vector<ComparedBin> empty_bins(const Alignment& alignment, std::size_t most
 Alignment narrowed(Alignment alignment, const CompareRecordingsOptions& options);
 RecordingsCompared not_aligned(const Alignment& alignment);
 
+/// Two recordings, opened, and what goes together of them, narrowed as above.
+struct OpenedPair {
+  Recording a, b;
+  Alignment alignment;
+};
+Result<OpenedPair> open_pair(const std::filesystem::path& a, const std::filesystem::path& b,
+                             const CompareRecordingsOptions& options);
+
 }  // namespace tangent

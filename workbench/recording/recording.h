@@ -47,6 +47,7 @@ struct RecordingInfo {
 class Recording {
  public:
   static constexpr std::int64_t kMostEvents = 100'000;
+  static constexpr std::uint64_t kMostTick = std::uint64_t{1} << 62;  ///< the largest number of a tick
 
   /// Fails on what is no recording, is newer than this program, or lacks what every recording has.
   static Result<Recording> open(const std::filesystem::path& path);
