@@ -40,8 +40,8 @@ struct Run {
 
   Status solve(Recording& recording) {
     const RecordingInfo& info = recording.info();
-    const double seconds = info.last_s - info.first_s;
-    MotionCounter counter(seconds > 0.0 ? static_cast<double>(info.ticks - 1) / seconds : 1000.0);
+    const double rate = info.rate_hz();
+    MotionCounter counter(rate > 0.0 ? rate : 1000.0);
     const auto presets = presets_of(recording);
     if (!presets) return tl::unexpected(presets.error());
     Result<TickReader> ticks = recording.ticks(info.first_tick, info.last_tick);

@@ -175,7 +175,7 @@ Result<OpenedPair> open_pair(const std::filesystem::path& a, const std::filesyst
 }
 
 PairCounter::PairCounter(const Alignment& alignment, const CompareRecordingsOptions& options)
-    : tolerance_(options.tolerance) {
+    : tolerance_(options.tolerance), spectrum_a_(alignment.rate_hz), spectrum_b_(alignment.rate_hz) {
   out_.alignment = alignment;
   out_.full = true;
   out_.quantities = no_differences(options.tolerance);
@@ -185,6 +185,7 @@ PairCounter::PairCounter(const Alignment& alignment, const CompareRecordingsOpti
 void PairCounter::add(const ComparedTick& a, const ComparedTick& b) {
   const bool together = !(glm::distance(a.finger, b.finger) > tolerance_.finger_m);
   add_curves(a, b, together);
+  add_spectra(a, b);
   if (!together) {
     ++out_.apart;
     return;
@@ -208,6 +209,13 @@ void PairCounter::add(const ComparedTick& a, const ComparedTick& b) {
   }
 }
 
+void PairCounter::add_spectra(const ComparedTick& a, const ComparedTick& b) {
+  const bool follows = last_ && a.tick == *last_ + 1;
+  last_ = a.tick;
+  spectrum_a_.add({a.values[0], a.values[1], a.values[2]}, a.values[3], follows);
+  spectrum_b_.add({b.values[0], b.values[1], b.values[2]}, b.values[3], follows);
+}
+
 void PairCounter::add_curves(const ComparedTick& a, const ComparedTick& b, bool together) {
   ComparedBin& bin = out_.bins[bin_of(out_.alignment, a.tick, out_.bins.size())];
   ++bin.ticks;
@@ -226,6 +234,8 @@ void PairCounter::join(const PairCounter& other) {
   out_.compared += o.compared;
   out_.apart += o.apart;
   out_.in_one_only += o.in_one_only;
+  spectrum_a_.join(other.spectrum_a_);
+  spectrum_b_.join(other.spectrum_b_);
   out_.other_contacts += o.other_contacts;
   for (std::size_t q = 0; q < out_.quantities.size(); ++q) {
     QuantityDifference& d = out_.quantities[q];
@@ -260,6 +270,8 @@ CompareOutcome PairCounter::outcome() const {
 RecordingsCompared PairCounter::done() {
   const double count = static_cast<double>(std::max<std::uint64_t>(1, out_.compared));
   for (QuantityDifference& d : out_.quantities) d.rms = std::sqrt(d.rms / count);
+  out_.spectrum_a = spectrum_a_.done();
+  out_.spectrum_b = spectrum_b_.done();
   out_.outcome = outcome();
   if (out_.outcome == CompareOutcome::not_aligned)
     out_.why = out_.compared + out_.apart == 0

@@ -4,6 +4,7 @@
 #include "workbench/recording/compare_recordings.h"
 
 #include <memory>
+#include <optional>
 
 namespace tangent {
 
@@ -60,9 +61,12 @@ class PairCounter {
 
  private:
   void add_curves(const ComparedTick& a, const ComparedTick& b, bool together);
+  void add_spectra(const ComparedTick& a, const ComparedTick& b);
   CompareOutcome outcome() const;
   CompareTolerance tolerance_;
   RecordingsCompared out_;
+  SpectrumCounter spectrum_a_, spectrum_b_;
+  std::optional<std::uint64_t> last_;  ///< tick of A that was added last
 };
 
 /// The bin of a tick.

@@ -109,6 +109,8 @@ void draw_time_machine_panel(const UiContext& ui, TimeModel& time, FoldedPanel& 
 
 /// Two recordings, or one under the present values: outcome, curves, differences.
 void draw_recording_pair_panel(const UiContext& ui, AppModel& model, FoldedPanel& state);
+/// Below it: roughness by frequency, where force or display is compared and every tick was. Both axes logarithmic.
+void draw_compared_spectra(const UiContext& ui, const RecordingsCompared& compared, std::size_t channel);
 
 /// One or two keys over many values on the chosen ticks: mean, p99 and failures of each, a click tries it.
 void draw_sweep_panel(const UiContext& ui, AppModel& model, FoldedPanel& state);

@@ -199,6 +199,7 @@ void draw_recording_pair_panel(const UiContext& ui, AppModel& app, FoldedPanel& 
     if (text_button(ui, "recordings/whole", "All ticks", "Compares all ticks again")) model.show_whole();
   }
   ImGui::Dummy({1, ui.px(3)});
+  draw_compared_spectra(ui, *found, model.channel);
 }
 
 }  // namespace tangent

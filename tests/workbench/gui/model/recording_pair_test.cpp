@@ -5,6 +5,7 @@
 
 #include "core/lab/objects/generate.h"
 
+#include <algorithm>
 #include <chrono>
 #include <thread>
 
@@ -78,6 +79,18 @@ TEST_CASE("two recordings are compared in the window, and the largest difference
   CHECK(there == largest);
   ui.click("recordings/whole");
   CHECK(ui.recordings().result()->compared == 2000);
+  const auto spectrum = [&](std::string_view channel) {
+    const auto at = std::find(kComparedChannels.begin(), kComparedChannels.end(), channel);
+    ui.recordings().channel = static_cast<std::size_t>(at - kComparedChannels.begin());
+    ui.frame();
+    ui.frame();
+    return ui.app().items().find("recordings/spectrum");
+  };
+  CHECK(spectrum("force_z_n") != nullptr);
+  CHECK(spectrum("penetration_m") == nullptr);
+  ui.recordings().channel = 0;
+  ui.click("recordings/largest");  // half a second: less than a window
+  CHECK(spectrum("force_z_n") == nullptr);
 }
 
 TEST_CASE("without a second recording the first is compared with its motion under the present values") {
