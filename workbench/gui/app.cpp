@@ -218,6 +218,7 @@ void App::frame(const FrameInput& input) {
   model_->update(input.now_s);
   ui_->take_view(*model_);
   step_script();
+  model_->see_mesh_of_tick();
   const Theme theme = ui_->theme.value_or(model_->window().theme());
   const float scale = ui_->font_scale.value_or(1.0f);
   ImGui::NewFrame();

@@ -47,6 +47,9 @@ class AppModel {
   void keep();
   /// Call once per frame: takes in results of the servo and the workers.
   void update(double now_s);
+  /// The mesh in view becomes that of the tick in view, where a recording has several. Once a frame, and wherever
+  /// another tick was chosen before the frame is drawn.
+  void see_mesh_of_tick();
   /// Deterministic mode only.
   void advance(std::uint64_t ticks);
   bool deterministic() const { return options_.deterministic; }
@@ -61,6 +64,11 @@ class AppModel {
   /// A preset (.toml), a recording (.sqlite), a session (.session), a mesh, a polygon, or the name of a generated
   /// object. Failures are messages.
   void open(const std::string& file);
+  /// A tick of a recording, which is opened where it is not open; `work`: with the presets and bookmarks of an earlier
+  /// run.
+  void open_at(const RecordedPlace& place, const std::optional<UnsavedWork>& work = std::nullopt);
+  /// The tick that is chosen in the comparison of two recordings, in the first or the second of them.
+  void show_compared(bool in_second);
   /// A tick at a place of the mesh in view, in the direction that needs most planes (TimeModel::solve_at), with the
   /// map's moves. At once, whatever the finger does.
   void solve_here(std::uint32_t triangle, double u, double v);
@@ -99,6 +107,7 @@ class AppModel {
   void show_recording(RecordingModel::Loaded loaded);
   void open_session(const std::filesystem::path& file);
   void show_session(const SavedSession& session);
+  void show_place(const OpenedRecording& recording);
   void preset_changed(const std::string& what);
   void take_ticks();
   KeptLook kept_look() const { return {view_.camera.y_up, map_.colours}; }
@@ -121,7 +130,10 @@ class AppModel {
   RecordingPairModel recording_pair_;
   UnsavedModel unsaved_;
   ExportModel exports_;
-  std::optional<SavedSession> session_;  ///< opened, its recording being read
+  std::optional<SavedSession> session_;             ///< opened, its recording being read
+  std::shared_ptr<const ContactScene> seen_scene_;  ///< by see_mesh_of_tick
+  std::optional<RecordedPlace> place_;              ///< to be shown when its recording was read,
+  std::optional<UnsavedWork> looked_at_;            ///< as it was looked at before a crash
   std::optional<std::map<std::string, std::string>> session_view_;
 };
 

@@ -54,7 +54,7 @@ void DeviceModel::make_session(PreparedScenePtr prepared) {
   }
   SessionOptions wanted = options_;
   wanted.arm_on_start = arm_on_start;
-  auto session = Session::create(scene_.current(), presets_.current(), wanted, std::move(prepared));
+  auto session = Session::create(scene_.of_servo(), presets_.current(), wanted, std::move(prepared));
   if (!session) {
     messages_.say(Severity::error, session.error().message());
     return;
@@ -84,7 +84,7 @@ void DeviceModel::end_session() {
 }
 
 void DeviceModel::restart_session() {
-  if (scene_.current() == nullptr) return;
+  if (scene_.of_servo() == nullptr) return;
   end_session();  // releases its devices before the new one opens them
   status_ = {};
   session_ended_();

@@ -65,7 +65,21 @@ SweepPlan TuningModel::plan() const {
   return plan;
 }
 
+void TuningModel::cancel_sweep() {
+  if (waits()) time_.cancel_loading();
+  waits_ = Waits::none;
+  sweep_.cancel();
+}
+
+/// Those of a recording from A to B are read first, where they are not.
+bool TuningModel::ticks_are_there(Waits otherwise) {
+  if (time_.load_selection()) return true;
+  waits_ = time_.selection_loading() ? otherwise : Waits::none;
+  return false;
+}
+
 void TuningModel::start_sweep() {
+  if (!ticks_are_there(Waits::sweep)) return;
   const auto range = time_.chosen_range();
   auto part = range ? time_.run_over(*range) : std::nullopt;
   if (!part) return messages_.say(Severity::note, "no ticks to sweep over yet");
@@ -78,6 +92,10 @@ void TuningModel::start_sweep() {
 }
 
 void TuningModel::update() {
+  if (waits() && !time_.selection_loading()) {
+    const Waits waited = std::exchange(waits_, Waits::none);
+    if (time_.selection_kept()) waited == Waits::sweep ? start_sweep() : search_gains();
+  }
   for (SweepPoint& point : sweep_.take()) add(std::move(point), false);
   const auto compared = time_.time_machine().compared();
   if (compared == seen_) return;
@@ -129,6 +147,7 @@ std::optional<GainAdvice> TuningModel::advice_here() {
 }
 
 void TuningModel::search_gains() {
+  if (!ticks_are_there(Waits::search)) return;
   const auto range = time_.chosen_range();
   const auto part = range ? time_.run_over(*range) : std::nullopt;
   if (!part) return messages_.say(Severity::note, "no ticks to search over yet");

@@ -38,7 +38,8 @@ class TuningModel {
   /// Keys that the method reads and that take numbers.
   std::vector<const PresetKey*> keys_to_sweep() const;
   void start_sweep();  ///< over the chosen ticks; points of the same ticks and other values stay
-  void cancel_sweep() { sweep_.cancel(); }
+  void cancel_sweep();
+  bool waits() const { return waits_ != Waits::none; }  ///< for ticks of a recording that are being read
   const SweepJob& sweep() const { return sweep_; }
   void clear_points() { points_.clear(); }
 
@@ -74,6 +75,9 @@ class TuningModel {
   std::vector<Point> points_;
   TickRange points_range_;
   Preset points_base_;
+  enum class Waits : std::uint8_t { none, sweep, search };
+  Waits waits_ = Waits::none;
+  bool ticks_are_there(Waits otherwise);
   std::shared_ptr<const PresetsCompared> seen_;
   GainSearch search_;
   std::optional<TickRange> searched_selection_;

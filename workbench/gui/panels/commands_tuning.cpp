@@ -32,6 +32,10 @@ void add_comparing(CommandList& out, AppModel& model, MenuBar& menu) {
         "solver/advice/search");
   press(out, model, menu, {"selection", "Time machine: to the ticks between cursors A and B", "", "range kept"},
         "time_machine/selection");
+  out.plain({"read selection", "Time machine: read the recording from cursor A to B, to solve it again", "", "load"},
+            [&model] { model.time().load_selection(); });
+  out.plain({"cancel reading", "Time machine: stop reading from cursor A to B", "", "load stop"},
+            [&model] { model.time().cancel_loading(); });
   press(out, model, menu, {"solve at bookmark", "Bookmarks: solve at this one", "", "place here"}, "bookmarks/solve");
   press(out, model, menu, {"leave place", "Iterations: back to the recorded tick", "", "solve here end"},
         "iterations/leave_place");
@@ -78,6 +82,15 @@ void add_recordings(CommandList& out, AppModel& model) {
   });
   out.plain({"largest difference", "Recordings: go to the largest difference", "", "worst jump"},
             [&recordings] { recordings.go_to_largest(); });
+  out.number({"compared tick", "Recordings: show this tick of the first, in the window's time", "", "go jump open"}, "",
+             0.0, 1e12, [&model](double tick) {
+               model.recording_pair().choose(static_cast<std::uint64_t>(tick));
+               model.show_compared(false);
+             });
+  out.plain({"compared in first", "Recordings: show the chosen difference in the first", "", "go jump open tick"},
+            [&model] { model.show_compared(false); });
+  out.plain({"compared in second", "Recordings: show the chosen difference in the second", "", "go jump open tick"},
+            [&model] { model.show_compared(true); });
   out.plain({"whole recordings", "Recordings: compare all ticks again", ""},
             [&recordings] { recordings.show_whole(); });
   out.plain({"stop comparing", "Recordings: stop, keep what is found", "", "cancel"},

@@ -65,13 +65,16 @@ void draw_axis(const UiContext& ui, AppModel& model, std::size_t i) {
 
 void draw_start(const UiContext& ui, AppModel& model) {
   TuningModel& tuning = model.tuning();
-  if (tuning.sweep().running()) {
+  if (tuning.sweep().running() || tuning.waits()) {
     if (text_button(ui, "sweep/cancel", "Cancel", "Stops and keeps the points so far")) tuning.cancel_sweep();
     ImGui::SameLine();
-    ImGui::TextDisabled("%zu of %zu", tuning.sweep().done(), tuning.sweep().planned());
+    if (tuning.waits())
+      ImGui::TextDisabled("reading A to B: %.0f %%", 100.0 * model.time().selection_progress());
+    else
+      ImGui::TextDisabled("%zu of %zu", tuning.sweep().done(), tuning.sweep().planned());
     return;
   }
-  const char* label = model.time().selection_kept() ? "Sweep A to B" : "Sweep the recorded ticks";
+  const char* label = model.time().selection_solvable() ? "Sweep A to B" : "Sweep the recorded ticks";
   if (text_button(ui, "sweep/start", label,
                   "Solves these ticks again with every value, on the same motion, in the background. Cursors A and B "
                   "choose the ticks"))
