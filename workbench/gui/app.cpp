@@ -104,6 +104,7 @@ void App::Ui::take_view(AppModel& model) {
   }
   if (camera_frames == 0) return;
   show_camera(model, *session_view);
+  show_scroll(*session_view);
   if (--camera_frames == 0) session_view.reset();
 }
 
