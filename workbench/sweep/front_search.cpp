@@ -7,6 +7,7 @@
 #include <thread>
 
 #include <dlfcn.h>
+#include <unistd.h>
 
 namespace tangent::sweep {
 namespace {
@@ -63,17 +64,23 @@ class Trials {
     result_.trials.resize(first + wanted.size());
     std::atomic<std::size_t> next{0};
     const auto work = [&] {
-      for (std::size_t i = next.fetch_add(1); i < wanted.size(); i = next.fetch_add(1)) {
-        Trial& trial = result_.trials[first + i];
-        trial = try_preset(plan_, grounds_, wanted[i].second, false);
+      for (std::size_t i = next.fetch_add(1); i < wanted.size() && !stopped(); i = next.fetch_add(1)) {
+        Trial trial = try_preset(plan_, grounds_, wanted[i].second, false);
+        if (trial.objectives.empty()) return;
         trial.values = wanted[i].first;
+        if (plan_.tried) plan_.tried(trial);
+        result_.trials[first + i] = std::move(trial);
       }
     };
     std::vector<std::thread> threads;
     for (unsigned t = 1; t < plan_.threads; ++t) threads.emplace_back(work);
     work();
     for (std::thread& thread : threads) thread.join();
+    if (!stopped()) return;
+    result_.stopped = true;
+    std::erase_if(result_.trials, [](const Trial& trial) { return trial.objectives.empty(); });
   }
+  bool stopped() const { return plan_.stop && plan_.stop(); }
 
   const FrontPlan& plan_;
   const std::vector<FrontGround>& grounds_;
@@ -140,7 +147,7 @@ SearchFront nsga2() {
 
 void evolve(Trials& trials) {
   constexpr std::size_t kPopulation = 40;  // a multiple of 4, as NSGA-II has it
-  const SearchFront search = nsga2();
+  const SearchFront search = trials.plan().evolve ? nsga2() : nullptr;
   const std::size_t start = std::min(kPopulation, trials.left() / 4 * 4);
   if (search == nullptr || start < 8) return;
   BatchProblem problem;
@@ -157,13 +164,23 @@ void evolve(Trials& trials) {
 
 bool has_front_search() { return nsga2() != nullptr; }
 
+bool front_search_is_there() {
+#ifdef TANGENT_NSGA2_MODULE
+  return ::access(TANGENT_NSGA2_MODULE, R_OK) == 0;
+#else
+  return false;
+#endif
+}
+
 Trial try_preset(const FrontPlan& plan, const std::vector<FrontGround>& grounds, const Preset& preset, bool held_back) {
   Trial out;
   for (const FrontGround& on : grounds) {
     const std::span<const TickInput> all(*on.ground.motion);
     const auto motion = held_back ? all.subspan(on.ticks) : all.first(on.ticks);
     Stepper stepper(on.ground.scene), exact(on.ground.scene);
-    const CellNumbers numbers = *measure_cell(stepper, exact, preset, motion);
+    const auto measured = measure_cell(stepper, exact, preset, motion, plan.stop);
+    if (!measured) return {};
+    const CellNumbers& numbers = *measured;
     if (out.objectives.empty()) out.numbers = numbers;
     out.objectives.resize(plan.objectives.size(), 0.0);
     for (std::size_t i = 0; i < plan.objectives.size(); ++i)

@@ -26,6 +26,10 @@ struct FrontPlan {
   std::size_t evaluations = 500;  ///< trials in all
   std::uint64_t seed = 1;
   unsigned threads = 1;
+  bool evolve = true;  ///< false: even draws only, as without pagmo
+  // For whoever watches, called by the threads that try.
+  std::function<bool()> stop;               ///< asked often; true: the search ends at once, keeps the finished trials
+  std::function<void(const Trial&)> tried;  ///< each trial as it is done; of several threads in any order
 };
 
 struct FrontResult {
@@ -35,6 +39,8 @@ struct FrontResult {
 
 /// True: built with pagmo.
 bool has_front_search();
+/// Likewise, without loading it: the module is where it was built.
+bool front_search_is_there();
 
 /// Deterministic: the same plan and grounds give the same trials, with any number of threads. Several grounds count by
 /// the worst of them, objective by objective. `keep_going` is asked before each batch. Precondition: objectives,
@@ -42,7 +48,7 @@ bool has_front_search();
 FrontResult search_front(const FrontPlan& plan, const std::vector<FrontGround>& grounds,
                          const std::function<bool(std::size_t done)>& keep_going = {});
 
-/// One preset on all grounds, on the ticks searched on or on those held back.
+/// One preset on all grounds, on the ticks searched on or on those held back. No objectives: plan.stop said so.
 Trial try_preset(const FrontPlan& plan, const std::vector<FrontGround>& grounds, const Preset& preset, bool held_back);
 
 /// What part of the space up to `reference` the front covers, in objectives scaled by it: larger is better (Zitzler,
