@@ -33,6 +33,7 @@ struct App::Ui {
   IterationsPanel iterations;
   MapPanel map;
   FoldedPanel mesh, devices, time_machine, why, recording, recording_pair{false}, sweep{false};
+  TunePanel tune;
   LogPanel log;
   BookmarksPanel bookmarks;
   InspectPanel inspect;
@@ -163,6 +164,7 @@ void App::Ui::draw_column(const char* name, const Rect& rect, const UiContext& u
     if (shown("Iterations")) draw_iterations_panel(ui, model, iterations);
     if (shown("Why this tick")) draw_why_panel(ui, model, why);
     if (shown("Time machine")) draw_time_machine_panel(ui, model.time(), time_machine);
+    if (shown("Tune")) draw_tune_panel(ui, model, tune);
     if (shown("Sweep")) draw_sweep_panel(ui, model, sweep);
     if (shown("Bookmarks")) draw_bookmarks_panel(ui, model, bookmarks);
     if (shown("Compare recordings")) draw_recording_pair_panel(ui, model, recording_pair);
@@ -285,7 +287,8 @@ bool App::wants_frames() const {
   return !model_->time().paused() || model_->scene().loading() || model_->recordings().busy() ||
          model_->record().recording() || model_->record().writing() || model_->scene().auditing() ||
          model_->map().running() || model_->time().time_machine().busy() || model_->tuning().sweep().running() ||
-         model_->tuning().search().running() || model_->exports().writing() || refining || ui_->script.running();
+         model_->tune().running() || model_->tune().looking_for_failures() || model_->tuning().search().running() ||
+         model_->exports().writing() || refining || ui_->script.running();
 }
 
 std::optional<std::filesystem::path> App::take_screenshot_request() {

@@ -22,6 +22,7 @@ AppModel::AppModel(const AppOptions& options)
                   [this](RecordingModel::Loaded loaded) { show_recording(std::move(loaded)); }),
       record_(options_, devices_, scene_, time_, messages_),
       tuning_(options_, presets_, time_, messages_),
+      tune_(options_, presets_, time_, scene_, messages_),
       evidence_(options_, presets_, scene_, time_, messages_),
       why_(options_, time_, presets_, view_, scene_, messages_),
       recording_pair_(options_, presets_, messages_),
@@ -98,6 +99,7 @@ void AppModel::update(double now_s) {
   view_.see_contact(tick_in_view(), time_.paused());
   window_.update(now_s, kept_look());
   unsaved_.update(now_s);
+  tune_.update();
   evidence_.update();
   recording_pair_.update();
   const auto& scene = scene_.current();

@@ -23,6 +23,7 @@
 #include "workbench/gui/model/recording_pair_model.h"
 #include "workbench/gui/model/scene_model.h"
 #include "workbench/gui/model/time_model.h"
+#include "workbench/gui/model/tune_model.h"
 #include "workbench/gui/model/tuning_model.h"
 #include "workbench/gui/model/unsaved_model.h"
 #include "workbench/gui/model/view_model.h"
@@ -87,6 +88,8 @@ class AppModel {
   RecordModel& record() { return record_; }
   const RecordModel& record() const { return record_; }
   TuningModel& tuning() { return tuning_; }
+  TuneModel& tune() { return tune_; }
+  const TuneModel& tune() const { return tune_; }
   EvidenceModel& evidence() { return evidence_; }
   WhyModel& why() { return why_; }
   RecordingPairModel& recording_pair() { return recording_pair_; }
@@ -116,6 +119,7 @@ class AppModel {
   RecordingModel recordings_;
   RecordModel record_;
   TuningModel tuning_;
+  TuneModel tune_;
   EvidenceModel evidence_;
   WhyModel why_;
   RecordingPairModel recording_pair_;

@@ -38,6 +38,9 @@ class PresetModel {
   void set_value(const PresetKey& key, double value);
   /// Several values as one step of undo.
   void set_values(const std::string& what, std::span<const std::pair<const PresetKey*, double>> values);
+  /// The same in the other slot, which becomes a copy of the one in use before and is switched to: a what-if that B
+  /// compares with what there was.
+  void try_values(const std::string& what, std::span<const std::pair<const PresetKey*, double>> values);
   void slide_value(const PresetKey& key, double value);  ///< one step of undo until end_gesture()
   void end_gesture() { slots_.end_gesture(); }
   void type_value(const PresetKey& key, const std::string& text);  ///< logs a message if it can't be parsed

@@ -96,6 +96,13 @@ void add_sweep(CommandList& out, AppModel& model, MenuBar& menu) {
   }
   press(out, model, menu, {"sweep start", "Sweep: the chosen ticks, with every value", "", "run vary tune"},
         "sweep/start");
+  press(out, model, menu, {"heat map", "Sweep: two values as a heat map", "", "field colours gains tune"},
+        "sweep/heat_map");
+  TuningModel& tuning = model.tuning();
+  out.choice(
+      {"sweep shows", "Sweep: colours of two values show", "", "heat map mean p99 failures"},
+      {TuningModel::kShows.begin(), TuningModel::kShows.end()},
+      [&tuning](std::size_t i) { tuning.shows = static_cast<TuningModel::Shows>(i); }, static_cast<int>(tuning.shows));
   out.plain({"sweep cancel", "Sweep: stop, keep the points so far", ""}, [&model] { model.tuning().cancel_sweep(); });
   out.plain({"sweep clear", "Sweep: delete the points", "", "delete"}, [&model] { model.tuning().clear_points(); });
 }

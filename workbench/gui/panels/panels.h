@@ -113,6 +113,18 @@ void draw_recording_pair_panel(const UiContext& ui, AppModel& model, FoldedPanel
 /// One or two keys over many values on the chosen ticks: mean, p99 and failures of each, a click tries it.
 void draw_sweep_panel(const UiContext& ui, AppModel& model, FoldedPanel& state);
 
+/// A search for the front of several numbers, watched while it grows, brushed, and its trials tried.
+struct TunePanel {
+  bool open = false;
+  int across = 0, up = 1;          ///< objectives on the axes
+  int key_across = 0, key_up = 1;  ///< keys on those of the second plot
+  std::string name = "tuned";      ///< to save under
+  std::string asked_for;           ///< this file exists: pressing again overwrites it
+};
+void draw_tune_panel(const UiContext& ui, AppModel& model, TunePanel& state);
+/// Saves the values in use, with the motion that they were tuned on as evidence. False: not saved, a message says why.
+bool save_tuned(AppModel& model, const std::string& name);
+
 /// The recording that is open, and the one that is made.
 void draw_recording_panel(const UiContext& ui, AppModel& model, FoldedPanel& state);
 

@@ -93,7 +93,8 @@ bool ScriptRunner::busy(AppModel& model, MenuBar& menu, const ItemMap& items) {
   }
   const bool work =
       menu.wish.work && (model.map().running() || model.scene().auditing() || model.time().time_machine().busy() ||
-                         model.tuning().search().running() || model.tuning().sweep().running());
+                         model.tuning().search().running() || model.tuning().sweep().running() ||
+                         model.tune().running() || model.tune().looking_for_failures());
   if (work || model.now_s() < menu.wish.until_s || model.scene().loading() || model.recordings().opening() ||
       model.exports().writing() || model.exports().picture_wanted() || !menu.wish.widget.empty() ||
       !items.wanted().empty() ||

@@ -12,6 +12,9 @@ namespace {
 
 using Axis = TuningModel::Axis;
 
+constexpr std::array<std::string_view, 3> kShownNames{"Iterations, mean", "Iterations, 99th percentile",
+                                                      "Failures, share of the ticks"};
+
 void choose_key(const UiContext& ui, TuningModel& tuning, std::size_t axis, float width) {
   const auto keys = tuning.keys_to_sweep();
   std::vector<std::string_view> names;
@@ -76,8 +79,15 @@ void draw_start(const UiContext& ui, AppModel& model) {
                   "Solves these ticks again with every value, on the same motion, in the background. Cursors A and B "
                   "choose the ticks"))
     tuning.start_sweep();
+  const char* map = "Heat map";
+  same_line_if_room(ImGui::CalcTextSize(map).x + ui.px(16));
+  if (text_button(
+          ui, "sweep/heat_map", map,
+          "Two values on the same ticks as a field of colours, coarse first: G_k and G_d where no second one is "
+          "chosen"))
+    tuning.start_heat_map();
   if (tuning.points().empty()) return;
-  ImGui::SameLine(0, ui.px(4));
+  same_line_if_room(ImGui::CalcTextSize("Clear").x + ui.px(16));
   if (text_button(ui, "sweep/clear", "Clear", "Deletes the points")) tuning.clear_points();
 }
 
@@ -97,8 +107,14 @@ void draw_sweep_panel(const UiContext& ui, AppModel& model, FoldedPanel& state) 
                         tuning.outdated() ? "; other values have changed since" : "");
     ui.items.note_last("sweep/range");
   }
-  ImGui::PopFont();
+  if (!tuning.points().empty() && tuning.axes()[1].key != nullptr) {
+    int shows = static_cast<int>(tuning.shows);
+    if (choice_row(ui, "sweep/shows", ImGui::GetContentRegionAvail().x, kShownNames, shows))
+      tuning.shows = static_cast<TuningModel::Shows>(shows);
+    tooltip(ui, "What the colours are: planes a tick, or the share of the ticks that fail. Of the map's colours");
+  }
   if (!tuning.points().empty()) draw_sweep_points(ui, model);
+  ImGui::PopFont();
   ImGui::Dummy({1, ui.px(3)});
 }
 

@@ -17,6 +17,7 @@ struct Place {
 constexpr std::array kRight{Place{"iterations", "Iterations"},
                             Place{"why", "Why this tick"},
                             Place{"time_machine", "Time machine"},
+                            Place{"tune", "Tune"},
                             Place{"sweep", "Sweep"},
                             Place{"recording", "Recording"},
                             Place{"bookmarks", "Bookmarks"},

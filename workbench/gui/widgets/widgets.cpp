@@ -322,7 +322,8 @@ bool choice_row(const UiContext& ui, std::string_view path, float width, std::sp
   const std::string current(
       choices[static_cast<std::size_t>(std::clamp(chosen, 0, static_cast<int>(choices.size()) - 1))]);
   ImGui::SetNextItemWidth(width);
-  const bool open = ImGui::BeginCombo(id_of(path).c_str(), current.c_str());
+  const float room = width - ImGui::GetFrameHeight() - 2.0f * ImGui::GetStyle().FramePadding.x;
+  const bool open = ImGui::BeginCombo(id_of(path).c_str(), fitted(ImGui::GetFont(), current, room).c_str());
   ui.items.note_last(path);
   ui.items.note_arrows(path);
   if (open) {
