@@ -32,7 +32,7 @@ struct App::Ui {
   ComparePanel compare;
   IterationsPanel iterations;
   MapPanel map;
-  FoldedPanel mesh, devices, time_machine, why, recording, recording_pair{false}, sweep{false};
+  FoldedPanel mesh, devices, time_machine, why, recording, recording_pair{false}, sweep{false}, curves{false};
   LogPanel log;
   BookmarksPanel bookmarks;
   InspectPanel inspect;
@@ -164,6 +164,7 @@ void App::Ui::draw_column(const char* name, const Rect& rect, const UiContext& u
     if (shown("Why this tick")) draw_why_panel(ui, model, why);
     if (shown("Time machine")) draw_time_machine_panel(ui, model.time(), time_machine);
     if (shown("Sweep")) draw_sweep_panel(ui, model, sweep);
+    if (shown("Speed against error")) draw_curves_panel(ui, model, curves);
     if (shown("Bookmarks")) draw_bookmarks_panel(ui, model, bookmarks);
     if (shown("Compare recordings")) draw_recording_pair_panel(ui, model, recording_pair);
     if (shown("Map")) draw_map_panel(ui, model, map);
@@ -285,7 +286,8 @@ bool App::wants_frames() const {
   return !model_->time().paused() || model_->scene().loading() || model_->recordings().busy() ||
          model_->record().recording() || model_->record().writing() || model_->scene().auditing() ||
          model_->map().running() || model_->time().time_machine().busy() || model_->tuning().sweep().running() ||
-         model_->tuning().search().running() || model_->exports().writing() || refining || ui_->script.running();
+         model_->tuning().search().running() || model_->curves().running() || model_->exports().writing() || refining ||
+         ui_->script.running();
 }
 
 std::optional<std::filesystem::path> App::take_screenshot_request() {

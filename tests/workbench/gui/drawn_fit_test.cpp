@@ -123,6 +123,17 @@ TEST_CASE("every text of the plots has room and can be read, beside a ghost, cur
   }
 }
 
+TEST_CASE("every text of speed against error has room and can be read") {
+  RunningApp ui(on_torus());
+  ui.run(700);
+  ui.model().time().set_selection(TickRange{600, 629});
+  ui.model().curves().start();
+  REQUIRE(ui.model().curves().curves() != nullptr);
+  ui.model().window().open_sections()["Speed against error"] = true;
+  ui.model().window().set_task(Task::tune);
+  check_sizes(ui, "speed");
+}
+
 TEST_CASE("every text of a 2D scene has room and can be read") {
   const testing::TempFolder folder;
   AppOptions options = HeadlessApp::deterministic_options();

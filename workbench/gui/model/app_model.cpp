@@ -26,7 +26,8 @@ AppModel::AppModel(const AppOptions& options)
       why_(options_, time_, presets_, view_, scene_, messages_),
       recording_pair_(options_, presets_, messages_),
       unsaved_(options_, presets_, time_, messages_),
-      exports_(options_, messages_) {
+      exports_(options_, messages_),
+      curves_(options_, presets_, time_, messages_) {
   if (const auto look = window_.read_settings()) {
     view_.camera.y_up = look->y_up;
     map_.colours = look->colours;

@@ -13,6 +13,7 @@
 
 #include "workbench/gui/map/map_view.h"
 #include "workbench/gui/model/app_options.h"
+#include "workbench/gui/model/curves_model.h"
 #include "workbench/gui/model/device_model.h"
 #include "workbench/gui/model/evidence_model.h"
 #include "workbench/gui/model/export_model.h"
@@ -87,6 +88,7 @@ class AppModel {
   RecordModel& record() { return record_; }
   const RecordModel& record() const { return record_; }
   TuningModel& tuning() { return tuning_; }
+  CurvesModel& curves() { return curves_; }
   EvidenceModel& evidence() { return evidence_; }
   WhyModel& why() { return why_; }
   RecordingPairModel& recording_pair() { return recording_pair_; }
@@ -121,6 +123,7 @@ class AppModel {
   RecordingPairModel recording_pair_;
   UnsavedModel unsaved_;
   ExportModel exports_;
+  CurvesModel curves_;
   std::optional<SavedSession> session_;  ///< opened, its recording being read
   std::optional<std::map<std::string, std::string>> session_view_;
 };

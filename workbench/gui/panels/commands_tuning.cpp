@@ -1,6 +1,7 @@
 // Commands of comparing and tuning: two presets on the same ticks, ticks at a place, sweeps, the plots' channels; and
 // of saving all that as files.
 #include "workbench/gui/panels/commands.h"
+#include "workbench/gui/panels/curves_plot.h"
 #include "workbench/gui/panels/save_panel.h"
 #include "workbench/gui/panels/wish.h"
 
@@ -100,6 +101,24 @@ void add_sweep(CommandList& out, AppModel& model, MenuBar& menu) {
   out.plain({"sweep clear", "Sweep: delete the points", "", "delete"}, [&model] { model.tuning().clear_points(); });
 }
 
+void add_curves(CommandList& out, AppModel& model, MenuBar& menu) {
+  constexpr const char* kWords = "bench benchmark methods accuracy precision work curve";
+  press(out, model, menu, {"speed start", "Speed against error: measure the chosen ticks", "", kWords}, "speed/start");
+  out.plain({"speed cancel", "Speed against error: stop, keep the rounds so far", "", kWords},
+            [&model] { model.curves().cancel(); });
+  out.plain({"speed clear", "Speed against error: delete the curves", "", kWords},
+            [&model] { model.curves().clear(); });
+  out.choice({"speed time", "Speed against error: the time that is drawn", "", kWords}, {"median", "mean", "99"},
+             [&model](std::size_t i) { model.curves().shown_time = static_cast<CurvesModel::Time>(i); });
+  out.choice({"speed error", "Speed against error: the error that is drawn", "", kWords}, {"median", "99", "worst"},
+             [&model](std::size_t i) { model.curves().shown_error = static_cast<CurvesModel::Error>(i); });
+  out.number({"speed point", "Speed against error: open the worst tick behind the point of this number", "", kWords},
+             "", 1.0, 1000.0, [&model](double n) {
+               model.window().show_section("Speed against error", false);
+               open_curve_point(model, static_cast<std::size_t>(n) - 1);
+             });
+}
+
 /// "PLOT CHANNEL" in two.
 Status on_plot(const std::string& text, const std::function<Status(std::string_view, std::string_view)>& act) {
   const std::size_t blank = text.find(' ');
@@ -149,6 +168,7 @@ void add_tuning_commands(CommandList& out, AppModel& model, MenuBar& menu) {
   add_why(out, model);
   add_recordings(out, model);
   add_sweep(out, model, menu);
+  add_curves(out, model, menu);
   add_channels(out, model, menu);
   add_saving(out, model);
 }

@@ -113,6 +113,10 @@ void draw_recording_pair_panel(const UiContext& ui, AppModel& model, FoldedPanel
 /// One or two keys over many values on the chosen ticks: mean, p99 and failures of each, a click tries it.
 void draw_sweep_panel(const UiContext& ui, AppModel& model, FoldedPanel& state);
 
+/// Every method over tolerances and iteration limits on the chosen ticks: time against error, a click opens a worst
+/// tick.
+void draw_curves_panel(const UiContext& ui, AppModel& model, FoldedPanel& state);
+
 /// The recording that is open, and the one that is made.
 void draw_recording_panel(const UiContext& ui, AppModel& model, FoldedPanel& state);
 

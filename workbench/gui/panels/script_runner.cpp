@@ -91,9 +91,9 @@ bool ScriptRunner::busy(AppModel& model, MenuBar& menu, const ItemMap& items) {
     settling_ = kSettlingFrames;
     return true;
   }
-  const bool work =
-      menu.wish.work && (model.map().running() || model.scene().auditing() || model.time().time_machine().busy() ||
-                         model.tuning().search().running() || model.tuning().sweep().running());
+  const bool work = menu.wish.work &&
+                    (model.map().running() || model.scene().auditing() || model.time().time_machine().busy() ||
+                     model.tuning().search().running() || model.curves().running() || model.tuning().sweep().running());
   if (work || model.now_s() < menu.wish.until_s || model.scene().loading() || model.recordings().opening() ||
       model.exports().writing() || model.exports().picture_wanted() || !menu.wish.widget.empty() ||
       !items.wanted().empty() ||
