@@ -386,9 +386,14 @@ bool ContactHierarchy::touchable(const Node& node, const ContactQuery& q) {
   const Vec3 low(node.min[0], node.min[1], node.min[2]), high(node.max[0], node.max[1], node.max[2]);
   const NormalCone normals = normals_of(node);
   const SurfaceBounds part{0.5 * (low + high), 0.5 * (high - low), normals};
-  const double most = most_lambda_m(*q.core, q.nearest_m);
+  if (!can_face(*q.core, part, q.margin_m)) return false;
   const bool here = q.margin_m == 0.0 || q.steady_only || is_steady_for_core(q, node.least_curvature, normals);
-  return can_touch(*q.core, part, most, here ? 0.0 : q.margin_m);
+  const double way = here ? 0.0 : q.margin_m;
+  if (here && !can_face(*q.core, part, 0.0)) return false;
+  const double apart = q.core->apart_m(part.middle, part.half);
+  if (apart > way && q.core->rank_outside(apart) > q.nearest_m - q.core->lever_m()) return false;
+  const double most = most_lambda_m(*q.core, q.nearest_m);
+  return can_touch(*q.core, part, most, way);
 }
 
 void limit_query(ContactQuery& query, const Finger& finger, double rank) {
