@@ -77,6 +77,9 @@ class SafetyGate {
   /// Checks and limits one tick's output. Precondition: dt_s > 0. Failures show in the output's fault.
   GateOutput pass(const GateInput& input, double dt_s) noexcept;
 
+  /// Counts and says that a change of preset was taken back because of what the last pass did or saw. After pass.
+  void note_undone(GateOutput& out) noexcept { note(GateAction::preset_undone, out); }
+
   const GateLimits& limits() const { return limits_; }
   GateState state() const { return state_; }
   /// Whether a force may go out in the next exchange.

@@ -4,7 +4,10 @@
 
 #include <cstddef>
 #include <memory>
+#include <new>
 #include <span>
+#include <utility>
+#include <vector>
 
 namespace tangent {
 
@@ -24,5 +27,20 @@ class Unfilled {
   std::unique_ptr<T[]> data_;
   std::size_t size_;
 };
+
+/// Of a vector whose resize() leaves new elements unfilled, where their type allows that.
+template <class T>
+struct UnfilledAllocator : std::allocator<T> {
+  template <class U, class... Arguments>
+  void construct(U* at, Arguments&&... arguments) {
+    if constexpr (sizeof...(Arguments) == 0) {
+      ::new (static_cast<void*>(at)) U;
+    } else {
+      ::new (static_cast<void*>(at)) U(std::forward<Arguments>(arguments)...);
+    }
+  }
+};
+template <class T>
+using UnfilledVector = std::vector<T, UnfilledAllocator<T>>;
 
 }  // namespace tangent

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 
 namespace tangent {
 namespace {
@@ -84,28 +83,51 @@ class TriangleClustersBuilder {
       for (auto t = static_cast<std::uint32_t>(first); t < last; ++t)
         cell_of[t] = mesh_.usable(t) ? grid.cell(middle_of(mesh_, t)) : kNone;
     });
-    std::vector<std::uint32_t> end(grid.count() + 1, 0);  // counts, then beginnings, in the end where the cells end
-    for (const std::uint32_t cell : cell_of)
-      if (cell != kNone) ++end[cell + 1];
-    std::partial_sum(end.begin(), end.end(), end.begin());
-    out_.order_.resize(end.back());
-    for (std::uint32_t t = 0; t < cell_of.size(); ++t)
-      if (cell_of[t] != kNone) out_.order_[end[cell_of[t]]++] = t;
-    std::uint32_t first = 0;
-    for (std::uint32_t cell = 0; cell < grid.count(); ++cell) {
-      if (end[cell] > first) add_clusters(first, end[cell]);
-      first = end[cell];
+    const std::vector<std::uint32_t> end = sort_by(cell_of, grid.count());
+    std::array<std::vector<std::uint32_t>, 2> clusters;
+    run_halves(run_both_, grid.count(), [&](std::size_t first, std::size_t last) {
+      for (std::size_t cell = first; cell < last; ++cell) {
+        const std::uint32_t begin = cell == 0 ? 0 : end[cell - 1];
+        if (end[cell] > begin) add_clusters(begin, end[cell], clusters[first == 0 ? 0 : 1]);
+      }
+    });
+    out_.first_ = std::move(clusters[0]);
+    out_.first_.insert(out_.first_.end(), clusters[1].begin(), clusters[1].end());
+    out_.first_.push_back(end.back());
+  }
+
+  /// Triangles cell by cell into order_, ascending in each; returns where each cell ends. Both halves of the triangles
+  /// count and place their own, those of the second behind those of the first.
+  std::vector<std::uint32_t> sort_by(const std::vector<std::uint32_t>& cell_of, std::uint32_t cells) {
+    std::array<std::vector<std::uint32_t>, 2> places{std::vector<std::uint32_t>(cells),
+                                                     std::vector<std::uint32_t>(cells)};
+    const auto each = [&](const auto& visit) {
+      run_halves(run_both_, cell_of.size(), [&](std::size_t first, std::size_t last) {
+        std::vector<std::uint32_t>& of_half = places[first == 0 ? 0 : 1];
+        for (auto t = static_cast<std::uint32_t>(first); t < last; ++t)
+          if (cell_of[t] != kNone) visit(t, of_half[cell_of[t]]);
+      });
+    };
+    each([](std::uint32_t, std::uint32_t& count) { ++count; });
+    std::uint32_t sum = 0;
+    for (std::size_t cell = 0; cell < cells; ++cell) {
+      const std::uint32_t first = places[0][cell], second = places[1][cell];
+      places[0][cell] = sum;
+      places[1][cell] = sum + first;
+      sum += first + second;
     }
-    out_.first_.push_back(first);
+    out_.order_.resize(sum);
+    each([&](std::uint32_t t, std::uint32_t& place) { out_.order_[place++] = t; });
+    return std::move(places[1]);
   }
 
   /// One, or those of both halves across the longest side of the box about the triangles' middles.
-  void add_clusters(std::uint32_t first, std::uint32_t last) {
-    if (last - first <= TriangleClusters::kLargest) return out_.first_.push_back(first);
+  void add_clusters(std::uint32_t first, std::uint32_t last, std::vector<std::uint32_t>& clusters) {
+    if (last - first <= TriangleClusters::kLargest) return clusters.push_back(first);
     const std::uint32_t half = first + (last - first) / 2;
     halve(std::span(out_.order_).subspan(first, last - first), half - first);
-    add_clusters(first, half);
-    add_clusters(half, last);
+    add_clusters(first, half, clusters);
+    add_clusters(half, last, clusters);
   }
 
   void halve(std::span<std::uint32_t> triangles, std::size_t half) const {

@@ -68,6 +68,16 @@ double miss_of_cone(const FingerCore& core, const SurfaceBounds& part, const Spr
   return across * cosine - along * s.sine - spread - std::sqrt(glm::dot(part.half, part.half));
 }
 
+/// By how far the finger's centre misses every line through the part along its normals, beyond what one that touches
+/// there may: it touches p(N) = c - q with q no further from N's line than the lever, however it is turned.
+double miss_of_centre(const FingerCore& core, const SurfaceBounds& part) {
+  const double cosine = part.normals.cos_half, sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
+  const Vec3 d = core.centre() - part.middle;
+  const double along = std::abs(glm::dot(d, part.normals.axis));
+  const double across = std::sqrt(std::max(0.0, glm::dot(d, d) - along * along));
+  return across * cosine - along * sine - std::sqrt(glm::dot(part.half, part.half)) - core.lever_m();
+}
+
 /// Directions in which a miss is looked for: to where the axis' support misses the middle, and across the core's
 /// longest axis, where long cores spread least.
 struct Directions {
@@ -84,6 +94,22 @@ Directions directions(const FingerCore& core, const SurfaceBounds& part, const S
   add(s.away - glm::dot(s.away, axis) * axis, 0.0);
   add(glm::cross(core.long_axis(), axis), 0.01);
   return d;
+}
+
+/// The finger's least thickness along the normal at a place on it, where that leads past the centre for every normal N:
+/// a chord of at least the support function H. 0 where it doesn't.
+/// Of an ellipsoid the chord is 2 / (|A N| N.A^-2 N), least between the longest and the shortest axis a and c; with
+/// H = |A N|, H <= chord is Kantorovich's inequality: a/c + c/a <= sqrt 8. Of a capsule: the ball's diameter; the
+/// core's part of H is L sqrt(x^2 + s^2) at most, x the cosine to the axis, and the line leaves the capsule R / sqrt(1
+/// - x^2) behind p(N) or past half the axis.
+double thickness(const Finger& finger, double longest_m, double shortest_m) {
+  if (finger.shape == FingerShape::capsule)
+    return finger.radius_m >= 0.5 * finger.half_length_m * (1.0 + kSpindle * kSpindle) ? 2.0 * finger.radius_m : 0.0;
+  const double ratio = longest_m / shortest_m, ratio2 = ratio * ratio;
+  if (!(ratio + 1.0 / ratio <= std::sqrt(8.0))) return 0.0;
+  if (ratio2 <= 2.0) return 2.0 * shortest_m;
+  const double x = (2.0 * ratio2 - 1.0) / (3.0 * (ratio2 - 1.0));  // N's part along the shortest axis, squared
+  return 2.0 * shortest_m / (std::sqrt(x + (1.0 - x) * ratio2) * (x + (1.0 - x) / ratio2));
 }
 
 }  // namespace
@@ -113,6 +139,16 @@ FingerCore::FingerCore(const Finger& finger, const FingerPose& pose, bool turns)
   flattest_core_m_ = sorted[0] > 0.0 ? sorted[2] * sorted[2] / sorted[0] : std::numeric_limits<double>::max();
   sharpest_m_ = sorted[2] > 0.0 ? sorted[0] * sorted[0] / sorted[2] : 0.0;
   if (longest_m_ == 0.0) flattest_core_m_ = 0.0;
+  if (turns_ && lever_m_ > 0.0) {
+    least_rate_ = std::max(1.0, std::hypot(lever_m_, longest_m_ - sharpest_m_) / reach_m_);
+    const double fast =
+        std::sqrt(std::max(0.0, least_rate_ * reach_m_ * least_rate_ * reach_m_ - lever_m_ * lever_m_)) + shortest_m_;
+    slow_length_m_ =
+        flattest_core_m_ <= fast ? 0.0 : std::min(longest_m_ * longest_m_ / fast, std::cbrt(pair2_m4_ / fast));
+    slow_turn_ = reach_m_ / longest_m_;
+  }
+  outside_m_ = std::min(reach_m_, longest_m_ > 0.0 ? thickness(finger, longest_m_, shortest_m_) : 0.0);
+  if (!(outside_m_ > 0.0)) outside_m_ = -std::numeric_limits<double>::infinity();
 }
 
 CoreSupport FingerCore::support(const Vec3& normal) const {
@@ -141,6 +177,20 @@ double FingerCore::bend(const CoreSupport& s, double step_m) const {
   const double least = s.length - step_m;
   if (!(least > 0.0)) return std::numeric_limits<double>::infinity();
   return kHalfSecond * (step_m * step_m) / (least * least);
+}
+
+// Seen along any direction; that of the normal at the ellipsoid's nearest place is likely, x_i / (a_i^2 + t) with t as
+// for a sphere of that width.
+double FingerCore::apart_m(const Vec3& middle, const Vec3& half) const {
+  const Vec3 x = (middle - centre_) * rotation_;
+  const double distance2 = glm::dot(x, x);
+  if (!(distance2 > 0.0)) return -reach_m_;
+  const Vec3 squares = axes_m_ * axes_m_, ax = axes_m_ * x;
+  const double t = std::max(0.0, std::sqrt(glm::dot(ax, ax)) - glm::dot(ax, ax) / distance2);
+  const Vec3 n = x / (squares + (t + 1e-6 * squares_m2_));
+  const Vec3 an = axes_m_ * n;
+  const double reach = glm::dot(n, x) - std::sqrt(glm::dot(an, an)) - glm::dot(half, glm::abs(rotation_ * n));
+  return reach / std::sqrt(glm::dot(n, n)) - ball_m_;
 }
 
 double FingerCore::half_width(const Vec3& t) const {
@@ -177,13 +227,19 @@ double FingerCore::slide_m(double half_width_m, double least_length_m, double wa
 double FingerCore::way_within(double half_width_m, double least_length_m, double room_m) const {
   if (!(room_m > 0.0)) return 0.0;
   const double along = room_m / slide_rate(least_length_m, room_m);  // slides are no shorter than the way
-  return std::max(along, 0.5 * room_m - half_width_m);
+  const double slow = std::min(room_m / least_rate_, slow_turn_ * (least_length_m - slow_length_m_));
+  return std::max({along, slow, 0.5 * room_m - half_width_m});
+}
+
+bool can_face(const FingerCore& core, const SurfaceBounds& part, double way_m) {
+  return part.normals.cos_half < kWidestCone || !(miss_of_centre(core, part) > way_m);
 }
 
 bool can_touch(const FingerCore& core, const SurfaceBounds& part, double most_m, double way_m) {
   const double cosine = part.normals.cos_half;
   if (cosine < kWidestCone) return true;
   const Spread s = spread_over(core, part);
+  if (glm::dot(s.away, s.away) < glm::dot(part.half, part.half)) return true;
   const double missed = miss_of_cone(core, part, s);
   if (missed > 0.0 && missed > core.slide_m(core.longest_m(), s.least_length_m, way_m)) return false;
   if (cosine < kWideCone) return true;
@@ -199,11 +255,13 @@ bool can_touch(const FingerCore& core, const SurfaceBounds& part, double most_m,
   return true;
 }
 
-double touch_margin(const FingerCore& core, const SurfaceBounds& part) {
+double touch_margin(const FingerCore& core, const SurfaceBounds& part, double enough_m) {
   if (part.normals.cos_half < kWidestCone) return 0.0;
+  double margin = std::max(0.0, miss_of_centre(core, part));
+  if (margin > 0.0 && margin >= enough_m) return margin;
   const Spread s = spread_over(core, part);
-  double margin = core.way_within(core.longest_m(), s.least_length_m, miss_of_cone(core, part, s));
-  if (part.normals.cos_half < kWideCone) return margin;
+  margin = std::max(margin, core.way_within(core.longest_m(), s.least_length_m, miss_of_cone(core, part, s)));
+  if (part.normals.cos_half < kWideCone || (margin > 0.0 && margin >= enough_m)) return margin;
   const Directions d = directions(core, part, s);
   for (const Vec3& t : std::span(d.t).first(static_cast<std::size_t>(d.count))) {
     const double miss = miss_along(core, part, s, t);

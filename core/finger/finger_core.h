@@ -56,11 +56,22 @@ class FingerCore {
   double half_width(const Vec3& t) const;
   /// The core's largest radius of curvature at normals whose |A N| is at least this, m.
   double largest_radius(double least_length_m) const;
+  /// |A N| at least after the finger has gone `way_m`, where it is this now.
+  double length_after(double least_length_m, double way_m) const {
+    return least_length_m - longest_m_ * turn_within(way_m);
+  }
   double longest_m() const { return longest_m_; }
   double width_m() const { return middle_m_; }  ///< the second longest axis
   const Vec3& centre() const { return centre_; }
   /// Unit, along the core's longest axis.
   const Vec3& long_axis() const { return long_axis_; }
+
+  /// How far a box lies outside the whole finger, at least; not over 0: it may reach into it.
+  double apart_m(const Vec3& middle, const Vec3& half) const;
+  /// The least rank (contact_rank.h) of contacts at places so far outside the whole finger. Either the plane lies
+  /// outside it, too, or the place is beyond it, seen from where it touches the plane: then the contact is as deep as
+  /// the finger is thick there, and more.
+  double rank_outside(double apart_m) const { return outside_m_ + apart_m; }
 
   /// How far p(N) can move along a direction across N while the finger goes `way_m`: its centre's way and the reach
   /// times its turning, as gone_m counts. `half_width_m`: of the core in that direction; `least_length_m`: |A N| at
@@ -79,8 +90,12 @@ class FingerCore {
   double ball_m_ = 0.0, lever_m_ = 0.0, reach_m_ = 0.0;
   double longest_m_ = 0.0, middle_m_ = 0.0, shortest_m_ = 0.0, sharpest_m_ = 0.0;
   double flattest_core_m_ = 0.0;
+  double outside_m_ = 0.0;   ///< rank_outside at the finger's surface
   double squares_m2_ = 0.0;  ///< sum of the squared axes
   double pair2_m4_ = 0.0;    ///< square of the product of the two longest
+  /// The slide rate at normals whose |A N| is above slow_length_m_; the finger goes slow_turn_ times what is above that
+  /// until its turning has used it up.
+  double least_rate_ = 1.0, slow_length_m_ = 0.0, slow_turn_ = 0.0;
 };
 
 /// A part of the surface by bounds: its points in a box, its normals in a cone.
@@ -89,10 +104,14 @@ struct SurfaceBounds {
   NormalCone normals;
 };
 
+/// Whether a finger on its way may have a contact on such a part at all, at a glance.
+bool can_face(const FingerCore& core, const SurfaceBounds& part, double way_m);
 /// Which contacts a finger may have on such a part: p(N) - S = lambda N with lambda up to `most_m`, which is the ball's
 /// radius less the depth.
 bool can_touch(const FingerCore& core, const SurfaceBounds& part, double most_m, double way_m);
-/// How far the finger may go until it could touch such a part at all; 0: no proof.
-double touch_margin(const FingerCore& core, const SurfaceBounds& part);
+/// How far the finger may go until it could touch such a part at all; 0: no proof. Once it is `enough_m`, no more is
+/// asked for.
+double touch_margin(const FingerCore& core, const SurfaceBounds& part,
+                    double enough_m = std::numeric_limits<double>::infinity());
 
 }  // namespace tangent

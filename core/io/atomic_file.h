@@ -29,6 +29,8 @@ class AtomicFile {
   Status commit(bool durable = false);
 
   const std::filesystem::path& path() const { return target_; }
+  /// The file that takes the target's place, for a library that opens files by name itself; nothing else then writes.
+  const std::filesystem::path& being_written() const { return temporary_.empty() ? target_ : temporary_; }
 
  private:
   AtomicFile() = default;

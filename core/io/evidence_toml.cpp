@@ -1,16 +1,21 @@
 #include "core/io/evidence_toml.h"
 
 #include "core/io/preset_values.h"
+#include "core/io/toml_file.h"
 #include "core/io/toml_text.h"
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
 namespace tangent {
 namespace {
 
-constexpr std::string_view kTable = "about.measured", kValues = "values";
+constexpr std::string_view kTable = "about.measured", kValues = "values", kDigest = "digest";
+constexpr std::array<std::string_view, 4> kNotDigested{kDigest, "command", "motion_file", "mesh"};
 constexpr std::array<std::string_view, 3> kNormalNames{"auto", "file", "computed"};  // order of NormalSource
 
 struct EvidenceText {
@@ -25,6 +30,7 @@ constexpr EvidenceText kEvidenceTexts[]{
     {"motion_digest", [](PresetEvidence& e) -> std::string& { return e.motion.digest; }},
     {"mesh", [](PresetEvidence& e) -> std::string& { return e.mesh.source; }},
     {"mesh_hash", [](PresetEvidence& e) -> std::string& { return e.mesh.hash; }},
+    {kDigest, [](PresetEvidence& e) -> std::string& { return e.edited_digest; }},
 };
 
 struct EvidenceSetting {
@@ -69,6 +75,7 @@ class EvidenceReader {
       if (Status status = read_key(key, node); !status) return tl::unexpected(status.error());
     }
     if (Status status = all_there(); !status) return tl::unexpected(status.error());
+    if (evidence_.edited_digest == evidence_digest(table_)) evidence_.edited_digest.clear();
     return std::move(evidence_);
   }
 
@@ -142,7 +149,7 @@ class EvidenceReader {
   }
 
   Status all_there() const {
-    std::vector<std::string_view> needed{"motion", "motion_digest", "mesh_hash", kValues};
+    std::vector<std::string_view> needed{"motion", "motion_digest", "mesh_hash", kValues, kDigest};
     for (const EvidenceNumber& number : kNumbers) {
       if (number.compared != Compared::never) needed.push_back(number.key);
     }
@@ -165,6 +172,36 @@ class EvidenceReader {
   const toml::table& table_;
   const std::string& name_;
   PresetEvidence evidence_;
+};
+
+/// 64 bits of what is added (FNV-1a).
+class EvidenceDigest {
+ public:
+  void add(const toml::table& table) {
+    for (const auto& [key, node] : table) {  // in the order of their names
+      if (std::find(kNotDigested.begin(), kNotDigested.end(), key.str()) != kNotDigested.end()) continue;
+      add(key.str());
+      if (const toml::table* inner = node.as_table()) add(*inner);
+      if (node.is_string()) add(node.as_string()->get());
+      if (node.is_boolean()) add(node.as_boolean()->get() ? "true" : "false");
+      if (const std::optional<double> number = node.value<double>())
+        for (std::uint64_t bits = std::bit_cast<std::uint64_t>(*number), i = 0; i < 8; ++i, bits >>= 8) add_byte(bits);
+    }
+  }
+  std::string hex() const {
+    std::string text;
+    for (int shift = 60; shift >= 0; shift -= 4) text += "0123456789abcdef"[(hash_ >> shift) & 15];
+    return text;
+  }
+
+ private:
+  void add(std::string_view text) {
+    for (const char c : text) add_byte(static_cast<unsigned char>(c));
+    add_byte('\n');
+  }
+  void add_byte(std::uint64_t byte) { hash_ = (hash_ ^ (byte & 255)) * 0x100000001b3ull; }
+
+  std::uint64_t hash_ = 0xcbf29ce484222325ull;
 };
 
 void append_line(std::string& text, std::string_view key, const std::string& value) {
@@ -197,6 +234,14 @@ void append_mesh(std::string& text, const EvidenceMesh& mesh) {
   if (options.turn_over) append_line(text, "mesh_turn_over", "true");
 }
 
+std::string values_text(const Preset& values) {
+  std::string text = "\n[about.measured.values] # of the preset when it was measured\n";
+  for (const PresetKey& key : preset_keys()) {
+    if (in_evidence(key)) append_line(text, key.full_name(), value_literal(key, key.get(values)));
+  }
+  return text;
+}
+
 }  // namespace
 
 std::span<const EvidenceNumber> evidence_numbers() { return kNumbers; }
@@ -207,8 +252,15 @@ Result<PresetEvidence> read_evidence(const toml::table& table, const std::string
   return EvidenceReader(table, name).read();
 }
 
+std::string evidence_digest(const toml::table& measured) {
+  EvidenceDigest digest;
+  digest.add(measured);
+  return digest.hex();
+}
+
 std::string evidence_text(const PresetEvidence& evidence) {
-  std::string text = "\n[about.measured] # \"workbench check\" measures it again\n";
+  const std::string values = values_text(evidence.values), begin = "\n[about.measured]";
+  std::string text;
   append_text(text, "command", evidence.command);
   append_text(text, "program_version", evidence.program_version);
   append_text(text, "build", evidence.build);
@@ -218,11 +270,11 @@ std::string evidence_text(const PresetEvidence& evidence) {
     const double value = evidence.numbers.*number.field;
     if (number.compared != Compared::never || value > 0.0) append_line(text, number.key, float_text(value));
   }
-  text += "\n[about.measured.values] # of the preset when it was measured\n";
-  for (const PresetKey& key : preset_keys()) {
-    if (in_evidence(key)) append_line(text, key.full_name(), value_literal(key, key.get(evidence.values)));
-  }
-  return text;
+  std::string digest = evidence.edited_digest;
+  if (const auto written = parse_toml(begin + "\n" + text + values, kTable, ""); written && digest.empty())
+    digest = evidence_digest(*(*written)["about"]["measured"].as_table());
+  append_text(text, kDigest, digest);
+  return begin + " # \"workbench check\" measures it again\n" + text + values;
 }
 
 }  // namespace tangent

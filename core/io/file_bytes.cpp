@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <new>
@@ -27,11 +28,24 @@ bool exceeds_memory(std::size_t bytes) {
   return pages > 0 && page_bytes > 0 && bytes / static_cast<std::size_t>(page_bytes) >= static_cast<std::size_t>(pages);
 }
 
+/// Up to `end` from `begin` on, or to the end of the file; -1 where that fails, with errno.
+ssize_t read_part(int fd, char* bytes, std::size_t begin, std::size_t end) {
+  std::size_t at = begin;
+  while (at < end) {
+    const ssize_t got = ::pread(fd, bytes + at, end - at, static_cast<off_t>(at));
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) return -1;
+    if (got == 0) break;
+    at += static_cast<std::size_t>(got);
+  }
+  return static_cast<ssize_t>(at - begin);
+}
+
 }  // namespace
 
 // Read rather than mapped: a mapped file that another program truncates while we parse it (an exporter
 // saving again) would end the process with SIGBUS.
-Result<FileBytes> read_file_bytes(const std::filesystem::path& path) {
+Result<FileBytes> read_file_bytes(const std::filesystem::path& path, const RunBoth& run_both) {
   const auto system_error = [&](const char* doing) {
     const int code = errno;
     return fail(std::string("cannot ") + doing + " the mesh file: " + std::strerror(code), path.string(),
@@ -56,13 +70,19 @@ Result<FileBytes> read_file_bytes(const std::filesystem::path& path) {
   } catch (const std::bad_alloc&) {
     return fail("not enough memory for a file of this size", path.string(), "use a smaller mesh");
   }
-  while (bytes.size < size) {
-    const ssize_t got = ::read(file.fd, bytes.data.get() + bytes.size, size - bytes.size);
-    if (got < 0 && errno == EINTR) continue;
-    if (got < 0) return system_error("read");
-    if (got == 0) break;  // the file shrank meanwhile: parse what was read
-    bytes.size += static_cast<std::size_t>(got);
+  std::array<ssize_t, 2> got{};
+  std::array<int, 2> problem{};
+  run_halves(run_both, size, [&](std::size_t first, std::size_t last) {
+    const std::size_t half = first == 0 ? 0 : 1;
+    got[half] = read_part(file.fd, bytes.data.get(), first, last);
+    problem[half] = errno;
+  });
+  for (std::size_t half = 0; half < 2; ++half) {
+    errno = problem[half];
+    if (got[half] < 0) return system_error("read");
   }
+  bytes.size = static_cast<std::size_t>(got[0]);
+  if (bytes.size == size / 2) bytes.size += static_cast<std::size_t>(got[1]);  // less: the file shrank meanwhile
   bytes.data[bytes.size] = '\n';
   bytes.data[bytes.size + 1] = '\0';
   return bytes;

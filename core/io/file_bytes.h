@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/base/result.h"
+#include "core/base/run_both.h"
 
 #include <cstddef>
 #include <filesystem>
@@ -22,7 +23,7 @@ struct FileBytes {
 };
 
 /// Reads a regular file. Fails when it is missing, not a regular file, unreadable, empty or larger
-/// than 64 GiB or the machine's memory.
-Result<FileBytes> read_file_bytes(const std::filesystem::path& path);
+/// than 64 GiB or the machine's memory. `run_both` may read its halves at once.
+Result<FileBytes> read_file_bytes(const std::filesystem::path& path, const RunBoth& run_both = run_in_turn);
 
 }  // namespace tangent

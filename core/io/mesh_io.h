@@ -4,6 +4,7 @@
 #pragma once
 
 #include "core/base/result.h"
+#include "core/base/run_both.h"
 #include "core/mesh/polygon_mesh.h"
 
 #include <filesystem>
@@ -17,7 +18,9 @@ namespace tangent {
 ///   for a double, any other word, an index out of range, a wrong count or bytes left over are errors.
 /// - Colours, texture coordinates, materials, groups, unknown PLY elements and properties are ignored.
 /// Errors name the file and the line (text formats) or the element index (binary formats).
-Result<PolygonMesh> read_mesh(const std::filesystem::path& path, double metres_per_unit);
+/// The same bits however `run_both` does its work.
+Result<PolygonMesh> read_mesh(const std::filesystem::path& path, double metres_per_unit,
+                              const RunBoth& run_both = run_in_turn);
 
 /// Writes OBJ, positions divided by `metres_per_unit`, numbers so that a double reads back exactly (with a
 /// unit other than 1 where some double times the unit gives the position; generated meshes: always in mm).

@@ -23,7 +23,8 @@ inline constexpr double kLeastStampStep = 1e-6;
 /// anything that is not a finite number, time that does not increase by kLeastStampStep, a quaternion that is not a
 /// rotation, no poses.
 Result<std::vector<TickInput>> parse_poses(std::string_view text, std::string_view name);
-/// A file of more than 1 GiB is refused, and one without end as soon as it shows that it is no text (input_file.h).
+/// A file of more than 1 GiB is refused, more than 256 MiB through a pipe, and what has no end as soon as it shows that
+/// it is no text (input_file.h).
 Result<std::vector<TickInput>> read_poses(const std::filesystem::path& path);
 
 }  // namespace tangent

@@ -75,6 +75,9 @@ struct PresetEvidence {
   EvidenceMesh mesh;
   EvidenceNumbers numbers;
   Preset values;  ///< measured with; those of in_evidence() are written
+  /// Where a file was edited: the digest that stands in it, which is of other numbers than these. Written again as it
+  /// is; without one the digest of what is written is.
+  std::string edited_digest;
   bool operator==(const PresetEvidence&) const = default;
 };
 

@@ -54,7 +54,13 @@ void rename_measured(toml::table& root) {
   about->erase(kMeasured);
 }
 
-constexpr std::array<MigrationStep, 2> kSteps{only_number, rename_measured};
+/// Up to format 2 nobody could tell whether [about.measured] had been edited.
+void seal_measured(toml::table& root) {
+  toml::table* measured = root[kAbout][kMeasured].as_table();
+  if (measured != nullptr && !measured->contains("digest")) measured->insert("digest", evidence_digest(*measured));
+}
+
+constexpr std::array<MigrationStep, 3> kSteps{only_number, rename_measured, seal_measured};
 constexpr FileFormats kFormats{"preset", kSteps};
 
 /// Reads one file; keeps its name for the messages.

@@ -35,6 +35,7 @@ class TextSource {
     return read.has_value();
   }
   bool expect(PlyType, std::uint64_t) { return true; }
+  std::uint64_t take_triangles(const PlyElement&, std::uint32_t, PolygonMesh&) { return 0; }
   bool skip(PlyType type, std::uint64_t count) {
     double ignored = 0.0;
     for (std::uint64_t i = 0; i < count; ++i) {
@@ -83,6 +84,25 @@ class BinarySource {
     if (!expect(type, count)) return false;
     at_ += count * size_in_bytes(type);
     return true;
+  }
+  void skip_bytes(std::size_t count) { at_ += count; }
+  /// Faces that are triangles and nothing else, as those of most files are, as far as they follow each other with all
+  /// indices below `vertices`; returns how many.
+  std::uint64_t take_triangles(const PlyElement& faces, std::uint32_t vertices, PolygonMesh& mesh) {
+    const PlyProperty& list = faces.properties.front();
+    const bool plain = faces.properties.size() == 1 && size_in_bytes(list.count_type) == 1 &&
+                       size_in_bytes(list.type) == sizeof(std::uint32_t);
+    if (!plain || encoding != PlyEncoding::little_endian || std::endian::native != std::endian::little) return 0;
+    std::uint64_t taken = 0;
+    const std::uint64_t most = std::min<std::uint64_t>(faces.count, kMaxMeshItems / 3);
+    for (std::array<std::uint32_t, 3> v; taken < most && bytes_left() > sizeof v && *at_ == 3; ++taken) {
+      std::memcpy(v.data(), at_ + 1, sizeof v);
+      if (std::max({v[0], v[1], v[2]}) >= vertices) break;
+      at_ += 1 + sizeof v;
+      mesh.corner_position.insert(mesh.corner_position.end(), v.begin(), v.end());
+      mesh.face_offsets.push_back(static_cast<std::uint32_t>(mesh.corner_position.size()));
+    }
+    return taken;
   }
   std::size_t bytes_left() const { return static_cast<std::size_t>(end_ - at_); }
   // Some writers close the file with a line end or padding.
@@ -151,17 +171,14 @@ class PlyBody {
   PlyBody(TextCursor& text, const PlyHeader& header)
       : source_(text, text.file()), path_(text.file()), header_(header), vertex_count_(header.find("vertex")->count) {}
 
-  Result<PolygonMesh> read() {
-    for (const PlyElement& element : header_.elements) {
-      Status done = check_promise(element);
-      if (done && element.name == "vertex") {
-        done = read_vertices(element);
-      } else if (done && element.name == "face") {
-        done = read_faces(element);
-      } else if (done) {
-        done = skip_element(element);
-      }
+  Result<PolygonMesh> read(const RunBoth& run_both) {
+    const std::vector<PlyElement>& elements = header_.elements;
+    for (std::size_t i = 0; i < elements.size(); ++i) {
+      const bool both = i + 1 < elements.size() && elements[i].name == "vertex" && elements[i + 1].name == "face" &&
+                        has_fixed_size(elements[i]);
+      const Status done = both ? read_vertices_and_faces(elements[i], elements[i + 1], run_both) : read(elements[i]);
       if (!done) return tl::unexpected<Error>(done.error());
+      i += both ? 1 : 0;
     }
     if (!source_.nothing_left()) {
       return fail("the file goes on after the last element that its header lists", path_,
@@ -172,6 +189,34 @@ class PlyBody {
   }
 
  private:
+  Status read(const PlyElement& element) {
+    if (Status promise = check_promise(element); !promise) return promise;
+    if (element.name == "vertex") return read_vertices(element);
+    if (element.name == "face") return read_faces(element);
+    return skip_element(element);
+  }
+
+  static bool has_fixed_size(const PlyElement& element) {
+    return Source::kEncoding != PlyEncoding::ascii &&
+           std::ranges::none_of(element.properties, [](const PlyProperty& p) { return p.is_list; });
+  }
+
+  Status read_vertices_and_faces(const PlyElement& vertices, const PlyElement& faces, const RunBoth& run_both) {
+    if constexpr (Source::kEncoding != PlyEncoding::ascii) {
+      if (Status promise = check_promise(vertices); !promise) return promise;
+      PlyBody behind = *this;
+      behind.source_.skip_bytes(vertices.smallest_size(Source::kEncoding) * vertices.count);
+      Status before, after;
+      run_both([&] { before = read(vertices); }, [&] { after = behind.read(faces); });
+      if (!before) return before;
+      if (!after) return after;
+      source_.skip_bytes(source_.bytes_left() - behind.source_.bytes_left());
+      mesh_.face_offsets = std::move(behind.mesh_.face_offsets);
+      mesh_.corner_position = std::move(behind.mesh_.corner_position);
+    }
+    return {};
+  }
+
   /// Refuses a count that the rest of the file can't contain, before memory is allocated by it.
   Status check_promise(const PlyElement& element) const {
     const std::size_t smallest = element.smallest_size(Source::kEncoding);
@@ -223,7 +268,8 @@ class PlyBody {
     }
     mesh_.face_offsets.reserve(element.count + 1);
     mesh_.corner_position.reserve(std::min<std::size_t>(3 * element.count, source_.bytes_left()));
-    for (std::uint64_t i = 0; i < element.count; ++i) {
+    const auto vertices = static_cast<std::uint32_t>(vertex_count_);
+    for (std::uint64_t i = source_.take_triangles(element, vertices, mesh_); i < element.count; ++i) {
       bool good = source_.begin();
       for (const PlyProperty& property : element.properties) {
         good = good && (&property == indices ? read_corners(property) : skip_property(property));
@@ -295,7 +341,7 @@ class PlyBody {
 
 }  // namespace
 
-Result<PolygonMesh> read_ply(const FileBytes& file, const std::string& path) {
+Result<PolygonMesh> read_ply(const FileBytes& file, const std::string& path, const RunBoth& run_both) {
   TextCursor text(file.begin(), file.end(), path, LineContinuation::none);
   const Result<PlyHeader> header = read_ply_header(text);
   if (!header) return tl::unexpected<Error>(header.error());
@@ -305,11 +351,11 @@ Result<PolygonMesh> read_ply(const FileBytes& file, const std::string& path) {
   }
   switch (header->encoding) {
     case PlyEncoding::ascii:
-      return PlyBody<TextSource>(text, *header).read();
+      return PlyBody<TextSource>(text, *header).read(run_both);
     case PlyEncoding::little_endian:
-      return PlyBody<BinarySource<PlyEncoding::little_endian>>(text, *header).read();
+      return PlyBody<BinarySource<PlyEncoding::little_endian>>(text, *header).read(run_both);
     case PlyEncoding::big_endian:
-      return PlyBody<BinarySource<PlyEncoding::big_endian>>(text, *header).read();
+      return PlyBody<BinarySource<PlyEncoding::big_endian>>(text, *header).read(run_both);
   }
   return fail("unknown PLY format", path);
 }

@@ -29,16 +29,22 @@ Scene load_planar(const std::filesystem::path& path, const SceneOptions& options
 }  // namespace
 
 Result<SceneFile> read_scene(const std::filesystem::path& path, const SceneOptions& options, const RunBoth& run_both) {
+  return read_scene(path, options, run_both, BesideContent{});
+}
+
+Result<SceneFile> read_scene(const std::filesystem::path& path, const SceneOptions& options, const RunBoth& run_both,
+                             const BesideContent& beside) {
   const FloatState as_tested;
   if (is_planar_file(path)) {
     Scene planar = load_planar(path, options);
     if (!planar) return tl::unexpected(planar.error());
     return SceneFile{std::move(*planar), nullptr};
   }
-  Result<PolygonMesh> source = read_mesh(path, options.metres_per_unit);
+  Result<PolygonMesh> source = read_mesh(path, options.metres_per_unit, run_both);
   if (!source) return at_file(source.error(), path);
-  Result<ContactMesh> mesh = ContactMesh::build(*source, options.mesh, run_both);
+  Result<ContactMesh> mesh = ContactMesh::build(*source, options.mesh, run_both, beside.begin);
   if (!mesh) return at_file(mesh.error(), path);
+  if (beside.end && !ContactScene::is_in_parts(*mesh, options.parts)) beside.end();
   Scene scene = ContactScene::build(std::move(*mesh), options.parts, run_both);
   if (!scene) return at_file(scene.error(), path);
   return SceneFile{std::move(*scene), std::make_shared<const PolygonMesh>(std::move(*source))};

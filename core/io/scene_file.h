@@ -5,6 +5,7 @@
 #include "core/tick/scene.h"
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 
 namespace tangent {
@@ -30,5 +31,12 @@ struct SceneFile {
 /// As load_scene, and keeps what was read, for audits.
 Result<SceneFile> read_scene(const std::filesystem::path& path, const SceneOptions& options = {},
                              const RunBoth& run_both = run_in_turn);
+/// What reads a mesh's content beside the building of its scene, in another thread.
+struct BesideContent {
+  ContactMesh::OnContent begin;  ///< once there is a content: never for a polygon
+  std::function<void()> end;     ///< waits for that; called before the content may end with an error
+};
+Result<SceneFile> read_scene(const std::filesystem::path& path, const SceneOptions& options, const RunBoth& run_both,
+                             const BesideContent& beside);
 
 }  // namespace tangent

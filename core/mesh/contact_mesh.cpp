@@ -23,7 +23,7 @@ class ContactMeshBuilder {
   ContactMeshBuilder(const PolygonMesh& source, const ContactMeshOptions& options, const RunBoth& run_both)
       : source_(source), options_(options), run_both_(run_both) {}
 
-  Result<ContactMesh> build() {
+  Result<ContactMesh> build(const ContactMesh::OnContent& on_content) {
     if (Status ok = check_options(); !ok) return tl::unexpected(ok.error());
     Status indices;
     run_both_([&] { indices = check_indices(); }, [&] { weld_positions(); });
@@ -36,6 +36,7 @@ class ContactMeshBuilder {
     const FacesAndCreases faces = faces_and_creases();
     if (Status ok = shade(faces); !ok) return tl::unexpected(ok.error());
     turn_inside_out(inside_out);
+    if (on_content) on_content(mesh_.content());
     finish();
     return std::move(mesh_);
   }
@@ -45,7 +46,7 @@ class ContactMeshBuilder {
   Status check_indices();
   void weld_positions();
   void triangulate();
-  void drop_degenerate();
+  bool drop_degenerate(double reach_m);
   bool all_used();
   void drop_unused_vertices();
   template <class Move>
@@ -80,6 +81,7 @@ class ContactMeshBuilder {
   ContactMesh mesh_;
   std::uint32_t triangle_count_ = 0;
   std::vector<std::uint32_t> welded_;  ///< per source vertex, its welded vertex or kNone
+  bool stays_sound_ = false;           ///< no triangle can collapse when the mesh is placed
 };
 
 Status ContactMeshBuilder::check_options() const {
@@ -126,7 +128,7 @@ Status ContactMeshBuilder::check_indices() {
     return fail("the mesh has " + std::to_string(triangles) + " triangles", source_.name,
                 "reduce it to at most " + std::to_string(kMaxTriangles));
   triangle_count_ = static_cast<std::uint32_t>(triangles);
-  mesh_.vertices_.assign(triangle_count_, {kNone, kNone, kNone});
+  mesh_.vertices_.resize(triangle_count_);
   return {};
 }
 
@@ -135,8 +137,10 @@ void ContactMeshBuilder::weld_positions() {
   welded_ = std::move(weld.id);
   for (std::size_t v = 0; v < welded_.size(); ++v)
     if (welded_[v] == kNone) defects(MeshDefect::non_finite_vertex).add(v);
-  mesh_.positions_.reserve(weld.first.size());
-  for (const std::uint32_t v : weld.first) mesh_.positions_.push_back(source_.positions[v]);
+  mesh_.positions_.resize(weld.first.size());
+  run_halves(run_both_, weld.first.size(), [&](std::size_t first, std::size_t last) {
+    for (std::size_t v = first; v < last; ++v) mesh_.positions_[v] = source_.positions[weld.first[v]];
+  });
 }
 
 /// Fills vertices_ with welded vertices, still at their world positions: differences of those are as exact as
@@ -149,31 +153,41 @@ void ContactMeshBuilder::triangulate() {
       const auto face = source_.face(f);
       for (std::size_t k = 2; k < face.size(); ++k, ++t) {
         const std::array<std::uint32_t, 3> v{welded_[face[0]], welded_[face[k - 1]], welded_[face[k]]};
-        if (v[0] != kNone && v[1] != kNone && v[2] != kNone) mesh_.vertices_[t] = v;
+        const bool all = v[0] != kNone && v[1] != kNone && v[2] != kNone;
+        mesh_.vertices_[t] = all ? v : std::array{kNone, kNone, kNone};
       }
     }
   });
   welded_ = {};
-  drop_degenerate();
+  const Box box = box_about([](Vec3&) {});
+  const Vec3 size = box.size();
+  stays_sound_ = drop_degenerate(std::max({size.x, size.y, size.z}));
 }
 
-/// Of the triangles that are left, and counts the rest.
-void ContactMeshBuilder::drop_degenerate() {
+/// Of the triangles that are left, and counts the rest. Whether that would find none after the mesh is placed, with no
+/// coordinate beyond `reach_m`.
+bool ContactMeshBuilder::drop_degenerate(double reach_m) {
+  std::array<bool, 2> far_from_it{};
   std::array<MeshDefectList, 2> found;
   std::array<std::uint32_t, 2> usable{};
   run_halves(run_both_, triangle_count_, [&](std::size_t first, std::size_t last) {
     const std::size_t half = first == 0 ? 0 : 1;
+    std::uint32_t count = 0, sound = 0;
     for (std::size_t t = first; t < last; ++t) {
       auto& v = mesh_.vertices_[t];
       if (v[0] == kNone) continue;
       const auto [a, b, c] = corners(v);
-      if (is_degenerate(a, b, c)) {
+      if (is_far_from_degenerate(a, b, c, reach_m)) {
+        ++sound;
+      } else if (is_degenerate(a, b, c)) {
         v = {kNone, kNone, kNone};
         found[half].add(t);
-      } else {
-        ++usable[half];
+        continue;
       }
+      ++count;
     }
+    usable[half] = count;
+    far_from_it[half] = sound == count;
   });
   mesh_.usable_count_ = usable[0] + usable[1];
   MeshDefectList& all = defects(MeshDefect::degenerate_triangle);
@@ -183,6 +197,7 @@ void ContactMeshBuilder::drop_degenerate() {
   }
   std::sort(all.first.begin(), all.first.end());
   if (all.first.size() > MeshDefectList::kNamed) all.first.resize(MeshDefectList::kNamed);
+  return far_from_it[0] && far_from_it[1];
 }
 
 /// Whether every welded vertex is known to be of a usable triangle.
@@ -237,7 +252,8 @@ void ContactMeshBuilder::place() {
   mesh_.bounds_ = box_about([&](Vec3& p) {
     p = (p - centre) * mesh_.scale_ + 0.0;  // + 0.0: no -0.0, so that equal meshes hash equal
   });
-  drop_degenerate();  // a triangle finer than the rounding of coordinates about the centre can collapse in the move
+  // A triangle finer than the rounding of coordinates about the centre can collapse in the move.
+  if (!stays_sound_) drop_degenerate(0.0);
 }
 
 void ContactMeshBuilder::connect() {
@@ -344,17 +360,22 @@ tl::unexpected<Error> ContactMeshBuilder::nothing_usable() const {
 
 Result<ContactMesh> ContactMesh::build(const PolygonMesh& source, const ContactMeshOptions& options,
                                        const RunBoth& run_both) {
-  const FloatState as_tested;
-  return ContactMeshBuilder(source, options, run_both).build();
+  return build(source, options, run_both, {});
 }
 
-std::uint64_t ContactMesh::content_hash() const {
+Result<ContactMesh> ContactMesh::build(const PolygonMesh& source, const ContactMeshOptions& options,
+                                       const RunBoth& run_both, const OnContent& on_content) {
+  const FloatState as_tested;
+  return ContactMeshBuilder(source, options, run_both).build(on_content);
+}
+
+std::uint64_t MeshContent::hash() const {
   ContentHash hash;
-  hash.add(std::span<const Vec3>(&origin_, 1));
-  hash.add(std::span<const Vec3>(positions_));
-  hash.add(std::span<const Vec3>(normals_));
-  hash.add(std::span<const Index3>(vertices_));
-  hash.add(std::span<const Index3>(normal_index_));
+  hash.add(std::span<const Vec3>(&origin, 1));
+  hash.add(positions);
+  hash.add(normals);
+  hash.add(vertices);
+  hash.add(normal_index);
   return hash.value();
 }
 

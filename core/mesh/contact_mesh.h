@@ -13,6 +13,7 @@
 
 #include "core/base/result.h"
 #include "core/base/run_both.h"
+#include "core/base/unfilled.h"
 #include "core/base/units.h"
 #include "core/base/vec.h"
 #include "core/mesh/crowded_vertex.h"
@@ -21,6 +22,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -78,6 +80,16 @@ struct MeshDefectList {
   }
 };
 
+/// What names a mesh, for a thread beside the rest of its building: valid as long as its arrays are, wherever the mesh
+/// is moved to.
+struct MeshContent {
+  Vec3 origin{0.0};
+  std::span<const Vec3> positions, normals;
+  std::span<const std::array<std::uint32_t, 3>> vertices, normal_index;
+
+  std::uint64_t hash() const;  ///< ContactMesh::content_hash
+};
+
 class ContactMesh {
  public:
   /// Fails when the mesh has no usable triangle or more than 2^29 triangles, when an index points nowhere, when
@@ -85,6 +97,10 @@ class ContactMesh {
   /// The same bits however `run_both` does its work.
   static Result<ContactMesh> build(const PolygonMesh& source, const ContactMeshOptions& options = {},
                                    const RunBoth& run_both = run_in_turn);
+  /// Calls on_content as soon as that is known.
+  using OnContent = std::function<void(const MeshContent&)>;
+  static Result<ContactMesh> build(const PolygonMesh& source, const ContactMeshOptions& options,
+                                   const RunBoth& run_both, const OnContent& on_content);
 
   const std::string& name() const { return name_; }
   /// World position of the local origin, metres. world = origin() + local.
@@ -92,7 +108,8 @@ class ContactMesh {
   /// Bounding box of the usable triangles, local coordinates.
   const Box& bounds() const { return bounds_; }
   /// Of positions, normals, triangles (FNV-1a 64). Computed at every call: 50 ns a triangle.
-  std::uint64_t content_hash() const;
+  std::uint64_t content_hash() const { return content().hash(); }
+  MeshContent content() const { return {origin_, positions_, normals_, vertices_, normal_index_}; }
 
   std::uint32_t triangle_count() const { return static_cast<std::uint32_t>(vertices_.size()); }
   std::uint32_t usable_triangle_count() const { return usable_count_; }
@@ -170,11 +187,11 @@ class ContactMesh {
   std::uint64_t inside_out_ = 0;
   bool turned_over_ = false;
   NormalSource normals_used_ = NormalSource::computed;
-  std::vector<Vec3> positions_;
-  std::vector<Vec3> normals_;
-  std::vector<std::array<std::uint32_t, 3>> vertices_;
-  std::vector<std::array<std::uint32_t, 3>> normal_index_;
-  std::vector<std::array<std::uint32_t, 3>> links_;  ///< triangle << 2 | edge, or kNone
+  UnfilledVector<Vec3> positions_;
+  UnfilledVector<Vec3> normals_;
+  UnfilledVector<std::array<std::uint32_t, 3>> vertices_;
+  UnfilledVector<std::array<std::uint32_t, 3>> normal_index_;
+  UnfilledVector<std::array<std::uint32_t, 3>> links_;  ///< triangle << 2 | edge, or kNone
   std::vector<std::uint8_t> crease_bits_;  ///< bit k: edge k is a crease; bit 3+k: corner k touches a feature edge
   FlatRegions flat_regions_;
   std::vector<CrowdedVertex> crowded_;

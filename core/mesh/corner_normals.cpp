@@ -23,8 +23,8 @@ Vec3 angles(const SurfaceView& s, std::uint32_t t) {
 
 /// A sum of face normals, weighted by angle.
 struct WeightedNormal {
-  Vec3 sum{0.0};
-  double weights = 0.0;
+  Vec3 sum;
+  double weights;
 
   void add(double angle, const Vec3& face) {
     sum += angle * face;
@@ -38,12 +38,7 @@ class PlainVertices {
  public:
   PlainVertices(const SurfaceView& s, std::span<const Vec3> faces, std::span<const std::uint8_t> sharp,
                 const RunBoth& run_both)
-      : s_(s),
-        faces_(faces),
-        sharp_(sharp),
-        run_both_(run_both),
-        sums_(s.positions.size()),
-        cut_(s.positions.size(), 0) {}
+      : s_(s), faces_(faces), sharp_(sharp), run_both_(run_both), sums_(s.positions.size()), cut_(s.positions.size()) {}
 
   /// Fills what it can of `out` and returns whether that was all.
   bool fill(CornerNormals& out) {
@@ -54,15 +49,16 @@ class PlainVertices {
         if (!cut_[v]) sums_[v].sum = unit(sums_[v].sum);
       }
     });
-    run_both_([&] { number(out.normals); }, [&] { out.index.assign(s_.triangles.size(), {kNone, kNone, kNone}); });
+    number(out.normals);
+    out.index.resize(s_.triangles.size());
     std::array<bool, 2> complete{true, true};
     run_halves(run_both_, s_.triangles.size(), [&](std::size_t first, std::size_t last) {
       bool all = true;
       for (auto t = static_cast<std::uint32_t>(first); t < last; ++t) {
-        if (!s_.used(t)) continue;
+        const bool used = s_.used(t);
         for (std::uint32_t k = 0; k < 3; ++k) {
-          out.index[t][k] = slot_[s_.triangles[t][k]];
-          all = all && out.index[t][k] != kNone;
+          out.index[t][k] = used ? slot_[s_.triangles[t][k]] : kNone;
+          all = all && (!used || out.index[t][k] != kNone);
         }
       }
       if (!all) complete[first == 0 ? 0 : 1] = false;
@@ -75,6 +71,12 @@ class PlainVertices {
   /// triangles come in random order. The angles of many triangles at once, by halves of them, then the sums by halves
   /// of the vertices, each in order.
   void add_up() {
+    run_halves(run_both_, sums_.size(), [&](std::size_t first, std::size_t last) {
+      for (std::size_t v = first; v < last; ++v) {
+        sums_[v] = {Vec3(0.0), 0.0};
+        cut_[v] = 0;
+      }
+    });
     constexpr std::size_t kBlock = std::size_t{1} << 18;
     Unfilled<Vec3> block(std::min(kBlock, s_.triangles.size()));
     for (std::size_t begin = 0; begin < s_.triangles.size(); begin += kBlock) {
@@ -102,23 +104,24 @@ class PlainVertices {
     }
   }
 
-  void number(std::vector<Vec3>& normals) {
-    slot_.assign(sums_.size(), kNone);
-    normals.reserve(sums_.size());
-    for (std::size_t v = 0; v < slot_.size(); ++v) {
-      if (cut_[v]) continue;
-      slot_[v] = static_cast<std::uint32_t>(normals.size());
-      normals.push_back(sums_[v].sum);
-    }
+  void number(UnfilledVector<Vec3>& normals) {
+    slot_.resize(sums_.size());
+    std::uint32_t count = 0;
+    for (std::size_t v = 0; v < slot_.size(); ++v) slot_[v] = cut_[v] ? kNone : count++;
+    normals.resize(count);
+    run_halves(run_both_, slot_.size(), [&](std::size_t first, std::size_t last) {
+      for (std::size_t v = first; v < last; ++v)
+        if (!cut_[v]) normals[slot_[v]] = sums_[v].sum;
+    });
   }
 
   const SurfaceView& s_;
   std::span<const Vec3> faces_;
   std::span<const std::uint8_t> sharp_;
   const RunBoth& run_both_;
-  std::vector<WeightedNormal> sums_;
-  std::vector<std::uint8_t> cut_;  ///< a sharp edge ends there, or the sum cancels
-  std::vector<std::uint32_t> slot_;
+  UnfilledVector<WeightedNormal> sums_;
+  UnfilledVector<std::uint8_t> cut_;  ///< a sharp edge ends there, or the sum cancels
+  UnfilledVector<std::uint32_t> slot_;
 };
 
 /// The corners of one smooth fan, counter-clockwise, without crossing a sharp edge.
@@ -190,7 +193,7 @@ CornerNormals computed_normals(const SurfaceView& s, std::span<const Vec3> faces
     for (std::uint32_t k = 0; k < 3; ++k) {
       if (out.index[t][k] != kNone) continue;
       collect_fan(s, sharp, {t, k}, fan);
-      WeightedNormal normal;
+      WeightedNormal normal{Vec3(0.0), 0.0};
       for (const Corner& c : fan) normal.add(angles(s, c.triangle)[static_cast<int>(c.corner)], faces[c.triangle]);
       const bool cancelled = normal.cancelled();
       if (!cancelled) out.normals.push_back(unit(normal.sum));

@@ -28,8 +28,8 @@ struct SurfaceView {
 
 /// Unit normals and which of them each corner has; kNone for triangles that are not used.
 struct CornerNormals {
-  std::vector<Vec3> normals;
-  std::vector<Index3> index;
+  UnfilledVector<Vec3> normals;
+  UnfilledVector<Index3> index;
 };
 
 /// The same, owned by someone else.

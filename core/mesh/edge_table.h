@@ -40,6 +40,7 @@ class EdgeTable {
   EdgeTable(std::span<const Index3> triangles, std::uint32_t vertex_count, const RunBoth& run_both = run_in_turn);
 
   std::size_t vertex_count() const { return begin_.size() - 1; }
+  std::size_t use_count() const { return uses_.size(); }
 
   /// Calls visit(low_vertex, uses) for every edge, by ascending vertices; uses: forward ones first, each by triangle.
   template <class Visit>

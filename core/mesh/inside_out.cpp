@@ -23,27 +23,37 @@ struct Part {
   bool encloses() const { return closed && std::abs(volume6) > 6.0 * kNoVolume * std::pow(0.5 * area2, 1.5); }
 };
 
-/// The first triangle of each triangle's part. Both halves of the triangles first join what hangs together within them.
-UnionFind join_parts(const SurfaceView& surface, const RunBoth& run_both) {
+struct Joined {
+  UnionFind parts;  ///< the root is the first triangle of a part
+  bool one = false;
+};
+
+/// Both halves of the triangles first join what hangs together within them.
+Joined join_parts(const SurfaceView& surface, const RunBoth& run_both) {
   UnionFind parts(static_cast<std::uint32_t>(surface.triangles.size()));
   std::array<std::vector<std::array<std::uint32_t, 2>>, 2> between;
+  std::array<std::uint32_t, 2> apart{};  // triangles less joins
   run_halves(run_both, surface.triangles.size(), [&](std::size_t first, std::size_t last) {
+    std::uint32_t count = 0;
     for (auto t = static_cast<std::uint32_t>(first); t < last; ++t) {
       if (!surface.used(t)) continue;
+      ++count;
       for (const std::uint32_t link : surface.links[t]) {
         const std::uint32_t other = link >> 2;
         if (link == kNone || other > t) continue;
         if (other >= first) {
-          parts.join(t, other);
+          count -= parts.join(t, other);
         } else {
           between[first == 0 ? 0 : 1].push_back({t, other});
         }
       }
     }
+    apart[first == 0 ? 0 : 1] = count;
   });
+  std::uint32_t count = apart[0] + apart[1];
   for (const auto& half : between)
-    for (const auto& [a, b] : half) parts.join(a, b);
-  return parts;
+    for (const auto& [a, b] : half) count -= parts.join(a, b);
+  return {std::move(parts), count == 1};
 }
 
 void add(Part& part, const Part& other) {
@@ -66,26 +76,39 @@ void add(Part& part, const SurfaceView& surface, std::uint32_t t) {
   for (const std::uint32_t link : surface.links[t]) part.closed = part.closed && link != kNone;
 }
 
-/// Part of each triangle, kNone for those that are not used; the parts in the order of their first triangles.
-std::vector<std::uint32_t> number_parts(const SurfaceView& surface, std::vector<Part>& parts,
-                                        const RunBoth& run_both = run_in_turn) {
-  UnionFind joined = join_parts(surface, run_both);
-  std::vector<std::uint32_t> part_of(surface.triangles.size(), kNone);
-  std::uint32_t count = 0;
-  for (std::uint32_t t = 0; t < part_of.size(); ++t) {
-    if (!surface.used(t)) continue;
-    const std::uint32_t first = joined.root(t);
-    part_of[t] = first == t ? count++ : part_of[first];
+/// Which part each triangle is of. The parts in the order of their first triangles.
+class PartNumbers {
+ public:
+  PartNumbers(const SurfaceView& surface, const RunBoth& run_both) {
+    Joined joined = join_parts(surface, run_both);
+    if (joined.one) return;
+    count_ = 0;
+    of_.assign(surface.triangles.size(), kNone);
+    for (std::uint32_t t = 0; t < of_.size(); ++t) {
+      if (!surface.used(t)) continue;
+      const std::uint32_t first = joined.parts.root(t);
+      of_[t] = first == t ? count_++ : of_[first];
+    }
   }
+  std::uint32_t count() const { return count_; }
+  /// Of one that is used.
+  std::uint32_t operator[](std::uint32_t t) const { return of_.empty() ? 0 : of_[t]; }
+
+ private:
+  std::uint32_t count_ = 1;
+  std::vector<std::uint32_t> of_;  ///< empty: all are of one
+};
+
+std::vector<Part> measure(const PartNumbers& part_of, const SurfaceView& surface, const RunBoth& run_both) {
+  const std::uint32_t count = part_of.count();
   std::array<std::vector<Part>, 2> sums{std::vector<Part>(count), std::vector<Part>(count)};
-  run_halves(run_both, part_of.size(), [&](std::size_t first, std::size_t last) {
+  run_halves(run_both, surface.triangles.size(), [&](std::size_t first, std::size_t last) {
     std::vector<Part>& of_half = sums[first == 0 ? 0 : 1];
     for (auto t = static_cast<std::uint32_t>(first); t < last; ++t)
-      if (part_of[t] != kNone) add(of_half[part_of[t]], surface, t);
+      if (surface.used(t)) add(of_half[part_of[t]], surface, t);
   });
-  parts = std::move(sums[0]);
-  for (std::size_t i = 0; i < count; ++i) add(parts[i], sums[1][i]);
-  return part_of;
+  for (std::size_t i = 0; i < count; ++i) add(sums[0][i], sums[1][i]);
+  return std::move(sums[0]);
 }
 
 bool within(const Box& inner, const Box& outer) {
@@ -114,8 +137,8 @@ void judge(std::vector<Part>& parts) {
 
 InsideOut find_inside_out(const SurfaceView& surface, const RunBoth& run_both) {
   InsideOut out;
-  std::vector<Part> parts;
-  const std::vector<std::uint32_t> part_of = number_parts(surface, parts, run_both);
+  const PartNumbers part_of(surface, run_both);
+  std::vector<Part> parts = measure(part_of, surface, run_both);
   judge(parts);
   for (const Part& part : parts) {
     if (!part.inside_out) continue;
@@ -124,13 +147,13 @@ InsideOut find_inside_out(const SurfaceView& surface, const RunBoth& run_both) {
     out.volume_m3 += part.volume6 / 6.0;
   }
   if (!out.any()) return out;
-  out.found.resize(part_of.size(), 0);
-  for (std::size_t t = 0; t < part_of.size(); ++t)
-    if (part_of[t] != kNone && parts[part_of[t]].inside_out) out.found[t] = 1;
+  out.found.resize(surface.triangles.size(), 0);
+  for (std::uint32_t t = 0; t < out.found.size(); ++t)
+    if (surface.used(t) && parts[part_of[t]].inside_out) out.found[t] = 1;
   return out;
 }
 
-void turn_over(const std::vector<std::uint8_t>& turned, std::vector<Index3>& triangles, std::vector<Index3>& links) {
+void turn_over(const std::vector<std::uint8_t>& turned, std::span<Index3> triangles, std::span<Index3> links) {
   // Edges 0 and 2 change places, here and in the neighbours' links.
   for (std::size_t t = 0; t < turned.size(); ++t) {
     if (!turned[t]) continue;
@@ -142,9 +165,8 @@ void turn_over(const std::vector<std::uint8_t>& turned, std::vector<Index3>& tri
 }
 
 void turn_normals_over(const std::vector<std::uint8_t>& turned, const SurfaceView& surface, CornerNormals& normals) {
-  std::vector<Part> parts;
-  const std::vector<std::uint32_t> part_of = number_parts(surface, parts);
-  std::vector<double> outwards(parts.size(), 0.0);
+  const PartNumbers part_of(surface, run_in_turn);
+  std::vector<double> outwards(part_of.count(), 0.0);
   for (std::uint32_t t = 0; t < turned.size(); ++t) {
     if (!turned[t]) continue;
     std::swap(normals.index[t][1], normals.index[t][2]);

@@ -4,6 +4,7 @@
 #include "core/mesh/corner_normals.h"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace tangent {
@@ -24,7 +25,7 @@ InsideOut find_inside_out(const SurfaceView& surface, const RunBoth& run_both = 
 
 /// Turns the triangles that `turned` names: their second and third corners change places, and links follow.
 /// Precondition: with a triangle, `turned` names all that hang together with it.
-void turn_over(const std::vector<std::uint8_t>& turned, std::vector<Index3>& triangles, std::vector<Index3>& links);
+void turn_over(const std::vector<std::uint8_t>& turned, std::span<Index3> triangles, std::span<Index3> links);
 
 /// The same for their corner normals, which are turned to the other side, but for those of parts where they point
 /// outwards already: where the sum of normal times face normal is positive. Precondition: `surface` is turned over.

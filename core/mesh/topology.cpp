@@ -27,12 +27,12 @@ struct TurnHash {
   }
 };
 
-void link(std::vector<Index3>& links, std::uint32_t a, std::uint32_t b) {
+void link(std::span<Index3> links, std::uint32_t a, std::uint32_t b) {
   links[a >> 2][a & 3u] = b;
   links[b >> 2][b & 3u] = a;
 }
 
-void unlink(std::vector<Index3>& links, std::uint32_t triangle) {
+void unlink(std::span<Index3> links, std::uint32_t triangle) {
   for (std::uint32_t& across : links[triangle]) {
     if (across == kNone) continue;
     links[across >> 2][across & 3u] = kNone;
@@ -40,7 +40,8 @@ void unlink(std::vector<Index3>& links, std::uint32_t triangle) {
   }
 }
 
-/// Links the edges with one forward and one backward use; returns the claims on all others, by triangle.
+/// Links the edges with one forward and one backward use, and no others; returns the claims on edges of more uses, by
+/// triangle.
 std::vector<Claim> link_uncontested(const EdgeTable& edges, Topology& out, std::uint32_t& contested,
                                     const RunBoth& run_both) {
   std::array<std::vector<Claim>, 2> found;
@@ -48,9 +49,10 @@ std::vector<Claim> link_uncontested(const EdgeTable& edges, Topology& out, std::
   run_halves(run_both, edges.vertex_count(), [&](std::size_t first, std::size_t last) {
     const std::size_t half = first == 0 ? 0 : 1;
     edges.for_each_edge(first, last, [&](std::uint32_t, std::span<const EdgeUse> uses) {
-      if (uses.size() == 1) return;
       if (uses.size() == 2 && !uses[0].backward() && uses[1].backward())
         return link(out.links, uses[0].packed(), uses[1].packed());
+      for (const EdgeUse& use : uses) out.links[use.triangle()][use.edge()] = kNone;
+      if (uses.size() == 1) return;
       for (const EdgeUse& use : uses) found[half].push_back({use.packed(), 2 * edges_of[half] + use.backward()});
       ++edges_of[half];
     });
@@ -64,7 +66,7 @@ std::vector<Claim> link_uncontested(const EdgeTable& edges, Topology& out, std::
 }
 
 /// Gives every direction of the contested edges to the first triangle that may have it, in order of triangles.
-void settle(std::vector<Index3>& triangles, std::span<const Claim> claims, std::uint32_t contested, Topology& out) {
+void settle(std::span<Index3> triangles, std::span<const Claim> claims, std::uint32_t contested, Topology& out) {
   std::vector<std::uint32_t> holder(2 * std::size_t{contested}, kNone);
   std::unordered_set<Index3, TurnHash> detached_turns;
   while (!claims.empty()) {
@@ -105,20 +107,22 @@ void around_fan(std::span<const Index3> links, Corner start, const Take& take) {
 std::vector<Corner> further_fans(std::span<const Index3> triangles, std::span<const Index3> links,
                                  std::uint32_t vertex_count, const RunBoth& run_both) {
   std::array<std::vector<Corner>, 2> found;
-  run_halves(run_both, vertex_count, [&](std::size_t first, std::size_t last) {
-    std::vector<bool> met(last - first, false);
+  // Even vertices here, odd ones there: those of low numbers often lie further apart in the file.
+  const auto look = [&](std::uint32_t odd) {
+    std::vector<bool> met(vertex_count / 2 + 1, false);
     CornerSet seen(triangles.size());
     for (std::uint32_t t = 0; t < triangles.size(); ++t) {
       if (triangles[t][0] == kNone) continue;
       for (std::uint32_t k = 0; k < 3; ++k) {
         const std::uint32_t vertex = triangles[t][k];
-        if (vertex < first || vertex >= last || seen.has({t, k})) continue;
-        if (met[vertex - first]) found[first == 0 ? 0 : 1].push_back({t, k});
-        met[vertex - first] = true;
+        if ((vertex & 1u) != odd || seen.has({t, k})) continue;
+        if (met[vertex >> 1]) found[odd].push_back({t, k});
+        met[vertex >> 1] = true;
         around_fan(links, {t, k}, [&](Corner c) { seen.insert(c); });
       }
     }
-  });
+  };
+  run_both([&] { look(0); }, [&] { look(1); });
   std::vector<Corner> fans(found[0].size() + found[1].size());
   std::ranges::merge(found[0], found[1], fans.begin(), [](Corner a, Corner b) {
     return a.triangle != b.triangle ? a.triangle < b.triangle : a.corner < b.corner;
@@ -127,7 +131,7 @@ std::vector<Corner> further_fans(std::span<const Index3> triangles, std::span<co
 }
 
 /// One vertex per fan: the first fan met keeps the number, the others get new ones.
-void split_fans(std::vector<Index3>& triangles, std::uint32_t vertex_count, Topology& out, const RunBoth& run_both) {
+void split_fans(std::span<Index3> triangles, std::uint32_t vertex_count, Topology& out, const RunBoth& run_both) {
   for (const Corner& fan : further_fans(triangles, out.links, vertex_count, run_both)) {
     const std::uint32_t vertex = vertex_count + static_cast<std::uint32_t>(out.copy_of.size());
     out.copy_of.push_back(triangles[fan.triangle][fan.corner]);
@@ -137,14 +141,17 @@ void split_fans(std::vector<Index3>& triangles, std::uint32_t vertex_count, Topo
 
 }  // namespace
 
-Topology build_topology(std::vector<Index3>& triangles, std::uint32_t vertex_count, const RunBoth& run_both) {
+Topology build_topology(std::span<Index3> triangles, std::uint32_t vertex_count, const RunBoth& run_both) {
   Topology out;
-  out.links.assign(triangles.size(), {kNone, kNone, kNone});
+  out.links.resize(triangles.size());
   std::uint32_t contested = 0;
   std::vector<Claim> claims;
   {
     const EdgeTable edges(triangles, vertex_count, run_both);
     claims = link_uncontested(edges, out, contested, run_both);
+    if (edges.use_count() < 3 * triangles.size())
+      for (std::size_t t = 0; t < triangles.size(); ++t)
+        if (triangles[t][0] == kNone) out.links[t] = {kNone, kNone, kNone};
   }
   settle(triangles, claims, contested, out);
   split_fans(triangles, vertex_count, out, run_both);

@@ -16,15 +16,17 @@
 #pragma once
 
 #include "core/base/run_both.h"
+#include "core/base/unfilled.h"
 #include "core/mesh/fan_walk.h"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace tangent {
 
 struct Topology {
-  std::vector<Index3> links;              ///< per triangle and edge: triangle << 2 | edge across, kNone at a boundary
+  UnfilledVector<Index3> links;           ///< per triangle and edge: triangle << 2 | edge across, kNone at a boundary
   std::vector<std::uint32_t> copy_of;     ///< new vertex vertex_count + i stands where vertex copy_of[i] is
   std::vector<std::uint32_t> duplicates;  ///< triangles taken out, ascending
   std::vector<std::uint32_t> detached;    ///< triangles kept apart, ascending
@@ -33,7 +35,6 @@ struct Topology {
 /// Works on `triangles` in place: duplicates become {kNone, kNone, kNone}, split vertices get new numbers from
 /// vertex_count up. Triangles whose first vertex is kNone are left out.
 /// Precondition: at most kMaxTriangles; the vertices of a triangle differ and are below vertex_count.
-Topology build_topology(std::vector<Index3>& triangles, std::uint32_t vertex_count,
-                        const RunBoth& run_both = run_in_turn);
+Topology build_topology(std::span<Index3> triangles, std::uint32_t vertex_count, const RunBoth& run_both = run_in_turn);
 
 }  // namespace tangent

@@ -40,6 +40,18 @@ inline bool is_degenerate(const Vec3& a, const Vec3& b, const Vec3& c) {
   return !(glm::dot(twice_area, twice_area) > least * least);
 }
 
+/// Not degenerate by far: nor is it after the triangle is moved so that no coordinate is beyond `reach_m`, and then
+/// scaled, each corner rounded both times. That takes less than 11 roundings of `reach_m` off its height, which is at
+/// least eight times what is_degenerate asks for, four roundings among it.
+inline bool is_far_from_degenerate(const Vec3& a, const Vec3& b, const Vec3& c, double reach_m) {
+  const Vec3 twice_area = area_vector(a, b, c);
+  const double side2 = longest_side2(a, b, c);
+  const Vec3 reach = glm::max(glm::abs(a), glm::max(glm::abs(b), glm::abs(c)));
+  const double rounding = kCoordinateRounding * std::max({reach.x, reach.y, reach.z, reach_m});
+  return glm::dot(twice_area, twice_area) >
+         64.0 * 2.001 * side2 * (kDegenerateHeight * kDegenerateHeight * side2 + rounding * rounding);
+}
+
 /// Unit normal. Precondition: not degenerate.
 inline Vec3 face_normal(const Vec3& a, const Vec3& b, const Vec3& c) { return unit(area_vector(a, b, c)); }
 

@@ -5,7 +5,10 @@
 #include "core/tick/sources.h"
 
 #include <algorithm>
+#include <atomic>
 #include <limits>
+#include <numeric>
+#include <vector>
 
 namespace tangent {
 
@@ -22,8 +25,12 @@ Result<std::shared_ptr<const ContactScene>> ContactScene::build(ContactMesh mesh
   return scene;
 }
 
+bool ContactScene::is_in_parts(const ContactMesh& mesh, const SceneParts& parts) {
+  return mesh.usable_triangle_count() > parts.whole_up_to && mesh.flat_regions().empty();
+}
+
 Status ContactScene::build_structures(const SceneParts& parts, const RunBoth& run_both) {
-  if (mesh_->usable_triangle_count() > parts.whole_up_to && mesh_->flat_regions().empty()) {
+  if (is_in_parts(*mesh_, parts)) {
     clusters_ = std::make_unique<const TriangleClusters>(TriangleClusters::build(*mesh_, run_both));
     nearest_ = std::make_unique<NearestTriangles>(NearestTriangles::late(*mesh_, *clusters_));
     if (parts.hierarchy) hierarchy();
@@ -52,11 +59,19 @@ void ContactScene::build_part(std::size_t part) const {
   if (const LateHierarchy* hierarchy = hierarchy_.if_built()) hierarchy->build_part(part);
 }
 
+void ContactScene::build_parts(std::span<const std::uint32_t> parts, const RunBoth& run_both) const {
+  std::atomic<std::size_t> next{0};  // they take unequal times: whoever is free takes the next
+  const auto build = [&] {
+    for (std::size_t i = next++; i < parts.size(); i = next++) build_part(parts[i]);
+  };
+  run_both(build, build);
+}
+
 void ContactScene::build_far_parts(const RunBoth& run_both) const {
   if (!clusters_) return;
-  run_halves(run_both, clusters_->count(), [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) build_part(i);
-  });
+  std::vector<std::uint32_t> all(clusters_->count());
+  std::iota(all.begin(), all.end(), 0u);
+  build_parts(all, run_both);
 }
 
 void ContactScene::build_near(const Vec3& position, double reach_m, const RunBoth& run_both, double ahead_m) const {
@@ -68,12 +83,10 @@ void ContactScene::build_near(const Vec3& position, double reach_m, const RunBot
   const Vec3 centre = position - mesh_->origin();
   const NearestHit hit = nearest_->nearest(centre, std::numeric_limits<double>::infinity());
   const double radius = kFurther * (std::max(hit.distance_m, reach_m) + ahead_m) + kAhead_m;
-  std::vector<std::size_t> near;
-  for (std::size_t i = 0; i < clusters_->count(); ++i)
+  std::vector<std::uint32_t> near;
+  for (std::uint32_t i = 0; i < clusters_->count(); ++i)
     if (!has_part(i) && clusters_->distance2(i, centre) <= radius * radius) near.push_back(i);
-  run_halves(run_both, near.size(), [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) build_part(near[i]);
-  });
+  build_parts(near, run_both);
 }
 
 bool ContactScene::build_next_part(const Vec3& position) const {

@@ -8,8 +8,10 @@
 #include "core/planar/curve.h"
 #include "core/preset/preset.h"
 
+#include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 
 namespace tangent {
 
@@ -30,6 +32,8 @@ SceneParts parts_for(const Preset& preset);
 /// Mesh and query structures. Immutable to those who use it; share it freely.
 class ContactScene {
  public:
+  /// Whether a mesh is large enough to be searched in parts. Building such a scene can't fail.
+  static bool is_in_parts(const ContactMesh& mesh, const SceneParts& parts);
   /// The two structures of a mesh are built by `run_both`, the same bits however it does that.
   static Result<std::shared_ptr<const ContactScene>> build(ContactMesh mesh, const SceneParts& parts = {},
                                                            const RunBoth& run_both = run_in_turn);
@@ -48,7 +52,8 @@ class ContactScene {
   /// thread makes nothing (MakesNothing): there they come to nothing.
   std::size_t unbuilt_parts() const;
   /// Builds those that most ticks come to with a finger of this reach there, and up to `ahead_m` further: a search for
-  /// a start, or one far ahead, may come to more. World frame. Here and below: any thread, beside ticks if need be.
+  /// a start, or one far ahead, may come to more. Below zero: fewer, for one tick. World frame. Here and below: any
+  /// thread, beside ticks if need be.
   void build_near(const Vec3& position, double reach_m, const RunBoth& run_both = run_in_turn,
                   double ahead_m = 0.0) const;
   /// Builds the nearest one; false: there was none left. World frame.
@@ -64,6 +69,7 @@ class ContactScene {
   Status build_structures(const SceneParts& parts, const RunBoth& run_both);
   bool has_part(std::size_t part) const;
   void build_part(std::size_t part) const;
+  void build_parts(std::span<const std::uint32_t> parts, const RunBoth& run_both) const;
 
   std::optional<ContactMesh> mesh_;
   std::unique_ptr<const TriangleClusters> clusters_;  ///< of a large mesh

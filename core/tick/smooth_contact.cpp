@@ -105,7 +105,9 @@ void find_smooth_contact(ContactContext& context, const SearchStructures& search
   } else if (state.clearance = Clearance{}; touched && go_on_with_touched(context, state, decided, *touched)) {
     state.unentered = 0;
   } else {
-    decide_start(seed_contact(context, search, state.plane), state.plane, decided);
+    const bool found_before = state.has_converged && state.last_converged_s >= state.last_t_s;
+    const bool in_vain = !first && !found_before;  // not where there was no search at all, as in an unready tick
+    decide_start(seed_contact(context, search, state.plane, in_vain), state.plane, decided);
     if (!decided.facing())  // there, nothing could be entered
       state.unentered =
           !first && is_unentered(step_of(context), decided.contact.contact.penetration_m, depth_before(context, state));

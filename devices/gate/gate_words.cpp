@@ -74,6 +74,8 @@ const char* to_string(GateAction action) {
       return "ramped out";
     case GateAction::display_slowed:
       return "display slowed";
+    case GateAction::preset_undone:
+      return "preset undone";
     case GateAction::count_:
       break;
   }

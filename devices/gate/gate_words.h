@@ -43,6 +43,7 @@ enum class GateAction : std::uint8_t {
   heat_clamped,        ///< above the thermal limit
   ramped_out,          ///< being reduced to zero after a late tick or a stale sample
   display_slowed,      ///< the target moved faster than the display may
+  preset_undone,       ///< the last good preset is used again from the next tick on, for what the gate did or saw
   count_
 };
 inline constexpr std::size_t kGateActionCount = static_cast<std::size_t>(GateAction::count_);

@@ -1,94 +1,67 @@
 #include "workbench/bench/compare_methods.h"
 
-#include "core/lab/measure/converged_answer.h"
-#include "core/shading/render.h"
-
-#include <algorithm>
+#include <numeric>
+#include <utility>
 
 namespace tangent::bench {
 namespace {
 
-constexpr int kLeastRounds = 3;
+constexpr int kLeastMethodRounds = 3;
 
-/// What the rounds of one method gave.
-struct Rounds {
-  std::vector<TickOutput> outputs;  ///< of all parts, one after the other
-  std::vector<double> least_ns;
-  std::vector<double> typical_ns;  ///< of each round
-};
-
-Preset with_method(Preset preset, Method method) {
-  preset.solver.method = method;
-  return preset;
+std::function<Preset(const Preset&)> with_method(Method method) {
+  return [method](Preset preset) {
+    preset.solver.method = method;
+    return preset;
+  };
 }
 
-/// One round of one method. False: stopped.
-bool run_round(std::span<const MotionPart> parts, Method method, const TickClock& clock, const Stop& stop,
-               Rounds& rounds) {
-  std::vector<double> ns;
-  std::vector<TickOutput> outputs;
-  for (const MotionPart& part : parts) {
-    TimedRun run = timed_run(part.scene, with_method(part.preset, method), part.poses, 1, clock, stop);
-    if (run.stopped) return false;
-    ns.insert(ns.end(), run.ns.begin(), run.ns.end());
-    outputs.insert(outputs.end(), run.outputs.begin(), run.outputs.end());
+/// Empty: stopped.
+std::optional<std::vector<ComparedMethod>> methods_with_errors(std::span<const MotionPart> parts, const Stop& stop) {
+  const std::optional<ExactRun> exact = exact_run(parts, stop);
+  if (!exact) return std::nullopt;
+  std::vector<ComparedMethod> out;
+  for (const Method method : kMeasuredMethods) {
+    const auto errors = tick_errors(parts, *exact, with_method(method), stop);
+    if (!errors) return std::nullopt;
+    const ErrorSummary sum = summary_of(*errors);
+    ComparedMethod& m = out.emplace_back();
+    m.method = method;
+    m.ticks = sum.ticks;
+    m.unconverged = sum.unconverged;
+    m.iterations = sum.iterations;
+    m.error_m = sum.converged_error_m;
   }
-  if (rounds.least_ns.empty()) rounds.least_ns = ns;
-  for (std::size_t i = 0; i < ns.size(); ++i) rounds.least_ns[i] = std::min(rounds.least_ns[i], ns[i]);
-  rounds.typical_ns.push_back(std::max(middle_mean(std::move(ns)), 0.1));
-  rounds.outputs = std::move(outputs);
-  return true;
-}
-
-/// Errors of a method's contacts over all parts.
-Distribution errors_of(std::span<const MotionPart> parts, Method method, const Stop& stop) {
-  RunComparison comparison;
-  std::uint64_t lost = 0;
-  for (const MotionPart& part : parts) {
-    if (is_smooth(method)) {
-      add_difference_from_own(part.scene, with_method(part.preset, method), part.poses, stop, comparison, lost);
-      continue;
-    }
-    Preset exact = with_method(part.preset, Method::robust);
-    exact.solver.tolerance_m =
-        std::min(converged_tolerance_m(*part.scene, part.preset.finger), 0.1 * exact.solver.tolerance_m);
-    Stepper flat(part.scene), smooth(part.scene);
-    TickState flat_state, smooth_state;
-    for (const TickInput& pose : part.poses)
-      comparison.add(flat.step(with_method(part.preset, method), pose, flat_state),
-                     smooth.step(exact, pose, smooth_state));
-  }
-  return comparison.result().contact_m;
-}
-
-ComparedMethod compared(Method method, const Rounds& rounds) {
-  ComparedMethod out;
-  out.method = method;
-  out.ticks = rounds.outputs.size();
-  std::vector<double> iterations;
-  for (const TickOutput& output : rounds.outputs) {
-    out.unconverged += is_converged(output.status) ? 0 : 1;
-    iterations.push_back(output.iterations);
-  }
-  out.iterations = distribution(std::move(iterations));
-  out.ns = distribution(rounds.least_ns);
-  out.typical_ns = mean_interval(rounds.typical_ns);
   return out;
 }
 
-void compare_with_fastest(std::vector<ComparedMethod>& methods, std::span<const Rounds> rounds) {
-  const auto fastest = static_cast<std::size_t>(
-      std::min_element(methods.begin(), methods.end(),
-                       [](const auto& a, const auto& b) { return a.typical_ns.mean < b.typical_ns.mean; }) -
-      methods.begin());
-  for (std::size_t i = 0; i < methods.size(); ++i) {
-    methods[i].fastest = i == fastest;
-    methods[i].to_fastest = paired_ratio(rounds[i].typical_ns, rounds[fastest].typical_ns);
-    methods[i].tie = i != fastest && methods[i].to_fastest.low < kTieRatio;
+void take_times(const Turns& turns, std::vector<ComparedMethod>& methods) {
+  std::vector<std::size_t> all(methods.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  const std::vector<BesideFastest> ranks = ranked(turns, all);
+  for (const BesideFastest& rank : ranks) {
+    ComparedMethod& m = methods[rank.competitor];
+    m.ns = distribution(turns.least_ns(rank.competitor));
+    m.typical_ns = mean_interval(turns.of(rank.competitor).typical_ns);
+    m.to_fastest = rank.to_fastest;
+    m.tie = rank.tie;
   }
+  methods[ranks.front().competitor].fastest = true;
 }
 
 }  // namespace
+
+TimedPass solving_pass(std::span<const MotionPart> parts, std::function<Preset(const Preset&)> apply,
+                       const TickClock& clock, const Stop& stop) {
+  return [parts, apply = std::move(apply), &clock, &stop] {
+    std::vector<double> ns;
+    for (const MotionPart& part : parts) {
+      const TimedRun run = timed_run(part.scene, apply(part.preset), part.poses, 1, clock, stop);
+      if (run.stopped) return std::vector<double>();
+      ns.insert(ns.end(), run.ns.begin(), run.ns.end());
+    }
+    return ns;
+  };
+}
 
 std::optional<MethodComparison> compare_methods(std::span<const MotionPart> parts, const TickClock& clock,
                                                 const CompareMethodsOptions& options) {
@@ -96,22 +69,21 @@ std::optional<MethodComparison> compare_methods(std::span<const MotionPart> part
   out.clock_overhead_ns = clock.overhead_ns();
   for (const MotionPart& part : parts) out.ticks += part.poses.size();
   if (out.ticks == 0) return std::nullopt;
-  std::array<Rounds, kMeasuredMethods.size()> rounds;
+  auto methods = methods_with_errors(parts, options.stop);
+  if (!methods) return std::nullopt;
+  std::vector<TimedPass> passes;
+  for (const Method method : kMeasuredMethods)
+    passes.push_back(solving_pass(parts, with_method(method), clock, options.stop));
+  Turns turns(std::move(passes), {.seed = options.seed, .keep_least = true});
   const std::int64_t began = TickClock::now();
-  for (; out.rounds < options.rounds; ++out.rounds) {
+  while (turns.rounds() < options.rounds) {
     const double seconds = 1e-9 * static_cast<double>(TickClock::now() - began);
-    if (out.rounds >= kLeastRounds && seconds > options.most_s) break;
-    for (std::size_t k = 0; k < rounds.size(); ++k) {
-      const std::size_t i = (k + static_cast<std::size_t>(out.rounds)) % rounds.size();
-      if (!run_round(parts, kMeasuredMethods[i], clock, options.stop, rounds[i])) return std::nullopt;
-    }
+    if (turns.rounds() >= kLeastMethodRounds && seconds > options.most_s) break;
+    if (!turns.round()) return std::nullopt;
   }
-  for (std::size_t i = 0; i < rounds.size(); ++i) {
-    out.methods.push_back(compared(kMeasuredMethods[i], rounds[i]));
-    out.methods.back().error_m = errors_of(parts, kMeasuredMethods[i], options.stop);
-  }
-  compare_with_fastest(out.methods, rounds);
-  if (options.stop()) return std::nullopt;
+  take_times(turns, *methods);
+  out.rounds = turns.rounds();
+  out.methods = std::move(*methods);
   return out;
 }
 

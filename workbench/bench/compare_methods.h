@@ -1,28 +1,17 @@
-// Every method on one motion: speed against error. What runs in turns meets the same machine: a round solves the motion
-// once by each method, the next begins with another one, and ratios are of times of one round.
+// Every method on one motion, as its presets have it: speed against error, in turns (turns.h).
 #pragma once
 
-#include "core/lab/measure/interval.h"
-#include "core/lab/measure/scene_statistics.h"
 #include "workbench/bench/measure.h"
+#include "workbench/bench/tick_errors.h"
 
 namespace tangent::bench {
-
-/// Ticks that follow each other, on one scene under one preset. The first of them finds its contact from nothing.
-struct MotionPart {
-  ScenePtr scene;
-  Preset preset;  ///< of which every value but the method is used
-  std::vector<TickInput> poses;
-};
 
 struct CompareMethodsOptions {
   int rounds = 12;
   double most_s = 20.0;  ///< no round begins later, but for the first three
+  std::uint64_t seed = 1;
   Stop stop = [] { return false; };
 };
-
-/// A method is called a tie where it takes less than this over the fastest, or may, within the interval.
-inline constexpr double kTieRatio = 1.03;
 
 struct ComparedMethod {
   Method method = Method::robust;
@@ -44,8 +33,12 @@ struct MethodComparison {
   double clock_overhead_ns = 0.0;
 };
 
-/// Empty when stopped, or without ticks.
+/// Empty when stopped, or without ticks. Of the parts' presets every value but the method is used.
 std::optional<MethodComparison> compare_methods(std::span<const MotionPart> parts, const TickClock& clock,
                                                 const CompareMethodsOptions& options = {});
+
+/// One pass over the parts as a competitor of turns. `parts`, `clock` and `stop` must outlive it.
+TimedPass solving_pass(std::span<const MotionPart> parts, std::function<Preset(const Preset&)> apply,
+                       const TickClock& clock, const Stop& stop);
 
 }  // namespace tangent::bench

@@ -189,10 +189,8 @@ std::optional<SceneReport> measure_scene(const std::string& suite, const BenchCa
         measure_method(method, bench_case, scene, poses, reference.outputs, facet.outputs, options, clock));
     if (options.stop()) return std::nullopt;
   }
-  report.peers.push_back(embree_peer(*scene, poses, options.repeats, clock, options.stop));
-  report.peers.push_back(embree_bounded_peer(*scene, poses, options.repeats, clock, options.stop));
-  if (auto cgal = cgal_peer(*scene, poses, options.repeats, clock, options.stop))
-    report.peers.push_back(std::move(*cgal));
+  for (const Peer& peer : make_peers(*scene, bench_case.preset.finger.reach_m()))
+    report.peers.push_back(peer_report(peer, *scene, poses, options.repeats, clock, options.stop));
   if (options.stop()) return std::nullopt;
   return report;
 }

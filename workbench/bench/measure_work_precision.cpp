@@ -1,12 +1,12 @@
 #include "core/lab/measure/converged_answer.h"
 #include "core/shading/render.h"
 #include "workbench/bench/measure.h"
+#include "workbench/bench/speed_curves.h"
 
 namespace tangent::bench {
 namespace {
 
 constexpr std::array kTolerances{1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12};  // m: 1e-3 to 1e-9 mm
-constexpr int kLastIterations = 500;  // the paper's iteration converges linearly
 
 WorkPrecisionPoint measure_point(const ScenePtr& scene, const Preset& preset, const std::vector<TickInput>& poses,
                                  const MeasureOptions& options, const TickClock& clock) {

@@ -2,9 +2,11 @@
 #include "core/io/atomic_file.h"
 #include "workbench/bench/measure.h"
 #include "workbench/bench/report_json.h"
+#include "workbench/cli/bench_curves.h"
 #include "workbench/cli/bench_plot.h"
 #include "workbench/cli/bench_text.h"
 #include "workbench/cli/command.h"
+#include "workbench/cli/command_text.h"
 #include "workbench/cli/interrupt.h"
 #include "workbench/cli/messages.h"
 #include "workbench/cli/option.h"
@@ -30,6 +32,10 @@ struct BenchOptions {
   std::string only;
   std::uint32_t most_triangles = 6'000'000;
   MeasureOptions measure;
+  BenchCurvesOptions own;  ///< of a mesh and motion of one's own
+  bool no_peers = false;
+
+  bool is_own() const { return !own.mesh.file.empty(); }
 };
 
 bool wants(const BenchOptions& options, Suite suite) { return options.suite == suite || options.suite == Suite::all; }
@@ -149,6 +155,57 @@ Status run_bench(BenchOptions options, bool& interrupted) {
   return status ? written : status;
 }
 
+Status run_own(BenchOptions options, bool& interrupted) {
+  options.own.poses = options.poses;
+  options.own.json = options.json;
+  options.own.plot = options.plot;
+  options.own.curves.peers = !options.no_peers;
+  const InterruptGuard guard;
+  const Status status = run_bench_curves(std::move(options.own), interrupted);
+  if (interrupted && status) print_message("bench", "interrupted; the rounds until then are kept");
+  return status;
+}
+
+/// --mesh and what belongs to it.
+void add_own_options(CLI::App& command, BenchOptions& o) {
+  BenchCurvesOptions& own = o.own;
+  add_replaced_mesh_options(command, own.mesh, "Speed against error on this mesh, in place of the suites");
+  add_preset_options(command, own.preset);
+  add_list_option(command, "--methods", own.methods, "With --mesh: these methods (default: all)", "A,B");
+  add_text_option(command, "--csv", own.csv, "With --mesh: the table", "F.csv");
+  add_flag(command, "--no-peers", o.no_peers, "With --mesh: without other libraries");
+  add_number_option(command, "--rounds", {.min = 1, .max = 1000, .whole = true},
+                    "With --mesh: rounds, each there and back (default 9)",
+                    [&own](double n) { own.curves.rounds = static_cast<int>(n); });
+  add_number_option(command, "--seconds", {.min = 0, .max = 86400},
+                    "With --mesh: no round begins later, but for the first six (default 60)",
+                    [&own](double s) { own.curves.most_s = s; });
+  add_number_option(command, "--seed", {.min = 0, .max = 1e9, .whole = true},
+                    "With --mesh: of the order within rounds (default 1)",
+                    [&own](double n) { own.curves.seed = static_cast<std::uint64_t>(n); });
+}
+
+/// Ends the parsing where files or options contradict each other.
+void check_options(const BenchOptions& o) {
+  if (!o.json.empty() && o.json == o.plot) refuse_option("--plot", "names the same file as --json");
+  if (!o.own.csv.empty() && (o.own.csv == o.json || o.own.csv == o.plot))
+    refuse_option("--csv", "names the same file as another option");
+  if (!o.plot.empty() && o.plot.extension() != ".svg" && o.plot.extension() != ".pdf")
+    refuse_option("--plot", "ends in neither .svg nor .pdf");
+  if (o.is_own() && !o.meshes.empty()) refuse_option("--meshes", "excludes --mesh");
+  if (o.is_own() && !o.only.empty()) refuse_option("--only", "chooses among the suites' scenes, not with --mesh");
+  if (o.is_own()) return;
+  const PresetOptions& preset = o.own.preset;
+  if (!preset.overrides.empty()) refuse_option(preset.overrides.front().by, "requires --mesh F");
+  if (!preset.file.empty() || preset.condition >= 0)
+    refuse_option(preset.file.empty() ? "--condition" : "--preset", "requires --mesh F");
+  if (!o.own.methods.empty()) refuse_option("--methods", "requires --mesh F");
+  if (o.meshes.empty() != o.poses.empty())
+    refuse_option(o.meshes.empty() ? "--poses" : "--meshes",
+                  o.meshes.empty() ? "requires --meshes DIR or --mesh F" : "requires --poses DIR");
+  if (!o.own.csv.empty()) refuse_option("--csv", "requires --mesh F");
+}
+
 }  // namespace
 
 void add_bench_command(CLI::App& app, CommandResult& result) {
@@ -161,7 +218,8 @@ void add_bench_command(CLI::App& app, CommandResult& result) {
       "hard cases, balls against Embree's mean, 1k to 5M triangles, or all",
       [o](int i) { o->suite = static_cast<Suite>(i); });
   add_number_option(*command, "--ticks", {.min = 1, .max = 10'000'000, .whole = true},
-                    "Ticks of each scene (default 10000)", [o](double n) { o->measure.ticks = static_cast<int>(n); });
+                    "Ticks of each scene (default 10000; with --poses F.csv all)",
+                    [o](double n) { o->measure.ticks = o->own.ticks = static_cast<int>(n); });
   add_number_option(*command, "--repeats", {.min = 1, .max = 100, .whole = true},
                     "Passes; a tick's time is the least of them (default 3)",
                     [o](double n) { o->measure.repeats = static_cast<int>(n); });
@@ -170,18 +228,20 @@ void add_bench_command(CLI::App& app, CommandResult& result) {
                     [o](double n) { o->most_triangles = static_cast<std::uint32_t>(n); });
   add_text_option(*command, "--only", options->only, "Only scenes whose name contains this", "TEXT");
   add_text_option(*command, "--json", options->json, "Everything measured", "F.json");
-  add_text_option(*command, "--plot", options->plot, "Time against error as the tolerance sweeps from 1e-3 to 1e-9 mm",
-                  "F.svg");
+  add_text_option(
+      *command, "--plot", options->plot,
+      "Time against error as the tolerance sweeps from 1e-3 to 1e-9 mm; with --mesh also the iteration limit", "F.svg");
   add_text_option(*command, "--meshes", options->meshes, "Folder of more meshes: NAME.obj, fitted to 80 mm", "DIR");
-  add_text_option(*command, "--poses", options->poses, "Poses on them: NAME-rXXX.csv, finger radius XXX mm", "DIR");
-  require_together(*command, "--meshes", "--poses");
-  on_run(*command, [options, &result] {
-    if (!options->json.empty() && options->json == options->plot)
-      refuse_option("--plot", "names the same file as --json");
-    if (!options->plot.empty() && options->plot.extension() != ".svg" && options->plot.extension() != ".pdf")
-      refuse_option("--plot", "ends in neither .svg nor .pdf");
+  add_text_option(*command, "--poses", options->poses,
+                  "Poses on them: NAME-rXXX.csv, finger radius XXX mm; with --mesh one file of poses (default: the "
+                  "simulated hand explores)",
+                  "DIR|F.csv");
+  add_own_options(*command, *options);
+  on_run(*command, [options, command, &result] {
+    check_options(*options);
+    options->own.command = command_text("bench", *command);
     bool interrupted = false;
-    const Status status = run_bench(*options, interrupted);
+    const Status status = options->is_own() ? run_own(*options, interrupted) : run_bench(*options, interrupted);
     if (!status) print_message("bench", status.error().message());
     result.exit_code = status && !interrupted ? kDone : kFailed;
   });

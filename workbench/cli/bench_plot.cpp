@@ -47,9 +47,9 @@ std::string key_row(int width_px) {
   std::string text;
   double x = kLeftPx;
   for (const MethodStyle& style : kMethodStyles) {
-    text += format("set label '%s' at screen %.4f,0.95 left offset 1,0 point pt %d ps %.2f lc rgb '%s'\n",
+    text += format("set label '%s' at screen %.4f,0.95 left offset 1,-0.22 point pt %d ps %.2f lc rgb '%s'\n",
                    label_of(style), x / width_px, style.point, style.point_size, style.colour);
-    x += 50.0 + 7.0 * static_cast<double>(std::string_view(label_of(style)).size());
+    x += 48.0 + 6.5 * static_cast<double>(std::string_view(label_of(style)).size());
   }
   return text;
 }
@@ -67,7 +67,7 @@ Figure work_precision_figure(std::span<const WorkPrecisionReport> panels) {
       "stats F using 'error_um' name 'E' nooutput\nstats F using 'ns' name 'T' nooutput\n"
       "set xrange [10**floor(log10(E_min)):10**ceil(log10(E_max))]\n"
       "set yrange [10**floor(log10(T_min)):10**ceil(log10(T_max))]\n"
-      "set xtics 1e-12,1e3\nset xlabel 'contact error, 99th percentile (\xC2\xB5m)'\n"
+      "set xtics 1e-12,1e3\nunset mxtics\nset xlabel 'contact error, 99th percentile (\xC2\xB5m)'\n"
       "set ylabel 'time per tick, mean (ns)' offset 1,0\n" +
       key_row(figure.width_px) +
       format("set multiplot layout 1,%zu margins %.4f,0.985,0.16,0.82 spacing 0.03,0\n", count, left);

@@ -39,6 +39,8 @@ void add_export_command(CLI::App& app, CommandResult& result);
 void add_check_command(CLI::App& app, CommandResult& result);
 void add_sweep_command(CLI::App& app, CommandResult& result);
 void add_report_command(CLI::App& app, CommandResult& result);  ///< without pictures: report_command.h
+void add_experiment_command(CLI::App& app, CommandResult& result);
+void add_analyse_command(CLI::App& app, CommandResult& result);
 
 /// What the subcommands of workbench-window do (window/), which `workbench` lists, too.
 inline constexpr const char* kGuiCommandText = "Open the window";

@@ -1,5 +1,6 @@
 #include "workbench/cli/compare_report.h"
 
+#include "workbench/cli/spectrum_json.h"
 #include "workbench/cli/text_format.h"
 
 #include <nlohmann/json.hpp>
@@ -80,6 +81,7 @@ nlohmann::ordered_json compared_json(const RecordingsCompared& c) {
     }
     json["quantities"].push_back(std::move(quantity));
   }
+  if (c.full) json["spectra"] = {{"first", spectrum_json(c.spectrum_a)}, {"second", spectrum_json(c.spectrum_b)}};
   return json;
 }
 

@@ -34,8 +34,9 @@ Status write_report(const std::filesystem::path& path, nlohmann::ordered_json js
 
 void print_tick(const ExplainedTick& e) {
   const TickOutput& out = e.why.tick;
-  std::printf("Tick %llu at %.6g s: %s, event %s, %d planes.\n%s: %s\n", shown(e.tick), e.t_s, to_string(out.status),
-              to_string(out.event), out.iterations, to_string(e.why.cause), explanation_text(e.why).c_str());
+  std::printf("Tick %llu at %.6g s: %s, event %s, %d iterations.\n%s: %s\n", shown(e.tick), e.t_s,
+              to_string(out.status), to_string(out.event), out.iterations, to_string(e.why.cause),
+              explanation_text(e.why).c_str());
   if (!e.same_bits)
     std::puts(
         "Computed again it differs from what was recorded; what is explained is the tick as it is computed here.");
@@ -57,7 +58,7 @@ void print_recording(const ExplainedRecording& found) {
   std::puts(".");
   for (const CauseInRecording& cause : found.causes) {
     std::printf("%-20s %8llu   %s\n", to_string(cause.cause), shown(cause.ticks), sentence_of(cause.cause));
-    std::printf("    worst: tick %llu at %.6g s, %s, event %s, %d planes. %s\n", shown(cause.worst.tick),
+    std::printf("    worst: tick %llu at %.6g s, %s, event %s, %d iterations. %s\n", shown(cause.worst.tick),
                 cause.worst.t_s, to_string(cause.worst.why.tick.status), to_string(cause.worst.why.tick.event),
                 cause.worst.why.tick.iterations, explanation_text(cause.worst.why).c_str());
   }
@@ -101,7 +102,8 @@ void add_explain_command(CLI::App& app, CommandResult& result) {
   add_number_option(*command, "--tick", kTicks, "This tick (default: all that want explaining, by cause)",
                     [options](double v) { options->tick = static_cast<std::uint64_t>(v); });
   constexpr NumberRange kPlanes{.min = 1, .max = 10'000, .whole = true};
-  add_number_option(*command, "--many-planes", kPlanes, "A tick of more planes wants explaining (default 8)",
+  add_number_option(*command, "--many-planes", kPlanes,
+                    "A tick of more iterations, each a tangent plane computed, wants explaining (default 8)",
                     [options](double v) { options->wanted.explain.many_planes = static_cast<int>(v); });
   constexpr NumberRange kMost{.min = 1, .max = 1e9, .whole = true};
   add_number_option(*command, "--most", kMost,

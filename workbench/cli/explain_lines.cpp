@@ -21,7 +21,7 @@ void ExplainLines::after(std::uint64_t tick, const TickInput& input, const TickS
   const TickExplanation e = explain_tick(scene_, preset_, input, before, options_);
   if (e.cause == TickCause::nothing) return;
   ++counts_[static_cast<std::size_t>(e.cause)];
-  std::fputs(format("tick %llu at %.6g s, %s, event %s, %d planes: %s. %s\n", (unsigned long long)tick, input.t_s,
+  std::fputs(format("tick %llu at %.6g s, %s, event %s, %d iterations: %s. %s\n", (unsigned long long)tick, input.t_s,
                     to_string(output.status), to_string(output.event), output.iterations, to_string(e.cause),
                     explanation_text(e).c_str())
                  .c_str(),

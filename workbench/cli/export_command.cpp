@@ -47,18 +47,18 @@ Status run_export(ExportCommandOptions& options) {
 }  // namespace
 
 void add_export_command(CLI::App& app, CommandResult& result) {
-  CLI::App* command = add_command(app, "export", "Write a recording's ticks as CSV or MCAP");
+  CLI::App* command = add_command(app, "export", "Write a recording's ticks as CSV, MCAP or MATLAB file");
   auto options = std::make_shared<ExportCommandOptions>();
   add_text_option(*command, "RECORDING", options->recording, "A recording", "F.sqlite", Needed::yes);
-  add_text_option(*command, "--out", options->out, "By its ending: .csv, as solve writes it, or .mcap", "F.csv|F.mcap",
-                  Needed::yes);
+  add_text_option(*command, "--out", options->out, "By its ending: .csv, as solve writes it, .mcap or .mat",
+                  "F.csv|F.mcap|F.mat", Needed::yes);
   constexpr NumberRange kSeconds{.min = -1e9, .max = 1e9, .unit = "s"};
   add_number_option(*command, "--from", kSeconds, "First time (default: the first tick's)",
                     [options](double v) { options->wanted.from_s = v; });
   add_number_option(*command, "--to", kSeconds, "Last time (default: the last tick's)",
                     [options](double v) { options->wanted.to_s = v; });
   add_text_option(*command, "--channels", options->channels,
-                  "Columns, separated by commas (default: those of ticks.csv, all in an MCAP)", "a,b");
+                  "Columns, separated by commas (default: in a CSV those of ticks.csv, else all)", "a,b");
   on_run(*command, [options, &result] {
     options->wanted.channels = names_in(options->channels);
     if (const Status usage = check_export(options->out, options->wanted); !usage) {

@@ -49,7 +49,7 @@ void add_replaced_mesh_options(CLI::App& app, MeshOptions& options, const std::s
 }
 
 Result<LoadedMesh> load_mesh(const MeshOptions& options) {
-  Result<PolygonMesh> source = read_mesh(options.file, options.metres_per_unit);
+  Result<PolygonMesh> source = read_mesh(options.file, options.metres_per_unit, run_on_two_threads);
   if (!source) return tl::unexpected(source.error());
   Result<ContactMesh> mesh = ContactMesh::build(*source, options.build, run_on_two_threads);
   if (!mesh) {

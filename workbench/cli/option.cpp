@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <system_error>
 
 namespace tangent {
 
@@ -16,7 +17,32 @@ CLI::App* add_command(CLI::App& app, const std::string& name, const std::string&
   return command;
 }
 
-void on_run(CLI::App& command, std::function<void()> run) { command.callback(std::move(run)); }
+namespace {
+
+/// Reports and tables beside what a command reads: one that names a file which the command was given replaces it, and a
+/// recording is gone. Not --out, which some commands may be given to write back what they read.
+void refuse_outputs_over_inputs(const CLI::App& command) {
+  constexpr std::array<std::string_view, 5> kOutputs{"--json", "--csv", "--front", "--plot", "--packets"};
+  const std::vector<GivenOption> given = given_options(command);
+  for (const GivenOption& output : given) {
+    if (std::find(kOutputs.begin(), kOutputs.end(), output.name) == kOutputs.end()) continue;
+    for (const GivenOption& other : given) {
+      std::error_code error;
+      const bool same = other.value == output.value || std::filesystem::equivalent(output.value, other.value, error);
+      if (&other == &output || !same || output.value.starts_with("/dev/")) continue;
+      refuse_option(output.name, "names the same file as " + (other.name.empty() ? other.value : other.name));
+    }
+  }
+}
+
+}  // namespace
+
+void on_run(CLI::App& command, std::function<void()> run) {
+  command.callback([&command, run = std::move(run)] {
+    refuse_outputs_over_inputs(command);
+    run();
+  });
+}
 
 void add_text_option(CLI::App& app, const std::string& name, std::string& value, const std::string& doc,
                      const std::string& shown_as, Needed needed) {

@@ -23,10 +23,7 @@ Status write_comparison_figures(const RecordingsCompared& compared, const std::f
                                 const std::filesystem::path& folder) {
   const Result<Recording> opened = Recording::open(recording);
   if (!opened) return tl::unexpected(opened.error());
-  const RecordingInfo& info = opened->info();
-  const double period_s = info.last_tick > info.first_tick
-                              ? (info.last_s - info.first_s) / static_cast<double>(info.last_tick - info.first_tick)
-                              : 1e-3;
+  const double rate_hz = opened->info().rate_hz(), period_s = rate_hz > 0.0 ? 1.0 / rate_hz : 1e-3;
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) return fail("can't be made: " + error.message(), folder.string(), "choose another folder");

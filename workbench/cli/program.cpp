@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <new>
@@ -19,11 +20,11 @@ void add_window_commands(CLI::App& app, CommandResult&) {
   app.add_subcommand("shot", kShotCommandText);
 }
 
-constexpr AddCommand kCommands[]{add_window_commands, add_solve_command,   add_audit_command,   add_make_command,
-                                 add_bench_command,   add_tune_command,    add_figures_command, add_decimate_command,
-                                 add_devices_command, add_monitor_command, add_record_command,  add_replay_command,
-                                 add_compare_command, add_explain_command, add_export_command,  add_check_command,
-                                 add_sweep_command,   add_report_command};
+constexpr AddCommand kCommands[]{add_window_commands, add_solve_command,   add_audit_command,      add_make_command,
+                                 add_bench_command,   add_tune_command,    add_figures_command,    add_decimate_command,
+                                 add_devices_command, add_monitor_command, add_record_command,     add_replay_command,
+                                 add_compare_command, add_explain_command, add_export_command,     add_check_command,
+                                 add_sweep_command,   add_report_command,  add_experiment_command, add_analyse_command};
 
 std::string chosen_command(const CLI::App& app) {
   const std::vector<CLI::App*> chosen = app.get_subcommands();
@@ -50,6 +51,7 @@ std::span<const AddCommand> headless_commands() { return kCommands; }
 
 int run_program(int argc, const char* const* argv, std::span<const AddCommand> commands, int (*without_command)()) {
   install_crash_stop();
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may grow no further is an error of its writer, which says so
   CLI::App app("Tangent Workbench: visual debugger and tuning tool for haptic shading of contact location and force",
                "workbench");
   app.set_version_flag("--version", "workbench " TANGENT_VERSION);

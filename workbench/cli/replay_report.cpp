@@ -1,5 +1,6 @@
 #include "workbench/cli/replay_report.h"
 
+#include "workbench/cli/spectrum_json.h"
 #include "workbench/recording/build_identity.h"
 
 #include <nlohmann/json.hpp>
@@ -59,6 +60,7 @@ Json numbers_json(const MotionNumbers& numbers) {
   for (const Row& row : kRows) json[row.key] = row.value(numbers);
   for (const TickEvent event : kTickEvents)
     json["events"][to_string(event)] = numbers.events[static_cast<std::size_t>(event)];
+  json["spectrum"] = spectrum_json(numbers.spectrum);
   return json;
 }
 

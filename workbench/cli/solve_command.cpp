@@ -15,12 +15,14 @@
 #include "workbench/cli/solve_report.h"
 #include "workbench/cli/stopwatch.h"
 #include "workbench/session/csv_metadata.h"
+#include "workbench/session/kept_memory.h"
 #include "workbench/session/two_threads.h"
 
 #include <nlohmann/json.hpp>
 
 #include <cstdio>
 #include <fstream>
+#include <future>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -72,6 +74,11 @@ class BuildAhead {
  public:
   BuildAhead(const ContactScene& scene, const Preset& preset)
       : scene_(scene), reach_m_(preset.finger.reach_m()), waits_(scene.unbuilt_parts() > 0) {}
+  /// Before the first tick, which searches for a start and not ahead.
+  void first(const TickInput& input) {
+    constexpr double kLess_m = -4e-3;  // on a ball of 5.2M triangles the tick then comes to none that is missing
+    if (waits_) scene_.build_near(input.finger.position, reach_m_, run_on_two_threads, kLess_m);
+  }
   void before(const TickInput& input) {
     constexpr double kShare = 0.1;             // of the finger's reach
     constexpr double kSearchedAhead_m = 8e-3;  // by searches, once they found it cheap (kMostAhead)
@@ -89,12 +96,11 @@ class BuildAhead {
 };
 
 /// Steps the poses in turn until they end or Ctrl-C. Precondition: an InterruptGuard.
-Status step_all(const ContactScene& scene, Stepper& stepper, const std::vector<TickInput>& poses, SolveOutputs& outputs,
+Status step_all(BuildAhead& ahead, Stepper& stepper, const std::vector<TickInput>& poses, SolveOutputs& outputs,
                 SolveReport& report) {
   Progress progress("ticks", poses.size());
   // Too large for the stack.
   const auto trace = outputs.iterations ? std::make_unique<IterationTrace>() : nullptr;
-  BuildAhead ahead(scene, report.preset.preset);
   TickState state;
   TickRow row;
   TickRecording recording(outputs.recording);
@@ -105,7 +111,7 @@ Status step_all(const ContactScene& scene, Stepper& stepper, const std::vector<T
       break;
     }
     if (trace) trace->clear();
-    ahead.before(input);
+    if (row.tick > 0) ahead.before(input);
     recording.keep(state);
     const TickState before = state;
     const Stopwatch watch;
@@ -146,10 +152,10 @@ std::string command_of_process() {
 }
 
 /// Beside the ticks: what they are, and where they come from.
-Status write_origin(const SolveOptions& options, const SolveReport& report) {
+Status write_origin(const SolveOptions& options, const SolveReport& report, std::uint64_t mesh_hash) {
   FileOrigin origin{.preset = report.preset_name, .command = command_of_process()};
   if (report.mesh != nullptr) {
-    origin.mesh = mesh_fact(report.mesh->name(), report.mesh->triangle_count(), report.mesh->content_hash());
+    origin.mesh = mesh_fact(report.mesh->name(), report.mesh->triangle_count(), mesh_hash);
     origin.unit = unit_fact(options.mesh.metres_per_unit);
   }
   return write_csv_metadata(options.ticks, kTicksHeader, origin);
@@ -162,18 +168,39 @@ Status check_shape(const ContactScene& scene, const Preset& preset) {
   return fail("a 2D scene takes point and sphere fingers only", "finger.shape", "choose finger.shape point or sphere");
 }
 
+class WaitFor {
+ public:
+  explicit WaitFor(const std::future<std::uint64_t>& result) : result_(result) {}
+  WaitFor(const WaitFor&) = delete;
+  WaitFor& operator=(const WaitFor&) = delete;
+  ~WaitFor() { now(); }
+  void now() const {
+    if (result_.valid()) result_.wait();
+  }
+
+ private:
+  const std::future<std::uint64_t>& result_;
+};
+
 Status solve(const SolveOptions& options, bool& interrupted) {
   SolveReport report;
   const Stopwatch loading;
+  std::optional<KeptMemory> kept(std::in_place);
   Result<PresetFile> preset = load_preset(options.preset);
   if (!preset) return tl::unexpected(preset.error());
   if (Status status = probe_outputs(options); !status) return status;
   const Result<std::vector<TickInput>> poses = read_poses(options.poses);
   if (!poses) return tl::unexpected(poses.error());
+  std::future<std::uint64_t> mesh_hash;  // on millions of triangles it takes a quarter of the time of all else
+  const BesideContent hashing{[&](const MeshContent& content) {
+                                mesh_hash = std::async(std::launch::async, [content] { return content.hash(); });
+                              },
+                              [&] { mesh_hash.wait(); }};
   Result<SceneFile> file =
       read_scene(options.mesh.file, {options.mesh.metres_per_unit, options.mesh.build, parts_for(preset->preset)},
-                 run_on_two_threads);
+                 run_on_two_threads, hashing);
   if (!file) return tl::unexpected(file.error());
+  const WaitFor hashed(mesh_hash);                   // before the mesh ends
   if (options.record.empty()) file->source.reset();  // as large as the mesh
   const auto* const scene = &file->scene;
   if (Status status = check_shape(**scene, preset->preset); !status) return status;
@@ -197,13 +224,17 @@ Status solve(const SolveOptions& options, bool& interrupted) {
     outputs->recording.emplace(std::move(*recording));
   }
   if (options.explain) outputs->explanations.emplace(*scene, report.preset.preset, options.explained);
-  if (Status status = step_all(**scene, stepper, *poses, *outputs, report); !status) return status;
+  BuildAhead ahead(**scene, report.preset.preset);
+  ahead.first(poses->front());
+  kept.reset();
+  hashed.now();  // ticks are timed
+  if (Status status = step_all(ahead, stepper, *poses, *outputs, report); !status) return status;
   interrupted = report.interrupted;
   report.solve_seconds = solving.seconds();
   report.scene_bytes = (*scene)->memory_bytes();
   if (outputs->explanations) report.causes = outputs->explanations->counts();
   if (Status status = commit(*outputs, options, report); !status) return status;
-  if (Status status = write_origin(options, report); !status) return status;
+  if (Status status = write_origin(options, report, mesh_hash.valid() ? mesh_hash.get() : 0); !status) return status;
   std::fputs(solve_text(report).c_str(), stdout);
   if (interrupted) {
     print_message("solve", "interrupted after " + std::to_string(report.statistics.ticks()) + " of " +
@@ -246,12 +277,14 @@ void add_solve_command(CLI::App& app, CommandResult& result) {
   add_text_option(*command, "--record", options->record,
                   "A recording, to be replayed; a file that is there is not written over", "F.sqlite");
   add_flag(*command, "--explain", options->explain,
-           "Say for every tick that did not converge, had an event or took many planes why, and what cures it");
-  add_number_option(*command, "--many-planes", {.min = 0, .max = 10000, .whole = true},
-                    "With --explain: ticks of more planes are explained, too; default 8", [options](double planes) {
-                      options->many_given = true;
-                      options->explained.many_planes = static_cast<int>(planes);
-                    });
+           "Say for every tick that did not converge, had an event or took many iterations why, and what cures it");
+  add_number_option(
+      *command, "--many-planes", {.min = 0, .max = 10000, .whole = true},
+      "With --explain: ticks of more iterations, each a tangent plane computed, are explained, too; default 8",
+      [options](double planes) {
+        options->many_given = true;
+        options->explained.many_planes = static_cast<int>(planes);
+      });
   add_preset_options(*command, options->preset);
   on_run(*command, [options, &result] {
     refuse_shared_paths(*options);

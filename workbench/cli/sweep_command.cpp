@@ -125,7 +125,8 @@ Result<int> divide(const SweepCommandOptions& options) {
   const auto shards = static_cast<std::uint64_t>(options.shards);
   const Result<sweep::SweepEstimate> estimate = sweep::estimate(*cells);
   if (!estimate) return tl::unexpected(estimate.error());
-  const sweep::JobScripts scripts = sweep::bundled(estimate->seconds, shards, 60.0 * options.job_minutes);
+  sweep::JobScripts scripts = sweep::bundled(estimate->seconds, shards, 60.0 * options.job_minutes);
+  scripts.times = static_cast<std::size_t>(options.times);
   if (Status ok = sweep::write_plan_folder(options.folder, *plan, shards, scripts); !ok)
     return tl::unexpected(ok.error());
   const std::string dir = options.folder.string();
@@ -146,7 +147,13 @@ Result<int> run_one_shard(const SweepCommandOptions& options) {
   Progress progress("cells", 0);
   const Result<sweep::SweepOutcome> outcome = sweep::run_shard(*folder, shard, run_options(options, progress));
   if (!outcome) return tl::unexpected(outcome.error());
-  return finish(*outcome, folder->shard_file(shard).string());
+  const int code = finish(*outcome, folder->shard_file(shard).string());
+  if (options.times < 2.0 || outcome->stopped) return code;
+  const auto timed =
+      sweep::time_shard(*folder, shard, static_cast<std::size_t>(options.times), run_options(options, progress));
+  if (!timed) return tl::unexpected(timed.error());
+  std::fputs((std::to_string(*timed) + " cells timed on " + sweep::machine_name() + "\n").c_str(), stdout);
+  return InterruptGuard::requested() ? static_cast<int>(kFailed) : code;
 }
 
 Result<int> merge(const SweepCommandOptions& options) {
@@ -175,6 +182,12 @@ void add_threads_option(CLI::App& app, SweepCommandOptions& options) {
                     [&](double value) { options.threads = value; });
 }
 
+void add_times_option(CLI::App& app, SweepCommandOptions& options) {
+  add_number_option(app, "--times", {.min = 2, .max = 1000, .whole = true},
+                    "Afterwards time every cell against the first of its group, in so many rounds of A, B, B, A",
+                    [&](double value) { options.times = value; });
+}
+
 void add_divided_commands(CLI::App& sweep, const std::shared_ptr<SweepCommandOptions>& options, CommandResult& result) {
   CLI::App* plan = add_command(sweep, "plan", "Divide a plan into shards, for many machines that share a folder");
   add_text_option(*plan, "PLAN", options->plan.plan, "A plan file", "PLAN.toml", Needed::yes);
@@ -184,6 +197,7 @@ void add_divided_commands(CLI::App& sweep, const std::shared_ptr<SweepCommandOpt
   add_number_option(*plan, "--job-minutes", {.min = 0.01, .max = 10000, .unit = "min"},
                     "What a job of slurm.sh takes, about (default 30): so many shards are put into one",
                     [o = options.get()](double value) { o->job_minutes = value; });
+  add_times_option(*plan, *options);
   run_as(*plan, options, result, divide);
 
   CLI::App* run = add_command(sweep, "run", "Solve one shard; again: goes on from what is there");
@@ -191,6 +205,7 @@ void add_divided_commands(CLI::App& sweep, const std::shared_ptr<SweepCommandOpt
   add_number_option(*run, "--shard", {.min = 0, .max = 1e6, .whole = true}, "Which, from 0 (default 0)",
                     [o = options.get()](double value) { o->shard = value; });
   add_threads_option(*run, *options);
+  add_times_option(*run, *options);
   run_as(*run, options, result, run_one_shard);
 
   CLI::App* join = add_command(sweep, "merge", "Put all shards together into one results file");
@@ -211,9 +226,7 @@ void add_sweep_command(CLI::App& app, CommandResult& result) {
   add_sweep_plan_options(*command, options->plan);
   add_text_option(*command, "--out", options->out, "Results to write, or to go on with", "F.sqlite");
   add_threads_option(*command, *options);
-  add_number_option(*command, "--times", {.min = 2, .max = 1000, .whole = true},
-                    "Afterwards time every cell against the first of its group, in so many rounds of A, B, B, A",
-                    [o = options.get()](double value) { o->times = value; });
+  add_times_option(*command, *options);
   add_flag(*command, "--dry-run", options->dry_run, "Say how many cells it is, how long and how large, and end");
   add_flag(*command, "--yes", options->yes, "Solve a million cells and more");
   on_run(*command, [command, options, &result] {

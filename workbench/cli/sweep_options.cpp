@@ -1,6 +1,7 @@
 #include "workbench/cli/sweep_options.h"
 
 #include "core/base/text.h"
+#include "workbench/cli/method_list.h"
 #include "workbench/cli/option.h"
 
 #include <algorithm>
@@ -48,20 +49,6 @@ void take_span(const std::string& value, const std::string& text, sweep::Range& 
     if (parts[2] != "log" && parts[2] != "linear") refuse_range(text, "has a scale that is neither log nor linear");
     range.logarithmic = parts[2] == "log";
   }
-}
-
-Result<std::vector<Method>> methods_of(const SweepPlanOptions& options, Method preset) {
-  std::vector<Method> out;
-  for (const std::string& text : options.methods) {
-    for (const std::string& name : parts_of(text, ",")) {
-      const auto at = std::find(kMethodNames.begin(), kMethodNames.end(), name);
-      if (at == kMethodNames.end())
-        return fail("\"" + name + "\" is no method", "--methods", "allowed: " + choices_text(kMethodNames));
-      out.push_back(static_cast<Method>(at - kMethodNames.begin()));
-    }
-  }
-  if (out.empty()) out.push_back(preset);
-  return out;
 }
 
 }  // namespace
@@ -122,8 +109,9 @@ Result<sweep::Plan> sweep_plan(const SweepPlanOptions& options) {
   plan.poses = options.poses;
   plan.base = preset->preset;
   plan.fingers = {plan.base.finger};
-  Result<std::vector<Method>> methods = methods_of(options, plan.base.solver.method);
+  Result<std::vector<Method>> methods = methods_named(options.methods);
   if (!methods) return tl::unexpected(methods.error());
+  if (methods->empty()) methods->push_back(plan.base.solver.method);
   plan.methods = std::move(*methods);
   plan.ranges = options.ranges;
   plan.sampling = options.sampling;

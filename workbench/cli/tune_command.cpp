@@ -1,6 +1,5 @@
 // workbench tune: measures gains for the paper's iteration on a mesh and writes a preset.
 #include "core/io/atomic_file.h"
-#include "core/io/pose_file.h"
 #include "core/lab/audit/finger_size.h"
 #include "core/lab/gains/gain_tuning.h"
 #include "core/lab/measure/distribution.h"
@@ -15,6 +14,7 @@
 #include "workbench/cli/stopwatch.h"
 #include "workbench/cli/text_format.h"
 #include "workbench/cli/tune_front.h"
+#include "workbench/cli/tune_grounds.h"
 #include "workbench/cli/tune_report.h"
 #include "workbench/evidence/run_evidence.h"
 #include "workbench/session/exploration_poses.h"
@@ -29,7 +29,8 @@ namespace {
 struct TuneOptions {
   MeshOptions mesh;
   PresetOptions preset;
-  std::filesystem::path poses, out;
+  std::filesystem::path out;
+  TuneGroundOptions grounds;
   ExplorationKind path = ExplorationKind::around;
   TuneFrontOptions front;
   std::string command;  ///< as typed, with every option by its long name
@@ -54,9 +55,10 @@ double gain_length(const ContactScene& scene, const Finger& finger) {
 }
 
 Result<std::vector<TickInput>> find_poses(const TuneOptions& options, const ContactScene& scene, TuneReport& report) {
-  if (!options.poses.empty()) {
-    report.poses = options.poses.filename().string();
-    return read_poses(options.poses);
+  if (!options.grounds.poses.empty()) {
+    const std::string& name = options.grounds.poses.front();
+    report.poses = std::filesystem::path(name).filename().string();
+    return sweep::motion_of(scene, name, report.preset.preset.finger);
   }
   Result<ExplorationPoses> explored =
       exploration_poses(scene, report.preset.preset.finger, options.path, ExplorationPace::varied);
@@ -106,9 +108,14 @@ void name_evidence(const TuneOptions& options, TuneReport& report) {
   asked.command = options.command;
   asked.mesh = {seen_from(folder, options.mesh.file), {}, options.mesh.metres_per_unit, options.mesh.build};
   asked.motion.kind = options.path == ExplorationKind::around ? MotionKind::around : MotionKind::strokes;
-  if (!options.poses.empty()) {
-    asked.motion.kind = MotionKind::poses;
-    asked.motion.file = seen_from(folder, options.poses);
+  if (!options.grounds.poses.empty()) {
+    const std::string& name = options.grounds.poses.front();
+    const auto made = sweep::made_motion(name);
+    const bool recording = std::filesystem::path(name).extension() == ".sqlite";
+    asked.motion.kind = made        ? static_cast<MotionKind>(made->kind)
+                        : recording ? MotionKind::recording
+                                    : MotionKind::poses;
+    if (!made) asked.motion.file = seen_from(folder, name);
   }
   asked.values = report.preset.preset;
   asked.values.controller = {};  // no tick reads it
@@ -124,8 +131,9 @@ void name_evidence(const TuneOptions& options, TuneReport& report) {
 /// What was found, for a person; empty: interrupted before anything was tried.
 struct Found {
   std::string text;
-  std::string note;   ///< of the preset; empty: as describe_measurement has it
-  std::string until;  ///< of an interrupted search: "the best of ..."; empty: it was not
+  std::string note;         ///< of the preset; empty: as describe_measurement has it
+  std::string until;        ///< of an interrupted search: "the best of ..."; empty: it was not
+  bool incomplete = false;  ///< a mesh or motion that was asked for could not be had
 };
 
 Found find_gains(const std::shared_ptr<const ContactScene>& scene, std::span<const TickInput> poses,
@@ -138,25 +146,30 @@ Found find_gains(const std::shared_ptr<const ContactScene>& scene, std::span<con
   report.own = run_method(scene, preset, own, poses);
   for (const Method method : {Method::paper, Method::newton, Method::robust})
     if (method != own) report.others.push_back(run_method(scene, preset, method, poses));
-  Found out{tune_text(report), {}, {}};
+  Found out{tune_text(report), {}, {}, false};
   if (report.tuning.stopped) out.until = std::to_string(report.tuning.tried) + " gains tried so far";
   return out;
 }
 
 Result<Found> find_on_front(const TuneOptions& options, const std::shared_ptr<const ContactScene>& scene,
-                            std::span<const TickInput> poses, TuneReport& report) {
+                            const std::vector<TickInput>& poses, TuneReport& report) {
   Preset& preset = report.preset.preset;
-  Result<TunedFront> tuned = tune_front(scene, preset, poses, gain_length(*scene, preset.finger), options.front);
+  TuneGrounds grounds = tune_grounds(options.grounds, options.mesh, preset,
+                                     {scene, std::make_shared<const std::vector<TickInput>>(poses)},
+                                     std::string(kExplorationNames[static_cast<std::size_t>(options.path)]));
+  for (const std::string& failed : grounds.failed) print_message("tune", failed + "; the others go on");
+  Result<TunedFront> tuned =
+      tune_front(std::move(grounds.all), preset, gain_length(*scene, preset.finger), options.front);
   if (!tuned) return tl::unexpected(tuned.error());
   preset = tuned->preset;
   report.own = run_method(scene, preset, preset.solver.method, poses);
-  Found out{tuned->text, "Of a front:", tuned->stopped ? "presets tried so far" : ""};
+  Found out{tuned->text, "Of a front:", tuned->stopped ? "presets tried so far" : "", !grounds.failed.empty()};
   for (const sweep::Objective& objective : options.front.objectives) out.note += " " + std::string(objective.name());
   for (const sweep::Constraint& constraint : options.front.constraints) out.note += ", " + constraint.text();
   return out;
 }
 
-Status run_tune(const TuneOptions& options, bool& interrupted) {
+Status run_tune(const TuneOptions& options, bool& incomplete) {
   const InterruptGuard interrupt;
   TuneReport report;
   report.command = options.command;
@@ -180,7 +193,8 @@ Status run_tune(const TuneOptions& options, bool& interrupted) {
   const Result<Found> found = options.front.objectives.empty() ? find_gains(*scene, *poses, report)
                                                                : find_on_front(options, *scene, *poses, report);
   if (!found) return tl::unexpected(found.error());
-  interrupted = found->text.empty() || !found->until.empty();
+  const bool interrupted = found->text.empty() || !found->until.empty();
+  incomplete = interrupted || found->incomplete;
   if (found->text.empty()) {
     print_message("tune", "interrupted before any gains were tried; nothing is written");
     return {};
@@ -196,6 +210,12 @@ Status run_tune(const TuneOptions& options, bool& interrupted) {
   return {};
 }
 
+void refuse_overwriting(const char* name, const std::filesystem::path& input, const std::filesystem::path& out) {
+  std::error_code error;
+  if (!input.empty() && (input == out || std::filesystem::equivalent(input, out, error)))
+    refuse_option("--out", std::string("names the same file as ") + name);
+}
+
 void check_usage(const TuneOptions& options) {
   for (const PresetOverride& o : options.preset.overrides) {
     if (o.key->tuned) refuse_option(o.by, "is what tune finds; leave it out");
@@ -205,13 +225,15 @@ void check_usage(const TuneOptions& options) {
       if (is_smooth(static_cast<Method>(i))) allowed.push_back(kMethodNames[i]);
     refuse_option(o.by, o.key->value_text(o.value) + " has no gains; allowed: " + choices_text(allowed));
   }
-  const std::pair<const char*, const std::filesystem::path*> inputs[]{{"MESH", &options.mesh.file},
-                                                                      {"--poses", &options.poses}};
-  for (const auto& [name, path] : inputs) {
-    std::error_code error;
-    if (!path->empty() && (*path == options.out || std::filesystem::equivalent(*path, options.out, error)))
-      refuse_option("--out", std::string("names the same file as ") + name);
-  }
+  refuse_overwriting("MESH", options.mesh.file, options.out);
+  for (const std::string& mesh : options.grounds.meshes) refuse_overwriting("--also-mesh", mesh, options.out);
+  for (const std::string& poses : options.grounds.poses)
+    if (!sweep::is_made(poses)) refuse_overwriting("--poses", poses, options.out);
+  if (options.front.objectives.empty() && options.grounds.several())
+    refuse_option("--objective", "is missing: several meshes, motions and fingers belong to objectives");
+  for (const sweep::Range& range : options.front.ranges)
+    if (!options.grounds.radii_m.empty() && range.key->table == "finger")
+      refuse_option("--also-radius-mm", "contradicts --range " + range.key->full_name());
 }
 
 }  // namespace
@@ -223,8 +245,7 @@ void add_tune_command(CLI::App& app, CommandResult& result) {
                   "(default paper). Ctrl-C keeps the best so far.");
   auto options = std::make_shared<TuneOptions>();
   add_mesh_options(*command, options->mesh);
-  add_text_option(*command, "--poses", options->poses, "Finger poses: t_s,x_m,y_m,z_m[,qw,qx,qy,qz] (default: --path)",
-                  "F.csv");
+  add_tune_ground_options(*command, options->grounds);
   add_choice_option(
       *command, "--path", kExplorationNames,
       "How the mesh is explored, at 0.05 to 0.15 m/s, 0.4 to 1.6 mm deep: all over (around, the default), "
@@ -237,10 +258,10 @@ void add_tune_command(CLI::App& app, CommandResult& result) {
     check_usage(*options);
     check_tune_front(options->front);
     options->command = command_text("tune", *command);
-    bool interrupted = false;
-    const Status status = run_tune(*options, interrupted);
+    bool incomplete = false;
+    const Status status = run_tune(*options, incomplete);
     if (!status) print_message("tune", status.error().message());
-    result.exit_code = status && !interrupted ? kDone : kFailed;
+    result.exit_code = status && !incomplete ? kDone : kFailed;
   });
 }
 

@@ -7,6 +7,7 @@
 #include "workbench/cli/progress.h"
 #include "workbench/cli/sweep_options.h"
 #include "workbench/cli/text_format.h"
+#include "workbench/sweep/gain_theory.h"
 
 #include <algorithm>
 #include <thread>
@@ -14,7 +15,6 @@
 namespace tangent {
 namespace {
 
-constexpr double kClearly = 0.02;
 constexpr std::size_t kShown = 12;  ///< points of the front in the text
 
 sweep::Range gain_range(const char* key, double from, double to) {
@@ -47,7 +47,11 @@ sweep::FrontPlan front_plan(const Preset& base, double length_m, const TuneFront
   plan.constraints = options.constraints;
   plan.starts = {by_theory(base, length_m), base};
   plan.evaluations = options.evaluations;
-  plan.threads = std::max(1u, std::thread::hardware_concurrency());
+  plan.seed = options.seed;
+  plan.threads = options.threads > 0 ? options.threads : std::max(1u, std::thread::hardware_concurrency());
+  plan.over_grounds = options.over_grounds;
+  plan.race = !options.no_race;
+  plan.stop = [] { return InterruptGuard::requested(); };
   return plan;
 }
 
@@ -100,23 +104,106 @@ std::string objectives_text(const sweep::FrontPlan& plan, const sweep::Trial& tr
   return out;
 }
 
-/// No trial keeps the constraints.
-tl::unexpected<Error> nothing_holds(const sweep::FrontPlan& plan, const sweep::Trial& nearest) {
+/// Nothing keeps the constraints: which are missed, and by what. `times`: measured ones, by ground; empty: the counted.
+tl::unexpected<Error> nothing_holds(const sweep::FrontPlan& plan, const std::vector<sweep::FrontGround>& grounds,
+                                    const sweep::Trial& nearest, const std::string& who,
+                                    std::span<const sweep::PairedTicks> times = {}) {
   std::string missed;
   for (const sweep::Constraint& constraint : plan.constraints) {
-    if (constraint.holds(nearest.numbers)) continue;
-    missed += (missed.empty() ? "" : ", ") + constraint.text() +
-              format(" (the nearest has %g)", constraint.of.of(nearest.numbers));
+    for (std::size_t g = 0; g < grounds.size(); ++g) {
+      double value = constraint.of.of(nearest.ground_numbers[g], grounds[g].scale);
+      if (constraint.of.is_time() && !times.empty())
+        value = (constraint.of.name() == "mean_time" ? times[g].mean : times[g].p99).ns * 1e-3;
+      if (value <= constraint.most) continue;
+      missed += (missed.empty() ? "" : ", ") + constraint.text() + format(" (the nearest has %g", value) +
+                (constraint.of.is_time() ? " us" : "") + (grounds.size() > 1 ? " on " + grounds[g].name : "") + ")";
+    }
   }
-  return fail("no preset tried keeps to " + missed, "constraints", "loosen them, or widen the ranges");
+  if (missed.empty())
+    return fail(who + " finds a contact in enough of the ticks for its error to say anything", "--objective",
+                "widen the ranges, or take another method");
+  return fail(who + " keeps to " + missed, "constraints", "loosen them, or widen the ranges");
+}
+
+std::string grounds_text(const std::vector<sweep::FrontGround>& grounds, const sweep::FrontPlan& plan) {
+  if (grounds.size() < 2) return {};
+  std::string out = format("%zu grounds, an objective is the %s of them:\n", grounds.size(),
+                           sweep::kOverGroundsNames[static_cast<std::size_t>(plan.over_grounds)].data());
+  for (const sweep::FrontGround& on : grounds)
+    out += format("  %s: %zu ticks, %zu of them held back\n", on.name.c_str(), on.ground.motion->size(),
+                  on.ground.motion->size() - on.ticks);
+  return out;
+}
+
+std::string race_text(const sweep::FrontResult& found) {
+  const auto dropped = std::count_if(found.trials.begin(), found.trials.end(), [](const auto& t) { return t.dropped; });
+  if (dropped == 0) return {};
+  return format("Racing dropped %lld of them early: %.3g of %.3g ticks were solved, %.0f %%\n",
+                static_cast<long long>(dropped), static_cast<double>(found.ticks),
+                static_cast<double>(found.without_race),
+                100.0 * static_cast<double>(found.ticks) / static_cast<double>(found.without_race));
+}
+
+std::string times_text(const sweep::Verdict& verdict, const std::vector<sweep::FrontGround>& grounds) {
+  std::string out;
+  for (std::size_t g = 0; g < verdict.times.size(); ++g) {
+    const auto one = [](const sweep::PairedTime& time) {
+      return format("%.3g against %.3g us (ratio %.3f to %.3f: ", time.ns * 1e-3, time.against_ns * 1e-3, time.low,
+                    time.high) +
+             std::string(sweep::kVerdictNames[static_cast<std::size_t>(time.verdict)]) + ")";
+    };
+    out += "  " + (grounds.size() > 1 ? grounds[g].name + ": " : std::string()) + "measured in turns: mean " +
+           one(verdict.times[g].mean) + ", p99 " + one(verdict.times[g].p99) + "\n";
+  }
+  return out;
+}
+
+/// That the chosen preset leaves ticks without a contact, where it does and nothing keeps to presets that don't.
+std::string failures_text(const sweep::Trial& chosen) {
+  std::uint64_t without = 0, ticks = 0;
+  for (const sweep::CellNumbers& numbers : chosen.ground_numbers) {
+    without += numbers.unconverged + numbers.facing;
+    ticks += numbers.ticks;
+  }
+  if (without == 0) return {};
+  return format(
+      "Under the chosen %llu of %llu ticks have no contact; --constraint \"unconverged = 0\" keeps to presets without "
+      "such ticks\n",
+      static_cast<unsigned long long>(without), static_cast<unsigned long long>(ticks));
+}
+
+/// What the gains of theory are beside those found; empty where the method reads none or the finger has no reach.
+std::string theory_text(const sweep::FrontGround& on, const Preset& found) {
+  if (found.solver.method != Method::paper || found.finger.reach_m() <= 0.0 || on.ground.scene->planar() != nullptr)
+    return {};
+  const auto theory = sweep::gain_theory(on.ground.scene, found, *on.ground.motion);
+  return theory ? sweep::gain_theory_text(*theory) : std::string();
+}
+
+std::string verdict_text(const sweep::FrontPlan& plan, const std::vector<sweep::FrontGround>& grounds,
+                         const sweep::Verdict& verdict, double gain_length_m) {
+  std::string out = format("On the %s poses: chosen %s; theory's gains (G_o 1, G_k %g m, G_d 0) %s\n",
+                           verdict.held_back ? "held-back" : "same", objectives_text(plan, verdict.mine).c_str(),
+                           gain_length_m, objectives_text(plan, verdict.simple).c_str());
+  out += times_text(verdict, grounds) + failures_text(verdict.mine);
+  if (verdict.passed_over > 0)
+    out += format("%zu points nearer to the best of all were passed over: they miss a constraint there\n",
+                  verdict.passed_over);
+  if (!verdict.clearly)
+    out += format(
+        "The chosen is not clearly better (%g %% in one objective, worse in none): theory's gains are "
+        "simpler, and written.\n",
+        100.0 * sweep::kClearly);
+  return out;
 }
 
 }  // namespace
 
 void add_tune_front_options(CLI::App& app, TuneFrontOptions& options) {
   add_repeated_option(app, "--objective",
-                      "A number of the run to make small, such as mean_iterations, error_p99_m, closed_work_share; "
-                      "again for more: presets are then searched for none of which is better in everything",
+                      "A number of the run to make small, such as mean_time, p99_time, error, roughness, unconverged, "
+                      "closed_work, or any column of a sweep; again for more: presets are then searched for none of "
+                      "which is better in everything",
                       "NAME", [&](const std::vector<std::string>& names) {
                         for (const std::string& name : names) {
                           const auto objective = sweep::find_objective(name);
@@ -124,14 +211,16 @@ void add_tune_front_options(CLI::App& app, TuneFrontOptions& options) {
                           options.objectives.push_back(*objective);
                         }
                       });
-  add_repeated_option(app, "--constraint", "What a preset has to keep to: NAME <= VALUE or NAME = 0; again for more",
-                      "EXPR", [&](const std::vector<std::string>& texts) {
-                        for (const std::string& text : texts) {
-                          const auto constraint = sweep::parse_constraint(text);
-                          if (!constraint) refuse_option("--constraint", constraint.error().message());
-                          options.constraints.push_back(*constraint);
-                        }
-                      });
+  add_repeated_option(
+      app, "--constraint",
+      "What a preset has to keep to: NAME = 0, NAME <= VALUE, as in \"p99_time <= 20 us\"; again for more", "EXPR",
+      [&](const std::vector<std::string>& texts) {
+        for (const std::string& text : texts) {
+          const auto constraint = sweep::parse_constraint(text);
+          if (!constraint) refuse_option("--constraint", constraint.error().message());
+          options.constraints.push_back(*constraint);
+        }
+      });
   add_repeated_option(app, "--range", "Keys to search, and where (default: the three gains)", "TABLE.KEY=FROM..TO",
                       [&](const std::vector<std::string>& texts) {
                         for (const std::string& text : texts) options.ranges.push_back(parse_range_option(text));
@@ -139,6 +228,16 @@ void add_tune_front_options(CLI::App& app, TuneFrontOptions& options) {
   add_number_option(app, "--evaluations", {.min = 10, .max = 1e6, .whole = true},
                     "Presets to try for a front (default 500)",
                     [&](double value) { options.evaluations = static_cast<std::size_t>(value); });
+  add_number_option(app, "--seed", {.min = 0, .max = 1e15, .whole = true}, "Of the search (default 1)",
+                    [&](double value) { options.seed = static_cast<std::uint64_t>(value); });
+  add_number_option(app, "--threads", {.min = 1, .max = 1024, .whole = true},
+                    "Threads (default: one a core). The front is the same with any",
+                    [&](double value) { options.threads = static_cast<unsigned>(value); });
+  add_choice_option(app, "--over-grounds", sweep::kOverGroundsNames,
+                    "What an objective is over several meshes, motions and fingers: its value on the worst of them "
+                    "(default), or the mean",
+                    [&](int index) { options.over_grounds = static_cast<sweep::OverGrounds>(index); });
+  add_flag(app, "--no-race", options.no_race, "Try every preset on all ticks, also those that can't win any more");
   add_text_option(app, "--front", options.csv, "The whole front as a table", "F.csv");
 }
 
@@ -153,39 +252,31 @@ void check_tune_front(const TuneFrontOptions& options) {
     refuse_option("--constraint", ok.error().message());
 }
 
-Result<TunedFront> tune_front(const std::shared_ptr<const ContactScene>& scene, const Preset& base,
-                              std::span<const TickInput> poses, double gain_length_m, const TuneFrontOptions& options) {
-  const sweep::FrontPlan plan = front_plan(base, gain_length_m, options);
-  const auto motion = std::make_shared<const std::vector<TickInput>>(poses.begin(), poses.end());
-  const std::vector<sweep::FrontGround> grounds{{{scene, motion}, std::max<std::size_t>(1, poses.size() * 3 / 4)}};
+Result<TunedFront> tune_front(std::vector<sweep::FrontGround> grounds, const Preset& base, double gain_length_m,
+                              const TuneFrontOptions& options) {
+  sweep::FrontPlan plan = front_plan(base, gain_length_m, options);
+  const Preset simple = by_theory(base, gain_length_m);
   Progress progress("presets tried", plan.evaluations);
-  const sweep::FrontResult found = sweep::search_front(plan, grounds, [&](std::size_t done) {
-    progress.update(done, plan.evaluations);
-    return !InterruptGuard::requested();
-  });
+  sweep::FrontResult found;
+  if (sweep::measure_scales(plan, simple, grounds))
+    found = sweep::search_front(plan, grounds, [&](std::size_t done) {
+      progress.update(done, plan.evaluations);
+      return !InterruptGuard::requested();
+    });
   if (found.trials.empty()) return fail("interrupted before any preset was tried; nothing is written");
+  plan.stop = {};  // what was found is judged, interrupted or not
   const std::vector<std::size_t> front = sweep::front_of(found.trials);
-  const sweep::Trial& chosen = found.trials[sweep::balanced(found.trials, front)];
-  if (chosen.missed > 0.0) return nothing_holds(plan, chosen);
+  const sweep::Trial& nearest = found.trials[sweep::balanced(found.trials, front)];
+  if (nearest.missed > 0.0) return nothing_holds(plan, grounds, nearest, "no preset tried");
+  const sweep::Verdict verdict = sweep::judge_front(plan, grounds, found.trials, simple);
+  if (verdict.mine.missed > 0.0 && verdict.simple.missed > 0.0)
+    return nothing_holds(plan, grounds, verdict.mine, "no point of the front that was tried on the poses held back",
+                         verdict.times);
   TunedFront out;
   out.stopped = found.stopped;
-  out.preset = base;
-  for (std::size_t r = 0; r < plan.ranges.size(); ++r) plan.ranges[r].key->set(out.preset, chosen.values[r]);
-  out.text = front_text(plan, found, front);
-  const bool held_back = grounds.front().ticks < motion->size();
-  const Preset simple = by_theory(base, gain_length_m);
-  const sweep::Trial mine = sweep::try_preset(plan, grounds, out.preset, held_back);
-  const sweep::Trial theory = sweep::try_preset(plan, grounds, simple, held_back);
-  out.text += format("On the %s poses: chosen %s; theory's gains (G_o 1, G_k %g m, G_d 0) %s\n",
-                     held_back ? "held-back" : "same", objectives_text(plan, mine).c_str(), gain_length_m,
-                     objectives_text(plan, theory).c_str());
-  if (!sweep::clearly_better(mine, theory, kClearly)) {
-    out.preset = simple;
-    out.text += format(
-        "The chosen is not clearly better (%g %% in one objective, worse in none): theory's gains are "
-        "simpler, and written.\n",
-        100.0 * kClearly);
-  }
+  out.preset = verdict.clearly ? verdict.preset : simple;
+  out.text = grounds_text(grounds, plan) + front_text(plan, found, front) + race_text(found) +
+             verdict_text(plan, grounds, verdict, gain_length_m) + theory_text(grounds.front(), verdict.preset);
   if (!options.csv.empty())
     if (Status ok = write_file_atomic(options.csv, csv_of(plan, found, front)); !ok) return tl::unexpected(ok.error());
   return out;

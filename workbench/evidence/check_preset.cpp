@@ -47,6 +47,8 @@ PresetCheck compare_with(const PresetFile& file, const EvidenceRun& run) {
   check.now = run.numbers;
   check.same_build = evidence.build == evidence_build();
   std::vector<CheckDifference>& found = check.differences;
+  if (!evidence.edited_digest.empty())
+    found.push_back({"about.measured.digest", evidence.edited_digest, "of other numbers"});
   compare_values(evidence.values, file.preset, found);
   compare_texts("mesh", evidence.mesh.hash, run.mesh_hash, found);
   if (!file.about.mesh_hash.empty()) compare_texts("about.mesh_hash", evidence.mesh.hash, file.about.mesh_hash, found);

@@ -32,7 +32,8 @@ struct App::Ui {
   ComparePanel compare;
   IterationsPanel iterations;
   MapPanel map;
-  FoldedPanel mesh, devices, time_machine, why, recording, recording_pair{false}, sweep{false};
+  FoldedPanel mesh, devices, time_machine, why, recording, recording_pair{false}, sweep{false}, curves{false};
+  TunePanel tune;
   LogPanel log;
   BookmarksPanel bookmarks;
   InspectPanel inspect;
@@ -104,6 +105,7 @@ void App::Ui::take_view(AppModel& model) {
   }
   if (camera_frames == 0) return;
   show_camera(model, *session_view);
+  show_scroll(*session_view);
   if (--camera_frames == 0) session_view.reset();
 }
 
@@ -163,7 +165,9 @@ void App::Ui::draw_column(const char* name, const Rect& rect, const UiContext& u
     if (shown("Iterations")) draw_iterations_panel(ui, model, iterations);
     if (shown("Why this tick")) draw_why_panel(ui, model, why);
     if (shown("Time machine")) draw_time_machine_panel(ui, model.time(), time_machine);
+    if (shown("Tune")) draw_tune_panel(ui, model, tune);
     if (shown("Sweep")) draw_sweep_panel(ui, model, sweep);
+    if (shown("Speed against error")) draw_curves_panel(ui, model, curves);
     if (shown("Bookmarks")) draw_bookmarks_panel(ui, model, bookmarks);
     if (shown("Compare recordings")) draw_recording_pair_panel(ui, model, recording_pair);
     if (shown("Map")) draw_map_panel(ui, model, map);
@@ -218,10 +222,11 @@ void App::frame(const FrameInput& input) {
   model_->update(input.now_s);
   ui_->take_view(*model_);
   step_script();
+  model_->see_mesh_of_tick();
   const Theme theme = ui_->theme.value_or(model_->window().theme());
   const float scale = ui_->font_scale.value_or(1.0f);
   ImGui::NewFrame();
-  ui_->keyboard.update(ui_->items, theme_colours(theme).accent);
+  if (!refuse_by_enter(model_->guard())) ui_->keyboard.update(ui_->items, theme_colours(theme).accent);
   ui_->items.begin_frame();
   const UiContext ui{ui_->items,
                      ui_->typing,
@@ -240,6 +245,7 @@ void App::frame(const FrameInput& input) {
   draw_view_panel(ui, *model_, ui_->view, ui_->renderer, layout.view);
   draw_device_monitor(ui, *model_, layout.view);
   draw_arming_bar(ui, model_->devices(), beside_cards(layout.view, ui.px(210)));
+  draw_guard_question(ui, *model_, beside_cards(layout.view, ui.px(210)));
   draw_unsaved_offer(ui, model_->unsaved(), layout.view);
   ui_->draw_column("##left", layout.left, ui, *model_, true);
   const float tabs = draw_task_tabs(ui, model_->window(), layout.right);
@@ -284,8 +290,10 @@ bool App::wants_frames() const {
   const bool refining = ui_->renderer != nullptr && ui_->renderer->refining();
   return !model_->time().paused() || model_->scene().loading() || model_->recordings().busy() ||
          model_->record().recording() || model_->record().writing() || model_->scene().auditing() ||
-         model_->map().running() || model_->time().time_machine().busy() || model_->tuning().sweep().running() ||
-         model_->tuning().search().running() || model_->exports().writing() || refining || ui_->script.running();
+         model_->map().running() || model_->guard().finding() || model_->time().time_machine().busy() ||
+         model_->tuning().sweep().running() || model_->tune().running() || model_->tune().looking_for_failures() ||
+         model_->tuning().search().running() || model_->curves().running() || model_->exports().writing() || refining ||
+         ui_->script.running();
 }
 
 std::optional<std::filesystem::path> App::take_screenshot_request() {

@@ -10,11 +10,6 @@ namespace {
 
 constexpr double kSameRate = 0.01;  // rates that differ by less are one; a servo on a clock keeps its rate to 0.01 %
 
-double rate_hz(const RecordingInfo& info) {
-  const double seconds = info.last_s - info.first_s;
-  return seconds > 0.0 ? static_cast<double>(info.last_tick - info.first_tick) / seconds : 0.0;
-}
-
 std::string hz_text(double hz) { return std::to_string(std::llround(hz)) + " Hz"; }
 
 /// By the pyramid where it has the ticks, and tick by tick in the rows that may hold it, and after them.
@@ -66,7 +61,7 @@ struct Pair {
 Result<Pair> by_time(Recording& a, Recording& b) {
   const double t_s = std::max(a.info().first_s, b.info().first_s);
   // A little earlier, so that times that differ by rounding are one.
-  const double slack = 0.25 / std::max(1.0, rate_hz(a.info()));
+  const double slack = 0.25 / std::max(1.0, a.info().rate_hz());
   const Result<std::uint64_t> in_a = a.tick_at(t_s - slack), in_b = b.tick_at(t_s - slack);
   if (!in_a) return tl::unexpected(in_a.error());
   if (!in_b) return tl::unexpected(in_b.error());
@@ -107,7 +102,8 @@ Result<Alignment> align(Recording& a, Recording& b, AlignBy by, const std::strin
     out.why_not = std::string(a.info().ticks == 0 ? "the first" : "the second") + " has no ticks";
     return out;
   }
-  const double rate_a = rate_hz(a.info()), rate_b = rate_hz(b.info());
+  const double rate_a = a.info().rate_hz(), rate_b = b.info().rate_hz();
+  if (rate_a > 0.0) out.rate_hz = rate_a;
   if (rate_a > 0.0 && rate_b > 0.0 && std::abs(rate_a - rate_b) > kSameRate * rate_a) {
     out.why_not = "one runs at " + hz_text(rate_a) + ", the other at " + hz_text(rate_b);
     return out;

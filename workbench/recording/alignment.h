@@ -23,6 +23,7 @@ struct Alignment {
   std::string why_not;                ///< empty: they are aligned
   std::int64_t shift = 0;             ///< a tick of B is one of A and this
   std::uint64_t first = 0, last = 0;  ///< ticks of A that both have, or would but for gaps
+  double rate_hz = 1000.0;            ///< of both
 
   bool aligned() const { return why_not.empty(); }
   std::uint64_t ticks() const { return aligned() ? last - first + 1 : 0; }

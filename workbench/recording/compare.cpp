@@ -11,15 +11,13 @@
 namespace tangent {
 namespace {
 
-using Scenes = std::map<std::uint32_t, std::shared_ptr<const ContactScene>>;
-
 double length(const Vec3& v) { return std::sqrt(glm::dot(v, v)); }
 
 /// Solves the whole recording once, in its own thread.
 struct Run {
   const std::filesystem::path& path;
   const CompareOptions& options;
-  const Scenes& scenes;
+  const RecordedScenes& scenes;
   bool other;  ///< false: as recorded
   Status status{};
   MotionNumbers numbers{};
@@ -42,8 +40,8 @@ struct Run {
 
   Status solve(Recording& recording) {
     const RecordingInfo& info = recording.info();
-    const double seconds = info.last_s - info.first_s;
-    MotionCounter counter(seconds > 0.0 ? static_cast<double>(info.ticks - 1) / seconds : 1000.0);
+    const double rate = info.rate_hz();
+    MotionCounter counter(rate > 0.0 ? rate : 1000.0);
     const auto presets = presets_of(recording);
     if (!presets) return tl::unexpected(presets.error());
     Result<TickReader> ticks = recording.ticks(info.first_tick, info.last_tick);
@@ -98,7 +96,7 @@ struct Run {
 Result<Comparison> compare(const std::filesystem::path& path, const CompareOptions& options) {
   Result<Recording> recording = Recording::open(path);
   if (!recording) return tl::unexpected(recording.error());
-  Result<Scenes> scenes = scenes_of(*recording, options.mesh);
+  Result<RecordedScenes> scenes = scenes_of(*recording, options.mesh);
   if (!scenes) return tl::unexpected(scenes.error());
   Run as_recorded{path, options, *scenes, false}, other{path, options, *scenes, true};
   run_on_two_threads([&] { as_recorded.go(); }, [&] { other.go(); });

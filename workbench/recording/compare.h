@@ -2,8 +2,10 @@
 // moved under the recorded values, and would have moved differently.
 #pragma once
 
+#include "workbench/recording/computable_recording.h"
 #include "workbench/recording/motion_numbers.h"
-#include "workbench/recording/replay.h"
+
+#include <functional>
 
 namespace tangent {
 

@@ -179,17 +179,14 @@ class CoarseComparison {
 
 Result<RecordingsCompared> compare_coarsely(const std::filesystem::path& a, const std::filesystem::path& b,
                                             const CompareRecordingsOptions& options) {
-  Result<Recording> first = Recording::open(a), second = Recording::open(b);
-  if (!first) return tl::unexpected(first.error());
-  if (!second) return tl::unexpected(second.error());
-  Result<Alignment> found = align(*first, *second, options.by, options.note);
-  if (!found) return tl::unexpected(found.error());
-  const Alignment alignment = narrowed(*found, options);
+  Result<OpenedPair> pair = open_pair(a, b, options);
+  if (!pair) return tl::unexpected(pair.error());
+  const Alignment& alignment = pair->alignment;
   if (!alignment.aligned()) return not_aligned(alignment);
   const int level = alignment.ticks() > kFineTicks ? 1 : 0;
-  const auto rows = first->overview(level, alignment.first, alignment.last);
+  const auto rows = pair->a.overview(level, alignment.first, alignment.last);
   if (!rows) return tl::unexpected(rows.error());
-  const auto rows_of_b = second->overview(level, alignment.in_b(alignment.first), alignment.in_b(alignment.last));
+  const auto rows_of_b = pair->b.overview(level, alignment.in_b(alignment.first), alignment.in_b(alignment.last));
   if (!rows_of_b) return tl::unexpected(rows_of_b.error());
   CoarseComparison comparison(alignment, options, level);
   for (const OverviewRow& row : *rows) comparison.add(row, *rows_of_b);

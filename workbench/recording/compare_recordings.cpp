@@ -8,6 +8,9 @@
 namespace tangent {
 namespace {
 
+/// From so many ticks on two threads share them: a spectrum loses a window where they meet.
+constexpr std::uint64_t kDividedTicks = 1 << 14;
+
 /// Goes over two streams; `shift`: of the second's numbers.
 Status compare_pairs(ComparedTicks& a, ComparedTicks& b, const Alignment& alignment, PairCounter& counter,
                      const std::function<bool()>& cancelled) {
@@ -64,15 +67,12 @@ const QuantityDifference* RecordingsCompared::worst() const {
 
 Result<RecordingsCompared> compare_fully(const std::filesystem::path& a, const std::filesystem::path& b,
                                          const CompareRecordingsOptions& options) {
-  Result<Recording> first = Recording::open(a), second = Recording::open(b);
-  if (!first) return tl::unexpected(first.error());
-  if (!second) return tl::unexpected(second.error());
-  Result<Alignment> found = align(*first, *second, options.by, options.note);
-  if (!found) return tl::unexpected(found.error());
-  const Alignment alignment = narrowed(*found, options);
+  Result<OpenedPair> pair = open_pair(a, b, options);
+  if (!pair) return tl::unexpected(pair.error());
+  const Alignment& alignment = pair->alignment;
   if (!alignment.aligned()) return not_aligned(alignment);
   Part early{alignment, PairCounter(alignment, options)}, late{alignment, PairCounter(alignment, options)};
-  early.range.last = alignment.first + (alignment.ticks() - 1) / 2;
+  if (alignment.ticks() >= kDividedTicks) early.range.last = alignment.first + (alignment.ticks() - 1) / 2;
   late.range.first = early.range.last + 1;
   const bool both = late.range.first <= late.range.last;
   run_on_two_threads([&] { early.compare(a, b, options); },
@@ -95,6 +95,7 @@ Result<RecordingsCompared> compare_under(const std::filesystem::path& path, cons
   alignment.by = AlignBy::tick;
   alignment.first = recording->info().first_tick;
   alignment.last = recording->info().last_tick;
+  if (const double rate = recording->info().rate_hz(); rate > 0.0) alignment.rate_hz = rate;
   if (recording->info().ticks == 0) alignment.why_not = "the recording has no ticks";
   alignment = narrowed(alignment, options);
   if (!alignment.aligned()) return not_aligned(alignment);

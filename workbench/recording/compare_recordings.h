@@ -3,6 +3,7 @@
 #pragma once
 
 #include "workbench/recording/alignment.h"
+#include "workbench/recording/roughness_spectrum.h"
 
 #include <functional>
 #include <limits>
@@ -62,6 +63,7 @@ struct RecordingsCompared {
   std::uint64_t other_contacts = 0;  ///< ticks that touch in one only, or are solved in one only
   std::vector<QuantityDifference> quantities;
   std::vector<ComparedBin> bins;
+  RoughnessSpectrum spectrum_a, spectrum_b;  ///< of ticks that both have; no windows where only bounds are known
   bool cancelled = false;
   const QuantityDifference* worst() const;  ///< furthest over its tolerance; null: none is judged
 };

@@ -1,7 +1,7 @@
 #include "workbench/recording/compared_ticks.h"
 
 #include "core/preset/schema.h"
-#include "workbench/recording/replay.h"
+#include "workbench/recording/computable_recording.h"
 #include "workbench/recording/tick_values.h"
 
 #include <algorithm>
@@ -36,8 +36,7 @@ class RecordedTicks final : public ComparedTicks {
 
 class SolvedTicks final : public ComparedTicks {
  public:
-  using Scenes = std::map<std::uint32_t, std::shared_ptr<const ContactScene>>;
-  SolvedTicks(Recording recording, Scenes scenes, std::map<std::uint32_t, Preset> presets, TickReader reader,
+  SolvedTicks(Recording recording, RecordedScenes scenes, std::map<std::uint32_t, Preset> presets, TickReader reader,
               std::uint64_t first, std::function<bool()> cancelled)
       : recording_(std::move(recording)),
         scenes_(std::move(scenes)),
@@ -78,7 +77,7 @@ class SolvedTicks final : public ComparedTicks {
   }
 
   Recording recording_;
-  Scenes scenes_;
+  RecordedScenes scenes_;
   std::map<std::uint32_t, Preset> presets_;
   TickReader reader_;
   std::uint64_t first_;
@@ -105,7 +104,7 @@ Result<std::unique_ptr<ComparedTicks>> solved_ticks(const std::filesystem::path&
                                                     const TickSpan& span, std::function<bool()> cancelled) {
   Result<Recording> recording = Recording::open(path);
   if (!recording) return tl::unexpected(recording.error());
-  Result<SolvedTicks::Scenes> scenes = scenes_of(*recording, how.mesh ? how.mesh : how.scene);
+  Result<RecordedScenes> scenes = scenes_of(*recording, how.mesh ? how.mesh : how.scene);
   if (!scenes) return tl::unexpected(scenes.error());
   if (how.mesh)
     for (auto& [id, scene] : *scenes) scene = how.mesh;
@@ -165,8 +164,18 @@ RecordingsCompared not_aligned(const Alignment& alignment) {
   return out;
 }
 
+Result<OpenedPair> open_pair(const std::filesystem::path& a, const std::filesystem::path& b,
+                             const CompareRecordingsOptions& options) {
+  Result<Recording> first = Recording::open(a), second = Recording::open(b);
+  if (!first) return tl::unexpected(first.error());
+  if (!second) return tl::unexpected(second.error());
+  Result<Alignment> found = align(*first, *second, options.by, options.note);
+  if (!found) return tl::unexpected(found.error());
+  return OpenedPair{std::move(*first), std::move(*second), narrowed(std::move(*found), options)};
+}
+
 PairCounter::PairCounter(const Alignment& alignment, const CompareRecordingsOptions& options)
-    : tolerance_(options.tolerance) {
+    : tolerance_(options.tolerance), spectrum_a_(alignment.rate_hz), spectrum_b_(alignment.rate_hz) {
   out_.alignment = alignment;
   out_.full = true;
   out_.quantities = no_differences(options.tolerance);
@@ -176,6 +185,7 @@ PairCounter::PairCounter(const Alignment& alignment, const CompareRecordingsOpti
 void PairCounter::add(const ComparedTick& a, const ComparedTick& b) {
   const bool together = !(glm::distance(a.finger, b.finger) > tolerance_.finger_m);
   add_curves(a, b, together);
+  add_spectra(a, b);
   if (!together) {
     ++out_.apart;
     return;
@@ -199,6 +209,13 @@ void PairCounter::add(const ComparedTick& a, const ComparedTick& b) {
   }
 }
 
+void PairCounter::add_spectra(const ComparedTick& a, const ComparedTick& b) {
+  const bool follows = last_ && a.tick == *last_ + 1;
+  last_ = a.tick;
+  spectrum_a_.add({a.values[0], a.values[1], a.values[2]}, a.values[3], follows);
+  spectrum_b_.add({b.values[0], b.values[1], b.values[2]}, b.values[3], follows);
+}
+
 void PairCounter::add_curves(const ComparedTick& a, const ComparedTick& b, bool together) {
   ComparedBin& bin = out_.bins[bin_of(out_.alignment, a.tick, out_.bins.size())];
   ++bin.ticks;
@@ -217,6 +234,8 @@ void PairCounter::join(const PairCounter& other) {
   out_.compared += o.compared;
   out_.apart += o.apart;
   out_.in_one_only += o.in_one_only;
+  spectrum_a_.join(other.spectrum_a_);
+  spectrum_b_.join(other.spectrum_b_);
   out_.other_contacts += o.other_contacts;
   for (std::size_t q = 0; q < out_.quantities.size(); ++q) {
     QuantityDifference& d = out_.quantities[q];
@@ -251,6 +270,8 @@ CompareOutcome PairCounter::outcome() const {
 RecordingsCompared PairCounter::done() {
   const double count = static_cast<double>(std::max<std::uint64_t>(1, out_.compared));
   for (QuantityDifference& d : out_.quantities) d.rms = std::sqrt(d.rms / count);
+  out_.spectrum_a = spectrum_a_.done();
+  out_.spectrum_b = spectrum_b_.done();
   out_.outcome = outcome();
   if (out_.outcome == CompareOutcome::not_aligned)
     out_.why = out_.compared + out_.apart == 0

@@ -4,6 +4,7 @@
 #include "workbench/recording/compare_recordings.h"
 
 #include <memory>
+#include <optional>
 
 namespace tangent {
 
@@ -60,9 +61,12 @@ class PairCounter {
 
  private:
   void add_curves(const ComparedTick& a, const ComparedTick& b, bool together);
+  void add_spectra(const ComparedTick& a, const ComparedTick& b);
   CompareOutcome outcome() const;
   CompareTolerance tolerance_;
   RecordingsCompared out_;
+  SpectrumCounter spectrum_a_, spectrum_b_;
+  std::optional<std::uint64_t> last_;  ///< tick of A that was added last
 };
 
 /// The bin of a tick.
@@ -71,5 +75,13 @@ std::vector<ComparedBin> empty_bins(const Alignment& alignment, std::size_t most
 /// The part of the alignment that the options ask for; empty, with the reason, where there is none.
 Alignment narrowed(Alignment alignment, const CompareRecordingsOptions& options);
 RecordingsCompared not_aligned(const Alignment& alignment);
+
+/// Two recordings, opened, and what goes together of them, narrowed as above.
+struct OpenedPair {
+  Recording a, b;
+  Alignment alignment;
+};
+Result<OpenedPair> open_pair(const std::filesystem::path& a, const std::filesystem::path& b,
+                             const CompareRecordingsOptions& options);
 
 }  // namespace tangent

@@ -1,5 +1,7 @@
 #include "workbench/recording/comparison_figures.h"
 
+#include "workbench/recording/spectrum_figure.h"
+
 #include <algorithm>
 #include <string>
 
@@ -85,6 +87,9 @@ std::vector<Figure> comparison_figures(const RecordingsCompared& compared, doubl
     figure.script = script_of(drawn);
     figures.push_back(std::move(figure));
   }
+  if (compared.spectrum_a.windows > 0)
+    figures.push_back(
+        spectrum_figure("comparison-spectrum", {{"first", &compared.spectrum_a}, {"second", &compared.spectrum_b}}));
   return figures;
 }
 

@@ -6,8 +6,8 @@
 
 namespace tangent {
 
-/// "comparison-force", "comparison-display" and "comparison-solver". `seconds_per_tick`: of the time axis. Least and
-/// most of each part of the ticks; of the difference the most.
+/// "comparison-force", "comparison-display" and "comparison-solver"; "comparison-spectrum" of a second or more.
+/// `seconds_per_tick`: of the time axis. Least and most of each part of the ticks; of the difference the most.
 std::vector<Figure> comparison_figures(const RecordingsCompared& compared, double seconds_per_tick);
 
 }  // namespace tangent

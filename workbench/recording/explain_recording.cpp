@@ -135,29 +135,22 @@ void explain_in_thread(ExplainWork& work) {
 
 Result<ExplainedTick> explain_recorded_tick(const std::filesystem::path& path, std::uint64_t tick,
                                             const ExplainRecordingOptions& options) {
-  Result<Recording> recording = Recording::open(path);
-  if (!recording) return tl::unexpected(recording.error());
-  const Result<std::vector<KeptState>> states = usable_states(*recording);
-  if (!states) return tl::unexpected(states.error());
-  const Result<RecordedScenes> scenes = scenes_of(*recording, options.scene);
-  if (!scenes) return tl::unexpected(scenes.error());
-  const Result<TickWalk> walk = walk_to(*recording, *scenes, *states, tick);
+  Result<ComputableRecording> opened = open_computable(path, options.scene);
+  if (!opened) return tl::unexpected(opened.error());
+  auto& [recording, states, scenes] = *opened;
+  const Result<TickWalk> walk = walk_to(recording, scenes, states, tick);
   if (!walk) return tl::unexpected(walk.error());
   return explained(*walk, options.explain);
 }
 
 Result<ExplainedRecording> explain_recording(const std::filesystem::path& path,
                                              const ExplainRecordingOptions& options) {
-  Result<Recording> recording = Recording::open(path);
-  if (!recording) return tl::unexpected(recording.error());
-  const Result<std::vector<KeptState>> states = usable_states(*recording);
-  if (!states) return tl::unexpected(states.error());
-  const Result<RecordedScenes> scenes = scenes_of(*recording, options.scene);
-  if (!scenes) return tl::unexpected(scenes.error());
-  const std::uint64_t turns = (states->size() + kStatesATurn - 1) / kStatesATurn;
+  Result<ComputableRecording> opened = open_computable(path, options.scene);
+  if (!opened) return tl::unexpected(opened.error());
+  auto& [recording, states, scenes] = *opened;
+  const std::uint64_t turns = (states.size() + kStatesATurn - 1) / kStatesATurn;
   const std::uint64_t most_a_turn = std::max<std::uint64_t>(1, options.most / std::max<std::uint64_t>(1, turns));
-  ExplainWork work{path, options, *scenes, *states, recording->info().last_tick, most_a_turn, {}, {}, {},
-                   {},   {},      {},      {}};
+  ExplainWork work{path, options, scenes, states, recording.info().last_tick, most_a_turn, {}, {}, {}, {}, {}, {}, {}};
   std::vector<std::thread> threads;
   for (unsigned i = 1; i < std::clamp(options.threads, 1u, 64u); ++i)
     threads.emplace_back([&work] { explain_in_thread(work); });

@@ -7,7 +7,6 @@
 namespace tangent {
 namespace {
 
-constexpr double kRoughFrom_hz = 20.0;
 static_assert(kRoughBands_hz.size() == 3);
 
 double size_of(const Vec3& v) { return std::sqrt(glm::dot(v, v)); }
@@ -64,7 +63,8 @@ void MotionCounter::Roughness::add(const TickOutput& output) {
 
 MotionCounter::MotionCounter(double rate_hz)
     : rough_{Roughness(kRoughFrom_hz, rate_hz), Roughness(kRoughBands_hz[0], rate_hz),
-             Roughness(kRoughBands_hz[1], rate_hz), Roughness(kRoughBands_hz[2], rate_hz)} {}
+             Roughness(kRoughBands_hz[1], rate_hz), Roughness(kRoughBands_hz[2], rate_hz)},
+      spectrum_(rate_hz) {}
 
 void MotionCounter::add(const TickOutput& output, double ns, bool follows) {
   ++n_.ticks;
@@ -93,11 +93,13 @@ void MotionCounter::add_roughness(const TickOutput& output, bool follows) {
   last_force_ = output.force_n;
   last_display_ = output.cld_m;
   for (Roughness& rough : rough_) rough.add(output);
+  spectrum_.add(output.force_n, output.cld_m, follows);
 }
 
 MotionNumbers MotionCounter::done() const {
   MotionNumbers n = n_;
   if (n.ticks == 0) return n;
+  n.spectrum = spectrum_.done();
   const auto count = static_cast<double>(n.ticks);
   n.mean_error_m = error_ / count;
   n.mean_iterations = iterations_ / count;

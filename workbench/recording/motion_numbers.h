@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/tick/tick.h"
+#include "workbench/recording/roughness_spectrum.h"
 
 #include <array>
 #include <cstdint>
@@ -24,6 +25,7 @@ struct MotionNumbers {
   /// The same of high-passes at kRoughBands_hz: of two in a row the difference of squares lies between them.
   std::array<double, kRoughBands_hz.size()> force_above_n{}, display_above_m{};
   std::array<std::uint64_t, kTickEvents.size()> events{};
+  RoughnessSpectrum spectrum;
 };
 
 /// Butterworth's high-pass of second order (bilinear transform), at rest before the first value.
@@ -74,6 +76,7 @@ class MotionCounter {
     double force = 0.0, display = 0.0;
   };
   std::array<Roughness, 1 + kRoughBands_hz.size()> rough_;
+  SpectrumCounter spectrum_;
 };
 
 }  // namespace tangent

@@ -56,10 +56,7 @@ Status write_stretch(const RecordedStretch& stretch, const std::filesystem::path
   if (done) done = file->close();
   if (done) return done;
   { const RecordingFile closed = std::move(*file); }
-  for (const char* part : {"", "-wal", "-shm"}) {
-    std::error_code ignored;
-    std::filesystem::remove(path.string() + part, ignored);
-  }
+  RecordingFile::remove_parts(path);
   return done;
 }
 

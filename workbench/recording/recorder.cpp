@@ -158,6 +158,15 @@ Status Recorder::write_ticks() {
   return written;
 }
 
+/// An event that goes into the file with the ticks that could not be written, at the first of them.
+void Recorder::note_trouble() {
+  if (noted_ || pending_.ticks.empty()) return;
+  noted_ = true;
+  const TickRecord& first = pending_.ticks.front().tick;
+  pending_.events.push_back(
+      {first.tick, first.input.t_s, "recorder", "from here on the file could not be written for a while"});
+}
+
 void Recorder::round() {
   {
     const std::scoped_lock lock(mutex_);
@@ -169,13 +178,11 @@ void Recorder::round() {
   }
   take_records();
   if (Clock::now() < retry_) return;
-  const bool failed_before = failed_;
+  if (failed_) note_trouble();
   Status done = write_notes();
   if (done) done = write_ticks();
   set_trouble(done);
-  if (!failed_ && failed_before)
-    add_event(
-        {0, 0.0, "recorder", "the file could not be written " + std::to_string(failures_) + " times, and now can"});
+  if (!failed_) noted_ = false;
 }
 
 }  // namespace tangent

@@ -62,6 +62,7 @@ class Recorder {
   Status write_ticks();
   bool is_known(const ServoRecord& record) const;
   void take_records();
+  void note_trouble();
   void set_trouble(const Status& status);
 
   RecordingFile file_;
@@ -71,6 +72,7 @@ class Recorder {
   std::set<std::uint32_t> presets_, scenes_;
   std::chrono::steady_clock::time_point retry_{}, waiting_since_{};
   bool waits_ = false, failed_ = false, closed_ = false;
+  bool noted_ = false;  ///< the present trouble is among the pending events
   std::uint64_t failures_ = 0;
 
   mutable std::mutex mutex_;  ///< of what follows

@@ -42,11 +42,16 @@ struct RecordingInfo {
   std::uint64_t first_tick = 0, last_tick = 0, ticks = 0;  ///< none: ticks == 0
   double first_s = 0.0, last_s = 0.0;
   std::uint64_t missing = 0;  ///< ticks between first and last that were not recorded
+  /// Of the servo; 0 where there are less than two ticks.
+  double rate_hz() const {
+    return last_s > first_s ? static_cast<double>(last_tick - first_tick) / (last_s - first_s) : 0.0;
+  }
 };
 
 class Recording {
  public:
   static constexpr std::int64_t kMostEvents = 100'000;
+  static constexpr std::uint64_t kMostTick = std::uint64_t{1} << 62;  ///< the largest number of a tick
 
   /// Fails on what is no recording, is newer than this program, or lacks what every recording has.
   static Result<Recording> open(const std::filesystem::path& path);

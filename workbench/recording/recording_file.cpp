@@ -230,14 +230,22 @@ Result<RecordingFile> RecordingFile::create(const std::filesystem::path& path,
                                             const std::vector<RecordedValue>& values) {
   Result<Database> made = Database::create(path);
   if (!made) return tl::unexpected(made.error());
-  Database database = std::move(*made);
-  const auto fail_clean = [&path](const Error& error) {
+  Result<RecordingFile> file = begin(std::move(*made), values);
+  if (!file) remove_parts(path);
+  return file;
+}
+
+void RecordingFile::remove_parts(const std::filesystem::path& path) {
+  for (const char* part : {"", "-wal", "-shm"}) {
     std::error_code ignored;
-    std::filesystem::remove(path, ignored);
-    return tl::unexpected(error);
-  };
-  if (Status ok = database.run(kSettings); !ok) return fail_clean(ok.error());
-  if (Status ok = database.run("BEGIN;" + recording_schema() + "COMMIT;"); !ok) return fail_clean(ok.error());
+    std::filesystem::remove(path.string() + part, ignored);
+  }
+}
+
+/// Where it fails the database is closed.
+Result<RecordingFile> RecordingFile::begin(Database database, const std::vector<RecordedValue>& values) {
+  if (Status ok = database.run(kSettings); !ok) return tl::unexpected(ok.error());
+  if (Status ok = database.run("BEGIN;" + recording_schema() + "COMMIT;"); !ok) return tl::unexpected(ok.error());
   std::vector<Statement> all;
   for (const std::string& sql :
        {insert_tick_sql(), insert_device_sql(), std::string("INSERT INTO states VALUES(?,?,?)"),
@@ -245,14 +253,14 @@ Result<RecordingFile> RecordingFile::create(const std::filesystem::path& path,
         std::string("INSERT INTO events(tick,t_s,kind,text) VALUES(?,?,?,?)"), insert_overview_sql(),
         std::string("INSERT OR REPLACE INTO meta VALUES(?,?)")}) {
     Result<Statement> statement = database.prepare(sql);
-    if (!statement) return fail_clean(statement.error());
+    if (!statement) return tl::unexpected(statement.error());
     all.push_back(std::move(*statement));
   }
   Impl::Statements statements{std::move(all[0]), std::move(all[1]), std::move(all[2]), std::move(all[3]),
                               std::move(all[4]), std::move(all[5]), std::move(all[6])};
   auto impl = std::make_unique<Impl>(std::move(database), std::move(statements));
   const Status filled = impl->at_once([&] { return impl->put_facts(values); });
-  if (!filled) return fail_clean(filled.error());
+  if (!filled) return tl::unexpected(filled.error());
   return RecordingFile(std::move(impl));
 }
 

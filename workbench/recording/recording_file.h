@@ -28,6 +28,8 @@ class RecordingFile {
  public:
   /// Fails when there is a file of that name, or it can't be made.
   static Result<RecordingFile> create(const std::filesystem::path& path, const std::vector<RecordedValue>& values = {});
+  /// Of one that is closed, or was never begun.
+  static void remove_parts(const std::filesystem::path& path);
   RecordingFile(RecordingFile&&) noexcept;
   RecordingFile& operator=(RecordingFile&&) noexcept;
   ~RecordingFile();  ///< without close: as after a crash
@@ -52,6 +54,7 @@ class RecordingFile {
  private:
   struct Impl;
   explicit RecordingFile(std::unique_ptr<Impl> impl);
+  static Result<RecordingFile> begin(Database database, const std::vector<RecordedValue>& values);
   std::unique_ptr<Impl> impl_;
 };
 

@@ -12,8 +12,6 @@
 namespace tangent {
 namespace {
 
-using Scenes = std::map<std::uint32_t, std::shared_ptr<const ContactScene>>;
-
 constexpr std::size_t kStatesAChunk = 8;
 
 /// From one kept state to the tick before a later one.
@@ -26,7 +24,7 @@ struct Work {
   const std::filesystem::path& path;
   const ReplayOptions& options;
   std::vector<KeptState> states;
-  Scenes scenes;
+  RecordedScenes scenes;
   std::uint64_t last_tick = 0;
   std::atomic<std::size_t> next{0};
   std::atomic<bool> stop{false};
@@ -205,35 +203,11 @@ void work_on(Work& work) {
 
 }  // namespace
 
-Result<Scenes> scenes_of(Recording& recording, const std::shared_ptr<const ContactScene>& given) {
-  Scenes scenes;
-  for (const RecordedScene& recorded : recording.scenes()) {
-    if (given && scene_hash(*given) == recorded.hash) {
-      scenes[recorded.id] = given;
-      continue;
-    }
-    if (given && !recorded.has_bytes) return tl::unexpected(recording.is_scene(recorded, *given).error());
-    Result<std::shared_ptr<const ContactScene>> scene = recording.scene(recorded.id);
-    if (!scene) return tl::unexpected(scene.error());
-    scenes[recorded.id] = std::move(*scene);
-  }
-  return scenes;
-}
-
 Result<ReplayReport> replay(const std::filesystem::path& path, const ReplayOptions& options) {
-  Result<Recording> recording = Recording::open(path);
-  if (!recording) return tl::unexpected(recording.error());
-  if (!recording->info().states_usable)
-    return fail("was made by version " + recording->info().version + ", whose kept states this version can't use",
-                path.string(), "compare with --preset or --method, which compute the motion from its beginning");
-  Result<Scenes> scenes = scenes_of(*recording, options.scene);
-  if (!scenes) return tl::unexpected(scenes.error());
-  Result<std::vector<KeptState>> states = recording->states();
-  if (!states) return tl::unexpected(states.error());
-  if (recording->info().ticks > 0 && (states->empty() || states->front().tick != recording->info().first_tick))
-    return fail("has no kept state of its first tick", path.string(),
-                "the file is damaged: copy it from where it was recorded again");
-  Work work{path, options, std::move(*states), std::move(*scenes), recording->info().last_tick, {}, {}, {}, {}, {}, {}};
+  Result<ComputableRecording> opened = open_computable(path, options.scene);
+  if (!opened) return tl::unexpected(opened.error());
+  const std::uint64_t last_tick = opened->recording.info().last_tick;
+  Work work{path, options, std::move(opened->states), std::move(opened->scenes), last_tick, {}, {}, {}, {}, {}, {}};
   std::vector<std::thread> threads;
   const unsigned count = std::clamp(options.threads, 1u, 64u);
   for (unsigned i = 1; i < count; ++i) threads.emplace_back([&work] { work_on(work); });

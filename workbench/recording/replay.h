@@ -2,7 +2,7 @@
 // several threads work on it at once.
 #pragma once
 
-#include "workbench/recording/recording.h"
+#include "workbench/recording/computable_recording.h"
 
 #include <atomic>
 #include <functional>
@@ -40,9 +40,5 @@ struct ReplayReport {
 /// Fails where the recording can't be computed again: its kept states are of another layout, its mesh is missing, a
 /// preset is not there, or it is damaged.
 Result<ReplayReport> replay(const std::filesystem::path& path, const ReplayOptions& options = {});
-
-/// The scenes of a recording, by id, built or `given` for all of them that have its hash.
-Result<std::map<std::uint32_t, std::shared_ptr<const ContactScene>>> scenes_of(
-    Recording& recording, const std::shared_ptr<const ContactScene>& given);
 
 }  // namespace tangent

@@ -2,19 +2,16 @@
 // them on every tick is computed. Not thread-safe; it has a connection of its own to the file.
 #pragma once
 
-#include "workbench/recording/recording.h"
+#include "workbench/recording/computable_recording.h"
 
 #include <functional>
-#include <map>
-#include <memory>
-#include <optional>
 #include <vector>
 
 namespace tangent {
 
 class SolvableTicks {
  public:
-  using Scenes = std::map<std::uint32_t, std::shared_ptr<const ContactScene>>;
+  using Scenes = RecordedScenes;
 
   /// `scenes` by id. Ticks on a scene that is not among them are read, but can't be solved: their kept state is that of
   /// no contact. The same where kept states are of another layout, or there is none before them.
@@ -28,15 +25,10 @@ class SolvableTicks {
  private:
   SolvableTicks(Recording recording, Scenes scenes, std::vector<KeptState> states)
       : recording_(std::move(recording)), scenes_(std::move(scenes)), states_(std::move(states)) {}
-  Status compute(RecordedTick& tick);
 
   Recording recording_;
   Scenes scenes_;
   std::vector<KeptState> states_;
-  std::size_t next_state_ = 0;
-  std::optional<Stepper> stepper_;
-  TickState state_;
-  std::optional<std::uint64_t> follows_;  ///< the tick that state_ is handed to; none: it is of no use
   std::uint64_t different_ = 0;
 };
 

@@ -1,4 +1,5 @@
 // Over time, and every method on the same motion: the sections with figures.
+#include "workbench/recording/spectrum_figure.h"
 #include "workbench/report/html.h"
 #include "workbench/report/numbers.h"
 #include "workbench/report/page.h"
@@ -64,8 +65,7 @@ constexpr const char* kMethodsText =
     "differently under another method. Error: distance of a converged contact from the exact one, which is the same "
     "contact iterated on to 1e-12 of the object's size; for the methods on the raw mesh (facet, force-shading, "
     "two-pass), which have no such contact, that of the smooth surface. Times were taken here and now, in turns: a "
-    "round "
-    "solves the motion once by each method, and each round begins with another one. Typical: the middle mean (between "
+    "round solves the motion once by each method, in an order drawn anew. Typical: the middle mean (between "
     "the quartiles) of a round's ticks, averaged over the rounds, with its 95 % interval. The ratio to the fastest is "
     "of "
     "times of the same round; a tie is a method that takes less than 3 % longer, or may within the interval. The other "
@@ -86,7 +86,15 @@ Result<std::string> time_section(const RecordingReport& report, const std::strin
       "workbench export " + file +
           " --channels t_s,force_x_n,force_y_n,force_z_n,command_force_x_n,command_force_y_n,command_force_z_n,"
           "penetration_m,cld_m,command_cld_m,error_m,iterations --out ticks.csv");
-  return figure.map([&](const std::string& html) { return head + html; });
+  const RoughnessSpectrum& spectrum = report.summary.spectrum;
+  if (!figure || spectrum.windows == 0) return figure.map([&](const std::string& html) { return head + html; });
+  const Result<std::string> rough =
+      figure_html(spectrum_figure(id + "-spectrum", {{"", &spectrum}}), "Roughness of force and display by frequency",
+                  spectrum_text(spectrum) +
+                      ", of force (its three coordinates together) and display as computed, "
+                      "above 20 Hz: what is felt as roughness, not as the shape.",
+                  "workbench compare " + file + " " + file + " --figures spectrum");
+  return rough.map([&](const std::string& html) { return head + *figure + html; });
 }
 
 Result<std::string> methods_section(const RecordingReport& report, const std::string& id, const std::string& command) {

@@ -13,7 +13,8 @@ double magnitude(const Vec3& v) { return std::sqrt(glm::dot(v, v)); }
 /// Adds one tick after the other to a summary.
 class Summing {
  public:
-  Summing(RecordingSummary& sum, const RecordingInfo& info) : sum_(sum), info_(info) {
+  Summing(RecordingSummary& sum, const RecordingInfo& info)
+      : sum_(sum), info_(info), spectrum_(info.rate_hz() > 0.0 ? info.rate_hz() : 1000.0) {
     sum.parts.resize(RecordingSummary::kParts);
   }
 
@@ -25,6 +26,7 @@ class Summing {
     use(sum_.presets[tick.preset_id], tick);
     use(sum_.scenes[recorded.record.scene_id], tick);
     draw(recorded);
+    spectrum_.add(tick.output.force_n, tick.output.cld_m, has_last_ && tick.tick == last_.tick + 1);
     last_ = tick;
     has_last_ = true;
   }
@@ -33,6 +35,7 @@ class Summing {
     if (sum_.ticks == 0) return;
     const auto count = static_cast<double>(sum_.ticks);
     sum_.mean_planes = planes_ / count;
+    sum_.spectrum = spectrum_.done();
     std::uint64_t below = 0;
     for (std::size_t i = 0; i < by_planes_.size(); ++i) {
       below += by_planes_[i];
@@ -113,6 +116,7 @@ class Summing {
   bool has_last_ = false;
   double planes_ = 0.0;
   std::array<std::uint64_t, 4096> by_planes_{};
+  SpectrumCounter spectrum_;
 };
 
 }  // namespace

@@ -79,6 +79,7 @@ struct RecordingSummary {
   };
   std::map<std::uint32_t, Use> presets, scenes;  ///< by id
   std::vector<TimePart> parts;
+  RoughnessSpectrum spectrum;  ///< of force and display as computed
 };
 
 /// Fails as reading the ticks does; where `cancelled`, with an Error that says so.

@@ -1,13 +1,9 @@
 // One recorded tick with the state that it was given.
 #pragma once
 
-#include "workbench/recording/recording.h"
-
-#include <map>
+#include "workbench/recording/computable_recording.h"
 
 namespace tangent {
-
-using RecordedScenes = std::map<std::uint32_t, std::shared_ptr<const ContactScene>>;
 
 struct TickBefore {
   std::shared_ptr<const ContactScene> scene;

@@ -14,6 +14,8 @@ std::string text_of(const char* pattern, double value) {
 }
 
 std::string fault_of(const DeviceTelemetry& device) {
+  const bool undone = ((device.gate_actions >> static_cast<unsigned>(GateAction::preset_undone)) & 1u) != 0;
+  if (undone) return "the safety gate acted: preset undone";
   if (device.gate_fault != GateFault::none) return std::string("safety gate: ") + to_string(device.gate_fault);
   if (device.force_fault != DeviceFault::none) return std::string("force device: ") + to_string(device.force_fault);
   if (device.display_fault != DeviceFault::none)

@@ -36,11 +36,11 @@ void follow(const Path& path, double pad_m, ExplorationPace pace, ExplorationPos
 }  // namespace
 
 Result<ExplorationPoses> exploration_poses(const ContactScene& scene, const Finger& finger, ExplorationKind kind,
-                                           ExplorationPace pace) {
+                                           ExplorationPace pace, double press_m) {
   ExplorationPoses explored;
   const double pad = pad_distance_m(finger);
   const Vec3 size = scene.mesh().bounds().size();
-  explored.press_m = std::min(kExplorationPress, kPressShare * std::max({size.x, size.y, size.z}));
+  explored.press_m = std::min(press_m, kPressShare * std::max({size.x, size.y, size.z}));
   if (kind == ExplorationKind::around) {
     follow(ExplorationPath::build(scene, pad), pad, pace, explored);
     return explored;

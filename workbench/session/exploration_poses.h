@@ -38,8 +38,8 @@ struct ExplorationPoses {
 };
 
 /// Once around the path, 1 ms a tick, but no more than 100,000 ticks. Deterministic. Fails where strokes find nothing
-/// to stroke.
+/// to stroke. `press_m`: mean depth, on meshes under 20 times that less.
 Result<ExplorationPoses> exploration_poses(const ContactScene& scene, const Finger& finger, ExplorationKind kind,
-                                           ExplorationPace pace);
+                                           ExplorationPace pace, double press_m = kExplorationPress);
 
 }  // namespace tangent

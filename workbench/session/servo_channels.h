@@ -1,7 +1,6 @@
 // The channels between the servo thread and the others. All are wait-free on the servo's side; none locks.
 #pragma once
 
-#include "core/preset/preset.h"
 #include "devices/base/mailbox.h"
 #include "devices/base/ring.h"
 #include "devices/fault_injection.h"
@@ -9,20 +8,14 @@
 #include "workbench/session/hand_settings.h"
 #include "workbench/session/placed_device.h"
 #include "workbench/session/prepared_scene.h"
+#include "workbench/session/preset_guard.h"
 #include "workbench/session/servo_record.h"
 
 #include <atomic>
 #include <cstdint>
 #include <memory>
-#include <type_traits>
 
 namespace tangent {
-
-struct PresetLetter {
-  std::uint32_t id = 0;
-  Preset preset;
-};
-static_assert(std::is_trivially_copyable_v<PresetLetter>, "presets cross threads as bytes");
 
 /// A fault to inject into a simulated device.
 struct FaultLetter {
@@ -66,6 +59,7 @@ struct ServoChannels {
   explicit ServoChannels(std::size_t ring_records) : gui(ring_records), recorder(ring_records) {}
 
   Mailbox<PresetLetter> presets;
+  Mailbox<PresetUndone> undone;  ///< back from the servo
   Mailbox<HandCommand> hand;
   Mailbox<ForceSwitch> force;
   std::atomic<bool> stop{false};  ///< like ForceSwitch::stop, but no later wish replaces it before it is seen

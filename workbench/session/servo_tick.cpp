@@ -59,11 +59,9 @@ ServoTick::~ServoTick() {
 void ServoTick::take_letters() noexcept {
   take_force_switch();
   take_placement();
-  if (channels_.presets.take(preset_)) {
-    begin_change(state_.rendered);
-    changed_ = true;
-    if (devices_.display) devices_.display->set_controller(preset_.preset.controller);
-  }
+  if (go_back_to_ != nullptr) use(*std::exchange(go_back_to_, nullptr));
+  const bool live = gate_.state() == GateState::ramping || gate_.state() == GateState::armed;
+  if (channels_.presets.take(incoming_) && guard_.take(incoming_, preset_, live)) use(incoming_);
   HandCommand hand;
   if (channels_.hand.take(hand)) hand_.command(hand);
   FaultLetter fault;
@@ -71,6 +69,20 @@ void ServoTick::take_letters() noexcept {
     if (fault.display && devices_.display) devices_.display->inject(fault.injection);
     if (!fault.display && devices_.force) devices_.force->inject(fault.injection);
   }
+}
+
+void ServoTick::use(const PresetLetter& letter) noexcept {
+  preset_ = letter;
+  begin_change(state_.rendered);
+  changed_ = true;
+  if (devices_.display) devices_.display->set_controller(preset_.preset.controller);
+}
+
+void ServoTick::guard_preset(GateOutput& out, double dt_s) noexcept {
+  go_back_to_ = guard_.watch(out, gate_.energy(), preset_, tick_, dt_s);
+  if (go_back_to_ == nullptr) return;
+  gate_.note_undone(out);
+  channels_.undone.put(guard_.undone());
 }
 
 void ServoTick::take_placement() noexcept {
@@ -225,14 +237,14 @@ double ServoTick::declared_work(const Vec3& force, double elastic_n) noexcept {
   return declared_j + kLargestLean * force_n * glm::length(along);
 }
 
-void ServoTick::gate(double dt_s, ServoRecord& record) noexcept {
+void ServoTick::pass_gate(double dt_s, ServoRecord& record) noexcept {
   const TickOutput& made = record.tick.output;
   const double stiffness = preset_.preset.force.stiffness_n_per_m;
   const double depth_m = std::max(made.penetration_m, glm::length(made.way_out_m));
   const double elastic_n = stiffness * std::max(0.0, depth_m);
   const bool pushes = made.force_n != Vec3(0.0);
   const Vec3 force = placed_.map().force_to_device(made.force_n);
-  const GateOutput out =
+  GateOutput out =
       gate_.pass({.force_n = force,
                   .display_m = made.cld_m,
                   .force_device = force_sample_.state,
@@ -250,6 +262,7 @@ void ServoTick::gate(double dt_s, ServoRecord& record) noexcept {
                   .elastic_n = pushes ? elastic_n : 0.0,
                   .declared_j = declared_work(force, elastic_n)},
                  dt_s);
+  guard_preset(out, dt_s);
   display_command_.target_m = out.display_m;
   record.device.gate_state = out.state;
   record.device.gate_fault = out.fault;
@@ -297,7 +310,7 @@ void ServoTick::run(const TickTiming& timing) noexcept {
   step(tick);
   tick.solve_ns = static_cast<double>(now() - step_began);
   force_wanted_n_ = force_wanted_n(tick.output);
-  gate(timing.dt_s, record);
+  pass_gate(timing.dt_s, record);
 
   record.tick_ns = static_cast<double>(now() - began);
   statistics_.add(record, gate_);

@@ -42,9 +42,12 @@ class ServoTick {
   void suspend(double dt_s) noexcept;
   /// Finds exchanges that don't return; for a thread that is not the servo's.
   ExchangeWatch& exchange_watch() { return exchange_watch_; }
+  const SafetyGate& gate() const { return gate_; }  ///< same thread as run
 
  private:
   void take_letters() noexcept;
+  void use(const PresetLetter& letter) noexcept;
+  void guard_preset(GateOutput& out, double dt_s) noexcept;
   void take_force_switch() noexcept;
   void take_scene() noexcept;
   void take_placement() noexcept;
@@ -56,7 +59,7 @@ class ServoTick {
   bool outside_workspace() const noexcept;
   void exchange(double dt_s, ServoRecord& record) noexcept;
   void exchange_devices(double dt_s) noexcept;
-  void gate(double dt_s, ServoRecord& record) noexcept;
+  void pass_gate(double dt_s, ServoRecord& record) noexcept;
   double declared_work(const Vec3& force, double elastic_n) noexcept;
   std::int64_t now() const noexcept { return clock_ != nullptr ? clock_() : 0; }
 
@@ -67,7 +70,9 @@ class ServoTick {
   SafetyGate gate_;
   ExchangeWatch exchange_watch_;
   PreparedScene* scene_;  ///< owned; given back through the channels when replaced
-  PresetLetter preset_;
+  PresetLetter preset_, incoming_;
+  PresetGuard guard_;
+  const PresetLetter* go_back_to_ = nullptr;  ///< from the next tick on
   PlacedDevice placed_;
   bool clutch_held_ = false;  ///< of this tick
   HandLead hand_;

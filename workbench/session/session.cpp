@@ -119,6 +119,8 @@ struct Session::Impl {
   SafetyLog log;
   HandSettings hand;
   Vec3 hand_point{0.0};
+  bool guards = false;     ///< presets
+  PresetUndone undone;     ///< the newest from the servo
   Preset asked;            ///< as set_preset was given it, before the device's caps
   PlacementReport placed;  ///< the newest from the servo
   std::uint32_t placement_id = 0;
@@ -141,6 +143,10 @@ struct Session::Impl {
   /// The caps hold under the placement in use and under the one on its way.
   Preset allowed(const Preset& preset) const {
     return preset_allowed(preset, devices, std::max(placed.placement.scale, wanted_scale));
+  }
+  void send(const Preset& preset) {
+    presets.push_back(preset);
+    channels.presets.put({static_cast<std::uint32_t>(presets.size() - 1), presets.back(), guards, undone.count});
   }
   bool force_is_sent() const;
   void send_hand() { channels.hand.put({hand, hand_point, kMouseSpeed, kMouseLead_m}); }
@@ -305,6 +311,10 @@ std::size_t Session::poll() {
     impl_->wanted_scale = impl_->placed.placement.scale;
     static_cast<void>(set_preset(Preset(impl_->asked)));  // it was valid
   }
+  if (impl_->channels.undone.take(impl_->undone)) {
+    impl_->asked = impl_->presets[impl_->undone.good_id];
+    impl_->send(impl_->asked);
+  }
   impl_->keep_awake();
   return count;
 }
@@ -324,12 +334,15 @@ Result<std::uint32_t> Session::set_preset(const Preset& wanted) {
   impl_->asked = wanted;
   const Preset preset = impl_->allowed(wanted);
   if (preset == impl_->presets.back()) return preset_id();
-  impl_->presets.push_back(preset);
-  impl_->channels.presets.put({preset_id(), preset});
+  impl_->send(preset);
   return preset_id();
 }
 
+void Session::guard_presets(bool on) { impl_->guards = on; }
+const PresetUndone& Session::preset_undone() const { return impl_->undone; }
+
 const Preset& Session::preset() const { return impl_->presets.back(); }
+const Preset& Session::asked_preset() const { return impl_->asked; }
 const Preset* Session::preset(std::uint32_t id) const {
   return id < impl_->presets.size() ? &impl_->presets[id] : nullptr;
 }

@@ -14,6 +14,7 @@
 #include "devices/device_set.h"
 #include "workbench/session/hand_settings.h"
 #include "workbench/session/history.h"
+#include "workbench/session/preset_guard.h"
 #include "workbench/session/safety_log.h"
 #include "workbench/session/servo_options.h"
 
@@ -123,8 +124,14 @@ class Session {
   /// stiffness above the force device's largest is reduced to that: see preset().
   Result<std::uint32_t> set_preset(const Preset& preset);
   const Preset& preset() const;                  ///< the latest sent
+  const Preset& asked_preset() const;            ///< the same as it was asked for, before the device's caps
   const Preset* preset(std::uint32_t id) const;  ///< any ever sent; null for an unknown id
   std::uint32_t preset_id() const;
+  /// Whether presets set from now on, while force is sent, are taken back where they make the safety gate act
+  /// (preset_guard.h). Off at first.
+  void guard_presets(bool on);
+  /// The last that was: preset() is the good one again, under an id of its own. Count 0: nothing was.
+  const PresetUndone& preset_undone() const;
 
   // Scene.
   /// Any thread; takes milliseconds to seconds.

@@ -1,23 +1,14 @@
 #include "workbench/session/surface_map_job.h"
 
+#include "workbench/session/background_thread.h"
+
 #include <algorithm>
 #include <numeric>
-
-#ifdef __linux__
-#include <sys/resource.h>
-#endif
 
 namespace tangent {
 namespace {
 
 constexpr std::size_t kBatch = 16;  // triangles per batch; a cancel waits for a batch at most
-
-/// Background threads yield to servo and window. On Linux niceness is per thread: this sets the caller's.
-void lower_priority() {
-#ifdef __linux__
-  setpriority(PRIO_PROCESS, 0, 10);
-#endif
-}
 
 /// A stride near the golden section of n and coprime to n: it visits all of 0..n-1, evenly spread at any time.
 std::size_t scattering_stride(std::size_t n) {
@@ -74,7 +65,7 @@ void SurfaceMapJob::start(std::shared_ptr<const ContactScene> scene, const Prese
 }
 
 void SurfaceMapJob::work(const std::shared_ptr<const ContactScene>& scene, const Preset& preset) {
-  lower_priority();
+  yield_to_servo_and_window();
   SurfaceMapper mapper(scene, preset, options_);
   const unsigned parts = options_.level * options_.level;
   MapValues values{};

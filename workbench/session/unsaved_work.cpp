@@ -74,21 +74,53 @@ bool read_step(const toml::node& node, UnsavedStep& step) {
   return read_slot((*table)["a"].as_table(), step.slots[0]) && read_slot((*table)["b"].as_table(), step.slots[1]);
 }
 
+toml::array array_of(const std::vector<UnsavedBookmark>& marks) {
+  toml::array bookmarks;
+  for (const UnsavedBookmark& mark : marks)
+    bookmarks.push_back(
+        toml::table{{"tick", static_cast<std::int64_t>(mark.tick)}, {"t_s", mark.t_s}, {"note", mark.note}});
+  return bookmarks;
+}
+
+std::uint64_t tick_in(const toml::table& table) {
+  return static_cast<std::uint64_t>(std::max<std::int64_t>(0, table["tick"].value_or(std::int64_t{0})));
+}
+
+bool read_bookmarks(const toml::array* marks, std::vector<UnsavedBookmark>& out) {
+  if (marks == nullptr) return true;
+  for (const toml::node& node : *marks) {
+    const toml::table* table = node.as_table();
+    if (table == nullptr) return false;
+    out.push_back({tick_in(*table), (*table)["t_s"].value_or(0.0), (*table)["note"].value_or(std::string())});
+  }
+  return true;
+}
+
+/// Files of older programs have none.
+bool read_opened(const toml::table* table, UnsavedRecording& opened) {
+  if (table == nullptr) return true;
+  opened.file = file_named((*table)["file"].value_or(std::string()));
+  opened.tick = tick_in(*table);
+  return read_bookmarks((*table)["bookmarks"].as_array(), opened.bookmarks);
+}
+
 }  // namespace
 
 std::string format_unsaved(const UnsavedWork& work) {
-  toml::array steps, bookmarks;
+  toml::array steps;
   for (const UnsavedStep& step : work.steps) {
     steps.push_back(toml::table{{"what", file_name_text(step.what)},
                                 {"active", static_cast<std::int64_t>(step.active)},
                                 {"a", table_of(step.slots[0])},
                                 {"b", table_of(step.slots[1])}});
   }
-  for (const UnsavedBookmark& mark : work.bookmarks)
-    bookmarks.push_back(
-        toml::table{{"tick", static_cast<std::int64_t>(mark.tick)}, {"t_s", mark.t_s}, {"note", mark.note}});
-  const toml::table root{
-      {"at", static_cast<std::int64_t>(work.at)}, {"steps", std::move(steps)}, {"bookmarks", std::move(bookmarks)}};
+  toml::table root{
+      {"at", static_cast<std::int64_t>(work.at)}, {"steps", std::move(steps)}, {"bookmarks", array_of(work.bookmarks)}};
+  if (!work.opened.file.empty())
+    root.insert("opened", toml::table{{"file", file_name_text(work.opened.file)},
+                                      {"tick", static_cast<std::int64_t>(work.opened.tick)},
+                                      {"bookmarks", array_of(work.opened.bookmarks)}});
+  if (!work.made.empty()) root.insert("made", file_name_text(work.made));
   std::ostringstream text;
   text << "# What is in no other file, for the case that the program crashes. Removed when its window is closed.\n"
        << kUnsavedFormats.line() << root << "\n";
@@ -106,15 +138,10 @@ Result<UnsavedWork> parse_unsaved(std::string_view text, std::string_view name) 
       if (!read_step(node, work.steps.emplace_back())) return broken();
     }
   }
-  if (const toml::array* marks = (*root)["bookmarks"].as_array()) {
-    for (const toml::node& node : *marks) {
-      const toml::table* table = node.as_table();
-      if (table == nullptr) return broken();
-      const std::int64_t tick = (*table)["tick"].value_or(std::int64_t{0});
-      work.bookmarks.push_back({static_cast<std::uint64_t>(std::max<std::int64_t>(0, tick)),
-                                (*table)["t_s"].value_or(0.0), (*table)["note"].value_or(std::string())});
-    }
-  }
+  if (!read_bookmarks((*root)["bookmarks"].as_array(), work.bookmarks) ||
+      !read_opened((*root)["opened"].as_table(), work.opened))
+    return broken();
+  work.made = file_named((*root)["made"].value_or(std::string()));
   const std::int64_t at = (*root)["at"].value_or(std::int64_t{-1});
   if (at < 0 || (at > 0 && static_cast<std::size_t>(at) >= work.steps.size())) return broken();
   work.at = static_cast<std::size_t>(at);

@@ -1,6 +1,6 @@
-// What a person would miss after a crash: preset edits that are in no file, their undo, and bookmarks with notes. Kept
-// in a file of its own while the window is open, removed when it is closed with nothing to lose, and offered again
-// where one was left.
+// What a person would miss after a crash: preset edits that are in no file, their undo, bookmarks with notes, and which
+// recording was looked at or made. Kept in a file of its own while the window is open, removed when it is closed with
+// nothing to lose, and offered again where one was left.
 //
 //   FOLDER/PID.toml        the work, written anew when it changed
 //   FOLDER/PID.toml.lock   locked as long as that process lives
@@ -41,13 +41,23 @@ struct UnsavedBookmark {
   bool operator==(const UnsavedBookmark&) const = default;
 };
 
+/// A recording as it was looked at.
+struct UnsavedRecording {
+  std::filesystem::path file;  ///< absolute; empty: none was open
+  std::uint64_t tick = 0;      ///< in view
+  std::vector<UnsavedBookmark> bookmarks;
+  bool operator==(const UnsavedRecording&) const = default;
+};
+
 struct UnsavedWork {
   std::vector<UnsavedStep> steps;  ///< oldest first; the first is the start
   std::size_t at = 0;              ///< the step in use
   std::vector<UnsavedBookmark> bookmarks;
+  UnsavedRecording opened;
+  std::filesystem::path made;  ///< the recording that was being made, absolute; empty: none
 
-  /// Nothing to lose: no step after the start, no bookmark.
-  bool empty() const { return steps.size() < 2 && bookmarks.empty(); }
+  /// Nothing to lose: no step after the start, no bookmark, no recording.
+  bool empty() const { return steps.size() < 2 && bookmarks.empty() && opened.file.empty() && made.empty(); }
   bool operator==(const UnsavedWork&) const = default;
 };
 

@@ -20,7 +20,8 @@ struct CellNumbers {
   std::uint64_t events_first = 0, events_reseed = 0, events_switch = 0, events_branch = 0;
   std::uint64_t not_finite = 0, unmarked_jumps = 0;  ///< core/lab/measure/scene_statistics.h
   double mean_iterations = 0.0, p99_iterations = 0.0, most_iterations = 0.0;
-  double residual_worst_m = 0.0;  ///< largest error_m of a converged tick
+  double mean_counted_us = 0.0, p99_counted_us = 0.0;  ///< time of a tick by the work that it does (tick_work.h)
+  double residual_worst_m = 0.0;                       ///< largest error_m of a converged tick
   /// Distance of the contact from the solution near it, iterated to 1e-12 of the scene (converged_answer.h); of a
   /// method without a smooth contact, from the contact of `robust` at that tolerance. On every 16th tick.
   std::uint64_t compared = 0;
@@ -37,10 +38,12 @@ struct CellNumbers {
   bool operator==(const CellNumbers&) const = default;
 };
 
-/// A column of the results: name (with its unit), meaning, and where it is.
+/// A column of the results: name (with its unit), meaning, and where it is. `grows`: more ticks never make it smaller,
+/// as all counts and everything that is a largest.
 struct NumberColumn {
   std::string_view name, meaning;
   std::variant<std::uint64_t CellNumbers::*, double CellNumbers::*> field;
+  bool grows = field.index() == 0;
 };
 std::span<const NumberColumn> number_columns();
 

@@ -1,8 +1,11 @@
 #include "workbench/sweep/cells.h"
 
+#include "core/base/split_mix.h"
+
 #include <boost/random/sobol.hpp>
 
 #include <numeric>
+#include <span>
 
 namespace tangent::sweep {
 namespace {
@@ -10,28 +13,10 @@ namespace {
 constexpr std::uint64_t kMostCells = 1'000'000'000'000ull;
 constexpr std::uint64_t kMostSamples = 1u << 26;  // their values are kept
 
-/// SplitMix64 (Steele, Lea, Flood 2014): the same numbers on every machine and library.
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : state_(seed) {}
-  std::uint64_t next() {
-    std::uint64_t z = (state_ += 0x9e3779b97f4a7c15ull);
-    z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9ull;
-    z = (z ^ z >> 27) * 0x94d049bb133111ebull;
-    return z ^ z >> 31;
-  }
-  double unit() { return static_cast<double>(next() >> 11) * 0x1p-53; }  ///< [0, 1)
-  /// [0, n): as fair as 64 bits make it.
-  std::uint64_t below(std::uint64_t n) { return next() % n; }
-
- private:
-  std::uint64_t state_;
-};
-
 using Shares = std::vector<std::vector<double>>;  // by sample, one in [0, 1) a range
 
 Shares random_shares(std::size_t samples, std::size_t ranges, std::uint64_t seed) {
-  Random random(seed);
+  SplitMix random(seed);
   Shares out(samples, std::vector<double>(ranges));
   for (auto& sample : out)
     for (double& share : sample) share = random.unit();
@@ -39,12 +24,12 @@ Shares random_shares(std::size_t samples, std::size_t ranges, std::uint64_t seed
 }
 
 Shares latin_shares(std::size_t samples, std::size_t ranges, std::uint64_t seed) {
-  Random random(seed);
+  SplitMix random(seed);
   Shares out(samples, std::vector<double>(ranges));
   std::vector<std::size_t> parts(samples);
   for (std::size_t r = 0; r < ranges; ++r) {
     std::iota(parts.begin(), parts.end(), std::size_t{0});
-    for (std::size_t i = samples; i > 1; --i) std::swap(parts[i - 1], parts[random.below(i)]);
+    random.shuffle(std::span(parts));
     for (std::size_t i = 0; i < samples; ++i)
       out[i][r] = (static_cast<double>(parts[i]) + random.unit()) / static_cast<double>(samples);
   }
@@ -54,7 +39,7 @@ Shares latin_shares(std::size_t samples, std::size_t ranges, std::uint64_t seed)
 /// The seed moves all points by one and the same step, around the ends (Cranley, Patterson 1976); 0: none.
 Shares sobol_shares(std::size_t samples, std::size_t ranges, std::uint64_t seed) {
   boost::random::sobol engine(ranges);
-  Random random(seed);
+  SplitMix random(seed);
   std::vector<double> shift(ranges, 0.0);
   if (seed != 0)
     for (double& s : shift) s = random.unit();

@@ -9,10 +9,13 @@
 namespace tangent::sweep {
 
 struct Trial {
-  std::vector<double> values;  ///< one a range, as tried
-  CellNumbers numbers;
+  std::vector<double> values;               ///< one a range, as tried
+  CellNumbers numbers;                      ///< of the first ground; circles only where an objective or constraint asks
+  std::vector<CellNumbers> ground_numbers;  ///< of all
   std::vector<double> objectives;
-  double missed = 0.0;  ///< sum over the constraints of how far each is missed; 0: all hold
+  double missed = 0.0;    ///< sum over the constraints of how far each is missed; 0: all hold
+  std::size_t ticks = 0;  ///< that it saw
+  bool dropped = false;   ///< it saw a part of them, which showed that it is on no front: its numbers are of that part
 };
 
 /// a is at least as good as b in everything, and better in something: missed constraints first.

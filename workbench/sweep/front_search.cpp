@@ -1,18 +1,43 @@
 #include "workbench/sweep/front_search.h"
 
 #include "workbench/sweep/batch_problem.h"
+#include "workbench/sweep/trial_run.h"
 
 #include <algorithm>
 #include <atomic>
+#include <deque>
+#include <exception>
 #include <thread>
 
 #include <dlfcn.h>
+#include <unistd.h>
 
 namespace tangent::sweep {
 namespace {
 
 /// A trial that misses a constraint comes after all that miss none.
 constexpr double kMissed = 1e6;
+
+/// Trials whose rivals are the same: a generation of the search.
+constexpr std::size_t kBatch = 40;  // a multiple of 4, as NSGA-II has it
+
+/// work(0) here, the others each on a thread; what one throws (no memory) is thrown when all have ended.
+void on_threads(std::size_t count, const std::function<void(std::size_t)>& work) {
+  std::vector<std::exception_ptr> thrown(count);
+  const auto guarded = [&](std::size_t i) {
+    try {
+      work(i);
+    } catch (...) {
+      thrown[i] = std::current_exception();
+    }
+  };
+  std::vector<std::thread> threads;
+  for (std::size_t i = 1; i < count; ++i) threads.emplace_back(guarded, i);
+  guarded(0);
+  for (std::thread& thread : threads) thread.join();
+  for (const std::exception_ptr& problem : thrown)
+    if (problem) std::rethrow_exception(problem);
+}
 
 /// Tries presets, several at once, and keeps all trials.
 class Trials {
@@ -54,30 +79,60 @@ class Trials {
   const FrontPlan& plan() const { return plan_; }
 
  private:
-  void run(const std::vector<std::pair<std::vector<double>, Preset>>& wanted) {
-    if (result_.stopped || (keep_going_ && !keep_going_(result_.trials.size()))) {
+  using Wanted = std::vector<std::pair<std::vector<double>, Preset>>;
+
+  void run(const Wanted& wanted) {
+    for (std::size_t at = 0; at < wanted.size() && !result_.stopped; at += kBatch)
+      run_batch(std::span(wanted).subspan(at, std::min(kBatch, wanted.size() - at)));
+  }
+
+  void run_batch(std::span<const Wanted::value_type> wanted) {
+    if (keep_going_ && !keep_going_(result_.trials.size())) {
       result_.stopped = true;
       return;
     }
-    const std::size_t first = result_.trials.size();
-    result_.trials.resize(first + wanted.size());
+    std::vector<RacedTrial> raced(wanted.size());
+    // Who misses a constraint drops nobody: the next may keep it.
+    const bool race = plan_.race && !rivals_.empty() && rivals_.front().trial.missed == 0.0;
     std::atomic<std::size_t> next{0};
-    const auto work = [&] {
-      for (std::size_t i = next.fetch_add(1); i < wanted.size(); i = next.fetch_add(1)) {
-        Trial& trial = result_.trials[first + i];
-        trial = try_preset(plan_, grounds_, wanted[i].second, false);
-        trial.values = wanted[i].first;
+    while (runs_.size() < std::max(1u, plan_.threads)) runs_.emplace_back(plan_, grounds_);
+    on_threads(runs_.size(), [&](std::size_t worker) {
+      for (std::size_t i = next.fetch_add(1); i < wanted.size() && !stopped(); i = next.fetch_add(1)) {
+        raced[i] = runs_[worker].race(wanted[i].second, race ? &rivals_ : nullptr);
+        if (raced[i].trial.objectives.empty()) return;
+        raced[i].trial.values = wanted[i].first;
+        if (plan_.tried) plan_.tried(raced[i].trial);
       }
-    };
-    std::vector<std::thread> threads;
-    for (unsigned t = 1; t < plan_.threads; ++t) threads.emplace_back(work);
-    work();
-    for (std::thread& thread : threads) thread.join();
+    });
+    result_.stopped = stopped();
+    keep(std::move(raced));
   }
+
+  /// Those that were finished; the best of them are whom the next batch races against.
+  void keep(std::vector<RacedTrial> raced) {
+    std::erase_if(raced, [](const RacedTrial& one) { return one.trial.objectives.empty(); });
+    for (RacedTrial& one : raced) {
+      result_.ticks += one.trial.ticks;
+      result_.trials.push_back(one.trial);
+      if (!one.trial.dropped) rivals_.push_back(std::move(one));
+    }
+    std::vector<Trial> all;
+    for (const RacedTrial& one : rivals_) all.push_back(one.trial);
+    std::vector<RacedTrial> best;
+    for (const std::size_t i : front_of(all)) best.push_back(std::move(rivals_[i]));
+    rivals_ = std::move(best);
+    std::uint64_t each = 0;
+    for (const FrontGround& on : grounds_) each += std::min(on.ticks, on.ground.motion->size());
+    result_.without_race = each * result_.trials.size();
+  }
+
+  bool stopped() const { return plan_.stop && plan_.stop(); }
 
   const FrontPlan& plan_;
   const std::vector<FrontGround>& grounds_;
   const std::function<bool(std::size_t)>& keep_going_;
+  std::deque<TrialRun> runs_;  ///< one a thread
+  Rivals rivals_;              ///< the front of those that saw all ticks; all miss a constraint or none does
   FrontResult result_;
 };
 
@@ -139,16 +194,23 @@ SearchFront nsga2() {
 }
 
 void evolve(Trials& trials) {
-  constexpr std::size_t kPopulation = 40;  // a multiple of 4, as NSGA-II has it
-  const SearchFront search = nsga2();
-  const std::size_t start = std::min(kPopulation, trials.left() / 4 * 4);
+  const SearchFront search = trials.plan().evolve ? nsga2() : nullptr;
+  const std::size_t start = std::min(kBatch, trials.left() / 4 * 4);
   if (search == nullptr || start < 8) return;
   BatchProblem problem;
   problem.dimensions = trials.plan().ranges.size();
-  problem.objectives = trials.plan().objectives.size();
+  // One alone is searched as two that are the same: NSGA-II takes no fewer.
+  const bool alone = trials.plan().objectives.size() == 1;
+  problem.objectives = alone ? 2 : trials.plan().objectives.size();
   problem.seed = trials.plan().seed;
   problem.start = even_shares(trials.plan(), start);
-  problem.evaluate = [&trials](const std::vector<double>& all) { return try_points(trials, all); };
+  problem.evaluate = [&trials, alone](const std::vector<double>& all) {
+    std::vector<double> values = try_points(trials, all);
+    if (!alone) return values;
+    std::vector<double> twice;
+    for (const double value : values) twice.insert(twice.end(), 2, value);
+    return twice;
+  };
   problem.left = [&trials] { return trials.left(); };
   search(problem);
 }
@@ -157,20 +219,17 @@ void evolve(Trials& trials) {
 
 bool has_front_search() { return nsga2() != nullptr; }
 
+bool front_search_is_there() {
+#ifdef TANGENT_NSGA2_MODULE
+  return ::access(TANGENT_NSGA2_MODULE, R_OK) == 0;
+#else
+  return false;
+#endif
+}
+
 Trial try_preset(const FrontPlan& plan, const std::vector<FrontGround>& grounds, const Preset& preset, bool held_back) {
-  Trial out;
-  for (const FrontGround& on : grounds) {
-    const std::span<const TickInput> all(*on.ground.motion);
-    const auto motion = held_back ? all.subspan(on.ticks) : all.first(on.ticks);
-    Stepper stepper(on.ground.scene), exact(on.ground.scene);
-    const CellNumbers numbers = *measure_cell(stepper, exact, preset, motion);
-    if (out.objectives.empty()) out.numbers = numbers;
-    out.objectives.resize(plan.objectives.size(), 0.0);
-    for (std::size_t i = 0; i < plan.objectives.size(); ++i)
-      out.objectives[i] = std::max(out.objectives[i], plan.objectives[i].of(numbers));
-    for (const Constraint& constraint : plan.constraints) out.missed += constraint.missed(numbers);
-  }
-  return out;
+  TrialRun run(plan, grounds);
+  return held_back ? run.judge(preset) : run.race(preset, nullptr).trial;
 }
 
 FrontResult search_front(const FrontPlan& plan, const std::vector<FrontGround>& grounds,

@@ -26,6 +26,20 @@ Result<std::vector<TickInput>> recorded_motion(const std::filesystem::path& path
   }
 }
 
+Result<std::vector<TickInput>> motion_of(const ContactScene& scene, const std::string& poses, const Finger& finger) {
+  const std::optional<MadeMotion> made = made_motion(poses);
+  if (!made) {
+    const std::filesystem::path path(poses);
+    return path.extension() == ".sqlite" ? recorded_motion(path) : read_poses(path);
+  }
+  if (scene.planar()) return fail("is a 2D scene, over which no path is made", poses, "name a pose file");
+  const auto kind = made->kind == 0 ? ExplorationKind::around : ExplorationKind::strokes;
+  auto explored =
+      exploration_poses(scene, finger, kind, ExplorationPace::varied, made->press_m.value_or(kExplorationPress));
+  if (!explored) return tl::unexpected(explored.error());
+  return std::move(explored->poses);
+}
+
 Inputs::Inputs(const Plan& plan) : plan_(plan) {}
 
 Inputs::Scene Inputs::scene(std::size_t mesh) {
@@ -40,18 +54,7 @@ Inputs::Scene Inputs::scene(std::size_t mesh) {
 }
 
 Inputs::Motion Inputs::load_motion(const ContactScene& scene, std::size_t poses, std::size_t finger) const {
-  const std::string& name = plan_.poses[poses];
-  Result<std::vector<TickInput>> read;
-  if (is_made(name)) {
-    if (scene.planar()) return fail("is a 2D scene, over which no path is made", name, "name a pose file");
-    const auto kind = name == kMadePoses[0] ? ExplorationKind::around : ExplorationKind::strokes;
-    auto made = exploration_poses(scene, plan_.fingers[finger], kind, ExplorationPace::varied);
-    if (!made) return tl::unexpected(made.error());
-    read = std::move(made->poses);
-  } else {
-    const std::filesystem::path path(name);
-    read = path.extension() == ".sqlite" ? recorded_motion(path) : read_poses(path);
-  }
+  Result<std::vector<TickInput>> read = motion_of(scene, plan_.poses[poses], plan_.fingers[finger]);
   if (!read) return tl::unexpected(read.error());
   if (plan_.ticks > 0 && read->size() > plan_.ticks) read->resize(plan_.ticks);
   return std::make_shared<const std::vector<TickInput>>(std::move(*read));

@@ -21,6 +21,9 @@ struct Ground {
 /// The motion of a recording: its ticks' inputs, those with a gap before them too.
 Result<std::vector<TickInput>> recorded_motion(const std::filesystem::path& recording);
 
+/// The motion of that name over the scene: made for the finger, of a recording, or of a pose file.
+Result<std::vector<TickInput>> motion_of(const ContactScene& scene, const std::string& poses, const Finger& finger);
+
 /// Safe from several threads: one that asks for what another is loading waits for it.
 class Inputs {
  public:

@@ -5,6 +5,9 @@
 #include "core/preset/schema.h"
 
 #include <algorithm>
+#include <cctype>
+#include <optional>
+#include <span>
 
 namespace tangent::sweep {
 namespace {
@@ -21,7 +24,53 @@ std::string most_text(double value) {
   return out;
 }
 
+/// "20 us" and "20us" in two.
+std::pair<std::string_view, std::string_view> value_and_unit(std::string_view text) {
+  std::size_t end = text.size();
+  while (end > 0 && std::isalpha(static_cast<unsigned char>(text[end - 1]))) --end;
+  if (end == 0) return {text, {}};
+  return {trimmed(text.substr(0, end)), text.substr(end)};
+}
+
+/// What one of the unit is in the column's own; empty: it is no unit of it.
+std::optional<double> unit_factor(const Objective& of, std::string_view unit) {
+  using Unit = std::pair<std::string_view, double>;
+  constexpr std::array<Unit, 3> kTimes{Unit{"ns", 1e-3}, Unit{"us", 1.0}, Unit{"ms", 1e3}};
+  constexpr std::array<Unit, 5> kLengths{Unit{"", 1.0}, Unit{"nm", 1e-9}, Unit{"um", 1e-6}, Unit{"mm", 1e-3},
+                                         Unit{"m", 1.0}};
+  const auto among = [unit](std::span<const Unit> units) -> std::optional<double> {
+    for (const auto& [name, factor] : units)
+      if (name == unit) return factor;
+    return std::nullopt;
+  };
+  if (of.is_time()) return among(kTimes);
+  if (of.column->name.ends_with("_m")) return among(kLengths);
+  return unit.empty() ? std::optional(1.0) : std::nullopt;
+}
+
 }  // namespace
+
+bool Objective::is_time() const {
+  return column->name == kObjectiveNames[0].column || column->name == kObjectiveNames[1].column;
+}
+
+std::string_view Objective::name() const {
+  if (!is_time()) return column->name;
+  return column->name == kObjectiveNames[0].column ? kObjectiveNames[0].name : kObjectiveNames[1].name;
+}
+
+namespace {
+
+/// How many of the ticks may be without a contact for an error to say something of the rest; of other columns all.
+double share_left_out(std::string_view column) { return column.starts_with("error_") ? 0.5 : 1.0; }
+
+}  // namespace
+
+double Objective::lacking(const CellNumbers& numbers) const {
+  const auto ticks = static_cast<double>(numbers.ticks);
+  const auto without = static_cast<double>(numbers.unconverged + numbers.facing);
+  return ticks > 0.0 && without > share_left_out(column->name) * ticks ? without / ticks : 0.0;
+}
 
 double Objective::of(const CellNumbers& numbers) const {
   if (const auto* whole = std::get_if<std::uint64_t CellNumbers::*>(&column->field))
@@ -29,8 +78,17 @@ double Objective::of(const CellNumbers& numbers) const {
   return numbers.*(std::get<double CellNumbers::*>(column->field));
 }
 
+double Objective::of(const CellNumbers& numbers, const TimeScale& scale) const {
+  if (!is_time()) return of(numbers);
+  return of(numbers) * (column->name == kObjectiveNames[0].column ? scale.mean : scale.p99);
+}
+
 Result<Objective> find_objective(std::string_view name) {
   std::vector<std::string_view> names;
+  for (const ObjectiveName& known : kObjectiveNames) {
+    names.push_back(known.name);
+    if (known.name == name) name = known.column;
+  }
   for (const NumberColumn& column : number_columns()) {
     if (column.name == name) return Objective{&column};
     names.push_back(column.name);
@@ -38,13 +96,15 @@ Result<Objective> find_objective(std::string_view name) {
   return fail(show_text(name) + " is no number of a run", {}, "allowed: " + choices_text(names));
 }
 
-double Constraint::missed(const CellNumbers& numbers) const {
-  const double over = of.of(numbers) - most;
+double Constraint::missed(const CellNumbers& numbers, const TimeScale& scale) const {
+  if (const double lacking = of.lacking(numbers); lacking > 0.0) return lacking;
+  const double over = of.of(numbers, scale) - most;
   return over <= 0.0 ? 0.0 : most > 0.0 ? over / most : over;
 }
 
 std::string Constraint::text() const {
-  return std::string(of.name()) + (most == 0.0 ? " = 0" : " <= " + most_text(most));
+  return std::string(of.name()) + (most == 0.0 ? " = 0" : " <= " + most_text(most)) +
+         (of.is_time() && most != 0.0 ? " us" : "");
 }
 
 Result<Constraint> parse_constraint(std::string_view text) {
@@ -54,12 +114,17 @@ Result<Constraint> parse_constraint(std::string_view text) {
   };
   if (sign == std::string_view::npos) return wrong();
   const bool at_most = text.substr(sign, 2) == "<=";
-  const auto value = parse_finite_double(trimmed(text.substr(sign + (at_most ? 2 : 1))));
+  const auto [number, unit] = value_and_unit(trimmed(text.substr(sign + (at_most ? 2 : 1))));
+  const auto value = parse_finite_double(number);
   if (!value || (text[sign] == '<') != at_most || (!at_most && *value != 0.0)) return wrong();
   const Result<Objective> of = find_objective(trimmed(text.substr(0, sign)));
   if (!of) return tl::unexpected(of.error());
+  const auto factor = unit_factor(*of, unit);
+  if (!factor && *value != 0.0)
+    return fail(show_text(unit) + " is no unit of " + std::string(of->name()), std::string(text),
+                of->is_time() ? "write ns, us or ms: p99_time <= 20 us" : "write nm, um, mm or m for lengths");
   if (*value < 0.0) return fail(std::string(of->name()) + " is never below 0", std::string(text), "allow 0 or more");
-  return Constraint{*of, *value};
+  return Constraint{*of, *value * factor.value_or(1.0)};
 }
 
 Status check_constraints(const std::vector<Constraint>& constraints) {

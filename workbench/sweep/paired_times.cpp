@@ -1,5 +1,6 @@
 #include "workbench/sweep/paired_times.h"
 
+#include "core/lab/measure/distribution.h"
 #include "workbench/sweep/instruction_count.h"
 
 #include <boost/math/distributions/students_t.hpp>
@@ -34,10 +35,36 @@ class Side {
     return std::max(1e-3, took.count() / static_cast<double>(motion.size()));
   }
 
+  /// Likewise, the 99th percentile of the ticks.
+  double run_p99(std::span<const TickInput> motion) {
+    using Clock = std::chrono::steady_clock;
+    std::vector<double> ns;
+    ns.reserve(motion.size());
+    TickState state;
+    for (const TickInput& input : motion) {
+      const auto began = Clock::now();
+      static_cast<void>(stepper_.step(preset_, input, state));
+      ns.push_back(std::chrono::duration<double, std::nano>(Clock::now() - began).count());
+    }
+    return std::max(1e-3, distribution(std::move(ns)).p99);
+  }
+
  private:
   Stepper stepper_;
   Preset preset_;
 };
+
+using RunSide = double (Side::*)(std::span<const TickInput>);
+
+/// A, B, B, A.
+TimeRound round_of(Side& first, Side& second, std::span<const TickInput> motion, RunSide run) {
+  TimeRound round;
+  round[0] = (first.*run)(motion);
+  round[1] = (second.*run)(motion);
+  round[2] = (second.*run)(motion);
+  round[3] = (first.*run)(motion);
+  return round;
+}
 
 }  // namespace
 
@@ -79,16 +106,28 @@ std::optional<PairedTime> time_paired(const std::shared_ptr<const ContactScene>&
   std::vector<TimeRound> times;
   for (std::size_t i = 0; i < rounds; ++i) {
     if (stop && stop()) return std::nullopt;
-    TimeRound& round = times.emplace_back();
-    round[0] = first.run(motion);
-    round[1] = second.run(motion);
-    round[2] = second.run(motion);
-    round[3] = first.run(motion);
+    times.push_back(round_of(first, second, motion, &Side::run));
   }
   PairedTime out = judge(times);
   if (const auto counted = count_instructions([&] { static_cast<void>(first.run(motion)); }))
     out.instructions = static_cast<double>(*counted) / static_cast<double>(motion.size());
   return out;
+}
+
+std::optional<PairedTicks> time_paired_ticks(const std::shared_ptr<const ContactScene>& scene, const Preset& a,
+                                             const Preset& b, std::span<const TickInput> motion, std::size_t rounds,
+                                             const std::function<bool()>& stop) {
+  const auto mean = time_paired(scene, a, b, motion, rounds, stop);
+  if (!mean) return std::nullopt;
+  Side first(scene, a), second(scene, b);
+  static_cast<void>(first.run_p99(motion));
+  static_cast<void>(second.run_p99(motion));
+  std::vector<TimeRound> times;
+  for (std::size_t i = 0; i < rounds; ++i) {
+    if (stop && stop()) return std::nullopt;
+    times.push_back(round_of(first, second, motion, &Side::run_p99));
+  }
+  return PairedTicks{*mean, judge(times)};
 }
 
 }  // namespace tangent::sweep

@@ -28,6 +28,11 @@ struct PairedTime {
   std::optional<double> instructions;      ///< a tick, of the first; none: this machine does not count them
 };
 
+/// Of the time of single ticks, each read from the clock (which takes some 20 ns of both sides).
+struct PairedTicks {
+  PairedTime mean, p99;
+};
+
 /// One round: times of A, B, B, A. A and B in nanoseconds a tick.
 using TimeRound = std::array<double, 4>;
 
@@ -39,5 +44,10 @@ PairedTime judge(std::span<const TimeRound> rounds);
 std::optional<PairedTime> time_paired(const std::shared_ptr<const ContactScene>& scene, const Preset& a,
                                       const Preset& b, std::span<const TickInput> motion, std::size_t rounds,
                                       const std::function<bool()>& stop = {});
+
+/// Likewise, the 99th percentile, too: from runs of their own, so that the clock is not in the mean.
+std::optional<PairedTicks> time_paired_ticks(const std::shared_ptr<const ContactScene>& scene, const Preset& a,
+                                             const Preset& b, std::span<const TickInput> motion, std::size_t rounds,
+                                             const std::function<bool()>& stop = {});
 
 }  // namespace tangent::sweep

@@ -1,9 +1,16 @@
 #include "workbench/sweep/plan.h"
 
+#include "core/base/text.h"
+
 #include <algorithm>
 #include <cmath>
 
 namespace tangent::sweep {
+namespace {
+
+constexpr double kLeastPressMm = 1e-3, kMostPressMm = 20.0;
+
+}  // namespace
 
 double Range::at(double share) const {
   if (!values.empty()) {
@@ -25,8 +32,18 @@ std::vector<double> Range::grid() const {
   return out;
 }
 
-bool is_made(std::string_view poses) {
-  return std::find(kMadePoses.begin(), kMadePoses.end(), poses) != kMadePoses.end();
+std::optional<MadeMotion> made_motion(std::string_view poses) {
+  const std::size_t colon = poses.find(':');
+  const auto kind = std::find(kMadePoses.begin(), kMadePoses.end(), poses.substr(0, colon));
+  if (kind == kMadePoses.end()) return std::nullopt;
+  MadeMotion out{static_cast<std::size_t>(kind - kMadePoses.begin()), {}};
+  if (colon == std::string_view::npos) return out;
+  const std::string_view depth = poses.substr(colon + 1);
+  if (!depth.ends_with("mm")) return std::nullopt;
+  const auto mm = parse_finite_double(depth.substr(0, depth.size() - 2));
+  if (!mm || *mm < kLeastPressMm || *mm > kMostPressMm) return std::nullopt;
+  out.press_m = *mm * 1e-3;
+  return out;
 }
 
 namespace {

@@ -22,6 +22,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -64,9 +65,16 @@ struct Plan {
   std::uint64_t seed = 1;
   std::size_t ticks = 0;  ///< of a motion at most; 0: all
 };
-/// Motions that need no file (workbench/session: exploration path and strokes).
+/// Motions that need no file (workbench/session: exploration path and strokes). "around:0.5mm" is 0.5 mm deep in the
+/// mean; the depth swings about that by kExplorationPressSwing.
 inline constexpr std::array<std::string_view, 2> kMadePoses{"around", "strokes"};
-bool is_made(std::string_view poses);
+struct MadeMotion {
+  std::size_t kind = 0;                ///< of kMadePoses
+  std::optional<double> press_m = {};  ///< none: as deep as usual
+};
+/// Empty: this names a file.
+std::optional<MadeMotion> made_motion(std::string_view poses);
+inline bool is_made(std::string_view poses) { return made_motion(poses).has_value(); }
 
 /// Paths in it are as written, or relative to the plan's folder. Unknown keys, wrong types, empty ranges, values that a
 /// key does not allow and what contradicts itself are errors that name key and line.

@@ -57,6 +57,10 @@ std::uint64_t minutes_of(const JobScripts& scripts) {
   return std::max<std::uint64_t>(10, static_cast<std::uint64_t>(scripts.seconds_a_job / 30.0) + 1);
 }
 
+std::string times_option(const JobScripts& scripts) {
+  return scripts.times > 0 ? " --times " + std::to_string(scripts.times) : std::string();
+}
+
 std::string slurm_script(std::uint64_t shards, const JobScripts& scripts) {
   const std::uint64_t jobs = (shards + scripts.shards_a_job - 1) / scripts.shards_a_job;
   return "#!/bin/sh\n"
@@ -85,8 +89,8 @@ std::string slurm_script(std::uint64_t shards, const JobScripts& scripts) {
          "\n"
          "for shard in $(seq \"$first\" \"$last\"); do\n"
          "  " +
-         scripts.program +
-         " sweep run . --shard \"$shard\" --threads 1 || exit 1\n"
+         scripts.program + " sweep run . --shard \"$shard\" --threads 1" + times_option(scripts) +
+         " || exit 1\n"
          "done\n";
 }
 
@@ -98,7 +102,7 @@ std::string parallel_script(std::uint64_t shards, const JobScripts& scripts) {
          " sweep merge . --out sweep.sqlite\n"
          "seq 0 " +
          std::to_string(shards - 1) + " | parallel --will-cite --halt now,fail=1 " + scripts.program +
-         " sweep run . --shard {} --threads 1\n";
+         " sweep run . --shard {} --threads 1" + times_option(scripts) + "\n";
 }
 
 }  // namespace

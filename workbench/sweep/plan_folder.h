@@ -25,6 +25,7 @@ struct JobScripts {
   std::string program = "workbench";  ///< as the jobs call it
   std::uint64_t shards_a_job = 1;     ///< so that a job takes 10 to 60 minutes
   double seconds_a_job = 0.0;         ///< expected
+  std::size_t times = 0;              ///< rounds of timing after a shard's cells; 0: none
 };
 
 /// Writes the folder. Fails where there is something else in it, and on missing meshes and poses; nothing half-written

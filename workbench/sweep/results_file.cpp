@@ -12,7 +12,7 @@
 namespace tangent::sweep {
 namespace {
 
-constexpr int kResultsFormat = 1;
+constexpr int kResultsFormat = 2;              // 2: counted times, and the machine of a time
 constexpr std::int64_t kSweepId = 0x54675377;  // "TgSw"
 enum Query : std::size_t { insert_cell, read_cell, insert_time, read_time };
 
@@ -51,7 +51,7 @@ std::string schema(const Plan& plan) {
   return cells +
          ", failed TEXT);"
          "CREATE TABLE timings(cell INTEGER PRIMARY KEY, against INTEGER, ns REAL, against_ns REAL, ratio REAL,"
-         " low REAL, high REAL, verdict TEXT, rounds INTEGER, instructions REAL);"
+         " low REAL, high REAL, verdict TEXT, rounds INTEGER, instructions REAL, machine TEXT);"
          "CREATE TABLE meta(key TEXT PRIMARY KEY, value TEXT);";
 }
 
@@ -104,7 +104,9 @@ Status ResultsFile::go_on(const std::string& digest) {
   if (*id != kSweepId) return fail("is there already, and no sweep's results", name, "choose another name");
   const Result<std::int64_t> format = database_.whole_of("PRAGMA user_version");
   if (!format) return tl::unexpected(format.error());
-  if (*format != kResultsFormat) return fail("is of a newer program", name, "choose another name");
+  if (*format != kResultsFormat)
+    return fail(*format < kResultsFormat ? "is of an older program" : "is of a newer program", name,
+                "choose another name");
   const Result<std::string> kept = database_.text_of("SELECT value FROM meta WHERE key='plan_digest'");
   if (!kept) return tl::unexpected(kept.error());
   if (*kept != digest)
@@ -131,7 +133,7 @@ Status ResultsFile::prepare() {
   for (const NumberColumn& column : number_columns()) names += std::string(column.name) + ",";
   for (const std::string& sql :
        {"INSERT INTO cells VALUES(" + places + ")", "SELECT " + names + "failed FROM cells WHERE cell=?",
-        std::string("INSERT OR REPLACE INTO timings VALUES(?,?,?,?,?,?,?,?,?,?)"),
+        std::string("INSERT OR REPLACE INTO timings VALUES(?,?,?,?,?,?,?,?,?,?,?)"),
         std::string("SELECT 1 FROM timings WHERE cell=?")}) {
     Result<Statement> statement = database_.prepare(sql);
     if (!statement) return tl::unexpected(statement.error());
@@ -227,18 +229,20 @@ Status ResultsFile::add(const CellResult& result) {
   return {};
 }
 
-Status ResultsFile::add(std::uint64_t cell, std::uint64_t against, const PairedTime& time) {
+Status ResultsFile::add(const CellTime& timed) {
+  const PairedTime& time = timed.time;
   Statement& insert = statements_[insert_time];
   int at = 1;
-  insert.bind(at++, static_cast<std::int64_t>(cell));
-  insert.bind(at++, static_cast<std::int64_t>(against));
+  insert.bind(at++, static_cast<std::int64_t>(timed.cell));
+  insert.bind(at++, static_cast<std::int64_t>(timed.against));
   for (const double value : {time.ns, time.against_ns, time.ratio, time.low, time.high}) insert.bind(at++, value);
   insert.bind(at++, kVerdictNames[static_cast<std::size_t>(time.verdict)]);
   insert.bind(at++, static_cast<std::int64_t>(time.rounds));
   if (time.instructions)
-    insert.bind(at, *time.instructions);
+    insert.bind(at++, *time.instructions);
   else
-    insert.bind_null(at);
+    insert.bind_null(at++);
+  insert.bind(at, std::string_view(timed.machine));
   return insert.run();
 }
 

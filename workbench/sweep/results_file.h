@@ -4,7 +4,7 @@
 #pragma once
 
 #include "workbench/recording/database.h"
-#include "workbench/sweep/paired_times.h"
+#include "workbench/sweep/cell_times.h"
 #include "workbench/sweep/run_cells.h"
 
 namespace tangent::sweep {
@@ -18,7 +18,7 @@ class ResultsFile {
   const std::vector<bool>& done() const { return done_; }  ///< by cell
   /// Adds a cell; one that is there already must have the same numbers. On the disk after the next commit().
   Status add(const CellResult& result);
-  Status add(std::uint64_t cell, std::uint64_t against, const PairedTime& time);
+  Status add(const CellTime& timed);
   bool has_time(std::uint64_t cell);
   Status commit();
   /// The last commit; the file is then a single one.

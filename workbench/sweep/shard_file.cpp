@@ -1,10 +1,12 @@
 #include "workbench/sweep/shard_file.h"
 
+#include "core/base/fnv.h"
+
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
 #include <fstream>
 
@@ -16,16 +18,10 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr int kShardFormat = 1;
+constexpr int kShardFormat = 2;  // 2: counted times, and times
 constexpr std::size_t kDigits = 16;
 
-std::string checksum(std::string_view text) {
-  std::uint64_t value = 0xcbf29ce484222325ull;  // FNV-1a
-  for (const char c : text) value = (value ^ static_cast<unsigned char>(c)) * 0x100000001b3ull;
-  std::array<char, kDigits + 1> out{};
-  std::snprintf(out.data(), out.size(), "%016llx", static_cast<unsigned long long>(value));
-  return out.data();
-}
+std::string checksum(std::string_view text) { return Fnv().add(text).text(); }
 
 std::string line_of(const ordered_json& json) {
   const std::string text = json.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
@@ -85,6 +81,52 @@ bool take_result(const ordered_json& json, const ShardName& name, CellResult& re
   return true;
 }
 
+constexpr std::array kTimeNumbers{std::pair{"ns", &PairedTime::ns}, std::pair{"against_ns", &PairedTime::against_ns},
+                                  std::pair{"ratio", &PairedTime::ratio}, std::pair{"low", &PairedTime::low},
+                                  std::pair{"high", &PairedTime::high}};
+
+ordered_json time_json(const CellTime& time) {
+  ordered_json json{{"time_of", time.cell}, {"against", time.against}};
+  for (const auto& [name, field] : kTimeNumbers) json[name] = time.time.*field;
+  json["verdict"] = kVerdictNames[static_cast<std::size_t>(time.time.verdict)];
+  json["rounds"] = time.time.rounds;
+  if (time.time.instructions) json["instructions"] = *time.time.instructions;
+  json["machine"] = time.machine;
+  return json;
+}
+
+bool take_time(const ordered_json& json, const ShardName& name, CellTime& out) {
+  const auto whole = [&](const char* key, std::uint64_t& value) {
+    const auto at = json.find(key);
+    if (at == json.end() || !at->is_number_unsigned()) return false;
+    value = at->get<std::uint64_t>();
+    return true;
+  };
+  out = {};
+  if (!whole("time_of", out.cell) || !whole("against", out.against) || !whole("rounds", out.time.rounds)) return false;
+  if (out.cell < name.first || out.cell >= name.end) return false;
+  for (const auto& [key, field] : kTimeNumbers) {
+    const auto at = json.find(key);
+    if (at == json.end() || !at->is_number()) return false;
+    out.time.*field = at->get<double>();
+  }
+  const auto verdict = json.find("verdict"), machine = json.find("machine");
+  if (verdict == json.end() || !verdict->is_string() || machine == json.end() || !machine->is_string()) return false;
+  const auto* const known = std::find(kVerdictNames.begin(), kVerdictNames.end(), verdict->get<std::string>());
+  if (known == kVerdictNames.end()) return false;
+  out.time.verdict = static_cast<TimeVerdict>(known - kVerdictNames.begin());
+  out.machine = machine->get<std::string>();
+  if (const auto counted = json.find("instructions"); counted != json.end() && counted->is_number())
+    out.time.instructions = counted->get<double>();
+  return true;
+}
+
+/// A line after the first.
+bool take_line(const ordered_json& json, const ShardName& name, ShardLine& line) {
+  if (json.contains("time_of")) return take_time(json, name, line.emplace<CellTime>());
+  return take_result(json, name, line.emplace<CellResult>());
+}
+
 std::string shard_text(const ShardName& name) {
   return "shard " + std::to_string(name.shard) + " of " + std::to_string(name.shards);
 }
@@ -95,10 +137,17 @@ Status check_name(const ordered_json& json, const ShardName& name, const std::fi
   if (format == json.end() || !format->is_number_integer())
     return fail("is no shard of a sweep", path.string(), "remove it, and run that shard again");
   if (*format != kShardFormat)
-    return fail("is of a newer program", path.string(), "read it with that program, or run that shard again");
+    return fail(*format < kShardFormat ? "is of an older program" : "is of a newer program", path.string(),
+                "read it with that program, or run that shard again");
   if (json == name_json(name)) return {};
   return fail("belongs to another plan or shard (wanted: " + shard_text(name) + " of plan " + name.plan + ")",
               path.string(), "remove it, and run that shard again");
+}
+
+/// Before its end: nothing goes on from there.
+Status damaged(const std::filesystem::path& path, std::uint64_t line, const ShardName& name) {
+  return fail("line " + std::to_string(line) + " is damaged", path.string(),
+              "remove it, and run " + shard_text(name) + " again");
 }
 
 Status torn(const std::filesystem::path& path, std::uint64_t line, const ShardName& name) {
@@ -119,7 +168,10 @@ ShardName shard_of(const std::string& plan, std::uint64_t cells, std::uint64_t s
 // --- Writing ---------------------------------------------------------------------------------------------
 
 ShardWriter::ShardWriter(ShardWriter&& other) noexcept
-    : path_(std::move(other.path_)), file_(std::exchange(other.file_, -1)), done_(std::move(other.done_)) {}
+    : path_(std::move(other.path_)),
+      file_(std::exchange(other.file_, -1)),
+      done_(std::move(other.done_)),
+      timed_(std::move(other.timed_)) {}
 
 ShardWriter::~ShardWriter() {
   if (file_ >= 0) ::close(file_);
@@ -133,26 +185,28 @@ struct Whole {
   bool named = false;
 };
 
-Result<Whole> look_through(const std::filesystem::path& path, const ShardName& name, std::vector<bool>& done) {
+Result<Whole> look_through(const std::filesystem::path& path, const ShardName& name, std::vector<bool>& done,
+                           std::vector<bool>& timed) {
   std::ifstream file(path, std::ios::binary);
   Whole whole;
   std::string line;
-  CellResult result;
+  ShardLine taken;
   for (std::uint64_t number = 1; std::getline(file, line); ++number) {
     if (file.eof()) break;  // no line end: it was being written
     const auto json = read_line(line);
     const bool last = file.peek() == std::ifstream::traits_type::eof();
     if (!json) {
       if (last) break;
-      return tl::unexpected(torn(path, number, name).error());
+      return tl::unexpected(damaged(path, number, name).error());
     }
     if (!whole.named) {
       if (Status ok = check_name(*json, name, path); !ok) return tl::unexpected(ok.error());
       whole.named = true;
-    } else if (take_result(*json, name, result)) {
-      done[result.cell - name.first] = true;
+    } else if (take_line(*json, name, taken)) {
+      const auto* const time = std::get_if<CellTime>(&taken);
+      (time ? timed : done)[(time ? time->cell : std::get<CellResult>(taken).cell) - name.first] = true;
     } else {
-      return tl::unexpected(torn(path, number, name).error());
+      return tl::unexpected(damaged(path, number, name).error());
     }
     whole.bytes += line.size() + 1;
   }
@@ -165,10 +219,11 @@ Result<ShardWriter> ShardWriter::open(const std::filesystem::path& path, const S
   ShardWriter out;
   out.path_ = path;
   out.done_.assign(name.end - name.first, false);
+  out.timed_ = out.done_;
   std::error_code error;
   Whole whole;
   if (std::filesystem::exists(path, error)) {
-    const Result<Whole> found = look_through(path, name, out.done_);
+    const Result<Whole> found = look_through(path, name, out.done_, out.timed_);
     if (!found) return tl::unexpected(found.error());
     whole = *found;
   }
@@ -192,6 +247,8 @@ Status ShardWriter::write(const std::string& line) {
   }
   return {};
 }
+
+Status ShardWriter::add(const CellTime& time) { return write(line_of(time_json(time))); }
 
 Status ShardWriter::add(const CellResult& result) { return write(line_of(result_json(result))); }
 
@@ -237,12 +294,11 @@ Result<ShardReader> ShardReader::open(const std::filesystem::path& path, const S
   return out;
 }
 
-Result<bool> ShardReader::next(CellResult& result) {
+Result<bool> ShardReader::next(ShardLine& line) {
   ordered_json json;
   const Result<bool> more = impl_->next_json(json);
   if (!more || !*more) return more;
-  if (!take_result(json, impl_->name, result))
-    return tl::unexpected(torn(impl_->path, impl_->number, impl_->name).error());
+  if (!take_line(json, impl_->name, line)) return tl::unexpected(torn(impl_->path, impl_->number, impl_->name).error());
   return true;
 }
 

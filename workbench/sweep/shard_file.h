@@ -1,13 +1,15 @@
 // A shard: a run of neighbouring cells, in a file of its own that is only ever appended to. No lock, no database, so it
 // works on a network disk; a process that is killed leaves at most one torn line, which the next one removes.
 //
-// The first line says which plan and shard it is, every further one is a cell. Before each stand 16 hex digits: a
-// checksum of the line.
+// The first line says which plan and shard it is, every further one is a cell, or the time of one. Before each stand 16
+// hex digits: a checksum of the line.
 #pragma once
 
+#include "workbench/sweep/cell_times.h"
 #include "workbench/sweep/run_cells.h"
 
 #include <filesystem>
+#include <variant>
 #include <vector>
 
 namespace tangent::sweep {
@@ -32,8 +34,10 @@ class ShardWriter {
   ShardWriter& operator=(ShardWriter&&) = delete;
   ~ShardWriter();
 
-  const std::vector<bool>& done() const { return done_; }  ///< by cell - first
+  const std::vector<bool>& done() const { return done_; }    ///< by cell - first
+  const std::vector<bool>& timed() const { return timed_; }  ///< likewise
   Status add(const CellResult& result);
+  Status add(const CellTime& time);
   /// On the disk: a power cut takes nothing of it.
   Status flush();
 
@@ -42,10 +46,12 @@ class ShardWriter {
   Status write(const std::string& line);
   std::filesystem::path path_;
   int file_ = -1;
-  std::vector<bool> done_;
+  std::vector<bool> done_, timed_;
 };
 
-/// Reads the cells of a shard, line by line; memory does not grow with it.
+using ShardLine = std::variant<CellResult, CellTime>;
+
+/// Reads a shard, line by line; memory does not grow with it.
 class ShardReader {
  public:
   /// Fails on a file that is missing, of another plan or shard, naming it.
@@ -53,7 +59,7 @@ class ShardReader {
   ShardReader(ShardReader&&) noexcept;
   ~ShardReader();
   /// False: the end. Fails on a torn or damaged line, naming file and line.
-  Result<bool> next(CellResult& result);
+  Result<bool> next(ShardLine& line);
 
  private:
   ShardReader();

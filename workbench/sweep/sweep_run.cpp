@@ -52,6 +52,24 @@ std::uint64_t count(const std::vector<bool>& done) {
   return static_cast<std::uint64_t>(std::count(done.begin(), done.end(), true));
 }
 
+Status check_shard(const PlanFolder& folder, std::uint64_t shard) {
+  if (shard < folder.shards) return {};
+  return fail(std::to_string(shard) + " is no shard", "--shard", "allowed: 0 to " + std::to_string(folder.shards - 1));
+}
+
+/// A line of a shard into the results. True: it is time to put them on the disk.
+Result<bool> merge_line(const ShardLine& line, ResultsFile& file, Tally& tally) {
+  if (const auto* const time = std::get_if<CellTime>(&line)) {
+    if (file.has_time(time->cell)) return false;
+    if (Status ok = file.add(*time); !ok) return tl::unexpected(ok.error());
+    return false;
+  }
+  const CellResult& result = std::get<CellResult>(line);
+  const bool is_new = !file.done()[result.cell];
+  if (Status ok = file.add(result); !ok) return tl::unexpected(ok.error());
+  return is_new && tally.add(result);
+}
+
 }  // namespace
 
 Result<SweepOutcome> run_sweep(const Cells& cells, ResultsFile& file, const SweepOptions& options) {
@@ -74,15 +92,10 @@ Result<std::uint64_t> time_sweep(const Cells& cells, ResultsFile& file, std::siz
   std::uint64_t timed = 0;
   for (std::uint64_t i = 0; i < cells.size() && !options.stop(); ++i) {
     if (file.has_time(i)) continue;
-    const Cell cell = cells.at(i);
-    const Result<Ground> ground = inputs.ground(cell.mesh, cell.poses, cell.finger);
-    if (!ground) continue;  // its row says why
-    const std::uint64_t first = i / cells.per_group() * cells.per_group();
-    const auto motion = std::span(*ground->motion).first(std::min(ticks, ground->motion->size()));
-    const auto time =
-        time_paired(ground->scene, cells.preset(cell), cells.preset(cells.at(first)), motion, rounds, options.stop);
-    if (!time) break;
-    if (Status ok = file.add(i, first, *time); !ok) return tl::unexpected(ok.error());
+    const auto time = time_cell(cells, inputs, i, {rounds, ticks, options.stop});
+    if (!time) continue;  // its row says why
+    if (!*time) break;
+    if (Status ok = file.add(**time); !ok) return tl::unexpected(ok.error());
     if (Status ok = file.commit(); !ok) return tl::unexpected(ok.error());
     ++timed;
     options.progress({i + 1, cells.size()});
@@ -90,10 +103,34 @@ Result<std::uint64_t> time_sweep(const Cells& cells, ResultsFile& file, std::siz
   return timed;
 }
 
+Result<std::uint64_t> time_shard(const PlanFolder& folder, std::uint64_t shard, std::size_t rounds,
+                                 const SweepOptions& options) {
+  if (Status ok = check_shard(folder, shard); !ok) return tl::unexpected(ok.error());
+  const Result<Cells> cells = Cells::of(folder.plan);
+  if (!cells) return tl::unexpected(cells.error());
+  const ShardName name = folder.shard(shard);
+  Result<ShardWriter> file = ShardWriter::open(folder.shard_file(shard), name);
+  if (!file) return tl::unexpected(file.error());
+  Inputs inputs(folder.plan);
+  TimeCells how;
+  how.rounds = rounds;
+  how.stop = options.stop;
+  std::uint64_t timed = 0;
+  for (std::uint64_t i = 0; i < name.end - name.first && !options.stop(); ++i) {
+    if (!file->done()[i] || file->timed()[i]) continue;
+    const auto time = time_cell(*cells, inputs, name.first + i, how);
+    if (!time) continue;  // its line says why
+    if (!*time) break;
+    if (Status ok = file->add(**time); !ok) return tl::unexpected(ok.error());
+    ++timed;
+    options.progress({i + 1, name.end - name.first});
+  }
+  if (Status ok = file->flush(); !ok) return tl::unexpected(ok.error());
+  return timed;
+}
+
 Result<SweepOutcome> run_shard(const PlanFolder& folder, std::uint64_t shard, const SweepOptions& options) {
-  if (shard >= folder.shards)
-    return fail(std::to_string(shard) + " is no shard", "--shard",
-                "allowed: 0 to " + std::to_string(folder.shards - 1));
+  if (Status ok = check_shard(folder, shard); !ok) return tl::unexpected(ok.error());
   const Result<Cells> cells = Cells::of(folder.plan);
   if (!cells) return tl::unexpected(cells.error());
   const ShardName name = folder.shard(shard);
@@ -128,14 +165,14 @@ Result<SweepOutcome> merge_shards(const PlanFolder& folder, const std::filesyste
     const ShardName name = folder.shard(shard);
     Result<ShardReader> reader = ShardReader::open(folder.shard_file(shard), name);
     if (!reader) return tl::unexpected(reader.error());
-    CellResult result;
+    ShardLine line;
     for (;;) {
-      const Result<bool> more = reader->next(result);
+      const Result<bool> more = reader->next(line);
       if (!more) return tl::unexpected(more.error());
       if (!*more) break;
-      const bool is_new = !file->done()[result.cell];
-      if (Status ok = file->add(result); !ok) return tl::unexpected(ok.error());
-      if (is_new && tally.add(result))
+      const Result<bool> keep = merge_line(line, *file, tally);
+      if (!keep) return tl::unexpected(keep.error());
+      if (*keep)
         if (Status ok = file->commit(); !ok) return tl::unexpected(ok.error());
     }
     for (std::uint64_t cell = name.first; cell < name.end; ++cell) {

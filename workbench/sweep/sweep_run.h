@@ -33,6 +33,11 @@ Result<SweepOutcome> run_sweep(const Cells& cells, ResultsFile& file, const Swee
 Result<std::uint64_t> time_sweep(const Cells& cells, ResultsFile& file, std::size_t rounds, std::size_t ticks,
                                  const SweepOptions& options);
 
+/// Times the shard's cells that have numbers and no time yet, each against the first of its group, on this thread
+/// alone. Returns how many were timed.
+Result<std::uint64_t> time_shard(const PlanFolder& folder, std::uint64_t shard, std::size_t rounds,
+                                 const SweepOptions& options);
+
 /// Solves the cells that the shard's file lacks.
 Result<SweepOutcome> run_shard(const PlanFolder& folder, std::uint64_t shard, const SweepOptions& options);
 

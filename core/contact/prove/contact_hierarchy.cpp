@@ -11,8 +11,6 @@
 namespace tangent {
 namespace {
 
-constexpr std::size_t kLeafTriangles = 2;
-
 /// Directions within `half` of a unit axis; cos_half -1 is every direction.
 struct Cone {
   Vec3 axis{0.0, 0.0, 1.0};
@@ -90,10 +88,9 @@ class ContactHierarchyBuilder {
 
  private:
   void build_tree() {
-    tree_.nodes_.reserve(2 * (entries_.size() / kLeafTriangles + 1));
+    tree_.nodes_.reserve(2 * entries_.size());
     tree_.order_.reserve(entries_.size());
     build_node(0, entries_.size());
-    tree_.nodes_.shrink_to_fit();
   }
 
   struct Bounds {
@@ -210,12 +207,11 @@ class ContactHierarchyBuilder {
     const auto index = static_cast<std::uint32_t>(tree_.nodes_.size());
     tree_.nodes_.emplace_back();
     Bounds bounds;
-    if (last - first <= kLeafTriangles) {
+    if (last - first == 1) {
       bounds = bounds_of(entries_[first].entry);
-      for (std::size_t i = first + 1; i < last; ++i) join(bounds, bounds_of(entries_[i].entry));
       tree_.nodes_[index].link = ContactHierarchy::kLeaf | static_cast<std::uint32_t>(first);
-      for (std::size_t i = first; i < last; ++i) tree_.order_.push_back(entries_[i].entry);
-      tree_.nodes_[index].count = static_cast<std::uint32_t>(last - first);
+      tree_.order_.push_back(entries_[first].entry);
+      tree_.nodes_[index].count = 1;
     } else {
       const std::size_t middle = split(first, last);
       bounds = build_node(first, middle);
@@ -386,9 +382,14 @@ bool ContactHierarchy::touchable(const Node& node, const ContactQuery& q) {
   const Vec3 low(node.min[0], node.min[1], node.min[2]), high(node.max[0], node.max[1], node.max[2]);
   const NormalCone normals = normals_of(node);
   const SurfaceBounds part{0.5 * (low + high), 0.5 * (high - low), normals};
-  const double most = most_lambda_m(*q.core, q.nearest_m);
+  if (!can_face(*q.core, part, q.margin_m)) return false;
   const bool here = q.margin_m == 0.0 || q.steady_only || is_steady_for_core(q, node.least_curvature, normals);
-  return can_touch(*q.core, part, most, here ? 0.0 : q.margin_m);
+  const double way = here ? 0.0 : q.margin_m;
+  if (here && !can_face(*q.core, part, 0.0)) return false;
+  const double apart = q.core->apart_m(part.middle, part.half);
+  if (apart > way && q.core->rank_outside(apart) > q.nearest_m - q.core->lever_m()) return false;
+  const double most = most_lambda_m(*q.core, q.nearest_m);
+  return can_touch(*q.core, part, most, way);
 }
 
 void limit_query(ContactQuery& query, const Finger& finger, double rank) {

@@ -63,7 +63,9 @@ double margin_by_distance(const FingerCore& core, const SurfaceBounds& part, con
 }
 
 double margin_of(const FingerCore& core, const SurfaceBounds& part, const RankBound& bound) {
-  return std::max(touch_margin(core, part), margin_by_distance(core, part, bound));
+  const double apart = core.apart_m(part.middle, part.half);
+  const double outside = std::min(apart, bound.way_to(core.rank_outside(apart)));
+  return std::max({outside, touch_margin(core, part), margin_by_distance(core, part, bound)});
 }
 
 /// A crease by control points of its curve, then control normals of its near and of its far side.

@@ -23,6 +23,9 @@ constexpr double kMostOff = 0.3;
 /// Off by less, a contact that seems possible is one, or so near to one that pieces tell no more.
 constexpr double kLittleOff = 0.05;
 
+/// Of the margin that would be enough: a piece that is known only roughly is not bisected for more.
+constexpr double kPieceShare = 0.5;
+
 /// Bisections of a patch, and pieces looked at in all.
 constexpr int kPieceDepth = 6, kPieces = 40;
 
@@ -45,11 +48,11 @@ SurfaceBounds bounds_of(std::span<const Vec3> points, const NormalCone& cone) {
 }
 
 /// The patch S - D n, raised so that its heights are ranks: by the reach less the ball along n.
-PnPatch patch_less_core(const PnPatch& patch, const FingerCore& core, const LinearCore& linear) {
+PnPatch patch_less_core(const PnPatch& patch, const FingerCore& core, const LinearCore& linear, const Vec3& axis) {
   const double raise = core.reach_m() - core.ball_m();
   const std::array<Vec3, 6>& n = patch.normals;
-  std::array<Vec3, 6> d;
-  for (std::size_t i = 0; i < 6; ++i) d[i] = linear.scale * core.derivative(linear.support, n[i]) + raise * n[i];
+  std::array<Vec3, 6> d;  // D vanishes along the middle normal
+  for (std::size_t i = 0; i < 6; ++i) d[i] = linear.scale * glm::dot(n[i], axis) * linear.slopes[i] + raise * n[i];
   PnPatch less = patch;
   const auto lower = [&](ControlPoint b, const Vec3& by) { less.offsets[b] -= by; };
   lower(b300, d[n200]);
@@ -88,7 +91,7 @@ PieceLook look_at_piece(const PatchPiece& piece, const FingerCore& core, const R
   const PnPatch& patch = piece.patch;
   std::array<Vec3, 10> points;
   for (std::size_t i = 0; i < points.size(); ++i) points[i] = patch.control_point(i);
-  const double at_once = touch_margin(core, bounds_of(points, cone_of(patch.normals)));
+  const double at_once = touch_margin(core, bounds_of(points, cone_of(patch.normals)), enough_m);
   PieceLook look;
   look.proof.margin_m = at_once;
   look.proof.possible = !(at_once > 0.0);
@@ -108,7 +111,9 @@ PieceLook look_at_piece(const PatchPiece& piece, const FingerCore& core, const R
   if (known.off_m == std::numeric_limits<double>::infinity()) return look;
   StandIn stands_for{sides, known.slopes, known.bend, known.rest_m};
   for (Vec3& slope : stands_for.spread) slope *= known.slope_share;
-  PatchExclusion proof = exclude_contact(patch_less_core(patch, core, known), known.point, 2.0 * enough_m, stands_for);
+  const double enough =
+      look.curved ? enough_m : core.slide_m(core.longest_m(), linear.least_length_m, enough_m) * (1.0 + 1e-9);
+  PatchExclusion proof = exclude_contact(patch_less_core(patch, core, known, axis), known.point, enough, stands_for);
   const double wrong = known.off_m + known.along_m;
   const double least_rank = proof.least_height_m - wrong;
   const double shallow = least_rank > core.lever_m() ? bound.way_to(least_rank) : 0.0;
@@ -136,7 +141,8 @@ PatchExclusion exclude_pieces(const ContactContext& context, const PnPatch& patc
   for (int looks = 1; size > 0; ++looks) {
     const PatchPiece piece = stack[--size];
     const PieceLook look = look_at_piece(piece, core, bound, enough_m);
-    const bool unknown = look.proof.possible ? !look.clear : look.curved && look.proof.margin_m < enough_m;
+    const double wanted = std::min(kPieceShare * enough_m, result.margin_m);
+    const bool unknown = look.proof.possible ? !look.clear : look.curved && look.proof.margin_m < wanted;
     if (unknown && piece.depth < kPieceDepth && looks < kPieces) {
       bisect(piece, stack[size], stack[size + 1]);
       size += 2;

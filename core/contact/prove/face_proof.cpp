@@ -234,7 +234,7 @@ void bisect_parts(const Part& whole, const Ground& ground, double enough_m, cons
   result.possible = false;
   for (int tests = 0; size > 0; ++tests) {
     const Part part = stack[--size];
-    const double here = part.margin(enough_m, slack);
+    const double here = Slack::kNone || tests > 0 ? part.margin(enough_m, slack) : 0.0;  // the whole's was asked for
     if (here > 0.0) {
       margin = std::min(margin, here);
       continue;

@@ -176,7 +176,7 @@ class RivalSearch {
   }
 
   /// Whether a triangle leads to a known contact. Ground under a finger that is not round folds first at the height of
-  /// the flattest side that it turns to on the way there.
+  /// the flattest side that it turns to on the way there, and while it goes as far as is asked.
   bool leads_to(std::size_t i, std::uint32_t t, double margin_m) {
     KnownContact known = known_[i];
     if (core_ && known.height_m >= 0.0) {
@@ -184,6 +184,7 @@ class RivalSearch {
       double least = support.length;
       for (const Vec3& normal : context_.cache.mesh().normals(t))
         least = std::min(least, glm::dot(core_->scaled(normal), support.direction));
+      least = core_->length_after(least, margin_m);
       known.height_m = std::max(known.height_m, core_->ball_m() + core_->largest_radius(least) - known_depths_[i]);
     }
     return same_basin(context_.cache, settings_.normal_form, t, known, margin_m);
@@ -378,6 +379,14 @@ class RivalSearch {
     return glm::dot(apart, apart) < near * near && std::abs(proof.height_m - height) < kHeightGuess * std::abs(height);
   }
 
+  /// Whether the place that may hold a contact is known, and so near to that point that it may be the same.
+  bool is_beside(const PatchExclusion& proof, const Vec3& point) const {
+    constexpr double kNear = 0.25;  // of a side
+    const Vec3 apart = proof.point - point;
+    const double near = kNear * known_[0].size_m;
+    return proof.height_m != 0.0 && glm::dot(apart, apart) < near * near;
+  }
+
   Look solve(const PartOfTriangle& part, const PatchExclusion& proof, double enough_m, RivalResult& result) {
     context_.seed = static_cast<std::uint8_t>(std::min(++solves_, 255));
     const SurfacePlace start = start_on(context_, part, proof);
@@ -402,8 +411,8 @@ class RivalSearch {
     // No contact there now, but one may come up: ask again before long.
     if (!r.converged()) return {kUnresolvedMargin * slope_m_, true, true};
     if (is_followed(r.plane.point)) {
-      // Beside a fold a solve may run past a contact to the tracked one.
-      const bool ran_past = core_ && interior && proof.height_m == 0.0 && r.plane.triangle != part.triangle;
+      // Beside a fold a solve may run past a contact, or where one is about to come up, to the tracked one.
+      const bool ran_past = core_ && interior && r.plane.triangle != part.triangle && !is_beside(proof, r.plane.point);
       return ran_past ? Look{kUnresolvedMargin * slope_m_, true, true} : own_slope(enough_m);
     }
     remember(r.plane, r.contact);

@@ -191,19 +191,21 @@ void face_the_finger(ContactContext& context, const SearchStructures& search, Se
 
 }  // namespace
 
-SeedResult seed_contact(ContactContext& context, const SearchStructures& search, const TrackedPlane& kept) {
+SeedResult seed_contact(ContactContext& context, const SearchStructures& search, const TrackedPlane& kept,
+                        bool in_vain) {
   Selection selection;
   if (context.settings.method != Method::robust) {
     seed_by_distance(context, search, 1, known_radius(context, kept), context.settings.max_iterations, nullptr, false,
                      selection);
   } else {
-    const double most = likely_rank(context, search, known_radius(context, kept));
+    constexpr double kUnlimited = std::numeric_limits<double>::max();
+    const double most = in_vain ? kUnlimited : likely_rank(context, search, known_radius(context, kept));
     FailedStarts failed;
     // A first tick, or one after a leap, may take its time.
     const bool in_motion = kept.feature != Feature::none && context.moved_m <= context.hystereses_m(kLeapOfFinger);
     seed_by_hierarchy(context, search, most, failed, selection);
-    if (!(selection.group == 0 && selection.value < most) && most < std::numeric_limits<double>::max())
-      seed_by_hierarchy(context, search, std::numeric_limits<double>::max(), failed, selection);
+    if (!(selection.group == 0 && selection.value < most) && most < kUnlimited)
+      seed_by_hierarchy(context, search, kUnlimited, failed, selection);
     if (selection.group != 0 || implausible(context, search, selection.result.best, selection.value))
       seed_by_distance(context, search, kSeeds, std::numeric_limits<double>::infinity(), seed_budget(context.finger),
                        &failed, in_motion, selection);

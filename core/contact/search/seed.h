@@ -18,6 +18,9 @@ struct SeedResult {
 /// contact of least rank; where there is none, or one implausibly far off, the kSeeds nearest triangles; then the
 /// nearest place with its plane turned to face the finger. Where every contact is unstable the nearest of those counts.
 /// `kept`: the plane that was tracked until now, if any; the nearest triangle is no further off than its triangle.
-SeedResult seed_contact(ContactContext& context, const SearchStructures& search, const TrackedPlane& kept);
+/// `in_vain`: the last tick found no contact either, so that it saves time to look for one of any depth at once: the
+/// same contacts.
+SeedResult seed_contact(ContactContext& context, const SearchStructures& search, const TrackedPlane& kept,
+                        bool in_vain = false);
 
 }  // namespace tangent

@@ -40,7 +40,7 @@ std::string place_text(const TickExplanation& e) {
   text += place;
   if (e.mesh.mended)
     text += std::string("; with it ") + (e.cause == TickCause::unready ? "built" : "mended") + " the tick is plain (" +
-            std::to_string(e.mesh.proof.iterations) + " planes)";
+            std::to_string(e.mesh.proof.iterations) + " iterations)";
   return text + ".";
 }
 
@@ -54,7 +54,7 @@ std::string cure_text(const TickCure& cure) {
   std::string text = " Cured by " + cure.key->full_name() + " = " + value(cure.to) + " instead of " + value(cure.from);
   if (cure.as_deep) text += ", as deep";
   return text + " (solved again: " + to_string(cure.proof.status) + ", " + std::to_string(cure.proof.iterations) +
-         " planes).";
+         " iterations).";
 }
 
 }  // namespace

@@ -108,7 +108,7 @@ bool find_limit(TickStudy& study) {
   if (rounding)
     study.result.decided = {"least error that rounding leaves", "tolerance", "m", least, tolerance};
   else if (needed > limit)
-    study.result.decided = {"planes needed", "planes allowed", "1", needed, limit};
+    study.result.decided = {"iterations needed", "iterations allowed", "1", needed, limit};
   else
     return false;
   const CureCandidate wider[]{{"solver.max_iterations", 1, static_cast<double>(study.preset().solver.max_iterations)},

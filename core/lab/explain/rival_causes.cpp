@@ -30,7 +30,7 @@ bool find_rivals_nearby(TickStudy& study) {
   if (study.tick().event != TickEvent::none || !study.followed()) return false;
   const auto followed_planes = static_cast<double>(study.run.size() - 1);
   if (followed_planes > study.trials.options.many_planes) return false;
-  study.result.decided = {"planes, with those for other places", "planes a plain tick may take", "1",
+  study.result.decided = {"iterations, with those for other places", "iterations a plain tick may take", "1",
                           static_cast<double>(study.tick().iterations),
                           static_cast<double>(study.trials.options.many_planes)};
   return true;

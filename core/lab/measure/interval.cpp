@@ -1,5 +1,6 @@
 #include "core/lab/measure/interval.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -41,6 +42,31 @@ RatioInterval paired_ratio(std::span<const double> of, std::span<const double> t
   for (std::size_t i = 0; i < of.size(); ++i) logarithms.push_back(std::log(of[i] / to[i]));
   const MeanInterval mean = mean_interval(logarithms);
   return {std::exp(mean.mean), std::exp(mean.low()), std::exp(mean.high())};
+}
+
+// As many values lie below the median as heads fall in n tosses: the k-th smallest and the k-th largest hold it between
+// them but for 2 P(fewer than k heads).
+MedianInterval median_interval(std::vector<double> values) {
+  constexpr double kMissed = 0.025;  // at either end
+  if (values.empty()) return {};
+  std::sort(values.begin(), values.end());
+  const std::size_t n = values.size();
+  MedianInterval out;
+  out.count = n;
+  out.median = 0.5 * (values[(n - 1) / 2] + values[n / 2]);
+  double heads = std::pow(0.5, static_cast<double>(n)), below = heads;  // P(k heads), P(at most k)
+  std::size_t k = 0;
+  while (2 * (k + 1) < n) {
+    const double next = heads * static_cast<double>(n - k) / static_cast<double>(k + 1);
+    if (below + next > kMissed) break;
+    heads = next;
+    below += next;
+    ++k;
+  }
+  out.low = values[k];
+  out.high = values[n - 1 - k];
+  out.coverage = std::max(0.0, 1.0 - 2.0 * below);
+  return out;
 }
 
 }  // namespace tangent

@@ -1,8 +1,9 @@
-// A mean with the interval that it lies in, and ratios of two times that were measured in turns.
+// A mean or a median with the interval that it lies in, and ratios of two times that were measured in turns.
 #pragma once
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 namespace tangent {
 
@@ -29,5 +30,17 @@ struct RatioInterval {
 /// Of pairs that were measured one right after the other: what slows both down leaves their ratio as it is. The
 /// geometric mean, its interval that of the mean of the logarithms. Precondition: as many of each, all positive.
 RatioInterval paired_ratio(std::span<const double> of, std::span<const double> to);
+
+/// The median of independent values, and an interval of it by order statistics: no shape of their distribution is
+/// assumed. `coverage`: the least share of such intervals that hold the median, from the binomial distribution; at
+/// least 0.95 from 6 values on, and the whole range of fewer.
+struct MedianInterval {
+  std::uint64_t count = 0;
+  double median = 0.0, low = 0.0, high = 0.0;
+  double coverage = 0.0;
+};
+
+/// All zero where there are no values. Precondition: none is NaN.
+MedianInterval median_interval(std::vector<double> values);
 
 }  // namespace tangent

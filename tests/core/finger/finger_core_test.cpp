@@ -1,5 +1,6 @@
 // The finger as a ball rolled over its core, and the bounds that proofs rest on.
 #include "core/finger/finger_core.h"
+#include "core/contact/contact_rank.h"
 #include "tests/core/fingers.h"
 #include "tests/core/scenes.h"
 
@@ -140,5 +141,40 @@ TEST_CASE("a part of the surface that is touched is never said to be out of touc
     CHECK(missed == 0);
     CHECK(left_out > rounds(20000) / 10);
     CHECK(margins > rounds(20000) / 200);
+  }
+}
+
+TEST_CASE(
+    "a place outside the finger is at least as far off as is said, and contacts there rank no lower than is said") {
+  Random random(65);
+  for (const FingerShape shape : {FingerShape::ellipsoid, FingerShape::capsule}) {
+    CAPTURE(static_cast<int>(shape));
+    int wrong = 0, below = 0, beyond = 0, ranked = 0;
+    double said = 0.0;
+    for (int i = 0; i < rounds(20000); ++i) {
+      const Finger finger = any_finger(shape, random);
+      const FingerPose pose{random.in_cube(0.1), random.orientation()};
+      const FingerCore core(finger, pose);
+      // On the normal of a plane that the finger touches: below it, or above, where it leaves the finger again.
+      const Vec3 n = random.direction();
+      const double depth = random.in(-1.0, 3.0) * core.reach_m();
+      const Vec3 place = support_point(finger, pose, n) + depth * n;
+      const Vec3 half = random.in(0.0, 0.2) * core.reach_m() * Vec3(1.0), off = random.in(-1.0, 1.0) * half;
+      const double apart = core.apart_m(place, Vec3(0.0));
+      if (depth < 0.0) {
+        ++below;
+        wrong += std::max(apart, core.apart_m(place + off, half)) > -depth + 1e-12;
+        said += apart / -depth;
+      }
+      if (!(apart > 0.0) || !std::isfinite(core.rank_outside(apart))) continue;
+      ++ranked;
+      beyond += depth > 0.0;
+      const PlaneContact contact = contact_on_plane(finger, pose, place, n);
+      wrong += contact_rank(finger, contact) < core.rank_outside(apart) - 1e-12;
+    }
+    CHECK(wrong == 0);
+    CHECK(said > 0.8 * below);
+    CHECK(ranked > rounds(20000) / 5);
+    CHECK(beyond > rounds(20000) / 20);
   }
 }

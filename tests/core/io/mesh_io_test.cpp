@@ -8,6 +8,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <limits>
 
 using namespace tangent;
@@ -155,6 +156,44 @@ TEST_CASE("PLY: both binary byte orders") {
     for (const std::int32_t i : {2, 1, 0}) text += bytes(i, big);
     CAPTURE(big);
     check_two_faces(must_read(folder, "a.ply", text));
+  }
+}
+
+TEST_CASE("PLY: triangles in a row, other faces among them, and whoever reads vertices and faces") {
+  const TempFolder folder;
+  const auto swapped = [](const std::function<void()>& a, const std::function<void()>& b) { b(), a(); };
+  for (const bool big : {false, true}) {
+    std::string text = std::string("ply\nformat ") + (big ? "binary_big_endian" : "binary_little_endian") +
+                       " 1.0\nelement vertex 50\nproperty double x\nproperty double y\nproperty double z\n"
+                       "element face 40\nproperty list uchar uint vertex_indices\nend_header\n";
+    PolygonMesh expected;
+    for (std::uint32_t v = 0; v < 50; ++v) {
+      expected.positions.push_back(Vec3(v, 0.25 * v, -1.0));
+      for (int k = 0; k < 3; ++k) text += bytes(expected.positions.back()[k], big);
+    }
+    for (std::uint32_t f = 0; f < 40; ++f) {
+      const bool quad = f == 20 || f == 21 || f == 39;
+      text += quad ? '\4' : '\3';
+      expected.add_face(quad ? std::initializer_list<std::uint32_t>{f, f + 1, f + 2, f + 10}
+                             : std::initializer_list<std::uint32_t>{f + 10, f + 1, f});
+      for (const std::uint32_t v : expected.face(f)) text += bytes(v, big);
+    }
+    for (const RunBoth& run_both : {RunBoth(run_in_turn), RunBoth(swapped)}) {
+      const Result<PolygonMesh> mesh = read_mesh(folder.write("a.ply", text), 1.0, run_both);
+      REQUIRE(mesh);
+      CHECK(mesh->positions == expected.positions);
+      CHECK(mesh->face_offsets == expected.face_offsets);
+      CHECK(mesh->corner_position == expected.corner_position);
+    }
+    // Both would fail: the vertices' error counts.
+    const Result<PolygonMesh> cut = read_mesh(folder.write("a.ply", text.substr(0, 700)), 1.0, swapped);
+    REQUIRE_FALSE(cut);
+    CHECK(contains(cut.error().what, "of element \"vertex\""));
+    const std::size_t in_last_face = text.size() - 3 * sizeof(std::uint32_t);
+    text.replace(in_last_face, sizeof(std::uint32_t), bytes(std::uint32_t{50}, big));
+    const Result<PolygonMesh> bad = read_mesh(folder.write("a.ply", text), 1.0, swapped);
+    REQUIRE_FALSE(bad);
+    CHECK(contains(bad.error().message(), "face 39: vertex index 50 is out of range"));
   }
 }
 

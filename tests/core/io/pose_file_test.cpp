@@ -1,4 +1,5 @@
 #include "core/io/pose_file.h"
+#include "core/io/input_file.h"
 
 #include "tests/support/temp_folder.h"
 
@@ -150,6 +151,37 @@ TEST_CASE("a line without end from a program that never stops writing is refused
   std::signal(SIGPIPE, SIG_DFL);
   REQUIRE_FALSE(poses);
   CHECK(contains(poses.error().message(), "pipe.csv:1: a line of more than"));
+}
+
+TEST_CASE("poses from a program that never stops writing are refused with what to do") {
+  const TempFolder folder;
+  const std::string pipe = folder.file("pipe.csv");
+  REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+  std::size_t written = 0;
+  std::thread writer([&] {
+    std::signal(SIGPIPE, SIG_IGN);
+    const int fd = ::open(pipe.c_str(), O_WRONLY);
+    std::string text(kHeader);
+    for (int tick = 0; ::write(fd, text.data(), text.size()) > 0; ++tick) {
+      written += text.size();
+      text = std::to_string(tick) + ",0,0,0\n";
+    }
+    ::close(fd);
+  });
+  constexpr std::size_t kLimit = std::size_t{1} << 20;
+  const auto text = read_input_file(pipe, 8 * kLimit, kLimit);
+  writer.join();  // its pipe was closed at the other end
+  std::signal(SIGPIPE, SIG_DFL);
+  REQUIRE_FALSE(text);
+  CHECK(contains(text.error().message(),
+                 "pipe.csv: has brought more than 1 MiB and no end; check that the program that "
+                 "writes it ends, or write a file of up to 8 MiB"));
+  CHECK(written < 2 * kLimit);
+  // A file may hold more than a pipe brings; one that is too large is refused by its size.
+  CHECK(read_input_file(folder.write("file.csv", std::string(kLimit + 1, '\n')), 8 * kLimit, kLimit));
+  CHECK(contains(
+      read_input_file(folder.write("large.csv", std::string(kLimit + 1, '\n')), kLimit, kLimit).error().message(),
+      "large.csv: is larger than 1 MiB"));
 }
 
 TEST_CASE("a file without poses is refused by name") {

@@ -49,6 +49,23 @@ TEST_CASE("the first contact with the core is one file and one pose") {
   CHECK(stepper.step(*preset, in, state).penetration_m == doctest::Approx(1e-3));
 }
 
+TEST_CASE("a mesh is read beside the building of its scene, and no longer where that might fail") {
+  const TempFolder folder;
+  const std::string path = folder.file("ball.obj");
+  REQUIRE(write_obj(make_icosphere(0.04, 3), path, 1e-3));
+  for (const bool in_parts : {false, true}) {
+    std::uint64_t hash = 0;
+    int ends = 0;
+    SceneOptions options;
+    if (in_parts) options.parts.whole_up_to = 0;
+    const auto file = read_scene(path, options, run_in_turn,
+                                 {[&](const MeshContent& content) { hash = content.hash(); }, [&] { ++ends; }});
+    REQUIRE(file);
+    CHECK(hash == file->scene->mesh().content_hash());
+    CHECK(ends == (in_parts ? 0 : 1));
+  }
+}
+
 TEST_CASE("a polygon becomes a 2D scene") {
   const TempFolder folder;
   const std::string path =

@@ -3,6 +3,7 @@
 
 #include "core/io/mesh_io.h"
 #include "core/lab/objects/generate.h"
+#include "core/mesh/content_hash.h"
 #include "tests/core/mesh/contact_mesh_checks.h"
 #include "tests/core/mesh/sample_meshes.h"
 #include "tests/support/meshes.h"
@@ -11,6 +12,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <random>
 #include <thread>
 
 using namespace tangent;
@@ -160,6 +162,26 @@ TEST_CASE("content hash names the content") {
   CHECK(hash(turned) != one);
 }
 
+TEST_CASE("the hash is FNV-1a over the bytes, whatever their values") {
+  std::mt19937 random(3);
+  std::vector<Index3> indices{{0, 1, 0xFFFFFFFFu}, {0xFFFFFFu, 0x1000000u, 0x100u}};
+  for (int i = 0; i < 100; ++i) {
+    const auto below = [&](int bits) { return static_cast<std::uint32_t>(random()) >> (32 - bits); };
+    indices.push_back({below(32), below(24), below(16)});
+  }
+  const std::vector<Vec3> vectors{{0.5, -1.0, 3e-7}};
+  std::uint64_t h = 0xCBF29CE484222325u;
+  const auto add = [&h](std::span<const std::byte> bytes) {
+    for (const std::byte b : bytes) h = (h ^ static_cast<std::uint8_t>(b)) * 0x100000001B3u;
+  };
+  add(std::as_bytes(std::span(vectors)));
+  add(std::as_bytes(std::span(indices)));
+  ContentHash hash;
+  hash.add(std::span<const Vec3>(vectors));
+  hash.add(std::span<const Index3>(indices));
+  CHECK(hash.value() == h);
+}
+
 TEST_CASE("a vertex of 200,000 triangles is no trouble") {
   const int n = 200000;
   std::vector<Vec3> p{{0, 0, 1}};
@@ -218,7 +240,10 @@ TEST_CASE("a mesh is the same bits whoever does its halves") {
   const auto check = [&](const PolygonMesh& source, const ContactMeshOptions& options) {
     const auto in_turn = ContactMesh::build(source, options);
     for (const RunBoth& run_both : {RunBoth(swapped), RunBoth(at_once)}) {
-      const auto other = ContactMesh::build(source, options, run_both);
+      std::uint64_t early = 0;  // known before the mesh is built, and moved
+      const auto other =
+          ContactMesh::build(source, options, run_both, [&](const MeshContent& content) { early = content.hash(); });
+      CHECK(early == (other ? other->content_hash() : 0));
       REQUIRE(other.has_value() == in_turn.has_value());
       if (!in_turn) continue;
       CHECK(other->content_hash() == in_turn->content_hash());

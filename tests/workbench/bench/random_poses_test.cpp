@@ -114,7 +114,7 @@ namespace {
 /// Of a million random poses on the capsule's case those that once had no answer, and how deep the contact is.
 struct HardPose {
   FingerPose finger;
-  double penetration_m;  ///< of the only stable contact; 0: there is none, and a plane is turned to face the finger
+  double penetration_m;  ///< of the contact; 0: none is found, and a plane is turned to face the finger
 };
 const HardPose kHardPoses[] = {
     // The surface's weak direction (det M of 0.02 and 0.04): steps too short to arrive from any seed.
@@ -133,7 +133,7 @@ const HardPose kHardPoses[] = {
      0.0},
     {{{-0.031078657034384314, -0.0068126892133906431, -0.0044374950407303883},
       {-0.25795240647071749, -0.65346452588990145, 0.41340766665678064, 0.579257085022573}},
-     0.0342024},  // across the tube; found since solves begin at the likeliest piece of a patch
+     0.0342024},  // across the tube: a saddle, none of the four there is stable (core/contact/every_contact_test.cpp)
     {{{-0.013281290477628046, -0.035361852646265006, 0.0037411095221624941},
       {0.084505217558282761, 0.15531951042324418, -0.28036383702986062, 0.94346745400845944}},
      0.0},

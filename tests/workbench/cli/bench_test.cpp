@@ -102,3 +102,65 @@ TEST_CASE("Ctrl-C keeps what was measured and says so") {
   CHECK(contains(result.err, "interrupted"));
   CHECK(nlohmann::json::parse(read_text(json_file))["interrupted"] == true);
 }
+
+TEST_CASE("bench --mesh measures curves on a mesh and motion of one's own, with table, CSV, JSON and plot") {
+  const TempFolder folder;
+  const std::string mesh = folder.file("ball.obj");
+  REQUIRE(run_workbench({"make", "icosphere", "--out", mesh}).exit_code == 0);
+  std::string poses = "t_s,x_m,y_m,z_m\n";
+  for (int i = 0; i < 40; ++i) poses += std::to_string(1e-3 * i) + ",0.0592," + std::to_string(1e-4 * i) + ",0.0001\n";
+  const ProcessResult result =
+      run_workbench({"bench", "--mesh", mesh, "--poses", folder.write("p.csv", poses), "--finger-radius-mm", "20",
+                     "--methods", "robust,facet", "--rounds", "2", "--seed", "9", "--csv", folder.file("c.csv"),
+                     "--json", folder.file("c.json"), "--plot", folder.file("c.svg")});
+  INFO(result.err);
+  REQUIRE(result.exit_code == 0);
+  for (const char* word : {"40 ticks, 2 rounds in turns, there and back, seed 9", "robust", "facet", "embree bounded",
+                           "tolerance", "limit 8", "preset", "Fastest for an error"})
+    CHECK(contains(result.out, word));
+  CHECK_FALSE(contains(result.out, "newton"));
+  const auto json = nlohmann::json::parse(read_text(folder.file("c.json")));
+  CHECK(json["seed"] == 9);
+  CHECK(json["ticks"] == 40);
+  CHECK(json["points"].size() == 1 + 9 + 8 + 1);
+  CHECK(contains(json["origin"]["Command"].get<std::string>(), "--mesh " + mesh));
+  const std::string csv = read_text(folder.file("c.csv")), svg = read_text(folder.file("c.svg"));
+  CHECK(contains(csv, "# Command: workbench bench "));
+  CHECK(contains(csv, "# Seed: 9\nmethod,swept,tolerance_m,"));
+  CHECK(contains(svg, "<svg"));
+  CHECK(contains(svg, "--seed 9"));
+  CHECK_FALSE(contains(svg, "nan"));
+  CHECK(contains(svg, "iteration limit"));
+
+  // Without poses the simulated hand explores.
+  const ProcessResult explored = run_workbench({"bench", "--mesh", mesh, "--ticks", "30", "--methods", "newton",
+                                                "--rounds", "1", "--no-peers", "--finger-radius-mm", "5"});
+  CHECK(explored.exit_code == 0);
+  CHECK(contains(explored.out, "30 ticks, 1 rounds"));
+  CHECK_FALSE(contains(explored.out, "embree"));
+}
+
+TEST_CASE("bench --mesh refuses what makes no sense") {
+  const TempFolder folder;
+  const std::string mesh = folder.file("ball.obj");
+  REQUIRE(run_workbench({"make", "icosphere", "--out", mesh}).exit_code == 0);
+  CHECK(run_workbench({"bench", "--csv", folder.file("c.csv")}).exit_code == 2);
+  CHECK(run_workbench({"bench", "--poses", folder.file("c.csv")}).exit_code == 2);
+  CHECK(run_workbench({"bench", "--suite", "paper", "--tolerance-um", "1"}).exit_code == 2);
+  CHECK(run_workbench({"bench", "--suite", "paper", "--methods", "robust"}).exit_code == 2);
+  CHECK(run_workbench({"bench", "--mesh", mesh, "--only", "cube"}).exit_code == 2);
+  CHECK(run_workbench({"bench", "--mesh", mesh, "--meshes", "m", "--poses", "p"}).exit_code == 2);
+  CHECK(run_workbench({"bench", "--mesh", mesh, "--csv", "a.svg", "--plot", "a.svg"}).exit_code == 2);
+  const ProcessResult method = run_workbench({"bench", "--mesh", mesh, "--methods", "magic"});
+  CHECK(method.exit_code == 1);
+  CHECK(contains(method.err, "magic"));
+  CHECK(contains(method.err, "two-pass"));
+  const ProcessResult planar =
+      run_workbench({"bench", "--mesh", folder.write("o.csv", "x_m,y_m\n0,0\n0.05,0\n0.05,0.05\n"), "--ticks", "5"});
+  CHECK(planar.exit_code == 1);
+  CHECK(contains(planar.err, "2D"));
+  const ProcessResult missing = run_workbench({"bench", "--mesh", folder.file("none.obj")});
+  CHECK(missing.exit_code == 1);
+  CHECK(contains(missing.err, "none.obj"));
+  CHECK(folder.entry_count() == 2);
+}

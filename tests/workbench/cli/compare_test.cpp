@@ -47,14 +47,23 @@ TEST_CASE("compare says whether two recordings are the same, different or not al
 TEST_CASE("compare and replay draw the curves of both with their difference") {
   const TempFolder folder;
   const std::string a = folder.file("a.sqlite");
-  REQUIRE(run_workbench({"record", "--out", a, "--seconds", "1", "--without-waiting"}).exit_code == 0);
+  REQUIRE(run_workbench({"record", "--out", a, "--seconds", "1.1", "--without-waiting"}).exit_code == 0);
   for (const char* command : {"compare", "replay"}) {
     const std::string figures = folder.file(command);
-    run_workbench({command, a, "--stiffness-n-per-m", "600", "--figures", figures});
+    run_workbench({command, a, "--stiffness-n-per-m", "600", "--figures", figures, "--json", figures + ".json"});
     for (const char* name : {"force", "display", "solver"}) {
       const std::string file = figures + "/comparison-" + name;
       CHECK(contains(read_text(file + ".svg"), "<svg"));
       CHECK(contains(read_text(file + ".csv"), "t_s,least_a0,most_a0,least_b0,most_b0,difference0"));
     }
+    CHECK(contains(read_text(figures + "/comparison-spectrum.svg"), "<svg"));
+    CHECK(contains(read_text(figures + "/comparison-spectrum.csv"), "hz,force_n2_per_hz_1,force_n2_per_hz_2,"));
+    const auto report = nlohmann::json::parse(read_text(figures + ".json"));
+    const auto& first = report.contains("spectra") ? report["spectra"]["first"] : report["recorded"]["spectrum"];
+    CHECK(first["windows"] == 1);
+    CHECK(first["window_ticks"] == 1024);
+    CHECK(first["hz"][0].get<double>() >= 20.0);
+    CHECK(first["hz"].size() == first["force_n2_per_hz"].size());
+    CHECK(first["hz"].size() == first["display_mm2_per_hz"].size());
   }
 }

@@ -38,7 +38,7 @@ struct Sweep {
     std::vector<std::string> out;
     while (*statement->step()) {
       std::string& row = out.emplace_back();
-      for (int c = 0; c < 32; ++c) row += statement->text(c) + "|";
+      for (int c = 0; c < 34; ++c) row += statement->text(c) + "|";
     }
     return out;
   }

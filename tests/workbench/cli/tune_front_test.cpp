@@ -69,6 +69,44 @@ TEST_CASE("tune by one objective keeps the simpler gains where its own are not c
   CHECK(file.preset.solver.gain_curvature_m == file.preset.finger.radius_m);
 }
 
+TEST_CASE("tune over several meshes, motions and fingers says each, and goes on without one that can't be read") {
+  const FrontFolder t;
+  const std::string ball = t.folder.file("ball.obj");
+  REQUIRE(run_workbench({"make", "icosphere", "--out", ball}).exit_code == 0);
+  const ProcessResult tuned = t.tune({"--objective", "mean_iterations", "--also-mesh", ball, "--also-radius-mm", "8",
+                                      "--constraint", "not_finite = 0", "--seed", "3"});
+  CHECK_MESSAGE(tuned.exit_code == 0, tuned.err);
+  CHECK(contains(tuned.out, "4 grounds, an objective is the worst of them"));
+  CHECK(contains(tuned.out, "ball.obj, poses.csv, finger 8 mm: 400 ticks, 100 of them held back"));
+  CHECK(contains(tuned.out, "Theory beside what was found"));
+  CHECK(run_workbench({"check", t.preset}).exit_code == 0);
+  const ProcessResult again = t.tune({"--objective", "mean_iterations", "--also-mesh", ball, "--also-radius-mm", "8",
+                                      "--constraint", "not_finite = 0", "--seed", "3", "--threads", "1"});
+  CHECK(again.out == tuned.out);
+
+  const ProcessResult part = t.tune({"--objective", "mean_iterations", "--also-mesh", t.folder.file("none.obj"),
+                                     "--poses", t.folder.file("none.csv"), "--over-grounds", "mean"});
+  CHECK(part.exit_code == 1);
+  CHECK(contains(part.err, "none.obj"));
+  CHECK(contains(part.err, "none.csv"));
+  CHECK(contains(part.err, "the others go on"));
+  CHECK(std::filesystem::exists(t.preset));
+}
+
+TEST_CASE("tune by time measures it in turns, and keeps to a limit that it names with its unit") {
+  const FrontFolder t;
+  const ProcessResult tuned =
+      t.tune({"--objective", "p99_time", "--objective", "error", "--constraint", "p99_time <= 10000 ms"});
+  CHECK_MESSAGE(tuned.exit_code == 0, tuned.err);
+  CHECK(contains(tuned.out, "measured in turns: mean "));
+  CHECK(read_preset(t.preset)->about.note == "Of a front: p99_time error_p99_m, p99_time <= 1e+07 us");
+  std::filesystem::remove(t.preset);
+  const ProcessResult never = t.tune({"--objective", "error", "--constraint", "p99_time <= 1 ns"});
+  CHECK(never.exit_code == 1);
+  CHECK(contains(never.err, "p99_time <= 0.001 us (the nearest has "));
+  CHECK(!std::filesystem::exists(t.preset));
+}
+
 TEST_CASE("tune by objectives refuses what can't be asked and says what can't be kept") {
   const FrontFolder t;
   struct Wrong {
@@ -83,6 +121,14 @@ TEST_CASE("tune by objectives refuses what can't be asked and says what can't be
            {{"--objective", "mean_iterations", "--constraint", "ticks <= 1", "--constraint", "ticks <= 2"}, 2, "twice"},
            {{"--objective", "mean_iterations", "--range", "solver.gain_overall=1,2"}, 2, "FROM..TO"},
            {{"--objective", "mean_iterations", "--evaluations", "1"}, 2, "--evaluations"},
+           {{"--objective", "mean_iterations", "--range", "solver.gain_overall=1..1"}, 2, "FROM..TO"},
+           {{"--objective", "mean_iterations", "--range", "solver.gain=1..2"}, 2, "names no key"},
+           {{"--objective", "mean_iterations", "--constraint", "p99_time <= 20"}, 2, "20 us"},
+           {{"--objective", "mean_iterations", "--also-radius-mm", "-1"}, 2, "is no radius"},
+           {{"--objective", "mean_iterations", "--also-radius-mm", "8", "--range", "finger.radius_m=0.005..0.02"},
+            2,
+            "contradicts"},
+           {{"--also-mesh", "none.obj"}, 2, "--objective: is missing"},
            {{"--objective", "mean_iterations", "--constraint", "mean_iterations <= 0.5"}, 1, "mean_iterations <= 0.5"},
        }) {
     const ProcessResult result = t.tune(wrong.options);

@@ -39,7 +39,7 @@ struct EvidenceFolder {
   double between() { return std::uniform_real_distribution<double>(0.0, 1.0)(random); }
 
   void attach(PresetFile file, PresetEvidence asked) const {
-    const auto attached = attach_evidence(std::move(file), std::move(asked), {.folder = folder.path()});
+    const auto attached = attach_evidence(std::move(file), std::move(asked), {.folder = folder.path(), .timed = true});
     REQUIRE_MESSAGE(attached.has_value(), (attached ? "" : attached.error().message()));
     REQUIRE(attached->has_value());
     REQUIRE(write_preset(**attached, preset));

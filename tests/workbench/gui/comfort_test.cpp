@@ -198,7 +198,7 @@ TEST_CASE(
     CHECK((header->min.y < column->Pos.y + 30.0f || column->Scroll.y == column->ScrollMax.y));
     CHECK(ui.model().window().section_wanted().empty());
   }
-  CHECK(panels == 21);
+  CHECK(panels == 23);
 }
 
 TEST_CASE("the window's own keys work while text is typed - letters and editing keys stay with the text") {

@@ -45,17 +45,18 @@ void check_frame(RunningApp& ui, const std::string& state) {
   }
 }
 
-/// All sizes of text in two windows, each in another theme; `tabs`: with each tab of the right column.
-void check_sizes(RunningApp& ui, const std::string& what, bool tabs = false) {
+/// All sizes of text in two windows, each in another theme; `tabs`: with each tab of the right column. `tall`: in
+/// windows of this height, so that all of a long column is in view, with its tab `tune`.
+void check_sizes(RunningApp& ui, const std::string& what, bool tabs = false, float tall = 0.0f) {
   std::size_t k = what.size();
   for (const auto& [w, h] : {std::pair{900.0f, 600.0f}, {1280.0f, 720.0f}}) {
     ui.input().width = w;
-    ui.input().height = h;
+    ui.input().height = tall > 0.0f ? tall : h;
     for (const float text : {0.8f, 1.0f, 1.5f, 2.0f}) {
       ui.model().window().set_ui_scale(text);
       for (std::size_t t = 0; t < (tabs ? kTaskNames.size() : 1); ++t, ++k) {
-        ui.model().window().set_task(static_cast<Task>(t));
-        ui.model().window().sizes().prefer_right = k % 2 == 1;
+        ui.model().window().set_task(tall > 0.0f ? Task::tune : static_cast<Task>(t));
+        ui.model().window().sizes().prefer_right = tall > 0.0f || k % 2 == 1;
         ui.model().window().set_theme(static_cast<Theme>(k % kThemeCount));
         ui.frames(3);
         check_frame(ui, what + ", " + std::to_string(static_cast<int>(w)) + " wide, text " +
@@ -121,6 +122,49 @@ TEST_CASE("every text of the plots has room and can be read, beside a ghost, cur
     ui.app().show_plots(mode, true);
     check_sizes(ui, "plots of kind " + std::to_string(static_cast<int>(mode)));
   }
+}
+
+TEST_CASE("every text of a front and a heat map has room and can be read, brushed, with a trial in use") {
+  RunningApp ui(on_torus());
+  ui.run(600);
+  for (const char* section : {"Iterations", "Why this tick", "Time machine", "Map", "Smoothness as felt"})
+    ui.model().window().open_sections()[section] = false;
+  ui.model().window().open_sections()["Tune"] = ui.model().window().open_sections()["Sweep"] = true;
+  ui.model().presets().set_value(*find_preset_key("solver", "method"), static_cast<double>(Method::paper));
+  TuneModel& tune = ui.model().tune();
+  tune.set_trials(40);
+  tune.start();
+  ui.frame();
+  check_sizes(ui, "tuning", false, 2600.0f);
+  for (int i = 0; i < 200 && tune.running(); ++i) ui.frame();
+  tune.set_objective(2, sweep::find_objective("force_unexplained_worst_n")->column);
+  tune.start();
+  for (int i = 0; i < 200 && tune.running(); ++i) ui.frame();
+  tune.set_brush(TuneBrush{{TuneAxis{true, 0}, TuneAxis{false, 0}}, {0.0, 0.0}, {1.0, 1e9}});
+  tune.show_failures(true);
+  tune.try_trial(5);
+  check_sizes(ui, "front", false, 2600.0f);
+  tune.leave_out_search(true);
+  ui.model().window().open_sections()["Tune"] = false;
+  ui.model().tuning().set_key(1, find_preset_key("solver", "gain_distance_per_m"));
+  ui.model().tuning().set_count(0, 5);
+  ui.model().tuning().set_count(1, 4);
+  ui.model().tuning().start_sweep();
+  check_sizes(ui, "heat map", false, 2600.0f);
+  ui.model().window().open_sections()["Tune"] = true;
+  tune.clear();
+  check_sizes(ui, "no pagmo", false, 2600.0f);
+}
+
+TEST_CASE("every text of speed against error has room and can be read") {
+  RunningApp ui(on_torus());
+  ui.run(700);
+  ui.model().time().set_selection(TickRange{600, 629});
+  ui.model().curves().start();
+  REQUIRE(ui.model().curves().curves() != nullptr);
+  ui.model().window().open_sections()["Speed against error"] = true;
+  ui.model().window().set_task(Task::tune);
+  check_sizes(ui, "speed");
 }
 
 TEST_CASE("every text of a 2D scene has room and can be read") {

@@ -2,6 +2,7 @@
 // are written before NewFrame: ImGui 1.86 has no event queue.
 #pragma once
 
+#include "tests/support/temp_folder.h"
 #include "workbench/gui/app.h"
 #include "workbench/gui/model/app_model.h"
 #include "workbench/gui/widgets/item_map.h"
@@ -36,6 +37,7 @@ class HeadlessApp {
     input_.width = width;
     input_.height = height;
     input_.content_scale = scale;
+    if (options.screenshots.empty()) options.screenshots = folder_.path();
     app_ = std::make_unique<App>(std::move(options));
     app_->model().window().set_task(Task::all);  // every section is there to be clicked
     frames(2);
@@ -55,6 +57,7 @@ class HeadlessApp {
   App& app() { return *app_; }
   AppModel& model() { return app_->model(); }
   FrameInput& input() { return input_; }
+  const std::filesystem::path& folder() const { return folder_.path(); }
 
   void frame() {
     input_.now_s += input_.dt_s;
@@ -126,6 +129,7 @@ class HeadlessApp {
                        kEnd = 269;
 
  private:
+  testing::TempFolder folder_;  ///< for what is given no other: recordings and pictures
   FrameInput input_;
   std::unique_ptr<App> app_;
 };

@@ -62,7 +62,10 @@ TEST_CASE("a recording compared with itself is the same, by bounds and tick by t
     CHECK(c.compared == 3000);
     CHECK(c.alignment.shift == 0);
     for (const QuantityDifference& q : c.quantities) CHECK(q.at_most == 0.0);
+    CHECK(c.spectrum_a.windows == 4);
+    CHECK(c.spectrum_a.force_n2_per_hz == c.spectrum_b.force_n2_per_hz);
     const RecordingsCompared coarse = compared(compare_coarsely(path, path, options));
+    CHECK(coarse.spectrum_a.windows == 0);
     CHECK(coarse.outcome == CompareOutcome::undecided);  // of two equal ranges nobody knows more
     for (const QuantityDifference& q : coarse.quantities) CHECK(q.at_least == 0.0);
   }
@@ -89,6 +92,20 @@ TEST_CASE("one changed value is found with its tick, and judged by the tolerance
   options.from = 1778;
   options.tolerance.force_n = 0.0;
   CHECK(compared(compare_fully(a, b, options)).outcome == CompareOutcome::same);
+}
+
+TEST_CASE("long recordings are compared by two threads, which find what one would") {
+  const testing::TempFolder folder;
+  const std::string a = folder.file("a.sqlite"), b = folder.file("b.sqlite");
+  record_some(a, 0.0, 1 << 14);
+  std::filesystem::copy_file(a, b);
+  change(b, "UPDATE tick_rows SET force_y_n = force_y_n + 0.25 WHERE tick IN (100, 16000)");
+  const RecordingsCompared c = compared(compare_fully(a, b, {}));
+  CHECK(c.compared == 1 << 14);
+  CHECK(of(c, "force").over == 2);
+  CHECK(of(c, "force").rms == doctest::Approx(0.25 * std::sqrt(2.0 / (1 << 14))));
+  CHECK(c.spectrum_a.windows == 2 * 15);  // each half of 8,192 ticks
+  CHECK(of(c, "display").at_most == 0.0);
 }
 
 TEST_CASE("what the pyramids say holds for the ticks: bounds contain every difference, in every bin") {

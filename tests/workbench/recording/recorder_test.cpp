@@ -1,40 +1,17 @@
 #include "workbench/recording/recorder.h"
 
+#include "tests/workbench/recording/full_disk.h"
 #include "tests/workbench/recording/recording_fixture.h"
 
 #include <atomic>
 #include <chrono>
-#include <csignal>
 #include <optional>
 #include <thread>
-
-#include <sys/resource.h>
 
 using namespace tangent;
 using namespace tangent::test;
 
 namespace {
-
-/// While it exists, files take 64 KiB more than a recording's log has now: the write then fails as on a full disk.
-class FullDisk {
- public:
-  explicit FullDisk(const std::string& recording) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
-    REQUIRE(getrlimit(RLIMIT_FSIZE, &before_) == 0);
-    rlimit small = before_;
-    small.rlim_cur = static_cast<rlim_t>(std::filesystem::file_size(recording + "-wal")) + 65'536;
-    REQUIRE(setrlimit(RLIMIT_FSIZE, &small) == 0);
-  }
-  ~FullDisk() {
-    setrlimit(RLIMIT_FSIZE, &before_);
-    std::signal(SIGXFSZ, handler_);
-  }
-  FullDisk(const FullDisk&) = delete;
-  FullDisk& operator=(const FullDisk&) = delete;
-
- private:
-  void (*handler_)(int);
-  rlimit before_{};
-};
 
 std::unique_ptr<Session> threaded_session() {
   SessionOptions options;
@@ -192,6 +169,23 @@ TEST_CASE("a disk that has room again takes what was kept") {
   REQUIRE(made.recorder->stop());
   CHECK(made.recorder->status().written == 6000);
   CHECK(all_ticks(path).size() == 6000);
+  auto recording = Recording::open(path);
+  REQUIRE(recording);
+  const auto events = recording->events();
+  REQUIRE(events);
+  REQUIRE(events->size() == 1);  // that it was full is an event of the file, once
+  CHECK(events->front().kind == "recorder");
+  CHECK(events->front().tick == 1000);
+}
+
+TEST_CASE("a recording that finds no room at its beginning leaves no part of itself") {
+  const testing::TempFolder folder;
+  folder.write("room-wal", "");
+  {
+    const FullDisk full(folder.file("room"));
+    CHECK_FALSE(RecordingFile::create(folder.file("a.sqlite")));
+  }
+  CHECK(folder.entry_count() == 1);
 }
 
 TEST_CASE("a recording that is removed while it is made is noticed") {

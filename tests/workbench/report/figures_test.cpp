@@ -87,3 +87,27 @@ TEST_CASE("quantiles of times are within 2 %, and of equal times exact") {
   for (int i = 0; i < 9; ++i) same.add(1e6);
   CHECK(same.quantile_ns(0.5) == 1e6);
 }
+
+TEST_CASE("the report of more than a second shows how rough force and display were, by frequency") {
+  const testing::TempFolder folder;
+  const std::string path = folder.file("a.sqlite");
+  RecordedSession recorded(path);
+  recorded.run(1024);
+  recorded.finish();
+  auto recording = Recording::open(path);
+  REQUIRE(recording);
+  const auto summary = summarise(*recording, [] { return false; });
+  REQUIRE(summary);
+  REQUIRE(summary->spectrum.windows == 1);
+  SpectrumCounter counter(summary->spectrum.rate_hz);
+  for (const RecordedTick& tick : all_ticks(path)) {
+    const TickOutput& out = tick.record.tick.output;
+    counter.add(out.force_n, out.cld_m, tick.record.tick.tick > 0);
+  }
+  CHECK(summary->spectrum.force_n2_per_hz == counter.done().force_n2_per_hz);
+  CHECK(summary->spectrum.display_mm2_per_hz == counter.done().display_mm2_per_hz);
+  const std::string html = page_of(quick_report({path}, folder.path() / "out"));
+  CHECK(says(html, "Roughness of force and display by frequency"));
+  CHECK(says(html, "Hann windows of 1024 ticks"));
+  CHECK(parsed(folder.path() / "out" / "report.html")["faults"].empty());
+}

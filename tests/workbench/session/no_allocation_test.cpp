@@ -64,7 +64,8 @@ TEST_CASE("the count of allocations counts") {
   CHECK(allocations == before + 2);
 }
 
-TEST_CASE("no tick allocates: homing, contact, other methods, a new preset, a new scene, a full ring") {
+TEST_CASE(
+    "no tick allocates: homing, contact, other methods, a preset that is new or undone, a new scene, a full ring") {
   TickBench bench(simulated(), torus_scene());
   REQUIRE(bench.devices.force->open());
   REQUIRE(bench.devices.display->open());
@@ -87,6 +88,13 @@ TEST_CASE("no tick allocates: homing, contact, other methods, a new preset, a ne
     bench.channels.presets.put({++id, preset});
     run(300);
   }
+  Preset shaking;
+  shaking.force.stiffness_n_per_m = 80e3;
+  bench.channels.hand.put({.settings = {.press_m = 8e-3}});
+  bench.channels.presets.put({++id, shaking, true});
+  run(3000);
+  PresetUndone undone;
+  CHECK(bench.channels.undone.take(undone));
   bench.channels.scenes.offer(std::make_unique<PreparedScene>(sphere_scene(), Finger{}));
   run(2000);
   bench.channels.hand.put({.settings = {.mode = HandMode::point}, .point_m = Vec3(0.2, 0.1, 0.0)});

@@ -3,13 +3,16 @@
 
 #include "core/base/tolerances.h"
 #include "tests/workbench/session/session_fixture.h"
+#include "workbench/session/prepared_scene.h"
 #include "workbench/session/resolve_history.h"
 #include "workbench/session/session.h"
 #include "workbench/session/tick_again.h"
+#include "workbench/session/two_threads.h"
 
 #include <doctest/doctest.h>
 
 #include <chrono>
+#include <thread>
 
 using namespace tangent;
 using namespace tangent::test;
@@ -166,4 +169,33 @@ TEST_CASE("a builder that is let go of stops, and what it built stays") {
   PartsBuilder builder(scene, Vec3(0.0));
   while (!builder.done()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   CHECK(scene->unbuilt_parts() == 0);
+}
+
+TEST_CASE("measure: from five million triangles to a force" * doctest::skip()) {
+  const auto begin = std::chrono::steady_clock::now();
+  const auto seconds = [&begin] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  };
+  const PolygonMesh source = make_icosphere(0.040, 9);
+  const double made = seconds();
+  auto mesh = ContactMesh::build(source, {}, run_on_two_threads);
+  REQUIRE(mesh);
+  const auto scene = ContactScene::build(std::move(*mesh), {.far_parts = false}, run_on_two_threads);
+  REQUIRE(scene);
+  const double built = seconds();
+  PreparedScenePtr prepared = Session::prepare(*scene, Finger{});
+  const double with_path = seconds();
+  build_in_reach(**scene, prepared->path.at(0.0, pad_distance_m(Finger{}), 0.0).position_m, Finger{});
+  const double in_reach = seconds();
+  auto session = Session::create(*scene, Preset{}, {}, std::move(prepared));
+  REQUIRE(session);
+  REQUIRE((*session)->start());
+  while ((*session)->status().servo.gate_state != GateState::armed && seconds() < 60.0) {
+    (*session)->poll();
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  MESSAGE("mesh and scene " << built - made << " s, path of the hand " << with_path - built << ", parts in reach "
+                            << in_reach - with_path << ", armed after another " << seconds() - in_reach);
+  CHECK((*session)->status().servo.gate_state == GateState::armed);
+  REQUIRE((*session)->shut_down());
 }

@@ -67,6 +67,31 @@ TEST_CASE("a drift within a round does not count for either") {
   CHECK(time.verdict == TimeVerdict::tie);
 }
 
+TEST_CASE("a clock that leaps while one side runs makes no difference sure") {
+  for (const double leap : {1e6, 1e-6}) {
+    for (std::size_t side = 0; side < 4; ++side) {
+      auto rounds = NoisyMachine(11).rounds(200.0, 200.0, 8);
+      rounds[3][side] *= leap;  // a machine that slept for hours, or a counter that was set back
+      const PairedTime time = judge(rounds);
+      CHECK(time.verdict == TimeVerdict::tie);
+      CHECK(time.ns == doctest::Approx(200.0).epsilon(0.3));
+    }
+  }
+}
+
+TEST_CASE("mean and 99th percentile of ticks are timed in turns") {
+  auto mesh = ContactMesh::build(*generate_mesh("icosphere"), {});
+  const auto scene = *ContactScene::build(std::move(*mesh));
+  std::vector<TickInput> motion;
+  for (int i = 0; i < 200; ++i) motion.push_back({1e-3 * i, {Vec3(1e-5 * i, 0.0, 0.059), {}}});
+  const auto times = time_paired_ticks(scene, Preset{}, Preset{}, motion, 3);
+  REQUIRE(times);
+  CHECK(times->p99.rounds == 3);
+  CHECK(times->p99.ns > 0.0);
+  CHECK(times->mean.rounds == 3);
+  CHECK(!time_paired_ticks(scene, Preset{}, Preset{}, motion, 3, [] { return true; }));
+}
+
 TEST_CASE("presets are timed in turns, and stopping ends it") {
   auto mesh = ContactMesh::build(*generate_mesh("icosphere"), {});
   const auto scene = *ContactScene::build(std::move(*mesh));

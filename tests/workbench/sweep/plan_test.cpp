@@ -72,6 +72,16 @@ TEST_CASE("a plan reads back from what it is written as") {
   CHECK(again->fingers == plan->fingers);
 }
 
+TEST_CASE("a motion that is made may name its depth") {
+  CHECK(made_motion("around")->kind == 0);
+  CHECK(!made_motion("around")->press_m);
+  CHECK(made_motion("strokes:0.5mm")->kind == 1);
+  CHECK(*made_motion("strokes:0.5mm")->press_m == doctest::Approx(5e-4));
+  for (const char* file :
+       {"walk.csv", "around.csv", "around:", "around:2", "around:0mm", "around:-1mm", "around:99mm", "around:xmm", ""})
+    CHECK_MESSAGE(!is_made(file), file);
+}
+
 TEST_CASE("a plan that can't be run is refused by key and line") {
   struct Wrong {
     const char *lines, *said;

@@ -4,6 +4,7 @@ namespace tangent::sweep {
 namespace {
 
 using testing::bytes_of;
+using testing::FullDisk;
 using testing::SmallSweep;
 
 const ShardName kShard{"0123456789abcdef", 1, 3, 4, 8};
@@ -26,17 +27,36 @@ std::string write_shard(const std::string& path) {
   return bytes_of(path);
 }
 
+CellTime some_time(std::uint64_t cell) {
+  CellTime out;
+  out.cell = cell;
+  out.against = 4;
+  out.machine = "node \"7\", Some processor";
+  out.time = {1000.0 / 3.0, 300.0, 10.0 / 9.0, 1.1, 1.2, 6, TimeVerdict::slower, std::nullopt};
+  if (cell > 4) out.time.instructions = 1e4 / 3.0;
+  return out;
+}
+
+/// Of two of its cells.
+std::string write_times(const std::string& path) {
+  auto writer = ShardWriter::open(path, kShard);
+  REQUIRE_MESSAGE(writer, writer.error().message());
+  for (const std::uint64_t cell : {4, 6})
+    if (!writer->timed()[cell - 4]) REQUIRE(writer->add(some_time(cell)));
+  return bytes_of(path);
+}
+
 /// What is read, in order; or what it says.
 Result<std::vector<CellResult>> read_shard(const std::string& path) {
   auto reader = ShardReader::open(path, kShard);
   if (!reader) return tl::unexpected(reader.error());
   std::vector<CellResult> out;
-  CellResult result;
+  ShardLine line;
   for (;;) {
-    const Result<bool> more = reader->next(result);
+    const Result<bool> more = reader->next(line);
     if (!more) return tl::unexpected(more.error());
     if (!*more) return out;
-    out.push_back(result);
+    if (const auto* const result = std::get_if<CellResult>(&line)) out.push_back(*result);
   }
 }
 
@@ -51,15 +71,62 @@ TEST_CASE("a shard reads back as it was written, to the bit") {
 
 TEST_CASE("a shard cut off after any byte is gone on with, and refused by name before that") {
   const SmallSweep sweep;
-  const std::string whole = write_shard(sweep.file("whole.jsonl")), path = sweep.file("cut.jsonl");
+  const std::string path = sweep.file("cut.jsonl");
+  write_shard(sweep.file("whole.jsonl"));
+  const std::string whole = write_times(sweep.file("whole.jsonl"));
   for (std::size_t bytes = 0; bytes < whole.size(); ++bytes) {
     sweep.write("cut.jsonl", whole.substr(0, bytes));
     const auto read = read_shard(path);
     const bool at_a_line = bytes > 0 && whole[bytes - 1] == '\n';
     CHECK(read.has_value() == at_a_line);
     if (!read) CHECK(read.error().message().find("cut.jsonl") != std::string::npos);
-    CHECK(write_shard(path) == whole);
+    write_shard(path);
+    CHECK(write_times(path) == whole);
   }
+}
+
+TEST_CASE("times of a shard read back to the bit, beside its cells") {
+  const SmallSweep sweep;
+  write_shard(sweep.file("s.jsonl"));
+  write_times(sweep.file("s.jsonl"));
+  auto reader = ShardReader::open(sweep.file("s.jsonl"), kShard);
+  REQUIRE(reader);
+  ShardLine line;
+  std::vector<CellTime> times;
+  while (*reader->next(line))
+    if (const auto* const time = std::get_if<CellTime>(&line)) times.push_back(*time);
+  REQUIRE(times.size() == 2);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const CellTime wanted = some_time(4 + 2 * i);
+    CHECK(times[i].cell == wanted.cell);
+    CHECK(times[i].against == 4);
+    CHECK(times[i].machine == wanted.machine);
+    CHECK(times[i].time.ns == wanted.time.ns);
+    CHECK(times[i].time.ratio == wanted.time.ratio);
+    CHECK(times[i].time.rounds == 6);
+    CHECK(times[i].time.verdict == TimeVerdict::slower);
+    CHECK(times[i].time.instructions == wanted.time.instructions);
+  }
+}
+
+TEST_CASE("a shard on a full disk keeps its whole lines, says so, and is gone on with") {
+  const SmallSweep sweep;
+  const std::string path = sweep.file("s.jsonl"), whole = write_shard(sweep.file("whole.jsonl"));
+  {
+    auto writer = ShardWriter::open(path, kShard);
+    REQUIRE(writer);
+    REQUIRE(writer->add(some_result(4)));
+    const FullDisk full(std::filesystem::file_size(path) + 100);  // room for a part of the next line
+    const Status failed = writer->add(some_result(6));
+    REQUIRE(!failed);
+    CHECK(failed.error().message().find("s.jsonl") != std::string::npos);
+    CHECK(failed.error().message().find("run that shard again") != std::string::npos);
+  }
+  auto again = ShardWriter::open(path, kShard);
+  REQUIRE(again);
+  CHECK(again->done() == std::vector<bool>{true, false, false, false});
+  write_shard(path);
+  CHECK(bytes_of(path) == whole);
 }
 
 TEST_CASE("a damaged line, another plan and a newer program are refused by name") {

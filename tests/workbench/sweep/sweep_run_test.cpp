@@ -145,6 +145,66 @@ TEST_CASE("every cell is timed once, against the first of its group") {
         16);
 }
 
+TEST_CASE("a shard's cells are timed after it, once, and merged with the machine that they were timed on") {
+  const SmallSweep sweep("ticks = 40\n");
+  REQUIRE(write_plan_folder(sweep.file("dir"), sweep.plan(), 2, {}));
+  const PlanFolder divided = *open_plan_folder(sweep.file("dir"));
+  for (const std::uint64_t shard : {0, 1}) {
+    REQUIRE(run_shard(divided, shard, {}));
+    const auto timed = time_shard(divided, shard, 2, {});
+    REQUIRE(timed);
+    CHECK(*timed == 8);
+    CHECK(*time_shard(divided, shard, 2, {}) == 0);
+  }
+  CHECK(!time_shard(divided, 2, 2, {}));
+  static_cast<void>(sweep.solve("one.sqlite"));
+  for (int again = 0; again < 2; ++again) REQUIRE(merge_shards(divided, sweep.file("merged.sqlite"), {}));
+  CHECK(sweep.rows("merged.sqlite") == sweep.rows("one.sqlite"));
+  Result<Database> database = Database::open(sweep.file("merged.sqlite"));
+  REQUIRE(database);
+  CHECK(*database->whole_of("SELECT count(*) FROM timings WHERE against = cell / 8 * 8 AND ns > 0 AND low <= ratio") ==
+        16);
+  CHECK(*database->text_of("SELECT DISTINCT machine FROM timings") == machine_name());
+}
+
+TEST_CASE("results on a full disk keep the cells that were committed, say so, and are gone on with") {
+  const SmallSweep sweep;
+  static_cast<void>(sweep.solve("whole.sqlite"));
+  const Cells cells = sweep.cells();
+  {
+    auto file = ResultsFile::open(sweep.file("full.sqlite"), cells, plan_digest(cells.plan()));
+    REQUIRE(file);
+    Inputs inputs(cells.plan());
+    std::vector<CellResult> results;
+    REQUIRE(run_cells(cells, inputs, 0, 4, std::vector<bool>(4, false),
+                      [&](const CellResult& result) { return results.push_back(result), Status{}; }, {}));
+    for (std::size_t i = 0; i < 3; ++i) REQUIRE(file->add(results[i]));
+    REQUIRE(file->commit());
+    const testing::FullDisk full(std::filesystem::file_size(sweep.file("full.sqlite-wal")));
+    const Status added = file->add(results[3]);
+    const Status failed = added ? file->commit() : added;
+    REQUIRE(!failed);
+    CHECK(failed.error().message().find("full.sqlite") != std::string::npos);
+  }
+  const SweepOutcome rest = sweep.solve("full.sqlite");
+  CHECK(rest.before == 3);
+  CHECK(sweep.rows("full.sqlite") == sweep.rows("whole.sqlite"));
+}
+
+TEST_CASE("results and shards of an older program are refused by name") {
+  const SmallSweep sweep;
+  static_cast<void>(sweep.solve("old.sqlite"));
+  {
+    Result<Database> database = Database::open_to_write(sweep.file("old.sqlite"));
+    REQUIRE(database);
+    REQUIRE(database->run("PRAGMA user_version=1"));
+  }
+  const Cells cells = sweep.cells();
+  const auto file = ResultsFile::open(sweep.file("old.sqlite"), cells, plan_digest(cells.plan()));
+  REQUIRE(!file);
+  CHECK(file.error().message().find("old.sqlite: is of an older program") != std::string::npos);
+}
+
 TEST_CASE("two solutions of a cell with other numbers are told apart") {
   const SmallSweep sweep;
   const Cells cells = sweep.cells();

@@ -16,10 +16,12 @@ struct TaskSection {
   Task task;
 };
 /// In the order of the tab `all`. Every section is in one task.
-inline constexpr std::array<TaskSection, 13> kTaskSections{{{"Iterations", Task::look},
+inline constexpr std::array<TaskSection, 15> kTaskSections{{{"Iterations", Task::look},
                                                             {"Why this tick", Task::look},
                                                             {"Time machine", Task::tune},
+                                                            {"Tune", Task::tune},
                                                             {"Sweep", Task::tune},
+                                                            {"Speed against error", Task::tune},
                                                             {"Bookmarks", Task::record},
                                                             {"Compare recordings", Task::record},
                                                             {"Map", Task::tune},

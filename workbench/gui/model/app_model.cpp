@@ -17,16 +17,22 @@ AppModel::AppModel(const AppOptions& options)
       scene_(options_, presets_, messages_, [this](SceneChange change) { scene_loaded(std::move(change)); }),
       view_(scene_, map_, messages_),
       devices_(options_, scene_, presets_, messages_, [this] { time_.forget(); }),
+      guard_(
+          options_, scene_, presets_, devices_, messages_, [this](const std::string& what) { preset_changed(what); },
+          [this] { time_.preset_sent(); }),
       time_(options_, devices_, presets_, messages_),
       recordings_(options_, scene_, presets_, time_, messages_,
                   [this](RecordingModel::Loaded loaded) { show_recording(std::move(loaded)); }),
       record_(options_, devices_, scene_, time_, messages_),
       tuning_(options_, presets_, time_, messages_),
+      tune_(options_, presets_, time_, scene_, messages_),
       evidence_(options_, presets_, scene_, time_, messages_),
       why_(options_, time_, presets_, view_, scene_, messages_),
       recording_pair_(options_, presets_, messages_),
-      unsaved_(options_, presets_, time_, messages_),
-      exports_(options_, messages_) {
+      unsaved_(options_, presets_, time_, record_, messages_,
+               [this](const RecordedPlace& place, const UnsavedWork& work) { open_at(place, work); }),
+      exports_(options_, messages_),
+      curves_(options_, presets_, time_, messages_) {
   if (const auto look = window_.read_settings()) {
     view_.camera.y_up = look->y_up;
     map_.colours = look->colours;
@@ -57,10 +63,27 @@ void AppModel::open(const std::string& file) {
     open_session(file);
   else if (RecordingModel::is_recording(file)) {
     session_.reset();
+    place_.reset();
     recordings_.open(file);
   } else {
     scene_.open(file);
   }
+}
+
+void AppModel::open_at(const RecordedPlace& place, const std::optional<UnsavedWork>& work) {
+  std::error_code unknown;
+  if (time_.recording() != nullptr && std::filesystem::equivalent(time_.recording()->path(), place.file, unknown))
+    return time_.select_tick(place.tick);
+  session_.reset();
+  place_ = place;
+  looked_at_ = work;
+  recordings_.open(place.file);
+}
+
+void AppModel::show_compared(bool in_second) {
+  const Result<RecordedPlace> place = recording_pair_.place(in_second);
+  if (!place) return messages_.say(Severity::note, place.error().message());
+  open_at(*place);
 }
 
 void AppModel::solve_here(std::uint32_t triangle, double u, double v) {
@@ -95,9 +118,11 @@ void AppModel::update(double now_s) {
   recordings_.update();
   if (scene_.current() == nullptr && !scene_.loading() && !recordings_.opening()) scene_.open_first({});
   take_ticks();
+  see_mesh_of_tick();
   view_.see_contact(tick_in_view(), time_.paused());
   window_.update(now_s, kept_look());
   unsaved_.update(now_s);
+  tune_.update();
   evidence_.update();
   recording_pair_.update();
   const auto& scene = scene_.current();
@@ -109,6 +134,15 @@ void AppModel::update(double now_s) {
 const TickRecord* AppModel::tick_in_view() const {
   const ServoRecord* record = time_.tick().record();
   return record != nullptr ? &record->tick : nullptr;
+}
+
+/// A mesh that was opened meanwhile stays in view until the ticks' own changes.
+void AppModel::see_mesh_of_tick() {
+  const OpenedRecording* recording = time_.recording();
+  const auto scene = recording != nullptr ? time_.scene_of_tick() : scene_.of_servo();
+  if (scene == seen_scene_) return;
+  seen_scene_ = scene;
+  if (scene != nullptr) scene_.look_at(scene, recording != nullptr ? recording->source_of(*scene) : nullptr);
 }
 
 void AppModel::advance(std::uint64_t ticks) {
@@ -123,6 +157,7 @@ void AppModel::take_ticks() {
   record_.update();
   if (devices_.session() == nullptr && time_.recording() == nullptr) return;
   devices_.take_status();
+  guard_.update();
   time_.show_tick();
   tuning_.update();
 }
@@ -132,6 +167,7 @@ void AppModel::scene_loaded(SceneChange change) {
     if (!scene_.path().empty()) window_.opened(scene_.path());
     view_.look_at_new_scene();
   }
+  if (change.prepared == nullptr) return;
   devices_.take_scene(std::move(change.prepared));
   record_.scene_changed();
   time_.offer_scene(scene_.current());
@@ -141,14 +177,26 @@ void AppModel::show_recording(RecordingModel::Loaded loaded) {
   const OpenedRecording& recording = *loaded.recording;
   window_.opened(std::filesystem::absolute(recording.path()).lexically_normal().string());
   if (loaded.scene)
-    scene_.show(std::move(*loaded.scene), recording.source() ? recording.source()->options : ContactMeshOptions{});
+    scene_.show(std::move(*loaded.scene),
+                recording.source() != nullptr ? recording.source()->options : ContactMeshOptions{});
   else if (scene_.current() == nullptr && !scene_.loading())
     scene_.open_first({});
   if (const Preset* first = recording.preset(recording.page().records.oldest().tick.preset_id))
     presets_.take_recorded(*first, recording.path().stem().string());
   const bool of_session = session_ && session_->recording == recording.path();
   time_.show(std::move(loaded.recording));
+  show_place(recording);
   if (of_session) show_session(*std::exchange(session_, std::nullopt));
+}
+
+/// The place that the recording was opened for.
+void AppModel::show_place(const OpenedRecording& recording) {
+  const auto place = std::exchange(place_, std::nullopt);
+  const auto work = std::exchange(looked_at_, std::nullopt);
+  if (!place || place->file != recording.path()) return;
+  if (work && !work->opened.file.empty()) time_.take_bookmarks(work->opened.bookmarks);
+  if (work && work->steps.size() > 1) presets_.take_up(*work);
+  time_.select_tick(place->tick);
 }
 
 void AppModel::open_session(const std::filesystem::path& file) {
@@ -199,6 +247,11 @@ Result<SavedSession> AppModel::session_to_save(const std::filesystem::path& file
 }
 
 void AppModel::preset_changed(const std::string& what) {
+  if (guard_.lets_through(what)) return send_preset(what);
+  time_.preset_sent();  // the recorded past may be solved with it meanwhile
+}
+
+void AppModel::send_preset(const std::string& what) {
   const auto id = devices_.send_preset();
   if (!id) return;
   presets_.note_sent(*id, what);

@@ -4,7 +4,9 @@
 // The only data flow between the parts:
 //
 //   scene  --(a mesh was opened or built again)-->  window, view, devices     scene_loaded()
-//   presets  --(values changed)-->  devices --(id of what was sent)--> presets, time     preset_changed()
+//   presets  --(values changed)-->  guard, which may hold them     preset_changed()
+//   guard  -->  devices --(id of what was sent)--> presets, time     send_preset()
+//   devices  --(a change was undone)-->  guard  -->  presets     guard().update()
 //   devices  --(the session ends)-->  record, time     record().stop(), time().forget()
 //   recordings  --(a recording was read)-->  scene, presets, time     show_recording()
 //   devices  --(records, status)-->  time, once a frame     take_ticks()
@@ -13,9 +15,11 @@
 
 #include "workbench/gui/map/map_view.h"
 #include "workbench/gui/model/app_options.h"
+#include "workbench/gui/model/curves_model.h"
 #include "workbench/gui/model/device_model.h"
 #include "workbench/gui/model/evidence_model.h"
 #include "workbench/gui/model/export_model.h"
+#include "workbench/gui/model/guard_model.h"
 #include "workbench/gui/model/message_log.h"
 #include "workbench/gui/model/preset_model.h"
 #include "workbench/gui/model/record_model.h"
@@ -23,6 +27,7 @@
 #include "workbench/gui/model/recording_pair_model.h"
 #include "workbench/gui/model/scene_model.h"
 #include "workbench/gui/model/time_model.h"
+#include "workbench/gui/model/tune_model.h"
 #include "workbench/gui/model/tuning_model.h"
 #include "workbench/gui/model/unsaved_model.h"
 #include "workbench/gui/model/view_model.h"
@@ -47,6 +52,9 @@ class AppModel {
   void keep();
   /// Call once per frame: takes in results of the servo and the workers.
   void update(double now_s);
+  /// The mesh in view becomes that of the tick in view, where a recording has several. Once a frame, and wherever
+  /// another tick was chosen before the frame is drawn.
+  void see_mesh_of_tick();
   /// Deterministic mode only.
   void advance(std::uint64_t ticks);
   bool deterministic() const { return options_.deterministic; }
@@ -61,6 +69,11 @@ class AppModel {
   /// A preset (.toml), a recording (.sqlite), a session (.session), a mesh, a polygon, or the name of a generated
   /// object. Failures are messages.
   void open(const std::string& file);
+  /// A tick of a recording, which is opened where it is not open; `work`: with the presets and bookmarks of an earlier
+  /// run.
+  void open_at(const RecordedPlace& place, const std::optional<UnsavedWork>& work = std::nullopt);
+  /// The tick that is chosen in the comparison of two recordings, in the first or the second of them.
+  void show_compared(bool in_second);
   /// A tick at a place of the mesh in view, in the direction that needs most planes (TimeModel::solve_at), with the
   /// map's moves. At once, whatever the finger does.
   void solve_here(std::uint32_t triangle, double u, double v);
@@ -79,6 +92,8 @@ class AppModel {
   const ViewModel& view() const { return view_; }
   DeviceModel& devices() { return devices_; }
   const DeviceModel& devices() const { return devices_; }
+  GuardModel& guard() { return guard_; }
+  const GuardModel& guard() const { return guard_; }
   TimeModel& time() { return time_; }
   const TimeModel& time() const { return time_; }
   const TickRecord* tick_in_view() const;  ///< null: none yet
@@ -87,6 +102,9 @@ class AppModel {
   RecordModel& record() { return record_; }
   const RecordModel& record() const { return record_; }
   TuningModel& tuning() { return tuning_; }
+  TuneModel& tune() { return tune_; }
+  const TuneModel& tune() const { return tune_; }
+  CurvesModel& curves() { return curves_; }
   EvidenceModel& evidence() { return evidence_; }
   WhyModel& why() { return why_; }
   RecordingPairModel& recording_pair() { return recording_pair_; }
@@ -99,7 +117,9 @@ class AppModel {
   void show_recording(RecordingModel::Loaded loaded);
   void open_session(const std::filesystem::path& file);
   void show_session(const SavedSession& session);
+  void show_place(const OpenedRecording& recording);
   void preset_changed(const std::string& what);
+  void send_preset(const std::string& what);
   void take_ticks();
   KeptLook kept_look() const { return {view_.camera.y_up, map_.colours}; }
 
@@ -112,16 +132,22 @@ class AppModel {
   MapView map_;
   ViewModel view_;
   DeviceModel devices_;
+  GuardModel guard_;
   TimeModel time_;
   RecordingModel recordings_;
   RecordModel record_;
   TuningModel tuning_;
+  TuneModel tune_;
   EvidenceModel evidence_;
   WhyModel why_;
   RecordingPairModel recording_pair_;
   UnsavedModel unsaved_;
   ExportModel exports_;
-  std::optional<SavedSession> session_;  ///< opened, its recording being read
+  CurvesModel curves_;
+  std::optional<SavedSession> session_;             ///< opened, its recording being read
+  std::shared_ptr<const ContactScene> seen_scene_;  ///< by see_mesh_of_tick
+  std::optional<RecordedPlace> place_;              ///< to be shown when its recording was read,
+  std::optional<UnsavedWork> looked_at_;            ///< as it was looked at before a crash
   std::optional<std::map<std::string, std::string>> session_view_;
 };
 

@@ -29,6 +29,8 @@ struct AppOptions {
   std::filesystem::path settings;                   ///< file for layout and look between runs; empty: not kept
   std::filesystem::path screenshots;                ///< folder for F12's screenshots; empty: the current one
   double history_s = 600.0;                         ///< length of the history, within kLargestHistoryBytes
+  std::size_t solved_bytes = 0;                     ///< that ticks of a recording from A to B may take; 0: half of
+                                                    ///< the memory that is free
   std::filesystem::path script;                     ///< commands to run; empty: none
   std::filesystem::path record;                     ///< recording to write; empty: none
   Theme theme = Theme::dark;

@@ -54,7 +54,7 @@ void DeviceModel::make_session(PreparedScenePtr prepared) {
   }
   SessionOptions wanted = options_;
   wanted.arm_on_start = arm_on_start;
-  auto session = Session::create(scene_.current(), presets_.current(), wanted, std::move(prepared));
+  auto session = Session::create(scene_.of_servo(), presets_.current(), wanted, std::move(prepared));
   if (!session) {
     messages_.say(Severity::error, session.error().message());
     return;
@@ -84,7 +84,7 @@ void DeviceModel::end_session() {
 }
 
 void DeviceModel::restart_session() {
-  if (scene_.current() == nullptr) return;
+  if (scene_.of_servo() == nullptr) return;
   end_session();  // releases its devices before the new one opens them
   status_ = {};
   session_ended_();
@@ -121,7 +121,7 @@ void DeviceModel::say_what_differs() {
     }
     said = used < asked ? asked : 0.0;
   };
-  const ForceSettings &asked = presets_.current().force, &used = session_->preset().force;
+  const ForceSettings &asked = session_->asked_preset().force, &used = session_->preset().force;
   say("stiffness", "N/m", asked.stiffness_n_per_m, used.stiffness_n_per_m, capped_.stiffness_n_per_m);
   say("damping", "N s/m", asked.damping_n_s_per_m, used.damping_n_s_per_m, capped_.damping_n_s_per_m);
 }

@@ -6,6 +6,8 @@
 #include "workbench/evidence/made_mesh.h"
 
 #include <algorithm>
+#include <utility>
+#include <vector>
 
 namespace tangent {
 
@@ -24,9 +26,9 @@ void append_row(std::string& text, const TickInput& input) {
   text += '\n';
 }
 
-std::string poses_text(const RunPart& part) {
+std::string poses_text(std::span<const TickInput> poses) {
   std::string text = "t_s,x_m,y_m,z_m,qw,qx,qy,qz\n";
-  for (std::size_t i = part.first; i < part.run.records.size(); ++i) append_row(text, part.run.records[i].tick.input);
+  for (const TickInput& input : poses) append_row(text, input);
   return text;
 }
 
@@ -94,13 +96,12 @@ std::optional<RunPart> EvidenceModel::selected_run() const {
   return part;
 }
 
-PresetEvidence EvidenceModel::asked_for(const std::filesystem::path& poses) const {
+PresetEvidence EvidenceModel::asked_for(EvidenceMotion motion, const std::filesystem::path& folder) const {
   PresetEvidence asked;
   asked.command = "saved in the window";
-  asked.motion.kind = MotionKind::poses;
-  asked.motion.file = seen_from(poses.parent_path(), poses);
+  asked.motion = std::move(motion);
   const std::string& mesh = scene_.path();
-  asked.mesh.source = is_generated(mesh) ? made_text({mesh, {}}) : seen_from(poses.parent_path(), mesh);
+  asked.mesh.source = is_generated(mesh) ? made_text({mesh, {}}) : seen_from(folder, mesh);
   asked.mesh.metres_per_unit = scene_.metres_per_unit();
   asked.mesh.options = scene_.mesh_options();
   return asked;
@@ -109,12 +110,23 @@ PresetEvidence EvidenceModel::asked_for(const std::filesystem::path& poses) cons
 void EvidenceModel::attach_selection() {
   const auto part = selected_run();
   if (!part) return;
+  std::vector<TickInput> poses;
+  for (std::size_t i = part->first; i < part->run.records.size(); ++i) poses.push_back(part->run.records[i].tick.input);
+  EvidenceMotion motion;
+  motion.kind = MotionKind::poses;
+  attach(std::move(motion), poses);
+}
+
+void EvidenceModel::attach(EvidenceMotion motion, std::span<const TickInput> poses) {
   const PresetEditor& editor = presets_.editor();
-  const std::filesystem::path poses = editor.path().parent_path() / (editor.name() + kSavedPoses);
-  if (Status written = write_file_atomic(poses, poses_text(*part)); !written)
-    return messages_.say(Severity::error, written.error().message());
+  const std::filesystem::path folder = editor.path().parent_path(), file = folder / (editor.name() + kSavedPoses);
+  if (motion.kind == MotionKind::poses) {
+    if (Status written = write_file_atomic(file, poses_text(poses)); !written)
+      return messages_.say(Severity::error, written.error().message());
+    motion.file = seen_from(folder, file);
+  }
   attached_to_ = editor.path();
-  job_.attach(editor.loaded(), asked_for(poses), poses.parent_path(), !deterministic_);
+  job_.attach(editor.loaded(), asked_for(std::move(motion), folder), folder, !deterministic_);
 }
 
 void EvidenceModel::take(Result<PresetFile> attached) {

@@ -11,6 +11,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 
 namespace tangent {
@@ -37,10 +38,12 @@ class EvidenceModel {
   bool can_attach() const { return selected_run().has_value(); }
   /// To the preset that was saved just now: writes the selected poses beside it, and measures in the background.
   void attach_selection();
+  /// Likewise, a motion that was tuned on. `poses`: to write beside the preset, of the kind `poses`.
+  void attach(EvidenceMotion motion, std::span<const TickInput> poses);
 
  private:
   std::optional<RunPart> selected_run() const;
-  PresetEvidence asked_for(const std::filesystem::path& poses) const;
+  PresetEvidence asked_for(EvidenceMotion motion, const std::filesystem::path& folder) const;
   void take(Result<PresetFile> attached);
 
   PresetModel& presets_;

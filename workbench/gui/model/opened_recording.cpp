@@ -98,6 +98,9 @@ Status OpenedRecording::read_scenes(Recording& recording) {
   for (const RecordedScene& recorded : recorded_scenes_) {
     if (options_.scene != nullptr && scene_hash(*options_.scene) == recorded.hash) {
       scenes_[recorded.id] = options_.scene;
+      if (recorded.has_bytes && recorded.id != first)
+        if (Result<SceneSource> source = recording.scene_source(recorded.id))
+          sources_[recorded.id] = std::move(*source);
     } else if (recorded.has_bytes) {
       Result<SceneSource> source = recording.scene_source(recorded.id);
       if (!source) return tl::unexpected(source.error());
@@ -107,7 +110,7 @@ Status OpenedRecording::read_scenes(Recording& recording) {
       if (!scene) return tl::unexpected(scene.error());
       if (Status same = recording.is_scene(recorded, **scene); !same) return same;
       scenes_[recorded.id] = *scene;
-      if (recorded.id == first) source_ = std::move(*source);
+      sources_[recorded.id] = std::move(*source);
     }
     if (recorded.id == first && scenes_.contains(recorded.id)) first_scene_ = scenes_.at(recorded.id);
   }
@@ -190,6 +193,13 @@ void OpenedRecording::remark(Recording& recording) {
 }
 
 // --- Scenes --------------------------------------------------------------------------------------------
+
+const SceneSource* OpenedRecording::source_of(const ContactScene& scene) const {
+  for (const auto& [id, known] : scenes_)
+    if (const auto source = sources_.find(id); known.get() == &scene && source != sources_.end())
+      return &source->second;
+  return nullptr;
+}
 
 const RecordedScene* OpenedRecording::missing_scene() const {
   const auto found = std::find_if(recorded_scenes_.begin(), recorded_scenes_.end(),

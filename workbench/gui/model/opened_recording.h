@@ -16,6 +16,7 @@
 #include <atomic>
 #include <deque>
 #include <future>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -46,7 +47,10 @@ class OpenedRecording {
   std::string unsolvable() const;
   /// The scene of its first tick, and what it was built from. Null: the file has none, and `options.scene` is another.
   const std::shared_ptr<const ContactScene>& scene() const { return first_scene_; }
-  const std::optional<SceneSource>& source() const { return source_; }
+  const SceneSource* source() const { return first_scene_ != nullptr ? source_of(*first_scene_) : nullptr; }
+  /// Of any of its scenes; null: it was not built from the file.
+  const SceneSource* source_of(const ContactScene& scene) const;
+  const SolvableTicks::Scenes& scenes() const { return scenes_; }
   /// A scene that was recorded without its mesh and is not there yet; null: none.
   const RecordedScene* missing_scene() const;
   /// Takes a scene from elsewhere if it is the missing one, by its hash. The page is then loaded again.
@@ -104,7 +108,7 @@ class OpenedRecording {
   std::vector<RecordedScene> recorded_scenes_;
   SolvableTicks::Scenes scenes_;
   std::shared_ptr<const ContactScene> first_scene_;
-  std::optional<SceneSource> source_;
+  std::map<std::uint32_t, SceneSource> sources_;  ///< by the scene's id
   std::vector<Preset> presets_;
   Bookmarks bookmarks_;
   std::vector<ParameterMark> marks_;

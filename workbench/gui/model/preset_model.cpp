@@ -60,13 +60,28 @@ void PresetModel::set_condition(const RenderingCondition& condition) {
   if (slots_.apply(what, set)) changed_(what);
 }
 
+namespace {
+
+bool set_all(PresetEditor& editor, std::span<const std::pair<const PresetKey*, double>> values) {
+  bool any = false;
+  for (const auto& [key, value] : values) any = editor.set(*key, value) || any;
+  return any;
+}
+
+}  // namespace
+
 void PresetModel::set_values(const std::string& what, std::span<const std::pair<const PresetKey*, double>> values) {
+  if (slots_.apply(what, [&](PresetEditor& editor) { return set_all(editor, values); })) changed_(what);
+}
+
+void PresetModel::try_values(const std::string& what, std::span<const std::pair<const PresetKey*, double>> values) {
   const auto set = [&](PresetEditor& editor) {
-    bool any = false;
-    for (const auto& [key, value] : values) any = editor.set(*key, value) || any;
-    return any;
+    set_all(editor, values);
+    return true;
   };
-  if (slots_.apply(what, set)) changed_(what);
+  const Preset before = current();
+  slots_.apply_in_other(what, set);
+  if (!(before == current())) changed_(what);
 }
 
 void PresetModel::slide_value(const PresetKey& key, double value) {
@@ -135,6 +150,15 @@ void PresetModel::replace_by(const PresetEditor& loaded) {
 void PresetModel::take_up(const UnsavedWork& work) {
   slots_.restore(work);
   changed_("restore the work of an earlier run");
+}
+
+void PresetModel::take_back(const Preset& in_use, const std::string& what) {
+  slots_.end_gesture();
+  slots_.apply(what, [&](PresetEditor& editor) {
+    bool any = false;
+    for (const PresetKey& key : preset_keys()) any = editor.set(key, key.get(in_use)) || any;
+    return any;
+  });
 }
 
 void PresetModel::undo() {

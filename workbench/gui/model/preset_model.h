@@ -38,6 +38,9 @@ class PresetModel {
   void set_value(const PresetKey& key, double value);
   /// Several values as one step of undo.
   void set_values(const std::string& what, std::span<const std::pair<const PresetKey*, double>> values);
+  /// The same in the other slot, which becomes a copy of the one in use before and is switched to: a what-if that B
+  /// compares with what there was.
+  void try_values(const std::string& what, std::span<const std::pair<const PresetKey*, double>> values);
   void slide_value(const PresetKey& key, double value);  ///< one step of undo until end_gesture()
   void end_gesture() { slots_.end_gesture(); }
   void type_value(const PresetKey& key, const std::string& text);  ///< logs a message if it can't be parsed
@@ -45,6 +48,8 @@ class PresetModel {
   void revert_value(const PresetKey& key) { set_value(key, key.get(editor().loaded().preset)); }
   void revert_all();
   void set_condition(const RenderingCondition& condition);  ///< both sources, one step of undo
+  /// Back to values that the devices have: nothing is sent. A step of undo by this name.
+  void take_back(const Preset& in_use, const std::string& what);
   void undo();
   void redo();
   void toggle_ab();

@@ -38,6 +38,19 @@ bool PresetSlots::apply(std::string what, const std::function<bool(PresetEditor&
   return true;
 }
 
+bool PresetSlots::apply_in_other(std::string what, const std::function<bool(PresetEditor&)>& change) {
+  Step step = now();
+  const std::size_t other = 1 - step.active;
+  step.slots[other] = step.slots[step.active];
+  if (!change(step.slots[other])) return false;
+  step.active = other;
+  step.what = std::move(what);
+  step.gesture.clear();
+  push(std::move(step));
+  gesture_open_ = false;
+  return true;
+}
+
 bool PresetSlots::toggle() {
   const Preset before = active().current();
   Step step = now();

@@ -26,6 +26,9 @@ class PresetSlots {
   /// Runs `change` on the active slot and records an undo step named `what` if it returns true (changed). Consecutive
   /// steps of the same non-empty `gesture` are merged until end_gesture().
   bool apply(std::string what, const std::function<bool(PresetEditor&)>& change, std::string_view gesture = {});
+  /// The other slot becomes a copy of the active one, is changed, and is switched to: one step. Nothing where `change`
+  /// returns false.
+  bool apply_in_other(std::string what, const std::function<bool(PresetEditor&)>& change);
   void end_gesture() { gesture_open_ = false; }
   bool gesture_open() const { return gesture_open_; }
 

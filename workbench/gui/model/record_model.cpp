@@ -144,9 +144,9 @@ void RecordModel::update() {
 void RecordModel::know_scene() {
   const Session& session = *devices_.session();
   const std::uint32_t id = session.status().scene_sent;
-  if (scenes_.contains(id) || scene_.current() != session.scene()) return;
+  if (scenes_.contains(id) || scene_.of_servo() != session.scene()) return;
   std::erase_if(scenes_, [&](const auto& known) { return !session.scenes().contains(known.first); });
-  scenes_[id] = {std::filesystem::path(scene_.current()->mesh().name()).filename().string(), scene_.source()};
+  scenes_[id] = {std::filesystem::path(scene_.of_servo()->mesh().name()).filename().string(), scene_.source()};
 }
 
 void RecordModel::scene_changed() {
@@ -154,7 +154,7 @@ void RecordModel::scene_changed() {
   know_scene();
   if (recorder_ == nullptr) return;
   const std::uint32_t id = devices_.session()->status().scene_sent;
-  recorder_->scene_changed(id, scene_.current(), scenes_[id].name, scenes_[id].source);
+  recorder_->scene_changed(id, scene_.of_servo(), scenes_[id].name, scenes_[id].source);
 }
 
 // --- What is in the history ----------------------------------------------------------------------------

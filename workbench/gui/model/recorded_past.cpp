@@ -54,6 +54,20 @@ void RecordedPast::show_page(PastPart page) {
   frozen_ = true;
 }
 
+void RecordedPast::keep_selection(const TickRange& range, PastPart part) {
+  kept_[kSelection] = {range, std::move(part), true, true};
+}
+
+void RecordedPast::drop_selection() {
+  if (kept_in_view_ == kSelection) kept_in_view_.reset();
+  kept_.erase(kSelection);
+}
+
+const PastPart* RecordedPast::kept_selection() const {
+  const auto found = kept_.find(kSelection);
+  return found != kept_.end() ? &found->second.part : nullptr;
+}
+
 void RecordedPast::forget() {
   main_ = {};
   kept_.clear();
@@ -81,6 +95,9 @@ bool RecordedPast::reaches(std::uint64_t tick) const {
 const PastPart* RecordedPast::part_with(const TickRange& range) const {
   const auto holds = [&range](const PastPart& part) { return part.covers(range.from) && part.covers(range.to); };
   if (holds(main_)) return &main_;
+  const auto selected = kept_.find(kSelection);
+  if (selected != kept_.end() && selected->second.read && selected->second.range == range)
+    return &selected->second.part;
   const auto found =
       std::find_if(kept_.begin(), kept_.end(), [&holds](const auto& kept) { return holds(kept.second.part); });
   return found != kept_.end() ? &found->second.part : nullptr;

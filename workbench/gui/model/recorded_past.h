@@ -48,6 +48,11 @@ class RecordedPast {
   void thaw();
   /// Shows a part of a recording in place of the history, frozen.
   void show_page(PastPart page);
+  /// Of a recording: the selection, read whole, is kept beside the page until it is let go of.
+  void keep_selection(const TickRange& range, PastPart part);
+  void drop_selection();
+  /// As it was read from a recording; null: it was not.
+  const PastPart* kept_selection() const;
   void forget();  ///< a new session: nothing is recorded
 
   bool frozen() const { return frozen_; }
@@ -74,6 +79,7 @@ class RecordedPast {
     TickRange range;
     PastPart part;
     bool complete = false;
+    bool read = false;  ///< all that a recording has of it
   };
   static constexpr std::uint32_t kSelection = 0;  ///< key in kept_; bookmarks' ids begin at 1
   void keep_range(std::uint32_t key, const TickRange& range);

@@ -19,7 +19,7 @@ Result<RecordingModel::Loaded> load_recording(const std::filesystem::path& path,
   RecordingModel::Loaded loaded{std::move(*recording), std::nullopt};
   const OpenedRecording& opened = *loaded.recording;
   if (opened.scene() != nullptr && opened.scene() != in_use)
-    loaded.scene = load_built(opened.scene(), opened.source() ? opened.source()->mesh : nullptr, finger);
+    loaded.scene = load_built(opened.scene(), opened.source() != nullptr ? opened.source()->mesh : nullptr, finger);
   return loaded;
 }
 
@@ -61,7 +61,7 @@ void RecordingModel::open(const std::filesystem::path& file) {
 }
 
 bool RecordingModel::busy() const {
-  return opening() || (time_.recording() != nullptr && time_.recording()->loading());
+  return opening() || (time_.recording() != nullptr && (time_.recording()->loading() || time_.selection_loading()));
 }
 
 void RecordingModel::update() {

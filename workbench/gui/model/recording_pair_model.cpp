@@ -13,6 +13,7 @@ constexpr std::uint64_t kAround = 250;  ///< ticks before and after the largest 
 
 void RecordingPairModel::compare() {
   if (first.empty()) return messages_.say(Severity::note, "name the first recording to compare");
+  chosen_.reset();
   start({first, second, presets_.current(), by});
 }
 
@@ -59,10 +60,13 @@ void RecordingPairModel::work(Job& job) {
 void RecordingPairModel::put(const Job& job, Result<RecordingsCompared> found) {
   const std::scoped_lock lock(guard_);
   if (job.cancelled) return;
-  if (found)
-    result_ = std::make_shared<const RecordingsCompared>(std::move(*found));
-  else
+  if (!found) {
     failure_ = found.error().message();
+    return;
+  }
+  result_ = std::make_shared<const RecordingsCompared>(std::move(*found));
+  first_of_result_ = job.asked.first;
+  second_of_result_ = job.asked.second;
 }
 
 std::shared_ptr<const RecordingsCompared> RecordingPairModel::result() const {
@@ -84,13 +88,36 @@ void RecordingPairModel::update() {
   if (!said.empty()) messages_.say(Severity::error, said);
 }
 
+/// Of the channel that is drawn; null: they do not differ in it.
+const ComparedBin* RecordingPairModel::largest_bin(const RecordingsCompared& found) const {
+  const ComparedBin* largest = nullptr;
+  for (const ComparedBin& bin : found.bins)
+    if (bin.ticks > 0 && (largest == nullptr || bin.at_most[channel] > largest->at_most[channel])) largest = &bin;
+  return largest != nullptr && largest->at_most[channel] > 0.0 ? largest : nullptr;
+}
+
+Result<RecordedPlace> RecordingPairModel::place(bool in_second) const {
+  const auto found = result();
+  if (found == nullptr) return fail("no recordings are compared yet", {}, "compare two");
+  if (!found->alignment.aligned())
+    return fail("no tick of one goes with one of the other: " + found->alignment.why_not);
+  const std::scoped_lock lock(guard_);
+  if (in_second && second_of_result_.empty())
+    return fail("the second is the first one's motion under the present values", {},
+                "look at it in the first: a value that is changed there is drawn beside it");
+  const ComparedBin* largest = largest_bin(*found);
+  const std::uint64_t tick = std::clamp(chosen_              ? *chosen_
+                                        : largest != nullptr ? largest->first
+                                                             : 0,
+                                        found->alignment.first, found->alignment.last);
+  if (in_second) return RecordedPlace{second_of_result_, found->alignment.in_b(tick)};
+  return RecordedPlace{first_of_result_, tick};
+}
+
 bool RecordingPairModel::go_to_largest() {
   const auto found = result();
-  const ComparedBin* largest = nullptr;
-  if (found != nullptr)
-    for (const ComparedBin& bin : found->bins)
-      if (bin.ticks > 0 && (largest == nullptr || bin.at_most[channel] > largest->at_most[channel])) largest = &bin;
-  if (largest == nullptr || !(largest->at_most[channel] > 0.0)) {
+  const ComparedBin* largest = found != nullptr ? largest_bin(*found) : nullptr;
+  if (largest == nullptr) {
     messages_.say(Severity::note, "no difference to go to");
     return false;
   }

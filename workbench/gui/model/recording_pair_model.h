@@ -5,12 +5,14 @@
 #include "workbench/gui/model/app_options.h"
 #include "workbench/gui/model/message_log.h"
 #include "workbench/gui/model/preset_model.h"
+#include "workbench/gui/model/recorded_place.h"
 #include "workbench/recording/compare_recordings.h"
 
 #include <atomic>
 #include <filesystem>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -48,6 +50,14 @@ class RecordingPairModel {
   void show_whole();  ///< all ticks again
   bool zoomed() const { return asked_.to != std::numeric_limits<std::uint64_t>::max(); }
 
+  // A tick of the first that a person has chosen in the curves or in the list of differences, and the one that goes
+  // with it in the second: both can be looked at in the window's time.
+  void choose(std::uint64_t tick_of_first) { chosen_ = tick_of_first; }
+  std::optional<std::uint64_t> chosen() const { return chosen_; }
+  /// Of the tick that is chosen, or without one of the largest difference of what is drawn. Fails, saying why, where
+  /// nothing was compared, or the second is no file.
+  Result<RecordedPlace> place(bool in_second) const;
+
  private:
   struct Job {
     RecordingsAsked asked;
@@ -57,13 +67,16 @@ class RecordingPairModel {
   void start(RecordingsAsked asked);
   void work(Job& job);
   void put(const Job& job, Result<RecordingsCompared> found);
+  const ComparedBin* largest_bin(const RecordingsCompared& found) const;
 
   const PresetModel& presets_;
   MessageLog& messages_;
   const bool threaded_;
   RecordingsAsked asked_;
-  mutable std::mutex guard_;  ///< of the two below
+  std::optional<std::uint64_t> chosen_;
+  mutable std::mutex guard_;  ///< of the four below
   std::shared_ptr<const RecordingsCompared> result_;
+  std::filesystem::path first_of_result_, second_of_result_;
   std::string failure_;
   std::vector<std::unique_ptr<Job>> jobs_;  ///< the newest last; all others are cancelled and end
 };

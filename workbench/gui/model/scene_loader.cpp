@@ -25,7 +25,7 @@ Result<PolygonMesh> read_or_generate(const SceneRequest& request) {
   for (const auto* names : {&generator_names(), &hard_mesh_names()}) {
     if (std::find(names->begin(), names->end(), request.mesh) != names->end()) return generate_mesh(request.mesh);
   }
-  return read_mesh(request.mesh, request.metres_per_unit);
+  return read_mesh(request.mesh, request.metres_per_unit, run_on_two_threads);
 }
 
 /// Loads a polygon as a 2D scene. Its mesh is the ribbon that the scene builds from it.
@@ -50,12 +50,16 @@ MeshReport report_on(const PolygonMesh& polygons, const ContactMesh& mesh) {
   return {audit_mesh(polygons, mesh), find_defects(polygons, mesh), audit_perception(mesh, facet_angles(mesh))};
 }
 
+std::shared_ptr<const PolygonMesh> polygons_of(const ContactScene& scene, std::shared_ptr<const PolygonMesh> polygons) {
+  const PlanarCurve* curve = scene.planar();
+  if (curve == nullptr || polygons != nullptr) return polygons;
+  return std::make_shared<const PolygonMesh>(ribbon(*curve, 0.1 * curve->size_m()));
+}
+
 LoadedScene load_built(std::shared_ptr<const ContactScene> scene, std::shared_ptr<const PolygonMesh> polygons,
                        const Finger& finger) {
   LoadedScene out;
-  out.polygons = std::move(polygons);
-  if (const PlanarCurve* curve = scene->planar(); curve != nullptr && out.polygons == nullptr)
-    out.polygons = std::make_shared<const PolygonMesh>(ribbon(*curve, 0.1 * curve->size_m()));
+  out.polygons = polygons_of(*scene, std::move(polygons));
   out.prepared = Session::prepare(scene, finger);
   if (scene->planar() == nullptr)
     build_in_reach(*scene, out.prepared->path.at(0.0, pad_distance_m(finger), 0.0).position_m, finger);

@@ -42,6 +42,8 @@ struct LoadedScene {
 
 MeshReport report_on(const PolygonMesh& polygons, const ContactMesh& mesh);
 
+/// What a scene without polygons is audited as: of a polygon its ribbon. Null: nothing.
+std::shared_ptr<const PolygonMesh> polygons_of(const ContactScene& scene, std::shared_ptr<const PolygonMesh> polygons);
 /// A scene that was built already, and what it was built from: no mesh where it is a polygon.
 LoadedScene load_built(std::shared_ptr<const ContactScene> scene, std::shared_ptr<const PolygonMesh> polygons,
                        const Finger& finger);

@@ -11,6 +11,14 @@ namespace {
 
 constexpr const char* kBuiltInScene = "torus";
 
+/// The same camera and the same triangle numbers go with both.
+bool same_triangles(const ContactScene& a, const ContactScene& b) {
+  const ContactMesh &one = a.mesh(), &other = b.mesh();
+  return (a.planar() == nullptr) == (b.planar() == nullptr) && one.origin() == other.origin() &&
+         one.bounds().min == other.bounds().min && one.bounds().max == other.bounds().max &&
+         one.triangle_count() == other.triangle_count();
+}
+
 }  // namespace
 
 SceneModel::SceneModel(const AppOptions& options, const PresetModel& presets, MessageLog& messages,
@@ -24,7 +32,7 @@ SceneModel::SceneModel(const AppOptions& options, const PresetModel& presets, Me
 
 void SceneModel::open_first(const std::string& mesh) {
   open(mesh.empty() ? kBuiltInScene : mesh);
-  if (scene_ == nullptr && !loader_.busy()) open(kBuiltInScene);
+  if (shown_.scene == nullptr && !loader_.busy()) open(kBuiltInScene);
 }
 
 void SceneModel::open(const std::string& mesh) {
@@ -33,8 +41,9 @@ void SceneModel::open(const std::string& mesh) {
 }
 
 SceneSource SceneModel::source() const {
-  if (scene_->planar() != nullptr) return source_of_planar(*scene_);
-  return {polygons_, built_with_, nullptr};
+  const Shown& own = own_ ? *own_ : shown_;
+  if (own.scene->planar() != nullptr) return source_of_planar(*own.scene);
+  return {own.polygons, own.built_with, nullptr};
 }
 
 void SceneModel::show(LoadedScene loaded, const ContactMeshOptions& options) {
@@ -64,35 +73,61 @@ void SceneModel::update() {
       take(std::move(**loaded));
     } else {
       messages_.say(Severity::error, loaded->error().message());
-      if (scene_ == nullptr && opening_path_ != kBuiltInScene) open(kBuiltInScene);
+      if (shown_.scene == nullptr && opening_path_ != kBuiltInScene) open(kBuiltInScene);
     }
   }
   if (auto report = loader_.poll_audit()) report_ = std::move(*report);
 }
 
 void SceneModel::take(LoadedScene loaded) {
-  scene_ = std::move(loaded.scene);
-  polygons_ = std::move(loaded.polygons);
-  load_seconds_ = loaded.seconds;
-  built_with_ = loaded.options;
+  own_.reset();
+  shown_.scene = std::move(loaded.scene);
+  shown_.polygons = std::move(loaded.polygons);
+  shown_.load_seconds = loaded.seconds;
+  shown_.built_with = loaded.options;
   report_.reset();
   if (!loaded.rebuilt) {
-    path_ = opening_path_;
+    shown_.path = opening_path_;
     warn_of_left_out();
     warn_of_size();
   }
-  for (const std::string& note : scene_->mesh().notes()) messages_.say(Severity::note, note);
-  changed_({std::move(loaded.prepared), !loaded.rebuilt});
+  for (const std::string& note : shown_.scene->mesh().notes()) messages_.say(Severity::note, note);
+  changed(std::move(loaded.prepared), !loaded.rebuilt);
+}
+
+void SceneModel::changed(PreparedScenePtr prepared, bool opened) {
+  changed_({std::move(prepared), opened});
+  if (shown_.polygons == nullptr) return;  // a scene whose faces are not known: nothing to audit
   if (deterministic_)
-    report_ = report_on(*polygons_, scene_->mesh());
+    report_ = report_on(*shown_.polygons, shown_.scene->mesh());
   else
-    loader_.request_audit(polygons_, scene_);
+    loader_.request_audit(shown_.polygons, shown_.scene);
+}
+
+void SceneModel::look_at(const std::shared_ptr<const ContactScene>& scene, const SceneSource* source) {
+  if (scene == nullptr || scene == shown_.scene) return;
+  const std::shared_ptr<const ContactScene> before = shown_.scene;
+  if (scene == of_servo()) {
+    shown_ = *std::exchange(own_, std::nullopt);
+    mesh_options_ = shown_.import;
+  } else {
+    if (!own_ && before != nullptr) {
+      own_ = shown_;
+      own_->import = mesh_options_;
+    }
+    shown_ = {};
+    shown_.scene = scene;
+    shown_.polygons = polygons_of(*scene, source != nullptr ? source->mesh : nullptr);
+    if (source != nullptr) mesh_options_ = shown_.built_with = source->options;
+  }
+  report_.reset();
+  changed(nullptr, before == nullptr || !same_triangles(*before, *scene));
 }
 
 void SceneModel::set_unit(double metres_per_unit) {
   if (metres_per_unit == metres_per_unit_) return;
   metres_per_unit_ = metres_per_unit;
-  if (!path_.empty()) open(path_);
+  if (!shown_.path.empty()) open(shown_.path);
 }
 
 void SceneModel::set_fit(std::optional<double> fit_m) {
@@ -100,22 +135,22 @@ void SceneModel::set_fit(std::optional<double> fit_m) {
     return messages_.say(Severity::error, "the longest side must be 0.001 to 1000000000 mm");
   if (fit_m == mesh_options_.fit_m) return;
   mesh_options_.fit_m = fit_m;
-  if (!path_.empty()) open(path_);
+  if (!shown_.path.empty()) open(shown_.path);
 }
 
 void SceneModel::set_crease_angle(double rad) {
-  if (!std::isfinite(rad) || polygons_ == nullptr || scene_->planar() != nullptr) return;
+  if (!std::isfinite(rad) || shown_.polygons == nullptr || shown_.scene->planar() != nullptr) return;
   rad = std::clamp(rad, 0.0, 180.0 * kDegree);
   if (rad == mesh_options_.crease_rad) return;
   mesh_options_.crease_rad = rad;
-  opening_path_ = path_;
-  load(polygons_);
+  opening_path_ = shown_.path;
+  load(shown_.polygons);
 }
 
 /// Before every other message: a mesh of which much is missing is not the one that was meant.
 void SceneModel::warn_of_left_out() {
-  if (scene_->planar() != nullptr) return;
-  const ContactMesh& mesh = scene_->mesh();
+  if (shown_.scene->planar() != nullptr) return;
+  const ContactMesh& mesh = shown_.scene->mesh();
   const std::uint32_t all = mesh.triangle_count(), used = mesh.usable_triangle_count();
   if (used == all) return;
   char text[200];
@@ -128,7 +163,7 @@ void SceneModel::warn_of_left_out() {
 
 /// Mesh files do not state their unit: one in metres read as millimetres would be 1000 times too small.
 void SceneModel::warn_of_size() {
-  const Vec3 size = scene_->mesh().bounds().size();
+  const Vec3 size = shown_.scene->mesh().bounds().size();
   const double longest = std::max({size.x, size.y, size.z}), finger = 2.0 * presets_.current().finger.reach_m();
   if (finger <= 0.0 || (longest > 0.05 * finger && longest < 200.0 * finger)) return;
   char text[160];

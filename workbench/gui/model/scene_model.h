@@ -17,7 +17,7 @@ namespace tangent {
 
 /// Event: the current scene was replaced.
 struct SceneChange {
-  PreparedScenePtr prepared;  ///< for the servo
+  PreparedScenePtr prepared;  ///< for the servo; null: it keeps its own
   bool opened = false;        ///< false: the same mesh, rebuilt with another option
 };
 
@@ -31,17 +31,22 @@ class SceneModel {
   void open(const std::string& mesh);        ///< a file or a generated object
   /// One that comes from a recording, with the options it was read with; it has no file to read again.
   void show(LoadedScene loaded, const ContactMeshOptions& options);
+  /// Another scene comes into view, that of a recorded tick; the servo keeps its own (of_servo()). `source`: what it
+  /// was built from; null: unknown, or it is the servo's.
+  void look_at(const std::shared_ptr<const ContactScene>& scene, const SceneSource* source);
+  /// The scene that was opened last. Null: none yet.
+  const std::shared_ptr<const ContactScene>& of_servo() const { return own_ ? own_->scene : shown_.scene; }
   void update();  ///< takes in the workers' results
 
   /// Null until the first one is loaded.
-  const std::shared_ptr<const ContactScene>& current() const { return scene_; }
-  const PolygonMesh* polygons() const { return polygons_.get(); }
-  const std::string& path() const { return path_; }
-  /// What current() was built from. Precondition: there is one.
+  const std::shared_ptr<const ContactScene>& current() const { return shown_.scene; }
+  const PolygonMesh* polygons() const { return shown_.polygons.get(); }
+  const std::string& path() const { return shown_.path; }
+  /// What of_servo() was built from. Precondition: there is one.
   SceneSource source() const;
   bool loading() const { return loader_.busy(); }
   const std::string& loading_name() const { return loader_.name(); }
-  double load_seconds() const { return load_seconds_; }
+  double load_seconds() const { return shown_.load_seconds; }
 
   // Null until the audit is done.
   const MeshAudit* audit() const { return report_ ? &report_->audit : nullptr; }
@@ -61,6 +66,7 @@ class SceneModel {
  private:
   void load(std::shared_ptr<const PolygonMesh> polygons);
   void take(LoadedScene loaded);
+  void changed(PreparedScenePtr prepared, bool opened);
   void warn_of_left_out();
   void warn_of_size();
 
@@ -70,13 +76,18 @@ class SceneModel {
   const bool deterministic_;
   double metres_per_unit_;
   ContactMeshOptions mesh_options_;
-  ContactMeshOptions built_with_;  ///< of scene_
   SceneLoader loader_;
-  std::string path_, opening_path_;
-  std::shared_ptr<const ContactScene> scene_;
-  std::shared_ptr<const PolygonMesh> polygons_;
+  std::string opening_path_;
+  struct Shown {
+    std::string path;
+    std::shared_ptr<const ContactScene> scene;
+    std::shared_ptr<const PolygonMesh> polygons;
+    ContactMeshOptions built_with, import;  ///< import: of the next mesh that is opened, while this is not in view
+    double load_seconds = 0.0;
+  };
+  Shown shown_;
+  std::optional<Shown> own_;  ///< the servo's, while another is in view
   std::optional<MeshReport> report_;
-  double load_seconds_ = 0.0;
 };
 
 }  // namespace tangent

@@ -21,6 +21,8 @@ TimeModel::TimeModel(const AppOptions& options, DeviceModel& devices, const Pres
     : devices_(devices),
       presets_(presets),
       messages_(messages),
+      solved_bytes_(options.solved_bytes),
+      threaded_(!options.deterministic),
       store_(kChannelCount, plotted_ticks(options.history_s, options.servo_hz)),
       time_machine_(options.deterministic ? 0u : std::max(1u, std::thread::hardware_concurrency())) {}
 
@@ -128,7 +130,15 @@ std::uint64_t TimeModel::newest_recorded() const {
 void TimeModel::set_selection(const std::optional<TickRange>& range) {
   if (range == selection_) return;
   selection_ = range;
-  if (!recording_) past_.keep(bookmarks_, selection_);
+  if (recording_) {
+    cancel_loading();
+    if (past_.kept_selection() != nullptr) {
+      past_.drop_selection();
+      show_page();
+    }
+  } else {
+    past_.keep(bookmarks_, selection_);
+  }
   if (time_machine_.ghost() != nullptr) request_comparison();
 }
 
@@ -172,11 +182,11 @@ void TimeModel::set_paused(bool paused) {
   open_time_machine();
 }
 
-/// On the part in view, frozen.
+/// On the part in view, frozen; of a recording on the selection where it was read.
 void TimeModel::open_time_machine() {
   compared_by_hand_.reset();
   if (records().empty() || (recording_ && !recording_->unsolvable().empty())) return time_machine_.close();
-  time_machine_.open(run_of(past_.shown()));
+  time_machine_.open(run_of(part_to_solve()));
 }
 
 /// Another part of the past has come into view.
@@ -196,6 +206,8 @@ void TimeModel::show_part() {
 
 void TimeModel::go_live() {
   if (recording_) {
+    asked_.reset();
+    solve_when_read_.reset();
     recording_.reset();
     past_ = std::move(live_past_);
     live_past_ = {};

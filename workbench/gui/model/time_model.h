@@ -7,6 +7,7 @@
 #pragma once
 
 #include "workbench/gui/model/app_options.h"
+#include "workbench/gui/model/asked_range.h"
 #include "workbench/gui/model/beside_tick.h"
 #include "workbench/gui/model/device_model.h"
 #include "workbench/gui/model/error_fan.h"
@@ -99,6 +100,15 @@ class TimeModel {
   void set_selection(const std::optional<TickRange>& range);
   const std::optional<TickRange>& selection() const { return selection_; }
   bool selection_kept() const { return selection_ && past_.part_with(*selection_) != nullptr; }
+  // Of a recording the selection is read when it is to be solved, if it is not there: it may lie anywhere, and be as
+  // long as memory allows (asked_range.h).
+  /// True: nothing has to be read. Otherwise it is being read, or a message says why it can't be.
+  bool load_selection();
+  bool selection_solvable() const { return selection_kept() || selection_to_load() || selection_loading(); }
+  bool selection_to_load() const { return recording_ && selection_ && !selection_kept() && !selection_loading(); }
+  bool selection_loading() const { return asked_ && asked_->loading(); }
+  double selection_progress() const { return asked_ ? asked_->progress() : 0.0; }
+  void cancel_loading();  ///< of the selection
   /// The selection, or without one all ticks of the part in view; empty: nothing is recorded.
   std::optional<TickRange> chosen_range() const;
   /// Its records, to be solved again. Empty: they are gone.
@@ -129,6 +139,9 @@ class TimeModel {
  private:
   const HistorySnapshot& records() const { return past_.shown().records; }
   RecordedRun run_of(const PastPart& part) const;
+  const PastPart& part_to_solve() const;
+  void solve_again(const Preset& under);
+  void take_selection();
   void take_page();
   void show_page();
   void open_time_machine();
@@ -151,6 +164,10 @@ class TimeModel {
   std::optional<PlacedTick> placed_;
   ErrorFan error_fan_;
   std::unique_ptr<OpenedRecording> recording_;
+  std::unique_ptr<AskedRange> asked_;      ///< of the recording; null: nothing was asked for
+  std::optional<Preset> solve_when_read_;  ///< what was asked meanwhile
+  const std::size_t solved_bytes_;
+  const bool threaded_;
   RecordedPast past_, live_past_;  ///< live_past_: while a recording is open
   std::optional<TickRange> selection_;
   ChannelStore store_;

@@ -1,6 +1,9 @@
 // A recording in the place of the live past.
 #include "workbench/gui/model/time_model.h"
 
+#include <algorithm>
+#include <utility>
+
 namespace tangent {
 
 void TimeModel::show(std::unique_ptr<OpenedRecording> recording) {
@@ -32,6 +35,7 @@ void TimeModel::show(std::unique_ptr<OpenedRecording> recording) {
 void TimeModel::take_page() {
   recording_->see_range(axis_.from(), axis_.to());
   if (recording_->update()) show_page();
+  take_selection();
   if (const std::string problem = recording_->take_problem(); !problem.empty()) messages_.say(Severity::error, problem);
   update_axis();
 }
@@ -39,8 +43,57 @@ void TimeModel::take_page() {
 void TimeModel::show_page() {
   past_.show_page(recording_->page());
   error_fan_.clear();
+  if (past_.kept_selection() != nullptr && time_machine_.is_open()) return;  // what is solved stays as it is
   open_time_machine();
   if (!(presets_.current() == paused_with_)) preset_sent();
+}
+
+// --- From A to B -------------------------------------------------------------------------------------------
+
+const PastPart& TimeModel::part_to_solve() const {
+  const PastPart* selected = recording_ ? past_.kept_selection() : nullptr;
+  return selected != nullptr ? *selected : past_.shown();
+}
+
+bool TimeModel::load_selection() {
+  if (!recording_ || !selection_ || selection_kept()) return true;
+  if (selection_loading()) return false;
+  if (const std::string why = recording_->unsolvable(); !why.empty()) {
+    messages_.say(Severity::note, "not solved again: " + why);
+    return false;
+  }
+  const RecordingInfo& info = recording_->info();
+  const std::uint64_t from = std::clamp(selection_->from, info.first_tick, info.last_tick);
+  const std::uint64_t to = std::clamp(selection_->to, from, info.last_tick);
+  const std::uint64_t lead_in = std::min(from - info.first_tick, RecordedPast::kLeadIn);
+  asked_ = std::make_unique<AskedRange>(recording_->path(), recording_->scenes(), solved_bytes_, threaded_);
+  if (const Status began = asked_->load({from - lead_in, to}); !began) {
+    messages_.say(Severity::error, began.error().message());
+    return false;
+  }
+  if (!threaded_) take_selection();
+  return selection_kept();
+}
+
+void TimeModel::cancel_loading() {
+  asked_.reset();
+  solve_when_read_.reset();
+}
+
+void TimeModel::take_selection() {
+  auto read = asked_ ? asked_->take() : std::nullopt;
+  if (!read) return;
+  const auto under = std::exchange(solve_when_read_, std::nullopt);
+  if (!*read) return messages_.say(Severity::error, read->error().message());
+  if ((*read)->records.empty()) return messages_.say(Severity::note, "no tick was recorded from A to B");
+  past_.keep_selection(*selection_, std::move(**read));
+  const auto by_hand = compared_by_hand_;
+  open_time_machine();
+  compared_by_hand_ = by_hand;
+  if (under)
+    solve_again(*under);
+  else if (!(presets_.current() == paused_with_))
+    preset_sent();
 }
 
 void TimeModel::take_bookmarks(const std::vector<UnsavedBookmark>& marks) {
@@ -57,6 +110,7 @@ bool TimeModel::reaches(std::uint64_t tick) const {
 
 void TimeModel::offer_scene(const std::shared_ptr<const ContactScene>& scene) {
   if (!recording_ || !recording_->offer_scene(scene)) return;
+  cancel_loading();
   messages_.say(Severity::note,
                 "this is the mesh of " + recording_->path().filename().string() + ": its ticks can be solved again");
   if (cursor_) recording_->see_tick(*cursor_);

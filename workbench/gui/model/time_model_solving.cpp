@@ -44,12 +44,12 @@ void TimeModel::show_beside() {
   if (placed_) {
     if (presets_.current() == placed_->preset()) return beside_.clear();
     beside_.show(tick, presets_.current(), false, from_recorded);
-  } else if (paused_ && ghost != nullptr && ghost->whole) {
+  } else if (paused_ && ghost != nullptr && ghost->whole && time_machine_.run()->records.find(tick) != nullptr) {
     // As in the ghost, which carried its own contact along.
     beside_.show(tick, ghost->preset, true, [&](const Preset& preset, IterationTrace& trace) {
       const RecordedRun& run = *time_machine_.run();
       const std::size_t index = run.records.lower_bound(tick);
-      return index < run.records.size() ? trace_resolved_tick(run, preset, index, trace) : std::nullopt;
+      return trace_resolved_tick(run, preset, index, trace);
     });
   } else if (paused_ && ghost != nullptr) {
     beside_.show(tick, ghost->preset, false, from_recorded);
@@ -138,23 +138,32 @@ void TimeModel::preset_sent() {
 void TimeModel::solve_past_again() {
   set_paused(true);
   compared_by_hand_.reset();
-  time_machine_.request(presets_.current(), axis_.from(), axis_.to());
+  solve_again(presets_.current());
+}
+
+/// What was asked for by hand; of a recording when the selection was read.
+void TimeModel::solve_again(const Preset& under) {
+  if (!load_selection()) {
+    if (selection_loading()) solve_when_read_ = under;
+    return;
+  }
+  time_machine_.request(under, axis_.from(), axis_.to());
   request_comparison();
 }
 
 void TimeModel::compare(const NamedPreset& before, const NamedPreset& after) {
   set_paused(true);
   compared_by_hand_ = {before, after};
-  time_machine_.request(after.preset, axis_.from(), axis_.to());
-  request_comparison();
+  solve_again(after.preset);
 }
 
 void TimeModel::request_comparison() {
   if (records().empty() || !time_machine_.is_open()) return;
-  const PastPart& part = past_.shown();
-  const bool selected = selection_ && part.covers(selection_->from) && part.covers(selection_->to);
+  const PastPart& part = part_to_solve();
+  const bool selected =
+      selection_ && ((part.covers(selection_->from) && part.covers(selection_->to)) || past_.kept_selection() == &part);
   const TickRange range =
-      selected ? *selection_ : TickRange{records().oldest().tick.tick, records().newest().tick.tick};
+      selected ? *selection_ : TickRange{part.records.oldest().tick.tick, part.records.newest().tick.tick};
   name_before_ = compared_by_hand_ ? compared_by_hand_->first.name : "at the pause";
   name_after_ = compared_by_hand_ ? compared_by_hand_->second.name : "now";
   time_machine_.compare(compared_by_hand_ ? compared_by_hand_->first.preset : paused_with_,

@@ -1,7 +1,10 @@
 #include "workbench/gui/model/tuning_model.h"
 
+#include "workbench/gui/model/coarse_first.h"
+#include "workbench/gui/model/tune_question.h"
+#include "workbench/session/background_thread.h"
+
 #include <algorithm>
-#include <thread>
 #include <utility>
 
 namespace tangent {
@@ -18,7 +21,16 @@ Preset without(Preset preset, const std::array<TuningModel::Axis, 2>& axes) {
   return preset;
 }
 
-unsigned worker_threads() { return std::clamp(std::thread::hardware_concurrency(), 2u, 5u) - 1; }
+/// Its values, in order: those of a grid of the engine (workbench/sweep/plan.h).
+std::vector<double> grid_of(const TuningModel::Axis& axis) {
+  sweep::Range range;
+  range.key = axis.key;
+  range.from = axis.from;
+  range.to = axis.to;
+  range.count = axis.count;
+  range.logarithmic = axis.key->logarithmic && axis.from > 0.0 && axis.to > 0.0;
+  return range.grid();
+}
 
 }  // namespace
 
@@ -39,6 +51,7 @@ std::vector<const PresetKey*> TuningModel::keys_to_sweep() const {
 void TuningModel::set_key(std::size_t axis, const PresetKey* key) {
   if (axes_[axis].key == key) return;
   sweep_.cancel();
+  by_hand_.cancel();
   points_.clear();
   axes_[axis].key = key;
   if (key == nullptr) return;
@@ -57,49 +70,125 @@ void TuningModel::set_count(std::size_t axis, std::size_t count) {
   axes_[axis].count = std::clamp<std::size_t>(count, 2, 100);
 }
 
-SweepPlan TuningModel::plan() const {
-  SweepPlan plan{presets_.current(), {}};
-  for (const Axis& axis : axes_) {
-    if (axis.key != nullptr) plan.axes.push_back(sweep_axis(*axis.key, axis.from, axis.to, axis.count));
+Preset TuningModel::preset_at(const std::vector<double>& values) const {
+  Preset out = presets_.current();
+  std::size_t v = 0;
+  for (const Axis& axis : axes_)
+    if (axis.key != nullptr) axis.key->set(out, values[v++]);
+  return out;
+}
+
+/// The motion of these ticks, on the mesh of the newest: from a fresh state, gaps taken as they come.
+std::optional<sweep::Ground> TuningModel::ground_over(const TickRange& range) const {
+  const auto part = time_.run_over(range);
+  if (!part) return std::nullopt;
+  const HistorySnapshot& records = part->run.records;
+  const std::uint32_t id = records.newest().scene_id;
+  const auto scene = part->run.scenes.find(id);
+  if (scene == part->run.scenes.end()) return std::nullopt;
+  auto motion = std::make_shared<std::vector<TickInput>>();
+  for (std::size_t i = part->first; i < records.size(); ++i) {
+    if (records[i].scene_id != id) continue;
+    motion->push_back(records[i].tick.input);
+    motion->back().unready = false;  // here everything is built
   }
-  return plan;
+  return sweep::Ground{scene->second, std::move(motion)};
+}
+
+void TuningModel::cancel_sweep() {
+  if (waits()) time_.cancel_loading();
+  waits_ = Waits::none;
+  sweep_.cancel();
+}
+
+/// Those of a recording from A to B are read first, where they are not.
+bool TuningModel::ticks_are_there(Waits otherwise) {
+  if (time_.load_selection()) return true;
+  waits_ = time_.selection_loading() ? otherwise : Waits::none;
+  return false;
 }
 
 void TuningModel::start_sweep() {
+  if (!ticks_are_there(Waits::sweep)) return;
   const auto range = time_.chosen_range();
-  auto part = range ? time_.run_over(*range) : std::nullopt;
-  if (!part) return messages_.say(Severity::note, "no ticks to sweep over yet");
+  auto ground = range ? ground_over(*range) : std::nullopt;
+  if (!ground) return messages_.say(Severity::note, "no ticks to sweep over yet");
   const Preset base = without(presets_.current(), axes_);
   if (!(points_range_ == *range) || !(points_base_ == base)) points_.clear();
   points_range_ = *range;
   points_base_ = base;
-  sweep_.start(std::move(*part), plan(), deterministic_ ? 0 : worker_threads());
+  ground_ = std::move(ground);
+  for (std::size_t a = 0; a < 2; ++a) grid_[a] = axes_[a].key != nullptr ? grid_of(axes_[a]) : std::vector<double>();
+  planned_.clear();
+  std::vector<Preset> presets;
+  const std::size_t columns = grid_[0].size();
+  for (const std::size_t cell : coarse_first(columns, std::max<std::size_t>(1, grid_[1].size()))) {
+    std::vector<double> values{grid_[0][cell % columns]};
+    if (!grid_[1].empty()) values.push_back(grid_[1][cell / columns]);
+    presets.push_back(preset_at(values));
+    planned_.push_back(std::move(values));
+  }
+  sweep_.start(*ground_, std::move(presets), deterministic_ ? 0 : background_threads());
   update();
 }
 
+void TuningModel::start_heat_map() {
+  if (axes_[1].key == nullptr) {
+    const auto keys = keys_to_sweep();
+    const auto reads = [&](const PresetKey* key) { return std::find(keys.begin(), keys.end(), key) != keys.end(); };
+    const PresetKey *across = find_preset_key("solver", "gain_curvature_m"),
+                    *up = find_preset_key("solver", "gain_distance_per_m");
+    if (!reads(across) || !reads(up))
+      return messages_.say(Severity::note, "this method has no gains: choose two values to sweep");
+    set_key(0, across);
+    set_key(1, up);
+    // With what theory names in the middle (G_k) and at the lower end (G_d).
+    const double reach = presets_.current().finger.reach_m(), length = reach > 0.0 ? reach : 0.01;
+    set_range(0, 0.0, 2.0 * length);
+    set_range(1, 0.0, 8.0 / length);
+    set_count(0, 17);
+    set_count(1, 17);
+  }
+  start_sweep();
+}
+
+std::optional<double> TuningModel::theory(std::size_t axis) const {
+  return axes_[axis].key != nullptr ? theory_value(*axes_[axis].key, presets_.current().finger) : std::nullopt;
+}
+
 void TuningModel::update() {
-  for (SweepPoint& point : sweep_.take()) add(std::move(point), false);
+  if (waits() && !time_.selection_loading()) {
+    const Waits waited = std::exchange(waits_, Waits::none);
+    if (time_.selection_kept()) waited == Waits::sweep ? start_sweep() : search_gains();
+  }
+  for (const sweep::PresetJob::Measured& done : sweep_.take()) add({planned_[done.index], done.numbers});
+  take_by_hand();
   const auto compared = time_.time_machine().compared();
   if (compared == seen_) return;
   seen_ = compared;
-  const bool same = compared != nullptr && !points_.empty() && compared->from_tick == points_range_.from &&
+  const bool same = compared != nullptr && !points_.empty() && ground_ && compared->from_tick == points_range_.from &&
                     compared->end_tick == points_range_.to + 1 && without(compared->after, axes_) == points_base_;
   if (!same) return;
-  SweepPoint point{{}, compared->after_numbers};
+  by_hand_values_.clear();
   for (const Axis& axis : axes_) {
-    if (axis.key != nullptr) point.values.push_back(axis.key->get(compared->after));
+    if (axis.key != nullptr) by_hand_values_.push_back(axis.key->get(compared->after));
   }
-  add(std::move(point), true);
+  by_hand_.start(*ground_, {compared->after}, deterministic_ ? 0 : 1);
+  take_by_hand();
 }
 
-void TuningModel::add(SweepPoint point, bool by_hand) {
+void TuningModel::take_by_hand() {
+  for (const sweep::PresetJob::Measured& done : by_hand_.take()) add({by_hand_values_, done.numbers, true});
+}
+
+void TuningModel::add(Point point) {
   const auto at = std::lower_bound(points_.begin(), points_.end(), point.values,
-                                   [](const Point& p, const std::vector<double>& v) { return p.point.values < v; });
-  if (at != points_.end() && at->point.values == point.values) {
-    at->point = std::move(point);
+                                   [](const Point& p, const std::vector<double>& v) { return p.values < v; });
+  if (at != points_.end() && at->values == point.values) {
+    at->numbers = point.numbers;
     return;
   }
-  if (points_.size() < kMostPoints) points_.insert(at, {std::move(point), by_hand});
+  if (points_.size() < kMostPoints) points_.insert(at, std::move(point));
 }
 
 bool TuningModel::outdated() const { return !points_.empty() && !(without(presets_.current(), axes_) == points_base_); }
@@ -108,7 +197,7 @@ void TuningModel::try_point(std::size_t i) {
   if (i >= points_.size()) return;
   std::vector<std::pair<const PresetKey*, double>> values;
   for (const Axis& axis : axes_) {
-    if (axis.key != nullptr) values.emplace_back(axis.key, points_[i].point.values[values.size()]);
+    if (axis.key != nullptr) values.emplace_back(axis.key, points_[i].values[values.size()]);
   }
   presets_.set_values("a swept point", values);
 }
@@ -129,6 +218,7 @@ std::optional<GainAdvice> TuningModel::advice_here() {
 }
 
 void TuningModel::search_gains() {
+  if (!ticks_are_there(Waits::search)) return;
   const auto range = time_.chosen_range();
   const auto part = range ? time_.run_over(*range) : std::nullopt;
   if (!part) return messages_.say(Severity::note, "no ticks to search over yet");

@@ -8,11 +8,13 @@
 #include "workbench/gui/model/preset_model.h"
 #include "workbench/gui/model/time_model.h"
 #include "workbench/session/gain_search.h"
-#include "workbench/session/sweep.h"
+#include "workbench/sweep/plan.h"
+#include "workbench/sweep/preset_job.h"
 
 #include <array>
 #include <memory>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 namespace tangent {
@@ -37,15 +39,29 @@ class TuningModel {
   void set_count(std::size_t axis, std::size_t count);
   /// Keys that the method reads and that take numbers.
   std::vector<const PresetKey*> keys_to_sweep() const;
-  void start_sweep();  ///< over the chosen ticks; points of the same ticks and other values stay
-  void cancel_sweep() { sweep_.cancel(); }
-  const SweepJob& sweep() const { return sweep_; }
+  /// Over the chosen ticks, coarse first; points of the same ticks and other values stay.
+  void start_sweep();
+  void cancel_sweep();
+  bool waits() const { return waits_ != Waits::none; }  ///< for ticks of a recording that are being read
+  const sweep::PresetJob& sweep() const { return sweep_; }
   void clear_points() { points_.clear(); }
+  void start_heat_map();  ///< as start_sweep, of two keys: G_k and G_d where there is no second one
 
   struct Point {
-    SweepPoint point;
+    std::vector<double> values;  ///< one an axis
+    sweep::CellNumbers numbers;
     bool by_hand = false;  ///< tried by dragging a value while paused
   };
+  /// Ticks of it without a contact.
+  static std::uint64_t failures(const Point& point) { return point.numbers.unconverged + point.numbers.facing; }
+  /// What the colours of two keys show.
+  enum class Shows : std::uint8_t { mean, p99, failures };
+  static constexpr std::array<std::string_view, 3> kShows{"mean", "p99", "failures"};
+  Shows shows = Shows::mean;
+  /// Of an axis, as it was swept last.
+  const std::vector<double>& grid(std::size_t axis) const { return grid_[axis]; }
+  /// What theory names for the key of an axis (tune_question.h).
+  std::optional<double> theory(std::size_t axis) const;
   /// By value, each value once.
   const std::vector<Point>& points() const { return points_; }
   const TickRange& points_range() const { return points_range_; }
@@ -62,18 +78,27 @@ class TuningModel {
   void set_gains(const Gains& gains);
 
  private:
-  SweepPlan plan() const;
-  void add(SweepPoint point, bool by_hand);
+  std::optional<sweep::Ground> ground_over(const TickRange& range) const;
+  Preset preset_at(const std::vector<double>& values) const;
+  void add(Point point);
+  void take_by_hand();
 
   PresetModel& presets_;
   TimeModel& time_;
   MessageLog& messages_;
   const bool deterministic_;
   std::array<Axis, 2> axes_;
-  SweepJob sweep_;
+  sweep::PresetJob sweep_, by_hand_;
+  std::optional<sweep::Ground> ground_;  ///< of the points
+  std::array<std::vector<double>, 2> grid_;
+  std::vector<std::vector<double>> planned_;  ///< values, in the order of the job
+  std::vector<double> by_hand_values_;
   std::vector<Point> points_;
   TickRange points_range_;
   Preset points_base_;
+  enum class Waits : std::uint8_t { none, sweep, search };
+  Waits waits_ = Waits::none;
+  bool ticks_are_there(Waits otherwise);
   std::shared_ptr<const PresetsCompared> seen_;
   GainSearch search_;
   std::optional<TickRange> searched_selection_;

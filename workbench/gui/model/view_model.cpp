@@ -3,6 +3,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace tangent {
@@ -163,6 +164,20 @@ void ViewModel::isolate_part() {
     }
   }
   isolate(part);
+}
+
+void ViewModel::take_up(const std::vector<std::uint32_t>& isolated, const std::vector<std::uint32_t>& marked) {
+  show_all();
+  if (scene_.current() == nullptr) return;
+  const ContactMesh& mesh = scene_.current()->mesh();
+  const auto known = [&mesh](const std::vector<std::uint32_t>& triangles) {
+    std::vector<std::uint32_t> out;
+    std::copy_if(triangles.begin(), triangles.end(), std::back_inserter(out),
+                 [&mesh](std::uint32_t t) { return t < mesh.triangle_count() && mesh.usable(t); });
+    return out;
+  };
+  inspection_.marked = known(marked);
+  if (const auto kept = known(isolated); !kept.empty()) isolate(kept);
 }
 
 void ViewModel::show_all() {

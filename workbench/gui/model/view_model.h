@@ -63,6 +63,9 @@ class ViewModel {
   void isolate_marked();  ///< the marked triangles, or the picked one, and their neighbours
   void isolate_part();    ///< the connected part that holds one of them
   void show_all();        ///< no isolation, no marks
+  /// As they were in a session: triangles drawn alone (none: all are drawn), and those marked. Numbers that the mesh
+  /// does not have are passed over.
+  void take_up(const std::vector<std::uint32_t>& isolated, const std::vector<std::uint32_t>& marked);
 
  private:
   std::vector<std::uint32_t> marked_or_picked() const;

@@ -45,7 +45,9 @@ double word_score(std::string_view word, std::string_view typed) {
   const double share = static_cast<double>(typed.size()) / static_cast<double>(std::max<std::size_t>(word.size(), 1));
   if (word.starts_with(typed)) return 0.75 + 0.2 * share;
   if (typed.size() >= 4 && word.find(typed) != std::string_view::npos) return 0.45 + 0.2 * share;
-  if (typed.size() >= 4 && slip(word, typed)) return 0.6;
+  // Of four letters another word is often one letter off (save, safe): there only two that have changed places.
+  const bool swapped = word.size() == typed.size() && std::is_permutation(word.begin(), word.end(), typed.begin());
+  if ((typed.size() >= 5 || (typed.size() == 4 && swapped)) && slip(word, typed)) return 0.6;
   return 0.0;
 }
 

@@ -83,6 +83,7 @@ std::vector<Command> window_commands(AppModel& model, MenuBar& menu) {
   CommandList out;
   add_time_commands(out, model, menu);
   add_preset_commands(out, model, menu);
+  add_tune_commands(out, model, menu);
   add_tuning_commands(out, model, menu);
   add_view_commands(out, model, menu);
   add_mesh_commands(out, model, menu);

@@ -66,6 +66,7 @@ void add_preset_commands(CommandList& out, AppModel& model, MenuBar& menu);
 void add_view_commands(CommandList& out, AppModel& model, MenuBar& menu);
 void add_mesh_commands(CommandList& out, AppModel& model, MenuBar& menu);
 void add_window_commands(CommandList& out, AppModel& model, MenuBar& menu);
+void add_tune_commands(CommandList& out, AppModel& model, MenuBar& menu);
 void add_tuning_commands(CommandList& out, AppModel& model, MenuBar& menu);
 void add_widget_commands(CommandList& out, AppModel& model, MenuBar& menu);
 

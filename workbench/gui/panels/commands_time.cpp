@@ -186,6 +186,20 @@ void add_placement(CommandList& out, AppModel& model, MenuBar& menu) {
   }
 }
 
+void add_guard(CommandList& out, GuardModel& guard) {
+  out.flag({"guarded tuning", "Guard: ask before what is not known to be safe, undo what makes the gate act", "",
+            "live safe"},
+           guard.on);
+  out.plain({"guard find", "Guard: find safe ranges in the simulated hand", "", "sweep stable shakes"},
+            [&guard] { guard.find_ranges(); });
+  out.plain({"guard cancel", "Guard: stop finding, keep what is known", "", "safe ranges"},
+            [&guard] { guard.cancel(); });
+  out.plain({"guard no", "Guard: no, keep the values of the devices", "Enter", "answer question"},
+            [&guard] { guard.answer(false); });
+  out.plain({"guard yes", "Guard: yes, send the change to the armed device", "", "answer question"},
+            [&guard] { guard.answer(true); });
+}
+
 }  // namespace
 
 void add_time_commands(CommandList& out, AppModel& model, MenuBar& menu) {
@@ -195,6 +209,7 @@ void add_time_commands(CommandList& out, AppModel& model, MenuBar& menu) {
   add_plots(out, model, menu);
   add_devices(out, model, menu);
   add_placement(out, model, menu);
+  add_guard(out, model.guard());
 }
 
 }  // namespace tangent

@@ -1,6 +1,7 @@
 // Commands of comparing and tuning: two presets on the same ticks, ticks at a place, sweeps, the plots' channels; and
 // of saving all that as files.
 #include "workbench/gui/panels/commands.h"
+#include "workbench/gui/panels/curves_plot.h"
 #include "workbench/gui/panels/save_panel.h"
 #include "workbench/gui/panels/wish.h"
 
@@ -32,6 +33,10 @@ void add_comparing(CommandList& out, AppModel& model, MenuBar& menu) {
         "solver/advice/search");
   press(out, model, menu, {"selection", "Time machine: to the ticks between cursors A and B", "", "range kept"},
         "time_machine/selection");
+  out.plain({"read selection", "Time machine: read the recording from cursor A to B, to solve it again", "", "load"},
+            [&model] { model.time().load_selection(); });
+  out.plain({"cancel reading", "Time machine: stop reading from cursor A to B", "", "load stop"},
+            [&model] { model.time().cancel_loading(); });
   press(out, model, menu, {"solve at bookmark", "Bookmarks: solve at this one", "", "place here"}, "bookmarks/solve");
   press(out, model, menu, {"leave place", "Iterations: back to the recorded tick", "", "solve here end"},
         "iterations/leave_place");
@@ -78,6 +83,15 @@ void add_recordings(CommandList& out, AppModel& model) {
   });
   out.plain({"largest difference", "Recordings: go to the largest difference", "", "worst jump"},
             [&recordings] { recordings.go_to_largest(); });
+  out.number({"compared tick", "Recordings: show this tick of the first, in the window's time", "", "go jump open"}, "",
+             0.0, 1e12, [&model](double tick) {
+               model.recording_pair().choose(static_cast<std::uint64_t>(tick));
+               model.show_compared(false);
+             });
+  out.plain({"compared in first", "Recordings: show the chosen difference in the first", "", "go jump open tick"},
+            [&model] { model.show_compared(false); });
+  out.plain({"compared in second", "Recordings: show the chosen difference in the second", "", "go jump open tick"},
+            [&model] { model.show_compared(true); });
   out.plain({"whole recordings", "Recordings: compare all ticks again", ""},
             [&recordings] { recordings.show_whole(); });
   out.plain({"stop comparing", "Recordings: stop, keep what is found", "", "cancel"},
@@ -96,8 +110,33 @@ void add_sweep(CommandList& out, AppModel& model, MenuBar& menu) {
   }
   press(out, model, menu, {"sweep start", "Sweep: the chosen ticks, with every value", "", "run vary tune"},
         "sweep/start");
+  press(out, model, menu, {"heat map", "Sweep: two values as a heat map", "", "field colours gains tune"},
+        "sweep/heat_map");
+  TuningModel& tuning = model.tuning();
+  out.choice(
+      {"sweep shows", "Sweep: colours of two values show", "", "heat map mean p99 failures"},
+      {TuningModel::kShows.begin(), TuningModel::kShows.end()},
+      [&tuning](std::size_t i) { tuning.shows = static_cast<TuningModel::Shows>(i); }, static_cast<int>(tuning.shows));
   out.plain({"sweep cancel", "Sweep: stop, keep the points so far", ""}, [&model] { model.tuning().cancel_sweep(); });
   out.plain({"sweep clear", "Sweep: delete the points", "", "delete"}, [&model] { model.tuning().clear_points(); });
+}
+
+void add_curves(CommandList& out, AppModel& model, MenuBar& menu) {
+  constexpr const char* kWords = "bench benchmark methods accuracy precision work curve";
+  press(out, model, menu, {"speed start", "Speed against error: measure the chosen ticks", "", kWords}, "speed/start");
+  out.plain({"speed cancel", "Speed against error: stop, keep the rounds so far", "", kWords},
+            [&model] { model.curves().cancel(); });
+  out.plain({"speed clear", "Speed against error: delete the curves", "", kWords},
+            [&model] { model.curves().clear(); });
+  out.choice({"speed time", "Speed against error: the time that is drawn", "", kWords}, {"median", "mean", "99"},
+             [&model](std::size_t i) { model.curves().shown_time = static_cast<CurvesModel::Time>(i); });
+  out.choice({"speed error", "Speed against error: the error that is drawn", "", kWords}, {"median", "99", "worst"},
+             [&model](std::size_t i) { model.curves().shown_error = static_cast<CurvesModel::Error>(i); });
+  out.number({"speed point", "Speed against error: open the worst tick behind the point of this number", "", kWords},
+             "", 1.0, 1000.0, [&model](double n) {
+               model.window().show_section("Speed against error", false);
+               open_curve_point(model, static_cast<std::size_t>(n) - 1);
+             });
 }
 
 /// "PLOT CHANNEL" in two.
@@ -149,6 +188,7 @@ void add_tuning_commands(CommandList& out, AppModel& model, MenuBar& menu) {
   add_why(out, model);
   add_recordings(out, model);
   add_sweep(out, model, menu);
+  add_curves(out, model, menu);
   add_channels(out, model, menu);
   add_saving(out, model);
 }

@@ -93,7 +93,7 @@ void draw_differences(const UiContext& ui, PresetModel& presets, const std::vect
     };
     draw.PushClipRect(at, {at.x + width - 2.0f * value_width, at.y + height}, true);
     draw.AddText(ui.fonts.small, ui.fonts.small->FontSize, {at.x, at.y + ui.px(2)}, ui.colours.text_dim,
-                 std::string(change.key->label).c_str());
+                 fitted(ui.fonts.small, std::string(change.key->label), width - 2.0f * value_width).c_str());
     draw.PopClipRect();
     value(change.loaded, at.x + width - value_width);
     value(change.now, at.x + width);

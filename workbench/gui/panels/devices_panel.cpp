@@ -180,6 +180,7 @@ void draw_devices_panel(const UiContext& ui, AppModel& model, FoldedPanel& state
   else
     draw_servo(ui, model.devices());
   draw_hand(ui, model);
+  draw_guard(ui, model.guard());
   draw_placement(ui, model);
   toggle_button(ui, "devices/monitor", "Monitor", model.view().device_monitor,
                 "Rates, histograms, limits and faults, in place of the 3D view");

@@ -118,7 +118,8 @@ void draw_range(const UiContext& ui, AppModel& model) {
     ImGui::TextDisabled("searching gains, %.0f %%", std::min(100.0, 100.0 * tuning.search().progress()));
     return;
   }
-  const char* label = model.time().selection_kept() ? "Search gains on A to B" : "Search gains on the recorded ticks";
+  const char* label =
+      model.time().selection_solvable() ? "Search gains on A to B" : "Search gains on the recorded ticks";
   if (text_button(ui, "solver/advice/search", label,
                   "Solves the newest 4,000 of these ticks with hundreds of gains, in the background"))
     tuning.search_gains();

@@ -84,15 +84,15 @@ void draw_limit(const UiContext& ui, const Rect& bar, double share, double shown
 void draw_colours(const UiContext& ui, const MapPaint& paint, const Rect& bar) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const auto& table = colour_table(paint.colours);
-  constexpr int kSteps = 64;
-  for (int i = 0; i < kSteps; ++i) {
+  constexpr int kColourSteps = 64;
+  for (int i = 0; i < kColourSteps; ++i) {
     const auto at = [&](int k) {
-      const int index = k * (static_cast<int>(table.size()) - 1) / kSteps;
+      const int index = k * (static_cast<int>(table.size()) - 1) / kColourSteps;
       return packed(
           table[static_cast<std::size_t>(paint.reversed ? static_cast<int>(table.size()) - 1 - index : index)]);
     };
-    const float y0 = bar.bottom() - bar.h * static_cast<float>(i) / kSteps,
-                y1 = bar.bottom() - bar.h * static_cast<float>(i + 1) / kSteps;
+    const float y0 = bar.bottom() - bar.h * static_cast<float>(i) / kColourSteps,
+                y1 = bar.bottom() - bar.h * static_cast<float>(i + 1) / kColourSteps;
     draw.AddRectFilledMultiColor({bar.x, y1}, {bar.right(), y0}, at(i + 1), at(i + 1), at(i), at(i));
   }
   draw.AddRect({bar.x - 1, bar.y - 1}, {bar.right() + 1, bar.bottom() + 1}, ui.colours.border);

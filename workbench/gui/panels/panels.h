@@ -52,6 +52,7 @@ float draw_task_tabs(const UiContext& ui, WindowModel& window, const Rect& colum
 void draw_triangle_card(const UiContext& ui, const AppModel& model, std::uint32_t triangle);
 /// Where the scene is on the force device: part of the devices panel.
 void draw_placement(const UiContext& ui, AppModel& model);
+void draw_guard(const UiContext& ui, GuardModel& guard);  ///< in the section Devices
 struct PathMapPanel {
   bool close_up = true;  ///< zoomed to the path; otherwise the whole base triangle
 };
@@ -109,9 +110,27 @@ void draw_time_machine_panel(const UiContext& ui, TimeModel& time, FoldedPanel& 
 
 /// Two recordings, or one under the present values: outcome, curves, differences.
 void draw_recording_pair_panel(const UiContext& ui, AppModel& model, FoldedPanel& state);
+/// Below it: roughness by frequency, where force or display is compared and every tick was. Both axes logarithmic.
+void draw_compared_spectra(const UiContext& ui, const RecordingsCompared& compared, std::size_t channel);
 
 /// One or two keys over many values on the chosen ticks: mean, p99 and failures of each, a click tries it.
 void draw_sweep_panel(const UiContext& ui, AppModel& model, FoldedPanel& state);
+
+/// A search for the front of several numbers, watched while it grows, brushed, and its trials tried.
+struct TunePanel {
+  bool open = false;
+  int across = 0, up = 1;          ///< objectives on the axes
+  int key_across = 0, key_up = 1;  ///< keys on those of the second plot
+  std::string name = "tuned";      ///< to save under
+  std::string asked_for;           ///< this file exists: pressing again overwrites it
+};
+void draw_tune_panel(const UiContext& ui, AppModel& model, TunePanel& state);
+/// Saves the values in use, with the motion that they were tuned on as evidence. False: not saved, a message says why.
+bool save_tuned(AppModel& model, const std::string& name);
+
+/// Every method over tolerances and iteration limits on the chosen ticks: time against error, a click opens a worst
+/// tick.
+void draw_curves_panel(const UiContext& ui, AppModel& model, FoldedPanel& state);
 
 /// The recording that is open, and the one that is made.
 void draw_recording_panel(const UiContext& ui, AppModel& model, FoldedPanel& state);
@@ -134,6 +153,10 @@ void draw_log_panel(const UiContext& ui, MessageLog& messages, LogPanel& state);
 /// At the lower edge of the 3D view or the monitor while there is no force: what is in the way, and the button to arm.
 void draw_arming_bar(const UiContext& ui, DeviceModel& devices, const Rect& over);
 /// At its upper edge: what an earlier run left unsaved, to take up or to discard.
+/// Whether a change may go to the armed device: where the guard asks.
+void draw_guard_question(const UiContext& ui, AppModel& model, const Rect& over);
+/// Enter answers the guard's question with no; false: there is none, or no Enter.
+bool refuse_by_enter(GuardModel& guard);
 void draw_unsaved_offer(const UiContext& ui, UnsavedModel& unsaved, const Rect& over);
 /// Drawn in place of the 3D view while the monitor is open.
 void draw_device_monitor(const UiContext& ui, AppModel& model, const Rect& rect);

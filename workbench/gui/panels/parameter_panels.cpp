@@ -42,6 +42,39 @@ std::string idle_because(const PresetKey& key, const AppModel& model) {
   return holds(key.condition, preset) ? "" : std::string(key.condition.otherwise);
 }
 
+/// What is known of a key's values in the simulated hand, for its slider.
+std::vector<ShareBand> bands_of(const PresetKey& key, const SafeRange& range, const GuardModel& guard) {
+  std::vector<ShareBand> out;
+  if (range.samples().empty() && guard.guards() && is_in_loop(key)) out.push_back({0.0f, 1.0f, Safety::unknown});
+  for (const RangePiece& piece : range.pieces()) {
+    const auto share = [&](double value) {
+      const auto n = static_cast<double>(key.choices.size());
+      return static_cast<float>(key.kind == KeyKind::choice ? (value + 0.5) / n : slider_share(key, value));
+    };
+    if (share(piece.to) > share(piece.from)) out.push_back({share(piece.from), share(piece.to), piece.safety});
+  }
+  return out;
+}
+
+/// The same for its tooltip, with the legend.
+std::string known_of(const PresetKey& key, const SafeRange& range, const GuardModel& guard) {
+  if (range.samples().empty())
+    return guard.guards() && is_in_loop(key) ? "\n\nDots: not known yet in the simulated hand; a change is tried first."
+                                             : "";
+  std::string text = "\n\nIn the simulated hand (line: stable; teeth: shakes; dots: not known): ";
+  if (key.kind != KeyKind::choice)
+    return text +
+           range_words(range,
+                       [unit = display_unit(key)](double value) {
+                         return printed("%.4g", value / unit.scale) + " " + std::string(unit.name);
+                       }) +
+           ".";
+  for (const SafeRange::Sample& sample : range.samples())
+    text += (&sample == &range.samples().front() ? "" : ", ") + key.value_text(sample.value) + " " +
+            (sample.verdict.safety == Safety::unknown ? "is not known" : to_string(sample.verdict.safety));
+  return text + ".";
+}
+
 std::string explain(const PresetKey& key, std::string_view idle) {
   std::string text(key.doc);
   if (key.kind != KeyKind::choice) text += "\n\nAllowed: " + display_range(key);
@@ -97,17 +130,22 @@ void draw_row(const UiContext& ui, AppModel& model, const PresetKey& key, const 
 
   ImGui::SetCursorScreenPos({at.x + label_width, at.y});
   const float field_width = width - label_width - reset_width;
+  const SafeRange range = model.guard().range(key);
+  std::vector<ShareBand> bands;
+  if (idle.empty()) bands = bands_of(key, range, model.guard());
   if (key.kind == KeyKind::choice) {
     int chosen = static_cast<int>(value);
     if (choice_row(ui, path, field_width, key.choices, chosen)) model.presets().set_value(key, chosen);
+    draw_bands(ui, {at.x + label_width, at.y}, field_width, bands);
   } else {
     const DisplayUnit unit = display_unit(key);
     const auto result = value_field(
-        ui, path, {field_width, slider_share(key, value), display_text(key, value), unit.name, arrow_step(key, value)});
+        ui, path,
+        {field_width, slider_share(key, value), display_text(key, value), unit.name, arrow_step(key, value), bands});
     if (result.slid) model.presets().slide_value(key, slider_value(key, *result.slid));
     if (result.typed) model.presets().type_value(key, *result.typed);
   }
-  tooltip(ui, explain(key, idle));
+  tooltip(ui, explain(key, idle) + (idle.empty() ? known_of(key, range, model.guard()) : ""));
 
   ImGui::SetCursorScreenPos({at.x + width - reset_width + ui.px(3), at.y});
   if (value != key.default_value()) {

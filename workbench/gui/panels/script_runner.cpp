@@ -92,8 +92,10 @@ bool ScriptRunner::busy(AppModel& model, MenuBar& menu, const ItemMap& items) {
     return true;
   }
   const bool work =
-      menu.wish.work && (model.map().running() || model.scene().auditing() || model.time().time_machine().busy() ||
-                         model.tuning().search().running() || model.tuning().sweep().running());
+      menu.wish.work &&
+      (model.map().running() || model.scene().auditing() || model.time().time_machine().busy() ||
+       model.tuning().search().running() || model.tuning().sweep().running() || model.time().selection_loading() ||
+       model.tune().running() || model.tune().looking_for_failures() || model.curves().running());
   if (work || model.now_s() < menu.wish.until_s || model.scene().loading() || model.recordings().opening() ||
       model.exports().writing() || model.exports().picture_wanted() || !menu.wish.widget.empty() ||
       !items.wanted().empty() ||

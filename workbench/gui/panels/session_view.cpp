@@ -1,76 +1,15 @@
 #include "workbench/gui/panels/session_view.h"
 
-#include "core/base/text.h"
+#include "workbench/gui/panels/session_scene.h"
+
+#include <imgui_internal.h>
 
 #include <algorithm>
 #include <array>
-#include <charconv>
-#include <cmath>
 
 namespace tangent {
 
 namespace {
-
-struct SavedLayer {
-  const char* name;
-  bool SceneToggles::*on;
-};
-constexpr std::array kSavedLayers{SavedLayer{"facets", &SceneToggles::shaded},
-                                  SavedLayer{"edges", &SceneToggles::wireframe},
-                                  SavedLayer{"creases", &SceneToggles::creases},
-                                  SavedLayer{"vertex_normals", &SceneToggles::vertex_normals},
-                                  SavedLayer{"smooth_surface", &SceneToggles::smooth_surface},
-                                  SavedLayer{"control_net", &SceneToggles::control_net},
-                                  SavedLayer{"control_normals", &SceneToggles::control_normals},
-                                  SavedLayer{"neighbours", &SceneToggles::control_net_neighbours},
-                                  SavedLayer{"labels", &SceneToggles::control_point_labels},
-                                  SavedLayer{"finger", &SceneToggles::finger},
-                                  SavedLayer{"penetration", &SceneToggles::penetration},
-                                  SavedLayer{"force", &SceneToggles::force},
-                                  SavedLayer{"contact", &SceneToggles::contact},
-                                  SavedLayer{"tracked_plane", &SceneToggles::tracked_plane},
-                                  SavedLayer{"planes", &SceneToggles::planes},
-                                  SavedLayer{"trail", &SceneToggles::trail},
-                                  SavedLayer{"cld_inset", &SceneToggles::cld_inset},
-                                  SavedLayer{"colour_bar", &SceneToggles::colour_bar},
-                                  SavedLayer{"axes", &SceneToggles::axes}};
-
-std::string text_of(double value) {
-  std::string text;
-  append_double(text, value);
-  return text;
-}
-
-/// Takes values by their names.
-class SavedValues {
- public:
-  explicit SavedValues(const ViewValues& values) : values_(values) {}
-  const std::string* text(const std::string& name) const {
-    const auto found = values_.find(name);
-    return found != values_.end() ? &found->second : nullptr;
-  }
-  std::optional<double> number(const std::string& name) const {
-    const std::string* given = text(name);
-    double value = 0.0;
-    if (given == nullptr) return std::nullopt;
-    const char* end = given->data() + given->size();
-    const auto read = std::from_chars(given->data(), end, value);
-    return read.ec == std::errc() && read.ptr == end && std::isfinite(value) ? std::optional(value) : std::nullopt;
-  }
-  std::optional<std::uint64_t> tick(const std::string& name) const {
-    const std::optional<double> value = number(name);
-    return value && *value >= 0.0 && *value < 1e15 ? std::optional(static_cast<std::uint64_t>(*value)) : std::nullopt;
-  }
-  void take(const std::string& name, bool& on) const {
-    if (const std::string* given = text(name)) on = *given == "on";
-  }
-  void take(const std::string& name, int& value, int most) const {
-    if (const auto given = number(name)) value = std::clamp(static_cast<int>(*given), 0, most);
-  }
-
- private:
-  const ViewValues& values_;
-};
 
 std::string curve_name(const PlotSpec& plot, const PlotSeries& series) {
   return "curve/" + plot.id + "/" + series.name;
@@ -108,8 +47,13 @@ void put_plots(const PlotsPanel& plots, const PlotLists& lists, ViewValues& out)
   out["plots/y"] = plots.y;
   for (const auto& [plot, channels] : lists.changed()) out[std::string(kListOf) + plot] = joined(channels);
   out["plots/made"] = joined(lists.made());
-  for (const PlotView& plot : plots.plots)
+  for (const PlotView& plot : plots.plots) {
     for (const PlotSeries& series : plot.spec().series) flag(curve_name(plot.spec(), series), series.visible);
+    const ValueAxis& axis = plot.values();
+    if (!axis.fitted()) continue;  // not drawn yet
+    out["axis/" + plot.spec().id] =
+        text_of_numbers({axis.low(), axis.high()}) + (axis.automatic() ? " automatic" : " by hand");
+  }
 }
 
 /// The lists of channels, as they were saved; where there are none, as at first.
@@ -133,8 +77,12 @@ void show_plots(PlotsPanel& plots, const SavedValues& values) {
   values.take("plots/channels", plots.channels.open);
   if (const std::string* x = values.text("plots/x")) plots.x = *x;
   if (const std::string* y = values.text("plots/y")) plots.y = *y;
-  for (PlotView& plot : plots.plots)
+  for (PlotView& plot : plots.plots) {
     for (PlotSeries& series : plot.spec().series) values.take(curve_name(plot.spec(), series), series.visible);
+    const std::string name = "axis/" + plot.spec().id;
+    if (const auto ends = values.numbers(name, 2))
+      plot.values().take_up((*ends)[0], (*ends)[1], values.text(name)->ends_with(" automatic"));
+  }
 }
 
 void show_time(TimeModel& time, const SavedValues& values) {
@@ -145,14 +93,21 @@ void show_time(TimeModel& time, const SavedValues& values) {
   values.take("other_slot_beside", time.other_slot_beside);
 }
 
-void show_map(MapView& map, const SavedValues& values) {
-  const std::string* name = values.text("map");
-  map.on = name != nullptr && *name != "none";
-  for (std::size_t q = 0; map.on && q < kMapQuantityCount; ++q)
-    if (info_of(static_cast<MapQuantity>(q)).key == *name) map.set_quantity(static_cast<MapQuantity>(q));
-}
+struct SavedScroll {
+  const char* name;
+  const char* window;  ///< of ImGui
+};
+constexpr std::array kSavedScrolls{SavedScroll{"scroll/left", "##left"}, SavedScroll{"scroll/right", "##right"}};
 
 }  // namespace
+
+void show_scroll(const ViewValues& given) {
+  for (const SavedScroll& saved : kSavedScrolls) {
+    ImGuiWindow* window = ImGui::FindWindowByName(saved.window);
+    const auto at = SavedValues(given).number(saved.name);
+    if (window != nullptr && at) ImGui::SetScrollY(window, static_cast<float>(std::clamp(*at, 0.0, 1e6)));
+  }
+}
 
 ViewValues view_values(const AppModel& model, const PlotsPanel& plots) {
   ViewValues out;
@@ -160,25 +115,15 @@ ViewValues view_values(const AppModel& model, const PlotsPanel& plots) {
   const TimeModel& time = model.time();
   if (const ServoRecord* record = time.tick().record()) out["tick"] = std::to_string(record->tick.tick);
   if (time.tick().selected()) out["iteration"] = std::to_string(*time.tick().selected());
-  out["time_from"] = text_of(time.axis().from());
-  out["time_to"] = text_of(time.axis().to());
+  out["time_from"] = text_of_number(time.axis().from());
+  out["time_to"] = text_of_number(time.axis().to());
   flag("other_slot_beside", time.other_slot_beside);
-  const ViewModel& view = model.view();
-  out["camera"] = camera_text(view.camera);
-  flag("follow_contact", view.follow_contact);
-  flag("net_of_picked", view.net_of_picked);
-  flag("device_monitor", view.device_monitor);
-  if (view.picked_triangle != kNone) out["picked_triangle"] = std::to_string(view.picked_triangle);
-  for (const SavedLayer& layer : kSavedLayers) flag(std::string("layer/") + layer.name, view.toggles.*layer.on);
-  out["map"] = model.map().on ? std::string(info_of(model.map().quantity).key) : "none";
+  for (const SavedScroll& saved : kSavedScrolls)
+    if (const ImGuiWindow* window = ImGui::FindWindowByName(saved.window))
+      out[saved.name] = text_of_number(static_cast<double>(window->Scroll.y));
+  put_scene_view(model, out);
   put_plots(plots, model.window().plots(), out);
   return out;
-}
-
-void show_camera(AppModel& model, const ViewValues& values) {
-  const std::string* text = SavedValues(values).text("camera");
-  if (const auto camera = text != nullptr ? parse_camera(*text, model.view().camera) : std::nullopt)
-    model.view().camera = *camera;
 }
 
 void show_view(AppModel& model, PlotsPanel& plots, const ViewValues& given) {
@@ -187,16 +132,8 @@ void show_view(AppModel& model, PlotsPanel& plots, const ViewValues& given) {
   follow_lists(plots, model.window().plots());
   show_plots(plots, values);
   show_time(model.time(), values);
-  show_map(model.map(), values);
-  ViewModel& view = model.view();
-  values.take("follow_contact", view.follow_contact);
-  values.take("net_of_picked", view.net_of_picked);
-  values.take("device_monitor", view.device_monitor);
-  const auto picked = values.tick("picked_triangle");
-  const ContactMesh* mesh = model.mesh();
-  view.picked_triangle =
-      picked && mesh != nullptr && *picked < mesh->triangle_count() ? static_cast<std::uint32_t>(*picked) : kNone;
-  for (const SavedLayer& layer : kSavedLayers) values.take(std::string("layer/") + layer.name, view.toggles.*layer.on);
+  model.see_mesh_of_tick();
+  show_scene_view(model, values);
   show_camera(model, given);
 }
 

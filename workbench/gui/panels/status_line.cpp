@@ -80,6 +80,9 @@ void draw_status_line(const UiContext& ui, AppModel& model, const Rect& rect, do
              : servo.running     ? "   ... Hz"
                                  : "   off",
              11, plain, "Ticks per second, measured");
+  if (const std::string trouble = model.record().recording() ? model.record().status().trouble : std::string();
+      !trouble.empty())
+    values.put("not_recorded", "Not recorded", "", 0, ui.colours.bad, trouble.c_str());
   const SessionStatus& session = model.devices().status();
   if (session.real_devices && servo.running && !servo.realtime.fifo)
     values.put("realtime", "No real-time scheduling", "", 0, warn, session.realtime_remedy.c_str());

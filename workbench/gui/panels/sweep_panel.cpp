@@ -12,6 +12,9 @@ namespace {
 
 using Axis = TuningModel::Axis;
 
+constexpr std::array<std::string_view, 3> kShownNames{"Iterations, mean", "Iterations, 99th percentile",
+                                                      "Failures, share of the ticks"};
+
 void choose_key(const UiContext& ui, TuningModel& tuning, std::size_t axis, float width) {
   const auto keys = tuning.keys_to_sweep();
   std::vector<std::string_view> names;
@@ -65,19 +68,29 @@ void draw_axis(const UiContext& ui, AppModel& model, std::size_t i) {
 
 void draw_start(const UiContext& ui, AppModel& model) {
   TuningModel& tuning = model.tuning();
-  if (tuning.sweep().running()) {
+  if (tuning.sweep().running() || tuning.waits()) {
     if (text_button(ui, "sweep/cancel", "Cancel", "Stops and keeps the points so far")) tuning.cancel_sweep();
     ImGui::SameLine();
-    ImGui::TextDisabled("%zu of %zu", tuning.sweep().done(), tuning.sweep().planned());
+    if (tuning.waits())
+      ImGui::TextDisabled("reading A to B: %.0f %%", 100.0 * model.time().selection_progress());
+    else
+      ImGui::TextDisabled("%zu of %zu", tuning.sweep().done(), tuning.sweep().planned());
     return;
   }
-  const char* label = model.time().selection_kept() ? "Sweep A to B" : "Sweep the recorded ticks";
+  const char* label = model.time().selection_solvable() ? "Sweep A to B" : "Sweep the recorded ticks";
   if (text_button(ui, "sweep/start", label,
                   "Solves these ticks again with every value, on the same motion, in the background. Cursors A and B "
                   "choose the ticks"))
     tuning.start_sweep();
+  const char* map = "Heat map";
+  same_line_if_room(ImGui::CalcTextSize(map).x + ui.px(16));
+  if (text_button(
+          ui, "sweep/heat_map", map,
+          "Two values on the same ticks as a field of colours, coarse first: G_k and G_d where no second one is "
+          "chosen"))
+    tuning.start_heat_map();
   if (tuning.points().empty()) return;
-  ImGui::SameLine(0, ui.px(4));
+  same_line_if_room(ImGui::CalcTextSize("Clear").x + ui.px(16));
   if (text_button(ui, "sweep/clear", "Clear", "Deletes the points")) tuning.clear_points();
 }
 
@@ -97,8 +110,14 @@ void draw_sweep_panel(const UiContext& ui, AppModel& model, FoldedPanel& state) 
                         tuning.outdated() ? "; other values have changed since" : "");
     ui.items.note_last("sweep/range");
   }
-  ImGui::PopFont();
+  if (!tuning.points().empty() && tuning.axes()[1].key != nullptr) {
+    int shows = static_cast<int>(tuning.shows);
+    if (choice_row(ui, "sweep/shows", ImGui::GetContentRegionAvail().x, kShownNames, shows))
+      tuning.shows = static_cast<TuningModel::Shows>(shows);
+    tooltip(ui, "What the colours are: planes a tick, or the share of the ticks that fail. Of the map's colours");
+  }
   if (!tuning.points().empty()) draw_sweep_points(ui, model);
+  ImGui::PopFont();
   ImGui::Dummy({1, ui.px(3)});
 }
 

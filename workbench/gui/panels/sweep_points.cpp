@@ -1,6 +1,7 @@
 #include "workbench/gui/panels/sweep_points.h"
 
 #include "workbench/gui/panels/panels.h"
+#include "workbench/gui/plots/mark_drawing.h"
 #include "workbench/gui/widgets/widgets.h"
 
 #include <algorithm>
@@ -18,19 +19,6 @@ double share_of(const Axis& axis, double value) {
   const double span = factors ? std::log(axis.to / axis.from) : axis.to - axis.from;
   if (span == 0.0) return 0.5;
   return (factors ? std::log(value / axis.from) : value - axis.from) / span;
-}
-
-std::string point_text(const TuningModel& tuning, const TuningModel::Point& point) {
-  std::string text;
-  std::size_t v = 0;
-  for (const Axis& axis : tuning.axes()) {
-    if (axis.key == nullptr) continue;
-    text += std::string(axis.key->label) + " " + display_with_unit(*axis.key, point.point.values[v++]) + "\n";
-  }
-  const RunNumbers& n = point.point.numbers;
-  return text + printed("mean %.3f iterations, p99 %d, most %d\n%llu of %llu ticks failed", n.mean_iterations,
-                        n.p99_iterations, n.most_iterations, static_cast<unsigned long long>(n.unconverged),
-                        static_cast<unsigned long long>(n.ticks));
 }
 
 /// The plot's area and scales.
@@ -79,12 +67,11 @@ void draw_curve(const UiContext& ui, const TuningModel& tuning, const SweepArea&
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const Axis& axis = tuning.axes()[0];
   for (const TuningModel::Point& point : tuning.points()) {
-    const RunNumbers& n = point.point.numbers;
-    const float x = area.x(share_of(axis, point.point.values[0]));
+    const sweep::CellNumbers& n = point.numbers;
+    const float x = area.x(share_of(axis, point.values[0]));
     places.push_back({x, area.y(n.mean_iterations)});
-    if (n.unconverged > 0) {
-      const double share =
-          static_cast<double>(n.unconverged) / static_cast<double>(std::max<std::uint64_t>(1, n.ticks));
+    if (const std::uint64_t failed = TuningModel::failures(point); failed > 0) {
+      const double share = static_cast<double>(failed) / static_cast<double>(std::max<std::uint64_t>(1, n.ticks));
       const float high = std::max(ui.px(3), static_cast<float>(share) * (area.max.y - area.min.y));
       draw.AddRectFilled({x - ui.px(2.5f), area.max.y - high}, {x + ui.px(2.5f), area.max.y},
                          packed(with_alpha(ui.palette.bad, 0.75f)));
@@ -98,84 +85,11 @@ void draw_curve(const UiContext& ui, const TuningModel& tuning, const SweepArea&
                          tuning.points()[i].by_hand ? beside_ink(ui) : packed(ui.palette.iterations), 16);
 }
 
-/// Where a point of a field is drawn.
-ImVec2 place_in_field(const TuningModel& tuning, const SweepArea& area, double first, double second) {
-  const auto &a = tuning.axes()[0], &b = tuning.axes()[1];
-  const float w = 0.5f * (area.max.x - area.min.x) / static_cast<float>(a.count),
-              h = 0.5f * (area.max.y - area.min.y) / static_cast<float>(b.count);
-  return {area.min.x + w + static_cast<float>(share_of(a, first)) * (area.max.x - area.min.x - 2.0f * w),
-          area.max.y - h - static_cast<float>(share_of(b, second)) * (area.max.y - area.min.y - 2.0f * h)};
-}
-
-/// A field of cells: colour by mean; a cross where ticks failed.
-void draw_field(const UiContext& ui, const TuningModel& tuning, const SweepArea& area, std::vector<ImVec2>& places) {
-  ImDrawList& draw = *ImGui::GetWindowDrawList();
-  const auto &a = tuning.axes()[0], &b = tuning.axes()[1];
-  const float w = 0.5f * (area.max.x - area.min.x) / static_cast<float>(a.count),
-              h = 0.5f * (area.max.y - area.min.y) / static_cast<float>(b.count);
-  double low = 1e300, high = 0.0;
-  for (const TuningModel::Point& p : tuning.points()) {
-    low = std::min(low, p.point.numbers.mean_iterations);
-    high = std::max(high, p.point.numbers.mean_iterations);
-  }
-  for (const TuningModel::Point& p : tuning.points()) {
-    const auto [x, y] = place_in_field(tuning, area, p.point.values[0], p.point.values[1]);
-    places.push_back({x, y});
-    // On a logarithmic scale, so that one bad corner leaves the others apart.
-    const double shade = high > low ? std::log(p.point.numbers.mean_iterations / low) / std::log(high / low) : 0.0;
-    draw.AddRectFilled({x - w, y - h}, {x + w, y + h},
-                       packed(iteration_colour(static_cast<std::size_t>(99.0 * shade), 100)));
-    if (p.by_hand) draw.AddCircle({x, y}, ui.px(4), beside_ink(ui), 14, ui.px(1.5f));
-    if (p.point.numbers.unconverged == 0) continue;
-    const float d = std::min({w, h, ui.px(4)});
-    draw.AddLine({x - d, y - d}, {x + d, y + d}, ui.colours.bad, ui.px(1.4f));
-    draw.AddLine({x - d, y + d}, {x + d, y - d}, ui.colours.bad, ui.px(1.4f));
-  }
-  // The second key's ends, on the left.
-  ImFont* number = ui.fonts.small_number;
-  const auto label = [&](double value, float y) {
-    const std::string text = display_text(*b.key, value);
-    const float width = number->CalcTextSizeA(number->FontSize, 1e9f, 0.0f, text.c_str()).x;
-    draw.AddText(number, number->FontSize, {area.min.x - width - ui.px(5), y}, ui.colours.text_dim, text.c_str());
-  };
-  label(b.to, area.min.y);
-  label(b.from, area.max.y - number->FontSize);
-  const std::string range = printed("up: %s; mean %.2f to %.2f; \u00d7 failed", b.key->label.data(), low, high);
-  draw.AddText(ui.fonts.small, ui.fonts.small->FontSize, {area.min.x, area.min.y - ui.px(15)}, ui.colours.text_dim,
-               range.c_str());
-}
-
-std::optional<std::size_t> nearest_point(const UiContext& ui, const std::vector<ImVec2>& places, bool by_column) {
-  const ImVec2 mouse = ImGui::GetIO().MousePos;
-  std::optional<std::size_t> found;
-  float least = ui.px(by_column ? 14 : 24);
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    const float d =
-        by_column ? std::abs(mouse.x - places[i].x) : std::hypot(mouse.x - places[i].x, mouse.y - places[i].y);
-    if (d >= least) continue;
-    least = d;
-    found = i;
-  }
-  return found;
-}
-
 void mark_present(const UiContext& ui, const AppModel& model, const TuningModel& tuning, const SweepArea& area) {
   const Axis& a = tuning.axes()[0];
   const double at = share_of(a, a.key->get(model.presets().current()));
   if (at < 0.0 || at > 1.0) return;
   ImGui::GetWindowDrawList()->AddLine({area.x(at), area.min.y}, {area.x(at), area.max.y}, ui.colours.accent, ui.px(1));
-}
-
-void mark_present_cell(const UiContext& ui, const AppModel& model, const TuningModel& tuning, const SweepArea& area) {
-  const Preset& now = model.presets().current();
-  const double first = tuning.axes()[0].key->get(now), second = tuning.axes()[1].key->get(now);
-  if (std::clamp(share_of(tuning.axes()[0], first), 0.0, 1.0) != share_of(tuning.axes()[0], first) ||
-      std::clamp(share_of(tuning.axes()[1], second), 0.0, 1.0) != share_of(tuning.axes()[1], second))
-    return;
-  ImDrawList& draw = *ImGui::GetWindowDrawList();
-  const ImVec2 at = place_in_field(tuning, area, first, second);
-  draw.AddCircle(at, ui.px(5), packed(ui.palette.panel), 18, ui.px(3.2f));
-  draw.AddCircle(at, ui.px(5), packed(ui.palette.text), 18, ui.px(1.5f));
 }
 
 void draw_legend(const UiContext& ui, const SweepArea& area) {
@@ -198,12 +112,56 @@ void draw_legend(const UiContext& ui, const SweepArea& area) {
   text("by hand");
 }
 
+/// The value that theory names.
+void mark_theory(const UiContext& ui, const TuningModel& tuning, const SweepArea& area) {
+  const auto theory = tuning.theory(0);
+  const double at = theory ? share_of(tuning.axes()[0], *theory) : -1.0;
+  if (at < 0.0 || at > 1.0) return;
+  const float x = area.x(at);
+  draw_dashes(*ImGui::GetWindowDrawList(), {x, area.min.y}, {x, area.max.y}, ui.px(4), ui.colours.text_dim,
+              ui.px(1.2f));
+}
+
 }  // namespace
+
+std::string sweep_point_text(const TuningModel& tuning, const TuningModel::Point& point) {
+  std::string text;
+  std::size_t v = 0;
+  for (const Axis& axis : tuning.axes()) {
+    if (axis.key == nullptr) continue;
+    text += std::string(axis.key->label) + " " + display_with_unit(*axis.key, point.values[v++]) + "\n";
+  }
+  const sweep::CellNumbers& n = point.numbers;
+  return text + printed("mean %.3f iterations, p99 %.0f, most %.0f\n%llu of %llu ticks failed", n.mean_iterations,
+                        n.p99_iterations, n.most_iterations,
+                        static_cast<unsigned long long>(TuningModel::failures(point)),
+                        static_cast<unsigned long long>(n.ticks));
+}
+
+std::size_t nearest_sweep_point(const UiContext& ui, const std::vector<ImVec2>& places, bool by_column) {
+  const ImVec2 mouse = ImGui::GetIO().MousePos;
+  std::size_t found = places.size();
+  float least = ui.px(by_column ? 14 : 24);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const float d =
+        by_column ? std::abs(mouse.x - places[i].x) : std::hypot(mouse.x - places[i].x, mouse.y - places[i].y);
+    if (d >= least) continue;
+    least = d;
+    found = i;
+  }
+  return found;
+}
+
+void note_sweep_points(const UiContext& ui, const std::vector<ImVec2>& places) {
+  for (std::size_t i = 0; i < places.size(); ++i)
+    ui.items.note(printed("sweep/point/%zu", i), {places[i].x - 1.0f, places[i].y - 1.0f},
+                  {places[i].x + 1.0f, places[i].y + 1.0f});
+}
 
 void draw_sweep_points(const UiContext& ui, AppModel& model) {
   TuningModel& tuning = model.tuning();
-  const bool two = tuning.axes()[1].key != nullptr;
-  const float width = std::max(1.0f, ImGui::GetContentRegionAvail().x), height = ui.px(two ? 190 : 160);
+  if (tuning.axes()[1].key != nullptr) return draw_sweep_field(ui, model);
+  const float width = std::max(1.0f, ImGui::GetContentRegionAvail().x), height = ui.px(160);
   const ImVec2 at = ImGui::GetCursorScreenPos();
   ImGui::InvisibleButton("##sweep_points", {width, height});
   ui.items.note_last("sweep/plot");
@@ -211,27 +169,20 @@ void draw_sweep_points(const UiContext& ui, AppModel& model) {
   SweepArea area{{at.x + ui.px(34), at.y + ui.px(18)}, {at.x + width - ui.px(6), at.y + height - ui.px(17)}};
   if (area.max.x - area.min.x < ui.px(40)) return;
   ImGui::GetWindowDrawList()->AddRectFilled(area.min, area.max, ui.colours.plot);
-  for (const TuningModel::Point& p : tuning.points())
-    area.top = std::max(area.top, 1.15 * static_cast<double>(p.point.numbers.p99_iterations));
+  for (const TuningModel::Point& p : tuning.points()) area.top = std::max(area.top, 1.15 * p.numbers.p99_iterations);
   std::vector<ImVec2> places;
-  if (two) {
-    draw_field(ui, tuning, area, places);
-    mark_present_cell(ui, model, tuning, area);
-  } else {
-    draw_planes_axis(ui, area);
-    mark_present(ui, model, tuning, area);
-    draw_curve(ui, tuning, area, places);
-    draw_legend(ui, area);
-  }
+  draw_planes_axis(ui, area);
+  mark_theory(ui, tuning, area);
+  mark_present(ui, model, tuning, area);
+  draw_curve(ui, tuning, area, places);
+  draw_legend(ui, area);
   draw_ends(ui, area, tuning.axes()[0]);
-  for (std::size_t i = 0; i < places.size(); ++i)
-    ui.items.note(printed("sweep/point/%zu", i), {places[i].x - 1.0f, places[i].y - 1.0f},
-                  {places[i].x + 1.0f, places[i].y + 1.0f});
-  const auto pointed = here ? nearest_point(ui, places, !two) : std::nullopt;
-  if (!pointed) return;
-  ImGui::GetWindowDrawList()->AddCircle(places[*pointed], ui.px(6.5f), ui.colours.text, 20, ui.px(1.2f));
-  ImGui::SetTooltip("%s\nClick: try it", point_text(tuning, tuning.points()[*pointed]).c_str());
-  if (clicked) tuning.try_point(*pointed);
+  note_sweep_points(ui, places);
+  const std::size_t pointed = here ? nearest_sweep_point(ui, places, true) : places.size();
+  if (pointed == places.size()) return;
+  ImGui::GetWindowDrawList()->AddCircle(places[pointed], ui.px(6.5f), ui.colours.text, 20, ui.px(1.2f));
+  ImGui::SetTooltip("%s\nClick: try it", sweep_point_text(tuning, tuning.points()[pointed]).c_str());
+  if (clicked) tuning.try_point(pointed);
 }
 
 }  // namespace tangent

@@ -125,9 +125,10 @@ void draw_state(const UiContext& ui, const TimeModel& time) {
   const auto verified = machine.verified();
   const std::size_t ticks = machine.run()->records.size();
   fact(ui,
-       time.recording() != nullptr ? "Loaded of the recording"
-       : time.past().shows_kept()  ? "Kept around bookmarks"
-                                   : "Frozen past",
+       time.past().kept_selection() != nullptr && time.recording() != nullptr ? "Read from A to B"
+       : time.recording() != nullptr                                          ? "Loaded of the recording"
+       : time.past().shows_kept()                                             ? "Kept around bookmarks"
+                                                                              : "Frozen past",
        printed("%.1f", static_cast<double>(ticks) * time.tick_period_s()), "s");
   tooltip(ui, "Can still be solved again, until the view goes back to live");
   fact(ui, "Memory beyond the history", printed("%.1f", static_cast<double>(time.frozen_bytes()) / (1024.0 * 1024.0)),
@@ -146,8 +147,24 @@ void draw_state(const UiContext& ui, const TimeModel& time) {
 void draw_way_to_selection(const UiContext& ui, TimeModel& time) {
   if (!time.selection_kept() || time.past().shown().covers(time.selection()->from)) return;
   if (text_button(ui, "time_machine/selection", "Show A to B",
-                  "The history has dropped these ticks; they are kept while the cursors are set"))
+                  time.recording() != nullptr
+                      ? "The view is elsewhere in the recording"
+                      : "The history has dropped these ticks; they are kept while the cursors are set"))
     time.select_tick(time.selection()->from);
+}
+
+/// Ticks of a recording that are to be solved, and are not in memory.
+void draw_reading(const UiContext& ui, TimeModel& time) {
+  if (time.selection_loading()) {
+    fact(ui, "Reading A to B", printed("%.0f", 100.0 * time.selection_progress()), "%");
+    ui.items.note_last("time_machine/reading");
+    if (text_button(ui, "time_machine/cancel_reading", "Cancel", "What is loaded stays as it is"))
+      time.cancel_loading();
+  } else if (time.selection_to_load()) {
+    if (text_button(ui, "time_machine/read", "Read A to B",
+                    "These ticks are not in memory: read whole, they can be solved again, as far as memory allows"))
+      time.load_selection();
+  }
 }
 
 }  // namespace
@@ -167,6 +184,7 @@ void draw_time_machine_panel(const UiContext& ui, TimeModel& time, FoldedPanel& 
     return;
   }
   draw_state(ui, time);
+  draw_reading(ui, time);
   const auto ghost = time.ghost();
   if (!ghost) {
     if (text_button(ui, "time_machine/solve", "Solve the past with the current values",

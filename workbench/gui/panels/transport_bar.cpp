@@ -29,9 +29,11 @@ void draw_freeze(const UiContext& ui, const TimeModel& time, ImVec2 min, ImVec2 
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   draw.AddRect(min, max, ui.colours.accent, ui.px(3), 0, ui.px(1));
   if (const OpenedRecording* recording = time.recording()) {
-    const std::string text = "recording " + recording->path().filename().string() +
-                             (recording->info().closed ? "" : ", cut short") +
-                             (recording->loading() ? ", loading" : "");
+    const std::string text =
+        "recording " + recording->path().filename().string() + (recording->info().closed ? "" : ", cut short") +
+        (time.selection_loading() ? printed(", reading A to B: %.0f %%", 100.0 * time.selection_progress())
+         : recording->loading()   ? std::string(", loading")
+                                  : std::string());
     return draw_strip_text(ui, text, min, max);
   }
   const double ahead_s =

@@ -8,7 +8,8 @@ namespace tangent {
 
 void draw_unsaved_offer(const UiContext& ui, UnsavedModel& unsaved, const Rect& over) {
   constexpr std::array<StripButton, 2> kAnswers{
-      {{"unsaved/take_up", "Restore", "Both presets with their undo steps, and the bookmarks. Nothing is armed by it"},
+      {{"unsaved/take_up", "Restore",
+        "Both presets with their undo steps, the bookmarks, and the recording at its place. Nothing is armed by it"},
        {"unsaved/discard", "Discard", "Deletes it"}}};
   const std::string text = unsaved.offer();
   if (text.empty()) return;

@@ -76,7 +76,8 @@ SceneFrame scene_frame(const AppModel& model) {
   frame.hovered_triangle = view.hovered_triangle;
   frame.marked_triangles = model.view().inspection().marked;
   frame.net_of_picked = view.net_of_picked;
-  frame.map = model.map().paint();
+  const auto failures = model.tune().paint(model.map().colours);
+  frame.map = failures ? failures : model.map().paint();
   frame.slice = view.slice;
   frame.isolation = view.isolation;
   if (const ServoRecord* record = model.time().tick().record()) {

@@ -2,12 +2,8 @@
 
 #include "core/io/mesh_io.h"
 #include "core/lab/objects/generate.h"
-#include "workbench/gui/platform/offscreen.h"
-#include "workbench/gui/render/scene_overlay.h"
+#include "workbench/gui/platform/scene_picture.h"
 #include "workbench/gui/render/staged_scene.h"
-#include "workbench/gui/theme/theme.h"
-
-#include <imgui.h>
 
 #include <algorithm>
 #include <cmath>
@@ -171,25 +167,6 @@ Camera aimed_camera(const SceneView& view, const StagedScene& staged, double asp
 /// An image of twice the height looks the same at twice the resolution.
 double scale_of(const ShotRequest& request) { return request.scale.value_or(std::max(1.0, request.height_px / 720.0)); }
 
-void draw_view(OffscreenScreen& screen, SceneRenderer& renderer, const SceneFrame& frame, const Camera& camera,
-               const ShotRequest& request) {
-  ImGuiIO& io = ImGui::GetIO();
-  io.DeltaTime = 1.0f / 60.0f;
-  std::vector<std::string> missing;
-  const ThemeFonts fonts = load_fonts(static_cast<float>(scale_of(request)), missing);
-  screen.upload_fonts();
-  screen.frame([&] {
-    ImGui::NewFrame();
-    ImDrawList& list = *ImGui::GetBackgroundDrawList();
-    renderer.render(frame, camera, request.width_px, request.height_px);
-    const ImVec2 size{static_cast<float>(request.width_px), static_cast<float>(request.height_px)};
-    list.AddImage(reinterpret_cast<ImTextureID>(static_cast<std::intptr_t>(renderer.texture())), {0, 0}, size, {0, 1},
-                  {1, 0});
-    draw_scene_overlay(list, {0, 0}, 1.0, 0.0f, renderer, frame, camera, fonts);
-    ImGui::Render();
-  });
-}
-
 }  // namespace
 
 const std::vector<ShotView>& scene_shot_views() {
@@ -223,7 +200,7 @@ Result<Shot> take_scene_shot(const ShotRequest& request) {
       aimed_camera(*view, staged, static_cast<double>(request.width_px) / request.height_px, request.y_up);
   const auto picture = [&](std::optional<Rgba> ground) {
     frame.ground = ground;
-    draw_view(**screen, renderer, frame, camera, request);
+    draw_scene_picture(**screen, renderer, frame, camera, {request.width_px, request.height_px, scale_of(request)});
     return (*screen)->picture();
   };
   const ContactMesh& mesh = (*scene)->mesh();

@@ -1,9 +1,6 @@
 #include "workbench/gui/platform/tick_picture.h"
 
-#include "workbench/gui/platform/offscreen.h"
-#include "workbench/gui/render/scene_overlay.h"
-#include "workbench/gui/render/scene_renderer.h"
-#include "workbench/gui/theme/theme.h"
+#include "workbench/gui/platform/scene_picture.h"
 
 #include <algorithm>
 #include <cmath>
@@ -63,20 +60,7 @@ Result<Image> tick_picture(const TickPictureRequest& request) {
   frame.pixel_scale = request.scale;
   if (staged.tick.output.triangle != kNone) frame.picked_triangle = staged.tick.output.triangle;
   const Camera camera = camera_at(staged, {.width = static_cast<double>(request.width_px) / request.height_px});
-  ImGui::GetIO().DeltaTime = 1.0f / 60.0f;
-  std::vector<std::string> missing;
-  const ThemeFonts fonts = load_fonts(static_cast<float>(request.scale), missing);
-  (*screen)->upload_fonts();
-  (*screen)->frame([&] {
-    ImGui::NewFrame();
-    ImDrawList& list = *ImGui::GetBackgroundDrawList();
-    renderer.render(frame, camera, request.width_px, request.height_px);
-    const ImVec2 size{static_cast<float>(request.width_px), static_cast<float>(request.height_px)};
-    list.AddImage(reinterpret_cast<ImTextureID>(static_cast<std::intptr_t>(renderer.texture())), {0, 0}, size, {0, 1},
-                  {1, 0});
-    draw_scene_overlay(list, {0, 0}, 1.0, 0.0f, renderer, frame, camera, fonts);
-    ImGui::Render();
-  });
+  draw_scene_picture(**screen, renderer, frame, camera, {request.width_px, request.height_px, request.scale});
   return (*screen)->picture();
 }
 

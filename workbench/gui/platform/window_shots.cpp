@@ -215,6 +215,34 @@ void sweep_two_gains(AppModel& model) {
   model.tuning().start_sweep();
 }
 
+/// A front of few planes and small errors, its trials with a small G_k brushed, where they fail, and one trial tried.
+void tune_front(AppModel& model) {
+  fold_but(model, "Tune");
+  model.window().sizes().right = 430.0f;
+  model.window().sizes().plots = 170.0f;
+  look_from_contact_side(model);
+  model.time().set_paused(true);
+  TuneModel& tune = model.tune();
+  tune.start();
+  while (tune.running()) tune.update();
+  tune.set_brush(TuneBrush{{TuneAxis{true, 0}, TuneAxis{true, 1}}, {0.0, 0.0}, {0.006, 1e6}});
+  tune.show_failures(true);
+  if (const auto middle = tune.balanced()) tune.try_trial(*middle);
+  SceneToggles& on = model.view().toggles;
+  on.smooth_surface = true;
+  on.shaded = on.finger = on.force = on.control_net = on.planes = on.penetration = on.contact = on.cld_inset = false;
+}
+
+/// G_k by G_d over the last seconds.
+void show_heat_map(AppModel& model) {
+  fold_but(model, "Sweep");
+  model.window().sizes().right = 430.0f;
+  model.window().sizes().show_plots = false;
+  look_from_contact_side(model);
+  model.time().set_paused(true);
+  model.tuning().start_heat_map();
+}
+
 /// A body with a hole, cut open, with the defects listed and the first one shown.
 void inspect(AppModel& model) {
   SceneToggles& on = model.view().toggles;
@@ -346,6 +374,9 @@ constexpr WindowView kViews[] = {
      solve_with_paper, explain_busiest_tick},
     {"sweep", "a sweep of the curvature gain over the recorded ticks", Theme::dark, tune_paper, sweep_gain},
     {"sweep-two", "a sweep of two gains", Theme::light, tune_paper, sweep_two_gains},
+    {"tune", "a front of planes and error, brushed: its trials, where they fail, and one of them tried", Theme::dark,
+     tune_paper, tune_front},
+    {"heat-map", "planes and failures over two gains", Theme::light, tune_paper, show_heat_map},
     {"inspect", "mesh inspection: a defect found, marked and listed", Theme::dark, inspect, look_at_first_finding},
     {"slice", "the body cut open", Theme::dark, inspect, slice_open},
     {"parameters", "favourites, gain advice, and two presets side by side", Theme::dark, tune_and_compare,

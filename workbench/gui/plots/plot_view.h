@@ -92,6 +92,7 @@ class PlotView {
   const PlotSpec& spec() const { return spec_; }
   PlotSpec& spec() { return spec_; }
   const ValueAxis& values() const { return values_; }
+  ValueAxis& values() { return values_; }
   /// The value axis is fitted anew: other curves are in it.
   void refit() { values_.set_automatic(); }
 

@@ -82,6 +82,14 @@ void ValueAxis::show(double low, double high) {
   high_ = high;
 }
 
+void ValueAxis::take_up(double low, double high, bool automatic) {
+  if (!(high > low) || !std::isfinite(low) || !std::isfinite(high)) return;
+  low_ = low;
+  high_ = high;
+  automatic_ = automatic;
+  fresh_ = false;
+}
+
 double ValueAxis::share(double value, bool log) const {
   if (!log) return (value - low_) / (high_ - low_);
   if (!(value > low_)) return 0.0;

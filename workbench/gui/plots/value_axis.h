@@ -11,6 +11,7 @@ class ValueAxis {
   double low() const { return low_; }
   double high() const { return high_; }
   bool automatic() const { return automatic_; }
+  bool fitted() const { return !(automatic_ && fresh_); }  ///< false: no values were seen yet
 
   /// `visible` in displayed units. Linear: includes zero when `with_zero`. `floor`: lower limit of a log axis; values
   /// at or below 0 are drawn at the lower edge.
@@ -22,6 +23,8 @@ class ValueAxis {
   void pan(double share, bool log);
   void show(double low, double high);
   void set_automatic() { automatic_ = fresh_ = true; }
+  /// As it was, also where it had fitted itself and has kept more room since than it would take anew.
+  void take_up(double low, double high, bool automatic);
 
   /// 0 at the lower edge, 1 at the upper.
   double share(double value, bool log) const;

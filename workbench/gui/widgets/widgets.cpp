@@ -189,6 +189,31 @@ std::optional<std::string> type_in_field(const UiContext& ui, std::string_view p
   return typed;
 }
 
+}  // namespace
+
+void draw_bands(const UiContext& ui, ImVec2 at, float width, std::span<const ShareBand> bands) {
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const float low = at.y + ImGui::GetFrameHeight(), line = ui.px(2), tooth = ui.px(4), gap = ui.px(4);
+  for (const ShareBand& band : bands) {
+    const float x0 = at.x + band.from * width, x1 = at.x + band.to * width;
+    switch (band.safety) {
+      case Safety::stable:
+        draw.AddRectFilled({x0, low - line}, {x1, low}, ui.colours.good);
+        break;
+      case Safety::shakes:
+        for (float x = x0; x < x1; x += gap)
+          draw.AddTriangleFilled({x, low}, {x + 0.5f * gap, low - tooth}, {std::min(x + gap, x1), low}, ui.colours.bad);
+        break;
+      case Safety::unknown:
+        for (float x = x0; x + 0.5f * gap <= x1; x += gap)
+          draw.AddRectFilled({x, low - line}, {x + 0.5f * gap, low}, ui.colours.text_dim);
+        break;
+    }
+  }
+}
+
+namespace {
+
 /// Draws the last item as a filled field.
 void draw_field(const UiContext& ui, const ValueField& field, ImVec2 at, double share) {
   const float height = ImGui::GetFrameHeight();
@@ -204,6 +229,7 @@ void draw_field(const UiContext& ui, const ValueField& field, ImVec2 at, double 
     draw.AddRectFilled(at, end, ui.colours.accent_soft, round);
     draw.PopClipRect();
   }
+  draw_bands(ui, at, field.width, field.bands);
   ImFont* number = ui.fonts.number;
   const float w = number->CalcTextSizeA(number->FontSize, 1e9f, 0.0f, field.text.c_str()).x;
   // The unit goes before it would push the number out.
@@ -322,7 +348,8 @@ bool choice_row(const UiContext& ui, std::string_view path, float width, std::sp
   const std::string current(
       choices[static_cast<std::size_t>(std::clamp(chosen, 0, static_cast<int>(choices.size()) - 1))]);
   ImGui::SetNextItemWidth(width);
-  const bool open = ImGui::BeginCombo(id_of(path).c_str(), current.c_str());
+  const float room = width - ImGui::GetFrameHeight() - 2.0f * ImGui::GetStyle().FramePadding.x;
+  const bool open = ImGui::BeginCombo(id_of(path).c_str(), fitted(ImGui::GetFont(), current, room).c_str());
   ui.items.note_last(path);
   ui.items.note_arrows(path);
   if (open) {

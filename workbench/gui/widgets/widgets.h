@@ -3,6 +3,7 @@
 #pragma once
 
 #include "workbench/gui/widgets/ui_context.h"
+#include "workbench/session/safe_range/safe_range.h"
 
 #include <optional>
 #include <span>
@@ -21,12 +22,21 @@ std::optional<std::string> number_box(const UiContext& ui, std::string_view path
 
 /// Slider and number box in one, as in Blender: a filled field with value and unit; dragging slides (with Shift ten
 /// times finer), a click types. With the keyboard's focus: Left and Right slide, Enter types.
+struct ShareBand {
+  float from = 0.0f, to = 0.0f;  ///< share of the slider
+  Safety safety = Safety::unknown;
+};
+/// Along the lower edge of a field: what is known of its values. Told apart by shape as well as by colour: stable is
+/// one line, what shakes has teeth, what is not known is dotted.
+void draw_bands(const UiContext& ui, ImVec2 at, float width, std::span<const ShareBand> bands);
+
 struct ValueField {
   float width = 100.0f;
   double share = 0.0;  ///< filled share of the range, 0..1
   std::string text;    ///< the value
   std::string_view unit;
   double step = 0.01;  ///< share that an arrow key moves it by, with Shift a tenth
+  std::span<const ShareBand> bands = {};
 };
 struct ValueFieldResult {
   std::optional<double> slid;        ///< new share

@@ -268,8 +268,8 @@ TEST_CASE("while an ellipsoid or a capsule turns over bodies made at random the 
   for (const FingerShape shape : kTurningShapes) {
     CAPTURE(static_cast<int>(shape));
     // 2 and 37 when a solve that ran on to the tracked contact, or out of planes, was taken to say that there is no
-    // other.
-    check_turned(turn_over_bodies(shape, 40, rounds(1000), 4), 1);
+    // other, and 1 while it was for a place that was known roughly.
+    check_turned(turn_over_bodies(shape, 40, rounds(1000), 4), 0);
   }
 }
 

@@ -1,10 +1,14 @@
 // Recordings that the window makes.
 #include "tests/support/temp_folder.h"
 #include "tests/workbench/gui/running_app.h"
+#include "tests/workbench/recording/full_disk.h"
 #include "workbench/recording/recording.h"
 #include "workbench/recording/replay.h"
 
+#include <algorithm>
 #include <filesystem>
+#include <set>
+#include <string>
 
 using namespace tangent;
 using tangent::test::HeadlessApp;
@@ -141,6 +145,88 @@ TEST_CASE("a file that vanishes is said, the servo goes on, and so does the wind
   ui.model().messages().clear();
   ui.model().record().stop();
   CHECK(said(ui.model(), Severity::error, "is gone"));
+}
+
+TEST_CASE(
+    "where the disk is full, the window says so as long as it is, the servo goes on, and what is written is read") {
+  const testing::TempFolder folder;
+  const std::string path = folder.file("full.sqlite");
+  RunningApp ui(options_in(folder));
+  ui.model().record().start(path);
+  ui.run(1000);
+  CHECK(ui.app().items().find("status/not_recorded") == nullptr);
+  {
+    const test::FullDisk full(path);
+    ui.app().advance(4000);
+    ui.frames(2);
+    CHECK(said(ui.model(), Severity::error, "not recorded at present"));
+    CHECK(ui.app().items().find("recording/trouble") != nullptr);
+    CHECK(ui.app().items().find("status/not_recorded") != nullptr);
+    ui.frames(60);
+    CHECK(ui.app().items().find("status/not_recorded") != nullptr);
+    ui.app().advance(500);
+    ui.frame();
+    CHECK(ui.model().time().end_tick() == 5500);
+    CHECK(ui.model().devices().status().servo.running);
+    CHECK(info_of(path).ticks == 1000);
+    CHECK_FALSE(info_of(path).closed);
+  }
+  ui.model().record().stop();
+  CHECK(ui.model().record().status().missing == 0);
+  CHECK(info_of(path).ticks == 5500);
+  check_replays(path);
+  // It is an event of the file, and a mark where it is opened.
+  CHECK(events_of_kind(path, "recorder") > 0);
+  ui.model().open(path);
+  ui.frames(2);
+  REQUIRE(ui.model().time().recording() != nullptr);
+  const auto& marks = ui.model().time().bookmarks().all();
+  CHECK(
+      std::any_of(marks.begin(), marks.end(), [](const Bookmark& m) { return m.kind == BookmarkKind::device_fault; }));
+}
+
+TEST_CASE("a history that does not fit on the disk is an error, and leaves no file") {
+  const testing::TempFolder folder;
+  RunningApp ui(options_in(folder));
+  ui.run(3000);
+  folder.write("small.sqlite-wal", "");
+  {
+    const test::FullDisk full(folder.file("small.sqlite"));
+    ui.model().record().write_history(folder.file("history.sqlite"));
+  }
+  CHECK(said(ui.model(), Severity::error, "not recorded"));
+  CHECK(folder.entry_count() == 1);
+}
+
+TEST_CASE("buttons that record without a name write into the window's folder, and a test's run leaves nothing behind") {
+  const auto entries = [](const std::filesystem::path& folder) {
+    std::set<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(folder))
+      names.insert(entry.path().filename().string());
+    return names;
+  };
+  const testing::TempFolder here;
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::current_path(here.path());
+  std::filesystem::path own;
+  {
+    RunningApp ui(HeadlessApp::deterministic_options(), 1600.0f, 4200.0f);
+    own = ui.folder();
+    ui.run(300);
+    ui.click("transport/record");
+    ui.app().advance(100);
+    ui.click("transport/record");
+    ui.click("recording/history");
+    ui.model().time().set_selection(TickRange{100, 200});
+    ui.model().record().write_selection();
+    ui.key('R');
+    ui.app().advance(10);
+    ui.frame();
+    CHECK(entries(own).size() >= 4);  // the last one is still being written
+  }
+  CHECK_FALSE(std::filesystem::exists(own));
+  CHECK(entries(here.path()).empty());
+  std::filesystem::current_path(before);
 }
 
 TEST_CASE("a window that is told to record does so from its first session on, and closes the file with it") {

@@ -69,6 +69,8 @@ TEST_CASE("triggers bookmark what they were told to, with the thresholds of the 
     CHECK(ui.model().devices().session()->history().find(b.tick)->tick.output.iterations > 3);
   }
   CHECK(iterations);
+  ui.model().window().set_task(Task::record);
+  ui.frame();
   ui.click("bookmarks/triggers");
   ui.frame();
   ui.click("bookmarks/trigger/reseeded");

@@ -45,9 +45,9 @@ TEST_CASE("a sweep over A to B leaves points, a click tries one, and values trie
   ui.click("sweep/start");
   REQUIRE(ui.model().tuning().points().size() == 5);
   CHECK(ui.model().tuning().points_range() == TickRange{1000, 1499});
-  for (const auto& p : ui.model().tuning().points()) CHECK(p.point.numbers.ticks == 500);
-  CHECK(ui.model().tuning().points()[0].point.numbers.mean_iterations >
-        ui.model().tuning().points()[4].point.numbers.mean_iterations);
+  for (const auto& p : ui.model().tuning().points()) CHECK(p.numbers.ticks == 500);
+  CHECK(ui.model().tuning().points()[0].numbers.mean_iterations >
+        ui.model().tuning().points()[4].numbers.mean_iterations);
   ui.frame();
   ui.click("sweep/point/2");
   CHECK(ui.solver().gain_curvature_m == 0.012);
@@ -56,7 +56,7 @@ TEST_CASE("a sweep over A to B leaves points, a click tries one, and values trie
   ui.frame();
   REQUIRE(ui.model().tuning().points().size() == 6);
   CHECK(ui.model().tuning().points()[3].by_hand);
-  CHECK(ui.model().tuning().points()[3].point.values[0] == 0.0155);
+  CHECK(ui.model().tuning().points()[3].values[0] == 0.0155);
   CHECK_FALSE(ui.model().tuning().outdated());
   ui.set("gain_overall", 0.9);
   ui.frame();
@@ -78,10 +78,37 @@ TEST_CASE("two keys make a field, and trying a cell is one step of undo") {
   const SolverSettings before = ui.solver();
   ui.frame();
   ui.click("sweep/point/1");
-  CHECK(ui.solver().gain_overall == ui.model().tuning().points()[1].point.values[1]);
-  CHECK(ui.solver().gain_curvature_m == ui.model().tuning().points()[1].point.values[0]);
+  CHECK(ui.solver().gain_overall == ui.model().tuning().points()[1].values[1]);
+  CHECK(ui.solver().gain_curvature_m == ui.model().tuning().points()[1].values[0]);
   ui.model().presets().undo();
   CHECK(ui.solver() == before);
+}
+
+TEST_CASE("the heat map is G_k by G_d where no second key is chosen, the cells of a sweep, and a click tries one") {
+  TuningApp ui;
+  ui.run(300);
+  ui.click("sweep/heat_map");
+  TuningModel& tuning = ui.model().tuning();
+  CHECK(tuning.axes()[0].key == find_preset_key("solver.gain_curvature_m"));
+  CHECK(tuning.axes()[1].key == find_preset_key("solver.gain_distance_per_m"));
+  REQUIRE(tuning.points().size() == 17 * 17);
+  CHECK(tuning.theory(0) == ui.model().presets().current().finger.reach_m());
+  CHECK(tuning.theory(1) == 0.0);
+  std::uint64_t failed = 0;
+  for (const auto& point : tuning.points()) failed += TuningModel::failures(point);
+  CHECK(failed > 0);
+  for (const auto shows : {TuningModel::Shows::p99, TuningModel::Shows::failures, TuningModel::Shows::mean}) {
+    tuning.shows = shows;
+    ui.frames(2);
+  }
+  ui.click("sweep/point/40");
+  CHECK(ui.solver().gain_curvature_m == tuning.points()[40].values[0]);
+  CHECK(ui.solver().gain_distance_per_m == tuning.points()[40].values[1]);
+  ui.set("method", static_cast<double>(Method::robust));
+  tuning.set_key(1, nullptr);
+  tuning.start_heat_map();
+  CHECK_FALSE(tuning.sweep().running());
+  CHECK(tuning.points().empty());
 }
 
 TEST_CASE("gains are advised only where they leave less by the number shown - taken, they are not advised again") {

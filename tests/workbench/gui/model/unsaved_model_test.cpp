@@ -3,7 +3,12 @@
 
 #include <doctest/doctest.h>
 
+#include <csignal>
 #include <filesystem>
+#include <functional>
+
+#include <sys/wait.h>
+#include <unistd.h>
 
 using namespace tangent;
 using tangent::test::HeadlessApp;
@@ -42,7 +47,105 @@ void crash_in(const testing::TempFolder& folder) {
   std::filesystem::rename(left, folder.path() / "unsaved" / "1.toml");
 }
 
+/// Ends a window by SIGKILL, in a process of its own, after `what` and the moment in which its work is kept.
+void kill_window(const AppOptions& options, const std::function<void(RunningApp&)>& what) {
+  const pid_t child = ::fork();
+  REQUIRE(child >= 0);
+  if (child == 0) {
+    RunningApp ui(options);
+    what(ui);
+    ui.frames(130);  // more than two seconds
+    ::kill(::getpid(), SIGKILL);
+    ::_exit(1);
+  }
+  int status = 0;
+  REQUIRE(::waitpid(child, &status, 0) == child);
+  REQUIRE(WIFSIGNALED(status));
+  REQUIRE(WTERMSIG(status) == SIGKILL);
+}
+
 }  // namespace
+
+TEST_CASE(
+    "a recording that was looked at when the window was killed is offered, and opens at its tick with its marks") {
+  const testing::TempFolder folder;
+  const std::string path = folder.file("run.sqlite");
+  {
+    RunningApp live;
+    live.run(1500);
+    live.model().record().write_history(path);
+  }
+  kill_window(kept_in(folder), [&path](RunningApp& ui) {
+    ui.model().open(path);
+    ui.frames(2);
+    ui.model().time().select_tick(700);
+    ui.model().time().add_bookmark();
+    ui.model().time().bookmarks().set_note(ui.model().time().bookmarks().after(699)->id, "strange");
+    ui.model().presets().set_value(stiffness(), 1234.5);
+    ui.model().time().select_tick(987);
+  });
+  {
+    RunningApp ui(kept_in(folder));
+    ui.frame();
+    CHECK(ui.model().unsaved().offer().find("the recording run.sqlite at tick 987") != std::string::npos);
+    CHECK(ui.model().time().recording() == nullptr);
+    ui.click("unsaved/take_up");
+    ui.frames(2);
+    REQUIRE(ui.model().time().recording() != nullptr);
+    CHECK(ui.model().time().tick().record()->tick.tick == 987);
+    const Bookmark* mark = ui.model().time().bookmarks().after(600);
+    REQUIRE(mark != nullptr);
+    CHECK(mark->tick == 700);
+    CHECK(mark->note == "strange");
+    CHECK(ui.model().presets().current().force.stiffness_n_per_m == 1234.5);
+    CHECK(ui.model().unsaved().offer().empty());
+    ui.model().time().go_live();
+    ui.model().presets().revert_all();
+  }
+  // Closed in order, with a recording open: there is nothing to offer.
+  {
+    RunningApp ui(kept_in(folder));
+    ui.run(100);
+    ui.model().open(path);
+    ui.frames(130);
+    ui.model().presets().revert_all();
+  }
+  RunningApp ui(kept_in(folder));
+  ui.frame();
+  CHECK(ui.model().unsaved().offer().find("recording") == std::string::npos);
+}
+
+TEST_CASE("a recording that was being made when the window was killed is offered, and opens at its end") {
+  const testing::TempFolder folder;
+  const std::string path = folder.file("made.sqlite");
+  kill_window(kept_in(folder), [&path](RunningApp& ui) {
+    ui.model().record().start(path);
+    ui.run(800);
+    ui.frames(3);
+  });
+  RunningApp ui(kept_in(folder));
+  ui.frame();
+  CHECK(ui.model().unsaved().offer().find("being made, made.sqlite") != std::string::npos);
+  ui.click("unsaved/take_up");
+  ui.frames(2);
+  REQUIRE(ui.model().time().recording() != nullptr);
+  CHECK_FALSE(ui.model().time().recording()->info().closed);
+  CHECK(ui.model().time().tick().record()->tick.tick == 799);
+}
+
+TEST_CASE("a recording that is gone since is not offered") {
+  const testing::TempFolder folder;
+  const std::string path = folder.file("gone.sqlite");
+  kill_window(kept_in(folder), [&path](RunningApp& ui) {
+    ui.model().record().start(path);
+    ui.run(300);
+  });
+  for (const char* ending : {"", "-wal", "-shm"}) std::filesystem::remove(path + ending);
+  RunningApp ui(kept_in(folder));
+  ui.frame();
+  CHECK(ui.model().unsaved().offer().empty());
+  CHECK_FALSE(std::filesystem::exists(folder.path() / "unsaved" / "1.toml"));
+}
 
 TEST_CASE("after a crash preset edits with their undo and bookmarks with notes are offered, and taken up on a click") {
   const testing::TempFolder folder;

@@ -78,7 +78,7 @@ TEST_CASE("a finding is listed, gone to, marked, isolated and left again") {
 TEST_CASE("the crease angle is live: the mesh is built anew, the view and the picked triangle stay") {
   AppOptions options = HeadlessApp::deterministic_options();
   options.mesh_options.normals = NormalSource::computed;
-  RunningApp ui(options, 1280.0f, 2400.0f);
+  RunningApp ui(options, 1280.0f, 3000.0f);
   ui.run(50);
   REQUIRE(ui.model().scene().audit()->crease_edges == 0);
   ui.drag("view", {40.0f, 10.0f});

@@ -40,6 +40,14 @@ std::size_t different_bytes(const Image& a, const Image& b) {
   return count;
 }
 
+void record_on_torus(const std::string& path) {
+  AppOptions options = HeadlessApp::deterministic_options();
+  options.mesh = "torus";
+  RunningApp live(options);
+  live.run(2500);
+  live.model().record().write_history(path);
+}
+
 }  // namespace
 
 TEST_CASE("a session that is moved with its recording opens as it was saved: the same picture") {
@@ -47,13 +55,7 @@ TEST_CASE("a session that is moved with its recording opens as it was saved: the
   const testing::TempFolder folder;
   std::filesystem::create_directories(folder.file("here"));
   const std::string here = folder.file("here/");
-  {
-    AppOptions options = HeadlessApp::deterministic_options();
-    options.mesh = "torus";
-    RunningApp live(options);
-    live.run(2500);
-    live.model().record().write_history(here + "run.sqlite");
-  }
+  record_on_torus(here + "run.sqlite");
   const std::string look =
       "tick 1700\nbookmark note here\nmethod newton\ntheme light\ntab record\nleft column width 250\nplots height 210\n"
       "show vertex normals on\norbit 40\nlast 0.9\nplot add force derivative(low_pass(force_z, 20 Hz))\nplot remove "
@@ -65,6 +67,46 @@ TEST_CASE("a session that is moved with its recording opens as it was saved: the
   const Image other = picture_after(folder, "open " + folder.file("there/run.sqlite"));
   CHECK(different_bytes(was, is) == 0);
   CHECK(different_bytes(was, other) > 10'000);
+}
+
+TEST_CASE("a session keeps slice, isolation, what is marked and the map's range: the same picture") {
+  if (!can_draw()) return;
+  const testing::TempFolder folder;
+  record_on_torus(folder.file("run.sqlite"));
+  const std::string open = "open " + folder.file("run.sqlite") + "\ntick 1700\n";
+  const std::string save = "save session " + folder.file("a.session");
+  const Image plain = picture_after(folder, open);
+  for (const char* look :
+       {"map iterations-worst\nmap low 1\nmap high 2.5\n", "map error\nmap logarithmic off\nmap move 0.4 mm\n",
+        "slice across x\nslice at 4 mm\nflip slice\n", "pick 40\nisolate\n"}) {
+    CAPTURE(look);
+    const Image was = picture_after(folder, open + look + save);
+    const Image is = picture_after(folder, "open " + folder.file("a.session"));
+    CHECK(different_bytes(was, is) == 0);
+    CHECK(different_bytes(was, plain) > 10'000);
+  }
+}
+
+TEST_CASE("a session keeps how the value axes stand, zoomed by hand or with the room that they have kept") {
+  if (!can_draw()) return;
+  const testing::TempFolder folder;
+  record_on_torus(folder.file("run.sqlite"));
+  const Image first = picture_after(
+      folder, "open " + folder.file("run.sqlite") + "\ntick 1700\nsave session " + folder.file("a.session"));
+  const std::string saved = testing::read_text(folder.file("a.session"));
+  for (const char* ends : {"0.25 0.75 by hand", "-20 20 automatic"}) {
+    CAPTURE(ends);
+    std::string changed = saved;
+    const std::size_t at = changed.find("axis/force"), from = changed.find_first_of("'\"", changed.find('=', at)) + 1;
+    REQUIRE(at != std::string::npos);
+    changed.replace(from, changed.find_first_of("'\"", from) - from, ends);
+    folder.write("a.session", changed);
+    const Image was =
+        picture_after(folder, "open " + folder.file("a.session") + "\nsave session " + folder.file("b.session"));
+    const Image is = picture_after(folder, "open " + folder.file("b.session"));
+    CHECK(different_bytes(was, is) == 0);
+    if (std::string_view(ends).ends_with("hand")) CHECK(different_bytes(was, first) > 100);
+  }
 }
 
 TEST_CASE("without a recording the history is recorded beside the session, and opens with it") {

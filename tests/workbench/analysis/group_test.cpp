@@ -1,0 +1,274 @@
+// Simulated groups end to end: files, loading, results, page.
+#include "workbench/analysis/write_analysis.h"
+
+#include "workbench/experiment/paper_results.h"
+#include "workbench/experiment/run_simulated.h"
+#include "workbench/experiment/simulated_group.h"
+#include "workbench/session/own_folder.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+namespace tangent::analysis {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace experiment;
+
+std::string text_of(const fs::path& path) {
+  std::ostringstream out;
+  out << std::ifstream(path, std::ios::binary).rdbuf();
+  return out.str();
+}
+fs::path shipped(const std::string& kind) {
+  return fs::path(TANGENT_SOURCE_DIR) / "presets" / "experiments" / (kind + ".toml");
+}
+
+/// Participants 1 to `count` in `folder`.
+void simulate(const fs::path& folder, const std::string& kind, int count, bool pilot = false) {
+  const std::string text = text_of(shipped(kind));
+  const Protocol protocol = *parse_protocol(text, kind);
+  for (int p = 1; p <= count; ++p) {
+    Enrolment who{{"P" + std::to_string(p), "known", pilot}, 0, protocol_digest(protocol)};
+    who.seed = default_seed(who.mark.participant, who.protocol_digest);
+    const auto outcome = run_simulated(folder, protocol, text, who, {});
+    REQUIRE_MESSAGE(outcome, (outcome ? "" : outcome.error().message()));
+    REQUIRE_FALSE(outcome->stopped);
+  }
+}
+Result<Answers> load(const fs::path& path, const LoadOptions& options = {}) {
+  return load_answers(std::vector<fs::path>{path}, options);
+}
+std::string refusal(const Result<Answers>& answers) { return answers ? "" : answers.error().message(); }
+
+TEST_CASE("a group of the paper's size gives the thresholds that it was made with, and the paper's differences") {
+  const auto folder = OwnFolder::make();
+  simulate(folder->path(), "discrimination", kPaperDiscriminationParticipants);
+  const auto answers = load(folder->path());
+  REQUIRE_MESSAGE(answers, refusal(answers));
+  CHECK(answers->simulated);
+  CHECK(answers->comparisons.size() == 12);
+  const ComparisonResults results = comparison_results(answers->comparisons, 20);
+  REQUIRE(results.conditions.size() == 4);
+  for (const ConditionResult& condition : results.conditions) {
+    CAPTURE(condition.condition);
+    CHECK(condition.thresholds.size() == 12);
+    const auto paper = std::find_if(kPaperThresholds.begin(), kPaperThresholds.end(),
+                                    [&](const auto& row) { return row.condition == condition.condition; });
+    // the group's own mean varies by half the paper's interval, the rule by a few percent
+    CHECK(std::abs(condition.segments.mean - paper->segments) < 2.0 * paper->half_interval + 0.15 * paper->segments);
+    CHECK(condition.mean_trials > 25.0);
+    CHECK(condition.mean_trials < 60.0);
+    CHECK(condition.degrees_low < condition.degrees);
+    CHECK(condition.degrees < condition.degrees_high);
+  }
+  REQUIRE(results.between);
+  CHECK(results.between->freedom_between == 3.0);
+  CHECK(results.between->freedom_error == 44.0);
+  CHECK(results.between->p < 0.001);
+  REQUIRE(results.repeated);
+  CHECK(results.repeated->freedom_error == 33.0);
+  REQUIRE(results.pairs.size() == 6);
+  CHECK(results.pairs[1].p < 0.05);  // C1, C3
+  CHECK(results.pairs[4].p > 0.05);  // C2, C4: not different in the paper either
+}
+
+TEST_CASE("a group of the paper's size names objects as its Table 3 says") {
+  const auto folder = OwnFolder::make();
+  simulate(folder->path(), "identification", kPaperIdentificationParticipants);
+  const auto answers = load(folder->path());
+  REQUIRE_MESSAGE(answers, refusal(answers));
+  REQUIRE(answers->namings.size() == 18);
+  const NamingResults results =
+      naming_results(answers->namings, {{"P1", true}, {"P2", false}, {"P3", true}, {"P4", false}});
+  REQUIRE(results.parts.size() == 7);
+  CHECK(results.parts[0].matrix.total() == 18 * 112);
+  CHECK(std::abs(100.0 * results.parts[0].accuracy.ratio - kPaperAccuracyPercent) < 3.0);
+  CHECK(std::abs(results.parts[0].information_bits.mean - 1.82) < 0.12);
+  CHECK(results.parts[1].matrix.total() == results.parts[2].matrix.total());
+  CHECK(results.parts[3].matrix.total() == results.parts[4].matrix.total());
+  CHECK(results.parts[5].participants == 2);
+  double largest = 0.0;
+  for (std::size_t i = 0; i < 7; ++i)
+    for (std::size_t j = 0; j < 7; ++j)
+      largest = std::max(largest, std::abs(100.0 * results.parts[0].matrix.share(i, j) - kPaperConfusionPercent[i][j]));
+  CHECK(largest < 10.0);  // of 288 answers a row: 3.4 deviations of the widest share
+  int different = 0;
+  for (const NamingTest& test : results.tests) different += test.test && test.test->p < 0.01;
+  CHECK(different <= 1);  // shading and feedback change nothing in these participants
+}
+
+TEST_CASE("the page, its figures and tables say that the participants were simulated") {
+  const auto folder = OwnFolder::make();
+  const fs::path data = folder->path() / "data", out = folder->path() / "out";
+  simulate(data, "discrimination", 2);
+  simulate(data, "identification", 2);
+  const auto answers = load(data);
+  REQUIRE(answers);
+  AnalysisOptions options;
+  options.folder = out;
+  options.command = "workbench analyse <data>";
+  options.repeats = 20;
+  const auto page = write_analysis(*answers, options);
+  REQUIRE_MESSAGE(page, (page ? "" : page.error().message()));
+  const std::string html = text_of(*page);
+  CHECK(html.find("Nobody felt anything") != std::string::npos);
+  CHECK(html.find("workbench analyse &lt;data&gt;") != std::string::npos);
+  CHECK(html.find("<script") == std::string::npos);
+  int figures = 0, tables = 0;
+  for (const auto& entry : fs::directory_iterator(out)) {
+    const std::string name = entry.path().filename().string(), text = text_of(entry.path());
+    CAPTURE(name);
+    if (name.ends_with(".svg")) {
+      ++figures;
+      CHECK(text.find("simulated participants") != std::string::npos);
+    } else if (text.starts_with("simulated,")) {
+      ++tables;
+      CHECK(text.find("\nyes,") != std::string::npos);
+      CHECK(text.find("\nno,") == std::string::npos);
+    }
+  }
+  CHECK(figures == 6);  // thresholds, two of staircases, accuracy, times, contact
+  CHECK(tables == 12);  // conditions, anova, pairs, staircases; parts, five confusions, times of objects, tests
+}
+
+TEST_CASE("files that were edited, mixed, doubled, foreign or missing are refused by name") {
+  const auto folder = OwnFolder::make();
+  const fs::path data = folder->path() / "data";
+  simulate(data, "discrimination", 2);
+  const fs::path rows = data / "sub-P1" / "beh" / "sub-P1_task-discrimination_beh.tsv";
+  const std::string whole = text_of(rows);
+  const auto put = [&](const std::string& text) { std::ofstream(rows, std::ios::binary) << text; };
+
+  std::string edited = whole;
+  edited.replace(edited.find("\tyes\tno\t"), 8, "\tno\tno\t");
+  put(edited);
+  CHECK(refusal(load(data)).find("changed by hand") != std::string::npos);
+  CHECK(refusal(load(data)).find("sub-P1") != std::string::npos);
+  const auto allowed = load(data, {.edited = true});
+  REQUIRE(allowed);
+  CHECK(allowed->left_out.size() == 1);
+
+  put(whole.substr(0, whole.size() - 20));  // torn: as after a kill
+  const auto torn = load(data);
+  REQUIRE(torn);
+  REQUIRE(torn->left_out.size() == 1);
+  CHECK(torn->left_out[0].find("not finished") != std::string::npos);
+  put(whole.substr(0, whole.find('\n') + 1));  // the header alone
+  const auto none = load(data);
+  REQUIRE(none);
+  CHECK(none->comparisons.size() == 1);
+  CHECK(none->left_out.size() == 1);
+  std::string impossible = whole;
+  impossible.replace(impossible.find("\t4\t"), 3, "\t-1\t");
+  put(impossible);
+  CHECK(refusal(load(data, {.edited = true})).find(":2") != std::string::npos);
+  put(whole);
+
+  fs::copy(data, folder->path() / "again", fs::copy_options::recursive);
+  const std::vector<fs::path> twice{data, folder->path() / "again"};
+  CHECK(refusal(load_answers(twice, {})).find("too") != std::string::npos);
+
+  const fs::path sidecar = fs::path(rows).replace_extension(".json");
+  const std::string json = text_of(sidecar);
+  std::ofstream(sidecar) << "{}";
+  CHECK(refusal(load(data)).find("sidecar") != std::string::npos);
+  fs::remove(sidecar);
+  CHECK_FALSE(load(data));
+  std::ofstream(sidecar) << json;
+
+  for (const auto& entry : fs::directory_iterator(data))
+    if (entry.path().extension() == ".toml") {
+      const std::string text = text_of(entry.path());
+      std::ofstream(entry.path(), std::ios::app) << "# a comment\n";
+      CHECK(load(data));
+      std::string other = text;
+      other.replace(other.find("reversals = 11"), 14, "reversals = 13");
+      std::ofstream(entry.path()) << other;
+      CHECK(refusal(load(data)).find("was changed") != std::string::npos);
+      std::ofstream(entry.path()) << text;
+    }
+  CHECK(load(data));
+  CHECK_FALSE(load(folder->path() / "nothing"));
+  fs::create_directory(folder->path() / "empty");
+  CHECK(refusal(load(folder->path() / "empty")).find("no answers") != std::string::npos);
+}
+
+TEST_CASE("an object that the protocol does not have is refused by line, edited or not") {
+  const auto folder = OwnFolder::make();
+  simulate(folder->path(), "identification", 1);
+  const fs::path rows = folder->path() / "sub-P1" / "beh" / "sub-P1_task-identification_beh.tsv";
+  std::string text = text_of(rows);
+  text.replace(text.find("\tsphere\t"), 8, "\t<script>\t");
+  std::ofstream(rows, std::ios::binary) << text;
+  CHECK(refusal(load(folder->path(), {.edited = true})).find("<script>") != std::string::npos);
+}
+
+TEST_CASE("pilot runs are left out unless asked for, and a person is not enrolled twice in two ways") {
+  const auto folder = OwnFolder::make();
+  simulate(folder->path(), "discrimination", 1, true);
+  CHECK(refusal(load(folder->path())).find("pilot") != std::string::npos);
+  const auto pilots = load(folder->path(), {.pilots = true});
+  REQUIRE(pilots);
+  CHECK(pilots->comparisons.size() == 1);
+  const std::string text = text_of(shipped("discrimination"));
+  const Protocol protocol = *parse_protocol(text, "p");
+  Enrolment who;
+  who.mark = {"P1", "known", false};
+  who.protocol_digest = protocol_digest(protocol);
+  who.seed = default_seed("P1", who.protocol_digest);
+  const auto again = run_simulated(folder->path(), protocol, text, who, {});
+  REQUIRE_FALSE(again);
+  CHECK(again.error().message().find("as a pilot run") != std::string::npos);
+  who.mark = {"P1", "known", true};
+  who.seed = 5;
+  CHECK(run_simulated(folder->path(), protocol, text, who, {}).error().message().find("seed") != std::string::npos);
+  for (const char* bad : {"", "a/b", "../x", "P 1", "anna", "P1\n"}) {
+    who.mark.participant = bad;
+    CHECK_FALSE(run_simulated(folder->path(), protocol, text, who, {}));
+  }
+}
+
+TEST_CASE("experience is read from participants.tsv") {
+  const auto folder = OwnFolder::make();
+  const fs::path file = folder->path() / "participants.tsv";
+  std::ofstream(file) << "participant_id\tage\texperience\nsub-P1\t20\tyes\nP2\t30\tno\n";
+  const auto read = read_experience(file);
+  REQUIRE(read);
+  CHECK(*read == std::map<std::string, bool>{{"P1", true}, {"P2", false}});
+  std::ofstream(file) << "participant_id\texperience\nP1\tmaybe\n";
+  CHECK(read_experience(file).error().message().find("maybe") != std::string::npos);
+  std::ofstream(file) << "name\n";
+  CHECK_FALSE(read_experience(file));
+}
+
+/// Tukey's test on groups that are made: how often it finds a difference that is there.
+TEST_CASE("power: a difference between two conditions is found as often as theory says") {
+  // Participants' log thresholds differ by one deviation, twelve of them: paired t, 0.05. Theory (noncentral t): 0.89.
+  int found = 0;
+  constexpr int kGroups = 400;
+  SplitMix random(3);
+  for (int g = 0; g < kGroups; ++g) {
+    std::vector<double> a, b;
+    for (int p = 0; p < 12; ++p) {
+      const auto normal = [&] {
+        double sum = -6.0;
+        for (int i = 0; i < 12; ++i) sum += random.unit();
+        return sum;
+      };
+      const double own = normal();
+      a.push_back(own);
+      b.push_back(own + 1.0 + normal());
+    }
+    found += paired_t_test(a, b)->p < 0.05;
+  }
+  MESSAGE("found in ", found, " of ", kGroups);
+  CHECK(std::abs(found / static_cast<double>(kGroups) - 0.886) < 0.05);
+}
+
+}  // namespace
+}  // namespace tangent::analysis

@@ -1,0 +1,82 @@
+#include "tests/support/meshes.h"
+#include "tests/support/process.h"
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+namespace tangent {
+namespace {
+
+using testing::contains;
+using testing::ProcessResult;
+using testing::run_workbench;
+using testing::TempFolder;
+
+std::string shipped(const char* name) {
+  return (std::filesystem::path(TANGENT_SOURCE_DIR) / "presets" / "experiments" / name).string();
+}
+ProcessResult experiment(const TempFolder& folder, const std::string& participant, std::vector<std::string> more = {}) {
+  std::vector<std::string> arguments{"experiment",    shipped("discrimination.toml"),
+                                     "--participant", participant,
+                                     "--out",         folder.file("data"),
+                                     "--simulated",   "known"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return run_workbench(std::move(arguments));
+}
+
+TEST_CASE("experiment and analyse: from a protocol to a page") {
+  const TempFolder folder;
+  for (const char* name : {"P1", "P2"}) {
+    const ProcessResult run = experiment(folder, name);
+    CHECK(run.exit_code == 0);
+    CHECK(contains(run.out, "simulated"));
+  }
+  const ProcessResult again = experiment(folder, "P1");  // nothing is left to do
+  CHECK(again.exit_code == 0);
+  CHECK(contains(again.out, "were there"));
+  const ProcessResult analysed =
+      run_workbench({"analyse", folder.file("data"), "--out", folder.file("out"), "--repeats", "20"});
+  CHECK(analysed.exit_code == 0);
+  CHECK(contains(analysed.out, "2 participants"));
+  CHECK(std::filesystem::exists(folder.file("out/analysis.html")));
+  CHECK(std::filesystem::exists(folder.file("out/thresholds.svg")));
+  CHECK(std::filesystem::exists(folder.file("out/staircases.csv")));
+}
+
+TEST_CASE("experiment: the same seed gives the same bytes, another one others") {
+  const TempFolder a, b, c;
+  REQUIRE(experiment(a, "7", {"--seed", "5"}).exit_code == 0);
+  REQUIRE(experiment(b, "7", {"--seed", "5"}).exit_code == 0);
+  REQUIRE(experiment(c, "7", {"--seed", "6"}).exit_code == 0);
+  const auto rows = [](const TempFolder& folder) {
+    std::ostringstream out;
+    out << std::ifstream(folder.file("data/sub-7/beh/sub-7_task-discrimination_beh.tsv")).rdbuf();
+    return out.str();
+  };
+  CHECK(rows(a).size() > 5000);
+  CHECK(rows(a) == rows(b));
+  CHECK(rows(a) != rows(c));
+}
+
+TEST_CASE("experiment and analyse: what can't be is said, with the exit codes of every command") {
+  const TempFolder folder;
+  CHECK(experiment(folder, "anna").exit_code == 1);
+  CHECK(contains(experiment(folder, "a/1").err, "letters"));
+  CHECK(run_workbench({"experiment", shipped("discrimination.toml"), "--out", folder.file("d")}).exit_code == 2);
+  CHECK(experiment(folder, "1", {"--seed", "-1"}).exit_code == 2);
+  const ProcessResult person =
+      run_workbench({"experiment", shipped("discrimination.toml"), "--participant", "1", "--out", folder.file("d")});
+  CHECK(person.exit_code == 1);
+  CHECK(contains(person.err, "--simulated"));
+  folder.write("bad.toml", "[protocol]\nkind = \"discrimination\"\nname = \"x\"\nlength = 4\n");
+  const ProcessResult bad = run_workbench(
+      {"experiment", folder.file("bad.toml"), "--participant", "1", "--out", folder.file("d"), "--simulated", "known"});
+  CHECK(bad.exit_code == 1);
+  CHECK(contains(bad.err, "bad.toml:4"));
+  CHECK(run_workbench({"analyse", folder.file("nothing"), "--out", folder.file("o")}).exit_code == 1);
+  CHECK(run_workbench({"analyse"}).exit_code == 2);
+}
+
+}  // namespace
+}  // namespace tangent

@@ -1,0 +1,114 @@
+#include "workbench/experiment/protocol.h"
+
+#include <doctest/doctest.h>
+
+#include <fstream>
+#include <sstream>
+
+namespace tangent::experiment {
+namespace {
+
+std::filesystem::path shipped(const std::string& name) {
+  return std::filesystem::path(TANGENT_SOURCE_DIR) / "presets" / "experiments" / (name + ".toml");
+}
+std::string text_of(const std::filesystem::path& path) {
+  std::ostringstream out;
+  out << std::ifstream(path).rdbuf();
+  return out.str();
+}
+std::string changed(const std::string& name, const std::string& from, const std::string& to) {
+  std::string text = text_of(shipped(name));
+  const std::size_t at = text.find(from);
+  REQUIRE(at != std::string::npos);
+  return text.replace(at, from.size(), to);
+}
+
+TEST_CASE("the first shipped protocol has the paper's numbers") {
+  const auto protocol = read_protocol(shipped("discrimination"));
+  REQUIRE_MESSAGE(protocol, (protocol ? "" : protocol.error().message()));
+  const Discrimination* d = protocol->discrimination();
+  REQUIRE(d);
+  CHECK(d->radius_m == 0.1);
+  CHECK(d->angle_rad == 0.902);
+  REQUIRE(d->conditions.size() == 4);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const StaircaseRule& rule = d->conditions[i].staircase;
+    CHECK(d->conditions[i].name == "C" + std::to_string(i + 1));
+    CHECK(rule.reversals == 11);
+    CHECK(rule.large_reversals == 3);
+    CHECK(rule.averaged == 6);
+    CHECK(rule.down == 2);
+    CHECK(rule.large_step > rule.small_step);
+  }
+  CHECK(protocol->preset.finger.radius_m == 0.020);
+  CHECK(protocol->preset.display.travel_m == 0.016);
+}
+
+TEST_CASE("the second shipped protocol has the paper's numbers") {
+  const auto protocol = read_protocol(shipped("identification"));
+  REQUIRE_MESSAGE(protocol, (protocol ? "" : protocol.error().message()));
+  const Identification* d = protocol->identification();
+  REQUIRE(d);
+  CHECK(d->objects ==
+        std::vector<std::string>{"cone", "cylinder", "cube", "sphere", "tetrahedron", "octagon", "triangle"});
+  CHECK(d->practice == "hexagon");
+  CHECK(d->rounding_m == 1.5e-3);
+  CHECK(d->sessions * d->blocks * d->runs == 8);
+  CHECK(d->hold_s == 1.0);
+  CHECK(d->tactile_first_even);
+}
+
+TEST_CASE("a digest is of what a participant meets, not of how the file is written") {
+  const auto protocol = read_protocol(shipped("discrimination"));
+  const auto again = parse_protocol(changed("discrimination", "# Experiment 1", "# Something else"), "p.toml");
+  const auto other = parse_protocol(changed("discrimination", "reversals = 11 ", "reversals = 12 "), "p.toml");
+  const auto limit =
+      parse_protocol(changed("discrimination", "\"force.limit_n\" = 6.0", "\"force.limit_n\" = 5.0"), "p.toml");
+  REQUIRE(again);
+  REQUIRE(other);
+  REQUIRE(limit);
+  CHECK(protocol_digest(*again) == protocol_digest(*protocol));
+  CHECK(protocol_digest(*other) != protocol_digest(*protocol));
+  CHECK(protocol_digest(*limit) != protocol_digest(*protocol));
+  CHECK(protocol_digest(*protocol).size() == 16);
+}
+
+TEST_CASE("a protocol that can't be says where and what to do") {
+  struct Bad {
+    const char *file, *from, *to, *named;
+  };
+  const Bad kBad[] = {
+      {"discrimination", "reversals = 11", "reversals = 0", "reversals"},
+      {"discrimination", "averaged = 6", "averaged = 20", "averaged"},
+      {"discrimination", "name = \"C1\"", "name = \"C9\"", "C1, C2"},
+      {"discrimination", "name = \"C2\"", "name = \"C1\"", "twice"},
+      {"discrimination", "fewest = 3", "fewest = 5000", "fewest"},
+      {"discrimination", "start = 26", "start = 1", "start"},
+      {"discrimination", "[arc]", "[arch]", "arch"},
+      {"discrimination", "radius_m = 0.100", "radius = 0.1", "radius"},
+      {"discrimination", "\"finger.radius_m\" = 0.020", "\"finger.size_m\" = 0.020", "finger.size_m"},
+      {"discrimination", "kind = \"discrimination\"", "kind = \"taste\"", "kind"},
+      {"identification", "\"cube\", ", "\"blob\", ", "blob"},
+      {"identification", "\"cube\", ", "\"cone\", ", "twice"},
+      {"identification", "both_ways = [\"cone\"", "both_ways = [\"cube\"", "both ways"},
+      {"identification", "runs = 2 ", "runs = 3 ", "even"},
+      {"identification", "blocks = 2 ", "blocks = 1 ", "even"},
+      {"identification", "hold_s = 1.0", "hold_s = nan", "hold_s"},
+      {"identification", "place_m = [0.0, 0.0, 0.08]", "place_m = [0.0, 0.0]", "three numbers"},
+      {"identification", "tactile_first = \"even\"", "tactile_first = 2", "even"},
+  };
+  for (const Bad& bad : kBad) {
+    CAPTURE(bad.to);
+    const auto protocol = parse_protocol(changed(bad.file, bad.from, bad.to), "p.toml");
+    REQUIRE_FALSE(protocol);
+    CAPTURE(protocol.error().message());
+    CHECK(protocol.error().message().find(bad.named) != std::string::npos);
+    CHECK(protocol.error().message().find("p.toml") != std::string::npos);
+  }
+  CHECK_FALSE(parse_protocol("", "p.toml"));
+  CHECK_FALSE(parse_protocol("[protocol]\nkind = \"identification\"\nname = \"x\"\n", "p.toml"));
+  CHECK_FALSE(read_protocol("/nonexistent/p.toml"));
+}
+
+}  // namespace
+}  // namespace tangent::experiment

@@ -1,0 +1,97 @@
+#include "workbench/analysis/comparison_results.h"
+
+#include "core/base/fnv.h"
+#include "core/base/units.h"
+
+#include <cmath>
+
+namespace tangent::analysis {
+namespace {
+
+using experiment::ComparisonCondition;
+using experiment::ComparisonRow;
+using experiment::Staircase;
+using Comparer = ParticipantAnswers<ComparisonRow>;
+
+double degrees_at(const experiment::Discrimination& design, double segments) {
+  const double angles = design.placement == ArcPlacement::tangent ? segments - 1.0 : segments;
+  return angles > 0.0 ? design.angle_rad / angles / kDegree : std::nan("");
+}
+
+/// None where the participant has not begun it.
+std::optional<StaircaseResult> staircase_of(const Comparer& participant, const ComparisonCondition& condition,
+                                            int repeats) {
+  StaircaseResult out;
+  out.participant = participant.name();
+  out.condition = condition.name;
+  Staircase staircase(condition.staircase);
+  std::vector<ComparisonAnswer> answers;
+  for (const ComparisonRow& row : participant.rows) {
+    if (row.condition != condition.name) continue;
+    if (staircase.answer(row.right)) out.reversals.push_back(out.trials);
+    ++out.trials;
+    out.levels.push_back(row.segments);
+    out.right.push_back(row.right ? 1 : 0);
+    answers.push_back({static_cast<double>(row.segments), row.right});
+  }
+  if (answers.empty()) return std::nullopt;
+  if (staircase.settled()) out.segments = staircase.threshold();
+  const std::uint64_t seed = Fnv().add(out.participant).add("|").add(out.condition).value();
+  out.fitted = fit_threshold(answers, condition.staircase, seed, repeats);
+  return out;
+}
+
+ConditionResult condition_of(const std::string& name, const experiment::Discrimination& design,
+                             const std::vector<StaircaseResult>& staircases) {
+  ConditionResult out;
+  out.condition = name;
+  double trials = 0.0, bias = 0.0, count = 0.0;
+  for (const StaircaseResult& one : staircases) {
+    if (one.condition != name) continue;
+    count += 1.0;
+    trials += one.trials;
+    bias += std::log(one.fitted.rule_bias);
+    if (one.segments)
+      out.thresholds.push_back(*one.segments);
+    else
+      ++out.not_settled;
+  }
+  if (count > 0.0) {
+    out.mean_trials = trials / count;
+    out.rule_bias = std::exp(bias / count);
+  }
+  out.segments = mean_interval(out.thresholds);
+  if (out.thresholds.empty()) return out;
+  out.degrees = degrees_at(design, out.segments.mean);
+  out.degrees_low = degrees_at(design, out.segments.high());
+  out.degrees_high = degrees_at(design, out.segments.low());
+  return out;
+}
+
+}  // namespace
+
+ComparisonResults comparison_results(const std::vector<Comparer>& participants, int repeats,
+                                     const std::function<bool()>& stop) {
+  ComparisonResults out;
+  if (participants.empty()) return out;
+  const experiment::Discrimination& design = *participants.front().protocol.discrimination();
+  for (const Comparer& participant : participants) {
+    for (const ComparisonCondition& condition : design.conditions) {
+      if (stop && stop()) return out;
+      if (auto one = staircase_of(participant, condition, repeats)) out.staircases.push_back(std::move(*one));
+    }
+  }
+  std::vector<std::vector<double>> groups;
+  bool all = true;
+  for (const ComparisonCondition& condition : design.conditions) {
+    out.conditions.push_back(condition_of(condition.name, design, out.staircases));
+    groups.push_back(out.conditions.back().thresholds);
+    all = all && groups.back().size() == participants.size();
+  }
+  out.between = one_way_anova(groups);
+  if (all) out.repeated = repeated_measures_anova(groups);
+  if (out.between) out.pairs = tukey_test(groups, *out.between);
+  return out;
+}
+
+}  // namespace tangent::analysis

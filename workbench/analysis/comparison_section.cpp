@@ -1,0 +1,170 @@
+// The page's part on comparisons.
+#include "workbench/analysis/analysis_figures.h"
+#include "workbench/analysis/analysis_page.h"
+#include "workbench/analysis/page_table.h"
+#include "workbench/experiment/paper_results.h"
+
+#include <cmath>
+
+namespace tangent::analysis {
+namespace {
+
+const experiment::PaperThreshold* paper_of(const std::string& condition) {
+  for (const auto& row : experiment::kPaperThresholds)
+    if (row.condition == condition) return &row;
+  return nullptr;
+}
+
+PageTable conditions_table(const ComparisonResults& results, bool simulated) {
+  PageTable table("conditions",
+                  "Thresholds over participants, with 95 % intervals; in degrees between neighbouring segments.",
+                  simulated);
+  table.column("Condition", "condition").column("Participants", "participants").column("Not settled", "not_settled");
+  table.column("Segments", "segments").column("from", "segments_low").column("to", "segments_high");
+  table.column("Degrees", "degrees").column("from", "degrees_low").column("to", "degrees_high");
+  table.column("Trials each", "trials").column("Rule over fit", "rule_bias");
+  table.column("Paper, segments", "paper_segments").column("\xC2\xB1", "paper_half");
+  for (const ConditionResult& c : results.conditions) {
+    const experiment::PaperThreshold* paper = paper_of(c.condition);
+    const bool some = !c.thresholds.empty();
+    const double none = std::nan("");
+    const auto value = [&](PageTable::Row& row, double v, int decimals) { row.number(v, decimals_text(v, decimals)); };
+    PageTable::Row row = table.row();
+    row.text(c.condition).count(c.thresholds.size()).count(c.not_settled);
+    value(row, some ? c.segments.mean : none, 1);
+    value(row, some ? c.segments.low() : none, 1);
+    value(row, some ? c.segments.high() : none, 1);
+    value(row, some ? c.degrees : none, 2);
+    value(row, some ? c.degrees_low : none, 2);
+    value(row, some ? c.degrees_high : none, 2);
+    value(row, c.mean_trials, 1);
+    value(row, c.rule_bias, 3);
+    value(row, paper != nullptr ? paper->segments : none, 1);
+    value(row, paper != nullptr ? paper->half_interval : none, 2);
+  }
+  return table;
+}
+
+PageTable anova_table(const ComparisonResults& results, bool simulated) {
+  PageTable table("anova", "Do conditions differ: analysis of variance of the thresholds in segments.", simulated);
+  table.column("Analysis", "analysis").column("F", "f").column("Degrees of freedom", "freedom_between");
+  table.column("and", "freedom_error").column("p", "p");
+  const auto add = [&](const std::string& name, const std::optional<VarianceAnalysis>& a) {
+    if (!a) return;
+    table.row()
+        .text(name)
+        .number(a->f, decimals_text(a->f, 2))
+        .number(a->freedom_between, decimals_text(a->freedom_between, 0))
+        .number(a->freedom_error, decimals_text(a->freedom_error, 0))
+        .number(a->p, probability_text(a->p));
+  };
+  add("participants as independent (as in the paper)", results.between);
+  add("within participants", results.repeated);
+  return table;
+}
+
+PageTable pairs_table(const ComparisonResults& results, bool simulated) {
+  PageTable table("pairs",
+                  "Pairs of conditions by Tukey's test, in segments; the intervals hold for all pairs at once.",
+                  simulated);
+  table.column("First", "first").column("Second", "second").column("Difference", "difference");
+  table.column("from", "low").column("to", "high").column("p", "p").column("Different", "different");
+  for (const TukeyPair& pair : results.pairs)
+    table.row()
+        .text(results.conditions[pair.first].condition)
+        .text(results.conditions[pair.second].condition)
+        .number(pair.difference, decimals_text(pair.difference, 1))
+        .number(pair.low, decimals_text(pair.low, 1))
+        .number(pair.high, decimals_text(pair.high, 1))
+        .number(pair.p, probability_text(pair.p))
+        .text(pair.p < 0.05 ? "yes" : "no");
+  return table;
+}
+
+PageTable staircases_table(const ComparisonResults& results, bool simulated) {
+  PageTable table("staircases",
+                  "Each staircase: the rule's mean of reversals, and a psychometric function fitted to its answers.",
+                  simulated);
+  table.column("Participant", "participant").column("Condition", "condition").column("Trials", "trials");
+  table.column("Rule, segments", "rule_segments").column("Fit, segments", "fit_segments").column("from", "fit_low");
+  table.column("to", "fit_high")
+      .column("Spread", "fit_spread")
+      .column("Lapses", "fit_lapse")
+      .column("Rule over fit", "rule_bias");
+  for (const StaircaseResult& one : results.staircases) {
+    const double rule = one.segments.value_or(std::nan(""));
+    table.row()
+        .text(one.participant)
+        .text(one.condition)
+        .count(static_cast<std::uint64_t>(one.trials))
+        .number(rule, one.segments ? decimals_text(rule, 1) : "not settled")
+        .number(one.fitted.segments, decimals_text(one.fitted.segments, 1))
+        .number(one.fitted.low, decimals_text(one.fitted.low, 1))
+        .number(one.fitted.high, decimals_text(one.fitted.high, 1))
+        .number(one.fitted.fit.spread, decimals_text(one.fitted.fit.spread, 2))
+        .number(one.fitted.fit.lapse, decimals_text(one.fitted.fit.lapse, 2))
+        .number(one.fitted.rule_bias, decimals_text(one.fitted.rule_bias, 2));
+  }
+  return table;
+}
+
+Result<std::string> figure_html(const Figure& figure, const std::string& caption) {
+  const Result<std::string> svg = figure_svg(figure);
+  if (!svg) return tl::unexpected(svg.error());
+  return element("figure", element("div", *svg, "class=\"figure\"") + element("figcaption", escaped(caption)));
+}
+
+/// Staircases of the participant that they begin with.
+std::vector<std::span<const StaircaseResult>> by_participant(const std::vector<StaircaseResult>& all) {
+  std::vector<std::span<const StaircaseResult>> out;
+  for (std::size_t first = 0; first < all.size();) {
+    std::size_t end = first;
+    while (end < all.size() && all[end].participant == all[first].participant) ++end;
+    out.emplace_back(all.data() + first, end - first);
+    first = end;
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<Figure> comparison_figures(const ComparisonResults& results, bool simulated) {
+  std::vector<Figure> out{thresholds_figure(results, simulated)};
+  int number = 1;
+  for (const auto& one : by_participant(results.staircases))
+    out.push_back(staircases_figure(one, "staircases" + std::to_string(number++), simulated));
+  return out;
+}
+
+Result<Section> comparison_section(const ComparisonResults& results, bool simulated) {
+  Section out;
+  out.html = element("h2", "Which of two is smooth");
+  const auto thresholds = figure_html(thresholds_figure(results, simulated),
+                                      "Thresholds in segments, mean and 95 % interval, beside the paper's Table 1.");
+  if (!thresholds) return tl::unexpected(thresholds.error());
+  out.html += *thresholds;
+  const PageTable tables[] = {conditions_table(results, simulated), anova_table(results, simulated),
+                              pairs_table(results, simulated), staircases_table(results, simulated)};
+  for (const PageTable& table : tables) {
+    out.html += table.html();
+    out.tables.emplace_back(table.name(), table.csv());
+  }
+  out.html += paragraph(
+      "Rule over fit: where the rule's mean of reversals settles over the fitted threshold, found by running the "
+      "staircase "
+      "again and again with the fitted function; steps decide it. The paper's own angles: its means are 51.68 / (n - "
+      "1) "
+      "degrees, the ends of its intervals 51.68 / n.");
+  out.html += element("h3", "Staircases");
+  int number = 1;
+  for (const auto& one : by_participant(results.staircases)) {
+    const auto figure =
+        figure_html(staircases_figure(one, "staircases" + std::to_string(number++), simulated),
+                    "Participant " + one.front().participant + ": filled right, open wrong, squares reversals.");
+    if (!figure) return tl::unexpected(figure.error());
+    out.html += *figure;
+  }
+  return out;
+}
+
+}  // namespace tangent::analysis

@@ -1,0 +1,133 @@
+#include "workbench/analysis/write_analysis.h"
+
+#include "core/io/atomic_file.h"
+#include "core/io/input_file.h"
+#include "workbench/analysis/analysis_page.h"
+#include "workbench/report/html.h"
+#include "workbench/report/page.h"
+
+#include <algorithm>
+#include <set>
+
+namespace tangent::analysis {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMaxTableBytes = std::size_t{1} << 20;
+
+Status write_all(const fs::path& folder, const std::vector<CsvFile>& tables, const std::vector<Figure>& figures) {
+  for (const auto& [name, text] : tables)
+    if (Status ok = write_file_atomic(folder / (name + ".csv"), text, false); !ok) return ok;
+  for (const Figure& figure : figures)
+    if (Status ok = write_figure(figure, folder); !ok) return ok;
+  return {};
+}
+
+template <class T>
+void append(std::vector<T>& to, std::vector<T> from) {
+  for (T& one : from) to.push_back(std::move(one));
+}
+
+std::string counts_text(const Answers& answers) {
+  std::size_t rows = 0;
+  std::set<std::string> names;
+  for (const auto& one : answers.comparisons) rows += one.rows.size(), names.insert(one.name());
+  for (const auto& one : answers.namings) rows += one.rows.size(), names.insert(one.name());
+  return std::to_string(names.size()) + " participants, " + std::to_string(rows) + " answers";
+}
+
+}  // namespace
+
+std::string page(const Answers& answers, const std::string& sections, const std::string& command) {
+  std::string body = element("h1", answers.simulated ? "Experiments with simulated participants" : "Experiments");
+  body += paragraph(counts_text(answers) + ". Program " TANGENT_VERSION ".");
+  if (answers.simulated)
+    body += element("p",
+                    "Nobody felt anything: these participants are programs. What follows shows what the protocol and "
+                    "its analysis find in answers whose law is known.",
+                    "class=\"bad\"");
+  std::set<std::string> protocols;
+  for (const auto& one : answers.comparisons)
+    protocols.insert(one.protocol.name + ", version " + std::to_string(one.protocol.version) + " (" +
+                     one.enrolment.protocol_digest + ")");
+  for (const auto& one : answers.namings)
+    protocols.insert(one.protocol.name + ", version " + std::to_string(one.protocol.version) + " (" +
+                     one.enrolment.protocol_digest + ")");
+  for (const std::string& protocol : protocols) body += paragraph("Protocol: " + protocol + ".");
+  for (const std::string& note : answers.left_out) body += paragraph("Note: " + note + ".");
+  body += command_html(command) + sections;
+  return "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
+         "content=\"width=device-width, initial-scale=1\"><title>" +
+         std::string(answers.simulated ? "Experiments (simulated)" : "Experiments") + "</title><style>" + page_style() +
+         "</style></head><body>" + body + "</body></html>\n";
+}
+
+Result<fs::path> write_analysis(const Answers& answers, const AnalysisOptions& options) {
+  std::error_code error;
+  fs::create_directories(options.folder, error);
+  if (error)
+    return fail("can't be made: " + error.message(), options.folder.string(), "choose a folder that may be written");
+  std::vector<CsvFile> tables;
+  std::vector<Figure> figures;
+  std::string sections;
+  if (!answers.comparisons.empty()) {
+    const ComparisonResults results = comparison_results(answers.comparisons, options.repeats, options.stop);
+    if (options.stop()) return fail("stopped, nothing is written", options.folder.string());
+    auto section = comparison_section(results, answers.simulated);
+    if (!section) return tl::unexpected(section.error());
+    sections += section->html;
+    append(tables, std::move(section->tables));
+    append(figures, comparison_figures(results, answers.simulated));
+  }
+  if (!answers.namings.empty()) {
+    const NamingResults results = naming_results(answers.namings, options.experienced);
+    auto section = naming_section(results, answers.simulated);
+    if (!section) return tl::unexpected(section.error());
+    sections += section->html;
+    append(tables, std::move(section->tables));
+    append(figures, naming_figures(results, answers.simulated));
+  }
+  if (Status ok = write_all(options.folder, tables, figures); !ok) return tl::unexpected(ok.error());
+  const fs::path file = options.folder / "analysis.html";
+  if (Status ok = write_file_atomic(file, page(answers, sections, options.command)); !ok)
+    return tl::unexpected(ok.error());
+  return file;
+}
+
+Result<std::map<std::string, bool>> read_experience(const fs::path& file) {
+  const Result<std::string> text = read_input_file(file, kMaxTableBytes);
+  if (!text) return tl::unexpected(text.error());
+  std::map<std::string, bool> out;
+  std::size_t name_at = 0, experience_at = 0, number = 0;
+  std::string_view rest = *text;
+  while (!rest.empty()) {
+    std::string_view line = rest.substr(0, rest.find('\n'));
+    rest.remove_prefix(std::min(rest.size(), line.size() + 1));
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    if (line.empty()) continue;
+    std::vector<std::string> fields(1);
+    for (const char c : line) {
+      if (c == '\t')
+        fields.emplace_back();
+      else
+        fields.back() += c;
+    }
+    const std::string where = file.string() + ":" + std::to_string(++number);
+    if (number == 1) {
+      name_at = static_cast<std::size_t>(std::find(fields.begin(), fields.end(), "participant_id") - fields.begin());
+      experience_at = static_cast<std::size_t>(std::find(fields.begin(), fields.end(), "experience") - fields.begin());
+      if (std::max(name_at, experience_at) < fields.size()) continue;
+      return fail("has no columns participant_id and experience, apart by tabs", where, "write them");
+    }
+    if (std::max(name_at, experience_at) >= fields.size()) return fail("has too few fields", where);
+    const std::string& name = fields[name_at];
+    const std::string& experience = fields[experience_at];
+    if (experience != "yes" && experience != "no")
+      return fail("experience is \"" + experience + "\"", where, "write yes or no");
+    out[name.starts_with("sub-") ? name.substr(4) : name] = experience == "yes";
+  }
+  return out;
+}
+
+}  // namespace tangent::analysis

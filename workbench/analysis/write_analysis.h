@@ -1,0 +1,31 @@
+// An analysis as a folder: analysis.html (one page that needs nothing else), the figures as SVG with their data as CSV,
+// and every table as CSV.
+#pragma once
+
+#include "workbench/analysis/comparison_results.h"
+#include "workbench/analysis/naming_results.h"
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <string>
+
+namespace tangent::analysis {
+
+struct AnalysisOptions {
+  std::filesystem::path folder;
+  std::string command;  ///< that makes it again
+  int repeats = 1000;   ///< of each staircase's bootstrap
+  std::map<std::string, bool> experienced;
+  std::function<bool()> stop = [] { return false; };
+};
+
+/// Returns the page's path. Nothing is left half written. Fails where it is stopped, a figure can't be drawn or a file
+/// can't be written.
+Result<std::filesystem::path> write_analysis(const Answers& answers, const AnalysisOptions& options);
+
+/// participants.tsv (BIDS) with columns participant_id ("sub-7") and experience ("yes", "no"). Fails on what is no such
+/// table.
+Result<std::map<std::string, bool>> read_experience(const std::filesystem::path& file);
+
+}  // namespace tangent::analysis

@@ -1,0 +1,74 @@
+// workbench experiment: a participant through a protocol.
+#include "core/io/input_file.h"
+#include "workbench/cli/command.h"
+#include "workbench/cli/interrupt.h"
+#include "workbench/cli/messages.h"
+#include "workbench/cli/option.h"
+#include "workbench/experiment/run_simulated.h"
+
+#include <CLI/CLI.hpp>
+
+#include <cstdio>
+#include <memory>
+#include <optional>
+
+namespace tangent {
+namespace {
+
+struct ExperimentCommandOptions {
+  std::filesystem::path protocol, out;
+  std::string participant, simulated;
+  std::optional<double> seed;
+  bool pilot = false;
+};
+
+Result<int> run_experiment(const ExperimentCommandOptions& options) {
+  const InterruptGuard guard;
+  const Result<std::string> text = read_input_file(options.protocol, std::size_t{1} << 20);
+  if (!text) return tl::unexpected(text.error());
+  const Result<experiment::Protocol> protocol = experiment::parse_protocol(*text, options.protocol);
+  if (!protocol) return tl::unexpected(protocol.error());
+  if (options.simulated.empty())
+    return fail("people can't take part yet: trials with a device are not there", "experiment",
+                "say --simulated known to try the protocol and its analysis");
+  experiment::Enrolment enrolment;
+  enrolment.mark = {options.participant, options.simulated, options.pilot};
+  enrolment.protocol_digest = experiment::protocol_digest(*protocol);
+  enrolment.seed = options.seed ? static_cast<std::uint64_t>(*options.seed)
+                                : experiment::default_seed(options.participant, enrolment.protocol_digest);
+  const auto outcome = experiment::run_simulated(options.out, *protocol, *text, enrolment, InterruptGuard::requested);
+  if (!outcome) return tl::unexpected(outcome.error());
+  std::printf("%s: %zu trials%s, simulated\n", outcome->rows.c_str(), outcome->before + outcome->made,
+              outcome->before > 0 ? (" (" + std::to_string(outcome->before) + " were there)").c_str() : "");
+  if (!outcome->stopped) return kDone;
+  print_message("experiment", "interrupted; the same command goes on from there");
+  return kFailed;
+}
+
+}  // namespace
+
+void add_experiment_command(CLI::App& app, CommandResult& result) {
+  CLI::App* command =
+      add_command(app, "experiment", "Take a participant through an experiment's protocol (simulated ones, so far)");
+  auto options = std::make_shared<ExperimentCommandOptions>();
+  ExperimentCommandOptions* o = options.get();
+  add_text_option(*command, "PROTOCOL", o->protocol,
+                  "What is shown, in which order: presets/experiments has the paper's two", "P.toml", Needed::yes);
+  add_text_option(*command, "--participant", o->participant, "A name that ends with a number, which the orders go by",
+                  "ID", Needed::yes);
+  add_text_option(*command, "--out", o->out, "Folder for the answers of all participants", "DIR", Needed::yes);
+  add_choice_option(*command, "--simulated", experiment::kSimulatedKinds,
+                    "Nobody feels anything: a simulated participant answers",
+                    [o](std::size_t i) { o->simulated = experiment::kSimulatedKinds[i]; });
+  add_number_option(*command, "--seed", {.min = 0, .max = 9e15, .whole = true},
+                    "Of orders and simulated answers (default: by participant and protocol)",
+                    [o](double seed) { o->seed = seed; });
+  add_flag(*command, "--pilot", o->pilot, "A trial run: marked in every row, not analysed with the others");
+  on_run(*command, [options, &result] {
+    const Result<int> code = run_experiment(*options);
+    if (!code) print_message("experiment", code.error().message());
+    result.exit_code = code ? *code : kFailed;
+  });
+}
+
+}  // namespace tangent

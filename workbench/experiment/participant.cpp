@@ -1,0 +1,100 @@
+#include "workbench/experiment/participant.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tangent::experiment {
+namespace {
+
+constexpr double kExploring = 3.0;  // s, of one stimulus of a comparison
+
+/// Puts moments into a run, one after the other.
+template <class Run>
+class Actor {
+ public:
+  explicit Actor(Run& run) : run_(run) {}
+  std::optional<typename Run::Row> press(Key key, int digit = 0) { return act(0.2, false, key, digit); }
+  void feel(double seconds) {
+    act(0.3, true);
+    act(seconds, true);
+    act(0.1, false);
+  }
+  std::optional<typename Run::Row> act(double passed, bool touching, Key key = Key::none, int digit = 0,
+                                       double from_start_m = 0.0) {
+    moment_.t_s += passed;
+    moment_.touching = touching;
+    moment_.key = key;
+    moment_.digit = digit;
+    moment_.from_start_m = from_start_m;
+    return run_.advance(moment_);
+  }
+
+ private:
+  Run& run_;
+  Moment moment_;
+};
+
+std::size_t draw(std::span<const double> shares, SplitMix& random) {
+  double at = random.unit();
+  for (std::size_t i = 0; i + 1 < shares.size(); ++i)
+    if ((at -= shares[i]) < 0.0) return i;
+  return shares.size() - 1;
+}
+
+}  // namespace
+
+void take_part(ComparisonRun& run, const KnownComparer& participant, std::uint64_t seed,
+               const std::function<void(const ComparisonRow&)>& row) {
+  Actor actor(run);
+  int comparison = 0, exact_at = 0;
+  while (!run.finished()) {
+    const Shown shown = run.shown();
+    if (shown.phase == Phase::training) {
+      actor.press(Key::enter);
+      continue;
+    }
+    actor.feel(kExploring);
+    if (shown.phase == Phase::first) {
+      exact_at = shown.stimulus.segments == 0 ? 1 : 2;
+      comparison = shown.stimulus.segments;
+      actor.press(Key::enter);
+      continue;
+    }
+    comparison = std::max(comparison, shown.stimulus.segments);
+    Psychometric function = participant.functions.at(shown.stimulus.condition);
+    function.middle *= std::exp(participant.drift * run.trials_in_condition() / 100.0);
+    // By the trial's own place, so that one who is interrupted answers as one who is not.
+    SplitMix random(seed, static_cast<std::uint64_t>(run.progress().done));
+    const bool right = random.unit() < function.right(comparison);
+    actor.press(Key::digit, right ? exact_at : 3 - exact_at);
+    if (const auto made = actor.press(Key::enter)) row(*made);
+  }
+}
+
+void take_part(NamingRun& run, const Identification& design, const KnownNamer& participant, std::uint64_t seed,
+               const std::function<void(const NamingRow&)>& row) {
+  Actor actor(run);
+  while (!run.finished()) {
+    const Shown& shown = run.shown();
+    if (shown.phase == Phase::guide) {
+      actor.act(0.5, false);
+      actor.act(design.hold_s, false);
+      continue;
+    }
+    if (shown.phase != Phase::explore) {
+      actor.press(Key::enter);
+      continue;
+    }
+    const auto at = std::find(design.objects.begin(), design.objects.end(), shown.stimulus.object);
+    SplitMix random(seed, static_cast<std::uint64_t>(run.progress().done));
+    const std::size_t answer = draw(participant.shares[static_cast<std::size_t>(at - design.objects.begin())], random);
+    const double seconds = participant.seconds * -std::log(1.0 - 0.999 * random.unit());
+    actor.act(0.3, true, Key::none, 0, 0.1);
+    actor.act(seconds * participant.touching_share, true, Key::none, 0, 0.1);
+    actor.act(0.0, false, Key::none, 0, 0.1);
+    actor.act(seconds * (1.0 - participant.touching_share), false, Key::none, 0, 0.1);
+    if (const auto made = actor.act(0.1, false, Key::digit, static_cast<int>(answer) + 1, 0.1)) row(*made);
+  }
+}
+
+}  // namespace tangent::experiment

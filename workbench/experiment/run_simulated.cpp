@@ -1,0 +1,110 @@
+#include "workbench/experiment/run_simulated.h"
+
+#include "core/base/fnv.h"
+#include "workbench/experiment/order.h"
+#include "workbench/experiment/simulated_group.h"
+
+namespace tangent::experiment {
+namespace {
+
+/// Thrown out of a run that is asked to stop, or can't be written.
+struct Stopped {};
+
+class Recorder {
+ public:
+  Recorder(RowFile& file, const RunMark& mark, const std::function<bool()>& stop, SimulatedOutcome& out)
+      : file_(file), mark_(mark), stop_(stop), out_(out) {}
+  template <class Row>
+  void add(const Row& row) {
+    status_ = file_.add(fields_of(mark_, row));
+    if (!status_) throw Stopped{};
+    ++out_.made;
+    out_.stopped = stop_ && stop_();
+    if (out_.stopped) throw Stopped{};
+  }
+  const Status& status() const { return status_; }
+
+ private:
+  RowFile& file_;
+  const RunMark& mark_;
+  const std::function<bool()>& stop_;
+  SimulatedOutcome& out_;
+  Status status_;
+};
+
+Fields names_of(std::span<const ColumnMeaning> columns) {
+  Fields out;
+  for (const ColumnMeaning& column : columns) out.emplace_back(column.name);
+  return out;
+}
+
+template <class Row, class Read>
+Result<std::vector<Row>> rows_in(const RowFile& file, std::span<const ColumnMeaning> columns, Read read) {
+  std::vector<Row> out;
+  const Fields names = names_of(columns);
+  for (const Fields& fields : file.rows()) {
+    auto row = read(names, fields);
+    if (!row) return tl::unexpected(row.error());
+    out.push_back(std::move(row->second));
+  }
+  return out;
+}
+
+Status compare(const Protocol& protocol, const Enrolment& enrolment, std::uint64_t number, const RowFile& file,
+               Recorder& recorder) {
+  const auto rows = rows_in<ComparisonRow>(file, comparison_columns(), comparison_row);
+  if (!rows) return tl::unexpected(rows.error());
+  auto run = ComparisonRun::start(protocol, number, enrolment.seed, *rows);
+  if (!run) return tl::unexpected(run.error());
+  const KnownComparer participant = comparer_like_the_papers(protocol, number, enrolment.seed);
+  take_part(*run, participant, enrolment.seed, [&](const ComparisonRow& row) { recorder.add(row); });
+  return {};
+}
+
+Status name_objects(const Protocol& protocol, const Enrolment& enrolment, std::uint64_t number, const RowFile& file,
+                    Recorder& recorder) {
+  auto rows = rows_in<NamingRow>(file, naming_columns(), naming_row);
+  if (!rows) return tl::unexpected(rows.error());
+  const Identification& design = *protocol.identification();
+  const KnownNamer participant = namer_like_the_papers(design);
+  for (;;) {
+    auto run = NamingRun::start(protocol, number, enrolment.seed, *rows);
+    if (!run) return tl::unexpected(run.error());
+    if (run->all_done()) return {};
+    take_part(*run, design, participant, enrolment.seed, [&](const NamingRow& row) {
+      recorder.add(row);
+      rows->push_back(row);
+    });
+  }
+}
+
+}  // namespace
+
+std::uint64_t default_seed(const std::string& participant, const std::string& protocol_digest) {
+  return Fnv().add(participant).add("|").add(protocol_digest).value();
+}
+
+Result<SimulatedOutcome> run_simulated(const std::filesystem::path& folder, const Protocol& protocol,
+                                       const std::string& protocol_text, const Enrolment& enrolment,
+                                       const std::function<bool()>& stop) {
+  const auto number = participant_number(enrolment.mark.participant);
+  if (!number)
+    return fail("\"" + enrolment.mark.participant + "\" ends with no number, which the orders go by", "--participant",
+                "write 7, or P07");
+  Result<RowFile> file = enrol(folder, protocol, protocol_text, enrolment);
+  if (!file) return tl::unexpected(file.error());
+  SimulatedOutcome out;
+  out.rows = rows_path(folder, enrolment.mark.participant, protocol);
+  out.before = file->rows().size();
+  Recorder recorder(*file, enrolment.mark, stop, out);
+  try {
+    const Status ok = protocol.discrimination() ? compare(protocol, enrolment, *number, *file, recorder)
+                                                : name_objects(protocol, enrolment, *number, *file, recorder);
+    if (!ok) return tl::unexpected(ok.error());
+  } catch (const Stopped&) {
+    if (!recorder.status()) return tl::unexpected(recorder.status().error());
+  }
+  return out;
+}
+
+}  // namespace tangent::experiment

@@ -1,0 +1,149 @@
+#include "workbench/experiment/trial_rows.h"
+
+#include "core/base/text.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <variant>
+
+namespace tangent::experiment {
+namespace {
+
+/// A column and where its value is in a row.
+template <class Row>
+struct Column {
+  ColumnMeaning meaning;
+  std::variant<int Row::*, double Row::*, bool Row::*, std::string Row::*, Facing Row::*> field;
+};
+
+constexpr std::array<ColumnMeaning, 3> kMarks{{
+    {"participant", "", "as given when the experiment was begun"},
+    {"simulated", "", "no, or the kind of simulated participant: nobody felt anything"},
+    {"pilot", "", "yes: a trial run, not to be analysed with the others"},
+}};
+
+using C = ComparisonRow;
+const std::array<Column<C>, 14> kComparison{{
+    {{"trial", "", "from 0, over the whole experiment"}, &C::trial},
+    {{"condition", "", "rendering condition: C1 to C4, P1, P2"}, &C::condition},
+    {{"condition_place", "", "from 0: which condition of the participant's order"}, &C::condition_place},
+    {{"trial_in_condition", "", "from 0"}, &C::trial_in_condition},
+    {{"segments", "", "of the comparison; the reference is the exact arc"}, &C::segments},
+    {{"angle_deg", "deg", "between neighbouring segments of the comparison"}, &C::angle_deg},
+    {{"reference", "", "shown first or second: 1, 2"}, &C::reference},
+    {{"response", "", "taken for the smooth one: 1, 2"}, &C::answer},
+    {{"correct", "", "the reference was taken for the smooth one: yes, no"}, &C::right},
+    {{"reversal", "", "the staircase turned at this trial: yes, no"}, &C::reversal},
+    {{"onset", "s", "the first stimulus was shown, since the program was started"}, &C::began_s},
+    {{"first_time", "s", "from the first touch of the first stimulus to Enter"}, &C::first_s},
+    {{"response_time", "s", "from the first touch of the second stimulus to the answer"}, &C::second_s},
+    {{"second_touching", "s", "of response_time, touching"}, &C::second_touching_s},
+}};
+using N = NamingRow;
+const std::array<Column<N>, 13> kNaming{{
+    {{"trial", "", "from 0, over all sessions"}, &N::trial},
+    {{"session", "", "from 1"}, &N::session},
+    {{"block", "", "of the session, from 1"}, &N::block},
+    {{"run", "", "of the block, from 1"}, &N::run},
+    {{"stimulus", "", "the object that was shown"}, &N::object},
+    {{"shaded", "", "rounded edges and smooth contact, else facets: yes, no"}, &N::shaded},
+    {{"tactile", "", "the contact location display moved, else it was held: yes, no"}, &N::tactile},
+    {{"facing", "", "where the tip of cone and tetrahedron pointed: left, right"}, &N::facing},
+    {{"response", "", "what it was taken for"}, &N::answer},
+    {{"correct", "", "yes, no"}, &N::right},
+    {{"onset", "s", "the ding, since the program was started"}, &N::began_s},
+    {{"response_time", "s", "from the first touch to the answer"}, &N::since_touch_s},
+    {{"touching", "s", "of response_time, touching"}, &N::touching_s},
+}};
+
+template <class Columns>
+std::vector<ColumnMeaning> meanings(const Columns& columns) {
+  std::vector<ColumnMeaning> out(kMarks.begin(), kMarks.end());
+  for (const auto& column : columns) out.push_back(column.meaning);
+  return out;
+}
+
+std::string text_of(int value) { return std::to_string(value); }
+std::string text_of(bool value) { return value ? "yes" : "no"; }
+std::string text_of(const std::string& value) { return value; }
+std::string text_of(Facing value) { return value == Facing::left ? "left" : "right"; }
+std::string text_of(double value) {
+  std::string out;
+  append_double(out, value);
+  return out;
+}
+
+bool take(const std::string& text, std::string& value) { return value = text, !text.empty(); }
+bool take(const std::string& text, int& value) {
+  const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
+  return read.ec == std::errc{} && read.ptr == text.data() + text.size();
+}
+bool take(const std::string& text, double& value) {
+  const auto read = parse_finite_double(text);
+  if (read) value = *read;
+  return read.has_value();
+}
+bool take(const std::string& text, bool& value) { return value = text == "yes", value || text == "no"; }
+bool take(const std::string& text, Facing& value) {
+  value = text == "left" ? Facing::left : Facing::right;
+  return text == "left" || text == "right";
+}
+
+template <class Row, class Columns>
+Fields fields_by(const Columns& columns, const RunMark& mark, const Row& row) {
+  Fields out{mark.participant, mark.simulated, text_of(mark.pilot)};
+  for (const auto& column : columns) std::visit([&](auto field) { out.push_back(text_of(row.*field)); }, column.field);
+  return out;
+}
+
+/// The field of a column; null: there is none.
+const std::string* field_of(const Fields& columns, const Fields& fields, std::string_view name) {
+  const auto at = std::find(columns.begin(), columns.end(), name);
+  return at == columns.end() ? nullptr : &fields[static_cast<std::size_t>(at - columns.begin())];
+}
+
+template <class T>
+Status read_field(const Fields& columns, const Fields& fields, std::string_view name, T& value) {
+  const std::string* text = field_of(columns, fields, name);
+  if (text == nullptr) return fail("is missing", "column " + std::string(name), "use the table as it was written");
+  if (take(*text, value)) return {};
+  return fail("\"" + *text + "\" is no value of it", "column " + std::string(name), "use the table as it was written");
+}
+
+template <class Row, class Columns>
+Result<std::pair<RunMark, Row>> row_by(const Columns& known, const Fields& columns, const Fields& fields) {
+  std::pair<RunMark, Row> out;
+  Status ok = read_field(columns, fields, "participant", out.first.participant);
+  if (ok) ok = read_field(columns, fields, "simulated", out.first.simulated);
+  if (ok) ok = read_field(columns, fields, "pilot", out.first.pilot);
+  for (const auto& column : known)
+    if (ok)
+      std::visit([&](auto field) { ok = read_field(columns, fields, column.meaning.name, out.second.*field); },
+                 column.field);
+  if (!ok) return tl::unexpected(ok.error());
+  return out;
+}
+
+}  // namespace
+
+std::span<const ColumnMeaning> comparison_columns() {
+  static const std::vector<ColumnMeaning> kAll = meanings(kComparison);
+  return kAll;
+}
+std::span<const ColumnMeaning> naming_columns() {
+  static const std::vector<ColumnMeaning> kAll = meanings(kNaming);
+  return kAll;
+}
+
+Fields fields_of(const RunMark& mark, const ComparisonRow& row) { return fields_by(kComparison, mark, row); }
+Fields fields_of(const RunMark& mark, const NamingRow& row) { return fields_by(kNaming, mark, row); }
+
+Result<std::pair<RunMark, ComparisonRow>> comparison_row(const Fields& columns, const Fields& fields) {
+  return row_by<ComparisonRow>(kComparison, columns, fields);
+}
+Result<std::pair<RunMark, NamingRow>> naming_row(const Fields& columns, const Fields& fields) {
+  return row_by<NamingRow>(kNaming, columns, fields);
+}
+
+}  // namespace tangent::experiment
