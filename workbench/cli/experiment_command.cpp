@@ -4,6 +4,8 @@
 #include "workbench/cli/interrupt.h"
 #include "workbench/cli/messages.h"
 #include "workbench/cli/option.h"
+#include "workbench/cli/refuse.h"
+#include "workbench/experiment/order.h"
 #include "workbench/experiment/run_simulated.h"
 
 #include <CLI/CLI.hpp>
@@ -21,6 +23,15 @@ struct ExperimentCommandOptions {
   std::optional<double> seed;
   bool pilot = false;
 };
+
+/// As run_simulated has it, before anything is read: a name, with a number that is one.
+Status check_name(const std::string& participant) {
+  if (Status ok = experiment::check_participant(participant); !ok) return ok;
+  if (experiment::participant_number(participant)) return {};
+  const bool too_large = participant.back() >= '0' && participant.back() <= '9';
+  return fail(too_large ? "has a number above 18446744073709551615" : "has no number at its end", {},
+              "write one, as P07: it decides which order is the participant's");
+}
 
 Result<int> run_experiment(const ExperimentCommandOptions& options) {
   const InterruptGuard guard;
@@ -65,6 +76,7 @@ void add_experiment_command(CLI::App& app, CommandResult& result) {
                     [o](double seed) { o->seed = seed; });
   add_flag(*command, "--pilot", o->pilot, "A trial run: marked in every row, not analysed with the others");
   on_run(*command, [options, &result] {
+    refuse_failed("--participant", check_name(options->participant));
     const Result<int> code = run_experiment(*options);
     if (!code) print_message("experiment", code.error().message());
     result.exit_code = code ? *code : kFailed;

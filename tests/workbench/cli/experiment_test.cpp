@@ -61,7 +61,9 @@ TEST_CASE("experiment: the same seed gives the same bytes, another one others") 
 
 TEST_CASE("experiment and analyse: what can't be is said, with the exit codes of every command") {
   const TempFolder folder;
-  CHECK(experiment(folder, "anna").exit_code == 1);
+  CHECK(experiment(folder, "anna").exit_code == 2);
+  CHECK(experiment(folder, "").exit_code == 2);
+  CHECK(contains(experiment(folder, "P99999999999999999999999").err, "has a number above 18446744073709551615"));
   CHECK(contains(experiment(folder, "a/1").err, "letters"));
   CHECK(run_workbench({"experiment", shipped("discrimination.toml"), "--out", folder.file("d")}).exit_code == 2);
   CHECK(experiment(folder, "1", {"--seed", "-1"}).exit_code == 2);
