@@ -76,5 +76,7 @@ Result<Protocol> read_protocol(const std::filesystem::path& file);
 /// 16 hex digits of every value: two protocols with the same digest put the same before a participant. Comments, order
 /// and spelling of the file do not count.
 std::string protocol_digest(const Protocol& protocol);
+/// The same of a preset.
+std::string preset_digest(const Preset& preset);
 
 }  // namespace tangent::experiment

@@ -52,6 +52,12 @@ void add(Values& values, const Identification& d) {
 
 }  // namespace
 
+std::string preset_digest(const Preset& preset) {
+  Values values;
+  for (const PresetKey& key : preset_keys()) values.add(key.full_name()).add(key.get(preset));
+  return values.digest();
+}
+
 std::string protocol_digest(const Protocol& protocol) {
   Values values;
   values.add(kProtocolKinds[protocol.kind.index()]).add(protocol.name).add(protocol.version);
