@@ -4,6 +4,7 @@
 #include "workbench/cli/interrupt.h"
 #include "workbench/cli/messages.h"
 #include "workbench/cli/option.h"
+#include "workbench/cli/trial_command.h"
 #include "workbench/experiment/run_simulated.h"
 
 #include <CLI/CLI.hpp>
@@ -20,22 +21,32 @@ struct ExperimentCommandOptions {
   std::string participant, simulated;
   std::optional<double> seed;
   bool pilot = false;
+  TrialChoice trials;
 };
 
+Result<int> run_with_person(const ExperimentCommandOptions& options, const experiment::Protocol& protocol,
+                            const std::string& text, const experiment::Enrolment& enrolment) {
+  auto wanted = trial_options(options.trials);
+  if (!wanted) return tl::unexpected(wanted.error());
+  wanted->protocol = protocol;
+  wanted->protocol_text = text;
+  wanted->out = options.out;
+  wanted->enrolment = enrolment;
+  return run_trials(std::move(*wanted));
+}
+
 Result<int> run_experiment(const ExperimentCommandOptions& options) {
-  const InterruptGuard guard;
   const Result<std::string> text = read_input_file(options.protocol, std::size_t{1} << 20);
   if (!text) return tl::unexpected(text.error());
   const Result<experiment::Protocol> protocol = experiment::parse_protocol(*text, options.protocol);
   if (!protocol) return tl::unexpected(protocol.error());
-  if (options.simulated.empty())
-    return fail("people can't take part yet: trials with a device are not there", "experiment",
-                "say --simulated known to try the protocol and its analysis");
   experiment::Enrolment enrolment;
-  enrolment.mark = {options.participant, options.simulated, options.pilot};
+  enrolment.mark = {options.participant, options.simulated.empty() ? "no" : options.simulated, options.pilot};
   enrolment.protocol_digest = experiment::protocol_digest(*protocol);
   enrolment.seed = options.seed ? static_cast<std::uint64_t>(*options.seed)
                                 : experiment::default_seed(options.participant, enrolment.protocol_digest);
+  if (options.simulated.empty()) return run_with_person(options, *protocol, *text, enrolment);
+  const InterruptGuard guard;
   const auto outcome = experiment::run_simulated(options.out, *protocol, *text, enrolment, InterruptGuard::requested);
   if (!outcome) return tl::unexpected(outcome.error());
   std::printf("%s: %zu trials%s, simulated\n", outcome->rows.c_str(), outcome->before + outcome->made,
@@ -49,7 +60,7 @@ Result<int> run_experiment(const ExperimentCommandOptions& options) {
 
 void add_experiment_command(CLI::App& app, CommandResult& result) {
   CLI::App* command =
-      add_command(app, "experiment", "Take a participant through an experiment's protocol (simulated ones, so far)");
+      add_command(app, "experiment", "Take a participant through an experiment's protocol, at a device or simulated");
   auto options = std::make_shared<ExperimentCommandOptions>();
   ExperimentCommandOptions* o = options.get();
   add_text_option(*command, "PROTOCOL", o->protocol,
@@ -64,6 +75,7 @@ void add_experiment_command(CLI::App& app, CommandResult& result) {
                     "Of orders and simulated answers (default: by participant and protocol)",
                     [o](double seed) { o->seed = seed; });
   add_flag(*command, "--pilot", o->pilot, "A trial run: marked in every row, not analysed with the others");
+  add_trial_options(*command, o->trials);
   on_run(*command, [options, &result] {
     const Result<int> code = run_experiment(*options);
     if (!code) print_message("experiment", code.error().message());

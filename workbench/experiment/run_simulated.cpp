@@ -3,6 +3,7 @@
 #include "core/base/fnv.h"
 #include "workbench/experiment/order.h"
 #include "workbench/experiment/simulated_group.h"
+#include "workbench/recording/core_digest.h"
 
 namespace tangent::experiment {
 namespace {
@@ -12,11 +13,14 @@ struct Stopped {};
 
 class Recorder {
  public:
-  Recorder(RowFile& file, const RunMark& mark, const std::function<bool()>& stop, SimulatedOutcome& out)
-      : file_(file), mark_(mark), stop_(stop), out_(out) {}
+  Recorder(RowFile& file, const Enrolment& enrolment, const std::function<bool()>& stop, SimulatedOutcome& out)
+      : file_(file), mark_(enrolment.mark), stop_(stop), out_(out) {
+    origin_.protocol = enrolment.protocol_digest;
+    origin_.program = std::string(core_digest()).substr(0, 16);
+  }
   template <class Row>
   void add(const Row& row) {
-    status_ = file_.add(fields_of(mark_, row));
+    status_ = file_.add(fields_of(mark_, row, origin_));
     if (!status_) throw Stopped{};
     ++out_.made;
     out_.stopped = stop_ && stop_();
@@ -27,6 +31,7 @@ class Recorder {
  private:
   RowFile& file_;
   const RunMark& mark_;
+  RowOrigin origin_;
   const std::function<bool()>& stop_;
   SimulatedOutcome& out_;
   Status status_;
@@ -96,7 +101,7 @@ Result<SimulatedOutcome> run_simulated(const std::filesystem::path& folder, cons
   SimulatedOutcome out;
   out.rows = rows_path(folder, enrolment.mark.participant, protocol);
   out.before = file->rows().size();
-  Recorder recorder(*file, enrolment.mark, stop, out);
+  Recorder recorder(*file, enrolment, stop, out);
   try {
     const Status ok = protocol.discrimination() ? compare(protocol, enrolment, *number, *file, recorder)
                                                 : name_objects(protocol, enrolment, *number, *file, recorder);

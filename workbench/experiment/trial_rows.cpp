@@ -19,7 +19,8 @@ struct Column {
 
 constexpr std::array<ColumnMeaning, 3> kMarks{{
     {"participant", "", "as given when the experiment was begun"},
-    {"simulated", "", "no, or the kind of simulated participant: nobody felt anything"},
+    {"simulated", "",
+     "no, or what was simulated, so that nobody felt anything: the participant (known, feeling), the device"},
     {"pilot", "", "yes: a trial run, not to be analysed with the others"},
 }};
 

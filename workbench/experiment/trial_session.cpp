@@ -11,6 +11,7 @@ namespace {
 constexpr double kLongestGap_s = 0.1;  // between two ticks; longer: time has jumped, or the program was held up
 constexpr double kRaised_m = -3e-3;    // press of a simulated finger that is off the surface
 constexpr std::size_t kDigestDigits = 16;
+constexpr const char* kSimulatedDevice = "device";  // of RunMark::simulated: nobody felt anything
 
 bool is_live(const ServoRecord& record) {
   return record.device.gate_state == GateState::ramping || record.device.gate_state == GateState::armed;
@@ -110,6 +111,8 @@ Result<std::unique_ptr<TrialSession>> TrialSession::make(TrialOptions options, D
                      : Session::create(first->scene, options.protocol.preset, options.session);
   if (!session) return tl::unexpected(session.error());
   if (Status ok = check_conditions(options.protocol, *stimuli, **session); !ok) return tl::unexpected(ok.error());
+  std::string& simulated = options.enrolment.mark.simulated;
+  if (simulated == "no" && (*session)->force_capabilities()->simulated) simulated = kSimulatedDevice;
   auto run = TrialRun::start(options.out, options.protocol, options.protocol_text, options.enrolment);
   if (!run) return tl::unexpected(run.error());
   auto events = TrialEvents::open(run->rows(), options.enrolment);

@@ -70,7 +70,7 @@ struct TrialOptions {
   Protocol protocol;
   std::string protocol_text;  ///< the protocol's file, kept beside the data
   std::filesystem::path out;
-  Enrolment enrolment;
+  Enrolment enrolment;           ///< of a person; at a simulated force device it is marked as simulated
   SessionOptions session;        ///< devices, servo; arm_on_start is not used
   std::string sound = "none";    ///< what plays noise and cues, for the rows
   bool record = false;           ///< every tick of each trial
@@ -97,6 +97,7 @@ class TrialSession {
   ParticipantView participant() const;
   OperatorView operator_view() const;
   bool finished() const { return ended_ || run_.finished(); }
+  bool complete() const { return run_.finished(); }  ///< this session of it; else it was ended before
   const Session& session() const { return *session_; }
   Session& session() { return *session_; }  ///< for its clutch, placement and, unthreaded, `advance`
   const std::filesystem::path& rows() const { return run_.rows(); }

@@ -11,6 +11,7 @@
 
 #include <fstream>
 #include <functional>
+#include <set>
 #include <sstream>
 
 namespace tangent::test {
@@ -111,6 +112,7 @@ class Bench {
     for (; ticks > 0; ticks -= 16) {
       trials->session().advance(16);
       trials->poll();
+      if (every) every();
     }
   }
   Vec3 raised() const { return naming ? Vec3(0.0, 0.0, 0.08) : Vec3(0.0, 0.045, 0.0); }
@@ -155,11 +157,17 @@ class Bench {
   void answer(int until = 1'000'000) {
     for (int steps = 0; !trials->finished() && trials->answers() < until && steps < 4000; ++steps) step();
   }
-  ex::ReadRows table() const {
-    return *ex::read_rows(trials->rows(), ex::read_sidecar(trials->rows())->enrolment.identity());
+  ex::ReadRows table() const { return table_at(trials->rows()); }
+  static ex::ReadRows table_at(const std::filesystem::path& rows) {
+    const auto sidecar = ex::read_sidecar(rows);
+    REQUIRE(sidecar);
+    auto table = ex::read_rows(rows, sidecar->enrolment.identity());
+    REQUIRE(table);
+    return std::move(*table);
   }
   const std::filesystem::path& folder() const { return folder_->path(); }
 
+  std::function<void()> every;  ///< after each look of the program
   std::shared_ptr<FingerScript> script = std::make_shared<FingerScript>();
   bool naming = false;
 
