@@ -87,7 +87,7 @@ int segments_of(const RenderingCondition& condition, bool at_threshold) {
 FigureTable conditions_table(bool at_threshold) {
   FigureTable table{{"travel_mm", "circle_deg", "circle_mm"}, {}};
   std::vector<std::vector<Sample>> runs;
-  for (const RenderingCondition& condition : kRenderingConditions) {
+  for (const RenderingCondition& condition : arc_conditions()) {
     Preset preset = figure_preset();
     set_condition(preset, condition);
     runs.push_back(slide(curve_of(make_paper_arc(segments_of(condition, at_threshold))), preset));
@@ -110,12 +110,12 @@ FigureTable conditions_table(bool at_threshold) {
 /// gnuplot's arrays C, the names of the conditions, and T, the titles of their pictures.
 std::string condition_arrays(bool at_threshold) {
   std::string names, titles;
-  for (const RenderingCondition& condition : kRenderingConditions) {
+  for (const RenderingCondition& condition : arc_conditions()) {
     const std::string name(condition.name), comma(names.empty() ? "" : ", ");
     names += comma + "'" + name + "'";
     titles += comma + format("'%s, %d segments'", name.c_str(), segments_of(condition, at_threshold));
   }
-  const std::string count = "[" + std::to_string(kRenderingConditions.size()) + "]";
+  const std::string count = "[" + std::to_string(kArcConditions) + "]";
   return "array C" + count + " = [" + names + "]\narray T" + count + " = [" + titles + "]\n";
 }
 

@@ -8,7 +8,8 @@
 //   [staircase]    reversals, large_reversals, averaged, down, scale, fewest, most, most_trials
 //   [[conditions]] name = "C1", start, large_step, small_step: one staircase each
 // of the second (5.3: which of seven objects is this),
-//   [objects]      names: key 1 is the first; rounding_m; practice; both_ways: those that face left or right
+//   [objects]      names: key 1 is the first; rounding_m; practice; both_ways: those that face left or right;
+//                  facet_deg
 //   [runs]         sessions, blocks (a session's), runs (a block's); tactile_first = "even"
 //   [start]        place_m, radius_m, hold_s, guide_n_per_m, guide_limit_n
 #pragma once
@@ -48,6 +49,7 @@ struct Identification {
   std::vector<std::string> both_ways;  ///< those that are shown pointing left and right
   std::string practice;                ///< shown in view before each kind of feedback; empty: none
   double rounding_m = 1.5e-3;          ///< of the edges of shaded objects
+  double facet_deg = 0.2;              ///< unshaded cone, cylinder and sphere: their facets turn by less than this
   int sessions = 2;
   int blocks = 2;                  ///< of a session; tactile feedback changes between blocks
   int runs = 2;                    ///< of a block, with the same objects, in an order of their own

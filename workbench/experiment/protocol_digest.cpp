@@ -43,7 +43,7 @@ void add(Values& values, const Discrimination& d) {
 }
 
 void add(Values& values, const Identification& d) {
-  values.add_all(d.objects).add_all(d.both_ways).add(d.practice).add(d.rounding_m);
+  values.add_all(d.objects).add_all(d.both_ways).add(d.practice).add(d.rounding_m).add(d.facet_deg);
   for (const int whole : {d.sessions, d.blocks, d.runs, d.tactile_first_even ? 1 : 0}) values.add(whole);
   for (const double number :
        {d.start_m.x, d.start_m.y, d.start_m.z, d.start_radius_m, d.hold_s, d.guide_n_per_m, d.guide_limit_n})

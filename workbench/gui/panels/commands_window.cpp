@@ -174,8 +174,8 @@ void add_widget_commands(CommandList& out, AppModel& model, MenuBar& menu) {
   press({"accept no timeout", "Devices: use it although it has no time-out", "", "maestro yes"},
         "monitor/accept_no_timeout");
   out.choice({"felt under", "Smoothness as felt: rendering condition", "", "perception threshold"},
-             {kConditionNames.begin(), kConditionNames.end()}, [&model, &menu](std::size_t i) {
-               wish(model, menu, "perception/condition", std::string(kConditionNames[i]));
+             {kArcConditionNames.begin(), kArcConditionNames.end()}, [&model, &menu](std::size_t i) {
+               wish(model, menu, "perception/condition", std::string(kArcConditionNames[i]));
              });
   out.text({"press", "Widgets: press the button, row or section", "", "click"}, "PATH",
            [&model, &menu](const std::string& path) { return wish(model, menu, path), Status(); });
