@@ -7,6 +7,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
+SceneSource source_of(const RenderedStimulus& stimulus) {
+  return stimulus.scene->planar() != nullptr ? source_of_planar(*stimulus.scene) : SceneSource{};
+}
+
 fs::path free_name(const fs::path& folder, int trial) {
   char number[16];
   std::snprintf(number, sizeof number, "%04d", trial);
@@ -19,21 +23,22 @@ fs::path free_name(const fs::path& folder, int trial) {
 
 }  // namespace
 
-Status TrialRecorder::begin(Session& session, const fs::path& folder, int trial, const TrialStimulus& stimulus) {
+Status TrialRecorder::begin(Session& session, const fs::path& folder, int trial, const RenderedStimulus& stimulus) {
   if (Status ok = end(); !ok) return ok;
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) return fail("can't be made: " + error.message(), folder.string(), "choose a folder that may be written");
   const fs::path path = free_name(folder, trial);
-  auto recorder = SessionRecorder::start(session, path, {stimulus.source, stimulus.name, session.options().threaded});
+  auto recorder =
+      SessionRecorder::start(session, path, {source_of(stimulus), stimulus.name, session.options().threaded});
   if (!recorder) return tl::unexpected(recorder.error());
   recorder_ = std::move(*recorder);
   file_ = path.parent_path().filename() / path.filename();
   return {};
 }
 
-void TrialRecorder::scene_changed(std::uint32_t id, const TrialStimulus& stimulus) {
-  if (recorder_) recorder_->scene_changed(id, stimulus.scene, stimulus.name, stimulus.source);
+void TrialRecorder::scene_changed(std::uint32_t id, const RenderedStimulus& stimulus) {
+  if (recorder_) recorder_->scene_changed(id, stimulus.scene, stimulus.name, source_of(stimulus));
 }
 
 std::string TrialRecorder::poll() {

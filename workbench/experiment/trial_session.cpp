@@ -2,6 +2,7 @@
 
 #include "core/io/rendering_condition.h"
 #include "workbench/recording/core_digest.h"
+#include "workbench/session/prepared_scene.h"
 
 #include <limits>
 
@@ -47,11 +48,11 @@ std::vector<Stimulus> kinds_of(const Protocol& protocol) {
   return out;
 }
 
-Status check_conditions(const Protocol& protocol, TrialStimuli& stimuli, const Session& session) {
+Status check_conditions(const Protocol& protocol, const Stimuli& stimuli, const Session& session) {
   if (session.force_capabilities() == nullptr)
     return fail("there is no force device, which every trial needs", "--force", "choose one, for example simulated");
   for (const Stimulus& shown : kinds_of(protocol)) {
-    const auto stimulus = stimuli.get(shown);
+    const auto stimulus = stimuli.rendered(shown);
     if (!stimulus) return tl::unexpected(stimulus.error());
     if (Status ok = check_devices(stimulus->preset, true, session.display_capabilities() != nullptr); !ok) return ok;
   }
@@ -80,7 +81,7 @@ TrialKey digit_key(int digit) {
 
 // --- Start and end -------------------------------------------------------------------------------------
 
-TrialSession::TrialSession(TrialOptions options, TrialStimuli stimuli, TrialRun run, TrialEvents events,
+TrialSession::TrialSession(TrialOptions options, Stimuli stimuli, TrialRun run, TrialEvents events,
                            std::unique_ptr<Session> session)
     : options_(std::move(options)),
       stimuli_(std::move(stimuli)),
@@ -99,13 +100,14 @@ Result<std::unique_ptr<TrialSession>> TrialSession::start(TrialOptions options, 
 Result<std::unique_ptr<TrialSession>> TrialSession::make(TrialOptions options, DeviceSet* devices) {
   options.session.arm_on_start = ArmOnStart::never;
   if (Status ok = check_participant(options.enrolment.mark.participant); !ok) return tl::unexpected(ok.error());
-  Result<TrialStimuli> stimuli = TrialStimuli::make(options.protocol);
+  Result<Stimuli> stimuli = Stimuli::make(options.protocol);
   if (!stimuli) return tl::unexpected(stimuli.error());
-  const auto first = stimuli->get(kinds_of(options.protocol).front());
+  const auto first = stimuli->rendered(kinds_of(options.protocol).front());
   if (!first) return tl::unexpected(first.error());
-  // The device stays where it is in the scene while stimuli change: its origin in the middle of the first one.
+  // All stimuli of a protocol are placed alike. The device stays where it is in the scene while they change.
   PlaceOptions& place = options.session.place;
-  if (!place.fit && !place.offset_m) place.offset_m = first->scene->mesh().origin();
+  if (!place.fit && !place.offset_m && place.scale == 1.0 && place.rotation == PlaceOptions{}.rotation)
+    place = {false, first->placement.scale, first->placement.rotation, first->placement.offset_m};
   auto session = devices != nullptr
                      ? Session::create(first->scene, options.protocol.preset, options.session, std::move(*devices))
                      : Session::create(first->scene, options.protocol.preset, options.session);
@@ -132,7 +134,7 @@ Status TrialSession::begin() {
       !ok)
     return ok;
   if (Status ok = session_->start(); !ok) return ok;
-  fault_ = "ready; put the finger into the device, and press resume: it arms";
+  fault_ = "not armed yet; put the finger into the device, and press resume";
   if (!session_->status().real_devices) resume();
   return {};
 }
@@ -212,6 +214,7 @@ void TrialSession::resume() {
   if (ok && session_->needs_yes())
     ok = fail(session_->without_timeout().front() + " goes on with its last command when this program dies", "devices",
               "start with --without-timeout if that is known and accepted");
+  if (ok) ok = check_devices_are_there();
   if (ok) ok = log(TrialEvent::resumed, "goes on");
   if (!ok) {
     fault_ = ok.error().message();
@@ -222,6 +225,17 @@ void TrialSession::resume() {
   stage_ = Stage::arming;
   armed_from_ = session_->status().servo.ticks + 1;
   session_->arm();
+}
+
+// The gate takes a device that is absent for none, and would go on without it.
+Status TrialSession::check_devices_are_there() const {
+  const DisplayCapabilities* display = session_->display_capabilities();
+  const char* remedy = "plug it in, then press resume";
+  if (any_ && last_.device.force_state == DeviceState::absent)
+    return fail("the force device is not there", session_->force_capabilities()->name, remedy);
+  if (any_ && display != nullptr && last_.device.display_state == DeviceState::absent)
+    return fail("the contact display is not there", display->name, remedy);
+  return {};
 }
 
 // --- Views ---------------------------------------------------------------------------------------------
@@ -242,8 +256,7 @@ ParticipantView TrialSession::participant() const {
   out.hint = last_.device.surface_waits != 0 ? "Raise your finger." : shown.hint;
   out.show_scene = shown.in_view && is_in();
   out.show_finger = shown.guided;
-  if (shown.guided)
-    out.finger_from_start_m = last_.tick.input.finger.position - options_.protocol.identification()->start_m;
+  if (shown.guided) out.finger_from_start_m = finger_from_start_m();
   return out;
 }
 
@@ -288,6 +301,7 @@ void TrialSession::poll() {
 
 void TrialSession::take_records() {
   session_->poll();
+  placement_ = session_->status().placement;
   const History& history = session_->history();
   std::size_t i = any_ ? history.lower_bound(last_.tick.tick + 1) : 0;
   for (; i < history.size(); ++i) take(history[i]);
@@ -327,9 +341,10 @@ void TrialSession::advance(Key key, int digit) {
   const Identification* naming = options_.protocol.identification();
   const bool away = last_.device.surface_share == 0.0F && !wish_.felt;
   moment_ = {last_.tick.input.t_s, is_in() && touches(last_), std::numeric_limits<double>::infinity(), key, digit};
-  if (naming != nullptr && away) moment_.from_start_m = glm::length(last_.tick.input.finger.position - naming->start_m);
+  if (naming != nullptr && away) moment_.from_start_m = glm::length(finger_from_start_m());
   const std::uint64_t cues = run_.shown().cues;
-  if (const Status ok = run_.advance(moment_, origin()); !ok) pause(ok.error().message());
+  if (const Status ok = run_.advance(moment_, key == Key::none ? RowOrigin{} : origin()); !ok)
+    pause(ok.error().message());
   if (run_.shown().cues != cues) raised_ = false;
 }
 
@@ -338,6 +353,18 @@ void TrialSession::advance(Key key, int digit) {
 bool TrialSession::is_in() const {
   return put_ == run_.shown().stimulus && put_.kind != Stimulus::Kind::none && last_.scene_id == put_scene_ &&
          last_.tick.preset_id == put_preset_ && last_.device.surface_share == 1.0F;
+}
+
+// The start is a place in the room.
+SurfaceWish TrialSession::pull_to_start() const {
+  const Identification& design = *options_.protocol.identification();
+
+  return {false, true, placement_.to_scene(design.start_m), design.guide_n_per_m / placement_.scale,
+          design.guide_limit_n};
+}
+
+Vec3 TrialSession::finger_from_start_m() const {
+  return placement_.to_device(last_.tick.input.finger.position) - options_.protocol.identification()->start_m;
 }
 
 void TrialSession::wish(const SurfaceWish& wish) {
@@ -353,10 +380,7 @@ void TrialSession::show() {
   if (ended_ || shown.stimulus.kind == Stimulus::Kind::none) {
     put_ = {};
     if (const Status ok = recorder_.end(); !ok) return pause(ok.error().message());
-    SurfaceWish away{.felt = false};
-    if (const Identification* design = options_.protocol.identification(); design != nullptr && shown.guided)
-      away = {false, true, design->start_m, design->guide_n_per_m, design->guide_limit_n};
-    return wish(away);
+    return wish(shown.guided ? pull_to_start() : SurfaceWish{.felt = false});
   }
   if (put_ != shown.stimulus) {
     wish({.felt = false});
@@ -368,12 +392,18 @@ void TrialSession::show() {
 }
 
 void TrialSession::put(const Stimulus& shown) {
-  auto stimulus = stimuli_.get(shown);
+  auto stimulus = stimuli_.rendered(shown);
   if (!stimulus) return pause(stimulus.error().message());
   const auto preset = session_->set_preset(stimulus->preset);
   if (!preset) return pause(preset.error().message());
   put_preset_ = *preset;
-  put_scene_ = session_->set_scene(stimulus->scene);
+  auto path = paths_.find(stimulus->mesh_hash);
+  if (path == paths_.end()) {
+    put_scene_ = session_->set_scene(stimulus->scene);
+    paths_.emplace(stimulus->mesh_hash, session_->path());
+  } else {
+    put_scene_ = session_->set_scene(PreparedScenePtr(new PreparedScene(stimulus->scene, path->second)));
+  }
   put_ = shown;
   recorder_.scene_changed(put_scene_, *stimulus);
   hashes_[stimulus->name] = stimulus->mesh_hash;
@@ -396,8 +426,7 @@ bool TrialSession::begin_trial() {
 void TrialSession::lead_simulated_hand() {
   if (!session_->force_capabilities()->simulated) return;
   if (const Shown& shown = run_.shown(); shown.guided) {
-    if (session_->hand().mode != HandMode::point)
-      session_->set_hand_target(options_.protocol.identification()->start_m);
+    if (session_->hand().mode != HandMode::point) session_->set_hand_target(pull_to_start().pull_to_m);
     return;
   }
   HandSettings hand = options_.session.hand;

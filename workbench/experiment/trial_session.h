@@ -15,7 +15,7 @@
 #include "workbench/experiment/trial_events.h"
 #include "workbench/experiment/trial_recorder.h"
 #include "workbench/experiment/trial_run.h"
-#include "workbench/experiment/trial_stimuli.h"
+#include "workbench/session/exploration_path.h"
 #include "workbench/session/session.h"
 
 #include <memory>
@@ -71,7 +71,7 @@ struct TrialOptions {
   std::string protocol_text;  ///< the protocol's file, kept beside the data
   std::filesystem::path out;
   Enrolment enrolment;           ///< of a person; at a simulated force device it is marked as simulated
-  SessionOptions session;        ///< devices, servo; arm_on_start is not used
+  SessionOptions session;        ///< devices, servo; arm_on_start is not used; without a placement, the stimuli's
   std::string sound = "none";    ///< what plays noise and cues, for the rows
   bool record = false;           ///< every tick of each trial
   bool without_timeout = false;  ///< a person was told of Session::without_timeout and said yes
@@ -108,7 +108,7 @@ class TrialSession {
 
  private:
   enum class Stage : std::uint8_t { paused, arming, running };
-  TrialSession(TrialOptions options, TrialStimuli stimuli, TrialRun run, TrialEvents events,
+  TrialSession(TrialOptions options, Stimuli stimuli, TrialRun run, TrialEvents events,
                std::unique_ptr<Session> session);
   static Result<std::unique_ptr<TrialSession>> make(TrialOptions options, DeviceSet* devices);
   Status begin();
@@ -127,9 +127,12 @@ class TrialSession {
   Status log(TrialEvent event, const std::string& text);
   bool is_in() const;
   RowOrigin origin() const;
+  Status check_devices_are_there() const;
+  SurfaceWish pull_to_start() const;
+  Vec3 finger_from_start_m() const;
 
   TrialOptions options_;
-  TrialStimuli stimuli_;
+  Stimuli stimuli_;
   TrialRun run_;
   TrialEvents events_;
   std::unique_ptr<Session> session_;
@@ -146,10 +149,12 @@ class TrialSession {
 
   Stimulus put_;  ///< that the session was given; none: no surface is felt
   std::uint32_t put_scene_ = 0, put_preset_ = 0;
-  TrialStimulus put_stimulus_;
+  RenderedStimulus put_stimulus_;
   std::string comparison_hash_ = "n/a";
-  std::map<std::string, std::string> hashes_;  ///< of what was shown
+  std::map<std::string, ExplorationPath> paths_;  ///< by mesh: those of large ones take long
+  std::map<std::string, std::string> hashes_;     ///< of what was shown
   SurfaceWish wish_;
+  Placement placement_;  ///< world -> scene
   int begun_ = -1;       ///< trial that the events know of in this start
   bool raised_ = false;  ///< the simulated finger
 };

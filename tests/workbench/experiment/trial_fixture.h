@@ -115,12 +115,12 @@ class Bench {
       if (every) every();
     }
   }
-  Vec3 raised() const { return naming ? Vec3(0.0, 0.0, 0.08) : Vec3(0.0, 0.045, 0.0); }
+  Vec3 raised() const { return naming ? Vec3(0.0, 0.0, 0.08) : Vec3(0.0, 0.0, 0.045); }
   void to(const Vec3& target_m, int ticks = 300) {
     script->target_m = target_m;
     run(ticks);
   }
-  void touch() { to(naming ? Vec3(0.0, 0.0, 0.045) : Vec3(0.0, 0.020, 0.0)); }
+  void touch() { to(naming ? Vec3(0.0, 0.0, 0.045) : Vec3(0.0, 0.0, 0.015)); }
   void raise() { to(raised()); }
   void press(ex::TrialKey key) {
     trials->press(key);

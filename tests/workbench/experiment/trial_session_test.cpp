@@ -40,7 +40,7 @@ TEST_CASE("a whole comparison experiment: touched, raised, answered, written") {
       CHECK(digest.size() == 16);
   }
   const std::string json = test::text_in(std::filesystem::path(bench.trials->rows()).replace_extension(".json"));
-  for (const char* part : {"\"program\"", "\"preset\"", "\"stimuli\"", "5 segments"})
+  for (const char* part : {"\"program\"", "\"preset\"", "\"stimuli\"", "exact arc"})
     CHECK(json.find(part) != std::string::npos);
 }
 
@@ -83,7 +83,7 @@ TEST_CASE("a stimulus stays away while the finger is where it would push, and co
   Bench bench(test::short_comparison());
   bench.trials->press(TrialKey::stop);
   bench.touch();
-  bench.to(Vec3(0.0, 0.005, 0.0));  // 15 mm in
+  bench.to(Vec3(0.0, 0.0, 0.005));  // 15 mm in
   bench.trials->press(TrialKey::resume);
   bench.run(500);
   CHECK(bench.tick().device.force_command_n == Vec3(0.0));
