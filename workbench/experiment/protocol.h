@@ -2,6 +2,7 @@
 // (presets/experiments holds the paper's two); every number is in the file, with the paper's section beside it.
 //
 //   [protocol]     kind = "discrimination" or "identification", name, version
+//   [sound]        noise_db (RMS), cue_db (peak), below full scale
 //   [preset]       keys of a preset in quotes: "finger.radius_m" = 0.02, "force.limit_n" = 6.0
 // and, of the first kind (5.2: which of two arcs is the smooth one),
 //   [arc]          radius_m, angle_rad, placement
@@ -18,6 +19,7 @@
 #include "core/base/vec.h"
 #include "core/lab/objects/arc.h"
 #include "core/preset/preset.h"
+#include "workbench/experiment/sound/sound_settings.h"
 #include "workbench/experiment/staircase.h"
 
 #include <array>
@@ -63,7 +65,8 @@ struct Identification {
 struct Protocol {
   std::string name;
   int version = 1;
-  Preset preset;  ///< finger, force and limits; the conditions replace the sources of force and display
+  Preset preset;        ///< finger, force and limits; the conditions replace the sources of force and display
+  SoundSettings sound;  ///< levels of what is heard; the seed is the participant's
   std::variant<Discrimination, Identification> kind;
 
   const Discrimination* discrimination() const { return std::get_if<Discrimination>(&kind); }

@@ -62,6 +62,7 @@ std::string protocol_digest(const Protocol& protocol) {
   Values values;
   values.add(kProtocolKinds[protocol.kind.index()]).add(protocol.name).add(protocol.version);
   for (const PresetKey& key : preset_keys()) values.add(key.full_name()).add(key.get(protocol.preset));
+  values.add(protocol.sound.noise_db).add(protocol.sound.cue_db);
   std::visit([&](const auto& kind) { add(values, kind); }, protocol.kind);
   return values.digest();
 }

@@ -26,6 +26,7 @@ class ProtocolReader {
   Result<Protocol> read() {
     if (Status ok = read_head(); !ok) return tl::unexpected(ok.error());
     if (Status ok = read_preset(); !ok) return tl::unexpected(ok.error());
+    if (Status ok = read_sound(); !ok) return tl::unexpected(ok.error());
     const Status ok = protocol_.discrimination() ? read_discrimination() : read_identification();
     if (!ok) return tl::unexpected(ok.error());
     for (const auto& [key, node] : root_)
@@ -67,6 +68,13 @@ class ProtocolReader {
         return ok;
     }
     return {};
+  }
+
+  Status read_sound() {
+    TomlTable sound = reader("sound");
+    sound.number("noise_db", protocol_.sound.noise_db, kQuietestSound_db, kLoudestNoise_db);
+    sound.number("cue_db", protocol_.sound.cue_db, kQuietestSound_db, kLoudestCue_db);
+    return sound.finish();
   }
 
   // --- Which of two is smooth ---
