@@ -6,6 +6,7 @@
 #include "workbench/cli/option.h"
 #include "workbench/cli/trial_keys.h"
 
+#include <array>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -16,6 +17,7 @@ namespace {
 
 using experiment::TrialSession;
 
+constexpr std::array<std::string_view, 2> kSounds{"none", "noise"};
 constexpr std::uint64_t kTicksAtOnce = 16;  // in simulated time: as a display at 60 Hz would
 
 /// Says what is new, to the participant on standard output, to the operator on standard error.
@@ -60,7 +62,7 @@ Status take_keys(TrialKeys& keys, TrialSession& trials, double& wait_until_s) {
   return {};
 }
 
-Status attend(TrialSession& trials) {
+Status attend(TrialSession& trials, experiment::SoundFollower& sound) {
   TrialKeys keys;
   Teller teller;
   if (keys.terminal())
@@ -72,6 +74,7 @@ Status attend(TrialSession& trials) {
     else
       trials.session().advance(kTicksAtOnce);
     trials.poll();
+    sound.follow(trials);
     teller.look(trials);
     if (Status ok = take_keys(keys, trials, wait_until_s); !ok) return ok;
   }
@@ -88,6 +91,12 @@ void add_trial_options(CLI::App& command, TrialChoice& choice) {
            "Arm even a device that goes on with its last command when this program dies");
   add_flag(command, "--without-waiting", choice.without_waiting,
            "One tick right after the other, in simulated time (simulated devices, keys from a pipe)");
+  add_flag(command, "--window", choice.window,
+           "Two windows: the operator's, and the participant's, which fills a second monitor where there is one");
+  add_choice_option(command, "--sound", kSounds,
+                    "White noise and cues, or none, which the rows say (default: noise with --window, else none)",
+                    [&choice](std::size_t i) { choice.sound = i == 1; });
+  add_text_option(command, "--sound-device", choice.sound_device, "ALSA's name of it (default \"default\")", "NAME");
 }
 
 Result<experiment::TrialOptions> trial_options(const TrialChoice& choice) {
@@ -110,24 +119,32 @@ Result<experiment::TrialOptions> trial_options(const TrialChoice& choice) {
   return out;
 }
 
-Result<int> run_trials(experiment::TrialOptions options) {
-  std::signal(SIGXFSZ, SIG_IGN);  // a limit on file sizes is an error of the write, like a full disk
-  const InterruptGuard guard;
-  const bool waits = options.session.threaded;
-  auto trials = TrialSession::start(std::move(options));
-  if (!trials) return tl::unexpected(trials.error());
-  if (!waits && (*trials)->session().status().real_devices)
-    return fail("real devices keep real time", "--without-waiting", "leave it out, or choose simulated devices");
-  const Status attended = attend(**trials);
-  const int answers = (*trials)->answers();
-  const bool complete = (*trials)->complete();
-  const Status ended = (*trials)->end();
-  std::printf("%s: %d trials\n", (*trials)->rows().c_str(), answers);
-  if (!attended) return tl::unexpected(attended.error());
-  if (!ended) return tl::unexpected(ended.error());
+int say_outcome(const std::filesystem::path& rows, int answers, bool complete) {
+  std::printf("%s: %d trials\n", rows.c_str(), answers);
   if (complete) return kDone;
   print_message("experiment", "ended before its end; the same command goes on from there");
   return kFailed;
+}
+
+Result<int> run_trials(TrialsToRun wanted) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a limit on file sizes is an error of the write, like a full disk
+  const InterruptGuard guard;
+  const bool waits = wanted.trials.session.threaded;
+  auto sound = experiment::SoundFollower::open(wanted.sound, wanted.sound_device);
+  if (!sound) return tl::unexpected(sound.error());
+  wanted.trials.sound = sound->text();
+  auto trials = TrialSession::start(std::move(wanted.trials));
+  if (!trials) return tl::unexpected(trials.error());
+  if (!waits && (*trials)->session().status().real_devices)
+    return fail("real devices keep real time", "--without-waiting", "leave it out, or choose simulated devices");
+  const Status attended = attend(**trials, *sound);
+  const int answers = (*trials)->answers();
+  const bool complete = (*trials)->complete();
+  const Status ended = (*trials)->end();
+  const int code = say_outcome((*trials)->rows(), answers, complete);
+  if (!attended) return tl::unexpected(attended.error());
+  if (!ended) return tl::unexpected(ended.error());
+  return code;
 }
 
 }  // namespace tangent
