@@ -89,7 +89,7 @@ Status Stimuli::add_object(const std::string& name, bool shaded, Facing facing) 
   if (!shaded) options.segments = facet_segments(name, d.facet_deg);
   Result<PolygonMesh> polygons = generate_mesh(name, options);
   if (!polygons) return tl::unexpected(polygons.error());
-  Result<ContactMesh> mesh = ContactMesh::build(std::move(*polygons));
+  Result<ContactMesh> mesh = ContactMesh::build(*polygons);
   if (!mesh) return tl::unexpected(mesh.error());
   auto scene = ContactScene::build(std::move(*mesh), parts_of(shaded));
   if (!scene) return tl::unexpected(scene.error());

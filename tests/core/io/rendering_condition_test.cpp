@@ -91,7 +91,7 @@ TEST_CASE("a condition that the devices can't do says what is missing") {
   const Status no_display = check_devices(preset, true, false);
   REQUIRE_FALSE(no_display);
   CHECK(contains(no_display.error().message(), "condition C3 needs a contact location display"));
-  CHECK(contains(no_display.error().message(), "choose C1 or C2"));
+  CHECK(contains(no_display.error().message(), "choose C1, C2 or force-shaded"));
   CHECK(check_devices(preset, true, true));
   set_condition(preset, *find_condition("C1"));
   CHECK(check_devices(preset, true, false));

@@ -28,7 +28,7 @@ PlanarCurve segments_curve(int segments, ArcPlacement placement) {
 }
 TickOutput touch_at(const PlanarCurve& curve, const Preset& preset, const Vec2& at) {
   TickState state;
-  return step_planar(curve, preset, at_position(0.0, {at.x, at.y, 0.0}), state);
+  return step_planar(curve, preset, at_position(0.0, {at.x, at.y, 0.0}), state, nullptr);
 }
 Vec2 on_arc(double angle, double distance) { return distance * Vec2(std::sin(angle), std::cos(angle)); }
 Preset arc_preset() {
@@ -82,7 +82,7 @@ TEST_CASE("along the exact arc, its run-outs and past its ends nothing steps") {
   TickState state;
   std::optional<TickOutput> before;
   const auto go_to = [&](const Vec2& at) {
-    const TickOutput out = step_planar(arc, preset, at_position(0.0, {at.x, at.y, 0.0}), state);
+    const TickOutput out = step_planar(arc, preset, at_position(0.0, {at.x, at.y, 0.0}), state, nullptr);
     if (before) {
       CHECK(out.event == TickEvent::none);
       CHECK(glm::length(out.contact - before->contact) < 1.01 * kStep);
@@ -111,7 +111,7 @@ TEST_CASE("a finger put into the exact arc from behind is not pushed until it ha
   const PlanarCurve arc = arc_curve(kPaperStimulus.exact());
   const Preset preset = arc_preset();
   TickState state;
-  const auto tick = [&](double y) { return step_planar(arc, preset, at_position(0.0, {0.0, y, 0.0}), state); };
+  const auto tick = [&](double y) { return step_planar(arc, preset, at_position(0.0, {0.0, y, 0.0}), state, nullptr); };
   CHECK(tick(-0.060).status == TickStatus::free);  // below: the circle's other side is not there
   TickOutput out;
   for (double y = -0.060; y < 0.119; y += 2e-5) {
