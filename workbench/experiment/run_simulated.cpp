@@ -56,8 +56,15 @@ Status compare(const Protocol& protocol, const Enrolment& enrolment, std::uint64
   if (!rows) return tl::unexpected(rows.error());
   auto run = ComparisonRun::start(protocol, number, enrolment.seed, *rows);
   if (!run) return tl::unexpected(run.error());
-  const KnownComparer participant = comparer_like_the_papers(protocol, number, enrolment.seed);
-  take_part(*run, participant, enrolment.seed, [&](const ComparisonRow& row) { recorder.add(row); });
+  const auto add = [&](const ComparisonRow& row) { recorder.add(row); };
+  if (enrolment.mark.simulated == kSimulatedKinds[1]) {
+    auto arcs = arcs_to_feel(protocol);
+    if (!arcs) return tl::unexpected(arcs.error());
+    FeelingComparer participant(std::move(*arcs), *protocol.discrimination(), feeling_hand(number, enrolment.seed),
+                                enrolment.seed);
+    return take_part(*run, participant, enrolment.seed, add);
+  }
+  take_part(*run, comparer_like_the_papers(protocol, number, enrolment.seed), enrolment.seed, add);
   return {};
 }
 
@@ -91,6 +98,9 @@ Result<SimulatedOutcome> run_simulated(const std::filesystem::path& folder, cons
   if (!number)
     return fail("\"" + enrolment.mark.participant + "\" ends with no number, which the orders go by", "--participant",
                 "write 7, or P07");
+  if (enrolment.mark.simulated == kSimulatedKinds[1] && !protocol.discrimination())
+    return fail("a participant who feels compares arcs, and names no objects", "--simulated feeling",
+                "take --simulated known, or a protocol of kind discrimination");
   Result<RowFile> file = enrol(folder, protocol, protocol_text, enrolment);
   if (!file) return tl::unexpected(file.error());
   SimulatedOutcome out;
