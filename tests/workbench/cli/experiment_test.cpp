@@ -44,6 +44,33 @@ TEST_CASE("experiment and analyse: from a protocol to a page") {
   CHECK(std::filesystem::exists(folder.file("out/staircases.csv")));
 }
 
+TEST_CASE("analyse: power and check take a protocol, and print and write what they find") {
+  const TempFolder folder;
+  const auto plan = [&](const std::string& protocol, std::vector<std::string> more) {
+    std::vector<std::string> arguments{"analyse", protocol, "--out", folder.file("plan")};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_workbench(std::move(arguments));
+  };
+  const ProcessResult power = plan(shipped("identification.toml"), {"--power", "--count", "20"});
+  CHECK(power.exit_code == 0);
+  CHECK(contains(power.out, "theory"));
+  CHECK(std::filesystem::exists(folder.file("plan/power.csv")));
+  const ProcessResult check = plan(shipped("identification.toml"), {"--check", "--count", "36"});
+  CHECK(check.exit_code == 0);
+  CHECK(contains(check.out, "should be"));
+  CHECK(std::filesystem::exists(folder.file("plan/check.html")));
+  CHECK(plan(shipped("identification.toml"), {"--check", "--power"}).exit_code == 2);
+  CHECK(plan(folder.file("none.toml"), {"--power"}).exit_code == 1);
+}
+
+TEST_CASE("experiment: one who feels takes part in comparisons alone") {
+  const TempFolder folder;
+  const ProcessResult naming = run_workbench({"experiment", shipped("identification.toml"), "--participant", "P1",
+                                              "--out", folder.file("d"), "--simulated", "feeling"});
+  CHECK(naming.exit_code == 1);
+  CHECK(contains(naming.err, "names no objects"));
+}
+
 TEST_CASE("experiment: the same seed gives the same bytes, another one others") {
   const TempFolder a, b, c;
   REQUIRE(experiment(a, "7", {"--seed", "5"}).exit_code == 0);
