@@ -3,10 +3,10 @@
 
 #include "core/base/float_state.h"
 #include "core/base/result.h"
-#include "core/embed/tangent_c.h"
 #include "core/mesh/polygon_mesh.h"
 #include "core/preset/preset.h"
 #include "core/tick/step.h"
+#include "embed/tangent_c.h"
 
 #include <algorithm>
 #include <array>

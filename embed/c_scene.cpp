@@ -1,7 +1,7 @@
 // The C interface: scenes.
-#include "core/embed/c_handle.h"
 #include "core/io/mesh_io.h"
 #include "core/io/scene_file.h"
+#include "embed/c_handle.h"
 
 #include <cmath>
 #include <numbers>

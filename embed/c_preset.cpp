@@ -1,7 +1,7 @@
 // The C interface: presets.
-#include "core/embed/c_handle.h"
 #include "core/io/preset_file.h"
 #include "core/preset/schema.h"
+#include "embed/c_handle.h"
 
 #include <string>
 

@@ -1,7 +1,7 @@
 // Several threads at the C interface: what may be shared is, and what may not is told.
-#include "core/embed/tangent_c.h"
 #include "core/io/mesh_io.h"
 #include "core/lab/objects/generate.h"
+#include "embed/tangent_c.h"
 #include "tests/support/temp_folder.h"
 
 #include <doctest/doctest.h>

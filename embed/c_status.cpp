@@ -1,5 +1,5 @@
 // The C interface: versions, and what a status says by itself.
-#include "core/embed/c_handle.h"
+#include "embed/c_handle.h"
 
 #include <string>
 

@@ -1,8 +1,8 @@
 // The C interface: audit and decimation.
-#include "core/embed/c_handle.h"
 #include "core/lab/audit/finger_size.h"
 #include "core/lab/audit/mesh_audit.h"
 #include "core/lab/measure/decimate.h"
+#include "embed/c_handle.h"
 
 #include <cmath>
 

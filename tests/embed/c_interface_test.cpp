@@ -1,9 +1,9 @@
-#include "core/embed/c_handle.h"
-#include "core/embed/tangent_c.h"
 #include "core/io/mesh_io.h"
 #include "core/io/pose_file.h"
 #include "core/io/preset_file.h"
 #include "core/lab/objects/generate.h"
+#include "embed/c_handle.h"
+#include "embed/tangent_c.h"
 #include "tests/support/temp_folder.h"
 
 #include <doctest/doctest.h>

@@ -1,4 +1,4 @@
-#include "core/embed/batch.h"
+#include "embed/batch.h"
 
 #include "core/lab/objects/generate.h"
 

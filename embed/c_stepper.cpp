@@ -1,6 +1,6 @@
 // The C interface: ticks.
-#include "core/embed/batch.h"
-#include "core/embed/c_handle.h"
+#include "embed/batch.h"
+#include "embed/c_handle.h"
 
 #include <algorithm>
 #include <array>
