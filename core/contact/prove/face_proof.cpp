@@ -304,10 +304,9 @@ void bisect_parts(const Part& whole, const Ground& ground, double enough_m, cons
       result.hold(zero);
       continue;
     }
-    const bool asked = Slack::kNone && ground.gentle && enough_m > 0.0;
-    const double folded = asked && !stable ? folded_margin(part, ground) : 0.0;
+    const double folded = Slack::kNone && ground.gentle && !stable ? folded_margin(part, ground) : 0.0;
     if (folded > 0.0) {
-      margin = std::min(margin, folded);
+      margin = enough_m > 0.0 ? std::min(margin, folded) : 0.0;
       continue;
     }
     if (part.depth < kBisections && tests < (Slack::kNone ? kBisectionTests : kSlackTests)) {

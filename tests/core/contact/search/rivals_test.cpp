@@ -121,7 +121,7 @@ Found wander_over_random_grounds(std::uint64_t seed, int grounds) {
 TEST_CASE("on random ground the tracked contact is the deepest place, as a search from nothing finds it") {
   // Four of twelve seeds tried, 1 to 12; on the others it is 0, too. Seed 6 had 9 and seed 7 had 1 while a face was
   // given up whose bisection took more tests than it may; seed 8 had 2 when heights were taken to change along the
-  // normals. At a fold a place may come up that is deeper by more than can have been entered: 8 on seed 10.
+  // normals. At a fold a place may come up that is deeper by more than can have been entered: 7 on seed 10.
   const int grounds = std::max(4, rounds(24));
   for (const std::uint64_t seed : {6, 7, 8, 10}) {
     const Found found = wander_over_random_grounds(seed, grounds);
