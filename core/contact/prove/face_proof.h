@@ -26,6 +26,7 @@ struct PatchExclusion {
   /// (u, v) is a place to start from for a contact on the triangle's edges; one inside the face may be near these.
   bool also_inside = false;
   double inside_u = 0.0, inside_v = 0.0;
+  bool unsure = false;  ///< besides that contact there may be others, of which nothing is known
 };
 
 /// `centre` in the patch's coordinates. Faces only: edges and vertices have fans of normals of their own. Where the

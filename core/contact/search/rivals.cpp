@@ -8,6 +8,7 @@
 #include "core/contact/prove/clearance_check.h"
 #include "core/contact/prove/core_proof.h"
 #include "core/contact/prove/triangle_proof.h"
+#include "core/contact/search/beyond_fold.h"
 #include "core/contact/search/height_change.h"
 
 #include <algorithm>
@@ -21,6 +22,8 @@ namespace {
 
 /// Ratio to the distance: so far off a plane triangles are still parts of it. Rounding leaves 1e-16.
 constexpr double kSamePlane = 1e-12;
+/// Of the finger's reach: so large a radius of curvature is a flat side.
+constexpr double kFlatFlank = 4.0;
 constexpr double kForever = std::numeric_limits<double>::infinity();
 
 /// Whether a contact is well enough known without solving for it. Beside a fold a stable and an unstable one are so
@@ -182,12 +185,28 @@ class RivalSearch {
     if (core_ && known.height_m >= 0.0) {
       const CoreSupport support = core_->support(known.normal);
       double least = support.length;
-      for (const Vec3& normal : context_.cache.mesh().normals(t))
-        least = std::min(least, glm::dot(core_->scaled(normal), support.direction));
+      for (const std::uint32_t triangle : {t, known.triangle}) {
+        const PnPatch& patch = context_.cache.patch(triangle, settings_.normal_form);
+        for (std::size_t k = 0; k < 6; ++k) {
+          const Vec3 normal = (k < n110 ? 1.0 : 0.5 * patch.mixed_weight) * patch.normals[k];
+          least = std::min(least, glm::dot(core_->scaled(normal), support.direction));
+        }
+      }
       least = core_->length_after(least, margin_m);
       known.height_m = std::max(known.height_m, core_->ball_m() + core_->largest_radius(least) - known_depths_[i]);
+      if (known.height_m > kFlatFlank * core_->reach_m() && t != known.triangle && !stays_unfolded(t, known))
+        return false;
     }
     return same_basin(context_.cache, settings_.normal_form, t, known, margin_m);
+  }
+
+  /// For good, by bounds of its curvature: under a flank as flat as a capsule's the least hollow folds, and places tell
+  /// nothing of what is between them.
+  bool stays_unfolded(std::uint32_t t, const KnownContact& known) {
+    const auto stays = [&](std::uint32_t triangle) {
+      return context_.cache.bend(triangle, settings_.normal_form).least * known.height_m > -kFoldRoom;
+    };
+    return stays(t) && stays(known.triangle);
   }
 
   /// How far a finger with a core may go before a rival that ranks `gap` behind can overtake: no depth changes faster.
@@ -271,7 +290,9 @@ class RivalSearch {
     const double guess = proof.height_m >= 0.0 ? proof.height_m : context_.finger.reach_m() - proof.height_m;
     const double behind = guess - bound_m_;
     if (proof.height_m != 0.0 && behind > kHeightGuess * guess) {  // a rival, but not a deeper one yet
-      if (core_) return {overtaking_core_m(behind), true, true};
+      if (core_)
+        return {std::min(overtaking_core_m(behind), proof.unsure ? kUnresolvedMargin * slope_m_ : kForever), true,
+                true};
       SurfaceSample there;
       context_.cache.sample(t, settings_.normal_form, proof.u, std::min(proof.v, 1.0 - proof.u), there);
       if (trusts_guess(normal_bend(there).at_height(proof.height_m)))
@@ -408,6 +429,7 @@ class RivalSearch {
               share * kRivalBudget, r);
       result.evaluations += r.evaluations;
     }
+    if (core_ && r.stop == StopReason::unstable) look_beyond_fold(share * kDeeperRivalBudget, r, result.evaluations);
     // No contact there now, but one may come up: ask again before long.
     if (!r.converged()) return {kUnresolvedMargin * slope_m_, true, true};
     if (is_followed(r.plane.point)) {
@@ -428,6 +450,23 @@ class RivalSearch {
     if (core_) return {overtaking_core_m(behind), true, false};
     return {overtaking_margin(change_, change_of(r.plane, r.sample, r.contact.height_m), behind, touched_ != nullptr),
             true, false};
+  }
+
+  /// To the deeper of the contacts beside an unstable one that are not followed yet; to one that is, where there is no
+  /// other.
+  void look_beyond_fold(int budget, IterationResult& r, int& evaluations) {
+    const IterationResult unstable = r;
+    bool is_new = false;
+    for (const double sign : {-1.0, 1.0}) {
+      IterationResult there;
+      const bool found = iterate_beyond_fold(context_, unstable, sign, budget, there);
+      evaluations += there.evaluations;
+      if (!found) continue;
+      const bool followed = is_followed(there.plane.point);
+      const bool deeper = contact_rank(context_.finger, there.contact) < contact_rank(context_.finger, r.contact);
+      if (followed ? !r.converged() : !is_new || deeper) r = there;
+      is_new = is_new || !followed;
+    }
   }
 
   const SearchStructures search_;
