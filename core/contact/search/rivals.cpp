@@ -30,6 +30,8 @@ constexpr double kForever = std::numeric_limits<double>::infinity();
 /// near to each other that it may be either.
 bool trusts_guess(const Stability& stability) { return stability.det > kGuessMinDet && stability.trace > 0.0; }
 
+double distance2(const Vec3& a, const Vec3& b) { return glm::dot(a - b, a - b); }
+
 /// Some ticks at the finger's present speed, within shares of the tracked contact's rank.
 double ticks_ahead_m(double rank, double moved_m, double ticks) {
   // Where not even one tick ahead can be seen, as after a leap, looking ahead would be for nothing.
@@ -184,29 +186,34 @@ class RivalSearch {
     KnownContact known = known_[i];
     if (core_ && known.height_m >= 0.0) {
       const CoreSupport support = core_->support(known.normal);
-      double least = support.length;
-      for (const std::uint32_t triangle : {t, known.triangle}) {
-        const PnPatch& patch = context_.cache.patch(triangle, settings_.normal_form);
-        for (std::size_t k = 0; k < 6; ++k) {
-          const Vec3 normal = (k < n110 ? 1.0 : 0.5 * patch.mixed_weight) * patch.normals[k];
-          least = std::min(least, glm::dot(core_->scaled(normal), support.direction));
-        }
+      known.height_m = std::max(known.height_m, flattest_height(support, t, margin_m) - known_depths_[i]);
+      if (known.height_m > kFlatFlank * core_->reach_m() && t != known.triangle) {
+        const double there = flattest_height(support, known.triangle, margin_m) - known_depths_[i];
+        if (may_hide_hollow(t, known.height_m) || may_hide_hollow(known.triangle, there)) return false;
       }
-      least = core_->length_after(least, margin_m);
-      known.height_m = std::max(known.height_m, core_->ball_m() + core_->largest_radius(least) - known_depths_[i]);
-      if (known.height_m > kFlatFlank * core_->reach_m() && t != known.triangle && !stays_unfolded(t, known))
-        return false;
     }
     return same_basin(context_.cache, settings_.normal_form, t, known, margin_m);
   }
 
-  /// For good, by bounds of its curvature: under a flank as flat as a capsule's the least hollow folds, and places tell
-  /// nothing of what is between them.
-  bool stays_unfolded(std::uint32_t t, const KnownContact& known) {
-    const auto stays = [&](std::uint32_t triangle) {
-      return context_.cache.bend(triangle, settings_.normal_form).least * known.height_m > -kFoldRoom;
-    };
-    return stays(t) && stays(known.triangle);
+  /// Largest radius of curvature of the finger that it turns to a triangle on the way from a support.
+  double flattest_height(const CoreSupport& support, std::uint32_t t, double margin_m) {
+    const PnPatch& patch = context_.cache.patch(t, settings_.normal_form);
+    double least = support.length;
+    for (std::size_t k = 0; k < patch.normals.size(); ++k) {
+      const double share = k < n110 ? 1.0 : 0.5 * patch.mixed_weight;
+      least = std::min(least, share * glm::dot(core_->scaled(patch.normals[k]), support.direction));
+    }
+    return core_->ball_m() + core_->largest_radius(core_->length_after(least, margin_m));
+  }
+
+  /// Whether ground may fold at that height, by bounds of its curvature, and be hollow over two triangles by more than
+  /// the hysteresis: under a flank as flat as a capsule's places tell nothing of what is between them. Where there are
+  /// no such bounds the places have to do.
+  bool may_hide_hollow(std::uint32_t t, double height_m) {
+    const double least = context_.cache.bend(t, settings_.normal_form).least;
+    const auto p = context_.cache.mesh().positions(t);
+    const double wide2 = std::max({distance2(p[0], p[1]), distance2(p[1], p[2]), distance2(p[2], p[0])});
+    return least > -kForever && least * height_m <= -kFoldRoom && -0.5 * least * wide2 > settings_.switch_hysteresis_m;
   }
 
   /// How far a finger with a core may go before a rival that ranks `gap` behind can overtake: no depth changes faster.
