@@ -28,6 +28,12 @@ std::unique_ptr<ForceDevice> ideal_force(const DeviceOptions& options) {
   return std::make_unique<SimulatedForceDevice>(ideal);
 }
 
+std::unique_ptr<ForceDevice> tilting_force(const DeviceOptions& options) {
+  SimulatedForceOptions tilting{.seed = options.seed};
+  tilting.senses_rotation = {false, true, false};
+  return std::make_unique<SimulatedForceDevice>(tilting);
+}
+
 std::unique_ptr<ForceDevice> scheduled_force(const DeviceOptions& options) {
   return std::make_unique<ScheduledForceDevice>(SimulatedForceOptions{.seed = options.seed});
 }
@@ -62,6 +68,7 @@ constexpr DeviceKind<ForceDevice> kForceDevices[] = {
     {"simulated", simulated_force},
     {"ideal", ideal_force},
     {"scheduled", scheduled_force},
+    {"tilt", tilting_force},
     {"none", [](const DeviceOptions&) { return std::unique_ptr<ForceDevice>(); }},
 };
 constexpr DeviceKind<ContactDisplay> kContactDisplays[] = {

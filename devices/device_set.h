@@ -32,7 +32,9 @@ struct DeviceNames {
 };
 
 /// "simulated": with the data of a real one (PHANToM Premium 1.5). "ideal": the same without encoder steps, tremor and
-/// friction. "scheduled": as simulated, but it calls us, from a thread of its own. "none": no force device.
+/// friction. "scheduled": as simulated, but it calls us, from a thread of its own. "tilt": as
+/// simulated, but of the finger's rotations it measures the tilt alone, as the paper's gimbal (Doxon et al. 5.3.2).
+/// "none": no force device.
 const std::vector<std::string>& force_device_names();
 /// "simulated": with the data of the paper's CLD. "ideal": the same without steps and backlash. "cld": a CLD controller
 /// on USB. "maestro": a servo on a Pololu Maestro. "none": no display.

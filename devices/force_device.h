@@ -31,9 +31,13 @@ struct ForceCapabilities {
   std::string serial = {};  ///< empty: not known
   bool simulated = false;
   std::array<bool, 3> pushes_along{true, true, true};  ///< axes of its own frame; along the others no force is sent
-  int rotations_sensed = 0;   ///< of the finger: 3, or 0 where its orientation is the default one; 1 or 2: in part
-  int buttons = 0;            ///< on its handle, 32 at most
-  double peak_force_n = 0.0;  ///< must never be exceeded
+  /// Rotations of the finger that it measures: roll about the finger's own length, tilt up and down, turn to the side.
+  /// In those that it doesn't, the finger points forward as it does by default; without any the device's orientation is
+  /// not read.
+  std::array<bool, 3> senses_rotation{false, false, false};
+  int rotations_sensed() const { return int{senses_rotation[0]} + int{senses_rotation[1]} + int{senses_rotation[2]}; }
+  int buttons = 0;                  ///< on its handle, 32 at most
+  double peak_force_n = 0.0;        ///< must never be exceeded
   double continuous_force_n = 0.0;  ///< can be held indefinitely
   double position_resolution_m = 0.0;
   double apparent_mass_kg = 0.0;
@@ -48,6 +52,11 @@ struct ForceCapabilities {
 
 /// "x, y, z": the axes that it can push along.
 std::string pushed_axes(const ForceCapabilities& can);
+/// "roll, tilt, turn", "tilt" or "none": the rotations of the finger that it measures.
+std::string sensed_rotations(const ForceCapabilities& can);
+/// What a device that measures these rotations alone gives of an orientation (unit): a turn about z after a tilt about
+/// y after a roll about x, without the others. All three: the same bits.
+Quat as_sensed(const Quat& orientation, const std::array<bool, 3>& senses_rotation) noexcept;
 /// "at 0.0 0.0 300.0 mm, turned by 0.0 0.0 90.0 deg": in the world.
 std::string frame_text(const DeviceFrame& frame);
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace tangent {
 namespace {
@@ -140,19 +141,30 @@ Vec2 clamp_turn(const EdgeFan& fan, const Vec2& turn) {
 Vec2 facing_turn(const EdgeFan& fan, const Finger& finger, const FingerPose& pose) {
   Vec2 turn = turn_of(fan, pose.position - fan.point);
   if (is_round(finger)) return turn;
-  // Other shapes: Newton on the component of the travel across the edge, d(travel)/d(turn) = -H dN/d(turn).
-  for (int i = 0; i < 20; ++i) {
+  // Other shapes: Newton on the component of the travel across the edge, d(travel)/d(turn) = -H dN/d(turn). That is
+  // minus the penetration's derivative (finger/facing_normal.h): where it is positive, the least penetration lies
+  // further on. On the flank of a long finger Newton's steps overshoot it for ever, so they are kept between the turns
+  // that were too small and those that were too large.
+  constexpr double kLongest = 0.5, kSameTurn = 1e-13;  // rad
+  double angle = 0.0, too_small = -std::numeric_limits<double>::infinity(), too_large = -too_small;
+  for (int i = 0; i < 40; ++i) {
     SurfaceSample s;
     edge_sample(fan, turn, s);
     const PlaneContact c = contact_on_plane(finger, pose, s.point, s.normal);
     const Vec3 across = unit(glm::cross(fan.tangent, s.normal));
     const double residual = glm::dot(c.travel, across);
     const double slope = glm::dot(offset_derivative(finger, pose, s.normal, c.penetration_m) * s.normal_v, across);
-    if (!(std::abs(slope) > 0.0)) break;
-    const double change = std::clamp(residual / slope, -0.5, 0.5), c1 = std::cos(change), s1 = std::sin(change);
+    if (residual == 0.0) break;
+    (residual > 0.0 ? too_small : too_large) = angle;
+    double change = slope > 0.0 ? std::clamp(residual / slope, -kLongest, kLongest) : std::copysign(kLongest, residual);
+    const bool last = std::abs(change) < kSameTurn;
+    if (!last && !(angle + change > too_small && angle + change < too_large))
+      change = 0.5 * (too_small + too_large) - angle;
+    angle += change;
+    const double c1 = std::cos(change), s1 = std::sin(change);
     turn = {c1 * turn.x - s1 * turn.y, s1 * turn.x + c1 * turn.y};
     turn /= glm::length(turn);
-    if (std::abs(change) < 1e-13) break;
+    if (last || std::abs(change) < kSameTurn) break;
   }
   return turn;
 }

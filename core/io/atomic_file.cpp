@@ -1,13 +1,16 @@
 #include "core/io/atomic_file.h"
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
 #include <atomic>
 #include <cerrno>
+#include <charconv>
 #include <climits>
+#include <csignal>
 #include <cstring>
 #include <utility>
 
@@ -56,18 +59,55 @@ void forget(int which) {
 
 // ---------------------------------------------------------------------------------------------------------
 
+/// "F" of ".F.tmp-PID-ATTEMPT" beside it.
+std::string name_before_process(const std::filesystem::path& place) {
+  std::string name(1, '.');
+  name.append(place.filename().string(), 0, 200);
+  return name.append(".tmp-");
+}
+
+/// Of PID-ATTEMPT; 0: it is none.
+pid_t process_of(std::string_view text) {
+  pid_t process = 0;
+  const auto read = std::from_chars(text.data(), text.data() + text.size(), process);
+  const std::string_view rest(read.ptr, static_cast<std::size_t>(text.data() + text.size() - read.ptr));
+  const bool whole =
+      rest.size() > 1 && rest.front() == '-' && rest.find_first_not_of("0123456789", 1) == std::string_view::npos;
+  return read.ec == std::errc{} && process > 0 && whole ? process : 0;
+}
+
+/// What processes left that were killed while they wrote the same file. Theirs is a lock that ends with them: on a
+/// shared disk a process of another machine may have the number of none here.
+void remove_left_behind(const std::filesystem::path& place) {
+  const std::string begin = name_before_process(place);
+  std::error_code error;
+  const std::filesystem::path folder = place.parent_path().empty() ? "." : place.parent_path();
+  for (std::filesystem::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
+    const std::string name = at->path().filename().string();
+    if (!name.starts_with(begin)) continue;
+    const pid_t process = process_of(std::string_view(name).substr(begin.size()));
+    if (process == 0 || ::kill(process, 0) == 0 || errno != ESRCH) continue;
+    const int fd = ::open(at->path().c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOFOLLOW);
+    if (fd < 0) continue;
+    if (::flock(fd, LOCK_EX | LOCK_NB) == 0) ::unlink(at->path().c_str());
+    ::close(fd);
+  }
+}
+
 /// Opens a new file beside `place`. Its name contains the process id and an attempt number, so that leftovers of a
 /// crashed run, or a second writer, only cost another attempt. It is remembered before it is there: a signal may come
 /// in between.
 int open_beside(const std::filesystem::path& place, mode_t mode, std::filesystem::path& temporary, int& known_as) {
   for (int attempt = 0; attempt < 1000; ++attempt) {
-    std::string name(1, '.');
-    name.append(place.filename().string(), 0, 200);
-    name.append(".tmp-").append(std::to_string(::getpid())).append(1, '-').append(std::to_string(attempt));
+    std::string name = name_before_process(place);
+    name.append(std::to_string(::getpid())).append(1, '-').append(std::to_string(attempt));
     temporary = place.parent_path() / name;
     known_as = remember(temporary);
     const int fd = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
-    if (fd >= 0) return fd;
+    if (fd >= 0) {
+      (void)::flock(fd, LOCK_EX | LOCK_NB);  // where the disk knows none, the process alone says that it is written
+      return fd;
+    }
     forget(std::exchange(known_as, -1));
     if (errno != EEXIST) return fd;
   }
@@ -105,6 +145,7 @@ Result<AtomicFile> AtomicFile::create(const std::filesystem::path& target) {
     if (!followed.empty()) file.place_ = followed;
   }
   const mode_t mode = exists ? info.st_mode & 07777 : 0666;
+  remove_left_behind(file.place_);
   file.fd_ = open_beside(file.place_, mode, file.temporary_, file.known_as_);
   if (file.fd_ < 0) {
     const auto failure = system_failure("create a temporary file beside it", target);

@@ -136,6 +136,8 @@ std::optional<std::pair<std::size_t, std::size_t>> find_crossing(const std::vect
 }  // namespace
 
 Status check_polygon(const PlanarPolygon& polygon) {
+  if (polygon.exact)
+    if (Status status = check_exact_arc(*polygon.exact, polygon.name); !status) return status;
   if (Status status = check_vertices(polygon); !status) return status;
   if (Status status = check_repeats(polygon); !status) return status;
   const std::vector<Segment> segments = segments_of(polygon);

@@ -3,8 +3,10 @@
 
 #include "core/base/result.h"
 #include "core/base/vec.h"
+#include "core/planar/exact_arc.h"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +19,8 @@ struct PlanarPolygon {
   std::string name;  ///< file or generator name, for messages
   std::vector<Vec2> vertices;
   bool closed = false;
+  /// Where it is there, the finger touches this instead, and the vertices, near it, are for views and paths.
+  std::optional<ExactArc> exact = std::nullopt;
 };
 
 inline constexpr std::size_t kMostPlanarVertices = 1'000'000;
@@ -24,9 +28,10 @@ inline constexpr std::size_t kMostPlanarVertices = 1'000'000;
 double cross(const Vec2& a, const Vec2& b);           ///< z of the cross product
 double signed_area_m2(const PlanarPolygon& polygon);  ///< of a closed one; positive: counter-clockwise
 
-/// Whether the 2D algorithm can take it. Fails, naming the vertices (from 0), on: fewer than three different vertices;
-/// a coordinate that is not finite or beyond kLargestCoordinate; a vertex three times in a row; a sharp corner at an
-/// open end; a segment that folds back onto the one before; segments that cross or touch; ends that all but meet.
+/// Whether the 2D algorithm can take it. Fails as check_exact_arc does, and, naming the vertices (from 0), on: fewer
+/// than three different vertices; a coordinate that is not finite or beyond kLargestCoordinate; a vertex three times in
+/// a row; a sharp corner at an open end; a segment that folds back onto the one before; segments that cross or touch;
+/// ends that all but meet.
 Status check_polygon(const PlanarPolygon& polygon);
 
 /// Bounding-box centre to the origin, longest side to `longest_m`.

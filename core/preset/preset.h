@@ -26,7 +26,7 @@ enum class DistanceReading : std::uint8_t {
 /// The local centre of the 2D algorithm (Doxon et al., appendix).
 enum class LocalCentre : std::uint8_t {
   bisectors,  ///< where the perpendicular bisectors of the two segments meet
-  midpoint,   ///< midpoint of their far ends; offered by the paper, and poor
+  midpoint,   ///< midpoint of their far ends; offered by the paper; fails on nearly flat arcs
 };
 enum class ForceSource : std::uint8_t { method, facet, force_shading, smooth };
 /// What is faded in instead of leaping (shading/blend.h).

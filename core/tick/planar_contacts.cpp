@@ -1,5 +1,6 @@
 #include "core/tick/planar_contacts.h"
 
+#include "core/contact/decide/decide.h"
 #include "core/finger/plane_contact.h"
 #include "core/planar/polygon_contact.h"
 #include "core/planar/track.h"
@@ -45,6 +46,16 @@ PlanarKept kept_of(const PlanarCurve& curve, const TickContext& tick) {
   return kept;
 }
 
+/// Keeps what was found for the next tick, and gives it for rendering.
+RenderPlane kept_plane(const TickContext& tick, const PlanarTrack& track) {
+  tick.state.plane = plane_of(track.contact.place);
+  tick.state.unentered = track.unentered;
+  RenderPlane plane;
+  const double depth = radius_m(tick) - track.contact.height_m;
+  keep_converged_plane(tick, track.unentered ? std::min(0.0, depth) : depth, plane);
+  return plane;
+}
+
 RenderPlane find_smooth(const PlanarCurve& curve, const TickContext& tick, const SolverSettings& settings,
                         PlanarTrack& track) {
   const PlanarContext context{curve,
@@ -55,13 +66,9 @@ RenderPlane find_smooth(const PlanarCurve& curve, const TickContext& tick, const
                               0,
                               glm::length(finger_way(tick.pose.position, tick.t_s, tick.state).moved)};
   track = track_planar(context, kept_of(curve, tick));
+  if (track.converged()) return kept_plane(tick, track);
   tick.state.plane = plane_of(track.contact.place);
-  if (!track.converged()) return last_converged_plane(tick);
-  tick.state.unentered = track.unentered;
-  RenderPlane plane;
-  const double depth = radius_m(tick) - track.contact.height_m;
-  keep_converged_plane(tick, track.unentered ? std::min(0.0, depth) : depth, plane);
-  return plane;
+  return last_converged_plane(tick);
 }
 
 void describe_smooth(const PlanarTrack& track, const TickContext& tick, TickOutput& out) {
@@ -77,6 +84,50 @@ void describe_smooth(const PlanarTrack& track, const TickContext& tick, TickOutp
   out.event = track.event;
   out.iterations = track.evaluations;
   out.triangle_changes = track.patch_changes;
+}
+
+/// Where on the curve's patches the place is drawn.
+PlanarPlace place_near(const PlanarCurve& curve, const PolygonSurface& surface, const ExactContact& contact) {
+  const NearestHit hit = surface.nearest(lifted(contact.point)).hit;
+  const std::uint32_t patch = hit.u < 0.5 ? hit.triangle : curve.after(hit.triangle);
+  const double t = curve.parameter(patch, LocalCentre::bisectors, contact.point);
+  return {contact.feature, patch, std::clamp(t, 0.0, 1.0), contact.point, contact.normal};
+}
+
+/// The one line of an exact arc's tick.
+void record_exact(const PlanarPlace& place, double distance_m, const TickContext& tick) {
+  if (tick.trace == nullptr) return;
+  IterationRecord r;
+  r.feature = place.feature;
+  r.stop = StopReason::converged;
+  r.triangle = place.patch;
+  r.u = place.t;
+  r.point = r.contact = tick.origin + lifted(place.point);
+  r.normal = lifted(place.normal);
+  r.distance_m = distance_m;
+  tick.trace->push(r);
+}
+
+/// The contact with an exact arc, by its formula. An arc has one face and no other contact: all sources of force and
+/// display render it alike.
+PlanarTrack find_exact(const PlanarCurve& curve, const TickContext& tick, const PolygonSurface& surface) {
+  const PlanarKept kept = kept_of(curve, tick);
+  ExactArc arc = *curve.polygon().exact;
+  arc.centre -= curve.origin();
+  const ExactContact contact = exact_contact(arc, flat(tick.local.position));
+  PlanarTrack track;
+  track.contact.place = place_near(curve, surface, contact);
+  track.contact.height_m = contact.height_m;
+  track.contact.stop = StopReason::converged;
+  track.evaluations = track.contact.evaluations = 1;
+  const double depth = radius_m(tick) - contact.height_m;
+  const FingerStep step{glm::length(finger_way(tick.pose.position, tick.t_s, tick.state).moved),
+                        tick.preset.solver.switch_hysteresis_m};
+  track.event = kept.place.feature == Feature::none ? TickEvent::first : TickEvent::none;
+  if (track.event == TickEvent::none && depth > 0.0)
+    track.unentered = is_unentered(step, depth, kept.depth_m) || (kept.unentered && !was_put_elsewhere(step));
+  record_exact(track.contact.place, depth, tick);
+  return track;
 }
 
 }  // namespace
@@ -99,6 +150,12 @@ Finger section_finger(const Finger& finger) {
 void find_planar_contacts(const PlanarCurve& curve, const TickContext& tick, TickPlanes& planes, TickOutput& out) {
   const Preset& preset = tick.preset;
   const Vec3& centre = tick.local.position;
+  const PolygonSurface surface(curve, preset.solver.tolerance_m);
+  if (curve.polygon().exact) {
+    const PlanarTrack track = find_exact(curve, tick, surface);
+    planes = TickPlanes::all(kept_plane(tick, track));
+    return describe_smooth(track, tick, out);
+  }
   planes = TickPlanes::all(kNoPlane);
   const Method reported = reported_method(preset);
   if (wants_smooth(preset)) {
@@ -108,7 +165,6 @@ void find_planar_contacts(const PlanarCurve& curve, const TickContext& tick, Tic
     planes.smooth = planes.touched = find_smooth(curve, tick, settings, track);
     if (is_smooth(reported)) describe_smooth(track, tick, out);
   }
-  const PolygonSurface surface(curve, preset.solver.tolerance_m);
   if (wants_facet(preset)) {
     const FacetContact facet = surface.nearest(centre);
     const double depth = radius_m(tick) - facet.height_m;

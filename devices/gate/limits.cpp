@@ -42,8 +42,6 @@ Status check_forces(const std::string& where, double peak_n, double continuous_n
 }
 
 Status check_counts(const ForceCapabilities& can) {
-  if (can.rotations_sensed < 0 || can.rotations_sensed > 3)
-    return fail("rotations sensed: " + shown(can.rotations_sensed) + " is not 0 to 3", can.name, kRemedy);
   if (can.buttons < 0 || can.buttons > 32)
     return fail("buttons: " + shown(can.buttons) + " is not 0 to 32", can.name, kRemedy);
   const Placement in_world{.rotation = can.frame.rotation, .offset_m = can.frame.origin_m};

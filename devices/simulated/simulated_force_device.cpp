@@ -18,7 +18,7 @@ ForceCapabilities describe(const SimulatedForceOptions& options) {
   ForceCapabilities c;
   c.name = "simulated force device";
   c.simulated = true;
-  c.rotations_sensed = 3;
+  c.senses_rotation = options.senses_rotation;
   c.peak_force_n = 8.5;
   c.continuous_force_n = 1.4;
   c.position_resolution_m = options.position_step_m;
@@ -95,7 +95,7 @@ ForceSample SimulatedForceDevice::measure(const Vec3& force, double dt_s) noexce
   const bool moving = !lost && life_.injected() != InjectedFault::stuck_encoder;
   if (options_.measures_velocity && moving) sample.velocity_m_per_s = velocity_;
   sample.age_s = age_s_;
-  sample.orientation = target_.orientation;
+  sample.orientation = as_sensed(target_.orientation, capabilities_.senses_rotation);
   sample.force_n = force;
   sample.state = life_.state();
   sample.fault = life_.fault();

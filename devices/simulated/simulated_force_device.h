@@ -20,11 +20,12 @@ struct SimulatedForceOptions {
   double device_mass_kg = 0.075;  ///< apparent
   double hand_mass_kg = 0.1;      ///< moving mass of finger and hand
   double hand_stiffness_n_per_m = 400.0;
-  double hand_damping_n_s_per_m = 12.0;  ///< about half critical with a contact of 400 N/m
-  double tremor_m = 10e-6;               ///< RMS along each axis, around 9 Hz; 0: none
-  double position_step_m = 0.03e-3;      ///< of the encoders; 0: exact
-  bool measures_velocity = false;        ///< by a tachometer of its own; a Premium has none
-  double friction_n = 0.04;              ///< of the drives, dry; 0: none
+  double hand_damping_n_s_per_m = 12.0;                   ///< about half critical with a contact of 400 N/m
+  double tremor_m = 10e-6;                                ///< RMS along each axis, around 9 Hz; 0: none
+  double position_step_m = 0.03e-3;                       ///< of the encoders; 0: exact
+  bool measures_velocity = false;                         ///< by a tachometer of its own; a Premium has none
+  std::array<bool, 3> senses_rotation{true, true, true};  ///< roll, tilt, turn of the finger
+  double friction_n = 0.04;                               ///< of the drives, dry; 0: none
   double homing_s = 0.1;
   int substeps = 4;  ///< integration steps per exchange
 };

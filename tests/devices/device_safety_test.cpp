@@ -120,8 +120,7 @@ TEST_CASE("counts and a frame that can't be are refused") {
     change(set.force->caps);
     return open_devices(set.devices).has_value();
   };
-  CHECK(opens([](ForceCapabilities& can) { can.rotations_sensed = 3; }));
-  CHECK_FALSE(opens([](ForceCapabilities& can) { can.rotations_sensed = 4; }));
+  CHECK(opens([](ForceCapabilities& can) { can.senses_rotation = {true, true, true}; }));
   CHECK_FALSE(opens([](ForceCapabilities& can) { can.buttons = 33; }));
   CHECK_FALSE(opens([](ForceCapabilities& can) { can.largest_damping_n_s_per_m = -1.0; }));
   CHECK_FALSE(opens([](ForceCapabilities& can) { can.frame.rotation = Quat(2.0, 0.0, 0.0, 0.0); }));

@@ -41,7 +41,7 @@ TEST_CASE("an unknown device is refused with the choices and the option it came 
   const auto force = make_devices({"cld", "simulated"});
   REQUIRE_FALSE(force);
   CHECK(force.error().where == "--force");
-  CHECK(force.error().remedy == "choose simulated, ideal, scheduled or none");
+  CHECK(force.error().remedy == "choose simulated, ideal, scheduled, tilt or none");
   const auto display = make_devices({"simulated", "phantom"});
   REQUIRE_FALSE(display);
   CHECK(display.error().where == "--display");

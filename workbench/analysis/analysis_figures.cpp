@@ -1,6 +1,9 @@
 #include "workbench/analysis/analysis_figures.h"
 
 #include "core/base/text.h"
+#include "core/base/units.h"
+#include "core/lab/measure/perception_thresholds.h"
+#include "core/lab/objects/arc.h"
 #include "workbench/experiment/paper_results.h"
 
 #include <algorithm>
@@ -40,8 +43,9 @@ std::string name_tics(const std::vector<std::string>& names) {
 std::string bars(const std::string& column, const std::string& title, const char* colour, double move, double width) {
   const std::string at = "(column('place')+" + number(move) + ")";
   return "F using " + at + ":'" + column + "':(" + number(width) + ") with boxes fs solid 0.55 noborder lc rgb '" +
-         colour + "' title '" + title + "', F using " + at + ":'" + column + "':'" + column + "_low':'" + column +
-         "_high' with yerrorbars pt 0 lw 1.2 lc rgb '#333333' notitle";
+         colour + "' title '" + title + "', F using " + at + ":'" + column + "_low':(0):(column('" + column +
+         "_high')-column('" + column +
+         "_low')) with vectors heads size screen 0.006,90 lw 1.2 lc rgb '#333333' notitle";
 }
 
 /// A logarithmic axis of segments around these values, labelled at 1, 2 and 5 times powers of ten.
@@ -116,6 +120,9 @@ Figure thresholds_figure(const ComparisonResults& results, bool simulated) {
       row[5] = paper.segments - paper.half_interval;
       row[6] = paper.segments + paper.half_interval;
     }
+    for (const PerceptionThreshold& pilot : kPerceptionThresholds)  // Table 2: an angle alone, of the pilot study
+      if (!std::isfinite(row[4]) && pilot.condition == condition.condition)
+        row[4] = row[5] = row[6] = 1.0 + kPaperArcRad / kDegree / pilot.mean_deg;
     for (std::size_t i = 1; i < row.size(); ++i) {
       if (!std::isfinite(row[i])) continue;
       low = std::min(low, row[i]);
@@ -133,8 +140,7 @@ Figure thresholds_figure(const ComparisonResults& results, bool simulated) {
   figure.script = "F = DIR.'/thresholds.csv'\n" + mark(simulated) + name_tics(names) + segments_axis(low, high) +
                   "set ylabel 'Segments at threshold (mean, 95 % interval)'\n"
                   "set key at graph 0, graph 1.06 left bottom horizontal\nset tmargin 3\nplot " +
-                  points("here", "here", kOurs, -0.07, 7) + ", " + points("paper", "paper, Table 1", kPapers, 0.07, 5) +
-                  "\n";
+                  points("here", "here", kOurs, -0.07, 7) + ", " + points("paper", "paper", kPapers, 0.07, 5) + "\n";
   return figure;
 }
 

@@ -1,8 +1,8 @@
 #include "workbench/analysis/comparison_results.h"
 
-#include "core/base/fnv.h"
 #include "core/base/units.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace tangent::analysis {
@@ -20,7 +20,7 @@ double degrees_at(const experiment::Discrimination& design, double segments) {
 
 /// None where the participant has not begun it.
 std::optional<StaircaseResult> staircase_of(const Comparer& participant, const ComparisonCondition& condition,
-                                            int repeats) {
+                                            ThresholdFitter& fitter) {
   StaircaseResult out;
   out.participant = participant.name();
   out.condition = condition.name;
@@ -36,8 +36,7 @@ std::optional<StaircaseResult> staircase_of(const Comparer& participant, const C
   }
   if (answers.empty()) return std::nullopt;
   if (staircase.settled()) out.segments = staircase.threshold();
-  const std::uint64_t seed = Fnv().add(out.participant).add("|").add(out.condition).value();
-  out.fitted = fit_threshold(answers, condition.staircase, seed, repeats);
+  out.fitted = fitter.fit(answers);
   return out;
 }
 
@@ -46,11 +45,13 @@ ConditionResult condition_of(const std::string& name, const experiment::Discrimi
   ConditionResult out;
   out.condition = name;
   double trials = 0.0, bias = 0.0, count = 0.0;
+  std::vector<SpreadLikelihood> spreads;
   for (const StaircaseResult& one : staircases) {
     if (one.condition != name) continue;
     count += 1.0;
     trials += one.trials;
     bias += std::log(one.fitted.rule_bias);
+    spreads.push_back(one.fitted.spreads);
     if (one.segments)
       out.thresholds.push_back(*one.segments);
     else
@@ -59,12 +60,26 @@ ConditionResult condition_of(const std::string& name, const experiment::Discrimi
   if (count > 0.0) {
     out.mean_trials = trials / count;
     out.rule_bias = std::exp(bias / count);
+    out.spread = common_spread(spreads);
   }
   out.segments = mean_interval(out.thresholds);
   if (out.thresholds.empty()) return out;
   out.degrees = degrees_at(design, out.segments.mean);
   out.degrees_low = degrees_at(design, out.segments.high());
   out.degrees_high = degrees_at(design, out.segments.low());
+  return out;
+}
+
+/// By condition and participant; NaN: did not settle.
+std::vector<std::vector<double>> all_thresholds(const std::vector<std::string>& conditions,
+                                                const std::vector<Comparer>& participants,
+                                                const std::vector<StaircaseResult>& staircases) {
+  std::vector<std::vector<double>> out(conditions.size(), std::vector<double>(participants.size(), std::nan("")));
+  for (const StaircaseResult& one : staircases)
+    for (std::size_t c = 0; c < conditions.size(); ++c)
+      for (std::size_t p = 0; p < participants.size(); ++p)
+        if (one.condition == conditions[c] && one.participant == participants[p].name() && one.segments)
+          out[c][p] = *one.segments;
   return out;
 }
 
@@ -75,10 +90,14 @@ ComparisonResults comparison_results(const std::vector<Comparer>& participants, 
   ComparisonResults out;
   if (participants.empty()) return out;
   const experiment::Discrimination& design = *participants.front().protocol.discrimination();
+  std::vector<ThresholdFitter> fitters;  // conditions of one rule share what is found by simulation
   for (const Comparer& participant : participants) {
     for (const ComparisonCondition& condition : design.conditions) {
       if (stop && stop()) return out;
-      if (auto one = staircase_of(participant, condition, repeats)) out.staircases.push_back(std::move(*one));
+      const auto of_rule = [&](const ThresholdFitter& f) { return f.rule() == condition.staircase; };
+      auto fitter = std::find_if(fitters.begin(), fitters.end(), of_rule);
+      if (fitter == fitters.end()) fitter = fitters.emplace(fitters.end(), condition.staircase, repeats);
+      if (auto one = staircase_of(participant, condition, *fitter)) out.staircases.push_back(std::move(*one));
     }
   }
   std::vector<std::vector<double>> groups;
@@ -91,6 +110,9 @@ ComparisonResults comparison_results(const std::vector<Comparer>& participants, 
   out.between = one_way_anova(groups);
   if (all) out.repeated = repeated_measures_anova(groups);
   if (out.between) out.pairs = tukey_test(groups, *out.between);
+  std::vector<std::string> names;
+  for (const ConditionResult& condition : out.conditions) names.push_back(condition.condition);
+  out.order = agreement_with_paper(names, all_thresholds(names, participants, out.staircases));
   return out;
 }
 

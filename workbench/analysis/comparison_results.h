@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/lab/measure/interval.h"
+#include "workbench/analysis/condition_order.h"
 #include "workbench/analysis/group_tests.h"
 #include "workbench/analysis/load_answers.h"
 #include "workbench/analysis/psychometric_fit.h"
@@ -34,6 +35,7 @@ struct ConditionResult {
   double degrees_low = 0.0, degrees_high = 0.0;
   double mean_trials = 0.0;
   double rule_bias = 1.0;  ///< geometric mean of the fits'
+  SpreadInterval spread;   ///< of the psychometric function, all participants together
 };
 
 struct ComparisonResults {
@@ -42,9 +44,11 @@ struct ComparisonResults {
   std::optional<VarianceAnalysis> between;   ///< as the paper's: participants as independent
   std::optional<VarianceAnalysis> repeated;  ///< within participants; none where somebody lacks a condition
   std::vector<TukeyPair> pairs;              ///< of conditions, with the error of `between`
+  std::optional<OrderAgreement> order;       ///< with the paper's Table 2
 };
 
-/// `repeats`: of each staircase's bootstrap. `stop`: asked between staircases; none of the rest is there then.
+/// `repeats`: staircases simulated for a calibration of the intervals. `stop`: asked between staircases; none of the
+/// rest is there then.
 ComparisonResults comparison_results(const std::vector<ParticipantAnswers<experiment::ComparisonRow>>& participants,
                                      int repeats, const std::function<bool()>& stop = {});
 

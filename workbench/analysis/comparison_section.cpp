@@ -22,7 +22,8 @@ PageTable conditions_table(const ComparisonResults& results, bool simulated) {
   table.column("Condition", "condition").column("Participants", "participants").column("Not settled", "not_settled");
   table.column("Segments", "segments").column("from", "segments_low").column("to", "segments_high");
   table.column("Degrees", "degrees").column("from", "degrees_low").column("to", "degrees_high");
-  table.column("Trials each", "trials").column("Rule over fit", "rule_bias");
+  table.column("Trials each", "trials").column("Rule over threshold", "rule_bias");
+  table.column("Spread", "spread").column("from", "spread_low").column("to", "spread_high");
   table.column("Paper, segments", "paper_segments").column("\xC2\xB1", "paper_half");
   for (const ConditionResult& c : results.conditions) {
     const experiment::PaperThreshold* paper = paper_of(c.condition);
@@ -38,7 +39,10 @@ PageTable conditions_table(const ComparisonResults& results, bool simulated) {
     value(row, some ? c.degrees_low : none, 2);
     value(row, some ? c.degrees_high : none, 2);
     value(row, c.mean_trials, 1);
-    value(row, c.rule_bias, 3);
+    value(row, c.rule_bias, 2);
+    value(row, c.spread.spread, 2);
+    value(row, c.spread.low, 2);
+    value(row, c.spread.high, 2);
     value(row, paper != nullptr ? paper->segments : none, 1);
     value(row, paper != nullptr ? paper->half_interval : none, 2);
   }
@@ -81,16 +85,30 @@ PageTable pairs_table(const ComparisonResults& results, bool simulated) {
   return table;
 }
 
-PageTable staircases_table(const ComparisonResults& results, bool simulated) {
-  PageTable table("staircases",
-                  "Each staircase: the rule's mean of reversals, and a psychometric function fitted to its answers.",
+PageTable order_table(const ComparisonResults& results, bool simulated) {
+  PageTable table("order",
+                  "Do conditions come in the order of the paper's Table 2: Kendall's tau of the mean thresholds, 1 the "
+                  "same order, 0 none in common, with its 95 % interval over participants drawn again.",
                   simulated);
+  table.column("Participants", "participants").column("Tau", "tau").column("from", "low").column("to", "high");
+  const OrderAgreement& order = *results.order;
+  table.row()
+      .count(order.participants)
+      .number(order.tau, decimals_text(order.tau, 2))
+      .number(order.low, decimals_text(order.low, 2))
+      .number(order.high, decimals_text(order.high, 2));
+  return table;
+}
+
+PageTable staircases_table(const ComparisonResults& results, bool simulated) {
+  PageTable table(
+      "staircases",
+      "Each staircase: the rule's mean of reversals, and the threshold by all psychometric functions that its "
+      "answers allow, with its interval.",
+      simulated);
   table.column("Participant", "participant").column("Condition", "condition").column("Trials", "trials");
   table.column("Rule, segments", "rule_segments").column("Fit, segments", "fit_segments").column("from", "fit_low");
-  table.column("to", "fit_high")
-      .column("Spread", "fit_spread")
-      .column("Lapses", "fit_lapse")
-      .column("Rule over fit", "rule_bias");
+  table.column("to", "fit_high").column("Rule over threshold", "rule_bias");
   for (const StaircaseResult& one : results.staircases) {
     const double rule = one.segments.value_or(std::nan(""));
     table.row()
@@ -101,17 +119,9 @@ PageTable staircases_table(const ComparisonResults& results, bool simulated) {
         .number(one.fitted.segments, decimals_text(one.fitted.segments, 1))
         .number(one.fitted.low, decimals_text(one.fitted.low, 1))
         .number(one.fitted.high, decimals_text(one.fitted.high, 1))
-        .number(one.fitted.fit.spread, decimals_text(one.fitted.fit.spread, 2))
-        .number(one.fitted.fit.lapse, decimals_text(one.fitted.fit.lapse, 2))
         .number(one.fitted.rule_bias, decimals_text(one.fitted.rule_bias, 2));
   }
   return table;
-}
-
-Result<std::string> figure_html(const Figure& figure, const std::string& caption) {
-  const Result<std::string> svg = figure_svg(figure);
-  if (!svg) return tl::unexpected(svg.error());
-  return element("figure", element("div", *svg, "class=\"figure\"") + element("figcaption", escaped(caption)));
 }
 
 /// Staircases of the participant that they begin with.
@@ -128,41 +138,37 @@ std::vector<std::span<const StaircaseResult>> by_participant(const std::vector<S
 
 }  // namespace
 
-std::vector<Figure> comparison_figures(const ComparisonResults& results, bool simulated) {
-  std::vector<Figure> out{thresholds_figure(results, simulated)};
-  int number = 1;
-  for (const auto& one : by_participant(results.staircases))
-    out.push_back(staircases_figure(one, "staircases" + std::to_string(number++), simulated));
-  return out;
-}
-
 Result<Section> comparison_section(const ComparisonResults& results, bool simulated) {
   Section out;
   out.html = element("h2", "Which of two is smooth");
-  const auto thresholds = figure_html(thresholds_figure(results, simulated),
-                                      "Thresholds in segments, mean and 95 % interval, beside the paper's Table 1.");
-  if (!thresholds) return tl::unexpected(thresholds.error());
-  out.html += *thresholds;
-  const PageTable tables[] = {conditions_table(results, simulated), anova_table(results, simulated),
-                              pairs_table(results, simulated), staircases_table(results, simulated)};
+  if (Status ok =
+          add_figure(out, thresholds_figure(results, simulated),
+                     "Thresholds in segments, mean and 95 % interval, beside the paper's Tables 1 and 2.", simulated);
+      !ok)
+    return tl::unexpected(ok.error());
+  std::vector<PageTable> tables{conditions_table(results, simulated)};
+  if (results.order) tables.push_back(order_table(results, simulated));
+  tables.push_back(anova_table(results, simulated));
+  tables.push_back(pairs_table(results, simulated));
+  tables.push_back(staircases_table(results, simulated));
   for (const PageTable& table : tables) {
     out.html += table.html();
     out.tables.emplace_back(table.name(), table.csv());
   }
   out.html += paragraph(
-      "Rule over fit: where the rule's mean of reversals settles over the fitted threshold, found by running the "
-      "staircase "
-      "again and again with the fitted function; steps decide it. The paper's own angles: its means are 51.68 / (n - "
-      "1) "
-      "degrees, the ends of its intervals 51.68 / n.");
+      "Rule over threshold: how far the rule's mean of reversals lies off in simulated staircases like these; its "
+      "steps "
+      "and its start decide that. Spread: of the psychometric function in the logarithm of segments, all participants "
+      "together; a single staircase does not tell it. The paper's own angles: its means are 51.68 / (n - 1) degrees, "
+      "the ends of its intervals 51.68 / n.");
   out.html += element("h3", "Staircases");
   int number = 1;
   for (const auto& one : by_participant(results.staircases)) {
-    const auto figure =
-        figure_html(staircases_figure(one, "staircases" + std::to_string(number++), simulated),
-                    "Participant " + one.front().participant + ": filled right, open wrong, squares reversals.");
-    if (!figure) return tl::unexpected(figure.error());
-    out.html += *figure;
+    const std::string name = "staircases" + std::to_string(number++);
+    const std::string caption =
+        "Participant " + one.front().participant + ": filled right, open wrong, squares reversals.";
+    if (Status ok = add_figure(out, staircases_figure(one, name, simulated), caption, simulated); !ok)
+      return tl::unexpected(ok.error());
   }
   return out;
 }

@@ -79,6 +79,20 @@ Status check_values(const ParticipantAnswers<NamingRow>& answers) {
   return {};
 }
 
+template <class Row>
+std::string kind_of(const ParticipantAnswers<Row>& answers) {
+  const std::string& simulated = answers.enrolment.mark.simulated;
+  return simulated == "no" ? "a person" : "a simulated participant (" + simulated + ")";
+}
+
+/// By number, as a person would: P2 before P10.
+template <class Row>
+void sort_by_number(std::vector<ParticipantAnswers<Row>>& all) {
+  std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) {
+    return experiment::participant_number(a.name()).value_or(0) < experiment::participant_number(b.name()).value_or(0);
+  });
+}
+
 template <class Run>
 Status add_file(const fs::path& file, const experiment::Sidecar& sidecar, const experiment::ReadRows& read, bool edited,
                 std::vector<ParticipantAnswers<typename Run::Row>>& out, std::vector<std::string>& notes) {
@@ -99,9 +113,10 @@ Status add_file(const fs::path& file, const experiment::Sidecar& sidecar, const 
     if (other.enrolment.protocol_digest != answers.enrolment.protocol_digest)
       return fail("belongs to another protocol than " + other.file.string(), file.string(),
                   "analyse answers to one protocol at a time");
-    if ((other.enrolment.mark.simulated == "no") != (answers.enrolment.mark.simulated == "no"))
-      return fail("a person and a simulated participant can't be analysed together (" + other.file.string() + ")",
-                  file.string(), "analyse them apart");
+    if (other.enrolment.mark.simulated != answers.enrolment.mark.simulated)
+      return fail(
+          kind_of(answers) + " and " + kind_of(other) + " can't be analysed together (" + other.file.string() + ")",
+          file.string(), "analyse them apart");
   }
   out.push_back(std::move(answers));
   return {};
@@ -138,6 +153,8 @@ Result<Answers> load_answers(std::span<const fs::path> data, const LoadOptions& 
   Answers out;
   for (const fs::path& file : *files)
     if (Status ok = load_file(file, options, out); !ok) return tl::unexpected(ok.error());
+  sort_by_number(out.comparisons);
+  sort_by_number(out.namings);
   if (out.comparisons.empty() && out.namings.empty())
     return fail("there is nothing to analyse: only pilot runs, or no answers", data.front().string(), "say --pilots");
   return out;

@@ -31,9 +31,9 @@ struct LoadOptions {
   bool edited = false;  ///< analyse files whose checksums do not hold, and say so
 };
 
-/// Files (.tsv), or folders in which all of them are taken, in the order of their names. Fails on the first that can't
-/// be read, whose checksums do not hold, or whose rows are not what its protocol and seed show; and on a mixture of
-/// protocols of one kind, or of people and simulated participants.
+/// Files (.tsv), or folders in which all of them are taken; participants in the order of their numbers. Fails on the
+/// first that can't be read, whose checksums do not hold, or whose rows are not what its protocol and seed show; and on
+/// a mixture of protocols of one kind, of people and simulated participants, or of two kinds of these.
 Result<Answers> load_answers(std::span<const std::filesystem::path> data, const LoadOptions& options);
 
 }  // namespace tangent::analysis

@@ -3,7 +3,6 @@
 #include "workbench/analysis/analysis_page.h"
 #include "workbench/analysis/page_table.h"
 
-#include <array>
 #include <cmath>
 #include <cstdio>
 
@@ -98,31 +97,27 @@ PageTable tests_table(const NamingResults& results, bool simulated) {
   return table;
 }
 
-Result<std::string> object_figure(const Figure& figure, const std::string& caption) {
-  const Result<std::string> svg = figure_svg(figure);
-  if (!svg) return tl::unexpected(svg.error());
-  return element("figure", element("div", *svg, "class=\"figure\"") + element("figcaption", escaped(caption)));
-}
-
 }  // namespace
 
-std::vector<Figure> naming_figures(const NamingResults& results, bool simulated) {
-  return {accuracy_figure(results, simulated), times_figure(results, simulated), contact_figure(results, simulated)};
-}
-
 Result<Section> naming_section(const NamingResults& results, bool simulated) {
-  constexpr std::array<const char*, 3> kCaptions{
-      "Right answers to each object, with 95 % intervals, beside the paper's Table 3.",
-      "Time from the first touch to the answer, right answers alone, and how much of it the finger touched.",
-      "Share of that time in which the finger touched, all answers."};
   Section out;
   out.html = element("h2", "Which object is it");
-  const std::vector<Figure> figures = naming_figures(results, simulated);
-  for (std::size_t i = 0; i < figures.size(); ++i) {
-    const auto figure = object_figure(figures[i], kCaptions[i]);
-    if (!figure) return tl::unexpected(figure.error());
-    out.html += *figure;
-  }
+  const auto add = [&](Figure figure, const char* caption) {
+    return add_figure(out, std::move(figure), caption, simulated);
+  };
+  if (Status ok = add(accuracy_figure(results, simulated),
+                      "Right answers to each object, with 95 % intervals, beside the paper's Table 3.");
+      !ok)
+    return tl::unexpected(ok.error());
+  if (Status ok =
+          add(times_figure(results, simulated),
+              "Time from the first touch to the answer, right answers alone, and how much of it the finger touched.");
+      !ok)
+    return tl::unexpected(ok.error());
+  if (Status ok =
+          add(contact_figure(results, simulated), "Share of that time in which the finger touched, all answers.");
+      !ok)
+    return tl::unexpected(ok.error());
   std::vector<PageTable> tables{parts_table(results, simulated)};
   for (const NamingPart& part : results.parts) tables.push_back(confusion_table(results, part, simulated));
   tables.push_back(times_table(results, simulated));

@@ -8,6 +8,17 @@
 #include <cstdio>
 
 namespace tangent::analysis {
+namespace {
+
+/// In quotes where it has a comma or quotes of its own.
+std::string csv_field(const std::string& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string out = "\"";
+  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return out + "\"";
+}
+
+}  // namespace
 
 PageTable::PageTable(std::string name, std::string caption, bool simulated)
     : name_(std::move(name)), simulated_(simulated) {
@@ -34,7 +45,9 @@ void PageTable::Row::add(Cell cell, const std::string& field) {
   table_.csv_rows_ += "," + field + "\n";
 }
 
-PageTable::Row& PageTable::Row::text(const std::string& value) { return add(text_cell(value), value), *this; }
+PageTable::Row& PageTable::Row::text(const std::string& value) {
+  return add(text_cell(value), csv_field(value)), *this;
+}
 
 PageTable::Row& PageTable::Row::number(double value, const std::string& shown) {
   const std::size_t column = table_.table_.rows.back().size();

@@ -1,13 +1,8 @@
 #include "workbench/analysis/psychometric_fit.h"
 
-#include "core/base/split_mix.h"
-
-#include <boost/math/tools/minima.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <vector>
 
 namespace tangent::analysis {
 namespace {
@@ -15,11 +10,23 @@ namespace {
 using experiment::kGuess;
 using experiment::Psychometric;
 using experiment::Staircase;
-using experiment::StaircaseRule;
+
+constexpr std::size_t kMiddles = 80;
+constexpr double kBelow = 1.5, kAbove = 3.0;  // of ln(segments): middles that are tried beyond the levels shown
+// Prior of the spread: its power, by ln(spread). With it the tails of narrow and wide functions differ least.
+constexpr double kSpreadPower = 0.5;
+constexpr double kTailSlope = 1.3;
+constexpr double kShare = 0.95;
+// Of the common spread: all middles alike, wide functions are taken for wider, up to twice; with this power of the
+// spread for each staircase narrow ones for narrower. The truth is between.
+constexpr double kNarrowing = -0.25;
+constexpr std::uint64_t kCalibrationSeed = 11;
+constexpr double kCalibratedFrom = 0.1, kCalibratedTo = 1.0;  // spreads
 
 /// Answers at one level.
 struct Level {
-  double log_segments = 0.0, count = 0.0, right = 0.0;
+  double log_segments = 0.0;
+  int right = 0, wrong = 0;
 };
 
 std::vector<Level> levels_of(std::span<const ComparisonAnswer> answers) {
@@ -28,239 +35,236 @@ std::vector<Level> levels_of(std::span<const ComparisonAnswer> answers) {
   std::vector<Level> out;
   double last = 0.0;
   for (const ComparisonAnswer& answer : sorted) {
-    if (out.empty() || answer.segments != last) out.push_back({std::log(answer.segments), 0.0, 0.0});
+    if (out.empty() || answer.segments != last) out.push_back({std::log(answer.segments), 0, 0});
     last = answer.segments;
-    out.back().count += 1.0;
-    out.back().right += answer.right ? 1.0 : 0.0;
+    ++(answer.right ? out.back().right : out.back().wrong);
   }
   return out;
 }
 
-/// The logarithm of how likely the answers are, its slope and Fisher's information, by ln(middle) and ln(spread).
-struct Likelihood {
-  double log = 0.0;
-  double slope[2] = {0.0, 0.0};
-  double information[3] = {0.0, 0.0, 0.0};  ///< middle-middle, middle-spread, spread-spread
-};
+/// A share of probability for each of evenly spaced places; each is spread over its step.
+struct Shares {
+  double first = 0.0, step = 1.0;
+  std::vector<double> share;
 
-Likelihood likelihood(std::span<const Level> levels, double middle, double spread, double lapse) {
-  constexpr double kLeast = 1e-9;  // of a probability: one answer can't be impossible
-  Likelihood out;
-  const double s = std::exp(spread), range = 1.0 - kGuess - lapse;
-  for (const Level& level : levels) {
-    const double z = (level.log_segments - middle) / s;
-    const double felt = 1.0 / (1.0 + std::exp(z));
-    const double p = std::clamp(kGuess + range * felt, kLeast, 1.0 - kLeast);
-    out.log += level.right * std::log(p) + (level.count - level.right) * std::log(1.0 - p);
-    const double by_z = -range * felt * (1.0 - felt);
-    const double by_middle = -by_z / s, by_spread = -by_z * z;
-    const double weight = (level.right - level.count * p) / (p * (1.0 - p));
-    const double information = level.count / (p * (1.0 - p));
-    out.slope[0] += weight * by_middle;
-    out.slope[1] += weight * by_spread;
-    out.information[0] += information * by_middle * by_middle;
-    out.information[1] += information * by_middle * by_spread;
-    out.information[2] += information * by_spread * by_spread;
+  void scale() {
+    double sum = 0.0;
+    for (const double s : share) sum += s;
+    for (double& s : share) s /= sum;
   }
-  const double off = (spread - std::log(kSpreadPrior)) / kSpreadPriorWidth;
-  out.log -= 0.5 * off * off;
-  out.slope[1] -= off / kSpreadPriorWidth;
-  out.information[2] += 1.0 / (kSpreadPriorWidth * kSpreadPriorWidth);
-  return out;
-}
-
-struct Fit {
-  double middle = 0.0, spread = 0.0;  ///< logarithms
-  double log = -std::numeric_limits<double>::infinity();
-};
-
-/// Fisher's scoring with steps halved until they gain. The middle stays within a factor of 100 of the levels shown:
-/// with right answers alone it would leave for infinity.
-Fit climb(std::span<const Level> levels, double lapse, double middle) {
-  const double lowest = levels.front().log_segments - std::log(100.0);
-  const double highest = levels.back().log_segments + std::log(100.0);
-  Fit at{middle, std::log(kSpreadPrior), 0.0};
-  Likelihood here = likelihood(levels, at.middle, at.spread, lapse);
-  for (int i = 0; i < 60; ++i) {
-    const double a = here.information[0] + 1e-6, b = here.information[1], c = here.information[2];
-    const double determinant = a * c - b * b;
-    const double step_middle = (c * here.slope[0] - b * here.slope[1]) / determinant;
-    const double step_spread = (a * here.slope[1] - b * here.slope[0]) / determinant;
-    double share = std::min(1.0, 2.0 / (std::abs(step_middle) + std::abs(step_spread) + 1e-300));
-    bool gained = false;
-    for (int halvings = 0; halvings < 30 && !gained; ++halvings, share *= 0.5) {
-      const double m = std::clamp(at.middle + share * step_middle, lowest, highest);
-      const double s = at.spread + share * step_spread;
-      const Likelihood there = likelihood(levels, m, s, lapse);
-      if (!(there.log > here.log)) continue;
-      gained = there.log > here.log + 1e-10;
-      at = {m, s, 0.0};
-      here = there;
-      break;
+  /// Probability of a place below `x`.
+  double below(double x) const {
+    const double at = (x - first) / step + 0.5;
+    double sum = 0.0;
+    for (std::size_t i = 0; i < share.size(); ++i) sum += share[i] * std::clamp(at - static_cast<double>(i), 0.0, 1.0);
+    return sum;
+  }
+  double quantile(double probability) const {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < share.size(); ++i) {
+      if (sum + share[i] >= probability && share[i] > 0.0)
+        return first + step * (static_cast<double>(i) - 0.5 + (probability - sum) / share[i]);
+      sum += share[i];
     }
-    if (!gained) break;
+    return first + step * (static_cast<double>(share.size()) - 0.5);
   }
-  at.log = here.log;
-  return at;
-}
-
-Psychometric curve(const Fit& fit, double lapse) { return {std::exp(fit.middle), std::exp(fit.spread), lapse}; }
-
-double mean_level(std::span<const Level> levels) {
-  double sum = 0.0, count = 0.0;
-  for (const Level& level : levels) {
-    sum += level.count * level.log_segments;
-    count += level.count;
-  }
-  return sum / count;
-}
-
-/// A staircase of a participant with this function.
-Staircase run_staircase(const StaircaseRule& rule, const Psychometric& function, SplitMix& random,
-                        std::vector<ComparisonAnswer>& answers) {
-  Staircase staircase(rule);
-  answers.clear();
-  while (!staircase.done()) {
-    const double segments = staircase.segments();
-    const bool right = random.unit() < function.right(segments);
-    answers.push_back({segments, right});
-    staircase.answer(right);
-  }
-  return staircase;
-}
-
-/// How likely the answers can be where the threshold, in ln(segments), is given: the best spread and rate of lapses.
-double profile(std::span<const Level> levels, double threshold, double balance) {
-  constexpr double kNarrow = -4.6, kWide = 1.4;  // of ln(spread): 0.01 to 4
-  constexpr int kSteps = 12;
-  double best = -std::numeric_limits<double>::infinity();
-  for (const double lapse : kLapses) {
-    const double felt = (balance - kGuess) / (1.0 - kGuess - lapse), logit = std::log((1.0 - felt) / felt);
-    const auto at = [&](double spread) {
-      return likelihood(levels, threshold - std::exp(spread) * logit, spread, lapse).log;
-    };
-    int place = 0;
-    double top = -std::numeric_limits<double>::infinity();
-    for (int i = 0; i <= kSteps; ++i) {
-      const double here = at(kNarrow + (kWide - kNarrow) * i / kSteps);
-      if (here <= top) continue;
-      top = here;
-      place = i;
-    }
-    const double width = (kWide - kNarrow) / kSteps, middle = kNarrow + width * place;
-    const auto found =
-        boost::math::tools::brent_find_minima([&](double x) { return -at(x); }, middle - width, middle + width, 12);
-    best = std::max({best, top, -found.second});
-  }
-  return best;
-}
-
-/// Of a fit whose likelihood is `best`: twice what is lost where the threshold is `threshold`.
-double lost(std::span<const Level> levels, double best, double threshold, double balance) {
-  return 2.0 * std::max(0.0, best - profile(levels, threshold, balance));
-}
-
-/// Where the loss passes `most`, from the fitted threshold outwards; at most a factor of 100 away. Logarithms.
-double end_of_interval(std::span<const Level> levels, double best, double threshold, double balance, double most,
-                       double direction) {
-  double inside = threshold, outside = threshold, step = 0.05;
-  do {
-    inside = outside;
-    outside += direction * step;
-    step *= 1.7;
-  } while (lost(levels, best, outside, balance) < most && std::abs(outside - threshold) < std::log(100.0));
-  for (int i = 0; i < 20; ++i) {
-    const double middle = 0.5 * (inside + outside);
-    (lost(levels, best, middle, balance) < most ? inside : outside) = middle;
-  }
-  return 0.5 * (inside + outside);
-}
-
-struct LikelyFit {
-  Psychometric curve;
-  double log = -std::numeric_limits<double>::infinity();
 };
-LikelyFit likeliest(std::span<const Level> levels) {
-  LikelyFit out;
-  for (const double lapse : kLapses) {
-    const Fit fit = climb(levels, lapse, mean_level(levels));
-    if (fit.log > out.log) out = {curve(fit, lapse), fit.log};
-  }
-  return out;
+
+/// What the answers say of all functions of the grid.
+struct Posterior {
+  Shares threshold;  ///< logarithms of segments at the balance point
+  double mean_log_spread = 0.0;
+  SpreadLikelihood spreads{};
+};
+
+/// ln(threshold / middle) over the spread: where a function with this rate of lapses is at the balance point.
+double logit_at(double balance, double lapse) {
+  const double felt = (balance - kGuess) / (1.0 - kGuess - lapse);
+  return std::log((1.0 - felt) / felt);
 }
 
-/// Which spreads and lapses the answers leave possible, and how likely each is, all thresholds taken together.
-class PossibleShapes {
+/// ln of how likely the answers are; `felt`: by level. Products, with a logarithm only before they get too small: a
+/// hundred times as many multiplications as logarithms.
+double log_likelihood(std::span<const Level> levels, std::span<const double> felt, double lapse) {
+  constexpr double kLeast = 1e-6;  // of a probability: one answer can't be impossible
+  constexpr double kSmall = 1e-200;
+  double product = 1.0, log = 0.0;
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    const double p = std::min(kGuess + (1.0 - kGuess - lapse) * felt[i], 1.0 - kLeast);
+    for (int n = 0; n < levels[i].right + levels[i].wrong; ++n) {
+      product *= n < levels[i].right ? p : 1.0 - p;
+      if (product > kSmall) continue;
+      log += std::log(product);
+      product = 1.0;
+    }
+  }
+  return log + std::log(product);
+}
+
+class Grid {
  public:
-  explicit PossibleShapes(std::span<const Level> levels) {
-    constexpr double kNarrow = -4.6, kWide = 1.4;  // of ln(spread): 0.01 to 4
-    constexpr int kSpreads = 24, kMiddles = 60;
-    const double lowest = levels.front().log_segments - 2.5, highest = levels.back().log_segments + 2.5;
-    double best = -std::numeric_limits<double>::infinity();
-    for (const double lapse : kLapses) {
-      for (int i = 0; i <= kSpreads; ++i) {
-        const double spread = kNarrow + (kWide - kNarrow) * i / kSpreads;
-        for (int j = 0; j <= kMiddles; ++j) {
-          const double middle = lowest + (highest - lowest) * j / kMiddles;
-          shapes_.push_back({std::exp(spread), lapse, likelihood(levels, middle, spread, lapse).log});
-          best = std::max(best, shapes_.back().sum);
-        }
+  Grid(std::span<const Level> levels)
+      : first_(levels.front().log_segments - kBelow),
+        step_((levels.back().log_segments + kAbove - first_) / static_cast<double>(kMiddles - 1)),
+        logs_(kMiddles * kSpreads * kLapses.size()) {
+    std::vector<double> felt(levels.size());
+    auto out = logs_.begin();
+    for (std::size_t s = 0; s < kSpreads; ++s) {
+      for (std::size_t m = 0; m < kMiddles; ++m) {
+        for (std::size_t i = 0; i < levels.size(); ++i)
+          felt[i] = 1.0 / (1.0 + std::exp((levels[i].log_segments - middle(m)) / spread_at(s)));
+        for (const double lapse : kLapses) best_ = std::max(best_, *out++ = log_likelihood(levels, felt, lapse));
       }
     }
-    double sum = 0.0;
-    for (Shape& shape : shapes_) shape.sum = sum += std::exp(shape.sum - best);
   }
-  /// One of them, with this threshold (at `balance`).
-  Psychometric draw(SplitMix& random, double threshold, double balance) const {
-    const double at = random.unit() * shapes_.back().sum;
-    const auto shape = std::upper_bound(shapes_.begin(), shapes_.end() - 1, at,
-                                        [](double value, const Shape& s) { return value < s.sum; });
-    Psychometric out{1.0, shape->spread, shape->lapse};
-    out.middle = threshold / out.segments_at(balance);
+
+  Posterior posterior(double balance) const {
+    Posterior out;
+    Shares& threshold = out.threshold;
+    double reach = 2.0 * step_;  // of thresholds beyond the middles
+    for (const double lapse : kLapses) reach = std::max(reach, kWidestSpread * std::abs(logit_at(balance, lapse)));
+    const auto before = static_cast<std::size_t>(reach / step_) + 2;
+    threshold.step = step_;
+    threshold.first = first_ - step_ * static_cast<double>(before);
+    threshold.share.assign(kMiddles + 2 * before, 0.0);
+    double sum = 0.0;
+    auto log = logs_.begin();
+    for (std::size_t s = 0; s < kSpreads; ++s) {
+      const double spread = spread_at(s), prior = std::pow(spread, kSpreadPower);
+      double of_spread = 0.0;
+      for (std::size_t m = 0; m < kMiddles; ++m) {
+        for (const double lapse : kLapses) {
+          const double likely = std::exp(*log++ - best_);
+          of_spread += likely;
+          const double at = (middle(m) + spread * logit_at(balance, lapse) - threshold.first) / step_;
+          const auto place = static_cast<std::size_t>(at);
+          const double beyond = at - static_cast<double>(place);
+          threshold.share[place] += prior * likely * (1.0 - beyond);
+          threshold.share[place + 1] += prior * likely * beyond;
+        }
+      }
+      out.spreads[s] = std::log(std::max(of_spread, 1e-300)) + best_;
+      out.mean_log_spread += prior * of_spread * std::log(spread);
+      sum += prior * of_spread;
+    }
+    out.mean_log_spread /= sum;
+    threshold.scale();
     return out;
   }
 
  private:
-  struct Shape {
-    double spread, lapse, sum;  ///< sum: of the likelihoods up to this one
-  };
-  std::vector<Shape> shapes_;
+  double middle(std::size_t m) const { return first_ + step_ * static_cast<double>(m); }
+  double first_, step_;
+  std::vector<double> logs_;  ///< by spread, middle, lapse
+  double best_ = -std::numeric_limits<double>::infinity();
 };
+
+/// The line through values y at x with the least squares: its height at 0 and its slope.
+std::array<double, 2> line_through(std::span<const double> x, std::span<const double> y) {
+  if (x.empty()) return {0.0, 0.0};
+  const auto n = static_cast<double>(x.size());
+  double mx = 0.0, my = 0.0, xx = 0.0, xy = 0.0;
+  for (std::size_t i = 0; i < x.size(); ++i) mx += x[i] / n, my += y[i] / n;
+  for (std::size_t i = 0; i < x.size(); ++i) xx += (x[i] - mx) * (x[i] - mx), xy += (x[i] - mx) * (y[i] - my);
+  const double slope = xx > 0.0 ? xy / xx : 0.0;
+  return {my - slope * mx, slope};
+}
+
+/// By ln(spread), where each staircase counts by a power of the spread besides.
+Shares shares_of_spreads(std::span<const SpreadLikelihood> staircases, double power) {
+  SpreadLikelihood logs{};
+  for (const SpreadLikelihood& one : staircases)
+    for (std::size_t s = 0; s < kSpreads; ++s) logs[s] += one[s] + power * std::log(spread_at(s));
+  // Many staircases leave a peak narrower than the grid: between its places the logarithm is a parabola.
+  constexpr std::size_t kFine = 20;
+  Shares out{std::log(kNarrowestSpread), std::log(spread_at(1) / spread_at(0)) / kFine, {}};
+  const double best = *std::max_element(logs.begin(), logs.end());
+  for (std::size_t i = 0; i <= (kSpreads - 1) * kFine; ++i) {
+    const std::size_t near = std::clamp<std::size_t>((i + kFine / 2) / kFine, 1, kSpreads - 2);
+    const double off = static_cast<double>(i) / kFine - static_cast<double>(near);
+    const double slope = 0.5 * (logs[near + 1] - logs[near - 1]);
+    const double bend = logs[near + 1] - 2.0 * logs[near] + logs[near - 1];
+    out.share.push_back(std::exp(logs[near] + off * (slope + 0.5 * off * bend) - best));
+  }
+  out.scale();
+  return out;
+}
 
 }  // namespace
 
-Psychometric fit_psychometric(std::span<const ComparisonAnswer> answers) { return likeliest(levels_of(answers)).curve; }
+double spread_at(std::size_t i) {
+  return kNarrowestSpread *
+         std::pow(kWidestSpread / kNarrowestSpread, static_cast<double>(i) / static_cast<double>(kSpreads - 1));
+}
 
-FittedThreshold fit_threshold(std::span<const ComparisonAnswer> answers, const StaircaseRule& rule, std::uint64_t seed,
-                              int repeats) {
-  FittedThreshold out;
-  const std::vector<Level> levels = levels_of(answers);
-  const LikelyFit fit = likeliest(levels);
-  out.fit = fit.curve;
-  const double balance = experiment::balance_point(rule);
-  out.segments = out.fit.segments_at(balance);
-  const double threshold = std::log(out.segments);
-  const PossibleShapes shapes(levels);
-  std::vector<double> losses;
-  std::vector<ComparisonAnswer> made;
-  double bias = 0.0;
-  int settled = 0;
-  for (int i = 0; i < repeats; ++i) {
-    SplitMix random(seed, static_cast<std::uint64_t>(i));
-    const Staircase staircase = run_staircase(rule, shapes.draw(random, out.segments, balance), random, made);
-    if (staircase.settled()) {
-      bias += std::log(staircase.threshold() / out.segments);
-      ++settled;
-    }
-    const std::vector<Level> again = levels_of(made);
-    losses.push_back(lost(again, likeliest(again).log, threshold, balance));
+SpreadInterval common_spread(std::span<const SpreadLikelihood> staircases) {
+  const Shares wide = shares_of_spreads(staircases, 0.0), narrow = shares_of_spreads(staircases, kNarrowing);
+  const double tail = 0.5 * (1.0 - kShare);
+  return {std::exp(0.5 * (wide.quantile(0.5) + narrow.quantile(0.5))), std::exp(narrow.quantile(tail)),
+          std::exp(wide.quantile(1.0 - tail))};
+}
+
+std::vector<ComparisonAnswer> simulated_answers(Staircase& staircase, const Psychometric& function, SplitMix& random) {
+  std::vector<ComparisonAnswer> out;
+  while (!staircase.done()) {
+    const double segments = staircase.segments();
+    out.push_back({segments, random.unit() < function.right(segments)});
+    staircase.answer(out.back().right);
   }
-  out.rule_bias = settled > 0 ? std::exp(bias / settled) : 1.0;
-  const auto place = losses.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(losses.size()));
-  std::nth_element(losses.begin(), place, losses.end());
-  out.critical = *place;
-  out.low = std::exp(end_of_interval(levels, fit.log, threshold, balance, *place, -1.0));
-  out.high = std::exp(end_of_interval(levels, fit.log, threshold, balance, *place, 1.0));
+  return out;
+}
+
+ThresholdFitter::Calibration ThresholdFitter::calibrate(double threshold) const {
+  const double balance = experiment::balance_point(rule_), truth = std::log(threshold);
+  std::vector<double> spreads, off, settled, rule, tails;
+  for (int i = 0; i < simulated_; ++i) {
+    SplitMix random(kCalibrationSeed, static_cast<std::uint64_t>(i));
+    Psychometric function{1.0, kCalibratedFrom * std::pow(kCalibratedTo / kCalibratedFrom, random.unit()), 0.0};
+    function.lapse = kLapses[random.below(kLapses.size())];
+    function.middle = threshold / function.segments_at(balance);
+    Staircase staircase(rule_);
+    const Posterior posterior = Grid(levels_of(simulated_answers(staircase, function, random))).posterior(balance);
+    const double m = posterior.mean_log_spread, below = posterior.threshold.below(truth);
+    spreads.push_back(m);
+    off.push_back(posterior.threshold.quantile(0.5) - truth);
+    const double tail = std::clamp(2.0 * std::min(below, 1.0 - below), 1e-12, 1.0 - 1e-9);
+    tails.push_back(std::log(-std::log(tail)) - kTailSlope * m);
+    if (!staircase.settled()) continue;
+    settled.push_back(m);
+    rule.push_back(std::log(staircase.threshold()) - truth);
+  }
+  const auto place = tails.begin() + static_cast<std::ptrdiff_t>(kShare * static_cast<double>(tails.size()));
+  std::nth_element(tails.begin(), place, tails.end());
+  return {*place, line_through(spreads, off), line_through(settled, rule)};
+}
+
+const ThresholdFitter::Calibration& ThresholdFitter::calibrated(int place) {
+  const auto known = known_.find(place);
+  if (known != known_.end()) return known->second;
+  const double threshold = std::clamp(rule_.start * std::exp2(place), rule_.fewest, rule_.most);
+  return known_.emplace(place, calibrate(threshold)).first->second;
+}
+
+FittedThreshold ThresholdFitter::fit(std::span<const ComparisonAnswer> answers) {
+  const Posterior posterior = Grid(levels_of(answers)).posterior(experiment::balance_point(rule_));
+  const double median = posterior.threshold.quantile(0.5), m = posterior.mean_log_spread;
+  // Between the two calibrations beside it, so that none makes a step.
+  const double lowest = std::log2(rule_.fewest / rule_.start), highest = std::log2(rule_.most / rule_.start);
+  const double at = std::clamp(median / std::log(2.0) - std::log2(rule_.start), lowest, highest);
+  const int place = static_cast<int>(std::floor(at));
+  const Calibration &before = calibrated(place), &after = calibrated(place + 1);
+  const double share = at - place;
+  const auto between = [&](double a, double b) { return a + share * (b - a); };
+  const auto line = [&](const std::array<double, 2>& a, const std::array<double, 2>& b) {
+    return between(a[0] + a[1] * m, b[0] + b[1] * m);
+  };
+  const double tail = std::exp(-std::exp(between(before.tail, after.tail) + kTailSlope * m));
+  FittedThreshold out;
+  out.low = std::exp(posterior.threshold.quantile(0.5 * tail));
+  out.high = std::exp(posterior.threshold.quantile(1.0 - 0.5 * tail));
+  out.segments = std::clamp(std::exp(median - line(before.off, after.off)), out.low, out.high);
+  out.rule_bias = std::exp(line(before.rule, after.rule));
+  out.spreads = posterior.spreads;
   return out;
 }
 

@@ -39,6 +39,19 @@ std::string counts_text(const Answers& answers) {
 
 }  // namespace
 
+Status add_figure(Section& section, Figure figure, const std::string& caption, bool simulated) {
+  const Result<std::string> svg = figure_svg(figure);
+  if (!svg) return tl::unexpected(svg.error());
+  section.html += element("figure", element("div", *svg, "class=\"figure\"") + element("figcaption", escaped(caption)));
+  for (FigureData& data : figure.data) {
+    data.table.columns.emplace_back("simulated");
+    for (auto& row : data.table.rows)
+      if (!row.empty()) row.push_back(simulated ? 1.0 : 0.0);
+  }
+  section.figures.push_back(std::move(figure));
+  return {};
+}
+
 std::string page(const Answers& answers, const std::string& sections, const std::string& command) {
   std::string body = element("h1", answers.simulated ? "Experiments with simulated participants" : "Experiments");
   body += paragraph(counts_text(answers) + ". Program " TANGENT_VERSION ".");
@@ -57,10 +70,13 @@ std::string page(const Answers& answers, const std::string& sections, const std:
   for (const std::string& protocol : protocols) body += paragraph("Protocol: " + protocol + ".");
   for (const std::string& note : answers.left_out) body += paragraph("Note: " + note + ".");
   body += command_html(command) + sections;
+  return whole_page(answers.simulated ? "Experiments (simulated)" : "Experiments", body);
+}
+
+std::string whole_page(const std::string& title, const std::string& body) {
   return "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
          "content=\"width=device-width, initial-scale=1\"><title>" +
-         std::string(answers.simulated ? "Experiments (simulated)" : "Experiments") + "</title><style>" + page_style() +
-         "</style></head><body>" + body + "</body></html>\n";
+         escaped(title) + "</title><style>" + page_style() + "</style></head><body>" + body + "</body></html>\n";
 }
 
 Result<fs::path> write_analysis(const Answers& answers, const AnalysisOptions& options) {
@@ -78,7 +94,7 @@ Result<fs::path> write_analysis(const Answers& answers, const AnalysisOptions& o
     if (!section) return tl::unexpected(section.error());
     sections += section->html;
     append(tables, std::move(section->tables));
-    append(figures, comparison_figures(results, answers.simulated));
+    append(figures, std::move(section->figures));
   }
   if (!answers.namings.empty()) {
     const NamingResults results = naming_results(answers.namings, options.experienced);
@@ -86,7 +102,7 @@ Result<fs::path> write_analysis(const Answers& answers, const AnalysisOptions& o
     if (!section) return tl::unexpected(section.error());
     sections += section->html;
     append(tables, std::move(section->tables));
-    append(figures, naming_figures(results, answers.simulated));
+    append(figures, std::move(section->figures));
   }
   if (Status ok = write_all(options.folder, tables, figures); !ok) return tl::unexpected(ok.error());
   const fs::path file = options.folder / "analysis.html";

@@ -1,5 +1,7 @@
 #include "workbench/bench/curves_job.h"
 
+#include "workbench/session/background_thread.h"
+
 #include <utility>
 
 namespace tangent::bench {
@@ -17,8 +19,10 @@ void CurvesJob::start(std::vector<MotionPart> parts, SpeedCurvesOptions options,
   progress_.store(0.0);
   running_.store(true);
   if (!threaded) return work(parts, std::move(options));
-  thread_ = std::thread(
-      [this, parts = std::move(parts), options = std::move(options)]() mutable { work(parts, std::move(options)); });
+  thread_ = std::thread([this, parts = std::move(parts), options = std::move(options)]() mutable {
+    yield_to_servo_and_window();
+    work(parts, std::move(options));
+  });
 }
 
 void CurvesJob::work(const std::vector<MotionPart>& parts, SpeedCurvesOptions options) {

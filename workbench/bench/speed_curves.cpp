@@ -146,12 +146,17 @@ class Measurement {
   }
 
   void add_level(const Turns& turns, double level_m) {
+    // Not 0: where the surface offers no contact, no method finds one.
+    const std::uint64_t fewest = std::min_element(out_.points.begin(), out_.points.end(), [](auto& a, auto& b) {
+                                   return a.errors.unconverged < b.errors.unconverged;
+                                 })->errors.unconverged;
     std::vector<std::size_t> good;
     for (const Method method : options_.methods) {
       std::vector<std::size_t> its;
       for (std::size_t i = 0; i < out_.points.size(); ++i) {
         const CurvePoint& point = out_.points[i];
-        const bool enough = point.errors.error_m.count > 0 && point.errors.error_m.p99 <= level_m;
+        const bool enough =
+            point.errors.unconverged == fewest && point.errors.error_m.count > 0 && point.errors.error_m.p99 <= level_m;
         if (point.setting.method == method && enough) its.push_back(i);
       }
       if (!its.empty()) good.push_back(ranked(turns, its).front().competitor);

@@ -42,7 +42,7 @@ struct CurvePeer {
   TickTimes times;
 };
 
-/// Of a method the fastest of its points whose 99th percentile of the error is at most the level's.
+/// Of a method the fastest of its points that leave fewest ticks unconverged, with a p99 of the error within the level.
 struct LevelEntry {
   std::size_t point = 0;
   RatioInterval to_fastest;

@@ -63,10 +63,10 @@ void add_audit_command(CLI::App& app, CommandResult& result) {
   add_text_option(*command, "--json", options->json, "The same report as JSON", "F.json");
   add_text_option(*command, "--heat-map", options->heat_map,
                   "Per triangle, the largest angle to a neighbour and its ratio to the threshold", "F.csv");
-  add_choice_option(*command, "--condition", kConditionNames,
+  add_choice_option(*command, "--condition", kArcConditionNames,
                     "Rendering condition of verdict, worst edges and heat map (default C3)",
                     [options = options.get()](int index) {
-                      options->condition = threshold_index(kConditionNames[static_cast<std::size_t>(index)]);
+                      options->condition = threshold_index(kArcConditionNames[static_cast<std::size_t>(index)]);
                     });
   on_run(*command, [options, &result] {
     const Status status = run_audit(*options);

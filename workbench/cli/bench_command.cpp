@@ -10,6 +10,7 @@
 #include "workbench/cli/interrupt.h"
 #include "workbench/cli/messages.h"
 #include "workbench/cli/option.h"
+#include "workbench/cli/own_file.h"
 
 #include <array>
 #include <cstdio>
@@ -134,6 +135,7 @@ Status write_results(const BenchOptions& options, const BenchReport& report) {
 }
 
 Status run_bench(BenchOptions options, bool& interrupted) {
+  if (Status ok = check_replaceable(options.json, "a measurement", is_bench_json); !ok) return ok;
   for (const auto& path : {options.json, options.plot}) {
     if (Status status = probe(path); !status) return status;
   }

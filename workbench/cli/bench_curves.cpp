@@ -10,6 +10,7 @@
 #include "workbench/cli/interrupt.h"
 #include "workbench/cli/messages.h"
 #include "workbench/cli/method_list.h"
+#include "workbench/cli/own_file.h"
 #include "workbench/cli/progress.h"
 #include "workbench/session/two_threads.h"
 
@@ -59,6 +60,8 @@ Status write_files(const BenchCurvesOptions& options, const SpeedCurves& curves,
 }
 
 Status probe_files(const BenchCurvesOptions& options) {
+  if (Status ok = check_replaceable(options.json, "a measurement", is_bench_json); !ok) return ok;
+  if (Status ok = check_replaceable(options.csv, "a table of one", is_bench_table); !ok) return ok;
   for (const std::filesystem::path& path : {options.csv, options.json, options.plot}) {
     if (path.empty()) continue;
     if (const Result<AtomicFile> file = AtomicFile::create(path); !file) return tl::unexpected(file.error());
@@ -69,9 +72,8 @@ Status probe_files(const BenchCurvesOptions& options) {
 }  // namespace
 
 Status run_bench_curves(BenchCurvesOptions options, bool& interrupted) {
-  const Result<std::vector<Method>> methods = methods_named(options.methods);
-  if (!methods) return tl::unexpected(methods.error());
-  if (!methods->empty()) options.curves.methods = *methods;
+  if (const std::vector<Method> methods = methods_named(options.methods); !methods.empty())
+    options.curves.methods = methods;
   const Result<PresetFile> preset = load_preset(options.preset);
   if (!preset) return tl::unexpected(preset.error());
   if (Status status = probe_files(options); !status) return status;

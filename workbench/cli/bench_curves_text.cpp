@@ -2,12 +2,19 @@
 #include "core/base/units.h"
 #include "workbench/bench/speed_curves_report.h"
 #include "workbench/cli/bench_text.h"
+#include "workbench/cli/count_text.h"
 #include "workbench/cli/text_format.h"
+
+#include <cmath>
 
 namespace tangent::bench {
 namespace {
 
-std::string time_text(const MedianInterval& t) { return format(" %8.0f %7.0f %7.0f", t.median, t.low, t.high); }
+/// A round alone has no interval.
+std::string time_text(const MedianInterval& t) {
+  if (!std::isfinite(t.low) || !std::isfinite(t.high)) return format(" %8.0f       -       -", t.median);
+  return format(" %8.0f %7.0f %7.0f", t.median, t.low, t.high);
+}
 std::string error_text(const Distribution& d) {
   return format(" %9.2g %9.2g %9.2g", d.p50 / kMicrometre, d.p99 / kMicrometre, d.max / kMicrometre);
 }
@@ -36,8 +43,9 @@ std::string level_line(const SpeedCurves& curves, const ErrorLevel& level) {
     line += format("%s %s (%s, %.0f ns)", i == 0 ? "" : ",", to_string(p.setting.method),
                    setting_text(p.setting).c_str(), p.times.typical_ns.median);
     if (i == 0) continue;
-    line += format(" %s%.2f [%.2f, %.2f]", entry.tie ? "tie, " : "", entry.to_fastest.ratio, entry.to_fastest.low,
-                   entry.to_fastest.high);
+    line += format(" %s%.2f", entry.tie ? "tie, " : "", entry.to_fastest.ratio);
+    if (std::isfinite(entry.to_fastest.low) && std::isfinite(entry.to_fastest.high))
+      line += format(" [%.2f, %.2f]", entry.to_fastest.low, entry.to_fastest.high);
   }
   return line + "\n";
 }
@@ -46,13 +54,14 @@ std::string level_line(const SpeedCurves& curves, const ErrorLevel& level) {
 
 std::string curves_text(const SpeedCurves& curves) {
   std::string text = format(
-      "%llu ticks, %d rounds in turns, there and back, seed %llu. Errors, um: the contact from the exact one (1e-12 of "
+      "%s, %s in turns, there and back, seed %llu. Errors, um: the contact from the exact one (1e-12 of "
       "the object's "
       "size), all ticks;\nworst at that pose (from 0). Times, ns of a tick, clock (%.0f ns) taken off: median of the "
       "rounds and its interval by order\nstatistics (holds it in at least %.0f %%). Unconverged ticks count by the "
       "place where they were given up.\n",
-      static_cast<unsigned long long>(curves.ticks), curves.rounds, static_cast<unsigned long long>(curves.seed),
-      curves.clock_overhead_ns, 100.0 * curves.coverage);
+      count_text(curves.ticks, "tick", "ticks").c_str(),
+      count_text(static_cast<std::uint64_t>(curves.rounds), "round", "rounds").c_str(),
+      static_cast<unsigned long long>(curves.seed), curves.clock_overhead_ns, 100.0 * curves.coverage);
   text +=
       "method        setting            unconv.   iter  p99  error p50       p99     worst       at      p50 "
       "(interval) "
@@ -62,11 +71,13 @@ std::string curves_text(const SpeedCurves& curves) {
   for (const MissingPeer& missing : missing_peers())
     text += format("%s: not built in; package %s, then build again\n", missing.name, missing.package);
   text += format(
-      "\nFastest for an error (p99) of at most, of each method the fastest such point, by its typical tick; a tie "
-      "takes "
-      "less than %.0f %%\nlonger, or may within the interval (95 %%, of pairs of the same round):\n",
+      "\nFastest for an error (p99) of at most, of each method the fastest such point that leaves as few ticks "
+      "unconverged "
+      "as any, by its\ntypical tick; a tie takes less than %.0f %% longer, or may within the interval (95 %%, of pairs "
+      "of the same round):\n",
       100.0 * (kTieRatio - 1.0));
   for (const ErrorLevel& level : curves.levels) text += level_line(curves, level);
+  if (curves.levels.empty()) text += "none\n";
   return text;
 }
 

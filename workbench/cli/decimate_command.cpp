@@ -202,10 +202,10 @@ void add_decimate_command(CLI::App& app, CommandResult& result) {
   add_mesh_options(*command, options->mesh);
   add_text_option(*command, "--out", options->out, "The coarse mesh, with normals, in the unit of MESH", "F.obj",
                   Needed::yes);
-  add_choice_option(*command, "--condition", kConditionNames,
+  add_choice_option(*command, "--condition", kArcConditionNames,
                     "Whose threshold no smooth edge may exceed (default P1: force and tactile shading)",
                     [options = options.get()](int i) {
-                      options->condition = threshold_index(kConditionNames[static_cast<std::size_t>(i)]);
+                      options->condition = threshold_index(kArcConditionNames[static_cast<std::size_t>(i)]);
                     });
   add_number_option(*command, "--max-deviation-um", {.min = 1e-3, .max = 1e6, .unit = "um"},
                     "Distance that the smooth surfaces keep, both ways (default: 0.1 % of the longest side)",

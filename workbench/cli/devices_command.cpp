@@ -27,10 +27,10 @@ std::string timeout_text(double seconds) {
 std::string force_text(const ForceCapabilities& c) {
   std::string text = format(
       "%s\n  force      peak %.1f N, continuous %.1f N, along %s\n  stable     up to %.0f N/m and %.0f N s/m\n"
-      "  position   %.0f um steps; workspace %.0f x %.0f x %.0f mm; %d rotations sensed; %d buttons\n",
+      "  position   %.0f um steps; workspace %.0f x %.0f x %.0f mm; rotations sensed: %s; %d buttons\n",
       c.name.c_str(), c.peak_force_n, c.continuous_force_n, pushed_axes(c).c_str(), c.largest_stiffness_n_per_m,
       c.largest_damping_n_s_per_m, c.position_resolution_m * 1e6, c.workspace_half_size_m.x * 2e3,
-      c.workspace_half_size_m.y * 2e3, c.workspace_half_size_m.z * 2e3, c.rotations_sensed, c.buttons);
+      c.workspace_half_size_m.y * 2e3, c.workspace_half_size_m.z * 2e3, sensed_rotations(c).c_str(), c.buttons);
   if (!(c.frame == DeviceFrame{})) text += "  frame      " + frame_text(c.frame) + "\n";
   return text + format("  mass       %.0f g apparent\n  rate       %.0f Hz\n  firmware   %s\n",
                        c.apparent_mass_kg * 1e3, c.rate_hz, timeout_text(c.firmware_timeout_s).c_str());

@@ -1,9 +1,12 @@
 // workbench experiment: a participant through a protocol.
+#include "workbench/cli/experiment_command.h"
 #include "core/io/input_file.h"
 #include "workbench/cli/command.h"
 #include "workbench/cli/interrupt.h"
 #include "workbench/cli/messages.h"
 #include "workbench/cli/option.h"
+#include "workbench/cli/refuse.h"
+#include "workbench/experiment/order.h"
 #include "workbench/experiment/run_simulated.h"
 
 #include <CLI/CLI.hpp>
@@ -20,22 +23,50 @@ struct ExperimentCommandOptions {
   std::string participant, simulated;
   std::optional<double> seed;
   bool pilot = false;
+  TrialChoice trials;
 };
 
-Result<int> run_experiment(const ExperimentCommandOptions& options) {
-  const InterruptGuard guard;
+/// As run_simulated has it, before anything is read: a name, with a number that is one.
+Status check_name(const std::string& participant) {
+  if (Status ok = experiment::check_participant(participant); !ok) return ok;
+  if (experiment::participant_number(participant)) return {};
+  const bool too_large = participant.back() >= '0' && participant.back() <= '9';
+  return fail(too_large ? "has a number above 18446744073709551615" : "has no number at its end", {},
+              "write one, as P07: it decides which order is the participant's");
+}
+
+Result<int> run_with_person(const ExperimentCommandOptions& options, const experiment::Protocol& protocol,
+                            const std::string& text, const experiment::Enrolment& enrolment,
+                            const RunTrials& in_windows) {
+  auto trials = trial_options(options.trials);
+  if (!trials) return tl::unexpected(trials.error());
+  trials->protocol = protocol;
+  trials->protocol_text = text;
+  trials->out = options.out;
+  trials->enrolment = enrolment;
+  TrialsToRun wanted{std::move(*trials), std::nullopt, options.trials.sound_device};
+  if (options.trials.sound.value_or(options.trials.window)) {
+    wanted.sound = protocol.sound;
+    wanted.sound->seed = enrolment.seed;
+  }
+  if (!options.trials.window) return run_trials(std::move(wanted));
+  if (!in_windows) return fail("this program has no windows", "--window", "leave it out: keys then come from here");
+  if (options.trials.without_waiting) return fail("a window keeps real time", "--without-waiting", "leave one out");
+  return in_windows(std::move(wanted));
+}
+
+Result<int> run_experiment(const ExperimentCommandOptions& options, const RunTrials& in_windows) {
   const Result<std::string> text = read_input_file(options.protocol, std::size_t{1} << 20);
   if (!text) return tl::unexpected(text.error());
   const Result<experiment::Protocol> protocol = experiment::parse_protocol(*text, options.protocol);
   if (!protocol) return tl::unexpected(protocol.error());
-  if (options.simulated.empty())
-    return fail("people can't take part yet: trials with a device are not there", "experiment",
-                "say --simulated known to try the protocol and its analysis");
   experiment::Enrolment enrolment;
-  enrolment.mark = {options.participant, options.simulated, options.pilot};
+  enrolment.mark = {options.participant, options.simulated.empty() ? "no" : options.simulated, options.pilot};
   enrolment.protocol_digest = experiment::protocol_digest(*protocol);
   enrolment.seed = options.seed ? static_cast<std::uint64_t>(*options.seed)
                                 : experiment::default_seed(options.participant, enrolment.protocol_digest);
+  if (options.simulated.empty()) return run_with_person(options, *protocol, *text, enrolment, in_windows);
+  const InterruptGuard guard;
   const auto outcome = experiment::run_simulated(options.out, *protocol, *text, enrolment, InterruptGuard::requested);
   if (!outcome) return tl::unexpected(outcome.error());
   std::printf("%s: %zu trials%s, simulated\n", outcome->rows.c_str(), outcome->before + outcome->made,
@@ -47,9 +78,11 @@ Result<int> run_experiment(const ExperimentCommandOptions& options) {
 
 }  // namespace
 
-void add_experiment_command(CLI::App& app, CommandResult& result) {
+void add_experiment_command(CLI::App& app, CommandResult& result) { add_experiment_command_with(app, result, {}); }
+
+void add_experiment_command_with(CLI::App& app, CommandResult& result, const RunTrials& in_windows) {
   CLI::App* command =
-      add_command(app, "experiment", "Take a participant through an experiment's protocol (simulated ones, so far)");
+      add_command(app, "experiment", "Take a participant through an experiment's protocol, at a device or simulated");
   auto options = std::make_shared<ExperimentCommandOptions>();
   ExperimentCommandOptions* o = options.get();
   add_text_option(*command, "PROTOCOL", o->protocol,
@@ -64,8 +97,10 @@ void add_experiment_command(CLI::App& app, CommandResult& result) {
                     "Of orders and simulated answers (default: by participant and protocol)",
                     [o](double seed) { o->seed = seed; });
   add_flag(*command, "--pilot", o->pilot, "A trial run: marked in every row, not analysed with the others");
-  on_run(*command, [options, &result] {
-    const Result<int> code = run_experiment(*options);
+  add_trial_options(*command, o->trials);
+  on_run(*command, [options, in_windows, &result] {
+    refuse_failed("--participant", check_name(options->participant));
+    const Result<int> code = run_experiment(*options, in_windows);
     if (!code) print_message("experiment", code.error().message());
     result.exit_code = code ? *code : kFailed;
   });

@@ -62,7 +62,8 @@ nlohmann::ordered_json explained_tick_json(const ExplainedTick& e) {
           {"decided", decided_json(e.why.decided)},
           {"cure", cure_json(e.why.cure)},
           {"place", place_json(e.why.mesh)},
-          {"solves", e.why.solves}};
+          {"solves", e.why.solves},
+          {"lost_before", e.why.lost_before}};
 }
 
 nlohmann::ordered_json explained_recording_json(const ExplainedRecording& explained) {

@@ -60,6 +60,9 @@ void add_export_command(CLI::App& app, CommandResult& result) {
   add_text_option(*command, "--channels", options->channels,
                   "Columns, separated by commas (default: in a CSV those of ticks.csv, else all)", "a,b");
   on_run(*command, [options, &result] {
+    const ExportOptions& wanted = options->wanted;
+    if (wanted.from_s && wanted.to_s && *wanted.from_s > *wanted.to_s)
+      refuse_option("--to", "is before --from: there is nothing in between");
     options->wanted.channels = names_in(options->channels);
     if (const Status usage = check_export(options->out, options->wanted); !usage) {
       print_message("export", usage.error().message());

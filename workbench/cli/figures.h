@@ -1,4 +1,4 @@
-// The paper's figures that this program reproduces with its own 2D algorithm.
+// The paper's figures that this program reproduces with its own algorithms.
 #pragma once
 
 #include "core/lab/measure/curvature_deviation.h"
@@ -10,9 +10,13 @@
 namespace tangent {
 
 Figure contact_location_figure();  ///< Fig. 4: contact location on the finger over a smooth curve, two and three facets
-Figure iterations_figure();        ///< Fig. 6: the tangent lines of one tick, in cross-section
+Figure iterations_figure();        ///< Fig. 6: the tangent planes of one tick, on a patch in space
+Figure travel_figure();            ///< Fig. 7: the travel, projected on the base triangle
 Figure patches_figure();           ///< Fig. 15: polygon, smooth curve, patches
-Figure local_centre_figure();      ///< Fig. 17: one patch, its local centre and a tangent line
+Figure labels_figure();            ///< Fig. 16: one patch with its labels
+Figure tangents_figure();          ///< Fig. 17: three tangent lines a patch, local centres at midpoints
+Figure angles_figure();            ///< Fig. 18: the part of the angle about the local centre
+Figure lines_figure();             ///< the tangent lines of one tick of the 2D algorithm
 Figure conditions_figure(bool at_threshold);  ///< force direction and contact location against travel, all conditions:
                                               ///< at each one's threshold count of segments, or all at five
 Figure curvature_figure();                    ///< curvature against the circle's, five segments

@@ -31,8 +31,9 @@ Status write_figures(const std::filesystem::path& folder) {
   if (error || !std::filesystem::is_directory(folder))
     return fail("this folder can't be made", folder.string(), "name another with --out");
   for (const Figure& figure :
-       {contact_location_figure(), iterations_figure(), patches_figure(), local_centre_figure(),
-        conditions_figure(true), conditions_figure(false), curvature_figure(), inner_corner_figure()}) {
+       {contact_location_figure(), iterations_figure(), travel_figure(), patches_figure(), labels_figure(),
+        tangents_figure(), angles_figure(), lines_figure(), conditions_figure(true), conditions_figure(false),
+        curvature_figure(), inner_corner_figure()}) {
     if (Status status = write_figure(figure, folder); !status) return status;
     std::fputs(format("%s.svg: %s\n", (folder / figure.name).c_str(), figure.title.c_str()).c_str(), stdout);
   }
@@ -43,8 +44,7 @@ Status write_figures(const std::filesystem::path& folder) {
 }  // namespace
 
 void add_figures_command(CLI::App& app, CommandResult& result) {
-  CLI::App* command =
-      add_command(app, "figures", "The paper's figures by the 2D algorithm: SVG, with the data as CSV beside each");
+  CLI::App* command = add_command(app, "figures", "The paper's figures: SVG, with the data as CSV beside each");
   auto folder = std::make_shared<std::filesystem::path>();
   add_text_option(*command, "--out", *folder, "Folder to write into; made if it isn't there", "DIR", Needed::yes);
   on_run(*command, [folder, &result] {

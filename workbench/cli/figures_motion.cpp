@@ -41,6 +41,14 @@ std::vector<Sample> slide(const PlanarCurve& curve, const Preset& preset) {
   return samples;
 }
 
+/// Ranges of the arc's pictures, mm: X of the travel, Y of the contact on the finger. They follow the arc's radius.
+std::string arc_ranges() {
+  const auto round_up = [](double value, double step) { return step * std::ceil(value / step); };
+  const double half = 0.5 * kPaperArcRad;
+  return format("X = %g\nY = %g\nset xrange [-X:X]\n", round_up(1.05e3 * half * kPaperArcRadius, 5.0),
+                round_up(1.2e3 * half * kRadius, 2.0));
+}
+
 /// Angle of a force from upright, positive to the right.
 double direction_deg(const Vec3& force) { return force == Vec3(0.0) ? kNaN : std::atan2(force.x, force.y) / kDegree; }
 
@@ -66,8 +74,7 @@ Figure contact_location_figure() {
     table.rows.push_back({1e3 * two[i].travel_m, -1e3 * kRadius * two[i].angle_rad, 1e3 * two[i].output.cld_m,
                           1e3 * three[i].output.cld_m});
   figure.data.push_back({"", std::move(table)});
-  figure.script = R"(set xrange [-50:50]
-set xlabel 'finger travel along the arc (mm)'
+  figure.script = arc_ranges() + R"(set xlabel 'finger travel along the arc (mm)'
 set ylabel 'contact location on the finger (mm, distal positive)'
 set key right top
 F = DIR.'/fig04-contact-location.csv'
@@ -87,7 +94,7 @@ int segments_of(const RenderingCondition& condition, bool at_threshold) {
 FigureTable conditions_table(bool at_threshold) {
   FigureTable table{{"travel_mm", "circle_deg", "circle_mm"}, {}};
   std::vector<std::vector<Sample>> runs;
-  for (const RenderingCondition& condition : kRenderingConditions) {
+  for (const RenderingCondition& condition : arc_conditions()) {
     Preset preset = figure_preset();
     set_condition(preset, condition);
     runs.push_back(slide(curve_of(make_paper_arc(segments_of(condition, at_threshold))), preset));
@@ -110,20 +117,19 @@ FigureTable conditions_table(bool at_threshold) {
 /// gnuplot's arrays C, the names of the conditions, and T, the titles of their pictures.
 std::string condition_arrays(bool at_threshold) {
   std::string names, titles;
-  for (const RenderingCondition& condition : kRenderingConditions) {
+  for (const RenderingCondition& condition : arc_conditions()) {
     const std::string name(condition.name), comma(names.empty() ? "" : ", ");
     names += comma + "'" + name + "'";
     titles += comma + format("'%s, %d segments'", name.c_str(), segments_of(condition, at_threshold));
   }
-  const std::string count = "[" + std::to_string(kRenderingConditions.size()) + "]";
+  const std::string count = "[" + std::to_string(kArcConditions) + "]";
   return "array C" + count + " = [" + names + "]\narray T" + count + " = [" + titles + "]\n";
 }
 
 // Six pictures side by side: force direction above, contact location below, the circle's own in grey.
 constexpr const char* kConditionsScript = R"(set multiplot
 set key off
-set xrange [-50:50]
-set xtics -40,20,40
+set xtics 20
 L = 0.062; W = 0.150; G = 0.0055
 do for [i=1:6] {
   set lmargin at screen L+(i-1)*(W+G)
@@ -140,8 +146,8 @@ do for [i=1:6] {
        F using 'travel_mm':(column(C[i].'_force_deg')) with lines ls 2
   set tmargin at screen 0.50
   set bmargin at screen 0.12
-  set yrange [-12:12]
-  set ytics -12,6,12
+  set yrange [-Y:Y]
+  set ytics Y/2
   set format x '%g'
   set xlabel 'travel (mm)'
   if (i==1) { set ylabel 'contact location (mm)' offset 1,0; set format y '%g' } else { unset ylabel; set format y '' }
@@ -161,7 +167,8 @@ Figure conditions_figure(bool at_threshold) {
       .width_px = 1180,
       .height_px = 560};
   figure.data.push_back({"", conditions_table(at_threshold)});
-  figure.script = "F = DIR.'/" + figure.name + ".csv'\n" + condition_arrays(at_threshold) + kConditionsScript;
+  figure.script =
+      "F = DIR.'/" + figure.name + ".csv'\n" + arc_ranges() + condition_arrays(at_threshold) + kConditionsScript;
   return figure;
 }
 

@@ -3,6 +3,7 @@
 #include "workbench/cli/command.h"
 #include "workbench/cli/messages.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -22,7 +23,9 @@ std::filesystem::path window_program() {
 
 std::optional<int> hand_over_to_window(int argc, char** argv) {
   const std::string command = argc > 1 ? argv[1] : "";
-  const bool needs_window = command == "gui" || command == "shot";
+  const bool windowed =
+      std::any_of(argv, argv + argc, [](const char* word) { return std::string(word) == "--window"; });
+  const bool needs_window = command == "gui" || command == "shot" || (command == "experiment" && windowed);
   if (!command.empty() && !needs_window && command != "report") return std::nullopt;
   const std::filesystem::path program = window_program();
   ::execv(program.c_str(), argv);

@@ -1,6 +1,7 @@
 #include "workbench/cli/interrupt.h"
 
 #include "core/io/atomic_file.h"
+#include "core/io/input_file.h"
 #include "workbench/session/crash_stop.h"
 
 namespace tangent {
@@ -13,6 +14,7 @@ volatile std::sig_atomic_t interrupted = 0;
 void on_signal(int signal) {
   if (interrupted == 0) {
     interrupted = 1;
+    end_waiting_for_input();
     ask_servos_to_end();  // now, not when somebody looks at the flag: the drawing thread may hang
     return;
   }
@@ -26,6 +28,7 @@ void on_signal(int signal) {
 
 InterruptGuard::InterruptGuard() {
   interrupted = 0;
+  allow_waiting_for_input();
   allow_servos();
   struct sigaction action {};
   action.sa_handler = on_signal;

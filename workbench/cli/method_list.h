@@ -1,7 +1,6 @@
 // Methods as a command line names them.
 #pragma once
 
-#include "core/base/result.h"
 #include "core/preset/preset.h"
 
 #include <string>
@@ -9,7 +8,8 @@
 
 namespace tangent {
 
-/// Of --methods: each text names one, or several with commas between, in their order. Fails on a name that is none.
-Result<std::vector<Method>> methods_named(const std::vector<std::string>& texts);
+/// Of --methods: each text names one, or several with commas between, in their order. Ends the parsing on a name that
+/// is none, and on one that is there twice.
+std::vector<Method> methods_named(const std::vector<std::string>& texts);
 
 }  // namespace tangent

@@ -164,9 +164,10 @@ Status run_monitor(const MonitorOptions& options) {
   Result<std::unique_ptr<SessionRecorder>> recorder;
   if (!options.record.empty()) {
     std::signal(SIGXFSZ, SIG_IGN);  // a limit on file sizes is an error of the write, like a full disk
-    recorder = SessionRecorder::start(
-        **session, options.record,
-        {{std::make_shared<const PolygonMesh>(builtin_mesh()), {}, nullptr}, "built-in sphere", true});
+    SessionRecording recording;
+    recording.source.mesh = std::make_shared<const PolygonMesh>(builtin_mesh());
+    recording.scene_name = "built-in sphere";
+    recorder = SessionRecorder::start(**session, options.record, std::move(recording));
     if (!recorder) return tl::unexpected(recorder.error());
   }
   if (const Status ok = (*session)->start(); !ok) return ok;

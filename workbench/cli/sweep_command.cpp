@@ -1,11 +1,14 @@
 // workbench sweep: many presets on many meshes and motions; in one process, or divided for a cluster.
 #include "workbench/cli/command.h"
+#include "workbench/cli/count_text.h"
 #include "workbench/cli/interrupt.h"
 #include "workbench/cli/messages.h"
 #include "workbench/cli/option.h"
 #include "workbench/cli/progress.h"
+#include "workbench/cli/refuse.h"
 #include "workbench/cli/sweep_options.h"
 #include "workbench/cli/text_format.h"
+#include "workbench/sweep/ignored_keys.h"
 #include "workbench/sweep/plan_digest.h"
 #include "workbench/sweep/sweep_estimate.h"
 #include "workbench/sweep/sweep_run.h"
@@ -45,7 +48,7 @@ sweep::SweepOptions run_options(const SweepCommandOptions& options, Progress& pr
 
 std::string outcome_text(const sweep::SweepOutcome& o, const std::string& where) {
   const auto whole = [](std::uint64_t n) { return std::to_string(n); };
-  std::string text = whole(o.before + o.solved) + " of " + whole(o.cells) + " cells in " + where;
+  std::string text = whole(o.before + o.solved) + " of " + count_text(o.cells, "cell", "cells") + " in " + where;
   if (o.before > 0) text += " (" + whole(o.before) + " were there)";
   if (o.solved > 0 && o.ticks > 0)
     text += format("; %s solved in %.1f s, %.3g ticks/s", whole(o.solved).c_str(), o.seconds,
@@ -57,10 +60,26 @@ std::string outcome_text(const sweep::SweepOutcome& o, const std::string& where)
 int finish(const sweep::SweepOutcome& outcome, const std::string& where) {
   std::fputs(outcome_text(outcome, where).c_str(), stdout);
   if (outcome.stopped) print_message("sweep", "interrupted; the same command goes on from there");
-  if (outcome.failed > 0)
-    print_message("sweep", std::to_string(outcome.failed) +
-                               " cells have no numbers, the others have; the first: " + outcome.first_failure);
-  return outcome.stopped || outcome.failed > 0 ? kFailed : kDone;
+  const sweep::Failures& failures = outcome.failures;
+  if (failures.cells > 0)
+    print_message("sweep", where + ": " + count_text(failures.cells, "cell has", "cells have") + " no numbers, " +
+                               (failures.cells < outcome.cells ? "the others have; " : "") + "the first, cell " +
+                               std::to_string(failures.first) + ": " + failures.why +
+                               "; then sweep into a new file: a file is of the meshes and motions as they were");
+  return outcome.stopped || failures.cells > 0 ? kFailed : kDone;
+}
+
+/// Keys that are swept for nothing: the sweep goes on all the same.
+void warn_of_ignored(const sweep::Cells& cells) {
+  for (const std::string& text : sweep::ignored_key_texts(cells)) print_message("sweep", text);
+}
+
+/// Wrong usage where the options say it, a failure where a plan's file does.
+Result<sweep::Cells> cells_of(const Result<sweep::Plan>& plan) {
+  if (!plan) return tl::unexpected(plan.error());
+  Result<sweep::Cells> cells = sweep::Cells::of(*plan);
+  if (cells) warn_of_ignored(*cells);
+  return cells;
 }
 
 Status refuse_many(const sweep::Cells& cells, const SweepCommandOptions& options) {
@@ -71,15 +90,18 @@ Status refuse_many(const sweep::Cells& cells, const SweepCommandOptions& options
 Result<int> print_estimate(const sweep::Cells& cells, unsigned threads) {
   const Result<sweep::SweepEstimate> e = sweep::estimate(cells);
   if (!e) return tl::unexpected(e.error());
-  std::fputs(
-      format("%llu cells: %zu meshes x %zu motions x %zu fingers x %llu presets\n"
-             "%.3g ticks in all, about %.0f s on %u threads (%.0f ns a tick, by %zu ticks of the first cell)\n"
-             "about %.0f MB of memory for the first mesh and motion, %.0f MB of results\n",
-             static_cast<unsigned long long>(cells.size()), cells.plan().meshes.size(), cells.plan().poses.size(),
-             cells.plan().fingers.size(), static_cast<unsigned long long>(cells.per_group()), e->ticks,
-             e->seconds / threads, threads, e->ns_a_tick, e->tried_ticks, e->memory_bytes / 1e6, e->result_bytes / 1e6)
-          .c_str(),
-      stdout);
+  std::fputs(format("%s: %s x %s x %s x %s\n"
+                    "%.3g ticks in all, about %.0f s on %s (%.0f ns a tick, by %zu ticks of the first cell)\n"
+                    "about %.0f MB of memory for the first mesh and motion, %.0f MB of results\n",
+                    count_text(cells.size(), "cell", "cells").c_str(),
+                    count_text(cells.plan().meshes.size(), "mesh", "meshes").c_str(),
+                    count_text(cells.plan().poses.size(), "motion", "motions").c_str(),
+                    count_text(cells.plan().fingers.size(), "finger", "fingers").c_str(),
+                    count_text(cells.per_group(), "preset", "presets").c_str(), e->ticks, e->seconds / threads,
+                    count_text(threads, "thread", "threads").c_str(), e->ns_a_tick, e->tried_ticks,
+                    e->memory_bytes / 1e6, e->result_bytes / 1e6)
+                 .c_str(),
+             stdout);
   return kDone;
 }
 
@@ -88,16 +110,16 @@ Result<int> time_cells(const sweep::Cells& cells, sweep::ResultsFile& file, cons
   const auto timed = sweep::time_sweep(cells, file, static_cast<std::size_t>(options.times), kTimedTicks,
                                        run_options(options, progress));
   if (!timed) return tl::unexpected(timed.error());
-  std::fputs((std::to_string(*timed) + " cells timed, each against the first of its mesh, motion and finger\n").c_str(),
-             stdout);
+  std::fputs(
+      (count_text(*timed, "cell", "cells") + " timed, each against the first of its mesh, motion and finger\n").c_str(),
+      stdout);
   return InterruptGuard::requested() ? kFailed : kDone;
 }
 
 Result<int> sweep_here(const SweepCommandOptions& options) {
   const InterruptGuard guard;
   const Result<sweep::Plan> plan = sweep_plan(options.plan);
-  if (!plan) return tl::unexpected(plan.error());
-  const Result<sweep::Cells> cells = sweep::Cells::of(*plan);
+  const Result<sweep::Cells> cells = cells_of(plan);
   if (!cells) return tl::unexpected(cells.error());
   if (Status ok = refuse_many(*cells, options); !ok) return tl::unexpected(ok.error());
   Progress progress("cells", cells->size());
@@ -119,10 +141,10 @@ Result<int> sweep_here(const SweepCommandOptions& options) {
 
 Result<int> divide(const SweepCommandOptions& options) {
   const Result<sweep::Plan> plan = sweep::read_plan(options.plan.plan);
-  if (!plan) return tl::unexpected(plan.error());
-  const Result<sweep::Cells> cells = sweep::Cells::of(*plan);
+  const Result<sweep::Cells> cells = cells_of(plan);
   if (!cells) return tl::unexpected(cells.error());
   const auto shards = static_cast<std::uint64_t>(options.shards);
+  refuse_failed("--shards", sweep::check_shards(shards, *cells));
   const Result<sweep::SweepEstimate> estimate = sweep::estimate(*cells);
   if (!estimate) return tl::unexpected(estimate.error());
   sweep::JobScripts scripts = sweep::bundled(estimate->seconds, shards, 60.0 * options.job_minutes);
@@ -130,10 +152,10 @@ Result<int> divide(const SweepCommandOptions& options) {
   if (Status ok = sweep::write_plan_folder(options.folder, *plan, shards, scripts); !ok)
     return tl::unexpected(ok.error());
   const std::string dir = options.folder.string();
-  std::fputs(format("%s: %llu cells in %llu shards, about %.0f s each; %llu shards a job in %s/slurm.sh\n", dir.c_str(),
-                    static_cast<unsigned long long>(cells->size()), static_cast<unsigned long long>(shards),
+  std::fputs(format("%s: %s in %s, about %.0f s each; %s a job in %s/slurm.sh\n", dir.c_str(),
+                    count_text(cells->size(), "cell", "cells").c_str(), count_text(shards, "shard", "shards").c_str(),
                     estimate->seconds / static_cast<double>(shards),
-                    static_cast<unsigned long long>(scripts.shards_a_job), dir.c_str())
+                    count_text(scripts.shards_a_job, "shard", "shards").c_str(), dir.c_str())
                  .c_str(),
              stdout);
   return kDone;
@@ -144,6 +166,7 @@ Result<int> run_one_shard(const SweepCommandOptions& options) {
   const Result<sweep::PlanFolder> folder = sweep::open_plan_folder(options.folder);
   if (!folder) return tl::unexpected(folder.error());
   const auto shard = static_cast<std::uint64_t>(options.shard);
+  refuse_failed("--shard", sweep::check_shard(*folder, shard));
   Progress progress("cells", 0);
   const Result<sweep::SweepOutcome> outcome = sweep::run_shard(*folder, shard, run_options(options, progress));
   if (!outcome) return tl::unexpected(outcome.error());
@@ -152,7 +175,7 @@ Result<int> run_one_shard(const SweepCommandOptions& options) {
   const auto timed =
       sweep::time_shard(*folder, shard, static_cast<std::size_t>(options.times), run_options(options, progress));
   if (!timed) return tl::unexpected(timed.error());
-  std::fputs((std::to_string(*timed) + " cells timed on " + sweep::machine_name() + "\n").c_str(), stdout);
+  std::fputs((count_text(*timed, "cell", "cells") + " timed on " + sweep::machine_name() + "\n").c_str(), stdout);
   return InterruptGuard::requested() ? static_cast<int>(kFailed) : code;
 }
 
@@ -163,7 +186,17 @@ Result<int> merge(const SweepCommandOptions& options) {
   Progress progress("cells", folder->cells);
   const auto outcome = sweep::merge_shards(*folder, options.out, run_options(options, progress));
   if (!outcome) return tl::unexpected(outcome.error());
-  return finish(*outcome, options.out.string());
+  const int code = finish(*outcome, options.out.string());
+  const sweep::LackingTimes& lacking = outcome->lacking;
+  if (lacking.cells == 0) return code;
+  const std::string more = lacking.shards > 1 ? ", and " + count_text(lacking.shards - 1, "shard more", "shards more") +
+                                                    ", " + std::to_string(lacking.cells) + " in all"
+                                              : "";
+  print_message("sweep", folder->shard_file(lacking.first_shard).string() + ": lacks the times of " +
+                             count_text(lacking.first_cells, "cell", "cells") + more + "; run \"sweep run " +
+                             folder->folder.string() + " --shard " + std::to_string(lacking.first_shard) + " --times " +
+                             std::to_string(folder->times > 0 ? folder->times : 6) + "\" again, then merge again");
+  return kFailed;
 }
 
 using Work = Result<int> (*)(const SweepCommandOptions&);
@@ -234,6 +267,8 @@ void add_sweep_command(CLI::App& app, CommandResult& result) {
     if (options->plan.plan.empty() && options->plan.meshes.empty())
       refuse_option("MESH", "is missing: name meshes, or a plan with --plan");
     if (options->out.empty() && !options->dry_run) refuse_option("--out", "is missing: name a file for the results");
+    for (const std::string& mesh : options->plan.meshes) refuse_same_file("--out", options->out, "MESH", mesh);
+    for (const std::string& poses : options->plan.poses) refuse_same_file("--out", options->out, "--poses", poses);
     const Result<int> code = sweep_here(*options);
     if (!code) print_message("sweep", code.error().message());
     result.exit_code = code ? *code : static_cast<int>(kFailed);

@@ -51,6 +51,17 @@ void take_span(const std::string& value, const std::string& text, sweep::Range& 
   }
 }
 
+/// What check_plan says of a plan from options, by the option that it is about.
+[[noreturn]] void refuse_plan(Error error) {
+  constexpr std::string_view kRange = "range of ";
+  std::string option = "--" + error.where;
+  if (error.where.starts_with(kRange)) option = "--range " + error.where.substr(kRange.size());
+  if (error.where == "meshes") option = "MESH";
+  if (error.where == "ranges") option = "--range";
+  error.where.clear();
+  refuse_option(option, error.message());
+}
+
 }  // namespace
 
 sweep::Range parse_range_option(const std::string& text) {
@@ -97,7 +108,14 @@ void add_sweep_plan_options(CLI::App& app, SweepPlanOptions& options) {
 Result<sweep::Plan> sweep_plan(const SweepPlanOptions& options) {
   if (!options.plan.empty()) {
     if (!options.meshes.empty() || !options.poses.empty() || !options.ranges.empty() || !options.methods.empty())
-      return fail("says all of this itself", "--plan", "leave out meshes, --poses, --range and --methods");
+      refuse_option("--plan", "says all of this itself; leave out meshes, --poses, --range and --methods");
+    const SweepPlanOptions none;
+    const PresetOptions& preset = options.preset;
+    if (options.sampling != none.sampling || options.samples != none.samples || options.seed != none.seed ||
+        options.ticks != none.ticks)
+      refuse_option("--plan", "says all of this itself; leave out --sampling, --samples, --seed and --ticks");
+    if (!preset.file.empty() || preset.condition >= 0 || !preset.overrides.empty())
+      refuse_option("--plan", "says all of this itself; leave out --preset, --condition and the values of a preset");
     return sweep::read_plan(options.plan);
   }
   const Result<PresetFile> preset = load_preset(options.preset);
@@ -109,16 +127,14 @@ Result<sweep::Plan> sweep_plan(const SweepPlanOptions& options) {
   plan.poses = options.poses;
   plan.base = preset->preset;
   plan.fingers = {plan.base.finger};
-  Result<std::vector<Method>> methods = methods_named(options.methods);
-  if (!methods) return tl::unexpected(methods.error());
-  if (methods->empty()) methods->push_back(plan.base.solver.method);
-  plan.methods = std::move(*methods);
+  plan.methods = methods_named(options.methods);
+  if (plan.methods.empty()) plan.methods.push_back(plan.base.solver.method);
   plan.ranges = options.ranges;
   plan.sampling = options.sampling;
   plan.samples = options.samples;
   plan.seed = options.seed;
   plan.ticks = options.ticks;
-  if (Status ok = sweep::check_plan(plan); !ok) return tl::unexpected(ok.error());
+  if (const Status ok = sweep::check_plan(plan); !ok) refuse_plan(ok.error());
   return plan;
 }
 

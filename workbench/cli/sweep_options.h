@@ -29,7 +29,7 @@ void add_sweep_plan_options(CLI::App& app, SweepPlanOptions& options);
 /// TABLE.KEY=A,B,C or TABLE.KEY=FROM..TO[:COUNT[:log|linear]]. Ends the parsing on anything else.
 sweep::Range parse_range_option(const std::string& text);
 
-/// Fails on what contradicts itself, and on a plan or preset that can't be read.
+/// Fails on a plan or preset that can't be read; ends the parsing on options that contradict each other.
 Result<sweep::Plan> sweep_plan(const SweepPlanOptions& options);
 
 }  // namespace tangent

@@ -9,8 +9,10 @@
 #include "workbench/cli/mesh_options.h"
 #include "workbench/cli/messages.h"
 #include "workbench/cli/option.h"
+#include "workbench/cli/own_file.h"
 #include "workbench/cli/preset_options.h"
 #include "workbench/cli/progress.h"
+#include "workbench/cli/refuse.h"
 #include "workbench/cli/stopwatch.h"
 #include "workbench/cli/text_format.h"
 #include "workbench/cli/tune_front.h"
@@ -158,6 +160,8 @@ Result<Found> find_on_front(const TuneOptions& options, const std::shared_ptr<co
                                      {scene, std::make_shared<const std::vector<TickInput>>(poses)},
                                      std::string(kExplorationNames[static_cast<std::size_t>(options.path)]));
   for (const std::string& failed : grounds.failed) print_message("tune", failed + "; the others go on");
+  for (const std::string& text : tune_ignored(preset, gain_length(*scene, preset.finger), options.front))
+    print_message("tune", text);
   Result<TunedFront> tuned =
       tune_front(std::move(grounds.all), preset, gain_length(*scene, preset.finger), options.front);
   if (!tuned) return tl::unexpected(tuned.error());
@@ -177,7 +181,9 @@ Status run_tune(const TuneOptions& options, bool& incomplete) {
   if (!base) return tl::unexpected(base.error());
   report.preset = std::move(*base);
   const Preset& preset = report.preset.preset;
-  // Checks before the work starts that the file can be written.
+  // Checks before the work starts that the files can be written.
+  if (Status ok = check_replaceable(options.out, "a preset", is_preset_text); !ok) return ok;
+  if (Status ok = check_replaceable(options.front.csv, "the table of a front", is_front_table); !ok) return ok;
   if (const Result<AtomicFile> probe = AtomicFile::create(options.out); !probe) return tl::unexpected(probe.error());
   Result<LoadedMesh> loaded = load_mesh(options.mesh);
   if (!loaded) return tl::unexpected(loaded.error());
@@ -210,10 +216,10 @@ Status run_tune(const TuneOptions& options, bool& incomplete) {
   return {};
 }
 
-void refuse_overwriting(const char* name, const std::filesystem::path& input, const std::filesystem::path& out) {
-  std::error_code error;
-  if (!input.empty() && (input == out || std::filesystem::equivalent(input, out, error)))
-    refuse_option("--out", std::string("names the same file as ") + name);
+template <class Value>
+void refuse_twice(const std::string& option, const std::vector<Value>& values) {
+  for (auto at = values.begin(); at != values.end(); ++at)
+    if (std::find(values.begin(), at, *at) != at) refuse_option(option, "has one value twice; leave one of them out");
 }
 
 void check_usage(const TuneOptions& options) {
@@ -225,10 +231,15 @@ void check_usage(const TuneOptions& options) {
       if (is_smooth(static_cast<Method>(i))) allowed.push_back(kMethodNames[i]);
     refuse_option(o.by, o.key->value_text(o.value) + " has no gains; allowed: " + choices_text(allowed));
   }
-  refuse_overwriting("MESH", options.mesh.file, options.out);
-  for (const std::string& mesh : options.grounds.meshes) refuse_overwriting("--also-mesh", mesh, options.out);
-  for (const std::string& poses : options.grounds.poses)
-    if (!sweep::is_made(poses)) refuse_overwriting("--poses", poses, options.out);
+  refuse_same_file("--out", options.out, "MESH", options.mesh.file);
+  for (const std::string& mesh : options.grounds.meshes) refuse_same_file("--out", options.out, "--also-mesh", mesh);
+  for (const std::string& poses : options.grounds.poses) {
+    refuse_failed("--poses", sweep::check_made_motion(poses));
+    if (!sweep::is_made(poses)) refuse_same_file("--out", options.out, "--poses", poses);
+  }
+  refuse_twice("--poses", options.grounds.poses);
+  refuse_twice("--also-mesh", options.grounds.meshes);
+  refuse_twice("--also-radius-mm", options.grounds.radii_m);
   if (options.front.objectives.empty() && options.grounds.several())
     refuse_option("--objective", "is missing: several meshes, motions and fingers belong to objectives");
   for (const sweep::Range& range : options.front.ranges)
@@ -252,6 +263,7 @@ void add_tune_command(CLI::App& app, CommandResult& result) {
       "or left and right over its top, then forward and back, as the paper's participants (strokes)",
       [options = options.get()](int kind) { options->path = static_cast<ExplorationKind>(kind); });
   add_text_option(*command, "--out", options->out, "Preset to write", "preset.toml", Needed::yes);
+  exclude_each_other(*command, "--path", "--poses");
   add_tune_front_options(*command, options->front);
   add_preset_options(*command, options->preset);
   on_run(*command, [command, options, &result] {

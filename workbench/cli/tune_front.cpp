@@ -8,6 +8,7 @@
 #include "workbench/cli/sweep_options.h"
 #include "workbench/cli/text_format.h"
 #include "workbench/sweep/gain_theory.h"
+#include "workbench/sweep/ignored_keys.h"
 
 #include <algorithm>
 #include <thread>
@@ -208,6 +209,9 @@ void add_tune_front_options(CLI::App& app, TuneFrontOptions& options) {
                         for (const std::string& name : names) {
                           const auto objective = sweep::find_objective(name);
                           if (!objective) refuse_option("--objective", objective.error().message());
+                          for (const sweep::Objective& before : options.objectives)
+                            if (before.column == objective->column)
+                              refuse_option("--objective", name + " is there twice");
                           options.objectives.push_back(*objective);
                         }
                       });
@@ -244,12 +248,26 @@ void add_tune_front_options(CLI::App& app, TuneFrontOptions& options) {
 void check_tune_front(const TuneFrontOptions& options) {
   if (options.objectives.empty() && (!options.constraints.empty() || !options.ranges.empty() || !options.csv.empty()))
     refuse_option("--objective", "is missing: constraints, ranges and fronts belong to objectives");
+  const TuneFrontOptions none;
+  const bool searches = options.evaluations != none.evaluations || options.seed != none.seed || options.threads > 0 ||
+                        options.no_race || options.over_grounds != none.over_grounds;
+  if (options.objectives.empty() && searches)
+    refuse_option("--objective",
+                  "is missing: --evaluations, --seed, --threads, --over-grounds and --no-race belong to objectives");
+  for (std::size_t i = 0; i < options.ranges.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k)
+      if (options.ranges[k].key == options.ranges[i].key)
+        refuse_option("--range " + options.ranges[i].key->full_name(), "is there twice; leave one of them out");
   for (const sweep::Range& range : options.ranges) {
     if (!range.values.empty() || range.count > 0 || range.from >= range.to)
       refuse_option("--range " + range.key->full_name(), "is searched between two ends: FROM..TO");
   }
   if (const Status ok = sweep::check_constraints(options.constraints); !ok)
     refuse_option("--constraint", ok.error().message());
+}
+
+std::vector<std::string> tune_ignored(const Preset& base, double gain_length_m, const TuneFrontOptions& options) {
+  return sweep::ignored_key_texts(options.ranges.empty() ? gain_ranges(gain_length_m) : options.ranges, base);
 }
 
 Result<TunedFront> tune_front(std::vector<sweep::FrontGround> grounds, const Preset& base, double gain_length_m,

@@ -31,6 +31,9 @@ void add_tune_front_options(CLI::App& app, TuneFrontOptions& options);
 /// Wrong usage: options of a front without an objective, a limit named twice.
 void check_tune_front(const TuneFrontOptions& options);
 
+/// A sentence for each key that would be searched for nothing: no tick under `base` reads it.
+std::vector<std::string> tune_ignored(const Preset& base, double gain_length_m, const TuneFrontOptions& options);
+
 struct TunedFront {
   Preset preset;     ///< the one to write
   std::string text;  ///< for a person: the front, the choice and why, on the poses held back

@@ -41,6 +41,7 @@ void ComparisonRun::begin_condition() {
     return;
   }
   staircase_.emplace(condition().staircase);
+  answers_.clear();
   show(Phase::training, 0.0);
 }
 
@@ -112,11 +113,33 @@ ComparisonRow ComparisonRun::take_answer() {
 }
 
 void ComparisonRun::take(const ComparisonRow& row) {
+  answers_.emplace_back(row.segments, row.right);
   staircase_->answer(row.right);
   ++trial_;
   if (!staircase_->done()) return;
   ++place_;
   begin_condition();
+}
+
+void ComparisonRun::repeat(double t_s) {
+  if (!finished()) show(shown_.phase == Phase::training ? Phase::training : Phase::first, t_s);
+}
+
+std::string ComparisonRun::what_is_next() const {
+  const auto named = [](int segments) {
+    return segments == 0 ? std::string("the exact arc") : std::to_string(segments) + " segments";
+  };
+  const int coarse = staircase_->segments();
+  switch (shown_.phase) {
+    case Phase::training:
+      return "first " + named(reference_is_first() ? 0 : coarse) + ", then " + named(reference_is_first() ? coarse : 0);
+    case Phase::first:
+      return "then " + named(reference_is_first() ? coarse : 0);
+    case Phase::second:
+      return "the answer: 1 or 2, and Enter";
+    default:
+      return {};
+  }
 }
 
 Result<ComparisonRun> ComparisonRun::start(const Protocol& protocol, std::uint64_t participant, std::uint64_t seed,

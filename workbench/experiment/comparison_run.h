@@ -45,6 +45,12 @@ class ComparisonRun {
   int trials_in_condition() const { return staircase_->trials(); }
   /// A finished trial, which has to be on the disk before the next moment.
   std::optional<ComparisonRow> advance(const Moment& moment);
+  /// The pair, or the training, that was cut begins again.
+  void repeat(double t_s);
+  int trial() const { return trial_; }  ///< that is under way, from 0
+  std::string what_is_next() const;     ///< for the operator
+  /// Of the condition that runs now, or ran last. Each trial: segments, and whether the answer was right.
+  const std::vector<std::pair<int, bool>>& answers() const { return answers_; }
 
  private:
   ComparisonRun(const Protocol& protocol, std::uint64_t participant, std::uint64_t seed);
@@ -61,6 +67,7 @@ class ComparisonRun {
   std::vector<std::size_t> order_;  ///< conditions
   std::size_t place_ = 0;           ///< in order_
   std::optional<Staircase> staircase_;
+  std::vector<std::pair<int, bool>> answers_;
   int trial_ = 0;
   TrialClock clock_;
   ComparisonRow row_;

@@ -2,6 +2,7 @@
 
 #include "core/io/atomic_file.h"
 #include "core/io/input_file.h"
+#include "workbench/recording/build_identity.h"
 
 #include <nlohmann/json.hpp>
 
@@ -27,6 +28,12 @@ fs::path protocol_path(const fs::path& folder, const std::string& digest) {
   return folder / ("protocol-" + digest + ".toml");
 }
 
+/// sub-7_task-x_beh.tsv -> sub-7_task-x and another ending.
+fs::path sibling(const fs::path& rows, const std::string& ending) {
+  const std::string name = rows.filename().string();
+  return rows.parent_path() / (name.substr(0, name.rfind("_beh")) + ending);
+}
+
 ordered_json sidecar_json(const Protocol& protocol, const Enrolment& enrolment) {
   ordered_json json{{"TaskName", kind_name(protocol)},
                     {"TaskDescription", protocol.name},
@@ -38,7 +45,9 @@ ordered_json sidecar_json(const Protocol& protocol, const Enrolment& enrolment) 
                     {"protocol", enrolment.protocol_digest},
                     {"protocol_version", protocol.version},
                     {"SoftwareName", "Tangent Workbench"},
-                    {"SoftwareVersion", TANGENT_VERSION}};
+                    {"SoftwareVersion", TANGENT_VERSION},
+                    {"program", build_identity()},
+                    {"preset", preset_digest(protocol.preset)}};
   for (const ColumnMeaning& column : columns_of(protocol)) {
     ordered_json& entry = json["columns"][std::string(column.name)];
     entry["Description"] = column.meaning;
@@ -92,9 +101,11 @@ std::string Enrolment::identity() const {
 Status check_participant(const std::string& participant) {
   const bool fits = !participant.empty() && participant.size() <= 40 &&
                     std::all_of(participant.begin(), participant.end(), [](unsigned char c) {
-                      return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-';
+                      return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
                     });
-  if (!fits) return fail("is no name of a participant", "--participant", "write letters, digits and -, at most 40");
+  if (!fits)
+    return fail("\"" + participant + "\" is no name of a participant: file names after BIDS have no place for others",
+                "--participant", "write letters and digits, at most 40, as P1");
   return {};
 }
 
@@ -129,6 +140,22 @@ Result<RowFile> enrol(const fs::path& folder, const Protocol& protocol, const st
   Fields columns;
   for (const ColumnMeaning& column : columns_of(protocol)) columns.emplace_back(column.name);
   return RowFile::open(rows, columns, enrolment.identity());
+}
+
+std::filesystem::path events_path(const fs::path& rows) { return sibling(rows, "_events.tsv"); }
+std::filesystem::path recordings_path(const fs::path& rows) { return sibling(rows, "_recordings"); }
+
+Status note_stimuli(const fs::path& rows, const std::map<std::string, std::string>& hashes) {
+  const fs::path sidecar = beside(rows);
+  const Result<std::string> text = read_input_file(sidecar, kMaxSidecarBytes);
+  if (!text) return tl::unexpected(text.error());
+  ordered_json json = ordered_json::parse(*text, nullptr, false);
+  if (!json.is_object()) return fail("is no JSON", sidecar.string(), "use the file as it was written");
+  ordered_json known = json.value("stimuli", ordered_json::object());
+  if (!known.is_object()) known = ordered_json::object();
+  for (const auto& [name, hash] : hashes) known[name] = hash;
+  json["stimuli"] = std::move(known);
+  return write_file_atomic(sidecar, json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n");
 }
 
 Result<Sidecar> read_sidecar(const fs::path& rows) {

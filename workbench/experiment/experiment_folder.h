@@ -1,6 +1,9 @@
 // The data of an experiment in a folder, after BIDS (bids-specification.readthedocs.io, behavioural experiments):
 //   DIR/sub-7/beh/sub-7_task-discrimination_beh.tsv    a row a trial (row_file.h)
 //   DIR/sub-7/beh/sub-7_task-discrimination_beh.json   what the columns mean, and what the rows belong to
+//   DIR/sub-7/beh/sub-7_task-discrimination_beh.csv    the same rows, for other programs
+//   DIR/sub-7/beh/sub-7_task-discrimination_events.tsv what else happened: notes, faults, pauses (trial_events.h)
+//   DIR/sub-7/beh/sub-7_task-discrimination_recordings every tick of each trial, where that is wanted
 //   DIR/protocol-DIGEST.toml                           the protocol as it was
 // A participant's rows belong to one protocol, seed and kind: with another one they are refused, not mixed.
 #pragma once
@@ -8,6 +11,7 @@
 #include "workbench/experiment/trial_rows.h"
 
 #include <filesystem>
+#include <map>
 #include <string>
 
 namespace tangent::experiment {
@@ -21,7 +25,7 @@ struct Enrolment {
   std::string identity() const;  ///< for RowFile
 };
 
-/// A participant's name is part of file names: letters, digits, '-', at most 40 characters. Fails saying so.
+/// A participant's name is part of file names after BIDS: letters and digits, at most 40. Fails saying so.
 Status check_participant(const std::string& participant);
 
 /// Where a participant's rows are.
@@ -32,6 +36,12 @@ std::filesystem::path rows_path(const std::filesystem::path& folder, const std::
 /// the sidecar, opens the rows. Fails where the participant was begun otherwise, saying how.
 Result<RowFile> enrol(const std::filesystem::path& folder, const Protocol& protocol, const std::string& protocol_text,
                       const Enrolment& enrolment);
+
+/// Beside the rows.
+std::filesystem::path events_path(const std::filesystem::path& rows);
+std::filesystem::path recordings_path(const std::filesystem::path& rows);
+/// Adds the hashes of what was shown, by name, to the sidecar. Atomic.
+Status note_stimuli(const std::filesystem::path& rows, const std::map<std::string, std::string>& hashes);
 
 /// What a sidecar says, and the protocol that it names.
 struct Sidecar {

@@ -117,6 +117,21 @@ std::optional<NamingRow> NamingRun::advance(const Moment& moment) {
   return std::nullopt;
 }
 
+void NamingRun::repeat(double t_s) {
+  if (shown_.phase == Phase::explore || shown_.phase == Phase::guide) show(Phase::guide, t_s);
+  if (shown_.phase == Phase::training) show(Phase::training, t_s);
+}
+
+std::string NamingRun::what_is_next() const {
+  const auto named = [this](std::size_t i) {
+    if (i >= trials_.size()) return std::string("the end");
+    const ObjectTrial& trial = trials_[i];
+    return design().objects[trial.object] + (trial.shaded ? ", shaded" : ", facets") +
+           (trial.tactile ? ", with display" : "");
+  };
+  return finished() ? std::string{} : named(shown_.phase == Phase::explore ? next_ + 1 : next_);
+}
+
 Result<NamingRun> NamingRun::start(const Protocol& protocol, std::uint64_t participant, std::uint64_t seed,
                                    const std::vector<NamingRow>& done) {
   NamingRun run(protocol, participant, seed);

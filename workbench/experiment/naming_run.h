@@ -41,6 +41,10 @@ class NamingRun {
   Progress progress() const { return {static_cast<int>(next_), static_cast<int>(trials_.size())}; }
   /// A finished trial, which has to be on the disk before the next moment.
   std::optional<NamingRow> advance(const Moment& moment);
+  /// The trial, or the practice, that was cut begins again: the finger is drawn to the start.
+  void repeat(double t_s);
+  int trial() const { return static_cast<int>(next_); }  ///< that is under way, from 0
+  std::string what_is_next() const;                      ///< for the operator
 
  private:
   NamingRun(const Protocol& protocol, std::uint64_t participant, std::uint64_t seed);

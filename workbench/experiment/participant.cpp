@@ -41,10 +41,11 @@ std::size_t draw(std::span<const double> shares, SplitMix& random) {
   return shares.size() - 1;
 }
 
-}  // namespace
-
-void take_part(ComparisonRun& run, const KnownComparer& participant, std::uint64_t seed,
-               const std::function<void(const ComparisonRow&)>& row) {
+/// Takes a run to its end. `feel`: what a stimulus of an interval (0, 1) takes, s; `right`: whether the answer is, of a
+/// condition and segments.
+template <class Feel, class Right>
+Status compare_all(ComparisonRun& run, const Feel& feel, const Right& right,
+                   const std::function<void(const ComparisonRow&)>& row) {
   Actor actor(run);
   int comparison = 0, exact_at = 0;
   while (!run.finished()) {
@@ -53,22 +54,50 @@ void take_part(ComparisonRun& run, const KnownComparer& participant, std::uint64
       actor.press(Key::enter);
       continue;
     }
-    actor.feel(kExploring);
-    if (shown.phase == Phase::first) {
+    const bool first = shown.phase == Phase::first;
+    const Result<double> seconds = feel(shown.stimulus, first ? 0 : 1);
+    if (!seconds) return tl::unexpected(seconds.error());
+    actor.feel(*seconds);
+    if (first) {
       exact_at = shown.stimulus.segments == 0 ? 1 : 2;
       comparison = shown.stimulus.segments;
       actor.press(Key::enter);
       continue;
     }
     comparison = std::max(comparison, shown.stimulus.segments);
-    Psychometric function = participant.functions.at(shown.stimulus.condition);
+    actor.press(Key::digit, right(shown.stimulus.condition, comparison) ? exact_at : 3 - exact_at);
+    if (const auto made = actor.press(Key::enter)) row(*made);
+  }
+  return {};
+}
+
+}  // namespace
+
+void take_part(ComparisonRun& run, const KnownComparer& participant, std::uint64_t seed,
+               const std::function<void(const ComparisonRow&)>& row) {
+  const auto feel = [](const Stimulus&, int) -> Result<double> { return kExploring; };
+  const auto right = [&](const std::string& condition, int segments) {
+    Psychometric function = participant.functions.at(condition);
     function.middle *= std::exp(participant.drift * run.trials_in_condition() / 100.0);
     // By the trial's own place, so that one who is interrupted answers as one who is not.
     SplitMix random(seed, static_cast<std::uint64_t>(run.progress().done));
-    const bool right = random.unit() < function.right(comparison);
-    actor.press(Key::digit, right ? exact_at : 3 - exact_at);
-    if (const auto made = actor.press(Key::enter)) row(*made);
-  }
+    return random.unit() < function.right(segments);
+  };
+  static_cast<void>(compare_all(run, feel, right, row));
+}
+
+Status take_part(ComparisonRun& run, FeelingComparer& participant, std::uint64_t seed,
+                 const std::function<void(const ComparisonRow&)>& row) {
+  double exact = 0.0, polygon = 0.0;
+  const auto feel = [&](const Stimulus& stimulus, int interval) -> Result<double> {
+    SplitMix random(seed, static_cast<std::uint64_t>(2 * run.progress().done + interval));
+    const auto felt = participant.feel(stimulus.condition, stimulus.segments, random);
+    if (!felt) return tl::unexpected(felt.error());
+    (stimulus.segments == 0 ? exact : polygon) = felt->size;
+    return felt->seconds;
+  };
+  return compare_all(
+      run, feel, [&](const std::string&, int) { return polygon > exact; }, row);
 }
 
 void take_part(NamingRun& run, const Identification& design, const KnownNamer& participant, std::uint64_t seed,

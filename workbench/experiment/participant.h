@@ -1,9 +1,11 @@
-// Simulated participants whose answers follow a known law. They feel nothing; what they are for is to try protocols and
-// their analysis, and to plan how many people a difference needs.
+// Simulated participants. Those whose answers follow a known law feel nothing: they are there to try protocols and
+// their analysis, and to plan how many people a difference needs. One who feels (feeling.h) touches what a protocol
+// shows.
 #pragma once
 
 #include "core/base/split_mix.h"
 #include "workbench/experiment/comparison_run.h"
+#include "workbench/experiment/feeling.h"
 #include "workbench/experiment/naming_run.h"
 #include "workbench/experiment/psychometric.h"
 
@@ -31,6 +33,9 @@ struct KnownNamer {
 /// Takes a whole run, or what is left of it, to its end, and hands each row over as it is made.
 void take_part(ComparisonRun& run, const KnownComparer& participant, std::uint64_t seed,
                const std::function<void(const ComparisonRow&)>& row);
+/// Fails where a stimulus can't be made.
+Status take_part(ComparisonRun& run, FeelingComparer& participant, std::uint64_t seed,
+                 const std::function<void(const ComparisonRow&)>& row);
 /// One session.
 void take_part(NamingRun& run, const Identification& design, const KnownNamer& participant, std::uint64_t seed,
                const std::function<void(const NamingRow&)>& row);

@@ -2,13 +2,15 @@
 // (presets/experiments holds the paper's two); every number is in the file, with the paper's section beside it.
 //
 //   [protocol]     kind = "discrimination" or "identification", name, version
+//   [sound]        noise_db (RMS), cue_db (peak), below full scale
 //   [preset]       keys of a preset in quotes: "finger.radius_m" = 0.02, "force.limit_n" = 6.0
 // and, of the first kind (5.2: which of two arcs is the smooth one),
 //   [arc]          radius_m, angle_rad, placement
 //   [staircase]    reversals, large_reversals, averaged, down, scale, fewest, most, most_trials
 //   [[conditions]] name = "C1", start, large_step, small_step: one staircase each
 // of the second (5.3: which of seven objects is this),
-//   [objects]      names: key 1 is the first; rounding_m; practice; both_ways: those that face left or right
+//   [objects]      names: key 1 is the first; rounding_m; practice; both_ways: those that face left or right;
+//                  facet_deg
 //   [runs]         sessions, blocks (a session's), runs (a block's); tactile_first = "even"
 //   [start]        place_m, radius_m, hold_s, guide_n_per_m, guide_limit_n
 #pragma once
@@ -17,6 +19,7 @@
 #include "core/base/vec.h"
 #include "core/lab/objects/arc.h"
 #include "core/preset/preset.h"
+#include "workbench/experiment/sound/sound_settings.h"
 #include "workbench/experiment/staircase.h"
 
 #include <array>
@@ -48,6 +51,7 @@ struct Identification {
   std::vector<std::string> both_ways;  ///< those that are shown pointing left and right
   std::string practice;                ///< shown in view before each kind of feedback; empty: none
   double rounding_m = 1.5e-3;          ///< of the edges of shaded objects
+  double facet_deg = 0.2;              ///< unshaded cone, cylinder and sphere: their facets turn by less than this
   int sessions = 2;
   int blocks = 2;                  ///< of a session; tactile feedback changes between blocks
   int runs = 2;                    ///< of a block, with the same objects, in an order of their own
@@ -61,7 +65,8 @@ struct Identification {
 struct Protocol {
   std::string name;
   int version = 1;
-  Preset preset;  ///< finger, force and limits; the conditions replace the sources of force and display
+  Preset preset;        ///< finger, force and limits; the conditions replace the sources of force and display
+  SoundSettings sound;  ///< levels of what is heard; the seed is the participant's
   std::variant<Discrimination, Identification> kind;
 
   const Discrimination* discrimination() const { return std::get_if<Discrimination>(&kind); }
@@ -76,5 +81,7 @@ Result<Protocol> read_protocol(const std::filesystem::path& file);
 /// 16 hex digits of every value: two protocols with the same digest put the same before a participant. Comments, order
 /// and spelling of the file do not count.
 std::string protocol_digest(const Protocol& protocol);
+/// The same of a preset.
+std::string preset_digest(const Preset& preset);
 
 }  // namespace tangent::experiment

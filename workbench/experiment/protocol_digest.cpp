@@ -43,7 +43,7 @@ void add(Values& values, const Discrimination& d) {
 }
 
 void add(Values& values, const Identification& d) {
-  values.add_all(d.objects).add_all(d.both_ways).add(d.practice).add(d.rounding_m);
+  values.add_all(d.objects).add_all(d.both_ways).add(d.practice).add(d.rounding_m).add(d.facet_deg);
   for (const int whole : {d.sessions, d.blocks, d.runs, d.tactile_first_even ? 1 : 0}) values.add(whole);
   for (const double number :
        {d.start_m.x, d.start_m.y, d.start_m.z, d.start_radius_m, d.hold_s, d.guide_n_per_m, d.guide_limit_n})
@@ -52,10 +52,17 @@ void add(Values& values, const Identification& d) {
 
 }  // namespace
 
+std::string preset_digest(const Preset& preset) {
+  Values values;
+  for (const PresetKey& key : preset_keys()) values.add(key.full_name()).add(key.get(preset));
+  return values.digest();
+}
+
 std::string protocol_digest(const Protocol& protocol) {
   Values values;
   values.add(kProtocolKinds[protocol.kind.index()]).add(protocol.name).add(protocol.version);
   for (const PresetKey& key : preset_keys()) values.add(key.full_name()).add(key.get(protocol.preset));
+  values.add(protocol.sound.noise_db).add(protocol.sound.cue_db);
   std::visit([&](const auto& kind) { add(values, kind); }, protocol.kind);
   return values.digest();
 }

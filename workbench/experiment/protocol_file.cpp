@@ -26,6 +26,7 @@ class ProtocolReader {
   Result<Protocol> read() {
     if (Status ok = read_head(); !ok) return tl::unexpected(ok.error());
     if (Status ok = read_preset(); !ok) return tl::unexpected(ok.error());
+    if (Status ok = read_sound(); !ok) return tl::unexpected(ok.error());
     const Status ok = protocol_.discrimination() ? read_discrimination() : read_identification();
     if (!ok) return tl::unexpected(ok.error());
     for (const auto& [key, node] : root_)
@@ -67,6 +68,13 @@ class ProtocolReader {
         return ok;
     }
     return {};
+  }
+
+  Status read_sound() {
+    TomlTable sound = reader("sound");
+    sound.number("noise_db", protocol_.sound.noise_db, kQuietestSound_db, kLoudestNoise_db);
+    sound.number("cue_db", protocol_.sound.cue_db, kQuietestSound_db, kLoudestCue_db);
+    return sound.finish();
   }
 
   // --- Which of two is smooth ---
@@ -112,8 +120,9 @@ class ProtocolReader {
       t.number("small_step", rule.small_step, ratio ? 1.001 : 1.0, ratio ? 100.0 : kMostSegments);
       if (!ratio) t.required("large_step").required("small_step");
       if (Status ok = t.finish(); !ok) return ok;
-      if (find_condition(condition.name) == nullptr)
-        return fail("is no rendering condition", t.where("name"), "allowed: " + choices_text(kConditionNames));
+      if (std::find(kArcConditionNames.begin(), kArcConditionNames.end(), condition.name) == kArcConditionNames.end())
+        return fail("is no rendering condition of arcs", t.where("name"),
+                    "allowed: " + choices_text(kArcConditionNames));
       for (const ComparisonCondition& other : out)
         if (other.name == condition.name) return fail("is there twice", t.where("name"), "name each condition once");
       out.push_back(std::move(condition));
@@ -127,7 +136,7 @@ class ProtocolReader {
     auto& d = std::get<Identification>(protocol_.kind);
     TomlTable objects = reader("objects");
     objects.required("names").texts("names", d.objects).texts("both_ways", d.both_ways).text("practice", d.practice);
-    objects.number("rounding_m", d.rounding_m, 0.0, 0.01);
+    objects.number("rounding_m", d.rounding_m, 0.0, 0.01).number("facet_deg", d.facet_deg, 0.1, 30.0);
     if (Status ok = objects.finish(); !ok) return ok;
     TomlTable runs = reader("runs");
     runs.whole("sessions", d.sessions, 1, 100).whole("blocks", d.blocks, 1, 100).whole("runs", d.runs, 1, 100);

@@ -39,6 +39,27 @@ std::string check_of(std::string_view before, std::string_view text) { return Fn
 
 std::string reason() { return std::strerror(errno); }
 
+bool write_all(int file, std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t written = ::write(file, text.data(), text.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return false;
+    text.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return true;
+}
+
+std::string csv_line(const Fields& fields) {
+  std::string out;
+  for (const std::string& field : fields) {
+    const bool plain = field.find_first_of(",\"\r") == std::string::npos;
+    std::string inner;
+    for (const char c : field) inner += c == '"' ? "\"\"" : std::string(1, c);
+    out += (&field == fields.data() ? "" : ",") + (plain ? field : '"' + inner + '"');
+  }
+  return out + "\n";
+}
+
 struct Table {
   ReadRows read;
   std::size_t whole_bytes = 0;
@@ -95,11 +116,14 @@ Result<ReadRows> read_rows(const std::filesystem::path& path, const std::string&
 RowFile::RowFile(RowFile&& other) noexcept
     : path_(std::move(other.path_)),
       file_(std::exchange(other.file_, -1)),
+      csv_(std::exchange(other.csv_, -1)),
+      bytes_(other.bytes_),
       last_check_(std::move(other.last_check_)),
       rows_(std::move(other.rows_)) {}
 
 RowFile::~RowFile() {
   if (file_ >= 0) ::close(file_);
+  if (csv_ >= 0) ::close(csv_);
 }
 
 Result<RowFile> RowFile::open(const std::filesystem::path& path, const Fields& columns, const std::string& identity) {
@@ -128,24 +152,33 @@ Result<RowFile> RowFile::open(const std::filesystem::path& path, const Fields& c
     return fail("its torn end can't be cut off: " + reason(), path.string());
   out.last_check_ = table.last_check;
   out.rows_ = std::move(table.read.rows);
-  if (table.whole_bytes > 0) return out;
-  const std::string header = joined(columns) + std::string(kCheck);
-  if (Status ok = out.write(header + "\n"); !ok) return tl::unexpected(ok.error());
-  out.last_check_ = check_of(identity, header);
+  out.bytes_ = table.whole_bytes;
+  if (table.whole_bytes == 0) {
+    const std::string header = joined(columns) + std::string(kCheck);
+    if (Status ok = out.write(header + "\n"); !ok) return tl::unexpected(ok.error());
+    out.last_check_ = check_of(identity, header);
+  }
+  if (Status ok = out.begin_csv(columns); !ok) return tl::unexpected(ok.error());
   return out;
 }
 
 Status RowFile::write(const std::string& text) {
-  std::string_view left = text;
-  while (!left.empty()) {
-    const ssize_t written = ::write(file_, left.data(), left.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0)
-      return fail("can't be written: " + reason(), path_.string(), "the answers before are in it; make room, go on");
-    left.remove_prefix(static_cast<std::size_t>(written));
-  }
-  if (::fdatasync(file_) != 0 && errno != EINVAL) return fail("can't be written: " + reason(), path_.string());
-  return {};
+  const bool written = write_all(file_, text) && (::fdatasync(file_) == 0 || errno == EINVAL);
+  if (written) return bytes_ += text.size(), Status{};
+  const std::string why = reason();
+  // Half a row would stand before the next one. Where it can't be cut off now, the next start does.
+  static_cast<void>(::ftruncate(file_, static_cast<off_t>(bytes_)) == 0);
+  return fail("can't be written: " + why, path_.string(), "the answers before are in it; make room, go on");
+}
+
+// Made anew at each start, from the rows that are there.
+Status RowFile::begin_csv(const Fields& columns) {
+  const std::filesystem::path path = std::filesystem::path(path_).replace_extension(".csv");
+  csv_ = ::open(path.c_str(), O_CREAT | O_WRONLY | O_TRUNC | O_APPEND | O_CLOEXEC, 0666);
+  std::string text = csv_line(columns);
+  for (const Fields& row : rows_) text += csv_line(row);
+  if (csv_ >= 0 && write_all(csv_, text)) return {};
+  return fail("can't be written: " + reason(), path.string(), "choose a folder that may be written, or make room");
 }
 
 Status RowFile::add(const Fields& fields) {
@@ -153,6 +186,7 @@ Status RowFile::add(const Fields& fields) {
   const std::string check = check_of(last_check_, text);
   if (Status ok = write(text + check + "\n"); !ok) return ok;
   last_check_ = check;
+  static_cast<void>(write_all(csv_, csv_line(fields)));
   return {};
 }
 

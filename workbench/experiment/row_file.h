@@ -1,7 +1,7 @@
 // Answers on disk: a table in tabs after BIDS (`_beh.tsv`, bids-specification.readthedocs.io), one row a trial, only
 // ever appended to. A row is on the disk before the next stimulus is shown; a process that is killed leaves at most one
-// torn row, which the next one cuts off. The last column, `check`, is a checksum of the row and of the one before it: a
-// table that was edited, cut or joined by hand is told.
+// torn row, which the next one cuts off. Beside it is the same as CSV, without `check`. The last column, `check`, is a
+// checksum of the row and of the one before it: a table that was edited, cut or joined by hand is told.
 #pragma once
 
 #include "core/base/result.h"
@@ -25,14 +25,18 @@ class RowFile {
   ~RowFile();
 
   const std::vector<Fields>& rows() const { return rows_; }  ///< that were there, without `check`
-  /// On the disk when it returns. Precondition: as many fields as columns, none with a tab or a line end.
+  /// On the disk when it returns; where it fails (a full disk), nothing of it is, and it can be tried again.
+  /// Precondition: as many fields as columns, none with a tab or a line end.
   Status add(const Fields& fields);
 
  private:
   RowFile() = default;
   Status write(const std::string& text);
+  Status begin_csv(const Fields& columns);
   std::filesystem::path path_;
   int file_ = -1;
+  int csv_ = -1;           ///< a copy for people: what it lacks after an end out of order, the next start writes
+  std::size_t bytes_ = 0;  ///< of whole rows
   std::string last_check_;
   std::vector<Fields> rows_;
 };

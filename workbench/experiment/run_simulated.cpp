@@ -3,6 +3,7 @@
 #include "core/base/fnv.h"
 #include "workbench/experiment/order.h"
 #include "workbench/experiment/simulated_group.h"
+#include "workbench/recording/core_digest.h"
 
 namespace tangent::experiment {
 namespace {
@@ -12,11 +13,14 @@ struct Stopped {};
 
 class Recorder {
  public:
-  Recorder(RowFile& file, const RunMark& mark, const std::function<bool()>& stop, SimulatedOutcome& out)
-      : file_(file), mark_(mark), stop_(stop), out_(out) {}
+  Recorder(RowFile& file, const Enrolment& enrolment, const std::function<bool()>& stop, SimulatedOutcome& out)
+      : file_(file), mark_(enrolment.mark), stop_(stop), out_(out) {
+    origin_.protocol = enrolment.protocol_digest;
+    origin_.program = std::string(core_digest()).substr(0, 16);
+  }
   template <class Row>
   void add(const Row& row) {
-    status_ = file_.add(fields_of(mark_, row));
+    status_ = file_.add(fields_of(mark_, row, origin_));
     if (!status_) throw Stopped{};
     ++out_.made;
     out_.stopped = stop_ && stop_();
@@ -27,6 +31,7 @@ class Recorder {
  private:
   RowFile& file_;
   const RunMark& mark_;
+  RowOrigin origin_;
   const std::function<bool()>& stop_;
   SimulatedOutcome& out_;
   Status status_;
@@ -56,8 +61,15 @@ Status compare(const Protocol& protocol, const Enrolment& enrolment, std::uint64
   if (!rows) return tl::unexpected(rows.error());
   auto run = ComparisonRun::start(protocol, number, enrolment.seed, *rows);
   if (!run) return tl::unexpected(run.error());
-  const KnownComparer participant = comparer_like_the_papers(protocol, number, enrolment.seed);
-  take_part(*run, participant, enrolment.seed, [&](const ComparisonRow& row) { recorder.add(row); });
+  const auto add = [&](const ComparisonRow& row) { recorder.add(row); };
+  if (enrolment.mark.simulated == kSimulatedKinds[1]) {
+    auto arcs = arcs_to_feel(protocol);
+    if (!arcs) return tl::unexpected(arcs.error());
+    FeelingComparer participant(std::move(*arcs), *protocol.discrimination(), feeling_hand(number, enrolment.seed),
+                                enrolment.seed);
+    return take_part(*run, participant, enrolment.seed, add);
+  }
+  take_part(*run, comparer_like_the_papers(protocol, number, enrolment.seed), enrolment.seed, add);
   return {};
 }
 
@@ -91,12 +103,15 @@ Result<SimulatedOutcome> run_simulated(const std::filesystem::path& folder, cons
   if (!number)
     return fail("\"" + enrolment.mark.participant + "\" ends with no number, which the orders go by", "--participant",
                 "write 7, or P07");
+  if (enrolment.mark.simulated == kSimulatedKinds[1] && !protocol.discrimination())
+    return fail("a participant who feels compares arcs, and names no objects", "--simulated feeling",
+                "take --simulated known, or a protocol of kind discrimination");
   Result<RowFile> file = enrol(folder, protocol, protocol_text, enrolment);
   if (!file) return tl::unexpected(file.error());
   SimulatedOutcome out;
   out.rows = rows_path(folder, enrolment.mark.participant, protocol);
   out.before = file->rows().size();
-  Recorder recorder(*file, enrolment.mark, stop, out);
+  Recorder recorder(*file, enrolment, stop, out);
   try {
     const Status ok = protocol.discrimination() ? compare(protocol, enrolment, *number, *file, recorder)
                                                 : name_objects(protocol, enrolment, *number, *file, recorder);

@@ -11,8 +11,9 @@
 
 namespace tangent::experiment {
 
-inline constexpr std::array<std::string_view, 1> kSimulatedKinds{
-    "known"};  ///< answers by a known law, drawn after the paper's tables (simulated_group.h)
+inline constexpr std::array<std::string_view, 2> kSimulatedKinds{
+    "known",     ///< answers by a known law, drawn after the paper's tables (simulated_group.h)
+    "feeling"};  ///< touches the stimuli with the simulated hand and judges by force and display (feeling.h)
 
 struct SimulatedOutcome {
   std::filesystem::path rows;

@@ -19,7 +19,8 @@ struct Column {
 
 constexpr std::array<ColumnMeaning, 3> kMarks{{
     {"participant", "", "as given when the experiment was begun"},
-    {"simulated", "", "no, or the kind of simulated participant: nobody felt anything"},
+    {"simulated", "",
+     "no, or what was simulated, so that nobody felt anything: the participant (known, feeling), the device"},
     {"pilot", "", "yes: a trial run, not to be analysed with the others"},
 }};
 
@@ -57,10 +58,24 @@ const std::array<Column<N>, 13> kNaming{{
     {{"touching", "s", "of response_time, touching"}, &N::touching_s},
 }};
 
+using O = RowOrigin;
+const std::array<Column<O>, 8> kOrigin{{
+    {{"interruptions", "", "how often the trial was begun again: after a fault, a stop or an end of the program"},
+     &O::interruptions},
+    {{"device", "", "force device and contact location display"}, &O::device},
+    {{"sound", "", "what played noise and cues; none: nothing did"}, &O::sound},
+    {{"mesh", "", "hash of the object, or of the comparison's polygon"}, &O::mesh},
+    {{"preset", "", "digest of the preset in use"}, &O::preset},
+    {{"protocol", "", "digest of the protocol"}, &O::protocol},
+    {{"program", "", "digest of the library that computes the ticks"}, &O::program},
+    {{"recording", "", "file with every tick of the trial, beside this table"}, &O::recording},
+}};
+
 template <class Columns>
 std::vector<ColumnMeaning> meanings(const Columns& columns) {
   std::vector<ColumnMeaning> out(kMarks.begin(), kMarks.end());
   for (const auto& column : columns) out.push_back(column.meaning);
+  for (const auto& column : kOrigin) out.push_back(column.meaning);
   return out;
 }
 
@@ -91,9 +106,11 @@ bool take(const std::string& text, Facing& value) {
 }
 
 template <class Row, class Columns>
-Fields fields_by(const Columns& columns, const RunMark& mark, const Row& row) {
+Fields fields_by(const Columns& columns, const RunMark& mark, const Row& row, const RowOrigin& origin) {
   Fields out{mark.participant, mark.simulated, text_of(mark.pilot)};
   for (const auto& column : columns) std::visit([&](auto field) { out.push_back(text_of(row.*field)); }, column.field);
+  for (const auto& column : kOrigin)
+    std::visit([&](auto field) { out.push_back(text_of(origin.*field)); }, column.field);
   return out;
 }
 
@@ -136,8 +153,22 @@ std::span<const ColumnMeaning> naming_columns() {
   return kAll;
 }
 
-Fields fields_of(const RunMark& mark, const ComparisonRow& row) { return fields_by(kComparison, mark, row); }
-Fields fields_of(const RunMark& mark, const NamingRow& row) { return fields_by(kNaming, mark, row); }
+Fields fields_of(const RunMark& mark, const ComparisonRow& row, const RowOrigin& origin) {
+  return fields_by(kComparison, mark, row, origin);
+}
+Fields fields_of(const RunMark& mark, const NamingRow& row, const RowOrigin& origin) {
+  return fields_by(kNaming, mark, row, origin);
+}
+
+Result<RowOrigin> row_origin(const Fields& columns, const Fields& fields) {
+  RowOrigin out;
+  Status ok;
+  for (const auto& column : kOrigin)
+    if (ok && field_of(columns, fields, column.meaning.name) != nullptr)
+      std::visit([&](auto field) { ok = read_field(columns, fields, column.meaning.name, out.*field); }, column.field);
+  if (!ok) return tl::unexpected(ok.error());
+  return out;
+}
 
 Result<std::pair<RunMark, ComparisonRow>> comparison_row(const Fields& columns, const Fields& fields) {
   return row_by<ComparisonRow>(kComparison, columns, fields);

@@ -41,19 +41,20 @@ bool move_all(const Move& move, int file, Byte* bytes, std::size_t size, std::ui
 
 tl::unexpected<Error> ColumnSpool::system_failure(const char* doing) const {
   const int code = errno;
-  return fail(std::string("cannot ") + doing + " a temporary file: " + std::strerror(code), folder_.string(),
+  return fail(std::string("cannot ") + doing + " a temporary file beside it: " + std::strerror(code), for_.string(),
               "check that the directory is writable and has room for twice what is exported");
 }
 
-Result<ColumnSpool> ColumnSpool::create(const std::filesystem::path& folder, std::size_t columns) {
-  ColumnSpool spool(open_unnamed(folder), folder, columns);
+Result<ColumnSpool> ColumnSpool::create(const std::filesystem::path& folder, std::size_t columns,
+                                        const std::filesystem::path& target) {
+  ColumnSpool spool(open_unnamed(folder.empty() ? "." : folder), target, columns);
   if (spool.file_ < 0) return spool.system_failure("create");
   return spool;
 }
 
 ColumnSpool::ColumnSpool(ColumnSpool&& other) noexcept
     : file_(std::exchange(other.file_, -1)),
-      folder_(std::move(other.folder_)),
+      for_(std::move(other.for_)),
       columns_(other.columns_),
       rows_(other.rows_),
       block_(std::move(other.block_)) {}

@@ -12,8 +12,10 @@ namespace tangent {
 
 class ColumnSpool {
  public:
-  /// A file without a name in `folder`, of that many columns of 8 bytes each.
-  static Result<ColumnSpool> create(const std::filesystem::path& folder, std::size_t columns);
+  /// A file without a name in `folder` (empty: this one), of that many columns of 8 bytes each. Messages name `target`,
+  /// which is written from it.
+  static Result<ColumnSpool> create(const std::filesystem::path& folder, std::size_t columns,
+                                    const std::filesystem::path& target);
 
   ColumnSpool(ColumnSpool&& other) noexcept;
   ColumnSpool& operator=(ColumnSpool&&) = delete;
@@ -27,13 +29,13 @@ class ColumnSpool {
 
  private:
   static constexpr std::size_t kBlockRows = 4096;
-  ColumnSpool(int file, std::filesystem::path folder, std::size_t columns)
-      : file_(file), folder_(std::move(folder)), columns_(columns), block_(columns * kBlockRows) {}
+  ColumnSpool(int file, std::filesystem::path target, std::size_t columns)
+      : file_(file), for_(std::move(target)), columns_(columns), block_(columns * kBlockRows) {}
   Status flush();
   tl::unexpected<Error> system_failure(const char* doing) const;
 
   int file_;
-  std::filesystem::path folder_;
+  std::filesystem::path for_;
   std::size_t columns_;
   std::uint64_t rows_ = 0;
   std::vector<std::uint64_t> block_;  ///< of each column kBlockRows values, one column after the other

@@ -170,8 +170,7 @@ Result<std::unique_ptr<Exporter>> mat_exporter(const ExportTarget& target, std::
                 "install libmatio-dev and build again, or end the name in .csv, which readtable reads");
   Result<AtomicFile> file = AtomicFile::create(target.to);
   if (!file) return tl::unexpected(file.error());
-  const std::filesystem::path folder = file->being_written().parent_path();
-  Result<ColumnSpool> spool = ColumnSpool::create(folder.empty() ? "." : folder, columns.size());
+  Result<ColumnSpool> spool = ColumnSpool::create(file->being_written().parent_path(), columns.size(), target.to);
   if (!spool) return tl::unexpected(spool.error());
   return std::make_unique<MatExporter>(*mat, target, std::move(*file), std::move(*spool), std::move(columns));
 }

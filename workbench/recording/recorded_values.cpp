@@ -18,7 +18,7 @@ std::vector<RecordedValue> recorded_values(const ForceCapabilities& can) {
           value("workspace_half_x_m", can.workspace_half_size_m.x),
           value("workspace_half_y_m", can.workspace_half_size_m.y),
           value("workspace_half_z_m", can.workspace_half_size_m.z),
-          value("rotations_sensed", can.rotations_sensed),
+          value("rotations_sensed", can.rotations_sensed()),
           value("buttons", can.buttons),
           value("rate_hz", can.rate_hz),
           value("firmware_timeout_s", can.firmware_timeout_s),

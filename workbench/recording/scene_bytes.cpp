@@ -6,7 +6,7 @@
 namespace tangent {
 namespace {
 
-enum class SceneKind : std::uint8_t { mesh = 1, polygon = 2 };
+enum class SceneKind : std::uint8_t { mesh = 1, polygon = 2, exact_arc = 3 };
 
 template <class Stream>
 void describe(Stream& stream, PolygonMesh& mesh) {
@@ -21,6 +21,11 @@ void describe(Stream& stream, ContactMeshOptions& options) {
   stream.all(fitted, fit_m, options.normals, options.crease_rad, turn_over);
   options.fit_m = fitted != 0 ? std::optional(fit_m) : std::nullopt;
   options.turn_over = turn_over != 0;
+}
+
+template <class Stream>
+void describe(Stream& stream, ExactArc& arc) {
+  stream.all(arc.centre, arc.radius_m, arc.half_angle_rad, arc.run_out_m);
 }
 
 /// Faces must lie one after the other within their corners, and each corner has a normal or none has.
@@ -55,8 +60,10 @@ std::vector<unsigned char> scene_bytes(const SceneSource& source) {
     describe(writer, options);
     describe(writer, mesh);
   } else {
-    writer.all(SceneKind::polygon, static_cast<std::uint8_t>(source.polygon->closed));
+    std::optional<ExactArc> arc = source.polygon->exact;
+    writer.all(arc ? SceneKind::exact_arc : SceneKind::polygon, static_cast<std::uint8_t>(source.polygon->closed));
     writer(source.polygon->vertices);
+    if (arc) describe(writer, *arc);
   }
   return writer.take();
 }
@@ -81,7 +88,9 @@ Result<SceneSource> scene_source_from(std::span<const unsigned char> bytes, cons
     reader(closed);
     reader(polygon->vertices);
     polygon->closed = closed != 0;
-    if (kind != SceneKind::polygon || !reader.done()) return fail("its bytes are neither mesh nor polygon", name);
+    if (kind == SceneKind::exact_arc) describe(reader, polygon->exact.emplace());
+    if ((kind != SceneKind::polygon && kind != SceneKind::exact_arc) || !reader.done())
+      return fail("its bytes are neither mesh nor polygon", name);
     source.polygon = std::move(polygon);
   }
   return source;

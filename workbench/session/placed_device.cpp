@@ -10,7 +10,7 @@ PlacedDevice::PlacedDevice(ForceDevice* device, const PlacementLetter& first, co
     : device_(device) {
   if (device_ == nullptr) return;
   frame_ = device_->capabilities().frame;
-  senses_rotations_ = device_->capabilities().rotations_sensed > 0;
+  senses_rotations_ = device_->capabilities().rotations_sensed() > 0;
   set(first, scene_origin_m);
 }
 

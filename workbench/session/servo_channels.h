@@ -10,6 +10,7 @@
 #include "workbench/session/prepared_scene.h"
 #include "workbench/session/preset_guard.h"
 #include "workbench/session/servo_record.h"
+#include "workbench/session/surface_switch.h"
 
 #include <atomic>
 #include <cstdint>
@@ -62,6 +63,7 @@ struct ServoChannels {
   Mailbox<PresetUndone> undone;  ///< back from the servo
   Mailbox<HandCommand> hand;
   Mailbox<ForceSwitch> force;
+  Mailbox<SurfaceWish> surface;
   std::atomic<bool> stop{false};  ///< like ForceSwitch::stop, but no later wish replaces it before it is seen
   Mailbox<PlacementLetter> placement;
   Mailbox<PlacementReport> placed;  ///< back from the servo

@@ -25,16 +25,18 @@ struct DeviceTelemetry {
   GateActions gate_actions = 0;  ///< bit per GateAction
   ArmingStage arming = ArmingStage::idle;
   ArmingObstacle in_the_way = ArmingObstacle::none;
-  std::uint8_t hand_led = 0;    ///< 1: a simulated hand leads the finger; hand_target_m is set
-  Vec3 force_command_n{0.0};    ///< tick.output.force_n after the gate; sent in the next tick if that isn't late
-  Vec3 force_rendered_n{0.0};   ///< applied by the device while this tick's position was measured
-  Vec3 hand_target_m{0.0};      ///< target of the simulated hand
-  double cld_command_m = 0.0;   ///< tick.output.cld_m after the safety gate
-  double cld_measured_m = 0.0;  ///< roller position, measured at the start of this tick
-  double force_age_s = 0.0;     ///< age of this tick's position
-  double display_age_s = 0.0;   ///< age of cld_measured_m
-  std::uint32_t buttons = 0;    ///< of the force device, pressed: bit per button
-  double energy_j = 0.0;        ///< observed: > 0 made by the loop, < 0 stored by the hand (EnergyWatch::net_j)
+  std::uint8_t hand_led = 0;       ///< 1: a simulated hand leads the finger; hand_target_m is set
+  std::uint8_t surface_waits = 0;  ///< 1: it is felt as soon as the finger is off it
+  float surface_share = 1.0F;      ///< of the surface that is felt (surface_switch.h)
+  Vec3 force_command_n{0.0};       ///< tick.output.force_n after the gate; sent in the next tick if that isn't late
+  Vec3 force_rendered_n{0.0};      ///< applied by the device while this tick's position was measured
+  Vec3 hand_target_m{0.0};         ///< target of the simulated hand
+  double cld_command_m = 0.0;      ///< tick.output.cld_m after the safety gate
+  double cld_measured_m = 0.0;     ///< roller position, measured at the start of this tick
+  double force_age_s = 0.0;        ///< age of this tick's position
+  double display_age_s = 0.0;      ///< age of cld_measured_m
+  std::uint32_t buttons = 0;       ///< of the force device, pressed: bit per button
+  double energy_j = 0.0;           ///< observed: > 0 made by the loop, < 0 stored by the hand (EnergyWatch::net_j)
 };
 
 /// What a tick would push with if it were let: the larger of the force it decided to and of the one faded in.

@@ -64,6 +64,8 @@ void ServoTick::take_letters() noexcept {
   if (channels_.presets.take(incoming_) && guard_.take(incoming_, preset_, live)) use(incoming_);
   HandCommand hand;
   if (channels_.hand.take(hand)) hand_.command(hand);
+  SurfaceWish surface;
+  if (channels_.surface.take(surface)) surface_.wish(surface);
   FaultLetter fault;
   if (channels_.faults.take(fault)) {
     if (fault.display && devices_.display) devices_.display->inject(fault.injection);
@@ -239,14 +241,14 @@ double ServoTick::declared_work(const Vec3& force, double elastic_n) noexcept {
 
 void ServoTick::pass_gate(double dt_s, ServoRecord& record) noexcept {
   const TickOutput& made = record.tick.output;
+  const double felt = surface_.share();
   const double stiffness = preset_.preset.force.stiffness_n_per_m;
   const double depth_m = std::max(made.penetration_m, glm::length(made.way_out_m));
-  const double elastic_n = stiffness * std::max(0.0, depth_m);
+  const double elastic_n = felt * stiffness * std::max(0.0, depth_m);
   const bool pushes = made.force_n != Vec3(0.0);
-  const Vec3 force = placed_.map().force_to_device(made.force_n);
-  GateOutput out =
-      gate_.pass({.force_n = force,
-                  .display_m = made.cld_m,
+  const Vec3 force = placed_.map().force_to_device(felt * made.force_n);
+  GateInput input{.force_n = force,
+                  .display_m = felt * made.cld_m,
                   .force_device = force_sample_.state,
                   .display = display_sample_.state,
                   .position_m = force_sample_.position_m,
@@ -260,8 +262,9 @@ void ServoTick::pass_gate(double dt_s, ServoRecord& record) noexcept {
                   .display_fastest_m_per_s = preset_.preset.controller.fastest_m_per_s,
                   .stiffness_n_per_m = placed_.map().felt(stiffness),
                   .elastic_n = pushes ? elastic_n : 0.0,
-                  .declared_j = declared_work(force, elastic_n)},
-                 dt_s);
+                  .declared_j = declared_work(force, elastic_n)};
+  add_pull(dt_s, record, input);
+  GateOutput out = gate_.pass(input, dt_s);
   guard_preset(out, dt_s);
   display_command_.target_m = out.display_m;
   record.device.gate_state = out.state;
@@ -270,6 +273,24 @@ void ServoTick::pass_gate(double dt_s, ServoRecord& record) noexcept {
   record.device.force_command_n = placed_.map().force_to_scene(out.force_n);
   record.device.cld_command_m = out.display_m;
   record.device.energy_j = gate_.energy().net_j();
+}
+
+// A surface that nobody is to feel keeps nobody from arming.
+void ServoTick::switch_surface(double dt_s, ServoRecord& record) noexcept {
+  const TickOutput& made = record.tick.output;
+  force_wanted_n_ = surface_.wanted() ? force_wanted_n(made) : 0.0;
+  if (surface_.update(made, dt_s)) gate_.restart_ramp();
+  record.device.surface_share = static_cast<float>(surface_.share());
+  record.device.surface_waits = surface_.waits() ? 1 : 0;
+}
+
+void ServoTick::add_pull(double dt_s, const ServoRecord& record, GateInput& input) noexcept {
+  const SurfacePull pull = surface_.pull(record.tick.input.finger.position, dt_s);
+  if (pull.stiffness_n_per_m == 0.0) return;
+  input.force_n += placed_.map().force_to_device(pull.force_n);
+  input.stiffness_n_per_m = placed_.map().felt(pull.stiffness_n_per_m);
+  input.elastic_n = pull.elastic_n;
+  input.declared_j += pull.declared_j;
 }
 
 // What a tick comes to that is not built is not built here: the search is given up and the tick made without one. The
@@ -309,7 +330,7 @@ void ServoTick::run(const TickTiming& timing) noexcept {
   const std::int64_t step_began = now();
   step(tick);
   tick.solve_ns = static_cast<double>(now() - step_began);
-  force_wanted_n_ = force_wanted_n(tick.output);
+  switch_surface(timing.dt_s, record);
   pass_gate(timing.dt_s, record);
 
   record.tick_ns = static_cast<double>(now() - began);

@@ -55,6 +55,8 @@ class ServoTick {
   void finger_leapt() noexcept;
   void lead_hand(double dt_s, ServoRecord& record) noexcept;
   void step(TickRecord& tick) noexcept;
+  void switch_surface(double dt_s, ServoRecord& record) noexcept;
+  void add_pull(double dt_s, const ServoRecord& record, GateInput& input) noexcept;
   void bring_up(double dt_s, ServoRecord& record) noexcept;
   bool outside_workspace() const noexcept;
   void exchange(double dt_s, ServoRecord& record) noexcept;
@@ -76,6 +78,7 @@ class ServoTick {
   PlacedDevice placed_;
   bool clutch_held_ = false;  ///< of this tick
   HandLead hand_;
+  SurfaceSwitch surface_;
   TickState state_;
   std::uint64_t tick_ = 0;
   bool unready_ = false;  ///< the last tick could not search what it had to

@@ -379,6 +379,10 @@ std::shared_ptr<const ContactScene> Session::scene(std::uint32_t id) const {
 
 const ExplorationPath& Session::path() const { return impl_->path; }
 
+void Session::set_surface(const SurfaceWish& wish) {
+  if (is_finite(wish.pull_to_m)) impl_->channels.surface.put(wish);
+}
+
 // --- Hand and force ------------------------------------------------------------------------------------
 
 void Session::set_hand(const HandSettings& settings) {

@@ -17,6 +17,7 @@
 #include "workbench/session/preset_guard.h"
 #include "workbench/session/safety_log.h"
 #include "workbench/session/servo_options.h"
+#include "workbench/session/surface_switch.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -146,6 +147,9 @@ class Session {
   /// All that records of the history ran on, by id.
   const std::map<std::uint32_t, std::shared_ptr<const ContactScene>>& scenes() const;
   const ExplorationPath& path() const;  ///< of the latest scene
+
+  /// The surface taken away and put back, and a pull while it is away (surface_switch.h). Felt, at first.
+  void set_surface(const SurfaceWish& wish);
 
   // Hand and force. Each takes effect at the servo's next tick; until then the latest call of a kind wins.
   void set_hand(const HandSettings& settings);

@@ -54,7 +54,11 @@ Inputs::Scene Inputs::scene(std::size_t mesh) {
 }
 
 Inputs::Motion Inputs::load_motion(const ContactScene& scene, std::size_t poses, std::size_t finger) const {
-  Result<std::vector<TickInput>> read = motion_of(scene, plan_.poses[poses], plan_.fingers[finger]);
+  const std::string& name = plan_.poses[poses];
+  std::error_code error;
+  if (!is_made(name) && std::filesystem::exists(name, error) && !std::filesystem::is_regular_file(name, error))
+    return fail("is no file that can be read again, as a sweep does", name, "name a file");
+  Result<std::vector<TickInput>> read = motion_of(scene, name, plan_.fingers[finger]);
   if (!read) return tl::unexpected(read.error());
   if (plan_.ticks > 0 && read->size() > plan_.ticks) read->resize(plan_.ticks);
   return std::make_shared<const std::vector<TickInput>>(std::move(*read));

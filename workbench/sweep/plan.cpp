@@ -46,7 +46,25 @@ std::optional<MadeMotion> made_motion(std::string_view poses) {
   return out;
 }
 
+Status check_made_motion(std::string_view poses) {
+  const std::string_view kind = poses.substr(0, poses.find(':'));
+  const bool named = std::find(kMadePoses.begin(), kMadePoses.end(), kind) != kMadePoses.end();
+  if (!named || is_made(poses)) return {};
+  return fail(std::string(poses) + " has no mean depth that can be made", "poses",
+              "write it as " + std::string(kind) + ":0.5mm; allowed: " + range_text(kLeastPressMm, kMostPressMm, "mm"));
+}
+
 namespace {
+
+/// The place of the first that equals one before it.
+template <class Items>
+std::optional<std::size_t> twice(const Items& items) {
+  for (std::size_t i = 0; i < items.size(); ++i)
+    if (std::find(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(i), items[i]) !=
+        items.begin() + static_cast<std::ptrdiff_t>(i))
+      return i;
+  return std::nullopt;
+}
 
 Status check_range(const Range& range, Sampling sampling) {
   const std::string where = "range of " + range.key->full_name();
@@ -74,6 +92,14 @@ Status check_plan(const Plan& plan) {
   if (plan.poses.empty())
     return fail("no motion is named", "poses", "name a pose file, a recording, around or strokes");
   if (plan.methods.empty()) return fail("no method is named", "methods", "allowed: " + choices_text(kMethodNames));
+  for (const std::string& poses : plan.poses)
+    if (Status ok = check_made_motion(poses); !ok) return ok;
+  if (const auto i = twice(plan.meshes))
+    return fail(plan.meshes[*i].string() + " is there twice", "meshes", "leave one of them out");
+  if (const auto i = twice(plan.poses))
+    return fail(plan.poses[*i] + " is there twice", "poses", "leave one of them out");
+  if (const auto i = twice(plan.methods))
+    return fail(std::string(to_string(plan.methods[*i])) + " is there twice", "methods", "leave one of them out");
   if (plan.fingers.empty()) return fail("no finger is named", "fingers", "name one, or leave the table out");
   if (plan.sampling == Sampling::grid && plan.samples > 0)
     return fail("samples contradicts sampling = \"grid\"", "samples", "leave it out, or name another sampling");

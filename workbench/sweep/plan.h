@@ -74,6 +74,8 @@ struct MadeMotion {
 };
 /// Empty: this names a file.
 std::optional<MadeMotion> made_motion(std::string_view poses);
+/// Fails on what begins as a made motion and can't be made: a depth that is none.
+Status check_made_motion(std::string_view poses);
 inline bool is_made(std::string_view poses) { return made_motion(poses).has_value(); }
 
 /// Paths in it are as written, or relative to the plan's folder. Unknown keys, wrong types, empty ranges, values that a

@@ -8,9 +8,11 @@ namespace tangent::sweep {
 namespace {
 
 void add_file(Fnv& digest, const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
   std::error_code error;
-  if (!file || !std::filesystem::is_regular_file(path, error)) {
+  const bool regular = std::filesystem::is_regular_file(path, error);  // opening a pipe would wait for its writer
+  std::ifstream file;
+  if (regular) file.open(path, std::ios::binary);
+  if (!file.is_open()) {
     digest.add("missing");
     return;
   }

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstdio>
+#include <fstream>
 
 namespace tangent::sweep {
 namespace {
@@ -23,7 +24,22 @@ std::string numbered(std::string_view what, std::uint64_t number) {
 }
 
 tl::unexpected<Error> system_error(const fs::path& path, const std::error_code& error, const char* doing) {
-  return fail(std::string(doing) + ": " + error.message(), path.string(), "choose a folder that may be written");
+  const bool full = error == std::errc::no_space_on_device;
+  return fail(std::string(doing) + ": " + error.message(), path.string(),
+              full ? "make room, or choose a folder on another disk" : "choose a folder that may be written");
+}
+
+/// Says what is wrong with which of the two, which std::filesystem does not: a full disk is an "input/output error".
+Status copy_input(const fs::path& from, const fs::path& to) {
+  std::ifstream in(from, std::ios::binary);
+  if (!in) return fail("can't be read", from.string(), "name a file that may be read");
+  Result<AtomicFile> out = AtomicFile::create(to);
+  if (!out) return tl::unexpected(out.error());
+  std::string part(std::size_t{1} << 20, '\0');
+  while (in.read(part.data(), static_cast<std::streamsize>(part.size())), in.gcount() > 0)
+    if (Status ok = out->write({part.data(), static_cast<std::size_t>(in.gcount())}); !ok) return ok;
+  if (in.bad()) return fail("can't be read to its end", from.string(), "check the disk that it is on");
+  return out->commit();
 }
 
 /// Copies what the plan reads into `inputs`, each into a folder of its own, so that names stay; where they are from the
@@ -35,8 +51,10 @@ Result<std::vector<std::string>> copy_inputs(const Plan& plan, const fs::path& i
     std::error_code error;
     fs::create_directories(inputs / to.parent_path(), error);
     if (error) return system_error(inputs / to.parent_path(), error, "can't be made");
-    fs::copy_file(from, inputs / to, fs::copy_options::overwrite_existing, error);
-    if (error) return fail("can't be copied: " + error.message(), from.string(), "name a file that is there");
+    if (!fs::is_regular_file(from, error))
+      return fail(fs::exists(from, error) ? "is no file that can be copied" : "is not there", from.string(),
+                  "name a file that is there");
+    if (Status ok = copy_input(from, inputs / to); !ok) return ok;
     names.push_back((fs::path("inputs") / to).string());
     return {};
   };
@@ -111,15 +129,12 @@ fs::path PlanFolder::shard_file(std::uint64_t shard) const {
   return folder / "shards" / (numbered("shard-", shard) + ".jsonl");
 }
 
-Status write_plan_folder(const fs::path& folder, const Plan& plan, std::uint64_t shards, const JobScripts& scripts) {
-  const Result<Cells> cells = Cells::of(plan);
-  if (!cells) return tl::unexpected(cells.error());
-  if (shards == 0 || shards > cells->size())
-    return fail(std::to_string(shards) + " shards for " + std::to_string(cells->size()) + " cells", "--shards",
-                "allowed: 1 to the number of cells");
+namespace {
+
+/// Into a folder that is not there, or is empty.
+Status fill_folder(const fs::path& folder, const Plan& plan, const Cells& cells, std::uint64_t shards,
+                   const JobScripts& scripts) {
   std::error_code error;
-  if (fs::exists(folder, error) && !fs::is_empty(folder, error))
-    return fail("is not empty", folder.string(), "name a new folder");
   for (const char* name : {"inputs", "shards"}) {
     fs::create_directories(folder / name, error);
     if (error) return system_error(folder / name, error, "can't be made");
@@ -131,9 +146,40 @@ Status write_plan_folder(const fs::path& folder, const Plan& plan, std::uint64_t
   if (!copied) return tl::unexpected(copied.error());
   if (Status ok = write_file_atomic(folder / "slurm.sh", slurm_script(shards, scripts)); !ok) return ok;
   if (Status ok = write_file_atomic(folder / "parallel.sh", parallel_script(shards, scripts)); !ok) return ok;
-  const nlohmann::ordered_json json{
-      {"format", kFolderFormat}, {"plan", plan_digest(*copied)}, {"cells", cells->size()}, {"shards", shards}};
+  nlohmann::ordered_json json{
+      {"format", kFolderFormat}, {"plan", plan_digest(*copied)}, {"cells", cells.size()}, {"shards", shards}};
+  if (scripts.times > 0) json["times"] = scripts.times;
   return write_file_atomic(folder / "plan.json", json.dump(2) + "\n");
+}
+
+/// What fill_folder made; the folder itself where it was not there before.
+void empty_folder(const fs::path& folder, bool was_there) {
+  std::error_code ignored;
+  for (const char* const name : {"inputs", "shards", "plan.toml", "slurm.sh", "parallel.sh", "plan.json"})
+    fs::remove_all(folder / name, ignored);
+  if (!was_there) fs::remove(folder, ignored);
+}
+
+}  // namespace
+
+Status check_shards(std::uint64_t shards, const Cells& cells) {
+  if (shards > 0 && shards <= cells.size()) return {};
+  return fail(
+      std::to_string(shards) + " shards for " + std::to_string(cells.size()) + (cells.size() == 1 ? " cell" : " cells"),
+      "--shards", "allowed: 1 to the number of cells");
+}
+
+Status write_plan_folder(const fs::path& folder, const Plan& plan, std::uint64_t shards, const JobScripts& scripts) {
+  const Result<Cells> cells = Cells::of(plan);
+  if (!cells) return tl::unexpected(cells.error());
+  if (Status ok = check_shards(shards, *cells); !ok) return ok;
+  std::error_code error;
+  const bool there = fs::exists(folder, error);
+  if (there && !fs::is_directory(folder, error)) return fail("is a file", folder.string(), "name a new folder");
+  if (there && !fs::is_empty(folder, error)) return fail("is not empty", folder.string(), "name a new folder");
+  Status filled = fill_folder(folder, plan, *cells, shards, scripts);
+  if (!filled) empty_folder(folder, there);
+  return filled;
 }
 
 Result<PlanFolder> open_plan_folder(const fs::path& folder) {
@@ -151,7 +197,8 @@ Result<PlanFolder> open_plan_folder(const fs::path& folder) {
     return fail("is no divided plan", file.string(), "make one: workbench sweep plan PLAN.toml --out DIR --shards N");
   Result<Plan> plan = read_plan(folder / "plan.toml");
   if (!plan) return tl::unexpected(plan.error());
-  PlanFolder out{folder, std::move(*plan), json["plan"].get<std::string>(), whole("cells"), whole("shards")};
+  PlanFolder out{folder,         std::move(*plan), json["plan"].get<std::string>(),
+                 whole("cells"), whole("shards"),  whole("times")};
   const Result<Cells> cells = Cells::of(out.plan);
   if (!cells) return tl::unexpected(cells.error());
   if (cells->size() != out.cells || plan_digest(out.plan) != out.digest)

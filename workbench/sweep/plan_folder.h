@@ -1,6 +1,6 @@
 // A plan divided into shards, for many machines that share a folder:
 //   DIR/plan.toml     the plan with every value stated, its meshes and poses named in DIR/inputs
-//   DIR/plan.json     its digest, number of cells and of shards
+//   DIR/plan.json     its digest, number of cells and of shards, rounds of timing
 //   DIR/inputs/       copies of meshes and poses: what is swept can't change while shards are solved
 //   DIR/shards/       one file a shard (shard_file.h)
 //   DIR/slurm.sh, DIR/parallel.sh   scripts that run all shards, as a job array of Slurm or by GNU parallel
@@ -16,6 +16,7 @@ struct PlanFolder {
   Plan plan;
   std::string digest;
   std::uint64_t cells = 0, shards = 1;
+  std::uint64_t times = 0;  ///< rounds of timing that its scripts ask for; 0: none
 
   std::filesystem::path shard_file(std::uint64_t shard) const;
   ShardName shard(std::uint64_t shard) const { return shard_of(digest, cells, shard, shards); }
@@ -28,8 +29,11 @@ struct JobScripts {
   std::size_t times = 0;              ///< rounds of timing after a shard's cells; 0: none
 };
 
-/// Writes the folder. Fails where there is something else in it, and on missing meshes and poses; nothing half-written
-/// stays: plan.json comes last.
+/// As many shards as cells at most, and one at least.
+Status check_shards(std::uint64_t shards, const Cells& cells);
+
+/// Writes the folder. Fails where there is something else in it, and on missing meshes and poses; nothing of it stays
+/// then.
 Status write_plan_folder(const std::filesystem::path& folder, const Plan& plan, std::uint64_t shards,
                          const JobScripts& scripts);
 

@@ -2,8 +2,8 @@
 
 #include "workbench/recording/build_identity.h"
 
-#include <cmath>
 #include <ctime>
+#include <fstream>
 
 #ifndef TANGENT_VERSION
 #define TANGENT_VERSION "unknown"
@@ -72,12 +72,25 @@ std::string meta_rows(const Cells& cells, const std::string& digest) {
   return out;
 }
 
+/// Or empty: a sweep that was killed before it had written anything.
+bool may_be_database(const std::filesystem::path& path) {
+  constexpr std::string_view kFirst = "SQLite format 3";
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return false;
+  if (std::filesystem::file_size(path, error) == 0) return true;
+  std::string first(kFirst.size(), '\0');
+  std::ifstream(path, std::ios::binary).read(first.data(), static_cast<std::streamsize>(first.size()));
+  return first == kFirst;
+}
+
 }  // namespace
 
 Result<ResultsFile> ResultsFile::open(const std::filesystem::path& path, const Cells& cells,
                                       const std::string& digest) {
   std::error_code error;
   const bool there = std::filesystem::exists(path, error);
+  if (there && !may_be_database(path))
+    return fail("is there already, and no sweep's results", path.string(), "choose another name");
   Result<Database> database = there ? Database::open_to_write(path) : Database::create(path);
   if (!database) return tl::unexpected(database.error());
   ResultsFile out(std::move(*database), cells);
@@ -86,6 +99,18 @@ Result<ResultsFile> ResultsFile::open(const std::filesystem::path& path, const C
   if (Status ok = out.prepare(); !ok) return tl::unexpected(ok.error());
   if (Status ok = out.begin(); !ok) return tl::unexpected(ok.error());
   return out;
+}
+
+Result<Failures> ResultsFile::failures() {
+  const std::string failed = " FROM cells WHERE failed IS NOT NULL";
+  const Result<std::int64_t> cells = database_.whole_of("SELECT count(*)" + failed);
+  if (!cells) return tl::unexpected(cells.error());
+  if (*cells == 0) return Failures{};
+  const Result<std::int64_t> first = database_.whole_of("SELECT min(cell)" + failed);
+  if (!first) return tl::unexpected(first.error());
+  Result<std::string> why = database_.text_of("SELECT failed FROM cells WHERE cell=" + std::to_string(*first));
+  if (!why) return tl::unexpected(why.error());
+  return Failures{static_cast<std::uint64_t>(*cells), static_cast<std::uint64_t>(*first), std::move(*why)};
 }
 
 Status ResultsFile::create(const std::string& digest) {

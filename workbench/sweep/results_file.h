@@ -20,6 +20,7 @@ class ResultsFile {
   Status add(const CellResult& result);
   Status add(const CellTime& timed);
   bool has_time(std::uint64_t cell);
+  Result<Failures> failures();  ///< the cells in it that have no numbers
   Status commit();
   /// The last commit; the file is then a single one.
   Status finish();

@@ -18,6 +18,19 @@ struct CellResult {
   bool operator==(const CellResult&) const = default;
 };
 
+/// Cells without numbers, of a file and of those before.
+struct Failures {
+  std::uint64_t cells = 0;
+  std::uint64_t first = 0;  ///< the lowest of them
+  std::string why;          ///< of that one
+  void add(const CellResult& result) {
+    if (result.failed.empty()) return;
+    if (cells++ > 0 && first <= result.cell) return;
+    first = result.cell;
+    why = result.failed;
+  }
+};
+
 /// Takes a finished cell. Called by one thread at a time, in any order of cells. A failure ends the run.
 using KeepCell = std::function<Status(const CellResult&)>;
 

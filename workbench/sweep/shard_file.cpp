@@ -171,7 +171,8 @@ ShardWriter::ShardWriter(ShardWriter&& other) noexcept
     : path_(std::move(other.path_)),
       file_(std::exchange(other.file_, -1)),
       done_(std::move(other.done_)),
-      timed_(std::move(other.timed_)) {}
+      timed_(std::move(other.timed_)),
+      failures_(std::move(other.failures_)) {}
 
 ShardWriter::~ShardWriter() {
   if (file_ >= 0) ::close(file_);
@@ -186,7 +187,7 @@ struct Whole {
 };
 
 Result<Whole> look_through(const std::filesystem::path& path, const ShardName& name, std::vector<bool>& done,
-                           std::vector<bool>& timed) {
+                           std::vector<bool>& timed, Failures& failures) {
   std::ifstream file(path, std::ios::binary);
   Whole whole;
   std::string line;
@@ -203,8 +204,12 @@ Result<Whole> look_through(const std::filesystem::path& path, const ShardName& n
       if (Status ok = check_name(*json, name, path); !ok) return tl::unexpected(ok.error());
       whole.named = true;
     } else if (take_line(*json, name, taken)) {
-      const auto* const time = std::get_if<CellTime>(&taken);
-      (time ? timed : done)[(time ? time->cell : std::get<CellResult>(taken).cell) - name.first] = true;
+      if (const auto* const result = std::get_if<CellResult>(&taken)) {
+        if (!done[result->cell - name.first]) failures.add(*result);
+        done[result->cell - name.first] = true;
+      } else {
+        timed[std::get<CellTime>(taken).cell - name.first] = true;
+      }
     } else {
       return tl::unexpected(damaged(path, number, name).error());
     }
@@ -223,7 +228,7 @@ Result<ShardWriter> ShardWriter::open(const std::filesystem::path& path, const S
   std::error_code error;
   Whole whole;
   if (std::filesystem::exists(path, error)) {
-    const Result<Whole> found = look_through(path, name, out.done_, out.timed_);
+    const Result<Whole> found = look_through(path, name, out.done_, out.timed_, out.failures_);
     if (!found) return tl::unexpected(found.error());
     whole = *found;
   }
@@ -250,7 +255,10 @@ Status ShardWriter::write(const std::string& line) {
 
 Status ShardWriter::add(const CellTime& time) { return write(line_of(time_json(time))); }
 
-Status ShardWriter::add(const CellResult& result) { return write(line_of(result_json(result))); }
+Status ShardWriter::add(const CellResult& result) {
+  failures_.add(result);
+  return write(line_of(result_json(result)));
+}
 
 Status ShardWriter::flush() {
   if (::fdatasync(file_) == 0 || errno == EINVAL) return {};

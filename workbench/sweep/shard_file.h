@@ -36,6 +36,7 @@ class ShardWriter {
 
   const std::vector<bool>& done() const { return done_; }    ///< by cell - first
   const std::vector<bool>& timed() const { return timed_; }  ///< likewise
+  const Failures& failures() const { return failures_; }     ///< the cells in it that have no numbers
   Status add(const CellResult& result);
   Status add(const CellTime& time);
   /// On the disk: a power cut takes nothing of it.
@@ -47,6 +48,7 @@ class ShardWriter {
   std::filesystem::path path_;
   int file_ = -1;
   std::vector<bool> done_, timed_;
+  Failures failures_;
 };
 
 using ShardLine = std::variant<CellResult, CellTime>;

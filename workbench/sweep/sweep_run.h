@@ -18,11 +18,21 @@ struct SweepOptions {
 };
 
 struct SweepOutcome {
-  std::uint64_t cells = 0, before = 0, solved = 0, failed = 0;  ///< before: found done; failed: of those solved now
-  std::uint64_t ticks = 0;                                      ///< of the cells solved now
+  std::uint64_t cells = 0, before = 0, solved = 0;  ///< before: found done
+  std::uint64_t ticks = 0;                          ///< of the cells solved now
   double seconds = 0.0;
-  std::string first_failure;  ///< why, of the lowest cell that has no numbers
+  Failures failures;  ///< in the file: of this run and of those before
   bool stopped = false;
+};
+
+/// Times that a merge did not find, though they were asked for or other cells have them.
+struct LackingTimes {
+  std::uint64_t cells = 0, shards = 0;
+  std::uint64_t first_shard = 0, first_cells = 0;  ///< the lowest such shard, and how many cells it lacks
+};
+
+struct MergeOutcome : SweepOutcome {
+  LackingTimes lacking;
 };
 
 /// Solves the cells that `file` lacks.
@@ -38,12 +48,16 @@ Result<std::uint64_t> time_sweep(const Cells& cells, ResultsFile& file, std::siz
 Result<std::uint64_t> time_shard(const PlanFolder& folder, std::uint64_t shard, std::size_t rounds,
                                  const SweepOptions& options);
 
+/// Fails where the folder has no such shard.
+Status check_shard(const PlanFolder& folder, std::uint64_t shard);
+
 /// Solves the cells that the shard's file lacks.
 Result<SweepOutcome> run_shard(const PlanFolder& folder, std::uint64_t shard, const SweepOptions& options);
 
 /// All shards into one results file, as one process would have written it. Memory does not grow with the shards. A
-/// shard that is missing, torn, foreign or not finished is refused by name.
-Result<SweepOutcome> merge_shards(const PlanFolder& folder, const std::filesystem::path& out,
+/// shard that is missing, torn, foreign or not finished is refused by name, and a file that was not there before is not
+/// there after.
+Result<MergeOutcome> merge_shards(const PlanFolder& folder, const std::filesystem::path& out,
                                   const SweepOptions& options);
 
 }  // namespace tangent::sweep

@@ -5,6 +5,7 @@
 #include "core/contact/nearest_triangles.h"
 #include "core/contact/prove/core_feature_proof.h"
 #include "core/contact/prove/linear_core.h"
+#include "core/contact/prove/rank_place.h"
 #include "core/mesh/vertex_ring.h"
 
 #include <algorithm>
@@ -68,18 +69,6 @@ PnPatch patch_less_core(const PnPatch& patch, const FingerCore& core, const Line
   return less;
 }
 
-/// Of a place that may hold a contact, known but for `off_m`: its point, and the least rank that the contact may have.
-/// Returns how far it is from being one.
-double rank_place(const ContactContext& context, const FingerCore& core, const PnPatch& patch, double off_m,
-                  PatchExclusion& proof) {
-  proof.point = evaluate_point(patch, proof.u, proof.v);
-  const PlaneContact c =
-      contact_on_plane(context.finger, context.pose, proof.point, evaluate_normal(patch, proof.u, proof.v));
-  const double wrong = off_m * off_m / std::max(1e-12, core.sharpest_m());
-  proof.height_m = std::max(0.0, contact_rank(context.finger, c) - wrong);
-  return c.error_m;
-}
-
 /// What is known of a piece: `proof` of it, in its own (u, v); of a possible contact height_m is how far the finger's
 /// support is off there at most. `curved`: the core is not linear enough over it; `clear`: smaller pieces tell no more.
 struct PieceLook {
@@ -127,6 +116,35 @@ PieceLook look_at_piece(const PatchPiece& piece, const FingerCore& core, const R
   return look;
 }
 
+/// Places that may hold a contact.
+class PossiblePlaces {
+ public:
+  void add(const ContactContext& context, const FingerCore& core, const PnPatch& patch, const Vec2& uv) {
+    PatchExclusion here;
+    here.u = uv.x;
+    here.v = uv.y;
+    const double off = rank_place(context, core, patch, here);
+    double& least = here.height_m > 0.0 ? rank_ : off_;
+    const double value = here.height_m > 0.0 ? here.height_m : off;
+    if (!(value < least)) return;
+    least = value;
+    (here.height_m > 0.0 ? contact_ : unsure_) = here;
+  }
+  bool any() const { return std::min(rank_, off_) < kNone; }
+  /// A contact that counts, else a place that may turn out to be one.
+  PatchExclusion likeliest(double counts_below) const {
+    if (rank_ == kNone || (off_ < kNone && !(rank_ < counts_below))) return unsure_;
+    PatchExclusion contact = contact_;
+    contact.unsure = off_ < kNone;
+    return contact;
+  }
+
+ private:
+  static constexpr double kNone = std::numeric_limits<double>::max();
+  PatchExclusion contact_, unsure_;
+  double rank_ = kNone, off_ = kNone;
+};
+
 /// The patch by pieces, bisected where the core is not linear enough or nothing else is known. A possible contact is
 /// the one of least rank; where pieces remain of which nothing is known it has none, and lies in the likeliest of them.
 PatchExclusion exclude_pieces(const ContactContext& context, const PnPatch& patch, const FingerCore& core,
@@ -137,7 +155,7 @@ PatchExclusion exclude_pieces(const ContactContext& context, const PnPatch& patc
   PatchExclusion result;
   result.margin_m = std::numeric_limits<double>::max();
   result.possible = false;
-  double nearest = std::numeric_limits<double>::max();
+  PossiblePlaces places;
   for (int looks = 1; size > 0; ++looks) {
     const PatchPiece piece = stack[--size];
     const PieceLook look = look_at_piece(piece, core, bound, enough_m);
@@ -150,16 +168,10 @@ PatchExclusion exclude_pieces(const ContactContext& context, const PnPatch& patc
     }
     result.margin_m = std::min(result.margin_m, look.proof.margin_m);
     if (!look.proof.possible) continue;
-    PatchExclusion here;
-    const Vec2 uv = look.curved ? piece.at(1.0 / 3.0, 1.0 / 3.0) : piece.at(look.proof.u, look.proof.v);
-    here.u = uv.x;
-    here.v = uv.y;
-    const double error = rank_place(context, core, patch, look.proof.height_m, here);
-    if (look.curved) here.height_m = 0.0;
-    const bool likelier = look.curved ? error < nearest : here.height_m < result.height_m;
-    if (!result.possible || likelier) result = here;
-    if (look.curved) nearest = std::min(nearest, error);
+    places.add(context, core, patch,
+               look.curved ? piece.at(1.0 / 3.0, 1.0 / 3.0) : piece.at(look.proof.u, look.proof.v));
   }
+  if (places.any()) result = places.likeliest(bound.rank_m);
   return result;
 }
 

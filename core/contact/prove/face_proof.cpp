@@ -47,7 +47,8 @@ constexpr ProductTable kProduct;
 Vec2 perpendicular(const Vec2& a) { return {-a.y, a.x}; }
 double cross(const Vec2& a, const Vec2& b) { return a.x * b.y - a.y * b.x; }
 
-constexpr int kSlackTests = 6;  // parts of a face known roughly: smaller ones tell no more
+constexpr int kSettledDepth = 2;  // bisections after which a part is asked for its one zero
+constexpr int kSlackTests = 6;    // parts of a face known roughly: smaller ones tell no more
 
 /// f as it is.
 struct NoSlack {
@@ -222,6 +223,62 @@ SideDerivative side_derivative(const Part& part) {
   return std::min(margin, 1e300);
 }
 
+/// f at the place x, y along the two sides from corner 0 of a part, by de Casteljau, and its derivatives there.
+struct QuinticValue {
+  Vec2 f, dx, dy;
+};
+QuinticValue value_at(const Part& part, double x, double y) {
+  QuinticMap row = part.f;
+  const double rest = 1.0 - x - y;
+#pragma GCC unroll 4
+  for (int degree = 4; degree >= 1; --degree) {
+    int k = 0;
+#pragma GCC unroll 5
+    for (int i = degree; i >= 0; --i) {
+      const int below = degree - i;
+#pragma GCC unroll 5
+      for (int j = below; j >= 0; --j, ++k) {  // in place: row[k] of the finer degree isn't read after it
+        const int next = (below + 1) * (below + 2) / 2 + below - j;
+        row[k] = rest * row[k] + x * row[next] + y * row[next + 1];
+      }
+    }
+  }
+  const Vec2 dx = 5.0 * (row[1] - row[0]), dy = 5.0 * (row[2] - row[0]);
+  return {rest * row[0] + x * row[1] + y * row[2], dx, dy};
+}
+
+/// Whether f takes no value twice in a part, and its contacts are stable as far as det M tells: its derivatives along
+/// two sides stay so near to their middles that no mean of them has a determinant of 0.
+bool is_one_to_one(const Part& part, const Ground& ground) {
+  const SideDerivative a = side_derivative<1>(part), b = side_derivative<2>(part);
+  const auto length = [](const Vec2& x) { return std::sqrt(glm::dot(x, x)); };
+  const double area = cross(ground.flat(part.corner[1] - part.corner[0]), ground.flat(part.corner[2] - part.corner[0]));
+  const double det = (area > 0.0 ? 1.0 : -1.0) * cross(a.middle, b.middle);
+  return det > 0.0 && det > 1.0001 * (a.off * length(b.middle) + b.off * length(a.middle) + a.off * b.off);
+}
+
+/// Newton's steps from the middle of a part to a zero of f. Whether they come to one in the patch, or just beside it,
+/// and find it stable as far as det M tells.
+bool find_zero(const Part& part, const Ground& ground, Vec2& uv) {
+  constexpr int kSteps = 6;
+  constexpr double kSettled = 1e-6, kRoom = 1e-6;  // of the part and of the patch
+  const Vec2 side_x = part.corner[1] - part.corner[0], side_y = part.corner[2] - part.corner[0];
+  const double area = cross(ground.flat(side_x), ground.flat(side_y));
+  double x = 1.0 / 3.0, y = 1.0 / 3.0;
+  for (int step = 0; step < kSteps; ++step) {
+    const QuinticValue at = value_at(part, x, y);
+    const double det = cross(at.dx, at.dy);
+    if (!(det * area > 0.0)) return false;
+    const double dx = -cross(at.f, at.dy) / det, dy = -cross(at.dx, at.f) / det;
+    x += dx;
+    y += dy;
+    uv = part.corner[0] + x * side_x + y * side_y;
+    if (std::max(std::abs(dx), std::abs(dy)) < kSettled) return std::min({uv.x, uv.y, 1.0 - uv.x - uv.y}) > -kRoom;
+    if (!(std::min({uv.x, uv.y, 1.0 - uv.x - uv.y}) > -0.5)) return false;
+  }
+  return false;
+}
+
 /// Excludes what can be of the parts of `whole`, where a margin of `enough_m` need not be the widest.
 template <class Slack>
 void bisect_parts(const Part& whole, const Ground& ground, double enough_m, const Slack& slack,
@@ -240,10 +297,16 @@ void bisect_parts(const Part& whole, const Ground& ground, double enough_m, cons
       continue;
     }
     const bool stable = could_be_stable(part, ground.edge_u, ground.edge_v);
-    const bool asked = Slack::kNone && ground.gentle && enough_m > 0.0;
-    const double folded = asked && !stable ? folded_margin(part, ground) : 0.0;
+    Vec2 zero;
+    if (Slack::kNone && stable && part.depth >= kSettledDepth && is_one_to_one(part, ground) &&
+        find_zero(part, ground, zero)) {
+      margin = smallest = 0.0;
+      result.hold(zero);
+      continue;
+    }
+    const double folded = Slack::kNone && ground.gentle && !stable ? folded_margin(part, ground) : 0.0;
     if (folded > 0.0) {
-      margin = std::min(margin, folded);
+      margin = enough_m > 0.0 ? std::min(margin, folded) : 0.0;
       continue;
     }
     if (part.depth < kBisections && tests < (Slack::kNone ? kBisectionTests : kSlackTests)) {
@@ -252,15 +315,15 @@ void bisect_parts(const Part& whole, const Ground& ground, double enough_m, cons
       continue;
     }
     margin = 0.0;
-    if (Slack::kNone && !stable) continue;  // of what is known roughly the corners of a part don't tell
+    // Of a part near a fold, or left over large, or of a patch that bends much, or known roughly, corners don't tell.
+    if (Slack::kNone && ground.gentle && !stable && folded_margin(part, ground) > 0.0) continue;
     const Vec2 uv = part.linear_zero();
     const Vec2 middle = (part.at_corner(0) + part.at_corner(1) + part.at_corner(2)) / 3.0;
-    const double off = glm::dot(middle, middle);
+    const bool found = Slack::kNone && find_zero(part, ground, zero);
+    const double off = found ? 0.0 : glm::dot(middle, middle);
     if (off >= smallest) continue;
     smallest = off;
-    result.possible = true;
-    result.u = uv.x;
-    result.v = uv.y;
+    result.hold(found ? zero : uv);
   }
   result.margin_m = margin;
 }

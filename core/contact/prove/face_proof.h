@@ -12,6 +12,7 @@
 #include "core/mesh/contact_mesh.h"
 #include "core/surface/pn_patch.h"
 
+#include <algorithm>
 #include <array>
 
 namespace tangent {
@@ -26,6 +27,14 @@ struct PatchExclusion {
   /// (u, v) is a place to start from for a contact on the triangle's edges; one inside the face may be near these.
   bool also_inside = false;
   double inside_u = 0.0, inside_v = 0.0;
+  bool unsure = false;  ///< besides that contact there may be others, of which nothing is known
+
+  /// A stable contact may be there.
+  void hold(const Vec2& uv) {
+    possible = true;
+    u = std::clamp(uv.x, 0.0, 1.0);
+    v = std::clamp(uv.y, 0.0, 1.0 - u);
+  }
 };
 
 /// `centre` in the patch's coordinates. Faces only: edges and vertices have fans of normals of their own. Where the

@@ -8,6 +8,7 @@
 #include "core/contact/prove/clearance_check.h"
 #include "core/contact/prove/core_proof.h"
 #include "core/contact/prove/triangle_proof.h"
+#include "core/contact/search/beyond_fold.h"
 #include "core/contact/search/height_change.h"
 
 #include <algorithm>
@@ -21,11 +22,15 @@ namespace {
 
 /// Ratio to the distance: so far off a plane triangles are still parts of it. Rounding leaves 1e-16.
 constexpr double kSamePlane = 1e-12;
+/// Of the finger's reach: so large a radius of curvature is a flat side.
+constexpr double kFlatFlank = 4.0;
 constexpr double kForever = std::numeric_limits<double>::infinity();
 
 /// Whether a contact is well enough known without solving for it. Beside a fold a stable and an unstable one are so
 /// near to each other that it may be either.
 bool trusts_guess(const Stability& stability) { return stability.det > kGuessMinDet && stability.trace > 0.0; }
+
+double distance2(const Vec3& a, const Vec3& b) { return glm::dot(a - b, a - b); }
 
 /// Some ticks at the finger's present speed, within shares of the tracked contact's rank.
 double ticks_ahead_m(double rank, double moved_m, double ticks) {
@@ -181,13 +186,34 @@ class RivalSearch {
     KnownContact known = known_[i];
     if (core_ && known.height_m >= 0.0) {
       const CoreSupport support = core_->support(known.normal);
-      double least = support.length;
-      for (const Vec3& normal : context_.cache.mesh().normals(t))
-        least = std::min(least, glm::dot(core_->scaled(normal), support.direction));
-      least = core_->length_after(least, margin_m);
-      known.height_m = std::max(known.height_m, core_->ball_m() + core_->largest_radius(least) - known_depths_[i]);
+      known.height_m = std::max(known.height_m, flattest_height(support, t, margin_m) - known_depths_[i]);
+      if (known.height_m > kFlatFlank * core_->reach_m() && t != known.triangle) {
+        const double there = flattest_height(support, known.triangle, margin_m) - known_depths_[i];
+        if (may_hide_hollow(t, known.height_m) || may_hide_hollow(known.triangle, there)) return false;
+      }
     }
     return same_basin(context_.cache, settings_.normal_form, t, known, margin_m);
+  }
+
+  /// Largest radius of curvature of the finger that it turns to a triangle on the way from a support.
+  double flattest_height(const CoreSupport& support, std::uint32_t t, double margin_m) {
+    const PnPatch& patch = context_.cache.patch(t, settings_.normal_form);
+    double least = support.length;
+    for (std::size_t k = 0; k < patch.normals.size(); ++k) {
+      const double share = k < n110 ? 1.0 : 0.5 * patch.mixed_weight;
+      least = std::min(least, share * glm::dot(core_->scaled(patch.normals[k]), support.direction));
+    }
+    return core_->ball_m() + core_->largest_radius(core_->length_after(least, margin_m));
+  }
+
+  /// Whether ground may fold at that height, by bounds of its curvature, and be hollow over two triangles by more than
+  /// the hysteresis: under a flank as flat as a capsule's places tell nothing of what is between them. Where there are
+  /// no such bounds the places have to do.
+  bool may_hide_hollow(std::uint32_t t, double height_m) {
+    const double least = context_.cache.bend(t, settings_.normal_form).least;
+    const auto p = context_.cache.mesh().positions(t);
+    const double wide2 = std::max({distance2(p[0], p[1]), distance2(p[1], p[2]), distance2(p[2], p[0])});
+    return least > -kForever && least * height_m <= -kFoldRoom && -0.5 * least * wide2 > settings_.switch_hysteresis_m;
   }
 
   /// How far a finger with a core may go before a rival that ranks `gap` behind can overtake: no depth changes faster.
@@ -271,7 +297,9 @@ class RivalSearch {
     const double guess = proof.height_m >= 0.0 ? proof.height_m : context_.finger.reach_m() - proof.height_m;
     const double behind = guess - bound_m_;
     if (proof.height_m != 0.0 && behind > kHeightGuess * guess) {  // a rival, but not a deeper one yet
-      if (core_) return {overtaking_core_m(behind), true, true};
+      if (core_)
+        return {std::min(overtaking_core_m(behind), proof.unsure ? kUnresolvedMargin * slope_m_ : kForever), true,
+                true};
       SurfaceSample there;
       context_.cache.sample(t, settings_.normal_form, proof.u, std::min(proof.v, 1.0 - proof.u), there);
       if (trusts_guess(normal_bend(there).at_height(proof.height_m)))
@@ -408,6 +436,7 @@ class RivalSearch {
               share * kRivalBudget, r);
       result.evaluations += r.evaluations;
     }
+    if (core_ && r.stop == StopReason::unstable) look_beyond_fold(share * kDeeperRivalBudget, r, result.evaluations);
     // No contact there now, but one may come up: ask again before long.
     if (!r.converged()) return {kUnresolvedMargin * slope_m_, true, true};
     if (is_followed(r.plane.point)) {
@@ -428,6 +457,23 @@ class RivalSearch {
     if (core_) return {overtaking_core_m(behind), true, false};
     return {overtaking_margin(change_, change_of(r.plane, r.sample, r.contact.height_m), behind, touched_ != nullptr),
             true, false};
+  }
+
+  /// To the deeper of the contacts beside an unstable one that are not followed yet; to one that is, where there is no
+  /// other.
+  void look_beyond_fold(int budget, IterationResult& r, int& evaluations) {
+    const IterationResult unstable = r;
+    bool is_new = false;
+    for (const double sign : {-1.0, 1.0}) {
+      IterationResult there;
+      const bool found = iterate_beyond_fold(context_, unstable, sign, budget, there);
+      evaluations += there.evaluations;
+      if (!found) continue;
+      const bool followed = is_followed(there.plane.point);
+      const bool deeper = contact_rank(context_.finger, there.contact) < contact_rank(context_.finger, r.contact);
+      if (followed ? !r.converged() : !is_new || deeper) r = there;
+      is_new = is_new || !followed;
+    }
   }
 
   const SearchStructures search_;

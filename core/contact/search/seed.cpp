@@ -3,6 +3,7 @@
 #include "core/base/tolerances.h"
 #include "core/contact/contact_rank.h"
 #include "core/contact/prove/triangle_proof.h"
+#include "core/contact/search/beyond_fold.h"
 #include "core/finger/facing_normal.h"
 
 #include <algorithm>
@@ -149,6 +150,16 @@ void seed_by_distance(ContactContext& context, const SearchStructures& search, s
   }
 }
 
+/// Where only unstable contacts were found: the stable ones beside the nearest of them.
+void leave_unstable(ContactContext& context, Selection& selection) {
+  const IterationResult unstable = selection.result.best;
+  for (const double sign : {-1.0, 1.0}) {
+    IterationResult r;
+    iterate_beyond_fold(context, unstable, sign, seed_budget(context.finger), r);
+    if (r.evaluations > 0) selection.offer(context, r);
+  }
+}
+
 /// Last resort, where no seed finds a contact of the interpolated normals, or none near the raw mesh: the place near
 /// the raw mesh's closest points whose plane, turned to face the finger, is touched deepest. Its
 /// normal is the finger's, its error that of the surface's own normal there.
@@ -209,15 +220,17 @@ SeedResult seed_contact(ContactContext& context, const SearchStructures& search,
     if (selection.group != 0 || implausible(context, search, selection.result.best, selection.value))
       seed_by_distance(context, search, kSeeds, std::numeric_limits<double>::infinity(), seed_budget(context.finger),
                        &failed, in_motion, selection);
+    if (selection.group == 1 && !is_round(context.finger)) leave_unstable(context, selection);
     if (selection.group == 2 ||
         (selection.group == 0 && implausible(context, search, selection.result.best, selection.value)))
       face_the_finger(context, search, selection);
   }
   context.seed = 0;
   if (context.settings.method == Method::robust && selection.group == 1) {
-    // Every contact there is unstable: the finger touches all round (at a sphere's centre, say). Show the nearest.
+    // Every contact there is unstable. A sphere touches all round (at another one's centre, say): any will do. Others
+    // would leave theirs, as on a saddle: the surface offers none, and the nearest is but the place to face.
     selection.result.found = true;
-    selection.result.best.stop = StopReason::converged;
+    selection.result.best.stop = is_round(context.finger) ? StopReason::converged : StopReason::facing;
   }
   return selection.result;
 }

@@ -16,7 +16,8 @@ struct SeedResult {
 /// `paper` and `newton` start at the closest point of the nearest triangle and iterate to their limit.
 /// `robust` tries every triangle that can hold a contact (ContactHierarchy), nearest first, and keeps the stable
 /// contact of least rank; where there is none, or one implausibly far off, the kSeeds nearest triangles; then the
-/// nearest place with its plane turned to face the finger. Where every contact is unstable the nearest of those counts.
+/// nearest place with its plane turned to face the finger. Where every contact is unstable the nearest of those counts,
+/// of a finger that is not round as the place that faces it.
 /// `kept`: the plane that was tracked until now, if any; the nearest triangle is no further off than its triangle.
 /// `in_vain`: the last tick found no contact either, so that it saves time to look for one of any depth at once: the
 /// same contacts.

@@ -58,6 +58,9 @@ struct TickExplanation {
   TickCure cure;
   MeshPlace mesh;
   int solves = 0;  ///< ticks solved to find out
+  /// Of a tick that followed others without a contact (explain_run.h): how many there were before it. Cause, number and
+  /// place are then those of the first, and the cure is solved again from there on. 0: all is of the tick itself.
+  std::uint64_t lost_before = 0;
 };
 
 /// Whether an output by itself wants explaining: not converged, any event, more planes than `options` allows. What

@@ -44,7 +44,7 @@ std::string place_text(const TickExplanation& e) {
   return text + ".";
 }
 
-std::string cure_text(const TickCure& cure) {
+std::string cure_text(const TickCure& cure, bool from_first) {
   if (cure.outcome == CureOutcome::not_sought) return {};
   if (cure.outcome == CureOutcome::none_in_range)
     return " No value of a parameter that has to do with it cures it within its range.";
@@ -53,18 +53,22 @@ std::string cure_text(const TickCure& cure) {
   };
   std::string text = " Cured by " + cure.key->full_name() + " = " + value(cure.to) + " instead of " + value(cure.from);
   if (cure.as_deep) text += ", as deep";
-  return text + " (solved again: " + to_string(cure.proof.status) + ", " + std::to_string(cure.proof.iterations) +
-         " iterations).";
+  return text + " (solved again" + (from_first ? " from that tick on, every one with a contact: " : ": ") +
+         to_string(cure.proof.status) + ", " + std::to_string(cure.proof.iterations) + " iterations).";
 }
 
 }  // namespace
 
 std::string explanation_text(const TickExplanation& e) {
-  std::string text = sentence_of(e.cause);
+  std::string text;
+  if (e.lost_before > 0)
+    text = "The contact was lost " + std::to_string(e.lost_before) +
+           (e.lost_before == 1 ? " tick before" : " ticks before") + ", and not found since. What lost it: ";
+  text += sentence_of(e.cause);
   if (e.decided.what) text += ": " + decided_text(e.decided);
   text += ".";
   if (e.mesh.triangle != kNone) text += place_text(e);
-  return text + cure_text(e.cure);
+  return text + cure_text(e.cure, e.lost_before > 0);
 }
 
 }  // namespace tangent

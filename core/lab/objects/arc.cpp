@@ -23,6 +23,50 @@ PlanarPolygon make_paper_arc(int segments, ArcPlacement placement, int beyond, d
   return polygon;
 }
 
+double ArcStimulus::run_out_m() const { return radius_m * std::tan(0.25 * angle_rad); }
+
+PlanarPolygon ArcStimulus::exact() const {
+  constexpr int kViewSegments = 64;
+  PlanarPolygon polygon = *this->polygon(kViewSegments, ArcPlacement::tangent);
+  polygon.name = "exact arc";
+  polygon.exact = ExactArc{Vec2(0.0), radius_m, 0.5 * angle_rad, run_out_m()};
+  return polygon;
+}
+
+Result<PlanarPolygon> ArcStimulus::polygon(int segments, ArcPlacement placement) const {
+  constexpr int kMostSegments = 100'000;
+  const bool tangent = placement == ArcPlacement::tangent;
+  const int fewest = tangent ? 3 : 1;
+  if (segments < fewest || segments > kMostSegments)
+    return fail("an arc of " + std::to_string(segments) + " segments", tangent ? "tangent" : "inscribed",
+                "use " + std::to_string(fewest) + " to " + std::to_string(kMostSegments));
+  const double half = 0.5 * angle_rad, turn = angle_rad / (tangent ? segments - 1 : segments);
+  // Corners that lie within the arc's angle; tangent segments meet between their midpoints.
+  const int corners = tangent ? segments - 1 : segments + 1;
+  const double first = tangent ? 0.5 * turn - half : -half;
+  const double distance = tangent ? radius_m / std::cos(0.5 * turn) : radius_m;
+  const auto place = [&](int i) {
+    const double angle = first + turn * i;
+    return Vec2(distance * std::sin(angle), distance * std::cos(angle));
+  };
+  // Half a segment from the arc's end, where the first tangent one begins: its midpoint is the end itself.
+  constexpr double kSameLength = 1e-9;
+  const double begins = tangent ? radius_m * std::tan(0.5 * turn) : 0.0, run_out = run_out_m();
+  const auto beyond = [&](double side, double way) {
+    return Vec2(side * (radius_m * std::sin(half) + way * std::cos(half)),
+                radius_m * std::cos(half) - way * std::sin(half));
+  };
+  const bool has_more = begins < (1.0 - kSameLength) * run_out;
+  PlanarPolygon out;
+  out.name = "arc of " + std::to_string(segments) + (tangent ? " tangent segments" : " inscribed segments");
+  out.vertices.push_back(beyond(-1.0, run_out));
+  if (tangent && has_more) out.vertices.push_back(beyond(-1.0, begins));
+  for (int i = 0; i < corners; ++i) out.vertices.push_back(place(i));
+  if (tangent && has_more) out.vertices.push_back(beyond(1.0, begins));
+  out.vertices.push_back(beyond(1.0, run_out));
+  return out;
+}
+
 PlanarPolygon make_regular_polygon(int sides, double radius_m, ArcPlacement placement) {
   const double turn = 2.0 * std::numbers::pi / static_cast<double>(sides);
   const double distance = placement == ArcPlacement::tangent ? radius_m / std::cos(0.5 * turn) : radius_m;

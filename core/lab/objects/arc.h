@@ -22,6 +22,18 @@ double facet_turn_rad(int segments, ArcPlacement placement);
 PlanarPolygon make_paper_arc(int segments, ArcPlacement placement = ArcPlacement::tangent, int beyond = 1,
                              double radius_m = kPaperArcRadius);
 
+/// An arc as it is put before a participant, exact or as segments, symmetric to the y axis about the origin. At either
+/// end all of them go on straight, along the arc's tangent, for run_out_m(): half a facet of the coarsest (three
+/// tangent segments), so that the ends feel alike whatever the number of segments.
+struct ArcStimulus {
+  double angle_rad = kPaperArcRad, radius_m = kPaperArcRadius;
+  double run_out_m() const;
+  /// A circle, with a polygon of 64 segments beside it for views.
+  PlanarPolygon exact() const;
+  /// Fails on fewer than three tangent segments, one inscribed, or more than 100,000.
+  Result<PlanarPolygon> polygon(int segments, ArcPlacement placement) const;
+};
+
 /// Regular polygon, closed, counter-clockwise, about the origin; vertices on the circle, or facets tangent to it.
 PlanarPolygon make_regular_polygon(int sides, double radius_m, ArcPlacement placement = ArcPlacement::inscribed);
 

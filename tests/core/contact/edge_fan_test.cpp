@@ -2,6 +2,7 @@
 #include "core/contact/follow/edge.h"
 #include "core/contact/patch_cache.h"
 #include "core/finger/plane_contact.h"
+#include "tests/core/fingers.h"
 #include "tests/core/scenes.h"
 
 #include <doctest/doctest.h>
@@ -230,4 +231,33 @@ TEST_CASE("flat patches are told from curved ones, and sampled like them to roun
     }
   }
   CHECK(flat > 10);
+}
+
+TEST_CASE("on a sharp edge the turn that faces a finger is found in any orientation, with the long side on it, too") {
+  const ScenePtr scene = scene_of(*generate_mesh("cube"));
+  const ContactMesh& mesh = scene->mesh();
+  PatchCache cache(mesh);
+  Random random(74);
+  for (const FingerShape shape : kFingerShapes) {
+    CAPTURE(static_cast<int>(shape));
+    const Finger finger = finger_of(shape);
+    int tried = 0;
+    double worst = 0.0;
+    while (tried < rounds(2000)) {
+      const std::uint32_t t = random.below(mesh.triangle_count()), k = random.below(3);
+      if (mesh.edge_kind(t, k) != EdgeKind::crease) continue;
+      ++tried;
+      const EdgeFan& fan = cache.fan(t, k, random.in(0.0, 1.0), NormalForm::bernstein);
+      const double turn = random.in(0.0, std::atan2(fan.far.y, fan.far.x));
+      SurfaceSample s;
+      edge_sample(fan, {std::cos(turn), std::sin(turn)}, s);
+      // Touched there all but: the centre lies outside.
+      FingerPose pose{Vec3(0.0), random.orientation()};
+      pose.position = s.point + random.in(1e-4, 2e-3) * s.normal - support_point(finger, pose, s.normal);
+      edge_sample(fan, facing_turn(fan, finger, pose), s);
+      const PlaneContact c = contact_on_plane(finger, pose, s.point, s.normal);
+      worst = std::max(worst, std::abs(glm::dot(c.travel, glm::cross(fan.tangent, s.normal))));
+    }
+    CHECK(worst < 1e-9);
+  }
 }

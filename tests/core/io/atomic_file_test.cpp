@@ -3,7 +3,10 @@
 
 #include <doctest/doctest.h>
 
+#include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 #include <string>
 #include <utility>
@@ -120,6 +123,35 @@ TEST_CASE("a write-protected target is refused") {
   std::filesystem::permissions(target, std::filesystem::perms::owner_read);
   CHECK_FALSE(write_file_atomic(target, "new"));
   CHECK(read_text(target) == "old");
+}
+
+TEST_CASE("what a killed process left is removed by the next that writes the same file, and nothing else") {
+  const TempFolder folder;
+  const std::filesystem::path target = folder.path() / "out.mat", other = folder.path() / "other.mat";
+  const pid_t killed = ::fork();
+  if (killed == 0) {
+    const Result<AtomicFile> one = AtomicFile::create(target), two = AtomicFile::create(other);
+    ::_exit(one && two ? 0 : 1);  // as after kill -9: nobody tidies up
+  }
+  int status = 0;
+  REQUIRE(::waitpid(killed, &status, 0) == killed);
+  REQUIRE(status == 0);
+  REQUIRE(folder.entry_count() == 2);
+  const std::string dead = std::to_string(killed);
+  folder.write(".out.mat.tmp-" + dead, "no attempt");
+  folder.write(".out.mat.tmp-" + dead + "-1x", "nobody's");
+  folder.write(".out.mat.tmp-1-0", "of one that lives");
+  const std::string held = folder.write(".out.mat.tmp-" + dead + "-7", "of one on another machine");
+  const int fd = ::open(held.c_str(), O_RDONLY | O_CLOEXEC);
+  REQUIRE(::flock(fd, LOCK_EX) == 0);
+  REQUIRE(write_file_atomic(target, "whole"));
+  CHECK(folder.entry_count() == 6);  // other's, the four, and the file
+  CHECK(!std::filesystem::exists(folder.path() / (".out.mat.tmp-" + dead + "-0")));
+  ::close(fd);
+  REQUIRE(write_file_atomic(target, "again"));
+  CHECK(folder.entry_count() == 5);
+  REQUIRE(write_file_atomic(other, "whole"));
+  CHECK(folder.entry_count() == 5);
 }
 
 TEST_CASE("a process that is about to end by a signal removes what it has half written, and nothing else") {

@@ -5,6 +5,7 @@
 
 #include <doctest/doctest.h>
 
+#include <array>
 #include <csignal>
 #include <string>
 #include <thread>
@@ -169,7 +170,7 @@ TEST_CASE("poses from a program that never stops writing are refused with what t
     ::close(fd);
   });
   constexpr std::size_t kLimit = std::size_t{1} << 20;
-  const auto text = read_input_file(pipe, 8 * kLimit, kLimit);
+  const auto text = read_input_file(pipe, 8 * kLimit, {.max_bytes = kLimit});
   writer.join();  // its pipe was closed at the other end
   std::signal(SIGPIPE, SIG_DFL);
   REQUIRE_FALSE(text);
@@ -178,10 +179,41 @@ TEST_CASE("poses from a program that never stops writing are refused with what t
                  "writes it ends, or write a file of up to 8 MiB"));
   CHECK(written < 2 * kLimit);
   // A file may hold more than a pipe brings; one that is too large is refused by its size.
-  CHECK(read_input_file(folder.write("file.csv", std::string(kLimit + 1, '\n')), 8 * kLimit, kLimit));
-  CHECK(contains(
-      read_input_file(folder.write("large.csv", std::string(kLimit + 1, '\n')), kLimit, kLimit).error().message(),
-      "large.csv: is larger than 1 MiB"));
+  CHECK(read_input_file(folder.write("file.csv", std::string(kLimit + 1, '\n')), 8 * kLimit, {.max_bytes = kLimit}));
+  CHECK(
+      contains(read_input_file(folder.write("large.csv", std::string(kLimit + 1, '\n')), kLimit, {.max_bytes = kLimit})
+                   .error()
+                   .message(),
+               "large.csv: is larger than 1 MiB"));
+}
+
+TEST_CASE("a pipe that nobody writes to is given up, and at once where the program is told to end") {
+  const TempFolder folder;
+  const std::string pipe = folder.file("pipe.csv");
+  REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+  constexpr std::size_t kLimit = std::size_t{1} << 20;
+  CHECK(contains(read_input_file(pipe, kLimit, {.wait_for_writer_ms = 0}).error().message(),
+                 "pipe.csv: is a pipe that no program has opened for writing; start the program"));
+  end_waiting_for_input();  // as the first Ctrl-C does
+  CHECK(contains(read_input_file(pipe, kLimit).error().message(), "pipe.csv: was interrupted"));
+  const int writer = ::open(pipe.c_str(), O_RDWR);  // somebody is there, and silent
+  CHECK(contains(read_input_file(pipe, kLimit).error().message(), "pipe.csv: was interrupted"));
+  allow_waiting_for_input();
+  ::close(writer);
+  CHECK(contains(read_input_file(folder.path(), kLimit).error().message(), "is a folder; name a file"));
+}
+
+TEST_CASE("what a program that has ended left in a pipe is read to its end") {
+  std::array<int, 2> ends{};
+  REQUIRE(::pipe(ends.data()) == 0);
+  REQUIRE(::write(ends[1], "one\n", 4) == 4);
+  ::close(ends[1]);
+  const std::string name = "/dev/fd/" + std::to_string(ends[0]);
+  const auto text = read_input_file(name, 100);
+  REQUIRE_MESSAGE(text, text.error().message());
+  CHECK(*text == "one\n");
+  CHECK(contains(read_input_file(name, 100).error().message(), "the file is empty"));
+  ::close(ends[0]);
 }
 
 TEST_CASE("a file without poses is refused by name") {

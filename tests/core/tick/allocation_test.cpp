@@ -1,6 +1,6 @@
 // A tick does not allocate, since it runs in the servo thread. This file replaces the global operators new and delete
 // of the test program by counting ones.
-#include "core/embed/c_handle.h"
+#include "workbench/embed/c_handle.h"
 #include "tests/core/scenes.h"
 
 #include <doctest/doctest.h>

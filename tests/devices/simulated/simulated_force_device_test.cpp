@@ -279,3 +279,34 @@ TEST_CASE("a device that measures velocity says it, but not while its encoders s
   tacho.inject({InjectedFault::stuck_encoder, 3});
   CHECK_FALSE(lead(tacho, 501).velocity_m_per_s.has_value());
 }
+
+TEST_CASE(
+    "of a finger's rotations a device gives those that it measures: alone they are exact, without them it is plain") {
+  const Quat roll = glm::angleAxis(0.3, Vec3(1, 0, 0)), tilt = glm::angleAxis(-0.5, Vec3(0, 1, 0)),
+             turn = glm::angleAxis(0.7, Vec3(0, 0, 1));
+  const Quat whole = turn * tilt * roll;
+  const auto near = [](const Quat& a, const Quat& b) { return std::abs(glm::dot(a, b)) > 1.0 - 1e-14; };
+  CHECK(as_sensed(whole, {true, true, true}) == whole);
+  CHECK(near(as_sensed(whole, {false, true, false}), tilt));
+  CHECK(near(as_sensed(whole, {true, false, false}), roll));
+  CHECK(near(as_sensed(whole, {false, false, true}), turn));
+  CHECK(near(as_sensed(whole, {true, true, false}), tilt * roll));
+  CHECK(as_sensed(whole, {false, false, false}) == Quat(1, 0, 0, 0));
+}
+
+TEST_CASE("a device that measures tilt alone: the finger points forward whatever the hand does, and tilts with it") {
+  SimulatedForceOptions options = ideal_force();
+  options.senses_rotation = {false, true, false};
+  SimulatedForceDevice device(options);
+  make_force_ready(device);
+  CHECK(device.capabilities().rotations_sensed() == 1);
+  CHECK(sensed_rotations(device.capabilities()) == "tilt");
+  CHECK(sensed_rotations(SimulatedForceDevice().capabilities()) == "roll, tilt, turn");
+  for (const double tilt : {-0.6, 0.0, 0.4}) {
+    HandTarget hand;
+    hand.orientation = glm::angleAxis(0.8, Vec3(0, 0, 1)) * glm::angleAxis(tilt, Vec3(0, 1, 0));
+    device.lead(hand);
+    const Vec3 points = device.exchange({}, kForceDt).orientation * Vec3(1, 0, 0);
+    CHECK(glm::length(points - Vec3(std::cos(tilt), 0.0, -std::sin(tilt))) < 1e-14);
+  }
+}

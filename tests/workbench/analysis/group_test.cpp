@@ -29,10 +29,10 @@ fs::path shipped(const std::string& kind) {
 }
 
 /// Participants 1 to `count` in `folder`.
-void simulate(const fs::path& folder, const std::string& kind, int count, bool pilot = false) {
+void simulate(const fs::path& folder, const std::string& kind, int count, bool pilot = false, int first = 1) {
   const std::string text = text_of(shipped(kind));
   const Protocol protocol = *parse_protocol(text, kind);
-  for (int p = 1; p <= count; ++p) {
+  for (int p = first; p < first + count; ++p) {
     Enrolment who{{"P" + std::to_string(p), "known", pilot}, 0, protocol_digest(protocol)};
     who.seed = default_seed(who.mark.participant, who.protocol_digest);
     const auto outcome = run_simulated(folder, protocol, text, who, {});
@@ -119,7 +119,7 @@ TEST_CASE("the page, its figures and tables say that the participants were simul
   CHECK(html.find("Nobody felt anything") != std::string::npos);
   CHECK(html.find("workbench analyse &lt;data&gt;") != std::string::npos);
   CHECK(html.find("<script") == std::string::npos);
-  int figures = 0, tables = 0;
+  int figures = 0, tables = 0, plotted = 0;
   for (const auto& entry : fs::directory_iterator(out)) {
     const std::string name = entry.path().filename().string(), text = text_of(entry.path());
     CAPTURE(name);
@@ -130,10 +130,22 @@ TEST_CASE("the page, its figures and tables say that the participants were simul
       ++tables;
       CHECK(text.find("\nyes,") != std::string::npos);
       CHECK(text.find("\nno,") == std::string::npos);
+    } else if (name.ends_with(".csv")) {  // of a figure: numbers alone
+      ++plotted;
+      CHECK(text.substr(0, text.find('\n')).ends_with(",simulated"));
+      CHECK(text.ends_with(",1\n"));
+    } else {
+      CHECK(name == "analysis.html");
     }
   }
+  CHECK(plotted == figures);
+  for (const auto& entry : fs::recursive_directory_iterator(data)) {
+    if (!entry.is_regular_file() || entry.path().extension() == ".toml") continue;  // the protocol as it was
+    CAPTURE(entry.path().string());
+    CHECK(text_of(entry.path()).find("simulated") != std::string::npos);
+  }
   CHECK(figures == 6);  // thresholds, two of staircases, accuracy, times, contact
-  CHECK(tables == 12);  // conditions, anova, pairs, staircases; parts, five confusions, times of objects, tests
+  CHECK(tables == 13);  // conditions, order, anova, pairs, staircases; parts, five confusions, times of objects, tests
 }
 
 TEST_CASE("files that were edited, mixed, doubled, foreign or missing are refused by name") {
@@ -231,6 +243,51 @@ TEST_CASE("pilot runs are left out unless asked for, and a person is not enrolle
     who.mark.participant = bad;
     CHECK_FALSE(run_simulated(folder->path(), protocol, text, who, {}));
   }
+}
+
+TEST_CASE("participants come in the order of their numbers, and two kinds of simulated ones are not mixed") {
+  const auto folder = OwnFolder::make();
+  simulate(folder->path(), "discrimination", 3, false, 9);  // P9, P10, P11
+  const auto answers = load(folder->path());
+  REQUIRE(answers);
+  REQUIRE(answers->comparisons.size() == 3);
+  CHECK(answers->comparisons[0].name() == "P9");
+  CHECK(answers->comparisons[2].name() == "P11");
+  const std::string text = text_of(shipped("discrimination"));
+  const Protocol protocol = *parse_protocol(text, "p");
+  Enrolment who{{"P1", "feeling", false}, 1, protocol_digest(protocol)};
+  REQUIRE(run_simulated(folder->path(), protocol, text, who, [] { return true; }));  // one answer
+  const std::string why = refusal(load(folder->path()));
+  CHECK(why.find("feeling") != std::string::npos);
+  CHECK(why.find("known") != std::string::npos);
+}
+
+TEST_CASE("sessions that were joined, doubled or put in another order by hand are refused by line") {
+  const auto folder = OwnFolder::make();
+  simulate(folder->path(), "identification", 1);
+  const fs::path rows = folder->path() / "sub-P1" / "beh" / "sub-P1_task-identification_beh.tsv";
+  const std::string whole = text_of(rows);
+  std::vector<std::string> lines;
+  std::istringstream in(whole);
+  for (std::string line; std::getline(in, line);) lines.push_back(line + "\n");
+  REQUIRE(lines.size() == 113);
+  const auto put = [&](std::size_t from, std::size_t to, const std::string& before, const std::string& after) {
+    std::string text = before;
+    for (std::size_t i = from; i < to; ++i) text += lines[i];
+    std::ofstream(rows, std::ios::binary) << text + after;
+  };
+  std::string second;
+  for (std::size_t i = 57; i < 113; ++i) second += lines[i];
+  put(1, 57, lines[0] + second, "");  // the second session before the first
+  CHECK(refusal(load(folder->path())).find(":2") != std::string::npos);
+  put(0, 57, "", second + second);  // the second session twice
+  CHECK(refusal(load(folder->path())).find(":114") != std::string::npos);
+  put(0, 57, "", "");  // the first alone: not finished
+  const auto half = load(folder->path());
+  REQUIRE(half);
+  CHECK(half->namings[0].rows.size() == 56);
+  REQUIRE(half->left_out.size() == 1);
+  CHECK(half->left_out[0].find("not finished") != std::string::npos);
 }
 
 TEST_CASE("experience is read from participants.tsv") {

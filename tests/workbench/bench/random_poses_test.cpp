@@ -115,6 +115,7 @@ namespace {
 struct HardPose {
   FingerPose finger;
   double penetration_m;  ///< of the contact; 0: none is found, and a plane is turned to face the finger
+  bool saddle = false;   ///< of an unstable contact, which is as good as none
 };
 const HardPose kHardPoses[] = {
     // The surface's weak direction (det M of 0.02 and 0.04): steps too short to arrive from any seed.
@@ -133,7 +134,8 @@ const HardPose kHardPoses[] = {
      0.0},
     {{{-0.031078657034384314, -0.0068126892133906431, -0.0044374950407303883},
       {-0.25795240647071749, -0.65346452588990145, 0.41340766665678064, 0.579257085022573}},
-     0.0342024},  // across the tube: a saddle, none of the four there is stable (core/contact/every_contact_test.cpp)
+     0.0342024,
+     true},  // across the tube: none of the four there is stable (core/contact/every_contact_test.cpp)
     {{{-0.013281290477628046, -0.035361852646265006, 0.0037411095221624941},
       {0.084505217558282761, 0.15531951042324418, -0.28036383702986062, 0.94346745400845944}},
      0.0},
@@ -155,7 +157,7 @@ TEST_CASE("a capsule in and around a torus has an answer where seeds arrive late
     CAPTURE(pose.finger.position.x);
     const TickOutput out = test::solve_once(*scene, c->preset, pose.finger);
     CHECK(out.status != TickStatus::unconverged);
-    CHECK((out.status == TickStatus::facing) == (pose.penetration_m == 0.0));
+    CHECK((out.status == TickStatus::facing) == (pose.saddle || pose.penetration_m == 0.0));
     CHECK((out.error_m < c->preset.solver.tolerance_m) == (pose.penetration_m != 0.0));
     if (pose.penetration_m != 0.0) {
       CHECK(std::abs(out.penetration_m - pose.penetration_m) < 1e-6);

@@ -94,6 +94,8 @@ TEST_CASE("curves over tolerance and iteration limit - errors follow both, all t
   REQUIRE_FALSE(curves->levels.empty());
   for (const ErrorLevel& level : curves->levels) {
     REQUIRE_FALSE(level.methods.empty());
+    for (const LevelEntry& entry : level.methods)  // one that gives up is no answer, however fast
+      CHECK(curves->points[entry.point].errors.unconverged == 0);
     CHECK(level.methods.front().to_fastest.ratio == 1.0);
     CHECK_FALSE(level.methods.front().tie);
     for (const LevelEntry& entry : level.methods) {

@@ -136,7 +136,8 @@ TEST_CASE("bench --mesh measures curves on a mesh and motion of one's own, with 
   const ProcessResult explored = run_workbench({"bench", "--mesh", mesh, "--ticks", "30", "--methods", "newton",
                                                 "--rounds", "1", "--no-peers", "--finger-radius-mm", "5"});
   CHECK(explored.exit_code == 0);
-  CHECK(contains(explored.out, "30 ticks, 1 rounds"));
+  CHECK(contains(explored.out, "30 ticks, 1 round in turns"));
+  CHECK_FALSE(contains(explored.out, "inf"));  // one round has no interval
   CHECK_FALSE(contains(explored.out, "embree"));
 }
 
@@ -152,7 +153,7 @@ TEST_CASE("bench --mesh refuses what makes no sense") {
   CHECK(run_workbench({"bench", "--mesh", mesh, "--meshes", "m", "--poses", "p"}).exit_code == 2);
   CHECK(run_workbench({"bench", "--mesh", mesh, "--csv", "a.svg", "--plot", "a.svg"}).exit_code == 2);
   const ProcessResult method = run_workbench({"bench", "--mesh", mesh, "--methods", "magic"});
-  CHECK(method.exit_code == 1);
+  CHECK(method.exit_code == 2);
   CHECK(contains(method.err, "magic"));
   CHECK(contains(method.err, "two-pass"));
   const ProcessResult planar =
@@ -163,4 +164,12 @@ TEST_CASE("bench --mesh refuses what makes no sense") {
   CHECK(missing.exit_code == 1);
   CHECK(contains(missing.err, "none.obj"));
   CHECK(folder.entry_count() == 2);
+  const std::string notes = folder.write("notes.txt", "{mine}");
+  for (const char* const option : {"--json", "--csv"}) {
+    const ProcessResult foreign = run_workbench({"bench", "--mesh", mesh, option, notes, "--ticks", "5"});
+    CHECK(foreign.exit_code == 1);
+    CHECK(contains(foreign.err, "notes.txt: is there already, and is not"));
+  }
+  CHECK(run_workbench({"bench", "--json", notes, "--only", "none"}).exit_code == 1);
+  CHECK(read_text(notes) == "{mine}");
 }

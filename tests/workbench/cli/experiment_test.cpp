@@ -44,6 +44,33 @@ TEST_CASE("experiment and analyse: from a protocol to a page") {
   CHECK(std::filesystem::exists(folder.file("out/staircases.csv")));
 }
 
+TEST_CASE("analyse: power and check take a protocol, and print and write what they find") {
+  const TempFolder folder;
+  const auto plan = [&](const std::string& protocol, std::vector<std::string> more) {
+    std::vector<std::string> arguments{"analyse", protocol, "--out", folder.file("plan")};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_workbench(std::move(arguments));
+  };
+  const ProcessResult power = plan(shipped("identification.toml"), {"--power", "--count", "20"});
+  CHECK(power.exit_code == 0);
+  CHECK(contains(power.out, "theory"));
+  CHECK(std::filesystem::exists(folder.file("plan/power.csv")));
+  const ProcessResult check = plan(shipped("identification.toml"), {"--check", "--count", "36"});
+  CHECK(check.exit_code == 0);
+  CHECK(contains(check.out, "should be"));
+  CHECK(std::filesystem::exists(folder.file("plan/check.html")));
+  CHECK(plan(shipped("identification.toml"), {"--check", "--power"}).exit_code == 2);
+  CHECK(plan(folder.file("none.toml"), {"--power"}).exit_code == 1);
+}
+
+TEST_CASE("experiment: one who feels takes part in comparisons alone") {
+  const TempFolder folder;
+  const ProcessResult naming = run_workbench({"experiment", shipped("identification.toml"), "--participant", "P1",
+                                              "--out", folder.file("d"), "--simulated", "feeling"});
+  CHECK(naming.exit_code == 1);
+  CHECK(contains(naming.err, "names no objects"));
+}
+
 TEST_CASE("experiment: the same seed gives the same bytes, another one others") {
   const TempFolder a, b, c;
   REQUIRE(experiment(a, "7", {"--seed", "5"}).exit_code == 0);
@@ -59,16 +86,44 @@ TEST_CASE("experiment: the same seed gives the same bytes, another one others") 
   CHECK(rows(a) != rows(c));
 }
 
+TEST_CASE("experiment: a person's keys from a pipe, in simulated time") {
+  const TempFolder folder;
+  const std::string keys =
+      "wait 1\nlift\nwait 1\nenter\nwait 2\nlift\nwait 1\nenter\nwait 2\nlift\nwait 1\n1\nenter\nnote "
+      "tired\nwait 1\n";
+  const std::string command =
+      "printf '" + keys + "' | \"$0\" experiment \"$1\" --participant 3 --out \"$2\" " + "--without-waiting --pilot";
+  const testing::Process shell({"-c", command, TANGENT_PROGRAM, shipped("discrimination.toml"), folder.file("d")},
+                               "/bin/sh");
+  const ProcessResult run = shell.wait();
+  CHECK(contains(run.out, "1 trials"));
+  CHECK(contains(run.err, "goes on from there"));
+  std::ostringstream rows, events;
+  rows << std::ifstream(folder.file("d/sub-3/beh/sub-3_task-discrimination_beh.tsv")).rdbuf();
+  events << std::ifstream(folder.file("d/sub-3/beh/sub-3_task-discrimination_events.tsv")).rdbuf();
+  CHECK(contains(rows.str(), "3\tdevice\tyes\t0\t"));
+  CHECK(contains(events.str(), "tired"));
+}
+
 TEST_CASE("experiment and analyse: what can't be is said, with the exit codes of every command") {
   const TempFolder folder;
-  CHECK(experiment(folder, "anna").exit_code == 1);
+  CHECK(experiment(folder, "anna").exit_code == 2);
+  CHECK(experiment(folder, "").exit_code == 2);
+  CHECK(contains(experiment(folder, "P99999999999999999999999").err, "has a number above 18446744073709551615"));
   CHECK(contains(experiment(folder, "a/1").err, "letters"));
   CHECK(run_workbench({"experiment", shipped("discrimination.toml"), "--out", folder.file("d")}).exit_code == 2);
   CHECK(experiment(folder, "1", {"--seed", "-1"}).exit_code == 2);
   const ProcessResult person =
       run_workbench({"experiment", shipped("discrimination.toml"), "--participant", "1", "--out", folder.file("d")});
-  CHECK(person.exit_code == 1);
-  CHECK(contains(person.err, "--simulated"));
+  CHECK(person.exit_code == 1);  // no key ever comes
+  CHECK(contains(person.err, "goes on from there"));
+  const testing::Process shell({"-c",
+                                "(sleep 1; echo resume) | \"$0\" experiment \"$1\" --participant 2 --out \"$2\" "
+                                "--device cld",
+                                TANGENT_PROGRAM, shipped("discrimination.toml"), folder.file("e")},
+                               "/bin/sh");
+  CHECK(contains(shell.wait().err, "is not there"));
+  CHECK(contains(experiment(folder, "P-1").err, "BIDS"));
   folder.write("bad.toml", "[protocol]\nkind = \"discrimination\"\nname = \"x\"\nlength = 4\n");
   const ProcessResult bad = run_workbench(
       {"experiment", folder.file("bad.toml"), "--participant", "1", "--out", folder.file("d"), "--simulated", "known"});

@@ -76,7 +76,7 @@ TEST_CASE("numbers out of range are refused with the option and the range") {
 
 TEST_CASE("unknown words are refused with the ones there are") {
   check_refused(solve_with("--method", "magic"), "--method: 'magic' is unknown; allowed: paper, newton, robust, facet");
-  check_refused(solve_with("--condition", "C5"), "allowed: C1, C2, C3, C4, P1 or P2");
+  check_refused(solve_with("--condition", "C5"), "allowed: C1, C2, C3, C4, P1, P2, force-unshaded");
   check_refused(solve_with("--normal-form", "phong"), "allowed: bernstein or vlachos");
   check_refused(solve_with("--unit", "ft"), "allowed: mm, cm, m or in");
   check_refused(solve_with("--normals", "none"), "allowed: auto, file or computed");

@@ -131,6 +131,10 @@ TEST_CASE("commands on recordings refuse wrong usage with 2 and files that are n
   CHECK(run_workbench({"replay", folder.file("a.sqlite")}).exit_code == 1);
   CHECK(run_workbench({"replay", folder.write("b.sqlite", "no database at all")}).exit_code == 1);
   CHECK(run_workbench({"export", folder.file("b.sqlite"), "--out", folder.file("c.csv")}).exit_code == 1);
+  const ProcessResult backwards =
+      run_workbench({"export", folder.file("b.sqlite"), "--out", folder.file("c.csv"), "--from", "3", "--to", "1"});
+  CHECK(backwards.exit_code == 2);
+  CHECK(contains(backwards.err, "--to: is before --from"));
   CHECK(run_workbench({"export", folder.file("b.sqlite"), "--out", folder.file("c.docx")}).exit_code == 2);
   CHECK(run_workbench({"export", folder.file("b.sqlite"), "--out", folder.file("c.mat")}).exit_code == 1);
   const ProcessResult channel =

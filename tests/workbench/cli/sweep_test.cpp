@@ -5,6 +5,8 @@
 #include <chrono>
 #include <thread>
 
+#include <sys/stat.h>
+
 namespace tangent {
 namespace {
 
@@ -99,6 +101,52 @@ TEST_CASE("sweep: a mesh that can't be read is named, and the others are solved"
   CHECK(sweep.rows("a.sqlite").size() == 2);
 }
 
+TEST_CASE("sweep: cells without numbers fail the next run over them, too") {
+  const Sweep sweep;
+  const std::vector<std::string> command{
+      sweep.file("cube.obj"), sweep.file("none.obj"), "--poses", "around", "--ticks", "50", "--out",
+      sweep.file("a.sqlite")};
+  for (const char* const there : {"", "(2 were there)"}) {
+    const auto result = sweep.run(command);
+    CHECK(result.exit_code == 1);
+    CHECK(contains(result.out, there));
+    CHECK(contains(result.err, "a.sqlite: 1 cell has no numbers, the others have; the first, cell 1: "));
+    CHECK(contains(result.err, "none.obj"));
+    CHECK(contains(result.err, "sweep into a new file"));
+  }
+}
+
+TEST_CASE("sweep: a key that no method reads is said, and a shard that is none is wrong usage") {
+  const Sweep sweep;
+  const auto swept = sweep.run({sweep.file("cube.obj"), "--poses", "around", "--ticks", "20", "--methods", "robust",
+                                "--range", "solver.gain_overall=0.5,1", "--out", sweep.file("a.sqlite")});
+  CHECK(swept.exit_code == 0);
+  CHECK(contains(swept.err, "solver.gain_overall changes nothing under robust: paper alone reads it"));
+  REQUIRE(sweep.run({"plan", sweep.file("plan.toml"), "--out", sweep.file("dir"), "--shards", "3"}).exit_code == 0);
+  const auto none = sweep.run({"run", sweep.file("dir"), "--shard", "3"});
+  CHECK(none.exit_code == 2);
+  CHECK(contains(none.err, "--shard: 3 is no shard of 3; allowed: 0 to 2"));
+}
+
+TEST_CASE("sweep: a pipe without a writer is refused where it would be read again, and elsewhere ends by Ctrl-C") {
+  const Sweep sweep;
+  const std::string pipe = sweep.file("pipe.csv"), cube = sweep.file("cube.obj");
+  REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+  const auto swept = sweep.run({cube, "--poses", pipe, "--out", sweep.file("a.sqlite")});
+  CHECK(swept.exit_code == 1);
+  CHECK(contains(swept.err, "pipe.csv: is no file that can be read again"));
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"tune", cube, "--poses", pipe, "--out", sweep.file("p.toml")},
+        {"experiment", pipe, "--participant", "P1", "--out", sweep.file("e"), "--simulated", "known"},
+        {"bench", "--mesh", cube, "--poses", pipe},
+        {"check", pipe}}) {
+    const Process process(command);
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    process.interrupt();
+    CHECK_MESSAGE(process.wait().exit_code != 0, command.front());  // and it ends
+  }
+}
+
 TEST_CASE("sweep: a dry run counts, and a million cells want a yes") {
   const Sweep sweep;
   const std::vector<std::string> many{sweep.file("cube.obj"),
@@ -112,7 +160,7 @@ TEST_CASE("sweep: a dry run counts, and a million cells want a yes") {
   dry.push_back("--dry-run");
   const auto counted = sweep.run(dry);
   CHECK(counted.exit_code == 0);
-  CHECK(contains(counted.out, "1000000 cells"));
+  CHECK(contains(counted.out, "1000000 cells: 1 mesh x 1 motion x 1 finger x 1000000 presets"));
   auto unasked = many;
   unasked.insert(unasked.end(), {"--out", sweep.file("a.sqlite")});
   const auto refused = sweep.run(unasked);
@@ -136,14 +184,27 @@ TEST_CASE("sweep: wrong usage is told from work that failed") {
            {{cube, "--poses", "around", "--out", out, "--range", "solver.gain_overall=1..2:x"}, 2, "count"},
            {{cube, "--poses", "around", "--out", out, "--range", "solver.gain_overall=99"}, 2, "allowed: 0 to 10"},
            {{cube, "--poses", "around", "--out", out, "--threads", "0"}, 2, "--threads"},
-           {{cube, "--out", out}, 1, "no motion"},
-           {{cube, "--poses", "around", "--out", out, "--methods", "newtn"}, 1, "is no method"},
-           {{cube, "--poses", "around", "--out", out, "--sampling", "sobol"}, 1, "samples"},
-           {{cube, "--plan", sweep.file("plan.toml"), "--out", out}, 1, "--plan"},
+           {{cube, "--out", out}, 2, "--poses: no motion"},
+           {{cube, "--poses", "around", "--out", out, "--methods", "newtn"}, 2, "is no method"},
+           {{cube, "--poses", "around", "--out", out, "--methods", "paper,paper"}, 2, "paper is there twice"},
+           {{cube, "--poses", "around", "around", "--out", out}, 2, "around is there twice"},
+           {{cube, "--poses", "around:0mm", "--out", out}, 2, "around:0.5mm; allowed: 0.001 to 20 mm"},
+           {{cube, "--poses", "around", "--out", out, "--sampling", "sobol"},
+            2,
+            "--samples: sampling = \"sobol\" needs"},
+           {{cube, "--poses", "around", "--out", out, "--range", "solver.gain_overall=1,2", "--range",
+             "solver.gain_overall=0..1:3"},
+            2,
+            "solver.gain_overall: is there twice"},
+           {{cube, "--poses", "around", "--out", cube}, 2, "--out: names the same file as MESH"},
+           {{"--plan", sweep.file("plan.toml"), "--out", out, "--ticks", "20"}, 2, "leave out --sampling, --samples"},
+           {{"--plan", sweep.file("plan.toml"), "--out", out, "--gain-overall", "1"}, 2, "leave out --preset"},
+           {{cube, "--plan", sweep.file("plan.toml"), "--out", out}, 2, "--plan"},
+           {{cube, "--poses", "around", "--out", sweep.folder.write("notes.txt", "mine")}, 1, "no sweep's results"},
            {{"--plan", sweep.file("none.toml"), "--out", out}, 1, "none.toml"},
            {{"run", sweep.folder.path().string()}, 1, "plan.json"},
            {{"merge", sweep.file("none"), "--out", out}, 1, "plan.json"},
-           {{"plan", sweep.file("plan.toml"), "--out", sweep.file("dir"), "--shards", "41"}, 1, "--shards"},
+           {{"plan", sweep.file("plan.toml"), "--out", sweep.file("dir"), "--shards", "41"}, 2, "--shards"},
        }) {
     const auto result = sweep.run(wrong.arguments);
     CHECK(result.exit_code == wrong.code);

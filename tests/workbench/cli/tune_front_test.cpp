@@ -107,6 +107,24 @@ TEST_CASE("tune by time measures it in turns, and keeps to a limit that it names
   CHECK(!std::filesystem::exists(t.preset));
 }
 
+TEST_CASE("tune replaces presets and fronts, and nothing else, and names a key that it would search for nothing") {
+  const FrontFolder t;
+  const std::string front = t.folder.file("f.csv");
+  for (int again = 0; again < 2; ++again) {
+    const ProcessResult tuned = t.tune({"--objective", "mean_iterations", "--front", front, "--method", "newton"});
+    CHECK_MESSAGE(tuned.exit_code == 0, tuned.err);
+    CHECK(contains(tuned.err, "solver.gain_curvature_m changes nothing under newton: paper alone reads it"));
+  }
+  const std::string notes = t.folder.write("notes.txt", "mine");
+  for (const std::string& out : {notes, front}) {
+    const std::string before = read_text(out);
+    const ProcessResult refused = run_workbench({"tune", t.mesh, "--poses", t.poses, "--out", out});
+    CHECK(refused.exit_code == 1);
+    CHECK(contains(refused.err, "is not a preset, which alone is replaced; choose another name, or remove it"));
+    CHECK(read_text(out) == before);
+  }
+}
+
 TEST_CASE("tune by objectives refuses what can't be asked and says what can't be kept") {
   const FrontFolder t;
   struct Wrong {
@@ -129,6 +147,18 @@ TEST_CASE("tune by objectives refuses what can't be asked and says what can't be
             2,
             "contradicts"},
            {{"--also-mesh", "none.obj"}, 2, "--objective: is missing"},
+           {{}, 2, "--objective: is missing: --evaluations"},
+           {{"--objective", "mean_iterations", "--poses", t.poses}, 2, "--poses: has one value twice"},
+           {{"--objective", "mean_iterations", "--path", "strokes"}, 2, "excludes --path"},
+           {{"--objective", "error", "--objective", "error_p99_m"}, 2, "error_p99_m is there twice"},
+           {{"--objective", "mean_iterations", "--range", "solver.gain_overall=0..1", "--range",
+             "solver.gain_overall=1..2"},
+            2,
+            "solver.gain_overall: is there twice"},
+           {{"--objective", "mean_iterations", "--poses", "strokes:0mm"}, 2, "strokes:0.5mm; allowed: 0.001 to 20 mm"},
+           {{"--objective", "mean_iterations", "--front", t.folder.write("n.csv", "mine")},
+            1,
+            "is not the table of a front"},
            {{"--objective", "mean_iterations", "--constraint", "mean_iterations <= 0.5"}, 1, "mean_iterations <= 0.5"},
        }) {
     const ProcessResult result = t.tune(wrong.options);

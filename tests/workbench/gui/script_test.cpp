@@ -104,9 +104,17 @@ TEST_CASE("a script that fails names its file and line, what is wrong and what t
                              {"open /nowhere/missing.obj\ntheme light\n", ":1", "missing.obj"},
                              {"press no/such\ntheme light\n", ":1", "no/such"},
                              {"enter solver/method cubic\ntheme light\n", ":1", "cubic"},
-                             {"undo\nexpect title something else\n", ":2", "the title is \"icosphere"},
+                             {"frame\nexpect title something else\n", ":2", "the title is \"icosphere"},
                              {"expect message there was none\n", ":1", "no message contains"},
                              {"expect solver.gain_overall 3\n", ":1", "solver.gain_overall is 1"},
+                             {"undo\ntheme light\n", ":1", "nothing to undo"},
+                             {"press transport/first\ntheme light\n", ":1", "is greyed"},
+                             {"tune keep\ntheme light\n", ":1", "try a trial first"},
+                             {"guard yes\ntheme light\n", ":1", "no question"},
+                             {"sweep key nonsense\ntheme light\n", ":1", "nearest: solver."},
+                             {"sweep key gain_curvatur_m\n", ":1", "nearest: solver.gain_curvature_m"},
+                             {"sweep count many\ntheme light\n", ":1", "write 2 to 100"},
+                             {"tune range gain_curvatur_m 0 80\n", ":1", "nearest: solver.gain_curvature_m"},
                              {"script steps.txt\n", ":1", "can't run another"}}) {
     CAPTURE(std::string(wrong.lines));
     RunningApp ui;

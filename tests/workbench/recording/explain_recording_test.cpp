@@ -1,5 +1,6 @@
 #include "workbench/recording/explain_recording.h"
 
+#include "core/lab/explain/explain_run.h"
 #include "tests/workbench/recording/recording_fixture.h"
 
 #include <map>
@@ -35,14 +36,24 @@ std::map<std::uint64_t, TickExplanation> explained_one_by_one(const std::filesys
   auto walk = TickWalk::start(*recording, *scenes, *states, 0, recording->info().last_tick);
   REQUIRE(walk);
   std::map<std::uint64_t, TickExplanation> found;
+  std::vector<TickInput> lost;  // ticks in a row without a contact, under one preset
+  TickState before_lost;
+  const Preset* under = nullptr;
   for (;;) {
     const Result<bool> any = walk->next();
     REQUIRE(any);
     if (!*any) return found;
     const TickRecord& tick = walk->tick().record.tick;
     CHECK(output_digest(walk->output()) == walk->tick().digest);
+    if (is_converged(tick.output.status) || under != &walk->preset()) lost.clear();
+    if (!is_converged(tick.output.status)) {
+      if (lost.empty()) before_lost = tick.kept;
+      lost.push_back(tick.input);
+      under = &walk->preset();
+    }
     if (wants_explaining(tick.output))
-      found[tick.tick] = explain_tick(walk->scene(), walk->preset(), tick.input, tick.kept);
+      found[tick.tick] = lost.empty() ? explain_tick(walk->scene(), walk->preset(), tick.input, tick.kept)
+                                      : explain_run(walk->scene(), walk->preset(), {before_lost, lost});
   }
 }
 

@@ -23,7 +23,7 @@ TEST_CASE("a table put in row by row comes out column by column") {
   const testing::TempFolder folder;
   for (const std::uint64_t rows : {0u, 1u, 4095u, 4096u, 4097u, 9000u}) {
     CAPTURE(rows);
-    auto spool = ColumnSpool::create(folder.path(), 3);
+    auto spool = ColumnSpool::create(folder.path(), 3, folder.file("a.mat"));
     REQUIRE(spool);
     for (std::uint64_t i = 0; i < rows; ++i) REQUIRE(spool->add({i, ~i, i * i}));
     std::vector<std::uint64_t> values;
@@ -36,9 +36,9 @@ TEST_CASE("a table put in row by row comes out column by column") {
     }
   }
   CHECK(folder.entry_count() == 0);
-  const auto nowhere = ColumnSpool::create(folder.file("none"), 3);
+  const auto nowhere = ColumnSpool::create(folder.file("none"), 3, "none/a.mat");
   REQUIRE_FALSE(nowhere);
-  CHECK(says(message_of(nowhere.error()), "none"));
+  CHECK(says(message_of(nowhere.error()), "none/a.mat: cannot create a temporary file beside it"));
 }
 
 TEST_CASE("without libmatio a MATLAB file is an error that says what to install") {

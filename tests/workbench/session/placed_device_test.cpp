@@ -105,17 +105,17 @@ TEST_CASE("limits are the device's: its workspace and peak stay where they are u
 TEST_CASE("a device's frame is between it and the placement, and a finger it doesn't sense is the world's default") {
   const DeviceFrame frame{kQuarter, Vec3(0.0, 0.0, 0.3)};
   const Placement placement{.scale = 2.0, .rotation = glm::angleAxis(1.0, Vec3(1.0, 0.0, 0.0))};
-  for (const int senses : {0, 3}) {
+  for (const bool senses : {false, true}) {
     PuppetBench b([&](ForceCapabilities& can) {
       can.frame = frame;
-      can.rotations_sensed = senses;
+      can.senses_rotation = {senses, senses, senses};
     });
     b.device->position = Vec3(0.1, 0.0, 0.0);
     const PlacementReport got = b.place(placement);
     CHECK(got.placement.scale == 2.0);
     const ServoRecord r = b.bench.run();
     CHECK(glm::length(r.tick.input.finger.position - placement.to_scene(Vec3(0.0, 0.1, 0.3))) < 1e-14);
-    const Quat wanted = senses > 0 ? placement.rotation * kQuarter : placement.rotation;
+    const Quat wanted = senses ? placement.rotation * kQuarter : placement.rotation;
     CHECK(std::abs(glm::dot(r.tick.input.finger.orientation, wanted)) == doctest::Approx(1.0).epsilon(1e-14));
   }
 }

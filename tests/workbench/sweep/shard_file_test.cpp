@@ -171,6 +171,33 @@ TEST_CASE("shards share the cells out, each once") {
   }
 }
 
+TEST_CASE("a plan that is divided on a full disk says to make room, and leaves nothing") {
+  const SmallSweep sweep;
+  const std::string mesh = sweep.file("cube.obj");
+  const std::uintmax_t size = std::filesystem::file_size(mesh);
+  std::filesystem::create_directory(sweep.file("there"));
+  for (const char* const name : {"dir", "there"}) {
+    for (const std::uintmax_t room : {size / 2, size + 100}) {  // in the first mesh, and later
+      Status status;
+      {
+        const FullDisk full(room);
+        status = write_plan_folder(sweep.file(name), sweep.plan(), 2, {});
+      }
+      REQUIRE(!status);
+      CHECK_MESSAGE(status.error().message().find("room") != std::string::npos, status.error().message());
+      CHECK(std::filesystem::exists(sweep.file(name)) == (name == std::string("there")));
+    }
+  }
+  CHECK(std::filesystem::is_empty(sweep.file("there")));
+  REQUIRE(write_plan_folder(sweep.file("there"), sweep.plan(), 2, {}));
+  Plan plan = sweep.plan();
+  plan.meshes[0] = sweep.file("none.obj");
+  const Status missing = write_plan_folder(sweep.file("dir"), plan, 2, {});
+  REQUIRE(!missing);
+  CHECK(missing.error().message().find("none.obj: is not there; name a file") != std::string::npos);
+  CHECK(!std::filesystem::exists(sweep.file("dir")));
+}
+
 TEST_CASE("merging refuses shards that are missing, unfinished or foreign, and a plan that has changed") {
   const SmallSweep sweep;
   const std::string folder = sweep.file("dir");
@@ -192,13 +219,18 @@ TEST_CASE("merging refuses shards that are missing, unfinished or foreign, and a
   one.progress = [&](const SweepProgress&) { enough = true; };
   REQUIRE(run_shard(divided, 1, one)->stopped);
   CHECK(merged("a.sqlite").find("shard-000001.jsonl: is not finished") != std::string::npos);
+  CHECK(!std::filesystem::exists(sweep.file("a.sqlite")));  // nothing of a refused merge stays
+  sweep.write("empty.sqlite", "");
+  CHECK(merged("empty.sqlite").find("is not finished") != std::string::npos);
+  CHECK(std::filesystem::exists(sweep.file("empty.sqlite")));  // but what was there
 
   std::filesystem::copy_file(divided.shard_file(0), divided.shard_file(1),
                              std::filesystem::copy_options::overwrite_existing);
   CHECK(merged("b.sqlite").find("shard-000001.jsonl: belongs to another") != std::string::npos);
   std::filesystem::remove(divided.shard_file(1));
   REQUIRE(run_shard(divided, 1, {}));
-  CHECK(merged("a.sqlite") == "merged");  // goes on with what was there
+  CHECK(merged("a.sqlite") == "merged");
+  CHECK(merged("empty.sqlite") == "merged");  // goes on with what was there
   CHECK(!run_shard(divided, 2, {}));
 
   std::ofstream(folder + "/inputs/0/cube.obj", std::ios::app) << "# another\n";

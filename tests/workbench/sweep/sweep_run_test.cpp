@@ -12,7 +12,7 @@ TEST_CASE("the numbers are the same with any number of threads, after a stop, an
   const SweepOutcome outcome = sweep.solve("one.sqlite");
   CHECK(outcome.cells == 16);
   CHECK(outcome.solved == 16);
-  CHECK(outcome.failed == 0);
+  CHECK(outcome.failures.cells == 0);
   const auto rows = sweep.rows("one.sqlite");
   REQUIRE(rows.size() == 16);
 
@@ -41,7 +41,7 @@ TEST_CASE("the numbers are the same with any number of threads, after a stop, an
     REQUIRE_MESSAGE(divided, divided.error().message());
     for (std::uint64_t shard = 0; shard < shards; ++shard) REQUIRE(run_shard(*divided, shard, {}));
     REQUIRE(run_shard(*divided, 0, {}));  // once more: nothing to do
-    const Result<SweepOutcome> joined = merge_shards(*divided, sweep.file(merged), {});
+    const Result<MergeOutcome> joined = merge_shards(*divided, sweep.file(merged), {});
     REQUIRE_MESSAGE(joined, joined.error().message());
     CHECK(sweep.rows(merged) == rows);
     REQUIRE(merge_shards(*divided, sweep.file(merged), {}));  // and merged once more
@@ -99,12 +99,62 @@ TEST_CASE("a mesh that can't be read leaves its cells without numbers, and the o
   const auto whole = (static_cast<void>(sweep.solve("whole.sqlite")), sweep.rows("whole.sqlite"));
   sweep.write("cube.obj", "v 1 2\n");
   const SweepOutcome outcome = sweep.solve("broken.sqlite");
-  CHECK(outcome.failed == 8);
-  CHECK(outcome.first_failure.find("cube.obj:1") != std::string::npos);
+  CHECK(outcome.failures.cells == 8);
+  CHECK(outcome.failures.why.find("cube.obj:1") != std::string::npos);
   const auto rows = sweep.rows("broken.sqlite");
   REQUIRE(rows.size() == 16);
   CHECK(rows[0].find("cube.obj:1") != std::string::npos);
   CHECK(std::vector(rows.begin() + 8, rows.end()) == std::vector(whole.begin() + 8, whole.end()));
+}
+
+TEST_CASE("cells without numbers are told again when a sweep, a shard or a merge is run again over them") {
+  const SmallSweep sweep("ticks = 20\n");
+  sweep.write("cube.obj", "v 1 2\n");
+  REQUIRE(write_plan_folder(sweep.file("dir"), sweep.plan(), 2, {}));
+  const PlanFolder divided = *open_plan_folder(sweep.file("dir"));
+  for (const std::uint64_t solved : {16, 0}) {
+    CAPTURE(solved);
+    const SweepOutcome here = sweep.solve("here.sqlite"), first = *run_shard(divided, 0, {}),
+                       second = *run_shard(divided, 1, {}), joined = *merge_shards(divided, sweep.file("m.sqlite"), {});
+    CHECK(here.solved == solved);
+    CHECK(joined.solved == solved);
+    for (const SweepOutcome& outcome : {here, first, joined}) {
+      CHECK(outcome.failures.cells == 8);
+      CHECK(outcome.failures.first == 0);
+      CHECK(outcome.failures.why.find("cube.obj:1") != std::string::npos);
+    }
+    CHECK(second.failures.cells == 0);
+  }
+}
+
+TEST_CASE("times that a shard has lost are counted when it is merged, and the shard is named") {
+  const SmallSweep sweep("ticks = 20\n");
+  JobScripts scripts;
+  scripts.times = 2;
+  REQUIRE(write_plan_folder(sweep.file("dir"), sweep.plan(), 2, scripts));
+  const PlanFolder divided = *open_plan_folder(sweep.file("dir"));
+  CHECK(divided.times == 2);
+  for (const std::uint64_t shard : {0, 1}) REQUIRE(run_shard(divided, shard, {}));
+  const auto none = merge_shards(divided, sweep.file("none.sqlite"), {});
+  REQUIRE(none);
+  CHECK(none->lacking.cells == 16);  // the plan asks for them
+  CHECK(none->lacking.shards == 2);
+  PlanFolder unasked = divided;
+  unasked.times = 0;
+  CHECK(merge_shards(unasked, sweep.file("unasked.sqlite"), {})->lacking.cells == 0);
+
+  for (const std::uint64_t shard : {0, 1}) REQUIRE(time_shard(divided, shard, 2, {}));
+  CHECK(merge_shards(divided, sweep.file("all.sqlite"), {})->lacking.cells == 0);
+  std::string lines = testing::bytes_of(divided.shard_file(1));
+  for (int lost = 0; lost < 3; ++lost) lines.erase(lines.rfind('\n', lines.size() - 2) + 1);
+  std::ofstream(divided.shard_file(1), std::ios::binary) << lines;
+  const auto merged = merge_shards(unasked, sweep.file("some.sqlite"), {});
+  REQUIRE(merged);
+  CHECK(merged->lacking.cells == 3);
+  CHECK(merged->lacking.shards == 1);
+  CHECK(merged->lacking.first_shard == 1);
+  CHECK(merged->lacking.first_cells == 3);
+  CHECK(merge_shards(unasked, sweep.file("all.sqlite"), {})->lacking.cells == 0);  // this one has them
 }
 
 TEST_CASE("results of another plan, of changed meshes and other files are not gone on with") {

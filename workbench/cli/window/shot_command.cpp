@@ -57,12 +57,13 @@ int run_shot(const ShotOptions& options) {
   request.mesh_options = options.mesh.build;
   const auto& views = shot_views();
   const bool all = request.view == "all", plain = request.view.empty();
-  if (!request.script.empty() && (all || is_scene_view(request.view))) {
+  const auto is_named = [&](const ShotView& v) { return v.name == request.view; };
+  const bool known = std::any_of(views.begin(), views.end(), is_named);
+  if (!request.script.empty() && (all || (known && !is_window_view(request.view)))) {
     print_message("shot", "--script needs a view of the window, not \"" + request.view + "\"; leave --view out");
     return kUsage;
   }
-  if (!all && !plain &&
-      std::none_of(views.begin(), views.end(), [&](const ShotView& v) { return v.name == request.view; })) {
+  if (!all && !plain && !known) {
     print_message("shot",
                   "there is no view \"" + request.view + "\"; choose one of: " + shot_view_names() + " (or list, all)");
     return kUsage;

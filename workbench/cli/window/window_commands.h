@@ -7,6 +7,7 @@ namespace tangent {
 
 void add_gui_command(CLI::App& app, CommandResult& result);
 void add_shot_command(CLI::App& app, CommandResult& result);
+void add_experiment_command_with_windows(CLI::App& app, CommandResult& result);
 void add_report_command_with_pictures(CLI::App& app, CommandResult& result);
 
 /// Without a subcommand: the window on the built-in scene; without a display, pictures of it.

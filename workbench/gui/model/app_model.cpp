@@ -19,7 +19,11 @@ AppModel::AppModel(const AppOptions& options)
       devices_(options_, scene_, presets_, messages_, [this] { time_.forget(); }),
       guard_(
           options_, scene_, presets_, devices_, messages_, [this](const std::string& what) { preset_changed(what); },
-          [this] { time_.preset_sent(); }),
+          [this] {
+            time_.set_in_force(nullptr);
+            tune_.trial_refused();
+            time_.preset_sent();
+          }),
       time_(options_, devices_, presets_, messages_),
       recordings_(options_, scene_, presets_, time_, messages_,
                   [this](RecordingModel::Loaded loaded) { show_recording(std::move(loaded)); }),
@@ -82,7 +86,7 @@ void AppModel::open_at(const RecordedPlace& place, const std::optional<UnsavedWo
 
 void AppModel::show_compared(bool in_second) {
   const Result<RecordedPlace> place = recording_pair_.place(in_second);
-  if (!place) return messages_.say(Severity::note, place.error().message());
+  if (!place) return messages_.refuse(place.error().message());
   open_at(*place);
 }
 
@@ -98,7 +102,7 @@ void AppModel::solve_here() {
   if (view_.picked_triangle < mesh->triangle_count()) return solve_here(view_.picked_triangle, 1.0 / 3.0, 1.0 / 3.0);
   const ServoRecord* record = time_.tick().record();
   if (record == nullptr || time_.scene_of_tick() != scene_.current() || record->tick.output.triangle == kNone)
-    return messages_.say(Severity::note, "click a triangle to solve there");
+    return messages_.refuse("click a triangle to solve there");
   const TickOutput& out = record->tick.output;
   solve_here(out.triangle, out.u, out.v);
 }
@@ -158,6 +162,7 @@ void AppModel::take_ticks() {
   if (devices_.session() == nullptr && time_.recording() == nullptr) return;
   devices_.take_status();
   guard_.update();
+  time_.set_in_force(guard_.in_force());
   time_.show_tick();
   tuning_.update();
 }
@@ -247,14 +252,18 @@ Result<SavedSession> AppModel::session_to_save(const std::filesystem::path& file
 }
 
 void AppModel::preset_changed(const std::string& what) {
-  if (guard_.lets_through(what)) return send_preset(what);
+  const bool sent = guard_.lets_through(what);
+  time_.set_in_force(guard_.in_force());
+  if (sent) return send_preset(what);
   time_.preset_sent();  // the recorded past may be solved with it meanwhile
 }
 
 void AppModel::send_preset(const std::string& what) {
   const auto id = devices_.send_preset();
-  if (!id) return;
-  presets_.note_sent(*id, what);
+  if (id) presets_.note_sent(*id, what);
+  if (!id && devices_.session() == nullptr) return;
+  if (!id) guard_.refused_by_session();
+  time_.set_in_force(guard_.in_force());
   time_.preset_sent();
 }
 

@@ -45,14 +45,14 @@ std::shared_ptr<const bench::SpeedCurves> CurvesModel::curves() const { return j
 void CurvesModel::start() {
   const auto chosen = time_.chosen_range();
   const auto part = chosen ? time_.run_over(*chosen) : std::nullopt;
-  if (!part) return messages_.say(Severity::note, "no ticks to measure yet");
+  if (!part) return messages_.refuse("no ticks to measure yet");
   const HistorySnapshot& records = part->run.records;
   const std::uint32_t scene_id = records.newest().scene_id;
   const auto scene = part->run.scenes.find(scene_id);
   if (scene == part->run.scenes.end() || scene->second == nullptr)
-    return messages_.say(Severity::note, "the mesh of these ticks is gone");
+    return messages_.refuse("the mesh of these ticks is gone");
   if (scene->second->planar() != nullptr)
-    return messages_.say(Severity::note, "speed against error is measured on meshes; this scene is 2D");
+    return messages_.refuse("speed against error is measured on meshes; this scene is 2D");
   bench::MotionPart motion{scene->second, presets_.current(), {}};
   ticks_.clear();
   const std::size_t first = std::max(part->first, records.size() - std::min(records.size(), kMostTicks));
@@ -86,8 +86,8 @@ std::optional<std::uint64_t> CurvesModel::worst_tick(std::size_t i) const {
 
 void CurvesModel::open(std::size_t i) {
   const auto tick = worst_tick(i);
-  if (!tick) return messages_.say(Severity::note, "no such point is measured");
-  if (!time_.reaches(*tick)) return messages_.say(Severity::note, "the tick behind this point is no longer recorded");
+  if (!tick) return messages_.refuse("no such point is measured");
+  if (!time_.reaches(*tick)) return messages_.refuse("the tick behind this point is no longer recorded");
   time_.select_tick(*tick);
   const auto shown = curves();
   if (i >= shown->points.size()) return;

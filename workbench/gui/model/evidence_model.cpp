@@ -64,7 +64,7 @@ void EvidenceModel::update() {
 
 void EvidenceModel::check() {
   const PresetEditor& editor = presets_.editor();
-  if (editor.path().empty()) return messages_.say(Severity::note, "the program's own values name no evidence");
+  if (editor.path().empty()) return messages_.refuse("the program's own values name no evidence");
   attached_to_.clear();
   checked_path_ = editor.path();
   checked_ = editor.loaded();

@@ -61,51 +61,66 @@ bool GuardModel::guards() const {
   if (!on || !armed()) return false;
   const auto now = ground();
   if (!now) return false;
-  return devices_.status().real_devices || (sweeping_ && is_current(*now));
+  return devices_.status().real_devices || guarding_;
 }
 
 bool GuardModel::lets_through(const std::string& what) {
   const Preset& wanted = presets_.current();
   const bool already = std::exchange(through_, false);
+  refused_ = false;
   if (!already && guards() && !same_loop(rendered(wanted), rendered(sent_))) {
     const auto now = ground();
     if (!is_current(*now)) sweep_.start(*now, rendered(sent_), keys_);
-    if (const Verdict known = sweep_.known(rendered(wanted)); known.safety != Safety::stable) {
+    const Verdict known = sweep_.known(rendered(wanted));
+    if (known.safety != Safety::stable || !(wanted.finger == sent_.finger)) {
       hold(what, known);
-      if (question_) return false;
+      return false;
     }
   }
   question_.reset();
   sent_ = wanted;
+  sent_slot_ = presets_.slots().active_slot();
   return true;
 }
 
 /// What is not known is tried at once. Where nothing else runs beside the window, the answer is waited for.
 void GuardModel::hold(const std::string& what, const Verdict& known) {
   Verdict verdict = known;
-  if (verdict.safety == Safety::unknown) {
+  if (known.safety == Safety::unknown) {
     sweep_.ask(rendered(presets_.current()));
     if (deterministic_) {
       sweep_.wait();
       verdict = sweep_.known(rendered(presets_.current()));
     }
   }
-  if (verdict.safety == Safety::stable) return question_.reset();
-  question_ = {what, presets_.current(), verdict.safety == Safety::shakes || deterministic_, {}};
-  question_->why = verdict.safety == Safety::shakes ? "shakes " + where(verdict)
-                   : question_->tried               ? "is not known to be stable"
-                                                    : "is being tried in the simulated hand";
+  question_ = {what, presets_.current(), known.safety != Safety::unknown || deterministic_, {}};
+  say_why(verdict);
+}
+
+void GuardModel::refused_by_session() {
+  sent_ = devices_.session()->preset();
+  refused_ = true;
+}
+
+void GuardModel::say_why(const Verdict& known) {
+  question_->why = known.safety == Safety::shakes ? "shakes " + where(known)
+                   : !question_->tried            ? "is being tried in the simulated hand"
+                   : known.safety == Safety::unknown
+                       ? "is not known to be stable"
+                       : "is stable in the simulated hand, and was not among the values known before";
+  if (!(question_->wanted.finger == sent_.finger))
+    question_->why += "; another finger moves the surface under the hand";
 }
 
 void GuardModel::answer(bool yes) {
-  if (!question_) return;
+  if (!question_) return messages_.refuse("there is no question of the guard to answer");
   const Question asked = *std::exchange(question_, std::nullopt);
   if (yes) {
     through_ = true;
     messages_.say(Severity::warning, asked.what + ": sent, though it " + asked.why);
     return send_(asked.what);
   }
-  presets_.take_back(sent_, "kept as it was, not " + asked.what);
+  presets_.take_back(sent_, "kept as it was, not " + asked.what, sent_slot_);
   taken_back_();
 }
 
@@ -121,6 +136,7 @@ void GuardModel::take_undone() {
   messages_.say(Severity::error, (what.empty() ? "The change of preset" : what) + " was undone at once: " +
                                      to_text(undone) + " (tick " + std::to_string(undone.tick) + ")");
   question_.reset();
+  refused_ = false;
   sent_ = session.preset();
   presets_.take_back(sent_, "undone: " + to_text(undone));
   presets_.note_sent(session.preset_id(), "undone: " + what);
@@ -145,28 +161,30 @@ void GuardModel::update() {
   if (std::exchange(session_, session) != session) {
     undone_seen_ = session->preset_undone().count;
     sent_ = presets_.current();
+    sent_slot_ = presets_.slots().active_slot();
+    refused_ = false;
     question_.reset();
   }
-  session->guard_presets(on && (devices_.status().real_devices || sweeping_));
+  session->guard_presets(on && (devices_.status().real_devices || guarding_));
   take_undone();
   if (question_ && !(question_->wanted == presets_.current())) question_.reset();
   if (question_) {
     const Verdict known = sweep_.known(rendered(question_->wanted));
-    if (!guards() || known.safety == Safety::stable) {
+    if (!guards()) {
       const std::string what = std::exchange(question_, std::nullopt)->what;
       through_ = true;
       send_(what);
-    } else if (!question_->tried && (known.safety == Safety::shakes || !sweep_.running())) {
+    } else if (!question_->tried && (sweep_.tried(rendered(question_->wanted)) || !sweep_.running())) {
       question_->tried = true;
-      question_->why = known.safety == Safety::shakes ? "shakes " + where(known) : "is not known to be stable";
+      say_why(known);
     }
   }
   follow_values();
 }
 
 void GuardModel::find_ranges(std::vector<const PresetKey*> keys) {
-  if (!ground()) return messages_.say(Severity::note, "safe ranges are those of a force device: choose one");
-  sweeping_ = true;
+  if (!ground()) return messages_.refuse("safe ranges are those of a force device: choose one");
+  guarding_ = sweeping_ = true;
   keys_ = std::move(keys);
   follow_values();
 }

@@ -42,6 +42,14 @@ class MessageLog {
   void set_now(double now_s) { now_s_ = now_s; }
   double now_s() const { return now_s_; }
   void say(Severity severity, std::string text) { add(severity, std::move(text), now_s_); }
+  /// A note that what was asked for was not done, and why: a line of a script that gets it has failed.
+  void refuse(std::string text) {
+    last_refusal_ = text;
+    ++refusals_;
+    say(Severity::note, std::move(text));
+  }
+  std::uint64_t refusals() const { return refusals_; }  ///< since the program began
+  const std::string& last_refusal() const { return last_refusal_; }
   /// Oldest first.
   const std::deque<Message>& all() const { return messages_; }
   void clear() { messages_.clear(); }
@@ -69,6 +77,8 @@ class MessageLog {
   }
 
   std::deque<Message> messages_;
+  std::uint64_t refusals_ = 0;
+  std::string last_refusal_;
   double now_s_ = 0.0;
   double toasts_left_ = kToastBurst, toasts_at_s_ = 0.0;
 };

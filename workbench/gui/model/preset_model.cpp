@@ -152,8 +152,12 @@ void PresetModel::take_up(const UnsavedWork& work) {
   changed_("restore the work of an earlier run");
 }
 
-void PresetModel::take_back(const Preset& in_use, const std::string& what) {
+void PresetModel::take_back(const Preset& in_use, const std::string& what, std::optional<std::size_t> slot) {
   slots_.end_gesture();
+  if (slot && *slot != slots_.active_slot() && slots_.slot(*slot).current() == in_use) {
+    slots_.toggle();
+    return;
+  }
   slots_.apply(what, [&](PresetEditor& editor) {
     bool any = false;
     for (const PresetKey& key : preset_keys()) any = editor.set(key, key.get(in_use)) || any;
@@ -162,7 +166,7 @@ void PresetModel::take_back(const Preset& in_use, const std::string& what) {
 }
 
 void PresetModel::undo() {
-  if (!slots_.can_undo()) return messages_.say(Severity::note, "nothing to undo");
+  if (!slots_.can_undo()) return messages_.refuse("nothing to undo");
   const std::string what = "undo " + slots_.undo_name();
   slots_.undo();
   changed_(what);
@@ -170,7 +174,7 @@ void PresetModel::undo() {
 }
 
 void PresetModel::redo() {
-  if (!slots_.can_redo()) return messages_.say(Severity::note, "nothing to redo");
+  if (!slots_.can_redo()) return messages_.refuse("nothing to redo");
   slots_.redo();
   const std::string what = "redo " + slots_.undo_name();
   changed_(what);

@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -48,8 +49,9 @@ class PresetModel {
   void revert_value(const PresetKey& key) { set_value(key, key.get(editor().loaded().preset)); }
   void revert_all();
   void set_condition(const RenderingCondition& condition);  ///< both sources, one step of undo
-  /// Back to values that the devices have: nothing is sent. A step of undo by this name.
-  void take_back(const Preset& in_use, const std::string& what);
+  /// Back to values that the devices have: nothing is sent. A step of undo by this name. `slot`: they came from this
+  /// one, which is switched to where it still has them; the other keeps what was tried in it.
+  void take_back(const Preset& in_use, const std::string& what, std::optional<std::size_t> slot = std::nullopt);
   void undo();
   void redo();
   void toggle_ab();

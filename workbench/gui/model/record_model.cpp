@@ -161,22 +161,20 @@ void RecordModel::scene_changed() {
 
 void RecordModel::write_history(std::filesystem::path file) {
   const Session* session = devices_.session();
-  if (session == nullptr || session->history().empty())
-    return messages_.say(Severity::note, "there is no tick to record yet");
+  if (session == nullptr || session->history().empty()) return messages_.refuse("there is no tick to record yet");
   write_stretch_to(named(std::move(file), "history"),
                    {session->history().oldest().tick.tick, session->history().newest().tick.tick});
 }
 
 void RecordModel::write_selection(std::filesystem::path file) {
   if (time_.recording() != nullptr)
-    return messages_.say(Severity::note, "these ticks are recorded already: `workbench export` takes a part of a file");
-  if (!time_.selection())
-    return messages_.say(Severity::note, "set cursors A and B first: Ctrl-click and Shift-click in a plot");
+    return messages_.refuse("these ticks are recorded already: `workbench export` takes a part of a file");
+  if (!time_.selection()) return messages_.refuse("set cursors A and B first: Ctrl-click and Shift-click in a plot");
   write_stretch_to(named(std::move(file), "selection"), *time_.selection());
 }
 
 void RecordModel::write_stretch_to(const std::filesystem::path& file, const TickRange& range) {
-  if (writing()) return messages_.say(Severity::note, "a recording is being written; try again when it is done");
+  if (writing()) return messages_.refuse("a recording is being written; try again when it is done");
   const PastPart* part = time_.recording() == nullptr ? time_.past().part_with(range) : nullptr;
   know_scene();
   const Session& session = *devices_.session();
@@ -187,7 +185,7 @@ void RecordModel::write_stretch_to(const std::filesystem::path& file, const Tick
   }
   HistorySnapshot& records = stretch.run.records;
   records = records.slice(records.lower_bound(range.from), records.lower_bound(range.to + 1));
-  if (records.empty()) return messages_.say(Severity::note, "the ticks between the cursors are no longer kept");
+  if (records.empty()) return messages_.refuse("the ticks between the cursors are no longer kept");
   stretch.events = events_of(session, time_.live_bookmarks(), records);
   auto work = [stretch = std::move(stretch), file]() -> Result<std::string> {
     if (const Status done = write_stretch(stretch, file); !done) return tl::unexpected(done.error());

@@ -12,7 +12,7 @@ constexpr std::uint64_t kAround = 250;  ///< ticks before and after the largest 
 }  // namespace
 
 void RecordingPairModel::compare() {
-  if (first.empty()) return messages_.say(Severity::note, "name the first recording to compare");
+  if (first.empty()) return messages_.refuse("name the first recording to compare");
   chosen_.reset();
   start({first, second, presets_.current(), by});
 }
@@ -118,7 +118,7 @@ bool RecordingPairModel::go_to_largest() {
   const auto found = result();
   const ComparedBin* largest = found != nullptr ? largest_bin(*found) : nullptr;
   if (largest == nullptr) {
-    messages_.say(Severity::note, "no difference to go to");
+    messages_.refuse("no difference to go to");
     return false;
   }
   RecordingsAsked asked = asked_;

@@ -1,5 +1,7 @@
 #include "workbench/gui/model/time_machine.h"
 
+#include "workbench/session/background_thread.h"
+
 #include <algorithm>
 #include <chrono>
 #include <limits>
@@ -210,6 +212,7 @@ void TimeMachine::schedule() {
 }
 
 void TimeMachine::work(std::stop_token stop) {
+  yield_to_servo_and_window();
   while (!stop.stop_requested()) {
     std::shared_ptr<Job> job;
     {

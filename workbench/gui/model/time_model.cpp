@@ -169,7 +169,7 @@ void TimeModel::forget() {
 void TimeModel::set_paused(bool paused) {
   if (paused == paused_) return;
   if (!paused) {
-    if (recording_) return messages_.say(Severity::note, "a recording is open: End closes it and goes back to live");
+    if (recording_) return messages_.refuse("a recording is open: End closes it and goes back to live");
     go_live();
     return;
   }
@@ -178,7 +178,7 @@ void TimeModel::set_paused(bool paused) {
   past_.freeze();
   bookmarks_.hold = true;
   if (const ServoRecord* record = tick_.record()) cursor_ = record->tick.tick;
-  paused_with_ = presets_.current();
+  paused_with_ = in_force_.value_or(presets_.current());
   open_time_machine();
 }
 
@@ -235,7 +235,7 @@ void TimeModel::select_tick(std::uint64_t tick) {
   set_paused(true);
   forget_place();
   if (recording_ && recording_->see_tick(tick)) show_page();
-  if (records().empty()) return messages_.say(Severity::note, "no tick was recorded there");
+  if (records().empty()) return messages_.refuse("no tick was recorded there");
   if (const PastPart* was = &past_.shown(); past_.show(tick) && &past_.shown() != was) show_part();
   const std::size_t at = std::min(records().lower_bound(tick), records().size() - 1);
   cursor_ = records()[at].tick.tick;
@@ -281,7 +281,7 @@ void TimeModel::step_iteration(int by) {
 void TimeModel::add_bookmark() {
   const ServoRecord* record = tick_.record();
   if (record == nullptr) return;
-  if (placed_) return messages_.say(Severity::note, "a tick solved at a place has no time that could be bookmarked");
+  if (placed_) return messages_.refuse("a tick solved at a place has no time that could be bookmarked");
   bookmarks().add(record->tick.tick, record->tick.input.t_s);
 }
 
@@ -293,7 +293,7 @@ void TimeModel::go_to_bookmark(int by) {
   // A bookmark of an earlier run has no tick.
   while (to != nullptr && !reaches(to->tick)) to = by > 0 ? bookmarks().after(to->tick) : bookmarks().before(to->tick);
   if (to == nullptr)
-    messages_.say(Severity::note, by > 0 ? "no later bookmark" : "no earlier bookmark");
+    messages_.refuse(by > 0 ? "no later bookmark" : "no earlier bookmark");
   else
     select_tick(to->tick);
 }

@@ -45,6 +45,8 @@ class TimeModel {
   void show_tick();     ///< shows the newest, or the chosen one while paused
   void forget();        ///< a new run begins: live, with an empty history
   void preset_sent();   ///< presets.current() was sent: the ghost follows it
+  /// presets.current() is held back and asked about while the devices have this one; null: they have it.
+  void set_in_force(const Preset* in_force);
 
   /// Shows a recording, at its first tick.
   void show(std::unique_ptr<OpenedRecording> recording);
@@ -177,7 +179,8 @@ class TimeModel {
   std::vector<ParameterMark> parameter_marks_;
   std::optional<std::uint32_t> last_preset_id_;  ///< of the newest record
   TimeMachine time_machine_;
-  Preset paused_with_;  ///< preset when the view was paused
+  Preset paused_with_;              ///< preset in force when the view was paused
+  std::optional<Preset> in_force_;  ///< presets.current() is only asked for
   std::optional<std::pair<NamedPreset, NamedPreset>> compared_by_hand_;
   std::string name_before_, name_after_;
 };

@@ -74,8 +74,8 @@ bool TimeModel::solve_at(const std::shared_ptr<const ContactScene>& scene, std::
                          const MoveOptions& options) {
   auto placed = PlacedTick::at(scene, presets_.current(), triangle, u, v, options);
   if (!placed) {
-    messages_.say(Severity::note, "the finger can't rest on triangle " + std::to_string(triangle) +
-                                      ": the surface there is tighter than the finger, or the triangle is skipped");
+    messages_.refuse("the finger can't rest on triangle " + std::to_string(triangle) +
+                     ": the surface there is tighter than the finger, or the triangle is skipped");
     return false;
   }
   set_paused(true);
@@ -141,6 +141,10 @@ void TimeModel::solve_past_again() {
   solve_again(presets_.current());
 }
 
+void TimeModel::set_in_force(const Preset* in_force) {
+  in_force_ = in_force != nullptr ? std::optional(*in_force) : std::nullopt;
+}
+
 /// What was asked for by hand; of a recording when the selection was read.
 void TimeModel::solve_again(const Preset& under) {
   if (!load_selection()) {
@@ -165,7 +169,7 @@ void TimeModel::request_comparison() {
   const TickRange range =
       selected ? *selection_ : TickRange{part.records.oldest().tick.tick, part.records.newest().tick.tick};
   name_before_ = compared_by_hand_ ? compared_by_hand_->first.name : "at the pause";
-  name_after_ = compared_by_hand_ ? compared_by_hand_->second.name : "now";
+  name_after_ = compared_by_hand_ ? compared_by_hand_->second.name : in_force_ ? "asked, not set" : "now";
   time_machine_.compare(compared_by_hand_ ? compared_by_hand_->first.preset : paused_with_,
                         compared_by_hand_ ? compared_by_hand_->second.preset : presets_.current(), range);
 }

@@ -89,6 +89,10 @@ Status TuneModel::set_constraint(std::size_t i, std::string_view text) {
   const auto parsed = sweep::parse_constraint(text);
   if (!parsed) return tl::unexpected(parsed.error());
   std::vector<sweep::Constraint> wanted = list;
+  const auto same = [&](const sweep::Constraint& there) {
+    return there.of.column == parsed->of.column && there.most == parsed->most;
+  };
+  if (i >= wanted.size() && std::any_of(wanted.begin(), wanted.end(), same)) return {};  // it is kept to already
   if (i >= wanted.size()) {
     if (wanted.size() >= TuneQuestion::kMostConstraints) return fail("no more constraints than 4", {}, "take one out");
     wanted.push_back(*parsed);
@@ -194,9 +198,9 @@ Result<TuneModel::Load> TuneModel::choose_motion() {
 }
 
 void TuneModel::start() {
-  if (question_.ranges.empty()) return messages_.say(Severity::note, "choose a value to tune first");
+  if (question_.ranges.empty()) return messages_.refuse("choose a value to tune first");
   const auto load = choose_motion();
-  if (!load) return messages_.say(Severity::note, load.error().message());
+  if (!load) return messages_.refuse(load.error().message());
   clear();
   asked_ = question_;
   base_ = presets_.current();

@@ -83,6 +83,7 @@ class TuneModel {
   std::optional<std::size_t> in_use() const;  ///< tried or kept
   void keep();                                ///< both slots have its values
   void put_back();                            ///< to the slot there was before
+  void trial_refused();                       ///< a change was not set: maybe it was the trial
   bool can_attach() const;                    ///< it was tuned on the mesh in view
   /// The motion of the trials as evidence names it, and its poses where they have to be written.
   EvidenceMotion evidence_motion(const std::filesystem::path& folder) const;

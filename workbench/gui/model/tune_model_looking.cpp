@@ -107,7 +107,7 @@ std::optional<MapPaint> TuneModel::paint(ColourMap colours) const {
 }
 
 void TuneModel::try_trial(std::size_t trial) {
-  if (trial >= trials_.size()) return messages_.say(Severity::note, "there is no trial " + std::to_string(trial + 1));
+  if (trial >= trials_.size()) return messages_.refuse("there is no trial " + std::to_string(trial + 1));
   std::vector<std::pair<const PresetKey*, double>> values;
   for (std::size_t r = 0; r < asked_.ranges.size(); ++r)
     values.emplace_back(asked_.ranges[r].key, trials_[trial].values[r]);
@@ -137,7 +137,7 @@ std::optional<std::size_t> TuneModel::tried() const {
 
 void TuneModel::keep() {
   const auto trial = tried();
-  if (!trial) return messages_.say(Severity::note, "try a trial first");
+  if (!trial) return messages_.refuse("try a trial first");
   presets_.copy_ab();
   presets_.toggle_ab();
   tried_slot_.reset();
@@ -146,8 +146,14 @@ void TuneModel::keep() {
 }
 
 void TuneModel::put_back() {
-  if (!tried()) return messages_.say(Severity::note, "no trial is tried");
+  if (!tried()) return messages_.refuse("no trial is tried");
   presets_.toggle_ab();
+  tried_slot_.reset();
+  time_.other_slot_beside = false;
+}
+
+void TuneModel::trial_refused() {
+  if (!tried_slot_ || tried()) return;
   tried_slot_.reset();
   time_.other_slot_beside = false;
 }

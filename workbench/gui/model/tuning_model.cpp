@@ -112,7 +112,7 @@ void TuningModel::start_sweep() {
   if (!ticks_are_there(Waits::sweep)) return;
   const auto range = time_.chosen_range();
   auto ground = range ? ground_over(*range) : std::nullopt;
-  if (!ground) return messages_.say(Severity::note, "no ticks to sweep over yet");
+  if (!ground) return messages_.refuse("no ticks to sweep over yet");
   const Preset base = without(presets_.current(), axes_);
   if (!(points_range_ == *range) || !(points_base_ == base)) points_.clear();
   points_range_ = *range;
@@ -138,8 +138,7 @@ void TuningModel::start_heat_map() {
     const auto reads = [&](const PresetKey* key) { return std::find(keys.begin(), keys.end(), key) != keys.end(); };
     const PresetKey *across = find_preset_key("solver", "gain_curvature_m"),
                     *up = find_preset_key("solver", "gain_distance_per_m");
-    if (!reads(across) || !reads(up))
-      return messages_.say(Severity::note, "this method has no gains: choose two values to sweep");
+    if (!reads(across) || !reads(up)) return messages_.refuse("this method has no gains: choose two values to sweep");
     set_key(0, across);
     set_key(1, up);
     // With what theory names in the middle (G_k) and at the lower end (G_d).
@@ -221,7 +220,7 @@ void TuningModel::search_gains() {
   if (!ticks_are_there(Waits::search)) return;
   const auto range = time_.chosen_range();
   const auto part = range ? time_.run_over(*range) : std::nullopt;
-  if (!part) return messages_.say(Severity::note, "no ticks to search over yet");
+  if (!part) return messages_.refuse("no ticks to search over yet");
   const HistorySnapshot& records = part->run.records;
   const std::uint32_t scene_id = records.newest().scene_id;
   const auto scene = part->run.scenes.find(scene_id);

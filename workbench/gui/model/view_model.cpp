@@ -43,8 +43,7 @@ void ViewModel::look_at_place(const Vec3& point_world, const Vec3& normal, std::
 }
 
 void ViewModel::look_at_contact(const TickRecord* tick) {
-  if (tick == nullptr || tick->output.triangle == kNone)
-    return messages_.say(Severity::note, "this tick has no contact to look at");
+  if (tick == nullptr || tick->output.triangle == kNone) return messages_.refuse("this tick has no contact to look at");
   look_at_place(tick->output.contact, tick->output.normal, picked_triangle);
 }
 
@@ -72,7 +71,7 @@ void ViewModel::see_contact(const TickRecord* tick, bool paused) {
 
 const MapPlace* ViewModel::look_at_worst() {
   if (map_.worst().empty()) {
-    messages_.say(Severity::note, map_.on ? "no place is worse than the others" : "choose a map first");
+    messages_.refuse(map_.on ? "no place is worse than the others" : "choose a map first");
     return nullptr;
   }
   const MapPlace& place = map_.worst()[worst_shown_++ % map_.worst().size()];
@@ -138,7 +137,7 @@ void ViewModel::isolate(const std::vector<std::uint32_t>& triangles) {
 
 void ViewModel::isolate_marked() {
   std::vector<std::uint32_t> kept = marked_or_picked();
-  if (kept.empty()) return messages_.say(Severity::note, "mark a finding or pick a triangle first");
+  if (kept.empty()) return messages_.refuse("mark a finding or pick a triangle first");
   const ContactMesh& mesh = scene_.current()->mesh();
   const std::size_t own = kept.size();
   for (std::size_t i = 0; i < own; ++i) {
@@ -151,7 +150,7 @@ void ViewModel::isolate_marked() {
 
 void ViewModel::isolate_part() {
   std::vector<std::uint32_t> part = marked_or_picked();
-  if (part.empty()) return messages_.say(Severity::note, "mark a finding or pick a triangle first");
+  if (part.empty()) return messages_.refuse("mark a finding or pick a triangle first");
   const ContactMesh& mesh = scene_.current()->mesh();
   std::vector<bool> seen(mesh.triangle_count(), false);
   for (const std::uint32_t t : part) seen[t] = true;

@@ -96,8 +96,8 @@ void WhyModel::take_answer() {
 const TickCure* WhyModel::cure() {
   const Why* why = of_tick_in_view();
   if (why != nullptr && why->told.cure.outcome == CureOutcome::found) return &why->told.cure;
-  messages_.say(Severity::note, why == nullptr ? "pause on a tick first, and wait for its cause"
-                                               : "no value of a parameter cures this tick");
+  messages_.refuse(why == nullptr ? "pause on a tick first, and wait for its cause"
+                                  : "no value of a parameter cures this tick");
   return nullptr;
 }
 
@@ -108,7 +108,7 @@ bool WhyModel::can_try() const {
 void WhyModel::try_cure() {
   const TickCure* found = cure();
   if (found == nullptr) return;
-  if (!can_try()) return messages_.say(Severity::note, "at a place the value itself is tried: set it");
+  if (!can_try()) return messages_.refuse("at a place the value itself is tried: set it");
   Preset after = known_->asked.preset;
   found->key->set(after, found->to);
   time_.compare({"as it was", known_->asked.preset}, {"cured", after});
@@ -125,7 +125,7 @@ bool WhyModel::can_go() const {
 
 void WhyModel::go_to_place() {
   if (of_tick_in_view() == nullptr || !can_go())
-    return messages_.say(Severity::note, "the cause of this tick has no place on the mesh in view");
+    return messages_.refuse("the cause of this tick has no place on the mesh in view");
   const MeshPlace& at = known_->told.mesh;
   const ContactMesh& mesh = known_->asked.scene->mesh();
   const auto [a, b, c] = mesh.positions(at.triangle);

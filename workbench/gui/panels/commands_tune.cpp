@@ -3,6 +3,7 @@
 #include "core/io/csv_table.h"
 #include "workbench/gui/panels/commands.h"
 #include "workbench/gui/panels/wish.h"
+#include "workbench/gui/widgets/nearest_names.h"
 
 #include <algorithm>
 #include <sstream>
@@ -22,7 +23,10 @@ std::vector<std::string> split_words(const std::string& text) {
 Result<const PresetKey*> key_named(const std::string& name) {
   if (const PresetKey* key = find_preset_key(name)) return key;
   if (const PresetKey* key = find_preset_key("solver", name)) return key;
-  return fail(show_text(name) + " is no value of a preset", {}, "as in: solver.gain_curvature_m");
+  std::vector<std::string> full;
+  for (const PresetKey& key : preset_keys()) full.push_back(key.full_name());
+  const std::vector<std::string_view> all(full.begin(), full.end());
+  return fail(show_text(name) + " is no value of a preset", {}, nearest_text(name, all));
 }
 
 Status set_objective(TuneModel& tune, std::size_t i, const std::string& name) {
@@ -170,7 +174,7 @@ void add_trial(CommandList& out, AppModel& model) {
              [&tune](double n) { tune.try_trial(static_cast<std::size_t>(n) - 1); });
   out.plain({"tune try middle", "Tune: try the middle of the front", "", "best balanced knee use"}, [&model, &tune] {
     if (const auto middle = tune.balanced()) return tune.try_trial(*middle);
-    model.messages().say(Severity::note, "there are no trials yet: tune start");
+    model.messages().refuse("there are no trials yet: tune start");
   });
   out.plain({"tune keep", "Tune: keep the trial", "", "take accept"}, [&tune] { tune.keep(); });
   out.plain({"tune put back", "Tune: back to the values before the trial", "", "undo reject"},

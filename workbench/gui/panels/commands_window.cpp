@@ -3,6 +3,7 @@
 #include "core/io/csv_table.h"
 #include "core/io/rendering_condition.h"
 #include "core/preset/schema.h"
+#include "workbench/gui/model/experiment_start.h"
 #include "workbench/gui/panels/commands.h"
 #include "workbench/gui/panels/examples.h"
 #include "workbench/gui/panels/wish.h"
@@ -84,6 +85,18 @@ void add_messages(CommandList& out, AppModel& model, MenuBar& menu) {
            });
 }
 
+/// In a program of its own; its answers go to the folder.
+Status start_experiment(AppModel& model, const std::string& line) {
+  const auto arguments = experiment_arguments(line);
+  if (!arguments) return tl::unexpected(arguments.error());
+  if (model.devices().status().real_devices)
+    return fail("the devices are this window's", {}, "choose simulated ones here first, then start the experiment");
+  if (!model.deterministic())
+    if (Status started = start_program_again(*arguments); !started) return started;
+  model.messages().say(Severity::note, "the experiment with " + (*arguments)[3] + " opens windows of its own");
+  return {};
+}
+
 void add_waiting(CommandList& out, AppModel& model, MenuBar& menu) {
   out.text({"script", "Script: run the file", "", "commands batch replay"}, "FILE",
            [&menu](const std::string& file) -> Status {
@@ -158,6 +171,8 @@ void add_window_commands(CommandList& out, AppModel& model, MenuBar& menu) {
   });
   out.flag({"shortcuts", "Window: shortcuts", "F1", "keys help sheet"}, menu.sheet);
   add_look(out, model.window());
+  out.text({"experiment", "Experiment: begin or go on", "", "participant protocol trial study"},
+           "PROTOCOL PARTICIPANT FOLDER", [&model](const std::string& line) { return start_experiment(model, line); });
   out.plain({"quit", "Window: quit", "Ctrl+Q", "exit close end"}, [&model] { model.window().ask_to_close(); });
   add_messages(out, model, menu);
   add_waiting(out, model, menu);
@@ -174,8 +189,8 @@ void add_widget_commands(CommandList& out, AppModel& model, MenuBar& menu) {
   press({"accept no timeout", "Devices: use it although it has no time-out", "", "maestro yes"},
         "monitor/accept_no_timeout");
   out.choice({"felt under", "Smoothness as felt: rendering condition", "", "perception threshold"},
-             {kConditionNames.begin(), kConditionNames.end()}, [&model, &menu](std::size_t i) {
-               wish(model, menu, "perception/condition", std::string(kConditionNames[i]));
+             {kArcConditionNames.begin(), kArcConditionNames.end()}, [&model, &menu](std::size_t i) {
+               wish(model, menu, "perception/condition", std::string(kArcConditionNames[i]));
              });
   out.text({"press", "Widgets: press the button, row or section", "", "click"}, "PATH",
            [&model, &menu](const std::string& path) { return wish(model, menu, path), Status(); });

@@ -88,7 +88,7 @@ void draw_limits(const UiContext& ui, const DeviceModel& devices) {
   heading(ui, "Limits");
   fact(ui, "Peak / continuous force", printed("%.1f / %.1f", limits.peak_force_n, limits.continuous_force_n), "N");
   if (const auto* can = devices.session()->force_capabilities(); can != nullptr) {
-    fact(ui, "Force axes / rotations sensed", pushed_axes(*can) + printed(" / %d", can->rotations_sensed));
+    fact(ui, "Force axes / rotations sensed", pushed_axes(*can) + " / " + sensed_rotations(*can));
     const auto known = [](double value) { return value > 0.0 ? printed("%.0f", value) : std::string("-"); };
     fact(ui, "Largest stiffness", known(can->largest_stiffness_n_per_m), "N/m");
     fact(ui, "Largest damping", known(can->largest_damping_n_s_per_m), "N s/m");

@@ -51,10 +51,10 @@ void draw_force_device(const UiContext& ui, const AppModel& model) {
   if (can == nullptr) return;
   tooltip(ui,
           printed("Peak %.1f N, continuous %.1f N along %s; stable up to %.0f N/m and %.0f N s/m; resolution %.0f "
-                  "\u00b5m; apparent mass %.0f g; rotations sensed %d, buttons %d%s",
+                  "\u00b5m; apparent mass %.0f g; rotations sensed: %s, buttons %d%s",
                   can->peak_force_n, can->continuous_force_n, pushed_axes(*can).c_str(), can->largest_stiffness_n_per_m,
                   can->largest_damping_n_s_per_m, can->position_resolution_m * 1e6, can->apparent_mass_kg * 1e3,
-                  can->rotations_sensed, can->buttons, can->simulated ? "; simulated" : ""));
+                  sensed_rotations(*can).c_str(), can->buttons, can->simulated ? "; simulated" : ""));
 }
 
 void draw_display(const UiContext& ui, const AppModel& model) {

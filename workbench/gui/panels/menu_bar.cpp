@@ -81,6 +81,11 @@ void draw_file_menu(const UiContext& ui, AppModel& model, MenuBar& state) {
   if (menu_item(ui, "menu/file/reload", "Load the mesh again", "Reads the file again") && !model.scene().path().empty())
     model.scene().open(model.scene().path());
   draw_examples(ui, state);
+  if (menu_item(ui, "menu/file/experiment", "Experiment...",
+                "A participant through a protocol, in windows of its own: type protocol, participant and folder")) {
+    state.palette.open = state.palette.focus = true;
+    state.palette.text = "experiment ";
+  }
   ImGui::Separator();
   if (menu_item(ui, "menu/file/screenshot", "Screenshot",
                 "Saves a picture of the window (PNG) in the folder the program was started in", "F12"))

@@ -59,7 +59,7 @@ std::vector<ShareBand> bands_of(const PresetKey& key, const SafeRange& range, co
 /// The same for its tooltip, with the legend.
 std::string known_of(const PresetKey& key, const SafeRange& range, const GuardModel& guard) {
   if (range.samples().empty())
-    return guard.guards() && is_in_loop(key) ? "\n\nDots: not known yet in the simulated hand; a change is tried first."
+    return guard.guards() && is_in_loop(key) ? "\n\nDots: not known yet in the simulated hand; a change is asked about."
                                              : "";
   std::string text = "\n\nIn the simulated hand (line: stable; teeth: shakes; dots: not known): ";
   if (key.kind != KeyKind::choice)

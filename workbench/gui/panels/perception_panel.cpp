@@ -13,13 +13,15 @@ namespace {
 std::size_t chosen_condition(const PresetModel& presets, const PerceptionPanel& state) {
   if (state.condition >= 0) return static_cast<std::size_t>(state.condition);
   const RenderingCondition* own = condition_of(presets.current());
-  return own != nullptr ? static_cast<std::size_t>(own - kRenderingConditions.data()) : 2;  // C3: nothing shaded
+  const std::size_t index =
+      own != nullptr ? static_cast<std::size_t>(own - kRenderingConditions.data()) : kArcConditions;
+  return index < kArcConditions ? index : 2;  // C3: nothing shaded
 }
 
 void draw_choice(const UiContext& ui, MapView& map, PerceptionPanel& state, int chosen) {
   const float width = ImGui::GetContentRegionAvail().x;
-  std::array<std::string, kRenderingConditions.size()> texts;
-  std::array<std::string_view, kRenderingConditions.size()> names;
+  std::array<std::string, kArcConditions> texts;
+  std::array<std::string_view, kArcConditions> names;
   for (std::size_t i = 0; i < texts.size(); ++i) {
     texts[i] = std::string(kRenderingConditions[i].name) + ": " + std::string(kRenderingConditions[i].words);
     names[i] = texts[i];

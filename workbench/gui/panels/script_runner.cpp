@@ -56,6 +56,8 @@ Status ScriptRunner::step(AppModel& model, MenuBar& menu, ItemMap& items) {
       return ended({refused, {}, "its part of the window may be closed; \"panel\" opens one"});
     if (!menu.wish.time_passes && errors_said(model.messages()) > errors_)
       return ended({last_error(model.messages()), {}, {}});
+    if (!menu.wish.time_passes && model.messages().refusals() > refusals_)
+      return ended({"was not done: " + model.messages().last_refusal(), {}, "leave the line out, or do that first"});
     if (busy(model, menu, items)) return {};
     waiting_ = false;
   }
@@ -68,6 +70,7 @@ Status ScriptRunner::run_next(AppModel& model, MenuBar& menu) {
     const std::size_t begin = line.find_first_not_of(" \t");
     if (begin == std::string::npos || line[begin] == '#') continue;
     errors_ = errors_said(model.messages());
+    refusals_ = model.messages().refusals();
     waiting_ = true;
     settling_ = kSettlingFrames;
     menu.wish = {};

@@ -22,7 +22,8 @@ class ScriptRunner {
   bool running() const { return next_ < lines_.size() || waiting_; }
 
   /// Call once per frame, before it is built. Fails where a line does: file and line number, what, what to do; the
-  /// script has then ended. An error that the window says on account of a line counts as its own.
+  /// script has then ended. What the window says on account of a line, an error or that it did not do it, counts as its
+  /// own; so does a button that is greyed.
   Status step(AppModel& model, MenuBar& menu, ItemMap& items);
 
  private:
@@ -37,6 +38,7 @@ class ScriptRunner {
   bool waiting_ = false;          ///< for what the line before began
   int settling_ = 0;              ///< frames
   std::uint64_t errors_ = 0;      ///< said before the line
+  std::uint64_t refusals_ = 0;    ///< the same
   std::uint64_t until_tick_ = 0;  ///< of a servo that runs by itself
 };
 

@@ -1,6 +1,8 @@
 // A sweep over one or two keys on the chosen ticks: what is swept, and the points so far (sweep_points.h).
+#include "core/io/csv_table.h"
 #include "workbench/gui/panels/panels.h"
 #include "workbench/gui/panels/sweep_points.h"
+#include "workbench/gui/widgets/nearest_names.h"
 #include "workbench/gui/widgets/widgets.h"
 
 #include <algorithm>
@@ -15,6 +17,18 @@ using Axis = TuningModel::Axis;
 constexpr std::array<std::string_view, 3> kShownNames{"Iterations, mean", "Iterations, 99th percentile",
                                                       "Failures, share of the ticks"};
 
+/// Of `names` the one that was typed: a label, or a key's own name, "solver.gain_curvature_m" or "gain_curvature_m".
+Result<std::size_t> key_given(std::span<const std::string_view> names, std::span<const PresetKey* const> of,
+                              const std::string& given) {
+  std::vector<std::string> full(names.size());
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (of[i] != nullptr) full[i] = of[i]->full_name();
+    if (names[i] == given || (of[i] != nullptr && (of[i]->key == given || full[i] == given))) return i;
+  }
+  const std::vector<std::string_view> all(full.begin(), full.end());
+  return fail(show_text(given) + " is no value that can be swept under this method", {}, nearest_text(given, all));
+}
+
 void choose_key(const UiContext& ui, TuningModel& tuning, std::size_t axis, float width) {
   const auto keys = tuning.keys_to_sweep();
   std::vector<std::string_view> names;
@@ -28,15 +42,20 @@ void choose_key(const UiContext& ui, TuningModel& tuning, std::size_t axis, floa
     names.push_back(key->label);
     of.push_back(key);
   }
-  const auto found = std::find(of.begin(), of.end(), tuning.axes()[axis].key);
-  if (found == of.end()) {
+  const auto at = static_cast<std::size_t>(std::find(of.begin(), of.end(), tuning.axes()[axis].key) - of.begin());
+  if (at == of.size()) {
     // The method reads other keys than before.
     names.push_back(tuning.axes()[axis].key->label);
     of.push_back(tuning.axes()[axis].key);
   }
-  int chosen = static_cast<int>((found == of.end() ? of.end() - 1 : found) - of.begin());
-  if (choice_row(ui, printed("sweep/key/%zu", axis), width, names, chosen))
-    tuning.set_key(axis, of[static_cast<std::size_t>(chosen)]);
+  const std::string path = printed("sweep/key/%zu", axis);
+  int chosen = static_cast<int>(at);
+  if (const auto given = ui.items.take_value(path)) {
+    const auto named = key_given(names, of, *given);
+    if (!named) ui.items.refuse(named.error().message());
+    if (named) chosen = static_cast<int>(*named), tuning.set_key(axis, of[*named]);
+  }
+  if (choice_row(ui, path, width, names, chosen)) tuning.set_key(axis, of[static_cast<std::size_t>(chosen)]);
 }
 
 void draw_axis(const UiContext& ui, AppModel& model, std::size_t i) {
@@ -59,9 +78,12 @@ void draw_axis(const UiContext& ui, AppModel& model, std::size_t i) {
   if (const auto to = end("to", axis.to)) tuning.set_range(i, axis.from, *to);
   ImGui::SameLine(0, ui.px(4));
   if (const auto typed = number_box(ui, printed("sweep/count/%zu", i), count, printed("%zu", axis.count))) {
-    std::size_t n = axis.count;
-    std::from_chars(typed->data(), typed->data() + typed->size(), n);
-    tuning.set_count(i, n);
+    std::size_t n = 0;
+    const char* const end_of_text = typed->data() + typed->size();
+    if (std::from_chars(typed->data(), end_of_text, n).ptr == end_of_text && n >= 2 && n <= 100)
+      tuning.set_count(i, n);
+    else
+      model.messages().say(Severity::error, show_text(*typed) + " is no number of values: write 2 to 100");
   }
   tooltip(ui, "Number of values, 2 to 100");
 }

@@ -1,6 +1,7 @@
 #include "workbench/gui/platform/shots.h"
 
 #include "core/base/text.h"
+#include "workbench/gui/platform/experiment_shots.h"
 #include "workbench/gui/platform/scene_shots.h"
 #include "workbench/gui/platform/window_shots.h"
 
@@ -13,8 +14,8 @@ namespace tangent {
 const std::vector<ShotView>& shot_views() {
   static const std::vector<ShotView> kViews = [] {
     std::vector<ShotView> views = window_shot_views();
-    const std::vector<ShotView>& scenes = scene_shot_views();
-    views.insert(views.end(), scenes.begin(), scenes.end());
+    for (const std::vector<ShotView>& more : {experiment_shot_views(), scene_shot_views()})
+      views.insert(views.end(), more.begin(), more.end());
     return views;
   }();
   return kViews;
@@ -35,6 +36,7 @@ bool has(const std::vector<ShotView>& views, std::string_view name) {
 }  // namespace
 
 bool is_scene_view(std::string_view view) { return has(scene_shot_views(), view); }
+bool is_window_view(std::string_view view) { return has(window_shot_views(), view); }
 
 std::string shot_command(const ShotRequest& request, double scale, Theme theme) {
   std::string text = "workbench shot";
@@ -69,10 +71,12 @@ std::string shot_command(const ShotRequest& request, double scale, Theme theme) 
 }
 
 Result<Shot> take_shot(const ShotRequest& request) {
+  const bool of_experiment = has(experiment_shot_views(), request.view);
   const bool of_window = request.view.empty() || has(window_shot_views(), request.view);
-  if (of_window && request.transparent)
+  if ((of_window || of_experiment) && request.transparent)
     return fail("the window has no transparent ground", "--transparent", "choose a view of the scene (--view list)");
   if (of_window) return take_window_shot(request);
+  if (of_experiment) return take_experiment_shot(request);
   if (is_scene_view(request.view)) return take_scene_shot(request);
   return fail("there is no view \"" + request.view + "\"", "--view", "choose one of: " + shot_view_names());
 }

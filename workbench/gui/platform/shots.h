@@ -44,6 +44,8 @@ struct Shot {
 
 /// Whether this view is one of the scene, not of the window.
 bool is_scene_view(std::string_view view);
+/// Whether this view is one of the window, in which a script can run.
+bool is_window_view(std::string_view view);
 /// The command that takes this shot, all defaults said, without the file that it goes to.
 std::string shot_command(const ShotRequest& request, double scale, Theme theme);
 

@@ -3,16 +3,16 @@
 #include "workbench/gui/model/app_model.h"
 #include "workbench/gui/model/file_origin_of.h"
 #include "workbench/gui/platform/frame_times.h"
-#include "workbench/gui/platform/input_queue.h"
+#include "workbench/gui/platform/glfw_window.h"
 #include "workbench/gui/platform/save_picture.h"
 #include "workbench/gui/platform/ui_drawing.h"
+#include "workbench/gui/platform/window_input.h"
 #include "workbench/gui/render/image.h"
 #include "workbench/gui/render/scene_renderer.h"
 #include "workbench/session/crash_stop.h"
 
 #include <epoxy/gl.h>
 
-#include <GLFW/glfw3.h>
 #include <backends/imgui_impl_glfw.h>
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
@@ -32,51 +32,6 @@ constexpr double kFrameInterval = 1.0 / 60.0;  // s, where the driver does not w
 constexpr double kIdleInterval = 0.25;         // s between frames when nothing moves
 constexpr double kShaderCheckInterval = 0.5;   // s
 constexpr int kSettlingFrames = 4;             // frames that ImGui needs to settle after an event
-
-std::string glfw_reason() {
-  const char* text = nullptr;
-  glfwGetError(&text);
-  return text != nullptr ? text : "no reason given";
-}
-
-/// RAII: initialises and terminates GLFW.
-class GlfwLibrary {
- public:
-  GlfwLibrary() : ready_(glfwInit() == GLFW_TRUE) {}
-  ~GlfwLibrary() {
-    if (ready_) glfwTerminate();
-  }
-  GlfwLibrary(const GlfwLibrary&) = delete;
-  GlfwLibrary& operator=(const GlfwLibrary&) = delete;
-  bool ready() const { return ready_; }
-
- private:
-  bool ready_;
-};
-
-struct WindowCloser {
-  void operator()(GLFWwindow* window) const { glfwDestroyWindow(window); }
-};
-using WindowHandle = std::unique_ptr<GLFWwindow, WindowCloser>;
-
-/// RAII: ImGui context with both back ends.
-class ImGuiOnWindow {
- public:
-  explicit ImGuiOnWindow(GLFWwindow* window) {
-    ImGui::CreateContext();
-    ImGui::GetIO().IniFilename = nullptr;
-    ImGui_ImplGlfw_InitForOpenGL(window, false);  // events come through our queue
-    ImGui_ImplOpenGL3_Init("#version 330 core");
-    ImGui_ImplOpenGL3_CreateDeviceObjects();  // not in the first frame: that would put back how the atlas is read
-  }
-  ~ImGuiOnWindow() {
-    ImGui_ImplOpenGL3_Shutdown();
-    ImGui_ImplGlfw_Shutdown();
-    ImGui::DestroyContext();
-  }
-  ImGuiOnWindow(const ImGuiOnWindow&) = delete;
-  ImGuiOnWindow& operator=(const ImGuiOnWindow&) = delete;
-};
 
 /// Xlib calls exit() when its server is gone: what is to outlive the window is written then, too. This runs before
 /// what crash_stop.h does at exit, as the last one registered runs first: so it ends the force itself before it writes.
@@ -98,12 +53,7 @@ class KeptAtExit {
 };
 
 WindowHandle open_window() {
-  glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
-  glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
-  glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
-  glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
-  glfwWindowHint(GLFW_SAMPLES, 0);  // the 3D view multisamples its own picture; ImGui smooths its edges itself
-  glfwWindowHint(GLFW_DEPTH_BITS, 0);
+  hint_opengl();
   int x = 0, y = 0, width = 1280, height = 720;
   if (GLFWmonitor* monitor = glfwGetPrimaryMonitor()) glfwGetMonitorWorkarea(monitor, &x, &y, &width, &height);
   const auto share = [](int whole, int least) { return std::max(std::min(whole, least), whole * 85 / 100); };
@@ -113,17 +63,11 @@ WindowHandle open_window() {
 }
 
 FrameInput frame_input(GLFWwindow* window, double dt_s, std::vector<std::string> dropped) {
-  int width = 0, height = 0, width_px = 0, height_px = 0;
-  float scale_x = 1.0f, scale_y = 1.0f;
-  glfwGetWindowSize(window, &width, &height);
-  glfwGetFramebufferSize(window, &width_px, &height_px);
-  glfwGetWindowContentScale(window, &scale_x, &scale_y);
-  // Where window coordinates are not pixels, the system already does that part of the scaling.
-  const float system_scale = width > 0 ? static_cast<float>(width_px) / static_cast<float>(width) : 1.0f;
+  const WindowSize size = window_size(window);
   FrameInput input;
-  input.width = static_cast<float>(width);
-  input.height = static_cast<float>(height);
-  input.content_scale = std::max(scale_y / std::max(system_scale, 0.1f), 0.5f);
+  input.width = size.width;
+  input.height = size.height;
+  input.content_scale = size.scale;
   input.dt_s = std::clamp(dt_s, 1e-4, 0.5);
   input.now_s = glfwGetTime();
   input.dropped_files = std::move(dropped);
@@ -133,9 +77,7 @@ FrameInput frame_input(GLFWwindow* window, double dt_s, std::vector<std::string>
 /// Whether it was another one than the last, and so drawn.
 bool draw_frame(GLFWwindow* window, App& app, const FrameInput& input, InputQueue& events, UiDrawing& drawing) {
   if (app.prepare(input)) {
-    ImGui_ImplOpenGL3_DestroyFontsTexture();
-    ImGui_ImplOpenGL3_CreateFontsTexture();
-    use_nearest_pixels(font_texture());
+    upload_fonts_again();
     drawing.forget();
   }
   ImGui_ImplOpenGL3_NewFrame();
@@ -168,14 +110,17 @@ bool draw_frame(GLFWwindow* window, App& app, const FrameInput& input, InputQueu
 
 class FrameLoop {
  public:
-  FrameLoop(GLFWwindow* window, App& app, SceneRenderer& renderer) : window_(window), app_(app), renderer_(renderer) {
-    glfwSetWindowUserPointer(window, this);
-    glfwSetDropCallback(window, [](GLFWwindow* w, int count, const char** paths) {
-      auto& self = *static_cast<FrameLoop*>(glfwGetWindowUserPointer(w));
-      self.dropped_.insert(self.dropped_.end(), paths, paths + count);
-    });
-    listen();
-  }
+  FrameLoop(GLFWwindow* window, App& app, SceneRenderer& renderer)
+      : window_(window),
+        app_(app),
+        renderer_(renderer),
+        events_(window, {[&app](int key) {
+                           if (key == GLFW_KEY_ESCAPE) app.stop();
+                         },
+                         [this] { drawing_.forget(); },
+                         [this](const std::vector<std::string>& paths) {
+                           dropped_.insert(dropped_.end(), paths.begin(), paths.end());
+                         }}) {}
 
   void run(const std::function<bool()>& should_stop) {
     double last = glfwGetTime();
@@ -187,7 +132,7 @@ class FrameLoop {
       check_shaders(now);
       FrameInput input = frame_input(window_, now - last, std::exchange(dropped_, {}));
       input.last_frame_ms = last_frame_ms_;
-      const bool drawn = draw_frame(window_, app_, input, events_, drawing_);
+      const bool drawn = draw_frame(window_, app_, input, events_.queue(), drawing_);
       times_.end(events, drawn);
       last_frame_ms_ = 1e3 * (glfwGetTime() - now);
       if (std::string title = app_.title(); title != title_) glfwSetWindowTitle(window_, (title_ = title).c_str());
@@ -198,42 +143,6 @@ class FrameLoop {
   }
 
  private:
-  static InputQueue& events(GLFWwindow* window) {
-    return static_cast<FrameLoop*>(glfwGetWindowUserPointer(window))->events_;
-  }
-
-  void listen() {
-    const auto drawn_is_lost = [](GLFWwindow* w) {
-      static_cast<FrameLoop*>(glfwGetWindowUserPointer(w))->drawing_.forget();
-    };
-    glfwSetWindowRefreshCallback(window_, drawn_is_lost);
-    glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int, int action, int) {
-      // Now, not when a frame gets to see it.
-      if (key == GLFW_KEY_ESCAPE && action == GLFW_PRESS)
-        static_cast<FrameLoop*>(glfwGetWindowUserPointer(w))->app_.stop();
-      if (action != GLFW_REPEAT) events(w).key(key, action == GLFW_PRESS);  // ImGui repeats by itself
-    });
-    glfwSetCharCallback(window_, [](GLFWwindow* w, unsigned int code_point) { events(w).character(code_point); });
-    glfwSetMouseButtonCallback(
-        window_, [](GLFWwindow* w, int button, int action, int) { events(w).button(button, action == GLFW_PRESS); });
-    glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double x, double y) {
-      events(w).position(static_cast<float>(x), static_cast<float>(y));
-    });
-    glfwSetCursorEnterCallback(window_, [](GLFWwindow* w, int entered) {
-      if (entered == GLFW_FALSE) events(w).pointer_left();
-    });
-    glfwSetScrollCallback(window_, [](GLFWwindow* w, double x, double y) {
-      events(w).wheel(static_cast<float>(x), static_cast<float>(y));
-    });
-    glfwSetWindowFocusCallback(window_,
-                               [](GLFWwindow*, int focused) { ImGui::GetIO().AddFocusEvent(focused == GLFW_TRUE); });
-    if (glfwGetWindowAttrib(window_, GLFW_HOVERED) == GLFW_TRUE) {  // its position before it first moves
-      double x = 0.0, y = 0.0;
-      glfwGetCursorPos(window_, &x, &y);
-      events_.position(static_cast<float>(x), static_cast<float>(y));
-    }
-  }
-
   void wait_for_work(double last_frame_s) {
     const bool hidden = glfwGetWindowAttrib(window_, GLFW_ICONIFIED) == GLFW_TRUE;
     const bool lively = !hidden && (app_.wants_frames() || renderer_.refining() || events_.waiting() || settling_ > 0);
@@ -263,7 +172,7 @@ class FrameLoop {
   App& app_;
   SceneRenderer& renderer_;
   std::vector<std::string> dropped_;
-  InputQueue events_;
+  WindowInput events_;
   std::string title_, shader_error_;
   UiDrawing drawing_;
   FrameTimes times_;

@@ -130,6 +130,15 @@ const ImWchar* glyph_ranges() {
   return ranges;
 }
 
+/// FreeType reads Inter's CFF outlines and hints small sizes; light hinting keeps the letters' shapes.
+ImFontAtlas& cleared_atlas() {
+  ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
+  atlas.Clear();
+  atlas.FontBuilderIO = ImGuiFreeType::GetBuilderForFreeType();
+  atlas.FontBuilderFlags = ImGuiFreeTypeBuilderFlags_LightHinting;
+  return atlas;
+}
+
 ImFont* add_font(const FontChoice& choice, float pixels, std::vector<std::string>& missing) {
   ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
   ImFontConfig config;
@@ -166,11 +175,7 @@ void apply_theme(Theme theme, float scale) {
 }
 
 ThemeFonts load_fonts(float scale, std::vector<std::string>& missing) {
-  ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
-  atlas.Clear();
-  // FreeType reads Inter's CFF outlines and hints small sizes; light hinting keeps the letters' shapes.
-  atlas.FontBuilderIO = ImGuiFreeType::GetBuilderForFreeType();
-  atlas.FontBuilderFlags = ImGuiFreeTypeBuilderFlags_LightHinting;
+  ImFontAtlas& atlas = cleared_atlas();
   ThemeFonts fonts;
   fonts.text = add_font(kInter, 14.0f * scale, missing);
   fonts.strong = add_font(kInterStrong, 14.0f * scale, missing);
@@ -179,6 +184,18 @@ ThemeFonts load_fonts(float scale, std::vector<std::string>& missing) {
   fonts.small_number = add_font(kMono, 11.5f * scale, missing);
   atlas.Build();
   ImGui::GetIO().FontDefault = fonts.text;
+  return fonts;
+}
+
+LargeFonts load_large_fonts(float width_px, float height_px, std::vector<std::string>& missing) {
+  ImFontAtlas& atlas = cleared_atlas();
+  const float unit = std::clamp(std::min(height_px, 0.6f * width_px), 240.0f, 4320.0f);
+  LargeFonts fonts;
+  fonts.prompt = add_font(kInterStrong, 0.068f * unit, missing);
+  fonts.key = add_font(kInterStrong, 0.05f * unit, missing);
+  fonts.caption = add_font(kInter, 0.033f * unit, missing);
+  atlas.Build();
+  ImGui::GetIO().FontDefault = fonts.caption;
   return fonts;
 }
 

@@ -46,6 +46,15 @@ void apply_theme(Theme theme, float scale);
 /// default font, and `missing` gets a line naming the package.
 ThemeFonts load_fonts(float scale, std::vector<std::string>& missing);
 
+/// Fonts of a screen that is read from afar, in place of those above.
+struct LargeFonts {
+  ImFont* prompt = nullptr;   ///< Inter SemiBold
+  ImFont* key = nullptr;      ///< Inter SemiBold
+  ImFont* caption = nullptr;  ///< Inter
+};
+/// Replaces the atlas of the current context, for a screen of this size. As load_fonts otherwise.
+LargeFonts load_large_fonts(float width_px, float height_px, std::vector<std::string>& missing);
+
 inline ImU32 colour(const Rgba& c) { return packed(c); }
 inline ImU32 colour(const Rgba& c, float alpha) { return packed(with_alpha(c, alpha)); }
 

@@ -22,6 +22,7 @@ void ItemMap::begin_frame() {
 }
 
 void ItemMap::press_wanted() {
+  pressed_.clear();
   if (wanted_.empty()) return;
   const ItemRect* item = find(wanted_);
   if (frames_left_-- == 0) {
@@ -30,7 +31,7 @@ void ItemMap::press_wanted() {
     // As ImGui's own keyboard navigation does.
     ImGuiContext& g = *GImGui;
     g.NavActivateId = g.NavActivateDownId = g.NavActivateInputId = item->id;
-    wanted_.clear();
+    pressed_ = std::exchange(wanted_, {});
   }
 }
 

@@ -39,6 +39,8 @@ class ItemMap {
   /// counts. Given up after a few frames without such a widget.
   void want(std::string path, std::optional<std::string> value = std::nullopt);
   const std::string& wanted() const { return wanted_; }  ///< empty: nothing is
+  /// It is being pressed because it was wanted.
+  bool was_wanted(std::string_view path) const { return !pressed_.empty() && pressed_ == path; }
   /// Why what was wanted was not done; said once. Empty: nothing.
   std::string take_refusal();
   void refuse(std::string why);
@@ -58,7 +60,7 @@ class ItemMap {
   void press_wanted();
 
   std::unordered_map<std::string, ItemRect> items_;
-  std::string wanted_, refusal_, focus_;
+  std::string wanted_, pressed_, refusal_, focus_;
   std::optional<std::string> value_;
   int frames_left_ = 0;
   ImU32 focus_ink_ = 0;

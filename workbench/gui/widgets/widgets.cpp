@@ -1,6 +1,7 @@
 #include "workbench/gui/widgets/widgets.h"
 
 #include "core/io/csv_table.h"
+#include "workbench/gui/widgets/nearest_names.h"
 
 #include <imgui_internal.h>
 #include <imgui_stdlib.h>
@@ -303,8 +304,10 @@ bool icon_button(const UiContext& ui, std::string_view path, Icon icon, const ch
   const float side = ImGui::GetFrameHeight();
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const float width = icon == Icon::reset ? 0.8f * side : 1.25f * side;
-  const bool pressed = ImGui::InvisibleButton(id_of(path).c_str(), {width, side}) && enabled;
+  const bool hit = ImGui::InvisibleButton(id_of(path).c_str(), {width, side}), pressed = hit && enabled;
   ui.items.note_last(path);
+  if (hit && !enabled && ui.items.was_wanted(path))
+    ui.items.refuse("\"" + std::string(path) + "\" is greyed: there is nothing for it to do now");
   const bool hovered = ImGui::IsItemHovered() && enabled;
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const bool plain = icon == Icon::reset;
@@ -369,7 +372,8 @@ bool choice_row(const UiContext& ui, std::string_view path, float width, std::sp
     if (found != choices.end())
       wanted = static_cast<int>(found - choices.begin());
     else
-      ui.items.refuse(show_text(*given) + " is not among the choices of " + std::string(path));
+      ui.items.refuse(show_text(*given) + " is not among the choices of " + std::string(path) + "; " +
+                      nearest_text(*given, choices));
   } else if (!open) {
     wanted = std::clamp(chosen + arrows_on(ui, path), 0, static_cast<int>(choices.size()) - 1);
   }

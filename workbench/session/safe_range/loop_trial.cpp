@@ -14,8 +14,9 @@ namespace {
 
 constexpr double kClear_m = 1e-3;   // off the surface, while the gate ramps in
 constexpr double kBringUp_s = 0.6;  // homing and the gate's ramp take less
-constexpr double kPress_s = 0.15, kSlide_s = 0.35, kHold_s = 0.6;
+constexpr double kPress_s = 0.15, kSlide_s = 0.35, kHold_s = 0.6, kKnead_s = 0.5;
 constexpr double kSlide_m_per_s = 40e-3;
+constexpr double kKnead = 0.6;     // more, at its most, of the push
 constexpr double kWindow_s = 0.2;  // of the swings that are compared; two, at the end
 constexpr double kDeepestAim_m = 60e-3;
 constexpr double kLeastContact = 0.25;  // of the ticks since the press began
@@ -93,6 +94,33 @@ const char* to_string(Safety safety) {
   return "unknown";
 }
 
+double rms_above(std::span<const Vec3> samples, double dt_s, double from_hz) {
+  const std::size_t n = samples.size();
+  if (n == 0) return 0.0;
+  const double turn = 2.0 * std::numbers::pi / static_cast<double>(n);
+  std::vector<Vec3> windowed(n);
+  double all = 0.0, window = 0.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double w = 0.5 - 0.5 * std::cos(turn * (static_cast<double>(i) + 0.5));
+    windowed[i] = w * samples[i];
+    all += glm::dot(windowed[i], windowed[i]);
+    window += w * w;
+  }
+  // The window spreads a line over two bins to either side.
+  const auto below = std::min(n / 2, static_cast<std::size_t>(from_hz * dt_s * static_cast<double>(n)) + 1);
+  double low = 0.0;
+  for (std::size_t k = 0; k < below; ++k) {
+    Vec3 even(0.0), odd(0.0);
+    for (std::size_t i = 0; i < n; ++i) {
+      const double angle = turn * static_cast<double>((k * i) % n);
+      even += std::cos(angle) * windowed[i];
+      odd += std::sin(angle) * windowed[i];
+    }
+    low += (k == 0 ? 1.0 : 2.0) * (glm::dot(even, even) + glm::dot(odd, odd)) / static_cast<double>(n);
+  }
+  return std::sqrt(std::max(0.0, all - low) / window);
+}
+
 Preset rendered_by(const TrialDevice& device, Preset preset) {
   const auto cap = [&](double& value, double most) {
     if (most > 0.0) value = std::min(value, most / device.scale);
@@ -110,6 +138,7 @@ class LoopTrial::Run {
         grip_(grip),
         preset_(preset),
         dt_s_(1.0 / of.device_.rate_hz),
+        moved_kg_(of.device_.mass_kg + grip.mass_kg),
         map_{of.device_.scale, {1.0, 0.0, 0.0, 0.0}, site(0.0, 0.0).position_m},
         device_(new HeldDevice(options_of(of.device_, grip))) {
     devices_.force.reset(device_);
@@ -126,20 +155,26 @@ class LoopTrial::Run {
     for (int i = 0; i < count(kBringUp_s) && record_.device.gate_state != GateState::armed; ++i) next();
     if (record_.device.gate_state != GateState::armed) return out_;
     channels_.presets.put({1, preset_, true});
-    const int press = count(kPress_s), slide = count(kSlide_s), hold = count(kHold_s);
-    const double aim_m = aim();
-    std::vector<Vec3> held;
-    held.reserve(static_cast<std::size_t>(hold));
-    for (int i = 0; i < press + slide + hold; ++i) {
+    const int press = count(kPress_s), slide = count(kSlide_s), hold = count(kHold_s), knead = count(kKnead_s);
+    const int still = press + slide + hold, all = still + knead;
+    const double aim_m = aim(), more_m = std::min(kKnead * aim_m, kDeepestAim_m * map_.scale - aim_m);
+    held_.reserve(static_cast<std::size_t>(hold));
+    pushed_n_.reserve(static_cast<std::size_t>(knead));
+    for (int i = 0; i < all; ++i) {
       const double in = std::min(1.0, static_cast<double>(i) / press);
       const double eased = 0.5 - 0.5 * std::cos(std::numbers::pi * in);
       const double along_m = kSlide_m_per_s * dt_s_ * std::clamp(i - press, 0, slide);
-      place(along_m, eased * (aim_m + kClear_m) - kClear_m);
+      const double turn = 2.0 * std::numbers::pi * std::max(0, i - still) / knead;
+      const double harder_m = 0.5 * more_m * (1.0 - std::cos(turn));
+      place(along_m, eased * (aim_m + kClear_m) - kClear_m + harder_m);
       next();
       if (undone_.count > 0 || (stop != nullptr && stop->load(std::memory_order_relaxed))) break;
-      if (i >= press + slide) held.push_back(device_->inner.exact_position_m());
+      if (i >= still)
+        pushed_n_.push_back(record_.device.force_command_n);
+      else if (i >= press + slide)
+        held_.push_back(device_->inner.exact_position_m());
     }
-    judge(held, press + slide + hold, stop != nullptr && stop->load(std::memory_order_relaxed));
+    judge(all, stop != nullptr && stop->load(std::memory_order_relaxed));
     return out_;
   }
 
@@ -178,11 +213,13 @@ class LoopTrial::Run {
     out_.energy_share = std::max(out_.energy_share, energy.made_j() / energy.allowed_j());
   }
 
-  void judge(std::span<const Vec3> held, int asked, bool stopped) {
+  void judge(int asked, bool stopped) {
     out_.why = undone_.why;
     if (out_.why != UndoneBecause::none) out_.safety = Safety::shakes;
     const auto window = static_cast<std::size_t>(count(kWindow_s));
-    if (out_.why != UndoneBecause::none || stopped || held.size() < 2 * window) return;
+    if (out_.why != UndoneBecause::none || stopped || held_.size() < 2 * window) return;
+    const std::span<const Vec3> held(held_);
+    if (grip_.mass_kg > 0.0) out_.buzz_m_per_s2 = rms_above(pushed_n_, dt_s_, kBuzz_hz) / moved_kg_;
     const double before_m = swing_of(held.subspan(held.size() - 2 * window, window));
     out_.swing_m = swing_of(held.last(window));
     out_.growth = out_.swing_m / std::max(before_m, 1e-6);
@@ -190,8 +227,10 @@ class LoopTrial::Run {
       out_.safety = Safety::shakes;
     else if (out_.swing_m > kCalm_m && out_.growth > kGrowth)
       out_.safety = Safety::shakes;
-    else if ((out_.swing_m <= kCalm_m || out_.growth <= kDies) && out_.energy_share < kCalmEnergy && converged_ > 0 &&
-             out_.contact_ticks >= kLeastContact * asked)
+    else if (out_.buzz_m_per_s2 > kShakingBuzz * kFeltBuzz_m_per_s2)
+      out_.safety = Safety::shakes;
+    else if ((out_.swing_m <= kCalm_m || out_.growth <= kDies) && out_.energy_share < kCalmEnergy &&
+             out_.buzz_m_per_s2 <= kFeltBuzz_m_per_s2 && converged_ > 0 && out_.contact_ticks >= kLeastContact * asked)
       out_.safety = Safety::stable;
   }
 
@@ -199,6 +238,7 @@ class LoopTrial::Run {
   const Grip& grip_;
   const Preset& preset_;
   double dt_s_;
+  double moved_kg_;  ///< device and hand
   Placement map_;
   HeldDevice* device_;  ///< of devices_
   DeviceSet devices_;
@@ -211,6 +251,7 @@ class LoopTrial::Run {
   Vec3 aimed_m_{0.0};
   bool led_ = false;
   int converged_ = 0;
+  std::vector<Vec3> held_, pushed_n_;  ///< places held still, forces while kneading
   TrialOutcome out_;
 };
 

@@ -3,14 +3,24 @@
 // of delay between sample and force included.
 //
 // The touch: from 1 mm off the surface, under a gate that has ramped in, pressed in within 0.15 s as hard as the grip
-// goes, along the surface at 40 mm/s for 0.35 s, held for 0.6 s.
+// goes, along the surface at 40 mm/s for 0.35 s, held for 0.6 s, and then pressed up to 60 % harder and back within
+// 0.5 s, as by who feels how hard a thing is.
 //   shakes   the guard would have taken the preset back (preset_guard.h: the gate stops, limits the force tick after
 //            tick, or has seen most of the energy that stops it); or held still, the finger goes on swinging by more
-//            than kSwing_m without dying away; or the swings of the last half grow by more than kGrowth
-//   stable   none of it, less than kCalmEnergy of the energy that stops was ever made, and held still it swings less
-//            than kCalm_m, or kDies as much after every 0.2 s
+//            than kSwing_m without dying away; or the swings of the last half grow by more than kGrowth; or the force
+//            buzzes by more than kShakingBuzz times what is just felt
+//   stable   none of it, less than kCalmEnergy of the energy that stops was ever made, held still it swings less than
+//            kCalm_m, or kDies as much after every 0.2 s, and the buzz can't be felt
 //   unknown  between the two; or the finger was never in contact, or tracking never converged there
 // Deterministic: the same arguments give the same outcome. Not for the servo thread.
+//
+// Buzz: RMS of the force above kBuzz_hz while the hand presses harder and back, over the mass that the force moves
+// (device and hand): the acceleration that the hand feels; nobody's grip feels none. What the hand does is far below
+// kBuzz_hz, and the place stays, so that nothing of the surface is in it: it is what encoder steps make of stiffness
+// and, by the velocity, of damping, long before the loop gains energy. From 40 to 250 Hz the hand's threshold of
+// vibration falls by 12 dB an octave, which is one acceleration, to 0.1 um at 250 Hz: 0.25 m/s^2, 0.17 RMS (R. T.
+// Verrillo, Effect of Contactor Area on the Vibrotactile Threshold, J. Acoust. Soc. Am. 35, 1963). Above 300 Hz a hand
+// feels less, and an ear hears more: it counts as much.
 #pragma once
 
 #include "devices/placement.h"
@@ -22,6 +32,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string_view>
 
 namespace tangent {
@@ -66,9 +77,14 @@ struct TrialOutcome {
   double energy_share = 0.0;                ///< most that was made, of what stops
   double swing_m = 0.0;                     ///< half of peak to peak, held, at the end
   double growth = 0.0;                      ///< of that over the last 0.4 s: 1 is steady
+  double buzz_m_per_s2 = 0.0;               ///< RMS
   int ticks = 0;                            ///< that it took
   int contact_ticks = 0;
 };
+
+/// RMS of what is faster than `from_hz` in samples that lie `dt_s` apart, all axes together: their energy under a Hann
+/// window less that of the lower bins of its Fourier transform. Two periods and more of `from_hz`.
+double rms_above(std::span<const Vec3> samples, double dt_s, double from_hz);
 
 /// What this device renders of a preset, as devices/device_safety.h.
 Preset rendered_by(const TrialDevice& device, Preset preset);
@@ -77,6 +93,9 @@ class LoopTrial {
  public:
   static constexpr double kCalmEnergy = 0.35, kCalm_m = 60e-6;
   static constexpr double kSwing_m = 150e-6, kGrowth = 1.5, kDies = 0.7;
+  static constexpr double kBuzz_hz = 40.0;
+  static constexpr double kFeltBuzz_m_per_s2 = 0.17;
+  static constexpr double kShakingBuzz = 10.0;  ///< 20 dB above what is just felt
 
   /// `path`: over the scene, for the servo's tick.
   LoopTrial(std::shared_ptr<const ContactScene> scene, ExplorationPath path, const TrialDevice& device = {});

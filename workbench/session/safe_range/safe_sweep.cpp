@@ -199,6 +199,10 @@ Verdict SafeSweep::known(const Preset& preset) const {
   return {.safety = range(*differs).at(differs->get(preset))};
 }
 
+bool SafeSweep::tried(const Preset& preset) const {
+  return started() && store_.find(trial_key(scene_hash_, ground_.device, rendered_by(ground_.device, preset)));
+}
+
 void SafeSweep::learn(const Preset& preset, const Verdict& verdict) {
   if (started()) store_.put(trial_key(scene_hash_, ground_.device, rendered_by(ground_.device, preset)), verdict);
 }

@@ -62,6 +62,8 @@ class SafeSweep {
   /// What is known of a preset on this ground: by its own verdict; or because it differs from the base in one key, by
   /// that key's line.
   Verdict known(const Preset& preset) const;
+  /// It was judged by itself, whatever came of it.
+  bool tried(const Preset& preset) const;
   /// A key's line through the base; empty: not swept yet.
   SafeRange range(const PresetKey& key) const;
   /// A trial of another kind: on a device, with a person.

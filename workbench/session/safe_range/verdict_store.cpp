@@ -18,7 +18,7 @@ namespace tangent {
 
 namespace {
 
-constexpr std::uint64_t kTrialVersion = 1;  // another one where trials are made or judged otherwise
+constexpr std::uint64_t kTrialVersion = 2;  // another one where trials are made or judged otherwise
 constexpr std::string_view kFirstLine = "tangent-workbench safe ranges 1\n";
 constexpr std::size_t kLineBytes = 22;  // "0123456789abcdef 1234\n": safety, place, grip, why
 

@@ -1,6 +1,7 @@
 // Searching for deeper places only when the clearance is used up finds the same as searching at every tick.
 #include "core/contact/search/rivals.h"
 #include "core/base/tolerances.h"
+#include "core/contact/decide/decide.h"
 #include "core/lab/objects/generate.h"
 #include "tests/core/scenes.h"
 
@@ -75,7 +76,7 @@ struct Wanderer {
 namespace {
 
 struct Found {
-  int ticks = 0, switches = 0, shallower = 0;
+  int ticks = 0, switches = 0, shallower = 0, unentered = 0;
 };
 
 /// Steps over 24 grounds; at every tick the contact is compared with what a search from nothing finds.
@@ -93,6 +94,7 @@ Found wander_over_random_grounds(std::uint64_t seed, int grounds) {
     Wanderer finger{{0.0, 0.0, 0.030 + radius}, {1.0, 0.0, 0.0}};
     for (int i = 0; i < 4000; ++i) {
       const TickInput input = at_position(1e-3 * i, finger.position);
+      const Vec3 before = state.has_previous ? state.last_position : finger.position;
       const TickOutput tracked = tracking.step(preset, input, state);
       finger.go(tracked, random);
       found.switches += tracked.event == TickEvent::switched;
@@ -102,7 +104,13 @@ Found wander_over_random_grounds(std::uint64_t seed, int grounds) {
       TickState fresh;
       const TickOutput cold = searching.step(preset, input, fresh);
       const double behind = cold.penetration_m - tracked.penetration_m - preset.solver.switch_hysteresis_m;
-      found.shallower += behind > 2.0 * kHeightGuess * std::max(radius, 1e-3) + preset.solver.tolerance_m;
+      if (behind <= 2.0 * kHeightGuess * std::max(radius, 1e-3) + preset.solver.tolerance_m) continue;
+      // At the ground's rim the same place may be seen from before it and from behind.
+      if (glm::distance(cold.contact, tracked.contact) < kMergedPlaces * preset.solver.tolerance_m) continue;
+      const FingerStep step{glm::distance(input.finger.position, before), preset.solver.switch_hysteresis_m};
+      const bool counts = was_entered(step, cold.penetration_m, tracked.penetration_m);
+      found.shallower += counts;
+      found.unentered += !counts;
     }
   }
   return found;
@@ -111,17 +119,17 @@ Found wander_over_random_grounds(std::uint64_t seed, int grounds) {
 }  // namespace
 
 TEST_CASE("on random ground the tracked contact is the deepest place, as a search from nothing finds it") {
-  // Three of eight seeds tried, 5 to 12. On two of the others, 6 and 7, it is 9 and 1 of 96,000 ticks. Of the 8 on seed
-  // 10 seven are a place that comes up 0.4 mm deeper than the tracked one, at a fold, and so counts as never entered
-  // (decide.h). When heights were taken to change along the normals it was 144, and 2 on seed 8.
+  // Four of twelve seeds tried, 1 to 12; on the others it is 0, too. Seed 6 had 9 and seed 7 had 1 while a face was
+  // given up whose bisection took more tests than it may; seed 8 had 2 when heights were taken to change along the
+  // normals. At a fold a place may come up that is deeper by more than can have been entered: 7 on seed 10.
   const int grounds = std::max(4, rounds(24));
-  constexpr std::pair<std::uint64_t, int> kSeeds[] = {{8, 0}, {10, 8}, {11, 0}};
-  for (const auto& [seed, late_at_most] : kSeeds) {
+  for (const std::uint64_t seed : {6, 7, 8, 10}) {
     const Found found = wander_over_random_grounds(seed, grounds);
     MESSAGE("seed " << seed << ": " << found.switches << " switches in " << found.ticks << " ticks, " << found.shallower
-                    << " shallower than a search from nothing");
-    CHECK(found.switches > 4 * grounds);
-    CHECK(found.shallower <= late_at_most);
+                    << " shallower than a search from nothing, " << found.unentered << " than what was never entered");
+    CHECK(found.switches > grounds);
+    CHECK(found.shallower == 0);
+    CHECK(found.unentered <= 8);
   }
 }
 

@@ -1,7 +1,9 @@
 // The tracked contact is the deepest one: a search without kept state at the same pose must not find a deeper place.
 #include "core/base/tolerances.h"
+#include "tests/core/random_bodies.h"
 #include "tests/core/scenes.h"
 
+#include <cstdlib>
 #include <fstream>
 #include <sstream>
 
@@ -89,24 +91,6 @@ TEST_CASE("on real meshes the tracked contact is the deepest place, as a search 
 }
 
 namespace {
-
-/// A ball of about 36 mm with waves of random direction, length and height, sometimes with noise on every vertex.
-PolygonMesh random_blob(Random& random) {
-  struct Wave {
-    Vec3 along;
-    double height, phase;
-  };
-  std::vector<Wave> waves(1 + random.below(5));
-  for (Wave& w : waves) w = {random.in(1.0, 6.0) * random.direction(), random.in(0.0, 0.06), random.in(0.0, 6.28)};
-  const double noise = random.below(2) ? random.in(0.0, 0.01) : 0.0;
-  PolygonMesh mesh = make_icosphere(1.0, 2 + static_cast<int>(random.below(3)));
-  for (Vec3& p : mesh.positions) {
-    double r = 1.0 + noise * random.in(-1.0, 1.0);
-    for (const Wave& w : waves) r += w.height * std::sin(glm::dot(w.along, p) + w.phase);
-    p *= 0.036 * r;
-  }
-  return mesh;
-}
 
 /// Round the body on changing great circles, about a millimetre deep: as deep as the last tick says, so it never leaps.
 class RoundABody {
@@ -205,13 +189,43 @@ class TurningFinger {
 };
 
 struct TurnedOverBodies {
-  int ticks = 0, compared = 0, shallower = 0, unconverged = 0, facing = 0, touching = 0;
+  int ticks = 0, compared = 0, shallower = 0, unentered = 0, unconverged = 0, facing = 0, touching = 0;
   double worst_m = 0.0;  ///< behind a deeper place, beyond what is held
 };
 
+/// Tells apart a place that was found late from one that can't have been entered: it came up at a fold, deeper by more
+/// than the finger has moved (core/contact/decide/decide.h), so that the tracked one stays.
+class Entered {
+ public:
+  explicit Entered(const Preset& preset, const FingerPose& pose, double depth_m)
+      : preset_(preset), last_(pose), depth_m_(depth_m) {}
+
+  /// Whether the deepest place, `behind_m` deeper than the tracked one and what is held, was entered.
+  bool is_entered(const FingerPose& pose, double deepest_m, double behind_m) {
+    const Finger& finger = preset_.finger;
+    const double way = glm::distance(pose.position, last_.position) +
+                       finger.reach_m() * glm::angle(pose.orientation * glm::conjugate(last_.orientation));
+    came_up_ =
+        behind_m > 0.0 && (came_up_ || deepest_m > depth_m_ + 2.0 * way + (1.0 + kEnteredDepth) * hysteresis_m());
+    last_ = pose;
+    depth_m_ = std::max(0.0, deepest_m);
+    return !came_up_;
+  }
+
+ private:
+  double hysteresis_m() const { return preset_.solver.switch_hysteresis_m; }
+
+  const Preset& preset_;
+  FingerPose last_;
+  double depth_m_ = 0.0;
+  bool came_up_ = false;
+};
+
+constexpr std::uint64_t kTurningSeed = 98;
+
 /// Compared with a search from nothing at every `every`-th tick.
-TurnedOverBodies turn_over_bodies(FingerShape shape, int bodies, int poses, int every) {
-  Random random{98};
+TurnedOverBodies turn_over_bodies(FingerShape shape, int bodies, int poses, int every, std::uint64_t seed) {
+  Random random{seed};
   TurnedOverBodies found;
   for (int body = 0; body < bodies; ++body) {
     ContactMeshOptions options;
@@ -229,8 +243,13 @@ TurnedOverBodies turn_over_bodies(FingerShape shape, int bodies, int poses, int 
     TurningFinger finger(random, body % 5 != 0, preset.finger.reach_m());
     double depth = 0.0;
     int first = 0;  // up to there the finger comes near
-    for (; first < 400 && !(depth > 0.0); ++first)
-      depth = tracking.step(preset, finger.next(first, depth), state).penetration_m;
+    FingerPose pose;
+    for (; first < 400 && !(depth > 0.0); ++first) {
+      const TickInput input = finger.next(first, depth);
+      pose = input.finger;
+      depth = tracking.step(preset, input, state).penetration_m;
+    }
+    Entered entered(preset, pose, depth);
     for (int i = first; i < first + poses; ++i) {
       const TickInput input = finger.next(i, depth);
       const TickOutput tracked = tracking.step(preset, input, state);
@@ -241,8 +260,13 @@ TurnedOverBodies turn_over_bodies(FingerShape shape, int bodies, int poses, int 
       found.touching += tracked.penetration_m > 0.0;
       if (i % every > 0) continue;
       TickState fresh;
-      const double behind = searching.step(preset, input, fresh).penetration_m - tracked.penetration_m - held;
+      const double deepest = searching.step(preset, input, fresh).penetration_m;
+      const double behind = deepest - tracked.penetration_m - held;
       ++found.compared;
+      if (!entered.is_entered(input.finger, deepest, behind)) {
+        ++found.unentered;
+        continue;
+      }
       found.shallower += behind > 0.0;
       found.worst_m = std::max(found.worst_m, behind);
     }
@@ -250,14 +274,16 @@ TurnedOverBodies turn_over_bodies(FingerShape shape, int bodies, int poses, int 
   return found;
 }
 
-void check_turned(const TurnedOverBodies& found, int late_at_most) {
+void check_turned(const TurnedOverBodies& found) {
   MESSAGE(found.ticks << " poses, " << found.touching << " touching, " << found.unconverged << " unconverged, "
                       << found.facing << " facing, " << found.shallower << " of " << found.compared
-                      << " behind a deeper place by up to " << found.worst_m << " m more than is held");
+                      << " behind a deeper place by up to " << found.worst_m << " m more than is held, "
+                      << found.unentered << " beside one that came up deeper than it can have been entered");
   CHECK(found.unconverged == 0);
   CHECK(found.facing * 1000 <= found.ticks);
   CHECK(found.touching > found.ticks / 2);
-  CHECK(found.shallower <= late_at_most);
+  CHECK(found.unentered * 1000 <= found.compared);
+  CHECK(found.shallower == 0);
 }
 
 constexpr FingerShape kTurningShapes[] = {FingerShape::ellipsoid, FingerShape::capsule};
@@ -269,13 +295,15 @@ TEST_CASE("while an ellipsoid or a capsule turns over bodies made at random the 
     CAPTURE(static_cast<int>(shape));
     // 2 and 37 when a solve that ran on to the tracked contact, or out of planes, was taken to say that there is no
     // other, and 1 while it was for a place that was known roughly.
-    check_turned(turn_over_bodies(shape, 40, rounds(1000), 4), 0);
+    check_turned(turn_over_bodies(shape, 40, rounds(1000), 4, kTurningSeed));
   }
 }
 
 TEST_CASE("measure: on 100,000 poses an ellipsoid or a capsule that turns is at the deepest place" * doctest::skip()) {
+  const char* wanted = std::getenv("TANGENT_RANDOM_SEED");  // selects other bodies and ways
+  const std::uint64_t seed = wanted ? std::strtoull(wanted, nullptr, 10) : kTurningSeed;
   for (const FingerShape shape : kTurningShapes) {
     CAPTURE(static_cast<int>(shape));
-    check_turned(turn_over_bodies(shape, 100, 1000, 1), 10);
+    check_turned(turn_over_bodies(shape, 100, 1000, 1, seed));
   }
 }

@@ -1,6 +1,7 @@
 // What is not known to be safe does not reach an armed device before a person says yes, whoever changes the preset.
 #include "workbench/gui/model/guard_model.h"
 #include "tests/workbench/gui/headless_app.h"
+#include "workbench/gui/panels/commands.h"
 
 #include <doctest/doctest.h>
 
@@ -21,6 +22,7 @@ const PresetKey& stiffness() { return *find_preset_key("force.stiffness_n_per_m"
 /// The ideal device, without friction, armed on 300 N/m with the range of its stiffness swept.
 struct Guarded {
   HeadlessApp ui;
+  MenuBar menu;  ///< where commands leave their wishes
   static AppOptions options() {
     AppOptions options = HeadlessApp::deterministic_options();
     options.mesh = "torus";
@@ -187,4 +189,123 @@ TEST_CASE("what the servo undid is said, is in the panel too, and is known to sh
   REQUIRE_FALSE(g.model().devices().stopped());
   g.model().presets().set_value(stiffness(), 340.0);
   CHECK(g.guard().question());
+}
+
+TEST_CASE("what was never swept is asked about, whichever way it comes, and only a yes sends it") {
+  const PresetKey& radius = *find_preset_key("finger.radius_m");
+  Guarded g;
+  PresetModel& presets = g.model().presets();
+  const auto on_device = [&] { return g.model().devices().session()->preset().finger.radius_m; };
+  const double before = on_device();
+  const auto folder = std::filesystem::temp_directory_path();
+  const auto file = folder / "tangent_guard_finger.toml", lines = folder / "tangent_guard_finger.txt";
+  std::ofstream(file) << "format = 3\n[force]\nstiffness_n_per_m = 300\n[finger]\nradius_m = 0.03\n";
+  std::ofstream(lines) << "finger radius 30 mm\n";
+  struct Path {
+    const char* name;
+    std::function<void()> take;
+  };
+  const std::vector<Path> paths{
+      {"slider", [&] { presets.slide_value(radius, 0.03); }},
+      {"typed", [&] { presets.type_value(radius, "30 mm"); }},
+      {"command", [&] { CHECK(run_line(window_commands(g.model(), g.menu), "finger radius 30 mm")); }},
+      {"script", [&] { g.ui.app().run_script(lines); }},
+      {"preset", [&] { presets.load(file); }},
+      {"opened", [&] { g.model().open(file.string()); }},
+      {"point of a plot",
+       [&] {
+         presets.set_values("a swept point", std::vector{std::pair{&radius, 0.03}});
+       }},
+      {"trial",
+       [&] {
+         presets.try_values("trial 1", std::vector{std::pair{&radius, 0.03}});
+       }},
+      {"A and B", [&] { presets.toggle_ab(); }},
+      {"redo", [&] { presets.redo(); }},
+  };
+  for (const Path& path : paths) {
+    CAPTURE(std::string(path.name));
+    if (std::string(path.name) == "redo") presets.undo();
+    path.take();
+    g.ui.frames(8);
+    CHECK(on_device() == before);
+    if (presets.current().finger.radius_m == before) continue;
+    REQUIRE(g.guard().question());
+    CHECK(g.guard().question()->why.find("another finger") != std::string::npos);
+    g.guard().answer(false);
+    CHECK(presets.current().finger.radius_m == before);
+    CHECK(on_device() == before);
+  }
+  // Tried meanwhile, so that something is known of it: another finger is asked about all the same.
+  presets.set_value(radius, 0.03);
+  CHECK(on_device() == before);
+  REQUIRE(g.guard().question());
+  g.guard().answer(true);
+  CHECK(on_device() == 0.03);
+  std::filesystem::remove(file);
+  std::filesystem::remove(lines);
+}
+
+TEST_CASE("a value beside the swept line is tried in the simulated hand, and its outcome is said, not acted upon") {
+  Guarded g;
+  const PresetKey& damping = *find_preset_key("force.damping_n_s_per_m");
+  g.model().presets().set_value(damping, 0.05);
+  g.ui.frames(3);
+  REQUIRE(g.guard().question());
+  CHECK(g.guard().question()->tried);
+  CHECK(g.guard().question()->why.find("is stable in the simulated hand") == 0);
+  CHECK(g.model().devices().session()->preset().force.damping_n_s_per_m == 0.0);
+  g.guard().answer(true);
+  CHECK(g.model().devices().session()->preset().force.damping_n_s_per_m == 0.05);
+}
+
+TEST_CASE("paused while a change is asked about, the past is solved against what the devices have") {
+  Guarded g;
+  g.model().presets().set_value(stiffness(), 3400.0);
+  REQUIRE(g.guard().question());
+  TimeModel& time = g.model().time();
+  time.set_paused(true);
+  g.ui.frames(2);
+  time.solve_past_again();
+  REQUIRE(time.time_machine().compared() != nullptr);
+  CHECK(time.time_machine().compared()->before.force.stiffness_n_per_m == 300.0);
+  CHECK(time.time_machine().compared()->after.force.stiffness_n_per_m == 3400.0);
+  CHECK(time.name_after() == "asked, not set");
+  g.guard().answer(false);
+  g.ui.frames(2);
+  CHECK(time.time_machine().ghost() == nullptr);
+  CHECK(time.time_machine().compared() == nullptr);
+  time.solve_past_again();
+  REQUIRE(time.time_machine().ghost() != nullptr);
+  CHECK(time.time_machine().ghost()->preset.force.stiffness_n_per_m == 300.0);
+  CHECK(time.name_after() == "now");
+}
+
+TEST_CASE("a switch of A and B that is refused leaves the values of both") {
+  Guarded g;
+  PresetModel& presets = g.model().presets();
+  presets.try_values("trial 1", std::vector{std::pair{&stiffness(), 3400.0}});
+  REQUIRE(g.guard().question());
+  g.guard().answer(false);
+  CHECK(presets.slots().active_slot() == 0);
+  CHECK(g.in_panel() == 300.0);
+  CHECK(presets.slots().slot(1).current().force.stiffness_n_per_m == 3400.0);
+  presets.toggle_ab();
+  REQUIRE(g.guard().question());
+  g.guard().answer(false);
+  CHECK(presets.slots().active_slot() == 0);
+  CHECK(presets.slots().slot(1).current().force.stiffness_n_per_m == 3400.0);
+}
+
+TEST_CASE("who stops the search for safe ranges is guarded as before, and an answer needs a question") {
+  Guarded g;
+  g.guard().cancel();
+  g.ui.frames(2);
+  g.model().presets().set_value(stiffness(), 3400.0);
+  REQUIRE(g.guard().question());
+  CHECK(g.on_device() == 300.0);
+  g.guard().answer(false);
+  const std::uint64_t refused = g.model().messages().refusals();
+  g.guard().answer(true);
+  CHECK(g.model().messages().refusals() == refused + 1);
 }

@@ -258,6 +258,7 @@ TEST_CASE("the question: objectives, constraints and ranges by command, and what
   CHECK(ui.tune().question().objectives[2].name() == "closed_work_share");
   CHECK_FALSE(ui.command("tune first speed"));
   REQUIRE(ui.command("tune keep to p99_iterations <= 6"));
+  CHECK(ui.command("tune keep to p99_iterations <= 6"));  // it is kept to already
   CHECK_FALSE(ui.command("tune keep to p99_iterations <= 7"));
   CHECK_FALSE(ui.command("tune keep to speed = 0"));
   CHECK(ui.tune().question().constraints.size() == 2);

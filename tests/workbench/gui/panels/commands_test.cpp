@@ -36,6 +36,7 @@ constexpr ByCommand kByCommand[]{
     {"menu/file/commands", "palette"},
     {"menu/file/shortcuts", "shortcuts"},
     {"menu/file/examples*", "example"},
+    {"menu/file/experiment", "experiment"},
     {"menu/file/quit", "quit"},
     {"menu/view/left", "left column"},
     {"menu/view/right", "right column"},

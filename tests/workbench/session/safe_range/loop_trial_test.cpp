@@ -1,11 +1,16 @@
 // The trial of a preset in the simulated hand, against the theory of a flat wall.
+#include "core/io/mesh_io.h"
 #include "core/lab/objects/generate.h"
+#include "tests/support/meshes.h"
 #include "tests/workbench/session/session_fixture.h"
 #include "workbench/session/safe_range/safe_sweep.h"
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <vector>
 
 using namespace tangent;
 using namespace tangent::test;
@@ -14,6 +19,18 @@ namespace {
 
 std::shared_ptr<const ContactScene> cube_scene() {
   static const auto scene = scene_of(*generate_mesh("cube"));
+  return scene;
+}
+
+/// 80 mm long.
+std::shared_ptr<const ContactScene> spot_80() {
+  static const auto scene = [] {
+    const auto mesh = read_mesh(tangent::testing::spot_file(), 1.0);
+    REQUIRE(mesh);
+    ContactMeshOptions options;
+    options.fit_m = 0.08;
+    return scene_of(*mesh, options);
+  }();
   return scene;
 }
 
@@ -57,8 +74,8 @@ struct FlatWall {
 }  // namespace
 
 // Passive for every operator is a little less than stable for this one, and a loop just below the limit is still
-// swinging when the trial ends: from 0.8 to 1.3 of it.
-TEST_CASE("on a flat wall trials find the limit of Colgate and Brown within 0.8 to 1.3 of it") {
+// swinging when the trial ends: from 0.8 to 1.1 of it.
+TEST_CASE("on a flat wall trials find the limit of Colgate and Brown within 0.8 to 1.1 of it") {
   for (const double rate_hz : {500.0, 1000.0, 2000.0}) {
     for (const double b : {2.0, 4.0, 8.0}) {
       FlatWall wall{rate_hz, b, {}};
@@ -66,7 +83,7 @@ TEST_CASE("on a flat wall trials find the limit of Colgate and Brown within 0.8 
       MESSAGE(rate_hz << " Hz, b " << b << " N s/m: stable up to " << found << " N/m, passive up to " << passive
                       << " N/m: " << found / passive);
       CHECK(found > 0.8 * passive);
-      CHECK(found < 1.3 * passive);
+      CHECK(found < 1.1 * passive);
       CHECK(wall.touch(1.5 * passive).safety != Safety::stable);
       CHECK(wall.touch(3.0 * passive).safety == Safety::shakes);
     }
@@ -122,4 +139,68 @@ TEST_CASE("a preset that can't be felt, and a trial that is stopped, are unknown
   CHECK(trial.touch(nothing, site, kGrips[1]).safety == Safety::unknown);
   const std::atomic<bool> stop{true};
   CHECK(trial.touch({}, site, kGrips[1], &stop).safety == Safety::unknown);
+}
+TEST_CASE("what is faster than a frequency is measured by itself: no offset, no slow swing, no leak of one") {
+  constexpr double kDt_s = 1e-3;
+  const auto sine = [](double hz, double t_s) { return std::sin(2.0 * std::numbers::pi * hz * t_s); };
+  std::vector<Vec3> slow, fast, both;
+  for (int i = 0; i < 500; ++i) {
+    const double t_s = i * kDt_s;
+    slow.emplace_back(3.0 + 0.8 * sine(2.0, t_s), -1.0, 0.3 * sine(13.7, t_s));
+    fast.emplace_back(0.0, 0.1 * sine(150.3, t_s), 0.2 * sine(499.0, t_s + 0.25e-3));
+    both.push_back(slow.back() + fast.back());
+  }
+  CHECK(rms_above(slow, kDt_s, 40.0) < 1e-3);
+  const double alone = rms_above(fast, kDt_s, 40.0);
+  CHECK(alone > 0.1 * std::sqrt(0.5));
+  CHECK(rms_above(both, kDt_s, 40.0) == doctest::Approx(alone).epsilon(0.02));
+  const std::vector<Vec3> tone(fast.size(), Vec3(0.0));
+  CHECK(rms_above(tone, kDt_s, 40.0) == 0.0);
+  CHECK(rms_above({}, kDt_s, 40.0) == 0.0);
+  for (int i = 0; i < 500; ++i) fast[static_cast<std::size_t>(i)] = Vec3(sine(120.0, i * kDt_s), 0.0, 0.0);
+  CHECK(rms_above(fast, kDt_s, 40.0) == doctest::Approx(std::sqrt(0.5)).epsilon(1e-3));
+}
+
+// Encoder steps of 0.03 mm under a damping of 30 N s/m, the largest that the simulated device renders, are leaps of the
+// force of 0.28 N, which made no energy and no swing.
+TEST_CASE(
+    "a damping whose force chatters from encoder step to encoder step is stable on no body, the usual values are") {
+  for (const auto& scene : {torus_scene(), cube_scene(), spot_80()}) {
+    TrialDevice device;
+    device.largest_damping_n_s_per_m = 30.0;
+    PresetTrials trials({scene, device});
+    Preset preset;
+    CAPTURE(scene->mesh().triangle_count());
+    CHECK(trials.judge(preset)->safety == Safety::stable);
+    preset.force.damping_n_s_per_m = 200.0;
+    CHECK(trials.judge(rendered_by(device, preset))->safety != Safety::stable);
+  }
+  // Without steps even that is calm.
+  PresetTrials exact({cube_scene(), {.step_m = 0.0}});
+  Preset preset;
+  preset.force.damping_n_s_per_m = 20.0;
+  CHECK(exact.judge(preset)->safety == Safety::stable);
+}
+
+TEST_CASE("the buzz grows with the damping and is felt by a hand only") {
+  for (const auto& scene : {torus_scene(), cube_scene(), spot_80()}) {
+    const ExplorationPath path = ExplorationPath::build(*scene, pad_distance_m(Finger{}));
+    const LoopTrial trial(scene, path);
+    double last = 0.0;
+    for (const double damping : {0.0, 5.0, 10.0, 30.0}) {
+      Preset preset;
+      preset.force.damping_n_s_per_m = damping;
+      double worst = 0.0;
+      for (const double from : {0.0, 0.25, 0.5, 0.75}) {
+        const TouchSite site = [&](double along_m, double press_m) {
+          return path.at(from * path.length_m() + along_m, pad_distance_m(Finger{}), press_m);
+        };
+        worst = std::max(worst, trial.touch(preset, site, kGrips[0]).buzz_m_per_s2);
+        if (damping == 5.0) CHECK(trial.touch(preset, site, kGrips[2]).buzz_m_per_s2 == 0.0);
+      }
+      MESSAGE(scene->mesh().triangle_count() << " triangles, " << damping << " N s/m: " << worst << " m/s^2");
+      CHECK(worst > last);
+      last = worst;
+    }
+  }
 }

@@ -1,0 +1,116 @@
+// What the ticks of an ellipsoid and a capsule cost over a sphere's: the ways for callgrind, which counts instructions
+// (workbench/bench/README.md, "Means and tails").
+#include "core/io/mesh_io.h"
+#include "tests/core/random_bodies.h"
+
+#include <cstdlib>
+
+using namespace tangent;
+using namespace tangent::test;
+
+namespace {
+
+struct CostBody {
+  std::string name;
+  ScenePtr scene;
+};
+
+ScenePtr generated(const std::string& name, double rounding_m, int segments = 0) {
+  GenerateOptions options;
+  options.rounding_m = rounding_m;
+  options.segments = segments;
+  const auto mesh = generate_mesh(name, options);
+  REQUIRE(mesh);
+  return scene_of(*mesh);
+}
+
+ScenePtr made_at_random(int number) {
+  Random random{98};
+  PolygonMesh mesh = random_blob(random);
+  while (--number > 0) mesh = random_blob(random);
+  return scene_of(mesh);
+}
+
+bool is_wanted(const char* variable, const std::string& name) {
+  const char* wanted = std::getenv(variable);
+  return !wanted || name == wanted;
+}
+
+/// Of all bodies that one that TANGENT_BODY names, or all of them.
+std::vector<CostBody> wanted_bodies() {
+  std::vector<CostBody> bodies;
+  const auto add = [&](const std::string& name, auto make) {
+    if (is_wanted("TANGENT_BODY", name)) bodies.push_back({name, make()});
+  };
+  add("spot", [] { return spot_scene(45.0); });
+  for (const std::string name : {"stanford-bunny", "fandisk"})
+    if (testing::shared_files_there({("meshes/" + name + ".obj").c_str()}))
+      add(name, [&] { return file_scene(testing::shared_file("meshes/" + name + ".obj"), 45.0); });
+  add("icosphere", [] { return generated("icosphere", 0.0, 5); });
+  for (const std::string name : {"cube", "cylinder", "cone", "octagon", "tetrahedron"})
+    add(name, [&] { return generated(name, 1.5e-3); });
+  add("torus", [] { return generated("torus", 0.0); });
+  for (int i = 1; i <= 4; ++i) add("random-" + std::to_string(i), [i] { return made_at_random(i); });
+  for (const std::string name : {"cube", "cylinder"}) add("sharp-" + name, [&] { return generated(name, 0.0); });
+  return bodies;
+}
+
+/// Round the raw mesh, the centre 4.5 mm off, at 0.1 m/s, and turning by 0.17 degrees a tick.
+std::vector<TickInput> way_round(const ContactScene& scene, int ticks) {
+  constexpr double kOff = 4.5e-3, kStep = 1e-4, kTurn = 0.003;
+  const Vec3 origin = scene.mesh().origin();
+  Random random{99};
+  Vec3 centre = scene.mesh().bounds().centre() + glm::length(scene.mesh().bounds().size()) * random.direction();
+  Vec3 heading = random.direction();
+  Quat orientation = random.orientation();
+  std::vector<TickInput> way;
+  for (int i = 0; i < ticks; ++i) {
+    const Vec3 point = scene.nearest().nearest(centre, std::numeric_limits<double>::infinity()).point;
+    const Vec3 out = unit(centre - point);
+    centre = point + kOff * out;
+    orientation = glm::normalize(glm::angleAxis(kTurn, heading) * orientation);
+    way.push_back({1e-3 * i, {origin + centre, orientation}});
+    if (i % 300 == 299) heading = random.direction();
+    heading = unit(heading - glm::dot(heading, out) * out);
+    centre += kStep * heading;
+  }
+  return way;
+}
+
+Preset cost_preset(FingerShape shape) {
+  Preset preset = sphere_preset(shape == FingerShape::capsule ? 0.004 : 0.005, Method::robust);
+  preset.finger.shape = shape;
+  preset.finger.semi_axes_m = {0.006, 0.005, 0.004};
+  preset.finger.half_length_m = 0.002;
+  return preset;
+}
+
+const std::pair<std::string, FingerShape> kCostFingers[] = {
+    {"sphere", FingerShape::sphere}, {"ellipsoid", FingerShape::ellipsoid}, {"capsule", FingerShape::capsule}};
+
+}  // namespace
+
+TEST_CASE("measure: what a tick of an ellipsoid and a capsule costs on bodies of many kinds" * doctest::skip()) {
+  for (const auto& [body, scene] : wanted_bodies()) {
+    const std::vector<TickInput> way = way_round(*scene, 1500);
+    for (const auto& [name, shape] : kCostFingers) {
+      if (!is_wanted("TANGENT_FINGER", name)) continue;
+      CAPTURE(body);
+      CAPTURE(name);
+      const Preset preset = cost_preset(shape);
+      Stepper stepper(scene);
+      TickState state;
+      long evaluations = 0;
+      int unconverged = 0, facing = 0;
+      for (const TickInput& input : way) {
+        const TickOutput out = stepper.step(preset, input, state);
+        evaluations += out.iterations;
+        unconverged += out.status == TickStatus::unconverged;
+        facing += out.status == TickStatus::facing;
+      }
+      MESSAGE(body << ", " << name << ": " << way.size() << " ticks, " << evaluations << " evaluations, " << facing
+                   << " ticks facing");
+      CHECK(unconverged == 0);
+    }
+  }
+}

@@ -1,0 +1,110 @@
+// What is asked before a study: the order of conditions, power, and whether protocol and analysis keep what they say.
+#include "workbench/analysis/condition_order.h"
+#include "workbench/analysis/page_table.h"
+#include "workbench/analysis/write_planning.h"
+
+#include "workbench/session/own_folder.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+namespace tangent::analysis {
+namespace {
+
+experiment::Protocol shipped_protocol(const std::string& kind) {
+  return *experiment::read_protocol(std::filesystem::path(TANGENT_SOURCE_DIR) / "presets" / "experiments" /
+                                    (kind + ".toml"));
+}
+
+TEST_CASE("Kendall's tau: 1 for the same order, -1 backwards, less for ties") {
+  const std::vector<double> up{1.0, 2.0, 3.0, 4.0}, down{4.0, 3.0, 2.0, 1.0}, tied{1.0, 1.0, 2.0, 2.0};
+  CHECK(*kendall_tau(up, up) == doctest::Approx(1.0));
+  CHECK(*kendall_tau(up, down) == doctest::Approx(-1.0));
+  CHECK(*kendall_tau(up, tied) == doctest::Approx(4.0 / std::sqrt(6.0 * 4.0)));
+  CHECK_FALSE(kendall_tau(up, std::vector<double>(4, 5.0)));
+}
+
+TEST_CASE(
+    "conditions in the paper's order agree with it, reversed ones do not, participants that lack one are left out") {
+  const std::vector<std::string> names{"C1", "C2", "C3", "P1"};
+  const double none = std::nan("");
+  const std::vector<std::vector<double>> like{{100, 90, none}, {16, 15, 16}, {250, 260, 240}, {4, 5, 4}};
+  const auto agrees = agreement_with_paper(names, like);
+  REQUIRE(agrees);
+  CHECK(agrees->participants == 2);
+  CHECK(agrees->tau == doctest::Approx(1.0));
+  CHECK(agrees->low == doctest::Approx(1.0));
+  const std::vector<std::vector<double>> unlike{{16, 17}, {100, 90}, {4, 5}, {250, 260}};
+  CHECK(agreement_with_paper(names, unlike)->tau == doctest::Approx(-1.0));
+  CHECK_FALSE(agreement_with_paper(std::vector<std::string>{"C1", "C2"}, {{1, 2}, {3, 4}}));
+}
+
+TEST_CASE("power without a difference is the level, and grows to one") {
+  CHECK(paired_t_power(0.0, 12) == doctest::Approx(0.05));
+  CHECK(anova_power(0.0, 4, 12) == doctest::Approx(0.05));
+  CHECK(paired_t_power(3.0, 12) > 0.999);
+  CHECK(anova_power(3.0, 4, 12) > 0.999);
+  // Of two conditions F is t squared.
+  CHECK(anova_power(0.8 * 0.8, 2, 10) == doctest::Approx(paired_t_power(0.8, 10)).epsilon(1e-6));
+}
+
+TEST_CASE("simulated groups find what theory says") {
+  constexpr int kGroups = 60;
+  for (const char* kind : {"discrimination", "identification"}) {
+    const PowerTable power = power_table(shipped_protocol(kind), kGroups);
+    CHECK(power.rows.size() % 7 == 0);
+    for (const PowerRow& row : power.rows) {
+      CAPTURE(row.test);
+      CAPTURE(row.difference);
+      CAPTURE(row.participants);
+      const double deviation = std::sqrt(row.theory * (1.0 - row.theory) / kGroups);
+      CHECK(std::abs(row.found - row.theory) < 4.0 * deviation + 0.05);
+      CHECK(row.low <= row.found + 1e-9);
+      CHECK(row.found <= row.high + 1e-9);
+    }
+    for (std::size_t i = 1; i < power.rows.size(); ++i)
+      if (power.rows[i].participants > power.rows[i - 1].participants)
+        CHECK(power.rows[i].theory >= power.rows[i - 1].theory);
+  }
+}
+
+TEST_CASE("a text with commas and quotes is one field of the file") {
+  PageTable table("t", "", true);
+  table.column("What", "what").column("Of", "of");
+  table.row().text("narrow, \"wide\"").count(3);
+  CHECK(table.csv() == "simulated,what,of\nyes,\"narrow, \"\"wide\"\"\",3\n");
+}
+
+TEST_CASE("planning writes tables that say they are simulated, and a check names what it asked") {
+  const auto folder = OwnFolder::make();
+  for (const char* kind : {"discrimination", "identification"}) {
+    const auto rows = check_analysis(shipped_protocol(kind), 40);
+    CHECK(rows.size() >= 5);
+    for (const CheckRow& row : rows) {
+      CAPTURE(row.what);
+      CHECK(row.count > 0);
+      CHECK(std::isfinite(row.found));
+    }
+    PlanningFiles files{folder->path() / kind, "workbench analyse p --check", "a < b"};
+    PowerTable power{"thresholds, ratio", {{"paired t", 1.5, 12, 0.5, 0.4, 0.6, 0.5}}};
+    REQUIRE(write_check(rows, files));
+    REQUIRE(write_power(power, files));
+    for (const auto& entry : std::filesystem::directory_iterator(files.folder)) {
+      std::ostringstream text;
+      text << std::ifstream(entry.path()).rdbuf();
+      CAPTURE(entry.path().string());
+      const bool page = entry.path().extension() == ".html";
+      CHECK(text.str().find(page ? "Nobody felt anything" : "simulated,") != std::string::npos);
+      CHECK((text.str().find("a &lt; b") != std::string::npos) == page);
+    }
+  }
+  bool asked = false;
+  CHECK(check_analysis(shipped_protocol("identification"), 1000, [&] { return asked = true; }).size() < 3);
+  CHECK(asked);
+}
+
+}  // namespace
+}  // namespace tangent::analysis

@@ -1,0 +1,99 @@
+#include "workbench/experiment/trial_run.h"
+
+namespace tangent::experiment {
+namespace {
+
+Fields names_in(std::span<const ColumnMeaning> columns) {
+  Fields out;
+  for (const ColumnMeaning& column : columns) out.emplace_back(column.name);
+  return out;
+}
+
+template <class Row, class Read>
+Result<std::vector<Row>> rows_before(const RowFile& file, std::span<const ColumnMeaning> columns, Read read) {
+  std::vector<Row> out;
+  const Fields names = names_in(columns);
+  for (const Fields& fields : file.rows()) {
+    auto row = read(names, fields);
+    if (!row) return tl::unexpected(row.error());
+    out.push_back(std::move(row->second));
+  }
+  return out;
+}
+
+Result<std::variant<ComparisonRun, NamingRun>> run_after(const RowFile& file, const Protocol& protocol,
+                                                         std::uint64_t number, std::uint64_t seed) {
+  if (protocol.discrimination()) {
+    const auto rows = rows_before<ComparisonRow>(file, comparison_columns(), comparison_row);
+    if (!rows) return tl::unexpected(rows.error());
+    auto run = ComparisonRun::start(protocol, number, seed, *rows);
+    if (!run) return tl::unexpected(run.error());
+    return std::move(*run);
+  }
+  const auto rows = rows_before<NamingRow>(file, naming_columns(), naming_row);
+  if (!rows) return tl::unexpected(rows.error());
+  auto run = NamingRun::start(protocol, number, seed, *rows);
+  if (!run) return tl::unexpected(run.error());
+  return std::move(*run);
+}
+
+}  // namespace
+
+Result<TrialRun> TrialRun::start(const std::filesystem::path& folder, const Protocol& protocol,
+                                 const std::string& protocol_text, const Enrolment& enrolment) {
+  const std::string& name = enrolment.mark.participant;
+  if (Status ok = check_participant(name); !ok) return tl::unexpected(ok.error());
+  const auto number = participant_number(name);
+  if (!number)
+    return fail("\"" + name + "\" ends with no number, which the orders go by", "--participant", "write 7, or P07");
+  Result<RowFile> file = enrol(folder, protocol, protocol_text, enrolment);
+  if (!file) return tl::unexpected(file.error());
+  const std::filesystem::path rows = rows_path(folder, name, protocol);
+  auto run = run_after(*file, protocol, *number, enrolment.seed);
+  if (!run) return fail(run.error().what, rows.string() + " " + run.error().where, run.error().remedy);
+  TrialRun out(std::move(*run), std::move(*file), enrolment.mark, rows);
+  if (out.finished())
+    return fail("participant " + name + " has answered everything already", rows.string(),
+                "take another participant or another folder");
+  return out;
+}
+
+const Shown& TrialRun::shown() const {
+  return std::visit([](const auto& run) -> const Shown& { return run.shown(); }, run_);
+}
+Progress TrialRun::progress() const {
+  return std::visit([](const auto& run) { return run.progress(); }, run_);
+}
+int TrialRun::trial() const {
+  return std::visit([](const auto& run) { return run.trial(); }, run_);
+}
+std::string TrialRun::what_is_next() const {
+  return std::visit([](const auto& run) { return run.what_is_next(); }, run_);
+}
+std::vector<std::pair<int, bool>> TrialRun::staircase() const {
+  const auto* comparison = std::get_if<ComparisonRun>(&run_);
+  return comparison != nullptr ? comparison->answers() : std::vector<std::pair<int, bool>>{};
+}
+
+Status TrialRun::advance(const Moment& moment, const RowOrigin& origin) {
+  if (owed_) return settle();
+  std::visit(
+      [&](auto& run) {
+        if (const auto row = run.advance(moment)) owed_ = fields_of(mark_, *row, origin);
+      },
+      run_);
+  return settle();
+}
+
+Status TrialRun::settle() {
+  if (!owed_) return {};
+  const Status ok = file_.add(*owed_);
+  if (ok) owed_.reset();
+  return ok;
+}
+
+void TrialRun::repeat(double t_s) {
+  std::visit([t_s](auto& run) { run.repeat(t_s); }, run_);
+}
+
+}  // namespace tangent::experiment
