@@ -415,6 +415,11 @@ class RivalSearch {
     return proof.height_m != 0.0 && glm::dot(apart, apart) < near * near;
   }
 
+  /// Round fingers. A place that is none of the contact's slope is told by its height: near a contact it changes little.
+  static bool is_as_high(const PatchExclusion& proof, double height_m) {
+    return std::abs(proof.height_m - height_m) < kHeightGuess * std::abs(height_m);
+  }
+
   Look solve(const PartOfTriangle& part, const PatchExclusion& proof, double enough_m, RivalResult& result) {
     context_.seed = static_cast<std::uint8_t>(std::min(++solves_, 255));
     const SurfacePlace start = start_on(context_, part, proof);
@@ -441,7 +446,8 @@ class RivalSearch {
     if (!r.converged()) return {kUnresolvedMargin * slope_m_, true, true};
     if (is_followed(r.plane.point)) {
       // Beside a fold a solve may run past a contact, or where one is about to come up, to the tracked one.
-      const bool ran_past = core_ && interior && r.plane.triangle != part.triangle && !is_beside(proof, r.plane.point);
+      const bool ran_past = interior && r.plane.triangle != part.triangle &&
+                            !(is_beside(proof, r.plane.point) && (core_ || is_as_high(proof, r.contact.height_m)));
       return ran_past ? Look{kUnresolvedMargin * slope_m_, true, true} : own_slope(enough_m);
     }
     remember(r.plane, r.contact);
