@@ -132,6 +132,8 @@ Result<DeviceSet> make_devices(const DeviceNames& names, const DeviceOptions& op
   return DeviceSet{force->make(options), display->make(options)};
 }
 
+bool are_simulated(const DeviceNames& names) { return names.display != "cld" && names.display != "maestro"; }
+
 bool all_simulated(const DeviceSet& devices) {
   return (!devices.force || devices.force->capabilities().simulated) &&
          (!devices.display || devices.display->capabilities().simulated);

@@ -45,6 +45,9 @@ Result<DeviceNames> devices_by_one_name(std::string_view name);
 /// "simulated" where both have the name, "simulated and cld" otherwise.
 std::string to_string(const DeviceNames& names);
 
+/// Whether these names are of simulated devices, or of none.
+bool are_simulated(const DeviceNames& names);
+
 /// Makes the devices, not yet opened. Fails on an unknown name; the error lists the choices.
 Result<DeviceSet> make_devices(const DeviceNames& names, const DeviceOptions& options = {});
 

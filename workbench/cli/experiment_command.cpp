@@ -35,6 +35,21 @@ Status check_name(const std::string& participant) {
               "write one, as P07: it decides which order is the participant's");
 }
 
+/// A simulated participant has no device; and a device and a window keep real time.
+Status check_trials(const ExperimentCommandOptions& options) {
+  const TrialChoice& t = options.trials;
+  const bool of_people = t.record || t.without_timeout || t.without_waiting || t.window || t.sound ||
+                         t.sound_device != TrialChoice{}.sound_device ||
+                         !(t.devices.names == TrialChoice{}.devices.names);
+  if (!options.simulated.empty() && of_people)
+    return fail("is a participant without device, window and sound", {}, "leave those options out, or --simulated");
+  if (t.without_waiting && t.window) return fail("keeps real time", {}, "leave --window or --without-waiting out");
+  if (t.without_waiting && !are_simulated(t.devices.names))
+    return fail("can't be: real devices keep real time", {},
+                "leave --without-waiting out, or choose simulated devices");
+  return {};
+}
+
 Result<int> run_with_person(const ExperimentCommandOptions& options, const experiment::Protocol& protocol,
                             const std::string& text, const experiment::Enrolment& enrolment,
                             const RunTrials& in_windows) {
@@ -51,7 +66,6 @@ Result<int> run_with_person(const ExperimentCommandOptions& options, const exper
   }
   if (!options.trials.window) return run_trials(std::move(wanted));
   if (!in_windows) return fail("this program has no windows", "--window", "leave it out: keys then come from here");
-  if (options.trials.without_waiting) return fail("a window keeps real time", "--without-waiting", "leave one out");
   return in_windows(std::move(wanted));
 }
 
@@ -100,6 +114,9 @@ void add_experiment_command_with(CLI::App& app, CommandResult& result, const Run
   add_trial_options(*command, o->trials);
   on_run(*command, [options, in_windows, &result] {
     refuse_failed("--participant", check_name(options->participant));
+    refuse_failed(
+        options->simulated.empty() ? options->trials.window ? "--window" : "--without-waiting" : "--simulated",
+        check_trials(*options));
     const Result<int> code = run_experiment(*options, in_windows);
     if (!code) print_message("experiment", code.error().message());
     result.exit_code = code ? *code : kFailed;

@@ -19,6 +19,7 @@ using experiment::TrialSession;
 
 constexpr std::array<std::string_view, 2> kSounds{"none", "noise"};
 constexpr std::uint64_t kTicksAtOnce = 16;  // in simulated time: as a display at 60 Hz would
+constexpr int kKeysAtOnce = 64;             // then time goes on, whoever goes on writing
 
 /// Says what is new, to the participant on standard output, to the operator on standard error.
 class Teller {
@@ -45,15 +46,16 @@ double clock_of(TrialSession& trials) {
   return history.empty() ? 0.0 : history.newest().tick.input.t_s;
 }
 
-/// All that can be taken now. `wait_until_s`: nothing is before that.
+/// What can be taken now, at most kKeysAtOnce. `wait_until_s`: nothing is before that.
 Status take_keys(TrialKeys& keys, TrialSession& trials, double& wait_until_s) {
-  while (clock_of(trials) >= wait_until_s) {
+  for (int taken = 0; taken < kKeysAtOnce && clock_of(trials) >= wait_until_s; ++taken) {
     const auto input = keys.next();
     if (!input) return tl::unexpected(input.error());
     if (!*input) {
       if (keys.ended()) trials.press(experiment::TrialKey::quit);
       return {};
     }
+    if (!(*input)->wrong.empty()) print_message("experiment", (*input)->wrong);
     if ((*input)->key) trials.press(*(*input)->key);
     if (!(*input)->note.empty()) trials.note((*input)->note);
     if ((*input)->wait_s > 0.0) wait_until_s = clock_of(trials) + (*input)->wait_s;
@@ -129,14 +131,11 @@ int say_outcome(const std::filesystem::path& rows, int answers, bool complete) {
 Result<int> run_trials(TrialsToRun wanted) {
   std::signal(SIGXFSZ, SIG_IGN);  // a limit on file sizes is an error of the write, like a full disk
   const InterruptGuard guard;
-  const bool waits = wanted.trials.session.threaded;
   auto sound = experiment::SoundFollower::open(wanted.sound, wanted.sound_device);
   if (!sound) return tl::unexpected(sound.error());
   wanted.trials.sound = sound->text();
   auto trials = TrialSession::start(std::move(wanted.trials));
   if (!trials) return tl::unexpected(trials.error());
-  if (!waits && (*trials)->session().status().real_devices)
-    return fail("real devices keep real time", "--without-waiting", "leave it out, or choose simulated devices");
   const Status attended = attend(**trials, *sound);
   const int answers = (*trials)->answers();
   const bool complete = (*trials)->complete();

@@ -1,6 +1,7 @@
 #include "workbench/cli/trial_keys.h"
 
 #include "core/base/text.h"
+#include "core/io/csv_table.h"
 
 #include <array>
 #include <cstdio>
@@ -15,6 +16,7 @@ using experiment::TrialKey;
 
 constexpr char kEscape = 27;
 constexpr double kLongestWait_s = 3600.0;
+constexpr std::size_t kLongestKeyLine = 4096;
 
 struct NamedKey {
   std::string_view line;
@@ -25,24 +27,36 @@ constexpr std::array kNamedKeys{NamedKey{"enter", '\n', TrialKey::enter},  Named
                                 NamedKey{"stop", kEscape, TrialKey::stop}, NamedKey{"resume", 'r', TrialKey::resume},
                                 NamedKey{"lift", ' ', TrialKey::lift},     NamedKey{"quit", 'q', TrialKey::quit}};
 
+std::string printable(std::string_view text) {
+  std::string out(text);
+  for (char& c : out)
+    if (static_cast<unsigned char>(c) < ' ' || c == 127) c = ' ';
+  return out;
+}
+
 bool is_digit_key(std::string_view text) { return text.size() == 1 && text[0] >= '1' && text[0] <= '9'; }
 
 }  // namespace
 
-Result<TrialInput> trial_input_of(const std::string& line) {
+Result<TrialInput> trial_input_of(const std::string& text) {
   TrialInput out;
+  std::string_view line = text;
+  if (line.ends_with('\r')) line.remove_suffix(1);
+  if (line.size() > kLongestKeyLine)
+    return fail("has a line of more than " + std::to_string(kLongestKeyLine) + " characters", "standard input",
+                "write shorter notes");
   if (is_digit_key(line)) {
     out.key = experiment::digit_key(line[0] - '0');
     return out;
   }
   for (const NamedKey& named : kNamedKeys)
     if (line == named.line) return out.key = named.means, out;
-  if (line.starts_with("note ")) return out.note = line.substr(5), out;
+  if (line.starts_with("note ")) return out.note = printable(line.substr(5)), out;
   if (line.starts_with("wait "))
     if (const auto seconds = parse_finite_double(line.substr(5));
         seconds && *seconds > 0.0 && *seconds <= kLongestWait_s)
       return out.wait_s = *seconds, out;
-  return fail("\"" + line + "\" is no key", "standard input",
+  return fail(show_text(line) + " is no key", "standard input",
               "write enter, 1 to 9, stop, resume, lift, quit, note TEXT or wait S, a line each");
 }
 
@@ -86,12 +100,16 @@ Result<std::optional<TrialInput>> TrialKeys::next() {
   read_some();
   if (terminal()) return buffer_.empty() ? std::nullopt : next_key();
   const std::size_t end = buffer_.find('\n');
-  if (end == std::string::npos && !(ended_ && !buffer_.empty())) return std::nullopt;
+  if (end == std::string::npos && !(ended_ && !buffer_.empty()) && buffer_.size() <= kLongestKeyLine)
+    return std::nullopt;
   const std::string line = buffer_.substr(0, end);
   buffer_.erase(0, end == std::string::npos ? end : end + 1);
   auto input = trial_input_of(line);
-  if (!input) return tl::unexpected(input.error());
-  return std::optional(std::move(*input));
+  if (input) return std::optional(std::move(*input));
+  if (line.size() > kLongestKeyLine) return tl::unexpected(input.error());
+  TrialInput wrong;
+  wrong.wrong = input.error().message();
+  return std::optional(std::move(wrong));
 }
 
 }  // namespace tangent

@@ -19,16 +19,18 @@ struct TrialInput {
   std::optional<experiment::TrialKey> key;
   std::string note;     ///< empty: none
   double wait_s = 0.0;  ///< nothing more is taken for so long
+  std::string wrong;    ///< why the line means nothing; empty: it means something
 };
 
-/// What a line means. Fails on one that means nothing.
+/// What a line means, without the "\r" that some systems end it with; of a note what can't be printed becomes a space.
+/// Fails on one that means nothing, or is longer than any note.
 Result<TrialInput> trial_input_of(const std::string& line);
 
 class TrialKeys {
  public:
   TrialKeys() = default;
   bool terminal() const { return terminal_.active(); }
-  /// Null: nothing came. Does not wait.
+  /// Null: nothing came. Does not wait. Fails on a line longer than any note: whoever writes it means something else.
   Result<std::optional<TrialInput>> next();
   /// Standard input has ended, and all of it was taken.
   bool ended() const { return ended_ && buffer_.empty(); }

@@ -48,7 +48,7 @@ void NamingRun::show(Phase phase, double t_s) {
       shown_.prompt = "Feel this object as long as you like, then press Enter.";
       break;
     case Phase::guide:
-      shown_.prompt = "Bring your finger to the mark, and wait for the sound.";
+      shown_.prompt = "Bring your finger to the mark, and wait there.";
       break;
     case Phase::rest:
       shown_.prompt = "A short rest. Press Enter to go on.";

@@ -150,6 +150,15 @@ Result<Database> Database::open_to_write(const std::filesystem::path& path) {
   return open_with(path, SQLITE_OPEN_READWRITE);
 }
 
+/// A writer that was killed before the file's first part was whole leaves a journal, which a reader can't undo.
+static void undo_unfinished(const std::filesystem::path& path) {
+  const std::string journal = path.string() + "-journal";
+  struct stat left {};
+  if (::stat(journal.c_str(), &left) != 0 || left.st_size == 0 || ::access(path.c_str(), W_OK) != 0) return;
+  Result<Database> database = Database::open_to_write(path);
+  if (database) (void)database->whole_of("SELECT count(*) FROM sqlite_schema");  // undoes; what fails is said below
+}
+
 Result<Database> Database::open(const std::filesystem::path& path) {
   struct stat seen {};
   if (::stat(path.c_str(), &seen) != 0)
@@ -157,6 +166,7 @@ Result<Database> Database::open(const std::filesystem::path& path) {
   if (!S_ISREG(seen.st_mode)) return fail("is not a file", path.string(), "give the name of a recording");
   if (seen.st_size == 0)
     return fail("is empty", path.string(), "give a recording; this one ended before its first part was written");
+  undo_unfinished(path);
   Result<Database> database = open_with(path, SQLITE_OPEN_READONLY);
   if (!database) return database;
   if (Status ok = database->run("PRAGMA cell_size_check=ON"); !ok) return tl::unexpected(ok.error());

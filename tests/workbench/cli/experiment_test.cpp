@@ -105,6 +105,41 @@ TEST_CASE("experiment: a person's keys from a pipe, in simulated time") {
   CHECK(contains(events.str(), "tired"));
 }
 
+TEST_CASE(
+    "experiment: keys without end, damaged or of another system's line ends neither hang it nor fill the screen") {
+  const TempFolder folder;
+  const auto keys = [&](const std::string& from, const std::string& participant) {
+    const testing::Process shell({"-c",
+                                  from + " | timeout -k 60 1 \"$0\" experiment \"$1\" --participant " + participant +
+                                      " --out \"$2\" --without-waiting",
+                                  TANGENT_PROGRAM, shipped("discrimination.toml"), folder.file("d")},
+                                 "/bin/sh");
+    return shell.wait();
+  };
+  CHECK(keys("yes enter", "1").exit_code == 124);  // at the first signal: 137 were the last
+  const ProcessResult crlf = keys("printf 'wait 1\\r\\nlift\\r\\n'", "2");
+  CHECK(contains(crlf.err, "goes on from there"));
+  const ProcessResult zeros = keys("printf 'wait 1\\n\\000\\000\\nnote still here\\n'", "3");
+  CHECK(zeros.exit_code == 1);
+  CHECK(contains(zeros.err, "is no key"));
+  CHECK(contains(zeros.err, "write enter"));
+  std::ostringstream events;
+  events << std::ifstream(folder.file("d/sub-3/beh/sub-3_task-discrimination_events.tsv")).rdbuf();
+  CHECK(contains(events.str(), "still here"));
+  const ProcessResult line = keys("head -c 1000000 /dev/zero | tr '\\000' x", "4");
+  CHECK(contains(line.err, "more than 4096 characters"));
+  CHECK(line.err.size() < 1000);
+}
+
+TEST_CASE("experiment: a real device can't keep simulated time, and nobody is enrolled for it") {
+  const TempFolder folder;
+  const ProcessResult run = run_workbench({"experiment", shipped("discrimination.toml"), "--participant", "1", "--out",
+                                           folder.file("d"), "--device", "cld", "--without-waiting"});
+  CHECK(run.exit_code == 2);
+  CHECK(contains(run.err, "real devices keep real time"));
+  CHECK_FALSE(std::filesystem::exists(folder.file("d")));
+}
+
 TEST_CASE("experiment and analyse: what can't be is said, with the exit codes of every command") {
   const TempFolder folder;
   CHECK(experiment(folder, "anna").exit_code == 2);
@@ -113,6 +148,8 @@ TEST_CASE("experiment and analyse: what can't be is said, with the exit codes of
   CHECK(contains(experiment(folder, "a/1").err, "letters"));
   CHECK(run_workbench({"experiment", shipped("discrimination.toml"), "--out", folder.file("d")}).exit_code == 2);
   CHECK(experiment(folder, "1", {"--seed", "-1"}).exit_code == 2);
+  for (const char* option : {"--record", "--without-waiting", "--window", "--device=cld", "--sound=none"})
+    CHECK_MESSAGE(experiment(folder, "1", {option}).exit_code == 2, option);
   const ProcessResult person =
       run_workbench({"experiment", shipped("discrimination.toml"), "--participant", "1", "--out", folder.file("d")});
   CHECK(person.exit_code == 1);  // no key ever comes

@@ -67,6 +67,26 @@ TEST_CASE("a file that another program has locked says so, and a file of a terab
   CHECK_FALSE(failure_of(huge).empty());
 }
 
+TEST_CASE("what a writer that was killed left half done is undone when the file is opened") {
+  const Damaged half;
+  const testing::TempFolder folder;
+  const std::string copy = folder.file("killed.sqlite");
+  {  // as it is on the disk in the middle of a change
+    sqlite3* writer = nullptr;
+    REQUIRE(sqlite3_open(half.path.c_str(), &writer) == SQLITE_OK);
+    REQUIRE(sqlite3_exec(writer,
+                         "PRAGMA journal_mode=DELETE; PRAGMA cache_size=1; BEGIN; CREATE TABLE t(a);"
+                         "WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i+1 FROM n WHERE i<500)"
+                         "INSERT INTO t SELECT zeroblob(1000) FROM n",
+                         nullptr, nullptr, nullptr) == SQLITE_OK);
+    std::filesystem::copy_file(half.path, copy);
+    std::filesystem::copy_file(half.path + "-journal", copy + "-journal");
+    sqlite3_close(writer);
+  }
+  CHECK(failure_of(copy).empty());
+  CHECK_FALSE(std::filesystem::exists(copy + "-journal"));
+}
+
 TEST_CASE("a recording of a newer program is refused, naming both formats") {
   const Damaged newer("PRAGMA user_version=2");
   CHECK(says(failure_of(newer.path), "has format 2, and this program reads up to 1"));

@@ -1,10 +1,9 @@
 #include "workbench/gui/panels/script_runner.h"
 
+#include "core/io/input_file.h"
 #include "workbench/gui/panels/commands.h"
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <sstream>
 
 namespace tangent {
@@ -31,10 +30,9 @@ std::string last_error(const MessageLog& messages) {
 
 Status ScriptRunner::load(const std::filesystem::path& file) {
   if (running()) return fail("a script is running already", file.string(), "wait for its end");
-  std::ifstream in(file);
-  if (!in || std::filesystem::is_directory(file))
-    return fail("the script can't be read", file.string(), "check its path and its permissions");
-  return load_lines(file.string(), std::string(std::istreambuf_iterator<char>(in), {}));
+  const Result<std::string> lines = read_input_file(file, std::size_t{1} << 24);
+  if (!lines) return tl::unexpected(lines.error());
+  return load_lines(file.string(), *lines);
 }
 
 Status ScriptRunner::load_lines(const std::string& name, const std::string& lines) {

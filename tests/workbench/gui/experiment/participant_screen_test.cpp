@@ -39,7 +39,7 @@ ParticipantScreen seven_objects() {
 
 ParticipantScreen on_the_way() {
   ParticipantScreen screen;
-  screen.prompt = "Bring your finger to the mark, and wait for the sound.";
+  screen.prompt = "Bring your finger to the mark, and wait there.";
   screen.trial = 3;
   screen.of = 112;
   screen.show_mark = true;
