@@ -110,7 +110,7 @@ class Checks {
     small.start = 100.0;
     small.most = 1e6;
     std::vector<double> shares;
-    for (int p = 0; p < std::max(participants_ / 50, 2); ++p) {
+    for (int p = 0; p < std::max(participants_ / 50, 2) && !stopped(); ++p) {
       Psychometric function{1.0, 0.35, kLapse};
       function.middle = small.start / function.segments_at(balance_point(small));
       SplitMix random(2, static_cast<std::uint64_t>(p));
@@ -139,10 +139,10 @@ class Checks {
   void thresholds(double from, double to, bool easy) {
     if (stopped()) return;
     const int staircases = std::max(participants_ / 5, 2);
-    ThresholdFitter fitter(rule(), std::clamp(participants_, 20, 1000));
+    ThresholdFitter fitter(rule(), std::clamp(participants_, 20, 1000), stop_);
     std::uint64_t held = 0;
     std::vector<double> off, rule_off, told;
-    for (int i = 0; i < staircases; ++i) {
+    for (int i = 0; i < staircases && !stopped(); ++i) {
       SplitMix random(3, static_cast<std::uint64_t>(i));
       const Psychometric function = of_spread(from + (to - from) * random.unit(), easy, random);
       Staircase staircase(rule());
@@ -168,10 +168,10 @@ class Checks {
     if (stopped()) return;
     constexpr int kGroup = 12;
     const int groups = std::max(participants_ / 40, 2);
-    ThresholdFitter fitter(rule(), 20);  // its calibration is not asked for
+    ThresholdFitter fitter(rule(), 20, stop_);  // its calibration is not asked for
     std::uint64_t held = 0;
     std::vector<double> ratios;
-    for (int g = 0; g < groups; ++g) {
+    for (int g = 0; g < groups && !stopped(); ++g) {
       std::vector<SpreadLikelihood> all;
       SplitMix random(4, static_cast<std::uint64_t>(g));
       for (int i = 0; i < kGroup; ++i) {

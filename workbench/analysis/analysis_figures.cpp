@@ -39,6 +39,21 @@ std::string name_tics(const std::vector<std::string>& names) {
   return "set xtics (" + out + ")\nset xrange [-0.6:" + number(static_cast<double>(names.size()) - 0.4) + "]\n";
 }
 
+bool has_points(const FigureTable& table, const std::string& column) {
+  const auto at =
+      static_cast<std::size_t>(std::find(table.columns.begin(), table.columns.end(), column) - table.columns.begin());
+  return std::any_of(table.rows.begin(), table.rows.end(),
+                     [&](const std::vector<double>& row) { return std::isfinite(row[at]); });
+}
+
+/// A command of what has points alone: gnuplot complains of the rest. Empty where nothing has.
+struct Plot {
+  std::string text;
+  void add(bool points, const std::string& series) {
+    if (points) text += (text.empty() ? "plot " : ", ") + series;
+  }
+};
+
 /// Bars with error bars: columns name_column, NAME, NAME_low, NAME_high, moved sideways.
 std::string bars(const std::string& column, const std::string& title, const char* colour, double move, double width) {
   const std::string at = "(column('place')+" + number(move) + ")";
@@ -88,12 +103,17 @@ Figure staircases_figure(std::span<const StaircaseResult> staircases, const std:
         "set title '" + one.condition +
         (one.segments ? ": threshold " + number(std::round(*one.segments * 10.0) / 10.0) : ": not settled") +
         "' offset 0,-0.6\n";
-    figure.script += "plot F using 'trial':" + only + "level'):1/0) with lines lw 1 lc rgb '#999999'" +
-                     ", F using 'trial':" + only + "right'):1/0) with points pt 7 ps 0.55 lc rgb '" + kOurs + "'" +
-                     ", F using 'trial':" + only + "wrong'):1/0) with points pt 6 ps 0.7 lw 1.4 lc rgb '" + kOther +
-                     "'" + ", F using 'trial':" + only +
-                     "reversal'):1/0) with points pt 4 ps 1.1 lw 1 lc rgb '#222222'";
-    if (one.segments) figure.script += ", " + number(*one.segments) + " with lines ls 9";
+    const auto right = std::count(one.right.begin(), one.right.end(), 1);
+    const auto series = [&](const std::string& column, const std::string& with) {
+      return "F using 'trial':" + only + column + "'):1/0) with " + with;
+    };
+    Plot plot;
+    plot.add(true, series("level", "lines lw 1 lc rgb '#999999'"));
+    plot.add(right > 0, series("right", std::string("points pt 7 ps 0.55 lc rgb '") + kOurs + "'"));
+    plot.add(right < one.trials, series("wrong", std::string("points pt 6 ps 0.7 lw 1.4 lc rgb '") + kOther + "'"));
+    plot.add(!one.reversals.empty(), series("reversal", "points pt 4 ps 1.1 lw 1 lc rgb '#222222'"));
+    plot.add(one.segments.has_value(), number(one.segments.value_or(0.0)) + " with lines ls 9");
+    figure.script += plot.text;
     figure.script += c == 0 ? "\nunset label\n" : "\n";  // the mark stands above the first alone
   }
   figure.script += "unset multiplot\n";
@@ -131,16 +151,20 @@ Figure thresholds_figure(const ComparisonResults& results, bool simulated) {
     table.rows.push_back(std::move(row));
   }
   figure.data.push_back({"", std::move(table)});
-  if (high == 0.0) low = high = 10.0;
   const auto points = [](const char* column, const char* title, const char* colour, double move, int point) {
     return std::string("F using (column('place')+") + number(move) + "):'" + column + "':'" + column + "_low':'" +
            column + "_high' with yerrorbars pt " + std::to_string(point) + " ps 0.9 lw 1.6 lc rgb '" + colour +
            "' title '" + title + "'";
   };
+  const FigureTable& drawn = figure.data.front().table;
+  Plot plot;
+  plot.add(has_points(drawn, "here"), points("here", "here", kOurs, -0.07, 7));
+  plot.add(has_points(drawn, "paper"), points("paper", "paper", kPapers, 0.07, 5));
+  if (plot.text.empty()) return figure;
   figure.script = "F = DIR.'/thresholds.csv'\n" + mark(simulated) + name_tics(names) + segments_axis(low, high) +
                   "set ylabel 'Segments at threshold (mean, 95 % interval)'\n"
-                  "set key at graph 0, graph 1.06 left bottom horizontal\nset tmargin 3\nplot " +
-                  points("here", "here", kOurs, -0.07, 7) + ", " + points("paper", "paper", kPapers, 0.07, 5) + "\n";
+                  "set key at graph 0, graph 1.06 left bottom horizontal\nset tmargin 3\n" +
+                  plot.text + "\n";
   return figure;
 }
 
@@ -162,12 +186,17 @@ Figure accuracy_figure(const NamingResults& results, bool simulated) {
     table.rows.push_back(std::move(row));
   }
   figure.data.push_back({"", std::move(table)});
+  const FigureTable& drawn = figure.data.front().table;
+  Plot plot;
+  plot.add(has_points(drawn, "here"), bars("here", "here, 95 % interval", kOurs, -0.2, 0.36));
+  plot.add(has_points(drawn, "paper"),
+           std::string("F using (column('place')+0.2):'paper':(0.36) with boxes fs solid 0.55 noborder lc rgb '") +
+               kPapers + "' title 'paper, Table 3'");
+  if (plot.text.empty()) return figure;
   figure.script =
       "F = DIR.'/accuracy.csv'\n" + mark(simulated) + name_tics(results.objects) +
-      "set yrange [0:119]\nset ytics 0,20,100\nset ylabel 'Right answers [%]'\nset key right top horizontal\nplot " +
-      bars("here", "here, 95 % interval", kOurs, -0.2, 0.36) + ", " +
-      "F using (column('place')+0.2):'paper':(0.36) with boxes fs solid 0.55 noborder lc rgb '" + kPapers +
-      "' title 'paper, Table 3'\n";
+      "set yrange [0:119]\nset ytics 0,20,100\nset ylabel 'Right answers [%]'\nset key right top horizontal\n" +
+      plot.text + "\n";
   return figure;
 }
 

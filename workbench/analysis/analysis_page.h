@@ -20,8 +20,8 @@ struct Section {
   std::vector<Figure> figures;  ///< to be written as files, too
 };
 
-/// Draws a figure into the section, and keeps it; its data say whether participants were simulated. Fails where it
-/// can't be drawn.
+/// Draws a figure into the section, and keeps it; its data say whether participants were simulated. One without
+/// points (an empty script) is left out. Fails where it can't be drawn.
 Status add_figure(Section& section, Figure figure, const std::string& caption, bool simulated);
 
 /// Fail where a figure can't be drawn.

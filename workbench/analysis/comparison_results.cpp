@@ -93,11 +93,12 @@ ComparisonResults comparison_results(const std::vector<Comparer>& participants, 
   std::vector<ThresholdFitter> fitters;  // conditions of one rule share what is found by simulation
   for (const Comparer& participant : participants) {
     for (const ComparisonCondition& condition : design.conditions) {
-      if (stop && stop()) return out;
       const auto of_rule = [&](const ThresholdFitter& f) { return f.rule() == condition.staircase; };
       auto fitter = std::find_if(fitters.begin(), fitters.end(), of_rule);
-      if (fitter == fitters.end()) fitter = fitters.emplace(fitters.end(), condition.staircase, repeats);
-      if (auto one = staircase_of(participant, condition, *fitter)) out.staircases.push_back(std::move(*one));
+      if (fitter == fitters.end()) fitter = fitters.emplace(fitters.end(), condition.staircase, repeats, stop);
+      auto one = staircase_of(participant, condition, *fitter);
+      if (stop && stop()) return out;
+      if (one) out.staircases.push_back(std::move(*one));
     }
   }
   std::vector<std::vector<double>> groups;

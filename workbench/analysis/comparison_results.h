@@ -47,8 +47,8 @@ struct ComparisonResults {
   std::optional<OrderAgreement> order;       ///< with the paper's Table 2
 };
 
-/// `repeats`: staircases simulated for a calibration of the intervals. `stop`: asked between staircases; none of the
-/// rest is there then.
+/// `repeats`: staircases simulated for a calibration of the intervals. `stop`: asked at each of those, and between
+/// the participants' own; none of the rest is there then.
 ComparisonResults comparison_results(const std::vector<ParticipantAnswers<experiment::ComparisonRow>>& participants,
                                      int repeats, const std::function<bool()>& stop = {});
 

@@ -52,7 +52,7 @@ Status check_rows(const ParticipantAnswers<Row>& answers, std::vector<std::strin
   const auto number = experiment::participant_number(answers.name());
   const auto run = Run::start(answers.protocol, number.value_or(0), answers.enrolment.seed, answers.rows);
   if (run && !over(*run))
-    notes.push_back(answers.file.string() + ": not finished, " + std::to_string(answers.rows.size()) + " answers");
+    notes.push_back(answers.file.string() + ": not finished, " + counted(answers.rows.size(), "answer"));
   if (run) return {};
   return fail(run.error().what, answers.file.string() + " " + run.error().where, run.error().remedy);
 }
@@ -127,6 +127,7 @@ Status load_file(const fs::path& file, const LoadOptions& options, Answers& out)
   if (!sidecar) return tl::unexpected(sidecar.error());
   const auto read = experiment::read_rows(file, sidecar->enrolment.identity());
   if (!read) return tl::unexpected(read.error());
+  out.found.insert(sidecar->enrolment.mark.participant);
   if (sidecar->enrolment.mark.pilot && !options.pilots) {
     out.left_out.push_back(file.string() + ": a pilot run");
     return {};

@@ -4,6 +4,7 @@
 #include "workbench/experiment/experiment_folder.h"
 
 #include <filesystem>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -19,10 +20,16 @@ struct ParticipantAnswers {
   const std::string& name() const { return enrolment.mark.participant; }
 };
 
+/// "1 answer", "3 answers".
+inline std::string counted(std::size_t count, const std::string& one) {
+  return std::to_string(count) + " " + one + (count == 1 ? "" : "s");
+}
+
 struct Answers {
   std::vector<ParticipantAnswers<experiment::ComparisonRow>> comparisons;
   std::vector<ParticipantAnswers<experiment::NamingRow>> namings;
   std::vector<std::string> left_out;  ///< pilot runs, and what was edited where that was allowed: file and why
+  std::set<std::string> found;        ///< participants, those of left out files included
   bool simulated = false;             ///< some of it is
 };
 

@@ -29,6 +29,7 @@ constexpr std::array kRatios{1.25, 1.5, 2.0};
 constexpr std::array kPoints{3.0, 5.0, 10.0};  // percent
 constexpr double kPowerSpread = 0.35, kPowerLapse = 0.02;
 constexpr std::uint64_t kPowerSeed = 5;
+constexpr int kMostTries = 200;  // of one condition's staircase, until it settles
 
 double normal_of(SplitMix& random) {
   return math::quantile(math::normal(), std::clamp(random.unit(), 1e-12, 1.0 - 1e-12));
@@ -42,24 +43,35 @@ double variance_of(std::span<const double> values) {
 }
 
 /// One participant's values, one a condition.
-using Draw = std::function<std::vector<double>(SplitMix&)>;
+using Draw = std::function<Result<std::vector<double>>(SplitMix&)>;
+
+tl::unexpected<Error> never_settles(const experiment::ComparisonCondition& condition) {
+  const std::string tries = std::to_string(kMostTries);
+  return fail("the staircase doesn't settle within most_trials = " + std::to_string(condition.staircase.most_trials) +
+                  " in " + tries + " of " + tries + " tries",
+              "[staircase], with the steps of " + condition.name, "allow more trials, or ask for fewer reversals");
+}
 
 /// ln(threshold) by the rule, under each condition; the last one's is `ratio` times the others'.
 Draw thresholds_of(const experiment::Discrimination& design, double ratio) {
-  const experiment::StaircaseRule rule = design.conditions.front().staircase;
+  const experiment::ComparisonCondition first = design.conditions.front();
   const std::size_t conditions = std::max<std::size_t>(design.conditions.size(), 2);
-  return [=](SplitMix& random) {
+  return [=](SplitMix& random) -> Result<std::vector<double>> {
+    const experiment::StaircaseRule& rule = first.staircase;
     const double usual = 4.0 * rule.start;  // starts are a quarter of the thresholds that are expected
     const double shared = kPowerBetween * std::sqrt(kPowerShared) * normal_of(random);
     std::vector<double> out;
-    while (out.size() < conditions) {
+    for (int tries = 0; out.size() < conditions; ++tries) {
+      if (tries == kMostTries) return never_settles(first);
       const double own = kPowerBetween * std::sqrt(1.0 - kPowerShared) * normal_of(random);
       const double threshold = usual * (out.size() + 1 == conditions ? ratio : 1.0) * std::exp(shared + own);
       Psychometric function{1.0, kPowerSpread, kPowerLapse};
       function.middle = threshold / function.segments_at(experiment::balance_point(rule));
       Staircase staircase(rule);
       while (!staircase.done()) staircase.answer(random.unit() < function.right(staircase.segments()));
-      if (staircase.settled()) out.push_back(std::log(staircase.threshold()));
+      if (!staircase.settled()) continue;
+      out.push_back(std::log(staircase.threshold()));
+      tries = -1;  // of the next condition: none yet
     }
     return out;
   };
@@ -69,7 +81,7 @@ Draw thresholds_of(const experiment::Discrimination& design, double ratio) {
 Draw accuracies_of(const experiment::Identification& design, double points) {
   const int runs = design.sessions * design.blocks * design.runs;
   const int trials = runs * static_cast<int>(design.objects.size());  // of one kind: each object shaded and unshaded
-  return [=](SplitMix& random) {
+  return [=](SplitMix& random) -> Result<std::vector<double>> {
     const double half = 0.005 * points;
     const double drawn = experiment::kPaperAccuracyPercent + experiment::kPaperAccuracyDeviation * normal_of(random);
     const double own = std::clamp(0.01 * drawn, half, 1.0 - half);  // so that the difference is there for everybody
@@ -85,6 +97,7 @@ Draw accuracies_of(const experiment::Identification& design, double points) {
 
 /// Values of all participants, condition by condition.
 using Values = std::vector<std::vector<double>>;
+using Stop = std::function<bool()>;
 
 Values first_of(const Values& values, int participants) {
   Values out;
@@ -92,13 +105,16 @@ Values first_of(const Values& values, int participants) {
   return out;
 }
 
-Values group_of(const Draw& draw, std::size_t participants, std::uint64_t place) {
+/// Empty where it was stopped.
+Result<Values> group_of(const Draw& draw, std::size_t participants, std::uint64_t place, const Stop& stop) {
   SplitMix random(kPowerSeed, place);
   Values out;
   for (std::size_t p = 0; p < participants; ++p) {
-    const std::vector<double> values = draw(random);
-    out.resize(values.size());
-    for (std::size_t c = 0; c < values.size(); ++c) out[c].push_back(values[c]);
+    if (stop && stop()) return Values{};
+    const Result<std::vector<double>> values = draw(random);
+    if (!values) return tl::unexpected(values.error());
+    out.resize(values->size());
+    for (std::size_t c = 0; c < values->size(); ++c) out[c].push_back((*values)[c]);
   }
   return out;
 }
@@ -118,27 +134,38 @@ struct Test {
   std::function<double(int)> theory;
 };
 
-/// A row a test and number of participants: the smaller groups are parts of the larger.
-void add_rows(double difference, const Draw& draw, const std::vector<Test>& tests, int groups, PowerTable& out) {
+/// What there is to find, and what finds it.
+struct Question {
+  double difference = 0.0;
+  Draw draw;
+  std::vector<Test> tests;
+};
+
+/// A row a test and number of participants: the smaller groups are parts of the larger. None where it was stopped.
+Status add_rows(const Question& question, int groups, const Stop& stop, PowerTable& out) {
+  const std::vector<Test>& tests = question.tests;
   std::vector<std::array<std::uint64_t, kParticipants.size()>> found(tests.size());
   for (int g = 0; g < groups; ++g) {
-    const Values values = group_of(draw, kParticipants.back(), static_cast<std::uint64_t>(g) + 1);
+    const auto values = group_of(question.draw, kParticipants.back(), static_cast<std::uint64_t>(g) + 1, stop);
+    if (!values) return tl::unexpected(values.error());
+    if (values->empty()) return {};
     for (std::size_t i = 0; i < kParticipants.size(); ++i) {
-      const Values part = first_of(values, kParticipants[i]);
+      const Values part = first_of(*values, kParticipants[i]);
       for (std::size_t t = 0; t < tests.size(); ++t) found[t][i] += tests[t].finds(part);
     }
   }
   for (std::size_t t = 0; t < tests.size(); ++t) {
     for (std::size_t i = 0; i < kParticipants.size(); ++i) {
       const RatioInterval share = share_interval(found[t][i], static_cast<std::uint64_t>(groups));
-      out.rows.push_back({tests[t].name, difference, kParticipants[i], share.ratio, share.low, share.high,
+      out.rows.push_back({tests[t].name, question.difference, kParticipants[i], share.ratio, share.low, share.high,
                           tests[t].theory(kParticipants[i])});
     }
   }
+  return {};
 }
 
 /// Deviations that the theory asks for, from many participants.
-Values many_of(const Draw& draw) { return group_of(draw, 4000, 0); }
+Result<Values> many_of(const Draw& draw, const Stop& stop) { return group_of(draw, 4000, 0, stop); }
 double pair_deviation(const std::vector<double>& a, const std::vector<double>& b) {
   std::vector<double> differences;
   for (std::size_t p = 0; p < a.size(); ++p) differences.push_back(b[p] - a[p]);
@@ -158,6 +185,20 @@ double rest_variance(const Values& values) {
   return sum / pairs;
 }
 
+Question of_thresholds(double ratio, const Draw& draw, const Values& many) {
+  const double effect = std::log(ratio) / pair_deviation(many);
+  const int conditions = static_cast<int>(many.size());
+  const double squares = std::log(ratio) * std::log(ratio) * (conditions - 1.0) / conditions / rest_variance(many);
+  return {ratio,
+          draw,
+          {{"paired t", finds_pair, [=](int n) { return paired_t_power(effect, n); }},
+           {"analysis of variance", finds_any, [=](int n) { return anova_power(squares, conditions, n); }}}};
+}
+Question of_accuracies(double points, const Draw& draw, const Values& many) {
+  const double effect = 0.01 * points / pair_deviation(many);
+  return {points, draw, {{"paired t", finds_pair, [=](int n) { return paired_t_power(effect, n); }}}};
+}
+
 }  // namespace
 
 double paired_t_power(double effect, int count) {
@@ -174,30 +215,20 @@ double anova_power(double squares, int conditions, int count) {
   return math::cdf(math::complement(math::non_central_f(between, error, squares * count), critical));
 }
 
-PowerTable power_table(const experiment::Protocol& protocol, int groups, const std::function<bool()>& stop) {
+Result<PowerTable> power_table(const experiment::Protocol& protocol, int groups, const Stop& stop) {
+  const experiment::Discrimination* design = protocol.discrimination();
   PowerTable out;
-  if (const experiment::Discrimination* design = protocol.discrimination()) {
-    out.difference = "thresholds, ratio";
-    for (const double ratio : kRatios) {
-      if (stop && stop()) break;
-      const Draw draw = thresholds_of(*design, ratio);
-      const Values many = many_of(draw);
-      const double effect = std::log(ratio) / pair_deviation(many);
-      const int conditions = static_cast<int>(many.size());
-      const double squares = std::log(ratio) * std::log(ratio) * (conditions - 1.0) / conditions / rest_variance(many);
-      add_rows(ratio, draw,
-               {{"paired t", finds_pair, [=](int n) { return paired_t_power(effect, n); }},
-                {"analysis of variance", finds_any, [=](int n) { return anova_power(squares, conditions, n); }}},
-               groups, out);
-    }
-    return out;
-  }
-  out.difference = "right answers, percentage points";
-  for (const double points : kPoints) {
+  out.difference = design != nullptr ? "thresholds, ratio" : "right answers, percentage points";
+  for (const double difference : design != nullptr ? kRatios : kPoints) {
+    const Draw draw =
+        design != nullptr ? thresholds_of(*design, difference) : accuracies_of(*protocol.identification(), difference);
+    const Result<Values> many = many_of(draw, stop);
+    if (!many) return tl::unexpected(many.error());
+    if (many->empty()) break;
+    const Question question =
+        design != nullptr ? of_thresholds(difference, draw, *many) : of_accuracies(difference, draw, *many);
+    if (Status ok = add_rows(question, groups, stop, out); !ok) return tl::unexpected(ok.error());
     if (stop && stop()) break;
-    const Draw draw = accuracies_of(*protocol.identification(), points);
-    const double effect = 0.01 * points / pair_deviation(many_of(draw));
-    add_rows(points, draw, {{"paired t", finds_pair, [=](int n) { return paired_t_power(effect, n); }}}, groups, out);
   }
   return out;
 }

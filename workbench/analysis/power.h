@@ -2,6 +2,7 @@
 // makes, beside what theory says of normal values (noncentral t and F).
 #pragma once
 
+#include "core/base/result.h"
 #include "workbench/experiment/protocol.h"
 
 #include <cstdint>
@@ -31,8 +32,10 @@ struct PowerTable {
 /// `groups`: simulated for each difference. Of a discrimination, two conditions of which one has a threshold so many
 /// times the other's (paired t of ln(threshold)), and all conditions, one of them so much higher (analysis of variance
 /// within participants). Of an identification, right answers under two kinds of trials
-/// (paired t). Deterministic. Stops early, with fewer rows, when `stop` says so.
-PowerTable power_table(const experiment::Protocol& protocol, int groups, const std::function<bool()>& stop = {});
+/// (paired t). Deterministic. Stops early, with fewer rows, when `stop` says so: it is asked before each
+/// simulated participant. Fails where the protocol's staircase does not settle.
+Result<PowerTable> power_table(const experiment::Protocol& protocol, int groups,
+                               const std::function<bool()>& stop = {});
 
 /// Probability that a paired t test of `count` differences at 5 % finds a mean difference of `effect` deviations.
 double paired_t_power(double effect, int count);

@@ -218,6 +218,7 @@ ThresholdFitter::Calibration ThresholdFitter::calibrate(double threshold) const 
   const double balance = experiment::balance_point(rule_), truth = std::log(threshold);
   std::vector<double> spreads, off, settled, rule, tails;
   for (int i = 0; i < simulated_; ++i) {
+    if (stop_ && stop_()) return {};
     SplitMix random(kCalibrationSeed, static_cast<std::uint64_t>(i));
     Psychometric function{1.0, kCalibratedFrom * std::pow(kCalibratedTo / kCalibratedFrom, random.unit()), 0.0};
     function.lapse = kLapses[random.below(kLapses.size())];

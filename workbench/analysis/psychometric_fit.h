@@ -16,8 +16,10 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace tangent::analysis {
@@ -58,9 +60,10 @@ struct FittedThreshold {
 /// same whatever was fitted before.
 class ThresholdFitter {
  public:
-  /// `simulated`: staircases for each calibration. Precondition: at least 20.
-  explicit ThresholdFitter(const experiment::StaircaseRule& rule, int simulated = 1000)
-      : rule_(rule), simulated_(simulated) {}
+  /// `simulated`: staircases for each calibration. Precondition: at least 20. `stop` is asked before each of
+  /// them: once it says so, fits are of no use.
+  explicit ThresholdFitter(const experiment::StaircaseRule& rule, int simulated = 1000, std::function<bool()> stop = {})
+      : rule_(rule), simulated_(simulated), stop_(std::move(stop)) {}
   const experiment::StaircaseRule& rule() const { return rule_; }
   /// Precondition: at least one answer.
   FittedThreshold fit(std::span<const ComparisonAnswer> answers);
@@ -77,6 +80,7 @@ class ThresholdFitter {
 
   experiment::StaircaseRule rule_;
   int simulated_;
+  std::function<bool()> stop_;
   std::map<int, Calibration> known_;  ///< by the logarithm, to base 2, of threshold over start
 };
 

@@ -7,6 +7,7 @@
 #include "workbench/report/page.h"
 
 #include <algorithm>
+#include <optional>
 #include <set>
 
 namespace tangent::analysis {
@@ -15,6 +16,24 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kMaxTableBytes = std::size_t{1} << 20;
+
+Status make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) return fail("can't be made: " + error.message(), folder.string(), "choose a folder that may be written");
+  return {};
+}
+
+/// Whether it can be made; what was not there isn't there afterwards either.
+Status try_folder(const fs::path& folder) {
+  std::error_code ignored;
+  std::vector<fs::path> made;
+  for (fs::path at = fs::absolute(folder); !at.empty() && !fs::exists(at, ignored); at = at.parent_path())
+    made.push_back(at);
+  const Status ok = make_folder(folder);
+  for (const fs::path& one : made) fs::remove(one, ignored);
+  return ok;
+}
 
 Status write_all(const fs::path& folder, const std::vector<CsvFile>& tables, const std::vector<Figure>& figures) {
   for (const auto& [name, text] : tables)
@@ -34,12 +53,63 @@ std::string counts_text(const Answers& answers) {
   std::set<std::string> names;
   for (const auto& one : answers.comparisons) rows += one.rows.size(), names.insert(one.name());
   for (const auto& one : answers.namings) rows += one.rows.size(), names.insert(one.name());
-  return std::to_string(names.size()) + " participants, " + std::to_string(rows) + " answers";
+  return counted(names.size(), "participant") + ", " + counted(rows, "answer");
 }
+
+std::vector<std::string> fields_of(std::string_view line) {
+  std::vector<std::string> out(1);
+  for (const char c : line) {
+    if (c == '\t')
+      out.emplace_back();
+    else
+      out.back() += c;
+  }
+  return out;
+}
+
+/// The rows of a participants.tsv so far.
+class ExperienceTable {
+ public:
+  ExperienceTable(const std::vector<std::string>& header, const std::set<std::string>& participants)
+      : participants_(participants), columns_(header.size()) {
+    const auto place = [&](const char* name) {
+      return static_cast<std::size_t>(std::find(header.begin(), header.end(), name) - header.begin());
+    };
+    name_at_ = place("participant_id");
+    experience_at_ = place("experience");
+  }
+  bool has_columns() const { return std::max(name_at_, experience_at_) < columns_; }
+  std::map<std::string, bool> experienced() const { return experienced_; }
+
+  Status add(const std::vector<std::string>& fields, std::size_t line, const std::string& where) {
+    if (std::max(name_at_, experience_at_) >= fields.size()) return fail("has too few fields", where);
+    const std::string& experience = fields[experience_at_];
+    const std::string name = fields[name_at_].starts_with("sub-") ? fields[name_at_].substr(4) : fields[name_at_];
+    if (experience != "yes" && experience != "no")
+      return fail("experience is \"" + experience + "\"", where, "write yes or no");
+    if (!participants_.contains(name))
+      return fail("participant \"" + name + "\" is not in the data", where,
+                  "take the line out, mend the name, or give that participant's answers, too");
+    const auto [known, added] = experienced_.emplace(name, experience == "yes");
+    if (!added && known->second != (experience == "yes"))
+      return fail("participant " + name + "'s experience is " + experience + " here, and the other in line " +
+                      std::to_string(lines_[name]),
+                  where, "leave one of the two lines");
+    lines_.emplace(name, line);
+    return {};
+  }
+
+ private:
+  const std::set<std::string>& participants_;
+  std::size_t columns_, name_at_ = 0, experience_at_ = 0;
+  std::map<std::string, bool> experienced_;
+  std::map<std::string, std::size_t> lines_;
+};
 
 }  // namespace
 
 Status add_figure(Section& section, Figure figure, const std::string& caption, bool simulated) {
+  if (figure.script.empty()) return {};
   const Result<std::string> svg = figure_svg(figure);
   if (!svg) return tl::unexpected(svg.error());
   section.html += element("figure", element("div", *svg, "class=\"figure\"") + element("figcaption", escaped(caption)));
@@ -80,10 +150,7 @@ std::string whole_page(const std::string& title, const std::string& body) {
 }
 
 Result<fs::path> write_analysis(const Answers& answers, const AnalysisOptions& options) {
-  std::error_code error;
-  fs::create_directories(options.folder, error);
-  if (error)
-    return fail("can't be made: " + error.message(), options.folder.string(), "choose a folder that may be written");
+  if (Status ok = try_folder(options.folder); !ok) return tl::unexpected(ok.error());
   std::vector<CsvFile> tables;
   std::vector<Figure> figures;
   std::string sections;
@@ -104,6 +171,8 @@ Result<fs::path> write_analysis(const Answers& answers, const AnalysisOptions& o
     append(tables, std::move(section->tables));
     append(figures, std::move(section->figures));
   }
+  if (options.stop()) return fail("stopped, nothing is written", options.folder.string());
+  if (Status ok = make_folder(options.folder); !ok) return tl::unexpected(ok.error());
   if (Status ok = write_all(options.folder, tables, figures); !ok) return tl::unexpected(ok.error());
   const fs::path file = options.folder / "analysis.html";
   if (Status ok = write_file_atomic(file, page(answers, sections, options.command)); !ok)
@@ -111,39 +180,27 @@ Result<fs::path> write_analysis(const Answers& answers, const AnalysisOptions& o
   return file;
 }
 
-Result<std::map<std::string, bool>> read_experience(const fs::path& file) {
+Result<std::map<std::string, bool>> read_experience(const fs::path& file, const std::set<std::string>& participants) {
   const Result<std::string> text = read_input_file(file, kMaxTableBytes);
   if (!text) return tl::unexpected(text.error());
-  std::map<std::string, bool> out;
-  std::size_t name_at = 0, experience_at = 0, number = 0;
-  std::string_view rest = *text;
-  while (!rest.empty()) {
+  std::optional<ExperienceTable> table;
+  std::size_t number = 0;
+  for (std::string_view rest = *text; !rest.empty();) {
     std::string_view line = rest.substr(0, rest.find('\n'));
     rest.remove_prefix(std::min(rest.size(), line.size() + 1));
+    ++number;
     if (line.ends_with('\r')) line.remove_suffix(1);
     if (line.empty()) continue;
-    std::vector<std::string> fields(1);
-    for (const char c : line) {
-      if (c == '\t')
-        fields.emplace_back();
-      else
-        fields.back() += c;
-    }
-    const std::string where = file.string() + ":" + std::to_string(++number);
-    if (number == 1) {
-      name_at = static_cast<std::size_t>(std::find(fields.begin(), fields.end(), "participant_id") - fields.begin());
-      experience_at = static_cast<std::size_t>(std::find(fields.begin(), fields.end(), "experience") - fields.begin());
-      if (std::max(name_at, experience_at) < fields.size()) continue;
+    const std::vector<std::string> fields = fields_of(line);
+    const std::string where = file.string() + ":" + std::to_string(number);
+    if (!table)
+      table.emplace(fields, participants);
+    else if (Status ok = table->add(fields, number, where); !ok)
+      return tl::unexpected(ok.error());
+    if (!table->has_columns())
       return fail("has no columns participant_id and experience, apart by tabs", where, "write them");
-    }
-    if (std::max(name_at, experience_at) >= fields.size()) return fail("has too few fields", where);
-    const std::string& name = fields[name_at];
-    const std::string& experience = fields[experience_at];
-    if (experience != "yes" && experience != "no")
-      return fail("experience is \"" + experience + "\"", where, "write yes or no");
-    out[name.starts_with("sub-") ? name.substr(4) : name] = experience == "yes";
   }
-  return out;
+  return table ? table->experienced() : std::map<std::string, bool>{};
 }
 
 }  // namespace tangent::analysis

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <set>
 #include <string>
 
 namespace tangent::analysis {
@@ -20,12 +21,14 @@ struct AnalysisOptions {
   std::function<bool()> stop = [] { return false; };
 };
 
-/// Returns the page's path. Nothing is left half written. Fails where it is stopped, a figure can't be drawn or a file
+/// Returns the page's path. Nothing is left half written, and nothing at all where it is stopped.
+/// Fails then, and where a figure can't be drawn or a file
 /// can't be written.
 Result<std::filesystem::path> write_analysis(const Answers& answers, const AnalysisOptions& options);
 
 /// participants.tsv (BIDS) with columns participant_id ("sub-7") and experience ("yes", "no"). Fails on what is no such
-/// table.
-Result<std::map<std::string, bool>> read_experience(const std::filesystem::path& file);
+/// table, on a participant who is none of `participants`, and on one who is experienced in one row and not in another.
+Result<std::map<std::string, bool>> read_experience(const std::filesystem::path& file,
+                                                    const std::set<std::string>& participants);
 
 }  // namespace tangent::analysis

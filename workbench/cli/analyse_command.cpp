@@ -46,10 +46,12 @@ Status run_planning(const AnalyseCommandOptions& options) {
   if (options.power) {
     const auto table =
         analysis::power_table(*protocol, options.count > 0 ? options.count : 2000, InterruptGuard::requested);
-    for (const analysis::PowerRow& row : table.rows)
+    if (!table)
+      return fail(table.error().what, options.data.front().string() + " " + table.error().where, table.error().remedy);
+    for (const analysis::PowerRow& row : table->rows)
       std::printf("%-20s difference %5.2f, %2d participants: found in %5.1f %%, theory %5.1f %%\n", row.test.c_str(),
                   row.difference, row.participants, 100.0 * row.found, 100.0 * row.theory);
-    if (!InterruptGuard::requested()) page = analysis::write_power(table, files);
+    if (!InterruptGuard::requested()) page = analysis::write_power(*table, files);
   } else {
     const auto rows =
         analysis::check_analysis(*protocol, options.count > 0 ? options.count : 10000, InterruptGuard::requested);
@@ -65,18 +67,19 @@ Status run_planning(const AnalyseCommandOptions& options) {
 Status run_analyse(AnalyseCommandOptions& options) {
   const InterruptGuard guard;
   options.analysis.stop = InterruptGuard::requested;
+  const Result<analysis::Answers> answers = analysis::load_answers(options.data, options.load);
+  if (!answers) return tl::unexpected(answers.error());
   if (!options.participants.empty()) {
-    auto experience = analysis::read_experience(options.participants);
+    auto experience = analysis::read_experience(options.participants, answers->found);
     if (!experience) return tl::unexpected(experience.error());
     options.analysis.experienced = std::move(*experience);
   }
-  const Result<analysis::Answers> answers = analysis::load_answers(options.data, options.load);
-  if (!answers) return tl::unexpected(answers.error());
   for (const std::string& note : answers->left_out) print_message("analyse", note);
   const auto page = analysis::write_analysis(*answers, options.analysis);
   if (!page) return tl::unexpected(page.error());
-  std::printf("%s: %zu participants compared arcs, %zu named objects%s\n", page->c_str(), answers->comparisons.size(),
-              answers->namings.size(), answers->simulated ? "; simulated" : "");
+  std::printf("%s: %s compared arcs, %zu named objects%s\n", page->c_str(),
+              analysis::counted(answers->comparisons.size(), "participant").c_str(), answers->namings.size(),
+              answers->simulated ? "; simulated" : "");
   return {};
 }
 

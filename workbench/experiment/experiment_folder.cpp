@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <charconv>
 
 namespace tangent::experiment {
 namespace {
@@ -57,20 +58,55 @@ ordered_json sidecar_json(const Protocol& protocol, const Enrolment& enrolment) 
   return json;
 }
 
+/// A sidecar's values, one after the other; the first that is missing or of another type is kept.
+class SidecarReader {
+ public:
+  SidecarReader(const ordered_json& json, const fs::path& path) : json_(json), path_(path) {}
+
+  template <class T>
+  SidecarReader& take(const char* key, T& value, const char* otherwise = "no text") {
+    const auto found = json_.find(key);
+    if (found == json_.end()) return wrong(std::string("it has no \"") + key + "\"");
+    if (const T* held = found->template get_ptr<const T*>())
+      value = *held;
+    else
+      wrong(std::string("its \"") + key + "\" is " + otherwise);
+    return *this;
+  }
+  /// A whole number, written as text: JSON's numbers are not exact so far up.
+  SidecarReader& take_seed(const char* key, std::uint64_t& value) {
+    std::string text;
+    take(key, text);
+    if (!status_) return *this;
+    const char* end = text.data() + text.size();
+    const auto [at, error] = std::from_chars(text.data(), end, value);
+    return error == std::errc() && at == end ? *this : wrong(std::string("its \"") + key + "\" is no whole number");
+  }
+  const Status& status() const { return status_; }
+
+ private:
+  SidecarReader& wrong(const std::string& what) {
+    if (status_)
+      status_ = fail("is no sidecar of an experiment: " + what, path_.string(), "use the file as it was written");
+    return *this;
+  }
+
+  const ordered_json& json_;
+  const fs::path& path_;
+  Status status_;
+};
+
 Result<Enrolment> enrolment_of(const ordered_json& json, const fs::path& path) {
   Enrolment out;
-  try {
-    if (json.at("format").get<int>() > kSidecarFormat)
-      return fail("is of a newer program", path.string(), "read it with that program");
-    out.mark.participant = json.at("participant").get<std::string>();
-    out.mark.simulated = json.at("simulated").get<std::string>();
-    out.mark.pilot = json.at("pilot").get<bool>();
-    out.seed = std::stoull(json.at("seed").get<std::string>());
-    out.protocol_digest = json.at("protocol").get<std::string>();
-  } catch (const std::exception& error) {
-    return fail(std::string("is no sidecar of an experiment: ") + error.what(), path.string(),
-                "use the file as it was written");
-  }
+  std::int64_t format = 0;
+  SidecarReader reader(json, path);
+  reader.take("format", format, "no whole number");
+  if (reader.status() && format > kSidecarFormat)
+    return fail("is of a newer program", path.string(), "read it with that program");
+  reader.take("participant", out.mark.participant).take("simulated", out.mark.simulated);
+  reader.take("pilot", out.mark.pilot, "neither true nor false").take_seed("seed", out.seed);
+  reader.take("protocol", out.protocol_digest);
+  if (!reader.status()) return tl::unexpected(reader.status().error());
   return out;
 }
 
@@ -164,6 +200,10 @@ Result<Sidecar> read_sidecar(const fs::path& rows) {
   // DIR/sub-7/beh/x.tsv: the protocol is in DIR
   const fs::path folder = fs::absolute(rows).parent_path().parent_path().parent_path();
   const fs::path file = protocol_path(folder, enrolment->protocol_digest);
+  std::error_code error;
+  if (!fs::exists(file, error))
+    return fail("is missing: the protocol that " + rows.filename().string() + " was answered under", file.string(),
+                "copy the protocol that the experiment was begun with to this name");
   Result<Protocol> protocol = read_protocol(file);
   if (!protocol) return tl::unexpected(protocol.error());
   if (protocol_digest(*protocol) != enrolment->protocol_digest)

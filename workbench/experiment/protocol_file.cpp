@@ -6,6 +6,7 @@
 #include "core/io/rendering_condition.h"
 #include "core/io/toml_file.h"
 #include "core/io/toml_table.h"
+#include "core/io/toml_text.h"
 #include "core/lab/objects/generate.h"
 
 #include <algorithm>
@@ -38,14 +39,24 @@ class ProtocolReader {
   }
 
  private:
-  /// An empty one where it is missing.
+  std::string where(const toml::node& node, const std::string& what) const {
+    return file_ + ":" + std::to_string(node.source().begin.line) + " " + what;
+  }
+  /// An empty one where it is missing, or no table: finish() says so.
   const toml::table& table(std::string_view name) {
     static const toml::table kEmpty;
     known_.emplace_back(name);
-    const toml::table* found = root_[name].as_table();
-    return found != nullptr ? *found : kEmpty;
+    const toml::node* found = root_.get(name);
+    if (found == nullptr) return kEmpty;
+    if (const toml::table* table = found->as_table()) return *table;
+    if (status_)
+      status_ = fail("is " + std::string(type_name(*found)) + ", and no table", where(*found, std::string(name)),
+                     "write [" + std::string(name) + "] on a line of its own, its keys below it");
+    return kEmpty;
   }
   TomlTable reader(std::string_view name) { return {table(name), file_, "[" + std::string(name) + "]"}; }
+  /// The first thing that was wrong with the tables so far, or with this one's keys.
+  Status finish(TomlTable& table) const { return status_ ? table.finish() : status_; }
 
   Status read_head() {
     bool second = false;
@@ -53,12 +64,14 @@ class ProtocolReader {
     head.required("kind").choice("kind", kProtocolKinds, [&](std::size_t i) { second = i == 1; });
     head.required("name").text("name", protocol_.name).whole("version", protocol_.version, 1, 1'000'000);
     if (second) protocol_.kind = Identification{};
-    return head.finish();
+    return finish(head);
   }
 
   /// Keys of a preset in quotes, as in a sweep's plan: "finger.radius_m" = 0.02.
   Status read_preset() {
-    for (const auto& [key, node] : table("preset")) {
+    const toml::table& preset = table("preset");
+    if (!status_) return status_;
+    for (const auto& [key, node] : preset) {
       const std::string name(key.str());
       const std::string where = file_ + ":" + std::to_string(key.source().begin.line) + " [preset] " + name;
       const PresetKey* row = find_preset_key(name);
@@ -74,7 +87,7 @@ class ProtocolReader {
     TomlTable sound = reader("sound");
     sound.number("noise_db", protocol_.sound.noise_db, kQuietestSound_db, kLoudestNoise_db);
     sound.number("cue_db", protocol_.sound.cue_db, kQuietestSound_db, kLoudestCue_db);
-    return sound.finish();
+    return finish(sound);
   }
 
   // --- Which of two is smooth ---
@@ -84,7 +97,7 @@ class ProtocolReader {
     TomlTable arc = reader("arc");
     arc.number("radius_m", d.radius_m, 1e-3, 10.0).number("angle_rad", d.angle_rad, 0.01, 3.0);
     arc.choice("placement", kPlacementNames, [&](std::size_t i) { d.placement = static_cast<ArcPlacement>(i); });
-    if (Status ok = arc.finish(); !ok) return ok;
+    if (Status ok = finish(arc); !ok) return ok;
     StaircaseRule common;
     if (Status ok = read_staircase(common); !ok) return ok;
     return read_conditions(common, d.conditions);
@@ -97,7 +110,7 @@ class ProtocolReader {
     t.choice("scale", kStepScaleNames, [&](std::size_t i) { rule.scale = static_cast<StepScale>(i); });
     t.number("fewest", rule.fewest, 2.0, kMostSegments).number("most", rule.most, 2.0, kMostSegments);
     t.whole("most_trials", rule.most_trials, 1, 100000);
-    if (Status ok = t.finish(); !ok) return ok;
+    if (Status ok = finish(t); !ok) return ok;
     if (rule.averaged > rule.reversals) return fail("averages more reversals than there are", t.where("averaged"));
     if (rule.fewest >= rule.most) return fail("is not below most", t.where("fewest"), "write fewer segments");
     return {};
@@ -105,11 +118,15 @@ class ProtocolReader {
 
   Status read_conditions(const StaircaseRule& common, std::vector<ComparisonCondition>& out) {
     known_.emplace_back("conditions");
+    const toml::node* found = root_.get("conditions");
+    if (found != nullptr && !found->is_array())
+      return fail("is " + std::string(type_name(*found)) + ", and no list of tables", where(*found, "conditions"),
+                  "write [[conditions]] above each");
     const toml::array* list = root_["conditions"].as_array();
     if (list == nullptr || list->empty())
       return fail("has no conditions", file_ + " [[conditions]]", "name one at least");
     for (const toml::node& node : *list) {
-      if (!node.is_table()) return fail("is no table", file_ + " conditions", "write [[conditions]]");
+      if (!node.is_table()) return fail("is no table", where(node, "conditions"), "write [[conditions]] above each");
       ComparisonCondition condition{{}, common};
       TomlTable t(*node.as_table(), file_, "[[conditions]]");
       t.required("name").text("name", condition.name);
@@ -137,11 +154,11 @@ class ProtocolReader {
     TomlTable objects = reader("objects");
     objects.required("names").texts("names", d.objects).texts("both_ways", d.both_ways).text("practice", d.practice);
     objects.number("rounding_m", d.rounding_m, 0.0, 0.01).number("facet_deg", d.facet_deg, 0.1, 30.0);
-    if (Status ok = objects.finish(); !ok) return ok;
+    if (Status ok = finish(objects); !ok) return ok;
     TomlTable runs = reader("runs");
     runs.whole("sessions", d.sessions, 1, 100).whole("blocks", d.blocks, 1, 100).whole("runs", d.runs, 1, 100);
     runs.choice("tactile_first", kParityNames, [&](std::size_t i) { d.tactile_first_even = i == 0; });
-    if (Status ok = runs.finish(); !ok) return ok;
+    if (Status ok = finish(runs); !ok) return ok;
     TomlTable start = reader("start");
     start.triple(
         "place_m",
@@ -151,7 +168,7 @@ class ProtocolReader {
         -1.0, 1.0);
     start.number("radius_m", d.start_radius_m, 1e-4, 0.1).number("hold_s", d.hold_s, 0.0, 60.0);
     start.number("guide_n_per_m", d.guide_n_per_m, 0.0, 200.0).number("guide_limit_n", d.guide_limit_n, 0.0, 3.0);
-    if (Status ok = start.finish(); !ok) return ok;
+    if (Status ok = finish(start); !ok) return ok;
     return check_objects(d, objects, runs);
   }
 
@@ -185,6 +202,7 @@ class ProtocolReader {
   std::string file_;
   Protocol protocol_;
   std::vector<std::string> known_;
+  Status status_;
 };
 
 }  // namespace

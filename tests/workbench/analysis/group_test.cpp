@@ -1,6 +1,7 @@
 // Simulated groups end to end: files, loading, results, page.
 #include "workbench/analysis/write_analysis.h"
 
+#include "workbench/analysis/analysis_figures.h"
 #include "workbench/experiment/paper_results.h"
 #include "workbench/experiment/run_simulated.h"
 #include "workbench/experiment/simulated_group.h"
@@ -12,6 +13,9 @@
 #include <cmath>
 #include <fstream>
 #include <sstream>
+
+#include <fcntl.h>
+#include <unistd.h>
 
 namespace tangent::analysis {
 namespace {
@@ -187,8 +191,25 @@ TEST_CASE("files that were edited, mixed, doubled, foreign or missing are refuse
 
   const fs::path sidecar = fs::path(rows).replace_extension(".json");
   const std::string json = text_of(sidecar);
-  std::ofstream(sidecar) << "{}";
-  CHECK(refusal(load(data)).find("sidecar") != std::string::npos);
+  const auto without = [&](const std::string& from, const std::string& to) {
+    std::string text = json;
+    return text.replace(text.find(from), from.size(), to);
+  };
+  const std::pair<std::string, const char*> bad_sidecars[] = {
+      {"{}", "it has no \"format\""},
+      {"[]", "it has no \"format\""},
+      {"7", "it has no \"format\""},
+      {without("\"format\": 1", "\"format\": \"1\""), "its \"format\" is no whole number"},
+      {without("\"pilot\": false", "\"pilot\": 0"), "its \"pilot\" is neither true nor false"},
+      {without("\"participant\": \"P1\"", "\"participant\": null"), "its \"participant\" is no text"},
+      {without("\"seed\": \"", "\"seed\": \"x"), "its \"seed\" is no whole number"}};
+  for (const auto& [text, said] : bad_sidecars) {
+    std::ofstream(sidecar) << text;
+    const std::string why = refusal(load(data));
+    CAPTURE(why);
+    CHECK(why.find(std::string("is no sidecar of an experiment: ") + said) != std::string::npos);
+    CHECK(why.find("exception") == std::string::npos);
+  }
   fs::remove(sidecar);
   CHECK_FALSE(load(data));
   std::ofstream(sidecar) << json;
@@ -227,6 +248,7 @@ TEST_CASE("pilot runs are left out unless asked for, and a person is not enrolle
   const auto pilots = load(folder->path(), {.pilots = true});
   REQUIRE(pilots);
   CHECK(pilots->comparisons.size() == 1);
+  CHECK(pilots->found == std::set<std::string>{"P1"});
   const std::string text = text_of(shipped("discrimination"));
   const Protocol protocol = *parse_protocol(text, "p");
   Enrolment who;
@@ -290,17 +312,113 @@ TEST_CASE("sessions that were joined, doubled or put in another order by hand ar
   CHECK(half->left_out[0].find("not finished") != std::string::npos);
 }
 
+TEST_CASE("a protocol that was deleted is asked for, and written again when its participant goes on") {
+  const auto folder = OwnFolder::make();
+  simulate(folder->path(), "discrimination", 1);
+  const std::string text = text_of(shipped("discrimination"));
+  const fs::path kept = folder->path() / ("protocol-" + protocol_digest(*parse_protocol(text, "p")) + ".toml");
+  REQUIRE(fs::remove(kept));
+  const std::string why = refusal(load(folder->path()));
+  CAPTURE(why);
+  for (const std::string& part : {kept.string(), std::string("is missing"), std::string("copy the protocol")})
+    CHECK(why.find(part) != std::string::npos);
+  simulate(folder->path(), "discrimination", 1);
+  CHECK(text_of(kept) == text);
+  CHECK(load(folder->path()));
+}
+
+/// What is written to the standard error while it exists, gnuplot's words included, into a file.
+class ErrorsToFile {
+ public:
+  explicit ErrorsToFile(const fs::path& path) : before_(::dup(STDERR_FILENO)) {
+    const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    ::dup2(file, STDERR_FILENO);
+    ::close(file);
+  }
+  ~ErrorsToFile() {
+    ::dup2(before_, STDERR_FILENO);
+    ::close(before_);
+  }
+  ErrorsToFile(const ErrorsToFile&) = delete;
+  ErrorsToFile& operator=(const ErrorsToFile&) = delete;
+
+ private:
+  int before_;
+};
+
+TEST_CASE("a single answer makes a page in which nothing is drawn that is not there") {
+  const auto folder = OwnFolder::make();
+  for (const std::string kind : {"discrimination", "identification"}) {
+    CAPTURE(kind);
+    const std::string text = text_of(shipped(kind));
+    const Protocol protocol = *parse_protocol(text, kind);
+    const fs::path data = folder->path() / kind, errors = folder->path() / "errors";
+    const Enrolment who{{"P1", "known", false}, 1, protocol_digest(protocol)};
+    REQUIRE(run_simulated(data, protocol, text, who, [] { return true; }));
+    const auto answers = load(data);
+    REQUIRE_MESSAGE(answers, refusal(answers));
+    REQUIRE(answers->left_out.size() == 1);
+    CHECK(answers->left_out[0].ends_with("not finished, 1 answer"));
+    AnalysisOptions options;
+    options.folder = folder->path() / ("out-" + kind);
+    options.repeats = 20;
+    Result<fs::path> page;
+    {
+      const ErrorsToFile caught(errors);
+      page = write_analysis(*answers, options);
+    }
+    REQUIRE_MESSAGE(page, (page ? "" : page.error().message()));
+    CHECK(text_of(errors) == "");
+    CHECK(text_of(*page).find("1 participant, 1 answer.") != std::string::npos);
+  }
+  CHECK(thresholds_figure(ComparisonResults{}, false).script.empty());
+}
+
+TEST_CASE("an analysis that is stopped within a calibration leaves nothing behind") {
+  const auto folder = OwnFolder::make();
+  const fs::path data = folder->path() / "data", fresh = folder->path() / "new", old = folder->path() / "old";
+  simulate(data, "discrimination", 1);
+  fs::create_directory(old);
+  const auto answers = load(data);
+  REQUIRE(answers);
+  for (const fs::path& out : {fresh / "out", old}) {
+    int asked = 0;
+    AnalysisOptions options;
+    options.folder = out;
+    options.repeats = 100'000;
+    options.stop = [&] { return ++asked > 10; };
+    const auto page = write_analysis(*answers, options);
+    REQUIRE_FALSE(page);
+    CHECK(page.error().message().find("stopped, nothing is written") != std::string::npos);
+    CHECK(asked < 50);
+  }
+  CHECK_FALSE(fs::exists(fresh));
+  CHECK(fs::exists(old));
+  CHECK(fs::is_empty(old));
+}
+
 TEST_CASE("experience is read from participants.tsv") {
   const auto folder = OwnFolder::make();
   const fs::path file = folder->path() / "participants.tsv";
-  std::ofstream(file) << "participant_id\tage\texperience\nsub-P1\t20\tyes\nP2\t30\tno\n";
-  const auto read = read_experience(file);
+  std::ofstream(file) << "participant_id\tage\texperience\nsub-P1\t20\tyes\nP2\t30\tno\n\nP1\t20\tyes\n";
+  const std::set<std::string> all{"P1", "P2", "P3"};
+  const auto read = read_experience(file, all);
   REQUIRE(read);
   CHECK(*read == std::map<std::string, bool>{{"P1", true}, {"P2", false}});
   std::ofstream(file) << "participant_id\texperience\nP1\tmaybe\n";
-  CHECK(read_experience(file).error().message().find("maybe") != std::string::npos);
+  CHECK(read_experience(file, all).error().message().find("maybe") != std::string::npos);
   std::ofstream(file) << "name\n";
-  CHECK_FALSE(read_experience(file));
+  CHECK_FALSE(read_experience(file, all));
+  std::ofstream(file) << "participant_id\texperience\nP1\tyes\n\nsub-P1\tno\n";
+  const auto both = read_experience(file, all);
+  REQUIRE_FALSE(both);
+  CHECK(both.error().where == file.string() + ":4");
+  CHECK(both.error().what.find("line 2") != std::string::npos);
+  std::ofstream(file) << "participant_id\texperience\nP1\tyes\nP9\tno\n";
+  const auto foreign = read_experience(file, all);
+  REQUIRE_FALSE(foreign);
+  CHECK(foreign.error().where == file.string() + ":3");
+  CHECK(foreign.error().what.find("\"P9\" is not in the data") != std::string::npos);
 }
 
 /// Tukey's test on groups that are made: how often it finds a difference that is there.

@@ -54,7 +54,9 @@ TEST_CASE("power without a difference is the level, and grows to one") {
 TEST_CASE("simulated groups find what theory says") {
   constexpr int kGroups = 60;
   for (const char* kind : {"discrimination", "identification"}) {
-    const PowerTable power = power_table(shipped_protocol(kind), kGroups);
+    const auto simulated = power_table(shipped_protocol(kind), kGroups);
+    REQUIRE(simulated);
+    const PowerTable& power = *simulated;
     CHECK(power.rows.size() % 7 == 0);
     for (const PowerRow& row : power.rows) {
       CAPTURE(row.test);
@@ -68,6 +70,33 @@ TEST_CASE("simulated groups find what theory says") {
     for (std::size_t i = 1; i < power.rows.size(); ++i)
       if (power.rows[i].participants > power.rows[i - 1].participants)
         CHECK(power.rows[i].theory >= power.rows[i - 1].theory);
+  }
+}
+
+TEST_CASE("power of a staircase that never settles is refused, with what to change") {
+  experiment::Protocol protocol = shipped_protocol("discrimination");
+  for (auto& condition : std::get<experiment::Discrimination>(protocol.kind).conditions) {
+    condition.staircase.reversals = condition.staircase.averaged = 1;
+    condition.staircase.down = 10;
+    condition.staircase.most_trials = 1;
+  }
+  const auto power = power_table(protocol, 10);
+  REQUIRE_FALSE(power);
+  const std::string why = power.error().message();
+  CAPTURE(why);
+  for (const char* part : {"[staircase]", "most_trials = 1 ", "200 of 200", "allow more trials"})
+    CHECK(why.find(part) != std::string::npos);
+}
+
+TEST_CASE("power stops within the groups of a difference, and has no rows of it then") {
+  for (const char* kind : {"discrimination", "identification"}) {
+    for (const int until : {0, 10, 4100}) {  // at once, in the many that theory asks for, in the groups
+      int asked = 0;
+      const auto power = power_table(shipped_protocol(kind), 1'000'000, [&] { return ++asked > until; });
+      REQUIRE(power);
+      CHECK(power->rows.empty());
+      CHECK(asked < until + 10);
+    }
   }
 }
 
@@ -104,6 +133,9 @@ TEST_CASE("planning writes tables that say they are simulated, and a check names
   bool asked = false;
   CHECK(check_analysis(shipped_protocol("identification"), 1000, [&] { return asked = true; }).size() < 3);
   CHECK(asked);
+  int until = 1000;  // within a band of thresholds and its calibration
+  CHECK(check_analysis(shipped_protocol("discrimination"), 500, [&] { return --until < 0; }).size() > 3);
+  CHECK(until > -100);
 }
 
 }  // namespace

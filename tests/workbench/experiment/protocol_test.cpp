@@ -110,5 +110,38 @@ TEST_CASE("a protocol that can't be says where and what to do") {
   CHECK_FALSE(read_protocol("/nonexistent/p.toml"));
 }
 
+TEST_CASE("what should be a table and is none is refused by line and key, not passed over") {
+  const std::string comparing = "[protocol]\nkind = \"discrimination\"\nname = \"x\"\n[[conditions]]\nname = \"C1\"\n";
+  const std::string naming = "[protocol]\nkind = \"identification\"\nname = \"x\"\n[objects]\nnames = [\"cube\"]\n";
+  REQUIRE(parse_protocol(comparing, "p.toml"));
+  REQUIRE(parse_protocol(naming, "p.toml"));
+  struct Bad {
+    std::string text, where, what;
+  };
+  const Bad kBad[] = {
+      {"protocol = 1\n", "p.toml:1 protocol", "a whole number"},
+      {"preset = 5\n" + comparing, "p.toml:1 preset", "a whole number"},
+      {"sound = 3\n" + comparing, "p.toml:1 sound", "a whole number"},
+      {"\narc = 7.5\n" + comparing, "p.toml:2 arc", "a number with a fraction"},
+      {"staircase = \"x\"\n" + comparing, "p.toml:1 staircase", "text"},
+      {comparing + "[[arc]]\nradius_m = 0.1\n", "p.toml:6 arc", "an array"},
+      {comparing + "[[preset]]\n", "p.toml:6 preset", "an array"},
+      {"runs = 2\n" + naming, "p.toml:1 runs", "a whole number"},
+      {"start = true\n" + naming, "p.toml:1 start", "true or false"},
+      {"sound = [1]\n" + naming, "p.toml:1 sound", "an array"},
+      {"objects = 1\n" + naming.substr(0, naming.find("[objects]")), "p.toml:1 objects", "a whole number"},
+      {"conditions = 5\n" + comparing.substr(0, comparing.find("[[")), "p.toml:1 conditions", "a whole number"},
+      {"conditions = [5]\n" + comparing.substr(0, comparing.find("[[")), "p.toml:1 conditions", "no table"},
+  };
+  for (const Bad& bad : kBad) {
+    CAPTURE(bad.text);
+    const auto protocol = parse_protocol(bad.text, "p.toml");
+    REQUIRE_FALSE(protocol);
+    CHECK(protocol.error().where == bad.where);
+    CHECK(protocol.error().what.find(bad.what) != std::string::npos);
+    CHECK_FALSE(protocol.error().remedy.empty());
+  }
+}
+
 }  // namespace
 }  // namespace tangent::experiment
