@@ -124,10 +124,13 @@ TEST_CASE("a script that fails names its file and line, what is wrong and what t
     CHECK(ui.model().window().theme() == Theme::dark);
     CHECK(ui.app().wants_close());
   }
-  RunningApp ui;
-  ui.app().run_script(folder.path() / "none.txt");
-  CHECK(ui.app().script_failure().find("none.txt") != std::string::npos);
-  CHECK(ui.app().script_failure().find("can't be read") != std::string::npos);
+  for (const auto& [file, why] : {std::pair{(folder.path() / "none.txt").string(), "can't be opened"},
+                                  std::pair{std::string("/dev/zero"), "zero byte"}}) {
+    RunningApp ui;
+    ui.app().run_script(file);
+    CHECK(ui.app().script_failure().find(file) != std::string::npos);
+    CHECK(ui.app().script_failure().find(why) != std::string::npos);
+  }
 }
 
 TEST_CASE("the palette is a console: it runs lines with values, says why it can't, and brings back what was run") {
