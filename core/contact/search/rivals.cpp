@@ -415,7 +415,8 @@ class RivalSearch {
     return proof.height_m != 0.0 && glm::dot(apart, apart) < near * near;
   }
 
-  /// Round fingers. A place that is none of the contact's slope is told by its height: near a contact it changes little.
+  /// Round fingers. A place that is none of the contact's slope is told by its height: near a contact it changes
+  /// little.
   static bool is_as_high(const PatchExclusion& proof, double height_m) {
     return std::abs(proof.height_m - height_m) < kHeightGuess * std::abs(height_m);
   }

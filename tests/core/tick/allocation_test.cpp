@@ -1,7 +1,7 @@
 // A tick does not allocate, since it runs in the servo thread. This file replaces the global operators new and delete
 // of the test program by counting ones.
-#include "workbench/embed/c_handle.h"
 #include "tests/core/scenes.h"
+#include "workbench/embed/c_handle.h"
 
 #include <doctest/doctest.h>
 

@@ -2,9 +2,9 @@
 #include "core/io/pose_file.h"
 #include "core/io/preset_file.h"
 #include "core/lab/objects/generate.h"
+#include "tests/support/temp_folder.h"
 #include "workbench/embed/c_handle.h"
 #include "workbench/embed/tangent_c.h"
-#include "tests/support/temp_folder.h"
 
 #include <doctest/doctest.h>
 

@@ -1,8 +1,8 @@
 // Several threads at the C interface: what may be shared is, and what may not is told.
 #include "core/io/mesh_io.h"
 #include "core/lab/objects/generate.h"
-#include "workbench/embed/tangent_c.h"
 #include "tests/support/temp_folder.h"
+#include "workbench/embed/tangent_c.h"
 
 #include <doctest/doctest.h>
 
