@@ -37,27 +37,9 @@ class Recorder {
   Status status_;
 };
 
-Fields names_of(std::span<const ColumnMeaning> columns) {
-  Fields out;
-  for (const ColumnMeaning& column : columns) out.emplace_back(column.name);
-  return out;
-}
-
-template <class Row, class Read>
-Result<std::vector<Row>> rows_in(const RowFile& file, std::span<const ColumnMeaning> columns, Read read) {
-  std::vector<Row> out;
-  const Fields names = names_of(columns);
-  for (const Fields& fields : file.rows()) {
-    auto row = read(names, fields);
-    if (!row) return tl::unexpected(row.error());
-    out.push_back(std::move(row->second));
-  }
-  return out;
-}
-
 Status compare(const Protocol& protocol, const Enrolment& enrolment, std::uint64_t number, const RowFile& file,
                Recorder& recorder) {
-  const auto rows = rows_in<ComparisonRow>(file, comparison_columns(), comparison_row);
+  const auto rows = comparison_rows(file);
   if (!rows) return tl::unexpected(rows.error());
   auto run = ComparisonRun::start(protocol, number, enrolment.seed, *rows);
   if (!run) return tl::unexpected(run.error());
@@ -75,7 +57,7 @@ Status compare(const Protocol& protocol, const Enrolment& enrolment, std::uint64
 
 Status name_objects(const Protocol& protocol, const Enrolment& enrolment, std::uint64_t number, const RowFile& file,
                     Recorder& recorder) {
-  auto rows = rows_in<NamingRow>(file, naming_columns(), naming_row);
+  auto rows = naming_rows(file);
   if (!rows) return tl::unexpected(rows.error());
   const Identification& design = *protocol.identification();
   const KnownNamer participant = namer_like_the_papers(design);

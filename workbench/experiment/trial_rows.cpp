@@ -177,4 +177,24 @@ Result<std::pair<RunMark, NamingRow>> naming_row(const Fields& columns, const Fi
   return row_by<NamingRow>(kNaming, columns, fields);
 }
 
+template <class Row, class Columns>
+static Result<std::vector<Row>> rows_by(const Columns& columns, std::span<const ColumnMeaning> meanings,
+                                        const RowFile& file) {
+  Fields names;
+  for (const ColumnMeaning& column : meanings) names.emplace_back(column.name);
+  std::vector<Row> out;
+  for (const Fields& fields : file.rows()) {
+    auto row = row_by<Row>(columns, names, fields);
+    if (!row) return tl::unexpected(row.error());
+    out.push_back(std::move(row->second));
+  }
+  return out;
+}
+Result<std::vector<ComparisonRow>> comparison_rows(const RowFile& file) {
+  return rows_by<ComparisonRow>(kComparison, comparison_columns(), file);
+}
+Result<std::vector<NamingRow>> naming_rows(const RowFile& file) {
+  return rows_by<NamingRow>(kNaming, naming_columns(), file);
+}
+
 }  // namespace tangent::experiment

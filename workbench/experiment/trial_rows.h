@@ -7,6 +7,7 @@
 
 #include <span>
 #include <string_view>
+#include <vector>
 
 namespace tangent::experiment {
 
@@ -44,6 +45,10 @@ Fields fields_of(const RunMark& mark, const NamingRow& row, const RowOrigin& ori
 /// By name, in any order, other columns passed over. Fail naming the column and the value.
 Result<std::pair<RunMark, ComparisonRow>> comparison_row(const Fields& columns, const Fields& fields);
 Result<std::pair<RunMark, NamingRow>> naming_row(const Fields& columns, const Fields& fields);
+
+/// All rows of a participant's table, in its order. Fail as the above.
+Result<std::vector<ComparisonRow>> comparison_rows(const RowFile& file);
+Result<std::vector<NamingRow>> naming_rows(const RowFile& file);
 
 /// Columns that are not there, as in tables of earlier programs, stay as they are by default.
 Result<RowOrigin> row_origin(const Fields& columns, const Fields& fields);

@@ -3,34 +3,16 @@
 namespace tangent::experiment {
 namespace {
 
-Fields names_in(std::span<const ColumnMeaning> columns) {
-  Fields out;
-  for (const ColumnMeaning& column : columns) out.emplace_back(column.name);
-  return out;
-}
-
-template <class Row, class Read>
-Result<std::vector<Row>> rows_before(const RowFile& file, std::span<const ColumnMeaning> columns, Read read) {
-  std::vector<Row> out;
-  const Fields names = names_in(columns);
-  for (const Fields& fields : file.rows()) {
-    auto row = read(names, fields);
-    if (!row) return tl::unexpected(row.error());
-    out.push_back(std::move(row->second));
-  }
-  return out;
-}
-
 Result<std::variant<ComparisonRun, NamingRun>> run_after(const RowFile& file, const Protocol& protocol,
                                                          std::uint64_t number, std::uint64_t seed) {
   if (protocol.discrimination()) {
-    const auto rows = rows_before<ComparisonRow>(file, comparison_columns(), comparison_row);
+    const auto rows = comparison_rows(file);
     if (!rows) return tl::unexpected(rows.error());
     auto run = ComparisonRun::start(protocol, number, seed, *rows);
     if (!run) return tl::unexpected(run.error());
     return std::move(*run);
   }
-  const auto rows = rows_before<NamingRow>(file, naming_columns(), naming_row);
+  const auto rows = naming_rows(file);
   if (!rows) return tl::unexpected(rows.error());
   auto run = NamingRun::start(protocol, number, seed, *rows);
   if (!run) return tl::unexpected(run.error());
