@@ -15,6 +15,7 @@ namespace {
 template <class Device>
 struct DeviceKind {
   const char* name;
+  bool simulated;  // or none
   std::unique_ptr<Device> (*make)(const DeviceOptions& options);
 };
 
@@ -65,18 +66,18 @@ std::unique_ptr<ContactDisplay> maestro(const DeviceOptions& options) {
 
 // A new device is one row here.
 constexpr DeviceKind<ForceDevice> kForceDevices[] = {
-    {"simulated", simulated_force},
-    {"ideal", ideal_force},
-    {"scheduled", scheduled_force},
-    {"tilt", tilting_force},
-    {"none", [](const DeviceOptions&) { return std::unique_ptr<ForceDevice>(); }},
+    {"simulated", true, simulated_force},
+    {"ideal", true, ideal_force},
+    {"scheduled", true, scheduled_force},
+    {"tilt", true, tilting_force},
+    {"none", true, [](const DeviceOptions&) { return std::unique_ptr<ForceDevice>(); }},
 };
 constexpr DeviceKind<ContactDisplay> kContactDisplays[] = {
-    {"simulated", simulated_display},
-    {"ideal", ideal_display},
-    {"cld", cld},
-    {"maestro", maestro},
-    {"none", [](const DeviceOptions&) { return std::unique_ptr<ContactDisplay>(); }},
+    {"simulated", true, simulated_display},
+    {"ideal", true, ideal_display},
+    {"cld", false, cld},
+    {"maestro", false, maestro},
+    {"none", true, [](const DeviceOptions&) { return std::unique_ptr<ContactDisplay>(); }},
 };
 
 template <class Kinds>
@@ -132,7 +133,12 @@ Result<DeviceSet> make_devices(const DeviceNames& names, const DeviceOptions& op
   return DeviceSet{force->make(options), display->make(options)};
 }
 
-bool are_simulated(const DeviceNames& names) { return names.display != "cld" && names.display != "maestro"; }
+bool are_simulated(const DeviceNames& names) {
+  const auto* force = find_kind(kForceDevices, names.force);
+  const auto* display = find_kind(kContactDisplays, names.display);
+  return (force == std::end(kForceDevices) || force->simulated) &&
+         (display == std::end(kContactDisplays) || display->simulated);
+}
 
 bool all_simulated(const DeviceSet& devices) {
   return (!devices.force || devices.force->capabilities().simulated) &&
