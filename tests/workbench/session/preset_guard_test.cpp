@@ -264,8 +264,10 @@ TEST_CASE("unguarded changes are not undone, whatever the gate does") {
 TEST_CASE("100 changes inside the safe ranges are all kept") {
   const PresetKey *stiffness = find_preset_key("force.stiffness_n_per_m"),
                   *damping = find_preset_key("force.damping_n_s_per_m");
-  int changes = 0;
-  for (const Body& body : bodies()) {
+  int changes = 0, wanted_changes = 0;
+  std::vector<Body> all = bodies();
+  if (rounds(20) < 20) all = {all[1]};  // under sanitizers: the sweeps of all three take minutes there
+  for (const Body& body : all) {
     CAPTURE(body.name);
     SimulatedForceOptions options;  // as the program simulates it
     const Preset base;
@@ -276,7 +278,9 @@ TEST_CASE("100 changes inside the safe ranges are all kept") {
     Bench b(body.scene, options, base);
     std::mt19937_64 random(17);
     const auto share = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
-    for (int i = 0; i < rounds(torus ? 40 : 30);) {
+    const int count = rounds(torus ? 40 : 30);
+    wanted_changes += count;
+    for (int i = 0; i < count;) {
       const PresetKey& key = torus && i % 2 != 0 ? *damping : *stiffness;
       const SafeRange range = sweep.range(key);
       REQUIRE(!range.samples().empty());
@@ -295,7 +299,7 @@ TEST_CASE("100 changes inside the safe ranges are all kept") {
     CHECK(b.bench.run().device.gate_state == GateState::armed);
   }
   MESSAGE(changes << " changes, none undone");
-  CHECK(changes == rounds(40) + 2 * rounds(30));
+  CHECK(changes == wanted_changes);
 }
 
 TEST_CASE("a session goes back by itself, under an id of its own, and history, log and bookmarks say so") {
