@@ -17,6 +17,12 @@ struct Cone {
   double cos_half = -1.0;
 };
 
+/// Normals that lie within `most` = |n . along| of the plane across a unit direction; 1 is every normal.
+struct AcrossRim {
+  Vec3 along{0.0};
+  double most = 1.0;
+};
+
 /// What a set of normals spans. Fixed room: a triangle has six control normals; fans add theirs.
 class NormalSet {
  public:
@@ -33,6 +39,15 @@ class NormalSet {
   void add(const NormalSet& other) {
     everything_ |= other.everything_;
     for (std::size_t i = 0; i < other.size_ && !everything_; ++i) add(other.normals_[i]);
+  }
+
+  /// How far the normals of any mixture of them lean into a unit direction at most: 1, where nothing is known.
+  AcrossRim across(const Vec3& along) const {
+    // A mixture is at least as long as the cone's cosine.
+    const double shortest = cone().cos_half;
+    double most = 0.0;
+    for (std::size_t i = 0; i < size_; ++i) most = std::max(most, std::abs(glm::dot(along, normals_[i])));
+    return shortest > 0.1 && most < shortest ? AcrossRim{along, most / shortest} : AcrossRim{};
   }
 
   Cone cone() const {
@@ -62,6 +77,18 @@ Cone merge(const Cone& a, const Cone& b) {
   };
   const double half = std::max(reach(a), reach(b));
   return half >= 3.14159 ? Cone{} : Cone{axis, std::cos(half)};
+}
+
+AcrossRim merge(const AcrossRim& a, const AcrossRim& b) {
+  if (a.most >= 1.0 || b.most >= 1.0) return {};
+  const Vec3 sum = glm::dot(a.along, b.along) < 0.0 ? a.along - b.along : a.along + b.along;
+  const Vec3 along = unit(sum);  // of two unit vectors at less than a right angle
+  // |n . along| <= |n . a| + |along - a|, and a may be counted either way round.
+  const auto most = [&](const AcrossRim& of) {
+    return of.most + std::min(glm::length(along - of.along), glm::length(along + of.along));
+  };
+  const double both = std::max(most(a), most(b));
+  return both < 1.0 ? AcrossRim{along, both} : AcrossRim{};
 }
 
 float below(double x) { return std::nextafter(static_cast<float>(x), -std::numeric_limits<float>::infinity()); }
@@ -97,6 +124,7 @@ class ContactHierarchyBuilder {
     Box box;
     Cone cone;
     CurvatureBounds curvature;
+    AcrossRim rim;
   };
 
   struct Entry {
@@ -211,15 +239,14 @@ class ContactHierarchyBuilder {
       bounds = bounds_of(entries_[first].entry);
       tree_.nodes_[index].link = ContactHierarchy::kLeaf | static_cast<std::uint32_t>(first);
       tree_.order_.push_back(entries_[first].entry);
-      tree_.nodes_[index].count = 1;
     } else {
       const std::size_t middle = split(first, last);
       bounds = build_node(first, middle);
       tree_.nodes_[index].link = static_cast<std::uint32_t>(tree_.nodes_.size());
-      tree_.nodes_[index].count = 0;
       join(bounds, build_node(middle, last));
     }
     store(tree_.nodes_[index], bounds);
+    tree_.nodes_[index].rim = store(bounds.rim);
     return bounds;
   }
 
@@ -228,6 +255,17 @@ class ContactHierarchyBuilder {
     a.box.include(b.box.max);
     a.cone = merge(a.cone, b.cone);
     a.curvature.include(b.curvature);
+    a.rim = merge(a.rim, b.rim);
+  }
+
+  /// What Node::rim is of it.
+  std::uint32_t store(const AcrossRim& rim) {
+    constexpr double kRounding = 1e-6, kTellsLittle = 0.5;
+    if (rim.most > kTellsLittle) return 0;
+    tree_.rims_.push_back(
+        {{static_cast<float>(rim.along.x), static_cast<float>(rim.along.y), static_cast<float>(rim.along.z)},
+         above(rim.most + kRounding)});
+    return static_cast<std::uint32_t>(tree_.rims_.size());
   }
 
   static void store(ContactHierarchy::Node& node, const Bounds& bounds) {
@@ -272,7 +310,37 @@ class ContactHierarchyBuilder {
     add_corner_normals(t, k, normals);
     add_corner_normals(t, (k + 1) % 3, normals);
     bounds.cone = normals.cone();
+    bounds.rim = rim_of_side({mesh_.position(t, k), patch.control_point(kNear[k][0]), patch.control_point(kNear[k][1]),
+                              mesh_.position(t, (k + 1) % 3)},
+                             normals);
     return bounds;
+  }
+
+  /// Across an edge with these control points. A fan's normal is tilt T + level e, with T the curve's tangent and e
+  /// perpendicular to it; the tilt is at most that of the sides. Where T is within d of the chord's direction, both
+  /// parts lean into that by d more at most.
+  static AcrossRim rim_of_side(const std::array<Vec3, 4>& curve, const NormalSet& normals) {
+    const Vec3 along = unit(curve[3] - curve[0]);
+    double bend = 0.0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec3 part = curve[i + 1] - curve[i];
+      const double forward = glm::dot(part, along);
+      if (forward <= 0.0) return {};
+      bend = std::max(bend, glm::length(part - forward * along) / forward);
+    }
+    AcrossRim rim = normals.across(along);
+    rim.most = std::min(1.0, rim.most + 2.0 * bend);
+    return rim;
+  }
+
+  /// Across the edge that a face beside a flat region has with it.
+  AcrossRim rim_of_face(std::uint32_t t, const NormalSet& normals) const {
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      const std::uint32_t other = mesh_.across(t, k).triangle;
+      if (mesh_.edge_kind(t, k) == EdgeKind::crease && mesh_.flat_regions().of(other) != kNone)
+        return normals.across(unit(mesh_.position(t, (k + 1) % 3) - mesh_.position(t, k)));
+    }
+    return {};
   }
 
   Bounds triangle_bounds(std::uint32_t t, bool face_alone) const {
@@ -290,6 +358,7 @@ class ContactHierarchyBuilder {
       }
     }
     bounds.cone = normals.cone();
+    if (face_alone) bounds.rim = rim_of_face(t, normals);
     return bounds;
   }
 
@@ -372,6 +441,16 @@ bool is_steady_for_core(const ContactQuery& q, double least, const NormalCone& n
   const double less = core.reach_m() + core.lever_m() - q.nearest_m;
   if ((core.flattest_m() - less) * least > kSteadyRoom - 1.0) return true;
   return (core.flattest_near(normals, q.margin_m) - less) * least > kSteadyRoom - 1.0;
+}
+
+bool ContactHierarchy::misses(const Rim& rim, const Node& node, const ContactQuery& q) {
+  if (q.core) return false;
+  const Vec3 low(node.min[0], node.min[1], node.min[2]), high(node.max[0], node.max[1], node.max[2]);
+  // From any of its points S to where the centre may be the way is h N, leaning by the tilt at most.
+  const Vec3 way = q.centre + q.ahead - 0.5 * (low + high);
+  const double room = 0.5 * glm::length(high - low) + q.margin_m;
+  const double along = std::abs(way.x * rim.along[0] + way.y * rim.along[1] + way.z * rim.along[2]);
+  return along - room > (rim.most + q.tilt_rad) * (glm::length(way) + room);
 }
 
 NormalCone ContactHierarchy::normals_of(const Node& node) {

@@ -6,6 +6,11 @@
 // the convex-hull property. Compare the spatialized normal cone hierarchy of Johnson & Cohen (I3D 2001).
 // Crease edges add the normals of their fans; boundary edges and vertices are not bounded in direction.
 //
+// Around a flat region of slivers (mesh/flat_regions.h) a node of rim edges has normals that fan out from the region's
+// own, but all across the rim: a cone that holds them holds as many along it, where none are. Such nodes know the rim's
+// direction, too, and how far their normals lean into it: of a rim of n edges a search then looks at those under the
+// finger.
+//
 // A node also knows between which curvatures its ground bends. Where that keeps the surface offset by the heights asked
 // for from folding (patch_curvature.h), its contacts come and go over its border only: a search that asks what could
 // come up while c moves need not ask that there, only which contacts there are now. On a ball that is everywhere, so
@@ -95,7 +100,9 @@ class ContactHierarchy {
   /// Precondition: it is over a triangle at least.
   Outline outline() const;
 
-  std::size_t memory_bytes() const { return nodes_.size() * sizeof(Node) + order_.size() * sizeof(std::uint32_t); }
+  std::size_t memory_bytes() const {
+    return nodes_.size() * sizeof(Node) + order_.size() * sizeof(std::uint32_t) + rims_.size() * sizeof(Rim);
+  }
 
  private:
   friend class ContactHierarchyBuilder;
@@ -108,8 +115,13 @@ class ContactHierarchy {
     std::array<float, 3> axis;                  ///< of the cone of normals, unit
     float cos_half;                             ///< of the cone's half angle, rounded down; -1: every direction
     float least_curvature, greatest_curvature;  ///< of its patches, 1/m, rounded outwards
-    std::uint32_t link;                         ///< second child, or kLeaf | first entry in order_
-    std::uint32_t count;                        ///< entries of a leaf
+    std::uint32_t link;                         ///< second child, or kLeaf | its entry in order_
+    std::uint32_t rim;                          ///< 1 + its entry in rims_; 0: none
+  };
+  /// Normals across a direction.
+  struct Rim {
+    std::array<float, 3> along;  ///< unit
+    float most;                  ///< |normal . along| of its normals, rounded up
   };
 
   /// Squared distance of the box, or -1 where the node can't hold a contact. `room_m`: by which the ball about its
@@ -120,12 +132,21 @@ class ContactHierarchy {
     return query.core ? is_steady_for_core(query, node.least_curvature, normals_of(node))
                       : is_steady(query, node.least_curvature, node.greatest_curvature);
   }
+  /// Whether every contact that the query asks for has a normal that the node doesn't have, leaning too far into
+  /// `along`.
+  static bool misses(const Rim& rim, const Node& node, const ContactQuery& query);
+  double reach2(std::uint32_t index, const ContactQuery& query) const {
+    const Node& node = nodes_[index];
+    const double reach = reach2(node, query);
+    return reach >= 0.0 && node.rim != 0 && misses(rims_[node.rim - 1], node, query) ? -1.0 : reach;
+  }
   /// Whether a finger that is not round can touch the node.
   static bool touchable(const Node& node, const ContactQuery& query);
 
   std::vector<Node> nodes_;
   static constexpr std::uint32_t kPartShift = 29, kTriangleBits = (1u << kPartShift) - 1;
-  std::vector<std::uint32_t> order_;  ///< part << kPartShift | triangle, leaf by leaf
+  std::vector<std::uint32_t> order_;  ///< part << kPartShift | triangle, of each leaf
+  std::vector<Rim> rims_;
 };
 
 /// What all triangles of a hierarchy, or of several, have in common, by itself: a search over many hierarchies reads
@@ -205,18 +226,16 @@ bool ContactHierarchy::visit_on(ContactQuery& query, Visit& visit) const {
     if (entry.reach2 > farthest * farthest) continue;
     const Node& node = nodes_[entry.node];
     if (node.link & kLeaf) {
-      const std::uint32_t first = node.link & ~kLeaf;
+      const std::uint32_t entry_of_leaf = order_[node.link & ~kLeaf];
       const bool steady = stays(node, query);
       if (query.steady_only && !steady) continue;
       query.here_m = steady ? 0.0 : query.margin_m;
-      for (std::uint32_t i = 0; i < node.count; ++i) {
-        query.part = static_cast<SearchPart>(order_[first + i] >> kPartShift);
-        if (!visit(order_[first + i] & kTriangleBits, query)) return false;
-      }
+      query.part = static_cast<SearchPart>(entry_of_leaf >> kPartShift);
+      if (!visit(entry_of_leaf & kTriangleBits, query)) return false;
       continue;
     }
     const std::uint32_t a = entry.node + 1, b = node.link;
-    const double reach_a = reach2(nodes_[a], query), reach_b = reach2(nodes_[b], query);
+    const double reach_a = reach2(a, query), reach_b = reach2(b, query);
     const bool a_first = reach_a <= reach_b;
     const Entry near = a_first ? Entry{a, reach_a} : Entry{b, reach_b};
     const Entry far = a_first ? Entry{b, reach_b} : Entry{a, reach_a};

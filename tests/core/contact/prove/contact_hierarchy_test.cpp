@@ -1,6 +1,8 @@
 // The search over the hierarchy never skips a triangle that holds a contact.
 #include "core/contact/prove/contact_hierarchy.h"
 #include "core/contact/follow/step_rule.h"
+#include "core/contact/patch_cache.h"
+#include "tests/core/capped_cylinder.h"
 #include "tests/core/scenes.h"
 
 #include <doctest/doctest.h>
@@ -235,4 +237,53 @@ TEST_CASE("the visitor can narrow the search and end it") {
   CHECK(all == 1280);
   CHECK(few == 10);
   CHECK(none < all / 20);  // what is left of the leaf it was in
+}
+
+TEST_CASE("a search of a rim of many edges visits those that the finger can touch, and few others") {
+  constexpr int kCorners = 1000;
+  for (const double crease_rad : {0.7, 0.001}) {  // the side round, and as flat as it is
+    CAPTURE(crease_rad);
+    const ScenePtr scene = scene_of(capped_cylinder(kCorners), {.crease_rad = crease_rad});
+    const ContactMesh& mesh = scene->mesh();
+    REQUIRE(mesh.flat_regions().count() == 2);
+    PatchCache cache(mesh);
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> rim;
+    for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t)
+      for (std::uint32_t k = 0; k < 3; ++k)
+        if (mesh.edge_kind(t, k) == EdgeKind::crease && mesh.flat_regions().of(t) != kNone) rim.emplace_back(t, k);
+    REQUIRE(rim.size() == 2 * kCorners);
+    Random random(135);
+    int missed = 0;
+    std::size_t looked_at = 0;
+    const int centres = rounds(2000);
+    for (int i = 0; i < centres; ++i) {
+      const auto& [t, k] = rim[random.below(2 * kCorners)];
+      const EdgeFan& fan = cache.fan(t, k, random.in(0.0, 1.0), NormalForm::bernstein);
+      const double angle = random.in(0.0, 1.0) * std::acos(fan.far.x), h = random.in(0.001, 0.03);
+      SurfaceSample sample;
+      edge_sample(fan, Vec2(std::cos(angle), std::sin(angle)), sample);
+      ContactQuery query;
+      query.margin_m = i % 2 == 0 ? 0.0 : 1e-4;
+      query.ahead = random.in(0.0, 1.0) * query.margin_m * random.direction();
+      query.tilt_rad = i % 4 < 2 ? 0.0 : 0.02;
+      const double lean = random.in(0.0, 1.0) * query.tilt_rad;
+      const Vec3 normal = unit(sample.normal + std::tan(lean) * unit(glm::cross(sample.normal, random.direction())));
+      const bool inside = i % 8 == 0;  // a contact seen from inside
+      query.centre = sample.point + (inside ? -h : h) * normal - query.ahead +
+                     0.999 * random.in(0.0, 1.0) * query.margin_m * random.direction();
+      query.nearest_m = query.inside_m = 1.001 * h + 2.0 * query.margin_m;
+      bool seen = false;
+      const EdgeLink other = mesh.across(t, k);
+      scene->hierarchy().visit(query, [&](std::uint32_t visited, const ContactQuery& at) {
+        seen |= is_side(at.part) && ((visited == t && side_of(at.part) == k) ||
+                                     (visited == other.triangle && side_of(at.part) == other.edge));
+        looked_at += is_side(at.part);
+        return true;
+      });
+      missed += !seen;
+    }
+    CHECK(missed == 0);
+    MESSAGE((looked_at / static_cast<std::size_t>(centres)) << " of " << rim.size() << " edges are looked at");
+    CHECK(looked_at < static_cast<std::size_t>((crease_rad > 0.1 ? 8 : 40) * centres));
+  }
 }
