@@ -3,7 +3,7 @@
 #include "core/base/fnv.h"
 #include "workbench/experiment/order.h"
 #include "workbench/experiment/simulated_group.h"
-#include "workbench/recording/core_digest.h"
+#include "workbench/experiment/trial_setup.h"
 
 namespace tangent::experiment {
 namespace {
@@ -16,7 +16,7 @@ class Recorder {
   Recorder(RowFile& file, const Enrolment& enrolment, const std::function<bool()>& stop, SimulatedOutcome& out)
       : file_(file), mark_(enrolment.mark), stop_(stop), out_(out) {
     origin_.protocol = enrolment.protocol_digest;
-    origin_.program = std::string(core_digest()).substr(0, 16);
+    origin_.program = program_digest();
   }
   template <class Row>
   void add(const Row& row) {
@@ -43,7 +43,12 @@ Status compare(const Protocol& protocol, const Enrolment& enrolment, std::uint64
   if (!rows) return tl::unexpected(rows.error());
   auto run = ComparisonRun::start(protocol, number, enrolment.seed, *rows);
   if (!run) return tl::unexpected(run.error());
-  const auto add = [&](const ComparisonRow& row) { recorder.add(row); };
+  // Each start counts from 0.
+  const double before_s = rows->empty() ? 0.0 : rows->back().began_s + rows->back().first_s + rows->back().second_s;
+  const auto add = [&](ComparisonRow row) {
+    row.began_s += before_s;
+    recorder.add(row);
+  };
   if (enrolment.mark.simulated == kSimulatedKinds[1]) {
     auto arcs = arcs_to_feel(protocol);
     if (!arcs) return tl::unexpected(arcs.error());
@@ -65,7 +70,9 @@ Status name_objects(const Protocol& protocol, const Enrolment& enrolment, std::u
     auto run = NamingRun::start(protocol, number, enrolment.seed, *rows);
     if (!run) return tl::unexpected(run.error());
     if (run->all_done()) return {};
-    take_part(*run, design, participant, enrolment.seed, [&](const NamingRow& row) {
+    const double before_s = rows->empty() ? 0.0 : rows->back().began_s + rows->back().since_touch_s;
+    take_part(*run, design, participant, enrolment.seed, [&](NamingRow row) {
+      row.began_s += before_s;
       recorder.add(row);
       rows->push_back(row);
     });
@@ -93,6 +100,8 @@ Result<SimulatedOutcome> run_simulated(const std::filesystem::path& folder, cons
   SimulatedOutcome out;
   out.rows = rows_path(folder, enrolment.mark.participant, protocol);
   out.before = file->rows().size();
+  const std::filesystem::path sidecar = sidecar_path(out.rows);
+  if (Status ok = note_start(sidecar, utc_now_s(), {file->count(), 0}); !ok) return tl::unexpected(ok.error());
   Recorder recorder(*file, enrolment, stop, out);
   try {
     const Status ok = protocol.discrimination() ? compare(protocol, enrolment, *number, *file, recorder)
@@ -101,6 +110,7 @@ Result<SimulatedOutcome> run_simulated(const std::filesystem::path& folder, cons
   } catch (const Stopped&) {
     if (!recorder.status()) return tl::unexpected(recorder.status().error());
   }
+  if (Status ok = note_end(sidecar, utc_now_s(), {file->count(), 0}); !ok) return tl::unexpected(ok.error());
   return out;
 }
 
