@@ -75,6 +75,7 @@ Status run_analyse(AnalyseCommandOptions& options) {
     options.analysis.experienced = std::move(*experience);
   }
   for (const std::string& note : answers->left_out) print_message("analyse", note);
+  options.analysis.warn = [](const std::string& warning) { print_message("analyse", warning); };
   const auto page = analysis::write_analysis(*answers, options.analysis);
   if (!page) return tl::unexpected(page.error());
   std::printf("%s: %s compared arcs, %zu named objects%s\n", page->c_str(),
