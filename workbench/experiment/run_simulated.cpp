@@ -5,6 +5,8 @@
 #include "workbench/experiment/simulated_group.h"
 #include "workbench/experiment/trial_setup.h"
 
+#include <optional>
+
 namespace tangent::experiment {
 namespace {
 
@@ -65,17 +67,28 @@ Status name_objects(const Protocol& protocol, const Enrolment& enrolment, std::u
   auto rows = naming_rows(file);
   if (!rows) return tl::unexpected(rows.error());
   const Identification& design = *protocol.identification();
-  const KnownNamer participant = namer_like_the_papers(design);
+  const KnownNamer known = namer_like_the_papers(design);
+  std::optional<FeelingNamer> feeling;
+  if (enrolment.mark.simulated == kSimulatedKinds[1] &&
+      rows->size() < object_trials(design, number, enrolment.seed).size()) {
+    auto made = FeelingNamer::make(protocol, feeling_hand(number, enrolment.seed), enrolment.seed);
+    if (!made) return tl::unexpected(made.error());
+    feeling.emplace(std::move(*made));
+  }
   for (;;) {
     auto run = NamingRun::start(protocol, number, enrolment.seed, *rows);
     if (!run) return tl::unexpected(run.error());
     if (run->all_done()) return {};
     const double before_s = rows->empty() ? 0.0 : rows->back().began_s + rows->back().since_touch_s;
-    take_part(*run, design, participant, enrolment.seed, [&](NamingRow row) {
+    const auto add = [&](NamingRow row) {
       row.began_s += before_s;
       recorder.add(row);
       rows->push_back(row);
-    });
+    };
+    if (!feeling)
+      take_part(*run, design, known, enrolment.seed, add);
+    else if (Status ok = take_part(*run, design, *feeling, enrolment.seed, add); !ok)
+      return ok;
   }
 }
 
@@ -92,9 +105,6 @@ Result<SimulatedOutcome> run_simulated(const std::filesystem::path& folder, cons
   if (!number)
     return fail("\"" + enrolment.mark.participant + "\" ends with no number, which the orders go by", "--participant",
                 "write 7, or P07");
-  if (enrolment.mark.simulated == kSimulatedKinds[1] && !protocol.discrimination())
-    return fail("a participant who feels compares arcs, and names no objects", "--simulated feeling",
-                "take --simulated known, or a protocol of kind discrimination");
   Result<RowFile> file = enrol(folder, protocol, protocol_text, enrolment);
   if (!file) return tl::unexpected(file.error());
   SimulatedOutcome out;
