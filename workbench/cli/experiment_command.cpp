@@ -113,6 +113,8 @@ void add_experiment_command_with(CLI::App& app, CommandResult& result, const Run
   add_flag(*command, "--pilot", o->pilot, "A trial run: marked in every row, not analysed with the others");
   add_trial_options(*command, o->trials);
   on_run(*command, [options, in_windows, &result] {
+    if (options->simulated.empty() && options->trials.devices.names.force == "none")
+      refuse_option("--force", "none: every trial needs a force device; choose one, for example simulated");
     refuse_failed("--participant", check_name(options->participant));
     refuse_failed(
         options->simulated.empty() ? options->trials.window ? "--window" : "--without-waiting" : "--simulated",

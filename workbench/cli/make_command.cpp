@@ -12,6 +12,7 @@
 #include "workbench/evidence/made_mesh.h"
 
 #include <array>
+#include <cctype>
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -57,7 +58,20 @@ int make_arc(const MakeOptions& options) {
                         kPaperArcRad, kPaperArcRadius / kMillimetre));
 }
 
+/// Whether the name says a format that is written; a device or a pipe needs none.
+bool has_format(const MakeOptions& options) {
+  std::error_code error;
+  if (std::filesystem::exists(options.file, error) && !std::filesystem::is_regular_file(options.file, error))
+    return true;
+  std::string ending = options.file.extension().string();
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return ending == ".obj" || (ending == ".csv" && options.object == kArc);
+}
+
 int run_make(const MakeOptions& options) {
+  if (!has_format(options))
+    refuse_option("--out", options.file.string() + " names no format that is written; end it in .obj" +
+                               (options.object == kArc ? " or .csv" : ""));
   if (options.object == kArc) return make_arc(options);
   if (options.placement) return refuse("--placement is of arc; leave it out");
   const Result<PolygonMesh> mesh = generate_mesh(options.object, options.generate);

@@ -9,7 +9,6 @@
 #include "workbench/cli/mesh_options.h"
 #include "workbench/cli/messages.h"
 #include "workbench/cli/option.h"
-#include "workbench/cli/own_file.h"
 #include "workbench/cli/preset_options.h"
 #include "workbench/cli/progress.h"
 #include "workbench/cli/refuse.h"
@@ -189,8 +188,6 @@ Status run_tune(const TuneOptions& options, bool& incomplete) {
   report.preset = std::move(*base);
   const Preset& preset = report.preset.preset;
   // Checks before the work starts that the files can be written.
-  if (Status ok = check_replaceable(options.out, "a preset", is_preset_text); !ok) return ok;
-  if (Status ok = check_replaceable(options.front.csv, "the table of a front", is_front_table); !ok) return ok;
   if (const Result<AtomicFile> probe = AtomicFile::create(options.out); !probe) return tl::unexpected(probe.error());
   Result<LoadedMesh> loaded = load_mesh(options.mesh);
   if (!loaded) return tl::unexpected(loaded.error());

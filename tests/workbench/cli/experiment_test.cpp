@@ -170,5 +170,20 @@ TEST_CASE("experiment and analyse: what can't be is said, with the exit codes of
   CHECK(run_workbench({"analyse"}).exit_code == 2);
 }
 
+TEST_CASE("no force device for trials, and answers where a protocol is planned, are wrong usage") {
+  const TempFolder folder;
+  const std::string protocol = TANGENT_SOURCE_DIR "/presets/experiments/discrimination.toml";
+  const ProcessResult none =
+      run_workbench({"experiment", protocol, "--participant", "p1", "--out", folder.file("d"), "--force", "none"});
+  CHECK(none.exit_code == 2);
+  CHECK(contains(none.err, "every trial needs a force device"));
+  for (const char* const what : {"--power", "--check"}) {
+    const ProcessResult two = run_workbench({"analyse", protocol, protocol, what, "--out", folder.file("d")});
+    CHECK(two.exit_code == 2);
+    CHECK(contains(two.err, "takes one protocol, and no answers"));
+  }
+  CHECK(folder.entry_count() == 0);
+}
+
 }  // namespace
 }  // namespace tangent

@@ -98,3 +98,18 @@ TEST_CASE("a file that can't be written leaves with 1") {
   CHECK(result.exit_code == 1);
   CHECK(contains(result.err, folder.file("no/folder/o.obj")));
 }
+
+TEST_CASE("make refuses a name that says no format that it writes") {
+  const TempFolder folder;
+  for (const char* const object : {"cube", "arc"}) {
+    for (const char* const name : {"a.toml", "a", "a.stl"}) {
+      const ProcessResult refused = run_workbench({"make", object, "--out", folder.file(name)});
+      CHECK(refused.exit_code == 2);
+      CHECK(contains(refused.err, "names no format that is written; end it in .obj"));
+    }
+  }
+  CHECK(run_workbench({"make", "cube", "--out", folder.file("a.csv")}).exit_code == 2);
+  CHECK(folder.entry_count() == 0);
+  CHECK(run_workbench({"make", "cube", "--out", folder.file("A.OBJ")}).exit_code == 0);
+  CHECK(run_workbench({"make", "cube", "--out", "/dev/null"}).exit_code == 0);
+}
