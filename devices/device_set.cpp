@@ -1,12 +1,14 @@
 #include "devices/device_set.h"
 
 #include "devices/cld/cld_controller.h"
+#include "devices/found_device.h"
 #include "devices/simulated/scheduled_force_device.h"
 #include "devices/simulated/simulated_contact_display.h"
 #include "devices/simulated/simulated_force_device.h"
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 namespace tangent {
 
@@ -17,6 +19,7 @@ struct DeviceKind {
   const char* name;
   bool simulated;  // or none
   std::unique_ptr<Device> (*make)(const DeviceOptions& options);
+  std::vector<FoundDevice> (*find)(const DeviceOptions& options) = nullptr;  // those attached; null: none to look for
 };
 
 std::unique_ptr<ForceDevice> simulated_force(const DeviceOptions& options) {
@@ -64,7 +67,7 @@ std::unique_ptr<ContactDisplay> maestro(const DeviceOptions& options) {
   return std::make_unique<MaestroDisplay>(wanted);
 }
 
-// A new device is one row here.
+// A new device is one row here: {name, simulated, make, find}.
 constexpr DeviceKind<ForceDevice> kForceDevices[] = {
     {"simulated", true, simulated_force},
     {"ideal", true, ideal_force},
@@ -131,6 +134,22 @@ Result<DeviceSet> make_devices(const DeviceNames& names, const DeviceOptions& op
   if (display == std::end(kContactDisplays))
     return unknown("contact display", names.display, "--display", contact_display_names());
   return DeviceSet{force->make(options), display->make(options)};
+}
+
+std::vector<FoundDevice> find_force_devices(const DeviceOptions& options) {
+  std::vector<FoundDevice> all;
+  for (const DeviceKind<ForceDevice>& kind : kForceDevices) {
+    if (kind.find == nullptr) continue;
+    for (FoundDevice& found : kind.find(options)) all.push_back(std::move(found));
+  }
+  return all;
+}
+
+std::vector<std::string> sought_force_devices() {
+  std::vector<std::string> names;
+  for (const DeviceKind<ForceDevice>& kind : kForceDevices)
+    if (kind.find != nullptr) names.push_back(kind.name);
+  return names;
 }
 
 bool are_simulated(const DeviceNames& names) {

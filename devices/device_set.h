@@ -18,6 +18,8 @@ struct DeviceSet {
   std::unique_ptr<ContactDisplay> display;  ///< null: none
 };
 
+/// What the devices are made with. The options of one device are a struct of its own here, filled by its command line
+/// options (workbench/cli).
 struct DeviceOptions {
   std::uint64_t seed = 1;  ///< of the simulated devices
   MaestroOptions maestro{};

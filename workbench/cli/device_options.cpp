@@ -58,6 +58,7 @@ void add_device_options(CLI::App& command, DeviceChoice& choice) {
   add_number_option(command, "--maestro-high-mm", {.min = 0, .max = 50, .unit = "mm"},
                     "The upper place (default: as kept, or 10)",
                     [&choice](double v) { choice.maestro.high_m = v * 1e-3; });
+  // Those of a force device: add_NAME_options(command, choice.drivers.NAME), in a file of their own.
   add_place_options(command, choice.place);
 }
 

@@ -213,7 +213,9 @@ Result<std::unique_ptr<Session>> Session::create(std::shared_ptr<const ContactSc
     if (!recorder) return tl::unexpected(recorder.error());
     packets = std::move(*recorder);
   }
-  DeviceOptions wanted{.seed = options.seed, .tap = packets.get()};
+  DeviceOptions wanted = options.drivers;
+  wanted.seed = options.seed;
+  wanted.tap = packets.get();
   wanted.maestro.calibration = options.maestro;
   wanted.maestro.channel = static_cast<std::uint8_t>(options.maestro_channel);
   auto devices = make_devices(options.devices, wanted);
