@@ -2,6 +2,7 @@
 
 #include "devices/cld/cld_controller.h"
 #include "devices/found_device.h"
+#include "workbench/bringup/proved_devices.h"
 #include "workbench/cli/text_format.h"
 
 #include <nlohmann/json.hpp>
@@ -49,6 +50,15 @@ std::string problem_text(const Error& problem) {
 
 // --- Force devices -------------------------------------------------------------------------------------
 
+/// What was proved on it, and when; empty: nothing.
+std::string proved_line(const FoundDevice& found) {
+  const std::filesystem::path path = proved_devices_path();
+  if (path.empty() || found.serial.empty()) return {};
+  const auto proved = read_proved(path, found.kind, found.serial);
+  if (!proved) return proved.error().message();
+  return *proved ? proved_text(**proved) : std::string();
+}
+
 std::string found_text(const FoundDevice& found, const DeviceOptions& options, nlohmann::json& report) {
   report.push_back({{"kind", found.kind}, {"name", found.name}, {"can_be_opened", found.can_be_opened()}});
   if (!found.serial.empty()) report.back()["serial"] = found.serial;
@@ -58,8 +68,12 @@ std::string found_text(const FoundDevice& found, const DeviceOptions& options, n
     report.back()["problem"] = found.problem.message();
     return name + "\n" + problem_text(found.problem);
   }
+  const std::string proved = proved_line(found);
+  if (!proved.empty()) report.back()["brought_up"] = proved;
   const auto made = make_devices({found.kind, "none"}, options);
-  return made && made->force ? force_text(name, made->force->capabilities()) : name + "\n";
+  const std::string text = made && made->force ? force_text(name, made->force->capabilities()) : name + "\n";
+  return text + "  proved     " + (proved.empty() ? "nothing yet: workbench devices --check " + found.kind : proved) +
+         "\n";
 }
 
 std::string force_devices_text(const DeviceOptions& options, nlohmann::json& report) {

@@ -27,6 +27,12 @@ void add_place_options(CLI::App& command, PlaceOptions& place) {
 
 }  // namespace
 
+void add_driver_options(CLI::App& command, DeviceOptions& drivers) {
+  // A driver is a line here: add_NAME_options(command, drivers.NAME).
+  static_cast<void>(command);
+  static_cast<void>(drivers);
+}
+
 void add_device_options(CLI::App& command, DeviceChoice& choice) {
   static const std::vector<std::string_view> forces = views(force_device_names());
   static const std::vector<std::string_view> displays = views(contact_display_names());
@@ -58,7 +64,7 @@ void add_device_options(CLI::App& command, DeviceChoice& choice) {
   add_number_option(command, "--maestro-high-mm", {.min = 0, .max = 50, .unit = "mm"},
                     "The upper place (default: as kept, or 10)",
                     [&choice](double v) { choice.maestro.high_m = v * 1e-3; });
-  // Those of a force device: add_NAME_options(command, choice.drivers.NAME), in a file of their own.
+  add_driver_options(command, choice.drivers);
   add_place_options(command, choice.place);
 }
 

@@ -27,6 +27,10 @@ struct DeviceChoice {
   PlaceOptions place;
 };
 
+/// Options of the drivers of real force devices, each in a file of its own (NAME_options.h). `drivers` must outlive the
+/// parsing.
+void add_driver_options(CLI::App& command, DeviceOptions& drivers);
+
 /// --force, --display, --device for both, --packets, --servo-cpu, --maestro-channel, --maestro-low-us,
 /// --maestro-high-us, --maestro-low-mm, --maestro-high-mm, --place-fit, --place-scale, --place-offset-mm,
 /// --place-rotate-deg. `choice` must outlive the parsing.

@@ -1,9 +1,12 @@
-// workbench devices: lists attached devices, their capabilities, and why one can't be opened.
+// workbench devices: lists attached devices, their capabilities, and why one can't be opened; --check: brings one up.
 #include "core/io/atomic_file.h"
+#include "workbench/cli/check_device.h"
 #include "workbench/cli/command.h"
 #include "workbench/cli/device_list.h"
+#include "workbench/cli/device_options.h"
 #include "workbench/cli/messages.h"
 #include "workbench/cli/option.h"
+#include "workbench/cli/refuse.h"
 
 #include <nlohmann/json.hpp>
 
@@ -13,9 +16,34 @@
 namespace tangent {
 namespace {
 
-Status run_devices(const std::filesystem::path& json_file) {
+struct DevicesOptions {
+  std::filesystem::path json;
+  DeviceCheck check;
+};
+
+/// The names of --force that can be brought up.
+const std::vector<std::string_view>& checked_names() {
+  static const std::vector<std::string_view> names = [] {
+    std::vector<std::string_view> all;
+    for (const std::string& name : force_device_names())
+      if (name != "none") all.push_back(name);
+    return all;
+  }();
+  return names;
+}
+
+/// What makes no sense together.
+Status check_usage(const DeviceCheck& check) {
+  if (check.kind.empty() && (!check.out.empty() || check.without_waiting))
+    return fail("is missing", {}, "say which device, or leave --out and --without-waiting out");
+  if (check.without_waiting && !are_simulated({check.kind, "none"}))
+    return fail("is of a real device, which keeps real time", {}, "leave --without-waiting out");
+  return {};
+}
+
+Status run_devices(const std::filesystem::path& json_file, const DeviceOptions& drivers) {
   nlohmann::json report = nlohmann::json::array();
-  const std::string text = list_devices({}, report);
+  const std::string text = list_devices(drivers, report);
   if (!json_file.empty()) {
     if (Status written = write_file_atomic(json_file, report.dump(2) + "\n"); !written) return written;
   }
@@ -27,12 +55,30 @@ Status run_devices(const std::filesystem::path& json_file) {
 
 void add_devices_command(CLI::App& app, CommandResult& result) {
   CLI::App* command = add_command(app, "devices", "What is attached, what it can do, why it can't be opened");
-  auto json = std::make_shared<std::filesystem::path>();
-  add_text_option(*command, "--json", *json, "What is attached, for programs", "F.json");
-  on_run(*command, [json, &result] {
-    const Status status = run_devices(*json);
-    if (!status) print_message("devices", status.error().message());
-    result.exit_code = status ? kDone : kFailed;
+  auto options = std::make_shared<DevicesOptions>();
+  DeviceCheck& check = options->check;
+  add_text_option(*command, "--json", options->json, "What is attached, for programs", "F.json");
+  add_choice_option(*command, "--check", checked_names(),
+                    "Bring this force device up, step by step: it asks before anything moves",
+                    [&check](int i) { check.kind = checked_names()[static_cast<std::size_t>(i)]; });
+  add_text_option(*command, "--out", check.out, "Protocol of --check; beside it the same as a page, F.md", "F.json");
+  add_number_option(*command, "--limit-n", {.min = 0.1, .max = 20, .unit = "N"},
+                    "Largest force of --check (default 1), never above the device's continuous one",
+                    [&check](double v) { check.most_n = v; });
+  add_flag(*command, "--without-waiting", check.without_waiting,
+           "--check of a simulated device in simulated time, its hand led as the person is asked to");
+  add_driver_options(*command, check.drivers);
+  on_run(*command, [options, &result] {
+    refuse_failed("--check", check_usage(options->check));
+    if (options->check.kind.empty()) {
+      const Status status = run_devices(options->json, options->check.drivers);
+      if (!status) print_message("devices", status.error().message());
+      result.exit_code = status ? kDone : kFailed;
+      return;
+    }
+    const Result<int> code = check_device(options->check);
+    if (!code) print_message("devices", code.error().message());
+    result.exit_code = code ? *code : kFailed;
   });
 }
 
