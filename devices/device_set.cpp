@@ -2,6 +2,7 @@
 
 #include "devices/cld/cld_controller.h"
 #include "devices/found_device.h"
+#include "devices/serial/serial_force_device.h"
 #include "devices/simulated/scheduled_force_device.h"
 #include "devices/simulated/simulated_contact_display.h"
 #include "devices/simulated/simulated_force_device.h"
@@ -42,6 +43,12 @@ std::unique_ptr<ForceDevice> scheduled_force(const DeviceOptions& options) {
   return std::make_unique<ScheduledForceDevice>(SimulatedForceOptions{.seed = options.seed});
 }
 
+std::unique_ptr<ForceDevice> serial_force(const DeviceOptions& options) {
+  return std::make_unique<SerialForceDevice>(options.serial);
+}
+
+std::vector<FoundDevice> find_serial(const DeviceOptions& options) { return find_serial_devices(options.serial.dev); }
+
 std::unique_ptr<ContactDisplay> simulated_display(const DeviceOptions& options) {
   SimulatedDisplayOptions wanted;
   wanted.seed = options.seed;
@@ -73,6 +80,7 @@ constexpr DeviceKind<ForceDevice> kForceDevices[] = {
     {"ideal", true, ideal_force},
     {"scheduled", true, scheduled_force},
     {"tilt", true, tilting_force},
+    {"serial", false, serial_force, find_serial},
     {"none", true, [](const DeviceOptions&) { return std::unique_ptr<ForceDevice>(); }},
 };
 constexpr DeviceKind<ContactDisplay> kContactDisplays[] = {

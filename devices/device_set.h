@@ -4,6 +4,7 @@
 #include "devices/contact_display.h"
 #include "devices/force_device.h"
 #include "devices/maestro/maestro_display.h"
+#include "devices/serial/serial_options.h"
 
 #include <cstdint>
 #include <memory>
@@ -23,6 +24,7 @@ struct DeviceSet {
 struct DeviceOptions {
   std::uint64_t seed = 1;  ///< of the simulated devices
   MaestroOptions maestro{};
+  SerialForceOptions serial{};
   UsbTap* tap = nullptr;  ///< sees every USB packet; must outlive the devices
 };
 
@@ -36,6 +38,7 @@ struct DeviceNames {
 /// "simulated": with the data of a real one (PHANToM Premium 1.5). "ideal": the same without encoder steps, tremor and
 /// friction. "scheduled": as simulated, but it calls us, from a thread of its own. "tilt": as
 /// simulated, but of the finger's rotations it measures the tilt alone, as the paper's gimbal (Doxon et al. 5.3.2).
+/// "serial": a microcontroller that speaks the force messages of the CLD protocol.
 /// "none": no force device.
 const std::vector<std::string>& force_device_names();
 /// "simulated": with the data of the paper's CLD. "ideal": the same without steps and backlash. "cld": a CLD controller
