@@ -1,6 +1,8 @@
 #include "devices/device_set.h"
 
 #include "devices/cld/cld_controller.h"
+#include "devices/dhd/dhd_force_device.h"
+#include "devices/openhaptics/hd_force_device.h"
 #include "devices/simulated/scheduled_force_device.h"
 #include "devices/simulated/simulated_contact_display.h"
 #include "devices/simulated/simulated_force_device.h"
@@ -39,6 +41,14 @@ std::unique_ptr<ForceDevice> scheduled_force(const DeviceOptions& options) {
   return std::make_unique<ScheduledForceDevice>(SimulatedForceOptions{.seed = options.seed});
 }
 
+std::unique_ptr<ForceDevice> openhaptics(const DeviceOptions& options) {
+  return std::make_unique<HdForceDevice>(options.vendor.hd);
+}
+
+std::unique_ptr<ForceDevice> dhd_force(const DeviceOptions& options) {
+  return std::make_unique<DhdForceDevice>(options.vendor.dhd);
+}
+
 std::unique_ptr<ContactDisplay> simulated_display(const DeviceOptions& options) {
   SimulatedDisplayOptions wanted;
   wanted.seed = options.seed;
@@ -70,6 +80,8 @@ constexpr DeviceKind<ForceDevice> kForceDevices[] = {
     {"ideal", true, ideal_force},
     {"scheduled", true, scheduled_force},
     {"tilt", true, tilting_force},
+    {"openhaptics", false, openhaptics},
+    {"dhd", false, dhd_force},
     {"none", true, [](const DeviceOptions&) { return std::unique_ptr<ForceDevice>(); }},
 };
 constexpr DeviceKind<ContactDisplay> kContactDisplays[] = {
