@@ -21,6 +21,7 @@ inline constexpr const char* kArmText =
 struct DeviceChoice {
   DeviceNames names;
   MaestroWish maestro;
+  HaplyOptions haply;
   std::filesystem::path packets;
   int servo_cpu = -1;
   PlaceOptions place;

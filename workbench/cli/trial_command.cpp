@@ -115,6 +115,7 @@ Result<experiment::TrialOptions> trial_options(const TrialChoice& choice) {
     session.maestro = setup->calibration;
     session.maestro_channel = setup->channel;
   }
+  session.haply = choice.devices.haply;
   session.packets = choice.devices.packets;
   session.place = choice.devices.place;
   session.history_s = 20.0;

@@ -216,6 +216,7 @@ Result<std::unique_ptr<Session>> Session::create(std::shared_ptr<const ContactSc
   DeviceOptions wanted{.seed = options.seed, .tap = packets.get()};
   wanted.maestro.calibration = options.maestro;
   wanted.maestro.channel = static_cast<std::uint8_t>(options.maestro_channel);
+  wanted.haply = options.haply;
   auto devices = make_devices(options.devices, wanted);
   if (!devices) return tl::unexpected(devices.error());
   return Impl::create(std::move(scene), preset, std::move(options), std::move(*devices), std::move(packets),

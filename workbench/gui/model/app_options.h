@@ -22,6 +22,7 @@ struct AppOptions {
   DeviceNames devices;
   ArmOnStart arm_on_start = ArmOnStart::simulated;  ///< of the first session; later ones begin without force
   PlaceOptions place;                               ///< of the scene on the force device
+  HaplyOptions haply;                               ///< for the force device "haply"
   MaestroWish maestro;                              ///< for the display "maestro"
   std::filesystem::path packets;                    ///< file to which USB packets are logged; empty: none
   double servo_hz = 1000.0;                         ///< kSlowestServoHz to kFastestServoHz

@@ -20,6 +20,7 @@ SessionOptions session_options(const AppOptions& from) {
   options.arm_on_start = from.arm_on_start;
   options.threaded = !from.deterministic;
   options.place = from.place;
+  options.haply = from.haply;
   return options;
 }
 
