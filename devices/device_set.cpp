@@ -1,6 +1,7 @@
 #include "devices/device_set.h"
 
 #include "devices/cld/cld_controller.h"
+#include "devices/plugin/plugin_device.h"
 #include "devices/simulated/scheduled_force_device.h"
 #include "devices/simulated/simulated_contact_display.h"
 #include "devices/simulated/simulated_force_device.h"
@@ -39,6 +40,10 @@ std::unique_ptr<ForceDevice> scheduled_force(const DeviceOptions& options) {
   return std::make_unique<ScheduledForceDevice>(SimulatedForceOptions{.seed = options.seed});
 }
 
+std::unique_ptr<ForceDevice> plugin_force(const DeviceOptions& options) {
+  return std::make_unique<PluginForceDevice>(options.plugin);
+}
+
 std::unique_ptr<ContactDisplay> simulated_display(const DeviceOptions& options) {
   SimulatedDisplayOptions wanted;
   wanted.seed = options.seed;
@@ -70,6 +75,7 @@ constexpr DeviceKind<ForceDevice> kForceDevices[] = {
     {"ideal", true, ideal_force},
     {"scheduled", true, scheduled_force},
     {"tilt", true, tilting_force},
+    {"plugin", false, plugin_force},
     {"none", true, [](const DeviceOptions&) { return std::unique_ptr<ForceDevice>(); }},
 };
 constexpr DeviceKind<ContactDisplay> kContactDisplays[] = {

@@ -4,6 +4,7 @@
 #include "devices/contact_display.h"
 #include "devices/force_device.h"
 #include "devices/maestro/maestro_display.h"
+#include "devices/plugin/plugin_options.h"
 
 #include <cstdint>
 #include <memory>
@@ -21,6 +22,7 @@ struct DeviceSet {
 struct DeviceOptions {
   std::uint64_t seed = 1;  ///< of the simulated devices
   MaestroOptions maestro{};
+  PluginOptions plugin{};
   UsbTap* tap = nullptr;  ///< sees every USB packet; must outlive the devices
 };
 
@@ -34,7 +36,7 @@ struct DeviceNames {
 /// "simulated": with the data of a real one (PHANToM Premium 1.5). "ideal": the same without encoder steps, tremor and
 /// friction. "scheduled": as simulated, but it calls us, from a thread of its own. "tilt": as
 /// simulated, but of the finger's rotations it measures the tilt alone, as the paper's gimbal (Doxon et al. 5.3.2).
-/// "none": no force device.
+/// "plugin": a shared library of one's own (devices/plugin). "none": no force device.
 const std::vector<std::string>& force_device_names();
 /// "simulated": with the data of the paper's CLD. "ideal": the same without steps and backlash. "cld": a CLD controller
 /// on USB. "maestro": a servo on a Pololu Maestro. "none": no display.

@@ -1,6 +1,7 @@
 #include "workbench/cli/device_options.h"
 
 #include "workbench/cli/option.h"
+#include "workbench/cli/plugin_options.h"
 
 namespace tangent {
 
@@ -59,6 +60,7 @@ void add_device_options(CLI::App& command, DeviceChoice& choice) {
                     "The upper place (default: as kept, or 10)",
                     [&choice](double v) { choice.maestro.high_m = v * 1e-3; });
   add_place_options(command, choice.place);
+  add_plugin_options(command, choice.plugin);
 }
 
 }  // namespace tangent

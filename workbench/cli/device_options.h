@@ -21,6 +21,7 @@ inline constexpr const char* kArmText =
 struct DeviceChoice {
   DeviceNames names;
   MaestroWish maestro;
+  PluginOptions plugin;
   std::filesystem::path packets;
   int servo_cpu = -1;
   PlaceOptions place;
@@ -28,7 +29,7 @@ struct DeviceChoice {
 
 /// --force, --display, --device for both, --packets, --servo-cpu, --maestro-channel, --maestro-low-us,
 /// --maestro-high-us, --maestro-low-mm, --maestro-high-mm, --place-fit, --place-scale, --place-offset-mm,
-/// --place-rotate-deg. `choice` must outlive the parsing.
+/// --place-rotate-deg, and those of plugin_options.h. `choice` must outlive the parsing.
 void add_device_options(CLI::App& command, DeviceChoice& choice);
 
 }  // namespace tangent

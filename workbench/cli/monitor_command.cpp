@@ -145,6 +145,7 @@ Status run_monitor(const MonitorOptions& options) {
     wanted.maestro = setup->calibration;
     wanted.maestro_channel = setup->channel;
   }
+  wanted.plugin = options.devices.plugin;
   wanted.packets = options.devices.packets;
   wanted.place = options.devices.place;
   wanted.history_s = 1.0;

@@ -216,6 +216,7 @@ Result<std::unique_ptr<Session>> Session::create(std::shared_ptr<const ContactSc
   DeviceOptions wanted{.seed = options.seed, .tap = packets.get()};
   wanted.maestro.calibration = options.maestro;
   wanted.maestro.channel = static_cast<std::uint8_t>(options.maestro_channel);
+  wanted.plugin = options.plugin;
   auto devices = make_devices(options.devices, wanted);
   if (!devices) return tl::unexpected(devices.error());
   return Impl::create(std::move(scene), preset, std::move(options), std::move(*devices), std::move(packets),
@@ -508,6 +509,8 @@ const DisplayCapabilities* Session::display_capabilities() const {
 const SessionOptions& Session::options() const { return impl_->options; }
 const SafetyLog& Session::safety_log() const { return impl_->log; }
 GateLimits Session::gate_limits() const { return tangent::gate_limits(impl_->devices, impl_->options.servo.rate_hz); }
+bool Session::force_report(LinkReport& out) const { return impl_->devices.force && impl_->devices.force->report(out); }
+
 bool Session::display_report(LinkReport& out) const {
   return impl_->devices.display && impl_->devices.display->report(out);
 }

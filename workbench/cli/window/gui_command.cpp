@@ -120,6 +120,7 @@ void add_gui_command(CLI::App& app, CommandResult& result) {
     options->app.mesh_options = options->mesh.build;
     options->app.devices = options->devices.names;
     options->app.maestro = options->devices.maestro;
+    options->app.plugin = options->devices.plugin;
     options->app.packets = options->devices.packets;
     options->app.place = options->devices.place;
     options->app.servo_cpu = options->devices.servo_cpu;

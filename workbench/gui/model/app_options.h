@@ -23,6 +23,7 @@ struct AppOptions {
   ArmOnStart arm_on_start = ArmOnStart::simulated;  ///< of the first session; later ones begin without force
   PlaceOptions place;                               ///< of the scene on the force device
   MaestroWish maestro;                              ///< for the display "maestro"
+  PluginOptions plugin;                             ///< for the force device "plugin"
   std::filesystem::path packets;                    ///< file to which USB packets are logged; empty: none
   double servo_hz = 1000.0;                         ///< kSlowestServoHz to kFastestServoHz
   int servo_cpu = -1;                               ///< core for the servo's thread; -1: any

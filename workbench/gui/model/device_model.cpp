@@ -19,6 +19,7 @@ SessionOptions session_options(const AppOptions& from) {
   options.history_s = from.history_s;
   options.arm_on_start = from.arm_on_start;
   options.threaded = !from.deterministic;
+  options.plugin = from.plugin;
   options.place = from.place;
   return options;
 }
