@@ -1,6 +1,7 @@
 #include "devices/device_set.h"
 
 #include "devices/cld/cld_controller.h"
+#include "devices/falcon/falcon_device.h"
 #include "devices/simulated/scheduled_force_device.h"
 #include "devices/simulated/simulated_contact_display.h"
 #include "devices/simulated/simulated_force_device.h"
@@ -39,6 +40,12 @@ std::unique_ptr<ForceDevice> scheduled_force(const DeviceOptions& options) {
   return std::make_unique<ScheduledForceDevice>(SimulatedForceOptions{.seed = options.seed});
 }
 
+std::unique_ptr<ForceDevice> falcon_force(const DeviceOptions& options) {
+  FalconOptions wanted = options.falcon;
+  wanted.tap = options.tap;
+  return std::make_unique<FalconDevice>(wanted);
+}
+
 std::unique_ptr<ContactDisplay> simulated_display(const DeviceOptions& options) {
   SimulatedDisplayOptions wanted;
   wanted.seed = options.seed;
@@ -70,6 +77,7 @@ constexpr DeviceKind<ForceDevice> kForceDevices[] = {
     {"ideal", true, ideal_force},
     {"scheduled", true, scheduled_force},
     {"tilt", true, tilting_force},
+    {"falcon", false, falcon_force},
     {"none", true, [](const DeviceOptions&) { return std::unique_ptr<ForceDevice>(); }},
 };
 constexpr DeviceKind<ContactDisplay> kContactDisplays[] = {

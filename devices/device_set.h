@@ -2,6 +2,7 @@
 #pragma once
 
 #include "devices/contact_display.h"
+#include "devices/falcon/falcon_options.h"
 #include "devices/force_device.h"
 #include "devices/maestro/maestro_display.h"
 
@@ -21,6 +22,7 @@ struct DeviceSet {
 struct DeviceOptions {
   std::uint64_t seed = 1;  ///< of the simulated devices
   MaestroOptions maestro{};
+  FalconOptions falcon{};
   UsbTap* tap = nullptr;  ///< sees every USB packet; must outlive the devices
 };
 
@@ -34,7 +36,7 @@ struct DeviceNames {
 /// "simulated": with the data of a real one (PHANToM Premium 1.5). "ideal": the same without encoder steps, tremor and
 /// friction. "scheduled": as simulated, but it calls us, from a thread of its own. "tilt": as
 /// simulated, but of the finger's rotations it measures the tilt alone, as the paper's gimbal (Doxon et al. 5.3.2).
-/// "none": no force device.
+/// "falcon": a Novint Falcon on USB. "none": no force device.
 const std::vector<std::string>& force_device_names();
 /// "simulated": with the data of the paper's CLD. "ideal": the same without steps and backlash. "cld": a CLD controller
 /// on USB. "maestro": a servo on a Pololu Maestro. "none": no display.

@@ -1,5 +1,6 @@
 #include "workbench/cli/device_options.h"
 
+#include "workbench/cli/falcon_options.h"
 #include "workbench/cli/option.h"
 
 namespace tangent {
@@ -58,6 +59,7 @@ void add_device_options(CLI::App& command, DeviceChoice& choice) {
   add_number_option(command, "--maestro-high-mm", {.min = 0, .max = 50, .unit = "mm"},
                     "The upper place (default: as kept, or 10)",
                     [&choice](double v) { choice.maestro.high_m = v * 1e-3; });
+  add_falcon_options(command, choice.drivers.falcon);
   add_place_options(command, choice.place);
 }
 

@@ -20,6 +20,7 @@ inline constexpr const char* kArmText =
 
 struct DeviceChoice {
   DeviceNames names;
+  DeviceOptions drivers;  ///< of the real force devices
   MaestroWish maestro;
   std::filesystem::path packets;
   int servo_cpu = -1;

@@ -109,6 +109,7 @@ Result<experiment::TrialOptions> trial_options(const TrialChoice& choice) {
   session.threaded = !choice.without_waiting;
   session.servo.cpu = choice.devices.servo_cpu;
   session.devices = choice.devices.names;
+  session.drivers = choice.devices.drivers;
   if (session.devices.display == "maestro") {
     const auto setup = chosen_maestro_setup(choice.devices.maestro, maestro_setups_path());
     if (!setup) return tl::unexpected(setup.error());

@@ -5,6 +5,7 @@
 #include "devices/device_safety.h"
 #include "devices/usb/packet_recorder.h"
 #include "workbench/session/cpu_wakeup.h"
+#include "workbench/session/falcon_setups.h"
 #include "workbench/session/parts_builder.h"
 #include "workbench/session/servo.h"
 #include "workbench/session/tick_again.h"
@@ -213,7 +214,14 @@ Result<std::unique_ptr<Session>> Session::create(std::shared_ptr<const ContactSc
     if (!recorder) return tl::unexpected(recorder.error());
     packets = std::move(*recorder);
   }
-  DeviceOptions wanted{.seed = options.seed, .tap = packets.get()};
+  DeviceOptions wanted = options.drivers;
+  wanted.seed = options.seed;
+  wanted.tap = packets.get();
+  if (options.devices.force == "falcon") {
+    const auto falcon = chosen_falcon_options(wanted.falcon, falcon_setups_path());
+    if (!falcon) return tl::unexpected(falcon.error());
+    wanted.falcon = *falcon;
+  }
   wanted.maestro.calibration = options.maestro;
   wanted.maestro.channel = static_cast<std::uint8_t>(options.maestro_channel);
   auto devices = make_devices(options.devices, wanted);

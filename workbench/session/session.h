@@ -51,6 +51,7 @@ struct SessionOptions {
   DeviceNames devices;
   MaestroCalibration maestro;  ///< for "maestro"
   unsigned maestro_channel = 0;
+  DeviceOptions drivers;          ///< of the real force devices; seed, maestro and tap are those of this struct
   std::filesystem::path packets;  ///< file to which every USB packet is logged; empty: none
   std::uint64_t seed = 1;         ///< of the simulated devices
   double history_s = 600.0;       ///< length of the history, within kLargestHistoryBytes

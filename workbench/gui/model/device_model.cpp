@@ -14,6 +14,7 @@ SessionOptions session_options(const AppOptions& from) {
   options.servo.rate_hz = from.servo_hz;
   options.servo.cpu = from.servo_cpu;
   options.devices = from.devices;
+  options.drivers = from.drivers;
   options.packets = from.packets;
   options.seed = from.seed;
   options.history_s = from.history_s;
