@@ -1,12 +1,20 @@
 #include "devices/device_set.h"
 
 #include "devices/cld/cld_controller.h"
+#include "devices/dhd/dhd_force_device.h"
+#include "devices/falcon/falcon_device.h"
+#include "devices/found_device.h"
+#include "devices/haply/haply_device.h"
+#include "devices/openhaptics/hd_force_device.h"
+#include "devices/plugin/plugin_device.h"
+#include "devices/serial/serial_force_device.h"
 #include "devices/simulated/scheduled_force_device.h"
 #include "devices/simulated/simulated_contact_display.h"
 #include "devices/simulated/simulated_force_device.h"
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 namespace tangent {
 
@@ -17,6 +25,7 @@ struct DeviceKind {
   const char* name;
   bool simulated;  // or none
   std::unique_ptr<Device> (*make)(const DeviceOptions& options);
+  std::vector<FoundDevice> (*find)(const DeviceOptions& options) = nullptr;  // those attached; null: none to look for
 };
 
 std::unique_ptr<ForceDevice> simulated_force(const DeviceOptions& options) {
@@ -37,6 +46,55 @@ std::unique_ptr<ForceDevice> tilting_force(const DeviceOptions& options) {
 
 std::unique_ptr<ForceDevice> scheduled_force(const DeviceOptions& options) {
   return std::make_unique<ScheduledForceDevice>(SimulatedForceOptions{.seed = options.seed});
+}
+
+std::unique_ptr<ForceDevice> falcon_force(const DeviceOptions& options) {
+  FalconOptions wanted = options.falcon;
+  wanted.tap = options.tap;
+  return std::make_unique<FalconDevice>(wanted);
+}
+
+std::vector<FoundDevice> find_falcons(const DeviceOptions& options) {
+  const auto found = list_usb_devices(options.falcon.link.match, options.falcon.link.interface_number);
+  if (!found) return {{"falcon", "", "", found.error()}};
+  std::vector<FoundDevice> all;
+  for (const UsbDeviceInfo& d : *found) {
+    const std::string where = "bus " + std::to_string(d.bus) + ", address " + std::to_string(d.address);
+    const Error problem = d.problem == UsbProblem::none ? Error{} : usb_error(d.problem, where, d.problem_detail);
+    all.push_back({"falcon", "Novint Falcon on " + where, d.serial, problem});
+  }
+  return all;
+}
+
+std::unique_ptr<ForceDevice> serial_force(const DeviceOptions& options) {
+  return std::make_unique<SerialForceDevice>(options.serial);
+}
+
+std::vector<FoundDevice> find_serial(const DeviceOptions& options) { return find_serial_devices(options.serial.dev); }
+
+std::unique_ptr<ForceDevice> plugin_force(const DeviceOptions& options) {
+  return std::make_unique<PluginForceDevice>(options.plugin);
+}
+
+std::unique_ptr<ForceDevice> openhaptics_force(const DeviceOptions& options) {
+  return std::make_unique<HdForceDevice>(options.vendor.hd);
+}
+
+std::unique_ptr<ForceDevice> dhd_force(const DeviceOptions& options) {
+  return std::make_unique<DhdForceDevice>(options.vendor.dhd);
+}
+
+std::vector<FoundDevice> find_dhd(const DeviceOptions& options) {
+  const auto found = find_dhd_devices(options.vendor.dhd);
+  if (!found) return {{"dhd", "", "", found.error()}};
+  std::vector<FoundDevice> all;
+  for (const FoundDhd& d : *found)
+    all.push_back({"dhd", d.name, d.serial < 0 ? std::string() : std::to_string(d.serial), d.problem});
+  return all;
+}
+
+std::unique_ptr<ForceDevice> haply_force(const DeviceOptions& options) {
+  return std::make_unique<HaplyForceDevice>(options.haply);
 }
 
 std::unique_ptr<ContactDisplay> simulated_display(const DeviceOptions& options) {
@@ -64,12 +122,18 @@ std::unique_ptr<ContactDisplay> maestro(const DeviceOptions& options) {
   return std::make_unique<MaestroDisplay>(wanted);
 }
 
-// A new device is one row here.
+// A new device is one row here: {name, simulated, make, find}.
 constexpr DeviceKind<ForceDevice> kForceDevices[] = {
     {"simulated", true, simulated_force},
     {"ideal", true, ideal_force},
     {"scheduled", true, scheduled_force},
     {"tilt", true, tilting_force},
+    {"falcon", false, falcon_force, find_falcons},
+    {"serial", false, serial_force, find_serial},
+    {"plugin", false, plugin_force},
+    {"openhaptics", false, openhaptics_force},
+    {"dhd", false, dhd_force, find_dhd},
+    {"haply", false, haply_force},
     {"none", true, [](const DeviceOptions&) { return std::unique_ptr<ForceDevice>(); }},
 };
 constexpr DeviceKind<ContactDisplay> kContactDisplays[] = {
@@ -131,6 +195,22 @@ Result<DeviceSet> make_devices(const DeviceNames& names, const DeviceOptions& op
   if (display == std::end(kContactDisplays))
     return unknown("contact display", names.display, "--display", contact_display_names());
   return DeviceSet{force->make(options), display->make(options)};
+}
+
+std::vector<FoundDevice> find_force_devices(const DeviceOptions& options) {
+  std::vector<FoundDevice> all;
+  for (const DeviceKind<ForceDevice>& kind : kForceDevices) {
+    if (kind.find == nullptr) continue;
+    for (FoundDevice& found : kind.find(options)) all.push_back(std::move(found));
+  }
+  return all;
+}
+
+std::vector<std::string> sought_force_devices() {
+  std::vector<std::string> names;
+  for (const DeviceKind<ForceDevice>& kind : kForceDevices)
+    if (kind.find != nullptr) names.push_back(kind.name);
+  return names;
 }
 
 bool are_simulated(const DeviceNames& names) {

@@ -14,6 +14,7 @@ namespace tangent {
 namespace {
 
 constexpr std::array<std::string_view, 2> kColumns{"x_m", "y_m"};
+constexpr std::string_view kExactArc = "# exact arc:";  // a comment to other programs
 
 /// Cuts the next word off `line`.
 std::string_view take_word(std::string_view& line) {
@@ -44,6 +45,7 @@ class PolylineReader {
       : name_(std::move(name)), metres_per_unit_(metres_per_unit) {}
 
   Status line(std::string_view text, std::size_t number) {
+    if (text.starts_with(kExactArc)) return exact_arc(text.substr(kExactArc.size()), number);
     text = text.substr(0, text.find('#'));
     const std::string_view keyword = take_word(text);
     if (keyword == "v") return vertex(text, number);
@@ -55,6 +57,7 @@ class PolylineReader {
     if (chain_.empty()) return fail("no polyline", name_, "write an element \"l 1 2 3\"");
     PlanarPolygon polygon;
     polygon.name = name_;
+    polygon.exact = exact_;
     for (const std::size_t i : chain_) {
       const Vec3& p = vertices_[i];
       // Must be planar: dropping z could make the polygon cross itself.
@@ -67,6 +70,23 @@ class PolylineReader {
   }
 
  private:
+  Status exact_arc(std::string_view text, std::size_t number) {
+    std::array<double, 5> values{};
+    for (double& value : values) {
+      const std::string_view word = take_word(text);
+      const std::optional<double> read = parse_finite_double(word);
+      if (!read)
+        return fail("an exact arc has " + show_text(word), at_line(name_, number),
+                    "write x and y of its centre, its radius, its half angle in rad, and the length of its ends");
+      value = *read;
+    }
+    exact_ = ExactArc{{metres_per_unit_ * values[0], metres_per_unit_ * values[1]},
+                      metres_per_unit_ * values[2],
+                      values[3],
+                      metres_per_unit_ * values[4]};
+    return {};
+  }
+
   Status vertex(std::string_view text, std::size_t number) {
     Vec3 p(0.0);
     for (int axis = 0; axis < 3; ++axis) {
@@ -104,6 +124,7 @@ class PolylineReader {
   double metres_per_unit_;
   std::vector<Vec3> vertices_;
   std::vector<std::size_t> chain_;
+  std::optional<ExactArc> exact_;
 };
 
 std::string lower_extension(const std::filesystem::path& path) {
@@ -115,6 +136,14 @@ std::string lower_extension(const std::filesystem::path& path) {
 
 std::string obj_text(const PlanarPolygon& polygon, double metres_per_unit) {
   std::string text = "# " + polygon.name + "\n", line = "l";
+  if (polygon.exact) {
+    const ExactArc& arc = *polygon.exact;
+    text += kExactArc;
+    for (const double value : {arc.centre.x / metres_per_unit, arc.centre.y / metres_per_unit,
+                               arc.radius_m / metres_per_unit, arc.half_angle_rad, arc.run_out_m / metres_per_unit})
+      append_double(text += ' ', value);
+    text += '\n';
+  }
   for (std::size_t i = 0; i < polygon.vertices.size(); ++i) {
     append_double(text += "v ", polygon.vertices[i].x / metres_per_unit);
     append_double(text += ' ', polygon.vertices[i].y / metres_per_unit);
@@ -174,6 +203,9 @@ Result<PlanarPolygon> read_polygon(const std::filesystem::path& path, double met
 
 Status write_polygon(const PlanarPolygon& polygon, const std::filesystem::path& path, double metres_per_unit) {
   if (lower_extension(path) == ".obj") return write_file_atomic(path, obj_text(polygon, metres_per_unit));
+  if (polygon.exact)
+    return fail("a CSV holds vertices alone, and no exact arc", path.string(),
+                "give the file a name that ends in .obj");
   std::string text = std::string(kColumns[0]) + "," + std::string(kColumns[1]);
   const std::size_t count = polygon.vertices.size() + (polygon.closed ? 1 : 0);
   for (std::size_t i = 0; i < count; ++i) {

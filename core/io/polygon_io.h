@@ -12,7 +12,8 @@ namespace tangent {
 bool is_planar_file(const std::filesystem::path& path);
 
 /// CSV: metres, one vertex per line. OBJ: coordinates times `metres_per_unit`; one `l` element or several connected
-/// ones; z must be the same for all. Closed if the last vertex repeats the first. Checked by check_polygon. Errors name
+/// ones; z must be the same for all. A comment "# exact arc: X Y RADIUS HALF_ANGLE_RAD RUN_OUT" makes it that arc, which
+/// no polyline is; other programs read the polyline. Closed if the last vertex repeats the first. Checked by check_polygon. Errors name
 /// file and line.
 Result<PlanarPolygon> read_polygon(const std::filesystem::path& path, double metres_per_unit);
 
@@ -20,7 +21,7 @@ Result<PlanarPolygon> parse_polygon_csv(std::string_view text, const std::string
 Result<PlanarPolygon> parse_polygon_obj(std::string_view text, const std::string& name, double metres_per_unit);
 
 /// CSV, or, where the name ends in .obj, an OBJ with one line element, in units of `metres_per_unit`. A closed polygon
-/// repeats its first vertex. Atomic.
+/// repeats its first vertex. Fails on an exact arc as CSV. Atomic.
 Status write_polygon(const PlanarPolygon& polygon, const std::filesystem::path& path, double metres_per_unit = 1.0);
 
 }  // namespace tangent

@@ -1,5 +1,6 @@
 #include "core/io/toml_table.h"
 
+#include "core/base/text.h"
 #include "core/io/toml_text.h"
 #include "core/preset/schema.h"
 
@@ -8,6 +9,25 @@
 #include <optional>
 
 namespace tangent {
+namespace {
+
+/// A value as it is written; of what is long its type.
+std::string shown_value(const toml::node& node) {
+  std::string out;
+  if (const auto* number = node.as_floating_point())
+    append_double(out, number->get());
+  else if (const auto* whole = node.as_integer())
+    out = std::to_string(whole->get());
+  else if (const auto* flag = node.as_boolean())
+    out = flag->get() ? "true" : "false";
+  else if (const auto* text = node.as_string(); text != nullptr && text->get().size() <= 40)
+    out = "\"" + text->get() + "\"";
+  else
+    out = type_name(node);
+  return out;
+}
+
+}  // namespace
 
 TomlTable::TomlTable(const toml::table& table, std::string file, std::string name)
     : table_(table), file_(std::move(file)), name_(std::move(name)) {}
@@ -24,7 +44,7 @@ const toml::node* TomlTable::find(std::string_view key) {
 }
 
 void TomlTable::wrong(std::string_view key, const std::string& wanted) {
-  status_ = fail("is " + std::string(type_name(*table_.get(key))) + ", or not allowed", where(key), "write " + wanted);
+  status_ = fail("is " + shown_value(*table_.get(key)) + ", which is not allowed", where(key), "write " + wanted);
 }
 
 TomlTable& TomlTable::number(std::string_view key, double& value, double least, double most) {

@@ -1,7 +1,6 @@
 #include "devices/cld/cld_messages.h"
 
-#include <tuple>
-#include <type_traits>
+#include "devices/cld/cld_fields.h"
 
 namespace tangent {
 
@@ -46,49 +45,15 @@ constexpr auto kType<CldRefused> = CldType::refused;
 template <>
 constexpr auto kFields<CldRefused> = std::tuple(&CldRefused::type, &CldRefused::sequence, &CldRefused::reason);
 
-/// Little-endian; enumerations as their underlying integer.
-template <class T>
-void put(CldFrame& frame, T value) noexcept {
-  if constexpr (std::is_enum_v<T>) {
-    put(frame, static_cast<std::underlying_type_t<T>>(value));
-  } else {
-    const auto bits = static_cast<std::make_unsigned_t<T>>(value);
-    for (std::size_t i = 0; i < sizeof(T); ++i) {
-      frame.payload[frame.length++] = static_cast<std::uint8_t>((static_cast<std::uint64_t>(bits) >> (8 * i)) & 0xffu);
-    }
-  }
-}
-
-template <class T>
-void take(const CldFrame& frame, std::size_t& at, T& value) noexcept {
-  if constexpr (std::is_enum_v<T>) {
-    std::underlying_type_t<T> number{};
-    take(frame, at, number);
-    value = static_cast<T>(number);
-  } else {
-    std::uint64_t bits = 0;
-    for (std::size_t i = 0; i < sizeof(T); ++i) bits |= static_cast<std::uint64_t>(frame.payload[at++]) << (8 * i);
-    value = static_cast<T>(static_cast<std::make_unsigned_t<T>>(bits));
-  }
-}
-
 template <class M>
 CldFrame written(const M& message, std::uint16_t sequence) noexcept {
-  CldFrame frame = bare_frame(kType<M>, sequence);
-  std::apply([&](auto... field) { (put(frame, message.*field), ...); }, kFields<M>);
-  return frame;
+  return cld_written(static_cast<std::uint8_t>(kType<M>), message, kFields<M>, sequence);
 }
 
 /// Empty when the frame has another version, type or length.
 template <class M>
 std::optional<M> read(const CldFrame& frame) noexcept {
-  M message;
-  const std::size_t length = std::apply([&](auto... field) { return (sizeof(message.*field) + ...); }, kFields<M>);
-  if (frame.version != kCldVersion || frame.type != static_cast<std::uint8_t>(kType<M>) || frame.length != length)
-    return std::nullopt;
-  std::size_t at = 0;
-  std::apply([&](auto... field) { (take(frame, at, message.*field), ...); }, kFields<M>);
-  return message;
+  return cld_read<M>(static_cast<std::uint8_t>(kType<M>), frame, kFields<M>);
 }
 
 }  // namespace

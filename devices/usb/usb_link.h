@@ -22,6 +22,7 @@ struct UsbLinkOptions {
   int in_transfers = 8;           ///< in flight at any time
   int out_transfers = 8;          ///< pool size, OUT and control together
   unsigned time_out_ms = 100;     ///< of OUT and control transfers
+  bool bulk = false;              ///< endpoints are bulk ones; false: interrupt
 };
 
 struct UsbControl {

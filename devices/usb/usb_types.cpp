@@ -23,6 +23,8 @@ Error usb_error(UsbProblem problem, const std::string& where, const std::string&
       return {"is in use by another program or driver" + note, where, "close what uses it"};
     case UsbProblem::wrong_interface:
       return {"has no interface that speaks the protocol" + note, where, "load its firmware (devices/cld_protocol.md)"};
+    case UsbProblem::several:
+      return {"is attached more than once", where, "choose one by its serial number, or unplug the others"};
     case UsbProblem::other:
       return {"can't be opened" + note, where, "unplug it and plug it in again"};
   }

@@ -18,10 +18,21 @@ struct UsbMatch {
   std::uint16_t vendor = 0;                                    ///< 0: any
   std::vector<std::uint16_t> products;                         ///< empty: any
   std::optional<std::array<std::uint8_t, 3>> interface_class;  ///< class, subclass, protocol
+  std::string serial{};                                        ///< empty: any
+  bool alone = false;                                          ///< of several, without a serial number, none is taken
 };
 
 /// Why a device can't be used.
-enum class UsbProblem : std::uint8_t { none, no_library, not_attached, no_permission, busy, wrong_interface, other };
+enum class UsbProblem : std::uint8_t {
+  none,
+  no_library,
+  not_attached,
+  no_permission,
+  busy,
+  wrong_interface,
+  several,
+  other
+};
 
 /// Message for people: what is wrong and what to do. `detail`: libusb's name of the error, or empty.
 Error usb_error(UsbProblem problem, const std::string& where, const std::string& detail = {});

@@ -129,10 +129,10 @@ Figure thresholds_figure(const ComparisonResults& results, bool simulated) {
     std::vector<double> row{static_cast<double>(names.size()), kNone, kNone, kNone, kNone, kNone, kNone};
     names.push_back(condition.condition);
     if (!condition.thresholds.empty()) {
-      const double half = half_of(condition.segments), mean = condition.segments.mean;
+      const double mean = condition.segments.mean;
       row[1] = mean;
-      row[2] = std::max(mean - half, 0.05 * mean);
-      row[3] = mean + half;
+      row[2] = std::isfinite(condition.low) ? condition.low : mean;  // the table's own ends
+      row[3] = std::isfinite(condition.high) ? condition.high : mean;
     }
     for (const experiment::PaperThreshold& paper : experiment::kPaperThresholds) {
       if (paper.condition != condition.condition) continue;

@@ -1,6 +1,7 @@
 #include "workbench/analysis/comparison_results.h"
 
 #include "core/base/units.h"
+#include "workbench/analysis/staircase_warnings.h"
 
 #include <algorithm>
 #include <cmath>
@@ -37,18 +38,20 @@ std::optional<StaircaseResult> staircase_of(const Comparer& participant, const C
   if (answers.empty()) return std::nullopt;
   if (staircase.settled()) out.segments = staircase.threshold();
   out.fitted = fitter.fit(answers);
+  out.warnings = staircase_warnings(out, condition.staircase);
   return out;
 }
 
-ConditionResult condition_of(const std::string& name, const experiment::Discrimination& design,
+ConditionResult condition_of(const ComparisonCondition& condition, const experiment::Discrimination& design,
                              const std::vector<StaircaseResult>& staircases) {
   ConditionResult out;
-  out.condition = name;
+  out.condition = condition.name;
   double trials = 0.0, bias = 0.0, count = 0.0;
   std::vector<SpreadLikelihood> spreads;
   for (const StaircaseResult& one : staircases) {
-    if (one.condition != name) continue;
+    if (one.condition != condition.name) continue;
     count += 1.0;
+    out.warned += !one.warnings.empty();
     trials += one.trials;
     bias += std::log(one.fitted.rule_bias);
     spreads.push_back(one.fitted.spreads);
@@ -64,9 +67,12 @@ ConditionResult condition_of(const std::string& name, const experiment::Discrimi
   }
   out.segments = mean_interval(out.thresholds);
   if (out.thresholds.empty()) return out;
+  const bool some = std::isfinite(out.segments.half);
+  out.low = some ? std::max(out.segments.low(), condition.staircase.fewest) : std::nan("");
+  out.high = some ? out.segments.high() : std::nan("");
   out.degrees = degrees_at(design, out.segments.mean);
-  out.degrees_low = degrees_at(design, out.segments.high());
-  out.degrees_high = degrees_at(design, out.segments.low());
+  out.degrees_low = degrees_at(design, out.high);
+  out.degrees_high = degrees_at(design, out.low);
   return out;
 }
 
@@ -84,6 +90,11 @@ std::vector<std::vector<double>> all_thresholds(const std::vector<std::string>& 
 }
 
 }  // namespace
+
+std::size_t staircases_with_warnings(const ComparisonResults& results) {
+  return static_cast<std::size_t>(std::count_if(results.staircases.begin(), results.staircases.end(),
+                                                [](const StaircaseResult& one) { return !one.warnings.empty(); }));
+}
 
 ComparisonResults comparison_results(const std::vector<Comparer>& participants, int repeats,
                                      const std::function<bool()>& stop) {
@@ -104,7 +115,7 @@ ComparisonResults comparison_results(const std::vector<Comparer>& participants, 
   std::vector<std::vector<double>> groups;
   bool all = true;
   for (const ComparisonCondition& condition : design.conditions) {
-    out.conditions.push_back(condition_of(condition.name, design, out.staircases));
+    out.conditions.push_back(condition_of(condition, design, out.staircases));
     groups.push_back(out.conditions.back().thresholds);
     all = all && groups.back().size() == participants.size();
   }

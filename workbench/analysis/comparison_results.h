@@ -23,6 +23,7 @@ struct StaircaseResult {
   std::vector<int> reversals;      ///< trials
   std::optional<double> segments;  ///< the rule's: mean of the last reversals; none: it did not settle
   FittedThreshold fitted;
+  std::vector<std::string> warnings;  ///< staircase_warnings.h
 };
 
 /// All participants under one condition.
@@ -30,8 +31,11 @@ struct ConditionResult {
   std::string condition;
   std::vector<double> thresholds;  ///< segments, of those that settled, in the order of the participants
   std::size_t not_settled = 0;
-  MeanInterval segments;  ///< mean and 95 % interval over participants
-  double degrees = 0.0;   ///< at the mean, and at the ends of the interval: fewer segments, more degrees
+  std::size_t warned = 0;  ///< staircases with a warning
+  MeanInterval segments;   ///< mean and 95 % interval over participants
+  /// Ends of that interval, cut at the fewest segments that are shown; not a number with fewer than two participants.
+  double low = 0.0, high = 0.0;
+  double degrees = 0.0;  ///< at the mean, and at those ends: fewer segments, more degrees
   double degrees_low = 0.0, degrees_high = 0.0;
   double mean_trials = 0.0;
   double rule_bias = 1.0;  ///< geometric mean of the fits'
@@ -46,6 +50,8 @@ struct ComparisonResults {
   std::vector<TukeyPair> pairs;              ///< of conditions, with the error of `between`
   std::optional<OrderAgreement> order;       ///< with the paper's Table 2
 };
+
+std::size_t staircases_with_warnings(const ComparisonResults& results);
 
 /// `repeats`: staircases simulated for a calibration of the intervals. `stop`: asked at each of those, and between
 /// the participants' own; none of the rest is there then.

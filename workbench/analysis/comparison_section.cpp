@@ -16,10 +16,13 @@ const experiment::PaperThreshold* paper_of(const std::string& condition) {
 }
 
 PageTable conditions_table(const ComparisonResults& results, bool simulated) {
-  PageTable table("conditions",
-                  "Thresholds over participants, with 95 % intervals; in degrees between neighbouring segments.",
-                  simulated);
+  PageTable table(
+      "conditions",
+      "Thresholds over participants, with 95 % intervals, which are cut at the fewest segments that are shown; in "
+      "degrees between neighbouring segments.",
+      simulated);
   table.column("Condition", "condition").column("Participants", "participants").column("Not settled", "not_settled");
+  table.column("With a warning", "warned");
   table.column("Segments", "segments").column("from", "segments_low").column("to", "segments_high");
   table.column("Degrees", "degrees").column("from", "degrees_low").column("to", "degrees_high");
   table.column("Trials each", "trials").column("Rule over threshold", "rule_bias");
@@ -31,10 +34,10 @@ PageTable conditions_table(const ComparisonResults& results, bool simulated) {
     const double none = std::nan("");
     const auto value = [&](PageTable::Row& row, double v, int decimals) { row.number(v, decimals_text(v, decimals)); };
     PageTable::Row row = table.row();
-    row.text(c.condition).count(c.thresholds.size()).count(c.not_settled);
+    row.text(c.condition).count(c.thresholds.size()).count(c.not_settled).count(c.warned);
     value(row, some ? c.segments.mean : none, 1);
-    value(row, some ? c.segments.low() : none, 1);
-    value(row, some ? c.segments.high() : none, 1);
+    value(row, some ? c.low : none, 1);
+    value(row, some ? c.high : none, 1);
     value(row, some ? c.degrees : none, 2);
     value(row, some ? c.degrees_low : none, 2);
     value(row, some ? c.degrees_high : none, 2);
@@ -100,6 +103,12 @@ PageTable order_table(const ComparisonResults& results, bool simulated) {
   return table;
 }
 
+std::string joined_warnings(const StaircaseResult& one) {
+  std::string out;
+  for (const std::string& warning : one.warnings) out += (out.empty() ? "" : "; ") + warning;
+  return out;
+}
+
 PageTable staircases_table(const ComparisonResults& results, bool simulated) {
   PageTable table(
       "staircases",
@@ -108,7 +117,7 @@ PageTable staircases_table(const ComparisonResults& results, bool simulated) {
       simulated);
   table.column("Participant", "participant").column("Condition", "condition").column("Trials", "trials");
   table.column("Rule, segments", "rule_segments").column("Fit, segments", "fit_segments").column("from", "fit_low");
-  table.column("to", "fit_high").column("Rule over threshold", "rule_bias");
+  table.column("to", "fit_high").column("Rule over threshold", "rule_bias").column("Warning", "warning");
   for (const StaircaseResult& one : results.staircases) {
     const double rule = one.segments.value_or(std::nan(""));
     table.row()
@@ -119,7 +128,8 @@ PageTable staircases_table(const ComparisonResults& results, bool simulated) {
         .number(one.fitted.segments, decimals_text(one.fitted.segments, 1))
         .number(one.fitted.low, decimals_text(one.fitted.low, 1))
         .number(one.fitted.high, decimals_text(one.fitted.high, 1))
-        .number(one.fitted.rule_bias, decimals_text(one.fitted.rule_bias, 2));
+        .number(one.fitted.rule_bias, decimals_text(one.fitted.rule_bias, 2))
+        .text(joined_warnings(one));
   }
   return table;
 }
@@ -146,6 +156,12 @@ Result<Section> comparison_section(const ComparisonResults& results, bool simula
                      "Thresholds in segments, mean and 95 % interval, beside the paper's Tables 1 and 2.", simulated);
       !ok)
     return tl::unexpected(ok.error());
+  if (const auto warned = staircases_with_warnings(results); warned > 0)
+    out.html += element("p",
+                        escaped(std::to_string(warned) + " of " + counted(results.staircases.size(), "staircase") +
+                                " have a warning: what is no threshold is in the means all the same. The last table "
+                                "says which, and why."),
+                        "class=\"bad\"");
   std::vector<PageTable> tables{conditions_table(results, simulated)};
   if (results.order) tables.push_back(order_table(results, simulated));
   tables.push_back(anova_table(results, simulated));

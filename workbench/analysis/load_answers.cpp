@@ -1,6 +1,7 @@
 #include "workbench/analysis/load_answers.h"
 
 #include "workbench/experiment/order.h"
+#include "workbench/experiment/trial_events.h"
 
 #include <algorithm>
 
@@ -17,6 +18,8 @@ Result<std::vector<fs::path>> files_in(std::span<const fs::path> data) {
   std::vector<fs::path> out;
   for (const fs::path& path : data) {
     std::error_code error;
+    if (!fs::exists(path, error))
+      return fail("is not there", path.string(), "give the folder that `workbench experiment --out` was given");
     if (!fs::is_directory(path, error)) {
       out.push_back(path);
       continue;
@@ -82,6 +85,7 @@ Status check_values(const ParticipantAnswers<NamingRow>& answers) {
 template <class Row>
 std::string kind_of(const ParticipantAnswers<Row>& answers) {
   const std::string& simulated = answers.enrolment.mark.simulated;
+  if (simulated == "device") return "somebody at a simulated device (device)";
   return simulated == "no" ? "a person" : "a simulated participant (" + simulated + ")";
 }
 
@@ -122,6 +126,15 @@ Status add_file(const fs::path& file, const experiment::Sidecar& sidecar, const 
   return {};
 }
 
+/// Why a participant's files are not as they were written; empty: they are.
+Result<std::string> complaint_of(const fs::path& file, const experiment::Sidecar& sidecar,
+                                 const experiment::ReadRows& read) {
+  if (!read.complaint.empty()) return read.complaint;
+  if (Status ok = experiment::check_not_cut(file, read.rows.size(), sidecar.least.answers); !ok)
+    return ok.error().where + ": " + ok.error().what;
+  return experiment::events_complaint(file, sidecar, read.rows.size());
+}
+
 Status load_file(const fs::path& file, const LoadOptions& options, Answers& out) {
   const auto sidecar = experiment::read_sidecar(file);
   if (!sidecar) return tl::unexpected(sidecar.error());
@@ -132,10 +145,12 @@ Status load_file(const fs::path& file, const LoadOptions& options, Answers& out)
     out.left_out.push_back(file.string() + ": a pilot run");
     return {};
   }
-  const bool edited = !read->complaint.empty();
+  const auto complaint = complaint_of(file, *sidecar, *read);
+  if (!complaint) return tl::unexpected(complaint.error());
+  const bool edited = !complaint->empty();
   if (edited && !options.edited)
-    return fail("was changed by hand", read->complaint, "use the file as it was written, or say --edited");
-  if (edited) out.left_out.push_back(file.string() + ": analysed though it was changed by hand");
+    return fail("was changed by hand", *complaint, "use the files as they were written, or say --edited");
+  if (edited) out.left_out.push_back("analysed though it was changed by hand: " + *complaint);
   if (read->rows.empty()) {
     out.left_out.push_back(file.string() + ": no answers in it");
     return {};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <optional>
 
 namespace tangent::analysis {
 namespace {
@@ -96,34 +97,73 @@ std::vector<double> cell_accuracies(const std::vector<Namer>& participants, cons
   return out;
 }
 
+constexpr const char* kPaired = "participants, paired";
+constexpr const char* kApart = "participants";
+
+/// A mean of each participant; none: nothing is taken.
+std::vector<std::optional<double>> means_of(const std::vector<Namer>& participants, const Take& take,
+                                            double (*value)(const NamingRow&)) {
+  std::vector<std::optional<double>> out;
+  for (const Namer& participant : participants) {
+    double sum = 0.0, count = 0.0;
+    for (const NamingRow& row : participant.rows) {
+      if (!take(participant, row)) continue;
+      sum += value(row);
+      count += 1.0;
+    }
+    out.push_back(count > 0.0 ? std::optional(sum / count) : std::nullopt);
+  }
+  return out;
+}
+
 class Tests {
  public:
   Tests(const std::vector<Namer>& participants, const std::vector<std::string>& objects, NamingResults& out)
       : participants_(participants), objects_(objects), out_(out) {}
 
+  /// `within`: each participant is on both sides.
   void compare(const std::string& what, const Take& a, const Take& b, bool within) {
-    out_.tests.push_back(
-        {"accuracy of participants and objects: " + what, "",
-         student_t_test(cell_accuracies(participants_, objects_, a), cell_accuracies(participants_, objects_, b))});
-    const std::vector<double> of_a = accuracies(participants_, a), of_b = accuracies(participants_, b);
-    if (within && of_a.size() == of_b.size())
-      out_.tests.push_back({"accuracy of participants, paired: " + what, "", paired_t_test(of_a, of_b)});
+    within_ = within;
+    over_participants("accuracy: " + what, "", a, b, [](const NamingRow& row) { return row.right ? 1.0 : 0.0; });
+    as_independent("accuracy: " + what, "", cell_accuracies(participants_, objects_, a),
+                   cell_accuracies(participants_, objects_, b), "participants and objects");
     const auto right = [](const Take& take) {
       return [take](const Namer& p, const NamingRow& row) { return row.right && take(p, row); };
     };
     const auto seconds = [](const NamingRow& row) { return row.since_touch_s; };
-    out_.tests.push_back(
-        {"response time of right answers: " + what, "s",
-         student_t_test(values_of(participants_, right(a), seconds), values_of(participants_, right(b), seconds))});
-    out_.tests.push_back(
-        {"share of the time in contact: " + what, "",
-         student_t_test(values_of(participants_, a, share_touching), values_of(participants_, b, share_touching))});
+    over_participants("response time of right answers: " + what, "s", right(a), right(b), seconds);
+    as_independent("response time of right answers: " + what, "s", values_of(participants_, right(a), seconds),
+                   values_of(participants_, right(b), seconds), "answers");
+    over_participants("share of the time in contact: " + what, "", a, b, share_touching);
+    as_independent("share of the time in contact: " + what, "", values_of(participants_, a, share_touching),
+                   values_of(participants_, b, share_touching), "answers");
   }
 
  private:
+  void over_participants(const std::string& question, const char* unit, const Take& a, const Take& b,
+                         double (*value)(const NamingRow&)) {
+    const auto of_a = means_of(participants_, a, value), of_b = means_of(participants_, b, value);
+    std::vector<double> first, second;
+    for (std::size_t i = 0; i < of_a.size(); ++i) {
+      if (within_ && !(of_a[i] && of_b[i])) continue;
+      if (of_a[i]) first.push_back(*of_a[i]);
+      if (of_b[i]) second.push_back(*of_b[i]);
+    }
+    if (within_)
+      out_.tests.push_back({question, kPaired, first.size(), unit, paired_t_test(first, second)});
+    else
+      out_.tests.push_back({question, kApart, first.size() + second.size(), unit, student_t_test(first, second)});
+  }
+  void as_independent(const std::string& question, const char* unit, const std::vector<double>& a,
+                      const std::vector<double>& b, const std::string& values) {
+    out_.tests.push_back(
+        {question, values + " as independent, as in the paper", a.size() + b.size(), unit, student_t_test(a, b)});
+  }
+
   const std::vector<Namer>& participants_;
   const std::vector<std::string>& objects_;
   NamingResults& out_;
+  bool within_ = false;
 };
 
 }  // namespace

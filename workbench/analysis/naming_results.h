@@ -34,7 +34,9 @@ struct ObjectTimes {
 };
 
 struct NamingTest {
-  std::string question;  ///< "accuracy: shaded, unshaded"
+  std::string question;   ///< "response time of right answers: shaded less unshaded"
+  std::string values;     ///< what is compared: "participants, paired", "answers as independent, as in the paper"
+  std::size_t count = 0;  ///< of these, both sides together; pairs count once
   std::string unit;
   std::optional<TTest> test;
 };
@@ -43,7 +45,8 @@ struct NamingResults {
   std::vector<std::string> objects;
   std::vector<NamingPart> parts;
   std::vector<ObjectTimes> times;
-  /// Student's t, two samples: as the paper's, cells or trials as independent; and paired over participants.
+  /// Student's t over participants' means, paired where each has both; and, as the paper's, over cells or answers as if
+  /// these were independent.
   std::vector<NamingTest> tests;
 };
 

@@ -78,12 +78,21 @@ PageTable times_table(const NamingResults& results, bool simulated) {
 }
 
 PageTable tests_table(const NamingResults& results, bool simulated) {
-  PageTable table("tests", "Student's t: difference of means, first less second.", simulated);
-  table.column("Question", "question").column("Difference", "difference").column("from", "low").column("to", "high");
+  PageTable table(
+      "tests",
+      "Student's t: difference of means, first less second. Answers of one participant are not independent: "
+      "the tests over participants hold, the paper's are beside them to be compared with its own.",
+      simulated);
+  table.column("Question", "question")
+      .column("Over", "over")
+      .column("n", "n")
+      .column("Difference", "difference")
+      .column("from", "low")
+      .column("to", "high");
   table.column("t", "t").column("Degrees of freedom", "freedom").column("p", "p");
   for (const NamingTest& test : results.tests) {
     PageTable::Row row = table.row();
-    row.text(test.question);
+    row.text(test.question).text(test.values).count(test.count);
     if (!test.test) {
       for (int i = 0; i < 6; ++i) row.number(std::nan(""), i == 0 ? "can't be tested" : "");
       continue;

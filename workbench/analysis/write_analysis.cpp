@@ -122,14 +122,23 @@ Status add_figure(Section& section, Figure figure, const std::string& caption, b
   return {};
 }
 
+/// Whose answers they are, where nobody felt anything.
+static std::string simulated_text(const Answers& answers) {
+  std::set<std::string> kinds;
+  for (const auto& one : answers.comparisons) kinds.insert(one.enrolment.mark.simulated);
+  for (const auto& one : answers.namings) kinds.insert(one.enrolment.mark.simulated);
+  std::string out = "Nobody felt anything:";
+  if (kinds.contains("known"))
+    out += " answers follow a known law, and the page shows what the analysis finds in them.";
+  if (kinds.contains("feeling")) out += " a simulated hand touched what was shown, and a program answered.";
+  if (kinds.contains("device")) out += " somebody pressed keys, at a simulated device.";
+  return out;
+}
+
 std::string page(const Answers& answers, const std::string& sections, const std::string& command) {
   std::string body = element("h1", answers.simulated ? "Experiments with simulated participants" : "Experiments");
   body += paragraph(counts_text(answers) + ". Program " TANGENT_VERSION ".");
-  if (answers.simulated)
-    body += element("p",
-                    "Nobody felt anything: these participants are programs. What follows shows what the protocol and "
-                    "its analysis find in answers whose law is known.",
-                    "class=\"bad\"");
+  if (answers.simulated) body += element("p", escaped(simulated_text(answers)), "class=\"bad\"");
   std::set<std::string> protocols;
   for (const auto& one : answers.comparisons)
     protocols.insert(one.protocol.name + ", version " + std::to_string(one.protocol.version) + " (" +
@@ -157,6 +166,9 @@ Result<fs::path> write_analysis(const Answers& answers, const AnalysisOptions& o
   if (!answers.comparisons.empty()) {
     const ComparisonResults results = comparison_results(answers.comparisons, options.repeats, options.stop);
     if (options.stop()) return fail("stopped, nothing is written", options.folder.string());
+    for (const StaircaseResult& one : results.staircases)
+      for (const std::string& warning : one.warnings)
+        options.warn("staircase of " + one.participant + " under " + one.condition + ": " + warning);
     auto section = comparison_section(results, answers.simulated);
     if (!section) return tl::unexpected(section.error());
     sections += section->html;

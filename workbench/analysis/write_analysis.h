@@ -19,6 +19,7 @@ struct AnalysisOptions {
   int repeats = 1000;   ///< of each staircase's bootstrap
   std::map<std::string, bool> experienced;
   std::function<bool()> stop = [] { return false; };
+  std::function<void(const std::string&)> warn = [](const std::string&) {};  ///< told what the page warns of
 };
 
 /// Returns the page's path. Nothing is left half written, and nothing at all where it is stopped.

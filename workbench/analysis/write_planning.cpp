@@ -20,7 +20,7 @@ Result<fs::path> write_both(const PageTable& table, const std::string& title, co
   if (Status ok = write_file_atomic(files.folder / (table.name() + ".csv"), table.csv(), false); !ok)
     return tl::unexpected(ok.error());
   std::string body = element("h1", escaped(title)) + paragraph("Protocol: " + files.protocol + ".");
-  body += element("p", "Nobody felt anything: these participants are programs.", "class=\"bad\"");
+  body += element("p", "Nobody felt anything: these participants are simulated.", "class=\"bad\"");
   body += command_html(files.command) + paragraph(words) + table.html();
   const fs::path page = files.folder / (table.name() + ".html");
   if (Status ok = write_file_atomic(page, whole_page(title, body)); !ok) return tl::unexpected(ok.error());

@@ -36,8 +36,6 @@ struct AnalyseCommandOptions {
 /// Before there are answers: what a protocol's can say.
 Status run_planning(const AnalyseCommandOptions& options) {
   const InterruptGuard guard;
-  if (options.data.size() != 1)
-    return fail("takes one protocol, and no answers", "analyse", "give a file of presets/experiments, or one like it");
   const Result<experiment::Protocol> protocol = experiment::read_protocol(options.data.front());
   if (!protocol) return tl::unexpected(protocol.error());
   const analysis::PlanningFiles files{options.analysis.folder, options.analysis.command, protocol->name};
@@ -75,6 +73,7 @@ Status run_analyse(AnalyseCommandOptions& options) {
     options.analysis.experienced = std::move(*experience);
   }
   for (const std::string& note : answers->left_out) print_message("analyse", note);
+  options.analysis.warn = [](const std::string& warning) { print_message("analyse", warning); };
   const auto page = analysis::write_analysis(*answers, options.analysis);
   if (!page) return tl::unexpected(page.error());
   std::printf("%s: %s compared arcs, %zu named objects%s\n", page->c_str(),
@@ -110,6 +109,9 @@ void add_analyse_command(CLI::App& app, CommandResult& result) {
                     "Groups for each difference of --power (default 2000), participants of --check (default 10000)",
                     [o](double n) { o->count = static_cast<int>(n); });
   on_run(*command, [options, command, &result] {
+    if ((options->power || options->check) && options->data.size() != 1)
+      refuse_option(options->power ? "--power" : "--check",
+                    "takes one protocol, and no answers: give a file of presets/experiments, or one like it");
     options->analysis.command = command_text("analyse", *command);
     const Status status = options->power || options->check ? run_planning(*options) : run_analyse(*options);
     if (!status) print_message("analyse", status.error().message());

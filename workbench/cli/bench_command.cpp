@@ -9,9 +9,12 @@
 #include "workbench/cli/command_text.h"
 #include "workbench/cli/interrupt.h"
 #include "workbench/cli/messages.h"
+#include "workbench/cli/nearest_names.h"
 #include "workbench/cli/option.h"
-#include "workbench/cli/own_file.h"
 
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <memory>
@@ -134,8 +137,31 @@ Status write_results(const BenchOptions& options, const BenchReport& report) {
   return write_drawing(work_precision_figure(report.work_precision), {.command = command}, options.plot);
 }
 
+/// Ends the parsing where --only names no scene: nothing would be measured.
+Status check_only(const BenchOptions& options) {
+  if (options.only.empty()) return {};
+  if (options.suite == Suite::scale) refuse_option("--only", "chooses among the scenes of the other suites");
+  std::vector<std::string> names;
+  const auto add = [&](const std::vector<BenchCase>& cases) {
+    for (const BenchCase& c : cases) names.push_back(c.name);
+  };
+  if (wants(options, Suite::paper)) add(paper_cases());
+  if (wants(options, Suite::strokes)) add(stroke_cases());
+  if (wants(options, Suite::hard)) add(hard_cases());
+  if (wants(options, Suite::mean)) add(mean_cases());
+  if (!options.poses.empty()) {
+    const Result<std::vector<BenchCase>> shared = shared_cases(options.meshes, options.poses);
+    if (!shared) return tl::unexpected(shared.error());
+    add(*shared);
+  }
+  if (std::none_of(names.begin(), names.end(), [&](const auto& name) { return name.find(options.only) != name.npos; }))
+    refuse_option("--only", "no scene has '" + options.only + "' in its name; the nearest are " +
+                                nearest_names(options.only, names) + " (another --suite has others)");
+  return {};
+}
+
 Status run_bench(BenchOptions options, bool& interrupted) {
-  if (Status ok = check_replaceable(options.json, "a measurement", is_bench_json); !ok) return ok;
+  if (Status ok = check_only(options); !ok) return ok;
   for (const auto& path : {options.json, options.plot}) {
     if (Status status = probe(path); !status) return status;
   }
@@ -185,6 +211,20 @@ void add_own_options(CLI::App& command, BenchOptions& o) {
   add_number_option(command, "--seed", {.min = 0, .max = 1e9, .whole = true},
                     "With --mesh: of the order within rounds (default 1)",
                     [&own](double n) { own.curves.seed = static_cast<std::uint64_t>(n); });
+}
+
+/// Options that would have no effect.
+void refuse_idle(const CLI::App& command, const BenchOptions& o) {
+  if (o.is_own()) {
+    for (const char* const name : {"--suite", "--repeats", "--max-triangles"})
+      if (command.count(name) > 0) refuse_option(name, "is of the suites; leave it out with --mesh");
+    for (const PresetOverride& over : o.own.preset.overrides)
+      if (over.key == find_preset_key("solver", "method"))
+        refuse_option(over.by, "is one method; with --mesh all are measured, or those of --methods");
+    return;
+  }
+  for (const char* const name : {"--rounds", "--seconds", "--seed", "--no-peers"})
+    if (command.count(name) > 0) refuse_option(name, "requires --mesh F");
 }
 
 /// Ends the parsing where files or options contradict each other.
@@ -241,6 +281,7 @@ void add_bench_command(CLI::App& app, CommandResult& result) {
   add_own_options(*command, *options);
   on_run(*command, [options, command, &result] {
     check_options(*options);
+    refuse_idle(*command, *options);
     options->own.command = command_text("bench", *command);
     bool interrupted = false;
     const Status status = options->is_own() ? run_own(*options, interrupted) : run_bench(*options, interrupted);

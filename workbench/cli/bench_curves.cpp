@@ -10,7 +10,6 @@
 #include "workbench/cli/interrupt.h"
 #include "workbench/cli/messages.h"
 #include "workbench/cli/method_list.h"
-#include "workbench/cli/own_file.h"
 #include "workbench/cli/progress.h"
 #include "workbench/session/two_threads.h"
 
@@ -60,8 +59,6 @@ Status write_files(const BenchCurvesOptions& options, const SpeedCurves& curves,
 }
 
 Status probe_files(const BenchCurvesOptions& options) {
-  if (Status ok = check_replaceable(options.json, "a measurement", is_bench_json); !ok) return ok;
-  if (Status ok = check_replaceable(options.csv, "a table of one", is_bench_table); !ok) return ok;
   for (const std::filesystem::path& path : {options.csv, options.json, options.plot}) {
     if (path.empty()) continue;
     if (const Result<AtomicFile> file = AtomicFile::create(path); !file) return tl::unexpected(file.error());

@@ -11,6 +11,7 @@
 #include "workbench/cli/mesh_options.h"
 #include "workbench/cli/messages.h"
 #include "workbench/cli/option.h"
+#include "workbench/cli/own_file.h"
 #include "workbench/cli/text_format.h"
 #include "workbench/session/exploration_poses.h"
 
@@ -184,7 +185,8 @@ Status run_decimate(const DecimateOptions& options, bool& complete) {
   if (!explored) return tl::unexpected(explored.error());
   report.run = score_run(stepper, preset, explored->poses);
 
-  if (Status status = write_obj(report.result.mesh, options.out, options.mesh.metres_per_unit); !status) return status;
+  if (Status status = write_obj(report.result.mesh, options.out, options.mesh.metres_per_unit, kDecimated); !status)
+    return status;
   if (!options.json.empty())
     if (Status status = write_file_atomic(options.json, report_json(report).dump(2) + "\n"); !status) return status;
   std::fputs(report_text(report).c_str(), stdout);

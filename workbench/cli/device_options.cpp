@@ -1,6 +1,11 @@
 #include "workbench/cli/device_options.h"
 
+#include "workbench/cli/haply_options.h"
 #include "workbench/cli/option.h"
+#include "workbench/cli/falcon_options.h"
+#include "workbench/cli/plugin_options.h"
+#include "workbench/cli/vendor_options.h"
+#include "workbench/cli/serial_options.h"
 
 namespace tangent {
 
@@ -26,6 +31,15 @@ void add_place_options(CLI::App& command, PlaceOptions& place) {
 }
 
 }  // namespace
+
+void add_driver_options(CLI::App& command, DeviceOptions& drivers) {
+  // A driver is a line here: add_NAME_options(command, drivers.NAME).
+  add_vendor_options(command, drivers.vendor);
+  add_haply_options(command, drivers.haply);
+  add_plugin_options(command, drivers.plugin);
+  add_falcon_options(command, drivers.falcon);
+  add_serial_options(command, drivers.serial);
+}
 
 void add_device_options(CLI::App& command, DeviceChoice& choice) {
   static const std::vector<std::string_view> forces = views(force_device_names());
@@ -58,6 +72,7 @@ void add_device_options(CLI::App& command, DeviceChoice& choice) {
   add_number_option(command, "--maestro-high-mm", {.min = 0, .max = 50, .unit = "mm"},
                     "The upper place (default: as kept, or 10)",
                     [&choice](double v) { choice.maestro.high_m = v * 1e-3; });
+  add_driver_options(command, choice.drivers);
   add_place_options(command, choice.place);
 }
 

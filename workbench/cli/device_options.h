@@ -20,15 +20,21 @@ inline constexpr const char* kArmText =
 
 struct DeviceChoice {
   DeviceNames names;
+  DeviceOptions drivers;  ///< of the real force devices
   MaestroWish maestro;
   std::filesystem::path packets;
   int servo_cpu = -1;
   PlaceOptions place;
 };
 
+/// Options of the drivers of real force devices, each in a file of its own (NAME_options.h). `drivers` must outlive the
+/// parsing.
+void add_driver_options(CLI::App& command, DeviceOptions& drivers);
+
 /// --force, --display, --device for both, --packets, --servo-cpu, --maestro-channel, --maestro-low-us,
 /// --maestro-high-us, --maestro-low-mm, --maestro-high-mm, --place-fit, --place-scale, --place-offset-mm,
-/// --place-rotate-deg. `choice` must outlive the parsing.
+/// --place-rotate-deg, and those of vendor_options.h. `choice` must outlive the parsing.
+/// --place-rotate-deg, and those of plugin_options.h. `choice` must outlive the parsing.
 void add_device_options(CLI::App& command, DeviceChoice& choice);
 
 }  // namespace tangent

@@ -38,7 +38,7 @@ Status check_name(const std::string& participant) {
 /// A simulated participant has no device; and a device and a window keep real time.
 Status check_trials(const ExperimentCommandOptions& options) {
   const TrialChoice& t = options.trials;
-  const bool of_people = t.record || t.without_timeout || t.without_waiting || t.window || t.sound ||
+  const bool of_people = t.record || t.same_day || t.without_timeout || t.without_waiting || t.window || t.sound ||
                          t.sound_device != TrialChoice{}.sound_device ||
                          !(t.devices.names == TrialChoice{}.devices.names);
   if (!options.simulated.empty() && of_people)
@@ -83,7 +83,8 @@ Result<int> run_experiment(const ExperimentCommandOptions& options, const RunTri
   const InterruptGuard guard;
   const auto outcome = experiment::run_simulated(options.out, *protocol, *text, enrolment, InterruptGuard::requested);
   if (!outcome) return tl::unexpected(outcome.error());
-  std::printf("%s: %zu trials%s, simulated\n", outcome->rows.c_str(), outcome->before + outcome->made,
+  const std::size_t trials = outcome->before + outcome->made;
+  std::printf("%s: %zu trial%s%s, simulated\n", outcome->rows.c_str(), trials, trials == 1 ? "" : "s",
               outcome->before > 0 ? (" (" + std::to_string(outcome->before) + " were there)").c_str() : "");
   if (!outcome->stopped) return kDone;
   print_message("experiment", "interrupted; the same command goes on from there");
@@ -113,6 +114,8 @@ void add_experiment_command_with(CLI::App& app, CommandResult& result, const Run
   add_flag(*command, "--pilot", o->pilot, "A trial run: marked in every row, not analysed with the others");
   add_trial_options(*command, o->trials);
   on_run(*command, [options, in_windows, &result] {
+    if (options->simulated.empty() && options->trials.devices.names.force == "none")
+      refuse_option("--force", "none: every trial needs a force device; choose one, for example simulated");
     refuse_failed("--participant", check_name(options->participant));
     refuse_failed(
         options->simulated.empty() ? options->trials.window ? "--window" : "--without-waiting" : "--simulated",

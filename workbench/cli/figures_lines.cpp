@@ -54,10 +54,10 @@ plot N.'-finger.csv' using 'x_mm':'y_mm' with filledcurves lc rgb '#f3e3d8' noti
      N.'-finger.csv' using 'x_mm':'y_mm' with lines lc rgb '#c9a48e' lw 1 title 'finger', \
      N.'-polygon.csv' using 'x_mm':'y_mm' with lines ls 9 title 'polygon', \
      N.'-curve.csv' using 'x_mm':'y_mm' with lines ls 8 lw 2 title 'smooth curve', \
+     N.'-lines.csv' every :::3 using 'x_mm':'y_mm' with lines lc rgb '#d9c2e6' lw 5 title 'later', \
      N.'-lines.csv' every :::0::0 using 'x_mm':'y_mm' with lines ls 2 title 'kept tangent line', \
      N.'-lines.csv' every :::1::1 using 'x_mm':'y_mm' with lines ls 5 title 'iteration 1', \
      N.'-lines.csv' every :::2::2 using 'x_mm':'y_mm' with lines ls 1 title 'iteration 2', \
-     N.'-lines.csv' every :::3 using 'x_mm':'y_mm' with lines ls 3 lw 1 title 'later', \
      N.'.csv' using 'contact_x_mm':'contact_y_mm' with points pt 6 ps 0.9 lc rgb '#222222' \
        title 'contact on the line', \
      N.'.csv' using 'place_x_mm':'place_y_mm' with points pt 7 ps 0.5 lc rgb '#222222' title 'place on the curve'

@@ -121,10 +121,10 @@ plot N.'-finger.csv' using 'x_mm':'y_mm' \
        with filledcurves fs transparent solid 0.5 noborder lc rgb '#f3e3d8' title 'finger', \
      N.'-triangle.csv' using 'x_mm':'y_mm' with lines lc rgb '#888888' lw 1.6 title 'base triangle', \
      N.'-grid.csv' using 'x_mm':'y_mm' with lines lc rgb '#b8cfe0' lw 0.8 title 'patch', \
+     N.'-planes.csv' every :::3 using 'x_mm':'y_mm' with lines lc rgb '#d9c2e6' lw 5 title 'later', \
      N.'-planes.csv' every :::0::0 using 'x_mm':'y_mm' with lines ls 2 title 'kept plane', \
      N.'-planes.csv' every :::1::1 using 'x_mm':'y_mm' with lines ls 5 title 'iteration 1', \
      N.'-planes.csv' every :::2::2 using 'x_mm':'y_mm' with lines ls 1 title 'iteration 2', \
-     N.'-planes.csv' every :::3 using 'x_mm':'y_mm' with lines ls 3 lw 1 title 'later', \
      N.'-contacts.csv' using 'x_mm':'y_mm' with points pt 6 ps 0.9 lc rgb '#222222' title 'contact on the plane', \
      N.'.csv' using 'x_mm':'y_mm' with points pt 7 ps 0.5 lc rgb '#222222' title 'place on the patch'
 )";

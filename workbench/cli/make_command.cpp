@@ -12,6 +12,7 @@
 #include "workbench/evidence/made_mesh.h"
 
 #include <array>
+#include <cctype>
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -29,6 +30,7 @@ struct MakeOptions {
   std::filesystem::path file;
   double metres_per_unit = kMillimetre;
   std::optional<ArcPlacement> placement;
+  bool exact = false;
 };
 
 int refuse(const std::string& why) {
@@ -50,6 +52,13 @@ int make_arc(const MakeOptions& options) {
   constexpr int kDefaultSegments = 5, kMostSegments = 10000;
   const int segments = options.generate.segments == 0 ? kDefaultSegments : options.generate.segments;
   if (options.generate.rounding_m != 0.0) return refuse("arc has no edges to round; leave out --rounding-mm");
+  if (options.exact) {
+    if (options.generate.segments != 0 || options.placement)
+      return refuse("an exact arc has no segments; leave --segments and --placement out");
+    return written(options, write_polygon(ArcStimulus{}.exact(), options.file, options.metres_per_unit),
+                   format("a circle of %g mm radius over %g rad, and straight ends; 64 segments for other programs",
+                          kPaperArcRadius / kMillimetre, kPaperArcRad));
+  }
   if (segments < 2 || segments > kMostSegments) return refuse("arc takes 2 to 10000 --segments");
   const PlanarPolygon arc = make_paper_arc(segments, options.placement.value_or(ArcPlacement::tangent));
   return written(options, write_polygon(arc, options.file, options.metres_per_unit),
@@ -57,9 +66,23 @@ int make_arc(const MakeOptions& options) {
                         kPaperArcRad, kPaperArcRadius / kMillimetre));
 }
 
+/// Whether the name says a format that is written; a device or a pipe needs none.
+bool has_format(const MakeOptions& options) {
+  std::error_code error;
+  if (std::filesystem::exists(options.file, error) && !std::filesystem::is_regular_file(options.file, error))
+    return true;
+  std::string ending = options.file.extension().string();
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return ending == ".obj" || (ending == ".csv" && options.object == kArc);
+}
+
 int run_make(const MakeOptions& options) {
+  if (!has_format(options))
+    refuse_option("--out", options.file.string() + " names no format that is written; end it in .obj" +
+                               (options.object == kArc ? " or .csv" : ""));
   if (options.object == kArc) return make_arc(options);
   if (options.placement) return refuse("--placement is of arc; leave it out");
+  if (options.exact) return refuse("--exact is of arc; leave it out");
   const Result<PolygonMesh> mesh = generate_mesh(options.object, options.generate);
   if (!mesh) return refuse(mesh.error().message());
   return written(
@@ -95,6 +118,8 @@ void add_make_command(CLI::App& app, CommandResult& result) {
                     "Facets of the arc touch it at their midpoints, as the paper counts them (default), or stand on it "
                     "with their ends",
                     [options = options.get()](int i) { options->placement = static_cast<ArcPlacement>(i); });
+  add_flag(*command, "--exact", options->exact,
+           "The arc as a circle by its formula, which this program reads from the file's comment");
   add_unit_option(*command, options->metres_per_unit, "Unit of the file's coordinates (default mm)");
   on_run(*command, [options, &result] { result.exit_code = run_make(*options); });
 }

@@ -139,6 +139,7 @@ Status run_monitor(const MonitorOptions& options) {
   wanted.servo.rate_hz = options.servo_hz;
   wanted.servo.cpu = options.devices.servo_cpu;
   wanted.devices = options.devices.names;
+  wanted.drivers = options.devices.drivers;
   if (wanted.devices.display == "maestro") {
     const auto setup = chosen_maestro_setup(options.devices.maestro, maestro_setups_path());
     if (!setup) return tl::unexpected(setup.error());

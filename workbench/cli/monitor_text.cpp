@@ -98,6 +98,8 @@ std::string monitor_line(const Session& session) {
   const std::string why = arming_text(s.arming, s.in_the_way, s.force_wanted_n);
   if (s.clutched) text += " | clutch held";
   if (s.placement_refused) text += " | not placed: force was sent";
+  LinkReport force;
+  if (!live && session.force_report(force) && !force.problem.empty()) text += " | " + force.problem;
   if (!live) text += " | " + (why.empty() ? std::string("No force: a arms") : why);
   text += format(" | %.1f Hz", s.servo.rate_hz);
   if (session.history().empty()) return text;
@@ -121,7 +123,8 @@ std::string monitor_report(const Session& session) {
   text += histogram_text("From sample to command", session.latency_ns(), 1e-6, "ms");
   text += gate_text(s.servo);
   if (session.force_capabilities() != nullptr) text += placement_text(s);
-  LinkReport link;
+  LinkReport force, link;
+  if (session.force_report(force)) text += "Force device\n" + link_text(force);
   if (session.display_report(link)) text += link_text(link);
   text += "Log\n";
   for (const SafetyEntry& e : session.safety_log().entries()) text += format("  %10.3f s  %s\n", e.t_s, e.text.c_str());

@@ -2,6 +2,7 @@
 
 #include "core/base/text.h"
 #include "core/preset/schema.h"
+#include "workbench/cli/own_file.h"
 
 #include <CLI/CLI.hpp>
 
@@ -40,6 +41,7 @@ void refuse_outputs_over_inputs(const CLI::App& command) {
 void on_run(CLI::App& command, std::function<void()> run) {
   command.callback([&command, run = std::move(run)] {
     refuse_outputs_over_inputs(command);
+    check_own_outputs(command);
     run();
   });
 }

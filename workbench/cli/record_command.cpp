@@ -53,6 +53,7 @@ SessionOptions session_options(const RecordOptions& options) {
   wanted.servo.rate_hz = options.servo_hz;
   wanted.servo.cpu = options.devices.servo_cpu;
   wanted.devices = options.devices.names;
+  wanted.drivers = options.devices.drivers;
   wanted.packets = options.devices.packets;
   wanted.place = options.devices.place;
   wanted.history_s = 1.0;

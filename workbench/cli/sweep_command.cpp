@@ -25,6 +25,7 @@ namespace {
 /// From this many cells on, they are solved with --yes only.
 constexpr std::uint64_t kManyCells = 1'000'000;
 constexpr std::size_t kTimedTicks = 2000;
+constexpr std::array<std::string_view, 1> kAgainNames{"failed"};
 
 struct SweepCommandOptions {
   SweepPlanOptions plan;
@@ -32,6 +33,7 @@ struct SweepCommandOptions {
   double threads = 0.0;  ///< 0: as many as there are cores
   double times = 0.0;    ///< rounds of timing
   bool dry_run = false, yes = false;
+  bool again = false;            ///< cells that failed before
   std::filesystem::path folder;  ///< of plan, run and merge
   double shards = 1.0, shard = 0.0;
   double job_minutes = 30.0;  ///< that a job of a cluster takes, about
@@ -50,22 +52,26 @@ std::string outcome_text(const sweep::SweepOutcome& o, const std::string& where)
   const auto whole = [](std::uint64_t n) { return std::to_string(n); };
   std::string text = whole(o.before + o.solved) + " of " + count_text(o.cells, "cell", "cells") + " in " + where;
   if (o.before > 0) text += " (" + whole(o.before) + " were there)";
-  if (o.solved > 0 && o.ticks > 0)
-    text += format("; %s solved in %.1f s, %.3g ticks/s", whole(o.solved).c_str(), o.seconds,
+  if (o.solved > o.failed && o.ticks > 0)
+    text += format("; %s solved in %.1f s, %.3g ticks/s", whole(o.solved - o.failed).c_str(), o.seconds,
                    static_cast<double>(o.ticks) / std::max(1e-9, o.seconds));
+  if (o.failed > 0) text += (o.solved > o.failed ? ", " : "; ") + whole(o.failed) + " failed";
   return text + "\n";
 }
 
+/// What to do when the meshes and motions of failed cells are mended.
+constexpr const char* kAgain = "; then the same command with --again failed solves them";
+constexpr const char* kAgainMerged = "; then merge all shards, and sweep --plan, --out and --again failed solve them";
+
 /// What is said at the end, and the exit code.
-int finish(const sweep::SweepOutcome& outcome, const std::string& where) {
+int finish(const sweep::SweepOutcome& outcome, const std::string& where, const std::string& mended = kAgain) {
   std::fputs(outcome_text(outcome, where).c_str(), stdout);
   if (outcome.stopped) print_message("sweep", "interrupted; the same command goes on from there");
   const sweep::Failures& failures = outcome.failures;
   if (failures.cells > 0)
     print_message("sweep", where + ": " + count_text(failures.cells, "cell has", "cells have") + " no numbers, " +
                                (failures.cells < outcome.cells ? "the others have; " : "") + "the first, cell " +
-                               std::to_string(failures.first) + ": " + failures.why +
-                               "; then sweep into a new file: a file is of the meshes and motions as they were");
+                               std::to_string(failures.first) + ": " + failures.why + mended);
   return outcome.stopped || failures.cells > 0 ? kFailed : kDone;
 }
 
@@ -125,7 +131,9 @@ Result<int> sweep_here(const SweepCommandOptions& options) {
   Progress progress("cells", cells->size());
   const sweep::SweepOptions run = run_options(options, progress);
   if (options.dry_run) return print_estimate(*cells, run.threads);
-  Result<sweep::ResultsFile> file = sweep::ResultsFile::open(options.out, *cells, sweep::plan_digest(*plan));
+  Result<sweep::ResultsFile> file =
+      sweep::ResultsFile::open(options.out, *cells, sweep::plan_digest(*plan),
+                               options.again ? sweep::FailedCells::again : sweep::FailedCells::keep);
   if (!file) return tl::unexpected(file.error());
   const Result<sweep::SweepOutcome> outcome = sweep::run_sweep(*cells, *file, run);
   if (!outcome) return tl::unexpected(outcome.error());
@@ -145,13 +153,22 @@ Result<int> divide(const SweepCommandOptions& options) {
   if (!cells) return tl::unexpected(cells.error());
   const auto shards = static_cast<std::uint64_t>(options.shards);
   refuse_failed("--shards", sweep::check_shards(shards, *cells));
+  const std::string dir = options.folder.string();
+  if (std::error_code error; std::filesystem::exists(options.folder / "plan.json", error)) {
+    const Result<std::size_t> put_back = sweep::put_back_inputs(options.folder, *plan, shards);
+    if (!put_back) return tl::unexpected(put_back.error());
+    std::fputs((dir + ": divided before; " + count_text(*put_back, "mesh or motion", "meshes and motions") +
+                " put back, shards stay\n")
+                   .c_str(),
+               stdout);
+    return kDone;
+  }
   const Result<sweep::SweepEstimate> estimate = sweep::estimate(*cells);
   if (!estimate) return tl::unexpected(estimate.error());
   sweep::JobScripts scripts = sweep::bundled(estimate->seconds, shards, 60.0 * options.job_minutes);
   scripts.times = static_cast<std::size_t>(options.times);
   if (Status ok = sweep::write_plan_folder(options.folder, *plan, shards, scripts); !ok)
     return tl::unexpected(ok.error());
-  const std::string dir = options.folder.string();
   std::fputs(format("%s: %s in %s, about %.0f s each; %s a job in %s/slurm.sh\n", dir.c_str(),
                     count_text(cells->size(), "cell", "cells").c_str(), count_text(shards, "shard", "shards").c_str(),
                     estimate->seconds / static_cast<double>(shards),
@@ -170,7 +187,7 @@ Result<int> run_one_shard(const SweepCommandOptions& options) {
   Progress progress("cells", 0);
   const Result<sweep::SweepOutcome> outcome = sweep::run_shard(*folder, shard, run_options(options, progress));
   if (!outcome) return tl::unexpected(outcome.error());
-  const int code = finish(*outcome, folder->shard_file(shard).string());
+  const int code = finish(*outcome, folder->shard_file(shard).string(), kAgainMerged);
   if (options.times < 2.0 || outcome->stopped) return code;
   const auto timed =
       sweep::time_shard(*folder, shard, static_cast<std::size_t>(options.times), run_options(options, progress));
@@ -186,7 +203,7 @@ Result<int> merge(const SweepCommandOptions& options) {
   Progress progress("cells", folder->cells);
   const auto outcome = sweep::merge_shards(*folder, options.out, run_options(options, progress));
   if (!outcome) return tl::unexpected(outcome.error());
-  const int code = finish(*outcome, options.out.string());
+  const int code = finish(*outcome, options.out.string(), kAgainMerged);
   const sweep::LackingTimes& lacking = outcome->lacking;
   if (lacking.cells == 0) return code;
   const std::string more = lacking.shards > 1 ? ", and " + count_text(lacking.shards - 1, "shard more", "shards more") +
@@ -260,6 +277,11 @@ void add_sweep_command(CLI::App& app, CommandResult& result) {
   add_text_option(*command, "--out", options->out, "Results to write, or to go on with", "F.sqlite");
   add_threads_option(*command, *options);
   add_times_option(*command, *options);
+  add_choice_option(
+      *command, "--again", kAgainNames,
+      "Solve these again, too, of results that are there: failed, cells whose mesh or motion could not be "
+      "read, and which may have been mended since",
+      [options = options.get()](int) { options->again = true; });
   add_flag(*command, "--dry-run", options->dry_run, "Say how many cells it is, how long and how large, and end");
   add_flag(*command, "--yes", options->yes, "Solve a million cells and more");
   on_run(*command, [command, options, &result] {

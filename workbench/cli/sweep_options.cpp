@@ -118,6 +118,10 @@ Result<sweep::Plan> sweep_plan(const SweepPlanOptions& options) {
       refuse_option("--plan", "says all of this itself; leave out --preset, --condition and the values of a preset");
     return sweep::read_plan(options.plan);
   }
+  if (!options.methods.empty())
+    for (const PresetOverride& o : options.preset.overrides)
+      if (o.key == find_preset_key("solver", "method"))
+        refuse_option(o.by, "contradicts --methods; leave out one of them");
   const Result<PresetFile> preset = load_preset(options.preset);
   if (!preset) return tl::unexpected(preset.error());
   sweep::Plan plan;

@@ -89,6 +89,8 @@ Status attend(TrialSession& trials, experiment::SoundFollower& sound) {
 void add_trial_options(CLI::App& command, TrialChoice& choice) {
   add_device_options(command, choice.devices);
   add_flag(command, "--record", choice.record, "Keep every tick of each trial, a file a trial beside the answers");
+  add_flag(command, "--same-day", choice.same_day,
+           "Begin a session sooner after the one before than the protocol says; the events tell it");
   add_flag(command, "--without-timeout", choice.without_timeout,
            "Arm even a device that goes on with its last command when this program dies");
   add_flag(command, "--without-waiting", choice.without_waiting,
@@ -104,11 +106,13 @@ void add_trial_options(CLI::App& command, TrialChoice& choice) {
 Result<experiment::TrialOptions> trial_options(const TrialChoice& choice) {
   experiment::TrialOptions out;
   out.record = choice.record;
+  out.same_day = choice.same_day;
   out.without_timeout = choice.without_timeout;
   SessionOptions& session = out.session;
   session.threaded = !choice.without_waiting;
   session.servo.cpu = choice.devices.servo_cpu;
   session.devices = choice.devices.names;
+  session.drivers = choice.devices.drivers;
   if (session.devices.display == "maestro") {
     const auto setup = chosen_maestro_setup(choice.devices.maestro, maestro_setups_path());
     if (!setup) return tl::unexpected(setup.error());
@@ -122,7 +126,7 @@ Result<experiment::TrialOptions> trial_options(const TrialChoice& choice) {
 }
 
 int say_outcome(const std::filesystem::path& rows, int answers, bool complete) {
-  std::printf("%s: %d trials\n", rows.c_str(), answers);
+  std::printf("%s: %d trial%s\n", rows.c_str(), answers, answers == 1 ? "" : "s");
   if (complete) return kDone;
   print_message("experiment", "ended before its end; the same command goes on from there");
   return kFailed;

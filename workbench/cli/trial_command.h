@@ -17,7 +17,7 @@ namespace tangent {
 
 struct TrialChoice {
   DeviceChoice devices;
-  bool record = false, without_timeout = false, without_waiting = false;
+  bool record = false, same_day = false, without_timeout = false, without_waiting = false;
   bool window = false;
   std::optional<bool> sound;  ///< none: with a window
   std::string sound_device = experiment::kDefaultSoundDevice;
@@ -32,8 +32,8 @@ struct TrialsToRun {
 /// Returns the exit code.
 using RunTrials = std::function<Result<int>(TrialsToRun)>;
 
-/// Those of the devices, --record, --without-timeout, --without-waiting, --window, --sound and --sound-device. `choice`
-/// must outlive the parsing.
+/// Those of the devices, --record, --same-day, --without-timeout, --without-waiting, --window, --sound and
+/// --sound-device. `choice` must outlive the parsing.
 void add_trial_options(CLI::App& command, TrialChoice& choice);
 
 /// Protocol, participant and folder are the caller's. Fails on a Maestro's setup that can't be used.

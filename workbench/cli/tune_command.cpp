@@ -9,7 +9,6 @@
 #include "workbench/cli/mesh_options.h"
 #include "workbench/cli/messages.h"
 #include "workbench/cli/option.h"
-#include "workbench/cli/own_file.h"
 #include "workbench/cli/preset_options.h"
 #include "workbench/cli/progress.h"
 #include "workbench/cli/refuse.h"
@@ -92,14 +91,19 @@ MethodRun run_method(const std::shared_ptr<const ContactScene>& scene, Preset pr
   return run;
 }
 
-GainTuning tune(const std::shared_ptr<const ContactScene>& scene, const Preset& base,
-                std::span<const TickInput> poses) {
+GainTuning tune(const std::shared_ptr<const ContactScene>& scene, const Preset& base, std::span<const TickInput> poses,
+                const TuneKept& kept) {
   const GainGrid grid = make_gain_grid(gain_length(*scene, base.finger));
   Progress progress("gains tried", grid.coarse.size());
-  return tune_gains(scene, base, poses, grid, [&progress](std::size_t done, std::size_t planned) {
+  GainMemory memory;
+  if (sweep::TuningFile* const file = kept.file(); file != nullptr)
+    memory = {[file](const Gains& gains) { return file->score(gains); },
+              [file](const Gains& gains, const RunScore& score) { file->keep(gains, score); }};
+  const auto keep_going = [&](std::size_t done, std::size_t planned) {
     progress.update(done, planned);
-    return !InterruptGuard::requested();
-  });
+    return !InterruptGuard::requested() && !kept.failed();
+  };
+  return tune_gains(scene, base, poses, grid, keep_going, memory);
 }
 
 /// What the preset was measured with, so that "workbench check" can measure it again. Where that can't be named (the
@@ -138,11 +142,13 @@ struct Found {
   bool incomplete = false;  ///< a mesh or motion that was asked for could not be had
 };
 
-Found find_gains(const std::shared_ptr<const ContactScene>& scene, std::span<const TickInput> poses,
-                 TuneReport& report) {
+Result<Found> find_gains(const std::shared_ptr<const ContactScene>& scene, std::span<const TickInput> poses,
+                         TuneReport& report, TuneKept& kept) {
   Preset& preset = report.preset.preset;
-  report.tuning = tune(scene, preset, poses);
-  if (report.tuning.best.empty()) return {};
+  if (Status ok = kept.open(sweep::tuning_digest(preset, *scene, poses)); !ok) return tl::unexpected(ok.error());
+  report.tuning = tune(scene, preset, poses, kept);
+  if (Status ok = kept.status(); !ok) return tl::unexpected(ok.error());
+  if (report.tuning.best.empty()) return Found{};
   preset.solver = with_gains(preset.solver, report.tuning.best.front().gains);
   const Method own = preset.solver.method;
   report.own = run_method(scene, preset, own, poses);
@@ -154,7 +160,7 @@ Found find_gains(const std::shared_ptr<const ContactScene>& scene, std::span<con
 }
 
 Result<Found> find_on_front(const TuneOptions& options, const std::shared_ptr<const ContactScene>& scene,
-                            const std::vector<TickInput>& poses, TuneReport& report) {
+                            const std::vector<TickInput>& poses, TuneReport& report, TuneKept& kept) {
   Preset& preset = report.preset.preset;
   TuneGrounds grounds = tune_grounds(options.grounds, options.mesh, preset,
                                      {scene, std::make_shared<const std::vector<TickInput>>(poses)},
@@ -163,7 +169,7 @@ Result<Found> find_on_front(const TuneOptions& options, const std::shared_ptr<co
   for (const std::string& text : tune_ignored(preset, gain_length(*scene, preset.finger), options.front))
     print_message("tune", text);
   Result<TunedFront> tuned =
-      tune_front(std::move(grounds.all), preset, gain_length(*scene, preset.finger), options.front);
+      tune_front(std::move(grounds.all), preset, gain_length(*scene, preset.finger), options.front, kept);
   if (!tuned) return tl::unexpected(tuned.error());
   preset = tuned->preset;
   report.own = run_method(scene, preset, preset.solver.method, poses);
@@ -182,8 +188,6 @@ Status run_tune(const TuneOptions& options, bool& incomplete) {
   report.preset = std::move(*base);
   const Preset& preset = report.preset.preset;
   // Checks before the work starts that the files can be written.
-  if (Status ok = check_replaceable(options.out, "a preset", is_preset_text); !ok) return ok;
-  if (Status ok = check_replaceable(options.front.csv, "the table of a front", is_front_table); !ok) return ok;
   if (const Result<AtomicFile> probe = AtomicFile::create(options.out); !probe) return tl::unexpected(probe.error());
   Result<LoadedMesh> loaded = load_mesh(options.mesh);
   if (!loaded) return tl::unexpected(loaded.error());
@@ -196,8 +200,9 @@ Status run_tune(const TuneOptions& options, bool& incomplete) {
   // Before the seconds that it takes, and again in the report.
   if (const std::string note = finger_size_note(longest_side_m(*report.mesh), preset.finger); !note.empty())
     print_message("tune", note);
-  const Result<Found> found = options.front.objectives.empty() ? find_gains(*scene, *poses, report)
-                                                               : find_on_front(options, *scene, *poses, report);
+  TuneKept kept(options.out);
+  const Result<Found> found = options.front.objectives.empty() ? find_gains(*scene, *poses, report, kept)
+                                                               : find_on_front(options, *scene, *poses, report, kept);
   if (!found) return tl::unexpected(found.error());
   const bool interrupted = found->text.empty() || !found->until.empty();
   incomplete = interrupted || found->incomplete;
@@ -210,9 +215,11 @@ Status run_tune(const TuneOptions& options, bool& incomplete) {
   describe_measurement(report);
   if (!found->note.empty()) report.preset.about.note = found->note;
   if (const Status status = write_preset(report.preset, options.out); !status) return status;
+  if (!interrupted) kept.remove();
   std::fputs((found->text + options.out.string() + " written\n").c_str(), stdout);
   if (interrupted)
-    print_message("tune", "interrupted; " + options.out.string() + " holds the best of the " + found->until);
+    print_message("tune", "interrupted; " + options.out.string() + " holds the best of the " + found->until +
+                              "; the same command goes on from there");
   return {};
 }
 

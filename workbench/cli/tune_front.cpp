@@ -56,6 +56,34 @@ sweep::FrontPlan front_plan(const Preset& base, double length_m, const TuneFront
   return plan;
 }
 
+/// Times by which constraints of time are judged: measured once, for they differ from run to run.
+bool know_scales(const sweep::FrontPlan& plan, const Preset& simple, std::vector<sweep::FrontGround>& grounds,
+                 sweep::TuningFile* kept) {
+  if (kept == nullptr || kept->scales().size() != grounds.size()) {
+    if (!sweep::measure_scales(plan, simple, grounds)) return false;
+    if (kept != nullptr) kept->keep(grounds);
+    return true;
+  }
+  for (std::size_t g = 0; g < grounds.size(); ++g) grounds[g].scale = kept->scales()[g];
+  return true;
+}
+
+/// What `kept` has of it is taken from there.
+sweep::FrontResult search(sweep::FrontPlan& plan, const Preset& simple, std::vector<sweep::FrontGround>& grounds,
+                          TuneKept& kept) {
+  Progress progress("presets tried", plan.evaluations);
+  if (!know_scales(plan, simple, grounds, kept.file())) return {};
+  plan.stop = [&kept] { return InterruptGuard::requested() || kept.failed(); };
+  if (sweep::TuningFile* const file = kept.file(); file != nullptr) {
+    plan.known = [file](std::size_t number, const auto& values) { return file->trial(number, values); };
+    plan.keep = [file](std::size_t number, const sweep::RacedTrial& trial) { file->keep(number, trial); };
+  }
+  return sweep::search_front(plan, grounds, [&](std::size_t done) {
+    progress.update(done, plan.evaluations);
+    return !plan.stop();
+  });
+}
+
 std::string header(const sweep::FrontPlan& plan, char between) {
   std::string out;
   for (const sweep::Range& range : plan.ranges) out += range.key->full_name() + between;
@@ -271,25 +299,26 @@ std::vector<std::string> tune_ignored(const Preset& base, double gain_length_m, 
 }
 
 Result<TunedFront> tune_front(std::vector<sweep::FrontGround> grounds, const Preset& base, double gain_length_m,
-                              const TuneFrontOptions& options) {
+                              const TuneFrontOptions& options, TuneKept& kept) {
   sweep::FrontPlan plan = front_plan(base, gain_length_m, options);
+  if (Status ok = kept.open(sweep::tuning_digest(plan, grounds)); !ok) return tl::unexpected(ok.error());
   const Preset simple = by_theory(base, gain_length_m);
-  Progress progress("presets tried", plan.evaluations);
-  sweep::FrontResult found;
-  if (sweep::measure_scales(plan, simple, grounds))
-    found = sweep::search_front(plan, grounds, [&](std::size_t done) {
-      progress.update(done, plan.evaluations);
-      return !InterruptGuard::requested();
-    });
+  const sweep::FrontResult found = search(plan, simple, grounds, kept);
+  if (Status ok = kept.status(); !ok) return tl::unexpected(ok.error());
   if (found.trials.empty()) return fail("interrupted before any preset was tried; nothing is written");
   plan.stop = {};  // what was found is judged, interrupted or not
   const std::vector<std::size_t> front = sweep::front_of(found.trials);
   const sweep::Trial& nearest = found.trials[sweep::balanced(found.trials, front)];
-  if (nearest.missed > 0.0) return nothing_holds(plan, grounds, nearest, "no preset tried");
+  if (nearest.missed > 0.0) {
+    if (!found.stopped) kept.remove();
+    return nothing_holds(plan, grounds, nearest, "no preset tried");
+  }
   const sweep::Verdict verdict = sweep::judge_front(plan, grounds, found.trials, simple);
-  if (verdict.mine.missed > 0.0 && verdict.simple.missed > 0.0)
+  if (verdict.mine.missed > 0.0 && verdict.simple.missed > 0.0) {
+    if (!found.stopped) kept.remove();
     return nothing_holds(plan, grounds, verdict.mine, "no point of the front that was tried on the poses held back",
                          verdict.times);
+  }
   TunedFront out;
   out.stopped = found.stopped;
   out.preset = verdict.clearly ? verdict.preset : simple;

@@ -1,6 +1,7 @@
 // tune with objectives by name: the front of presets none of which is better in everything, and one of them to write.
 #pragma once
 
+#include "workbench/cli/tune_kept.h"
 #include "workbench/sweep/front_verdict.h"
 
 #include <memory>
@@ -43,8 +44,9 @@ struct TunedFront {
 /// Searches on the first three quarters of every ground's poses; the last quarter is held back and decides whether the
 /// choice is clearly better, by 2 % in an objective and in none worse by that, than the gains that theory names (G_o 1,
 /// G_k the finger's reach, G_d 0). If not, those are the choice: they are simpler. Fails where no trial keeps the
-/// constraints, naming the nearest, and where the front can't be written.
+/// constraints, naming the nearest, and where the front or what is `kept` can't be written. `kept` is opened here, and
+/// removed where no trial keeps the constraints.
 Result<TunedFront> tune_front(std::vector<sweep::FrontGround> grounds, const Preset& base, double gain_length_m,
-                              const TuneFrontOptions& options);
+                              const TuneFrontOptions& options, TuneKept& kept);
 
 }  // namespace tangent

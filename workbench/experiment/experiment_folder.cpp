@@ -1,30 +1,17 @@
 #include "workbench/experiment/experiment_folder.h"
 
 #include "core/io/atomic_file.h"
-#include "core/io/input_file.h"
-#include "workbench/recording/build_identity.h"
-
-#include <nlohmann/json.hpp>
+#include "workbench/experiment/bids_dataset.h"
 
 #include <algorithm>
-#include <charconv>
 
 namespace tangent::experiment {
 namespace {
 
-using nlohmann::ordered_json;
 namespace fs = std::filesystem;
-
-constexpr std::size_t kMaxSidecarBytes = std::size_t{1} << 22;
-constexpr int kSidecarFormat = 1;
 
 std::string kind_name(const Protocol& protocol) { return std::string(kProtocolKinds[protocol.kind.index()]); }
 
-std::span<const ColumnMeaning> columns_of(const Protocol& protocol) {
-  return protocol.discrimination() ? comparison_columns() : naming_columns();
-}
-
-fs::path beside(const fs::path& rows) { return fs::path(rows).replace_extension(".json"); }
 fs::path protocol_path(const fs::path& folder, const std::string& digest) {
   return folder / ("protocol-" + digest + ".toml");
 }
@@ -33,89 +20,6 @@ fs::path protocol_path(const fs::path& folder, const std::string& digest) {
 fs::path sibling(const fs::path& rows, const std::string& ending) {
   const std::string name = rows.filename().string();
   return rows.parent_path() / (name.substr(0, name.rfind("_beh")) + ending);
-}
-
-ordered_json sidecar_json(const Protocol& protocol, const Enrolment& enrolment) {
-  ordered_json json{{"TaskName", kind_name(protocol)},
-                    {"TaskDescription", protocol.name},
-                    {"format", kSidecarFormat},
-                    {"participant", enrolment.mark.participant},
-                    {"simulated", enrolment.mark.simulated},
-                    {"pilot", enrolment.mark.pilot},
-                    {"seed", std::to_string(enrolment.seed)},
-                    {"protocol", enrolment.protocol_digest},
-                    {"protocol_version", protocol.version},
-                    {"SoftwareName", "Tangent Workbench"},
-                    {"SoftwareVersion", TANGENT_VERSION},
-                    {"program", build_identity()},
-                    {"preset", preset_digest(protocol.preset)}};
-  for (const ColumnMeaning& column : columns_of(protocol)) {
-    ordered_json& entry = json["columns"][std::string(column.name)];
-    entry["Description"] = column.meaning;
-    if (!column.unit.empty()) entry["Units"] = column.unit;
-  }
-  json["columns"]["check"]["Description"] = "checksum of this row and the one before";
-  return json;
-}
-
-/// A sidecar's values, one after the other; the first that is missing or of another type is kept.
-class SidecarReader {
- public:
-  SidecarReader(const ordered_json& json, const fs::path& path) : json_(json), path_(path) {}
-
-  template <class T>
-  SidecarReader& take(const char* key, T& value, const char* otherwise = "no text") {
-    const auto found = json_.find(key);
-    if (found == json_.end()) return wrong(std::string("it has no \"") + key + "\"");
-    if (const T* held = found->template get_ptr<const T*>())
-      value = *held;
-    else
-      wrong(std::string("its \"") + key + "\" is " + otherwise);
-    return *this;
-  }
-  /// A whole number, written as text: JSON's numbers are not exact so far up.
-  SidecarReader& take_seed(const char* key, std::uint64_t& value) {
-    std::string text;
-    take(key, text);
-    if (!status_) return *this;
-    const char* end = text.data() + text.size();
-    const auto [at, error] = std::from_chars(text.data(), end, value);
-    return error == std::errc() && at == end ? *this : wrong(std::string("its \"") + key + "\" is no whole number");
-  }
-  const Status& status() const { return status_; }
-
- private:
-  SidecarReader& wrong(const std::string& what) {
-    if (status_)
-      status_ = fail("is no sidecar of an experiment: " + what, path_.string(), "use the file as it was written");
-    return *this;
-  }
-
-  const ordered_json& json_;
-  const fs::path& path_;
-  Status status_;
-};
-
-Result<Enrolment> enrolment_of(const ordered_json& json, const fs::path& path) {
-  Enrolment out;
-  std::int64_t format = 0;
-  SidecarReader reader(json, path);
-  reader.take("format", format, "no whole number");
-  if (reader.status() && format > kSidecarFormat)
-    return fail("is of a newer program", path.string(), "read it with that program");
-  reader.take("participant", out.mark.participant).take("simulated", out.mark.simulated);
-  reader.take("pilot", out.mark.pilot, "neither true nor false").take_seed("seed", out.seed);
-  reader.take("protocol", out.protocol_digest);
-  if (!reader.status()) return tl::unexpected(reader.status().error());
-  return out;
-}
-
-Result<Enrolment> read_enrolment(const fs::path& path) {
-  const Result<std::string> text = read_input_file(path, kMaxSidecarBytes);
-  if (!text) return tl::unexpected(text.error());
-  const ordered_json json = ordered_json::parse(*text, nullptr, false);
-  if (json.is_discarded()) return fail("is no JSON", path.string(), "use the file as it was written");
-  return enrolment_of(json, path);
 }
 
 /// How the two differ, for a person.
@@ -127,12 +31,26 @@ std::string difference(const Enrolment& begun, const Enrolment& now) {
   return begun.mark.pilot ? "as a pilot run" : "not as a pilot run";
 }
 
-}  // namespace
-
-std::string Enrolment::identity() const {
-  return "experiment 1|" + mark.participant + "|" + mark.simulated + "|" + (mark.pilot ? "pilot" : "") + "|" +
-         std::to_string(seed) + "|" + protocol_digest;
+/// A sidecar that is there has to be this participant's.
+Status check_sidecar(const fs::path& sidecar, const Protocol& protocol, const Enrolment& enrolment) {
+  std::error_code error;
+  if (!fs::exists(sidecar, error)) return write_sidecar(sidecar, protocol, enrolment);
+  const auto begun = read_sidecar_head(sidecar);
+  if (!begun) return tl::unexpected(begun.error());
+  if (begun->enrolment == enrolment) return {};
+  return fail("participant " + enrolment.mark.participant + " was begun " + difference(begun->enrolment, enrolment),
+              sidecar.string(), "go on as it was begun, or take another participant or folder");
 }
+
+Status check_twin(const fs::path& folder, const std::string& participant) {
+  const std::string twin = twin_by_case(folder, participant);
+  if (twin.empty()) return {};
+  return fail("participant " + participant + " differs from " + twin + " by small and capital letters alone",
+              (folder / ("sub-" + twin)).string(),
+              "write " + twin + " if it is the same person, else another name: not every disk tells them apart");
+}
+
+}  // namespace
 
 Status check_participant(const std::string& participant) {
   const bool fits = !participant.empty() && participant.size() <= 40 &&
@@ -151,9 +69,10 @@ fs::path rows_path(const fs::path& folder, const std::string& participant, const
 }
 
 Result<RowFile> enrol(const fs::path& folder, const Protocol& protocol, const std::string& protocol_text,
-                      const Enrolment& enrolment) {
+                      const Enrolment& enrolment, std::int64_t now_utc_s) {
   if (Status ok = check_participant(enrolment.mark.participant); !ok) return tl::unexpected(ok.error());
-  const fs::path rows = rows_path(folder, enrolment.mark.participant, protocol), sidecar = beside(rows);
+  if (Status ok = check_twin(folder, enrolment.mark.participant); !ok) return tl::unexpected(ok.error());
+  const fs::path rows = rows_path(folder, enrolment.mark.participant, protocol), sidecar = sidecar_path(rows);
   std::error_code error;
   fs::create_directories(rows.parent_path(), error);
   if (error)
@@ -162,54 +81,52 @@ Result<RowFile> enrol(const fs::path& folder, const Protocol& protocol, const st
   const fs::path kept = protocol_path(folder, enrolment.protocol_digest);
   if (!fs::exists(kept, error))
     if (Status ok = write_file_atomic(kept, protocol_text); !ok) return tl::unexpected(ok.error());
-  if (fs::exists(sidecar, error)) {
-    const Result<Enrolment> begun = read_enrolment(sidecar);
-    if (!begun) return tl::unexpected(begun.error());
-    if (*begun != enrolment)
-      return fail("participant " + enrolment.mark.participant + " was begun " + difference(*begun, enrolment),
-                  sidecar.string(), "go on as it was begun, or take another participant or folder");
-  } else {
-    const std::string text =
-        sidecar_json(protocol, enrolment).dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
-    if (Status ok = write_file_atomic(sidecar, text); !ok) return tl::unexpected(ok.error());
-  }
+  if (Status ok = check_sidecar(sidecar, protocol, enrolment); !ok) return tl::unexpected(ok.error());
   Fields columns;
   for (const ColumnMeaning& column : columns_of(protocol)) columns.emplace_back(column.name);
-  return RowFile::open(rows, columns, enrolment.identity());
+  auto file = RowFile::open(rows, columns, enrolment.identity());
+  if (!file) return file;
+  const auto head = read_sidecar_head(sidecar);
+  if (!head) return tl::unexpected(head.error());
+  Status ok = check_not_cut(rows, file->rows().size(), head->least().answers);
+  if (ok) ok = describe_dataset(folder);
+  if (ok) ok = list_participant(folder, enrolment.mark);
+  if (ok) ok = list_scan(rows, enrolment.mark, now_utc_s);
+  if (!ok) return tl::unexpected(ok.error());
+  return file;
 }
 
-std::filesystem::path events_path(const fs::path& rows) { return sibling(rows, "_events.tsv"); }
-std::filesystem::path recordings_path(const fs::path& rows) { return sibling(rows, "_recordings"); }
-
-Status note_stimuli(const fs::path& rows, const std::map<std::string, std::string>& hashes) {
-  const fs::path sidecar = beside(rows);
-  const Result<std::string> text = read_input_file(sidecar, kMaxSidecarBytes);
-  if (!text) return tl::unexpected(text.error());
-  ordered_json json = ordered_json::parse(*text, nullptr, false);
-  if (!json.is_object()) return fail("is no JSON", sidecar.string(), "use the file as it was written");
-  ordered_json known = json.value("stimuli", ordered_json::object());
-  if (!known.is_object()) known = ordered_json::object();
-  for (const auto& [name, hash] : hashes) known[name] = hash;
-  json["stimuli"] = std::move(known);
-  return write_file_atomic(sidecar, json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n");
+Status check_not_cut(const fs::path& table, std::size_t rows, std::size_t least) {
+  if (rows >= least) return {};
+  return fail(
+      "was cut at its end: " + std::to_string(rows) + " of at least " + std::to_string(least) + " rows are left",
+      table.string(), "put the file back as it was written");
 }
+
+fs::path sidecar_path(const fs::path& rows) { return fs::path(rows).replace_extension(".json"); }
+fs::path events_path(const fs::path& rows) { return sibling(rows, "_events.tsv"); }
+fs::path recordings_path(const fs::path& rows) { return sibling(rows, "_recordings"); }
 
 Result<Sidecar> read_sidecar(const fs::path& rows) {
-  const Result<Enrolment> enrolment = read_enrolment(beside(rows));
-  if (!enrolment) return tl::unexpected(enrolment.error());
+  if (!rows.filename().string().ends_with("_beh.tsv"))
+    return fail("is no table of answers: its name does not end with _beh.tsv", rows.string(),
+                "give the folder that `workbench experiment --out` was given, or a table in it");
+  const auto head = read_sidecar_head(sidecar_path(rows));
+  if (!head) return tl::unexpected(head.error());
+  const Enrolment& enrolment = head->enrolment;
   // DIR/sub-7/beh/x.tsv: the protocol is in DIR
   const fs::path folder = fs::absolute(rows).parent_path().parent_path().parent_path();
-  const fs::path file = protocol_path(folder, enrolment->protocol_digest);
+  const fs::path file = protocol_path(folder, enrolment.protocol_digest);
   std::error_code error;
   if (!fs::exists(file, error))
     return fail("is missing: the protocol that " + rows.filename().string() + " was answered under", file.string(),
                 "copy the protocol that the experiment was begun with to this name");
   Result<Protocol> protocol = read_protocol(file);
   if (!protocol) return tl::unexpected(protocol.error());
-  if (protocol_digest(*protocol) != enrolment->protocol_digest)
+  if (protocol_digest(*protocol) != enrolment.protocol_digest)
     return fail("is not the protocol that its name says: it was changed", file.string(),
                 "put the protocol back that the experiment was begun with");
-  return Sidecar{*enrolment, std::move(*protocol)};
+  return Sidecar{enrolment, std::move(*protocol), head->least()};
 }
 
 }  // namespace tangent::experiment

@@ -1,6 +1,6 @@
 #include "workbench/experiment/feeling.h"
 
-#include "devices/simulated/simulated_force_device.h"
+#include "workbench/experiment/simulated_touch.h"
 #include "workbench/experiment/stimuli.h"
 
 #include <boost/math/distributions/normal.hpp>
@@ -11,15 +11,10 @@
 namespace tangent::experiment {
 namespace {
 
-constexpr double kTick = 1e-3;                  // s
 constexpr std::size_t kWindow = 10;             // ticks that a jump may take
 constexpr double kMargin = 0.05;                // of the arc's angle that stays untouched at either end
 constexpr double kLanding = 0.25, kRest = 0.1;  // s, before and between strokes: not listened to
 constexpr double kAbove = 1e-3;                 // m, where the hand begins
-
-double normal_from(SplitMix& random) {
-  return boost::math::quantile(boost::math::normal(), std::clamp(random.unit(), 1e-12, 1.0 - 1e-12));
-}
 
 /// Force and display, tick by tick.
 struct Felt {
@@ -38,73 +33,53 @@ double largest_jump(const std::vector<Value>& values, Size size) {
   return *std::max_element(quiet, changes.end()) - *quiet;
 }
 
-/// The hand over an arc, closed loop: one tick between a sample and the force that answers it.
+/// The hand over an arc.
 class Hand {
  public:
   Hand(const FeltArc& arc, const Discrimination& design, const FeelingHand& hand, std::uint64_t seed)
-      : arc_(arc), stepper_(arc.scene), design_(design), hand_(hand), device_(options(seed)) {}
+      : touch_(arc.scene, arc.preset, seed),
+        finger_m_(arc.preset.finger.radius_m),
+        design_(design),
+        hand_(hand),
+        angle_(-half_angle()) {}
 
-  Status begin() {
-    if (Status ok = device_.open(); !ok) return ok;
-    lead(angle_ = -half_angle(), -kAbove, 0.0);
-    device_.place(target_);
-    device_.exchange({.request = DeviceRequest::home}, kTick);
-    for (int i = 0; i < 1000 && device_.exchange({}, kTick).state != DeviceState::ready; ++i) device_.place(target_);
-    return {};
-  }
+  Status begin() { return touch_.begin(target(-kAbove, 0.0)); }
   void rest(double seconds) {
-    for (int i = 0; i < seconds / kTick; ++i) {
-      lead(angle_, hand_.press_m, 0.0);
-      tick(nullptr);
-    }
+    for (int i = 0; i < seconds / kTouchTick_s; ++i) touch_.tick(target(hand_.press_m, 0.0));
   }
   /// To the other end.
   void stroke(Felt& felt) {
     const double to = angle_ < 0.0 ? half_angle() : -half_angle(), way = to - angle_;
-    const double turn = std::copysign(hand_.speed_m_per_s / reach(hand_.press_m) * kTick, way);
+    const double turn = std::copysign(hand_.speed_m_per_s / reach(hand_.press_m) * kTouchTick_s, way);
     for (double gone = 0.0; std::abs(gone) < std::abs(way); gone += turn) {
-      lead(angle_ += turn, hand_.press_m, turn / kTick);
-      tick(&felt);
+      angle_ += turn;
+      const TickOutput out = touch_.tick(target(hand_.press_m, turn / kTouchTick_s));
+      felt.force_n.push_back(out.force_n);
+      felt.display_m.push_back(out.cld_m);
     }
   }
-  double seconds() const { return t_s_; }
+  double seconds() const { return touch_.seconds(); }
 
  private:
-  static SimulatedForceOptions options(std::uint64_t seed) {
-    SimulatedForceOptions out;
-    out.seed = seed;
-    return out;
-  }
   double half_angle() const { return design_.angle_rad * (0.5 - kMargin); }
-  double reach(double press_m) const { return design_.radius_m + arc_.preset.finger.radius_m - press_m; }
-  void lead(double angle, double press_m, double turn_rad_per_s) {
-    const Vec3 out(std::sin(angle), std::cos(angle), 0.0), along(out.y, -out.x, 0.0);
-    target_.position_m = reach(press_m) * out;
-    target_.velocity_m_per_s = reach(press_m) * turn_rad_per_s * along;
-    device_.lead(target_);
-  }
-  void tick(Felt* felt) {
-    const ForceSample sample = device_.exchange({.force_n = force_}, kTick);
-    const TickOutput out = stepper_.step(arc_.preset, {t_s_, {sample.position_m, sample.orientation}}, state_);
-    t_s_ += kTick;
-    force_ = out.force_n;
-    if (felt == nullptr) return;
-    felt->force_n.push_back(out.force_n);
-    felt->display_m.push_back(out.cld_m);
+  double reach(double press_m) const { return design_.radius_m + finger_m_ - press_m; }
+  HandTarget target(double press_m, double turn_rad_per_s) const {
+    const Vec3 out(std::sin(angle_), std::cos(angle_), 0.0), along(out.y, -out.x, 0.0);
+    return {reach(press_m) * out, reach(press_m) * turn_rad_per_s * along};
   }
 
-  const FeltArc& arc_;
-  Stepper stepper_;
+  SimulatedTouch touch_;
+  double finger_m_;
   const Discrimination& design_;
   const FeelingHand& hand_;
-  SimulatedForceDevice device_;
-  HandTarget target_;
-  TickState state_;
-  Vec3 force_{0.0};
-  double angle_ = 0.0, t_s_ = 0.0;
+  double angle_;
 };
 
 }  // namespace
+
+double normal_from(SplitMix& random) {
+  return boost::math::quantile(boost::math::normal(), std::clamp(random.unit(), 1e-12, 1.0 - 1e-12));
+}
 
 Result<FeltArcs> arcs_to_feel(const Protocol& protocol) {
   auto stimuli = Stimuli::make(protocol);

@@ -1,6 +1,6 @@
 // A simulated participant who feels: the simulated hand strokes the stimulus, there and back, under the program's own
 // ticks, and all that is known of the stimulus is the force and the display that they render. What counts is the
-// largest jump met. Whichever of two has the larger one is taken for the polygon. Compares arcs; names no objects.
+// largest jump met. Whichever of two has the larger one is taken for the polygon.
 //
 // A jump is how far force, or display, comes within 10 ms, less how far it comes in the quietest tenth of the stroke,
 // so that the steady turn of a smooth arc is none. Jumps count in units of a person's own noise, the larger of the two
@@ -9,7 +9,8 @@
 //   force    20.8 mN, found by a staircase to 71 % (Lee & Hannaford 2003, eleven people)
 //   display  0.1 mm: a point's shift on the skin is told at a tenth to a thirtieth of the two-point limen (Loomis &
 //            Collins 1978), which is some 2 mm at the fingertip
-// Nothing is fitted to the paper's tables. Encoder steps, friction and tremor are the simulated device's own.
+// Nothing is fitted to the paper's tables. Encoder steps, friction and tremor are the simulated device's own. One who
+// names objects: feeling_namer.h.
 #pragma once
 
 #include "core/base/result.h"
@@ -46,6 +47,9 @@ struct FeelingHand {
 };
 /// Speeds of 70 to 130 mm/s, 1.5 to 3 mm under the surface, noise that varies by a third.
 FeelingHand feeling_hand(std::uint64_t participant, std::uint64_t seed);
+
+/// A standard normal value.
+double normal_from(SplitMix& random);
 
 /// The largest jumps of a touch.
 struct FeltJump {

@@ -122,6 +122,15 @@ void NamingRun::repeat(double t_s) {
   if (shown_.phase == Phase::training) show(Phase::training, t_s);
 }
 
+bool NamingRun::begins_session() const {
+  return next_ > 0 && !all_done() && trials_[next_].session != trials_[next_ - 1].session;
+}
+
+std::string NamingRun::session_text() const {
+  const int session = next_ > 0 ? trials_[next_ - 1].session : 0;
+  return "session " + std::to_string(session + 1) + " of " + std::to_string(design().sessions);
+}
+
 std::string NamingRun::what_is_next() const {
   const auto named = [this](std::size_t i) {
     if (i >= trials_.size()) return std::string("the end");

@@ -38,6 +38,9 @@ class NamingRun {
   const Shown& shown() const { return shown_; }
   bool finished() const { return shown_.phase == Phase::finished; }  ///< this session
   bool all_done() const { return next_ == trials_.size(); }
+  /// What comes next is the first trial of another session than the one before.
+  bool begins_session() const;
+  std::string session_text() const;  ///< of the newest answer: "session 1 of 2"; the first where there is none
   Progress progress() const { return {static_cast<int>(next_), static_cast<int>(trials_.size())}; }
   /// A finished trial, which has to be on the disk before the next moment.
   std::optional<NamingRow> advance(const Moment& moment);

@@ -71,6 +71,34 @@ Status compare_all(ComparisonRun& run, const Feel& feel, const Right& right,
   return {};
 }
 
+/// Takes a session to its end. `answer`: to a stimulus, with the trial's own random numbers.
+template <class Answer>
+Status name_all(NamingRun& run, const Identification& design, std::uint64_t seed, const Answer& answer,
+                const std::function<void(const NamingRow&)>& row) {
+  Actor actor(run);
+  while (!run.finished()) {
+    const Shown shown = run.shown();
+    if (shown.phase == Phase::guide) {
+      actor.act(0.5, false);
+      actor.act(design.hold_s, false);
+      continue;
+    }
+    if (shown.phase != Phase::explore) {
+      actor.press(Key::enter);
+      continue;
+    }
+    SplitMix random(seed, static_cast<std::uint64_t>(run.progress().done));
+    const Result<FeelingNamer::Named> named = answer(shown.stimulus, random);
+    if (!named) return tl::unexpected(named.error());
+    actor.act(0.3, true, Key::none, 0, 0.1);
+    actor.act(named->touching_s, true, Key::none, 0, 0.1);
+    actor.act(0.0, false, Key::none, 0, 0.1);
+    actor.act(named->seconds - named->touching_s, false, Key::none, 0, 0.1);
+    if (const auto made = actor.act(0.1, false, Key::digit, static_cast<int>(named->answer) + 1, 0.1)) row(*made);
+  }
+  return {};
+}
+
 }  // namespace
 
 void take_part(ComparisonRun& run, const KnownComparer& participant, std::uint64_t seed,
@@ -102,28 +130,21 @@ Status take_part(ComparisonRun& run, FeelingComparer& participant, std::uint64_t
 
 void take_part(NamingRun& run, const Identification& design, const KnownNamer& participant, std::uint64_t seed,
                const std::function<void(const NamingRow&)>& row) {
-  Actor actor(run);
-  while (!run.finished()) {
-    const Shown& shown = run.shown();
-    if (shown.phase == Phase::guide) {
-      actor.act(0.5, false);
-      actor.act(design.hold_s, false);
-      continue;
-    }
-    if (shown.phase != Phase::explore) {
-      actor.press(Key::enter);
-      continue;
-    }
-    const auto at = std::find(design.objects.begin(), design.objects.end(), shown.stimulus.object);
-    SplitMix random(seed, static_cast<std::uint64_t>(run.progress().done));
-    const std::size_t answer = draw(participant.shares[static_cast<std::size_t>(at - design.objects.begin())], random);
-    const double seconds = participant.seconds * -std::log(1.0 - 0.999 * random.unit());
-    actor.act(0.3, true, Key::none, 0, 0.1);
-    actor.act(seconds * participant.touching_share, true, Key::none, 0, 0.1);
-    actor.act(0.0, false, Key::none, 0, 0.1);
-    actor.act(seconds * (1.0 - participant.touching_share), false, Key::none, 0, 0.1);
-    if (const auto made = actor.act(0.1, false, Key::digit, static_cast<int>(answer) + 1, 0.1)) row(*made);
-  }
+  const auto answer = [&](const Stimulus& shown, SplitMix& random) -> Result<FeelingNamer::Named> {
+    const auto at = std::find(design.objects.begin(), design.objects.end(), shown.object);
+    FeelingNamer::Named out;
+    out.answer = draw(participant.shares[static_cast<std::size_t>(at - design.objects.begin())], random);
+    out.seconds = participant.seconds * -std::log(1.0 - 0.999 * random.unit());
+    out.touching_s = out.seconds * participant.touching_share;
+    return out;
+  };
+  static_cast<void>(name_all(run, design, seed, answer, row));
+}
+
+Status take_part(NamingRun& run, const Identification& design, FeelingNamer& participant, std::uint64_t seed,
+                 const std::function<void(const NamingRow&)>& row) {
+  const auto answer = [&](const Stimulus& shown, SplitMix& random) { return participant.name(shown, random); };
+  return name_all(run, design, seed, answer, row);
 }
 
 }  // namespace tangent::experiment

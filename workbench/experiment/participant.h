@@ -6,6 +6,7 @@
 #include "core/base/split_mix.h"
 #include "workbench/experiment/comparison_run.h"
 #include "workbench/experiment/feeling.h"
+#include "workbench/experiment/feeling_namer.h"
 #include "workbench/experiment/naming_run.h"
 #include "workbench/experiment/psychometric.h"
 
@@ -36,6 +37,9 @@ void take_part(ComparisonRun& run, const KnownComparer& participant, std::uint64
 /// Fails where a stimulus can't be made.
 Status take_part(ComparisonRun& run, FeelingComparer& participant, std::uint64_t seed,
                  const std::function<void(const ComparisonRow&)>& row);
+/// One session. Fails where a stimulus can't be made.
+Status take_part(NamingRun& run, const Identification& design, FeelingNamer& participant, std::uint64_t seed,
+                 const std::function<void(const NamingRow&)>& row);
 /// One session.
 void take_part(NamingRun& run, const Identification& design, const KnownNamer& participant, std::uint64_t seed,
                const std::function<void(const NamingRow&)>& row);

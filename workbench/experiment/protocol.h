@@ -11,7 +11,7 @@
 // of the second (5.3: which of seven objects is this),
 //   [objects]      names: key 1 is the first; rounding_m; practice; both_ways: those that face left or right;
 //                  facet_deg
-//   [runs]         sessions, blocks (a session's), runs (a block's); tactile_first = "even"
+//   [runs]         sessions, hours_between, blocks (a session's), runs (a block's); tactile_first = "even"
 //   [start]        place_m, radius_m, hold_s, guide_n_per_m, guide_limit_n
 #pragma once
 
@@ -53,10 +53,11 @@ struct Identification {
   double rounding_m = 1.5e-3;          ///< of the edges of shaded objects
   double facet_deg = 0.2;              ///< unshaded cone, cylinder and sphere: their facets turn by less than this
   int sessions = 2;
-  int blocks = 2;                  ///< of a session; tactile feedback changes between blocks
-  int runs = 2;                    ///< of a block, with the same objects, in an order of their own
-  bool tactile_first_even = true;  ///< participants of even number begin with tactile feedback, others without
-  Vec3 start_m{0.0};               ///< where the finger waits, world
+  double hours_between_sessions = 24.0;  ///< from the beginning of one to that of the next, at least
+  int blocks = 2;                        ///< of a session; tactile feedback changes between blocks
+  int runs = 2;                          ///< of a block, with the same objects, in an order of their own
+  bool tactile_first_even = true;        ///< participants of even number begin with tactile feedback, others without
+  Vec3 start_m{0.0};                     ///< where the finger waits, world
   double start_radius_m = 5e-3;
   double hold_s = 1.0;
   double guide_n_per_m = 30.0, guide_limit_n = 1.0;  ///< of the weak pull to the start

@@ -48,6 +48,8 @@ void add(Values& values, const Identification& d) {
   for (const double number :
        {d.start_m.x, d.start_m.y, d.start_m.z, d.start_radius_m, d.hold_s, d.guide_n_per_m, d.guide_limit_n})
     values.add(number);
+  // Protocols from before there was this value keep their digest.
+  if (d.hours_between_sessions != Identification{}.hours_between_sessions) values.add(d.hours_between_sessions);
 }
 
 }  // namespace

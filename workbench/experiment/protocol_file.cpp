@@ -77,7 +77,8 @@ class ProtocolReader {
       const PresetKey* row = find_preset_key(name);
       if (row == nullptr) return fail("unknown key", where, "write a preset's key in quotes, as \"finger.radius_m\"");
       const toml::table inner{{std::string(row->key), node}};
-      if (Status ok = read_preset_value(row->table, inner.begin()->first, node, where, protocol_.preset); !ok)
+      const std::string place = file_ + ":" + std::to_string(key.source().begin.line) + " [preset]";
+      if (Status ok = read_preset_value(row->table, inner.begin()->first, node, place, protocol_.preset); !ok)
         return ok;
     }
     return {};
@@ -157,6 +158,7 @@ class ProtocolReader {
     if (Status ok = finish(objects); !ok) return ok;
     TomlTable runs = reader("runs");
     runs.whole("sessions", d.sessions, 1, 100).whole("blocks", d.blocks, 1, 100).whole("runs", d.runs, 1, 100);
+    runs.number("hours_between", d.hours_between_sessions, 0.0, 8760.0);
     runs.choice("tactile_first", kParityNames, [&](std::size_t i) { d.tactile_first_even = i == 0; });
     if (Status ok = finish(runs); !ok) return ok;
     TomlTable start = reader("start");

@@ -119,7 +119,8 @@ RowFile::RowFile(RowFile&& other) noexcept
       csv_(std::exchange(other.csv_, -1)),
       bytes_(other.bytes_),
       last_check_(std::move(other.last_check_)),
-      rows_(std::move(other.rows_)) {}
+      rows_(std::move(other.rows_)),
+      added_(other.added_) {}
 
 RowFile::~RowFile() {
   if (file_ >= 0) ::close(file_);
@@ -186,6 +187,7 @@ Status RowFile::add(const Fields& fields) {
   const std::string check = check_of(last_check_, text);
   if (Status ok = write(text + check + "\n"); !ok) return ok;
   last_check_ = check;
+  ++added_;
   static_cast<void>(write_all(csv_, csv_line(fields)));
   return {};
 }

@@ -24,7 +24,8 @@ class RowFile {
   RowFile& operator=(RowFile&&) = delete;
   ~RowFile();
 
-  const std::vector<Fields>& rows() const { return rows_; }  ///< that were there, without `check`
+  const std::vector<Fields>& rows() const { return rows_; }    ///< that were there, without `check`
+  std::size_t count() const { return rows_.size() + added_; }  ///< rows in the file
   /// On the disk when it returns; where it fails (a full disk), nothing of it is, and it can be tried again.
   /// Precondition: as many fields as columns, none with a tab or a line end.
   Status add(const Fields& fields);
@@ -39,6 +40,7 @@ class RowFile {
   std::size_t bytes_ = 0;  ///< of whole rows
   std::string last_check_;
   std::vector<Fields> rows_;
+  std::size_t added_ = 0;
 };
 
 /// A table that was read.

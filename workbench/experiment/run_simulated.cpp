@@ -3,7 +3,9 @@
 #include "core/base/fnv.h"
 #include "workbench/experiment/order.h"
 #include "workbench/experiment/simulated_group.h"
-#include "workbench/recording/core_digest.h"
+#include "workbench/experiment/trial_setup.h"
+
+#include <optional>
 
 namespace tangent::experiment {
 namespace {
@@ -16,7 +18,7 @@ class Recorder {
   Recorder(RowFile& file, const Enrolment& enrolment, const std::function<bool()>& stop, SimulatedOutcome& out)
       : file_(file), mark_(enrolment.mark), stop_(stop), out_(out) {
     origin_.protocol = enrolment.protocol_digest;
-    origin_.program = std::string(core_digest()).substr(0, 16);
+    origin_.program = program_digest();
   }
   template <class Row>
   void add(const Row& row) {
@@ -43,7 +45,12 @@ Status compare(const Protocol& protocol, const Enrolment& enrolment, std::uint64
   if (!rows) return tl::unexpected(rows.error());
   auto run = ComparisonRun::start(protocol, number, enrolment.seed, *rows);
   if (!run) return tl::unexpected(run.error());
-  const auto add = [&](const ComparisonRow& row) { recorder.add(row); };
+  // Each start counts from 0.
+  const double before_s = rows->empty() ? 0.0 : rows->back().began_s + rows->back().first_s + rows->back().second_s;
+  const auto add = [&](ComparisonRow row) {
+    row.began_s += before_s;
+    recorder.add(row);
+  };
   if (enrolment.mark.simulated == kSimulatedKinds[1]) {
     auto arcs = arcs_to_feel(protocol);
     if (!arcs) return tl::unexpected(arcs.error());
@@ -60,15 +67,28 @@ Status name_objects(const Protocol& protocol, const Enrolment& enrolment, std::u
   auto rows = naming_rows(file);
   if (!rows) return tl::unexpected(rows.error());
   const Identification& design = *protocol.identification();
-  const KnownNamer participant = namer_like_the_papers(design);
+  const KnownNamer known = namer_like_the_papers(design);
+  std::optional<FeelingNamer> feeling;
+  if (enrolment.mark.simulated == kSimulatedKinds[1] &&
+      rows->size() < object_trials(design, number, enrolment.seed).size()) {
+    auto made = FeelingNamer::make(protocol, feeling_hand(number, enrolment.seed), enrolment.seed);
+    if (!made) return tl::unexpected(made.error());
+    feeling.emplace(std::move(*made));
+  }
   for (;;) {
     auto run = NamingRun::start(protocol, number, enrolment.seed, *rows);
     if (!run) return tl::unexpected(run.error());
     if (run->all_done()) return {};
-    take_part(*run, design, participant, enrolment.seed, [&](const NamingRow& row) {
+    const double before_s = rows->empty() ? 0.0 : rows->back().began_s + rows->back().since_touch_s;
+    const auto add = [&](NamingRow row) {
+      row.began_s += before_s;
       recorder.add(row);
       rows->push_back(row);
-    });
+    };
+    if (!feeling)
+      take_part(*run, design, known, enrolment.seed, add);
+    else if (Status ok = take_part(*run, design, *feeling, enrolment.seed, add); !ok)
+      return ok;
   }
 }
 
@@ -85,14 +105,13 @@ Result<SimulatedOutcome> run_simulated(const std::filesystem::path& folder, cons
   if (!number)
     return fail("\"" + enrolment.mark.participant + "\" ends with no number, which the orders go by", "--participant",
                 "write 7, or P07");
-  if (enrolment.mark.simulated == kSimulatedKinds[1] && !protocol.discrimination())
-    return fail("a participant who feels compares arcs, and names no objects", "--simulated feeling",
-                "take --simulated known, or a protocol of kind discrimination");
   Result<RowFile> file = enrol(folder, protocol, protocol_text, enrolment);
   if (!file) return tl::unexpected(file.error());
   SimulatedOutcome out;
   out.rows = rows_path(folder, enrolment.mark.participant, protocol);
   out.before = file->rows().size();
+  const std::filesystem::path sidecar = sidecar_path(out.rows);
+  if (Status ok = note_start(sidecar, utc_now_s(), {file->count(), 0}); !ok) return tl::unexpected(ok.error());
   Recorder recorder(*file, enrolment, stop, out);
   try {
     const Status ok = protocol.discrimination() ? compare(protocol, enrolment, *number, *file, recorder)
@@ -101,6 +120,7 @@ Result<SimulatedOutcome> run_simulated(const std::filesystem::path& folder, cons
   } catch (const Stopped&) {
     if (!recorder.status()) return tl::unexpected(recorder.status().error());
   }
+  if (Status ok = note_end(sidecar, utc_now_s(), {file->count(), 0}); !ok) return tl::unexpected(ok.error());
   return out;
 }
 

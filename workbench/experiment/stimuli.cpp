@@ -2,6 +2,7 @@
 
 #include "core/io/rendering_condition.h"
 #include "core/lab/objects/arc.h"
+#include "workbench/evidence/made_mesh.h"
 #include "workbench/recording/scene_bytes.h"
 
 #include <algorithm>
@@ -61,7 +62,7 @@ Result<Stimuli> Stimuli::make(const Protocol& protocol) {
     if (!curve) return tl::unexpected(curve.error());
     auto scene = ContactScene::build(std::move(*curve));
     if (!scene) return tl::unexpected(scene.error());
-    out.exact_arc_ = {*scene, scene_hash(**scene)};
+    out.exact_arc_ = {*scene, scene_hash(**scene), {}};
     for (const ComparisonCondition& condition : d->conditions)
       if (auto arc = out.arc(condition.name, 0); !arc) return tl::unexpected(arc.error());
     return out;
@@ -93,7 +94,7 @@ Status Stimuli::add_object(const std::string& name, bool shaded, Facing facing) 
   if (!mesh) return tl::unexpected(mesh.error());
   auto scene = ContactScene::build(std::move(*mesh), parts_of(shaded));
   if (!scene) return tl::unexpected(scene.error());
-  objects_[{name, shaded, facing}] = {*scene, scene_hash(**scene)};
+  objects_[{name, shaded, facing}] = {*scene, scene_hash(**scene), made_text({name, options})};
   return {};
 }
 
@@ -105,7 +106,7 @@ Result<RenderedStimulus> Stimuli::arc(const std::string& condition, int segments
   Preset preset = protocol_.preset;
   set_condition(preset, *found);
   const Placement placement = arc_placement(d->radius_m);
-  if (segments == 0) return RenderedStimulus{exact_arc_.scene, preset, "exact arc", exact_arc_.hash, placement};
+  if (segments == 0) return RenderedStimulus{exact_arc_.scene, preset, "exact arc", exact_arc_.hash, {}, placement};
   Result<PlanarPolygon> polygon = ArcStimulus{d->angle_rad, d->radius_m}.polygon(segments, d->placement);
   if (!polygon) return tl::unexpected(polygon.error());
   const std::string name = polygon->name;
@@ -113,7 +114,7 @@ Result<RenderedStimulus> Stimuli::arc(const std::string& condition, int segments
   if (!curve) return tl::unexpected(curve.error());
   auto scene = ContactScene::build(std::move(*curve));
   if (!scene) return tl::unexpected(scene.error());
-  return RenderedStimulus{*scene, preset, name, scene_hash(**scene), placement};
+  return RenderedStimulus{*scene, preset, name, scene_hash(**scene), {}, placement};
 }
 
 Result<RenderedStimulus> Stimuli::object(const std::string& name, bool shaded, bool tactile, Facing facing) const {
@@ -125,8 +126,9 @@ Result<RenderedStimulus> Stimuli::object(const std::string& name, bool shaded, b
     return fail("\"" + name + "\" is none of the objects", protocol_.name, "name one of them");
   Preset preset = protocol_.preset;
   set_condition(preset, object_condition(shaded, tactile));
-  return RenderedStimulus{found->second.scene, preset, spoken(name, shaded, both_ways, facing), found->second.hash,
-                          object_placement()};
+  return RenderedStimulus{
+      found->second.scene, preset, spoken(name, shaded, both_ways, facing), found->second.hash, found->second.made,
+      object_placement()};
 }
 
 Result<RenderedStimulus> Stimuli::rendered(const Stimulus& s) const {

@@ -20,6 +20,7 @@ struct RenderedStimulus {
   Preset preset;          ///< the protocol's, with the sources of force and display of the rendering condition
   std::string name;       ///< for the operator: "arc of 26 tangent segments", "cone facing left, shaded"
   std::string mesh_hash;  ///< scene_hash: 16 hex digits
+  std::string made;       ///< of an object: what makes its mesh, "make cone --segments 2000 --facing left"
   /// World to scene. The person's left is the scene's -x for objects, so that the finger points along +y and strokes
   /// along the object's axis from side to side (5.3.2); an arc lies along the finger, its middle at the device's
   /// origin.
@@ -43,7 +44,7 @@ class Stimuli {
  private:
   struct Built {
     std::shared_ptr<const ContactScene> scene;
-    std::string hash;
+    std::string hash, made;
   };
   using ObjectKey = std::tuple<std::string, bool, Facing>;  ///< name, shaded, facing
 

@@ -11,6 +11,13 @@ SceneSource source_of(const RenderedStimulus& stimulus) {
   return stimulus.scene->planar() != nullptr ? source_of_planar(*stimulus.scene) : SceneSource{};
 }
 
+/// With the command that makes its mesh, where that is not in the file: what asks for the mesh says the name.
+std::string recorded_name(const RenderedStimulus& stimulus) {
+  if (stimulus.made.empty()) return stimulus.name;
+  return stimulus.name + ", which `workbench " + stimulus.made +
+         " --unit m --out mesh.obj` writes (read it with --unit m)";
+}
+
 fs::path free_name(const fs::path& folder, int trial) {
   char number[16];
   std::snprintf(number, sizeof number, "%04d", trial);
@@ -30,7 +37,7 @@ Status TrialRecorder::begin(Session& session, const fs::path& folder, int trial,
   if (error) return fail("can't be made: " + error.message(), folder.string(), "choose a folder that may be written");
   const fs::path path = free_name(folder, trial);
   auto recorder =
-      SessionRecorder::start(session, path, {source_of(stimulus), stimulus.name, session.options().threaded});
+      SessionRecorder::start(session, path, {source_of(stimulus), recorded_name(stimulus), session.options().threaded});
   if (!recorder) return tl::unexpected(recorder.error());
   recorder_ = std::move(*recorder);
   file_ = path.parent_path().filename() / path.filename();
@@ -38,7 +45,7 @@ Status TrialRecorder::begin(Session& session, const fs::path& folder, int trial,
 }
 
 void TrialRecorder::scene_changed(std::uint32_t id, const RenderedStimulus& stimulus) {
-  if (recorder_) recorder_->scene_changed(id, stimulus.scene, stimulus.name, source_of(stimulus));
+  if (recorder_) recorder_->scene_changed(id, stimulus.scene, recorded_name(stimulus), source_of(stimulus));
 }
 
 std::string TrialRecorder::poll() {

@@ -36,7 +36,7 @@ const std::array<Column<C>, 14> kComparison{{
     {{"response", "", "taken for the smooth one: 1, 2"}, &C::answer},
     {{"correct", "", "the reference was taken for the smooth one: yes, no"}, &C::right},
     {{"reversal", "", "the staircase turned at this trial: yes, no"}, &C::reversal},
-    {{"onset", "s", "the first stimulus was shown, since the program was started"}, &C::began_s},
+    {{"onset", "s", "the first stimulus was shown, since the participant's first start of the program"}, &C::began_s},
     {{"first_time", "s", "from the first touch of the first stimulus to Enter"}, &C::first_s},
     {{"response_time", "s", "from the first touch of the second stimulus to the answer"}, &C::second_s},
     {{"second_touching", "s", "of response_time, touching"}, &C::second_touching_s},
@@ -53,7 +53,7 @@ const std::array<Column<N>, 13> kNaming{{
     {{"facing", "", "where the tip of cone and tetrahedron pointed: left, right"}, &N::facing},
     {{"response", "", "what it was taken for"}, &N::answer},
     {{"correct", "", "yes, no"}, &N::right},
-    {{"onset", "s", "the ding, since the program was started"}, &N::began_s},
+    {{"onset", "s", "the ding, since the participant's first start of the program"}, &N::began_s},
     {{"response_time", "s", "from the first touch to the answer"}, &N::since_touch_s},
     {{"touching", "s", "of response_time, touching"}, &N::touching_s},
 }};

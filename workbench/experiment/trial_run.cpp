@@ -22,13 +22,13 @@ Result<std::variant<ComparisonRun, NamingRun>> run_after(const RowFile& file, co
 }  // namespace
 
 Result<TrialRun> TrialRun::start(const std::filesystem::path& folder, const Protocol& protocol,
-                                 const std::string& protocol_text, const Enrolment& enrolment) {
+                                 const std::string& protocol_text, const Enrolment& enrolment, std::int64_t now_utc_s) {
   const std::string& name = enrolment.mark.participant;
   if (Status ok = check_participant(name); !ok) return tl::unexpected(ok.error());
   const auto number = participant_number(name);
   if (!number)
     return fail("\"" + name + "\" ends with no number, which the orders go by", "--participant", "write 7, or P07");
-  Result<RowFile> file = enrol(folder, protocol, protocol_text, enrolment);
+  Result<RowFile> file = enrol(folder, protocol, protocol_text, enrolment, now_utc_s);
   if (!file) return tl::unexpected(file.error());
   const std::filesystem::path rows = rows_path(folder, name, protocol);
   auto run = run_after(*file, protocol, *number, enrolment.seed);
@@ -57,11 +57,25 @@ std::vector<std::pair<int, bool>> TrialRun::staircase() const {
   return comparison != nullptr ? comparison->answers() : std::vector<std::pair<int, bool>>{};
 }
 
+bool TrialRun::begins_session() const {
+  const auto* naming = std::get_if<NamingRun>(&run_);
+  return naming != nullptr && naming->begins_session();
+}
+
+std::string TrialRun::outcome() const {
+  if (!finished()) return "ended before its end";
+  const auto* naming = std::get_if<NamingRun>(&run_);
+  return naming != nullptr && !naming->all_done() ? naming->session_text() + " complete" : "complete";
+}
+
 Status TrialRun::advance(const Moment& moment, const RowOrigin& origin) {
   if (owed_) return settle();
   std::visit(
       [&](auto& run) {
-        if (const auto row = run.advance(moment)) owed_ = fields_of(mark_, *row, origin);
+        if (auto row = run.advance(moment)) {
+          row->began_s += begun_after_s_;
+          owed_ = fields_of(mark_, *row, origin);
+        }
       },
       run_);
   return settle();

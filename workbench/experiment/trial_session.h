@@ -2,8 +2,7 @@
 // the finger, tells from the ticks when it is touched, draws the finger to the start, writes the answers, and pauses on
 // whatever goes wrong; the trial that was cut is then begun again, and its row says so.
 //
-// Nothing pushes while a stimulus is replaced: what is felt fades out, the scene changes, and it comes back once the
-// finger is off the new one (session/surface_switch.h). All force goes through the safety gate.
+// How stimuli are replaced: stimulus_changer.h. All force goes through the safety gate.
 //
 //   auto trials = TrialSession::start(std::move(options));
 //   every frame: trials->press(key); trials->poll(); draw participant() and operator_view()
@@ -12,13 +11,15 @@
 // One thread (the GUI's) owns it and makes all calls.
 #pragma once
 
+#include "workbench/experiment/stimulus_changer.h"
 #include "workbench/experiment/trial_events.h"
 #include "workbench/experiment/trial_recorder.h"
 #include "workbench/experiment/trial_run.h"
-#include "workbench/session/exploration_path.h"
 #include "workbench/session/session.h"
 
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -74,7 +75,9 @@ struct TrialOptions {
   SessionOptions session;        ///< devices, servo; arm_on_start is not used; without a placement, the stimuli's
   std::string sound = "none";    ///< what plays noise and cues, for the rows
   bool record = false;           ///< every tick of each trial
+  bool same_day = false;         ///< a session may follow the one before sooner than the protocol says
   bool without_timeout = false;  ///< a person was told of Session::without_timeout and said yes
+  std::function<std::int64_t()> utc_s = utc_now_s;  ///< the date, seconds since 1970
 };
 
 class TrialSession {
@@ -97,7 +100,8 @@ class TrialSession {
   ParticipantView participant() const;
   OperatorView operator_view() const;
   bool finished() const { return ended_ || run_.finished(); }
-  bool complete() const { return run_.finished(); }  ///< this session of it; else it was ended before
+  bool complete() const { return run_.finished(); }       ///< this session of it; else it was ended before
+  std::string outcome() const { return run_.outcome(); }  ///< in words
   const Session& session() const { return *session_; }
   Session& session() { return *session_; }  ///< for its clutch, placement and, unthreaded, `advance`
   const std::filesystem::path& rows() const { return run_.rows(); }
@@ -118,24 +122,23 @@ class TrialSession {
   bool watch_faults(const ServoRecord& record);
   void advance(Key key, int digit);
   void show();
-  void put(const Stimulus& shown);
+  Status tell_interval();
   bool begin_trial();
-  void wish(const SurfaceWish& wish);
-  void lead_simulated_hand();
+  void lead_hand();
+  void watch_start();
   void pause(const std::string& why);
   void resume();
   Status log(TrialEvent event, const std::string& text);
-  bool is_in() const;
+  Status log_arming();
+  double clock_s() const { return any_ ? last_.tick.input.t_s : 0.0; }  ///< of this start
   RowOrigin origin() const;
   Status check_devices_are_there() const;
-  SurfaceWish pull_to_start() const;
-  Vec3 finger_from_start_m() const;
 
   TrialOptions options_;
-  Stimuli stimuli_;
   TrialRun run_;
   TrialEvents events_;
   std::unique_ptr<Session> session_;
+  StimulusChanger changer_;
   TrialRecorder recorder_;
 
   Stage stage_ = Stage::paused;
@@ -147,16 +150,12 @@ class TrialSession {
   std::uint64_t armed_from_ = 0;  ///< ticks before this one say nothing of the wish to arm
   Moment moment_;                 ///< the last
 
-  Stimulus put_;  ///< that the session was given; none: no surface is felt
-  std::uint32_t put_scene_ = 0, put_preset_ = 0;
-  RenderedStimulus put_stimulus_;
-  std::string comparison_hash_ = "n/a";
-  std::map<std::string, ExplorationPath> paths_;  ///< by mesh: those of large ones take long
-  std::map<std::string, std::string> hashes_;     ///< of what was shown
-  SurfaceWish wish_;
-  Placement placement_;  ///< world -> scene
-  int begun_ = -1;       ///< trial that the events know of in this start
-  bool raised_ = false;  ///< the simulated finger
+  std::optional<Phase> told_;  ///< interval that the events know of; none: the next one is new
+  int begun_ = -1;             ///< trial that the events know of in this start
+  bool ever_armed_ = false;
+  std::optional<bool> devices_there_;  ///< before the first force; none: not known yet
+  double paused_at_s_ = 0.0;
+  double begun_after_s_ = 0.0;  ///< the participant's first start
 };
 
 }  // namespace tangent::experiment

@@ -5,6 +5,7 @@
 #include "devices/device_safety.h"
 #include "devices/usb/packet_recorder.h"
 #include "workbench/session/cpu_wakeup.h"
+#include "workbench/session/kept_devices.h"
 #include "workbench/session/parts_builder.h"
 #include "workbench/session/servo.h"
 #include "workbench/session/tick_again.h"
@@ -213,10 +214,12 @@ Result<std::unique_ptr<Session>> Session::create(std::shared_ptr<const ContactSc
     if (!recorder) return tl::unexpected(recorder.error());
     packets = std::move(*recorder);
   }
-  DeviceOptions wanted{.seed = options.seed, .tap = packets.get()};
+  DeviceOptions wanted = options.drivers;
+  wanted.seed = options.seed;
+  wanted.tap = packets.get();
   wanted.maestro.calibration = options.maestro;
   wanted.maestro.channel = static_cast<std::uint8_t>(options.maestro_channel);
-  auto devices = make_devices(options.devices, wanted);
+  auto devices = make_devices_as_kept(options.devices, wanted);
   if (!devices) return tl::unexpected(devices.error());
   return Impl::create(std::move(scene), preset, std::move(options), std::move(*devices), std::move(packets),
                       std::move(prepared));
@@ -508,6 +511,8 @@ const DisplayCapabilities* Session::display_capabilities() const {
 const SessionOptions& Session::options() const { return impl_->options; }
 const SafetyLog& Session::safety_log() const { return impl_->log; }
 GateLimits Session::gate_limits() const { return tangent::gate_limits(impl_->devices, impl_->options.servo.rate_hz); }
+bool Session::force_report(LinkReport& out) const { return impl_->devices.force && impl_->devices.force->report(out); }
+
 bool Session::display_report(LinkReport& out) const {
   return impl_->devices.display && impl_->devices.display->report(out);
 }

@@ -51,6 +51,7 @@ struct SessionOptions {
   DeviceNames devices;
   MaestroCalibration maestro;  ///< for "maestro"
   unsigned maestro_channel = 0;
+  DeviceOptions drivers;          ///< of the real force devices; seed, maestro and tap are those of this struct
   std::filesystem::path packets;  ///< file to which every USB packet is logged; empty: none
   std::uint64_t seed = 1;         ///< of the simulated devices
   double history_s = 600.0;       ///< length of the history, within kLargestHistoryBytes
@@ -197,6 +198,8 @@ class Session {
   GateLimits gate_limits() const;
   /// State of the display's USB link; false when it has none.
   bool display_report(LinkReport& out) const;
+  /// The same of the force device, with what is wrong with it.
+  bool force_report(LinkReport& out) const;
   const LogHistogram& lateness_ns() const;  ///< delay of ticks after their deadlines
   const LogHistogram& period_ns() const;    ///< from tick to tick
   /// From when a position of the finger was measured to when the force for it goes out to the device.

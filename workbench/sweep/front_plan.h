@@ -12,6 +12,8 @@
 
 namespace tangent::sweep {
 
+struct RacedTrial;
+
 /// A mesh and motion to be good on.
 struct FrontGround {
   Ground ground;
@@ -46,6 +48,11 @@ struct FrontPlan {
   // For whoever watches, called by the threads that try.
   std::function<bool()> stop;               ///< asked often; true: the search ends at once, keeps the finished trials
   std::function<void(const Trial&)> tried;  ///< each trial as it is done; of several threads in any order
+  // For whoever keeps what was tried, to go on with a search that was ended (tuning_file.h). Trials have numbers, from
+  // 0.
+  /// Null: was not tried with these values. Called by any thread.
+  std::function<const RacedTrial*(std::size_t number, const std::vector<double>& values)> known;
+  std::function<void(std::size_t number, const RacedTrial&)> keep;  ///< each that was not known, by any thread
 };
 
 }  // namespace tangent::sweep

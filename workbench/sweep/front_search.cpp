@@ -98,14 +98,22 @@ class Trials {
     while (runs_.size() < std::max(1u, plan_.threads)) runs_.emplace_back(plan_, grounds_);
     on_threads(runs_.size(), [&](std::size_t worker) {
       for (std::size_t i = next.fetch_add(1); i < wanted.size() && !stopped(); i = next.fetch_add(1)) {
-        raced[i] = runs_[worker].race(wanted[i].second, race ? &rivals_ : nullptr);
+        raced[i] = known_or_raced(result_.trials.size() + i, wanted[i], runs_[worker], race ? &rivals_ : nullptr);
         if (raced[i].trial.objectives.empty()) return;
-        raced[i].trial.values = wanted[i].first;
         if (plan_.tried) plan_.tried(raced[i].trial);
       }
     });
     result_.stopped = stopped();
     keep(std::move(raced));
+  }
+
+  RacedTrial known_or_raced(std::size_t number, const Wanted::value_type& wanted, TrialRun& run, const Rivals* rivals) {
+    if (plan_.known)
+      if (const RacedTrial* const known = plan_.known(number, wanted.first)) return *known;
+    RacedTrial raced = run.race(wanted.second, rivals);
+    raced.trial.values = wanted.first;
+    if (plan_.keep && !raced.trial.objectives.empty()) plan_.keep(number, raced);
+    return raced;
   }
 
   /// Those that were finished; the best of them are whom the next batch races against.

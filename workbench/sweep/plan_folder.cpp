@@ -42,9 +42,23 @@ Status copy_input(const fs::path& from, const fs::path& to) {
   return out->commit();
 }
 
+bool same_bytes(const fs::path& a, const fs::path& b) {
+  std::error_code error;
+  const std::uintmax_t size = fs::file_size(a, error);
+  if (error || !fs::is_regular_file(b, error) || fs::file_size(b, error) != size || error) return false;
+  std::ifstream one(a, std::ios::binary), other(b, std::ios::binary);
+  std::string part(std::size_t{1} << 20, '\0'), beside(part.size(), '\0');
+  for (;;) {
+    one.read(part.data(), static_cast<std::streamsize>(part.size()));
+    other.read(beside.data(), static_cast<std::streamsize>(beside.size()));
+    if (one.gcount() != other.gcount() || part != beside) return false;
+    if (one.gcount() == 0) return true;
+  }
+}
+
 /// Copies what the plan reads into `inputs`, each into a folder of its own, so that names stay; where they are from the
-/// plan's folder, meshes first.
-Result<std::vector<std::string>> copy_inputs(const Plan& plan, const fs::path& inputs) {
+/// plan's folder, meshes first. What is there already stays; `copied` counts the others.
+Result<std::vector<std::string>> copy_inputs(const Plan& plan, const fs::path& inputs, std::size_t& copied) {
   std::vector<std::string> names;
   const auto copy = [&](const fs::path& from) -> Status {
     const fs::path to = fs::path(std::to_string(names.size())) / from.filename();
@@ -54,7 +68,10 @@ Result<std::vector<std::string>> copy_inputs(const Plan& plan, const fs::path& i
     if (!fs::is_regular_file(from, error))
       return fail(fs::exists(from, error) ? "is no file that can be copied" : "is not there", from.string(),
                   "name a file that is there");
-    if (Status ok = copy_input(from, inputs / to); !ok) return ok;
+    if (!same_bytes(from, inputs / to)) {
+      if (Status ok = copy_input(from, inputs / to); !ok) return ok;
+      ++copied;
+    }
     names.push_back((fs::path("inputs") / to).string());
     return {};
   };
@@ -139,7 +156,8 @@ Status fill_folder(const fs::path& folder, const Plan& plan, const Cells& cells,
     fs::create_directories(folder / name, error);
     if (error) return system_error(folder / name, error, "can't be made");
   }
-  const Result<std::vector<std::string>> names = copy_inputs(plan, folder / "inputs");
+  std::size_t written = 0;
+  const Result<std::vector<std::string>> names = copy_inputs(plan, folder / "inputs", written);
   if (!names) return tl::unexpected(names.error());
   if (Status ok = write_file_atomic(folder / "plan.toml", format_plan(plan, *names)); !ok) return ok;
   const Result<Plan> copied = read_plan(folder / "plan.toml");
@@ -182,7 +200,15 @@ Status write_plan_folder(const fs::path& folder, const Plan& plan, std::uint64_t
   return filled;
 }
 
-Result<PlanFolder> open_plan_folder(const fs::path& folder) {
+namespace {
+
+/// What plan.json says.
+struct Divided {
+  std::string digest;
+  std::uint64_t cells = 0, shards = 0, times = 0;
+};
+
+Result<Divided> read_divided(const fs::path& folder) {
   const fs::path file = folder / "plan.json";
   const Result<std::string> text = read_input_file(file, kMaxBytes);
   if (!text) return tl::unexpected(text.error());
@@ -195,15 +221,36 @@ Result<PlanFolder> open_plan_folder(const fs::path& folder) {
   const bool named = json.is_object() && json.contains("plan") && json["plan"].is_string();
   if (whole("format") != kFolderFormat || !named || whole("cells") == 0 || whole("shards") == 0)
     return fail("is no divided plan", file.string(), "make one: workbench sweep plan PLAN.toml --out DIR --shards N");
+  return Divided{json["plan"].get<std::string>(), whole("cells"), whole("shards"), whole("times")};
+}
+
+}  // namespace
+
+Result<std::size_t> put_back_inputs(const fs::path& folder, const Plan& plan, std::uint64_t shards) {
+  const Result<Divided> divided = read_divided(folder);
+  if (!divided) return tl::unexpected(divided.error());
+  if (divided->digest != plan_digest(plan) || divided->shards != shards)
+    return fail("holds another plan, or one in other shards (or its meshes or poses have changed since)",
+                folder.string(), "name a new folder");
+  std::size_t copied = 0;
+  const Result<std::vector<std::string>> names = copy_inputs(plan, folder / "inputs", copied);
+  if (!names) return tl::unexpected(names.error());
+  if (Status ok = write_file_atomic(folder / "plan.toml", format_plan(plan, *names)); !ok)
+    return tl::unexpected(ok.error());
+  return copied;
+}
+
+Result<PlanFolder> open_plan_folder(const fs::path& folder) {
+  const Result<Divided> divided = read_divided(folder);
+  if (!divided) return tl::unexpected(divided.error());
   Result<Plan> plan = read_plan(folder / "plan.toml");
   if (!plan) return tl::unexpected(plan.error());
-  PlanFolder out{folder,         std::move(*plan), json["plan"].get<std::string>(),
-                 whole("cells"), whole("shards"),  whole("times")};
+  PlanFolder out{folder, std::move(*plan), divided->digest, divided->cells, divided->shards, divided->times};
   const Result<Cells> cells = Cells::of(out.plan);
   if (!cells) return tl::unexpected(cells.error());
   if (cells->size() != out.cells || plan_digest(out.plan) != out.digest)
     return fail("plan, meshes or poses are not those that were divided", folder.string(),
-                "put them back, or divide the plan anew into another folder");
+                "say sweep plan again, with the same plan, --out and --shards: it puts them back");
   return out;
 }
 

@@ -37,6 +37,11 @@ Status check_shards(std::uint64_t shards, const Cells& cells);
 Status write_plan_folder(const std::filesystem::path& folder, const Plan& plan, std::uint64_t shards,
                          const JobScripts& scripts);
 
+/// Where the folder holds this very plan, in as many shards: copies its meshes and poses into it again, those that are
+/// missing or not as they were. Nothing else changes, shards stay. Returns how many were put back. Fails on a folder
+/// of another plan, also where meshes or poses are no longer those that were divided.
+Result<std::size_t> put_back_inputs(const std::filesystem::path& folder, const Plan& plan, std::uint64_t shards);
+
 /// Fails where the folder holds no plan, or its plan or inputs are not those that were divided.
 Result<PlanFolder> open_plan_folder(const std::filesystem::path& folder);
 

@@ -1,6 +1,7 @@
 #include "workbench/sweep/results_file.h"
 
 #include "workbench/recording/build_identity.h"
+#include "workbench/sweep/plan_digest.h"
 
 #include <ctime>
 #include <fstream>
@@ -59,11 +60,23 @@ std::string meta_row(const std::string& key, const std::string& value) {
   return "INSERT INTO meta VALUES(" + sql_text(key) + "," + sql_text(value) + ");";
 }
 
+/// Each followed by a line end.
+std::string input_lines(const Plan& plan) {
+  std::string out;
+  for (const std::string& digest : plan_input_digests(plan)) out += digest + "\n";
+  return out;
+}
+
+/// Of meshes and motions: by themselves, to tell which of them has changed.
+std::string input_rows(const Plan& plan) {
+  return meta_row("plan_values", plan_values_digest(plan)) + meta_row("plan_inputs", input_lines(plan));
+}
+
 std::string meta_rows(const Cells& cells, const std::string& digest) {
   std::string out = meta_row("format", std::to_string(kResultsFormat)) + meta_row("plan_digest", digest) +
                     meta_row("plan", format_plan(cells.plan())) + meta_row("cells", std::to_string(cells.size())) +
                     meta_row("program", "Tangent Workbench " TANGENT_VERSION) + meta_row("build", build_identity()) +
-                    meta_row("started_utc", utc_now());
+                    meta_row("started_utc", utc_now()) + input_rows(cells.plan());
   for (const Range& range : cells.plan().ranges)
     out += meta_row("column " + range.key->full_name(),
                     range.key->unit.empty() ? "" : "in " + std::string(range.key->unit));
@@ -85,8 +98,8 @@ bool may_be_database(const std::filesystem::path& path) {
 
 }  // namespace
 
-Result<ResultsFile> ResultsFile::open(const std::filesystem::path& path, const Cells& cells,
-                                      const std::string& digest) {
+Result<ResultsFile> ResultsFile::open(const std::filesystem::path& path, const Cells& cells, const std::string& digest,
+                                      FailedCells failed) {
   std::error_code error;
   const bool there = std::filesystem::exists(path, error);
   if (there && !may_be_database(path))
@@ -95,7 +108,7 @@ Result<ResultsFile> ResultsFile::open(const std::filesystem::path& path, const C
   if (!database) return tl::unexpected(database.error());
   ResultsFile out(std::move(*database), cells);
   out.done_.assign(cells.size(), false);
-  if (Status ok = there ? out.go_on(digest) : out.create(digest); !ok) return tl::unexpected(ok.error());
+  if (Status ok = there ? out.go_on(digest, failed) : out.create(digest); !ok) return tl::unexpected(ok.error());
   if (Status ok = out.prepare(); !ok) return tl::unexpected(ok.error());
   if (Status ok = out.begin(); !ok) return tl::unexpected(ok.error());
   return out;
@@ -119,7 +132,70 @@ Status ResultsFile::create(const std::string& digest) {
                        schema(cells_.plan()) + meta_rows(cells_, digest) + "COMMIT;");
 }
 
-Status ResultsFile::go_on(const std::string& digest) {
+namespace {
+
+/// Which input a line of `now` differs for from that of `before`; as many as there are lines: none, or not known.
+std::vector<bool> changed_lines(std::string_view before, std::string_view now) {
+  std::vector<bool> out;
+  while (!now.empty()) {
+    const std::string_view was = before.substr(0, before.find('\n')), is = now.substr(0, now.find('\n'));
+    out.push_back(was != is);
+    before.remove_prefix(std::min(before.size(), was.size() + 1));
+    now.remove_prefix(is.size() + 1);
+  }
+  return out;
+}
+
+constexpr const char* kOtherPlan = "holds the results of another plan (or its meshes or poses have changed)";
+
+}  // namespace
+
+/// Whether nothing has changed but what no number was had from.
+Status ResultsFile::check_mended() {
+  const std::string name = database_.path().string();
+  const Plan& plan = cells_.plan();
+  const Result<std::string> values = database_.text_of("SELECT value FROM meta WHERE key='plan_values'");
+  if (!values) return tl::unexpected(values.error());
+  const Result<std::string> inputs = database_.text_of("SELECT value FROM meta WHERE key='plan_inputs'");
+  if (!inputs) return tl::unexpected(inputs.error());
+  if (*values != plan_values_digest(plan)) return fail(kOtherPlan, name, "choose another name");
+  std::vector<bool> changed = changed_lines(*inputs, input_lines(plan));
+  changed.resize(plan.meshes.size() + plan.poses.size(), false);
+  Result<Statement> rows = database_.prepare("SELECT cell FROM cells WHERE failed IS NULL");
+  if (!rows) return tl::unexpected(rows.error());
+  for (;;) {
+    const Result<bool> row = rows->step();
+    if (!row) return tl::unexpected(row.error());
+    if (!*row) return {};
+    const auto index = static_cast<std::uint64_t>(rows->whole(0));
+    if (index >= cells_.size()) return fail("names a cell that the plan does not have", name, "choose another name");
+    const Cell cell = cells_.at(index);
+    if (changed[cell.mesh])
+      return fail("has changed since cells were solved on it", plan.meshes[cell.mesh].string(),
+                  "put it back, or choose another name for the results");
+    if (changed[plan.meshes.size() + cell.poses])
+      return fail("has changed since cells were solved on it", plan.poses[cell.poses],
+                  "put it back, or choose another name for the results");
+  }
+}
+
+Status ResultsFile::leave_out_failed(const std::string& digest) {
+  return database_.run(
+      "BEGIN;DELETE FROM cells WHERE failed IS NOT NULL;DELETE FROM meta WHERE key IN "
+      "('plan_digest','plan_values','plan_inputs');" +
+      meta_row("plan_digest", digest) + input_rows(cells_.plan()) + "COMMIT");
+}
+
+Status ResultsFile::check_kept(const std::string& digest, FailedCells failed) {
+  const Result<std::string> kept = database_.text_of("SELECT value FROM meta WHERE key='plan_digest'");
+  if (!kept) return tl::unexpected(kept.error());
+  if (*kept == digest) return {};
+  if (failed == FailedCells::again) return check_mended();
+  return fail(kOtherPlan, database_.path().string(),
+              "choose another name, or add --again failed where only what could not be read has changed");
+}
+
+Status ResultsFile::go_on(const std::string& digest, FailedCells failed) {
   const std::string name = database_.path().string();
   const Result<std::int64_t> id = database_.whole_of("PRAGMA application_id");
   if (!id) return tl::unexpected(id.error());
@@ -132,11 +208,10 @@ Status ResultsFile::go_on(const std::string& digest) {
   if (*format != kResultsFormat)
     return fail(*format < kResultsFormat ? "is of an older program" : "is of a newer program", name,
                 "choose another name");
-  const Result<std::string> kept = database_.text_of("SELECT value FROM meta WHERE key='plan_digest'");
-  if (!kept) return tl::unexpected(kept.error());
-  if (*kept != digest)
-    return fail("holds the results of another plan (or its meshes or poses have changed)", name, "choose another name");
+  if (Status ok = check_kept(digest, failed); !ok) return ok;
   if (Status ok = database_.run("PRAGMA journal_mode=WAL;PRAGMA synchronous=NORMAL"); !ok) return ok;
+  if (failed == FailedCells::again)
+    if (Status ok = leave_out_failed(digest); !ok) return ok;
   Result<Statement> rows = database_.prepare("SELECT cell FROM cells");
   if (!rows) return tl::unexpected(rows.error());
   for (;;) {

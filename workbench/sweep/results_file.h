@@ -9,11 +9,18 @@
 
 namespace tangent::sweep {
 
+/// What a file that is gone on with does with its cells that have no numbers.
+enum class FailedCells : std::uint8_t {
+  keep,   ///< they stay as they are
+  again,  ///< they are left out, to be solved again; meshes and motions that no number was had from may have changed
+};
+
 class ResultsFile {
  public:
   /// Makes the file, or goes on with one of the same plan: `done()` are the cells that it holds. Fails on a file of
   /// another plan, and on one that is no sweep.
-  static Result<ResultsFile> open(const std::filesystem::path& path, const Cells& cells, const std::string& digest);
+  static Result<ResultsFile> open(const std::filesystem::path& path, const Cells& cells, const std::string& digest,
+                                  FailedCells failed = FailedCells::keep);
 
   const std::vector<bool>& done() const { return done_; }  ///< by cell
   /// Adds a cell; one that is there already must have the same numbers. On the disk after the next commit().
@@ -28,7 +35,10 @@ class ResultsFile {
  private:
   ResultsFile(Database database, const Cells& cells) : database_(std::move(database)), cells_(cells) {}
   Status create(const std::string& digest);
-  Status go_on(const std::string& digest);
+  Status go_on(const std::string& digest, FailedCells failed);
+  Status check_kept(const std::string& digest, FailedCells failed);
+  Status check_mended();
+  Status leave_out_failed(const std::string& digest);
   Status prepare();
   Status begin();
   Result<bool> same_as_kept(const CellResult& result);

@@ -1,7 +1,5 @@
 #include "workbench/sweep/shard_file.h"
 
-#include "core/base/fnv.h"
-
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -10,29 +8,18 @@
 #include <cstring>
 #include <fstream>
 
-#include <fcntl.h>
-#include <unistd.h>
-
 namespace tangent::sweep {
 namespace {
 
 using nlohmann::ordered_json;
 
 constexpr int kShardFormat = 2;  // 2: counted times, and times
-constexpr std::size_t kDigits = 16;
-
-std::string checksum(std::string_view text) { return Fnv().add(text).text(); }
-
-std::string line_of(const ordered_json& json) {
-  const std::string text = json.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
-  return checksum(text) + " " + text + "\n";
+std::string text_of(const ordered_json& json) {
+  return json.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
 }
 
-/// What a line says; empty: it is torn or damaged.
-std::optional<ordered_json> read_line(std::string_view line) {
-  if (line.size() < kDigits + 2 || line[kDigits] != ' ') return std::nullopt;
-  const std::string_view text = line.substr(kDigits + 1);
-  if (line.substr(0, kDigits) != checksum(text)) return std::nullopt;
+/// Empty: it is no object.
+std::optional<ordered_json> read_text(std::string_view text) {
   ordered_json json = ordered_json::parse(text, nullptr, false);
   return json.is_object() ? std::optional(std::move(json)) : std::nullopt;
 }
@@ -144,18 +131,14 @@ Status check_name(const ordered_json& json, const ShardName& name, const std::fi
               path.string(), "remove it, and run that shard again");
 }
 
-/// Before its end: nothing goes on from there.
-Status damaged(const std::filesystem::path& path, std::uint64_t line, const ShardName& name) {
-  return fail("line " + std::to_string(line) + " is damaged", path.string(),
-              "remove it, and run " + shard_text(name) + " again");
+LineFileRemedies remedies(const ShardName& name) {
+  return {"remove it, and run " + shard_text(name) + " again", "what is in it stays; run that shard again"};
 }
 
 Status torn(const std::filesystem::path& path, std::uint64_t line, const ShardName& name) {
   return fail("line " + std::to_string(line) + " is torn or damaged", path.string(),
               "run " + shard_text(name) + " again: it goes on from what is whole");
 }
-
-std::string reason() { return std::strerror(errno); }
 
 }  // namespace
 
@@ -167,103 +150,46 @@ ShardName shard_of(const std::string& plan, std::uint64_t cells, std::uint64_t s
 
 // --- Writing ---------------------------------------------------------------------------------------------
 
-ShardWriter::ShardWriter(ShardWriter&& other) noexcept
-    : path_(std::move(other.path_)),
-      file_(std::exchange(other.file_, -1)),
-      done_(std::move(other.done_)),
-      timed_(std::move(other.timed_)),
-      failures_(std::move(other.failures_)) {}
-
-ShardWriter::~ShardWriter() {
-  if (file_ >= 0) ::close(file_);
-}
-
-namespace {
-
-/// What of the file is whole, and the cells in it.
-struct Whole {
-  std::uint64_t bytes = 0;
-  bool named = false;
-};
-
-Result<Whole> look_through(const std::filesystem::path& path, const ShardName& name, std::vector<bool>& done,
-                           std::vector<bool>& timed, Failures& failures) {
-  std::ifstream file(path, std::ios::binary);
-  Whole whole;
-  std::string line;
+Status ShardWriter::take(std::string_view text, std::uint64_t number, const ShardName& name,
+                         const std::filesystem::path& path) {
+  const auto json = read_text(text);
+  if (json && number == 1) return check_name(*json, name, path);
   ShardLine taken;
-  for (std::uint64_t number = 1; std::getline(file, line); ++number) {
-    if (file.eof()) break;  // no line end: it was being written
-    const auto json = read_line(line);
-    const bool last = file.peek() == std::ifstream::traits_type::eof();
-    if (!json) {
-      if (last) break;
-      return tl::unexpected(damaged(path, number, name).error());
-    }
-    if (!whole.named) {
-      if (Status ok = check_name(*json, name, path); !ok) return tl::unexpected(ok.error());
-      whole.named = true;
-    } else if (take_line(*json, name, taken)) {
-      if (const auto* const result = std::get_if<CellResult>(&taken)) {
-        if (!done[result->cell - name.first]) failures.add(*result);
-        done[result->cell - name.first] = true;
-      } else {
-        timed[std::get<CellTime>(taken).cell - name.first] = true;
-      }
-    } else {
-      return tl::unexpected(damaged(path, number, name).error());
-    }
-    whole.bytes += line.size() + 1;
-  }
-  return whole;
-}
-
-}  // namespace
-
-Result<ShardWriter> ShardWriter::open(const std::filesystem::path& path, const ShardName& name) {
-  ShardWriter out;
-  out.path_ = path;
-  out.done_.assign(name.end - name.first, false);
-  out.timed_ = out.done_;
-  std::error_code error;
-  Whole whole;
-  if (std::filesystem::exists(path, error)) {
-    const Result<Whole> found = look_through(path, name, out.done_, out.timed_, out.failures_);
-    if (!found) return tl::unexpected(found.error());
-    whole = *found;
-  }
-  out.file_ = ::open(path.c_str(), O_CREAT | O_WRONLY | O_APPEND | O_CLOEXEC, 0666);
-  if (out.file_ < 0) return fail("can't be written: " + reason(), path.string(), "choose a folder that may be written");
-  if (::ftruncate(out.file_, static_cast<off_t>(whole.bytes)) != 0)
-    return fail("its torn end can't be cut off: " + reason(), path.string());
-  if (!whole.named)
-    if (Status ok = out.write(line_of(name_json(name))); !ok) return tl::unexpected(ok.error());
-  return out;
-}
-
-Status ShardWriter::write(const std::string& line) {
-  std::string_view left = line;
-  while (!left.empty()) {
-    const ssize_t written = ::write(file_, left.data(), left.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0)
-      return fail("can't be written: " + reason(), path_.string(), "what is in it stays; run that shard again");
-    left.remove_prefix(static_cast<std::size_t>(written));
+  if (!json || !take_line(*json, name, taken)) return LineFile::damaged(path, number, remedies(name));
+  if (const auto* const result = std::get_if<CellResult>(&taken)) {
+    if (!done_[result->cell - name.first]) failures_.add(*result);
+    done_[result->cell - name.first] = true;
+  } else {
+    timed_[std::get<CellTime>(taken).cell - name.first] = true;
   }
   return {};
 }
 
-Status ShardWriter::add(const CellTime& time) { return write(line_of(time_json(time))); }
+Result<ShardWriter> ShardWriter::open(const std::filesystem::path& path, const ShardName& name) {
+  ShardWriter out;
+  out.done_.assign(name.end - name.first, false);
+  out.timed_ = out.done_;
+  bool named = false;
+  const auto take = [&](std::string_view text, std::uint64_t number) {
+    named = true;
+    return out.take(text, number, name, path);
+  };
+  Result<LineFile> file = LineFile::open(path, take, remedies(name));
+  if (!file) return tl::unexpected(file.error());
+  out.file_.emplace(std::move(*file));
+  if (!named)
+    if (Status ok = out.file_->add(text_of(name_json(name))); !ok) return tl::unexpected(ok.error());
+  return out;
+}
+
+Status ShardWriter::add(const CellTime& time) { return file_->add(text_of(time_json(time))); }
 
 Status ShardWriter::add(const CellResult& result) {
   failures_.add(result);
-  return write(line_of(result_json(result)));
+  return file_->add(text_of(result_json(result)));
 }
 
-Status ShardWriter::flush() {
-  if (::fdatasync(file_) == 0 || errno == EINVAL) return {};
-  return fail("can't be written: " + reason(), path_.string(), "what is in it stays; run that shard again");
-}
+Status ShardWriter::flush() { return file_->flush(); }
 
 // --- Reading ---------------------------------------------------------------------------------------------
 
@@ -277,7 +203,8 @@ struct ShardReader::Impl {
   Result<bool> next_json(ordered_json& json) {
     if (!std::getline(file, line)) return false;
     ++number;
-    auto read = file.eof() ? std::nullopt : read_line(line);
+    const auto text = file.eof() ? std::nullopt : checked_text(line);
+    auto read = text ? read_text(*text) : std::nullopt;
     if (!read) return tl::unexpected(torn(path, number, name).error());
     json = std::move(*read);
     return true;
@@ -293,7 +220,9 @@ Result<ShardReader> ShardReader::open(const std::filesystem::path& path, const S
   out.impl_->path = path;
   out.impl_->name = name;
   out.impl_->file.open(path, std::ios::binary);
-  if (!out.impl_->file) return fail("can't be read: " + reason(), path.string(), "run " + shard_text(name) + " first");
+  if (!out.impl_->file)
+    return fail(std::string("can't be read: ") + std::strerror(errno), path.string(),
+                "run " + shard_text(name) + " first");
   ordered_json json;
   const Result<bool> first = out.impl_->next_json(json);
   if (!first) return tl::unexpected(first.error());

@@ -1,11 +1,9 @@
-// A shard: a run of neighbouring cells, in a file of its own that is only ever appended to. No lock, no database, so it
-// works on a network disk; a process that is killed leaves at most one torn line, which the next one removes.
-//
-// The first line says which plan and shard it is, every further one is a cell, or the time of one. Before each stand 16
-// hex digits: a checksum of the line.
+// A shard: a run of neighbouring cells, in a file of its own (line_file.h). The first line says which plan and shard it
+// is, every further one is a cell, or the time of one.
 #pragma once
 
 #include "workbench/sweep/cell_times.h"
+#include "workbench/sweep/line_file.h"
 #include "workbench/sweep/run_cells.h"
 
 #include <filesystem>
@@ -30,10 +28,6 @@ class ShardWriter {
   /// Makes the file, or goes on with it: `done()` are the cells that it holds. A torn last line is cut off. Fails on a
   /// file of another plan or shard, and on one that is damaged before its end, by name.
   static Result<ShardWriter> open(const std::filesystem::path& path, const ShardName& name);
-  ShardWriter(ShardWriter&& other) noexcept;
-  ShardWriter& operator=(ShardWriter&&) = delete;
-  ~ShardWriter();
-
   const std::vector<bool>& done() const { return done_; }    ///< by cell - first
   const std::vector<bool>& timed() const { return timed_; }  ///< likewise
   const Failures& failures() const { return failures_; }     ///< the cells in it that have no numbers
@@ -44,9 +38,8 @@ class ShardWriter {
 
  private:
   ShardWriter() = default;
-  Status write(const std::string& line);
-  std::filesystem::path path_;
-  int file_ = -1;
+  Status take(std::string_view text, std::uint64_t number, const ShardName& name, const std::filesystem::path& path);
+  std::optional<LineFile> file_;
   std::vector<bool> done_, timed_;
   Failures failures_;
 };

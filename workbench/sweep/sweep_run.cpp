@@ -20,6 +20,7 @@ class Tally {
   /// True: keep it now.
   bool add(const CellResult& result) {
     ++outcome_.solved;
+    if (!result.failed.empty()) ++outcome_.failed;
     outcome_.ticks += result.numbers.ticks;
     options_.progress({outcome_.before + outcome_.solved, outcome_.cells});
     const auto now = Clock::now();

@@ -18,10 +18,11 @@ struct SweepOptions {
 };
 
 struct SweepOutcome {
-  std::uint64_t cells = 0, before = 0, solved = 0;  ///< before: found done
+  std::uint64_t cells = 0, before = 0, solved = 0;  ///< before: found done; solved: or found to fail
   std::uint64_t ticks = 0;                          ///< of the cells solved now
   double seconds = 0.0;
-  Failures failures;  ///< in the file: of this run and of those before
+  std::uint64_t failed = 0;  ///< of `solved`: those that have no numbers
+  Failures failures;         ///< in the file: of this run and of those before
   bool stopped = false;
 };
 

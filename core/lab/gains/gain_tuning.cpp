@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <set>
 
 namespace tangent {
@@ -40,8 +41,13 @@ double round_number(double x) {
 class Tuner {
  public:
   Tuner(std::shared_ptr<const ContactScene> scene, const Preset& base, std::span<const TickInput> poses,
-        const GainGrid& grid, const KeepTuning& keep_going)
-      : stepper_(std::move(scene)), preset_(base), poses_(poses), grid_(grid), keep_going_(keep_going) {
+        const GainGrid& grid, const KeepTuning& keep_going, const GainMemory& memory)
+      : stepper_(std::move(scene)),
+        preset_(base),
+        poses_(poses),
+        grid_(grid),
+        keep_going_(keep_going),
+        memory_(memory) {
     preset_.solver.method = Method::paper;
     result_.untuned.gains = Gains{};
   }
@@ -72,16 +78,25 @@ class Tuner {
   bool attempt(const Lattice& at) {
     if (tried_.contains(at)) return true;
     const Gains gains = gains_at(at, grid_.fine);
+    const auto score = known_or_solved(gains);
+    if (!score) return false;
+    tried_.insert(at);
+    if (score->ticks == poses_.size()) enter({gains, *score});
+    return true;
+  }
+
+  std::optional<RunScore> known_or_solved(const Gains& gains) {
+    if (memory_.known)
+      if (const RunScore* const known = memory_.known(gains)) return *known;
     preset_.solver = with_gains(preset_.solver, gains);
     bool stopped = false;
     const RunScore score = score_run(stepper_, preset_, poses_, [&](const RunScore& so_far) {
       stopped = keep_going_ && !keep_going_(tried_.size(), planned_);
       return !stopped && !beaten(so_far);
     });
-    if (stopped) return false;
-    tried_.insert(at);
-    if (score.ticks == poses_.size()) enter({gains, score});
-    return true;
+    if (stopped) return std::nullopt;
+    if (memory_.keep) memory_.keep(gains, score);
+    return score;
   }
 
   /// Whether a run can no longer be among the best, whatever its remaining ticks.
@@ -119,6 +134,7 @@ class Tuner {
   std::span<const TickInput> poses_;
   const GainGrid& grid_;
   const KeepTuning& keep_going_;
+  const GainMemory& memory_;
   std::set<Lattice> tried_;
   std::size_t planned_ = 0;
   GainTuning result_;
@@ -179,8 +195,8 @@ GainGrid make_gain_grid(double length_m) {
 }
 
 GainTuning tune_gains(std::shared_ptr<const ContactScene> scene, const Preset& base, std::span<const TickInput> poses,
-                      const GainGrid& grid, const KeepTuning& keep_going) {
-  return Tuner(std::move(scene), base, poses, grid, keep_going).run();
+                      const GainGrid& grid, const KeepTuning& keep_going, const GainMemory& memory) {
+  return Tuner(std::move(scene), base, poses, grid, keep_going, memory).run();
 }
 
 }  // namespace tangent

@@ -72,11 +72,17 @@ struct GainTuning {
 /// Called before every trial and regularly within one; `done` trials, and at least `planned` in all. False stops.
 using KeepTuning = std::function<bool(std::size_t done, std::size_t planned)>;
 
+/// For whoever keeps what was tried: a tuning that goes on with it gives the same as one that was never ended.
+struct GainMemory {
+  std::function<const RunScore*(const Gains&)> known;            ///< null: these were not tried
+  std::function<void(const Gains&, const RunScore&)> keep = {};  ///< each that was not known, as it is done
+};
+
 /// Tunes the gains of the paper's iteration, starting with the untuned ones; other values are those of `base`, whose
 /// method does not matter. Pattern search: the walk tries the six neighbours of the best point and halves all steps
 /// where none is better, down to the grid's resolution. Runs that can no longer be among the best end early.
 /// Precondition: poses not empty.
 GainTuning tune_gains(std::shared_ptr<const ContactScene> scene, const Preset& base, std::span<const TickInput> poses,
-                      const GainGrid& grid, const KeepTuning& keep_going = {});
+                      const GainGrid& grid, const KeepTuning& keep_going = {}, const GainMemory& memory = {});
 
 }  // namespace tangent

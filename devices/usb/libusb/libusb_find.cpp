@@ -31,11 +31,17 @@ std::string string_of(libusb_device_handle* handle, std::uint8_t index) {
   return got > 0 ? std::string(text.begin(), text.begin() + got) : std::string();
 }
 
-/// Opens a device and claims its interface; returns 0 or libusb's error code.
-int open_and_claim(libusb_device* device, int interface_number, LibusbHandle& out) {
+/// Opens a device and claims its interface; returns 0 or libusb's error code. `serial`: of the device, if not empty; of
+/// another, LIBUSB_ERROR_NO_DEVICE, without touching its interface.
+int open_and_claim(libusb_device* device, int interface_number, LibusbHandle& out, const std::string& serial = {}) {
   libusb_device_handle* raw = nullptr;
   if (const int code = libusb_open(device, &raw); code != 0) return code;
   LibusbHandle handle(raw);
+  if (!serial.empty()) {
+    libusb_device_descriptor d{};
+    libusb_get_device_descriptor(device, &d);
+    if (string_of(raw, d.iSerialNumber) != serial) return LIBUSB_ERROR_NO_DEVICE;
+  }
   if (interface_number >= 0) {
     libusb_set_auto_detach_kernel_driver(raw, 1);
     if (const int code = libusb_claim_interface(raw, interface_number); code != 0) return code;
@@ -97,8 +103,15 @@ UsbProblem problem_of(int code) {
 LibusbHandle open_first(libusb_context* context, const UsbMatch& match, int interface_number, UsbProblem& problem) {
   LibusbHandle handle;
   problem = UsbProblem::not_attached;
+  int found = 0;
+  if (match.alone && match.serial.empty()) each_match(context, match, [&](libusb_device*) { return ++found > 1; });
+  if (found > 1) {
+    problem = UsbProblem::several;
+    return handle;
+  }
   each_match(context, match, [&](libusb_device* device) {
-    problem = problem_of(open_and_claim(device, interface_number, handle));
+    const UsbProblem why = problem_of(open_and_claim(device, interface_number, handle, match.serial));
+    if (why != UsbProblem::not_attached) problem = why;  // another serial number is no problem
     return handle != nullptr;
   });
   return handle;

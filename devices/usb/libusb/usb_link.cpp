@@ -199,6 +199,7 @@ void UsbLink::Impl::try_open() noexcept {
     if (!t.in) continue;
     libusb_fill_interrupt_transfer(t.transfer, handle.get(), options.in_endpoint, t.bytes.data(), kUsbPacketBytes,
                                    &on_completed, &t, 0);
+    if (options.bulk) t.transfer->type = LIBUSB_TRANSFER_TYPE_BULK;
     submit(t);
   }
   if (lost) {
@@ -351,6 +352,7 @@ bool UsbLink::send(std::span<const std::uint8_t> bytes) noexcept {
   std::copy(bytes.begin(), bytes.end(), t->bytes.begin());
   libusb_fill_interrupt_transfer(t->transfer, impl_->handle.get(), impl_->options.out_endpoint, t->bytes.data(),
                                  static_cast<int>(bytes.size()), &on_completed, t, impl_->options.time_out_ms);
+  if (impl_->options.bulk) t->transfer->type = LIBUSB_TRANSFER_TYPE_BULK;
   if (impl_->tap != nullptr) impl_->tap->packet(UsbTap::Direction::out, usb_now_ns(), bytes, 0);
   raise(impl_->counters.packets_out);
   return impl_->submit(*t);

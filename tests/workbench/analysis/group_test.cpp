@@ -2,6 +2,7 @@
 #include "workbench/analysis/write_analysis.h"
 
 #include "workbench/analysis/analysis_figures.h"
+#include "workbench/analysis/staircase_warnings.h"
 #include "workbench/experiment/paper_results.h"
 #include "workbench/experiment/run_simulated.h"
 #include "workbench/experiment/simulated_group.h"
@@ -102,7 +103,8 @@ TEST_CASE("a group of the paper's size names objects as its Table 3 says") {
       largest = std::max(largest, std::abs(100.0 * results.parts[0].matrix.share(i, j) - kPaperConfusionPercent[i][j]));
   CHECK(largest < 10.0);  // of 288 answers a row: 3.4 deviations of the widest share
   int different = 0;
-  for (const NamingTest& test : results.tests) different += test.test && test.test->p < 0.01;
+  for (const NamingTest& test : results.tests)
+    different += test.values == "participants, paired" && test.test && test.test->p < 0.01;
   CHECK(different <= 1);  // shading and feedback change nothing in these participants
 }
 
@@ -145,6 +147,7 @@ TEST_CASE("the page, its figures and tables say that the participants were simul
   CHECK(plotted == figures);
   for (const auto& entry : fs::recursive_directory_iterator(data)) {
     if (!entry.is_regular_file() || entry.path().extension() == ".toml") continue;  // the protocol as it was
+    if (entry.path().filename() == ".bidsignore") continue;
     CAPTURE(entry.path().string());
     CHECK(text_of(entry.path()).find("simulated") != std::string::npos);
   }
@@ -169,16 +172,14 @@ TEST_CASE("files that were edited, mixed, doubled, foreign or missing are refuse
   REQUIRE(allowed);
   CHECK(allowed->left_out.size() == 1);
 
-  put(whole.substr(0, whole.size() - 20));  // torn: as after a kill
-  const auto torn = load(data);
-  REQUIRE(torn);
-  REQUIRE(torn->left_out.size() == 1);
-  CHECK(torn->left_out[0].find("not finished") != std::string::npos);
-  put(whole.substr(0, whole.find('\n') + 1));  // the header alone
-  const auto none = load(data);
-  REQUIRE(none);
-  CHECK(none->comparisons.size() == 1);
-  CHECK(none->left_out.size() == 1);
+  for (const std::size_t left : {whole.size() - 20, whole.find('\n') + 1}) {  // all but one row; the header alone
+    put(whole.substr(0, left));
+    CHECK(refusal(load(data)).find("was cut at its end") != std::string::npos);
+    const auto cut = load(data, {.edited = true});
+    REQUIRE(cut);
+    CHECK(cut->comparisons.size() == (left > 500 ? 2 : 1));
+    CHECK(cut->left_out[0].find("was cut at its end") != std::string::npos);
+  }
   std::string impossible = whole;
   impossible.replace(impossible.find("\t4\t"), 3, "\t-1\t");
   put(impossible);
@@ -199,7 +200,7 @@ TEST_CASE("files that were edited, mixed, doubled, foreign or missing are refuse
       {"{}", "it has no \"format\""},
       {"[]", "it has no \"format\""},
       {"7", "it has no \"format\""},
-      {without("\"format\": 1", "\"format\": \"1\""), "its \"format\" is no whole number"},
+      {without("\"format\": 2", "\"format\": \"2\""), "its \"format\" is no whole number"},
       {without("\"pilot\": false", "\"pilot\": 0"), "its \"pilot\" is neither true nor false"},
       {without("\"participant\": \"P1\"", "\"participant\": null"), "its \"participant\" is no text"},
       {without("\"seed\": \"", "\"seed\": \"x"), "its \"seed\" is no whole number"}};
@@ -304,12 +305,11 @@ TEST_CASE("sessions that were joined, doubled or put in another order by hand ar
   CHECK(refusal(load(folder->path())).find(":2") != std::string::npos);
   put(0, 57, "", second + second);  // the second session twice
   CHECK(refusal(load(folder->path())).find(":114") != std::string::npos);
-  put(0, 57, "", "");  // the first alone: not finished
-  const auto half = load(folder->path());
+  put(0, 57, "", "");  // the first alone
+  CHECK(refusal(load(folder->path())).find("56 of at least 112 rows are left") != std::string::npos);
+  const auto half = load(folder->path(), {.edited = true});
   REQUIRE(half);
   CHECK(half->namings[0].rows.size() == 56);
-  REQUIRE(half->left_out.size() == 1);
-  CHECK(half->left_out[0].find("not finished") != std::string::npos);
 }
 
 TEST_CASE("a protocol that was deleted is asked for, and written again when its participant goes on") {
@@ -395,6 +395,89 @@ TEST_CASE("an analysis that is stopped within a calibration leaves nothing behin
   CHECK_FALSE(fs::exists(fresh));
   CHECK(fs::exists(old));
   CHECK(fs::is_empty(old));
+}
+
+TEST_CASE("one who guesses is warned of, and one alone has no interval") {
+  const auto folder = OwnFolder::make();
+  simulate(folder->path(), "discrimination", 2);
+  auto answers = load(folder->path());
+  REQUIRE(answers);
+  ParticipantAnswers<ComparisonRow>& guesser = answers->comparisons[1];
+  KnownComparer guesses;
+  for (const auto& condition : guesser.protocol.discrimination()->conditions)
+    guesses.functions[condition.name] = {1e-3, 0.05, 0.0};
+  guesser.rows.clear();
+  auto run = ComparisonRun::start(guesser.protocol, 2, guesser.enrolment.seed);
+  take_part(*run, guesses, 8, [&](const ComparisonRow& row) { guesser.rows.push_back(row); });
+  const ComparisonResults results = comparison_results(answers->comparisons, 20);
+  REQUIRE(results.staircases.size() == 8);
+  for (const StaircaseResult& one : results.staircases) {
+    CAPTURE(one.participant + " " + one.condition);
+    CHECK(one.warnings.empty() == (one.participant == "P1"));
+  }
+  CHECK(staircases_with_warnings(results) == 4);
+  for (const ConditionResult& condition : results.conditions) {
+    CHECK(condition.warned == 1);
+    CHECK(condition.low >= 3.0);  // the fewest that are shown
+    CHECK(condition.degrees_high <= 51.68 / 2.0 + 0.01);
+  }
+  // What the figure draws is what the table says.
+  const Figure figure = thresholds_figure(results, true);
+  for (std::size_t c = 0; c < 4; ++c) CHECK(figure.data[0].table.rows[c][2] == results.conditions[c].low);
+  std::vector<std::string> warned;
+  AnalysisOptions options;
+  options.folder = folder->path() / "out";
+  options.repeats = 20;
+  options.warn = [&](const std::string& text) { warned.push_back(text); };
+  const auto page = write_analysis(*answers, options);
+  REQUIRE(page);
+  CHECK(warned.size() >= 4);
+  CHECK(warned[0].find("staircase of P2 under C") != std::string::npos);
+  CHECK(text_of(*page).find("4 of 8 staircases have a warning") != std::string::npos);
+  answers->comparisons.pop_back();
+  for (const ConditionResult& alone : comparison_results(answers->comparisons, 20).conditions)
+    for (const double end : {alone.low, alone.high, alone.degrees_low, alone.degrees_high}) CHECK(std::isnan(end));
+}
+
+TEST_CASE("guessing: the chance of so many right answers") {
+  CHECK(guessing_probability(0, 5) == 1.0);
+  CHECK(guessing_probability(5, 5) == doctest::Approx(1.0 / 32.0));
+  CHECK(guessing_probability(3, 4) == doctest::Approx(5.0 / 16.0));
+}
+
+TEST_CASE("tests of names are over participants, paired, and say how many; the paper's stand beside them") {
+  const auto folder = OwnFolder::make();
+  simulate(folder->path(), "identification", 6);
+  auto answers = load(folder->path());
+  REQUIRE(answers);
+  // One participant is slower in everything; all are half a second slower without display.
+  for (auto& one : answers->namings)
+    for (NamingRow& row : one.rows) {
+      row.since_touch_s =
+          (one.name() == "P3" ? 30.0 : 8.0) + (row.tactile ? 0.0 : 0.5 + 0.001 * double(one.name()[1] % 3));
+      row.right = true;
+    }
+  const NamingResults results = naming_results(answers->namings, {{"P1", true}, {"P2", true}, {"P3", false}});
+  const auto find = [&](const std::string& question, const std::string& values) {
+    const auto found = std::find_if(results.tests.begin(), results.tests.end(), [&](const NamingTest& test) {
+      return test.question == question && test.values.starts_with(values);
+    });
+    REQUIRE(found != results.tests.end());
+    return *found;
+  };
+  const std::string times = "response time of right answers: tactile less force alone";
+  const NamingTest paired = find(times, "participants, paired"), apart = find(times, "answers as independent");
+  CHECK(paired.count == 6);
+  REQUIRE(paired.test);
+  CHECK(paired.test->freedom == 5.0);
+  CHECK(paired.test->difference == doctest::Approx(-0.5).epsilon(0.02));
+  CHECK(paired.test->p < 1e-6);
+  CHECK(apart.count == 6 * 112);
+  REQUIRE(apart.test);
+  CHECK(apart.test->p > 0.2);  // lost among participants
+  const NamingTest groups = find("response time of right answers: experienced less inexperienced", "participants");
+  CHECK(groups.count == 3);
+  CHECK_FALSE(groups.test);  // one alone on one side
 }
 
 TEST_CASE("experience is read from participants.tsv") {

@@ -173,3 +173,27 @@ TEST_CASE("bench --mesh refuses what makes no sense") {
   CHECK(run_workbench({"bench", "--json", notes, "--only", "none"}).exit_code == 1);
   CHECK(read_text(notes) == "{mine}");
 }
+
+TEST_CASE("bench: options that would have no effect, and a scene that is none, are wrong usage") {
+  const TempFolder folder;
+  const std::string mesh = folder.file("ball.obj");
+  REQUIRE(run_workbench({"make", "icosphere", "--out", mesh}).exit_code == 0);
+  const std::vector<std::string> own{"bench", "--mesh", mesh, "--ticks", "5"}, suite{"bench", "--ticks", "5"};
+  const auto refused = [](std::vector<std::string> command, const std::vector<std::string>& more) {
+    command.insert(command.end(), more.begin(), more.end());
+    const ProcessResult result = run_workbench(command);
+    CHECK(result.exit_code == 2);
+    return result.err;
+  };
+  CHECK(contains(refused(own, {"--suite", "hard"}), "--suite: is of the suites; leave it out with --mesh"));
+  CHECK(contains(refused(own, {"--repeats", "2"}), "--repeats: "));
+  CHECK(contains(refused(own, {"--max-triangles", "2000"}), "--max-triangles: "));
+  CHECK(contains(refused(own, {"--method", "newton"}), "--method: is one method; with --mesh all are measured"));
+  CHECK(contains(refused(suite, {"--rounds", "2"}), "--rounds: requires --mesh F"));
+  CHECK(contains(refused(suite, {"--seconds", "2"}), "--seconds: requires --mesh F"));
+  CHECK(contains(refused(suite, {"--seed", "2"}), "--seed: requires --mesh F"));
+  CHECK(contains(refused(suite, {"--no-peers"}), "--no-peers: requires --mesh F"));
+  CHECK(contains(refused(suite, {"--only", "cube_shrap"}),
+                 "no scene has 'cube_shrap' in its name; the nearest are cube_sharp"));
+  CHECK(contains(refused(suite, {"--suite", "scale", "--only", "torus"}), "--only: chooses among the scenes"));
+}

@@ -63,14 +63,6 @@ TEST_CASE("analyse: power and check take a protocol, and print and write what th
   CHECK(plan(folder.file("none.toml"), {"--power"}).exit_code == 1);
 }
 
-TEST_CASE("experiment: one who feels takes part in comparisons alone") {
-  const TempFolder folder;
-  const ProcessResult naming = run_workbench({"experiment", shipped("identification.toml"), "--participant", "P1",
-                                              "--out", folder.file("d"), "--simulated", "feeling"});
-  CHECK(naming.exit_code == 1);
-  CHECK(contains(naming.err, "names no objects"));
-}
-
 TEST_CASE("experiment: the same seed gives the same bytes, another one others") {
   const TempFolder a, b, c;
   REQUIRE(experiment(a, "7", {"--seed", "5"}).exit_code == 0);
@@ -96,7 +88,7 @@ TEST_CASE("experiment: a person's keys from a pipe, in simulated time") {
   const testing::Process shell({"-c", command, TANGENT_PROGRAM, shipped("discrimination.toml"), folder.file("d")},
                                "/bin/sh");
   const ProcessResult run = shell.wait();
-  CHECK(contains(run.out, "1 trials"));
+  CHECK(contains(run.out, ": 1 trial\n"));
   CHECK(contains(run.err, "goes on from there"));
   std::ostringstream rows, events;
   rows << std::ifstream(folder.file("d/sub-3/beh/sub-3_task-discrimination_beh.tsv")).rdbuf();
@@ -148,14 +140,15 @@ TEST_CASE("experiment and analyse: what can't be is said, with the exit codes of
   CHECK(contains(experiment(folder, "a/1").err, "letters"));
   CHECK(run_workbench({"experiment", shipped("discrimination.toml"), "--out", folder.file("d")}).exit_code == 2);
   CHECK(experiment(folder, "1", {"--seed", "-1"}).exit_code == 2);
-  for (const char* option : {"--record", "--without-waiting", "--window", "--device=cld", "--sound=none"})
+  for (const char* option : {"--record", "--same-day", "--without-waiting", "--window", "--device=cld", "--sound=none"})
     CHECK_MESSAGE(experiment(folder, "1", {option}).exit_code == 2, option);
   const ProcessResult person =
       run_workbench({"experiment", shipped("discrimination.toml"), "--participant", "1", "--out", folder.file("d")});
   CHECK(person.exit_code == 1);  // no key ever comes
   CHECK(contains(person.err, "goes on from there"));
+  // Nobody presses a key: `wait` counts ticks, and the keys end after it.
   const testing::Process shell({"-c",
-                                "(sleep 1; echo resume) | \"$0\" experiment \"$1\" --participant 2 --out \"$2\" "
+                                "printf 'wait 0.2\\n' | \"$0\" experiment \"$1\" --participant 2 --out \"$2\" "
                                 "--device cld",
                                 TANGENT_PROGRAM, shipped("discrimination.toml"), folder.file("e")},
                                "/bin/sh");
@@ -166,8 +159,27 @@ TEST_CASE("experiment and analyse: what can't be is said, with the exit codes of
       {"experiment", folder.file("bad.toml"), "--participant", "1", "--out", folder.file("d"), "--simulated", "known"});
   CHECK(bad.exit_code == 1);
   CHECK(contains(bad.err, "bad.toml:4"));
-  CHECK(run_workbench({"analyse", folder.file("nothing"), "--out", folder.file("o")}).exit_code == 1);
+  const ProcessResult nothing = run_workbench({"analyse", folder.file("nothing"), "--out", folder.file("o")});
+  CHECK(nothing.exit_code == 1);
+  CHECK(contains(nothing.err, "nothing: is not there"));
+  CHECK(contains(run_workbench({"analyse", shipped("discrimination.toml"), "--out", folder.file("o")}).err,
+                 "does not end with _beh.tsv"));
   CHECK(run_workbench({"analyse"}).exit_code == 2);
+}
+
+TEST_CASE("no force device for trials, and answers where a protocol is planned, are wrong usage") {
+  const TempFolder folder;
+  const std::string protocol = TANGENT_SOURCE_DIR "/presets/experiments/discrimination.toml";
+  const ProcessResult none =
+      run_workbench({"experiment", protocol, "--participant", "p1", "--out", folder.file("d"), "--force", "none"});
+  CHECK(none.exit_code == 2);
+  CHECK(contains(none.err, "every trial needs a force device"));
+  for (const char* const what : {"--power", "--check"}) {
+    const ProcessResult two = run_workbench({"analyse", protocol, protocol, what, "--out", folder.file("d")});
+    CHECK(two.exit_code == 2);
+    CHECK(contains(two.err, "takes one protocol, and no answers"));
+  }
+  CHECK(folder.entry_count() == 0);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // workbench make, run as a process.
 #include "core/io/polygon_io.h"
+#include "core/lab/objects/arc.h"
 #include "tests/support/process.h"
 
 #include <doctest/doctest.h>
@@ -67,12 +68,37 @@ TEST_CASE("the arc of the paper is 0.902 rad of a circle of 100 mm radius, in ei
   for (const std::vector<std::string>& wrong : {std::vector<std::string>{"arc", "--segments", "1"},
                                                 {"arc", "--segments", "10001"},
                                                 {"arc", "--rounding-mm", "1"},
+                                                {"arc", "--exact", "--segments", "5"},
+                                                {"cube", "--exact"},
                                                 {"cube", "--placement", "tangent"}}) {
     std::vector<std::string> arguments{"make", "--out", folder.file("wrong.csv")};
     arguments.insert(arguments.end(), wrong.begin(), wrong.end());
     CHECK(run_workbench(arguments).exit_code == 2);
   }
   CHECK(folder.entry_count() == 3);
+}
+
+TEST_CASE("an exact arc comes back from its file as the circle that it is, and a CSV can't hold it") {
+  const TempFolder folder;
+  const std::string file = folder.file("exact.obj");
+  CHECK(run_workbench({"make", "arc", "--exact", "--out", file}).exit_code == 0);
+  const auto polygon = tangent::read_polygon(file, 1e-3);
+  REQUIRE(polygon);
+  REQUIRE(polygon->exact);
+  const tangent::ExactArc expected = *tangent::ArcStimulus{}.exact().exact;
+  CHECK(polygon->exact->radius_m == doctest::Approx(expected.radius_m).epsilon(1e-15));
+  CHECK(polygon->exact->half_angle_rad == expected.half_angle_rad);
+  CHECK(polygon->exact->run_out_m == doctest::Approx(expected.run_out_m).epsilon(1e-15));
+  CHECK(polygon->vertices.size() >= 65);
+  std::string text = read_text(file);
+  text.replace(text.find("# exact arc: "), 13, "# exact arc: x");
+  folder.write("broken.obj", text);
+  const auto broken = tangent::read_polygon(folder.file("broken.obj"), 1e-3);
+  REQUIRE_FALSE(broken);
+  CHECK(contains(broken.error().where, ":2"));
+  const ProcessResult csv = run_workbench({"make", "arc", "--exact", "--out", folder.file("exact.csv")});
+  CHECK(csv.exit_code == 1);
+  CHECK(contains(csv.err, "no exact arc"));
 }
 
 TEST_CASE("an object that does not exist is wrong usage and nothing is written") {
@@ -97,4 +123,19 @@ TEST_CASE("a file that can't be written leaves with 1") {
   const ProcessResult result = run_workbench({"make", "cube", "--out", folder.file("no/folder/o.obj")});
   CHECK(result.exit_code == 1);
   CHECK(contains(result.err, folder.file("no/folder/o.obj")));
+}
+
+TEST_CASE("make refuses a name that says no format that it writes") {
+  const TempFolder folder;
+  for (const char* const object : {"cube", "arc"}) {
+    for (const char* const name : {"a.toml", "a", "a.stl"}) {
+      const ProcessResult refused = run_workbench({"make", object, "--out", folder.file(name)});
+      CHECK(refused.exit_code == 2);
+      CHECK(contains(refused.err, "names no format that is written; end it in .obj"));
+    }
+  }
+  CHECK(run_workbench({"make", "cube", "--out", folder.file("a.csv")}).exit_code == 2);
+  CHECK(folder.entry_count() == 0);
+  CHECK(run_workbench({"make", "cube", "--out", folder.file("A.OBJ")}).exit_code == 0);
+  CHECK(run_workbench({"make", "cube", "--out", "/dev/null"}).exit_code == 0);
 }

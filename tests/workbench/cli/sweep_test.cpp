@@ -112,8 +112,39 @@ TEST_CASE("sweep: cells without numbers fail the next run over them, too") {
     CHECK(contains(result.out, there));
     CHECK(contains(result.err, "a.sqlite: 1 cell has no numbers, the others have; the first, cell 1: "));
     CHECK(contains(result.err, "none.obj"));
-    CHECK(contains(result.err, "sweep into a new file"));
+    CHECK(contains(result.err, "then the same command with --again failed solves them"));
   }
+}
+
+TEST_CASE(
+    "sweep: how many were solved and how many failed are two numbers, and the failed are solved when asked again") {
+  const Sweep sweep;
+  std::vector<std::string> command{
+      sweep.file("cube.obj"), sweep.file("late.obj"), "--poses", "around", "--ticks", "50", "--out",
+      sweep.file("a.sqlite")};
+  const auto first = sweep.run(command);
+  CHECK(first.exit_code == 1);
+  CHECK(contains(first.out, "2 of 2 cells in "));
+  CHECK(contains(first.out, "; 1 solved in "));
+  CHECK(contains(first.out, ", 1 failed\n"));
+  std::filesystem::copy(sweep.file("cube.obj"), sweep.file("late.obj"));
+  const auto refused = sweep.run(command);
+  CHECK(refused.exit_code == 1);
+  CHECK(contains(refused.err, "add --again failed"));
+  command.insert(command.end(), {"--again", "failed"});
+  const auto mended = sweep.run(command);
+  CHECK_MESSAGE(mended.exit_code == 0, mended.err);
+  CHECK(contains(mended.out, "(1 were there); 1 solved in "));
+  CHECK(!contains(mended.out, "failed"));
+  CHECK(sweep.run({"--again", "solved"}).exit_code == 2);
+}
+
+TEST_CASE("sweep: a method beside a list of methods is wrong usage") {
+  const Sweep sweep;
+  const auto result = sweep.run({sweep.file("cube.obj"), "--poses", "around", "--methods", "paper,robust", "--method",
+                                 "newton", "--out", sweep.file("a.sqlite")});
+  CHECK(result.exit_code == 2);
+  CHECK(contains(result.err, "--method: contradicts --methods"));
 }
 
 TEST_CASE("sweep: a key that no method reads is said, and a shard that is none is wrong usage") {

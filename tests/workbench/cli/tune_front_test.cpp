@@ -1,4 +1,5 @@
 #include "core/io/preset_file.h"
+#include "tests/support/full_disk.h"
 #include "tests/support/process.h"
 #include "workbench/sweep/objective.h"
 
@@ -166,6 +167,45 @@ TEST_CASE("tune by objectives refuses what can't be asked and says what can't be
     CHECK_MESSAGE(contains(result.err, wrong.said), result.err);
     CHECK(!std::filesystem::exists(t.preset));
   }
+}
+
+TEST_CASE("a tuning that could not go on keeps what it tried, and the same command goes on to the same result") {
+  const FrontFolder t;
+  const std::string front = t.folder.file("front.csv"), kept = t.preset + ".tuning";
+  const std::vector<std::string> options{"--objective", "mean_iterations", "--objective", "error", "--front", front};
+  REQUIRE(t.tune(options).exit_code == 0);
+  const Preset whole = read_preset(t.preset)->preset;
+  const std::string points = read_text(front);
+  CHECK(!std::filesystem::exists(kept));  // it has ended
+  std::filesystem::remove(t.preset);
+  ProcessResult ended;
+  {
+    const testing::FullDisk full(4000);  // for some of its trials
+    ended = t.tune(options);
+  }
+  CHECK(ended.exit_code == 1);
+  CHECK(contains(ended.err, kept + ": can't be written"));
+  CHECK(!std::filesystem::exists(t.preset));
+  const ProcessResult again = t.tune(options);
+  CHECK_MESSAGE(again.exit_code == 0, again.err);
+  CHECK(contains(again.err, "goes on from " + kept + ", which keeps "));
+  CHECK(read_preset(t.preset)->preset == whole);
+  CHECK(read_text(front) == points);
+  CHECK(!std::filesystem::exists(kept));
+}
+
+TEST_CASE("a tuning does not go on with what another tried") {
+  const FrontFolder t;
+  {
+    const testing::FullDisk full(3000);
+    CHECK(t.tune({"--objective", "mean_iterations"}).exit_code == 1);
+  }
+  const std::string kept = t.preset + ".tuning", before = read_text(kept);
+  const ProcessResult other = t.tune({"--objective", "error"});
+  CHECK(other.exit_code == 1);
+  CHECK(contains(other.err, kept + ": keeps what another tuning tried"));
+  CHECK(read_text(kept) == before);
+  CHECK(t.tune({"--objective", "mean_iterations"}).exit_code == 0);
 }
 
 }  // namespace

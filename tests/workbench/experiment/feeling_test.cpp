@@ -88,15 +88,70 @@ TEST_CASE("one who feels and is interrupted goes on to the rows of one who is no
   }
 }
 
-TEST_CASE("one who feels names no objects, and says so before a file is made") {
-  const auto file = std::filesystem::path(TANGENT_SOURCE_DIR) / "presets" / "experiments" / "identification.toml";
-  const Protocol protocol = *read_protocol(file);
+/// Three objects whose unshaded facets are coarse, in one session.
+const char* const kThreeObjects = R"([protocol]
+kind = "identification"
+name = "Three"
+[preset]
+"finger.shape" = "sphere"
+"finger.radius_m" = 0.020
+[objects]
+names = ["cube", "cylinder", "triangle"]
+facet_deg = 3.0
+[runs]
+sessions = 1
+runs = 1
+)";
+
+TEST_CASE("one who feels names objects better than by chance, and the same again") {
+  const Protocol protocol = *parse_protocol(kThreeObjects, "three.toml");
   const auto folder = OwnFolder::make();
-  Enrolment who{{"P1", "feeling", false}, 1, protocol_digest(protocol)};
-  const auto outcome = run_simulated(folder->path() / "data", protocol, "", who, {});
-  REQUIRE_FALSE(outcome);
-  CHECK(outcome.error().message().find("names no objects") != std::string::npos);
-  CHECK_FALSE(std::filesystem::exists(folder->path() / "data"));
+  const Enrolment who{{"P1", "feeling", false}, 3, protocol_digest(protocol)};
+  std::vector<NamingRow> rows[2];
+  for (int i = 0; i < 2; ++i) {
+    const std::filesystem::path data = folder->path() / std::to_string(i);
+    const auto outcome = run_simulated(data, protocol, kThreeObjects, who, {});
+    REQUIRE_MESSAGE(outcome, (outcome ? "" : outcome.error().message()));
+    const auto file = enrol(data, protocol, kThreeObjects, who);
+    REQUIRE(file);
+    rows[i] = *naming_rows(*file);
+  }
+  REQUIRE(rows[0].size() == 12);
+  CHECK(rows[0] == rows[1]);
+  int right = 0;
+  for (const NamingRow& row : rows[0]) {
+    right += row.right;
+    CHECK(row.touching_s > 0.5);
+    CHECK(row.touching_s <= row.since_touch_s);
+  }
+  MESSAGE("right: ", right, " of 12");
+  CHECK(right >= 9);  // 4 by chance; 9 or more by chance once in 260
+}
+
+TEST_CASE("what is felt of objects: like itself, unlike others, more so where the display moves") {
+  const Protocol protocol = *parse_protocol(kThreeObjects, "three.toml");
+  const auto stimuli = Stimuli::make(protocol);
+  REQUIRE(stimuli);
+  const FeelingHand hand;
+  const auto felt = [&](const char* object, bool tactile, std::uint64_t seed) {
+    const auto stimulus = stimuli->object(object, true, tactile, Facing::right);
+    const auto path = StrokePath::build(*stimulus->scene, pad_distance_m(stimulus->preset.finger));
+    REQUIRE(path);
+    auto out = touch_object(*stimulus, *path, hand, seed);
+    REQUIRE(out);
+    return *out;
+  };
+  for (const bool tactile : {false, true}) {
+    const FeltObject cube = felt("cube", tactile, 1);
+    CHECK(distance2(cube, cube, hand) == 0.0);
+    const double itself = distance2(cube, felt("cube", tactile, 2), hand);
+    CHECK(itself < 0.1 * distance2(cube, felt("triangle", tactile, 2), hand));
+    CHECK(cube.seconds > 1.0);
+    if (!tactile)
+      for (const double display_m : cube.display_m) CHECK(display_m == 0.0);
+  }
+  CHECK(distance2(felt("cube", true, 1), felt("cylinder", true, 1), hand) >
+        distance2(felt("cube", false, 1), felt("cylinder", false, 1), hand));
 }
 
 }  // namespace

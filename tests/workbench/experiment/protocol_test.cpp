@@ -110,6 +110,31 @@ TEST_CASE("a protocol that can't be says where and what to do") {
   CHECK_FALSE(read_protocol("/nonexistent/p.toml"));
 }
 
+TEST_CASE("a wrong value is said as it was written, and its key once") {
+  const auto message = [](const char* from, const char* to) {
+    return parse_protocol(changed("discrimination", from, to), "p.toml").error().message();
+  };
+  CHECK(message("start = 26", "start = 1").find("is 1, which is not allowed") != std::string::npos);
+  CHECK(message("reversals = 11", "reversals = \"many\"").find("is \"many\", which is not allowed") !=
+        std::string::npos);
+  const std::string limit = message("\"force.limit_n\" = 6.0", "\"force.limit_n\" = 500.0");
+  CAPTURE(limit);
+  const std::size_t first = limit.find("force.limit_n");
+  REQUIRE(first != std::string::npos);
+  CHECK(limit.find("force.limit_n", first + 1) == std::string::npos);
+}
+
+TEST_CASE("hours between sessions keep a protocol's digest at a day, and change it otherwise") {
+  const auto day = parse_protocol(changed("identification", "hours_between = 24 ", ""), "p.toml");
+  const auto shorter =
+      parse_protocol(changed("identification", "hours_between = 24 ", "hours_between = 12 "), "p.toml");
+  const auto shipped_one = read_protocol(shipped("identification"));
+  REQUIRE(day);
+  REQUIRE(shorter);
+  CHECK(protocol_digest(*day) == protocol_digest(*shipped_one));
+  CHECK(protocol_digest(*shorter) != protocol_digest(*shipped_one));
+}
+
 TEST_CASE("what should be a table and is none is refused by line and key, not passed over") {
   const std::string comparing = "[protocol]\nkind = \"discrimination\"\nname = \"x\"\n[[conditions]]\nname = \"C1\"\n";
   const std::string naming = "[protocol]\nkind = \"identification\"\nname = \"x\"\n[objects]\nnames = [\"cube\"]\n";

@@ -1,5 +1,6 @@
 #include "workbench/experiment/row_file.h"
 
+#include "tests/support/killed_process.h"
 #include "workbench/experiment/participant.h"
 #include "workbench/experiment/trial_rows.h"
 #include "workbench/session/own_folder.h"
@@ -10,7 +11,6 @@
 #include <optional>
 #include <sstream>
 
-#include <sys/wait.h>
 #include <unistd.h>
 
 namespace tangent::experiment {
@@ -167,35 +167,26 @@ TEST_CASE("trials of both kinds read back as they were, columns in any order") {
 }
 
 /// A participant in a process of its own, which is killed after a while; none: it ends by itself.
-void run_until_killed(const fs::path& path, std::optional<unsigned> after_us) {
-  const pid_t child = fork();
-  REQUIRE(child >= 0);
-  if (child == 0) {
+void take_rows_until_killed(const fs::path& path, std::optional<unsigned> after_us) {
+  tangent::testing::run_until_killed(after_us, [&] {
     auto file = RowFile::open(path, names(comparison_columns()), "me");
-    if (!file) _exit(1);
+    if (!file) return 1;
     std::vector<ComparisonRow> rows;
     for (const Fields& fields : file->rows())
       rows.push_back(comparison_row(names(comparison_columns()), fields)->second);
     auto run = ComparisonRun::start(protocol(), 1, 3, rows);
-    if (!run) _exit(2);
+    if (!run) return 2;
     take_part(*run, comparer(), 1, [&](const ComparisonRow& row) {
       if (!file->add(fields_of({"P01", "known", false}, row))) _exit(3);
     });
-    _exit(0);
-  }
-  if (after_us) {
-    usleep(*after_us);
-    kill(child, SIGKILL);
-  }
-  int status = 0;
-  waitpid(child, &status, 0);
-  REQUIRE((WIFSIGNALED(status) || WEXITSTATUS(status) == 0));
+    return 0;
+  });
 }
 
 TEST_CASE("killed at any moment, a run loses no answer and ends with the same rows") {
   const auto folder = OwnFolder::make();
   const fs::path path = folder->path() / "killed.tsv", whole = folder->path() / "whole.tsv";
-  run_until_killed(whole, std::nullopt);
+  take_rows_until_killed(whole, std::nullopt);
   const auto expected = read_rows(whole, "me");
   REQUIRE(expected);
   SplitMix random(2);
@@ -203,7 +194,7 @@ TEST_CASE("killed at any moment, a run loses no answer and ends with the same ro
   const char* asked = std::getenv("TANGENT_KILLS");
   const int kills = asked != nullptr ? std::atoi(asked) : 40;
   for (int i = 0; i < kills; ++i) {
-    run_until_killed(path, static_cast<unsigned>(random.below(12'000)));
+    take_rows_until_killed(path, static_cast<unsigned>(random.below(12'000)));
     const auto now = read_rows(path, "me");
     if (!now) continue;  // killed before the header was whole
     REQUIRE(now->complaint.empty());
@@ -211,7 +202,7 @@ TEST_CASE("killed at any moment, a run loses no answer and ends with the same ro
     before = now->rows.size() == expected->rows.size() ? 0 : now->rows.size();
     if (before == 0) fs::remove(path);
   }
-  run_until_killed(path, std::nullopt);
+  take_rows_until_killed(path, std::nullopt);
   const auto end = read_rows(path, "me");
   REQUIRE(end);
   REQUIRE(end->rows.size() == expected->rows.size());

@@ -13,6 +13,8 @@ struct FingerScript {
   Vec3 target_m{0.0};  ///< of the hand's spring, the device's frame; gone to at no more than fastest_m_per_s
   double fastest_m_per_s = 0.5;
   DeviceFault fault = DeviceFault::none;  ///< put in once
+  bool real = false;                      ///< says that it is no simulated device
+  bool absent = false;                    ///< not plugged in
 };
 
 class ScriptedFinger final : public ForceDevice {
@@ -20,8 +22,10 @@ class ScriptedFinger final : public ForceDevice {
   explicit ScriptedFinger(std::shared_ptr<FingerScript> script) : script_(std::move(script)) {
     device_.place({script_->target_m});
     at_ = script_->target_m;
+    capabilities_ = device_.capabilities();
+    capabilities_.simulated = !script_->real;
   }
-  const ForceCapabilities& capabilities() const override { return device_.capabilities(); }
+  const ForceCapabilities& capabilities() const override { return capabilities_; }
   Status open() override { return device_.open(); }
   void close() override { device_.close(); }
   ForceSample exchange(const ForceCommand& command, double dt_s) noexcept override {
@@ -31,12 +35,15 @@ class ScriptedFinger final : public ForceDevice {
     device_.lead({at_, move / dt_s});
     at_ += move;
     if (script_->fault != DeviceFault::none) device_.inject(std::exchange(script_->fault, DeviceFault::none));
-    return device_.exchange(command, dt_s);
+    ForceSample sample = device_.exchange(command, dt_s);
+    if (script_->absent) sample.state = DeviceState::absent;
+    return sample;
   }
 
  private:
   std::shared_ptr<FingerScript> script_;
   SimulatedForceDevice device_;
+  ForceCapabilities capabilities_;
   Vec3 at_{0.0};
 };
 

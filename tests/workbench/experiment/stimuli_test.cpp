@@ -1,10 +1,13 @@
 // Everything that the shipped protocols show, built and felt.
 #include "workbench/experiment/stimuli.h"
 
+#include "core/io/mesh_io.h"
 #include "core/io/rendering_condition.h"
 #include "core/lab/measure/perception.h"
 #include "core/tick/step.h"
+#include "workbench/evidence/made_mesh.h"
 #include "workbench/recording/scene_bytes.h"
+#include "workbench/session/own_folder.h"
 
 #include <doctest/doctest.h>
 
@@ -166,6 +169,27 @@ TEST_CASE("an exact arc goes through a recording's bytes as it is") {
   CHECK(scene_hash(**scene) == arc->mesh_hash);
   bytes.pop_back();
   CHECK_FALSE(scene_source_from(bytes, source.name()));
+}
+
+TEST_CASE("the command that a recording names for an object makes that object, to the last bit") {
+  const Stimuli stimuli = stimuli_of(coarse_identification());
+  const auto folder = OwnFolder::make();
+  const std::filesystem::path file = folder->path() / "mesh.obj";
+  for (const bool shaded : {true, false})
+    for (const Facing facing : {Facing::left, Facing::right})
+      for (const std::string object : {"cone", "cube", "tetrahedron"}) {
+        const auto stimulus = stimuli.object(object, shaded, false, facing);
+        REQUIRE(stimulus);
+        CAPTURE(stimulus->made);
+        const auto made = made_from(stimulus->made);
+        REQUIRE(made);
+        REQUIRE(write_obj(*generate_mesh(made->object, made->options), file, 1.0, ""));
+        const auto mesh = read_mesh(file, 1.0);
+        REQUIRE(mesh);
+        const auto built = ContactMesh::build(*mesh);
+        REQUIRE(built);
+        CHECK(scene_hash(**ContactScene::build(ContactMesh(*built))) == stimulus->mesh_hash);
+      }
 }
 
 }  // namespace

@@ -100,7 +100,7 @@ class Bench {
     options.session.history_s = 1.0;
     if (change) change(options);
     naming = options.protocol.identification() != nullptr;
-    *script = {};
+    *script = plug;
     script->target_m = raised();
     DeviceSet devices;
     devices.force = std::make_unique<ScriptedFinger>(script);
@@ -167,6 +167,7 @@ class Bench {
   }
   const std::filesystem::path& folder() const { return folder_->path(); }
 
+  FingerScript plug;            ///< how the device is when it is opened
   std::function<void()> every;  ///< after each look of the program
   std::shared_ptr<FingerScript> script = std::make_shared<FingerScript>();
   bool naming = false;

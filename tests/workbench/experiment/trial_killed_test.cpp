@@ -1,12 +1,10 @@
 // A program that is killed while a participant is at the device.
 #include "core/base/split_mix.h"
 #include "tests/core/scenes.h"
+#include "tests/support/killed_process.h"
 #include "tests/workbench/experiment/trial_fixture.h"
 
 #include <cstdlib>
-
-#include <sys/wait.h>
-#include <unistd.h>
 
 namespace tangent::experiment {
 namespace {
@@ -15,24 +13,15 @@ using test::Bench;
 
 /// A start of the program in a process of its own, which is killed after a while; none: it ends by itself.
 void take_part_until_killed(Bench& bench, std::optional<unsigned> after_us) {
-  const pid_t child = fork();
-  REQUIRE(child >= 0);
-  if (child == 0) {
+  tangent::testing::run_until_killed(after_us, [&] {
     bench.trials.reset();
     auto trials = bench.try_start(test::short_comparison());
-    if (!trials) _exit(trials.error().message().find("answered everything") != std::string::npos ? 0 : 1);
+    if (!trials) return trials.error().message().find("answered everything") != std::string::npos ? 0 : 1;
     bench.trials = std::move(*trials);
     bench.run(400);
     bench.answer();
-    _exit(bench.trials->finished() && bench.trials->end() ? 0 : 2);
-  }
-  if (after_us) {
-    usleep(*after_us);
-    kill(child, SIGKILL);
-  }
-  int status = 0;
-  waitpid(child, &status, 0);
-  REQUIRE((WIFSIGNALED(status) || WEXITSTATUS(status) == 0));
+    return bench.trials->finished() && bench.trials->end() ? 0 : 2;
+  });
 }
 
 TEST_CASE("killed at any moment of trials at a device, no answer is lost and the run goes on at the same stimulus") {

@@ -196,6 +196,160 @@ TEST_CASE("nobody is enrolled twice at once, under no name of BIDS, or without a
   CHECK_FALSE(std::filesystem::exists(options.out));
 }
 
+std::string events_of(const Bench& bench) { return test::text_in(events_path(bench.trials->rows())); }
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+TEST_CASE("a fresh start arms and resumes nothing, a pause is told with its length") {
+  Bench bench(test::short_comparison());
+  CHECK_FALSE(has(events_of(bench), "resumed"));
+  CHECK(has(events_of(bench), "\tarmed\t"));
+  bench.trials->press(TrialKey::stop);
+  bench.run(2000);
+  bench.press(TrialKey::resume);
+  CHECK(has(events_of(bench), "\tpaused\t0\tstopped by the operator"));
+  CHECK(has(events_of(bench), "\tresumed\t0\tgoes on after 2.0 s"));
+}
+
+void second_person(TrialOptions& options) {
+  options.enrolment.mark.participant = "P2";
+  options.without_timeout = true;
+}
+
+TEST_CASE("a device that is missing is said at the start, before any key, and no longer once it is there") {
+  Bench bench(test::short_comparison());
+  bench.trials.reset();
+  bench.plug.real = bench.plug.absent = true;
+  bench.start(test::short_comparison(), second_person);
+  CHECK(bench.trials->operator_view().paused);
+  CHECK(has(bench.trials->operator_view().fault, "the force device is not there"));
+  CHECK(has(events_of(bench), "\tpaused\t0\t"));
+  CHECK(has(events_of(bench), "is not there"));
+  bench.press(TrialKey::resume);
+  CHECK(bench.trials->operator_view().paused);
+  bench.script->absent = false;
+  bench.run(100);
+  CHECK(has(bench.trials->operator_view().fault, "not armed yet"));
+  bench.trials->press(TrialKey::resume);
+  bench.run(1500);
+  CHECK(bench.trials->operator_view().fault == "");
+  CHECK_FALSE(bench.trials->operator_view().paused);
+}
+
+TEST_CASE("resumed before the device has answered at all, nothing arms") {
+  Bench bench(test::short_comparison());
+  bench.trials.reset();
+  bench.plug.real = true;
+  bench.trials = *bench.try_start(test::short_comparison(), second_person);
+  bench.trials->press(TrialKey::resume);
+  CHECK(bench.trials->operator_view().paused);
+  CHECK(has(bench.trials->operator_view().fault, "has not answered yet"));
+}
+
+TEST_CASE("the device's own force bounds what the protocol allows, and the start says which of them does") {
+  std::string text = test::short_comparison();
+  Bench small(text);
+  CHECK(has(events_of(small), "force limit 6 N;"));
+  text.replace(text.find("limit_n\" = 6.0"), 14, "limit_n\" = 99.0");
+  Bench large(text);
+  const double own_n = large.trials->session().force_capabilities()->peak_force_n;
+  REQUIRE(own_n < 99.0);
+  CHECK(has(events_of(large), "the device's own (the protocol allows 99 N)"));
+  double most_n = 0.0;
+  large.every = [&] { most_n = std::max(most_n, glm::length(large.tick().device.force_command_n)); };
+  large.answer(1);
+  CHECK(most_n > 0.1);
+  CHECK(most_n <= own_n);
+}
+
+/// As short_naming, in two sessions.
+std::string two_sessions() {
+  std::string text = test::short_naming();
+  return text.replace(text.find("sessions = 1"), 12, "sessions = 2");
+}
+
+TEST_CASE("a session is not begun within a day of the one before, unless somebody says so, and then it is told") {
+  const auto at = [](double hours, bool same_day = false) {
+    return [hours, same_day](TrialOptions& options) {
+      options.utc_s = [hours] { return 1'764'000'000 + static_cast<std::int64_t>(3600.0 * hours); };
+      options.same_day = same_day;
+    };
+  };
+  Bench bench(two_sessions(), at(0.0));
+  bench.answer(3);
+  bench.trials.reset();
+  bench.start(two_sessions(), at(0.5));  // the same session goes on at any time
+  bench.answer();
+  REQUIRE(bench.trials->finished());
+  REQUIRE(bench.trials->end());
+  CHECK(has(events_of(bench), "\tended\t8\tsession 1 of 2 complete"));
+  bench.trials.reset();
+  const auto early = bench.try_start(two_sessions(), at(3.0));
+  REQUIRE_FALSE(early);
+  CHECK(has(early.error().message(), "2.5 hours ago"));
+  CHECK(has(early.error().message(), "--same-day"));
+  CHECK(bench.try_start(two_sessions(), at(24.6)));
+  {
+    const auto allowed = bench.try_start(two_sessions(), at(3.0, true));
+    REQUIRE(allowed);
+    CHECK(has(test::text_in(events_path((*allowed)->rows())), "sessions need not lie apart"));
+  }
+}
+
+TEST_CASE("a table that was cut at its end is neither gone on with nor taken for a short one") {
+  Bench bench(test::short_comparison());
+  bench.answer(3);
+  const std::filesystem::path rows = bench.trials->rows(), events = events_path(rows);
+  const std::string running = test::text_in(rows);
+  const auto without_last = [](std::string text, int lines) {
+    for (; lines > 0; --lines) text.resize(text.rfind('\n', text.size() - 2) + 1);
+    return text;
+  };
+  const auto put = [](const std::filesystem::path& path, const std::string& text) {
+    std::ofstream(path, std::ios::binary) << text;
+  };
+  // While it runs, or after it was killed: events know that a later trial was begun.
+  const auto sidecar = read_sidecar(rows);
+  REQUIRE(sidecar);
+  CHECK(sidecar->least == RowCounts{0, 0});
+  CHECK(*events_complaint(rows, *sidecar, 3) == "");
+  CHECK(has(*events_complaint(rows, *sidecar, 1), "was begun after 1 answer"));
+  bench.trials.reset();
+  const std::string whole = test::text_in(rows), told = test::text_in(events);
+  CHECK(whole == running);
+  CHECK(read_sidecar(rows)->least.answers == 3);
+  put(rows, without_last(whole, 1));
+  const auto cut = bench.try_start(test::short_comparison());
+  REQUIRE_FALSE(cut);
+  CHECK(has(cut.error().message(), "2 of at least 3 rows are left"));
+  put(rows, whole);
+  put(events, without_last(told, 2));
+  const auto fewer = bench.try_start(test::short_comparison());
+  REQUIRE_FALSE(fewer);
+  CHECK(has(fewer.error().message(), "events.tsv"));
+  CHECK(has(*events_complaint(rows, *read_sidecar(rows), 3), "rows are left"));
+  std::string gap = told;
+  gap.erase(gap.find('\n') + 1, gap.find('\n', gap.find('\n') + 1) - gap.find('\n'));  // its first row
+  put(events, gap);
+  CHECK(has(*events_complaint(rows, *read_sidecar(rows), 3), "checksum does not hold"));
+  std::filesystem::remove(events);
+  CHECK(has(*events_complaint(rows, *read_sidecar(rows), 3), "is missing"));
+  put(events, told);
+  CHECK(bench.try_start(test::short_comparison()));
+}
+
+TEST_CASE("a sidecar that was changed is blamed itself, not the table's first row") {
+  Bench bench(test::short_comparison());
+  bench.answer(1);
+  const std::filesystem::path rows = bench.trials->rows(), sidecar = sidecar_path(rows);
+  bench.trials.reset();
+  std::string text = test::text_in(sidecar);
+  std::ofstream(sidecar) << text.replace(text.find("\"seed\": \"5\""), 11, "\"seed\": \"6\"");
+  const auto read = read_sidecar(rows);
+  REQUIRE_FALSE(read);
+  CHECK(has(read.error().message(), "_beh.json"));
+  CHECK(has(read.error().message(), "do not fit its digest"));
+}
+
 TEST_CASE("the participant's words tell nothing of a stimulus") {
   Bench bench(test::short_comparison());
   std::map<Phase, std::set<std::string>> prompts;
@@ -235,10 +389,12 @@ class FileLimit {
 TEST_CASE("a full disk: the answer is kept and written once there is room, nothing is shown meanwhile") {
   Bench bench(test::short_comparison());
   bench.answer(1);
+  bench.step();
+  REQUIRE(bench.phase() == Phase::second);  // the events have it, too
   const std::size_t rows = std::filesystem::file_size(bench.trials->rows());
   {
     const FileLimit full(rows + 20);  // half a row
-    bench.answer(2);
+    bench.step();
     CHECK(bench.trials->operator_view().paused);
     CHECK(bench.trials->operator_view().fault.find("can't be written") != std::string::npos);
     bench.press(TrialKey::resume);

@@ -115,6 +115,8 @@ TEST_CASE("a script that fails names its file and line, what is wrong and what t
                              {"sweep key gain_curvatur_m\n", ":1", "nearest: solver.gain_curvature_m"},
                              {"sweep count many\ntheme light\n", ":1", "write 2 to 100"},
                              {"tune range gain_curvatur_m 0 80\n", ":1", "nearest: solver.gain_curvature_m"},
+                             {"run 20\ntick 99999999\ntheme light\n", ":2", "there is no tick 99999999: they are 0 to"},
+                             {"pause\nclose recording\ntheme light\n", ":2", "no recording is open"},
                              {"script steps.txt\n", ":1", "can't run another"}}) {
     CAPTURE(std::string(wrong.lines));
     RunningApp ui;

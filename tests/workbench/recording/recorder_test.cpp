@@ -1,6 +1,6 @@
 #include "workbench/recording/recorder.h"
 
-#include "tests/workbench/recording/full_disk.h"
+#include "tests/support/full_disk.h"
 #include "tests/workbench/recording/recording_fixture.h"
 
 #include <atomic>
@@ -10,6 +10,7 @@
 
 using namespace tangent;
 using namespace tangent::test;
+using tangent::testing::FullDisk;
 
 namespace {
 

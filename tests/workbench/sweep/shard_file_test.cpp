@@ -239,5 +239,33 @@ TEST_CASE("merging refuses shards that are missing, unfinished or foreign, and a
   CHECK(changed.error().message().find("not those that were divided") != std::string::npos);
 }
 
+TEST_CASE("a copy of a mesh that went bad refuses every shard, and is put back by dividing the same plan again") {
+  const SmallSweep sweep;
+  const std::string dir = sweep.file("dir"), copy = dir + "/inputs/0/cube.obj",
+                    whole = bytes_of(sweep.file("cube.obj"));
+  const auto put_back = [&](const Plan& plan, std::uint64_t shards) {
+    const auto done = put_back_inputs(dir, plan, shards);
+    return done ? std::to_string(*done) : done.error().message();
+  };
+  REQUIRE(write_plan_folder(dir, sweep.plan(), 2, {}));
+  REQUIRE(run_shard(*open_plan_folder(dir), 0, {}));
+  const std::string shard = bytes_of(open_plan_folder(dir)->shard_file(0));
+  CHECK(put_back(sweep.plan(), 2) == "0");
+  sweep.write("dir/inputs/0/cube.obj", whole.substr(0, whole.size() / 2));
+  std::filesystem::remove(dir + "/inputs/2/walk.csv");
+  const auto refused = open_plan_folder(dir);
+  REQUIRE(!refused);
+  CHECK(refused.error().message().find("are not those that were divided; say sweep plan again") != std::string::npos);
+  CHECK(put_back(sweep.plan(), 3).find("in other shards") != std::string::npos);
+  Plan other = sweep.plan();
+  other.ticks = 7;
+  CHECK(put_back(other, 2).find("holds another plan") != std::string::npos);
+  CHECK(bytes_of(copy) != whole);  // refusing changes nothing
+  CHECK(put_back(sweep.plan(), 2) == "2");
+  CHECK(bytes_of(copy) == whole);
+  REQUIRE(open_plan_folder(dir));
+  CHECK(bytes_of(open_plan_folder(dir)->shard_file(0)) == shard);
+}
+
 }  // namespace
 }  // namespace tangent::sweep

@@ -3,41 +3,20 @@
 
 #include "core/io/mesh_io.h"
 #include "core/lab/objects/generate.h"
+#include "tests/support/full_disk.h"
 #include "tests/support/temp_folder.h"
 #include "workbench/sweep/plan_digest.h"
 #include "workbench/sweep/sweep_run.h"
 
 #include <doctest/doctest.h>
 
-#include <csignal>
 #include <fstream>
 #include <string>
 #include <vector>
 
-#include <sys/resource.h>
-
 namespace tangent::sweep::testing {
 
-/// While it exists, files grow to `bytes` at most: a write beyond fails as on a full disk.
-class FullDisk {
- public:
-  explicit FullDisk(std::uintmax_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
-    REQUIRE(getrlimit(RLIMIT_FSIZE, &before_) == 0);
-    rlimit small = before_;
-    small.rlim_cur = static_cast<rlim_t>(bytes);
-    REQUIRE(setrlimit(RLIMIT_FSIZE, &small) == 0);
-  }
-  ~FullDisk() {
-    setrlimit(RLIMIT_FSIZE, &before_);
-    std::signal(SIGXFSZ, handler_);
-  }
-  FullDisk(const FullDisk&) = delete;
-  FullDisk& operator=(const FullDisk&) = delete;
-
- private:
-  void (*handler_)(int);
-  rlimit before_{};
-};
+using tangent::testing::FullDisk;
 
 class SmallSweep {
  public:

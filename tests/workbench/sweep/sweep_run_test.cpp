@@ -272,5 +272,42 @@ TEST_CASE("two solutions of a cell with other numbers are told apart") {
   CHECK(!file->add(result));
 }
 
+TEST_CASE(
+    "cells without numbers are solved again when asked, also where their mesh was mended, and nothing else may "
+    "change") {
+  const SmallSweep sweep, whole;
+  const std::string cube = testing::bytes_of(sweep.file("cube.obj"));
+  const auto expected = [&] {
+    static_cast<void>(whole.solve("one.sqlite"));
+    return whole.rows("one.sqlite");
+  }();
+  sweep.write("cube.obj", "no mesh\n");
+  const SweepOutcome first = sweep.solve("one.sqlite");
+  CHECK(first.solved == 16);
+  CHECK(first.failed == 8);
+  CHECK(first.failures.cells == 8);
+  const auto again = [&](FailedCells failed) {
+    const Cells cells = sweep.cells();
+    auto file = ResultsFile::open(sweep.file("one.sqlite"), cells, plan_digest(cells.plan()), failed);
+    if (!file) return file.error().message();
+    const Result<SweepOutcome> outcome = run_sweep(cells, *file, {});
+    REQUIRE(outcome);
+    REQUIRE(file->finish());
+    return std::to_string(outcome->before) + " there, " + std::to_string(outcome->solved) + " solved, " +
+           std::to_string(outcome->failed) + " failed, " + std::to_string(outcome->failures.cells) + " in all";
+  };
+  CHECK(again(FailedCells::keep) == "16 there, 0 solved, 0 failed, 8 in all");
+  CHECK(again(FailedCells::again) == "8 there, 8 solved, 8 failed, 8 in all");
+  const std::string torus = testing::bytes_of(sweep.file("torus.obj"));
+  sweep.write("torus.obj", torus + "# changed\n");
+  CHECK(again(FailedCells::again).find("torus.obj: has changed since cells were solved on it") != std::string::npos);
+  sweep.write("torus.obj", torus);
+  sweep.write("cube.obj", cube);
+  CHECK(again(FailedCells::keep).find("another plan") != std::string::npos);
+  CHECK(again(FailedCells::again) == "8 there, 8 solved, 0 failed, 0 in all");
+  CHECK(sweep.rows("one.sqlite") == expected);
+  CHECK(again(FailedCells::keep) == "16 there, 0 solved, 0 failed, 0 in all");
+}
+
 }  // namespace
 }  // namespace tangent::sweep

@@ -119,6 +119,7 @@ void add_gui_command(CLI::App& app, CommandResult& result) {
     options->app.metres_per_unit = options->mesh.metres_per_unit;
     options->app.mesh_options = options->mesh.build;
     options->app.devices = options->devices.names;
+    options->app.drivers = options->devices.drivers;
     options->app.maestro = options->devices.maestro;
     options->app.packets = options->devices.packets;
     options->app.place = options->devices.place;

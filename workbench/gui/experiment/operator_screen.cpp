@@ -60,6 +60,17 @@ void badge(const UiContext& ui, const std::string& text, ImU32 colour) {
   ImGui::Dummy({0, 0});
 }
 
+constexpr const char* kPilotRun = "pilot run";
+
+/// With the gap before it.
+float badge_width(const UiContext& ui, const std::string& text) {
+  return ImGui::CalcTextSize(text.c_str()).x + ui.px(28);
+}
+
+/// Too narrow for names and buttons in one line, and for three columns.
+bool is_narrow(const UiContext& ui, float width) { return width < ui.px(860); }
+float bar_height(const UiContext& ui, float width) { return is_narrow(ui, width) ? ui.px(78) : ui.px(44); }
+
 bool filled_button(const UiContext& ui, const char* path, const char* text, ImU32 fill, ImU32 letters, ImVec2 size) {
   ImGui::PushStyleColor(ImGuiCol_Button, fill);
   ImGui::PushStyleColor(ImGuiCol_Text, letters);
@@ -130,23 +141,27 @@ bool OperatorPanel::prepare(Theme theme, float scale) {
 ImVec4 OperatorPanel::ground() const { return ImGui::ColorConvertU32ToFloat4(theme_colours(theme_).panel); }
 
 void OperatorPanel::draw_bar(const UiContext& ui, const OperatorScreen& screen, float width, OperatorWishes& wishes) {
+  const bool narrow = is_narrow(ui, width);
   ImGui::SetNextWindowPos({0, 0});
-  ImGui::SetNextWindowSize({width, ui.px(44)});
+  ImGui::SetNextWindowSize({width, bar_height(ui, width)});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(ui.px(10), ui.px(8)));
   ImGui::Begin("##bar", nullptr, kFixedPart);
   ImGui::PopStyleVar();
   const float high = ui.px(28), stop = ui.px(140), pause = ui.px(100), end = ui.px(120);
-  const float room = width - stop - pause - end - ui.px(60);
+  const std::string simulated = screen.simulated.empty() ? "" : "simulated: " + screen.simulated;
+  const float badges =
+      (screen.pilot ? badge_width(ui, kPilotRun) : 0.0f) + (simulated.empty() ? 0.0f : badge_width(ui, simulated));
+  const float room = narrow ? width - badges - ui.px(44) : width - stop - pause - end - badges - ui.px(60);
   ImGui::SetCursorPosY(ui.px(11));
   ImGui::AlignTextToFramePadding();
   ImGui::PushFont(ui.fonts.strong);
-  ImGui::TextUnformatted(fitted(ui.fonts.strong, "Participant " + screen.participant, 0.35f * room).c_str());
+  ImGui::TextUnformatted(fitted(ui.fonts.strong, "Participant " + screen.participant, 0.45f * room).c_str());
   ImGui::PopFont();
   ImGui::SameLine(0, ui.px(12));
-  ImGui::TextUnformatted(fitted(ui.fonts.text, screen.protocol, 0.4f * room).c_str());
-  if (screen.pilot) badge(ui, "pilot run", ui.colours.warning);
-  if (!screen.simulated.empty()) badge(ui, "simulated: " + screen.simulated, ui.colours.warning);
-  ImGui::SetCursorPos({width - stop - pause - end - ui.px(26), ui.px(8)});
+  ImGui::TextUnformatted(fitted(ui.fonts.text, screen.protocol, 0.5f * room).c_str());
+  if (screen.pilot) badge(ui, kPilotRun, ui.colours.warning);
+  if (!simulated.empty()) badge(ui, simulated, ui.colours.warning);
+  ImGui::SetCursorPos({width - stop - pause - end - ui.px(26), narrow ? ui.px(42) : ui.px(8)});
   if (ImGui::Button(ending_ ? "End now##end" : "End session##end", {end, high})) {
     wishes.end = ending_;
     ending_ = !ending_;
@@ -231,9 +246,15 @@ void OperatorPanel::draw_plots(const UiContext& ui, const OperatorScreen& screen
   begin_part(ui, "##plots", at, size);
   const ImVec2 from = ImGui::GetCursorScreenPos(), room = ImGui::GetContentRegionAvail();
   const bool staircase = !screen.staircase.empty() && !covered_;
-  const float force = staircase ? 0.45f * room.y : room.y;
-  draw_force_trace(ui, screen, from, {room.x, force});
-  if (staircase) draw_staircase(ui, screen, {from.x, from.y + force + ui.px(6)}, {room.x, room.y - force - ui.px(6)});
+  if (room.x > 2.5f * room.y && staircase) {  // a flat place: side by side
+    const float half = 0.5f * (room.x - ui.px(6));
+    draw_force_trace(ui, screen, from, {half, room.y});
+    draw_staircase(ui, screen, {from.x + half + ui.px(6), from.y}, {half, room.y});
+  } else {
+    const float force = staircase ? 0.45f * room.y : room.y;
+    draw_force_trace(ui, screen, from, {room.x, force});
+    if (staircase) draw_staircase(ui, screen, {from.x, from.y + force + ui.px(6)}, {room.x, room.y - force - ui.px(6)});
+  }
   ImGui::End();
 }
 
@@ -247,13 +268,18 @@ OperatorWishes OperatorPanel::frame(const OperatorScreen& screen, ImVec2 size, d
   const UiContext ui{items_, typing_, resting_, theme_colours(theme_), palette(theme_), fonts_, open_sections_,
                      scale_, now_s,   nullptr};
   draw_bar(ui, screen, size.x, wishes);
-  const float top = ui.px(44) + draw_fault(ui, screen, ui.px(44), size.x);
-  const float side = std::min(ui.px(300), 0.28f * size.x), high = size.y - top;
-  begin_part(ui, "##device", {0, top}, {side, high});
+  const float bar = bar_height(ui, size.x), top = bar + draw_fault(ui, screen, bar, size.x), high = size.y - top;
+  const bool narrow = is_narrow(ui, size.x);
+  const float side = narrow ? 0.5f * size.x : std::min(ui.px(300), 0.28f * size.x);
+  const float words_high = narrow ? 0.62f * high : high;  // then the plots are below
+  begin_part(ui, "##device", {0, top}, {side, words_high});
   draw_device(ui, screen, wishes);
   ImGui::End();
-  draw_plots(ui, screen, {side, top}, {size.x - 2.0f * side, high});
-  begin_part(ui, "##now", {size.x - side, top}, {side, high});
+  if (narrow)
+    draw_plots(ui, screen, {0, top + words_high}, {size.x, high - words_high});
+  else
+    draw_plots(ui, screen, {side, top}, {size.x - 2.0f * side, high});
+  begin_part(ui, "##now", {size.x - side, top}, {side, words_high});
   draw_now(ui, screen, wishes);
   draw_notes(ui, screen, wishes);
   ImGui::End();

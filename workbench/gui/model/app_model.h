@@ -15,6 +15,7 @@
 
 #include "workbench/gui/map/map_view.h"
 #include "workbench/gui/model/app_options.h"
+#include "workbench/gui/model/bring_up_model.h"
 #include "workbench/gui/model/curves_model.h"
 #include "workbench/gui/model/device_model.h"
 #include "workbench/gui/model/evidence_model.h"
@@ -92,6 +93,7 @@ class AppModel {
   const ViewModel& view() const { return view_; }
   DeviceModel& devices() { return devices_; }
   const DeviceModel& devices() const { return devices_; }
+  BringUpModel& bring_up() { return bring_up_; }
   GuardModel& guard() { return guard_; }
   const GuardModel& guard() const { return guard_; }
   TimeModel& time() { return time_; }
@@ -132,6 +134,7 @@ class AppModel {
   MapView map_;
   ViewModel view_;
   DeviceModel devices_;
+  BringUpModel bring_up_;
   GuardModel guard_;
   TimeModel time_;
   RecordingModel recordings_;

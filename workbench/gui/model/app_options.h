@@ -20,6 +20,7 @@ struct AppOptions {
   std::filesystem::path preset;         ///< empty: the shipped default
   std::filesystem::path preset_folder;  ///< where presets are saved; empty: where `preset` is, or the shipped ones
   DeviceNames devices;
+  DeviceOptions drivers;                            ///< of the real force devices
   ArmOnStart arm_on_start = ArmOnStart::simulated;  ///< of the first session; later ones begin without force
   PlaceOptions place;                               ///< of the scene on the force device
   MaestroWish maestro;                              ///< for the display "maestro"

@@ -14,6 +14,7 @@ SessionOptions session_options(const AppOptions& from) {
   options.servo.rate_hz = from.servo_hz;
   options.servo.cpu = from.servo_cpu;
   options.devices = from.devices;
+  options.drivers = from.drivers;
   options.packets = from.packets;
   options.seed = from.seed;
   options.history_s = from.history_s;
@@ -44,6 +45,7 @@ void DeviceModel::take_scene(PreparedScenePtr prepared) {
 }
 
 void DeviceModel::make_session(PreparedScenePtr prepared) {
+  if (lent_) return;
   // The wish to arm is for the first attempt, whatever comes of it: a later choice of devices arms nothing.
   const ArmOnStart arm_on_start = std::exchange(options_.arm_on_start, ArmOnStart::never);
   if (options_.devices.display == "maestro") {
@@ -220,7 +222,20 @@ bool DeviceModel::stopped() const {
   return status_.servo.gate_state == GateState::disarmed || status_.servo.gate_state == GateState::faulted;
 }
 
+void DeviceModel::lend() {
+  lent_ = true;
+  end_session();
+  status_ = {};
+  session_ended_();
+}
+
+void DeviceModel::give_back() {
+  lent_ = false;
+  if (scene_.of_servo() != nullptr) make_session();
+}
+
 void DeviceModel::stop() {
+  if (also_stop_) also_stop_();
   options_.arm_on_start = ArmOnStart::never;  // of a session that is still to come
   if (session_ != nullptr) session_->stop();
 }

@@ -33,6 +33,14 @@ class DeviceModel {
   void before_release(std::function<void()> what) { before_release_ = std::move(what); }
   void end_session();  ///< stops the force and releases the devices
 
+  /// Another part uses the force device for a while: the session ends, and none is made before it is given back.
+  void lend();
+  void give_back();
+  bool lent() const { return lent_; }
+  const DeviceOptions& drivers() const { return options_.drivers; }
+  /// Called with every stop.
+  void also_stop(std::function<void()> what) { also_stop_ = std::move(what); }
+
   // Called by the other parts.
   void take_scene(PreparedScenePtr prepared);  ///< sends scene.current(); creates the first session
   std::optional<std::uint32_t> send_preset();  ///< sends presets.current(); its id, or empty when it was refused
@@ -74,7 +82,8 @@ class DeviceModel {
   const SceneModel& scene_;
   const PresetModel& presets_;
   MessageLog& messages_;
-  std::function<void()> session_ended_, before_release_;
+  std::function<void()> session_ended_, before_release_, also_stop_;
+  bool lent_ = false;
   SessionOptions options_;
   MaestroWish maestro_wish_;
   std::filesystem::path maestro_file_;  ///< empty: calibrations are not kept

@@ -15,6 +15,12 @@ constexpr double kMostShown = 1e5;  // a limit larger than this is there for saf
 
 }  // namespace
 
+std::function<void()> when(AppModel& model, std::function<bool()> can, std::string why_not, std::function<void()> act) {
+  return [&model, can = std::move(can), why_not = std::move(why_not), act = std::move(act)] {
+    can() ? act() : model.messages().refuse(why_not);
+  };
+}
+
 void CommandList::plain(CommandNames names, std::function<void()> act) {
   all.push_back({std::move(names), {}, [act = std::move(act)](const std::string&) -> Status {
                    act();

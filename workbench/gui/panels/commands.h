@@ -60,6 +60,9 @@ class CommandList {
   void text(CommandNames names, const char* shown, std::function<Status(const std::string&)> act);
 };
 
+/// Does it where it can; where it can't, the window says why, and a line of a script has failed.
+std::function<void()> when(AppModel& model, std::function<bool()> can, std::string why_not, std::function<void()> act);
+
 // One file each. `model` and `menu` must outlive the list.
 void add_time_commands(CommandList& out, AppModel& model, MenuBar& menu);
 void add_preset_commands(CommandList& out, AppModel& model, MenuBar& menu);

@@ -63,7 +63,9 @@ void add_map(CommandList& out, AppModel& model) {
   out.plain({"solve here", "Map: solve at the picked triangle, or at the contact", "H", "place tick direction"},
             [&model] { model.solve_here(); });
   out.plain({"compute map", "Map: compute again", "", "refresh"}, [&map] { map.compute_again(); });
-  out.plain({"cancel map", "Map: cancel the computation", "", "stop"}, [&map] { map.cancel(); });
+  out.plain({"cancel map", "Map: cancel the computation", "", "stop"},
+            when(
+                model, [&map] { return map.running(); }, "no map is being computed", [&map] { map.cancel(); }));
   const double scale = unit_of(map.quantity).in_si;
   const char* unit = unit_of(map.quantity).name.data();
   out.number({"map low", "Map: value of the first colour", "", "range minimum"}, unit, -1e12, 1e12,

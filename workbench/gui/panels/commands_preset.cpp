@@ -98,7 +98,9 @@ void add_files(CommandList& out, AppModel& model, MenuBar& menu) {
   out.plain({"check preset", "Preset: check the evidence", "", "measure again holds proof verify"},
             [&evidence] { evidence.check(); });
   out.plain({"cancel check", "Preset: stop checking the evidence", "", "evidence stop"},
-            [&evidence] { evidence.cancel(); });
+            when(
+                model, [&evidence] { return evidence.running(); }, "no evidence is being checked",
+                [&evidence] { evidence.cancel(); }));
   out.on_off(
       {"attach selection", "Preset: attach the selection when saving", "", "evidence poses measured"},
       [&evidence] { return evidence.wanted(); }, [&evidence](bool wanted) { evidence.set_wanted(wanted); });

@@ -18,28 +18,54 @@ constexpr double kLargestTick = 1e12;
 
 std::vector<std::string> strings(std::span<const std::string_view> names) { return {names.begin(), names.end()}; }
 
-void add_stepping(CommandList& out, TimeModel& time) {
+/// Where there is such a tick.
+void go_to_tick(AppModel& model, double tick) {
+  TimeModel& time = model.time();
+  const OpenedRecording* const recording = time.recording();
+  const std::uint64_t first = recording != nullptr ? recording->info().first_tick : time.first_tick();
+  const std::uint64_t end = recording != nullptr ? recording->info().last_tick + 1 : time.end_tick();
+  if (tick >= static_cast<double>(first) && tick < static_cast<double>(end))
+    return time.select_tick(static_cast<std::uint64_t>(tick));
+  model.messages().refuse(end > first ? "there is no tick " + printed("%.0f", tick) + ": they are " +
+                                            std::to_string(first) + " to " + std::to_string(end - 1)
+                                      : "there are no ticks yet");
+}
+
+void go_to_iteration(AppModel& model, double row) {
+  TimeModel& time = model.time();
+  time.set_paused(true);
+  time.tick().select(static_cast<std::size_t>(row));
+  if (!time.tick().selected())
+    model.messages().refuse("this tick has no iteration " + printed("%.0f", row) + ": it has " +
+                            std::to_string(time.tick().iterations().size()) + ", from 0");
+}
+
+void add_stepping(CommandList& out, AppModel& model) {
+  TimeModel& time = model.time();
   out.on_off(
       {"pause", "Time: pause or go on", "Space", "freeze hold play stop"}, [&time] { return time.paused(); },
       [&time](bool on) { time.set_paused(on); });
   out.plain({"live", "Time: newest tick, live", "End", "follow now"}, [&time] { time.go_live(); });
   out.plain({"oldest", "Time: oldest tick", "Home", "first begin"}, [&time] { time.select_tick(time.first_tick()); });
   out.number({"tick", "Time: go to the tick", "", "select jump"}, "", 0.0, kLargestTick,
-             [&time](double tick) { time.select_tick(static_cast<std::uint64_t>(tick)); });
-  out.number({"time", "Time: go to the time", "", "select jump seconds"}, "s", 0.0, kLargestTick, [&time](double t_s) {
-    time.select_tick(static_cast<std::uint64_t>(std::llround(t_s / time.tick_period_s())));
-  });
+             [&model](double tick) { go_to_tick(model, tick); });
+  out.number({"time", "Time: go to the time", "", "select jump seconds"}, "s", 0.0, kLargestTick,
+             [&model](double t_s) { go_to_tick(model, std::round(t_s / model.time().tick_period_s())); });
   out.number({"step", "Time: step by ticks", "Left, Right", "next previous forward back"}, "", -kLargestTick,
              kLargestTick, [&time](double by) { time.step_tick(static_cast<std::int64_t>(by)); });
   out.number({"step iteration", "Time: step by iterations", ", and .", "next previous plane"}, "", -1000.0, 1000.0,
              [&time](double by) { time.step_iteration(static_cast<int>(by)); });
-  out.number({"iteration", "Time: select the iteration", "", "plane row"}, "", 0.0, 1e6, [&time](double row) {
-    time.set_paused(true);
-    time.tick().select(static_cast<std::size_t>(row));
-  });
+  out.number({"iteration", "Time: select the iteration", "", "plane row"}, "", 0.0, 1e6,
+             [&model](double row) { go_to_iteration(model, row); });
 }
 
-void add_bookmarks(CommandList& out, TimeModel& time) {
+bool has_automatic(const Bookmarks& bookmarks) {
+  return std::any_of(bookmarks.all().begin(), bookmarks.all().end(),
+                     [](const Bookmark& mark) { return mark.kind != BookmarkKind::user; });
+}
+
+void add_bookmarks(CommandList& out, AppModel& model) {
+  TimeModel& time = model.time();
   out.plain({"bookmark", "Time: bookmark this tick", "K", "mark add"}, [&time] { time.add_bookmark(); });
   out.text({"bookmark note", "Time: bookmark this tick with a note", "", "mark comment"}, "TEXT",
            [&time](const std::string& note) -> Status {
@@ -52,7 +78,9 @@ void add_bookmarks(CommandList& out, TimeModel& time) {
   out.plain({"previous bookmark", "Time: previous bookmark", "[", "back"}, [&time] { time.go_to_bookmark(-1); });
   out.plain({"next bookmark", "Time: next bookmark", "]", "forward"}, [&time] { time.go_to_bookmark(1); });
   out.plain({"clear triggered", "Bookmarks: clear those that triggers set", "", "remove delete automatic"},
-            [&time] { time.bookmarks().clear_automatic(); });
+            when(
+                model, [&time] { return has_automatic(time.bookmarks()); }, "no trigger has set a bookmark",
+                [&time] { time.bookmarks().clear_automatic(); }));
   BookmarkTriggers& triggers = time.live_bookmarks().triggers;
   for (std::size_t k = 1; k < kBookmarkKindCount; ++k) {
     const std::string kind = to_string(static_cast<BookmarkKind>(k));
@@ -96,7 +124,9 @@ void add_recordings(CommandList& out, AppModel& model, MenuBar& menu) {
   out.plain({"open recording", "Recording: open a file", "Ctrl+O", "load read replay sqlite"},
             [&menu] { menu.path.open = menu.path.focus = true; });
   out.plain({"close recording", "Recording: close it, back to live", "End", "leave replay"},
-            [&model] { model.time().go_live(); });
+            when(
+                model, [&model] { return model.time().recording() != nullptr; }, "no recording is open",
+                [&model] { model.time().go_live(); }));
 }
 
 void add_plots(CommandList& out, AppModel& model, MenuBar& menu) {
@@ -106,7 +136,10 @@ void add_plots(CommandList& out, AppModel& model, MenuBar& menu) {
     const auto [from, to] = ticks_in_view(model.time());
     model.exports().write_ticks(model.time().past().shown().records, from, to, file_origin(model));
   });
-  out.plain({"cancel export", "Plots: stop writing the file", "", "save stop"}, [&model] { model.exports().cancel(); });
+  out.plain({"cancel export", "Plots: stop writing the file", "", "save stop"},
+            when(
+                model, [&model] { return model.exports().writing(); }, "no file is being written",
+                [&model] { model.exports().cancel(); }));
   out.plain({"export plots", "Plots: picture of the plots as PNG", "", "save write file image"},
             [&model, &menu] { wish(model, menu, "plots/png"); });
   out.choice({"plots", "Plots:", "", "show kind mode"}, {"Time", "X-Y", "Spectrum", "Histogram"},
@@ -186,14 +219,17 @@ void add_placement(CommandList& out, AppModel& model, MenuBar& menu) {
   }
 }
 
-void add_guard(CommandList& out, GuardModel& guard) {
+void add_guard(CommandList& out, AppModel& model) {
+  GuardModel& guard = model.guard();
   out.flag({"guarded tuning", "Guard: ask before what is not known to be safe, undo what makes the gate act", "",
             "live safe"},
            guard.on);
   out.plain({"guard find", "Guard: find safe ranges in the simulated hand", "", "sweep stable shakes"},
             [&guard] { guard.find_ranges(); });
-  out.plain({"guard cancel", "Guard: stop finding, keep what is known", "", "safe ranges"},
-            [&guard] { guard.cancel(); });
+  out.plain(
+      {"guard cancel", "Guard: stop finding, keep what is known", "", "safe ranges"},
+      when(
+          model, [&guard] { return guard.finding(); }, "no safe ranges are being found", [&guard] { guard.cancel(); }));
   out.plain({"guard no", "Guard: no, keep the values of the devices", "Enter", "answer question"},
             [&guard] { guard.answer(false); });
   out.plain({"guard yes", "Guard: yes, send the change to the armed device", "", "answer question"},
@@ -203,13 +239,13 @@ void add_guard(CommandList& out, GuardModel& guard) {
 }  // namespace
 
 void add_time_commands(CommandList& out, AppModel& model, MenuBar& menu) {
-  add_stepping(out, model.time());
-  add_bookmarks(out, model.time());
+  add_stepping(out, model);
+  add_bookmarks(out, model);
   add_recordings(out, model, menu);
   add_plots(out, model, menu);
   add_devices(out, model, menu);
   add_placement(out, model, menu);
-  add_guard(out, model.guard());
+  add_guard(out, model);
 }
 
 }  // namespace tangent

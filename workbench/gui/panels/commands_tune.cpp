@@ -150,8 +150,13 @@ void add_search(CommandList& out, AppModel& model, MenuBar& menu) {
   });
   out.plain({"tune question", "Tune: the question folded or not", "", "show hide"},
             [&model, &menu] { wish(model, menu, "tune/question"); });
-  out.plain({"tune cancel", "Tune: stop, keep the trials so far", ""}, [&tune] { tune.cancel(); });
-  out.plain({"tune clear", "Tune: forget the trials", "", "delete"}, [&tune] { tune.clear(); });
+  out.plain({"tune cancel", "Tune: stop, keep the trials so far", ""},
+            when(
+                model, [&tune] { return tune.running() || tune.looking_for_failures(); }, "no search is running",
+                [&tune] { tune.cancel(); }));
+  out.plain({"tune clear", "Tune: forget the trials", "", "delete"},
+            when(
+                model, [&tune] { return !tune.trials().empty(); }, "there are no trials", [&tune] { tune.clear(); }));
   const auto axis = [&](const char* name, const char* title, const char* path) {
     out.text({name, title, "", "plot axis"}, "NAME",
              [&model, &menu, path](const std::string& value) { return wish(model, menu, path, value), Status(); });

@@ -36,7 +36,9 @@ void add_comparing(CommandList& out, AppModel& model, MenuBar& menu) {
   out.plain({"read selection", "Time machine: read the recording from cursor A to B, to solve it again", "", "load"},
             [&model] { model.time().load_selection(); });
   out.plain({"cancel reading", "Time machine: stop reading from cursor A to B", "", "load stop"},
-            [&model] { model.time().cancel_loading(); });
+            when(
+                model, [&model] { return model.time().selection_loading(); }, "nothing is being read",
+                [&model] { model.time().cancel_loading(); }));
   press(out, model, menu, {"solve at bookmark", "Bookmarks: solve at this one", "", "place here"}, "bookmarks/solve");
   press(out, model, menu, {"leave place", "Iterations: back to the recorded tick", "", "solve here end"},
         "iterations/leave_place");
@@ -95,7 +97,9 @@ void add_recordings(CommandList& out, AppModel& model) {
   out.plain({"whole recordings", "Recordings: compare all ticks again", ""},
             [&recordings] { recordings.show_whole(); });
   out.plain({"stop comparing", "Recordings: stop, keep what is found", "", "cancel"},
-            [&recordings] { recordings.stop(); });
+            when(
+                model, [&recordings] { return recordings.running(); }, "no recordings are being compared",
+                [&recordings] { recordings.stop(); }));
 }
 
 void add_sweep(CommandList& out, AppModel& model, MenuBar& menu) {
@@ -117,17 +121,27 @@ void add_sweep(CommandList& out, AppModel& model, MenuBar& menu) {
       {"sweep shows", "Sweep: colours of two values show", "", "heat map mean p99 failures"},
       {TuningModel::kShows.begin(), TuningModel::kShows.end()},
       [&tuning](std::size_t i) { tuning.shows = static_cast<TuningModel::Shows>(i); }, static_cast<int>(tuning.shows));
-  out.plain({"sweep cancel", "Sweep: stop, keep the points so far", ""}, [&model] { model.tuning().cancel_sweep(); });
-  out.plain({"sweep clear", "Sweep: delete the points", "", "delete"}, [&model] { model.tuning().clear_points(); });
+  out.plain({"sweep cancel", "Sweep: stop, keep the points so far", ""},
+            when(
+                model, [&model] { return model.tuning().sweep().running(); }, "no sweep is running",
+                [&model] { model.tuning().cancel_sweep(); }));
+  out.plain({"sweep clear", "Sweep: delete the points", "", "delete"},
+            when(
+                model, [&model] { return !model.tuning().points().empty(); }, "there are no points",
+                [&model] { model.tuning().clear_points(); }));
 }
 
 void add_curves(CommandList& out, AppModel& model, MenuBar& menu) {
   constexpr const char* kWords = "bench benchmark methods accuracy precision work curve";
   press(out, model, menu, {"speed start", "Speed against error: measure the chosen ticks", "", kWords}, "speed/start");
   out.plain({"speed cancel", "Speed against error: stop, keep the rounds so far", "", kWords},
-            [&model] { model.curves().cancel(); });
+            when(
+                model, [&model] { return model.curves().running(); }, "nothing is being measured",
+                [&model] { model.curves().cancel(); }));
   out.plain({"speed clear", "Speed against error: delete the curves", "", kWords},
-            [&model] { model.curves().clear(); });
+            when(
+                model, [&model] { return model.curves().curves() != nullptr; }, "there are no curves",
+                [&model] { model.curves().clear(); }));
   out.choice({"speed time", "Speed against error: the time that is drawn", "", kWords}, {"median", "mean", "99"},
              [&model](std::size_t i) { model.curves().shown_time = static_cast<CurvesModel::Time>(i); });
   out.choice({"speed error", "Speed against error: the error that is drawn", "", kWords}, {"median", "99", "worst"},

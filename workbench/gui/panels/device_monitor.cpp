@@ -299,10 +299,22 @@ void draw_columns(const UiContext& ui, AppModel& model) {
   ImGui::PopStyleVar();
 }
 
+void draw_bring_up_button(const UiContext& ui, BringUpModel& bring_up) {
+  if (!bring_up.open()) {
+    if (text_button(ui, "monitor/bring_up", "Bring up ...",
+                    "Step by step from the cable to the first force of the force device. The session ends; nothing "
+                    "moves before you say yes"))
+      bring_up.begin();
+  } else if (text_button(ui, "monitor/bring_up_end", "Back to the session",
+                         "Zero force, then a session without force")) {
+    bring_up.end();
+  }
+}
+
 }  // namespace
 
 void draw_device_monitor(const UiContext& ui, AppModel& model, const Rect& rect) {
-  if (!model.view().device_monitor) return;
+  if (!model.view().device_monitor) return model.bring_up().end();  // a page that nobody sees pushes nobody
   ImGui::SetNextWindowPos({rect.x, rect.y});
   ImGui::SetNextWindowSize({rect.w, rect.h});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(ui.px(12), ui.px(8)));
@@ -315,9 +327,13 @@ void draw_device_monitor(const UiContext& ui, AppModel& model, const Rect& rect)
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted("Device monitor");
   ImGui::PopFont();
+  ImGui::SameLine(0.0f, ui.px(16));
+  draw_bring_up_button(ui, model.bring_up());
   ImGui::SameLine(ImGui::GetWindowWidth() - ui.px(80));
   if (text_button(ui, "monitor/close", "Close", "Back to the 3D view")) model.view().device_monitor = false;
-  if (model.devices().session() == nullptr) {
+  if (model.bring_up().open()) {
+    draw_bring_up_page(ui, model.bring_up());
+  } else if (model.devices().session() == nullptr) {
     ImGui::TextDisabled("No session");
   } else {
     draw_columns(ui, model);

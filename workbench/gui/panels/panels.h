@@ -158,6 +158,8 @@ void draw_guard_question(const UiContext& ui, AppModel& model, const Rect& over)
 /// Enter answers the guard's question with no; false: there is none, or no Enter.
 bool refuse_by_enter(GuardModel& guard);
 void draw_unsaved_offer(const UiContext& ui, UnsavedModel& unsaved, const Rect& over);
+/// In the monitor, while a force device is brought up.
+void draw_bring_up_page(const UiContext& ui, BringUpModel& bring_up);
 /// Drawn in place of the 3D view while the monitor is open.
 void draw_device_monitor(const UiContext& ui, AppModel& model, const Rect& rect);
 

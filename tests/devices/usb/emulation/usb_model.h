@@ -33,6 +33,7 @@ class UsbModel {
 
   /// Packets waiting for the host; the board takes them.
   std::deque<Bytes> in_packets;
+  bool bulk = false;  ///< its endpoints; a host that asks for interrupt transfers is refused, as by Linux
   BusFault next_in = BusFault::none, next_out = BusFault::none;  ///< for the next packet alone
 };
 

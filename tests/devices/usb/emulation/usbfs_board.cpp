@@ -46,6 +46,7 @@ int UsbfsBoard::submit(usbdevfs_urb* urb) {
     submit_control(urb);
     return 0;
   }
+  if (model_.bulk && urb->type == USBDEVFS_URB_TYPE_INTERRUPT) return -EINVAL;
   if ((urb->endpoint & 0x80u) != 0) {
     waiting_.push_back(urb);
     serve_in();

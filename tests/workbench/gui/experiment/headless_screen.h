@@ -1,6 +1,7 @@
 // An ImGui context for one screen of an experiment, without window or GL, with simulated mouse and keys.
 #pragma once
 
+#include "tests/workbench/gui/drawn_text.h"
 #include "workbench/gui/experiment/operator_screen.h"
 #include "workbench/gui/experiment/participant_screen.h"
 
@@ -12,6 +13,13 @@
 #include <vector>
 
 namespace tangent::test {
+
+/// No two of the texts lie on each other.
+inline void check_apart(const std::vector<DrawnText>& texts) {
+  for (std::size_t i = 0; i < texts.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      CHECK_FALSE_MESSAGE(collide(texts[i], texts[j]), texts[i].text << " | " << texts[j].text);
+}
 
 class HeadlessScreen {
  public:

@@ -1,7 +1,6 @@
 // The participant's screen: everything is on it, apart, readable, and the scene only where it may be seen.
 #include "workbench/gui/experiment/participant_screen.h"
 
-#include "tests/workbench/gui/drawn_text.h"
 #include "tests/workbench/gui/experiment/headless_screen.h"
 #include "workbench/gui/experiment/experiment_keys.h"
 
@@ -78,8 +77,8 @@ TEST_CASE("on every screen the participant's words are whole, apart, and in stro
           CHECK(texts[i].max.x <= size.x);
           CHECK(texts[i].min.y >= 0.0f);
           CHECK(texts[i].max.y <= size.y);
-          for (std::size_t j = 0; j < i; ++j) CHECK_FALSE_MESSAGE(collide(texts[i], texts[j]), texts[j].text);
         }
+        check_apart(texts);
         for (const double contrast : contrasts(texts, {0, 0, 0, 1})) CHECK(contrast >= 7.0);
       }
 }

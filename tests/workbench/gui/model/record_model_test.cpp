@@ -1,7 +1,7 @@
 // Recordings that the window makes.
+#include "tests/support/full_disk.h"
 #include "tests/support/temp_folder.h"
 #include "tests/workbench/gui/running_app.h"
-#include "tests/workbench/recording/full_disk.h"
 #include "workbench/recording/recording.h"
 #include "workbench/recording/replay.h"
 
@@ -156,7 +156,7 @@ TEST_CASE(
   ui.run(1000);
   CHECK(ui.app().items().find("status/not_recorded") == nullptr);
   {
-    const test::FullDisk full(path);
+    const testing::FullDisk full(path);
     ui.app().advance(4000);
     ui.frames(2);
     CHECK(said(ui.model(), Severity::error, "not recorded at present"));
@@ -191,7 +191,7 @@ TEST_CASE("a history that does not fit on the disk is an error, and leaves no fi
   ui.run(3000);
   folder.write("small.sqlite-wal", "");
   {
-    const test::FullDisk full(folder.file("small.sqlite"));
+    const testing::FullDisk full(folder.file("small.sqlite"));
     ui.model().record().write_history(folder.file("history.sqlite"));
   }
   CHECK(said(ui.model(), Severity::error, "not recorded"));

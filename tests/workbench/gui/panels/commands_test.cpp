@@ -354,6 +354,44 @@ std::set<std::string> all_widgets() {
   return paths;
 }
 
+TEST_CASE("a command that has nothing to do says so, so that a script's line with it fails") {
+  RunningApp ui;
+  ui.run(50);
+  MenuBar menu;
+  MessageLog& messages = ui.model().messages();
+  for (const auto& [line, why] : std::initializer_list<std::pair<const char*, const char*>>{
+           {"cancel export", "no file is being written"},
+           {"close recording", "no recording is open"},
+           {"tick 99999999", "there is no tick 99999999: they are 0 to 49"},
+           {"time 1e9", "there is no tick 1000000000000: they are 0 to 49"},
+           {"iteration 500", "this tick has no iteration 500: it has "},
+           {"clear triggered", "no trigger has set a bookmark"},
+           {"guard cancel", "no safe ranges are being found"},
+           {"tune cancel", "no search is running"},
+           {"tune clear", "there are no trials"},
+           {"sweep cancel", "no sweep is running"},
+           {"sweep clear", "there are no points"},
+           {"speed cancel", "nothing is being measured"},
+           {"speed clear", "there are no curves"},
+           {"cancel map", "no map is being computed"},
+           {"cancel check", "no evidence is being checked"},
+           {"cancel reading", "nothing is being read"},
+           {"stop comparing", "no recordings are being compared"}}) {
+    CAPTURE(std::string(line));
+    const std::uint64_t before = messages.refusals();
+    REQUIRE(run_line(window_commands(ui.model(), menu), line));
+    CHECK(messages.refusals() == before + 1);
+    CHECK(messages.last_refusal().starts_with(why));
+  }
+  const std::uint64_t before = messages.refusals();
+  for (const char* const line : {"tick 49", "tick 0", "time 0.049", "iteration 0"}) {
+    CAPTURE(std::string(line));
+    REQUIRE(run_line(window_commands(ui.model(), menu), line));
+    CHECK(messages.refusals() == before);
+  }
+  CHECK(ui.model().time().tick().record()->tick.tick == 49);
+}
+
 }  // namespace
 
 TEST_CASE("every button, field, menu item and row of the window has a command") {

@@ -4,22 +4,26 @@
 #include <doctest/doctest.h>
 
 #include <csignal>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 
 #include <sys/resource.h>
 
-namespace tangent::test {
+namespace tangent::testing {
 
-/// While it exists, files take 64 KiB more than a recording's log has now: the write then fails as on a full disk.
+/// While it exists, files of this process, and of those that it starts, grow to `bytes` at most: a write beyond fails
+/// as on a full disk.
 class FullDisk {
  public:
-  explicit FullDisk(const std::string& recording) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+  explicit FullDisk(std::uintmax_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
     REQUIRE(getrlimit(RLIMIT_FSIZE, &before_) == 0);
     rlimit small = before_;
-    small.rlim_cur = static_cast<rlim_t>(std::filesystem::file_size(recording + "-wal")) + 65'536;
+    small.rlim_cur = static_cast<rlim_t>(bytes);
     REQUIRE(setrlimit(RLIMIT_FSIZE, &small) == 0);
   }
+  /// 64 KiB more than a recording's log has now.
+  explicit FullDisk(const std::string& recording) : FullDisk(std::filesystem::file_size(recording + "-wal") + 65'536) {}
   ~FullDisk() {
     setrlimit(RLIMIT_FSIZE, &before_);
     std::signal(SIGXFSZ, handler_);
@@ -32,4 +36,4 @@ class FullDisk {
   rlimit before_{};
 };
 
-}  // namespace tangent::test
+}  // namespace tangent::testing

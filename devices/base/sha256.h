@@ -1,0 +1,16 @@
+// SHA-256 (FIPS 180-4) of bytes in memory, to name a file whose content matters. Allocates nothing but its text.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+
+namespace tangent {
+
+std::array<std::uint8_t, 32> sha256(std::span<const std::uint8_t> bytes) noexcept;
+
+/// 64 hexadecimal digits, lower case.
+std::string sha256_text(std::span<const std::uint8_t> bytes);
+
+}  // namespace tangent

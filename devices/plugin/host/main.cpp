@@ -1,0 +1,108 @@
+// workbench-plugin: the process that a plug-in lives in (devices/plugin/README.md). Started by the workbench, with the
+// shared memory and a pipe as descriptors 3 and 4:
+//
+//   workbench-plugin describe|run PLUGIN.so [KEY VALUE]...
+//
+// The pipe says that there is something to see, and, by its end, that this process is gone.
+#include "devices/plugin/host/crash_handler.h"
+#include "devices/plugin/host/plugin_host.h"
+
+#include <fcntl.h>
+#include <pthread.h>
+#include <sched.h>
+#include <sys/prctl.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdio>
+#include <string_view>
+
+namespace tangent {
+namespace {
+
+void tell(PluginRegion& region, HostPhase phase) {
+  region.to_program().phase.store(phase, std::memory_order_release);
+  static_cast<void>(::write(kLifeDescriptor, "p", 1) == 1);
+}
+
+int say_failed(PluginRegion& region, const Error& error) {
+  region.to_program().what.put(PluginText(error.where.empty() ? error.what : error.where + ": " + error.what));
+  region.to_program().remedy.put(PluginText(error.remedy));
+  tell(region, HostPhase::failed);
+  return 1;
+}
+
+/// The second thread takes SIGTERM; Ctrl-C and a closed terminal are the program's.
+void prepare_signals() {
+  prctl(PR_SET_PDEATHSIG, SIGTERM);
+  prctl(PR_SET_TIMERSLACK, 1UL);  // ns
+  sigset_t blocked;
+  sigemptyset(&blocked);
+  for (const int signal : {SIGTERM, SIGINT, SIGHUP, SIGQUIT, SIGTSTP, SIGTTIN, SIGTTOU, SIGPIPE})
+    sigaddset(&blocked, signal);
+  pthread_sigmask(SIG_BLOCK, &blocked, nullptr);
+}
+
+/// Without it the plug-in answers with more jitter. As the servo's.
+void ask_for_realtime() {
+  sched_param priority{};
+  priority.sched_priority = 40;
+  static_cast<void>(pthread_setschedparam(pthread_self(), SCHED_FIFO, &priority));
+}
+
+PluginSettings settings_of(int argc, char** argv) {
+  PluginSettings settings;
+  for (int i = 3; i + 1 < argc; i += 2) settings.emplace_back(argv[i], argv[i + 1]);
+  return settings;
+}
+
+int run(PluginRegion& region, PluginLibrary& library) {
+  std::atomic<HostPlace>& place = region.to_program().place;
+  PluginHost host(region, library);
+  host.watch();
+  place.store(HostPlace::open);
+  if (const Status ok = library.open(); !ok) return say_failed(region, ok.error());
+  place.store(HostPlace::own);
+  stop_in_a_crash(library);
+  if (region.to_host().realtime != 0) ask_for_realtime();
+  host.serve();
+  constexpr unsigned kLongestClose_s = 5;
+  ::alarm(kLongestClose_s);  // nobody else would end a process whose program is gone
+  place.store(HostPlace::close);
+  library.close();
+  leave_crashes_alone();
+  place.store(HostPlace::own);
+  tell(region, HostPhase::ended);
+  return 0;
+}
+
+int host_main(int argc, char** argv) {
+  const std::string_view what_for = argc > 2 ? argv[1] : "";
+  PluginRegion region;
+  if ((what_for != "run" && what_for != "describe") || !region.attach(kRegionDescriptor)) {
+    std::fputs(
+        "workbench-plugin: the process of a plug-in, started by the workbench of the same version, not by hand\n",
+        stderr);
+    return 2;
+  }
+  for (const int mine : {kRegionDescriptor, kLifeDescriptor}) ::fcntl(mine, F_SETFD, FD_CLOEXEC);
+  prepare_signals();
+  if (::getppid() != region.to_host().program) return 1;  // died before the line above
+  std::atomic<HostPlace>& place = region.to_program().place;
+  place.store(HostPlace::loading);
+  auto library = PluginLibrary::load(argv[2], settings_of(argc, argv));
+  if (!library) return say_failed(region, library.error());
+  place.store(HostPlace::capabilities);
+  const auto can = (*library)->capabilities();
+  if (!can) return say_failed(region, can.error());
+  region.to_program().capabilities.put(*can);
+  place.store(HostPlace::own);
+  if (what_for == "run") return run(region, **library);
+  tell(region, HostPhase::described);
+  return 0;
+}
+
+}  // namespace
+}  // namespace tangent
+
+int main(int argc, char** argv) { return tangent::host_main(argc, argv); }

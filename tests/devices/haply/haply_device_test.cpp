@@ -1,0 +1,320 @@
+#include "devices/haply/haply_device.h"
+#include "tests/devices/haply/haply_faults.h"
+
+#include <doctest/doctest.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <thread>
+
+#include <sys/resource.h>
+
+using namespace tangent;
+using namespace tangent::testing;
+using emulation::eventually;
+
+namespace {
+
+/// s of processor time of the thread of this name.
+double thread_time_s(const std::string& name) {
+  for (const auto& task : std::filesystem::directory_iterator("/proc/self/task")) {
+    std::string comm;
+    std::getline(std::ifstream(task.path() / "comm"), comm);
+    double ns = 0.0;
+    if (comm == name) return std::ifstream(task.path() / "schedstat") >> ns ? ns * 1e-9 : 0.0;
+  }
+  return 0.0;
+}
+
+struct RealTimeRun {
+  int ticks = 0, quiet = 0, lost = 0;
+  double wall_s = 0.0, link_s = 0.0;
+};
+
+/// Ticks by the clock, as the servo makes them.
+RealTimeRun run_by_the_clock(HaplyRig& rig, int ticks) {
+  RealTimeRun run;
+  const auto begin = std::chrono::steady_clock::now();
+  const LinkReport before = rig.report();
+  const double link_before_s = thread_time_s("tangent-haply");
+  for (; run.ticks < ticks; ++run.ticks) {
+    std::this_thread::sleep_until(begin + std::chrono::milliseconds(run.ticks + 1));
+    rig.tick();
+  }
+  const LinkReport after = rig.report();
+  run.link_s = thread_time_s("tangent-haply") - link_before_s;
+  run.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  run.quiet = static_cast<int>(after.late - before.late);
+  run.lost = ticks - static_cast<int>(after.packets_in - before.packets_in);
+  return run;
+}
+
+std::string remedy_of(HaplyService& service, const std::string& device = {}) {
+  HaplyOptions options = stepped_haply(service);
+  options.device = device;
+  HaplyForceDevice haply(options);
+  const Status opened = haply.open();
+  return opened ? "opened" : opened.error().what + "; " + opened.error().remedy;
+}
+
+}  // namespace
+
+TEST_CASE("an Inverse3 is opened, homed, pushes with what the gate lets through, and ends at zero") {
+  HaplyService service;
+  HaplyRig rig(service);
+  REQUIRE(rig.device.open());
+  CHECK(rig.device.capabilities().serial == "049D");
+  CHECK_FALSE(rig.device.open());
+  rig.tick();
+  CHECK(rig.sample.state != DeviceState::ready);
+  REQUIRE(rig.arm_and_push());
+  CHECK(glm::length(rig.sample.position_m) < 1e-12);  // in the middle of its workspace
+  CHECK(rig.sample.buttons == 1u);
+  CHECK(rig.sample.age_s < 2.5e-3);
+  CHECK(service.asked().back().find("\"vector\"") != std::string::npos);
+  CHECK(rig.report().identity == "device 049D");
+  rig.device.close();
+  CHECK(service.force_n() == Vec3(0.0));
+  CHECK(eventually([&] { return service.closed_politely(); }));
+  CHECK(rig.device.exchange({}, 1e-3).state == DeviceState::absent);
+}
+
+TEST_CASE("Haply's axes: its x is the world's -y, its y the world's x, and up is up") {
+  const HaplyForceDevice device;
+  const DeviceFrame& frame = device.capabilities().frame;
+  CHECK(glm::length(turned(frame.rotation, Vec3(1, 0, 0)) - Vec3(0, -1, 0)) < 1e-12);
+  CHECK(glm::length(turned(frame.rotation, Vec3(0, 1, 0)) - Vec3(1, 0, 0)) < 1e-12);
+  CHECK(glm::length(turned(frame.rotation, Vec3(0, 0, 1)) - Vec3(0, 0, 1)) < 1e-12);
+  CHECK(check_capabilities(device.capabilities()));
+}
+
+TEST_CASE("an Inverse Service of 3.1 gets its forces as values") {
+  HaplyService service({.old_format = true});
+  HaplyRig rig(service);
+  CHECK(rig.push());
+  CHECK(service.asked().back().find("\"values\"") != std::string::npos);
+}
+
+TEST_CASE("a free mass at the emulated Inverse3 is moved by the force that was sent") {
+  HaplyService service({.mass_kg = 0.2});
+  HaplyRig rig(service);
+  rig.wanted_n = Vec3(0.0, 0.0, 0.1);
+  REQUIRE(rig.device.open());
+  REQUIRE(rig.reach(DeviceState::firmware));
+  REQUIRE(rig.reach(DeviceState::ready, DeviceRequest::home));
+  double impulse = 0.0;
+  for (int i = 0; i < 50; ++i) {  // straight to the driver: no hand holds it, which the gate would stop
+    const std::uint64_t heard = rig.report().packets_in;
+    ++g_haply_ms;
+    rig.sample = rig.device.exchange({.force_n = rig.wanted_n}, 1e-3);
+    impulse += rig.sample.force_n.z * 1e-3;
+    REQUIRE(eventually([&] { return rig.report().packets_in > heard; }));
+  }
+  rig.tick();
+  REQUIRE(rig.sample.velocity_m_per_s.has_value());
+  CHECK(rig.sample.velocity_m_per_s->z == doctest::Approx(impulse / 0.2).epsilon(0.01));
+  CHECK(rig.sample.position_m.z > 0.0);
+}
+
+TEST_CASE("an Inverse Service that is missing, empty, crowded or in use is said, with what to do") {
+  HaplyService service({.devices = {"049D", "04BA"}});
+  CHECK(remedy_of(service).find("several (049D, 04BA); choose one by --haply-device") != std::string::npos);
+  CHECK(remedy_of(service, "04BA") == "opened");
+  CHECK(remedy_of(service, "FFFF").find("no Inverse3 of this id (049D, 04BA)") != std::string::npos);
+  CHECK(remedy_of(service, "a b").find("no id") != std::string::npos);
+  service.set_options({.devices = {}});
+  CHECK(remedy_of(service).find("plug it in") != std::string::npos);
+  service.set_options({.in_use = true});
+  CHECK(remedy_of(service).find("close that program") != std::string::npos);
+  service.set_options({.permutation = "XZY"});
+  CHECK(remedy_of(service).find("other axes") != std::string::npos);
+  service.set_options({});
+  reply_text(service, "hello");
+  CHECK(remedy_of(service).find("no state message") != std::string::npos);
+  service.set_policy({});
+  service.go_away();
+  CHECK(remedy_of(service).find("start Haply Hub") != std::string::npos);
+}
+
+TEST_CASE("every fault of an Inverse Service is noticed, and no force is sent two ticks later at most") {
+  for (const HaplyFault& fault : haply_faults()) {
+    CAPTURE(fault.name);
+    const HaplyFaultSeen seen = measure_haply_fault(fault);
+    CHECK(seen.to_notice >= 1);
+    CHECK(seen.to_notice <= 2);
+    CHECK(seen.to_zero >= 1);
+    CHECK(seen.to_zero <= 2);
+    CHECK(seen.service_has_zero);
+  }
+}
+
+TEST_CASE("an Inverse Service that is silent for longer is a fault, is connected to again, and stays without force") {
+  HaplyService service;
+  HaplyRig rig(service);
+  REQUIRE(rig.push());
+  const std::uint64_t connects = rig.report().connects;
+  reply_with(service, {HaplyReply::How::nothing, ""});
+  bool faulted = false;
+  for (int i = 0; i < 150 && !faulted; ++i) {
+    rig.tick();
+    faulted = rig.sample.fault == DeviceFault::disconnected;
+  }
+  CHECK(faulted);
+  service.set_policy({});
+  CHECK(eventually([&] { return rig.report().connects > connects; }, 60.0));
+  CHECK(rig.reach(DeviceState::firmware));
+  CHECK(rig.sample.force_n == Vec3(0.0));
+}
+
+TEST_CASE("an Inverse Service that comes back is used again, after homing and arming") {
+  HaplyService service;
+  HaplyRig rig(service);
+  REQUIRE(rig.push());
+  service.go_away();
+  REQUIRE(eventually([&] { return !rig.report().connected; }));
+  rig.tick();
+  CHECK(rig.sample.state == DeviceState::absent);
+  CHECK(rig.report().problem.find("Inverse Service") != std::string::npos);
+  service.come_back();
+  const std::uint64_t connects = rig.report().connects;
+  REQUIRE(eventually([&] { return rig.report().connects > connects && rig.report().connected; }, 60.0));
+  REQUIRE(eventually([&] { return !rig.report().identity.empty(); }, 60.0));
+  rig.sample = {};
+  CHECK(rig.arm_and_push());
+}
+
+TEST_CASE("an Inverse3 that is not calibrated is homing until a person has put it into its inkwell") {
+  HaplyService service({.calibrated = false});
+  HaplyRig rig(service);
+  REQUIRE(rig.device.open());
+  REQUIRE(rig.reach(DeviceState::firmware));
+  CHECK(rig.reach(DeviceState::homing, DeviceRequest::home));
+  for (int i = 0; i < 20; ++i) REQUIRE(rig.answered_tick());
+  CHECK(rig.sample.state == DeviceState::homing);
+  service.set_options({});
+  CHECK(rig.reach(DeviceState::ready));
+}
+
+TEST_CASE("a faulted Inverse3 is ready again when the fault is cleared and it is homed") {
+  HaplyService service;
+  HaplyRig rig(service);
+  REQUIRE(rig.push());
+  reply_text(service, "?");
+  REQUIRE(rig.answered_tick());
+  service.set_policy({});
+  REQUIRE(rig.answered_tick());
+  CHECK(rig.sample.state == DeviceState::faulted);
+  CHECK(rig.sample.fault == DeviceFault::firmware);
+  CHECK(rig.report().problem.find("no state message") != std::string::npos);
+  REQUIRE(rig.answered_tick(DeviceRequest::clear_fault));
+  CHECK(rig.report().problem.empty());
+  CHECK(rig.arm_and_push());
+}
+
+TEST_CASE("answers that come late make it fall silent, and too many of them are a fault") {
+  HaplyService service;
+  HaplyRig rig(service);
+  REQUIRE(rig.push());
+  int pauses = 0;
+  while (rig.sample.state == DeviceState::ready && pauses < 20) {
+    service.set_policy([](std::uint64_t, const std::string& right) {
+      return HaplyReply{HaplyReply::How::hold, right};
+    });
+    const std::uint64_t forces = service.forces();
+    rig.tick();
+    REQUIRE(eventually([&] { return service.forces() > forces; }));
+    rig.tick(), rig.tick(), rig.tick();
+    CHECK(rig.sample.force_n == Vec3(0.0));
+    REQUIRE(eventually([&] { return service.force_n() == Vec3(0.0); }));
+    service.set_policy({});
+    const std::uint64_t heard = rig.report().packets_in;
+    service.release_held();
+    REQUIRE(eventually([&] { return rig.report().packets_in > heard; }));
+    REQUIRE(rig.answered_tick());
+    ++pauses;
+  }
+  CHECK(pauses > 1);
+  CHECK(rig.sample.fault == DeviceFault::disconnected);
+}
+
+TEST_CASE("an emergency stop reaches the Inverse Service without an exchange, and holds until it is homed again") {
+  HaplyService service;
+  HaplyRig rig(service);
+  REQUIRE(rig.push());
+  REQUIRE(rig.device.emergency_stop());
+  CHECK(eventually([&] { return service.force_n() == Vec3(0.0); }));
+  for (int i = 0; i < 5; ++i) {
+    REQUIRE(rig.answered_tick());
+    CHECK(rig.sample.state != DeviceState::ready);
+    CHECK(service.force_n() == Vec3(0.0));
+  }
+  CHECK(rig.arm_and_push());
+}
+
+TEST_CASE("when our ticks stall, the link's thread sends the Inverse Service zero force") {
+  HaplyService service;
+  HaplyOptions options = stepped_haply(service);
+  options.our_stall_s = 0.2;
+  HaplyRig rig(service, options);
+  REQUIRE(rig.device.open());
+  REQUIRE(rig.reach(DeviceState::firmware));
+  REQUIRE(rig.reach(DeviceState::ready, DeviceRequest::home));
+  const auto exchange = [&] { return rig.device.exchange({.force_n = Vec3(0, 0, 1)}, 1e-3).force_n; };
+  CHECK(exchange() == Vec3(0, 0, 1));
+  const std::uint64_t forces = service.forces();
+  CHECK(eventually([&] { return service.forces() > forces + 3 && service.force_n() == Vec3(0.0); }, 60.0));
+}
+
+TEST_CASE("an Inverse3 is never sent more than its largest force, nor one that is not finite") {
+  HaplyService service;
+  HaplyRig rig(service);
+  REQUIRE(rig.device.open());
+  REQUIRE(rig.reach(DeviceState::firmware));
+  REQUIRE(rig.reach(DeviceState::ready, DeviceRequest::home));
+  const Vec3 sent = rig.device.exchange({.force_n = Vec3(30, -40, 0)}, 1e-3).force_n;
+  CHECK(glm::length(sent - Vec3(1.8, -2.4, 0)) < 1e-12);
+  CHECK(eventually([&] { return glm::length(service.force_n() - sent) < 1e-6; }));
+  const ForceSample refused = rig.device.exchange({.force_n = Vec3(0, std::nan(""), 0)}, 1e-3);
+  CHECK(refused.fault == DeviceFault::bad_command);
+  CHECK(refused.force_n == Vec3(0.0));
+  CHECK(eventually([&] { return service.force_n() == Vec3(0.0); }));
+}
+
+TEST_CASE("200 ticks by the clock through an Inverse3: every one is answered, or counted as one that was not") {
+  HaplyService service;
+  HaplyOptions options = stepped_haply(service);
+  options.silence_s = 1e6;
+  HaplyRig rig(service, options);
+  REQUIRE(rig.device.open());
+  REQUIRE(rig.reach(DeviceState::firmware));
+  const RealTimeRun run = run_by_the_clock(rig, 200);
+  CHECK(run.ticks == 200);
+  CHECK(rig.report().errors == 0);
+  // The list of devices, and an answer for each message: no force is sent out of turn, since none was to be.
+  CHECK(eventually([&] { return rig.report().packets_in == rig.report().packets_out + 1; }, 60.0));
+}
+
+TEST_CASE("measure: faults of haply" * doctest::skip()) {
+  std::puts("| fault | ticks to notice | ticks to zero force |\n|---|---|---|");
+  for (const HaplyFault& fault : haply_faults()) {
+    const HaplyFaultSeen seen = measure_haply_fault(fault);
+    std::printf("| %s | %d | %d |\n", fault.name, seen.to_notice, seen.to_zero);
+  }
+}
+
+TEST_CASE("measure: 10,000 ticks through haply" * doctest::skip()) {
+  HaplyService service;
+  HaplyOptions options = stepped_haply(service);
+  HaplyRig rig(service, options);
+  REQUIRE(rig.device.open());
+  REQUIRE(rig.reach(DeviceState::firmware));
+  REQUIRE(rig.reach(DeviceState::ready, DeviceRequest::home));
+  const RealTimeRun run = run_by_the_clock(rig, 10'000);
+  const LinkReport report = rig.report();
+  std::printf("%d ticks in %.2f s: %d without an answer of their own, %d times two in a row without; state %s\n",
+              run.ticks, run.wall_s, run.lost, run.quiet, to_string(rig.sample.state));
+  std::printf("round trip %.0f us median, %.0f us p99; the link's thread %.1f %% of a core\n",
+              report.round_trip_us->percentile(0.5), report.round_trip_us->percentile(0.99),
+              100.0 * run.link_s / run.wall_s);
+}
