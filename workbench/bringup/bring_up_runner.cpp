@@ -1,7 +1,7 @@
 #include "workbench/bringup/bring_up_runner.h"
 
 #include "devices/base/mailbox.h"
-#include "devices/gate/limits.h"
+#include "devices/device_safety.h"
 #include "workbench/bringup/guided_hand.h"
 #include "workbench/session/crash_stop.h"
 #include "workbench/session/deadline_pacer.h"
@@ -22,7 +22,8 @@ namespace tangent {
 namespace {
 
 constexpr int kPriority = 40;                   // as the servo's
-constexpr std::chrono::seconds kLeaveAfter{2};  // an exchange that does not return
+constexpr std::chrono::seconds kStopAfter{2};   // an exchange that does not return: the device's other way to stop,
+constexpr std::chrono::seconds kLeaveAfter{8};  // and then it is left alone
 constexpr std::int64_t kHangs_ns = 50'000'000;  // an exchange that is under way for so long
 constexpr int kLastExchanges = 3;               // with zero force, after a stop
 
@@ -145,7 +146,7 @@ bool BringUpRunner::Impl::end() {
   } else if (thread.joinable()) {
     ending = true;
     std::unique_lock lock(over_lock);
-    if (!over_changed.wait_for(lock, kLeaveAfter, [this] { return over; })) {
+    if (!over_changed.wait_for(lock, kStopAfter, [this] { return over; })) {
       device->emergency_stop();
       if (!over_changed.wait_for(lock, kLeaveAfter, [this] { return over; })) return thread.detach(), false;
     }
@@ -168,10 +169,9 @@ BringUpRunner::~BringUpRunner() {
 
 Result<std::unique_ptr<BringUpRunner>> BringUpRunner::start(std::unique_ptr<ForceDevice> device,
                                                             const BringUpRunOptions& options) {
-  if (const Status sound = check_capabilities(device->capabilities()); !sound) return tl::unexpected(sound.error());
   if (!options.threaded && !device->capabilities().simulated)
     return fail("keeps real time", device->capabilities().name, "leave simulated time out");
-  if (const Status opened = device->open(); !opened) return tl::unexpected(opened.error());
+  if (const Status opened = open_device(*device); !opened) return tl::unexpected(opened.error());
   std::unique_ptr<BringUpRunner> runner(new BringUpRunner(std::make_unique<Impl>(std::move(device), options)));
   if (const Status begun = runner->impl_->begin(); !begun) return tl::unexpected(begun.error());
   return runner;
@@ -188,6 +188,11 @@ const ForceCapabilities& BringUpRunner::capabilities() const { return impl_->dev
 void BringUpRunner::answer(BringUpAnswer answer) { impl_->machine.answer(answer, impl_->seen.view.questions); }
 
 void BringUpRunner::stop() { impl_->machine.stop(); }
+
+bool BringUpRunner::hangs() const {
+  const std::int64_t begun = impl_->begun_ns.load(std::memory_order_relaxed);
+  return begun != 0 && 1e-9 * static_cast<double>(impl_->clock.now_ns() - begun) > impl_->options.hangs_after_s;
+}
 
 bool BringUpRunner::settled() {
   impl_->shown.take(impl_->seen);

@@ -12,7 +12,8 @@ namespace tangent {
 
 struct BringUpRunOptions {
   BringUpOptions limits;
-  bool threaded = true;  ///< off: `advance` makes the ticks; simulated devices only
+  bool threaded = true;         ///< off: `advance` makes the ticks; simulated devices only
+  double hangs_after_s = 10.0;  ///< an exchange that is under way for so long is not waited for any more
 };
 
 class BringUpRunner {
@@ -31,6 +32,8 @@ class BringUpRunner {
   /// To the question in the view that was seen last.
   void answer(BringUpAnswer answer);
   void stop();
+  /// The driver does not come back from an exchange, so nothing will ever be answered.
+  bool hangs() const;
   /// The simulated hand did what is asked, so that an answer makes sense; always with a real device.
   bool settled();
   /// Not threaded: n ticks of simulated time. Else nothing.
