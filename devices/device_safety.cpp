@@ -6,12 +6,14 @@ namespace tangent {
 
 namespace {
 
-/// Of either kind; null: none, which is no failure.
+/// Of either kind. Many say what they can only once they are open: they are asked before and after.
 template <class Device>
-Status open_checked(Device* device) {
-  if (device == nullptr) return {};
-  const Status makes_sense = check_capabilities(device->capabilities());
-  return makes_sense ? device->open() : makes_sense;
+Status open_checked(Device& device) {
+  if (const Status makes_sense = check_capabilities(device.capabilities()); !makes_sense) return makes_sense;
+  if (const Status opened = device.open(); !opened) return opened;
+  const Status makes_sense = check_capabilities(device.capabilities());
+  if (!makes_sense) device.close();
+  return makes_sense;
 }
 
 /// Between two samples of a device of this rate. A device that says less than the oldest sample allowed is not
@@ -23,9 +25,12 @@ double sample_time(double rate_hz, double longest_s) {
 
 }  // namespace
 
+Status open_device(ForceDevice& device) { return open_checked(device); }
+
 Status open_devices(DeviceSet& devices) {
-  if (const Status ok = open_checked(devices.force.get()); !ok) return ok;
-  const Status ok = open_checked(devices.display.get());
+  if (devices.force)
+    if (const Status ok = open_checked(*devices.force); !ok) return ok;
+  const Status ok = devices.display ? open_checked(*devices.display) : Status{};
   if (!ok && devices.force) devices.force->close();
   return ok;
 }

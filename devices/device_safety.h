@@ -11,8 +11,11 @@
 
 namespace tangent {
 
-/// Opens them. Fails, with none left open, when one can't be opened or its capabilities make no sense (gate/limits.h).
+/// Opens them. Fails, with none left open, when one can't be opened or its capabilities make no sense (gate/limits.h),
+/// before or once it is open.
 Status open_devices(DeviceSet& devices);
+/// The same for a force device alone.
+Status open_device(ForceDevice& device);
 
 /// Limits of the safety gate for these devices under a servo of this rate.
 GateLimits gate_limits(const DeviceSet& devices, double rate_hz);

@@ -12,9 +12,9 @@ namespace tangent {
 bool is_planar_file(const std::filesystem::path& path);
 
 /// CSV: metres, one vertex per line. OBJ: coordinates times `metres_per_unit`; one `l` element or several connected
-/// ones; z must be the same for all. A comment "# exact arc: X Y RADIUS HALF_ANGLE_RAD RUN_OUT" makes it that arc, which
-/// no polyline is; other programs read the polyline. Closed if the last vertex repeats the first. Checked by check_polygon. Errors name
-/// file and line.
+/// ones; z must be the same for all. A comment "# exact arc: X Y RADIUS HALF_ANGLE_RAD RUN_OUT" makes it that arc,
+/// which no polyline is; other programs read the polyline. Closed if the last vertex repeats the first. Checked by
+/// check_polygon. Errors name file and line.
 Result<PlanarPolygon> read_polygon(const std::filesystem::path& path, double metres_per_unit);
 
 Result<PlanarPolygon> parse_polygon_csv(std::string_view text, const std::string& name);

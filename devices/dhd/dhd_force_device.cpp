@@ -32,6 +32,11 @@ void DhdForceDevice::fail_by(int code) noexcept {
   lost_ = lost_ || fault == DeviceFault::disconnected;
 }
 
+void DhdForceDevice::forget_errors() noexcept {
+  newest_error_.store(0, kRelaxedDhd);
+  force_off_cause_.store(-1, kRelaxedDhd);
+}
+
 /// Whether a call was answered; else its error is noted.
 bool DhdForceDevice::called(int returned) noexcept {
   if (returned >= 0) return true;
@@ -126,6 +131,7 @@ ForceSample DhdForceDevice::exchange(const ForceCommand& command, double dt_s) n
   if (phase_.load(std::memory_order_acquire) != Phase::attached) return away(dt_s);
   if (command.request == DeviceRequest::stop || command.request == DeviceRequest::clear_fault)
     machine_.apply(command.request);
+  if (command.request == DeviceRequest::clear_fault) forget_errors();
   Reading r{};
   newest_.velocity_m_per_s = std::nullopt;
   const bool was_faulted = machine_.state() == DeviceState::faulted;

@@ -60,6 +60,7 @@ class DhdForceDevice final : public ForceDevice {
   DeviceFault judge(const Reading& reading) const noexcept;
   void check_force_is_on(const Reading& reading) noexcept;
   void fail_by(int code) noexcept;
+  void forget_errors() noexcept;
   void go_on(const Reading& reading) noexcept;
   void send(const Vec3& force_n) noexcept;
   ForceSample away(double dt_s) noexcept;

@@ -148,6 +148,7 @@ Status DhdForceDevice::open() {
     api_.close(static_cast<char>(*id));
     return fail("no thread could be started", capabilities_.name, "end other programs, or raise the limit on threads");
   }
+  forget_errors();
   connects_.fetch_add(1, kRelaxedDhdKeeper);
   phase_.store(Phase::attached, std::memory_order_release);
   return {};
@@ -201,6 +202,7 @@ void DhdForceDevice::look_again() noexcept {
     return;
   }
   id_.store(found);
+  forget_errors();
   connects_.fetch_add(1, kRelaxedDhdKeeper);
   emergency_.store(false);
   phase_.store(Phase::attached, std::memory_order_release);

@@ -81,7 +81,7 @@ void FalconDevice::close() {
 ForceSample FalconDevice::exchange(const ForceCommand& command, double) noexcept {
   const FloatState as_tested;
   if (!opened_) return {};
-  const ForceSample sample = driver_->exchange(command, usb_now_ns());
+  const ForceSample sample = driver_->exchange(command, usb_now_ns);
   link_.wake();
   return sample;
 }

@@ -56,9 +56,10 @@ std::array<std::int16_t, 3> falcon_counts(const Vec3& position_m, const Vec3& fo
 FalconDriver::FalconDriver(const FalconOptions& options, std::vector<std::uint8_t> firmware)
     : options_(options), capabilities_(falcon_capabilities(options)), line_(options.line, std::move(firmware)) {}
 
+// In this order: a fault that is cleared in between leaves it faulted, never held without a fault that says so.
 void FalconDriver::stop() noexcept {
-  was_stopped_.store(true, std::memory_order_relaxed);
   line_.hold();
+  was_stopped_.store(true, std::memory_order_relaxed);
 }
 
 void FalconDriver::follow_connection() noexcept {
@@ -136,13 +137,26 @@ FalconCommand FalconDriver::command_for(const Vec3& force_n, double& share) cons
   return out;
 }
 
-ForceSample FalconDriver::exchange(const ForceCommand& command, std::int64_t now_ns) noexcept {
+void FalconDriver::listen() noexcept {
   follow_connection();
   measure();
+}
+
+ForceSample FalconDriver::exchange(const ForceCommand& command, std::int64_t (*now_ns)() noexcept) noexcept {
+  listen();
+  return respond(command, now_ns());
+}
+
+ForceSample FalconDriver::exchange(const ForceCommand& command, std::int64_t now_ns) noexcept {
+  listen();
+  return respond(command, now_ns);
+}
+
+ForceSample FalconDriver::respond(const ForceCommand& command, std::int64_t now_ns) noexcept {
   watch(command, now_ns);
   carry_out(command.request);
   double share = 0.0;
-  line_.post(command_for(command.force_n, share));
+  line_.post(command_for(command.force_n, share), seen_connection_);
   ForceSample sample;
   sample.state = machine_.state();
   sample.fault = machine_.fault();

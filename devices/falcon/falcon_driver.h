@@ -34,13 +34,17 @@ class FalconDriver {
   const FalconLine& line() const { return line_; }
   const ForceCapabilities& capabilities() const { return capabilities_; }
 
-  /// Servo's thread.
+  /// Servo's thread. The clock is read once, after the newest answer was taken: none is from the future.
+  ForceSample exchange(const ForceCommand& command, std::int64_t (*now_ns)() noexcept) noexcept;
+  /// The same at a time that is given, where nobody else makes answers meanwhile.
   ForceSample exchange(const ForceCommand& command, std::int64_t now_ns) noexcept;
   /// Any thread: no torque, and faulted until a person clears it.
   void stop() noexcept;
   int legs_homed() const noexcept { return legs_homed_.load(std::memory_order_relaxed); }  ///< any thread
 
  private:
+  void listen() noexcept;
+  ForceSample respond(const ForceCommand& command, std::int64_t now_ns) noexcept;
   void follow_connection() noexcept;
   void measure() noexcept;
   void watch(const ForceCommand& command, std::int64_t now_ns) noexcept;

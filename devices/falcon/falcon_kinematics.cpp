@@ -13,6 +13,15 @@ namespace {
 constexpr double kA = 0.060, kB = 0.1025, kC = 0.01443, kD = 0.01125, kE = 0.01125, kF = -0.025, kR = 0.040,
                  kS = -0.02309;
 constexpr std::array<double, 3> kLegs_deg{105.0, -15.0, -135.0};
+/// Made before the servo runs: a local one would be locked at its first use.
+const std::array<Vec2, 3> kLegDirections = [] {
+  std::array<Vec2, 3> out;
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const double angle = kLegs_deg[i] * std::numbers::pi / 180.0;
+    out[i] = {std::cos(angle), std::sin(angle)};
+  }
+  return out;
+}();
 
 /// Of the position, seen from one leg.
 struct LegView {
@@ -21,15 +30,7 @@ struct LegView {
 };
 
 LegView seen_from(std::size_t leg, const Vec3& p) noexcept {
-  static const std::array<Vec2, 3> directions = [] {
-    std::array<Vec2, 3> out;
-    for (std::size_t i = 0; i < out.size(); ++i) {
-      const double angle = kLegs_deg[i] * std::numbers::pi / 180.0;
-      out[i] = {std::cos(angle), std::sin(angle)};
-    }
-    return out;
-  }();
-  const Vec2 d = directions[leg];
+  const Vec2 d = kLegDirections[leg];
   LegView view;
   view.along_u = {d.x, d.y, 0.0};
   view.along_v = {-d.y, d.x, 0.0};

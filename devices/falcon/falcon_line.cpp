@@ -38,8 +38,8 @@ void FalconLine::closed() noexcept {
 }
 
 void FalconLine::ask(std::int64_t now_ns) noexcept {
-  FalconCommand old;
-  commands_.take(old);
+  FalconOrder old;
+  orders_.take(old);
   wanted_ = {};
   fresh_ = in_flight_ = doubt_ = pushing_ = false;
   garbage_.store(0, kRelaxed);
@@ -137,18 +137,26 @@ void FalconLine::turn_uploading(FalconWire&, std::int64_t now_ns) noexcept {
   upload(now_ns);
 }
 
+// The servo may stand still anywhere: what it worked out before the device was unplugged, or posted long ago and could
+// not be sent, is no torque any more.
+void FalconLine::take_order(std::int64_t now_ns) noexcept {
+  FalconOrder order;
+  if (orders_.take(order) && order.connection == connection_.load(kRelaxed)) {
+    wanted_ = order.command;
+    fresh_ = true;
+    wanted_ns_ = now_ns;
+  } else if ((pushing_ || fresh_) && now_ns - wanted_ns_ > in_ns(options_.servo_gone_s)) {
+    wanted_.torque = {};
+    fresh_ = true;
+  }
+}
+
 void FalconLine::turn_running(FalconWire& wire, std::int64_t now_ns) noexcept {
   if (stop_now_.exchange(false, kRelaxed)) {
     if (!send(wire, {.homing = wanted_.homing, .lamps = kFalconRed}, now_ns)) stop_now_.store(true, kRelaxed);
     return;
   }
-  if (commands_.take(wanted_)) {
-    fresh_ = true;
-    wanted_ns_ = now_ns;
-  } else if (pushing_ && now_ns - wanted_ns_ > in_ns(options_.servo_gone_s)) {
-    wanted_.torque = {};
-    fresh_ = true;
-  }
+  take_order(now_ns);
   if (in_flight_ && now_ns - sent_ns_ >= in_ns(options_.answer_s)) {
     in_flight_ = false;
     doubt_ = true;

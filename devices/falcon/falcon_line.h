@@ -24,6 +24,12 @@ struct FalconHeard {
   std::uint32_t connection = 0;
 };
 
+/// What the servo wants, made from what it knew of that connection.
+struct FalconOrder {
+  FalconCommand command;
+  std::uint32_t connection = 0;
+};
+
 enum class FalconPhase : std::uint8_t {
   asking,     ///< whether it runs its firmware
   uploading,  ///< the firmware
@@ -51,7 +57,8 @@ class FalconLine {
   void turn(FalconWire& wire, std::int64_t now_ns) noexcept;
 
   // Servo's thread.
-  void post(const FalconCommand& command) noexcept { commands_.put(command); }
+  /// Of another connection than the one that is open it does nothing.
+  void post(const FalconCommand& command, std::uint32_t connection) noexcept { orders_.put({command, connection}); }
   bool take(FalconHeard& heard) noexcept { return heard_.take(heard); }
 
   // Any thread.
@@ -81,12 +88,13 @@ class FalconLine {
   void note_failed_step() noexcept;
   bool is_answering(std::int64_t now_ns) const noexcept;
   void take_answer(const FalconPacket& packet, std::int64_t now_ns) noexcept;
+  void take_order(std::int64_t now_ns) noexcept;
   bool send(FalconWire& wire, FalconCommand command, std::int64_t now_ns) noexcept;
   void enter(FalconPhase phase) noexcept { phase_.store(phase, std::memory_order_release); }
 
   const FalconLineOptions options_;
   const std::vector<std::uint8_t> firmware_;
-  Mailbox<FalconCommand> commands_;
+  Mailbox<FalconOrder> orders_;
   Mailbox<FalconHeard> heard_;
   std::atomic<std::uint32_t> connection_{0}, garbage_{0};
   std::atomic<FalconPhase> phase_{FalconPhase::asking};

@@ -150,7 +150,7 @@ bool read_root(const HaplyJson& root, const std::vector<HaplyEntry>& before, Hap
   if (!root.is_object()) return false;
   out.has_session = at(root, "session_id") != nullptr;
   const HaplyJson* list = at(root, "inverse3");
-  if (list != nullptr && !list->is_array()) return false;
+  if (list != nullptr && (!list->is_array() || list->size() > kHaplyMostDevices)) return false;
   for (std::size_t i = 0; list != nullptr && i < list->size(); ++i) {
     if (!read_device((*list)[i], before, out.devices.emplace_back())) return false;
   }

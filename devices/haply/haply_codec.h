@@ -38,6 +38,7 @@ struct HaplyMessage {
 };
 
 inline constexpr std::size_t kHaplyLargestMessage = 256 * 1024;
+inline constexpr std::size_t kHaplyMostDevices = 32;
 inline constexpr int kHaplyDeepest = 16;         ///< brackets within brackets; a documented message has 6
 inline constexpr double kHaplyFarthest_m = 0.6;  ///< from the base; an assumption, beyond the arm
 inline constexpr double kHaplyFastest_m_per_s = 20.0;

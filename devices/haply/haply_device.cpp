@@ -6,6 +6,7 @@
 #include <cmath>
 #include <ctime>
 #include <thread>
+#include <utility>
 
 namespace tangent {
 
@@ -54,6 +55,8 @@ Status HaplyForceDevice::open() {
   if (!address) return tl::unexpected(address.error());
   if (haply_built_in() && !options_.device.empty() && !is_haply_id(options_.device))
     return fail("is no id of an Inverse3", "--haply-device " + options_.device, "write it as Haply Hub shows it: 049D");
+  listed_text_.clear();
+  closed_text_.clear();
   opening_ = Opening::waits;
   const std::uint32_t bad_before = bad_;
   const Status started = link_.start({.address = *address,
@@ -87,7 +90,7 @@ void HaplyForceDevice::close() {
 
 void HaplyForceDevice::on_open() noexcept {
   known_.clear();
-  listed_ = pending_ = pushes_ = false;
+  listed_ = unheard_ = pending_ = pushes_ = false;
   owed_ = 0;
   order_ = {};
   orders_.take(order_);  // for the connection before
@@ -99,7 +102,7 @@ void HaplyForceDevice::on_open() noexcept {
 }
 
 void HaplyForceDevice::on_closed(HaplyProblem why, const std::string& detail) noexcept {
-  closed_by_ = why;
+  closed_by_ = std::exchange(unheard_, false) ? HaplyProblem::silent : why;
   if (connection_.load(kLax) % 2 == 1) connection_.fetch_add(1, std::memory_order_release);
   if (opening_ != Opening::waits) return;
   closed_text_ = detail;
@@ -112,6 +115,7 @@ const HaplyEntry* HaplyForceDevice::find_ours() {
   for (const HaplyEntry& device : message_.devices) {
     if (device.id == id_) return &device;
   }
+  if (listing_ == HaplyProblem::none) connection_.fetch_add(2, std::memory_order_release);  // else a tick may miss it
   listing_ = message_.devices.empty() ? HaplyProblem::no_device
              : id_.empty()            ? HaplyProblem::several
                                       : HaplyProblem::other_device;
@@ -178,8 +182,14 @@ bool HaplyForceDevice::last(std::string& out) noexcept {
 }
 
 bool HaplyForceDevice::next(std::string& out) noexcept {
-  if (!listed_) return false;  // it speaks first
   const std::int64_t now = haply_now_ns();
+  if (!listed_) {  // it speaks first; one that never does is connected to anew
+    if (!unheard_ && now - sent_at_ns_ > ns_of(options_.connect_s)) {
+      unheard_ = true;
+      link_.reconnect();
+    }
+    return false;
+  }
   if (orders_.take(order_)) {
     pending_ = true;
     order_at_ns_ = now;
@@ -193,14 +203,14 @@ bool HaplyForceDevice::next(std::string& out) noexcept {
   }
   const std::uint32_t stops = stops_.load(std::memory_order_acquire), bad = bad_.load(kLax);
   const bool stalled = now - order_at_ns_ > ns_of(options_.our_stall_s);
-  if (stalled || order_.stops != stops || bad != bad_sent_ || listing_ != HaplyProblem::none)
-    order_.force_n = Vec3(0.0);
+  // From before it knew of what has happened since.
+  const bool outdated = order_.stops != stops || order_.bad != bad || order_.connection != connection_.load(kLax);
+  if (stalled || outdated || listing_ != HaplyProblem::none) order_.force_n = Vec3(0.0);
   const bool must_stop = stops != stops_sent_ || bad != bad_sent_;
-  const bool zero = order_.force_n == Vec3(0.0);
-  if (owed_ >= kMostOwed) return false;
-  if (owed_ > 0 && !must_stop && !(zero && pushes_)) return false;
+  const bool at_once = must_stop || (pushes_ && order_.force_n == Vec3(0.0));
+  if (owed_ >= kMostOwed || (owed_ > 0 && !at_once)) return false;
   const bool keeps_alive = stalled && now - sent_at_ns_ > kKeepAliveEvery_ns;
-  if (owed_ == 0 && !must_stop && !pending_ && !keeps_alive) return false;
+  if (!at_once && !pending_ && !keeps_alive) return false;
   stops_sent_ = stops;
   bad_sent_ = bad;
   put_force(out, order_.force_n);
@@ -249,7 +259,7 @@ void HaplyForceDevice::follow_answers(double dt_s) noexcept {
     quiet_s_ = 0.0;
     return;
   }
-  if (++quiet_ == options_.quiet_ticks) count_up(quiet_exchanges_);
+  if (quiet_ < options_.quiet_ticks && ++quiet_ == options_.quiet_ticks) count_up(quiet_exchanges_);
   if (quiet_s_ <= options_.silence_s || machine_.state() == DeviceState::absent) return;
   fail_by(HaplyProblem::silent);
   quiet_s_ = 0.0;
@@ -298,7 +308,7 @@ ForceSample HaplyForceDevice::exchange(const ForceCommand& command, double dt_s)
     sample.age_s = static_cast<double>(options_.clock() - newest_.at_ns) * 1e-9;
     sample.buttons = newest_.buttons;
   }
-  orders_.put({sample.force_n, seen_stops_});
+  orders_.put({sample.force_n, seen_stops_, seen_bad_, seen_connection_});
   link_.wake();
   return sample;
 }

@@ -47,7 +47,7 @@ class HaplyForceDevice final : public ForceDevice, private HaplyLinkHandler {
  private:
   struct Order {
     Vec3 force_n{0.0};
-    std::uint32_t stops = 0;  ///< emergency stops that the servo knew of
+    std::uint32_t stops = 0, bad = 0, connection = 0;  ///< that the servo knew of
   };
   struct Heard {
     Vec3 position_m{0.0}, velocity_m_per_s{0.0};
@@ -83,7 +83,7 @@ class HaplyForceDevice final : public ForceDevice, private HaplyLinkHandler {
   Mailbox<Heard> heard_;   ///< link to servo
 
   // Written by the link's thread, read by any.
-  std::atomic<std::uint32_t> connection_{0};  ///< odd while connected, incremented on every change
+  std::atomic<std::uint32_t> connection_{0};  ///< odd while connected, another one after every change, of the list too
   std::atomic<Opening> opening_{Opening::waits};
   std::atomic<HaplyProblem> closed_by_{HaplyProblem::none}, listing_{HaplyProblem::none};
   std::atomic<std::uint32_t> bad_{0};  ///< count of bad messages << 8 | problem of the last
@@ -99,7 +99,7 @@ class HaplyForceDevice final : public ForceDevice, private HaplyLinkHandler {
   std::string id_, listed_text_, closed_text_;
   HaplyMessage message_;
   std::vector<HaplyEntry> known_;
-  bool listed_ = false, vector_ = true, pending_ = false, pushes_ = false;
+  bool listed_ = false, unheard_ = false, vector_ = true, pending_ = false, pushes_ = false;
   int owed_ = 0;  ///< answers
   Order order_;
   std::uint32_t stops_sent_ = 0, bad_sent_ = 0;

@@ -13,6 +13,7 @@ constexpr auto kRelaxedHd = std::memory_order_relaxed;
 constexpr int kCleanFrames = 3;  // without an error, before a reading is believed: the first ones are not of the device
 constexpr int kMostErrors = 64;  // on the library's stack
 constexpr double kBeyond_m = 20e-3;  // the largest workspace, before a position can't be one
+constexpr double kFarthest_m = 2.0;  // no device of theirs is larger, where the library does not say
 
 /// Worse than any other: it says that the device is gone.
 bool is_worse(hd::ErrorCode code, hd::ErrorCode than) {
@@ -65,7 +66,7 @@ DeviceFault HdForceDevice::judge(const Reading& reading) const noexcept {
   const Vec3 reach = hd::half_size_m(reach_);
   const Vec3 off = hd::position_m(reading.position_mm, hd::centre_m(reach_));
   for (int axis = 0; axis < 3; ++axis)
-    if (reach[axis] > 0.0 && std::abs(off[axis]) > reach[axis] + kBeyond_m) return DeviceFault::sensor;
+    if (std::abs(off[axis]) > (reach[axis] > 0.0 ? reach[axis] + kBeyond_m : kFarthest_m)) return DeviceFault::sensor;
   return DeviceFault::none;
 }
 
@@ -136,6 +137,7 @@ ForceSample HdForceDevice::exchange(const ForceCommand& command, double dt_s) no
   if (command.request == DeviceRequest::stop || command.request == DeviceRequest::clear_fault) {
     if (machine_.apply(command.request)) clean_frames_ = 0;
   }
+  if (command.request == DeviceRequest::clear_fault) newest_error_.store(hd::kSuccess, kRelaxedHd);
   if (in_frame_call_) {
     newest_ = frame(command);
     fault_shown_ = false;

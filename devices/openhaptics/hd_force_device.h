@@ -7,7 +7,7 @@
 //                                         the scheduler, looks for the device
 // A frame is begun and ended within one exchange, and in the scheduler's thread alone, as HDAPI asks. While the device
 // is away the keeper calls the tick instead, so that the loop goes on, and says that it is absent. The two never run at
-// once: the keeper calls only after hdStopScheduler has returned.
+// once: the keeper calls only after hdStopScheduler has returned, and the last call with it.
 //
 // It is homed by hand: with the stylus in the inkwell (or by itself, where the device can), it is calibrated in the
 // scheduler's thread, as HDAPI asks, and ready from then on. Nothing moves it.
@@ -76,6 +76,7 @@ class HdForceDevice final : public ForceDevice {
   void keep() noexcept;
   void watch() noexcept;
   void stand_in(std::int64_t now_ns) noexcept;
+  bool wait_for_last_call() noexcept;
 
   HdOptions options_;
   ForceCapabilities capabilities_;
@@ -99,6 +100,7 @@ class HdForceDevice final : public ForceDevice {
 
   // Between threads.
   std::atomic<bool> attached_{false}, keeper_ends_{false}, stopping_{false}, lost_{false}, emergency_{false};
+  std::atomic_flag ticking_ = ATOMIC_FLAG_INIT;  ///< a call goes on, of the scheduler or of the keeper
   std::atomic<std::int64_t> last_call_ns_{0};
   std::atomic<std::uint32_t> newest_error_{0}, needs_{0};
   std::atomic<std::uint64_t> frames_{0}, errors_{0}, connects_{0}, last_frames_{0};

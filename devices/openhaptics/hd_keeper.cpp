@@ -56,7 +56,7 @@ Status HdForceDevice::attach() {
   const std::string where = options_.device.empty() ? "OpenHaptics' default device" : options_.device;
   if (const hd::ErrorCode code = drain(); code != hd::kSuccess) {
     newest_error_.store(code, kRelaxedKeeper);
-    if (device_ != hd::kInvalidHandle) api_.disable_device(device_);
+    if (device_ != hd::kInvalidHandle) api_.disable_device(std::exchange(device_, hd::kInvalidHandle));
     return tl::unexpected(hd::to_error(code, where));
   }
   if (device_ == hd::kInvalidHandle)
@@ -134,13 +134,15 @@ void HdForceDevice::close() {
 hd::CallbackCode HdForceDevice::called(void* device) noexcept {
   auto& me = *static_cast<HdForceDevice*>(device);
   me.last_call_ns_.store(clock_ns(), kRelaxedKeeper);
+  if (me.ticking_.test_and_set(std::memory_order_acquire)) return hd::kContinue;
   if (me.stopping_.load(std::memory_order_acquire)) {
     me.zero_frame();
-    return hd::kContinue;
+  } else {
+    me.in_frame_call_ = true;
+    me.tick_.run(me.tick_.context);
+    me.in_frame_call_ = false;
   }
-  me.in_frame_call_ = true;
-  me.tick_.run(me.tick_.context);
-  me.in_frame_call_ = false;
+  me.ticking_.clear(std::memory_order_release);
   return hd::kContinue;
 }
 
@@ -167,6 +169,7 @@ void HdForceDevice::stop_scheduler() {
 Status HdForceDevice::start_calling(const DeviceTick& tick) {
   if (keeper_.joinable()) return {};
   tick_ = tick;
+  stopping_.store(false);
   if (const Status started = start_scheduler(); !started) return started;
   keeper_ends_.store(false);
   try {
@@ -187,8 +190,7 @@ void HdForceDevice::stop_calling() {
   stopping_.store(true, std::memory_order_release);
   const std::int64_t until_ns = clock_ns() + ns_of(options_.last_frame_s);
   while (last_frames_.load(std::memory_order_acquire) == before && clock_ns() < until_ns) sleep_ns(kStandIn_ns);
-  stop_scheduler();
-  stopping_.store(false);
+  stop_scheduler();  // no tick is called any more, also where a call of the library's comes late
 }
 
 // --- The keeper ----------------------------------------------------------------------------------------
@@ -213,9 +215,20 @@ void HdForceDevice::watch() noexcept {
     detach(DeviceFault::watchdog);
 }
 
+/// Not by the library's word alone. False: it hangs, and this is closed meanwhile.
+bool HdForceDevice::wait_for_last_call() noexcept {
+  while (ticking_.test_and_set(std::memory_order_acquire)) {
+    if (keeper_ends_.load(kRelaxedKeeper)) return false;
+    sleep_ns(kStandIn_ns);
+  }
+  ticking_.clear(std::memory_order_release);
+  return true;
+}
+
 void HdForceDevice::detach(DeviceFault fault) {
   api_.disable(hd::kForceOutput);
   stop_scheduler();
+  if (!wait_for_last_call()) return;
   api_.disable_device(std::exchange(device_, hd::kInvalidHandle));
   drain();
   machine_.fail(fault);  // the scheduler runs no more: nothing else uses it
@@ -226,7 +239,9 @@ void HdForceDevice::detach(DeviceFault fault) {
 }
 
 void HdForceDevice::stand_in(std::int64_t now_ns) noexcept {
+  if (ticking_.test_and_set(std::memory_order_acquire)) return;
   tick_.run(tick_.context);
+  ticking_.clear(std::memory_order_release);
   if (now_ns < next_try_ns_) return;
   next_try_ns_ = now_ns + ns_of(options_.reopen_s);
   Status back = attach();
@@ -239,6 +254,7 @@ void HdForceDevice::stand_in(std::int64_t now_ns) noexcept {
     back = start_scheduler();
   }
   if (back) {
+    newest_error_.store(hd::kSuccess, kRelaxedKeeper);
     connects_.fetch_add(1, kRelaxedKeeper);
     attached_.store(true);
   } else if (device_ != hd::kInvalidHandle) {

@@ -83,6 +83,8 @@ Status check_shared_library(const std::filesystem::path& path) {
   const std::string where = path.string();
   std::error_code unknown;
   if (std::filesystem::is_directory(path, unknown)) return fail("is a folder", where, "name the .so file in it");
+  if (std::filesystem::exists(path, unknown) && !std::filesystem::is_regular_file(path, unknown))  // a pipe would wait
+    return fail("is no file", where, "give --plugin the path of the plug-in's .so file");
   errno = 0;
   std::ifstream file(path, std::ios::binary);
   if (!file) {

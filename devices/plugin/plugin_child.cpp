@@ -103,7 +103,9 @@ Status PluginChild::start(const PluginOptions& options, PluginRegion& region, co
   int ends[2] = {-1, -1};
   if (::pipe2(ends, O_CLOEXEC | O_NONBLOCK) != 0)
     return fail(std::string("no pipe: ") + std::strerror(errno), host->string(), "close other programs");
-  std::vector<std::string> words{host->string(), what_for, std::filesystem::absolute(options.path).string()};
+  std::error_code lost;  // of the working folder: then the path stays as it is
+  const std::filesystem::path whole = std::filesystem::absolute(options.path, lost);
+  std::vector<std::string> words{host->string(), what_for, (lost ? options.path : whole).string()};
   for (const auto& [key, value] : options.settings) {
     words.push_back(key);
     words.push_back(value);

@@ -94,7 +94,7 @@ void PluginForceDevice::count(const PluginTurn& turn) noexcept {
 ForceSample PluginForceDevice::exchange(const ForceCommand& command, double dt_s) noexcept {
   const FloatState as_tested;
   if (!opened_) return {};
-  PluginCommand out{.number = ++number_};
+  PluginCommand out{.number = ++number_, .connection = judge_.connection()};
   const bool finite = std::isfinite(command.force_n.x + command.force_n.y + command.force_n.z);
   sent_n_ = judge_.begin(finite ? command.force_n : Vec3(0.0), number_, dt_s);
   out.command = {.size = sizeof out.command,

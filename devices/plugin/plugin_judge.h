@@ -31,6 +31,7 @@ class PluginJudge {
   /// After it.
   ForceSample end(const PluginTurn& turn, const ForceCommand& command) noexcept;
 
+  std::uint32_t connection() const { return connection_; }  ///< that it judges
   bool withholds() const { return share_ == 0.0; }
   PluginGarbage garbage() const { return garbage_; }  ///< the newest; none: cleared
   PluginVerdict verdict() const { return verdict_; }  ///< the newest that made a fault

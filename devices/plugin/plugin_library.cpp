@@ -47,8 +47,11 @@ PluginLibrary::Settings::Settings(const PluginSettings& from) {
 Result<std::unique_ptr<PluginLibrary>> PluginLibrary::load(const std::filesystem::path& path,
                                                            const PluginSettings& settings) {
   if (const Status ok = check_shared_library(path); !ok) return tl::unexpected(ok.error());
-  std::unique_ptr<PluginLibrary> made(new PluginLibrary(std::filesystem::absolute(path), settings));
   const std::string where = path.string();
+  std::error_code lost;
+  const std::filesystem::path whole = std::filesystem::absolute(path, lost);  // or the linker looks in its own folders
+  if (lost) return fail("the folder that this program runs in is gone", where, "give --plugin a whole path");
+  std::unique_ptr<PluginLibrary> made(new PluginLibrary(whole, settings));
   // All is bound now: not in the first exchange.
   made->library_ = ::dlopen(made->path_.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (made->library_ == nullptr)

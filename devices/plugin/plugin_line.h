@@ -23,8 +23,17 @@ enum class PluginVerdict : std::uint32_t {
 };
 
 struct PluginCommand {
-  std::uint64_t number = 0;  ///< from 1
+  std::uint64_t number = 0;      ///< from 1
+  std::uint32_t connection = 0;  ///< that its force was worked out for: another plug-in gets no force by it
+  std::uint32_t reserved = 0;
   tangent_device_command command{};
+
+  bool pushes() const noexcept {
+    return command.force_n[0] != 0.0 || command.force_n[1] != 0.0 || command.force_n[2] != 0.0;
+  }
+  void take_force_away() noexcept {
+    for (double& force : command.force_n) force = 0.0;
+  }
 };
 
 struct PluginAnswer {

@@ -74,6 +74,7 @@ Status prepare(PluginRegion& region, const PluginOptions& options) {
   to_host.program = ::getpid();
   to_host.watchdog_s = options.watchdog_s;
   to_host.hang_s = options.hang_s;
+  to_host.end_s = options.end_s;
   return {};
 }
 
@@ -154,6 +155,7 @@ Status PluginProcess::start_one(PluginChild& child) {
   region_.to_program().phase.store(HostPhase::starting);
   region_.to_program().place.store(HostPlace::own);
   region_.to_host().end.store(0);
+  region_.to_host().connection.store(connection_.load() + 1);  // as watch_one counts
   if (const Status ok = child.start(options_, region_, "run"); !ok) return ok;
   if (const Status ok = await(child, region_, HostPhase::opened, options_, wake_, ending_); !ok) return ok;
   const auto can = said_capabilities(region_, options_);

@@ -1,5 +1,6 @@
 #include "devices/plugin/plugin_region.h"
 
+#include <fcntl.h>
 #include <linux/futex.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
@@ -56,8 +57,10 @@ bool PluginRegion::map(int descriptor, int to_host_access) noexcept {
 }
 
 bool PluginRegion::create() noexcept {
-  descriptor_ = ::memfd_create("tangent plug-in", MFD_CLOEXEC);
+  descriptor_ = ::memfd_create("tangent plug-in", MFD_CLOEXEC | MFD_ALLOW_SEALING);
   if (descriptor_ < 0 || ::ftruncate(descriptor_, static_cast<off_t>(kBytes)) != 0) return false;
+  // A plug-in that cuts it off would take the servo's thread with it, by SIGBUS.
+  if (::fcntl(descriptor_, F_ADD_SEALS, F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_SEAL) != 0) return false;
   if (!map(descriptor_, PROT_READ | PROT_WRITE)) return false;
   new (to_host_) ToHost();
   new (to_program_) ToProgram();

@@ -12,7 +12,7 @@
 namespace tangent {
 
 inline constexpr std::size_t kRegionPage = 4096;
-inline constexpr std::uint32_t kRegionMark = 0x74616e31;  ///< of this layout; program and host are built together
+inline constexpr std::uint32_t kRegionMark = 0x74616e32;  ///< of this layout; program and host are built together
 inline constexpr int kRegionDescriptor = 3, kLifeDescriptor = 4;  ///< of the plug-in's process
 
 /// How far the plug-in's process is.
@@ -25,10 +25,11 @@ struct alignas(kRegionPage) ToHost {
   std::uint32_t mark = 0;
   std::uint32_t realtime = 0;
   std::int64_t program = 0;  ///< its process id
-  double watchdog_s = 0.0, hang_s = 0.0;
-  std::atomic<std::uint32_t> bell{0};   ///< rung for each command, and for the end
-  std::atomic<std::uint32_t> end{0};    ///< not 0: close the device and end
-  std::atomic<std::uint32_t> stops{0};  ///< emergency stops asked for
+  double watchdog_s = 0.0, hang_s = 0.0, end_s = 0.0;
+  std::atomic<std::uint32_t> bell{0};        ///< rung for each command, and for the end
+  std::atomic<std::uint32_t> end{0};         ///< not 0: close the device and end
+  std::atomic<std::uint32_t> connection{0};  ///< PluginCommand::connection of this process
+  std::atomic<std::uint32_t> stops{0};       ///< emergency stops asked for
   SharedSlot<PluginCommand> command;
 };
 

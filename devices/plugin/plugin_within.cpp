@@ -40,8 +40,7 @@ PluginTurn PluginWithin::exchange(const PluginCommand& command, double) noexcept
   if (!turn.connected) return turn;
   PluginCommand passed = command;
   if (command.command.request == TANGENT_DEVICE_CLEAR_FAULT) verdict_.store(PluginVerdict::none);
-  if (verdict_.load() != PluginVerdict::none)
-    for (double& force : passed.command.force_n) force = 0.0;
+  if (verdict_.load() != PluginVerdict::none) passed.take_force_away();
   turn.answered = true;
   turn.answer.number = command.number;
   if (!library_->exchange(passed.command, turn.answer.sample)) {
@@ -50,6 +49,8 @@ PluginTurn PluginWithin::exchange(const PluginCommand& command, double) noexcept
     library_->stop();
   }
   turn.answer.verdict = verdict_.load();
+  // An emergency stop may have come while this force was on its way to the device.
+  if (turn.answer.verdict != PluginVerdict::none && passed.pushes()) library_->stop();
   return turn;
 }
 

@@ -39,6 +39,7 @@ void SerialConversation::connected(std::int64_t now_ns) noexcept {
 }
 
 void SerialConversation::closed() noexcept {
+  if (news_.connection % 2 == 0) return;
   const std::uint32_t connection = news_.connection + 1;
   news_ = {};
   news_.connection = connection;

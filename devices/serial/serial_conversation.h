@@ -36,7 +36,7 @@ class SerialConversation {
   void expect(const ForceInfo& info) noexcept;
 
   void connected(std::int64_t now_ns) noexcept;
-  void closed() noexcept;
+  void closed() noexcept;  ///< harmless when it is closed already
   void receive(std::span<const std::uint8_t> bytes, std::int64_t now_ns) noexcept;
 
   /// The next frames; to be called again and again: until the device has said what it is, they ask for that. No force

@@ -170,6 +170,7 @@ ForceSample SerialForceDevice::exchange(const ForceCommand& command, double dt_s
     order.command.force_un[static_cast<std::size_t>(axis)] = static_cast<std::int32_t>(std::lround(micronewtons));
   }
   order.exchange = ++exchanges_;
+  order.connection = news_.connection;
   orders_.put(order);
   wake();
   sample.position_m = news_.sample.position_m;
@@ -257,6 +258,7 @@ Status SerialForceDevice::open() {
   if (const Status sensible = check_capabilities(capabilities_); !sensible) return close_again(sensible.error());
   conversation_.expect(conversation_.info());
   ending_.store(false, kRelaxed);
+  silent_.store(false, kRelaxed);
   news_ = {};
   exchanges_ = composed_ = 0;
   homed_connection_ = silent_connection_ = 0;

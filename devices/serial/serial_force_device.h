@@ -52,6 +52,7 @@ class SerialForceDevice final : public ForceDevice {
   struct Order {
     ForceCommandMessage command;
     std::uint64_t exchange = 0;
+    std::uint32_t connection = 0;  ///< it was made for
   };
 
   Status ask();

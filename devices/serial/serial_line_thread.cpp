@@ -99,6 +99,11 @@ void SerialForceDevice::take_orders() noexcept {
   has_order_ = orders_.take(order_) || has_order_;
   const SerialRequest wanted = request_.exchange(SerialRequest::none, std::memory_order_relaxed);
   if (wanted != SerialRequest::none) wanted_ = wanted;
+  // The servo may stand still anywhere: what it worked out for a device that was unplugged is nothing to this one.
+  if (has_order_ && order_.connection != conversation_.news().connection) {
+    order_.command.force_un = {};
+    wanted_ = SerialRequest::none;
+  }
   if (stop_now_.exchange(false, std::memory_order_relaxed)) {
     if (out_from_ < out_to_) port_.drop_unsent();
     out_from_ = out_to_ = 0;
@@ -154,6 +159,7 @@ void SerialForceDevice::say_goodbye() noexcept {
       poll(nullptr, 0, 1);
       flush();
     }
+    if (port_.is_open() && port_.unsent() > 0) port_.drop_unsent();  // closing would wait for it, 30 s on Linux
   }
   port_.close();
   conversation_.closed();

@@ -14,6 +14,7 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <utility>
 
 namespace tangent {
 
@@ -104,6 +105,7 @@ int SerialPort::open(const char* path, int baud) noexcept {
   fd_ = ::open(path, O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
   if (fd_ < 0) return errno;
   int error = isatty(fd_) != 0 ? lock(fd_) : ENOTTY;
+  locked_ = error == 0;
   if (error == 0) error = make_raw(fd_, speed->code);
   if (error != 0) {
     close();
@@ -115,7 +117,7 @@ int SerialPort::open(const char* path, int baud) noexcept {
 
 void SerialPort::close() noexcept {
   if (fd_ < 0) return;
-  static_cast<void>(ioctl(fd_, TIOCNXCL));
+  if (std::exchange(locked_, false)) static_cast<void>(ioctl(fd_, TIOCNXCL));
   ::close(fd_);
   fd_ = -1;
 }

@@ -42,6 +42,7 @@ class SerialPort {
 
  private:
   int fd_ = -1;
+  bool locked_ = false;  ///< by this object: of another program's lock nothing is taken away
 };
 
 }  // namespace tangent

@@ -152,6 +152,7 @@ TEST_CASE("a file includes from its own room and from those below it, and from n
   int checked = 0;
   for (const Include& include : all_includes()) {
     if (!include.quoted) continue;
+    if (include.file.starts_with("devices/serial/firmware/")) continue;  // copied as it is into somebody's firmware
     const auto from = room_of(include.file), to = room_of(include.name);
     if (!from) continue;  // said above
     if (!to) {

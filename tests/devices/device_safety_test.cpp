@@ -12,10 +12,12 @@ namespace {
 
 struct SayingForceDevice final : ForceDevice {
   ForceCapabilities caps;
+  double continuous_once_open_n = 0.0;
   bool is_open = false;
   const ForceCapabilities& capabilities() const override { return caps; }
   Status open() override {
     is_open = true;
+    caps.continuous_force_n = continuous_once_open_n;
     return {};
   }
   void close() override { is_open = false; }
@@ -61,6 +63,11 @@ TEST_CASE("a device that says nonsense is not opened, and its partner is closed 
   CHECK(status.error().message().find("arm: peak force is not a finite number") == 0);
   CHECK_FALSE(bad_force.force->is_open);
   CHECK_FALSE(bad_force.display->is_open);
+  SayingSet bad_once_open;
+  bad_once_open.force->continuous_once_open_n = 9.0;  // above its peak
+  CHECK_FALSE(open_devices(bad_once_open.devices));
+  CHECK_FALSE(bad_once_open.force->is_open);
+  CHECK_FALSE(bad_once_open.display->is_open);
   SayingSet bad_display;
   bad_display.display->caps.travel_m = -0.02;
   CHECK_FALSE(open_devices(bad_display.devices));

@@ -54,6 +54,11 @@ class Process {
 
   void interrupt(int signal = SIGINT) const { ::kill(id_, signal); }
 
+  bool ended() const {
+    siginfo_t info{};
+    return ::waitid(P_PID, static_cast<id_t>(id_), &info, WEXITED | WNOHANG | WNOWAIT) == 0 && info.si_pid == id_;
+  }
+
   ProcessResult wait() const {
     int status = 0;
     struct rusage usage {};

@@ -8,42 +8,18 @@
 namespace tangent {
 namespace {
 
-constexpr double kAnswer_s = 10.0;        // for the device to answer, and to say what it is
-constexpr double kByHand_s = 120.0;       // to home it by hand
-constexpr double kSpare_s = 2.0;          // beyond the time that it says homing takes
-constexpr double kSettle_s = 0.3;         // after a handle was let go
-constexpr double kRest_s = 1.0;           // of measuring at rest,
-constexpr double kRate_s = 1.0;           // and of the rate
-constexpr double kNoisy_m = 0.1e-3;       // RMS at rest, where steps are finer
-constexpr double kWander_m = 2e-3;        // at rest
-constexpr double kSilent_s = 0.1;         // without a new sample
-constexpr std::uint32_t kMostBack = 3;    // samples older than the one before
-constexpr double kSlow = 0.95;            // of the rate that it is designed for
-constexpr double kMostLost = 0.01;        // of the samples
-constexpr double kCoarse = 3.0;           // times the resolution that it says
-constexpr double kFastest_m_per_s = 0.5;  // of the finger while there is force
-constexpr double kSlew_n_per_s = 20.0;    // of the force
+constexpr double kAnswer_s = 10.0;   // for the device to answer, and to say what it is
+constexpr double kByHand_s = 120.0;  // to home it by hand
+constexpr double kSpare_s = 2.0;     // beyond the time that it says homing takes
+constexpr double kSettle_s = 0.3;    // after a handle was let go
+constexpr double kRest_s = 1.0;      // of measuring at rest,
+constexpr double kRate_s = 1.0;      // and of the rate
+constexpr double kNoisy_m = 0.1e-3;  // RMS at rest, where steps are finer
+constexpr double kWander_m = 2e-3;   // at rest
+constexpr double kSlow = 0.95;       // of the rate that it is designed for
+constexpr double kMostLost = 0.01;   // of the samples
+constexpr double kCoarse = 3.0;      // times the resolution that it says
 constexpr double kShortMove_m = 0.05;
-constexpr double kOutside = 1.2, kOutside_m = 10e-3;
-
-GateLimits tight_limits(const ForceCapabilities& can, const BringUpOptions& options, double most_n) {
-  GateLimits limits;
-  limits.period_s = 1.0 / options.rate_hz;
-  limits.peak_force_n = most_n;
-  limits.continuous_force_n = can.continuous_force_n > 0.0 ? std::min(can.continuous_force_n, most_n) : 0.0;
-  limits.pushes_along = can.pushes_along;
-  limits.workspace_half_size_m = can.workspace_half_size_m;
-  limits.resolution_m = can.position_resolution_m;
-  if (can.rate_hz > 0.0) limits.sample_s = std::min(1.0 / can.rate_hz, limits.stale_s);
-  limits.slew_n_per_s = kSlew_n_per_s;
-  limits.fastest_m_per_s = std::max(kFastest_m_per_s, 4.0 * can.position_resolution_m / limits.sample_s);
-  return limits;
-}
-
-double most_force(const ForceCapabilities& can, double asked_n) {
-  const double device_n = can.continuous_force_n > 0.0 ? can.continuous_force_n : can.peak_force_n;
-  return std::max(0.0, std::min(asked_n, device_n));
-}
 
 /// Far enough to be judged, and within the workspace.
 double move_length(const ForceCapabilities& can) {
@@ -64,11 +40,7 @@ bool BringUpView::all_proved() const {
 }
 
 BringUp::BringUp(ForceDevice& device, const BringUpOptions& options)
-    : device_(device),
-      can_(device.capabilities()),
-      options_(options),
-      most_n_(most_force(can_, options.most_n)),
-      gate_(tight_limits(can_, options, most_n_)) {
+    : GuardedExchange(device, options.rate_hz, options.most_n), options_(options) {
   view_.verdicts.front() = StepVerdict::running;
   view_.move_m = move_length(can_);
 }
@@ -82,10 +54,13 @@ void BringUp::tick(double dt_s) noexcept {
   const bool stops = stop_.load(std::memory_order_relaxed);
   if (phase_ == Phase::silent && has_force() && in_phase_s() < silence_s() && !stops) return;
   const double since_s = std::exchange(unsent_s_, 0.0);
-  exchange(since_s);
+  exchange(view_, since_s);
   const BringUpAnswer said = take_answer();
   if (stops && !view_.ended) fail(BringUpWhy::stopped);
-  if (!view_.ended) check_sample(since_s);
+  if (!view_.ended) {
+    may_be_silent_ = cut_;
+    if (const BringUpWhy why = sample_problem(view_, since_s); why != BringUpWhy::none) fail(why);
+  }
   if (!view_.ended) {
     switch (view_.step) {
       case BringUpStep::cable:
@@ -112,7 +87,10 @@ void BringUp::tick(double dt_s) noexcept {
         try_stop(said);
     }
   }
-  limit(since_s);
+  if (view_.ended || !has_force()) gate_.stop();
+  // Work that a push does on the softest hand that holds, as it grows.
+  const double declared_j = glm::length(wanted_n_) * kSlew_n_per_s * since_s / kSoftest_n_per_m;
+  if (limit(view_, since_s, declared_j) && !view_.ended && !cut_) fail(BringUpWhy::gate_stopped);
   view_.sent_n = view_.ended ? Vec3(0.0) : view_.sent_n;
 }
 
@@ -120,54 +98,6 @@ BringUpAnswer BringUp::take_answer() noexcept {
   const std::uint64_t said = answer_.exchange(0, std::memory_order_relaxed);
   const bool to_this = view_.asks() && static_cast<std::uint32_t>(said >> 8) == view_.questions;
   return to_this ? static_cast<BringUpAnswer>(said & 0xff) : BringUpAnswer::none;
-}
-
-void BringUp::exchange(double dt_s) noexcept {
-  ForceCommand command;
-  command.force_n = gate_.before_sending(dt_s);
-  command.request = std::exchange(request_, DeviceRequest::none);
-  view_.sent_n = command.force_n;
-  sample_ = device_.exchange(command, dt_s);
-  view_.device = sample_.state;
-  view_.device_fault = sample_.fault;
-  if (sample_.state == DeviceState::ready) view_.position_m = sample_.position_m;
-}
-
-void BringUp::check_sample(double dt_s) noexcept {
-  const bool ready = sample_.state == DeviceState::ready;
-  const bool left = was_ready_ && !ready && !may_leave_ready_;
-  was_ready_ = was_ready_ || ready;
-  if (left || (sample_.state == DeviceState::faulted && !may_leave_ready_)) return fail(BringUpWhy::left_ready);
-  if (!ready) return;
-  if (!is_finite(sample_.position_m) || !std::isfinite(sample_.age_s)) return fail(BringUpWhy::not_finite);
-  for (int axis = 0; axis < 3; ++axis) {
-    const double half = can_.workspace_half_size_m[axis];
-    if (half > 0.0 && std::abs(sample_.position_m[axis]) > kOutside * half + kOutside_m)
-      return fail(BringUpWhy::outside);
-  }
-  // A tick that began late shows in the age: only what goes back by more than two periods does so by itself.
-  const double measured_at_s = view_.t_s - sample_.age_s;
-  if (measured_at_s < measured_at_s_ - 2.0 / options_.rate_hz - dt_s || sample_.age_s < 0.0) ++went_back_;
-  measured_at_s_ = std::max(measured_at_s_, measured_at_s);
-  if (went_back_ >= kMostBack) return fail(BringUpWhy::backwards);
-  if (sample_.age_s > kSilent_s && !cut_) return fail(BringUpWhy::silent);
-  const double rendered = glm::length(sample_.force_n), sent = glm::length(view_.sent_n);
-  if (rendered > 1.2 * std::max(sent, glm::length(last_sent_n_)) + 0.05) return fail(BringUpWhy::force_too_large);
-}
-
-void BringUp::limit(double dt_s) noexcept {
-  if (view_.ended || !has_force()) gate_.stop();
-  GateInput input;
-  input.force_n = wanted_n_;
-  input.force_device = sample_.state;
-  input.position_m = sample_.position_m;
-  input.position_age_s = sample_.age_s;
-  // Work that a push does on the softest hand that holds, as it grows.
-  input.declared_j = glm::length(wanted_n_) * kSlew_n_per_s * dt_s / kSoftest_n_per_m;
-  last_sent_n_ = view_.sent_n;
-  gate_.pass(input, dt_s);
-  view_.gate_fault = gate_.fault();
-  if (gate_.state() == GateState::faulted && !view_.ended && !cut_) fail(BringUpWhy::gate_stopped);
 }
 
 // --- From step to step -----------------------------------------------------------------------------------

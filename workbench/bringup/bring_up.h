@@ -7,9 +7,7 @@
 // caller, after `ended` or at any time.
 #pragma once
 
-#include "devices/force_device.h"
-#include "devices/safety_gate.h"
-#include "workbench/bringup/bring_up_facts.h"
+#include "workbench/bringup/guarded_exchange.h"
 #include "workbench/bringup/running_mean.h"
 
 #include <atomic>
@@ -23,8 +21,11 @@ struct BringUpOptions {
   double most_n = 1.0;      ///< last; never above the device's continuous force, or its peak where that is not known
 };
 
-class BringUp {
+class BringUp : private GuardedExchange {
  public:
+  using Options = BringUpOptions;
+  using View = BringUpView;
+  using Answer = BringUpAnswer;
   static constexpr int kTries = 3;                   ///< before a question that was answered badly fails its step
   static constexpr double kSoftest_n_per_m = 100.0;  ///< hand that holds: pushes move it no farther than this allows,
   static constexpr double kDrift_m = 2e-3;           ///< and this much more
@@ -51,9 +52,6 @@ class BringUp {
 
   // Every tick.
   BringUpAnswer take_answer() noexcept;
-  void exchange(double dt_s) noexcept;
-  void check_sample(double dt_s) noexcept;
-  void limit(double dt_s) noexcept;
   // Steps, each until it calls pass or fail.
   void wait_for_device() noexcept;
   void home(BringUpAnswer said) noexcept;
@@ -87,26 +85,17 @@ class BringUp {
   double in_phase_s() const noexcept { return view_.t_s - phase_began_s_; }
   void enter(Phase phase) noexcept;
 
-  ForceDevice& device_;
-  const ForceCapabilities& can_;
   BringUpOptions options_;
-  double most_n_;
-  SafetyGate gate_;
   std::atomic<std::uint64_t> answer_{0};  ///< question and answer
   std::atomic<bool> stop_{false};
   BringUpView view_;
-  ForceSample sample_;
-  DeviceRequest request_ = DeviceRequest::none;
   Phase phase_ = Phase::ask;
   double step_began_s_ = 0.0, phase_began_s_ = 0.0;
   int tries_ = 0;
-  bool was_ready_ = false, may_leave_ready_ = false, said_home_ = false;
-  double measured_at_s_ = 0.0;  ///< of the newest sample
-  std::uint32_t went_back_ = 0;
+  bool said_home_ = false;
   double unsent_s_ = 0.0;  ///< since the last exchange, while it is silent on purpose
   Vec3 last_m_{0.0}, from_m_{0.0};
   RunningMean mean_, before_, held_, after_;  ///< at rest; of a push
-  Vec3 wanted_n_{0.0}, last_sent_n_{0.0};
   double level_n_ = 0.0;
   bool cut_ = false;             ///< the force of this push was taken away,
   std::uint32_t cut_ticks_ = 0;  ///< and was still there for so many ticks

@@ -82,6 +82,9 @@ enum class BringUpWhy : std::uint8_t {
   no_force,         ///< nothing moved up to the limit
   disagree,         ///< encoders and person say different things
   force_stays,      ///< after a stop
+  not_in_middle,    ///< the handle is not in the middle of its range, or left it
+  no_reading,       ///< of a scale, in time
+  pulls_too_hard,   ///< by the scale, several times what was asked for
 };
 
 struct RestFacts {
@@ -126,8 +129,17 @@ struct BringUpFacts {
   StopFacts stop, watchdog, emergency;
 };
 
+/// Of an exchange with the device, and the gate before it.
+struct ExchangeView {
+  DeviceState device = DeviceState::absent;
+  DeviceFault device_fault = DeviceFault::none;
+  GateFault gate_fault = GateFault::none;
+  Vec3 position_m{0.0}, sent_n{0.0};
+  double t_s = 0.0;
+};
+
 /// What is shown.
-struct BringUpView {
+struct BringUpView : ExchangeView {
   BringUpStep step = BringUpStep::cable;
   std::array<StepVerdict, kBringUpSteps> verdicts{};
   std::array<BringUpWhy, kBringUpSteps> whys{};
@@ -138,11 +150,6 @@ struct BringUpView {
   double move_m = 0.05;                 ///< how far to move
   std::uint32_t questions = 0;          ///< so far; another number, another question
   bool ended = false;
-  DeviceState device = DeviceState::absent;
-  DeviceFault device_fault = DeviceFault::none;
-  GateFault gate_fault = GateFault::none;
-  Vec3 position_m{0.0}, sent_n{0.0};
-  double t_s = 0.0;
   BringUpFacts facts;
 
   StepVerdict verdict(BringUpStep s) const { return verdicts[static_cast<std::size_t>(s)]; }

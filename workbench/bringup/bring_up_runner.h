@@ -1,46 +1,12 @@
-// Runs a bring-up on a device: in real time in a thread of its own (or the driver's), or step by step in simulated time
-// in the caller's. The owner's thread asks for the view and passes the answers on.
+// Runs a bring-up on a device.
 #pragma once
 
-#include "core/base/result.h"
 #include "workbench/bringup/bring_up.h"
-
-#include <memory>
-#include <string>
+#include "workbench/bringup/guided_runner.h"
 
 namespace tangent {
 
-struct BringUpRunOptions {
-  BringUpOptions limits;
-  bool threaded = true;  ///< off: `advance` makes the ticks; simulated devices only
-};
-
-class BringUpRunner {
- public:
-  /// Opens the device. Fails with the driver's own words.
-  static Result<std::unique_ptr<BringUpRunner>> start(std::unique_ptr<ForceDevice> device,
-                                                      const BringUpRunOptions& options);
-  /// Zero force, then the device is closed. Leaves it alone, until the process ends, where an exchange does not return.
-  ~BringUpRunner();
-  BringUpRunner(const BringUpRunner&) = delete;
-  BringUpRunner& operator=(const BringUpRunner&) = delete;
-
-  /// The newest; owner's thread.
-  const BringUpView& view();
-  const ForceCapabilities& capabilities() const;
-  /// To the question in the view that was seen last.
-  void answer(BringUpAnswer answer);
-  void stop();
-  /// The simulated hand did what is asked, so that an answer makes sense; always with a real device.
-  bool settled();
-  /// Not threaded: n ticks of simulated time. Else nothing.
-  void advance(std::uint64_t ticks);
-  std::string link_problem() const;  ///< what the driver says of the cable; empty: nothing
-
- private:
-  struct Impl;
-  explicit BringUpRunner(std::unique_ptr<Impl> impl);
-  std::unique_ptr<Impl> impl_;
-};
+using BringUpRunner = GuidedRunner<BringUp>;  // guided_runner.cpp
+using BringUpRunOptions = GuidedRunOptions<BringUp>;
 
 }  // namespace tangent

@@ -97,6 +97,12 @@ const char* plain_text(BringUpWhy why) {
     case BringUpWhy::force_stays:
       return "the handle did not go back when the force was taken away: hold it gently; if it goes on, keep a hand on "
              "the power switch, and do not use it";
+    case BringUpWhy::not_in_middle:
+      return "the handle was not in the middle of its range, so there is no force";
+    case BringUpWhy::no_reading:
+      return "nothing was read, so the force was taken away";
+    case BringUpWhy::pulls_too_hard:
+      return "it pulls several times what is asked for: begin again with a lower --falcon-torque-scale";
     default:
       return "";
   }
@@ -234,16 +240,18 @@ std::string step_facts_text(BringUpStep step, const BringUpView& view, const For
   }
 }
 
-std::string step_why_text(BringUpStep step, const BringUpView& view, const ForceCapabilities& can) {
-  const BringUpWhy why = view.why(step);
+std::string why_text(BringUpWhy why, const ExchangeView& view) {
   if (why == BringUpWhy::left_ready)
     return std::string("the device left `ready`: ") + to_string(view.device_fault) + "; see its cable and power";
   if (why == BringUpWhy::gate_stopped)
     return std::string("the safety gate stopped: ") + to_string(view.gate_fault) +
-           "; hold the handle gently and begin "
-           "again";
-  if (why == BringUpWhy::axis_wrong) return axes_text(view.facts.motions, can.frame);
+           "; hold the handle gently and begin again";
   return plain_text(why);
+}
+
+std::string step_why_text(BringUpStep step, const BringUpView& view, const ForceCapabilities& can) {
+  const BringUpWhy why = view.why(step);
+  return why == BringUpWhy::axis_wrong ? axes_text(view.facts.motions, can.frame) : why_text(why, view);
 }
 
 std::vector<std::string> not_proved_lines(const BringUpView& view, const ForceCapabilities& can) {

@@ -26,6 +26,8 @@ bool may_skip(const BringUpView& view);
 std::string step_facts_text(BringUpStep step, const BringUpView& view, const ForceCapabilities& can);
 /// Why the step failed, and what to do about it; empty: it didn't.
 std::string step_why_text(BringUpStep step, const BringUpView& view, const ForceCapabilities& can);
+/// The same of any guided run.
+std::string why_text(BringUpWhy why, const ExchangeView& view);
 /// What this bring-up leaves open, a line each.
 std::vector<std::string> not_proved_lines(const BringUpView& view, const ForceCapabilities& can);
 

@@ -34,4 +34,12 @@ void GuidedHand::follow(const BringUpView& view, double dt_s) noexcept {
   settled_ = since_s_ >= (moves && view.ask == BringUpAsk::move ? kSettled_s : kPause_s);
 }
 
+void GuidedHand::follow(const CalibrationView& view, double dt_s) noexcept {
+  if (hand_ == nullptr) return;
+  since_s_ = view.questions == question_ ? since_s_ + dt_s : 0.0;
+  question_ = view.questions;
+  hand_->lead({});
+  settled_ = since_s_ >= kPause_s;
+}
+
 }  // namespace tangent

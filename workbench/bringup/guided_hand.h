@@ -4,6 +4,7 @@
 #include "devices/force_device.h"
 #include "devices/simulated_hand.h"
 #include "workbench/bringup/bring_up_facts.h"
+#include "workbench/bringup/force_calibration.h"
 
 namespace tangent {
 
@@ -13,8 +14,10 @@ class GuidedHand {
   explicit GuidedHand(SimulatedHand* hand, const DeviceFrame& frame = {}) : hand_(hand), frame_(frame) {}
   /// Before each tick; same thread.
   void follow(const BringUpView& view, double dt_s) noexcept;
+  void follow(const CalibrationView& view, double dt_s) noexcept;  ///< it stays in the middle
   /// It did what is asked now, and is at rest. Always, where there is no hand to lead.
-  bool settled(const BringUpView& view) const noexcept {
+  template <class View>
+  bool settled(const View& view) const noexcept {
     return hand_ == nullptr || (settled_ && question_ == view.questions);
   }
 

@@ -3,6 +3,8 @@
 #include "core/io/csv_table.h"
 
 #include <array>
+#include <charconv>
+#include <cstdio>
 
 #include <poll.h>
 #include <unistd.h>
@@ -12,6 +14,9 @@ namespace {
 
 constexpr char kEscapeKey = 27;
 constexpr std::size_t kLongestAnswer = 256;
+constexpr double kMostRead_n = 100.0;
+
+bool erases(char key) { return key == 0x7f || key == 8; }
 
 }  // namespace
 
@@ -30,6 +35,16 @@ std::optional<AnswerKey> answer_of_key(char key) {
   if (key == 's') return AnswerKey::skip;
   if (key == kEscapeKey || key == 'q' || key == ' ') return AnswerKey::stop;
   return std::nullopt;
+}
+
+std::optional<double> newtons_of_line(std::string_view line) {
+  std::string text(line);
+  if (const std::size_t comma = text.find(','); comma != std::string::npos) text[comma] = '.';
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || !(value > 0.0 && value <= kMostRead_n))
+    return std::nullopt;
+  return value;
 }
 
 void AnswerKeys::read_some() {
@@ -55,6 +70,33 @@ bool AnswerKeys::wants_stop() {
 void AnswerKeys::drop() {
   read_some();
   buffer_.clear();
+  shown_ = 0;
+}
+
+void AnswerKeys::show_typed() {
+  for (; terminal() && shown_ < buffer_.size() && buffer_[shown_] != '\n'; ++shown_)
+    std::fputs(erases(buffer_[shown_]) ? "\b \b" : std::string(1, buffer_[shown_]).c_str(), stdout);
+  std::fflush(stdout);
+}
+
+std::optional<std::string> AnswerKeys::next_line() {
+  read_some();
+  show_typed();
+  const std::size_t end = buffer_.find('\n');
+  const bool whole = end != std::string::npos || buffer_.size() > kLongestAnswer || (ended_ && !buffer_.empty());
+  if (!whole) return std::nullopt;
+  std::string line;
+  for (const char key : buffer_.substr(0, end)) {
+    if (!erases(key))
+      line += key;
+    else if (!line.empty())
+      line.pop_back();
+  }
+  if (line.ends_with('\r')) line.pop_back();
+  buffer_.erase(0, end == std::string::npos ? end : end + 1);
+  shown_ = 0;
+  if (terminal()) std::fputs("\n", stdout);
+  return line;
 }
 
 Result<std::optional<AnswerKey>> AnswerKeys::next() {

@@ -93,6 +93,9 @@ Status attend(BringUpRunner& runner, bool threaded) {
     teller.look(view, runner.capabilities());
     if (InterruptGuard::requested()) runner.stop();
     if (ended) break;
+    if (runner.hangs())
+      return fail("its driver does not come back from an exchange", runner.capabilities().name,
+                  "take the device's power away, then start again");
     if (const Status taken = take_answer(keys, teller, runner); !taken) status = taken;
   }
   return status;
@@ -111,7 +114,9 @@ Status keep(const BringUpProtocol& protocol, const DeviceCheck& check) {
     std::printf("%s: the protocol; beside it as a page\n", check.out.c_str());
   }
   const std::filesystem::path kept = proved_devices_path();
-  if (protocol.device.simulated || protocol.device.serial.empty() || kept.empty()) return {};
+  // Of a device that could not even be opened nothing new is known: what was proved before stays.
+  const bool unopened = !protocol.opening.what.empty();
+  if (unopened || protocol.device.simulated || protocol.device.serial.empty() || kept.empty()) return {};
   if (Status ok = keep_proved(kept, proved_device(protocol)); !ok) return ok;
   std::printf("%s: kept for serial number %s\n", kept.c_str(), protocol.device.serial.c_str());
   return {};

@@ -23,13 +23,15 @@ std::string timeout_text(double seconds) {
 std::string known(double value, const char* pattern) { return value > 0.0 ? format(pattern, value) : "not known"; }
 
 std::string force_text(const std::string& name, const ForceCapabilities& c) {
+  if (c.peak_force_n <= 0.0 && !c.simulated) return name + "\n  force      not known until it is opened, as the rest\n";
   std::string text = format(
-      "%s\n  force      peak %.1f N, continuous %s, along %s\n  stable     up to %s and %s\n"
+      "%s\n  force      peak %s, continuous %s, along %s\n  stable     up to %s and %s\n"
       "  position   %s steps; workspace %.0f x %.0f x %.0f mm; rotations sensed: %s; %d buttons\n",
-      name.c_str(), c.peak_force_n, known(c.continuous_force_n, "%.1f N").c_str(), pushed_axes(c).c_str(),
-      known(c.largest_stiffness_n_per_m, "%.0f N/m").c_str(), known(c.largest_damping_n_s_per_m, "%.0f N s/m").c_str(),
-      known(c.position_resolution_m * 1e6, "%.0f um").c_str(), c.workspace_half_size_m.x * 2e3,
-      c.workspace_half_size_m.y * 2e3, c.workspace_half_size_m.z * 2e3, sensed_rotations(c).c_str(), c.buttons);
+      name.c_str(), known(c.peak_force_n, "%.1f N").c_str(), known(c.continuous_force_n, "%.1f N").c_str(),
+      pushed_axes(c).c_str(), known(c.largest_stiffness_n_per_m, "%.0f N/m").c_str(),
+      known(c.largest_damping_n_s_per_m, "%.0f N s/m").c_str(), known(c.position_resolution_m * 1e6, "%.0f um").c_str(),
+      c.workspace_half_size_m.x * 2e3, c.workspace_half_size_m.y * 2e3, c.workspace_half_size_m.z * 2e3,
+      sensed_rotations(c).c_str(), c.buttons);
   if (!(c.frame == DeviceFrame{})) text += "  frame      " + frame_text(c.frame) + "\n";
   return text + format("  mass       %s apparent\n  rate       %.0f Hz\n  firmware   %s\n",
                        known(c.apparent_mass_kg * 1e3, "%.0f g").c_str(), c.rate_hz,

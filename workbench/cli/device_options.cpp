@@ -1,11 +1,11 @@
 #include "workbench/cli/device_options.h"
 
+#include "workbench/cli/falcon_options.h"
 #include "workbench/cli/haply_options.h"
 #include "workbench/cli/option.h"
-#include "workbench/cli/falcon_options.h"
 #include "workbench/cli/plugin_options.h"
-#include "workbench/cli/vendor_options.h"
 #include "workbench/cli/serial_options.h"
+#include "workbench/cli/vendor_options.h"
 
 namespace tangent {
 

@@ -55,7 +55,7 @@ bool is_summary(std::string_view text) { return is_json_with(text, "program_vers
 bool is_explanation(std::string_view text) { return is_json_with(text, "explained", "lost_before"); }
 bool is_replay_report(std::string_view text) { return is_json_with(text, "same_bits", "same_motion_assumed"); }
 bool is_comparison(std::string_view text) { return is_json_with(text, "why_not_aligned"); }
-bool is_check_report(std::string_view text) { return is_json_with(text, "outcome"); }
+bool is_check_report(std::string_view text) { return is_json_with(text, "outcome") && is_json_with(text, "preset"); }
 
 /// As `make` writes it, or an outline in two columns.
 bool is_made_mesh(std::string_view beginning) {
@@ -133,13 +133,16 @@ Status check_replaceable(const std::filesystem::path& path, std::string_view kin
 
 void check_own_outputs(const CLI::App& command) {
   const std::vector<GivenOption> given = given_options(command);
-  for (const GivenOption& output : given) {
-    const auto* const own = std::find_if(kOwnOutputs.begin(), kOwnOutputs.end(), [&](const OwnOutput& row) {
-      return row.command == command.get_name() && row.option == output.name;
+  const auto row_of = [&](const GivenOption& option) {
+    return std::find_if(kOwnOutputs.begin(), kOwnOutputs.end(), [&](const OwnOutput& row) {
+      return row.command == command.get_name() && row.option == option.name;
     });
+  };
+  for (const GivenOption& output : given) {
+    const auto* const own = row_of(output);
     if (own == kOwnOutputs.end()) continue;
     if (std::any_of(given.begin(), given.end(), [&](const GivenOption& other) {
-          return &other != &output && same_file(other.value, output.value);
+          return row_of(other) == kOwnOutputs.end() && same_file(other.value, output.value);
         }))
       continue;
     if (const Status ok = check_replaceable(output.value, own->kind, own->is_ours); !ok)

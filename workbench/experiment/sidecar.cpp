@@ -119,6 +119,7 @@ Result<std::vector<StartNote>> starts_of(const ordered_json& own, const fs::path
   std::vector<StartNote> out;
   const auto list = own.find("starts");
   if (list == own.end()) return out;
+  if (!list->is_array()) return tl::unexpected(not_a_sidecar(path, "its \"starts\" are no list").error());
   for (const ordered_json& one : *list) {
     const auto start = start_of(one);
     if (!start) return tl::unexpected(not_a_sidecar(path, "one of its \"starts\" is not as it was written").error());

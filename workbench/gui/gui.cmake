@@ -17,8 +17,8 @@ target_include_directories(tangent_gui SYSTEM PUBLIC ${IMGUI_INCLUDE} PRIVATE ${
 # Debian's libimgui.a holds the core, the GLFW and OpenGL 3 back ends and the FreeType rasteriser, and
 # leaves freetype and stb to whoever links it.
 target_link_libraries(tangent_gui
-  PUBLIC tangent_bench tangent_bringup tangent_evidence tangent_experiment tangent_recording tangent_sweep ${IMGUI_LIBRARY} glfw
-         Freetype::Freetype ${STB_LIBRARY} PkgConfig::epoxy ${CMAKE_DL_LIBS}
+  PUBLIC tangent_bench tangent_bringup tangent_evidence tangent_experiment tangent_recording tangent_sweep
+         ${IMGUI_LIBRARY} glfw Freetype::Freetype ${STB_LIBRARY} PkgConfig::epoxy ${CMAKE_DL_LIBS}
   PRIVATE PkgConfig::kissfft)
 target_compile_definitions(tangent_gui PRIVATE TANGENT_SHADER_DIR="${PROJECT_SOURCE_DIR}/shaders"
   TANGENT_PRESET_DIR="${PROJECT_SOURCE_DIR}/presets")

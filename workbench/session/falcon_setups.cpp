@@ -116,6 +116,14 @@ Status keep_falcon_setup(const std::filesystem::path& path, const std::string& s
   return write_file_atomic(path, format_falcon_setups(*setups));
 }
 
+Status keep_falcon_scale(const std::filesystem::path& path, const std::string& serial, double counts_per_nm) {
+  const auto kept = read_falcon_setup(path, serial);
+  if (!kept) return tl::unexpected(kept.error());
+  FalconSetup setup = kept->value_or(FalconSetup{});
+  setup.torque_counts_per_nm = counts_per_nm;
+  return keep_falcon_setup(path, serial, setup);
+}
+
 Result<FalconOptions> chosen_falcon_options(FalconOptions given, const std::filesystem::path& path) {
   const std::string serial = given.serial.empty() ? attached_falcon() : given.serial;
   if (serial.empty() || path.empty()) {

@@ -31,6 +31,9 @@ Result<std::optional<FalconSetup>> read_falcon_setup(const std::filesystem::path
 /// file with an error in it is not overwritten, and when the file can't be written.
 Status keep_falcon_setup(const std::filesystem::path& path, const std::string& serial, const FalconSetup& setup);
 
+/// The same, of the torque scale alone: the firmware that is kept stays.
+Status keep_falcon_scale(const std::filesystem::path& path, const std::string& serial, double counts_per_nm);
+
 /// `given`, and for what was not given what is kept for that serial number or, without one, for the only Falcon that is
 /// attached; then that one alone is opened. With `given.keep` it is kept. Fails when kept values are needed and can't
 /// be read, and when there is no serial number to keep values by.

@@ -32,9 +32,10 @@ int say_failed(PluginRegion& region, const Error& error) {
   return 1;
 }
 
-/// The second thread takes SIGTERM; Ctrl-C and a closed terminal are the program's.
+/// Until the device is opened nothing needs to be stopped, and a plug-in that hangs must not outlive the program. From
+/// then on the second thread takes SIGTERM; Ctrl-C and a closed terminal are the program's.
 void prepare_signals() {
-  prctl(PR_SET_PDEATHSIG, SIGTERM);
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
   prctl(PR_SET_TIMERSLACK, 1UL);  // ns
   sigset_t blocked;
   sigemptyset(&blocked);
@@ -60,14 +61,14 @@ int run(PluginRegion& region, PluginLibrary& library) {
   std::atomic<HostPlace>& place = region.to_program().place;
   PluginHost host(region, library);
   host.watch();
+  prctl(PR_SET_PDEATHSIG, SIGTERM);  // a program that died before this line is missed by the second thread
   place.store(HostPlace::open);
   if (const Status ok = library.open(); !ok) return say_failed(region, ok.error());
   place.store(HostPlace::own);
   stop_in_a_crash(library);
   if (region.to_host().realtime != 0) ask_for_realtime();
   host.serve();
-  constexpr unsigned kLongestClose_s = 5;
-  ::alarm(kLongestClose_s);  // nobody else would end a process whose program is gone
+  ::alarm(static_cast<unsigned>(PluginHost::longest_end_s(region)) + 3);  // nobody else would, with the program gone
   place.store(HostPlace::close);
   library.close();
   leave_crashes_alone();

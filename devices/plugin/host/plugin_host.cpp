@@ -4,6 +4,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <ctime>
 
@@ -49,12 +50,19 @@ void PluginHost::look(std::int64_t now_ns) noexcept {
   if (came_ns != 0 && seconds_since(came_ns, now_ns) > from.watchdog_s) stop_by(PluginVerdict::silent);
 }
 
+double PluginHost::longest_end_s(PluginRegion& region) noexcept {
+  constexpr double kShortest_s = 2.0, kLongest_s = 3600.0;
+  return std::clamp(region.to_host().end_s, kShortest_s, kLongest_s);
+}
+
 /// The program is gone, or says so: the device is stopped at once, closed if the main thread comes to it.
 void PluginHost::end_with_program() noexcept {
   ending_.store(true);
   if (serving_.load()) library_.stop();
   const timespec a_while{0, 10'000'000};
-  for (int i = 0; i < 200 && !watching_ends_.load(); ++i) nanosleep(&a_while, nullptr);
+  const std::int64_t began_ns = plugin_now_ns();
+  while (!watching_ends_.load() && seconds_since(began_ns, plugin_now_ns()) < longest_end_s(region_))
+    nanosleep(&a_while, nullptr);
   if (!watching_ends_.load()) ::_exit(1);
 }
 
@@ -76,8 +84,8 @@ void PluginHost::run_watch() noexcept {
 void PluginHost::answer(const PluginCommand& command) {
   PluginCommand passed = command;
   if (command.command.request == TANGENT_DEVICE_CLEAR_FAULT) verdict_.store(PluginVerdict::none);
-  if (verdict_.load() != PluginVerdict::none)
-    for (double& force : passed.command.force_n) force = 0.0;
+  const bool for_another = command.connection != region_.to_host().connection.load();
+  if (for_another || verdict_.load() != PluginVerdict::none) passed.take_force_away();
   PluginAnswer out;
   ToProgram& to = region_.to_program();
   to.place.store(HostPlace::exchange);
@@ -95,6 +103,8 @@ void PluginHost::answer(const PluginCommand& command) {
   first_exchange_ = false;
   out.number = command.number;
   out.verdict = verdict_.load();
+  // The second thread may have stopped the device while this force was on its way to it.
+  if (out.verdict != PluginVerdict::none && passed.pushes()) library_.stop();
   to.answer.put(out);
   ring_bell(to.bell);
 }

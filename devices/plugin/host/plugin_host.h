@@ -26,6 +26,8 @@ class PluginHost {
   /// After the plug-in has opened its device; returns when the program wants the end, or is gone. Nobody calls stop any
   /// more then.
   void serve();
+  /// How long closing the device may take when the program is gone; then this process just ends.
+  static double longest_end_s(PluginRegion& region) noexcept;
 
  private:
   void answer(const PluginCommand& command);

@@ -14,7 +14,8 @@ float hapkit_torque_nm(const hapkit_geometry* g, float force_n) { return force_n
 float hapkit_duty(const hapkit_geometry* g, float force_n) {
   const float duty = hapkit_torque_nm(g, force_n) / g->torque_at_full_duty_nm;
   if (duty > 1.0f) return 1.0f;
-  return duty < -1.0f ? -1.0f : duty;
+  if (duty < -1.0f) return -1.0f;
+  return duty == duty ? duty : 0.0f; /* no number: no torque */
 }
 
 static int measure(void* context, tangent_reading* reading) {
@@ -45,6 +46,7 @@ static void send(void* context, const uint8_t* bytes, size_t count) {
 void hapkit_init(hapkit* kit, const hapkit_geometry* geometry, float peak_n, uint32_t serial) {
   tangent_board board;
   tangent_description is;
+  float step_m;
   memset(kit, 0, sizeof *kit);
   kit->geometry = *geometry;
   board.context = kit;
@@ -56,8 +58,9 @@ void hapkit_init(hapkit* kit, const hapkit_geometry* geometry, float peak_n, uin
   is.firmware_version = 0x0100;
   is.serial = serial;
   is.pushes_along = 4; /* z alone */
-  is.peak_mn = (uint16_t)(1e3f * peak_n);
-  is.step_nm = (uint32_t)(1e9f * hapkit_position_m(geometry, 1));
+  is.peak_mn = (uint16_t)(peak_n < 65.0f ? 1e3f * peak_n : 65000.0f);
+  step_m = hapkit_position_m(geometry, 1); /* negative where the motor is mounted the other way round */
+  is.step_nm = (uint32_t)(1e9f * (step_m < 0.0f ? -step_m : step_m));
   is.workspace_um[2] = 40000;
   is.telemetry_hz = 1000;
   is.watchdog_ms = 20;

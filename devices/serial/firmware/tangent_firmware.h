@@ -10,8 +10,8 @@
 #ifndef TANGENT_FIRMWARE_H
 #define TANGENT_FIRMWARE_H
 
-#include <stddef.h>
-#include <stdint.h>
+#include <stddef.h> /* NOLINT(modernize-deprecated-headers): C */
+#include <stdint.h> /* NOLINT(modernize-deprecated-headers): C */
 
 #ifdef __cplusplus
 extern "C" {

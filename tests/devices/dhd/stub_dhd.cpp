@@ -84,9 +84,9 @@ int dhdClose(char id) {
 }
 
 int dhdStop(char) {
-  note_call("stop");
+  script.force_off_cause = 4;  // before it is off, and noted when it is
   script.force_on = false;
-  script.force_off_cause = 4;
+  note_call("stop");
   return answered();
 }
 

@@ -86,6 +86,18 @@ TEST_CASE("a Haply message that lies is refused, or the one device that it lies 
   CHECK_FALSE(message.devices.front().own_axes);
 }
 
+TEST_CASE("a Haply message with more devices than anybody has is refused") {
+  if (!haply_built_in()) return;
+  const auto with = [](std::size_t devices) {
+    std::string text = R"({"inverse3":[)";
+    for (std::size_t i = 0; i < devices; ++i) text += (i == 0 ? "" : ",") + std::string(R"({"device_id":"A"})");
+    HaplyMessage message;
+    return read_haply(text + "]}", {}, message);
+  };
+  CHECK(with(kHaplyMostDevices));
+  CHECK_FALSE(with(kHaplyMostDevices + 1));
+}
+
 TEST_CASE("whatever bytes of a Haply message are changed, what is taken from it is finite and in reach") {
   if (!haply_built_in()) return;
   std::mt19937 random(1);

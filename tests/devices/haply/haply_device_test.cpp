@@ -75,8 +75,8 @@ TEST_CASE("an Inverse3 is opened, homed, pushes with what the gate lets through,
   CHECK(service.asked().back().find("\"vector\"") != std::string::npos);
   CHECK(rig.report().identity == "device 049D");
   rig.device.close();
-  CHECK(service.force_n() == Vec3(0.0));
-  CHECK(eventually([&] { return service.closed_politely(); }));
+  CHECK(eventually([&] { return service.force_n() == Vec3(0.0); }, 60.0));
+  CHECK(eventually([&] { return service.closed_politely(); }, 60.0));
   CHECK(rig.device.exchange({}, 1e-3).state == DeviceState::absent);
 }
 
@@ -154,7 +154,9 @@ TEST_CASE("an Inverse Service that is silent for longer is a fault, is connected
   HaplyRig rig(service);
   REQUIRE(rig.push());
   const std::uint64_t connects = rig.report().connects;
-  reply_with(service, {HaplyReply::How::nothing, ""});
+  service.set_policy([](std::uint64_t n, const std::string& right) {  // it lists its devices to whoever connects
+    return HaplyReply{n == 0 ? HaplyReply::How::send : HaplyReply::How::nothing, right};
+  });
   bool faulted = false;
   for (int i = 0; i < 150 && !faulted; ++i) {
     rig.tick();
@@ -176,12 +178,44 @@ TEST_CASE("an Inverse Service that comes back is used again, after homing and ar
   rig.tick();
   CHECK(rig.sample.state == DeviceState::absent);
   CHECK(rig.report().problem.find("Inverse Service") != std::string::npos);
-  service.come_back();
   const std::uint64_t connects = rig.report().connects;
+  service.come_back();
   REQUIRE(eventually([&] { return rig.report().connects > connects && rig.report().connected; }, 60.0));
   REQUIRE(eventually([&] { return !rig.report().identity.empty(); }, 60.0));
   rig.sample = {};
   CHECK(rig.arm_and_push());
+}
+
+TEST_CASE("an Inverse3 that was not listed for one answer between two ticks has to be homed again") {
+  HaplyService service;
+  HaplyRig rig(service);
+  REQUIRE(rig.push());
+  reply_changed(service, "049D", "04BA");
+  REQUIRE(rig.answered_tick());
+  service.set_policy({});
+  REQUIRE(eventually([&] { return !rig.report().identity.empty(); }, 60.0));  // listed again
+  rig.tick();
+  CHECK(rig.sample.state != DeviceState::ready);
+  CHECK(rig.sample.force_n == Vec3(0.0));
+  CHECK(eventually([&] { return service.force_n() == Vec3(0.0); }, 60.0));
+}
+
+TEST_CASE("an Inverse Service that takes a connection and says nothing is connected to again and again") {
+  HaplyService service;
+  HaplyOptions options = stepped_haply(service);
+  options.connect_s = 0.3;
+  HaplyRig rig(service, options);
+  bool opened = false;  // a slow machine may need several attempts
+  for (int i = 0; i < 100 && !opened; ++i) opened = rig.device.open().has_value();
+  REQUIRE(opened);
+  reply_with(service, {HaplyReply::How::nothing, ""});
+  service.drop();
+  const std::uint64_t connects = rig.report().connects;
+  CHECK(eventually([&] { return rig.report().connects > connects + 2; }, 60.0));
+  service.set_policy({});
+  CHECK(eventually([&] { return !rig.report().identity.empty(); }, 60.0));
+  reply_with(service, {HaplyReply::How::nothing, ""});
+  CHECK_FALSE(HaplyForceDevice(options).open());
 }
 
 TEST_CASE("an Inverse3 that is not calibrated is homing until a person has put it into its inkwell") {
@@ -213,24 +247,30 @@ TEST_CASE("a faulted Inverse3 is ready again when the fault is cleared and it is
 }
 
 TEST_CASE("answers that come late make it fall silent, and too many of them are a fault") {
+  std::atomic<std::uint64_t> held{0};
   HaplyService service;
   HaplyRig rig(service);
   REQUIRE(rig.push());
   int pauses = 0;
   while (rig.sample.state == DeviceState::ready && pauses < 20) {
-    service.set_policy([](std::uint64_t, const std::string& right) {
+    service.set_policy([&](std::uint64_t, const std::string& right) {
+      ++held;
       return HaplyReply{HaplyReply::How::hold, right};
     });
-    const std::uint64_t forces = service.forces();
-    rig.tick();
-    REQUIRE(eventually([&] { return service.forces() > forces; }));
-    rig.tick(), rig.tick(), rig.tick();
+    // Until all that was answered, the list first, is heard: nothing more comes now.
+    const auto all_heard = [&] {
+      const std::uint64_t over = rig.report().packets_in + held;
+      return over >= service.received() + 1;  // read last: one that comes meanwhile is held as well
+    };
+    REQUIRE(eventually(all_heard, 60.0));
+    rig.tick(), rig.tick(), rig.tick(), rig.tick();
     CHECK(rig.sample.force_n == Vec3(0.0));
-    REQUIRE(eventually([&] { return service.force_n() == Vec3(0.0); }));
+    REQUIRE(eventually([&] { return service.force_n() == Vec3(0.0); }, 60.0));
     service.set_policy({});
     const std::uint64_t heard = rig.report().packets_in;
     service.release_held();
-    REQUIRE(eventually([&] { return rig.report().packets_in > heard; }));
+    held = 0;
+    REQUIRE(eventually([&] { return rig.report().packets_in > heard; }, 60.0));
     REQUIRE(rig.answered_tick());
     ++pauses;
   }

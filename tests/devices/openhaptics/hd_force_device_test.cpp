@@ -200,6 +200,33 @@ TEST_CASE("openhaptics: an emergency disables the force and stops the scheduler,
   CHECK(l.felt_n() == 0.0);
 }
 
+TEST_CASE("openhaptics: a call that comes after calling was stopped is no tick, and sends no force") {
+  HdLoop l;
+  l.hd.calls_late = true;
+  REQUIRE(l.start());
+  l.push();
+  REQUIRE(l.felt_n() > 0.4);
+  l.device.stop_calling();
+  const std::uint64_t ticks = l.loop.ticks;
+  l.step(3);
+  CHECK(l.loop.ticks == ticks);
+  CHECK(l.felt_n() == 0.0);
+}
+
+TEST_CASE("openhaptics: where the library states no workspace, no position is believed that no device has") {
+  HdLoop l;
+  for (double& corner : l.hd.reach_mm) corner = 0.0;
+  for (double& corner : l.hd.usable_mm) corner = 0.0;
+  REQUIRE(l.start());
+  l.push();
+  REQUIRE(l.loop.state() == DeviceState::ready);
+  l.hd.position_mm[1] = 1e9;
+  l.step();
+  CHECK(l.loop.state() == DeviceState::faulted);
+  CHECK(l.loop.first_fault() == DeviceFault::sensor);
+  CHECK(l.felt_n() == 0.0);
+}
+
 TEST_CASE("openhaptics: every error code of the guide stops the force in its tick, and is told with what to do") {
   for (const unsigned code : {0x100u, 0x101u, 0x102u, 0x103u, 0x104u, 0x200u, 0x201u, 0x202u, 0x203u, 0x204u, 0x300u,
                               0x301u, 0x302u, 0x303u, 0x304u, 0x400u, 0x401u, 0x402u, 0x500u, 0x501u, 0x600u, 0x777u}) {
@@ -229,6 +256,9 @@ TEST_CASE("openhaptics: every error code of the guide stops the force in its tic
     l.step(20);
     CHECK(l.loop.state() == DeviceState::ready);
     CHECK(l.felt_n() == 0.0);
+    said = {};
+    REQUIRE(l.device.report(said));
+    CHECK(said.problem.empty());
   }
 }
 

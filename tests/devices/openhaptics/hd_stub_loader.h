@@ -46,6 +46,9 @@ struct HdLoop {
   GateLoop loop;
 
   explicit HdLoop(HdOptions options = stub_hd_options()) : device(std::move(options)), loop(device) {}
+  ~HdLoop() { device.close(); }  // its keeper calls the loop
+  HdLoop(const HdLoop&) = delete;
+  HdLoop& operator=(const HdLoop&) = delete;
   bool start() {
     if (!device.open()) return false;
     loop.know_the_device();

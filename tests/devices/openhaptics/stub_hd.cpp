@@ -59,7 +59,7 @@ void turn() {
     now = callback;
     with = context;
   }
-  if (now == nullptr || !running || script.silent) return;
+  if (now == nullptr || (!running && !script.calls_late) || script.silent) return;
   in_scheduler = true;
   now(with);
   in_scheduler = false;
@@ -137,7 +137,7 @@ void hdEndFrame(unsigned) {
 void hdUnschedule(unsigned long handle) {
   note_call("unschedule");
   const std::lock_guard lock(guard);
-  if (handle == 5) callback = nullptr;
+  if (handle == 5 && !script.calls_late) callback = nullptr;
 }
 #endif
 

@@ -26,6 +26,7 @@ struct StubHd {
   unsigned calibration = 0x5000;
   bool calibrates_when_told = false;  ///< hdUpdateCalibration makes it HD_CALIBRATION_OK
   int frames_refused = 2;             ///< of the first ones after the scheduler starts: HD_ILLEGAL_END
+  bool calls_late = false;            ///< also when it was told to stop
   bool own_thread = false;            ///< the scheduler calls at 1 kHz; else `step` does
   std::atomic<bool> unplugged{false}, silent{false};
   std::atomic<unsigned> frame_error{0};  ///< that every frame has

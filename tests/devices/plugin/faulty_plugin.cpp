@@ -48,6 +48,12 @@ std::string setting(const tangent_device_settings* settings, const char* key) {
 int say_capabilities(const tangent_device_settings* settings, tangent_device_capabilities* out) {
   const std::string fault = setting(settings, "fault");
   if (fault == "crash in capabilities") std::abort();
+  if (fault == "hangs in capabilities") {
+    Handle said;
+    said.log = setting(settings, "log");
+    said.note((std::to_string(::getpid()) + " ").c_str());
+    while (true) ::pause();
+  }
   if (fault == "capabilities fail") {
     failure = "the calibration is missing; write handle.toml";
     return 1;
@@ -86,6 +92,10 @@ void go_wrong(Handle& handle, tangent_device_sample* sample) {
   if (handle.is("exit")) std::_Exit(3);
   if (handle.is("killed")) ::raise(SIGKILL);
   while (handle.is("hang")) ::pause();
+  if (handle.is("waits for stop")) {
+    handle.note("waits ");
+    while (handle.stops == 0) ::usleep(1000);
+  }
   if (handle.is("nan")) sample->position_m[1] = std::numeric_limits<double>::quiet_NaN();
   if (handle.is("infinite time")) sample->time_s = std::numeric_limits<double>::infinity();
   if (handle.is("nan force")) sample->force_n[0] = std::numeric_limits<double>::quiet_NaN();

@@ -2,10 +2,12 @@
 #include "devices/plugin/plugin_device.h"
 
 #include "devices/device_set.h"
+#include "devices/plugin/plugin_process.h"
 #include "tests/devices/plugin/plugin_bench.h"
 
 #include <dlfcn.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -97,9 +99,11 @@ TEST_CASE("what is no plug-in is refused with what is wrong and what to do, in a
   other[18] = 40;  // 32-bit ARM
   other[19] = 0;
   const std::string arm = folder.write("arm.so", other);
+  REQUIRE(::mkfifo(folder.file("pipe.so").c_str(), 0600) == 0);
   const std::vector<std::pair<std::string, std::string>> wrong{
       {folder.file("none.so"), "there is no such file; give --plugin the path"},
       {folder.path().string(), "is a folder"},
+      {folder.file("pipe.so"), "is no file; give --plugin the path"},
       {folder.write("text.so", "hello, this is a text of some length"), "is no shared library; compile the plug-in"},
       {folder.write("short.so", "x"), "is no shared library"},
       {arm, "is a library for 32-bit ARM, this program is for"},
@@ -190,6 +194,52 @@ TEST_CASE("an emergency stop reaches the plug-in past the servo, and holds until
   }
 }
 
+TEST_CASE("a force that was on its way in an emergency stop does not outlast it") {
+  for (const bool within : kWithin) {
+    CAPTURE(within);
+    const TempFolder folder;
+    PluginOptions options = patient_plugin("waits for stop", 100);
+    options.settings.emplace_back("log", folder.file("log"));
+    options.in_process = within;
+    PluginBench bench(options);
+    bench.arm();
+    while (bench.tick < 100) bench.step();
+    std::thread emergency([&] {
+      CHECK(in_the_end([&] { return contains(read_text(folder.file("log")), "waits "); }));
+      CHECK(bench.device.emergency_stop());
+    });
+    bench.step();  // the plug-in takes the force, and returns when it is told to stop
+    emergency.join();
+    CHECK(read_text(folder.file("log")) == "open waits stop stop ");
+    CHECK(bench.sample.state == DeviceState::faulted);
+  }
+}
+
+TEST_CASE("a force that was worked out for a plug-in before this one is not passed on") {
+  PluginProcess line(patient_plugin());
+  const auto can = line.describe();
+  REQUIRE(can);
+  REQUIRE(line.open(*can));
+  PluginCommand command{.number = 1};
+  command.command = {.size = sizeof command.command, .request = 0, .tick = 1, .dt_s = 1e-3, .force_n = {0.0, 0.0, 1.0}};
+  PluginTurn turn = line.exchange(command, kForever_s);
+  REQUIRE(turn.answered);
+  CHECK(turn.answer.sample.force_n[2] == 0.0);  // of none
+  command.number = 2;
+  command.connection = turn.connection;
+  turn = line.exchange(command, kForever_s);
+  REQUIRE(turn.answered);
+  CHECK(turn.answer.sample.force_n[2] == 1.0);
+}
+
+TEST_CASE("a plug-in can't cut off the memory that it shares with the program") {
+  PluginRegion region;
+  REQUIRE(region.create());
+  CHECK(::ftruncate(region.descriptor(), 0) != 0);
+  CHECK(::ftruncate(region.descriptor(), 1 << 20) != 0);
+  region.to_program().bell.store(1);  // still there
+}
+
 TEST_CASE("the plug-in's process stops the device when no command comes") {
   const TempFolder folder;
   PluginOptions options = patient_plugin();
@@ -224,6 +274,22 @@ TEST_CASE("when the program is killed, its plug-in stops and closes the device, 
   ::waitpid(program, nullptr, 0);
   CHECK(in_the_end([&] { return contains(read_text(folder.file("log")), "close "); }));
   CHECK(read_text(folder.file("log")).starts_with("open stop "));
+}
+
+TEST_CASE("when the program is killed while a plug-in hangs before it is opened, its process ends, too") {
+  const TempFolder folder;
+  const pid_t program = ::fork();
+  if (program == 0) {
+    PluginOptions options = patient_plugin("hangs in capabilities");
+    options.settings.emplace_back("log", folder.file("log"));
+    PluginForceDevice device(options);
+    ::_exit(1);
+  }
+  CHECK(in_the_end([&] { return read_text(folder.file("log")).ends_with(' '); }));
+  const std::string process = "/proc/" + std::to_string(std::atoi(read_text(folder.file("log")).c_str()));
+  ::kill(program, SIGKILL);
+  ::waitpid(program, nullptr, 0);
+  CHECK(in_the_end([&] { return read_text(process + "/cmdline").empty(); }));  // gone, or dead and not yet reaped
 }
 
 TEST_CASE("200 ticks at 1 kHz: each is answered") {

@@ -80,7 +80,7 @@ TEST_CASE("a plug-in whose process dies is started again, and nothing arms by it
     LinkReport report;
     CHECK(in_the_end([&] {
       bench.device.report(report);
-      return report.connects >= 2;
+      return report.connects >= 2 && report.connected;
     }));
     bench.step(10);
     CHECK(bench.sample.state == DeviceState::faulted);

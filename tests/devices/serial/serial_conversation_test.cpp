@@ -130,6 +130,16 @@ TEST_CASE("a conversation asks until it is told, and sends no command before") {
   CHECK(alone.talk.news().trouble == SerialTrouble::none);
 }
 
+TEST_CASE("a connection that is closed twice is closed") {
+  HostSide h;
+  CHECK(h.talk.news().connection % 2 == 1);
+  h.talk.closed();
+  const std::uint32_t closed = h.talk.news().connection;
+  CHECK(closed % 2 == 0);
+  h.talk.closed();
+  CHECK(h.talk.news().connection == closed);
+}
+
 TEST_CASE("after trouble a conversation sends a stop at once, and no force until it is cleared") {
   HostSide h;
   h.inform();

@@ -270,6 +270,13 @@ TEST_CASE("the Hapkit of the example: its torque is what its motion says, and it
   CHECK(hapkit_duty(&g, 2.0f) == doctest::Approx(2.0 * 0.006 / 0.03));
   CHECK(hapkit_duty(&g, 100.0f) == 1.0f);
   CHECK(hapkit_duty(&g, -100.0f) == -1.0f);
+  CHECK(hapkit_duty(&g, NAN) == 0.0f);
+  hapkit_geometry reversed = g;  // the motor mounted the other way round
+  reversed.counts_per_turn = -g.counts_per_turn;
+  hapkit other{};
+  hapkit_init(&other, &reversed, 500.0f, 42);
+  CHECK(other.firmware.is.step_nm == kit.firmware.is.step_nm);
+  CHECK(other.firmware.is.peak_mn == 65000);
   hapkit_hardware.counts = 500;  // where it is homed
   const auto hear = [&kit](const CldFrame& frame) {
     std::array<std::uint8_t, kCldLargestFrame> bytes{};

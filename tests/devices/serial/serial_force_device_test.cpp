@@ -3,7 +3,7 @@
 
 #include "tests/devices/serial/serial_faults.h"
 
-#include <sys/file.h>
+#include <sys/ioctl.h>
 
 #include <cstdio>
 
@@ -123,6 +123,24 @@ TEST_CASE("a firmware that does not hear is stopped by its own watchdog, and the
   CHECK(b.report().problem.find("does not hear commands") != std::string::npos);
 }
 
+TEST_CASE("a force from before it was unplugged is not sent to a serial device that is plugged in") {
+  SerialBench b;
+  b.push();
+  REQUIRE(b.rig.firmware.state == TANGENT_READY);
+  in_exchange = [&b] {  // the servo stands still in the middle of its exchange
+    b.unplug();
+    b.plug_in("ttyACM0", false);
+  };
+  b.tick();
+  CHECK_FALSE(in_exchange);
+  CHECK(b.rig.firmware.state == TANGENT_READY);  // it would push
+  CHECK(b.rig.force_n == std::array<double, 3>{});
+  b.tick();
+  CHECK(b.sample.state == DeviceState::firmware);  // to be homed, and armed, again
+  CHECK(b.sample.force_n == Vec3(0.0));
+  CHECK(b.rig.force_n == std::array<double, 3>{});
+}
+
 TEST_CASE("closing sends a stop and lets the port go") {
   SerialBench b;
   b.push();
@@ -204,6 +222,9 @@ TEST_CASE("a serial port that another program holds, a display and another versi
     SerialPort holder;
     REQUIRE(holder.open((dev.path() / "ttyACM0").c_str(), 115200) == 0);
     CHECK(refused() == "another program uses it");
+    int exclusive = 0;  // and still has it for itself
+    REQUIRE(ioctl(holder.fd(), TIOCGEXCL, &exclusive) == 0);
+    CHECK(exclusive != 0);
   }
   CHECK(refused().empty());
   rig.version = 2;

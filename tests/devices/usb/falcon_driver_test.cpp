@@ -183,6 +183,70 @@ TEST_CASE("Falcon: an emergency stop goes out before anything queued, and holds 
   CHECK(rig.pushes());
 }
 
+TEST_CASE("Falcon: an answer that comes while the servo reads its clock is no sample from the future") {
+  static FalconRig* racing = nullptr;
+  FalconRig rig(calibrated());
+  racing = &rig;
+  rig.plug_in();
+  rig.make_ready();
+  // As long after the clock is read as a thread may stand still.
+  const auto now_ns = []() noexcept {
+    const std::int64_t read_ns = racing->now_ns;
+    racing->now_ns += 5'000'000;
+    racing->model.tick();
+    for (const Bytes& packet : racing->model.in_packets) racing->driver.line().packet(packet, racing->now_ns);
+    racing->model.in_packets.clear();
+    return read_ns;
+  };
+  for (int i = 0; i < 10; ++i) {
+    const std::uint64_t answers = rig.driver.line().answers();
+    const ForceSample sample = rig.driver.exchange({}, now_ns);
+    CHECK(rig.driver.line().answers() > answers);
+    CHECK(sample.age_s >= 0.0);
+    CHECK(sample.state == DeviceState::ready);
+    rig.tick();
+  }
+}
+
+TEST_CASE("Falcon: a torque from before it was unplugged is not sent to the one that is plugged in") {
+  FalconRig rig(calibrated());
+  rig.plug_in();
+  rig.make_ready();
+  FalconLine& line = rig.driver.line();
+  const std::uint32_t before = line.connection();
+  rig.servo_runs = false;  // it stands still in its exchange
+  rig.unplug();
+  rig.plug_in();
+  for (int i = 0; i < 1000 && line.phase() != FalconPhase::running; ++i) rig.tick();
+  REQUIRE(line.phase() == FalconPhase::running);
+  const FalconCommand push{.torque = {500, 500, 500}};
+  line.post(push, before);  // and goes on
+  for (int i = 0; i < 5; ++i) rig.tick();
+  CHECK(rig.model.last.torque == FalconCommand{}.torque);
+  line.post(push, line.connection());
+  rig.tick();
+  CHECK(rig.model.last.torque == push.torque);
+}
+
+TEST_CASE("Falcon: a torque that could not be sent for long is not sent any more") {
+  FalconRig rig(calibrated());
+  rig.plug_in();
+  rig.make_ready();
+  for (int i = 0; i < 5; ++i) rig.tick();
+  rig.servo_runs = false;
+  for (int i = 0; i < 5; ++i) rig.tick();
+  rig.takes_transfers = false;
+  rig.driver.line().post({.torque = {500, 500, 500}}, rig.driver.line().connection());
+  for (int i = 0; i < 30; ++i) rig.tick();
+  rig.takes_transfers = true;
+  const std::uint64_t commands = rig.model.commands;
+  for (int i = 0; i < 10; ++i) {
+    rig.tick();
+    CHECK_FALSE(rig.model.pushes());
+  }
+  CHECK(rig.model.commands > commands);
+}
+
 TEST_CASE("Falcon: the last command of a session is none, its lamps off") {
   FalconRig rig(calibrated());
   rig.plug_in();

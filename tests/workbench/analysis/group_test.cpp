@@ -203,7 +203,8 @@ TEST_CASE("files that were edited, mixed, doubled, foreign or missing are refuse
       {without("\"format\": 2", "\"format\": \"2\""), "its \"format\" is no whole number"},
       {without("\"pilot\": false", "\"pilot\": 0"), "its \"pilot\" is neither true nor false"},
       {without("\"participant\": \"P1\"", "\"participant\": null"), "its \"participant\" is no text"},
-      {without("\"seed\": \"", "\"seed\": \"x"), "its \"seed\" is no whole number"}};
+      {without("\"seed\": \"", "\"seed\": \"x"), "its \"seed\" is no whole number"},
+      {without("\"starts\": [", "\"starts\": {}, \"were\": ["), "its \"starts\" are no list"}};
   for (const auto& [text, said] : bad_sidecars) {
     std::ofstream(sidecar) << text;
     const std::string why = refusal(load(data));
@@ -445,7 +446,7 @@ TEST_CASE("guessing: the chance of so many right answers") {
   CHECK(guessing_probability(3, 4) == doctest::Approx(5.0 / 16.0));
 }
 
-TEST_CASE("tests of names are over participants, paired, and say how many; the paper's stand beside them") {
+TEST_CASE("tests of names are over participants, paired, and say how many, and the paper's stand beside them") {
   const auto folder = OwnFolder::make();
   simulate(folder->path(), "identification", 6);
   auto answers = load(folder->path());

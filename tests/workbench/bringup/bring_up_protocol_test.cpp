@@ -11,6 +11,7 @@
 
 #include <doctest/doctest.h>
 
+#include <atomic>
 #include <chrono>
 #include <thread>
 
@@ -129,13 +130,46 @@ TEST_CASE("the runner keeps real time in a thread of its own, or in the driver's
   }
 }
 
+namespace {
+
+struct RealDevice : ForceDevice {
+  ForceCapabilities can{.name = "real", .peak_force_n = 1.0};
+  const ForceCapabilities& capabilities() const override { return can; }
+  Status open() override { return {}; }
+  void close() override {}
+  ForceSample exchange(const ForceCommand&, double) noexcept override { return {}; }
+};
+
+}  // namespace
+
 TEST_CASE("the runner refuses simulated time for a real device") {
-  struct Real final : ForceDevice {
-    ForceCapabilities can{.name = "real", .peak_force_n = 1.0};
-    const ForceCapabilities& capabilities() const override { return can; }
-    Status open() override { return {}; }
-    void close() override {}
-    ForceSample exchange(const ForceCommand&, double) noexcept override { return {}; }
+  CHECK_FALSE(BringUpRunner::start(std::make_unique<RealDevice>(), {.limits = {}, .threaded = false}));
+}
+
+TEST_CASE("the runner refuses a device that says nonsense once it is open, and closes it") {
+  struct Boasting final : RealDevice {
+    explicit Boasting(bool& closed) : closed_(closed) {}
+    Status open() override { return can.continuous_force_n = 2.0, Status{}; }  // above its peak
+    void close() override { closed_ = true; }
+    bool& closed_;
   };
-  CHECK_FALSE(BringUpRunner::start(std::make_unique<Real>(), {.limits = {}, .threaded = false}));
+  bool closed = false;
+  CHECK_FALSE(BringUpRunner::start(std::make_unique<Boasting>(closed), {}));
+  CHECK(closed);
+}
+
+TEST_CASE("a driver that does not come back from an exchange is noticed, and one that does in the end is closed") {
+  struct Hanging final : RealDevice {
+    explicit Hanging(std::atomic<bool>& goes_on) : goes_on_(goes_on) {}
+    ForceSample exchange(const ForceCommand&, double) noexcept override {
+      while (!goes_on_) std::this_thread::yield();
+      return {};
+    }
+    std::atomic<bool>& goes_on_;
+  };
+  std::atomic<bool> goes_on{false};
+  auto runner = BringUpRunner::start(std::make_unique<Hanging>(goes_on), {.hangs_after_s = 1e-3});
+  REQUIRE(runner);
+  while (!(*runner)->hangs()) std::this_thread::yield();  // ended by the event alone
+  goes_on = true;
 }

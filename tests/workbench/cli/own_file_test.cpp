@@ -50,6 +50,9 @@ TEST_CASE("every output replaces a file of its own kind, and no other, naming it
     CHECK(contains(refused.err, "which alone is replaced; choose another name, or remove it"));
     CHECK(read_text(file) == mine);
   }
+  const std::string twice = folder.write("twice", kMine[0]);  // two outputs with one name are none that reads it
+  CHECK(run_workbench({"solve", mesh, "--poses", poses, "--out", twice, "--summary", twice}).exit_code == 1);
+  CHECK(read_text(twice) == kMine[0]);
   const std::string empty = folder.write("empty.obj", "");
   CHECK(run_workbench({"make", "cube", "--out", empty}).exit_code == 0);  // nothing is lost with it
 }

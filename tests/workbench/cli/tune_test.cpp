@@ -9,6 +9,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <map>
 #include <thread>
@@ -202,16 +203,24 @@ TEST_CASE("Ctrl-C keeps the best gains so far, and what was tried, and leaves wi
   const TempFolder folder;
   const std::string mesh = folder.file("cube.obj"), preset = folder.file("p.toml");
   REQUIRE(run_workbench({"make", "cube", "--rounding-mm", "1.5", "--out", mesh}).exit_code == 0);
-  // A moment may come before the first run is complete; then nothing is written, and a later one does it.
-  for (int milliseconds = 500; milliseconds < 100000 && !std::filesystem::exists(preset); milliseconds *= 2) {
+  const auto tried = [&] {  // lines of what is kept: whose it is, and one for each run that is complete
+    const std::string kept = std::filesystem::exists(preset + ".tuning") ? read_text(preset + ".tuning") : "";
+    return std::count(kept.begin(), kept.end(), '\n') - 1;
+  };
+  // Interrupted when something was tried; one that came to its end before Ctrl-C reached it is begun anew.
+  bool interrupted = false;
+  for (int i = 0; i < 100 && !interrupted; ++i) {
+    std::filesystem::remove(preset);
+    const auto before = std::max<std::ptrdiff_t>(tried(), 0);
     const Process process({"tune", mesh, "--out", preset});
-    std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
+    while (tried() <= before && !process.ended()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     process.interrupt();
     const ProcessResult result = process.wait();
     CAPTURE(result.err);
-    if (result.exit_code == -1) continue;  // not even started
+    if (result.exit_code == 0) continue;
     REQUIRE(result.exit_code == 1);
-    if (contains(result.err, "nothing is written")) continue;
+    if (contains(result.err, "nothing is written")) continue;  // what was tried is kept: the next one gets further
+    interrupted = true;
     CHECK(contains(result.err, "interrupted; " + preset + " holds the best of the "));
     CHECK(contains(result.err, "the same command goes on from there"));
     CHECK(contains(read(preset).about.note, "interrupted"));

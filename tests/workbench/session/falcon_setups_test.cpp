@@ -64,3 +64,14 @@ TEST_CASE("what is given for a Falcon goes before what is kept, and is kept wher
   stranger.keep = true;
   CHECK_FALSE(chosen_falcon_options(stranger, ""));
 }
+
+TEST_CASE("a Falcon's measured torque scale is kept beside its firmware") {
+  const testing::TempFolder folder;
+  const auto path = folder.path() / "falcon.toml";
+  REQUIRE(keep_falcon_setup(path, "F1", {9000.0, "/a.bin", "aa"}));
+  REQUIRE(keep_falcon_scale(path, "F1", 12'500.0));
+  CHECK(**read_falcon_setup(path, "F1") == FalconSetup{12'500.0, "/a.bin", "aa"});
+  REQUIRE(keep_falcon_scale(path, "F2", 7000.0));
+  CHECK(**read_falcon_setup(path, "F2") == FalconSetup{7000.0, "", ""});
+  CHECK_FALSE(keep_falcon_scale(path, "", 7000.0));
+}

@@ -188,6 +188,8 @@ void add_widget_commands(CommandList& out, AppModel& model, MenuBar& menu) {
   press({"show triggers", "Bookmarks: show the triggers", "", "trigger automatic"}, "bookmarks/triggers");
   press({"accept no timeout", "Devices: use it although it has no time-out", "", "maestro yes"},
         "monitor/accept_no_timeout");
+  press({"bring up", "Devices: bring the force device up, step by step", "", "check prove first force"},
+        "monitor/bring_up");
   out.choice({"felt under", "Smoothness as felt: rendering condition", "", "perception threshold"},
              {kArcConditionNames.begin(), kArcConditionNames.end()}, [&model, &menu](std::size_t i) {
                wish(model, menu, "perception/condition", std::string(kArcConditionNames[i]));

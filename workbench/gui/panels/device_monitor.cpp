@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <optional>
 
 namespace tangent {
 
@@ -143,12 +144,30 @@ void draw_raw(const UiContext& ui, const DeviceModel& devices) {
        "ms");
 }
 
-void draw_link(const UiContext& ui, const LinkReport& link) {
-  heading(ui, "Cable");
+/// What the drivers say of their cables, libraries and services; null: nothing.
+struct MonitorLinks {
+  std::optional<LinkReport> force, display;
+
+  explicit MonitorLinks(const Session& session) {
+    LinkReport link;
+    if (session.force_report(link)) force = link;
+    link = {};
+    if (session.display_report(link)) display = link;
+  }
+};
+
+void draw_link(const UiContext& ui, const char* title, const LinkReport& link) {
+  heading(ui, title);
   fact(ui, "Connection", link.connected ? "connected" : "not connected", "",
        link.connected ? ui.colours.good : ui.colours.warning);
   if (!link.identity.empty()) dim_text(ui, link.identity);
-  if (!link.problem.empty()) dim_text(ui, link.problem);
+  if (!link.problem.empty()) warning_text(ui, link.problem);
+  if (link.round_trip_us != nullptr && link.round_trip_us->count() > 0)
+    fact(
+        ui, "Round trip, median / 99 %",
+        printed("%.2f / %.2f", 1e-3 * link.round_trip_us->percentile(0.5), 1e-3 * link.round_trip_us->percentile(0.99)),
+        "ms");
+  if (link.connects + link.packets_in + link.packets_out + link.errors == 0) return;  // no USB, or never connected
   fact(ui, "Packets in / out / control",
        count_text(link.packets_in) + " / " + count_text(link.packets_out) + " / " + count_text(link.controls));
   fact(ui, "Stalls / time-outs / errors",
@@ -168,9 +187,13 @@ void draw_link(const UiContext& ui, const LinkReport& link) {
 }
 
 void draw_injection(const UiContext& ui, DeviceModel& devices) {
-  heading(ui, "Faults of the simulated devices");
   Session& session = *devices.session();
-  const auto row = [&](const char* title, const char* path, bool display) {
+  const auto* force = session.force_capabilities();
+  const auto* display = session.display_capabilities();
+  const bool to_force = force != nullptr && force->simulated, to_display = display != nullptr && display->simulated;
+  if (!to_force && !to_display) return;
+  heading(ui, "Faults of the simulated devices");
+  const auto row = [&](const char* title, const char* path, bool is_display) {
     dim_text(ui, title);
     const float end = ImGui::GetCursorScreenPos().x + ImGui::GetContentRegionAvail().x;
     bool first = true;
@@ -182,14 +205,12 @@ void draw_injection(const UiContext& ui, DeviceModel& devices) {
       if (!first && ImGui::GetCursorScreenPos().x + needed > end) ImGui::NewLine();
       first = false;
       if (text_button(ui, std::string(path) + "/" + text, text.c_str(), "Lasts 100 ticks; see what the gate does")) {
-        if (const auto kind = injected_fault(name)) session.inject({*kind, 100}, display);
+        if (const auto kind = injected_fault(name)) session.inject({*kind, 100}, is_display);
       }
     }
   };
-  const auto* force = session.force_capabilities();
-  const auto* display = session.display_capabilities();
-  if (force != nullptr && force->simulated) row("Force device", "monitor/inject/force", false);
-  if (display != nullptr && display->simulated) row("Contact display", "monitor/inject/display", true);
+  if (to_force) row("Force device", "monitor/inject/force", false);
+  if (to_display) row("Contact display", "monitor/inject/display", true);
 }
 
 void draw_calibration(const UiContext& ui, AppModel& model) {
@@ -242,7 +263,7 @@ void draw_state_column(const UiContext& ui, DeviceModel& devices) {
 }
 
 /// `room`: height for the histograms.
-void draw_rates(const UiContext& ui, const DeviceModel& devices, bool cable, const LinkReport& link, float room) {
+void draw_rates(const UiContext& ui, const DeviceModel& devices, const MonitorLinks& links, float room) {
   const ServoStatus& servo = devices.status().servo;
   const Session& session = *devices.session();
   fact(ui, "Rate, measured / asked for",
@@ -250,24 +271,23 @@ void draw_rates(const UiContext& ui, const DeviceModel& devices, bool cable, con
        "Hz");
   fact(ui, "Ticks / late ticks", count_text(servo.ticks) + " / " + count_text(servo.late_ticks));
   ImGui::Dummy({1, ui.px(4)});
-  const bool round_trip = cable && link.round_trip_us != nullptr, arrival = cable && link.arrival_us != nullptr;
+  const LogHistogram* round_trip = links.display ? links.display->round_trip_us : nullptr;
+  const LogHistogram* arrival = links.display ? links.display->arrival_us : nullptr;
+  const int shown = 3 + int{round_trip != nullptr} + int{arrival != nullptr};
   const float around = ui.px(42);  // each one's title and axis
-  const float height = std::clamp(room / static_cast<float>(3 + round_trip + arrival) - around, ui.px(64), ui.px(240));
+  const float height = std::clamp(room / static_cast<float>(shown) - around, ui.px(64), ui.px(240));
   draw_duration_histogram(ui, "Tick to tick", session.period_ns(), 1.0, colour(ui.palette.tick_time), height);
   draw_duration_histogram(ui, "Late by", session.lateness_ns(), 1.0, colour(ui.palette.force_x), height);
   draw_duration_histogram(ui, "Sample to command", session.latency_ns(), 1.0, colour(ui.palette.force_z), height);
-  if (round_trip)
-    draw_duration_histogram(ui, "Round trip", *link.round_trip_us, 1e3, colour(ui.palette.cld_commanded), height);
-  if (arrival)
-    draw_duration_histogram(ui, "Between samples", *link.arrival_us, 1e3, colour(ui.palette.cld_measured), height);
+  if (round_trip != nullptr)
+    draw_duration_histogram(ui, "Round trip", *round_trip, 1e3, colour(ui.palette.cld_commanded), height);
+  if (arrival != nullptr)
+    draw_duration_histogram(ui, "Between samples", *arrival, 1e3, colour(ui.palette.cld_measured), height);
 }
 
-void draw_values(const UiContext& ui, const DeviceModel& devices, bool cable, const LinkReport& link) {
-  draw_raw(ui, devices);
-  if (cable) draw_link(ui, link);
-}
-
-void draw_service_column(const UiContext& ui, AppModel& model) {
+void draw_service_column(const UiContext& ui, AppModel& model, const MonitorLinks& links) {
+  if (links.force) draw_link(ui, "Link of the force device", *links.force);
+  if (links.display) draw_link(ui, "Link of the display", *links.display);
   draw_injection(ui, model.devices());
   if (model.devices().names().display == "maestro") draw_calibration(ui, model);
   draw_log(ui, model.devices());
@@ -275,8 +295,7 @@ void draw_service_column(const UiContext& ui, AppModel& model) {
 
 /// As many columns as fit, each narrow enough to read labels and values together.
 void draw_columns(const UiContext& ui, AppModel& model) {
-  LinkReport link;
-  const bool cable = model.devices().session()->display_report(link);
+  const MonitorLinks links(*model.devices().session());
   const float room = ImGui::GetContentRegionAvail().x, high = ImGui::GetContentRegionAvail().y;
   const int columns = room > ui.px(1200) ? 3 : room > ui.px(456) ? 2 : 1;
   const float width = std::min(room, static_cast<float>(columns) * ui.px(columns == 3 ? 640 : 600));
@@ -285,15 +304,15 @@ void draw_columns(const UiContext& ui, AppModel& model) {
                         {width, 0})) {
     ImGui::TableNextColumn();
     draw_state_column(ui, model.devices());
-    if (columns < 3) draw_values(ui, model.devices(), cable, link);
+    if (columns < 3) draw_raw(ui, model.devices());
     ImGui::TableNextColumn();
     // In their own column the histograms take the height left by the values below.
-    draw_rates(ui, model.devices(), cable, link, columns == 3 ? high - ui.px(cable ? 420 : 190) : 0.0f);
+    draw_rates(ui, model.devices(), links, columns == 3 ? high - ui.px(190) : 0.0f);
     if (columns == 3) {
-      draw_values(ui, model.devices(), cable, link);
+      draw_raw(ui, model.devices());
       ImGui::TableNextColumn();
     }
-    draw_service_column(ui, model);
+    draw_service_column(ui, model, links);
     ImGui::EndTable();
   }
   ImGui::PopStyleVar();
@@ -327,10 +346,15 @@ void draw_device_monitor(const UiContext& ui, AppModel& model, const Rect& rect)
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted("Device monitor");
   ImGui::PopFont();
-  ImGui::SameLine(0.0f, ui.px(16));
+  const bool narrow = ImGui::GetWindowWidth() < ui.px(480);  // then the second button has a row of its own
+  const auto close = [&] {
+    ImGui::SameLine(ImGui::GetWindowWidth() - ui.px(80));
+    if (text_button(ui, "monitor/close", "Close", "Back to the 3D view")) model.view().device_monitor = false;
+  };
+  if (narrow) close();
+  if (!narrow) ImGui::SameLine(0.0f, ui.px(16));
   draw_bring_up_button(ui, model.bring_up());
-  ImGui::SameLine(ImGui::GetWindowWidth() - ui.px(80));
-  if (text_button(ui, "monitor/close", "Close", "Back to the 3D view")) model.view().device_monitor = false;
+  if (!narrow) close();
   if (model.bring_up().open()) {
     draw_bring_up_page(ui, model.bring_up());
   } else if (model.devices().session() == nullptr) {

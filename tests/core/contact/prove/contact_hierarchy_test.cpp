@@ -243,7 +243,9 @@ TEST_CASE("a search of a rim of many edges visits those that the finger can touc
   constexpr int kCorners = 1000;
   for (const double crease_rad : {0.7, 0.001}) {  // the side round, and as flat as it is
     CAPTURE(crease_rad);
-    const ScenePtr scene = scene_of(capped_cylinder(kCorners), {.crease_rad = crease_rad});
+    ContactMeshOptions options;
+    options.crease_rad = crease_rad;
+    const ScenePtr scene = scene_of(capped_cylinder(kCorners), options);
     const ContactMesh& mesh = scene->mesh();
     REQUIRE(mesh.flat_regions().count() == 2);
     PatchCache cache(mesh);

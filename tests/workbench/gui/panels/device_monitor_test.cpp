@@ -1,3 +1,4 @@
+#include "tests/workbench/gui/drawn_text.h"
 #include "tests/workbench/gui/headless_app.h"
 #include "workbench/gui/panels/monitor_histogram.h"
 
@@ -69,4 +70,21 @@ TEST_CASE("the device monitor draws at every size, with and without devices") {
       CHECK(ImGui::GetDrawData()->TotalVtxCount != before);
     }
   }
+}
+
+TEST_CASE("the device monitor shows what the force device's driver says of its link") {
+  AppOptions options = HeadlessApp::deterministic_options();
+  options.devices = {"falcon", "none"};  // none is attached
+  HeadlessApp ui(options, 1920.0f, 1080.0f);
+  run(ui, 20);
+  REQUIRE(ui.model().devices().session() != nullptr);
+  ui.model().view().device_monitor = true;
+  ui.frames(2);
+  TextRecorder drawn;
+  ui.frames(1);
+  std::string all;
+  for (const DrawnText& text : drawn.texts()) all += text.text + "\n";
+  CHECK(all.find("Link of the force device") != std::string::npos);
+  CHECK(all.find("not connected") != std::string::npos);
+  CHECK(all.find("Link of the display") == std::string::npos);
 }

@@ -1,7 +1,9 @@
-#include "workbench/bringup/bring_up_runner.h"
+#include "workbench/bringup/guided_runner.h"
 
 #include "devices/base/mailbox.h"
-#include "devices/gate/limits.h"
+#include "devices/device_safety.h"
+#include "workbench/bringup/bring_up.h"
+#include "workbench/bringup/force_calibration.h"
 #include "workbench/bringup/guided_hand.h"
 #include "workbench/session/crash_stop.h"
 #include "workbench/session/deadline_pacer.h"
@@ -22,18 +24,20 @@ namespace tangent {
 namespace {
 
 constexpr int kPriority = 40;                   // as the servo's
-constexpr std::chrono::seconds kLeaveAfter{2};  // an exchange that does not return
+constexpr std::chrono::seconds kStopAfter{2};   // an exchange that does not return: the device's other way to stop,
+constexpr std::chrono::seconds kLeaveAfter{8};  // and then it is left alone
 constexpr std::int64_t kHangs_ns = 50'000'000;  // an exchange that is under way for so long
 constexpr int kLastExchanges = 3;               // with zero force, after a stop
 
 }  // namespace
 
-struct BringUpRunner::Impl {
+template <class Machine>
+struct GuidedRunner<Machine>::Impl {
   struct Shown {
-    BringUpView view;
+    View view;
     bool settled = false;
   };
-  Impl(std::unique_ptr<ForceDevice> given, const BringUpRunOptions& wanted)
+  Impl(std::unique_ptr<ForceDevice> given, const GuidedRunOptions<Machine>& wanted)
       : device(std::move(given)),
         options(wanted),
         machine(*device, options.limits),
@@ -71,8 +75,8 @@ struct BringUpRunner::Impl {
   bool end();  // false: an exchange does not return
 
   std::unique_ptr<ForceDevice> device;
-  BringUpRunOptions options;
-  BringUp machine;
+  GuidedRunOptions<Machine> options;
+  Machine machine;
   GuidedHand hand;
   Mailbox<Shown> shown;
   Shown seen;
@@ -88,7 +92,8 @@ struct BringUpRunner::Impl {
   std::optional<RunningServo> running;    // of a driver that calls us
 };
 
-void BringUpRunner::Impl::run() noexcept {
+template <class Machine>
+void GuidedRunner<Machine>::Impl::run() noexcept {
   sched_param priority{};
   priority.sched_priority = kPriority;
   static_cast<void>(pthread_setschedparam(pthread_self(), SCHED_FIFO, &priority));  // refused: the rate says it
@@ -110,7 +115,8 @@ void BringUpRunner::Impl::run() noexcept {
   over_changed.notify_all();
 }
 
-void BringUpRunner::Impl::called() noexcept {
+template <class Machine>
+void GuidedRunner<Machine>::Impl::called() noexcept {
   thread_local bool new_here = true;
   if (std::exchange(new_here, false)) leave_suspending_to_others();
   const RunningServo::Here here(*running);
@@ -119,12 +125,14 @@ void BringUpRunner::Impl::called() noexcept {
 }
 
 // By the owner, who looks for the view: the device is told to stop by another way where it has one.
-void BringUpRunner::Impl::watch_exchange() noexcept {
+template <class Machine>
+void GuidedRunner<Machine>::Impl::watch_exchange() noexcept {
   const std::int64_t begun = begun_ns.load(std::memory_order_relaxed);
   if (begun != 0 && clock.now_ns() - begun > kHangs_ns && seen.view.sent_n != Vec3(0.0)) device->emergency_stop();
 }
 
-Status BringUpRunner::Impl::begin() {
+template <class Machine>
+Status GuidedRunner<Machine>::Impl::begin() {
   if (!options.threaded) return {};
   if (device->calls_us()) {
     running.emplace(&Impl::release, this);
@@ -133,19 +141,20 @@ Status BringUpRunner::Impl::begin() {
   try {
     thread = std::thread([this]() noexcept { run(); });
   } catch (const std::system_error&) {
-    return fail("no thread could be started", "bring-up", "end other programs, or raise the limit on threads");
+    return fail("no thread could be started", "guided run", "end other programs, or raise the limit on threads");
   }
   return {};
 }
 
-bool BringUpRunner::Impl::end() {
+template <class Machine>
+bool GuidedRunner<Machine>::Impl::end() {
   machine.stop();
   if (!options.threaded) {
     for (int i = 0; i < kLastExchanges; ++i) tick(1.0 / options.limits.rate_hz);
   } else if (thread.joinable()) {
     ending = true;
     std::unique_lock lock(over_lock);
-    if (!over_changed.wait_for(lock, kLeaveAfter, [this] { return over; })) {
+    if (!over_changed.wait_for(lock, kStopAfter, [this] { return over; })) {
       device->emergency_stop();
       if (!over_changed.wait_for(lock, kLeaveAfter, [this] { return over; })) return thread.detach(), false;
     }
@@ -160,48 +169,72 @@ bool BringUpRunner::Impl::end() {
   return true;
 }
 
-BringUpRunner::BringUpRunner(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+template <class Machine>
+GuidedRunner<Machine>::GuidedRunner(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 
-BringUpRunner::~BringUpRunner() {
+template <class Machine>
+GuidedRunner<Machine>::~GuidedRunner() {
   if (!impl_->end()) static_cast<void>(impl_.release());  // its thread still uses it
 }
 
-Result<std::unique_ptr<BringUpRunner>> BringUpRunner::start(std::unique_ptr<ForceDevice> device,
-                                                            const BringUpRunOptions& options) {
-  if (const Status sound = check_capabilities(device->capabilities()); !sound) return tl::unexpected(sound.error());
+template <class Machine>
+Result<std::unique_ptr<GuidedRunner<Machine>>> GuidedRunner<Machine>::start(std::unique_ptr<ForceDevice> device,
+                                                                            const GuidedRunOptions<Machine>& options) {
   if (!options.threaded && !device->capabilities().simulated)
     return fail("keeps real time", device->capabilities().name, "leave simulated time out");
-  if (const Status opened = device->open(); !opened) return tl::unexpected(opened.error());
-  std::unique_ptr<BringUpRunner> runner(new BringUpRunner(std::make_unique<Impl>(std::move(device), options)));
+  if (const Status opened = open_device(*device); !opened) return tl::unexpected(opened.error());
+  std::unique_ptr<GuidedRunner> runner(new GuidedRunner(std::make_unique<Impl>(std::move(device), options)));
   if (const Status begun = runner->impl_->begin(); !begun) return tl::unexpected(begun.error());
   return runner;
 }
 
-const BringUpView& BringUpRunner::view() {
+template <class Machine>
+const typename GuidedRunner<Machine>::View& GuidedRunner<Machine>::view() {
   impl_->shown.take(impl_->seen);
   impl_->watch_exchange();
   return impl_->seen.view;
 }
 
-const ForceCapabilities& BringUpRunner::capabilities() const { return impl_->device->capabilities(); }
+template <class Machine>
+const ForceCapabilities& GuidedRunner<Machine>::capabilities() const {
+  return impl_->device->capabilities();
+}
 
-void BringUpRunner::answer(BringUpAnswer answer) { impl_->machine.answer(answer, impl_->seen.view.questions); }
+template <class Machine>
+void GuidedRunner<Machine>::answer(typename Machine::Answer answer) {
+  impl_->machine.answer(answer, impl_->seen.view.questions);
+}
 
-void BringUpRunner::stop() { impl_->machine.stop(); }
+template <class Machine>
+void GuidedRunner<Machine>::stop() {
+  impl_->machine.stop();
+}
 
-bool BringUpRunner::settled() {
+template <class Machine>
+bool GuidedRunner<Machine>::hangs() const {
+  const std::int64_t begun = impl_->begun_ns.load(std::memory_order_relaxed);
+  return begun != 0 && 1e-9 * static_cast<double>(impl_->clock.now_ns() - begun) > impl_->options.hangs_after_s;
+}
+
+template <class Machine>
+bool GuidedRunner<Machine>::settled() {
   impl_->shown.take(impl_->seen);
   return impl_->seen.settled;
 }
 
-void BringUpRunner::advance(std::uint64_t ticks) {
+template <class Machine>
+void GuidedRunner<Machine>::advance(std::uint64_t ticks) {
   if (impl_->options.threaded) return;
   for (std::uint64_t i = 0; i < ticks; ++i) impl_->tick(1.0 / impl_->options.limits.rate_hz);
 }
 
-std::string BringUpRunner::link_problem() const {
+template <class Machine>
+std::string GuidedRunner<Machine>::link_problem() const {
   LinkReport link;
   return impl_->device->report(link) ? link.problem : std::string();
 }
+
+template class GuidedRunner<BringUp>;
+template class GuidedRunner<ForceCalibration>;
 
 }  // namespace tangent
