@@ -27,7 +27,7 @@
 #define TANGENT_DEVICE_H
 
 /* NOLINTBEGIN(readability-identifier-naming, modernize-deprecated-headers): C's */
-#include <stdint.h>
+#include <stdint.h>  // NOLINT(modernize-deprecated-headers): C
 
 #ifdef __cplusplus
 extern "C" {

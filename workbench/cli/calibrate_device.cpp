@@ -91,6 +91,9 @@ Result<CalibrationView> go_through(std::unique_ptr<ForceDevice> device, bool thr
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     else
       (*runner)->advance(kTicksPerQuestion);
+    if ((*runner)->hangs())
+      return fail("its driver does not come back from an exchange", (*runner)->capabilities().name,
+                  "take the device's power away, then start again");
     if (const Status looked = talk.look(); !looked) status = looked;
   }
   if (!status) return tl::unexpected(status.error());
