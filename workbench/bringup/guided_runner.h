@@ -14,7 +14,7 @@ namespace tangent {
 
 template <class Machine>
 struct GuidedRunOptions {
-  typename Machine::Options limits;
+  typename Machine::Options limits = {};
   bool threaded = true;         ///< off: `advance` makes the ticks; simulated devices only
   double hangs_after_s = 10.0;  ///< an exchange that is under way for so long is not waited for any more
 };
