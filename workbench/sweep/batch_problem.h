@@ -14,6 +14,7 @@ struct BatchProblem {
   std::size_t dimensions = 0, objectives = 0;
   std::uint64_t seed = 1;
   std::vector<std::vector<double>> start;                                       ///< at least 8, a multiple of 4
+  std::vector<double> values;                                                   ///< what `evaluate` gave for them
   std::function<std::vector<double>(const std::vector<double>& all)> evaluate;  ///< point by point, all to be small
   std::function<std::size_t()> left;                                            ///< evaluations that may still be made
 };

@@ -1,6 +1,7 @@
 #include "workbench/sweep/front_search.h"
 
 #include "workbench/sweep/batch_problem.h"
+#include "workbench/sweep/front_refine.h"
 #include "workbench/sweep/trial_run.h"
 
 #include <algorithm>
@@ -20,6 +21,10 @@ constexpr double kMissed = 1e6;
 
 /// Trials whose rivals are the same: a generation of the search.
 constexpr std::size_t kBatch = 40;  // a multiple of 4, as NSGA-II has it
+
+/// Of the trials after the start: those in the front's gaps, when NSGA-II has ended, so many at once.
+constexpr double kInGaps = 0.5;
+constexpr std::size_t kGapBatch = 20;
 
 /// work(0) here, the others each on a thread; what one throws (no memory) is thrown when all have ended.
 void on_threads(std::size_t count, const std::function<void(std::size_t)>& work) {
@@ -173,21 +178,30 @@ std::vector<double> as_searched(const Trial& trial) {
   return out;
 }
 
-/// Tries points that follow each other in `all`; after a stop those that were not tried come last.
-std::vector<double> try_points(Trials& trials, const std::vector<double>& all) {
-  const std::size_t n = trials.plan().ranges.size();
-  std::vector<std::vector<double>> points;
-  for (std::size_t i = 0; i < all.size(); i += n)
-    points.emplace_back(all.begin() + static_cast<std::ptrdiff_t>(i), all.begin() + static_cast<std::ptrdiff_t>(i + n));
+/// Tries points, and adds those that were tried to `tried`; after a stop the values of the others are the worst.
+std::vector<double> try_points(Trials& trials, const std::vector<std::vector<double>>& points, TriedPoints& tried) {
   const std::size_t first = trials.result().trials.size();
   trials.try_shares(points);
   std::vector<double> out;
-  for (std::size_t i = first; i < first + points.size(); ++i) {
-    const bool tried = i < trials.result().trials.size();
-    const auto values = tried ? as_searched(trials.result().trials[i])
-                              : std::vector<double>(trials.plan().objectives.size(), 2.0 * kMissed * kMissed);
-    out.insert(out.end(), values.begin(), values.end());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const bool done = first + i < trials.result().trials.size();
+    const auto values = done ? as_searched(trials.result().trials[first + i])
+                             : std::vector<double>(trials.plan().objectives.size(), 2.0 * kMissed * kMissed);
+    // One objective alone is searched as two that are the same: NSGA-II takes no fewer.
+    for (int times = values.size() == 1 ? 2 : 1; times > 0; --times)
+      out.insert(out.end(), values.begin(), values.end());
+    if (!done) continue;
+    tried.shares.push_back(points[i]);
+    tried.trials.push_back(trials.result().trials[first + i]);
   }
+  return out;
+}
+
+/// Points of `n` shares that follow each other.
+std::vector<std::vector<double>> points_of(const std::vector<double>& all, std::size_t n) {
+  std::vector<std::vector<double>> out;
+  for (auto at = all.begin(); at != all.end(); at += static_cast<std::ptrdiff_t>(n))
+    out.emplace_back(at, at + static_cast<std::ptrdiff_t>(n));
   return out;
 }
 
@@ -201,26 +215,37 @@ SearchFront nsga2() {
 #endif
 }
 
+/// Even draws, then the ends of the ranges from the best of them; `problem` begins with all.
+void start_with(Trials& trials, std::size_t count, BatchProblem& problem, TriedPoints& tried) {
+  const std::size_t probes = std::min(count * 2 / 5, 4 * trials.plan().ranges.size());
+  problem.start = even_shares(trials.plan(), count - probes);
+  problem.values = try_points(trials, problem.start, tried);
+  if (tried.trials.empty()) return;  // stopped
+  const auto ends = end_probes(tried, probes);
+  const std::vector<double> values = try_points(trials, ends, tried);
+  problem.start.insert(problem.start.end(), ends.begin(), ends.end());
+  problem.values.insert(problem.values.end(), values.begin(), values.end());
+}
+
 void evolve(Trials& trials) {
   const SearchFront search = trials.plan().evolve ? nsga2() : nullptr;
   const std::size_t start = std::min(kBatch, trials.left() / 4 * 4);
   if (search == nullptr || start < 8) return;
+  TriedPoints tried;
   BatchProblem problem;
   problem.dimensions = trials.plan().ranges.size();
-  // One alone is searched as two that are the same: NSGA-II takes no fewer.
-  const bool alone = trials.plan().objectives.size() == 1;
-  problem.objectives = alone ? 2 : trials.plan().objectives.size();
+  problem.objectives = std::max<std::size_t>(2, trials.plan().objectives.size());
   problem.seed = trials.plan().seed;
-  problem.start = even_shares(trials.plan(), start);
-  problem.evaluate = [&trials, alone](const std::vector<double>& all) {
-    std::vector<double> values = try_points(trials, all);
-    if (!alone) return values;
-    std::vector<double> twice;
-    for (const double value : values) twice.insert(twice.end(), 2, value);
-    return twice;
+  start_with(trials, start, problem, tried);
+  const auto in_gaps = static_cast<std::size_t>(kInGaps * static_cast<double>(trials.left()));
+  problem.evaluate = [&](const std::vector<double>& all) {
+    return try_points(trials, points_of(all, problem.dimensions), tried);
   };
-  problem.left = [&trials] { return trials.left(); };
-  search(problem);
+  problem.left = [&] { return trials.left() > in_gaps ? trials.left() - in_gaps : 0; };
+  if (trials.left() > 0) search(problem);
+  SplitMix random(trials.plan().seed, kBatch);
+  while (trials.left() > 0 && !tried.trials.empty())
+    try_points(trials, points_in_gaps(tried, std::min(kGapBatch, trials.left()), random), tried);
 }
 
 }  // namespace

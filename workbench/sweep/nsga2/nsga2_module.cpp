@@ -25,12 +25,9 @@ struct UnitCube {
 };
 
 pagmo::population population_of(const BatchProblem& problem) {
-  std::vector<double> all;
-  for (const std::vector<double>& point : problem.start) all.insert(all.end(), point.begin(), point.end());
-  const std::vector<double> values = problem.evaluate(all);
   pagmo::population out(pagmo::problem(UnitCube{&problem}), 0u, static_cast<unsigned>(problem.seed));
   for (std::size_t i = 0; i < problem.start.size(); ++i) {
-    const auto begin = values.begin() + static_cast<std::ptrdiff_t>(i * problem.objectives);
+    const auto begin = problem.values.begin() + static_cast<std::ptrdiff_t>(i * problem.objectives);
     out.push_back(problem.start[i], {begin, begin + static_cast<std::ptrdiff_t>(problem.objectives)});
   }
   return out;
