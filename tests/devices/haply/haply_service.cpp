@@ -211,11 +211,12 @@ void HaplyService::Impl::reset(const ClientPtr& c) {
   socket.close(ignored);
 }
 
-/// The first bytes of a text of 200, and no more of it.
+/// The first bytes of a text of 200, and no more of it: past Beast, which may still be writing.
 void HaplyService::Impl::send_half(const ClientPtr& c) {
-  const auto bytes = std::make_shared<std::string>("\x81\x7e");
-  bytes->append({'\0', static_cast<char>(200)}).append("{\"inverse3\":[");
-  asio::async_write(beast::get_lowest_layer(c->ws), asio::buffer(*bytes), [bytes](const Failed&, std::size_t) {});
+  std::string bytes("\x81\x7e");
+  bytes.append({'\0', static_cast<char>(200)}).append("{\"inverse3\":[");
+  Failed ignored;
+  asio::write(beast::get_lowest_layer(c->ws).socket(), asio::buffer(bytes), ignored);
 }
 
 HaplyService::HaplyService(HaplyServiceOptions options) : impl_(std::make_unique<Impl>()) {
