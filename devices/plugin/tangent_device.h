@@ -27,7 +27,7 @@
 #define TANGENT_DEVICE_H
 
 /* NOLINTBEGIN(readability-identifier-naming, modernize-deprecated-headers): C's */
-#include <stdint.h>  // NOLINT(modernize-deprecated-headers): C
+#include <stdint.h>
 
 #ifdef __cplusplus
 extern "C" {
