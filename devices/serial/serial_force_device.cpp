@@ -44,6 +44,7 @@ DeviceFault fault_of(SerialTrouble trouble) {
     case SerialTrouble::time_stood:
     case SerialTrouble::time_backwards:
     case SerialTrouble::time_ahead:
+    case SerialTrouble::time_slow:
       return DeviceFault::sensor;
     case SerialTrouble::deaf:
     case SerialTrouble::silent:

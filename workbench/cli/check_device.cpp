@@ -11,7 +11,6 @@
 #include "workbench/cli/messages.h"
 #include "workbench/session/kept_devices.h"
 
-#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstdio>
@@ -102,10 +101,7 @@ Status attend(BringUpRunner& runner, bool threaded) {
 }
 
 BringUpProtocol unopened(const DeviceCheck& check, const ForceCapabilities& can, const Error& why) {
-  const auto found = find_force_devices(check.drivers);
-  const bool attached = std::any_of(found.begin(), found.end(),
-                                    [&](const FoundDevice& d) { return d.kind == check.kind && !d.name.empty(); });
-  return unopened_protocol(check.kind, can, why, attached);
+  return unopened_protocol(check.kind, can, why, is_attached(check.kind, check.drivers));
 }
 
 Status keep(const BringUpProtocol& protocol, const DeviceCheck& check) {

@@ -30,7 +30,8 @@ inline const std::vector<HdFault>& hd_faults() {
       {"position outside its reach", [](HdLoop& l) { l.hd.position_mm[0] = 5000.0; }},
       {"position jumps by 50 mm", [](HdLoop& l) { l.hd.position_mm[0] += 50.0; }},
       {"stall of 30 ms", [](HdLoop& l) { l.loop.take(0.03); }},
-      {"readings freeze in motion", [](HdLoop&) {}, 22, true},
+      {"readings freeze in motion", [](HdLoop&) {}, 2, true},
+      {"position freezes, at no velocity", [](HdLoop& l) { l.hd.velocity_mm_per_s[2] = 0.0; }, 22, true},
   };
   return faults;
 }
@@ -42,7 +43,10 @@ inline TicksTo measure_hd_fault(const HdFault& fault) {
   HdLoop l(options);
   if (!l.start()) return {};
   int t = 0;
-  const auto move = [&] { l.hd.position_mm[2] = 10.0 * std::sin(0.03 * t++); };
+  const auto move = [&] {
+    l.hd.position_mm[2] = 10.0 * std::sin(0.03 * ++t);
+    l.hd.velocity_mm_per_s[2] = 300.0 * std::cos(0.03 * t);
+  };
   l.loop.arm();
   for (int i = 0; i < 400; ++i) {
     move();

@@ -4,7 +4,6 @@
 #include "workbench/bringup/proved_devices.h"
 #include "workbench/session/kept_devices.h"
 
-#include <algorithm>
 #include <utility>
 
 namespace tangent {
@@ -30,10 +29,7 @@ void BringUpModel::begin() {
     protocol_.emplace();
     protocol_->device = runner_->capabilities();
   } else {
-    const auto found = find_force_devices(devices_.drivers());
-    const bool attached = std::any_of(found.begin(), found.end(),
-                                      [&](const FoundDevice& d) { return d.kind == kind && !d.name.empty(); });
-    protocol_ = unopened_protocol(kind, can, runner.error(), attached);
+    protocol_ = unopened_protocol(kind, can, runner.error(), is_attached(kind, devices_.drivers()));
     messages_.say(Severity::error, runner.error().message());
   }
   protocol_->kind = kind;
