@@ -70,14 +70,6 @@ DeviceFault DhdForceDevice::judge(const Reading& r) const noexcept {
   return DeviceFault::none;
 }
 
-/// Answers within the SDK's time guard are the last ones, and old by what they say.
-bool DhdForceDevice::repeats(const Reading& r, double dt_s) noexcept {
-  if (newest_.age_s > 0.0) return false;
-  const Vec3 position(r.position_m[0], r.position_m[1], r.position_m[2]);
-  const Vec3 velocity(r.velocity_m_per_s[0], r.velocity_m_per_s[1], r.velocity_m_per_s[2]);
-  return repeated_.add(position, velocity, dt_s);
-}
-
 /// While it is ready its motors are on; it says itself why they are not.
 void DhdForceDevice::check_force_is_on(const Reading& r) noexcept {
   if (!machine_.ready()) return;
@@ -144,8 +136,7 @@ ForceSample DhdForceDevice::exchange(const ForceCommand& command, double dt_s) n
   newest_.velocity_m_per_s = std::nullopt;
   const bool was_faulted = machine_.state() == DeviceState::faulted;
   const bool answered = read(r, dt_s);
-  DeviceFault wrong = answered ? judge(r) : DeviceFault::none;
-  if (answered && wrong == DeviceFault::none && repeats(r, dt_s)) wrong = DeviceFault::sensor;
+  const DeviceFault wrong = answered ? judge(r) : DeviceFault::none;
   if (wrong == DeviceFault::disconnected) fail_by(2);  // DHD_ERROR_COM
   if (wrong != DeviceFault::none) machine_.fail(wrong);
   check_force_is_on(r);

@@ -10,7 +10,6 @@
 // until it is switched off. dhdReset and drdAutoInit, which would ask for it anew or move the arms, are never called.
 #pragma once
 
-#include "devices/base/repeated_reading.h"
 #include "devices/dhd/dhd_api.h"
 #include "devices/force_device.h"
 #include "devices/vendor_options.h"
@@ -59,7 +58,6 @@ class DhdForceDevice final : public ForceDevice {
   bool called(int returned) noexcept;
   bool read(Reading& reading, double dt_s) noexcept;
   DeviceFault judge(const Reading& reading) const noexcept;
-  bool repeats(const Reading& reading, double dt_s) noexcept;
   void check_force_is_on(const Reading& reading) noexcept;
   void fail_by(int code) noexcept;
   void forget_errors() noexcept;
@@ -79,7 +77,6 @@ class DhdForceDevice final : public ForceDevice {
   // Servo's thread.
   DeviceStateMachine machine_;
   ForceSample newest_;
-  RepeatedReading repeated_;
   int since_force_on_ = 0;
   bool fault_shown_ = false, lost_ = false;
 

@@ -70,11 +70,6 @@ DeviceFault HdForceDevice::judge(const Reading& reading) const noexcept {
   return DeviceFault::none;
 }
 
-bool HdForceDevice::repeats(const Reading& reading, double dt_s) noexcept {
-  return repeated_.add(hd::position_m(reading.position_mm, centre_m_), hd::velocity_m_per_s(reading.velocity_mm_per_s),
-                       dt_s);
-}
-
 /// It calibrates itself where the hand has brought it to (its inkwell), which moves nothing.
 void HdForceDevice::calibrate() noexcept {
   const hd::Enum needs = api_.check_calibration();
@@ -105,7 +100,7 @@ void HdForceDevice::go_on() noexcept {
   }
 }
 
-ForceSample HdForceDevice::frame(const ForceCommand& command, double dt_s) noexcept {
+ForceSample HdForceDevice::frame(const ForceCommand& command) noexcept {
   ForceSample sample;
   Reading reading{};
   const bool was_faulted = machine_.state() == DeviceState::faulted;
@@ -113,9 +108,8 @@ ForceSample HdForceDevice::frame(const ForceCommand& command, double dt_s) noexc
   read(reading);
   hd::ErrorCode code = drain();
   note(code);
-  const bool clean = clean_frames_ >= kCleanFrames;
-  const DeviceFault wrong = !clean ? DeviceFault::none : repeats(reading, dt_s) ? DeviceFault::sensor : judge(reading);
-  if (machine_.state() != DeviceState::faulted && wrong != DeviceFault::none) machine_.fail(wrong);
+  if (clean_frames_ >= kCleanFrames && machine_.state() != DeviceState::faulted)
+    if (const DeviceFault fault = judge(reading); fault != DeviceFault::none) machine_.fail(fault);
   if (machine_.ready() && !is_finite(command.force_n)) machine_.fail(DeviceFault::bad_command);
   if (machine_.ready()) sample.force_n = command.force_n;
   const double force[3] = {sample.force_n.x, sample.force_n.y, sample.force_n.z};
@@ -145,7 +139,7 @@ ForceSample HdForceDevice::exchange(const ForceCommand& command, double dt_s) no
   }
   if (command.request == DeviceRequest::clear_fault) newest_error_.store(hd::kSuccess, kRelaxedHd);
   if (in_frame_call_) {
-    newest_ = frame(command, dt_s);
+    newest_ = frame(command);
     fault_shown_ = false;
   } else {
     // No frame is possible: the scheduler is stopped.

@@ -13,7 +13,6 @@
 // scheduler's thread, as HDAPI asks, and ready from then on. Nothing moves it.
 #pragma once
 
-#include "devices/base/repeated_reading.h"
 #include "devices/force_device.h"
 #include "devices/openhaptics/hd_api.h"
 #include "devices/openhaptics/hd_frame.h"
@@ -66,10 +65,9 @@ class HdForceDevice final : public ForceDevice {
   // Scheduler's thread.
   static hd::CallbackCode called(void* device) noexcept;
   void zero_frame() noexcept;
-  ForceSample frame(const ForceCommand& command, double dt_s) noexcept;
+  ForceSample frame(const ForceCommand& command) noexcept;
   void read(Reading& reading) noexcept;
   DeviceFault judge(const Reading& reading) const noexcept;
-  bool repeats(const Reading& reading, double dt_s) noexcept;
   void note(hd::ErrorCode code) noexcept;
   void go_on() noexcept;
   void calibrate() noexcept;
@@ -97,7 +95,6 @@ class HdForceDevice final : public ForceDevice {
   // Of whoever calls the tick.
   DeviceStateMachine machine_;
   ForceSample newest_;
-  RepeatedReading repeated_;
   int clean_frames_ = 0;
   bool in_frame_call_ = false, fault_shown_ = false;
 
