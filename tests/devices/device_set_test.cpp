@@ -1,6 +1,11 @@
 #include "devices/device_set.h"
+#include "devices/found_device.h"
+#include "tests/support/temp_folder.h"
 
 #include <doctest/doctest.h>
+
+#include <algorithm>
+#include <fstream>
 
 using namespace tangent;
 
@@ -51,4 +56,32 @@ TEST_CASE("an unknown device is refused with the choices and the option it came 
   REQUIRE_FALSE(display);
   CHECK(display.error().where == "--display");
   CHECK(display.error().remedy == "choose simulated, ideal, cld, maestro or none");
+}
+
+TEST_CASE("what is set up for OpenHaptics is listed where its library is, and not taken for attached") {
+  const testing::TempFolder setups;
+  DeviceOptions options;
+  options.vendor.hd.library = TANGENT_STUB_HD;
+  options.vendor.hd.configs = setups.path();
+  options.vendor.dhd.library = "/nowhere";
+  options.serial.dev = setups.path();
+  options.haply.address = "http://localhost";
+  const auto listed = [&] {
+    std::vector<FoundDevice> all = find_force_devices(options);
+    all.erase(std::remove_if(all.begin(), all.end(), [](const FoundDevice& d) { return d.kind != "openhaptics"; }),
+              all.end());
+    return all;
+  };
+  REQUIRE(listed().size() == 1);
+  CHECK(listed().front().problem.what == "its library is there, and no device is set up");
+  for (const char* name : {"Left.config", "Right.config"}) std::ofstream(setups.path() / name) << "";
+  REQUIRE(listed().size() == 2);
+  CHECK(listed().front().name == "Left");
+  CHECK(listed().front().can_be_opened());
+  CHECK_FALSE(listed().front().attached);
+  CHECK_FALSE(is_attached("openhaptics", options));
+  CHECK_FALSE(is_attached("dhd", options));
+  CHECK_FALSE(is_attached("simulated", options));
+  options.vendor.hd.library = "/nowhere";
+  CHECK(listed().front().problem.what.find("can't be loaded") != std::string::npos);
 }

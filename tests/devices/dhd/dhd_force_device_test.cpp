@@ -258,6 +258,10 @@ TEST_CASE("dhd: of a type that is not known no force is sent, unless a person sa
   REQUIRE(unknown.open());
   CHECK(unknown.capabilities().name == "a new device");
   CHECK(unknown.capabilities().peak_force_n == 0.0);
+  LinkReport report;
+  unknown.report(report);
+  CHECK(report.problem.find("it gets no force") != std::string::npos);
+  CHECK(report.problem.find("--dhd-peak-n") != std::string::npos);
   unknown.close();
   options.peak_n = 9.0;
   DhdForceDevice told(options);
