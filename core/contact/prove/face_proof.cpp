@@ -47,8 +47,9 @@ constexpr ProductTable kProduct;
 Vec2 perpendicular(const Vec2& a) { return {-a.y, a.x}; }
 double cross(const Vec2& a, const Vec2& b) { return a.x * b.y - a.y * b.x; }
 
-constexpr int kSettledDepth = 2;  // bisections after which a part is asked for its one zero
-constexpr int kSlackTests = 6;    // parts of a face known roughly: smaller ones tell no more
+constexpr double kUnbounded = 1e300;  // m
+constexpr int kSettledDepth = 2;      // bisections after which a part is asked for its one zero
+constexpr int kSlackTests = 6;        // parts of a face known roughly: smaller ones tell no more
 
 /// f as it is.
 struct NoSlack {
@@ -79,18 +80,22 @@ struct Part {
   int depth = 0;
 
   /// Distance of 0 from the values of f, as far as the line across the direction to their middle and the three along
-  /// the images of the sides can tell; where the first says `enough_m`, the others are not asked. 0 where they don't
-  /// exclude it.
-  double margin(double enough_m) const {
+  /// the images of the sides can tell; where the first says `enough_m`, the others are not asked, and none further once
+  /// one says `most_m`, the most that counts. 0 where they don't exclude it.
+  double margin(double enough_m, double most_m) const {
     const Vec2 f0 = at_corner(0), f1 = at_corner(1), f2 = at_corner(2);
-    const double middle = beside(perpendicular(f0 + f1 + f2));
-    if (middle > 0.0 && middle >= enough_m) return middle;
-    return std::max({middle, beside(f1 - f0), beside(f2 - f1), beside(f0 - f2)});
+    double clear = beside(perpendicular(f0 + f1 + f2));
+    if (clear > 0.0 && clear >= std::min(enough_m, most_m)) return clear;
+    for (const Vec2& side : {f1 - f0, f2 - f1, f0 - f2}) {
+      clear = std::max(clear, beside(side));
+      if (clear > 0.0 && clear >= most_m) return clear;
+    }
+    return clear;
   }
 
-  double margin(double enough_m, const NoSlack&) const { return margin(enough_m); }
+  double margin(double enough_m, double most_m, const NoSlack&) const { return margin(enough_m, most_m); }
   /// The same of f known but for that.
-  double margin(double enough_m, const Slack& slack) const {
+  double margin(double enough_m, double, const Slack& slack) const {
     const Vec2 f0 = at_corner(0), f1 = at_corner(1), f2 = at_corner(2);
     double most = 0.0;
     for (const Vec2& side : {perpendicular(f0 + f1 + f2), slack.longest, f1 - f0, f2 - f1, f0 - f2}) {
@@ -106,11 +111,24 @@ struct Part {
   double beside(const Vec2& side) const {
     const auto across = [&](const Vec2& x) { return side.y * x.x - side.x * x.y; };
     const double a = across(at_corner(0)), b = across(at_corner(1)), c = across(at_corner(2));
-    const double turned = a > 0.0 ? 1.0 : -1.0;
-    if (!(std::min({turned * a, turned * b, turned * c}) > 0.0)) return 0.0;
-    double least = 1e300;
-    for (const Vec2& x : f) least = std::min(least, turned * across(x));
+    if (!(a > 0.0 ? std::min(b, c) > 0.0 : a < 0.0 && std::max(b, c) < 0.0)) return 0.0;
+    const double least = least_across(a > 0.0 ? side : -side);
     return least > 0.0 ? least / std::sqrt(glm::dot(side, side)) : 0.0;
+  }
+
+  /// Least of the coefficients across a direction, two by two.
+  double least_across(const Vec2& side) const {
+    using Two = double __attribute__((vector_size(16)));
+    const Two y = {side.y, side.y}, x = {side.x, side.x};
+    Two least = {kUnbounded, kUnbounded};
+    const auto include = [&](const Vec2& a, const Vec2& b) {
+      const Two across = y * Two{a.x, b.x} - x * Two{a.y, b.y};
+      least = across < least ? across : least;
+    };
+#pragma GCC unroll 10
+    for (std::size_t k = 0; k + 1 < f.size(); k += 2) include(f[k], f[k + 1]);
+    include(f.back(), f.back());
+    return std::min(least[0], least[1]);
   }
 
   /// (u, v) where the linear interpolation of f vanishes, within the part.
@@ -286,12 +304,12 @@ void bisect_parts(const Part& whole, const Ground& ground, double enough_m, cons
   std::array<Part, kBisections + 2> stack;
   std::size_t size = 0;
   stack[size++] = whole;
-  double margin = 1e300;
-  double smallest = 1e300;
+  double margin = kUnbounded;
+  double smallest = kUnbounded;
   result.possible = false;
   for (int tests = 0; size > 0; ++tests) {
-    const Part part = stack[--size];
-    const double here = Slack::kNone || tests > 0 ? part.margin(enough_m, slack) : 0.0;  // the whole's was asked for
+    const Part& part = stack[--size];
+    const double here = tests > 0 ? part.margin(enough_m, margin, slack) : 0.0;  // the whole's was asked for
     if (here > 0.0) {
       margin = std::min(margin, here);
       continue;
@@ -310,7 +328,8 @@ void bisect_parts(const Part& whole, const Ground& ground, double enough_m, cons
       continue;
     }
     if (part.depth < kBisections && tests < (Slack::kNone ? kBisectionTests : kSlackTests)) {
-      bisect(part, stack[size], stack[size + 1]);
+      const Part halved = part;
+      bisect(halved, stack[size], stack[size + 1]);
       size += 2;
       continue;
     }
@@ -430,7 +449,7 @@ static PatchExclusion exclude(const PnPatch& patch, const Factors& factors, doub
   whole.corner = {Vec2(0.0, 0.0), Vec2(1.0, 0.0), Vec2(0.0, 1.0)};
   multiply_miss(factors.d, factors.n, whole.f, std::make_index_sequence<60>());
   PatchExclusion result;
-  result.margin_m = whole.margin(enough_m, slack);
+  result.margin_m = whole.margin(enough_m, kUnbounded, slack);
   if (result.margin_m > 0.0) result.possible = false;
   if (result.margin_m > 0.0 && result.margin_m >= enough_m) return result;
   result.least_height_m = factors.least_height_m();
@@ -468,7 +487,7 @@ bool excludes_at_a_glance(const PnPatch& patch, const Vec3& centre, const RankBo
   Part whole;
   whole.f.fill(Vec2(0.0));
   multiply_miss(factors.d, factors.n, whole.f, std::make_index_sequence<60>());
-  return whole.margin(enough_m) >= enough_m || bound.way_to(factors.least_height_m()) >= enough_m;
+  return whole.margin(enough_m, enough_m) >= enough_m || bound.way_to(factors.least_height_m()) >= enough_m;
 }
 
 double corner_exclusion(const ContactMesh& mesh, std::uint32_t t, const Vec3& centre) {
