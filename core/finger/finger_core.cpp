@@ -160,9 +160,8 @@ CoreSupport FingerCore::support(const Vec3& normal) const {
   return s;
 }
 
-Vec3 FingerCore::derivative(const CoreSupport& s, const Vec3& t) const {
+Vec3 FingerCore::derivative_of(const CoreSupport& s, const Vec3& at) const {
   if (!(s.length > 0.0)) return Vec3(0.0);
-  const Vec3 at = axes_m_ * (t * rotation_);
   return rotation_ * (axes_m_ * (glm::dot(s.direction, at) * s.direction - at)) / s.length;
 }
 

@@ -47,7 +47,9 @@ class FingerCore {
   /// A t, in the finger's frame.
   Vec3 scaled(const Vec3& t) const { return axes_m_ * (t * rotation_); }
   /// D t at a support.
-  Vec3 derivative(const CoreSupport& support, const Vec3& t) const;
+  Vec3 derivative(const CoreSupport& support, const Vec3& t) const { return derivative_of(support, scaled(t)); }
+  /// The same of t that is scaled already.
+  Vec3 derivative_of(const CoreSupport& support, const Vec3& scaled_t) const;
   /// |A tau| at most for steps across the support's normal of length `tangent`.
   double widest_step(const CoreSupport& support, double tangent) const;
   /// |r.t| / |A t| at most for such steps with |A tau| up to `step_m`; infinite where nothing is known.

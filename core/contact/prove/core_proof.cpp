@@ -76,7 +76,9 @@ struct PieceLook {
   bool curved = false, clear = false;
 };
 
-PieceLook look_at_piece(const PatchPiece& piece, const FingerCore& core, const RankBound& bound, double enough_m) {
+/// `last`: it is not bisected whatever is found.
+PieceLook look_at_piece(const PatchPiece& piece, const FingerCore& core, const RankBound& bound, double enough_m,
+                        bool last) {
   const PnPatch& patch = piece.patch;
   std::array<Vec3, 10> points;
   for (std::size_t i = 0; i < points.size(); ++i) points[i] = patch.control_point(i);
@@ -98,7 +100,8 @@ PieceLook look_at_piece(const PatchPiece& piece, const FingerCore& core, const R
   const LinearCore segment = look.curved ? segment_core(core, patch.normals, axis) : LinearCore{};
   const LinearCore& known = look.curved ? segment : linear;
   if (known.off_m == std::numeric_limits<double>::infinity()) return look;
-  StandIn stands_for{sides, known.slopes, known.bend, known.rest_m};
+  // Of a piece that is bisected next, or known only roughly, no place is read.
+  StandIn stands_for{sides, known.slopes, known.bend, known.rest_m, !look.curved && (look.clear || last)};
   for (Vec3& slope : stands_for.spread) slope *= known.slope_share;
   const double enough =
       look.curved ? enough_m : core.slide_m(core.longest_m(), linear.least_length_m, enough_m) * (1.0 + 1e-9);
@@ -158,10 +161,13 @@ PatchExclusion exclude_pieces(const ContactContext& context, const PnPatch& patc
   PossiblePlaces places;
   for (int looks = 1; size > 0; ++looks) {
     const PatchPiece piece = stack[--size];
-    const PieceLook look = look_at_piece(piece, core, bound, enough_m);
-    const double wanted = std::min(kPieceShare * enough_m, result.margin_m);
+    // More than the least margin of the others is for nothing, and any is, where one may hold a contact.
+    const double enough = places.any() ? 0.0 : std::min(enough_m, result.margin_m);
+    const bool last = piece.depth >= kPieceDepth || looks >= kPieces;
+    const PieceLook look = look_at_piece(piece, core, bound, enough, last);
+    const double wanted = std::min(kPieceShare * enough_m, enough);
     const bool unknown = look.proof.possible ? !look.clear : look.curved && look.proof.margin_m < wanted;
-    if (unknown && piece.depth < kPieceDepth && looks < kPieces) {
+    if (unknown && !last) {
       bisect(piece, stack[size], stack[size + 1]);
       size += 2;
       continue;

@@ -53,7 +53,6 @@ constexpr int kSlackTests = 6;    // parts of a face known roughly: smaller ones
 /// f as it is.
 struct NoSlack {
   static constexpr bool kNone = true;
-  double beside(const Vec2&) const { return 0.0; }
 };
 
 /// f known but for a vector of these hulls (StandIn).
@@ -62,13 +61,25 @@ struct Slack {
   std::array<Vec2, 6> spread;
   Vec2 bend;
   double rest_m;
+  bool place_wanted;
   Vec2 longest{0.0};  ///< across it f is known best
 
-  /// By how much f may be wrong across a direction.
-  double beside(const Vec2& side) const {
+  /// By how much f may be wrong across a direction of that length.
+  double beside(const Vec2& side, double length) const {
     double widest = 0.0;
     for (const Vec2& x : spread) widest = std::max(widest, std::abs(cross(x, side)));
-    return rest_m + (widest + std::abs(cross(bend, side))) / std::sqrt(glm::dot(side, side));
+    return rest_m + (widest + std::abs(cross(bend, side))) / length;
+  }
+
+  /// Whether what looks like that value may be 0, as far as the longest direction tells: no part that has it can be
+  /// excluded.
+  bool may_be_zero(const Vec2& value) const {
+    constexpr double kRounding = 1e-12;
+    const double length2 = glm::dot(longest, longest);
+    const double along = length2 > 0.0 ? std::clamp(glm::dot(value, longest) / length2, -1.0, 1.0) : 0.0;
+    const Vec2 off = value - along * longest;
+    const double room = rest_m - kRounding * std::sqrt(length2);
+    return room > 0.0 && glm::dot(off, off) < room * room;
   }
 };
 
@@ -89,13 +100,22 @@ struct Part {
   }
 
   double margin(double enough_m, const NoSlack&) const { return margin(enough_m); }
+  /// Whether it is in vain to look at the part, or at any that it consists of.
+  bool in_vain(const Slack& slack) const {
+    return !slack.place_wanted && (slack.may_be_zero(at_corner(0)) || slack.may_be_zero(at_corner(1)) ||
+                                   slack.may_be_zero(at_corner(2)));
+  }
   /// The same of f known but for that.
   double margin(double enough_m, const Slack& slack) const {
     const Vec2 f0 = at_corner(0), f1 = at_corner(1), f2 = at_corner(2);
     double most = 0.0;
     for (const Vec2& side : {perpendicular(f0 + f1 + f2), slack.longest, f1 - f0, f2 - f1, f0 - f2}) {
-      const double clear = beside(side);
-      if (clear > most) most = std::max(most, clear - slack.beside(side));
+      // All coefficients are no clearer than those of the corners, which mostly tell that there is no room.
+      const double corners = corners_beside(side);
+      if (!(corners > 0.0)) continue;
+      const double length = std::sqrt(glm::dot(side, side)), room = slack.beside(side, length);
+      if (!(corners / length - room > most)) continue;
+      most = std::max(most, beside(side) - room);
       if (most > 0.0 && most >= enough_m) return most;
     }
     return most;
@@ -104,13 +124,20 @@ struct Part {
   /// Distance of 0 from the coefficients across direction `side`, 0 if they lie on both sides of it: mostly the corners
   /// tell that.
   double beside(const Vec2& side) const {
+    if (!(corners_beside(side) > 0.0)) return 0.0;
     const auto across = [&](const Vec2& x) { return side.y * x.x - side.x * x.y; };
-    const double a = across(at_corner(0)), b = across(at_corner(1)), c = across(at_corner(2));
-    const double turned = a > 0.0 ? 1.0 : -1.0;
-    if (!(std::min({turned * a, turned * b, turned * c}) > 0.0)) return 0.0;
+    const double turned = across(at_corner(0)) > 0.0 ? 1.0 : -1.0;
     double least = 1e300;
     for (const Vec2& x : f) least = std::min(least, turned * across(x));
     return least > 0.0 ? least / std::sqrt(glm::dot(side, side)) : 0.0;
+  }
+
+  /// The least of the corners' coefficients across a direction, times its length; not over 0 if they lie on both sides.
+  double corners_beside(const Vec2& side) const {
+    const auto across = [&](const Vec2& x) { return side.y * x.x - side.x * x.y; };
+    const double a = across(at_corner(0)), b = across(at_corner(1)), c = across(at_corner(2));
+    const double turned = a > 0.0 ? 1.0 : -1.0;
+    return std::min({turned * a, turned * b, turned * c});
   }
 
   /// (u, v) where the linear interpolation of f vanishes, within the part.
@@ -289,8 +316,15 @@ void bisect_parts(const Part& whole, const Ground& ground, double enough_m, cons
   double margin = 1e300;
   double smallest = 1e300;
   result.possible = false;
+  const auto give_up = [&] {
+    result.possible = true;
+    result.margin_m = 0.0;
+  };
   for (int tests = 0; size > 0; ++tests) {
     const Part part = stack[--size];
+    if constexpr (!Slack::kNone) {
+      if (part.in_vain(slack)) return give_up();
+    }
     const double here = Slack::kNone || tests > 0 ? part.margin(enough_m, slack) : 0.0;  // the whole's was asked for
     if (here > 0.0) {
       margin = std::min(margin, here);
@@ -313,6 +347,9 @@ void bisect_parts(const Part& whole, const Ground& ground, double enough_m, cons
       bisect(part, stack[size], stack[size + 1]);
       size += 2;
       continue;
+    }
+    if constexpr (!Slack::kNone) {
+      if (!slack.place_wanted) return give_up();
     }
     margin = 0.0;
     // Of a part near a fold, or left over large, or of a patch that bends much, or known roughly, corners don't tell.
@@ -438,6 +475,9 @@ static PatchExclusion exclude(const PnPatch& patch, const Factors& factors, doub
   bisect_parts(whole, factors.ground(sides), enough_m, slack, result);
   if (result.margin_m > 0.0) result.possible = false;
   if (!result.possible) return result;
+  if constexpr (!Slack::kNone) {
+    if (!slack.place_wanted) return result;
+  }
   result.height_m = estimated_height(patch, factors.centre, result.u, result.v, result.point);
   result.point += patch.origin;
   return result;
@@ -453,7 +493,7 @@ PatchExclusion exclude_contact(const PnPatch& patch, const Vec3& centre, double 
   Factors factors;
   if (!factors.set(patch, centre)) return {};
   const auto in_frame = [&](const Vec3& x) { return Vec2(glm::dot(x, factors.t), glm::dot(x, factors.s)); };
-  Slack slack{{}, in_frame(stands_for.bend), stands_for.rest_m};
+  Slack slack{{}, in_frame(stands_for.bend), stands_for.rest_m, stands_for.place_wanted};
   for (std::size_t i = 0; i < slack.spread.size(); ++i) {
     slack.spread[i] = in_frame(stands_for.spread[i]);
     if (glm::dot(slack.spread[i], slack.spread[i]) > glm::dot(slack.longest, slack.longest))

@@ -20,7 +20,7 @@ LinearCore linear_core(const FingerCore& core, const std::array<Vec3, 6>& normal
     low = std::min(low, b);
     high = std::max(high, b);
     across2 = std::max(across2, glm::dot(v, v) - b * b);
-    l.slopes[i] = core.derivative(l.support, tau);
+    l.slopes[i] = core.derivative_of(l.support, v);
     steepest2 = std::max(steepest2, glm::dot(l.slopes[i], l.slopes[i]));
     least = std::min(least, along);
     most = std::max(most, along);
