@@ -418,6 +418,13 @@ struct Factors {
     return true;
   }
 
+  /// Whether a test holds for f at any of the corners.
+  template <class Test>
+  bool any_corner(Test test) const {
+    const auto at = [&](std::size_t k) { return n[k].z * Vec2(d[k].x, d[k].y) - d[k].z * Vec2(n[k].x, n[k].y); };
+    return test(at(0)) || test(at(1)) || test(at(2));
+  }
+
   Ground ground(const std::array<Vec3, 2>& sides) const {
     const auto in_frame = [&](const Vec3& x) { return Vec2(glm::dot(x, t), glm::dot(x, s)); };
     const auto turn = [&](ControlNormal a0, ControlNormal a1, ControlNormal b0, ControlNormal b1, ControlNormal c0,
@@ -462,11 +469,17 @@ double estimated_height(const PnPatch& patch, const Vec3& c, double u, double v,
 template <class Slack>
 static PatchExclusion exclude(const PnPatch& patch, const Factors& factors, double enough_m, const Slack& slack,
                               const std::array<Vec3, 2>& sides) {
+  PatchExclusion result;
+  if constexpr (!Slack::kNone) {
+    if (!slack.place_wanted && factors.any_corner([&](const Vec2& f) { return slack.may_be_zero(f); })) {
+      result.least_height_m = factors.least_height_m();
+      return result;
+    }
+  }
   Part whole;
   whole.f.fill(Vec2(0.0));
   whole.corner = {Vec2(0.0, 0.0), Vec2(1.0, 0.0), Vec2(0.0, 1.0)};
   multiply_miss(factors.d, factors.n, whole.f, std::make_index_sequence<60>());
-  PatchExclusion result;
   result.margin_m = whole.margin(enough_m, slack);
   if (result.margin_m > 0.0) result.possible = false;
   if (result.margin_m > 0.0 && result.margin_m >= enough_m) return result;
