@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <utility>
 
 namespace tangent {
@@ -59,15 +60,17 @@ struct NoSlack {
 struct Slack {
   static constexpr bool kNone = false;
   std::array<Vec2, 6> spread;
+  std::size_t spread_count;
   Vec2 bend;
   double rest_m;
   bool place_wanted;
+  double height_matters_m;
   Vec2 longest{0.0};  ///< across it f is known best
 
   /// By how much f may be wrong across a direction of that length.
   double beside(const Vec2& side, double length) const {
     double widest = 0.0;
-    for (const Vec2& x : spread) widest = std::max(widest, std::abs(cross(x, side)));
+    for (const Vec2& x : std::span(spread).first(spread_count)) widest = std::max(widest, std::abs(cross(x, side)));
     return rest_m + (widest + std::abs(cross(bend, side))) / length;
   }
 
@@ -321,7 +324,7 @@ void bisect_parts(const Part& whole, const Ground& ground, double enough_m, cons
     result.margin_m = 0.0;
   };
   for (int tests = 0; size > 0; ++tests) {
-    const Part part = stack[--size];
+    const Part& part = stack[--size];
     if constexpr (!Slack::kNone) {
       if (part.in_vain(slack)) return give_up();
     }
@@ -344,7 +347,8 @@ void bisect_parts(const Part& whole, const Ground& ground, double enough_m, cons
       continue;
     }
     if (part.depth < kBisections && tests < (Slack::kNone ? kBisectionTests : kSlackTests)) {
-      bisect(part, stack[size], stack[size + 1]);
+      const Part whole_of_it = part;  // its place is its halves' now
+      bisect(whole_of_it, stack[size], stack[size + 1]);
       size += 2;
       continue;
     }
@@ -407,14 +411,14 @@ struct Factors {
       t = unit(glm::cross(axis, std::abs(axis.x) < 0.6 ? Vec3(1, 0, 0) : Vec3(0, 1, 0)));
     }
     s = glm::cross(axis, t);
-    for (std::size_t b = 0; b < 6; ++b) {
-      const Vec3 normal = (b < n110 ? 1.0 : mixed) * patch.normals[b];
-      n[b] = {glm::dot(normal, t), glm::dot(normal, s), glm::dot(normal, axis)};
-    }
-    for (std::size_t a = 0; a < 10; ++a) {
-      const Vec3 to_centre = centre - patch.offsets[a];
-      d[a] = {glm::dot(to_centre, t), glm::dot(to_centre, s), glm::dot(to_centre, axis)};
-    }
+    // Two of the three products at once, terms in the order of glm::dot.
+    const Vec2 x(t.x, s.x), y(t.y, s.y), z(t.z, s.z);
+    const auto in_frame = [&](const Vec3& v) {
+      const Vec2 across = v.x * x + v.y * y + v.z * z;
+      return Vec3(across.x, across.y, glm::dot(v, axis));
+    };
+    for (std::size_t b = 0; b < 6; ++b) n[b] = in_frame((b < n110 ? 1.0 : mixed) * patch.normals[b]);
+    for (std::size_t a = 0; a < 10; ++a) d[a] = in_frame(centre - patch.offsets[a]);
     return true;
   }
 
@@ -441,6 +445,8 @@ struct Factors {
             turn(n200, n101, n101, n002, n110, n011)};
   }
 
+  /// No more than that.
+  double corners_height_m() const { return std::min({glm::dot(d[0], n[0]), glm::dot(d[1], n[1]), glm::dot(d[2], n[2])}); }
   double least_height_m() const {
     Quintic height{};
     multiply_height(d, n, height, std::make_index_sequence<60>());
@@ -465,6 +471,11 @@ double estimated_height(const PnPatch& patch, const Vec3& c, double u, double v,
 
 }  // namespace
 
+static double least_height_m(const Factors& factors, const NoSlack&) { return factors.least_height_m(); }
+static double least_height_m(const Factors& factors, const Slack& slack) {
+  return factors.corners_height_m() > slack.height_matters_m ? factors.least_height_m() : 0.0;
+}
+
 /// Of the patch by its factors; `patch` again for the place.
 template <class Slack>
 static PatchExclusion exclude(const PnPatch& patch, const Factors& factors, double enough_m, const Slack& slack,
@@ -472,7 +483,7 @@ static PatchExclusion exclude(const PnPatch& patch, const Factors& factors, doub
   PatchExclusion result;
   if constexpr (!Slack::kNone) {
     if (!slack.place_wanted && factors.any_corner([&](const Vec2& f) { return slack.may_be_zero(f); })) {
-      result.least_height_m = factors.least_height_m();
+      result.least_height_m = least_height_m(factors, slack);
       return result;
     }
   }
@@ -483,7 +494,7 @@ static PatchExclusion exclude(const PnPatch& patch, const Factors& factors, doub
   result.margin_m = whole.margin(enough_m, slack);
   if (result.margin_m > 0.0) result.possible = false;
   if (result.margin_m > 0.0 && result.margin_m >= enough_m) return result;
-  result.least_height_m = factors.least_height_m();
+  result.least_height_m = least_height_m(factors, slack);
   if (!result.possible) return result;
   bisect_parts(whole, factors.ground(sides), enough_m, slack, result);
   if (result.margin_m > 0.0) result.possible = false;
@@ -506,8 +517,13 @@ PatchExclusion exclude_contact(const PnPatch& patch, const Vec3& centre, double 
   Factors factors;
   if (!factors.set(patch, centre)) return {};
   const auto in_frame = [&](const Vec3& x) { return Vec2(glm::dot(x, factors.t), glm::dot(x, factors.s)); };
-  Slack slack{{}, in_frame(stands_for.bend), stands_for.rest_m, stands_for.place_wanted};
-  for (std::size_t i = 0; i < slack.spread.size(); ++i) {
+  Slack slack{{},
+              stands_for.spread_count,
+              in_frame(stands_for.bend),
+              stands_for.rest_m,
+              stands_for.place_wanted,
+              stands_for.height_matters_m};
+  for (std::size_t i = 0; i < slack.spread_count; ++i) {
     slack.spread[i] = in_frame(stands_for.spread[i]);
     if (glm::dot(slack.spread[i], slack.spread[i]) > glm::dot(slack.longest, slack.longest))
       slack.longest = slack.spread[i];
