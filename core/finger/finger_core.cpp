@@ -17,10 +17,10 @@ struct Spread {
   CoreSupport support;
   double tangent = 0.0, sine = 0.0;  ///< of the half angle
   double step_m = 0.0;               ///< |A tau| at most
-  double bend = 0.0;                 ///< of the core, FingerCore::bend
   double least_length_m = 0.0;
   Vec3 away{0.0};         ///< from the part's middle to the support
-  double lambda_m = 0.0;  ///< |p(N) - S| at most
+  double bend = 0.0;      ///< of the core, FingerCore::bend; set by bound_curving
+  double lambda_m = 0.0;  ///< |p(N) - S| at most; set by bound_curving
 };
 
 Spread spread_over(const FingerCore& core, const SurfaceBounds& part) {
@@ -30,13 +30,17 @@ Spread spread_over(const FingerCore& core, const SurfaceBounds& part) {
   s.sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
   s.tangent = s.sine / cosine;
   s.step_m = core.widest_step(s.support, s.tangent);
-  s.bend = core.bend(s.support, s.step_m);
   s.least_length_m = s.support.length - s.step_m;
   s.away = s.support.point - part.middle;
+  return s;
+}
+
+/// What only misses along single directions need.
+void bound_curving(const FingerCore& core, const SurfaceBounds& part, Spread& s) {
+  s.bend = core.bend(s.support, s.step_m);
   const double moves = core.largest_radius(s.support.length) * s.tangent + core.longest_m() * s.bend;
   s.lambda_m = std::sqrt(glm::dot(s.away, s.away)) + std::sqrt(glm::dot(part.half, part.half)) +
                std::min(2.0 * core.longest_m(), moves);
-  return s;
 }
 
 double extent(const Vec3& half, const Vec3& t) { return glm::dot(half, glm::abs(t)); }
@@ -222,11 +226,12 @@ double way_to_face(const FingerCore& core, const SurfaceBounds& part) {
 bool can_touch(const FingerCore& core, const SurfaceBounds& part, double most_m, double way_m) {
   const double cosine = part.normals.cos_half;
   if (cosine < kWidestCone) return true;
-  const Spread s = spread_over(core, part);
+  Spread s = spread_over(core, part);
   if (glm::dot(s.away, s.away) < glm::dot(part.half, part.half)) return true;
   const double missed = miss_of_cone(core, part, s);
   if (missed > 0.0 && missed > core.slide_m(core.longest_m(), s.least_length_m, way_m)) return false;
   if (cosine < kWideCone) return true;
+  bound_curving(core, part, s);
   const double along = glm::dot(s.away, part.normals.axis);
   // p(N) lies no lower over the axis' plane than p of the axis.
   if (along - extent(part.half, part.normals.axis) - s.lambda_m * (1.0 - cosine) > most_m) return false;
@@ -243,9 +248,10 @@ double touch_margin(const FingerCore& core, const SurfaceBounds& part, double en
   if (part.normals.cos_half < kWidestCone) return 0.0;
   double margin = std::max(0.0, miss_of_centre(core, part));
   if (margin > 0.0 && margin >= enough_m) return margin;
-  const Spread s = spread_over(core, part);
+  Spread s = spread_over(core, part);
   margin = std::max(margin, core.way_within(core.longest_m(), s.least_length_m, miss_of_cone(core, part, s)));
   if (part.normals.cos_half < kWideCone || (margin > 0.0 && margin >= enough_m)) return margin;
+  bound_curving(core, part, s);
   const Directions d = directions(core, part, s);
   for (const Vec3& t : std::span(d.t).first(static_cast<std::size_t>(d.count))) {
     const double miss = miss_along(core, part, s, t);
