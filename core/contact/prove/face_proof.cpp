@@ -105,8 +105,8 @@ struct Part {
   double margin(double enough_m, const NoSlack&) const { return margin(enough_m); }
   /// Whether it is in vain to look at the part, or at any that it consists of.
   bool in_vain(const Slack& slack) const {
-    return !slack.place_wanted && (slack.may_be_zero(at_corner(0)) || slack.may_be_zero(at_corner(1)) ||
-                                   slack.may_be_zero(at_corner(2)));
+    return !slack.place_wanted &&
+           (slack.may_be_zero(at_corner(0)) || slack.may_be_zero(at_corner(1)) || slack.may_be_zero(at_corner(2)));
   }
   /// The same of f known but for that.
   double margin(double enough_m, const Slack& slack) const {
@@ -446,7 +446,9 @@ struct Factors {
   }
 
   /// No more than that.
-  double corners_height_m() const { return std::min({glm::dot(d[0], n[0]), glm::dot(d[1], n[1]), glm::dot(d[2], n[2])}); }
+  double corners_height_m() const {
+    return std::min({glm::dot(d[0], n[0]), glm::dot(d[1], n[1]), glm::dot(d[2], n[2])});
+  }
   double least_height_m() const {
     Quintic height{};
     multiply_height(d, n, height, std::make_index_sequence<60>());
