@@ -1,6 +1,11 @@
 #include "devices/device_set.h"
 
+#include "devices/found_device.h"
+#include "tests/support/temp_folder.h"
+
 #include <doctest/doctest.h>
+
+#include <filesystem>
 
 using namespace tangent;
 
@@ -51,4 +56,34 @@ TEST_CASE("an unknown device is refused with the choices and the option it came 
   REQUIRE_FALSE(display);
   CHECK(display.error().where == "--display");
   CHECK(display.error().remedy == "choose simulated, ideal, cld, maestro or none");
+}
+
+TEST_CASE("every force device that is looked for says what is there, or what keeps it from being seen") {
+  CHECK(sought_force_devices() == std::vector<std::string>{"falcon", "serial", "dhd"});
+  const testing::TempFolder folder;
+  std::filesystem::create_directories(folder.file("dev"));
+  folder.write("dev/ttyACM0", "");
+  DeviceOptions options;
+  options.serial.dev = folder.file("dev");
+  options.vendor.dhd.library = folder.file("libdhd.so");  // is not there
+  options.falcon.link.match.vendor = 0xfffe;              // nobody has it: a Falcon may be attached
+  int serial = 0, dhd = 0;
+  for (const FoundDevice& found : find_force_devices(options)) {
+    CAPTURE(found.kind);
+    if (found.kind == "falcon") {  // no libusb, or no USB at all
+      CHECK(found.name.empty());
+      CHECK_FALSE(found.can_be_opened());
+      CHECK_FALSE(found.problem.remedy.empty());
+    } else if (found.kind == "serial") {
+      ++serial;
+      CHECK(found.name.find("ttyACM0") != std::string::npos);
+    } else {
+      ++dhd;
+      CHECK(found.kind == "dhd");
+      CHECK_FALSE(found.can_be_opened());
+      CHECK_FALSE(found.problem.remedy.empty());
+    }
+  }
+  CHECK(serial == 1);
+  CHECK(dhd == 1);
 }

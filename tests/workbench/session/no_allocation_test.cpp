@@ -1,10 +1,8 @@
-// A servo tick does not allocate. Counts every allocation of this program and its libraries per thread, at malloc
-// itself. Sanitizers replace malloc: with them the test is skipped.
+// A servo tick does not allocate. Sanitizers replace malloc: with them the test is skipped.
 #include "tests/workbench/session/session_fixture.h"
 
 #include <doctest/doctest.h>
 
-#include <cerrno>
 #include <cstdlib>
 
 #if defined(__SANITIZE_THREAD__) || defined(__SANITIZE_ADDRESS__)
@@ -13,48 +11,11 @@ TEST_CASE("no tick allocates") { MESSAGE("skipped: a sanitizer's malloc is in us
 
 #else
 
-namespace {
-
-thread_local std::size_t allocations = 0;
-
-}  // namespace
-
-// glibc's own functions under the names it keeps for those who put themselves in front of them.
-extern "C" {
-void* __libc_malloc(std::size_t);
-void* __libc_calloc(std::size_t, std::size_t);
-void* __libc_realloc(void*, std::size_t);
-void* __libc_memalign(std::size_t, std::size_t);
-
-void* malloc(std::size_t size) {
-  ++allocations;
-  return __libc_malloc(size);
-}
-void* calloc(std::size_t count, std::size_t size) {
-  ++allocations;
-  return __libc_calloc(count, size);
-}
-void* realloc(void* memory, std::size_t size) {
-  ++allocations;
-  return __libc_realloc(memory, size);
-}
-void* memalign(std::size_t alignment, std::size_t size) {
-  ++allocations;
-  return __libc_memalign(alignment, size);
-}
-void* aligned_alloc(std::size_t alignment, std::size_t size) {
-  ++allocations;
-  return __libc_memalign(alignment, size);
-}
-int posix_memalign(void** memory, std::size_t alignment, std::size_t size) {
-  ++allocations;
-  *memory = __libc_memalign(alignment, size);
-  return *memory == nullptr ? ENOMEM : 0;
-}
-}
+#include "tests/support/allocation_count.h"
 
 using namespace tangent;
 using namespace tangent::test;
+using tangent::testing::allocations;
 
 TEST_CASE("the count of allocations counts") {
   const std::size_t before = allocations;
