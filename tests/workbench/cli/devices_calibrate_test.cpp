@@ -1,7 +1,7 @@
 // workbench devices --calibrate: by lines of a pipe, in simulated time; and what devices says of one that isn't open.
 #include "tests/support/process.h"
 #include "tests/support/temp_folder.h"
-#include "workbench/cli/answer_keys.h"
+#include "workbench/bringup/force_calibration.h"
 #include "workbench/cli/command.h"
 #include "workbench/cli/device_list.h"
 
