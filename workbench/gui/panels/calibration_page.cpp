@@ -29,7 +29,7 @@ void draw_calibration_steps(const UiContext& ui, const CalibrationModel& calibra
   }
 }
 
-void draw_reading(const UiContext& ui, CalibrationModel& calibration) {
+void draw_scale_reading(const UiContext& ui, CalibrationModel& calibration) {
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted("It shows");
   ImGui::SameLine();
@@ -52,7 +52,7 @@ void draw_calibration_answers(const UiContext& ui, CalibrationModel& calibration
   const CalibrationView& view = calibration.view();
   ImGui::BeginDisabled(!calibration.settled());
   if (view.ask == CalibrationAsk::reading) {
-    draw_reading(ui, calibration);
+    draw_scale_reading(ui, calibration);
     ImGui::SameLine();
   } else if (view.asks()) {
     const bool pulls = view.ask == CalibrationAsk::pull;
