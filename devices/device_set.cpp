@@ -5,7 +5,9 @@
 #include "devices/falcon/falcon_device.h"
 #include "devices/found_device.h"
 #include "devices/haply/haply_device.h"
+#include "devices/haply/haply_list.h"
 #include "devices/openhaptics/hd_force_device.h"
+#include "devices/openhaptics/hd_setups.h"
 #include "devices/plugin/plugin_device.h"
 #include "devices/serial/serial_force_device.h"
 #include "devices/simulated/scheduled_force_device.h"
@@ -80,6 +82,15 @@ std::unique_ptr<ForceDevice> openhaptics_force(const DeviceOptions& options) {
   return std::make_unique<HdForceDevice>(options.vendor.hd);
 }
 
+std::vector<FoundDevice> find_openhaptics(const DeviceOptions& options) {
+  const auto set_up = hd::find_set_up(options.vendor.hd);
+  if (!set_up) return {{"openhaptics", "", "", set_up.error()}};
+  std::vector<FoundDevice> all;
+  for (const std::string& name : *set_up)
+    all.push_back({.kind = "openhaptics", .name = name, .serial = {}, .attached = false});
+  return all;
+}
+
 std::unique_ptr<ForceDevice> dhd_force(const DeviceOptions& options) {
   return std::make_unique<DhdForceDevice>(options.vendor.dhd);
 }
@@ -95,6 +106,12 @@ std::vector<FoundDevice> find_dhd(const DeviceOptions& options) {
 
 std::unique_ptr<ForceDevice> haply_force(const DeviceOptions& options) {
   return std::make_unique<HaplyForceDevice>(options.haply);
+}
+
+std::vector<FoundDevice> find_haply(const DeviceOptions& options) {
+  auto found = list_haply_devices(options.haply);
+  if (!found) return {{"haply", "", "", found.error()}};
+  return *std::move(found);
 }
 
 std::unique_ptr<ContactDisplay> simulated_display(const DeviceOptions& options) {
@@ -131,9 +148,9 @@ constexpr DeviceKind<ForceDevice> kForceDevices[] = {
     {"falcon", false, falcon_force, find_falcons},
     {"serial", false, serial_force, find_serial},
     {"plugin", false, plugin_force},
-    {"openhaptics", false, openhaptics_force},
+    {"openhaptics", false, openhaptics_force, find_openhaptics},
     {"dhd", false, dhd_force, find_dhd},
-    {"haply", false, haply_force},
+    {"haply", false, haply_force, find_haply},
     {"none", true, [](const DeviceOptions&) { return std::unique_ptr<ForceDevice>(); }},
 };
 constexpr DeviceKind<ContactDisplay> kContactDisplays[] = {
@@ -204,6 +221,13 @@ std::vector<FoundDevice> find_force_devices(const DeviceOptions& options) {
     for (FoundDevice& found : kind.find(options)) all.push_back(std::move(found));
   }
   return all;
+}
+
+bool is_attached(const std::string& kind, const DeviceOptions& options) {
+  const auto* row = find_kind(kForceDevices, kind);
+  if (row == std::end(kForceDevices) || row->find == nullptr) return false;
+  const std::vector<FoundDevice> found = row->find(options);
+  return std::any_of(found.begin(), found.end(), [](const FoundDevice& d) { return d.attached && !d.name.empty(); });
 }
 
 std::vector<std::string> sought_force_devices() {

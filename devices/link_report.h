@@ -13,6 +13,7 @@ namespace tangent {
 struct LinkReport {
   bool connected = false;
   std::string identity;  ///< "firmware 1.2, serial 77"; empty: not known
+  std::string serial;    ///< of the device on the cable; empty: it says none, or its driver does not ask
   std::string problem;   ///< why it is not connected and what to do; empty: none
   double travel_m = 0.0, resolution_m = 0.0, bandwidth_hz = 0.0, rate_hz = 0.0,
          firmware_timeout_s = 0.0;  ///< as reported by the device; 0: not known

@@ -17,10 +17,10 @@ struct Spread {
   CoreSupport support;
   double tangent = 0.0, sine = 0.0;  ///< of the half angle
   double step_m = 0.0;               ///< |A tau| at most
-  double bend = 0.0;                 ///< of the core, FingerCore::bend
   double least_length_m = 0.0;
   Vec3 away{0.0};         ///< from the part's middle to the support
-  double lambda_m = 0.0;  ///< |p(N) - S| at most
+  double bend = 0.0;      ///< of the core, FingerCore::bend; set by bound_curving
+  double lambda_m = 0.0;  ///< |p(N) - S| at most; set by bound_curving
 };
 
 Spread spread_over(const FingerCore& core, const SurfaceBounds& part) {
@@ -30,28 +30,34 @@ Spread spread_over(const FingerCore& core, const SurfaceBounds& part) {
   s.sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
   s.tangent = s.sine / cosine;
   s.step_m = core.widest_step(s.support, s.tangent);
-  s.bend = core.bend(s.support, s.step_m);
   s.least_length_m = s.support.length - s.step_m;
   s.away = s.support.point - part.middle;
+  return s;
+}
+
+/// What only misses along single directions need.
+void bound_curving(const FingerCore& core, const SurfaceBounds& part, Spread& s) {
+  s.bend = core.bend(s.support, s.step_m);
   const double moves = core.largest_radius(s.support.length) * s.tangent + core.longest_m() * s.bend;
   s.lambda_m = std::sqrt(glm::dot(s.away, s.away)) + std::sqrt(glm::dot(part.half, part.half)) +
                std::min(2.0 * core.longest_m(), moves);
-  return s;
 }
 
 double extent(const Vec3& half, const Vec3& t) { return glm::dot(half, glm::abs(t)); }
 
 /// How far p(N).t can be from that of the cone's axis.
 double spread_along(const FingerCore& core, const Spread& s, const Vec3& t) {
-  const double half_width = core.half_width(t);
-  const Vec3 slope = core.derivative(s.support, t);
-  const double near = std::sqrt(glm::dot(slope, slope)) * s.tangent + half_width * s.bend;
+  const Vec3 scaled = core.scaled(t);
+  const double half_width = std::sqrt(glm::dot(scaled, scaled));
+  const double near = core.derivative_length(s.support, scaled) * s.tangent + half_width * s.bend;
   return std::min(near, half_width + std::abs(glm::dot(s.support.point - core.centre(), t)));
 }
 
 /// By how much p(N) - S misses the direction of N along t, a unit vector across the cone's axis, for every N and S.
+/// Where the core's spread is left out of account already, that: not over 0.
 double miss_along(const FingerCore& core, const SurfaceBounds& part, const Spread& s, const Vec3& t) {
-  return std::abs(glm::dot(s.away, t)) - extent(part.half, t) - spread_along(core, s, t) - s.sine * s.lambda_m;
+  const double unspread = std::abs(glm::dot(s.away, t)) - extent(part.half, t) - s.sine * s.lambda_m;
+  return unspread > 0.0 ? unspread - spread_along(core, s, t) : unspread;
 }
 
 /// By how much p(N) - S misses the directions of the cone whatever its parts are: seen from the middle p(N) is within a
@@ -86,6 +92,8 @@ struct Directions {
 };
 Directions directions(const FingerCore& core, const SurfaceBounds& part, const Spread& s) {
   Directions d;
+  const double along = glm::dot(s.away, part.normals.axis), room = s.sine * s.lambda_m;
+  if (!(glm::dot(s.away, s.away) - along * along > room * room)) return d;  // a miss in no direction
   const auto add = [&](const Vec3& v, double least2) {
     const double length2 = glm::dot(v, v);
     if (length2 > least2) d.t[static_cast<std::size_t>(d.count++)] = v / std::sqrt(length2);
@@ -151,21 +159,6 @@ FingerCore::FingerCore(const Finger& finger, const FingerPose& pose, bool turns)
   if (!(outside_m_ > 0.0)) outside_m_ = -std::numeric_limits<double>::infinity();
 }
 
-CoreSupport FingerCore::support(const Vec3& normal) const {
-  const Vec3 y = axes_m_ * (normal * rotation_);
-  CoreSupport s;
-  s.length = std::sqrt(glm::dot(y, y));
-  s.direction = s.length > 0.0 ? y / s.length : Vec3(0.0);
-  s.point = centre_ - rotation_ * (axes_m_ * s.direction);
-  return s;
-}
-
-Vec3 FingerCore::derivative(const CoreSupport& s, const Vec3& t) const {
-  if (!(s.length > 0.0)) return Vec3(0.0);
-  const Vec3 at = axes_m_ * (t * rotation_);
-  return rotation_ * (axes_m_ * (glm::dot(s.direction, at) * s.direction - at)) / s.length;
-}
-
 // |A tau|^2 + |A n|^2 + ... over an orthonormal frame is the sum of the squared axes.
 double FingerCore::widest_step(const CoreSupport& s, double tangent) const {
   return std::min(longest_m_, std::sqrt(std::max(0.0, squares_m2_ - s.length * s.length))) * tangent;
@@ -191,11 +184,6 @@ double FingerCore::apart_m(const Vec3& middle, const Vec3& half) const {
   const Vec3 an = axes_m_ * n;
   const double reach = glm::dot(n, x) - std::sqrt(glm::dot(an, an)) - glm::dot(half, glm::abs(rotation_ * n));
   return reach / std::sqrt(glm::dot(n, n)) - ball_m_;
-}
-
-double FingerCore::half_width(const Vec3& t) const {
-  const Vec3 at = axes_m_ * (t * rotation_);
-  return std::sqrt(glm::dot(at, at));
 }
 
 double FingerCore::flattest_near(const NormalCone& normals, double way_m) const {
@@ -231,18 +219,19 @@ double FingerCore::way_within(double half_width_m, double least_length_m, double
   return std::max({along, slow, 0.5 * room_m - half_width_m});
 }
 
-bool can_face(const FingerCore& core, const SurfaceBounds& part, double way_m) {
-  return part.normals.cos_half < kWidestCone || !(miss_of_centre(core, part) > way_m);
+double way_to_face(const FingerCore& core, const SurfaceBounds& part) {
+  return part.normals.cos_half < kWidestCone ? 0.0 : miss_of_centre(core, part);
 }
 
 bool can_touch(const FingerCore& core, const SurfaceBounds& part, double most_m, double way_m) {
   const double cosine = part.normals.cos_half;
   if (cosine < kWidestCone) return true;
-  const Spread s = spread_over(core, part);
+  Spread s = spread_over(core, part);
   if (glm::dot(s.away, s.away) < glm::dot(part.half, part.half)) return true;
   const double missed = miss_of_cone(core, part, s);
   if (missed > 0.0 && missed > core.slide_m(core.longest_m(), s.least_length_m, way_m)) return false;
   if (cosine < kWideCone) return true;
+  bound_curving(core, part, s);
   const double along = glm::dot(s.away, part.normals.axis);
   // p(N) lies no lower over the axis' plane than p of the axis.
   if (along - extent(part.half, part.normals.axis) - s.lambda_m * (1.0 - cosine) > most_m) return false;
@@ -259,9 +248,10 @@ double touch_margin(const FingerCore& core, const SurfaceBounds& part, double en
   if (part.normals.cos_half < kWidestCone) return 0.0;
   double margin = std::max(0.0, miss_of_centre(core, part));
   if (margin > 0.0 && margin >= enough_m) return margin;
-  const Spread s = spread_over(core, part);
+  Spread s = spread_over(core, part);
   margin = std::max(margin, core.way_within(core.longest_m(), s.least_length_m, miss_of_cone(core, part, s)));
   if (part.normals.cos_half < kWideCone || (margin > 0.0 && margin >= enough_m)) return margin;
+  bound_curving(core, part, s);
   const Directions d = directions(core, part, s);
   for (const Vec3& t : std::span(d.t).first(static_cast<std::size_t>(d.count))) {
     const double miss = miss_along(core, part, s, t);

@@ -43,17 +43,35 @@ class FingerCore {
   /// The largest at normals within a cone, while the finger goes `way_m`.
   double flattest_near(const NormalCone& normals, double way_m) const;
 
-  CoreSupport support(const Vec3& normal) const;
+  CoreSupport support(const Vec3& normal) const {
+    const Vec3 y = scaled(normal);
+    CoreSupport s;
+    s.length = std::sqrt(glm::dot(y, y));
+    s.direction = s.length > 0.0 ? y / s.length : Vec3(0.0);
+    s.point = centre_ - rotation_ * (axes_m_ * s.direction);
+    return s;
+  }
   /// A t, in the finger's frame.
   Vec3 scaled(const Vec3& t) const { return axes_m_ * (t * rotation_); }
   /// D t at a support.
-  Vec3 derivative(const CoreSupport& support, const Vec3& t) const;
+  Vec3 derivative(const CoreSupport& support, const Vec3& t) const { return derivative_of(support, scaled(t)); }
+  /// The same of t that is scaled already, and its length.
+  Vec3 derivative_of(const CoreSupport& s, const Vec3& scaled_t) const {
+    return s.length > 0.0 ? rotation_ * derivative_in_finger(s, scaled_t) / s.length : Vec3(0.0);
+  }
+  double derivative_length(const CoreSupport& s, const Vec3& scaled_t) const {
+    const Vec3 d = derivative_in_finger(s, scaled_t);
+    return s.length > 0.0 ? std::sqrt(glm::dot(d, d)) / s.length : 0.0;
+  }
   /// |A tau| at most for steps across the support's normal of length `tangent`.
   double widest_step(const CoreSupport& support, double tangent) const;
   /// |r.t| / |A t| at most for such steps with |A tau| up to `step_m`; infinite where nothing is known.
   double bend(const CoreSupport& support, double step_m) const;
   /// Half the core's width along a unit direction, m.
-  double half_width(const Vec3& t) const;
+  double half_width(const Vec3& t) const {
+    const Vec3 at = scaled(t);
+    return std::sqrt(glm::dot(at, at));
+  }
   /// The core's largest radius of curvature at normals whose |A N| is at least this, m.
   double largest_radius(double least_length_m) const;
   /// |A N| at least after the finger has gone `way_m`, where it is this now.
@@ -68,10 +86,14 @@ class FingerCore {
 
   /// How far a box lies outside the whole finger, at least; not over 0: it may reach into it.
   double apart_m(const Vec3& middle, const Vec3& half) const;
+  /// Radius of the ball about the centre that is the finger's at any rate.
+  double inner_m() const { return ball_m_ + shortest_m_; }
   /// The least rank (contact_rank.h) of contacts at places so far outside the whole finger. Either the plane lies
   /// outside it, too, or the place is beyond it, seen from where it touches the plane: then the contact is as deep as
   /// the finger is thick there, and more.
   double rank_outside(double apart_m) const { return outside_m_ + apart_m; }
+  /// How far outside a place has to be for that rank.
+  double outside_at(double rank_m) const { return rank_m - outside_m_; }
 
   /// How far p(N) can move along a direction across N while the finger goes `way_m`: its centre's way and the reach
   /// times its turning, as gone_m counts. `half_width_m`: of the core in that direction; `least_length_m`: |A N| at
@@ -81,6 +103,9 @@ class FingerCore {
   double way_within(double half_width_m, double least_length_m, double room_m) const;
 
  private:
+  Vec3 derivative_in_finger(const CoreSupport& s, const Vec3& scaled_t) const {
+    return axes_m_ * (glm::dot(s.direction, scaled_t) * s.direction - scaled_t);
+  }
   double slide_rate(double least_length_m, double way_m) const;
   double turn_within(double way_m) const { return turns_ ? way_m / reach_m_ : 0.0; }
 
@@ -104,8 +129,8 @@ struct SurfaceBounds {
   NormalCone normals;
 };
 
-/// Whether a finger on its way may have a contact on such a part at all, at a glance.
-bool can_face(const FingerCore& core, const SurfaceBounds& part, double way_m);
+/// How far the finger has to go at least until it can touch such a part at all, at a glance; not over 0: it may now.
+double way_to_face(const FingerCore& core, const SurfaceBounds& part);
 /// Which contacts a finger may have on such a part: p(N) - S = lambda N with lambda up to `most_m`, which is the ball's
 /// radius less the depth.
 bool can_touch(const FingerCore& core, const SurfaceBounds& part, double most_m, double way_m);

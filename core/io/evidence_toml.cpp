@@ -1,11 +1,11 @@
 #include "core/io/evidence_toml.h"
 
+#include "core/base/fnv.h"
 #include "core/io/preset_values.h"
 #include "core/io/toml_file.h"
 #include "core/io/toml_text.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -184,24 +184,15 @@ class EvidenceDigest {
       if (const toml::table* inner = node.as_table()) add(*inner);
       if (node.is_string()) add(node.as_string()->get());
       if (node.is_boolean()) add(node.as_boolean()->get() ? "true" : "false");
-      if (const std::optional<double> number = node.value<double>())
-        for (std::uint64_t bits = std::bit_cast<std::uint64_t>(*number), i = 0; i < 8; ++i, bits >>= 8) add_byte(bits);
+      if (const std::optional<double> number = node.value<double>()) fnv_.add_bits(*number);
     }
   }
-  std::string hex() const {
-    std::string text;
-    for (int shift = 60; shift >= 0; shift -= 4) text += "0123456789abcdef"[(hash_ >> shift) & 15];
-    return text;
-  }
+  std::string hex() const { return fnv_.text(); }
 
  private:
-  void add(std::string_view text) {
-    for (const char c : text) add_byte(static_cast<unsigned char>(c));
-    add_byte('\n');
-  }
-  void add_byte(std::uint64_t byte) { hash_ = (hash_ ^ (byte & 255)) * 0x100000001b3ull; }
+  void add(std::string_view text) { fnv_.add(text).add("\n"); }
 
-  std::uint64_t hash_ = 0xcbf29ce484222325ull;
+  Fnv fnv_;
 };
 
 void append_line(std::string& text, std::string_view key, const std::string& value) {

@@ -1,5 +1,7 @@
 #include "core/tick/mesh_contacts.h"
 
+#include "core/base/tolerances.h"
+#include "core/contact/follow/iterate.h"
 #include "core/contact/prove/clearance_check.h"
 #include "core/shading/way_out.h"
 #include "core/tick/raw_contacts.h"
@@ -22,6 +24,40 @@ Vec3 way_out_of(const TickContext& tick, const IterationResult& tracked, const T
   return shortest_way_out(std::span(planes).first(count));
 }
 
+/// `way_out` where there is one, else that of the tracked contact alone.
+Vec3 way_out_or_one(const TickContext& tick, const IterationResult& tracked, const Vec3& way_out) {
+  if (way_out != Vec3(0.0) || tick.state.unentered) return way_out;
+  return std::max(0.0, tracked.contact.penetration_m) * tracked.plane.normal;
+}
+
+/// The way out of what the last tick left, the `kept` plane and those of `places`, for the finger as it is now. A plane
+/// that its centre has come behind since then pushed, too.
+Vec3 last_way_out(ContactContext& context, const TickContext& tick, const TrackedPlane& kept,
+                  const TouchedPlaces& places, int& evaluations) {
+  const auto plane_at = [&](const TrackedPlane& at) {
+    return RenderPlane{at.normal, contact_on_plane(tick.finger, tick.local, at.point, at.normal).penetration_m, 1.0};
+  };
+  std::array<RenderPlane, kMostPlanes> planes;
+  std::size_t count = 0;
+  if (!tick.state.unentered) planes[count++] = plane_at(kept);
+  for (const SurfacePlace& place : std::span(places.places).first(places.count)) {
+    TrackedPlane at;
+    at.move_to(place);
+    SurfaceSample sample;
+    sample_place(context, at, sample);
+    planes[count++] = plane_at(at);
+    ++evaluations;
+  }
+  return shortest_way_out(std::span(planes).first(count));
+}
+
+/// Whether the way out has leapt `before` -> now, by more than the finger's motion explains.
+bool has_leapt(const ContactContext& context, const Vec3& before, const Vec3& now) {
+  const Vec3 change = now - before;
+  const double explained = 2.0 * context.moved_m + context.hystereses_m(kLeapDepth);
+  return glm::dot(change, change) > explained * explained;
+}
+
 /// How far the furthest point of the finger has come since the last tick: no depth changes by more. Of a finger that is
 /// not round its turning counts, too.
 double finger_way_m(const TickContext& tick) {
@@ -36,6 +72,8 @@ inline void find_smooth(const ContactScene& scene, StepCache& cache, const TickC
                         const SolverSettings& settings, TickPlanes& planes, Vec3& way_out) {
   RenderPlane& plane = planes.smooth;
   const bool all = wants_touched(tick.preset);
+  cache.last_touched.count = 0;
+  if (tick.state.touched.count > 0) cache.last_touched = tick.state.touched;
   const Vec3 moved = finger_way(tick.pose.position, tick.t_s, tick.state).moved;
   ContactContext context{cache.patches, settings, tick.finger,        tick.local, tick.origin,
                          tick.trace,    0,        finger_way_m(tick), moved};
@@ -45,6 +83,10 @@ inline void find_smooth(const ContactScene& scene, StepCache& cache, const TickC
                       all ? &cache.touched : nullptr);
   cache.form = settings.normal_form;
   const IterationResult& contact = cache.smooth.contact;
+  DecidedContact& decided = cache.smooth;
+  const bool may_leap = all && decided.places_changed && decided.converged() && decided.event == TickEvent::none;
+  const Vec3 before =
+      may_leap ? last_way_out(context, tick, tick.state.plane, cache.last_touched, decided.evaluations) : Vec3(0.0);
   tick.state.plane = contact.plane;
   cache.patches.expect_around(contact.plane.triangle);
   if (cache.smooth.converged()) {
@@ -54,12 +96,13 @@ inline void find_smooth(const ContactScene& scene, StepCache& cache, const TickC
     plane = last_converged_plane(tick);
   }
   if (!all) return;
-  if (cache.touched.count == 0) {  // most ticks
-    planes.touched = plane;
-    return;
+  planes.touched = plane;
+  if (cache.touched.count > 0) {  // few ticks
+    way_out = way_out_of(tick, contact, cache.touched);
+    planes.touched = plane_of_way_out(way_out, plane);
   }
-  way_out = way_out_of(tick, contact, cache.touched);
-  planes.touched = plane_of_way_out(way_out, plane);
+  if (may_leap && has_leapt(context, before, way_out_or_one(tick, contact, way_out)))
+    decided.event = TickEvent::switched;  // another set of places pushes
 }
 
 void describe_smooth(const DecidedContact& decided, const TickContext& tick, TickOutput& out) {

@@ -54,9 +54,11 @@ bool look_for_touched(ContactContext& context, const SearchStructures& search, d
   // Where the contact was lost and a shallower one is gone on with, what the lost one was counts, too.
   const double depth =
       std::max(depth_before(context, state), state.unentered ? 0.0 : decided.contact.contact.penetration_m);
+  const std::size_t followed = touched.count;
   for (const TouchedContact& c : rival.touched.all())
     if (was_entered(step_of(context), c.contact.penetration_m, depth))
       touched.add(c, kMergedPlaces * context.settings.tolerance_m);
+  if (touched.count > followed || touched.full()) decided.places_changed = true;
   rival.deeper = rival.deeper && !pushes_with_others(rival.best.contact) &&
                  contact_rank(context.finger, rival.best.contact) < takeover_m;
   if (!decide_rival(context, rival, depth, state.plane, decided)) return false;
@@ -68,9 +70,13 @@ bool look_for_touched(ContactContext& context, const SearchStructures& search, d
 /// Where every touched place pushes: follows them all, looks for more; the deepest is the one to render on the display.
 void watch_touched(ContactContext& context, const SearchStructures& search, TickState& state, DecidedContact& decided,
                    TouchedContacts& touched) {
-  if (state.touched.count > 0 &&
-      !follow_touched(context, state.touched, &decided.contact.plane, touched, decided.evaluations))
-    state.clearance = Clearance{};  // the surroundings of a place that is followed no more were not looked at
+  if (state.touched.count > 0) {
+    const FollowedPlaces followed =
+        follow_touched(context, state.touched, &decided.contact.plane, touched, decided.evaluations);
+    if (!followed.all)
+      state.clearance = Clearance{};  // the surroundings of a place that is followed no more were not looked at
+    decided.places_changed = !followed.all || followed.folded;
+  }
   const PlaneContact& tracked = decided.contact.contact;
   const double takeover = takeover_bound_m(context.settings, contact_rank(context.finger, tracked),
                                            tracked.penetration_m > 0.0 ? kTremor : 1.0);
@@ -93,6 +99,7 @@ bool go_on_with_touched(ContactContext& context, TickState& state, DecidedContac
 void find_smooth_contact(ContactContext& context, const SearchStructures& search, bool sample_is_kept, TickState& state,
                          DecidedContact& decided, TouchedContacts* touched) {
   const bool first = state.plane.feature == Feature::none;
+  decided.places_changed = false;
   if (!touched && state.touched.count > 0) {  // they were followed until now, and are looked for no more
     state.touched.count = 0;
     state.clearance = Clearance{};

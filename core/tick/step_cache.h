@@ -49,8 +49,9 @@ class StepCache {
   }
 
   PatchCache patches;
-  DecidedContact smooth;    ///< of the last tick
-  TouchedContacts touched;  ///< beside it; room for one tick, nothing is read of the last
+  DecidedContact smooth;       ///< of the last tick
+  TouchedContacts touched;     ///< beside it; room for one tick, nothing is read of the last
+  TouchedPlaces last_touched;  ///< what the last tick left of them; likewise
   NormalForm form = NormalForm::bernstein;
   [[no_unique_address]] StepperUse::Flag in_use{};
 };

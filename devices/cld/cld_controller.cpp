@@ -18,24 +18,6 @@ void raise(std::atomic<std::uint64_t>& counter, std::uint64_t by = 1) noexcept {
   counter.store(counter.load(kRelaxed) + by, kRelaxed);
 }
 
-DeviceFault fault_of(CldDeviceFault fault) {
-  switch (fault) {
-    case CldDeviceFault::none:
-      return DeviceFault::actuator;
-    case CldDeviceFault::watchdog:
-      return DeviceFault::watchdog;
-    case CldDeviceFault::encoder:
-      return DeviceFault::sensor;
-    case CldDeviceFault::overcurrent:
-      return DeviceFault::actuator;
-    case CldDeviceFault::homing_failed:
-      return DeviceFault::actuator;
-    case CldDeviceFault::bad_command:
-      return DeviceFault::bad_command;
-  }
-  return DeviceFault::actuator;
-}
-
 bool fit(const CldInfo& info) {
   return info.travel_nm > 0 && info.telemetry_hz > 0 && info.watchdog_ms >= 10 && info.watchdog_ms <= 200;
 }

@@ -114,4 +114,20 @@ const char* to_string(CldDeviceFault fault) {
   return "?";
 }
 
+DeviceFault fault_of(CldDeviceFault fault) noexcept {
+  switch (fault) {
+    case CldDeviceFault::watchdog:
+      return DeviceFault::watchdog;
+    case CldDeviceFault::encoder:
+      return DeviceFault::sensor;
+    case CldDeviceFault::bad_command:
+      return DeviceFault::bad_command;
+    case CldDeviceFault::none:
+    case CldDeviceFault::overcurrent:
+    case CldDeviceFault::homing_failed:
+      break;
+  }
+  return DeviceFault::actuator;
+}
+
 }  // namespace tangent

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "devices/cld/cld_frame.h"
+#include "devices/device_state.h"
 
 #include <cstdint>
 #include <optional>
@@ -26,6 +27,8 @@ enum class CldType : std::uint8_t {
 
 enum class CldDeviceState : std::uint8_t { idle, homing, ready, faulted };
 enum class CldDeviceFault : std::uint8_t { none, watchdog, encoder, overcurrent, homing_failed, bad_command };
+/// Of a device that says it is faulted.
+DeviceFault fault_of(CldDeviceFault fault) noexcept;
 
 struct CldTarget {
   std::int32_t target_nm = 0;

@@ -230,6 +230,8 @@ bool DhdForceDevice::report(LinkReport& out) const {
     out.problem = dhd::force_off_error(cause, capabilities_.name).message();
   else if (!calibrated_.load())
     out.problem = dhd::to_error(12, capabilities_.name).message();  // DHD_ERROR_DEVICE_NOT_READY
+  else if (out.connected && capabilities_.peak_force_n <= 0.0)
+    out.problem = dhd::peak_not_known(capabilities_.name).message();
   return true;
 }
 

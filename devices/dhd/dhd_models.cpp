@@ -36,6 +36,11 @@ const Model& model_of(int type) noexcept {
   return kUnknownModel;
 }
 
+Error peak_not_known(const std::string& device) {
+  return {"it gets no force: how much it can push is not known, and its library doesn't say", device,
+          "look into its data sheet and give --dhd-peak-n"};
+}
+
 DeviceFrame device_frame() { return {.rotation = kHalfTurn}; }
 
 Quat orientation(const double matrix[3][3]) {

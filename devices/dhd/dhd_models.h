@@ -20,6 +20,10 @@ struct Model {
 /// Of a type that is not known: zeros.
 const Model& model_of(int type) noexcept;
 
+/// Why one whose peak force is not known gets no force: the library has no function that says it (dhdGetMaxForce
+/// returns the limit that a program has set), and nothing that its makers publish in the open names it for every type.
+Error peak_not_known(const std::string& device);
+
 /// Turns DHD's axes into the world's.
 DeviceFrame device_frame();
 

@@ -12,14 +12,17 @@ namespace {
 constexpr const char* kWhere = "torque scale of the Falcon";
 
 constexpr std::array<FalconScaleStep, 7> kScaleSteps{
-    {{"Lay the Falcon on its back, so that its grip points up, and hook the spring scale to the grip.", 0.0, false},
-     {"Hold the grip in the middle of the workspace by the scale alone, and set the scale to 0 there.", 0.0, false},
-     {"It pulls away from you, into the Falcon, with about 0.25 N. Hold the grip in the middle and read the scale.",
+    {{"Hook the scale to the grip",
+      "Lay the Falcon on its back, so that its grip points up, and hook the spring scale to the grip.", 0.0, false},
+     {"Set the scale to 0",
+      "Hold the grip in the middle of the workspace by the scale alone, and set the scale to 0 there.", 0.0, false},
+     {"Pull with 0.25 N",
+      "It pulls away from you, into the Falcon, with about 0.25 N. Hold the grip in the middle and read the scale.",
       -0.25, true},
-     {"The same with about 0.5 N.", -0.5, true},
-     {"The same with about 0.75 N.", -0.75, true},
-     {"The same with about 1 N.", -1.0, true},
-     {"Unhook the scale. The Falcon may be moved by hand again.", 0.0, false}}};
+     {"Pull with 0.5 N", "The same with about 0.5 N.", -0.5, true},
+     {"Pull with 0.75 N", "The same with about 0.75 N.", -0.75, true},
+     {"Pull with 1 N", "The same with about 1 N.", -1.0, true},
+     {"Unhook the scale", "Unhook the scale. The Falcon may be moved by hand again.", 0.0, false}}};
 
 }  // namespace
 

@@ -24,9 +24,10 @@ struct FalconReading {
 Result<double> torque_scale_from(std::span<const FalconReading> readings, double used_scale);
 
 struct FalconScaleStep {
-  const char* what;  ///< for the person
-  double push_n;     ///< outwards, along its axis, in the middle of the workspace; 0: none
-  bool reads;        ///< the scale's reading is asked for
+  const char* title;  ///< "Pull with 0.25 N"
+  const char* what;   ///< for the person
+  double push_n;      ///< outwards, along its axis, in the middle of the workspace; 0: none
+  bool reads;         ///< the scale's reading is asked for
 };
 /// What the person does, in order. Before each force the person says yes.
 std::span<const FalconScaleStep> falcon_scale_steps();

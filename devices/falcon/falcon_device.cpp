@@ -16,6 +16,18 @@ std::string named(const std::string& serial) {
   return serial.empty() ? kFalconName : std::string(kFalconName) + " " + serial;
 }
 
+/// Those that can be read: of one that can't, the device says that it runs none when it is there.
+FalconDriver::Firmwares kept_firmwares(const FalconOptions& options) {
+  FalconDriver::Firmwares all;
+  if (!options.firmware.empty()) return all;
+  for (const auto& [serial, kept] : options.kept) {
+    if (kept.firmware.empty()) continue;
+    if (auto firmware = read_falcon_firmware(kept.firmware, kept.firmware_sha256))
+      all.emplace(serial, std::move(firmware->bytes));
+  }
+  return all;
+}
+
 UsbLinkOptions link_for(const FalconOptions& options) {
   UsbLinkOptions link = options.link;
   link.match.serial = options.serial;
@@ -32,6 +44,7 @@ UsbLinkOptions falcon_link_options() {
   o.in_endpoint = 0x81;
   o.out_endpoint = 0x02;
   o.bulk = true;
+  o.ask_serial = true;
   return o;
 }
 
@@ -65,7 +78,7 @@ Status FalconDevice::open() {
     bytes = std::move(firmware->bytes);
   }
   if (const Status one = check_attached(); !one) return one;
-  driver_ = std::make_unique<FalconDriver>(options_, std::move(bytes));
+  driver_ = std::make_unique<FalconDriver>(options_, std::move(bytes), kept_firmwares(options_));
   if (const Status started = link_.start(); !started) return started;
   opened_ = true;
   return {};
@@ -84,6 +97,14 @@ ForceSample FalconDevice::exchange(const ForceCommand& command, double) noexcept
   const ForceSample sample = driver_->exchange(command, usb_now_ns);
   link_.wake();
   return sample;
+}
+
+void FalconDevice::on_open(UsbLink& link) noexcept {
+  {
+    const std::lock_guard lock(serial_lock_);
+    serial_ = link.serial();
+  }
+  driver_->opened(link.serial(), usb_now_ns());
 }
 
 bool FalconDevice::emergency_stop() noexcept {
@@ -129,7 +150,12 @@ bool FalconDevice::report(LinkReport& out) const {
   const FalconLine& line = driver_->line();
   out.connected = link_.connected();
   if (out.connected && line.phase() == FalconPhase::running)
-    out.identity = "firmware runs, " + std::to_string(driver_->legs_homed()) + " of 3 legs homed";
+    out.identity = "firmware runs, " + std::to_string(driver_->legs_homed()) + " of 3 legs homed" +
+                   (driver_->calibrated() ? "" : ", torque not calibrated: 1 N at most");
+  {
+    const std::lock_guard lock(serial_lock_);
+    out.serial = serial_;
+  }
   out.problem = problem();
   out.rate_hz = capabilities_.rate_hz;
   out.packets_in = usb.packets_in;

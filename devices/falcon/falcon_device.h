@@ -5,6 +5,7 @@
 #include "devices/falcon/falcon_driver.h"
 
 #include <memory>
+#include <mutex>
 
 namespace tangent {
 
@@ -24,7 +25,7 @@ class FalconDevice final : public ForceDevice, private UsbLinkHandler, private F
   bool report(LinkReport& out) const override;
 
  private:
-  void on_open(UsbLink&) noexcept override { driver_->line().opened(usb_now_ns()); }
+  void on_open(UsbLink& link) noexcept override;
   void on_packet(UsbLink&, std::span<const std::uint8_t> bytes, std::int64_t now_ns) noexcept override;
   void on_control_done(UsbLink&, bool good, std::int64_t now_ns) noexcept override {
     driver_->line().control_done(good, now_ns);
@@ -45,6 +46,8 @@ class FalconDevice final : public ForceDevice, private UsbLinkHandler, private F
   std::unique_ptr<FalconDriver> driver_;  ///< while open
   std::array<std::atomic<std::uint64_t>, 8> last_packet_{};
   std::atomic<std::uint32_t> last_packet_bytes_{0};
+  mutable std::mutex serial_lock_;  ///< held for a copy, once a connection
+  std::string serial_;              ///< of the one that was connected last
   bool opened_ = false;
 };
 

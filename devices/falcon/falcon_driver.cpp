@@ -11,21 +11,26 @@ namespace tangent {
 
 namespace {
 
-constexpr std::uint32_t kMostGarbage = 2;  // in a row
+constexpr std::uint32_t kMostGarbage = 2;     // in a row
+constexpr std::uint32_t kMostUnanswered = 2;  // likewise
 
 // x to the right, y up, z towards the person; in the world x is away from the person and z up.
 constexpr Quat kToWorld{0.5, 0.5, -0.5, -0.5};
 
-bool is_calibrated(const FalconOptions& o) { return o.torque_counts_per_nm > 0.0; }
+bool may_be_calibrated(const FalconOptions& o) {
+  return o.torque_counts_per_nm > 0.0 || std::any_of(o.kept.begin(), o.kept.end(), [](const auto& kept) {
+           return kept.second.torque_counts_per_nm > 0.0;
+         });
+}
 
 }  // namespace
 
 ForceCapabilities falcon_capabilities(const FalconOptions& options) {
   ForceCapabilities can;
-  can.name = is_calibrated(options) ? "Novint Falcon" : "Novint Falcon, torque not calibrated";
+  can.name = may_be_calibrated(options) ? "Novint Falcon" : "Novint Falcon, torque not calibrated";
   can.serial = options.serial;
   can.buttons = 4;
-  can.peak_force_n = is_calibrated(options) ? kFalconPeak_n : kFalconUncalibratedPeak_n;
+  can.peak_force_n = may_be_calibrated(options) ? kFalconPeak_n : kFalconUncalibratedPeak_n;
   can.position_resolution_m = 63.5e-6;  // advertised: more than 400 steps to the inch
   can.workspace_half_size_m = kFalconHalfSize_m;
   can.frame.rotation = kToWorld;
@@ -53,8 +58,22 @@ std::array<std::int16_t, 3> falcon_counts(const Vec3& position_m, const Vec3& fo
   return out;
 }
 
-FalconDriver::FalconDriver(const FalconOptions& options, std::vector<std::uint8_t> firmware)
-    : options_(options), capabilities_(falcon_capabilities(options)), line_(options.line, std::move(firmware)) {}
+FalconDriver::FalconDriver(const FalconOptions& options, std::vector<std::uint8_t> firmware, Firmwares kept)
+    : options_(options),
+      kept_(firmware.empty() ? std::move(kept) : Firmwares()),
+      capabilities_(falcon_capabilities(options)),
+      line_(options.line, std::move(firmware)),
+      scale_(options.torque_counts_per_nm) {}
+
+// The servo reads the scale after it has seen the connection, and what it posts to an older one is not sent.
+void FalconDriver::opened(const std::string& serial, std::int64_t now_ns) noexcept {
+  if (options_.torque_counts_per_nm == 0.0) {
+    const auto kept = options_.kept.find(serial);
+    scale_.store(kept != options_.kept.end() ? kept->second.torque_counts_per_nm : 0.0, std::memory_order_relaxed);
+  }
+  const auto firmware = kept_.find(serial);
+  line_.opened(now_ns, firmware != kept_.end() ? &firmware->second : nullptr);
+}
 
 // In this order: a fault that is cleared in between leaves it faulted, never held without a fault that says so.
 void FalconDriver::stop() noexcept {
@@ -70,6 +89,7 @@ void FalconDriver::follow_connection() noexcept {
   heard_ = homing_wanted_ = position_known_ = false;
   place_m_ = kFalconCentre_m;
   legs_homed_.store(0, std::memory_order_relaxed);
+  counts_per_nm_ = scale_.load(std::memory_order_relaxed);
   seen_connection_ = connection;
 }
 
@@ -77,9 +97,12 @@ void FalconDriver::follow_connection() noexcept {
 void FalconDriver::measure() noexcept {
   FalconHeard heard;
   if (!line_.take(heard) || heard.connection != seen_connection_) return;
+  // Encoders that stand still are the same place to the last bit: the gate takes one for stuck by that.
+  const bool same = heard_ && position_known_ && heard.answer.encoder == newest_.answer.encoder;
   newest_ = heard;
   heard_ = true;
   legs_homed_.store(std::popcount(unsigned{heard.answer.homed}), std::memory_order_relaxed);
+  if (same) return;
   const Vec3 angles = falcon_angles(heard.answer.encoder);
   auto place = falcon_forward(angles, place_m_);
   if (!place || !falcon_plausible(*place)) place = falcon_forward(angles);
@@ -101,7 +124,8 @@ void FalconDriver::watch(const ForceCommand& command, std::int64_t now_ns) noexc
   const bool backwards = std::exchange(last_ns_, now_ns) > now_ns;
   const double silent_s = static_cast<double>(now_ns - newest_.at_ns) * 1e-9;
   if (line_.garbage() >= kMostGarbage) machine_.fail(DeviceFault::sensor);
-  if (!(silent_s <= options_.silence_s)) machine_.fail(DeviceFault::disconnected);
+  if (line_.unanswered() >= kMostUnanswered || !(silent_s <= options_.silence_s))
+    machine_.fail(DeviceFault::disconnected);
   if (!machine_.ready()) return;
   if (backwards || silent_s < -1e-9 || !position_known_ || !newest_.answer.all_homed()) {
     machine_.fail(DeviceFault::sensor);
@@ -130,10 +154,16 @@ FalconCommand FalconDriver::command_for(const Vec3& force_n, double& share) cons
   out.homing = homing_wanted_;
   out.lamps = machine_.ready() ? kFalconGreen : machine_.state() == DeviceState::homing ? kFalconBlue : kFalconRed;
   if (!machine_.ready()) return out;
-  const bool calibrated = is_calibrated(options_);
-  out.torque = falcon_counts(place_m_ - kFalconCentre_m, force_n,
-                             calibrated ? options_.torque_counts_per_nm : kFalconUncalibratedScale,
-                             calibrated ? kFalconMostCounts : kFalconUncalibratedCounts, share);
+  const Vec3 place_m = place_m_ - kFalconCentre_m;
+  if (counts_per_nm_ > 0.0) {
+    out.torque = falcon_counts(place_m, force_n, counts_per_nm_, kFalconMostCounts, share);
+    return out;
+  }
+  // The gate may let more through: it knows what was said of the one that may come.
+  const double asked_n = glm::length(force_n);
+  const double limited = asked_n > kFalconUncalibratedPeak_n ? kFalconUncalibratedPeak_n / asked_n : 1.0;
+  out.torque = falcon_counts(place_m, limited * force_n, kFalconUncalibratedScale, kFalconUncalibratedCounts, share);
+  share *= limited;
   return out;
 }
 
@@ -164,7 +194,7 @@ ForceSample FalconDriver::respond(const ForceCommand& command, std::int64_t now_
   sample.position_m = place_m_ - kFalconCentre_m;
   sample.age_s = static_cast<double>(now_ns - newest_.at_ns) * 1e-9;
   sample.buttons = newest_.answer.buttons;
-  if (machine_.ready()) sample.force_n = share * command.force_n;
+  if (machine_.ready() && !line_.withholds()) sample.force_n = share * command.force_n;
   return sample;
 }
 

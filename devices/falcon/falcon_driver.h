@@ -18,7 +18,8 @@ inline constexpr double kFalconUncalibratedPeak_n = 1.0;  ///< by our choice
 inline constexpr int kFalconMostCounts = 4095;            ///< as an early public driver; a number wraps at 32,767
 inline constexpr int kFalconUncalibratedCounts = 1023;    ///< by our choice
 
-/// What it can do; unknown is 0.
+/// What it can do; unknown is 0. Calibrated, as far as this says, where what is given or kept may be: of the one that
+/// is plugged in later the driver knows.
 ForceCapabilities falcon_capabilities(const FalconOptions& options);
 
 /// Counts that push with this force (device's axes, from the middle of the workspace). Above `most` all three shrink
@@ -28,11 +29,19 @@ std::array<std::int16_t, 3> falcon_counts(const Vec3& position_m, const Vec3& fo
 
 class FalconDriver {
  public:
-  FalconDriver(const FalconOptions& options, std::vector<std::uint8_t> firmware);
+  using Firmwares = std::map<std::string, std::vector<std::uint8_t>>;
+
+  /// `firmware`: given, for any; empty: none. `kept`: of Falcons by serial number, for where none is given.
+  FalconDriver(const FalconOptions& options, std::vector<std::uint8_t> firmware, Firmwares kept = {});
 
   FalconLine& line() { return line_; }
   const FalconLine& line() const { return line_; }
   const ForceCapabilities& capabilities() const { return capabilities_; }
+
+  /// Link's thread: a device is there. Its torque scale and firmware are those that were given, or are kept for it.
+  void opened(const std::string& serial, std::int64_t now_ns) noexcept;
+  /// Any thread: the torque scale of the one that is there was measured.
+  bool calibrated() const noexcept { return scale_.load(std::memory_order_relaxed) > 0.0; }
 
   /// Servo's thread. The clock is read once, after the newest answer was taken: none is from the future.
   ForceSample exchange(const ForceCommand& command, std::int64_t (*now_ns)() noexcept) noexcept;
@@ -52,10 +61,12 @@ class FalconDriver {
   FalconCommand command_for(const Vec3& force_n, double& share) const noexcept;
 
   const FalconOptions options_;
+  const Firmwares kept_;
   const ForceCapabilities capabilities_;
   FalconLine line_;
   std::atomic<bool> was_stopped_{false};
   std::atomic<int> legs_homed_{0};
+  std::atomic<double> scale_;  ///< counts for 1 N m of the newest connection, set before it begins; 0: not calibrated
 
   // Servo's thread.
   DeviceStateMachine machine_;
@@ -64,6 +75,7 @@ class FalconDriver {
   bool homing_wanted_ = false;   ///< the device is told to keep its zero
   bool position_known_ = false;  ///< the newest encoders are a place
   std::uint32_t seen_connection_ = 0;
+  double counts_per_nm_ = 0.0;  ///< of that connection; 0: not calibrated
   std::int64_t last_ns_ = 0;
   Vec3 place_m_ = kFalconCentre_m;  ///< the newest, in the mechanism's axes
 };

@@ -24,7 +24,9 @@ FalconLine::FalconLine(const FalconLineOptions& options, std::vector<std::uint8_
 
 // --- Connection ----------------------------------------------------------------------------------------
 
-void FalconLine::opened(std::int64_t now_ns) noexcept {
+void FalconLine::opened(std::int64_t now_ns, const std::vector<std::uint8_t>* firmware) noexcept {
+  loads_ = firmware != nullptr ? firmware : &firmware_;
+  pieces_.store((loads_->size() + FalconScript::kPiece - 1) / FalconScript::kPiece, kRelaxed);
   failed_at_.store(0, kRelaxed);
   attempts_ = refusals_ = 0;
   ended_ = false;
@@ -41,8 +43,11 @@ void FalconLine::ask(std::int64_t now_ns) noexcept {
   FalconOrder old;
   orders_.take(old);
   wanted_ = {};
-  fresh_ = in_flight_ = doubt_ = pushing_ = false;
+  fresh_ = in_flight_ = pushing_ = false;
+  set_doubt(false);
+  blocked_ns_ = 0;
   garbage_.store(0, kRelaxed);
+  unanswered_.store(0, kRelaxed);
   parser_.restart();
   questions_ = 0;
   script_.start_run_mode(now_ns);
@@ -52,7 +57,7 @@ void FalconLine::ask(std::int64_t now_ns) noexcept {
 void FalconLine::upload(std::int64_t now_ns) noexcept {
   ++attempts_;
   count_one(uploads_);
-  script_.start_upload(firmware_, now_ns);
+  script_.start_upload(*loads_, now_ns);
   enter(FalconPhase::uploading);
 }
 
@@ -66,7 +71,7 @@ void FalconLine::packet(std::span<const std::uint8_t> bytes, std::int64_t now_ns
   parser_.feed(payload, [&](const FalconPacket& found) { take_answer(found, now_ns); });
   skipped_.store(parser_.skipped(), kRelaxed);
   if (parser_.skipped() == skipped) return;
-  doubt_ = true;
+  set_doubt(true);
   in_flight_ = false;
   garbage_.store(garbage_.load(kRelaxed) + 1, kRelaxed);
 }
@@ -77,12 +82,13 @@ void FalconLine::take_answer(const FalconPacket& packet, std::int64_t now_ns) no
   const bool echo = phase() == FalconPhase::asking && packet == asked_;
   in_flight_ = false;
   if (!answer || echo) {
-    doubt_ = true;
+    set_doubt(true);
     garbage_.store(garbage_.load(kRelaxed) + 1, kRelaxed);
     return;
   }
-  doubt_ = false;
+  set_doubt(false);
   garbage_.store(0, kRelaxed);
+  unanswered_.store(0, kRelaxed);
   answered_ns_ = now_ns;
   count_one(answers_);
   heard_.put({*answer, now_ns, connection_.load(kRelaxed)});
@@ -102,6 +108,19 @@ bool FalconLine::is_answering(std::int64_t now_ns) const noexcept {
 }
 
 // --- Out -----------------------------------------------------------------------------------------------
+
+void FalconLine::set_doubt(bool doubt) noexcept {
+  doubt_ = doubt;
+  withholds_.store(doubt, kRelaxed);
+}
+
+void FalconLine::not_answered() noexcept {
+  in_flight_ = false;
+  blocked_ns_ = 0;
+  set_doubt(true);
+  count_one(lost_);
+  unanswered_.store(unanswered_.load(kRelaxed) + 1, kRelaxed);
+}
 
 bool FalconLine::send(FalconWire& wire, FalconCommand command, std::int64_t now_ns) noexcept {
   if (doubt_ || held_.load(kRelaxed)) command.torque = {};
@@ -124,7 +143,7 @@ void FalconLine::turn_asking(FalconWire& wire, std::int64_t now_ns) noexcept {
     if (send(wire, kQuestion, now_ns)) ++questions_;
     return;
   }
-  if (firmware_.empty()) return enter(FalconPhase::no_firmware);
+  if (loads_->empty()) return enter(FalconPhase::no_firmware);
   if (attempts_ >= options_.attempts) return enter(FalconPhase::not_loaded);
   upload(now_ns);
 }
@@ -157,14 +176,14 @@ void FalconLine::turn_running(FalconWire& wire, std::int64_t now_ns) noexcept {
     return;
   }
   take_order(now_ns);
-  if (in_flight_ && now_ns - sent_ns_ >= in_ns(options_.answer_s)) {
-    in_flight_ = false;
-    doubt_ = true;
-    count_one(lost_);
-  }
+  const auto too_long = [&](std::int64_t since_ns) { return now_ns - since_ns >= in_ns(options_.answer_s); };
+  if ((in_flight_ && too_long(sent_ns_)) || (blocked_ns_ != 0 && too_long(blocked_ns_))) not_answered();
   const bool withdraw = doubt_ && pushing_;
   if (in_flight_ || !(fresh_ || withdraw)) return;
-  if (send(wire, wanted_, now_ns)) fresh_ = false;
+  if (send(wire, wanted_, now_ns))
+    fresh_ = false, blocked_ns_ = 0;
+  else if (blocked_ns_ == 0)
+    blocked_ns_ = now_ns;
 }
 
 void FalconLine::turn(FalconWire& wire, std::int64_t now_ns) noexcept {
@@ -204,8 +223,7 @@ std::string FalconLine::failed_step() const {
   const std::size_t step = (packed >> 24) - 1, piece = (packed >> 8) & 0xffffu;
   std::string text = FalconScript::name(step);
   if (text == "the firmware")
-    text += ", piece " + std::to_string(piece + 1) + " of " +
-            std::to_string((firmware_.size() + FalconScript::kPiece - 1) / FalconScript::kPiece);
+    text += ", piece " + std::to_string(piece + 1) + " of " + std::to_string(pieces_.load(kRelaxed));
   switch (static_cast<FalconWhy>(packed & 0xffu)) {
     case FalconWhy::none:
       break;

@@ -2,9 +2,11 @@
 // sends the newest command and hands over the newest answer. A transport calls the functions of its thread; the servo
 // posts and takes. The two share mailboxes and atomics; neither waits. Times are given, so tests can make them.
 //
-// The device answers each command once, and there is one in flight at a time. The next command goes out
-//   without any torque     when no answer has come for answer_s, when what came was no packet, after hold(), and when
-//                          the servo has posted nothing for servo_gone_s
+// The device answers each command once, and there is one in flight at a time. Whether an answer is missing is judged
+// here, after everything that had come was read, so that a servo or a link that slept is not taken for a silent device.
+// The next command goes out
+//   without any torque     when no answer has come for answer_s, when none could be sent for so long, when what came
+//                          was no packet, after hold(), and when the servo has posted nothing for servo_gone_s
 //   at once                after hold()
 #pragma once
 
@@ -39,7 +41,7 @@ enum class FalconPhase : std::uint8_t {
 };
 
 struct FalconLineOptions {
-  double answer_s = 4e-3;       ///< longest time for an answer
+  double answer_s = 3e-3;       ///< longest time for an answer
   double question_s = 0.1;      ///< for an answer to whether its firmware runs, three times
   double servo_gone_s = 20e-3;  ///< without a command for this long there is no torque
   int attempts = 5;             ///< to upload the firmware
@@ -50,7 +52,8 @@ class FalconLine {
   FalconLine(const FalconLineOptions& options, std::vector<std::uint8_t> firmware);
 
   // Transport's thread.
-  void opened(std::int64_t now_ns) noexcept;
+  /// `firmware`: of this device, which must outlive the connection; null: the one that was given at first.
+  void opened(std::int64_t now_ns, const std::vector<std::uint8_t>* firmware = nullptr) noexcept;
   void closed() noexcept;
   void packet(std::span<const std::uint8_t> bytes, std::int64_t now_ns) noexcept;  ///< as it came, with its status
   void control_done(bool good, std::int64_t now_ns) noexcept { script_.control_done(good, now_ns); }
@@ -70,6 +73,10 @@ class FalconLine {
   std::uint32_t connection() const noexcept { return connection_.load(std::memory_order_acquire); }  ///< odd: connected
   FalconPhase phase() const noexcept { return phase_.load(std::memory_order_acquire); }
   /// Packets' worth of bytes that were none since the last good answer.
+  /// Commands in a row that were not answered in time, or could not be sent.
+  std::uint32_t unanswered() const noexcept { return unanswered_.load(kRelaxed); }
+  /// It sends no torque, whatever is posted, until an answer comes.
+  bool withholds() const noexcept { return withholds_.load(kRelaxed); }
   std::uint32_t garbage() const noexcept { return garbage_.load(kRelaxed); }
   std::uint64_t answers() const noexcept { return answers_.load(kRelaxed); }
   std::uint64_t lost() const noexcept { return lost_.load(kRelaxed); }  ///< commands without an answer in time
@@ -90,26 +97,30 @@ class FalconLine {
   void take_answer(const FalconPacket& packet, std::int64_t now_ns) noexcept;
   void take_order(std::int64_t now_ns) noexcept;
   bool send(FalconWire& wire, FalconCommand command, std::int64_t now_ns) noexcept;
+  void not_answered() noexcept;
+  void set_doubt(bool doubt) noexcept;
   void enter(FalconPhase phase) noexcept { phase_.store(phase, std::memory_order_release); }
 
   const FalconLineOptions options_;
   const std::vector<std::uint8_t> firmware_;
   Mailbox<FalconOrder> orders_;
   Mailbox<FalconHeard> heard_;
-  std::atomic<std::uint32_t> connection_{0}, garbage_{0};
+  std::atomic<std::uint32_t> connection_{0}, garbage_{0}, unanswered_{0};
   std::atomic<FalconPhase> phase_{FalconPhase::asking};
-  std::atomic<bool> held_{false}, stop_now_{false}, ending_{false}, again_{false};
+  std::atomic<bool> held_{false}, stop_now_{false}, ending_{false}, again_{false}, withholds_{false};
   std::atomic<std::uint64_t> answers_{0}, lost_{0}, skipped_{0}, uploads_{0};
   std::atomic<std::uint32_t> failed_at_{0};  ///< step, piece and cause, packed; 0: none
+  std::atomic<std::size_t> pieces_{0};       ///< of the firmware of this connection
 
   // Transport's thread.
+  const std::vector<std::uint8_t>* loads_ = &firmware_;  ///< on this connection
   FalconScript script_;
   FalconParser parser_;
   FalconPacket asked_{};
   FalconCommand wanted_;
   int questions_ = 0, attempts_ = 0, refusals_ = 0;
   bool fresh_ = false, in_flight_ = false, doubt_ = false, pushing_ = false, ended_ = false;
-  std::int64_t sent_ns_ = 0, wanted_ns_ = 0, answered_ns_ = 0;
+  std::int64_t sent_ns_ = 0, wanted_ns_ = 0, answered_ns_ = 0, blocked_ns_ = 0;  ///< blocked: since when; 0: not
 };
 
 }  // namespace tangent

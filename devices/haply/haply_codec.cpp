@@ -115,13 +115,11 @@ bool read_device(const HaplyJson& entry, const std::vector<HaplyEntry>& before, 
   return true;
 }
 
-bool read_buttons(const HaplyJson& grip, std::uint32_t& out) {
-  const HaplyJson* state = at(grip, "state");
-  if (state == nullptr) return true;
+bool read_buttons(const HaplyJson& state, std::uint32_t& out) {
   bool pressed = false;
-  if (!read_flag(*state, "button", pressed)) return false;
+  if (!read_flag(state, "button", pressed)) return false;
   out = pressed ? 1u : 0u;
-  const HaplyJson* buttons = at(*state, "buttons");
+  const HaplyJson* buttons = at(state, "buttons");
   for (unsigned i = 0; buttons != nullptr && i < 3; ++i) {
     const char name[2] = {static_cast<char>('a' + i), '\0'};
     pressed = false;
@@ -131,18 +129,34 @@ bool read_buttons(const HaplyJson& grip, std::uint32_t& out) {
   return true;
 }
 
-bool read_grips(const HaplyJson& root, std::uint32_t& buttons) {
-  std::size_t grips = 0;
+/// A grip that is asleep may say anything, and nobody may need it: that it lies is noted, the message is good.
+void read_turn(const HaplyJson& state, HaplyGrip& out) {
+  constexpr double kUnit = 0.02;  // of its square; the published examples are within 0.0001
+  const HaplyJson* said = at(state, "orientation");
+  if (said == nullptr) return;
+  Quat q(1.0, 0.0, 0.0, 0.0);
+  const bool numbers = read_number(*said, "w", q.w) && read_number(*said, "x", q.x) && read_number(*said, "y", q.y) &&
+                       read_number(*said, "z", q.z);
+  const double square = q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z;
+  out.lies = !numbers || !(std::abs(square - 1.0) < kUnit);
+  out.turned = !out.lies;
+  if (out.turned) out.orientation = q * (1.0 / std::sqrt(square));
+}
+
+bool read_grips(const HaplyJson& root, HaplyMessage& out) {
   for (const char* kind : {"verse_grip", "wireless_verse_grip"}) {
     const HaplyJson* list = at(root, kind);
     if (list == nullptr) continue;
     if (!list->is_array()) return false;
     for (const HaplyJson& grip : *list) {
-      if (!read_buttons(grip, buttons)) return false;
-      ++grips;
+      ++out.grips;
+      const HaplyJson* state = at(grip, "state");
+      if (state == nullptr) continue;
+      if (!read_buttons(*state, out.grip.buttons)) return false;
+      read_turn(*state, out.grip);
     }
   }
-  if (grips > 1) buttons = 0;  // which one is in the hand?
+  if (out.grips > 1) out.grip = {};
   return true;
 }
 
@@ -154,7 +168,29 @@ bool read_root(const HaplyJson& root, const std::vector<HaplyEntry>& before, Hap
   for (std::size_t i = 0; list != nullptr && i < list->size(); ++i) {
     if (!read_device((*list)[i], before, out.devices.emplace_back())) return false;
   }
-  return read_grips(root, out.buttons);
+  return read_grips(root, out);
+}
+
+/// A text of the service's that is shown to people: no control characters, nothing endless.
+std::string shown(const std::string& text) {
+  constexpr std::size_t kLongest = 200;
+  std::string out = text.substr(0, kLongest);
+  for (char& c : out)
+    if (c < ' ' || c > '~') c = '?';
+  return out;
+}
+
+const std::string* text_at(const HaplyJson& object, const char* key) {
+  const HaplyJson* value = at(object, key);
+  return value == nullptr || !value->is_string() ? nullptr : &value->get_ref<const std::string&>();
+}
+
+bool read_level(const std::string& name, HaplyEvent::Level& out) {
+  constexpr std::array kLevels{"info", "notice", "warning", "error", "critical", "panic"};
+  const auto* const found = std::find(kLevels.begin(), kLevels.end(), name);
+  if (found == kLevels.end()) return false;
+  out = static_cast<HaplyEvent::Level>(found - kLevels.begin());
+  return true;
 }
 
 void append_number(std::string& out, const char* key, double value) {
@@ -178,6 +214,19 @@ bool read_haply(std::string_view text, const std::vector<HaplyEntry>& before, Ha
   if (text.size() > kHaplyLargestMessage || too_deep(text)) return false;
   const HaplyJson root = HaplyJson::parse(text.begin(), text.end(), nullptr, false);
   return !root.is_discarded() && read_root(root, before, out);
+}
+
+bool read_haply_event(std::string_view text, HaplyEvent& out) {
+  out = {};
+  if (text.size() > kHaplyLargestMessage || too_deep(text)) return false;
+  const HaplyJson root = HaplyJson::parse(text.begin(), text.end(), nullptr, false);
+  const std::string *name = text_at(root, "name"), *level = text_at(root, "level"), *said = text_at(root, "message");
+  if (name == nullptr || level == nullptr || !read_level(*level, out.level)) return false;
+  if (const HaplyJson* data = at(root, "data"); data != nullptr) {
+    if (const std::string* id = text_at(*data, "device_id"); id != nullptr && is_haply_id(*id)) out.device = *id;
+  }
+  out.text = shown(said == nullptr || said->empty() ? *name : *name + ": " + *said);
+  return true;
 }
 
 void write_haply_force(std::string& out, std::string_view id, const Vec3& force_n, bool vector) {

@@ -31,10 +31,26 @@ struct HaplyEntry {
   HaplyProblem problem = HaplyProblem::none;  ///< of what is said of this one: not_understood or position
 };
 
+/// The only VerseGrip, wired or not; several: which one is in the hand? Then none.
+struct HaplyGrip {
+  bool turned = false, lies = false;     ///< it says how it is turned; what it says is no rotation
+  Quat orientation{1.0, 0.0, 0.0, 0.0};  ///< unit; grip's axes -> Haply's. Its y is where it points
+  std::uint32_t buttons = 0;             ///< bit per button
+};
+
 struct HaplyMessage {
   bool has_session = false;         ///< a session_id, as the first message of 3.5 has
   std::vector<HaplyEntry> devices;  ///< every Inverse3
-  std::uint32_t buttons = 0;        ///< of the only VerseGrip, wired or not: bit per button; several: none
+  std::size_t grips = 0;            ///< listed
+  HaplyGrip grip;                   ///< where there is one
+};
+
+/// What the service reports by itself, over the events' port (its pages "Events & Monitoring").
+struct HaplyEvent {
+  enum class Level : std::uint8_t { info, notice, warning, error, critical, panic };
+  Level level = Level::info;
+  std::string device;  ///< id of the one that it is about; empty: of none
+  std::string text;    ///< "device-safety-triggered: FOD stage changed"; printable ASCII, 200 characters at most
 };
 
 inline constexpr std::size_t kHaplyLargestMessage = 256 * 1024;
@@ -46,6 +62,9 @@ inline constexpr double kHaplyFastest_m_per_s = 20.0;
 /// `before`: statuses by device, as the last message left them; may be empty. False on what is not as documented; what
 /// is wrong with one device alone is its own `problem`. Does not throw.
 bool read_haply(std::string_view text, const std::vector<HaplyEntry>& before, HaplyMessage& out);
+
+/// False on what is not as documented, a level that is not known included. Does not throw.
+bool read_haply_event(std::string_view text, HaplyEvent& out);
 
 /// An id that can be written into a message as it is: letters, digits, - _ . and 64 at most.
 bool is_haply_id(std::string_view id);

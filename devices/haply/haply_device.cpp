@@ -13,7 +13,8 @@ namespace tangent {
 namespace {
 
 constexpr auto kLax = std::memory_order_relaxed;
-constexpr int kMostOwed = 8;  // answers, before not even zero force is sent out of turn
+constexpr int kMostOwed = 8;       // answers, before not even zero force is sent out of turn
+constexpr int kMostUnasked = 100;  // one message, one reply: a few may be a misunderstanding of ours
 constexpr std::int64_t kAskListEvery_ns = 500'000'000, kKeepAliveEvery_ns = 4'000'000;
 
 std::int64_t ns_of(double seconds) { return static_cast<std::int64_t>(seconds * 1e9); }
@@ -63,7 +64,8 @@ Status HaplyForceDevice::open() {
                                       .other_host = options_.other_host,
                                       .connect_s = options_.connect_s,
                                       .retry_s = options_.retry_s,
-                                      .largest_message = kHaplyLargestMessage});
+                                      .largest_message = kHaplyLargestMessage,
+                                      .realtime = options_.realtime});
   if (!started) return started;
   const std::int64_t give_up = haply_now_ns() + ns_of(3.0 * options_.connect_s);
   while (opening_ == Opening::waits && haply_now_ns() < give_up)
@@ -77,6 +79,8 @@ Status HaplyForceDevice::open() {
     return tl::unexpected(haply_error(problem, where, came_to == Opening::closed ? closed_text_ : listed_text_));
   }
   if (capabilities_.serial != id_) capabilities_.serial = id_;
+  capabilities_.senses_rotation.fill(grip_used_);
+  listen_for_events(*address);
   opened_ = true;
   return {};
 }
@@ -84,6 +88,20 @@ Status HaplyForceDevice::open() {
 void HaplyForceDevice::close() {
   opened_ = false;
   link_.stop();
+  events_.stop();
+}
+
+/// Without them everything works; that they are not heard is said in the report.
+void HaplyForceDevice::listen_for_events(const HaplyAddress& service) {
+  seen_alarms_ = events_.alarms();
+  if (options_.events_port == 0) return;
+  static_cast<void>(events_.start({.address = {.host = service.host, .port = std::to_string(options_.events_port)},
+                                   .other_host = options_.other_host,
+                                   .connect_s = options_.connect_s,
+                                   .retry_s = 4.0 * options_.retry_s,
+                                   .largest_message = kHaplyLargestMessage,
+                                   .thread = "haply-events"},
+                                  id_));
 }
 
 // --- Link's thread: in ---------------------------------------------------------------------------------
@@ -91,7 +109,8 @@ void HaplyForceDevice::close() {
 void HaplyForceDevice::on_open() noexcept {
   known_.clear();
   listed_ = unheard_ = pending_ = pushes_ = false;
-  owed_ = 0;
+  owed_ = unasked_ = 0;
+  orientation_ = Quat(1.0, 0.0, 0.0, 0.0);
   order_ = {};
   orders_.take(order_);  // for the connection before
   order_ = {};
@@ -128,7 +147,23 @@ void HaplyForceDevice::note_bad(HaplyProblem problem) noexcept {
 
 void HaplyForceDevice::measure_round_trip() noexcept {
   if (owed_ == 1) round_trip_us_.add(static_cast<std::uint64_t>((haply_now_ns() - sent_at_ns_) / 1000));
-  if (owed_ > 0) --owed_;
+  if (owed_ > 0)
+    --owed_;
+  else if (listed_)
+    count_unasked();
+}
+
+void HaplyForceDevice::count_unasked() {
+  if (++unasked_ != kMostUnasked) return;
+  note_bad(HaplyProblem::unasked);
+  link_.reconnect();
+}
+
+/// The finger points where the grip does, along its y, with the same side up; a message may leave the turn out.
+void HaplyForceDevice::take_grip() {
+  const double half = std::sqrt(0.5);
+  const Quat finger_in_grip(half, 0.0, 0.0, half);
+  if (message_.grip.turned) orientation_ = glm::normalize(message_.grip.orientation * finger_in_grip);
 }
 
 void HaplyForceDevice::take_state(const HaplyEntry& device, bool first) {
@@ -136,12 +171,15 @@ void HaplyForceDevice::take_state(const HaplyEntry& device, bool first) {
   if (listing_ == HaplyProblem::in_use) return;
   if (device.problem != HaplyProblem::none) return note_bad(device.problem);
   if (!device.own_axes) return note_bad(HaplyProblem::other_frame);
+  if (grip_used_ && (message_.grips != 1 || message_.grip.lies)) return note_bad(HaplyProblem::grip);
+  if (grip_used_) take_grip();
   heard_.put({.position_m = device.position_m,
               .velocity_m_per_s = device.velocity_m_per_s,
+              .orientation = orientation_,
               .has_velocity = device.has_velocity,
               .usable = device.status.usable(),
               .calibrated = device.status.calibrated,
-              .buttons = message_.buttons,
+              .buttons = message_.grip.buttons,
               .connection = connection_.load(kLax),
               .at_ns = options_.clock()});
 }
@@ -153,6 +191,7 @@ void HaplyForceDevice::on_message(std::string_view text) noexcept {
     note_bad(HaplyProblem::not_understood);
   } else {
     if (first) vector_ = message_.has_session;
+    if (opening_ == Opening::waits) grip_used_ = message_.grips == 1 && message_.grip.turned;
     if (const HaplyEntry* ours = find_ours(); ours != nullptr)
       take_state(*ours, first || listing_ == HaplyProblem::in_use);
     known_ = message_.devices;
@@ -206,8 +245,9 @@ bool HaplyForceDevice::next(std::string& out) noexcept {
   // From before it knew of what has happened since.
   const bool outdated = order_.stops != stops || order_.bad != bad || order_.connection != connection_.load(kLax);
   if (stalled || outdated || listing_ != HaplyProblem::none) order_.force_n = Vec3(0.0);
+  // What was sent last has no force: nothing is urgent, and a service that keeps lying is not asked again at once.
   const bool must_stop = stops != stops_sent_ || bad != bad_sent_;
-  const bool at_once = must_stop || (pushes_ && order_.force_n == Vec3(0.0));
+  const bool at_once = pushes_ && (must_stop || order_.force_n == Vec3(0.0));
   if (owed_ >= kMostOwed || (owed_ > 0 && !at_once)) return false;
   const bool keeps_alive = stalled && now - sent_at_ns_ > kKeepAliveEvery_ns;
   if (!at_once && !pending_ && !keeps_alive) return false;
@@ -242,6 +282,10 @@ void HaplyForceDevice::follow_connection() noexcept {
   if (const std::uint32_t bad = bad_.load(std::memory_order_acquire); bad != seen_bad_) {
     seen_bad_ = bad;
     fail_by(static_cast<HaplyProblem>(bad & 0xffu));
+  }
+  if (const std::uint32_t alarms = events_.alarms(); alarms != seen_alarms_) {
+    seen_alarms_ = alarms;
+    fail_by(HaplyProblem::alarm);
   }
   if (const std::uint32_t stops = stops_.load(std::memory_order_acquire); stops != seen_stops_) {
     seen_stops_ = stops;
@@ -306,6 +350,7 @@ ForceSample HaplyForceDevice::exchange(const ForceCommand& command, double dt_s)
     sample.position_m = newest_.position_m - options_.centre_m;
     if (newest_.has_velocity) sample.velocity_m_per_s = newest_.velocity_m_per_s;
     sample.age_s = static_cast<double>(options_.clock() - newest_.at_ns) * 1e-9;
+    sample.orientation = newest_.orientation;
     sample.buttons = newest_.buttons;
   }
   orders_.put({sample.force_n, seen_stops_, seen_bad_, seen_connection_});
@@ -321,12 +366,22 @@ bool HaplyForceDevice::emergency_stop() noexcept {
   return true;
 }
 
+/// Behind what it is: the grip, and what the service warns of.
+std::string HaplyForceDevice::details() const {
+  std::string text = capabilities_.rotations_sensed() > 0 ? ", turned by its VerseGrip" : "";
+  if (options_.events_port == 0) return text;
+  if (!events_.heard()) text += "; events are not heard on port " + std::to_string(options_.events_port);
+  const std::string event = events_.newest();
+  return event.empty() ? text : text + "; its service warned: " + event;
+}
+
 bool HaplyForceDevice::report(LinkReport& out) const {
   out.connected = connection_.load(kLax) % 2 == 1;
   const HaplyProblem listing = listing_.load(kLax), fault = fault_by_.load(kLax);
-  if (out.connected && listing == HaplyProblem::none) out.identity = "device " + capabilities_.serial;
+  if (out.connected && listing == HaplyProblem::none) out.identity = "device " + capabilities_.serial + details();
   const HaplyProblem problem = !out.connected ? closed_by_.load(kLax) : listing != HaplyProblem::none ? listing : fault;
-  if (problem != HaplyProblem::none) out.problem = haply_error(problem, capabilities_.name).message();
+  const std::string detail = problem == HaplyProblem::alarm ? events_.newest() : std::string();
+  if (problem != HaplyProblem::none) out.problem = haply_error(problem, capabilities_.name, detail).message();
   out.rate_hz = capabilities_.rate_hz;
   out.packets_in = out.frames = in_.load(kLax);
   out.packets_out = out_.load(kLax);

@@ -10,9 +10,13 @@
 // connection, which takes its calibration (a person puts it into its inkwell); a fault stays until it is cleared; and
 // it is absent while the service does not list it.
 //
+// The orientation is that of the VerseGrip, where the service lists one when the device is opened; a finger points
+// where the grip does.
+//
 // Zero force: when two exchanges in a row found no new answer, in the exchange after a message that is not understood
-// or a position where no Inverse3 can be, after the connection ended, after emergency_stop, and by the link's thread
-// when no exchange came for our_stall_s.
+// or a position where no Inverse3 can be, without the VerseGrip that gave the orientation, after an event that reports
+// an error, after the connection ended, after emergency_stop, and by the link's thread when no exchange came for
+// our_stall_s.
 #pragma once
 
 #include "devices/base/log_histogram.h"
@@ -20,6 +24,7 @@
 #include "devices/force_device.h"
 #include "devices/gate/freshness.h"
 #include "devices/haply/haply_codec.h"
+#include "devices/haply/haply_events.h"
 #include "devices/haply/haply_link.h"
 #include "devices/haply/haply_options.h"
 
@@ -34,6 +39,7 @@ class HaplyForceDevice final : public ForceDevice, private HaplyLinkHandler {
   explicit HaplyForceDevice(const HaplyOptions& options = {});
   ~HaplyForceDevice() override { close(); }
 
+  /// Constant from open on: only then it is known whether there is a VerseGrip.
   const ForceCapabilities& capabilities() const override { return capabilities_; }
   /// Connects and waits for the list of devices, three times connect_s at most. Fails when the service does not
   /// answer, lists no Inverse3, or several of which none was chosen (the error lists them), or another program's.
@@ -51,11 +57,16 @@ class HaplyForceDevice final : public ForceDevice, private HaplyLinkHandler {
   };
   struct Heard {
     Vec3 position_m{0.0}, velocity_m_per_s{0.0};
+    Quat orientation{1.0, 0.0, 0.0, 0.0};
     bool has_velocity = false, usable = false, calibrated = false;
     std::uint32_t buttons = 0, connection = 0;
     std::int64_t at_ns = 0;
   };
   enum class Opening : std::uint8_t { waits, listed, closed };
+
+  void listen_for_events(const HaplyAddress& service);
+
+  std::string details() const;
 
   // Link's thread.
   void on_open() noexcept override;
@@ -65,6 +76,8 @@ class HaplyForceDevice final : public ForceDevice, private HaplyLinkHandler {
   void on_closed(HaplyProblem why, const std::string& detail) noexcept override;
   const HaplyEntry* find_ours();
   void take_state(const HaplyEntry& device, bool first);
+  void take_grip();
+  void count_unasked();
   void note_bad(HaplyProblem problem) noexcept;
   void measure_round_trip() noexcept;
   void put_force(std::string& out, const Vec3& force_n) noexcept;
@@ -79,6 +92,7 @@ class HaplyForceDevice final : public ForceDevice, private HaplyLinkHandler {
   HaplyOptions options_;
   ForceCapabilities capabilities_;
   HaplyLink link_;
+  HaplyEvents events_;
   Mailbox<Order> orders_;  ///< servo to link
   Mailbox<Heard> heard_;   ///< link to servo
 
@@ -95,12 +109,15 @@ class HaplyForceDevice final : public ForceDevice, private HaplyLinkHandler {
   std::atomic<HaplyProblem> fault_by_{HaplyProblem::none};
   std::atomic<std::uint64_t> quiet_exchanges_{0};
 
-  // Link's thread; `id_`, `listed_text_` and `closed_text_` are read by open as well, after what it waits for.
+  // Link's thread; `id_`, `grip_used_` and the texts are read by open as well, after what it waits for.
   std::string id_, listed_text_, closed_text_;
   HaplyMessage message_;
   std::vector<HaplyEntry> known_;
   bool listed_ = false, unheard_ = false, vector_ = true, pending_ = false, pushes_ = false;
-  int owed_ = 0;  ///< answers
+  bool grip_used_ = false;
+  Quat orientation_{1.0, 0.0, 0.0, 0.0};
+  int owed_ = 0;     ///< answers
+  int unasked_ = 0;  ///< answers to nothing, in this connection
   Order order_;
   std::uint32_t stops_sent_ = 0, bad_sent_ = 0;
   std::int64_t order_at_ns_ = 0, sent_at_ns_ = 0;
@@ -109,7 +126,7 @@ class HaplyForceDevice final : public ForceDevice, private HaplyLinkHandler {
   bool opened_ = false, fresh_ = false;
   DeviceStateMachine machine_;
   Heard newest_;
-  std::uint32_t seen_connection_ = 0, seen_bad_ = 0, seen_stops_ = 0;
+  std::uint32_t seen_connection_ = 0, seen_bad_ = 0, seen_stops_ = 0, seen_alarms_ = 0;
   int quiet_ = 0;
   double quiet_s_ = 0.0;
   LatenessWatch late_;

@@ -1,6 +1,8 @@
 // The WebSocket, by Boost.Beast: the only source that includes it, and compiled by itself.
 #include "devices/haply/haply_link.h"
 
+#include "devices/base/realtime_thread.h"
+
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/posix/stream_descriptor.hpp>
@@ -239,7 +241,8 @@ void HaplyLink::Impl::listen_for_turn() {
 }
 
 void HaplyLink::Impl::run() noexcept {
-  pthread_setname_np(pthread_self(), "tangent-haply");
+  pthread_setname_np(pthread_self(), options.thread);
+  if (options.realtime) ask_for_realtime(kLinkPriority);  // refused: it runs with more jitter
   try {
     listen_for_bell();
     listen_for_turn();

@@ -32,6 +32,8 @@ struct HaplyLinkOptions {
   bool other_host = false;  ///< else an address that a name stands for must be this machine's, too
   double connect_s = 1.0, retry_s = 0.5;
   std::size_t largest_message = 0;
+  bool realtime = false;                 ///< its thread asks for SCHED_FIFO
+  const char* thread = "tangent-haply";  ///< its name, 15 characters at most
 };
 
 bool haply_built_in();

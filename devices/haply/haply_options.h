@@ -15,10 +15,12 @@ struct HaplyOptions {
   std::string address = "ws://localhost:10001";  ///< of Haply's Inverse Service
   bool other_host = false;                       ///< whether it may be on another machine
   std::string device = {};                       ///< device_id, as "049D"; empty: the only one there is
+  int events_port = 10020;  ///< of the same host, where the service reports events; 0: they are not heard
   /// No more is sent. Haply's pages state no peak force: this is a careful limit of ours.
   double peak_force_n = 3.0;
   /// Centre of the workspace in Haply's axes, from the base: where the cursor is in Haply's published example.
   Vec3 centre_m{0.0, -0.12, 0.15};
+  bool realtime = true;        ///< the link's thread asks for SCHED_FIFO
   double connect_s = 1.0;      ///< for each step of connecting: the socket, the WebSocket, the list of devices
   double retry_s = 0.5;        ///< until it connects again
   double silence_s = 0.1;      ///< ticks' time without an answer: fault `disconnected`, and a new connection

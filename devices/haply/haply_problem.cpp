@@ -30,6 +30,14 @@ Error haply_error(HaplyProblem problem, const std::string& where, const std::str
     case HaplyProblem::not_understood:
       return {"the Inverse Service sent what is no state message" + note, where,
               "use version 3.1 to 3.5 of it, on the port of the 3.x format (10001)"};
+    case HaplyProblem::unasked:
+      return {"the Inverse Service sends states that nobody asked for", where,
+              "use version 3.1 to 3.5 of it, on the port of the 3.x format (10001)"};
+    case HaplyProblem::grip:
+      return {"its VerseGrip no longer says how it is turned", where,
+              "press a button of it, or plug it in; to go on without one, open the Inverse3 again"};
+    case HaplyProblem::alarm:
+      return {"the Inverse Service reports an error" + note, where, "see Haply Hub, then arm again"};
     case HaplyProblem::position:
       return {"the Inverse3 says it is where it can't be" + note, where, "calibrate it, in its inkwell"};
     case HaplyProblem::no_device:
@@ -57,9 +65,12 @@ DeviceFault fault_of(HaplyProblem problem) noexcept {
   switch (problem) {
     case HaplyProblem::not_understood:
     case HaplyProblem::other_frame:
+    case HaplyProblem::unasked:
       return DeviceFault::firmware;
     case HaplyProblem::position:
+    case HaplyProblem::grip:
       return DeviceFault::sensor;
+    case HaplyProblem::alarm:
     case HaplyProblem::not_started:
     case HaplyProblem::in_use:
       return DeviceFault::actuator;

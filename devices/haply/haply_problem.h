@@ -29,6 +29,9 @@ enum class HaplyProblem : std::uint8_t {
   not_started,   ///< no power, or not ready
   bad_command,   ///< a force that is not finite
   slow,          ///< too many answers came late
+  unasked,       ///< it sends states that nobody asked for, again and again
+  grip,          ///< of the VerseGrip that gave the orientation none comes any more, or none that is a rotation
+  alarm,         ///< the service reports an error of the device
 };
 
 /// `detail`: what was listed, or what the system says.

@@ -17,6 +17,7 @@ void HaplyLink::wake() noexcept {}
 void HaplyLink::reconnect() noexcept {}
 
 bool read_haply(std::string_view, const std::vector<HaplyEntry>&, HaplyMessage&) { return false; }
+bool read_haply_event(std::string_view, HaplyEvent&) { return false; }
 bool is_haply_id(std::string_view) { return false; }
 void write_haply_force(std::string&, std::string_view, const Vec3&, bool) {}
 

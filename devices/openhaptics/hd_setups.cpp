@@ -33,6 +33,15 @@ std::vector<std::string> set_up_devices(const HdOptions& options) {
   return names;
 }
 
+Result<std::vector<std::string>> find_set_up(const HdOptions& options) {
+  if (const auto api = load(options.library); !api) return tl::unexpected(api.error());
+  std::vector<std::string> names = set_up_devices(options);
+  if (names.empty())
+    return fail("its library is there, and no device is set up", "OpenHaptics",
+                "set one up with the maker's program (Touch_Setup), or name it by --hd-device");
+  return names;
+}
+
 Status check_choice(const HdOptions& options) {
   const std::vector<std::string> names = set_up_devices(options);
   if (!options.device.empty() || names.size() < 2) return {};

@@ -17,6 +17,10 @@ namespace tangent::hd {
 /// Names of the files in the first of the folders that exists; sorted. Empty when there is none.
 std::vector<std::string> set_up_devices(const HdOptions& options);
 
+/// The same, where the library is installed: it is loaded, and nothing is opened. Fails without it, or when nothing is
+/// set up.
+Result<std::vector<std::string>> find_set_up(const HdOptions& options);
+
 /// Fails, and lists them, when two or more are set up and none was chosen.
 Status check_choice(const HdOptions& options);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace tangent {
 
@@ -30,6 +31,8 @@ const char* to_string(SerialTrouble trouble) {
       return "its clock ran backwards: it was reset, perhaps";
     case SerialTrouble::time_ahead:
       return "its clock leapt ahead";
+    case SerialTrouble::time_slow:
+      return "its clock is slow by more than 500 ppm (no crystal?), or its positions wait on the line";
     case SerialTrouble::flood:
       return "it floods the line";
     case SerialTrouble::deaf:
@@ -67,7 +70,15 @@ SerialTrouble SampleClock::add(std::uint32_t time_us, std::int64_t arrived_ns) n
   const std::int64_t offset_ns = arrived_ns - device_ns_;
   if (offset_ns < offset_ns_ - kAhead_ns) return SerialTrouble::time_ahead;
   offset_ns_ = std::min(offset_ns_ + moved_ns / kDrift, offset_ns);
-  return SerialTrouble::none;
+  return is_slow(offset_ns - offset_ns_, moved_ns) ? SerialTrouble::time_slow : SerialTrouble::none;
+}
+
+bool SampleClock::is_slow(std::int64_t late_ns, std::int64_t moved_ns) noexcept {
+  least_late_ns_ = std::min(least_late_ns_, late_ns);
+  in_window_ns_ += moved_ns;
+  if (in_window_ns_ < kWindow_ns) return false;
+  in_window_ns_ = 0;
+  return std::exchange(least_late_ns_, kWindow_ns) > kSlow_ns;
 }
 
 SerialTrouble read_sample(const ForceTelemetry& t, const ForceInfo& info, SerialSample& out) noexcept {

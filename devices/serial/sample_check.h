@@ -18,6 +18,7 @@ enum class SerialTrouble : std::uint8_t {
   time_stood,    ///< two samples of the same time
   time_backwards,
   time_ahead,    ///< a sample that was measured after it came
+  time_slow,     ///< its clock is slow by more than 500 ppm, or every sample of a second waited
   flood,         ///< far more bytes than its telemetry makes
   deaf,          ///< takes no commands, or does not hear them
   silent,        ///< no sample for too long
@@ -33,19 +34,26 @@ const char* to_string(SerialTrouble trouble);
 
 /// When samples were measured, on the host's clock, by the device's own time stamps: their delay varies, the smallest
 /// one is taken for none. So a sample that waited on its way is as old as it is; what every sample waits at least
-/// remains unknown. The two clocks may differ by 500 ppm.
+/// remains unknown. The two clocks may differ by 500 ppm; where the device's is slower, samples would seem older and
+/// older, and that is said.
 class SampleClock {
  public:
-  /// none, time_stood, time_backwards or time_ahead. `arrived_ns`: on the host's clock.
+  static constexpr std::int64_t kWindow_ns = 1'000'000'000;  ///< of the device's clock
+  static constexpr std::int64_t kSlow_ns = 1'000'000;        ///< that every sample of a window was late
+
+  /// none, time_stood, time_backwards, time_ahead or time_slow. `arrived_ns`: on the host's clock.
   SerialTrouble add(std::uint32_t time_us, std::int64_t arrived_ns) noexcept;
   std::int64_t measured_ns() const noexcept { return device_ns_ + offset_ns_; }
   void restart() noexcept { *this = {}; }
 
  private:
+  bool is_slow(std::int64_t late_ns, std::int64_t moved_ns) noexcept;
+
   bool known_ = false;
   std::uint32_t last_us_ = 0;
-  std::int64_t device_ns_ = 0;  ///< its clock, unwrapped
-  std::int64_t offset_ns_ = 0;  ///< host's clock less the device's, smallest seen
+  std::int64_t device_ns_ = 0;                                  ///< its clock, unwrapped
+  std::int64_t offset_ns_ = 0;                                  ///< host's clock less the device's, smallest seen
+  std::int64_t in_window_ns_ = 0, least_late_ns_ = kWindow_ns;  ///< of the samples since the window began
 };
 
 /// In SI units, in the device's frame.

@@ -20,22 +20,6 @@ constexpr auto kRelaxed = std::memory_order_relaxed;
 constexpr double kFreshPeriods = 2.5;       // of samples: the next two ticks' force is zero once they are missing
 constexpr double kReturn_n_per_s = 2000.0;  // the gate's slew rate
 
-DeviceFault fault_of(CldDeviceFault fault) {
-  switch (fault) {
-    case CldDeviceFault::watchdog:
-      return DeviceFault::watchdog;
-    case CldDeviceFault::encoder:
-      return DeviceFault::sensor;
-    case CldDeviceFault::bad_command:
-      return DeviceFault::bad_command;
-    case CldDeviceFault::none:
-    case CldDeviceFault::overcurrent:
-    case CldDeviceFault::homing_failed:
-      break;
-  }
-  return DeviceFault::actuator;
-}
-
 DeviceFault fault_of(SerialTrouble trouble) {
   switch (trouble) {
     case SerialTrouble::not_measured:
@@ -44,6 +28,7 @@ DeviceFault fault_of(SerialTrouble trouble) {
     case SerialTrouble::time_stood:
     case SerialTrouble::time_backwards:
     case SerialTrouble::time_ahead:
+    case SerialTrouble::time_slow:
       return DeviceFault::sensor;
     case SerialTrouble::deaf:
     case SerialTrouble::silent:

@@ -1,4 +1,5 @@
 // The line's thread of the serial force device: the only one that uses the port while it runs.
+#include "devices/base/realtime_thread.h"
 #include "devices/serial/serial_force_device.h"
 
 #include <poll.h>
@@ -21,6 +22,7 @@ constexpr int kMostUnsent_bytes = 48;  // two commands: what the system holds is
 
 void SerialForceDevice::run() noexcept {
   pthread_setname_np(pthread_self(), "serial");
+  if (options_.realtime) ask_for_realtime(kLinkPriority);  // refused: positions and commands wait longer
   connects_.fetch_add(1, std::memory_order_relaxed);
   while (!ending_.load(std::memory_order_relaxed)) {
     if (port_.is_open())

@@ -5,6 +5,7 @@ namespace tangent {
 
 struct UsbLink::Impl {
   UsbCounters counters;
+  std::string serial;
 };
 
 bool usb_built_in() { return false; }
@@ -22,6 +23,7 @@ UsbProblem UsbLink::problem() const noexcept { return UsbProblem::no_library; }
 const UsbCounters& UsbLink::counters() const noexcept { return impl_->counters; }
 bool UsbLink::send(std::span<const std::uint8_t>) noexcept { return false; }
 bool UsbLink::send_control(const UsbControl&) noexcept { return false; }
+const std::string& UsbLink::serial() const noexcept { return impl_->serial; }
 bool UsbLink::can_send() const noexcept { return false; }
 void UsbLink::reconnect() noexcept {}
 

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string>
 
 namespace tangent {
 
@@ -23,6 +24,7 @@ struct UsbLinkOptions {
   int out_transfers = 8;          ///< pool size, OUT and control together
   unsigned time_out_ms = 100;     ///< of OUT and control transfers
   bool bulk = false;              ///< endpoints are bulk ones; false: interrupt
+  bool ask_serial = false;        ///< reads the serial number when it opens the device
 };
 
 struct UsbControl {
@@ -62,7 +64,7 @@ class UsbLink {
   /// Sends what is queued, closes the device and joins the thread. Owner's thread; harmless when not started.
   void stop();
 
-  /// Makes the thread call on_turn soon. This and the next three: any thread, without waiting.
+  /// Makes the thread call on_turn soon. This and the next three: any thread, at any time, without waiting.
   void wake() noexcept;
   bool connected() const noexcept;
   UsbProblem problem() const noexcept;  ///< why it is not connected
@@ -72,6 +74,8 @@ class UsbLink {
   /// kUsbPacketBytes.
   bool send(std::span<const std::uint8_t> bytes) noexcept;
   bool send_control(const UsbControl& control) noexcept;
+  /// Link's thread, from on_open to on_closed: of the device that is open. Empty: it says none, or was not asked.
+  const std::string& serial() const noexcept;
   /// Link's thread: whether a transfer is free.
   bool can_send() const noexcept;
   /// Link's thread: closes the device and looks for it again (it sends invalid data).

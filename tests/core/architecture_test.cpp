@@ -1,5 +1,7 @@
 // Checks every include of every source file against the order of rooms in README.md (its block ```rooms), and that
 // every folder of sources is listed there.
+#include "tests/support/paths.h"
+
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -15,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kSource = TANGENT_SOURCE_DIR;
+const fs::path kSource = tangent::testing::source_folder();
 
 struct Room {
   std::string path;

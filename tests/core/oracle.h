@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/base/vec.h"
+#include "tests/support/paths.h"
 
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
@@ -12,7 +13,7 @@
 namespace tangent::test {
 
 inline nlohmann::json read_oracle(const std::string& name) {
-  std::ifstream file(std::string(TANGENT_TEST_ASSETS) + "/oracle/" + name);
+  std::ifstream file(testing::test_assets() + "/oracle/" + name);
   REQUIRE_MESSAGE(file.good(), "tests/assets/oracle/" << name << " is missing");
   return nlohmann::json::parse(file);
 }

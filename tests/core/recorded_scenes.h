@@ -4,6 +4,7 @@
 #include "core/io/mesh_io.h"
 #include "core/io/pose_file.h"
 #include "tests/core/scenes.h"
+#include "tests/support/paths.h"
 
 namespace tangent::test {
 
@@ -14,7 +15,7 @@ struct RecordedScene {
 
 /// By the name of its path. Its mesh is the file of that name, or a generated one.
 inline RecordedScene recorded_scene(const std::string& name) {
-  const std::filesystem::path folder = TANGENT_TEST_ASSETS "/scenes";
+  const std::filesystem::path folder = testing::test_assets() + "/scenes";
   const std::string object = name == "cube_crease" ? "cube" : name;
   const std::filesystem::path file = folder / (object + ".obj");
   const auto mesh = std::filesystem::exists(file) ? read_mesh(file, 1e-3) : generate_mesh(object);

@@ -113,6 +113,27 @@ inline TicksTo ticks_to(const GateLoop& loop, const std::function<void()>& tick,
   return count;
 }
 
+/// Of a fault of a maker's library, from the tick in which it begins, in a loop that pushes. `move` puts the handle
+/// where it is in tick t: across the force, so that the gate sees no work.
+template <class Loop, class Fault, class Move>
+TicksTo ticks_of_fault(Loop& l, const Fault& fault, const Move& move) {
+  if (!l.start()) return {};
+  int t = 0;
+  l.loop.arm();
+  for (; t < 400; ++t) {
+    move(t);
+    l.step();
+  }
+  if (l.felt_n() < 0.4) return {};
+  fault.begin(l);
+  return ticks_to(
+      l.loop, [&] { l.step(); }, [&] { return l.felt_n(); },
+      [&](int i) {
+        if (!fault.stays_put) move(t++);
+        if (i == 1) l.loop.take(1e-3);
+      });
+}
+
 /// Lets other threads run until it holds; ended by the event alone.
 template <class Holds>
 void wait_until(const Holds& holds) {

@@ -2,6 +2,8 @@
 // (TANGENT_SHARED_ASSETS, see tests/README.md).
 #pragma once
 
+#include "tests/support/paths.h"
+
 #include <doctest/doctest.h>
 
 #include <filesystem>
@@ -11,10 +13,10 @@
 namespace tangent::testing {
 
 /// spot, 5,856 triangles.
-inline std::filesystem::path spot_file() { return std::filesystem::path(TANGENT_TEST_ASSETS) / "meshes/spot.obj"; }
+inline std::filesystem::path spot_file() { return std::filesystem::path(testing::test_assets()) / "meshes/spot.obj"; }
 
 inline std::filesystem::path shared_file(const std::string& name) {
-  return std::filesystem::path(TANGENT_SHARED_ASSETS) / name;
+  return std::filesystem::path(testing::shared_assets()) / name;
 }
 
 /// Call first in a test case and return on false: ctest reports a case that printed this message as skipped, whatever

@@ -1,6 +1,7 @@
 // Runs the program as a separate process.
 #pragma once
 
+#include "tests/support/paths.h"
 #include "tests/support/temp_folder.h"
 
 #include <doctest/doctest.h>
@@ -37,7 +38,7 @@ struct ProcessResult {
 /// A running process. Its output goes to files, so it never blocks.
 class Process {
  public:
-  explicit Process(std::vector<std::string> arguments, const std::string& program = TANGENT_PROGRAM) {
+  explicit Process(std::vector<std::string> arguments, const std::string& program = testing::program()) {
     arguments.insert(arguments.begin(), program);
     std::vector<char*> argv;
     for (std::string& argument : arguments) argv.push_back(argument.data());

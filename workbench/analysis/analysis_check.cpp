@@ -59,9 +59,11 @@ class Checks {
   void compare() {
     through_comparisons();
     balance();
-    for (const auto& [from, to] : kBands) thresholds(from, to, true);
-    thresholds(kBands.back().first, kBands.back().second, false);
-    for (const double spread : {0.1, 0.2, 0.35, 0.5, 1.0}) spreads(spread);
+    ThresholdFitter first(rule(), std::clamp(participants_, 20, 4000), stop_);
+    for (const auto& [from, to] : kBands) thresholds(first, from, to, true);
+    for (const auto& [from, to] : kBands) thresholds(first, from, to, false);
+    other_rules();
+    for (const double spread : {0.1, 0.2, 0.35, 0.5, 1.0}) spreads(first, spread);
   }
   void name() {
     const KnownNamer namer = namer_like_the_papers(*protocol_.identification());
@@ -129,56 +131,81 @@ class Checks {
   }
 
   /// Easy starts: thresholds from twice to eight times as many segments; others: where it begins.
-  Psychometric of_spread(double spread, bool easy, SplitMix& random) const {
+  Psychometric of_spread(const StaircaseRule& of, double spread, bool easy, SplitMix& random) const {
     Psychometric out{1.0, spread, kLapse};
-    const double threshold = rule().start * (easy ? 2.0 * std::pow(4.0, random.unit()) : 1.0);
-    out.middle = threshold / out.segments_at(balance_point(rule()));
+    const double threshold = of.start * (easy ? 2.0 * std::pow(4.0, random.unit()) : 1.0);
+    out.middle = threshold / out.segments_at(balance_point(of));
     return out;
   }
 
-  void thresholds(double from, double to, bool easy) {
-    if (stopped()) return;
-    const int staircases = std::max(participants_ / 5, 2);
-    ThresholdFitter fitter(rule(), std::clamp(participants_, 20, 1000), stop_);
+  struct Fitted {
     std::uint64_t held = 0;
-    std::vector<double> off, rule_off, told;
-    for (int i = 0; i < staircases && !stopped(); ++i) {
+    std::vector<double> off, rule_off, told;  ///< logarithms: fit and rule less the truth, and what the fit says of it
+  };
+  Fitted fit_all(ThresholdFitter& fitter, double from, double to, bool easy) {
+    Fitted out;
+    for (int i = 0; i < participants_ && !stopped(); ++i) {
       SplitMix random(3, static_cast<std::uint64_t>(i));
-      const Psychometric function = of_spread(from + (to - from) * random.unit(), easy, random);
-      Staircase staircase(rule());
+      const Psychometric function = of_spread(fitter.rule(), from + (to - from) * random.unit(), easy, random);
+      Staircase staircase(fitter.rule());
       const FittedThreshold fit = fitter.fit(simulated_answers(staircase, function, random));
-      const double truth = function.segments_at(balance_point(rule()));
-      held += fit.low <= truth && truth <= fit.high;
-      off.push_back(std::log(fit.segments / truth));
+      const double truth = function.segments_at(balance_point(fitter.rule()));
+      out.held += fit.low <= truth && truth <= fit.high;
+      out.off.push_back(std::log(fit.segments / truth));
       if (!staircase.settled()) continue;
-      rule_off.push_back(std::log(staircase.threshold() / truth));
-      told.push_back(std::log(fit.rule_bias));
+      out.rule_off.push_back(std::log(staircase.threshold() / truth));
+      out.told.push_back(std::log(fit.rule_bias));
     }
-    char band[64];
-    std::snprintf(band, sizeof band, ", spreads of %.1f to %.1f%s", from, to, easy ? "" : ", begun at it");
-    add(share_row(std::string("intervals that hold the threshold") + band, held, static_cast<std::uint64_t>(staircases),
-                  95.0));
-    add(ratio_row(std::string("fitted threshold over the truth") + band, off, 1.0));
-    add(ratio_row(std::string("rule's mean of reversals over the truth") + band, rule_off, kNothingAsked));
-    add(ratio_row(std::string("the same, as the analysis tells it") + band, told, rows_.back().found));
+    return out;
+  }
+  CheckRow held_row(const std::string& of, std::uint64_t held) const {
+    return share_row("intervals that hold the threshold" + of, held, static_cast<std::uint64_t>(participants_), 95.0);
+  }
+  static std::string band(double from, double to, bool easy) {
+    char text[64];
+    std::snprintf(text, sizeof text, ", spreads of %.1f to %.1f%s", from, to, easy ? "" : ", begun at it");
+    return text;
+  }
+
+  void thresholds(ThresholdFitter& fitter, double from, double to, bool easy) {
+    if (stopped()) return;
+    const Fitted all = fit_all(fitter, from, to, easy);
+    const std::string of = band(from, to, easy);
+    add(held_row(of, all.held));
+    add(ratio_row("fitted threshold over the truth" + of, all.off, 1.0));
+    add(ratio_row("rule's mean of reversals over the truth" + of, all.rule_off, kNothingAsked));
+    add(ratio_row("the same, as the analysis tells it" + of, all.told, rows_.back().found));
+  }
+
+  /// Whether intervals hold for the protocol's other conditions, those of one rule once.
+  void other_rules() {
+    std::vector<StaircaseRule> seen{rule()};
+    for (const ComparisonCondition& condition : protocol_.discrimination()->conditions) {
+      if (std::find(seen.begin(), seen.end(), condition.staircase) != seen.end()) continue;
+      seen.push_back(condition.staircase);
+      ThresholdFitter fitter(condition.staircase, std::clamp(participants_, 20, 4000), stop_);
+      for (const bool easy : {true, false})
+        for (const auto& [from, to] : kBands)
+          if (!stopped())
+            add(held_row(" of " + condition.name + band(from, to, easy), fit_all(fitter, from, to, easy).held));
+    }
   }
 
   /// Groups of twelve with one spread.
-  void spreads(double spread) {
+  void spreads(ThresholdFitter& fitter, double spread) {
     if (stopped()) return;
     constexpr int kGroup = 12;
-    const int groups = std::max(participants_ / 40, 2);
-    ThresholdFitter fitter(rule(), 20, stop_);  // its calibration is not asked for
+    const int groups = std::max(participants_ / 10, 2);
     std::uint64_t held = 0;
     std::vector<double> ratios;
     for (int g = 0; g < groups && !stopped(); ++g) {
-      std::vector<SpreadLikelihood> all;
+      std::vector<FittedThreshold> all;
       SplitMix random(4, static_cast<std::uint64_t>(g));
       for (int i = 0; i < kGroup; ++i) {
         Staircase staircase(rule());
-        all.push_back(fitter.fit(simulated_answers(staircase, of_spread(spread, true, random), random)).spreads);
+        all.push_back(fitter.fit(simulated_answers(staircase, of_spread(rule(), spread, true, random), random)));
       }
-      const SpreadInterval found = common_spread(all);
+      const SpreadInterval found = fitter.common_spread(all);
       held += found.low <= spread && spread <= found.high;
       ratios.push_back(std::log(found.spread / spread));
     }
@@ -233,8 +260,11 @@ class Checks {
     const double truth = information_bits(law);
     std::uint64_t held = 0, groups = 0;
     std::vector<double> counted, corrected;
-    for (std::size_t first = 0; first + kGroup <= all.size(); first += kGroup) {
-      const std::span group = std::span(all).subspan(first, kGroup);
+    // Drawn from everybody: as many groups as participants, and two of them hardly share one.
+    for (std::size_t g = 0; g < all.size() && all.size() >= kGroup && !stopped(); ++g) {
+      SplitMix random(5, g);
+      std::vector<ConfusionMatrix> group;
+      for (std::size_t i = 0; i < kGroup; ++i) group.push_back(all[random.below(all.size())]);
       ConfusionMatrix together(objects);
       for (const ConfusionMatrix& one : group) together += one;
       const MeanInterval interval = information_interval(group);

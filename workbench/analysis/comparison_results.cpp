@@ -43,18 +43,18 @@ std::optional<StaircaseResult> staircase_of(const Comparer& participant, const C
 }
 
 ConditionResult condition_of(const ComparisonCondition& condition, const experiment::Discrimination& design,
-                             const std::vector<StaircaseResult>& staircases) {
+                             const std::vector<StaircaseResult>& staircases, ThresholdFitter& fitter) {
   ConditionResult out;
   out.condition = condition.name;
   double trials = 0.0, bias = 0.0, count = 0.0;
-  std::vector<SpreadLikelihood> spreads;
+  std::vector<FittedThreshold> fits;
   for (const StaircaseResult& one : staircases) {
     if (one.condition != condition.name) continue;
     count += 1.0;
     out.warned += !one.warnings.empty();
     trials += one.trials;
     bias += std::log(one.fitted.rule_bias);
-    spreads.push_back(one.fitted.spreads);
+    fits.push_back(one.fitted);
     if (one.segments)
       out.thresholds.push_back(*one.segments);
     else
@@ -63,7 +63,7 @@ ConditionResult condition_of(const ComparisonCondition& condition, const experim
   if (count > 0.0) {
     out.mean_trials = trials / count;
     out.rule_bias = std::exp(bias / count);
-    out.spread = common_spread(spreads);
+    out.spread = fitter.common_spread(fits);
   }
   out.segments = mean_interval(out.thresholds);
   if (out.thresholds.empty()) return out;
@@ -102,12 +102,14 @@ ComparisonResults comparison_results(const std::vector<Comparer>& participants, 
   if (participants.empty()) return out;
   const experiment::Discrimination& design = *participants.front().protocol.discrimination();
   std::vector<ThresholdFitter> fitters;  // conditions of one rule share what is found by simulation
+  const auto fitter_of = [&](const experiment::StaircaseRule& rule) -> ThresholdFitter& {
+    const auto of_rule = [&](const ThresholdFitter& f) { return f.rule() == rule; };
+    const auto fitter = std::find_if(fitters.begin(), fitters.end(), of_rule);
+    return fitter == fitters.end() ? fitters.emplace_back(rule, repeats, stop) : *fitter;
+  };
   for (const Comparer& participant : participants) {
     for (const ComparisonCondition& condition : design.conditions) {
-      const auto of_rule = [&](const ThresholdFitter& f) { return f.rule() == condition.staircase; };
-      auto fitter = std::find_if(fitters.begin(), fitters.end(), of_rule);
-      if (fitter == fitters.end()) fitter = fitters.emplace(fitters.end(), condition.staircase, repeats, stop);
-      auto one = staircase_of(participant, condition, *fitter);
+      auto one = staircase_of(participant, condition, fitter_of(condition.staircase));
       if (stop && stop()) return out;
       if (one) out.staircases.push_back(std::move(*one));
     }
@@ -115,7 +117,8 @@ ComparisonResults comparison_results(const std::vector<Comparer>& participants, 
   std::vector<std::vector<double>> groups;
   bool all = true;
   for (const ComparisonCondition& condition : design.conditions) {
-    out.conditions.push_back(condition_of(condition, design, out.staircases));
+    out.conditions.push_back(condition_of(condition, design, out.staircases, fitter_of(condition.staircase)));
+    if (stop && stop()) return out;
     groups.push_back(out.conditions.back().thresholds);
     all = all && groups.back().size() == participants.size();
   }

@@ -1,8 +1,11 @@
 #include "workbench/analysis/psychometric_fit.h"
 
+#include <boost/math/distributions/normal.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace tangent::analysis {
 namespace {
@@ -15,13 +18,29 @@ constexpr std::size_t kMiddles = 80;
 constexpr double kBelow = 1.5, kAbove = 3.0;  // of ln(segments): middles that are tried beyond the levels shown
 // Prior of the spread: its power, by ln(spread). With it the tails of narrow and wide functions differ least.
 constexpr double kSpreadPower = 0.5;
-constexpr double kTailSlope = 1.3;
-constexpr double kShare = 0.95;
-// Of the common spread: all middles alike, wide functions are taken for wider, up to twice; with this power of the
-// spread for each staircase narrow ones for narrower. The truth is between.
-constexpr double kNarrowing = -0.25;
-constexpr std::uint64_t kCalibrationSeed = 11;
+constexpr double kShare = 0.95, kTail = 0.5 * (1.0 - kShare);
+constexpr std::uint64_t kCalibrationSeed = 11, kPoolSeed = 12, kGroupSeed = 13;
 constexpr double kCalibratedFrom = 0.1, kCalibratedTo = 1.0;  // spreads
+
+// How far an interval's end lies from the median, in deviations of a normal law, is c + m m_1 + m^2 m_2 + m near m_3: m
+// is the mean of ln(spread) by the answers, `near` how many octaves of segments above the start the median lacks to
+// one. These were chosen on 120,000 staircases so that either end misses as often for narrow functions as for wide
+// ones, with thresholds near the start and far from it; c is calibrated for each rule.
+struct EndShape {
+  double m_1, m_2, m_3;
+  double at(double m, double octaves) const {
+    m = std::clamp(m, -2.0, 0.3);
+    return m * (m_1 + m_2 * m + m_3 * std::clamp(1.0 - octaves, 0.0, 1.5));
+  }
+};
+constexpr EndShape kLowShape{2.22, 0.66, 1.97}, kHighShape{5.26, 0.70, -1.08};
+constexpr double kLeastDeviations = 0.3;  // from the median to an end
+
+constexpr std::size_t kPoolSpreads = 12;  // that groups are simulated with, from the narrowest to the widest
+constexpr int kGroups = 400;              // for each of them
+
+/// A number for each middle.
+using Middles = std::array<double, kMiddles>;
 
 /// Answers at one level.
 struct Level {
@@ -74,7 +93,6 @@ struct Shares {
 struct Posterior {
   Shares threshold;  ///< logarithms of segments at the balance point
   double mean_log_spread = 0.0;
-  SpreadLikelihood spreads{};
 };
 
 /// ln(threshold / middle) over the spread: where a function with this rate of lapses is at the balance point.
@@ -83,22 +101,34 @@ double logit_at(double balance, double lapse) {
   return std::log((1.0 - felt) / felt);
 }
 
-/// ln of how likely the answers are; `felt`: by level. Products, with a logarithm only before they get too small: a
-/// hundred times as many multiplications as logarithms.
-double log_likelihood(std::span<const Level> levels, std::span<const double> felt, double lapse) {
+/// ln of how likely the answers are, for all middles of one spread; `felt`: by level, middle after middle. Products,
+/// with a logarithm only before they get too small: so loops go over middles side by side.
+void add_log_likelihoods(std::span<const Level> levels, std::span<const double> felt, double lapse, Middles& out) {
   constexpr double kLeast = 1e-6;  // of a probability: one answer can't be impossible
-  constexpr double kSmall = 1e-200;
-  double product = 1.0, log = 0.0;
-  for (std::size_t i = 0; i < levels.size(); ++i) {
-    const double p = std::min(kGuess + (1.0 - kGuess - lapse) * felt[i], 1.0 - kLeast);
-    for (int n = 0; n < levels[i].right + levels[i].wrong; ++n) {
-      product *= n < levels[i].right ? p : 1.0 - p;
-      if (product > kSmall) continue;
-      log += std::log(product);
-      product = 1.0;
+  constexpr int kMost = 48;        // factors: not below 1e-288
+  Middles product;
+  product.fill(1.0);
+  int factors = 0;
+  const auto multiply = [&](const Middles& by, int times) {
+    for (; times > 0; --times) {
+      for (std::size_t m = 0; m < kMiddles; ++m) product[m] *= by[m];
+      if (++factors < kMost) continue;
+      for (std::size_t m = 0; m < kMiddles; ++m) out[m] += std::log(product[m]);
+      product.fill(1.0);
+      factors = 0;
     }
+  };
+  Middles right, wrong;
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    const std::span at = felt.subspan(i * kMiddles, kMiddles);
+    for (std::size_t m = 0; m < kMiddles; ++m) {
+      right[m] = std::min(kGuess + (1.0 - kGuess - lapse) * at[m], 1.0 - kLeast);
+      wrong[m] = 1.0 - right[m];
+    }
+    multiply(right, levels[i].right);
+    multiply(wrong, levels[i].wrong);
   }
-  return log + std::log(product);
+  for (std::size_t m = 0; m < kMiddles; ++m) out[m] += std::log(product[m]);
 }
 
 class Grid {
@@ -107,13 +137,20 @@ class Grid {
       : first_(levels.front().log_segments - kBelow),
         step_((levels.back().log_segments + kAbove - first_) / static_cast<double>(kMiddles - 1)),
         logs_(kMiddles * kSpreads * kLapses.size()) {
-    std::vector<double> felt(levels.size());
+    std::vector<double> felt(levels.size() * kMiddles);
     auto out = logs_.begin();
     for (std::size_t s = 0; s < kSpreads; ++s) {
-      for (std::size_t m = 0; m < kMiddles; ++m) {
-        for (std::size_t i = 0; i < levels.size(); ++i)
-          felt[i] = 1.0 / (1.0 + std::exp((levels[i].log_segments - middle(m)) / spread_at(s)));
-        for (const double lapse : kLapses) best_ = std::max(best_, *out++ = log_likelihood(levels, felt, lapse));
+      Middles up;  // exp of each middle, over the spread: a level's part is a factor
+      for (std::size_t m = 0; m < kMiddles; ++m) up[m] = std::exp((first_ - middle(m)) / spread_at(s));
+      for (std::size_t i = 0; i < levels.size(); ++i) {
+        const double level = std::exp((levels[i].log_segments - first_) / spread_at(s));
+        for (std::size_t m = 0; m < kMiddles; ++m) felt[i * kMiddles + m] = 1.0 / (1.0 + level * up[m]);
+      }
+      for (const double lapse : kLapses) {
+        Middles logs{};
+        add_log_likelihoods(levels, felt, lapse, logs);
+        best_ = std::max(best_, *std::max_element(logs.begin(), logs.end()));
+        out = std::copy(logs.begin(), logs.end(), out);
       }
     }
   }
@@ -132,18 +169,18 @@ class Grid {
     for (std::size_t s = 0; s < kSpreads; ++s) {
       const double spread = spread_at(s), prior = std::pow(spread, kSpreadPower);
       double of_spread = 0.0;
-      for (std::size_t m = 0; m < kMiddles; ++m) {
-        for (const double lapse : kLapses) {
+      for (const double lapse : kLapses) {
+        const double beside = spread * logit_at(balance, lapse);
+        for (std::size_t m = 0; m < kMiddles; ++m) {
           const double likely = std::exp(*log++ - best_);
           of_spread += likely;
-          const double at = (middle(m) + spread * logit_at(balance, lapse) - threshold.first) / step_;
+          const double at = (middle(m) + beside - threshold.first) / step_;
           const auto place = static_cast<std::size_t>(at);
           const double beyond = at - static_cast<double>(place);
           threshold.share[place] += prior * likely * (1.0 - beyond);
           threshold.share[place + 1] += prior * likely * beyond;
         }
       }
-      out.spreads[s] = std::log(std::max(of_spread, 1e-300)) + best_;
       out.mean_log_spread += prior * of_spread * std::log(spread);
       sum += prior * of_spread;
     }
@@ -155,7 +192,7 @@ class Grid {
  private:
   double middle(std::size_t m) const { return first_ + step_ * static_cast<double>(m); }
   double first_, step_;
-  std::vector<double> logs_;  ///< by spread, middle, lapse
+  std::vector<double> logs_;  ///< by spread, lapse, middle
   double best_ = -std::numeric_limits<double>::infinity();
 };
 
@@ -170,24 +207,33 @@ std::array<double, 2> line_through(std::span<const double> x, std::span<const do
   return {my - slope * mx, slope};
 }
 
-/// By ln(spread), where each staircase counts by a power of the spread besides.
-Shares shares_of_spreads(std::span<const SpreadLikelihood> staircases, double power) {
-  SpreadLikelihood logs{};
-  for (const SpreadLikelihood& one : staircases)
-    for (std::size_t s = 0; s < kSpreads; ++s) logs[s] += one[s] + power * std::log(spread_at(s));
-  // Many staircases leave a peak narrower than the grid: between its places the logarithm is a parabola.
-  constexpr std::size_t kFine = 20;
-  Shares out{std::log(kNarrowestSpread), std::log(spread_at(1) / spread_at(0)) / kFine, {}};
-  const double best = *std::max_element(logs.begin(), logs.end());
-  for (std::size_t i = 0; i <= (kSpreads - 1) * kFine; ++i) {
-    const std::size_t near = std::clamp<std::size_t>((i + kFine / 2) / kFine, 1, kSpreads - 2);
-    const double off = static_cast<double>(i) / kFine - static_cast<double>(near);
-    const double slope = 0.5 * (logs[near + 1] - logs[near - 1]);
-    const double bend = logs[near + 1] - 2.0 * logs[near] + logs[near - 1];
-    out.share.push_back(std::exp(logs[near] + off * (slope + 0.5 * off * bend) - best));
+double normal_below(double deviations) { return 0.5 * std::erfc(-deviations / std::numbers::sqrt2); }
+double normal_deviations(double below) {
+  return boost::math::quantile(boost::math::normal(), std::clamp(below, 1e-13, 1.0 - 1e-13));
+}
+
+/// A share of sorted values lies below it.
+double quantile_of(const std::vector<double>& sorted, double share) {
+  const double at = share * static_cast<double>(sorted.size() - 1);
+  const auto before = std::min(static_cast<std::size_t>(at), sorted.size() - 2);
+  return sorted[before] + (at - static_cast<double>(before)) * (sorted[before + 1] - sorted[before]);
+}
+
+double pool_log_spread(std::size_t i) {
+  return std::log(kNarrowestSpread) +
+         std::log(kWidestSpread / kNarrowestSpread) * static_cast<double>(i) / static_cast<double>(kPoolSpreads - 1);
+}
+
+/// Where `heights`, over the pools' spreads, reach `height`: ln(spread), within the pools'.
+double crossing(std::array<double, kPoolSpreads> heights, double height) {
+  for (std::size_t i = 1; i < kPoolSpreads; ++i) heights[i] = std::max(heights[i], heights[i - 1]);
+  if (height <= heights.front()) return pool_log_spread(0);
+  for (std::size_t i = 1; i < kPoolSpreads; ++i) {
+    if (height > heights[i]) continue;
+    const double share = (height - heights[i - 1]) / (heights[i] - heights[i - 1]);
+    return pool_log_spread(i - 1) + share * (pool_log_spread(i) - pool_log_spread(i - 1));
   }
-  out.scale();
-  return out;
+  return pool_log_spread(kPoolSpreads - 1);
 }
 
 }  // namespace
@@ -195,13 +241,6 @@ Shares shares_of_spreads(std::span<const SpreadLikelihood> staircases, double po
 double spread_at(std::size_t i) {
   return kNarrowestSpread *
          std::pow(kWidestSpread / kNarrowestSpread, static_cast<double>(i) / static_cast<double>(kSpreads - 1));
-}
-
-SpreadInterval common_spread(std::span<const SpreadLikelihood> staircases) {
-  const Shares wide = shares_of_spreads(staircases, 0.0), narrow = shares_of_spreads(staircases, kNarrowing);
-  const double tail = 0.5 * (1.0 - kShare);
-  return {std::exp(0.5 * (wide.quantile(0.5) + narrow.quantile(0.5))), std::exp(narrow.quantile(tail)),
-          std::exp(wide.quantile(1.0 - tail))};
 }
 
 std::vector<ComparisonAnswer> simulated_answers(Staircase& staircase, const Psychometric& function, SplitMix& random) {
@@ -214,44 +253,64 @@ std::vector<ComparisonAnswer> simulated_answers(Staircase& staircase, const Psyc
   return out;
 }
 
+namespace {
+
+/// A staircase by a function of this threshold and spread, with a rate of lapses drawn of those that are tried.
+std::vector<ComparisonAnswer> drawn_answers(Staircase& staircase, double threshold, double spread, double balance,
+                                            SplitMix& random) {
+  Psychometric function{1.0, spread, kLapses[random.below(kLapses.size())]};
+  function.middle = threshold / function.segments_at(balance);
+  return simulated_answers(staircase, function, random);
+}
+
+}  // namespace
+
 ThresholdFitter::Calibration ThresholdFitter::calibrate(double threshold) const {
   const double balance = experiment::balance_point(rule_), truth = std::log(threshold);
-  std::vector<double> spreads, off, settled, rule, tails;
+  std::vector<double> spreads, off, settled, rule, low, high;
   for (int i = 0; i < simulated_; ++i) {
     if (stop_ && stop_()) return {};
     SplitMix random(kCalibrationSeed, static_cast<std::uint64_t>(i));
-    Psychometric function{1.0, kCalibratedFrom * std::pow(kCalibratedTo / kCalibratedFrom, random.unit()), 0.0};
-    function.lapse = kLapses[random.below(kLapses.size())];
-    function.middle = threshold / function.segments_at(balance);
+    const double spread = kCalibratedFrom * std::pow(kCalibratedTo / kCalibratedFrom, random.unit());
     Staircase staircase(rule_);
-    const Posterior posterior = Grid(levels_of(simulated_answers(staircase, function, random))).posterior(balance);
-    const double m = posterior.mean_log_spread, below = posterior.threshold.below(truth);
+    const Posterior posterior =
+        Grid(levels_of(drawn_answers(staircase, threshold, spread, balance, random))).posterior(balance);
+    const double m = posterior.mean_log_spread, median = posterior.threshold.quantile(0.5);
     spreads.push_back(m);
-    off.push_back(posterior.threshold.quantile(0.5) - truth);
-    const double tail = std::clamp(2.0 * std::min(below, 1.0 - below), 1e-12, 1.0 - 1e-9);
-    tails.push_back(std::log(-std::log(tail)) - kTailSlope * m);
+    off.push_back(median - truth);
+    const double beyond = normal_deviations(posterior.threshold.below(truth)), octaves = octaves_up(median);
+    low.push_back(-beyond - kLowShape.at(m, octaves));
+    high.push_back(beyond - kHighShape.at(m, octaves));
     if (!staircase.settled()) continue;
     settled.push_back(m);
     rule.push_back(std::log(staircase.threshold()) - truth);
   }
-  const auto place = tails.begin() + static_cast<std::ptrdiff_t>(kShare * static_cast<double>(tails.size()));
-  std::nth_element(tails.begin(), place, tails.end());
-  return {*place, line_through(spreads, off), line_through(settled, rule)};
+  std::sort(low.begin(), low.end());
+  std::sort(high.begin(), high.end());
+  return {quantile_of(low, 1.0 - kTail), quantile_of(high, 1.0 - kTail), line_through(spreads, off),
+          line_through(settled, rule)};
+}
+
+double ThresholdFitter::octaves_up(double log_segments) const {
+  const double lowest = std::log2(rule_.fewest / rule_.start), highest = std::log2(rule_.most / rule_.start);
+  return std::clamp(log_segments / std::numbers::ln2 - std::log2(rule_.start), lowest, highest);
+}
+
+double ThresholdFitter::threshold_at(int place) const {
+  return std::clamp(rule_.start * std::exp2(place), rule_.fewest, rule_.most);
 }
 
 const ThresholdFitter::Calibration& ThresholdFitter::calibrated(int place) {
   const auto known = known_.find(place);
   if (known != known_.end()) return known->second;
-  const double threshold = std::clamp(rule_.start * std::exp2(place), rule_.fewest, rule_.most);
-  return known_.emplace(place, calibrate(threshold)).first->second;
+  return known_.emplace(place, calibrate(threshold_at(place))).first->second;
 }
 
 FittedThreshold ThresholdFitter::fit(std::span<const ComparisonAnswer> answers) {
   const Posterior posterior = Grid(levels_of(answers)).posterior(experiment::balance_point(rule_));
   const double median = posterior.threshold.quantile(0.5), m = posterior.mean_log_spread;
   // Between the two calibrations beside it, so that none makes a step.
-  const double lowest = std::log2(rule_.fewest / rule_.start), highest = std::log2(rule_.most / rule_.start);
-  const double at = std::clamp(median / std::log(2.0) - std::log2(rule_.start), lowest, highest);
+  const double at = octaves_up(median);
   const int place = static_cast<int>(std::floor(at));
   const Calibration &before = calibrated(place), &after = calibrated(place + 1);
   const double share = at - place;
@@ -259,14 +318,62 @@ FittedThreshold ThresholdFitter::fit(std::span<const ComparisonAnswer> answers) 
   const auto line = [&](const std::array<double, 2>& a, const std::array<double, 2>& b) {
     return between(a[0] + a[1] * m, b[0] + b[1] * m);
   };
-  const double tail = std::exp(-std::exp(between(before.tail, after.tail) + kTailSlope * m));
+  const double low = std::max(between(before.low, after.low) + kLowShape.at(m, at), kLeastDeviations);
+  const double high = std::max(between(before.high, after.high) + kHighShape.at(m, at), kLeastDeviations);
   FittedThreshold out;
-  out.low = std::exp(posterior.threshold.quantile(0.5 * tail));
-  out.high = std::exp(posterior.threshold.quantile(1.0 - 0.5 * tail));
+  out.low = std::exp(posterior.threshold.quantile(normal_below(-low)));
+  out.high = std::exp(posterior.threshold.quantile(normal_below(high)));
   out.segments = std::clamp(std::exp(median - line(before.off, after.off)), out.low, out.high);
   out.rule_bias = std::exp(line(before.rule, after.rule));
-  out.spreads = posterior.spreads;
+  out.mean_log_spread = m;
   return out;
+}
+
+std::vector<double> ThresholdFitter::pool_of(int place, std::size_t spread) const {
+  const double balance = experiment::balance_point(rule_);
+  std::vector<double> out;
+  for (int i = 0; i < std::clamp(simulated_ / 5, 20, 200); ++i) {
+    if (stop_ && stop_()) break;
+    SplitMix random(kPoolSeed, static_cast<std::uint64_t>(i));
+    Staircase staircase(rule_);
+    const auto answers =
+        drawn_answers(staircase, threshold_at(place), std::exp(pool_log_spread(spread)), balance, random);
+    out.push_back(Grid(levels_of(answers)).posterior(balance).mean_log_spread);
+  }
+  return out;
+}
+
+const ThresholdFitter::Pools& ThresholdFitter::pools(int place) {
+  const auto known = pools_.find(place);
+  if (known != pools_.end()) return known->second;
+  Pools& made = pools_[place];
+  for (std::size_t s = 0; s < kPoolSpreads; ++s) made.push_back(pool_of(place, s));
+  return made;
+}
+
+SpreadInterval ThresholdFitter::common_spread(std::span<const FittedThreshold> staircases) {
+  double found = 0.0;
+  std::vector<const Pools*> alike;
+  for (const FittedThreshold& one : staircases) {
+    found += one.mean_log_spread / static_cast<double>(staircases.size());
+    alike.push_back(&pools(static_cast<int>(std::lround(octaves_up(std::log(one.segments))))));
+  }
+  if (stop_ && stop_()) return {};
+  std::array<double, kPoolSpreads> low{}, middle{}, high{};
+  for (std::size_t s = 0; s < kPoolSpreads; ++s) {
+    std::vector<double> groups;
+    for (int g = 0; g < kGroups; ++g) {
+      SplitMix random(kGroupSeed, static_cast<std::uint64_t>(g));
+      double sum = 0.0;
+      for (const Pools* pool : alike) sum += (*pool)[s][random.below((*pool)[s].size())];
+      groups.push_back(sum / static_cast<double>(alike.size()));
+    }
+    std::sort(groups.begin(), groups.end());
+    low[s] = quantile_of(groups, kTail);
+    middle[s] = quantile_of(groups, 0.5);
+    high[s] = quantile_of(groups, 1.0 - kTail);
+  }
+  return {std::exp(crossing(middle, found)), std::exp(crossing(high, found)), std::exp(crossing(low, found))};
 }
 
 }  // namespace tangent::analysis

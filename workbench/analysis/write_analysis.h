@@ -16,7 +16,7 @@ namespace tangent::analysis {
 struct AnalysisOptions {
   std::filesystem::path folder;
   std::string command;  ///< that makes it again
-  int repeats = 1000;   ///< of each staircase's bootstrap
+  int repeats = 4000;   ///< staircases simulated for a calibration of the intervals
   std::map<std::string, bool> experienced;
   std::function<bool()> stop = [] { return false; };
   std::function<void(const std::string&)> warn = [](const std::string&) {};  ///< told what the page warns of

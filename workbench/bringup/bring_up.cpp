@@ -113,9 +113,9 @@ void BringUp::begin(BringUpStep step) noexcept {
   view_.ask = BringUpAsk::none;
   view_.again = BringUpWhy::none;
   view_.axis = 0;
-  step_began_s_ = view_.t_s;
+  step_began_s_ = recovers_from_s_ = view_.t_s;
   tries_ = 0;
-  cut_ = false;
+  cut_ = homes_again_ = false;
   enter(Phase::ask);
   mean_.forget();
 }
@@ -128,10 +128,7 @@ void BringUp::pass(StepVerdict verdict) noexcept {
 void BringUp::fail(BringUpWhy why) noexcept {
   gate_.stop();
   wanted_n_ = Vec3(0.0);
-  view_.verdicts[static_cast<std::size_t>(view_.step)] = StepVerdict::failed;
-  view_.whys[static_cast<std::size_t>(view_.step)] = why;
-  view_.ask = BringUpAsk::none;
-  view_.ended = true;
+  view_.end_with(why);
 }
 
 void BringUp::ask(BringUpAsk what, BringUpWhy again) noexcept {

@@ -72,7 +72,7 @@ class BringUp : private GuardedExchange {
   void take_force_away() noexcept;
   double silence_s() const noexcept;
   bool went_too_far() noexcept;
-  void recover() noexcept;
+  void recover(BringUpAnswer said) noexcept;
 
   void begin(BringUpStep step) noexcept;
   void pass(StepVerdict verdict = StepVerdict::proved) noexcept;
@@ -93,7 +93,9 @@ class BringUp : private GuardedExchange {
   double step_began_s_ = 0.0, phase_began_s_ = 0.0;
   int tries_ = 0;
   bool said_home_ = false;
-  double unsent_s_ = 0.0;  ///< since the last exchange, while it is silent on purpose
+  bool homes_again_ = false;      ///< in this step, after a yes
+  double recovers_from_s_ = 0.0;  ///< the last yes to homing, push, or when the step began
+  double unsent_s_ = 0.0;         ///< since the last exchange, while it is silent on purpose
   Vec3 last_m_{0.0}, from_m_{0.0};
   RunningMean mean_, before_, held_, after_;  ///< at rest; of a push
   double level_n_ = 0.0;

@@ -85,6 +85,7 @@ enum class BringUpWhy : std::uint8_t {
   not_in_middle,    ///< the handle is not in the middle of its range, or left it
   no_reading,       ///< of a scale, in time
   pulls_too_hard,   ///< by the scale, several times what was asked for
+  hangs,            ///< the driver does not come back from an exchange
 };
 
 struct RestFacts {
@@ -155,6 +156,13 @@ struct BringUpView : ExchangeView {
   StepVerdict verdict(BringUpStep s) const { return verdicts[static_cast<std::size_t>(s)]; }
   BringUpWhy why(BringUpStep s) const { return whys[static_cast<std::size_t>(s)]; }
   bool asks() const { return ask != BringUpAsk::none; }
+  /// The step under way failed; nothing is asked any more.
+  void end_with(BringUpWhy why) noexcept {
+    verdicts[static_cast<std::size_t>(step)] = StepVerdict::failed;
+    whys[static_cast<std::size_t>(step)] = why;
+    ask = BringUpAsk::none;
+    ended = true;
+  }
   /// No step failed, and all but those that the device has no such thing for were proved.
   bool all_proved() const;
 };

@@ -14,7 +14,7 @@ constexpr double kSeen_m = 0.05e-3;  // least motion that counts,
 constexpr double kOfNoise = 4.0, kOfStep = 3.0;
 constexpr double kStop_n = 0.4;            // force that a stop is tried with
 constexpr double kLongestSilence_s = 2.0;  // that a watchdog is waited for
-constexpr double kRecover_s = 5.0;
+constexpr double kRecover_s = 5.0, kByHandAgain_s = 120.0;
 
 double largest(const Vec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
@@ -175,18 +175,31 @@ void BringUp::take_force_away() noexcept {
 
 double BringUp::silence_s() const noexcept { return std::min(2.0 * can_.firmware_timeout_s + 0.05, kLongestSilence_s); }
 
-void BringUp::recover() noexcept {
+// After a stop that the device made by itself it may have to find its zero again: nobody said yes to that yet.
+void BringUp::recover(BringUpAnswer said) noexcept {
   may_leave_ready_ = true;
-  if (in_step_s() > can_.homing_s + kRecover_s) return pass(StepVerdict::not_proved);
+  const bool asks = view_.ask == BringUpAsk::home;
+  if (asks && (said == BringUpAnswer::no || said == BringUpAnswer::skip)) return pass(StepVerdict::not_proved);
+  if (asks && said != BringUpAnswer::yes) return;
+  if (asks) {
+    if (sample_.state == DeviceState::firmware) request_ = DeviceRequest::home;
+    view_.ask = BringUpAsk::none;
+    homes_again_ = true;
+    recovers_from_s_ = view_.t_s;
+    return;
+  }
+  const double most_s = !homes_again_ ? kRecover_s : can_.homing_s > 0.0 ? can_.homing_s + kRecover_s : kByHandAgain_s;
+  if (view_.t_s - recovers_from_s_ > most_s) return pass(StepVerdict::not_proved);
   if (sample_.state == DeviceState::faulted) request_ = DeviceRequest::clear_fault;
-  if (sample_.state == DeviceState::firmware) request_ = DeviceRequest::home;
+  if (sample_.state == DeviceState::firmware && !homes_again_) ask(BringUpAsk::home);
 }
 
 void BringUp::try_stop(BringUpAnswer said) noexcept {
   if (phase_ == Phase::ask) {
     if (view_.step == BringUpStep::watchdog && can_.firmware_timeout_s <= 0.0) return pass(StepVerdict::not_proved);
-    if (sample_.state != DeviceState::ready) return recover();
-    may_leave_ready_ = false;
+    if (sample_.state != DeviceState::ready) return recover(said);
+    if (view_.ask == BringUpAsk::home) view_.ask = BringUpAsk::none;  // it came back without it
+    may_leave_ready_ = homes_again_ = false;
     first_push();
     if (view_.axis >= 3 || most_n_ <= 0.0) return pass(StepVerdict::not_proved);
     view_.force_n = level_n_ = std::min(kStop_n, most_n_);
@@ -195,6 +208,7 @@ void BringUp::try_stop(BringUpAnswer said) noexcept {
     if (said == BringUpAnswer::no || said == BringUpAnswer::skip) pass(StepVerdict::not_proved);
     return;
   }
+  recovers_from_s_ = view_.t_s;
   StopFacts& facts = facts_of(view_.facts, view_.step);
   if (phase_ == Phase::silent) {  // the first exchange after it: where is the handle now?
     facts.left_m = sample_.position_m[view_.axis] - before_.mean()[view_.axis];
@@ -210,6 +224,7 @@ void BringUp::try_stop(BringUpAnswer said) noexcept {
 }
 
 void BringUp::judge_stop(StopFacts& facts) noexcept {
+  gate_.arm();  // forgives what the trial itself was: a silence, a device that is not ready any more
   gate_.stop();
   facts.force_n = view_.force_n;
   facts.held_m = held_.mean()[view_.axis] - before_.mean()[view_.axis];

@@ -103,6 +103,9 @@ const char* plain_text(BringUpWhy why) {
       return "nothing was read, so the force was taken away";
     case BringUpWhy::pulls_too_hard:
       return "it pulls several times what is asked for: begin again with a lower --falcon-torque-scale";
+    case BringUpWhy::hangs:
+      return "its driver does not come back from an exchange: take the device's power away, then start the program "
+             "again";
     default:
       return "";
   }

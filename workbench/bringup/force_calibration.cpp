@@ -3,6 +3,7 @@
 #include "workbench/bringup/bring_up_text.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstdio>
 
@@ -88,9 +89,7 @@ void ForceCalibration::ask(CalibrationAsk what, BringUpWhy again) noexcept {
 void ForceCalibration::fail(BringUpWhy why) noexcept {
   gate_.stop();
   wanted_n_ = Vec3(0.0);
-  view_.why = why;
-  view_.ask = CalibrationAsk::none;
-  view_.ended = true;
+  view_.end_with(why);
 }
 
 void ForceCalibration::pull_again(BringUpWhy why) noexcept {
@@ -212,9 +211,38 @@ void ForceCalibration::take_reading(double read_n) noexcept {
 
 // --- Words -----------------------------------------------------------------------------------------------
 
+std::optional<double> newtons_of_line(std::string_view line) {
+  constexpr double kMostRead_n = 100.0;
+  std::string text(line);
+  if (const std::size_t comma = text.find(','); comma != std::string::npos) text[comma] = '.';
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || !(value > 0.0 && value <= kMostRead_n))
+    return std::nullopt;
+  return value;
+}
+
 Result<double> calibrated_scale(const CalibrationView& view, double used_scale) {
   if (view.done) return torque_scale_from({view.readings.data(), view.reading_count}, used_scale);
   return tangent::fail(view.ended ? why_text(view.why, view) : "it has not ended", "calibration", "begin again");
+}
+
+std::string yes_text(const CalibrationView& view) {
+  std::array<char, 32> text;
+  switch (view.ask) {
+    case CalibrationAsk::none:
+      return {};
+    case CalibrationAsk::home:
+      return "Begin";
+    case CalibrationAsk::done:
+      return "Done";
+    case CalibrationAsk::pull:
+      std::snprintf(text.data(), text.size(), "Pull with %.2g N", std::abs(falcon_scale_steps()[view.step].push_n));
+      return text.data();
+    case CalibrationAsk::reading:
+      return "Take the reading";
+  }
+  return {};
 }
 
 std::string question_text(const CalibrationView& view, const ForceCapabilities& can) {

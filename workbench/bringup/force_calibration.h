@@ -12,6 +12,8 @@
 #include "workbench/bringup/running_mean.h"
 
 #include <atomic>
+#include <optional>
+#include <string_view>
 
 namespace tangent {
 
@@ -40,6 +42,12 @@ struct CalibrationView : ExchangeView {
   std::array<FalconReading, kMostReadings> readings{};
   std::size_t reading_count = 0;
   bool asks() const { return ask != CalibrationAsk::none; }
+  /// Nothing is asked any more.
+  void end_with(BringUpWhy ended_why) noexcept {
+    why = ended_why;
+    ask = CalibrationAsk::none;
+    ended = true;
+  }
 };
 
 struct CalibrationOptions {
@@ -102,10 +110,15 @@ class ForceCalibration : private GuardedExchange {
   RunningMean pulled_;  ///< force that the device says it renders, N
 };
 
+/// "0.27", or "0,27" as scales are read elsewhere; null: no number above 0 and up to 100.
+std::optional<double> newtons_of_line(std::string_view line);
+
 /// The scale that follows, for one that was used. Fails where it was not gone through, and as torque_scale_from does.
 /// Not in the thread of the ticks.
 Result<double> calibrated_scale(const CalibrationView& view, double used_scale);
 
+/// What the button or the key "yes" means now: "Pull with 0.25 N", "Done"; empty: nothing is asked.
+std::string yes_text(const CalibrationView& view);
 /// What the person is to do, and why it is asked again; empty: nothing. Not in the thread of the ticks.
 std::string question_text(const CalibrationView& view, const ForceCapabilities& can);
 

@@ -23,11 +23,12 @@
 namespace tangent {
 namespace {
 
-constexpr int kPriority = 40;                   // as the servo's
-constexpr std::chrono::seconds kStopAfter{2};   // an exchange that does not return: the device's other way to stop,
-constexpr std::chrono::seconds kLeaveAfter{8};  // and then it is left alone
-constexpr std::int64_t kHangs_ns = 50'000'000;  // an exchange that is under way for so long
-constexpr int kLastExchanges = 3;               // with zero force, after a stop
+constexpr int kPriority = 40;                  // as the servo's
+constexpr std::chrono::seconds kStopAfter{2};  // an exchange that does not return: the device's other way to stop,
+constexpr std::chrono::milliseconds kLeaveAfter{8000};  // and then it is left alone,
+constexpr std::chrono::milliseconds kLast{100};         // sooner where it has hung for long already
+constexpr std::int64_t kHangs_ns = 50'000'000;          // an exchange that is under way for so long
+constexpr int kLastExchanges = 3;                       // with zero force, after a stop
 
 }  // namespace
 
@@ -71,6 +72,7 @@ struct GuidedRunner<Machine>::Impl {
   void run() noexcept;
   void called() noexcept;
   void watch_exchange() noexcept;
+  bool hangs() noexcept;
   Status begin();
   bool end();  // false: an exchange does not return
 
@@ -132,6 +134,12 @@ void GuidedRunner<Machine>::Impl::watch_exchange() noexcept {
 }
 
 template <class Machine>
+bool GuidedRunner<Machine>::Impl::hangs() noexcept {
+  const std::int64_t begun = begun_ns.load(std::memory_order_relaxed);
+  return begun != 0 && 1e-9 * static_cast<double>(clock.now_ns() - begun) > options.hangs_after_s;
+}
+
+template <class Machine>
 Status GuidedRunner<Machine>::Impl::begin() {
   if (!options.threaded) return {};
   if (device->calls_us()) {
@@ -154,9 +162,11 @@ bool GuidedRunner<Machine>::Impl::end() {
   } else if (thread.joinable()) {
     ending = true;
     std::unique_lock lock(over_lock);
-    if (!over_changed.wait_for(lock, kStopAfter, [this] { return over; })) {
+    const bool waited = hangs();  // long enough
+    if (!over_changed.wait_for(lock, waited ? std::chrono::seconds{} : kStopAfter, [this] { return over; })) {
       device->emergency_stop();
-      if (!over_changed.wait_for(lock, kLeaveAfter, [this] { return over; })) return thread.detach(), false;
+      if (!over_changed.wait_for(lock, waited ? kLast : kLeaveAfter, [this] { return over; }))
+        return thread.detach(), false;
     }
     lock.unlock();
     thread.join();
@@ -192,6 +202,7 @@ template <class Machine>
 const typename GuidedRunner<Machine>::View& GuidedRunner<Machine>::view() {
   impl_->shown.take(impl_->seen);
   impl_->watch_exchange();
+  if (impl_->hangs() && !impl_->seen.view.ended) impl_->seen.view.end_with(BringUpWhy::hangs);
   return impl_->seen.view;
 }
 
@@ -211,9 +222,10 @@ void GuidedRunner<Machine>::stop() {
 }
 
 template <class Machine>
-bool GuidedRunner<Machine>::hangs() const {
-  const std::int64_t begun = impl_->begun_ns.load(std::memory_order_relaxed);
-  return begun != 0 && 1e-9 * static_cast<double>(impl_->clock.now_ns() - begun) > impl_->options.hangs_after_s;
+std::string GuidedRunner<Machine>::serial() const {
+  LinkReport link;
+  const std::string& said = impl_->device->capabilities().serial;
+  return said.empty() && impl_->device->report(link) ? link.serial : said;
 }
 
 template <class Machine>

@@ -1,7 +1,7 @@
 // Runs a guided run (a bring-up, a calibration) on a device: in real time in a thread of its own (or the driver's), or
 // step by step in simulated time in the caller's. The owner's thread asks for the view and passes the answers on.
 //
-// Machine: Options (with rate_hz), View (with ended, questions, sent_n), Answer; tick, answer, stop, view.
+// Machine: Options (with rate_hz), View (with ended, questions, sent_n, end_with), Answer; tick, answer, stop, view.
 #pragma once
 
 #include "core/base/result.h"
@@ -16,7 +16,7 @@ template <class Machine>
 struct GuidedRunOptions {
   typename Machine::Options limits = {};
   bool threaded = true;         ///< off: `advance` makes the ticks; simulated devices only
-  double hangs_after_s = 10.0;  ///< an exchange that is under way for so long is not waited for any more
+  double hangs_after_s = 10.0;  ///< an exchange that is under way for so long ends the run: it is not waited for
 };
 
 template <class Machine>
@@ -32,14 +32,15 @@ class GuidedRunner {
   GuidedRunner(const GuidedRunner&) = delete;
   GuidedRunner& operator=(const GuidedRunner&) = delete;
 
-  /// The newest; owner's thread.
+  /// The newest; owner's thread. Ended, with `hangs`, where the driver does not come back from an exchange: its
+  /// emergency stop was called long before.
   const View& view();
   const ForceCapabilities& capabilities() const;
   /// To the question in the view that was seen last.
   void answer(typename Machine::Answer answer);
   void stop();
-  /// The driver does not come back from an exchange, so nothing will ever be answered.
-  bool hangs() const;
+  /// Of the device on the cable; empty: it has none, or none is known.
+  std::string serial() const;
   /// The simulated hand did what is asked, so that an answer makes sense; always with a real device.
   bool settled();
   /// Not threaded: n ticks of simulated time. Else nothing.

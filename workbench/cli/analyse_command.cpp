@@ -97,7 +97,7 @@ void add_analyse_command(CLI::App& app, CommandResult& result) {
   add_text_option(*command, "--participants", o->participants,
                   "participants.tsv with participant_id and experience (yes, no)", "F.tsv");
   add_number_option(*command, "--repeats", {.min = 20, .max = 100000, .whole = true},
-                    "Staircases simulated to calibrate the intervals of thresholds (default 1000)",
+                    "Staircases simulated to calibrate the intervals of thresholds (default 4000)",
                     [o](double n) { o->analysis.repeats = static_cast<int>(n); });
   add_flag(*command, "--pilots", o->load.pilots, "Analyse pilot runs, too");
   add_flag(*command, "--edited", o->load.edited, "Analyse files that were changed by hand, and say so");

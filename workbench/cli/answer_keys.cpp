@@ -3,7 +3,6 @@
 #include "core/io/csv_table.h"
 
 #include <array>
-#include <charconv>
 #include <cstdio>
 
 #include <poll.h>
@@ -14,7 +13,6 @@ namespace {
 
 constexpr char kEscapeKey = 27;
 constexpr std::size_t kLongestAnswer = 256;
-constexpr double kMostRead_n = 100.0;
 
 bool erases(char key) { return key == 0x7f || key == 8; }
 
@@ -35,16 +33,6 @@ std::optional<AnswerKey> answer_of_key(char key) {
   if (key == 's') return AnswerKey::skip;
   if (key == kEscapeKey || key == 'q' || key == ' ') return AnswerKey::stop;
   return std::nullopt;
-}
-
-std::optional<double> newtons_of_line(std::string_view line) {
-  std::string text(line);
-  if (const std::size_t comma = text.find(','); comma != std::string::npos) text[comma] = '.';
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || !(value > 0.0 && value <= kMostRead_n))
-    return std::nullopt;
-  return value;
 }
 
 void AnswerKeys::read_some() {

@@ -20,8 +20,6 @@ enum class AnswerKey : std::uint8_t { yes, no, skip, stop };
 /// Null: means nothing.
 std::optional<AnswerKey> answer_of_line(std::string_view line);
 std::optional<AnswerKey> answer_of_key(char key);
-/// "0.27", or "0,27" as scales are read elsewhere; null: no number above 0 and up to 100.
-std::optional<double> newtons_of_line(std::string_view line);
 
 class AnswerKeys {
  public:

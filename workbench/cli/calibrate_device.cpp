@@ -3,9 +3,11 @@
 #include "core/io/csv_table.h"
 #include "workbench/bringup/force_calibration.h"
 #include "workbench/bringup/guided_runner.h"
+#include "workbench/bringup/scale_calibration.h"
 #include "workbench/cli/answer_keys.h"
 #include "workbench/cli/command.h"
 #include "workbench/cli/interrupt.h"
+#include "workbench/cli/usb_packet_log.h"
 #include "workbench/session/falcon_setups.h"
 
 #include <chrono>
@@ -20,7 +22,6 @@ namespace {
 using CalibrationRunner = GuidedRunner<ForceCalibration>;
 
 constexpr std::uint64_t kTicksPerQuestion = 16;  // between two looks, in simulated time
-constexpr const char* kFalcon = "falcon";
 
 CalibrationAnswer calibration_answer(AnswerKey key) {
   return {key == AnswerKey::yes  ? BringUpAnswer::yes
@@ -45,6 +46,7 @@ class CalibrationTalk {
  private:
   void put_question(const CalibrationView& view) {
     asked_ = view.questions;
+    if (!runner_.capabilities().simulated) keys_.drop();  // what was typed before it was asked for
     const bool number = view.ask == CalibrationAsk::reading;
     std::printf("%s [%s%s]\n", question_text(view, runner_.capabilities()).c_str(),
                 number             ? "a number and Enter"
@@ -52,7 +54,6 @@ class CalibrationTalk {
                                    : "yes, no",
                 keys_.terminal() ? ", Escape stop" : ", stop");
     std::fflush(stdout);
-    if (!runner_.capabilities().simulated) keys_.drop();  // what was typed before it was asked for
   }
   Status take_answer() {
     const auto key = keys_.next();
@@ -80,8 +81,13 @@ class CalibrationTalk {
   std::uint32_t asked_ = 0;
 };
 
+struct CalibrationEnd {
+  CalibrationView view;
+  std::string serial;  // of the device that was there
+};
+
 /// Until it has ended.
-Result<CalibrationView> go_through(std::unique_ptr<ForceDevice> device, bool threaded) {
+Result<CalibrationEnd> go_through(std::unique_ptr<ForceDevice> device, bool threaded) {
   auto runner = CalibrationRunner::start(std::move(device), {.limits = {}, .threaded = threaded});
   if (!runner) return tl::unexpected(runner.error());
   CalibrationTalk talk(**runner);
@@ -91,59 +97,40 @@ Result<CalibrationView> go_through(std::unique_ptr<ForceDevice> device, bool thr
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     else
       (*runner)->advance(kTicksPerQuestion);
-    if ((*runner)->hangs())
-      return fail("its driver does not come back from an exchange", (*runner)->capabilities().name,
-                  "take the device's power away, then start again");
     if (const Status looked = talk.look(); !looked) status = looked;
   }
   if (!status) return tl::unexpected(status.error());
-  return (*runner)->view();
-}
-
-Status keep_scale(const std::string& serial, double scale) {
-  const std::filesystem::path path = falcon_setups_path();
-  if (serial.empty() || path.empty()) {
-    std::printf("No serial number to keep it by: give --falcon-torque-scale %.0f each time\n", scale);
-    return {};
-  }
-  if (const Status kept = keep_falcon_scale(path, serial, scale); !kept) return kept;
-  std::printf("%s: kept for serial number %s\n", path.c_str(), serial.c_str());
-  return {};
+  return CalibrationEnd{(*runner)->view(), (*runner)->serial()};
 }
 
 }  // namespace
 
-const std::vector<std::string_view>& calibrated_names() {
-  static const std::vector<std::string_view> names{kFalcon, "simulated"};
-  return names;
-}
-
 Result<int> calibrate_device(const DeviceCalibration& calibration) {
+  auto packets = UsbPacketLog::create(calibration.packets);
+  if (!packets) return tl::unexpected(packets.error());
   DeviceOptions drivers = calibration.drivers;
-  const bool real = calibration.kind == kFalcon;
-  const double given = drivers.falcon.torque_counts_per_nm;  // what is kept may be what is wrong
-  if (real) {
-    auto falcon = chosen_falcon_options(drivers.falcon, falcon_setups_path());
-    if (!falcon) return tl::unexpected(falcon.error());
-    drivers.falcon = std::move(*falcon);
-    drivers.falcon.torque_counts_per_nm = given;
-  }
-  auto made = make_devices({calibration.kind, "none"}, drivers);
+  drivers.tap = packets->tap();
+  auto made = scale_calibration(calibration.kind, drivers, falcon_setups_path());
   if (!made) return tl::unexpected(made.error());
+  const double used = made->used_scale;
+  const bool rehearsal = made->rehearsal;
   const InterruptGuard guard;
-  const double used = given > 0.0 ? given : kFalconUncalibratedScale;
-  std::printf("%s: begins with %.0f counts for 1 N m\n", made->force->capabilities().name.c_str(), used);
-  if (real) std::printf("Keep a hand on its power switch: it may hold its last force when this program dies\n");
-  const auto view = go_through(std::move(made->force), !calibration.without_waiting);
-  if (!view) return tl::unexpected(view.error());
-  const auto scale = calibrated_scale(*view, used);
+  std::printf("%s: begins with %.0f counts for 1 N m\n", made->device->capabilities().name.c_str(), used);
+  if (!rehearsal) std::printf("Keep a hand on its power switch: it may hold its last force when this program dies\n");
+  const auto end = go_through(std::move(made->device), !calibration.without_waiting);
+  if (!end) return tl::unexpected(end.error());
+  const CalibrationView& view = end->view;
+  if (view.why == BringUpWhy::hangs) packets->leave_behind();
+  const auto scale = calibrated_scale(view, used);
   if (!scale) return tl::unexpected(scale.error());
-  for (std::size_t i = 0; i < view->reading_count; ++i)
-    std::printf("asked for %.2f N, read %.2f N\n", view->readings[i].asked_n, view->readings[i].read_n);
+  for (std::size_t i = 0; i < view.reading_count; ++i)
+    std::printf("asked for %.2f N, read %.2f N\n", view.readings[i].asked_n, view.readings[i].read_n);
   std::printf("Torque scale: %.0f counts for 1 N m\n", *scale);
-  if (!real) std::printf("A rehearsal: nothing is kept\n");
-  if (const Status kept = real ? keep_scale(drivers.falcon.serial, std::round(*scale)) : Status{}; !kept)
-    return tl::unexpected(kept.error());
+  const auto kept = rehearsal ? Result<std::string>("A rehearsal: nothing is kept")
+                              : keep_scale(falcon_setups_path(), end->serial, *scale);
+  if (!kept) return tl::unexpected(kept.error());
+  std::printf("%s\n", kept->c_str());
+  if (const Status logged = packets->complete(); !logged) return tl::unexpected(logged.error());
   return kDone;
 }
 

@@ -5,20 +5,17 @@
 #include "core/base/result.h"
 #include "devices/device_set.h"
 
+#include <filesystem>
 #include <string>
-#include <string_view>
-#include <vector>
 
 namespace tangent {
 
 struct DeviceCalibration {
-  std::string kind;  ///< one of calibrated_names(); empty: none is calibrated
+  std::string kind;  ///< one of calibrated_names() (scale_calibration.h); empty: none is calibrated
   DeviceOptions drivers;
-  bool without_waiting = false;  ///< in simulated time
+  std::filesystem::path packets;  ///< every USB packet is logged there; empty: none is
+  bool without_waiting = false;   ///< in simulated time
 };
-
-/// "falcon", and "simulated" to rehearse it: nothing is kept.
-const std::vector<std::string_view>& calibrated_names();
 
 /// The exit code: kDone if a scale was found and, where there is a serial number, kept. Fails on an answer that is
 /// none, a stop and a refusal, readings that are on no line, and a file that can't be written; then nothing is kept.

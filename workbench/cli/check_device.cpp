@@ -9,9 +9,9 @@
 #include "workbench/cli/command.h"
 #include "workbench/cli/interrupt.h"
 #include "workbench/cli/messages.h"
+#include "workbench/cli/usb_packet_log.h"
 #include "workbench/session/kept_devices.h"
 
-#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstdio>
@@ -35,7 +35,7 @@ std::string keys_text(const BringUpView& view, bool terminal) {
 /// Says what is new.
 class StepTeller {
  public:
-  explicit StepTeller(bool terminal) : terminal_(terminal) {}
+  explicit StepTeller(AnswerKeys& keys) : keys_(keys), terminal_(keys.terminal()) {}
   void look(const BringUpView& view, const ForceCapabilities& can) {
     for (std::size_t i = 0; i < kBringUpSteps; ++i) {
       const auto step = static_cast<BringUpStep>(i);
@@ -45,13 +45,12 @@ class StepTeller {
     }
     if (view.asks() && view.questions != asked_) {
       asked_ = view.questions;
+      if (!can.simulated) keys_.drop();  // what was typed before it was asked for is no answer
       std::printf("%s%s\n", question_text(view, can).c_str(), keys_text(view, terminal_).c_str());
-      fresh_ = true;
     }
     std::fflush(stdout);
   }
-  /// Whether a question was put since the last call.
-  bool asked_anew() { return std::exchange(fresh_, false); }
+  bool has_asked(const BringUpView& view) const { return view.questions == asked_; }
 
  private:
   static void say_step(BringUpStep step, const BringUpView& view, const ForceCapabilities& can) {
@@ -59,16 +58,16 @@ class StepTeller {
     std::printf("%s: %s%s%s%s%s\n", step_title(step), to_string(view.verdict(step)), facts.empty() ? "" : ". ",
                 facts.c_str(), why.empty() ? "" : ". ", why.c_str());
   }
-  bool terminal_, fresh_ = false;
+  AnswerKeys& keys_;
+  bool terminal_;
   std::uint32_t asked_ = 0;
   std::array<StepVerdict, kBringUpSteps> told_{};
 };
 
-/// An answer where one came. What a real device is asked isn't answered by what was typed before.
-Status take_answer(AnswerKeys& keys, StepTeller& teller, BringUpRunner& runner) {
+/// An answer where one came. A question that was not put yet isn't answered.
+Status take_answer(AnswerKeys& keys, const StepTeller& teller, BringUpRunner& runner) {
   if (keys.wants_stop()) return runner.stop(), Status{};
-  if (teller.asked_anew() && !runner.capabilities().simulated) keys.drop();
-  if (!runner.view().asks() || !runner.settled()) return {};
+  if (!runner.view().asks() || !runner.settled() || !teller.has_asked(runner.view())) return {};
   const auto key = keys.next();
   if (!key) return runner.stop(), tl::unexpected(key.error());
   if (*key == AnswerKey::stop || (!*key && keys.ended()))
@@ -80,7 +79,7 @@ Status take_answer(AnswerKeys& keys, StepTeller& teller, BringUpRunner& runner) 
 
 Status attend(BringUpRunner& runner, bool threaded) {
   AnswerKeys keys;
-  StepTeller teller(keys.terminal());
+  StepTeller teller(keys);
   Status status;
   bool ended = false;
   while (!ended) {
@@ -93,19 +92,13 @@ Status attend(BringUpRunner& runner, bool threaded) {
     teller.look(view, runner.capabilities());
     if (InterruptGuard::requested()) runner.stop();
     if (ended) break;
-    if (runner.hangs())
-      return fail("its driver does not come back from an exchange", runner.capabilities().name,
-                  "take the device's power away, then start again");
     if (const Status taken = take_answer(keys, teller, runner); !taken) status = taken;
   }
   return status;
 }
 
 BringUpProtocol unopened(const DeviceCheck& check, const ForceCapabilities& can, const Error& why) {
-  const auto found = find_force_devices(check.drivers);
-  const bool attached = std::any_of(found.begin(), found.end(),
-                                    [&](const FoundDevice& d) { return d.kind == check.kind && !d.name.empty(); });
-  return unopened_protocol(check.kind, can, why, attached);
+  return unopened_protocol(check.kind, can, why, is_attached(check.kind, check.drivers));
 }
 
 Status keep(const BringUpProtocol& protocol, const DeviceCheck& check) {
@@ -125,7 +118,11 @@ Status keep(const BringUpProtocol& protocol, const DeviceCheck& check) {
 }  // namespace
 
 Result<int> check_device(const DeviceCheck& check) {
-  auto made = make_devices_as_kept({check.kind, "none"}, check.drivers);
+  auto packets = UsbPacketLog::create(check.packets);
+  if (!packets) return tl::unexpected(packets.error());
+  DeviceOptions drivers = check.drivers;
+  drivers.tap = packets->tap();
+  auto made = make_devices_as_kept({check.kind, "none"}, drivers);
   if (!made) return tl::unexpected(made.error());
   const InterruptGuard guard;
   const ForceCapabilities can = made->force->capabilities();
@@ -137,6 +134,7 @@ Result<int> check_device(const DeviceCheck& check) {
     attended = attend(**runner, options.threaded);
     protocol.kind = check.kind;
     protocol.device = (*runner)->capabilities();
+    protocol.device.serial = (*runner)->serial();
     protocol.cable = (*runner)->link_problem();
     protocol.result = (*runner)->view();
   } else {
@@ -147,11 +145,13 @@ Result<int> check_device(const DeviceCheck& check) {
   protocol.program = TANGENT_VERSION;
   protocol.most_n = check.most_n;
   if (!attended) return tl::unexpected(attended.error());
+  if (protocol.result.why(protocol.result.step) == BringUpWhy::hangs) packets->leave_behind();
   if (const Status kept = keep(protocol, check); !kept) return tl::unexpected(kept.error());
   const bool all = protocol.result.all_proved();
   std::printf("%s. Not proved:\n", all ? "All proved" : "Not all proved");
   for (const std::string& line : not_proved_lines(protocol.result, protocol.device))
     std::printf("  %s\n", line.c_str());
+  if (const Status logged = packets->complete(); !logged) return tl::unexpected(logged.error());
   return all ? kDone : kFailed;
 }
 

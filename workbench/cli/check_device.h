@@ -12,9 +12,10 @@ namespace tangent {
 struct DeviceCheck {
   std::string kind;  ///< of --force; empty: none is checked
   DeviceOptions drivers;
-  std::filesystem::path out;     ///< of the protocol; empty: none is written
-  double most_n = 1.0;           ///< limit of the forces
-  bool without_waiting = false;  ///< in simulated time
+  std::filesystem::path out;      ///< of the protocol; empty: none is written
+  std::filesystem::path packets;  ///< every USB packet is logged there; empty: none is
+  double most_n = 1.0;            ///< limit of the forces
+  bool without_waiting = false;   ///< in simulated time
 };
 
 /// The exit code: kDone if all was proved. Fails on an answer that is none, and a protocol that can't be written.

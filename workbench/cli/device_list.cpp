@@ -70,6 +70,12 @@ std::string found_text(const FoundDevice& found, const DeviceOptions& options, n
     report.back()["problem"] = found.problem.message();
     return name + "\n" + problem_text(found.problem);
   }
+  if (!found.attached) {
+    report.back()["attached"] = false;
+    return name +
+           ", set up on this machine\n  whether it is attached only opening it tells: workbench devices --check " +
+           found.kind + "\n";
+  }
   const std::string proved = proved_line(found);
   if (!proved.empty()) report.back()["brought_up"] = proved;
   const auto made = make_devices({found.kind, "none"}, options);

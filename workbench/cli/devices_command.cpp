@@ -1,6 +1,7 @@
 // workbench devices: lists attached devices, their capabilities, and why one can't be opened; --check: brings one up;
 // --calibrate: measures its torque scale.
 #include "core/io/atomic_file.h"
+#include "workbench/bringup/scale_calibration.h"
 #include "workbench/cli/calibrate_device.h"
 #include "workbench/cli/check_device.h"
 #include "workbench/cli/command.h"
@@ -38,8 +39,8 @@ const std::vector<std::string_view>& checked_names() {
 /// What makes no sense together.
 Status check_usage(const DeviceCheck& check, const std::string& calibrated) {
   const std::string& kind = calibrated.empty() ? check.kind : calibrated;
-  if (kind.empty() && (!check.out.empty() || check.without_waiting))
-    return fail("is missing", {}, "say which device, or leave --out and --without-waiting out");
+  if (kind.empty() && (!check.out.empty() || !check.packets.empty() || check.without_waiting))
+    return fail("is missing", {}, "say which device, or leave --out, --packets and --without-waiting out");
   if (check.without_waiting && !are_simulated({kind, "none"}))
     return fail("is of a real device, which keeps real time", {}, "leave --without-waiting out");
   return {};
@@ -57,7 +58,8 @@ Status run_devices(const std::filesystem::path& json_file, const DeviceOptions& 
 
 Result<int> run_one(const DevicesOptions& options) {
   if (options.calibrated.empty()) return check_device(options.check);
-  return calibrate_device({options.calibrated, options.check.drivers, options.check.without_waiting});
+  const DeviceCheck& given = options.check;
+  return calibrate_device({options.calibrated, given.drivers, given.packets, given.without_waiting});
 }
 
 }  // namespace
@@ -80,6 +82,8 @@ void add_devices_command(CLI::App& app, CommandResult& result) {
                     [&check](double v) { check.most_n = v; });
   add_flag(*command, "--without-waiting", check.without_waiting,
            "--check or --calibrate of a simulated device in simulated time, its hand led as the person is asked to");
+  add_text_option(*command, "--packets", check.packets,
+                  "Log every USB packet of --check or --calibrate to this file, for bug reports", "F.txt");
   for (const char* other : {"--out", "--limit-n"}) exclude_each_other(*command, "--calibrate", other);
   add_driver_options(*command, check.drivers);
   on_run(*command, [options, &result] {

@@ -22,12 +22,11 @@ Figure patches_figure() {
                                        {0.042, 0.046},
                                        {0.066, 0.008}},
                                       false});
-  FigureTable even = points(), odd = points(), ends = points(), vertices = points();
+  FigureTable even = points(), odd = points(), ends = points();
   for (std::uint32_t i = 0; i < curve.patch_count(); ++i) {
     if (!curve.patch(i).straight) add_patch_region(curve, i, i % 2 ? odd : even);
     ends.rows.push_back(mm(curve.origin() + curve.patch(i).first));
     ends.rows.push_back(mm(curve.origin() + curve.patch(i).last));
-    vertices.rows.push_back(mm(curve.origin() + curve.patch(i).vertex));
   }
   figure.data = {{"", curve_table(curve)},
                  {"-polygon", polygon_table(curve.polygon())},

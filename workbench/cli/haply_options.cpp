@@ -9,6 +9,9 @@ void add_haply_options(CLI::App& command, HaplyOptions& options) {
                   "Where Haply's Inverse Service is (default ws://localhost:10001)", "URL");
   add_flag(command, "--haply-other-host", options.other_host,
            "Allow a service on another machine: forces then come as late as the network is");
+  add_number_option(command, "--haply-events-port", {.min = 0, .max = 65535, .unit = "port"},
+                    "Where the service reports events, on the same host (default 10020; 0: they are not heard)",
+                    [&options](double v) { options.events_port = static_cast<int>(v); });
   add_text_option(command, "--haply-device", options.device, "Which Inverse3, where there are several: its id", "ID");
   add_number_option(command, "--haply-peak-n", {.min = 0.1, .max = 20, .unit = "N"},
                     "The largest force to send (default 3, a careful limit of ours)",

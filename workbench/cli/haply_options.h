@@ -9,8 +9,8 @@ class App;
 
 namespace tangent {
 
-/// --haply-address, --haply-other-host, --haply-device, --haply-peak-n, --haply-centre-mm. `options` must outlive the
-/// parsing.
+/// --haply-address, --haply-other-host, --haply-events-port, --haply-device, --haply-peak-n, --haply-centre-mm.
+/// `options` must outlive the parsing.
 void add_haply_options(CLI::App& command, HaplyOptions& options);
 
 }  // namespace tangent

@@ -90,8 +90,43 @@ void look_after(SessionRecorder& recorder, std::string& told) {
                                        : "not recorded at present, and tried again every second: " + now);
 }
 
+/// Devices that may be plugged in later: which of them came.
+class LinkWatch {
+ public:
+  void look(const Session& session) {
+    LinkReport force, display;
+    if (session.force_report(force)) force_.see(force);
+    if (session.display_report(display)) display_.see(display);
+  }
+  /// Fails when one of them was never there.
+  Status all_came(const DeviceNames& names) const {
+    if (force_.missed()) return missing("--force " + names.force, force_);
+    if (display_.missed()) return missing("--display " + names.display, display_);
+    return {};
+  }
+
+ private:
+  struct Link {
+    bool sought = false, came = false;
+    std::string problem = {};
+    void see(const LinkReport& report) {
+      sought = true;
+      came = came || report.connected;
+      if (!report.connected) problem = report.problem;
+    }
+    bool missed() const { return sought && !came; }
+  };
+  static Status missing(const std::string& option, const Link& link) {
+    return fail("was not there at any time" + (link.problem.empty() ? link.problem : ": " + link.problem), option,
+                "plug it in, and see workbench devices");
+  }
+
+  Link force_, display_;
+};
+
 /// `recorder`: null: none.
-void watch(Session& session, const MonitorOptions& options, const FaultInjection& fault, SessionRecorder* recorder) {
+void watch(Session& session, const MonitorOptions& options, const FaultInjection& fault, SessionRecorder* recorder,
+           LinkWatch& links) {
   using Clock = std::chrono::steady_clock;
   const InterruptGuard guard;
   const Keys keys;
@@ -104,6 +139,7 @@ void watch(Session& session, const MonitorOptions& options, const FaultInjection
   bool injected = fault.kind == InjectedFault::none;
   for (bool going = true; going && !InterruptGuard::requested();) {
     session.poll();
+    links.look(session);
     if (recorder != nullptr) look_after(*recorder, told);
     const auto now = Clock::now();
     const double elapsed = std::chrono::duration<double>(now - began).count();
@@ -172,7 +208,8 @@ Status run_monitor(const MonitorOptions& options) {
     if (!recorder) return tl::unexpected(recorder.error());
   }
   if (const Status ok = (*session)->start(); !ok) return ok;
-  watch(**session, options, fault, recorder->get());
+  LinkWatch links;
+  watch(**session, options, fault, recorder->get(), links);
   const Status ended = (*session)->shut_down();
   const Status written = *recorder ? (*recorder)->finish() : Status{};
   std::fputs(monitor_report(**session).c_str(), stdout);
@@ -181,7 +218,9 @@ Status run_monitor(const MonitorOptions& options) {
                 static_cast<unsigned long long>((*recorder)->status().written),
                 static_cast<unsigned long long>((*recorder)->status().missing), options.record.c_str());
   if (!written) return written;
-  return ended ? (*session)->packet_log() : ended;
+  if (!ended) return ended;
+  const Status log = (*session)->packet_log();
+  return log && options.seconds > 0.0 ? links.all_came(options.devices.names) : log;
 }
 
 }  // namespace

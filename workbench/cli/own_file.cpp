@@ -1,5 +1,6 @@
 #include "workbench/cli/own_file.h"
 
+#include "core/io/replaceable_file.h"
 #include "core/preset/schema.h"
 #include "workbench/cli/option.h"
 
@@ -8,13 +9,12 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <fstream>
 #include <stdexcept>
 
 namespace tangent {
 namespace {
 
-constexpr std::size_t kLooked = std::size_t{1} << 16;
+constexpr std::size_t kLongestLogLine = std::size_t{1} << 12;
 
 bool has_line(std::string_view text, std::string_view line) {
   while (!text.empty()) {
@@ -57,6 +57,13 @@ bool is_replay_report(std::string_view text) { return is_json_with(text, "same_b
 bool is_comparison(std::string_view text) { return is_json_with(text, "why_not_aligned"); }
 bool is_check_report(std::string_view text) { return is_json_with(text, "outcome") && is_json_with(text, "preset"); }
 
+bool is_device_list(std::string_view text) { return text == "[]\n" || is_json_with(text, "can_be_opened"); }
+bool is_protocol(std::string_view text) { return is_json_with(text, "steps") && is_json_with(text, "verdict"); }
+bool is_protocol_page(std::string_view text) { return has(text, "| program | Tangent Workbench "); }
+/// SVG or PDF, with its origin (session/file_origin.h).
+bool is_drawing(std::string_view text) { return has(text, "Tangent Workbench"); }
+bool is_report_page(std::string_view text) { return has(text, "name=\"generator\" content=\"Tangent Workbench "); }
+
 /// As `make` writes it, or an outline in two columns.
 bool is_made_mesh(std::string_view beginning) {
   return beginning.starts_with("# workbench make ") || beginning.starts_with("# arc of ") ||
@@ -73,7 +80,7 @@ bool is_export(std::string_view beginning) {
 
 /// Seconds, direction, status and length, then bytes.
 bool is_packet_log(std::string_view beginning) {
-  const std::string line(beginning.substr(0, std::min(beginning.find('\n'), kLooked / 16)));
+  const std::string line(beginning.substr(0, std::min(beginning.find('\n'), kLongestLogLine)));
   double seconds = 0.0;
   std::array<char, 8> direction{};
   int status = 0, length = 0;
@@ -85,6 +92,13 @@ bool is_packet_log(std::string_view beginning) {
 struct OwnOutput {
   std::string_view command, option, kind;
   bool (*is_ours)(std::string_view beginning);
+  std::string_view in_folder = {};  ///< the option names a folder, in which it is this file
+  std::string_view beside = {};     ///< of the option's file, with this ending in place of its own
+  std::filesystem::path file(const std::string& value) const {
+    const std::filesystem::path path = value;
+    if (!in_folder.empty()) return path / in_folder;
+    return beside.empty() ? path : std::filesystem::path(path).replace_extension(beside);
+  }
 };
 
 constexpr std::array kOwnOutputs{
@@ -92,6 +106,11 @@ constexpr std::array kOwnOutputs{
     OwnOutput{"tune", "--front", "the table of a front", is_front_table},
     OwnOutput{"bench", "--json", "a measurement", is_bench_json},
     OwnOutput{"bench", "--csv", "a table of one", is_bench_table},
+    OwnOutput{"bench", "--plot", "a drawing of this program", is_drawing},
+    OwnOutput{"devices", "--json", "a list of devices", is_device_list},
+    OwnOutput{"devices", "--out", "the protocol of a check", is_protocol},
+    OwnOutput{"devices", "--out", "the page of a protocol", is_protocol_page, {}, ".md"},
+    OwnOutput{"report", "--out", "a report", is_report_page, "report.html"},
     OwnOutput{"solve", "--out", "a table of ticks", is_ticks_table},
     OwnOutput{"solve", "--summary", "the summary of a run", is_summary},
     OwnOutput{"solve", "--iterations", "a table of iterations", is_iterations_table},
@@ -118,35 +137,25 @@ bool same_file(const std::string& a, const std::string& b) {
 
 }  // namespace
 
-Status check_replaceable(const std::filesystem::path& path, std::string_view kind,
-                         bool (*is_ours)(std::string_view beginning)) {
-  std::error_code error;
-  if (path.empty() || !std::filesystem::is_regular_file(path, error)) return {};
-  std::ifstream file(path, std::ios::binary);
-  std::string beginning(kLooked, '\0');
-  file.read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
-  beginning.resize(static_cast<std::size_t>(file.gcount()));
-  if (beginning.empty() || is_ours(beginning)) return {};
-  return fail("is there already, and is not " + std::string(kind) + ", which alone is replaced", path.string(),
-              "choose another name, or remove it");
-}
-
 void check_own_outputs(const CLI::App& command) {
   const std::vector<GivenOption> given = given_options(command);
-  const auto row_of = [&](const GivenOption& option) {
-    return std::find_if(kOwnOutputs.begin(), kOwnOutputs.end(), [&](const OwnOutput& row) {
-      return row.command == command.get_name() && row.option == option.name;
-    });
+  const auto is_of = [&](const OwnOutput& row, const GivenOption& option) {
+    return row.command == command.get_name() && row.option == option.name;
   };
-  for (const GivenOption& output : given) {
-    const auto* const own = row_of(output);
-    if (own == kOwnOutputs.end()) continue;
-    if (std::any_of(given.begin(), given.end(), [&](const GivenOption& other) {
-          return row_of(other) == kOwnOutputs.end() && same_file(other.value, output.value);
-        }))
-      continue;
-    if (const Status ok = check_replaceable(output.value, own->kind, own->is_ours); !ok)
-      throw std::runtime_error(ok.error().message());
+  const auto is_output = [&](const GivenOption& option) {
+    return std::any_of(kOwnOutputs.begin(), kOwnOutputs.end(),
+                       [&](const OwnOutput& row) { return is_of(row, option); });
+  };
+  for (const OwnOutput& own : kOwnOutputs) {
+    for (const GivenOption& output : given) {
+      if (!is_of(own, output)) continue;
+      const bool read_too = std::any_of(given.begin(), given.end(), [&](const GivenOption& other) {
+        return !is_output(other) && same_file(other.value, output.value);
+      });
+      if (read_too) continue;
+      if (const Status ok = check_replaceable(own.file(output.value), own.kind, own.is_ours); !ok)
+        throw std::runtime_error(ok.error().message());
+    }
   }
 }
 

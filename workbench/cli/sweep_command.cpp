@@ -60,19 +60,33 @@ std::string outcome_text(const sweep::SweepOutcome& o, const std::string& where)
 }
 
 /// What to do when the meshes and motions of failed cells are mended.
-constexpr const char* kAgain = "; then the same command with --again failed solves them";
-constexpr const char* kAgainMerged = "; then merge all shards, and sweep --plan, --out and --again failed solve them";
+constexpr const char* kAgain = "the same command with --again failed solves them";
+constexpr const char* kAgainMerged = "merge all shards, and sweep --plan, --out and --again failed solve them";
+
+/// Every mesh and motion that could not be had, and what to do when they are mended.
+void print_failures(const sweep::SweepOutcome& outcome, const std::string& where, const std::string& mended) {
+  const sweep::Failures& failures = outcome.failures;
+  if (failures.cells == 0 || failures.reasons.empty()) return;
+  const std::string all = where + ": " + count_text(failures.cells, "cell has", "cells have") + " no numbers";
+  const std::string others = failures.cells < outcome.cells ? ", the others have" : "";
+  if (failures.reasons.size() == 1) {
+    const sweep::Failures::Reason& only = failures.reasons.front();
+    print_message("sweep", all + (others.empty() ? "," : others + ";") + " the first, cell " +
+                               std::to_string(only.first) + ": " + only.why + "; then " + mended);
+    return;
+  }
+  for (const sweep::Failures::Reason& reason : failures.reasons)
+    print_message("sweep", where + ": " + count_text(reason.cells, "cell has", "cells have") +
+                               " no numbers, the first, cell " + std::to_string(reason.first) + ": " + reason.why);
+  print_message("sweep", all + others + "; mend what they lack, then " + mended);
+}
 
 /// What is said at the end, and the exit code.
 int finish(const sweep::SweepOutcome& outcome, const std::string& where, const std::string& mended = kAgain) {
   std::fputs(outcome_text(outcome, where).c_str(), stdout);
   if (outcome.stopped) print_message("sweep", "interrupted; the same command goes on from there");
-  const sweep::Failures& failures = outcome.failures;
-  if (failures.cells > 0)
-    print_message("sweep", where + ": " + count_text(failures.cells, "cell has", "cells have") + " no numbers, " +
-                               (failures.cells < outcome.cells ? "the others have; " : "") + "the first, cell " +
-                               std::to_string(failures.first) + ": " + failures.why + mended);
-  return outcome.stopped || failures.cells > 0 ? kFailed : kDone;
+  print_failures(outcome, where, mended);
+  return outcome.stopped || outcome.failures.cells > 0 ? kFailed : kDone;
 }
 
 /// Keys that are swept for nothing: the sweep goes on all the same.

@@ -32,6 +32,10 @@ constexpr std::array<ColumnMeaning, 2> kParticipantColumns{{
     {"simulated", "", "no, or what was simulated when the participant was begun, so that nobody felt anything"},
 }};
 
+constexpr std::array<ColumnMeaning, 1> kScanColumns{{
+    {"simulated", "", "no, or what was simulated, so that nobody felt anything"},
+}};
+
 TsvFields tsv_fields(const std::string& line) {
   TsvFields out(1);
   for (const char c : line) {
@@ -146,7 +150,8 @@ Status describe_dataset(const fs::path& folder) {
       {"dataset_description.json", description.dump(2) + "\n"},
       {"README", kReadme},
       {".bidsignore", "protocol-*.toml\n*_beh.csv\n*_events.csv\n*_recordings\n*_recordings/**\n"},
-      {"participants.json", columns_json(kParticipantColumns)}};
+      {"participants.json", columns_json(kParticipantColumns)},
+      {"scans.json", columns_json(kScanColumns)}};
   for (const auto& [name, text] : files)
     if (Status ok = write_if_missing(folder / name, text); !ok) return ok;
   return {};

@@ -10,7 +10,6 @@
 #include <utility>
 
 #include <fcntl.h>
-#include <sys/file.h>
 #include <unistd.h>
 
 namespace tangent::experiment {
@@ -38,16 +37,6 @@ Fields split(std::string_view line) {
 std::string check_of(std::string_view before, std::string_view text) { return Fnv().add(before).add(text).text(); }
 
 std::string reason() { return std::strerror(errno); }
-
-bool write_all(int file, std::string_view text) {
-  while (!text.empty()) {
-    const ssize_t written = ::write(file, text.data(), text.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) return false;
-    text.remove_prefix(static_cast<std::size_t>(written));
-  }
-  return true;
-}
 
 std::string csv_line(const Fields& fields) {
   std::string out;
@@ -114,26 +103,21 @@ Result<ReadRows> read_rows(const std::filesystem::path& path, const std::string&
 }
 
 RowFile::RowFile(RowFile&& other) noexcept
-    : path_(std::move(other.path_)),
-      file_(std::exchange(other.file_, -1)),
+    : file_(std::move(other.file_)),
       csv_(std::exchange(other.csv_, -1)),
-      bytes_(other.bytes_),
       last_check_(std::move(other.last_check_)),
       rows_(std::move(other.rows_)),
       added_(other.added_) {}
 
 RowFile::~RowFile() {
-  if (file_ >= 0) ::close(file_);
   if (csv_ >= 0) ::close(csv_);
 }
 
 Result<RowFile> RowFile::open(const std::filesystem::path& path, const Fields& columns, const std::string& identity) {
-  RowFile out;
-  out.path_ = path;
-  out.file_ = ::open(path.c_str(), O_CREAT | O_RDWR | O_APPEND | O_CLOEXEC, 0666);
-  if (out.file_ < 0) return fail("can't be written: " + reason(), path.string(), "choose a folder that may be written");
-  if (::flock(out.file_, LOCK_EX | LOCK_NB) != 0)
-    return fail("is in use by another program", path.string(), "end that one first");
+  Result<AppendedFile> file = AppendedFile::open(
+      path, {.not_whole = "the answers before are in it; make room, go on", .in_use = "end that one first"});
+  if (!file) return tl::unexpected(file.error());
+  RowFile out(std::move(*file));
   std::error_code error;
   Table table;
   if (std::filesystem::file_size(path, error) > 0 && !error) {
@@ -149,46 +133,35 @@ Result<RowFile> RowFile::open(const std::filesystem::path& path, const Fields& c
   if (!table.read.complaint.empty())
     return fail("was changed by hand, or belongs to another protocol, participant or seed", table.read.complaint,
                 "use the file as it was written, or another folder");
-  if (::ftruncate(out.file_, static_cast<off_t>(table.whole_bytes)) != 0)
-    return fail("its torn end can't be cut off: " + reason(), path.string());
+  if (Status ok = out.file_.keep(table.whole_bytes); !ok) return tl::unexpected(ok.error());
   out.last_check_ = table.last_check;
   out.rows_ = std::move(table.read.rows);
-  out.bytes_ = table.whole_bytes;
   if (table.whole_bytes == 0) {
     const std::string header = joined(columns) + std::string(kCheck);
-    if (Status ok = out.write(header + "\n"); !ok) return tl::unexpected(ok.error());
+    if (Status ok = out.file_.add_durably(header + "\n"); !ok) return tl::unexpected(ok.error());
     out.last_check_ = check_of(identity, header);
   }
   if (Status ok = out.begin_csv(columns); !ok) return tl::unexpected(ok.error());
   return out;
 }
 
-Status RowFile::write(const std::string& text) {
-  const bool written = write_all(file_, text) && (::fdatasync(file_) == 0 || errno == EINVAL);
-  if (written) return bytes_ += text.size(), Status{};
-  const std::string why = reason();
-  // Half a row would stand before the next one. Where it can't be cut off now, the next start does.
-  static_cast<void>(::ftruncate(file_, static_cast<off_t>(bytes_)) == 0);
-  return fail("can't be written: " + why, path_.string(), "the answers before are in it; make room, go on");
-}
-
 // Made anew at each start, from the rows that are there.
 Status RowFile::begin_csv(const Fields& columns) {
-  const std::filesystem::path path = std::filesystem::path(path_).replace_extension(".csv");
+  const std::filesystem::path path = std::filesystem::path(file_.path()).replace_extension(".csv");
   csv_ = ::open(path.c_str(), O_CREAT | O_WRONLY | O_TRUNC | O_APPEND | O_CLOEXEC, 0666);
   std::string text = csv_line(columns);
   for (const Fields& row : rows_) text += csv_line(row);
-  if (csv_ >= 0 && write_all(csv_, text)) return {};
+  if (csv_ >= 0 && write_whole(csv_, text)) return {};
   return fail("can't be written: " + reason(), path.string(), "choose a folder that may be written, or make room");
 }
 
 Status RowFile::add(const Fields& fields) {
   const std::string text = joined(fields);
   const std::string check = check_of(last_check_, text);
-  if (Status ok = write(text + check + "\n"); !ok) return ok;
+  if (Status ok = file_.add_durably(text + check + "\n"); !ok) return ok;
   last_check_ = check;
   ++added_;
-  static_cast<void>(write_all(csv_, csv_line(fields)));
+  static_cast<void>(write_whole(csv_, csv_line(fields)));
   return {};
 }
 

@@ -4,10 +4,12 @@
 // checksum of the row and of the one before it: a table that was edited, cut or joined by hand is told.
 #pragma once
 
-#include "core/base/result.h"
+#include "core/io/appended_file.h"
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace tangent::experiment {
@@ -31,13 +33,10 @@ class RowFile {
   Status add(const Fields& fields);
 
  private:
-  RowFile() = default;
-  Status write(const std::string& text);
+  explicit RowFile(AppendedFile file) : file_(std::move(file)) {}
   Status begin_csv(const Fields& columns);
-  std::filesystem::path path_;
-  int file_ = -1;
-  int csv_ = -1;           ///< a copy for people: what it lacks after an end out of order, the next start writes
-  std::size_t bytes_ = 0;  ///< of whole rows
+  AppendedFile file_;
+  int csv_ = -1;  ///< a copy for people: what it lacks after an end out of order, the next start writes
   std::string last_check_;
   std::vector<Fields> rows_;
   std::size_t added_ = 0;

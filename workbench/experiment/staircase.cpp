@@ -17,7 +17,10 @@ void Staircase::step(int direction) {
   const double size = large ? rule_.large_step : rule_.small_step;
   const double next =
       rule_.scale == StepScale::ratio ? level_ * (direction > 0 ? size : 1.0 / size) : level_ + direction * size;
+  const int shown = segments();
   level_ = std::clamp(next, rule_.fewest, rule_.most);
+  // Few segments times a small ratio round to as many: a step that shows the same is none (5.2.4).
+  if (segments() == shown) level_ = std::clamp(static_cast<double>(shown + direction), rule_.fewest, rule_.most);
 }
 
 bool Staircase::answer(bool right) {

@@ -20,5 +20,8 @@ target_link_libraries(tangent_gui
   PUBLIC tangent_bench tangent_bringup tangent_evidence tangent_experiment tangent_recording tangent_sweep
          ${IMGUI_LIBRARY} glfw Freetype::Freetype ${STB_LIBRARY} PkgConfig::epoxy ${CMAKE_DL_LIBS}
   PRIVATE PkgConfig::kissfft)
-target_compile_definitions(tangent_gui PRIVATE TANGENT_SHADER_DIR="${PROJECT_SOURCE_DIR}/shaders"
+# Places are known to one file each: all other objects are the same wherever the project lies (tests/README.md).
+set_source_files_properties(gui/render/shader_program.cpp PROPERTIES COMPILE_DEFINITIONS
+  TANGENT_SHADER_DIR="${PROJECT_SOURCE_DIR}/shaders")
+set_source_files_properties(gui/model/shipped_presets.cpp PROPERTIES COMPILE_DEFINITIONS
   TANGENT_PRESET_DIR="${PROJECT_SOURCE_DIR}/presets")

@@ -2,6 +2,7 @@
 //   template <class Stream> void describe(Stream& stream, T& value) { stream(value.a); stream(value.b); }
 #pragma once
 
+#include "core/base/fnv.h"
 #include "core/base/vec.h"
 
 #include <bit>
@@ -91,17 +92,9 @@ inline bool same_bits(double a, double b) { return std::bit_cast<std::uint64_t>(
 /// The same bits as SQLite's kind of integer.
 inline std::int64_t whole_of(std::uint64_t bits) { return std::bit_cast<std::int64_t>(bits); }
 
-/// 64 bits of any bytes (FNV-1a).
+/// 64 bits of any bytes.
 inline std::uint64_t hash_of(std::span<const unsigned char> bytes) {
-  std::uint64_t hash = 0xcbf29ce484222325ull;
-  for (const unsigned char byte : bytes) hash = (hash ^ byte) * 0x100000001b3ull;
-  return hash;
-}
-/// 16 hex digits.
-inline std::string hex_text(std::uint64_t value) {
-  std::string text(16, '0');
-  for (std::size_t i = 16; i-- > 0; value >>= 4) text[i] = "0123456789abcdef"[value & 15];
-  return text;
+  return Fnv().add({reinterpret_cast<const char*>(bytes.data()), bytes.size()}).value();
 }
 
 }  // namespace tangent

@@ -9,7 +9,6 @@
 #include "workbench/session/window_settings.h"
 
 #include <array>
-#include <map>
 #include <sstream>
 #include <system_error>
 
@@ -21,8 +20,6 @@ constexpr std::array<MigrationStep, 1> kFalconSteps{only_number};
 constexpr FileFormats kFalconFormats{"calibration", kFalconSteps};
 constexpr std::array<std::string_view, 3> kFalconKeys{"torque_counts_per_nm", "firmware", "firmware_sha256"};
 constexpr const char* kFalconRemedy = "correct it, or delete the file and calibrate again";
-
-using FalconSetups = std::map<std::string, FalconSetup>;  // by serial number
 
 std::string falcon_place(const std::filesystem::path& path, const toml::node& node, const std::string& what) {
   return path.string() + ":" + std::to_string(node.source().begin.line) + " " + what;
@@ -126,6 +123,11 @@ Status keep_falcon_scale(const std::filesystem::path& path, const std::string& s
 
 Result<FalconOptions> chosen_falcon_options(FalconOptions given, const std::filesystem::path& path) {
   const std::string serial = given.serial.empty() ? attached_falcon() : given.serial;
+  if (serial.empty() && !path.empty() && !given.keep) {
+    auto kept = read_falcon_setups(path);
+    if (!kept) return tl::unexpected(kept.error());
+    given.kept = std::move(*kept);
+  }
   if (serial.empty() || path.empty()) {
     if (!given.keep) return given;
     return fail("no Falcon with a serial number is attached, or there is no home directory", "--falcon-keep",

@@ -11,13 +11,6 @@
 
 namespace tangent {
 
-struct FalconSetup {
-  double torque_counts_per_nm = 0.0;  ///< 0: not calibrated
-  std::string firmware;               ///< a path; empty: none
-  std::string firmware_sha256;        ///< of a file that our list doesn't have, confirmed by the owner
-  bool operator==(const FalconSetup&) const = default;
-};
-
 inline constexpr const char* kFalconFile = "falcon.toml";
 
 /// In the folder of the window's settings; empty when there is no home directory.
@@ -35,8 +28,9 @@ Status keep_falcon_setup(const std::filesystem::path& path, const std::string& s
 Status keep_falcon_scale(const std::filesystem::path& path, const std::string& serial, double counts_per_nm);
 
 /// `given`, and for what was not given what is kept for that serial number or, without one, for the only Falcon that is
-/// attached; then that one alone is opened. With `given.keep` it is kept. Fails when kept values are needed and can't
-/// be read, and when there is no serial number to keep values by.
+/// attached; then that one alone is opened. Where none can be told, all that is kept goes along, for the one that is
+/// plugged in later. With `given.keep` it is kept. Fails when kept values are needed and can't be read, and when there
+/// is no serial number to keep values by.
 Result<FalconOptions> chosen_falcon_options(FalconOptions given, const std::filesystem::path& path);
 
 }  // namespace tangent

@@ -2,6 +2,7 @@
 
 #include "core/base/text.h"
 #include "core/io/atomic_file.h"
+#include "core/io/replaceable_file.h"
 #include "workbench/session/own_folder.h"
 
 #include <fcntl.h>
@@ -177,7 +178,26 @@ Result<std::string> figure_svg(const Figure& figure) {
   return svg_element(*drawn, figure.name);
 }
 
+namespace {
+
+/// No file of another kind is written over: a table with other columns, a drawing that gnuplot did not make.
+Status check_own_files(const Figure& figure, const std::filesystem::path& folder) {
+  for (const FigureData& data : figure.data) {
+    const std::string header = FigureTable{data.table.columns, {}}.csv();
+    const auto is_ours = [&](std::string_view beginning) { return beginning.starts_with(header); };
+    if (Status ok = check_replaceable(folder / (figure.name + data.suffix + ".csv"), "this figure's table", is_ours);
+        !ok)
+      return ok;
+  }
+  return check_replaceable(
+      folder / (figure.name + ".svg"), "a drawing of this program",
+      [](std::string_view beginning) { return beginning.find("Produced by GNUPLOT") != std::string_view::npos; });
+}
+
+}  // namespace
+
 Status write_figure(const Figure& figure, const std::filesystem::path& folder) {
+  if (Status ok = check_own_files(figure, folder); !ok) return ok;
   if (Status status = write_data(figure, folder); !status) return status;
   const std::filesystem::path target = folder / (figure.name + ".svg");
   const Result<std::string> drawn = draw(figure, folder, target.string(), Drawn::svg);

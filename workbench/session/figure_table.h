@@ -39,7 +39,8 @@ struct Figure {
 /// The drawing as an SVG element to stand in a page: without ground, its identifiers begin with the figure's name,
 /// which has to be a word. Colours are attributes, for the page's style to change (workbench/report/page_style.cpp).
 Result<std::string> figure_svg(const Figure& figure);
-/// Writes NAME.csv and further tables, then NAME.svg. Fails where gnuplot is missing or refuses.
+/// Writes NAME.csv and further tables, then NAME.svg. Fails where gnuplot is missing or refuses, and where a file of
+/// another kind has one of these names: nothing is written then.
 Status write_figure(const Figure& figure, const std::filesystem::path& folder);
 /// The drawing alone, with its origin, as what the file's name ends in: .svg or .pdf. Atomic; fails like the above, and
 /// soon after `stop` is asked for: gnuplot is ended, and nothing is written.

@@ -9,6 +9,8 @@ namespace tangent::sweep {
 namespace {
 
 constexpr double kAtTheEnds = 0.2, kBetween = 0.5, kMoved = 0.5;  // shares of the points, and of their coordinates
+constexpr double kAlong = 0.3, kLength = 0.7;  // share of the points, and how much of the way they go
+constexpr double kAside = 0.1;                 // of a step, beside it
 constexpr double kSmallestStep = 0.01, kLargestStep = 0.4;
 
 struct FrontGap {
@@ -55,6 +57,24 @@ double normal(SplitMix& random) {
   return length * std::cos(2.0 * std::numbers::pi * random.unit());
 }
 
+/// Half of the points some part of the way to `other`, then a step in one share at least.
+void move_between(std::vector<double>& point, const std::vector<double>& other, double step, SplitMix& random) {
+  const double way = random.unit() < kBetween ? random.unit() : 0.0;
+  const std::size_t surely = random.below(point.size());
+  for (std::size_t r = 0; r < point.size(); ++r) {
+    point[r] += way * (other[r] - point[r]);
+    if (r == surely || random.unit() < kMoved) point[r] += step * normal(random);
+  }
+}
+
+/// The way from `from` to `to`, or against it.
+void move_along(std::vector<double>& point, const std::vector<double>& from, const std::vector<double>& to, double step,
+                SplitMix& random) {
+  const double length = kLength * normal(random);
+  for (std::size_t r = 0; r < point.size(); ++r)
+    point[r] += length * (to[r] - from[r]) + kAside * step * normal(random);
+}
+
 }  // namespace
 
 std::vector<std::vector<double>> end_probes(const TriedPoints& tried, std::size_t most) {
@@ -84,14 +104,14 @@ std::vector<std::vector<double>> points_in_gaps(const TriedPoints& tried, std::s
       pair = turned ? std::pair{gap.to, gap.from} : std::pair{gap.from, gap.to};
     }
     std::vector<double> point = tried.shares[pair.first];
-    const double way = random.unit() < kBetween ? random.unit() : 0.0;
     const double step = kSmallestStep * std::pow(kLargestStep / kSmallestStep, random.unit());
-    const std::size_t surely = random.below(point.size());
-    for (std::size_t r = 0; r < point.size(); ++r) {
-      point[r] += way * (tried.shares[pair.second][r] - point[r]);
-      if (r == surely || random.unit() < kMoved) point[r] += step * normal(random);
-      point[r] = std::clamp(point[r], 0.0, 1.0);
+    if (front.size() > 2 && random.unit() < kAlong) {
+      const std::size_t from = front[random.below(front.size())], to = front[random.below(front.size())];
+      move_along(point, tried.shares[from], tried.shares[to], step, random);
+    } else {
+      move_between(point, tried.shares[pair.second], step, random);
     }
+    for (double& share : point) share = std::clamp(share, 0.0, 1.0);
     out.push_back(std::move(point));
   }
   return out;

@@ -8,6 +8,7 @@
 #include <atomic>
 #include <deque>
 #include <exception>
+#include <optional>
 #include <thread>
 
 #include <dlfcn.h>
@@ -171,11 +172,16 @@ std::vector<std::vector<double>> even_shares(const FrontPlan& plan, std::size_t 
   return out;
 }
 
-/// A trial as the search sees it.
+/// A trial as the search sees it. One objective alone is searched as two that are the same: NSGA-II takes no fewer.
 std::vector<double> as_searched(const Trial& trial) {
   std::vector<double> out = trial.objectives;
   for (double& value : out) value += trial.missed > 0.0 ? kMissed * (1.0 + trial.missed) : 0.0;
+  if (out.size() == 1) out.push_back(out.front());
   return out;
+}
+
+void append(std::vector<double>& all, const std::vector<double>& more) {
+  all.insert(all.end(), more.begin(), more.end());
 }
 
 /// Tries points, and adds those that were tried to `tried`; after a stop the values of the others are the worst.
@@ -185,11 +191,9 @@ std::vector<double> try_points(Trials& trials, const std::vector<std::vector<dou
   std::vector<double> out;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const bool done = first + i < trials.result().trials.size();
-    const auto values = done ? as_searched(trials.result().trials[first + i])
-                             : std::vector<double>(trials.plan().objectives.size(), 2.0 * kMissed * kMissed);
-    // One objective alone is searched as two that are the same: NSGA-II takes no fewer.
-    for (int times = values.size() == 1 ? 2 : 1; times > 0; --times)
-      out.insert(out.end(), values.begin(), values.end());
+    append(out, done ? as_searched(trials.result().trials[first + i])
+                     : std::vector<double>(std::max<std::size_t>(2, trials.plan().objectives.size()),
+                                           2.0 * kMissed * kMissed));
     if (!done) continue;
     tried.shares.push_back(points[i]);
     tried.trials.push_back(trials.result().trials[first + i]);
@@ -215,23 +219,46 @@ SearchFront nsga2() {
 #endif
 }
 
-/// Even draws, then the ends of the ranges from the best of them; `problem` begins with all.
+/// Of the plan's starts that were tried those that are points of its ranges, each once: they differ from the base in
+/// nothing else.
+TriedPoints starts_in_ranges(const FrontPlan& plan, const FrontResult& result) {
+  TriedPoints out;
+  for (std::size_t i = 0; i < std::min(plan.starts.size(), result.trials.size()); ++i) {
+    Preset rest = plan.starts[i];
+    std::vector<double> shares;
+    for (const Range& range : plan.ranges) {
+      const std::optional<double> share = range.share_of(range.key->get(rest));
+      if (share) shares.push_back(*share);
+      range.key->set(rest, range.key->get(plan.base));
+    }
+    const bool met = std::find(out.shares.begin(), out.shares.end(), shares) != out.shares.end();
+    if (shares.size() < plan.ranges.size() || rest != plan.base || met) continue;
+    out.shares.push_back(std::move(shares));
+    out.trials.push_back(result.trials[i]);
+  }
+  return out;
+}
+
+/// What was tried already, as far as there is room beside it; even draws; then the ends of the ranges from the best of
+/// all. `problem` begins with all.
 void start_with(Trials& trials, std::size_t count, BatchProblem& problem, TriedPoints& tried) {
   const std::size_t probes = std::min(count * 2 / 5, 4 * trials.plan().ranges.size());
-  problem.start = even_shares(trials.plan(), count - probes);
-  problem.values = try_points(trials, problem.start, tried);
-  if (tried.trials.empty()) return;  // stopped
-  const auto ends = end_probes(tried, probes);
-  const std::vector<double> values = try_points(trials, ends, tried);
-  problem.start.insert(problem.start.end(), ends.begin(), ends.end());
-  problem.values.insert(problem.values.end(), values.begin(), values.end());
+  const std::size_t known = std::min(tried.trials.size(), count / 4);
+  problem.start.assign(tried.shares.begin(), tried.shares.begin() + static_cast<std::ptrdiff_t>(known));
+  for (std::size_t i = 0; i < known; ++i) append(problem.values, as_searched(tried.trials[i]));
+  const auto add = [&](const std::vector<std::vector<double>>& points) {
+    append(problem.values, try_points(trials, points, tried));
+    problem.start.insert(problem.start.end(), points.begin(), points.end());
+  };
+  add(even_shares(trials.plan(), count - probes - known));
+  if (!tried.trials.empty()) add(end_probes(tried, probes));  // else stopped
 }
 
 void evolve(Trials& trials) {
   const SearchFront search = trials.plan().evolve ? nsga2() : nullptr;
   const std::size_t start = std::min(kBatch, trials.left() / 4 * 4);
   if (search == nullptr || start < 8) return;
-  TriedPoints tried;
+  TriedPoints tried = starts_in_ranges(trials.plan(), trials.result());
   BatchProblem problem;
   problem.dimensions = trials.plan().ranges.size();
   problem.objectives = std::max<std::size_t>(2, trials.plan().objectives.size());

@@ -22,6 +22,18 @@ double Range::at(double share) const {
   return key->kind == KeyKind::number ? value : std::round(value);
 }
 
+std::optional<double> Range::share_of(double value) const {
+  if (!values.empty()) {
+    const auto found = std::find(values.begin(), values.end(), value);
+    if (found == values.end()) return std::nullopt;
+    return (static_cast<double>(found - values.begin()) + 0.5) / static_cast<double>(values.size());
+  }
+  if (!(value >= std::min(from, to) && value <= std::max(from, to))) return std::nullopt;
+  if (from == to) return 0.0;
+  const double share = logarithmic ? std::log(value / from) / std::log(to / from) : (value - from) / (to - from);
+  return std::clamp(share, 0.0, 1.0);
+}
+
 std::vector<double> Range::grid() const {
   if (!values.empty()) return values;
   std::vector<double> out;

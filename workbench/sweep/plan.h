@@ -47,6 +47,8 @@ struct Range {
   /// The value at `share` of the way, 0 to 1 (of a list: the one that it falls on). Whole numbers where the key takes
   /// them.
   double at(double share) const;
+  /// The share whose value that is, where the range has it: `at` of it, but for rounding.
+  std::optional<double> share_of(double value) const;
   /// Values of a grid, in order; fewer than `count` where whole numbers coincide.
   std::vector<double> grid() const;
 };

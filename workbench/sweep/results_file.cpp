@@ -118,12 +118,19 @@ Result<Failures> ResultsFile::failures() {
   const std::string failed = " FROM cells WHERE failed IS NOT NULL";
   const Result<std::int64_t> cells = database_.whole_of("SELECT count(*)" + failed);
   if (!cells) return tl::unexpected(cells.error());
-  if (*cells == 0) return Failures{};
-  const Result<std::int64_t> first = database_.whole_of("SELECT min(cell)" + failed);
-  if (!first) return tl::unexpected(first.error());
-  Result<std::string> why = database_.text_of("SELECT failed FROM cells WHERE cell=" + std::to_string(*first));
-  if (!why) return tl::unexpected(why.error());
-  return Failures{static_cast<std::uint64_t>(*cells), static_cast<std::uint64_t>(*first), std::move(*why)};
+  Failures out{static_cast<std::uint64_t>(*cells), {}};
+  if (out.cells == 0) return out;
+  Result<Statement> reasons =
+      database_.prepare("SELECT failed,count(*),min(cell)" + failed + " GROUP BY failed ORDER BY 3 LIMIT " +
+                        std::to_string(Failures::kMostReasons));
+  if (!reasons) return tl::unexpected(reasons.error());
+  for (;;) {
+    const Result<bool> row = reasons->step();
+    if (!row) return tl::unexpected(row.error());
+    if (!*row) return out;
+    out.reasons.push_back({std::string(reasons->text(0)), static_cast<std::uint64_t>(reasons->whole(1)),
+                           static_cast<std::uint64_t>(reasons->whole(2))});
+  }
 }
 
 Status ResultsFile::create(const std::string& digest) {

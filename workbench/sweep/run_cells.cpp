@@ -1,5 +1,6 @@
 #include "workbench/sweep/run_cells.h"
 
+#include <algorithm>
 #include <atomic>
 #include <exception>
 #include <mutex>
@@ -97,6 +98,18 @@ class CellRunner {
 };
 
 }  // namespace
+
+void Failures::add(const CellResult& result) {
+  if (result.failed.empty()) return;
+  ++cells;
+  const auto at = std::find_if(reasons.begin(), reasons.end(), [&](const Reason& r) { return r.why == result.failed; });
+  if (at != reasons.end()) {
+    ++at->cells;
+    at->first = std::min(at->first, result.cell);
+  } else if (reasons.size() < kMostReasons) {
+    reasons.push_back({result.failed, 1, result.cell});
+  }
+}
 
 Status run_cells(const Cells& cells, Inputs& inputs, std::uint64_t first, std::uint64_t end,
                  const std::vector<bool>& done, const KeepCell& keep, const RunCells& options) {

@@ -20,15 +20,15 @@ struct CellResult {
 
 /// Cells without numbers, of a file and of those before.
 struct Failures {
+  struct Reason {
+    std::string why;          ///< names the mesh or motion
+    std::uint64_t cells = 0;  ///< of that reason
+    std::uint64_t first = 0;  ///< the lowest of them
+  };
+  static constexpr std::size_t kMostReasons = 20;  ///< further ones are counted only
   std::uint64_t cells = 0;
-  std::uint64_t first = 0;  ///< the lowest of them
-  std::string why;          ///< of that one
-  void add(const CellResult& result) {
-    if (result.failed.empty()) return;
-    if (cells++ > 0 && first <= result.cell) return;
-    first = result.cell;
-    why = result.failed;
-  }
+  std::vector<Reason> reasons;  ///< as they came
+  void add(const CellResult& result);
 };
 
 /// Takes a finished cell. Called by one thread at a time, in any order of cells. A failure ends the run.

@@ -131,12 +131,14 @@ Status check_name(const ordered_json& json, const ShardName& name, const std::fi
               path.string(), "remove it, and run that shard again");
 }
 
-LineFileRemedies remedies(const ShardName& name) {
-  return {"remove it, and run " + shard_text(name) + " again", "what is in it stays; run that shard again"};
+LineFileRules rules_of(const ShardName& name) {
+  return {.damaged = "remove it, and run " + shard_text(name) + " again",
+          .append = {.not_whole = "what is in it stays; run that shard again"}};
 }
 
+/// The line before the end, cut off while it was written.
 Status torn(const std::filesystem::path& path, std::uint64_t line, const ShardName& name) {
-  return fail("line " + std::to_string(line) + " is torn or damaged", path.string(),
+  return fail("line " + std::to_string(line) + " is torn", path.string(),
               "run " + shard_text(name) + " again: it goes on from what is whole");
 }
 
@@ -155,7 +157,7 @@ Status ShardWriter::take(std::string_view text, std::uint64_t number, const Shar
   const auto json = read_text(text);
   if (json && number == 1) return check_name(*json, name, path);
   ShardLine taken;
-  if (!json || !take_line(*json, name, taken)) return LineFile::damaged(path, number, remedies(name));
+  if (!json || !take_line(*json, name, taken)) return LineFile::damaged(path, number, rules_of(name));
   if (const auto* const result = std::get_if<CellResult>(&taken)) {
     if (!done_[result->cell - name.first]) failures_.add(*result);
     done_[result->cell - name.first] = true;
@@ -174,7 +176,7 @@ Result<ShardWriter> ShardWriter::open(const std::filesystem::path& path, const S
     named = true;
     return out.take(text, number, name, path);
   };
-  Result<LineFile> file = LineFile::open(path, take, remedies(name));
+  Result<LineFile> file = LineFile::open(path, take, rules_of(name));
   if (!file) return tl::unexpected(file.error());
   out.file_.emplace(std::move(*file));
   if (!named)
@@ -205,9 +207,15 @@ struct ShardReader::Impl {
     ++number;
     const auto text = file.eof() ? std::nullopt : checked_text(line);
     auto read = text ? read_text(*text) : std::nullopt;
-    if (!read) return tl::unexpected(torn(path, number, name).error());
+    if (!read) return tl::unexpected(unreadable().error());
     json = std::move(*read);
     return true;
+  }
+
+  /// Of the line that was read last: what the writer does about it.
+  Status unreadable() {
+    const bool last = file.eof() || file.peek() == std::ifstream::traits_type::eof();
+    return last ? torn(path, number, name) : LineFile::damaged(path, number, rules_of(name));
   }
 };
 
@@ -219,6 +227,9 @@ Result<ShardReader> ShardReader::open(const std::filesystem::path& path, const S
   ShardReader out;
   out.impl_->path = path;
   out.impl_->name = name;
+  std::error_code error;
+  if (std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error))  // a pipe would wait
+    return fail("is no file", path.string(), "remove it, and run " + shard_text(name) + " again");
   out.impl_->file.open(path, std::ios::binary);
   if (!out.impl_->file)
     return fail(std::string("can't be read: ") + std::strerror(errno), path.string(),
@@ -235,7 +246,8 @@ Result<bool> ShardReader::next(ShardLine& line) {
   ordered_json json;
   const Result<bool> more = impl_->next_json(json);
   if (!more || !*more) return more;
-  if (!take_line(json, impl_->name, line)) return tl::unexpected(torn(impl_->path, impl_->number, impl_->name).error());
+  if (!take_line(json, impl_->name, line))
+    return tl::unexpected(LineFile::damaged(impl_->path, impl_->number, rules_of(impl_->name)).error());
   return true;
 }
 

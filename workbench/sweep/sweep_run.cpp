@@ -231,7 +231,9 @@ Result<MergeOutcome> merge_into(const PlanFolder& folder, const Cells& cells, co
   const Result<Failures> failures = file->failures();
   if (!failures) return tl::unexpected(failures.error());
   if (Status ok = file->finish(); !ok) return tl::unexpected(ok.error());
-  return MergeOutcome{tally.done(*failures), merge.lacking()};
+  MergeOutcome merged{tally.done(*failures), merge.lacking()};
+  merged.ticks = 0;  // nothing was solved here
+  return merged;
 }
 
 }  // namespace

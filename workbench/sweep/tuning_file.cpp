@@ -8,8 +8,10 @@ namespace {
 /// What a power cut can cost.
 constexpr auto kFlushEvery = std::chrono::milliseconds(500);
 
-LineFileRemedies tuning_remedies() {
-  return {"remove it: the tuning then begins anew", "make room; the same command goes on from there"};
+LineFileRules tuning_rules() {
+  return {.damaged = "remove it: the tuning then begins anew",
+          .append = {.not_whole = "make room; the same command goes on from there",
+                     .in_use = "wait until that tuning has ended, or choose another --out"}};
 }
 
 std::array<double, 3> key_of(const Gains& gains) { return {gains.overall, gains.curvature_m, gains.distance_per_m}; }
@@ -24,7 +26,7 @@ Result<std::unique_ptr<TuningFile>> TuningFile::open(const std::filesystem::path
     named = true;
     return out->take(text, number, digest);
   };
-  Result<LineFile> file = LineFile::open(path, take, tuning_remedies());
+  Result<LineFile> file = LineFile::open(path, take, tuning_rules());
   if (!file) return tl::unexpected(file.error());
   out->file_.emplace(std::move(*file));
   out->found_ = out->trials_.size() + out->scores_.size();
@@ -44,7 +46,7 @@ Status TuningFile::take(std::string_view text, std::uint64_t number, const std::
                 path_.string(), "go on with that one, remove the file, or choose another --out");
   }
   TuningLine line;
-  if (!parse_tuning_line(text, line)) return LineFile::damaged(path_, number, tuning_remedies());
+  if (!parse_tuning_line(text, line)) return LineFile::damaged(path_, number, tuning_rules());
   if (auto* const trial = std::get_if<NumberedTrial>(&line))
     trials_.insert_or_assign(trial->number, std::move(trial->trial));
   else if (const auto* const scored = std::get_if<GainTrial>(&line))

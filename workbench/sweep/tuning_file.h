@@ -21,7 +21,8 @@ std::string tuning_digest(const Preset& base, const ContactScene& scene, std::sp
 
 class TuningFile {
  public:
-  /// Makes the file, or goes on with it. Fails on one of another tuning, and on one that is damaged, naming it.
+  /// Makes the file, or goes on with it. Fails on one of another tuning, on one that is damaged, and while another
+  /// process has it, naming it.
   static Result<std::unique_ptr<TuningFile>> open(const std::filesystem::path& path, const std::string& digest);
   TuningFile(const TuningFile&) = delete;
   TuningFile& operator=(const TuningFile&) = delete;

@@ -17,6 +17,7 @@ struct DecidedContact {
   TickEvent event = TickEvent::none;
   int evaluations = 0;  ///< of the whole tick, lost tracking and seeds included
   int triangle_changes = 0;
+  bool places_changed = false;  ///< a place that pushes beside it came up, was lost, or folded over on the way
   bool converged() const { return contact.converged(); }
   bool facing() const { return contact.facing(); }
 };

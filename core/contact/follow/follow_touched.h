@@ -6,10 +6,15 @@
 
 namespace tangent {
 
+struct FollowedPlaces {
+  bool all = true;      ///< none was left out
+  bool folded = false;  ///< one was unstable on the way, so that it may have leapt
+};
+
 /// The `kept` places, followed to the present pose by the `robust` rule, into `now`. Left out are those that the finger
 /// has left by over kLeftTouch, that have merged with the `tracked` one (null: there is none) or with each other, or
-/// got lost; false where there were such. `evaluations` grows by the planes that it took.
-bool follow_touched(ContactContext& context, const TouchedPlaces& kept, const TrackedPlane* tracked,
-                    TouchedContacts& now, int& evaluations);
+/// got lost. `evaluations` grows by the planes that it took.
+FollowedPlaces follow_touched(ContactContext& context, const TouchedPlaces& kept, const TrackedPlane* tracked,
+                              TouchedContacts& now, int& evaluations);
 
 }  // namespace tangent

@@ -457,16 +457,19 @@ NormalCone ContactHierarchy::normals_of(const Node& node) {
   return {unit(Vec3(node.axis[0], node.axis[1], node.axis[2])), node.cos_half};
 }
 
-bool ContactHierarchy::touchable(const Node& node, const ContactQuery& q) {
+bool ContactHierarchy::touchable(const Node& node, const ContactQuery& q, double box2) {
   const Vec3 low(node.min[0], node.min[1], node.min[2]), high(node.max[0], node.max[1], node.max[2]);
   const NormalCone normals = normals_of(node);
   const SurfaceBounds part{0.5 * (low + high), 0.5 * (high - low), normals};
-  if (!can_face(*q.core, part, q.margin_m)) return false;
+  const double way_to_it = way_to_face(*q.core, part);
+  if (way_to_it > q.margin_m) return false;
   const bool here = q.margin_m == 0.0 || q.steady_only || is_steady_for_core(q, node.least_curvature, normals);
   const double way = here ? 0.0 : q.margin_m;
-  if (here && !can_face(*q.core, part, 0.0)) return false;
-  const double apart = q.core->apart_m(part.middle, part.half);
-  if (apart > way && q.core->rank_outside(apart) > q.nearest_m - q.core->lever_m()) return false;
+  if (way_to_it > way) return false;
+  // Boxes that are no further off than that can't be so far outside.
+  const double far = std::max(way, q.core->outside_at(q.nearest_m - q.core->lever_m()));
+  const double farther = far + q.core->inner_m();
+  if (box2 > farther * farther && q.core->apart_m(part.middle, part.half) > far) return false;
   const double most = most_lambda_m(*q.core, q.nearest_m);
   return can_touch(*q.core, part, most, way);
 }

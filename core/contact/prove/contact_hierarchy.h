@@ -140,8 +140,8 @@ class ContactHierarchy {
     const double reach = reach2(node, query);
     return reach >= 0.0 && node.rim != 0 && misses(rims_[node.rim - 1], node, query) ? -1.0 : reach;
   }
-  /// Whether a finger that is not round can touch the node.
-  static bool touchable(const Node& node, const ContactQuery& query);
+  /// Whether a finger that is not round can touch the node, whose box is that far from its centre, squared.
+  static bool touchable(const Node& node, const ContactQuery& query, double box2);
 
   std::vector<Node> nodes_;
   static constexpr std::uint32_t kPartShift = 29, kTriangleBits = (1u << kPartShift) - 1;
@@ -183,7 +183,7 @@ inline double ContactHierarchy::reach2(const Node& node, const ContactQuery& q, 
   const double farthest = std::max(q.nearest_m, q.inside_m);
   if (box2 > farthest * farthest) return -1.0;
   if (node.cos_half <= -1.0f) return box2;
-  if (q.core) return touchable(node, q) ? box2 : -1.0;
+  if (q.core) return touchable(node, q, box2) ? box2 : -1.0;
 
   // Seen from c the node's points lie within `spread` of the direction to its middle; c may move by the margin.
   Vec3 d = q.centre - 0.5 * (low + high);

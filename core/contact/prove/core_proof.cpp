@@ -76,7 +76,9 @@ struct PieceLook {
   bool curved = false, clear = false;
 };
 
-PieceLook look_at_piece(const PatchPiece& piece, const FingerCore& core, const RankBound& bound, double enough_m) {
+/// `last`: it is not bisected whatever is found.
+PieceLook look_at_piece(const PatchPiece& piece, const FingerCore& core, const RankBound& bound, double enough_m,
+                        bool last) {
   const PnPatch& patch = piece.patch;
   std::array<Vec3, 10> points;
   for (std::size_t i = 0; i < points.size(); ++i) points[i] = patch.control_point(i);
@@ -91,19 +93,27 @@ PieceLook look_at_piece(const PatchPiece& piece, const FingerCore& core, const R
   look.curved = !(sum2 > 0.01);
   if (look.curved) return look;
   const Vec3 axis = sum / std::sqrt(sum2);
-  const LinearCore linear = linear_core(core, patch.normals, axis);
   const double size2 = std::max(glm::dot(sides[0], sides[0]), glm::dot(sides[1], sides[1]));
+  const LinearCore linear = linear_core(core, patch.normals, axis, kMostOff * std::sqrt(size2));
   look.curved = !(linear.off_m * linear.off_m < kMostOff * kMostOff * size2);
   look.clear = linear.off_m * linear.off_m < kLittleOff * kLittleOff * size2;
   const LinearCore segment = look.curved ? segment_core(core, patch.normals, axis) : LinearCore{};
   const LinearCore& known = look.curved ? segment : linear;
   if (known.off_m == std::numeric_limits<double>::infinity()) return look;
-  StandIn stands_for{sides, known.slopes, known.bend, known.rest_m};
+  // Of a piece that is bisected next, or known only roughly, no place is read.
+  const double wrong = known.off_m + known.along_m;
+  const std::size_t slopes = look.curved ? 1 : known.slopes.size();  // the segment's are one
+  StandIn stands_for{.sides = sides,
+                     .spread = known.slopes,
+                     .spread_count = slopes,
+                     .bend = known.bend,
+                     .rest_m = known.rest_m,
+                     .place_wanted = !look.curved && (look.clear || last),
+                     .height_matters_m = wrong + std::max(core.lever_m(), bound.rank_m)};
   for (Vec3& slope : stands_for.spread) slope *= known.slope_share;
   const double enough =
       look.curved ? enough_m : core.slide_m(core.longest_m(), linear.least_length_m, enough_m) * (1.0 + 1e-9);
   PatchExclusion proof = exclude_contact(patch_less_core(patch, core, known, axis), known.point, enough, stands_for);
-  const double wrong = known.off_m + known.along_m;
   const double least_rank = proof.least_height_m - wrong;
   const double shallow = least_rank > core.lever_m() ? bound.way_to(least_rank) : 0.0;
   const double missed = look.curved || !(proof.margin_m > 0.0)
@@ -157,12 +167,16 @@ PatchExclusion exclude_pieces(const ContactContext& context, const PnPatch& patc
   result.possible = false;
   PossiblePlaces places;
   for (int looks = 1; size > 0; ++looks) {
-    const PatchPiece piece = stack[--size];
-    const PieceLook look = look_at_piece(piece, core, bound, enough_m);
-    const double wanted = std::min(kPieceShare * enough_m, result.margin_m);
+    const PatchPiece& piece = stack[--size];
+    // More than the least margin of the others is for nothing, and any is, where one may hold a contact.
+    const double enough = places.any() ? 0.0 : std::min(enough_m, result.margin_m);
+    const bool last = piece.depth >= kPieceDepth || looks >= kPieces;
+    const PieceLook look = look_at_piece(piece, core, bound, enough, last);
+    const double wanted = std::min(kPieceShare * enough_m, enough);
     const bool unknown = look.proof.possible ? !look.clear : look.curved && look.proof.margin_m < wanted;
-    if (unknown && piece.depth < kPieceDepth && looks < kPieces) {
-      bisect(piece, stack[size], stack[size + 1]);
+    if (unknown && !last) {
+      const PatchPiece whole = piece;  // its place is its halves' now
+      bisect(whole, stack[size], stack[size + 1]);
       size += 2;
       continue;
     }

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <utility>
 
 namespace tangent {
@@ -47,28 +48,42 @@ constexpr ProductTable kProduct;
 Vec2 perpendicular(const Vec2& a) { return {-a.y, a.x}; }
 double cross(const Vec2& a, const Vec2& b) { return a.x * b.y - a.y * b.x; }
 
-constexpr int kSettledDepth = 2;  // bisections after which a part is asked for its one zero
-constexpr int kSlackTests = 6;    // parts of a face known roughly: smaller ones tell no more
+constexpr double kUnbounded = 1e300;  // m
+constexpr int kSettledDepth = 2;      // bisections after which a part is asked for its one zero
+constexpr int kSlackTests = 6;        // parts of a face known roughly: smaller ones tell no more
 
 /// f as it is.
 struct NoSlack {
   static constexpr bool kNone = true;
-  double beside(const Vec2&) const { return 0.0; }
 };
 
 /// f known but for a vector of these hulls (StandIn).
 struct Slack {
   static constexpr bool kNone = false;
   std::array<Vec2, 6> spread;
+  std::size_t spread_count;
   Vec2 bend;
   double rest_m;
+  bool place_wanted;
+  double height_matters_m;
   Vec2 longest{0.0};  ///< across it f is known best
 
-  /// By how much f may be wrong across a direction.
-  double beside(const Vec2& side) const {
+  /// By how much f may be wrong across a direction of that length.
+  double beside(const Vec2& side, double length) const {
     double widest = 0.0;
-    for (const Vec2& x : spread) widest = std::max(widest, std::abs(cross(x, side)));
-    return rest_m + (widest + std::abs(cross(bend, side))) / std::sqrt(glm::dot(side, side));
+    for (const Vec2& x : std::span(spread).first(spread_count)) widest = std::max(widest, std::abs(cross(x, side)));
+    return rest_m + (widest + std::abs(cross(bend, side))) / length;
+  }
+
+  /// Whether what looks like that value may be 0, as far as the longest direction tells: no part that has it can be
+  /// excluded.
+  bool may_be_zero(const Vec2& value) const {
+    constexpr double kRounding = 1e-12;
+    const double length2 = glm::dot(longest, longest);
+    const double along = length2 > 0.0 ? std::clamp(glm::dot(value, longest) / length2, -1.0, 1.0) : 0.0;
+    const Vec2 off = value - along * longest;
+    const double room = rest_m - kRounding * std::sqrt(length2);
+    return room > 0.0 && glm::dot(off, off) < room * room;
   }
 };
 
@@ -79,23 +94,36 @@ struct Part {
   int depth = 0;
 
   /// Distance of 0 from the values of f, as far as the line across the direction to their middle and the three along
-  /// the images of the sides can tell; where the first says `enough_m`, the others are not asked. 0 where they don't
-  /// exclude it.
-  double margin(double enough_m) const {
+  /// the images of the sides can tell; where the first says `enough_m`, the others are not asked, and none further once
+  /// one says `most_m`, the most that counts. 0 where they don't exclude it.
+  double margin(double enough_m, double most_m) const {
     const Vec2 f0 = at_corner(0), f1 = at_corner(1), f2 = at_corner(2);
-    const double middle = beside(perpendicular(f0 + f1 + f2));
-    if (middle > 0.0 && middle >= enough_m) return middle;
-    return std::max({middle, beside(f1 - f0), beside(f2 - f1), beside(f0 - f2)});
+    double clear = beside(perpendicular(f0 + f1 + f2));
+    if (clear > 0.0 && clear >= std::min(enough_m, most_m)) return clear;
+    for (const Vec2& side : {f1 - f0, f2 - f1, f0 - f2}) {
+      clear = std::max(clear, beside(side));
+      if (clear > 0.0 && clear >= most_m) return clear;
+    }
+    return clear;
   }
 
-  double margin(double enough_m, const NoSlack&) const { return margin(enough_m); }
+  double margin(double enough_m, double most_m, const NoSlack&) const { return margin(enough_m, most_m); }
+  /// Whether it is in vain to look at the part, or at any that it consists of.
+  bool in_vain(const Slack& slack) const {
+    return !slack.place_wanted &&
+           (slack.may_be_zero(at_corner(0)) || slack.may_be_zero(at_corner(1)) || slack.may_be_zero(at_corner(2)));
+  }
   /// The same of f known but for that.
-  double margin(double enough_m, const Slack& slack) const {
+  double margin(double enough_m, double, const Slack& slack) const {
     const Vec2 f0 = at_corner(0), f1 = at_corner(1), f2 = at_corner(2);
     double most = 0.0;
     for (const Vec2& side : {perpendicular(f0 + f1 + f2), slack.longest, f1 - f0, f2 - f1, f0 - f2}) {
-      const double clear = beside(side);
-      if (clear > most) most = std::max(most, clear - slack.beside(side));
+      // All coefficients are no clearer than those of the corners, which mostly tell that there is no room.
+      const double corners = corners_beside(side);
+      if (!(corners > 0.0)) continue;
+      const double length = std::sqrt(glm::dot(side, side)), room = slack.beside(side, length);
+      if (!(corners / length - room > most)) continue;
+      most = std::max(most, beside(side) - room);
       if (most > 0.0 && most >= enough_m) return most;
     }
     return most;
@@ -104,13 +132,33 @@ struct Part {
   /// Distance of 0 from the coefficients across direction `side`, 0 if they lie on both sides of it: mostly the corners
   /// tell that.
   double beside(const Vec2& side) const {
+    if (!(corners_beside(side) > 0.0)) return 0.0;
+    const auto across = [&](const Vec2& x) { return side.y * x.x - side.x * x.y; };
+    const double least = least_across(across(at_corner(0)) > 0.0 ? side : -side);
+    return least > 0.0 ? least / std::sqrt(glm::dot(side, side)) : 0.0;
+  }
+
+  /// Least of the coefficients across a direction, two by two.
+  double least_across(const Vec2& side) const {
+    using Two = double __attribute__((vector_size(16)));
+    const Two y = {side.y, side.y}, x = {side.x, side.x};
+    Two least = {kUnbounded, kUnbounded};
+    const auto include = [&](const Vec2& a, const Vec2& b) {
+      const Two across = y * Two{a.x, b.x} - x * Two{a.y, b.y};
+      least = across < least ? across : least;
+    };
+#pragma GCC unroll 10
+    for (std::size_t k = 0; k + 1 < f.size(); k += 2) include(f[k], f[k + 1]);
+    include(f.back(), f.back());
+    return std::min(least[0], least[1]);
+  }
+
+  /// The least of the corners' coefficients across a direction, times its length; not over 0 if they lie on both sides.
+  double corners_beside(const Vec2& side) const {
     const auto across = [&](const Vec2& x) { return side.y * x.x - side.x * x.y; };
     const double a = across(at_corner(0)), b = across(at_corner(1)), c = across(at_corner(2));
     const double turned = a > 0.0 ? 1.0 : -1.0;
-    if (!(std::min({turned * a, turned * b, turned * c}) > 0.0)) return 0.0;
-    double least = 1e300;
-    for (const Vec2& x : f) least = std::min(least, turned * across(x));
-    return least > 0.0 ? least / std::sqrt(glm::dot(side, side)) : 0.0;
+    return std::min({turned * a, turned * b, turned * c});
   }
 
   /// (u, v) where the linear interpolation of f vanishes, within the part.
@@ -286,12 +334,19 @@ void bisect_parts(const Part& whole, const Ground& ground, double enough_m, cons
   std::array<Part, kBisections + 2> stack;
   std::size_t size = 0;
   stack[size++] = whole;
-  double margin = 1e300;
-  double smallest = 1e300;
+  double margin = kUnbounded;
+  double smallest = kUnbounded;
   result.possible = false;
+  const auto give_up = [&] {
+    result.possible = true;
+    result.margin_m = 0.0;
+  };
   for (int tests = 0; size > 0; ++tests) {
-    const Part part = stack[--size];
-    const double here = Slack::kNone || tests > 0 ? part.margin(enough_m, slack) : 0.0;  // the whole's was asked for
+    const Part& part = stack[--size];
+    if constexpr (!Slack::kNone) {
+      if (part.in_vain(slack)) return give_up();
+    }
+    const double here = tests > 0 ? part.margin(enough_m, margin, slack) : 0.0;  // the whole's was asked for
     if (here > 0.0) {
       margin = std::min(margin, here);
       continue;
@@ -310,9 +365,13 @@ void bisect_parts(const Part& whole, const Ground& ground, double enough_m, cons
       continue;
     }
     if (part.depth < kBisections && tests < (Slack::kNone ? kBisectionTests : kSlackTests)) {
-      bisect(part, stack[size], stack[size + 1]);
+      const Part halved = part;  // its place is its halves' now
+      bisect(halved, stack[size], stack[size + 1]);
       size += 2;
       continue;
+    }
+    if constexpr (!Slack::kNone) {
+      if (!slack.place_wanted) return give_up();
     }
     margin = 0.0;
     // Of a part near a fold, or left over large, or of a patch that bends much, or known roughly, corners don't tell.
@@ -370,15 +429,22 @@ struct Factors {
       t = unit(glm::cross(axis, std::abs(axis.x) < 0.6 ? Vec3(1, 0, 0) : Vec3(0, 1, 0)));
     }
     s = glm::cross(axis, t);
-    for (std::size_t b = 0; b < 6; ++b) {
-      const Vec3 normal = (b < n110 ? 1.0 : mixed) * patch.normals[b];
-      n[b] = {glm::dot(normal, t), glm::dot(normal, s), glm::dot(normal, axis)};
-    }
-    for (std::size_t a = 0; a < 10; ++a) {
-      const Vec3 to_centre = centre - patch.offsets[a];
-      d[a] = {glm::dot(to_centre, t), glm::dot(to_centre, s), glm::dot(to_centre, axis)};
-    }
+    // Two of the three products at once, terms in the order of glm::dot.
+    const Vec2 x(t.x, s.x), y(t.y, s.y), z(t.z, s.z);
+    const auto in_frame = [&](const Vec3& v) {
+      const Vec2 across = v.x * x + v.y * y + v.z * z;
+      return Vec3(across.x, across.y, glm::dot(v, axis));
+    };
+    for (std::size_t b = 0; b < 6; ++b) n[b] = in_frame((b < n110 ? 1.0 : mixed) * patch.normals[b]);
+    for (std::size_t a = 0; a < 10; ++a) d[a] = in_frame(centre - patch.offsets[a]);
     return true;
+  }
+
+  /// Whether a test holds for f at any of the corners.
+  template <class Test>
+  bool any_corner(Test test) const {
+    const auto at = [&](std::size_t k) { return n[k].z * Vec2(d[k].x, d[k].y) - d[k].z * Vec2(n[k].x, n[k].y); };
+    return test(at(0)) || test(at(1)) || test(at(2));
   }
 
   Ground ground(const std::array<Vec3, 2>& sides) const {
@@ -397,6 +463,10 @@ struct Factors {
             turn(n200, n101, n101, n002, n110, n011)};
   }
 
+  /// No more than that.
+  double corners_height_m() const {
+    return std::min({glm::dot(d[0], n[0]), glm::dot(d[1], n[1]), glm::dot(d[2], n[2])});
+  }
   double least_height_m() const {
     Quintic height{};
     multiply_height(d, n, height, std::make_index_sequence<60>());
@@ -421,23 +491,37 @@ double estimated_height(const PnPatch& patch, const Vec3& c, double u, double v,
 
 }  // namespace
 
+static double least_height_m(const Factors& factors, const NoSlack&) { return factors.least_height_m(); }
+static double least_height_m(const Factors& factors, const Slack& slack) {
+  return factors.corners_height_m() > slack.height_matters_m ? factors.least_height_m() : 0.0;
+}
+
 /// Of the patch by its factors; `patch` again for the place.
 template <class Slack>
 static PatchExclusion exclude(const PnPatch& patch, const Factors& factors, double enough_m, const Slack& slack,
                               const std::array<Vec3, 2>& sides) {
+  PatchExclusion result;
+  if constexpr (!Slack::kNone) {
+    if (!slack.place_wanted && factors.any_corner([&](const Vec2& f) { return slack.may_be_zero(f); })) {
+      result.least_height_m = least_height_m(factors, slack);
+      return result;
+    }
+  }
   Part whole;
   whole.f.fill(Vec2(0.0));
   whole.corner = {Vec2(0.0, 0.0), Vec2(1.0, 0.0), Vec2(0.0, 1.0)};
   multiply_miss(factors.d, factors.n, whole.f, std::make_index_sequence<60>());
-  PatchExclusion result;
-  result.margin_m = whole.margin(enough_m, slack);
+  result.margin_m = whole.margin(enough_m, kUnbounded, slack);
   if (result.margin_m > 0.0) result.possible = false;
   if (result.margin_m > 0.0 && result.margin_m >= enough_m) return result;
-  result.least_height_m = factors.least_height_m();
+  result.least_height_m = least_height_m(factors, slack);
   if (!result.possible) return result;
   bisect_parts(whole, factors.ground(sides), enough_m, slack, result);
   if (result.margin_m > 0.0) result.possible = false;
   if (!result.possible) return result;
+  if constexpr (!Slack::kNone) {
+    if (!slack.place_wanted) return result;
+  }
   result.height_m = estimated_height(patch, factors.centre, result.u, result.v, result.point);
   result.point += patch.origin;
   return result;
@@ -453,8 +537,13 @@ PatchExclusion exclude_contact(const PnPatch& patch, const Vec3& centre, double 
   Factors factors;
   if (!factors.set(patch, centre)) return {};
   const auto in_frame = [&](const Vec3& x) { return Vec2(glm::dot(x, factors.t), glm::dot(x, factors.s)); };
-  Slack slack{{}, in_frame(stands_for.bend), stands_for.rest_m};
-  for (std::size_t i = 0; i < slack.spread.size(); ++i) {
+  Slack slack{{},
+              stands_for.spread_count,
+              in_frame(stands_for.bend),
+              stands_for.rest_m,
+              stands_for.place_wanted,
+              stands_for.height_matters_m};
+  for (std::size_t i = 0; i < slack.spread_count; ++i) {
     slack.spread[i] = in_frame(stands_for.spread[i]);
     if (glm::dot(slack.spread[i], slack.spread[i]) > glm::dot(slack.longest, slack.longest))
       slack.longest = slack.spread[i];
@@ -468,7 +557,7 @@ bool excludes_at_a_glance(const PnPatch& patch, const Vec3& centre, const RankBo
   Part whole;
   whole.f.fill(Vec2(0.0));
   multiply_miss(factors.d, factors.n, whole.f, std::make_index_sequence<60>());
-  return whole.margin(enough_m) >= enough_m || bound.way_to(factors.least_height_m()) >= enough_m;
+  return whole.margin(enough_m, enough_m) >= enough_m || bound.way_to(factors.least_height_m()) >= enough_m;
 }
 
 double corner_exclusion(const ContactMesh& mesh, std::uint32_t t, const Vec3& centre) {

@@ -5,41 +5,48 @@
 
 namespace tangent {
 
-LinearCore linear_core(const FingerCore& core, const std::array<Vec3, 6>& normals, const Vec3& axis) {
+LinearCore linear_core(const FingerCore& core, const std::array<Vec3, 6>& normals, const Vec3& axis,
+                       double most_off_m) {
   LinearCore l;
   l.support = core.support(axis);
   const double length = l.support.length;
-  double least = 1e300, most = 0.0, shortest = 1.0, low = 0.0, high = 0.0, across2 = 0.0, steepest2 = 0.0;
+  std::array<Vec3, 6> scaled;
+  double least = 1e300, most = 0.0, shortest = 1.0, low = 0.0, high = 0.0, across2 = 0.0;
   for (std::size_t i = 0; i < normals.size(); ++i) {
     const double along = glm::dot(normals[i], axis);
     const double cosine = along / std::sqrt(std::max(1e-300, glm::dot(normals[i], normals[i])));
     if (!(cosine > 0.3)) return l;
-    const Vec3 tau = normals[i] / along - axis;
-    const Vec3 v = core.scaled(tau);
+    const Vec3& v = scaled[i] = core.scaled(normals[i] / along - axis);
     const double b = glm::dot(v, l.support.direction);
     low = std::min(low, b);
     high = std::max(high, b);
     across2 = std::max(across2, glm::dot(v, v) - b * b);
-    l.slopes[i] = core.derivative(l.support, tau);
-    steepest2 = std::max(steepest2, glm::dot(l.slopes[i], l.slopes[i]));
     least = std::min(least, along);
     most = std::max(most, along);
     shortest = std::min(shortest, cosine);
   }
   const double least_length = length + low;
   if (!(least_length > 1e-9 * core.longest_m())) return l;
-  const double turned = std::max(1.0 / least_length - 1.0 / length,
-                                 1.0 / length - 1.0 / std::sqrt((length + high) * (length + high) + across2));
   const double shortened = 1.0 - 1.0 / std::sqrt(1.0 + across2 / (least_length * least_length));
   const Vec3 to_centre = core.centre() - l.support.point;
-  l.point = l.support.point + 0.5 * shortened * to_centre;
-  l.scale = 2.0 / (least + most);
-  l.slope_share = turned * length + (most - least) / (most + least);
   l.bend = 0.5 * shortened * (to_centre - glm::dot(to_centre, axis) * axis);
   l.along_m = 0.5 * shortened * length;
   l.rest_m = l.along_m * std::sqrt(std::max(0.0, 1.0 - shortest * shortest));
+  const double unsloped = std::sqrt(glm::dot(l.bend, l.bend)) + l.rest_m;
+  if (unsloped >= most_off_m) return l;
+  double steepest2 = 0.0;
+  for (std::size_t i = 0; i < scaled.size(); ++i) {
+    l.slopes[i] = core.derivative_of(l.support, scaled[i]);
+    steepest2 = std::max(steepest2, glm::dot(l.slopes[i], l.slopes[i]));
+  }
+  const double turned = std::max(1.0 / least_length - 1.0 / length,
+                                 1.0 / length - 1.0 / std::sqrt((length + high) * (length + high) + across2));
+  l.point = l.support.point + 0.5 * shortened * to_centre;
+  l.scale = 2.0 / (least + most);
+  l.slope_share = turned * length + (most - least) / (most + least);
   l.least_length_m = shortest * least_length;
-  l.off_m = l.slope_share * std::sqrt(steepest2) + std::sqrt(glm::dot(l.bend, l.bend)) + l.rest_m;
+  const double off = l.slope_share * std::sqrt(steepest2) + std::sqrt(glm::dot(l.bend, l.bend)) + l.rest_m;
+  if (off < most_off_m) l.off_m = off;
   return l;
 }
 

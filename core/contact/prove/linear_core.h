@@ -33,8 +33,10 @@ struct LinearCore {
 /// the long axis. Infinite off_m: it is not thin.
 LinearCore segment_core(const FingerCore& core, const std::array<Vec3, 6>& normals, const Vec3& axis);
 
-/// `normals`: control normals in Bernstein form; `axis`: the middle of their directions.
-LinearCore linear_core(const FingerCore& core, const std::array<Vec3, 6>& normals, const Vec3& axis);
+/// `normals`: control normals in Bernstein form; `axis`: the middle of their directions. Where off_m is `most_off_m` or
+/// more, it is told as infinite.
+LinearCore linear_core(const FingerCore& core, const std::array<Vec3, 6>& normals, const Vec3& axis,
+                       double most_off_m = std::numeric_limits<double>::infinity());
 
 /// A part of a patch as a patch of its own, with Bernstein normals, none of them longer than 1.
 struct PatchPiece {

@@ -4,12 +4,12 @@
 //   workbench-plugin describe|run PLUGIN.so [KEY VALUE]...
 //
 // The pipe says that there is something to see, and, by its end, that this process is gone.
+#include "devices/base/realtime_thread.h"
 #include "devices/plugin/host/crash_handler.h"
 #include "devices/plugin/host/plugin_host.h"
 
 #include <fcntl.h>
 #include <pthread.h>
-#include <sched.h>
 #include <sys/prctl.h>
 #include <unistd.h>
 
@@ -44,13 +44,6 @@ void prepare_signals() {
   pthread_sigmask(SIG_BLOCK, &blocked, nullptr);
 }
 
-/// Without it the plug-in answers with more jitter. As the servo's.
-void ask_for_realtime() {
-  sched_param priority{};
-  priority.sched_priority = 40;
-  static_cast<void>(pthread_setschedparam(pthread_self(), SCHED_FIFO, &priority));
-}
-
 PluginSettings settings_of(int argc, char** argv) {
   PluginSettings settings;
   for (int i = 3; i + 1 < argc; i += 2) settings.emplace_back(argv[i], argv[i + 1]);
@@ -66,7 +59,7 @@ int run(PluginRegion& region, PluginLibrary& library) {
   if (const Status ok = library.open(); !ok) return say_failed(region, ok.error());
   place.store(HostPlace::own);
   stop_in_a_crash(library);
-  if (region.to_host().realtime != 0) ask_for_realtime();
+  if (region.to_host().realtime != 0) ask_for_realtime(kServoPriority);  // without it it answers with more jitter
   host.serve();
   ::alarm(static_cast<unsigned>(PluginHost::longest_end_s(region)) + 3);  // nobody else would, with the program gone
   place.store(HostPlace::close);

@@ -100,6 +100,12 @@ UsbProblem problem_of(int code) {
   }
 }
 
+std::string serial_of(libusb_device_handle* handle) {
+  libusb_device_descriptor d{};
+  return libusb_get_device_descriptor(libusb_get_device(handle), &d) == 0 ? string_of(handle, d.iSerialNumber)
+                                                                          : std::string();
+}
+
 LibusbHandle open_first(libusb_context* context, const UsbMatch& match, int interface_number, UsbProblem& problem) {
   LibusbHandle handle;
   problem = UsbProblem::not_attached;

@@ -24,6 +24,9 @@ Result<LibusbContext> open_libusb();
 bool matches(libusb_device* device, const UsbMatch& match);
 UsbProblem problem_of(int libusb_code);
 
+/// The serial number that an open device says; empty: none, or it can't be read. Asks the device.
+std::string serial_of(libusb_device_handle* handle);
+
 /// Opens the first device that matches and claims its interface (-1: none). Null when there is none; `problem` says
 /// why.
 LibusbHandle open_first(libusb_context* context, const UsbMatch& match, int interface_number, UsbProblem& problem);

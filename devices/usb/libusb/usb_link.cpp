@@ -35,6 +35,9 @@ struct PooledTransfer {
 struct UsbLink::Impl {
   Impl(UsbLink& l, UsbLinkOptions o, UsbLinkHandler& h, UsbTap* t)
       : link(l), options(std::move(o)), handler(h), tap(t) {}
+  ~Impl() {
+    if (wake_fd >= 0) ::close(wake_fd);
+  }
 
   UsbLink& link;
   UsbLinkOptions options;
@@ -43,12 +46,15 @@ struct UsbLink::Impl {
   UsbCounters counters;
   std::atomic<bool> connected{false}, stopping{false};
   std::atomic<UsbProblem> problem{UsbProblem::not_attached};
-  int wake_fd = -1;
+  // As long as the link, not as its thread: who wakes it while it is stopped must not write to a descriptor that was
+  // closed, and is perhaps another file by now.
+  const int wake_fd = eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
   std::thread thread;
 
   // Link's thread only.
   LibusbContext context;
   LibusbHandle handle;
+  std::string serial;                ///< of the device that is open
   std::vector<PooledTransfer> pool;  ///< IN transfers first
   std::vector<pollfd> polled;
   bool polled_stale = true, lost = false, hotplug = false, look_now = true;
@@ -85,11 +91,10 @@ int LIBUSB_CALL on_hotplug(libusb_context*, libusb_device*, libusb_hotplug_event
 
 Status UsbLink::Impl::start() {
   if (thread.joinable()) return {};
+  if (wake_fd < 0) return fail("no event descriptor is left", "USB", "close other programs");
   auto opened = open_libusb();
   if (!opened) return tl::unexpected(opened.error());
   context = std::move(*opened);
-  wake_fd = eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
-  if (wake_fd < 0) return fail("no event descriptor is left", "USB", "close other programs");
   make_pool();
   watch_hotplug();
   libusb_set_pollfd_notifiers(
@@ -111,8 +116,6 @@ void UsbLink::Impl::stop() {
   hotplug = false;
   free_pool();
   context.reset();
-  ::close(wake_fd);
-  wake_fd = -1;
 }
 
 void UsbLink::Impl::make_pool() {
@@ -194,6 +197,9 @@ void UsbLink::Impl::try_open() noexcept {
   problem.store(why, kRelaxed);
   if (!handle) return;
   lost = false;
+  serial = !options.ask_serial            ? std::string()
+           : options.match.serial.empty() ? serial_of(handle.get())
+                                          : options.match.serial;
   raise(counters.connects);
   for (PooledTransfer& t : pool) {
     if (!t.in) continue;
@@ -343,6 +349,7 @@ bool UsbLink::connected() const noexcept { return impl_->connected.load(std::mem
 UsbProblem UsbLink::problem() const noexcept { return impl_->problem.load(kRelaxed); }
 const UsbCounters& UsbLink::counters() const noexcept { return impl_->counters; }
 void UsbLink::reconnect() noexcept { impl_->lost = true; }
+const std::string& UsbLink::serial() const noexcept { return impl_->serial; }
 bool UsbLink::can_send() const noexcept { return impl_->handle && !impl_->lost && impl_->any_free(); }
 
 bool UsbLink::send(std::span<const std::uint8_t> bytes) noexcept {

@@ -3,6 +3,7 @@
 #include "core/io/pose_file.h"
 #include "core/io/scene_file.h"
 #include "core/tick/step.h"
+#include "tests/support/paths.h"
 #include "tests/support/processor_state.h"
 
 #include <doctest/doctest.h>
@@ -20,7 +21,7 @@ namespace {
 
 /// Everything from the file to the forces, in this state of the processor.
 std::vector<TickOutput> ticks_under(unsigned state) {
-  const std::string assets = TANGENT_TEST_ASSETS;
+  const std::string assets = testing::test_assets();
   const ProcessorState csr(state);
   SceneOptions options;
   options.mesh.fit_m = 0.08;

@@ -45,6 +45,8 @@ TEST_CASE("a finger is the ball about its core's points") {
       const Mat3 whole = support_with_derivative(finger, pose, n).by_normal;
       CHECK(glm::distance(whole * t, core.derivative(core.support(n), t) - core.ball_m() * t) <=
             1e-12 * core.flattest_m());
+      CHECK(std::abs(core.derivative_length(core.support(n), core.scaled(t)) -
+                     glm::length(core.derivative(core.support(n), t))) <= 1e-12 * core.flattest_m());
       CHECK(-glm::dot(t, whole * t) <= core.flattest_m() * (1.0 + 1e-9));
       CHECK(-glm::dot(t, whole * t) >= core.sharpest_m() * (1.0 - 1e-9));
       CHECK(-glm::dot(t, whole * t) <= (core.ball_m() + core.largest_radius(core.support(n).length)) * (1.0 + 1e-9));
@@ -161,6 +163,8 @@ TEST_CASE(
       const Vec3 place = support_point(finger, pose, n) + depth * n;
       const Vec3 half = random.in(0.0, 0.2) * core.reach_m() * Vec3(1.0), off = random.in(-1.0, 1.0) * half;
       const double apart = core.apart_m(place, Vec3(0.0));
+      const Vec3 beside = glm::max(glm::abs(place + off - pose.position) - half, Vec3(0.0));
+      wrong += core.apart_m(place + off, half) > glm::length(beside) - core.inner_m() + 1e-12;
       if (depth < 0.0) {
         ++below;
         wrong += std::max(apart, core.apart_m(place + off, half)) > -depth + 1e-12;

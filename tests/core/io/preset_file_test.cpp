@@ -1,6 +1,7 @@
 #include "core/io/preset_file.h"
 
 #include "core/preset/schema.h"
+#include "tests/support/paths.h"
 #include "tests/support/temp_folder.h"
 
 #include <doctest/doctest.h>
@@ -190,7 +191,7 @@ TEST_CASE("missing, empty and huge preset files are refused by name") {
 
 TEST_CASE("every preset that ships can be read") {
   std::size_t count = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(TANGENT_SOURCE_DIR "/presets")) {
+  for (const auto& entry : std::filesystem::directory_iterator(testing::source_folder() + "/presets")) {
     if (entry.is_directory()) continue;  // protocols of experiments
     CAPTURE(entry.path().string());
     const Result<PresetFile> file = read_preset(entry.path());

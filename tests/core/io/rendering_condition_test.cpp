@@ -11,7 +11,7 @@ using tangent::testing::contains;
 
 namespace {
 
-std::string refusal(std::string_view text) {
+std::string condition_refusal(std::string_view text) {
   const auto file = parse_preset(text, "p.toml");
   REQUIRE_FALSE(file);
   return file.error().message();
@@ -77,10 +77,11 @@ TEST_CASE("a preset file names its condition, and reads it back") {
 }
 
 TEST_CASE("a condition that does not exist, or that the sources contradict, is refused with its line") {
-  CHECK(contains(refusal("condition = \"C7\"\n"),
+  CHECK(contains(condition_refusal("condition = \"C7\"\n"),
                  "p.toml:1 condition: \"C7\" is not a rendering condition; allowed: C1, C2, C3, C4, P1, P2"));
-  CHECK(contains(refusal("condition = 3\n"), "p.toml:1 condition: is a whole number"));
-  CHECK(contains(refusal("condition = \"C1\"\n[display]\nsource = \"smooth\"\n"), "the sources say otherwise"));
+  CHECK(contains(condition_refusal("condition = 3\n"), "p.toml:1 condition: is a whole number"));
+  CHECK(
+      contains(condition_refusal("condition = \"C1\"\n[display]\nsource = \"smooth\"\n"), "the sources say otherwise"));
   CHECK(parse_preset("condition = \"C1\"\n[display]\nsource = \"held\"\n", "p.toml"));
 }
 

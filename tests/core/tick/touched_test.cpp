@@ -1,6 +1,7 @@
 // Force from every place that the finger touches.
 #include "core/base/tolerances.h"
 #include "core/lab/measure/closed_work.h"
+#include "tests/core/recorded_scenes.h"
 #include "tests/core/scenes.h"
 
 #include <doctest/doctest.h>
@@ -184,4 +185,83 @@ TEST_CASE("with all places, too, a cold stepper and a copied state give the same
   }
   CHECK(differ == 0);
   CHECK(several > rounds(4000) / 10);
+}
+
+namespace {
+
+/// Ticks in which the force that is decided changes by more than the motion explains and a fade lets through.
+struct Leaps {
+  int marked = 0, unmarked = 0;
+};
+
+Leaps leaps_over(const ScenePtr& scene, double radius_m, const std::vector<Vec3>& way) {
+  Leaps leaps;
+  Stepper stepper(scene);
+  TickState state;
+  const Preset preset = all_of(radius_m);
+  TickOutput last;
+  for (std::size_t i = 0; i < way.size(); ++i) {
+    const TickOutput out = stepper.step(preset, at_position(1e-3 * static_cast<double>(i), way[i]), state);
+    const bool solved = i > 0 && is_converged(out.status) && is_converged(last.status);
+    const double explained = i > 0 ? 2.0 * 800.0 * glm::distance(way[i], way[i - 1]) : 0.0;
+    // The force that the leap is told by is the last planes' at the present pose: that much nearer by the motion.
+    if (solved && glm::distance(out.decided_force_n, last.decided_force_n) > 1.5 * explained + 0.021)
+      ++(out.event == TickEvent::none ? leaps.unmarked : leaps.marked);
+    last = out;
+  }
+  return leaps;
+}
+
+}  // namespace
+
+TEST_CASE("where a place that pushes with others comes up deep or ends at once the leap is marked") {
+  const RecordedScene stairs = recorded_scene("staircase");
+  std::vector<Vec3> spiral;
+  for (const TickInput& input : stairs.poses) spiral.push_back(input.finger.position);
+  Leaps leaps = leaps_over(stairs.scene, 0.020, spiral);
+  ContactMeshOptions smooth;
+  smooth.crease_rad = 180.0 * kDegree;
+  const ScenePtr crate =
+      scene_of(height_field(0.020, 20,
+                            [](double x, double y) { return 0.003 * std::sin(600.0 * x) * std::sin(540.0 * y + 1.0); }),
+               smooth);
+  for (int w = 0; w < 40; ++w) {
+    Random random{static_cast<std::uint64_t>(30 + w)};
+    const Vec3 along = random.direction();
+    Vec3 at(random.in(-0.01, 0.01), random.in(-0.01, 0.01), random.in(0.003, 0.006));
+    std::vector<Vec3> way(80);
+    for (Vec3& p : way) p = at += 5e-5 * along;
+    const Leaps more = leaps_over(crate, 0.005, way);
+    leaps.marked += more.marked, leaps.unmarked += more.unmarked;
+  }
+  MESSAGE(leaps.marked << " leaps are marked, " << leaps.unmarked << " are not");
+  CHECK(leaps.marked >= 10);
+  CHECK(leaps.unmarked == 0);
+}
+
+TEST_CASE("while several places push a tick that finds no contact ramps from the force of all of them") {
+  const Preset preset = all_of(0.005);
+  Stepper stepper(walls(2));
+  TickState state;
+  TickOutput last;
+  int leaps = 0, reached = 0;
+  for (int i = 0; i < 60; ++i) {
+    TickInput input = at_position(1e-3 * i, {0.004, 0.0037, 0.0});
+    input.unready = i >= 20 && i < 40;  // as where parts of a large mesh are not built yet
+    const TickOutput out = stepper.step(preset, input, state);
+    const double before = glm::length(last.force_n), now = glm::length(out.force_n);
+    if (input.unready) {  // the direction stays, or turns as slowly as a fade; the length goes with the ramp
+      const Vec3 shorter = before > 0.0 ? std::min(1.0, now / before) * last.force_n : Vec3(0.0);
+      leaps += glm::distance(out.force_n, shorter) > 1e-3 * kForceFade + 1e-9;
+      const double share = unconverged_share(preset.safety, 1e-3 * (i - 19)),
+                   step = 1e-3 / preset.safety.unconverged_ramp_s;
+      if (share < 1.0) leaps += now < before * share / std::min(1.0, share + step) - 1e-3 * kForceFade - 1e-9;
+      reached += out.force_n == Vec3(0.0);
+    } else {
+      leaps += i > 0 && glm::distance(out.force_n, last.force_n) > 1e-3 * kForceFade + 1e-9;
+    }
+    last = out;
+  }
+  CHECK(leaps == 0);
+  CHECK(reached == 11);  // from 10 ms after the last contact on
 }

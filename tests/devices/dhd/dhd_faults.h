@@ -40,28 +40,12 @@ inline const std::vector<DhdFault>& dhd_faults() {
   return faults;
 }
 
-/// From the tick in which it begins. The handle moves across the force, so that the gate sees no work.
 inline TicksTo measure_dhd_fault(const DhdFault& fault) {
   DhdOptions options = stub_dhd_options();
   options.reopen_s = 1e6;
   DhdLoop l(options);
   l.dhd.wrist = true;
-  if (!l.start()) return {};
-  int t = 0;
-  const auto move = [&] { l.dhd.position_m[2] = 0.01 * std::sin(0.03 * t++); };
-  l.loop.arm();
-  for (int i = 0; i < 400; ++i) {
-    move();
-    l.step();
-  }
-  if (l.felt_n() < 0.4) return {};
-  fault.begin(l);
-  return ticks_to(
-      l.loop, [&] { l.step(); }, [&] { return l.felt_n(); },
-      [&](int i) {
-        if (!fault.stays_put) move();
-        if (i == 1) l.loop.take(1e-3);
-      });
+  return ticks_of_fault(l, fault, [&](int t) { l.dhd.position_m[2] = 0.01 * std::sin(0.03 * t); });
 }
 
 }  // namespace tangent::test

@@ -3,6 +3,7 @@
 #include "devices/dhd/dhd_errors.h"
 #include "devices/dhd/dhd_models.h"
 #include "tests/devices/dhd/dhd_stub_loader.h"
+#include "tests/support/paths.h"
 
 #include <doctest/doctest.h>
 
@@ -218,9 +219,9 @@ TEST_CASE("dhd: what keeps it from opening is told with what to do") {
   options.library = "/nowhere/libdhd.so";
   CHECK(refused(options).what.find("can't be loaded: ") == 0);
   CHECK(refused(options).remedy.find("--dhd-library says where it is") != std::string::npos);
-  options.library = TANGENT_LACKING_DHD;
+  options.library = testing::lacking_dhd();
   CHECK(refused(options).what == "lacks dhdGetStatus");
-  options.library = TANGENT_STUB_DHD;
+  options.library = testing::stub_dhd();
   fresh_stub_dhd().minor = 2;
   CHECK(refused(options).what == "its version is 3.2, and 3.3 or newer is needed");
   fresh_stub_dhd().count = 0;
@@ -258,6 +259,10 @@ TEST_CASE("dhd: of a type that is not known no force is sent, unless a person sa
   REQUIRE(unknown.open());
   CHECK(unknown.capabilities().name == "a new device");
   CHECK(unknown.capabilities().peak_force_n == 0.0);
+  LinkReport report;
+  unknown.report(report);
+  CHECK(report.problem.find("it gets no force") != std::string::npos);
+  CHECK(report.problem.find("--dhd-peak-n") != std::string::npos);
   unknown.close();
   options.peak_n = 9.0;
   DhdForceDevice told(options);

@@ -4,6 +4,7 @@
 #include "devices/dhd/dhd_force_device.h"
 #include "tests/devices/dhd/stub_dhd.h"
 #include "tests/devices/gate_loop.h"
+#include "tests/support/paths.h"
 
 #include <dlfcn.h>
 
@@ -15,7 +16,7 @@ namespace tangent::test {
 /// Of the library at TANGENT_STUB_DHD, which stays loaded.
 inline StubDhd& stub_dhd() {
   static StubDhd* const stub = [] {
-    void* library = dlopen(TANGENT_STUB_DHD, RTLD_NOW | RTLD_LOCAL);
+    void* library = dlopen(testing::stub_dhd().c_str(), RTLD_NOW | RTLD_LOCAL);
     return reinterpret_cast<StubDhd* (*)()>(dlsym(library, "tangent_stub_dhd"))();
   }();
   return *stub;
@@ -27,7 +28,7 @@ inline StubDhd& fresh_stub_dhd() {
   return stub_dhd();
 }
 
-inline DhdOptions stub_dhd_options() { return {.library = TANGENT_STUB_DHD, .reopen_s = 0.0}; }
+inline DhdOptions stub_dhd_options() { return {.library = testing::stub_dhd(), .reopen_s = 0.0}; }
 
 /// The loop of driver and gate.
 struct DhdLoop {

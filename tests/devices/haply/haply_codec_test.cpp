@@ -30,7 +30,7 @@ TEST_CASE("a Haply list of devices is read: position in metres, velocity, status
   HaplyMessage message;
   REQUIRE(read_haply(kHaplyList, {}, message));
   CHECK_FALSE(message.has_session);
-  CHECK(message.buttons == 1u);
+  CHECK(message.grip.buttons == 1u);
   REQUIRE(message.devices.size() == 1);
   const HaplyEntry& device = message.devices.front();
   CHECK(device.id == "04BA");
@@ -41,6 +41,49 @@ TEST_CASE("a Haply list of devices is read: position in metres, velocity, status
   CHECK(device.status.calibrated);
   CHECK(device.own_axes);
   CHECK(device.problem == HaplyProblem::none);
+}
+
+TEST_CASE("how a Haply VerseGrip is turned is read where it is a rotation and there is one grip") {
+  if (!haply_built_in()) return;
+  HaplyMessage message;
+  const auto read = [&](const char* turn) {
+    REQUIRE(read_haply(changed(kHaplyList, R"({"x":0,"y":0,"z":0,"w":1})", turn), {}, message));
+    return message.grip;
+  };
+  // The published example of a list.
+  const HaplyGrip grip = read(R"({"x":-0.5019531,"y":0.8632202,"z":-0.048095703,"w":-0.022338867})");
+  CHECK(grip.turned);
+  CHECK(glm::length(grip.orientation) == doctest::Approx(1.0).epsilon(1e-12));
+  CHECK(grip.orientation.y == doctest::Approx(0.8632202).epsilon(1e-4));
+  for (const char* bad : {R"({"x":0,"y":0,"z":0,"w":0})", R"({"x":0,"y":0,"z":0,"w":1.1})", R"({"x":0,"y":0,"z":0})",
+                          R"({"x":null,"y":0,"z":0,"w":1})", "7"}) {
+    CAPTURE(bad);
+    CHECK_FALSE(read(bad).turned);
+    CHECK(message.grip.lies);
+    CHECK(message.devices.front().problem == HaplyProblem::none);
+  }
+  REQUIRE(read_haply(R"({"verse_grip":[{"state":{"button":true}},{"state":{"button":true}}]})", {}, message));
+  CHECK(message.grips == 2);
+  CHECK(message.grip.buttons == 0u);
+}
+
+TEST_CASE("an event of a Haply service is read, and what it says is shown as plain text") {
+  if (!haply_built_in()) return;
+  HaplyEvent event;
+  REQUIRE(read_haply_event(R"({"name":"device-safety-triggered","category":"device","level":"error",
+    "data":{"device_family":"inverse","device_id":"049D","safety_type":"ebrake_triggered"},"message":"E-brake\u001b[2J"})",
+                           event));
+  CHECK(event.level == HaplyEvent::Level::error);
+  CHECK(event.device == "049D");
+  CHECK(event.text == "device-safety-triggered: E-brake?[2J");
+  REQUIRE(read_haply_event(R"({"name":")" + std::string(1000, 'n') + R"(","level":"info","data":{}})", event));
+  CHECK(event.text.size() == 200);
+  CHECK(event.device.empty());
+  for (const char* bad : {"", "[]", "{}", R"({"name":"a"})", R"({"level":"error"})", R"({"name":"a","level":"loud"})",
+                          R"({"name":7,"level":"error"})"}) {
+    CAPTURE(bad);
+    CHECK_FALSE(read_haply_event(bad, event));
+  }
 }
 
 TEST_CASE("what a Haply message leaves out stays as the message before said") {

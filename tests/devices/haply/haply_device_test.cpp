@@ -1,4 +1,7 @@
 #include "devices/haply/haply_device.h"
+#include "devices/base/realtime_thread.h"
+#include "devices/haply/haply_list.h"
+#include "devices/plugin/host/allocation_watch.h"
 #include "tests/devices/haply/haply_faults.h"
 
 #include <doctest/doctest.h>
@@ -50,6 +53,31 @@ RealTimeRun run_by_the_clock(HaplyRig& rig, int ticks) {
   return run;
 }
 
+struct Priorities {
+  bool servo = false, link = false, service = false;
+};
+
+/// A row of the table: 10,000 ticks by the clock, these threads with real-time priority.
+void measure_priorities(const char* name, Priorities real_time) {
+  HaplyService service({.realtime = real_time.service});
+  HaplyOptions options = stepped_haply(service);
+  options.realtime = real_time.link;
+  HaplyRig rig(service, options);
+  REQUIRE(rig.device.open());
+  REQUIRE(rig.reach(DeviceState::firmware));
+  REQUIRE(rig.reach(DeviceState::ready, DeviceRequest::home));
+  RealTimeRun run;
+  std::thread servo([&] {
+    if (real_time.servo && !ask_for_realtime(kServoPriority)) std::puts("SCHED_FIFO refused");
+    run = run_by_the_clock(rig, 10'000);
+  });
+  servo.join();
+  CHECK(rig.sample.state == DeviceState::ready);
+  const LogHistogram& trip_us = *rig.report().round_trip_us;
+  std::printf("| %s | %d | %d | %.0f us | %.0f us | %.1f %% |\n", name, run.lost, run.quiet, trip_us.percentile(0.5),
+              trip_us.percentile(0.99), 100.0 * run.link_s / run.wall_s);
+}
+
 std::string remedy_of(HaplyService& service, const std::string& device = {}) {
   HaplyOptions options = stepped_haply(service);
   options.device = device;
@@ -73,7 +101,7 @@ TEST_CASE("an Inverse3 is opened, homed, pushes with what the gate lets through,
   CHECK(rig.sample.buttons == 1u);
   CHECK(rig.sample.age_s < 2.5e-3);
   CHECK(service.asked().back().find("\"vector\"") != std::string::npos);
-  CHECK(rig.report().identity == "device 049D");
+  CHECK(rig.report().identity == "device 049D, turned by its VerseGrip");
   rig.device.close();
   CHECK(eventually([&] { return service.force_n() == Vec3(0.0); }, 60.0));
   CHECK(eventually([&] { return service.closed_politely(); }, 60.0));
@@ -87,6 +115,100 @@ TEST_CASE("Haply's axes: its x is the world's -y, its y the world's x, and up is
   CHECK(glm::length(turned(frame.rotation, Vec3(0, 1, 0)) - Vec3(1, 0, 0)) < 1e-12);
   CHECK(glm::length(turned(frame.rotation, Vec3(0, 0, 1)) - Vec3(0, 0, 1)) < 1e-12);
   CHECK(check_capabilities(device.capabilities()));
+}
+
+TEST_CASE("the finger points where a Haply VerseGrip points, its y, and keeps the grip's upper side up") {
+  const double half = std::sqrt(0.5);
+  struct {
+    Quat grip;
+    Vec3 finger, up;  // in Haply's axes: right, away, up
+  } const turns[] = {{Quat(1, 0, 0, 0), {0, 1, 0}, {0, 0, 1}},
+                     {Quat(half, 0, 0, half), {-1, 0, 0}, {0, 0, 1}},
+                     {Quat(half, half, 0, 0), {0, 0, 1}, {0, -1, 0}},
+                     {Quat(half, 0, half, 0), {0, 1, 0}, {1, 0, 0}}};
+  for (const auto& turn : turns) {
+    HaplyService service({.grip = turn.grip});
+    HaplyRig rig(service);
+    REQUIRE(rig.device.open());
+    CHECK(rig.device.capabilities().rotations_sensed() == 3);
+    REQUIRE(rig.reach(DeviceState::firmware));
+    REQUIRE(rig.answered_tick());
+    rig.tick();
+    CHECK(glm::length(turned(rig.sample.orientation, Vec3(1, 0, 0)) - turn.finger) < 1e-12);
+    CHECK(glm::length(turned(rig.sample.orientation, Vec3(0, 0, 1)) - turn.up) < 1e-12);
+  }
+  HaplyService without({.grip = std::nullopt});
+  HaplyRig rig(without);
+  REQUIRE(rig.push());
+  CHECK(rig.device.capabilities().rotations_sensed() == 0);
+  CHECK(rig.sample.orientation == Quat(1, 0, 0, 0));
+}
+
+TEST_CASE("an error that the Inverse Service reports of the device ends the force, and a warning is shown") {
+  HaplyService service, events;
+  reply_with(events, {HaplyReply::How::nothing, ""});
+  HaplyOptions options = stepped_haply(service);
+  const std::string address = events.address();
+  options.events_port = std::stoi(address.substr(address.rfind(':') + 1));
+  HaplyRig rig(service, options);
+  REQUIRE(rig.push());
+  const auto event = [&](const char* level, const char* id, const char* text) {
+    events.push(std::string(R"({"name":"device-safety-triggered","category":"device","level":")") + level +
+                R"(","data":{"device_id":")" + id + R"("},"message":")" + text + R"("})");
+  };
+  REQUIRE(eventually([&] { return rig.report().identity.find("not heard") == std::string::npos; }, 60.0));
+  events.push("no event");
+  event("error", "04BA", "of another device");
+  event("warning", "049D", "stall");
+  REQUIRE(eventually(
+      [&] { return rig.report().identity.find("warned: device-safety-triggered: stall") != std::string::npos; }, 60.0));
+  REQUIRE(rig.answered_tick());
+  CHECK(rig.sample.force_n != Vec3(0.0));
+  event("error", "049D", "E-brake");
+  REQUIRE(eventually([&] { return rig.report().identity.find("E-brake") != std::string::npos; }, 60.0));
+  rig.tick();
+  CHECK(rig.sample.fault == DeviceFault::actuator);
+  CHECK(rig.sample.force_n == Vec3(0.0));
+  CHECK(rig.report().problem.find("reports an error (device-safety-triggered: E-brake)") != std::string::npos);
+  CHECK(eventually([&] { return service.force_n() == Vec3(0.0); }, 60.0));
+  CHECK(events.received() == 0);  // nothing is ever sent there
+  REQUIRE(rig.answered_tick(DeviceRequest::clear_fault));
+  events.go_away();
+  CHECK(eventually([&] { return rig.report().identity.find("not heard") != std::string::npos; }, 60.0));
+  CHECK(rig.arm_and_push());
+}
+
+TEST_CASE("an Inverse Service that keeps lying is told zero force once, and not asked again and again") {
+  HaplyService service;
+  HaplyRig rig(service);
+  REQUIRE(rig.push());
+  reply_text(service, "?");
+  const std::uint64_t before = service.received(), bad = rig.report().errors;
+  rig.tick();
+  REQUIRE(eventually([&] { return rig.report().errors >= bad + 2 && service.force_n() == Vec3(0.0); }, 60.0));
+  for (int i = 0; i < 20; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  CHECK(service.received() == before + 2);
+}
+
+TEST_CASE("the devices of an Inverse Service are listed, and it is sent nothing") {
+  HaplyService service({.devices = {"049D", "04BA"}});
+  const auto two = list_haply_devices(stepped_haply(service));
+  REQUIRE(two);
+  REQUIRE(two->size() == 2);
+  CHECK(two->back().kind == "haply");
+  CHECK(two->back().serial == "04BA");
+  CHECK(two->back().can_be_opened());
+  service.set_options({.in_use = true});
+  CHECK(list_haply_devices(stepped_haply(service))->front().problem.remedy == "close that program");
+  service.set_options({.power = false});
+  CHECK_FALSE(list_haply_devices(stepped_haply(service))->front().can_be_opened());
+  service.set_options({.devices = {}});
+  CHECK(list_haply_devices(stepped_haply(service))->empty());
+  reply_text(service, "hello");
+  CHECK(list_haply_devices(stepped_haply(service)).error().what.find("no state message") != std::string::npos);
+  CHECK(service.received() == 0);
+  service.go_away();
+  CHECK(list_haply_devices(stepped_haply(service)).error().remedy.find("start Haply Hub") != std::string::npos);
 }
 
 TEST_CASE("an Inverse Service of 3.1 gets its forces as values") {
@@ -278,6 +400,32 @@ TEST_CASE("answers that come late make it fall silent, and too many of them are 
   CHECK(rig.sample.fault == DeviceFault::disconnected);
 }
 
+TEST_CASE("no exchange with an Inverse3 allocates, answered or not, nor when its service is gone") {
+  HaplyService service;
+  HaplyRig rig(service);
+  REQUIRE(rig.push());
+  std::uint64_t sum = 0;
+  const auto exchange = [&](int times, DeviceRequest request = DeviceRequest::none) {
+    for (int i = 0; i < times; ++i) {
+      count_allocations();
+      rig.device.exchange({.force_n = Vec3(0.0, 0.0, 0.5), .request = request}, 1e-3);
+      sum += counted_allocations();
+    }
+  };
+  for (int i = 0; i < 50; ++i) {
+    const std::uint64_t heard = rig.report().packets_in;
+    exchange(1);
+    REQUIRE(eventually([&] { return rig.report().packets_in > heard; }, 60.0));
+  }
+  reply_text(service, "?");
+  exchange(50);
+  for (const DeviceRequest request : {DeviceRequest::stop, DeviceRequest::clear_fault, DeviceRequest::home})
+    exchange(5, request);
+  service.go_away();
+  exchange(150);
+  CHECK(sum == 0);
+}
+
 TEST_CASE("an emergency stop reaches the Inverse Service without an exchange, and holds until it is homed again") {
   HaplyService service;
   HaplyRig rig(service);
@@ -344,17 +492,10 @@ TEST_CASE("measure: faults of haply" * doctest::skip()) {
 }
 
 TEST_CASE("measure: 10,000 ticks through haply" * doctest::skip()) {
-  HaplyService service;
-  HaplyOptions options = stepped_haply(service);
-  HaplyRig rig(service, options);
-  REQUIRE(rig.device.open());
-  REQUIRE(rig.reach(DeviceState::firmware));
-  REQUIRE(rig.reach(DeviceState::ready, DeviceRequest::home));
-  const RealTimeRun run = run_by_the_clock(rig, 10'000);
-  const LinkReport report = rig.report();
-  std::printf("%d ticks in %.2f s: %d without an answer of their own, %d times two in a row without; state %s\n",
-              run.ticks, run.wall_s, run.lost, run.quiet, to_string(rig.sample.state));
-  std::printf("round trip %.0f us median, %.0f us p99; the link's thread %.1f %% of a core\n",
-              report.round_trip_us->percentile(0.5), report.round_trip_us->percentile(0.99),
-              100.0 * run.link_s / run.wall_s);
+  std::puts(
+      "| SCHED_FIFO | no answer | no force | round trip, median | p99 | link's thread |\n|---|---|---|---|---|---|");
+  measure_priorities("none", {.servo = false, .link = false, .service = false});
+  measure_priorities("servo", {.servo = true, .link = false, .service = false});
+  measure_priorities("servo, link", {.servo = true, .link = true, .service = false});
+  measure_priorities("servo, link, service", {.servo = true, .link = true, .service = true});
 }

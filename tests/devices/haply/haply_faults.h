@@ -75,6 +75,13 @@ inline const std::vector<HaplyFault>& haply_faults() {
       {"outside the workspace", Sign::answer, [](HaplyService& s) { s.put_finger(Vec3(0.0, -0.12, 0.27)); }},
       {"a leap of 90 mm", Sign::answer, [](HaplyService& s) { s.put_finger(Vec3(0.0, -0.12, 0.24)); }},
       {"other axes", Sign::bad, [](HaplyService& s) { reply_changed(s, "\"w\":1", "\"w\":0.5"); }},
+      {"its VerseGrip is gone", Sign::bad, [](HaplyService& s) { s.set_options({.grip = std::nullopt}); }},
+      {"its VerseGrip's turn is no rotation", Sign::bad,
+       [](HaplyService& s) { s.set_options({.grip = Quat(0.0, 0.0, 0.0, 0.0)}); }},
+      {"states that nobody asked for", Sign::bad,
+       [](HaplyService& s) {
+         s.set_policy([](std::uint64_t, const std::string& right) { return HaplyReply{How::flood, right}; });
+       }},
       {"deep nesting", Sign::bad, [](HaplyService& s) { reply_text(s, std::string(100'000, '[')); }},
       {"a message of 10 MB", Sign::gone, [](HaplyService& s) { reply_text(s, std::string(10'000'000, ' ')); }},
   };

@@ -23,6 +23,7 @@ inline HaplyOptions stepped_haply(const HaplyService& service) {
   options.address = service.address();
   options.connect_s = 60.0;
   options.retry_s = 0.01;
+  options.events_port = 0;
   options.our_stall_s = 1e6;
   options.clock = haply_test_clock;
   return options;

@@ -1,5 +1,7 @@
 #include "tests/devices/haply/haply_service.h"
 
+#include "devices/base/realtime_thread.h"
+
 #include <boost/asio/executor_work_guard.hpp>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
@@ -44,7 +46,7 @@ struct HaplyService::Impl {
   HaplyServiceOptions options;
   asio::io_context io{1};
   asio::executor_work_guard<asio::io_context::executor_type> busy{io.get_executor()};
-  tcp::acceptor acceptor{io};
+  tcp::acceptor keeper{io}, acceptor{io};
   tcp::endpoint here{asio::ip::make_address("127.0.0.1"), 0};
   std::vector<ClientPtr> clients;
   std::thread thread;
@@ -59,6 +61,7 @@ struct HaplyService::Impl {
   Policy policy;
   std::vector<std::pair<ClientPtr, std::string>> held;
 
+  void take_port();
   void listen();
   void accept();
   void greet(const ClientPtr& c);
@@ -82,12 +85,19 @@ struct HaplyService::Impl {
   }
 };
 
+/// A port of its own, which `keeper` holds without listening: while the service is away nobody else is given it.
+void HaplyService::Impl::take_port() {
+  keeper.open(here.protocol());
+  keeper.set_option(tcp::acceptor::reuse_address(true));
+  keeper.bind(here);
+  here = keeper.local_endpoint();
+}
+
 void HaplyService::Impl::listen() {
   acceptor.open(here.protocol());
   acceptor.set_option(tcp::acceptor::reuse_address(true));
   acceptor.bind(here);
   acceptor.listen();
-  here = acceptor.local_endpoint();
   accept();
 }
 
@@ -165,8 +175,12 @@ std::string HaplyService::Impl::state(bool whole) const {
     if (whole) device["config"] = {{"type", "inverse3"}, {"basis", {{"permutation", options.permutation}}}};
     message["inverse3"].push_back(device);
   }
-  message["wireless_verse_grip"] = {
-      {{"device_id", "61548"}, {"state", {{"buttons", {{"a", true}, {"b", false}, {"c", false}}}}}}};
+  if (!options.grip) return message.dump();
+  const Quat& q = *options.grip;
+  message["wireless_verse_grip"] = {{{"device_id", "61548"},
+                                     {"state",
+                                      {{"buttons", {{"a", true}, {"b", false}, {"c", false}}},
+                                       {"orientation", {{"x", q.x}, {"y", q.y}, {"z", q.z}, {"w", q.w}}}}}}};
   return message.dump();
 }
 
@@ -183,6 +197,9 @@ void HaplyService::Impl::reply(const ClientPtr& c, std::uint64_t n, const std::s
       return reset(c);
     case HaplyReply::How::half_frame:
       return send_half(c);
+    case HaplyReply::How::flood:
+      for (int i = 0; i < 300; ++i) send(c, reply.text);
+      return;
     case HaplyReply::How::nothing:
       return;
   }
@@ -221,8 +238,12 @@ void HaplyService::Impl::send_half(const ClientPtr& c) {
 
 HaplyService::HaplyService(HaplyServiceOptions options) : impl_(std::make_unique<Impl>()) {
   impl_->options = std::move(options);
+  impl_->take_port();
   impl_->listen();
-  impl_->thread = std::thread([impl = impl_.get()] { impl->io.run(); });
+  impl_->thread = std::thread([impl = impl_.get()] {
+    if (impl->options.realtime) ask_for_realtime(kLinkPriority);
+    impl->io.run();
+  });
 }
 
 HaplyService::~HaplyService() {
@@ -245,6 +266,13 @@ void HaplyService::put_finger(const Vec3& position_m) {
   impl_->in_thread([&] {
     const std::lock_guard lock(impl_->mutex);
     impl_->finger_m = position_m;
+  });
+}
+
+void HaplyService::push(const std::string& text) {
+  impl_->in_thread([&] {
+    for (const ClientPtr& client : impl_->clients)
+      if (!client->gone) impl_->send(client, text);
   });
 }
 

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,7 +15,7 @@ namespace tangent::testing {
 
 /// What comes back for a message.
 struct HaplyReply {
-  enum class How : std::uint8_t { send, nothing, hold, close, reset, half_frame };
+  enum class How : std::uint8_t { send, nothing, hold, close, reset, half_frame, flood };
   How how = How::send;
   std::string text;  ///< to send, or to hold
 };
@@ -24,7 +25,9 @@ struct HaplyServiceOptions {
   bool old_format = false;  ///< 3.1: no session_id, forces as `values`
   bool calibrated = true, power = true, in_use = false;
   std::string permutation = "XYZ";
-  double mass_kg = 0.0;  ///< of a finger that nothing holds; 0: it stays where it is
+  bool realtime = false;                                ///< its thread asks for SCHED_FIFO
+  std::optional<Quat> grip = Quat(1.0, 0.0, 0.0, 0.0);  ///< how the VerseGrip is turned; null: none is there
+  double mass_kg = 0.0;                                 ///< of a finger that nothing holds; 0: it stays where it is
 };
 
 class HaplyService {
@@ -42,6 +45,7 @@ class HaplyService {
   void set_policy(Policy policy);  ///< null: the right one
   void set_options(const HaplyServiceOptions& options);
   void put_finger(const Vec3& position_m);  ///< in Haply's axes
+  void push(const std::string& text);       ///< to every client, unasked, as the events' port does
   void release_held();                      ///< sends what was held back
   void drop();                              ///< resets every connection
   void go_away();                           ///< as drop, and refuses connections

@@ -35,27 +35,11 @@ inline const std::vector<HdFault>& hd_faults() {
   return faults;
 }
 
-/// From the tick in which it begins. The handle moves across the force, so that the gate sees no work.
 inline TicksTo measure_hd_fault(const HdFault& fault) {
   HdOptions options = stub_hd_options();
   options.reopen_s = 1e6;
   HdLoop l(options);
-  if (!l.start()) return {};
-  int t = 0;
-  const auto move = [&] { l.hd.position_mm[2] = 10.0 * std::sin(0.03 * t++); };
-  l.loop.arm();
-  for (int i = 0; i < 400; ++i) {
-    move();
-    l.step();
-  }
-  if (l.felt_n() < 0.4) return {};
-  fault.begin(l);
-  return ticks_to(
-      l.loop, [&] { l.step(); }, [&] { return l.felt_n(); },
-      [&](int i) {
-        if (!fault.stays_put) move();
-        if (i == 1) l.loop.take(1e-3);
-      });
+  return ticks_of_fault(l, fault, [&](int t) { l.hd.position_mm[2] = 10.0 * std::sin(0.03 * t); });
 }
 
 }  // namespace tangent::test

@@ -2,6 +2,7 @@
 
 #include "devices/openhaptics/hd_errors.h"
 #include "tests/devices/openhaptics/hd_stub_loader.h"
+#include "tests/support/paths.h"
 
 #include <doctest/doctest.h>
 
@@ -294,10 +295,10 @@ TEST_CASE("openhaptics: what keeps it from opening is told with what to do") {
   CHECK(missing.what.find("can't be loaded: ") == 0);
   CHECK(missing.remedy.find("--hd-library says where it is") != std::string::npos);
 
-  options.library = TANGENT_LACKING_HD;
+  options.library = testing::lacking_hd();
   CHECK(refused(options).what == "lacks hdEndFrame, hdUnschedule");
 
-  options.library = TANGENT_STUB_HD;
+  options.library = testing::stub_hd();
   fresh_stub_hd().version = "2.0.3";
   CHECK(refused(options).what == "its version is 2.0.3, and 3 or newer is needed");
 

@@ -4,6 +4,7 @@
 #include "devices/openhaptics/hd_force_device.h"
 #include "tests/devices/gate_loop.h"
 #include "tests/devices/openhaptics/stub_hd.h"
+#include "tests/support/paths.h"
 
 #include <dlfcn.h>
 
@@ -15,7 +16,7 @@ namespace tangent::test {
 
 inline StubHd& stub_hd() {
   static StubHd* const stub = [] {
-    void* library = dlopen(TANGENT_STUB_HD, RTLD_NOW | RTLD_LOCAL);
+    void* library = dlopen(testing::stub_hd().c_str(), RTLD_NOW | RTLD_LOCAL);
     auto* get = reinterpret_cast<StubHd* (*)()>(dlsym(library, "tangent_stub_hd"));
     return get();
   }();
@@ -31,7 +32,7 @@ inline StubHd& fresh_stub_hd() {
 /// No folder of setups, and a keeper that finds no silence by itself: the test's turns take as long as they do.
 inline HdOptions stub_hd_options() {
   HdOptions options;
-  options.library = TANGENT_STUB_HD;
+  options.library = testing::stub_hd();
   options.configs = "/nowhere";
   options.silence_s = 1e9;
   options.reopen_s = 0.0;

@@ -5,6 +5,7 @@
 #include "devices/device_safety.h"
 #include "devices/plugin/plugin_device.h"
 #include "devices/safety_gate.h"
+#include "tests/support/paths.h"
 #include "tests/support/temp_folder.h"
 
 #include <doctest/doctest.h>
@@ -22,8 +23,8 @@ inline constexpr double kForever_s = 3600.0;
 
 inline PluginOptions patient_plugin(const std::string& fault = {}, std::uint64_t at = 0) {
   PluginOptions options;
-  options.path = TANGENT_FAULTY_PLUGIN;
-  options.host = TANGENT_PLUGIN_HOST;
+  options.path = testing::faulty_plugin();
+  options.host = testing::plugin_host();
   if (!fault.empty())
     options.settings = {{"fault", fault}, {"at", std::to_string(at)}, {"for", std::to_string(1'000'000)}};
   options.wait_s = options.watchdog_s = options.hang_s = options.kill_s = options.open_s = options.end_s = kForever_s;

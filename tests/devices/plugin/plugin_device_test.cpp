@@ -4,6 +4,7 @@
 #include "devices/device_set.h"
 #include "devices/plugin/plugin_process.h"
 #include "tests/devices/plugin/plugin_bench.h"
+#include "tests/support/paths.h"
 
 #include <dlfcn.h>
 #include <sys/resource.h>
@@ -41,7 +42,7 @@ PluginOptions as_file(const std::string& path) {
 
 /// The plug-in of the tests under another name, which makes it another plug-in.
 std::string copy_as(const TempFolder& folder, const std::string& name) {
-  std::filesystem::copy_file(TANGENT_FAULTY_PLUGIN, folder.file(name));
+  std::filesystem::copy_file(testing::faulty_plugin(), folder.file(name));
   return folder.file(name);
 }
 
@@ -94,7 +95,7 @@ TEST_CASE("what is no plug-in is refused with what is wrong and what to do, in a
   const TempFolder folder;
   Dl_info libc{};
   REQUIRE(::dladdr(reinterpret_cast<void*>(&::fopen), &libc) != 0);
-  std::string other = read_text(TANGENT_FAULTY_PLUGIN);
+  std::string other = read_text(testing::faulty_plugin());
   const std::string cut = folder.write("cut.so", other.substr(0, 600));
   other[18] = 40;  // 32-bit ARM
   other[19] = 0;
@@ -108,7 +109,7 @@ TEST_CASE("what is no plug-in is refused with what is wrong and what to do, in a
       {folder.write("short.so", "x"), "is no shared library"},
       {arm, "is a library for 32-bit ARM, this program is for"},
       {cut, "is cut off: it has 600 bytes"},
-      {TANGENT_PLUGIN_HOST, "can't be loaded: "},
+      {testing::plugin_host(), "can't be loaded: "},
       {std::filesystem::canonical(libc.dli_fname).string(), "does not export tangent_device_entry"},
       {copy_as(folder, "old.so"), "is of version 0 of tangent_device.h"},
       {copy_as(folder, "small.so"), "with a table of 16 bytes"},
@@ -318,8 +319,8 @@ TEST_CASE("200 ticks at 1 kHz: each is answered") {
 TEST_CASE("measure: 10,000 ticks through plugin" * doctest::skip()) {
   for (const bool within : kWithin) {
     PluginOptions options;
-    options.path = TANGENT_FAULTY_PLUGIN;
-    options.host = TANGENT_PLUGIN_HOST;
+    options.path = testing::faulty_plugin();
+    options.host = testing::plugin_host();
     options.in_process = within;
     rusage before{}, after{}, theirs{};
     double wall_s = 0.0, slowest_s = 0.0, sum_s = 0.0;

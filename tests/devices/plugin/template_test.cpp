@@ -1,5 +1,6 @@
 // The template of a plug-in, built outside of this project as a reader of devices/plugin/README.md would.
 #include "tests/devices/plugin/plugin_bench.h"
+#include "tests/support/paths.h"
 
 #include <cstdlib>
 #include <filesystem>
@@ -9,7 +10,7 @@ using namespace tangent::testing;
 
 namespace {
 
-const std::filesystem::path kPluginFolder = std::filesystem::path(TANGENT_SOURCE_DIR) / "devices/plugin";
+const std::filesystem::path kPluginFolder = std::filesystem::path(testing::source_folder()) / "devices/plugin";
 
 bool runs(const TempFolder& folder, const std::string& command) {
   const int code = std::system(("cd " + folder.path().string() + " && (" + command + ") >said 2>&1").c_str());

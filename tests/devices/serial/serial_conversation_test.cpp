@@ -179,6 +179,26 @@ TEST_CASE("a sample that waited on its way is as old as it is, also where the cl
   CHECK(clock.add(time_us + 100000, arrival_ns(since_us)) == SerialTrouble::time_ahead);
 }
 
+TEST_CASE("a board whose clock is slow by more than 500 ppm is told so before its samples seem too old") {
+  struct {
+    std::int64_t ppm;
+    int most_s;  // until it is found; 0: never
+  } const boards[] = {{-20000, 0}, {400, 0}, {600, 12}, {1000, 4}, {10000, 2}};
+  for (const auto& board : boards) {
+    CAPTURE(board.ppm);
+    SampleClock clock;
+    int found_at = 0;
+    for (int i = 0; i < 20000 && found_at == 0; ++i) {
+      const std::int64_t device_ns = std::int64_t{i} * 1'000'000;
+      const std::int64_t arrived_ns = kSecond_ns + device_ns + device_ns / 1'000'000 * board.ppm + i % 7 * 10'000;
+      if (clock.add(static_cast<std::uint32_t>(i) * 1000, arrived_ns) == SerialTrouble::time_slow) found_at = i;
+    }
+    CHECK(found_at <= board.most_s * 1000);
+    CHECK((found_at > 0) == (board.most_s > 0));
+  }
+  CHECK(std::string(to_string(SerialTrouble::time_slow)).find("500 ppm") != std::string::npos);
+}
+
 TEST_CASE("whatever comes, a conversation believes positions within twice the workspace alone") {
   std::mt19937 random(11);
   HostSide h;

@@ -3,6 +3,7 @@
 #include "devices/serial/firmware/tangent_firmware.h"
 #include "devices/serial/serial_messages.h"
 #include "tests/devices/serial/serial_rig.h"
+#include "tests/support/paths.h"
 
 #include <algorithm>
 #include <cmath>
@@ -223,7 +224,7 @@ TEST_CASE("whatever comes over the line, the firmware pushes within its peak and
 TEST_CASE("the firmware is short enough to read") {
   int lines = 0;
   for (const char* name : {"tangent_firmware.h", "tangent_firmware.c"}) {
-    std::ifstream file(std::string(TANGENT_SOURCE_DIR) + "/devices/serial/firmware/" + name);
+    std::ifstream file(testing::source_folder() + "/devices/serial/firmware/" + name);
     REQUIRE(file);
     for (std::string line; std::getline(file, line);) ++lines;
   }

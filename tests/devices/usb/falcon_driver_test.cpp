@@ -83,6 +83,88 @@ TEST_CASE("Falcon: not calibrated, it says so, and pushes with no more than a ne
   for (const int count : rig.model.last.torque) CHECK(std::abs(count) <= kFalconUncalibratedCounts);
 }
 
+TEST_CASE("Falcon: each that is plugged in pushes by the torque scale that is kept for it, and with 1 N without one") {
+  FalconOptions options;
+  options.kept["LEFT"] = {10'000.0, "", ""};
+  options.kept["RIGHT"] = {20'000.0, "", ""};
+  options.kept["NEW"] = {0.0, "named, and not calibrated", ""};
+  struct Plugged {
+    const char* serial;
+    double true_scale, felt_n;
+  };
+  FalconRig rig(options);
+  CHECK(rig.driver.capabilities().name == "Novint Falcon");
+  CHECK(rig.driver.capabilities().peak_force_n == kFalconPeak_n);
+  for (const Plugged& p :
+       {Plugged{"LEFT", 10'000.0, 2.0}, Plugged{"RIGHT", 20'000.0, 2.0}, Plugged{"NEW", kFalconUncalibratedScale, 1.0},
+        Plugged{"", kFalconUncalibratedScale, 1.0}, Plugged{"LEFT", 10'000.0, 2.0}}) {
+    CAPTURE(std::string(p.serial));
+    rig.model.serial = p.serial;
+    rig.model.counts_per_nm = p.true_scale;
+    rig.gate.stop();
+    rig.plug_in();
+    rig.tick();  // the servo sees that it is another one
+    CHECK(rig.driver.calibrated() == (p.felt_n > 1.0));
+    rig.make_ready();
+    rig.push({0.0, 0.0, 2.0}, 900);
+    const double felt = rig.model.hand_n_per_m * size_of(rig.model.place_m() - rig.model.hand_m);
+    CHECK(felt == doctest::Approx(p.felt_n).epsilon(0.02));
+    CHECK(size_of(rig.sample.force_n) == doctest::Approx(p.felt_n).epsilon(1e-9));
+    rig.unplug();
+    rig.tick();
+  }
+}
+
+TEST_CASE("Falcon: a torque scale that is given counts, whatever is kept") {
+  FalconOptions options = calibrated(8'000.0);
+  options.kept["F00001"] = {20'000.0, "", ""};
+  FalconRig rig(options);
+  rig.model.counts_per_nm = 8'000.0;
+  rig.plug_in();
+  rig.make_ready();
+  rig.push({0.0, 0.0, 2.0}, 900);
+  const double felt = rig.model.hand_n_per_m * size_of(rig.model.place_m() - rig.model.hand_m);
+  CHECK(felt == doctest::Approx(2.0).epsilon(0.02));
+}
+
+TEST_CASE("Falcon: the force that it says is the one that is sent, also in the tick in which none is") {
+  FalconRig rig(calibrated());
+  rig.plug_in();
+  rig.make_ready();
+  rig.push({0.0, 0.0, 1.0});
+  REQUIRE(rig.pushes());
+  rig.model.fault = FalconFault::garbage;
+  rig.tick();
+  rig.model.fault = FalconFault::none;
+  CHECK(rig.sample.force_n == Vec3(0.0));
+  CHECK(rig.model.last.torque == FalconCommand{}.torque);
+  CHECK(rig.sample.state == DeviceState::ready);
+}
+
+TEST_CASE("Falcon: two commands in a row without an answer are a device that is gone, however soon, and one is none") {
+  for (const bool stalled : {false, true}) {  // neither taken, or only not answered
+    CAPTURE(stalled);
+    FalconRig rig(calibrated());
+    rig.plug_in();
+    rig.make_ready();
+    rig.push({0.0, 0.0, 1.0});
+    rig.model.fault = FalconFault::silent;
+    rig.takes_transfers = !stalled;
+    const std::uint64_t lost = rig.driver.line().lost();
+    int ticks = 0;
+    for (; rig.sample.state == DeviceState::ready && ticks < 100; ++ticks) {
+      CHECK(rig.driver.line().lost() - lost < 2);
+      rig.tick();
+    }
+    CHECK(rig.sample.fault == DeviceFault::disconnected);
+    CHECK(ticks <= 8);
+    rig.model.fault = FalconFault::none;
+    rig.takes_transfers = true;
+    rig.tick(DeviceRequest::clear_fault);
+    rig.make_ready();
+  }
+}
+
 TEST_CASE("Falcon: counts are clamped long before they wrap, all three alike, whatever the force") {
   const Vec3 places[]{Vec3(0.0), Vec3(0.035, -0.035, 0.035), Vec3(-0.04, 0.0, -0.04)};
   for (const Vec3& place : places) {

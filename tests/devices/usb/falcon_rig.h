@@ -22,8 +22,9 @@ class FalconRig : public FalconWire {
  public:
   static constexpr double kTick_s = 1e-3;
 
-  explicit FalconRig(const FalconOptions& options = {}, const Bytes& firmware = {})
-      : driver(options, firmware), gate(limits_of(driver.capabilities())) {
+  explicit FalconRig(const FalconOptions& options = {}, const Bytes& firmware = {},
+                     const FalconDriver::Firmwares& kept = {})
+      : driver(options, firmware, kept), gate(limits_of(driver.capabilities())) {
     model.firmware = firmware;
   }
 
@@ -40,7 +41,7 @@ class FalconRig : public FalconWire {
   void plug_in() {
     model.reset();
     plugged = true;
-    driver.line().opened(now_ns);
+    driver.opened(model.serial, now_ns);
   }
   void unplug() {
     plugged = false;

@@ -1,6 +1,7 @@
 // Simulated groups end to end: files, loading, results, page.
 #include "workbench/analysis/write_analysis.h"
 
+#include "tests/support/paths.h"
 #include "workbench/analysis/analysis_figures.h"
 #include "workbench/analysis/staircase_warnings.h"
 #include "workbench/experiment/paper_results.h"
@@ -30,7 +31,7 @@ std::string text_of(const fs::path& path) {
   return out.str();
 }
 fs::path shipped(const std::string& kind) {
-  return fs::path(TANGENT_SOURCE_DIR) / "presets" / "experiments" / (kind + ".toml");
+  return fs::path(testing::source_folder()) / "presets" / "experiments" / (kind + ".toml");
 }
 
 /// Participants 1 to `count` in `folder`.

@@ -3,6 +3,7 @@
 #include "workbench/analysis/page_table.h"
 #include "workbench/analysis/write_planning.h"
 
+#include "tests/support/paths.h"
 #include "workbench/session/own_folder.h"
 
 #include <doctest/doctest.h>
@@ -15,7 +16,7 @@ namespace tangent::analysis {
 namespace {
 
 experiment::Protocol shipped_protocol(const std::string& kind) {
-  return *experiment::read_protocol(std::filesystem::path(TANGENT_SOURCE_DIR) / "presets" / "experiments" /
+  return *experiment::read_protocol(std::filesystem::path(testing::source_folder()) / "presets" / "experiments" /
                                     (kind + ".toml"));
 }
 

@@ -5,6 +5,7 @@
 #include "tests/support/temp_folder.h"
 #include "tests/workbench/bringup/simulated_person.h"
 #include "workbench/bringup/bring_up_runner.h"
+#include "workbench/bringup/bring_up_text.h"
 #include "workbench/bringup/proved_devices.h"
 
 #include <nlohmann/json.hpp>
@@ -158,7 +159,7 @@ TEST_CASE("the runner refuses a device that says nonsense once it is open, and c
   CHECK(closed);
 }
 
-TEST_CASE("a driver that does not come back from an exchange is noticed, and one that does in the end is closed") {
+TEST_CASE("a driver that does not come back from an exchange ends the run, and one that does in the end is closed") {
   struct Hanging final : RealDevice {
     explicit Hanging(std::atomic<bool>& goes_on) : goes_on_(goes_on) {}
     ForceSample exchange(const ForceCommand&, double) noexcept override {
@@ -170,6 +171,9 @@ TEST_CASE("a driver that does not come back from an exchange is noticed, and one
   std::atomic<bool> goes_on{false};
   auto runner = BringUpRunner::start(std::make_unique<Hanging>(goes_on), {.hangs_after_s = 1e-3});
   REQUIRE(runner);
-  while (!(*runner)->hangs()) std::this_thread::yield();  // ended by the event alone
+  while (!(*runner)->view().ended) std::this_thread::yield();  // ended by the event alone
+  const BringUpView& view = (*runner)->view();
+  CHECK(view.why(BringUpStep::cable) == BringUpWhy::hangs);
+  CHECK(why_text(BringUpWhy::hangs, view).find("take the device's power away") != std::string::npos);
   goes_on = true;
 }

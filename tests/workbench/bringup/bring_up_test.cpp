@@ -122,6 +122,32 @@ TEST_CASE("bring-up: every fault of a driver is found, in its step, and leaves n
   }
 }
 
+TEST_CASE("bring-up: a watchdog and another way to stop that work are proved, both") {
+  CrookedDevice device({.timeout_s = 0.1, .has_emergency_stop = true});
+  const BringUpRun run = bring_up(device, {.most_n = 0.2});
+  INFO(said(run.view, device.capabilities()));
+  CHECK(run.view.all_proved());
+  CHECK(run.view.verdict(BringUpStep::watchdog) == StepVerdict::proved);
+  CHECK(run.view.verdict(BringUpStep::emergency) == StepVerdict::proved);
+  CHECK(device.homes() == 1);
+  CHECK(run.ticks_to_zero == 0);
+}
+
+TEST_CASE("bring-up: a device that lost its zero in the watchdog's trial is homed again only after another yes") {
+  for (const int homings : {1, 2}) {
+    CAPTURE(homings);
+    CrookedDevice device({.timeout_s = 0.1, .has_emergency_stop = true, .loses_zero = true});
+    const BringUpRun run = bring_up(device, {.most_n = 0.2}, 200'000, homings);
+    INFO(said(run.view, device.capabilities()));
+    CHECK(run.view.ended);
+    CHECK(run.view.all_proved());
+    CHECK(run.view.verdict(BringUpStep::watchdog) == StepVerdict::proved);
+    CHECK(run.view.verdict(BringUpStep::emergency) == (homings == 1 ? StepVerdict::not_proved : StepVerdict::proved));
+    CHECK(device.homes() == homings);
+    CHECK(run.ticks_to_zero == 0);
+  }
+}
+
 TEST_CASE("bring-up: a turned device is told the frame that mends it, and passes with it") {
   glm::dmat3 turned(0.0);  // the device's x is to the left: it reads a motion away as one along -y
   turned[0][1] = -1.0;

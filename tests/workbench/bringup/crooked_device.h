@@ -24,7 +24,8 @@ struct Crookedness {
   double timeout_s = 0.0;     ///< firmware time-out that it says it has,
   bool timeout_works = true;  ///< and has
   bool has_emergency_stop = false, emergency_stop_works = true;
-  DeviceFrame frame{};  ///< that it says it has
+  bool loses_zero = false;  ///< when its time-out is over
+  DeviceFrame frame{};      ///< that it says it has
   std::array<bool, 3> pushes_along{true, true, true};
 };
 
@@ -43,6 +44,7 @@ class CrookedDevice final : public ForceDevice {
   SimulatedHand* hand() noexcept override { return &device_; }
   const Vec3& true_position_m() const { return device_.exact_position_m(); }
   const Vec3& true_force_n() const { return pushed_n_; }
+  int homes() const { return homes_; }  ///< that it was asked for
 
   bool emergency_stop() noexcept override {
     stopped_ = faults_.has_emergency_stop && faults_.emergency_stop_works;
@@ -54,7 +56,7 @@ class CrookedDevice final : public ForceDevice {
     ++exchanges_;
     ForceCommand turned = command;
     if (faults_.never_homes && command.request == DeviceRequest::home) turned.request = DeviceRequest::none;
-    if (command.request == DeviceRequest::home) stopped_ = false;
+    if (command.request == DeviceRequest::home) stopped_ = false, ++homes_;
     turned.force_n = faults_.pushes * command.force_n;
     if (faults_.keeps_force && command.force_n == Vec3(0.0)) turned.force_n = pushed_n_;
     if (stopped_) turned.force_n = Vec3(0.0);
@@ -71,6 +73,7 @@ class CrookedDevice final : public ForceDevice {
     now.force_n = Vec3(0.0);
     ForceSample sample;
     for (double t_s = 0.0; t_s < dt_s; t_s += 1e-3) sample = step(now, 1e-3);
+    if (faults_.loses_zero) device_.inject(DeviceFault::watchdog);
     return sample;
   }
   ForceSample step(const ForceCommand& command, double dt_s) noexcept {
@@ -116,6 +119,7 @@ class CrookedDevice final : public ForceDevice {
   Vec3 pushed_n_{0.0};
   double t_s_ = 0.0;
   std::uint64_t exchanges_ = 0, state_ = 7;
+  int homes_ = 0;
   bool stopped_ = false;
 };
 

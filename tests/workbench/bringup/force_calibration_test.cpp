@@ -1,13 +1,20 @@
 // Calibration of a torque scale by a spring scale, of simulated devices with a known wrong one.
 #include "workbench/bringup/force_calibration.h"
 
+#include "tests/support/temp_folder.h"
 #include "tests/workbench/bringup/pulled_scale.h"
 #include "workbench/bringup/bring_up_text.h"
+#include "workbench/bringup/guided_runner.h"
+#include "workbench/bringup/scale_calibration.h"
+#include "workbench/session/falcon_setups.h"
 
 #include <doctest/doctest.h>
 
+#include <atomic>
+#include <chrono>
 #include <cmath>
 #include <string>
+#include <thread>
 
 using namespace tangent;
 using namespace tangent::testing;
@@ -165,4 +172,67 @@ TEST_CASE("calibration: an answer to an earlier question is no yes to a pull, an
     CHECK(device.true_force_n() == Vec3(0.0));
   }
   CHECK(machine.view().ask == CalibrationAsk::pull);
+}
+
+namespace {
+
+/// Ready at once; its exchange hangs as soon as it is told to push, until it is told to stop by the other way.
+struct HangingWhilePulling final : ForceDevice {
+  explicit HangingWhilePulling(std::atomic<int>& stops) : stops_(stops) {}
+  const ForceCapabilities& capabilities() const override { return can_; }
+  Status open() override { return {}; }
+  void close() override {}
+  bool emergency_stop() noexcept override { return ++stops_, true; }
+  ForceSample exchange(const ForceCommand& command, double) noexcept override {
+    while (glm::length(command.force_n) > 0.05 && stops_ == 0) std::this_thread::yield();
+    ForceSample sample;
+    sample.state = stops_ == 0 ? DeviceState::ready : DeviceState::faulted;
+    return sample;
+  }
+
+ private:
+  ForceCapabilities can_{.name = "hanging", .peak_force_n = 1.0};
+  std::atomic<int>& stops_;
+};
+
+}  // namespace
+
+TEST_CASE("calibration: an exchange that hangs while it pulls is stopped by the device's other way, and ends it") {
+  std::atomic<int> stops{0};
+  auto runner = GuidedRunner<ForceCalibration>::start(std::make_unique<HangingWhilePulling>(stops), {});
+  REQUIRE(runner);
+  while (!(*runner)->view().ended) {
+    if ((*runner)->view().asks()) (*runner)->answer({BringUpAnswer::yes, 0.0});
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  CHECK(stops > 0);
+  const CalibrationView& view = (*runner)->view();
+  CHECK_FALSE(view.done);
+  CHECK(view.sent_n == Vec3(0.0));
+  CHECK_FALSE(calibrated_scale(view, kUsedScale));
+}
+
+TEST_CASE("calibration: what is kept is not used by it, is kept in whole counts, and by a serial number alone") {
+  const TempFolder folder;
+  const std::filesystem::path file = folder.file("falcon.toml");
+  REQUIRE(keep_falcon_setup(file, "F1", {20'000.0, "/a.bin", "aa"}));
+  for (const char* serial : {"F1", ""}) {  // attached, or plugged in later
+    DeviceOptions drivers;
+    drivers.falcon.serial = serial;
+    const auto made = scale_calibration("falcon", drivers, file);
+    REQUIRE(made);
+    CHECK(made->used_scale == kUsedScale);
+    CHECK_FALSE(made->rehearsal);
+    CHECK(made->device->capabilities().peak_force_n == kFalconUncalibratedPeak_n);
+    drivers.falcon.torque_counts_per_nm = 900.0;
+    CHECK(scale_calibration("falcon", drivers, file)->used_scale == 900.0);
+  }
+  CHECK(scale_calibration("simulated", {}, file)->rehearsal);
+  CHECK_FALSE(scale_calibration("haply", {}, file));
+  const auto kept = keep_scale(file, "F1", 9876.4);
+  REQUIRE(kept);
+  CHECK(kept->find("kept for serial number F1") != std::string::npos);
+  CHECK(**read_falcon_setup(file, "F1") == FalconSetup{9876.0, "/a.bin", "aa"});
+  CHECK(keep_scale(file, "", 9876.4)->find("--falcon-torque-scale 9876") != std::string::npos);
+  CHECK_FALSE(keep_scale(folder.write("bad.toml", "F1 = 3\n"), "F1", 9876.4));
 }

@@ -16,9 +16,9 @@ struct BringUpRun {
   std::uint64_t ticks_to_zero = 0;  ///< exchanges with force after it had ended
 };
 
-/// Until it ends; `most_ticks` is no end, but a failure.
+/// Until it ends; `most_ticks` is no end, but a failure. `homings`: so many times the person lets it home.
 inline BringUpRun bring_up(CrookedDevice& device, const BringUpOptions& options = {},
-                           std::uint64_t most_ticks = 200'000) {
+                           std::uint64_t most_ticks = 200'000, int homings = 1000) {
   constexpr double kFelt_m = 0.1e-3;
   BringUpRun run;
   static_cast<void>(device.open());
@@ -47,7 +47,8 @@ inline BringUpRun bring_up(CrookedDevice& device, const BringUpOptions& options 
     const Vec3 in_world = device.capabilities().frame.rotation * asked;
     const double length = glm::length(felt_m);
     const bool felt = length > kFelt_m && glm::dot(felt_m, in_world) > 0.7 * length;
-    machine.answer(view.ask == BringUpAsk::moved && !felt ? BringUpAnswer::no : BringUpAnswer::yes, view.questions);
+    const bool no = (view.ask == BringUpAsk::moved && !felt) || (view.ask == BringUpAsk::home && homings-- <= 0);
+    machine.answer(no ? BringUpAnswer::no : BringUpAnswer::yes, view.questions);
   }
   run.view = machine.view();
   for (int i = 0; i < 20; ++i) {  // it has ended: is anything still sent?

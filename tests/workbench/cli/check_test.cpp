@@ -1,5 +1,6 @@
 // workbench check, run as a process: exit codes, JSON, attaching, and the presets that ship.
 #include "core/io/preset_file.h"
+#include "tests/support/paths.h"
 #include "tests/support/process.h"
 
 #include <doctest/doctest.h>
@@ -101,7 +102,7 @@ TEST_CASE("check refuses wrong usage, and attaches all or nothing") {
 
 TEST_CASE("every preset that ships holds") {
   std::vector<std::string> arguments{"check"};
-  for (const auto& entry : std::filesystem::directory_iterator(TANGENT_SOURCE_DIR "/presets")) {
+  for (const auto& entry : std::filesystem::directory_iterator(testing::source_folder() + "/presets")) {
     if (entry.path().extension() == ".toml") arguments.push_back(entry.path().string());
   }
   REQUIRE(arguments.size() > 9);

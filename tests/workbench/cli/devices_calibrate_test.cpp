@@ -1,7 +1,8 @@
 // workbench devices --calibrate: by lines of a pipe, in simulated time; and what devices says of one that isn't open.
+#include "tests/support/paths.h"
 #include "tests/support/process.h"
 #include "tests/support/temp_folder.h"
-#include "workbench/cli/answer_keys.h"
+#include "workbench/bringup/force_calibration.h"
 #include "workbench/cli/command.h"
 #include "workbench/cli/device_list.h"
 
@@ -22,9 +23,9 @@ using testing::TempFolder;
 
 /// `lines`: a format of printf.
 ProcessResult calibrate_by_lines(const std::string& lines) {
-  return testing::Process(
-             {"-c", "printf \"$1\" | \"$0\" devices --calibrate simulated --without-waiting", TANGENT_PROGRAM, lines},
-             "/bin/sh")
+  return testing::Process({"-c", "printf \"$1\" | \"$0\" devices --calibrate simulated --without-waiting",
+                           testing::program(), lines},
+                          "/bin/sh")
       .wait();
 }
 

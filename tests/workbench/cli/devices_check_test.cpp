@@ -1,4 +1,5 @@
 // workbench devices --check: a bring-up by lines of a pipe, in simulated time.
+#include "tests/support/paths.h"
 #include "tests/support/process.h"
 #include "tests/support/temp_folder.h"
 #include "workbench/cli/answer_keys.h"
@@ -21,7 +22,7 @@ using testing::TempFolder;
 /// `lines`: a command of the shell that writes them.
 ProcessResult check_by_lines(const std::string& lines, const std::string& name, const std::string& out) {
   const std::string command = lines + " | \"$0\" devices --check \"$1\" --without-waiting --limit-n 0.2 --out \"$2\"";
-  return testing::Process({"-c", command, TANGENT_PROGRAM, name, out}, "/bin/sh").wait();
+  return testing::Process({"-c", command, testing::program(), name, out}, "/bin/sh").wait();
 }
 
 }  // namespace

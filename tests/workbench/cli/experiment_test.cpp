@@ -1,4 +1,5 @@
 #include "tests/support/meshes.h"
+#include "tests/support/paths.h"
 #include "tests/support/process.h"
 
 #include <filesystem>
@@ -14,7 +15,7 @@ using testing::run_workbench;
 using testing::TempFolder;
 
 std::string shipped(const char* name) {
-  return (std::filesystem::path(TANGENT_SOURCE_DIR) / "presets" / "experiments" / name).string();
+  return (std::filesystem::path(testing::source_folder()) / "presets" / "experiments" / name).string();
 }
 ProcessResult experiment(const TempFolder& folder, const std::string& participant, std::vector<std::string> more = {}) {
   std::vector<std::string> arguments{"experiment",    shipped("discrimination.toml"),
@@ -85,7 +86,7 @@ TEST_CASE("experiment: a person's keys from a pipe, in simulated time") {
       "tired\nwait 1\n";
   const std::string command =
       "printf '" + keys + "' | \"$0\" experiment \"$1\" --participant 3 --out \"$2\" " + "--without-waiting --pilot";
-  const testing::Process shell({"-c", command, TANGENT_PROGRAM, shipped("discrimination.toml"), folder.file("d")},
+  const testing::Process shell({"-c", command, testing::program(), shipped("discrimination.toml"), folder.file("d")},
                                "/bin/sh");
   const ProcessResult run = shell.wait();
   CHECK(contains(run.out, ": 1 trial\n"));
@@ -104,7 +105,7 @@ TEST_CASE(
     const testing::Process shell({"-c",
                                   from + " | timeout -k 60 1 \"$0\" experiment \"$1\" --participant " + participant +
                                       " --out \"$2\" --without-waiting",
-                                  TANGENT_PROGRAM, shipped("discrimination.toml"), folder.file("d")},
+                                  testing::program(), shipped("discrimination.toml"), folder.file("d")},
                                  "/bin/sh");
     return shell.wait();
   };
@@ -150,7 +151,7 @@ TEST_CASE("experiment and analyse: what can't be is said, with the exit codes of
   const testing::Process shell({"-c",
                                 "printf 'wait 0.2\\n' | \"$0\" experiment \"$1\" --participant 2 --out \"$2\" "
                                 "--device cld",
-                                TANGENT_PROGRAM, shipped("discrimination.toml"), folder.file("e")},
+                                testing::program(), shipped("discrimination.toml"), folder.file("e")},
                                "/bin/sh");
   CHECK(contains(shell.wait().err, "is not there"));
   CHECK(contains(experiment(folder, "P-1").err, "BIDS"));
@@ -169,7 +170,7 @@ TEST_CASE("experiment and analyse: what can't be is said, with the exit codes of
 
 TEST_CASE("no force device for trials, and answers where a protocol is planned, are wrong usage") {
   const TempFolder folder;
-  const std::string protocol = TANGENT_SOURCE_DIR "/presets/experiments/discrimination.toml";
+  const std::string protocol = testing::source_folder() + "/presets/experiments/discrimination.toml";
   const ProcessResult none =
       run_workbench({"experiment", protocol, "--participant", "p1", "--out", folder.file("d"), "--force", "none"});
   CHECK(none.exit_code == 2);

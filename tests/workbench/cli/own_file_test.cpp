@@ -34,6 +34,7 @@ TEST_CASE("every output replaces a file of its own kind, and no other, naming it
            {{"replay", recording, "--json", out("replay.json")}, out("replay.json")},
            {{"replay", recording, "--method", "newton", "--json", out("other.json")}, out("other.json")},
            {{"compare", recording, recording, "--json", out("compare.json")}, out("compare.json")},
+           {{"devices", "--json", out("devices.json")}, out("devices.json")},
            {{"audit", mesh, "--json", out("audit.json"), "--heat-map", out("heat.csv")}, out("audit.json")},
            {{"audit", mesh, "--json", out("audit2.json"), "--heat-map", out("heat2.csv")}, out("heat2.csv")}}) {
     CAPTURE(command[0] + " " + file);
@@ -55,6 +56,33 @@ TEST_CASE("every output replaces a file of its own kind, and no other, naming it
   CHECK(read_text(twice) == kMine[0]);
   const std::string empty = folder.write("empty.obj", "");
   CHECK(run_workbench({"make", "cube", "--out", empty}).exit_code == 0);  // nothing is lost with it
+}
+
+TEST_CASE("figures and the page of a report replace their own, and write nothing where another has their name") {
+  const TempFolder folder;
+  const std::string recording = folder.file("r.sqlite"), figures = folder.file("figures"),
+                    report = folder.file("report"), notes = "notes of mine\n";
+  REQUIRE(run_workbench({"record", "--out", recording, "--seconds", "1.2", "--without-waiting"}).exit_code == 0);
+  const std::vector<std::string> command{"replay", recording, "--method", "newton", "--figures", figures};
+  for (int again = 0; again < 2; ++again) {
+    const auto written = run_workbench(command);
+    REQUIRE_MESSAGE(written.exit_code == 0, written.err);
+  }
+  for (const char* const name : {"/comparison-force.svg", "/comparison-force.csv"}) {
+    const std::string theirs = read_text(figures + name);
+    { std::ofstream(figures + name) << notes; }
+    const auto refused = run_workbench(command);
+    CHECK(refused.exit_code == 1);
+    CHECK(contains(refused.err, figures + name + ": is there already, and is not "));
+    CHECK(read_text(figures + name) == notes);
+    { std::ofstream(figures + name) << theirs; }
+  }
+  std::filesystem::create_directory(report);
+  { std::ofstream(report + "/report.html") << notes; }
+  const auto refused = run_workbench({"report", recording, "--out", report});
+  CHECK(refused.exit_code == 1);
+  CHECK(contains(refused.err, "report.html: is there already, and is not a report"));
+  CHECK(read_text(report + "/report.html") == notes);
 }
 
 TEST_CASE("a log of packets replaces one of packets only") {

@@ -1,5 +1,6 @@
 // The program's conventions: exit codes, help, and invalid arguments.
 #include "core/preset/schema.h"
+#include "tests/support/paths.h"
 #include "tests/support/process.h"
 
 #include <doctest/doctest.h>
@@ -100,14 +101,14 @@ namespace {
 /// The program alone in a folder, as someone would copy it.
 std::string copied_program(const TempFolder& folder) {
   const std::string program = folder.file("workbench");
-  std::filesystem::copy_file(TANGENT_PROGRAM, program);
+  std::filesystem::copy_file(testing::program(), program);
   return program;
 }
 
 }  // namespace
 
 TEST_CASE("the program loads no graphics: those belong to the window's own") {
-  const Process ldd({TANGENT_PROGRAM}, "/usr/bin/ldd");
+  const Process ldd({testing::program()}, "/usr/bin/ldd");
   const ProcessResult loaded = ldd.wait();
   REQUIRE(loaded.exit_code == 0);
   CHECK(contains(loaded.out, "libembree3"));

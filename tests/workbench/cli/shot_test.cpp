@@ -1,5 +1,6 @@
 // `workbench shot` as a process: names, sizes, failures.
 #ifdef TANGENT_HAS_GUI
+#include "tests/support/paths.h"
 #include "tests/support/process.h"
 #include "workbench/gui/platform/offscreen.h"
 #include "workbench/gui/platform/window_shots.h"
@@ -153,7 +154,7 @@ TEST_CASE("a script makes pictures without a display, and a line of it that fail
 TEST_CASE("gui lists the window's commands without a display") {
   const ProcessResult list = run_workbench({"gui", "--commands"});
   CHECK(list.exit_code == 0);
-  CHECK(list.out == read_text(std::string(TANGENT_SOURCE_DIR) + "/workbench/COMMANDS.md"));
+  CHECK(list.out == read_text(testing::source_folder() + "/workbench/COMMANDS.md"));
 }
 
 TEST_CASE("shot says what is wrong with a mesh or a target, and leaves nothing behind") {

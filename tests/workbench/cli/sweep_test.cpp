@@ -101,6 +101,17 @@ TEST_CASE("sweep: a mesh that can't be read is named, and the others are solved"
   CHECK(sweep.rows("a.sqlite").size() == 2);
 }
 
+TEST_CASE("sweep: every mesh and motion that can't be read is named, and what to do once") {
+  const Sweep sweep;
+  const auto result = sweep.run({sweep.file("cube.obj"), sweep.file("none.obj"), sweep.file("no.obj"), "--poses",
+                                 "around", sweep.file("no.csv"), "--ticks", "50", "--out", sweep.file("a.sqlite")});
+  CHECK(result.exit_code == 1);
+  CHECK(contains(result.err, "a.sqlite: 2 cells have no numbers, the first, cell 2: " + sweep.file("none.obj") + ": "));
+  CHECK(contains(result.err, "a.sqlite: 2 cells have no numbers, the first, cell 4: " + sweep.file("no.obj") + ": "));
+  CHECK(contains(result.err, "a.sqlite: 1 cell has no numbers, the first, cell 1: " + sweep.file("no.csv") + ": "));
+  CHECK(contains(result.err, "a.sqlite: 5 cells have no numbers, the others have; mend what they lack, then the same"));
+}
+
 TEST_CASE("sweep: cells without numbers fail the next run over them, too") {
   const Sweep sweep;
   const std::vector<std::string> command{

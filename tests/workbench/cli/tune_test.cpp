@@ -2,6 +2,7 @@
 #include "core/io/preset_file.h"
 #include "core/lab/gains/gain_tuning.h"
 #include "core/preset/schema.h"
+#include "tests/support/paths.h"
 #include "tests/support/process.h"
 #include "workbench/cli/mesh_options.h"
 #include "workbench/cli/mesh_text.h"
@@ -87,7 +88,7 @@ RunScore score(const std::shared_ptr<const ContactScene>& scene, Preset preset, 
 /// What a shipped preset says it measured is what comes out.
 PresetFile check_claims(const std::string& name, const std::string& object) {
   CAPTURE(name);
-  const PresetFile file = read(TANGENT_SOURCE_DIR "/presets/" + name + ".toml");
+  const PresetFile file = read(testing::source_folder() + "/presets/" + name + ".toml");
   const Claims claims(file.about);
   CHECK(file.about.name == name);
   CHECK(contains(claims.texts.at("command"), "workbench tune " + object + ".obj --out presets/" + name + ".toml"));
@@ -341,7 +342,7 @@ TEST_CASE(
   const auto scene = scene_of_object("icosphere");
   REQUIRE(scene->mesh().triangle_count() == 320);
   for (const std::string name : {"sphere", "default"}) {
-    const Preset preset = read(TANGENT_SOURCE_DIR "/presets/" + name + ".toml").preset;
+    const Preset preset = read(testing::source_folder() + "/presets/" + name + ".toml").preset;
     const RunScore run = score(scene, preset, preset.solver.method);
     MESSAGE(name << ", " << std::string(to_string(preset.solver.method)) << ": mean " << run.mean_iterations());
     CHECK(run.unconverged == 0);

@@ -62,7 +62,7 @@ struct Dataset {
 TEST_CASE("every file of a dataset has a name after BIDS, or .bidsignore has it") {
   const Dataset dataset;
   const std::regex named(
-      R"(dataset_description\.json|README|participants\.(tsv|json)|\.bidsignore|sub-([A-Za-z0-9]+)/sub-\2_scans\.tsv|)"
+      R"(dataset_description\.json|README|participants\.(tsv|json)|scans\.json|\.bidsignore|sub-([A-Za-z0-9]+)/sub-\2_scans\.tsv|)"
       R"(sub-([A-Za-z0-9]+)/beh/sub-\3_task-[a-z]+_(beh|events)\.(tsv|json))");
   const std::regex ignored(R"(protocol-[0-9a-f]{16}\.toml|.*_(beh|events)\.csv|.*_recordings/.*)");
   int beh = 0;
@@ -93,9 +93,11 @@ TEST_CASE("each table has whole rows without empty fields, and each column its m
       REQUIRE(row.size() == table[0].size());
       for (const std::string& field : row) CHECK_FALSE(field.empty());
     }
-    if (file.string().ends_with("_scans.tsv")) continue;  // BIDS has their columns
-    const json sidecar = json::parse(test::text_in(fs::path(dataset / file).replace_extension(".json")));
+    const bool scans = file.string().ends_with("_scans.tsv");
+    const fs::path described = scans ? dataset / "scans.json" : fs::path(dataset / file).replace_extension(".json");
+    const json sidecar = json::parse(test::text_in(described));
     for (const std::string& column : table[0]) {
+      if (scans && (column == "filename" || column == "acq_time")) continue;  // BIDS has these
       CAPTURE(column);
       REQUIRE(sidecar.contains(column));
       CHECK(sidecar[column].at("Description").is_string());

@@ -2,6 +2,7 @@
 #include "workbench/experiment/feeling.h"
 
 #include "core/base/units.h"
+#include "tests/support/paths.h"
 #include "workbench/experiment/participant.h"
 #include "workbench/experiment/run_simulated.h"
 #include "workbench/session/own_folder.h"
@@ -14,7 +15,8 @@ namespace tangent::experiment {
 namespace {
 
 Protocol arcs_protocol() {
-  return *read_protocol(std::filesystem::path(TANGENT_SOURCE_DIR) / "presets" / "experiments" / "six-conditions.toml");
+  return *read_protocol(std::filesystem::path(testing::source_folder()) / "presets" / "experiments" /
+                        "six-conditions.toml");
 }
 
 FeltJump felt_jump(const Protocol& protocol, const std::string& condition, int segments, std::uint64_t seed = 1) {

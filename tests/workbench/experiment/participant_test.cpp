@@ -1,4 +1,5 @@
 #include "workbench/experiment/participant.h"
+#include "tests/support/paths.h"
 
 #include <doctest/doctest.h>
 
@@ -8,7 +9,8 @@ namespace tangent::experiment {
 namespace {
 
 Protocol naming_protocol() {
-  return *read_protocol(std::filesystem::path(TANGENT_SOURCE_DIR) / "presets" / "experiments" / "identification.toml");
+  return *read_protocol(std::filesystem::path(testing::source_folder()) / "presets" / "experiments" /
+                        "identification.toml");
 }
 
 TEST_CASE("one who names by a table takes each object for another as often as it says") {

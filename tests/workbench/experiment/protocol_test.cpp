@@ -1,4 +1,5 @@
 #include "workbench/experiment/protocol.h"
+#include "tests/support/paths.h"
 
 #include <doctest/doctest.h>
 
@@ -9,7 +10,7 @@ namespace tangent::experiment {
 namespace {
 
 std::filesystem::path shipped(const std::string& name) {
-  return std::filesystem::path(TANGENT_SOURCE_DIR) / "presets" / "experiments" / (name + ".toml");
+  return std::filesystem::path(testing::source_folder()) / "presets" / "experiments" / (name + ".toml");
 }
 std::string text_of(const std::filesystem::path& path) {
   std::ostringstream out;

@@ -1,6 +1,7 @@
 #include "workbench/experiment/row_file.h"
 
 #include "tests/support/killed_process.h"
+#include "tests/support/paths.h"
 #include "workbench/experiment/participant.h"
 #include "workbench/experiment/trial_rows.h"
 #include "workbench/session/own_folder.h"
@@ -123,7 +124,7 @@ TEST_CASE("a full disk is an error, and what was written stays") {
 }
 
 Protocol protocol() {
-  return *read_protocol(fs::path(TANGENT_SOURCE_DIR) / "presets" / "experiments" / "discrimination.toml");
+  return *read_protocol(fs::path(testing::source_folder()) / "presets" / "experiments" / "discrimination.toml");
 }
 KnownComparer comparer() {
   KnownComparer out;

@@ -1,4 +1,5 @@
 // Both experiments, moment by moment.
+#include "tests/support/paths.h"
 #include "workbench/experiment/participant.h"
 
 #include <doctest/doctest.h>
@@ -10,7 +11,7 @@ namespace tangent::experiment {
 namespace {
 
 Protocol protocol_named(const char* name) {
-  return *read_protocol(std::filesystem::path(TANGENT_SOURCE_DIR) / "presets" / "experiments" / name);
+  return *read_protocol(std::filesystem::path(testing::source_folder()) / "presets" / "experiments" / name);
 }
 Protocol comparison() { return protocol_named("discrimination.toml"); }
 Protocol naming() { return protocol_named("identification.toml"); }

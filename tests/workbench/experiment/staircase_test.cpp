@@ -76,6 +76,37 @@ TEST_CASE("eleven reversals end it, the last six are the threshold") {
   CHECK(staircase.threshold() == doctest::Approx(55.0));
 }
 
+TEST_CASE("every step shows another number of segments, but at the ends") {
+  // 3 segments times the shipped small step of 1.15 are 3.45, and would be shown as 3 once more.
+  StaircaseRule rule;
+  rule.start = 3;
+  rule.fewest = 3;
+  rule.most = 40;
+  rule.large_reversals = 0;
+  rule.small_step = 1.15;
+  rule.down = 1;
+  CHECK(levels_for(rule, "rrrrrwwwwww") == std::vector<int>{3, 4, 5, 6, 7, 8, 7, 6, 5, 4, 3, 3});
+  for (const StepScale scale : {StepScale::ratio, StepScale::segments}) {
+    rule.scale = scale;
+    for (const double step : {1.01, 1.15, 1.4}) {
+      rule.small_step = scale == StepScale::ratio ? step : step - 0.9;
+      rule.reversals = 1000;
+      Staircase staircase(rule);
+      SplitMix random(6);
+      for (int i = 0; i < 300; ++i) {
+        const int shown = staircase.segments();
+        const bool right = random.unit() < 0.6;
+        staircase.answer(right);
+        CAPTURE(shown);
+        if (shown == (right ? 40 : 3))
+          CHECK(staircase.segments() == shown);
+        else
+          CHECK((right ? staircase.segments() > shown : staircase.segments() < shown));
+      }
+    }
+  }
+}
+
 TEST_CASE("it stays within its ends, and one that never turns is ended") {
   StaircaseRule rule;
   rule.start = 4;

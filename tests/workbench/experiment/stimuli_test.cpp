@@ -5,6 +5,7 @@
 #include "core/io/rendering_condition.h"
 #include "core/lab/measure/perception.h"
 #include "core/tick/step.h"
+#include "tests/support/paths.h"
 #include "workbench/evidence/made_mesh.h"
 #include "workbench/recording/scene_bytes.h"
 #include "workbench/session/own_folder.h"
@@ -18,7 +19,7 @@ namespace {
 
 Protocol shipped_protocol(const std::string& name) {
   auto protocol =
-      read_protocol(std::filesystem::path(TANGENT_SOURCE_DIR) / "presets" / "experiments" / (name + ".toml"));
+      read_protocol(std::filesystem::path(testing::source_folder()) / "presets" / "experiments" / (name + ".toml"));
   REQUIRE_MESSAGE(protocol, (protocol ? "" : protocol.error().message()));
   return std::move(*protocol);
 }

@@ -1,4 +1,5 @@
 // Usability: every control has a tooltip and a name, and settings are remembered.
+#include "tests/support/paths.h"
 #include "tests/workbench/gui/headless_app.h"
 
 #include "tests/support/temp_folder.h"
@@ -112,8 +113,7 @@ TEST_CASE("a tooltip goes when a key is pressed, and comes again when the pointe
 }
 
 TEST_CASE("no window of the program is modal") {
-  for (const auto& entry :
-       std::filesystem::recursive_directory_iterator(std::string(TANGENT_SOURCE_DIR) + "/workbench/gui")) {
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(testing::source_folder() + "/workbench/gui")) {
     if (!entry.is_regular_file()) continue;
     CAPTURE(entry.path().string());
     CHECK_FALSE(testing::contains(testing::read_text(entry.path()), "PopupModal"));

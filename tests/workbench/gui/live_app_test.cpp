@@ -1,4 +1,5 @@
 // The window with its servo and worker threads, as in real use. Nothing here depends on their speed.
+#include "tests/support/paths.h"
 #include "tests/workbench/gui/headless_app.h"
 
 #include "tests/support/meshes.h"
@@ -85,7 +86,7 @@ TEST_CASE("measure: processor time of building a frame with the bunny and all pl
 }
 
 TEST_CASE("a preset that is opened is checked beside the running servo, and cancelling takes no time") {
-  const std::filesystem::path shipped = TANGENT_SOURCE_DIR "/presets";
+  const std::filesystem::path shipped = testing::source_folder() + "/presets";
   AppOptions options;
   options.mesh = "icosphere";
   options.preset = shipped / "sphere.toml";

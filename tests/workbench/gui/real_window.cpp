@@ -1,4 +1,5 @@
 #include "tests/workbench/gui/real_window.h"
+#include "tests/support/paths.h"
 
 #include <doctest/doctest.h>
 
@@ -109,7 +110,7 @@ void drive(const WindowRun& run, const WindowScript& script) {
       << "trap 'kill $program $xvfb 2>/dev/null; wait $xvfb 2>/dev/null' EXIT\n"
       << kFunctions
       // The GL driver leaks from a module that is unloaded by the time leaks are looked for; ours are found elsewhere.
-      << "ASAN_OPTIONS=\"$ASAN_OPTIONS:detect_leaks=0\" " << TANGENT_PROGRAM << " gui " << run.arguments
+      << "ASAN_OPTIONS=\"$ASAN_OPTIONS:detect_leaks=0\" " << testing::program() << " gui " << run.arguments
       << " >program.log 2>&1 & program=$!\n"
       << kOpening << "xdotool windowsize $window " << run.width << " " << run.height << "\nuntil_title '" << run.shown
       << "'\n"

@@ -3,6 +3,7 @@
 #include "core/io/mesh_io.h"
 #include "core/io/preset_file.h"
 #include "core/lab/objects/generate.h"
+#include "tests/support/paths.h"
 #include "tests/support/temp_folder.h"
 #include "tests/workbench/gui/running_app.h"
 
@@ -43,7 +44,7 @@ TEST_CASE("the worst place of a strange mesh is found, explained, cured, and the
   const testing::TempFolder folder;
   const auto mesh = folder.path() / "noisy.obj";
   REQUIRE(write_obj(noisy_sphere(), mesh, 1e-3));
-  std::ifstream file(std::string(TANGENT_SOURCE_DIR) + "/workbench/bench/tuner_jobs.txt");
+  std::ifstream file(testing::source_folder() + "/workbench/bench/tuner_jobs.txt");
   std::stringstream text;
   text << file.rdbuf();
   std::string lines = text.str();

@@ -1,5 +1,6 @@
 // A recording of every version that wrote another file, kept: later versions open it and compute it again. And folders
 // that may only be read.
+#include "tests/support/paths.h"
 #include "tests/workbench/recording/recording_fixture.h"
 
 #include <filesystem>
@@ -47,7 +48,7 @@ struct ReadOnlyFolder {
 TEST_CASE("recordings of earlier versions open, and compute again to the same within rounding") {
   std::size_t files = 0;
   for (const auto& entry :
-       std::filesystem::directory_iterator(std::filesystem::path(TANGENT_TEST_ASSETS) / "recordings")) {
+       std::filesystem::directory_iterator(std::filesystem::path(testing::test_assets()) / "recordings")) {
     CAPTURE(entry.path().string());
     ++files;
     auto recording = Recording::open(entry.path());

@@ -1,3 +1,4 @@
+#include "tests/support/paths.h"
 #include "tests/workbench/recording/recording_fixture.h"
 
 using namespace tangent;
@@ -9,7 +10,7 @@ TEST_CASE("the queries of the page on recordings find something in one") {
   RecordedSession recorded(path);
   recorded.run(1500);
   recorded.finish();
-  const std::string page = testing::read_text(TANGENT_SOURCE_DIR "/workbench/recording/README.md");
+  const std::string page = testing::read_text(testing::source_folder() + "/workbench/recording/README.md");
   int queries = 0;
   for (std::size_t at = page.find("```sql\n"); at != std::string::npos; at = page.find("```sql\n", at)) {
     at += 7;

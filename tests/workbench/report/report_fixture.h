@@ -1,6 +1,7 @@
 // Reports of small recordings, and what a reader of the page finds.
 #pragma once
 
+#include "tests/support/paths.h"
 #include "tests/support/process.h"
 #include "tests/workbench/recording/recording_fixture.h"
 #include "workbench/report/motion_parts.h"
@@ -48,7 +49,8 @@ inline std::string report_failure(const ReportOptions& options) {
 /// What parse_page.py reads in it.
 inline nlohmann::json parsed(const std::filesystem::path& page) {
   const testing::ProcessResult read =
-      testing::Process({TANGENT_SOURCE_DIR "/tests/workbench/report/parse_page.py", page.string()}, "/usr/bin/python3")
+      testing::Process({testing::source_folder() + "/tests/workbench/report/parse_page.py", page.string()},
+                       "/usr/bin/python3")
           .wait();
   REQUIRE_MESSAGE(read.exit_code == 0, read.err);
   return nlohmann::json::parse(read.out);

@@ -1,7 +1,7 @@
 // What a change in contact does to the finger: a real device (nobody lifts the finger or places it anew), held by the
 // simulated hand. Preset, method, condition and mesh change under it; the finger leaves at under 0.1 m/s.
 #include "core/io/rendering_condition.h"
-#include "devices/simulated/simulated_force_device.h"
+#include "devices/simulated/held_device.h"
 #include "tests/workbench/session/session_fixture.h"
 
 #include <doctest/doctest.h>
@@ -16,18 +16,6 @@ namespace {
 
 constexpr double kFastestLeaving = 0.1;  // m/s
 constexpr double kTouch = 0.060;         // m from the sphere's centre, of the finger's
-
-/// The simulated device, but without a hand that the session may lead: as a real one.
-struct HeldDevice final : ForceDevice {
-  SimulatedForceDevice inner;
-  explicit HeldDevice(const SimulatedForceOptions& options) : inner(options) {}
-  const ForceCapabilities& capabilities() const override { return inner.capabilities(); }
-  Status open() override { return inner.open(); }
-  void close() override { inner.close(); }
-  ForceSample exchange(const ForceCommand& command, double dt_s) noexcept override {
-    return inner.exchange(command, dt_s);
-  }
-};
 
 struct Felt {
   double fastest_out = 0.0;    ///< m/s, away from the centre

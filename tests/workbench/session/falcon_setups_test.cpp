@@ -60,6 +60,14 @@ TEST_CASE("what is given for a Falcon goes before what is kept, and is kept wher
   FalconOptions stranger;
   stranger.serial = "F2";
   CHECK(chosen_falcon_options(stranger, path)->torque_counts_per_nm == 0.0);
+  CHECK(chosen_falcon_options(stranger, path)->kept.empty());
+  // Where none is there yet, all of it goes along.
+  const auto later = chosen_falcon_options({}, path);
+  REQUIRE(later);
+  CHECK(later->serial.empty());
+  CHECK(later->torque_counts_per_nm == 0.0);
+  CHECK(later->kept == FalconSetups{{"F1", {8000.0, "/a.bin", "aa"}}});
+  CHECK_FALSE(chosen_falcon_options({}, folder.write("bad.toml", "F1 = 3\n")));
   stranger.serial.clear();
   stranger.keep = true;
   CHECK_FALSE(chosen_falcon_options(stranger, ""));

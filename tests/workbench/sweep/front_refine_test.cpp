@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace tangent::sweep {
 namespace {
@@ -39,6 +40,17 @@ TEST_CASE("points in gaps stay in the ranges, are the same for the same seed, an
   }
   CHECK(between > 300);  // evenly about the trials, without what is between them, it were a handful
   CHECK(between < 1700);
+}
+
+TEST_CASE("some points go on along the line on which a front lies") {
+  TriedPoints tried = three_on_a_front();
+  tried.shares = {{0.2, 0.2}, {0.3, 0.3}, {0.6, 0.6}, {0.5, 0.1}};
+  SplitMix random(3);
+  const auto points = points_in_gaps(tried, 2000, random);
+  const auto beyond = std::count_if(points.begin(), points.end(), [](const auto& p) {
+    return p[0] > 0.65 && p[0] < 1.0 && std::abs(p[0] - p[1]) < 0.02;
+  });
+  CHECK(beyond > 50);
 }
 
 TEST_CASE("a front of one point is searched about it, and of points that miss a constraint about the nearest") {

@@ -142,7 +142,14 @@ TEST_CASE("a damaged line, another plan and a newer program are refused by name"
   damaged[whole.find('\n') + 40] ^= 1;
   sweep.write("s.jsonl", damaged);
   CHECK(ShardWriter::open(path, kShard).error().message().find("line 2") != std::string::npos);
-  CHECK(read_shard(path).error().message().find("line 2") != std::string::npos);
+  CHECK(read_shard(path).error().message() == ShardWriter::open(path, kShard).error().message());
+  CHECK(read_shard(path).error().remedy.find("remove it") != std::string::npos);
+  sweep.write("s.jsonl", whole.substr(0, whole.size() - 7));
+  CHECK(read_shard(path).error().message().find("is torn; run shard 1 of 3 again") != std::string::npos);
+  for (const char* const name : {".", "/dev/zero"}) {  // nothing that would be waited for, or never ends
+    CHECK(ShardReader::open(name, kShard).error().what == "is no file");
+    CHECK(ShardWriter::open(name, kShard).error().what == "is no file");
+  }
 
   sweep.write("s.jsonl", whole);
   ShardName other = kShard;

@@ -100,7 +100,8 @@ TEST_CASE("a mesh that can't be read leaves its cells without numbers, and the o
   sweep.write("cube.obj", "v 1 2\n");
   const SweepOutcome outcome = sweep.solve("broken.sqlite");
   CHECK(outcome.failures.cells == 8);
-  CHECK(outcome.failures.why.find("cube.obj:1") != std::string::npos);
+  REQUIRE(outcome.failures.reasons.size() == 1);
+  CHECK(outcome.failures.reasons[0].why.find("cube.obj:1") != std::string::npos);
   const auto rows = sweep.rows("broken.sqlite");
   REQUIRE(rows.size() == 16);
   CHECK(rows[0].find("cube.obj:1") != std::string::npos);
@@ -120,8 +121,9 @@ TEST_CASE("cells without numbers are told again when a sweep, a shard or a merge
     CHECK(joined.solved == solved);
     for (const SweepOutcome& outcome : {here, first, joined}) {
       CHECK(outcome.failures.cells == 8);
-      CHECK(outcome.failures.first == 0);
-      CHECK(outcome.failures.why.find("cube.obj:1") != std::string::npos);
+      REQUIRE(outcome.failures.reasons.size() == 1);
+      CHECK(outcome.failures.reasons[0].first == 0);
+      CHECK(outcome.failures.reasons[0].why.find("cube.obj:1") != std::string::npos);
     }
     CHECK(second.failures.cells == 0);
   }

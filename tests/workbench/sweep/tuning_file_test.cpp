@@ -100,6 +100,23 @@ TEST_CASE("a search for a front that was killed at any byte of its file goes on 
   }
 }
 
+TEST_CASE("while a tuning runs, another one on the same file is refused, whatever it is of") {
+  const TempFolder folder;
+  const fs::path path = folder.file("p.toml.tuning");
+  auto first = TuningFile::open(path, "a");
+  REQUIRE(first);
+  for (const char* digest : {"a", "b"}) {
+    const auto second = TuningFile::open(path, digest);
+    REQUIRE_FALSE(second);
+    CHECK(second.error().message() == path.string() +
+                                          ": is in use by another program; wait until that tuning has ended, or choose "
+                                          "another --out");
+    CHECK(fs::exists(path));
+  }
+  first->reset();
+  CHECK(TuningFile::open(path, "b"));
+}
+
 TEST_CASE("a search for gains that was ended goes on to the same, solving the rest") {
   const TempFolder folder;
   const fs::path path = folder.file("p.toml.tuning");

@@ -1,4 +1,5 @@
 // workbench shot: any view as a PNG, with no display.
+#include "core/io/replaceable_file.h"
 #include "workbench/cli/command.h"
 #include "workbench/cli/mesh_options.h"
 #include "workbench/cli/messages.h"
@@ -31,6 +32,8 @@ void list_views() {
 }
 
 Status write_shot(const ShotRequest& request, const std::filesystem::path& file) {
+  const auto is_png = [](std::string_view beginning) { return beginning.starts_with("\x89PNG"); };
+  if (Status ok = check_replaceable(file, "a PNG", is_png); !ok) return ok;
   const Result<Shot> shot = take_shot(request);
   if (!shot) return tl::unexpected(shot.error());
   if (file.empty()) return {};  // the script's own pictures are all

@@ -58,7 +58,7 @@ void draw_force_trace(const UiContext& ui, const OperatorScreen& screen, ImVec2 
     const float y = plot.at(0.0, screen.force_limit_n).y;
     draw_dashed_horizontal(draw, plot.area.min.x, plot.area.max.x, y, ui.px(5), ui.colours.warning, ui.px(1.2f));
     text_at(draw, ui.fonts.small, {plot.area.min.x + ui.px(6), y - 1.25f * ui.fonts.small->FontSize},
-            ui.colours.warning, "limit of the protocol");
+            ui.colours.warning, screen.limit_is_the_devices ? "limit of the device" : "limit of the protocol");
   }
   std::vector<ImVec2> line;
   for (std::size_t i = 0; i < screen.force_n.size() && screen.force_n.size() > 1; ++i) {

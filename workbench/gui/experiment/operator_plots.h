@@ -8,7 +8,7 @@
 
 namespace tangent {
 
-/// Newtons over seconds before now, with the protocol's limit.
+/// Newtons over seconds before now, with the limit: the protocol's, or the device's where that is lower.
 void draw_force_trace(const UiContext& ui, const OperatorScreen& screen, ImVec2 at, ImVec2 size);
 /// Segments over trials: right answers filled, wrong ones as crosses, reversals ringed.
 void draw_staircase(const UiContext& ui, const OperatorScreen& screen, ImVec2 at, ImVec2 size);

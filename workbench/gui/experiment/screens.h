@@ -61,8 +61,9 @@ struct OperatorScreen {
   std::vector<std::string> notes;  ///< events and notes, oldest first, with their times
   std::vector<float> force_n;      ///< felt, oldest first, evenly over trace_s up to now
   double trace_s = 10.0, force_limit_n = 0.0;
-  bool participant_window = true;    ///< there is one; else the participant reads this screen
-  bool participant_has_keys = true;  ///< the keyboard goes to the participant's window
+  bool limit_is_the_devices = false;  ///< the protocol allows more
+  bool participant_window = true;     ///< there is one; else the participant reads this screen
+  bool participant_has_keys = true;   ///< the keyboard goes to the participant's window
 };
 
 /// What the operator asked for in a frame.

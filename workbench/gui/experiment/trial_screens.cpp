@@ -1,6 +1,7 @@
 #include "workbench/gui/experiment/trial_screens.h"
 
 #include "workbench/experiment/order.h"
+#include "workbench/experiment/trial_setup.h"
 #include "workbench/gui/experiment/experiment_keys.h"
 
 #include <algorithm>
@@ -154,6 +155,10 @@ OperatorScreen operator_screen(const experiment::TrialSession& trials, const Exp
   screen.force_n = trace.values();
   screen.trace_s = trace.length_s();
   screen.force_limit_n = facts.protocol.preset.force.limit_n;
+  if (session.force_capabilities() != nullptr) {
+    screen.limit_is_the_devices = session.force_capabilities()->peak_force_n < screen.force_limit_n;
+    screen.force_limit_n = experiment::force_limit_n(facts.protocol, session);
+  }
   return screen;
 }
 

@@ -1,6 +1,7 @@
 #include "workbench/gui/model/app_model.h"
 
 #include "workbench/bringup/proved_devices.h"
+#include "workbench/session/falcon_setups.h"
 
 #include <utility>
 
@@ -21,6 +22,8 @@ AppModel::AppModel(const AppOptions& options)
       devices_(options_, scene_, presets_, messages_, [this] { time_.forget(); }),
       bring_up_(devices_, messages_, options_.deterministic,
                 options_.settings.empty() ? "" : options_.settings.parent_path() / kProvedFile),
+      calibration_(devices_, messages_, options_.deterministic,
+                   options_.settings.empty() ? "" : options_.settings.parent_path() / kFalconFile),
       guard_(
           options_, scene_, presets_, devices_, messages_, [this](const std::string& what) { preset_changed(what); },
           [this] {
@@ -55,7 +58,8 @@ AppModel::AppModel(const AppOptions& options)
 }
 
 AppModel::~AppModel() {
-  bring_up_.stop();  // no force while a file is waited for
+  bring_up_.stop();
+  calibration_.stop();  // no force while a file is waited for
   devices_.end_session();
   window_.keep_settings(kept_look(), kLastWait_s);
 }
@@ -124,6 +128,7 @@ void AppModel::keep() {
 void AppModel::update(double now_s) {
   messages_.set_now(now_s);
   bring_up_.update();
+  calibration_.update();
   scene_.update();
   recordings_.update();
   if (scene_.current() == nullptr && !scene_.loading() && !recordings_.opening()) scene_.open_first({});
@@ -157,6 +162,7 @@ void AppModel::see_mesh_of_tick() {
 
 void AppModel::advance(std::uint64_t ticks) {
   bring_up_.advance(ticks);
+  calibration_.advance(ticks);
   if (devices_.session() == nullptr || !options_.deterministic) return;
   devices_.session()->advance(ticks);
   take_ticks();

@@ -16,6 +16,7 @@
 #include "workbench/gui/map/map_view.h"
 #include "workbench/gui/model/app_options.h"
 #include "workbench/gui/model/bring_up_model.h"
+#include "workbench/gui/model/calibration_model.h"
 #include "workbench/gui/model/curves_model.h"
 #include "workbench/gui/model/device_model.h"
 #include "workbench/gui/model/evidence_model.h"
@@ -94,6 +95,7 @@ class AppModel {
   DeviceModel& devices() { return devices_; }
   const DeviceModel& devices() const { return devices_; }
   BringUpModel& bring_up() { return bring_up_; }
+  CalibrationModel& calibration() { return calibration_; }
   GuardModel& guard() { return guard_; }
   const GuardModel& guard() const { return guard_; }
   TimeModel& time() { return time_; }
@@ -135,6 +137,7 @@ class AppModel {
   ViewModel view_;
   DeviceModel devices_;
   BringUpModel bring_up_;
+  CalibrationModel calibration_;
   GuardModel guard_;
   TimeModel time_;
   RecordingModel recordings_;

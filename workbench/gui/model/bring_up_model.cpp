@@ -1,10 +1,10 @@
 #include "workbench/gui/model/bring_up_model.h"
 
 #include "devices/found_device.h"
+#include "workbench/bringup/bring_up_text.h"
 #include "workbench/bringup/proved_devices.h"
 #include "workbench/session/kept_devices.h"
 
-#include <algorithm>
 #include <utility>
 
 namespace tangent {
@@ -15,7 +15,7 @@ BringUpModel::BringUpModel(DeviceModel& devices, MessageLog& messages, bool dete
 }
 
 void BringUpModel::begin() {
-  if (open()) return;
+  if (open() || devices_.lent()) return;
   const std::string kind = devices_.names().force;
   auto made = make_devices_as_kept({kind, "none"}, devices_.drivers());
   if (!made || made->force == nullptr)
@@ -29,11 +29,9 @@ void BringUpModel::begin() {
     runner_ = std::move(*runner);
     protocol_.emplace();
     protocol_->device = runner_->capabilities();
+    protocol_->device.serial = runner_->serial();
   } else {
-    const auto found = find_force_devices(devices_.drivers());
-    const bool attached = std::any_of(found.begin(), found.end(),
-                                      [&](const FoundDevice& d) { return d.kind == kind && !d.name.empty(); });
-    protocol_ = unopened_protocol(kind, can, runner.error(), attached);
+    protocol_ = unopened_protocol(kind, can, runner.error(), is_attached(kind, devices_.drivers()));
     messages_.say(Severity::error, runner.error().message());
   }
   protocol_->kind = kind;
@@ -59,6 +57,9 @@ void BringUpModel::update() {
   protocol_->result = runner_->view();
   if (!view().ended || std::exchange(noted_, true)) return;
   protocol_->cable = runner_->link_problem();
+  protocol_->device.serial = runner_->serial();  // it may have been plugged in since
+  if (view().why(view().step) == BringUpWhy::hangs)
+    messages_.say(Severity::error, protocol_->device.name + ": " + why_text(BringUpWhy::hangs, view()));
   if (kept_.empty() || protocol_->device.simulated || protocol_->device.serial.empty()) return;
   if (const Status kept = keep_proved(kept_, proved_device(*protocol_)); !kept)
     messages_.say(Severity::error, kept.error().message());

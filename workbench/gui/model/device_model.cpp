@@ -235,7 +235,7 @@ void DeviceModel::give_back() {
 }
 
 void DeviceModel::stop() {
-  if (also_stop_) also_stop_();
+  for (const auto& stop : also_stop_) stop();
   options_.arm_on_start = ArmOnStart::never;  // of a session that is still to come
   if (session_ != nullptr) session_->stop();
 }

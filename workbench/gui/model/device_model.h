@@ -13,6 +13,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace tangent {
 
@@ -39,7 +40,7 @@ class DeviceModel {
   bool lent() const { return lent_; }
   const DeviceOptions& drivers() const { return options_.drivers; }
   /// Called with every stop.
-  void also_stop(std::function<void()> what) { also_stop_ = std::move(what); }
+  void also_stop(std::function<void()> what) { also_stop_.push_back(std::move(what)); }
 
   // Called by the other parts.
   void take_scene(PreparedScenePtr prepared);  ///< sends scene.current(); creates the first session
@@ -82,7 +83,8 @@ class DeviceModel {
   const SceneModel& scene_;
   const PresetModel& presets_;
   MessageLog& messages_;
-  std::function<void()> session_ended_, before_release_, also_stop_;
+  std::function<void()> session_ended_, before_release_;
+  std::vector<std::function<void()>> also_stop_;
   bool lent_ = false;
   SessionOptions options_;
   MaestroWish maestro_wish_;

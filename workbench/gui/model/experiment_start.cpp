@@ -1,5 +1,7 @@
 #include "workbench/gui/model/experiment_start.h"
 
+#include "workbench/gui/model/shipped_presets.h"
+
 #include <algorithm>
 #include <array>
 #include <cstring>
@@ -22,8 +24,7 @@ Result<std::vector<std::string>> experiment_arguments(std::string_view line) {
       return fail("a part is missing", {}, "write PROTOCOL PARTICIPANT FOLDER, as in: discrimination P1 data");
   }
   std::filesystem::path protocol = words[0];
-  const std::filesystem::path shipped =
-      std::filesystem::path(TANGENT_PRESET_DIR) / "experiments" / (words[0] + ".toml");
+  const std::filesystem::path shipped = shipped_presets() / "experiments" / (words[0] + ".toml");
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(protocol, ignored)) protocol = shipped;
   if (!std::filesystem::is_regular_file(protocol, ignored))

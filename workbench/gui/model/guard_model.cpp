@@ -1,5 +1,7 @@
 #include "workbench/gui/model/guard_model.h"
 
+#include "workbench/recording/build_identity.h"
+
 #include <algorithm>
 #include <utility>
 
@@ -28,7 +30,7 @@ GuardModel::GuardModel(const AppOptions& options, const SceneModel& scene, Prese
       send_(std::move(send)),
       taken_back_(std::move(taken_back)),
       deterministic_(options.deterministic),
-      sweep_(ranges_file(options)),
+      sweep_(ranges_file(options), build_identity()),
       sent_(presets.current()) {}
 
 bool GuardModel::armed() const {

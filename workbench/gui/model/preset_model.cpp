@@ -1,5 +1,7 @@
 #include "workbench/gui/model/preset_model.h"
 
+#include "workbench/gui/model/shipped_presets.h"
+
 #include <algorithm>
 #include <system_error>
 #include <utility>
@@ -18,7 +20,7 @@ std::string change_text(const PresetKey& key, double from, double to) {
 std::filesystem::path folder_for(const AppOptions& options) {
   if (!options.preset_folder.empty()) return options.preset_folder;
   if (options.preset.has_parent_path()) return options.preset.parent_path();
-  return options.preset.empty() ? std::filesystem::path(TANGENT_PRESET_DIR) : ".";
+  return options.preset.empty() ? shipped_presets() : ".";
 }
 
 std::filesystem::path folder_beside(const AppOptions& options) {
@@ -223,7 +225,7 @@ bool PresetModel::has(const std::string& name) const {
 }
 
 void PresetModel::refresh_files() {
-  const std::filesystem::path shipped = TANGENT_PRESET_DIR;
+  const std::filesystem::path shipped = shipped_presets();
   files_.clear();
   const auto add = [&](const std::filesystem::path& folder) {
     for (std::filesystem::path& file : list_presets(folder)) {

@@ -190,6 +190,9 @@ void add_widget_commands(CommandList& out, AppModel& model, MenuBar& menu) {
         "monitor/accept_no_timeout");
   press({"bring up", "Devices: bring the force device up, step by step", "", "check prove first force"},
         "monitor/bring_up");
+  press(
+      {"calibrate force", "Devices: calibrate the force device with a spring scale", "", "torque scale falcon newton"},
+      "monitor/calibrate");
   out.choice({"felt under", "Smoothness as felt: rendering condition", "", "perception threshold"},
              {kArcConditionNames.begin(), kArcConditionNames.end()}, [&model, &menu](std::size_t i) {
                wish(model, menu, "perception/condition", std::string(kArcConditionNames[i]));

@@ -49,6 +49,8 @@ void warning_text(const UiContext& ui, const std::string& text) {
   ImGui::PopStyleColor();
 }
 
+std::string known_newtons(double force_n) { return force_n > 0.0 ? printed("%.1f", force_n) : "not known"; }
+
 void draw_states(const UiContext& ui, DeviceModel& devices) {
   const SessionStatus& s = devices.status();
   Session& session = *devices.session();
@@ -87,7 +89,8 @@ void draw_limits(const UiContext& ui, const DeviceModel& devices) {
   const GateLimits limits = devices.session()->gate_limits();
   const ServoStatus& servo = devices.status().servo;
   heading(ui, "Limits");
-  fact(ui, "Peak / continuous force", printed("%.1f / %.1f", limits.peak_force_n, limits.continuous_force_n), "N");
+  fact(ui, "Peak / continuous force",
+       printed("%.1f / ", limits.peak_force_n) + known_newtons(limits.continuous_force_n), "N");
   if (const auto* can = devices.session()->force_capabilities(); can != nullptr) {
     fact(ui, "Force axes / rotations sensed", pushed_axes(*can) + " / " + sensed_rotations(*can));
     const auto known = [](double value) { return value > 0.0 ? printed("%.0f", value) : std::string("-"); };
@@ -318,22 +321,38 @@ void draw_columns(const UiContext& ui, AppModel& model) {
   ImGui::PopStyleVar();
 }
 
-void draw_bring_up_button(const UiContext& ui, BringUpModel& bring_up) {
-  if (!bring_up.open()) {
-    if (text_button(ui, "monitor/bring_up", "Bring up ...",
-                    "Step by step from the cable to the first force of the force device. The session ends; nothing "
-                    "moves before you say yes"))
-      bring_up.begin();
-  } else if (text_button(ui, "monitor/bring_up_end", "Back to the session",
-                         "Zero force, then a session without force")) {
-    bring_up.end();
+/// The guided runs of the force device, or the way back from the one that is open. `narrow`: each has a row of its own.
+void draw_guided_buttons(const UiContext& ui, AppModel& model, bool narrow) {
+  BringUpModel& bring_up = model.bring_up();
+  CalibrationModel& calibration = model.calibration();
+  constexpr const char* kBack = "Zero force, then a session without force";
+  if (bring_up.open()) {
+    if (text_button(ui, "monitor/bring_up_end", "Back to the session", kBack)) bring_up.end();
+    return;
   }
+  if (calibration.open()) {
+    if (text_button(ui, "monitor/calibrate_end", "Back to the session", kBack)) calibration.end();
+    return;
+  }
+  if (text_button(ui, "monitor/bring_up", "Bring up ...",
+                  "Step by step from the cable to the first force of the force device. The session ends; nothing "
+                  "moves before you say yes"))
+    bring_up.begin();
+  if (!calibration.possible()) return;
+  if (!narrow) ImGui::SameLine();
+  if (text_button(ui, "monitor/calibrate", "Calibrate ...",
+                  "Its torque scale by a spring scale, step by step; of a simulated device a rehearsal. The session "
+                  "ends; nothing pulls before you say yes"))
+    calibration.begin();
 }
 
 }  // namespace
 
 void draw_device_monitor(const UiContext& ui, AppModel& model, const Rect& rect) {
-  if (!model.view().device_monitor) return model.bring_up().end();  // a page that nobody sees pushes nobody
+  if (!model.view().device_monitor) {  // a page that nobody sees pushes nobody
+    model.bring_up().end();
+    return model.calibration().end();
+  }
   ImGui::SetNextWindowPos({rect.x, rect.y});
   ImGui::SetNextWindowSize({rect.w, rect.h});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(ui.px(12), ui.px(8)));
@@ -353,10 +372,12 @@ void draw_device_monitor(const UiContext& ui, AppModel& model, const Rect& rect)
   };
   if (narrow) close();
   if (!narrow) ImGui::SameLine(0.0f, ui.px(16));
-  draw_bring_up_button(ui, model.bring_up());
+  draw_guided_buttons(ui, model, narrow);
   if (!narrow) close();
   if (model.bring_up().open()) {
     draw_bring_up_page(ui, model.bring_up());
+  } else if (model.calibration().open()) {
+    draw_calibration_page(ui, model.calibration());
   } else if (model.devices().session() == nullptr) {
     ImGui::TextDisabled("No session");
   } else {

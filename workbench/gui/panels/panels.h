@@ -160,6 +160,8 @@ bool refuse_by_enter(GuardModel& guard);
 void draw_unsaved_offer(const UiContext& ui, UnsavedModel& unsaved, const Rect& over);
 /// In the monitor, while a force device is brought up.
 void draw_bring_up_page(const UiContext& ui, BringUpModel& bring_up);
+/// In the monitor, while a force device's torque scale is calibrated.
+void draw_calibration_page(const UiContext& ui, CalibrationModel& calibration);
 /// Drawn in place of the 3D view while the monitor is open.
 void draw_device_monitor(const UiContext& ui, AppModel& model, const Rect& rect);
 

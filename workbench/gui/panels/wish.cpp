@@ -36,7 +36,7 @@ constexpr std::array kLeft{Place{"compare", "Compare"}, Place{"presets", "Preset
 void show_around(AppModel& model, std::string_view path) {
   const std::string_view first = path.substr(0, path.find('/'));
   if (first == "plots") model.window().sizes().show_plots = true;
-  if (first == "monitor" || first == "bring_up") model.view().device_monitor = true;
+  if (first == "monitor" || first == "bring_up" || first == "calibration") model.view().device_monitor = true;
   for (const Place& place : kRight)
     if (place.path == first) model.window().show_section(place.section, false);
   for (const Place& place : kLeft)

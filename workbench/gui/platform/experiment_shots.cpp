@@ -6,6 +6,7 @@
 #include "workbench/gui/experiment/participant_screen.h"
 #include "workbench/gui/experiment/practice_scene.h"
 #include "workbench/gui/experiment/trial_screens.h"
+#include "workbench/gui/model/shipped_presets.h"
 #include "workbench/gui/platform/offscreen.h"
 #include "workbench/session/own_folder.h"
 
@@ -32,7 +33,7 @@ constexpr int kScreenFrames = 4;                  // in which ImGui lays out
 class StagedExperiment {
  public:
   static Result<std::unique_ptr<StagedExperiment>> begin(const std::string& name) {
-    const std::filesystem::path file = std::filesystem::path(TANGENT_PRESET_DIR) / "experiments" / (name + ".toml");
+    const std::filesystem::path file = shipped_presets() / "experiments" / (name + ".toml");
     const Result<std::string> text = read_input_file(file, std::size_t{1} << 20);
     if (!text) return tl::unexpected(text.error());
     Result<experiment::Protocol> protocol = experiment::parse_protocol(*text, file);

@@ -1,6 +1,6 @@
 #include "workbench/session/safe_range/loop_trial.h"
 
-#include "devices/simulated/simulated_force_device.h"
+#include "devices/simulated/held_device.h"
 #include "workbench/session/servo_tick.h"
 
 #include <algorithm>
@@ -20,18 +20,6 @@ constexpr double kKnead = 0.6;     // more, at its most, of the push
 constexpr double kWindow_s = 0.2;  // of the swings that are compared; two, at the end
 constexpr double kDeepestAim_m = 60e-3;
 constexpr double kLeastContact = 0.25;  // of the ticks since the press began
-
-/// The simulated device, led from outside: as a real one, which the session can't place.
-struct HeldDevice final : ForceDevice {
-  SimulatedForceDevice inner;
-  explicit HeldDevice(const SimulatedForceOptions& options) : inner(options) {}
-  const ForceCapabilities& capabilities() const override { return inner.capabilities(); }
-  Status open() override { return inner.open(); }
-  void close() override { inner.close(); }
-  ForceSample exchange(const ForceCommand& command, double dt_s) noexcept override {
-    return inner.exchange(command, dt_s);
-  }
-};
 
 SimulatedForceOptions options_of(const TrialDevice& device, const Grip& grip) {
   SimulatedForceOptions o;

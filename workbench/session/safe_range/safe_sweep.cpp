@@ -1,5 +1,8 @@
 #include "workbench/session/safe_range/safe_sweep.h"
 
+#include "core/base/fnv.h"
+#include "core/tick/sources.h"
+
 #include <algorithm>
 #include <utility>
 
@@ -29,6 +32,10 @@ std::optional<Verdict> PresetTrials::judge(const Preset& preset, const std::atom
     path_ = ExplorationPath::build(*ground_.scene, pad_distance_m(finger_));
     trial_ = std::make_unique<LoopTrial>(ground_.scene, *path_, ground_.device);
   }
+  if (wants_smooth(preset) && ground_.scene->planar() == nullptr && !ground_.scene->has_hierarchy()) {
+    ground_.scene->hierarchy();
+    ground_.scene->build_far_parts(run_in_turn);  // its own parts are made with it, and only then
+  }
   const double pad_m = pad_distance_m(finger_);
   Verdict worst{.safety = Safety::stable};
   for (std::size_t grip = kGrips.size(); grip-- > 0;) {  // nobody's first: it shakes soonest
@@ -54,7 +61,8 @@ struct SafeSweep::Kept {
   std::vector<std::unique_ptr<PresetTrials>> trials;  ///< by thread, of the ground there is
 };
 
-SafeSweep::SafeSweep(std::filesystem::path file) : file_(std::move(file)), kept_(std::make_unique<Kept>()) {
+SafeSweep::SafeSweep(std::filesystem::path file, const std::string& build)
+    : file_(std::move(file)), build_hash_(Fnv().add(build).value()), kept_(std::make_unique<Kept>()) {
   if (file_.empty()) return;
   if (const Status read = store_.read(file_); !read) problem_ = read.error().message();
   kept_->in_file = store_.size();
@@ -96,7 +104,7 @@ void SafeSweep::start(const TrialGround& ground, const Preset& base, std::vector
   keep();
   const bool same_ground = ground == ground_;
   if (!same_ground) {
-    scene_hash_ = trial_scene_hash(*ground.scene);
+    scene_hash_ = Fnv().add_bits(build_hash_).add_bits(trial_scene_hash(*ground.scene)).value();
     kept_->trials.clear();
   }
   const Preset before = std::exchange(base_, base);

@@ -38,8 +38,9 @@ class PresetTrials {
 
 class SafeSweep {
  public:
-  /// `file`: of verdicts, in a folder of one's own; empty: they are kept in memory only.
-  explicit SafeSweep(std::filesystem::path file = {});
+  /// `file`: of verdicts, in a folder of one's own; empty: they are kept in memory only. `build`: which build of the
+  /// program judges (recording/build_identity.h): another one's verdicts in the file are not known here.
+  explicit SafeSweep(std::filesystem::path file = {}, const std::string& build = {});
   ~SafeSweep();
 
   /// Sweeps every key's line through `base`. Lines of the last start that hold all the same stay; a running one is
@@ -81,7 +82,8 @@ class SafeSweep {
   std::filesystem::path file_;
   VerdictStore store_;
   TrialGround ground_;
-  std::uint64_t scene_hash_ = 0;
+  std::uint64_t build_hash_ = 0;
+  std::uint64_t scene_hash_ = 0;  ///< of build and scene
   Preset base_;
   std::vector<const PresetKey*> keys_;
   mutable std::mutex mutex_;  ///< of what follows

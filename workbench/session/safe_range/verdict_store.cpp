@@ -1,11 +1,11 @@
 #include "workbench/session/safe_range/verdict_store.h"
 
+#include "core/base/fnv.h"
 #include "core/io/atomic_file.h"
 #include "core/io/file_bytes.h"
 #include "workbench/session/file_lock.h"
 
 #include <algorithm>
-#include <bit>
 #include <charconv>
 #include <cinttypes>
 #include <cstdio>
@@ -21,13 +21,6 @@ namespace {
 constexpr std::uint64_t kTrialVersion = 2;  // another one where trials are made or judged otherwise
 constexpr std::string_view kFirstLine = "tangent-workbench safe ranges 1\n";
 constexpr std::size_t kLineBytes = 22;  // "0123456789abcdef 1234\n": safety, place, grip, why
-
-std::uint64_t hashed(std::uint64_t hash, std::uint64_t bits) {
-  for (int i = 0; i < 64; i += 8) hash = (hash ^ ((bits >> i) & 0xFFu)) * 0x100000001B3u;
-  return hash;
-}
-
-std::uint64_t hashed(std::uint64_t hash, double value) { return hashed(hash, std::bit_cast<std::uint64_t>(value)); }
 
 void append_line(std::string& to, std::uint64_t key, const Verdict& v) {
   char text[kLineBytes + 1];
@@ -59,21 +52,23 @@ bool same_loop(const Preset& a, const Preset& b) {
 }
 
 std::uint64_t trial_scene_hash(const ContactScene& scene) {
-  std::uint64_t hash = hashed(0xCBF29CE484222325u, std::uint64_t{scene.planar() != nullptr});
+  Fnv hash;
+  hash.add_bits(std::uint64_t{scene.planar() != nullptr});
   if (scene.has_mesh()) {
-    hash = hashed(hash, scene.mesh().content_hash());
-    for (int axis = 0; axis < 3; ++axis) hash = hashed(hash, scene.mesh().origin()[axis]);
+    hash.add_bits(scene.mesh().content_hash());
+    for (int axis = 0; axis < 3; ++axis) hash.add_bits(scene.mesh().origin()[axis]);
   }
-  return hash;
+  return hash.value();
 }
 
 std::uint64_t trial_key(std::uint64_t scene, const TrialDevice& device, const Preset& preset) {
-  std::uint64_t hash = hashed(hashed(0xCBF29CE484222325u, kTrialVersion), scene);
+  Fnv hash;
+  hash.add_bits(kTrialVersion).add_bits(scene);
   for (const double value : {device.mass_kg, device.friction_n, device.step_m, device.rate_hz, device.scale})
-    hash = hashed(hash, value);
+    hash.add_bits(value);
   for (const PresetKey& key : preset_keys())
-    if (is_in_loop(key)) hash = hashed(hash, key.get(preset));
-  return hash;
+    if (is_in_loop(key)) hash.add_bits(key.get(preset));
+  return hash.value();
 }
 
 std::optional<Verdict> VerdictStore::find(std::uint64_t key) const {

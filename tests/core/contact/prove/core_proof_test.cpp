@@ -120,6 +120,63 @@ TEST_CASE("over a patch the core is linear in the normal but for what is said, a
   }
 }
 
+TEST_CASE("a core that is not as linear over a patch as is asked for is told so, every other as without a limit") {
+  Random random(76);
+  int within = 0, beyond = 0;
+  for (const FingerShape shape : kCoreShapes)
+    for (int i = 0; i < 1000; ++i) {
+      const PnPatch patch =
+          PatchPiece(make_patch(*ContactMesh::build(bent_triangle(random, random.in(0.0, 0.3))), 0)).patch;
+      const FingerCore core(finger_of(shape), {random.in_cube(0.01), random.orientation()});
+      const Vec3 axis = unit(patch.normals[n200] + patch.normals[n020] + patch.normals[n002]);
+      const LinearCore free = linear_core(core, patch.normals, axis);
+      const double limit = std::pow(10.0, random.in(-5.0, -2.0));
+      const LinearCore limited = linear_core(core, patch.normals, axis, limit);
+      if (free.off_m < limit) {
+        ++within;
+        CHECK(limited.off_m == free.off_m);
+        CHECK(limited.slopes == free.slopes);
+        CHECK(limited.least_length_m == free.least_length_m);
+      } else {
+        ++beyond;
+        CHECK(limited.off_m == std::numeric_limits<double>::infinity());
+      }
+    }
+  CHECK(within > 200);
+  CHECK(beyond > 200);
+}
+
+TEST_CASE("a patch known roughly is excluded by the same margin whether a place on it is asked for or not") {
+  Random random(77);
+  int excluded = 0, held = 0, other = 0, heights = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const PnPatch patch = make_patch(*ContactMesh::build(bent_triangle(random, random.in(0.0, 0.4))), 0);
+    const Vec3 normal = unit(patch.normals[n200] + patch.normals[n020] + patch.normals[n002]);
+    const Vec3 centre = patch.origin + random.in(1e-3, 1e-2) * normal + random.in_cube(6e-3);
+    StandIn rough{{patch.offsets[b030], patch.offsets[b003]}, {}};
+    // Six slopes, or the one of a long core, mostly across the normals.
+    rough.spread_count = random.below(2) ? 6 : 1;
+    rough.spread.fill(random.in_cube(2e-3));
+    for (std::size_t k = 1; k < rough.spread_count; ++k) rough.spread[k] = random.in_cube(5e-4);
+    rough.bend = random.in_cube(2e-4);
+    rough.rest_m = std::pow(10.0, random.in(-6.0, -3.0));
+    const double enough = random.below(2) ? random.in(1e-6, 2e-3) : 0.0;
+    const PatchExclusion asked = exclude_contact(patch, centre, enough, rough);
+    rough.place_wanted = false;
+    rough.height_matters_m = random.in(0.0, 1e-2);
+    const PatchExclusion unasked = exclude_contact(patch, centre, enough, rough);
+    (asked.possible ? held : excluded) += 1;
+    other += asked.possible != unasked.possible || asked.margin_m != unasked.margin_m;
+    other += asked.least_height_m > rough.height_matters_m && unasked.least_height_m != asked.least_height_m;
+    other += unasked.least_height_m != 0.0 && unasked.least_height_m != asked.least_height_m;
+    heights += unasked.least_height_m > 0.0;
+  }
+  CHECK(other == 0);
+  CHECK(excluded > 400);
+  CHECK(held > 400);
+  CHECK(heights > 100);
+}
+
 TEST_CASE("a piece of a patch is the patch there, and bisected all over it") {
   Random random(72);
   const PnPatch patch = make_patch(*ContactMesh::build(bent_triangle(random, 0.5)), 0);

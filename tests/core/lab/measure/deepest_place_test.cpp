@@ -2,6 +2,7 @@
 #include "core/base/tolerances.h"
 #include "tests/core/random_bodies.h"
 #include "tests/core/scenes.h"
+#include "tests/support/paths.h"
 
 #include <cstdlib>
 #include <fstream>
@@ -69,7 +70,7 @@ constexpr std::pair<const char*, double> kFingers[] = {{"-r005.csv", 0.005}, {"-
 
 TEST_CASE("on spot the tracked contact is the deepest place, as a search from nothing finds it") {
   for (const auto& [finger, radius] : kFingers) {
-    std::vector<TickInput> poses = poses_of(TANGENT_TEST_ASSETS "/poses/spot" + std::string(finger));
+    std::vector<TickInput> poses = poses_of(testing::test_assets() + "/poses/spot" + std::string(finger));
     REQUIRE(poses.size() == 600);
     for (const ForceContacts contacts : {ForceContacts::deepest, ForceContacts::all})
       check_deepest(testing::spot_file(), poses, radius, contacts);

@@ -145,6 +145,8 @@ void FalconModel::answer() {
     now.encoder = falcon_encoders(falcon_inverse({0.085, 0.0, 0.11}).value_or(Vec3(0.0)));
   if (fault == FalconFault::legs_apart) now.encoder = {32767, -32768, 0};
   if (fault == FalconFault::unhomed) now.homed = 3;
+  if (fault == FalconFault::frozen) now.encoder = said_;
+  said_ = now.encoder;
   FalconPacket packet = to_packet(now);
   if (fault == FalconFault::garbage) packet.fill(0xee);
   bytes_in(std::span<const std::uint8_t>(packet).first(fault == FalconFault::cut ? 9 : packet.size()));

@@ -13,7 +13,7 @@
 namespace tangent::emulation {
 
 /// What goes wrong while it runs, until it is put back to none.
-enum class FalconFault { none, silent, garbage, cut, far_away, legs_apart, unhomed };
+enum class FalconFault { none, silent, garbage, cut, far_away, legs_apart, unhomed, frozen };
 
 /// What goes wrong while the firmware is loaded, `times` times.
 struct UploadFault {
@@ -70,6 +70,7 @@ class FalconModel final : public UsbModel {
   bool dtr_ = false, greeted_ = false, lettered_ = false;
   int pieces_ = 0, unanswered_ = 0, homing_for_ = 0, since_status_ = 0;
   std::uint8_t homed_ = 0;
+  FalconEncoders said_{};  // last
 };
 
 }  // namespace tangent::emulation

@@ -82,6 +82,14 @@ TEST_CASE("workbench devices says why a device can't be opened") {
   CHECK(has(output_of({"devices"}), "load its firmware"));
 }
 
+TEST_CASE("workbench monitor for some seconds leaves with 1 when a device was not there at any time") {
+  Testbed testbed;
+  CldModel cld;
+  PluggedDevice device(testbed, cld, 4);
+  CHECK(has(output_of({"monitor", "--device", "cld", "--seconds", "0.2"}, 1), "not connected"));
+  CHECK(has(output_of({"monitor", "--seconds", "0.2"}), "Tick to tick:"));
+}
+
 TEST_CASE("workbench monitor drives the display on the cable and reports") {
   Testbed testbed;
   CldModel cld;

@@ -1,6 +1,7 @@
 // Both screens from what a running experiment says of itself.
 #include "workbench/gui/experiment/trial_screens.h"
 
+#include "tests/support/paths.h"
 #include "workbench/gui/model/experiment_start.h"
 
 #include <doctest/doctest.h>
@@ -13,7 +14,7 @@ using namespace tangent;
 namespace {
 
 experiment::Protocol shipped(const std::string& name) {
-  return *experiment::read_protocol(std::filesystem::path(TANGENT_SOURCE_DIR) / "presets/experiments" /
+  return *experiment::read_protocol(std::filesystem::path(testing::source_folder()) / "presets/experiments" /
                                     (name + ".toml"));
 }
 

@@ -1,5 +1,6 @@
 // What is not known to be safe does not reach an armed device before a person says yes, whoever changes the preset.
 #include "workbench/gui/model/guard_model.h"
+#include "tests/support/paths.h"
 #include "tests/workbench/gui/headless_app.h"
 #include "workbench/gui/panels/commands.h"
 
@@ -125,7 +126,7 @@ TEST_CASE("no path leads around the question: values, undo, A and B, files, buil
 }
 
 TEST_CASE("only one line of the window sends a preset to a session, and only the guard's way leads there") {
-  const std::filesystem::path source = std::filesystem::path(TANGENT_SOURCE_DIR) / "workbench";
+  const std::filesystem::path source = std::filesystem::path(testing::source_folder()) / "workbench";
   int sets = 0, sends = 0;
   for (const char* room : {"gui", "cli", "recording", "report", "evidence"})
     for (const auto& entry : std::filesystem::recursive_directory_iterator(source / room)) {

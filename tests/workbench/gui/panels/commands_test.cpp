@@ -1,4 +1,5 @@
 // Every action of the window is a command, and every command does what it says or says why not.
+#include "tests/support/paths.h"
 #include "tests/support/temp_folder.h"
 #include "tests/workbench/gui/running_app.h"
 #include "workbench/gui/panels/command_match.h"
@@ -281,6 +282,9 @@ constexpr ByCommand kByCommand[]{
     {"monitor/bring_up", "bring up"},
     {"monitor/bring_up_end", "press"},
     {"bring_up/*", "press"},
+    {"monitor/calibrate", "calibrate force"},
+    {"monitor/calibrate_end", "press"},
+    {"calibration/*", "press"},
     {"monitor/close", "device monitor"},
     {"monitor/inject/force/*", "inject into force device"},
     {"monitor/inject/display/*", "inject into display"},
@@ -509,7 +513,7 @@ TEST_CASE("the page of commands is the one that the program prints") {
   options.deterministic = true;
   AppModel model(options);
   MenuBar menu;
-  const std::string page = testing::read_text(std::string(TANGENT_SOURCE_DIR) + "/workbench/COMMANDS.md");
+  const std::string page = testing::read_text(testing::source_folder() + "/workbench/COMMANDS.md");
   INFO("./workbench/run gui --commands > workbench/COMMANDS.md");
   CHECK(page == commands_page(window_commands(model, menu)));
 }

@@ -1,5 +1,6 @@
 // Preset files, read and written in the panel.
 #include "core/lab/audit/finger_size.h"
+#include "tests/support/paths.h"
 #include "tests/workbench/gui/running_app.h"
 #include "workbench/gui/panels/panels.h"
 
@@ -131,7 +132,7 @@ TEST_CASE("the program's own values can be chosen again, and undone") {
   AppOptions options = HeadlessApp::deterministic_options();
   options.preset_folder = fresh_folder("tangent_app_built_in");
   RunningApp ui(options, 1280.0f, 2000.0f);
-  ui.model().presets().load(std::filesystem::path(TANGENT_SOURCE_DIR "/presets") / "default.toml");
+  ui.model().presets().load(std::filesystem::path(testing::source_folder() + "/presets") / "default.toml");
   ui.model().presets().set_value(*find_preset_key("solver", "gain_overall"), 0.4);
   ui.frame();
   ui.click("presets/built_in");
@@ -152,7 +153,8 @@ TEST_CASE("presets that ship are listed beside a person's own, which keep their 
   CHECK(ui.app().items().find("presets/file/default") != nullptr);
   REQUIRE(ui.app().items().find("presets/file/default (shipped)") != nullptr);
   ui.click("presets/file/default (shipped)");
-  CHECK(ui.model().presets().editor().path().parent_path() == std::filesystem::path(TANGENT_SOURCE_DIR "/presets"));
+  CHECK(ui.model().presets().editor().path().parent_path() ==
+        std::filesystem::path(testing::source_folder() + "/presets"));
 }
 
 TEST_CASE("saving B leaves A its name and what it was loaded from") {
@@ -162,7 +164,7 @@ TEST_CASE("saving B leaves A its name and what it was loaded from") {
   RunningApp ui(options);
   PresetModel& presets = ui.model().presets();
   const PresetKey& gain = *find_preset_key("solver", "gain_overall");
-  presets.load(std::filesystem::path(TANGENT_SOURCE_DIR "/presets") / "default.toml");
+  presets.load(std::filesystem::path(testing::source_folder() + "/presets") / "default.toml");
   presets.copy_ab();
   presets.toggle_ab();
   presets.set_value(gain, 0.4);

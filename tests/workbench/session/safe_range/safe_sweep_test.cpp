@@ -192,6 +192,39 @@ TEST_CASE("a sweep gives the same ranges on one thread and on three, and a resta
   }
 }
 
+TEST_CASE("verdicts in the file are those of one build of the program, another one judges anew") {
+  const auto path = fresh("builds.txt");
+  const auto verdicts_after = [&](const char* build) {
+    SafeSweep sweep(path, build);
+    sweep.start(bare(torus_scene()), {}, {&key_of("force.blend")});
+    sweep.wait();
+    VerdictStore kept;
+    REQUIRE(kept.read(path));
+    return kept.size();
+  };
+  const std::size_t of_one = verdicts_after("one");
+  CHECK(of_one > 0);
+  CHECK(verdicts_after("one") == of_one);
+  CHECK(verdicts_after("two") == 2 * of_one);
+}
+
+TEST_CASE("a scene whose parts and hierarchy are not built yet is judged as one that is whole") {
+  const auto mesh = [] { return *ContactMesh::build(make_icosphere(0.040, 3), {}); };
+  const auto whole = *ContactScene::build(mesh());
+  const auto late =
+      *ContactScene::build(mesh(), {.hierarchy = false, .ribbon = false, .far_parts = false, .whole_up_to = 100});
+  REQUIRE(late->unbuilt_parts() > 0);
+  PresetTrials of_whole(bare(whole)), of_late(bare(late));
+  for (const Method method : {Method::facet, Method::robust}) {  // facets read no hierarchy
+    Preset preset;
+    preset.solver.method = method;
+    preset.force.stiffness_n_per_m = 200.0;
+    CAPTURE(to_string(method));
+    CHECK(of_late.judge(preset) == of_whole.judge(preset));
+    CHECK(of_late.judge(preset)->safety != Safety::unknown);
+  }
+}
+
 TEST_CASE("another value than a line's own makes its line unknown, its own does not, another mesh all of them") {
   const PresetKey &stiffness = key_of("force.stiffness_n_per_m"), &blend = key_of("force.blend");
   SafeSweep sweep;
