@@ -14,8 +14,8 @@ namespace tangent {
 struct AppendRules {
   /// What to do where a write failed, for its message; what is in the file stays.
   std::string not_whole = {};
-  /// One process at a time has it, and what to do about the other one; empty: any number may. A disk that knows no
-  /// locks keeps nobody out.
+  /// One process at a time has it, and what to do about the other one; empty: any number may, and a failed
+  /// write of one may take others' last lines. A disk that knows no locks keeps nobody out.
   std::string in_use = {};
 };
 
@@ -40,12 +40,15 @@ class AppendedFile {
 
  private:
   AppendedFile() = default;
+  AppendedFile with_what_is_there();
   Status take_back();
+  Status mend();  ///< cuts off what `take_back` could not
 
   std::filesystem::path path_;
   AppendRules rules_;
   int file_ = -1;
   std::uint64_t bytes_ = 0;  ///< of whole lines
+  bool torn_ = false;        ///< there is more after them
 };
 
 /// All of it, to an open file; false: errno says why not.

@@ -15,6 +15,9 @@ Status check_replaceable(const std::filesystem::path& path, std::string_view kin
   std::error_code error;
   if (path.empty() || !std::filesystem::is_regular_file(path, error)) return {};
   std::ifstream file(path, std::ios::binary);
+  if (!file)
+    return fail("is there already, and can't be read to see what it is", path.string(),
+                "choose another name, or remove it");
   std::string beginning(kLooked, '\0');
   file.read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
   beginning.resize(static_cast<std::size_t>(file.gcount()));

@@ -1,6 +1,7 @@
 #include "core/shading/blend.h"
 
 #include "core/base/tolerances.h"
+#include "core/shading/last_force.h"
 
 #include <algorithm>
 #include <cmath>
@@ -24,14 +25,6 @@ double display_rule(const Preset& preset) {
   if (source == TactileSource::smooth || (source == TactileSource::method && is_smooth(method))) return 0.0;
   return 1.0 + static_cast<double>(source) + 8.0 * static_cast<double>(method) + 1e3 * preset.display.travel_m +
          1e3 * std::sqrt(2.0) * preset.display.finger_arc_m;
-}
-
-/// The last force as a plane that stays where it was: what it pushes with after the finger has moved.
-Vec3 left_of_last(const Vec3& last, const Vec3& moved, double stiffness) {
-  const double length = std::sqrt(glm::dot(last, last));
-  if (length == 0.0) return Vec3(0.0);
-  const Vec3 normal = last / length;
-  return std::max(0.0, length - stiffness * glm::dot(normal, moved)) * normal;
 }
 
 /// How far to go from `old` to `decided`, 0 to 1, so that the force is at most `most` from the last one. That holds for
@@ -104,12 +97,6 @@ void blend_force(const Preset& preset, const FingerWay& way, const Vec3& decided
   }
   const Vec3 old = left_of_last(last.force_n, way.moved, stiffness);
   force = old + share_within(last.force_n, old, decided, most) * (decided - old);
-}
-
-/// The limit may have been lowered, and counts at once.
-void limit_force(const Preset& preset, Vec3& force) {
-  const double length = std::sqrt(glm::dot(force, force));
-  if (length > preset.force.limit_n) force *= preset.force.limit_n / length;
 }
 
 void blend_display(const Preset& preset, const FingerWay& way, const Rendered& decided, bool switched,

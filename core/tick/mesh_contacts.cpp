@@ -31,7 +31,7 @@ Vec3 way_out_or_one(const TickContext& tick, const IterationResult& tracked, con
 }
 
 /// The way out of what the last tick left, the `kept` plane and those of `places`, for the finger as it is now. A plane
-/// that its centre has come behind since then pushed, too.
+/// that its centre has come behind since then pushed, too; the kept one pushed alone where the centre was behind it.
 Vec3 last_way_out(ContactContext& context, const TickContext& tick, const TrackedPlane& kept,
                   const TouchedPlaces& places, int& evaluations) {
   const auto plane_at = [&](const TrackedPlane& at) {
@@ -39,8 +39,10 @@ Vec3 last_way_out(ContactContext& context, const TickContext& tick, const Tracke
   };
   std::array<RenderPlane, kMostPlanes> planes;
   std::size_t count = 0;
+  const Vec3 was_at = tick.state.last_position - tick.origin;
+  const bool alone = !tick.state.unentered && glm::dot(was_at - kept.point, kept.normal) < 0.0;
   if (!tick.state.unentered) planes[count++] = plane_at(kept);
-  for (const SurfacePlace& place : std::span(places.places).first(places.count)) {
+  for (const SurfacePlace& place : std::span(places.places).first(alone ? 0 : places.count)) {
     TrackedPlane at;
     at.move_to(place);
     SurfaceSample sample;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/base/tolerances.h"
+#include "core/shading/ramp.h"
 #include "core/tick/sources.h"
 #include "core/tick/tick.h"
 
@@ -31,20 +32,6 @@ inline Vec3 finger_velocity(const Preset& preset, const FingerWay& way, const st
   return rendered.velocity;
 }
 
-/// Where an unconverged tick ramps to zero nothing holds it up, but what was still fading when the ramp began is not
-/// leapt to: then what was rendered last ramps on. `share`: of the ramp that is left.
-inline void ramp_what_was_rendered(const Preset& preset, const FingerWay& way, double share, const RenderedState& last,
-                                   Rendered& decided) {
-  if (preset.force.blend == ForceBlend::off && !last.changes) return;
-  const double ramp_s = preset.safety.unconverged_ramp_s;
-  const double before = ramp_s > 0.0 ? std::min(1.0, share + way.dt_s / ramp_s) : 1.0;
-  const double left = before > 0.0 ? share / before : 0.0;
-  const Vec3 force = left * last.force_n;
-  if (glm::distance(decided.force_n, force) > most_force_change_n(preset, way)) decided.force_n = force;
-  const double cld_m = left * last.cld_m;
-  if (std::abs(decided.cld_m - cld_m) > most_display_change_m(preset, way)) decided.cld_m = cld_m;
-}
-
 /// Sets force and display of `out` from the planes of the preset's sources, blended with what was `rendered` last.
 /// `section`: of the finger, world; `measured`: its velocity by the device, if any.
 inline void render_planes(const Preset& preset, const TickPlanes& planes, const FingerSection& section,
@@ -52,11 +39,15 @@ inline void render_planes(const Preset& preset, const TickPlanes& planes, const 
                           TickOutput& out) {
   const Vec3 velocity = finger_velocity(preset, way, measured, rendered);
   const RenderPlane& force = force_plane(preset, planes);
-  Rendered decided = render(preset, force, tactile_plane(preset, planes), section, velocity);
+  const RenderPlane* const tactile = tactile_plane(preset, planes);
+  Rendered decided = render(preset, force, tactile, section, velocity);
   out.decided_force_n = decided.force_n;
   out.decided_cld_m = decided.cld_m;
   if (out.status == TickStatus::facing) decided.ramps_out = false;  // no failure: held to the rate like every decision
-  if (decided.ramps_out) ramp_what_was_rendered(preset, way, force.share, rendered, decided);
+  if (decided.ramps_out) {
+    const bool display_ramps = tactile == nullptr || tactile->share < 1.0;
+    ramp_what_was_rendered(preset, way, force.share, display_ramps, rendered, decided);
+  }
   const bool switched = out.event != TickEvent::none && out.event != TickEvent::first;
   const Rendered blended = blend(preset, way, decided, switched, rendered);
   out.force_n = blended.force_n;

@@ -36,7 +36,12 @@ std::optional<StaircaseResult> staircase_of(const Comparer& participant, const C
     answers.push_back({static_cast<double>(row.segments), row.right});
   }
   if (answers.empty()) return std::nullopt;
-  if (staircase.settled()) out.segments = staircase.threshold();
+  if (staircase.settled()) {  // of what was shown: versions before stepped otherwise
+    double sum = 0.0;
+    for (auto at = out.reversals.end() - condition.staircase.averaged; at != out.reversals.end(); ++at)
+      sum += out.levels[static_cast<std::size_t>(*at)];
+    out.segments = sum / condition.staircase.averaged;
+  }
   out.fitted = fitter.fit(answers);
   out.warnings = staircase_warnings(out, condition.staircase);
   return out;

@@ -51,12 +51,12 @@ void BringUp::tick(double dt_s) noexcept {
   view_.t_s += dt_s;
   unsent_s_ += dt_s;
   wanted_n_ = Vec3(0.0);
-  const bool stops = stop_.load(std::memory_order_relaxed);
-  if (phase_ == Phase::silent && has_force() && in_phase_s() < silence_s() && !stops) return;
+  const bool silent = phase_ == Phase::silent && has_force() && in_phase_s() < silence_s();
+  if (silent && !stop_.load(std::memory_order_relaxed)) return;
   const double since_s = std::exchange(unsent_s_, 0.0);
   exchange(view_, since_s);
   const BringUpAnswer said = take_answer();
-  if (stops && !view_.ended) fail(BringUpWhy::stopped);
+  if (stop_.load(std::memory_order_relaxed) && !view_.ended) fail(BringUpWhy::stopped);
   if (!view_.ended) {
     may_be_silent_ = cut_;
     if (const BringUpWhy why = sample_problem(view_, since_s); why != BringUpWhy::none) fail(why);

@@ -84,6 +84,7 @@ struct GuidedRunner<Machine>::Impl {
   Shown seen;
   DeadlinePacer pacer;
   MonotonicClock clock;
+  bool given_up = false;  // it hung for too long, and has ended by that; owner's thread
   std::int64_t last_ns = 0;
   std::atomic<bool> ending{false};
   std::thread thread;
@@ -202,7 +203,11 @@ template <class Machine>
 const typename GuidedRunner<Machine>::View& GuidedRunner<Machine>::view() {
   impl_->shown.take(impl_->seen);
   impl_->watch_exchange();
-  if (impl_->hangs() && !impl_->seen.view.ended) impl_->seen.view.end_with(BringUpWhy::hangs);
+  if (!impl_->given_up && !impl_->seen.view.ended && impl_->hangs()) {
+    impl_->given_up = true;
+    impl_->machine.stop();  // an exchange that comes back after all is followed by none with force
+  }
+  if (impl_->given_up) impl_->seen.view.end_with(BringUpWhy::hangs);
   return impl_->seen.view;
 }
 
@@ -229,8 +234,7 @@ std::string GuidedRunner<Machine>::serial() const {
 }
 
 template <class Machine>
-bool GuidedRunner<Machine>::settled() {
-  impl_->shown.take(impl_->seen);
+bool GuidedRunner<Machine>::settled() const {
   return impl_->seen.settled;
 }
 

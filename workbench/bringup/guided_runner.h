@@ -32,7 +32,7 @@ class GuidedRunner {
   GuidedRunner(const GuidedRunner&) = delete;
   GuidedRunner& operator=(const GuidedRunner&) = delete;
 
-  /// The newest; owner's thread. Ended, with `hangs`, where the driver does not come back from an exchange: its
+  /// The newest; owner's thread. Ended for good, with `hangs`, where the driver does not come back from an exchange: its
   /// emergency stop was called long before.
   const View& view();
   const ForceCapabilities& capabilities() const;
@@ -41,8 +41,9 @@ class GuidedRunner {
   void stop();
   /// Of the device on the cable; empty: it has none, or none is known.
   std::string serial() const;
-  /// The simulated hand did what is asked, so that an answer makes sense; always with a real device.
-  bool settled();
+  /// The simulated hand did what the view that was seen last asks, so that an answer makes sense; always with a real
+  /// device.
+  bool settled() const;
   /// Not threaded: n ticks of simulated time. Else nothing.
   void advance(std::uint64_t ticks);
   std::string link_problem() const;  ///< what the driver says of the cable; empty: nothing

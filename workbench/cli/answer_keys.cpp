@@ -56,7 +56,7 @@ bool AnswerKeys::wants_stop() {
 }
 
 void AnswerKeys::drop() {
-  read_some();
+  if (wants_stop()) return;  // which also reads
   buffer_.clear();
   shown_ = 0;
 }

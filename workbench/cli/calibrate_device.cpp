@@ -87,7 +87,7 @@ struct CalibrationEnd {
 };
 
 /// Until it has ended.
-Result<CalibrationEnd> go_through(std::unique_ptr<ForceDevice> device, bool threaded) {
+Result<CalibrationEnd> go_through(std::unique_ptr<ForceDevice> device, bool threaded, UsbPacketLog& packets) {
   auto runner = CalibrationRunner::start(std::move(device), {.limits = {}, .threaded = threaded});
   if (!runner) return tl::unexpected(runner.error());
   CalibrationTalk talk(**runner);
@@ -99,6 +99,7 @@ Result<CalibrationEnd> go_through(std::unique_ptr<ForceDevice> device, bool thre
       (*runner)->advance(kTicksPerQuestion);
     if (const Status looked = talk.look(); !looked) status = looked;
   }
+  if ((*runner)->view().why == BringUpWhy::hangs) packets.leave_behind();
   if (!status) return tl::unexpected(status.error());
   return CalibrationEnd{(*runner)->view(), (*runner)->serial()};
 }
@@ -117,10 +118,9 @@ Result<int> calibrate_device(const DeviceCalibration& calibration) {
   const InterruptGuard guard;
   std::printf("%s: begins with %.0f counts for 1 N m\n", made->device->capabilities().name.c_str(), used);
   if (!rehearsal) std::printf("Keep a hand on its power switch: it may hold its last force when this program dies\n");
-  const auto end = go_through(std::move(made->device), !calibration.without_waiting);
+  const auto end = go_through(std::move(made->device), !calibration.without_waiting, *packets);
   if (!end) return tl::unexpected(end.error());
   const CalibrationView& view = end->view;
-  if (view.why == BringUpWhy::hangs) packets->leave_behind();
   const auto scale = calibrated_scale(view, used);
   if (!scale) return tl::unexpected(scale.error());
   for (std::size_t i = 0; i < view.reading_count; ++i)

@@ -144,8 +144,8 @@ Result<int> check_device(const DeviceCheck& check) {
   protocol.date = protocol_date();
   protocol.program = TANGENT_VERSION;
   protocol.most_n = check.most_n;
-  if (!attended) return tl::unexpected(attended.error());
   if (protocol.result.why(protocol.result.step) == BringUpWhy::hangs) packets->leave_behind();
+  if (!attended) return tl::unexpected(attended.error());
   if (const Status kept = keep(protocol, check); !kept) return tl::unexpected(kept.error());
   const bool all = protocol.result.all_proved();
   std::printf("%s. Not proved:\n", all ? "All proved" : "Not all proved");

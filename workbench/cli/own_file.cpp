@@ -57,11 +57,14 @@ bool is_replay_report(std::string_view text) { return is_json_with(text, "same_b
 bool is_comparison(std::string_view text) { return is_json_with(text, "why_not_aligned"); }
 bool is_check_report(std::string_view text) { return is_json_with(text, "outcome") && is_json_with(text, "preset"); }
 
-bool is_device_list(std::string_view text) { return text == "[]\n" || is_json_with(text, "can_be_opened"); }
+bool is_device_list(std::string_view text) { return text == "[]\n" || is_json_with(text, "can_be_opened", "problem"); }
 bool is_protocol(std::string_view text) { return is_json_with(text, "steps") && is_json_with(text, "verdict"); }
 bool is_protocol_page(std::string_view text) { return has(text, "| program | Tangent Workbench "); }
 /// SVG or PDF, with its origin (session/file_origin.h).
-bool is_drawing(std::string_view text) { return has(text, "Tangent Workbench"); }
+bool is_drawing(std::string_view text) {
+  if (!text.starts_with("%PDF-")) return has(text, "Tangent Workbench");
+  return has(text, "00540061006E00670065006E007400200057006F0072006B00620065006E00630068");  // the same, in UTF-16
+}
 bool is_report_page(std::string_view text) { return has(text, "name=\"generator\" content=\"Tangent Workbench "); }
 
 /// As `make` writes it, or an outline in two columns.
@@ -80,6 +83,7 @@ bool is_export(std::string_view beginning) {
 
 /// Seconds, direction, status and length, then bytes.
 bool is_packet_log(std::string_view beginning) {
+  if (beginning.starts_with("# t_s direction status bytes hex\n")) return true;
   const std::string line(beginning.substr(0, std::min(beginning.find('\n'), kLongestLogLine)));
   double seconds = 0.0;
   std::array<char, 8> direction{};
@@ -108,6 +112,7 @@ constexpr std::array kOwnOutputs{
     OwnOutput{"bench", "--csv", "a table of one", is_bench_table},
     OwnOutput{"bench", "--plot", "a drawing of this program", is_drawing},
     OwnOutput{"devices", "--json", "a list of devices", is_device_list},
+    OwnOutput{"devices", "--packets", "a log of packets", is_packet_log},
     OwnOutput{"devices", "--out", "the protocol of a check", is_protocol},
     OwnOutput{"devices", "--out", "the page of a protocol", is_protocol_page, {}, ".md"},
     OwnOutput{"report", "--out", "a report", is_report_page, "report.html"},

@@ -153,7 +153,8 @@ Result<ComparisonRun> ComparisonRun::start(const Protocol& protocol, std::uint64
                       row.segments == run.staircase_->segments() &&
                       row.reference == (run.reference_is_first() ? 1 : 2) && row.right == (row.answer == row.reference);
     if (!same)
-      return fail("is not what this protocol and seed show there", where, "use the protocol that it was begun with");
+      return fail("is not what this protocol and seed show there", where,
+                  "use the protocol and the version of the program that it was begun with");
     run.take(row);
   }
   return run;

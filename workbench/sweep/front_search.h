@@ -1,6 +1,6 @@
 // Searches presets for the front of several objectives, with constraints: NSGA-II (Deb et al., 2002) of pagmo where the
-// program was built with it, from a start that fills the ranges evenly (Sobol) and probes their ends; then points in
-// the front's gaps (front_refine.h). Without pagmo all trials are even draws.
+// program was built with it, from a start of the plan's own presets (theory's gains), even draws (Sobol) and the
+// ranges' ends; then points in the front's gaps (front_refine.h). Without pagmo all trials are even draws.
 #pragma once
 
 #include "workbench/sweep/front_plan.h"

@@ -132,9 +132,10 @@ struct Part {
   /// Distance of 0 from the coefficients across direction `side`, 0 if they lie on both sides of it: mostly the corners
   /// tell that.
   double beside(const Vec2& side) const {
-    if (!(corners_beside(side) > 0.0)) return 0.0;
     const auto across = [&](const Vec2& x) { return side.y * x.x - side.x * x.y; };
-    const double least = least_across(across(at_corner(0)) > 0.0 ? side : -side);
+    const double a = across(at_corner(0)), b = across(at_corner(1)), c = across(at_corner(2));
+    if (!(a > 0.0 ? std::min(b, c) > 0.0 : a < 0.0 && std::max(b, c) < 0.0)) return 0.0;
+    const double least = least_across(a > 0.0 ? side : -side);
     return least > 0.0 ? least / std::sqrt(glm::dot(side, side)) : 0.0;
   }
 

@@ -69,3 +69,13 @@ TEST_CASE("what is no file is refused by name, and a folder that is not there, t
   CHECK(contains(AppendedFile::open("/dev/null", {}).error().message(), "/dev/null: is no file"));
   CHECK(contains(AppendedFile::open(folder.path() / "no" / "f", {}).error().message(), "can't be written"));
 }
+
+TEST_CASE("where a write fails before anything was said of what is there, that stays") {
+  const TempFolder folder;
+  const std::filesystem::path path = folder.write("f", "one\ntwo\n");
+  auto file = AppendedFile::open(path, {});
+  REQUIRE(file);
+  const FullDisk full(10);
+  CHECK_FALSE(file->add("three\n"));
+  CHECK(read_text(path) == "one\ntwo\n");
+}

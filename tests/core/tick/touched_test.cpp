@@ -265,3 +265,40 @@ TEST_CASE("while several places push a tick that finds no contact ramps from the
   CHECK(leaps == 0);
   CHECK(reached == 11);  // from 10 ms after the last contact on
 }
+
+namespace {
+
+/// Forces of 40 ticks without a contact, `change` before them, after 20 between two walls.
+template <class Change>
+std::vector<Vec3> ramp_after(Preset preset, const Vec3& way_per_tick, const Change& change) {
+  Stepper stepper(walls(2));
+  TickState state;
+  std::vector<Vec3> forces;
+  Vec3 at(0.004, 0.0037, 0.0);
+  for (int i = 0; i < 60; ++i) {
+    if (i == 20) change(preset);
+    if (i >= 20) at += way_per_tick;
+    TickInput input = at_position(1e-3 * i, at);
+    input.unready = i >= 20;
+    const TickOutput out = stepper.step(preset, input, state);
+    if (i == 19) REQUIRE(glm::length(out.force_n) > 1.0);
+    if (i >= 20) forces.push_back(out.force_n);
+  }
+  return forces;
+}
+
+}  // namespace
+
+TEST_CASE("a lower limit of force holds at once in a ramp, too") {
+  Preset preset = all_of(0.005);
+  preset.safety.unconverged_ramp_s = 0.1;
+  for (const Vec3& force : ramp_after(preset, Vec3(0.0), [](Preset& p) { p.force.limit_n = 0.3; }))
+    CHECK(glm::length(force) <= 0.3 + 1e-12);
+}
+
+TEST_CASE("a finger that leaves while the force ramps feels none in free air") {
+  Preset preset = all_of(0.005);
+  preset.safety.unconverged_ramp_s = 1.0;
+  const std::vector<Vec3> forces = ramp_after(preset, {3e-4, 3e-4, 0.0}, [](Preset&) {});
+  for (std::size_t i = 8; i < forces.size(); ++i) CHECK(forces[i] == Vec3(0.0));  // 1.3 mm deep at the most
+}

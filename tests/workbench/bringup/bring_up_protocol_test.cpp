@@ -176,4 +176,7 @@ TEST_CASE("a driver that does not come back from an exchange ends the run, and o
   CHECK(view.why(BringUpStep::cable) == BringUpWhy::hangs);
   CHECK(why_text(BringUpWhy::hangs, view).find("take the device's power away") != std::string::npos);
   goes_on = true;
+  while ((*runner)->view().t_s == 0.0) std::this_thread::yield();  // until a tick is over
+  CHECK((*runner)->view().ended);
+  CHECK((*runner)->view().why(BringUpStep::cable) == BringUpWhy::hangs);
 }

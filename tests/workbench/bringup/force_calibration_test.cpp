@@ -1,6 +1,7 @@
 // Calibration of a torque scale by a spring scale, of simulated devices with a known wrong one.
 #include "workbench/bringup/force_calibration.h"
 
+#include "devices/simulated/simulated_force_device.h"
 #include "tests/support/temp_folder.h"
 #include "tests/workbench/bringup/pulled_scale.h"
 #include "workbench/bringup/bring_up_text.h"
@@ -172,6 +173,25 @@ TEST_CASE("calibration: an answer to an earlier question is no yes to a pull, an
     CHECK(device.true_force_n() == Vec3(0.0));
   }
   CHECK(machine.view().ask == CalibrationAsk::pull);
+}
+
+TEST_CASE("calibration: an answer is to the question that was seen, not to one that came since") {
+  auto runner = GuidedRunner<ForceCalibration>::start(std::make_unique<SimulatedForceDevice>(),
+                                                      {.limits = {}, .threaded = false});
+  REQUIRE(runner);
+  for (int i = 0; i < 500 && (*runner)->view().ask != CalibrationAsk::done; ++i) {
+    if ((*runner)->view().asks()) (*runner)->answer({BringUpAnswer::yes, 0.0});
+    (*runner)->advance(20);
+  }
+  REQUIRE((*runner)->view().ask == CalibrationAsk::done);
+  const std::uint32_t seen = (*runner)->view().questions;
+  (*runner)->answer({BringUpAnswer::yes, 0.0});
+  (*runner)->advance(20);  // the next question is put, and nobody has looked
+  static_cast<void>((*runner)->settled());
+  (*runner)->answer({BringUpAnswer::yes, 0.0});
+  (*runner)->advance(20);
+  CHECK((*runner)->view().questions == seen + 1);
+  CHECK((*runner)->view().asks());
 }
 
 namespace {

@@ -1,5 +1,6 @@
 #include "workbench/experiment/row_file.h"
 
+#include "tests/support/full_disk.h"
 #include "tests/support/killed_process.h"
 #include "tests/support/paths.h"
 #include "workbench/experiment/participant.h"
@@ -119,8 +120,20 @@ TEST_CASE("what is no table is refused by name: empty, foreign, fields missing, 
 
 TEST_CASE("a full disk is an error, and what was written stays") {
   const auto folder = OwnFolder::make();
-  auto full = RowFile::open("/dev/full", kColumns, "me");
-  CHECK_FALSE(full);
+  REQUIRE(folder);
+  const fs::path path = folder->path() / "t.tsv";
+  const std::string before = three_rows(path);
+  auto file = RowFile::open(path, kColumns, "me");
+  REQUIRE(file);
+  {
+    const testing::FullDisk full(fs::file_size(path) + 3);
+    CHECK_FALSE(file->add({"4", "x"}));
+    CHECK(whole_text(path) == before);
+  }
+  CHECK(file->add({"4", "x"}));
+  const auto read = read_rows(path, "me");
+  REQUIRE(read);
+  CHECK(read->rows == std::vector<Fields>{{"1", "x"}, {"2", "x"}, {"3", "x"}, {"4", "x"}});
 }
 
 Protocol protocol() {

@@ -25,6 +25,7 @@ void BringUpModel::begin() {
   const ForceCapabilities can = made->force->capabilities();
   auto runner = BringUpRunner::start(std::move(made->force), {.limits = {}, .threaded = !deterministic_});
   noted_ = false;
+  asked_.forget();
   if (runner) {
     runner_ = std::move(*runner);
     protocol_.emplace();
@@ -55,6 +56,7 @@ void BringUpModel::stop() {
 void BringUpModel::update() {
   if (runner_ == nullptr) return;
   protocol_->result = runner_->view();
+  asked_.look(view().questions, view().t_s);
   if (!view().ended || std::exchange(noted_, true)) return;
   protocol_->cable = runner_->link_problem();
   protocol_->device.serial = runner_->serial();  // it may have been plugged in since
@@ -75,7 +77,9 @@ void BringUpModel::answer(BringUpAnswer answer) {
   if (runner_ != nullptr) runner_->answer(answer);
 }
 
-bool BringUpModel::settled() { return runner_ != nullptr && runner_->settled(); }
+bool BringUpModel::settled() const {
+  return runner_ != nullptr && runner_->settled() && (capabilities().simulated || asked_.long_enough());
+}
 
 void BringUpModel::save() {
   std::string name = "bring-up-" + protocol_->kind;

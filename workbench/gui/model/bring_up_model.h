@@ -3,6 +3,7 @@
 
 #include "workbench/bringup/bring_up_protocol.h"
 #include "workbench/bringup/bring_up_runner.h"
+#include "workbench/gui/model/asked_since.h"
 #include "workbench/gui/model/device_model.h"
 
 #include <memory>
@@ -26,7 +27,7 @@ class BringUpModel {
   void update();  ///< once a frame
   void advance(std::uint64_t ticks);
   void answer(BringUpAnswer answer);
-  bool settled();  ///< an answer makes sense now
+  bool settled() const;  ///< an answer makes sense now: not right after the question before, with a real device
   const BringUpView& view() const { return protocol_->result; }
   const ForceCapabilities& capabilities() const { return protocol_->device; }
   const BringUpProtocol& protocol() const { return *protocol_; }
@@ -41,6 +42,7 @@ class BringUpModel {
   std::unique_ptr<BringUpRunner> runner_;
   std::optional<BringUpProtocol> protocol_;
   bool noted_ = false;  ///< that it has ended
+  AskedSince asked_;
 };
 
 }  // namespace tangent

@@ -37,6 +37,7 @@ void CalibrationModel::begin() {
   scale_.reset();
   typed_n_.reset();
   kept_text_.clear();
+  asked_.forget();
   view_ = runner_->view();
 }
 
@@ -53,8 +54,7 @@ void CalibrationModel::stop() {
 void CalibrationModel::update() {
   if (!open()) return;
   view_ = runner_->view();
-  if (view_.questions != typed_for_) typed_n_.reset();  // the number was for another pull
-  typed_for_ = view_.questions;
+  if (asked_.look(view_.questions, view_.t_s)) typed_n_.reset();  // the number was for another pull
   if (view_.ended && !scale_) finish();
 }
 

@@ -4,6 +4,7 @@
 
 #include "workbench/bringup/force_calibration.h"
 #include "workbench/bringup/guided_runner.h"
+#include "workbench/gui/model/asked_since.h"
 #include "workbench/gui/model/device_model.h"
 
 #include <filesystem>
@@ -31,7 +32,8 @@ class CalibrationModel {
   void update();  ///< once a frame
   void advance(std::uint64_t ticks);
   void answer(BringUpAnswer answer);
-  bool settled() { return open() && runner_->settled(); }  ///< an answer makes sense now
+  /// An answer makes sense now: not right after the question before, with a real device.
+  bool settled() const { return open() && runner_->settled() && (capabilities().simulated || asked_.long_enough()); }
   /// What the scale shows, as typed: "0.27". A message where it is no reading.
   void type_reading(const std::string& text);
   const std::optional<double>& typed_n() const { return typed_n_; }
@@ -57,7 +59,7 @@ class CalibrationModel {
   double used_scale_ = 0.0;
   bool rehearsal_ = false;
   std::optional<double> typed_n_;
-  std::uint32_t typed_for_ = 0;  ///< the question
+  AskedSince asked_;
   std::optional<Result<double>> scale_;
   std::string kept_text_;
 };

@@ -138,8 +138,6 @@ void draw_row(const UiContext& ui, TimeModel& time, const Bookmark& mark, std::s
   ImGui::PopStyleColor();
 }
 
-float button_width(const char* text) { return ImGui::CalcTextSize(text).x + 2.0f * ImGui::GetStyle().FramePadding.x; }
-
 }  // namespace
 
 void draw_bookmarks_panel(const UiContext& ui, AppModel& model, BookmarksPanel& state) {

@@ -46,11 +46,13 @@ void draw_steps(const UiContext& ui, const BringUpModel& bring_up) {
 void draw_answers(const UiContext& ui, BringUpModel& bring_up) {
   const BringUpView& view = bring_up.view();
   const bool settled = bring_up.settled();
+  bool first = true;
   ImGui::BeginDisabled(!settled);
   const auto button = [&](const char* path, const std::string& text, const char* tip, BringUpAnswer answer) {
     if (text.empty()) return;
+    if (!first) same_line_if_room(button_width(text.c_str()));
+    first = false;
     if (text_button(ui, path, text.c_str(), tip)) bring_up.answer(answer);
-    ImGui::SameLine();
   };
   const bool pushes = view.ask == BringUpAsk::push || view.ask == BringUpAsk::hold_on;
   button("bring_up/yes", yes_text(view, bring_up.capabilities()),
@@ -60,6 +62,7 @@ void draw_answers(const UiContext& ui, BringUpModel& bring_up) {
   ImGui::EndDisabled();
 }
 
+/// In a row of its own above all that grows, where it is always in view.
 void draw_stop(const UiContext& ui, BringUpModel& bring_up) {
   ImGui::PushStyleColor(ImGuiCol_Button, ui.colours.bad);
   ImGui::PushStyleColor(ImGuiCol_Text, ui.colours.on_bad);
@@ -69,6 +72,7 @@ void draw_stop(const UiContext& ui, BringUpModel& bring_up) {
 
 void draw_question(const UiContext& ui, BringUpModel& bring_up) {
   const BringUpView& view = bring_up.view();
+  if (!view.ended) draw_stop(ui, bring_up);
   ImGui::PushFont(ui.fonts.strong);
   if (view.ended)
     page_text(view.all_proved() ? "All proved." : "Not all proved.",
@@ -80,7 +84,6 @@ void draw_question(const UiContext& ui, BringUpModel& bring_up) {
   ImGui::Dummy({1, ui.px(4)});
   if (!view.ended) {
     draw_answers(ui, bring_up);
-    draw_stop(ui, bring_up);
   } else if (text_button(ui, "bring_up/save", "Save protocol",
                          "Two files in the current folder, to send as evidence")) {
     bring_up.save();

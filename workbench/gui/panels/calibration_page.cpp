@@ -38,13 +38,14 @@ void draw_scale_reading(const UiContext& ui, CalibrationModel& calibration) {
   if (typed) calibration.type_reading(*typed);
   ImGui::SameLine();
   ImGui::TextUnformatted("N");
-  ImGui::SameLine();
+  const std::string take = yes_text(calibration.view());
+  constexpr const char* kNotRead = "It can't be read";
+  same_line_if_room(button_width(take.c_str()));
   ImGui::BeginDisabled(!typed_n);
-  if (text_button(ui, "calibration/read", yes_text(calibration.view()).c_str(), "Then the pull ends"))
-    calibration.take_reading();
+  if (text_button(ui, "calibration/read", take.c_str(), "Then the pull ends")) calibration.take_reading();
   ImGui::EndDisabled();
-  ImGui::SameLine();
-  if (text_button(ui, "calibration/no", "It can't be read", "Zero force; then it may pull again"))
+  same_line_if_room(button_width(kNotRead));
+  if (text_button(ui, "calibration/no", kNotRead, "Zero force; then it may pull again"))
     calibration.answer(BringUpAnswer::no);
 }
 
@@ -53,15 +54,17 @@ void draw_calibration_answers(const UiContext& ui, CalibrationModel& calibration
   ImGui::BeginDisabled(!calibration.settled());
   if (view.ask == CalibrationAsk::reading) {
     draw_scale_reading(ui, calibration);
-    ImGui::SameLine();
   } else if (view.asks()) {
     const bool pulls = view.ask == CalibrationAsk::pull;
     if (text_button(ui, "calibration/yes", yes_text(view).c_str(),
                     pulls ? "Until the reading is taken, a minute at the most" : "Then it goes on"))
       calibration.answer(BringUpAnswer::yes);
-    ImGui::SameLine();
   }
   ImGui::EndDisabled();
+}
+
+/// In a row of its own above all that grows, where it is always in view.
+void draw_calibration_stop(const UiContext& ui, CalibrationModel& calibration) {
   ImGui::PushStyleColor(ImGuiCol_Button, ui.colours.bad);
   ImGui::PushStyleColor(ImGuiCol_Text, ui.colours.on_bad);
   if (text_button(ui, "calibration/stop", "Stop", "Zero force at once, and the end: nothing is kept (Escape)"))
@@ -164,6 +167,7 @@ void draw_calibration_page(const UiContext& ui, CalibrationModel& calibration) {
   if (!calibration.open()) return;
   const float room = ImGui::GetContentRegionAvail().x;
   const int columns = room > ui.px(640) ? 2 : 1;
+  if (calibration.under_way()) draw_calibration_stop(ui, calibration);
   draw_calibration_question(ui, calibration);
   ImGui::Dummy({1, ui.px(8)});
   ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, ImVec2(ui.px(12), 0));

@@ -418,6 +418,8 @@ void same_line_if_room(float width) {
   if (ImGui::GetContentRegionAvail().x < width) ImGui::NewLine();
 }
 
+float button_width(const char* text) { return ImGui::CalcTextSize(text).x + 2.0f * ImGui::GetStyle().FramePadding.x; }
+
 namespace {
 
 /// Beside its item, because at the pointer it would cover the value about to be changed; at the pointer for tall items.

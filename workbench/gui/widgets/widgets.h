@@ -89,6 +89,8 @@ void tooltip(const UiContext& ui, std::string_view text);
 std::string fitted(const ImFont* font, std::string text, float room);
 /// The next item goes on in the line if it has this much room there, else below.
 void same_line_if_room(float width);
+/// Of a text_button.
+float button_width(const char* text);
 
 /// printf into a string.
 std::string printed(const char* pattern, ...) __attribute__((format(printf, 1, 2)));

@@ -32,9 +32,10 @@ std::optional<Verdict> PresetTrials::judge(const Preset& preset, const std::atom
     path_ = ExplorationPath::build(*ground_.scene, pad_distance_m(finger_));
     trial_ = std::make_unique<LoopTrial>(ground_.scene, *path_, ground_.device);
   }
-  if (wants_smooth(preset) && ground_.scene->planar() == nullptr && !ground_.scene->has_hierarchy()) {
+  if (wants_smooth(preset) && ground_.scene->planar() == nullptr) {
     ground_.scene->hierarchy();
-    ground_.scene->build_far_parts(run_in_turn);  // its own parts are made with it, and only then
+    // Whoever made it may have left its parts, and ticks would come to nothing there.
+    if (ground_.scene->unbuilt_parts() > 0) ground_.scene->build_far_parts(run_in_turn);
   }
   const double pad_m = pad_distance_m(finger_);
   Verdict worst{.safety = Safety::stable};

@@ -1,5 +1,7 @@
 #include "tests/workbench/gui/headless_app.h"
 
+#include <imgui_internal.h>
+
 using namespace tangent;
 using namespace tangent::test;
 
@@ -71,6 +73,38 @@ TEST_CASE("the bring-up page sends nothing before a yes, and its Stop ends it") 
   ui.model().view().device_monitor = false;  // who closes the page leaves it
   ui.frames(2);
   CHECK_FALSE(bring_up.open());
+}
+
+TEST_CASE("every button of the bring-up page is within its width, and Stop in view, at 100 and 200 %") {
+  HeadlessApp ui(HeadlessApp::deterministic_options(), 1920.0f, 1080.0f);
+  ui.model().view().device_monitor = true;
+  ui.frames(2);
+  ui.click("monitor/bring_up");
+  run_to_question(ui);
+  for (int i = 0; i < 20 && ui.app().items().find("bring_up/skip") == nullptr; ++i) {
+    ui.click("bring_up/yes");
+    ui.app().advance(20);
+    run_to_question(ui);
+  }
+  REQUIRE(ui.app().items().find("bring_up/skip") != nullptr);
+  ui.input().width = 900.0f;
+  ui.input().height = 600.0f;
+  for (const float text : {1.0f, 2.0f}) {
+    CAPTURE(text);
+    ui.model().window().set_ui_scale(text);
+    ui.frames(3);
+    const ImGuiWindow* page = ImGui::FindWindowByName("##device_monitor");
+    REQUIRE(page != nullptr);
+    for (const char* path : {"bring_up/yes", "bring_up/skip", "bring_up/stop"}) {
+      CAPTURE(std::string(path));
+      const ItemRect* item = ui.app().items().find(path);
+      REQUIRE(item != nullptr);
+      CHECK(item->min.x >= page->InnerClipRect.Min.x);
+      CHECK(item->max.x <= page->InnerClipRect.Max.x);
+    }
+    const ItemRect stop = *ui.app().items().find("bring_up/stop");
+    CHECK(page->InnerClipRect.Contains(ImRect(stop.min, stop.max)));
+  }
 }
 
 TEST_CASE("without a force device there is nothing to bring up") {

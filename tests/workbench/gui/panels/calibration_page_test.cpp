@@ -1,4 +1,7 @@
 #include "tests/workbench/gui/headless_app.h"
+#include "workbench/gui/model/asked_since.h"
+
+#include <imgui_internal.h>
 
 using namespace tangent;
 using namespace tangent::test;
@@ -105,6 +108,46 @@ TEST_CASE("the calibration page pulls only after a yes, and stops by its button,
   }
 }
 
+TEST_CASE("every button of the calibration page is within its width, and Stop in view, at 100 and 200 %") {
+  HeadlessApp ui(HeadlessApp::deterministic_options(), 1920.0f, 1080.0f);
+  open_calibration(ui);
+  go_to_reading(ui);
+  REQUIRE(ui.model().calibration().view().ask == CalibrationAsk::reading);
+  ui.input().width = 900.0f;
+  ui.input().height = 600.0f;
+  for (const float text : {1.0f, 2.0f}) {
+    CAPTURE(text);
+    ui.model().window().set_ui_scale(text);
+    ui.frames(3);
+    const ImGuiWindow* page = ImGui::FindWindowByName("##device_monitor");
+    REQUIRE(page != nullptr);
+    for (const char* path : {"calibration/reading", "calibration/read", "calibration/no", "calibration/stop"}) {
+      CAPTURE(std::string(path));
+      const ItemRect* item = ui.app().items().find(path);
+      REQUIRE(item != nullptr);
+      CHECK(item->min.x >= page->InnerClipRect.Min.x);
+      CHECK(item->max.x <= page->InnerClipRect.Max.x);
+    }
+    const ItemRect stop = *ui.app().items().find("calibration/stop");
+    CHECK(page->InnerClipRect.Contains(ImRect(stop.min, stop.max)));
+  }
+}
+
+TEST_CASE("a click within half a second of the question before is no answer to the next") {
+  AskedSince asked;
+  CHECK(asked.look(1, 3.0));
+  CHECK_FALSE(asked.long_enough());
+  CHECK_FALSE(asked.look(1, 3.4));
+  CHECK_FALSE(asked.long_enough());
+  CHECK_FALSE(asked.look(1, 3.6));
+  CHECK(asked.long_enough());
+  CHECK(asked.look(2, 3.7));
+  CHECK_FALSE(asked.long_enough());
+  asked.forget();
+  CHECK(asked.look(2, 0.1));  // of another run
+  CHECK_FALSE(asked.long_enough());
+}
+
 TEST_CASE(
     "the calibration page takes a number as a reading, says what is none, and pulls again where none can be read") {
   HeadlessApp ui(HeadlessApp::deterministic_options(), 1920.0f, 1080.0f);
@@ -113,7 +156,7 @@ TEST_CASE(
   go_to_reading(ui);
   type_reading(ui, "much");
   CHECK_FALSE(calibration.typed_n());
-  CHECK(ui.model().messages().all().back().text.find("much is no reading") != std::string::npos);
+  CHECK(ui.model().messages().all().back().text.find("\"much\" is no reading") != std::string::npos);
   type_reading(ui, "0.2");
   CHECK(calibration.typed_n() == 0.2);
   ui.click("calibration/no");
