@@ -78,7 +78,11 @@ Status FalconDevice::open() {
     bytes = std::move(firmware->bytes);
   }
   if (const Status one = check_attached(); !one) return one;
-  driver_ = std::make_unique<FalconDriver>(options_, std::move(bytes), kept_firmwares(options_));
+  auto driver = std::make_unique<FalconDriver>(options_, std::move(bytes), kept_firmwares(options_));
+  {
+    const std::lock_guard lock(driver_lock_);
+    driver_.swap(driver);
+  }
   if (const Status started = link_.start(); !started) return started;
   opened_ = true;
   return {};
@@ -108,7 +112,10 @@ void FalconDevice::on_open(UsbLink& link) noexcept {
 }
 
 bool FalconDevice::emergency_stop() noexcept {
-  driver_->stop();
+  {
+    const std::lock_guard lock(driver_lock_);
+    driver_->stop();
+  }
   link_.wake();
   return true;
 }

@@ -43,7 +43,8 @@ class FalconDevice final : public ForceDevice, private UsbLinkHandler, private F
   FalconOptions options_;
   ForceCapabilities capabilities_;
   UsbLink link_;
-  std::unique_ptr<FalconDriver> driver_;  ///< while open
+  std::mutex driver_lock_;                ///< held to replace it, and by an emergency stop
+  std::unique_ptr<FalconDriver> driver_;  ///< from the start; a new one with each open
   std::array<std::atomic<std::uint64_t>, 8> last_packet_{};
   std::atomic<std::uint32_t> last_packet_bytes_{0};
   mutable std::mutex serial_lock_;  ///< held for a copy, once a connection

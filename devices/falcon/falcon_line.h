@@ -72,11 +72,11 @@ class FalconLine {
   void try_again() noexcept { again_.store(true, kRelaxed); }
   std::uint32_t connection() const noexcept { return connection_.load(std::memory_order_acquire); }  ///< odd: connected
   FalconPhase phase() const noexcept { return phase_.load(std::memory_order_acquire); }
-  /// Packets' worth of bytes that were none since the last good answer.
   /// Commands in a row that were not answered in time, or could not be sent.
   std::uint32_t unanswered() const noexcept { return unanswered_.load(kRelaxed); }
   /// It sends no torque, whatever is posted, until an answer comes.
   bool withholds() const noexcept { return withholds_.load(kRelaxed); }
+  /// Packets' worth of bytes that were none since the last good answer.
   std::uint32_t garbage() const noexcept { return garbage_.load(kRelaxed); }
   std::uint64_t answers() const noexcept { return answers_.load(kRelaxed); }
   std::uint64_t lost() const noexcept { return lost_.load(kRelaxed); }  ///< commands without an answer in time

@@ -2,6 +2,7 @@
 
 #include "core/base/float_state.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <ctime>
@@ -13,8 +14,11 @@ namespace tangent {
 namespace {
 
 constexpr auto kLax = std::memory_order_relaxed;
-constexpr int kMostOwed = 8;       // answers, before not even zero force is sent out of turn
-constexpr int kMostUnasked = 100;  // one message, one reply: a few may be a misunderstanding of ours
+constexpr int kMostOwed = 8;  // answers, before not even zero force is sent out of turn
+// One message, one reply. So many that answer nothing are more than a misunderstanding of ours, unless for each of them
+// there are so many that do answer.
+constexpr int kMostUnasked = 100, kAnswersForOne = 10;
+constexpr int kMostUnturned = 20;  // states in a row that don't say how the VerseGrip is turned
 constexpr std::int64_t kAskListEvery_ns = 500'000'000, kKeepAliveEvery_ns = 4'000'000;
 
 std::int64_t ns_of(double seconds) { return static_cast<std::int64_t>(seconds * 1e9); }
@@ -110,6 +114,7 @@ void HaplyForceDevice::on_open() noexcept {
   known_.clear();
   listed_ = unheard_ = pending_ = pushes_ = false;
   owed_ = unasked_ = 0;
+  unturned_ = kMostUnturned;  // the first one has to say it
   orientation_ = Quat(1.0, 0.0, 0.0, 0.0);
   order_ = {};
   orders_.take(order_);  // for the connection before
@@ -147,23 +152,31 @@ void HaplyForceDevice::note_bad(HaplyProblem problem) noexcept {
 
 void HaplyForceDevice::measure_round_trip() noexcept {
   if (owed_ == 1) round_trip_us_.add(static_cast<std::uint64_t>((haply_now_ns() - sent_at_ns_) / 1000));
-  if (owed_ > 0)
+  if (owed_ > 0) {
     --owed_;
-  else if (listed_)
+    unasked_ = std::max(0, unasked_ - 1);
+  } else if (listed_) {
     count_unasked();
+  }
 }
 
 void HaplyForceDevice::count_unasked() {
-  if (++unasked_ != kMostUnasked) return;
+  unasked_ += kAnswersForOne;
+  if (unasked_ < kMostUnasked * kAnswersForOne) return;
+  unasked_ = 0;
   note_bad(HaplyProblem::unasked);
   link_.reconnect();
 }
 
-/// The finger points where the grip does, along its y, with the same side up; a message may leave the turn out.
-void HaplyForceDevice::take_grip() {
+/// The finger points where the grip does, along its y, with the same side up. A few messages may leave the turn out;
+/// false: nobody knows how it is turned.
+bool HaplyForceDevice::take_grip() {
+  unturned_ = message_.grip.turned ? 0 : std::min(unturned_, kMostUnturned) + 1;
+  if (message_.grips != 1 || message_.grip.lies || unturned_ > kMostUnturned) return false;
   const double half = std::sqrt(0.5);
   const Quat finger_in_grip(half, 0.0, 0.0, half);
   if (message_.grip.turned) orientation_ = glm::normalize(message_.grip.orientation * finger_in_grip);
+  return true;
 }
 
 void HaplyForceDevice::take_state(const HaplyEntry& device, bool first) {
@@ -171,8 +184,7 @@ void HaplyForceDevice::take_state(const HaplyEntry& device, bool first) {
   if (listing_ == HaplyProblem::in_use) return;
   if (device.problem != HaplyProblem::none) return note_bad(device.problem);
   if (!device.own_axes) return note_bad(HaplyProblem::other_frame);
-  if (grip_used_ && (message_.grips != 1 || message_.grip.lies)) return note_bad(HaplyProblem::grip);
-  if (grip_used_) take_grip();
+  if (grip_used_ && !take_grip()) return note_bad(HaplyProblem::grip);
   heard_.put({.position_m = device.position_m,
               .velocity_m_per_s = device.velocity_m_per_s,
               .orientation = orientation_,
@@ -270,7 +282,7 @@ void HaplyForceDevice::follow_connection() noexcept {
     seen_connection_ = connection;
     machine_.enter(DeviceState::absent);
     quiet_ = 0;
-    quiet_s_ = 0.0;
+    quiet_s_ = silent_s_ = 0.0;
   }
   const bool there = connection % 2 == 1 && listing_.load(kLax) == HaplyProblem::none;
   if (!there) {
@@ -278,6 +290,7 @@ void HaplyForceDevice::follow_connection() noexcept {
   } else if (machine_.state() == DeviceState::absent) {
     machine_.enter(DeviceState::open);
     late_.forget();
+    silent_s_ = 0.0;
   }
   if (const std::uint32_t bad = bad_.load(std::memory_order_acquire); bad != seen_bad_) {
     seen_bad_ = bad;
@@ -296,6 +309,9 @@ void HaplyForceDevice::follow_connection() noexcept {
 void HaplyForceDevice::follow_answers(double dt_s) noexcept {
   fresh_ = heard_.take(newest_) && newest_.connection == seen_connection_;
   quiet_s_ += dt_s;
+  // Of whatever comes, states that are none as well: who sends those is not silent, and keeps the fault that they are.
+  const std::uint64_t in = in_.load(kLax);
+  silent_s_ = fresh_ || std::exchange(seen_in_, in) != in ? 0.0 : silent_s_ + dt_s;
   if (fresh_) {
     // Late: an answer after exchanges without force. LatenessWatch takes 1.5 periods for late.
     if (late_.add(quiet_s_, 0.64 * (options_.quiet_ticks + 1) * dt_s) && machine_.ready()) fail_by(HaplyProblem::slow);
@@ -304,9 +320,9 @@ void HaplyForceDevice::follow_answers(double dt_s) noexcept {
     return;
   }
   if (quiet_ < options_.quiet_ticks && ++quiet_ == options_.quiet_ticks) count_up(quiet_exchanges_);
-  if (quiet_s_ <= options_.silence_s || machine_.state() == DeviceState::absent) return;
+  if (silent_s_ <= options_.silence_s || machine_.state() == DeviceState::absent) return;
   fail_by(HaplyProblem::silent);
-  quiet_s_ = 0.0;
+  quiet_s_ = silent_s_ = 0.0;
   link_.reconnect();
 }
 

@@ -76,7 +76,7 @@ class HaplyForceDevice final : public ForceDevice, private HaplyLinkHandler {
   void on_closed(HaplyProblem why, const std::string& detail) noexcept override;
   const HaplyEntry* find_ours();
   void take_state(const HaplyEntry& device, bool first);
-  void take_grip();
+  bool take_grip();
   void count_unasked();
   void note_bad(HaplyProblem problem) noexcept;
   void measure_round_trip() noexcept;
@@ -116,8 +116,9 @@ class HaplyForceDevice final : public ForceDevice, private HaplyLinkHandler {
   bool listed_ = false, unheard_ = false, vector_ = true, pending_ = false, pushes_ = false;
   bool grip_used_ = false;
   Quat orientation_{1.0, 0.0, 0.0, 0.0};
-  int owed_ = 0;     ///< answers
-  int unasked_ = 0;  ///< answers to nothing, in this connection
+  int owed_ = 0;      ///< answers
+  int unasked_ = 0;   ///< answers to nothing in this connection, each as many as the answers that make up for it
+  int unturned_ = 0;  ///< states in a row that don't say how the VerseGrip is turned
   Order order_;
   std::uint32_t stops_sent_ = 0, bad_sent_ = 0;
   std::int64_t order_at_ns_ = 0, sent_at_ns_ = 0;
@@ -128,7 +129,8 @@ class HaplyForceDevice final : public ForceDevice, private HaplyLinkHandler {
   Heard newest_;
   std::uint32_t seen_connection_ = 0, seen_bad_ = 0, seen_stops_ = 0, seen_alarms_ = 0;
   int quiet_ = 0;
-  double quiet_s_ = 0.0;
+  std::uint64_t seen_in_ = 0;              ///< messages
+  double quiet_s_ = 0.0, silent_s_ = 0.0;  ///< since the last good state; since anything came
   LatenessWatch late_;
 };
 

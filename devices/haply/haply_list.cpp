@@ -67,8 +67,8 @@ Result<std::vector<FoundDevice>> list_haply_devices(const HaplyOptions& options)
   const auto give_up = std::chrono::steady_clock::now() + std::chrono::duration<double>(options.connect_s);
   while (lister.came() == Came::nothing && std::chrono::steady_clock::now() < give_up)
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  const Came came = lister.came();  // before the link's own end, which is no word of the service's
   link.stop();
-  const Came came = lister.came();
   const std::string where = "Inverse Service at " + options.address;
   if (came == Came::nothing) return tl::unexpected(haply_error(HaplyProblem::silent, where));
   if (came == Came::no_list) return tl::unexpected(haply_error(HaplyProblem::not_understood, where));

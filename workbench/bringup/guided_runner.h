@@ -32,8 +32,8 @@ class GuidedRunner {
   GuidedRunner(const GuidedRunner&) = delete;
   GuidedRunner& operator=(const GuidedRunner&) = delete;
 
-  /// The newest; owner's thread. Ended for good, with `hangs`, where the driver does not come back from an exchange: its
-  /// emergency stop was called long before.
+  /// The newest; owner's thread. Ended for good, with `hangs`, where the driver does not come back from an exchange:
+  /// its emergency stop was called long before.
   const View& view();
   const ForceCapabilities& capabilities() const;
   /// To the question in the view that was seen last.

@@ -38,7 +38,7 @@ class CalibrationTalk {
     const CalibrationView& view = runner_.view();
     if (view.asks() && view.questions != asked_) put_question(view);
     if (InterruptGuard::requested() || keys_.wants_stop()) return runner_.stop(), Status{};
-    // `settled` may bring a newer view: a question that was not put yet isn't answered.
+    // A question that was not put yet isn't answered.
     if (!view.asks() || !runner_.settled() || view.questions != asked_) return {};
     return view.ask == CalibrationAsk::reading ? take_reading() : take_answer();
   }

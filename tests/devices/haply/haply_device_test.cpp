@@ -144,6 +144,46 @@ TEST_CASE("the finger points where a Haply VerseGrip points, its y, and keeps th
   CHECK(rig.sample.orientation == Quat(1, 0, 0, 0));
 }
 
+TEST_CASE("a Haply VerseGrip that is listed and no longer says how it is turned is a fault, after a few states") {
+  HaplyService service;
+  HaplyRig rig(service);
+  REQUIRE(rig.push());
+  const std::uint64_t errors = rig.report().errors;
+  reply_changed(service, "orientation", "orientated");
+  for (int i = 0; i < 20; ++i) {
+    REQUIRE(rig.answered_tick());
+    CHECK(rig.sample.state == DeviceState::ready);
+  }
+  CHECK(rig.report().errors == errors);
+  REQUIRE(rig.answered_tick());
+  CHECK(rig.report().errors > errors);
+  rig.tick();
+  CHECK(rig.sample.fault == DeviceFault::sensor);
+  CHECK(rig.sample.force_n == Vec3(0.0));
+  CHECK(rig.report().problem.find("VerseGrip no longer says") != std::string::npos);
+  CHECK(eventually([&] { return service.force_n() == Vec3(0.0); }, 60.0));
+}
+
+TEST_CASE("a Haply VerseGrip that says no turn to a new connection is a fault, and the finger does not turn back") {
+  const double half = std::sqrt(0.5);
+  HaplyService service({.grip = Quat(half, half, 0.0, 0.0)});
+  HaplyRig rig(service);
+  REQUIRE(rig.push());
+  const Quat before = rig.sample.orientation;
+  const LinkReport report = rig.report();
+  reply_changed(service, "orientation", "orientated");
+  service.drop();
+  REQUIRE(
+      eventually([&] { return rig.report().connects > report.connects && rig.report().errors > report.errors; }, 60.0));
+  rig.tick();
+  CHECK(rig.sample.fault == DeviceFault::sensor);
+  CHECK(rig.sample.orientation == before);
+  service.set_policy({});
+  for (int i = 0; i < 3; ++i) REQUIRE(rig.answered_tick());  // all that was sent before is heard
+  REQUIRE(rig.answered_tick(DeviceRequest::clear_fault));
+  CHECK(rig.arm_and_push());
+}
+
 TEST_CASE("an error that the Inverse Service reports of the device ends the force, and a warning is shown") {
   HaplyService service, events;
   reply_with(events, {HaplyReply::How::nothing, ""});
@@ -190,6 +230,38 @@ TEST_CASE("an Inverse Service that keeps lying is told zero force once, and not 
   CHECK(service.received() == before + 2);
 }
 
+TEST_CASE("an Inverse Service that keeps lying is not taken for a silent one, and the reason stays") {
+  HaplyService service;
+  HaplyRig rig(service);
+  REQUIRE(rig.push());
+  const std::uint64_t connects = rig.report().connects;
+  reply_text(service, "?");
+  for (int i = 0; i < 150; ++i) REQUIRE(rig.answered_tick());  // longer than silence_s
+  CHECK(rig.report().connects == connects);
+  CHECK(rig.sample.fault == DeviceFault::firmware);
+  CHECK(rig.report().problem.find("no state message") != std::string::npos);
+}
+
+TEST_CASE("states that nobody asked for are no fault while there are ten times as many answers") {
+  HaplyService service;
+  HaplyRig rig(service);
+  REQUIRE(rig.device.open());
+  std::string state;
+  service.set_policy([&](std::uint64_t, const std::string& right) {
+    state = right;
+    return HaplyReply{HaplyReply::How::send, right};
+  });
+  REQUIRE(rig.answered_tick());
+  service.set_policy({});
+  for (int i = 0; i < 110; ++i) {
+    const std::uint64_t heard = rig.report().packets_in;
+    service.push(state);
+    REQUIRE(eventually([&] { return rig.report().packets_in > heard; }, 60.0));
+    for (int k = 0; k < 10; ++k) REQUIRE(rig.answered_tick());
+  }
+  CHECK(rig.report().errors == 0);
+}
+
 TEST_CASE("the devices of an Inverse Service are listed, and it is sent nothing") {
   HaplyService service({.devices = {"049D", "04BA"}});
   const auto two = list_haply_devices(stepped_haply(service));
@@ -206,6 +278,13 @@ TEST_CASE("the devices of an Inverse Service are listed, and it is sent nothing"
   CHECK(list_haply_devices(stepped_haply(service))->empty());
   reply_text(service, "hello");
   CHECK(list_haply_devices(stepped_haply(service)).error().what.find("no state message") != std::string::npos);
+  reply_with(service, {HaplyReply::How::nothing, ""});
+  HaplyOptions impatient = stepped_haply(service);
+  impatient.connect_s = 0.2;
+  std::string remedy;  // a slow machine may need several attempts to connect in this time
+  for (int i = 0; i < 20 && remedy != "start it again in Haply Hub"; ++i)
+    remedy = list_haply_devices(impatient).error().remedy;
+  CHECK(remedy == "start it again in Haply Hub");
   CHECK(service.received() == 0);
   service.go_away();
   CHECK(list_haply_devices(stepped_haply(service)).error().remedy.find("start Haply Hub") != std::string::npos);

@@ -154,7 +154,7 @@ void draw_calibration_now(const UiContext& ui, const CalibrationModel& calibrati
        in_middle ? ui.colours.text : ui.colours.warning);
   fact(ui, "Of the middle, at the most", printed("%.0f", 1e3 * ForceCalibration::kMiddle_m), "mm");
   fact(ui, "Force sent", printed("%.3f", glm::length(view.sent_n)), "N");
-  fact(ui, "Begins with", printed("%.0f", calibration.used_scale()), "counts for 1 N m");
+  fact(ui, "Counts for 1 N m, to begin with", printed("%.0f", calibration.used_scale()));
   if (calibration.rehearsal()) return;
   ImGui::Dummy({1, ui.px(4)});
   calibration_text("Keep a hand on its power switch: it may hold its last force when this program dies.",
