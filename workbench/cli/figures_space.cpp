@@ -118,10 +118,11 @@ Figure iterations_figure() {
                  {"-finger", finger}, {"-grid", tick.grid()}, {"-triangle", tick.triangle()}};
   figure.script = std::string(kSpacePicture) + R"(N = DIR.'/fig06-iterations'
 plot N.'-finger.csv' using 'x_mm':'y_mm' \
-       with filledcurves fs transparent solid 0.5 noborder lc rgb '#f3e3d8' title 'finger', \
+       with filledcurves fs solid noborder lc rgb '#f7ece3' title 'finger', \
+     N.'-finger.csv' using 'x_mm':'y_mm' with lines lc rgb '#c9a48e' lw 1.2 notitle, \
      N.'-triangle.csv' using 'x_mm':'y_mm' with lines lc rgb '#888888' lw 1.6 title 'base triangle', \
-     N.'-grid.csv' using 'x_mm':'y_mm' with lines lc rgb '#b8cfe0' lw 0.8 title 'patch', \
-     N.'-planes.csv' every :::3 using 'x_mm':'y_mm' with lines lc rgb '#d9c2e6' lw 5 title 'later', \
+     N.'-grid.csv' using 'x_mm':'y_mm' with lines lc rgb '#86a9c6' lw 0.9 title 'patch', \
+     N.'-planes.csv' every :::3 using 'x_mm':'y_mm' with lines lc rgb '#cdb0df' lw 5 title 'iterations 3 to 5', \
      N.'-planes.csv' every :::0::0 using 'x_mm':'y_mm' with lines ls 2 title 'kept plane', \
      N.'-planes.csv' every :::1::1 using 'x_mm':'y_mm' with lines ls 5 title 'iteration 1', \
      N.'-planes.csv' every :::2::2 using 'x_mm':'y_mm' with lines ls 1 title 'iteration 2', \
@@ -135,7 +136,7 @@ Figure travel_figure() {
   Figure figure{.name = "fig07-travel",
                 .title = "the travel on a tangent plane, projected on the base triangle, and the place it leads to",
                 .width_px = 900,
-                .height_px = 520};
+                .height_px = 430};
   const PatchTick tick;
   const IterationRecord &now = tick.trace->records[0], &next = tick.trace->records[1];
   const Vec3 from = tick.base(now.u, now.v), to = tick.base(next.u, next.v);
@@ -165,7 +166,7 @@ Figure travel_figure() {
   figure.script = std::string(kSpacePicture) + label("place", now.point, "right offset -0.8,0.5") +
                   label("next place", next.point, "left offset 0.8,0.6") + R"(N = DIR.'/fig07-travel'
 plot N.'-triangle.csv' using 'x_mm':'y_mm' with lines lc rgb '#888888' lw 1.6 title 'base triangle', \
-     N.'-grid.csv' using 'x_mm':'y_mm' with lines lc rgb '#b8cfe0' lw 0.8 title 'patch', \
+     N.'-grid.csv' using 'x_mm':'y_mm' with lines lc rgb '#86a9c6' lw 0.9 title 'patch', \
      N.'-plane.csv' using 'x_mm':'y_mm' with lines ls 2 title 'tangent plane', \
      N.'-links.csv' using 'x_mm':'y_mm' with lines lc rgb '#222222' dt 2 lw 1 title 'same parameters', \
      N.'-travel.csv' using 'x_mm':'y_mm':'way_x_mm':'way_y_mm' with vectors head filled ls 1 lw 2 title 'travel', \
