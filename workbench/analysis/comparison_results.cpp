@@ -48,17 +48,16 @@ std::optional<StaircaseResult> staircase_of(const Comparer& participant, const C
 }
 
 ConditionResult condition_of(const ComparisonCondition& condition, const experiment::Discrimination& design,
-                             const std::vector<StaircaseResult>& staircases, ThresholdFitter& fitter) {
+                             std::vector<StaircaseResult>& staircases, ThresholdFitter& fitter) {
   ConditionResult out;
   out.condition = condition.name;
-  double trials = 0.0, bias = 0.0, count = 0.0;
+  double trials = 0.0, count = 0.0;
   std::vector<FittedThreshold> fits;
   for (const StaircaseResult& one : staircases) {
     if (one.condition != condition.name) continue;
     count += 1.0;
     out.warned += !one.warnings.empty();
     trials += one.trials;
-    bias += std::log(one.fitted.rule_bias);
     fits.push_back(one.fitted);
     if (one.segments)
       out.thresholds.push_back(*one.segments);
@@ -67,8 +66,14 @@ ConditionResult condition_of(const ComparisonCondition& condition, const experim
   }
   if (count > 0.0) {
     out.mean_trials = trials / count;
-    out.rule_bias = std::exp(bias / count);
     out.spread = fitter.common_spread(fits);
+    double bias = 0.0;
+    for (StaircaseResult& one : staircases) {
+      if (one.condition != condition.name) continue;
+      one.rule_bias = fitter.rule_bias(one.fitted.segments, out.spread.spread);
+      bias += std::log(one.rule_bias) / count;
+    }
+    out.rule_bias = std::exp(bias);
   }
   out.segments = mean_interval(out.thresholds);
   if (out.thresholds.empty()) return out;

@@ -23,6 +23,7 @@ struct StaircaseResult {
   std::vector<int> reversals;      ///< trials
   std::optional<double> segments;  ///< the rule's: mean of the last reversals; none: it did not settle
   FittedThreshold fitted;
+  double rule_bias = 1.0;  ///< ThresholdFitter::rule_bias at the fitted threshold and the condition's common spread
   std::vector<std::string> warnings;  ///< staircase_warnings.h
 };
 
@@ -38,7 +39,7 @@ struct ConditionResult {
   double degrees = 0.0;  ///< at the mean, and at those ends: fewer segments, more degrees
   double degrees_low = 0.0, degrees_high = 0.0;
   double mean_trials = 0.0;
-  double rule_bias = 1.0;  ///< geometric mean of the fits'
+  double rule_bias = 1.0;  ///< geometric mean of the staircases'
   SpreadInterval spread;   ///< of the psychometric function, all participants together
 };
 

@@ -128,7 +128,7 @@ PageTable staircases_table(const ComparisonResults& results, bool simulated) {
         .number(one.fitted.segments, decimals_text(one.fitted.segments, 1))
         .number(one.fitted.low, decimals_text(one.fitted.low, 1))
         .number(one.fitted.high, decimals_text(one.fitted.high, 1))
-        .number(one.fitted.rule_bias, decimals_text(one.fitted.rule_bias, 2))
+        .number(one.rule_bias, decimals_text(one.rule_bias, 2))
         .text(joined_warnings(one));
   }
   return table;

@@ -19,21 +19,37 @@ constexpr double kBelow = 1.5, kAbove = 3.0;  // of ln(segments): middles that a
 // Prior of the spread: its power, by ln(spread). With it the tails of narrow and wide functions differ least.
 constexpr double kSpreadPower = 0.5;
 constexpr double kShare = 0.95, kTail = 0.5 * (1.0 - kShare);
-constexpr std::uint64_t kCalibrationSeed = 11, kPoolSeed = 12, kGroupSeed = 13;
+constexpr std::uint64_t kCalibrationSeed = 11, kPoolSeed = 12, kGroupSeed = 13, kRuleSeed = 14;
 constexpr double kCalibratedFrom = 0.1, kCalibratedTo = 1.0;  // spreads
 
-// How far an interval's end lies from the median, in deviations of a normal law, is c + m m_1 + m^2 m_2 + m near m_3: m
-// is the mean of ln(spread) by the answers, `near` how many octaves of segments above the start the median lacks to
-// one. These were chosen on 120,000 staircases so that either end misses as often for narrow functions as for wide
-// ones, with thresholds near the start and far from it; c is calibrated for each rule.
+// How far an interval's end lies from the median, in deviations of a normal law, is c + m m_1 + m^2 m_2 + ...: m is the
+// mean of ln(spread) by the answers; what it is multiplied with hangs on how many octaves of segments the median lies
+// above the start, and on how coarse segments are there: of 4, one more is a quarter. These were chosen on 660,000
+// staircases of the three rules of the paper's conditions, with thresholds from half the start to sixteen times it, so
+// that either end misses as often for narrow functions as for wide ones, near the start and far from it; c is
+// calibrated for each rule.
 struct EndShape {
-  double m_1, m_2, m_3;
-  double at(double m, double octaves) const {
-    m = std::clamp(m, -2.0, 0.3);
-    return m * (m_1 + m_2 * m + m_3 * std::clamp(1.0 - octaves, 0.0, 1.5));
+  std::array<double, 4> linear;     ///< at kLinearAt octaves
+  std::array<double, 2> square;     ///< at 0 and 1.5 octaves
+  std::array<double, 2> half_way;   ///< half an octave above the start and below it: c is calibrated at whole ones
+  std::array<double, 3> by_coarse;  ///< times m, m^2, m^3 and 10 / segments
+
+  double at(double m, double octaves, double segments) const {
+    constexpr std::array<double, 4> kLinearAt{-1.0, 0.0, 1.0, 2.5};
+    m = std::clamp(m, -2.2, 0.3);
+    double slope = linear.front();
+    for (std::size_t i = 1; i < linear.size(); ++i)
+      slope += (linear[i] - linear[i - 1]) *
+               std::clamp((octaves - kLinearAt[i - 1]) / (kLinearAt[i] - kLinearAt[i - 1]), 0.0, 1.0);
+    const double bend = square[0] + (square[1] - square[0]) * std::clamp(octaves / 1.5, 0.0, 1.0);
+    const double beside = half_way[0] * std::max(1.0 - std::abs(2.0 * octaves - 1.0), 0.0) +
+                          half_way[1] * std::max(1.0 - std::abs(2.0 * octaves + 1.0), 0.0);
+    const double coarse = 10.0 / std::max(segments, 3.0);
+    return beside + m * (slope + bend * m + coarse * (by_coarse[0] + m * (by_coarse[1] + m * by_coarse[2])));
   }
 };
-constexpr EndShape kLowShape{2.22, 0.66, 1.97}, kHighShape{5.26, 0.70, -1.08};
+constexpr EndShape kLowShape{{2.82, 5.27, 3.01, 2.85}, {0.66, 1.00}, {0.77, 1.00}, {0.61, -0.55, -0.43}};
+constexpr EndShape kHighShape{{1.57, 3.71, 5.01, 4.58}, {-0.58, 0.91}, {-0.07, -0.08}, {3.41, 5.48, 2.08}};
 constexpr double kLeastDeviations = 0.3;  // from the median to an end
 
 constexpr std::size_t kPoolSpreads = 12;  // that groups are simulated with, from the narrowest to the widest
@@ -267,7 +283,7 @@ std::vector<ComparisonAnswer> drawn_answers(Staircase& staircase, double thresho
 
 ThresholdFitter::Calibration ThresholdFitter::calibrate(double threshold) const {
   const double balance = experiment::balance_point(rule_), truth = std::log(threshold);
-  std::vector<double> spreads, off, settled, rule, low, high;
+  std::vector<double> spreads, off, low, high;
   for (int i = 0; i < simulated_; ++i) {
     if (stop_ && stop_()) return {};
     SplitMix random(kCalibrationSeed, static_cast<std::uint64_t>(i));
@@ -279,16 +295,12 @@ ThresholdFitter::Calibration ThresholdFitter::calibrate(double threshold) const 
     spreads.push_back(m);
     off.push_back(median - truth);
     const double beyond = normal_deviations(posterior.threshold.below(truth)), octaves = octaves_up(median);
-    low.push_back(-beyond - kLowShape.at(m, octaves));
-    high.push_back(beyond - kHighShape.at(m, octaves));
-    if (!staircase.settled()) continue;
-    settled.push_back(m);
-    rule.push_back(std::log(staircase.threshold()) - truth);
+    low.push_back(-beyond - kLowShape.at(m, octaves, std::exp(median)));
+    high.push_back(beyond - kHighShape.at(m, octaves, std::exp(median)));
   }
   std::sort(low.begin(), low.end());
   std::sort(high.begin(), high.end());
-  return {quantile_of(low, 1.0 - kTail), quantile_of(high, 1.0 - kTail), line_through(spreads, off),
-          line_through(settled, rule)};
+  return {quantile_of(low, 1.0 - kTail), quantile_of(high, 1.0 - kTail), line_through(spreads, off)};
 }
 
 double ThresholdFitter::octaves_up(double log_segments) const {
@@ -315,18 +327,31 @@ FittedThreshold ThresholdFitter::fit(std::span<const ComparisonAnswer> answers) 
   const Calibration &before = calibrated(place), &after = calibrated(place + 1);
   const double share = at - place;
   const auto between = [&](double a, double b) { return a + share * (b - a); };
-  const auto line = [&](const std::array<double, 2>& a, const std::array<double, 2>& b) {
-    return between(a[0] + a[1] * m, b[0] + b[1] * m);
-  };
-  const double low = std::max(between(before.low, after.low) + kLowShape.at(m, at), kLeastDeviations);
-  const double high = std::max(between(before.high, after.high) + kHighShape.at(m, at), kLeastDeviations);
+  const double off = between(before.off[0] + before.off[1] * m, after.off[0] + after.off[1] * m);
+  const double low = std::max(between(before.low, after.low) + kLowShape.at(m, at, std::exp(median)), kLeastDeviations);
+  const double high =
+      std::max(between(before.high, after.high) + kHighShape.at(m, at, std::exp(median)), kLeastDeviations);
   FittedThreshold out;
   out.low = std::exp(posterior.threshold.quantile(normal_below(-low)));
   out.high = std::exp(posterior.threshold.quantile(normal_below(high)));
-  out.segments = std::clamp(std::exp(median - line(before.off, after.off)), out.low, out.high);
-  out.rule_bias = std::exp(line(before.rule, after.rule));
+  out.segments = std::clamp(std::exp(median - off), out.low, out.high);
   out.mean_log_spread = m;
   return out;
+}
+
+double ThresholdFitter::rule_bias(double segments, double spread) const {
+  const double balance = experiment::balance_point(rule_);
+  double sum = 0.0, settled = 0.0;
+  for (int i = 0; i < simulated_; ++i) {
+    if (stop_ && stop_()) break;
+    SplitMix random(kRuleSeed, static_cast<std::uint64_t>(i));
+    Staircase staircase(rule_);
+    drawn_answers(staircase, segments, spread, balance, random);
+    if (!staircase.settled()) continue;
+    settled += 1.0;
+    sum += std::log(staircase.threshold() / segments);
+  }
+  return settled > 0.0 ? std::exp(sum / settled) : std::nan("");
 }
 
 std::vector<double> ThresholdFitter::pool_of(int place, std::size_t spread) const {

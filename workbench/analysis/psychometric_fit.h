@@ -45,8 +45,6 @@ struct SpreadInterval {
 struct FittedThreshold {
   double segments = 0.0;         ///< at the rule's balance point
   double low = 0.0, high = 0.0;  ///< its 95 % interval; at most a factor of 20 beyond the levels shown
-  /// The rule's mean of reversals over the threshold, on average over simulated staircases like this one: 1 is no bias.
-  double rule_bias = 1.0;
   double mean_log_spread = 0.0;  ///< by the answers: of staircases' answers too low or high (common_spread)
 };
 
@@ -64,13 +62,15 @@ class ThresholdFitter {
   /// The spread that several staircases of the rule share, each with a threshold of its own.
   /// Precondition: at least one.
   SpreadInterval common_spread(std::span<const FittedThreshold> staircases);
+  /// The rule's mean of reversals over the threshold, geometric mean of simulated staircases with this threshold and
+  /// spread: 1 is no bias, NaN that none settled. One staircase does not tell its spread: give several's common one.
+  double rule_bias(double segments, double spread) const;
 
  private:
   /// Of staircases with one threshold; m: mean of ln(spread) by the answers.
   struct Calibration {
-    double low = 0.0, high = 0.0;          ///< c of the interval's ends
-    std::array<double, 2> off{0.0, 0.0};   ///< median of ln(threshold) less the truth: off[0] + off[1] m
-    std::array<double, 2> rule{0.0, 0.0};  ///< ln(mean of reversals) less the truth, likewise
+    double low = 0.0, high = 0.0;         ///< c of the interval's ends
+    std::array<double, 2> off{0.0, 0.0};  ///< median of ln(threshold) less the truth: off[0] + off[1] m
   };
   /// mean_log_spread of simulated staircases of one threshold, by spread.
   using Pools = std::vector<std::vector<double>>;
