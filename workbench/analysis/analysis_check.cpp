@@ -60,8 +60,8 @@ class Checks {
     through_comparisons();
     balance();
     ThresholdFitter first(rule(), std::clamp(participants_, 20, 4000), stop_);
-    for (const auto& [from, to] : kBands) thresholds(first, from, to, true);
-    for (const auto& [from, to] : kBands) thresholds(first, from, to, false);
+    for (const Begun begun : kAllBegun)
+      for (const auto& [from, to] : kBands) thresholds(first, from, to, begun);
     other_rules();
     for (const double spread : {0.1, 0.2, 0.35, 0.5, 1.0}) spreads(first, spread);
   }
@@ -74,6 +74,9 @@ class Checks {
  private:
   static constexpr std::array<std::pair<double, double>, 3> kBands{{{0.1, 0.2}, {0.2, 0.5}, {0.5, 1.0}}};
   static constexpr double kLapse = 0.02;
+  /// Where staircases begin: at half to an eighth of the threshold's segments, at it, at twice as many.
+  enum class Begun : std::uint8_t { below, at, above };
+  static constexpr std::array kAllBegun{Begun::below, Begun::at, Begun::above};
   const StaircaseRule& rule() const { return protocol_.discrimination()->conditions.front().staircase; }
 
   /// Everybody through the whole protocol, as the files' rows are made.
@@ -130,11 +133,12 @@ class Checks {
     add(row);
   }
 
-  /// Easy starts: thresholds from twice to eight times as many segments; others: where it begins.
-  Psychometric of_spread(const StaircaseRule& of, double spread, bool easy, SplitMix& random) const {
+  Psychometric of_spread(const StaircaseRule& of, double spread, Begun begun, SplitMix& random) const {
     Psychometric out{1.0, spread, kLapse};
-    const double threshold = of.start * (easy ? 2.0 * std::pow(4.0, random.unit()) : 1.0);
-    out.middle = threshold / out.segments_at(balance_point(of));
+    double over = 1.0;
+    if (begun == Begun::below) over = 2.0 * std::pow(4.0, random.unit());
+    if (begun == Begun::above) over = 0.5;
+    out.middle = over * of.start / out.segments_at(balance_point(of));
     return out;
   }
 
@@ -142,11 +146,11 @@ class Checks {
     std::uint64_t held = 0;
     std::vector<double> off, rule_off;  ///< logarithms: fit and rule less the truth
   };
-  Fitted fit_all(ThresholdFitter& fitter, double from, double to, bool easy) {
+  Fitted fit_all(ThresholdFitter& fitter, double from, double to, Begun begun) {
     Fitted out;
     for (int i = 0; i < participants_ && !stopped(); ++i) {
       SplitMix random(3, static_cast<std::uint64_t>(i));
-      const Psychometric function = of_spread(fitter.rule(), from + (to - from) * random.unit(), easy, random);
+      const Psychometric function = of_spread(fitter.rule(), from + (to - from) * random.unit(), begun, random);
       Staircase staircase(fitter.rule());
       const FittedThreshold fit = fitter.fit(simulated_answers(staircase, function, random));
       const double truth = function.segments_at(balance_point(fitter.rule()));
@@ -159,16 +163,17 @@ class Checks {
   CheckRow held_row(const std::string& of, std::uint64_t held) const {
     return share_row("intervals that hold the threshold" + of, held, static_cast<std::uint64_t>(participants_), 95.0);
   }
-  static std::string band(double from, double to, bool easy) {
+  static std::string band(double from, double to, Begun begun) {
+    constexpr std::array kWhere{"", ", begun at it", ", begun at twice it"};
     char text[64];
-    std::snprintf(text, sizeof text, ", spreads of %.1f to %.1f%s", from, to, easy ? "" : ", begun at it");
+    std::snprintf(text, sizeof text, ", spreads of %.1f to %.1f%s", from, to, kWhere[static_cast<std::size_t>(begun)]);
     return text;
   }
 
-  void thresholds(ThresholdFitter& fitter, double from, double to, bool easy) {
+  void thresholds(ThresholdFitter& fitter, double from, double to, Begun begun) {
     if (stopped()) return;
-    const Fitted all = fit_all(fitter, from, to, easy);
-    const std::string of = band(from, to, easy);
+    const Fitted all = fit_all(fitter, from, to, begun);
+    const std::string of = band(from, to, begun);
     add(held_row(of, all.held));
     add(ratio_row("fitted threshold over the truth" + of, all.off, 1.0));
     add(ratio_row("rule's mean of reversals over the truth" + of, all.rule_off, kNothingAsked));
@@ -181,10 +186,10 @@ class Checks {
       if (std::find(seen.begin(), seen.end(), condition.staircase) != seen.end()) continue;
       seen.push_back(condition.staircase);
       ThresholdFitter fitter(condition.staircase, std::clamp(participants_, 20, 4000), stop_);
-      for (const bool easy : {true, false})
+      for (const Begun begun : {Begun::below, Begun::at})  // twice as many as few: below what can be shown
         for (const auto& [from, to] : kBands)
           if (!stopped())
-            add(held_row(" of " + condition.name + band(from, to, easy), fit_all(fitter, from, to, easy).held));
+            add(held_row(" of " + condition.name + band(from, to, begun), fit_all(fitter, from, to, begun).held));
     }
   }
 
@@ -200,7 +205,7 @@ class Checks {
       SplitMix random(4, static_cast<std::uint64_t>(g));
       for (int i = 0; i < kGroup; ++i) {
         Staircase staircase(rule());
-        const Psychometric function = of_spread(rule(), spread, true, random);
+        const Psychometric function = of_spread(rule(), spread, Begun::below, random);
         all.push_back(fitter.fit(simulated_answers(staircase, function, random)));
         if (staircase.settled())
           rule_off.push_back(std::log(staircase.threshold() / function.segments_at(balance_point(rule()))));

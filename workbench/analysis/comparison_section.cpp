@@ -172,10 +172,10 @@ Result<Section> comparison_section(const ComparisonResults& results, bool simula
     out.tables.emplace_back(table.name(), table.csv());
   }
   out.html += paragraph(
-      "Rule over threshold: how far the rule's mean of reversals lies off in simulated staircases like these; its "
-      "steps "
-      "and its start decide that. Spread: of the psychometric function in the logarithm of segments, all participants "
-      "together; a single staircase does not tell it. The paper's own angles: its means are 51.68 / (n - 1) degrees, "
+      "Rule over threshold: how far the rule's mean of reversals lies off in simulated staircases with these "
+      "thresholds and the condition's spread; steps and start decide that. Spread: of the psychometric function in "
+      "the logarithm of segments, all participants together, between 0.05 and 2; a single staircase does not tell "
+      "it. The paper's own angles: its means are 51.68 / (n - 1) degrees, "
       "the ends of its intervals 51.68 / n.");
   out.html += element("h3", "Staircases");
   int number = 1;

@@ -78,6 +78,8 @@ Result<RowFile> enrol(const fs::path& folder, const Protocol& protocol, const st
   if (error)
     return fail("can't be made: " + error.message(), rows.parent_path().string(),
                 "choose a folder that may be written");
+  if (fs::exists(sidecar, error))  // who is refused leaves no protocol behind
+    if (Status ok = check_sidecar(sidecar, protocol, enrolment); !ok) return tl::unexpected(ok.error());
   const fs::path kept = protocol_path(folder, enrolment.protocol_digest);
   if (!fs::exists(kept, error))
     if (Status ok = write_file_atomic(kept, protocol_text); !ok) return tl::unexpected(ok.error());
