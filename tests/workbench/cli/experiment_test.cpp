@@ -79,6 +79,28 @@ TEST_CASE("experiment: the same seed gives the same bytes, another one others") 
   CHECK(rows(a) != rows(c));
 }
 
+TEST_CASE("experiment: a participant who is refused leaves no protocol in the folder") {
+  const TempFolder folder;
+  REQUIRE(experiment(folder, "P1").exit_code == 0);
+  const auto protocols = [&] {
+    int count = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(folder.file("data")))
+      count += entry.path().filename().string().starts_with("protocol-");
+    return count;
+  };
+  REQUIRE(protocols() == 1);
+  const auto with_six = [&](const std::string& participant) {
+    return run_workbench({"experiment", shipped("six-conditions.toml"), "--participant", participant, "--out",
+                          folder.file("data"), "--simulated", "known"});
+  };
+  const ProcessResult refused = with_six("P1");
+  CHECK(refused.exit_code == 1);
+  CHECK(contains(refused.err, "was begun with another protocol"));
+  CHECK(protocols() == 1);
+  CHECK(with_six("P2").exit_code == 0);
+  CHECK(protocols() == 2);
+}
+
 TEST_CASE("experiment: a person's keys from a pipe, in simulated time") {
   const TempFolder folder;
   const std::string keys =
