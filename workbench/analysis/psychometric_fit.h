@@ -6,10 +6,11 @@
 // a grid of middles, spreads and rates of lapses counts as much as the answers are likely under it; the threshold is
 // the median of theirs. How far into the tails the interval goes, and how far the median lies off, is found by running
 // the rule with simulated participants of all spreads from 0.1 to 1 (calibration: Beran 1987), either end by itself.
-// The ends hang on the spread that the answers suggest and on how far the threshold is from the start, so that the
-// interval holds for narrow and wide functions alike, which one tail for all does not: `workbench analyse --check`
-// measures it. The spread that several staircases share is the one whose simulated groups have, as their median, the
-// mean of ln(spread) that was found, and its interval are those that have it among their middle 95 % (Neyman 1937).
+// The ends hang on the spread that the answers suggest, on how far the threshold is from the start, and on how coarse
+// segments are there, so that the interval holds for narrow and wide functions alike, which one tail for all does not:
+// `workbench analyse --check` measures it. The spread that several staircases share is the one whose simulated groups
+// have, as their median, the mean of ln(spread) that was found, and its interval are those that have it among their
+// middle 95 % (Neyman 1937).
 #pragma once
 
 #include "core/base/split_mix.h"
